@@ -1,0 +1,90 @@
+# rollbem: make help
+
+PREFIX ?= /usr/local
+B ?= build
+CC ?= cc
+CFLAGS ?= -O3 -g
+STD = -std=c11 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wpedantic -Wshadow
+PKGS = openblas lapacke gsl inih jansson
+# -lgslcblas would shadow OpenBLAS: take GSL's flags without it
+LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS))) -lm
+CPPFLAGS += -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS))
+VERSION := $(shell sed -n 's/.*RB_VERSION "\(.*\)"/\1/p' include/rollbem/base.h)
+
+LIB_SRC := $(filter-out src/cli/%,$(wildcard src/*/*.c))
+CLI_SRC := $(wildcard src/cli/*.c)
+LIB_OBJ := $(LIB_SRC:%.c=$(B)/%.o)
+CLI_OBJ := $(CLI_SRC:%.c=$(B)/%.o)
+TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
+BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
+
+.PHONY: all run test check-tests asan bench install help clean packages check-packages
+all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(B)/rollbem
+
+help:
+	@echo "make            build $(B)/rollbem and the libraries (installs nothing)"
+	@echo "make run        install missing packages, build, solve and print the main example"
+	@echo "make test       install missing packages, build, run all tests"
+	@echo "make asan       the tests under the address and undefined-behaviour sanitizers"
+	@echo "make bench      the benchmarks (ratios measured in one run)"
+	@echo "make install    to PREFIX=$(PREFIX), below DESTDIR"
+	@echo "make clean      remove $(B)"
+
+packages: ; @scripts/packages --install
+check-packages: ; @scripts/packages
+
+run: packages
+	@$(MAKE) --no-print-directory B=$(B) all >&2
+	$(B)/rollbem --mu 0.3 --creep 0.1
+
+test: packages
+	@$(MAKE) --no-print-directory B=$(B) check-tests
+
+# only the summary line comes last: continuous integration reads it
+check-tests: all $(TESTS)
+	@B=$(B) tests/run $(TESTS)
+
+asan:
+	@$(MAKE) --no-print-directory B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined" test
+
+bench: packages
+	@$(MAKE) --no-print-directory B=$(B) all $(BENCHES)
+	@for b in $(BENCHES); do $$b || exit 1; done
+
+$(B)/librollbem.a: $(LIB_OBJ)
+	@rm -f $@
+	$(AR) rcs $@ $^
+
+$(B)/librollbem.so: $(LIB_OBJ)
+	$(CC) $(CFLAGS) -shared -Wl,-soname,librollbem.so.0 -o $@ $^ $(LDFLAGS) $(LDLIBS)
+
+$(B)/rollbem: $(CLI_OBJ) $(B)/librollbem.a
+	$(CC) $(CFLAGS) -o $@ $(CLI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)
+
+$(B)/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -fPIC -MMD -MP -c -o $@ $<
+
+# tests of failing allocations count the library's own calls: --wrap sees the static library
+WRAP = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc
+$(B)/tests/%: tests/%.c tests/check.h tests/failing_alloc.c $(B)/librollbem.a
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< tests/failing_alloc.c $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
+
+$(B)/bench/%: bench/%.c $(B)/librollbem.a
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -MMD -MP -MF $@.d -o $@ $< $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)
+
+install: all
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include/rollbem
+	install -m 755 $(B)/rollbem $(DESTDIR)$(PREFIX)/bin
+	install -m 644 $(B)/librollbem.a $(DESTDIR)$(PREFIX)/lib
+	install -m 755 $(B)/librollbem.so $(DESTDIR)$(PREFIX)/lib/librollbem.so.$(VERSION)
+	ln -sf librollbem.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/librollbem.so.0
+	ln -sf librollbem.so.0 $(DESTDIR)$(PREFIX)/lib/librollbem.so
+	install -m 644 include/rollbem/*.h $(DESTDIR)$(PREFIX)/include/rollbem
+	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBS@|$(LDLIBS)|' scripts/rollbem.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/rollbem.pc
+
+clean: ; rm -rf $(B)
+
+-include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)

@@ -1,0 +1,54 @@
+/* Status codes, messages, memory and time: what every room of rollbem shares. */
+#ifndef ROLLBEM_BASE_H
+#define ROLLBEM_BASE_H
+
+#include <stddef.h>
+
+#define RB_VERSION "0.1.0"
+
+/* Negative: the call did not run (misuse, memory, files).
+ * Positive: it ran and ended without a full answer; the last iterate is kept. */
+typedef enum {
+    RB_OK = 0,
+    RB_EINVAL = -1,  /* an argument out of its range */
+    RB_ENOMEM = -2,  /* no memory */
+    RB_ENOENT = -3,  /* no such input file */
+    RB_EFORMAT = -4, /* a file that does not say what it should */
+    RB_EWRITE = -5,  /* an output that cannot be written */
+    RB_MAXITER = 1,  /* iteration limit */
+    RB_RAY = 2,      /* Lemke: secondary ray */
+    RB_SINGULAR = 3, /* a matrix without inverse */
+    RB_NO_CONTACT = 4,
+    RB_ZONE = 5,       /* potential contact too small: it fills completely */
+    RB_INACCURATE = 6, /* residual above the tolerance */
+    RB_INTERRUPTED = 7
+} rb_status;
+
+/* One line for people: what, where, what was wanted.  Callers may pass NULL. */
+typedef struct {
+    char text[320];
+} rb_message;
+
+/* Writes the formatted line into why (if any) and returns s, so that a refusal is
+ * one statement: return rb_fail(why, RB_EINVAL, "mu = %g: expected >= 0", mu); */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+rb_status
+rb_fail(rb_message *why, rb_status s, const char *format, ...);
+
+/* "solved", "secondary ray", ...: static text. */
+const char *rb_status_text(rb_status s);
+
+/* rows x cols doubles (or ints, or n bytes), zeroed; NULL when memory is short or the
+ * product overflows.  Released with free(). */
+double *rb_alloc(size_t rows, size_t cols);
+int *rb_alloc_int(size_t n);
+
+/* Seconds on a clock that only moves forward. */
+double rb_seconds(void);
+
+/* max |x_i| over n; NaN if any entry is NaN. */
+double rb_norm_inf(size_t n, const double *x);
+
+#endif

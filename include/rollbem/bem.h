@@ -1,0 +1,163 @@
+/* Plane-strain boundary elements: constant elements on straight lines, closed-form
+ * integrals, condensation to the contact.  Knows no friction.
+ * Equation tags (B1) ... (B9): docs/theory.md. */
+#ifndef ROLLBEM_BEM_H
+#define ROLLBEM_BEM_H
+
+#include "rollbem/base.h"
+
+/* ---- Elasticity ------------------------------------------------------------------ */
+
+/* Isotropic plane strain. */
+typedef struct {
+    double shear;   /* G > 0 [stress] */
+    double poisson; /* nu in (-1, 0.5] */
+} rb_bem_material;
+
+rb_bem_material rb_bem_material_from_young(double young, double poisson);
+
+/* ---- Meshes (B4) ----------------------------------------------------------------- */
+
+typedef enum {
+    RB_BEM_TRACTION,     /* traction given, displacement unknown */
+    RB_BEM_DISPLACEMENT, /* displacement given, traction unknown */
+    RB_BEM_CONTACT       /* both kept: traction is an input of the condensed system */
+} rb_bem_condition;
+
+/* Any number of closed polygons, each with the body on its left (outer contours
+ * counter-clockwise, holes clockwise).  Element j runs from (x0, y0)[j] to (x1, y1)[j].
+ * The contact elements, if any, are contiguous, contact_first ... + contact_n - 1, in the
+ * order of increasing x, and both their directions are RB_BEM_CONTACT.  The element after
+ * them is the upstream one (design 4.2): traction-free, its displacement is kept. */
+typedef struct {
+    int n;
+    double *x0, *y0, *x1, *y1;   /* n each [length]; owned */
+    rb_bem_condition *condition; /* 2n: (x, y) of each element; owned */
+    double *value;               /* 2n: given traction [stress] or displacement; owned */
+    int contact_first, contact_n;
+} rb_bem_mesh;
+
+rb_status rb_bem_mesh_alloc(int n, rb_bem_mesh *mesh); /* all traction-free */
+void rb_bem_mesh_free(rb_bem_mesh *mesh);
+
+/* Appends nothing itself: checks that every contour closes, no element has zero length,
+ * contact elements are contiguous.  RB_EINVAL with the element's number in why. */
+rb_status rb_bem_mesh_check(const rb_bem_mesh *mesh, rb_message *why);
+
+typedef enum {
+    RB_BEM_ARC,      /* clamped arc at the top */
+    RB_BEM_HUB,      /* rigid core of radius hub_ratio R */
+    RB_BEM_HALFPLANE /* no cylinder boundary: Flamant (B6) */
+} rb_bem_support;
+
+/* A cylinder whose lowest point is the origin, its centre (0, R) (B7, B9). */
+typedef struct {
+    double radius;
+    rb_bem_support support; /* RB_BEM_ARC or RB_BEM_HUB */
+    double arc;             /* half-angle of the clamped arc [rad], in (0, pi/2] */
+    double hub_ratio;       /* in (0, 1) */
+    int outer_elements;     /* outside the contact on the outer circle; 0: chosen so that
+                               neighbours differ by at most a fifth */
+} rb_bem_cylinder;
+
+/* ends: n_c + 2 increasing abscissae |x| < R: the ends of n_c contact elements and of the
+ * upstream element after them.  Geometric grading outside.
+ * RB_EINVAL: zone reaching the support, ends not increasing, counts absurd. */
+rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c, const double *ends,
+                               rb_bem_mesh *mesh, rb_message *why);
+
+/* ---- Influence (B1-B3) ----------------------------------------------------------- */
+
+/* Integrals over one straight element seen from (px, py): H and G blocks 2 x 2,
+ * column-major: row = unit load direction at p, column = component on the element.
+ * self: p is the element's own midpoint; then H holds the free term 1/2. */
+void rb_bem_element_integrals(double x0, double y0, double x1, double y1, double px,
+                              double py, int self, rb_bem_material material, double H[4],
+                              double G[4]);
+
+/* H u = G t (B1).  2n x 2n, column-major, ld >= 2n; dofs x0, y0, x1, y1, ...  G may be
+ * NULL.  H [-], G [length/stress]. */
+rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, double *H,
+                          double *G, int ld, rb_message *why);
+
+/* ---- Mixed problems and condensation (B4-B6) -------------------------------------- */
+
+/* The factored system A x = b of *Addi* (14); opaque. */
+typedef struct rb_bem_system rb_bem_system;
+
+/* One assembly and one LU.  The mesh is copied.  RB_EINVAL: no support (three rigid
+ * motions remain; the message says so), bad material or mesh; RB_SINGULAR; RB_ENOMEM. */
+rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
+                               rb_bem_system **system, rb_message *why);
+void rb_bem_system_free(rb_bem_system *system);
+const rb_bem_mesh *rb_bem_system_mesh(const rb_bem_system *system);
+/* Seconds spent in assembly and in the LU. */
+void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double *factor);
+
+/* Displacement u and traction t of every element (2n each, global x, y) under the mesh's
+ * given values and the contact tractions t_contact (2 contact_n, global; NULL: zero). */
+rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_contact,
+                              double *u, double *t);
+
+/* ---- Flexibility of the contact (B5) ---------------------------------------------- */
+
+/* Normal n into the body (A: +y) and tangent t (+x): of the flat obstacle, or of each
+ * element as *Addi* (18) has it (4.3). */
+typedef enum { RB_BEM_NORMALS_OBSTACLE, RB_BEM_NORMALS_SURFACE } rb_bem_normals;
+
+/* w = w0 + F r: r = (r_N, r_T), 2n tractions on A along n and t, one per contact element;
+ * w = (w_N, w_T), 2m displacements, m = n + 1: the n contact midpoints and the midpoint of
+ * the upstream element, which carries no traction.
+ * An interface: a dense matrix, a Toeplitz operator or a hierarchical matrix stand behind
+ * the same calls. */
+typedef struct rb_bem_flexibility rb_bem_flexibility;
+struct rb_bem_flexibility {
+    int n, m;
+    double *x;  /* m midpoints [length]; owned */
+    double *h;  /* m element lengths; owned */
+    double *w0; /* 2m [length]; owned */
+    void (*apply)(const rb_bem_flexibility *f, const double *r, double *w); /* w = F r */
+    rb_status (*matrix)(const rb_bem_flexibility *f, double *F, int ldf);   /* 2m x 2n */
+    void (*free_data)(void *data);
+    void *data; /* owned, of the kind that the three functions know */
+};
+
+/* Condenses a cylinder's system to its contact: one solve with 2n right-hand sides. */
+rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
+                          rb_bem_flexibility *f, rb_message *why);
+
+/* Half-plane (kernels of theory.md, Flamant): ends as in rb_bem_mesh_cylinder, any real
+ * numbers; displacement zero at depth datum > 0 under the point. */
+rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends, rb_bem_material material,
+                                       double datum, rb_bem_flexibility *f, rb_message *why);
+
+/* Two bodies in contact (4.5): F_A + F_B, B computed as the mirror image (an upper body),
+ * so that its coupling blocks enter with the opposite sign.  Takes over a and b (both are
+ * left empty), also on failure.  RB_EINVAL: their points differ. */
+rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
+                                  rb_bem_flexibility *f, rb_message *why);
+
+void rb_bem_flexibility_apply(const rb_bem_flexibility *f, const double *r, double *w);
+/* F: 2m x 2n column-major, ldf >= 2m. */
+rb_status rb_bem_flexibility_matrix(const rb_bem_flexibility *f, double *F, int ldf);
+void rb_bem_flexibility_free(rb_bem_flexibility *f);
+
+/* ---- Interior (B8) ---------------------------------------------------------------- */
+
+/* Displacement (2 per point) and stress (sxx, syy, sxy per point) at points inside the
+ * body from boundary values u and t (2n each, of rb_bem_system_solve).  Either output may
+ * be NULL.  Constant u jumps at element ends; here u is linear between midpoints, so that
+ * stress stays accurate close to the boundary.  Points on the surface itself use the
+ * tractions, the tangential strain and Hooke's law. */
+rb_status rb_bem_interior(const rb_bem_mesh *mesh, rb_bem_material material, const double *u,
+                          const double *t, int points, const double *xy,
+                          double *displacement, double *stress, rb_message *why);
+
+/* Stress in a half-plane y >= 0 loaded on y = 0 by n constant strips [ends[i], ends[i+1]]
+ * of tractions p (along +y, into the body: pressure) and q (along +x).  stress: 3 per point
+ * (sxx, syy, sxy); on y = 0 the limit from inside. */
+rb_status rb_bem_halfplane_stress(int n, const double *ends, const double *p,
+                                  const double *q, int points, const double *xy,
+                                  double *stress);
+
+#endif

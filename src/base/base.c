@@ -1,0 +1,88 @@
+#include "rollbem/base.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+rb_status rb_fail(rb_message *why, rb_status s, const char *format, ...)
+{
+    if (why) {
+        va_list args;
+        va_start(args, format);
+        vsnprintf(why->text, sizeof why->text, format, args);
+        va_end(args);
+    }
+    return s;
+}
+
+const char *rb_status_text(rb_status s)
+{
+    switch (s) {
+    case RB_OK:
+        return "solved";
+    case RB_EINVAL:
+        return "invalid input";
+    case RB_ENOMEM:
+        return "out of memory";
+    case RB_ENOENT:
+        return "no such file";
+    case RB_EFORMAT:
+        return "malformed file";
+    case RB_EWRITE:
+        return "cannot write";
+    case RB_MAXITER:
+        return "iteration limit";
+    case RB_RAY:
+        return "secondary ray";
+    case RB_SINGULAR:
+        return "singular matrix";
+    case RB_NO_CONTACT:
+        return "no contact";
+    case RB_ZONE:
+        return "potential contact too small";
+    case RB_INACCURATE:
+        return "residual above tolerance";
+    case RB_INTERRUPTED:
+        return "interrupted";
+    }
+    return "unknown status";
+}
+
+static void *alloc_array(size_t rows, size_t cols, size_t size)
+{
+    if (cols && rows > SIZE_MAX / cols)
+        return NULL;
+    const size_t n = rows * cols;
+    return calloc(n ? n : 1, size);
+}
+
+double *rb_alloc(size_t rows, size_t cols)
+{
+    return alloc_array(rows, cols, sizeof(double));
+}
+
+int *rb_alloc_int(size_t n)
+{
+    return alloc_array(n, 1, sizeof(int));
+}
+
+double rb_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+double rb_norm_inf(size_t n, const double *x)
+{
+    double norm = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        if (isnan(x[i]))
+            return x[i];
+        norm = fmax(norm, fabs(x[i]));
+    }
+    return norm;
+}

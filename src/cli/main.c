@@ -1,0 +1,6 @@
+#include "rollbem/rollbem.h"
+
+int main(void)
+{
+    return 70;
+}

@@ -1,0 +1,76 @@
+/* A thin layer on cmocka: comparisons of doubles that print both values and fail on NaN
+ * (cmocka 1.1.5 compares as float), allocations that fail on demand, outside data. */
+#ifndef ROLLBEM_TESTS_CHECK_H
+#define ROLLBEM_TESTS_CHECK_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <cmocka.h>
+
+/* |got - want| <= tol; the rest is a printf format naming the case. */
+#define CHECK_ABS(got, want, tol, ...)                                                        \
+    check_close_(got, want, tol, __FILE__, __LINE__, __VA_ARGS__)
+/* |got - want| <= tol |want| */
+#define CHECK_REL(got, want, tol, ...)                                                        \
+    check_close_(got, want, (tol)*fabs(want), __FILE__, __LINE__, __VA_ARGS__)
+/* got <= bound */
+#define CHECK_MAX(got, bound, ...) check_max_(got, bound, __FILE__, __LINE__, __VA_ARGS__)
+#define CHECK_STATUS(got, want) assert_int_equal(got, want)
+
+static inline void check_fail_(const char *file, int line, const char *format, va_list args)
+{
+    char text[400];
+    vsnprintf(text, sizeof text, format, args);
+    print_error("%s\n", text);
+    _fail(file, line);
+}
+
+static inline void check_close_(double got, double want, double tol, const char *file,
+                                int line, const char *format, ...)
+{
+    if (fabs(got - want) <= tol)
+        return;
+    va_list args;
+    va_start(args, format);
+    print_error("got %.17g, want %.17g, difference %.3g > %.3g: ", got, want,
+                fabs(got - want), tol);
+    check_fail_(file, line, format, args);
+    va_end(args);
+}
+
+static inline void check_max_(double got, double bound, const char *file, int line,
+                              const char *format, ...)
+{
+    if (got <= bound)
+        return;
+    va_list args;
+    va_start(args, format);
+    print_error("got %.6g, allowed %.6g: ", got, bound);
+    check_fail_(file, line, format, args);
+    va_end(args);
+}
+
+/* The next allocations of the library succeed `count` times, then every one fails until
+ * alloc_succeed().  alloc_failed() tells whether one was refused. */
+void alloc_fail_after(int count);
+void alloc_succeed(void);
+int alloc_failed(void);
+
+/* Path of `name` below the folder ROLLBEM_DATA; skips the test when it is not set.
+ * Static storage. */
+static inline const char *outside_data(const char *name)
+{
+    static char path[1024];
+    const char *root = getenv("ROLLBEM_DATA");
+    if (!root || !*root)
+        skip();
+    snprintf(path, sizeof path, "%s/%s", root, name);
+    return path;
+}
+
+#endif

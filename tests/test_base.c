@@ -1,0 +1,55 @@
+#include "check.h"
+#include "rollbem/base.h"
+
+#include <string.h>
+
+static void refusals_write_their_line(void **state)
+{
+    (void)state;
+    rb_message why = {""};
+    CHECK_STATUS(rb_fail(&why, RB_EINVAL, "mu = %g: expected >= 0", -1.0), RB_EINVAL);
+    assert_string_equal(why.text, "mu = -1: expected >= 0");
+    CHECK_STATUS(rb_fail(NULL, RB_ENOMEM, "nobody listens"), RB_ENOMEM);
+}
+
+static void arrays_are_zeroed_and_overflow_is_refused(void **state)
+{
+    (void)state;
+    double *a = rb_alloc(3, 5);
+    assert_non_null(a);
+    for (int i = 0; i < 15; i++)
+        CHECK_ABS(a[i], 0.0, 0.0, "entry %d", i);
+    free(a);
+    assert_null(rb_alloc(SIZE_MAX / 2, 3));
+    alloc_fail_after(0);
+    assert_null(rb_alloc(1, 1));
+    alloc_succeed();
+}
+
+static void the_norm_does_not_lose_a_nan(void **state)
+{
+    (void)state;
+    const double x[] = {1.0, -3.0, 2.0}, y[] = {1.0, NAN, 2.0};
+    CHECK_ABS(rb_norm_inf(3, x), 3.0, 0.0, "norm");
+    assert_true(isnan(rb_norm_inf(3, y)));
+}
+
+static void every_status_has_its_own_words(void **state)
+{
+    (void)state;
+    for (int i = RB_EWRITE; i <= RB_INTERRUPTED; i++)
+        for (int j = RB_EWRITE; j < i; j++)
+            assert_string_not_equal(rb_status_text((rb_status)i),
+                                    rb_status_text((rb_status)j));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(refusals_write_their_line),
+        cmocka_unit_test(arrays_are_zeroed_and_overflow_is_refused),
+        cmocka_unit_test(the_norm_does_not_lose_a_nan),
+        cmocka_unit_test(every_status_has_its_own_words),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
