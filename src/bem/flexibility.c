@@ -1,0 +1,201 @@
+/* Flexibilities of the contact (B5): the interface, the dense matrix, the pair of bodies.
+ */
+#include "bem/internal.h"
+
+#include <cblas.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void rb_bem_flexibility_apply(const rb_bem_flexibility *f, const double *r, double *w)
+{
+    f->apply(f, r, w);
+}
+
+rb_status rb_bem_flexibility_matrix(const rb_bem_flexibility *f, double *F, int ldf)
+{
+    if (!F || ldf < 2 * f->m)
+        return RB_EINVAL;
+    return f->matrix(f, F, ldf);
+}
+
+void rb_bem_flexibility_free(rb_bem_flexibility *f)
+{
+    if (!f)
+        return;
+    if (f->free_data)
+        f->free_data(f->data);
+    free(f->x);
+    free(f->h);
+    free(f->w0);
+    memset(f, 0, sizeof *f);
+}
+
+static rb_status alloc_points(int n, rb_bem_flexibility *f)
+{
+    memset(f, 0, sizeof *f);
+    f->n = n;
+    f->m = n + 1;
+    f->x = rb_alloc((size_t)f->m, 1);
+    f->h = rb_alloc((size_t)f->m, 1);
+    f->w0 = rb_alloc(2 * (size_t)f->m, 1);
+    return f->x && f->h && f->w0 ? RB_OK : RB_ENOMEM;
+}
+
+/* ---- A dense matrix ---------------------------------------------------------------- */
+
+static void dense_apply(const rb_bem_flexibility *f, const double *r, double *w)
+{
+    const int rows = 2 * f->m, cols = 2 * f->n;
+    cblas_dgemv(CblasColMajor, CblasNoTrans, rows, cols, 1.0, f->data, rows, r, 1, 0.0, w,
+                1);
+}
+
+static rb_status dense_matrix(const rb_bem_flexibility *f, double *F, int ldf)
+{
+    const size_t rows = 2 * (size_t)f->m, cols = 2 * (size_t)f->n;
+    const double *D = f->data;
+    for (size_t j = 0; j < cols; j++)
+        memcpy(F + j * (size_t)ldf, D + j * rows, rows * sizeof *F);
+    return RB_OK;
+}
+
+rb_status rb_bem_flexibility_dense(int n, rb_bem_flexibility *f, double **F)
+{
+    rb_status s = alloc_points(n, f);
+    if (s == RB_OK) {
+        f->data = *F = rb_alloc(2 * (size_t)f->m, 2 * (size_t)n);
+        s = *F ? RB_OK : RB_ENOMEM;
+    }
+    f->apply = dense_apply;
+    f->matrix = dense_matrix;
+    f->free_data = free;
+    if (s != RB_OK)
+        rb_bem_flexibility_free(f);
+    return s;
+}
+
+/* ---- Two bodies (4.5) ---------------------------------------------------------------
+ */
+
+/* B's own frame is the mirror image: its tangential tractions and displacements are those
+ * of the pair with the sign changed, which changes the sign of its coupling blocks.
+ * r, w: room for one product, so that a pair serves one thread at a time. */
+typedef struct {
+    rb_bem_flexibility a, b;
+    double *r, *w;
+} body_pair;
+
+static void pair_free(void *data)
+{
+    body_pair *pair = data;
+    rb_bem_flexibility_free(&pair->a);
+    rb_bem_flexibility_free(&pair->b);
+    free(pair->r);
+    free(pair->w);
+    free(pair);
+}
+
+static void mirror(int n, const double *x, double *y)
+{
+    for (int i = 0; i < n; i++) {
+        y[i] = x[i];
+        y[n + i] = -x[n + i];
+    }
+}
+
+static void add_mirrored(int m, const double *w, double *sum)
+{
+    for (int i = 0; i < m; i++) {
+        sum[i] += w[i];
+        sum[m + i] -= w[m + i];
+    }
+}
+
+static void pair_apply(const rb_bem_flexibility *f, const double *r, double *w)
+{
+    const body_pair *pair = f->data;
+    mirror(f->n, r, pair->r);
+    rb_bem_flexibility_apply(&pair->a, r, w);
+    rb_bem_flexibility_apply(&pair->b, pair->r, pair->w);
+    add_mirrored(f->m, pair->w, w);
+}
+
+static rb_status pair_matrix(const rb_bem_flexibility *f, double *F, int ldf)
+{
+    const body_pair *pair = f->data;
+    const int n = f->n, m = f->m;
+    double *B = rb_alloc(2 * (size_t)m, 2 * (size_t)n);
+    rb_status s = B ? rb_bem_flexibility_matrix(&pair->a, F, ldf) : RB_ENOMEM;
+
+    if (s == RB_OK)
+        s = rb_bem_flexibility_matrix(&pair->b, B, 2 * m);
+    for (int j = 0; j < 2 * n && s == RB_OK; j++) {
+        double *column = B + (size_t)j * 2 * (size_t)m;
+        if (j >= n)
+            cblas_dscal(2 * m, -1.0, column, 1);
+        add_mirrored(m, column, F + (size_t)j * (size_t)ldf);
+    }
+    free(B);
+    return s;
+}
+
+static rb_status same_points(const rb_bem_flexibility *a, const rb_bem_flexibility *b,
+                             rb_message *why)
+{
+    if (a->n < 1 || a->n != b->n)
+        return rb_fail(why, RB_EINVAL, "bodies in contact: %d elements on A, %d on B",
+                       a->n, b->n);
+    for (int i = 0; i < a->m; i++)
+        if (!(fabs(a->x[i] - b->x[i]) <= 1e-9 * a->h[i]))
+            return rb_fail(why, RB_EINVAL,
+                           "bodies in contact: point %d at x = %g on A, %g on B", i,
+                           a->x[i], b->x[i]);
+    return RB_OK;
+}
+
+static rb_status join(const body_pair *pair, rb_bem_flexibility *f)
+{
+    const rb_bem_flexibility *a = &pair->a;
+    const size_t m = (size_t)a->m;
+    const rb_status s = alloc_points(a->n, f);
+    if (s != RB_OK)
+        return s;
+    memcpy(f->x, a->x, m * sizeof *f->x);
+    memcpy(f->h, a->h, m * sizeof *f->h);
+    memcpy(f->w0, a->w0, 2 * m * sizeof *f->w0);
+    add_mirrored(a->m, pair->b.w0, f->w0);
+    f->apply = pair_apply;
+    f->matrix = pair_matrix;
+    return RB_OK;
+}
+
+rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
+                                  rb_bem_flexibility *f, rb_message *why)
+{
+    rb_status s = same_points(a, b, why);
+    body_pair *pair = calloc(1, sizeof *pair);
+    const size_t n = (size_t)a->n, m = (size_t)a->m;
+
+    memset(f, 0, sizeof *f);
+    if (!pair) {
+        rb_bem_flexibility_free(a);
+        rb_bem_flexibility_free(b);
+        return s == RB_OK ? rb_fail(why, RB_ENOMEM, "bodies in contact: no memory") : s;
+    }
+    *pair = (body_pair){.a = *a, .b = *b};
+    memset(a, 0, sizeof *a);
+    memset(b, 0, sizeof *b);
+    if (s == RB_OK) {
+        pair->r = rb_alloc(2 * n, 1);
+        pair->w = rb_alloc(2 * m, 1);
+        s = pair->r && pair->w ? join(pair, f) : RB_ENOMEM;
+        if (s != RB_OK)
+            rb_fail(why, s, "bodies in contact: no memory for %d elements", pair->a.n);
+    }
+    f->free_data = pair_free;
+    f->data = pair;
+    if (s != RB_OK)
+        rb_bem_flexibility_free(f);
+    return s;
+}

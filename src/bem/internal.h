@@ -1,0 +1,17 @@
+/* Shared by the files of src/bem; not installed. */
+#ifndef ROLLBEM_BEM_INTERNAL_H
+#define ROLLBEM_BEM_INTERNAL_H
+
+#include "rollbem/bem.h"
+
+/* RB_EINVAL unless 0 < shear < infinity and -1 < nu <= 1/2. */
+rb_status rb_bem_material_check(rb_bem_material material, rb_message *why);
+
+/* RB_EINVAL unless n_c >= 1 and the n_c + 2 ends are finite and increase. */
+rb_status rb_bem_ends_check(int n_c, const double *ends, rb_message *why);
+
+/* A flexibility with x, h, w0 zeroed and a dense matrix of zeros behind it; *F: that
+ * matrix, 2m x 2n with leading dimension 2m, borrowed.  RB_ENOMEM leaves f empty. */
+rb_status rb_bem_flexibility_dense(int n, rb_bem_flexibility *f, double **F);
+
+#endif

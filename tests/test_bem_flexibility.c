@@ -1,0 +1,202 @@
+/* Flexibilities of the contact: the half-plane and the pair of bodies. */
+#include "check.h"
+#include "rollbem/bem.h"
+
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+static const rb_bem_material steel = {.shear = 82000.0, .poisson = 0.28};
+static const double uneven[] = {-1.0, -0.7, -0.65, 0.1, 0.4, 0.5, 1.1};
+enum { n_uneven = 5 };
+
+static double log_distance(double s, void *point)
+{
+    return log(fabs(s - *(double *)point));
+}
+
+/* int ln(|x - s|/d) ds by quadrature; the singular point, if inside, splits the strip */
+static double quadrature(double s1, double s2, double x, double d)
+{
+    gsl_integration_workspace *ws = gsl_integration_workspace_alloc(200);
+    gsl_function f = {log_distance, &x};
+    const double cut = x > s1 && x < s2 ? x : s1;
+    double left = 0.0, right, error;
+    if (cut > s1)
+        gsl_integration_qags(&f, s1, cut, 0, 1e-13, 200, ws, &left, &error);
+    gsl_integration_qags(&f, cut, s2, 0, 1e-13, 200, ws, &right, &error);
+    gsl_integration_workspace_free(ws);
+    return left + right - (s2 - s1) * log(d);
+}
+
+static void halfplane_is_flamants_integral(void **state)
+{
+    (void)state;
+    enum { n = n_uneven, m = n + 1 };
+    const double datum = 30.0, K = (1.0 - steel.poisson) / (M_PI * steel.shear),
+                 c = (1.0 - 2.0 * steel.poisson) / (4.0 * steel.shear);
+    double F[2 * m * 2 * n];
+    rb_bem_flexibility f;
+    CHECK_STATUS(rb_bem_flexibility_halfplane(n, uneven, steel, datum, &f, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m), RB_OK);
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < m; i++) {
+            const double *N = F + 2 * m * j, *T = F + 2 * m * (n + j), x = f.x[i];
+            const double want = -K * quadrature(uneven[j], uneven[j + 1], x, datum);
+            const double sign = fabs(x - uneven[j]) - fabs(x - uneven[j + 1]);
+            CHECK_REL(N[i], want, 1e-12, "NN %d %d", i, j);
+            CHECK_REL(T[m + i], want, 1e-12, "TT %d %d", i, j);
+            CHECK_ABS(T[i], c * sign, 1e-15 * c, "NT %d %d", i, j);
+            CHECK_ABS(N[m + i], -c * sign, 1e-15 * c, "TN %d %d", i, j);
+        }
+    rb_bem_flexibility_free(&f);
+}
+
+/* One strip far away: int ln|s/d| ds = 2b [ln(X/d) - (b/X)^2/6 - ...]; the two ends of
+ * the primitive agree in their first seven digits. */
+static void distant_strips_lose_no_digits(void **state)
+{
+    (void)state;
+    const int n = 1000000;
+    const double h = 1e-9, X = h * (n - 1),
+                 K = (1.0 - steel.poisson) / (M_PI * steel.shear);
+    const double ends[] = {0.0, h, X, X + h};
+    rb_bem_flexibility f;
+    CHECK_STATUS(rb_bem_flexibility_halfplane(2, ends, steel, 40.0, &f, NULL), RB_OK);
+    double w[6];
+    rb_bem_flexibility_apply(&f, (const double[]){1.0, 0.0, 0.0, 0.0}, w);
+    CHECK_REL(w[2], -K * h * (log(X / 40.0) - pow(0.5 * h / X, 2) / 6.0), 1e-14, "far");
+    rb_bem_flexibility_free(&f);
+}
+
+static void apply_is_the_matrix_and_ldf_is_kept(void **state)
+{
+    (void)state;
+    enum { n = n_uneven, m = n + 1, ld = 2 * m + 3 };
+    double F[ld * 2 * n], r[2 * n], w[2 * m];
+    rb_bem_flexibility a, b, f;
+    CHECK_STATUS(rb_bem_flexibility_halfplane(n, uneven, steel, 7.0, &a, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_halfplane(n, uneven, steel, 9.0, &b, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, NULL), RB_OK);
+    for (int i = 0; i < ld * 2 * n; i++)
+        F[i] = -77.0;
+    CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, ld), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m - 1), RB_EINVAL);
+    for (int j = 0; j < 2 * n; j++)
+        CHECK_ABS(F[ld * j + 2 * m], -77.0, 0.0, "below column %d", j);
+    for (int i = 0; i < 2 * n; i++)
+        r[i] = sin(1.0 + i);
+    rb_bem_flexibility_apply(&f, r, w);
+    for (int i = 0; i < 2 * m; i++) {
+        double want = 0.0;
+        for (int j = 0; j < 2 * n; j++)
+            want += F[i + ld * j] * r[j];
+        CHECK_ABS(w[i], want, 1e-18, "row %d", i);
+    }
+    rb_bem_flexibility_free(&f);
+}
+
+/* Two bodies of one material: twice the compliance, no coupling, B's w0_T turned round.
+ */
+static void identical_bodies_lose_their_coupling(void **state)
+{
+    (void)state;
+    enum { n = n_uneven, m = n + 1 };
+    double A[2 * m * 2 * n], F[2 * m * 2 * n];
+    rb_bem_flexibility a, b, f;
+    CHECK_STATUS(rb_bem_flexibility_halfplane(n, uneven, steel, 7.0, &a, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_halfplane(n, uneven, steel, 7.0, &b, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&a, A, 2 * m), RB_OK);
+    a.w0[1] = a.w0[m + 1] = 3.0;
+    b.w0[1] = b.w0[m + 1] = 5.0;
+    CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, NULL), RB_OK);
+    assert_null(a.x);
+    assert_null(b.data);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m), RB_OK);
+    for (int j = 0; j < 2 * n; j++)
+        for (int i = 0; i < 2 * m; i++) {
+            const int coupling = (i < m) != (j < n);
+            CHECK_ABS(F[i + 2 * m * j], coupling ? 0.0 : 2.0 * A[i + 2 * m * j], 1e-20,
+                      "entry %d %d", i, j);
+        }
+    CHECK_ABS(f.w0[1], 8.0, 0.0, "w0_N");
+    CHECK_ABS(f.w0[m + 1], -2.0, 0.0, "w0_T");
+    rb_bem_flexibility_free(&f);
+}
+
+static void bad_input_is_refused(void **state)
+{
+    (void)state;
+    rb_bem_flexibility a, b, f;
+    rb_message why;
+    const double flat[] = {0.0, 1.0, 1.0}, two[] = {0.0, 1.0, 2.0},
+                 odd[] = {0.0, NAN, 2.0};
+    const struct {
+        int n;
+        const double *ends;
+        rb_bem_material material;
+        double datum;
+        const char *text;
+    } bad[] = {
+        {0, two, steel, 1.0, "at least 1"},    {1, flat, steel, 1.0, "increasing"},
+        {1, odd, steel, 1.0, "increasing"},    {1, two, steel, 0.0, "datum"},
+        {1, two, steel, NAN, "datum"},         {1, two, {-1.0, 0.3}, 1.0, "shear"},
+        {1, two, {1.0, 0.51}, 1.0, "Poisson"}, {1, two, {1.0, NAN}, 1.0, "Poisson"},
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        CHECK_STATUS(rb_bem_flexibility_halfplane(bad[k].n, bad[k].ends, bad[k].material,
+                                                  bad[k].datum, &f, &why),
+                     RB_EINVAL);
+        assert_non_null(strstr(why.text, bad[k].text));
+        assert_null(f.x);
+    }
+    const double moved[] = {0.0, 1.0, 2.1};
+    CHECK_STATUS(rb_bem_flexibility_halfplane(1, two, steel, 1.0, &a, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_halfplane(1, moved, steel, 1.0, &b, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "point 1"));
+    assert_null(a.x);
+    CHECK_STATUS(rb_bem_flexibility_halfplane(1, two, steel, 1.0, &a, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_halfplane(n_uneven, uneven, steel, 1.0, &b, NULL),
+                 RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, NULL), RB_EINVAL);
+}
+
+/* Every allocation refused in its turn: no leak (asan), nothing left behind. */
+static void failing_memory_is_reported(void **state)
+{
+    (void)state;
+    for (int count = 0, failed = 1; failed; count++) {
+        rb_bem_flexibility a = {0}, b = {0}, f = {0};
+        double F[2 * (n_uneven + 1) * 2 * n_uneven];
+        alloc_fail_after(count);
+        rb_status s =
+            rb_bem_flexibility_halfplane(n_uneven, uneven, steel, 1.0, &a, NULL);
+        if (s == RB_OK)
+            s = rb_bem_flexibility_halfplane(n_uneven, uneven, steel, 1.0, &b, NULL);
+        if (s == RB_OK)
+            s = rb_bem_flexibility_pair(&a, &b, &f, NULL);
+        if (s == RB_OK)
+            s = rb_bem_flexibility_matrix(&f, F, 2 * f.m);
+        failed = alloc_failed();
+        alloc_succeed();
+        CHECK_STATUS(s, failed ? RB_ENOMEM : RB_OK);
+        rb_bem_flexibility_free(&a);
+        rb_bem_flexibility_free(&b);
+        rb_bem_flexibility_free(&f);
+    }
+    rb_bem_flexibility_free(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(halfplane_is_flamants_integral),
+        cmocka_unit_test(distant_strips_lose_no_digits),
+        cmocka_unit_test(apply_is_the_matrix_and_ldf_is_kept),
+        cmocka_unit_test(identical_bodies_lose_their_coupling),
+        cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(failing_memory_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
