@@ -1,6 +1,134 @@
-#include "rollbem/rollbem.h"
+/* rollbem: finds the command and sees that what it printed was written. */
+#include "cli/cli.h"
 
-int main(void)
+#include <errno.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+
+static const struct {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *help;
+} commands[] = {
+    {"help", cli_help, "this list, or the options of one command"},
+};
+
+enum { COMMANDS = sizeof commands / sizeof commands[0] };
+
+static char *command_line;
+
+const char *cli_command_line(void)
 {
-    return 70;
+    return command_line ? command_line : "rollbem";
+}
+
+int cli_run(const char *name, int argc, char **argv)
+{
+    cli_guess guess = {.word = name};
+    for (int i = 0; i < COMMANDS; i++) {
+        if (strcmp(name, commands[i].name) == 0)
+            return commands[i].run(argc, argv);
+        cli_guess_try(&guess, commands[i].name);
+    }
+    return cli_fail(CLI_USAGE, "unknown command '%s'%s", name,
+                    cli_guess_text(&guess, ""));
+}
+
+static int is_command(const char *name)
+{
+    for (int i = 0; i < COMMANDS; i++)
+        if (strcmp(name, commands[i].name) == 0)
+            return 1;
+    return 0;
+}
+
+int cli_help(int argc, char **argv)
+{
+    if (argc > 1 && argv[1][0] != '-') {
+        char *args[] = {argv[1], "--help", NULL};
+        return cli_run(argv[1], 2, args);
+    }
+    puts("rollbem [OPTION...] [CASE.ini]   solve one case of rolling contact, print its "
+         "table");
+    for (int i = 0; i < COMMANDS; i++)
+        printf("rollbem %-24s %s\n", commands[i].name, commands[i].help);
+    puts("\n`rollbem --help` lists the options of a case, `rollbem help COMMAND` those "
+         "of a "
+         "command.");
+    return CLI_OK;
+}
+
+/* Room for every character quoted ('\''), a pair of quotes and a space each. */
+static size_t quoted_size(int argc, char **argv)
+{
+    size_t size = sizeof "rollbem";
+    for (int i = 1; i < argc; i++)
+        size += 4 * strlen(argv[i]) + 3;
+    return size;
+}
+
+static char *append_quoted(char *to, const char *word)
+{
+    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                        "-_=+.,:/@%^";
+    const size_t n = strlen(word);
+    if (n > 0 && strspn(word, plain) == n) {
+        memcpy(to, word, n);
+        return to + n;
+    }
+    *to++ = '\'';
+    for (const char *c = word; *c; c++) {
+        if (*c == '\'') {
+            memcpy(to, "'\\'", 3);
+            to += 3;
+        }
+        /* one header line, one line of text */
+        *to++ = *c == '\n' || *c == '\r' ? ' ' : *c;
+    }
+    *to++ = '\'';
+    return to;
+}
+
+static char *quote(int argc, char **argv)
+{
+    char *line = malloc(quoted_size(argc, argv));
+    if (!line)
+        return NULL;
+    memcpy(line, "rollbem", 7);
+    char *to = line + 7;
+    for (int i = 1; i < argc; i++) {
+        *to++ = ' ';
+        to = append_quoted(to, argv[i]);
+    }
+    *to = '\0';
+    return line;
+}
+
+/* A full disc or a closed pipe shows here at the latest. */
+static int close_output(int code)
+{
+    errno = 0;
+    const int failed_before = ferror(stdout);
+    if (fclose(stdout) != 0 || failed_before)
+        return cli_fail(CLI_CANTWRITE, "standard output: %s",
+                        errno ? strerror(errno) : "write error");
+    return code;
+}
+
+int main(int argc, char **argv)
+{
+    gsl_set_error_handler_off();
+    signal(SIGPIPE, SIG_IGN); /* a closed pipe becomes a write error */
+    command_line = quote(argc, argv);
+    int code;
+    if (argc > 1 && is_command(argv[1]))
+        code = cli_run(argv[1], argc - 1, argv + 1);
+    else
+        code = cli_solve(argc, argv);
+    code = close_output(code);
+    free(command_line);
+    return code;
 }

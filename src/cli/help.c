@@ -1,0 +1,124 @@
+/* --help and --usage, made from the option tables. */
+#include "cli/cli.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { NAME_COLUMN = 28, WIDTH = 88 };
+
+static void metavar(const cli_option *o, char *text, size_t size)
+{
+    size_t used = 0;
+    switch (o->kind) {
+    case CLI_NUMBER:
+        snprintf(text, size, " X%s%s", o->word ? "|" : "", o->word ? o->word : "");
+        break;
+    case CLI_INTEGER:
+        snprintf(text, size, " N");
+        break;
+    case CLI_CHOICE:
+        for (const cli_choice *c = o->choices; c->name && used < size; c++)
+            used += (size_t)snprintf(text + used, size - used, "%s%s",
+                                     c == o->choices ? " " : "|", c->name);
+        if (o->path && used < size)
+            snprintf(text + used, size - used, "|FILE");
+        break;
+    case CLI_TEXT:
+        snprintf(text, size, " %s", *o->unit ? o->unit : "NAME");
+        break;
+    default:
+        text[0] = '\0';
+    }
+}
+
+/* Words of text from column on, broken before WIDTH. */
+static void print_wrapped(const char *text, int column, int indent)
+{
+    int at = column;
+    while (*text) {
+        const int n = (int)strcspn(text, " \n");
+        if (at > indent && at + 1 + n > WIDTH) {
+            printf("\n%*s", indent, "");
+            at = indent;
+        } else if (at > column) {
+            putchar(' ');
+            at++;
+        }
+        printf("%.*s", n, text);
+        at += n;
+        text += n;
+        text += strspn(text, " \n");
+    }
+    putchar('\n');
+}
+
+/* What stands behind the help line: unit, range, default. */
+static void describe(const cli_option *o, const void *target, char *text, size_t size)
+{
+    char room[64], expected[200];
+    const int numeric = o->kind == CLI_NUMBER || o->kind == CLI_INTEGER;
+    const char *shown = o->unset ? o->unset : cli_value_text(o, target, room);
+    const char *range = "";
+    if (numeric) {
+        const char *whole = cli_expected(o, expected, sizeof expected);
+        range = whole + strlen(o->kind == CLI_NUMBER ? "a number" : "a whole number");
+    }
+    if (o->kind == CLI_FLAG || (o->kind == CLI_TEXT && !o->unset))
+        shown = "";
+    snprintf(text, size, "%s%s%s%s%s%s%s%s%s", o->help, numeric && *o->unit ? " [" : "",
+             numeric ? o->unit : "", numeric && *o->unit ? "]" : "", *range ? "," : "",
+             range, *shown ? " (" : "", shown, *shown ? ")" : "");
+}
+
+static void print_option(const cli_option *o, const void *target)
+{
+    char values[120], text[600];
+    metavar(o, values, sizeof values);
+    describe(o, target, text, sizeof text);
+    const int n = printf("  --%s%s", o->name, values);
+    if (n + 1 >= NAME_COLUMN)
+        printf("\n%*s", NAME_COLUMN, "");
+    else
+        printf("%*s", NAME_COLUMN - n, "");
+    print_wrapped(text, NAME_COLUMN, NAME_COLUMN);
+}
+
+void cli_print_help(const cli_spec *spec)
+{
+    printf("Usage: %s\n\n%s\n", spec->synopsis, spec->about);
+    for (int s = 0; s < spec->set_n; s++)
+        for (int i = 0; i < spec->sets[s].n; i++) {
+            const cli_option *o = &spec->sets[s].options[i];
+            if (o->kind == CLI_GROUP)
+                printf("\n%s [%s]\n", o->help, o->name);
+            else
+                print_option(o, spec->sets[s].target);
+        }
+    puts("\nCommon\n"
+         "  --help                    this text\n"
+         "  --usage                   the options on a few lines\n"
+         "  --version");
+    if (spec->notes)
+        printf("\n%s", spec->notes);
+}
+
+void cli_print_usage(const cli_spec *spec)
+{
+    char values[120];
+    int at = 0;
+    printf("Usage: %s\n", spec->synopsis);
+    for (int s = 0; s < spec->set_n; s++)
+        for (int i = 0; i < spec->sets[s].n; i++) {
+            const cli_option *o = &spec->sets[s].options[i];
+            if (o->kind == CLI_GROUP)
+                continue;
+            metavar(o, values, sizeof values);
+            const int n = (int)(strlen(o->name) + strlen(values)) + 5;
+            if (at > 0 && at + n > WIDTH) {
+                putchar('\n');
+                at = 0;
+            }
+            at += printf("%s[--%s%s]", at ? " " : "  ", o->name, values);
+        }
+    puts(at ? "\n  [--help] [--usage] [--version]" : "  [--help] [--usage] [--version]");
+}

@@ -1,0 +1,195 @@
+/* One value of one option: from text, strictly, and back. */
+#include "cli/cli.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+int cli_number(const char *text, double *value)
+{
+    char *end;
+    if (*text == '\0' || strchr(" \t\n", *text))
+        return 0;
+    *value = strtod(text, &end);
+    return *end == '\0' && isfinite(*value);
+}
+
+static int whole_number(const char *text, int *value)
+{
+    char *end;
+    if (*text == '\0' || strchr(" \t\n", *text))
+        return 0;
+    errno = 0;
+    const long v = strtol(text, &end, 10);
+    *value = (int)v;
+    return *end == '\0' && errno == 0 && v >= INT_MIN && v <= INT_MAX;
+}
+
+static int in_range(double v, const cli_range *r)
+{
+    const int above = r->from_open ? v > r->from : v >= r->from;
+    const int below = r->to_open ? v < r->to : v <= r->to;
+    return above && below;
+}
+
+static void range_text(const cli_range *r, char *text, size_t size)
+{
+    if (isfinite(r->from) && isfinite(r->to))
+        snprintf(text, size, " in %c%g, %g%c", r->from_open ? '(' : '[', r->from, r->to,
+                 r->to_open ? ')' : ']');
+    else if (isfinite(r->from))
+        snprintf(text, size, " %s %g", r->from_open ? ">" : ">=", r->from);
+    else if (isfinite(r->to))
+        snprintf(text, size, " %s %g", r->to_open ? "<" : "<=", r->to);
+    else
+        text[0] = '\0';
+}
+
+static void choices_text(const cli_choice *c, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; c[i].name && used < size; i++) {
+        const char *between = i == 0 ? "" : c[i + 1].name ? ", " : " or ";
+        used += (size_t)snprintf(text + used, size - used, "%s%s", between, c[i].name);
+    }
+}
+
+const char *cli_expected(const cli_option *o, char *text, size_t size)
+{
+    char range[64];
+    range_text(&o->range, range, sizeof range);
+    switch (o->kind) {
+    case CLI_NUMBER:
+        snprintf(text, size, "a number%s%s%s", range, o->word ? " or " : "",
+                 o->word ? o->word : "");
+        break;
+    case CLI_INTEGER:
+        snprintf(text, size, "a whole number%s", range);
+        break;
+    case CLI_CHOICE:
+        choices_text(o->choices, text, size);
+        break;
+    case CLI_FLAG:
+        snprintf(text, size, "yes or no");
+        break;
+    case CLI_TEXT:
+    case CLI_GROUP:
+        snprintf(text, size, "a name");
+        break;
+    }
+    return text;
+}
+
+static int set_number(const cli_option *o, double *place, const char *value)
+{
+    double v;
+    if (o->word && strcmp(value, o->word) == 0)
+        v = o->word_value;
+    else if (!cli_number(value, &v) || !in_range(v, &o->range))
+        return 0;
+    *place = v;
+    return 1;
+}
+
+static int set_integer(const cli_option *o, int *place, const char *value)
+{
+    int v;
+    if (!whole_number(value, &v) || !in_range(v, &o->range))
+        return 0;
+    *place = v;
+    return 1;
+}
+
+static int set_choice(const cli_option *o, char *target, const char *value)
+{
+    int *place = (int *)(target + o->offset);
+    for (const cli_choice *c = o->choices; c->name; c++)
+        if (strcmp(value, c->name) == 0) {
+            *place = c->value;
+            return 1;
+        }
+    if (!o->path || *value == '\0')
+        return 0;
+    *(const char **)(target + o->path) = value;
+    *place = o->path_value;
+    return 1;
+}
+
+static int set_flag(int *place, const char *value)
+{
+    const int yes = strcmp(value, "yes") == 0 || strcmp(value, "true") == 0;
+    const int no = strcmp(value, "no") == 0 || strcmp(value, "false") == 0;
+    *place = yes;
+    return yes || no;
+}
+
+static int set_any(const cli_option *o, char *target, const char *value)
+{
+    void *place = target + o->offset;
+    switch (o->kind) {
+    case CLI_NUMBER:
+        return set_number(o, place, value);
+    case CLI_INTEGER:
+        return set_integer(o, place, value);
+    case CLI_CHOICE:
+        return set_choice(o, target, value);
+    case CLI_FLAG:
+        return set_flag(place, value);
+    case CLI_TEXT:
+        *(const char **)place = value;
+        return *value != '\0';
+    case CLI_GROUP:
+        break;
+    }
+    return 0;
+}
+
+cli_exit cli_set_value(const cli_option *option, void *target, const char *what,
+                       const char *value, cli_exit code)
+{
+    char expected[200];
+    if (set_any(option, target, value))
+        return CLI_CONTINUE;
+    return cli_fail(code, "%s: expected %s, got '%s'", what,
+                    cli_expected(option, expected, sizeof expected), value);
+}
+
+static const char *choice_name(const cli_option *o, const char *target)
+{
+    const int value = *(const int *)(target + o->offset);
+    for (const cli_choice *c = o->choices; c->name; c++)
+        if (c->value == value)
+            return c->name;
+    return o->path ? *(const char *const *)(target + o->path) : "";
+}
+
+const char *cli_value_text(const cli_option *o, const void *target, char room[64])
+{
+    const void *place = (const char *)target + o->offset;
+    switch (o->kind) {
+    case CLI_NUMBER: {
+        const double v = *(const double *)place;
+        if (o->word && v == o->word_value)
+            return o->word;
+        snprintf(room, 64, isnan(v) ? "" : "%.15g", v);
+        return room;
+    }
+    case CLI_INTEGER:
+        snprintf(room, 64, "%d", *(const int *)place);
+        return room;
+    case CLI_CHOICE:
+        return choice_name(o, target);
+    case CLI_FLAG:
+        return *(const int *)place ? "yes" : "no";
+    case CLI_TEXT: {
+        const char *text = *(const char *const *)place;
+        return text ? text : "";
+    }
+    case CLI_GROUP:
+        break;
+    }
+    return "";
+}
