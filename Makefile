@@ -5,9 +5,11 @@ B ?= build
 CC ?= cc
 CFLAGS ?= -O3 -g
 STD = -std=c11 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wpedantic -Wshadow
-PKGS = openblas lapacke gsl inih jansson
+PKGS = openblas lapacke gsl inih jansson hdf5-serial
+# SuiteSparse 5 has no pkg-config file
+SUITESPARSE = -lumfpack -lspqr -lcholmod -lsuitesparseconfig
 # -lgslcblas would shadow OpenBLAS: take GSL's flags without it
-LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS))) -lm
+LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS))) $(SUITESPARSE) -lm
 CPPFLAGS += -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS))
 VERSION := $(shell sed -n 's/.*RB_VERSION "\(.*\)"/\1/p' include/rollbem/base.h)
 

@@ -1,4 +1,5 @@
-/* Sparse matrices in compressed columns, the layout of CSparse and CHOLMOD. */
+/* Sparse matrices in compressed columns, the layout of CSparse and CHOLMOD, and their
+ * factorisations (SuiteSparse). */
 #ifndef ROLLBEM_SPARSE_H
 #define ROLLBEM_SPARSE_H
 
@@ -13,8 +14,11 @@ typedef struct {
 
 /* From nz triplets (entries at the same place are added).  RB_EINVAL: an index out of
  * range; RB_ENOMEM. */
-rb_status rb_sparse_from_triplets(int rows, int cols, int nz, const int *row, const int *col,
-                                  const double *x, rb_sparse *a);
+rb_status rb_sparse_from_triplets(int rows, int cols, int nz, const int *row,
+                                  const int *col, const double *x, rb_sparse *a);
+/* From a column-major dense matrix, lda >= rows; exact zeros are left out. */
+rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda,
+                               rb_sparse *a);
 rb_status rb_sparse_copy(const rb_sparse *a, rb_sparse *b);
 rb_status rb_sparse_transpose(const rb_sparse *a, rb_sparse *t);
 void rb_sparse_free(rb_sparse *a);
@@ -24,5 +28,37 @@ void rb_sparse_apply(double alpha, const rb_sparse *a, const double *x, double b
                      double *y);
 void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *x,
                                 double beta, double *y);
+
+/* Numerical rank by rank-revealing QR (SuiteSparseQR), with its default tolerance
+ * 20 (rows + cols) eps max column norm. */
+rb_status rb_sparse_rank(const rb_sparse *a, int *rank);
+
+/* ---- LU of a square matrix whose pattern stays (UMFPACK) --------------------------- */
+
+typedef struct rb_sparse_lu rb_sparse_lu;
+
+/* Orders the pattern; no numbers yet.  RB_EINVAL: not square. */
+rb_status rb_sparse_lu_create(const rb_sparse *a, rb_sparse_lu **lu);
+/* Factors a, which has the pattern given to create and must outlive the solves.
+ * flops (NULL: not wanted) grows by the operations done. */
+rb_status rb_sparse_lu_factor(rb_sparse_lu *lu, const rb_sparse *a, double *flops);
+rb_status rb_sparse_lu_solve(const rb_sparse_lu *lu, const double *b, double *x);
+void rb_sparse_lu_free(rb_sparse_lu *lu);
+
+/* ---- Cholesky of a symmetric positive definite matrix (CHOLMOD) -------------------- */
+
+typedef struct rb_sparse_cholesky rb_sparse_cholesky;
+
+/* Factors K (both triangles stored; the upper one is read).  RB_SINGULAR: not positive
+ * definite to rounding (a pivot below 1e-13 of the largest). */
+rb_status rb_sparse_cholesky_create(const rb_sparse *k, rb_sparse_cholesky **factor);
+rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b,
+                                   double *x);
+/* W = H' K^-1 H as (L^-1 P H)' (L^-1 P H): symmetric to the last digit, no inverse, and
+ * sparse wherever K falls into unconnected bodies. */
+rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_sparse *h,
+                                        rb_sparse *w);
+double rb_sparse_cholesky_flops(const rb_sparse_cholesky *factor);
+void rb_sparse_cholesky_free(rb_sparse_cholesky *factor);
 
 #endif

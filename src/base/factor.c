@@ -1,0 +1,244 @@
+/* SuiteSparse behind rollbem/sparse.h: rank (SPQR), LU (UMFPACK), Cholesky (CHOLMOD). */
+#include "rollbem/sparse.h"
+
+#include <suitesparse/SuiteSparseQR_C.h>
+#include <suitesparse/cholmod.h>
+#include <suitesparse/umfpack.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Rank ------------------------------------------------------------------------- */
+
+/* SuiteSparseQR knows long indices only. */
+static cholmod_sparse *long_copy(const rb_sparse *a, cholmod_common *c)
+{
+    const size_t nz = (size_t)a->p[a->cols];
+    cholmod_sparse *l = cholmod_l_allocate_sparse((size_t)a->rows, (size_t)a->cols, nz, 1,
+                                                  1, 0, CHOLMOD_REAL, c);
+    if (!l)
+        return NULL;
+    SuiteSparse_long *p = l->p, *i = l->i;
+    for (int j = 0; j <= a->cols; j++)
+        p[j] = a->p[j];
+    for (size_t k = 0; k < nz; k++)
+        i[k] = a->i[k];
+    memcpy(l->x, a->x, nz * sizeof(double));
+    return l;
+}
+
+rb_status rb_sparse_rank(const rb_sparse *a, int *rank)
+{
+    cholmod_common c;
+    cholmod_l_start(&c);
+    c.print = 0;
+    cholmod_sparse *l = long_copy(a, &c), *r = NULL;
+    SuiteSparse_long *e = NULL;
+    SuiteSparse_long found = -1;
+    if (l)
+        found = SuiteSparseQR_C(SPQR_ORDERING_DEFAULT, SPQR_DEFAULT_TOL, 0, 0, l, NULL,
+                                NULL, NULL, NULL, &r, &e, NULL, NULL, NULL, &c);
+    cholmod_l_free_sparse(&r, &c);
+    cholmod_l_free((size_t)a->cols, sizeof *e, e, &c);
+    cholmod_l_free_sparse(&l, &c);
+    cholmod_l_finish(&c);
+    *rank = (int)found;
+    return found < 0 ? RB_ENOMEM : RB_OK;
+}
+
+/* ---- LU --------------------------------------------------------------------------- */
+
+struct rb_sparse_lu {
+    void *symbolic, *numeric;
+    const rb_sparse *a; /* borrowed: UMFPACK refines with the matrix itself */
+    double control[UMFPACK_CONTROL];
+};
+
+static rb_status umfpack_status(int code)
+{
+    switch (code) {
+    case UMFPACK_OK:
+        return RB_OK;
+    case UMFPACK_ERROR_out_of_memory:
+        return RB_ENOMEM;
+    case UMFPACK_WARNING_singular_matrix:
+        return RB_SINGULAR;
+    default:
+        return RB_EINVAL;
+    }
+}
+
+rb_status rb_sparse_lu_create(const rb_sparse *a, rb_sparse_lu **lu)
+{
+    *lu = NULL;
+    if (a->rows != a->cols)
+        return RB_EINVAL;
+    rb_sparse_lu *f = calloc(1, sizeof *f);
+    if (!f)
+        return RB_ENOMEM;
+    umfpack_di_defaults(f->control);
+    f->control[UMFPACK_PRL] = 0;
+    const rb_status s = umfpack_status(umfpack_di_symbolic(
+        a->rows, a->cols, a->p, a->i, NULL, &f->symbolic, f->control, NULL));
+    if (s == RB_OK)
+        *lu = f;
+    else
+        rb_sparse_lu_free(f);
+    return s;
+}
+
+rb_status rb_sparse_lu_factor(rb_sparse_lu *lu, const rb_sparse *a, double *flops)
+{
+    double info[UMFPACK_INFO];
+    umfpack_di_free_numeric(&lu->numeric);
+    lu->a = a;
+    const int code = umfpack_di_numeric(a->p, a->i, a->x, lu->symbolic, &lu->numeric,
+                                        lu->control, info);
+    if (flops && info[UMFPACK_FLOPS] > 0)
+        *flops += info[UMFPACK_FLOPS];
+    return umfpack_status(code);
+}
+
+rb_status rb_sparse_lu_solve(const rb_sparse_lu *lu, const double *b, double *x)
+{
+    if (!lu->numeric)
+        return RB_EINVAL;
+    const rb_sparse *a = lu->a;
+    return umfpack_status(umfpack_di_solve(UMFPACK_A, a->p, a->i, a->x, x, b, lu->numeric,
+                                           lu->control, NULL));
+}
+
+void rb_sparse_lu_free(rb_sparse_lu *lu)
+{
+    if (!lu)
+        return;
+    umfpack_di_free_numeric(&lu->numeric);
+    umfpack_di_free_symbolic(&lu->symbolic);
+    free(lu);
+}
+
+/* ---- Cholesky ---------------------------------------------------------------------- */
+
+struct rb_sparse_cholesky {
+    cholmod_common c;
+    cholmod_factor *l; /* L L' = P K P' */
+    double flops;
+};
+
+/* A view: shares the arrays. */
+static cholmod_sparse view_of(const rb_sparse *a, int stype)
+{
+    return (cholmod_sparse){.nrow = (size_t)a->rows,
+                            .ncol = (size_t)a->cols,
+                            .nzmax = (size_t)a->p[a->cols],
+                            .p = a->p,
+                            .i = a->i,
+                            .x = a->x,
+                            .stype = stype,
+                            .itype = CHOLMOD_INT,
+                            .xtype = CHOLMOD_REAL,
+                            .dtype = CHOLMOD_DOUBLE,
+                            .sorted = 1,
+                            .packed = 1};
+}
+
+static cholmod_dense dense_view(int n, double *x)
+{
+    return (cholmod_dense){.nrow = (size_t)n,
+                           .ncol = 1,
+                           .nzmax = (size_t)n,
+                           .d = (size_t)n,
+                           .x = x,
+                           .xtype = CHOLMOD_REAL,
+                           .dtype = CHOLMOD_DOUBLE};
+}
+
+static rb_status cholmod_outcome(rb_sparse_cholesky *f)
+{
+    if (f->c.status == CHOLMOD_OUT_OF_MEMORY)
+        return RB_ENOMEM;
+    if (f->c.status < 0)
+        return RB_EINVAL;
+    /* cholmod_rcond: (smallest/largest diagonal of L)^2 */
+    if (f->l->minor < f->l->n || cholmod_rcond(f->l, &f->c) < 1e-13)
+        return RB_SINGULAR;
+    return RB_OK;
+}
+
+rb_status rb_sparse_cholesky_create(const rb_sparse *k, rb_sparse_cholesky **factor)
+{
+    *factor = NULL;
+    if (k->rows != k->cols || k->rows < 1)
+        return RB_EINVAL;
+    rb_sparse_cholesky *f = calloc(1, sizeof *f);
+    if (!f)
+        return RB_ENOMEM;
+    cholmod_start(&f->c);
+    f->c.print = 0;
+    f->c.final_ll = 1;
+    cholmod_sparse view = view_of(k, 1);
+    f->l = cholmod_analyze(&view, &f->c);
+    if (f->l)
+        cholmod_factorize(&view, f->l, &f->c);
+    f->flops = f->c.fl;
+    const rb_status s = f->l ? cholmod_outcome(f) : RB_ENOMEM;
+    if (s == RB_OK)
+        *factor = f;
+    else
+        rb_sparse_cholesky_free(f);
+    return s;
+}
+
+rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b, double *x)
+{
+    const int n = (int)factor->l->n;
+    memmove(x, b, (size_t)n * sizeof *x);
+    cholmod_dense rhs = dense_view(n, x);
+    cholmod_dense *y = cholmod_solve(CHOLMOD_A, factor->l, &rhs, &factor->c);
+    if (!y)
+        return RB_ENOMEM;
+    memcpy(x, y->x, (size_t)n * sizeof *x);
+    cholmod_free_dense(&y, &factor->c);
+    return RB_OK;
+}
+
+static rb_status take_copy(cholmod_sparse *from, cholmod_common *c, rb_sparse *to)
+{
+    if (!from || !cholmod_sort(from, c))
+        return RB_ENOMEM;
+    const rb_sparse borrowed = {(int)from->nrow, (int)from->ncol, from->p, from->i,
+                                from->x};
+    return rb_sparse_copy(&borrowed, to);
+}
+
+rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_sparse *h,
+                                        rb_sparse *w)
+{
+    *w = (rb_sparse){0};
+    cholmod_common *c = &factor->c;
+    cholmod_sparse view = view_of(h, 0);
+    cholmod_sparse *ph = cholmod_spsolve(CHOLMOD_P, factor->l, &view, c);
+    cholmod_sparse *x = ph ? cholmod_spsolve(CHOLMOD_L, factor->l, ph, c) : NULL;
+    cholmod_sparse *xt = x ? cholmod_transpose(x, 1, c) : NULL;
+    cholmod_sparse *half = xt ? cholmod_aat(xt, NULL, 0, 1, c) : NULL;
+    const rb_status s = take_copy(half, c, w);
+    cholmod_free_sparse(&half, c);
+    cholmod_free_sparse(&xt, c);
+    cholmod_free_sparse(&x, c);
+    cholmod_free_sparse(&ph, c);
+    return s;
+}
+
+double rb_sparse_cholesky_flops(const rb_sparse_cholesky *factor)
+{
+    return factor->flops;
+}
+
+void rb_sparse_cholesky_free(rb_sparse_cholesky *factor)
+{
+    if (!factor)
+        return;
+    cholmod_free_factor(&factor->l, &factor->c);
+    cholmod_finish(&factor->c);
+    free(factor);
+}

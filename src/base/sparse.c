@@ -1,0 +1,188 @@
+#include "rollbem/sparse.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void rb_sparse_free(rb_sparse *a)
+{
+    if (!a)
+        return;
+    free(a->p);
+    free(a->i);
+    free(a->x);
+    *a = (rb_sparse){0};
+}
+
+static rb_status sparse_alloc(int rows, int cols, int nz, rb_sparse *a)
+{
+    *a = (rb_sparse){.rows = rows,
+                     .cols = cols,
+                     .p = rb_alloc_int((size_t)cols + 1),
+                     .i = rb_alloc_int((size_t)nz),
+                     .x = rb_alloc((size_t)nz, 1)};
+    if (a->p && a->i && a->x)
+        return RB_OK;
+    rb_sparse_free(a);
+    return RB_ENOMEM;
+}
+
+/* counts[1 ... n] entries per bin -> counts[0 ... n] where each bin starts */
+static void running_sum(int n, int *counts)
+{
+    for (int k = 0; k < n; k++)
+        counts[k + 1] += counts[k];
+}
+
+static rb_status sorted_by_row(int rows, int nz, const int *row, int *order)
+{
+    int *start = rb_alloc_int((size_t)rows + 1);
+    if (!start)
+        return RB_ENOMEM;
+    for (int k = 0; k < nz; k++)
+        start[row[k] + 1]++;
+    running_sum(rows, start);
+    for (int k = 0; k < nz; k++)
+        order[start[row[k]]++] = k;
+    free(start);
+    return RB_OK;
+}
+
+/* Entries of one column arrive by increasing row: equal rows are neighbours. */
+static void add_equal_places(rb_sparse *a)
+{
+    int kept = 0;
+    for (int j = 0, begin = 0; j < a->cols; j++) {
+        const int end = a->p[j + 1], first = kept;
+        for (int k = begin; k < end; k++) {
+            if (kept > first && a->i[kept - 1] == a->i[k]) {
+                a->x[kept - 1] += a->x[k];
+            } else {
+                a->i[kept] = a->i[k];
+                a->x[kept++] = a->x[k];
+            }
+        }
+        begin = end;
+        a->p[j + 1] = kept;
+    }
+}
+
+static void place_entries(int nz, const int *order, const int *row, const int *col,
+                          const double *x, rb_sparse *a, int *next)
+{
+    for (int k = 0; k < nz; k++)
+        a->p[col[k] + 1]++;
+    running_sum(a->cols, a->p);
+    memcpy(next, a->p, (size_t)a->cols * sizeof *next);
+    for (int k = 0; k < nz; k++) {
+        const int from = order[k], to = next[col[from]]++;
+        a->i[to] = row[from];
+        a->x[to] = x[from];
+    }
+    add_equal_places(a);
+}
+
+rb_status rb_sparse_from_triplets(int rows, int cols, int nz, const int *row,
+                                  const int *col, const double *x, rb_sparse *a)
+{
+    *a = (rb_sparse){0};
+    if (rows < 0 || cols < 0 || nz < 0)
+        return RB_EINVAL;
+    for (int k = 0; k < nz; k++)
+        if (row[k] < 0 || row[k] >= rows || col[k] < 0 || col[k] >= cols)
+            return RB_EINVAL;
+
+    rb_status s = sparse_alloc(rows, cols, nz, a);
+    int *order = rb_alloc_int((size_t)nz), *next = rb_alloc_int((size_t)cols);
+    if (s == RB_OK && !(order && next))
+        s = RB_ENOMEM;
+    if (s == RB_OK)
+        s = sorted_by_row(rows, nz, row, order);
+    if (s == RB_OK)
+        place_entries(nz, order, row, col, x, a, next);
+    else
+        rb_sparse_free(a);
+    free(next);
+    free(order);
+    return s;
+}
+
+rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda,
+                               rb_sparse *a)
+{
+    *a = (rb_sparse){0};
+    if (rows < 0 || cols < 0 || lda < rows)
+        return RB_EINVAL;
+    int nz = 0;
+    for (int j = 0; j < cols; j++)
+        for (int i = 0; i < rows; i++)
+            nz += dense[i + (size_t)j * lda] != 0.0;
+    if (sparse_alloc(rows, cols, nz, a) != RB_OK)
+        return RB_ENOMEM;
+    nz = 0;
+    for (int j = 0; j < cols; j++) {
+        for (int i = 0; i < rows; i++) {
+            const double x = dense[i + (size_t)j * lda];
+            if (x != 0.0) {
+                a->i[nz] = i;
+                a->x[nz++] = x;
+            }
+        }
+        a->p[j + 1] = nz;
+    }
+    return RB_OK;
+}
+
+rb_status rb_sparse_copy(const rb_sparse *a, rb_sparse *b)
+{
+    const int nz = a->p[a->cols];
+    if (sparse_alloc(a->rows, a->cols, nz, b) != RB_OK)
+        return RB_ENOMEM;
+    memcpy(b->p, a->p, ((size_t)a->cols + 1) * sizeof *b->p);
+    memcpy(b->i, a->i, (size_t)nz * sizeof *b->i);
+    memcpy(b->x, a->x, (size_t)nz * sizeof *b->x);
+    return RB_OK;
+}
+
+rb_status rb_sparse_transpose(const rb_sparse *a, rb_sparse *t)
+{
+    const int nz = a->p[a->cols];
+    if (sparse_alloc(a->cols, a->rows, nz, t) != RB_OK)
+        return RB_ENOMEM;
+    for (int k = 0; k < nz; k++)
+        t->p[a->i[k] + 1]++;
+    running_sum(a->rows, t->p);
+    for (int j = 0; j < a->cols; j++) {
+        for (int k = a->p[j]; k < a->p[j + 1]; k++) {
+            const int to = t->p[a->i[k]]++;
+            t->i[to] = j;
+            t->x[to] = a->x[k];
+        }
+    }
+    /* every pointer has moved to the start of the next column */
+    memmove(t->p + 1, t->p, (size_t)a->rows * sizeof *t->p);
+    t->p[0] = 0;
+    return RB_OK;
+}
+
+void rb_sparse_apply(double alpha, const rb_sparse *a, const double *x, double beta,
+                     double *y)
+{
+    for (int i = 0; i < a->rows; i++)
+        y[i] = beta == 0.0 ? 0.0 : beta * y[i];
+    for (int j = 0; j < a->cols; j++) {
+        const double xj = alpha * x[j];
+        for (int k = a->p[j]; k < a->p[j + 1]; k++)
+            y[a->i[k]] += a->x[k] * xj;
+    }
+}
+
+void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *x,
+                                double beta, double *y)
+{
+    for (int j = 0; j < a->cols; j++) {
+        double sum = 0.0;
+        for (int k = a->p[j]; k < a->p[j + 1]; k++)
+            sum += a->x[k] * x[a->i[k]];
+        y[j] = alpha * sum + (beta == 0.0 ? 0.0 : beta * y[j]);
+    }
+}

@@ -1,0 +1,254 @@
+#include "check.h"
+#include "rollbem/sparse.h"
+
+#include <string.h>
+
+static double next_random(unsigned *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (double)(*state >> 8) / (1u << 24) - 0.5;
+}
+
+/* rows x cols with about `share` of its entries, and the same matrix dense */
+static void random_pair(int rows, int cols, double share, rb_sparse *a, double *dense)
+{
+    unsigned seed = 17u + (unsigned)(rows * cols);
+    memset(dense, 0, (size_t)(rows * cols) * sizeof *dense);
+    int row[4000], col[4000], nz = 0;
+    double x[4000];
+    for (int k = 0; k < rows * cols; k++) {
+        if (next_random(&seed) + 0.5 > share)
+            continue;
+        row[nz] = rows - 1 - k % rows, col[nz] = k / rows;
+        x[nz] = next_random(&seed);
+        dense[row[nz] + col[nz] * rows] += x[nz];
+        nz++;
+    }
+    /* the same places once more, in another order: they add up */
+    for (int k = nz - 1; k >= 0; k -= 3) {
+        row[nz] = row[k], col[nz] = col[k], x[nz] = 0.25;
+        dense[row[k] + col[k] * rows] += 0.25;
+        nz++;
+    }
+    CHECK_STATUS(rb_sparse_from_triplets(rows, cols, nz, row, col, x, a), RB_OK);
+}
+
+static void products_agree_with_the_dense_matrix(void **state)
+{
+    (void)state;
+    enum { M = 31, N = 17 };
+    double dense[M * N], x[N], xt[M], y[M], yt[N], want[M], want_t[N];
+    rb_sparse a, t, c;
+    random_pair(M, N, 0.3, &a, dense);
+    for (int j = 0; j < N; j++)
+        x[j] = 0.5 - j;
+    for (int i = 0; i < M; i++)
+        xt[i] = 1.0 + i, y[i] = i, want[i] = -2.0 * i;
+    for (int j = 0; j < N; j++) {
+        yt[j] = j, want_t[j] = 0.5 * j;
+        for (int i = 0; i < M; i++) {
+            want[i] += 3.0 * dense[i + j * M] * x[j];
+            want_t[j] += 2.0 * dense[i + j * M] * xt[i];
+        }
+    }
+    rb_sparse_apply(3.0, &a, x, -2.0, y);
+    rb_sparse_apply_transposed(2.0, &a, xt, 0.5, yt);
+    for (int i = 0; i < M; i++)
+        CHECK_ABS(y[i], want[i], 1e-13, "row %d", i);
+    for (int j = 0; j < N; j++)
+        CHECK_ABS(yt[j], want_t[j], 1e-12, "column %d", j);
+
+    CHECK_STATUS(rb_sparse_transpose(&a, &t), RB_OK);
+    CHECK_STATUS(rb_sparse_transpose(&t, &c), RB_OK);
+    assert_memory_equal(a.p, c.p, (N + 1) * sizeof *a.p);
+    assert_memory_equal(a.i, c.i, (size_t)a.p[N] * sizeof *a.i);
+    assert_memory_equal(a.x, c.x, (size_t)a.p[N] * sizeof *a.x);
+    for (int j = 0; j < N; j++)
+        for (int k = a.p[j] + 1; k < a.p[j + 1]; k++)
+            assert_true(a.i[k - 1] < a.i[k]);
+    rb_sparse_free(&c);
+    rb_sparse_free(&t);
+
+    CHECK_STATUS(rb_sparse_from_dense(M - 1, N, dense, M, &c), RB_OK);
+    memset(y, 0, sizeof y);
+    rb_sparse_apply(1.0, &c, x, 0.0, y);
+    rb_sparse_apply(1.0, &a, x, 0.0, want);
+    for (int i = 0; i < M - 1; i++)
+        CHECK_ABS(y[i], want[i], 1e-14, "row %d from dense", i);
+    rb_sparse_free(&c);
+    rb_sparse_free(&a);
+}
+
+static void places_outside_are_refused(void **state)
+{
+    (void)state;
+    const int row[] = {0, 2}, col[] = {0, 1}, low[] = {0, -1};
+    const double x[] = {1.0, 2.0};
+    rb_sparse a;
+    CHECK_STATUS(rb_sparse_from_triplets(2, 2, 2, row, col, x, &a), RB_EINVAL);
+    CHECK_STATUS(rb_sparse_from_triplets(3, 1, 2, row, col, x, &a), RB_EINVAL);
+    CHECK_STATUS(rb_sparse_from_triplets(3, 3, 2, row, low, x, &a), RB_EINVAL);
+    CHECK_STATUS(rb_sparse_from_triplets(-1, 3, 0, row, low, x, &a), RB_EINVAL);
+    CHECK_STATUS(rb_sparse_from_dense(3, 1, x, 2, &a), RB_EINVAL);
+    rb_sparse_free(&a);
+    rb_sparse_free(NULL);
+}
+
+/* Second differences on n points; free ends when `held` is 0 (null vector: ones). */
+static void chain(int n, int held, rb_sparse *k)
+{
+    int row[600], col[600], nz = 0;
+    double x[600];
+    for (int i = 0; i < n; i++) {
+        row[nz] = col[nz] = i;
+        x[nz++] = (i > 0) + (i < n - 1) + held * (i == 0);
+        if (i + 1 < n) {
+            row[nz] = i, col[nz] = i + 1, x[nz++] = -1.0;
+            row[nz] = i + 1, col[nz] = i, x[nz++] = -1.0;
+        }
+    }
+    CHECK_STATUS(rb_sparse_from_triplets(n, n, nz, row, col, x, k), RB_OK);
+}
+
+static void ranks_are_seen(void **state)
+{
+    (void)state;
+    rb_sparse k;
+    int rank;
+    chain(60, 1, &k);
+    CHECK_STATUS(rb_sparse_rank(&k, &rank), RB_OK);
+    assert_int_equal(rank, 60);
+    rb_sparse_free(&k);
+    chain(60, 0, &k);
+    CHECK_STATUS(rb_sparse_rank(&k, &rank), RB_OK);
+    assert_int_equal(rank, 59);
+    rb_sparse_free(&k);
+}
+
+static void lu_solves_and_names_singular_matrices(void **state)
+{
+    (void)state;
+    enum { N = 40 };
+    double dense[N * N], x[N], b[N], y[N], flops = 0.0;
+    rb_sparse a, k;
+    rb_sparse_lu *lu;
+    random_pair(N, N, 0.2, &a, dense);
+    for (int i = 0; i < N; i++)
+        x[i] = 1.0 - 0.1 * i;
+    CHECK_STATUS(rb_sparse_lu_create(&a, &lu), RB_OK);
+    CHECK_STATUS(rb_sparse_lu_solve(lu, x, y), RB_EINVAL);
+    for (int twice = 0; twice < 2; twice++) {
+        rb_sparse_apply(1.0, &a, x, 0.0, b);
+        CHECK_STATUS(rb_sparse_lu_factor(lu, &a, &flops), RB_OK);
+        CHECK_STATUS(rb_sparse_lu_solve(lu, b, y), RB_OK);
+        for (int i = 0; i < N; i++)
+            CHECK_ABS(y[i], x[i], 1e-11, "x[%d]", i);
+        a.x[3] *= 1.5; /* another matrix of the same pattern */
+    }
+    assert_true(flops > 0.0);
+    rb_sparse_lu_free(lu);
+    rb_sparse_free(&a);
+
+    chain(N, 0, &k);
+    CHECK_STATUS(rb_sparse_lu_create(&k, &lu), RB_OK);
+    k.x[0] = k.x[1] = 0.0;
+    CHECK_STATUS(rb_sparse_lu_factor(lu, &k, NULL), RB_SINGULAR);
+    rb_sparse_lu_free(lu);
+    rb_sparse_lu_free(NULL);
+    k.rows--;
+    CHECK_STATUS(rb_sparse_lu_create(&k, &lu), RB_EINVAL);
+    rb_sparse_free(&k);
+}
+
+static void cholesky_solves_condenses_and_refuses(void **state)
+{
+    (void)state;
+    enum { N = 30, M = 6 };
+    double dense[N * M], b[N], y[N], x[M], got[M], want[M];
+    rb_sparse k, h, w;
+    rb_sparse_cholesky *f;
+    chain(N, 1, &k);
+    random_pair(N, M, 0.4, &h, dense);
+    CHECK_STATUS(rb_sparse_cholesky_create(&k, &f), RB_OK);
+    CHECK_STATUS(rb_sparse_cholesky_congruence(f, &h, &w), RB_OK);
+    assert_true(rb_sparse_cholesky_flops(f) > 0.0);
+    for (int j = 0; j < M; j++)
+        x[j] = j - 2.0;
+    rb_sparse_apply(1.0, &h, x, 0.0, b);
+    CHECK_STATUS(rb_sparse_cholesky_solve(f, b, y), RB_OK);
+    rb_sparse_apply(-1.0, &k, y, 1.0, b);
+    CHECK_MAX(rb_norm_inf(N, b), 1e-12, "K y = b");
+    rb_sparse_apply_transposed(1.0, &h, y, 0.0, want);
+    rb_sparse_apply(1.0, &w, x, 0.0, got);
+    for (int j = 0; j < M; j++)
+        CHECK_ABS(got[j], want[j], 1e-11, "W x, row %d", j);
+    rb_sparse_free(&w);
+    rb_sparse_free(&h);
+    rb_sparse_free(&k);
+    rb_sparse_cholesky_free(f);
+    rb_sparse_cholesky_free(NULL);
+
+    chain(N, 0, &k);
+    CHECK_STATUS(rb_sparse_cholesky_create(&k, &f), RB_SINGULAR);
+    assert_null(f);
+    k.rows--;
+    CHECK_STATUS(rb_sparse_cholesky_create(&k, &f), RB_EINVAL);
+    rb_sparse_free(&k);
+}
+
+static rb_status build_and_factor(void)
+{
+    const int row[] = {0, 1, 1}, col[] = {0, 0, 1};
+    const double v[] = {2.0, 1.0, 3.0}, dense[] = {1.0, 0.0, 0.0, 1.0};
+    rb_sparse a = {0}, b = {0}, t = {0}, d = {0}, w = {0};
+    rb_sparse_lu *lu = NULL;
+    rb_sparse_cholesky *f = NULL;
+    rb_status s = rb_sparse_from_triplets(2, 2, 3, row, col, v, &a);
+    if (s == RB_OK)
+        s = rb_sparse_copy(&a, &b);
+    if (s == RB_OK)
+        s = rb_sparse_transpose(&a, &t);
+    if (s == RB_OK)
+        s = rb_sparse_from_dense(2, 2, dense, 2, &d);
+    if (s == RB_OK)
+        s = rb_sparse_lu_create(&a, &lu);
+    if (s == RB_OK)
+        s = rb_sparse_cholesky_create(&d, &f);
+    if (s == RB_OK)
+        s = rb_sparse_cholesky_congruence(f, &a, &w);
+    rb_sparse_cholesky_free(f);
+    rb_sparse_lu_free(lu);
+    rb_sparse_free(&w);
+    rb_sparse_free(&d);
+    rb_sparse_free(&t);
+    rb_sparse_free(&b);
+    rb_sparse_free(&a);
+    return s;
+}
+
+static void failing_allocations_are_reported(void **state)
+{
+    (void)state;
+    int count = 0;
+    for (rb_status s = RB_ENOMEM; s != RB_OK; count++) {
+        alloc_fail_after(count);
+        s = build_and_factor();
+        const int refused = alloc_failed();
+        alloc_succeed();
+        assert_int_equal(s == RB_ENOMEM, refused);
+    }
+    assert_true(count > 10);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(products_agree_with_the_dense_matrix),
+        cmocka_unit_test(places_outside_are_refused),
+        cmocka_unit_test(ranks_are_seen),
+        cmocka_unit_test(lu_solves_and_names_singular_matrices),
+        cmocka_unit_test(cholesky_solves_condenses_and_refuses),
+        cmocka_unit_test(failing_allocations_are_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
