@@ -1,0 +1,57 @@
+/* Closed forms of plane contact on half-planes (theory.md 6): what verify, the tests and
+ * the pictures compare with.  1/E* = sum (1 - nu^2)/E; loads per unit length.
+ * References: Johnson, Contact Mechanics (1985), chapters 4, 7, 8; Bentall and Johnson,
+ * Int. J. Mech. Sci. 9 (1967) 389-404. */
+#ifndef ROLLBEM_CLOSED_FORMS_H
+#define ROLLBEM_CLOSED_FORMS_H
+
+/* ---- Hertz ------------------------------------------------------------------------ */
+
+/* a of P = pi E* a^2/(4R) [length]. */
+double rb_closed_hertz_half_width(double load, double radius, double modulus);
+double rb_closed_hertz_load(double half_width, double radius, double modulus);
+/* p0 = 2P/(pi a) [stress]. */
+double rb_closed_hertz_max_pressure(double load, double half_width);
+/* p0 sqrt(1 - x^2/a^2), 0 outside. */
+double rb_closed_hertz_pressure(double max_pressure, double half_width, double x);
+/* Approach of a half-cylinder of plane-strain modulus E/(1 - nu^2), as a Hertz load
+ * presses it: P(1-nu^2)/(pi E) [2 ln(4R/a) - 1] [length]. */
+double rb_closed_half_cylinder_approach(double load, double radius, double plane_modulus,
+                                        double half_width);
+
+/* ---- Steady rolling of similar cylinders (Carter) ---------------------------------- */
+
+/* s = xi R/(mu a) with the sign of xi; Q/(mu P) = -sgn(s) |s| (2 - |s|), -sgn(s) beyond
+ * full sliding. */
+double rb_closed_carter_force_ratio(double s);
+/* The creep ratio of a given Q/(mu P) in [-1, 1]. */
+double rb_closed_carter_creep_ratio(double force_ratio);
+/* Traction on A at x; the stick strip adjoins the leading edge +a [stress]. */
+double rb_closed_carter_traction(double mu, double max_pressure, double half_width,
+                                 double s, double x);
+
+/* ---- Tangential load without rolling (Cattaneo, Mindlin) --------------------------- */
+
+/* c/a = sqrt(1 - |Q|/(mu P)): half-width of the centred stick strip. */
+double rb_closed_cattaneo_stick(double force_ratio);
+double rb_closed_cattaneo_traction(double mu, double max_pressure, double half_width,
+                                   double force_ratio, double x);
+
+/* ---- Free rolling of dissimilar cylinders (Bentall, Johnson) ----------------------- */
+
+/* |xi| at Q = 0 for mu -> 0: 2 beta (a/R) k, k = 0.457386; a: Hertz's half-width. */
+double rb_closed_bentall_johnson_slip(double beta, double half_width, double radius);
+
+/* mu -> infinity, all in stick. */
+typedef struct {
+    double eta;          /* ln((1+beta)/(1-beta))/(2 pi) */
+    double half_width;   /* [length] */
+    double creepage;     /* |xi| */
+    double mid_pressure; /* p(0) [stress] */
+} rb_closed_bentall_johnson;
+
+rb_closed_bentall_johnson rb_closed_bentall_johnson_stick(double beta,
+                                                          double hertz_half_width,
+                                                          double radius, double modulus);
+
+#endif

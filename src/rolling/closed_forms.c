@@ -1,0 +1,103 @@
+/* Closed forms of theory.md 6. */
+#include "rollbem/closed_forms.h"
+
+#include <math.h>
+
+#include <gsl/gsl_math.h>
+
+/* sqrt(1 - x^2), 0 outside [-1, 1] */
+static double ellipse(double x)
+{
+    return fabs(x) < 1.0 ? sqrt((1.0 - x) * (1.0 + x)) : 0.0;
+}
+
+double rb_closed_hertz_half_width(double load, double radius, double modulus)
+{
+    return sqrt(4.0 * load * radius / (M_PI * modulus));
+}
+
+double rb_closed_hertz_load(double half_width, double radius, double modulus)
+{
+    return M_PI * modulus * half_width * half_width / (4.0 * radius);
+}
+
+double rb_closed_hertz_max_pressure(double load, double half_width)
+{
+    return 2.0 * load / (M_PI * half_width);
+}
+
+double rb_closed_hertz_pressure(double max_pressure, double half_width, double x)
+{
+    return max_pressure * ellipse(x / half_width);
+}
+
+double rb_closed_half_cylinder_approach(double load, double radius, double plane_modulus,
+                                        double half_width)
+{
+    return load / (M_PI * plane_modulus) * (2.0 * log(4.0 * radius / half_width) - 1.0);
+}
+
+/* xi > 0 brakes: the friction on A points to -x */
+static double opposing(double s)
+{
+    return s > 0.0 ? -1.0 : s < 0.0 ? 1.0 : 0.0;
+}
+
+double rb_closed_carter_force_ratio(double s)
+{
+    const double size = fmin(fabs(s), 1.0);
+    return opposing(s) * size * (2.0 - size);
+}
+
+double rb_closed_carter_creep_ratio(double force_ratio)
+{
+    const double size = fmin(fabs(force_ratio), 1.0);
+    /* 1 - sqrt(1 - r) without cancellation */
+    return opposing(force_ratio) * size / (1.0 + sqrt(1.0 - size));
+}
+
+double rb_closed_carter_traction(double mu, double max_pressure, double half_width,
+                                 double s, double x)
+{
+    const double stick = half_width * (1.0 - fmin(fabs(s), 1.0));
+    double q = ellipse(x / half_width);
+    if (stick > 0.0)
+        q -= stick / half_width * ellipse((x - (half_width - stick)) / stick);
+    return opposing(s) * mu * max_pressure * q;
+}
+
+double rb_closed_cattaneo_stick(double force_ratio)
+{
+    return sqrt(fmax(0.0, 1.0 - fabs(force_ratio)));
+}
+
+double rb_closed_cattaneo_traction(double mu, double max_pressure, double half_width,
+                                   double force_ratio, double x)
+{
+    const double c = rb_closed_cattaneo_stick(force_ratio);
+    double q = ellipse(x / half_width);
+    if (c > 0.0)
+        q -= c * ellipse(x / (c * half_width));
+    return copysign(mu * max_pressure * q, force_ratio);
+}
+
+double rb_closed_bentall_johnson_slip(double beta, double half_width, double radius)
+{
+    /* asin x0 + x0 sqrt(1 - x0^2) = pi/4 by Newton; k = sqrt(1 - x0^2)/2 */
+    double x = 0.4;
+    for (int i = 0; i < 8; i++)
+        x -= (asin(x) + x * ellipse(x) - M_PI_4) / (2.0 * ellipse(x));
+    return 2.0 * fabs(beta) * half_width / radius * ellipse(x) / 2.0;
+}
+
+rb_closed_bentall_johnson rb_closed_bentall_johnson_stick(double beta,
+                                                          double hertz_half_width,
+                                                          double radius, double modulus)
+{
+    rb_closed_bentall_johnson b;
+    b.eta = atanh(beta) / M_PI;
+    b.half_width = hertz_half_width / sqrt(1.0 + 4.0 * b.eta * b.eta);
+    b.creepage = 2.0 * fabs(b.eta) * b.half_width / radius;
+    b.mid_pressure = modulus * b.half_width / (2.0 * radius * sqrt(1.0 - beta * beta));
+    return b;
+}

@@ -1,0 +1,137 @@
+/* Closed forms: forces as integrals of the tractions, published numbers, limits. */
+#include "check.h"
+#include "rollbem/closed_forms.h"
+
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_math.h>
+
+enum { HERTZ, CARTER, CATTANEO };
+
+typedef struct {
+    int kind;
+    double mu, p0, a, ratio;
+} traction;
+
+/* In x = a sin t the square roots at the edges are smooth. */
+static double integrand(double t, void *context)
+{
+    const traction *c = context;
+    const double x = c->a * sin(t), dx = c->a * cos(t);
+    switch (c->kind) {
+    case HERTZ:
+        return dx * rb_closed_hertz_pressure(c->p0, c->a, x);
+    case CARTER:
+        return dx * rb_closed_carter_traction(c->mu, c->p0, c->a, c->ratio, x);
+    default:
+        return dx * rb_closed_cattaneo_traction(c->mu, c->p0, c->a, c->ratio, x);
+    }
+}
+
+static double integral(traction c)
+{
+    gsl_integration_workspace *ws = gsl_integration_workspace_alloc(200);
+    gsl_function f = {integrand, &c};
+    double result, error;
+    gsl_integration_qag(&f, -M_PI_2, M_PI_2, 1e-9 * c.p0 * c.a, 1e-9, 200,
+                        GSL_INTEG_GAUSS61, ws, &result, &error);
+    gsl_integration_workspace_free(ws);
+    return result;
+}
+
+static void hertz_pressure_carries_the_load(void **state)
+{
+    (void)state;
+    const double R = 25.0, E = 51572.3, P = 16.20192;
+    const double a = rb_closed_hertz_half_width(P, R, E);
+    const double p0 = rb_closed_hertz_max_pressure(P, a);
+    CHECK_REL(a, 0.1, 1e-6, "half-width");
+    CHECK_REL(rb_closed_hertz_load(a, R, E), P, 1e-14, "load");
+    CHECK_REL(p0, E * a / (2.0 * R), 1e-14, "p0 = E* a/(2R)");
+    CHECK_REL(integral((traction){HERTZ, 0.0, p0, a, 0.0}), P, 1e-8, "load");
+    CHECK_ABS(rb_closed_hertz_pressure(p0, a, 1.01 * a), 0.0, 0.0, "outside");
+}
+
+static void carter_traction_sums_to_s_2_minus_s(void **state)
+{
+    (void)state;
+    const double mu = 0.3, p0 = 500.0, a = 0.2, P = M_PI * a * p0 / 2.0;
+    for (int k = -12; k <= 12; k++) {
+        const double s = 0.1 * k;
+        const double want = rb_closed_carter_force_ratio(s);
+        const double Q = integral((traction){CARTER, mu, p0, a, s});
+        CHECK_ABS(Q / (mu * P), want, 1e-7, "s = %g", s);
+        if (fabs(s) <= 1.0) {
+            CHECK_ABS(rb_closed_carter_creep_ratio(want), s, 1e-7, "s = %g", s);
+            CHECK_ABS(fabs(want), fabs(s) * (2.0 - fabs(s)), 1e-15, "s = %g", s);
+        }
+    }
+    assert_true(rb_closed_carter_force_ratio(0.5) < 0.0); /* braked: Q < 0 */
+}
+
+static void carter_sticks_at_the_leading_edge(void **state)
+{
+    (void)state;
+    const double mu = 0.3, p0 = 500.0, a = 0.2, s = 0.4;
+    for (int k = 1; k < 100; k++) {
+        const double x = a * (-1.0 + 0.02 * k);
+        const double q = rb_closed_carter_traction(mu, p0, a, s, x);
+        const double bound = mu * rb_closed_hertz_pressure(p0, a, x);
+        if (x < a - 2.0 * a * (1.0 - s))
+            CHECK_REL(q, -bound, 1e-14, "x = %g", x);
+        else
+            assert_true(fabs(q) < bound);
+    }
+}
+
+static void cattaneo_traction_sums_to_the_force(void **state)
+{
+    (void)state;
+    const double mu = 0.2, p0 = 800.0, a = 0.3, P = M_PI * a * p0 / 2.0;
+    for (int k = -10; k <= 10; k++) {
+        const double ratio = 0.1 * k;
+        const double Q = integral((traction){CATTANEO, mu, p0, a, ratio});
+        CHECK_ABS(Q / (mu * P), ratio, 1e-7, "Q/(mu P) = %g", ratio);
+    }
+    CHECK_REL(rb_closed_cattaneo_stick(0.64), 0.6, 1e-14, "stick");
+}
+
+/* theory.md 6: aluminium on steel */
+static void bentall_johnson_published_numbers(void **state)
+{
+    (void)state;
+    const double beta = 0.143834, R = 25.0;
+    const rb_closed_bentall_johnson b =
+        rb_closed_bentall_johnson_stick(beta, 0.1, R, 51572.3);
+    CHECK_REL(b.creepage, 3.67269e-4, 1e-5, "mu -> infinity");
+    CHECK_REL(rb_closed_bentall_johnson_slip(beta, 0.1, R),
+              2.0 * beta * 0.1 / R * 0.457386, 1e-5, "mu -> 0");
+    const rb_closed_bentall_johnson similar =
+        rb_closed_bentall_johnson_stick(0.0, 0.1, R, 51572.3);
+    CHECK_REL(similar.mid_pressure, 51572.3 * 0.1 / (2.0 * R), 1e-14,
+              "Hertz at beta = 0");
+    CHECK_ABS(similar.creepage, 0.0, 0.0, "no creepage at beta = 0");
+}
+
+/* The same with the load put in by Hertz: P/E* = pi a^2/(4R). */
+static void half_cylinder_approach(void **state)
+{
+    (void)state;
+    const double R = 50.0, E = 94500.0 / 0.99, P = 100.0;
+    const double a = rb_closed_hertz_half_width(P, R, E);
+    CHECK_REL(rb_closed_half_cylinder_approach(P, R, E, a),
+              a * a / (4.0 * R) * (2.0 * log(4.0 * R / a) - 1.0), 1e-13,
+              "P = pi E* a^2/4R");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hertz_pressure_carries_the_load),
+        cmocka_unit_test(carter_traction_sums_to_s_2_minus_s),
+        cmocka_unit_test(carter_sticks_at_the_leading_edge),
+        cmocka_unit_test(cattaneo_traction_sums_to_the_force),
+        cmocka_unit_test(bentall_johnson_published_numbers),
+        cmocka_unit_test(half_cylinder_approach),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
