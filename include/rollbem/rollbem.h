@@ -4,6 +4,8 @@
 
 #include "rollbem/base.h"
 #include "rollbem/bem.h"
+#include "rollbem/fem.h"
+#include "rollbem/friction.h"
 #include "rollbem/lcp.h"
 #include "rollbem/rolling.h"
 

@@ -1,0 +1,195 @@
+/* Small-displacement finite elements whose nodes may touch obstacles with Coulomb
+ * friction: space trusses, plane-strain quads, bricks; condensation to the contact; the
+ * incremental quasi-static problem of *Kanno* (5)-(10); his two examples and the wall of
+ * *Acary*. Any consistent units. */
+#ifndef ROLLBEM_FEM_H
+#define ROLLBEM_FEM_H
+
+#include "rollbem/base.h"
+#include "rollbem/friction.h"
+#include "rollbem/sparse.h"
+
+/* ---- Elements -------------------------------------------------------------------- */
+
+typedef struct {
+    double young;   /* E > 0 [stress] */
+    double poisson; /* nu in (-1, 0.5); not read by bars */
+    double density; /* rho > 0, read by the mass only */
+    double section; /* area of bars, thickness of quads; not read by bricks */
+} rb_fem_material;
+
+/* Stiffness of one element, column-major, dofs node by node.  Solids integrate with two
+ * Gauss points per direction.  x: coordinates node by node; quads counter-clockwise,
+ * bricks bottom counter-clockwise, then top.  RB_EINVAL: no length, or a Jacobian that is
+ * not positive at a Gauss point. */
+rb_status rb_fem_bar_stiffness(const double x[6], const rb_fem_material *m, double K[36]);
+rb_status rb_fem_quad_stiffness(const double x[8], const rb_fem_material *m,
+                                double K[64]);
+rb_status rb_fem_brick_stiffness(const double x[24], const rb_fem_material *m,
+                                 double K[576]);
+/* Consistent mass of a brick. */
+rb_status rb_fem_brick_mass(const double x[24], const rb_fem_material *m, double M[576]);
+
+/* ---- Meshes ---------------------------------------------------------------------- */
+
+typedef enum { RB_FEM_BAR, RB_FEM_QUAD, RB_FEM_BRICK } rb_fem_kind;
+
+typedef struct {
+    rb_fem_kind kind;
+    int dimension;       /* 3, 2, 3 */
+    int element_nodes;   /* 2, 4, 8 */
+    int nodes, elements; /* counts */
+    double *x;           /* dimension x nodes; owned */
+    int *node;           /* element_nodes x elements; owned */
+    int *dof; /* dimension x nodes: number of the unknown, -1 where held; owned */
+    int dofs; /* unknowns; valid after rb_fem_mesh_number */
+} rb_fem_mesh;
+
+/* All nodes at the origin, nothing held.  RB_EINVAL: nodes < 1, elements < 0. */
+rb_status rb_fem_mesh_alloc(rb_fem_kind kind, int nodes, int elements, rb_fem_mesh *mesh);
+void rb_fem_mesh_free(rb_fem_mesh *mesh);
+/* Holds one direction of a node; numbering follows. */
+void rb_fem_mesh_hold(rb_fem_mesh *mesh, int node, int direction);
+void rb_fem_mesh_number(rb_fem_mesh *mesh);
+
+/* dofs x dofs, both triangles.  RB_EINVAL with the element's number in why. */
+rb_status rb_fem_stiffness(const rb_fem_mesh *mesh, const rb_fem_material *material,
+                           rb_sparse *K, rb_message *why);
+/* Bricks only. */
+rb_status rb_fem_mass(const rb_fem_mesh *mesh, const rb_fem_material *material,
+                      rb_sparse *M, rb_message *why);
+
+/* ---- Structures that may touch obstacles ------------------------------------------- */
+
+/* K u = F + H r with r = (N, T...) per contact, as in rollbem/friction.h; the relative
+ * displacement of contact i is H' u, its initial gap counts along N.  K symmetric, may be
+ * singular where only the contacts hold the structure. */
+typedef struct {
+    int dofs, dimension, contacts;
+    rb_sparse K; /* dofs x dofs, both triangles; owned, as all here */
+    rb_sparse H; /* dofs x dimension contacts */
+    double *mu;  /* contacts */
+    double *gap; /* contacts */
+} rb_fem_structure;
+
+void rb_fem_structure_free(rb_fem_structure *s);
+
+/* Number of zero eigenvalues of K, and its largest eigenvalue if asked for: dense, for
+ * small structures (a truss, a condensed bar). */
+rb_status rb_fem_nullity(const rb_sparse *K, int *nullity, double *largest);
+
+/* Displacements u (dofs) and reactions r (dimension contacts) after an increment. */
+typedef struct {
+    double *u, *r; /* owned */
+} rb_fem_state;
+
+rb_status rb_fem_state_alloc(const rb_fem_structure *s, rb_fem_state *state);
+void rb_fem_state_free(rb_fem_state *state);
+
+/* Units inside a friction problem: physical = unit x number. */
+typedef struct {
+    double force, length;
+} rb_fem_units;
+
+/* The increment from state to the total load F (dofs), *Kanno* (9)-(10), in global form:
+ * K v = H r + f with f = F - K u, v = increment of u; w = (current gap, 0, 0).  State and
+ * reactions of the previous increment enter through f (equilibrium) and the gap.
+ * units: chosen so that forces and K are of order one, which the friction solvers'
+ * measure of error mixes; given back. */
+rb_status rb_fem_problem(const rb_fem_structure *s, const double *load,
+                         const rb_fem_state *state, rb_friction_problem *problem,
+                         rb_fem_units *units);
+
+/* ---- Condensation to the contact nodes ----------------------------------------------
+ */
+
+/* The unknowns C that H touches are kept, the others F eliminated by a sparse Cholesky
+ * factorisation of K_FF: K_c = K_CC - K_CF K_FF^-1 K_FC; opaque. */
+typedef struct rb_fem_condensation rb_fem_condensation;
+
+/* RB_SINGULAR: parts move even when all contact nodes are held. */
+rb_status rb_fem_condense(const rb_fem_structure *full, rb_fem_condensation **c,
+                          rb_message *why);
+void rb_fem_condensation_free(rb_fem_condensation *c);
+/* Borrowed. */
+const rb_fem_structure *rb_fem_condensed(const rb_fem_condensation *c);
+/* F_c = F_C - K_CF K_FF^-1 F_F. */
+rb_status rb_fem_condense_load(const rb_fem_condensation *c, const double *load,
+                               double *load_c);
+/* u from u_C: u_F = K_FF^-1 (F_F - K_FC u_C). */
+rb_status rb_fem_expand(const rb_fem_condensation *c, const double *load,
+                        const double *u_c, double *u);
+
+/* ---- Models with a history of loads --------------------------------------------------
+ */
+
+/* A mesh on a flat obstacle, below along its last axis, and the total loads of every
+ * increment. */
+typedef struct {
+    rb_fem_mesh mesh;
+    rb_fem_structure structure;
+    int *contact_node; /* contacts; owned */
+    int steps;
+    double *load; /* dofs x steps, totals; owned */
+} rb_fem_model;
+
+/* Takes over mesh and nodes (node numbers of the contacts), also on failure; all loads
+ * are zero.  Frame of every contact: N along the last axis, T along the others.  A
+ * contact whose tangential direction is held keeps mu = 0: its friction would be
+ * undetermined. */
+rb_status rb_fem_model_create(rb_fem_mesh *mesh, const rb_fem_material *material,
+                              int contacts, int *nodes, double mu, int steps,
+                              rb_fem_model *model, rb_message *why);
+void rb_fem_model_free(rb_fem_model *model);
+/* Adds a force on one direction of a node in increment step; held directions take it. */
+void rb_fem_model_load(rb_fem_model *model, int step, int node, int direction,
+                       double force);
+
+/* *Kanno* 3.2: half a bar of 400 x 40 x 10 mm, E = 5 MPa, nu = 0.48, mu = 1.3, plane
+ * strain, nx x ny Q1 elements, ux = 0 on x = 0; 0.01 MPa on top and 0.01 k MPa on the
+ * right face, k = 1 ... 5.  Published: nx = 160, ny = 16.  N, mm. */
+rb_status rb_fem_model_bar(int nx, int ny, rb_fem_model *model, rb_message *why);
+
+/* *Kanno* 3.1: double-layer grid of bars on n x n contact nodes, 2000 x 3000 mm apart,
+ * the upper layer 2000 mm above, offset by half a cell, E = 205800 MPa, A = 10000 mm2, mu
+ * = 0.12; gamma 102900 N down on inner upper nodes, half on edges, a quarter at corners,
+ * gamma = 5, 4.05 ... 0.25.  The paper shows its layout in a figure only: both are
+ * readings of the text. */
+typedef enum {
+    RB_FEM_UPPER_INSIDE,     /* (n-1) x (n-1) upper nodes over the lower cells */
+    RB_FEM_UPPER_OVERHANGING /* (n+1) x (n+1) upper nodes, lower ones under upper cells */
+} rb_fem_layout;
+
+/* Published: n = 12.  RB_EINVAL: n < 2. */
+rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model,
+                             rb_message *why);
+
+typedef enum { RB_FEM_SEPARATED, RB_FEM_STICK, RB_FEM_SLIP } rb_fem_contact;
+
+/* The end of one increment.  dimension and counts as in the model; all owned. */
+typedef struct {
+    rb_status status;
+    int iterations;
+    double residual; /* *Acary* (13) of the condensed, scaled problem */
+    int stick, slip, separated;
+    rb_fem_contact *contact; /* contacts */
+    double *u;               /* dimension x nodes: displacements so far */
+    double *r;               /* dimension x contacts: (N, T) reactions */
+    double *du;              /* dimension x contacts: (N, T) increments of displacement */
+    double *gap;             /* contacts */
+} rb_fem_step;
+
+typedef struct {
+    int steps;         /* those that ran */
+    rb_fem_step *step; /* owned */
+    double seconds;
+} rb_fem_history;
+
+/* Runs all increments of the condensed model with the friction solver of that name, the
+ * state of one entering the next.  Ends with the first increment that is not solved to
+ * tol; what there is stays in history. */
+rb_status rb_fem_run(const rb_fem_model *model, const char *solver, double tol,
+                     rb_fem_history *history, rb_message *why);
+void rb_fem_history_free(rb_fem_history *history);
+
+#endif

@@ -1,0 +1,145 @@
+/* Meshes of one kind of element, and the assembly of their matrices. */
+#include "rollbem/fem.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+rb_status rb_fem_mesh_alloc(rb_fem_kind kind, int nodes, int elements, rb_fem_mesh *mesh)
+{
+    static const int corners[] = {2, 4, 8};
+    memset(mesh, 0, sizeof *mesh);
+    if (nodes < 1 || elements < 0)
+        return RB_EINVAL;
+    mesh->kind = kind;
+    mesh->dimension = kind == RB_FEM_QUAD ? 2 : 3;
+    mesh->element_nodes = corners[kind];
+    mesh->nodes = nodes;
+    mesh->elements = elements;
+    mesh->x = rb_alloc((size_t)nodes, (size_t)mesh->dimension);
+    mesh->dof = rb_alloc_int((size_t)nodes * (size_t)mesh->dimension);
+    mesh->node = rb_alloc_int((size_t)elements * (size_t)mesh->element_nodes);
+    if (mesh->x && mesh->dof && mesh->node) {
+        rb_fem_mesh_number(mesh);
+        return RB_OK;
+    }
+    rb_fem_mesh_free(mesh);
+    return RB_ENOMEM;
+}
+
+void rb_fem_mesh_free(rb_fem_mesh *mesh)
+{
+    if (!mesh)
+        return;
+    free(mesh->x);
+    free(mesh->dof);
+    free(mesh->node);
+    memset(mesh, 0, sizeof *mesh);
+}
+
+void rb_fem_mesh_hold(rb_fem_mesh *mesh, int node, int direction)
+{
+    mesh->dof[mesh->dimension * node + direction] = -1;
+}
+
+void rb_fem_mesh_number(rb_fem_mesh *mesh)
+{
+    mesh->dofs = 0;
+    for (int i = 0; i < mesh->dimension * mesh->nodes; i++)
+        if (mesh->dof[i] >= 0)
+            mesh->dof[i] = mesh->dofs++;
+}
+
+typedef rb_status element_matrix(const double *x, const rb_fem_material *m, double *A);
+
+/* Triplets of all elements; *nz of them. */
+static rb_status gather(const rb_fem_mesh *mesh, const rb_fem_material *material,
+                        element_matrix *matrix, int *row, int *col, double *value,
+                        int *nz, rb_message *why)
+{
+    const int d = mesh->dimension, n = d * mesh->element_nodes;
+    double x[24], A[576];
+    int dof[24];
+    *nz = 0;
+    for (int e = 0; e < mesh->elements; e++) {
+        for (int k = 0; k < n; k++) {
+            const int at = d * mesh->node[mesh->element_nodes * e + k / d] + k % d;
+            x[k] = mesh->x[at];
+            dof[k] = mesh->dof[at];
+        }
+        if (matrix(x, material, A) != RB_OK)
+            return rb_fail(why, RB_EINVAL, "element %d is degenerate or turned over", e);
+        for (int k = 0; k < n * n; k++) {
+            if (dof[k % n] < 0 || dof[k / n] < 0)
+                continue;
+            row[*nz] = dof[k % n];
+            col[*nz] = dof[k / n];
+            value[(*nz)++] = A[k];
+        }
+    }
+    return RB_OK;
+}
+
+static rb_status check_mesh(const rb_fem_mesh *mesh, rb_message *why)
+{
+    const int n = mesh->element_nodes * mesh->elements;
+    for (int k = 0; k < n; k++)
+        if (mesh->node[k] < 0 || mesh->node[k] >= mesh->nodes)
+            return rb_fail(why, RB_EINVAL, "element %d: node %d of %d",
+                           k / mesh->element_nodes, mesh->node[k], mesh->nodes);
+    if (mesh->dofs < 1)
+        return rb_fail(why, RB_EINVAL, "mesh: every node is held");
+    return RB_OK;
+}
+
+static rb_status assemble(const rb_fem_mesh *mesh, const rb_fem_material *material,
+                          element_matrix *matrix, rb_sparse *A, rb_message *why)
+{
+    const int n = mesh->dimension * mesh->element_nodes;
+    const size_t most = (size_t)mesh->elements * (size_t)(n * n);
+    rb_status s = check_mesh(mesh, why);
+    if (s != RB_OK)
+        return s;
+    int *row = rb_alloc_int(most), *col = rb_alloc_int(most), nz = 0;
+    double *value = rb_alloc(most, 1);
+    s = row && col && value ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK)
+        s = gather(mesh, material, matrix, row, col, value, &nz, why);
+    if (s == RB_OK)
+        s = rb_sparse_from_triplets(mesh->dofs, mesh->dofs, nz, row, col, value, A);
+    free(row);
+    free(col);
+    free(value);
+    return s;
+}
+
+static rb_status check_material(const rb_fem_material *m, rb_fem_kind kind,
+                                rb_message *why)
+{
+    if (!(m->young > 0.0) || !isfinite(m->young))
+        return rb_fail(why, RB_EINVAL, "young = %g: expected > 0", m->young);
+    if (kind != RB_FEM_BAR && !(m->poisson > -1.0 && m->poisson < 0.5))
+        return rb_fail(why, RB_EINVAL, "poisson = %g: expected in (-1, 0.5)", m->poisson);
+    if (kind != RB_FEM_BRICK && !(m->section > 0.0))
+        return rb_fail(why, RB_EINVAL, "section = %g: expected > 0", m->section);
+    return RB_OK;
+}
+
+rb_status rb_fem_stiffness(const rb_fem_mesh *mesh, const rb_fem_material *material,
+                           rb_sparse *K, rb_message *why)
+{
+    static element_matrix *const matrix[] = {rb_fem_bar_stiffness, rb_fem_quad_stiffness,
+                                             rb_fem_brick_stiffness};
+    const rb_status s = check_material(material, mesh->kind, why);
+    return s == RB_OK ? assemble(mesh, material, matrix[mesh->kind], K, why) : s;
+}
+
+rb_status rb_fem_mass(const rb_fem_mesh *mesh, const rb_fem_material *material,
+                      rb_sparse *M, rb_message *why)
+{
+    if (mesh->kind != RB_FEM_BRICK)
+        return rb_fail(why, RB_EINVAL, "mass: bricks only");
+    if (!(material->density > 0.0))
+        return rb_fail(why, RB_EINVAL, "density = %g: expected > 0", material->density);
+    return assemble(mesh, material, rb_fem_brick_mass, M, why);
+}

@@ -1,0 +1,77 @@
+/* *Kanno* 3.2: half a bar pressed onto an obstacle and pushed from its end. */
+#include "rollbem/fem.h"
+
+#include <stdlib.h>
+
+static const double length = 400.0, height = 40.0, thickness = 10.0; /* mm */
+static const double pressure = 0.01; /* MPa per increment */
+
+enum { INCREMENTS = 5 };
+
+static int node_at(int nx, int i, int j)
+{
+    return i + (nx + 1) * j;
+}
+
+static void place_nodes(int nx, int ny, rb_fem_mesh *mesh)
+{
+    for (int j = 0; j <= ny; j++)
+        for (int i = 0; i <= nx; i++) {
+            mesh->x[2 * node_at(nx, i, j)] = length * i / nx;
+            mesh->x[2 * node_at(nx, i, j) + 1] = height * j / ny;
+        }
+    for (int j = 0; j < ny; j++)
+        for (int i = 0; i < nx; i++) {
+            int *corner = mesh->node + 4 * (i + nx * j);
+            corner[0] = node_at(nx, i, j);
+            corner[1] = node_at(nx, i + 1, j);
+            corner[2] = node_at(nx, i + 1, j + 1);
+            corner[3] = node_at(nx, i, j + 1);
+        }
+    for (int j = 0; j <= ny; j++) /* the plane of symmetry */
+        rb_fem_mesh_hold(mesh, node_at(nx, 0, j), 0);
+}
+
+/* Consistent nodal loads: half at the two ends of a face. */
+static double share(int i, int n)
+{
+    return i == 0 || i == n ? 0.5 : 1.0;
+}
+
+static void apply_loads(int nx, int ny, rb_fem_model *model)
+{
+    const double top = pressure * thickness * length / nx;
+    const double right = pressure * thickness * height / ny;
+    for (int k = 0; k < INCREMENTS; k++) {
+        for (int i = 0; i <= nx; i++)
+            rb_fem_model_load(model, k, node_at(nx, i, ny), 1, -top * share(i, nx));
+        for (int j = 0; j <= ny; j++)
+            rb_fem_model_load(model, k, node_at(nx, nx, j), 0,
+                              -(k + 1) * right * share(j, ny));
+    }
+}
+
+rb_status rb_fem_model_bar(int nx, int ny, rb_fem_model *model, rb_message *why)
+{
+    const rb_fem_material material = {
+        .young = 5.0, .poisson = 0.48, .section = thickness};
+    rb_fem_mesh mesh = {0};
+    *model = (rb_fem_model){0};
+    if (nx < 1 || ny < 1 || nx > 2000 || ny > 2000)
+        return rb_fail(why, RB_EINVAL, "bar: %d x %d elements", nx, ny);
+    int *nodes = rb_alloc_int((size_t)nx + 1);
+    rb_status s = RB_ENOMEM;
+    if (nodes)
+        s = rb_fem_mesh_alloc(RB_FEM_QUAD, (nx + 1) * (ny + 1), nx * ny, &mesh);
+    if (s != RB_OK) {
+        free(nodes);
+        return s;
+    }
+    place_nodes(nx, ny, &mesh);
+    for (int i = 0; i <= nx; i++)
+        nodes[i] = node_at(nx, i, 0);
+    s = rb_fem_model_create(&mesh, &material, nx + 1, nodes, 1.3, INCREMENTS, model, why);
+    if (s == RB_OK)
+        apply_loads(nx, ny, model);
+    return s;
+}

@@ -1,0 +1,69 @@
+/* One increment of a structure as a problem of friction. */
+#include "rollbem/fem.h"
+
+#include <string.h>
+
+/* Forces by the largest load, lengths so that K has a mean diagonal of one. */
+static rb_fem_units choose_units(const rb_fem_structure *s, const double *load)
+{
+    double trace = 0.0;
+    for (int j = 0; j < s->dofs; j++)
+        for (int k = s->K.p[j]; k < s->K.p[j + 1]; k++)
+            if (s->K.i[k] == j)
+                trace += s->K.x[k];
+    const double force = rb_norm_inf((size_t)s->dofs, load);
+    rb_fem_units u = {force > 0.0 ? force : 1.0, 1.0};
+    if (trace > 0.0)
+        u.length = u.force * s->dofs / trace;
+    return u;
+}
+
+static void scale(size_t n, double factor, double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        x[i] *= factor;
+}
+
+/* f = F - K u, w = gap + H' u along the normals, both in their units. */
+static void fill_vectors(const rb_fem_structure *s, const double *load,
+                         const rb_fem_state *state, rb_fem_units units,
+                         rb_friction_problem *p)
+{
+    const int d = s->dimension, m = d * s->contacts;
+    memcpy(p->f, load, (size_t)s->dofs * sizeof *load);
+    rb_sparse_apply(-1.0, &s->K, state->u, 1.0, p->f);
+    rb_sparse_apply_transposed(1.0, &s->H, state->u, 0.0, p->w);
+    for (int k = 0; k < m; k++)
+        p->w[k] = k % d == 0 ? p->w[k] + s->gap[k / d] : 0.0;
+    memcpy(p->mu, s->mu, (size_t)s->contacts * sizeof *s->mu);
+    scale((size_t)s->dofs, 1.0 / units.force, p->f);
+    scale((size_t)m, 1.0 / units.length, p->w);
+    scale((size_t)p->K.p[s->dofs], units.length / units.force, p->K.x);
+}
+
+rb_status rb_fem_problem(const rb_fem_structure *s, const double *load,
+                         const rb_fem_state *state, rb_friction_problem *problem,
+                         rb_fem_units *units)
+{
+    const size_t m = (size_t)s->dimension * (size_t)s->contacts;
+    memset(problem, 0, sizeof *problem);
+    problem->form = RB_FRICTION_GLOBAL;
+    problem->dimension = s->dimension;
+    problem->contacts = s->contacts;
+    problem->dofs = s->dofs;
+    problem->mu = rb_alloc((size_t)s->contacts, 1);
+    problem->f = rb_alloc((size_t)s->dofs, 1);
+    problem->w = rb_alloc(m, 1);
+    rb_status status = problem->mu && problem->f && problem->w ? RB_OK : RB_ENOMEM;
+    if (status == RB_OK)
+        status = rb_sparse_copy(&s->K, &problem->K);
+    if (status == RB_OK)
+        status = rb_sparse_copy(&s->H, &problem->H);
+    if (status == RB_OK) {
+        *units = choose_units(s, load);
+        fill_vectors(s, load, state, *units, problem);
+    } else {
+        rb_friction_problem_free(problem);
+    }
+    return status;
+}

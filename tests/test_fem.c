@@ -1,0 +1,324 @@
+/* Finite elements: rigid motions, patch test, closed forms, models, condensation. */
+#include "check.h"
+#include "rollbem/fem.h"
+
+#include <string.h>
+
+static const rb_fem_material material = {
+    .young = 7.0, .poisson = 0.3, .density = 2.5, .section = 0.4};
+
+static unsigned seed = 1;
+
+static double noise(void)
+{
+    seed = seed * 1664525u + 1013904223u;
+    return seed / 4294967296.0 - 0.5;
+}
+
+static void distorted(int d, double *x)
+{
+    static const int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                     {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    for (int a = 0; a < 1 << d; a++)
+        for (int k = 0; k < d; k++)
+            x[d * a + k] = corner[a][k] * (1.0 + 0.5 * k) + 0.3 * noise();
+}
+
+/* Translations and infinitesimal rotations; column k of the six (three in the plane). */
+static void rigid_motion(int d, int nodes, const double *x, int k, double *u)
+{
+    for (int a = 0; a < nodes; a++) {
+        const double *p = x + d * a;
+        double *v = u + d * a;
+        memset(v, 0, (size_t)d * sizeof *v);
+        if (k < d) {
+            v[k] = 1.0;
+        } else {
+            const int i = (k - d + 1) % d, j = d == 2 ? 0 : (k - d + 2) % d;
+            v[i] = -p[j];
+            v[j] = p[i];
+        }
+    }
+}
+
+static double worst_product(int n, const double *K, const double *u)
+{
+    double worst = 0.0;
+    for (int i = 0; i < n; i++) {
+        double sum = 0.0;
+        for (int j = 0; j < n; j++)
+            sum += K[i + n * j] * u[j];
+        worst = fmax(worst, fabs(sum));
+    }
+    return worst;
+}
+
+static void rigid_motions_cost_nothing(void **state)
+{
+    (void)state;
+    for (int d = 2; d <= 3; d++) {
+        const int n = d << d;
+        double x[24], K[576], u[24];
+        distorted(d, x);
+        const rb_status s = d == 2 ? rb_fem_quad_stiffness(x, &material, K)
+                                   : rb_fem_brick_stiffness(x, &material, K);
+        CHECK_STATUS(s, RB_OK);
+        for (int i = 0; i < n * n; i++)
+            CHECK_ABS(K[i], K[i / n + n * (i % n)], 1e-14, "symmetry, d = %d", d);
+        for (int k = 0; k < (d == 2 ? 3 : 6); k++) {
+            rigid_motion(d, 1 << d, x, k, u);
+            CHECK_MAX(worst_product(n, K, u), 1e-13, "d = %d, motion %d", d, k);
+        }
+    }
+}
+
+static void bar_pulls_along_itself(void **state)
+{
+    (void)state;
+    const double x[6] = {1, 2, 3, 3, 5, 9}; /* length 7 */
+    double K[36];
+    CHECK_STATUS(rb_fem_bar_stiffness(x, &material, K), RB_OK);
+    const double along[6] = {0, 0, 0, 2.0 / 7, 3.0 / 7, 6.0 / 7};
+    for (int i = 0; i < 6; i++) {
+        double force = 0.0;
+        for (int j = 0; j < 6; j++)
+            force += K[i + 6 * j] * along[j];
+        const double e = along[3 + i % 3];
+        CHECK_ABS(force, (i < 3 ? -1 : 1) * 7.0 * 0.4 / 7.0 * e, 1e-15, "row %d", i);
+    }
+    const double across[6] = {0, 0, 0, 3, -2, 0};
+    CHECK_MAX(worst_product(6, K, across), 1e-15, "no stiffness across");
+}
+
+/* Energy of a linear displacement u = G x in a distorted cell: volume sigma : eps / 2. */
+static void linear_displacement_is_exact(void **state)
+{
+    (void)state;
+    const double G[3][3] = {{0.3, -0.2, 0.5}, {0.7, 0.1, -0.4}, {0.2, 0.6, -0.9}};
+    const double shear = 7.0 / 2.6, lambda = 2.0 * shear * 0.3 / 0.4;
+    double x[24], K[576], M[576], u[24], volume = 0.0, energy = 0.0;
+    distorted(3, x);
+    CHECK_STATUS(rb_fem_brick_stiffness(x, &material, K), RB_OK);
+    CHECK_STATUS(rb_fem_brick_mass(x, &material, M), RB_OK);
+    for (int i = 0; i < 24; i++) {
+        u[i] = 0.0;
+        for (int k = 0; k < 3; k++)
+            u[i] += G[i % 3][k] * x[3 * (i / 3) + k];
+    }
+    for (int i = 0; i < 576; i++) {
+        energy += 0.5 * K[i] * u[i % 24] * u[i / 24];
+        if (i % 24 % 3 == 0 && i / 24 % 3 == 0)
+            volume += M[i] / material.density;
+    }
+    double trace = G[0][0] + G[1][1] + G[2][2], square = 0.0;
+    for (int i = 0; i < 9; i++) {
+        const double e = 0.5 * (G[i / 3][i % 3] + G[i % 3][i / 3]);
+        square += e * e;
+    }
+    CHECK_REL(energy, volume * (0.5 * lambda * trace * trace + shear * square), 1e-13,
+              "energy of a brick");
+}
+
+/* A 3 x 2 mesh with a distorted inside; linear displacements leave inner nodes in
+ * balance. */
+static void patch_test(void **state)
+{
+    (void)state;
+    rb_fem_mesh mesh;
+    CHECK_STATUS(rb_fem_mesh_alloc(RB_FEM_QUAD, 12, 6, &mesh), RB_OK);
+    for (int k = 0; k < 12; k++) {
+        const int inside = k % 4 > 0 && k % 4 < 3 && k / 4 == 1;
+        mesh.x[2 * k] = k % 4 + (inside ? 0.4 * noise() : 0.0);
+        mesh.x[2 * k + 1] = k / 4 + (inside ? 0.4 * noise() : 0.0);
+    }
+    for (int e = 0; e < 6; e++) {
+        const int a = e % 3 + 4 * (e / 3);
+        const int corner[4] = {a, a + 1, a + 5, a + 4};
+        memcpy(mesh.node + 4 * e, corner, sizeof corner);
+    }
+    rb_sparse K = {0};
+    CHECK_STATUS(rb_fem_stiffness(&mesh, &material, &K, NULL), RB_OK);
+    double u[24], f[24];
+    for (int k = 0; k < 12; k++) {
+        u[2 * k] = 0.3 * mesh.x[2 * k] - 0.7 * mesh.x[2 * k + 1];
+        u[2 * k + 1] = 0.2 * mesh.x[2 * k] + 0.5 * mesh.x[2 * k + 1];
+    }
+    rb_sparse_apply(1.0, &K, u, 0.0, f);
+    for (int k = 10; k < 14; k++)
+        CHECK_ABS(f[k], 0.0, 1e-14, "inner nodes 5 and 6, entry %d", k);
+    int nullity = -1;
+    CHECK_STATUS(rb_fem_nullity(&K, &nullity, NULL), RB_OK);
+    assert_int_equal(nullity, 3);
+    rb_sparse_free(&K);
+    rb_fem_mesh_free(&mesh);
+}
+
+static void truss_has_the_stated_layouts(void **state)
+{
+    (void)state;
+    static const struct {
+        rb_fem_layout layout;
+        int nodes, dofs, bars;
+        double weight;
+    } want[] = {{RB_FEM_UPPER_INSIDE, 265, 795, 968, 100.0},
+                {RB_FEM_UPPER_OVERHANGING, 313, 939, 1152, 144.0}};
+    for (int k = 0; k < 2; k++) {
+        rb_fem_model model;
+        int nullity = -1;
+        double sum = 0.0;
+        CHECK_STATUS(rb_fem_model_truss(want[k].layout, 12, &model, NULL), RB_OK);
+        assert_int_equal(model.mesh.nodes, want[k].nodes);
+        assert_int_equal(model.mesh.dofs, want[k].dofs);
+        assert_int_equal(model.mesh.elements, want[k].bars);
+        for (int i = 0; i < model.mesh.dofs; i++)
+            sum += model.load[i];
+        CHECK_REL(sum, -5.0 * 102900.0 * want[k].weight, 1e-14, "load, layout %d", k);
+        rb_fem_condensation *c = NULL;
+        CHECK_STATUS(rb_fem_condense(&model.structure, &c, NULL), RB_OK);
+        CHECK_STATUS(rb_fem_nullity(&rb_fem_condensed(c)->K, &nullity, NULL), RB_OK);
+        assert_int_equal(nullity, 7);
+        rb_fem_condensation_free(c);
+        rb_fem_model_free(&model);
+    }
+}
+
+static double mean_diagonal(const rb_sparse *K)
+{
+    double sum = 0.0;
+    for (int j = 0; j < K->cols; j++)
+        for (int k = K->p[j]; k < K->p[j + 1]; k++)
+            sum += K->i[k] == j ? K->x[k] : 0.0;
+    return sum / K->cols;
+}
+
+/* The figures of tests/data/kanno/reference.json, soclcp_method. */
+static void condensed_stiffness_is_the_reference(void **state)
+{
+    (void)state;
+    rb_fem_model model;
+    rb_fem_condensation *c = NULL;
+    int nullity = -1;
+    CHECK_STATUS(rb_fem_model_bar(160, 16, &model, NULL), RB_OK);
+    assert_int_equal(model.mesh.nodes, 2737);
+    assert_int_equal(model.mesh.dofs, 5474 - 17);
+    CHECK_STATUS(rb_fem_condense(&model.structure, &c, NULL), RB_OK);
+    assert_int_equal(rb_fem_condensed(c)->dofs, 321);
+    CHECK_REL(mean_diagonal(&rb_fem_condensed(c)->K), 138.77768, 1e-7, "bar");
+    CHECK_STATUS(rb_fem_nullity(&rb_fem_condensed(c)->K, &nullity, NULL), RB_OK);
+    assert_int_equal(nullity, 1);
+    rb_fem_condensation_free(c);
+    rb_fem_model_free(&model);
+    CHECK_STATUS(rb_fem_model_truss(RB_FEM_UPPER_INSIDE, 12, &model, NULL), RB_OK);
+    CHECK_STATUS(rb_fem_condense(&model.structure, &c, NULL), RB_OK);
+    CHECK_REL(mean_diagonal(&rb_fem_condensed(c)->K), 1539899.8, 1e-7, "truss");
+    rb_fem_condensation_free(c);
+    rb_fem_model_free(&model);
+}
+
+/* Held contact nodes: condensed and full equations agree. */
+static void expansion_solves_the_full_system(void **state)
+{
+    (void)state;
+    rb_fem_model model;
+    rb_fem_condensation *c = NULL;
+    CHECK_STATUS(rb_fem_model_bar(12, 3, &model, NULL), RB_OK);
+    CHECK_STATUS(rb_fem_condense(&model.structure, &c, NULL), RB_OK);
+    const int n = model.mesh.dofs, nc = rb_fem_condensed(c)->dofs;
+    double *u = rb_alloc((size_t)n, 1), *uc = rb_alloc((size_t)nc, 1);
+    double *f = rb_alloc((size_t)n, 1), *fc = rb_alloc((size_t)nc, 1);
+    for (int i = 0; i < nc; i++)
+        uc[i] = noise();
+    CHECK_STATUS(rb_fem_expand(c, model.load, uc, u), RB_OK);
+    CHECK_STATUS(rb_fem_condense_load(c, model.load, fc), RB_OK);
+    memcpy(f, model.load, (size_t)n * sizeof *f);
+    rb_sparse_apply(1.0, &model.structure.K, u, -1.0, f); /* forces to hold it */
+    rb_sparse_apply(1.0, &rb_fem_condensed(c)->K, uc, -1.0, fc);
+    double worst = 0.0, largest = rb_norm_inf((size_t)nc, fc);
+    for (int i = 0, k = 0; i < n; i++) {
+        const int is_contact = k < nc && u[i] == uc[k];
+        worst = fmax(worst, fabs(is_contact ? f[i] - fc[k] : f[i]));
+        k += is_contact;
+    }
+    CHECK_MAX(worst, 1e-12 * largest, "largest force %g", largest);
+    free(u);
+    free(uc);
+    free(f);
+    free(fc);
+    rb_fem_condensation_free(c);
+    rb_fem_model_free(&model);
+}
+
+static void bad_input_is_refused(void **state)
+{
+    (void)state;
+    double K[576], x[24], line[6] = {1, 1, 1, 1, 1, 1};
+    rb_message why;
+    CHECK_STATUS(rb_fem_bar_stiffness(line, &material, K), RB_EINVAL);
+    const double turned[8] = {0, 0, 0, 1, 1, 1, 1, 0};
+    CHECK_STATUS(rb_fem_quad_stiffness(turned, &material, K), RB_EINVAL);
+    memset(x, 0, sizeof x);
+    CHECK_STATUS(rb_fem_brick_mass(x, &material, K), RB_EINVAL);
+    rb_fem_mesh mesh;
+    rb_sparse A = {0};
+    CHECK_STATUS(rb_fem_mesh_alloc(RB_FEM_QUAD, 0, 1, &mesh), RB_EINVAL);
+    CHECK_STATUS(rb_fem_mesh_alloc(RB_FEM_QUAD, 4, 1, &mesh), RB_OK);
+    CHECK_STATUS(rb_fem_stiffness(&mesh, &material, &A, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "element 0"));
+    CHECK_STATUS(rb_fem_mass(&mesh, &material, &A, &why), RB_EINVAL);
+    mesh.node[2] = 4;
+    CHECK_STATUS(rb_fem_stiffness(&mesh, &material, &A, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "node 4 of 4"));
+    const rb_fem_material wrong[] = {{.young = -1.0, .poisson = 0.3, .section = 1.0},
+                                     {.young = 1.0, .poisson = 0.5, .section = 1.0},
+                                     {.young = 1.0, .poisson = 0.3, .section = 0.0}};
+    for (int k = 0; k < 3; k++)
+        CHECK_STATUS(rb_fem_stiffness(&mesh, &wrong[k], &A, &why), RB_EINVAL);
+    rb_fem_mesh_free(&mesh);
+    rb_fem_model model;
+    CHECK_STATUS(rb_fem_model_bar(0, 3, &model, &why), RB_EINVAL);
+    CHECK_STATUS(rb_fem_model_truss(RB_FEM_UPPER_INSIDE, 1, &model, &why), RB_EINVAL);
+}
+
+static rb_status build_and_condense(void)
+{
+    rb_fem_model model;
+    rb_fem_condensation *c = NULL;
+    rb_status s = rb_fem_model_bar(4, 2, &model, NULL);
+    if (s == RB_OK)
+        s = rb_fem_condense(&model.structure, &c, NULL);
+    rb_fem_condensation_free(c);
+    rb_fem_model_free(&model);
+    return s;
+}
+
+static void memory_runs_out(void **state)
+{
+    (void)state;
+    for (int k = 0;; k++) {
+        alloc_fail_after(k);
+        const rb_status s = build_and_condense();
+        const int refused = alloc_failed();
+        alloc_succeed();
+        if (!refused) {
+            CHECK_STATUS(s, RB_OK);
+            break;
+        }
+        CHECK_STATUS(s, RB_ENOMEM);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rigid_motions_cost_nothing),
+        cmocka_unit_test(bar_pulls_along_itself),
+        cmocka_unit_test(linear_displacement_is_exact),
+        cmocka_unit_test(patch_test),
+        cmocka_unit_test(truss_has_the_stated_layouts),
+        cmocka_unit_test(condensed_stiffness_is_the_reference),
+        cmocka_unit_test(expansion_solves_the_full_system),
+        cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(memory_runs_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
