@@ -1,9 +1,9 @@
 /* Rolling contact in two dimensions: case -> contact mesh -> flexibility -> LCP -> solver
  * -> solution.  Each arrow is one public function with one struct in and one out, so that
  * one may stop after any of them and print what is there.
- * Conventions (theory.md 2): A rolls towards +x, material passes the contact from +x to -x;
- * creepage xi > 0 is a braked wheel: A's surface slides towards +x over the ground, the
- * friction on A points to -x, Q < 0.  Loads are per unit length (plane strain).
+ * Conventions (theory.md 2): A rolls towards +x, material passes the contact from +x to
+ * -x; creepage xi > 0 is a braked wheel: A's surface slides towards +x over the ground,
+ * the friction on A points to -x, Q < 0.  Loads are per unit length (plane strain).
  * Equation tags (K1) ... (K6): docs/theory.md. */
 #ifndef ROLLBEM_ROLLING_H
 #define ROLLBEM_ROLLING_H
@@ -21,12 +21,12 @@ typedef enum { RB_SOLVER_AUTO, RB_SOLVER_LEMKE, RB_SOLVER_NEWTON } rb_rolling_so
 typedef enum { RB_LCP_PIVOTED, RB_LCP_KWAK } rb_rolling_lcp_form;
 
 typedef struct {
-    double young, poisson;  /* [stress], [-] */
-    double radius;          /* [length]; INFINITY: a plane (body B only) */
+    double young, poisson; /* [stress], [-] */
+    double radius;         /* [length]; INFINITY: a plane (body B only) */
     rb_bem_support support;
-    double arc;             /* half-angle of the clamped arc [degrees] */
-    double hub_ratio;       /* radius of the rigid hub / radius */
-    double datum;           /* half-plane: depth of zero displacement; 0: 2R/e */
+    double arc;       /* half-angle of the clamped arc [degrees] */
+    double hub_ratio; /* radius of the rigid hub / radius */
+    double datum;     /* half-plane: depth of zero displacement; 0: 2R/e */
 } rb_rolling_body;
 
 /* Every input of one case.  Quantities of which "one of" is asked are NAN when not given.
@@ -36,16 +36,16 @@ typedef struct {
     int elastic_b; /* 0: B is a rigid plane and b is not read */
 
     rb_rolling_gap gap;
-    int profile_n;                    /* RB_GAP_TABLE: points of the initial gap */
+    int profile_n;                         /* RB_GAP_TABLE: points of the initial gap */
     const double *profile_x, *profile_gap; /* [length]; borrowed */
 
     double mu;
 
     double approach, load, half_width; /* one of; all NAN: approach = R/2 */
 
-    /* static: one of shift, force, force_ratio loads the contact (all NAN: shift = R/20 in
-     * the default case, 0 otherwise); creep or creep_ratio only enter (12).
-     * steady, transient: one of creep, creep_ratio, force, force_ratio. */
+    /* static: one of shift, force, force_ratio loads the contact (all NAN: a tenth of the
+     * given approach, as in *Addi*; 0 under load control); creep or creep_ratio only
+     * enter (12). steady, transient: one of creep, creep_ratio, force, force_ratio. */
     double shift, creep, creep_ratio, force, force_ratio;
 
     rb_rolling_formulation formulation;
@@ -53,7 +53,8 @@ typedef struct {
     int steps;       /* transient */
 
     rb_rolling_mesh_kind mesh;
-    int contact_elements; /* uniform: in the potential contact; fitted: across the contact */
+    int contact_elements; /* uniform: in the potential contact; fitted: across the contact
+                           */
     double zone;          /* half-width of the potential contact [length]; 0: automatic */
     int outer_elements;   /* 0: automatic */
     rb_bem_normals normals;
@@ -68,6 +69,134 @@ rb_rolling_case rb_rolling_case_defaults(void);
 /* Ranges and contradictions.  RB_EINVAL with one line in why. */
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why);
 
+/* ---- Case -> contact mesh -> flexibility ------------------------------------------- */
+
+/* The potential contact: n elements between ends[0] and ends[n] and the upstream element
+ * [ends[n], ends[n + 1]] (theory.md 4.2). */
+typedef struct {
+    int n;
+    double *ends; /* n + 2 abscissae [length]; owned */
+    double *gap;  /* n: g_0 at the midpoints, without approach [length]; owned */
+} rb_rolling_mesh;
+
+/* Equal elements between from and to. */
+rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, double from, double to,
+                                  rb_rolling_mesh *mesh, rb_message *why);
+/* Elements fitted to the contact edges [from, to]: ends at -cos(theta) between them, six
+ * more outside each edge that grow by 1.5 (theory.md 5.1). */
+rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, double from, double to,
+                                 rb_rolling_mesh *mesh, rb_message *why);
+void rb_rolling_mesh_free(rb_rolling_mesh *mesh);
+
+/* The bodies of a case on a contact mesh.  The factored systems stay for later solves. */
+typedef struct {
+    rb_bem_flexibility f;               /* of both bodies together; owned */
+    rb_bem_system *system_a, *system_b; /* NULL for half-planes and rigid bodies; owned */
+    double *F; /* 2m x 2n dense flexibility, ld = 2m, m = n + 1; owned */
+    double seconds_assembly, seconds_factor, seconds_condense;
+} rb_rolling_bodies;
+
+rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                   rb_rolling_bodies *bodies, rb_message *why);
+void rb_rolling_bodies_free(rb_rolling_bodies *bodies);
+
+/* ---- The discrete frictional contact problem --------------------------------------- */
+
+/* Gap (K1): y_N = d_N + F (r_N, r_T) - delta >= 0, complementary to r_N.
+ * Slip (K2): T_T lambda = d_T + S (r_N, r_T) + xi e_T, S = A [F_TN F_TT].
+ * Forces: P = load_N'r_N + load_T'r_T, Q = force_N'r_N + force_T'r_T.
+ * xi stands for the creepage (steady, transient) or the rigid shift (static). */
+typedef struct {
+    int n;
+    double mu;
+    const double
+        *F; /* gap rows 0 .. n-1, 2n columns, ld = ldf; borrowed from the bodies */
+    int ldf;
+    double *S;                                   /* n x 2n; owned, as the arrays below */
+    double *d_N, *d_T;                           /* n [length] */
+    double *e_T;                                 /* n: [length] per unit of xi */
+    double *load_N, *load_T, *force_N, *force_T; /* n [length] */
+
+    int load_given;  /* 1: P = load, delta is an unknown; 0: delta is given */
+    int force_given; /* 1: Q = force + force_ratio mu P, xi is an unknown; 0: xi is given
+                      */
+    double load, delta, force, force_ratio, xi;
+
+    double stress, gap_length, slip_length; /* scales of r, y_N, lambda (4.4) */
+} rb_rolling_problem;
+
+/* The state that a static history or a transient starts from. */
+typedef struct {
+    const double
+        *w_T; /* transient: at the former places x + c; static: at the same place */
+} rb_rolling_past;
+
+/* Builds (A, d_T) for the formulation of the case: the only place that knows it. past
+ * NULL: from rest.  step: rolled distance c of a transient step [length]. */
+rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
+                                    const rb_rolling_mesh *mesh,
+                                    const rb_rolling_bodies *bodies,
+                                    const rb_rolling_past *past, double step,
+                                    rb_rolling_problem *problem, rb_message *why);
+void rb_rolling_problem_free(rb_rolling_problem *problem);
+
+/* Row of the given force: control_N'r_N + control_T'r_T = force, n each. */
+void rb_rolling_force_row(const rb_rolling_problem *problem, double *control_N,
+                          double *control_T);
+
+/* Unknowns of the problem. */
+typedef struct {
+    int n;
+    double *p, *q, *lambda; /* r_N, r_T, T_T lambda; owned */
+    int *zone;              /* rb_rolling_zone; owned */
+    double delta, xi;
+    rb_status status;
+    rb_rolling_solver solver;
+    rb_rolling_lcp_form lcp_form;
+    int iterations;
+    double residual;
+} rb_rolling_state;
+
+rb_status rb_rolling_state_alloc(int n, rb_rolling_state *state);
+void rb_rolling_state_free(rb_rolling_state *state);
+
+/* ---- The LCP (K4, K5, K6) -----------------------------------------------------------
+ */
+
+/* M z + b complementary to z, scaled: physical z_j = z_scale_j z_j.  Size 3n, plus one
+ * row for a given load and one for a given force (K6). */
+typedef struct {
+    int size;
+    double *M, *b;             /* size x size column-major, size; owned */
+    double *z_scale, *w_scale; /* size; owned */
+    rb_rolling_lcp_form form;
+    int mirrored; /* pivoted form: unknowns (gamma-, lambda+) instead of (gamma+, lambda-)
+                   */
+    double delta0, xi0;            /* where the bordered unknowns start */
+    double *B_inverse;             /* Kwak's form: (A F_TT)^-1, n x n; owned */
+    double *control_N, *control_T; /* n: row of the given force; owned */
+} rb_rolling_lcp;
+
+rb_status rb_rolling_lcp_create(const rb_rolling_problem *problem,
+                                rb_rolling_lcp_form form, int mirrored, double xi0,
+                                rb_rolling_lcp *lcp, rb_message *why);
+void rb_rolling_lcp_free(rb_rolling_lcp *lcp);
+/* p, q, delta, xi from z; lambda and zones are recomputed from the problem. */
+void rb_rolling_lcp_recover(const rb_rolling_problem *problem, const rb_rolling_lcp *lcp,
+                            const double *z, rb_rolling_state *state);
+
+/* Largest scaled violation of (K1)-(K3) and of the given load and force, recomputed from
+ * p, q, delta and xi alone.  gap, slip, friction: the physical ones, may be NULL. */
+double rb_rolling_residual(const rb_rolling_problem *problem,
+                           const rb_rolling_state *state, double *gap, double *slip,
+                           double *friction);
+
+/* Solves the problem by the solver of the case, in the order of attempts of theory.md.
+ * state: a warm start where state->p is not all zero. */
+rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
+                                   const rb_rolling_case *rc, rb_rolling_state *state,
+                                   rb_message *why);
+
 /* ---- Solution -------------------------------------------------------------------- */
 
 typedef enum {
@@ -78,10 +207,10 @@ typedef enum {
 } rb_rolling_zone;
 
 typedef struct {
-    int n;        /* contact elements, in the order of increasing x */
-    double *x, *h; /* midpoints and lengths [length]; owned, as all arrays here */
-    double *gap;   /* y_N [length] */
-    double *p, *q; /* r_N >= 0 and r_T on A [stress] */
+    int n;           /* contact elements, in the order of increasing x */
+    double *x, *h;   /* midpoints and lengths [length]; owned, as all arrays here */
+    double *gap;     /* y_N [length] */
+    double *p, *q;   /* r_N >= 0 and r_T on A [stress] */
     double *un, *ut; /* w_N, w_T of A (of A and B together where both are elastic) */
     double *shift;   /* T_T lambda [length]; 0 in stick */
     double *slip;    /* relative slip velocity [-]: (12) in static, shift/distance else */
@@ -92,28 +221,59 @@ typedef struct {
     rb_rolling_solver solver; /* that gave the answer */
     rb_rolling_lcp_form lcp_form;
     int iterations;  /* pivots or Newton steps, of all solves */
-    double residual; /* natural residual of the scaled problem, recomputed from p, q, shift */
+    double residual; /* natural residual of the scaled problem, recomputed from p, q,
+                        shift */
     double residual_gap, residual_slip; /* the physical ones: [length], [length] */
     double residual_friction;           /* [stress] */
 
     double normal_load, tangential_load; /* P = sum p h, Q = sum q h [force/length] */
-    double load_error;                   /* |P - wanted|/wanted; NAN without load control */
-    double support_balance;              /* (reaction + load)/P; NAN for half-planes */
-    double approach, tangential_shift;   /* delta; rigid shift (static) [length] */
-    double creepage, free_creepage;      /* xi; xi at Q = 0 (steady), else NAN */
-    double hertz_half_width;             /* of P and the combined radius: scale of the ratios */
-    double creep_ratio, force_ratio;     /* xi R/(mu a), Q/(mu P); NAN at mu = 0 */
-    double half_width;                   /* where p^2 extrapolates to zero [length] */
-    double contact_from, contact_to;     /* its edges */
-    double max_pressure;                 /* p0 [stress] */
-    int contact, stick, slipping;        /* elements */
-    double stick_from, stick_to;         /* element ends; NAN without stick */
-    int slip_violations;                 /* slip that does not oppose the friction */
-    double dissipation;                  /* power per unit speed [force/length] */
+    double load_error;                 /* |P - wanted|/wanted; NAN without load control */
+    double support_balance;            /* (reaction + load)/P; NAN for half-planes */
+    double approach, tangential_shift; /* delta; rigid shift (static) [length] */
+    double creepage, free_creepage;    /* xi; xi at Q = 0 (steady), else NAN */
+    double hertz_half_width; /* of P and the combined radius: scale of the ratios */
+    double creep_ratio, force_ratio; /* xi R/(mu a), Q/(mu P); NAN at mu = 0 */
+    double half_width;               /* where p^2 extrapolates to zero [length] */
+    double contact_from, contact_to; /* its edges */
+    double max_pressure;             /* p0 [stress] */
+    int contact, stick, slipping;    /* elements */
+    double stick_from, stick_to;     /* element ends; NAN without stick */
+    int slip_violations;             /* slip that does not oppose the friction */
+    double dissipation;              /* power per unit speed [force/length] */
     double seconds_assembly, seconds_factor, seconds_condense, seconds_lcp, seconds_total;
 } rb_rolling_solution;
 
 void rb_rolling_solution_free(rb_rolling_solution *s);
+
+/* ---- A case at work ------------------------------------------------------------------
+ */
+
+/* Everything between case and solution, kept for further solves on the same mesh. */
+typedef struct {
+    rb_rolling_case rc; /* borrows the profile */
+    rb_rolling_mesh mesh;
+    rb_rolling_bodies bodies;
+    rb_rolling_problem problem;
+    rb_rolling_state state;
+    double half_width; /* Hertz's, of the load found last: scale of the ratios */
+    double seconds_lcp;
+    int iterations; /* of all solves so far */
+} rb_rolling_model;
+
+/* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a
+ * positive status the model holds what there is.  model: overwritten; free it in any
+ * case. */
+rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
+                                  rb_message *why);
+void rb_rolling_model_free(rb_rolling_model *model);
+
+/* The creepage at which Q = 0 (steady, mu > 0), on the model's mesh. */
+rb_status rb_rolling_free_creepage(const rb_rolling_model *model, double *creepage,
+                                   rb_message *why);
+
+/* Tractions, slip, zones, forces and the proof of them. */
+rb_status rb_rolling_model_solution(const rb_rolling_model *model,
+                                    rb_rolling_solution *solution, rb_message *why);
 
 /* From case to solution in one call.  On a positive status the solution holds what there
  * is.  solution: overwritten; free it in any case. */

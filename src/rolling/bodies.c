@@ -1,0 +1,102 @@
+#include "rolling/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void rb_rolling_bodies_free(rb_rolling_bodies *bodies)
+{
+    rb_bem_flexibility_free(&bodies->f);
+    rb_bem_system_free(bodies->system_a);
+    rb_bem_system_free(bodies->system_b);
+    free(bodies->F);
+    memset(bodies, 0, sizeof *bodies);
+}
+
+static double datum_of(const rb_rolling_body *body, double radius)
+{
+    return body->datum > 0.0 ? body->datum : 2.0 * radius / M_E;
+}
+
+static rb_status cylinder_flexibility(const rb_rolling_case *rc,
+                                      const rb_rolling_body *body,
+                                      const rb_rolling_mesh *mesh, rb_bem_system **system,
+                                      rb_rolling_bodies *bodies, rb_bem_flexibility *f,
+                                      rb_message *why)
+{
+    const rb_bem_cylinder cylinder = {.radius = body->radius,
+                                      .support = body->support,
+                                      .arc = body->arc * M_PI / 180.0,
+                                      .hub_ratio = body->hub_ratio,
+                                      .outer_elements = rc->outer_elements};
+    rb_bem_mesh boundary = {0};
+    rb_status s = rb_bem_mesh_cylinder(&cylinder, mesh->n, mesh->ends, &boundary, why);
+
+    if (s == RB_OK)
+        s = rb_bem_system_create(&boundary,
+                                 rb_bem_material_from_young(body->young, body->poisson),
+                                 system, why);
+    if (s == RB_OK) {
+        double assembly, factor;
+        rb_bem_system_seconds(*system, &assembly, &factor);
+        bodies->seconds_assembly += assembly;
+        bodies->seconds_factor += factor;
+        const double start = rb_seconds();
+        s = rb_bem_condense(*system, rc->normals, f, why);
+        bodies->seconds_condense += rb_seconds() - start;
+    }
+    rb_bem_mesh_free(&boundary);
+    return s;
+}
+
+static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_body *body,
+                                  const rb_rolling_mesh *mesh, rb_bem_system **system,
+                                  rb_rolling_bodies *bodies, rb_bem_flexibility *f,
+                                  rb_message *why)
+{
+    if (body->support != RB_BEM_HALFPLANE)
+        return cylinder_flexibility(rc, body, mesh, system, bodies, f, why);
+    const double radius = isfinite(body->radius) ? body->radius : rc->a.radius;
+    const double start = rb_seconds();
+    const rb_status s = rb_bem_flexibility_halfplane(
+        mesh->n, mesh->ends, rb_bem_material_from_young(body->young, body->poisson),
+        datum_of(body, radius), f, why);
+    bodies->seconds_condense += rb_seconds() - start;
+    return s;
+}
+
+static rb_status dense_matrix(rb_rolling_bodies *bodies)
+{
+    const size_t rows = 2 * (size_t)bodies->f.m, cols = 2 * (size_t)bodies->f.n;
+
+    bodies->F = rb_alloc(rows, cols);
+    if (!bodies->F)
+        return RB_ENOMEM;
+    return rb_bem_flexibility_matrix(&bodies->f, bodies->F, (int)rows);
+}
+
+rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                   rb_rolling_bodies *bodies, rb_message *why)
+{
+    memset(bodies, 0, sizeof *bodies);
+    rb_bem_flexibility a = {0}, b = {0};
+    rb_status s = body_flexibility(rc, &rc->a, mesh, &bodies->system_a, bodies, &a, why);
+
+    if (s == RB_OK && rc->elastic_b) {
+        s = body_flexibility(rc, &rc->b, mesh, &bodies->system_b, bodies, &b, why);
+        if (s == RB_OK)
+            s = rb_bem_flexibility_pair(&a, &b, &bodies->f, why);
+    } else if (s == RB_OK) {
+        bodies->f = a;
+        memset(&a, 0, sizeof a);
+    }
+    if (s == RB_OK)
+        s = dense_matrix(bodies);
+    rb_bem_flexibility_free(&a);
+    rb_bem_flexibility_free(&b);
+    if (s != RB_OK)
+        rb_rolling_bodies_free(bodies);
+    return s == RB_ENOMEM
+               ? rb_fail(why, s, "no memory for the flexibility of %d elements", mesh->n)
+               : s;
+}

@@ -1,0 +1,291 @@
+#include "rolling/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_roots.h>
+
+rb_rolling_case rb_rolling_case_defaults(void)
+{
+    const rb_rolling_body body = {.young = 94500.0,
+                                  .poisson = 0.1,
+                                  .radius = 50.0,
+                                  .support = RB_BEM_ARC,
+                                  .arc = 30.0,
+                                  .hub_ratio = 0.3};
+    rb_rolling_case rc = {.a = body, .b = body};
+
+    rc.b.radius = INFINITY;
+    rc.b.support = RB_BEM_HALFPLANE;
+    rc.gap = RB_GAP_EXACT;
+    rc.mu = 0.3;
+    rc.approach = rc.load = rc.half_width = NAN;
+    rc.shift = rc.creep = rc.creep_ratio = rc.force = rc.force_ratio = NAN;
+    rc.formulation = RB_STATIC;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.contact_elements = 60;
+    rc.normals = RB_BEM_NORMALS_OBSTACLE;
+    rc.solver = RB_SOLVER_AUTO;
+    rc.lcp_form = RB_LCP_PIVOTED;
+    rc.tol = 1e-10;
+    return rc;
+}
+
+/* ---- Derived quantities ------------------------------------------------------------ */
+
+double rb_rolling_contact_modulus(const rb_rolling_case *rc)
+{
+    double compliance = (1.0 - gsl_pow_2(rc->a.poisson)) / rc->a.young;
+    if (rc->elastic_b)
+        compliance += (1.0 - gsl_pow_2(rc->b.poisson)) / rc->b.young;
+    return 1.0 / compliance;
+}
+
+double rb_rolling_radius(const rb_rolling_case *rc)
+{
+    return 1.0 / (1.0 / rc->a.radius + 1.0 / rc->b.radius);
+}
+
+/* c of kernels (Flamant): the coupling compliance of a half-plane. */
+static double coupling(const rb_rolling_body *body)
+{
+    return (1.0 - 2.0 * body->poisson) * (1.0 + body->poisson) / (2.0 * body->young);
+}
+
+double rb_rolling_dundurs(const rb_rolling_case *rc)
+{
+    double c = coupling(&rc->a);
+    if (rc->elastic_b)
+        c -= coupling(&rc->b);
+    return 2.0 * c * rb_rolling_contact_modulus(rc);
+}
+
+double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load)
+{
+    return sqrt(4.0 * load * rb_rolling_radius(rc) /
+                (M_PI * rb_rolling_contact_modulus(rc)));
+}
+
+double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width)
+{
+    return M_PI * rb_rolling_contact_modulus(rc) * gsl_pow_2(half_width) /
+           (4.0 * rb_rolling_radius(rc));
+}
+
+double rb_rolling_wanted_load(const rb_rolling_case *rc)
+{
+    return isnan(rc->half_width) ? rc->load : rb_rolling_hertz_load(rc, rc->half_width);
+}
+
+double rb_rolling_wanted_approach(const rb_rolling_case *rc)
+{
+    if (!isnan(rc->load) || !isnan(rc->half_width))
+        return NAN;
+    return isnan(rc->approach) ? rc->a.radius / 2.0 : rc->approach;
+}
+
+/* Half-cylinder compression (theory.md 6) minus the wanted approach; a: half-width. */
+typedef struct {
+    double radius, approach;
+} compression;
+
+static double compression_excess(double a, void *context)
+{
+    const compression *c = context;
+    return a * a / (4.0 * c->radius) * (2.0 * log(4.0 * c->radius / a) - 1.0) -
+           c->approach;
+}
+
+/* The contact is never wider than the overlap, nor than the wheel. */
+static double half_width_of_approach(double radius, double approach)
+{
+    compression c = {radius, approach};
+    double low = 1e-12 * sqrt(2.0 * radius * approach);
+    double high = fmin(sqrt(2.0 * radius * approach), 0.7 * radius);
+    gsl_function f = {compression_excess, &c};
+
+    if (compression_excess(high, &c) < 0.0)
+        return high;
+    gsl_root_fsolver *root = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    if (!root)
+        return high;
+    gsl_root_fsolver_set(root, &f, low, high);
+    for (int k = 0; k < 60 && high - low > 1e-3 * high; k++) {
+        gsl_root_fsolver_iterate(root);
+        low = gsl_root_fsolver_x_lower(root);
+        high = gsl_root_fsolver_x_upper(root);
+    }
+    gsl_root_fsolver_free(root);
+    return high;
+}
+
+double rb_rolling_estimate_half_width(const rb_rolling_case *rc)
+{
+    const double approach = rb_rolling_wanted_approach(rc);
+    if (isnan(approach))
+        return rb_rolling_hertz_half_width(rc, rb_rolling_wanted_load(rc));
+    return half_width_of_approach(rb_rolling_radius(rc), approach);
+}
+
+/* ---- Checks ------------------------------------------------------------------------ */
+
+static int is_positive(double x)
+{
+    return isfinite(x) && x > 0.0;
+}
+
+static rb_status check_body(const rb_rolling_body *b, const char *which,
+                            int plane_allowed, rb_message *why)
+{
+    const int plane = plane_allowed && b->radius == INFINITY;
+
+    if (!is_positive(b->young))
+        return rb_fail(why, RB_EINVAL, "Young's modulus%s: expected > 0, got %g", which,
+                       b->young);
+    if (!(b->poisson > -1.0 && b->poisson <= 0.5))
+        return rb_fail(why, RB_EINVAL, "Poisson's ratio%s: expected in (-1, 0.5], got %g",
+                       which, b->poisson);
+    if (!plane && !is_positive(b->radius))
+        return rb_fail(why, RB_EINVAL, "radius%s: expected > 0, got %g", which,
+                       b->radius);
+    if (plane && b->support != RB_BEM_HALFPLANE)
+        return rb_fail(why, RB_EINVAL,
+                       "support%s: a plane has the support halfplane only", which);
+    if (b->support == RB_BEM_ARC && !(b->arc > 0.0 && b->arc <= 90.0))
+        return rb_fail(why, RB_EINVAL, "arc%s: expected in (0, 90] degrees, got %g",
+                       which, b->arc);
+    if (b->support == RB_BEM_HUB && !(b->hub_ratio > 0.0 && b->hub_ratio < 1.0))
+        return rb_fail(why, RB_EINVAL, "hub ratio%s: expected in (0, 1), got %g", which,
+                       b->hub_ratio);
+    if (b->support == RB_BEM_HALFPLANE && !(isfinite(b->datum) && b->datum >= 0.0))
+        return rb_fail(why, RB_EINVAL, "datum%s: expected a depth >= 0, got %g", which,
+                       b->datum);
+    return RB_OK;
+}
+
+static int count_given(int n, const double *value)
+{
+    int given = 0;
+    for (int i = 0; i < n; i++)
+        given += !isnan(value[i]);
+    return given;
+}
+
+static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
+{
+    const double normal[] = {rc->approach, rc->load, rc->half_width};
+    static const char *const name[] = {"approach", "load", "half-width"};
+
+    if (count_given(3, normal) > 1)
+        return rb_fail(why, RB_EINVAL,
+                       "approach, load and half-width exclude each other");
+    for (int i = 0; i < 3; i++)
+        if (!isnan(normal[i]) && !is_positive(normal[i]))
+            return rb_fail(why, RB_EINVAL, "%s: expected > 0, got %g", name[i],
+                           normal[i]);
+    return RB_OK;
+}
+
+/* Beyond full sliding there is no equilibrium; without friction no force but zero. */
+static rb_status check_force(const rb_rolling_case *rc, rb_message *why)
+{
+    if (!isnan(rc->force_ratio) && fabs(rc->force_ratio) > 1.0)
+        return rb_fail(why, RB_EINVAL,
+                       "force ratio Q/(mu P) = %g: friction carries at most 1",
+                       rc->force_ratio);
+    if (!isnan(rc->force_ratio) && rc->mu == 0.0 && rc->force_ratio != 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "force ratio %g: Q/(mu P) has no meaning at mu = 0",
+                       rc->force_ratio);
+    const double P = rb_rolling_wanted_load(rc);
+    if (!isnan(rc->force) && !isnan(P) && fabs(rc->force) > rc->mu * P * (1.0 + 1e-12))
+        return rb_fail(why, RB_EINVAL, "force Q = %g: friction carries at most mu P = %g",
+                       rc->force, rc->mu * P);
+    return RB_OK;
+}
+
+static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
+{
+    const double all[] = {rc->shift, rc->creep, rc->creep_ratio, rc->force,
+                          rc->force_ratio};
+    static const char *const name[] = {"shift", "creep", "creep-ratio", "force",
+                                       "force-ratio"};
+    const double load[] = {rc->shift, rc->force, rc->force_ratio};
+
+    for (int i = 0; i < 5; i++)
+        if (isinf(all[i]))
+            return rb_fail(why, RB_EINVAL, "%s: expected a finite number", name[i]);
+    if (!isnan(rc->creep) && !isnan(rc->creep_ratio))
+        return rb_fail(why, RB_EINVAL, "creep and creep-ratio exclude each other");
+    if (rc->mu == 0.0 && !isnan(rc->creep_ratio))
+        return rb_fail(why, RB_EINVAL,
+                       "creep-ratio: xi R/(mu a) has no meaning at mu = 0");
+    if (rc->formulation == RB_STATIC && count_given(3, load) > 1)
+        return rb_fail(why, RB_EINVAL, "shift, force and force-ratio exclude each other");
+    if (rc->formulation != RB_STATIC && !isnan(rc->shift))
+        return rb_fail(
+            why, RB_EINVAL,
+            "shift: rolling is driven by creep, creep-ratio, force or force-ratio");
+    if (rc->formulation != RB_STATIC && count_given(4, all + 1) > 1)
+        return rb_fail(why, RB_EINVAL,
+                       "creep, creep-ratio, force and force-ratio exclude each other");
+    return check_force(rc, why);
+}
+
+static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
+{
+    if (rc->gap != RB_GAP_TABLE)
+        return RB_OK;
+    if (rc->profile_n < 2)
+        return rb_fail(why, RB_EINVAL, "gap: a profile needs 2 points or more, got %d",
+                       rc->profile_n);
+    for (int i = 0; i < rc->profile_n; i++)
+        if (!isfinite(rc->profile_x[i]) || !isfinite(rc->profile_gap[i]))
+            return rb_fail(why, RB_EINVAL, "gap: point %d is not a finite number", i + 1);
+    for (int i = 1; i < rc->profile_n; i++)
+        if (rc->profile_x[i] <= rc->profile_x[i - 1])
+            return rb_fail(why, RB_EINVAL, "gap: x must increase, point %d does not",
+                           i + 1);
+    return RB_OK;
+}
+
+static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
+{
+    if (rc->contact_elements < 3 || rc->contact_elements > 1 << 24)
+        return rb_fail(why, RB_EINVAL, "contact elements: expected 3 ... %d, got %d",
+                       1 << 24, rc->contact_elements);
+    if (rc->outer_elements < 0 || rc->outer_elements > 1 << 20)
+        return rb_fail(why, RB_EINVAL, "outer elements: expected 0 ... %d, got %d",
+                       1 << 20, rc->outer_elements);
+    if (!(isfinite(rc->zone) && rc->zone >= 0.0))
+        return rb_fail(why, RB_EINVAL, "zone: expected a half-width > 0, got %g",
+                       rc->zone);
+    if (rc->zone >= rc->a.radius || rc->zone >= rc->b.radius)
+        return rb_fail(why, RB_EINVAL, "zone: %g is wider than the radius %g", rc->zone,
+                       fmin(rc->a.radius, rc->b.radius));
+    if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->a.support == RB_BEM_HALFPLANE)
+        return rb_fail(why, RB_EINVAL,
+                       "normals surface: a half-plane has the obstacle's");
+    if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->elastic_b)
+        return rb_fail(why, RB_EINVAL, "normals surface: with a rigid plane only");
+    if (!is_positive(rc->tol))
+        return rb_fail(why, RB_EINVAL, "tol: expected > 0, got %g", rc->tol);
+    return RB_OK;
+}
+
+rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
+{
+    rb_status s = check_body(&rc->a, "", 0, why);
+
+    if (s == RB_OK && rc->elastic_b)
+        s = check_body(&rc->b, " of body B", 1, why);
+    if (s == RB_OK && !(isfinite(rc->mu) && rc->mu >= 0.0))
+        s = rb_fail(why, RB_EINVAL, "mu: expected >= 0, got %g", rc->mu);
+    if (s == RB_OK)
+        s = check_normal(rc, why);
+    if (s == RB_OK)
+        s = check_tangential(rc, why);
+    if (s == RB_OK)
+        s = check_gap(rc, why);
+    if (s == RB_OK)
+        s = check_mesh(rc, why);
+    return s;
+}

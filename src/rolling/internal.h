@@ -1,0 +1,57 @@
+/* What the files of this room share. */
+#ifndef ROLLBEM_ROLLING_INTERNAL_H
+#define ROLLBEM_ROLLING_INTERNAL_H
+
+#include "rollbem/rolling.h"
+
+#include <math.h>
+
+/* ---- case.c: quantities derived from a case ---------------------------------------- */
+
+double rb_rolling_contact_modulus(const rb_rolling_case *rc); /* E* */
+double rb_rolling_radius(const rb_rolling_case *rc);          /* 1/R = 1/R_A + 1/R_B */
+double rb_rolling_dundurs(const rb_rolling_case *rc);         /* beta */
+double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load);
+double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width);
+/* The given load, or that of the given half-width; NAN under approach control. */
+double rb_rolling_wanted_load(const rb_rolling_case *rc);
+/* The given approach or its default; NAN under load control. */
+double rb_rolling_wanted_approach(const rb_rolling_case *rc);
+/* From the load by Hertz, from the approach by the compression of a half-cylinder. */
+double rb_rolling_estimate_half_width(const rb_rolling_case *rc);
+
+/* ---- newton.c ------------------------------------------------------------------------
+ */
+
+/* One exact solve with the zones of the state held fixed.  RB_SINGULAR leaves the state
+ * as it was. */
+rb_status rb_rolling_solve_zones(const rb_rolling_problem *problem,
+                                 rb_rolling_state *state);
+
+/* Newton from the zones of the state. RB_MAXITER where it cycles, RB_SINGULAR. */
+rb_status rb_rolling_newton(const rb_rolling_problem *problem, rb_rolling_state *state);
+
+/* ---- model.c
+ * --------------------------------------------------------------------------- */
+
+/* P of the state. */
+double rb_rolling_model_load(const rb_rolling_model *model);
+
+/* ---- residual.c ----------------------------------------------------------------------
+ */
+
+/* gap (n) and lambda (n) of p, q, delta, xi. */
+void rb_rolling_kinematics(const rb_rolling_problem *problem,
+                           const rb_rolling_state *state, double *gap, double *lambda);
+/* Zones from p, q and lambda; entries below tol times the scales count as zero. */
+void rb_rolling_classify(const rb_rolling_problem *problem, double tol,
+                         rb_rolling_state *state);
+
+/* ---- solution.c -----------------------------------------------------------------------
+ */
+
+/* Contact edges where p^2 extrapolates to zero. */
+void rb_rolling_contact_edges(const rb_rolling_mesh *mesh, const double *p, double *from,
+                              double *to);
+
+#endif

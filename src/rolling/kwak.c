@@ -1,0 +1,361 @@
+/* The LCP of the contact problem: Kwak's form (K4), its principal pivot (K5), and the
+ * rows and columns that a given load and a given force add to either (K6). */
+#include "rolling/internal.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <stdlib.h>
+#include <string.h>
+
+void rb_rolling_lcp_free(rb_rolling_lcp *lcp)
+{
+    free(lcp->M);
+    free(lcp->b);
+    free(lcp->z_scale);
+    free(lcp->w_scale);
+    free(lcp->B_inverse);
+    free(lcp->control_N);
+    free(lcp->control_T);
+    memset(lcp, 0, sizeof *lcp);
+}
+
+/* Columns of the two bordered unknowns, delta' and xi', behind the 3n of the contact. */
+static int delta_column(const rb_rolling_problem *p)
+{
+    return 3 * p->n;
+}
+
+static int xi_column(const rb_rolling_problem *p)
+{
+    return 3 * p->n + p->load_given;
+}
+
+static rb_status lcp_alloc(const rb_rolling_problem *p, rb_rolling_lcp_form form,
+                           rb_rolling_lcp *lcp)
+{
+    memset(lcp, 0, sizeof *lcp);
+    lcp->form = form;
+    lcp->size = 3 * p->n + p->load_given + p->force_given;
+    const size_t size = (size_t)lcp->size, n = (size_t)p->n;
+    lcp->M = rb_alloc(size, size);
+    lcp->b = rb_alloc(size, 1);
+    lcp->z_scale = rb_alloc(size, 1);
+    lcp->w_scale = rb_alloc(size, 1);
+    lcp->control_N = rb_alloc(n, 1);
+    lcp->control_T = rb_alloc(n, 1);
+    if (form == RB_LCP_KWAK)
+        lcp->B_inverse = rb_alloc(n, n);
+    if (lcp->M && lcp->b && lcp->z_scale && lcp->w_scale && lcp->control_N &&
+        lcp->control_T && (form != RB_LCP_KWAK || lcp->B_inverse)) {
+        rb_rolling_force_row(p, lcp->control_N, lcp->control_T);
+        return RB_OK;
+    }
+    rb_rolling_lcp_free(lcp);
+    return RB_ENOMEM;
+}
+
+static void add_block(int n, double factor, const double *block, int ldb, double *M,
+                      int ldm)
+{
+    for (int j = 0; j < n; j++)
+        cblas_daxpy(n, factor, block + (size_t)j * ldb, 1, M + (size_t)j * ldm, 1);
+}
+
+static void add_diagonal(int n, double value, double *M, int ldm)
+{
+    for (int i = 0; i < n; i++)
+        M[i + (size_t)i * ldm] += value;
+}
+
+/* +1 in its own direction of sliding, -1 mirrored. */
+static double orientation(const rb_rolling_lcp *lcp)
+{
+    return lcp->mirrored ? -1.0 : 1.0;
+}
+
+/* xi = xi0 + s xi', s = -sgn xi0: from full sliding back towards the given force. */
+static double xi_direction(const rb_rolling_lcp *lcp)
+{
+    return lcp->xi0 > 0.0 ? -1.0 : 1.0;
+}
+
+/* d_T + xi e_T with xi = xi0 where it is an unknown. */
+static double slip_offset(const rb_rolling_problem *p, const rb_rolling_lcp *lcp, int i)
+{
+    return p->d_T[i] + (p->force_given ? lcp->xi0 : p->xi) * p->e_T[i];
+}
+
+/* ---- Pivoted form (K5) ------------------------------------------------------------- */
+
+/* z = (r_N, gamma, nu), w = (y_N, l, mu r_N - o r_T), o the orientation:
+ * gamma = mu r_N + o r_T, l - nu = o T_T lambda. */
+static void pivoted_form(const rb_rolling_problem *p, rb_rolling_lcp *lcp)
+{
+    const int n = p->n, ld = lcp->size;
+    const double o = orientation(lcp), mu = p->mu;
+    const double *F_NN = p->F, *F_NT = p->F + (size_t)n * p->ldf;
+    const double *S_N = p->S, *S_T = p->S + (size_t)n * n;
+    double *r_N = lcp->M, *gamma = lcp->M + (size_t)n * ld, *nu = gamma + (size_t)n * ld;
+
+    add_block(n, 1.0, F_NN, p->ldf, r_N, ld);
+    add_block(n, -o * mu, F_NT, p->ldf, r_N, ld);
+    add_block(n, o, F_NT, p->ldf, gamma, ld);
+    add_block(n, o, S_N, n, r_N + n, ld);
+    add_block(n, -mu, S_T, n, r_N + n, ld);
+    add_block(n, 1.0, S_T, n, gamma + n, ld);
+    add_diagonal(n, 1.0, nu + n, ld);
+    add_diagonal(n, 2.0 * mu, r_N + 2 * n, ld);
+    add_diagonal(n, -1.0, gamma + 2 * n, ld);
+    for (int i = 0; i < n; i++) {
+        lcp->b[i] = p->d_N[i];
+        lcp->b[n + i] = o * slip_offset(p, lcp, i);
+    }
+    if (p->force_given)
+        cblas_daxpy(n, o * xi_direction(lcp), p->e_T, 1,
+                    lcp->M + (size_t)xi_column(p) * ld + n, 1);
+}
+
+/* Row `row` = sign (a_N'r_N + a_T'r_T - value) in the unknowns of (K5). */
+static void pivoted_force_row(const rb_rolling_problem *p, rb_rolling_lcp *lcp, int row,
+                              double sign, const double *a_N, const double *a_T,
+                              double value)
+{
+    const double o = orientation(lcp);
+
+    for (int j = 0; j < p->n; j++) {
+        lcp->M[row + (size_t)j * lcp->size] = sign * (a_N[j] - o * p->mu * a_T[j]);
+        lcp->M[row + (size_t)(p->n + j) * lcp->size] = sign * o * a_T[j];
+    }
+    lcp->b[row] = -sign * value;
+}
+
+/* ---- Kwak's form (K4) ---------------------------------------------------------------
+ */
+
+/* Column of lambda+ (sign 0) or lambda- (sign 1) of element i. */
+static int lambda_column(int n, int i, int sign)
+{
+    return n + 2 * i + sign;
+}
+
+static rb_status invert(int n, double *B)
+{
+    lapack_int *pivots = calloc((size_t)n, sizeof *pivots);
+    if (!pivots)
+        return RB_ENOMEM;
+    lapack_int fault = LAPACKE_dgetrf(LAPACK_COL_MAJOR, n, n, B, n, pivots);
+    if (fault == 0)
+        fault = LAPACKE_dgetri(LAPACK_COL_MAJOR, n, B, n, pivots);
+    free(pivots);
+    return fault == 0 ? RB_OK : RB_SINGULAR;
+}
+
+/* r_T = R z + r_0 for z = (r_N, lambda, delta', xi'): R is n x size. */
+static void tangential_traction(const rb_rolling_problem *p, const rb_rolling_lcp *lcp,
+                                double *R, double *r_0)
+{
+    const int n = p->n;
+    const double *Bi = lcp->B_inverse;
+    double *d =
+        R + (size_t)n * (size_t)lambda_column(n, 0, 0); /* scratch: written below */
+
+    for (int i = 0; i < n; i++)
+        d[i] = slip_offset(p, lcp, i);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, Bi, n, d, 1, 0.0, r_0, 1);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, -1.0, Bi, n, p->S, n,
+                0.0, R, n);
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++) {
+            R[i + (size_t)n * lambda_column(n, j, 0)] = Bi[i + (size_t)j * n];
+            R[i + (size_t)n * lambda_column(n, j, 1)] = -Bi[i + (size_t)j * n];
+        }
+    if (p->force_given)
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -xi_direction(lcp), Bi, n, p->e_T,
+                    1, 0.0, R + (size_t)n * xi_column(p), 1);
+}
+
+/* y_N = d_N + F_NN r_N + F_NT r_T, gamma+- = mu r_N +- r_T (K1, K3). */
+static void kwak_rows(const rb_rolling_problem *p, const double *R, const double *r_0,
+                      rb_rolling_lcp *lcp)
+{
+    const int n = p->n, ld = lcp->size;
+    const double *F_NT = p->F + (size_t)n * p->ldf;
+
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, ld, n, 1.0, F_NT, p->ldf, R,
+                n, 0.0, lcp->M, ld);
+    add_block(n, 1.0, p->F, p->ldf, lcp->M, ld);
+    cblas_dcopy(n, p->d_N, 1, lcp->b, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_NT, p->ldf, r_0, 1, 1.0, lcp->b,
+                1);
+    for (int i = 0; i < n; i++)
+        for (int sign = 0; sign < 2; sign++) {
+            const int row = lambda_column(n, i, sign);
+            cblas_daxpy(ld, sign ? -1.0 : 1.0, R + i, n, lcp->M + row, ld);
+            lcp->M[row + (size_t)i * ld] += p->mu;
+            lcp->b[row] = sign ? -r_0[i] : r_0[i];
+        }
+}
+
+static void kwak_force_row(const rb_rolling_problem *p, const double *R,
+                           const double *r_0, rb_rolling_lcp *lcp, int row, double sign,
+                           const double *a_N, const double *a_T, double value)
+{
+    cblas_dgemv(CblasColMajor, CblasTrans, p->n, lcp->size, sign, R, p->n, a_T, 1, 0.0,
+                lcp->M + row, lcp->size);
+    cblas_daxpy(p->n, sign, a_N, 1, lcp->M + row, lcp->size);
+    lcp->b[row] = sign * (cblas_ddot(p->n, a_T, 1, r_0, 1) - value);
+}
+
+static rb_status kwak_form(const rb_rolling_problem *p, rb_rolling_lcp *lcp)
+{
+    const int n = p->n;
+    double *R = rb_alloc((size_t)n, (size_t)lcp->size), *r_0 = rb_alloc((size_t)n, 1);
+    rb_status s = R && r_0 ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK) {
+        memcpy(lcp->B_inverse, p->S + (size_t)n * n, (size_t)n * n * sizeof(double));
+        s = invert(n, lcp->B_inverse);
+    }
+    if (s == RB_OK) {
+        tangential_traction(p, lcp, R, r_0);
+        kwak_rows(p, R, r_0, lcp);
+        if (p->load_given)
+            kwak_force_row(p, R, r_0, lcp, delta_column(p), 1.0, p->load_N, p->load_T,
+                           p->load);
+        if (p->force_given)
+            kwak_force_row(p, R, r_0, lcp, xi_column(p), -xi_direction(lcp),
+                           lcp->control_N, lcp->control_T, p->force);
+    }
+    free(R);
+    free(r_0);
+    return s;
+}
+
+/* ---- Both -------------------------------------------------------------------------- */
+
+/* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts
+ * below the first touch, also for a half-plane whose datum is close to the surface. */
+static void set_approach(const rb_rolling_problem *p, rb_rolling_lcp *lcp)
+{
+    double lowest = p->d_N[0];
+
+    for (int i = 1; i < p->n; i++)
+        lowest = fmin(lowest, p->d_N[i]);
+    lcp->delta0 = p->load_given ? lowest - 10.0 * p->gap_length : p->delta;
+    for (int i = 0; i < p->n; i++) {
+        lcp->b[i] -= lcp->delta0;
+        if (p->load_given)
+            lcp->M[i + (size_t)delta_column(p) * lcp->size] = -1.0;
+    }
+}
+
+static void fill(int n, double value, double *x)
+{
+    for (int i = 0; i < n; i++)
+        x[i] = value;
+}
+
+/* Dimensionless unknowns: stress, mu stress and two lengths (4.4). */
+static void set_lcp_scales(const rb_rolling_problem *p, rb_rolling_lcp *lcp)
+{
+    const int n = p->n, pivoted = lcp->form == RB_LCP_PIVOTED;
+    const double bound = p->mu > 0.0 ? p->mu * p->stress : p->stress;
+
+    fill(n, p->stress, lcp->z_scale);
+    fill(2 * n, p->slip_length, lcp->z_scale + n);
+    fill(n, p->gap_length, lcp->w_scale);
+    fill(2 * n, bound, lcp->w_scale + n);
+    if (pivoted) {
+        fill(n, bound, lcp->z_scale + n);
+        fill(n, p->slip_length, lcp->w_scale + n);
+    }
+    if (p->load_given) {
+        lcp->z_scale[delta_column(p)] = p->gap_length;
+        lcp->w_scale[delta_column(p)] = p->stress * cblas_dasum(n, p->load_N, 1);
+    }
+    if (p->force_given) {
+        lcp->z_scale[xi_column(p)] = p->slip_length / (cblas_dasum(n, p->e_T, 1) / n);
+        lcp->w_scale[xi_column(p)] = bound * cblas_dasum(n, p->force_T, 1);
+    }
+}
+
+static void apply_scales(rb_rolling_lcp *lcp)
+{
+    for (int j = 0; j < lcp->size; j++)
+        for (int i = 0; i < lcp->size; i++)
+            lcp->M[i + (size_t)j * lcp->size] *= lcp->z_scale[j] / lcp->w_scale[i];
+    for (int i = 0; i < lcp->size; i++)
+        lcp->b[i] /= lcp->w_scale[i];
+}
+
+rb_status rb_rolling_lcp_create(const rb_rolling_problem *problem,
+                                rb_rolling_lcp_form form, int mirrored, double xi0,
+                                rb_rolling_lcp *lcp, rb_message *why)
+{
+    rb_status s = lcp_alloc(problem, form, lcp);
+
+    if (s == RB_OK) {
+        lcp->mirrored = form == RB_LCP_PIVOTED && mirrored;
+        lcp->xi0 = xi0;
+        if (form == RB_LCP_KWAK) {
+            s = kwak_form(problem, lcp);
+        } else {
+            pivoted_form(problem, lcp);
+            if (problem->load_given)
+                pivoted_force_row(problem, lcp, delta_column(problem), 1.0,
+                                  problem->load_N, problem->load_T, problem->load);
+            if (problem->force_given)
+                pivoted_force_row(problem, lcp, xi_column(problem), -xi_direction(lcp),
+                                  lcp->control_N, lcp->control_T, problem->force);
+        }
+    }
+    if (s != RB_OK) {
+        rb_rolling_lcp_free(lcp);
+        return rb_fail(why, s, "LCP of %d contact elements: %s", problem->n,
+                       rb_status_text(s));
+    }
+    set_approach(problem, lcp);
+    set_lcp_scales(problem, lcp);
+    apply_scales(lcp);
+    return RB_OK;
+}
+
+/* r_T of (K4): B^-1 (T_T lambda - S_N r_N - d_T - xi e_T). */
+static void kwak_recover_traction(const rb_rolling_problem *p, const rb_rolling_lcp *lcp,
+                                  const double *z, rb_rolling_state *state)
+{
+    const int n = p->n;
+    double *slip = state->lambda; /* scratch until the caller recomputes it */
+
+    for (int i = 0; i < n; i++)
+        slip[i] =
+            p->slip_length * (z[lambda_column(n, i, 0)] - z[lambda_column(n, i, 1)]) -
+            p->d_T[i] - state->xi * p->e_T[i];
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, p->S, n, state->p, 1, 1.0, slip,
+                1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, lcp->B_inverse, n, slip, 1, 0.0,
+                state->q, 1);
+}
+
+void rb_rolling_lcp_recover(const rb_rolling_problem *p, const rb_rolling_lcp *lcp,
+                            const double *z, rb_rolling_state *state)
+{
+    const int n = p->n;
+
+    state->delta = lcp->delta0;
+    if (p->load_given)
+        state->delta += lcp->z_scale[delta_column(p)] * z[delta_column(p)];
+    state->xi = p->xi;
+    if (p->force_given)
+        state->xi =
+            lcp->xi0 + xi_direction(lcp) * lcp->z_scale[xi_column(p)] * z[xi_column(p)];
+    for (int i = 0; i < n; i++)
+        state->p[i] = lcp->z_scale[i] * z[i];
+    if (lcp->form == RB_LCP_KWAK)
+        kwak_recover_traction(p, lcp, z, state);
+    else
+        for (int i = 0; i < n; i++)
+            state->q[i] =
+                orientation(lcp) * (lcp->z_scale[n + i] * z[n + i] - p->mu * state->p[i]);
+    state->lcp_form = lcp->form;
+}

@@ -1,0 +1,218 @@
+/* From a case to a solved contact problem: the choice of the potential contact, the
+ * fitted mesh, the given ratios. */
+#include "rolling/internal.h"
+
+#include <cblas.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ZONE_ROUNDS = 12, SEPARATED_AT_END = 3, FIT_ROUNDS = 4, RATIO_ROUNDS = 40 };
+
+void rb_rolling_model_free(rb_rolling_model *model)
+{
+    rb_rolling_state_free(&model->state);
+    rb_rolling_problem_free(&model->problem);
+    rb_rolling_bodies_free(&model->bodies);
+    rb_rolling_mesh_free(&model->mesh);
+    memset(model, 0, sizeof *model);
+}
+
+double rb_rolling_model_load(const rb_rolling_model *model)
+{
+    const rb_rolling_problem *p = &model->problem;
+    return cblas_ddot(p->n, p->load_N, 1, model->state.p, 1) +
+           cblas_ddot(p->n, p->load_T, 1, model->state.q, 1);
+}
+
+static rb_status timed_solve(rb_rolling_model *model, rb_message *why)
+{
+    const double start = rb_seconds();
+    const rb_status s =
+        rb_rolling_problem_solve(&model->problem, &model->rc, &model->state, why);
+
+    model->seconds_lcp += rb_seconds() - start;
+    model->iterations += model->state.iterations;
+    if (s >= 0)
+        model->half_width = rb_rolling_hertz_half_width(
+            &model->rc, fmax(0.0, rb_rolling_model_load(model)));
+    return s;
+}
+
+/* A given creepage ratio refers to the load, which approach control only finds: iterate.
+ */
+static rb_status solve_ratio(rb_rolling_model *model, rb_message *why)
+{
+    const rb_rolling_case *rc = &model->rc;
+    rb_status s = timed_solve(model, why);
+
+    if (isnan(rc->creep_ratio) || rc->formulation == RB_STATIC ||
+        model->problem.load_given)
+        return s;
+    for (int k = 0; k < RATIO_ROUNDS && s == RB_OK; k++) {
+        const double xi =
+            rc->creep_ratio * rc->mu * model->half_width / rb_rolling_radius(rc);
+        if (fabs(xi - model->problem.xi) <= 1e-13 * fabs(xi))
+            break;
+        model->problem.xi = xi;
+        s = timed_solve(model, why);
+    }
+    return s;
+}
+
+/* Takes over the mesh, builds the bodies on it and solves. */
+static rb_status build_and_solve(rb_rolling_model *model, rb_rolling_mesh *mesh,
+                                 rb_message *why)
+{
+    rb_rolling_state_free(&model->state);
+    rb_rolling_problem_free(&model->problem);
+    rb_rolling_bodies_free(&model->bodies);
+    rb_rolling_mesh_free(&model->mesh);
+    model->mesh = *mesh;
+    memset(mesh, 0, sizeof *mesh);
+    rb_status s = rb_rolling_bodies_create(&model->rc, &model->mesh, &model->bodies, why);
+    if (s == RB_OK)
+        s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL, 0.0,
+                                      &model->problem, why);
+    if (s == RB_OK)
+        s = rb_rolling_state_alloc(model->mesh.n, &model->state);
+    return s == RB_OK ? solve_ratio(model, why) : s;
+}
+
+static rb_status solve_uniform(rb_rolling_model *model, double zone, rb_message *why)
+{
+    rb_rolling_mesh mesh;
+    const rb_status s = rb_rolling_mesh_uniform(&model->rc, -zone, zone, &mesh, why);
+    return s == RB_OK ? build_and_solve(model, &mesh, why) : s;
+}
+
+/* Elements without contact at the emptier of the two ends; n if there is no contact. */
+static int separated_at_ends(const rb_rolling_state *state)
+{
+    int left = 0, right = 0;
+
+    while (left < state->n && state->zone[left] == RB_ZONE_SEPARATED)
+        left++;
+    while (right < state->n - left &&
+           state->zone[state->n - 1 - right] == RB_ZONE_SEPARATED)
+        right++;
+    return left == state->n ? state->n : left < right ? left : right;
+}
+
+static double widest_zone(const rb_rolling_case *rc)
+{
+    return 0.95 * fmin(rc->a.radius, rc->b.radius);
+}
+
+/* Grows the potential contact until three separated elements stand at each end, and
+ * tightens it when the contact turns out to fill less than two thirds of it. */
+static rb_status solve_automatic_zone(rb_rolling_model *model, rb_message *why)
+{
+    const double widest = widest_zone(&model->rc);
+    double zone = fmin(1.3 * rb_rolling_estimate_half_width(&model->rc), widest);
+    double too_narrow = 0.0;
+    rb_status s = RB_OK;
+
+    for (int round = 0; round < ZONE_ROUNDS; round++) {
+        s = solve_uniform(model, zone, why);
+        if (s < 0)
+            return s;
+        const int separated = separated_at_ends(&model->state);
+        double from, to;
+        if (separated == model->state.n && model->problem.load_given == 0)
+            return s;
+        if (separated < SEPARATED_AT_END) {
+            too_narrow = zone;
+            if (zone >= widest)
+                return rb_fail(why, RB_ZONE,
+                               "the contact does not end within %g of the lowest point",
+                               zone);
+            zone = fmin(1.3 * zone, widest);
+            continue;
+        }
+        rb_rolling_contact_edges(&model->mesh, model->state.p, &from, &to);
+        const double wanted = 1.25 * fmax(fabs(from), fabs(to));
+        if (zone < 1.25 * wanted || wanted <= too_narrow)
+            return s;
+        zone = wanted;
+    }
+    return s;
+}
+
+/* A potential contact that fills is no potential contact: says how wide it should be. */
+static rb_status solve_given_zone(rb_rolling_model *model, rb_message *why)
+{
+    const rb_status s = solve_uniform(model, model->rc.zone, why);
+
+    if (s < 0 || separated_at_ends(&model->state) > 0)
+        return s;
+    rb_rolling_case free_zone = model->rc;
+    rb_rolling_model wider = {0};
+    free_zone.zone = 0.0;
+    const rb_status t = rb_rolling_model_create(&free_zone, &wider, NULL);
+    double wanted = 1.3 * model->rc.zone;
+    if (t == RB_OK)
+        wanted = fmax(fabs(wider.mesh.ends[0]), wider.mesh.ends[wider.mesh.n]);
+    rb_rolling_model_free(&wider);
+    return rb_fail(
+        why, RB_ZONE,
+        "zone: the contact fills the potential contact of half-width %g; widen it "
+        "to %.4g or leave it out",
+        model->rc.zone, wanted);
+}
+
+/* theory.md 5.1: from a uniform solution to elements fitted to its edges, until these
+ * move by less than a tenth of the smallest element. */
+static rb_status fit(rb_rolling_model *model, rb_message *why)
+{
+    rb_status s = RB_OK;
+    double from, to, old_from = INFINITY, old_to = INFINITY;
+
+    for (int round = 0; round < FIT_ROUNDS && s == RB_OK; round++) {
+        rb_rolling_mesh mesh;
+        rb_rolling_contact_edges(&model->mesh, model->state.p, &from, &to);
+        const double h = model->mesh.ends[7] - model->mesh.ends[6];
+        if (fabs(from - old_from) < 0.1 * h && fabs(to - old_to) < 0.1 * h)
+            break;
+        s = rb_rolling_mesh_fitted(&model->rc, from, to, &mesh, why);
+        if (s == RB_OK)
+            s = build_and_solve(model, &mesh, why);
+        old_from = from;
+        old_to = to;
+    }
+    return s;
+}
+
+rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
+                                  rb_message *why)
+{
+    memset(model, 0, sizeof *model);
+    model->rc = *rc;
+    rb_status s = rb_rolling_case_check(rc, why);
+    if (s == RB_OK)
+        s = rc->zone > 0.0 ? solve_given_zone(model, why)
+                           : solve_automatic_zone(model, why);
+    if (s >= 0 && separated_at_ends(&model->state) == model->state.n)
+        s = rb_fail(why, RB_NO_CONTACT, "no contact: the bodies do not touch");
+    if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
+        s = fit(model, why);
+    return s;
+}
+
+rb_status rb_rolling_free_creepage(const rb_rolling_model *model, double *creepage,
+                                   rb_message *why)
+{
+    rb_rolling_problem problem = model->problem; /* arrays stay the model's */
+    rb_rolling_state state;
+    rb_status s = rb_rolling_state_alloc(problem.n, &state);
+
+    *creepage = NAN;
+    if (s != RB_OK)
+        return s;
+    problem.force_given = 1;
+    problem.force = problem.force_ratio = 0.0;
+    s = rb_rolling_problem_solve(&problem, &model->rc, &state, why);
+    if (s == RB_OK)
+        *creepage = state.xi;
+    rb_rolling_state_free(&state);
+    return s;
+}

@@ -1,0 +1,158 @@
+#include "rolling/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void rb_rolling_problem_free(rb_rolling_problem *p)
+{
+    free(p->S);
+    free(p->d_N);
+    free(p->d_T);
+    free(p->e_T);
+    free(p->load_N);
+    free(p->load_T);
+    free(p->force_N);
+    free(p->force_T);
+    memset(p, 0, sizeof *p);
+}
+
+static rb_status problem_alloc(int n, rb_rolling_problem *p)
+{
+    double **const vectors[] = {&p->d_N,    &p->d_T,     &p->e_T,    &p->load_N,
+                                &p->load_T, &p->force_N, &p->force_T};
+    int complete = 1;
+
+    memset(p, 0, sizeof *p);
+    p->n = n;
+    p->S = rb_alloc((size_t)n, 2 * (size_t)n);
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++) {
+        *vectors[k] = rb_alloc((size_t)n, 1);
+        complete = complete && *vectors[k];
+    }
+    if (p->S && complete)
+        return RB_OK;
+    rb_rolling_problem_free(p);
+    return RB_ENOMEM;
+}
+
+/* A w for the tangential displacement w (m values) of theory.md 4.2: w itself, or what a
+ * particle gains on its way from the element upstream (towards +x). */
+static double kinematic(rb_rolling_formulation formulation, const double *w, int i)
+{
+    return formulation == RB_STEADY ? w[i] - w[i + 1] : w[i];
+}
+
+/* The one function that knows the formulation: S = A [F_TN F_TT], d_T, e_T (K2). */
+static void set_kinematics(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                           const rb_rolling_past *past, double step,
+                           rb_rolling_problem *p)
+{
+    const int n = p->n, m = n + 1;
+    const double *x = bodies->f.x, *w0_T = bodies->f.w0 + m;
+
+    for (int j = 0; j < 2 * n; j++) {
+        const double *w_T = bodies->F + (size_t)j * 2 * (size_t)m + m;
+        for (int i = 0; i < n; i++)
+            p->S[i + (size_t)j * n] = kinematic(rc->formulation, w_T, i);
+    }
+    for (int i = 0; i < n; i++) {
+        p->d_T[i] = kinematic(rc->formulation, w0_T, i);
+        if (past)
+            p->d_T[i] -= past->w_T[i];
+        p->e_T[i] = rc->formulation == RB_STEADY      ? x[i + 1] - x[i]
+                    : rc->formulation == RB_TRANSIENT ? step
+                                                      : 1.0;
+    }
+}
+
+/* Vertical and horizontal force of unit tractions along n and t. */
+static void set_weights(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                        rb_rolling_problem *p)
+{
+    for (int i = 0; i < p->n; i++) {
+        const double h = bodies->f.h[i];
+        const double sine =
+            rc->normals == RB_BEM_NORMALS_SURFACE ? bodies->f.x[i] / rc->a.radius : 0.0;
+        const double cosine = sqrt(1.0 - sine * sine);
+        p->load_N[i] = h * cosine;
+        p->load_T[i] = h * sine;
+        p->force_N[i] = -h * sine;
+        p->force_T[i] = h * cosine;
+    }
+}
+
+/* Given values of theory.md 4.6.  The creepage ratio refers to the Hertz half-width of
+ * the load: under approach control an estimate, which model.c corrects after a solve. */
+static void set_control(const rb_rolling_case *rc, rb_rolling_problem *p)
+{
+    const double P = rb_rolling_wanted_load(rc);
+    const double a = rb_rolling_estimate_half_width(rc);
+    const double R = rb_rolling_radius(rc);
+
+    p->load_given = !isnan(P);
+    p->load = P;
+    p->delta = rb_rolling_wanted_approach(rc);
+    p->force_given = rc->mu > 0.0 && (!isnan(rc->force) || !isnan(rc->force_ratio));
+    if (p->force_given && !isnan(rc->force_ratio))
+        p->force_ratio = rc->force_ratio;
+    else if (p->force_given && p->load_given)
+        p->force_ratio = rc->force / (rc->mu * P);
+    else if (p->force_given)
+        p->force = rc->force;
+    else if (rc->formulation == RB_STATIC)
+        p->xi = !isnan(rc->shift) ? rc->shift : p->load_given ? 0.0 : 0.1 * p->delta;
+    else if (!isnan(rc->creep_ratio))
+        p->xi = rc->creep_ratio * rc->mu * a / R;
+    else
+        p->xi = isnan(rc->creep) ? 0.0 : rc->creep;
+}
+
+void rb_rolling_force_row(const rb_rolling_problem *p, double *control_N,
+                          double *control_T)
+{
+    for (int i = 0; i < p->n; i++) {
+        control_N[i] = p->force_N[i] - p->force_ratio * p->mu * p->load_N[i];
+        control_T[i] = p->force_T[i] - p->force_ratio * p->mu * p->load_T[i];
+    }
+}
+
+static double mean_diagonal(int n, const double *M, size_t ld)
+{
+    double sum = 0.0;
+    for (int i = 0; i < n; i++)
+        sum += fabs(M[i + (size_t)i * ld]);
+    return sum / n;
+}
+
+/* Stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become about 1. */
+static void set_scales(const rb_rolling_case *rc, rb_rolling_problem *p)
+{
+    const double a = rb_rolling_estimate_half_width(rc);
+
+    p->stress = rb_rolling_contact_modulus(rc) * a / (2.0 * rb_rolling_radius(rc));
+    p->gap_length = p->stress * mean_diagonal(p->n, p->F, (size_t)p->ldf);
+    p->slip_length = (p->mu > 0.0 ? p->mu : 1.0) * p->stress *
+                     mean_diagonal(p->n, p->S + (size_t)p->n * p->n, (size_t)p->n);
+}
+
+rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
+                                    const rb_rolling_mesh *mesh,
+                                    const rb_rolling_bodies *bodies,
+                                    const rb_rolling_past *past, double step,
+                                    rb_rolling_problem *p, rb_message *why)
+{
+    const rb_status s = problem_alloc(mesh->n, p);
+
+    if (s != RB_OK)
+        return rb_fail(why, s, "no memory for a contact problem of %d elements", mesh->n);
+    p->mu = rc->mu;
+    p->F = bodies->F;
+    p->ldf = 2 * bodies->f.m;
+    for (int i = 0; i < p->n; i++)
+        p->d_N[i] = mesh->gap[i] + bodies->f.w0[i];
+    set_kinematics(rc, bodies, past, step, p);
+    set_weights(rc, bodies, p);
+    set_control(rc, p);
+    set_scales(rc, p);
+    return RB_OK;
+}

@@ -1,0 +1,155 @@
+#include "rolling/internal.h"
+
+#include <cblas.h>
+#include <stdlib.h>
+#include <string.h>
+
+rb_status rb_rolling_state_alloc(int n, rb_rolling_state *state)
+{
+    memset(state, 0, sizeof *state);
+    state->n = n;
+    state->p = rb_alloc((size_t)n, 1);
+    state->q = rb_alloc((size_t)n, 1);
+    state->lambda = rb_alloc((size_t)n, 1);
+    state->zone = rb_alloc_int((size_t)n);
+    if (state->p && state->q && state->lambda && state->zone)
+        return RB_OK;
+    rb_rolling_state_free(state);
+    return RB_ENOMEM;
+}
+
+void rb_rolling_state_free(rb_rolling_state *state)
+{
+    free(state->p);
+    free(state->q);
+    free(state->lambda);
+    free(state->zone);
+    memset(state, 0, sizeof *state);
+}
+
+void rb_rolling_kinematics(const rb_rolling_problem *problem,
+                           const rb_rolling_state *state, double *gap, double *lambda)
+{
+    const int n = problem->n;
+    const size_t half = (size_t)n;
+
+    for (int i = 0; i < n; i++) {
+        gap[i] = problem->d_N[i] - state->delta;
+        lambda[i] = problem->d_T[i] + state->xi * problem->e_T[i];
+    }
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, problem->F, problem->ldf,
+                state->p, 1, 1.0, gap, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0,
+                problem->F + half * (size_t)problem->ldf, problem->ldf, state->q, 1, 1.0,
+                gap, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, problem->S, n, state->p, 1, 1.0,
+                lambda, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, problem->S + half * half, n,
+                state->q, 1, 1.0, lambda, 1);
+}
+
+/* Coulomb's law in natural form: min(lambda+, gamma+) and min(lambda-, gamma-), with
+ * gamma+- = mu p +- q (K3); the larger, for scaled arguments. */
+static double friction_violation(double lambda, double gamma_plus, double gamma_minus)
+{
+    const double plus = fmin(fmax(lambda, 0.0), gamma_plus);
+    const double minus = fmin(fmax(-lambda, 0.0), gamma_minus);
+    return fmax(fabs(plus), fabs(minus));
+}
+
+/* The friction bound scales with mu, but not below what rounding of p leaves of it. */
+static double friction_scale(const rb_rolling_problem *problem)
+{
+    return problem->mu > 0.0 ? problem->mu * problem->stress : problem->stress;
+}
+
+static double weighted_sum(int n, const double *a, const double *x, const double *b,
+                           const double *y)
+{
+    return cblas_ddot(n, a, 1, x, 1) + cblas_ddot(n, b, 1, y, 1);
+}
+
+/* Given load and force, relative to themselves. */
+static double control_violation(const rb_rolling_problem *p,
+                                const rb_rolling_state *state)
+{
+    double worst = 0.0;
+
+    if (p->load_given) {
+        const double P = weighted_sum(p->n, p->load_N, state->p, p->load_T, state->q);
+        worst = fabs(P - p->load) / p->load;
+    }
+    if (p->force_given) {
+        const double P = weighted_sum(p->n, p->load_N, state->p, p->load_T, state->q);
+        const double Q = weighted_sum(p->n, p->force_N, state->p, p->force_T, state->q);
+        const double wanted = p->force + p->force_ratio * p->mu * P;
+        worst = fmax(worst, fabs(Q - wanted) / (p->mu * P));
+    }
+    return worst;
+}
+
+double rb_rolling_residual(const rb_rolling_problem *problem,
+                           const rb_rolling_state *state, double *gap, double *slip,
+                           double *friction)
+{
+    const int n = problem->n;
+    const double tangential = friction_scale(problem);
+    double worst = control_violation(problem, state);
+    double *y = rb_alloc((size_t)n, 2), *lambda = y + n;
+
+    if (!y)
+        return INFINITY;
+    rb_rolling_kinematics(problem, state, y, lambda);
+    double worst_gap = 0.0, worst_slip = 0.0, worst_friction = 0.0;
+    for (int i = 0; i < n; i++) {
+        const double gamma_plus = problem->mu * state->p[i] + state->q[i];
+        const double gamma_minus = problem->mu * state->p[i] - state->q[i];
+        const double contact =
+            fabs(fmin(y[i] / problem->gap_length, state->p[i] / problem->stress));
+        const double coulomb =
+            friction_violation(lambda[i] / problem->slip_length, gamma_plus / tangential,
+                               gamma_minus / tangential);
+        worst = fmax(worst, fmax(contact, coulomb));
+        worst_gap = fmax(worst_gap, contact * problem->gap_length);
+        worst_slip = fmax(worst_slip, coulomb * problem->slip_length);
+        worst_friction = fmax(worst_friction, fmax(0.0, -fmin(gamma_plus, gamma_minus)));
+        if (isnan(state->p[i]) || isnan(state->q[i]))
+            worst = INFINITY;
+    }
+    free(y);
+    if (gap)
+        *gap = worst_gap;
+    if (slip)
+        *slip = worst_slip;
+    if (friction)
+        *friction = worst_friction;
+    return isfinite(state->delta) && isfinite(state->xi) ? worst : INFINITY;
+}
+
+static rb_rolling_zone zone_of(double p, double lambda, double gamma_plus,
+                               double gamma_minus, int frictionless)
+{
+    if (!(p > 0.0))
+        return RB_ZONE_SEPARATED;
+    if (frictionless)
+        return lambda >= 0.0 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_SLIP_POSITIVE;
+    if (lambda > gamma_plus)
+        return RB_ZONE_SLIP_NEGATIVE;
+    if (-lambda > gamma_minus)
+        return RB_ZONE_SLIP_POSITIVE;
+    return RB_ZONE_STICK;
+}
+
+void rb_rolling_classify(const rb_rolling_problem *problem, double tol,
+                         rb_rolling_state *state)
+{
+    const double tangential = friction_scale(problem);
+
+    for (int i = 0; i < problem->n; i++) {
+        const double limit = problem->mu * state->p[i];
+        state->zone[i] = zone_of(state->p[i] / problem->stress - tol,
+                                 state->lambda[i] / problem->slip_length,
+                                 (limit + state->q[i]) / tangential,
+                                 (limit - state->q[i]) / tangential, problem->mu == 0.0);
+    }
+}

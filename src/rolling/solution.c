@@ -1,0 +1,328 @@
+#include "rolling/internal.h"
+
+#include <cblas.h>
+#include <stdlib.h>
+#include <string.h>
+
+static double squared(double x)
+{
+    return x * x;
+}
+
+void rb_rolling_solution_free(rb_rolling_solution *s)
+{
+    double *const arrays[] = {s->x,  s->h,  s->gap,   s->p,   s->q,
+                              s->un, s->ut, s->shift, s->slip};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
+        free(arrays[k]);
+    free(s->zone);
+    memset(s, 0, sizeof *s);
+}
+
+static rb_status solution_alloc(int n, rb_rolling_solution *s)
+{
+    double **const arrays[] = {&s->x,  &s->h,  &s->gap,   &s->p,   &s->q,
+                               &s->un, &s->ut, &s->shift, &s->slip};
+    int complete = 1;
+
+    memset(s, 0, sizeof *s);
+    s->n = n;
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
+        *arrays[k] = rb_alloc((size_t)n, 1);
+        complete = complete && *arrays[k];
+    }
+    s->zone = rb_alloc_int((size_t)n);
+    return complete && s->zone ? RB_OK : RB_ENOMEM;
+}
+
+/* ---- Scalars of the traction distribution ---------------------------------------------
+ */
+
+static double midpoint(const rb_rolling_mesh *mesh, int i)
+{
+    return 0.5 * (mesh->ends[i] + mesh->ends[i + 1]);
+}
+
+/* Where the straight line of p^2 through elements i (inner) and j crosses zero.  The
+ * outermost element is only partly in contact and left out. */
+static double extrapolated_edge(const rb_rolling_mesh *mesh, const double *p, int i,
+                                int j)
+{
+    const double xi = midpoint(mesh, i), xj = midpoint(mesh, j);
+    return xj - squared(p[j]) * (xj - xi) / (squared(p[j]) - squared(p[i]));
+}
+
+void rb_rolling_contact_edges(const rb_rolling_mesh *mesh, const double *p, double *from,
+                              double *to)
+{
+    int first = 0, last = mesh->n - 1;
+
+    *from = *to = NAN;
+    while (first < mesh->n && p[first] <= 0.0)
+        first++;
+    if (first == mesh->n)
+        return;
+    while (p[last] <= 0.0)
+        last--;
+    *from = mesh->ends[first];
+    *to = mesh->ends[last + 1];
+    if (last - first < 4)
+        return;
+    if (p[first + 2] > p[first + 1])
+        *from = extrapolated_edge(mesh, p, first + 2, first + 1);
+    if (p[last - 2] > p[last - 1])
+        *to = extrapolated_edge(mesh, p, last - 2, last - 1);
+}
+
+/* Vertex of the parabola of p^2 through the largest element and its neighbours: exact for
+ * Hertz's ellipse. */
+static double peak_pressure(const rb_rolling_mesh *mesh, const double *p)
+{
+    const int k = (int)cblas_idamax(mesh->n, p, 1);
+    if (k == 0 || k == mesh->n - 1)
+        return p[k];
+    const double dl = midpoint(mesh, k - 1) - midpoint(mesh, k);
+    const double dr = midpoint(mesh, k + 1) - midpoint(mesh, k);
+    const double fl = squared(p[k - 1]) - squared(p[k]),
+                 fr = squared(p[k + 1]) - squared(p[k]);
+    const double curvature = (fl / dl - fr / dr) / (dl - dr);
+    const double gradient = fl / dl - curvature * dl;
+    if (!(curvature < 0.0))
+        return p[k];
+    return sqrt(squared(p[k]) - squared(gradient) / (4.0 * curvature));
+}
+
+static void set_stick_limits(const rb_rolling_mesh *mesh, rb_rolling_solution *s)
+{
+    s->stick_from = s->stick_to = NAN;
+    for (int i = 0; i < s->n; i++) {
+        s->contact += s->zone[i] != RB_ZONE_SEPARATED;
+        s->slipping += s->zone[i] > RB_ZONE_STICK;
+        if (s->zone[i] != RB_ZONE_STICK)
+            continue;
+        s->stick++;
+        if (isnan(s->stick_from))
+            s->stick_from = mesh->ends[i];
+        s->stick_to = mesh->ends[i + 1];
+    }
+}
+
+/* ---- Slip
+ * ------------------------------------------------------------------------------ */
+
+/* static: (12) with sgn(V) = -1, from the creepage of the case and the strain upstream;
+ * otherwise the slip of the solution itself. */
+static void set_slip(const rb_rolling_model *model, const double *w_T,
+                     rb_rolling_solution *s)
+{
+    const double *x = model->bodies.f.x;
+
+    for (int i = 0; i < s->n; i++)
+        s->slip[i] = s->formulation == RB_STATIC
+                         ? s->creepage - (w_T[i + 1] - w_T[i]) / (x[i + 1] - x[i])
+                     : s->formulation == RB_STEADY ? s->shift[i] / (x[i + 1] - x[i])
+                                                   : s->shift[i] / model->problem.e_T[i];
+}
+
+/* Coulomb's law between the printed slip and the printed tractions: in stick no slip, in
+ * slip the friction against it. */
+static int count_violations(const rb_rolling_model *model, const rb_rolling_solution *s)
+{
+    const double small = 1e-9 * model->problem.slip_length / s->h[s->n / 2];
+    int violations = 0;
+
+    for (int i = 0; i < s->n; i++) {
+        const double slip = fabs(s->slip[i]) > small ? s->slip[i] : 0.0;
+        violations += s->zone[i] == RB_ZONE_STICK           ? slip != 0.0
+                      : s->zone[i] == RB_ZONE_SLIP_NEGATIVE ? slip < 0.0
+                      : s->zone[i] == RB_ZONE_SLIP_POSITIVE ? slip > 0.0
+                                                            : 0;
+    }
+    return violations;
+}
+
+/* Power per unit speed (theory.md 6): the slip of a steady state lives between midpoints,
+ * so it meets the mean of the two tractions. */
+static double dissipated_power(const rb_rolling_solution *s)
+{
+    double power = 0.0;
+
+    if (s->formulation == RB_STATIC)
+        return NAN;
+    for (int i = 0; i < s->n; i++) {
+        const double next = i + 1 < s->n ? s->q[i + 1] : 0.0;
+        power -= s->formulation == RB_STEADY ? s->shift[i] * 0.5 * (s->q[i] + next)
+                                             : s->slip[i] * s->q[i] * s->h[i];
+    }
+    return power;
+}
+
+/* ---- Forces
+ * ----------------------------------------------------------------------------- */
+
+/* Vertical reaction of the support against the load, from the tractions that hold the
+ * body; NAN for a half-plane. */
+static rb_status support_balance(const rb_rolling_model *model, double load,
+                                 double *balance)
+{
+    const rb_bem_system *system = model->bodies.system_a;
+
+    *balance = NAN;
+    if (!system)
+        return RB_OK;
+    const rb_bem_mesh *mesh = rb_bem_system_mesh(system);
+    const int n = model->problem.n;
+    double *t_c = rb_alloc(2 * (size_t)n, 1), *u = rb_alloc(2 * (size_t)mesh->n, 1),
+           *t = rb_alloc(2 * (size_t)mesh->n, 1);
+    rb_status s = t_c && u && t ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK) {
+        for (int i = 0; i < n; i++) {
+            const double h = model->bodies.f.h[i];
+            const double c = model->problem.load_N[i] / h,
+                         d = model->problem.load_T[i] / h;
+            t_c[2 * i] = c * model->state.q[i] - d * model->state.p[i];
+            t_c[2 * i + 1] = c * model->state.p[i] + d * model->state.q[i];
+        }
+        s = rb_bem_system_solve(system, t_c, u, t);
+    }
+    if (s == RB_OK) {
+        double reaction = 0.0;
+        for (int j = 0; j < mesh->n; j++)
+            if (mesh->condition[2 * j + 1] == RB_BEM_DISPLACEMENT)
+                reaction += t[2 * j + 1] *
+                            hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+        *balance = (reaction + load) / load;
+    }
+    free(t_c);
+    free(u);
+    free(t);
+    return s;
+}
+
+static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
+{
+    const rb_rolling_problem *p = &model->problem;
+    const double R = rb_rolling_radius(&model->rc), mu = model->rc.mu;
+
+    s->normal_load = rb_rolling_model_load(model);
+    s->tangential_load = cblas_ddot(p->n, p->force_N, 1, s->p, 1) +
+                         cblas_ddot(p->n, p->force_T, 1, s->q, 1);
+    s->load_error = p->load_given ? fabs(s->normal_load - p->load) / p->load : NAN;
+    s->hertz_half_width = model->half_width;
+    s->approach = model->state.delta;
+    if (s->formulation == RB_STATIC) {
+        const rb_rolling_case *rc = &model->rc;
+        s->tangential_shift = model->state.xi;
+        s->creepage = !isnan(rc->creep) ? rc->creep
+                      : !isnan(rc->creep_ratio)
+                          ? rc->creep_ratio * mu * s->hertz_half_width / R
+                          : 0.0;
+    } else {
+        s->tangential_shift = NAN;
+        s->creepage = model->state.xi;
+    }
+    s->force_ratio = mu > 0.0 ? s->tangential_load / (mu * s->normal_load) : NAN;
+    s->creep_ratio = mu > 0.0 ? s->creepage * R / (mu * s->hertz_half_width) : NAN;
+}
+
+/* ---- All together
+ * ------------------------------------------------------------------------ */
+
+static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s)
+{
+    const int n = s->n, m = n + 1;
+    const rb_rolling_state *state = &model->state;
+    double *r = rb_alloc(2 * (size_t)n, 1), *w = rb_alloc(2 * (size_t)m, 1);
+
+    if (!r || !w) {
+        free(r);
+        free(w);
+        return RB_ENOMEM;
+    }
+    memcpy(s->x, model->bodies.f.x, (size_t)n * sizeof(double));
+    memcpy(s->h, model->bodies.f.h, (size_t)n * sizeof(double));
+    memcpy(s->p, state->p, (size_t)n * sizeof(double));
+    memcpy(s->q, state->q, (size_t)n * sizeof(double));
+    memcpy(s->shift, state->lambda, (size_t)n * sizeof(double));
+    memcpy(s->zone, state->zone, (size_t)n * sizeof(int));
+    rb_rolling_kinematics(&model->problem, state, s->gap, s->slip);
+    memcpy(r, s->p, (size_t)n * sizeof(double));
+    memcpy(r + n, s->q, (size_t)n * sizeof(double));
+    cblas_dcopy(2 * m, model->bodies.f.w0, 1, w, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, 2 * m, 2 * n, 1.0, model->bodies.F, 2 * m, r,
+                1, 1.0, w, 1);
+    memcpy(s->un, w, (size_t)n * sizeof(double));
+    memcpy(s->ut, w + m, (size_t)n * sizeof(double));
+    set_slip(model, w + m, s);
+    free(r);
+    free(w);
+    return RB_OK;
+}
+
+static void set_proof(const rb_rolling_model *model, rb_rolling_solution *s)
+{
+    const rb_rolling_state *state = &model->state;
+
+    s->status = state->status;
+    s->solver = state->solver;
+    s->lcp_form = state->lcp_form;
+    s->iterations = model->iterations;
+    s->residual = rb_rolling_residual(&model->problem, state, &s->residual_gap,
+                                      &s->residual_slip, &s->residual_friction);
+    s->seconds_assembly = model->bodies.seconds_assembly;
+    s->seconds_factor = model->bodies.seconds_factor;
+    s->seconds_condense = model->bodies.seconds_condense;
+    s->seconds_lcp = model->seconds_lcp;
+}
+
+rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_solution *s,
+                                    rb_message *why)
+{
+    rb_status status = solution_alloc(model->mesh.n, s);
+
+    if (status == RB_OK) {
+        s->formulation = model->rc.formulation;
+        set_proof(model, s);
+        s->free_creepage = NAN;
+        memcpy(s->p, model->state.p, (size_t)s->n * sizeof(double));
+        memcpy(s->q, model->state.q, (size_t)s->n * sizeof(double));
+        set_forces(model, s);
+        status = set_table(model, s);
+    }
+    if (status == RB_OK)
+        status = support_balance(model, s->normal_load, &s->support_balance);
+    if (status != RB_OK) {
+        rb_rolling_solution_free(s);
+        return rb_fail(why, status, "no memory for a solution of %d elements",
+                       model->mesh.n);
+    }
+    set_stick_limits(&model->mesh, s);
+    s->max_pressure = peak_pressure(&model->mesh, s->p);
+    rb_rolling_contact_edges(&model->mesh, s->p, &s->contact_from, &s->contact_to);
+    s->half_width = 0.5 * (s->contact_to - s->contact_from);
+    s->slip_violations = count_violations(model, s);
+    s->dissipation = dissipated_power(s);
+    return RB_OK;
+}
+
+rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
+                           rb_message *why)
+{
+    const double start = rb_seconds();
+    rb_rolling_model model;
+    rb_status s = rb_rolling_model_create(rc, &model, why);
+
+    memset(solution, 0, sizeof *solution);
+    if (s >= 0 && model.state.p) {
+        const rb_status t = rb_rolling_model_solution(&model, solution, why);
+        if (t != RB_OK)
+            s = t;
+    }
+    if (s == RB_OK && rc->formulation == RB_STEADY && rc->mu > 0.0)
+        s = rb_rolling_free_creepage(&model, &solution->free_creepage, why);
+    if (s >= 0)
+        solution->status = s;
+    solution->seconds_total = rb_seconds() - start;
+    rb_rolling_model_free(&model);
+    return s;
+}

@@ -1,0 +1,129 @@
+/* The order of attempts: pivoted form in its own orientation, mirrored, Kwak's form. */
+#include "rolling/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A creepage that makes everything slide, to start a search for a given force from. */
+static double sliding_creepage(const rb_rolling_case *rc, const rb_rolling_problem *p)
+{
+    const double a = rb_rolling_estimate_half_width(rc), R = rb_rolling_radius(rc);
+    const double beta = fabs(rb_rolling_dundurs(rc));
+    const double ratio = (rc->mu + 2.0 * beta * (1.0 + rc->mu * rc->mu)) * a / R;
+
+    return rc->formulation == RB_STEADY ? 2.0 * ratio : 4.0 * ratio * a / p->e_T[0];
+}
+
+/* Polishes a solution by one solve with its zones, when that makes it better. */
+static void polish(const rb_rolling_problem *problem, rb_rolling_state *state,
+                   rb_rolling_state *trial)
+{
+    const size_t bytes = (size_t)problem->n * sizeof(double);
+
+    memcpy(trial->zone, state->zone, (size_t)problem->n * sizeof(int));
+    if (rb_rolling_solve_zones(problem, trial) != RB_OK)
+        return;
+    trial->residual = rb_rolling_residual(problem, trial, NULL, NULL, NULL);
+    if (!(trial->residual < state->residual))
+        return;
+    memcpy(state->p, trial->p, bytes);
+    memcpy(state->q, trial->q, bytes);
+    state->delta = trial->delta;
+    state->xi = trial->xi;
+    state->residual = trial->residual;
+}
+
+/* lambda, zones and residual of p, q, delta, xi. */
+static rb_status complete(const rb_rolling_problem *problem, rb_rolling_state *state)
+{
+    double *gap = rb_alloc((size_t)problem->n, 1);
+    rb_rolling_state trial;
+    rb_status s = rb_rolling_state_alloc(problem->n, &trial);
+
+    if (s == RB_OK && !gap)
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        state->residual = rb_rolling_residual(problem, state, NULL, NULL, NULL);
+        rb_rolling_kinematics(problem, state, gap, state->lambda);
+        rb_rolling_classify(problem, 1e-12, state);
+        polish(problem, state, &trial);
+        rb_rolling_kinematics(problem, state, gap, state->lambda);
+        for (int i = 0; i < problem->n; i++)
+            if (state->zone[i] == RB_ZONE_STICK)
+                state->lambda[i] = 0.0;
+    }
+    free(gap);
+    rb_rolling_state_free(&trial);
+    return s;
+}
+
+typedef struct {
+    rb_rolling_lcp_form form;
+    int mirrored;
+    double xi0;
+} attempt;
+
+static rb_status try_lemke(const rb_rolling_problem *problem, const attempt *at,
+                           rb_rolling_state *state, rb_message *why)
+{
+    rb_rolling_lcp lcp = {0};
+    rb_lcp_info info = {0};
+    rb_status s =
+        rb_rolling_lcp_create(problem, at->form, at->mirrored, at->xi0, &lcp, why);
+    double *z = s == RB_OK ? rb_alloc((size_t)lcp.size, 1) : NULL;
+
+    if (s == RB_OK && !z)
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        s = rb_lcp_lemke(lcp.size, lcp.M, lcp.size, lcp.b, NULL, z, &info);
+        state->iterations += info.iters;
+        if (s < 0)
+            rb_fail(why, s, "%s", info.msg.text);
+    }
+    if (s >= 0) {
+        rb_rolling_lcp_recover(problem, &lcp, z, state);
+        state->solver = RB_SOLVER_LEMKE;
+        const rb_status t = complete(problem, state);
+        s = t < 0 ? t : s;
+    }
+    free(z);
+    rb_rolling_lcp_free(&lcp);
+    return s;
+}
+
+/* Direction in which A's surface slides, of the given creepage or against the force. */
+static int slides_backwards(const rb_rolling_problem *problem)
+{
+    if (problem->force_given)
+        return problem->force + problem->force_ratio > 0.0;
+    double sum = 0.0;
+    for (int i = 0; i < problem->n; i++)
+        sum += problem->d_T[i] + problem->xi * problem->e_T[i];
+    return sum < 0.0;
+}
+
+rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
+                                   const rb_rolling_case *rc, rb_rolling_state *state,
+                                   rb_message *why)
+{
+    const int backwards = slides_backwards(problem);
+    const double xi0 = (backwards ? -1.0 : 1.0) * sliding_creepage(rc, problem);
+    const attempt pivoted[] = {{RB_LCP_PIVOTED, backwards, xi0},
+                               {RB_LCP_PIVOTED, !backwards, xi0},
+                               {RB_LCP_KWAK, 0, xi0}};
+    const int first = rc->lcp_form == RB_LCP_KWAK ? 2 : 0;
+    rb_status s = RB_RAY;
+
+    state->iterations = 0;
+    for (int k = first; k < 3; k++) {
+        s = try_lemke(problem, &pivoted[k], state, why);
+        if (s < 0 || (s == RB_OK && state->residual <= rc->tol))
+            break;
+    }
+    if (s == RB_OK && !(state->residual <= rc->tol))
+        s = RB_INACCURATE;
+    if (s > 0)
+        rb_fail(why, s, "%s; scaled residual %.3g", rb_status_text(s), state->residual);
+    state->status = s;
+    return s;
+}
