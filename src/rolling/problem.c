@@ -124,15 +124,26 @@ static double mean_diagonal(int n, const double *M, size_t ld)
     return sum / n;
 }
 
-/* Stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become about 1. */
+/* Slip that unit pressures leave at the middle element: 0 for similar bodies. */
+static double coupled_slip(const rb_rolling_problem *p)
+{
+    double sum = 0.0;
+    for (int j = 0; j < p->n; j++)
+        sum += fabs(p->S[p->n / 2 + (size_t)j * p->n]);
+    return sum;
+}
+
+/* Stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become about 1;
+ * where mu is small, the slip of dissimilar bodies comes from the pressure. */
 static void set_scales(const rb_rolling_case *rc, rb_rolling_problem *p)
 {
     const double a = rb_rolling_estimate_half_width(rc);
 
     p->stress = rb_rolling_contact_modulus(rc) * a / (2.0 * rb_rolling_radius(rc));
     p->gap_length = p->stress * mean_diagonal(p->n, p->F, (size_t)p->ldf);
-    p->slip_length = (p->mu > 0.0 ? p->mu : 1.0) * p->stress *
-                     mean_diagonal(p->n, p->S + (size_t)p->n * p->n, (size_t)p->n);
+    const double friction = (p->mu > 0.0 ? p->mu : 1.0) *
+                            mean_diagonal(p->n, p->S + (size_t)p->n * p->n, (size_t)p->n);
+    p->slip_length = p->stress * fmax(friction, coupled_slip(p));
 }
 
 rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
