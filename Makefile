@@ -73,6 +73,12 @@ $(B)/tests/%: tests/%.c tests/check.h tests/failing_alloc.c $(B)/librollbem.a
 	@mkdir -p $(@D)
 	$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< tests/failing_alloc.c $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
 
+# compared with where it is installed, never needed
+ifneq ($(wildcard /usr/include/siconos/SiconosConfig.h),)
+$(B)/bench/bench_lemke: CPPFLAGS += -DHAVE_SICONOS -isystem /usr/include/siconos -isystem /usr/include/siconos/numerics
+$(B)/bench/bench_lemke: LDLIBS += -lsiconos_numerics
+endif
+
 $(B)/bench/%: bench/%.c $(B)/librollbem.a
 	@mkdir -p $(@D)
 	$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -MMD -MP -MF $@.d -o $@ $< $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)

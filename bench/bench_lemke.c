@@ -1,0 +1,334 @@
+/* Lemke's method: microseconds per pivot of the delayed-update tableau against a tableau
+ * with one rank-1 update per pivot (the same pivots) and, where Debian's
+ * libsiconos-numerics-dev was found at build time, against its lcp_lexicolemke.
+ *
+ * Problem: Kwak's form (K4) of steady rolling on a half-plane, dissimilar bodies, equal
+ * elements over 1.3 times the Hertz half-width; lengths in a, stresses in E* a/R. */
+#include "rollbem/lcp.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef HAVE_SICONOS
+#include <LCP_Solvers.h>
+#include <LinearComplementarityProblem.h>
+#include <NumericsMatrix.h>
+#include <SolverOptions.h>
+#include <lcp_cst.h>
+#endif
+
+static const double PI = 3.14159265358979323846;
+
+typedef struct {
+    int n;
+    double *M, *q;
+} problem;
+
+static double *need(size_t rows, size_t cols)
+{
+    double *x = rb_alloc(rows, cols);
+    if (!x) {
+        fprintf(stderr, "bench_lemke: out of memory\n");
+        exit(70);
+    }
+    return x;
+}
+
+/* ---- The problem ------------------------------------------------------------------ */
+
+static double log_term(double s)
+{
+    return s == 0.0 ? 0.0 : s * log(fabs(s)) - s;
+}
+
+/* Displacement at x of unit strips over [s0, s1] (kernels 5): along the load, and across
+ * it (the coupling of a dissimilar pair, Dundurs beta = 0.3); datum at depth 10. */
+static void strip(double x, double s0, double s1, double *along, double *across)
+{
+    *along = -2.0 / PI * (log_term(s1 - x) - log_term(s0 - x) - (s1 - s0) * log(10.0));
+    *across = 0.3 * (fabs(x - s0) - fabs(x - s1));
+}
+
+typedef struct {
+    int n;           /* contact elements */
+    double h;        /* their length */
+    double *Fn, *Fc; /* (n + 1) x n: along, across */
+} flexibility;
+
+static double midpoint(const flexibility *f, int i)
+{
+    return (i + 0.5 - 0.5 * f->n) * f->h;
+}
+
+static flexibility make_flexibility(int n)
+{
+    flexibility f = {n, 2.6 / n, need(n + 1, n), need(n + 1, n)};
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i <= n; i++)
+            strip(midpoint(&f, i), midpoint(&f, j) - 0.5 * f.h,
+                  midpoint(&f, j) + 0.5 * f.h, f.Fn + i + (size_t)j * (n + 1),
+                  f.Fc + i + (size_t)j * (n + 1));
+    return f;
+}
+
+/* X <- (A F_TT)^-1 [A F_TT stands in B; X holds A F_TN, I, d_T: n x (2n + 1)]. */
+static void eliminate_tractions(const flexibility *f, double creep, double *X)
+{
+    const int n = f->n, m = n + 1;
+    double *B = need(n, n);
+    int *piv = rb_alloc_int(n);
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++) {
+            const size_t at = i + (size_t)j * m;
+            B[i + (size_t)j * n] = f->Fn[at] - f->Fn[at + 1];
+            X[i + (size_t)j * n] = -(f->Fc[at] - f->Fc[at + 1]);
+            X[i + (size_t)(n + j) * n] = i == j;
+        }
+    for (int i = 0; i < n; i++)
+        X[i + (size_t)(2 * n) * n] = creep * f->h;
+    LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 2 * n + 1, B, n, piv, X, n);
+    free(B);
+    free(piv);
+}
+
+/* d_N: the gap under the approach that gives the half-width 1 without friction. */
+static double normal_distance(const flexibility *f, int i)
+{
+    double approach = 0.0;
+    for (int j = 0; j < f->n; j++) {
+        const double x = midpoint(f, j), p = 0.5 * sqrt(fmax(0.0, 1.0 - x * x));
+        approach += p * f->Fn[f->n / 2 + (size_t)j * (f->n + 1)];
+    }
+    return 0.5 * midpoint(f, i) * midpoint(f, i) - approach;
+}
+
+/* (K4): z = (r_N, lambda+, lambda-), w = (y_N, gamma+, gamma-). */
+static problem make_kwak(int nc, double mu, double creep_ratio)
+{
+    const int n = 3 * nc, m = nc + 1;
+    const flexibility f = make_flexibility(nc);
+    problem p = {n, need(n, n), need(n, 1)};
+    double *X = need(nc, 2 * nc + 1), *Y = need(nc, 2 * nc + 1);
+    eliminate_tractions(&f, creep_ratio * mu, X);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, nc, 2 * nc + 1, nc, 1.0, f.Fc,
+                m, X, nc, 0.0, Y, nc);
+    for (int j = 0; j < nc; j++)
+        for (int i = 0; i < nc; i++) {
+            const size_t at = i + (size_t)j * nc, inv = at + (size_t)nc * nc;
+            double *c0 = p.M + i + (size_t)j * n, *c1 = c0 + (size_t)nc * n,
+                   *c2 = c1 + (size_t)nc * n;
+            c0[0] = f.Fn[i + (size_t)j * m] - Y[at];
+            c0[nc] = mu * (i == j) - X[at];
+            c0[2 * nc] = mu * (i == j) + X[at];
+            c1[0] = Y[inv], c2[0] = -Y[inv];
+            c1[nc] = c2[2 * nc] = X[inv];
+            c2[nc] = c1[2 * nc] = -X[inv];
+        }
+    const size_t d = (size_t)nc * (size_t)(2 * nc);
+    for (int i = 0; i < nc; i++) {
+        p.q[i] = normal_distance(&f, i) - Y[d + i];
+        p.q[nc + i] = -X[d + i];
+        p.q[2 * nc + i] = X[d + i];
+    }
+    free(X);
+    free(Y);
+    free(f.Fn);
+    free(f.Fc);
+    return p;
+}
+
+static double power_of_two(double x)
+{
+    return x > 0.0 ? exp2(-round(0.5 * log2(x))) : 1.0;
+}
+
+/* Unit diagonal to a factor of two, without rounding (design 4.4). */
+static void scale(problem *p)
+{
+    const size_t n = (size_t)p->n;
+    double *s = need(n, 1);
+    for (size_t i = 0; i < n; i++)
+        s[i] = power_of_two(fabs(p->M[i + i * n]));
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = 0; i < n; i++)
+            p->M[i + j * n] *= s[i] * s[j];
+    for (size_t i = 0; i < n; i++)
+        p->q[i] *= s[i];
+    free(s);
+}
+
+/* ---- One rank-1 update per pivot -------------------------------------------------- */
+
+typedef struct {
+    int count, room;
+    int *row, *column, *place; /* place: row, or -1 - column, of each variable */
+} path;
+
+static void record(const rb_lcp_pivot *seen, void *context)
+{
+    path *p = context;
+    if (seen->pivot >= p->room)
+        return;
+    p->row[seen->pivot] = seen->row;
+    int c = 0;
+    while (seen->nonbasis[c] != seen->leaving)
+        c++;
+    p->column[seen->pivot] = c;
+    p->count = seen->pivot + 1;
+}
+
+static path make_path(int n)
+{
+    const int room = 10 * n;
+    return (path){0, room, rb_alloc_int(room), rb_alloc_int(room), NULL};
+}
+
+/* Row of the least ratio: what a plain Lemke does before it updates. */
+static int least_ratio(int n, const double *a, const double *q)
+{
+    int r = -1;
+    double least = INFINITY;
+    for (int i = 0; i < n; i++)
+        if (a[i] < -1e-12 && fmax(q[i], 0.0) / -a[i] < least) {
+            least = fmax(q[i], 0.0) / -a[i];
+            r = i;
+        }
+    return r;
+}
+
+/* Follows the recorded path; returns seconds, counts rows that the plain ratio test would
+ * have chosen otherwise. */
+static double rank_one(const problem *p, const path *way, int *other)
+{
+    const int n = p->n;
+    double *T = need(n, n + 2), *u = need(n, 1), *v = need(n + 2, 1);
+    memcpy(T, p->M, (size_t)n * n * sizeof *T);
+    for (int i = 0; i < n; i++) {
+        T[i + (size_t)n * n] = 1.0;
+        T[i + (size_t)(n + 1) * n] = p->q[i];
+    }
+    *other = 0;
+    const double start = rb_seconds();
+    for (int k = 0; k < way->count; k++) {
+        const int r = way->row[k], c = way->column[k];
+        const double *a = T + (size_t)c * n, pivot = a[r];
+        *other += k > 0 && least_ratio(n, a, T + (size_t)(n + 1) * n) != r;
+        cblas_dcopy(n, a, 1, u, 1);
+        cblas_dcopy(n + 2, T + r, n, v, 1);
+        cblas_dscal(n + 2, 1.0 / pivot, v, 1);
+        u[r] += 1.0;
+        v[c] -= 1.0 / pivot;
+        cblas_dger(CblasColMajor, n, n + 2, -1.0, u, 1, v, 1, T, n);
+    }
+    const double seconds = rb_seconds() - start;
+    free(T);
+    free(u);
+    free(v);
+    return seconds;
+}
+
+/* ---- Siconos ----------------------------------------------------------------------- */
+
+#ifdef HAVE_SICONOS
+static double siconos(const problem *p, int *pivots, double *residual)
+{
+    double *M = need(p->n, p->n), *z = need(p->n, 1), *w = need(p->n, 1);
+    memcpy(M, p->M, (size_t)p->n * (size_t)p->n * sizeof *M);
+    LinearComplementarityProblem lcp = {
+        p->n, NM_create_from_data(NM_DENSE, p->n, p->n, M), p->q};
+    SolverOptions *options = solver_options_create(SICONOS_LCP_LEMKE);
+    options->iparam[SICONOS_IPARAM_MAX_ITER] = 100 * p->n;
+    int info = 0;
+    const double start = rb_seconds();
+    lcp_lexicolemke(&lcp, z, w, &info, options);
+    const double seconds = rb_seconds() - start;
+    *pivots = options->iparam[SICONOS_IPARAM_ITER_DONE];
+    *residual = rb_lcp_residual(p->n, p->M, p->n, p->q, z, NULL);
+    solver_options_delete(options);
+    NM_clear(lcp.M); /* frees M */
+    free(z);
+    free(w);
+    return seconds;
+}
+#endif
+
+/* ---- Table ------------------------------------------------------------------------- */
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double delayed(const problem *p, int runs, rb_lcp_info *info)
+{
+    double *z = need(p->n, 1), *seconds = need(runs, 1);
+    for (int k = 0; k < runs; k++) {
+        const double start = rb_seconds();
+        const rb_status s = rb_lcp_lemke(p->n, p->M, p->n, p->q, NULL, z, info);
+        seconds[k] = rb_seconds() - start;
+        if (s != RB_OK)
+            fprintf(stderr, "bench_lemke: %s: %s\n", rb_status_text(s), info->msg.text);
+    }
+    qsort(seconds, runs, sizeof *seconds, ascending);
+    const double median = seconds[runs / 2];
+    free(z);
+    free(seconds);
+    return median;
+}
+
+static void line(const char *name, double seconds, int pivots, double reference)
+{
+    printf("  %-26s %6d pivots %9.1f us/pivot  ratio %6.1f\n", name, pivots,
+           1e6 * seconds / pivots, seconds / pivots / reference);
+}
+
+static void compare(int nc, int runs)
+{
+    problem p = make_kwak(nc, 0.3, 0.9);
+    scale(&p);
+    path way = make_path(p.n);
+    rb_lcp_options opt = rb_lcp_defaults();
+    rb_lcp_info info;
+    double *z = need(p.n, 1);
+    opt.trace = record;
+    opt.trace_context = &way;
+    rb_lcp_lemke(p.n, p.M, p.n, p.q, &opt, z, &info);
+
+    int other;
+    const double ours = delayed(&p, runs, &info), plain = rank_one(&p, &way, &other);
+    const double per_pivot = ours / info.iters;
+    printf("Kwak's form, n_c = %d, order %d: solved in %.3f s, residual %.1e\n", nc, p.n,
+           ours, info.res);
+    line("delayed update (rollbem)", ours, info.iters, per_pivot);
+    line("rank-1 update, same pivots", plain, way.count, per_pivot);
+    if (other)
+        printf("  (a plain ratio test would have chosen %d other rows)\n", other);
+#ifdef HAVE_SICONOS
+    int pivots;
+    double residual;
+    const double theirs = siconos(&p, &pivots, &residual);
+    line("Siconos lcp_lexicolemke", theirs, pivots, per_pivot);
+    printf("  Siconos / rollbem, whole solve: %.1f; its residual %.1e\n", theirs / ours,
+           residual);
+#else
+    printf("  (libsiconos-numerics-dev was not found at build time)\n");
+#endif
+    free(z);
+    free(way.row);
+    free(way.column);
+    free(p.M);
+    free(p.q);
+}
+
+int main(void)
+{
+    printf("Lemke's method, OpenBLAS kernels for %s\n", openblas_get_corename());
+    compare(200, 7);
+    compare(800, 3);
+    return 0;
+}
