@@ -56,15 +56,16 @@ typedef struct {
     rb_bem_support support; /* RB_BEM_ARC or RB_BEM_HUB */
     double arc;             /* half-angle of the clamped arc [rad], in (0, pi/2] */
     double hub_ratio;       /* in (0, 1) */
-    int outer_elements;     /* outside the contact on the outer circle; 0: chosen so that
+    int outer_elements;     /* about so many outside the contact on the outer circle, none
+                               smaller than at the ends of the zone; 0: chosen so that
                                neighbours differ by at most a fifth */
 } rb_bem_cylinder;
 
 /* ends: n_c + 2 increasing abscissae |x| < R: the ends of n_c contact elements and of the
  * upstream element after them.  Geometric grading outside.
  * RB_EINVAL: zone reaching the support, ends not increasing, counts absurd. */
-rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c, const double *ends,
-                               rb_bem_mesh *mesh, rb_message *why);
+rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
+                               const double *ends, rb_bem_mesh *mesh, rb_message *why);
 
 /* ---- Influence (B1-B3) ----------------------------------------------------------- */
 
@@ -76,7 +77,9 @@ void rb_bem_element_integrals(double x0, double y0, double x1, double y1, double
                               double G[4]);
 
 /* H u = G t (B1).  2n x 2n, column-major, ld >= 2n; dofs x0, y0, x1, y1, ...  G may be
- * NULL.  H [-], G [length/stress]. */
+ * NULL.  H [-], G [length/stress].  G's logarithm is that of r over the diagonal of the
+ * box around the mesh: tractions in equilibrium do not feel the choice, and no result
+ * depends on the unit of length.  Uses every processor. */
 rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, double *H,
                           double *G, int ld, rb_message *why);
 
@@ -85,12 +88,20 @@ rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, dou
 /* The factored system A x = b of *Addi* (14); opaque. */
 typedef struct rb_bem_system rb_bem_system;
 
+/* Bytes that the system and its condensation take, to refuse absurd sizes beforehand. */
+double rb_bem_system_bytes(int n, int n_c);
+
+/* "AVX-512", "AVX2" or "plain": what the integrals run on here. */
+const char *rb_bem_vector_name(void);
+
 /* One assembly and one LU.  The mesh is copied.  RB_EINVAL: no support (three rigid
  * motions remain; the message says so), bad material or mesh; RB_SINGULAR; RB_ENOMEM. */
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                rb_bem_system **system, rb_message *why);
 void rb_bem_system_free(rb_bem_system *system);
 const rb_bem_mesh *rb_bem_system_mesh(const rb_bem_system *system);
+/* Reciprocal condition (1-norm, estimated) of the scaled matrix A. */
+double rb_bem_system_rcond(const rb_bem_system *system);
 /* Seconds spent in assembly and in the LU. */
 void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double *factor);
 
@@ -106,10 +117,9 @@ rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_conta
 typedef enum { RB_BEM_NORMALS_OBSTACLE, RB_BEM_NORMALS_SURFACE } rb_bem_normals;
 
 /* w = w0 + F r: r = (r_N, r_T), 2n tractions on A along n and t, one per contact element;
- * w = (w_N, w_T), 2m displacements, m = n + 1: the n contact midpoints and the midpoint of
- * the upstream element, which carries no traction.
- * An interface: a dense matrix, a Toeplitz operator or a hierarchical matrix stand behind
- * the same calls. */
+ * w = (w_N, w_T), 2m displacements, m = n + 1: the n contact midpoints and the midpoint
+ * of the upstream element, which carries no traction. An interface: a dense matrix, a
+ * Toeplitz operator or a hierarchical matrix stand behind the same calls. */
 typedef struct rb_bem_flexibility rb_bem_flexibility;
 struct rb_bem_flexibility {
     int n, m;
@@ -128,8 +138,9 @@ rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
 
 /* Half-plane (kernels of theory.md, Flamant): ends as in rb_bem_mesh_cylinder, any real
  * numbers; displacement zero at depth datum > 0 under the point. */
-rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends, rb_bem_material material,
-                                       double datum, rb_bem_flexibility *f, rb_message *why);
+rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends,
+                                       rb_bem_material material, double datum,
+                                       rb_bem_flexibility *f, rb_message *why);
 
 /* Two bodies in contact (4.5): F_A + F_B, B computed as the mirror image (an upper body),
  * so that its coupling blocks enter with the opposite sign.  Takes over a and b (both are
@@ -149,13 +160,13 @@ void rb_bem_flexibility_free(rb_bem_flexibility *f);
  * be NULL.  Constant u jumps at element ends; here u is linear between midpoints, so that
  * stress stays accurate close to the boundary.  Points on the surface itself use the
  * tractions, the tangential strain and Hooke's law. */
-rb_status rb_bem_interior(const rb_bem_mesh *mesh, rb_bem_material material, const double *u,
-                          const double *t, int points, const double *xy,
+rb_status rb_bem_interior(const rb_bem_mesh *mesh, rb_bem_material material,
+                          const double *u, const double *t, int points, const double *xy,
                           double *displacement, double *stress, rb_message *why);
 
 /* Stress in a half-plane y >= 0 loaded on y = 0 by n constant strips [ends[i], ends[i+1]]
- * of tractions p (along +y, into the body: pressure) and q (along +x).  stress: 3 per point
- * (sxx, syy, sxy); on y = 0 the limit from inside. */
+ * of tractions p (along +y, into the body: pressure) and q (along +x).  stress: 3 per
+ * point (sxx, syy, sxy); on y = 0 the limit from inside. */
 rb_status rb_bem_halfplane_stress(int n, const double *ends, const double *p,
                                   const double *q, int points, const double *xy,
                                   double *stress);

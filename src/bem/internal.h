@@ -10,6 +10,15 @@ rb_status rb_bem_material_check(rb_bem_material material, rb_message *why);
 /* RB_EINVAL unless n_c >= 1 and the n_c + 2 ends are finite and increase. */
 rb_status rb_bem_ends_check(int n_c, const double *ends, rb_message *why);
 
+rb_status rb_bem_mesh_copy(const rb_bem_mesh *from, rb_bem_mesh *to);
+
+/* Diagonal of the box around all elements: the length that sets the scale. */
+double rb_bem_mesh_size(const rb_bem_mesh *mesh);
+
+/* RB_EINVAL unless the displacements that the mesh prescribes block all rigid motions;
+ * the free ones are named. */
+rb_status rb_bem_support_check(const rb_bem_mesh *mesh, rb_message *why);
+
 /* A flexibility with x, h, w0 zeroed and a dense matrix of zeros behind it; *F: that
  * matrix, 2m x 2n with leading dimension 2m, borrowed.  RB_ENOMEM leaves f empty. */
 rb_status rb_bem_flexibility_dense(int n, rb_bem_flexibility *f, double **F);

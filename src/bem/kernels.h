@@ -1,0 +1,242 @@
+/* Kelvin's integrals over one straight constant element (B2, B3), written once for single
+ * points and for the vector loops of column.c.  Plain arithmetic, no calls: every
+ * instruction set gives the same bits.
+ *
+ *     U_ij = C [-kap ln r d_ij + r,i r,j],           C = 1/(8 pi G (1-nu)), kap = 3 - 4
+ * nu T_ij = (D/r) [r,n ((1-2nu) d_ij + 2 r,i r,j) - (1-2nu) (r,i n_j - r,j n_i)], D =
+ * -1/(4 pi (1-nu))
+ *
+ * Seen from p, an element of half-length a with midpoint m, direction t and outward
+ * normal n = (ty, -tx) lies at  X = (m-p).t,  d = (m-p).n.  With r1, r2 the distances to
+ * its ends:
+ *
+ *     dot = X^2 + d^2 - a^2,   cross = 2 a d,   W = dot^2 + cross^2 = r1^2 r2^2
+ *     Lam = ln(r2/r1),   Th = atan2(cross, dot)  (the angle that it subtends, with sign)
+ *     L   = int ln r ds = X Lam + (a/2) ln W - 2a + d Th
+ *
+ *     G11, G22 = C (a - kap L) +- C (a - d Th),   G12 = G21 = C d Lam
+ *     H11, H22 = D (2 (1-nu) Th -+ q (2 d^2 - dot)),            q = cross/W
+ *     H12, H21 = D (2 d X q -+ (1-2nu) Lam)
+ *
+ * in the axes (t, n).  Turning them to (x, y) keeps the isotropic parts, turns the
+ * deviators by twice the angle of t, and reverses the sign of the skew part, (t, n) being
+ * left-handed.  Nothing here subtracts nearly equal numbers. */
+#ifndef ROLLBEM_BEM_KERNELS_H
+#define ROLLBEM_BEM_KERNELS_H
+
+#include "rollbem/bem.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+/* gcc takes contraction off with -std=c11; clang has to be told */
+#ifdef __clang__
+#pragma STDC FP_CONTRACT OFF
+#endif
+#define RB_INLINE static inline __attribute__((always_inline))
+
+typedef struct {
+    double mx, my, a;  /* midpoint, half-length */
+    double tx, ty;     /* direction */
+    double cos2, sin2; /* of twice its angle */
+    double constant;   /* of L: -2a (1 + ln r0) */
+} rb_element;
+
+typedef struct {
+    double C, kap;
+    double H_th, H_dev, H_skew; /* 2 (1-nu) D, D, (1-2nu) D */
+} rb_constants;
+
+/* G: Gxx, Gyy, Gxy = Gyx; H: row = load direction at p, column = component. */
+typedef struct {
+    double Hxx, Hyx, Hxy, Hyy, Gxx, Gxy, Gyy;
+} rb_influence;
+
+/* r0: the length in which the logarithm's distance is measured */
+static inline rb_element rb_element_make(double x0, double y0, double x1, double y1,
+                                         double r0)
+{
+    const double dx = x1 - x0, dy = y1 - y0, length = hypot(dx, dy), a = 0.5 * length;
+    const double tx = dx / length, ty = dy / length;
+    return (rb_element){.mx = 0.5 * (x0 + x1),
+                        .my = 0.5 * (y0 + y1),
+                        .a = a,
+                        .tx = tx,
+                        .ty = ty,
+                        .cos2 = (tx - ty) * (tx + ty),
+                        .sin2 = 2.0 * tx * ty,
+                        .constant = -2.0 * a * (1.0 + log(r0))};
+}
+
+static inline rb_constants rb_constants_make(rb_bem_material material)
+{
+    const double pi = 3.14159265358979323846, nu = material.poisson;
+    const double D = -1.0 / (4.0 * pi * (1.0 - nu));
+    return (rb_constants){.C = 1.0 / (8.0 * pi * material.shear * (1.0 - nu)),
+                          .kap = 3.0 - 4.0 * nu,
+                          .H_th = 2.0 * (1.0 - nu) * D,
+                          .H_dev = D,
+                          .H_skew = (1.0 - 2.0 * nu) * D};
+}
+
+/* ln x for normal x > 0: x = 2^k m with m in [sqrt(1/2), sqrt 2), and
+ * ln m = 2 atanh s,  s = (m-1)/(m+1),  s^2 < 0.0295: ten terms. */
+RB_INLINE double rb_log(double x)
+{
+    const uint64_t root_half = 0x3fe6a09e667f3bcd, bias = 1023;
+    uint64_t bits, power;
+    double k, m;
+    memcpy(&bits, &x, sizeof bits);
+    const uint64_t shifted = bits - root_half + (bias << 52);
+    power = (shifted >> 52) | 0x4330000000000000; /* the double 2^52 + bias + k */
+    bits -= ((shifted >> 52) - bias) << 52;
+    memcpy(&k, &power, sizeof k);
+    memcpy(&m, &bits, sizeof m);
+    k -= 4503599627370496.0 + 1023.0;
+    const double s = (m - 1.0) / (m + 1.0), z = s * s;
+    double p = 1.0 / 21;
+    p = p * z + 1.0 / 19;
+    p = p * z + 1.0 / 17;
+    p = p * z + 1.0 / 15;
+    p = p * z + 1.0 / 13;
+    p = p * z + 1.0 / 11;
+    p = p * z + 1.0 / 9;
+    p = p * z + 1.0 / 7;
+    p = p * z + 1.0 / 5;
+    p = p * z + 1.0 / 3;
+    return k * 0.69314718055994530942 + (2.0 * s + 2.0 * s * z * p);
+}
+
+/* atan2(y, x), not both 0: the angle of the first octant less that of the nearest of the
+ * slopes 0, 1/4, 1/2, 3/4, 1, |tan| < 1/8: nine terms. */
+RB_INLINE double rb_atan2(double y, double x)
+{
+    const double pi = 3.14159265358979323846, pi_low = 1.2246467991473532e-16;
+    const double ax = fabs(x), ay = fabs(y), big = ax > ay ? ax : ay,
+                 small = ax > ay ? ay : ax;
+    double slope = 0.0, base = 0.0;
+    slope = small > 0.125 * big ? 0.25 : slope;
+    base = small > 0.125 * big ? 0.24497866312686415417 : base;
+    slope = small > 0.375 * big ? 0.5 : slope;
+    base = small > 0.375 * big ? 0.46364760900080611621 : base;
+    slope = small > 0.625 * big ? 0.75 : slope;
+    base = small > 0.625 * big ? 0.64350110879328438680 : base;
+    slope = small > 0.875 * big ? 1.0 : slope;
+    base = small > 0.875 * big ? 0.78539816339744830962 : base;
+    const double s = (small - slope * big) / (big + slope * small), z = s * s;
+    double p = 1.0 / 17;
+    p = 1.0 / 15 - p * z;
+    p = 1.0 / 13 - p * z;
+    p = 1.0 / 11 - p * z;
+    p = 1.0 / 9 - p * z;
+    p = 1.0 / 7 - p * z;
+    p = 1.0 / 5 - p * z;
+    p = 1.0 / 3 - p * z;
+    double angle = base + (s - s * z * p);
+    angle = ay > ax ? 0.5 * pi - (angle - 0.5 * pi_low) : angle;
+    angle = x < 0.0 ? pi - (angle - pi_low) : angle;
+    return y < 0.0 ? -angle : angle;
+}
+
+typedef struct {
+    double X, d, rho, dot, cross, W, over_W; /* rho = X^2 + d^2 */
+    double Lam, Th;
+} rb_seen;
+
+/* Where rho > 199 a^2 the two transcendentals are one short series. */
+RB_INLINE int rb_is_far(const rb_element *e, double px, double py)
+{
+    const double dx = e->mx - px, dy = e->my - py;
+    return dx * dx + dy * dy > 199.0 * (e->a * e->a);
+}
+
+RB_INLINE rb_seen rb_see(const rb_element *e, double px, double py)
+{
+    const double dx = e->mx - px, dy = e->my - py, a = e->a;
+    rb_seen v;
+    v.X = dx * e->tx + dy * e->ty;
+    v.d = dx * e->ty - dy * e->tx;
+    v.rho = v.X * v.X + v.d * v.d;
+    v.dot = v.rho - a * a;
+    v.cross = 2.0 * a * v.d;
+    v.W = v.dot * v.dot + v.cross * v.cross;
+    return v;
+}
+
+/* Lam + i Th = 2 atanh u = 2u (1 + w/3 + w^2/5 + ...), u = a (X + i d)/rho, w = u^2,
+ * |w| < 1/199: seven terms, summed in real arithmetic (b_k = c_k + 2 Re w b_k+1 -
+ * |w|^2 b_k+2).  One division serves 1/W and 1/rho. */
+RB_INLINE void rb_turn_far(double a, rb_seen *v)
+{
+    const double over = 1.0 / (v->W * v->rho), f = a * (over * v->W);
+    const double ur = f * v->X, ui = f * v->d, wr = ur * ur - ui * ui, wi = ur * ui;
+    const double p = wr + wr, modulus = a * f, q = modulus * modulus;
+    const double b5 = 1.0 / 11 + p * (1.0 / 13), b4 = 1.0 / 9 + p * b5 - q * (1.0 / 13),
+                 b3 = 1.0 / 7 + p * b4 - q * b5, b2 = 1.0 / 5 + p * b3 - q * b4,
+                 b1 = 1.0 / 3 + p * b2 - q * b3;
+    const double sr = 2.0 + 2.0 * (wr * b1 - q * b2), si = 4.0 * (wi * b1);
+    v->over_W = over * v->rho;
+    v->Lam = ur * sr - ui * si;
+    v->Th = ur * si + ui * sr;
+}
+
+RB_INLINE void rb_turn_near(double a, rb_seen *v)
+{
+    const double x1 = v->X - a, x2 = v->X + a, d2 = v->d * v->d;
+    v->over_W = 1.0 / v->W;
+    v->Lam = 0.5 * rb_log((x2 * x2 + d2) / (x1 * x1 + d2));
+    v->Th = rb_atan2(v->cross, v->dot);
+}
+
+RB_INLINE void rb_integrate_H(const rb_constants *k, const rb_element *e,
+                              const rb_seen *v, rb_influence *out)
+{
+    const double q = v->cross * v->over_W;
+    const double s11 = -q * (2.0 * (v->d * v->d) - v->dot), s12 = 2.0 * (v->d * v->X) * q;
+    const double mean = k->H_th * v->Th, skew = k->H_skew * v->Lam;
+    const double dev = k->H_dev * (e->cos2 * s11 + e->sin2 * s12),
+                 shear = k->H_dev * (e->sin2 * s11 - e->cos2 * s12);
+    out->Hxx = mean + dev;
+    out->Hyy = mean - dev;
+    out->Hxy = shear + skew;
+    out->Hyx = shear - skew;
+}
+
+RB_INLINE void rb_integrate_G(const rb_constants *k, const rb_element *e,
+                              const rb_seen *v, rb_influence *out)
+{
+    const double a = e->a, d_th = v->d * v->Th;
+    const double L = v->X * v->Lam + (0.5 * a) * rb_log(v->W) + d_th + e->constant;
+    const double s11 = k->C * (a - d_th), s12 = k->C * (v->d * v->Lam);
+    const double mean = k->C * (a - k->kap * L);
+    const double dev = e->cos2 * s11 + e->sin2 * s12;
+    out->Gxx = mean + dev;
+    out->Gyy = mean - dev;
+    out->Gxy = e->sin2 * s11 - e->cos2 * s12;
+}
+
+/* p = m: the principal value of T is 0, the free term 1/2 stands in H. */
+static inline void rb_integrate_self(const rb_constants *k, const rb_element *e,
+                                     rb_influence *out)
+{
+    const rb_seen v = {.W = e->a * e->a * (e->a * e->a)};
+    rb_integrate_G(k, e, &v, out);
+    out->Hxx = out->Hyy = 0.5;
+    out->Hxy = out->Hyx = 0.0;
+}
+
+/* From a point other than the element's own midpoint. */
+static inline void rb_integrate(const rb_constants *k, const rb_element *e, double px,
+                                double py, rb_influence *out)
+{
+    rb_seen v = rb_see(e, px, py);
+    if (rb_is_far(e, px, py))
+        rb_turn_far(e->a, &v);
+    else
+        rb_turn_near(e->a, &v);
+    rb_integrate_H(k, e, &v, out);
+    rb_integrate_G(k, e, &v, out);
+}
+
+#endif

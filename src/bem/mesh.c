@@ -1,0 +1,168 @@
+/* Meshes of closed polygons (B4): memory and checks. */
+#include "bem/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+rb_status rb_bem_mesh_alloc(int n, rb_bem_mesh *mesh)
+{
+    memset(mesh, 0, sizeof *mesh);
+    if (n < 1)
+        return RB_EINVAL;
+    const size_t size = (size_t)n;
+    mesh->n = n;
+    mesh->x0 = rb_alloc(size, 1);
+    mesh->y0 = rb_alloc(size, 1);
+    mesh->x1 = rb_alloc(size, 1);
+    mesh->y1 = rb_alloc(size, 1);
+    mesh->value = rb_alloc(2 * size, 1);
+    mesh->condition = calloc(2 * size, sizeof *mesh->condition); /* RB_BEM_TRACTION */
+    if (mesh->x0 && mesh->y0 && mesh->x1 && mesh->y1 && mesh->value && mesh->condition)
+        return RB_OK;
+    rb_bem_mesh_free(mesh);
+    return RB_ENOMEM;
+}
+
+void rb_bem_mesh_free(rb_bem_mesh *mesh)
+{
+    if (!mesh)
+        return;
+    free(mesh->x0);
+    free(mesh->y0);
+    free(mesh->x1);
+    free(mesh->y1);
+    free(mesh->value);
+    free(mesh->condition);
+    memset(mesh, 0, sizeof *mesh);
+}
+
+rb_status rb_bem_mesh_copy(const rb_bem_mesh *from, rb_bem_mesh *to)
+{
+    const size_t n = (size_t)from->n;
+    const rb_status s = rb_bem_mesh_alloc(from->n, to);
+    if (s != RB_OK)
+        return s;
+    memcpy(to->x0, from->x0, n * sizeof *to->x0);
+    memcpy(to->y0, from->y0, n * sizeof *to->y0);
+    memcpy(to->x1, from->x1, n * sizeof *to->x1);
+    memcpy(to->y1, from->y1, n * sizeof *to->y1);
+    memcpy(to->value, from->value, 2 * n * sizeof *to->value);
+    memcpy(to->condition, from->condition, 2 * n * sizeof *to->condition);
+    to->contact_first = from->contact_first;
+    to->contact_n = from->contact_n;
+    return RB_OK;
+}
+
+static double length(const rb_bem_mesh *mesh, int j)
+{
+    return hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+}
+
+/* Diagonal of the box around all elements: the length that sets the scale. */
+double rb_bem_mesh_size(const rb_bem_mesh *mesh)
+{
+    double left = INFINITY, right = -INFINITY, low = INFINITY, high = -INFINITY;
+    for (int j = 0; j < mesh->n; j++) {
+        left = fmin(left, mesh->x0[j]);
+        right = fmax(right, mesh->x0[j]);
+        low = fmin(low, mesh->y0[j]);
+        high = fmax(high, mesh->y0[j]);
+    }
+    return hypot(right - left, high - low);
+}
+
+static rb_status check_elements(const rb_bem_mesh *mesh, rb_message *why)
+{
+    for (int j = 0; j < mesh->n; j++) {
+        const double h = length(mesh, j);
+        if (!(h > 0.0 && isfinite(h)))
+            return rb_fail(why, RB_EINVAL, "element %d: length %g, expected > 0", j, h);
+        for (int k = 0; k < 2; k++) {
+            if (!isfinite(mesh->value[2 * j + k]))
+                return rb_fail(why, RB_EINVAL, "element %d: given %s in %c = %g", j,
+                               mesh->condition[2 * j + k] == RB_BEM_DISPLACEMENT
+                                   ? "displacement"
+                                   : "traction",
+                               "xy"[k], mesh -> value[2 * j + k]);
+            const int in_contact =
+                j >= mesh->contact_first && j < mesh->contact_first + mesh->contact_n;
+            if ((mesh->condition[2 * j + k] == RB_BEM_CONTACT) != in_contact)
+                return rb_fail(
+                    why, RB_EINVAL,
+                    "element %d: %s contact, but its condition in %c says otherwise", j,
+                    in_contact ? "in" : "outside the", "xy"[k]);
+        }
+    }
+    return RB_OK;
+}
+
+static int meets(const rb_bem_mesh *mesh, int j, int next)
+{
+    const double gap = hypot(mesh->x0[next] - mesh->x1[j], mesh->y0[next] - mesh->y1[j]);
+    return gap <= 1e-9 * fmin(length(mesh, j), length(mesh, next));
+}
+
+/* Each contour is a run of elements, end to start, whose last end is the run's start. */
+static rb_status check_contours(const rb_bem_mesh *mesh, rb_message *why)
+{
+    int start = 0;
+    for (int j = 0; j < mesh->n; j++) {
+        if (meets(mesh, j, start))
+            start = j + 1;
+        else if (j + 1 == mesh->n || !meets(mesh, j, j + 1))
+            return rb_fail(
+                why, RB_EINVAL,
+                "element %d ends at (%g, %g): the contour from element %d does not "
+                "close",
+                j, mesh->x1[j], mesh->y1[j], start);
+    }
+    return RB_OK;
+}
+
+/* Twice the area that lies on the left of all contours. */
+static double area(const rb_bem_mesh *mesh)
+{
+    const double cx = mesh->x0[0], cy = mesh->y0[0];
+    double sum = 0.0;
+    for (int j = 0; j < mesh->n; j++)
+        sum += (mesh->x0[j] - cx) * (mesh->y1[j] - mesh->y0[j]) -
+               (mesh->y0[j] - cy) * (mesh->x1[j] - mesh->x0[j]);
+    return sum;
+}
+
+static rb_status check_contact(const rb_bem_mesh *mesh, rb_message *why)
+{
+    const int first = mesh->contact_first, n = mesh->contact_n, upstream = first + n;
+    if (n == 0)
+        return RB_OK;
+    if (n < 0 || first < 0 || first >= mesh->n || n >= mesh->n - first)
+        return rb_fail(why, RB_EINVAL,
+                       "contact elements %d to %d and one after them: the mesh has %d",
+                       first, upstream - 1, mesh->n);
+    for (int k = 0; k < 2; k++)
+        if (mesh->condition[2 * upstream + k] != RB_BEM_TRACTION)
+            return rb_fail(why, RB_EINVAL,
+                           "element %d, upstream of the contact, is not free", upstream);
+    for (int j = first; j <= upstream; j++)
+        if (!(mesh->x0[j] < mesh->x1[j]))
+            return rb_fail(why, RB_EINVAL, "contact element %d does not run towards +x",
+                           j);
+    return RB_OK;
+}
+
+rb_status rb_bem_mesh_check(const rb_bem_mesh *mesh, rb_message *why)
+{
+    if (mesh->n < 1)
+        return rb_fail(why, RB_EINVAL, "a mesh of %d elements", mesh->n);
+    rb_status s = check_contact(mesh, why);
+    if (s == RB_OK)
+        s = check_elements(mesh, why);
+    if (s == RB_OK)
+        s = check_contours(mesh, why);
+    if (s == RB_OK && !(area(mesh) > 0.0))
+        s = rb_fail(why, RB_EINVAL,
+                    "the body is not on the left of its contours: outer ones run "
+                    "counter-clockwise, holes clockwise");
+    return s;
+}

@@ -1,0 +1,347 @@
+/* Mixed problems (B4) and their condensation to the contact (B5). */
+#include "bem/assemble.h"
+#include "bem/internal.h"
+#include "bem/large.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Unknowns: the displacement where the traction is given or kept, else the traction,
+ * measured in shear/length of the element so that all columns of A are of order one.
+ * Their order is that of the contour, turned so that the contact and the upstream element
+ * come last: the back substitution for them alone is then a small one. */
+struct rb_bem_system {
+    rb_bem_mesh mesh;
+    int dofs;     /* 2n */
+    int offset;   /* the dof that comes first */
+    double *A;    /* LU, 2n x 2n */
+    double *b;    /* of the given values, 2n */
+    double *Gc;   /* columns of the contact tractions, 2n x 2 contact_n */
+    double *unit; /* of each element's tractions, n [stress] */
+    lapack_int *pivot;
+    double rcond, seconds_assembly, seconds_factor;
+};
+
+double rb_bem_system_bytes(int n, int n_c)
+{
+    const double dofs = 2.0 * n, loads = 2.0 * n_c;
+    const double system = dofs * (dofs + loads), condensation = (dofs + loads) * loads;
+    return sizeof(double) * (system + condensation);
+}
+
+void rb_bem_system_free(rb_bem_system *system)
+{
+    if (!system)
+        return;
+    rb_bem_mesh_free(&system->mesh);
+    free(system->A);
+    free(system->b);
+    free(system->Gc);
+    free(system->unit);
+    free(system->pivot);
+    free(system);
+}
+
+const rb_bem_mesh *rb_bem_system_mesh(const rb_bem_system *system)
+{
+    return &system->mesh;
+}
+
+double rb_bem_system_rcond(const rb_bem_system *system)
+{
+    return system->rcond;
+}
+
+void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double *factor)
+{
+    *assembly = system->seconds_assembly;
+    *factor = system->seconds_factor;
+}
+
+static rb_bem_system *system_alloc(const rb_bem_mesh *mesh)
+{
+    const size_t dofs = 2 * (size_t)mesh->n, loads = 2 * (size_t)mesh->contact_n;
+    rb_bem_system *s = calloc(1, sizeof *s);
+    if (!s)
+        return NULL;
+    s->dofs = 2 * mesh->n;
+    s->offset = loads ? 2 * (mesh->contact_first + mesh->contact_n + 1) % s->dofs : 0;
+    s->A = rb_large_alloc(dofs, dofs);
+    s->Gc = rb_large_alloc(dofs, loads);
+    s->b = rb_alloc(dofs, 1);
+    s->unit = rb_alloc(dofs, 1);
+    s->pivot = calloc(dofs, sizeof *s->pivot);
+    if (rb_bem_mesh_copy(mesh, &s->mesh) == RB_OK && s->A && s->Gc && s->b && s->unit &&
+        s->pivot)
+        return s;
+    rb_bem_system_free(s);
+    return NULL;
+}
+
+static double *column_of(const rb_bem_system *s, int dof)
+{
+    return s->A + (size_t)((dof - s->offset + s->dofs) % s->dofs) * (size_t)s->dofs;
+}
+
+/* Element j: the unknowns' columns into A, a contact element's loads into Gc. */
+static void assemble_element(rb_bem_system *s, const rb_assembly *assembly, int j)
+{
+    const rb_bem_condition *condition = s->mesh.condition + 2 * j;
+    const size_t dofs = (size_t)s->dofs;
+    double *H[2] = {NULL, NULL}, *G[2] = {NULL, NULL};
+    double factor = 1.0;
+
+    for (int k = 0; k < 2; k++) {
+        if (condition[k] == RB_BEM_DISPLACEMENT) {
+            G[k] = column_of(s, 2 * j + k);
+            factor = -s->unit[j];
+        } else {
+            H[k] = column_of(s, 2 * j + k);
+        }
+        if (condition[k] == RB_BEM_CONTACT)
+            G[k] = s->Gc + (2 * (size_t)(j - s->mesh.contact_first) + (size_t)k) * dofs;
+    }
+    rb_assembly_columns(assembly, j, factor, (double *const[4]){H[0], H[1], G[0], G[1]});
+}
+
+/* b += G t for given tractions, b -= H u for given displacements. */
+static rb_status assemble_given(rb_bem_system *s, const rb_assembly *assembly)
+{
+    const size_t dofs = (size_t)s->dofs;
+    double *room = rb_alloc(dofs, 4);
+    if (!room)
+        return RB_ENOMEM;
+    double *const out[4] = {room, room + dofs, room + 2 * dofs, room + 3 * dofs};
+    for (int j = 0; j < s->mesh.n; j++) {
+        const double *value = s->mesh.value + 2 * j;
+        if (value[0] == 0.0 && value[1] == 0.0)
+            continue;
+        rb_assembly_columns(assembly, j, 1.0, out);
+        for (int k = 0; k < 2; k++) {
+            if (s->mesh.condition[2 * j + k] == RB_BEM_DISPLACEMENT)
+                cblas_daxpy(s->dofs, -value[k], out[k], 1, s->b, 1);
+            else if (s->mesh.condition[2 * j + k] == RB_BEM_TRACTION)
+                cblas_daxpy(s->dofs, value[k], out[2 + k], 1, s->b, 1);
+        }
+    }
+    free(room);
+    return RB_OK;
+}
+
+static rb_status assemble(rb_bem_system *s, rb_bem_material material)
+{
+    const rb_bem_mesh *mesh = &s->mesh;
+    rb_assembly assembly;
+    rb_status status = rb_assembly_begin(mesh, material, &assembly);
+    if (status != RB_OK)
+        return status;
+    for (int j = 0; j < mesh->n; j++)
+        s->unit[j] =
+            material.shear / hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+#pragma omp parallel for schedule(static)
+    for (int j = 0; j < mesh->n; j++)
+        assemble_element(s, &assembly, j);
+    status = assemble_given(s, &assembly);
+    rb_assembly_end(&assembly);
+    return status;
+}
+
+static double norm_one(int n, const double *A)
+{
+    double norm = 0.0;
+#pragma omp parallel for reduction(max : norm)
+    for (int j = 0; j < n; j++) {
+        const double *column = A + (size_t)j * (size_t)n;
+        double sum = 0.0;
+        for (int i = 0; i < n; i++)
+            sum += fabs(column[i]);
+        norm = fmax(norm, sum);
+    }
+    return norm;
+}
+
+/* A singular system is one whose condition leaves no digit. */
+static rb_status factor(rb_bem_system *s, rb_message *why)
+{
+    const lapack_int n = s->dofs;
+    const double norm = norm_one(n, s->A);
+    double *work = rb_alloc((size_t)n, 4);
+    lapack_int *iwork = calloc((size_t)n, sizeof *iwork);
+    rb_status status = RB_ENOMEM;
+
+    if (work && iwork) {
+        LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, s->A, n, s->pivot);
+        LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, s->A, n, norm, &s->rcond, work,
+                            iwork);
+        status = s->rcond > 1e-14
+                     ? RB_OK
+                     : rb_fail(why, RB_SINGULAR,
+                               "boundary elements: the system is singular (reciprocal "
+                               "condition %.2g)",
+                               s->rcond);
+    }
+    free(iwork);
+    free(work);
+    return status;
+}
+
+rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
+                               rb_bem_system **system, rb_message *why)
+{
+    *system = NULL;
+    rb_status status = rb_bem_mesh_check(mesh, why);
+    if (status == RB_OK)
+        status = rb_bem_material_check(material, why);
+    if (status == RB_OK)
+        status = rb_bem_support_check(mesh, why);
+    if (status != RB_OK)
+        return status;
+    const double start = rb_seconds();
+    rb_bem_system *s = system_alloc(mesh);
+    status = s ? assemble(s, material) : RB_ENOMEM;
+    if (status == RB_OK) {
+        const double assembled = rb_seconds();
+        s->seconds_assembly = assembled - start;
+        status = factor(s, why);
+        s->seconds_factor = rb_seconds() - assembled;
+    }
+    if (status == RB_ENOMEM)
+        rb_fail(why, status, "boundary elements: no memory for %d elements (%.3g MB)",
+                mesh->n, rb_bem_system_bytes(mesh->n, mesh->contact_n) / 1e6);
+    if (status == RB_OK)
+        *system = s;
+    else
+        rb_bem_system_free(s);
+    return status;
+}
+
+/* x -> u and t: what was given, what was solved for. */
+static void distribute(const rb_bem_system *s, const double *x, const double *t_contact,
+                       double *u, double *t)
+{
+    const rb_bem_mesh *mesh = &s->mesh;
+    for (int dof = 0; dof < s->dofs; dof++) {
+        const double unknown = x[(dof - s->offset + s->dofs) % s->dofs];
+        const int local = dof - 2 * mesh->contact_first;
+        switch (mesh->condition[dof]) {
+        case RB_BEM_DISPLACEMENT:
+            u[dof] = mesh->value[dof];
+            t[dof] = s->unit[dof / 2] * unknown;
+            break;
+        case RB_BEM_CONTACT:
+            u[dof] = unknown;
+            t[dof] = t_contact ? t_contact[local] : 0.0;
+            break;
+        default:
+            u[dof] = unknown;
+            t[dof] = mesh->value[dof];
+        }
+    }
+}
+
+rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_contact,
+                              double *u, double *t)
+{
+    const rb_bem_system *s = system;
+    const int n = s->dofs, loads = 2 * s->mesh.contact_n;
+    double *x = rb_alloc((size_t)n, 1);
+    if (!x)
+        return RB_ENOMEM;
+    memcpy(x, s->b, (size_t)n * sizeof *x);
+    if (t_contact && loads)
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, loads, 1.0, s->Gc, n, t_contact, 1,
+                    1.0, x, 1);
+    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, 1, s->A, n, s->pivot, x, n);
+    distribute(s, x, t_contact, u, t);
+    free(x);
+    return RB_OK;
+}
+
+/* ---- Condensation (B5) --------------------------------------------------------------
+ */
+
+/* Displacements of the contact and of the upstream element, the last 2m unknowns, for the
+ * unit contact tractions and (last column) for the given values: all of L, but of U only
+ * the last corner. */
+static double *solve_contact(const rb_bem_system *s)
+{
+    const int n = s->dofs, loads = 2 * s->mesh.contact_n, kept = loads + 2;
+    const size_t rows = (size_t)n, corner = rows - (size_t)kept;
+    double *X = rb_large_alloc(rows, (size_t)loads + 1);
+    if (!X)
+        return NULL;
+    memcpy(X, s->Gc, rows * (size_t)loads * sizeof *X);
+    memcpy(X + rows * (size_t)loads, s->b, rows * sizeof *X);
+    LAPACKE_dlaswp_work(LAPACK_COL_MAJOR, loads + 1, X, n, 1, n, s->pivot, 1);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, n,
+                loads + 1, 1.0, s->A, n, X, n);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, kept,
+                loads + 1, 1.0, s->A + corner * (rows + 1), n, X + corner, n);
+    return X;
+}
+
+/* Normal into the body and tangent of element j, as rows: frame[0] = n, frame[1] = t. */
+static void contact_frame(const rb_bem_mesh *mesh, int j, rb_bem_normals normals,
+                          double frame[2][2])
+{
+    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j],
+                 h = hypot(dx, dy);
+    const int flat = normals == RB_BEM_NORMALS_OBSTACLE;
+    frame[1][0] = frame[0][1] = flat ? 1.0 : dx / h;
+    frame[1][1] = flat ? 0.0 : dy / h;
+    frame[0][0] = -frame[1][1];
+}
+
+/* F_ab(i, j) = e_a(i)' U(i, j) e_b(j), a, b in {N, T}; the last column of X gives w0. */
+static void turn_to_frames(const rb_bem_system *s, rb_bem_normals normals,
+                           const double *X, rb_bem_flexibility *f, double *F)
+{
+    const int n = f->n, m = f->m, first = s->mesh.contact_first;
+    const size_t ld = (size_t)s->dofs;
+    const double *U = X + ld - 2 * (size_t)m;
+    double to[2][2], from[2][2];
+
+    for (int i = 0; i < m; i++) {
+        const double *w0 = U + 2 * i + 2 * (size_t)n * ld;
+        contact_frame(&s->mesh, first + i, normals, to);
+        for (int a = 0; a < 2; a++)
+            f->w0[a * m + i] = to[a][0] * w0[0] + to[a][1] * w0[1];
+        for (int j = 0; j < n; j++) {
+            const double *x = U + 2 * i + 2 * (size_t)j * ld, *y = x + ld;
+            contact_frame(&s->mesh, first + j, normals, from);
+            for (int a = 0; a < 2; a++)
+                for (int b = 0; b < 2; b++)
+                    F[(size_t)(a * m + i) + (size_t)(b * n + j) * 2 * (size_t)m] =
+                        to[a][0] * (x[0] * from[b][0] + y[0] * from[b][1]) +
+                        to[a][1] * (x[1] * from[b][0] + y[1] * from[b][1]);
+        }
+    }
+}
+
+rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
+                          rb_bem_flexibility *f, rb_message *why)
+{
+    const rb_bem_mesh *mesh = &system->mesh;
+    const int n = mesh->contact_n;
+    double *F = NULL, *X;
+    *f = (rb_bem_flexibility){0};
+    if (n < 1)
+        return rb_fail(why, RB_EINVAL, "condensation: the mesh has no contact elements");
+    X = solve_contact(system);
+    rb_status s = X ? rb_bem_flexibility_dense(n, f, &F) : RB_ENOMEM;
+    if (s == RB_OK) {
+        for (int i = 0; i < f->m; i++) {
+            const int j = mesh->contact_first + i;
+            f->x[i] = 0.5 * (mesh->x0[j] + mesh->x1[j]);
+            f->h[i] = hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+        }
+        turn_to_frames(system, normals, X, f, F);
+    } else {
+        rb_fail(why, s, "condensation: no memory for %d contact elements", n);
+    }
+    free(X);
+    return s;
+}
