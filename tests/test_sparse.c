@@ -143,6 +143,10 @@ static void lu_solves_and_names_singular_matrices(void **state)
         CHECK_STATUS(rb_sparse_lu_solve(lu, b, y), RB_OK);
         for (int i = 0; i < N; i++)
             CHECK_ABS(y[i], x[i], 1e-11, "x[%d]", i);
+        rb_sparse_apply_transposed(1.0, &a, x, 0.0, b);
+        CHECK_STATUS(rb_sparse_lu_solve_transposed(lu, b, y), RB_OK);
+        for (int i = 0; i < N; i++)
+            CHECK_ABS(y[i], x[i], 1e-11, "transposed, x[%d]", i);
         a.x[3] *= 1.5; /* another matrix of the same pattern */
     }
     assert_true(flops > 0.0);

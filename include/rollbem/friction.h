@@ -1,10 +1,12 @@
 /* Frictional contact problems on second-order cones, in two and three dimensions.
- * References: *Acary* (2017) and *Kanno*, docs/theory.md. */
+ * References: *Acary* (2017) and *Kanno*, docs/friction.md. */
 #ifndef ROLLBEM_FRICTION_H
 #define ROLLBEM_FRICTION_H
 
 #include "rollbem/base.h"
 #include "rollbem/sparse.h"
+
+/* ---- The problem ------------------------------------------------------------------- */
 
 /* Per contact [N, T] (d = 2) or [N, T1, T2] (d = 3), N first: m = d n_c.
  * uhat = u + mu ||u_T|| e_N;  K* contains uhat, complementary to r in the cone
@@ -33,5 +35,87 @@ typedef struct {
 } rb_friction_problem;
 
 void rb_friction_problem_free(rb_friction_problem *problem);
+
+/* RB_EINVAL, with the place in why: dimension other than 2 or 3, no contact, sizes that
+ * differ, mu < 0, NaN or infinity, unsymmetric K. */
+rb_status rb_friction_problem_check(const rb_friction_problem *problem, rb_message *why);
+
+/* Condenses the global form to W = H' K^-1 H, q = w + H' K^-1 f; W is stored sparse where
+ * bodies are unconnected.  RB_SINGULAR: K has no inverse; why names its nullity. */
+rb_status rb_friction_condense(const rb_friction_problem *global,
+                               rb_friction_problem *local, rb_message *why);
+
+/* What is worth knowing of a problem before solving it. */
+typedef struct {
+    int rank;           /* of H (global) or W (local) */
+    int hyperstaticity; /* d n_c - rank */
+    int nullity;        /* of K (global); 0 else */
+    double asymmetry;   /* max |W - W'| / max |W|; 0 for the global form */
+    int indefinite;     /* 1: the symmetric part of W has a negative eigenvalue below
+                           -1e-10 of the largest entry; 0 for the global form */
+} rb_friction_facts;
+
+rb_status rb_friction_examine(const rb_friction_problem *problem,
+                              rb_friction_facts *facts);
+
+/* ---- Measure of error ---------------------------------------------------------------
+ */
+
+/* Equation (13) of *Acary*, rho = 1: ||r - P_K(r - uhat)|| / ||q||, u recomputed from r
+ * (||F|| itself where q = 0).  Global form: u from K v = H r + f; where K is singular,
+ * from v, see docs/friction.md.  floor: what rounding of the data allows.  v: n, global
+ * form only, else NULL; u: m, written, or NULL; floor: written, or NULL. */
+rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
+                            const double *v, double *u, double *error, double *floor);
+
+/* ---- Solvers ------------------------------------------------------------------------
+ */
+
+typedef struct {
+    double tol;       /* on the measure (13); default 1e-8 */
+    int max_iters;    /* 0: the solver's own limit */
+    double seconds;   /* time limit; 0: none */
+    const double *r0; /* m: start; NULL: zero; borrowed */
+    const double *v0; /* n: start of the global form with singular K; NULL: zero */
+} rb_friction_options;
+
+typedef struct {
+    const char *solver; /* that gave the answer; static text */
+    int iters;          /* Newton steps, sweeps, pivots */
+    double residual;    /* (13), recomputed from r (and v) alone */
+    double floor;
+    double flops; /* floating-point operations, docs/friction.md says how counted */
+    double seconds;
+    rb_message msg;
+} rb_friction_info;
+
+typedef enum {
+    RB_FRICTION_NEEDS_W = 1, /* refuses the global form with singular K */
+    RB_FRICTION_ONLY_2D = 2
+} rb_friction_needs;
+
+typedef struct {
+    const char *name, *summary;
+    int needs; /* rb_friction_needs, or-ed */
+} rb_friction_solver;
+
+/* The solvers by name; count: written. */
+const rb_friction_solver *rb_friction_solvers(int *count);
+
+rb_friction_options rb_friction_defaults(void);
+
+/* solver NULL: "auto".  opt NULL: defaults.  r, u: m, written; v: n, written, or NULL;
+ * the best iterate when not solved. RB_OK: residual <= max(tol, floor).  RB_MAXITER,
+ * RB_RAY, RB_SINGULAR, RB_INACCURATE, RB_INTERRUPTED (time limit): not solved. RB_EINVAL:
+ * unknown solver, problem refused by rb_friction_problem_check or by the solver;
+ * info->msg says which. */
+rb_status rb_friction_solve(const char *solver, const rb_friction_problem *problem,
+                            const rb_friction_options *opt, double *r, double *u,
+                            double *v, rb_friction_info *info);
+
+/* "solved", "solved-to-rounding" (above tol, at or below the floor), or the words of s.
+ */
+const char *rb_friction_status_text(rb_status s, double tol,
+                                    const rb_friction_info *info);
 
 #endif

@@ -43,6 +43,8 @@ rb_status rb_sparse_lu_create(const rb_sparse *a, rb_sparse_lu **lu);
  * flops (NULL: not wanted) grows by the operations done. */
 rb_status rb_sparse_lu_factor(rb_sparse_lu *lu, const rb_sparse *a, double *flops);
 rb_status rb_sparse_lu_solve(const rb_sparse_lu *lu, const double *b, double *x);
+rb_status rb_sparse_lu_solve_transposed(const rb_sparse_lu *lu, const double *b,
+                                        double *x);
 void rb_sparse_lu_free(rb_sparse_lu *lu);
 
 /* ---- Cholesky of a symmetric positive definite matrix (CHOLMOD) -------------------- */
@@ -50,7 +52,7 @@ void rb_sparse_lu_free(rb_sparse_lu *lu);
 typedef struct rb_sparse_cholesky rb_sparse_cholesky;
 
 /* Factors K (both triangles stored; the upper one is read).  RB_SINGULAR: not positive
- * definite to rounding (a pivot below 1e-13 of the largest). */
+ * definite to rounding (a pivot below 1e-13 of the largest, with unit diagonal). */
 rb_status rb_sparse_cholesky_create(const rb_sparse *k, rb_sparse_cholesky **factor);
 rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b,
                                    double *x);

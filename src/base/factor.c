@@ -5,6 +5,7 @@
 #include <suitesparse/cholmod.h>
 #include <suitesparse/umfpack.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -99,13 +100,24 @@ rb_status rb_sparse_lu_factor(rb_sparse_lu *lu, const rb_sparse *a, double *flop
     return umfpack_status(code);
 }
 
-rb_status rb_sparse_lu_solve(const rb_sparse_lu *lu, const double *b, double *x)
+static rb_status lu_solve(int system, const rb_sparse_lu *lu, const double *b, double *x)
 {
     if (!lu->numeric)
         return RB_EINVAL;
     const rb_sparse *a = lu->a;
-    return umfpack_status(umfpack_di_solve(UMFPACK_A, a->p, a->i, a->x, x, b, lu->numeric,
-                                           lu->control, NULL));
+    return umfpack_status(
+        umfpack_di_solve(system, a->p, a->i, a->x, x, b, lu->numeric, lu->control, NULL));
+}
+
+rb_status rb_sparse_lu_solve(const rb_sparse_lu *lu, const double *b, double *x)
+{
+    return lu_solve(UMFPACK_A, lu, b, x);
+}
+
+rb_status rb_sparse_lu_solve_transposed(const rb_sparse_lu *lu, const double *b,
+                                        double *x)
+{
+    return lu_solve(UMFPACK_At, lu, b, x);
 }
 
 void rb_sparse_lu_free(rb_sparse_lu *lu)
@@ -121,7 +133,8 @@ void rb_sparse_lu_free(rb_sparse_lu *lu)
 
 struct rb_sparse_cholesky {
     cholmod_common c;
-    cholmod_factor *l; /* L L' = P K P' */
+    cholmod_factor *l; /* L L' = P (S K S) P' */
+    double *scale;     /* S = diag(K)^-1/2: pivots then tell rank whatever the units */
     double flops;
 };
 
@@ -165,6 +178,38 @@ static rb_status cholmod_outcome(rb_sparse_cholesky *f)
     return RB_OK;
 }
 
+/* S K S; a zero or negative diagonal entry is left for the factorisation to refuse. */
+static rb_status equilibrate(const rb_sparse *k, double *scale, rb_sparse *sks)
+{
+    if (!scale || rb_sparse_copy(k, sks) != RB_OK)
+        return RB_ENOMEM;
+    for (int j = 0; j < k->cols; j++) {
+        scale[j] = 1.0;
+        for (int l = k->p[j]; l < k->p[j + 1]; l++)
+            if (k->i[l] == j && k->x[l] > 0.0)
+                scale[j] = 1.0 / sqrt(k->x[l]);
+    }
+    for (int j = 0; j < k->cols; j++)
+        for (int l = k->p[j]; l < k->p[j + 1]; l++)
+            sks->x[l] *= scale[j] * scale[k->i[l]];
+    return RB_OK;
+}
+
+static rb_status factorize(const rb_sparse *k, rb_sparse_cholesky *f)
+{
+    rb_sparse sks = {0};
+    f->scale = rb_alloc((size_t)k->rows, 1);
+    if (equilibrate(k, f->scale, &sks) != RB_OK)
+        return RB_ENOMEM;
+    cholmod_sparse view = view_of(&sks, 1);
+    f->l = cholmod_analyze(&view, &f->c);
+    if (f->l)
+        cholmod_factorize(&view, f->l, &f->c);
+    f->flops = f->c.fl;
+    rb_sparse_free(&sks);
+    return f->l ? cholmod_outcome(f) : RB_ENOMEM;
+}
+
 rb_status rb_sparse_cholesky_create(const rb_sparse *k, rb_sparse_cholesky **factor)
 {
     *factor = NULL;
@@ -176,12 +221,7 @@ rb_status rb_sparse_cholesky_create(const rb_sparse *k, rb_sparse_cholesky **fac
     cholmod_start(&f->c);
     f->c.print = 0;
     f->c.final_ll = 1;
-    cholmod_sparse view = view_of(k, 1);
-    f->l = cholmod_analyze(&view, &f->c);
-    if (f->l)
-        cholmod_factorize(&view, f->l, &f->c);
-    f->flops = f->c.fl;
-    const rb_status s = f->l ? cholmod_outcome(f) : RB_ENOMEM;
+    const rb_status s = factorize(k, f);
     if (s == RB_OK)
         *factor = f;
     else
@@ -192,12 +232,14 @@ rb_status rb_sparse_cholesky_create(const rb_sparse *k, rb_sparse_cholesky **fac
 rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b, double *x)
 {
     const int n = (int)factor->l->n;
-    memmove(x, b, (size_t)n * sizeof *x);
+    for (int i = 0; i < n; i++)
+        x[i] = factor->scale[i] * b[i];
     cholmod_dense rhs = dense_view(n, x);
     cholmod_dense *y = cholmod_solve(CHOLMOD_A, factor->l, &rhs, &factor->c);
     if (!y)
         return RB_ENOMEM;
-    memcpy(x, y->x, (size_t)n * sizeof *x);
+    for (int i = 0; i < n; i++)
+        x[i] = factor->scale[i] * ((double *)y->x)[i];
     cholmod_free_dense(&y, &factor->c);
     return RB_OK;
 }
@@ -216,7 +258,12 @@ rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_spa
 {
     *w = (rb_sparse){0};
     cholmod_common *c = &factor->c;
-    cholmod_sparse view = view_of(h, 0);
+    rb_sparse sh;
+    if (rb_sparse_copy(h, &sh) != RB_OK)
+        return RB_ENOMEM;
+    for (int k = 0; k < h->p[h->cols]; k++)
+        sh.x[k] *= factor->scale[h->i[k]];
+    cholmod_sparse view = view_of(&sh, 0);
     cholmod_sparse *ph = cholmod_spsolve(CHOLMOD_P, factor->l, &view, c);
     cholmod_sparse *x = ph ? cholmod_spsolve(CHOLMOD_L, factor->l, ph, c) : NULL;
     cholmod_sparse *xt = x ? cholmod_transpose(x, 1, c) : NULL;
@@ -226,6 +273,7 @@ rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_spa
     cholmod_free_sparse(&xt, c);
     cholmod_free_sparse(&x, c);
     cholmod_free_sparse(&ph, c);
+    rb_sparse_free(&sh);
     return s;
 }
 
@@ -238,6 +286,7 @@ void rb_sparse_cholesky_free(rb_sparse_cholesky *factor)
 {
     if (!factor)
         return;
+    free(factor->scale);
     cholmod_free_factor(&factor->l, &factor->c);
     cholmod_finish(&factor->c);
     free(factor);

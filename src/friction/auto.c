@@ -1,0 +1,77 @@
+/* The safeguarded choice: methods in the order in which they tend to be quick, each from
+ * the start given, until one meets the tolerance; otherwise the best point seen. */
+#include "friction/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    const char *name;
+    rb_friction_method *method;
+    int limit; /* iterations */
+} stage;
+
+static const stage stages[] = {
+    {"nsn-ac", rb_friction_nsn_ac, 40},  {"nsn-fb", rb_friction_nsn_fb, 60},
+    {"nsn-nm", rb_friction_nsn_nm, 60},  {"nsn-jm", rb_friction_nsn_jm, 100},
+    {"nsn-ac", rb_friction_nsn_ac, 400},
+};
+
+typedef struct {
+    double *start, *best; /* m + n each: r, v */
+    double error;
+    const char *solver;
+} record;
+
+static void load(rb_friction_task *task, const double *from)
+{
+    memcpy(task->r, from, (size_t)task->m * sizeof *from);
+    memcpy(task->v, from + task->m, (size_t)task->n * sizeof *from);
+}
+
+static void store(const rb_friction_task *task, double *to)
+{
+    memcpy(to, task->r, (size_t)task->m * sizeof *to);
+    memcpy(to + task->m, task->v, (size_t)task->n * sizeof *to);
+}
+
+static rb_status try_stage(rb_friction_task *task, const stage *s, record *rec)
+{
+    load(task, rec->start);
+    task->opt.max_iters = s->limit;
+    const rb_status status = s->method(task);
+    if (status < 0)
+        return status;
+    const double error = rb_friction_task_error(task);
+    if (error < rec->error || !rec->solver) {
+        rec->error = error;
+        rec->solver = s->name;
+        store(task, rec->best);
+    }
+    if (rb_friction_task_accepts(task, error))
+        return RB_OK;
+    return status == RB_OK ? RB_INACCURATE : status;
+}
+
+rb_status rb_friction_auto(rb_friction_task *task)
+{
+    const rb_friction_options given = task->opt;
+    const size_t size = (size_t)(task->m + task->n);
+    record rec = {
+        .start = rb_alloc(size, 1), .best = rb_alloc(size, 1), .error = INFINITY};
+    rb_status s = rec.start && rec.best ? RB_MAXITER : RB_ENOMEM;
+    if (s == RB_MAXITER)
+        store(task, rec.start);
+    for (size_t k = 0; s > 0 && s != RB_INTERRUPTED && k < sizeof stages / sizeof *stages;
+         k++)
+        s = try_stage(task, &stages[k], &rec);
+    if (rec.solver) {
+        load(task, rec.best);
+        task->info->solver = rec.solver;
+    }
+    task->opt = given;
+    free(rec.best);
+    free(rec.start);
+    return s;
+}

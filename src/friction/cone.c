@@ -1,0 +1,76 @@
+#include "friction/internal.h"
+
+#include <math.h>
+
+double rb_friction_norm(size_t n, const double *x)
+{
+    /* sums of squares of data far from 1 neither overflow nor vanish */
+    const double largest = rb_norm_inf(n, x);
+    if (!(largest > 0.0) || !isfinite(largest))
+        return largest;
+    double sum = 0.0;
+    for (size_t k = 0; k < n; k++)
+        sum += (x[k] / largest) * (x[k] / largest);
+    return largest * sqrt(sum);
+}
+
+double rb_friction_tangential(int d, const double *x)
+{
+    return d == 2 ? fabs(x[1]) : hypot(x[1], x[2]);
+}
+
+void rb_friction_project(int d, double mu, const double *z, double *p)
+{
+    const double zn = z[0], t = rb_friction_tangential(d, z);
+    if (t <= mu * zn) { /* inside K */
+        for (int a = 0; a < d; a++)
+            p[a] = z[a];
+        return;
+    }
+    /* on the face, or the apex where -z lies in K* */
+    const double pn = fmax(0.0, (zn + mu * t) / (1.0 + mu * mu));
+    const double factor = t > 0.0 ? mu * pn / t : 0.0;
+    for (int a = 1; a < d; a++)
+        p[a] = factor * z[a];
+    p[0] = pn;
+}
+
+void rb_friction_project_derivative(int d, double mu, const double *z, double *D)
+{
+    const double zn = z[0], t = rb_friction_tangential(d, z);
+    const int inside = t <= mu * zn;
+    for (int k = 0; k < d * d; k++)
+        D[k] = 0.0;
+    if (inside)
+        for (int a = 0; a < d; a++)
+            D[a + a * d] = 1.0;
+    if (inside || zn + mu * t <= 0.0)
+        return;
+    const double c = 1.0 / (1.0 + mu * mu), pn = c * (zn + mu * t);
+    D[0] = c;
+    for (int a = 1; a < d && t > 0.0; a++) {
+        const double na = z[a] / t;
+        D[a] = D[a * d] = mu * c * na;
+        for (int b = 1; b < d; b++) {
+            const double nn = na * z[b] / t;
+            D[a + b * d] = mu * mu * c * nn + mu * pn / t * ((a == b) - nn);
+        }
+    }
+}
+
+double rb_friction_natural_norm(int d, int contacts, const double *mu, const double *r,
+                                const double *u)
+{
+    double sum = 0.0;
+    for (int c = 0; c < contacts; c++) {
+        const double *rc = r + c * d, *uc = u + c * d;
+        double z[3], p[3];
+        for (int a = 0; a < d; a++)
+            z[a] = rc[a] - uc[a];
+        z[0] -= mu[c] * rb_friction_tangential(d, uc);
+        rb_friction_project(d, mu[c], z, p);
+        for (int a = 0; a < d; a++)
+            sum += (rc[a] - p[a]) * (rc[a] - p[a]);
+    }
+    return sqrt(sum);
+}

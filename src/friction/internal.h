@@ -1,0 +1,136 @@
+/* What the files of src/friction share: one solve in progress, the measure, W in blocks,
+ * the functions whose roots are solutions, and the linear systems of Newton's steps. */
+#ifndef ROLLBEM_FRICTION_INTERNAL_H
+#define ROLLBEM_FRICTION_INTERNAL_H
+
+#include "rollbem/friction.h"
+
+/* ---- Cones (cone.c) -------------------------------------------------------------------
+ */
+
+/* P_K(z), K = {||z_T|| <= mu z_N}; z and p: d entries, may be the same. */
+void rb_friction_project(int d, double mu, const double *z, double *p);
+/* Derivative of P_K at z (one element of the generalised one): d x d column-major. */
+void rb_friction_project_derivative(int d, double mu, const double *z, double *D);
+/* ||x_T|| of a contact's d entries */
+double rb_friction_tangential(int d, const double *x);
+/* F = r - P_K(r - rho (u + mu ||u_T|| e_N)) over all contacts; its 2-norm. */
+double rb_friction_natural_norm(int d, int contacts, const double *mu, const double *r,
+                                const double *u);
+double rb_friction_norm(size_t n, const double *x);
+
+/* ---- Measure (measure.c)
+ * --------------------------------------------------------------- */
+
+typedef struct {
+    const rb_friction_problem *problem;
+    double scale;               /* ||q||, or 1 where q = 0 */
+    rb_sparse_cholesky *factor; /* GLOBAL: of K, or of K + k H H' where K is singular */
+    double spring;              /* k; 0 where K is regular */
+    double *e;                  /* GLOBAL: n, workspace */
+} rb_friction_measure;
+
+rb_status rb_friction_measure_init(const rb_friction_problem *problem,
+                                   rb_friction_measure *measure);
+/* v: n, global form: corrected to equilibrium with r; else unused.  u: m, written. */
+rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *r,
+                                    double *v, double *u, double *error);
+double rb_friction_measure_floor(const rb_friction_measure *measure, const double *r,
+                                 const double *v);
+void rb_friction_measure_free(rb_friction_measure *measure);
+
+/* ---- W in d x d blocks (blocks.c)
+ * ------------------------------------------------------- */
+
+typedef struct {
+    int d, contacts;
+    int *p;    /* contacts + 1: where a block row starts */
+    int *j;    /* block column, increasing within a row; the diagonal is always there */
+    int *diag; /* contacts: number of the diagonal block */
+    double *x; /* d x d column-major each */
+} rb_friction_blocks;
+
+rb_status rb_friction_blocks_init(const rb_friction_problem *local,
+                                  rb_friction_blocks *blocks);
+void rb_friction_blocks_free(rb_friction_blocks *blocks);
+/* y = (W x) of one contact: d entries */
+void rb_friction_blocks_row(const rb_friction_blocks *blocks, int contact,
+                            const double *x, double *y);
+void rb_friction_blocks_apply(const rb_friction_blocks *blocks, const double *x,
+                              double *y);
+
+/* ---- Functions whose roots are solutions (functions.c)
+ * ---------------------------------- */
+
+/* One contact: F(r, u) in units of force, A = dF/dr, B = dF/du (d x d column-major; all
+ * three written).  rho_n, rho_t > 0 [force/velocity]. */
+typedef void rb_friction_function(int d, double mu, double rho_n, double rho_t,
+                                  const double *r, const double *u, double *F, double *A,
+                                  double *B);
+
+rb_friction_function rb_friction_alart_curnier; /* (8) of *Acary* */
+rb_friction_function rb_friction_jean_moreau;   /* (9) */
+rb_friction_function rb_friction_natural_map;   /* (10) */
+rb_friction_function rb_friction_fischer_burmeister;
+
+/* ---- Linear systems of Newton's steps (system.c)
+ * ------------------------------------------ */
+
+/* Local form:  (A + B W) dr = -F.
+ * Global form: K dv - H dr = -e,  B H' dv + A dr = -F: one sparse system, no W. */
+typedef struct {
+    const rb_friction_problem *problem;
+    int d, contacts, m, n;     /* n: 0 for the local form */
+    rb_friction_blocks blocks; /* local form */
+    double *rho;               /* 2 per contact: rho_n, rho_t, 1/(W's own block) */
+    double *J;                 /* dense local form: m x m */
+    int *pivots;
+    rb_sparse jt; /* sparse: the transposed matrix */
+    rb_sparse_lu *lu;
+    double *rhs, *x; /* n + m */
+    double flops;
+} rb_friction_system;
+
+rb_status rb_friction_system_init(const rb_friction_problem *problem,
+                                  rb_friction_system *system);
+void rb_friction_system_free(rb_friction_system *system);
+/* u = W r + q, or H' v + w; constant 0 leaves q and w out (changes of u). */
+void rb_friction_system_velocity(const rb_friction_system *system, double constant,
+                                 const double *r, const double *v, double *u);
+/* e = K v - H r - f; nothing for the local form */
+void rb_friction_system_imbalance(const rb_friction_system *system, const double *r,
+                                  const double *v, double *e);
+/* A, B: d x d per contact; F: m; e: n.  dr: m, dv: n, written. */
+rb_status rb_friction_system_step(rb_friction_system *system, const double *A,
+                                  const double *B, const double *F, const double *e,
+                                  double *dr, double *dv);
+
+/* ---- One solve in progress (registry.c)
+ * ---------------------------------------------------- */
+
+typedef struct {
+    const rb_friction_problem *problem; /* as given */
+    const rb_friction_problem
+        *local;                   /* its local form; NULL: K singular, or not needed */
+    rb_friction_measure *measure; /* of problem */
+    rb_friction_options opt;
+    rb_friction_info *info;
+    int d, contacts, m, n; /* n: 0 for the local form */
+    double deadline;       /* on rb_seconds(); 0: none */
+    double *r, *u;         /* m: the iterate; start on entry */
+    double *v;             /* n */
+} rb_friction_task;
+
+typedef rb_status rb_friction_method(rb_friction_task *task);
+
+rb_friction_method rb_friction_nsn_ac, rb_friction_nsn_jm, rb_friction_nsn_nm,
+    rb_friction_nsn_fb, rb_friction_nsn_ac_nls, rb_friction_nsn_jm_nls,
+    rb_friction_nsn_nm_nls, rb_friction_nsn_fb_nls, rb_friction_auto;
+
+/* (13) at the task's r and v, which also brings u (and v) up to date; counts flops. */
+double rb_friction_task_error(rb_friction_task *task);
+/* error at or below the tolerance or the floor */
+int rb_friction_task_accepts(const rb_friction_task *task, double error);
+int rb_friction_task_late(const rb_friction_task *task);
+
+#endif

@@ -1,0 +1,226 @@
+/* Equation (13) of *Acary* on both forms.
+ *
+ * Global form with regular K: v = K^-1 (H r + f), u = H' v + w, q = w + H' K^-1 f: (13)
+ * as printed.  Where K is singular there is no q and r alone does not fix u: the contacts
+ * are given springs k, K_k = K + k H H', which changes no solution, K_k v = H (r + k (u -
+ * w)) + f, q is what u would be with the contacts held by the springs alone (r = -k u),
+ * and the imbalance K v - H r - f of a given v counts with the displacement it causes. */
+#include "friction/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static rb_status add_springs(const rb_sparse *k, const rb_sparse *h, double spring,
+                             rb_sparse *sum)
+{
+    int places = k->p[k->cols], n = 0;
+    for (int j = 0; j < h->cols; j++)
+        places += (h->p[j + 1] - h->p[j]) * (h->p[j + 1] - h->p[j]);
+    int *row = rb_alloc_int((size_t)places), *col = rb_alloc_int((size_t)places);
+    double *x = rb_alloc((size_t)places, 1);
+    rb_status s = row && col && x ? RB_OK : RB_ENOMEM;
+    for (int j = 0; s == RB_OK && j < k->cols; j++)
+        for (int l = k->p[j]; l < k->p[j + 1]; l++)
+            row[n] = k->i[l], col[n] = j, x[n++] = k->x[l];
+    for (int j = 0; s == RB_OK && j < h->cols; j++)
+        for (int a = h->p[j]; a < h->p[j + 1]; a++)
+            for (int b = h->p[j]; b < h->p[j + 1]; b++)
+                row[n] = h->i[a], col[n] = h->i[b], x[n++] = spring * h->x[a] * h->x[b];
+    if (s == RB_OK)
+        s = rb_sparse_from_triplets(k->rows, k->cols, n, row, col, x, sum);
+    free(x);
+    free(col);
+    free(row);
+    return s;
+}
+
+static double mean_diagonal(const rb_sparse *k)
+{
+    double sum = 0.0;
+    for (int j = 0; j < k->cols; j++)
+        for (int l = k->p[j]; l < k->p[j + 1]; l++)
+            if (k->i[l] == j)
+                sum += fabs(k->x[l]);
+    return sum > 0.0 ? sum / k->cols : 1.0;
+}
+
+static rb_status factor_with_springs(rb_friction_measure *measure)
+{
+    const rb_friction_problem *p = measure->problem;
+    rb_sparse held;
+    measure->spring = mean_diagonal(&p->K);
+    rb_status s = add_springs(&p->K, &p->H, measure->spring, &held);
+    if (s == RB_OK)
+        s = rb_sparse_cholesky_create(&held, &measure->factor);
+    rb_sparse_free(&held);
+    return s;
+}
+
+static double norm_or_one(size_t n, const double *q)
+{
+    const double norm = rb_friction_norm(n, q);
+    return norm > 0.0 ? norm : 1.0;
+}
+
+/* ||w + H' K_k^-1 (f - k H w)|| */
+static rb_status global_scale(rb_friction_measure *measure)
+{
+    const rb_friction_problem *p = measure->problem;
+    const size_t m = (size_t)(p->dimension * p->contacts);
+    double *q = rb_alloc(m, 1), *v = rb_alloc((size_t)p->dofs, 1);
+    rb_status s = q && v ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK) {
+        for (int i = 0; i < p->dofs; i++)
+            measure->e[i] = p->f[i];
+        rb_sparse_apply(-measure->spring, &p->H, p->w, 1.0, measure->e);
+        s = rb_sparse_cholesky_solve(measure->factor, measure->e, v);
+    }
+    if (s == RB_OK) {
+        for (size_t k = 0; k < m; k++)
+            q[k] = p->w[k];
+        rb_sparse_apply_transposed(1.0, &p->H, v, 1.0, q);
+        measure->scale = norm_or_one(m, q);
+    }
+    free(v);
+    free(q);
+    return s;
+}
+
+rb_status rb_friction_measure_init(const rb_friction_problem *p,
+                                   rb_friction_measure *measure)
+{
+    *measure = (rb_friction_measure){.problem = p, .scale = 1.0};
+    if (p->form != RB_FRICTION_GLOBAL) {
+        measure->scale = norm_or_one((size_t)(p->dimension * p->contacts), p->q);
+        return RB_OK;
+    }
+    measure->e = rb_alloc((size_t)p->dofs, 1);
+    if (!measure->e)
+        return RB_ENOMEM;
+    rb_status s = rb_sparse_cholesky_create(&p->K, &measure->factor);
+    if (s == RB_SINGULAR)
+        s = factor_with_springs(measure);
+    if (s == RB_OK)
+        s = global_scale(measure);
+    if (s != RB_OK)
+        rb_friction_measure_free(measure);
+    return s;
+}
+
+void rb_friction_measure_free(rb_friction_measure *measure)
+{
+    rb_sparse_cholesky_free(measure->factor);
+    free(measure->e);
+    *measure = (rb_friction_measure){0};
+}
+
+static void local_velocity(const rb_friction_problem *p, const double *r, double *u)
+{
+    const int m = p->dimension * p->contacts;
+    for (int k = 0; k < m; k++)
+        u[k] = p->q[k];
+    if (p->form == RB_FRICTION_LOCAL_SPARSE) {
+        rb_sparse_apply(1.0, &p->Ws, r, 1.0, u);
+        return;
+    }
+    for (int j = 0; j < m; j++)
+        for (int i = 0; i < m && r[j] != 0.0; i++)
+            u[i] += p->W[i + (size_t)j * (size_t)m] * r[j];
+}
+
+/* v -= K_k^-1 (K v - H r - f); correction: ||H' (what was subtracted)||.  Where K is
+ * regular v itself does not matter: twice, so that rounding of a bad start does not. */
+static rb_status balance(rb_friction_measure *measure, const double *r, double *v,
+                         double *u, double *correction)
+{
+    const rb_friction_problem *p = measure->problem;
+    const int n = p->dofs, m = p->dimension * p->contacts;
+    double *dv = rb_alloc((size_t)n, 1);
+    rb_status s = dv ? RB_OK : RB_ENOMEM;
+    *correction = 0.0;
+    for (int pass = 0; s == RB_OK && pass < (measure->spring > 0.0 ? 1 : 2); pass++) {
+        for (int i = 0; i < n; i++)
+            measure->e[i] = p->f[i];
+        rb_sparse_apply(1.0, &p->H, r, 1.0, measure->e);
+        rb_sparse_apply(-1.0, &p->K, v, 1.0, measure->e);
+        s = rb_sparse_cholesky_solve(measure->factor, measure->e, dv);
+        for (int i = 0; s == RB_OK && i < n; i++)
+            v[i] += dv[i];
+    }
+    if (s == RB_OK && measure->spring > 0.0) {
+        rb_sparse_apply_transposed(1.0, &p->H, dv, 0.0, u);
+        *correction = rb_friction_norm((size_t)m, u);
+    }
+    if (s == RB_OK) {
+        for (int k = 0; k < m; k++)
+            u[k] = p->w[k];
+        rb_sparse_apply_transposed(1.0, &p->H, v, 1.0, u);
+    }
+    free(dv);
+    return s;
+}
+
+rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *r,
+                                    double *v, double *u, double *error)
+{
+    const rb_friction_problem *p = measure->problem;
+    double correction = 0.0;
+    rb_status s = RB_OK;
+    if (p->form == RB_FRICTION_GLOBAL)
+        s = balance(measure, r, v, u, &correction);
+    else
+        local_velocity(p, r, u);
+    const double f = rb_friction_natural_norm(p->dimension, p->contacts, p->mu, r, u);
+    *error = s == RB_OK ? (f + correction) / measure->scale : INFINITY;
+    if (isnan(*error))
+        *error = INFINITY;
+    return s;
+}
+
+/* 1e-14 || |W| |r| + |q| || / ||q||; global: |H'| |v| + |w| */
+double rb_friction_measure_floor(const rb_friction_measure *measure, const double *r,
+                                 const double *v)
+{
+    const rb_friction_problem *p = measure->problem;
+    const int m = p->dimension * p->contacts;
+    double sum = 0.0, *y = rb_alloc((size_t)m, 1);
+    if (!y)
+        return 0.0;
+    const double *constant = p->form == RB_FRICTION_GLOBAL ? p->w : p->q;
+    for (int i = 0; i < m; i++)
+        y[i] = fabs(constant[i]);
+    if (p->form == RB_FRICTION_LOCAL_DENSE)
+        for (int j = 0; j < m; j++)
+            for (int i = 0; i < m; i++)
+                y[i] += fabs(p->W[i + (size_t)j * (size_t)m] * r[j]);
+    for (int j = 0; p->form == RB_FRICTION_LOCAL_SPARSE && j < m; j++)
+        for (int k = p->Ws.p[j]; k < p->Ws.p[j + 1]; k++)
+            y[p->Ws.i[k]] += fabs(p->Ws.x[k] * r[j]);
+    for (int j = 0; p->form == RB_FRICTION_GLOBAL && j < m; j++)
+        for (int k = p->H.p[j]; k < p->H.p[j + 1]; k++)
+            y[j] += fabs(p->H.x[k] * v[p->H.i[k]]);
+    sum = rb_friction_norm((size_t)m, y);
+    free(y);
+    return 1e-14 * sum / measure->scale;
+}
+
+rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
+                            const double *v, double *u, double *error, double *floor)
+{
+    const size_t m = (size_t)(problem->dimension * problem->contacts);
+    const size_t n = problem->form == RB_FRICTION_GLOBAL ? (size_t)problem->dofs : 0;
+    rb_friction_measure measure = {0};
+    double *own = rb_alloc(m, 1), *at = rb_alloc(n, 1);
+    rb_status s = own && at ? rb_friction_measure_init(problem, &measure) : RB_ENOMEM;
+    if (s == RB_OK) {
+        for (size_t i = 0; v && i < n; i++)
+            at[i] = v[i];
+        s = rb_friction_measure_error(&measure, r, at, u ? u : own, error);
+    }
+    if (s == RB_OK && floor)
+        *floor = rb_friction_measure_floor(&measure, r, at);
+    rb_friction_measure_free(&measure);
+    free(at);
+    free(own);
+    return s;
+}

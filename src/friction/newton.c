@@ -1,0 +1,233 @@
+/* Nonsmooth Newton on either form: Phi(x) dx = -F(x), *Acary* (11), with and without line
+ * search. */
+#include "friction/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MEMORY 5 /* merit values a step may rise to */
+#define HALVINGS 12
+#define LEAST_SHIFT 1e-12 /* of W's own blocks, added to W in the matrix (not in F) */
+#define LARGEST_SHIFT 1e-3
+
+typedef struct {
+    rb_friction_task *task;
+    rb_friction_function *function;
+    rb_friction_system system;
+    double *F, *A, *B, *e; /* at the iterate */
+    double *dr, *du, *dv;
+    double *r, *u, *v; /* m, m, n: trial */
+    double *best_r, *best_v, best;
+    double history[MEMORY];
+    double shift;
+} newton;
+
+static void newton_free(newton *s)
+{
+    rb_friction_system_free(&s->system);
+    free(s->F);
+}
+
+static rb_status newton_init(rb_friction_task *task, rb_friction_function *function,
+                             newton *s)
+{
+    const size_t m = (size_t)task->m, n = (size_t)task->n, d = (size_t)task->d;
+    *s = (newton){.task = task, .function = function, .best = INFINITY};
+    s->F = rb_alloc(m * (6 + 2 * d) + 4 * n, 1);
+    if (!s->F)
+        return RB_ENOMEM;
+    s->A = s->F + m;
+    s->B = s->A + m * d;
+    s->dr = s->B + m * d;
+    s->du = s->dr + m;
+    s->r = s->du + m;
+    s->u = s->r + m;
+    s->best_r = s->u + m;
+    s->best_v = s->best_r + m;
+    s->e = s->best_v + n;
+    s->dv = s->e + n;
+    s->v = s->dv + n;
+    for (int k = 0; k < MEMORY; k++)
+        s->history[k] = INFINITY;
+    s->shift = LEAST_SHIFT;
+    const rb_status st = rb_friction_system_init(task->problem, &s->system);
+    if (st != RB_OK)
+        newton_free(s);
+    return st;
+}
+
+/* F at (r, u), and A, B where wanted; returns ||F||^2 */
+static double evaluate(newton *s, const double *r, const double *u, double *F)
+{
+    const rb_friction_task *t = s->task;
+    const int d = t->d, dd = d * d;
+    double sum = 0.0;
+    for (int c = 0; c < t->contacts; c++) {
+        double *Fc = F + c * d;
+        s->function(d, t->problem->mu[c], s->system.rho[2 * c], s->system.rho[2 * c + 1],
+                    r + c * d, u + c * d, Fc, s->A + c * dd, s->B + c * dd);
+        for (int a = 0; a < d; a++)
+            sum += Fc[a] * Fc[a];
+    }
+    s->system.flops += 40.0 * t->m;
+    return sum;
+}
+
+/* W + shift / rho in the matrix keeps it regular where contacts are redundant; the roots
+ * stay where they are. */
+static void add_shift(newton *s)
+{
+    const int d = s->task->d;
+    for (int c = 0; c < s->task->contacts; c++)
+        for (int b = 0; b < d; b++) {
+            const double eta = s->shift / s->system.rho[2 * c + (b > 0)];
+            for (int a = 0; a < d; a++)
+                s->A[(c * d + b) * d + a] += eta * s->B[(c * d + b) * d + a];
+        }
+}
+
+static rb_status direction(newton *s)
+{
+    rb_status st = RB_SINGULAR;
+    for (; st == RB_SINGULAR && s->shift <= LARGEST_SHIFT; s->shift *= 1e3) {
+        add_shift(s);
+        st = rb_friction_system_step(&s->system, s->A, s->B, s->F, s->e, s->dr, s->dv);
+        if (st == RB_OK)
+            break;
+    }
+    if (st == RB_OK)
+        rb_friction_system_velocity(&s->system, 0.0, s->dr, s->dv, s->du);
+    return st;
+}
+
+/* Merit of the point t along the direction; force units throughout. */
+static double trial(newton *s, double t, double imbalance)
+{
+    const rb_friction_task *k = s->task;
+    for (int i = 0; i < k->m; i++) {
+        s->r[i] = k->r[i] + t * s->dr[i];
+        s->u[i] = k->u[i] + t * s->du[i];
+    }
+    return evaluate(s, s->r, s->u, s->F) + (1.0 - t) * (1.0 - t) * imbalance;
+}
+
+/* Nonmonotone Armijo; the smallest merit seen where none is small enough. */
+static double step_length(newton *s, double merit, double imbalance)
+{
+    double highest = merit, lowest = INFINITY, best = 1.0, t = 1.0;
+    for (int k = 0; k < MEMORY; k++)
+        if (isfinite(s->history[k]))
+            highest = fmax(highest, s->history[k]);
+    for (int k = 0; k <= HALVINGS; k++, t *= 0.5) {
+        const double theta = trial(s, t, imbalance);
+        if (theta <= (1.0 - 1e-4 * t) * highest)
+            return t;
+        if (theta < lowest)
+            lowest = theta, best = t;
+    }
+    return best;
+}
+
+static void keep_best(newton *s, double error)
+{
+    const rb_friction_task *t = s->task;
+    if (!(error < s->best))
+        return;
+    s->best = error;
+    memcpy(s->best_r, t->r, (size_t)t->m * sizeof(double));
+    memcpy(s->best_v, t->v, (size_t)t->n * sizeof(double));
+}
+
+static void move(newton *s, double t)
+{
+    rb_friction_task *k = s->task;
+    for (int i = 0; i < k->m; i++)
+        k->r[i] += t * s->dr[i];
+    for (int i = 0; i < k->n; i++)
+        k->v[i] += t * s->dv[i];
+}
+
+static rb_status iterate(newton *s, int line_search, int limit)
+{
+    rb_friction_task *t = s->task;
+    for (int k = 0; k <= limit; k++) {
+        const double error = rb_friction_task_error(t);
+        keep_best(s, error);
+        if (rb_friction_task_accepts(t, error))
+            return RB_OK;
+        if (!isfinite(error))
+            return RB_SINGULAR;
+        if (k == limit)
+            break;
+        if (rb_friction_task_late(t))
+            return RB_INTERRUPTED;
+        const double merit = evaluate(s, t->r, t->u, s->F);
+        rb_friction_system_imbalance(&s->system, t->r, t->v, s->e);
+        const rb_status st = direction(s);
+        if (st != RB_OK)
+            return st;
+        const double e = rb_friction_norm((size_t)t->n, s->e), imbalance = e * e;
+        s->history[k % MEMORY] = merit + imbalance;
+        move(s, line_search ? step_length(s, merit + imbalance, imbalance) : 1.0);
+        t->info->iters++;
+    }
+    return RB_MAXITER;
+}
+
+static rb_status solve(rb_friction_task *task, rb_friction_function *function,
+                       int line_search)
+{
+    newton s;
+    rb_status st = newton_init(task, function, &s);
+    if (st != RB_OK)
+        return st;
+    st = iterate(&s, line_search, task->opt.max_iters ? task->opt.max_iters : 200);
+    if (isfinite(s.best)) {
+        memcpy(task->r, s.best_r, (size_t)task->m * sizeof(double));
+        memcpy(task->v, s.best_v, (size_t)task->n * sizeof(double));
+    }
+    task->info->flops += s.system.flops;
+    newton_free(&s);
+    return st;
+}
+
+rb_status rb_friction_nsn_ac(rb_friction_task *task)
+{
+    return solve(task, rb_friction_alart_curnier, 1);
+}
+
+rb_status rb_friction_nsn_jm(rb_friction_task *task)
+{
+    return solve(task, rb_friction_jean_moreau, 1);
+}
+
+rb_status rb_friction_nsn_nm(rb_friction_task *task)
+{
+    return solve(task, rb_friction_natural_map, 1);
+}
+
+rb_status rb_friction_nsn_fb(rb_friction_task *task)
+{
+    return solve(task, rb_friction_fischer_burmeister, 1);
+}
+
+rb_status rb_friction_nsn_ac_nls(rb_friction_task *task)
+{
+    return solve(task, rb_friction_alart_curnier, 0);
+}
+
+rb_status rb_friction_nsn_jm_nls(rb_friction_task *task)
+{
+    return solve(task, rb_friction_jean_moreau, 0);
+}
+
+rb_status rb_friction_nsn_nm_nls(rb_friction_task *task)
+{
+    return solve(task, rb_friction_natural_map, 0);
+}
+
+rb_status rb_friction_nsn_fb_nls(rb_friction_task *task)
+{
+    return solve(task, rb_friction_fischer_burmeister, 0);
+}

@@ -1,0 +1,233 @@
+#include "rollbem/friction.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void rb_friction_problem_free(rb_friction_problem *problem)
+{
+    if (!problem)
+        return;
+    free(problem->mu);
+    free(problem->W);
+    rb_sparse_free(&problem->Ws);
+    free(problem->q);
+    rb_sparse_free(&problem->K);
+    rb_sparse_free(&problem->H);
+    free(problem->f);
+    free(problem->w);
+    *problem = (rb_friction_problem){0};
+}
+
+static rb_status check_vector(const char *name, size_t n, const double *x,
+                              rb_message *why)
+{
+    if (!x)
+        return rb_fail(why, RB_EINVAL, "%s is missing", name);
+    for (size_t k = 0; k < n; k++)
+        if (!isfinite(x[k]))
+            return rb_fail(why, RB_EINVAL, "%s: entry %zu is %g", name, k + 1, x[k]);
+    return RB_OK;
+}
+
+static rb_status check_sparse(const char *name, const rb_sparse *a, int rows, int cols,
+                              rb_message *why)
+{
+    if (!a->p || !a->i || !a->x)
+        return rb_fail(why, RB_EINVAL, "%s is missing", name);
+    if (a->rows != rows || a->cols != cols)
+        return rb_fail(why, RB_EINVAL, "%s is %d x %d, expected %d x %d", name, a->rows,
+                       a->cols, rows, cols);
+    return check_vector(name, (size_t)a->p[cols], a->x, why);
+}
+
+/* max |A - A'| and max |A| */
+static rb_status sparse_asymmetry(const rb_sparse *a, double *difference, double *largest)
+{
+    rb_sparse t;
+    if (rb_sparse_transpose(a, &t) != RB_OK)
+        return RB_ENOMEM;
+    *difference = *largest = 0.0;
+    for (int j = 0; j < a->cols; j++) {
+        int k = a->p[j], l = t.p[j];
+        while (k < a->p[j + 1] || l < t.p[j + 1]) {
+            const int ik = k < a->p[j + 1] ? a->i[k] : a->rows;
+            const int il = l < t.p[j + 1] ? t.i[l] : a->rows;
+            const double x = ik <= il ? a->x[k++] : 0.0;
+            const double y = il <= ik ? t.x[l++] : 0.0;
+            *difference = fmax(*difference, fabs(x - y));
+            *largest = fmax(*largest, fabs(x));
+        }
+    }
+    rb_sparse_free(&t);
+    return RB_OK;
+}
+
+static rb_status check_global(const rb_friction_problem *p, int m, rb_message *why)
+{
+    if (p->dofs < 1)
+        return rb_fail(why, RB_EINVAL, "%d degrees of freedom", p->dofs);
+    rb_status s = check_sparse("K", &p->K, p->dofs, p->dofs, why);
+    if (s == RB_OK)
+        s = check_sparse("H", &p->H, p->dofs, m, why);
+    if (s == RB_OK)
+        s = check_vector("f", (size_t)p->dofs, p->f, why);
+    if (s == RB_OK)
+        s = check_vector("w", (size_t)m, p->w, why);
+    double difference = 0.0, largest = 0.0;
+    if (s == RB_OK)
+        s = sparse_asymmetry(&p->K, &difference, &largest);
+    if (s == RB_OK && difference > 1e-8 * largest)
+        return rb_fail(why, RB_EINVAL, "K is not symmetric: |K - K'| = %.2g of |K|",
+                       difference / largest);
+    return s;
+}
+
+rb_status rb_friction_problem_check(const rb_friction_problem *p, rb_message *why)
+{
+    if (p->dimension != 2 && p->dimension != 3)
+        return rb_fail(why, RB_EINVAL, "dimension %d: expected 2 or 3", p->dimension);
+    if (p->contacts < 1)
+        return rb_fail(why, RB_EINVAL, "%d contacts: expected at least 1", p->contacts);
+    const int m = p->dimension * p->contacts;
+    rb_status s = check_vector("mu", (size_t)p->contacts, p->mu, why);
+    for (int c = 0; s == RB_OK && c < p->contacts; c++)
+        if (p->mu[c] < 0.0)
+            s = rb_fail(why, RB_EINVAL, "mu of contact %d is %g: expected >= 0", c + 1,
+                        p->mu[c]);
+    if (s != RB_OK)
+        return s;
+    if (p->form == RB_FRICTION_GLOBAL)
+        return check_global(p, m, why);
+    s = p->form == RB_FRICTION_LOCAL_DENSE
+            ? check_vector("W", (size_t)m * (size_t)m, p->W, why)
+            : check_sparse("W", &p->Ws, m, m, why);
+    return s == RB_OK ? check_vector("q", (size_t)m, p->q, why) : s;
+}
+
+/* ---- Condensation --------------------------------------------------------------------
+ */
+
+static rb_status name_the_nullity(const rb_sparse *k, rb_message *why)
+{
+    int rank;
+    if (rb_sparse_rank(k, &rank) != RB_OK)
+        return RB_ENOMEM;
+    return rb_fail(why, RB_SINGULAR,
+                   "K is singular to rounding (nullity %d): there is no W to condense to",
+                   k->rows - rank);
+}
+
+/* q = w + H' K^-1 f */
+static rb_status condense_load(rb_sparse_cholesky *factor, const rb_friction_problem *p,
+                               double *q)
+{
+    const int m = p->dimension * p->contacts;
+    double *v = rb_alloc((size_t)p->dofs, 1);
+    rb_status s = v ? rb_sparse_cholesky_solve(factor, p->f, v) : RB_ENOMEM;
+    for (int k = 0; s == RB_OK && k < m; k++)
+        q[k] = p->w[k];
+    if (s == RB_OK)
+        rb_sparse_apply_transposed(1.0, &p->H, v, 1.0, q);
+    free(v);
+    return s;
+}
+
+rb_status rb_friction_condense(const rb_friction_problem *global,
+                               rb_friction_problem *local, rb_message *why)
+{
+    const int m = global->dimension * global->contacts;
+    *local = (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
+                                   .dimension = global->dimension,
+                                   .contacts = global->contacts};
+    rb_sparse_cholesky *factor;
+    rb_status s = rb_sparse_cholesky_create(&global->K, &factor);
+    if (s == RB_SINGULAR)
+        return name_the_nullity(&global->K, why);
+    if (s != RB_OK)
+        return s;
+    local->mu = rb_alloc((size_t)global->contacts, 1);
+    local->q = rb_alloc((size_t)m, 1);
+    s = local->mu && local->q ? condense_load(factor, global, local->q) : RB_ENOMEM;
+    for (int c = 0; s == RB_OK && c < global->contacts; c++)
+        local->mu[c] = global->mu[c];
+    if (s == RB_OK)
+        s = rb_sparse_cholesky_congruence(factor, &global->H, &local->Ws);
+    rb_sparse_cholesky_free(factor);
+    if (s != RB_OK)
+        rb_friction_problem_free(local);
+    return s;
+}
+
+/* ---- Facts ----------------------------------------------------------------------------
+ */
+
+/* Indefinite: the symmetric part + 1e-10 max |W| has no Cholesky factor. */
+static rb_status examine_definiteness(const rb_sparse *w, double largest, int *indefinite)
+{
+    const int nz = w->p[w->cols], places = 2 * nz + w->cols;
+    int *row = rb_alloc_int((size_t)places), *col = rb_alloc_int((size_t)places);
+    double *x = rb_alloc((size_t)places, 1);
+    rb_sparse sum = {0};
+    rb_sparse_cholesky *factor = NULL;
+    int n = 0;
+    rb_status s = row && col && x ? RB_OK : RB_ENOMEM;
+    for (int j = 0; s == RB_OK && j < w->cols; j++) {
+        row[n] = col[n] = j, x[n++] = 1e-10 * largest;
+        for (int k = w->p[j]; k < w->p[j + 1]; k++) {
+            row[n] = w->i[k], col[n] = j, x[n++] = 0.5 * w->x[k];
+            row[n] = j, col[n] = w->i[k], x[n++] = 0.5 * w->x[k];
+        }
+    }
+    if (s == RB_OK)
+        s = rb_sparse_from_triplets(w->rows, w->cols, n, row, col, x, &sum);
+    if (s == RB_OK)
+        s = rb_sparse_cholesky_create(&sum, &factor);
+    *indefinite = s == RB_SINGULAR;
+    rb_sparse_cholesky_free(factor);
+    rb_sparse_free(&sum);
+    free(x);
+    free(col);
+    free(row);
+    return s == RB_SINGULAR ? RB_OK : s;
+}
+
+static rb_status examine_local(const rb_sparse *w, rb_friction_facts *facts)
+{
+    double difference, largest;
+    rb_status s = rb_sparse_rank(w, &facts->rank);
+    if (s == RB_OK)
+        s = sparse_asymmetry(w, &difference, &largest);
+    if (s == RB_OK)
+        s = examine_definiteness(w, largest, &facts->indefinite);
+    if (s == RB_OK)
+        facts->asymmetry = largest > 0.0 ? difference / largest : 0.0;
+    return s;
+}
+
+rb_status rb_friction_examine(const rb_friction_problem *problem,
+                              rb_friction_facts *facts)
+{
+    const int m = problem->dimension * problem->contacts;
+    rb_sparse w = {0};
+    rb_status s;
+    int rank = 0;
+    *facts = (rb_friction_facts){0};
+    switch (problem->form) {
+    case RB_FRICTION_GLOBAL:
+        s = rb_sparse_rank(&problem->H, &facts->rank);
+        if (s == RB_OK)
+            s = rb_sparse_rank(&problem->K, &rank);
+        facts->nullity = problem->dofs - rank;
+        break;
+    case RB_FRICTION_LOCAL_SPARSE:
+        s = examine_local(&problem->Ws, facts);
+        break;
+    default:
+        s = rb_sparse_from_dense(m, m, problem->W, m, &w);
+        if (s == RB_OK)
+            s = examine_local(&w, facts);
+        rb_sparse_free(&w);
+    }
+    facts->hyperstaticity = m - facts->rank;
+    return s;
+}

@@ -1,0 +1,189 @@
+/* The solvers by name, and the one door through which they are called. */
+#include "friction/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Same order in both tables. */
+static const rb_friction_solver solvers[] = {
+    {"auto", "one method after the other until one meets the tolerance", 0},
+    {"nsn-ac", "Newton on Alart-Curnier's function, line search", 0},
+    {"nsn-ac-nls", "the same without line search", 0},
+    {"nsn-jm", "Newton on Jean-Moreau's function, line search", 0},
+    {"nsn-jm-nls", "the same without line search", 0},
+    {"nsn-nm", "Newton on the natural map, line search", 0},
+    {"nsn-nm-nls", "the same without line search", 0},
+    {"nsn-fb", "Newton on Fischer-Burmeister's function, line search", 0},
+    {"nsn-fb-nls", "the same without line search", 0},
+};
+static rb_friction_method *const methods[] = {
+    rb_friction_auto,       rb_friction_nsn_ac,     rb_friction_nsn_ac_nls,
+    rb_friction_nsn_jm,     rb_friction_nsn_jm_nls, rb_friction_nsn_nm,
+    rb_friction_nsn_nm_nls, rb_friction_nsn_fb,     rb_friction_nsn_fb_nls,
+};
+
+const rb_friction_solver *rb_friction_solvers(int *count)
+{
+    *count = (int)(sizeof solvers / sizeof *solvers);
+    return solvers;
+}
+
+rb_friction_options rb_friction_defaults(void)
+{
+    return (rb_friction_options){.tol = 1e-8};
+}
+
+const char *rb_friction_status_text(rb_status s, double tol, const rb_friction_info *info)
+{
+    if (s == RB_OK && info->residual > tol)
+        return "solved-to-rounding";
+    return rb_status_text(s);
+}
+
+/* ---- What solvers ask
+ * ------------------------------------------------------------------ */
+
+double rb_friction_task_error(rb_friction_task *task)
+{
+    double error;
+    const rb_friction_problem *p = task->problem;
+    const rb_status s =
+        rb_friction_measure_error(task->measure, task->r, task->v, task->u, &error);
+    const double m = task->m;
+    task->info->flops += 25.0 * m;
+    if (p->form == RB_FRICTION_LOCAL_DENSE)
+        task->info->flops += 2.0 * m * m;
+    else if (p->form == RB_FRICTION_LOCAL_SPARSE)
+        task->info->flops += 2.0 * p->Ws.p[task->m];
+    else
+        task->info->flops += 4.0 * p->H.p[task->m] + 2.0 * p->K.p[task->n];
+    return s == RB_OK ? error : INFINITY;
+}
+
+int rb_friction_task_accepts(const rb_friction_task *task, double error)
+{
+    if (error <= task->opt.tol)
+        return 1;
+    /* the floor costs as much as the error: ask only when it can matter */
+    return error <= 1e-3 &&
+           error <= rb_friction_measure_floor(task->measure, task->r, task->v);
+}
+
+int rb_friction_task_late(const rb_friction_task *task)
+{
+    return task->deadline > 0.0 && rb_seconds() > task->deadline;
+}
+
+/* ---- One call
+ * -------------------------------------------------------------------------- */
+
+static int find_solver(const char *name)
+{
+    int count;
+    const rb_friction_solver *all = rb_friction_solvers(&count);
+    for (int k = 0; k < count; k++)
+        if (!strcmp(all[k].name, name))
+            return k;
+    return -1;
+}
+
+static rb_status check_call(const char *name, const rb_friction_problem *p,
+                            const rb_friction_options *opt, int *chosen, rb_message *why)
+{
+    *chosen = find_solver(name);
+    if (*chosen < 0)
+        return rb_fail(why, RB_EINVAL, "no friction solver named '%s'", name);
+    if (!(opt->tol > 0.0) || opt->max_iters < 0 || !(opt->seconds >= 0.0))
+        return rb_fail(why, RB_EINVAL, "tol = %g, max_iters = %d, seconds = %g", opt->tol,
+                       opt->max_iters, opt->seconds);
+    const rb_status s = rb_friction_problem_check(p, why);
+    if (s == RB_OK && (solvers[*chosen].needs & RB_FRICTION_ONLY_2D) && p->dimension != 2)
+        return rb_fail(why, RB_EINVAL, "%s solves problems in 2D only", name);
+    return s;
+}
+
+/* Runs the method on the prepared task and judges the outcome by the recomputed measure.
+ */
+static rb_status run(rb_friction_task *task, rb_friction_method *method)
+{
+    rb_status s = method(task);
+    if (s < 0)
+        return s;
+    task->info->residual = rb_friction_task_error(task);
+    task->info->floor = rb_friction_measure_floor(task->measure, task->r, task->v);
+    if (task->info->residual <= fmax(task->opt.tol, task->info->floor))
+        return RB_OK;
+    return s == RB_OK ? RB_INACCURATE : s;
+}
+
+static rb_status prepare(rb_friction_task *task, int needs,
+                         rb_friction_problem *condensed)
+{
+    const rb_friction_problem *p = task->problem;
+    rb_status s = RB_OK;
+    if (p->form != RB_FRICTION_GLOBAL)
+        task->local = p;
+    else if (needs & RB_FRICTION_NEEDS_W) {
+        s = rb_friction_condense(p, condensed, &task->info->msg);
+        task->local = condensed;
+    }
+    if (s == RB_OK)
+        s = rb_friction_measure_init(p, task->measure);
+    if (s == RB_SINGULAR)
+        return rb_fail(&task->info->msg, s,
+                       "K is singular even with every contact held: the structure has "
+                       "motions that no contact sees");
+    return s;
+}
+
+static void load_start(rb_friction_task *task)
+{
+    const rb_friction_options *opt = &task->opt;
+    for (int k = 0; k < task->m; k++)
+        task->r[k] = opt->r0 ? opt->r0[k] : 0.0;
+    for (int i = 0; i < task->n; i++)
+        task->v[i] = opt->v0 ? opt->v0[i] : 0.0;
+}
+
+rb_status rb_friction_solve(const char *solver, const rb_friction_problem *problem,
+                            const rb_friction_options *opt, double *r, double *u,
+                            double *v, rb_friction_info *info)
+{
+    const double start = rb_seconds();
+    const rb_friction_options used = opt ? *opt : rb_friction_defaults();
+    const char *name = solver ? solver : "auto";
+    int chosen;
+    *info = (rb_friction_info){.solver = name, .residual = INFINITY};
+    rb_status s = check_call(name, problem, &used, &chosen, &info->msg);
+    if (s != RB_OK)
+        return s;
+
+    rb_friction_measure measure = {0};
+    rb_friction_problem condensed = {0};
+    const int n = problem->form == RB_FRICTION_GLOBAL ? problem->dofs : 0;
+    double *own_v = rb_alloc((size_t)n, 1);
+    rb_friction_task task = {.problem = problem,
+                             .measure = &measure,
+                             .opt = used,
+                             .info = info,
+                             .d = problem->dimension,
+                             .contacts = problem->contacts,
+                             .m = problem->dimension * problem->contacts,
+                             .n = n,
+                             .deadline = used.seconds > 0.0 ? start + used.seconds : 0.0,
+                             .r = r,
+                             .u = u,
+                             .v = v ? v : own_v};
+    info->solver = solvers[chosen].name;
+    s = own_v ? prepare(&task, solvers[chosen].needs, &condensed) : RB_ENOMEM;
+    if (s == RB_OK) {
+        load_start(&task);
+        s = run(&task, methods[chosen]);
+    }
+    rb_friction_measure_free(&measure);
+    rb_friction_problem_free(&condensed);
+    free(own_v);
+    info->seconds = rb_seconds() - start;
+    return s;
+}

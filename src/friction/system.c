@@ -1,0 +1,332 @@
+#include "friction/internal.h"
+
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* Above this share of blocks dense LU is the faster one. */
+#define DENSE_FILL 0.3
+#define DENSE_ORDER 120
+
+void rb_friction_system_free(rb_friction_system *s)
+{
+    if (!s)
+        return;
+    rb_sparse_lu_free(s->lu);
+    rb_sparse_free(&s->jt);
+    rb_friction_blocks_free(&s->blocks);
+    free(s->rho);
+    free(s->J);
+    free(s->pivots);
+    free(s->rhs);
+    free(s->x);
+    *s = (rb_friction_system){0};
+}
+
+/* ---- rho: the inverse of each contact's own compliance --------------------------------
+ */
+
+static double largest_tangential(int d, const double *w)
+{
+    if (d == 2)
+        return fabs(w[3]);
+    const double mean = 0.5 * (w[4] + w[8]), b = 0.5 * (w[5] + w[7]);
+    return fabs(mean) + hypot(0.5 * (w[4] - w[8]), b);
+}
+
+/* The block of contact c; global form: H' diag(K)^-1 H, its diagonal only. */
+static void own_block(const rb_friction_system *s, const double *diagonal, int c,
+                      double *w)
+{
+    const int d = s->d;
+    if (!s->n) {
+        const double *block = s->blocks.x + (size_t)s->blocks.diag[c] * (size_t)(d * d);
+        for (int k = 0; k < d * d; k++)
+            w[k] = block[k];
+        return;
+    }
+    const rb_sparse *h = &s->problem->H;
+    for (int k = 0; k < d * d; k++)
+        w[k] = 0.0;
+    for (int a = 0; a < d; a++)
+        for (int k = h->p[c * d + a]; k < h->p[c * d + a + 1]; k++)
+            if (diagonal[h->i[k]] > 0.0)
+                w[a + a * d] += h->x[k] * h->x[k] / diagonal[h->i[k]];
+}
+
+static rb_status choose_rho(rb_friction_system *s)
+{
+    double *diagonal = rb_alloc((size_t)s->n, 1), sum = 0.0, w[9];
+    int count = 0;
+    if (!diagonal)
+        return RB_ENOMEM;
+    for (int j = 0; j < s->n; j++)
+        for (int k = s->problem->K.p[j]; k < s->problem->K.p[j + 1]; k++)
+            if (s->problem->K.i[k] == j)
+                diagonal[j] = s->problem->K.x[k];
+    for (int c = 0; c < s->contacts; c++) {
+        own_block(s, diagonal, c, w);
+        s->rho[2 * c] = fabs(w[0]);
+        s->rho[2 * c + 1] = largest_tangential(s->d, w);
+        for (int k = 2 * c; k < 2 * c + 2; k++)
+            if (s->rho[k] > 0.0)
+                sum += s->rho[k], count++;
+    }
+    /* a contact without compliance of its own takes the mean of the others */
+    const double mean = count ? sum / count : 1.0;
+    for (int k = 0; k < 2 * s->contacts; k++)
+        s->rho[k] = 1.0 / (s->rho[k] > 1e-12 * mean ? s->rho[k] : mean);
+    free(diagonal);
+    return RB_OK;
+}
+
+/* ---- Patterns (of the transposed matrix: its columns are the equations)
+ * ---------------- */
+
+static rb_status local_pattern(rb_friction_system *s)
+{
+    const rb_friction_blocks *b = &s->blocks;
+    const int d = s->d;
+    const size_t nz = (size_t)b->p[s->contacts] * (size_t)(d * d);
+    s->jt = (rb_sparse){.rows = s->m,
+                        .cols = s->m,
+                        .p = rb_alloc_int((size_t)s->m + 1),
+                        .i = rb_alloc_int(nz),
+                        .x = rb_alloc(nz, 1)};
+    if (!s->jt.p || !s->jt.i || !s->jt.x)
+        return RB_ENOMEM;
+    int n = 0;
+    for (int i = 0; i < s->m; i++) {
+        for (int k = b->p[i / d]; k < b->p[i / d + 1]; k++)
+            for (int a = 0; a < d; a++)
+                s->jt.i[n++] = b->j[k] * d + a;
+        s->jt.p[i + 1] = n;
+    }
+    return RB_OK;
+}
+
+/* Triplets of one filling of the global pattern; only places matter. */
+static int global_places(const rb_friction_problem *p, int d, int *row, int *col,
+                         double *x)
+{
+    const rb_sparse *k = &p->K, *h = &p->H;
+    const int n = p->dofs;
+    int count = 0;
+    for (int j = 0; j < n; j++)
+        for (int l = k->p[j]; l < k->p[j + 1]; l++)
+            row[count] = k->i[l], col[count] = j, x[count++] = k->x[l];
+    for (int j = 0; j < h->cols; j++) {
+        const int c = j / d;
+        for (int l = h->p[j]; l < h->p[j + 1]; l++)
+            row[count] = n + j, col[count] = h->i[l], x[count++] = -h->x[l];
+        for (int a = 0; a < d; a++) {
+            for (int l = h->p[c * d + a]; l < h->p[c * d + a + 1]; l++)
+                row[count] = h->i[l], col[count] = n + j, x[count++] = 0.0;
+            row[count] = n + c * d + a, col[count] = n + j, x[count++] = 0.0;
+        }
+    }
+    return count;
+}
+
+static rb_status global_pattern(rb_friction_system *s)
+{
+    const rb_friction_problem *p = s->problem;
+    const size_t places = (size_t)p->K.p[p->dofs] +
+                          (size_t)(s->d + 1) * (size_t)p->H.p[s->m] +
+                          (size_t)s->m * (size_t)s->d;
+    int *row = rb_alloc_int(places), *col = rb_alloc_int(places);
+    double *x = rb_alloc(places, 1);
+    rb_status st = RB_ENOMEM;
+    if (row && col && x) {
+        const int count = global_places(p, s->d, row, col, x);
+        st =
+            rb_sparse_from_triplets(s->n + s->m, s->n + s->m, count, row, col, x, &s->jt);
+    }
+    free(x);
+    free(col);
+    free(row);
+    return st;
+}
+
+static int wants_dense(const rb_friction_system *s)
+{
+    const double all = (double)s->contacts * s->contacts;
+    return s->m <= DENSE_ORDER || s->blocks.p[s->contacts] > DENSE_FILL * all;
+}
+
+rb_status rb_friction_system_init(const rb_friction_problem *problem,
+                                  rb_friction_system *s)
+{
+    const int m = problem->dimension * problem->contacts;
+    const int n = problem->form == RB_FRICTION_GLOBAL ? problem->dofs : 0;
+    *s = (rb_friction_system){.problem = problem,
+                              .d = problem->dimension,
+                              .contacts = problem->contacts,
+                              .m = m,
+                              .n = n,
+                              .rho = rb_alloc((size_t)problem->contacts, 2),
+                              .rhs = rb_alloc((size_t)(n + m), 1),
+                              .x = rb_alloc((size_t)(n + m), 1)};
+    rb_status st = s->rho && s->rhs && s->x ? RB_OK : RB_ENOMEM;
+    if (st == RB_OK && !n)
+        st = rb_friction_blocks_init(problem, &s->blocks);
+    if (st == RB_OK)
+        st = choose_rho(s);
+    if (st == RB_OK && !n && wants_dense(s)) {
+        s->J = rb_alloc((size_t)m, (size_t)m);
+        s->pivots = rb_alloc_int((size_t)m);
+        st = s->J && s->pivots ? RB_OK : RB_ENOMEM;
+    } else if (st == RB_OK) {
+        st = n ? global_pattern(s) : local_pattern(s);
+        if (st == RB_OK)
+            st = rb_sparse_lu_create(&s->jt, &s->lu);
+    }
+    if (st != RB_OK)
+        rb_friction_system_free(s);
+    return st;
+}
+
+/* ---- Products
+ * ---------------------------------------------------------------------------- */
+
+void rb_friction_system_velocity(const rb_friction_system *s, double constant,
+                                 const double *r, const double *v, double *u)
+{
+    const rb_friction_problem *p = s->problem;
+    if (s->n)
+        rb_sparse_apply_transposed(1.0, &p->H, v, 0.0, u);
+    else
+        rb_friction_blocks_apply(&s->blocks, r, u);
+    for (int k = 0; k < s->m && constant != 0.0; k++)
+        u[k] += constant * (s->n ? p->w[k] : p->q[k]);
+}
+
+void rb_friction_system_imbalance(const rb_friction_system *s, const double *r,
+                                  const double *v, double *e)
+{
+    if (!s->n)
+        return;
+    for (int i = 0; i < s->n; i++)
+        e[i] = -s->problem->f[i];
+    rb_sparse_apply(1.0, &s->problem->K, v, 1.0, e);
+    rb_sparse_apply(-1.0, &s->problem->H, r, 1.0, e);
+}
+
+/* ---- Steps
+ * ------------------------------------------------------------------------------- */
+
+/* row a of B_c (block of W): b-th entry */
+static double row_times_block(int d, const double *B, int a, const double *w, int b)
+{
+    double sum = 0.0;
+    for (int c = 0; c < d; c++)
+        sum += B[a + c * d] * w[c + b * d];
+    return sum;
+}
+
+static void fill_dense(rb_friction_system *s, const double *A, const double *B)
+{
+    const rb_friction_blocks *w = &s->blocks;
+    const int d = s->d, dd = d * d;
+    const size_t m = (size_t)s->m;
+    for (size_t k = 0; k < m * m; k++)
+        s->J[k] = 0.0;
+    for (int i = 0; i < s->contacts; i++)
+        for (int k = w->p[i]; k < w->p[i + 1]; k++)
+            for (int b = 0; b < d; b++)
+                for (int a = 0; a < d; a++) {
+                    double x =
+                        row_times_block(d, B + i * dd, a, w->x + (size_t)k * dd, b);
+                    if (k == w->diag[i])
+                        x += A[i * dd + a + b * d];
+                    s->J[(size_t)(i * d + a) + m * (size_t)(w->j[k] * d + b)] = x;
+                }
+}
+
+static void fill_local(rb_friction_system *s, const double *A, const double *B)
+{
+    const rb_friction_blocks *w = &s->blocks;
+    const int d = s->d, dd = d * d;
+    double *x = s->jt.x;
+    for (int i = 0; i < s->contacts; i++)
+        for (int a = 0; a < d; a++)
+            for (int k = w->p[i]; k < w->p[i + 1]; k++)
+                for (int b = 0; b < d; b++) {
+                    *x = row_times_block(d, B + i * dd, a, w->x + (size_t)k * dd, b);
+                    if (k == w->diag[i])
+                        *x += A[i * dd + a + b * d];
+                    x++;
+                }
+}
+
+/* The contact equations B H' dv + A dr; K and -H stay. */
+static void fill_global(rb_friction_system *s, const double *A, const double *B)
+{
+    const rb_sparse *h = &s->problem->H;
+    const int d = s->d, n = s->n;
+    double *place = s->x; /* dense column under construction, zeroed as it is read */
+    for (int i = 0; i < n + s->m; i++)
+        place[i] = 0.0;
+    for (int j = 0; j < s->m; j++) {
+        const int c = j / d, a = j % d;
+        for (int b = 0; b < d; b++) {
+            const double factor = B[c * d * d + a + b * d];
+            for (int k = h->p[c * d + b]; k < h->p[c * d + b + 1]; k++)
+                place[h->i[k]] += factor * h->x[k];
+            place[n + c * d + b] = A[c * d * d + a + b * d];
+        }
+        for (int k = s->jt.p[n + j]; k < s->jt.p[n + j + 1]; k++) {
+            s->jt.x[k] = place[s->jt.i[k]];
+            place[s->jt.i[k]] = 0.0;
+        }
+    }
+}
+
+static rb_status solve_dense(rb_friction_system *s)
+{
+    const double m = s->m;
+    const int info =
+        LAPACKE_dgesv(LAPACK_COL_MAJOR, s->m, 1, s->J, s->m, s->pivots, s->x, s->m);
+    s->flops += m * m * (2.0 / 3.0 * m + 2.0);
+    return info == 0 ? RB_OK : info > 0 ? RB_SINGULAR : RB_ENOMEM;
+}
+
+static rb_status solve_sparse(rb_friction_system *s)
+{
+    rb_status st = rb_sparse_lu_factor(s->lu, &s->jt, &s->flops);
+    if (st == RB_OK)
+        st = rb_sparse_lu_solve_transposed(s->lu, s->rhs, s->x);
+    s->flops += 4.0 * s->jt.p[s->jt.cols];
+    return st;
+}
+
+rb_status rb_friction_system_step(rb_friction_system *s, const double *A, const double *B,
+                                  const double *F, const double *e, double *dr,
+                                  double *dv)
+{
+    const int n = s->n;
+    if (n)
+        fill_global(s, A, B);
+    else if (s->J)
+        fill_dense(s, A, B);
+    else
+        fill_local(s, A, B);
+    for (int i = 0; i < n; i++)
+        s->rhs[i] = -e[i];
+    for (int k = 0; k < s->m; k++)
+        s->rhs[n + k] = -F[k];
+    for (int k = 0; s->J && k < s->m; k++)
+        s->x[k] = s->rhs[k];
+    s->flops += 2.0 * s->d *
+                (n ? (double)s->problem->H.p[s->m] * s->d
+                   : (double)s->blocks.p[s->contacts] * s->d * s->d);
+    const rb_status st = s->J ? solve_dense(s) : solve_sparse(s);
+    for (int i = 0; i < n; i++)
+        dv[i] = s->x[i];
+    for (int k = 0; k < s->m; k++) {
+        dr[k] = s->x[n + k];
+        if (st == RB_OK && !isfinite(dr[k]))
+            return RB_SINGULAR;
+    }
+    return st;
+}

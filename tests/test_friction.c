@@ -1,0 +1,418 @@
+/* The problem, its measure, and Newton on both forms. */
+#include "check.h"
+#include "rollbem/friction.h"
+
+#include <string.h>
+
+static double uniform(unsigned *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (double)(*state >> 8) / (1u << 24) * 2.0 - 1.0;
+}
+
+/* Equation (13), written down a second time: by the disjunction of *Acary* (2) for the
+ * projection instead of the library's formula. */
+static double measure_again(int d, int nc, const double *mu, const double *r,
+                            const double *u, const double *q)
+{
+    double sum = 0.0, norm = 0.0;
+    for (int c = 0; c < nc; c++) {
+        const double *rc = r + c * d, *uc = u + c * d, m = mu[c];
+        double z[3] = {0}, p[3] = {0}, t = 0.0, s = 0.0;
+        for (int a = 1; a < d; a++)
+            s += uc[a] * uc[a];
+        z[0] = rc[0] - uc[0] - m * sqrt(s);
+        for (int a = 1; a < d; a++)
+            z[a] = rc[a] - uc[a], t += z[a] * z[a];
+        t = sqrt(t);
+        if (t <= m * z[0]) {
+            memcpy(p, z, sizeof p);
+        } else if (z[0] > -m * t) {
+            /* foot of the perpendicular on the ray (1, m z_T/t) */
+            const double along = (z[0] + m * t) / (1.0 + m * m);
+            p[0] = along;
+            for (int a = 1; a < d; a++)
+                p[a] = along * m * z[a] / t;
+        }
+        for (int a = 0; a < d; a++) {
+            sum += (rc[a] - p[a]) * (rc[a] - p[a]);
+            norm += q[c * d + a] * q[c * d + a];
+        }
+    }
+    return sqrt(sum / norm);
+}
+
+/* A local problem with a planted solution: W = B B' + I/2 (m x m), contact by contact
+ * separated, stuck or slipping, q = u - W r. */
+static void plant(int d, int nc, unsigned seed, rb_friction_problem *p, double *r)
+{
+    const int m = d * nc;
+    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
+                               .dimension = d,
+                               .contacts = nc,
+                               .mu = rb_alloc((size_t)nc, 1),
+                               .W = rb_alloc((size_t)m, (size_t)m),
+                               .q = rb_alloc((size_t)m, 1)};
+    double *B = rb_alloc((size_t)m, (size_t)m);
+    for (int k = 0; k < m * m; k++)
+        B[k] = uniform(&seed) / sqrt(m);
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < m; j++) {
+            p->W[i + j * m] = 0.5 * (i == j);
+            for (int k = 0; k < m; k++)
+                p->W[i + j * m] += B[i + k * m] * B[j + k * m];
+        }
+    free(B);
+    for (int c = 0; c < nc; c++) {
+        double *rc = r + c * d, *uc = p->q + c * d, dir[2], t = 0.0;
+        p->mu[c] = 0.1 + 0.4 * fabs(uniform(&seed));
+        for (int a = 0; a < d - 1; a++)
+            dir[a] = uniform(&seed), t = hypot(t, dir[a]);
+        memset(rc, 0, (size_t)d * sizeof *rc);
+        switch (c % 3) {
+        case 0: /* separated */
+            for (int a = 0; a < d; a++)
+                uc[a] = a ? dir[a - 1] : 0.3;
+            break;
+        case 1: /* stuck */
+            rc[0] = 1.0;
+            for (int a = 1; a < d; a++)
+                rc[a] = 0.6 * p->mu[c] * dir[a - 1] / t;
+            break;
+        default: /* slipping */
+            rc[0] = 2.0;
+            for (int a = 1; a < d; a++) {
+                rc[a] = p->mu[c] * 2.0 * dir[a - 1] / t;
+                uc[a] = -0.7 * dir[a - 1] / t;
+            }
+        }
+    }
+    for (int j = 0; j < m; j++)
+        for (int i = 0; i < m; i++)
+            p->q[i] -= p->W[i + j * m] * r[j];
+}
+
+static void make_sparse(rb_friction_problem *p)
+{
+    const int m = p->dimension * p->contacts;
+    CHECK_STATUS(rb_sparse_from_dense(m, m, p->W, m, &p->Ws), RB_OK);
+    p->form = RB_FRICTION_LOCAL_SPARSE;
+}
+
+static void the_measure_is_equation_13(void **state)
+{
+    (void)state;
+    unsigned seed = 3;
+    for (int d = 2; d <= 3; d++) {
+        enum { NC = 7 };
+        rb_friction_problem p;
+        double r[3 * NC], u[3 * NC], error, floor;
+        plant(d, NC, 5, &p, r);
+        CHECK_STATUS(rb_friction_error(&p, r, NULL, u, &error, &floor), RB_OK);
+        CHECK_MAX(error, 1e-14, "planted solution, d = %d", d);
+        assert_true(floor > 1e-15 && floor < 1e-12);
+        for (int trial = 0; trial < 50; trial++) {
+            for (int k = 0; k < d * NC; k++)
+                r[k] = 3.0 * uniform(&seed);
+            CHECK_STATUS(rb_friction_error(&p, r, NULL, u, &error, NULL), RB_OK);
+            for (int i = 0; i < d * NC; i++) {
+                double want = p.q[i];
+                for (int j = 0; j < d * NC; j++)
+                    want += p.W[i + j * d * NC] * r[j];
+                CHECK_ABS(u[i], want, 1e-12, "u = W r + q, row %d", i);
+            }
+            CHECK_REL(error, measure_again(d, NC, p.mu, r, u, p.q), 1e-12, "trial %d",
+                      trial);
+        }
+        make_sparse(&p);
+        double same;
+        CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &same, NULL), RB_OK);
+        CHECK_REL(same, error, 1e-13, "sparse W");
+        rb_friction_problem_free(&p);
+    }
+}
+
+/* Two springs in series per contact: n = 2 m, K = blocks [2 -1; -1 1 + held/..], H picks
+ * the outer ends.  held 0: chains of free bodies, K singular. */
+static void series_of_springs(int d, int nc, double held, rb_friction_problem *p)
+{
+    const int m = d * nc, n = 2 * m;
+    int row[400], col[400], nz = 0;
+    double x[400], one[200];
+    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
+                               .dimension = d,
+                               .contacts = nc,
+                               .dofs = n,
+                               .mu = rb_alloc((size_t)nc, 1),
+                               .f = rb_alloc((size_t)n, 1),
+                               .w = rb_alloc((size_t)m, 1)};
+    for (int k = 0; k < m; k++) {
+        const int i = 2 * k, j = 2 * k + 1;
+        row[nz] = i, col[nz] = i, x[nz++] = 1.0 + held;
+        row[nz] = i, col[nz] = j, x[nz++] = -1.0;
+        row[nz] = j, col[nz] = i, x[nz++] = -1.0;
+        row[nz] = j, col[nz] = j, x[nz++] = 1.0;
+        one[k] = 1.0;
+    }
+    CHECK_STATUS(rb_sparse_from_triplets(n, n, nz, row, col, x, &p->K), RB_OK);
+    for (int k = 0; k < m; k++)
+        row[k] = 2 * k + 1, col[k] = k;
+    CHECK_STATUS(rb_sparse_from_triplets(n, m, m, row, col, one, &p->H), RB_OK);
+    for (int c = 0; c < nc; c++) {
+        p->mu[c] = 0.5;
+        /* pressed down by 1, pulled along T1 by 0.2 (sticks), 0.8 (slips); lifted */
+        p->f[2 * c * d] = c % 3 == 2 ? 0.4 : -1.0;
+        p->f[2 * (c * d + 1)] = c % 3 == 1 ? 0.8 : 0.2;
+        p->w[c * d + 1] = 0.01 * c;
+    }
+}
+
+static void condensation_gives_the_same_problem(void **state)
+{
+    (void)state;
+    enum { NC = 6, M = 3 * NC };
+    rb_friction_problem p, local;
+    rb_friction_info info;
+    rb_message why;
+    double r[M], u[M], v[2 * M], r2[M], u2[M], error;
+    series_of_springs(3, NC, 1.0, &p);
+    CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_OK);
+    /* springs in series: W = 2, q = w + f */
+    for (int j = 0; j < M; j++) {
+        assert_int_equal(local.Ws.p[j + 1] - local.Ws.p[j], 1);
+        CHECK_REL(local.Ws.x[j], 2.0, 1e-14, "W[%d]", j);
+        CHECK_ABS(local.q[j], p.w[j] + p.f[2 * j], 1e-14, "q[%d]", j);
+    }
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, NULL, r, u, v, &info), RB_OK);
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &local, NULL, r2, u2, NULL, &info), RB_OK);
+    for (int k = 0; k < M; k++) {
+        CHECK_ABS(r[k], r2[k], 1e-12, "r[%d]", k);
+        CHECK_ABS(u[k], u2[k], 1e-12, "u[%d]", k);
+    }
+    CHECK_REL(measure_again(3, NC, p.mu, r, u, local.q) + 1.0, 1.0, 1e-12, "by hand");
+    r[0] += 0.1;
+    double local_error;
+    CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &error, NULL), RB_OK);
+    CHECK_STATUS(rb_friction_error(&local, r, NULL, NULL, &local_error, NULL), RB_OK);
+    CHECK_REL(error, local_error, 1e-12, "(13) on both forms");
+    rb_friction_problem_free(&local);
+    rb_friction_problem_free(&p);
+}
+
+static void a_structure_held_by_friction_alone_is_solved(void **state)
+{
+    (void)state;
+    enum { NC = 2, M = 3 * NC, N = 2 * M };
+    rb_friction_problem p, local;
+    rb_friction_info info;
+    rb_friction_facts facts;
+    rb_message why = {""};
+    double r[M], u[M], v[N], error;
+    series_of_springs(3, NC, 0.0, &p);
+    p.f[2 * 4] = 0.3; /* contact 2 sticks too */
+    CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_SINGULAR);
+    assert_non_null(strstr(why.text, "nullity 6"));
+    CHECK_STATUS(rb_friction_examine(&p, &facts), RB_OK);
+    assert_int_equal(facts.nullity, 6);
+    assert_int_equal(facts.rank, 6);
+    assert_int_equal(facts.hyperstaticity, 0);
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, NULL, r, u, v, &info), RB_OK);
+    /* every force goes through to the ground: r = -f */
+    for (int c = 0; c < NC; c++)
+        for (int a = 0; a < 3; a++)
+            CHECK_ABS(r[3 * c + a], -p.f[2 * (3 * c + a)], 1e-10, "contact %d, %d", c, a);
+    CHECK_STATUS(rb_friction_error(&p, r, v, u, &error, NULL), RB_OK);
+    CHECK_MAX(error, 1e-8, "measure");
+    v[1] += 1e-3; /* a displacement that the forces do not balance counts */
+    CHECK_STATUS(rb_friction_error(&p, r, v, u, &error, NULL), RB_OK);
+    assert_true(error > 1e-5);
+
+    /* a motion that no contact sees: the message says so */
+    rb_sparse_free(&p.H);
+    CHECK_STATUS(rb_sparse_from_triplets(N, M, 0, NULL, NULL, NULL, &p.H), RB_OK);
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, NULL, r, u, v, &info), RB_SINGULAR);
+    assert_non_null(strstr(info.msg.text, "no contact sees"));
+    rb_friction_problem_free(&p);
+}
+
+/* Every Newton method on planted problems, dense and sparse, from its own residual. */
+static void newton_solves_planted_problems(void **state)
+{
+    (void)state;
+    const char *names[] = {"nsn-ac", "nsn-jm",     "nsn-nm",     "nsn-fb",
+                           "auto",   "nsn-ac-nls", "nsn-jm-nls", "nsn-fb-nls"};
+    for (int d = 2; d <= 3; d++)
+        for (int nc = 1; nc <= 45; nc += 22)
+            for (size_t s = 0; s < sizeof names / sizeof *names; s++) {
+                rb_friction_problem p;
+                rb_friction_info info;
+                double r[135], u[135], planted[135];
+                plant(d, nc, 7u + (unsigned)nc, &p, planted);
+                if (nc > 40)
+                    make_sparse(&p);
+                CHECK_STATUS(rb_friction_solve(names[s], &p, NULL, r, u, NULL, &info),
+                             RB_OK);
+                CHECK_MAX(measure_again(d, nc, p.mu, r, u, p.q), 1.0001e-8,
+                          "%s d %d nc %d", names[s], d, nc);
+                CHECK_REL(info.residual, measure_again(d, nc, p.mu, r, u, p.q), 1e-5,
+                          "%s", names[s]);
+                assert_true(info.flops > 0.0 && (info.iters > 0 || nc == 1));
+                rb_friction_problem_free(&p);
+            }
+}
+
+static void facts_are_reported(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_friction_facts facts;
+    double r[9];
+    plant(3, 3, 4, &p, r);
+    CHECK_STATUS(rb_friction_examine(&p, &facts), RB_OK);
+    assert_int_equal(facts.rank, 9);
+    assert_int_equal(facts.indefinite, 0);
+    CHECK_MAX(facts.asymmetry, 1e-14, "symmetric W");
+    p.W[1] += 0.5;
+    p.W[80] = -1.0;
+    CHECK_STATUS(rb_friction_examine(&p, &facts), RB_OK);
+    assert_int_equal(facts.indefinite, 1);
+    assert_true(facts.asymmetry > 0.05);
+    for (int k = 0; k < 9; k++)
+        p.W[8 + 9 * k] = p.W[k * 9 + 8] = 0.0;
+    CHECK_STATUS(rb_friction_examine(&p, &facts), RB_OK);
+    assert_int_equal(facts.rank, 8);
+    assert_int_equal(facts.hyperstaticity, 1);
+    rb_friction_problem_free(&p);
+}
+
+static void zero_q_has_the_trivial_solution(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_friction_info info;
+    double r[6], u[6];
+    plant(2, 3, 4, &p, r);
+    memset(p.q, 0, 6 * sizeof *p.q);
+    CHECK_STATUS(rb_friction_solve("auto", &p, NULL, r, u, NULL, &info), RB_OK);
+    for (int k = 0; k < 6; k++)
+        CHECK_ABS(r[k], 0.0, 0.0, "r[%d]", k);
+    CHECK_ABS(info.residual, 0.0, 0.0, "residual");
+    rb_friction_problem_free(&p);
+}
+
+static void refuse(rb_friction_problem *p, const char *words)
+{
+    rb_friction_info info;
+    double r[9], u[9];
+    CHECK_STATUS(rb_friction_solve("nsn-ac", p, NULL, r, u, NULL, &info), RB_EINVAL);
+    if (!strstr(info.msg.text, words))
+        print_error("'%s' lacks '%s'\n", info.msg.text, words);
+    assert_non_null(strstr(info.msg.text, words));
+}
+
+static void bad_problems_are_refused(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_friction_info info;
+    rb_friction_options opt = rb_friction_defaults();
+    double r[9], u[9];
+    plant(3, 3, 4, &p, r);
+    p.dimension = 4;
+    refuse(&p, "dimension 4");
+    p.dimension = 3, p.contacts = 0;
+    refuse(&p, "0 contacts");
+    p.contacts = 3, p.mu[1] = -0.1;
+    refuse(&p, "contact 2");
+    p.mu[1] = NAN;
+    refuse(&p, "mu: entry 2");
+    p.mu[1] = 0.1, p.W[7] = INFINITY;
+    refuse(&p, "W: entry 8");
+    p.W[7] = 0.0, p.q[0] = NAN;
+    refuse(&p, "q: entry 1");
+    p.q[0] = 1.0;
+    make_sparse(&p);
+    p.Ws.cols = 8;
+    refuse(&p, "9 x 8");
+    p.Ws.cols = 9;
+    CHECK_STATUS(rb_friction_solve("newton", &p, NULL, r, u, NULL, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "'newton'"));
+    opt.tol = 0.0;
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, r, u, NULL, &info), RB_EINVAL);
+    rb_friction_problem_free(&p);
+
+    series_of_springs(2, 1, 1.0, &p);
+    p.K.x[1] = 5.0;
+    refuse(&p, "not symmetric");
+    p.K.x[1] = -1.0, p.dofs = 3;
+    refuse(&p, "K is 4 x 4");
+    p.dofs = 4;
+    free(p.f);
+    p.f = NULL;
+    refuse(&p, "f is missing");
+    rb_friction_problem_free(&p);
+    rb_friction_problem_free(NULL);
+}
+
+static void success_is_never_claimed_above_the_tolerance(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_friction_info info;
+    rb_friction_options opt = rb_friction_defaults();
+    double r[30], u[30], planted[30];
+    plant(3, 10, 4, &p, planted);
+    opt.max_iters = 1;
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, r, u, NULL, &info), RB_MAXITER);
+    assert_true(info.residual > opt.tol);
+    assert_string_equal(rb_friction_status_text(RB_MAXITER, opt.tol, &info),
+                        "iteration limit");
+    /* from the solution: nothing to do; a tolerance below rounding: solved to rounding */
+    opt.r0 = planted, opt.tol = 1e-300;
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, r, u, NULL, &info), RB_OK);
+    assert_int_equal(info.iters, 0);
+    assert_string_equal(rb_friction_status_text(RB_OK, opt.tol, &info),
+                        "solved-to-rounding");
+    opt.r0 = NULL, opt.tol = 1e-8, opt.max_iters = 0, opt.seconds = 1e-9;
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, r, u, NULL, &info),
+                 RB_INTERRUPTED);
+    rb_friction_problem_free(&p);
+}
+
+static void failing_allocations_are_reported(void **state)
+{
+    (void)state;
+    rb_friction_problem p[2];
+    rb_friction_info info;
+    double r[9], u[9];
+    plant(3, 3, 4, &p[0], r);
+    series_of_springs(3, 2, 1.0, &p[1]);
+    for (int k = 0; k < 2; k++) {
+        int count = 0;
+        for (rb_status s = RB_ENOMEM; s != RB_OK && count < 400; count++) {
+            alloc_fail_after(count);
+            s = rb_friction_solve("auto", &p[k], NULL, r, u, NULL, &info);
+            const int refused = alloc_failed();
+            alloc_succeed();
+            assert_true(s == RB_OK || refused);
+        }
+        assert_true(count > 10 && count < 400);
+        rb_friction_problem_free(&p[k]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_measure_is_equation_13),
+        cmocka_unit_test(condensation_gives_the_same_problem),
+        cmocka_unit_test(a_structure_held_by_friction_alone_is_solved),
+        cmocka_unit_test(newton_solves_planted_problems),
+        cmocka_unit_test(facts_are_reported),
+        cmocka_unit_test(zero_q_has_the_trivial_solution),
+        cmocka_unit_test(bad_problems_are_refused),
+        cmocka_unit_test(success_is_never_claimed_above_the_tolerance),
+        cmocka_unit_test(failing_allocations_are_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
