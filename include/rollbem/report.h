@@ -1,0 +1,73 @@
+/* Solutions as tables, JSON, lines for people and pictures.  Formats: docs/report.md.
+ * Numbers with 17 significant digits: what is read back is what was computed. */
+#ifndef ROLLBEM_REPORT_H
+#define ROLLBEM_REPORT_H
+
+#include "rollbem/rolling.h"
+
+#include <stdio.h>
+
+struct json_t; /* jansson's */
+
+/* ---- Names ------------------------------------------------------------------------ */
+
+const char *rb_report_formulation(rb_rolling_formulation formulation);
+const char *rb_report_solver(rb_rolling_solver solver);
+const char *rb_report_lcp_form(rb_rolling_lcp_form form);
+
+/* The signs of creepage, slip and zones, one line each; ends with NULL. */
+extern const char *const rb_report_conventions[];
+
+/* ---- Table ------------------------------------------------------------------------ */
+
+/* Tab-separated, one row per contact element.  Headers: # lines with version, command,
+ * conventions, status and residual, the last one naming the columns; bare: the names
+ * alone. RB_EWRITE: see errno. */
+rb_status rb_report_table(FILE *out, const rb_rolling_solution *s, const char *command,
+                          int bare);
+
+/* ---- JSON ------------------------------------------------------------------------- */
+
+/* {"schema", "version", "command", "conventions"}: how every result starts.  NULL: no
+ * memory.  All JSON objects here are new references. */
+struct json_t *rb_report_json_start(const char *command);
+/* A number; null for NaN and infinities. */
+struct json_t *rb_report_json_number(double x);
+struct json_t *rb_report_json_numbers(int n, const double *x);
+struct json_t *rb_report_json_summary(const rb_rolling_case *rc,
+                                      const rb_rolling_solution *s);
+struct json_t *rb_report_json_table(const rb_rolling_solution *s);
+/* Writes with a final newline.  RB_ENOMEM when json is NULL, RB_EWRITE: see errno. */
+rb_status rb_report_json_write(FILE *out, const struct json_t *json);
+
+/* ---- For people ------------------------------------------------------------------- */
+
+/* One character per element, from just before the contact to just after it, at most
+ * width: o separated, * stick, S slip, . the rest.  strip: width + 1 characters, width
+ * >= 8. */
+void rb_report_strip(const rb_rolling_solution *s, int width, char *strip);
+/* A few lines; width: of the terminal. */
+void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width);
+/* One line each where a result must be read with care: linear theory stretched, `static`
+ * with a creepage, an arc support that rolls, slip that does not oppose the friction. */
+void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s);
+
+/* ---- Pictures --------------------------------------------------------------------- */
+
+typedef enum { RB_REPORT_PNG, RB_REPORT_SVG, RB_REPORT_PDF } rb_report_picture_kind;
+
+/* By the end of the name.  RB_EINVAL: none of .png, .svg, .pdf. */
+rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind,
+                                    rb_message *why);
+
+/* Tractions, friction bounds, zones and slip along the contact. */
+rb_status rb_report_picture(FILE *out, rb_report_picture_kind kind,
+                            const rb_rolling_case *rc, const rb_rolling_solution *s,
+                            rb_message *why);
+
+/* Runs gnuplot on a script; its standard output goes to out.  The script names no file:
+ * `set terminal` and data blocks only.  RB_EFORMAT: gnuplot is missing or refuses; its
+ * first line is in why. */
+rb_status rb_report_gnuplot(FILE *script, FILE *out, rb_message *why);
+
+#endif

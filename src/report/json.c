@@ -1,0 +1,155 @@
+/* Solutions as JSON: schema rollbem/1. */
+#include "report/internal.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <string.h>
+
+json_t *rb_report_json_number(double x)
+{
+    return isfinite(x) ? json_real(x) : json_null();
+}
+
+json_t *rb_report_json_numbers(int n, const double *x)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < n; i++)
+        json_array_append_new(list, rb_report_json_number(x[i]));
+    return list;
+}
+
+static json_t *whole_numbers(int n, const int *x)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < n; i++)
+        json_array_append_new(list, json_integer(x[i]));
+    return list;
+}
+
+static json_t *conventions_text(void)
+{
+    char text[800] = "";
+    for (const char *const *line = rb_report_conventions; *line; line++) {
+        strncat(text, *line, sizeof text - strlen(text) - 1);
+        if (line[1])
+            strncat(text, ". ", sizeof text - strlen(text) - 1);
+    }
+    return json_string(text);
+}
+
+json_t *rb_report_json_start(const char *command)
+{
+    json_t *root = json_object();
+    json_object_set_new(root, "schema", json_string("rollbem/1"));
+    json_object_set_new(root, "version", json_string(RB_VERSION));
+    /* an argument need not be UTF-8 */
+    json_t *line = json_string(command);
+    json_object_set_new(root, "command", line ? line : json_null());
+    json_object_set_new(root, "conventions", conventions_text());
+    return root;
+}
+
+/* ---- Summary ---------------------------------------------------------------------- */
+
+typedef struct {
+    const char *name;
+    size_t offset;
+    int whole;
+} field;
+
+#define NUMBER(name, member)                                                             \
+    {                                                                                    \
+        name, offsetof(rb_rolling_solution, member), 0                                   \
+    }
+#define WHOLE(name, member)                                                              \
+    {                                                                                    \
+        name, offsetof(rb_rolling_solution, member), 1                                   \
+    }
+
+static const field results[] = {
+    WHOLE("iterations", iterations),
+    NUMBER("residual", residual),
+    NUMBER("residual_gap", residual_gap),
+    NUMBER("residual_slip", residual_slip),
+    NUMBER("residual_friction", residual_friction),
+    NUMBER("load_error", load_error),
+    NUMBER("support_balance", support_balance),
+    NUMBER("normal_load", normal_load),
+    NUMBER("tangential_load", tangential_load),
+    NUMBER("force_ratio", force_ratio),
+    NUMBER("approach", approach),
+    NUMBER("tangential_shift", tangential_shift),
+    NUMBER("creepage", creepage),
+    NUMBER("creep_ratio", creep_ratio),
+    NUMBER("free_creepage", free_creepage),
+    NUMBER("hertz_half_width", hertz_half_width),
+    NUMBER("half_width", half_width),
+    NUMBER("contact_from", contact_from),
+    NUMBER("contact_to", contact_to),
+    NUMBER("max_pressure", max_pressure),
+    WHOLE("contact", contact),
+    WHOLE("stick", stick),
+    WHOLE("slip", slipping),
+    NUMBER("stick_from", stick_from),
+    NUMBER("stick_to", stick_to),
+    WHOLE("slip_violations", slip_violations),
+    NUMBER("dissipation", dissipation),
+};
+
+static const field seconds[] = {
+    NUMBER("assembly", seconds_assembly), NUMBER("factor", seconds_factor),
+    NUMBER("condense", seconds_condense), NUMBER("lcp", seconds_lcp),
+    NUMBER("total", seconds_total),
+};
+
+static void set_fields(json_t *object, const rb_rolling_solution *s, const field *fields,
+                       size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        const void *place = (const char *)s + fields[i].offset;
+        json_t *value = fields[i].whole ? json_integer(*(const int *)place)
+                                        : rb_report_json_number(*(const double *)place);
+        json_object_set_new(object, fields[i].name, value);
+    }
+}
+
+json_t *rb_report_json_summary(const rb_rolling_case *rc, const rb_rolling_solution *s)
+{
+    json_t *summary = json_object(), *times = json_object();
+    json_object_set_new(summary, "status", json_string(rb_status_text(s->status)));
+    json_object_set_new(summary, "formulation",
+                        json_string(rb_report_formulation(s->formulation)));
+    json_object_set_new(summary, "solver", json_string(rb_report_solver(s->solver)));
+    json_object_set_new(summary, "lcp_form",
+                        json_string(rb_report_lcp_form(s->lcp_form)));
+    set_fields(summary, s, results, sizeof results / sizeof results[0]);
+    const int flat = rc->a.support == RB_BEM_HALFPLANE;
+    const double datum = rc->a.datum > 0.0 ? rc->a.datum : 2.0 * rc->a.radius / exp(1.0);
+    json_object_set_new(summary, "datum", rb_report_json_number(flat ? datum : NAN));
+    set_fields(times, s, seconds, sizeof seconds / sizeof seconds[0]);
+    json_object_set_new(summary, "seconds", times);
+    return summary;
+}
+
+json_t *rb_report_json_table(const rb_rolling_solution *s)
+{
+    json_t *table = json_object();
+    for (int j = 0; j < rb_report_column_n; j++) {
+        const rb_report_column *c = &rb_report_columns[j];
+        json_object_set_new(table, c->name,
+                            c->whole
+                                ? whole_numbers(s->n, rb_report_ints(s, c))
+                                : rb_report_json_numbers(s->n, rb_report_doubles(s, c)));
+    }
+    return table;
+}
+
+rb_status rb_report_json_write(FILE *out, const json_t *json)
+{
+    if (!json)
+        return RB_ENOMEM;
+    if (json_dumpf(json, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) != 0)
+        return RB_EWRITE;
+    fputc('\n', out);
+    return fflush(out) == 0 && !ferror(out) ? RB_OK : RB_EWRITE;
+}

@@ -1,0 +1,155 @@
+/* A solution in a few lines for people, and the notes on how to read it. */
+#include "report/internal.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- Strip ------------------------------------------------------------------------ */
+
+enum { MARGIN = 3 }; /* separated elements shown beside the contact */
+
+static char zone_mark(int zone)
+{
+    return zone == RB_ZONE_SEPARATED ? 'o' : zone == RB_ZONE_STICK ? '*' : 'S';
+}
+
+static int is_contact(const rb_rolling_solution *s, int i)
+{
+    return s->zone[i] != RB_ZONE_SEPARATED;
+}
+
+/* Elements first .. last - 1: the contact and a margin. */
+static void shown_range(const rb_rolling_solution *s, int *first, int *last)
+{
+    *first = 0;
+    *last = s->n;
+    while (*first < s->n && !is_contact(s, *first))
+        ++*first;
+    if (*first == s->n) {
+        *first = 0; /* no contact at all */
+        return;
+    }
+    while (!is_contact(s, *last - 1))
+        --*last;
+    *first = *first > MARGIN ? *first - MARGIN : 0;
+    *last = *last + MARGIN < s->n ? *last + MARGIN : s->n;
+}
+
+/* The commonest mark among elements from .. to - 1. */
+static char majority(const rb_rolling_solution *s, int from, int to)
+{
+    static const char marks[] = "oS*";
+    int count[3] = {0}, best = 0;
+    for (int i = from; i < to; i++)
+        count[strchr(marks, zone_mark(s->zone[i])) - marks]++;
+    for (int k = 1; k < 3; k++)
+        if (count[k] >= count[best])
+            best = k;
+    return marks[best];
+}
+
+void rb_report_strip(const rb_rolling_solution *s, int width, char *strip)
+{
+    int first, last, at = 0;
+    shown_range(s, &first, &last);
+    const int shown = last - first;
+    const int room = width - 2;
+    const int marks = shown < room ? shown : room;
+    strip[at++] = '.';
+    for (int k = 0; k < marks; k++) {
+        const int from = first + (int)((long)shown * k / marks);
+        const int to = first + (int)((long)shown * (k + 1) / marks);
+        strip[at++] = majority(s, from, to);
+    }
+    strip[at++] = '.';
+    strip[at] = '\0';
+}
+
+/* ---- Summary ---------------------------------------------------------------------- */
+
+static void print_forces(FILE *out, const rb_rolling_solution *s)
+{
+    fprintf(out, "  load      P = %.6g N/mm, Q = %.6g N/mm", s->normal_load,
+            s->tangential_load);
+    if (!isnan(s->force_ratio))
+        fprintf(out, ", Q/(mu P) = %.5g", s->force_ratio);
+    fprintf(out, "\n  contact   %.5g ... %.5g mm, p0 = %.6g MPa, approach %.5g mm\n",
+            s->contact_from, s->contact_to, s->max_pressure, s->approach);
+}
+
+static void print_motion(FILE *out, const rb_rolling_solution *s)
+{
+    const int moves = !isnan(s->creepage);
+    if (s->formulation == RB_STATIC && !isnan(s->tangential_shift))
+        fprintf(out, "  shift     %.6g mm\n", s->tangential_shift);
+    if (!moves)
+        return;
+    fprintf(out, "  creepage  xi = %.6g", s->creepage);
+    if (!isnan(s->creep_ratio))
+        fprintf(out, ", xi R/(mu a) = %.5g", s->creep_ratio);
+    if (!isnan(s->free_creepage))
+        fprintf(out, ", free rolling at %.5g", s->free_creepage);
+    fputc('\n', out);
+}
+
+static void print_zones(FILE *out, const rb_rolling_solution *s, int width)
+{
+    enum { LONGEST = 200 };
+    char strip[LONGEST + 1];
+    const int room = width - 13 < LONGEST ? width - 13 : LONGEST;
+    fprintf(out, "  elements  %d: %d stick, %d slip, %d separated", s->n, s->stick,
+            s->slipping, s->n - s->contact);
+    if (s->stick > 0)
+        fprintf(out, "; stick %.5g ... %.5g mm", s->stick_from, s->stick_to);
+    rb_report_strip(s, room < 8 ? 8 : room, strip);
+    fprintf(out, "\n            %s\n", strip);
+}
+
+void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
+{
+    const int newton = s->solver == RB_SOLVER_NEWTON;
+    fprintf(out, "%s: %s by %s (%s form), %d %s, residual %.2g\n",
+            rb_report_formulation(s->formulation), rb_status_text(s->status),
+            newton ? "Newton" : "Lemke", rb_report_lcp_form(s->lcp_form), s->iterations,
+            newton ? "steps" : "pivots", s->residual);
+    print_forces(out, s);
+    print_motion(out, s);
+    print_zones(out, s, width);
+}
+
+/* ---- Notes ------------------------------------------------------------------------ */
+
+/* Strains are of the order of approach/R and a/R. */
+static const double stretched_approach = 0.02, stretched_width = 0.1;
+
+static void note_strain(FILE *out, const rb_rolling_case *rc,
+                        const rb_rolling_solution *s)
+{
+    const double approach = s->approach / rc->a.radius,
+                 width = s->half_width / rc->a.radius;
+    if (approach > stretched_approach || width > stretched_width)
+        fprintf(out,
+                "rollbem: note: approach/R = %.2g, a/R = %.2g: linear elasticity is "
+                "stretched\n",
+                approach, width);
+}
+
+void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s)
+{
+    const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
+    note_strain(out, rc, s);
+    if (rc->formulation == RB_STATIC && creeps)
+        fputs("rollbem: note: static: the creepage enters only the slip of (12), not the "
+              "tractions; for rolling, --formulation steady\n",
+              out);
+    if (rc->formulation == RB_STATIC && s->slip_violations > 0)
+        fprintf(
+            out,
+            "rollbem: note: at %d points the slip of (12) does not oppose the friction\n",
+            s->slip_violations);
+    if (rc->formulation != RB_STATIC && rc->a.support == RB_BEM_ARC)
+        fputs("rollbem: note: on an arc support rolling differs at every angle of the "
+              "wheel; "
+              "hub and halfplane do not\n",
+              out);
+}
