@@ -120,6 +120,7 @@ typedef struct {
     size_t path; /* choices: when not 0, any other word is a file name, stored here
                     (const char *), and the value is path_value */
     int path_value;
+    unsigned excludes; /* of options that share a bit only one may be given */
     const char *unset; /* help: what stands for the default; NULL: the value itself */
     const char *help;
 } cli_option;
@@ -132,6 +133,22 @@ typedef struct {
     void *target;
     int *given;
 } cli_set;
+
+/* Option tables, a line each: */
+#define CLI_GROUP_LINE(section, title) {.name = section, .kind = CLI_GROUP, .help = title}
+#define CLI_NUMBER_LINE(name_, place, unit_, range_, ...)                                      \
+    {.name = name_, .kind = CLI_NUMBER, .offset = place, .unit = unit_, .range = range_,      \
+     .help = __VA_ARGS__}
+#define CLI_INTEGER_LINE(name_, place, range_, ...)                                            \
+    {.name = name_, .kind = CLI_INTEGER, .offset = place, .unit = "", .range = range_,        \
+     .help = __VA_ARGS__}
+#define CLI_CHOICE_LINE(name_, place, choices_, ...)                                           \
+    {.name = name_, .kind = CLI_CHOICE, .offset = place, .unit = "", .choices = choices_,     \
+     .help = __VA_ARGS__}
+#define CLI_FLAG_LINE(name_, place, ...)                                                       \
+    {.name = name_, .kind = CLI_FLAG, .offset = place, .unit = "", .help = __VA_ARGS__}
+#define CLI_TEXT_LINE(name_, place, metavar, ...)                                              \
+    {.name = name_, .kind = CLI_TEXT, .offset = place, .unit = metavar, .help = __VA_ARGS__}
 
 #define CLI_GIVEN_ARGUMENT (-1)
 #define CLI_MAX_SETS 3
@@ -175,6 +192,17 @@ const char *cli_value_text(const cli_option *option, const void *target, char ro
 
 /* 1: the whole of text is one finite number. */
 int cli_number(const char *text, double *value);
+
+/* Where an option came from in a message: "--load", "case.ini:3: load".  Returns room. */
+const char *cli_source(const cli_option *option, int given, const char *path, char *room,
+                       size_t size);
+
+/* Two given options that share a bit of `excludes` are refused, naming both, when both come
+ * from the command line or both from the file; otherwise the one on the command line wins:
+ * the other returns to its value in defaults (a struct like the set's target).  Bits in
+ * `alike` count as one bit. */
+cli_exit cli_settle(const cli_set *set, const void *defaults, unsigned alike,
+                    const char *path);
 
 /* --help and --usage of a command, on stdout. */
 void cli_print_help(const cli_spec *spec);

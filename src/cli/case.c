@@ -1,0 +1,154 @@
+/* From options and a case file to an rb_rolling_case. */
+#include "cli/case.h"
+
+#include "rollbem/io.h"
+#include "rollbem/report.h"
+
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+
+void cli_case_defaults(cli_case *c)
+{
+    memset(c, 0, sizeof *c);
+    c->rc = rb_rolling_case_defaults();
+    c->young_b = c->poisson_b = NAN;
+    c->radius_b = INFINITY;
+}
+
+void cli_case_free(cli_case *c)
+{
+    free(c->profile);
+    c->profile = NULL;
+}
+
+/* ---- Body B ----------------------------------------------------------------------- */
+
+/* Options of the second body mean nothing to a rigid plane. */
+static cli_exit check_rigid(const cli_set *set, const cli_case *c)
+{
+    char room[400];
+    const char *section = "";
+    for (int i = 0; i < set->n; i++) {
+        const cli_option *o = &set->options[i];
+        if (o->kind == CLI_GROUP)
+            section = o->name;
+        if (set->given[i] && strcmp(section, "body-b") == 0)
+            return cli_fail(set->given[i] > 0 ? CLI_DATA : CLI_USAGE,
+                            "%s: body B is rigid without --similar or --young-b",
+                            cli_source(o, set->given[i], c->path, room, sizeof room));
+    }
+    return CLI_CONTINUE;
+}
+
+static cli_exit settle_body_b(const cli_set *set, cli_case *c)
+{
+    rb_rolling_case *rc = &c->rc;
+    rc->elastic_b = c->similar || !isnan(c->young_b);
+    if (!rc->elastic_b)
+        return check_rigid(set, c);
+    rc->b.young = c->similar ? rc->a.young : c->young_b;
+    rc->b.poisson = c->similar || isnan(c->poisson_b) ? rc->a.poisson : c->poisson_b;
+    rc->b.radius = c->radius_b;
+    return CLI_CONTINUE;
+}
+
+/* ---- Gap profile ------------------------------------------------------------------ */
+
+static cli_exit read_profile(cli_case *c)
+{
+    rb_message why;
+    int rows = 0;
+    if (c->rc.gap != RB_GAP_TABLE)
+        return CLI_CONTINUE;
+    const rb_status s = rb_io_read_columns(c->gap_file, 2, &rows, &c->profile, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    c->rc.profile_n = rows;
+    c->rc.profile_x = c->profile;
+    c->rc.profile_gap = c->profile + rows;
+    return CLI_CONTINUE;
+}
+
+/* ---- All together ----------------------------------------------------------------- */
+
+/* 1: the case file is to blame, since the command line gives nothing of the case. */
+static int all_from_file(const cli_case *c)
+{
+    for (int i = 0; i < CLI_CASE_OPTIONS_MAX; i++)
+        if (c->given[i] == CLI_GIVEN_ARGUMENT)
+            return 0;
+    return c->path[0] != '\0';
+}
+
+cli_exit cli_case_refused(const cli_case *c, rb_status s, const rb_message *why)
+{
+    if (s == RB_EINVAL && all_from_file(c))
+        return cli_fail(CLI_DATA, "%s: %s", c->path, why->text);
+    return cli_fail(cli_exit_of(s), "%s", why->text);
+}
+
+static cli_exit read_case_file(const cli_spec *spec, cli_case *c, cli_args *args)
+{
+    if (args->operands > 1)
+        return cli_fail(CLI_USAGE, "one case file at a time, got '%s' and '%s'",
+                        args->operand[0], args->operand[1]);
+    if (args->operands == 0)
+        return CLI_CONTINUE;
+    snprintf(c->path, sizeof c->path, "%s", args->operand[0]);
+    return cli_read_ini(spec, args->operand[0], args);
+}
+
+cli_exit cli_case_finish(const cli_spec *spec, cli_case *c, cli_args *args)
+{
+    cli_case defaults;
+    rb_message why;
+    const cli_set set = cli_case_set(c);
+    cli_case_defaults(&defaults);
+    cli_exit code = read_case_file(spec, c, args);
+    if (code == CLI_CONTINUE)
+        code = cli_settle(&set, &defaults, cli_case_alike(c), c->path);
+    if (code == CLI_CONTINUE)
+        code = settle_body_b(&set, c);
+    if (code == CLI_CONTINUE)
+        code = read_profile(c);
+    if (code != CLI_CONTINUE)
+        return code;
+    const rb_status s = rb_rolling_case_check(&c->rc, &why);
+    return s == RB_OK ? CLI_CONTINUE : cli_case_refused(c, s, &why);
+}
+
+/* ---- Inputs ----------------------------------------------------------------------- */
+
+static json_t *input(const cli_option *o, const cli_case *c)
+{
+    char room[64];
+    const char *place = (const char *)c + o->offset;
+    switch (o->kind) {
+    case CLI_NUMBER: {
+        const double v = *(const double *)place;
+        return o->word && v == o->word_value ? json_string(o->word)
+                                             : rb_report_json_number(v);
+    }
+    case CLI_INTEGER:
+        return json_integer(*(const int *)place);
+    case CLI_FLAG:
+        return json_boolean(*(const int *)place);
+    default:
+        return json_string(cli_value_text(o, c, room));
+    }
+}
+
+json_t *cli_case_inputs(const cli_case *c)
+{
+    /* what B became counts, not what was typed */
+    cli_case used = *c;
+    used.young_b = c->rc.elastic_b ? c->rc.b.young : NAN;
+    used.poisson_b = c->rc.elastic_b ? c->rc.b.poisson : NAN;
+    const cli_set set = cli_case_set(&used);
+    json_t *inputs = json_object();
+    for (int i = 0; i < set.n; i++)
+        if (set.options[i].kind != CLI_GROUP)
+            json_object_set_new(inputs, set.options[i].name, input(&set.options[i], &used));
+    return inputs;
+}

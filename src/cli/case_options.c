@@ -1,0 +1,143 @@
+/* The options of a case, each once: everything that reads or shows them is made from this
+ * table. */
+#include "cli/case.h"
+
+#include <stddef.h>
+
+#define PLACE(member) offsetof(cli_case, member)
+#define RC(member) offsetof(cli_case, rc.member)
+
+static const cli_choice supports[] = {
+    {"arc", RB_BEM_ARC}, {"hub", RB_BEM_HUB}, {"halfplane", RB_BEM_HALFPLANE}, {NULL, 0}};
+static const cli_choice gaps[] = {
+    {"parabola", RB_GAP_PARABOLA}, {"exact", RB_GAP_EXACT}, {NULL, 0}};
+static const cli_choice formulations[] = {
+    {"static", RB_STATIC}, {"steady", RB_STEADY}, {NULL, 0}};
+static const cli_choice meshes[] = {
+    {"uniform", RB_MESH_UNIFORM}, {"fitted", RB_MESH_FITTED}, {NULL, 0}};
+static const cli_choice normals[] = {{"obstacle", RB_BEM_NORMALS_OBSTACLE},
+                                     {"surface", RB_BEM_NORMALS_SURFACE},
+                                     {NULL, 0}};
+static const cli_choice solvers[] = {{"auto", RB_SOLVER_AUTO},
+                                     {"lemke", RB_SOLVER_LEMKE},
+                                     {"newton", RB_SOLVER_NEWTON},
+                                     {NULL, 0}};
+static const cli_choice lcp_forms[] = {
+    {"pivoted", RB_LCP_PIVOTED}, {"kwak", RB_LCP_KWAK}, {NULL, 0}};
+
+/* What excludes what. */
+enum {
+    ONE_NORMAL = 1,
+    ONE_CREEPAGE = 2,
+    ONE_LOADING = 4,
+    ONE_YOUNG_B = 8,
+    ONE_POISSON_B = 16
+};
+
+static const cli_option options[] = {
+    CLI_GROUP_LINE("body-a", "Body A: the cylinder that rolls"),
+    CLI_NUMBER_LINE("radius", RC(a.radius), "mm", CLI_ABOVE(0), "radius R"),
+    CLI_NUMBER_LINE("young", RC(a.young), "MPa", CLI_ABOVE(0), "Young's modulus E"),
+    CLI_NUMBER_LINE("poisson", RC(a.poisson), "-", CLI_ABOVE_UPTO(-1, 0.5),
+                    "Poisson's ratio nu"),
+    CLI_CHOICE_LINE("support", RC(a.support), supports,
+                    "how it is held: clamped arc at the top, rigid core, or a half-plane "
+                    "instead of the cylinder's boundary"),
+    CLI_NUMBER_LINE("arc", RC(a.arc), "degrees", CLI_ABOVE_UPTO(0, 90),
+                    "half-angle of the clamped arc"),
+    CLI_NUMBER_LINE("hub-ratio", RC(a.hub_ratio), "-", CLI_BETWEEN(0, 1),
+                    "radius of the rigid core / R"),
+    CLI_NUMBER_LINE("datum", RC(a.datum), "mm", CLI_ABOVE(0),
+                    "halfplane: depth of zero displacement; auto: 2R/e, the compression of a "
+                    "half-cylinder",
+                    .word = "auto", .word_value = 0.0),
+
+    CLI_GROUP_LINE("body-b", "Body B: a rigid plane unless an option makes it elastic"),
+    CLI_FLAG_LINE("similar", PLACE(similar), "elastic, of the same material as A",
+                  .excludes = ONE_YOUNG_B | ONE_POISSON_B),
+    CLI_NUMBER_LINE("young-b", PLACE(young_b), "MPa", CLI_ABOVE(0),
+                    "Young's modulus; makes B elastic", .unset = "rigid",
+                    .excludes = ONE_YOUNG_B),
+    CLI_NUMBER_LINE("poisson-b", PLACE(poisson_b), "-", CLI_ABOVE_UPTO(-1, 0.5),
+                    "Poisson's ratio", .unset = "A's", .excludes = ONE_POISSON_B),
+    CLI_NUMBER_LINE("radius-b", PLACE(radius_b), "mm", CLI_ABOVE(0),
+                    "radius of an elastic B, or plane", .word = "plane",
+                    .word_value = INFINITY),
+    CLI_CHOICE_LINE("support-b", RC(b.support), supports, "how an elastic B is held"),
+    CLI_NUMBER_LINE("arc-b", RC(b.arc), "degrees", CLI_ABOVE_UPTO(0, 90),
+                    "half-angle of its clamped arc"),
+    CLI_NUMBER_LINE("hub-ratio-b", RC(b.hub_ratio), "-", CLI_BETWEEN(0, 1),
+                    "radius of its rigid core / radius"),
+
+    CLI_GROUP_LINE("gap", "Initial gap"),
+    CLI_CHOICE_LINE("gap", RC(gap), gaps,
+                    "x^2/(2R), the cylinder's own, or a file of rows x, gap [mm]",
+                    .path = PLACE(gap_file), .path_value = RB_GAP_TABLE),
+
+    CLI_GROUP_LINE("friction", "Friction"),
+    CLI_NUMBER_LINE("mu", RC(mu), "-", CLI_FROM(0), "Coulomb's coefficient"),
+
+    CLI_GROUP_LINE("normal", "Normal direction: one of"),
+    CLI_NUMBER_LINE("approach", RC(approach), "mm", CLI_ABOVE(0),
+                    "A moves down by this, towards B", .unset = "R/2", .excludes = ONE_NORMAL),
+    CLI_NUMBER_LINE("load", RC(load), "N/mm", CLI_ABOVE(0), "normal load P",
+                    .unset = "not given", .excludes = ONE_NORMAL),
+    CLI_NUMBER_LINE("half-width", RC(half_width), "mm", CLI_ABOVE(0),
+                    "the load whose Hertz half-width a is this", .unset = "not given",
+                    .excludes = ONE_NORMAL),
+
+    CLI_GROUP_LINE("tangential", "Tangential direction: one of (static: see the notes)"),
+    CLI_NUMBER_LINE("shift", RC(shift), "mm", CLI_ANY,
+                    "static: rigid displacement of A towards +x",
+                    .unset = "a tenth of the approach; 0 under load", .excludes = ONE_LOADING),
+    CLI_NUMBER_LINE("creep", RC(creep), "-", CLI_ANY,
+                    "creepage xi; > 0: braked wheel, Q < 0", .unset = "not given",
+                    .excludes = ONE_CREEPAGE),
+    CLI_NUMBER_LINE("creep-ratio", RC(creep_ratio), "-", CLI_ANY,
+                    "xi R/(mu a), the sign of xi; 1: full sliding of similar bodies",
+                    .unset = "not given", .excludes = ONE_CREEPAGE),
+    CLI_NUMBER_LINE("force", RC(force), "N/mm", CLI_ANY,
+                    "tangential load Q on A, towards +x", .unset = "not given",
+                    .excludes = ONE_LOADING),
+    CLI_NUMBER_LINE("force-ratio", RC(force_ratio), "-", CLI_FROM_TO(-1, 1),
+                    "Q/(mu P), the sign of Q", .unset = "not given", .excludes = ONE_LOADING),
+
+    CLI_GROUP_LINE("problem", "Problem"),
+    CLI_CHOICE_LINE("formulation", RC(formulation), formulations,
+                    "static: displaced without rolling; steady: rolling towards +x"),
+
+    CLI_GROUP_LINE("mesh", "Mesh"),
+    CLI_CHOICE_LINE("mesh", RC(mesh), meshes,
+                    "equal elements, or fitted to the contact edges"),
+    CLI_INTEGER_LINE("contact-elements", RC(contact_elements), CLI_FROM(3),
+                     "uniform: in the potential contact; fitted: across the contact"),
+    CLI_NUMBER_LINE("zone", RC(zone), "mm", CLI_ABOVE(0),
+                    "half-width of the potential contact; auto: grown until three separated "
+                    "elements stand at each end",
+                    .word = "auto", .word_value = 0.0),
+    CLI_INTEGER_LINE("outer-elements", RC(outer_elements), CLI_FROM(0),
+                     "on the circle outside the contact; 0: graded geometrically"),
+    CLI_CHOICE_LINE("normals", RC(normals), normals,
+                    "contact frame: the obstacle's, or the polygon's own as in Addi et al."),
+
+    CLI_GROUP_LINE("solver", "Solver"),
+    CLI_CHOICE_LINE("solver", RC(solver), solvers, "of the complementarity problem"),
+    CLI_CHOICE_LINE("lcp-form", RC(lcp_form), lcp_forms,
+                    "pivoted (no inverse), or kwak: the matrix of Addi et al. (38)"),
+    CLI_NUMBER_LINE("tol", RC(tol), "-", CLI_ABOVE(0),
+                    "bound on the natural residual of the scaled problem"),
+};
+
+_Static_assert(sizeof options / sizeof options[0] <= CLI_CASE_OPTIONS_MAX,
+               "CLI_CASE_OPTIONS_MAX is too small");
+
+cli_set cli_case_set(cli_case *c)
+{
+    return (cli_set){options, sizeof options / sizeof options[0], c, c->given};
+}
+
+/* In rolling a force stands in the place of a creepage; static contact knows no rolling. */
+unsigned cli_case_alike(const cli_case *c)
+{
+    return c->rc.formulation == RB_STATIC ? 0 : ONE_CREEPAGE | ONE_LOADING;
+}

@@ -1,0 +1,272 @@
+/* The traction picture: pressure, friction and its bounds, slip, zones. */
+#include "report/internal.h"
+
+#include "rollbem/closed_forms.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind,
+                                    rb_message *why)
+{
+    static const char *const ends[] = {".png", ".svg", ".pdf"};
+    const size_t n = strlen(path);
+    for (int k = 0; k < 3; k++)
+        if (n > 4 && strcmp(path + n - 4, ends[k]) == 0) {
+            *kind = (rb_report_picture_kind)k;
+            return RB_OK;
+        }
+    return rb_fail(why, RB_EINVAL,
+                   "expected a name ending in .png, .svg or .pdf, got '%s'", path);
+}
+
+static const char *terminal(rb_report_picture_kind kind)
+{
+    static const char *const terminals[] = {
+        "pngcairo size 1600,1200 font 'DejaVu Sans,24' linewidth 2.2 background "
+        "'#ffffff'",
+        "svg size 1000,750 font 'DejaVu Sans,15' linewidth 1.5 background '#ffffff'",
+        "pdfcairo size 10in,7.5in font 'DejaVu Sans,15' linewidth 1.6 background "
+        "'#ffffff'"};
+    return terminals[kind];
+}
+
+/* What the axes show. */
+typedef struct {
+    const rb_rolling_case *rc;
+    const rb_rolling_solution *s;
+    double unit; /* length of one unit of the x axis */
+    const char *x_label;
+    double from, to;  /* x axis, in its units */
+    double slip_unit; /* power of 1000 */
+    int slip_exponent;
+    int carter; /* 1: draw Carter's curve */
+} view;
+
+static void choose_x_axis(view *v)
+{
+    const rb_rolling_solution *s = v->s;
+    const double a = s->half_width;
+    const int ratio = a > 0.0 && (a < 0.01 || a > 1e5);
+    v->unit = ratio ? a : 1.0;
+    v->x_label = ratio ? "x / a" : "x [mm]";
+    double from = s->x[0] - s->h[0] / 2, to = s->x[s->n - 1] + s->h[s->n - 1] / 2;
+    if (s->contact > 0) {
+        const double margin = 0.15 * (s->contact_to - s->contact_from);
+        from = fmax(from, s->contact_from - margin);
+        to = fmin(to, s->contact_to + margin);
+    }
+    v->from = from / v->unit;
+    v->to = to / v->unit;
+}
+
+static int is_shown(const view *v, int i)
+{
+    const double x = v->s->x[i] / v->unit;
+    return x >= v->from && x <= v->to;
+}
+
+static void choose_slip_unit(view *v)
+{
+    double largest = 0.0;
+    for (int i = 0; i < v->s->n; i++)
+        if (is_shown(v, i))
+            largest = fmax(largest, fabs(v->s->slip[i]));
+    v->slip_exponent = largest > 0.0 ? 3 * (int)floor(log10(largest) / 3.0) : 0;
+    if (v->slip_exponent > 0 || largest >= 0.1)
+        v->slip_exponent = 0;
+    v->slip_unit = pow(10.0, v->slip_exponent);
+}
+
+static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s)
+{
+    view v = {.rc = rc, .s = s};
+    choose_x_axis(&v);
+    choose_slip_unit(&v);
+    v.carter = s->formulation == RB_STEADY && isfinite(s->creep_ratio) && rc->mu > 0.0 &&
+               s->normal_load > 0.0;
+    return v;
+}
+
+/* ---- Data ------------------------------------------------------------------------- */
+
+static void write_data(FILE *out, const view *v)
+{
+    const rb_rolling_solution *s = v->s;
+    fputs("$data << EOD\n", out);
+    for (int i = 0; i < s->n; i++)
+        fprintf(out, "%.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->unit, s->p[i], s->q[i],
+                v->rc->mu * s->p[i], s->slip[i] / v->slip_unit);
+    fputs("EOD\n", out);
+}
+
+static void write_carter(FILE *out, const view *v)
+{
+    enum { POINTS = 400 };
+    const rb_rolling_solution *s = v->s;
+    const double a = s->hertz_half_width;
+    const double p0 = rb_closed_hertz_max_pressure(s->normal_load, a);
+    fputs("$carter << EOD\n", out);
+    for (int k = 0; k <= POINTS; k++) {
+        const double x = -a * cos(3.14159265358979 * k / POINTS);
+        const double q = rb_closed_carter_traction(v->rc->mu, p0, a, s->creep_ratio, x);
+        fprintf(out, "%.9g %.9g\n", x / v->unit, q);
+    }
+    fputs("EOD\n", out);
+}
+
+/* ---- Zones ------------------------------------------------------------------------ */
+
+typedef struct {
+    double from, to; /* in units of the axis */
+    int zone;
+} stretch;
+
+/* The next run of equal zones from element *i on, cut to the axis; *i moves behind it. */
+static stretch next_stretch(const view *v, int *i)
+{
+    const rb_rolling_solution *s = v->s;
+    const int first = *i;
+    while (*i < s->n && s->zone[*i] == s->zone[first])
+        ++*i;
+    const double from = (s->x[first] - s->h[first] / 2) / v->unit;
+    const double to = (s->x[*i - 1] + s->h[*i - 1] / 2) / v->unit;
+    return (stretch){fmax(from, v->from), fmin(to, v->to), s->zone[first]};
+}
+
+static const char *zone_colour(int zone)
+{
+    static const char *const colours[] = {"#f3f3f3", "#d6e6f5", "#fde8cd", "#f8dcdc"};
+    return colours[zone];
+}
+
+static const char *zone_name(int zone)
+{
+    static const char *const names[] = {"separated", "stick", "slip", "slip"};
+    return names[zone];
+}
+
+static void write_zones(FILE *out, const view *v, int labelled)
+{
+    const double width = v->to - v->from;
+    for (int i = 0; i < v->s->n;) {
+        const stretch st = next_stretch(v, &i);
+        if (st.to <= st.from)
+            continue;
+        fprintf(out,
+                "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 "
+                "fillcolor rgb '%s' fillstyle solid noborder behind\n",
+                st.from, st.to, zone_colour(st.zone));
+        const double needed = 0.013 * (double)strlen(zone_name(st.zone));
+        if (labelled && st.to - st.from > needed * width)
+            fprintf(
+                out,
+                "set label '{/*0.85 %s}' at first %.9g, graph 0.95 center textcolor rgb '#555555' "
+                "font ',20' front\n",
+                zone_name(st.zone), (st.from + st.to) / 2);
+    }
+}
+
+/* ---- Panels ----------------------------------------------------------------------- */
+
+static void write_title(FILE *out, const view *v)
+{
+    static const char *const kinds[] = {"Static contact", "Steady rolling",
+                                        "Transient rolling"};
+    const rb_rolling_solution *s = v->s;
+    fprintf(out, "set label 1 '{/:Bold %s}   μ = %g,  P = %.5g N/mm,  Q = %.5g N/mm",
+            kinds[s->formulation], v->rc->mu, s->normal_load, s->tangential_load);
+    fputs("' at screen 0.53, 0.965 center\nset label 2 '", out);
+    fprintf(out, "a = %.4g mm,  p_0 = %.5g MPa", s->half_width, s->max_pressure);
+    if (!isnan(s->creepage))
+        fprintf(out, ",  ξ = %.4g", s->creepage);
+    if (!isnan(s->creep_ratio))
+        fprintf(out, ",  ξR/(μa) = %.4g", s->creep_ratio);
+    if (!isnan(s->force_ratio))
+        fprintf(out, ",  Q/(μP) = %.4g", s->force_ratio);
+    fputs("' at screen 0.53, 0.922 center textcolor rgb '#444444'\n", out);
+}
+
+static void write_tractions(FILE *out, const view *v)
+{
+    const double p0 = v->s->max_pressure > 0.0 ? v->s->max_pressure : 1.0;
+    const double bound = v->rc->mu * p0;
+    fprintf(out, "set yrange [%.9g:%.9g]\n", -fmax(1.2 * bound, 0.08 * p0),
+            1.16 * fmax(p0, bound));
+    fputs("set tmargin at screen 0.84\nset bmargin at screen 0.40\n"
+          "set format x ''\nset ylabel 'traction [MPa]' offset character 0.5,0\n"
+          "set key at screen 0.53, 0.885 center horizontal samplen 2.2 width 1 font "
+          "',22'\n",
+          out);
+    write_zones(out, v, 1);
+    fputs(
+        "plot 0 with lines linecolor rgb '#999999' linewidth 0.6 notitle, "
+        "$data using 1:4 with lines dashtype (6,4) linecolor rgb '#7a7a7a' linewidth 0.9 "
+        "title '±μp', "
+        "$data using 1:(-$4) with lines dashtype (6,4) linecolor rgb '#7a7a7a' "
+        "linewidth 0.9 notitle, "
+        "$data using 1:2 with lines linecolor rgb '#1f4e79' linewidth 1.8 "
+        "title 'pressure p', "
+        "$data using 1:3 with lines linecolor rgb '#c0392b' linewidth 1.8 "
+        "title 'friction q'",
+        out);
+    if (v->carter)
+        fputs(", $carter using 1:2 with lines dashtype (10,5) linecolor rgb '#1e8449' "
+              "linewidth 1.4 title 'Carter'",
+              out);
+    fputs("\n", out);
+}
+
+static void write_slip(FILE *out, const view *v)
+{
+    fputs(
+        "unset label\nunset key\nset tmargin at screen 0.36\nset bmargin at screen "
+        "0.115\n"
+        "set format x '%g'\nset yrange [*:*]\nset offsets 0, 0, graph 0.12, graph 0.12\n"
+        "unset object\nset ytics autofreq\n",
+        out);
+    fprintf(out, "set xlabel '%s      (rolling towards +x →)' offset 0,0.3\n",
+            v->x_label);
+    if (v->slip_exponent)
+        fprintf(out, "set ylabel 'slip  [10^{%d}]' offset character 0.5,0\n",
+                v->slip_exponent);
+    else
+        fputs("set ylabel 'slip  [1]' offset character 0.5,0\n", out);
+    write_zones(out, v, 0);
+    fputs("plot 0 with lines linecolor rgb '#999999' linewidth 0.6, "
+          "$data using 1:5 with lines linecolor rgb '#6c3483' linewidth 1.8\n",
+          out);
+}
+
+static void write_script(FILE *out, const view *v, rb_report_picture_kind kind)
+{
+    fprintf(out, "set encoding utf8\nset terminal %s enhanced\n", terminal(kind));
+    write_data(out, v);
+    if (v->carter)
+        write_carter(out, v);
+    fputs("set multiplot\nset lmargin at screen 0.115\nset rmargin at screen 0.965\n"
+          "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n",
+          out);
+    fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
+    write_title(out, v);
+    write_tractions(out, v);
+    write_slip(out, v);
+    fputs("unset multiplot\n", out);
+}
+
+rb_status rb_report_picture(FILE *out, rb_report_picture_kind kind,
+                            const rb_rolling_case *rc, const rb_rolling_solution *s,
+                            rb_message *why)
+{
+    if (s->n < 1)
+        return rb_fail(why, RB_EINVAL, "nothing to draw");
+    FILE *script = tmpfile();
+    if (!script)
+        return rb_fail(why, RB_EWRITE, "temporary file: %s", strerror(errno));
+    const view v = make_view(rc, s);
+    write_script(script, &v, kind);
+    const rb_status status = rb_report_gnuplot(script, out, why);
+    fclose(script);
+    return status;
+}
