@@ -26,4 +26,12 @@ rb_status rb_io_writer_commit(rb_io_writer *w, rb_message *why);
 /* Removes what was written; w may be closed already. */
 void rb_io_writer_abandon(rb_io_writer *w);
 
+/* ---- Tables of numbers ------------------------------------------------------------- */
+
+/* Rows of `columns` numbers between blanks or commas; # starts a comment.  x: *rows values of
+ * the first column, then of the second, ...; owned by the caller.  RB_ENOENT; RB_EFORMAT:
+ * another count of numbers, not a number, no row; RB_ENOMEM. */
+rb_status rb_io_read_columns(const char *path, int columns, int *rows, double **x,
+                             rb_message *why);
+
 #endif

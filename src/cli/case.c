@@ -149,6 +149,7 @@ json_t *cli_case_inputs(const cli_case *c)
     json_t *inputs = json_object();
     for (int i = 0; i < set.n; i++)
         if (set.options[i].kind != CLI_GROUP)
-            json_object_set_new(inputs, set.options[i].name, input(&set.options[i], &used));
+            json_object_set_new(inputs, set.options[i].name,
+                                input(&set.options[i], &used));
     return inputs;
 }

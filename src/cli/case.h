@@ -1,4 +1,5 @@
-/* A case as the command line and case files give it: shared by the commands that solve. */
+/* A case as the command line and case files give it: shared by the commands that solve.
+ */
 #ifndef ROLLBEM_CLI_CASE_H
 #define ROLLBEM_CLI_CASE_H
 
@@ -8,8 +9,8 @@ enum { CLI_CASE_OPTIONS_MAX = 48 };
 
 typedef struct {
     rb_rolling_case rc;
-    const char *gap_file;  /* profile of the initial gap, or NULL */
-    int similar;           /* B is of A's material */
+    const char *gap_file; /* profile of the initial gap, or NULL */
+    int similar;          /* B is of A's material */
     double young_b, poisson_b, radius_b;
 
     char path[320]; /* case file, "" without */
@@ -26,8 +27,9 @@ cli_set cli_case_set(cli_case *c);
 /* Bits of `excludes` that count as one for the formulation of c. */
 unsigned cli_case_alike(const cli_case *c);
 
-/* After cli_parse: reads the case file (the only operand allowed), settles contradictions,
- * reads the gap profile, checks.  CLI_CONTINUE or an exit code, its line printed. */
+/* After cli_parse: reads the case file (the only operand allowed), settles
+ * contradictions, reads the gap profile, checks.  CLI_CONTINUE or an exit code, its line
+ * printed. */
 cli_exit cli_case_finish(const cli_spec *spec, cli_case *c, cli_args *args);
 
 /* Prints why the library refused the case; the exit code tells command line from file. */

@@ -47,10 +47,11 @@ static const cli_option options[] = {
                     "half-angle of the clamped arc"),
     CLI_NUMBER_LINE("hub-ratio", RC(a.hub_ratio), "-", CLI_BETWEEN(0, 1),
                     "radius of the rigid core / R"),
-    CLI_NUMBER_LINE("datum", RC(a.datum), "mm", CLI_ABOVE(0),
-                    "halfplane: depth of zero displacement; auto: 2R/e, the compression of a "
-                    "half-cylinder",
-                    .word = "auto", .word_value = 0.0),
+    CLI_NUMBER_LINE(
+        "datum", RC(a.datum), "mm", CLI_ABOVE(0),
+        "halfplane: depth of zero displacement; auto: 2R/e, the compression of a "
+        "half-cylinder",
+        .word = "auto", .word_value = 0.0),
 
     CLI_GROUP_LINE("body-b", "Body B: a rigid plane unless an option makes it elastic"),
     CLI_FLAG_LINE("similar", PLACE(similar), "elastic, of the same material as A",
@@ -79,7 +80,8 @@ static const cli_option options[] = {
 
     CLI_GROUP_LINE("normal", "Normal direction: one of"),
     CLI_NUMBER_LINE("approach", RC(approach), "mm", CLI_ABOVE(0),
-                    "A moves down by this, towards B", .unset = "R/2", .excludes = ONE_NORMAL),
+                    "A moves down by this, towards B", .unset = "R/2",
+                    .excludes = ONE_NORMAL),
     CLI_NUMBER_LINE("load", RC(load), "N/mm", CLI_ABOVE(0), "normal load P",
                     .unset = "not given", .excludes = ONE_NORMAL),
     CLI_NUMBER_LINE("half-width", RC(half_width), "mm", CLI_ABOVE(0),
@@ -87,9 +89,9 @@ static const cli_option options[] = {
                     .excludes = ONE_NORMAL),
 
     CLI_GROUP_LINE("tangential", "Tangential direction: one of (static: see the notes)"),
-    CLI_NUMBER_LINE("shift", RC(shift), "mm", CLI_ANY,
-                    "static: rigid displacement of A towards +x",
-                    .unset = "a tenth of the approach; 0 under load", .excludes = ONE_LOADING),
+    CLI_NUMBER_LINE(
+        "shift", RC(shift), "mm", CLI_ANY, "static: rigid displacement of A towards +x",
+        .unset = "a tenth of the approach; 0 under load", .excludes = ONE_LOADING),
     CLI_NUMBER_LINE("creep", RC(creep), "-", CLI_ANY,
                     "creepage xi; > 0: braked wheel, Q < 0", .unset = "not given",
                     .excludes = ONE_CREEPAGE),
@@ -100,7 +102,8 @@ static const cli_option options[] = {
                     "tangential load Q on A, towards +x", .unset = "not given",
                     .excludes = ONE_LOADING),
     CLI_NUMBER_LINE("force-ratio", RC(force_ratio), "-", CLI_FROM_TO(-1, 1),
-                    "Q/(mu P), the sign of Q", .unset = "not given", .excludes = ONE_LOADING),
+                    "Q/(mu P), the sign of Q", .unset = "not given",
+                    .excludes = ONE_LOADING),
 
     CLI_GROUP_LINE("problem", "Problem"),
     CLI_CHOICE_LINE("formulation", RC(formulation), formulations,
@@ -111,14 +114,16 @@ static const cli_option options[] = {
                     "equal elements, or fitted to the contact edges"),
     CLI_INTEGER_LINE("contact-elements", RC(contact_elements), CLI_FROM(3),
                      "uniform: in the potential contact; fitted: across the contact"),
-    CLI_NUMBER_LINE("zone", RC(zone), "mm", CLI_ABOVE(0),
-                    "half-width of the potential contact; auto: grown until three separated "
-                    "elements stand at each end",
-                    .word = "auto", .word_value = 0.0),
+    CLI_NUMBER_LINE(
+        "zone", RC(zone), "mm", CLI_ABOVE(0),
+        "half-width of the potential contact; auto: grown until three separated "
+        "elements stand at each end",
+        .word = "auto", .word_value = 0.0),
     CLI_INTEGER_LINE("outer-elements", RC(outer_elements), CLI_FROM(0),
                      "on the circle outside the contact; 0: graded geometrically"),
-    CLI_CHOICE_LINE("normals", RC(normals), normals,
-                    "contact frame: the obstacle's, or the polygon's own as in Addi et al."),
+    CLI_CHOICE_LINE(
+        "normals", RC(normals), normals,
+        "contact frame: the obstacle's, or the polygon's own as in Addi et al."),
 
     CLI_GROUP_LINE("solver", "Solver"),
     CLI_CHOICE_LINE("solver", RC(solver), solvers, "of the complementarity problem"),
@@ -136,7 +141,8 @@ cli_set cli_case_set(cli_case *c)
     return (cli_set){options, sizeof options / sizeof options[0], c, c->given};
 }
 
-/* In rolling a force stands in the place of a creepage; static contact knows no rolling. */
+/* In rolling a force stands in the place of a creepage; static contact knows no rolling.
+ */
 unsigned cli_case_alike(const cli_case *c)
 {
     return c->rc.formulation == RB_STATIC ? 0 : ONE_CREEPAGE | ONE_LOADING;

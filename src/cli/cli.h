@@ -135,20 +135,35 @@ typedef struct {
 } cli_set;
 
 /* Option tables, a line each: */
-#define CLI_GROUP_LINE(section, title) {.name = section, .kind = CLI_GROUP, .help = title}
-#define CLI_NUMBER_LINE(name_, place, unit_, range_, ...)                                      \
-    {.name = name_, .kind = CLI_NUMBER, .offset = place, .unit = unit_, .range = range_,      \
-     .help = __VA_ARGS__}
-#define CLI_INTEGER_LINE(name_, place, range_, ...)                                            \
-    {.name = name_, .kind = CLI_INTEGER, .offset = place, .unit = "", .range = range_,        \
-     .help = __VA_ARGS__}
-#define CLI_CHOICE_LINE(name_, place, choices_, ...)                                           \
-    {.name = name_, .kind = CLI_CHOICE, .offset = place, .unit = "", .choices = choices_,     \
-     .help = __VA_ARGS__}
-#define CLI_FLAG_LINE(name_, place, ...)                                                       \
-    {.name = name_, .kind = CLI_FLAG, .offset = place, .unit = "", .help = __VA_ARGS__}
-#define CLI_TEXT_LINE(name_, place, metavar, ...)                                              \
-    {.name = name_, .kind = CLI_TEXT, .offset = place, .unit = metavar, .help = __VA_ARGS__}
+#define CLI_GROUP_LINE(section, title)                                                   \
+    {                                                                                    \
+        .name = section, .kind = CLI_GROUP, .help = title                                \
+    }
+#define CLI_NUMBER_LINE(name_, place, unit_, range_, ...)                                \
+    {                                                                                    \
+        .name = name_, .kind = CLI_NUMBER, .offset = place, .unit = unit_,               \
+        .range = range_, .help = __VA_ARGS__                                             \
+    }
+#define CLI_INTEGER_LINE(name_, place, range_, ...)                                      \
+    {                                                                                    \
+        .name = name_, .kind = CLI_INTEGER, .offset = place, .unit = "",                 \
+        .range = range_, .help = __VA_ARGS__                                             \
+    }
+#define CLI_CHOICE_LINE(name_, place, choices_, ...)                                     \
+    {                                                                                    \
+        .name = name_, .kind = CLI_CHOICE, .offset = place, .unit = "",                  \
+        .choices = choices_, .help = __VA_ARGS__                                         \
+    }
+#define CLI_FLAG_LINE(name_, place, ...)                                                 \
+    {                                                                                    \
+        .name = name_, .kind = CLI_FLAG, .offset = place, .unit = "",                    \
+        .help = __VA_ARGS__                                                              \
+    }
+#define CLI_TEXT_LINE(name_, place, metavar, ...)                                        \
+    {                                                                                    \
+        .name = name_, .kind = CLI_TEXT, .offset = place, .unit = metavar,               \
+        .help = __VA_ARGS__                                                              \
+    }
 
 #define CLI_GIVEN_ARGUMENT (-1)
 #define CLI_MAX_SETS 3
@@ -197,10 +212,10 @@ int cli_number(const char *text, double *value);
 const char *cli_source(const cli_option *option, int given, const char *path, char *room,
                        size_t size);
 
-/* Two given options that share a bit of `excludes` are refused, naming both, when both come
- * from the command line or both from the file; otherwise the one on the command line wins:
- * the other returns to its value in defaults (a struct like the set's target).  Bits in
- * `alike` count as one bit. */
+/* Two given options that share a bit of `excludes` are refused, naming both, when both
+ * come from the command line or both from the file; otherwise the one on the command line
+ * wins: the other returns to its value in defaults (a struct like the set's target). Bits
+ * in `alike` count as one bit. */
 cli_exit cli_settle(const cli_set *set, const void *defaults, unsigned alike,
                     const char *path);
 

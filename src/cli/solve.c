@@ -41,22 +41,30 @@ static const cli_option options[] = {
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
 static const char about[] =
-    "Solves one case of rolling contact, a cylinder A on a body B, by boundary elements and a\n"
-    "linear complementarity problem, and prints the tractions element by element. Without\n"
+    "Solves one case of rolling contact, a cylinder A on a body B, by boundary elements "
+    "and a\n"
+    "linear complementarity problem, and prints the tractions element by element. "
+    "Without\n"
     "options: the example of Addi, Adly, Goeleven and Thera (2006).\n"
     "\n"
-    "Signs: x to the right, y up; A is above and rolls towards +x, so the leading edge is at\n"
-    "+x. Creepage xi = (V_A - V_B)/|V| > 0: A's surface slides towards +x over the ground (a\n"
+    "Signs: x to the right, y up; A is above and rolls towards +x, so the leading edge "
+    "is at\n"
+    "+x. Creepage xi = (V_A - V_B)/|V| > 0: A's surface slides towards +x over the "
+    "ground (a\n"
     "braked wheel) and the friction q on A points to -x, Q < 0. Pressure p >= 0.\n"
     "Units: any consistent set; names say mm, MPa and N/mm (loads per unit length).";
 
 static const char notes[] =
-    "A case file holds the same names as keys, in the sections named in brackets or in none;\n"
+    "A case file holds the same names as keys, in the sections named in brackets or in "
+    "none;\n"
     "the command line wins over the file.\n"
-    "In static contact --shift, --force or --force-ratio loads it and --creep or --creep-ratio\n"
-    "only enter the slip computed afterwards; in steady rolling one of --creep, --creep-ratio,\n"
+    "In static contact --shift, --force or --force-ratio loads it and --creep or "
+    "--creep-ratio\n"
+    "only enter the slip computed afterwards; in steady rolling one of --creep, "
+    "--creep-ratio,\n"
     "--force, --force-ratio drives it.\n"
-    "Exit codes: 0 solved; 1 not solved (what there is, is printed); 64 wrong values on the\n"
+    "Exit codes: 0 solved; 1 not solved (what there is, is printed); 64 wrong values on "
+    "the\n"
     "command line, 65 in a file; 66 no such file; 70 internal; 73 cannot write.\n";
 
 /* ---- Output ----------------------------------------------------------------------- */
@@ -76,14 +84,14 @@ static cli_exit write_result(rb_io_writer *w, const output_options *o, const cli
                              const rb_rolling_solution *s)
 {
     rb_message why;
-    const rb_status written =
-        o->json ? write_json(w->file, c, s)
-                : rb_report_table(w->file, s, cli_command_line(), o->header == HEADER_BARE);
+    const rb_status written = o->json ? write_json(w->file, c, s)
+                                      : rb_report_table(w->file, s, cli_command_line(),
+                                                        o->header == HEADER_BARE);
     if (written != RB_OK) {
-        const char *reason = written == RB_EWRITE ? strerror(errno) : rb_status_text(written);
-        const cli_exit code =
-            cli_fail(cli_exit_of(written), "%s: %s",
-                     o->output ? o->output : "standard output", reason);
+        const char *reason =
+            written == RB_EWRITE ? strerror(errno) : rb_status_text(written);
+        const cli_exit code = cli_fail(cli_exit_of(written), "%s: %s",
+                                       o->output ? o->output : "standard output", reason);
         rb_io_writer_abandon(w);
         return code;
     }
@@ -126,8 +134,8 @@ static void tell_people(const cli_case *c, const rb_rolling_solution *s)
 
 /* ---- Command ---------------------------------------------------------------------- */
 
-static cli_exit print_solution(rb_io_writer *w, const output_options *o, const cli_case *c,
-                               const rb_rolling_solution *s)
+static cli_exit print_solution(rb_io_writer *w, const output_options *o,
+                               const cli_case *c, const rb_rolling_solution *s)
 {
     cli_exit code = write_result(w, o, c, s);
     if (code == CLI_OK && !o->quiet)

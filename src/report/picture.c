@@ -67,23 +67,28 @@ static int is_shown(const view *v, int i)
     return x >= v->from && x <= v->to;
 }
 
-static void choose_slip_unit(view *v)
+static void choose_slip_axis(view *v)
 {
-    double largest = 0.0;
+    double least = 0.0, most = 0.0;
     for (int i = 0; i < v->s->n; i++)
-        if (is_shown(v, i))
-            largest = fmax(largest, fabs(v->s->slip[i]));
-    v->slip_exponent = largest > 0.0 ? 3 * (int)floor(log10(largest) / 3.0) : 0;
-    if (v->slip_exponent > 0 || largest >= 0.1)
-        v->slip_exponent = 0;
+        if (is_shown(v, i)) {
+            least = fmin(least, v->s->slip[i]);
+            most = fmax(most, v->s->slip[i]);
+        }
+    const double largest = fmax(most, -least);
+    if (largest > 0.0 && largest < 0.1)
+        v->slip_exponent = 3 * (int)floor(log10(largest) / 3.0);
     v->slip_unit = pow(10.0, v->slip_exponent);
+    const double margin = most > least ? 0.12 * (most - least) : v->slip_unit;
+    v->slip_from = (least - margin) / v->slip_unit;
+    v->slip_to = (most + margin) / v->slip_unit;
 }
 
 static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     view v = {.rc = rc, .s = s};
     choose_x_axis(&v);
-    choose_slip_unit(&v);
+    choose_slip_axis(&v);
     v.carter = s->formulation == RB_STEADY && isfinite(s->creep_ratio) && rc->mu > 0.0 &&
                s->normal_load > 0.0;
     return v;
@@ -147,9 +152,22 @@ static const char *zone_name(int zone)
     return names[zone];
 }
 
+/* Upright where the zone is narrow, left out where it is a line. */
+static void write_zone_label(FILE *out, const view *v, const stretch *st)
+{
+    const double share = (st->to - st->from) / (v->to - v->from);
+    const char *name = zone_name(st->zone);
+    if (share < 0.025)
+        return;
+    const int flat = share > 0.013 * (double)strlen(name);
+    fprintf(
+        out,
+        "set label '{/*0.85 %s}' at first %.9g, graph %s textcolor rgb '#555555' front\n",
+        name, (st->from + st->to) / 2, flat ? "0.95 center" : "0.97 right rotate by 90");
+}
+
 static void write_zones(FILE *out, const view *v, int labelled)
 {
-    const double width = v->to - v->from;
     for (int i = 0; i < v->s->n;) {
         const stretch st = next_stretch(v, &i);
         if (st.to <= st.from)
@@ -158,13 +176,8 @@ static void write_zones(FILE *out, const view *v, int labelled)
                 "set object rectangle from first %.9g, graph 0 to first %.9g, graph 1 "
                 "fillcolor rgb '%s' fillstyle solid noborder behind\n",
                 st.from, st.to, zone_colour(st.zone));
-        const double needed = 0.013 * (double)strlen(zone_name(st.zone));
-        if (labelled && st.to - st.from > needed * width)
-            fprintf(
-                out,
-                "set label '{/*0.85 %s}' at first %.9g, graph 0.95 center textcolor rgb '#555555' "
-                "font ',20' front\n",
-                zone_name(st.zone), (st.from + st.to) / 2);
+        if (labelled)
+            write_zone_label(out, v, &st);
     }
 }
 
@@ -185,7 +198,7 @@ static void write_title(FILE *out, const view *v)
         fprintf(out, ",  ξR/(μa) = %.4g", s->creep_ratio);
     if (!isnan(s->force_ratio))
         fprintf(out, ",  Q/(μP) = %.4g", s->force_ratio);
-    fputs("' at screen 0.53, 0.922 center textcolor rgb '#444444'\n", out);
+    fputs("' at screen 0.53, 0.925 center textcolor rgb '#444444'\n", out);
 }
 
 static void write_tractions(FILE *out, const view *v)
@@ -194,9 +207,9 @@ static void write_tractions(FILE *out, const view *v)
     const double bound = v->rc->mu * p0;
     fprintf(out, "set yrange [%.9g:%.9g]\n", -fmax(1.2 * bound, 0.08 * p0),
             1.16 * fmax(p0, bound));
-    fputs("set tmargin at screen 0.84\nset bmargin at screen 0.40\n"
+    fputs("set tmargin at screen 0.83\nset bmargin at screen 0.40\n"
           "set format x ''\nset ylabel 'traction [MPa]' offset character 0.5,0\n"
-          "set key at screen 0.53, 0.885 center horizontal samplen 2.2 width 1 font "
+          "set key at screen 0.53, 0.87 center horizontal samplen 2.2 width 1 font "
           "',22'\n",
           out);
     write_zones(out, v, 1);

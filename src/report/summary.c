@@ -87,8 +87,10 @@ static void print_motion(FILE *out, const rb_rolling_solution *s)
     fprintf(out, "  creepage  xi = %.6g", s->creepage);
     if (!isnan(s->creep_ratio))
         fprintf(out, ", xi R/(mu a) = %.5g", s->creep_ratio);
-    if (!isnan(s->free_creepage))
-        fprintf(out, ", free rolling at %.5g", s->free_creepage);
+    if (!isnan(s->free_creepage)) {
+        const int zero = fabs(s->free_creepage) <= 1e-12 + 1e-9 * fabs(s->creepage);
+        fprintf(out, ", free rolling at %.5g", zero ? 0.0 : s->free_creepage);
+    }
     fputc('\n', out);
 }
 
