@@ -41,7 +41,8 @@ typedef struct {
     double from, to;  /* x axis, in its units */
     double slip_unit; /* power of 1000 */
     int slip_exponent;
-    int carter; /* 1: draw Carter's curve */
+    double slip_from, slip_to; /* in slip units */
+    int carter;                /* 1: draw Carter's curve */
 } view;
 
 static void choose_x_axis(view *v)
@@ -77,7 +78,7 @@ static void choose_slip_axis(view *v)
         }
     const double largest = fmax(most, -least);
     if (largest > 0.0 && largest < 0.1)
-        v->slip_exponent = 3 * (int)floor(log10(largest) / 3.0);
+        v->slip_exponent = (int)floor(log10(largest));
     v->slip_unit = pow(10.0, v->slip_exponent);
     const double margin = most > least ? 0.12 * (most - least) : v->slip_unit;
     v->slip_from = (least - margin) / v->slip_unit;
@@ -192,9 +193,10 @@ static void write_title(FILE *out, const view *v)
             kinds[s->formulation], v->rc->mu, s->normal_load, s->tangential_load);
     fputs("' at screen 0.53, 0.965 center\nset label 2 '", out);
     fprintf(out, "a = %.4g mm,  p_0 = %.5g MPa", s->half_width, s->max_pressure);
-    if (!isnan(s->creepage))
+    const int moves = s->formulation != RB_STATIC || s->creepage != 0.0;
+    if (!isnan(s->creepage) && moves)
         fprintf(out, ",  ξ = %.4g", s->creepage);
-    if (!isnan(s->creep_ratio))
+    if (!isnan(s->creep_ratio) && moves)
         fprintf(out, ",  ξR/(μa) = %.4g", s->creep_ratio);
     if (!isnan(s->force_ratio))
         fprintf(out, ",  Q/(μP) = %.4g", s->force_ratio);
@@ -209,7 +211,8 @@ static void write_tractions(FILE *out, const view *v)
             1.16 * fmax(p0, bound));
     fputs("set tmargin at screen 0.83\nset bmargin at screen 0.40\n"
           "set format x ''\nset ylabel 'traction [MPa]' offset character 0.5,0\n"
-          "set key at screen 0.53, 0.87 center horizontal samplen 2.2 width 1 font "
+          "set key at screen 0.53, 0.87 center horizontal maxrows 1 samplen 2.2 width 1 "
+          "font "
           "',22'\n",
           out);
     write_zones(out, v, 1);
@@ -226,9 +229,17 @@ static void write_tractions(FILE *out, const view *v)
         out);
     if (v->carter)
         fputs(", $carter using 1:2 with lines dashtype (10,5) linecolor rgb '#1e8449' "
-              "linewidth 1.4 title 'Carter'",
+              "linewidth 1.4 title 'q of Carter'",
               out);
     fputs("\n", out);
+}
+
+/* The next of 1, 2, 5 times a power of ten. */
+static double round_step(double step)
+{
+    const double power = pow(10.0, floor(log10(step)));
+    const double digit = step / power;
+    return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
 }
 
 static void write_slip(FILE *out, const view *v)

@@ -79,7 +79,8 @@ static void print_forces(FILE *out, const rb_rolling_solution *s)
 
 static void print_motion(FILE *out, const rb_rolling_solution *s)
 {
-    const int moves = !isnan(s->creepage);
+    const int moves =
+        !isnan(s->creepage) && (s->formulation != RB_STATIC || s->creepage != 0.0);
     if (s->formulation == RB_STATIC && !isnan(s->tangential_shift))
         fprintf(out, "  shift     %.6g mm\n", s->tangential_shift);
     if (!moves)
