@@ -191,11 +191,11 @@ double rb_rolling_residual(const rb_rolling_problem *problem,
                            const rb_rolling_state *state, double *gap, double *slip,
                            double *friction);
 
-/* Solves the problem by the solver of the case, in the order of attempts of theory.md.
- * state: a warm start where state->p is not all zero. */
+/* Solves the problem by the solver of the case, and by the other one where that fails
+ * (state->solver says which one did it).  warm: the zones of the state are a start. */
 rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
-                                   const rb_rolling_case *rc, rb_rolling_state *state,
-                                   rb_message *why);
+                                   const rb_rolling_case *rc, int warm,
+                                   rb_rolling_state *state, rb_message *why);
 
 /* ---- Solution -------------------------------------------------------------------- */
 

@@ -23,13 +23,18 @@ double rb_rolling_estimate_half_width(const rb_rolling_case *rc);
 /* ---- newton.c ------------------------------------------------------------------------
  */
 
-/* One exact solve with the zones of the state held fixed.  RB_SINGULAR leaves the state
- * as it was. */
-rb_status rb_rolling_solve_zones(const rb_rolling_problem *problem,
-                                 rb_rolling_state *state);
+/* Which unknowns a solve moves: (r_N, delta), (r_T, xi) or both. */
+typedef enum { RB_NORMAL = 1, RB_TANGENTIAL = 2, RB_BOTH = 3 } rb_rolling_unknowns;
 
-/* Newton from the zones of the state. RB_MAXITER where it cycles, RB_SINGULAR. */
-rb_status rb_rolling_newton(const rb_rolling_problem *problem, rb_rolling_state *state);
+/* One exact solve with the zones of the state held fixed.  RB_SINGULAR: p and q have lost
+ * their values. */
+rb_status rb_rolling_solve_zones(const rb_rolling_problem *problem,
+                                 rb_rolling_unknowns unknowns, rb_rolling_state *state);
+
+/* Newton, from the zones of the state (warm) or by alternating normal and tangential
+ * problems first.  RB_MAXITER where it cycles, RB_SINGULAR. */
+rb_status rb_rolling_newton(const rb_rolling_problem *problem, int warm,
+                            rb_rolling_state *state);
 
 /* ---- model.c
  * --------------------------------------------------------------------------- */

@@ -24,11 +24,11 @@ double rb_rolling_model_load(const rb_rolling_model *model)
            cblas_ddot(p->n, p->load_T, 1, model->state.q, 1);
 }
 
-static rb_status timed_solve(rb_rolling_model *model, rb_message *why)
+static rb_status timed_solve(rb_rolling_model *model, int warm, rb_message *why)
 {
     const double start = rb_seconds();
     const rb_status s =
-        rb_rolling_problem_solve(&model->problem, &model->rc, &model->state, why);
+        rb_rolling_problem_solve(&model->problem, &model->rc, warm, &model->state, why);
 
     model->seconds_lcp += rb_seconds() - start;
     model->iterations += model->state.iterations;
@@ -43,7 +43,7 @@ static rb_status timed_solve(rb_rolling_model *model, rb_message *why)
 static rb_status solve_ratio(rb_rolling_model *model, rb_message *why)
 {
     const rb_rolling_case *rc = &model->rc;
-    rb_status s = timed_solve(model, why);
+    rb_status s = timed_solve(model, 0, why);
 
     if (isnan(rc->creep_ratio) || rc->formulation == RB_STATIC ||
         model->problem.load_given)
@@ -54,7 +54,7 @@ static rb_status solve_ratio(rb_rolling_model *model, rb_message *why)
         if (fabs(xi - model->problem.xi) <= 1e-13 * fabs(xi))
             break;
         model->problem.xi = xi;
-        s = timed_solve(model, why);
+        s = timed_solve(model, 1, why);
     }
     return s;
 }
@@ -210,7 +210,8 @@ rb_status rb_rolling_free_creepage(const rb_rolling_model *model, double *creepa
         return s;
     problem.force_given = 1;
     problem.force = problem.force_ratio = 0.0;
-    s = rb_rolling_problem_solve(&problem, &model->rc, &state, why);
+    memcpy(state.zone, model->state.zone, (size_t)problem.n * sizeof(int));
+    s = rb_rolling_problem_solve(&problem, &model->rc, 1, &state, why);
     if (s == RB_OK)
         *creepage = state.xi;
     rb_rolling_state_free(&state);

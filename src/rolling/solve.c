@@ -1,8 +1,11 @@
-/* The order of attempts: pivoted form in its own orientation, mirrored, Kwak's form. */
+/* The order of attempts: Lemke's three, Newton, and who comes first. */
 #include "rolling/internal.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/* The largest contact that `auto` gives to Lemke. */
+enum { LEMKE_UP_TO = 120 };
 
 /* A creepage that makes everything slide, to start a search for a given force from. */
 static double sliding_creepage(const rb_rolling_case *rc, const rb_rolling_problem *p)
@@ -21,7 +24,7 @@ static void polish(const rb_rolling_problem *problem, rb_rolling_state *state,
     const size_t bytes = (size_t)problem->n * sizeof(double);
 
     memcpy(trial->zone, state->zone, (size_t)problem->n * sizeof(int));
-    if (rb_rolling_solve_zones(problem, trial) != RB_OK)
+    if (rb_rolling_solve_zones(problem, RB_BOTH, trial) != RB_OK)
         return;
     trial->residual = rb_rolling_residual(problem, trial, NULL, NULL, NULL);
     if (!(trial->residual < state->residual))
@@ -102,25 +105,67 @@ static int slides_backwards(const rb_rolling_problem *problem)
     return sum < 0.0;
 }
 
-rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
-                                   const rb_rolling_case *rc, rb_rolling_state *state,
-                                   rb_message *why)
+/* Pivoted form in its own orientation, mirrored, then Kwak's (theory.md K5); Kwak's form
+ * alone where the case asks for it. */
+static rb_status solve_lemke(const rb_rolling_problem *problem, const rb_rolling_case *rc,
+                             rb_rolling_state *state, rb_message *why)
 {
     const int backwards = slides_backwards(problem);
     const double xi0 = (backwards ? -1.0 : 1.0) * sliding_creepage(rc, problem);
-    const attempt pivoted[] = {{RB_LCP_PIVOTED, backwards, xi0},
-                               {RB_LCP_PIVOTED, !backwards, xi0},
-                               {RB_LCP_KWAK, 0, xi0}};
-    const int first = rc->lcp_form == RB_LCP_KWAK ? 2 : 0;
+    const attempt attempts[] = {{RB_LCP_PIVOTED, backwards, xi0},
+                                {RB_LCP_PIVOTED, !backwards, xi0},
+                                {RB_LCP_KWAK, 0, xi0}};
+    rb_status s = RB_RAY;
+
+    for (int k = rc->lcp_form == RB_LCP_KWAK ? 2 : 0; k < 3; k++) {
+        s = try_lemke(problem, &attempts[k], state, why);
+        if (s < 0 || (s == RB_OK && state->residual <= rc->tol))
+            return s;
+    }
+    return s;
+}
+
+static rb_status solve_newton(const rb_rolling_problem *problem, int warm,
+                              rb_rolling_state *state)
+{
+    rb_status s = rb_rolling_newton(problem, warm, state);
+
+    if (s >= 0) {
+        state->solver = RB_SOLVER_NEWTON;
+        const rb_status t = complete(problem, state);
+        s = t < 0 ? t : s;
+    }
+    return s;
+}
+
+static int is_solved(rb_status s, const rb_rolling_case *rc,
+                     const rb_rolling_state *state)
+{
+    return s == RB_OK && state->residual <= rc->tol;
+}
+
+/* The wanted solver first; where it ends without a solution, the other one.  A warm start
+ * is Newton's: it costs a few steps where Lemke would begin anew. */
+rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
+                                   const rb_rolling_case *rc, int warm,
+                                   rb_rolling_state *state, rb_message *why)
+{
+    const int newton_first =
+        rc->solver == RB_SOLVER_NEWTON ||
+        (rc->solver == RB_SOLVER_AUTO && (warm || problem->n > LEMKE_UP_TO));
     rb_status s = RB_RAY;
 
     state->iterations = 0;
-    for (int k = first; k < 3; k++) {
-        s = try_lemke(problem, &pivoted[k], state, why);
-        if (s < 0 || (s == RB_OK && state->residual <= rc->tol))
+    for (int k = 0; k < 3 && s >= 0; k++) {
+        const int newton = newton_first ? k < 2 : k == 1;
+        if (newton && k == 0 && !warm)
+            continue;
+        s = newton ? solve_newton(problem, k == 0, state)
+                   : solve_lemke(problem, rc, state, why);
+        if (is_solved(s, rc, state))
             break;
     }
-    if (s == RB_OK && !(state->residual <= rc->tol))
+    if (s == RB_OK && !is_solved(s, rc, state))
         s = RB_INACCURATE;
     if (s > 0)
         rb_fail(why, s, "%s; scaled residual %.3g", rb_status_text(s), state->residual);
