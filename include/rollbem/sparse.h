@@ -52,7 +52,7 @@ void rb_sparse_lu_free(rb_sparse_lu *lu);
 typedef struct rb_sparse_cholesky rb_sparse_cholesky;
 
 /* Factors K (both triangles stored; the upper one is read).  RB_SINGULAR: not positive
- * definite to rounding (a pivot below 1e-13 of the largest, with unit diagonal). */
+ * definite to rounding (a pivot below 1e-11 of the largest, with unit diagonal). */
 rb_status rb_sparse_cholesky_create(const rb_sparse *k, rb_sparse_cholesky **factor);
 rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b,
                                    double *x);
