@@ -192,4 +192,64 @@ rb_status rb_fem_run(const rb_fem_model *model, const char *solver, double tol,
                      rb_fem_history *history, rb_message *why);
 void rb_fem_history_free(rb_fem_history *history);
 
+/* ---- The wall ------------------------------------------------------------------------
+ */
+
+/* A dry masonry wall like the one of *Acary* 3: five courses in running bond, 12 blocks
+ * (six whole, 0.2 x 0.1 x 0.1 m, ... two whole or half, whole, half per course), E
+ * = 2.2e9 Pa, nu = 0.2, 2000 kg/m3, mu = 0.83 between blocks and 0.53 at the supports.
+ * The lower support is fixed.  The upper one is a beam of 300 kg that only moves
+ * vertically under a force rising to 30 kN and is then driven sideways at 1e-3 m/s.  SI
+ * units. Implicit dynamics (backward Euler, small displacements): with velocities v and
+ * impulses r, (M + dt^2 K) v = M v0 + dt (F - K u0) + H r,  u = H' v + w,  w = (gap/dt,
+ * -drive), so that the matrix is regular, one body a block.  Contact points are nodes of
+ * the more finely meshed side of a joint; every one has its own node, so that H has full
+ * rank. */
+typedef struct {
+    int fine[3];      /* nodes of a whole block in courses 1, 3, 5: along, across, up */
+    int coarse[3];    /* the same in courses 2 and 4 (half blocks: half the elements) */
+    int rigid;        /* 1: six freedoms a block, the same contact points */
+    double dt;        /* [s] */
+    int press, shear; /* steps in which the force grows, steps of driving */
+} rb_fem_wall_options;
+
+/* About 1700 contact points and 8200 unknowns; 10 + 65 steps of 5 ms. */
+rb_fem_wall_options rb_fem_wall_defaults(void);
+
+/* One step that was solved. */
+typedef struct {
+    double time;        /* at its end [s] */
+    double compression; /* [N] */
+    double shear;       /* force along the wall on the upper support's contacts [N] */
+    double drift;       /* displacement of the upper support along the wall [m] */
+    int stick, slip, separated;
+    int iterations;  /* of the solver, from r = 0: the step's difficulty */
+    double residual; /* *Acary* (13) */
+    double seconds;
+} rb_fem_wall_step;
+
+typedef struct rb_fem_wall rb_fem_wall; /* opaque */
+
+/* RB_EINVAL: fewer nodes than three along and up or two across, dt <= 0, no steps. */
+rb_status rb_fem_wall_create(const rb_fem_wall_options *options, rb_fem_wall **wall,
+                             rb_message *why);
+void rb_fem_wall_free(rb_fem_wall *wall);
+int rb_fem_wall_contacts(const rb_fem_wall *wall);
+int rb_fem_wall_dofs(const rb_fem_wall *wall);
+int rb_fem_wall_steps(const rb_fem_wall *wall); /* planned */
+/* Borrowed: all blocks, none of whose nodes are shared. */
+const rb_fem_mesh *rb_fem_wall_mesh(const rb_fem_wall *wall);
+/* Displacements of the nodes after the last solved step (3 x nodes). */
+rb_status rb_fem_wall_displacements(const rb_fem_wall *wall, double *u);
+
+/* The next step; RB_EINVAL after the last one. */
+rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
+                              rb_fem_wall_step *step, rb_message *why);
+/* The friction problem of a solved step (from 0), in global form. */
+rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step,
+                              rb_friction_problem *problem);
+/* count of the solved steps, spread evenly over their difficulty (iterations, then time),
+ * the easiest first.  RB_EINVAL: count < 1 or more than were solved. */
+rb_status rb_fem_wall_select(const rb_fem_wall *wall, int count, int *step);
+
 #endif

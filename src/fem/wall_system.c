@@ -1,0 +1,189 @@
+/* Mass, stiffness, contact map and loads of the wall: elastic blocks, or the same blocks
+ * rigid by Galerkin's projection on their rigid motions. */
+#include "fem/wall.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const rb_fem_material masonry = {
+    .young = 2.2e9, .poisson = 0.2, .density = 2000.0};
+static const double gravity = 9.81, support_mass = 300.0; /* m/s2, kg */
+
+void wall_system_free(wall_system *s)
+{
+    rb_sparse_free(&s->M);
+    rb_sparse_free(&s->K);
+    rb_sparse_free(&s->H);
+    free(s->weight);
+    free(s->press);
+    memset(s, 0, sizeof *s);
+}
+
+/* a with one more row and column, which hold only their diagonal entry; takes over a. */
+static rb_status append(rb_sparse *a, double diagonal)
+{
+    const int n = a->cols, nz = a->p[n];
+    int *p = realloc(a->p, ((size_t)n + 2) * sizeof *p);
+    if (p)
+        a->p = p;
+    int *i = realloc(a->i, ((size_t)nz + 1) * sizeof *i);
+    if (i)
+        a->i = i;
+    double *x = realloc(a->x, ((size_t)nz + 1) * sizeof *x);
+    if (x)
+        a->x = x;
+    if (!p || !i || !x)
+        return RB_ENOMEM;
+    a->rows = a->cols = n + 1;
+    p[n + 1] = nz + 1;
+    i[nz] = n;
+    x[nz] = diagonal;
+    return RB_OK;
+}
+
+/* The support's own weight is borne by the jack. */
+static rb_status fill_loads(const rb_fem_mesh *mesh, wall_system *s)
+{
+    double *down = rb_alloc((size_t)s->dofs, 1);
+    s->weight = rb_alloc((size_t)s->dofs, 1);
+    s->press = rb_alloc((size_t)s->dofs, 1);
+    if (down && s->weight && s->press) {
+        for (int a = 0; a < mesh->nodes; a++)
+            down[mesh->dof[3 * a + 2]] = -gravity;
+        rb_sparse_apply(1.0, &s->M, down, 0.0, s->weight);
+        s->press[s->dofs - 1] = -1.0;
+    }
+    free(down);
+    return s->weight && s->press && down ? RB_OK : RB_ENOMEM;
+}
+
+rb_status wall_elastic_system(const wall_layout *layout, const rb_fem_mesh *mesh,
+                              int contacts, const wall_contact *contact, wall_system *s,
+                              rb_message *why)
+{
+    memset(s, 0, sizeof *s);
+    s->dofs = mesh->dofs + 1;
+    rb_status status = rb_fem_stiffness(mesh, &masonry, &s->K, why);
+    if (status == RB_OK)
+        status = rb_fem_mass(mesh, &masonry, &s->M, why);
+    if (status == RB_OK)
+        status = append(&s->K, 0.0);
+    if (status == RB_OK)
+        status = append(&s->M, support_mass);
+    if (status == RB_OK)
+        status = fill_loads(mesh, s);
+    if (status == RB_OK)
+        status = wall_contact_map(layout, mesh, contacts, contact, &s->H);
+    if (status != RB_OK)
+        wall_system_free(s);
+    return status;
+}
+
+/* ---- Rigid blocks -------------------------------------------------------------------
+ */
+
+typedef struct {
+    int *row, *col, n;
+    double *value;
+} triplets;
+
+static rb_status triplets_alloc(size_t most, triplets *t)
+{
+    *t = (triplets){rb_alloc_int(most), rb_alloc_int(most), 0, rb_alloc(most, 1)};
+    return t->row && t->col && t->value ? RB_OK : RB_ENOMEM;
+}
+
+static void triplets_add(triplets *t, int row, int col, double value)
+{
+    t->row[t->n] = row;
+    t->col[t->n] = col;
+    t->value[t->n++] = value;
+}
+
+static rb_status triplets_finish(triplets *t, rb_status s, int rows, int cols,
+                                 rb_sparse *a)
+{
+    if (s == RB_OK)
+        s = rb_sparse_from_triplets(rows, cols, t->n, t->row, t->col, t->value, a);
+    free(t->row);
+    free(t->col);
+    free(t->value);
+    return s;
+}
+
+/* Velocities of a node at arm from the block's centre under the block's six freedoms. */
+static void add_rigid_rows(const rb_fem_mesh *mesh, int node, int block,
+                           const double *centre, triplets *t)
+{
+    for (int c = 0; c < 3; c++) {
+        const int row = mesh->dof[3 * node + c], d = (c + 1) % 3, e = (c + 2) % 3;
+        triplets_add(t, row, 6 * block + c, 1.0);
+        /* (omega x arm)_c = omega_d arm_e - omega_e arm_d */
+        triplets_add(t, row, 6 * block + 3 + d, mesh->x[3 * node + e] - centre[e]);
+        triplets_add(t, row, 6 * block + 3 + e, centre[d] - mesh->x[3 * node + d]);
+    }
+}
+
+static rb_status rigid_motions(const wall_layout *layout, const rb_fem_mesh *mesh,
+                               rb_sparse *R)
+{
+    triplets t;
+    rb_status s = triplets_alloc(9 * (size_t)mesh->nodes + 1, &t);
+    for (int b = 0; s == RB_OK && b < BLOCKS; b++) {
+        const wall_block *block = &layout->block[b];
+        double centre[3];
+        for (int c = 0; c < 3; c++)
+            centre[c] = block->low[c] + 0.5 * block->size[c];
+        for (int a = 0; a < block->n[0] * block->n[1] * block->n[2]; a++)
+            add_rigid_rows(mesh, block->first + a, b, centre, &t);
+    }
+    if (s == RB_OK)
+        triplets_add(&t, mesh->dofs, 6 * BLOCKS, 1.0);
+    return triplets_finish(&t, s, mesh->dofs + 1, 6 * BLOCKS + 1, R);
+}
+
+static rb_status multiply(const rb_sparse *a, const rb_sparse *b, rb_sparse *product)
+{
+    size_t most = 0;
+    for (int k = 0; k < b->p[b->cols]; k++)
+        most += (size_t)(a->p[b->i[k] + 1] - a->p[b->i[k]]);
+    triplets t;
+    const rb_status s = triplets_alloc(most, &t);
+    for (int j = 0; s == RB_OK && j < b->cols; j++)
+        for (int k = b->p[j]; k < b->p[j + 1]; k++)
+            for (int l = a->p[b->i[k]]; l < a->p[b->i[k] + 1]; l++)
+                triplets_add(&t, a->i[l], j, a->x[l] * b->x[k]);
+    return triplets_finish(&t, s, a->rows, b->cols, product);
+}
+
+rb_status wall_rigid_system(const wall_layout *layout, const rb_fem_mesh *mesh,
+                            const wall_system *elastic, rb_sparse *R, wall_system *s)
+{
+    rb_sparse Rt = {0}, MR = {0};
+    memset(s, 0, sizeof *s);
+    s->dofs = 6 * BLOCKS + 1;
+    rb_status status = rigid_motions(layout, mesh, R);
+    if (status == RB_OK)
+        status = rb_sparse_transpose(R, &Rt);
+    if (status == RB_OK)
+        status = multiply(&elastic->M, R, &MR);
+    if (status == RB_OK)
+        status = multiply(&Rt, &MR, &s->M);
+    if (status == RB_OK)
+        status = multiply(&Rt, &elastic->H, &s->H);
+    if (status == RB_OK)
+        status = rb_sparse_from_triplets(s->dofs, s->dofs, 0, NULL, NULL, NULL, &s->K);
+    s->weight = rb_alloc((size_t)s->dofs, 1);
+    s->press = rb_alloc((size_t)s->dofs, 1);
+    if (!s->weight || !s->press)
+        status = RB_ENOMEM;
+    if (status == RB_OK) {
+        rb_sparse_apply(1.0, &Rt, elastic->weight, 0.0, s->weight);
+        rb_sparse_apply(1.0, &Rt, elastic->press, 0.0, s->press);
+    }
+    rb_sparse_free(&Rt);
+    rb_sparse_free(&MR);
+    if (status != RB_OK)
+        wall_system_free(s);
+    return status;
+}

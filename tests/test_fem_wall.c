@@ -1,0 +1,180 @@
+/* The wall: its geometry and contact map, one step after the other, elastic and rigid. */
+#include "check.h"
+#include "fem/wall.h"
+
+#include <string.h>
+
+static rb_fem_wall_options small_wall(int rigid)
+{
+    rb_fem_wall_options o = rb_fem_wall_defaults();
+    const int fine[3] = {4, 3, 3}, coarse[3] = {3, 2, 3};
+    memcpy(o.fine, fine, sizeof fine);
+    memcpy(o.coarse, coarse, sizeof coarse);
+    o.rigid = rigid;
+    return o;
+}
+
+typedef struct {
+    wall_layout layout;
+    rb_fem_mesh mesh;
+    wall_contact *contact;
+    int contacts;
+    wall_system system;
+} parts;
+
+static void open_parts(const rb_fem_wall_options *o, parts *p)
+{
+    p->layout = wall_lay_out(o);
+    CHECK_STATUS(wall_build_mesh(&p->layout, &p->mesh), RB_OK);
+    p->contacts = wall_find_contacts(&p->layout, NULL);
+    p->contact = calloc((size_t)p->contacts, sizeof *p->contact);
+    wall_find_contacts(&p->layout, p->contact);
+    CHECK_STATUS(wall_elastic_system(&p->layout, &p->mesh, p->contacts, p->contact,
+                                     &p->system, NULL),
+                 RB_OK);
+}
+
+static void close_parts(parts *p)
+{
+    wall_system_free(&p->system);
+    rb_fem_mesh_free(&p->mesh);
+    free(p->contact);
+}
+
+static void blocks_weigh_what_they_should(void **state)
+{
+    (void)state;
+    const rb_fem_wall_options o = small_wall(0);
+    parts p;
+    open_parts(&o, &p);
+    double weight = 0.0;
+    for (int i = 0; i < p.system.dofs; i++)
+        weight += p.system.weight[i];
+    CHECK_REL(weight, -9.81 * 2000.0 * 0.4 * 0.1 * 0.5, 1e-13, "weight");
+    /* 6 bed joints of 2 x 4 x 3 nodes; heads: courses 1, 3, 5 one of 3, 2, 4 two of 2 */
+    assert_int_equal(p.contacts, 6 * 24 + 3 * 3 + 2 * 2 * 2);
+    close_parts(&p);
+}
+
+static void contact_map_has_full_rank(void **state)
+{
+    (void)state;
+    const rb_fem_wall_options o = small_wall(0);
+    parts p;
+    int rank = -1;
+    open_parts(&o, &p);
+    CHECK_STATUS(rb_sparse_rank(&p.system.H, &rank), RB_OK);
+    assert_int_equal(rank, 3 * p.contacts);
+    close_parts(&p);
+}
+
+/* The wall moving as one rigid body opens and slides no joint between blocks. */
+static void common_motion_leaves_the_joints_alone(void **state)
+{
+    (void)state;
+    const rb_fem_wall_options o = small_wall(0);
+    parts p;
+    open_parts(&o, &p);
+    double *v = rb_alloc((size_t)p.system.dofs, 1);
+    double *u = rb_alloc(3, (size_t)p.contacts);
+    for (int a = 0; a < p.mesh.nodes; a++) {
+        const double *x = p.mesh.x + 3 * a;
+        v[3 * a] = 1.0 - 0.7 * x[1] + 0.4 * x[2];
+        v[3 * a + 1] = 0.3 + 0.7 * x[0] - 0.2 * x[2];
+        v[3 * a + 2] = -0.5 - 0.4 * x[0] + 0.2 * x[1];
+    }
+    rb_sparse_apply_transposed(1.0, &p.system.H, v, 0.0, u);
+    for (int i = 0; i < p.contacts; i++) {
+        const wall_contact *c = &p.contact[i];
+        const double *mine = v + 3 * c->node;
+        for (int k = 0; k < 3; k++) {
+            const double sign = k == 0 ? c->sign : 1.0;
+            const double want =
+                c->other >= 0 && c->other < BLOCKS ? 0.0 : mine[wall_axis(c, k)];
+            CHECK_ABS(u[3 * i + k], sign * want, 1e-14, "contact %d, component %d", i, k);
+        }
+    }
+    free(v);
+    free(u);
+    close_parts(&p);
+}
+
+/* R' M R of a box: m and m (b^2 + c^2)/12, exactly integrated. */
+static void rigid_blocks_have_their_inertia(void **state)
+{
+    (void)state;
+    const rb_fem_wall_options o = small_wall(1);
+    parts p;
+    wall_system rigid;
+    rb_sparse R = {0};
+    open_parts(&o, &p);
+    CHECK_STATUS(wall_rigid_system(&p.layout, &p.mesh, &p.system, &R, &rigid), RB_OK);
+    const double m = 4.0; /* the first block: 0.2 x 0.1 x 0.1 m */
+    const double want[6] = {m, m, m, m * 0.02 / 12, m * 0.05 / 12, m * 0.05 / 12};
+    for (int j = 0; j < 6; j++) {
+        double column[6] = {0};
+        for (int k = rigid.M.p[j]; k < rigid.M.p[j + 1]; k++) {
+            CHECK_ABS(rigid.M.i[k] < 6 ? 0.0 : rigid.M.x[k], 0.0, 1e-14,
+                      "between blocks");
+            if (rigid.M.i[k] < 6)
+                column[rigid.M.i[k]] = rigid.M.x[k];
+        }
+        for (int i = 0; i < 6; i++)
+            CHECK_ABS(column[i], i == j ? want[i] : 0.0, 1e-14, "inertia %d, %d", i, j);
+    }
+    CHECK_REL(rigid.M.x[rigid.M.p[rigid.dofs] - 1], 300.0, 1e-14, "upper support");
+    wall_system_free(&rigid);
+    rb_sparse_free(&R);
+    close_parts(&p);
+}
+
+static void bad_input_is_refused(void **state)
+{
+    (void)state;
+    rb_fem_wall *wall;
+    rb_message why;
+    rb_fem_wall_options o = small_wall(0);
+    o.dt = 0.0;
+    CHECK_STATUS(rb_fem_wall_create(&o, &wall, &why), RB_EINVAL);
+    o = small_wall(0);
+    o.coarse[2] = 2;
+    CHECK_STATUS(rb_fem_wall_create(&o, &wall, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "direction 2"));
+    o = small_wall(0);
+    o.press = 0;
+    CHECK_STATUS(rb_fem_wall_create(&o, &wall, &why), RB_EINVAL);
+}
+
+static void memory_runs_out(void **state)
+{
+    (void)state;
+    for (int rigid = 0; rigid < 2; rigid++) {
+        const rb_fem_wall_options o = small_wall(rigid);
+        for (int k = 0;; k++) {
+            rb_fem_wall *wall;
+            alloc_fail_after(k);
+            const rb_status s = rb_fem_wall_create(&o, &wall, NULL);
+            const int refused = alloc_failed();
+            alloc_succeed();
+            rb_fem_wall_free(wall);
+            if (!refused) {
+                CHECK_STATUS(s, RB_OK);
+                break;
+            }
+            CHECK_STATUS(s, RB_ENOMEM);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blocks_weigh_what_they_should),
+        cmocka_unit_test(contact_map_has_full_rank),
+        cmocka_unit_test(common_motion_leaves_the_joints_alone),
+        cmocka_unit_test(rigid_blocks_have_their_inertia),
+        cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(memory_runs_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
