@@ -4,6 +4,7 @@
 #define ROLLBEM_IO_H
 
 #include "rollbem/base.h"
+#include "rollbem/sparse.h"
 
 #include <stdio.h>
 
@@ -28,10 +29,87 @@ void rb_io_writer_abandon(rb_io_writer *w);
 
 /* ---- Tables of numbers ------------------------------------------------------------- */
 
-/* Rows of `columns` numbers between blanks or commas; # starts a comment.  x: *rows values of
- * the first column, then of the second, ...; owned by the caller.  RB_ENOENT; RB_EFORMAT:
- * another count of numbers, not a number, no row; RB_ENOMEM. */
+/* Rows of `columns` numbers between blanks or commas; # starts a comment.  x: *rows
+ * values of the first column, then of the second, ...; owned by the caller.  RB_ENOENT;
+ * RB_EFORMAT: another count of numbers, not a number, no row; RB_ENOMEM. */
 rb_status rb_io_read_columns(const char *path, int columns, int *rows, double **x,
                              rb_message *why);
+
+/* ---- Matrices ---------------------------------------------------------------------- */
+
+/* As a file has it: dense, or nz triplets (entries at the same place are added). */
+typedef struct {
+    int rows, cols;
+    double *dense; /* rows x cols column-major, or NULL; owned, as all arrays here */
+    int nz;
+    int *row, *col; /* nz each, from 0 */
+    double *x;
+} rb_io_matrix;
+
+void rb_io_matrix_free(rb_io_matrix *m);
+/* Afterwards m->dense is there and the triplets are gone.  RB_ENOMEM. */
+rb_status rb_io_matrix_to_dense(rb_io_matrix *m);
+/* A copy in compressed columns; zeros of a dense matrix are left out.  RB_ENOMEM. */
+rb_status rb_io_matrix_to_sparse(const rb_io_matrix *m, rb_sparse *a);
+
+/* Matrix Market, "array real general": 17 digits, so that reading gives the same numbers.
+ * x: rows x cols column-major, ld >= rows; comment (NULL: none): one line.
+ * RB_EINVAL, RB_EWRITE, RB_ENOMEM. */
+rb_status rb_io_matrix_market_write(const char *path, int rows, int cols, const double *x,
+                                    int ld, const char *comment, rb_message *why);
+/* RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
+rb_status rb_io_matrix_market_read(const char *path, rb_io_matrix *m, rb_message *why);
+
+/* ---- Text format of Siconos ------------------------------------------------------- */
+
+/* Tokens separated by white space; matrices dense, by blocks, or as CSparse prints them.
+ * All readers: RB_ENOENT; RB_EFORMAT with file, line, what was expected and what is there
+ * (also NaN, infinity, and counts that the file has no room for); RB_ENOMEM.  After a
+ * failure the problem is empty. */
+
+typedef enum {
+    RB_IO_SICONOS_LCP,
+    RB_IO_SICONOS_FRICTION,
+    RB_IO_SICONOS_SOCLCP
+} rb_io_siconos_kind;
+
+/* The kind, from the sizes at the head.  A single contact of d rows looks like a single
+ * cone of d rows: it is taken for friction. */
+rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind,
+                              rb_message *why);
+
+/* w = M z + q.  What follows q in the file is a comment. */
+typedef struct {
+    int n;
+    rb_io_matrix M;
+    double *q; /* n */
+} rb_io_lcp;
+
+rb_status rb_io_siconos_read_lcp(const char *path, rb_io_lcp *p, rb_message *why);
+void rb_io_lcp_free(rb_io_lcp *p);
+
+/* u = W r + q, per contact [N, T] or [N, T1, T2]. */
+typedef struct {
+    int dimension, contacts;
+    rb_io_matrix W;
+    double *q;  /* dimension * contacts */
+    double *mu; /* contacts */
+} rb_io_friction;
+
+rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p,
+                                      rb_message *why);
+void rb_io_friction_free(rb_io_friction *p);
+
+/* Cone k: rows start[k] ... start[k + 1] - 1, slope tau[k]. */
+typedef struct {
+    int n, cones;
+    rb_io_matrix M;
+    double *q;   /* n */
+    int *start;  /* cones + 1 */
+    double *tau; /* cones */
+} rb_io_soclcp;
+
+rb_status rb_io_siconos_read_soclcp(const char *path, rb_io_soclcp *p, rb_message *why);
+void rb_io_soclcp_free(rb_io_soclcp *p);
 
 #endif

@@ -1,0 +1,316 @@
+/* The text format of Siconos' test problems, as read off its files and their README. */
+#include "rollbem/io.h"
+#include "io/tokens.h"
+
+#include <limits.h>
+#include <stdlib.h>
+
+enum { DENSE, BLOCKS, SPARSE };
+enum { TRIPLETS = 1, COLUMNS = 2 };
+
+static int ok(const io_tokens *t)
+{
+    return t->status == RB_OK;
+}
+
+/* ---- Matrices ------------------------------------------------------------------------
+ */
+
+static void read_dense(io_tokens *t, rb_io_matrix *m)
+{
+    rb_io_tokens_int(t, m->rows, m->rows, "rows of the dense matrix");
+    rb_io_tokens_int(t, m->cols, m->cols, "columns of the dense matrix");
+    m->dense = rb_io_tokens_alloc(t, (size_t)m->rows, (size_t)m->cols, "matrix");
+    rb_io_tokens_reals(t, (size_t)m->rows * (size_t)m->cols, m->dense, "matrix");
+}
+
+static void alloc_triplets(io_tokens *t, size_t nz, rb_io_matrix *m)
+{
+    if (nz > INT_MAX)
+        rb_io_tokens_fail(t, "matrix: %zu entries are too many", nz);
+    m->row = rb_io_tokens_alloc_int(t, nz, "matrix");
+    m->col = rb_io_tokens_alloc_int(t, nz, "matrix");
+    m->x = rb_io_tokens_alloc(t, nz, 1, "matrix");
+}
+
+/* n integers, increasing (by step at least) from low; the last is total. */
+static int *read_increasing(io_tokens *t, int n, int low, int step, int total,
+                            const char *what)
+{
+    int *x = rb_io_tokens_alloc_int(t, (size_t)n, what);
+    for (int i = 0; ok(t) && i < n; i++)
+        x[i] = rb_io_tokens_int(t, i ? x[i - 1] + step : low, total, what);
+    if (ok(t) && (n ? x[n - 1] : 0) != total)
+        rb_io_tokens_fail(t, "%s: expected the last to be %d", what, total);
+    return x;
+}
+
+typedef struct {
+    int count, rows, cols;  /* blocks; rows and columns of blocks */
+    int *row_end, *col_end; /* cumulated sizes */
+    int *first, *column;    /* compressed rows of blocks */
+} blocks;
+
+static void blocks_free(blocks *b)
+{
+    free(b->row_end);
+    free(b->col_end);
+    free(b->first);
+    free(b->column);
+}
+
+static void read_pattern(io_tokens *t, const rb_io_matrix *m, blocks *b)
+{
+    b->count = rb_io_tokens_int(t, 0, INT_MAX, "number of blocks");
+    b->rows = rb_io_tokens_int(t, 0, m->rows, "rows of blocks");
+    b->cols = rb_io_tokens_int(t, 0, m->cols, "columns of blocks");
+    b->row_end = read_increasing(t, b->rows, 1, 1, m->rows, "cumulated block sizes");
+    b->col_end = read_increasing(t, b->cols, 1, 1, m->cols, "cumulated block sizes");
+    rb_io_tokens_int(t, b->rows + 1, b->rows + 1, "length of the first index");
+    rb_io_tokens_int(t, b->count, b->count, "length of the second index");
+    b->first = read_increasing(t, b->rows + 1, 0, 0, b->count, "first index");
+    b->column = rb_io_tokens_alloc_int(t, (size_t)b->count, "second index");
+    for (int k = 0; ok(t) && k < b->count; k++)
+        b->column[k] = rb_io_tokens_int(t, 0, b->cols - 1, "second index");
+}
+
+static int extent(const int *end, int i)
+{
+    return end[i] - (i ? end[i - 1] : 0);
+}
+
+static size_t entries_of(const blocks *b)
+{
+    size_t nz = 0;
+    for (int i = 0; i < b->rows; i++)
+        for (int k = b->first[i]; k < b->first[i + 1]; k++)
+            nz +=
+                (size_t)extent(b->row_end, i) * (size_t)extent(b->col_end, b->column[k]);
+    return nz;
+}
+
+static void read_block(io_tokens *t, const blocks *b, int i, int k, rb_io_matrix *m)
+{
+    const int j = b->column[k], rows = extent(b->row_end, i),
+              cols = extent(b->col_end, j);
+    const int row = b->row_end[i] - rows, col = b->col_end[j] - cols;
+    rb_io_tokens_int(t, k, k, "number of the block");
+    rb_io_tokens_reals(t, (size_t)rows * (size_t)cols, m->x + m->nz, "block");
+    for (int c = 0; c < cols; c++)
+        for (int r = 0; r < rows; r++) {
+            m->row[m->nz] = row + r;
+            m->col[m->nz++] = col + c;
+        }
+}
+
+static void read_blocks(io_tokens *t, rb_io_matrix *m)
+{
+    blocks b = {0};
+    read_pattern(t, m, &b);
+    if (ok(t))
+        alloc_triplets(t, entries_of(&b), m);
+    for (int i = 0; ok(t) && i < b.rows; i++)
+        for (int k = b.first[i]; ok(t) && k < b.first[i + 1]; k++)
+            read_block(t, &b, i, k, m);
+    blocks_free(&b);
+}
+
+/* "i j : value" */
+static void read_triplets(io_tokens *t, int nz, rb_io_matrix *m)
+{
+    for (; ok(t) && m->nz < nz; m->nz++) {
+        m->row[m->nz] = rb_io_tokens_int(t, 0, m->rows - 1, "row");
+        m->col[m->nz] = rb_io_tokens_int(t, 0, m->cols - 1, "column");
+        rb_io_tokens_word(t, ":");
+        m->x[m->nz] = rb_io_tokens_real(t, "value");
+    }
+}
+
+/* "i : value" below "col j : locations a to b" */
+static void read_columns(io_tokens *t, int nz, rb_io_matrix *m)
+{
+    for (int j = 0; ok(t) && j < m->cols; j++) {
+        rb_io_tokens_word(t, "col");
+        rb_io_tokens_int(t, j, j, "column");
+        rb_io_tokens_word(t, ":");
+        rb_io_tokens_word(t, "locations");
+        rb_io_tokens_int(t, m->nz, m->nz, "location");
+        rb_io_tokens_word(t, "to");
+        const int last = rb_io_tokens_int(t, m->nz - 1, nz - 1, "location");
+        for (; ok(t) && m->nz <= last; m->nz++) {
+            m->row[m->nz] = rb_io_tokens_int(t, 0, m->rows - 1, "row");
+            rb_io_tokens_word(t, ":");
+            m->col[m->nz] = j;
+            m->x[m->nz] = rb_io_tokens_real(t, "value");
+        }
+    }
+    if (ok(t) && m->nz != nz)
+        rb_io_tokens_fail(t, "sparse matrix: expected %d entries, got %d", nz, m->nz);
+}
+
+/* A version line, then "[triplet: ]3-by-3, nzmax: 4 nnz: 3[, 1-norm: 3.5]". */
+static void read_sparse(io_tokens *t, rb_io_matrix *m)
+{
+    char size[60];
+    const int origin =
+        rb_io_tokens_int(t, TRIPLETS, COLUMNS, "origin of the sparse matrix");
+    snprintf(size, sizeof size, "%d-by-%d,", m->rows, m->cols);
+    if (ok(t) && rb_io_tokens_more(t)) /* the version */
+        rb_io_tokens_skip_line(t);
+    if (origin == TRIPLETS)
+        rb_io_tokens_word(t, "triplet:");
+    rb_io_tokens_word(t, size);
+    rb_io_tokens_word(t, "nzmax:");
+    rb_io_tokens_int(t, 0, INT_MAX, "nzmax");
+    rb_io_tokens_word(t, "nnz:");
+    const int nz = rb_io_tokens_int(t, 0, INT_MAX, "nnz");
+    rb_io_tokens_skip_line(t);
+    alloc_triplets(t, (size_t)nz, m);
+    if (origin == TRIPLETS)
+        read_triplets(t, nz, m);
+    else
+        read_columns(t, nz, m);
+}
+
+/* A square matrix of n rows. */
+static void read_matrix(io_tokens *t, int n, rb_io_matrix *m)
+{
+    const int storage = rb_io_tokens_int(t, DENSE, SPARSE, "storage of the matrix");
+    m->rows = rb_io_tokens_int(t, n, n, "rows of the matrix");
+    m->cols = rb_io_tokens_int(t, n, n, "columns of the matrix");
+    if (!ok(t))
+        return;
+    if (storage == DENSE)
+        read_dense(t, m);
+    else if (storage == BLOCKS)
+        read_blocks(t, m);
+    else
+        read_sparse(t, m);
+}
+
+static double *read_vector(io_tokens *t, int n, const char *what)
+{
+    double *x = rb_io_tokens_alloc(t, (size_t)n, 1, what);
+    rb_io_tokens_reals(t, (size_t)n, x, what);
+    return x;
+}
+
+/* ---- Problems ------------------------------------------------------------------------
+ */
+
+void rb_io_lcp_free(rb_io_lcp *p)
+{
+    rb_io_matrix_free(&p->M);
+    free(p->q);
+    *p = (rb_io_lcp){0};
+}
+
+rb_status rb_io_siconos_read_lcp(const char *path, rb_io_lcp *p, rb_message *why)
+{
+    io_tokens t;
+    *p = (rb_io_lcp){0};
+    rb_io_tokens_open(path, &t, why);
+    p->n = rb_io_tokens_int(&t, 1, INT_MAX, "n");
+    read_matrix(&t, p->n, &p->M);
+    p->q = read_vector(&t, p->n, "q");
+    if (!ok(&t))
+        rb_io_lcp_free(p);
+    rb_io_tokens_close(&t);
+    return t.status;
+}
+
+void rb_io_friction_free(rb_io_friction *p)
+{
+    rb_io_matrix_free(&p->W);
+    free(p->q);
+    free(p->mu);
+    *p = (rb_io_friction){0};
+}
+
+/* Some files end with one more token, 0 or 1. */
+static void expect_end(io_tokens *t)
+{
+    if (ok(t) && rb_io_tokens_more(t))
+        rb_io_tokens_int(t, 0, 1, "after the last number");
+    if (ok(t) && rb_io_tokens_more(t))
+        rb_io_tokens_fail(t, "expected the end of the file after the last number");
+}
+
+rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p,
+                                      rb_message *why)
+{
+    io_tokens t;
+    *p = (rb_io_friction){0};
+    rb_io_tokens_open(path, &t, why);
+    p->dimension = rb_io_tokens_int(&t, 2, 3, "dimension");
+    p->contacts = rb_io_tokens_int(&t, 1, INT_MAX / 3, "number of contacts");
+    const int m = p->dimension * p->contacts;
+    read_matrix(&t, m, &p->W);
+    p->q = read_vector(&t, m, "q");
+    p->mu = read_vector(&t, p->contacts, "mu");
+    expect_end(&t);
+    if (!ok(&t))
+        rb_io_friction_free(p);
+    rb_io_tokens_close(&t);
+    return t.status;
+}
+
+void rb_io_soclcp_free(rb_io_soclcp *p)
+{
+    rb_io_matrix_free(&p->M);
+    free(p->q);
+    free(p->start);
+    free(p->tau);
+    *p = (rb_io_soclcp){0};
+}
+
+rb_status rb_io_siconos_read_soclcp(const char *path, rb_io_soclcp *p, rb_message *why)
+{
+    io_tokens t;
+    *p = (rb_io_soclcp){0};
+    rb_io_tokens_open(path, &t, why);
+    p->n = rb_io_tokens_int(&t, 1, INT_MAX, "n");
+    p->cones = rb_io_tokens_int(&t, 1, p->n, "number of cones");
+    read_matrix(&t, p->n, &p->M);
+    p->q = read_vector(&t, p->n, "q");
+    p->start = read_increasing(&t, p->cones + 1, 0, 1, p->n, "start of the cones");
+    p->tau = read_vector(&t, p->cones, "tau");
+    expect_end(&t);
+    if (!ok(&t))
+        rb_io_soclcp_free(p);
+    rb_io_tokens_close(&t);
+    return t.status;
+}
+
+/* ---- Kinds ---------------------------------------------------------------------------
+ */
+
+/* LCP: n, storage, n, n.  Friction: d, contacts, storage, m, m with m = d contacts.
+ * SOCLCP: n, cones, storage, n, n. */
+static int kind_of(const int head[5], rb_io_siconos_kind *kind)
+{
+    const int matrix = head[2] <= SPARSE && head[3] == head[4];
+    if (head[1] <= SPARSE && head[2] == head[0] && head[3] == head[0])
+        *kind = RB_IO_SICONOS_LCP;
+    else if (matrix && (head[0] == 2 || head[0] == 3) &&
+             head[3] == (long long)head[0] * head[1])
+        *kind = RB_IO_SICONOS_FRICTION;
+    else if (matrix && head[3] == head[0])
+        *kind = RB_IO_SICONOS_SOCLCP;
+    else
+        return 0;
+    return 1;
+}
+
+rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind, rb_message *why)
+{
+    io_tokens t;
+    int head[5];
+    rb_io_tokens_open(path, &t, why);
+    for (int i = 0; i < 5; i++)
+        head[i] = rb_io_tokens_int(&t, 0, INT_MAX, "size at the head");
+    if (ok(&t) && !kind_of(head, kind))
+        rb_io_tokens_fail(&t, "the sizes at the head are of no known kind of problem");
+    rb_io_tokens_close(&t);
+    return t.status;
+}

@@ -1,0 +1,208 @@
+#include "io/tokens.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void rb_io_tokens_fail(io_tokens *t, const char *format, ...)
+{
+    if (t->status != RB_OK)
+        return;
+    char text[200];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    t->status = rb_fail(t->why, RB_EFORMAT, "%s:%d: %s", t->path, t->line, text);
+}
+
+/* The bytes of an open file, read in growing pieces: also of a pipe. */
+static rb_status slurp(FILE *f, io_tokens *t)
+{
+    size_t size = 0, room = 0, got;
+    do {
+        if (size + 1 >= room) {
+            room = room ? 2 * room : 1 << 16;
+            char *larger = realloc(t->text, room);
+            if (!larger)
+                return rb_fail(t->why, RB_ENOMEM, "%s: out of memory", t->path);
+            t->text = larger;
+        }
+        got = fread(t->text + size, 1, room - size - 1, f);
+        size += got;
+    } while (got);
+    if (ferror(f))
+        return rb_fail(t->why, RB_ENOENT, "%s: cannot read: %s", t->path,
+                       strerror(errno));
+    t->text[size] = 0;
+    t->at = t->text;
+    t->end = t->text + size;
+    return RB_OK;
+}
+
+void rb_io_tokens_open(const char *path, io_tokens *t, rb_message *why)
+{
+    *t = (io_tokens){.path = path, .line = 1, .why = why};
+    FILE *f = fopen(path, "rb");
+    if (!f) {
+        t->status = rb_fail(why, RB_ENOENT, "%s: cannot open: %s", path, strerror(errno));
+        return;
+    }
+    t->status = slurp(f, t);
+    fclose(f);
+}
+
+void rb_io_tokens_close(io_tokens *t)
+{
+    free(t->text);
+    t->text = NULL;
+}
+
+static int space(char c)
+{
+    return isspace((unsigned char)c) != 0;
+}
+
+static void skip_space(io_tokens *t)
+{
+    for (; t->at < t->end && space(*t->at); t->at++)
+        t->line += *t->at == '\n';
+}
+
+/* The next token's length, 0 at the end of the file. */
+static int peek(io_tokens *t)
+{
+    skip_space(t);
+    const char *p = t->at;
+    while (p < t->end && !space(*p) && p - t->at < INT_MAX)
+        p++;
+    return (int)(p - t->at);
+}
+
+static void expected(io_tokens *t, const char *what, const char *wanted, int length)
+{
+    if (length)
+        rb_io_tokens_fail(t, "%s: expected %s, got '%.*s'", what, wanted,
+                          length < 40 ? length : 40, t->at);
+    else
+        rb_io_tokens_fail(t, "%s: expected %s, the file ends", what, wanted);
+}
+
+static void expected_int(io_tokens *t, const char *what, int low, int high, int length)
+{
+    char wanted[60];
+    if (low == high)
+        snprintf(wanted, sizeof wanted, "%d", low);
+    else if (high == INT_MAX)
+        snprintf(wanted, sizeof wanted, "an integer >= %d", low);
+    else
+        snprintf(wanted, sizeof wanted, "an integer from %d to %d", low, high);
+    expected(t, what, wanted, length);
+}
+
+int rb_io_tokens_int(io_tokens *t, int low, int high, const char *what)
+{
+    if (t->status != RB_OK)
+        return 0;
+    const int length = peek(t);
+    char *stop;
+    errno = 0;
+    const long value = strtol(t->at, &stop, 10);
+    const char *after = stop + (stop > t->at && *stop == ',');
+    if (length && after == t->at + length && !errno && value >= low && value <= high) {
+        t->at = after;
+        return (int)value;
+    }
+    expected_int(t, what, low, high, length);
+    return 0;
+}
+
+double rb_io_tokens_real(io_tokens *t, const char *what)
+{
+    if (t->status != RB_OK)
+        return 0.0;
+    const int length = peek(t);
+    char *stop;
+    const double value = strtod(t->at, &stop);
+    if (length && stop == t->at + length && isfinite(value)) {
+        t->at = stop;
+        return value;
+    }
+    expected(t, what, "a finite number", length);
+    return 0.0;
+}
+
+void rb_io_tokens_reals(io_tokens *t, size_t n, double *x, const char *what)
+{
+    for (size_t i = 0; i < n && t->status == RB_OK; i++) {
+        char *stop;
+        skip_space(t);
+        x[i] = strtod(t->at, &stop);
+        if (stop > t->at && (stop == t->end || space(*stop)) && isfinite(x[i])) {
+            t->at = stop;
+        } else {
+            char name[60];
+            snprintf(name, sizeof name, "%.30s, number %zu", what, i + 1);
+            x[i] = rb_io_tokens_real(t, name);
+        }
+    }
+}
+
+void rb_io_tokens_word(io_tokens *t, const char *word)
+{
+    if (t->status != RB_OK)
+        return;
+    const int length = peek(t);
+    if (length == (int)strlen(word) && !strncmp(t->at, word, (size_t)length))
+        t->at += length;
+    else
+        expected(t, "sparse matrix", word, length);
+}
+
+/* A number takes at least one character and a separator. */
+static int room_for(io_tokens *t, size_t rows, size_t cols, const char *what)
+{
+    if (t->status != RB_OK)
+        return 0;
+    const size_t most = ((size_t)(t->end - t->at) + 1) / 2;
+    if (!rows || !cols || rows <= most / cols)
+        return 1;
+    rb_io_tokens_fail(t,
+                      "%s: expected %.10g numbers, the rest of the file has room for %zu",
+                      what, (double)rows * (double)cols, most);
+    return 0;
+}
+
+static void *allocated(io_tokens *t, void *memory, const char *what)
+{
+    if (!memory)
+        t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for %s", t->path, what);
+    return memory;
+}
+
+double *rb_io_tokens_alloc(io_tokens *t, size_t rows, size_t cols, const char *what)
+{
+    return room_for(t, rows, cols, what) ? allocated(t, rb_alloc(rows, cols), what)
+                                         : NULL;
+}
+
+int *rb_io_tokens_alloc_int(io_tokens *t, size_t n, const char *what)
+{
+    return room_for(t, n, 1, what) ? allocated(t, rb_alloc_int(n), what) : NULL;
+}
+
+int rb_io_tokens_more(io_tokens *t)
+{
+    return peek(t) > 0;
+}
+
+void rb_io_tokens_skip_line(io_tokens *t)
+{
+    while (t->at < t->end && *t->at != '\n')
+        t->at++;
+}

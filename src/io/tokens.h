@@ -1,0 +1,46 @@
+/* Words and numbers of a text file, with the line for messages.  Private to the room io.
+ *
+ * The first failure stays in `status` (and its line in the message): later calls do
+ * nothing and give zeros, so that readers ask once per group of numbers. */
+#ifndef IO_TOKENS_H
+#define IO_TOKENS_H
+
+#include "rollbem/base.h"
+
+typedef struct {
+    const char *path; /* borrowed */
+    char *text;       /* the whole file and a final zero; owned */
+    const char *at, *end;
+    int line;
+    rb_status status;
+    rb_message *why;
+} io_tokens;
+
+/* Reads the whole file; a failure is in the status; close in any case. */
+void rb_io_tokens_open(const char *path, io_tokens *t, rb_message *why);
+void rb_io_tokens_close(io_tokens *t);
+
+/* A failure at this place: "path:line: " and the text. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void
+rb_io_tokens_fail(io_tokens *t, const char *format, ...);
+
+/* `what` names the number in messages: "M", "q".  An integer may have a comma behind it.
+ */
+int rb_io_tokens_int(io_tokens *t, int low, int high, const char *what);
+double rb_io_tokens_real(io_tokens *t, const char *what);
+void rb_io_tokens_reals(io_tokens *t, size_t n, double *x, const char *what);
+void rb_io_tokens_word(io_tokens *t, const char *word);
+
+/* Arrays of rows x cols numbers that the file is about to give: refused before memory is
+ * asked for when the rest of the file is too short for them.  NULL on failure. */
+double *rb_io_tokens_alloc(io_tokens *t, size_t rows, size_t cols, const char *what);
+int *rb_io_tokens_alloc_int(io_tokens *t, size_t n, const char *what);
+
+/* 1 when another token follows. */
+int rb_io_tokens_more(io_tokens *t);
+void rb_io_tokens_skip_line(io_tokens *t);
+
+#endif

@@ -1,0 +1,394 @@
+/* Matrix Market and Siconos' text format: what is read, and what is refused and how. */
+#define _XOPEN_SOURCE 700
+#include "check.h"
+#include "rollbem/io.h"
+
+#include <dirent.h>
+#include <string.h>
+#include <unistd.h>
+
+static char path[64] = "";
+
+static int make_path(void **state)
+{
+    (void)state;
+    strcpy(path, "/tmp/rollbem_test_XXXXXX");
+    const int fd = mkstemp(path);
+    return fd < 0 || close(fd);
+}
+
+static int remove_path(void **state)
+{
+    (void)state;
+    return unlink(path);
+}
+
+static void put_bytes(const char *text, size_t n)
+{
+    FILE *f = fopen(path, "wb");
+    assert_non_null(f);
+    assert_int_equal(fwrite(text, 1, n, f), n);
+    fclose(f);
+}
+
+static void put(const char *text)
+{
+    put_bytes(text, strlen(text));
+}
+
+/* ---- Valid files ------------------------------------------------------------------ */
+
+/* All hold M = [2 1; 0 3] (columns 2 0, 1 3), q = (-5, -6). */
+static const char DENSE[] = "2\n0\n2\n2\n2\t2\n2 0\n1 3\n-5 -6\nMurty (1988), page 1";
+static const char BLOCK[] = "2\n1\n2 2\n3\n2\n2\n1 2\n1 2\n3\n3\n0 2 3\n0 1 1\n"
+                            "0\n2\n1\n1\n2\n3\n-5 -6 ";
+static const char TRIPLET[] =
+    "2\n2\n2\n2\n1\nCSparse Version 3.2.0, 2017\n"
+    "triplet: 2-by-2, nzmax: 9 nnz: 4\n    0 0 : 2\n    0 1 : 0.5\n"
+    "    1 1 : 3\n    0 1 : 0.5\n-5 -6";
+static const char COLUMN[] =
+    "2\n2\n2\n2\n2\nCSparse Version 3.2.0, 2017\n"
+    "2-by-2, nzmax: 3 nnz: 3, 1-norm: 4\n"
+    "    col 0 : locations 0 to 0\n      0 : 2\n"
+    "    col 1 : locations 1 to 2\n      0 : 1\n      1 : 3\n-5 -6";
+static const char FRICTION[] = "2 1 0 2 2 2 2 2 0 1 3 -5 -6 0.5 1";
+static const char SOCLCP[] = "2 2 0 2 2 2 2 2 0 1 3 -5 -6 0 1 2 0.5 0.25";
+
+static void check_matrix(rb_io_matrix *m)
+{
+    const double want[] = {2.0, 0.0, 1.0, 3.0};
+    rb_sparse a;
+    CHECK_STATUS(rb_io_matrix_to_sparse(m, &a), RB_OK);
+    double y[2], x[2] = {1.0, 10.0};
+    rb_sparse_apply(1.0, &a, x, 0.0, y);
+    CHECK_ABS(y[0], 12.0, 0.0, "sparse product");
+    CHECK_ABS(y[1], 30.0, 0.0, "sparse product");
+    rb_sparse_free(&a);
+    CHECK_STATUS(rb_io_matrix_to_dense(m), RB_OK);
+    CHECK_STATUS(rb_io_matrix_to_dense(m), RB_OK);
+    for (int k = 0; k < 4; k++)
+        CHECK_ABS(m->dense[k], want[k], 0.0, "entry %d", k);
+}
+
+static void every_storage_gives_the_same_lcp(void **state)
+{
+    (void)state;
+    const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN};
+    for (int k = 0; k < 4; k++) {
+        rb_io_lcp p;
+        rb_message why = {""};
+        rb_io_siconos_kind kind;
+        put(texts[k]);
+        CHECK_STATUS(rb_io_siconos_guess(path, &kind, &why), RB_OK);
+        assert_int_equal(kind, RB_IO_SICONOS_LCP);
+        if (rb_io_siconos_read_lcp(path, &p, &why) != RB_OK)
+            fail_msg("%s", why.text);
+        assert_int_equal(p.n, 2);
+        CHECK_ABS(p.q[0], -5.0, 0.0, "q");
+        CHECK_ABS(p.q[1], -6.0, 0.0, "q");
+        check_matrix(&p.M);
+        rb_io_lcp_free(&p);
+        rb_io_lcp_free(&p);
+    }
+}
+
+static void friction_and_cones(void **state)
+{
+    (void)state;
+    rb_io_friction f;
+    rb_io_soclcp s;
+    rb_io_siconos_kind kind;
+    put(FRICTION);
+    CHECK_STATUS(rb_io_siconos_guess(path, &kind, NULL), RB_OK);
+    assert_int_equal(kind, RB_IO_SICONOS_FRICTION);
+    CHECK_STATUS(rb_io_siconos_read_friction(path, &f, NULL), RB_OK);
+    assert_int_equal(f.dimension, 2);
+    assert_int_equal(f.contacts, 1);
+    CHECK_ABS(f.mu[0], 0.5, 0.0, "mu");
+    CHECK_ABS(f.q[1], -6.0, 0.0, "q");
+    check_matrix(&f.W);
+    rb_io_friction_free(&f);
+    put(SOCLCP);
+    CHECK_STATUS(rb_io_siconos_guess(path, &kind, NULL), RB_OK);
+    assert_int_equal(kind, RB_IO_SICONOS_SOCLCP);
+    CHECK_STATUS(rb_io_siconos_read_soclcp(path, &s, NULL), RB_OK);
+    assert_int_equal(s.cones, 2);
+    assert_int_equal(s.start[1], 1);
+    CHECK_ABS(s.tau[1], 0.25, 0.0, "tau");
+    check_matrix(&s.M);
+    rb_io_soclcp_free(&s);
+}
+
+/* ---- Refusals --------------------------------------------------------------------- */
+
+typedef rb_status reader(void);
+
+static rb_message why;
+
+static rb_status read_lcp(void)
+{
+    rb_io_lcp p;
+    const rb_status s = rb_io_siconos_read_lcp(path, &p, &why);
+    if (s != RB_OK)
+        assert_null(p.q);
+    rb_io_lcp_free(&p);
+    return s;
+}
+
+static rb_status read_friction(void)
+{
+    rb_io_friction p;
+    const rb_status s = rb_io_siconos_read_friction(path, &p, &why);
+    rb_io_friction_free(&p);
+    return s;
+}
+
+static rb_status read_soclcp(void)
+{
+    rb_io_soclcp p;
+    const rb_status s = rb_io_siconos_read_soclcp(path, &p, &why);
+    rb_io_soclcp_free(&p);
+    return s;
+}
+
+static rb_status read_market(void)
+{
+    rb_io_matrix m;
+    const rb_status s = rb_io_matrix_market_read(path, &m, &why);
+    rb_io_matrix_free(&m);
+    return s;
+}
+
+static rb_status guess(void)
+{
+    rb_io_siconos_kind kind;
+    return rb_io_siconos_guess(path, &kind, &why);
+}
+
+static void check_refused(reader *read, const char *text, const char *words)
+{
+    put(text);
+    why.text[0] = 0;
+    CHECK_STATUS(read(), RB_EFORMAT);
+    if (!strstr(why.text, words) || strncmp(why.text, path, strlen(path)))
+        fail_msg("expected '%s' after the path in: %s", words, why.text);
+}
+
+static void what_is_wrong_is_named_with_its_line(void **state)
+{
+    (void)state;
+    check_refused(read_lcp, "", ":1: n: expected an integer >= 1, the file ends");
+    check_refused(read_lcp, "abc", ":1: n: expected an integer >= 1, got 'abc'");
+    check_refused(read_lcp, "0 0 0 0", "n: expected an integer >= 1");
+    check_refused(read_lcp, "-3", "got '-3'");
+    check_refused(read_lcp, "99999999999999999999", "got '99999999999999999999'");
+    check_refused(read_lcp, "2.5", "got '2.5'");
+    check_refused(read_lcp, "2\n\n7",
+                  ":3: storage of the matrix: expected an integer from 0 to 2");
+    check_refused(read_lcp, "2 0 2 3", "columns of the matrix: expected 2, got '3'");
+    check_refused(read_lcp, "2 0 2 2 2 1", "columns of the dense matrix");
+    check_refused(read_lcp, "2 0 2 2 2 2\n1 2\n3 x\n5 6",
+                  ":3: matrix, number 4: expected a finite number, got 'x'");
+    check_refused(read_lcp, "2 0 2 2 2 2\n1 2 3 4\n5", "q: expected 2 numbers");
+    check_refused(read_lcp, "2 0 2 2 2 2\n1 2 3 4\n5      ",
+                  "q, number 2: expected a finite number, the file ends");
+    check_refused(read_lcp, "2 0 2 2 2 2 1 2 3 nan 5 6", "got 'nan'");
+    check_refused(read_lcp, "2 0 2 2 2 2 1 2 3 -inf 5 6", "got '-inf'");
+    check_refused(read_lcp, "2 0 2 2 2 2 1 2 3 1e999 5 6", "got '1e999'");
+    check_refused(read_lcp, "2 0 2 2 2 2 1 2 3 4;5 5 6", "got '4;5'");
+    check_refused(read_lcp, "2000000000 0 2000000000 2000000000 2000000000 2000000000 1",
+                  "room for");
+    check_refused(read_friction, "4 1", "dimension: expected an integer from 2 to 3");
+    check_refused(read_friction, "2 1 0 2 2 2 2 2 0 1 3 -5 -6 0.5 2",
+                  "after the last number");
+    check_refused(read_friction, "2 1 0 2 2 2 2 2 0 1 3 -5 -6 0.5 1 1",
+                  "end of the file");
+    check_refused(read_soclcp, "2 3", "number of cones: expected an integer from 1 to 2");
+    check_refused(read_soclcp, "2 2 0 2 2 2 2 2 0 1 3 -5 -6 0 2 2 0.5 0.25",
+                  "start of the cones");
+    check_refused(read_soclcp, "2 2 0 2 2 2 2 2 0 1 3 -5 -6 1 1 2 0.5 0.25",
+                  "start of the cones");
+    check_refused(guess, "5 5 5 5 5", "no known kind");
+}
+
+static void blocks_and_columns_must_fit(void **state)
+{
+    (void)state;
+    check_refused(read_lcp, "2 1 2 2 1 1 1 3 2 2 1 0 1 0 0 1 2 3 4 -5 -6",
+                  "cumulated block sizes: expected an integer from 1 to 2, got '3'");
+    check_refused(read_lcp, "2 1 2 2 1 1 1 1 2 2 1 0 1 0 0 1 2 3 4 -5 -6",
+                  "expected the last to be 2");
+    check_refused(read_lcp, "2 1 2 2 1 1 1 2 2 3 1 0 1 0", "length of the first index");
+    check_refused(read_lcp, "2 1 2 2 1 1 1 2 2 2 1 0 2 0 0 1 2 3 4 -5 -6", "first index");
+    check_refused(read_lcp, "2 1 2 2 1 1 1 2 2 2 1 0 1 1 0 1 2 3 4 -5 -6",
+                  "second index");
+    check_refused(read_lcp, "2 1 2 2 1 1 1 2 2 2 1 0 1 0 1 1 2 3 4 -5 -6",
+                  "number of the block: expected 0, got '1'");
+    check_refused(read_lcp, "2 2 2 2 3", "origin");
+    check_refused(read_lcp,
+                  "2 2 2 2 1\nCSparse\ntriplet: 3-by-2, nzmax: 1 nnz: 1\n0 0 : 1\n1 1",
+                  "expected 2-by-2,");
+    check_refused(read_lcp,
+                  "2 2 2 2 1\nCSparse\ntriplet: 2-by-2, nzmax: 1 nnz: 1\n0 2 : 1\n1 1",
+                  ":4: column: expected an integer from 0 to 1, got '2'");
+    check_refused(read_lcp,
+                  "2 2 2 2 2\nCSparse\n2-by-2, nzmax: 1 nnz: 1,\n"
+                  "col 0 : locations 0 to 5\n0 : 1\n1 1",
+                  ":4: location");
+    check_refused(read_lcp,
+                  "2 2 2 2 2\nCSparse\n2-by-2, nzmax: 1 nnz: 2,\n"
+                  "col 0 : locations 0 to 0\n0 : 1\ncol 1 : locations 1 to 0\n1 1",
+                  "expected 2 entries, got 1");
+}
+
+/* Every file cut short is refused (a comment may be cut), and no file with one byte
+ * changed does worse than that. */
+static void damaged_files_are_refused_or_read(void **state)
+{
+    (void)state;
+    const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN, FRICTION, SOCLCP};
+    reader *read[] = {read_lcp, read_lcp, read_lcp, read_lcp, read_friction, read_soclcp};
+    const char bytes[] = {'0', '9', '-', ' ', '\n', 'e', 0, '\xff', ':', '7'};
+    for (int k = 0; k < 6; k++) {
+        const size_t n = strlen(texts[k]);
+        char *text = strdup(texts[k]);
+        for (size_t i = 0; i < n; i++) {
+            put_bytes(text, i);
+            const rb_status cut = read[k]();
+            if (i + 4 < n && texts[k] != DENSE)
+                CHECK_STATUS(cut, RB_EFORMAT);
+            for (size_t b = 0; b < sizeof bytes; b++) {
+                text[i] = bytes[b];
+                put_bytes(text, n);
+                const rb_status s = read[k]();
+                assert_true(s == RB_OK || s == RB_EFORMAT);
+            }
+            text[i] = texts[k][i];
+        }
+        free(text);
+    }
+}
+
+static void missing_files_and_folders(void **state)
+{
+    (void)state;
+    rb_io_lcp p;
+    CHECK_STATUS(rb_io_siconos_read_lcp("/nowhere/at all", &p, &why), RB_ENOENT);
+    assert_non_null(strstr(why.text, "/nowhere/at all"));
+    CHECK_STATUS(rb_io_siconos_read_lcp("/tmp", &p, &why), RB_ENOENT);
+}
+
+static void short_memory_is_reported(void **state)
+{
+    (void)state;
+    const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN, FRICTION, SOCLCP};
+    reader *read[] = {read_lcp, read_lcp, read_lcp, read_lcp, read_friction, read_soclcp};
+    for (int k = 0; k < 6; k++) {
+        put(texts[k]);
+        for (int i = 0;; i++) {
+            alloc_fail_after(i);
+            const rb_status s = read[k]();
+            const int refused = alloc_failed();
+            alloc_succeed();
+            if (!refused) {
+                CHECK_STATUS(s, RB_OK);
+                break;
+            }
+            if (s != RB_OK) /* stdio copes without its buffer */
+                CHECK_STATUS(s, RB_ENOMEM);
+        }
+    }
+}
+
+/* ---- Matrix Market ------------------------------------------------------------------
+ */
+
+static void market_gives_back_the_same_numbers(void **state)
+{
+    (void)state;
+    const double x[] = {1.0 / 3.0, -0.0, 1e-300, NAN, 2.0, M_PI, 1e300, NAN};
+    rb_io_matrix m;
+    CHECK_STATUS(rb_io_matrix_market_write(path, 3, 2, x, 4, "a comment", &why), RB_OK);
+    CHECK_STATUS(rb_io_matrix_market_read(path, &m, &why), RB_OK);
+    assert_int_equal(m.rows, 3);
+    assert_int_equal(m.cols, 2);
+    for (int j = 0; j < 2; j++)
+        for (int i = 0; i < 3; i++)
+            CHECK_ABS(m.dense[i + 3 * j], x[i + 4 * j], 0.0, "entry %d, %d", i, j);
+    rb_io_matrix_free(&m);
+}
+
+static void market_refusals(void **state)
+{
+    (void)state;
+    const double x[4] = {0.0};
+    check_refused(read_market, "", "MatrixMarket");
+    check_refused(read_market,
+                  "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n",
+                  "matrix array real general");
+    check_refused(read_market, "%%MatrixMarket matrix array real general\n% c\n2 x\n",
+                  ":3: columns");
+    check_refused(read_market, "%%matrixmarket matrix array real general\n1 4\n5\n",
+                  "room for 2");
+    check_refused(read_market, "%%matrixmarket matrix array real general\n1 1\n5\n6\n",
+                  "end of the file");
+    CHECK_STATUS(rb_io_matrix_market_write(path, 3, 1, x, 2, NULL, &why), RB_EINVAL);
+    CHECK_STATUS(rb_io_matrix_market_write("/nowhere/m", 2, 1, x, 2, NULL, &why),
+                 RB_EWRITE);
+}
+
+/* ---- The public collection -----------------------------------------------------------
+ */
+
+static void check_collection(const char *folder, rb_io_siconos_kind kind, reader *read,
+                             int least)
+{
+    char name[1400];
+    int files = 0;
+    const char *root = outside_data(folder);
+    DIR *d = opendir(root);
+    assert_non_null(d);
+    for (struct dirent *e = readdir(d); e; e = readdir(d)) {
+        rb_io_siconos_kind got;
+        if (!strstr(e->d_name, ".dat"))
+            continue;
+        snprintf(name, sizeof name, "%s/%s", root, e->d_name);
+        remove(path);
+        assert_int_equal(symlink(name, path), 0);
+        CHECK_STATUS(rb_io_siconos_guess(path, &got, &why), RB_OK);
+        assert_int_equal(got, kind);
+        if (read() != RB_OK)
+            fail_msg("%s: %s", name, why.text);
+        files++;
+    }
+    closedir(d);
+    assert_true(files >= least);
+}
+
+static void the_collection_is_read(void **state)
+{
+    (void)state;
+    check_collection("siconos/lcp", RB_IO_SICONOS_LCP, read_lcp, 9);
+    check_collection("siconos/fc2d", RB_IO_SICONOS_FRICTION, read_friction, 5);
+    check_collection("siconos/fc3d", RB_IO_SICONOS_FRICTION, read_friction, 7);
+    check_collection("siconos/soclcp", RB_IO_SICONOS_SOCLCP, read_soclcp, 1);
+}
+
+#define WITH_FILE(f) cmocka_unit_test_setup_teardown(f, make_path, remove_path)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_FILE(every_storage_gives_the_same_lcp),
+        WITH_FILE(friction_and_cones),
+        WITH_FILE(what_is_wrong_is_named_with_its_line),
+        WITH_FILE(blocks_and_columns_must_fit),
+        WITH_FILE(damaged_files_are_refused_or_read),
+        cmocka_unit_test(missing_files_and_folders),
+        WITH_FILE(short_memory_is_reported),
+        WITH_FILE(market_gives_back_the_same_numbers),
+        WITH_FILE(market_refusals),
+        WITH_FILE(the_collection_is_read),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
