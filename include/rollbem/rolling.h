@@ -185,11 +185,17 @@ void rb_rolling_lcp_free(rb_rolling_lcp *lcp);
 void rb_rolling_lcp_recover(const rb_rolling_problem *problem, const rb_rolling_lcp *lcp,
                             const double *z, rb_rolling_state *state);
 
-/* Largest scaled violation of (K1)-(K3) and of the given load and force, recomputed from
- * p, q, delta and xi alone.  gap, slip, friction: the physical ones, may be NULL. */
-double rb_rolling_residual(const rb_rolling_problem *problem,
-                           const rb_rolling_state *state, double *gap, double *slip,
-                           double *friction);
+/* Largest violations of (K1)-(K3) and of the given load and force, recomputed from p, q,
+ * delta and xi alone. */
+typedef struct {
+    double scaled;    /* natural residual of the scaled problem (4.4) */
+    double gap, slip; /* [length] */
+    double friction;  /* [stress] */
+} rb_rolling_violation;
+
+rb_status rb_rolling_residual(const rb_rolling_problem *problem,
+                              const rb_rolling_state *state,
+                              rb_rolling_violation *violation);
 
 /* Solves the problem by the solver of the case, and by the other one where that fails
  * (state->solver says which one did it).  warm: the zones of the state are a start. */

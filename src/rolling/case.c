@@ -55,7 +55,7 @@ double rb_rolling_dundurs(const rb_rolling_case *rc)
     double c = coupling(&rc->a);
     if (rc->elastic_b)
         c -= coupling(&rc->b);
-    return 2.0 * c * rb_rolling_contact_modulus(rc);
+    return c * rb_rolling_contact_modulus(rc);
 }
 
 double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load)

@@ -88,42 +88,42 @@ static double control_violation(const rb_rolling_problem *p,
     return worst;
 }
 
-double rb_rolling_residual(const rb_rolling_problem *problem,
-                           const rb_rolling_state *state, double *gap, double *slip,
-                           double *friction)
+/* The four values of one element, each kept where it is the largest so far. */
+static void add_element(const rb_rolling_problem *problem, const rb_rolling_state *state,
+                        double gap, double lambda, int i, rb_rolling_violation *v)
+{
+    const double tangential = friction_scale(problem), limit = problem->mu * state->p[i];
+    const double gamma_plus = limit + state->q[i], gamma_minus = limit - state->q[i];
+    const double contact =
+        fabs(fmin(gap / problem->gap_length, state->p[i] / problem->stress));
+    const double coulomb = friction_violation(
+        lambda / problem->slip_length, gamma_plus / tangential, gamma_minus / tangential);
+
+    v->scaled = fmax(v->scaled, fmax(contact, coulomb));
+    v->gap = fmax(v->gap, contact * problem->gap_length);
+    v->slip = fmax(v->slip, coulomb * problem->slip_length);
+    v->friction = fmax(v->friction, -fmin(gamma_plus, gamma_minus));
+    if (isnan(state->p[i]) || isnan(state->q[i]))
+        v->scaled = INFINITY;
+}
+
+rb_status rb_rolling_residual(const rb_rolling_problem *problem,
+                              const rb_rolling_state *state, rb_rolling_violation *v)
 {
     const int n = problem->n;
-    const double tangential = friction_scale(problem);
-    double worst = control_violation(problem, state);
-    double *y = rb_alloc((size_t)n, 2), *lambda = y + n;
+    double *gap = rb_alloc((size_t)n, 2);
 
-    if (!y)
-        return INFINITY;
-    rb_rolling_kinematics(problem, state, y, lambda);
-    double worst_gap = 0.0, worst_slip = 0.0, worst_friction = 0.0;
-    for (int i = 0; i < n; i++) {
-        const double gamma_plus = problem->mu * state->p[i] + state->q[i];
-        const double gamma_minus = problem->mu * state->p[i] - state->q[i];
-        const double contact =
-            fabs(fmin(y[i] / problem->gap_length, state->p[i] / problem->stress));
-        const double coulomb =
-            friction_violation(lambda[i] / problem->slip_length, gamma_plus / tangential,
-                               gamma_minus / tangential);
-        worst = fmax(worst, fmax(contact, coulomb));
-        worst_gap = fmax(worst_gap, contact * problem->gap_length);
-        worst_slip = fmax(worst_slip, coulomb * problem->slip_length);
-        worst_friction = fmax(worst_friction, fmax(0.0, -fmin(gamma_plus, gamma_minus)));
-        if (isnan(state->p[i]) || isnan(state->q[i]))
-            worst = INFINITY;
-    }
-    free(y);
-    if (gap)
-        *gap = worst_gap;
-    if (slip)
-        *slip = worst_slip;
-    if (friction)
-        *friction = worst_friction;
-    return isfinite(state->delta) && isfinite(state->xi) ? worst : INFINITY;
+    if (!gap)
+        return RB_ENOMEM;
+    memset(v, 0, sizeof *v);
+    rb_rolling_kinematics(problem, state, gap, gap + n);
+    v->scaled = control_violation(problem, state);
+    for (int i = 0; i < n; i++)
+        add_element(problem, state, gap[i], gap[n + i], i, v);
+    if (!isfinite(state->delta) || !isfinite(state->xi))
+        v->scaled = INFINITY;
+    free(gap);
+    return RB_OK;
 }
 
 static rb_rolling_zone zone_of(double p, double lambda, double gamma_plus,

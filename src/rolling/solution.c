@@ -259,20 +259,25 @@ static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s
     return RB_OK;
 }
 
-static void set_proof(const rb_rolling_model *model, rb_rolling_solution *s)
+static rb_status set_proof(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     const rb_rolling_state *state = &model->state;
+    rb_rolling_violation violation = {0};
+    const rb_status status = rb_rolling_residual(&model->problem, state, &violation);
 
     s->status = state->status;
     s->solver = state->solver;
     s->lcp_form = state->lcp_form;
     s->iterations = model->iterations;
-    s->residual = rb_rolling_residual(&model->problem, state, &s->residual_gap,
-                                      &s->residual_slip, &s->residual_friction);
+    s->residual = violation.scaled;
+    s->residual_gap = violation.gap;
+    s->residual_slip = violation.slip;
+    s->residual_friction = violation.friction;
     s->seconds_assembly = model->bodies.seconds_assembly;
     s->seconds_factor = model->bodies.seconds_factor;
     s->seconds_condense = model->bodies.seconds_condense;
     s->seconds_lcp = model->seconds_lcp;
+    return status;
 }
 
 rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_solution *s,
@@ -282,7 +287,9 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
 
     if (status == RB_OK) {
         s->formulation = model->rc.formulation;
-        set_proof(model, s);
+        status = set_proof(model, s);
+    }
+    if (status == RB_OK) {
         s->free_creepage = NAN;
         memcpy(s->p, model->state.p, (size_t)s->n * sizeof(double));
         memcpy(s->q, model->state.q, (size_t)s->n * sizeof(double));

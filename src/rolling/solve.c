@@ -17,23 +17,36 @@ static double sliding_creepage(const rb_rolling_case *rc, const rb_rolling_probl
     return rc->formulation == RB_STEADY ? 2.0 * ratio : 4.0 * ratio * a / p->e_T[0];
 }
 
+static rb_status measure(const rb_rolling_problem *problem, rb_rolling_state *state)
+{
+    rb_rolling_violation violation;
+    const rb_status s = rb_rolling_residual(problem, state, &violation);
+
+    if (s == RB_OK)
+        state->residual = violation.scaled;
+    return s;
+}
+
 /* Polishes a solution by one solve with its zones, when that makes it better. */
-static void polish(const rb_rolling_problem *problem, rb_rolling_state *state,
-                   rb_rolling_state *trial)
+static rb_status polish(const rb_rolling_problem *problem, rb_rolling_state *state,
+                        rb_rolling_state *trial)
 {
     const size_t bytes = (size_t)problem->n * sizeof(double);
 
     memcpy(trial->zone, state->zone, (size_t)problem->n * sizeof(int));
-    if (rb_rolling_solve_zones(problem, RB_BOTH, trial) != RB_OK)
-        return;
-    trial->residual = rb_rolling_residual(problem, trial, NULL, NULL, NULL);
-    if (!(trial->residual < state->residual))
-        return;
-    memcpy(state->p, trial->p, bytes);
-    memcpy(state->q, trial->q, bytes);
-    state->delta = trial->delta;
-    state->xi = trial->xi;
-    state->residual = trial->residual;
+    rb_status s = rb_rolling_solve_zones(problem, RB_BOTH, trial);
+    if (s == RB_SINGULAR)
+        return RB_OK;
+    if (s == RB_OK)
+        s = measure(problem, trial);
+    if (s == RB_OK && trial->residual < state->residual) {
+        memcpy(state->p, trial->p, bytes);
+        memcpy(state->q, trial->q, bytes);
+        state->delta = trial->delta;
+        state->xi = trial->xi;
+        state->residual = trial->residual;
+    }
+    return s;
 }
 
 /* lambda, zones and residual of p, q, delta, xi. */
@@ -45,11 +58,14 @@ static rb_status complete(const rb_rolling_problem *problem, rb_rolling_state *s
 
     if (s == RB_OK && !gap)
         s = RB_ENOMEM;
+    if (s == RB_OK)
+        s = measure(problem, state);
     if (s == RB_OK) {
-        state->residual = rb_rolling_residual(problem, state, NULL, NULL, NULL);
         rb_rolling_kinematics(problem, state, gap, state->lambda);
         rb_rolling_classify(problem, 1e-12, state);
-        polish(problem, state, &trial);
+        s = polish(problem, state, &trial);
+    }
+    if (s == RB_OK) {
         rb_rolling_kinematics(problem, state, gap, state->lambda);
         for (int i = 0; i < problem->n; i++)
             if (state->zone[i] == RB_ZONE_STICK)

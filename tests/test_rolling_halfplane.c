@@ -1,0 +1,382 @@
+/* Hertz, Carter, Bentall-Johnson, Cattaneo-Mindlin on the half-plane: no error but that
+ * of the contact mesh. */
+#include "check.h"
+#include "rolling/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+/* nu = 1/2 on a rigid plane: a similar pair, so that Carter holds (theory.md 4.5). */
+static rb_rolling_case incompressible_wheel(void)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.poisson = 0.5;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.half_width = 1e-4 * rc.a.radius;
+    rc.contact_elements = 200;
+    return rc;
+}
+
+/* `across` equal elements over 2a, the edges a fraction `offset` of an element from an
+ * element's end, five more elements at each side. */
+static void align(rb_rolling_case *rc, int across, double offset)
+{
+    rc->contact_elements = across + 10;
+    rc->zone = rc->half_width * (across + 10) / (across + 2.0 * offset);
+}
+
+static rb_rolling_solution solved(const rb_rolling_case *rc)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    if (rb_rolling_solve(rc, &s, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return s;
+}
+
+/* Coulomb's law, complementarity and the force, from the printed table alone. */
+static void check_honest(const rb_rolling_case *rc, const rb_rolling_solution *s)
+{
+    double P = 0.0;
+    for (int i = 0; i < s->n; i++) {
+        CHECK_MAX(-s->p[i], 0.0, "adhesion at %d", i);
+        CHECK_MAX(fabs(s->q[i]), rc->mu * s->p[i] + 1e-10 * s->max_pressure,
+                  "Coulomb at %d", i);
+        CHECK_MAX(-s->gap[i], 1e-10 * s->half_width, "penetration at %d", i);
+        P += s->p[i] * s->h[i];
+    }
+    CHECK_REL(P, s->normal_load, 1e-14, "load of the table");
+    CHECK_MAX(s->residual, 1e-10, "residual");
+    CHECK_MAX(s->load_error, 1e-10, "load error");
+}
+
+static void hertz_at_any_alignment(void **state)
+{
+    (void)state;
+    for (int k = 0; k <= 4; k++) {
+        rb_rolling_case rc = incompressible_wheel();
+        rc.mu = 0.0;
+        align(&rc, 200, 0.25 * k);
+        rb_rolling_solution s = solved(&rc);
+        const double a = rc.half_width, P = rb_rolling_hertz_load(&rc, a);
+        const double p0 = 2.0 * P / (M_PI * a);
+        double square = 0.0;
+        for (int i = 0; i < s.n; i++)
+            square +=
+                gsl_pow_2(s.p[i] - p0 * sqrt(fmax(0.0, 1.0 - gsl_pow_2(s.x[i] / a)))) *
+                s.h[i] / (2.0 * a);
+        check_honest(&rc, &s);
+        CHECK_REL(s.max_pressure, p0, 1e-3, "p0, offset %g", 0.25 * k);
+        CHECK_REL(s.normal_load, P, 1e-10, "load, offset %g", 0.25 * k);
+        CHECK_REL(s.half_width, a, 2e-3, "half-width, offset %g", 0.25 * k);
+        CHECK_MAX(sqrt(square) / p0, 3e-3, "rms of p, offset %g", 0.25 * k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* The compression of a half-cylinder, which the default datum reproduces (B6). */
+static void hertz_by_approach(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = incompressible_wheel();
+    const double a = rc.half_width, R = rc.a.radius;
+    align(&rc, 200, 0.5);
+    rc.half_width = NAN;
+    rc.approach = a * a / (4.0 * R) * (2.0 * log(4.0 * R / a) - 1.0);
+    rc.mu = 0.0;
+    rb_rolling_solution s = solved(&rc);
+    CHECK_REL(s.normal_load, rb_rolling_hertz_load(&rc, a), 1e-3, "load of an approach");
+    rb_rolling_solution_free(&s);
+}
+
+static double carter(double s)
+{
+    return s >= 1.0 ? 1.0 : s * (2.0 - s);
+}
+
+static rb_rolling_solution rolling_at(rb_rolling_case rc, double ratio)
+{
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = ratio;
+    return solved(&rc);
+}
+
+static void carter_on_200_equal_elements(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 9; k++) {
+        rb_rolling_case rc = incompressible_wheel();
+        const double a = rc.half_width;
+        align(&rc, 200, 0.3);
+        rb_rolling_solution s = rolling_at(rc, 0.1 * k);
+        const double h = s.h[0];
+        check_honest(&rc, &s);
+        CHECK_ABS(-s.force_ratio, carter(0.1 * k), 3e-3, "s = %g", 0.1 * k);
+        CHECK_ABS(s.stick_from, a * (1.0 - 2.0 * (1.0 - 0.1 * k)), 1.5 * h, "s = %g",
+                  0.1 * k);
+        CHECK_ABS(s.stick_to, a, 1.5 * h, "s = %g", 0.1 * k);
+        assert_int_equal(s.slip_violations, 0);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void carter_halves_its_error_with_the_mesh(void **state)
+{
+    (void)state;
+    for (int k = 2; k <= 8; k += 3) {
+        double error[2];
+        for (int fine = 0; fine < 2; fine++) {
+            rb_rolling_case rc = incompressible_wheel();
+            align(&rc, fine ? 200 : 100, 0.0);
+            rb_rolling_solution s = rolling_at(rc, 0.1 * k);
+            error[fine] = -s.force_ratio - carter(0.1 * k);
+            rb_rolling_solution_free(&s);
+        }
+        /* 1.61e-3 at s = 0.7 and 0.8 is the scheme's own first-order error */
+        CHECK_MAX(fabs(error[1]), k < 7 ? 1.5e-3 : 1.65e-3, "s = %g", 0.1 * k);
+        CHECK_ABS(error[0] / error[1], 2.0, 0.15, "order, s = %g", 0.1 * k);
+    }
+}
+
+static void beyond_full_sliding_everything_slides(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = incompressible_wheel();
+    rb_rolling_solution s = rolling_at(rc, -1.2);
+    CHECK_REL(s.force_ratio, 1.0, 1e-12, "s = -1.2");
+    assert_int_equal(s.stick, 0);
+    rb_rolling_solution_free(&s);
+}
+
+static void carter_on_a_fitted_mesh(void **state)
+{
+    (void)state;
+    const int n[] = {50, 100, 200};
+    const double bound[] = {3e-4, 1.5e-4, 3e-5};
+    for (int mesh = 0; mesh < 3; mesh++)
+        for (int k = 1; k <= 10; k++) {
+            const double ratio = k == 10 ? 0.95 : 0.1 * k;
+            rb_rolling_case rc = incompressible_wheel();
+            rc.mesh = RB_MESH_FITTED;
+            rc.contact_elements = n[mesh];
+            rb_rolling_solution s = rolling_at(rc, ratio);
+            check_honest(&rc, &s);
+            CHECK_ABS(-s.force_ratio, carter(ratio), bound[mesh], "n = %d, s = %g",
+                      n[mesh], ratio);
+            rb_rolling_solution_free(&s);
+        }
+}
+
+static void carter_under_force_control(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 10; k++) {
+        const double ratio = k == 10 ? 0.99 : 0.1 * k;
+        rb_rolling_case rc = incompressible_wheel();
+        rc.formulation = RB_STEADY;
+        rc.mesh = RB_MESH_FITTED;
+        rc.force_ratio = -ratio;
+        rb_rolling_solution s = solved(&rc);
+        CHECK_ABS(s.force_ratio, -ratio, 1e-10, "given force");
+        CHECK_REL(s.creep_ratio, 1.0 - sqrt(1.0 - ratio), 2e-4, "Q/(mu P) = %g", ratio);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void both_forms_agree(void **state)
+{
+    (void)state;
+    for (int dissimilar = 0; dissimilar < 2; dissimilar++) {
+        rb_rolling_case rc = incompressible_wheel();
+        rc.a.poisson = dissimilar ? 0.28 : 0.5;
+        rc.solver = RB_SOLVER_LEMKE;
+        rc.contact_elements = 100;
+        rb_rolling_solution pivoted = rolling_at(rc, 0.4);
+        rc.lcp_form = RB_LCP_KWAK;
+        rb_rolling_solution kwak = rolling_at(rc, 0.4);
+        assert_int_equal(pivoted.lcp_form, RB_LCP_PIVOTED);
+        assert_int_equal(kwak.lcp_form, RB_LCP_KWAK);
+        for (int i = 0; i < kwak.n; i++) {
+            CHECK_ABS(pivoted.p[i], kwak.p[i], 1e-9 * kwak.max_pressure, "p, element %d",
+                      i);
+            CHECK_ABS(pivoted.q[i], kwak.q[i], 1e-9 * kwak.max_pressure, "q, element %d",
+                      i);
+        }
+        rb_rolling_solution_free(&pivoted);
+        rb_rolling_solution_free(&kwak);
+    }
+}
+
+/* On the half-plane nothing but the upstream difference knows left from right. */
+static void the_signs_of_creepage_mirror_for_similar_bodies(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = incompressible_wheel();
+    rb_rolling_solution plus = rolling_at(rc, 0.4), minus = rolling_at(rc, -0.4);
+    for (int i = 0; i < plus.n; i++)
+        CHECK_ABS(plus.q[i], -minus.q[i], 1e-10 * plus.max_pressure, "q, element %d", i);
+    CHECK_ABS(plus.free_creepage, 0.0, 1e-12 * plus.creepage, "free rolling");
+    rb_rolling_solution_free(&plus);
+    rb_rolling_solution_free(&minus);
+}
+
+/* Aluminium on steel (theory.md 6). */
+static rb_rolling_case aluminium_on_steel(double mu)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.poisson = 0.31;
+    rc.a.young = 2.0 * 23000.0 * 1.31;
+    rc.b.poisson = 0.28;
+    rc.b.young = 2.0 * 82000.0 * 1.28;
+    rc.elastic_b = 1;
+    rc.b.radius = 50.0;
+    rc.a.support = rc.b.support = RB_BEM_HALFPLANE;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 200;
+    rc.half_width = 0.1;
+    rc.force = 0.0;
+    rc.mu = mu;
+    return rc;
+}
+
+static void bentall_johnson_free_rolling(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = aluminium_on_steel(10.0);
+    rb_rolling_solution s = solved(&rc);
+    CHECK_REL(s.normal_load, 16.20192, 1e-6, "load");
+    CHECK_REL(s.creepage, -3.67269e-4, 1e-3, "mu -> infinity");
+    rb_rolling_solution_free(&s);
+    rc = aluminium_on_steel(1e-4);
+    s = solved(&rc);
+    CHECK_REL(s.creepage, -2.0 * 0.143834 * 0.004 * 0.457386, 5e-3, "mu -> 0");
+    rb_rolling_solution_free(&s);
+}
+
+static void cattaneo_mindlin(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 9; k += 2) {
+        rb_rolling_case rc = incompressible_wheel();
+        const double a = rc.half_width, c = a * sqrt(1.0 - 0.1 * k);
+        align(&rc, 200, 0.0);
+        rc.force_ratio = 0.1 * k;
+        rb_rolling_solution s = solved(&rc);
+        const double bound = rc.mu * 2.0 * s.normal_load / (M_PI * a);
+        double square = 0.0;
+        check_honest(&rc, &s);
+        for (int i = 0; i < s.n; i++) {
+            const double outer = sqrt(fmax(0.0, 1.0 - gsl_pow_2(s.x[i] / a)));
+            const double inner = c / a * sqrt(fmax(0.0, 1.0 - gsl_pow_2(s.x[i] / c)));
+            square += gsl_pow_2(s.q[i] / bound - outer + inner) * s.h[i] / (2.0 * a);
+        }
+        CHECK_MAX(sqrt(square), 2e-3, "rms of q, Q/(mu P) = %g", 0.1 * k);
+        CHECK_ABS(s.stick_to, c, 1.01 * s.h[0], "stick, Q/(mu P) = %g", 0.1 * k);
+        CHECK_ABS(s.stick_from, -c, 1.01 * s.h[0], "stick, Q/(mu P) = %g", 0.1 * k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void a_zone_that_fills_says_how_wide_it_should_be(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = incompressible_wheel();
+    rb_rolling_solution s;
+    rb_message why = {""};
+    rc.zone = 0.8 * rc.half_width;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_ZONE);
+    const char *to = strstr(why.text, " to ");
+    assert_non_null(to);
+    rc.zone = atof(to + 4);
+    rb_rolling_solution_free(&s);
+    s = solved(&rc);
+    assert_int_equal(s.zone[0], RB_ZONE_SEPARATED);
+    rb_rolling_solution_free(&s);
+}
+
+static void a_gap_that_never_closes_is_no_contact(void **state)
+{
+    (void)state;
+    const double x[] = {-100.0, 100.0}, gap[] = {1.0, 1.0};
+    rb_rolling_case rc = incompressible_wheel();
+    rb_rolling_solution s;
+    rb_message why = {""};
+    rc.gap = RB_GAP_TABLE;
+    rc.profile_n = 2;
+    rc.profile_x = x;
+    rc.profile_gap = gap;
+    rc.half_width = NAN;
+    rc.approach = 0.5;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_NO_CONTACT);
+    rb_rolling_solution_free(&s);
+}
+
+/* A profile of the parabola itself gives the parabola's answer. */
+static void a_table_gap_is_the_gap_it_tabulates(void **state)
+{
+    (void)state;
+    enum { POINTS = 4001 };
+    static double x[POINTS], gap[POINTS];
+    rb_rolling_case rc = incompressible_wheel();
+    for (int i = 0; i < POINTS; i++) {
+        x[i] = 2.0 * rc.half_width * (i - POINTS / 2) / (POINTS / 2);
+        gap[i] = x[i] * x[i] / (2.0 * rc.a.radius);
+    }
+    rb_rolling_solution want = rolling_at(rc, 0.4);
+    rc.gap = RB_GAP_TABLE;
+    rc.profile_n = POINTS;
+    rc.profile_x = x;
+    rc.profile_gap = gap;
+    rb_rolling_solution got = rolling_at(rc, 0.4);
+    CHECK_REL(got.max_pressure, want.max_pressure, 1e-5, "p0");
+    CHECK_ABS(got.force_ratio, want.force_ratio, 1e-5, "Q");
+    rb_rolling_solution_free(&got);
+    rb_rolling_solution_free(&want);
+}
+
+static void every_failed_allocation_is_reported(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = incompressible_wheel();
+    rc.contact_elements = 12;
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = 0.4;
+    int refused = 1;
+    for (int count = 0; refused; count++) {
+        rb_rolling_solution s;
+        alloc_fail_after(count);
+        const rb_status status = rb_rolling_solve(&rc, &s, NULL);
+        refused = alloc_failed();
+        alloc_succeed();
+        if (refused && status == RB_OK)
+            fail_msg("allocation %d failed unnoticed", count);
+        if (!refused)
+            CHECK_STATUS(status, RB_OK);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hertz_at_any_alignment),
+        cmocka_unit_test(hertz_by_approach),
+        cmocka_unit_test(carter_on_200_equal_elements),
+        cmocka_unit_test(carter_halves_its_error_with_the_mesh),
+        cmocka_unit_test(beyond_full_sliding_everything_slides),
+        cmocka_unit_test(carter_on_a_fitted_mesh),
+        cmocka_unit_test(carter_under_force_control),
+        cmocka_unit_test(both_forms_agree),
+        cmocka_unit_test(the_signs_of_creepage_mirror_for_similar_bodies),
+        cmocka_unit_test(bentall_johnson_free_rolling),
+        cmocka_unit_test(cattaneo_mindlin),
+        cmocka_unit_test(a_zone_that_fills_says_how_wide_it_should_be),
+        cmocka_unit_test(a_gap_that_never_closes_is_no_contact),
+        cmocka_unit_test(a_table_gap_is_the_gap_it_tabulates),
+        cmocka_unit_test(every_failed_allocation_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
