@@ -1,0 +1,66 @@
+/* Meshes that several tests of the boundary elements share. */
+#ifndef ROLLBEM_TESTS_BEM_SHAPES_H
+#define ROLLBEM_TESTS_BEM_SHAPES_H
+
+#include "check.h"
+#include "rollbem/bem.h"
+
+#include <gsl/gsl_math.h>
+
+/* Elements first ... first + n - 1 on a circle about (0, 0); turn: +1 counter-clockwise
+ * (outer contour), -1 clockwise (hole).  The first end is at the angle `from`. */
+static inline void put_circle(rb_bem_mesh *mesh, int first, int n, double radius,
+                              int turn, double from)
+{
+    for (int k = 0; k < n; k++) {
+        const double a = from + turn * 2.0 * M_PI * k / n,
+                     b = from + turn * 2.0 * M_PI * ((k + 1) % n) / n;
+        mesh->x0[first + k] = radius * cos(a);
+        mesh->y0[first + k] = radius * sin(a);
+        mesh->x1[first + k] = radius * cos(b);
+        mesh->y1[first + k] = radius * sin(b);
+    }
+}
+
+static inline rb_bem_mesh circle(int n, double radius)
+{
+    rb_bem_mesh mesh;
+    assert_int_equal(rb_bem_mesh_alloc(n, &mesh), RB_OK);
+    put_circle(&mesh, 0, n, radius, 1, 0.0);
+    return mesh;
+}
+
+static inline rb_bem_mesh ring(int n, double outer, double inner)
+{
+    rb_bem_mesh mesh;
+    assert_int_equal(rb_bem_mesh_alloc(2 * n, &mesh), RB_OK);
+    put_circle(&mesh, 0, n, outer, 1, 0.0);
+    put_circle(&mesh, n, n, inner, -1, 0.0);
+    return mesh;
+}
+
+static inline double midpoint_x(const rb_bem_mesh *mesh, int j)
+{
+    return 0.5 * (mesh->x0[j] + mesh->x1[j]);
+}
+
+static inline double midpoint_y(const rb_bem_mesh *mesh, int j)
+{
+    return 0.5 * (mesh->y0[j] + mesh->y1[j]);
+}
+
+static inline void give(rb_bem_mesh *mesh, int j, rb_bem_condition what, double x,
+                        double y)
+{
+    mesh->condition[2 * j] = mesh->condition[2 * j + 1] = what;
+    mesh->value[2 * j] = x;
+    mesh->value[2 * j + 1] = y;
+}
+
+/* log2 of the ratio of two errors on meshes one of which is twice as fine */
+static inline double order(double coarse, double fine)
+{
+    return log2(coarse / fine);
+}
+
+#endif
