@@ -21,16 +21,15 @@ rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *ki
                    "expected a name ending in .png, .svg or .pdf, got '%s'", path);
 }
 
-static const char *terminal(rb_report_picture_kind kind)
-{
-    static const char *const terminals[] = {
-        "pngcairo size 1600,1200 font 'DejaVu Sans,24' linewidth 2.2 background "
-        "'#ffffff'",
-        "svg size 1000,750 font 'DejaVu Sans,15' linewidth 1.5 background '#ffffff'",
-        "pdfcairo size 10in,7.5in font 'DejaVu Sans,15' linewidth 1.6 background "
-        "'#ffffff'"};
-    return terminals[kind];
-}
+/* Sizes that suit a slide.  The key needs its font named: svg would take a larger one. */
+static const struct {
+    const char *terminal, *key_font;
+} looks[] = {
+    {"pngcairo size 1600,1200 font 'DejaVu Sans,24' linewidth 2.2 background '#ffffff'",
+     ",24"},
+    {"svg size 1000,750 font 'DejaVu Sans,18' linewidth 1.5 background '#ffffff'", ",15"},
+    {"pdfcairo size 10in,7.5in font 'DejaVu Sans,21' linewidth 1.6 background '#ffffff'",
+     ",21"}};
 
 /* What the axes show. */
 typedef struct {
@@ -38,6 +37,8 @@ typedef struct {
     const rb_rolling_solution *s;
     double unit; /* length of one unit of the x axis */
     const char *x_label;
+    double stress_unit;
+    const char *stress_label;
     double from, to;  /* x axis, in its units */
     double slip_unit; /* power of 1000 */
     int slip_exponent;
@@ -85,11 +86,19 @@ static void choose_slip_axis(view *v)
     v->slip_to = (most + margin) / v->slip_unit;
 }
 
+static void choose_stress_unit(view *v)
+{
+    const int large = v->s->max_pressure >= 1e4;
+    v->stress_unit = large ? 1000.0 : 1.0;
+    v->stress_label = large ? "GPa" : "MPa";
+}
+
 static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     view v = {.rc = rc, .s = s};
     choose_x_axis(&v);
     choose_slip_axis(&v);
+    choose_stress_unit(&v);
     v.carter = s->formulation == RB_STEADY && isfinite(s->creep_ratio) && rc->mu > 0.0 &&
                s->normal_load > 0.0;
     return v;
@@ -102,8 +111,9 @@ static void write_data(FILE *out, const view *v)
     const rb_rolling_solution *s = v->s;
     fputs("$data << EOD\n", out);
     for (int i = 0; i < s->n; i++)
-        fprintf(out, "%.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->unit, s->p[i], s->q[i],
-                v->rc->mu * s->p[i], s->slip[i] / v->slip_unit);
+        fprintf(out, "%.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->unit,
+                s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
+                v->rc->mu * s->p[i] / v->stress_unit, s->slip[i] / v->slip_unit);
     fputs("EOD\n", out);
 }
 
@@ -117,7 +127,7 @@ static void write_carter(FILE *out, const view *v)
     for (int k = 0; k <= POINTS; k++) {
         const double x = -a * cos(3.14159265358979 * k / POINTS);
         const double q = rb_closed_carter_traction(v->rc->mu, p0, a, s->creep_ratio, x);
-        fprintf(out, "%.9g %.9g\n", x / v->unit, q);
+        fprintf(out, "%.9g %.9g\n", x / v->unit, q / v->stress_unit);
     }
     fputs("EOD\n", out);
 }
@@ -203,18 +213,22 @@ static void write_title(FILE *out, const view *v)
     fputs("' at screen 0.53, 0.925 center textcolor rgb '#444444'\n", out);
 }
 
-static void write_tractions(FILE *out, const view *v)
+static void write_tractions(FILE *out, const view *v, const char *key_font)
 {
-    const double p0 = v->s->max_pressure > 0.0 ? v->s->max_pressure : 1.0;
+    const double p0 =
+        v->s->max_pressure > 0.0 ? v->s->max_pressure / v->stress_unit : 1.0;
     const double bound = v->rc->mu * p0;
     fprintf(out, "set yrange [%.9g:%.9g]\n", -fmax(1.2 * bound, 0.08 * p0),
             1.16 * fmax(p0, bound));
-    fputs("set tmargin at screen 0.83\nset bmargin at screen 0.40\n"
-          "set format x ''\nset ylabel 'traction [MPa]' offset character 0.5,0\n"
-          "set key at screen 0.53, 0.87 center horizontal maxrows 1 samplen 2.2 width 1 "
-          "font "
-          "',22'\n",
+    fputs("set tmargin at screen 0.83\nset bmargin at screen 0.40\nset format x ''\n",
           out);
+    fprintf(out, "set label 3 'traction  [%s]' at screen 0.028, 0.615 center rotate\n",
+            v->stress_label);
+    fprintf(
+        out,
+        "set key at screen 0.53, 0.87 center horizontal maxrows 1 samplen 2.2 width 1 "
+        "font '%s'\n",
+        key_font);
     write_zones(out, v, 1);
     fputs(
         "plot 0 with lines linecolor rgb '#999999' linewidth 0.6 notitle, "
@@ -244,19 +258,17 @@ static double round_step(double step)
 
 static void write_slip(FILE *out, const view *v)
 {
-    fputs(
-        "unset label\nunset key\nset tmargin at screen 0.36\nset bmargin at screen "
-        "0.115\n"
-        "set format x '%g'\nset yrange [*:*]\nset offsets 0, 0, graph 0.12, graph 0.12\n"
-        "unset object\nset ytics autofreq\n",
-        out);
+    fputs("unset label\nunset key\nunset object\n"
+          "set tmargin at screen 0.36\nset bmargin at screen 0.115\nset format x '%g'\n",
+          out);
+    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->slip_from, v->slip_to,
+            round_step((v->slip_to - v->slip_from) / 4.0));
     fprintf(out, "set xlabel '%s      (rolling towards +x →)' offset 0,0.3\n",
             v->x_label);
+    fputs("set label 3 'slip", out);
     if (v->slip_exponent)
-        fprintf(out, "set ylabel 'slip  [10^{%d}]' offset character 0.5,0\n",
-                v->slip_exponent);
-    else
-        fputs("set ylabel 'slip  [1]' offset character 0.5,0\n", out);
+        fprintf(out, "  [10^{%d}]", v->slip_exponent);
+    fputs("' at screen 0.028, 0.2375 center rotate\n", out);
     write_zones(out, v, 0);
     fputs("plot 0 with lines linecolor rgb '#999999' linewidth 0.6, "
           "$data using 1:5 with lines linecolor rgb '#6c3483' linewidth 1.8\n",
@@ -265,16 +277,16 @@ static void write_slip(FILE *out, const view *v)
 
 static void write_script(FILE *out, const view *v, rb_report_picture_kind kind)
 {
-    fprintf(out, "set encoding utf8\nset terminal %s enhanced\n", terminal(kind));
+    fprintf(out, "set encoding utf8\nset terminal %s enhanced\n", looks[kind].terminal);
     write_data(out, v);
     if (v->carter)
         write_carter(out, v);
-    fputs("set multiplot\nset lmargin at screen 0.115\nset rmargin at screen 0.965\n"
+    fputs("set multiplot\nset lmargin at screen 0.12\nset rmargin at screen 0.965\n"
           "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n",
           out);
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
     write_title(out, v);
-    write_tractions(out, v);
+    write_tractions(out, v, looks[kind].key_font);
     write_slip(out, v);
     fputs("unset multiplot\n", out);
 }

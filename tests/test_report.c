@@ -1,0 +1,386 @@
+/* Reports of a solution made by hand: Carter's closed form on 20 elements. */
+#include "check.h"
+#include "rollbem/closed_forms.h"
+#include "rollbem/io.h"
+#include "rollbem/report.h"
+
+#include <jansson.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { N = 20 };
+
+static double arrays[9][N];
+static int zones[N];
+
+/* s = 0.5, a = 1, 16 of 20 elements in contact: stick from 0 to a. */
+static rb_rolling_solution carter(void)
+{
+    const double mu = 0.3, p0 = 100.0;
+    rb_rolling_solution s = {.n = N,
+                             .x = arrays[0],
+                             .h = arrays[1],
+                             .gap = arrays[2],
+                             .p = arrays[3],
+                             .q = arrays[4],
+                             .un = arrays[5],
+                             .ut = arrays[6],
+                             .shift = arrays[7],
+                             .slip = arrays[8],
+                             .zone = zones};
+    for (int i = 0; i < N; i++) {
+        s.h[i] = 0.125;
+        s.x[i] = (i + 0.5 - N / 2) * 0.125;
+        s.p[i] = rb_closed_hertz_pressure(p0, 1.0, s.x[i]);
+        s.q[i] = rb_closed_carter_traction(mu, p0, 1.0, 0.5, s.x[i]);
+        s.zone[i] = fabs(s.x[i]) > 1.0 ? 0 : s.x[i] > 0.0 ? 1 : 2;
+        s.slip[i] = s.zone[i] == 2 ? 1e-3 / 3.0 * -s.x[i] : 0.0;
+    }
+    s.formulation = RB_STEADY;
+    s.solver = RB_SOLVER_LEMKE;
+    s.lcp_form = RB_LCP_PIVOTED;
+    s.iterations = 21;
+    s.contact = 16;
+    s.stick = s.slipping = 8;
+    s.normal_load = 157.0;
+    s.tangential_load = -35.0;
+    s.creep_ratio = 0.5;
+    s.force_ratio = -0.75;
+    s.creepage = 1.5e-3;
+    s.half_width = s.contact_to = s.hertz_half_width = 1.0;
+    s.contact_from = -1.0;
+    s.stick_to = 1.0;
+    s.max_pressure = p0;
+    s.load_error = s.support_balance = NAN;
+    return s;
+}
+
+/* What is in a file, in static storage. */
+static char *content(FILE *file)
+{
+    static char text[100000];
+    rewind(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    return text;
+}
+
+/* ---- Table ------------------------------------------------------------------------ */
+
+static void table_reads_back_exactly(void **state)
+{
+    (void)state;
+    const rb_rolling_solution s = carter();
+    FILE *file = tmpfile();
+    assert_int_equal(rb_report_table(file, &s, "rollbem", 1), RB_OK);
+    rewind(file);
+    char line[400];
+    assert_non_null(fgets(line, sizeof line, file));
+    assert_string_equal(
+        line, "x_mm\th_mm\tgap_mm\tp_MPa\tq_MPa\tun_mm\tut_mm\tshift_mm\tslip_1\tzone\n");
+    for (int i = 0; i < N; i++) {
+        double v[9];
+        int zone;
+        assert_int_equal(fscanf(file, "%lf\t%lf\t%lf\t%lf\t%lf\t%lf\t%lf\t%lf\t%lf\t%d\n",
+                                &v[0], &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &v[7],
+                                &v[8], &zone),
+                         10);
+        for (int j = 0; j < 9; j++)
+            CHECK_ABS(v[j], arrays[j][i], 0.0, "row %d, column %d", i, j);
+        assert_int_equal(zone, zones[i]);
+    }
+    assert_int_equal(fgetc(file), EOF);
+    fclose(file);
+}
+
+static void full_header_names_command_and_columns(void **state)
+{
+    (void)state;
+    const rb_rolling_solution s = carter();
+    FILE *file = tmpfile();
+    assert_int_equal(rb_report_table(file, &s, "rollbem --mu 0.3", 0), RB_OK);
+    char *text = content(file);
+    assert_non_null(strstr(text, "# rollbem " RB_VERSION "\n# rollbem --mu 0.3\n"));
+    assert_non_null(strstr(text, "\n# x_mm\th_mm\t"));
+    assert_non_null(strstr(text, "creepage xi > 0"));
+    int headers = 0, lines = 0;
+    for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
+        headers += line[0] == '#';
+        lines++;
+    }
+    assert_int_equal(lines - headers, N);
+    fclose(file);
+}
+
+static void full_disc_is_told(void **state)
+{
+    (void)state;
+    const rb_rolling_solution s = carter();
+    FILE *file = fopen("/dev/full", "w");
+    if (!file)
+        skip();
+    assert_int_equal(rb_report_table(file, &s, "rollbem", 1), RB_EWRITE);
+    fclose(file);
+}
+
+/* ---- JSON ------------------------------------------------------------------------- */
+
+static void json_holds_the_same_numbers(void **state)
+{
+    (void)state;
+    const rb_rolling_solution s = carter();
+    const rb_rolling_case rc = rb_rolling_case_defaults();
+    json_t *root = rb_report_json_start("rollbem 'a b'");
+    json_object_set_new(root, "summary", rb_report_json_summary(&rc, &s));
+    json_object_set_new(root, "table", rb_report_json_table(&s));
+    FILE *file = tmpfile();
+    assert_int_equal(rb_report_json_write(file, root), RB_OK);
+    json_decref(root);
+    rewind(file);
+    root = json_loadf(file, 0, NULL);
+    assert_non_null(root);
+    assert_string_equal(json_string_value(json_object_get(root, "schema")), "rollbem/1");
+    assert_string_equal(json_string_value(json_object_get(root, "command")),
+                        "rollbem 'a b'");
+    const json_t *table = json_object_get(root, "table");
+    for (int i = 0; i < N; i++) {
+        CHECK_ABS(json_number_value(json_array_get(json_object_get(table, "q_MPa"), i)),
+                  s.q[i], 0.0, "q[%d]", i);
+        assert_int_equal(
+            json_integer_value(json_array_get(json_object_get(table, "zone"), i)),
+            zones[i]);
+    }
+    const json_t *summary = json_object_get(root, "summary");
+    assert_true(json_is_null(json_object_get(summary, "load_error")));
+    assert_true(json_is_null(json_object_get(summary, "datum"))); /* no half-plane */
+    assert_string_equal(json_string_value(json_object_get(summary, "formulation")),
+                        "steady");
+    CHECK_ABS(json_number_value(json_object_get(summary, "force_ratio")), -0.75, 0.0,
+              "ratio");
+    assert_int_equal(json_integer_value(json_object_get(summary, "iterations")), 21);
+    json_decref(root);
+    fclose(file);
+}
+
+static void no_number_is_null(void **state)
+{
+    (void)state;
+    const double bad[] = {NAN, INFINITY, -INFINITY, 1.0};
+    json_t *list = rb_report_json_numbers(4, bad);
+    for (int i = 0; i < 3; i++)
+        assert_true(json_is_null(json_array_get(list, (size_t)i)));
+    assert_true(json_is_real(json_array_get(list, 3)));
+    json_decref(list);
+    assert_int_equal(rb_report_json_write(stdout, NULL), RB_ENOMEM);
+}
+
+static void command_that_is_not_utf8(void **state)
+{
+    (void)state;
+    json_t *root = rb_report_json_start("rollbem \xff");
+    assert_true(json_is_null(json_object_get(root, "command")));
+    json_decref(root);
+}
+
+/* ---- For people ------------------------------------------------------------------- */
+
+static void strip_shows_the_contact(void **state)
+{
+    (void)state;
+    rb_rolling_solution s = carter();
+    char strip[81];
+    rb_report_strip(&s, 80, strip);
+    assert_string_equal(strip, ".ooSSSSSSSS********oo.");
+    rb_report_strip(&s, 12, strip);
+    assert_string_equal(strip, ".oSSSS****o.");
+    s.n = 6; /* without contact everything is shown */
+    memset(zones, 0, sizeof zones);
+    rb_report_strip(&s, 80, strip);
+    assert_string_equal(strip, ".oooooo.");
+}
+
+static void summary_fits_the_terminal(void **state)
+{
+    (void)state;
+    const rb_rolling_solution s = carter();
+    for (int width = 1; width < 300; width += 23) {
+        FILE *file = tmpfile();
+        rb_report_summary(file, &s, width);
+        const char *text = content(file);
+        assert_non_null(
+            strstr(text, "steady: solved by Lemke (pivoted form), 21 pivots"));
+        assert_non_null(strstr(text, "Q/(mu P) = -0.75"));
+        assert_null(strstr(text, "nan"));
+        fclose(file);
+    }
+}
+
+static void notes_warn_where_due(void **state)
+{
+    (void)state;
+    rb_rolling_solution s = carter();
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.formulation = RB_STEADY;
+    rc.a.support = RB_BEM_HALFPLANE;
+    FILE *file = tmpfile();
+    rb_report_notes(file, &rc, &s);
+    assert_string_equal(content(file), "");
+    rc.a.support = RB_BEM_ARC;
+    s.approach = rc.a.radius / 2.0;
+    rb_report_notes(file, &rc, &s);
+    assert_non_null(strstr(content(file), "hub and halfplane"));
+    assert_non_null(strstr(content(file), "linear elasticity is stretched"));
+    fclose(file);
+    file = tmpfile();
+    rc.formulation = s.formulation = RB_STATIC;
+    rc.creep = 0.1;
+    rb_report_notes(file, &rc, &s);
+    assert_non_null(strstr(content(file), "--formulation steady"));
+    fclose(file);
+}
+
+/* ---- Pictures --------------------------------------------------------------------- */
+
+static void pictures_of_three_kinds(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"a.png", "b.svg", "c.pdf"};
+    static const char *const starts[] = {"\x89PNG", "<?xml", "%PDF"};
+    const rb_rolling_solution s = carter();
+    const rb_rolling_case rc = rb_rolling_case_defaults();
+    for (int k = 0; k < 3; k++) {
+        rb_report_picture_kind kind;
+        rb_message why = {""};
+        FILE *file = tmpfile();
+        assert_int_equal(rb_report_picture_kind_of(names[k], &kind, &why), RB_OK);
+        assert_int_equal(rb_report_picture(file, kind, &rc, &s, &why), RB_OK);
+        assert_int_equal(strncmp(content(file), starts[k], strlen(starts[k])), 0);
+        fclose(file);
+    }
+}
+
+static void picture_of_another_kind(void **state)
+{
+    (void)state;
+    rb_report_picture_kind kind;
+    rb_message why = {""};
+    assert_int_equal(rb_report_picture_kind_of("a.bmp", &kind, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "a.bmp"));
+    assert_int_equal(rb_report_picture_kind_of(".png", &kind, &why), RB_EINVAL);
+}
+
+static void gnuplot_complaint_is_handed_on(void **state)
+{
+    (void)state;
+    FILE *script = tmpfile(), *out = tmpfile();
+    rb_message why = {""};
+    fputs("plt 1\n", script);
+    assert_int_equal(rb_report_gnuplot(script, out, &why), RB_EFORMAT);
+    assert_non_null(strstr(why.text, "invalid command"));
+    fclose(script);
+    fclose(out);
+}
+
+static void missing_gnuplot_is_named(void **state)
+{
+    (void)state;
+    char path[4096];
+    snprintf(path, sizeof path, "%s", getenv("PATH"));
+    FILE *script = tmpfile(), *out = tmpfile();
+    rb_message why = {""};
+    setenv("PATH", "/nonexistent", 1);
+    const rb_status s = rb_report_gnuplot(script, out, &why);
+    setenv("PATH", path, 1);
+    assert_int_equal(s, RB_EFORMAT);
+    assert_non_null(strstr(why.text, "not installed"));
+    fclose(script);
+    fclose(out);
+}
+
+/* ---- Tables of numbers ------------------------------------------------------------- */
+
+static rb_status read_text(const char *text, int *rows, double **x, rb_message *why)
+{
+    char name[] = "/tmp/rollbem-columns-XXXXXX";
+    const int fd = mkstemp(name);
+    assert_true(fd >= 0);
+    assert_int_equal(write(fd, text, strlen(text)), (int)strlen(text));
+    close(fd);
+    const rb_status s = rb_io_read_columns(name, 2, rows, x, why);
+    unlink(name);
+    return s;
+}
+
+static void columns_are_read(void **state)
+{
+    (void)state;
+    int rows;
+    double *x;
+    rb_message why = {""};
+    assert_int_equal(
+        read_text("# x, gap\n1 2\n\n3,\t4 # end\n -5e-1  6", &rows, &x, &why), RB_OK);
+    assert_int_equal(rows, 3);
+    CHECK_ABS(x[2], -0.5, 0.0, "x");
+    CHECK_ABS(x[3 + 1], 4.0, 0.0, "gap");
+    free(x);
+}
+
+static void bad_columns_are_named(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {"1 2\n3\n", "1 2\n3 4 5\n", "1 2\n3 x\n",
+                                      "1 2\n3 nan\n", "1 2\n3 4x\n"};
+    int rows;
+    double *x;
+    for (int k = 0; k < 5; k++) {
+        rb_message why = {""};
+        assert_int_equal(read_text(bad[k], &rows, &x, &why), RB_EFORMAT);
+        assert_non_null(strstr(why.text, ":2: expected"));
+        assert_null(x);
+    }
+    assert_int_equal(read_text("# nothing\n", &rows, &x, NULL), RB_EFORMAT);
+    assert_int_equal(rb_io_read_columns("/nonexistent", 2, &rows, &x, NULL), RB_ENOENT);
+}
+
+static void columns_without_memory(void **state)
+{
+    (void)state;
+    int rows, refused = 1;
+    double *x;
+    char name[] = "/tmp/rollbem-columns-XXXXXX";
+    const int fd = mkstemp(name);
+    for (int i = 0; i < 200; i++)
+        assert_int_equal(write(fd, "1 2\n", 4), 4);
+    close(fd);
+    for (int k = 0; refused; k++) {
+        alloc_fail_after(k);
+        const rb_status s = rb_io_read_columns(name, 2, &rows, &x, NULL);
+        refused = alloc_failed();
+        alloc_succeed();
+        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+    }
+    free(x);
+    unlink(name);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(table_reads_back_exactly),
+        cmocka_unit_test(full_header_names_command_and_columns),
+        cmocka_unit_test(full_disc_is_told),
+        cmocka_unit_test(json_holds_the_same_numbers),
+        cmocka_unit_test(no_number_is_null),
+        cmocka_unit_test(command_that_is_not_utf8),
+        cmocka_unit_test(strip_shows_the_contact),
+        cmocka_unit_test(summary_fits_the_terminal),
+        cmocka_unit_test(notes_warn_where_due),
+        cmocka_unit_test(pictures_of_three_kinds),
+        cmocka_unit_test(picture_of_another_kind),
+        cmocka_unit_test(gnuplot_complaint_is_handed_on),
+        cmocka_unit_test(missing_gnuplot_is_named),
+        cmocka_unit_test(columns_are_read),
+        cmocka_unit_test(bad_columns_are_named),
+        cmocka_unit_test(columns_without_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
