@@ -1,5 +1,6 @@
 /* The half-plane y >= 0 loaded on y = 0 (B6): Flamant's solution over constant strips. */
 #include "bem/internal.h"
+#include "bem/kernels.h"
 
 #include <gsl/gsl_math.h>
 #include <math.h>
@@ -82,5 +83,67 @@ rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends,
         f->h[i] = ends[i + 1] - ends[i];
     }
     fill(n_c, ends, material, datum, F);
+    return RB_OK;
+}
+
+/* ---- Stress --------------------------------------------------------------------------
+ */
+
+/* One strip seen from (x, y), in the letters of kernels.h with t = +x, so that d = y; the
+ * strip's own ends, where a jump of q makes sxx infinite, get the finite part. */
+static rb_seen see_strip(const rb_element *strip, double x, double y)
+{
+    rb_seen v = rb_see(strip, x, y);
+    if (rb_is_far(strip, x, y))
+        rb_turn_far(strip->a, &v);
+    else if (v.W > 0.0)
+        rb_turn_near(strip->a, &v);
+    else
+        v.Th = 0.5 * M_PI;
+    return v;
+}
+
+/* From Flamant's  s_ij = -(2/pi) (p y + q x) x_i x_j/r^4,  dQ = q_ (2 d^2 - dot),
+ * d2P = -2 d X q_, q_ = cross/W:
+ *     sxx = -(p/pi) (Th - dQ) + (q/pi) (2 Lam + d2P)
+ *     syy = -(p/pi) (Th + dQ) - (q/pi) d2P
+ *     sxy = -(p/pi) d2P       - (q/pi) (Th - dQ) */
+static void add_strip(const rb_element *strip, double p, double q, double x, double y,
+                      double *stress)
+{
+    const rb_seen v = see_strip(strip, x, y);
+    const double q_ = v.cross * v.over_W, dQ = q_ * (2.0 * v.d * v.d - v.dot),
+                 d2P = -2.0 * v.d * v.X * q_;
+    stress[0] += (-p * (v.Th - dQ) + q * (2.0 * v.Lam + d2P)) / M_PI;
+    stress[1] += (-p * (v.Th + dQ) - q * d2P) / M_PI;
+    stress[2] += (-p * d2P - q * (v.Th - dQ)) / M_PI;
+}
+
+rb_status rb_bem_halfplane_stress(int n, const double *ends, const double *p,
+                                  const double *q, int points, const double *xy,
+                                  double *stress)
+{
+    if (n < 1 || points < 0)
+        return RB_EINVAL;
+    for (int i = 0; i < n; i++)
+        if (!(ends[i] < ends[i + 1]))
+            return RB_EINVAL;
+    for (int k = 0; k < points; k++)
+        if (!(xy[2 * k + 1] >= 0.0))
+            return RB_EINVAL;
+    rb_element *strip = malloc((size_t)n * sizeof *strip);
+    if (!strip)
+        return RB_ENOMEM;
+    for (int i = 0; i < n; i++)
+        strip[i] = rb_element_make(ends[i], 0.0, ends[i + 1], 0.0, 1.0);
+#pragma omp parallel for schedule(static)
+    for (int k = 0; k < points; k++) {
+        double sum[3] = {0.0, 0.0, 0.0};
+        for (int i = 0; i < n; i++)
+            add_strip(&strip[i], p[i], q[i], xy[2 * k], xy[2 * k + 1], sum);
+        for (int c = 0; c < 3; c++)
+            stress[3 * k + c] = sum[c];
+    }
+    free(strip);
     return RB_OK;
 }

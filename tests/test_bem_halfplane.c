@@ -1,0 +1,185 @@
+/* Stress in the half-plane against Hertz's field. */
+#include "check.h"
+#include "rollbem/bem.h"
+
+#include <gsl/gsl_math.h>
+
+enum { n_strips = 400 };
+
+typedef struct {
+    double ends[n_strips + 1], p[n_strips], q[n_strips];
+} load;
+
+/* Mean over each strip of p0 sqrt(1 - x^2), a = p0 = 1; q = ratio p. */
+static load hertz(double ratio)
+{
+    load l;
+    for (int i = 0; i <= n_strips; i++)
+        l.ends[i] = -cos(M_PI * i / n_strips);
+    for (int i = 0; i < n_strips; i++) {
+        const double a = l.ends[i], b = l.ends[i + 1];
+        const double area = 0.5 * (b * sqrt(fmax(0, 1 - b * b)) + asin(b) -
+                                   a * sqrt(fmax(0, 1 - a * a)) - asin(a));
+        l.p[i] = area / (b - a);
+        l.q[i] = ratio * l.p[i];
+    }
+    return l;
+}
+
+static void stress_at(const load *l, double x, double y, double s[3])
+{
+    const double xy[2] = {x, y};
+    CHECK_STATUS(rb_bem_halfplane_stress(n_strips, l->ends, l->p, l->q, 1, xy, s), RB_OK);
+}
+
+static double max_shear(const double s[3])
+{
+    return hypot(0.5 * (s[0] - s[1]), s[2]);
+}
+
+/* plane strain, szz = nu (sxx + syy) */
+static double von_mises(const double s[3])
+{
+    const double nu = 0.3, z = nu * (s[0] + s[1]);
+    return sqrt(0.5 * (pow(s[0] - s[1], 2) + pow(s[1] - z, 2) + pow(z - s[0], 2)) +
+                3 * s[2] * s[2]);
+}
+
+typedef struct {
+    double value, x, y;
+} maximum;
+
+/* On ever finer grids about the best point so far. */
+static maximum largest(const load *l, double (*of)(const double *), maximum best,
+                       double step)
+{
+    for (int round = 0; round < 12; round++, step *= 0.4) {
+        const double cx = best.x, cy = best.y;
+        for (int i = -3; i <= 3; i++)
+            for (int j = -3; j <= 3; j++) {
+                const double x = cx + i * step, y = fmax(0.0, cy + j * step);
+                double s[3];
+                stress_at(l, x, y, s);
+                if (of(s) > best.value)
+                    best = (maximum){of(s), x, y};
+            }
+    }
+    return best;
+}
+
+static double shear_xy(const double s[3])
+{
+    return fabs(s[2]);
+}
+
+static void hertz_maxima_are_those_of_the_books(void **state)
+{
+    (void)state;
+    const load l = hertz(0.0);
+    const maximum tau = largest(&l, max_shear, (maximum){0, 0, 0.7}, 0.1),
+                  mises = largest(&l, von_mises, (maximum){0, 0, 0.7}, 0.1),
+                  xy = largest(&l, shear_xy, (maximum){0, 0.8, 0.5}, 0.05);
+    CHECK_REL(tau.value, 0.30028, 3e-4, "max shear");
+    CHECK_REL(tau.y, 0.78615, 1e-2, "its depth");
+    CHECK_REL(mises.value, 0.55752, 3e-4, "von Mises");
+    CHECK_REL(mises.y, 0.70429, 1e-2, "its depth");
+    CHECK_REL(xy.value, 0.25, 3e-4, "orthogonal shear");
+    CHECK_REL(xy.x, 0.866, 1e-2, "its place");
+    CHECK_REL(xy.y, 0.5, 1e-2, "its depth");
+}
+
+/* Friction towards +x on the body. */
+static void full_sliding_moves_the_maximum(void **state)
+{
+    (void)state;
+    const load l = hertz(0.2);
+    const maximum tau = largest(&l, max_shear, (maximum){0, 0.6, 0.6}, 0.1);
+    CHECK_REL(tau.value, 0.31899, 3e-4, "max shear");
+    CHECK_ABS(tau.x, 0.625, 6e-3, "x");
+    CHECK_REL(tau.y, 0.601, 1e-2, "y");
+}
+
+/* McEwen's field below the centre: sxx = -p0 [(1 + 2y^2)/sqrt(1 + y^2) - 2y], syy = -p0/
+ * sqrt(1 + y^2). */
+static void the_axis_is_in_closed_form(void **state)
+{
+    (void)state;
+    const load l = hertz(0.0);
+    for (double y = 0.01; y < 100.0; y *= 2.0) {
+        double s[3];
+        stress_at(&l, 0.0, y, s);
+        CHECK_ABS(s[0], -((1 + 2 * y * y) / sqrt(1 + y * y) - 2 * y), 3e-5, "sxx at %g",
+                  y);
+        CHECK_ABS(s[1], -1 / sqrt(1 + y * y), 3e-5, "syy at %g", y);
+        CHECK_ABS(s[2], 0.0, 1e-15, "sxy at %g", y);
+    }
+}
+
+static void the_surface_carries_the_tractions(void **state)
+{
+    (void)state;
+    const load l = hertz(0.3);
+    for (int i = 0; i < n_strips; i += 7) {
+        double s[3], near[3];
+        const double x = 0.4 * l.ends[i] + 0.6 * l.ends[i + 1];
+        stress_at(&l, x, 0.0, s);
+        CHECK_REL(s[1], -l.p[i], 1e-13, "syy in strip %d", i);
+        CHECK_REL(s[2], -l.q[i], 1e-13, "sxy in strip %d", i);
+        stress_at(&l, x, 1e-12, near);
+        for (int c = 0; c < 3; c++)
+            CHECK_ABS(near[c], s[c], 1e-6, "limit from inside, strip %d, %d", i, c);
+    }
+    double s[3], end[3];
+    stress_at(&l, 3.0, 0.0, s);
+    CHECK_ABS(fabs(s[1]) + fabs(s[2]), 0.0, 1e-15, "outside the load");
+    stress_at(&l, l.ends[200], 0.0, end);
+    CHECK_REL(end[1], -0.5 * (l.p[199] + l.p[200]), 1e-12, "between two strips");
+    assert_true(isfinite(end[0]));
+}
+
+/* div s = 0 by central differences of order h^2 */
+static void the_field_is_in_equilibrium(void **state)
+{
+    (void)state;
+    const load l = hertz(0.3);
+    for (int k = 0; k < 40; k++) {
+        const double x = -1.5 + 0.07 * k, y = 0.002 + 0.01 * k, h = 1e-4 * y;
+        double e[3], w[3], n[3], s[3];
+        stress_at(&l, x + h, y, e);
+        stress_at(&l, x - h, y, w);
+        stress_at(&l, x, y + h, n);
+        stress_at(&l, x, y - h, s);
+        CHECK_ABS((e[0] - w[0] + n[2] - s[2]) / (2 * h), 0.0, 1e-5 / y, "x, point %d", k);
+        CHECK_ABS((e[2] - w[2] + n[1] - s[1]) / (2 * h), 0.0, 1e-5 / y, "y, point %d", k);
+    }
+}
+
+static void bad_input_and_short_memory(void **state)
+{
+    (void)state;
+    const double ends[] = {0, 1, 2}, back[] = {0, 1, 1}, one[] = {1, 1}, xy[] = {0.5, 1},
+                 above[] = {0.5, -1}, nan[] = {0.5, NAN};
+    double s[3];
+    CHECK_STATUS(rb_bem_halfplane_stress(0, ends, one, one, 1, xy, s), RB_EINVAL);
+    CHECK_STATUS(rb_bem_halfplane_stress(2, back, one, one, 1, xy, s), RB_EINVAL);
+    CHECK_STATUS(rb_bem_halfplane_stress(2, ends, one, one, -1, xy, s), RB_EINVAL);
+    CHECK_STATUS(rb_bem_halfplane_stress(2, ends, one, one, 1, above, s), RB_EINVAL);
+    CHECK_STATUS(rb_bem_halfplane_stress(2, ends, one, one, 1, nan, s), RB_EINVAL);
+    alloc_fail_after(0);
+    CHECK_STATUS(rb_bem_halfplane_stress(2, ends, one, one, 1, xy, s), RB_ENOMEM);
+    alloc_succeed();
+    CHECK_STATUS(rb_bem_halfplane_stress(2, ends, one, one, 0, xy, s), RB_OK);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hertz_maxima_are_those_of_the_books),
+        cmocka_unit_test(full_sliding_moves_the_maximum),
+        cmocka_unit_test(the_axis_is_in_closed_form),
+        cmocka_unit_test(the_surface_carries_the_tractions),
+        cmocka_unit_test(the_field_is_in_equilibrium),
+        cmocka_unit_test(bad_input_and_short_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
