@@ -142,6 +142,11 @@ rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends,
                                        rb_bem_material material, double datum,
                                        rb_bem_flexibility *f, rb_message *why);
 
+/* The same half-plane seen at any points x of its surface: w = W r, W: 2 points x 2n
+ * column-major, rows (w_N, w_T); ends: n + 1.  RB_EINVAL: sizes, material, datum <= 0. */
+rb_status rb_bem_halfplane_displacement(int n, const double *ends, rb_bem_material material,
+                                        double datum, int points, const double *x, double *W);
+
 /* Two bodies in contact (4.5): F_A + F_B, B computed as the mirror image (an upper body),
  * so that its coupling blocks enter with the opposite sign.  Takes over a and b (both are
  * left empty), also on failure.  RB_EINVAL: their points differ. */

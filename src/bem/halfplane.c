@@ -40,26 +40,57 @@ static double strip_sign(double X, double b)
     return -2.0 * fmin(fmax(X, -b), b);
 }
 
-/* w_N = -K int p ln|(x-s)/d| + c int q sgn(x-s),  K = 2(1-nu^2)/(pi E) = (1-nu)/(pi G)
+/* Displacement at distance X from the middle of a strip of half-length b:
+ * w_N = -K int p ln|(x-s)/d| + c int q sgn(x-s),  K = 2(1-nu^2)/(pi E) = (1-nu)/(pi G)
  * w_T = -K int q ln|(x-s)/d| - c int p sgn(x-s),  c = (1-2nu)(1+nu)/(2E) = (1-2nu)/(4G)
- * Distances are differences of ends, exact where the ends nearly meet (B9). */
-static void fill(int n, const double *ends, rb_bem_material material, double datum,
-                 double *F)
+ */
+typedef struct {
+    double K, c, datum;
+} flamant;
+
+static flamant flamant_of(rb_bem_material material, double datum)
 {
-    const double K = (1.0 - material.poisson) / (M_PI * material.shear);
-    const double c = (1.0 - 2.0 * material.poisson) / (4.0 * material.shear);
+    return (flamant){(1.0 - material.poisson) / (M_PI * material.shear),
+                     (1.0 - 2.0 * material.poisson) / (4.0 * material.shear), datum};
+}
+
+/* Row i of m points, strip j of n: the four entries of the 2m x 2n matrix F. */
+static void set_entries(const flamant *body, double X, double b, size_t i, size_t m,
+                        size_t j, size_t n, double *F)
+{
+    double *N = F + j * 2 * m, *T = F + (j + n) * 2 * m;
+
+    N[i] = T[m + i] = -body->K * strip_log(X, b, body->datum);
+    T[i] = body->c * strip_sign(X, b);
+    N[m + i] = -T[i];
+}
+
+/* Distances are differences of ends, exact where the ends nearly meet (B9). */
+static void fill(int n, const double *ends, const flamant *body, double *F)
+{
     const size_t m = (size_t)n + 1;
 
-    for (size_t j = 0; j < (size_t)n; j++) {
-        double *N = F + j * 2 * m, *T = F + (j + (size_t)n) * 2 * m;
-        const double b = 0.5 * (ends[j + 1] - ends[j]);
-        for (size_t i = 0; i < m; i++) {
-            const double X = 0.5 * ((ends[j] - ends[i]) + (ends[j + 1] - ends[i + 1]));
-            N[i] = T[m + i] = -K * strip_log(X, b, datum);
-            T[i] = c * strip_sign(X, b);
-            N[m + i] = -T[i];
-        }
-    }
+    for (size_t j = 0; j < (size_t)n; j++)
+        for (size_t i = 0; i < m; i++)
+            set_entries(body, 0.5 * ((ends[j] - ends[i]) + (ends[j + 1] - ends[i + 1])),
+                        0.5 * (ends[j + 1] - ends[j]), i, m, j, (size_t)n, F);
+}
+
+rb_status rb_bem_halfplane_displacement(int n, const double *ends,
+                                        rb_bem_material material, double datum,
+                                        int points, const double *x, double *W)
+{
+    const flamant body = flamant_of(material, datum);
+
+    if (rb_bem_material_check(material, NULL) != RB_OK || n < 1 || points < 1 ||
+        !(datum > 0.0))
+        return RB_EINVAL;
+    for (size_t j = 0; j < (size_t)n; j++)
+        for (size_t i = 0; i < (size_t)points; i++)
+            set_entries(&body, 0.5 * ((ends[j] - x[i]) + (ends[j + 1] - x[i])),
+                        0.5 * (ends[j + 1] - ends[j]), i, (size_t)points, j, (size_t)n,
+                        W);
+    return RB_OK;
 }
 
 rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends,
@@ -82,7 +113,8 @@ rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends,
         f->x[i] = 0.5 * (ends[i] + ends[i + 1]);
         f->h[i] = ends[i + 1] - ends[i];
     }
-    fill(n_c, ends, material, datum, F);
+    const flamant body = flamant_of(material, datum);
+    fill(n_c, ends, &body, F);
     return RB_OK;
 }
 
