@@ -15,6 +15,9 @@ rb_status rb_bem_mesh_copy(const rb_bem_mesh *from, rb_bem_mesh *to);
 /* Diagonal of the box around all elements: the length that sets the scale. */
 double rb_bem_mesh_size(const rb_bem_mesh *mesh);
 
+/* next[j]: the element that begins where j ends; the mesh is checked. */
+void rb_bem_mesh_next(const rb_bem_mesh *mesh, int *next);
+
 /* RB_EINVAL unless the displacements that the mesh prescribes block all rigid motions;
  * the free ones are named. */
 rb_status rb_bem_support_check(const rb_bem_mesh *mesh, rb_message *why);

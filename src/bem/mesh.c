@@ -120,6 +120,16 @@ static rb_status check_contours(const rb_bem_mesh *mesh, rb_message *why)
     return RB_OK;
 }
 
+void rb_bem_mesh_next(const rb_bem_mesh *mesh, int *next)
+{
+    int start = 0;
+    for (int j = 0; j < mesh->n; j++) {
+        const int closes = meets(mesh, j, start);
+        next[j] = closes ? start : j + 1;
+        start = closes ? j + 1 : start;
+    }
+}
+
 /* Twice the area that lies on the left of all contours. */
 static double area(const rb_bem_mesh *mesh)
 {

@@ -1,0 +1,279 @@
+/* Displacement and stress inside the body from its boundary values (B8).
+ *
+ * u is linear between midpoints, along the contour; t is constant on each element.  Then
+ * Somigliana's field is that of forces t ds and, after integration by parts, of
+ * dislocations -u_s ds, and in Muskhelishvili's potentials (kap = 3 - 4 nu)
+ *     phi' = A/(z-z0),   psi' = B/(z-z0) - A conj(z0)/(z-z0)^2
+ *     A = a_t + a_s,   B = -kap conj(a_t) + conj(a_s)
+ *     a_t = -t/(2 pi (1+kap)),   a_s = i G u_s/(pi (1+kap))
+ * per unit length, t and u_s complex.  Over a straight piece of length l and direction e,
+ * with the letters of kernels.h (w = z - z0, d its distance on the left):
+ *     I0 = int ds/w         = -conj(e) (Lam + i Th)
+ *     I1 = int conj(w)/w^2  = conj(e)^2 I0 - 2i d conj(e) l/(w1 w2)
+ *     J1 = int conj(w)/w    = conj(e)^2 l - 2i d conj(e) I0
+ *     sxx + syy = 4 Re sum A I0,   syy - sxx + 2i sxy = 2 sum (B I0 - A I1)
+ *     2G u = sum [2 kap a_t L - conj(a_t J1)]
+ *          + sum [kap Q(alpha) - conj(Q(conj alpha)) - conj(a_s J1)]
+ * where alpha = i G u/(pi (1+kap)) and Q(f) = int f dz0/w for f linear along the piece,
+ * by parts -(f continued to z)(Lam + i Th) - f_s l. */
+#include "bem/internal.h"
+#include "bem/kernels.h"
+
+#include <complex.h>
+#include <gsl/gsl_math.h>
+#include <stdlib.h>
+
+typedef double complex cplx;
+
+/* Half an element, on which t and u_s are constant. */
+typedef struct {
+    rb_element e;
+    cplx z1, direction;   /* first end */
+    cplx a_t, a_s, alpha; /* alpha: at the first end */
+} rb_piece;
+
+typedef struct {
+    const rb_bem_mesh *mesh;
+    const double *u, *t;  /* borrowed */
+    int n;                /* pieces: 2 mesh.n */
+    rb_piece *piece;      /* owned */
+    int *next, *previous; /* owned */
+    double shear, nu, kap;
+} rb_interior;
+
+static cplx pair_of(const double *values, int j)
+{
+    return CMPLX(values[2 * j], values[2 * j + 1]);
+}
+
+static double length(const rb_bem_mesh *mesh, int j)
+{
+    return hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+}
+
+/* du/ds between the midpoints of j and of the element after it */
+static cplx slope_after(const rb_interior *in, int j)
+{
+    const int k = in->next[j];
+    return (pair_of(in->u, k) - pair_of(in->u, j)) /
+           (0.5 * (length(in->mesh, j) + length(in->mesh, k)));
+}
+
+static void make_pieces(rb_interior *in)
+{
+    const rb_bem_mesh *mesh = in->mesh;
+    const double r0 = rb_bem_mesh_size(mesh);
+    const cplx per_t = -1.0 / (2.0 * M_PI * (1.0 + in->kap)),
+               per_s = I * in->shear / (M_PI * (1.0 + in->kap));
+    for (int j = 0; j < mesh->n; j++) {
+        const double mx = 0.5 * (mesh->x0[j] + mesh->x1[j]),
+                     my = 0.5 * (mesh->y0[j] + mesh->y1[j]), half = 0.5 * length(mesh, j);
+        const cplx before = slope_after(in, in->previous[j]), after = slope_after(in, j);
+        rb_piece *p = in->piece + 2 * j;
+        p[0].e = rb_element_make(mesh->x0[j], mesh->y0[j], mx, my, r0);
+        p[1].e = rb_element_make(mx, my, mesh->x1[j], mesh->y1[j], r0);
+        p[0].z1 = CMPLX(mesh->x0[j], mesh->y0[j]);
+        p[1].z1 = CMPLX(mx, my);
+        p[0].direction = p[1].direction = CMPLX(p[0].e.tx, p[0].e.ty);
+        p[0].a_t = p[1].a_t = per_t * pair_of(in->t, j);
+        p[0].a_s = per_s * before;
+        p[1].a_s = per_s * after;
+        p[0].alpha = per_s * (pair_of(in->u, j) - half * before);
+        p[1].alpha = per_s * pair_of(in->u, j);
+    }
+}
+
+static void interior_free(rb_interior *in)
+{
+    free(in->piece);
+    free(in->next);
+    free(in->previous);
+}
+
+static rb_status interior_make(const rb_bem_mesh *mesh, rb_bem_material material,
+                               const double *u, const double *t, rb_interior *in)
+{
+    const size_t n = (size_t)mesh->n;
+    *in = (rb_interior){.mesh = mesh,
+                        .u = u,
+                        .t = t,
+                        .n = 2 * mesh->n,
+                        .shear = material.shear,
+                        .nu = material.poisson,
+                        .kap = 3.0 - 4.0 * material.poisson};
+    in->piece = malloc(2 * n * sizeof *in->piece);
+    in->next = rb_alloc_int(n);
+    in->previous = rb_alloc_int(n);
+    if (!in->piece || !in->next || !in->previous) {
+        interior_free(in);
+        return RB_ENOMEM;
+    }
+    rb_bem_mesh_next(mesh, in->next);
+    for (int j = 0; j < mesh->n; j++)
+        in->previous[in->next[j]] = j;
+    make_pieces(in);
+    return RB_OK;
+}
+
+/* ---- Off the surface -----------------------------------------------------------------
+ */
+
+typedef struct {
+    cplx twoGu, normal, deviator; /* sum A I0; sum (B I0 - A I1) */
+    double angle;                 /* 2 pi inside the body, 0 outside */
+} rb_field;
+
+static cplx cauchy(cplx f, cplx f_s, const rb_piece *p, cplx z, double l, cplx turn)
+{
+    return -(f + f_s * conj(p->direction) * (z - p->z1)) * turn - f_s * l;
+}
+
+static void add_piece(const rb_interior *in, const rb_piece *p, double x, double y,
+                      rb_field *field)
+{
+    rb_seen v = rb_see(&p->e, x, y);
+    if (rb_is_far(&p->e, x, y))
+        rb_turn_far(p->e.a, &v);
+    else
+        rb_turn_near(p->e.a, &v);
+    const cplx z = CMPLX(x, y), turn = CMPLX(v.Lam, v.Th), back = conj(p->direction);
+    const double l = 2.0 * p->e.a;
+    const double L =
+        v.X * v.Lam + 0.5 * p->e.a * rb_log(v.W) + v.d * v.Th + p->e.constant;
+    /* w1 w2 = e^2 (X + i d - a)(X + i d + a), mirrored in the piece's own axes */
+    const cplx w1w2 =
+        p->direction * p->direction * CMPLX(v.dot - 2.0 * v.d * v.d, -2.0 * v.X * v.d);
+    const cplx shift = -2.0 * I * v.d * back;
+    const cplx I0 = -back * turn, I1 = back * back * I0 + shift * l / w1w2,
+               J1 = back * back * l + shift * I0;
+    const cplx A = p->a_t + p->a_s, B = conj(p->a_s - in->kap * p->a_t);
+
+    field->angle += v.Th;
+    field->normal += A * I0;
+    field->deviator += B * I0 - A * I1;
+    field->twoGu += 2.0 * in->kap * L * p->a_t - conj(A * J1) +
+                    in->kap * cauchy(p->alpha, p->a_s, p, z, l, turn) -
+                    conj(cauchy(conj(p->alpha), conj(p->a_s), p, z, l, turn));
+}
+
+/* 0: the point lies outside the body */
+static int evaluate_inside(const rb_interior *in, double x, double y,
+                           double *displacement, double *stress)
+{
+    rb_field field = {0};
+    for (int k = 0; k < in->n; k++)
+        add_piece(in, &in->piece[k], x, y, &field);
+    const double mean = 2.0 * creal(field.normal);
+    if (displacement) {
+        displacement[0] = creal(field.twoGu) / (2.0 * in->shear);
+        displacement[1] = cimag(field.twoGu) / (2.0 * in->shear);
+    }
+    if (stress) {
+        stress[0] = mean - creal(field.deviator);
+        stress[1] = mean + creal(field.deviator);
+        stress[2] = cimag(field.deviator);
+    }
+    return field.angle > M_PI;
+}
+
+/* ---- On the surface
+ * -------------------------------------------------------------------- */
+
+/* The element on which (x, y) lies, or -1; *s: from its midpoint along it. */
+static int element_at(const rb_interior *in, double x, double y, double *s)
+{
+    for (int j = 0; j < in->mesh->n; j++) {
+        const rb_element *first = &in->piece[2 * j].e;
+        const double mx = 0.5 * (in->mesh->x0[j] + in->mesh->x1[j]),
+                     my = 0.5 * (in->mesh->y0[j] + in->mesh->y1[j]), h = 4.0 * first->a;
+        const double dx = x - mx, dy = y - my;
+        *s = dx * first->tx + dy * first->ty;
+        if (fabs(dy * first->tx - dx * first->ty) <= 1e-9 * h &&
+            fabs(*s) <= 0.5 * h * (1 + 1e-9))
+            return j;
+    }
+    return -1;
+}
+
+/* u_s at the distance s from the midpoint of j: the quotients hold at the element's ends,
+ * the parabola's slope at its midpoint; linear between them. */
+static cplx slope_at(const rb_interior *in, int j, double s)
+{
+    const int i = in->previous[j], k = in->next[j];
+    const double h = length(in->mesh, j), hi = length(in->mesh, i),
+                 hk = length(in->mesh, k);
+    const cplx before = slope_after(in, i), after = slope_after(in, j);
+    const cplx middle = (before * (h + hk) + after * (h + hi)) / (2.0 * h + hi + hk);
+    const double part = fabs(s) / (0.5 * h);
+    return middle + part * ((s < 0.0 ? before : after) - middle);
+}
+
+/* sigma_nn, sigma_ns from t, and sigma_ss from the plane-strain Hooke law
+ * 2G eps_ss = (1-nu) sigma_ss - nu sigma_nn; turned back to x, y. */
+static void surface_stress(const rb_interior *in, int j, double s, double *stress)
+{
+    const cplx e = in->piece[2 * j].direction, t = pair_of(in->t, j) * conj(e);
+    const double ns = creal(t), nn = -cimag(t); /* outward normal = -i e */
+    const double strain = creal(slope_at(in, j, s) * conj(e));
+    const double ss = (2.0 * in->shear * strain + in->nu * nn) / (1.0 - in->nu);
+    /* in the axes (e, i e): s11 = ss, s22 = nn, s12 = -ns */
+    const double mean = 0.5 * (ss + nn);
+    const cplx deviator = CMPLX(0.5 * (nn - ss), -ns) * conj(e) * conj(e);
+    stress[0] = mean - creal(deviator);
+    stress[1] = mean + creal(deviator);
+    stress[2] = cimag(deviator);
+}
+
+static void evaluate_surface(const rb_interior *in, int j, double s, double *displacement,
+                             double *stress)
+{
+    const cplx u = pair_of(in->u, j) + s * slope_after(in, s < 0.0 ? in->previous[j] : j);
+    if (displacement) {
+        displacement[0] = creal(u);
+        displacement[1] = cimag(u);
+    }
+    if (stress)
+        surface_stress(in, j, s, stress);
+}
+
+/* The first point outside the body, or `points`. */
+static int evaluate(const rb_interior *in, int points, const double *xy,
+                    double *displacement, double *stress)
+{
+    int outside = points;
+#pragma omp parallel for schedule(static) reduction(min : outside)
+    for (int k = 0; k < points; k++) {
+        const double x = xy[2 * k], y = xy[2 * k + 1];
+        double *u = displacement ? displacement + 2 * k : NULL,
+               *sigma = stress ? stress + 3 * k : NULL, s;
+        const int j = element_at(in, x, y, &s);
+        if (j >= 0)
+            evaluate_surface(in, j, s, u, sigma);
+        else if (!evaluate_inside(in, x, y, u, sigma))
+            outside = k < outside ? k : outside;
+    }
+    return outside;
+}
+
+rb_status rb_bem_interior(const rb_bem_mesh *mesh, rb_bem_material material,
+                          const double *u, const double *t, int points, const double *xy,
+                          double *displacement, double *stress, rb_message *why)
+{
+    rb_interior in;
+    rb_status s = rb_bem_mesh_check(mesh, why);
+    if (s == RB_OK)
+        s = rb_bem_material_check(material, why);
+    if (s == RB_OK && points < 0)
+        s = rb_fail(why, RB_EINVAL, "interior points: %d", points);
+    if (s != RB_OK)
+        return s;
+    s = interior_make(mesh, material, u, t, &in);
+    if (s != RB_OK)
+        return rb_fail(why, s, "interior: no memory for %d elements", mesh->n);
+    const int outside = evaluate(&in, points, xy, displacement, stress);
+    if (outside < points)
+        s = rb_fail(why, RB_EINVAL, "point %d at (%g, %g) lies outside the body", outside,
+                    xy[2 * outside], xy[2 * outside + 1]);
+    interior_free(&in);
+    return s;
+}
