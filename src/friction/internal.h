@@ -59,6 +59,32 @@ void rb_friction_blocks_row(const rb_friction_blocks *blocks, int contact,
 void rb_friction_blocks_apply(const rb_friction_blocks *blocks, const double *x,
                               double *y);
 
+/* 2 per contact: rho_n = 1/W_NN, rho_t = 1/(largest eigenvalue of W_TT) of its own block;
+ * the mean of the others where that vanishes. */
+void rb_friction_blocks_rho(const rb_friction_blocks *blocks, double *rho);
+/* The compliances themselves -> rho, in place. */
+void rb_friction_invert_compliances(int contacts, double *rho);
+
+/* ---- One contact alone (local_contact.c)
+ * ------------------------------------------------ */
+
+typedef struct {
+    int d;
+    double mu, rho_n, rho_t;
+    const double *W, *q; /* d x d column-major, d */
+} rb_friction_contact;
+
+/* Both start at r and return the steps taken.  rho: of the fixed point, adapts. */
+int rb_friction_contact_newton(const rb_friction_contact *contact, double *r);
+int rb_friction_contact_fixed_point(const rb_friction_contact *contact, double *rho,
+                                    double *r);
+
+/* The rule for rho (UPK): a step r -> p is taken when
+ * rho ||uhat(p) - uhat(r)|| <= MOST ||p - r||; rho grows when even LEAST held. */
+#define RB_FRICTION_UPK_MOST 0.9
+#define RB_FRICTION_UPK_LEAST 0.3
+#define RB_FRICTION_UPK_SHRINK (2.0 / 3.0)
+
 /* ---- Functions whose roots are solutions (functions.c)
  * ---------------------------------- */
 
@@ -125,7 +151,12 @@ typedef rb_status rb_friction_method(rb_friction_task *task);
 
 rb_friction_method rb_friction_nsn_ac, rb_friction_nsn_jm, rb_friction_nsn_nm,
     rb_friction_nsn_fb, rb_friction_nsn_ac_nls, rb_friction_nsn_jm_nls,
-    rb_friction_nsn_nm_nls, rb_friction_nsn_fb_nls, rb_friction_auto;
+    rb_friction_nsn_nm_nls, rb_friction_nsn_fb_nls, rb_friction_nsn_ac_hybrid,
+    rb_friction_nsgs_ac, rb_friction_nsgs_fp, rb_friction_fixed_point,
+    rb_friction_extragradient, rb_friction_auto;
+
+/* `limit` sweeps of Gauss-Seidel, or fewer where the tolerance is met. */
+rb_status rb_friction_sweeps(rb_friction_task *task, int use_projection, int limit);
 
 /* (13) at the task's r and v, which also brings u (and v) up to date; counts flops. */
 double rb_friction_task_error(rb_friction_task *task);

@@ -16,11 +16,18 @@ static const rb_friction_solver solvers[] = {
     {"nsn-nm-nls", "the same without line search", 0},
     {"nsn-fb", "Newton on Fischer-Burmeister's function, line search", 0},
     {"nsn-fb-nls", "the same without line search", 0},
+    {"nsn-ac-hybrid", "100 sweeps of nsgs-ac, then nsn-ac-nls", RB_FRICTION_NEEDS_W},
+    {"nsgs-ac", "Gauss-Seidel, Newton at each contact", RB_FRICTION_NEEDS_W},
+    {"nsgs-fp", "Gauss-Seidel, fixed point at each contact", RB_FRICTION_NEEDS_W},
+    {"fixed-point", "projection with adaptive step", RB_FRICTION_NEEDS_W},
+    {"extragradient", "projection, twice per step", RB_FRICTION_NEEDS_W},
 };
 static rb_friction_method *const methods[] = {
-    rb_friction_auto,       rb_friction_nsn_ac,     rb_friction_nsn_ac_nls,
-    rb_friction_nsn_jm,     rb_friction_nsn_jm_nls, rb_friction_nsn_nm,
-    rb_friction_nsn_nm_nls, rb_friction_nsn_fb,     rb_friction_nsn_fb_nls,
+    rb_friction_auto,          rb_friction_nsn_ac,        rb_friction_nsn_ac_nls,
+    rb_friction_nsn_jm,        rb_friction_nsn_jm_nls,    rb_friction_nsn_nm,
+    rb_friction_nsn_nm_nls,    rb_friction_nsn_fb,        rb_friction_nsn_fb_nls,
+    rb_friction_nsn_ac_hybrid, rb_friction_nsgs_ac,       rb_friction_nsgs_fp,
+    rb_friction_fixed_point,   rb_friction_extragradient,
 };
 
 const rb_friction_solver *rb_friction_solvers(int *count)

@@ -26,57 +26,35 @@ void rb_friction_system_free(rb_friction_system *s)
 /* ---- rho: the inverse of each contact's own compliance --------------------------------
  */
 
-static double largest_tangential(int d, const double *w)
+/* Global form: of H' diag(K)^-1 H, its diagonal alone. */
+static rb_status global_rho(const rb_friction_problem *p, double *rho)
 {
-    if (d == 2)
-        return fabs(w[3]);
-    const double mean = 0.5 * (w[4] + w[8]), b = 0.5 * (w[5] + w[7]);
-    return fabs(mean) + hypot(0.5 * (w[4] - w[8]), b);
-}
-
-/* The block of contact c; global form: H' diag(K)^-1 H, its diagonal only. */
-static void own_block(const rb_friction_system *s, const double *diagonal, int c,
-                      double *w)
-{
-    const int d = s->d;
-    if (!s->n) {
-        const double *block = s->blocks.x + (size_t)s->blocks.diag[c] * (size_t)(d * d);
-        for (int k = 0; k < d * d; k++)
-            w[k] = block[k];
-        return;
-    }
-    const rb_sparse *h = &s->problem->H;
-    for (int k = 0; k < d * d; k++)
-        w[k] = 0.0;
-    for (int a = 0; a < d; a++)
-        for (int k = h->p[c * d + a]; k < h->p[c * d + a + 1]; k++)
+    const rb_sparse *h = &p->H;
+    const int d = p->dimension;
+    double *diagonal = rb_alloc((size_t)p->dofs, 1);
+    if (!diagonal)
+        return RB_ENOMEM;
+    for (int j = 0; j < p->dofs; j++)
+        for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++)
+            if (p->K.i[k] == j)
+                diagonal[j] = p->K.x[k];
+    for (int j = 0; j < h->cols; j++) {
+        double w = 0.0, *at = &rho[2 * (j / d) + (j % d > 0)];
+        for (int k = h->p[j]; k < h->p[j + 1]; k++)
             if (diagonal[h->i[k]] > 0.0)
-                w[a + a * d] += h->x[k] * h->x[k] / diagonal[h->i[k]];
+                w += h->x[k] * h->x[k] / diagonal[h->i[k]];
+        *at = fmax(*at, w);
+    }
+    rb_friction_invert_compliances(p->contacts, rho);
+    free(diagonal);
+    return RB_OK;
 }
 
 static rb_status choose_rho(rb_friction_system *s)
 {
-    double *diagonal = rb_alloc((size_t)s->n, 1), sum = 0.0, w[9];
-    int count = 0;
-    if (!diagonal)
-        return RB_ENOMEM;
-    for (int j = 0; j < s->n; j++)
-        for (int k = s->problem->K.p[j]; k < s->problem->K.p[j + 1]; k++)
-            if (s->problem->K.i[k] == j)
-                diagonal[j] = s->problem->K.x[k];
-    for (int c = 0; c < s->contacts; c++) {
-        own_block(s, diagonal, c, w);
-        s->rho[2 * c] = fabs(w[0]);
-        s->rho[2 * c + 1] = largest_tangential(s->d, w);
-        for (int k = 2 * c; k < 2 * c + 2; k++)
-            if (s->rho[k] > 0.0)
-                sum += s->rho[k], count++;
-    }
-    /* a contact without compliance of its own takes the mean of the others */
-    const double mean = count ? sum / count : 1.0;
-    for (int k = 0; k < 2 * s->contacts; k++)
-        s->rho[k] = 1.0 / (s->rho[k] > 1e-12 * mean ? s->rho[k] : mean);
-    free(diagonal);
+    if (s->n)
+        return global_rho(s->problem, s->rho);
+    rb_friction_blocks_rho(&s->blocks, s->rho);
     return RB_OK;
 }
 
