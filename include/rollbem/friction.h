@@ -58,6 +58,18 @@ typedef struct {
 rb_status rb_friction_examine(const rb_friction_problem *problem,
                               rb_friction_facts *facts);
 
+/* ---- Files --------------------------------------------------------------------------
+ */
+
+/* RB_ENOENT; RB_EFORMAT: not a problem, or one that rb_friction_problem_check refuses. */
+rb_status rb_friction_read(const char *path, rb_friction_problem *problem,
+                           rb_message *why);
+
+/* As FCLib (HDF5); r, u, v: a solution to go with it, or NULL.  RB_EWRITE. */
+rb_status rb_friction_write(const char *path, const rb_friction_problem *problem,
+                            const double *r, const double *u, const double *v,
+                            const char *title, rb_message *why);
+
 /* ---- Measure of error ---------------------------------------------------------------
  */
 

@@ -9,13 +9,21 @@
 typedef struct {
     const char *name;
     rb_friction_method *method;
-    int limit; /* iterations */
+    int limit;   /* iterations */
+    int sweeps;  /* of Gauss-Seidel before it */
+    int needs_w; /* skipped where there is none */
 } stage;
 
 static const stage stages[] = {
-    {"nsn-ac", rb_friction_nsn_ac, 40},  {"nsn-fb", rb_friction_nsn_fb, 60},
-    {"nsn-nm", rb_friction_nsn_nm, 60},  {"nsn-jm", rb_friction_nsn_jm, 100},
-    {"nsn-ac", rb_friction_nsn_ac, 400},
+    {"nsn-ac", rb_friction_nsn_ac, 40, 0, 0},
+    {"nsn-ac", rb_friction_nsn_ac, 40, 200, 1},
+    {"nsn-fb", rb_friction_nsn_fb, 60, 0, 0},
+    {"nsn-nm", rb_friction_nsn_nm, 60, 0, 0},
+    {"nsn-jm", rb_friction_nsn_jm, 100, 0, 0},
+    {"nsgs-ac", rb_friction_nsgs_ac, 5000, 0, 1},
+    {"nsgs-fp", rb_friction_nsgs_fp, 5000, 0, 1},
+    {"nsn-ac", rb_friction_nsn_ac, 400, 0, 0},
+    {"extragradient", rb_friction_extragradient, 100000, 0, 1},
 };
 
 typedef struct {
@@ -38,9 +46,13 @@ static void store(const rb_friction_task *task, double *to)
 
 static rb_status try_stage(rb_friction_task *task, const stage *s, record *rec)
 {
+    rb_status status = RB_MAXITER;
     load(task, rec->start);
     task->opt.max_iters = s->limit;
-    const rb_status status = s->method(task);
+    if (s->sweeps)
+        status = rb_friction_sweeps(task, 0, s->sweeps);
+    if (status > 0)
+        status = s->method(task);
     if (status < 0)
         return status;
     const double error = rb_friction_task_error(task);

@@ -1,0 +1,39 @@
+/* The FCLib format (HDF5): frictional contact problems as numbers; no mechanics here. */
+#ifndef ROLLBEM_IO_FCLIB_H
+#define ROLLBEM_IO_FCLIB_H
+
+#include "rollbem/base.h"
+#include "rollbem/sparse.h"
+
+/* local:  u = W r + q.   global:  M v = H r + f,  u = H' v + w.
+ * [N, T] or [N, T1, T2] per contact. */
+typedef struct {
+    int global;   /* 0: W, q;  1: M, H, f, w */
+    int spacedim; /* 2 or 3 */
+    int contacts;
+    rb_sparse W; /* all owned */
+    rb_sparse M, H;
+    double *q, *f, *w, *mu;
+    double *r, *u, *v; /* what the file holds as solution, or NULL: check it before use */
+} rb_io_fclib;
+
+/* The three layouts of a matrix. */
+typedef enum { RB_IO_FCLIB_TRIPLET, RB_IO_FCLIB_CSC, RB_IO_FCLIB_CSR } rb_io_fclib_layout;
+
+void rb_io_fclib_free(rb_io_fclib *problem);
+
+/* 1: the file begins like HDF5. */
+int rb_io_is_hdf5(const char *path);
+
+/* An M of which only one triangle is stored is completed.  RB_ENOENT; RB_EFORMAT, with
+ * the place in why: not HDF5, truncated, no FCLib problem in it, sizes that disagree,
+ * indices out of range, rolling friction (spacedim 5), bilateral constraints. */
+rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *why);
+
+/* title and description may be NULL.  The file appears whole or not at all.  RB_EWRITE.
+ */
+rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem,
+                            rb_io_fclib_layout layout, const char *title,
+                            const char *description, rb_message *why);
+
+#endif

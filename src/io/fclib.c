@@ -1,0 +1,556 @@
+#include "rollbem/io_fclib.h"
+
+#include <hdf5.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void rb_io_fclib_free(rb_io_fclib *problem)
+{
+    if (!problem)
+        return;
+    rb_sparse_free(&problem->W);
+    rb_sparse_free(&problem->M);
+    rb_sparse_free(&problem->H);
+    free(problem->q);
+    free(problem->f);
+    free(problem->w);
+    free(problem->mu);
+    free(problem->r);
+    free(problem->u);
+    free(problem->v);
+    *problem = (rb_io_fclib){0};
+}
+
+int rb_io_is_hdf5(const char *path)
+{
+    static const unsigned char signature[] = {0x89, 'H',  'D',  'F',
+                                              '\r', '\n', 0x1a, '\n'};
+    unsigned char head[sizeof signature];
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return 0;
+    const size_t got = fread(head, 1, sizeof head, file);
+    fclose(file);
+    return got == sizeof head && !memcmp(head, signature, sizeof head);
+}
+
+/* ---- Reading -------------------------------------------------------------------------
+ */
+
+typedef struct {
+    const char *path;
+    hid_t file;
+    rb_message *why;
+} reader;
+
+/* Every link on the way to name is there (H5Lexists wants them one by one). */
+static int exists(const reader *in, const char *name)
+{
+    char part[160];
+    const size_t length = strlen(name);
+    for (size_t k = 1; k <= length; k++) {
+        if (name[k] != '/' && name[k] != '\0')
+            continue;
+        snprintf(part, sizeof part, "%.*s", (int)k, name);
+        if (H5Lexists(in->file, part, H5P_DEFAULT) <= 0)
+            return 0;
+    }
+    return 1;
+}
+
+static rb_status open_array(const reader *in, const char *name, hid_t *set, int *n)
+{
+    *set = exists(in, name) ? H5Dopen2(in->file, name, H5P_DEFAULT) : -1;
+    if (*set < 0)
+        return rb_fail(in->why, RB_EFORMAT, "%s: no %s", in->path, name);
+    const hid_t space = H5Dget_space(*set);
+    const hssize_t points = space < 0 ? -1 : H5Sget_simple_extent_npoints(space);
+    if (space >= 0)
+        H5Sclose(space);
+    *n = (int)points;
+    if (points >= 0 && points < 1 << 30)
+        return RB_OK;
+    H5Dclose(*set);
+    return rb_fail(in->why, RB_EFORMAT, "%s: %s: unreadable size", in->path, name);
+}
+
+/* The whole array, its length in n; type: what to convert to. */
+static rb_status read_array(const reader *in, const char *name, hid_t type, size_t size,
+                            int *n, void **values)
+{
+    hid_t set;
+    *values = NULL;
+    rb_status s = open_array(in, name, &set, n);
+    if (s != RB_OK)
+        return s;
+    *values = malloc(size * (size_t)(*n ? *n : 1));
+    if (!*values)
+        s = RB_ENOMEM;
+    else if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *values) < 0)
+        s = rb_fail(in->why, RB_EFORMAT, "%s: %s cannot be read (truncated?)", in->path,
+                    name);
+    H5Dclose(set);
+    if (s != RB_OK) {
+        free(*values);
+        *values = NULL;
+    }
+    return s;
+}
+
+static rb_status read_int(const reader *in, const char *group, const char *name,
+                          int *value)
+{
+    char full[160];
+    int n;
+    void *values;
+    snprintf(full, sizeof full, "%s/%s", group, name);
+    rb_status s = read_array(in, full, H5T_NATIVE_INT, sizeof(int), &n, &values);
+    if (s == RB_OK && n < 1)
+        s = rb_fail(in->why, RB_EFORMAT, "%s: %s is empty", in->path, full);
+    if (s == RB_OK)
+        *value = *(int *)values;
+    free(values);
+    return s;
+}
+
+static rb_status read_ints(const reader *in, const char *group, const char *name,
+                           int least, int **values)
+{
+    char full[160];
+    int n;
+    snprintf(full, sizeof full, "%s/%s", group, name);
+    const rb_status s =
+        read_array(in, full, H5T_NATIVE_INT, sizeof(int), &n, (void **)values);
+    if (s == RB_OK && n < least)
+        return rb_fail(in->why, RB_EFORMAT, "%s: %s has %d entries, expected %d",
+                       in->path, full, n, least);
+    return s;
+}
+
+static rb_status read_doubles(const reader *in, const char *group, const char *name,
+                              int least, double **values)
+{
+    char full[160];
+    int n;
+    snprintf(full, sizeof full, "%s/%s", group, name);
+    const rb_status s =
+        read_array(in, full, H5T_NATIVE_DOUBLE, sizeof(double), &n, (void **)values);
+    if (s == RB_OK && n < least)
+        return rb_fail(in->why, RB_EFORMAT, "%s: %s has %d entries, expected %d",
+                       in->path, full, n, least);
+    return s;
+}
+
+/* Pointers of compressed columns (rows) -> a column (row) number per entry. */
+static rb_status expand(const reader *in, const char *group, int n, int nz, const int *p,
+                        int **wide)
+{
+    *wide = rb_alloc_int((size_t)nz);
+    if (!*wide)
+        return RB_ENOMEM;
+    for (int j = 0; j < n; j++) {
+        if (p[j] < 0 || p[j] > p[j + 1] || p[j + 1] > nz)
+            return rb_fail(in->why, RB_EFORMAT, "%s: %s/p does not increase", in->path,
+                           group);
+        for (int k = p[j]; k < p[j + 1]; k++)
+            (*wide)[k] = j;
+    }
+    return RB_OK;
+}
+
+/* Triplet: i holds rows and p columns, as CSparse writes them (fclib.h says the
+ * opposite). nzmax may exceed what is stored. */
+static rb_status assemble(const reader *in, const char *group, int m, int n, int nz,
+                          rb_sparse *a)
+{
+    const int lines = nz == -1 ? n : m;
+    int *p = NULL, *i = NULL, *wide = NULL;
+    double *x = NULL;
+    rb_status s = read_ints(in, group, "p", nz < 0 ? lines + 1 : nz, &p);
+    const int entries = nz < 0 && s == RB_OK ? p[lines] : nz;
+    if (s == RB_OK && entries < 0)
+        s = rb_fail(in->why, RB_EFORMAT, "%s: %s/p ends in %d", in->path, group, entries);
+    if (s == RB_OK)
+        s = read_ints(in, group, "i", entries, &i);
+    if (s == RB_OK)
+        s = read_doubles(in, group, "x", entries, &x);
+    if (s == RB_OK && nz < 0)
+        s = expand(in, group, lines, entries, p, &wide);
+    if (s == RB_OK) {
+        s = rb_sparse_from_triplets(m, n, entries, nz == -2 ? wide : i,
+                                    nz == -2   ? i
+                                    : nz == -1 ? wide
+                                               : p,
+                                    x, a);
+        if (s == RB_EINVAL)
+            s = rb_fail(in->why, RB_EFORMAT, "%s: %s: index out of range for %d x %d",
+                        in->path, group, m, n);
+    }
+    free(x);
+    free(wide);
+    free(i);
+    free(p);
+    return s;
+}
+
+static rb_status read_matrix(const reader *in, const char *group, rb_sparse *a)
+{
+    int m, n, nz;
+    rb_status s = read_int(in, group, "m", &m);
+    if (s == RB_OK)
+        s = read_int(in, group, "n", &n);
+    if (s == RB_OK)
+        s = read_int(in, group, "nz", &nz);
+    if (s != RB_OK)
+        return s;
+    if (m < 1 || n < 1 || m > 1 << 28 || n > 1 << 28 || nz < -2)
+        return rb_fail(in->why, RB_EFORMAT, "%s: %s is %d x %d with nz = %d", in->path,
+                       group, m, n, nz);
+    return assemble(in, group, m, n, nz, a);
+}
+
+/* Only one triangle is stored: add the other. */
+static rb_status complete_symmetric(rb_sparse *a)
+{
+    int below = 0, above = 0;
+    for (int j = 0; j < a->cols; j++)
+        for (int k = a->p[j]; k < a->p[j + 1]; k++) {
+            below |= a->i[k] > j;
+            above |= a->i[k] < j;
+        }
+    if (below == above || a->rows != a->cols)
+        return RB_OK;
+    const int nz = a->p[a->cols];
+    int *row = rb_alloc_int(2 * (size_t)nz), *col = rb_alloc_int(2 * (size_t)nz), n = 0;
+    double *x = rb_alloc(2 * (size_t)nz, 1);
+    rb_sparse full = {0};
+    rb_status s = row && col && x ? RB_OK : RB_ENOMEM;
+    for (int j = 0; s == RB_OK && j < a->cols; j++)
+        for (int k = a->p[j]; k < a->p[j + 1]; k++) {
+            row[n] = a->i[k], col[n] = j, x[n++] = a->x[k];
+            if (a->i[k] != j)
+                row[n] = j, col[n] = a->i[k], x[n++] = a->x[k];
+        }
+    if (s == RB_OK)
+        s = rb_sparse_from_triplets(a->rows, a->cols, n, row, col, x, &full);
+    free(x);
+    free(col);
+    free(row);
+    if (s == RB_OK) {
+        rb_sparse_free(a);
+        *a = full;
+    }
+    return s;
+}
+
+static rb_status refuse_extras(const reader *in, const char *root,
+                               const char *const *names)
+{
+    char full[160];
+    for (; *names; names++) {
+        snprintf(full, sizeof full, "%s/%s", root, *names);
+        if (exists(in, full))
+            return rb_fail(in->why, RB_EFORMAT,
+                           "%s: %s: bilateral constraints are not supported", in->path,
+                           full);
+    }
+    return RB_OK;
+}
+
+static rb_status read_common(const reader *in, const char *root, int rows, rb_io_fclib *p)
+{
+    char vectors[60];
+    rb_status s = read_int(in, root, "spacedim", &p->spacedim);
+    if (s != RB_OK)
+        return s;
+    if (p->spacedim != 2 && p->spacedim != 3)
+        return rb_fail(in->why, RB_EFORMAT, "%s: spacedim is %d, expected 2 or 3",
+                       in->path, p->spacedim);
+    if (rows % p->spacedim)
+        return rb_fail(in->why, RB_EFORMAT, "%s: %d contact rows are no multiple of %d",
+                       in->path, rows, p->spacedim);
+    p->contacts = rows / p->spacedim;
+    snprintf(vectors, sizeof vectors, "%s/vectors", root);
+    return read_doubles(in, vectors, "mu", p->contacts, &p->mu);
+}
+
+static rb_status read_local(const reader *in, rb_io_fclib *p)
+{
+    static const char *const extras[] = {"V", "R", "vectors/s", NULL};
+    rb_status s = refuse_extras(in, "/fclib_local", extras);
+    if (s == RB_OK)
+        s = read_matrix(in, "/fclib_local/W", &p->W);
+    if (s == RB_OK && p->W.rows != p->W.cols)
+        s = rb_fail(in->why, RB_EFORMAT, "%s: W is %d x %d", in->path, p->W.rows,
+                    p->W.cols);
+    if (s == RB_OK)
+        s = read_common(in, "/fclib_local", p->W.rows, p);
+    if (s == RB_OK)
+        s = read_doubles(in, "/fclib_local/vectors", "q", p->W.rows, &p->q);
+    return s;
+}
+
+static rb_status read_global(const reader *in, rb_io_fclib *p)
+{
+    static const char *const extras[] = {"G", "vectors/b", NULL};
+    p->global = 1;
+    rb_status s = refuse_extras(in, "/fclib_global", extras);
+    if (s == RB_OK)
+        s = read_matrix(in, "/fclib_global/M", &p->M);
+    if (s == RB_OK)
+        s = complete_symmetric(&p->M);
+    if (s == RB_OK)
+        s = read_matrix(in, "/fclib_global/H", &p->H);
+    if (s == RB_OK && (p->M.rows != p->M.cols || p->M.rows != p->H.rows))
+        s = rb_fail(in->why, RB_EFORMAT, "%s: M is %d x %d and H is %d x %d", in->path,
+                    p->M.rows, p->M.cols, p->H.rows, p->H.cols);
+    if (s == RB_OK)
+        s = read_common(in, "/fclib_global", p->H.cols, p);
+    if (s == RB_OK)
+        s = read_doubles(in, "/fclib_global/vectors", "f", p->M.rows, &p->f);
+    if (s == RB_OK)
+        s = read_doubles(in, "/fclib_global/vectors", "w", p->H.cols, &p->w);
+    return s;
+}
+
+/* What is there under /solution and long enough. */
+static rb_status read_solution(const reader *in, rb_io_fclib *p)
+{
+    const int m = p->contacts * p->spacedim;
+    rb_status s = RB_OK;
+    if (exists(in, "/solution/r"))
+        s = read_doubles(in, "/solution", "r", m, &p->r);
+    if (s == RB_OK && exists(in, "/solution/u"))
+        s = read_doubles(in, "/solution", "u", m, &p->u);
+    if (s == RB_OK && p->global && exists(in, "/solution/v"))
+        s = read_doubles(in, "/solution", "v", p->M.rows, &p->v);
+    return s;
+}
+
+static rb_status read_file(const reader *in, rb_io_fclib *p)
+{
+    rb_status s;
+    if (exists(in, "/fclib_global_rolling") || exists(in, "/fclib_local_rolling"))
+        return rb_fail(in->why, RB_EFORMAT, "%s: rolling friction is not supported",
+                       in->path);
+    if (exists(in, "/fclib_local"))
+        s = read_local(in, p);
+    else if (exists(in, "/fclib_global"))
+        s = read_global(in, p);
+    else
+        return rb_fail(in->why, RB_EFORMAT, "%s: HDF5, but holds no FCLib problem",
+                       in->path);
+    return s == RB_OK ? read_solution(in, p) : s;
+}
+
+/* HDF5 prints its own errors unless told not to; the caller's setting comes back. */
+typedef struct {
+    H5E_auto2_t print;
+    void *data;
+} errors;
+
+static errors silence(void)
+{
+    errors e;
+    H5Eget_auto2(H5E_DEFAULT, &e.print, &e.data);
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    return e;
+}
+
+static void restore(errors e)
+{
+    H5Eset_auto2(H5E_DEFAULT, e.print, e.data);
+}
+
+rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *why)
+{
+    *problem = (rb_io_fclib){0};
+    FILE *there = fopen(path, "rb");
+    if (!there)
+        return rb_fail(why, RB_ENOENT, "%s: no such file", path);
+    fclose(there);
+    if (!rb_io_is_hdf5(path))
+        return rb_fail(why, RB_EFORMAT, "%s: not an HDF5 file", path);
+    const errors e = silence();
+    const reader in = {path, H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), why};
+    rb_status s = in.file < 0 ? rb_fail(why, RB_EFORMAT,
+                                        "%s: HDF5 cannot open it (truncated?)", path)
+                              : read_file(&in, problem);
+    if (in.file >= 0)
+        H5Fclose(in.file);
+    restore(e);
+    if (s != RB_OK)
+        rb_io_fclib_free(problem);
+    return s;
+}
+
+/* ---- Writing --------------------------------------------------------------------------
+ */
+
+/* Each returns 0 when all went well. */
+static int write_array(hid_t parent, const char *name, hid_t type, int n,
+                       const void *values)
+{
+    const hsize_t size = (hsize_t)n;
+    const hid_t space = H5Screate_simple(1, &size, NULL);
+    const hid_t set =
+        H5Dcreate2(parent, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const int bad =
+        set < 0 || (n && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0);
+    if (set >= 0)
+        H5Dclose(set);
+    H5Sclose(space);
+    return bad;
+}
+
+static int write_int(hid_t parent, const char *name, int value)
+{
+    return write_array(parent, name, H5T_NATIVE_INT, 1, &value);
+}
+
+static int write_text(hid_t parent, const char *name, const char *text)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, strlen(text) + 1);
+    const hid_t set =
+        H5Dcreate2(parent, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const int bad =
+        set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0;
+    if (set >= 0)
+        H5Dclose(set);
+    H5Sclose(space);
+    H5Tclose(type);
+    return bad;
+}
+
+static int write_compressed(hid_t group, const rb_sparse *a, int nz)
+{
+    const int entries = a->p[a->cols];
+    return write_int(group, "nz", nz) || write_int(group, "nzmax", entries) ||
+           write_array(group, "p", H5T_NATIVE_INT, a->cols + 1, a->p) ||
+           write_array(group, "i", H5T_NATIVE_INT, entries, a->i) ||
+           write_array(group, "x", H5T_NATIVE_DOUBLE, entries, a->x);
+}
+
+static int write_triplet(hid_t group, const rb_sparse *a)
+{
+    const int entries = a->p[a->cols];
+    int *column = rb_alloc_int((size_t)entries);
+    for (int j = 0; column && j < a->cols; j++)
+        for (int k = a->p[j]; k < a->p[j + 1]; k++)
+            column[k] = j;
+    const int bad = !column || write_int(group, "nz", entries) ||
+                    write_int(group, "nzmax", entries) ||
+                    write_array(group, "p", H5T_NATIVE_INT, entries, column) ||
+                    write_array(group, "i", H5T_NATIVE_INT, entries, a->i) ||
+                    write_array(group, "x", H5T_NATIVE_DOUBLE, entries, a->x);
+    free(column);
+    return bad;
+}
+
+static int write_matrix(hid_t parent, const char *name, const rb_sparse *a,
+                        rb_io_fclib_layout layout)
+{
+    rb_sparse t = {0};
+    if (layout == RB_IO_FCLIB_CSR && rb_sparse_transpose(a, &t) != RB_OK)
+        return 1;
+    const hid_t group = H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    int bad =
+        group < 0 || write_int(group, "m", a->rows) || write_int(group, "n", a->cols);
+    if (!bad && layout == RB_IO_FCLIB_TRIPLET)
+        bad = write_triplet(group, a);
+    else if (!bad)
+        bad = layout == RB_IO_FCLIB_CSC ? write_compressed(group, a, -1)
+                                        : write_compressed(group, &t, -2);
+    if (group >= 0)
+        H5Gclose(group);
+    rb_sparse_free(&t);
+    return bad;
+}
+
+static int write_vectors(hid_t root, const rb_io_fclib *p)
+{
+    const int m = p->contacts * p->spacedim;
+    const hid_t group =
+        H5Gcreate2(root, "vectors", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    int bad =
+        group < 0 || write_array(group, "mu", H5T_NATIVE_DOUBLE, p->contacts, p->mu);
+    if (!bad && p->global)
+        bad = write_array(group, "f", H5T_NATIVE_DOUBLE, p->M.rows, p->f) ||
+              write_array(group, "w", H5T_NATIVE_DOUBLE, m, p->w);
+    else if (!bad)
+        bad = write_array(group, "q", H5T_NATIVE_DOUBLE, m, p->q);
+    if (group >= 0)
+        H5Gclose(group);
+    return bad;
+}
+
+static int write_info(hid_t root, const char *title, const char *description)
+{
+    const hid_t group = H5Gcreate2(root, "info", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const int bad = group < 0 || write_text(group, "title", title ? title : "") ||
+                    write_text(group, "description", description ? description : "") ||
+                    write_text(group, "math_info", "");
+    if (group >= 0)
+        H5Gclose(group);
+    return bad;
+}
+
+static int write_solution(hid_t file, const rb_io_fclib *p)
+{
+    const int m = p->contacts * p->spacedim;
+    if (!p->r && !p->u && !p->v)
+        return 0;
+    const hid_t group =
+        H5Gcreate2(file, "solution", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const int bad = group < 0 ||
+                    (p->r && write_array(group, "r", H5T_NATIVE_DOUBLE, m, p->r)) ||
+                    (p->u && write_array(group, "u", H5T_NATIVE_DOUBLE, m, p->u)) ||
+                    (p->v && p->global &&
+                     write_array(group, "v", H5T_NATIVE_DOUBLE, p->M.rows, p->v));
+    if (group >= 0)
+        H5Gclose(group);
+    return bad;
+}
+
+static int write_file(hid_t file, const rb_io_fclib *p, rb_io_fclib_layout layout,
+                      const char *title, const char *description)
+{
+    const hid_t root = H5Gcreate2(file, p->global ? "fclib_global" : "fclib_local",
+                                  H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    int bad = root < 0 || write_int(root, "spacedim", p->spacedim) ||
+              write_info(root, title, description) || write_vectors(root, p);
+    if (!bad && p->global)
+        bad = write_matrix(root, "M", &p->M, layout) ||
+              write_matrix(root, "H", &p->H, layout);
+    else if (!bad)
+        bad = write_matrix(root, "W", &p->W, layout);
+    if (root >= 0)
+        H5Gclose(root);
+    return bad || write_solution(file, p);
+}
+
+rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem,
+                            rb_io_fclib_layout layout, const char *title,
+                            const char *description, rb_message *why)
+{
+    const size_t size = strlen(path) + 6;
+    char *part = malloc(size);
+    if (!part)
+        return RB_ENOMEM;
+    snprintf(part, size, "%s.part", path);
+    const errors e = silence();
+    const hid_t file = H5Fcreate(part, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    int bad = file < 0 || write_file(file, problem, layout, title, description);
+    if (file >= 0 && H5Fclose(file) < 0)
+        bad = 1;
+    restore(e);
+    if (!bad)
+        bad = rename(part, path) != 0;
+    if (bad)
+        remove(part);
+    free(part);
+    return bad ? rb_fail(why, RB_EWRITE, "%s: cannot be written", path) : RB_OK;
+}

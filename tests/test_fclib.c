@@ -1,0 +1,338 @@
+/* FCLib files: written and read back in the three layouts, the traps of files found in
+ * the wild, and every way in which a file can be wrong. */
+#include "check.h"
+#include "rollbem/friction.h"
+#include "rollbem/io_fclib.h"
+
+#include <hdf5.h>
+#include <string.h>
+#include <unistd.h>
+
+static char path[64];
+
+static int make_path(void **state)
+{
+    (void)state;
+    snprintf(path, sizeof path, "/tmp/rollbem-fclib-XXXXXX");
+    const int fd = mkstemp(path);
+    if (fd >= 0)
+        close(fd);
+    return fd < 0;
+}
+
+static int remove_path(void **state)
+{
+    (void)state;
+    return remove(path);
+}
+
+/* Unsymmetric, with an empty column and an entry per layout that tells rows from columns.
+ */
+static void small_local(rb_io_fclib *p)
+{
+    const int row[] = {0, 1, 0, 3, 2, 5, 4, 0}, col[] = {0, 1, 5, 3, 2, 5, 4, 3};
+    const double x[] = {1.0, 2.0, -0.5, 3.0, 4.0, 5.0, 6.0, 0.25};
+    *p = (rb_io_fclib){.spacedim = 3,
+                       .contacts = 2,
+                       .q = rb_alloc(6, 1),
+                       .mu = rb_alloc(2, 1),
+                       .r = rb_alloc(6, 1)};
+    CHECK_STATUS(rb_sparse_from_triplets(6, 6, 8, row, col, x, &p->W), RB_OK);
+    for (int k = 0; k < 6; k++)
+        p->q[k] = k - 2.5, p->r[k] = 0.1 * k;
+    p->mu[0] = 0.3, p->mu[1] = 0.0;
+}
+
+static void small_global(rb_io_fclib *p)
+{
+    const int row[] = {0, 1, 2, 0, 1}, col[] = {0, 1, 2, 1, 0};
+    const double x[] = {2.0, 2.0, 5.0, -1.0, -1.0}, one[] = {1.0, 1.0};
+    const int hrow[] = {0, 2}, hcol[] = {0, 1};
+    *p = (rb_io_fclib){.global = 1,
+                       .spacedim = 2,
+                       .contacts = 1,
+                       .f = rb_alloc(3, 1),
+                       .w = rb_alloc(2, 1),
+                       .mu = rb_alloc(1, 1),
+                       .v = rb_alloc(3, 1)};
+    CHECK_STATUS(rb_sparse_from_triplets(3, 3, 5, row, col, x, &p->M), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(3, 2, 2, hrow, hcol, one, &p->H), RB_OK);
+    p->f[0] = -1.0, p->f[2] = 0.1, p->w[1] = 0.5, p->mu[0] = 0.3, p->v[2] = 7.0;
+}
+
+static void same_sparse(const rb_sparse *a, const rb_sparse *b)
+{
+    assert_int_equal(a->rows, b->rows);
+    assert_int_equal(a->cols, b->cols);
+    assert_memory_equal(a->p, b->p, ((size_t)a->cols + 1) * sizeof *a->p);
+    assert_memory_equal(a->i, b->i, (size_t)a->p[a->cols] * sizeof *a->i);
+    assert_memory_equal(a->x, b->x, (size_t)a->p[a->cols] * sizeof *a->x);
+}
+
+static void what_is_written_is_read_in_every_layout(void **state)
+{
+    (void)state;
+    for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
+        rb_io_fclib p, back;
+        rb_message why = {""};
+        small_local(&p);
+        CHECK_STATUS(
+            rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "t", NULL, &why),
+            RB_OK);
+        CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
+        assert_int_equal(back.global, 0);
+        assert_int_equal(back.spacedim, 3);
+        assert_int_equal(back.contacts, 2);
+        same_sparse(&p.W, &back.W);
+        assert_memory_equal(p.q, back.q, 6 * sizeof *p.q);
+        assert_memory_equal(p.mu, back.mu, 2 * sizeof *p.mu);
+        assert_memory_equal(p.r, back.r, 6 * sizeof *p.r);
+        assert_null(back.u);
+        rb_io_fclib_free(&back);
+        rb_io_fclib_free(&p);
+
+        small_global(&p);
+        CHECK_STATUS(
+            rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, NULL, "d", &why),
+            RB_OK);
+        CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
+        assert_int_equal(back.global, 1);
+        same_sparse(&p.M, &back.M);
+        same_sparse(&p.H, &back.H);
+        assert_memory_equal(p.f, back.f, 3 * sizeof *p.f);
+        assert_memory_equal(p.w, back.w, 2 * sizeof *p.w);
+        assert_memory_equal(p.v, back.v, 3 * sizeof *p.v);
+        rb_io_fclib_free(&back);
+        rb_io_fclib_free(&p);
+    }
+}
+
+static void one_triangle_of_m_is_completed(void **state)
+{
+    (void)state;
+    rb_io_fclib p, back;
+    rb_message why = {""};
+    for (int lower = 0; lower < 2; lower++) {
+        small_global(&p);
+        rb_sparse full = p.M;
+        const int row[] = {0, 1, 2, lower}, col[] = {0, 1, 2, !lower};
+        const double x[] = {2.0, 2.0, 5.0, -1.0};
+        CHECK_STATUS(rb_sparse_from_triplets(3, 3, 4, row, col, x, &p.M), RB_OK);
+        CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", &why),
+                     RB_OK);
+        CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
+        same_sparse(&full, &back.M);
+        rb_sparse_free(&full);
+        rb_io_fclib_free(&back);
+        rb_io_fclib_free(&p);
+    }
+}
+
+/* Replaces (or adds) an integer array, or a double array, of the file. */
+static void overwrite(const char *name, hid_t type, int n, const void *values)
+{
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    const hsize_t size = (hsize_t)n;
+    if (H5Lexists(file, name, H5P_DEFAULT) > 0)
+        H5Ldelete(file, name, H5P_DEFAULT);
+    const hid_t space = H5Screate_simple(1, &size, NULL);
+    const hid_t set =
+        H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(set >= 0);
+    assert_true(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+    H5Dclose(set);
+    H5Sclose(space);
+    H5Fclose(file);
+}
+
+static void set_int(const char *name, int value)
+{
+    overwrite(name, H5T_NATIVE_INT, 1, &value);
+}
+
+static void fresh_local(void)
+{
+    rb_io_fclib p;
+    small_local(&p);
+    CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSC, "", "", NULL), RB_OK);
+    rb_io_fclib_free(&p);
+}
+
+static void refused(const char *words)
+{
+    rb_io_fclib p;
+    rb_message why = {""};
+    CHECK_STATUS(rb_io_fclib_read(path, &p, &why), RB_EFORMAT);
+    if (!strstr(why.text, words) || !strstr(why.text, path))
+        print_error("'%s' lacks '%s'\n", why.text, words);
+    assert_non_null(strstr(why.text, words));
+    assert_non_null(strstr(why.text, path));
+    assert_null(p.W.p);
+}
+
+static void sizes_and_indices_are_checked(void **state)
+{
+    (void)state;
+    const int p_down[] = {0, 3, 1, 3, 5, 6, 8}, p_long[] = {0, 1, 2, 3, 4, 5, 900};
+    const int i_far[] = {0, 1, 2, 3, 4, 5, 6, 0};
+    const double few[] = {1.0};
+    fresh_local();
+    set_int("/fclib_local/spacedim", 5);
+    refused("spacedim is 5");
+    set_int("/fclib_local/spacedim", 4);
+    refused("spacedim is 4");
+    fresh_local();
+    set_int("/fclib_local/W/m", 5);
+    refused("W");
+    fresh_local();
+    set_int("/fclib_local/W/m", -3);
+    refused("-3 x 6");
+    fresh_local();
+    set_int("/fclib_local/W/nz", -7);
+    refused("nz = -7");
+    fresh_local();
+    set_int("/fclib_local/W/nz", 800);
+    refused("expected 800");
+    fresh_local();
+    overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_down);
+    refused("does not increase");
+    fresh_local();
+    overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_long);
+    refused("expected 900");
+    fresh_local();
+    overwrite("/fclib_local/W/i", H5T_NATIVE_INT, 8, i_far);
+    refused("index out of range");
+    fresh_local();
+    overwrite("/fclib_local/vectors/q", H5T_NATIVE_DOUBLE, 1, few);
+    refused("expected 6");
+    fresh_local();
+    overwrite("/fclib_local/vectors/mu", H5T_NATIVE_DOUBLE, 1, few);
+    refused("expected 2");
+    fresh_local();
+    overwrite("/fclib_local/V", H5T_NATIVE_DOUBLE, 1, few);
+    refused("bilateral");
+    /* nzmax beyond what is stored does not matter */
+    fresh_local();
+    set_int("/fclib_local/W/nzmax", 900);
+    rb_io_fclib back;
+    CHECK_STATUS(rb_io_fclib_read(path, &back, NULL), RB_OK);
+    assert_int_equal(back.W.p[6], 8);
+    rb_io_fclib_free(&back);
+}
+
+static void other_files_are_refused(void **state)
+{
+    (void)state;
+    rb_io_fclib p;
+    rb_message why = {""};
+    CHECK_STATUS(rb_io_fclib_read("/nowhere/x.hdf5", &p, &why), RB_ENOENT);
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    H5Fclose(file);
+    refused("no FCLib problem");
+    fresh_local();
+    FILE *f = fopen(path, "r+b");
+    fseek(f, 0, SEEK_END);
+    const long size = ftell(f);
+    fclose(f);
+    for (long cut = size - 1; cut > 8; cut = cut * 2 / 3) {
+        assert_int_equal(truncate(path, cut), 0);
+        CHECK_STATUS(rb_io_fclib_read(path, &p, &why), RB_EFORMAT);
+    }
+    assert_int_equal(truncate(path, 3), 0);
+    refused("not an HDF5 file");
+    CHECK_STATUS(rb_io_fclib_write("/nowhere/x.hdf5", &(rb_io_fclib){0}, RB_IO_FCLIB_CSC,
+                                   "", "", &why),
+                 RB_EWRITE);
+    rb_io_fclib_free(NULL);
+}
+
+static void problems_go_through_files(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_message why = {""};
+    const double bad[] = {0.3, -1.0};
+    fresh_local();
+    CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
+    assert_int_equal(p.form, RB_FRICTION_LOCAL_SPARSE);
+    assert_int_equal(p.contacts, 2);
+    CHECK_STATUS(rb_friction_write(path, &p, p.q, p.q, NULL, "again", &why), RB_OK);
+    rb_friction_problem_free(&p);
+    CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
+    CHECK_ABS(p.q[5], 2.5, 0.0, "q");
+    rb_friction_problem_free(&p);
+    overwrite("/fclib_local/vectors/mu", H5T_NATIVE_DOUBLE, 2, bad);
+    CHECK_STATUS(rb_friction_read(path, &p, &why), RB_EFORMAT);
+    assert_non_null(strstr(why.text, "mu of contact 2 is -1"));
+    assert_non_null(strstr(why.text, path));
+
+    rb_io_fclib g;
+    small_global(&g);
+    CHECK_STATUS(rb_io_fclib_write(path, &g, RB_IO_FCLIB_CSR, "", "", &why), RB_OK);
+    rb_io_fclib_free(&g);
+    CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
+    assert_int_equal(p.form, RB_FRICTION_GLOBAL);
+    assert_int_equal(p.dofs, 3);
+    CHECK_STATUS(rb_friction_write(path, &p, NULL, NULL, p.f, "again", &why), RB_OK);
+    rb_friction_problem_free(&p);
+}
+
+static void failing_allocations_are_reported(void **state)
+{
+    (void)state;
+    for (int global = 0; global < 2; global++) {
+        rb_io_fclib p;
+        if (global)
+            small_global(&p);
+        else
+            small_local(&p);
+        CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSR, "", "", NULL), RB_OK);
+        rb_io_fclib_free(&p);
+        int count = 0;
+        for (rb_status s = RB_ENOMEM; s != RB_OK && count < 200; count++) {
+            alloc_fail_after(count);
+            s = rb_io_fclib_read(path, &p, NULL);
+            const int refused_one = alloc_failed();
+            alloc_succeed();
+            assert_int_equal(s == RB_ENOMEM, refused_one);
+        }
+        assert_true(count > 10);
+        rb_io_fclib_free(&p);
+    }
+}
+
+static void outside_files_are_read(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_friction_facts facts;
+    rb_message why = {""};
+    CHECK_STATUS(rb_friction_read(outside_data("fclib/CubeH8.hdf5"), &p, &why), RB_OK);
+    assert_int_equal(p.form, RB_FRICTION_GLOBAL);
+    assert_int_equal(p.dofs, 162);
+    assert_int_equal(p.contacts, 1);
+    assert_int_equal(p.K.p[162], 2 * 3168 - 162);
+    rb_friction_problem_free(&p);
+    CHECK_STATUS(
+        rb_friction_read(outside_data("fclib/LMGC_100_PR_PerioBox-i00361-60-03000.hdf5"),
+                         &p, &why),
+        RB_OK);
+    CHECK_STATUS(rb_friction_examine(&p, &facts), RB_OK);
+    assert_int_equal(p.contacts, 60);
+    assert_true(facts.rank >= 72 && facts.rank <= 73);
+    rb_friction_problem_free(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_written_is_read_in_every_layout),
+        cmocka_unit_test(one_triangle_of_m_is_completed),
+        cmocka_unit_test(sizes_and_indices_are_checked),
+        cmocka_unit_test(other_files_are_refused),
+        cmocka_unit_test(problems_go_through_files),
+        cmocka_unit_test(failing_allocations_are_reported),
+        cmocka_unit_test(outside_files_are_read),
+    };
+    return cmocka_run_group_tests(tests, make_path, remove_path);
+}
