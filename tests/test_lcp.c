@@ -1,5 +1,6 @@
 /* Lemke's method: ends, ties, planted problems, bad input, failing allocations. */
 #include "check.h"
+#include "rollbem/io.h"
 #include "rollbem/lcp.h"
 
 #include <string.h>
@@ -191,6 +192,326 @@ static void planted_problems_are_solved(void **state)
     }
 }
 
+/* ---- Ties ------------------------------------------------------------------------- */
+
+typedef struct {
+    int count, repeated;
+    int basis[64][3];
+} bases;
+
+static void keep_basis(const rb_lcp_pivot *seen, void *context)
+{
+    bases *b = context;
+    if (b->count == 64)
+        return;
+    for (int k = 0; k < b->count; k++)
+        b->repeated += !memcmp(b->basis[k], seen->basis, sizeof b->basis[k]);
+    memcpy(b->basis[b->count++], seen->basis, sizeof b->basis[0]);
+}
+
+/* Kostreva (1979): a P-matrix on which Lemke's method, taking the first of the rows that
+ * tie, comes back to the same basis every six pivots. */
+static void kostreva_cycles_only_without_the_lexicographic_rule(void **state)
+{
+    (void)state;
+    const double M[] = {1.0, 0.0, 2.0, 2.0, 1.0, 0.0, 0.0, 2.0, 1.0},
+                 q[] = {-1.0, -1.0, -1.0};
+    bases b = {0};
+    double z[3];
+    rb_lcp_info info;
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.trace = keep_basis;
+    opt.trace_context = &b;
+    opt.rule = RB_LCP_FIRST_INDEX;
+    opt.max_iters = 44;
+    CHECK_STATUS(rb_lcp_lemke(3, M, 3, q, &opt, z, &info), RB_MAXITER);
+    assert_int_equal(info.iters, 44);
+    assert_int_equal(b.count, 44);
+    for (int k = 8; k < 44; k++)
+        assert_memory_equal(b.basis[k], b.basis[k - 6], sizeof b.basis[k]);
+
+    b = (bases){0};
+    opt.rule = RB_LCP_LEXICOGRAPHIC;
+    CHECK_STATUS(rb_lcp_lemke(3, M, 3, q, &opt, z, &info), RB_OK);
+    assert_int_equal(b.repeated, 0);
+    for (int i = 0; i < 3; i++)
+        CHECK_REL(z[i], 1.0 / 3.0, 1e-15, "z_%d", i);
+}
+
+/* Everything ties: small integers, q = -1, n up to 12. */
+static void integer_problems_do_not_cycle(void **state)
+{
+    (void)state;
+    int solved = 0, rays = 0;
+    for (int k = 0; k < 3000; k++) {
+        const int n = 2 + k % 11;
+        rb_lcp_info info;
+        for (int i = 0; i < n * n; i++)
+            M_[i] = floor(2 * (k & 1) + 2.5 * uniform());
+        for (int i = 0; i < n; i++)
+            q_[i] = uniform() > 0.6 ? 0.0 : -1.0;
+        const rb_status s = rb_lcp_lemke(n, M_, n, q_, NULL, z_, &info);
+        assert_true(s == RB_OK || s == RB_RAY);
+        solved += s == RB_OK;
+        rays += s == RB_RAY;
+        if (s == RB_OK)
+            CHECK_MAX(natural_residual(n, M_, n, q_, z_), 1e-12, "problem %d, n = %d", k,
+                      n);
+    }
+    assert_true(solved > 500 && rays > 500);
+}
+
+/* ---- Trace ------------------------------------------------------------------------ */
+
+typedef struct {
+    int n, ldm, count;
+    const double *M, *q, *cover;
+    int pivots[4 * LARGEST][2];
+} watched;
+
+/* Values of all variables, from any values of the nonbasic ones, satisfy
+ * w = q + M z + cover z0. */
+static void check_tableau(const rb_lcp_pivot *seen, const watched *p)
+{
+    const int n = p->n;
+    double x[2 * LARGEST + 1];
+    for (int j = 0; j <= n; j++)
+        x[seen->nonbasis[j]] = uniform();
+    for (int i = 0; i < n; i++) {
+        double s = seen->tableau[i + (n + 1) * n];
+        for (int j = 0; j <= n; j++)
+            s += seen->tableau[i + j * n] * x[seen->nonbasis[j]];
+        x[seen->basis[i]] = s;
+    }
+    for (int i = 0; i < n; i++) {
+        double w = p->q[i] + p->cover[i] * x[2 * n];
+        for (int j = 0; j < n; j++)
+            w += p->M[i + j * p->ldm] * x[n + j];
+        CHECK_ABS(x[i], w, 1e-9, "pivot %d, row %d", seen->pivot, i);
+    }
+}
+
+static void watch(const rb_lcp_pivot *seen, void *context)
+{
+    watched *p = context;
+    assert_int_equal(seen->pivot, p->count);
+    assert_int_equal(seen->n, p->n);
+    assert_int_equal(seen->basis[seen->row], seen->entering);
+    assert_true(seen->ratio >= -1e-12 && seen->z0 >= 0.0);
+    p->pivots[p->count][0] = seen->entering;
+    p->pivots[p->count++][1] = seen->leaving;
+    if (seen->tableau)
+        check_tableau(seen, p);
+}
+
+static watched p_, p_full_;
+
+/* The whole tableau is handed over and right; asking for it does not change the pivots.
+ */
+static void the_trace_sees_every_pivot(void **state)
+{
+    (void)state;
+    const int n = 90, ldm = 92;
+    double cover[90];
+    rb_lcp_info info;
+    rb_lcp_options opt = rb_lcp_defaults();
+    make_matrix(P_MATRIX, n, ldm, M_);
+    plant(n, ldm, M_, 0, q_);
+    for (int i = 0; i < n; i++)
+        cover[i] = 1.5 + uniform();
+    p_ = p_full_ = (watched){.n = n, .ldm = ldm, .M = M_, .q = q_, .cover = cover};
+    opt.cover = cover;
+    opt.trace = watch;
+    opt.trace_context = &p_;
+    CHECK_STATUS(rb_lcp_lemke(n, M_, ldm, q_, &opt, z_, &info), RB_OK);
+    assert_int_equal(info.iters, p_.count);
+    assert_true(info.iters > n / 2);
+    opt.trace_context = &p_full_;
+    opt.trace_tableau = 1;
+    CHECK_STATUS(rb_lcp_lemke(n, M_, ldm, q_, &opt, z_, &info), RB_OK);
+    assert_int_equal(p_full_.count, p_.count);
+    assert_memory_equal(p_full_.pivots, p_.pivots, sizeof p_.pivots);
+}
+
+static void the_iteration_limit_keeps_the_last_point(void **state)
+{
+    (void)state;
+    const int n = 40;
+    rb_lcp_info info;
+    rb_lcp_options opt = rb_lcp_defaults();
+    make_matrix(P_MATRIX, n, n, M_);
+    plant(n, n, M_, 0, q_);
+    opt.max_iters = 5;
+    CHECK_STATUS(rb_lcp_lemke(n, M_, n, q_, &opt, z_, &info), RB_MAXITER);
+    assert_int_equal(info.iters, 5);
+    assert_int_equal(info.ray_variable, -1);
+    for (int i = 0; i < n; i++)
+        assert_true(z_[i] >= 0.0);
+    CHECK_REL(info.res, natural_residual(n, M_, n, q_, z_), 1e-12, "residual");
+}
+
+/* ---- Bad input and short memory -----------------------------------------------------
+ */
+
+static void check_refused(int n, const double *M, int ldm, const double *q,
+                          const rb_lcp_options *opt, const char *words)
+{
+    double z[2];
+    rb_lcp_info info;
+    CHECK_STATUS(rb_lcp_lemke(n, M, ldm, q, opt, z, &info), RB_EINVAL);
+    if (!strstr(info.msg.text, words))
+        fail_msg("expected '%s' in: %s", words, info.msg.text);
+}
+
+static void bad_input_is_refused(void **state)
+{
+    (void)state;
+    const double M[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0};
+    const double M_nan[] = {2.0, 1.0, NAN, 2.0}, M_inf[] = {2.0, -INFINITY, 1.0, 2.0};
+    const double q_nan[] = {1.0, NAN}, q_inf[] = {INFINITY, 1.0};
+    const double zero[] = {1.0, 0.0}, less[] = {-1.0, 1.0}, no[] = {NAN, 1.0};
+    rb_lcp_options opt = rb_lcp_defaults();
+    check_refused(0, M, 2, q, NULL, "n = 0");
+    check_refused(-4, M, 2, q, NULL, "n = -4");
+    check_refused(2, M, 1, q, NULL, "ldm = 1");
+    check_refused(2, M_nan, 2, q, NULL, "M(1, 2) = nan");
+    check_refused(2, M_inf, 2, q, NULL, "M(2, 1) = -inf");
+    check_refused(2, M, 2, q_nan, NULL, "q(2) = nan");
+    check_refused(2, M, 2, q_inf, NULL, "q(1) = inf");
+    opt.cover = zero;
+    check_refused(2, M, 2, q, &opt, "cover(2) = 0");
+    opt.cover = less;
+    check_refused(2, M, 2, q, &opt, "cover(1) = -1");
+    opt.cover = no;
+    check_refused(2, M, 2, q, &opt, "cover(1) = nan");
+    opt = rb_lcp_defaults();
+    opt.max_iters = -1;
+    check_refused(2, M, 2, q, &opt, "max_iters = -1");
+    opt = rb_lcp_defaults();
+    opt.tol = NAN;
+    check_refused(2, M, 2, q, &opt, "tol = nan");
+}
+
+static void ignore(const rb_lcp_pivot *seen, void *context)
+{
+    (void)seen;
+    (void)context;
+}
+
+static void short_memory_is_reported(void **state)
+{
+    (void)state;
+    const double M[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0};
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.trace = ignore;
+    opt.trace_tableau = 1;
+    for (int i = 0;; i++) {
+        double z[2];
+        rb_lcp_info info;
+        alloc_fail_after(i);
+        const rb_status s = rb_lcp_lemke(2, M, 2, q, &opt, z, &info);
+        const int refused = alloc_failed();
+        alloc_succeed();
+        if (!refused) {
+            CHECK_STATUS(s, RB_OK);
+            assert_true(i > 5);
+            break;
+        }
+        CHECK_STATUS(s, RB_ENOMEM);
+        assert_non_null(strstr(info.msg.text, "memory"));
+    }
+}
+
+/* ---- The public collection -----------------------------------------------------------
+ */
+
+typedef struct {
+    const char *file;
+    int n, pivots; /* of Siconos 4.4.0, by the collection's README */
+} listed;
+
+static void the_collection_is_solved(void **state)
+{
+    (void)state;
+    const listed files[] = {
+        {"lcp_deudeu", 2, 2}, {"lcp_deudeu_block", 2, 2}, {"lcp_ortiz", 4, 2},
+        {"lcp_mmc", 26, 22},  {"lcp_exp_murty", 6, 1},    {"lcp_CPS_2", 3, 4},
+        {"lcp_CPS_4", 4, 4},  {"lcp_CPS_5", 2, 1},        {"lcp_Pang_isolated_sol", 3, 2},
+    };
+    for (size_t k = 0; k < sizeof files / sizeof files[0]; k++) {
+        char name[80];
+        rb_io_lcp p;
+        rb_lcp_info info;
+        rb_message why;
+        double z[32];
+        snprintf(name, sizeof name, "siconos/lcp/%s.dat", files[k].file);
+        if (rb_io_siconos_read_lcp(outside_data(name), &p, &why) != RB_OK)
+            fail_msg("%s", why.text);
+        CHECK_STATUS(rb_io_matrix_to_dense(&p.M), RB_OK);
+        assert_int_equal(p.n, files[k].n);
+        CHECK_STATUS(rb_lcp_lemke(p.n, p.M.dense, p.n, p.q, NULL, z, &info), RB_OK);
+        CHECK_MAX(natural_residual(p.n, p.M.dense, p.n, p.q, z),
+                  1e-13 * size_of(p.n, p.q), "%s", files[k].file);
+        assert_int_equal(info.iters, files[k].pivots + 1); /* z0's entry is one */
+        rb_io_lcp_free(&p);
+    }
+}
+
+/* The LCP of a 2D friction problem: z = (r_N, r_T + mu r_N, lambda). */
+static void friction_matrix(const rb_io_friction *p, double *M, double *q)
+{
+    const int nc = p->contacts, n = 3 * nc, ldw = 2 * nc;
+    const double *W = p->W.dense;
+    for (int j = 0; j < nc; j++)
+        for (int i = 0; i < nc; i++) {
+            const double *Wij = W + 2 * i + 2 * j * ldw, mu = p->mu[j];
+            double *Mij = M + i + j * n;
+            Mij[0] = Wij[0] - mu * Wij[ldw];
+            Mij[nc] = Wij[1] - mu * Wij[ldw + 1];
+            Mij[nc * n] = Wij[ldw];
+            Mij[nc + nc * n] = Wij[ldw + 1];
+        }
+    for (int i = 0; i < nc; i++) {
+        M[nc + i + (2 * nc + i) * n] = 1.0;
+        M[2 * nc + i + i * n] = 2.0 * p->mu[i];
+        M[2 * nc + i + (nc + i) * n] = -1.0;
+        q[i] = p->q[2 * i];
+        q[nc + i] = p->q[2 * i + 1];
+    }
+}
+
+static void plane_friction_problems_are_solved(void **state)
+{
+    (void)state;
+    const listed files[] = {
+        {"FC2D_SliderCrankLagrangian00000", 2, 6},
+        {"FrictionContactProblem00394", 6, 11},
+        {"FrictionContactProblem00031", 11, 16},
+        {"FrictionContactProblem00071", 89, 134},
+        {"FrictionContactProblem00727", 367, 678},
+    };
+    for (size_t k = 0; k < sizeof files / sizeof files[0]; k++) {
+        char name[80];
+        rb_io_friction p;
+        rb_lcp_info info;
+        snprintf(name, sizeof name, "siconos/fc2d/%s.dat", files[k].file);
+        CHECK_STATUS(rb_io_siconos_read_friction(outside_data(name), &p, NULL), RB_OK);
+        CHECK_STATUS(rb_io_matrix_to_dense(&p.W), RB_OK);
+        const int n = 3 * p.contacts;
+        double *M = calloc((size_t)(n * n), sizeof *M), *q = calloc((size_t)n, sizeof *q);
+        double *z = calloc((size_t)n, sizeof *z);
+        friction_matrix(&p, M, q);
+        CHECK_STATUS(rb_lcp_lemke(n, M, n, q, NULL, z, &info), RB_OK);
+        CHECK_MAX(natural_residual(n, M, n, q, z), 1e-12 * size_of(n, q), "%s",
+                  files[k].file);
+        assert_true(info.iters <= files[k].pivots + 1);
+        free(M);
+        free(q);
+        free(z);
+        rb_io_friction_free(&p);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -198,6 +519,14 @@ int main(void)
         cmocka_unit_test(two_by_two),
         cmocka_unit_test(a_secondary_ray_names_its_variable),
         cmocka_unit_test(planted_problems_are_solved),
+        cmocka_unit_test(kostreva_cycles_only_without_the_lexicographic_rule),
+        cmocka_unit_test(integer_problems_do_not_cycle),
+        cmocka_unit_test(the_trace_sees_every_pivot),
+        cmocka_unit_test(the_iteration_limit_keeps_the_last_point),
+        cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(short_memory_is_reported),
+        cmocka_unit_test(the_collection_is_solved),
+        cmocka_unit_test(plane_friction_problems_are_solved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,13 +30,13 @@ typedef struct {
 typedef void rb_lcp_trace(const rb_lcp_pivot *pivot, void *context);
 
 typedef struct {
-    int max_iters;        /* 0: 50 n + 1000 */
-    double tol;           /* relative size below which z0 counts as zero, default 1e-11 */
-    const double *cover;  /* n, > 0: covering vector d; NULL: ones; borrowed */
+    int max_iters;       /* 0: 50 n + 1000 */
+    double tol;          /* relative size below which z0 counts as zero, default 1e-13 */
+    const double *cover; /* n, > 0: covering vector d; NULL: ones; borrowed */
     rb_lcp_rule rule;
-    rb_lcp_trace *trace;  /* NULL: none */
+    rb_lcp_trace *trace; /* NULL: none */
     void *trace_context;
-    int trace_tableau;    /* 1: hand the whole tableau to trace (slow) */
+    int trace_tableau; /* 1: hand the whole tableau to trace (slow) */
 } rb_lcp_options;
 
 typedef struct {

@@ -11,6 +11,9 @@
  * closer than this, relative to the step or to max |q| / max |a|, count as tied. */
 static const double NOISE = 1e-12, TIE = 1e-13;
 
+/* The constants are refined whenever z0 has fallen by this factor. */
+static const double REFRESH = 1e-3;
+
 typedef struct {
     int n;
     const double *M, *q, *cover;
@@ -20,13 +23,13 @@ typedef struct {
     double *a, *other; /* n: driving column; a column of the lexicographic comparison */
     double *image;     /* n x (n + 2) for the trace, or NULL */
     int *tied;         /* n: rows that tie */
-    double start;      /* z0 after the first pivot */
+    double start, refreshed; /* z0 after the first pivot, at the last refresh */
     rb_lcp_info *info;
 } lemke;
 
 rb_lcp_options rb_lcp_defaults(void)
 {
-    return (rb_lcp_options){.tol = 1e-11, .rule = RB_LCP_LEXICOGRAPHIC};
+    return (rb_lcp_options){.tol = 1e-13, .rule = RB_LCP_LEXICOGRAPHIC};
 }
 
 /* ---- Input ----------------------------------------------------------------------- */
@@ -205,6 +208,37 @@ static int pivot(lemke *l, int row, int entering)
     return leaving;
 }
 
+/* q + M z + d z0 - w of the basic point, which is zero but for the pivots' rounding. */
+static void defect(lemke *l, double *z, double *r)
+{
+    const int n = l->n, *place = l->t.place;
+    const double z0 = z0_value(l);
+    for (int i = 0; i < n; i++)
+        z[i] = place[n + i] >= 0 ? l->t.q[place[n + i]] : 0.0;
+    rb_lcp_residual(n, l->M, l->ldm, l->q, z, r);
+    for (int i = 0; i < n; i++)
+        r[i] += cover_of(l, i) * z0 - (place[i] >= 0 ? l->t.q[place[i]] : 0.0);
+}
+
+/* One step of iterative refinement of the constants: the tableau's columns of w hold
+ * minus the basis inverse.  Without it z0 drowns in rounding just when it should vanish.
+ */
+static void refresh(lemke *l)
+{
+    const int n = l->n, *place = l->t.place;
+    double *r = l->a;
+    defect(l, l->other, r);
+    rb_lcp_tableau_flush(&l->t);
+    for (int i = 0; i < n; i++)
+        if (place[i] >= 0)
+            l->t.q[place[i]] += r[i];
+    for (int i = 0; i < n; i++)
+        if (place[i] < 0)
+            cblas_daxpy(n, -r[i], l->t.T + (size_t)(-1 - place[i]) * (size_t)n, 1, l->t.q,
+                        1);
+    l->refreshed = z0_value(l);
+}
+
 static rb_status ray(lemke *l, int entering)
 {
     const int n = l->n;
@@ -229,7 +263,9 @@ static rb_status follow_path(lemke *l)
             return ray(l, entering);
         const int leaving = pivot(l, row, entering);
         if (entering == z0)
-            l->start = z0_value(l);
+            l->start = l->refreshed = z0_value(l);
+        if (leaving != z0 && z0_value(l) <= REFRESH * l->refreshed)
+            refresh(l);
         if (leaving == z0 || z0_value(l) <= l->opt.tol * l->start)
             return RB_OK;
         if (l->info->iters >= l->opt.max_iters)
@@ -330,8 +366,6 @@ rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
         l.info->res = rb_lcp_residual(n, M, ldm, q, z, NULL);
         if (s == RB_OK)
             polish(&l, z, l.t.q);
-    } else {
-        s = RB_ENOMEM;
     }
     rb_lcp_tableau_free(&l.t);
     free(l.a);
