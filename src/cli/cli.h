@@ -17,10 +17,15 @@
 /* ---- Commands -------------------------------------------------------------------- */
 
 int cli_solve(int argc, char **argv); /* the default command */
+int cli_verify(int argc, char **argv);
 int cli_help(int argc, char **argv);
 
 /* Calls the command of that name; its exit code, or CLI_USAGE when there is none. */
 int cli_run(const char *name, int argc, char **argv);
+
+/* Tries every command's name. */
+struct cli_guess;
+void cli_guess_command(struct cli_guess *guess);
 
 /* The command line as typed, quoted for a shell where needed. */
 const char *cli_command_line(void);
@@ -50,7 +55,7 @@ cli_exit
 cli_fail(cli_exit code, const char *format, ...);
 
 /* The candidate nearest to a misspelt word.  Start with {.word = word}. */
-typedef struct {
+typedef struct cli_guess {
     const char *word, *best;
     int distance;
 } cli_guess;
@@ -126,7 +131,7 @@ typedef struct {
 } cli_option;
 
 /* A table and the struct its values go to.  given: n entries, 0 default, -1 command line,
- * k > 0 line k of the case file; NULL when nobody asks. */
+ * k > 0 line k of the case file; NULL for commands without case files. */
 typedef struct {
     const cli_option *options;
     int n;

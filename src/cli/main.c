@@ -13,6 +13,8 @@ static const struct {
     int (*run)(int argc, char **argv);
     const char *help;
 } commands[] = {
+    {"verify", cli_verify,
+     "every reference that the program should meet, and how it does"},
     {"help", cli_help, "this list, or the options of one command"},
 };
 
@@ -25,14 +27,19 @@ const char *cli_command_line(void)
     return command_line ? command_line : "rollbem";
 }
 
+void cli_guess_command(cli_guess *guess)
+{
+    for (int i = 0; i < COMMANDS; i++)
+        cli_guess_try(guess, commands[i].name);
+}
+
 int cli_run(const char *name, int argc, char **argv)
 {
     cli_guess guess = {.word = name};
-    for (int i = 0; i < COMMANDS; i++) {
+    for (int i = 0; i < COMMANDS; i++)
         if (strcmp(name, commands[i].name) == 0)
             return commands[i].run(argc, argv);
-        cli_guess_try(&guess, commands[i].name);
-    }
+    cli_guess_command(&guess);
     return cli_fail(CLI_USAGE, "unknown command '%s'%s", name,
                     cli_guess_text(&guess, ""));
 }

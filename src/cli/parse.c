@@ -213,6 +213,15 @@ static int known_section(const cli_spec *spec, const char *name, cli_guess *gues
     return 0;
 }
 
+static cli_exit unknown_section(const ini_state *st, const char *section)
+{
+    cli_guess guess = {.word = section};
+    if (*section == '\0' || known_section(st->spec, section, &guess))
+        return CLI_CONTINUE;
+    return cli_fail(CLI_DATA, "%s:%d: unknown section '%s'%s", st->path, st->line,
+                    section, cli_guess_text(&guess, ""));
+}
+
 static cli_exit check_section(const ini_state *st, found_option f, const char *section)
 {
     const char *wanted = section_of(f);
@@ -222,24 +231,16 @@ static cli_exit check_section(const ini_state *st, found_option f, const char *s
                     st->path, st->line, option_of(f)->name, wanted, section);
 }
 
-static cli_exit unknown_key(const ini_state *st, const char *section, const char *name,
-                            const cli_guess *guess)
-{
-    cli_guess near = {.word = section};
-    if (*section && !known_section(st->spec, section, &near))
-        return cli_fail(CLI_DATA, "%s:%d: unknown section '%s'%s", st->path, st->line,
-                        section, cli_guess_text(&near, ""));
-    return cli_fail(CLI_DATA, "%s:%d: unknown key '%s'%s", st->path, st->line, name,
-                    cli_guess_text(guess, ""));
-}
-
 static cli_exit set_key(ini_state *st, const char *section, const char *name,
                         const char *value)
 {
     cli_guess guess = {.word = name};
     const found_option f = find_option(st->spec, name, strlen(name), &guess);
+    if (unknown_section(st, section) != CLI_CONTINUE)
+        return CLI_DATA;
     if (!f.set)
-        return unknown_key(st, section, name, &guess);
+        return cli_fail(CLI_DATA, "%s:%d: unknown key '%s'%s", st->path, st->line, name,
+                        cli_guess_text(&guess, ""));
     if (check_section(st, f, section) != CLI_CONTINUE)
         return CLI_DATA;
     const int before = f.set->given ? f.set->given[f.index] : 0;
@@ -270,8 +271,12 @@ cli_exit cli_read_ini(const cli_spec *spec, const char *path, cli_args *args)
 {
     ini_state st = {.spec = spec, .path = path, .args = args, .code = CLI_CONTINUE};
     st.file = fopen(path, "r");
-    if (!st.file)
-        return cli_fail(CLI_NOINPUT, "%s: %s", path, strerror(errno));
+    if (!st.file) {
+        cli_guess guess = {.word = path};
+        cli_guess_command(&guess);
+        return cli_fail(CLI_NOINPUT, "%s: %s%s", path, strerror(errno),
+                        cli_guess_text(&guess, ""));
+    }
     const int bad_line = ini_parse_stream(read_line, &st, handle_key, &st);
     if (ferror(st.file))
         st.code = cli_fail(CLI_NOINPUT, "%s: %s", path, strerror(errno));

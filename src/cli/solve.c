@@ -179,12 +179,13 @@ int cli_solve(int argc, char **argv)
 {
     cli_case c;
     output_options o = {0};
+    int given[OPTIONS] = {0};
     cli_args args = {0};
     cli_case_defaults(&c);
     const cli_spec spec = {"rollbem [OPTION...] [CASE.ini]",
                            about,
                            notes,
-                           {cli_case_set(&c), {options, OPTIONS, &o, NULL}},
+                           {cli_case_set(&c), {options, OPTIONS, &o, given}},
                            2};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE)

@@ -73,8 +73,10 @@ static void print_forces(FILE *out, const rb_rolling_solution *s)
             s->tangential_load);
     if (!isnan(s->force_ratio))
         fprintf(out, ", Q/(mu P) = %.5g", s->force_ratio);
-    fprintf(out, "\n  contact   %.5g ... %.5g mm, p0 = %.6g MPa, approach %.5g mm\n",
-            s->contact_from, s->contact_to, s->max_pressure, s->approach);
+    fputc('\n', out);
+    if (s->contact > 0)
+        fprintf(out, "  contact   %.5g ... %.5g mm, p0 = %.6g MPa, approach %.5g mm\n",
+                s->contact_from, s->contact_to, s->max_pressure, s->approach);
 }
 
 static void print_motion(FILE *out, const rb_rolling_solution *s)

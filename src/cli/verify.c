@@ -1,0 +1,38 @@
+/* rollbem verify: references, wanted and got. */
+#include "cli/cli.h"
+
+#include "rollbem/report.h"
+
+static void print_check(const rb_report_check *c, void *context)
+{
+    int *count = context;
+    ++*count;
+    printf("%-6s %-56s wanted %-12.6g got %-12.6g %s %-8.2g bound %.2g",
+           c->holds ? "ok" : "WRONG", c->what, c->wanted, c->got,
+           c->relative ? "rel. error" : "error     ", c->error, c->bound);
+    if (c->why)
+        printf("  (%s)", c->why);
+    putchar('\n');
+}
+
+int cli_verify(int argc, char **argv)
+{
+    static const cli_spec spec = {
+        .synopsis = "rollbem verify",
+        .about =
+            "Computes every closed-form and published reference of docs/theory.md 6 and\n"
+            "prints what was wanted, what came out, the error and its bound, one line\n"
+            "each. Exit code 0 only if all hold."};
+    cli_args args = {0};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE && args.operands > 0)
+        code = cli_fail(CLI_USAGE, "verify: unexpected '%s'", args.operand[0]);
+    if (code == CLI_CONTINUE) {
+        int count = 0;
+        const int failed = rb_report_verify(print_check, &count);
+        printf("%d of %d references hold\n", count - failed, count);
+        code = failed ? CLI_UNSOLVED : CLI_OK;
+    }
+    cli_args_free(&args);
+    return code;
+}

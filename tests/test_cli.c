@@ -1,0 +1,476 @@
+/* The program as its users meet it: exit codes, the one line of each error, whole files
+ * or none, the same numbers in every format.  B: the build directory, default build. */
+#include "check.h"
+#include "rollbem/base.h"
+
+#include <jansson.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char program[600], folder[] = "/tmp/rollbem-cli-XXXXXX";
+static char out[400000], err[20000];
+
+/* A quick, exact case. */
+#define QUICK "--support halfplane --load 100 --contact-elements 24"
+
+static void slurp(const char *name, char *text, size_t size)
+{
+    FILE *file = fopen(name, "r");
+    assert_non_null(file);
+    text[fread(text, 1, size - 1, file)] = '\0';
+    fclose(file);
+}
+
+/* Runs a shell line in the test's folder where $R is the program; stdout and stderr land
+ * in out and err.  The exit code. */
+static int shell(const char *line)
+{
+    char command[3000];
+    snprintf(command, sizeof command, "R='%s'; { %s ; } >out 2>err", program, line);
+    const int status = system(command);
+    assert_true(WIFEXITED(status));
+    slurp("out", out, sizeof out);
+    slurp("err", err, sizeof err);
+    return WEXITSTATUS(status);
+}
+
+static int rollbem(const char *arguments)
+{
+    char line[2500];
+    snprintf(line, sizeof line, "\"$R\" %s", arguments);
+    return shell(line);
+}
+
+static void write_file(const char *name, const char *text)
+{
+    FILE *file = fopen(name, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Nothing on stdout, exactly one line on stderr, containing `part`. */
+static void check_refused(const char *arguments, int code, const char *part)
+{
+    const int got = rollbem(arguments);
+    const size_t n = strlen(err);
+    if (got != code || strncmp(err, "rollbem: ", 9) != 0 || !strstr(err, part) ||
+        strchr(err, '\n') != err + n - 1 || out[0])
+        print_error("rollbem %s\nexit %d, want %d with '%s'; stderr: %s\n", arguments,
+                    got, code, part, err);
+    assert_int_equal(got, code);
+    assert_int_equal(strncmp(err, "rollbem: ", 9), 0);
+    assert_non_null(strstr(err, part));
+    assert_ptr_equal(strchr(err, '\n'), err + n - 1);
+    assert_string_equal(out, "");
+}
+
+/* ---- Errors on the command line ---------------------------------------------------- */
+
+static const struct {
+    const char *arguments;
+    int code;
+    const char *part;
+} bad_arguments[] = {
+    {"--mu -0.1", 64, "--mu: expected a number >= 0, got '-0.1'"},
+    {"--mu abc", 64, "--mu: expected a number >= 0, got 'abc'"},
+    {"--mu=", 64, "--mu: expected a number >= 0, got ''"},
+    {"--mu 0.3x", 64, "got '0.3x'"},
+    {"--mu ' 0.3'", 64, "got ' 0.3'"},
+    {"--mu nan", 64, "got 'nan'"},
+    {"--mu inf", 64, "got 'inf'"},
+    {"--mu 1e999", 64, "got '1e999'"},
+    {"--mu", 64, "--mu: expected a number >= 0, got nothing"},
+    {"--poisson 0.51", 64, "--poisson: expected a number in (-1, 0.5], got '0.51'"},
+    {"--poisson -1", 64, "--poisson: expected a number in (-1, 0.5], got '-1'"},
+    {"--radius 0", 64, "--radius: expected a number > 0, got '0'"},
+    {"--radius -50", 64, "--radius: expected a number > 0, got '-50'"},
+    {"--young 0", 64, "--young: expected a number > 0, got '0'"},
+    {"--load 0", 64, "--load: expected a number > 0"},
+    {"--hub-ratio 1", 64, "--hub-ratio: expected a number in (0, 1), got '1'"},
+    {"--arc 91", 64, "--arc: expected a number in (0, 90], got '91'"},
+    {"--zone -1", 64, "--zone: expected a number > 0 or auto, got '-1'"},
+    {"--contact-elements 60.5", 64, "--contact-elements: expected a whole number"},
+    {"--contact-elements 99999999999", 64, "--contact-elements: expected a whole number"},
+    {"--contact-elements 2", 64, "--contact-elements: expected a whole number >= 3"},
+    {"--formulation stedy", 64, "--formulation: expected static"},
+    {"--support hook", 64, "--support: expected arc, hub or halfplane, got 'hook'"},
+    {"--json=perhaps", 64, "--json: expected yes or no, got 'perhaps'"},
+    {"--crep 0.1", 64, "unknown option '--crep' (did you mean '--creep'?)"},
+    {"--raduis 5", 64, "unknown option '--raduis' (did you mean '--radius'?)"},
+    {"--verzion", 64, "unknown option '--verzion' (did you mean '--version'?)"},
+    {"--xyzzy", 64, "unknown option '--xyzzy'\n"},
+    {"-m 0.3", 64, "unknown option '-m'"},
+    {"--output --json", 64, "--output: expected a name, got nothing"},
+    {"--approach 1 --load 5", 64, "--approach and --load exclude each other"},
+    {"--load 5 --half-width=1", 64, "--load and --half-width exclude each other"},
+    {"--creep 0.1 --creep-ratio 1", 64, "--creep and --creep-ratio exclude each other"},
+    {"--shift 1 --force 1", 64, "--shift and --force exclude each other"},
+    {"--formulation steady --creep 0.1 --force 1", 64,
+     "--creep and --force exclude each other"},
+    {"--formulation steady --shift 1", 64, "shift"},
+    {"--similar --young-b 1000", 64, "--similar and --young-b exclude each other"},
+    {"--radius-b 50", 64, "--radius-b: body B is rigid without --similar or --young-b"},
+    {"--plot a.bmp", 64, "--plot: expected a name ending in .png, .svg or .pdf"},
+    {"--gap nowhere.txt", 66, "nowhere.txt"},
+    {"nowhere.ini", 66, "nowhere.ini: No such file"},
+    {"verfy", 66, "(did you mean 'verify'?)"},
+    {"help nothing", 64, "unknown command 'nothing'"},
+    {"--contact-elements 10000000 --zone 10", 64, "10000000 contact"},
+    {"--force-ratio 1.5", 64, "--force-ratio: expected a number in [-1, 1]"},
+};
+
+static void bad_arguments_are_refused(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof bad_arguments / sizeof bad_arguments[0]; k++)
+        check_refused(bad_arguments[k].arguments, bad_arguments[k].code,
+                      bad_arguments[k].part);
+}
+
+static void two_case_files_are_refused(void **state)
+{
+    (void)state;
+    check_refused("a.ini b.ini", 64, "'a.ini' and 'b.ini'");
+    check_refused("-- --mu", 66, "--mu: No such file");
+}
+
+/* ---- Errors in case files ---------------------------------------------------------- */
+
+static const struct {
+    const char *text;
+    const char *part;
+} bad_files[] = {
+    {"[friction]\nmu = 0.3\ncrep = 0.1\n", "case.ini:3: unknown key 'crep' (did you mean "
+                                           "'creep'?)"},
+    {"[frction]\nmu = 0.3\n", "case.ini:2: unknown section 'frction' (did you mean "
+                              "'friction'?)"},
+    {"[normal]\nmu = 0.3\n", "case.ini:2: key 'mu' belongs to section [friction], not "
+                             "[normal]"},
+    {"# a comment\n\n  mu = abc\n", "case.ini:3: mu: expected a number >= 0, got 'abc'"},
+    {"mu = nan\n", "case.ini:1: mu: expected a number >= 0, got 'nan'"},
+    {"mu = 0.1\nmu = 0.2\n", "case.ini:2: key 'mu' was given before, in line 1"},
+    {"mu = 0.1\nnonsense\n", "case.ini:2: expected [section] or key = value"},
+    {"approach = 1\nload = 5\n", "case.ini:1: approach and case.ini:2: load exclude"},
+    {"formulation = steady\nshift = 1\n", "case.ini: shift"},
+    {"contact-elements = 10000000\nzone = 10\n", "case.ini: 10000000 contact"},
+};
+
+static void bad_files_are_refused_with_their_line(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof bad_files / sizeof bad_files[0]; k++) {
+        write_file("case.ini", bad_files[k].text);
+        check_refused("case.ini", 65, bad_files[k].part);
+    }
+}
+
+static void long_line_is_refused(void **state)
+{
+    (void)state;
+    char text[1200] = "mu = 0.3\nradius = ";
+    memset(text + strlen(text), '1', 900);
+    write_file("case.ini", text);
+    check_refused("case.ini", 65, "case.ini:2: line too long");
+}
+
+static void bad_profile_is_refused(void **state)
+{
+    (void)state;
+    write_file("gap.txt", "0 1\n1 x\n");
+    check_refused("--gap gap.txt", 65, "gap.txt:2: expected a number, got 'x'");
+}
+
+/* ---- Case files against options ---------------------------------------------------- */
+
+static json_t *solve_json(const char *arguments)
+{
+    char line[1000];
+    snprintf(line, sizeof line, "%s --json --quiet", arguments);
+    const int code = rollbem(line);
+    if (code)
+        print_error("rollbem %s: %s\n", line, err);
+    assert_int_equal(code, 0);
+    json_t *root = json_loads(out, 0, NULL);
+    assert_non_null(root);
+    return root;
+}
+
+static double member(const json_t *root, const char *group, const char *name)
+{
+    const json_t *value = json_object_get(json_object_get(root, group), name);
+    return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+static void case_file_equals_options(void **state)
+{
+    (void)state;
+    write_file("case.ini", "[body-a]\nsupport = halfplane\nradius = 40 ; mm\n"
+                           "[normal]\n  load = 100\n[mesh]\n  contact-elements = 24\n"
+                           "[friction]\n\tmu=0.2\n");
+    json_t *a = solve_json("case.ini");
+    json_t *b = solve_json(QUICK " --radius 40 --mu=0.2");
+    assert_int_equal(
+        json_equal(json_object_get(a, "inputs"), json_object_get(b, "inputs")), 1);
+    assert_int_equal(json_equal(json_object_get(a, "table"), json_object_get(b, "table")),
+                     1);
+    json_decref(a);
+    json_decref(b);
+}
+
+static void command_line_wins_over_the_file(void **state)
+{
+    (void)state;
+    write_file("case.ini", "support = halfplane\nload = 100\nmu = 0.2\n"
+                           "contact-elements = 24\n");
+    json_t *root = solve_json("--mu 0.4 case.ini --half-width 0.3");
+    CHECK_ABS(member(root, "inputs", "mu"), 0.4, 0.0, "mu");
+    CHECK_ABS(member(root, "inputs", "half-width"), 0.3, 0.0, "half-width");
+    assert_true(isnan(member(root, "inputs", "load"))); /* of the same group */
+    CHECK_REL(member(root, "summary", "hertz_half_width"), 0.3, 1e-9, "half-width");
+    json_decref(root);
+}
+
+static void output_options_stand_in_the_file_too(void **state)
+{
+    (void)state;
+    write_file("case.ini", "support = halfplane\nload = 100\ncontact-elements = 24\n"
+                           "[output]\njson = yes\nquiet = yes\n");
+    assert_int_equal(rollbem("case.ini"), 0);
+    assert_int_equal(out[0], '{');
+    assert_string_equal(err, "");
+    assert_int_equal(rollbem("--json=no case.ini"), 0);
+    assert_int_equal(out[0], '#');
+}
+
+/* ---- Results ----------------------------------------------------------------------- */
+
+static void json_and_table_hold_the_same_numbers(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"x_mm",  "h_mm",  "gap_mm",   "p_MPa",  "q_MPa",
+                                        "un_mm", "ut_mm", "shift_mm", "slip_1", "zone"};
+    json_t *root = solve_json(QUICK " --shift 0.001");
+    const json_t *table = json_object_get(root, "table");
+    assert_int_equal(rollbem(QUICK " --shift 0.001 --header=bare --quiet"), 0);
+    assert_string_equal(err, "");
+    char *line = strtok(out, "\n");
+    assert_string_equal(line, "x_mm\th_mm\tgap_mm\tp_MPa\tq_MPa\tun_mm\tut_mm\tshift_mm\t"
+                              "slip_1\tzone");
+    size_t row = 0;
+    for (line = strtok(NULL, "\n"); line; line = strtok(NULL, "\n"), row++)
+        for (int j = 0; j < 10; j++) {
+            const json_t *column = json_object_get(table, names[j]);
+            CHECK_ABS(strtod(line, &line), json_number_value(json_array_get(column, row)),
+                      0.0, "%s row %zu", names[j], row);
+        }
+    assert_int_equal(row, 24);
+    assert_int_equal(json_array_size(json_object_get(table, "x_mm")), 24);
+    json_decref(root);
+}
+
+/* P and Q summed from the table; |q| <= mu p; slip_1 and zones by their words. */
+static void table_obeys_its_own_conventions(void **state)
+{
+    (void)state;
+    json_t *root = solve_json(QUICK " --formulation steady --creep-ratio 0.5 --mu 0.3");
+    const json_t *table = json_object_get(root, "table");
+    double P = 0.0, Q = 0.0;
+    for (size_t i = 0; i < 24; i++) {
+        const double h =
+            json_number_value(json_array_get(json_object_get(table, "h_mm"), i));
+        const double p =
+            json_number_value(json_array_get(json_object_get(table, "p_MPa"), i));
+        const double q =
+            json_number_value(json_array_get(json_object_get(table, "q_MPa"), i));
+        const int zone =
+            (int)json_integer_value(json_array_get(json_object_get(table, "zone"), i));
+        P += p * h;
+        Q += q * h;
+        assert_true(p >= 0.0);
+        CHECK_MAX(fabs(q), 0.3 * p + 1e-9, "row %zu", i);
+        if (zone == 2)
+            CHECK_ABS(q, -0.3 * p, 1e-9, "row %zu", i);
+        if (zone == 3)
+            CHECK_ABS(q, 0.3 * p, 1e-9, "row %zu", i);
+        if (zone == 0)
+            CHECK_ABS(p, 0.0, 0.0, "row %zu", i);
+    }
+    CHECK_REL(P, 100.0, 1e-9, "P");
+    CHECK_REL(Q, member(root, "summary", "tangential_load"), 1e-12, "Q");
+    assert_true(Q < 0.0); /* braked */
+    json_decref(root);
+}
+
+static void header_names_the_command(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem(QUICK " --gap exact --quiet -- "), 0);
+    assert_non_null(strstr(out, "# rollbem " RB_VERSION "\n"));
+    assert_non_null(strstr(out, "--contact-elements 24 --gap exact --quiet --\n"));
+    write_file("it's.ini", "support = halfplane\nload = 100\ncontact-elements = 24\n");
+    assert_int_equal(rollbem("\"it's.ini\""), 0);
+    assert_non_null(strstr(out, "# rollbem 'it'\\''s.ini'\n"));
+}
+
+static void readme_case_is_solved(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("--mu 0.3 --creep 0.1"), 0);
+    assert_non_null(strstr(err, "static: solved"));
+    assert_non_null(strstr(err, "S*"));
+    assert_non_null(strstr(err, "--formulation steady")); /* the note */
+}
+
+static void version_help_and_usage(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("--version"), 0);
+    assert_string_equal(out, "rollbem " RB_VERSION "\n");
+    assert_int_equal(rollbem("--help"), 0);
+    assert_non_null(strstr(out, "--creep-ratio X"));
+    assert_non_null(strstr(out, "braked"));
+    assert_non_null(strstr(out, "[MPa], > 0 (94500)"));
+    assert_int_equal(rollbem("--usage"), 0);
+    assert_non_null(strstr(out, "[--mu X]"));
+    assert_int_equal(rollbem("help"), 0);
+    assert_non_null(strstr(out, "rollbem verify"));
+    for (char *line = strtok(out, "\n"); line; line = strtok(NULL, "\n"))
+        CHECK_MAX((double)strlen(line), 100.0, "%s", line);
+}
+
+static void references_are_met(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("verify"), 0);
+    assert_null(strstr(out, "WRONG"));
+    assert_non_null(strstr(out, "Carter, s = 0.4"));
+    check_refused("verify now", 64, "unexpected 'now'");
+}
+
+static void not_solved_is_1(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("--approach 1e-9 --zone 5"), 1);
+    assert_non_null(strstr(err, "no contact"));
+    assert_null(strstr(err, "nan"));
+    assert_non_null(strstr(out, "# x_mm")); /* what there is, is printed */
+    assert_int_equal(rollbem("--approach 25 --zone 5"), 1);
+    assert_non_null(strstr(err, "zone"));
+}
+
+/* ---- Writing ----------------------------------------------------------------------- */
+
+static void output_is_whole_or_not_there(void **state)
+{
+    (void)state;
+    struct stat st;
+    assert_int_equal(rollbem(QUICK " --quiet --output table.tsv"), 0);
+    assert_string_equal(out, "");
+    assert_int_equal(stat("table.tsv", &st), 0);
+    assert_int_equal(rollbem(QUICK " --quiet"), 0);
+    static char table[100000];
+    slurp("table.tsv", table, sizeof table);
+    assert_string_equal(strstr(table, "x_mm"), strstr(out, "x_mm"));
+
+    check_refused(QUICK " --output /nonexistent/table.tsv", 73, "/nonexistent/table.tsv");
+    check_refused("--mu abc --output none.tsv", 64, "--mu");
+    assert_int_not_equal(stat("none.tsv", &st), 0);
+    check_refused("--formulation steady --shift 1 --output none.tsv", 64, "shift");
+    assert_int_not_equal(stat("none.tsv", &st), 0);
+    assert_int_equal(shell("ls | grep -c none"), 1); /* nor a temporary file */
+}
+
+static void full_device_is_73(void **state)
+{
+    (void)state;
+    if (access("/dev/full", W_OK) != 0)
+        skip();
+    assert_int_equal(shell("\"$R\" " QUICK " --quiet >/dev/full"), 73);
+    assert_non_null(strstr(err, "No space left"));
+    assert_int_equal(shell("\"$R\" --help >/dev/full"), 73);
+    assert_int_equal(shell("\"$R\" " QUICK " --quiet --json >/dev/full"), 73);
+    assert_int_equal(rollbem(QUICK " --quiet --output /dev/full"), 73);
+}
+
+/* The reader is gone before anything is written. */
+static void closed_pipe_is_73(void **state)
+{
+    (void)state;
+    assert_int_equal(shell("{ sleep 0.2; \"$R\" " QUICK
+                           " --quiet; echo $? >code; } | true; "
+                           "sleep 0.4; exit $(cat code)"),
+                     73);
+    assert_non_null(strstr(err, "roken pipe"));
+}
+
+static void pictures_are_written_or_not_there(void **state)
+{
+    (void)state;
+    struct stat st;
+    assert_int_equal(rollbem(QUICK " --quiet --plot picture.png"), 0);
+    assert_int_equal(stat("picture.png", &st), 0);
+    assert_true(st.st_size > 10000);
+    /* a name full of what shells and gnuplot would read */
+    assert_int_equal(rollbem(QUICK " --quiet --plot \"a'b;touch x \\$(touch y).svg\""),
+                     0);
+    assert_int_equal(stat("a'b;touch x $(touch y).svg", &st), 0);
+    assert_int_not_equal(stat("x", &st), 0);
+    assert_int_not_equal(stat("y", &st), 0);
+    assert_int_equal(rollbem(QUICK " --quiet --plot /nonexistent/a.png"), 73);
+    assert_int_equal(shell("PATH=/nonexistent \"$R\" " QUICK " --quiet --plot none.png"),
+                     70);
+    assert_non_null(strstr(err, "gnuplot is not installed"));
+    assert_int_not_equal(stat("none.png", &st), 0);
+}
+
+/* ---- The run ----------------------------------------------------------------------- */
+
+static int enter_folder(void **state)
+{
+    (void)state;
+    const char *build = getenv("B") ? getenv("B") : "build";
+    char here[400];
+    assert_non_null(getcwd(here, sizeof here));
+    if (build[0] == '/')
+        snprintf(program, sizeof program, "%s/rollbem", build);
+    else
+        snprintf(program, sizeof program, "%s/%s/rollbem", here, build);
+    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int leave_folder(void **state)
+{
+    (void)state;
+    char command[100];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return chdir("/") == 0 ? system(command) : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_arguments_are_refused),
+        cmocka_unit_test(two_case_files_are_refused),
+        cmocka_unit_test(bad_files_are_refused_with_their_line),
+        cmocka_unit_test(long_line_is_refused),
+        cmocka_unit_test(bad_profile_is_refused),
+        cmocka_unit_test(case_file_equals_options),
+        cmocka_unit_test(command_line_wins_over_the_file),
+        cmocka_unit_test(output_options_stand_in_the_file_too),
+        cmocka_unit_test(json_and_table_hold_the_same_numbers),
+        cmocka_unit_test(table_obeys_its_own_conventions),
+        cmocka_unit_test(header_names_the_command),
+        cmocka_unit_test(readme_case_is_solved),
+        cmocka_unit_test(version_help_and_usage),
+        cmocka_unit_test(references_are_met),
+        cmocka_unit_test(not_solved_is_1),
+        cmocka_unit_test(output_is_whole_or_not_there),
+        cmocka_unit_test(full_device_is_73),
+        cmocka_unit_test(closed_pipe_is_73),
+        cmocka_unit_test(pictures_are_written_or_not_there),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
