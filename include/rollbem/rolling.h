@@ -122,6 +122,8 @@ typedef struct {
                       */
     double load, delta, force, force_ratio, xi;
 
+    int coupled; /* 0: pressure causes no slip and friction no gap (similar half-planes)
+                  */
     double stress, gap_length, slip_length; /* scales of r, y_N, lambda (4.4) */
 } rb_rolling_problem;
 
@@ -280,6 +282,50 @@ rb_status rb_rolling_free_creepage(const rb_rolling_model *model, double *creepa
 /* Tractions, slip, zones, forces and the proof of them. */
 rb_status rb_rolling_model_solution(const rb_rolling_model *model,
                                     rb_rolling_solution *solution, rb_message *why);
+
+/* ---- Histories: static increments and transient rolling -------------------------------
+ */
+
+/* Controls along the way, one row each; a NULL column keeps the value of the case.
+ * Without distance: increments of a static history.  With distance (in Hertz half-widths,
+ * not decreasing): rows at distance 0 are static increments, the others are rolled to,
+ * with load, approach and force linear in between and the creepage of each step its mean.
+ */
+typedef struct {
+    int n;
+    const double *distance;
+    const double *load, *approach;                                   /* at most one */
+    const double *shift, *creep, *creep_ratio, *force, *force_ratio; /* at most one */
+} rb_rolling_program;                                                /* all borrowed */
+
+/* One entry per step. */
+typedef struct {
+    int n;
+    double *distance; /* rolled, at the end of the step, in half-widths; owned, as all */
+    double *creepage; /* mean over the step (transient) */
+    double *shift;    /* rigid shift so far (static steps) [length] */
+    double *approach, *normal_load, *tangential_load, *force_ratio;
+    double *residual;
+    int *stick, *slipping; /* elements */
+    double step;           /* c [length]; 0 in a static history */
+    int steady_from;       /* first step of the steady state that the end is in, or -1 */
+} rb_rolling_history;
+
+void rb_rolling_history_free(rb_rolling_history *history);
+
+/* Sees the model after every step; a value other than 0 ends the run. */
+typedef int rb_rolling_step(const rb_rolling_model *model,
+                            const rb_rolling_history *history, int step, int steps,
+                            void *context);
+
+/* Runs the program (NULL: the case's own controls, rolled over rc->distance).  Transient
+ * steps: rc->steps of equal length, or of one element where that is 0; other lengths than
+ * one element need half-planes.  model and history: overwritten, hold the finished steps
+ * also on RB_INTERRUPTED and other positive ends; free them in any case. */
+rb_status rb_rolling_history_run(const rb_rolling_case *rc,
+                                 const rb_rolling_program *program, rb_rolling_step *step,
+                                 void *context, rb_rolling_model *model,
+                                 rb_rolling_history *history, rb_message *why);
 
 /* From case to solution in one call.  On a positive status the solution holds what there
  * is.  solution: overwritten; free it in any case. */

@@ -13,7 +13,7 @@ void rb_rolling_bodies_free(rb_rolling_bodies *bodies)
     memset(bodies, 0, sizeof *bodies);
 }
 
-static double datum_of(const rb_rolling_body *body, double radius)
+double rb_rolling_datum(const rb_rolling_body *body, double radius)
 {
     return body->datum > 0.0 ? body->datum : 2.0 * radius / M_E;
 }
@@ -60,7 +60,7 @@ static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_bo
     const double start = rb_seconds();
     const rb_status s = rb_bem_flexibility_halfplane(
         mesh->n, mesh->ends, rb_bem_material_from_young(body->young, body->poisson),
-        datum_of(body, radius), f, why);
+        rb_rolling_datum(body, radius), f, why);
     bodies->seconds_condense += rb_seconds() - start;
     return s;
 }

@@ -20,6 +20,19 @@ double rb_rolling_wanted_approach(const rb_rolling_case *rc);
 /* From the load by Hertz, from the approach by the compression of a half-cylinder. */
 double rb_rolling_estimate_half_width(const rb_rolling_case *rc);
 
+/* ---- bodies.c ------------------------------------------------------------------------
+ */
+
+/* The given datum of a half-plane, or 2R/e. */
+double rb_rolling_datum(const rb_rolling_body *body, double radius);
+
+/* ---- problem.c: what changes from step to step ----------------------------------------
+ */
+
+void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                         const rb_rolling_past *past, double step, rb_rolling_problem *p);
+void rb_rolling_set_control(const rb_rolling_case *rc, rb_rolling_problem *p);
+
 /* ---- newton.c ------------------------------------------------------------------------
  */
 
@@ -39,6 +52,8 @@ rb_status rb_rolling_newton(const rb_rolling_problem *problem, int warm,
 /* ---- model.c
  * --------------------------------------------------------------------------- */
 
+/* Solves the model's problem again, with the times and counts kept. */
+rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why);
 /* P of the state. */
 double rb_rolling_model_load(const rb_rolling_model *model);
 

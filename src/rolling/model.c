@@ -24,7 +24,7 @@ double rb_rolling_model_load(const rb_rolling_model *model)
            cblas_ddot(p->n, p->load_T, 1, model->state.q, 1);
 }
 
-static rb_status timed_solve(rb_rolling_model *model, int warm, rb_message *why)
+rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why)
 {
     const double start = rb_seconds();
     const rb_status s =
@@ -43,7 +43,7 @@ static rb_status timed_solve(rb_rolling_model *model, int warm, rb_message *why)
 static rb_status solve_ratio(rb_rolling_model *model, rb_message *why)
 {
     const rb_rolling_case *rc = &model->rc;
-    rb_status s = timed_solve(model, 0, why);
+    rb_status s = rb_rolling_model_resolve(model, 0, why);
 
     if (isnan(rc->creep_ratio) || rc->formulation == RB_STATIC ||
         model->problem.load_given)
@@ -54,7 +54,7 @@ static rb_status solve_ratio(rb_rolling_model *model, rb_message *why)
         if (fabs(xi - model->problem.xi) <= 1e-13 * fabs(xi))
             break;
         model->problem.xi = xi;
-        s = timed_solve(model, 1, why);
+        s = rb_rolling_model_resolve(model, 1, why);
     }
     return s;
 }

@@ -363,22 +363,32 @@ static void cold_start(const rb_rolling_problem *p, rb_rolling_state *state)
         state->zone[i] = RB_ZONE_STICK;
 }
 
+/* Normal problem with the friction held, tangential problem with the pressure held, in
+ * turn: exact after one round where the two are not coupled. */
+static rb_status alternate(const rb_rolling_problem *p, int rounds, workspace *ws,
+                           rb_rolling_state *state)
+{
+    rb_status s = RB_OK;
+
+    for (int round = 0; round < rounds && s >= 0 && s != RB_SINGULAR; round++) {
+        s = iterate(p, RB_NORMAL, ws, state);
+        if (s >= 0 && s != RB_SINGULAR)
+            s = iterate(p, RB_TANGENTIAL, ws, state);
+    }
+    return s;
+}
+
 rb_status rb_rolling_newton(const rb_rolling_problem *problem, int warm,
                             rb_rolling_state *state)
 {
     workspace ws = {rb_alloc((size_t)problem->n, 1), rb_alloc_int((size_t)problem->n)};
     rb_status s = ws.gap && ws.zone ? RB_OK : RB_ENOMEM;
 
-    if (s == RB_OK && !warm) {
+    if (s == RB_OK && !warm)
         cold_start(problem, state);
-        for (int round = 0; round < STAGGERED_ROUNDS && s >= 0 && s != RB_SINGULAR;
-             round++) {
-            s = iterate(problem, RB_NORMAL, &ws, state);
-            if (s >= 0 && s != RB_SINGULAR)
-                s = iterate(problem, RB_TANGENTIAL, &ws, state);
-        }
-    }
-    if (s >= 0)
+    if (s == RB_OK && (!warm || !problem->coupled))
+        s = alternate(problem, problem->coupled ? STAGGERED_ROUNDS : 1, &ws, state);
+    if (s >= 0 && problem->coupled)
         s = iterate(problem, RB_BOTH, &ws, state);
     free(ws.gap);
     free(ws.zone);

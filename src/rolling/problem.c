@@ -42,19 +42,26 @@ static double kinematic(rb_rolling_formulation formulation, const double *w, int
     return formulation == RB_STEADY ? w[i] - w[i + 1] : w[i];
 }
 
-/* The one function that knows the formulation: S = A [F_TN F_TT], d_T, e_T (K2). */
-static void set_kinematics(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                           const rb_rolling_past *past, double step,
-                           rb_rolling_problem *p)
+/* S = A [F_TN F_TT] (K2). */
+static void set_kinematic_operator(const rb_rolling_case *rc,
+                                   const rb_rolling_bodies *bodies, rb_rolling_problem *p)
 {
     const int n = p->n, m = n + 1;
-    const double *x = bodies->f.x, *w0_T = bodies->f.w0 + m;
 
     for (int j = 0; j < 2 * n; j++) {
         const double *w_T = bodies->F + (size_t)j * 2 * (size_t)m + m;
         for (int i = 0; i < n; i++)
             p->S[i + (size_t)j * n] = kinematic(rc->formulation, w_T, i);
     }
+}
+
+/* d_T and e_T (K2).  Here and in kinematic() lives the formulation. */
+void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                         const rb_rolling_past *past, double step, rb_rolling_problem *p)
+{
+    const int n = p->n, m = n + 1;
+    const double *x = bodies->f.x, *w0_T = bodies->f.w0 + m;
+
     for (int i = 0; i < n; i++) {
         p->d_T[i] = kinematic(rc->formulation, w0_T, i);
         if (past)
@@ -83,7 +90,7 @@ static void set_weights(const rb_rolling_case *rc, const rb_rolling_bodies *bodi
 
 /* Given values of theory.md 4.6.  The creepage ratio refers to the Hertz half-width of
  * the load: under approach control an estimate, which model.c corrects after a solve. */
-static void set_control(const rb_rolling_case *rc, rb_rolling_problem *p)
+void rb_rolling_set_control(const rb_rolling_case *rc, rb_rolling_problem *p)
 {
     const double P = rb_rolling_wanted_load(rc);
     const double a = rb_rolling_estimate_half_width(rc);
@@ -92,6 +99,7 @@ static void set_control(const rb_rolling_case *rc, rb_rolling_problem *p)
     p->load_given = !isnan(P);
     p->load = P;
     p->delta = rb_rolling_wanted_approach(rc);
+    p->force = p->force_ratio = p->xi = 0.0;
     p->force_given = rc->mu > 0.0 && (!isnan(rc->force) || !isnan(rc->force_ratio));
     if (p->force_given && !isnan(rc->force_ratio))
         p->force_ratio = rc->force_ratio;
@@ -146,6 +154,15 @@ static void set_scales(const rb_rolling_case *rc, rb_rolling_problem *p)
     p->slip_length = p->stress * fmax(friction, coupled_slip(p));
 }
 
+static int any_nonzero(int n, const double *M, int ld)
+{
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++)
+            if (M[i + (size_t)j * (size_t)ld] != 0.0)
+                return 1;
+    return 0;
+}
+
 rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
                                     const rb_rolling_mesh *mesh,
                                     const rb_rolling_bodies *bodies,
@@ -161,9 +178,12 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
     p->ldf = 2 * bodies->f.m;
     for (int i = 0; i < p->n; i++)
         p->d_N[i] = mesh->gap[i] + bodies->f.w0[i];
-    set_kinematics(rc, bodies, past, step, p);
+    set_kinematic_operator(rc, bodies, p);
+    rb_rolling_set_past(rc, bodies, past, step, p);
     set_weights(rc, bodies, p);
-    set_control(rc, p);
+    rb_rolling_set_control(rc, p);
     set_scales(rc, p);
+    p->coupled = any_nonzero(p->n, p->S, p->n) ||
+                 any_nonzero(p->n, p->F + (size_t)p->n * (size_t)p->ldf, p->ldf);
     return RB_OK;
 }
