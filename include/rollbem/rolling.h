@@ -62,6 +62,10 @@ typedef struct {
     rb_rolling_solver solver;
     rb_rolling_lcp_form lcp_form;
     double tol; /* of the scaled natural residual */
+
+    rb_lcp_trace *trace; /* sees every pivot of Lemke, with trace_context; NULL: nobody */
+    void *trace_context;
+    int trace_tableau; /* 1: with the whole tableau */
 } rb_rolling_case;
 
 rb_rolling_case rb_rolling_case_defaults(void);
@@ -155,6 +159,8 @@ typedef struct {
     rb_status status;
     rb_rolling_solver solver;
     rb_rolling_lcp_form lcp_form;
+    int mirrored; /* of the LCP that was solved */
+    double xi0;
     int iterations;
     double residual;
 } rb_rolling_state;
@@ -183,6 +189,10 @@ rb_status rb_rolling_lcp_create(const rb_rolling_problem *problem,
                                 rb_rolling_lcp_form form, int mirrored, double xi0,
                                 rb_rolling_lcp *lcp, rb_message *why);
 void rb_rolling_lcp_free(rb_rolling_lcp *lcp);
+/* The LCP that Lemke tries first, or the one that gave the state (not NULL). */
+rb_status rb_rolling_lcp_first(const rb_rolling_problem *problem,
+                               const rb_rolling_case *rc, const rb_rolling_state *state,
+                               rb_rolling_lcp *lcp, rb_message *why);
 /* p, q, delta, xi from z; lambda and zones are recomputed from the problem. */
 void rb_rolling_lcp_recover(const rb_rolling_problem *problem, const rb_rolling_lcp *lcp,
                             const double *z, rb_rolling_state *state);

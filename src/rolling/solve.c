@@ -82,9 +82,12 @@ typedef struct {
     double xi0;
 } attempt;
 
-static rb_status try_lemke(const rb_rolling_problem *problem, const attempt *at,
-                           rb_rolling_state *state, rb_message *why)
+enum { ATTEMPTS = 3 };
+
+static rb_status try_lemke(const rb_rolling_problem *problem, const rb_rolling_case *rc,
+                           const attempt *at, rb_rolling_state *state, rb_message *why)
 {
+    rb_lcp_options options = rb_lcp_defaults();
     rb_rolling_lcp lcp = {0};
     rb_lcp_info info = {0};
     rb_status s =
@@ -94,7 +97,10 @@ static rb_status try_lemke(const rb_rolling_problem *problem, const attempt *at,
     if (s == RB_OK && !z)
         s = RB_ENOMEM;
     if (s == RB_OK) {
-        s = rb_lcp_lemke(lcp.size, lcp.M, lcp.size, lcp.b, NULL, z, &info);
+        options.trace = rc->trace;
+        options.trace_context = rc->trace_context;
+        options.trace_tableau = rc->trace_tableau;
+        s = rb_lcp_lemke(lcp.size, lcp.M, lcp.size, lcp.b, &options, z, &info);
         state->iterations += info.iters;
         if (s < 0)
             rb_fail(why, s, "%s", info.msg.text);
@@ -102,6 +108,8 @@ static rb_status try_lemke(const rb_rolling_problem *problem, const attempt *at,
     if (s >= 0) {
         rb_rolling_lcp_recover(problem, &lcp, z, state);
         state->solver = RB_SOLVER_LEMKE;
+        state->mirrored = at->mirrored;
+        state->xi0 = at->xi0;
         const rb_status t = complete(problem, state);
         s = t < 0 ? t : s;
     }
@@ -122,23 +130,45 @@ static int slides_backwards(const rb_rolling_problem *problem)
 }
 
 /* Pivoted form in its own orientation, mirrored, then Kwak's (theory.md K5); Kwak's form
- * alone where the case asks for it. */
-static rb_status solve_lemke(const rb_rolling_problem *problem, const rb_rolling_case *rc,
-                             rb_rolling_state *state, rb_message *why)
+ * alone where the case asks for it.  Returns the number of the first one to try. */
+static int plan_attempts(const rb_rolling_problem *problem, const rb_rolling_case *rc,
+                         attempt at[ATTEMPTS])
 {
     const int backwards = slides_backwards(problem);
     const double xi0 = (backwards ? -1.0 : 1.0) * sliding_creepage(rc, problem);
-    const attempt attempts[] = {{RB_LCP_PIVOTED, backwards, xi0},
-                                {RB_LCP_PIVOTED, !backwards, xi0},
-                                {RB_LCP_KWAK, 0, xi0}};
+
+    at[0] = (attempt){RB_LCP_PIVOTED, backwards, xi0};
+    at[1] = (attempt){RB_LCP_PIVOTED, !backwards, xi0};
+    at[2] = (attempt){RB_LCP_KWAK, 0, xi0};
+    return rc->lcp_form == RB_LCP_KWAK ? 2 : 0;
+}
+
+static rb_status solve_lemke(const rb_rolling_problem *problem, const rb_rolling_case *rc,
+                             rb_rolling_state *state, rb_message *why)
+{
+    attempt at[ATTEMPTS];
     rb_status s = RB_RAY;
 
-    for (int k = rc->lcp_form == RB_LCP_KWAK ? 2 : 0; k < 3; k++) {
-        s = try_lemke(problem, &attempts[k], state, why);
+    for (int k = plan_attempts(problem, rc, at); k < ATTEMPTS; k++) {
+        s = try_lemke(problem, rc, &at[k], state, why);
         if (s < 0 || (s == RB_OK && state->residual <= rc->tol))
             return s;
     }
     return s;
+}
+
+rb_status rb_rolling_lcp_first(const rb_rolling_problem *problem,
+                               const rb_rolling_case *rc, const rb_rolling_state *state,
+                               rb_rolling_lcp *lcp, rb_message *why)
+{
+    attempt at[ATTEMPTS];
+    const int first = plan_attempts(problem, rc, at);
+
+    if (state && state->solver == RB_SOLVER_LEMKE)
+        return rb_rolling_lcp_create(problem, state->lcp_form, state->mirrored,
+                                     state->xi0, lcp, why);
+    return rb_rolling_lcp_create(problem, at[first].form, at[first].mirrored,
+                                 at[first].xi0, lcp, why);
 }
 
 static rb_status solve_newton(const rb_rolling_problem *problem, int warm,
