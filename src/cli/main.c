@@ -15,6 +15,7 @@ static const struct {
 } commands[] = {
     {"verify", cli_verify,
      "every reference that the program should meet, and how it does"},
+    {"lcp", cli_lcp, "solves linear complementarity problems from files"},
     {"help", cli_help, "this list, or the options of one command"},
 };
 

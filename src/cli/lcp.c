@@ -1,0 +1,302 @@
+/* rollbem lcp FILE...: Lemke's method on problems from files. */
+#include "cli/cli.h"
+
+#include "rollbem/io.h"
+#include "rollbem/lcp.h"
+#include "rollbem/report.h"
+
+#include <jansson.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+typedef struct {
+    double tol;
+    int max_pivots, rule, trace, solution, json;
+    const char *output;
+} lcp_options;
+
+static const cli_choice rules[] = {{"lexicographic", RB_LCP_LEXICOGRAPHIC},
+                                   {"first-index", RB_LCP_FIRST_INDEX},
+                                   {NULL, 0}};
+
+#define PLACE(member) offsetof(lcp_options, member)
+
+static const cli_option options[] = {
+    CLI_GROUP_LINE("solver", "Solver"),
+    CLI_NUMBER_LINE("tol", PLACE(tol), "", CLI_ABOVE(0.0),
+                    "residual that counts as solved, as a part of max |q|"),
+    CLI_INTEGER_LINE("max-pivots", PLACE(max_pivots), CLI_FROM_TO(1, 1e9),
+                     "iteration limit", .unset = "50 n + 1000"),
+    CLI_CHOICE_LINE("rule", PLACE(rule), rules,
+                    "which row leaves when ratios tie; first-index can cycle"),
+    CLI_GROUP_LINE("output", "Output"),
+    CLI_FLAG_LINE("trace", PLACE(trace), "every pivot"),
+    CLI_FLAG_LINE("solution", PLACE(solution), "z and w = M z + q"),
+    CLI_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
+    CLI_TEXT_LINE("output", PLACE(output), "FILE",
+                  "where the tables or JSON go, whole or not at all",
+                  .unset = "standard output"),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+static const char about[] =
+    "Solves linear complementarity problems z >= 0, w = M z + q >= 0, z'w = 0 by Lemke's "
+    "method.\n"
+    "FILE: text format of Siconos: n, matrix (dense, by blocks or sparse), q.";
+
+static const char notes[] =
+    "One line per file: its name, status, n, pivots, residual max |min(z, w)| recomputed "
+    "from z,\n"
+    "seconds. Pivots name the variables w(1) ... w(n), z(1) ... z(n) and the artificial "
+    "z0.\n"
+    "After a file that fails the others are still solved.\n"
+    "Exit codes, the largest of all files: 0 solved; 1 secondary ray, iteration limit or "
+    "residual\n"
+    "above the tolerance; 64 wrong command line; 65 malformed file; 66 no such file; 70 "
+    "internal;\n"
+    "73 cannot write.\n";
+
+typedef struct {
+    const lcp_options *o;
+    FILE *out;
+    json_t *problems, *pivots; /* JSON only; pivots of the present file */
+} lcp_run;
+
+typedef struct {
+    const char *file, *status;
+    int n; /* 0: not read */
+    rb_lcp_info info;
+    double floor, seconds;
+    double *M, *q, *z, *w; /* M, q borrowed; z, w owned */
+} lcp_result;
+
+/* ---- Trace ------------------------------------------------------------------------ */
+
+static const char *variable(int n, int v, char room[24])
+{
+    if (v == 2 * n)
+        return "z0";
+    snprintf(room, 24, "%c(%d)", v < n ? 'w' : 'z', v % n + 1);
+    return room;
+}
+
+static void trace(const rb_lcp_pivot *p, void *context)
+{
+    lcp_run *run = context;
+    char in[24], out[24];
+    const char *entering = variable(p->n, p->entering, in);
+    const char *leaving = variable(p->n, p->leaving, out);
+    if (run->pivots)
+        json_array_append_new(run->pivots,
+                              json_pack("{s:s, s:s, s:i, s:o, s:o}", "entering", entering,
+                                        "leaving", leaving, "row", p->row + 1, "ratio",
+                                        rb_report_json_number(p->ratio), "z0",
+                                        rb_report_json_number(p->z0)));
+    else
+        fprintf(run->out, "%d\t%s\t%s\t%d\t%.17g\t%.17g\n", p->pivot + 1, entering,
+                leaving, p->row + 1, p->ratio, p->z0);
+}
+
+/* ---- Output ----------------------------------------------------------------------- */
+
+static json_t *vector(int n, const double *x)
+{
+    return x ? rb_report_json_numbers(n, x) : json_null();
+}
+
+static void add_problem(lcp_run *run, const lcp_result *r)
+{
+    const int known = r->n > 0;
+    json_t *file = json_string(r->file), *p = json_object();
+    json_object_set_new(p, "file", file ? file : json_null());
+    json_object_set_new(p, "solver", json_string("lemke"));
+    json_object_set_new(p, "status", json_string(r->status));
+    json_object_set_new(p, "contacts", json_null());
+    json_object_set_new(p, "dimension", known ? json_integer(r->n) : json_null());
+    json_object_set_new(p, "iterations",
+                        known ? json_integer(r->info.iters) : json_null());
+    json_object_set_new(p, "residual", rb_report_json_number(r->info.res));
+    json_object_set_new(p, "floor", rb_report_json_number(r->floor));
+    json_object_set_new(p, "seconds", rb_report_json_number(r->seconds));
+    if (run->o->solution) {
+        json_object_set_new(p, "z", vector(r->n, r->z));
+        json_object_set_new(p, "w", vector(r->n, r->w));
+    }
+    if (run->pivots)
+        json_object_set(p, "pivots", run->pivots);
+    json_array_append_new(run->problems, p);
+}
+
+static void print_problem(lcp_run *run, const lcp_result *r)
+{
+    if (!r->n)
+        return;
+    if (run->o->trace)
+        fprintf(run->out, "\n\n# file\tstatus\tn\tpivots\tresidual\tseconds\n");
+    fprintf(run->out, "%s\t%s\t%d\t%d\t%.17g\t%.3g\n", r->file, r->status, r->n,
+            r->info.iters, r->info.res, r->seconds);
+    if (!run->o->solution || !r->z)
+        return;
+    fprintf(run->out, "\n\n# i\tz\tw\n");
+    for (int i = 0; i < r->n; i++)
+        fprintf(run->out, "%d\t%.17g\t%.17g\n", i + 1, r->z[i], r->w[i]);
+    fprintf(run->out, "\n\n");
+}
+
+/* ---- One file --------------------------------------------------------------------- */
+
+/* What rounding of the data allows at least: 1e-14 max (|M| z + |q|). */
+static double rounding_floor(int n, const double *M, const double *q, const double *z)
+{
+    double floor = 0.0;
+    for (int i = 0; i < n; i++) {
+        double size = fabs(q[i]);
+        for (int j = 0; j < n; j++)
+            size += fabs(M[(size_t)i + (size_t)j * (size_t)n]) * z[j];
+        floor = fmax(floor, 1e-14 * size);
+    }
+    return floor;
+}
+
+/* "solved" is what the recomputed residual says, not the method. */
+static cli_exit judge(const lcp_options *o, lcp_result *r, rb_status s)
+{
+    const double size = rb_norm_inf((size_t)r->n, r->q);
+    r->status = rb_status_text(s);
+    if (s != RB_OK)
+        return CLI_UNSOLVED;
+    if (r->info.res <= o->tol * size)
+        return CLI_OK;
+    r->status =
+        r->info.res <= r->floor ? "solved-to-rounding" : rb_status_text(RB_INACCURATE);
+    return r->info.res <= r->floor ? CLI_OK : CLI_UNSOLVED;
+}
+
+static cli_exit failed(lcp_result *r, rb_status s, const char *text)
+{
+    r->status = rb_status_text(s);
+    r->n = 0;
+    return cli_fail(cli_exit_of(s), "%s", text);
+}
+
+static cli_exit run_lemke(lcp_run *run, lcp_result *r)
+{
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.max_iters = run->o->max_pivots;
+    opt.rule = (rb_lcp_rule)run->o->rule;
+    opt.trace = run->o->trace ? trace : NULL;
+    opt.trace_context = run;
+    const double start = rb_seconds();
+    const rb_status s = rb_lcp_lemke(r->n, r->M, r->n, r->q, &opt, r->z, &r->info);
+    r->seconds = rb_seconds() - start;
+    if (s < 0)
+        return failed(r, s, r->info.msg.text);
+    rb_lcp_residual(r->n, r->M, r->n, r->q, r->z, r->w);
+    r->floor = rounding_floor(r->n, r->M, r->q, r->z);
+    const cli_exit code = judge(run->o, r, s);
+    if (code != CLI_OK)
+        cli_fail(code, "%s: %s", r->file, s == RB_OK ? r->status : r->info.msg.text);
+    return code;
+}
+
+static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
+{
+    r->n = p->n;
+    r->z = rb_alloc((size_t)p->n, 1);
+    r->w = rb_alloc((size_t)p->n, 1);
+    if (rb_io_matrix_to_dense(&p->M) != RB_OK || !r->z || !r->w)
+        return failed(r, RB_ENOMEM, "out of memory");
+    r->M = p->M.dense;
+    r->q = p->q;
+    if (run->o->trace && !run->pivots)
+        fprintf(run->out, "# pivot\tentering\tleaving\trow\tratio\tz0\n");
+    return run_lemke(run, r);
+}
+
+static cli_exit solve_file(lcp_run *run, const char *path)
+{
+    rb_io_lcp p;
+    rb_message why;
+    lcp_result r = {.file = path, .info = {.res = NAN}, .floor = NAN, .seconds = NAN};
+    cli_exit code;
+    run->pivots = run->o->json && run->o->trace ? json_array() : NULL;
+    const rb_status s = rb_io_siconos_read_lcp(path, &p, &why);
+    if (s == RB_OK)
+        code = solve_problem(run, &p, &r);
+    else
+        code = failed(&r, s, why.text);
+    if (run->o->json)
+        add_problem(run, &r);
+    else
+        print_problem(run, &r);
+    json_decref(run->pivots);
+    free(r.z);
+    free(r.w);
+    rb_io_lcp_free(&p);
+    return code;
+}
+
+/* ---- Command ---------------------------------------------------------------------- */
+
+static void print_head(const lcp_run *run)
+{
+    fprintf(run->out, "# rollbem %s\n# %s\n", RB_VERSION, cli_command_line());
+    if (!run->o->trace)
+        fprintf(run->out, "# file\tstatus\tn\tpivots\tresidual\tseconds\n");
+}
+
+static rb_status write_json(lcp_run *run)
+{
+    json_t *root = rb_report_json_start(cli_command_line());
+    json_object_set_new(root, "conventions",
+                        json_string("z >= 0, w = M z + q >= 0, z'w = 0"));
+    json_object_set(root, "problems", run->problems);
+    const rb_status s = rb_report_json_write(run->out, root);
+    json_decref(root);
+    return s;
+}
+
+static cli_exit solve_files(const lcp_options *o, int n, char **files)
+{
+    rb_io_writer w;
+    rb_message why;
+    rb_status s = rb_io_writer_open(o->output, &w, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    lcp_run run = {.o = o, .out = w.file, .problems = o->json ? json_array() : NULL};
+    cli_exit worst = CLI_OK;
+    if (!o->json)
+        print_head(&run);
+    for (int i = 0; i < n; i++) {
+        const cli_exit code = solve_file(&run, files[i]);
+        worst = code > worst ? code : worst;
+    }
+    if (o->json)
+        s = write_json(&run);
+    json_decref(run.problems);
+    if (s == RB_ENOMEM) {
+        rb_io_writer_abandon(&w);
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    }
+    s = rb_io_writer_commit(&w, &why); /* knows of failed writes */
+    return s == RB_OK ? worst : cli_fail(cli_exit_of(s), "%s", why.text);
+}
+
+int cli_lcp(int argc, char **argv)
+{
+    lcp_options o = {.tol = 1e-10};
+    cli_args args = {0};
+    const cli_spec spec = {"rollbem lcp [OPTION...] FILE...",
+                           about,
+                           notes,
+                           {{options, OPTIONS, &o, NULL}},
+                           1};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE && args.operands < 1)
+        code = cli_fail(CLI_USAGE, "lcp: expected at least one FILE");
+    if (code == CLI_CONTINUE)
+        code = solve_files(&o, args.operands, args.operand);
+    cli_args_free(&args);
+    return code;
+}

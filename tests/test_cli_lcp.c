@@ -1,0 +1,189 @@
+/* `rollbem lcp` as its users meet it.  B: the build directory, default build. */
+#define _XOPEN_SOURCE 700
+#include "check.h"
+
+#include <jansson.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char program[700], folder[] = "/tmp/rollbem-lcp-XXXXXX";
+static char out[20000], err[4000];
+
+static const char GOOD[] = "2\n0\n2\n2\n2 2\n2 1\n1 2\n-5 -6\n";
+static const char RAY[] = "1 0 1 1 1 1 -1 -1";
+static const char KOSTREVA[] = "3 0 3 3 3 3 1 0 2 2 1 0 0 2 1 -1 -1 -1";
+
+static void slurp(const char *name, char *text, size_t size)
+{
+    FILE *f = fopen(name, "r");
+    assert_non_null(f);
+    text[fread(text, 1, size - 1, f)] = '\0';
+    fclose(f);
+}
+
+static void put(const char *name, const char *text)
+{
+    FILE *f = fopen(name, "w");
+    assert_non_null(f);
+    fputs(text, f);
+    fclose(f);
+}
+
+static int lcp(const char *arguments)
+{
+    char line[1500];
+    snprintf(line, sizeof line, "'%s' lcp %s >out 2>err", program, arguments);
+    const int status = system(line);
+    assert_true(WIFEXITED(status));
+    slurp("out", out, sizeof out);
+    slurp("err", err, sizeof err);
+    return WEXITSTATUS(status);
+}
+
+static int enter_folder(void **state)
+{
+    (void)state;
+    char here[512];
+    const char *build = getenv("B");
+    if (!build || !*build)
+        build = "build";
+    if (!getcwd(here, sizeof here))
+        return -1;
+    if (build[0] == '/')
+        snprintf(program, sizeof program, "%s/rollbem", build);
+    else
+        snprintf(program, sizeof program, "%s/%s/rollbem", here, build);
+    if (!mkdtemp(folder) || chdir(folder) != 0)
+        return -1;
+    put("good", GOOD);
+    put("ray", RAY);
+    put("kostreva", KOSTREVA);
+    put("bad", "2 0 2 2 2 2 1 x 1 2 -5 -6");
+    return 0;
+}
+
+static int leave_folder(void **state)
+{
+    (void)state;
+    const char *names[] = {"good", "ray", "kostreva", "bad", "out", "err"};
+    for (int i = 0; i < 6; i++)
+        unlink(names[i]);
+    return chdir("/") || rmdir(folder);
+}
+
+static void a_line_per_file(void **state)
+{
+    (void)state;
+    char status[40];
+    int n, pivots;
+    double residual;
+    assert_int_equal(lcp("good"), 0);
+    assert_string_equal(err, "");
+    const char *line = strstr(out, "\ngood\t");
+    assert_non_null(line);
+    assert_int_equal(
+        sscanf(line, "\ngood\t%39s\t%d\t%d\t%lf", status, &n, &pivots, &residual), 4);
+    assert_string_equal(status, "solved");
+    assert_int_equal(n, 2);
+    assert_int_equal(pivots, 3);
+    CHECK_MAX(residual, 1e-14, "residual");
+}
+
+static void the_largest_exit_code_wins_and_all_files_run(void **state)
+{
+    (void)state;
+    assert_int_equal(lcp("good ray"), 1);
+    assert_non_null(strstr(err, "ray: lcp: secondary ray"));
+    assert_int_equal(lcp("bad ray good"), 65);
+    assert_non_null(strstr(out, "\ngood\tsolved"));
+    assert_non_null(strstr(err, "bad:1: matrix, number 2"));
+    assert_int_equal(lcp("missing bad good"), 66);
+    assert_non_null(strstr(out, "\ngood\tsolved"));
+    assert_non_null(strstr(err, "missing"));
+    assert_int_equal(lcp("good --output /nowhere/at/all"), 73);
+    assert_int_equal(lcp(""), 64);
+    assert_int_equal(lcp("--tol -1 good"), 64);
+    assert_int_equal(lcp("--rule bland good"), 64);
+    assert_int_equal(lcp("--trase good"), 64);
+    assert_non_null(strstr(err, "--trace"));
+}
+
+static void the_tie_rule_can_be_chosen(void **state)
+{
+    (void)state;
+    assert_int_equal(lcp("--rule first-index --max-pivots 100 kostreva"), 1);
+    assert_non_null(strstr(out, "iteration limit\t3\t100"));
+    assert_int_equal(lcp("kostreva"), 0);
+}
+
+static void trace_and_solution_are_tables(void **state)
+{
+    (void)state;
+    double z = 0.0, w = 1.0;
+    assert_int_equal(lcp("--trace --solution good"), 0);
+    assert_non_null(strstr(out, "\n1\tz0\tw(2)\t2\t6\t6\n"));
+    assert_non_null(strstr(out, "\n2\tz(2)\tw(1)\t1\t1\t4\n"));
+    const char *line = strstr(out, "# i\tz\tw\n1\t");
+    assert_non_null(line);
+    assert_int_equal(sscanf(line, "# i\tz\tw\n1\t%lf\t%lf", &z, &w), 2);
+    CHECK_REL(z, 4.0 / 3.0, 1e-15, "z(1)");
+    CHECK_ABS(w, 0.0, 1e-15, "w(1)");
+}
+
+static const char *text_of(const json_t *p, const char *key)
+{
+    return json_string_value(json_object_get(p, key));
+}
+
+static void json_holds_every_file(void **state)
+{
+    (void)state;
+    assert_int_equal(lcp("--json --trace --solution good ray bad"), 65);
+    json_t *root = json_loads(out, 0, NULL);
+    assert_non_null(root);
+    assert_string_equal(text_of(root, "schema"), "rollbem/1");
+    const json_t *list = json_object_get(root, "problems");
+    assert_int_equal(json_array_size(list), 3);
+    const json_t *p = json_array_get(list, 0);
+    assert_string_equal(text_of(p, "file"), "good");
+    assert_string_equal(text_of(p, "solver"), "lemke");
+    assert_string_equal(text_of(p, "status"), "solved");
+    assert_int_equal(json_integer_value(json_object_get(p, "iterations")), 3);
+    assert_int_equal(json_integer_value(json_object_get(p, "dimension")), 2);
+    assert_int_equal(json_array_size(json_object_get(p, "pivots")), 3);
+    CHECK_MAX(json_number_value(json_object_get(p, "residual")), 1e-14, "residual");
+    CHECK_REL(json_number_value(json_array_get(json_object_get(p, "z"), 1)), 7.0 / 3.0,
+              1e-15, "z(2)");
+    assert_string_equal(text_of(json_array_get(list, 1), "status"), "secondary ray");
+    p = json_array_get(list, 2);
+    assert_string_equal(text_of(p, "status"), "malformed file");
+    assert_true(json_is_null(json_object_get(p, "residual")));
+    assert_true(json_is_null(json_object_get(p, "z")));
+    json_decref(root);
+}
+
+static void the_collection_is_solved(void **state)
+{
+    (void)state;
+    char arguments[1100];
+    snprintf(arguments, sizeof arguments, "%s/*.dat", outside_data("siconos/lcp"));
+    assert_int_equal(lcp(arguments), 0);
+    int solved = 0;
+    for (const char *p = out; (p = strstr(p, "\tsolved\t")); p++)
+        solved++;
+    assert_true(solved >= 9);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_line_per_file),
+        cmocka_unit_test(the_largest_exit_code_wins_and_all_files_run),
+        cmocka_unit_test(the_tie_rule_can_be_chosen),
+        cmocka_unit_test(trace_and_solution_are_tables),
+        cmocka_unit_test(json_holds_every_file),
+        cmocka_unit_test(the_collection_is_solved),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
