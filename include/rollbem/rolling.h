@@ -337,6 +337,91 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
                                  void *context, rb_rolling_model *model,
                                  rb_rolling_history *history, rb_message *why);
 
+/* ---- Creep curves
+ * ---------------------------------------------------------------------- */
+
+/* One entry per creepage; owned. */
+typedef struct {
+    int n;
+    double *creepage, *creep_ratio, *force_ratio;
+    double *tangential_load, *normal_load, *stick_ratio; /* stuck / contact elements */
+    double *dissipation;                                 /* power per unit speed */
+    double *residual;
+    double free_creepage, half_width, seconds;
+    int iterations;
+} rb_rolling_curve;
+
+void rb_rolling_curve_free(rb_rolling_curve *curve);
+
+/* Steady rolling at `points` equally spaced creepages (over_creep) or creepage ratios
+ * from `from` to `to`; the load or approach of rc, its own tangential control is not
+ * read.  One mesh, one factorisation, warm starts; a fitted mesh is fitted again where an
+ * edge has moved by more than 1 %. */
+rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, int over_creep, double from,
+                                 double to, int points, rb_rolling_curve *curve,
+                                 rb_message *why);
+
+/* ---- Subsurface stress of body A
+ * -------------------------------------------------------- */
+
+/* Plane strain at one point (x, y), y > 0 inside A; tension positive. */
+typedef struct {
+    double x, y;                     /* [length] */
+    double sxx, syy, szz, sxy;       /* [stress] */
+    double principal_1, principal_2; /* in the plane, the larger first */
+    double max_shear;                /* (principal_1 - principal_2)/2 */
+    double von_mises, hydrostatic;   /* hydrostatic = trace/3 */
+} rb_rolling_stress;
+
+/* Stress of a solved model at n points xy (x0, y0, x1, y1, ...).  For a wheel the points
+ * must lie inside it or on its surface: RB_EINVAL with the number of the one that does
+ * not. */
+rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const double *xy,
+                               rb_rolling_stress *stress, rb_message *why);
+
+/* Height of A's surface at x: 0 for a half-plane. */
+double rb_rolling_surface(const rb_rolling_case *rc, double x);
+
+/* Value and place of a maximum, found by a simplex search from the best of a grid. */
+typedef struct {
+    double value, x, y;
+} rb_rolling_extremum;
+
+typedef struct {
+    rb_rolling_extremum max_shear, von_mises;
+    rb_rolling_extremum orthogonal_shear; /* largest |sxy| below the surface */
+    rb_rolling_extremum tension;          /* largest principal stress */
+} rb_rolling_stress_maxima;
+
+/* Over the width of the contact and a half-width beyond, to the given depth (0: 2.5
+ * half-widths). */
+rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
+                                        rb_rolling_stress_maxima *maxima,
+                                        rb_message *why);
+
+/* ---- Error bars (theory.md 5.1)
+ * ----------------------------------------------------------- */
+
+/* Estimated discretisation error of each scalar; NAN where the scalar is. */
+typedef struct {
+    double normal_load, tangential_load, force_ratio, approach, creepage, free_creepage;
+    double half_width, max_pressure, stick_from, stick_to, dissipation;
+    rb_rolling_stress_maxima stress; /* errors of value and place; NAN unless asked */
+} rb_rolling_errors;
+
+/* From the spread over n/2, 0.7 n and n elements; the solution is that of n. */
+rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, int with_stress,
+                                       rb_rolling_solution *solution,
+                                       rb_rolling_errors *errors, rb_message *why);
+
+/* Refines until the estimates of P, Q, p0, half-width and creepage are at most `accuracy`
+ * relative.  *elements: what it took.  RB_INACCURATE with the best estimate where memory
+ * or 6400 elements do not suffice. */
+rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accuracy,
+                                       rb_rolling_solution *solution,
+                                       rb_rolling_errors *errors, int *elements,
+                                       rb_message *why);
+
 /* From case to solution in one call.  On a positive status the solution holds what there
  * is.  solution: overwritten; free it in any case. */
 rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
