@@ -54,6 +54,9 @@ rb_status rb_rolling_newton(const rb_rolling_problem *problem, int warm,
 
 /* Solves the model's problem again, with the times and counts kept. */
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why);
+/* The same on the present mesh under the controls that model->rc has now, from the
+ * present zones. */
+rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
 /* P of the state. */
 double rb_rolling_model_load(const rb_rolling_model *model);
 
@@ -69,6 +72,12 @@ void rb_rolling_classify(const rb_rolling_problem *problem, double tol,
 
 /* ---- solution.c -----------------------------------------------------------------------
  */
+
+/* Power per unit speed of friction q (n) and slip displacement lambda (n); NAN for
+ * static. */
+double rb_rolling_dissipated_power(rb_rolling_formulation formulation, int n,
+                                   const double *lambda, const double *q, const double *h,
+                                   const double *e_T);
 
 /* Contact edges where p^2 extrapolates to zero. */
 void rb_rolling_contact_edges(const rb_rolling_mesh *mesh, const double *p, double *from,

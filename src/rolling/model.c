@@ -40,10 +40,10 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
 
 /* A given creepage ratio refers to the load, which approach control only finds: iterate.
  */
-static rb_status solve_ratio(rb_rolling_model *model, rb_message *why)
+static rb_status solve_ratio(rb_rolling_model *model, int warm, rb_message *why)
 {
     const rb_rolling_case *rc = &model->rc;
-    rb_status s = rb_rolling_model_resolve(model, 0, why);
+    rb_status s = rb_rolling_model_resolve(model, warm, why);
 
     if (isnan(rc->creep_ratio) || rc->formulation == RB_STATIC ||
         model->problem.load_given)
@@ -57,6 +57,12 @@ static rb_status solve_ratio(rb_rolling_model *model, rb_message *why)
         s = rb_rolling_model_resolve(model, 1, why);
     }
     return s;
+}
+
+rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why)
+{
+    rb_rolling_set_control(&model->rc, &model->problem);
+    return solve_ratio(model, 1, why);
 }
 
 /* Takes over the mesh, builds the bodies on it and solves. */
@@ -75,7 +81,7 @@ static rb_status build_and_solve(rb_rolling_model *model, rb_rolling_mesh *mesh,
                                       &model->problem, why);
     if (s == RB_OK)
         s = rb_rolling_state_alloc(model->mesh.n, &model->state);
-    return s == RB_OK ? solve_ratio(model, why) : s;
+    return s == RB_OK ? solve_ratio(model, 0, why) : s;
 }
 
 static rb_status solve_uniform(rb_rolling_model *model, double zone, rb_message *why)

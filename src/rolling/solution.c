@@ -141,18 +141,20 @@ static int count_violations(const rb_rolling_model *model, const rb_rolling_solu
     return violations;
 }
 
-/* Power per unit speed (theory.md 6): the slip of a steady state lives between midpoints,
- * so it meets the mean of the two tractions. */
-static double dissipated_power(const rb_rolling_solution *s)
+/* The slip of a steady state lives between midpoints, so it meets the mean of the two
+ * tractions (theory.md 6). */
+double rb_rolling_dissipated_power(rb_rolling_formulation formulation, int n,
+                                   const double *lambda, const double *q, const double *h,
+                                   const double *e_T)
 {
     double power = 0.0;
 
-    if (s->formulation == RB_STATIC)
+    if (formulation == RB_STATIC)
         return NAN;
-    for (int i = 0; i < s->n; i++) {
-        const double next = i + 1 < s->n ? s->q[i + 1] : 0.0;
-        power -= s->formulation == RB_STEADY ? s->shift[i] * 0.5 * (s->q[i] + next)
-                                             : s->slip[i] * s->q[i] * s->h[i];
+    for (int i = 0; i < n; i++) {
+        const double next = i + 1 < n ? q[i + 1] : 0.0;
+        power -= formulation == RB_STEADY ? lambda[i] * 0.5 * (q[i] + next)
+                                          : lambda[i] / e_T[i] * q[i] * h[i];
     }
     return power;
 }
@@ -308,7 +310,8 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     rb_rolling_contact_edges(&model->mesh, s->p, &s->contact_from, &s->contact_to);
     s->half_width = 0.5 * (s->contact_to - s->contact_from);
     s->slip_violations = count_violations(model, s);
-    s->dissipation = dissipated_power(s);
+    s->dissipation = rb_rolling_dissipated_power(s->formulation, s->n, s->shift, s->q,
+                                                 s->h, model->problem.e_T);
     return RB_OK;
 }
 

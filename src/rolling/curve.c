@@ -1,0 +1,153 @@
+/* Creep curves: one mesh and one factorisation for all creepages (design 4.6). */
+#include "rolling/internal.h"
+
+#include <cblas.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Shift of a contact edge, in half-widths, beyond which a fitted mesh is fitted again. */
+static const double REFIT = 0.01;
+
+void rb_rolling_curve_free(rb_rolling_curve *c)
+{
+    double *const arrays[] = {c->creepage,        c->creep_ratio, c->force_ratio,
+                              c->tangential_load, c->normal_load, c->stick_ratio,
+                              c->dissipation,     c->residual};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
+        free(arrays[k]);
+    memset(c, 0, sizeof *c);
+}
+
+static rb_status curve_alloc(int points, rb_rolling_curve *c)
+{
+    double **const arrays[] = {&c->creepage,        &c->creep_ratio, &c->force_ratio,
+                               &c->tangential_load, &c->normal_load, &c->stick_ratio,
+                               &c->dissipation,     &c->residual};
+    int complete = 1;
+
+    memset(c, 0, sizeof *c);
+    c->free_creepage = NAN;
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
+        *arrays[k] = rb_alloc((size_t)points, 1);
+        complete = complete && *arrays[k];
+    }
+    return complete ? RB_OK : RB_ENOMEM;
+}
+
+static void record(const rb_rolling_model *model, rb_rolling_curve *c)
+{
+    const rb_rolling_problem *p = &model->problem;
+    const rb_rolling_state *state = &model->state;
+    const double P = rb_rolling_model_load(model), mu = p->mu;
+    const double Q = cblas_ddot(p->n, p->force_N, 1, state->p, 1) +
+                     cblas_ddot(p->n, p->force_T, 1, state->q, 1);
+    const int k = c->n++;
+    int contact = 0, stick = 0;
+
+    for (int i = 0; i < p->n; i++) {
+        contact += state->zone[i] != RB_ZONE_SEPARATED;
+        stick += state->zone[i] == RB_ZONE_STICK;
+    }
+    c->creepage[k] = state->xi;
+    c->creep_ratio[k] =
+        mu > 0.0 ? state->xi * rb_rolling_radius(&model->rc) / (mu * model->half_width)
+                 : NAN;
+    c->normal_load[k] = P;
+    c->tangential_load[k] = Q;
+    c->force_ratio[k] = mu > 0.0 ? Q / (mu * P) : NAN;
+    c->stick_ratio[k] = contact ? (double)stick / contact : 0.0;
+    c->dissipation[k] = rb_rolling_dissipated_power(
+        model->rc.formulation, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
+    c->residual[k] = state->residual;
+    c->half_width = model->half_width;
+}
+
+/* A fitted mesh whose contact has moved is fitted again; a uniform one that the contact
+ * fills is chosen anew. */
+static rb_status follow_contact(rb_rolling_model *model, double edge[2], rb_message *why)
+{
+    double from, to;
+    const int last = model->state.n - 1;
+    rb_rolling_case rc = model->rc;
+    const int fills = model->state.zone[0] != RB_ZONE_SEPARATED ||
+                      model->state.zone[last] != RB_ZONE_SEPARATED;
+
+    rb_rolling_contact_edges(&model->mesh, model->state.p, &from, &to);
+    const double moved =
+        fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
+    if (!fills && !(rc.mesh == RB_MESH_FITTED && moved > REFIT))
+        return RB_OK;
+    const int iterations = model->iterations;
+    rb_rolling_model_free(model);
+    const rb_status s = rb_rolling_model_create(&rc, model, why);
+    model->iterations += iterations;
+    if (s == RB_OK)
+        rb_rolling_contact_edges(&model->mesh, model->state.p, &edge[0], &edge[1]);
+    return s;
+}
+
+static void set_creepage(int over_creep, double value, rb_rolling_case *rc)
+{
+    rc->creep = over_creep ? value : NAN;
+    rc->creep_ratio = over_creep ? NAN : value;
+}
+
+static rb_status all_points(rb_rolling_model *model, int over_creep, double from,
+                            double to, int points, rb_rolling_curve *c, rb_message *why)
+{
+    double edge[2];
+    rb_status s = RB_OK;
+
+    rb_rolling_contact_edges(&model->mesh, model->state.p, &edge[0], &edge[1]);
+    for (int k = 0; k < points && s == RB_OK; k++) {
+        const double t = points > 1 ? (double)k / (points - 1) : 0.0;
+        set_creepage(over_creep, from + t * (to - from), &model->rc);
+        s = rb_rolling_model_control(model, why);
+        if (s == RB_OK)
+            s = follow_contact(model, edge, why);
+        if (s >= 0)
+            record(model, c);
+    }
+    return s;
+}
+
+static rb_status check_curve(const rb_rolling_case *rc, int over_creep, double from,
+                             double to, int points, rb_message *why)
+{
+    if (!isfinite(from) || !isfinite(to))
+        return rb_fail(why, RB_EINVAL, "curve: from %g to %g: expected finite numbers",
+                       from, to);
+    if (points < 1 || points > 1000000)
+        return rb_fail(why, RB_EINVAL, "points: expected 1 ... 1000000, got %d", points);
+    if (!over_creep && rc->mu == 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "curve: xi R/(mu a) has no meaning at mu = 0; give creepages");
+    return RB_OK;
+}
+
+rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, int over_creep, double from,
+                                 double to, int points, rb_rolling_curve *curve,
+                                 rb_message *why)
+{
+    const double start = rb_seconds();
+    rb_rolling_case steady = *rc;
+    rb_rolling_model model = {0};
+    rb_status s = check_curve(rc, over_creep, from, to, points, why);
+
+    memset(curve, 0, sizeof *curve);
+    steady.formulation = RB_STEADY;
+    steady.shift = steady.force = steady.force_ratio = NAN;
+    set_creepage(over_creep, from, &steady);
+    if (s == RB_OK)
+        s = curve_alloc(points, curve);
+    if (s == RB_OK)
+        s = rb_rolling_model_create(&steady, &model, why);
+    if (s == RB_OK)
+        s = all_points(&model, over_creep, from, to, points, curve, why);
+    if (s == RB_OK && rc->mu > 0.0)
+        s = rb_rolling_free_creepage(&model, &curve->free_creepage, why);
+    curve->iterations = model.iterations;
+    curve->seconds = rb_seconds() - start;
+    rb_rolling_model_free(&model);
+    return s;
+}
