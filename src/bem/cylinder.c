@@ -13,7 +13,7 @@ typedef struct {
     double from;   /* angle of the zone's end, from the lowest point */
     double to;     /* the top: +pi or -pi */
     double h0;     /* size of the element at the zone's end */
-    double growth; /* g */
+    double growth; /* g; negative where the cap is below h0 */
     double cap;
     double
         clamped; /* angle from the zone at which the clamped arc starts; to top: none */
@@ -31,8 +31,6 @@ static double side_length(const graded_side *side)
 static double elements_until(const graded_side *side, double s)
 {
     const double g = side->growth, h0 = side->h0, bend = (side->cap - h0) / g;
-    if (bend <= 0.0)
-        return s / side->cap;
     const double graded = log1p(g * fmin(s, bend) / h0) / g;
     return graded + fmax(s - bend, 0.0) / side->cap;
 }
@@ -40,8 +38,6 @@ static double elements_until(const graded_side *side, double s)
 static double angle_after(const graded_side *side, double elements)
 {
     const double g = side->growth, h0 = side->h0, bend = (side->cap - h0) / g;
-    if (bend <= 0.0)
-        return elements * side->cap;
     const double graded = log1p(g * bend / h0) / g;
     return h0 * expm1(g * fmin(elements, graded)) / g +
            fmax(elements - graded, 0.0) * side->cap;
@@ -96,7 +92,7 @@ static double outer_demand(const outer_layout *layout)
 static void fit_growth(outer_layout *layout, double wanted)
 {
     double low = 1e-9, high = 20.0;
-    layout->right.cap = layout->left.cap = INFINITY;
+    layout->right.cap = layout->left.cap = 1e6; /* none */
     for (int k = 0; k < 100; k++) {
         const double g = sqrt(low * high);
         layout->right.growth = layout->left.growth = g;
@@ -135,6 +131,8 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
     layout.left.h0 = asin(ends[1] / R) - first;
     layout.right.clamped = side_length(&layout.right) - (has_hub ? 0.0 : cylinder->arc);
     layout.left.clamped = side_length(&layout.left) - (has_hub ? 0.0 : cylinder->arc);
+    layout.right.growth = copysign(automatic_growth, layout.right.cap - layout.right.h0);
+    layout.left.growth = copysign(automatic_growth, layout.left.cap - layout.left.h0);
     const double automatic = outer_demand(&layout);
     if (cylinder->outer_elements > 0)
         fit_growth(&layout, cylinder->outer_elements);

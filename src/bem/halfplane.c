@@ -168,7 +168,7 @@ rb_status rb_bem_halfplane_stress(int n, const double *ends, const double *p,
         return RB_ENOMEM;
     for (int i = 0; i < n; i++)
         strip[i] = rb_element_make(ends[i], 0.0, ends[i + 1], 0.0, 1.0);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if ((double)points * n > rb_pairs_for_threads)
     for (int k = 0; k < points; k++) {
         double sum[3] = {0.0, 0.0, 0.0};
         for (int i = 0; i < n; i++)

@@ -241,7 +241,9 @@ static int evaluate(const rb_interior *in, int points, const double *xy,
                     double *displacement, double *stress)
 {
     int outside = points;
-#pragma omp parallel for schedule(static) reduction(min : outside)
+#pragma omp parallel for schedule(static)                                                \
+    reduction(min                                                                        \
+              : outside) if ((double)points * in->n > rb_pairs_for_threads)
     for (int k = 0; k < points; k++) {
         const double x = xy[2 * k], y = xy[2 * k + 1];
         double *u = displacement ? displacement + 2 * k : NULL,

@@ -4,6 +4,10 @@
 
 #include "rollbem/bem.h"
 
+/* Pairs of point and element from which several threads pay: fewer are done before the
+ * others have woken, and waiting for them on a busy machine costs far more. */
+static const double rb_pairs_for_threads = 2e5;
+
 /* RB_EINVAL unless 0 < shear < infinity and -1 < nu <= 1/2. */
 rb_status rb_bem_material_check(rb_bem_material material, rb_message *why);
 

@@ -134,6 +134,7 @@ static rb_status assemble_given(rb_bem_system *s, const rb_assembly *assembly)
 static rb_status assemble(rb_bem_system *s, rb_bem_material material)
 {
     const rb_bem_mesh *mesh = &s->mesh;
+    const double pairs = (double)mesh->n * mesh->n;
     rb_assembly assembly;
     rb_status status = rb_assembly_begin(mesh, material, &assembly);
     if (status != RB_OK)
@@ -141,7 +142,7 @@ static rb_status assemble(rb_bem_system *s, rb_bem_material material)
     for (int j = 0; j < mesh->n; j++)
         s->unit[j] =
             material.shear / hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (pairs > rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++)
         assemble_element(s, &assembly, j);
     status = assemble_given(s, &assembly);
@@ -152,7 +153,7 @@ static rb_status assemble(rb_bem_system *s, rb_bem_material material)
 static double norm_one(int n, const double *A)
 {
     double norm = 0.0;
-#pragma omp parallel for reduction(max : norm)
+#pragma omp parallel for reduction(max : norm) if (0.25 * n * n > rb_pairs_for_threads)
     for (int j = 0; j < n; j++) {
         const double *column = A + (size_t)j * (size_t)n;
         double sum = 0.0;

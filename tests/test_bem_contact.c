@@ -1,0 +1,657 @@
+/* The cylinder's mesh and its condensation to the contact (B5-B9). */
+#include "bem_shapes.h"
+
+#include <lapacke.h>
+#include <string.h>
+
+static const rb_bem_material material = {.shear = 80.0, .poisson = 0.3};
+static const rb_bem_cylinder on_arc = {50.0, RB_BEM_ARC, M_PI / 6.0, 0.0, 0},
+                             on_hub = {50.0, RB_BEM_HUB, 0.0, 0.3, 0};
+
+/* n_c equal elements over |x| <= a and one more after them */
+static double *equal_ends(int n_c, double a)
+{
+    double *ends = rb_alloc((size_t)n_c + 2, 1);
+    for (int i = 0; i < n_c + 2; i++)
+        ends[i] = a * (2.0 * i - n_c) / n_c;
+    return ends;
+}
+
+static rb_bem_mesh mesh_of(const rb_bem_cylinder *cylinder, int n_c, double a)
+{
+    rb_bem_mesh mesh;
+    double *ends = equal_ends(n_c, a);
+    CHECK_STATUS(rb_bem_mesh_cylinder(cylinder, n_c, ends, &mesh, NULL), RB_OK);
+    free(ends);
+    return mesh;
+}
+
+static rb_bem_flexibility condensed(const rb_bem_cylinder *cylinder, int n_c, double a,
+                                    rb_bem_normals normals)
+{
+    rb_bem_flexibility f;
+    rb_bem_system *system;
+    rb_bem_mesh mesh = mesh_of(cylinder, n_c, a);
+    CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_condense(system, normals, &f, NULL), RB_OK);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+    return f;
+}
+
+/* ---- The mesh (B7, B9)
+ * ---------------------------------------------------------------------- */
+
+static double element_length(const rb_bem_mesh *mesh, int j)
+{
+    return hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+}
+
+/* Largest ratio of neighbours on the outer circle. */
+static double grading(const rb_bem_mesh *mesh)
+{
+    double worst = 1.0;
+    for (int j = 0; j + 1 < mesh->n && mesh->x0[j + 1] == mesh->x1[j]; j++) {
+        const double ratio = element_length(mesh, j) / element_length(mesh, j + 1);
+        worst = fmax(worst, fmax(ratio, 1.0 / ratio));
+    }
+    return worst;
+}
+
+static void neighbours_differ_by_a_fifth_at_most(void **state)
+{
+    (void)state;
+    for (double a = 0.5; a > 1e-9; a *= 0.1)
+        for (int k = 0; k < 8; k++) {
+            const rb_bem_cylinder cylinder = {1.0, k < 4 ? RB_BEM_ARC : RB_BEM_HUB,
+                                              0.1 + 0.4 * k, 0.15 + 0.2 * (k - 4), 0};
+            rb_bem_mesh mesh = mesh_of(&cylinder, 30 + k, a);
+            CHECK_STATUS(rb_bem_mesh_check(&mesh, NULL), RB_OK);
+            CHECK_MAX(grading(&mesh), 1.2, "a/R = %g, support %d", a, k);
+            CHECK_MAX(mesh.n, 1200, "a/R = %g, support %d", a, k);
+            rb_bem_mesh_free(&mesh);
+        }
+}
+
+static void the_arc_ends_at_element_ends(void **state)
+{
+    (void)state;
+    rb_bem_mesh mesh = mesh_of(&on_arc, 40, 2.0);
+    double clamped = 0.0;
+    for (int j = 0; j < mesh.n; j++) {
+        const double angle =
+            fabs(atan2(midpoint_x(&mesh, j), 50.0 - midpoint_y(&mesh, j)));
+        const int held = mesh.condition[2 * j] == RB_BEM_DISPLACEMENT;
+        assert_int_equal(held, angle > M_PI - on_arc.arc);
+        assert_int_equal(mesh.condition[2 * j], mesh.condition[2 * j + 1]);
+        clamped += held ? 2.0 * asin(element_length(&mesh, j) / 100.0) : 0.0;
+    }
+    CHECK_REL(clamped, 2.0 * on_arc.arc, 1e-12, "clamped angle");
+    rb_bem_mesh_free(&mesh);
+}
+
+/* y = x^2/(R + sqrt(R^2 - x^2)) with all digits, at x = 1e-8 R and 1e-10 R apart. */
+static void small_contacts_keep_their_digits(void **state)
+{
+    (void)state;
+    rb_bem_mesh mesh = mesh_of(&on_hub, 200, 50.0 * 1e-8);
+    for (int j = 0; j <= 200; j++) {
+        const double x = mesh.x1[j];
+        CHECK_REL(mesh.y1[j], x * x / 100.0, 1e-14, "end %d", j);
+        CHECK_REL(mesh.x1[j] - mesh.x0[j], 100.0 * 1e-8 / 200, 1e-11, "length %d", j);
+    }
+    rb_bem_mesh_free(&mesh);
+}
+
+static void outer_elements_are_as_many_as_asked_for(void **state)
+{
+    (void)state;
+    for (int wanted = 40; wanted < 2000; wanted *= 3) {
+        rb_bem_cylinder cylinder = on_arc;
+        cylinder.outer_elements = wanted;
+        rb_bem_mesh mesh = mesh_of(&cylinder, 100, 0.5);
+        CHECK_ABS(mesh.n - 101, wanted, 2.0, "outer elements");
+        rb_bem_mesh_free(&mesh);
+    }
+}
+
+static void bad_cylinders_are_refused(void **state)
+{
+    (void)state;
+    const double ends[] = {-1.0, 0.0, 1.0, 2.0}, wide[] = {-1.0, 0.0, 1.0, 50.0},
+                 back[] = {-1.0, 0.0, -0.5, 2.0}, most[] = {-49.99, 0.0, 1.0, 49.99};
+    const struct {
+        rb_bem_cylinder cylinder;
+        int n_c;
+        const double *ends;
+        const char *text;
+    } bad[] = {
+        {{50, RB_BEM_ARC, 0.5, 0, 0}, 0, ends, "at least 1"},
+        {{50, RB_BEM_ARC, 0.5, 0, 0}, 2, back, "increasing"},
+        {{0, RB_BEM_ARC, 0.5, 0, 0}, 2, ends, "radius"},
+        {{NAN, RB_BEM_ARC, 0.5, 0, 0}, 2, ends, "radius"},
+        {{50, RB_BEM_ARC, 0, 0, 0}, 2, ends, "arc"},
+        {{50, RB_BEM_ARC, 1.6, 0, 0}, 2, ends, "arc"},
+        {{50, RB_BEM_HUB, 0, 1.0, 0}, 2, ends, "hub ratio"},
+        {{50, RB_BEM_HUB, 0, 0.0, 0}, 2, ends, "hub ratio"},
+        {{50, RB_BEM_HALFPLANE, 0.5, 0.5, 0}, 2, ends, "support"},
+        {{50, RB_BEM_ARC, 0.5, 0, 7}, 2, ends, "outer elements"},
+        {{50, RB_BEM_ARC, 0.5, 0, 2000000}, 2, ends, "million"},
+        {{50, RB_BEM_ARC, 0.5, 0, 0}, 2, wide, "radius of 50"},
+        {{50, RB_BEM_ARC, M_PI_2, 0, 0}, 2, most, "clamped arc"},
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        rb_bem_mesh mesh;
+        rb_message why = {""};
+        CHECK_STATUS(
+            rb_bem_mesh_cylinder(&bad[k].cylinder, bad[k].n_c, bad[k].ends, &mesh, &why),
+            RB_EINVAL);
+        if (!strstr(why.text, bad[k].text))
+            fail_msg("case %d: '%s' does not say '%s'", (int)k, why.text, bad[k].text);
+        rb_bem_mesh_free(&mesh);
+    }
+}
+
+typedef void spoil(rb_bem_mesh *mesh);
+static void open_contour(rb_bem_mesh *m)
+{
+    m->x1[m->n - 1] += 1.0;
+}
+static void gap_inside(rb_bem_mesh *m)
+{
+    m->y1[20] += 1e-3;
+}
+static void no_length(rb_bem_mesh *m)
+{
+    m->x1[27] = m->x0[27];
+    m->y1[27] = m->y0[27];
+}
+static void infinite_value(rb_bem_mesh *m)
+{
+    m->value[9] = INFINITY;
+}
+static void contact_elsewhere(rb_bem_mesh *m)
+{
+    m->condition[40] = RB_BEM_CONTACT;
+}
+static void contact_given_up(rb_bem_mesh *m)
+{
+    m->condition[3] = RB_BEM_TRACTION;
+}
+static void upstream_held(rb_bem_mesh *m)
+{
+    m->condition[2 * m->contact_n] = RB_BEM_DISPLACEMENT;
+}
+static void contact_beyond(rb_bem_mesh *m)
+{
+    m->contact_n = m->n;
+}
+static void no_elements(rb_bem_mesh *m)
+{
+    m->n = 0;
+}
+static void clockwise(rb_bem_mesh *m)
+{
+    for (int j = 0; j < m->n; j++) {
+        m->x0[j] = -m->x0[j];
+        m->x1[j] = -m->x1[j];
+    }
+    for (int j = 0; j < 2 * m->n; j++)
+        m->condition[j] = RB_BEM_TRACTION;
+    m->contact_n = 0;
+}
+static void contact_backwards(rb_bem_mesh *m)
+{
+    m->x0[2] = m->x1[2] + 1.0;
+}
+
+static void spoilt_meshes_are_refused(void **state)
+{
+    (void)state;
+    const struct {
+        spoil *how;
+        const char *text;
+    } bad[] = {{open_contour, "does not close"},
+               {gap_inside, "element 20 ends"},
+               {no_length, "element 27: length"},
+               {infinite_value, "element 4: given"},
+               {contact_elsewhere, "element 20"},
+               {contact_given_up, "element 1: in contact"},
+               {upstream_held, "is not free"},
+               {contact_beyond, "contact elements"},
+               {no_elements, "0 elements"},
+               {clockwise, "left of its contours"},
+               {contact_backwards, "element 2 does not run"}};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        rb_bem_mesh mesh = mesh_of(&on_arc, 10, 2.0);
+        rb_message why = {""};
+        const int n = mesh.n;
+        bad[k].how(&mesh);
+        CHECK_STATUS(rb_bem_mesh_check(&mesh, &why), RB_EINVAL);
+        if (!strstr(why.text, bad[k].text))
+            fail_msg("case %d: '%s' does not say '%s'", (int)k, why.text, bad[k].text);
+        mesh.n = n;
+        rb_bem_mesh_free(&mesh);
+    }
+    rb_bem_mesh mesh;
+    CHECK_STATUS(rb_bem_mesh_alloc(0, &mesh), RB_EINVAL);
+    rb_bem_mesh_free(NULL);
+}
+
+/* ---- The paper's Schur complement (20)-(24), r = +C t_c (B5)
+ * --------------------------------- */
+
+/* B <- A^-1 B */
+static void divide(int n, int columns, double *A, double *B)
+{
+    lapack_int *pivot = calloc((size_t)n, sizeof *pivot);
+    assert_int_equal(LAPACKE_dgesv(LAPACK_COL_MAJOR, n, columns, A, n, pivot, B, n), 0);
+    free(pivot);
+}
+
+/* rows x cols block of A (leading dimension ld) at (row, col), copied */
+static double *block(const double *A, int ld, int row, int col, int rows, int cols)
+{
+    double *B = rb_alloc((size_t)rows, (size_t)cols);
+    for (int j = 0; j < cols; j++)
+        for (int i = 0; i < rows; i++)
+            B[i + j * rows] = A[row + i + (size_t)(col + j) * (size_t)ld];
+    return B;
+}
+
+/* C -= A B */
+static void subtract_product(int m, int n, int k, const double *A, const double *B,
+                             double *C)
+{
+    for (int j = 0; j < n; j++)
+        for (int l = 0; l < k; l++)
+            for (int i = 0; i < m; i++)
+                C[i + j * m] -= A[i + l * m] * B[l + j * k];
+}
+
+/* Rows of C_i: inward normal and tangent of element i. */
+static void frame(const rb_bem_mesh *mesh, int i, rb_bem_normals normals, double C[2][2])
+{
+    const double dx = mesh->x1[i] - mesh->x0[i], dy = mesh->y1[i] - mesh->y0[i];
+    const double phi = normals == RB_BEM_NORMALS_SURFACE ? atan2(dy, dx) : 0.0;
+    C[0][0] = -sin(phi);
+    C[0][1] = cos(phi);
+    C[1][0] = cos(phi);
+    C[1][1] = sin(phi);
+}
+
+/* Contact dofs first (c), all others (f) after them; H holds the unknowns' columns, the
+ * right-hand side b the given tractions' part, G the contact tractions' columns. */
+typedef struct {
+    int c, f;
+    double *H, *G, *b;
+} partition;
+
+static partition partition_of(const rb_bem_mesh *mesh)
+{
+    const int dofs = 2 * mesh->n, c = 2 * mesh->contact_n;
+    partition p = {c, dofs - c, rb_alloc((size_t)dofs, (size_t)dofs),
+                   rb_alloc((size_t)dofs, (size_t)dofs), rb_alloc((size_t)dofs, 1)};
+    CHECK_STATUS(rb_bem_assemble(mesh, material, p.H, p.G, dofs, NULL), RB_OK);
+    for (int j = 0; j < dofs; j++)
+        for (int i = 0; i < dofs; i++) {
+            const int at = i + j * dofs;
+            if (mesh->condition[j] == RB_BEM_DISPLACEMENT)
+                p.H[at] = -p.G[at]; /* held at 0 */
+            else if (mesh->condition[j] == RB_BEM_TRACTION)
+                p.b[i] += p.G[at] * mesh->value[j];
+        }
+    return p;
+}
+
+static void check_schur(rb_bem_normals normals)
+{
+    rb_bem_cylinder small = on_arc;
+    small.outer_elements = 24;
+    enum { n_c = 5 };
+    rb_bem_mesh mesh = mesh_of(&small, n_c, 12.0);
+    give(&mesh, 9, RB_BEM_TRACTION, 1.0, -2.0);
+    const partition p = partition_of(&mesh);
+    const int dofs = p.c + p.f;
+    double *Hcc = block(p.H, dofs, 0, 0, p.c, p.c),
+           *Hcf = block(p.H, dofs, 0, p.c, p.c, p.f);
+    double *Hff = block(p.H, dofs, p.c, p.c, p.f, p.f);
+    /* right-hand sides of H_ff: [H_fc  G_fc  f_f], then of the complement */
+    double *Xf = rb_alloc((size_t)p.f, 2 * (size_t)p.c + 1),
+           *Xc = rb_alloc((size_t)p.c, (size_t)p.c + 1);
+    for (int j = 0; j < p.c; j++) {
+        memcpy(Xf + j * p.f, p.H + j * dofs + p.c, (size_t)p.f * sizeof *Xf);
+        memcpy(Xf + (p.c + j) * p.f, p.G + j * dofs + p.c, (size_t)p.f * sizeof *Xf);
+        memcpy(Xc + j * p.c, p.G + j * dofs, (size_t)p.c * sizeof *Xc);
+    }
+    memcpy(Xf + 2 * p.c * p.f, p.b + p.c, (size_t)p.f * sizeof *Xf);
+    memcpy(Xc + p.c * p.c, p.b, (size_t)p.c * sizeof *Xc);
+    divide(p.f, 2 * p.c + 1, Hff, Xf);
+    subtract_product(p.c, p.c, p.f, Hcf, Xf, Hcc);
+    subtract_product(p.c, p.c + 1, p.f, Hcf, Xf + p.c * p.f, Xc);
+    divide(p.c, p.c + 1, Hcc, Xc); /* u_c = Xc (t_c, 1) */
+
+    rb_bem_system *system;
+    rb_bem_flexibility f;
+    double F[4 * (n_c + 1) * n_c], C[2][2], D[2][2];
+    CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_condense(system, normals, &f, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * f.m), RB_OK);
+    const double scale = rb_norm_inf(4 * (n_c + 1) * n_c, F),
+                 scale0 = rb_norm_inf(12, f.w0);
+    for (int i = 0; i < n_c; i++)
+        for (int a = 0; a < 2; a++) {
+            frame(&mesh, i, normals, C);
+            const double *u0 = Xc + p.c * p.c + 2 * i;
+            CHECK_ABS(f.w0[a * f.m + i], C[a][0] * u0[0] + C[a][1] * u0[1],
+                      1e-10 * scale0, "w0 %d %d", a, i);
+            for (int j = 0; j < n_c; j++)
+                for (int b = 0; b < 2; b++) {
+                    double want = 0.0;
+                    frame(&mesh, j, normals, D);
+                    for (int k = 0; k < 2; k++)
+                        for (int l = 0; l < 2; l++)
+                            want += C[a][k] * Xc[2 * i + k + (2 * j + l) * p.c] * D[b][l];
+                    CHECK_ABS(F[a * f.m + i + 2 * f.m * (b * n_c + j)], want,
+                              1e-10 * scale, "F %d%d(%d, %d)", a, b, i, j);
+                }
+        }
+    rb_bem_flexibility_free(&f);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+    double *all[] = {p.H, p.G, p.b, Hcc, Hcf, Hff, Xf, Xc};
+    for (int k = 0; k < 8; k++)
+        free(all[k]);
+}
+
+static void flexibility_is_the_papers_schur_complement(void **state)
+{
+    (void)state;
+    check_schur(RB_BEM_NORMALS_OBSTACLE);
+    check_schur(RB_BEM_NORMALS_SURFACE);
+}
+
+/* The upstream row and w0 agree with full solutions of the system. */
+static void every_row_is_a_displacement_of_the_full_solution(void **state)
+{
+    (void)state;
+    enum { n_c = 6 };
+    rb_bem_mesh mesh = mesh_of(&on_hub, n_c, 5.0);
+    give(&mesh, 30, RB_BEM_TRACTION, 1.0, 3.0);
+    rb_bem_system *system;
+    rb_bem_flexibility f;
+    CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL), RB_OK);
+    double r[2 * n_c], t_c[2 * n_c], w[2 * (n_c + 1)];
+    double *u = rb_alloc(2 * (size_t)mesh.n, 1), *t = rb_alloc(2 * (size_t)mesh.n, 1);
+    for (int i = 0; i < n_c; i++) {
+        t_c[2 * i + 1] = r[i] = 1.0 + i;
+        t_c[2 * i] = r[n_c + i] = 0.3 - 0.1 * i;
+    }
+    rb_bem_flexibility_apply(&f, r, w);
+    CHECK_STATUS(rb_bem_system_solve(system, t_c, u, t), RB_OK);
+    for (int i = 0; i <= n_c; i++) {
+        CHECK_REL(w[i] + f.w0[i], u[2 * i + 1], 1e-11, "w_N %d", i);
+        CHECK_ABS(w[n_c + 1 + i] + f.w0[n_c + 1 + i], u[2 * i], 1e-11 * fabs(u[1]),
+                  "w_T %d", i);
+        CHECK_REL(f.x[i], midpoint_x(&mesh, i), 1e-15, "x %d", i);
+        CHECK_REL(f.h[i], element_length(&mesh, i), 1e-15, "h %d", i);
+    }
+    free(u);
+    free(t);
+    rb_bem_flexibility_free(&f);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+}
+
+/* ---- Symmetry, block by block
+ * ------------------------------------------------------------------ */
+
+/* max |F_ab(i,j) - F_ba(j,i)| over max |F_ab|, i, j in the contact */
+static double asymmetry(const rb_bem_flexibility *f, int a, int b)
+{
+    const int n = f->n, m = f->m;
+    double *F = rb_alloc(2 * (size_t)m, 2 * (size_t)n), worst = 0.0, largest = 0.0;
+    CHECK_STATUS(rb_bem_flexibility_matrix(f, F, 2 * m), RB_OK);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            const double here = F[a * m + i + 2 * m * (b * n + j)],
+                         there = F[b * m + j + 2 * m * (a * n + i)];
+            worst = fmax(worst, fabs(here - there));
+            largest = fmax(largest, fabs(here));
+        }
+    free(F);
+    return worst / largest;
+}
+
+/* At n_c = 40, a/R = 1e-3: diagonal blocks below 4e-4, coupling 2.5 % of its own maximum,
+ * which is 2 % of theirs. */
+static void flexibility_is_symmetric_up_to_discretisation(void **state)
+{
+    (void)state;
+    const rb_bem_cylinder *bodies[] = {&on_arc, &on_hub};
+    for (int k = 0; k < 2; k++) {
+        rb_bem_flexibility f = condensed(bodies[k], 40, 0.05, RB_BEM_NORMALS_OBSTACLE);
+        CHECK_MAX(asymmetry(&f, 0, 0), 4e-4, "NN, body %d", k);
+        CHECK_MAX(asymmetry(&f, 1, 1), 4e-4, "TT, body %d", k);
+        CHECK_MAX(asymmetry(&f, 0, 1), 2.5e-2, "NT, body %d", k);
+        CHECK_MAX(asymmetry(&f, 1, 0), 2.5e-2, "TN, body %d", k);
+        rb_bem_flexibility_free(&f);
+    }
+}
+
+/* ---- The half-plane limit
+ * --------------------------------------------------------------------- */
+
+/* Hertz's pressure and a friction of the same shape on |x| <= a; largest difference of
+ * the displacements against those of the half-plane, both less their mean, over their
+ * range. */
+static double halfplane_difference(const rb_bem_cylinder *cylinder, int n_c, double a,
+                                   int friction)
+{
+    rb_bem_flexibility wheel = condensed(cylinder, n_c, a, RB_BEM_NORMALS_OBSTACLE),
+                       plane;
+    double *ends = equal_ends(n_c, a), *r = rb_alloc(2 * (size_t)n_c, 1),
+           *w = rb_alloc(4 * (size_t)wheel.m, 1), *v = w + 2 * wheel.m;
+    CHECK_STATUS(rb_bem_flexibility_halfplane(n_c, ends, material, 50.0, &plane, NULL),
+                 RB_OK);
+    for (int i = 0; i < n_c; i++)
+        r[friction * n_c + i] = sqrt(1.0 - pow(wheel.x[i] / a, 2));
+    rb_bem_flexibility_apply(&wheel, r, w);
+    rb_bem_flexibility_apply(&plane, r, v);
+    double worst = 0.0, low = INFINITY, high = -INFINITY;
+    for (int c = 0; c < 2; c++) {
+        const double *x = w + c * wheel.m, *y = v + c * wheel.m;
+        double mean = 0.0;
+        for (int i = 0; i < wheel.m; i++)
+            mean += (x[i] - y[i]) / wheel.m;
+        for (int i = 0; i < wheel.m; i++) {
+            worst = fmax(worst, fabs(x[i] - y[i] - mean));
+            low = fmin(low, y[i] - (c == friction ? v[c * wheel.m] : 0.0));
+            high = fmax(high, y[i] - (c == friction ? v[c * wheel.m] : 0.0));
+        }
+    }
+    rb_bem_flexibility_free(&wheel);
+    rb_bem_flexibility_free(&plane);
+    free(ends);
+    free(r);
+    free(w);
+    return worst / (high - low);
+}
+
+/* First order in the element at a/R = 1e-8, with nothing left of the wheel or its
+ * support; at 100 elements the wheel's own share is below this from a/R = 1e-4 on. */
+static void small_contacts_are_on_a_half_plane(void **state)
+{
+    (void)state;
+    const rb_bem_cylinder *bodies[] = {&on_arc, &on_hub};
+    for (int k = 0; k < 2; k++)
+        for (int friction = 0; friction < 2; friction++) {
+            const double coarse = halfplane_difference(bodies[k], 25, 5e-7, friction),
+                         fine = halfplane_difference(bodies[k], 50, 5e-7, friction),
+                         finest = halfplane_difference(bodies[k], 100, 5e-7, friction);
+            CHECK_MAX(finest, 1.7e-3, "body %d, friction %d", k, friction);
+            CHECK_ABS(order(coarse, fine), 1.1, 0.1, "order, body %d, %d", k, friction);
+            CHECK_ABS(order(fine, finest), 1.1, 0.1, "order, body %d, %d", k, friction);
+            CHECK_MAX(halfplane_difference(bodies[k], 100, 5e-3, friction), 1.8e-3,
+                      "a/R = 1e-4, body %d, friction %d", k, friction);
+        }
+}
+
+/* The wheel's share of the difference falls with a/R (normal load, 100 elements). */
+static void the_wheel_shows_less_and_less(void **state)
+{
+    (void)state;
+    const double limit = halfplane_difference(&on_hub, 100, 5e-7, 0);
+    const double large = halfplane_difference(&on_hub, 100, 5.0, 0) - limit,
+                 middle = halfplane_difference(&on_hub, 100, 0.5, 0) - limit,
+                 small = halfplane_difference(&on_hub, 100, 0.05, 0) - limit;
+    CHECK_ABS(large / middle, 10.0, 1.0, "a/R = 0.1 and 0.01");
+    CHECK_ABS(middle / small, 10.0, 1.0, "a/R = 0.01 and 0.001");
+}
+
+/* ---- Loads and approach
+ * ------------------------------------------------------------------------ */
+
+/* (reaction at the support + load)/load of a uniform pressure on the contact */
+static double balance(const rb_bem_cylinder *cylinder, int n_c, int outer)
+{
+    rb_bem_cylinder wheel = *cylinder;
+    wheel.outer_elements = outer;
+    rb_bem_mesh mesh = mesh_of(&wheel, n_c, 5.0);
+    rb_bem_system *system;
+    double *u = rb_alloc(2 * (size_t)mesh.n, 1), *t = rb_alloc(2 * (size_t)mesh.n, 1);
+    double *pressure = rb_alloc(2 * (size_t)n_c, 1), load = 0.0, sum = 0.0;
+    for (int i = 0; i < n_c; i++)
+        pressure[2 * i + 1] = 1.0;
+    CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_system_solve(system, pressure, u, t), RB_OK);
+    for (int j = 0; j < mesh.n; j++) {
+        sum += t[2 * j + 1] * element_length(&mesh, j);
+        load += j < n_c ? element_length(&mesh, j) : 0.0;
+    }
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+    free(pressure);
+    free(u);
+    free(t);
+    return sum / load;
+}
+
+static void the_support_carries_the_load(void **state)
+{
+    (void)state;
+    const rb_bem_cylinder *bodies[] = {&on_arc, &on_hub};
+    for (int k = 0; k < 2; k++) {
+        const double coarse = fabs(balance(bodies[k], 20, 80)),
+                     fine = fabs(balance(bodies[k], 40, 160)),
+                     finest = fabs(balance(bodies[k], 80, 320));
+        CHECK_MAX(finest, 3e-4, "balance, body %d", k);
+        CHECK_MAX(1.0, order(coarse, fine), "order of the balance, body %d", k);
+        CHECK_MAX(1.0, order(fine, finest), "order of the balance, body %d", k);
+    }
+}
+
+/* Half-plane with the datum 2R/e under Hertz's pressure, and (below) the disc itself:
+ * delta = P (1-nu^2)/(pi E) [2 ln(4R/a) - 1]. */
+static double compression(double P, double R, double a)
+{
+    const double nu = material.poisson, E = 2.0 * material.shear * (1.0 + nu);
+    return P * (1.0 - nu * nu) / (M_PI * E) * (2.0 * log(4.0 * R / a) - 1.0);
+}
+
+/* mean of sqrt(1 - x^2) over [x, y] within [-1, 1] */
+static double hertz_mean(double x, double y)
+{
+    return 0.5 *
+           (y * sqrt(fmax(0, 1 - y * y)) + asin(y) - x * sqrt(fmax(0, 1 - x * x)) -
+            asin(x)) /
+           (y - x);
+}
+
+static void the_default_datum_is_the_half_cylinder(void **state)
+{
+    (void)state;
+    enum { n = 200 };
+    const double R = 50.0, a = 0.1;
+    double *ends = equal_ends(n, a), r[2 * n] = {0}, w[2 * (n + 1)];
+    rb_bem_flexibility f;
+    CHECK_STATUS(rb_bem_flexibility_halfplane(n, ends, material, 2.0 * R / M_E, &f, NULL),
+                 RB_OK);
+    for (int i = 0; i < n; i++)
+        r[i] = hertz_mean(ends[i] / a, fmin(1.0, ends[i + 1] / a));
+    rb_bem_flexibility_apply(&f, r, w);
+    CHECK_REL(w[n / 2], compression(M_PI_2 * a, R, a), 1e-4, "compression");
+    rb_bem_flexibility_free(&f);
+    free(ends);
+}
+
+/* A disc pressed at its bottom and top, elements graded like sinh from both: m (odd)
+ * elements on each half; the central ones carry Hertz's pressure over half-width a. */
+static double disc_compression_error(int m, double a)
+{
+    const double k = 9.0;
+    rb_bem_mesh mesh;
+    CHECK_STATUS(rb_bem_mesh_alloc(2 * m, &mesh), RB_OK);
+    for (int j = 0; j < 2 * m; j++)
+        for (int end = 0; end < 2; end++) {
+            const int e = (j + end) % (2 * m), top = e >= m;
+            const double s = 2.0 * (e % m) / m - 1.0,
+                         angle = M_PI_2 * sinh(k * s) / sinh(k), sign = top ? -1.0 : 1.0;
+            double *x = end ? mesh.x1 : mesh.x0, *y = end ? mesh.y1 : mesh.y0;
+            x[j] = sign * sin(angle);
+            y[j] = sign * 2.0 * pow(sin(0.5 * angle), 2) + (top ? 2.0 : 0.0);
+        }
+    for (int j = 0; j < 2 * m; j++) {
+        const double low = fmax(-1.0, fmin(mesh.x0[j], mesh.x1[j]) / a),
+                     high = fmin(1.0, fmax(mesh.x0[j], mesh.x1[j]) / a);
+        if (low < high) /* the pressed share of the element */
+            mesh.value[2 * j + 1] = (j < m ? 1.0 : -1.0) * hertz_mean(low, high) *
+                                    (high - low) * a / fabs(mesh.x1[j] - mesh.x0[j]);
+    }
+    mesh.condition[2 * (m / 2)] = mesh.condition[2 * (m + m / 2)] = RB_BEM_DISPLACEMENT;
+    mesh.condition[2 * (m / 4) + 1] =
+        RB_BEM_DISPLACEMENT; /* unloaded: only the rigid motion */
+    rb_bem_system *system;
+    double *u = rb_alloc(4 * (size_t)m, 1), *t = rb_alloc(4 * (size_t)m, 1);
+    CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_system_solve(system, NULL, u, t), RB_OK);
+    const double delta = 0.5 * (u[2 * (m / 2) + 1] - u[2 * (m + m / 2) + 1]);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+    free(u);
+    free(t);
+    return fabs(delta / compression(M_PI_2 * a, 1.0, a) - 1.0);
+}
+
+static void the_disc_is_compressed_as_two_half_cylinders(void **state)
+{
+    (void)state;
+    const double coarse = disc_compression_error(101, 0.01),
+                 fine = disc_compression_error(201, 0.01),
+                 finest = disc_compression_error(401, 0.01);
+    CHECK_MAX(finest, 6.5e-4, "compression on 802 elements");
+    CHECK_ABS(order(coarse, fine), 1.1, 0.1, "order");
+    CHECK_ABS(order(fine, finest), 1.1, 0.1, "order");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(neighbours_differ_by_a_fifth_at_most),
+        cmocka_unit_test(the_arc_ends_at_element_ends),
+        cmocka_unit_test(small_contacts_keep_their_digits),
+        cmocka_unit_test(outer_elements_are_as_many_as_asked_for),
+        cmocka_unit_test(bad_cylinders_are_refused),
+        cmocka_unit_test(spoilt_meshes_are_refused),
+        cmocka_unit_test(flexibility_is_the_papers_schur_complement),
+        cmocka_unit_test(every_row_is_a_displacement_of_the_full_solution),
+        cmocka_unit_test(flexibility_is_symmetric_up_to_discretisation),
+        cmocka_unit_test(small_contacts_are_on_a_half_plane),
+        cmocka_unit_test(the_wheel_shows_less_and_less),
+        cmocka_unit_test(the_support_carries_the_load),
+        cmocka_unit_test(the_default_datum_is_the_half_cylinder),
+        cmocka_unit_test(the_disc_is_compressed_as_two_half_cylinders),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

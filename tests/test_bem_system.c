@@ -1,0 +1,318 @@
+/* Mixed problems: classical solutions, support, refusals. */
+#include "bem_shapes.h"
+
+#include <string.h>
+
+static const rb_bem_material material = {.shear = 80.0, .poisson = 0.3};
+
+/* Elements 0 ... n - 1 of a circle are centred on the axes (n a multiple of 4).  Held by
+ * symmetry alone: ux = 0 at the top and bottom, uy = 0 at the left and right. */
+static void hold_by_symmetry(rb_bem_mesh *mesh, int n)
+{
+    mesh->condition[2 * (n / 4)] = mesh->condition[2 * (3 * n / 4)] = RB_BEM_DISPLACEMENT;
+    mesh->condition[1] = mesh->condition[2 * (n / 2) + 1] = RB_BEM_DISPLACEMENT;
+}
+
+/* Pressure p on elements first ... first + n - 1 of a circle about the origin; outward:
+ * +1 where the body lies inside, -1 in a hole. */
+static void press(rb_bem_mesh *mesh, int first, int n, double p, double outward)
+{
+    for (int j = first; j < first + n; j++) {
+        const double x = midpoint_x(mesh, j), y = midpoint_y(mesh, j), r = hypot(x, y);
+        const double t[2] = {-p * outward * x / r, -p * outward * y / r};
+        for (int k = 0; k < 2; k++)
+            if (mesh->condition[2 * j + k] == RB_BEM_TRACTION)
+                mesh->value[2 * j + k] = t[k];
+    }
+}
+
+/* Largest error of the radial displacement against `want` on a circle, relative. */
+static double radial_error(const rb_bem_mesh *mesh, const double *u, int first, int n,
+                           double want)
+{
+    double error = 0.0;
+    for (int j = first; j < first + n; j++) {
+        const double x = midpoint_x(mesh, j), y = midpoint_y(mesh, j), r = hypot(x, y);
+        error = fmax(error, hypot(u[2 * j] - want * x / r, u[2 * j + 1] - want * y / r));
+    }
+    return error / fabs(want);
+}
+
+static void solve(const rb_bem_mesh *mesh, double *u, double *t)
+{
+    rb_bem_system *system;
+    CHECK_STATUS(rb_bem_system_create(mesh, material, &system, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_system_solve(system, NULL, u, t), RB_OK);
+    rb_bem_system_free(system);
+}
+
+/* u_r = -p R (1-2nu)/(2G) */
+static double disc_error(int n)
+{
+    rb_bem_mesh mesh;
+    CHECK_STATUS(rb_bem_mesh_alloc(n, &mesh), RB_OK);
+    put_circle(&mesh, 0, n, 2.0, 1, -M_PI / n);
+    hold_by_symmetry(&mesh, n);
+    press(&mesh, 0, n, 5.0, 1.0);
+    double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1);
+    solve(&mesh, u, t);
+    const double error = radial_error(&mesh, u, 0, n, -5.0 * 2.0 * 0.4 / (2.0 * 80.0));
+    free(u);
+    free(t);
+    rb_bem_mesh_free(&mesh);
+    return error;
+}
+
+/* Lame, internal pressure p: u_r(r) = p a^2/(2G (b^2-a^2)) [(1-2nu) r + b^2/r] */
+static double lame(double r)
+{
+    const double a = 1.0, b = 2.0, p = 3.0;
+    return p * a * a / (2.0 * 80.0 * (b * b - a * a)) * (0.4 * r + b * b / r);
+}
+
+static double thick_ring_error(int n)
+{
+    rb_bem_mesh mesh;
+    CHECK_STATUS(rb_bem_mesh_alloc(2 * n, &mesh), RB_OK);
+    put_circle(&mesh, 0, n, 2.0, 1, -M_PI / n);
+    put_circle(&mesh, n, n, 1.0, -1, M_PI / n);
+    hold_by_symmetry(&mesh, n);
+    press(&mesh, n, n, 3.0, -1.0);
+    double *u = rb_alloc(4 * (size_t)n, 1), *t = rb_alloc(4 * (size_t)n, 1);
+    solve(&mesh, u, t);
+    const double error = fmax(radial_error(&mesh, u, 0, n, lame(2.0)),
+                              radial_error(&mesh, u, n, n, lame(1.0)));
+    free(u);
+    free(t);
+    rb_bem_mesh_free(&mesh);
+    return error;
+}
+
+static void check_first_order(double (*error)(int), int n, double bound, const char *what)
+{
+    const double e[3] = {error(n), error(2 * n), error(4 * n)};
+    CHECK_MAX(e[2], bound, "%s on %d elements", what, 4 * n);
+    CHECK_ABS(order(e[0], e[1]), 1.0, 0.2, "order of %s", what);
+    CHECK_ABS(order(e[1], e[2]), 1.0, 0.15, "order of %s", what);
+}
+
+static void disc_under_pressure(void **state)
+{
+    (void)state;
+    check_first_order(disc_error, 80, 1e-3, "disc");
+}
+
+static void thick_ring_under_internal_pressure(void **state)
+{
+    (void)state;
+    check_first_order(thick_ring_error, 40, 5.5e-3, "ring");
+}
+
+/* Given displacements of the exact solution all round, nu = 0.3: the tractions come out.
+ */
+static double dirichlet_error(int n)
+{
+    rb_bem_mesh mesh = circle(n, 2.0);
+    double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1), error = 0.0;
+    for (int j = 0; j < n;
+         j++) /* strain 0.01 along x, t_x = 2G (1-nu)/(1-2nu) 0.01 n_x */
+        give(&mesh, j, RB_BEM_DISPLACEMENT, 0.01 * midpoint_x(&mesh, j), 0.0);
+    solve(&mesh, u, t);
+    for (int j = 0; j < n; j++) {
+        const double x = midpoint_x(&mesh, j), y = midpoint_y(&mesh, j), r = hypot(x, y);
+        const double along = 2 * 80.0 * 0.7 / 0.4 * 0.01,
+                     across = 2 * 80.0 * 0.3 / 0.4 * 0.01;
+        error =
+            fmax(error, hypot(t[2 * j] - along * x / r, t[2 * j + 1] - across * y / r));
+    }
+    free(u);
+    free(t);
+    rb_bem_mesh_free(&mesh);
+    return error;
+}
+
+static void given_displacements_give_the_tractions(void **state)
+{
+    (void)state;
+    check_first_order(dirichlet_error, 40, 5.5e-3, "tractions");
+}
+
+/* ---- The solution itself
+ * ------------------------------------------------------------------ */
+
+/* H u = G t holds for what solve() returns, and what was given is returned. */
+static void the_solution_satisfies_the_equations(void **state)
+{
+    (void)state;
+    const double ends[] = {-8.0, -5.0, -1.0, 2.0, 4.0, 7.0};
+    const rb_bem_cylinder cylinder = {50.0, RB_BEM_ARC, 0.5, 0.0, 0};
+    rb_bem_mesh mesh;
+    rb_bem_system *system;
+    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, 4, ends, &mesh, NULL), RB_OK);
+    give(&mesh, 20, RB_BEM_TRACTION, 3.0, -1.0);
+    const size_t d = 2 * (size_t)mesh.n;
+    double *H = rb_alloc(d, d), *G = rb_alloc(d, d), *u = rb_alloc(d, 1),
+           *t = rb_alloc(d, 1);
+    double load[8] = {0.1, 1.0, 0.2, 3.0, -0.3, 2.0, 0.0, 0.5};
+    CHECK_STATUS(rb_bem_assemble(&mesh, material, H, G, (int)d, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_system_solve(system, load, u, t), RB_OK);
+    const double scale = rb_norm_inf(d, u);
+    for (size_t i = 0; i < d; i++) {
+        double residual = 0.0;
+        for (size_t j = 0; j < d; j++)
+            residual += H[i + j * d] * u[j] - G[i + j * d] * t[j];
+        CHECK_ABS(residual, 0.0, 1e-12 * scale, "row %d", (int)i);
+        const double given = i < 8 ? load[i] : mesh.value[i];
+        CHECK_ABS(mesh.condition[i] == RB_BEM_DISPLACEMENT ? u[i] : t[i], given, 0.0,
+                  "dof %d", (int)i);
+    }
+    CHECK_MAX(1e-6, rb_bem_system_rcond(system), "condition");
+    assert_int_equal(rb_bem_system_mesh(system)->n, mesh.n);
+    double assembly, factor;
+    rb_bem_system_seconds(system, &assembly, &factor);
+    assert_true(assembly > 0.0 && factor > 0.0);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+    free(H);
+    free(G);
+    free(u);
+    free(t);
+}
+
+/* ---- Support (B6)
+ * ------------------------------------------------------------------------- */
+
+static void expect_free(rb_bem_mesh *mesh, const char *motions)
+{
+    rb_bem_system *system;
+    rb_message why;
+    CHECK_STATUS(rb_bem_system_create(mesh, material, &system, &why), RB_EINVAL);
+    assert_null(system);
+    if (!strstr(why.text, motions))
+        fail_msg("'%s' does not say '%s'", why.text, motions);
+}
+
+static void a_body_without_support_is_refused(void **state)
+{
+    (void)state;
+    enum { n = 16 };
+    rb_bem_mesh mesh;
+    CHECK_STATUS(rb_bem_mesh_alloc(n, &mesh), RB_OK);
+    put_circle(&mesh, 0, n, 1.0, 1, -M_PI / n);
+    expect_free(&mesh, "free in translation along x, translation along y, rotation;");
+    mesh.condition[0] = RB_BEM_DISPLACEMENT;
+    expect_free(&mesh, "free in translation along y, rotation;");
+    mesh.condition[1] = RB_BEM_DISPLACEMENT;
+    expect_free(&mesh, "free in rotation;");
+    mesh.condition[2 * (n / 2)] = RB_BEM_DISPLACEMENT; /* opposite, same height */
+    expect_free(&mesh, "free in rotation;");
+    mesh.condition[1] = RB_BEM_TRACTION;
+    mesh.condition[2 * 3] = RB_BEM_DISPLACEMENT; /* another height, but x only */
+    expect_free(&mesh, "free in translation along y;");
+    mesh.condition[1] = RB_BEM_DISPLACEMENT;
+    rb_bem_system *system;
+    CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+}
+
+/* Two bodies, one of them held: the count sees a support, the matrix does not. */
+static void a_second_body_without_support_is_singular(void **state)
+{
+    (void)state;
+    enum { n = 16 };
+    rb_bem_mesh mesh;
+    rb_bem_system *system;
+    rb_message why;
+    CHECK_STATUS(rb_bem_mesh_alloc(2 * n, &mesh), RB_OK);
+    put_circle(&mesh, 0, n, 1.0, 1, 0.0);
+    put_circle(&mesh, n, n, 1.0, 1, 0.0);
+    for (int j = n; j < 2 * n; j++) {
+        mesh.x0[j] += 5.0;
+        mesh.x1[j] += 5.0;
+    }
+    give(&mesh, 0, RB_BEM_DISPLACEMENT, 0.0, 0.0);
+    give(&mesh, 5, RB_BEM_DISPLACEMENT, 0.0, 0.0);
+    CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, &why), RB_SINGULAR);
+    assert_non_null(strstr(why.text, "singular"));
+    assert_null(system);
+    rb_bem_mesh_free(&mesh);
+}
+
+/* ---- Refusals
+ * ------------------------------------------------------------------------------ */
+
+static void bad_input_is_refused(void **state)
+{
+    (void)state;
+    enum { n = 16 };
+    rb_bem_mesh mesh = circle(n, 1.0);
+    rb_bem_system *system;
+    rb_bem_flexibility f;
+    rb_message why;
+    double H[4 * n * n];
+    give(&mesh, 0, RB_BEM_DISPLACEMENT, 0.0, 0.0);
+    give(&mesh, 5, RB_BEM_DISPLACEMENT, 0.0, 0.0);
+    CHECK_STATUS(rb_bem_system_create(&mesh, (rb_bem_material){0.0, 0.3}, &system, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, "shear"));
+    CHECK_STATUS(rb_bem_assemble(&mesh, material, H, NULL, 2 * n - 1, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "leading dimension"));
+    CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, &why), RB_OK);
+    CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "no contact"));
+    rb_bem_system_free(system);
+    mesh.x0[3] = NAN;
+    CHECK_STATUS(rb_bem_assemble(&mesh, material, H, NULL, 2 * n, &why), RB_EINVAL);
+    CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, &why), RB_EINVAL);
+    rb_bem_system_free(NULL);
+    rb_bem_mesh_free(&mesh);
+}
+
+static void failing_memory_is_reported(void **state)
+{
+    (void)state;
+    const double ends[] = {-0.2, -0.1, 0.1, 0.2};
+    const rb_bem_cylinder cylinder = {1.0, RB_BEM_HUB, 0.0, 0.4, 20};
+    double H[40000], u[200], t[200];
+    for (int count = 0, failed = 1; failed; count++) {
+        rb_bem_mesh mesh = {0};
+        rb_bem_system *system = NULL;
+        rb_bem_flexibility f = {0};
+        alloc_fail_after(count);
+        rb_status s = rb_bem_mesh_cylinder(&cylinder, 2, ends, &mesh, NULL);
+        if (s == RB_OK) {
+            give(&mesh, 5, RB_BEM_TRACTION, 1.0, 1.0);
+            s = rb_bem_system_create(&mesh, material, &system, NULL);
+        }
+        if (s == RB_OK)
+            s = rb_bem_system_solve(system, NULL, u, t);
+        if (s == RB_OK)
+            s = rb_bem_condense(system, RB_BEM_NORMALS_SURFACE, &f, NULL);
+        if (s == RB_OK)
+            s = rb_bem_assemble(&mesh, material, H, NULL, 2 * mesh.n, NULL);
+        failed = alloc_failed();
+        alloc_succeed();
+        CHECK_STATUS(s, failed ? RB_ENOMEM : RB_OK);
+        assert_true(mesh.n <= 100);
+        rb_bem_flexibility_free(&f);
+        rb_bem_system_free(system);
+        rb_bem_mesh_free(&mesh);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(disc_under_pressure),
+        cmocka_unit_test(thick_ring_under_internal_pressure),
+        cmocka_unit_test(given_displacements_give_the_tractions),
+        cmocka_unit_test(the_solution_satisfies_the_equations),
+        cmocka_unit_test(a_body_without_support_is_refused),
+        cmocka_unit_test(a_second_body_without_support_is_singular),
+        cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(failing_memory_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
