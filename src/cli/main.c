@@ -1,10 +1,12 @@
 /* rollbem: finds the command and sees that what it printed was written. */
 #include "cli/cli.h"
+#include "rollbem/blas.h"
 
 #include <errno.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <gsl/gsl_errno.h>
 
@@ -126,8 +128,18 @@ static int close_output(int code)
     return code;
 }
 
+/* OpenBLAS reads its environment only while it is loaded: hence the second start.  Where
+ * exec fails, the kernels that it chose do as well. */
+static void take_fast_blas(char **argv)
+{
+    const char *core = rb_blas_better_core();
+    if (core && !getenv("OPENBLAS_CORETYPE") && setenv("OPENBLAS_CORETYPE", core, 1) == 0)
+        execv("/proc/self/exe", argv);
+}
+
 int main(int argc, char **argv)
 {
+    take_fast_blas(argv);
     gsl_set_error_handler_off();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe becomes a write error */
     command_line = quote(argc, argv);

@@ -1,0 +1,14 @@
+/* Which of OpenBLAS' kernels run: a library older than the processor may not know it and
+ * take slow ones (0.3.21 takes those of 2004 for a server of 2023: four times slower). */
+#ifndef ROLLBEM_BLAS_H
+#define ROLLBEM_BLAS_H
+
+/* "SkylakeX", "Haswell", ...: what is in use. */
+const char *rb_blas_core(void);
+
+/* The kernels that this processor could run and OpenBLAS did not choose, as a value of
+ * the environment variable OPENBLAS_CORETYPE, which it reads when it is loaded; NULL:
+ * none. */
+const char *rb_blas_better_core(void);
+
+#endif
