@@ -29,9 +29,25 @@ void rb_io_writer_abandon(rb_io_writer *w);
 
 /* ---- Tables of numbers ------------------------------------------------------------- */
 
-/* Rows of `columns` numbers between blanks or commas; # starts a comment.  x: *rows
- * values of the first column, then of the second, ...; owned by the caller.  RB_ENOENT;
- * RB_EFORMAT: another count of numbers, not a number, no row; RB_ENOMEM. */
+/* Numbers between blanks or commas, a row per line; # starts a comment.  The columns are
+ * named by a first line of words or by the last comment before the first row. */
+typedef struct {
+    int rows, columns;
+    char **name; /* columns; NULL: the file does not name them; owned, as all here */
+    double *x;   /* rows x columns, column-major */
+    int *line;   /* rows: where each stands in the file */
+} rb_io_table;
+
+/* RB_ENOENT; RB_EFORMAT with file, line and what was wanted: another count of numbers
+ * than in the first row or than names, not a number, a name twice, no row; RB_ENOMEM.
+ * t: overwritten, empty after a failure. */
+rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why);
+/* rows numbers; NULL when there is no such column. */
+const double *rb_io_table_column(const rb_io_table *t, const char *name);
+void rb_io_table_free(rb_io_table *t);
+
+/* A table of exactly that many columns.  x: *rows values of the first column, then of the
+ * second, ...; owned by the caller.  Otherwise as rb_io_table_read. */
 rb_status rb_io_read_columns(const char *path, int columns, int *rows, double **x,
                              rb_message *why);
 

@@ -1,0 +1,261 @@
+/* Tables of numbers, with or without named columns. */
+#include "rollbem/io.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char blanks[] = " \t\r\n,";
+
+enum { LINE = 4000 };
+
+typedef struct {
+    const char *path;
+    int line, room;
+    char comment[LINE]; /* last one before the first row: it may name the columns */
+    rb_io_table *t;     /* x row by row until the end */
+    rb_message *why;
+} reading;
+
+void rb_io_table_free(rb_io_table *t)
+{
+    for (int j = 0; t->name && j < t->columns; j++)
+        free(t->name[j]);
+    free(t->name);
+    free(t->x);
+    free(t->line);
+    memset(t, 0, sizeof *t);
+}
+
+const double *rb_io_table_column(const rb_io_table *t, const char *name)
+{
+    for (int j = 0; t->name && j < t->columns; j++)
+        if (strcmp(t->name[j], name) == 0)
+            return t->x + (size_t)j * (size_t)t->rows;
+    return NULL;
+}
+
+/* ---- Words ------------------------------------------------------------------------- */
+
+/* The next word from *at on, *at moves behind it; 0 at the end of the line. */
+static size_t next_word(const char **at, const char **word)
+{
+    *word = *at + strspn(*at, blanks);
+    const size_t n = strcspn(*word, blanks);
+    *at = *word + n;
+    return n;
+}
+
+static int count_words(const char *text)
+{
+    const char *word;
+    int n = 0;
+    while (next_word(&text, &word) > 0)
+        n++;
+    return n;
+}
+
+static int is_number(const char *word, size_t n, double *value)
+{
+    char *end;
+    *value = strtod(word, &end);
+    return n > 0 && end == word + n && isfinite(*value);
+}
+
+/* ---- Names ------------------------------------------------------------------------- */
+
+static rb_status no_memory(const reading *r)
+{
+    return rb_fail(r->why, RB_ENOMEM, "%s: out of memory", r->path);
+}
+
+static rb_status check_name(const reading *r, int j)
+{
+    for (int i = 0; i < j; i++)
+        if (strcmp(r->t->name[i], r->t->name[j]) == 0)
+            return rb_fail(r->why, RB_EFORMAT, "%s:%d: column '%s' is named twice",
+                           r->path, r->line, r->t->name[j]);
+    return RB_OK;
+}
+
+static rb_status keep_names(reading *r, const char *text)
+{
+    rb_io_table *t = r->t;
+    const char *word;
+    rb_status s = RB_OK;
+    t->columns = count_words(text);
+    t->name = calloc((size_t)t->columns, sizeof *t->name);
+    if (!t->name)
+        return no_memory(r);
+    for (int j = 0; j < t->columns && s == RB_OK; j++) {
+        const size_t n = next_word(&text, &word);
+        t->name[j] = calloc(n + 1, 1);
+        if (!t->name[j])
+            return no_memory(r);
+        memcpy(t->name[j], word, n);
+        s = check_name(r, j);
+    }
+    return s;
+}
+
+/* 1: a first line of words, none of them a number. */
+static int is_names(const reading *r, const char *text)
+{
+    const char *word;
+    double value;
+    if (r->t->rows > 0 || r->t->name)
+        return 0;
+    for (size_t n; (n = next_word(&text, &word)) > 0;)
+        if (is_number(word, n, &value))
+            return 0;
+    return 1;
+}
+
+/* ---- Rows -------------------------------------------------------------------------- */
+
+static rb_status make_room(reading *r)
+{
+    rb_io_table *t = r->t;
+    if (t->rows < r->room)
+        return RB_OK;
+    const int room = r->room ? 2 * r->room : 64;
+    double *x = realloc(t->x, sizeof(double) * (size_t)room * (size_t)(t->columns + 1));
+    if (x)
+        t->x = x;
+    int *line = x ? realloc(t->line, sizeof(int) * (size_t)room) : NULL;
+    if (!line)
+        return no_memory(r);
+    t->line = line;
+    r->room = room;
+    return RB_OK;
+}
+
+static rb_status wrong_count(const reading *r, int n)
+{
+    char names[160] = "";
+    size_t used = 0;
+    for (int j = 0; r->t->name && j < r->t->columns && used < sizeof names; j++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s",
+                                 j ? ", " : " (", r->t->name[j]);
+    return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected %d number%s%s%s, got %d", r->path,
+                   r->line, r->t->columns, r->t->columns == 1 ? "" : "s", names,
+                   *names ? ")" : "", n);
+}
+
+static rb_status read_row(reading *r, const char *text)
+{
+    rb_io_table *t = r->t;
+    const char *word;
+    int n = 0;
+    rb_status s = make_room(r);
+    if (s != RB_OK)
+        return s;
+    for (size_t length; (length = next_word(&text, &word)) > 0; n++) {
+        double value;
+        if (!is_number(word, length, &value))
+            return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected a number, got '%.*s'",
+                           r->path, r->line, length < 60 ? (int)length : 60, word);
+        if (n < t->columns)
+            t->x[t->rows * t->columns + n] = value;
+    }
+    if (n != t->columns)
+        return wrong_count(r, n);
+    t->line[t->rows++] = r->line;
+    return RB_OK;
+}
+
+/* A comment of as many words as the first row has numbers names the columns. */
+static rb_status first_row(reading *r, const char *text)
+{
+    const int n = count_words(text);
+    if (count_words(r->comment) == n)
+        return keep_names(r, r->comment);
+    r->t->columns = n;
+    return RB_OK;
+}
+
+static rb_status read_line(reading *r, char *text)
+{
+    const char *words = text;
+    rb_status s = RB_OK;
+    char *comment = strchr(text, '#');
+    if (comment) {
+        *comment++ = '\0';
+        if (r->t->rows == 0)
+            snprintf(r->comment, sizeof r->comment, "%s", comment);
+    }
+    if (count_words(text) == 0)
+        return RB_OK;
+    if (is_names(r, words))
+        return keep_names(r, words);
+    if (r->t->columns == 0)
+        s = first_row(r, words);
+    return s == RB_OK ? read_row(r, words) : s;
+}
+
+static rb_status read_lines(reading *r, FILE *file)
+{
+    char text[LINE];
+    rb_status s = RB_OK;
+    while (s == RB_OK && fgets(text, sizeof text, file)) {
+        r->line++;
+        if (!strchr(text, '\n') && !feof(file))
+            return rb_fail(r->why, RB_EFORMAT, "%s:%d: line too long", r->path, r->line);
+        s = read_line(r, text);
+    }
+    if (s == RB_OK && ferror(file))
+        s = rb_fail(r->why, RB_ENOENT, "%s: %s", r->path, strerror(errno));
+    if (s == RB_OK && r->t->rows == 0)
+        s = rb_fail(r->why, RB_EFORMAT, "%s: no numbers", r->path);
+    return s;
+}
+
+static rb_status by_columns(const reading *r)
+{
+    rb_io_table *t = r->t;
+    double *x = rb_alloc((size_t)t->rows, (size_t)t->columns);
+    if (!x)
+        return no_memory(r);
+    for (int i = 0; i < t->rows; i++)
+        for (int j = 0; j < t->columns; j++)
+            x[i + (size_t)j * (size_t)t->rows] = t->x[i * t->columns + j];
+    free(t->x);
+    t->x = x;
+    return RB_OK;
+}
+
+rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why)
+{
+    reading r = {.path = path, .t = t, .why = why};
+    FILE *file = fopen(path, "r");
+    memset(t, 0, sizeof *t);
+    if (!file)
+        return rb_fail(why, RB_ENOENT, "%s: %s", path, strerror(errno));
+    rb_status s = read_lines(&r, file);
+    fclose(file);
+    if (s == RB_OK)
+        s = by_columns(&r);
+    if (s != RB_OK)
+        rb_io_table_free(t);
+    return s;
+}
+
+rb_status rb_io_read_columns(const char *path, int columns, int *rows, double **x,
+                             rb_message *why)
+{
+    rb_io_table t;
+    rb_status s = rb_io_table_read(path, &t, why);
+    *x = NULL;
+    *rows = 0;
+    if (s == RB_OK && t.columns != columns)
+        s = rb_fail(why, RB_EFORMAT, "%s:%d: expected %d numbers, got %d", path,
+                    t.line[0], columns, t.columns);
+    if (s == RB_OK) {
+        *x = t.x;
+        *rows = t.rows;
+        t.x = NULL;
+    }
+    rb_io_table_free(&t);
+    return s;
+}

@@ -1,0 +1,134 @@
+/* Tables of numbers: what is read, and how a bad one is refused. */
+#include "check.h"
+#include "rollbem/io.h"
+
+#include <string.h>
+#include <unistd.h>
+
+static rb_status read_text(const char *text, rb_io_table *t, rb_message *why)
+{
+    char name[] = "/tmp/rollbem-table-XXXXXX";
+    const int fd = mkstemp(name);
+    assert_true(fd >= 0);
+    assert_int_equal(write(fd, text, strlen(text)), (int)strlen(text));
+    close(fd);
+    const rb_status s = rb_io_table_read(name, t, why);
+    unlink(name);
+    return s;
+}
+
+static void check_history(const char *text, int first_line)
+{
+    rb_io_table t;
+    rb_message why = {""};
+    const rb_status s = read_text(text, &t, &why);
+    if (s != RB_OK)
+        print_error("%s\n", why.text);
+    assert_int_equal(s, RB_OK);
+    assert_int_equal(t.rows, 2);
+    assert_int_equal(t.columns, 3);
+    const double *load = rb_io_table_column(&t, "load");
+    const double *force = rb_io_table_column(&t, "force");
+    assert_non_null(load);
+    assert_non_null(force);
+    CHECK_ABS(load[1], 20.0, 0.0, "load");
+    CHECK_ABS(force[0], -1.5, 0.0, "force");
+    assert_null(rb_io_table_column(&t, "creep"));
+    assert_int_equal(t.line[0], first_line);
+    rb_io_table_free(&t);
+}
+
+/* As written by hand, with tabs or commas, and as the program writes its own tables. */
+static void columns_are_named_in_three_ways(void **state)
+{
+    (void)state;
+    check_history("distance load force\n0 10 -1.5\n1 20 2\n", 2);
+    check_history("# a run\n# distance\tload\tforce\n0\t10\t-1.5\n\n1\t20\t2\n", 3);
+    check_history("distance, load, force # names\n# more\n0, 10, -1.5\n1, 20, 2", 3);
+}
+
+static void names_may_be_missing(void **state)
+{
+    (void)state;
+    rb_io_table t;
+    assert_int_equal(read_text("# two numbers a row\n1 2\n3 4 # end\n", &t, NULL), RB_OK);
+    assert_null(t.name);
+    assert_null(rb_io_table_column(&t, "load"));
+    CHECK_ABS(t.x[2], 2.0, 0.0, "second column first");
+    assert_int_equal(t.line[1], 3);
+    rb_io_table_free(&t);
+}
+
+static void bad_tables_are_named_with_their_line(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *part;
+    } bad[] = {
+        {"load force\n1 2\n3\n", ":3: expected 2 numbers (load, force), got 1"},
+        {"load force\n1 2 3\n", ":2: expected 2 numbers (load, force), got 3"},
+        {"# load\n1\n2 3\n", ":3: expected 1 number (load), got 2"},
+        {"load force\n1 2\nend of it\n", ":3: expected a number, got 'end'"},
+        {"load force\n1 nan\n", ":2: expected a number, got 'nan'"},
+        {"load force\n1 1e999\n", ":2: expected a number, got '1e999'"},
+        {"1 2\n3 4x\n", ":2: expected a number, got '4x'"},
+        {"one 2\n", ":1: expected a number, got 'one'"},
+        {"load load\n1 2\n", ":1: column 'load' is named twice"},
+        {"load force\n", ": no numbers"},
+        {"# load force\n\n", ": no numbers"},
+        {"", ": no numbers"},
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+        rb_io_table t;
+        rb_message why = {""};
+        assert_int_equal(read_text(bad[k].text, &t, &why), RB_EFORMAT);
+        if (!strstr(why.text, bad[k].part))
+            print_error("got '%s', want '%s'\n", why.text, bad[k].part);
+        assert_non_null(strstr(why.text, bad[k].part));
+        assert_null(t.x);
+        assert_int_equal(t.rows, 0);
+    }
+    rb_io_table t;
+    assert_int_equal(rb_io_table_read("/nonexistent", &t, NULL), RB_ENOENT);
+}
+
+static void long_line_is_refused(void **state)
+{
+    (void)state;
+    static char text[5000];
+    rb_io_table t;
+    rb_message why = {""};
+    memset(text, '1', sizeof text - 2);
+    assert_int_equal(read_text(text, &t, &why), RB_EFORMAT);
+    assert_non_null(strstr(why.text, ":1: line too long"));
+}
+
+static void tables_without_memory(void **state)
+{
+    (void)state;
+    char text[2000] = "load force\n";
+    int refused = 1;
+    for (int i = 0; i < 200; i++)
+        strcat(text, "1 2\n");
+    for (int k = 0; refused; k++) {
+        rb_io_table t;
+        alloc_fail_after(k);
+        const rb_status s = read_text(text, &t, NULL);
+        refused = alloc_failed();
+        alloc_succeed();
+        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        rb_io_table_free(&t);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(columns_are_named_in_three_ways),
+        cmocka_unit_test(names_may_be_missing),
+        cmocka_unit_test(bad_tables_are_named_with_their_line),
+        cmocka_unit_test(long_line_is_refused),
+        cmocka_unit_test(tables_without_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
