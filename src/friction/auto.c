@@ -12,19 +12,24 @@ typedef struct {
     int limit;   /* iterations */
     int sweeps;  /* of Gauss-Seidel before it */
     int needs_w; /* skipped where there is none */
+    int only_2d;
 } stage;
 
 static const stage stages[] = {
-    {"nsn-ac", rb_friction_nsn_ac, 40, 0, 0},
-    {"nsn-ac", rb_friction_nsn_ac, 40, 200, 1},
-    {"nsn-fb", rb_friction_nsn_fb, 60, 0, 0},
-    {"nsn-nm", rb_friction_nsn_nm, 60, 0, 0},
-    {"nsn-jm", rb_friction_nsn_jm, 100, 0, 0},
-    {"nsgs-ac", rb_friction_nsgs_ac, 5000, 0, 1},
-    {"nsgs-fp", rb_friction_nsgs_fp, 5000, 0, 1},
-    {"nsn-ac", rb_friction_nsn_ac, 400, 0, 0},
-    {"extragradient", rb_friction_extragradient, 100000, 0, 1},
+    {"nsn-ac", rb_friction_nsn_ac, 40, 0, 0, 0},
+    {"nsn-ac-nls", rb_friction_nsn_ac_nls, 30, 100, 1, 0},
+    {"nsn-fb", rb_friction_nsn_fb, 60, 0, 0, 0},
+    {"nsn-nm", rb_friction_nsn_nm, 60, 0, 0, 0},
+    {"nsn-jm", rb_friction_nsn_jm, 100, 0, 0, 0},
+    {"lemke", rb_friction_lemke, 0, 0, 0, 1},
+    {"nsgs-ac", rb_friction_nsgs_ac, 5000, 0, 1, 0},
+    {"nsgs-fp", rb_friction_nsgs_fp, 5000, 0, 1, 0},
+    {"nsn-ac", rb_friction_nsn_ac, 400, 0, 0, 0},
+    {"extragradient", rb_friction_extragradient, 100000, 0, 1, 0},
 };
+
+/* Dense tableaus beyond this take longer than what comes after. */
+#define MOST_FOR_LEMKE 1000
 
 typedef struct {
     double *start, *best; /* m + n each: r, v */
@@ -66,6 +71,16 @@ static rb_status try_stage(rb_friction_task *task, const stage *s, record *rec)
     return status == RB_OK ? RB_INACCURATE : status;
 }
 
+/* W is condensed when the first stage asks for it. */
+static int fits(rb_friction_task *task, const stage *s)
+{
+    if (s->only_2d && (task->d != 2 || task->contacts > MOST_FOR_LEMKE))
+        return 0;
+    if (!s->needs_w || task->local)
+        return 1;
+    return task->measure->spring == 0.0 && rb_friction_task_condense(task) == RB_OK;
+}
+
 rb_status rb_friction_auto(rb_friction_task *task)
 {
     const rb_friction_options given = task->opt;
@@ -75,9 +90,10 @@ rb_status rb_friction_auto(rb_friction_task *task)
     rb_status s = rec.start && rec.best ? RB_MAXITER : RB_ENOMEM;
     if (s == RB_MAXITER)
         store(task, rec.start);
-    for (size_t k = 0; s > 0 && s != RB_INTERRUPTED && k < sizeof stages / sizeof *stages;
-         k++)
-        s = try_stage(task, &stages[k], &rec);
+    const size_t n = sizeof stages / sizeof *stages;
+    for (size_t k = 0; s > 0 && s != RB_INTERRUPTED && k < n; k++)
+        if (fits(task, &stages[k]))
+            s = try_stage(task, &stages[k], &rec);
     if (rec.solver) {
         load(task, rec.best);
         task->info->solver = rec.solver;

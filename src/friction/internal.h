@@ -19,8 +19,7 @@ double rb_friction_natural_norm(int d, int contacts, const double *mu, const dou
                                 const double *u);
 double rb_friction_norm(size_t n, const double *x);
 
-/* ---- Measure (measure.c)
- * --------------------------------------------------------------- */
+/* ---- Measure (measure.c) -- */
 
 typedef struct {
     const rb_friction_problem *problem;
@@ -37,10 +36,15 @@ rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *
                                     double *v, double *u, double *error);
 double rb_friction_measure_floor(const rb_friction_measure *measure, const double *r,
                                  const double *v);
+/* Global form.  v = K_k^-1 (H (r + k (u - w)) + f): the displacements that go with r and
+ * u. */
+rb_status rb_friction_measure_displacement(rb_friction_measure *measure, const double *r,
+                                           const double *u, double *v);
+/* Global form.  q = w + H' K_k^-1 (f - k H w) */
+rb_status rb_friction_measure_spring_load(rb_friction_measure *measure, double *q);
 void rb_friction_measure_free(rb_friction_measure *measure);
 
-/* ---- W in d x d blocks (blocks.c)
- * ------------------------------------------------------- */
+/* ---- W in d x d blocks (blocks.c) -- */
 
 typedef struct {
     int d, contacts;
@@ -65,8 +69,7 @@ void rb_friction_blocks_rho(const rb_friction_blocks *blocks, double *rho);
 /* The compliances themselves -> rho, in place. */
 void rb_friction_invert_compliances(int contacts, double *rho);
 
-/* ---- One contact alone (local_contact.c)
- * ------------------------------------------------ */
+/* ---- One contact alone (local_contact.c) -- */
 
 typedef struct {
     int d;
@@ -85,8 +88,7 @@ int rb_friction_contact_fixed_point(const rb_friction_contact *contact, double *
 #define RB_FRICTION_UPK_LEAST 0.3
 #define RB_FRICTION_UPK_SHRINK (2.0 / 3.0)
 
-/* ---- Functions whose roots are solutions (functions.c)
- * ---------------------------------- */
+/* ---- Functions whose roots are solutions (functions.c) -- */
 
 /* One contact: F(r, u) in units of force, A = dF/dr, B = dF/du (d x d column-major; all
  * three written).  rho_n, rho_t > 0 [force/velocity]. */
@@ -99,8 +101,7 @@ rb_friction_function rb_friction_jean_moreau;   /* (9) */
 rb_friction_function rb_friction_natural_map;   /* (10) */
 rb_friction_function rb_friction_fischer_burmeister;
 
-/* ---- Linear systems of Newton's steps (system.c)
- * ------------------------------------------ */
+/* ---- Linear systems of Newton's steps (system.c) -- */
 
 /* Local form:  (A + B W) dr = -F.
  * Global form: K dv - H dr = -e,  B H' dv + A dr = -F: one sparse system, no W. */
@@ -131,14 +132,13 @@ rb_status rb_friction_system_step(rb_friction_system *system, const double *A,
                                   const double *B, const double *F, const double *e,
                                   double *dr, double *dv);
 
-/* ---- One solve in progress (registry.c)
- * ---------------------------------------------------- */
+/* ---- One solve in progress (registry.c) -- */
 
 typedef struct {
     const rb_friction_problem *problem; /* as given */
-    const rb_friction_problem
-        *local;                   /* its local form; NULL: K singular, or not needed */
-    rb_friction_measure *measure; /* of problem */
+    const rb_friction_problem *local;   /* its local form; NULL: not condensed */
+    rb_friction_problem condensed;      /* owned; local points here if W was not given */
+    rb_friction_measure *measure;       /* of problem */
     rb_friction_options opt;
     rb_friction_info *info;
     int d, contacts, m, n; /* n: 0 for the local form */
@@ -149,11 +149,14 @@ typedef struct {
 
 typedef rb_status rb_friction_method(rb_friction_task *task);
 
+/* W of the task's problem: condensed at first use.  RB_SINGULAR: there is none. */
+rb_status rb_friction_task_condense(rb_friction_task *task);
+
 rb_friction_method rb_friction_nsn_ac, rb_friction_nsn_jm, rb_friction_nsn_nm,
     rb_friction_nsn_fb, rb_friction_nsn_ac_nls, rb_friction_nsn_jm_nls,
     rb_friction_nsn_nm_nls, rb_friction_nsn_fb_nls, rb_friction_nsn_ac_hybrid,
     rb_friction_nsgs_ac, rb_friction_nsgs_fp, rb_friction_fixed_point,
-    rb_friction_extragradient, rb_friction_auto;
+    rb_friction_extragradient, rb_friction_lemke, rb_friction_auto;
 
 /* `limit` sweeps of Gauss-Seidel, or fewer where the tolerance is met. */
 rb_status rb_friction_sweeps(rb_friction_task *task, int use_projection, int limit);

@@ -108,8 +108,8 @@ int rb_friction_contact_fixed_point(const rb_friction_contact *c, double *rho, d
     return k + 1;
 }
 
-/* Newton can cycle on one contact already (large mu, strong coupling of N and T): the fixed
- * point then takes over from the best point. */
+/* Newton can cycle on one contact already (large mu, strong coupling of N and T): the
+ * fixed point then takes over from the best point. */
 int rb_friction_contact_newton(const rb_friction_contact *c, double *r)
 {
     const int d = c->d;

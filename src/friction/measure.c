@@ -62,26 +62,49 @@ static double norm_or_one(size_t n, const double *q)
     return norm > 0.0 ? norm : 1.0;
 }
 
-/* ||w + H' K_k^-1 (f - k H w)|| */
+rb_status rb_friction_measure_displacement(rb_friction_measure *measure, const double *r,
+                                           const double *u, double *v)
+{
+    const rb_friction_problem *p = measure->problem;
+    const int m = p->dimension * p->contacts;
+    double *force = rb_alloc((size_t)m, 1);
+    if (!force)
+        return RB_ENOMEM;
+    for (int k = 0; k < m; k++)
+        force[k] = r[k] + measure->spring * (u[k] - p->w[k]);
+    for (int i = 0; i < p->dofs; i++)
+        measure->e[i] = p->f[i];
+    rb_sparse_apply(1.0, &p->H, force, 1.0, measure->e);
+    free(force);
+    return rb_sparse_cholesky_solve(measure->factor, measure->e, v);
+}
+
+rb_status rb_friction_measure_spring_load(rb_friction_measure *measure, double *q)
+{
+    const rb_friction_problem *p = measure->problem;
+    const int m = p->dimension * p->contacts;
+    double *none = rb_alloc((size_t)m, 1), *v = rb_alloc((size_t)p->dofs, 1);
+    rb_status s = none && v ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK) /* no forces beyond those of springs that pull towards u = 0 */
+        s = rb_friction_measure_displacement(measure, none, none, v);
+    for (int k = 0; s == RB_OK && k < m; k++)
+        q[k] = p->w[k];
+    if (s == RB_OK)
+        rb_sparse_apply_transposed(1.0, &p->H, v, 1.0, q);
+    free(v);
+    free(none);
+    return s;
+}
+
+/* ||q||, q of the structure held by the springs where K is singular */
 static rb_status global_scale(rb_friction_measure *measure)
 {
     const rb_friction_problem *p = measure->problem;
     const size_t m = (size_t)(p->dimension * p->contacts);
-    double *q = rb_alloc(m, 1), *v = rb_alloc((size_t)p->dofs, 1);
-    rb_status s = q && v ? RB_OK : RB_ENOMEM;
-    if (s == RB_OK) {
-        for (int i = 0; i < p->dofs; i++)
-            measure->e[i] = p->f[i];
-        rb_sparse_apply(-measure->spring, &p->H, p->w, 1.0, measure->e);
-        s = rb_sparse_cholesky_solve(measure->factor, measure->e, v);
-    }
-    if (s == RB_OK) {
-        for (size_t k = 0; k < m; k++)
-            q[k] = p->w[k];
-        rb_sparse_apply_transposed(1.0, &p->H, v, 1.0, q);
+    double *q = rb_alloc(m, 1);
+    const rb_status s = q ? rb_friction_measure_spring_load(measure, q) : RB_ENOMEM;
+    if (s == RB_OK)
         measure->scale = norm_or_one(m, q);
-    }
-    free(v);
     free(q);
     return s;
 }

@@ -21,13 +21,14 @@ static const rb_friction_solver solvers[] = {
     {"nsgs-fp", "Gauss-Seidel, fixed point at each contact", RB_FRICTION_NEEDS_W},
     {"fixed-point", "projection with adaptive step", RB_FRICTION_NEEDS_W},
     {"extragradient", "projection, twice per step", RB_FRICTION_NEEDS_W},
+    {"lemke", "Lemke's pivots on an LCP of size 3 n_c", RB_FRICTION_ONLY_2D},
 };
 static rb_friction_method *const methods[] = {
     rb_friction_auto,          rb_friction_nsn_ac,        rb_friction_nsn_ac_nls,
     rb_friction_nsn_jm,        rb_friction_nsn_jm_nls,    rb_friction_nsn_nm,
     rb_friction_nsn_nm_nls,    rb_friction_nsn_fb,        rb_friction_nsn_fb_nls,
     rb_friction_nsn_ac_hybrid, rb_friction_nsgs_ac,       rb_friction_nsgs_fp,
-    rb_friction_fixed_point,   rb_friction_extragradient,
+    rb_friction_fixed_point,   rb_friction_extragradient, rb_friction_lemke,
 };
 
 const rb_friction_solver *rb_friction_solvers(int *count)
@@ -124,19 +125,27 @@ static rb_status run(rb_friction_task *task, rb_friction_method *method)
     return s == RB_OK ? RB_INACCURATE : s;
 }
 
-static rb_status prepare(rb_friction_task *task, int needs,
-                         rb_friction_problem *condensed)
+rb_status rb_friction_task_condense(rb_friction_task *task)
 {
-    const rb_friction_problem *p = task->problem;
-    rb_status s = RB_OK;
-    if (p->form != RB_FRICTION_GLOBAL)
-        task->local = p;
-    else if (needs & RB_FRICTION_NEEDS_W) {
-        s = rb_friction_condense(p, condensed, &task->info->msg);
-        task->local = condensed;
-    }
+    if (task->local)
+        return RB_OK;
+    const rb_status s =
+        rb_friction_condense(task->problem, &task->condensed, &task->info->msg);
     if (s == RB_OK)
-        s = rb_friction_measure_init(p, task->measure);
+        task->local = &task->condensed;
+    return s;
+}
+
+static rb_status prepare(rb_friction_task *task, int needs)
+{
+    rb_status s = RB_OK;
+    if (task->problem->form != RB_FRICTION_GLOBAL)
+        task->local = task->problem;
+    if (needs & RB_FRICTION_NEEDS_W)
+        s = rb_friction_task_condense(task);
+    if (s != RB_OK)
+        return s;
+    s = rb_friction_measure_init(task->problem, task->measure);
     if (s == RB_SINGULAR)
         return rb_fail(&task->info->msg, s,
                        "K is singular even with every contact held: the structure has "
@@ -167,7 +176,6 @@ rb_status rb_friction_solve(const char *solver, const rb_friction_problem *probl
         return s;
 
     rb_friction_measure measure = {0};
-    rb_friction_problem condensed = {0};
     const int n = problem->form == RB_FRICTION_GLOBAL ? problem->dofs : 0;
     double *own_v = rb_alloc((size_t)n, 1);
     rb_friction_task task = {.problem = problem,
@@ -183,13 +191,13 @@ rb_status rb_friction_solve(const char *solver, const rb_friction_problem *probl
                              .u = u,
                              .v = v ? v : own_v};
     info->solver = solvers[chosen].name;
-    s = own_v ? prepare(&task, solvers[chosen].needs, &condensed) : RB_ENOMEM;
+    s = own_v ? prepare(&task, solvers[chosen].needs) : RB_ENOMEM;
     if (s == RB_OK) {
         load_start(&task);
         s = run(&task, methods[chosen]);
     }
     rb_friction_measure_free(&measure);
-    rb_friction_problem_free(&condensed);
+    rb_friction_problem_free(&task.condensed);
     free(own_v);
     info->seconds = rb_seconds() - start;
     return s;

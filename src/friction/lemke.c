@@ -1,0 +1,309 @@
+/* Plane problems as linear complementarity problems of size 3 n_c, for Lemke's method.
+ *
+ * Coulomb's law with u_T = u+ - u-, s+ = mu r_N + r_T, s- = mu r_N - r_T:
+ *     u_N, r_N | u+, s+ | u-, s-  >= 0, complementary in pairs,   s+ + s- = 2 mu r_N,
+ *     E u - W r = q:  E = 1, or E = 1 - k W where K is singular and W, q are those of the
+ *     structure with springs k at the contacts.
+ * Solved for w in one of two ways, which Lemke's method finds unequally easy:
+ *     force basis         z = (r_N, s+, u-), w = (u_N, u+, s-): no inverse; needs E = 1
+ *     displacement basis  z = (u_N, u+, s-), w = (r_N, s+, u-), as *Kanno*'s bar needs it
+ * Each may be mirrored (T -> -T), which exchanges + and -. */
+#include "friction/internal.h"
+#include "rollbem/lcp.h"
+
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct {
+    int displacement; /* basis */
+    int mirror;
+    double cover[3]; /* on the three groups of rows; the second is multiplied by 2 mu in
+                        the displacement basis */
+    rb_lcp_rule rule;
+} attempt;
+
+static const attempt attempts[] = {
+    {0, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
+    {0, 1, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
+    /* on ties r_N leaves first: it has the lowest numbers */
+    {1, 0, {1.0, 1.0, 1.0}, RB_LCP_FIRST_INDEX},
+    {1, 0, {1.0, 1.0, 0.01}, RB_LCP_FIRST_INDEX},
+    {1, 0, {1.0, 1.0, 100.0}, RB_LCP_FIRST_INDEX},
+    {1, 1, {1.0, 1.0, 1.0}, RB_LCP_FIRST_INDEX},
+    {1, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
+};
+
+typedef struct {
+    rb_friction_task *task;
+    int nc, n;         /* n = 3 nc */
+    double *W, *E, *q; /* 2 nc, dense, times `unit`; E NULL: identity */
+    double unit;       /* [force/velocity], so that all unknowns are forces */
+    double *M, *b;     /* n x n, n */
+    double *basis;     /* n x n */
+    double *z, *w, *cover;
+    int *pivots;
+} lemke;
+
+static void lemke_free(lemke *s)
+{
+    free(s->W);
+    free(s->E);
+    free(s->q);
+    free(s->M);
+    free(s->b);
+    free(s->basis);
+    free(s->z);
+    free(s->w);
+    free(s->cover);
+    free(s->pivots);
+}
+
+static rb_status lemke_alloc(rb_friction_task *task, lemke *s)
+{
+    const size_t m = (size_t)task->m, n = 3 * (size_t)task->contacts;
+    *s = (lemke){.task = task,
+                 .nc = task->contacts,
+                 .n = (int)n,
+                 .W = rb_alloc(m, m),
+                 .q = rb_alloc(m, 1),
+                 .M = rb_alloc(n, n),
+                 .b = rb_alloc(n, 1),
+                 .basis = rb_alloc(n, n),
+                 .z = rb_alloc(n, 1),
+                 .w = rb_alloc(n, 1),
+                 .cover = rb_alloc(n, 1),
+                 .pivots = rb_alloc_int(n)};
+    return s->W && s->q && s->M && s->b && s->basis && s->z && s->w && s->cover &&
+                   s->pivots
+               ? RB_OK
+               : RB_ENOMEM;
+}
+
+/* ---- The equations E u - W r = q ----------------------------------------------------
+ */
+
+static void scatter(const rb_sparse *a, double *dense)
+{
+    for (int j = 0; j < a->cols; j++)
+        for (int k = a->p[j]; k < a->p[j + 1]; k++)
+            dense[a->i[k] + (size_t)j * (size_t)a->rows] = a->x[k];
+}
+
+static void load_local(lemke *s, const rb_friction_problem *p)
+{
+    const size_t m = (size_t)s->task->m;
+    if (p->form == RB_FRICTION_LOCAL_SPARSE)
+        scatter(&p->Ws, s->W);
+    for (size_t k = 0; p->form == RB_FRICTION_LOCAL_DENSE && k < m * m; k++)
+        s->W[k] = p->W[k];
+    for (size_t k = 0; k < m; k++)
+        s->q[k] = p->q[k];
+}
+
+/* K singular: W, q with springs, and E = 1 - k W. */
+static rb_status load_held(lemke *s)
+{
+    rb_friction_measure *measure = s->task->measure;
+    const size_t m = (size_t)s->task->m;
+    rb_sparse w = {0};
+    s->E = rb_alloc(m, m);
+    rb_status st = s->E ? rb_friction_measure_spring_load(measure, s->q) : RB_ENOMEM;
+    if (st == RB_OK)
+        st = rb_sparse_cholesky_congruence(measure->factor, &s->task->problem->H, &w);
+    if (st == RB_OK)
+        scatter(&w, s->W);
+    for (size_t k = 0; st == RB_OK && k < m * m; k++)
+        s->E[k] = (k % (m + 1) == 0) - measure->spring * s->W[k];
+    rb_sparse_free(&w);
+    return st;
+}
+
+static void scale(lemke *s)
+{
+    const size_t m = (size_t)s->task->m;
+    double trace = 0.0;
+    for (size_t k = 0; k < m; k++)
+        trace += fabs(s->W[k * (m + 1)]);
+    s->unit = trace > 0.0 ? (double)m / trace : 1.0;
+    for (size_t k = 0; k < m * m; k++)
+        s->W[k] *= s->unit;
+    for (size_t k = 0; k < m; k++)
+        s->q[k] *= s->unit;
+}
+
+/* T -> -T in every contact; twice is nothing. */
+static void mirror(lemke *s)
+{
+    const size_t m = (size_t)s->task->m;
+    for (size_t j = 0; j < m; j++)
+        for (size_t i = 0; i < m; i++)
+            if ((i + j) % 2) {
+                s->W[i + j * m] = -s->W[i + j * m];
+                if (s->E)
+                    s->E[i + j * m] = -s->E[i + j * m];
+            }
+    for (size_t i = 1; i < m; i += 2)
+        s->q[i] = -s->q[i];
+}
+
+/* ---- The two bases --------------------------------------------------------------------
+ */
+
+/* Row i (of 2 nc, contact by contact N, T) goes to group N or T of the LCP. */
+static size_t row_of(const lemke *s, size_t i)
+{
+    return i / 2 + (i % 2 ? (size_t)s->nc : 0);
+}
+
+/* Both bases at once: M = [coefficients of r_N, s+, u-], basis = [-coefficients of u_N,
+ * u+, s-] in the equations  (E u - W r)_i = q_i  and  s+ + s- - 2 mu r_N = 0. */
+static void equations(lemke *s, double *of_force, double *of_displacement)
+{
+    const size_t nc = (size_t)s->nc, n = (size_t)s->n, m = 2 * nc;
+    for (size_t k = 0; k < n * n; k++)
+        of_force[k] = of_displacement[k] = 0.0;
+    for (size_t c = 0; c < nc; c++) {
+        const double mu = s->task->problem->mu[c];
+        for (size_t i = 0; i < m; i++) {
+            const size_t row = row_of(s, i);
+            const double wn = s->W[i + 2 * c * m], wt = s->W[i + (2 * c + 1) * m];
+            const double en = s->E ? s->E[i + 2 * c * m] : i == 2 * c;
+            const double et = s->E ? s->E[i + (2 * c + 1) * m] : i == 2 * c + 1;
+            of_force[row + c * n] = -(wn - mu * wt); /* r_T = s+ - mu r_N */
+            of_force[row + (nc + c) * n] = -wt;
+            of_force[row + (m + c) * n] = -et;
+            of_displacement[row + c * n] = en;
+            of_displacement[row + (nc + c) * n] = et;
+        }
+        of_force[m + c + c * n] = -2.0 * mu;
+        of_force[m + c + (nc + c) * n] = 1.0;
+        of_displacement[m + c + (m + c) * n] = 1.0;
+    }
+    for (size_t i = 0; i < m; i++)
+        s->b[row_of(s, i)] = s->q[i];
+    for (size_t c = 0; c < nc; c++)
+        s->b[m + c] = 0.0;
+}
+
+/* w = M z + b in the basis of the attempt. */
+static rb_status form(lemke *s, const attempt *a)
+{
+    const size_t n = (size_t)s->n;
+    if (!a->displacement) {
+        if (s->E)
+            return RB_SINGULAR;
+        equations(s, s->M, s->basis); /* the basis is the identity */
+        for (size_t k = 0; k < n * n; k++)
+            s->M[k] = -s->M[k];
+        return RB_OK;
+    }
+    equations(s, s->basis, s->M);
+    for (size_t k = 0; k < n * n; k++)
+        s->M[k] = -s->M[k];
+    int info = LAPACKE_dgetrf(LAPACK_COL_MAJOR, s->n, s->n, s->basis, s->n, s->pivots);
+    if (info > 0)
+        return RB_SINGULAR;
+    if (info == 0)
+        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, s->n, s->basis, s->n,
+                              s->pivots, s->M, s->n);
+    if (info == 0)
+        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, 1, s->basis, s->n, s->pivots,
+                              s->b, s->n);
+    s->task->info->flops += 8.0 / 3.0 * (double)n * (double)n * (double)n;
+    return info == 0 ? RB_OK : RB_ENOMEM;
+}
+
+static void choose_cover(lemke *s, const attempt *a)
+{
+    for (int c = 0; c < s->nc; c++) {
+        const double two_mu = 2.0 * s->task->problem->mu[c];
+        const double second = a->displacement && two_mu > 0.0 ? two_mu : 1.0;
+        s->cover[c] = a->cover[0];
+        s->cover[s->nc + c] = a->cover[1] * second;
+        s->cover[2 * s->nc + c] = a->cover[2];
+    }
+}
+
+/* r and u from z and w */
+static void unfold(lemke *s, const attempt *a)
+{
+    rb_friction_task *t = s->task;
+    const int nc = s->nc, n = s->n;
+    rb_lcp_residual(n, s->M, n, s->b, s->z, s->w);
+    const double *force = a->displacement ? s->w : s->z;
+    const double *displacement = a->displacement ? s->z : s->w;
+    const double sign = a->mirror ? -1.0 : 1.0;
+    for (int c = 0; c < nc; c++) {
+        const double mu = t->problem->mu[c], rn = fmax(0.0, force[c]);
+        const double s_plus = fmin(fmax(0.0, force[nc + c]), 2.0 * mu * rn);
+        t->r[2 * c] = rn;
+        t->r[2 * c + 1] = sign * (s_plus - mu * rn);
+        t->u[2 * c] = displacement[c] / s->unit;
+        t->u[2 * c + 1] = sign * (displacement[nc + c] - force[2 * nc + c]) / s->unit;
+    }
+}
+
+static rb_status run_attempt(lemke *s, const attempt *a)
+{
+    rb_friction_task *t = s->task;
+    rb_lcp_options opt = rb_lcp_defaults();
+    rb_lcp_info info = {0};
+    if (a->mirror)
+        mirror(s);
+    rb_status st = form(s, a);
+    if (st == RB_OK) {
+        choose_cover(s, a);
+        opt.cover = s->cover;
+        opt.rule = a->rule;
+        opt.max_iters = t->opt.max_iters;
+        st = rb_lcp_lemke(s->n, s->M, s->n, s->b, &opt, s->z, &info);
+        t->info->iters += info.iters;
+        t->info->flops += 2.0 * s->n * (double)s->n * info.iters;
+    }
+    if (a->mirror)
+        mirror(s);
+    if (st != RB_OK)
+        return st;
+    unfold(s, a);
+    if (t->n)
+        st = rb_friction_measure_displacement(t->measure, t->r, t->u, t->v);
+    if (st == RB_OK && !rb_friction_task_accepts(t, rb_friction_task_error(t)))
+        st = RB_INACCURATE;
+    return st;
+}
+
+static rb_status load(lemke *s)
+{
+    rb_status st = RB_OK;
+    if (s->task->local)
+        load_local(s, s->task->local);
+    else
+        st = load_held(s);
+    if (st == RB_OK)
+        scale(s);
+    return st;
+}
+
+rb_status rb_friction_lemke(rb_friction_task *task)
+{
+    lemke s;
+    if (task->d != 2)
+        return RB_EINVAL;
+    rb_status first = RB_OK, st = lemke_alloc(task, &s);
+    if (st == RB_OK)
+        st = load(&s);
+    for (size_t k = 0; st >= 0 && k < sizeof attempts / sizeof *attempts; k++) {
+        st = run_attempt(&s, &attempts[k]);
+        if (st <= 0)
+            break;
+        if (first == RB_OK || first == RB_SINGULAR)
+            first = st; /* what went wrong first is what is told */
+        if (rb_friction_task_late(task))
+            first = st = RB_INTERRUPTED;
+        if (st == RB_INTERRUPTED)
+            break;
+    }
+    lemke_free(&s);
+    return st > 0 ? first : st;
+}
