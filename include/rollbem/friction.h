@@ -125,6 +125,28 @@ rb_status rb_friction_solve(const char *solver, const rb_friction_problem *probl
                             const rb_friction_options *opt, double *r, double *u,
                             double *v, rb_friction_info *info);
 
+/* ---- The canonical SOCLCP, *Kanno* (1) ------------------------------------------------
+ */
+
+/* y = M x + q, x and y in a product of cones, x'y = 0.  Borrowed. */
+typedef struct {
+    int n;           /* sum of the sizes */
+    const double *M; /* n x n column-major */
+    const double *q; /* n */
+    int cones;
+    const int *size; /* cones: k > 1 the Lorentz cone {x_0 >= ||x_1 ...||}, 1 a half-line;
+                        at most 64 */
+} rb_friction_soclcp_problem;
+
+/* Smoothing and regularisation (Hayashi, Yamashita, Fukushima).  opt->r0: start x.  x, y:
+ * n, written.  info->residual: ||x - P(x - y)|| / ||q||, recomputed from x. */
+rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *problem,
+                             const rb_friction_options *opt, double *x, double *y,
+                             rb_friction_info *info);
+/* y = M x + q and the residual. */
+double rb_friction_soclcp_error(const rb_friction_soclcp_problem *problem,
+                                const double *x, double *y);
+
 /* "solved", "solved-to-rounding" (above tol, at or below the floor), or the words of s.
  */
 const char *rb_friction_status_text(rb_status s, double tol,

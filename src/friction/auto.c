@@ -21,6 +21,7 @@ static const stage stages[] = {
     {"nsn-fb", rb_friction_nsn_fb, 60, 0, 0, 0},
     {"nsn-nm", rb_friction_nsn_nm, 60, 0, 0, 0},
     {"nsn-jm", rb_friction_nsn_jm, 100, 0, 0, 0},
+    {"soclcp-smoothing", rb_friction_soclcp_smoothing, 150, 0, 0, 0},
     {"lemke", rb_friction_lemke, 0, 0, 0, 1},
     {"nsgs-ac", rb_friction_nsgs_ac, 5000, 0, 1, 0},
     {"nsgs-fp", rb_friction_nsgs_fp, 5000, 0, 1, 0},

@@ -132,6 +132,8 @@ rb_status rb_friction_system_step(rb_friction_system *system, const double *A,
                                   const double *B, const double *F, const double *e,
                                   double *dr, double *dv);
 
+rb_status rb_friction_lapack_status(int info);
+
 /* ---- One solve in progress (registry.c) -- */
 
 typedef struct {
@@ -156,7 +158,8 @@ rb_friction_method rb_friction_nsn_ac, rb_friction_nsn_jm, rb_friction_nsn_nm,
     rb_friction_nsn_fb, rb_friction_nsn_ac_nls, rb_friction_nsn_jm_nls,
     rb_friction_nsn_nm_nls, rb_friction_nsn_fb_nls, rb_friction_nsn_ac_hybrid,
     rb_friction_nsgs_ac, rb_friction_nsgs_fp, rb_friction_fixed_point,
-    rb_friction_extragradient, rb_friction_lemke, rb_friction_auto;
+    rb_friction_extragradient, rb_friction_lemke, rb_friction_soclcp_smoothing,
+    rb_friction_auto;
 
 /* `limit` sweeps of Gauss-Seidel, or fewer where the tolerance is met. */
 rb_status rb_friction_sweeps(rb_friction_task *task, int use_projection, int limit);

@@ -4,9 +4,10 @@
  *     u_N, r_N | u+, s+ | u-, s-  >= 0, complementary in pairs,   s+ + s- = 2 mu r_N,
  *     E u - W r = q:  E = 1, or E = 1 - k W where K is singular and W, q are those of the
  *     structure with springs k at the contacts.
- * Solved for w in one of two ways, which Lemke's method finds unequally easy:
+ * Solved for w in one of three ways, which Lemke's method finds unequally easy:
  *     force basis         z = (r_N, s+, u-), w = (u_N, u+, s-): no inverse; needs E = 1
  *     displacement basis  z = (u_N, u+, s-), w = (r_N, s+, u-), as *Kanno*'s bar needs it
+ *     stiffness basis     z = (u_N, u+, u-), w = (r_N, s+, s-), where even T is loose
  * Each may be mirrored (T -> -T), which exchanges + and -. */
 #include "friction/internal.h"
 #include "rollbem/lcp.h"
@@ -15,23 +16,26 @@
 #include <math.h>
 #include <stdlib.h>
 
+typedef enum { FORCE, DISPLACEMENT, STIFFNESS } basis_kind;
+
 typedef struct {
-    int displacement; /* basis */
+    basis_kind kind;
     int mirror;
     double cover[3]; /* on the three groups of rows; the second is multiplied by 2 mu in
-                        the displacement basis */
+                        the displacement and stiffness bases */
     rb_lcp_rule rule;
 } attempt;
 
 static const attempt attempts[] = {
-    {0, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
-    {0, 1, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
+    {FORCE, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
+    {FORCE, 1, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
     /* on ties r_N leaves first: it has the lowest numbers */
-    {1, 0, {1.0, 1.0, 1.0}, RB_LCP_FIRST_INDEX},
-    {1, 0, {1.0, 1.0, 0.01}, RB_LCP_FIRST_INDEX},
-    {1, 0, {1.0, 1.0, 100.0}, RB_LCP_FIRST_INDEX},
-    {1, 1, {1.0, 1.0, 1.0}, RB_LCP_FIRST_INDEX},
-    {1, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
+    {DISPLACEMENT, 0, {1.0, 1.0, 1.0}, RB_LCP_FIRST_INDEX},
+    {DISPLACEMENT, 0, {1.0, 1.0, 0.01}, RB_LCP_FIRST_INDEX},
+    {DISPLACEMENT, 0, {1.0, 1.0, 100.0}, RB_LCP_FIRST_INDEX},
+    {DISPLACEMENT, 1, {1.0, 1.0, 1.0}, RB_LCP_FIRST_INDEX},
+    {DISPLACEMENT, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
+    {STIFFNESS, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
 };
 
 typedef struct {
@@ -190,7 +194,7 @@ static void equations(lemke *s, double *of_force, double *of_displacement)
 static rb_status form(lemke *s, const attempt *a)
 {
     const size_t n = (size_t)s->n;
-    if (!a->displacement) {
+    if (a->kind == FORCE) {
         if (s->E)
             return RB_SINGULAR;
         equations(s, s->M, s->basis); /* the basis is the identity */
@@ -199,11 +203,15 @@ static rb_status form(lemke *s, const attempt *a)
         return RB_OK;
     }
     equations(s, s->basis, s->M);
+    if (a->kind == STIFFNESS) /* u- and s- change sides */
+        for (size_t k = n * n - n * n / 3; k < n * n; k++) {
+            const double x = s->basis[k];
+            s->basis[k] = s->M[k];
+            s->M[k] = x;
+        }
     for (size_t k = 0; k < n * n; k++)
         s->M[k] = -s->M[k];
     int info = LAPACKE_dgetrf(LAPACK_COL_MAJOR, s->n, s->n, s->basis, s->n, s->pivots);
-    if (info > 0)
-        return RB_SINGULAR;
     if (info == 0)
         info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, s->n, s->basis, s->n,
                               s->pivots, s->M, s->n);
@@ -211,14 +219,14 @@ static rb_status form(lemke *s, const attempt *a)
         info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, 1, s->basis, s->n, s->pivots,
                               s->b, s->n);
     s->task->info->flops += 8.0 / 3.0 * (double)n * (double)n * (double)n;
-    return info == 0 ? RB_OK : RB_ENOMEM;
+    return rb_friction_lapack_status(info);
 }
 
 static void choose_cover(lemke *s, const attempt *a)
 {
     for (int c = 0; c < s->nc; c++) {
         const double two_mu = 2.0 * s->task->problem->mu[c];
-        const double second = a->displacement && two_mu > 0.0 ? two_mu : 1.0;
+        const double second = a->kind != FORCE && two_mu > 0.0 ? two_mu : 1.0;
         s->cover[c] = a->cover[0];
         s->cover[s->nc + c] = a->cover[1] * second;
         s->cover[2 * s->nc + c] = a->cover[2];
@@ -231,8 +239,9 @@ static void unfold(lemke *s, const attempt *a)
     rb_friction_task *t = s->task;
     const int nc = s->nc, n = s->n;
     rb_lcp_residual(n, s->M, n, s->b, s->z, s->w);
-    const double *force = a->displacement ? s->w : s->z;
-    const double *displacement = a->displacement ? s->z : s->w;
+    const double *force = a->kind == FORCE ? s->z : s->w;
+    const double *displacement = a->kind == FORCE ? s->w : s->z;
+    const double *u_minus = a->kind == STIFFNESS ? s->z : force;
     const double sign = a->mirror ? -1.0 : 1.0;
     for (int c = 0; c < nc; c++) {
         const double mu = t->problem->mu[c], rn = fmax(0.0, force[c]);
@@ -240,7 +249,7 @@ static void unfold(lemke *s, const attempt *a)
         t->r[2 * c] = rn;
         t->r[2 * c + 1] = sign * (s_plus - mu * rn);
         t->u[2 * c] = displacement[c] / s->unit;
-        t->u[2 * c + 1] = sign * (displacement[nc + c] - force[2 * nc + c]) / s->unit;
+        t->u[2 * c + 1] = sign * (displacement[nc + c] - u_minus[2 * nc + c]) / s->unit;
     }
 }
 

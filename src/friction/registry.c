@@ -21,6 +21,7 @@ static const rb_friction_solver solvers[] = {
     {"nsgs-fp", "Gauss-Seidel, fixed point at each contact", RB_FRICTION_NEEDS_W},
     {"fixed-point", "projection with adaptive step", RB_FRICTION_NEEDS_W},
     {"extragradient", "projection, twice per step", RB_FRICTION_NEEDS_W},
+    {"soclcp-smoothing", "smoothing and regularisation on Kanno's cones", 0},
     {"lemke", "Lemke's pivots on an LCP of size 3 n_c", RB_FRICTION_ONLY_2D},
 };
 static rb_friction_method *const methods[] = {
@@ -28,7 +29,8 @@ static rb_friction_method *const methods[] = {
     rb_friction_nsn_jm,        rb_friction_nsn_jm_nls,    rb_friction_nsn_nm,
     rb_friction_nsn_nm_nls,    rb_friction_nsn_fb,        rb_friction_nsn_fb_nls,
     rb_friction_nsn_ac_hybrid, rb_friction_nsgs_ac,       rb_friction_nsgs_fp,
-    rb_friction_fixed_point,   rb_friction_extragradient, rb_friction_lemke,
+    rb_friction_fixed_point,   rb_friction_extragradient, rb_friction_soclcp_smoothing,
+    rb_friction_lemke,
 };
 
 const rb_friction_solver *rb_friction_solvers(int *count)
@@ -69,12 +71,15 @@ double rb_friction_task_error(rb_friction_task *task)
     return s == RB_OK ? error : INFINITY;
 }
 
+/* A floor beyond this means an iterate that runs away, not rounding. */
+#define LARGEST_FLOOR 1e-6
+
 int rb_friction_task_accepts(const rb_friction_task *task, double error)
 {
     if (error <= task->opt.tol)
         return 1;
     /* the floor costs as much as the error: ask only when it can matter */
-    return error <= 1e-3 &&
+    return error <= LARGEST_FLOOR &&
            error <= rb_friction_measure_floor(task->measure, task->r, task->v);
 }
 
@@ -120,7 +125,7 @@ static rb_status run(rb_friction_task *task, rb_friction_method *method)
         return s;
     task->info->residual = rb_friction_task_error(task);
     task->info->floor = rb_friction_measure_floor(task->measure, task->r, task->v);
-    if (task->info->residual <= fmax(task->opt.tol, task->info->floor))
+    if (rb_friction_task_accepts(task, task->info->residual))
         return RB_OK;
     return s == RB_OK ? RB_INACCURATE : s;
 }

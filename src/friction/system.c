@@ -260,13 +260,21 @@ static void fill_global(rb_friction_system *s, const double *A, const double *B)
     }
 }
 
+/* LAPACKE refuses NaN with a small negative number. */
+rb_status rb_friction_lapack_status(int info)
+{
+    if (info == 0)
+        return RB_OK;
+    return info == LAPACK_WORK_MEMORY_ERROR ? RB_ENOMEM : RB_SINGULAR;
+}
+
 static rb_status solve_dense(rb_friction_system *s)
 {
     const double m = s->m;
     const int info =
         LAPACKE_dgesv(LAPACK_COL_MAJOR, s->m, 1, s->J, s->m, s->pivots, s->x, s->m);
     s->flops += m * m * (2.0 / 3.0 * m + 2.0);
-    return info == 0 ? RB_OK : info > 0 ? RB_SINGULAR : RB_ENOMEM;
+    return rb_friction_lapack_status(info);
 }
 
 static rb_status solve_sparse(rb_friction_system *s)

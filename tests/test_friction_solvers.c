@@ -1,0 +1,285 @@
+/* Every solver of the registry, the canonical SOCLCP, and the files of other projects. */
+#include "check.h"
+#include "rollbem/friction.h"
+
+#include <string.h>
+
+static double uniform(unsigned *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (double)(*state >> 8) / (1u << 24) * 2.0 - 1.0;
+}
+
+/* A chain of contacts, each coupled to its neighbours, W block tridiagonal and positive
+ * definite: sparse, and with a load that separates, sticks and slips. */
+static void chain(int d, int nc, rb_friction_problem *p)
+{
+    const int m = d * nc;
+    unsigned seed = 11u * (unsigned)nc + (unsigned)d;
+    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
+                               .dimension = d,
+                               .contacts = nc,
+                               .mu = rb_alloc((size_t)nc, 1),
+                               .W = rb_alloc((size_t)m, (size_t)m),
+                               .q = rb_alloc((size_t)m, 1)};
+    for (int i = 0; i < m; i++)
+        for (int j = i; j < m; j++) {
+            const int apart = j / d - i / d;
+            const double w = i == j ? 2.0 : apart > 1 ? 0.0 : 0.25 * uniform(&seed);
+            p->W[i + j * m] = p->W[j + i * m] = w;
+        }
+    for (int c = 0; c < nc; c++) {
+        p->mu[c] = c % 5 == 4 ? 0.0 : 0.2 + 0.3 * fabs(uniform(&seed));
+        for (int a = 0; a < d; a++)
+            p->q[c * d + a] = a ? uniform(&seed) : c % 3 ? -1.0 : 0.5;
+    }
+}
+
+/* The disjunction of *Acary* (2), looked at contact by contact; largest violation. */
+static double violation(const rb_friction_problem *p, const double *r, const double *u)
+{
+    const int d = p->dimension;
+    double worst = 0.0;
+    for (int c = 0; c < p->contacts; c++) {
+        const double *rc = r + c * d, *uc = u + c * d, mu = p->mu[c];
+        const double rt = d == 2 ? fabs(rc[1]) : hypot(rc[1], rc[2]);
+        const double ut = d == 2 ? fabs(uc[1]) : hypot(uc[1], uc[2]);
+        double power = mu * rc[0] * ut; /* + r_T.u_T = 0: slip against the friction */
+        for (int a = 1; a < d; a++)
+            power += rc[a] * uc[a];
+        worst = fmax(worst, fmax(-rc[0], -uc[0]));
+        worst = fmax(worst, fmax(rt - mu * rc[0], fabs(rc[0] * uc[0])));
+        worst = fmax(worst, fabs(power));
+    }
+    return worst;
+}
+
+static void every_solver_obeys_coulomb(void **state)
+{
+    (void)state;
+    int count;
+    const rb_friction_solver *all = rb_friction_solvers(&count);
+    assert_true(count >= 15);
+    for (int d = 2; d <= 3; d++)
+        for (int k = 0; k < count; k++) {
+            if (d == 3 && (all[k].needs & RB_FRICTION_ONLY_2D))
+                continue;
+            rb_friction_problem p;
+            rb_friction_info info;
+            double r[180], u[180], reference[180];
+            chain(d, 60, &p);
+            CHECK_STATUS(
+                rb_friction_solve("nsgs-ac", &p, NULL, reference, u, NULL, &info), RB_OK);
+            if (k % 2) {
+                const int m = 60 * d;
+                CHECK_STATUS(rb_sparse_from_dense(m, m, p.W, m, &p.Ws), RB_OK);
+                p.form = RB_FRICTION_LOCAL_SPARSE;
+            }
+            const rb_status s =
+                rb_friction_solve(all[k].name, &p, NULL, r, u, NULL, &info);
+            if (s != RB_OK)
+                print_error("%s in %dD: %s\n", all[k].name, d, rb_status_text(s));
+            CHECK_STATUS(s, RB_OK);
+            CHECK_MAX(violation(&p, r, u), 1e-6, "%s in %dD", all[k].name, d);
+            for (int i = 0; i < 60 * d; i++)
+                CHECK_ABS(r[i], reference[i], 1e-6, "%s in %dD, r[%d]", all[k].name, d,
+                          i);
+            assert_true(info.flops > 0.0 && info.seconds > 0.0);
+            rb_friction_problem_free(&p);
+        }
+}
+
+/* A block on the ground that only friction holds: K = 0 on both of its motions. */
+static void a_loose_block(rb_friction_problem *p)
+{
+    const int at[] = {0, 1};
+    const double zero[] = {0.0, 0.0}, one[] = {1.0, 1.0};
+    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
+                               .dimension = 2,
+                               .contacts = 1,
+                               .dofs = 2,
+                               .mu = rb_alloc(1, 1),
+                               .f = rb_alloc(2, 1),
+                               .w = rb_alloc(2, 1)};
+    CHECK_STATUS(rb_sparse_from_triplets(2, 2, 2, at, at, zero, &p->K), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(2, 2, 2, at, at, one, &p->H), RB_OK);
+    p->mu[0] = 0.5, p->f[0] = -2.0, p->f[1] = 0.7;
+}
+
+static void solvers_without_need_of_w_take_a_singular_k(void **state)
+{
+    (void)state;
+    int count;
+    const rb_friction_solver *all = rb_friction_solvers(&count);
+    for (int k = 0; k < count; k++) {
+        rb_friction_problem p;
+        rb_friction_info info;
+        double r[2], u[2], v[2];
+        a_loose_block(&p);
+        const rb_status s = rb_friction_solve(all[k].name, &p, NULL, r, u, v, &info);
+        if (all[k].needs & RB_FRICTION_NEEDS_W) {
+            CHECK_STATUS(s, RB_SINGULAR);
+            assert_non_null(strstr(info.msg.text, "nullity 2"));
+        } else if (!strncmp(all[k].name, "nsn-jm", 6)) {
+            /* at r_N = 0 its disc is a point: nothing holds the block along T */
+            CHECK_STATUS(s, RB_SINGULAR);
+        } else {
+            if (s != RB_OK)
+                print_error("%s: %s\n", all[k].name, rb_status_text(s));
+            CHECK_STATUS(s, RB_OK);
+            CHECK_ABS(r[0], 2.0, 1e-7, "%s: r_N", all[k].name);
+            CHECK_ABS(r[1], -0.7, 1e-7, "%s: r_T", all[k].name);
+            CHECK_ABS(v[1], 0.0, 1e-7, "%s: it stays", all[k].name);
+        }
+        rb_friction_problem_free(&p);
+    }
+}
+
+/* Drawn beyond what friction can hold, nothing is in balance. */
+static void what_has_no_solution_is_not_solved(void **state)
+{
+    (void)state;
+    int count;
+    const rb_friction_solver *all = rb_friction_solvers(&count);
+    for (int k = 0; k < count; k++) {
+        rb_friction_problem p;
+        rb_friction_info info;
+        double r[2], u[2], v[2];
+        a_loose_block(&p);
+        p.f[1] = 1.5;
+        const rb_status s = rb_friction_solve(all[k].name, &p, NULL, r, u, v, &info);
+        if (s <= 0)
+            print_error("%s: %s\n", all[k].name, rb_status_text(s));
+        assert_true(s > 0);
+        rb_friction_problem_free(&p);
+    }
+}
+
+/* ---- The canonical SOCLCP -------------------------------------------------------------
+ */
+
+static void cones_of_every_size(void **state)
+{
+    (void)state;
+    enum { N = 14, CONES = 6 };
+    const int size[CONES] = {3, 1, 5, 2, 1, 2};
+    unsigned seed = 5;
+    double M[N * N], B[N * N], q[N], want[N], planted[N], x[N], y[N];
+    for (int k = 0; k < N * N; k++)
+        B[k] = uniform(&seed);
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) {
+            M[i + j * N] = (i == j) + 0.5 * (i > j) - 0.5 * (i < j); /* monotone */
+            for (int k = 0; k < N; k++)
+                M[i + j * N] += B[i + k * N] * B[j + k * N];
+        }
+    /* on the boundary: x = a (1, e), y = b (1, -e); inside, or zero */
+    for (int k = 0, at = 0; k < CONES; at += size[k++]) {
+        double e[5], norm = 0.0;
+        for (int a = 1; a < size[k]; a++)
+            e[a] = uniform(&seed), norm = hypot(norm, e[a]);
+        const double ax = k % 3 == 2 ? 0.0 : 1.5, ay = k % 3 == 1 ? 0.0 : 0.5;
+        want[at] = size[k] == 1 && k % 3 == 0 ? 0.0 : ax;
+        planted[at] = ay;
+        for (int a = 1; a < size[k]; a++) {
+            want[at + a] = ax * e[a] / norm * (k % 3 == 1 ? 0.3 : 1.0);
+            planted[at + a] = -ay * e[a] / norm * (k % 3 == 2 ? 0.3 : 1.0);
+        }
+    }
+    for (int i = 0; i < N; i++) {
+        q[i] = planted[i];
+        for (int j = 0; j < N; j++)
+            q[i] -= M[i + j * N] * want[j];
+    }
+    const rb_friction_soclcp_problem p = {N, M, q, CONES, size};
+    rb_friction_options opt = rb_friction_defaults();
+    rb_friction_info info;
+    opt.tol = 1e-12;
+    CHECK_MAX(rb_friction_soclcp_error(&p, want, y), 1e-14, "planted");
+    CHECK_STATUS(rb_friction_soclcp(&p, &opt, x, y, &info), RB_OK);
+    for (int i = 0; i < N; i++) {
+        CHECK_ABS(x[i], want[i], 1e-9, "x[%d]", i);
+        CHECK_ABS(y[i], planted[i], 1e-9, "y[%d]", i);
+    }
+}
+
+static void bad_cones_are_refused(void **state)
+{
+    (void)state;
+    const double M[] = {1.0, 0.0, 0.0, 1.0}, q[] = {-1.0, NAN}, fine[] = {-1.0, 1.0};
+    const int ones[] = {1, 1}, three[] = {3}, none[] = {0, 2};
+    double x[2], y[2];
+    rb_friction_info info;
+    rb_friction_soclcp_problem p = {2, M, q, 2, ones};
+    CHECK_STATUS(rb_friction_soclcp(&p, NULL, x, y, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "q: entry 2"));
+    p = (rb_friction_soclcp_problem){2, M, fine, 1, three};
+    CHECK_STATUS(rb_friction_soclcp(&p, NULL, x, y, &info), RB_EINVAL);
+    p = (rb_friction_soclcp_problem){2, M, fine, 2, none};
+    CHECK_STATUS(rb_friction_soclcp(&p, NULL, x, y, &info), RB_EINVAL);
+    p = (rb_friction_soclcp_problem){2, M, fine, 2, ones};
+    CHECK_STATUS(rb_friction_soclcp(&p, NULL, x, y, &info), RB_OK);
+    CHECK_ABS(x[0], 1.0, 1e-7, "an LCP is one with half-lines");
+    CHECK_ABS(y[1], 1.0, 1e-7, "its slack");
+}
+
+/* ---- Memory
+ * ------------------------------------------------------------------------------ */
+
+static void failing_allocations_are_reported(void **state)
+{
+    (void)state;
+    int solvers;
+    const rb_friction_solver *all = rb_friction_solvers(&solvers);
+    for (int k = 0; k < solvers; k++) {
+        rb_friction_problem p;
+        rb_friction_info info;
+        double r[10], u[10];
+        chain(2, 5, &p);
+        int count = 0;
+        for (rb_status s = RB_ENOMEM; s != RB_OK && count < 300; count++) {
+            alloc_fail_after(count);
+            s = rb_friction_solve(all[k].name, &p, NULL, r, u, NULL, &info);
+            const int refused = alloc_failed();
+            alloc_succeed();
+            assert_true(s == RB_OK || refused);
+        }
+        assert_true(count > 3 && count < 300);
+        rb_friction_problem_free(&p);
+    }
+}
+
+/* ---- Files of other projects
+ * ---------------------------------------------------------------- */
+
+static void fclib_files_are_solved(void **state)
+{
+    (void)state;
+    const char *files[] = {"fclib/CubeH8.hdf5", "fclib/Capsules-i125-1213.hdf5",
+                           "fclib/LMGC_100_PR_PerioBox-i00361-60-03000.hdf5"};
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+        rb_friction_problem p;
+        rb_friction_info info;
+        rb_message why = {""};
+        double r[900], u[900], error;
+        CHECK_STATUS(rb_friction_read(outside_data(files[k]), &p, &why), RB_OK);
+        CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, r, u, NULL, &info), RB_OK);
+        CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &error, NULL), RB_OK);
+        CHECK_MAX(error, 1e-8, "%s", files[k]);
+        rb_friction_problem_free(&p);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_solver_obeys_coulomb),
+        cmocka_unit_test(solvers_without_need_of_w_take_a_singular_k),
+        cmocka_unit_test(what_has_no_solution_is_not_solved),
+        cmocka_unit_test(cones_of_every_size),
+        cmocka_unit_test(bad_cones_are_refused),
+        cmocka_unit_test(failing_allocations_are_reported),
+        cmocka_unit_test(fclib_files_are_solved),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
