@@ -7,11 +7,11 @@ CFLAGS ?= -O3 -g
 STD = -std=c11 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wpedantic -Wshadow
 # without OpenMP the loops run on one processor
 OPENMP := $(shell echo 'int main(void) { return 0; }' | $(CC) -fopenmp -x c -o /dev/null - 2>/dev/null && echo -fopenmp || echo -Wno-unknown-pragmas)
-PKGS = openblas lapacke gsl inih jansson hdf5-serial
+PKGS = openblas lapacke gsl inih jansson hdf5-serial fftw3
 # SuiteSparse 5 has no pkg-config file
 SUITESPARSE = -lumfpack -lspqr -lcholmod -lsuitesparseconfig
 # -lgslcblas would shadow OpenBLAS: take GSL's flags without it
-LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS))) $(SUITESPARSE) -lm $(OPENMP)
+LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS))) -lfftw3_threads $(SUITESPARSE) -lm $(OPENMP)
 CPPFLAGS += $(OPENMP) -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS))
 VERSION := $(shell sed -n 's/.*RB_VERSION "\(.*\)"/\1/p' include/rollbem/base.h)
 

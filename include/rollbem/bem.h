@@ -142,6 +142,13 @@ rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends,
                                        rb_bem_material material, double datum,
                                        rb_bem_flexibility *f, rb_message *why);
 
+/* The same on equal elements as a Toeplitz operator: products by Fourier transforms,
+ * n log n work, memory of a few n.  A pair of two such is again one.  apply serves one
+ * thread at a time.  RB_EINVAL: as above, and elements of different lengths. */
+rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
+                                      rb_bem_material material, double datum,
+                                      rb_bem_flexibility *f, rb_message *why);
+
 /* The same half-plane seen at any points x of its surface: w = W r, W: 2 points x 2n
  * column-major, rows (w_N, w_T); ends: n + 1.  RB_EINVAL: sizes, material, datum <= 0. */
 rb_status rb_bem_halfplane_displacement(int n, const double *ends, rb_bem_material material,

@@ -1,6 +1,7 @@
 /* Flexibilities of the contact (B5): the interface, the dense matrix, the pair of bodies.
  */
 #include "bem/internal.h"
+#include "bem/toeplitz.h"
 
 #include <cblas.h>
 #include <math.h>
@@ -31,7 +32,7 @@ void rb_bem_flexibility_free(rb_bem_flexibility *f)
     memset(f, 0, sizeof *f);
 }
 
-static rb_status alloc_points(int n, rb_bem_flexibility *f)
+rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f)
 {
     memset(f, 0, sizeof *f);
     f->n = n;
@@ -62,7 +63,7 @@ static rb_status dense_matrix(const rb_bem_flexibility *f, double *F, int ldf)
 
 rb_status rb_bem_flexibility_dense(int n, rb_bem_flexibility *f, double **F)
 {
-    rb_status s = alloc_points(n, f);
+    rb_status s = rb_bem_flexibility_points(n, f);
     if (s == RB_OK) {
         f->data = *F = rb_alloc(2 * (size_t)f->m, 2 * (size_t)n);
         s = *F ? RB_OK : RB_ENOMEM;
@@ -158,7 +159,7 @@ static rb_status join(const body_pair *pair, rb_bem_flexibility *f)
 {
     const rb_bem_flexibility *a = &pair->a;
     const size_t m = (size_t)a->m;
-    const rb_status s = alloc_points(a->n, f);
+    const rb_status s = rb_bem_flexibility_points(a->n, f);
     if (s != RB_OK)
         return s;
     memcpy(f->x, a->x, m * sizeof *f->x);
@@ -174,10 +175,17 @@ rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
                                   rb_bem_flexibility *f, rb_message *why)
 {
     rb_status s = same_points(a, b, why);
-    body_pair *pair = calloc(1, sizeof *pair);
     const size_t n = (size_t)a->n, m = (size_t)a->m;
 
     memset(f, 0, sizeof *f);
+    if (s == RB_OK && rb_bem_toeplitz_add(a, b)) {
+        add_mirrored(a->m, b->w0, a->w0);
+        *f = *a;
+        memset(a, 0, sizeof *a);
+        rb_bem_flexibility_free(b);
+        return RB_OK;
+    }
+    body_pair *pair = calloc(1, sizeof *pair);
     if (!pair) {
         rb_bem_flexibility_free(a);
         rb_bem_flexibility_free(b);

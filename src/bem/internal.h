@@ -26,6 +26,9 @@ void rb_bem_mesh_next(const rb_bem_mesh *mesh, int *next);
  * the free ones are named. */
 rb_status rb_bem_support_check(const rb_bem_mesh *mesh, rb_message *why);
 
+/* A flexibility with x, h, w0 zeroed and nothing behind it. */
+rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f);
+
 /* A flexibility with x, h, w0 zeroed and a dense matrix of zeros behind it; *F: that
  * matrix, 2m x 2n with leading dimension 2m, borrowed.  RB_ENOMEM leaves f empty. */
 rb_status rb_bem_flexibility_dense(int n, rb_bem_flexibility *f, double **F);

@@ -1,0 +1,197 @@
+/* The half-plane by Fourier transforms against its dense matrix. */
+#include "check.h"
+#include "rollbem/bem.h"
+
+#include <string.h>
+
+typedef rb_status make(int, const double *, rb_bem_material, double, rb_bem_flexibility *,
+                       rb_message *);
+
+static double *equal_ends(int n, double from, double to)
+{
+    double *ends = rb_alloc((size_t)n + 2, 1);
+    assert_non_null(ends);
+    for (int i = 0; i <= n + 1; i++)
+        ends[i] = (from * (n - i) + to * i) / n;
+    return ends;
+}
+
+static const rb_bem_material steel = {82000.0, 0.28}, rubber = {1.0, 0.5},
+                             aluminium = {23000.0, 0.31};
+
+static rb_bem_flexibility built(make *by, int n, rb_bem_material a,
+                                const rb_bem_material *b, double datum)
+{
+    double *ends = equal_ends(n, -1.3e-3, 1.1e-3);
+    rb_bem_flexibility f, of_a, of_b;
+    rb_message why;
+    CHECK_STATUS(by(n, ends, a, datum, &of_a, &why), RB_OK);
+    f = of_a;
+    if (b) {
+        CHECK_STATUS(by(n, ends, *b, 2.0 * datum, &of_b, &why), RB_OK);
+        CHECK_STATUS(rb_bem_flexibility_pair(&of_a, &of_b, &f, &why), RB_OK);
+    }
+    free(ends);
+    return f;
+}
+
+static double largest(size_t n, const double *x)
+{
+    return rb_norm_inf(n, x);
+}
+
+/* Entries, products with random tractions, points: relative to the largest entry. */
+static void compare(int n, rb_bem_material a, const rb_bem_material *b, double datum)
+{
+    rb_bem_flexibility dense = built(rb_bem_flexibility_halfplane, n, a, b, datum);
+    rb_bem_flexibility fast = built(rb_bem_flexibility_toeplitz, n, a, b, datum);
+    const int m = dense.m, ld = 2 * m + 3;
+    double *F = rb_alloc((size_t)ld, 2 * (size_t)n),
+           *T = rb_alloc((size_t)ld, 2 * (size_t)n);
+    double *r = rb_alloc(2 * (size_t)n, 1), *w = rb_alloc(4 * (size_t)m, 1);
+
+    assert_true(F && T && r && w);
+    assert_int_equal(fast.n, n);
+    assert_int_equal(fast.m, m);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&dense, F, ld), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&fast, T, ld), RB_OK);
+    const double scale = largest((size_t)ld * 2 * (size_t)n, F);
+    for (size_t k = 0; k < (size_t)ld * 2 * (size_t)n; k++)
+        CHECK_ABS(T[k], F[k], 1e-13 * scale, "n = %d, entry %zu", n, k);
+    for (int i = 0; i < m; i++) {
+        CHECK_ABS(fast.x[i], dense.x[i], 0.0, "x");
+        CHECK_ABS(fast.h[i], dense.h[i], 0.0, "h");
+        CHECK_ABS(fast.w0[i] + fast.w0[m + i], 0.0, 0.0, "w0");
+    }
+    srand(7);
+    double sum = 0.0;
+    for (int j = 0; j < 2 * n; j++)
+        sum += fabs(r[j] = rand() / (double)RAND_MAX - 0.3);
+    rb_bem_flexibility_apply(&dense, r, w);
+    rb_bem_flexibility_apply(&fast, r, w + 2 * m);
+    for (int i = 0; i < 2 * m; i++)
+        CHECK_ABS(w[2 * m + i], w[i], 1e-14 * scale * sum, "n = %d, row %d", n, i);
+    free(F);
+    free(T);
+    free(r);
+    free(w);
+    rb_bem_flexibility_free(&dense);
+    rb_bem_flexibility_free(&fast);
+}
+
+static void equals_the_dense_matrix(void **state)
+{
+    (void)state;
+    const int n[] = {1, 2, 3, 7, 64, 201};
+    for (size_t k = 0; k < sizeof n / sizeof *n; k++) {
+        compare(n[k], steel, NULL, 10.0);
+        compare(n[k], rubber, NULL, 1.0);
+        compare(n[k], steel, &aluminium, 10.0);
+        compare(n[k], steel, &steel, 10.0);
+    }
+}
+
+/* A deep datum adds a constant that must not drown the rest. */
+static void keeps_differences_under_a_deep_datum(void **state)
+{
+    (void)state;
+    enum { n = 500 };
+    rb_bem_flexibility near = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1.0);
+    rb_bem_flexibility deep = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 1e12);
+    double r[2 * n] = {0}, w[4 * (n + 1)];
+    for (int j = 0; j < n; j++)
+        r[j] = j % 2 ? 1.0 : -1.0;
+    rb_bem_flexibility_apply(&near, r, w);
+    rb_bem_flexibility_apply(&deep, r, w + 2 * (n + 1));
+    const double scale = largest(n, w);
+    for (int i = 0; i < n; i++)
+        CHECK_ABS(w[2 * (n + 1) + i], w[i], 1e-12 * scale, "row %d", i);
+    rb_bem_flexibility_free(&near);
+    rb_bem_flexibility_free(&deep);
+}
+
+static void long_lines_work(void **state)
+{
+    (void)state;
+    enum { n = 200000 };
+    rb_bem_flexibility f = built(rb_bem_flexibility_toeplitz, n, steel, NULL, 10.0);
+    double *r = rb_alloc(2 * n, 1), *w = rb_alloc(2 * (size_t)f.m, 1), one[2];
+    const double ends[2] = {-1.3e-3 + 1000 * 2.4e-3 / n, -1.3e-3 + 1001 * 2.4e-3 / n};
+    double W[8];
+    assert_true(r && w);
+    r[1000] = 3.0;
+    r[n + 1000] = -2.0;
+    rb_bem_flexibility_apply(&f, r, w);
+    for (int i = 0; i < f.m; i += 19997) {
+        one[0] = f.x[i];
+        one[1] = f.x[i] + 1.0;
+        CHECK_STATUS(rb_bem_halfplane_displacement(1, ends, steel, 10.0, 2, one, W),
+                     RB_OK);
+        CHECK_REL(w[i], 3.0 * W[0] - 2.0 * W[4], 1e-9, "N of row %d", i);
+        CHECK_REL(w[f.m + i], 3.0 * W[2] - 2.0 * W[6], 1e-9, "T of row %d", i);
+    }
+    free(r);
+    free(w);
+    rb_bem_flexibility_free(&f);
+}
+
+static void refuse(int n, const double *ends, rb_bem_material material, double datum,
+                   const char *word)
+{
+    rb_bem_flexibility f;
+    rb_message why;
+    CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, material, datum, &f, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, word));
+    assert_null(f.x);
+    rb_bem_flexibility_free(&f);
+}
+
+static void bad_input(void **state)
+{
+    (void)state;
+    const double equal[] = {0, 1, 2, 3}, unequal[] = {0, 1, 2, 3.0001},
+                 falling[] = {0, 1, 1, 3};
+    refuse(2, unequal, steel, 1.0, "different lengths");
+    refuse(2, falling, steel, 1.0, "increasing");
+    refuse(0, equal, steel, 1.0, "at least 1");
+    refuse(2, equal, steel, 0.0, "datum");
+    refuse(2, equal, steel, INFINITY, "datum");
+    refuse(2, equal, (rb_bem_material){-1.0, 0.3}, 1.0, "");
+    refuse(2, equal, (rb_bem_material){1.0, 0.6}, 1.0, "");
+
+    rb_bem_flexibility f = built(rb_bem_flexibility_toeplitz, 5, steel, NULL, 1.0);
+    double F[144];
+    CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 11), RB_EINVAL);
+    rb_bem_flexibility_free(&f);
+}
+
+static void failing_allocations(void **state)
+{
+    (void)state;
+    double *ends = equal_ends(6, 0.0, 1.0);
+    rb_message why;
+    for (int k = 0, refused = 1; refused; k++) {
+        rb_bem_flexibility f;
+        alloc_fail_after(k);
+        const rb_status s = rb_bem_flexibility_toeplitz(6, ends, steel, 1.0, &f, &why);
+        refused = alloc_failed();
+        alloc_succeed();
+        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        rb_bem_flexibility_free(&f);
+        assert_true(k < 40);
+    }
+    free(ends);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(equals_the_dense_matrix),
+        cmocka_unit_test(keeps_differences_under_a_deep_datum),
+        cmocka_unit_test(long_lines_work),
+        cmocka_unit_test(bad_input),
+        cmocka_unit_test(failing_allocations),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
