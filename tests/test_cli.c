@@ -1,7 +1,8 @@
 /* The program as its users meet it: exit codes, the one line of each error, whole files
  * or none, the same numbers in every format.  B: the build directory, default build. */
 #include "check.h"
-#include "rollbem/base.h"
+#include "rollbem/io.h"
+#include "rollbem/lcp.h"
 
 #include <jansson.h>
 #include <string.h>
@@ -188,7 +189,7 @@ static void bad_profile_is_refused(void **state)
 static json_t *solve_json(const char *arguments)
 {
     char line[1000];
-    snprintf(line, sizeof line, "%s --json --quiet", arguments);
+    snprintf(line, sizeof line, "--json --quiet %s", arguments);
     const int code = rollbem(line);
     if (code)
         print_error("rollbem %s: %s\n", line, err);
@@ -361,6 +362,87 @@ static void not_solved_is_1(void **state)
     assert_non_null(strstr(err, "zone"));
 }
 
+/* ---- Behind the solution ----------------------------------------------------------- */
+
+static double *read_matrix(const char *name, int rows, int cols)
+{
+    rb_io_matrix m;
+    rb_message why = {""};
+    const rb_status s = rb_io_matrix_market_read(name, &m, &why);
+    if (s != RB_OK)
+        print_error("%s\n", why.text);
+    assert_int_equal(s, RB_OK);
+    assert_int_equal(m.rows, rows);
+    assert_int_equal(m.cols, cols);
+    assert_int_equal(rb_io_matrix_to_dense(&m), RB_OK);
+    return m.dense;
+}
+
+/* The dumped LCP solved again gives the pressures of the table; the first tableau of the
+ * trace, after z0 has entered, holds M and b. */
+static void dump_holds_the_problem(void **state)
+{
+    (void)state;
+    enum { N = 6, SIZE = 3 * N };
+    json_t *root =
+        solve_json("--approach 5 --zone 20 --contact-elements 6 --dump d --trace "
+                   "2>trace");
+    double *M = read_matrix("d/M.mtx", SIZE, SIZE), *b = read_matrix("d/b.mtx", SIZE, 1);
+    double *scale = read_matrix("d/z_scale.mtx", SIZE, 1), z[SIZE];
+    double *F = read_matrix("d/F.mtx", 2 * (N + 1), 2 * N);
+    rb_lcp_info info;
+    assert_int_equal(rb_lcp_lemke(SIZE, M, SIZE, b, NULL, z, &info), RB_OK);
+    const json_t *table = json_object_get(root, "table");
+    for (size_t i = 0; i < N; i++) {
+        const double p =
+            json_number_value(json_array_get(json_object_get(table, "p_MPa"), i));
+        CHECK_ABS(z[i] * scale[i], p, 1e-8 * 1e4, "p[%zu]", i);
+    }
+    assert_true(F[0] > 0.0);
+    char last[40], row[60];
+    snprintf(last, sizeof last, "d/tableau_%d.mtx", info.iters);
+    free(read_matrix(last, SIZE, SIZE + 2));
+    snprintf(row, sizeof row, "pivot %4d ", info.iters);
+    slurp("trace", err, sizeof err);
+    assert_non_null(strstr(err, row));
+    assert_non_null(strstr(err, "z0           enters"));
+    free(read_matrix("d/contact.mtx", N, 3));
+    free(M);
+    free(b);
+    free(scale);
+    free(F);
+    json_decref(root);
+}
+
+/* H annihilates the two translations. */
+static void dumped_influence_moves_rigidly(void **state)
+{
+    (void)state;
+    rb_io_matrix m;
+    assert_int_equal(rollbem("--approach 5 --zone 20 --contact-elements 6 --dump h"), 0);
+    assert_int_equal(rb_io_matrix_market_read("h/H.mtx", &m, NULL), RB_OK);
+    assert_int_equal(rb_io_matrix_to_dense(&m), RB_OK);
+    for (int i = 0; i < m.rows; i++)
+        for (int d = 0; d < 2; d++) {
+            double sum = 0.0;
+            for (int j = d; j < m.cols; j += 2)
+                sum += m.dense[i + (size_t)j * (size_t)m.rows];
+            CHECK_ABS(sum, 0.0, 1e-12, "row %d", i);
+        }
+    rb_io_matrix_free(&m);
+}
+
+static void dump_that_cannot_be_written(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem(QUICK " --dump /nonexistent/d"), 73);
+    write_file("file", "");
+    assert_int_equal(rollbem(QUICK " --dump file"), 73);
+    assert_non_null(strstr(err, "--dump: file: File exists"));
+    assert_int_equal(rollbem(QUICK " --solver newton --trace"), 64);
+    assert_non_null(strstr(err, "--solver lemke pivots"));
+}
+
 /* ---- Writing ----------------------------------------------------------------------- */
 
 static void output_is_whole_or_not_there(void **state)
@@ -467,6 +549,9 @@ int main(void)
         cmocka_unit_test(version_help_and_usage),
         cmocka_unit_test(references_are_met),
         cmocka_unit_test(not_solved_is_1),
+        cmocka_unit_test(dump_holds_the_problem),
+        cmocka_unit_test(dumped_influence_moves_rigidly),
+        cmocka_unit_test(dump_that_cannot_be_written),
         cmocka_unit_test(output_is_whole_or_not_there),
         cmocka_unit_test(full_device_is_73),
         cmocka_unit_test(closed_pipe_is_73),

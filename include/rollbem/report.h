@@ -70,6 +70,21 @@ rb_status rb_report_picture(FILE *out, rb_report_picture_kind kind,
  * first line is in why. */
 rb_status rb_report_gnuplot(FILE *script, FILE *out, rb_message *why);
 
+/* ---- Behind the solution ------------------------------------------------------------
+ */
+
+/* Everything a solution was computed from, as Matrix Market files in a folder, which is
+ * made if need be: contact, mesh, H, G (of body A; _b of body B; none of half-planes), F,
+ * M, b and the scales of the LCP.  docs/report.md says what is in each.  RB_EWRITE,
+ * RB_ENOMEM. */
+rb_status rb_report_dump(const char *folder, const rb_rolling_model *model,
+                         rb_message *why);
+
+/* Lemke's pivots once more, one line each; with a folder also the tableau after each of
+ * them as tableau_1.mtx, ...  RB_EINVAL: the model was not solved by Lemke. */
+rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model *model,
+                          rb_message *why);
+
 /* ---- References ------------------------------------------------------------------- */
 
 /* One reference value against the program's. */

@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 typedef struct {
-    int json, header, quiet;
-    const char *output, *plot;
+    int json, header, quiet, trace;
+    const char *output, *plot, *dump;
 } output_options;
 
 enum { HEADER_FULL, HEADER_BARE };
@@ -35,6 +35,12 @@ static const cli_option options[] = {
     CLI_TEXT_LINE("plot", PLACE(plot), "FILE",
                   "picture of tractions, slip and zones: .png, .svg or .pdf (by gnuplot)",
                   .unset = "none"),
+    CLI_TEXT_LINE(
+        "dump", PLACE(dump), "DIR",
+        "mesh, H, G, F, M, b as Matrix Market files; with --trace also tableaux",
+        .unset = "none"),
+    CLI_FLAG_LINE("trace", PLACE(trace),
+                  "every pivot of Lemke's method, on standard error"),
     CLI_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),
 };
 
@@ -134,10 +140,28 @@ static void tell_people(const cli_case *c, const rb_rolling_solution *s)
 
 /* ---- Command ---------------------------------------------------------------------- */
 
+static cli_exit show_behind(const output_options *o, const rb_rolling_model *model)
+{
+    rb_message why;
+    rb_status s = RB_OK;
+    if (o->dump)
+        s = rb_report_dump(o->dump, model, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "--dump: %s", why.text);
+    if (o->trace)
+        s = rb_report_trace(stderr, o->dump, model, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "--trace: %s", why.text);
+    return CLI_OK;
+}
+
 static cli_exit print_solution(rb_io_writer *w, const output_options *o,
-                               const cli_case *c, const rb_rolling_solution *s)
+                               const cli_case *c, const rb_rolling_model *model,
+                               const rb_rolling_solution *s)
 {
     cli_exit code = write_result(w, o, c, s);
+    if (code == CLI_OK)
+        code = show_behind(o, model);
     if (code == CLI_OK && !o->quiet)
         tell_people(c, s);
     if (code == CLI_OK && o->plot)
@@ -148,21 +172,23 @@ static cli_exit print_solution(rb_io_writer *w, const output_options *o,
 /* Opens the output first: what cannot be written need not be solved. */
 static cli_exit solve(const output_options *o, const cli_case *c)
 {
-    rb_rolling_solution s = {0};
+    rb_rolling_model model;
+    rb_rolling_solution s;
     rb_io_writer w;
     rb_message why = {""};
     rb_status status = rb_io_writer_open(o->output, &w, &why);
     if (status != RB_OK)
         return cli_fail(cli_exit_of(status), "%s", why.text);
-    status = rb_rolling_solve(&c->rc, &s, &why);
+    status = rb_rolling_solve_model(&c->rc, &model, &s, &why);
     cli_exit code = CLI_OK;
     if (status >= 0 && s.n > 0)
-        code = print_solution(&w, o, c, &s);
+        code = print_solution(&w, o, c, &model, &s);
     else
         rb_io_writer_abandon(&w);
     if (code == CLI_OK && status != RB_OK)
         code = cli_case_refused(c, status, &why);
     rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
     return code;
 }
 
@@ -192,6 +218,8 @@ int cli_solve(int argc, char **argv)
         code = cli_case_finish(&spec, &c, &args);
     if (code == CLI_CONTINUE)
         code = check_output(&o);
+    if (o.trace && c.rc.solver == RB_SOLVER_AUTO)
+        c.rc.solver = RB_SOLVER_LEMKE; /* the one that pivots */
     if (code == CLI_CONTINUE)
         code = solve(&o, &c);
     cli_args_free(&args);

@@ -237,6 +237,43 @@ static void bentall_johnson(run *r)
     rb_rolling_solution_free(&s);
 }
 
+/* ---- Below the surface ------------------------------------------------------------ */
+
+enum { STRIPS = 400, DEPTHS = 160 };
+
+/* Largest shear on the axis under a Hertz pressure, and where (Johnson 4.2: independent
+ * of Poisson's ratio). */
+static void subsurface(run *r)
+{
+    double ends[STRIPS + 1], p[STRIPS], q[STRIPS], xy[2 * DEPTHS], stress[3 * DEPTHS];
+    for (int i = 0; i <= STRIPS; i++)
+        ends[i] = -cos(3.14159265358979 * i / STRIPS);
+    for (int i = 0; i < STRIPS; i++) {
+        p[i] = rb_closed_hertz_pressure(1.0, 1.0, (ends[i] + ends[i + 1]) / 2.0);
+        q[i] = 0.0;
+    }
+    for (int k = 0; k < DEPTHS; k++) {
+        xy[2 * k] = 0.0;
+        xy[2 * k + 1] = 0.01 * (k + 1);
+    }
+    r->why = NULL;
+    const rb_status status =
+        rb_bem_halfplane_stress(STRIPS, ends, p, q, DEPTHS, xy, stress);
+    if (status != RB_OK)
+        r->why = rb_status_text(status);
+    double largest = 0.0, depth = NAN;
+    for (int k = 0; k < DEPTHS && status == RB_OK; k++) {
+        const double *t = stress + 3 * k;
+        const double shear = hypot((t[0] - t[1]) / 2.0, t[2]);
+        if (shear > largest) {
+            largest = shear;
+            depth = xy[2 * k + 1];
+        }
+    }
+    compare(r, largest, 0.30028, 1e-3, RELATIVE, "largest shear under Hertz / p0");
+    compare(r, depth, 0.78615, 0.01, ABSOLUTE, "its depth / a");
+}
+
 /* ---- All -------------------------------------------------------------------------- */
 
 int rb_report_verify(rb_report_each_check *each, void *context)
@@ -254,5 +291,6 @@ int rb_report_verify(rb_report_each_check *each, void *context)
     two_forms(&r);
     cattaneo(&r, 0.64);
     bentall_johnson(&r);
+    subsurface(&r);
     return r.failed;
 }

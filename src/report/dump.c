@@ -1,0 +1,160 @@
+/* The matrices behind a solution. */
+#include "rollbem/report.h"
+
+#include "rollbem/io.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+typedef struct {
+    const char *folder;
+    rb_message *why;
+} target;
+
+static rb_status write_matrix(const target *t, const char *name, int rows, int cols,
+                              const double *x, int ld, const char *comment)
+{
+    char path[1200];
+    snprintf(path, sizeof path, "%s/%s.mtx", t->folder, name);
+    return rb_io_matrix_market_write(path, rows, cols, x, ld, comment, t->why);
+}
+
+static rb_status make_folder(const target *t)
+{
+    struct stat st;
+    if (strlen(t->folder) > 1000)
+        return rb_fail(t->why, RB_EWRITE, "%.40s...: name too long", t->folder);
+    if (mkdir(t->folder, 0777) == 0)
+        return RB_OK;
+    const int e = errno;
+    if (e == EEXIST && stat(t->folder, &st) == 0 && S_ISDIR(st.st_mode))
+        return RB_OK;
+    return rb_fail(t->why, RB_EWRITE, "%s: %s", t->folder, strerror(e));
+}
+
+/* ---- Meshes ------------------------------------------------------------------------ */
+
+static rb_status dump_contact(const target *t, const rb_rolling_mesh *mesh)
+{
+    const int n = mesh->n;
+    double *x = rb_alloc((size_t)n, 3);
+    if (!x)
+        return rb_fail(t->why, RB_ENOMEM, "out of memory");
+    for (int i = 0; i < n; i++) {
+        x[i] = mesh->ends[i];
+        x[i + n] = mesh->ends[i + 1];
+        x[i + 2 * n] = mesh->gap[i];
+    }
+    const rb_status s =
+        write_matrix(t, "contact", n, 3, x, n, "contact elements: from, to, initial gap");
+    free(x);
+    return s;
+}
+
+static rb_status dump_mesh(const target *t, const char *name, const rb_bem_mesh *mesh)
+{
+    const size_t n = (size_t)mesh->n;
+    double *x = rb_alloc(n, 6);
+    if (!x)
+        return rb_fail(t->why, RB_ENOMEM, "out of memory");
+    memcpy(x, mesh->x0, n * sizeof *x);
+    memcpy(x + n, mesh->y0, n * sizeof *x);
+    memcpy(x + 2 * n, mesh->x1, n * sizeof *x);
+    memcpy(x + 3 * n, mesh->y1, n * sizeof *x);
+    for (size_t i = 0; i < n; i++) {
+        x[i + 4 * n] = mesh->condition[2 * i];
+        x[i + 5 * n] = mesh->condition[2 * i + 1];
+    }
+    const rb_status s = write_matrix(
+        t, name, mesh->n, 6, x, mesh->n,
+        "boundary elements: x0 y0 x1 y1, condition in x and y (0 traction, 1 "
+        "displacement, 2 contact)");
+    free(x);
+    return s;
+}
+
+/* ---- Bodies ------------------------------------------------------------------------ */
+
+static rb_status dump_influence(const target *t, const char *suffix,
+                                const rb_bem_mesh *mesh, rb_bem_material material)
+{
+    const int n = 2 * mesh->n;
+    char name[8];
+    double *H = rb_alloc((size_t)n, (size_t)n), *G = rb_alloc((size_t)n, (size_t)n);
+    rb_status s = H && G ? RB_OK : rb_fail(t->why, RB_ENOMEM, "out of memory");
+    if (s == RB_OK)
+        s = rb_bem_assemble(mesh, material, H, G, n, t->why);
+    snprintf(name, sizeof name, "H%s", suffix);
+    if (s == RB_OK)
+        s = write_matrix(t, name, n, n, H, n, "H u = G t; rows x0, y0, x1, y1, ...");
+    name[0] = 'G';
+    if (s == RB_OK)
+        s = write_matrix(t, name, n, n, G, n, "H u = G t; rows x0, y0, x1, y1, ...");
+    free(H);
+    free(G);
+    return s;
+}
+
+static rb_status dump_body(const target *t, const char *suffix,
+                           const rb_bem_system *system, const rb_rolling_body *body)
+{
+    char name[16];
+    if (!system)
+        return RB_OK;
+    const rb_bem_mesh *mesh = rb_bem_system_mesh(system);
+    snprintf(name, sizeof name, "mesh%s", suffix);
+    const rb_status s = dump_mesh(t, name, mesh);
+    if (s != RB_OK)
+        return s;
+    return dump_influence(t, suffix, mesh,
+                          rb_bem_material_from_young(body->young, body->poisson));
+}
+
+static rb_status dump_flexibility(const target *t, const rb_rolling_model *model)
+{
+    const int n = model->mesh.n, m = n + 1;
+    return write_matrix(t, "F", 2 * m, 2 * n, model->bodies.F, 2 * m,
+                        "w = F r: w_N then w_T, each at the contact elements and the one "
+                        "upstream; r_N then r_T");
+}
+
+/* ---- LCP --------------------------------------------------------------------------- */
+
+static rb_status dump_lcp(const target *t, const rb_rolling_model *model)
+{
+    rb_rolling_lcp lcp;
+    rb_status s =
+        rb_rolling_lcp_first(&model->problem, &model->rc, &model->state, &lcp, t->why);
+    if (s != RB_OK)
+        return s;
+    const int n = lcp.size;
+    s = write_matrix(t, "M", n, n, lcp.M, n, "scaled LCP: w = M z + b");
+    if (s == RB_OK)
+        s = write_matrix(t, "b", n, 1, lcp.b, n, "scaled LCP: w = M z + b");
+    if (s == RB_OK)
+        s = write_matrix(t, "z_scale", n, 1, lcp.z_scale, n, "physical z = z_scale z");
+    if (s == RB_OK)
+        s = write_matrix(t, "w_scale", n, 1, lcp.w_scale, n, "physical w = w_scale w");
+    rb_rolling_lcp_free(&lcp);
+    return s;
+}
+
+rb_status rb_report_dump(const char *folder, const rb_rolling_model *model,
+                         rb_message *why)
+{
+    const target t = {folder, why};
+    rb_status s = make_folder(&t);
+    if (s == RB_OK)
+        s = dump_contact(&t, &model->mesh);
+    if (s == RB_OK)
+        s = dump_body(&t, "", model->bodies.system_a, &model->rc.a);
+    if (s == RB_OK)
+        s = dump_body(&t, "_b", model->bodies.system_b, &model->rc.b);
+    if (s == RB_OK)
+        s = dump_flexibility(&t, model);
+    if (s == RB_OK)
+        s = dump_lcp(&t, model);
+    return s;
+}

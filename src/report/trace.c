@@ -1,0 +1,144 @@
+/* Lemke's pivots of a solved model, in the words of contact. */
+#include "rollbem/report.h"
+
+#include "rollbem/io.h"
+#include "rollbem/lcp.h"
+
+#include <stdlib.h>
+
+typedef struct {
+    FILE *out;
+    const char *folder; /* NULL: no tableaux */
+    const rb_rolling_lcp *lcp;
+    int n; /* contact elements */
+    rb_status status;
+    rb_message *why;
+} trace;
+
+/* ---- Names ------------------------------------------------------------------------- */
+
+/* Blocks of n (pivoted form) after r_N; w then z.  Mirrored, the signs change places. */
+static const char *pivoted_name(const rb_rolling_lcp *lcp, int is_z, int block)
+{
+    static const char *const names[2][2][2] = {
+        {{"lambda+", "gamma-"}, {"gamma+", "lambda-"}},
+        {{"lambda-", "gamma+"}, {"gamma-", "lambda+"}}};
+    return names[lcp->mirrored][is_z][block];
+}
+
+static void contact_name(const trace *t, int is_z, int k, char name[32])
+{
+    const int n = t->n;
+    if (k < n) {
+        snprintf(name, 32, "%s[%d]", is_z ? "p" : "gap", k + 1);
+    } else if (t->lcp->form == RB_LCP_KWAK) {
+        const int i = (k - n) / 2, minus = (k - n) % 2;
+        snprintf(name, 32, "%s%c[%d]", is_z ? "lambda" : "gamma", minus ? '-' : '+',
+                 i + 1);
+    } else {
+        const int block = (k - n) / n;
+        snprintf(name, 32, "%s[%d]", pivoted_name(t->lcp, is_z, block), (k - n) % n + 1);
+    }
+}
+
+/* Variables are numbered w, z, z0 (lcp.h); behind the 3n of the contact stand the given
+ * load and the given force. */
+static void variable_name(const trace *t, int variable, char name[32])
+{
+    const int size = t->lcp->size, is_z = variable >= size, k = variable - is_z * size;
+    if (variable == 2 * size)
+        snprintf(name, 32, "z0");
+    else if (k < 3 * t->n)
+        contact_name(t, is_z, k, name);
+    else
+        snprintf(name, 32, "%s[%d]", is_z ? "motion" : "force", k - 3 * t->n + 1);
+}
+
+/* ---- Pivots ------------------------------------------------------------------------ */
+
+static void write_tableau(trace *t, const rb_lcp_pivot *p)
+{
+    char path[1200];
+    snprintf(path, sizeof path, "%s/tableau_%d.mtx", t->folder, p->pivot + 1);
+    t->status = rb_io_matrix_market_write(
+        path, p->n, p->n + 2, p->tableau, p->n,
+        "basic = last column + columns times nonbasic; their names: basis_*.txt", t->why);
+}
+
+static void write_variables(FILE *file, const trace *t, const char *what,
+                            const int *variable, int n)
+{
+    char name[32];
+    fprintf(file, "%s", what);
+    for (int i = 0; i < n; i++) {
+        variable_name(t, variable[i], name);
+        fprintf(file, " %s", name);
+    }
+    fputc('\n', file);
+}
+
+/* Which variables the rows and columns of each tableau are. */
+static void write_basis(trace *t, const rb_lcp_pivot *p)
+{
+    char path[1200];
+    snprintf(path, sizeof path, "%s/basis_%d.txt", t->folder, p->pivot + 1);
+    rb_io_writer w;
+    t->status = rb_io_writer_open(path, &w, t->why);
+    if (t->status != RB_OK)
+        return;
+    write_variables(w.file, t, "rows", p->basis, p->n);
+    write_variables(w.file, t, "columns", p->nonbasis, p->n + 1);
+    t->status = rb_io_writer_commit(&w, t->why);
+}
+
+static void each_pivot(const rb_lcp_pivot *p, void *context)
+{
+    trace *t = context;
+    char entering[32], leaving[32];
+    variable_name(t, p->entering, entering);
+    variable_name(t, p->leaving, leaving);
+    fprintf(t->out,
+            "pivot %4d  row %4d  %-12s enters  %-12s leaves  step %-12.5g z0 %.5g\n",
+            p->pivot + 1, p->row + 1, entering, leaving, p->ratio, p->z0);
+    if (t->folder && t->status == RB_OK)
+        write_tableau(t, p);
+    if (t->folder && t->status == RB_OK)
+        write_basis(t, p);
+}
+
+static rb_status follow(trace *t, const rb_rolling_lcp *lcp)
+{
+    rb_lcp_options options = rb_lcp_defaults();
+    rb_lcp_info info;
+    double *z = rb_alloc((size_t)lcp->size, 1);
+    if (!z)
+        return rb_fail(t->why, RB_ENOMEM, "out of memory");
+    options.trace = each_pivot;
+    options.trace_context = t;
+    options.trace_tableau = t->folder != NULL;
+    const rb_status s =
+        rb_lcp_lemke(lcp->size, lcp->M, lcp->size, lcp->b, &options, z, &info);
+    free(z);
+    if (s < 0)
+        return rb_fail(t->why, s, "%s", info.msg.text);
+    return t->status;
+}
+
+rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model *model,
+                          rb_message *why)
+{
+    rb_rolling_lcp lcp;
+    const rb_rolling_state *state = &model->state;
+    if (state->solver != RB_SOLVER_LEMKE)
+        return rb_fail(why, RB_EINVAL,
+                       "the case was solved by Newton's method; --solver lemke "
+                       "pivots");
+    rb_status s = rb_rolling_lcp_create(&model->problem, state->lcp_form, state->mirrored,
+                                        state->xi0, &lcp, why);
+    if (s != RB_OK)
+        return s;
+    trace t = {.out = out, .folder = folder, .lcp = &lcp, .n = model->mesh.n, .why = why};
+    s = follow(&t, &lcp);
+    rb_rolling_lcp_free(&lcp);
+    return s;
+}
