@@ -226,7 +226,7 @@ static void write_tractions(FILE *out, const view *v, const char *key_font)
             v->stress_label);
     fprintf(
         out,
-        "set key at screen 0.53, 0.87 center horizontal maxrows 1 samplen 2.2 width 1 "
+        "set key at screen 0.53, 0.87 center horizontal maxrows 1 samplen 2.2 width 0 "
         "font '%s'\n",
         key_font);
     write_zones(out, v, 1);
@@ -243,7 +243,7 @@ static void write_tractions(FILE *out, const view *v, const char *key_font)
         out);
     if (v->carter)
         fputs(", $carter using 1:2 with lines dashtype (10,5) linecolor rgb '#1e8449' "
-              "linewidth 1.4 title 'q of Carter'",
+              "linewidth 1.4 title 'Carter'",
               out);
     fputs("\n", out);
 }
@@ -263,8 +263,8 @@ static void write_slip(FILE *out, const view *v)
           out);
     fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->slip_from, v->slip_to,
             round_step((v->slip_to - v->slip_from) / 4.0));
-    fprintf(out, "set xlabel '%s      (rolling towards +x →)' offset 0,0.3\n",
-            v->x_label);
+    fprintf(out, "set xlabel '%s%s' offset 0,0.3\n", v->x_label,
+            v->s->formulation == RB_STATIC ? "" : "      (rolling towards +x →)");
     fputs("set label 3 'slip", out);
     if (v->slip_exponent)
         fprintf(out, "  [10^{%d}]", v->slip_exponent);

@@ -147,7 +147,7 @@ void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solu
         fputs("rollbem: note: static: the creepage enters only the slip of (12), not the "
               "tractions; for rolling, --formulation steady\n",
               out);
-    if (rc->formulation == RB_STATIC && s->slip_violations > 0)
+    if (rc->formulation == RB_STATIC && rc->mu > 0.0 && s->slip_violations > 0)
         fprintf(
             out,
             "rollbem: note: at %d points the slip of (12) does not oppose the friction\n",
