@@ -422,12 +422,8 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
                                        rb_rolling_errors *errors, int *elements,
                                        rb_message *why);
 
-/* From case to solution, the model kept.  On a positive status both hold what there is.
- * Both are overwritten; free them in any case. */
-rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
-                                 rb_rolling_solution *solution, rb_message *why);
-
-/* The same in one call. */
+/* From case to solution in one call.  On a positive status the solution holds what there
+ * is.  solution: overwritten; free it in any case. */
 rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
                            rb_message *why);
 

@@ -169,6 +169,25 @@ static cli_exit print_solution(rb_io_writer *w, const output_options *o,
     return code;
 }
 
+/* As rb_rolling_solve, the model kept for whoever wants to look behind the solution. */
+static rb_status solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
+                             rb_rolling_solution *s, rb_message *why)
+{
+    const double start = rb_seconds();
+    *s = (rb_rolling_solution){0};
+    rb_status status = rb_rolling_model_create(rc, model, why);
+    if (status >= 0 && model->state.p) {
+        const rb_status t = rb_rolling_model_solution(model, s, why);
+        status = t == RB_OK ? status : t;
+    }
+    if (status == RB_OK && rc->formulation == RB_STEADY && rc->mu > 0.0)
+        status = rb_rolling_free_creepage(model, &s->free_creepage, why);
+    if (status >= 0)
+        s->status = status;
+    s->seconds_total = rb_seconds() - start;
+    return status;
+}
+
 /* Opens the output first: what cannot be written need not be solved. */
 static cli_exit solve(const output_options *o, const cli_case *c)
 {
@@ -179,7 +198,7 @@ static cli_exit solve(const output_options *o, const cli_case *c)
     rb_status status = rb_io_writer_open(o->output, &w, &why);
     if (status != RB_OK)
         return cli_fail(cli_exit_of(status), "%s", why.text);
-    status = rb_rolling_solve_model(&c->rc, &model, &s, &why);
+    status = solve_model(&c->rc, &model, &s, &why);
     cli_exit code = CLI_OK;
     if (status >= 0 && s.n > 0)
         code = print_solution(&w, o, c, &model, &s);

@@ -315,32 +315,24 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     return RB_OK;
 }
 
-rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
-                                 rb_rolling_solution *solution, rb_message *why)
+rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
+                           rb_message *why)
 {
     const double start = rb_seconds();
-    rb_status s = rb_rolling_model_create(rc, model, why);
+    rb_rolling_model model;
+    rb_status s = rb_rolling_model_create(rc, &model, why);
 
     memset(solution, 0, sizeof *solution);
-    if (s >= 0 && model->state.p) {
-        const rb_status t = rb_rolling_model_solution(model, solution, why);
+    if (s >= 0 && model.state.p) {
+        const rb_status t = rb_rolling_model_solution(&model, solution, why);
         if (t != RB_OK)
             s = t;
     }
     if (s == RB_OK && rc->formulation == RB_STEADY && rc->mu > 0.0)
-        s = rb_rolling_free_creepage(model, &solution->free_creepage, why);
+        s = rb_rolling_free_creepage(&model, &solution->free_creepage, why);
     if (s >= 0)
         solution->status = s;
     solution->seconds_total = rb_seconds() - start;
-    return s;
-}
-
-rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
-                           rb_message *why)
-{
-    rb_rolling_model model;
-    const rb_status s = rb_rolling_solve_model(rc, &model, solution, why);
-
     rb_rolling_model_free(&model);
     return s;
 }
