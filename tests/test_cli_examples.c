@@ -1,0 +1,145 @@
+/* The recorded outputs of examples/ against what the program prints today, numbers
+ * compared as numbers.  Run from the project's root; B: the build directory. */
+#include "check.h"
+#include "rollbem/io.h"
+
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/rollbem-examples-XXXXXX";
+
+static const char *build_folder(void)
+{
+    const char *build = getenv("B");
+    return build ? build : "build";
+}
+
+static int run(const char *format, ...)
+{
+    char command[2000];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(command, sizeof command, format, args);
+    va_end(args);
+    const int status = system(command);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/* Every column to 1e-7 of its largest entry; zones exactly. */
+static void compare_tables(const char *got_path, const char *wanted_path)
+{
+    enum { COLUMNS = 10 };
+    int rows, wanted_rows;
+    double *got, *wanted;
+    rb_message why = {""};
+    if (rb_io_read_columns(got_path, COLUMNS, &rows, &got, &why) != RB_OK ||
+        rb_io_read_columns(wanted_path, COLUMNS, &wanted_rows, &wanted, &why) != RB_OK)
+        print_error("%s\n", why.text);
+    assert_string_equal(why.text, "");
+    assert_int_equal(rows, wanted_rows);
+    for (int j = 0; j < COLUMNS; j++) {
+        const double scale = rb_norm_inf((size_t)rows, wanted + j * rows);
+        for (int i = 0; i < rows; i++)
+            CHECK_ABS(got[i + j * rows], wanted[i + j * rows],
+                      j == 9 ? 0.0 : 1e-7 * scale + 1e-12, "%s: row %d, column %d",
+                      wanted_path, i + 1, j + 1);
+    }
+    free(got);
+    free(wanted);
+}
+
+static void tables_are_as_recorded(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {{"paper/case", "paper/output"},
+                                           {"paper/case-mu01", "paper/output-mu01"},
+                                           {"hertz/case", "hertz/output"},
+                                           {"carter/case", "carter/output"},
+                                           {"by-hand/case", "by-hand/output"}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        char got[200], wanted[200];
+        snprintf(got, sizeof got, "%s/table.tsv", folder);
+        snprintf(wanted, sizeof wanted, "examples/%s.tsv", cases[k][1]);
+        assert_int_equal(run("%s/rollbem examples/%s.ini --quiet --output %s",
+                             build_folder(), cases[k][0], got),
+                         0);
+        compare_tables(got, wanted);
+    }
+}
+
+static void figures_of_the_paper_are_drawn(void **state)
+{
+    (void)state;
+    assert_int_equal(run("ROLLBEM=%s/rollbem examples/paper/figures %s/figures",
+                         build_folder(), folder),
+                     0);
+    for (int k = 2; k <= 6; k++)
+        assert_int_equal(run("test -s %s/figures/figure%d.png", folder, k), 0);
+}
+
+/* The next word of a file; 0 at its end. */
+static int next_word(FILE *file, char word[100])
+{
+    return fscanf(file, "%99s", word) == 1;
+}
+
+/* Words alike; numbers within the digits that the page shows. */
+static void compare_pages(const char *got_path, const char *wanted_path)
+{
+    FILE *got = fopen(got_path, "r"), *wanted = fopen(wanted_path, "r");
+    char a[100], b[100];
+    int words = 0;
+    assert_non_null(got);
+    assert_non_null(wanted);
+    while (next_word(wanted, b)) {
+        char *end_a, *end_b;
+        assert_int_equal(next_word(got, a), 1);
+        const double x = strtod(a, &end_a), y = strtod(b, &end_b);
+        if (*end_a == '\0' && *end_b == '\0')
+            CHECK_ABS(x, y, 0.011 + 1e-6 * fabs(y), "word %d: %s, %s", words, a, b);
+        else
+            assert_string_equal(a, b);
+        words++;
+    }
+    assert_int_equal(next_word(got, a), 0);
+    assert_true(words > 1000);
+    fclose(got);
+    fclose(wanted);
+}
+
+static void by_hand_is_computed_again_by_octave(void **state)
+{
+    (void)state;
+    if (run("command -v octave >/dev/null") != 0)
+        skip();
+    char page[200];
+    snprintf(page, sizeof page, "%s/page.txt", folder);
+    assert_int_equal(run("ROLLBEM=%s/rollbem examples/by-hand/make-page %s/dump >%s",
+                         build_folder(), folder, page),
+                     0);
+    assert_int_equal(run("grep -q DIFFERS %s", page), 1);
+    compare_pages(page, "examples/by-hand/page.txt");
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return run("rm -rf %s", folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tables_are_as_recorded),
+        cmocka_unit_test(figures_of_the_paper_are_drawn),
+        cmocka_unit_test(by_hand_is_computed_again_by_octave),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
