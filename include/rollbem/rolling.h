@@ -427,4 +427,9 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
 rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
                            rb_message *why);
 
+/* The same, with the model kept for what comes after (stress, further solves); free both
+ * in any case. */
+rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
+                                 rb_rolling_solution *solution, rb_message *why);
+
 #endif

@@ -162,40 +162,43 @@ double rb_rolling_dissipated_power(rb_rolling_formulation formulation, int n,
 /* ---- Forces
  * ----------------------------------------------------------------------------- */
 
+rb_status rb_rolling_boundary_values(const rb_rolling_model *model, double *u, double *t)
+{
+    const int n = model->problem.n;
+    double *t_c = rb_alloc(2 * (size_t)n, 1);
+
+    if (!t_c)
+        return RB_ENOMEM;
+    for (int i = 0; i < n; i++) {
+        const double h = model->bodies.f.h[i];
+        const double c = model->problem.load_N[i] / h, d = model->problem.load_T[i] / h;
+        t_c[2 * i] = c * model->state.q[i] - d * model->state.p[i];
+        t_c[2 * i + 1] = c * model->state.p[i] + d * model->state.q[i];
+    }
+    const rb_status s = rb_bem_system_solve(model->bodies.system_a, t_c, u, t);
+    free(t_c);
+    return s;
+}
+
 /* Vertical reaction of the support against the load, from the tractions that hold the
  * body; NAN for a half-plane. */
 static rb_status support_balance(const rb_rolling_model *model, double load,
                                  double *balance)
 {
-    const rb_bem_system *system = model->bodies.system_a;
-
     *balance = NAN;
-    if (!system)
+    if (!model->bodies.system_a)
         return RB_OK;
-    const rb_bem_mesh *mesh = rb_bem_system_mesh(system);
-    const int n = model->problem.n;
-    double *t_c = rb_alloc(2 * (size_t)n, 1), *u = rb_alloc(2 * (size_t)mesh->n, 1),
-           *t = rb_alloc(2 * (size_t)mesh->n, 1);
-    rb_status s = t_c && u && t ? RB_OK : RB_ENOMEM;
-    if (s == RB_OK) {
-        for (int i = 0; i < n; i++) {
-            const double h = model->bodies.f.h[i];
-            const double c = model->problem.load_N[i] / h,
-                         d = model->problem.load_T[i] / h;
-            t_c[2 * i] = c * model->state.q[i] - d * model->state.p[i];
-            t_c[2 * i + 1] = c * model->state.p[i] + d * model->state.q[i];
-        }
-        s = rb_bem_system_solve(system, t_c, u, t);
-    }
-    if (s == RB_OK) {
-        double reaction = 0.0;
-        for (int j = 0; j < mesh->n; j++)
-            if (mesh->condition[2 * j + 1] == RB_BEM_DISPLACEMENT)
-                reaction += t[2 * j + 1] *
-                            hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+    const rb_bem_mesh *mesh = rb_bem_system_mesh(model->bodies.system_a);
+    double *u = rb_alloc(2 * (size_t)mesh->n, 1), *t = rb_alloc(2 * (size_t)mesh->n, 1);
+    rb_status s = u && t ? rb_rolling_boundary_values(model, u, t) : RB_ENOMEM;
+    double reaction = 0.0;
+
+    for (int j = 0; j < mesh->n && s == RB_OK; j++)
+        if (mesh->condition[2 * j + 1] == RB_BEM_DISPLACEMENT)
+            reaction += t[2 * j + 1] *
+                        hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+    if (s == RB_OK)
         *balance = (reaction + load) / load;
-    }
-    free(t_c);
     free(u);
     free(t);
     return s;
@@ -315,24 +318,32 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     return RB_OK;
 }
 
-rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
-                           rb_message *why)
+rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
+                                 rb_rolling_solution *solution, rb_message *why)
 {
     const double start = rb_seconds();
-    rb_rolling_model model;
-    rb_status s = rb_rolling_model_create(rc, &model, why);
+    rb_status s = rb_rolling_model_create(rc, model, why);
 
     memset(solution, 0, sizeof *solution);
-    if (s >= 0 && model.state.p) {
-        const rb_status t = rb_rolling_model_solution(&model, solution, why);
+    if (s >= 0 && model->state.p) {
+        const rb_status t = rb_rolling_model_solution(model, solution, why);
         if (t != RB_OK)
             s = t;
     }
     if (s == RB_OK && rc->formulation == RB_STEADY && rc->mu > 0.0)
-        s = rb_rolling_free_creepage(&model, &solution->free_creepage, why);
+        s = rb_rolling_free_creepage(model, &solution->free_creepage, why);
     if (s >= 0)
         solution->status = s;
     solution->seconds_total = rb_seconds() - start;
+    return s;
+}
+
+rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
+                           rb_message *why)
+{
+    rb_rolling_model model;
+    const rb_status s = rb_rolling_solve_model(rc, &model, solution, why);
+
     rb_rolling_model_free(&model);
     return s;
 }

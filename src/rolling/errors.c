@@ -1,0 +1,186 @@
+/* Discretisation errors from the spread over meshes (theory.md 5.1). */
+#include "rolling/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_ELEMENTS = 6400 };
+
+/* What one mesh says. */
+typedef struct {
+    rb_rolling_solution solution;
+    rb_rolling_stress_maxima stress;
+} sample;
+
+/* Scalars that get an error bar: where they stand in a solution and in the errors. */
+static const struct {
+    size_t value, error;
+} scalars[] = {
+#define SCALAR(name)                                                                     \
+    {                                                                                    \
+        offsetof(rb_rolling_solution, name), offsetof(rb_rolling_errors, name)           \
+    }
+    SCALAR(normal_load), SCALAR(tangential_load), SCALAR(force_ratio),
+    SCALAR(approach),    SCALAR(creepage),        SCALAR(free_creepage),
+    SCALAR(half_width),  SCALAR(max_pressure),    SCALAR(stick_from),
+    SCALAR(stick_to),    SCALAR(dissipation),
+#undef SCALAR
+};
+
+enum { STRESS_NUMBERS = sizeof(rb_rolling_stress_maxima) / sizeof(double) };
+
+static double at(const void *base, size_t offset)
+{
+    double value;
+    memcpy(&value, (const char *)base + offset, sizeof value);
+    return value;
+}
+
+static double spread(double a, double b, double c)
+{
+    return fmax(a, fmax(b, c)) - fmin(a, fmin(b, c)) + 0.0 * (a + b + c); /* NAN stays */
+}
+
+/* Twice the spread held the true error where 200 elements or more stand across the
+ * contact, three times below. */
+static double safety(const sample *fine)
+{
+    return fine->solution.contact >= 200 ? 2.0 : 3.0;
+}
+
+static void estimate(const sample s[3], int with_stress, rb_rolling_errors *errors)
+{
+    const double factor = safety(&s[2]);
+
+    for (size_t k = 0; k < sizeof scalars / sizeof *scalars; k++) {
+        const double e = factor * spread(at(&s[0].solution, scalars[k].value),
+                                         at(&s[1].solution, scalars[k].value),
+                                         at(&s[2].solution, scalars[k].value));
+        memcpy((char *)errors + scalars[k].error, &e, sizeof e);
+    }
+    for (size_t k = 0; k < STRESS_NUMBERS; k++) {
+        const size_t offset = k * sizeof(double);
+        const double e = with_stress ? factor * spread(at(&s[0].stress, offset),
+                                                       at(&s[1].stress, offset),
+                                                       at(&s[2].stress, offset))
+                                     : NAN;
+        memcpy((char *)&errors->stress + offset, &e, sizeof e);
+    }
+}
+
+static rb_status take_sample(const rb_rolling_case *rc, int elements, int with_stress,
+                             sample *s, rb_message *why)
+{
+    rb_rolling_case refined = *rc;
+    rb_rolling_model model = {0};
+
+    refined.contact_elements = elements;
+    rb_status status = rb_rolling_solve_model(&refined, &model, &s->solution, why);
+    if (status == RB_OK && with_stress)
+        status = rb_rolling_stress_maxima_find(&model, 0.0, &s->stress, why);
+    rb_rolling_model_free(&model);
+    return status;
+}
+
+static void samples_free(sample s[3])
+{
+    for (int k = 0; k < 3; k++)
+        rb_rolling_solution_free(&s[k].solution);
+}
+
+/* Hands the finest solution to the caller. */
+static void give_finest(sample s[3], rb_rolling_solution *solution)
+{
+    *solution = s[2].solution;
+    memset(&s[2].solution, 0, sizeof s[2].solution);
+}
+
+static rb_status check_count(const rb_rolling_case *rc, rb_message *why)
+{
+    if (rc->contact_elements < 12)
+        return rb_fail(why, RB_EINVAL,
+                       "error bars compare with half the elements: expected 12 contact "
+                       "elements or more, got %d",
+                       rc->contact_elements);
+    return RB_OK;
+}
+
+rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, int with_stress,
+                                       rb_rolling_solution *solution,
+                                       rb_rolling_errors *errors, rb_message *why)
+{
+    const int n = rc->contact_elements;
+    const int counts[] = {n / 2, (int)(0.7 * n), n};
+    sample s[3] = {0};
+    rb_status status = check_count(rc, why);
+
+    memset(solution, 0, sizeof *solution);
+    for (int k = 0; k < 3 && status == RB_OK; k++)
+        status = take_sample(rc, counts[k], with_stress, &s[k], why);
+    if (status == RB_OK)
+        estimate(s, with_stress, errors);
+    if (status == RB_OK || s[2].solution.p)
+        give_finest(s, solution);
+    samples_free(s);
+    return status;
+}
+
+/* Largest of the relative estimates that --accuracy asks for: forces in units of their
+ * bound, creepage in units of mu a/R. */
+static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                             const rb_rolling_errors *e)
+{
+    double worst =
+        fmax(e->normal_load / s->normal_load, e->max_pressure / s->max_pressure);
+
+    worst = fmax(worst, e->half_width / s->half_width);
+    if (rc->mu > 0.0)
+        worst = fmax(worst, e->force_ratio);
+    if (rc->mu > 0.0 && rc->formulation != RB_STATIC)
+        worst = fmax(worst, e->creepage * rb_rolling_radius(rc) /
+                                (rc->mu * s->hertz_half_width));
+    return worst;
+}
+
+/* Meshes grow by the square root of 2, so that each new one finds its two coarser
+ * companions already solved. */
+static int next_count(int n)
+{
+    return (int)ceil(n * 1.41421356);
+}
+
+rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accuracy,
+                                       rb_rolling_solution *solution,
+                                       rb_rolling_errors *errors, int *elements,
+                                       rb_message *why)
+{
+    sample s[3] = {0};
+    int n = rc->contact_elements / 2;
+    double worst = INFINITY;
+    rb_status status = check_count(rc, why);
+
+    memset(solution, 0, sizeof *solution);
+    if (status == RB_OK && !(accuracy > 0.0 && accuracy < 1.0))
+        status =
+            rb_fail(why, RB_EINVAL, "accuracy: expected in (0, 1), got %g", accuracy);
+    for (int k = 0; status == RB_OK && n <= MOST_ELEMENTS; k++, n = next_count(n)) {
+        rb_rolling_solution_free(&s[0].solution);
+        memmove(s, s + 1, 2 * sizeof *s);
+        memset(&s[2], 0, sizeof s[2]);
+        status = take_sample(rc, n, 0, &s[2], why);
+        *elements = n;
+        if (status != RB_OK || k < 2)
+            continue;
+        estimate(s, 0, errors);
+        worst = worst_relative(rc, &s[2].solution, errors);
+        if (worst <= accuracy)
+            break;
+    }
+    if (status == RB_OK && !(worst <= accuracy))
+        status = rb_fail(why, RB_INACCURATE,
+                         "accuracy %g not reached with %d elements: estimated error %.2g",
+                         accuracy, *elements, worst);
+    give_finest(s, solution);
+    samples_free(s);
+    return status;
+}
