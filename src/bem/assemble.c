@@ -10,9 +10,8 @@ rb_status rb_assembly_begin(const rb_bem_mesh *mesh, rb_bem_material material,
     double *x = rb_alloc((size_t)n, 2), *y = x + n;
     rb_status s = RB_ENOMEM;
 
-    *assembly = (rb_assembly){.mesh = mesh,
-                              .constants = rb_constants_make(material),
-                              .r0 = rb_bem_mesh_size(mesh)};
+    *assembly =
+        (rb_assembly){.mesh = mesh, .material = material, .r0 = rb_bem_mesh_size(mesh)};
     for (int j = 0; j < n && x; j++) {
         x[j] = 0.5 * (mesh->x0[j] + mesh->x1[j]);
         y[j] = 0.5 * (mesh->y0[j] + mesh->y1[j]);
@@ -34,8 +33,11 @@ void rb_assembly_columns(const rb_assembly *assembly, int j, double G_factor,
     const rb_bem_mesh *mesh = assembly->mesh;
     const rb_element e =
         rb_element_make(mesh->x0[j], mesh->y0[j], mesh->x1[j], mesh->y1[j], assembly->r0);
-    rb_constants k = assembly->constants;
-    k.C *= G_factor;
+    rb_constants k = rb_constants_make(&e, assembly->material);
+    k.G_cos *= G_factor;
+    k.G_sin *= G_factor;
+    k.G_kap *= G_factor;
+    k.G_mean *= G_factor;
     rb_column_variant_get(0)->fill(&k, &e, j, &assembly->midpoints, out);
 }
 

@@ -6,7 +6,7 @@
 
 typedef struct {
     const rb_bem_mesh *mesh; /* borrowed */
-    rb_constants constants;
+    rb_bem_material material;
     double r0; /* length inside the logarithm */
     rb_points midpoints;
 } rb_assembly;

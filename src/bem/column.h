@@ -4,11 +4,12 @@
 
 #include "bem/kernels.h"
 
-/* Collocation points, padded to whole blocks.  Blocks never straddle: whoever reads
- * block b reads count = min(BLOCK, n - b BLOCK) of it. */
+/* Collocation points, padded to whole blocks by repeating the last one. */
 typedef struct {
     int n;
-    double *x, *y; /* owned */
+    double *x; /* owned, with y and circle behind it */
+    double *y;
+    double *circle; /* centre and radius of a circle about each block */
 } rb_points;
 
 rb_status rb_points_make(int n, const double *x, const double *y, rb_points *points);

@@ -6,13 +6,16 @@ void rb_bem_element_integrals(double x0, double y0, double x1, double y1, double
                               double G[4])
 {
     const rb_element e = rb_element_make(x0, y0, x1, y1, 1.0);
-    const rb_constants k = rb_constants_make(material);
+    const rb_constants k = rb_constants_make(&e, material);
     rb_influence out;
 
-    if (self)
-        rb_integrate_self(&k, &e, &out);
-    else
-        rb_integrate(&k, &e, px, py, &out);
+    if (self) {
+        rb_integrate_self(&k, e.a, &out);
+    } else {
+        const rb_seen v = rb_look(&e, px, py);
+        rb_integrate_H(&k, e.a, &v, &out);
+        rb_integrate_G(&k, e.a, &v, &out);
+    }
     H[0] = out.Hxx;
     H[1] = out.Hyx;
     H[2] = out.Hxy;

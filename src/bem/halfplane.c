@@ -127,9 +127,9 @@ static rb_seen see_strip(const rb_element *strip, double x, double y)
 {
     rb_seen v = rb_see(strip, x, y);
     if (rb_is_far(strip, x, y))
-        rb_turn_far(strip->a, &v);
+        rb_turn_far(strip->a, 0, &v);
     else if (v.W > 0.0)
-        rb_turn_near(strip->a, &v);
+        rb_turn_near(strip->a, 0, &v);
     else
         v.Th = 0.5 * M_PI;
     return v;

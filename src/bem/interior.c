@@ -131,18 +131,14 @@ static cplx cauchy(cplx f, cplx f_s, const rb_piece *p, cplx z, double l, cplx t
 static void add_piece(const rb_interior *in, const rb_piece *p, double x, double y,
                       rb_field *field)
 {
-    rb_seen v = rb_see(&p->e, x, y);
-    if (rb_is_far(&p->e, x, y))
-        rb_turn_far(p->e.a, &v);
-    else
-        rb_turn_near(p->e.a, &v);
+    const rb_seen v = rb_look(&p->e, x, y);
     const cplx z = CMPLX(x, y), turn = CMPLX(v.Lam, v.Th), back = conj(p->direction);
     const double l = 2.0 * p->e.a;
     const double L =
-        v.X * v.Lam + 0.5 * p->e.a * rb_log(v.W) + v.d * v.Th + p->e.constant;
+        v.X * v.Lam + 0.5 * p->e.a * v.log_W + v.d * v.Th - l * (1.0 + p->e.log_r0);
     /* w1 w2 = e^2 (X + i d - a)(X + i d + a), mirrored in the piece's own axes */
     const cplx w1w2 =
-        p->direction * p->direction * CMPLX(v.dot - 2.0 * v.d * v.d, -2.0 * v.X * v.d);
+        p->direction * p->direction * CMPLX(v.square_re - p->e.a * p->e.a, -v.square_im);
     const cplx shift = -2.0 * I * v.d * back;
     const cplx I0 = -back * turn, I1 = back * back * I0 + shift * l / w1w2,
                J1 = back * back * l + shift * I0;

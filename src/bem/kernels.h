@@ -15,7 +15,7 @@
  *     L   = int ln r ds = X Lam + (a/2) ln W - 2a + d Th
  *
  *     G11, G22 = C (a - kap L) +- C (a - d Th),   G12 = G21 = C d Lam
- *     H11, H22 = D (2 (1-nu) Th -+ q (2 d^2 - dot)),            q = cross/W
+ *     H11, H22 = D (2 (1-nu) Th +- q (X^2 - d^2 - a^2)),        q = cross/W
  *     H12, H21 = D (2 d X q -+ (1-2nu) Lam)
  *
  * in the axes (t, n).  Turning them to (x, y) keeps the isotropic parts, turns the
@@ -37,15 +37,18 @@
 #define RB_INLINE static inline __attribute__((always_inline))
 
 typedef struct {
-    double mx, my, a;  /* midpoint, half-length */
-    double tx, ty;     /* direction */
-    double cos2, sin2; /* of twice its angle */
-    double constant;   /* of L: -2a (1 + ln r0) */
+    double mx, my, a; /* midpoint, half-length */
+    double tx, ty;    /* direction */
+    double log_r0;    /* of the length in which the logarithm's distance is measured */
 } rb_element;
 
+/* The constants of one element's integrals in one material. */
 typedef struct {
-    double C, kap;
-    double H_th, H_dev, H_skew; /* 2 (1-nu) D, D, (1-2nu) D */
+    double H_mean, H_cos, H_sin,
+        H_skew;           /* D times 2 (1-nu), cos 2 angle, sin, 1 - 2 nu */
+    double G_cos, G_sin;  /* C times cos 2 angle, sin */
+    double G_kap, G_mean; /* C kap; C [a + 2 a kap (1 + ln r0)] */
+    double half_a;
 } rb_constants;
 
 /* G: Gxx, Gyy, Gxy = Gyx; H: row = load direction at p, column = component. */
@@ -53,50 +56,57 @@ typedef struct {
     double Hxx, Hyx, Hxy, Hyy, Gxx, Gxy, Gyy;
 } rb_influence;
 
-/* r0: the length in which the logarithm's distance is measured */
 static inline rb_element rb_element_make(double x0, double y0, double x1, double y1,
                                          double r0)
 {
-    const double dx = x1 - x0, dy = y1 - y0, length = hypot(dx, dy), a = 0.5 * length;
-    const double tx = dx / length, ty = dy / length;
+    const double dx = x1 - x0, dy = y1 - y0, length = hypot(dx, dy);
     return (rb_element){.mx = 0.5 * (x0 + x1),
                         .my = 0.5 * (y0 + y1),
-                        .a = a,
-                        .tx = tx,
-                        .ty = ty,
-                        .cos2 = (tx - ty) * (tx + ty),
-                        .sin2 = 2.0 * tx * ty,
-                        .constant = -2.0 * a * (1.0 + log(r0))};
+                        .a = 0.5 * length,
+                        .tx = dx / length,
+                        .ty = dy / length,
+                        .log_r0 = log(r0)};
 }
 
-static inline rb_constants rb_constants_make(rb_bem_material material)
+static inline rb_constants rb_constants_make(const rb_element *e,
+                                             rb_bem_material material)
 {
     const double pi = 3.14159265358979323846, nu = material.poisson;
+    const double C = 1.0 / (8.0 * pi * material.shear * (1.0 - nu)), kap = 3.0 - 4.0 * nu;
     const double D = -1.0 / (4.0 * pi * (1.0 - nu));
-    return (rb_constants){.C = 1.0 / (8.0 * pi * material.shear * (1.0 - nu)),
-                          .kap = 3.0 - 4.0 * nu,
-                          .H_th = 2.0 * (1.0 - nu) * D,
-                          .H_dev = D,
-                          .H_skew = (1.0 - 2.0 * nu) * D};
+    const double cos2 = (e->tx - e->ty) * (e->tx + e->ty), sin2 = 2.0 * e->tx * e->ty;
+    return (rb_constants){.H_mean = 2.0 * (1.0 - nu) * D,
+                          .H_cos = D * cos2,
+                          .H_sin = D * sin2,
+                          .H_skew = (1.0 - 2.0 * nu) * D,
+                          .G_cos = C * cos2,
+                          .G_sin = C * sin2,
+                          .G_kap = C * kap,
+                          .G_mean = C * e->a * (1.0 + 2.0 * kap * (1.0 + e->log_r0)),
+                          .half_a = 0.5 * e->a};
 }
 
-/* ln x for normal x > 0: x = 2^k m with m in [sqrt(1/2), sqrt 2), and
- * ln m = 2 atanh s,  s = (m-1)/(m+1),  s^2 < 0.0295: ten terms. */
-RB_INLINE double rb_log(double x)
+/* x = 2^k m with m in [sqrt(1/2), sqrt 2), for normal x > 0. */
+RB_INLINE double rb_log_split(double x, double *k)
 {
     const uint64_t root_half = 0x3fe6a09e667f3bcd, bias = 1023;
     uint64_t bits, power;
-    double k, m;
+    double m;
     memcpy(&bits, &x, sizeof bits);
     const uint64_t shifted = bits - root_half + (bias << 52);
     power = (shifted >> 52) | 0x4330000000000000; /* the double 2^52 + bias + k */
     bits -= ((shifted >> 52) - bias) << 52;
-    memcpy(&k, &power, sizeof k);
+    memcpy(k, &power, sizeof *k);
     memcpy(&m, &bits, sizeof m);
-    k -= 4503599627370496.0 + 1023.0;
-    const double s = (m - 1.0) / (m + 1.0), z = s * s;
-    double p = 1.0 / 21;
-    p = p * z + 1.0 / 19;
+    *k -= 4503599627370496.0 + 1023.0;
+    return m;
+}
+
+/* ln(2^k m) from s = (m-1)/(m+1):  ln m = 2 atanh s,  s^2 < 0.0295: ten terms. */
+RB_INLINE double rb_log_join(double k, double s)
+{
+    const double z = s * s;
+    double p = 1.0 / 19;
     p = p * z + 1.0 / 17;
     p = p * z + 1.0 / 15;
     p = p * z + 1.0 / 13;
@@ -105,7 +115,15 @@ RB_INLINE double rb_log(double x)
     p = p * z + 1.0 / 7;
     p = p * z + 1.0 / 5;
     p = p * z + 1.0 / 3;
-    return k * 0.69314718055994530942 + (2.0 * s + 2.0 * s * z * p);
+    const double twice = s + s;
+    return k * 0.69314718055994530942 + (twice + twice * (z * p));
+}
+
+RB_INLINE double rb_log(double x)
+{
+    double k;
+    const double m = rb_log_split(x, &k);
+    return rb_log_join(k, (m - 1.0) / (m + 1.0));
 }
 
 /* atan2(y, x), not both 0: the angle of the first octant less that of the nearest of the
@@ -139,16 +157,17 @@ RB_INLINE double rb_atan2(double y, double x)
     return y < 0.0 ? -angle : angle;
 }
 
+/* rho = X^2 + d^2; square = (X + i d)^2, real part and imaginary part. */
 typedef struct {
-    double X, d, rho, dot, cross, W, over_W; /* rho = X^2 + d^2 */
-    double Lam, Th;
+    double X, d, rho, square_re, square_im, dot, cross, W, over_W;
+    double Lam, Th, log_W;
 } rb_seen;
 
-/* Where rho > 199 a^2 the two transcendentals are one short series. */
+/* Where rho > 400 a^2 the two transcendentals are one short series. */
 RB_INLINE int rb_is_far(const rb_element *e, double px, double py)
 {
     const double dx = e->mx - px, dy = e->my - py;
-    return dx * dx + dy * dy > 199.0 * (e->a * e->a);
+    return dx * dx + dy * dy > 400.0 * (e->a * e->a);
 }
 
 RB_INLINE rb_seen rb_see(const rb_element *e, double px, double py)
@@ -157,86 +176,95 @@ RB_INLINE rb_seen rb_see(const rb_element *e, double px, double py)
     rb_seen v;
     v.X = dx * e->tx + dy * e->ty;
     v.d = dx * e->ty - dy * e->tx;
-    v.rho = v.X * v.X + v.d * v.d;
+    const double XX = v.X * v.X, dd = v.d * v.d;
+    v.rho = XX + dd;
+    v.square_re = XX - dd;
+    v.square_im = (v.X + v.X) * v.d;
     v.dot = v.rho - a * a;
-    v.cross = 2.0 * a * v.d;
+    v.cross = (a + a) * v.d;
     v.W = v.dot * v.dot + v.cross * v.cross;
     return v;
 }
 
 /* Lam + i Th = 2 atanh u = 2u (1 + w/3 + w^2/5 + ...), u = a (X + i d)/rho, w = u^2,
- * |w| < 1/199: seven terms, summed in real arithmetic (b_k = c_k + 2 Re w b_k+1 -
- * |w|^2 b_k+2).  One division serves 1/W and 1/rho. */
-RB_INLINE void rb_turn_far(double a, rb_seen *v)
+ * |w| < 1/400: six terms, summed in real arithmetic (b_k = c_k + 2 Re w b_k+1 -
+ * |w|^2 b_k+2).  One division serves 1/W, 1/rho and, where wanted, ln W. */
+RB_INLINE void rb_turn_far(double a, int with_log, rb_seen *v)
 {
-    const double over = 1.0 / (v->W * v->rho), f = a * (over * v->W);
-    const double ur = f * v->X, ui = f * v->d, wr = ur * ur - ui * ui, wi = ur * ui;
-    const double p = wr + wr, modulus = a * f, q = modulus * modulus;
-    const double b5 = 1.0 / 11 + p * (1.0 / 13), b4 = 1.0 / 9 + p * b5 - q * (1.0 / 13),
-                 b3 = 1.0 / 7 + p * b4 - q * b5, b2 = 1.0 / 5 + p * b3 - q * b4,
-                 b1 = 1.0 / 3 + p * b2 - q * b3;
-    const double sr = 2.0 + 2.0 * (wr * b1 - q * b2), si = 4.0 * (wi * b1);
+    double k = 0.0, m = 1.0, over = v->W * v->rho;
+    if (with_log) {
+        m = rb_log_split(v->W, &k);
+        const double above = 1.0 / (over * (m + 1.0));
+        v->log_W = rb_log_join(k, (m - 1.0) * (above * over));
+        over = above * (m + 1.0);
+    } else {
+        over = 1.0 / over;
+    }
     v->over_W = over * v->rho;
+    const double f = a * (over * v->W), ff = f * f, af = a * f;
+    const double wr = ff * v->square_re, half_wi = 0.5 * (ff * v->square_im);
+    const double p = wr + wr, q = af * af;
+    const double b4 = 1.0 / 9 + p * (1.0 / 11), b3 = 1.0 / 7 + p * b4 - q * (1.0 / 11),
+                 b2 = 1.0 / 5 + p * b3 - q * b4, b1 = 1.0 / 3 + p * b2 - q * b3;
+    const double sr = 2.0 + (p * b1 - 2.0 * (q * b2)), si = 4.0 * (half_wi * b1);
+    const double ur = f * v->X, ui = f * v->d;
     v->Lam = ur * sr - ui * si;
     v->Th = ur * si + ui * sr;
 }
 
-RB_INLINE void rb_turn_near(double a, rb_seen *v)
+RB_INLINE void rb_turn_near(double a, int with_log, rb_seen *v)
 {
-    const double x1 = v->X - a, x2 = v->X + a, d2 = v->d * v->d;
+    const double x1 = v->X - a, x2 = v->X + a, dd = v->d * v->d;
     v->over_W = 1.0 / v->W;
-    v->Lam = 0.5 * rb_log((x2 * x2 + d2) / (x1 * x1 + d2));
+    v->Lam = 0.5 * rb_log((x2 * x2 + dd) / (x1 * x1 + dd));
     v->Th = rb_atan2(v->cross, v->dot);
+    if (with_log)
+        v->log_W = rb_log(v->W);
 }
 
-RB_INLINE void rb_integrate_H(const rb_constants *k, const rb_element *e,
-                              const rb_seen *v, rb_influence *out)
+RB_INLINE void rb_integrate_H(const rb_constants *k, double a, const rb_seen *v,
+                              rb_influence *out)
 {
     const double q = v->cross * v->over_W;
-    const double s11 = -q * (2.0 * (v->d * v->d) - v->dot), s12 = 2.0 * (v->d * v->X) * q;
-    const double mean = k->H_th * v->Th, skew = k->H_skew * v->Lam;
-    const double dev = k->H_dev * (e->cos2 * s11 + e->sin2 * s12),
-                 shear = k->H_dev * (e->sin2 * s11 - e->cos2 * s12);
+    const double s11 = q * (v->square_re - a * a), s12 = q * v->square_im;
+    const double mean = k->H_mean * v->Th, skew = k->H_skew * v->Lam;
+    const double dev = k->H_cos * s11 + k->H_sin * s12,
+                 shear = k->H_sin * s11 - k->H_cos * s12;
     out->Hxx = mean + dev;
     out->Hyy = mean - dev;
     out->Hxy = shear + skew;
     out->Hyx = shear - skew;
 }
 
-RB_INLINE void rb_integrate_G(const rb_constants *k, const rb_element *e,
-                              const rb_seen *v, rb_influence *out)
+RB_INLINE void rb_integrate_G(const rb_constants *k, double a, const rb_seen *v,
+                              rb_influence *out)
 {
-    const double a = e->a, d_th = v->d * v->Th;
-    const double L = v->X * v->Lam + (0.5 * a) * rb_log(v->W) + d_th + e->constant;
-    const double s11 = k->C * (a - d_th), s12 = k->C * (v->d * v->Lam);
-    const double mean = k->C * (a - k->kap * L);
-    const double dev = e->cos2 * s11 + e->sin2 * s12;
+    const double d_th = v->d * v->Th, s11 = a - d_th, s12 = v->d * v->Lam;
+    const double L = (v->X * v->Lam + d_th) + k->half_a * v->log_W; /* + the constant */
+    const double mean = k->G_mean - k->G_kap * L, dev = k->G_cos * s11 + k->G_sin * s12;
     out->Gxx = mean + dev;
     out->Gyy = mean - dev;
-    out->Gxy = e->sin2 * s11 - e->cos2 * s12;
+    out->Gxy = k->G_sin * s11 - k->G_cos * s12;
 }
 
 /* p = m: the principal value of T is 0, the free term 1/2 stands in H. */
-static inline void rb_integrate_self(const rb_constants *k, const rb_element *e,
-                                     rb_influence *out)
+static inline void rb_integrate_self(const rb_constants *k, double a, rb_influence *out)
 {
-    const rb_seen v = {.W = e->a * e->a * (e->a * e->a)};
-    rb_integrate_G(k, e, &v, out);
+    const rb_seen v = {.log_W = rb_log(a * a * (a * a))};
+    rb_integrate_G(k, a, &v, out);
     out->Hxx = out->Hyy = 0.5;
     out->Hxy = out->Hyx = 0.0;
 }
 
-/* From a point other than the element's own midpoint. */
-static inline void rb_integrate(const rb_constants *k, const rb_element *e, double px,
-                                double py, rb_influence *out)
+/* From a point other than the element's own midpoint: all of rb_seen. */
+RB_INLINE rb_seen rb_look(const rb_element *e, double px, double py)
 {
     rb_seen v = rb_see(e, px, py);
     if (rb_is_far(e, px, py))
-        rb_turn_far(e->a, &v);
+        rb_turn_far(e->a, 1, &v);
     else
-        rb_turn_near(e->a, &v);
-    rb_integrate_H(k, e, &v, out);
-    rb_integrate_G(k, e, &v, out);
+        rb_turn_near(e->a, 1, &v);
+    return v;
 }
 
 #endif
