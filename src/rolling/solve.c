@@ -192,16 +192,14 @@ static int is_solved(rb_status s, const rb_rolling_case *rc,
 
 /* The wanted solver first; where it ends without a solution, the other one.  A warm start
  * is Newton's: it costs a few steps where Lemke would begin anew. */
-rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
-                                   const rb_rolling_case *rc, int warm,
-                                   rb_rolling_state *state, rb_message *why)
+static rb_status solve_given(const rb_rolling_problem *problem, const rb_rolling_case *rc,
+                             int warm, rb_rolling_state *state, rb_message *why)
 {
     const int newton_first =
         rc->solver == RB_SOLVER_NEWTON ||
         (rc->solver == RB_SOLVER_AUTO && (warm || problem->n > LEMKE_UP_TO));
     rb_status s = RB_RAY;
 
-    state->iterations = 0;
     for (int k = 0; k < 3 && s >= 0; k++) {
         const int newton = newton_first ? k < 2 : k == 1;
         if (newton && k == 0 && !warm)
@@ -211,8 +209,92 @@ rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
         if (is_solved(s, rc, state))
             break;
     }
-    if (s == RB_OK && !is_solved(s, rc, state))
-        s = RB_INACCURATE;
+    return s == RB_OK && !is_solved(s, rc, state) ? RB_INACCURATE : s;
+}
+
+/* ---- Full sliding
+ * ---------------------------------------------------------------------- */
+
+/* Whether the given force is all that friction can carry. */
+static int slides_fully(const rb_rolling_problem *problem)
+{
+    return problem->force_given && problem->force == 0.0 &&
+           fabs(problem->force_ratio) >= 1.0 - 1e-12;
+}
+
+/* Creepage by which the slowest element still slides; 0 where something sticks. */
+static double slowest_slip(const rb_rolling_problem *problem,
+                           const rb_rolling_state *state)
+{
+    double slowest = INFINITY;
+
+    for (int i = 0; i < problem->n; i++) {
+        if (state->zone[i] == RB_ZONE_SEPARATED)
+            continue;
+        if (state->zone[i] == RB_ZONE_STICK)
+            return 0.0;
+        slowest = fmin(slowest, fabs(state->lambda[i] / problem->e_T[i]));
+    }
+    return slowest;
+}
+
+/* Every creepage beyond a least one will do: finds one by doubling, then the least, which
+ * has the same tractions. */
+static rb_status solve_sliding(const rb_rolling_problem *problem,
+                               const rb_rolling_case *rc, int backwards,
+                               rb_rolling_state *state, rb_message *why)
+{
+    const double sign = backwards ? -1.0 : 1.0;
+    rb_rolling_problem given = *problem; /* arrays stay the problem's */
+    rb_status s = RB_OK;
+
+    given.force_given = 0;
+    given.xi = sign * sliding_creepage(rc, problem);
+    for (int k = 0; k < 40 && s == RB_OK; k++, given.xi *= 2.0) {
+        s = solve_given(&given, rc, 0, state, why);
+        const double spare = slowest_slip(&given, state);
+        if (s == RB_OK && spare > 0.0 && sign * given.xi > 0.0) {
+            state->xi -= sign * spare;
+            for (int i = 0; i < problem->n; i++)
+                state->lambda[i] -= sign * spare * problem->e_T[i];
+            return RB_OK;
+        }
+    }
+    return s == RB_OK ? RB_MAXITER : s;
+}
+
+/* A given force that friction cannot carry under the load that the approach brings. */
+static rb_status check_capacity(const rb_rolling_problem *problem,
+                                const rb_rolling_case *rc, rb_rolling_state *state,
+                                rb_message *why)
+{
+    double P = 0.0;
+    const rb_status s = solve_sliding(problem, rc, problem->force > 0.0, state, NULL);
+
+    for (int i = 0; i < problem->n; i++)
+        P += problem->load_N[i] * state->p[i] + problem->load_T[i] * state->q[i];
+    if (s == RB_OK && fabs(problem->force) > problem->mu * P)
+        return rb_fail(
+            why, RB_EINVAL,
+            "force Q = %g: friction carries at most mu P = %g at this approach",
+            problem->force, problem->mu * P);
+    return RB_RAY;
+}
+
+rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
+                                   const rb_rolling_case *rc, int warm,
+                                   rb_rolling_state *state, rb_message *why)
+{
+    state->iterations = 0;
+    rb_status s = slides_fully(problem)
+                      ? solve_sliding(problem, rc, problem->force_ratio > 0.0, state, why)
+                      : solve_given(problem, rc, warm, state, why);
+
+    if (s > 0 && problem->force_given && problem->force != 0.0) {
+        const rb_status t = check_capacity(problem, rc, state, why);
+        if (t < 0)
+            return t;
+    }
     if (s > 0)
         rb_fail(why, s, "%s; scaled residual %.3g", rb_status_text(s), state->residual);
     state->status = s;

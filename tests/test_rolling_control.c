@@ -1,0 +1,168 @@
+/* Given loads and forces up to full sliding, and the two solvers against each other. */
+#include "check.h"
+#include "rolling/internal.h"
+
+#include <string.h>
+
+static double uniform(double a, double b)
+{
+    return a + (b - a) * (rand() / (double)RAND_MAX);
+}
+
+static double log_uniform(double a, double b)
+{
+    return exp(uniform(log(a), log(b)));
+}
+
+/* Half-planes of any materials in steady or static contact, creepage or force given. */
+static rb_rolling_case random_case(double mu_from, double mu_to)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+
+    rc.a.young = log_uniform(1e3, 1e6);
+    rc.a.poisson = uniform(-0.3, 0.5);
+    rc.b.young = log_uniform(1e3, 1e6);
+    rc.b.poisson = uniform(0.0, 0.5);
+    rc.elastic_b = rand() % 2;
+    rc.b.radius = rand() % 2 ? INFINITY : log_uniform(10.0, 1000.0);
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.formulation = rand() % 4 ? RB_STEADY : RB_STATIC;
+    rc.half_width = log_uniform(1e-6, 1e-2) * rc.a.radius;
+    rc.mu = log_uniform(mu_from, mu_to);
+    if (rand() % 2)
+        rc.force_ratio = rand() % 4 ? uniform(-0.999, 0.999) : rand() % 2 ? 0.999 : -0.999;
+    else if (rc.formulation == RB_STEADY)
+        rc.creep_ratio = uniform(-2.0, 2.0);
+    else
+        rc.shift = rc.mu * rc.half_width * rc.half_width / rc.a.radius * uniform(-3.0, 3.0);
+    rc.contact_elements = 15 + rand() % 45;
+    return rc;
+}
+
+static void lemke_and_newton_agree_on_500_cases(void **state)
+{
+    (void)state;
+    srand(11);
+    for (int k = 0; k < 500; k++) {
+        rb_rolling_case rc = random_case(1e-4, 1.0);
+        rb_rolling_model model;
+        rb_rolling_state newton;
+        rb_message why = {""};
+        rc.solver = RB_SOLVER_LEMKE;
+        if (rb_rolling_model_create(&rc, &model, &why) != RB_OK)
+            fail_msg("case %d: %s", k, why.text);
+        CHECK_STATUS(rb_rolling_state_alloc(model.mesh.n, &newton), RB_OK);
+        rc.solver = RB_SOLVER_NEWTON;
+        CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &newton, NULL), RB_OK);
+        for (int i = 0; i < newton.n; i++) {
+            CHECK_ABS(newton.p[i], model.state.p[i], 1e-8 * model.problem.stress,
+                      "p, case %d element %d", k, i);
+            CHECK_ABS(newton.q[i], model.state.q[i], 1e-8 * model.problem.stress,
+                      "q, case %d element %d", k, i);
+        }
+        rb_rolling_state_free(&newton);
+        rb_rolling_model_free(&model);
+    }
+}
+
+static void force_control_never_fails_on_the_halfplane(void **state)
+{
+    (void)state;
+    srand(12);
+    for (int k = 0; k < 400; k++) {
+        rb_rolling_case rc = random_case(1e-6, 10.0);
+        rb_rolling_solution s;
+        rb_message why = {""};
+        rc.formulation = RB_STEADY;
+        rc.creep_ratio = rc.shift = NAN;
+        rc.force_ratio = k % 4 ? uniform(-0.999, 0.999) : k % 8 ? 0.999 : -0.999;
+        if (rb_rolling_solve(&rc, &s, &why) != RB_OK)
+            fail_msg("case %d, mu = %g, Q/(mu P) = %g: %s", k, rc.mu, rc.force_ratio, why.text);
+        CHECK_ABS(s.force_ratio, rc.force_ratio, 1e-10, "case %d", k);
+        CHECK_MAX(s.load_error, 1e-10, "case %d", k);
+        CHECK_MAX(s.residual, 1e-10, "case %d", k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void full_sliding_gives_the_least_creepage(void **state)
+{
+    (void)state;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        rb_rolling_case rc = rb_rolling_case_defaults();
+        rb_rolling_solution s;
+        rc.a.support = RB_BEM_HALFPLANE;
+        rc.formulation = RB_STEADY;
+        rc.half_width = 1e-3 * rc.a.radius;
+        rc.force_ratio = sign;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        CHECK_ABS(s.force_ratio, sign, 1e-10, "force");
+        assert_int_equal(s.stick, 0);
+        CHECK_MAX(s.residual, 1e-10, "residual");
+        const double least = s.creepage;
+        rb_rolling_solution_free(&s);
+        rc.force_ratio = NAN;
+        rc.creep = least * 0.999; /* a little less: something sticks */
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        assert_true(s.stick > 0);
+        rb_rolling_solution_free(&s);
+        rc.creep = least * 1.001;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        assert_int_equal(s.stick, 0);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void approach_control_finds_the_force_too_large(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s;
+    rb_message why = {""};
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.formulation = RB_STEADY;
+    rc.approach = 1e-4;
+    rc.force_ratio = -0.5;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
+    CHECK_ABS(s.force_ratio, -0.5, 1e-10, "force ratio under approach control");
+    const double bound = rc.mu * s.normal_load;
+    rb_rolling_solution_free(&s);
+
+    rc.force_ratio = NAN;
+    rc.force = 0.7 * bound;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
+    CHECK_REL(s.tangential_load, 0.7 * bound, 1e-10, "force under approach control");
+    rb_rolling_solution_free(&s);
+
+    rc.force = 1.5 * bound;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "friction carries at most"));
+    rb_rolling_solution_free(&s);
+}
+
+static void the_creepage_ratio_is_met_under_approach_control(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.formulation = RB_STEADY;
+    rc.approach = 1e-3;
+    rc.creep_ratio = 0.4;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    CHECK_REL(s.creep_ratio, 0.4, 1e-10, "xi R/(mu a)");
+    rb_rolling_solution_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lemke_and_newton_agree_on_500_cases),
+        cmocka_unit_test(force_control_never_fails_on_the_halfplane),
+        cmocka_unit_test(full_sliding_gives_the_least_creepage),
+        cmocka_unit_test(approach_control_finds_the_force_too_large),
+        cmocka_unit_test(the_creepage_ratio_is_met_under_approach_control),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
