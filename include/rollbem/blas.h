@@ -11,4 +11,9 @@ const char *rb_blas_core(void);
  * none. */
 const char *rb_blas_better_core(void);
 
+/* Lets BLAS use that many threads (0: one per processor, or
+ * what OPENBLAS_NUM_THREADS says) and returns how many it used
+ * before.  Threads cost the small products of Lemke and Newton more than they bring. */
+int rb_blas_threads(int threads);
+
 #endif

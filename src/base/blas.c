@@ -1,6 +1,7 @@
 #include "rollbem/blas.h"
 
 #include <cblas.h>
+#include <stdlib.h>
 #include <string.h>
 
 const char *rb_blas_core(void)
@@ -34,3 +35,13 @@ const char *rb_blas_better_core(void)
     return NULL;
 }
 #endif
+
+int rb_blas_threads(int threads)
+{
+    const int before = openblas_get_num_threads();
+    if (threads > 0)
+        openblas_set_num_threads(threads);
+    else if (!getenv("OPENBLAS_NUM_THREADS"))
+        openblas_set_num_threads(openblas_get_num_procs());
+    return before;
+}

@@ -1,6 +1,7 @@
 /* Mixed problems (B4) and their condensation to the contact (B5). */
 #include "bem/assemble.h"
 #include "bem/internal.h"
+#include "rollbem/blas.h"
 #include "bem/large.h"
 
 #include <cblas.h>
@@ -8,6 +9,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Order from which on the LU is worth more than one thread. */
+enum { PARALLEL_LU = 1500 };
 
 /* Unknowns: the displacement where the traction is given or kept, else the traction,
  * measured in shear/length of the element so that all columns of A are of order one.
@@ -174,7 +178,9 @@ static rb_status factor(rb_bem_system *s, rb_message *why)
     rb_status status = RB_ENOMEM;
 
     if (work && iwork) {
+        const int threads = rb_blas_threads(n >= PARALLEL_LU ? 0 : 1);
         LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, s->A, n, s->pivot);
+        rb_blas_threads(threads);
         LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, s->A, n, norm, &s->rcond, work,
                             iwork);
         status = s->rcond > 1e-14

@@ -140,6 +140,8 @@ static void take_fast_blas(char **argv)
 int main(int argc, char **argv)
 {
     take_fast_blas(argv);
+    if (!getenv("OPENBLAS_NUM_THREADS"))
+        rb_blas_threads(1);
     gsl_set_error_handler_off();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe becomes a write error */
     command_line = quote(argc, argv);
