@@ -362,6 +362,81 @@ static void not_solved_is_1(void **state)
     assert_non_null(strstr(err, "zone"));
 }
 
+/* ---- Steps --------------------------------------------------------------------------
+ */
+
+static size_t history_length(const json_t *root, const char *name)
+{
+    return json_array_size(json_object_get(json_object_get(root, "history"), name));
+}
+
+static void static_history_from_a_table(void **state)
+{
+    (void)state;
+    write_file("history.txt", "load force_ratio\n50 0\n100 0.5\n100 -0.5\n");
+    json_t *root = solve_json("--support halfplane --similar --contact-elements 24 "
+                              "--gap parabola --history history.txt");
+    assert_int_equal(history_length(root, "normal_load"), 3);
+    assert_int_equal(history_length(root, "stick"), 3);
+    CHECK_REL(member(root, "summary", "normal_load"), 100.0, 1e-9, "last load");
+    CHECK_ABS(member(root, "summary", "force_ratio"), -0.5, 1e-9, "last force");
+    json_decref(root);
+}
+
+static void transient_rolls_step_by_step(void **state)
+{
+    (void)state;
+    json_t *root = solve_json(QUICK " --similar --formulation transient --distance 1 "
+                                    "--creep-ratio 0.5 --history-table steps.tsv");
+    const size_t steps = history_length(root, "creepage");
+    assert_true(steps > 5);
+    assert_string_equal(json_string_value(json_object_get(
+                            json_object_get(root, "summary"), "formulation")),
+                        "transient");
+    double *x;
+    int rows;
+    assert_int_equal(rb_io_read_columns("steps.tsv", 10, &rows, &x, NULL), RB_OK);
+    assert_int_equal(rows, steps);
+    CHECK_ABS(x[rows - 1 + 5 * rows], member(root, "summary", "tangential_load"), 1e-9,
+              "Q of the last step");
+    free(x);
+    json_decref(root);
+}
+
+static void bad_histories_are_refused(void **state)
+{
+    (void)state;
+    write_file("history.txt", "load forc\n1 1\n");
+    check_refused("--history history.txt", 65,
+                  "unknown column 'forc' (did you mean 'force'?)");
+    write_file("history.txt", "1 1\n");
+    check_refused("--history history.txt", 65, "expected a line that names the columns");
+    write_file("history.txt", "load\n1\nx\n");
+    check_refused("--history history.txt", 65, "history.txt:3:");
+    check_refused("--history nowhere.txt", 66, "nowhere.txt");
+    check_refused("--formulation steady --history history.txt", 64, "no history");
+    check_refused("--distance 2", 64, "--distance: of transient rolling only");
+    check_refused("--formulation transient --creep 1e-3", 64, "--distance or --history");
+    write_file("case.ini", "steps = 5\n");
+    check_refused("case.ini", 65, "case.ini:1: steps: of transient rolling only");
+}
+
+/* The steps that were finished are there. */
+static void interrupted_run_keeps_its_steps(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        shell("\"$R\" " QUICK " --similar --formulation transient --distance 100000 "
+              "--creep-ratio 0.5 --json --quiet --output long.json & p=$!; sleep 1; "
+              "kill -INT $p; wait $p"),
+        1);
+    assert_non_null(strstr(err, "interrupted after step"));
+    json_t *root = json_load_file("long.json", 0, NULL);
+    assert_non_null(root);
+    assert_true(history_length(root, "creepage") >= 1);
+    json_decref(root);
+}
+
 /* ---- Behind the solution ----------------------------------------------------------- */
 
 static double *read_matrix(const char *name, int rows, int cols)
@@ -549,6 +624,10 @@ int main(void)
         cmocka_unit_test(version_help_and_usage),
         cmocka_unit_test(references_are_met),
         cmocka_unit_test(not_solved_is_1),
+        cmocka_unit_test(static_history_from_a_table),
+        cmocka_unit_test(transient_rolls_step_by_step),
+        cmocka_unit_test(bad_histories_are_refused),
+        cmocka_unit_test(interrupted_run_keeps_its_steps),
         cmocka_unit_test(dump_holds_the_problem),
         cmocka_unit_test(dumped_influence_moves_rigidly),
         cmocka_unit_test(dump_that_cannot_be_written),

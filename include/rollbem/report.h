@@ -26,6 +26,10 @@ extern const char *const rb_report_conventions[];
 rb_status rb_report_table(FILE *out, const rb_rolling_solution *s, const char *command,
                           int bare);
 
+/* The steps of a transient or a static history, one row each; headers as above. */
+rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *command,
+                            int bare);
+
 /* ---- JSON ------------------------------------------------------------------------- */
 
 /* {"schema", "version", "command", "conventions"}: how every result starts.  NULL: no
@@ -37,6 +41,7 @@ struct json_t *rb_report_json_numbers(int n, const double *x);
 struct json_t *rb_report_json_summary(const rb_rolling_case *rc,
                                       const rb_rolling_solution *s);
 struct json_t *rb_report_json_table(const rb_rolling_solution *s);
+struct json_t *rb_report_json_history(const rb_rolling_history *h);
 /* Writes with a final newline.  RB_ENOMEM when json is NULL, RB_EWRITE: see errno. */
 rb_status rb_report_json_write(FILE *out, const struct json_t *json);
 
@@ -48,6 +53,7 @@ rb_status rb_report_json_write(FILE *out, const struct json_t *json);
 void rb_report_strip(const rb_rolling_solution *s, int width, char *strip);
 /* A few lines; width: of the terminal. */
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width);
+void rb_report_history_summary(FILE *out, const rb_rolling_history *h);
 /* One line each where a result must be read with care: linear theory stretched, `static`
  * with a creepage, an arc support that rolls, slip that does not oppose the friction. */
 void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s);

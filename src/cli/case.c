@@ -20,6 +20,7 @@ void cli_case_free(cli_case *c)
 {
     free(c->profile);
     c->profile = NULL;
+    rb_io_table_free(&c->history);
 }
 
 /* ---- Body B ----------------------------------------------------------------------- */
@@ -70,6 +71,76 @@ static cli_exit read_profile(cli_case *c)
     return CLI_CONTINUE;
 }
 
+/* ---- History ---------------------------------------------------------------------- */
+
+/* Where a column of that name belongs in the program; NULL: nowhere. */
+static const double **program_column(rb_rolling_program *p, const char *name,
+                                     cli_guess *guess)
+{
+    const struct {
+        const char *name;
+        const double **place;
+    } columns[] = {
+        {"distance", &p->distance}, {"load", &p->load},
+        {"approach", &p->approach}, {"shift", &p->shift},
+        {"creep", &p->creep},       {"creep_ratio", &p->creep_ratio},
+        {"force", &p->force},       {"force_ratio", &p->force_ratio},
+    };
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
+        if (strcmp(name, columns[k].name) == 0)
+            return columns[k].place;
+        cli_guess_try(guess, columns[k].name);
+    }
+    return NULL;
+}
+
+static cli_exit read_history(cli_case *c)
+{
+    rb_message why;
+    rb_io_table *t = &c->history;
+    if (!c->history_file)
+        return CLI_CONTINUE;
+    const rb_status s = rb_io_table_read(c->history_file, t, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    if (!t->name)
+        return cli_fail(CLI_DATA, "%s: expected a line that names the columns",
+                        c->history_file);
+    c->program.n = t->rows;
+    for (int j = 0; j < t->columns; j++) {
+        cli_guess guess = {.word = t->name[j]};
+        const double **place = program_column(&c->program, t->name[j], &guess);
+        if (!place)
+            return cli_fail(CLI_DATA, "%s: unknown column '%s'%s", c->history_file,
+                            t->name[j], cli_guess_text(&guess, ""));
+        *place = t->x + (size_t)j * (size_t)t->rows;
+    }
+    return CLI_CONTINUE;
+}
+
+/* Options of one formulation mean nothing to the others. */
+static cli_exit check_formulation(const cli_set *set, const cli_case *c)
+{
+    static const char *const of_transient[] = {"distance", "steps"};
+    char room[400];
+    for (int i = 0; i < set->n; i++) {
+        const cli_option *o = &set->options[i];
+        const cli_exit code = set->given[i] > 0 ? CLI_DATA : CLI_USAGE;
+        if (!set->given[i] || o->kind == CLI_GROUP)
+            continue;
+        for (int k = 0; k < 2 && c->rc.formulation != RB_TRANSIENT; k++)
+            if (strcmp(o->name, of_transient[k]) == 0)
+                return cli_fail(code, "%s: of transient rolling only",
+                                cli_source(o, set->given[i], c->path, room, sizeof room));
+        if (strcmp(o->name, "history") == 0 && c->rc.formulation == RB_STEADY)
+            return cli_fail(code, "%s: steady rolling has no history",
+                            cli_source(o, set->given[i], c->path, room, sizeof room));
+    }
+    if (c->rc.formulation == RB_TRANSIENT && !c->history_file && !(c->rc.distance > 0.0))
+        return cli_fail(CLI_USAGE, "transient rolling needs --distance or --history");
+    return CLI_CONTINUE;
+}
+
 /* ---- All together ----------------------------------------------------------------- */
 
 /* 1: the case file is to blame, since the command line gives nothing of the case. */
@@ -111,7 +182,11 @@ cli_exit cli_case_finish(const cli_spec *spec, cli_case *c, cli_args *args)
     if (code == CLI_CONTINUE)
         code = settle_body_b(&set, c);
     if (code == CLI_CONTINUE)
+        code = check_formulation(&set, c);
+    if (code == CLI_CONTINUE)
         code = read_profile(c);
+    if (code == CLI_CONTINUE)
+        code = read_history(c);
     if (code != CLI_CONTINUE)
         return code;
     const rb_status s = rb_rolling_case_check(&c->rc, &why);

@@ -4,14 +4,31 @@
 #define ROLLBEM_CLI_CASE_H
 
 #include "cli/cli.h"
+#include "rollbem/io.h"
 
 enum { CLI_CASE_OPTIONS_MAX = 48 };
+
+/* For --help of every command that takes a case. */
+#define CLI_CASE_SIGNS                                                                   \
+    "Signs: x to the right, y up; A is above and rolls towards +x, so the leading\n"     \
+    "edge is at +x. Creepage xi = (V_A - V_B)/|V| > 0: A's surface slides towards +x\n"  \
+    "over the ground (a braked wheel) and the friction q on A points to -x, Q < 0.\n"    \
+    "Pressure p >= 0. Units: any consistent set; names say mm, MPa and N/mm (loads\n"    \
+    "per unit length)."
+
+#define CLI_CASE_NOTES                                                                   \
+    "A case file holds the same names as keys, in the sections named in brackets or\n"   \
+    "in none; the command line wins over the file.\n"
 
 typedef struct {
     rb_rolling_case rc;
     const char *gap_file; /* profile of the initial gap, or NULL */
     int similar;          /* B is of A's material */
     double young_b, poisson_b, radius_b;
+
+    const char *history_file;   /* table of controls, or NULL */
+    rb_rolling_program program; /* n = 0: none; its columns stand in history */
+    rb_io_table history;
 
     char path[320]; /* case file, "" without */
     int given[CLI_CASE_OPTIONS_MAX];

@@ -12,7 +12,7 @@ static const cli_choice supports[] = {
 static const cli_choice gaps[] = {
     {"parabola", RB_GAP_PARABOLA}, {"exact", RB_GAP_EXACT}, {NULL, 0}};
 static const cli_choice formulations[] = {
-    {"static", RB_STATIC}, {"steady", RB_STEADY}, {NULL, 0}};
+    {"static", RB_STATIC}, {"steady", RB_STEADY}, {"transient", RB_TRANSIENT}, {NULL, 0}};
 static const cli_choice meshes[] = {
     {"uniform", RB_MESH_UNIFORM}, {"fitted", RB_MESH_FITTED}, {NULL, 0}};
 static const cli_choice normals[] = {{"obstacle", RB_BEM_NORMALS_OBSTACLE},
@@ -107,7 +107,17 @@ static const cli_option options[] = {
 
     CLI_GROUP_LINE("problem", "Problem"),
     CLI_CHOICE_LINE("formulation", RC(formulation), formulations,
-                    "static: displaced without rolling; steady: rolling towards +x"),
+                    "static: displaced without rolling; steady: rolling towards +x; "
+                    "transient: rolling from rest, step by step"),
+    CLI_NUMBER_LINE("distance", RC(distance), "a", CLI_ABOVE(0),
+                    "transient: rolled distance, in Hertz half-widths",
+                    .unset = "as --history says"),
+    CLI_INTEGER_LINE("steps", RC(steps), CLI_FROM(0),
+                     "transient: steps of equal length; 0: of one element"),
+    CLI_TEXT_LINE("history", PLACE(history_file), "FILE",
+                  "table of controls with named columns: distance (transient), load or "
+                  "approach, shift, creep, creep_ratio, force or force_ratio",
+                  .unset = "none"),
 
     CLI_GROUP_LINE("mesh", "Mesh"),
     CLI_CHOICE_LINE("mesh", RC(mesh), meshes,

@@ -1,39 +1,22 @@
 /* rollbem [OPTION...] [CASE.ini]: solves one case and prints what came out. */
 #include "cli/case.h"
+#include "cli/output.h"
+#include "cli/run.h"
 
-#include "rollbem/io.h"
-#include "rollbem/report.h"
-
-#include <errno.h>
 #include <jansson.h>
 #include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 typedef struct {
-    int json, header, quiet, trace;
-    const char *output, *plot, *dump;
-} output_options;
+    int trace, progress;
+    const char *dump, *history_table;
+} solve_options;
 
-enum { HEADER_FULL, HEADER_BARE };
-
-static const cli_choice headers[] = {
-    {"full", HEADER_FULL}, {"bare", HEADER_BARE}, {NULL, 0}};
-
-#define PLACE(member) offsetof(output_options, member)
+#define PLACE(member) offsetof(solve_options, member)
 
 static const cli_option options[] = {
-    CLI_GROUP_LINE("output", "Output"),
-    CLI_FLAG_LINE("json", PLACE(json), "JSON instead of the table"),
-    CLI_CHOICE_LINE("header", PLACE(header), headers,
-                    "of the table: # lines and column names, or the names alone"),
-    CLI_TEXT_LINE("output", PLACE(output), "FILE",
-                  "where the table or JSON goes, whole or not at all",
-                  .unset = "standard output"),
-    CLI_TEXT_LINE("plot", PLACE(plot), "FILE",
-                  "picture of tractions, slip and zones: .png, .svg or .pdf (by gnuplot)",
+    CLI_GROUP_LINE("behind", "Behind the solution"),
+    CLI_TEXT_LINE("history-table", PLACE(history_table), "FILE",
+                  "the steps of a transient or a static history, one row each",
                   .unset = "none"),
     CLI_TEXT_LINE(
         "dump", PLACE(dump), "DIR",
@@ -41,206 +24,165 @@ static const cli_option options[] = {
         .unset = "none"),
     CLI_FLAG_LINE("trace", PLACE(trace),
                   "every pivot of Lemke's method, on standard error"),
-    CLI_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),
+    CLI_FLAG_LINE("progress", PLACE(progress),
+                  "a line on standard error now and then while steps are rolled"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
 static const char about[] =
-    "Solves one case of rolling contact, a cylinder A on a body B, by boundary elements "
-    "and a\n"
-    "linear complementarity problem, and prints the tractions element by element. "
-    "Without\n"
-    "options: the example of Addi, Adly, Goeleven and Thera (2006).\n"
-    "\n"
-    "Signs: x to the right, y up; A is above and rolls towards +x, so the leading edge "
-    "is at\n"
-    "+x. Creepage xi = (V_A - V_B)/|V| > 0: A's surface slides towards +x over the "
-    "ground (a\n"
-    "braked wheel) and the friction q on A points to -x, Q < 0. Pressure p >= 0.\n"
-    "Units: any consistent set; names say mm, MPa and N/mm (loads per unit length).";
+    "Solves one case of rolling contact, a cylinder A on a body B, by boundary\n"
+    "elements and a linear complementarity problem, and prints the tractions element\n"
+    "by element. Without options: the example of Addi, Adly, Goeleven, Thera (2006).\n"
+    "\n" CLI_CASE_SIGNS;
 
-static const char notes[] =
-    "A case file holds the same names as keys, in the sections named in brackets or in "
-    "none;\n"
-    "the command line wins over the file.\n"
-    "In static contact --shift, --force or --force-ratio loads it and --creep or "
-    "--creep-ratio\n"
-    "only enter the slip computed afterwards; in steady rolling one of --creep, "
-    "--creep-ratio,\n"
-    "--force, --force-ratio drives it.\n"
-    "Exit codes: 0 solved; 1 not solved (what there is, is printed); 64 wrong values on "
-    "the\n"
-    "command line, 65 in a file; 66 no such file; 70 internal; 73 cannot write.\n";
+static const char notes[] = CLI_CASE_NOTES
+    "In static contact --shift, --force or --force-ratio loads it; --creep or\n"
+    "--creep-ratio only enter the slip computed afterwards. In steady and transient\n"
+    "rolling one of --creep, --creep-ratio, --force, --force-ratio drives it.\n"
+    "\n"
+    "Exit codes: 0 solved; 1 not solved (what there is, is printed); 64 wrong values\n"
+    "on the command line, 65 in a file; 66 no such file; 70 internal; 73 cannot write.\n";
+
+typedef struct {
+    const cli_case *c;
+    const cli_run_result *r;
+} result;
 
 /* ---- Output ----------------------------------------------------------------------- */
 
-static rb_status write_json(FILE *out, const cli_case *c, const rb_rolling_solution *s)
+static rb_status write_json(FILE *out, const result *it)
 {
     json_t *root = rb_report_json_start(cli_command_line());
-    json_object_set_new(root, "inputs", cli_case_inputs(c));
-    json_object_set_new(root, "summary", rb_report_json_summary(&c->rc, s));
-    json_object_set_new(root, "table", rb_report_json_table(s));
+    json_object_set_new(root, "inputs", cli_case_inputs(it->c));
+    json_object_set_new(root, "summary",
+                        rb_report_json_summary(&it->c->rc, &it->r->solution));
+    json_object_set_new(root, "table", rb_report_json_table(&it->r->solution));
+    if (it->r->history.n > 0)
+        json_object_set_new(root, "history", rb_report_json_history(&it->r->history));
     const rb_status status = rb_report_json_write(out, root);
     json_decref(root);
     return status;
 }
 
-static cli_exit write_result(rb_io_writer *w, const output_options *o, const cli_case *c,
-                             const rb_rolling_solution *s)
+static rb_status write_table(FILE *out, const cli_output *o, const void *context)
 {
-    rb_message why;
-    const rb_status written = o->json ? write_json(w->file, c, s)
-                                      : rb_report_table(w->file, s, cli_command_line(),
-                                                        o->header == HEADER_BARE);
-    if (written != RB_OK) {
-        const char *reason =
-            written == RB_EWRITE ? strerror(errno) : rb_status_text(written);
-        const cli_exit code = cli_fail(cli_exit_of(written), "%s: %s",
-                                       o->output ? o->output : "standard output", reason);
-        rb_io_writer_abandon(w);
-        return code;
-    }
-    const rb_status s2 = rb_io_writer_commit(w, &why);
-    return s2 == RB_OK ? CLI_OK : cli_fail(cli_exit_of(s2), "%s", why.text);
+    const result *it = context;
+    if (o->json)
+        return write_json(out, it);
+    return rb_report_table(out, &it->r->solution, cli_command_line(), o->bare);
 }
 
-static cli_exit draw(const char *path, const cli_case *c, const rb_rolling_solution *s)
+static rb_status write_history(FILE *out, const cli_output *o, const void *context)
 {
-    rb_report_picture_kind kind;
-    rb_io_writer w;
-    rb_message why;
-    rb_status status = rb_report_picture_kind_of(path, &kind, &why);
-    if (status == RB_OK)
-        status = rb_io_writer_open(path, &w, &why);
-    if (status != RB_OK)
-        return cli_fail(cli_exit_of(status), "--plot: %s", why.text);
-    status = rb_report_picture(w.file, kind, &c->rc, s, &why);
-    if (status == RB_OK) {
-        status = rb_io_writer_commit(&w, &why);
-        return status == RB_OK ? CLI_OK : cli_fail(cli_exit_of(status), "%s", why.text);
-    }
-    rb_io_writer_abandon(&w);
-    return cli_fail(CLI_INTERNAL, "--plot: %s", why.text);
+    const result *it = context;
+    return rb_report_history(out, &it->r->history, cli_command_line(), o->bare);
 }
 
-static int terminal_width(void)
+static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
+                      rb_message *why)
 {
-    struct winsize size;
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-        return size.ws_col;
-    return 80;
+    const result *it = context;
+    return rb_report_picture(out, kind, &it->c->rc, &it->r->solution, why);
 }
 
-static void tell_people(const cli_case *c, const rb_rolling_solution *s)
+/* The steps in a file of their own. */
+static cli_exit save_history(const solve_options *so, const cli_output *o,
+                             const result *it)
 {
-    rb_report_summary(stderr, s, terminal_width());
-    rb_report_notes(stderr, &c->rc, s);
+    cli_sink sink;
+    cli_output where = *o;
+    if (!so->history_table || it->r->history.n == 0)
+        return CLI_OK;
+    where.output = so->history_table;
+    const cli_exit code = cli_sink_open(&where, &sink);
+    return code == CLI_CONTINUE ? cli_sink_write(&sink, write_history, it) : code;
 }
 
-/* ---- Command ---------------------------------------------------------------------- */
-
-static cli_exit show_behind(const output_options *o, const rb_rolling_model *model)
+static cli_exit show_behind(const solve_options *so, const rb_rolling_model *model)
 {
     rb_message why;
     rb_status s = RB_OK;
-    if (o->dump)
-        s = rb_report_dump(o->dump, model, &why);
+    if (so->dump)
+        s = rb_report_dump(so->dump, model, &why);
     if (s != RB_OK)
         return cli_fail(cli_exit_of(s), "--dump: %s", why.text);
-    if (o->trace)
-        s = rb_report_trace(stderr, o->dump, model, &why);
+    if (so->trace)
+        s = rb_report_trace(stderr, so->dump, model, &why);
     if (s != RB_OK)
         return cli_fail(cli_exit_of(s), "--trace: %s", why.text);
     return CLI_OK;
 }
 
-static cli_exit print_solution(rb_io_writer *w, const output_options *o,
-                               const cli_case *c, const rb_rolling_model *model,
-                               const rb_rolling_solution *s)
+static void tell_people(const result *it)
 {
-    cli_exit code = write_result(w, o, c, s);
+    rb_report_summary(stderr, &it->r->solution, cli_terminal_width());
+    if (it->r->history.n > 0)
+        rb_report_history_summary(stderr, &it->r->history);
+    rb_report_notes(stderr, &it->c->rc, &it->r->solution);
+}
+
+static cli_exit print_result(cli_sink *sink, const solve_options *so, const result *it)
+{
+    const cli_output *o = sink->o;
+    cli_exit code = cli_sink_write(sink, write_table, it);
     if (code == CLI_OK)
-        code = show_behind(o, model);
+        code = save_history(so, o, it);
+    if (code == CLI_OK)
+        code = show_behind(so, &it->r->model);
     if (code == CLI_OK && !o->quiet)
-        tell_people(c, s);
-    if (code == CLI_OK && o->plot)
-        code = draw(o->plot, c, s);
+        tell_people(it);
+    if (code == CLI_OK)
+        code = cli_output_draw(o, draw, it);
     return code;
 }
 
-/* As rb_rolling_solve, the model kept for whoever wants to look behind the solution. */
-static rb_status solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
-                             rb_rolling_solution *s, rb_message *why)
-{
-    const double start = rb_seconds();
-    *s = (rb_rolling_solution){0};
-    rb_status status = rb_rolling_model_create(rc, model, why);
-    if (status >= 0 && model->state.p) {
-        const rb_status t = rb_rolling_model_solution(model, s, why);
-        status = t == RB_OK ? status : t;
-    }
-    if (status == RB_OK && rc->formulation == RB_STEADY && rc->mu > 0.0)
-        status = rb_rolling_free_creepage(model, &s->free_creepage, why);
-    if (status >= 0)
-        s->status = status;
-    s->seconds_total = rb_seconds() - start;
-    return status;
-}
+/* ---- Command ---------------------------------------------------------------------- */
 
-/* Opens the output first: what cannot be written need not be solved. */
-static cli_exit solve(const output_options *o, const cli_case *c)
+static cli_exit solve(const solve_options *so, const cli_output *o, const cli_case *c)
 {
-    rb_rolling_model model;
-    rb_rolling_solution s;
-    rb_io_writer w;
+    cli_run_result r;
+    cli_sink sink;
     rb_message why = {""};
-    rb_status status = rb_io_writer_open(o->output, &w, &why);
-    if (status != RB_OK)
-        return cli_fail(cli_exit_of(status), "%s", why.text);
-    status = solve_model(&c->rc, &model, &s, &why);
-    cli_exit code = CLI_OK;
-    if (status >= 0 && s.n > 0)
-        code = print_solution(&w, o, c, &model, &s);
-    else
-        rb_io_writer_abandon(&w);
+    cli_exit code = cli_sink_open(o, &sink);
+    if (code != CLI_CONTINUE)
+        return code;
+    const rb_status status = cli_run_case(c, so->progress, &r, &why);
+    code = CLI_OK;
+    if (status >= 0 && r.solution.n > 0) {
+        const result it = {c, &r};
+        code = print_result(&sink, so, &it);
+    }
+    cli_sink_abandon(&sink);
     if (code == CLI_OK && status != RB_OK)
         code = cli_case_refused(c, status, &why);
-    rb_rolling_solution_free(&s);
-    rb_rolling_model_free(&model);
+    cli_run_free(&r);
     return code;
-}
-
-static cli_exit check_output(const output_options *o)
-{
-    rb_report_picture_kind kind;
-    rb_message why;
-    if (o->plot && rb_report_picture_kind_of(o->plot, &kind, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--plot: %s", why.text);
-    return CLI_CONTINUE;
 }
 
 int cli_solve(int argc, char **argv)
 {
     cli_case c;
-    output_options o = {0};
-    int given[OPTIONS] = {0};
+    cli_output o = {0};
+    solve_options so = {0};
     cli_args args = {0};
+    int given[OPTIONS] = {0};
     cli_case_defaults(&c);
-    const cli_spec spec = {"rollbem [OPTION...] [CASE.ini]",
-                           about,
-                           notes,
-                           {cli_case_set(&c), {options, OPTIONS, &o, given}},
-                           2};
+    const cli_spec spec = {
+        "rollbem [OPTION...] [CASE.ini]",
+        about,
+        notes,
+        {cli_case_set(&c), cli_output_set(&o), {options, OPTIONS, &so, given}},
+        3};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE)
         code = cli_case_finish(&spec, &c, &args);
     if (code == CLI_CONTINUE)
-        code = check_output(&o);
-    if (o.trace && c.rc.solver == RB_SOLVER_AUTO)
+        code = cli_output_check(&o);
+    if (so.trace && c.rc.solver == RB_SOLVER_AUTO)
         c.rc.solver = RB_SOLVER_LEMKE; /* the one that pivots */
     if (code == CLI_CONTINUE)
-        code = solve(&o, &c);
+        code = solve(&so, &o, &c);
     cli_args_free(&args);
     cli_case_free(&c);
     return code;

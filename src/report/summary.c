@@ -113,10 +113,14 @@ static void print_zones(FILE *out, const rb_rolling_solution *s, int width)
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
 {
     const int newton = s->solver == RB_SOLVER_NEWTON;
-    fprintf(out, "%s: %s by %s (%s form), %d %s, residual %.2g\n",
-            rb_report_formulation(s->formulation), rb_status_text(s->status),
-            newton ? "Newton" : "Lemke", rb_report_lcp_form(s->lcp_form), s->iterations,
-            newton ? "steps" : "pivots", s->residual);
+    fprintf(out, "%s: %s by ", rb_report_formulation(s->formulation),
+            rb_status_text(s->status));
+    if (newton)
+        fprintf(out, "Newton, %d steps", s->iterations);
+    else
+        fprintf(out, "Lemke (%s form), %d pivots", rb_report_lcp_form(s->lcp_form),
+                s->iterations);
+    fprintf(out, ", residual %.2g\n", s->residual);
     print_forces(out, s);
     print_motion(out, s);
     print_zones(out, s, width);

@@ -1,0 +1,122 @@
+#include "cli/output.h"
+
+#include "rollbem/io.h"
+
+#include <errno.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+static const cli_choice headers[] = {{"full", 0}, {"bare", 1}, {NULL, 0}};
+
+#define PLACE(member) offsetof(cli_output, member)
+
+static const cli_option options[] = {
+    CLI_GROUP_LINE("output", "Output"),
+    CLI_FLAG_LINE("json", PLACE(json), "JSON instead of the table"),
+    CLI_CHOICE_LINE("header", PLACE(bare), headers,
+                    "of the table: # lines and column names, or the names alone"),
+    CLI_TEXT_LINE("output", PLACE(output), "FILE",
+                  "where the table or JSON goes, whole or not at all",
+                  .unset = "standard output"),
+    CLI_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
+                  .unset = "none"),
+    CLI_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+_Static_assert((int)OPTIONS <= (int)CLI_OUTPUT_OPTIONS_MAX,
+               "CLI_OUTPUT_OPTIONS_MAX is too small");
+
+cli_set cli_output_set(cli_output *o)
+{
+    return (cli_set){options, OPTIONS, o, o->given};
+}
+
+cli_exit cli_output_check(const cli_output *o)
+{
+    rb_report_picture_kind kind;
+    rb_message why;
+    if (o->plot && rb_report_picture_kind_of(o->plot, &kind, &why) != RB_OK)
+        return cli_fail(CLI_USAGE, "--plot: %s", why.text);
+    return CLI_CONTINUE;
+}
+
+cli_exit cli_sink_open(const cli_output *o, cli_sink *sink)
+{
+    rb_message why = {"out of memory"};
+    rb_io_writer *w = calloc(1, sizeof *w);
+    *sink = (cli_sink){o, w};
+    const rb_status s = w ? rb_io_writer_open(o->output, w, &why) : RB_ENOMEM;
+    if (s == RB_OK)
+        return CLI_CONTINUE;
+    free(w);
+    sink->writer = NULL;
+    return cli_fail(cli_exit_of(s), "%s", why.text);
+}
+
+static cli_exit cannot_write(const cli_output *o, rb_status s)
+{
+    const char *reason = s == RB_EWRITE ? strerror(errno) : rb_status_text(s);
+    return cli_fail(cli_exit_of(s), "%s: %s", o->output ? o->output : "standard output",
+                    reason);
+}
+
+cli_exit cli_sink_write(cli_sink *sink, cli_write *write, const void *context)
+{
+    rb_message why;
+    rb_io_writer *w = sink->writer;
+    rb_status s = write(w->file, sink->o, context);
+    cli_exit code = CLI_OK;
+    if (s != RB_OK) {
+        code = cannot_write(sink->o, s);
+        rb_io_writer_abandon(w);
+    } else {
+        s = rb_io_writer_commit(w, &why);
+        if (s != RB_OK)
+            code = cli_fail(cli_exit_of(s), "%s", why.text);
+    }
+    free(w);
+    sink->writer = NULL;
+    return code;
+}
+
+void cli_sink_abandon(cli_sink *sink)
+{
+    if (sink->writer)
+        rb_io_writer_abandon(sink->writer);
+    free(sink->writer);
+    sink->writer = NULL;
+}
+
+cli_exit cli_output_draw(const cli_output *o, cli_draw *draw, const void *context)
+{
+    rb_report_picture_kind kind;
+    rb_io_writer w;
+    rb_message why;
+    if (!o->plot)
+        return CLI_OK;
+    rb_status s = rb_report_picture_kind_of(o->plot, &kind, &why);
+    if (s == RB_OK)
+        s = rb_io_writer_open(o->plot, &w, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "--plot: %s", why.text);
+    s = draw(w.file, kind, context, &why);
+    if (s != RB_OK) {
+        rb_io_writer_abandon(&w);
+        return cli_fail(CLI_INTERNAL, "--plot: %s", why.text);
+    }
+    s = rb_io_writer_commit(&w, &why);
+    return s == RB_OK ? CLI_OK : cli_fail(cli_exit_of(s), "%s", why.text);
+}
+
+int cli_terminal_width(void)
+{
+    struct winsize size;
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+        return size.ws_col;
+    return 80;
+}

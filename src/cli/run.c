@@ -1,0 +1,90 @@
+#include "cli/run.h"
+
+#include <signal.h>
+#include <string.h>
+
+/* ---- Steps ------------------------------------------------------------------------- */
+
+static volatile sig_atomic_t interrupted;
+
+static void note_interrupt(int signal_number)
+{
+    (void)signal_number;
+    interrupted = 1;
+}
+
+typedef struct {
+    int progress;
+    double shown; /* when the last line was printed [s] */
+} watch;
+
+static void show_progress(const rb_rolling_history *h, int step, int steps)
+{
+    fprintf(stderr,
+            "step %d of %d: distance %.4g a, xi = %.6g, Q = %.6g N/mm, %d stick\n",
+            step + 1, steps, h->distance[step], h->creepage[step],
+            h->tangential_load[step], h->stick[step]);
+}
+
+static int after_step(const rb_rolling_model *model, const rb_rolling_history *history,
+                      int step, int steps, void *context)
+{
+    watch *w = context;
+    const double now = rb_seconds();
+    (void)model;
+    if (w->progress && (now - w->shown > 0.5 || step + 1 == steps)) {
+        show_progress(history, step, steps);
+        w->shown = now;
+    }
+    return interrupted;
+}
+
+static rb_status run_steps(const cli_case *c, int progress, cli_run_result *r,
+                           rb_message *why)
+{
+    watch w = {progress, rb_seconds()};
+    struct sigaction act = {.sa_handler = note_interrupt}, before;
+    interrupted = 0;
+    sigaction(SIGINT, &act, &before);
+    const rb_rolling_program *program = c->program.n > 0 ? &c->program : NULL;
+    const rb_status s = rb_rolling_history_run(&c->rc, program, after_step, &w, &r->model,
+                                               &r->history, why);
+    sigaction(SIGINT, &before, NULL);
+    return s;
+}
+
+/* ---- All --------------------------------------------------------------------------- */
+
+static rb_status finish(const cli_case *c, rb_status s, cli_run_result *r,
+                        rb_message *why)
+{
+    if (s >= 0 && r->model.state.p) {
+        const rb_status t = rb_rolling_model_solution(&r->model, &r->solution, why);
+        s = t == RB_OK ? s : t;
+    }
+    if (s == RB_OK && c->rc.formulation == RB_STEADY && c->rc.mu > 0.0)
+        s = rb_rolling_free_creepage(&r->model, &r->solution.free_creepage, why);
+    if (s >= 0)
+        r->solution.status = s;
+    return s;
+}
+
+rb_status cli_run_case(const cli_case *c, int progress, cli_run_result *r,
+                       rb_message *why)
+{
+    const double start = rb_seconds();
+    memset(r, 0, sizeof *r);
+    const int steps = c->rc.formulation == RB_TRANSIENT || c->program.n > 0;
+    rb_status s = steps ? run_steps(c, progress, r, why)
+                        : rb_rolling_model_create(&c->rc, &r->model, why);
+    s = finish(c, s, r, why);
+    r->solution.seconds_total = rb_seconds() - start;
+    return s;
+}
+
+void cli_run_free(cli_run_result *r)
+{
+    rb_rolling_solution_free(&r->solution);
+    rb_rolling_history_free(&r->history);
+    rb_rolling_model_free(&r->model);
+}
