@@ -135,6 +135,66 @@ static rb_status assemble_given(rb_bem_system *s, const rb_assembly *assembly)
     return RB_OK;
 }
 
+/* ---- Incompressible bodies --------------------------------------------------------- */
+
+/* Below this 1 - 2 nu a body counts as incompressible: what is left of the term that the
+ * pressure of a hub works on drowns in the rounding of the others. */
+static const double INCOMPRESSIBLE = 1e-9;
+
+static int is_held(const rb_bem_mesh *mesh, int j)
+{
+    return mesh->condition[2 * j] == RB_BEM_DISPLACEMENT &&
+           mesh->condition[2 * j + 1] == RB_BEM_DISPLACEMENT;
+}
+
+/* Outward normal times 1/sqrt(number of elements). */
+static void scaled_normal(const rb_bem_mesh *mesh, int j, int count, double normal[2])
+{
+    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j],
+                 scale = 1.0 / (hypot(dx, dy) * sqrt(count));
+    normal[0] = dy * scale;
+    normal[1] = -dx * scale;
+}
+
+/* Elements first ... last - 1 are a whole contour. */
+static void fix_pressure(rb_bem_system *s, int first, int last)
+{
+    double row[2], column[2];
+    for (int j = first; j < last; j++) {
+        scaled_normal(&s->mesh, j, last - first, column);
+        for (int i = first; i < last; i++) {
+            scaled_normal(&s->mesh, i, last - first, row);
+            for (int k = 0; k < 2; k++)
+                for (int l = 0; l < 2; l++)
+                    column_of(s, 2 * j + k)[2 * i + l] += row[l] * column[k];
+        }
+    }
+}
+
+/* A uniform pressure on a contour that is held all around takes no volume from an
+ * incompressible body: div U = 0, so G has no answer to it and A would be singular.  No
+ * displacement depends on it; a rank-one term sets its mean to zero. */
+static rb_status fix_pressures(rb_bem_system *s, rb_bem_material material)
+{
+    if (1.0 - 2.0 * material.poisson > INCOMPRESSIBLE)
+        return RB_OK;
+    int *next = rb_alloc_int((size_t)s->mesh.n), first = 0, held = 1;
+    if (!next)
+        return RB_ENOMEM;
+    rb_bem_mesh_next(&s->mesh, next);
+    for (int j = 0; j < s->mesh.n; j++) {
+        held = held && is_held(&s->mesh, j);
+        if (next[j] == j + 1)
+            continue;
+        if (held)
+            fix_pressure(s, first, j + 1);
+        first = j + 1;
+        held = 1;
+    }
+    free(next);
+    return RB_OK;
+}
+
 static rb_status assemble(rb_bem_system *s, rb_bem_material material)
 {
     const rb_bem_mesh *mesh = &s->mesh;
@@ -151,6 +211,8 @@ static rb_status assemble(rb_bem_system *s, rb_bem_material material)
         assemble_element(s, &assembly, j);
     status = assemble_given(s, &assembly);
     rb_assembly_end(&assembly);
+    if (status == RB_OK)
+        status = fix_pressures(s, material);
     return status;
 }
 
