@@ -1,0 +1,399 @@
+/* Finite cylinders by boundary elements: they tend to the half-plane as a/R falls, in
+ * both supports; where they differ from it; the case of *Addi* (theory.md 4.3, 6, 7).
+ * The measured figures stand in docs/rolling.md. */
+#include "check.h"
+#include "rollbem/closed_forms.h"
+#include "rolling/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+static const rb_bem_support wheels[] = {RB_BEM_ARC, RB_BEM_HUB};
+
+static const char *name_of(rb_bem_support support)
+{
+    return support == RB_BEM_ARC ? "arc" : support == RB_BEM_HUB ? "hub" : "halfplane";
+}
+
+/* nu = 1/2 on a rigid plane, steady, s = 0.4: Carter's case on a wheel. */
+static rb_rolling_case wheel(rb_bem_support support, double ratio)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.poisson = 0.5;
+    rc.a.support = support;
+    rc.half_width = ratio * rc.a.radius;
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = 0.4;
+    return rc;
+}
+
+static rb_rolling_solution solved(const rb_rolling_case *rc)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    if (rb_rolling_solve(rc, &s, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    CHECK_MAX(s.residual, 1e-10, "residual, %s", name_of(rc->a.support));
+    for (int i = 0; i < s.n; i++) {
+        CHECK_MAX(-s.p[i], 0.0, "adhesion at %d", i);
+        CHECK_MAX(fabs(s.q[i]), rc->mu * s.p[i] + 1e-10 * s.max_pressure, "Coulomb at %d",
+                  i);
+        CHECK_MAX(s.p[i] > 0.0 ? fabs(s.gap[i]) : -s.gap[i], 1e-10 * s.half_width,
+                  "gap at %d", i);
+    }
+    return s;
+}
+
+/* Root mean square over the contact of what differs, p in p0 and q in mu p0. */
+typedef struct {
+    double p, q;
+} distance;
+
+static distance between(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                        const rb_rolling_solution *want)
+{
+    distance d = {0.0, 0.0};
+    assert_int_equal(s->n, want->n);
+    for (int i = 0; i < s->n; i++) {
+        d.p += gsl_pow_2((s->p[i] - want->p[i]) / want->max_pressure);
+        d.q += gsl_pow_2((s->q[i] - want->q[i]) / (rc->mu * want->max_pressure));
+    }
+    d.p = sqrt(d.p / want->contact);
+    d.q = sqrt(d.q / want->contact);
+    return d;
+}
+
+/* The same potential contact for every support. */
+static distance from_halfplane(rb_rolling_case rc)
+{
+    rc.zone = 1.3 * rc.half_width;
+    rb_rolling_solution s = solved(&rc);
+    rc.a.support = RB_BEM_HALFPLANE;
+    rb_rolling_solution want = solved(&rc);
+    const distance d = between(&rc, &s, &want);
+    rb_rolling_solution_free(&s);
+    rb_rolling_solution_free(&want);
+    return d;
+}
+
+static void tractions_tend_to_the_halfplane_with_first_order(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        distance last = from_halfplane(wheel(wheels[k], 1e-3));
+        for (double ratio = 1e-4; ratio > 1e-7; ratio *= 0.1) {
+            const distance d = from_halfplane(wheel(wheels[k], ratio));
+            CHECK_ABS(last.p / d.p, 10.0, 0.5, "p, %s, a/R = %g", name_of(wheels[k]),
+                      ratio);
+            CHECK_ABS(last.q / d.q, 10.0, 0.5, "q, %s, a/R = %g", name_of(wheels[k]),
+                      ratio);
+            CHECK_MAX(d.p, 4.0 * ratio, "p, %s, a/R = %g", name_of(wheels[k]), ratio);
+            CHECK_MAX(d.q, 6.0 * ratio, "q, %s, a/R = %g", name_of(wheels[k]), ratio);
+            last = d;
+        }
+    }
+}
+
+/* With nu < 1/2 pressure also stretches the surface, and constant elements see a stretch
+ * only to first order: what is left at a/R -> 0 falls with all elements. */
+static void compressible_wheels_need_small_elements_too(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        double last = 0.0;
+        for (int fine = 1; fine <= 4; fine *= 2) {
+            rb_rolling_case rc = wheel(wheels[k], 1e-5);
+            rc.a.poisson = rc.b.poisson = 0.3;
+            rc.elastic_b = 1;
+            rc.contact_elements = 39 * fine;
+            rc.outer_elements = 75 * fine;
+            const distance d = from_halfplane(rc);
+            CHECK_MAX(d.q, 1e-2, "q, %s", name_of(wheels[k]));
+            if (fine > 1)
+                CHECK_MAX(d.q, last / 1.6, "q, %s, %d times as fine", name_of(wheels[k]),
+                          fine);
+            last = d.q;
+        }
+    }
+}
+
+/* delta = P (1 - nu^2)/(pi E) [2 ln(4R/a) - 1 + k]: k belongs to the support alone. */
+static double support_constant(const rb_rolling_case *rc)
+{
+    rb_rolling_solution s = solved(rc);
+    const double modulus = rb_rolling_contact_modulus(rc);
+    const double k =
+        (s.approach - rb_closed_half_cylinder_approach(s.normal_load, rc->a.radius,
+                                                       modulus, rc->half_width)) *
+        M_PI * modulus / s.normal_load;
+    rb_rolling_solution_free(&s);
+    return k;
+}
+
+static void approach_differs_by_a_constant_of_the_support(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = wheel(wheels[k], 1e-4);
+        rc.mesh = RB_MESH_FITTED;
+        const double want = support_constant(&rc);
+        for (double ratio = 1e-6; ratio > 1e-9; ratio *= 0.01) {
+            rc.half_width = ratio * rc.a.radius;
+            CHECK_ABS(support_constant(&rc), want, 1e-4, "%s, a/R = %g",
+                      name_of(wheels[k]), ratio);
+        }
+    }
+}
+
+/* (B9) */
+static void a_contact_of_1e_8_of_the_radius_keeps_its_digits(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = wheel(wheels[k], 1e-8);
+        rc.mesh = RB_MESH_FITTED;
+        rc.contact_elements = 100;
+        rb_rolling_solution s = solved(&rc);
+        CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(0.4), 1.5e-4, "Carter, %s",
+                  name_of(wheels[k]));
+        CHECK_REL(s.max_pressure,
+                  rb_closed_hertz_max_pressure(s.normal_load, rc.half_width), 5e-4,
+                  "p0, %s", name_of(wheels[k]));
+        CHECK_REL(s.half_width, rc.half_width, 5e-4, "half-width, %s",
+                  name_of(wheels[k]));
+        CHECK_MAX(s.load_error, 1e-10, "load, %s", name_of(wheels[k]));
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static double creepage_of_force(rb_rolling_case rc, double ratio, double *approach)
+{
+    rc.creep_ratio = NAN;
+    rc.force_ratio = ratio;
+    rb_rolling_solution s = solved(&rc);
+    const double creepage = s.creepage;
+    CHECK_ABS(s.force_ratio, ratio, 1e-10, "given force");
+    *approach = s.approach;
+    rb_rolling_solution_free(&s);
+    return creepage;
+}
+
+/* Braking and driving are mirror images about the creepage of free rolling, which is of
+ * the order of (a/R)^2, that is of delta/R but for a logarithm (4.3). */
+static void the_two_signs_mirror_up_to_delta_over_R(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        double last_sum = 0.0, last_approach = 0.0;
+        for (double ratio = 1e-1; ratio > 5e-4; ratio *= 0.1) {
+            rb_rolling_case rc = wheel(wheels[k], ratio);
+            double approach;
+            rc.mesh = RB_MESH_FITTED;
+            rc.contact_elements = 100;
+            const double sum = creepage_of_force(rc, -0.64, &approach) +
+                               creepage_of_force(rc, 0.64, &approach);
+            const double slope = sum / (approach / rc.a.radius);
+            CHECK_ABS(slope, 0.7, 0.51, "%s, a/R = %g", name_of(wheels[k]), ratio);
+            if (last_sum > 0.0)
+                CHECK_ABS(log(last_sum / sum) / log(last_approach / approach), 1.1, 0.1,
+                          "exponent, %s, a/R = %g", name_of(wheels[k]), ratio);
+            last_sum = sum;
+            last_approach = approach;
+        }
+    }
+}
+
+static double free_creepage(rb_rolling_case rc)
+{
+    rb_rolling_solution s = solved(&rc);
+    const double creepage = s.free_creepage;
+    rb_rolling_solution_free(&s);
+    return creepage;
+}
+
+/* The surface's strain under the load, which is all that free rolling then has: (a/R)^2
+ * times a number of the support. */
+static void free_rolling_of_an_incompressible_wheel(void **state)
+{
+    (void)state;
+    const double want[] = {0.4999, 0.8518};
+    for (int k = 0; k < 2; k++)
+        for (double ratio = 1e-2; ratio > 5e-5; ratio *= 0.1)
+            CHECK_REL(free_creepage(wheel(wheels[k], ratio)) / gsl_pow_2(ratio), want[k],
+                      2e-3, "%s, a/R = %g", name_of(wheels[k]), ratio);
+}
+
+/* (4.3): the surface's own normals make a creepage delta/R of the approach. */
+static void normals_of_the_surface_cost_a_creepage_of_delta_over_R(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = wheel(wheels[k], 1e-3);
+        rb_rolling_solution flat, round;
+        rc.contact_elements = 100;
+        rc.mu = 0.4;
+        flat = solved(&rc);
+        rc.normals = RB_BEM_NORMALS_SURFACE;
+        round = solved(&rc);
+        CHECK_REL(round.free_creepage - flat.free_creepage, flat.approach / rc.a.radius,
+                  0.25, "%s", name_of(wheels[k]));
+        CHECK_ABS(-flat.force_ratio, 0.644, 3e-3, "obstacle, %s", name_of(wheels[k]));
+        CHECK_ABS(-round.force_ratio, 0.630, 3e-3, "surface, %s", name_of(wheels[k]));
+        rb_rolling_solution_free(&flat);
+        rb_rolling_solution_free(&round);
+    }
+}
+
+static double support_balance(rb_rolling_case rc, int fine)
+{
+    rc.contact_elements = 30 * fine;
+    rc.outer_elements = 60 * fine;
+    rb_rolling_solution s = solved(&rc);
+    const double balance = fabs(s.support_balance);
+    rb_rolling_solution_free(&s);
+    return balance;
+}
+
+/* At least first order in the size of the elements. */
+static void the_support_carries_the_load(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_case rc = wheel(wheels[k % 2], 0.02);
+        rc.a.poisson = 0.3;
+        if (k > 1) {
+            rc = rb_rolling_case_defaults();
+            rc.a.support = wheels[k % 2];
+        }
+        double last = INFINITY;
+        for (int fine = 1; fine <= 4; fine *= 2) {
+            const double balance = support_balance(rc, fine);
+            CHECK_MAX(balance, fmin(1e-2 / fine, last / 2.0), "%s%s, %d times as fine",
+                      name_of(wheels[k % 2]), k > 1 ? ", Addi" : "", fine);
+            last = balance;
+        }
+    }
+}
+
+/* Contact and stick in units of R, at 120 elements. */
+typedef struct {
+    rb_bem_support support;
+    double mu;
+    rb_bem_normals normals;
+    double contact_from, contact_to, stick_from, stick_to;
+} zones;
+
+static void the_case_of_addi(void **state)
+{
+    (void)state;
+    const zones want[] = {
+        {RB_BEM_ARC, 0.3, RB_BEM_NORMALS_OBSTACLE, -0.52, 0.55, -0.21, 0.34},
+        {RB_BEM_ARC, 0.1, RB_BEM_NORMALS_OBSTACLE, -0.54, 0.57, 0.06, 0.14},
+        {RB_BEM_HUB, 0.3, RB_BEM_NORMALS_OBSTACLE, -0.66, 0.70, -0.62, 0.57},
+        {RB_BEM_HUB, 0.1, RB_BEM_NORMALS_OBSTACLE, -0.66, 0.70, -0.61, 0.35},
+        {RB_BEM_ARC, 0.3, RB_BEM_NORMALS_SURFACE, -0.69, 0.66, -0.18, 0.08},
+        {RB_BEM_ARC, 0.1, RB_BEM_NORMALS_SURFACE, -0.68, 0.66, NAN, NAN},
+        {RB_BEM_HUB, 0.3, RB_BEM_NORMALS_SURFACE, -0.79, 0.79, -0.65, 0.56},
+        {RB_BEM_HUB, 0.1, RB_BEM_NORMALS_SURFACE, -0.79, 0.78, -0.34, 0.08},
+    };
+
+    for (size_t k = 0; k < sizeof want / sizeof *want; k++) {
+        rb_rolling_case rc = rb_rolling_case_defaults();
+        rc.a.support = want[k].support;
+        rc.mu = want[k].mu;
+        rc.normals = want[k].normals;
+        rc.contact_elements = 120;
+        rb_rolling_solution s = solved(&rc);
+        const double R = rc.a.radius, element = 1.5 * s.h[0] / R;
+        CHECK_ABS(s.contact_from / R, want[k].contact_from, element, "case %zu", k);
+        CHECK_ABS(s.contact_to / R, want[k].contact_to, element, "case %zu", k);
+        CHECK_MAX(fabs(s.support_balance), 1e-3, "support, case %zu", k);
+        if (isnan(want[k].stick_from)) {
+            CHECK_MAX(s.stick, 2, "case %zu", k);
+        } else {
+            CHECK_ABS(s.stick_from / R, want[k].stick_from, element, "case %zu", k);
+            CHECK_ABS(s.stick_to / R, want[k].stick_to, element, "case %zu", k);
+        }
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Its slip of (12) contradicts the state wherever it sticks; what solves for the slip
+ * does not. */
+static void slip_afterwards_contradicts_stick(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.creep = 0.1;
+    rb_rolling_solution s = solved(&rc);
+    assert_true(s.slip_violations >= s.stick);
+    for (int i = 0; i + 1 < s.n; i++)
+        if (s.zone[i] == RB_ZONE_STICK && s.zone[i + 1] == RB_ZONE_STICK)
+            CHECK_ABS(s.slip[i], rc.creep, 1e-12, "element %d", i);
+    rb_rolling_solution_free(&s);
+    rc.formulation = RB_STEADY;
+    rc.creep = 0.01;
+    s = solved(&rc);
+    assert_true(s.stick > 0 && s.slipping > 0);
+    assert_int_equal(s.slip_violations, 0);
+    rb_rolling_solution_free(&s);
+}
+
+/* nu = 1/2 on a hub is the limit of nu -> 1/2, not a singular system. */
+static void an_incompressible_wheel_on_a_hub(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel(RB_BEM_HUB, 0.01);
+    rc.zone = 1.3 * rc.half_width;
+    rb_rolling_solution s = solved(&rc);
+    rc.a.poisson = 0.5 - 1e-7;
+    rb_rolling_solution limit = solved(&rc);
+    const distance d = between(&rc, &s, &limit);
+    CHECK_MAX(d.p, 1e-6, "p");
+    CHECK_MAX(d.q, 1e-5, "q");
+    CHECK_REL(s.approach, limit.approach, 1e-6, "approach");
+    CHECK_MAX(fabs(s.support_balance), 1e-3, "support");
+    rb_rolling_solution_free(&s);
+    rb_rolling_solution_free(&limit);
+}
+
+static void every_failed_allocation_is_reported(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel(RB_BEM_HUB, 0.05);
+    rc.contact_elements = 10;
+    rc.outer_elements = 16;
+    rc.zone = 1.5 * rc.half_width;
+    int refused = 1;
+    for (int count = 0; refused; count++) {
+        rb_rolling_solution s;
+        alloc_fail_after(count);
+        const rb_status status = rb_rolling_solve(&rc, &s, NULL);
+        refused = alloc_failed();
+        alloc_succeed();
+        if (refused && status == RB_OK)
+            fail_msg("allocation %d failed unnoticed", count);
+        if (!refused)
+            CHECK_STATUS(status, RB_OK);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tractions_tend_to_the_halfplane_with_first_order),
+        cmocka_unit_test(compressible_wheels_need_small_elements_too),
+        cmocka_unit_test(approach_differs_by_a_constant_of_the_support),
+        cmocka_unit_test(a_contact_of_1e_8_of_the_radius_keeps_its_digits),
+        cmocka_unit_test(the_two_signs_mirror_up_to_delta_over_R),
+        cmocka_unit_test(free_rolling_of_an_incompressible_wheel),
+        cmocka_unit_test(normals_of_the_surface_cost_a_creepage_of_delta_over_R),
+        cmocka_unit_test(the_support_carries_the_load),
+        cmocka_unit_test(the_case_of_addi),
+        cmocka_unit_test(slip_afterwards_contradicts_stick),
+        cmocka_unit_test(an_incompressible_wheel_on_a_hub),
+        cmocka_unit_test(every_failed_allocation_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
