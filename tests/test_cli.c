@@ -120,7 +120,7 @@ static const struct {
     {"verfy", 66, "(did you mean 'verify'?)"},
     {"help nothing", 64, "unknown command 'nothing'"},
     {"--contact-elements 10000000 --zone 10", 64, "10000000 contact"},
-    {"--force-ratio 1.5", 64, "--force-ratio: expected a number in [-1, 1]"},
+    {"--force-ratio 1.5", 64, "friction carries at most 1"},
 };
 
 static void bad_arguments_are_refused(void **state)
@@ -279,7 +279,7 @@ static void table_obeys_its_own_conventions(void **state)
     json_t *root = solve_json(QUICK " --formulation steady --creep-ratio 0.5 --mu 0.3");
     const json_t *table = json_object_get(root, "table");
     double P = 0.0, Q = 0.0;
-    for (size_t i = 0; i < 24; i++) {
+    for (size_t i = 0; i < json_array_size(json_object_get(table, "h_mm")); i++) {
         const double h =
             json_number_value(json_array_get(json_object_get(table, "h_mm"), i));
         const double p =

@@ -76,6 +76,31 @@ rb_status rb_report_picture(FILE *out, rb_report_picture_kind kind,
  * first line is in why. */
 rb_status rb_report_gnuplot(FILE *script, FILE *out, rb_message *why);
 
+/* ---- Creep curves ------------------------------------------------------------------ */
+
+enum { RB_REPORT_CURVES = 16 };
+
+/* One curve for each mu. */
+typedef struct {
+    int n;
+    double mu[RB_REPORT_CURVES];
+    rb_rolling_curve curve[RB_REPORT_CURVES];
+} rb_report_curves;
+
+/* One row per mu and creepage.  RB_EWRITE: see errno. */
+rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
+                                const char *command, int bare);
+/* Sets "curve", of the first mu, and "curves", of all, where there are several. */
+void rb_report_json_curves(struct json_t *root, const rb_report_curves *curves);
+/* A few lines for people. */
+void rb_report_curve_summary(FILE *out, const rb_report_curves *curves);
+/* Braking force -Q/(mu P) over xi R/(mu a) or xi; of several mu -Q/P over xi.  Carter's
+ * law dashed. */
+rb_status rb_report_curve_picture(FILE *out, rb_report_picture_kind kind,
+                                  const rb_rolling_case *rc,
+                                  const rb_report_curves *curves, int over_creep,
+                                  rb_message *why);
+
 /* ---- Behind the solution ------------------------------------------------------------
  */
 

@@ -118,27 +118,74 @@ static cli_exit read_history(cli_case *c)
     return CLI_CONTINUE;
 }
 
-/* Options of one formulation mean nothing to the others. */
-static cli_exit check_formulation(const cli_set *set, const cli_case *c)
+/* ---- What depends on other options ---------------------------------------------- */
+
+static int option_index(const cli_set *set, const char *name)
 {
-    static const char *const of_transient[] = {"distance", "steps"};
+    int i = 0;
+    while (i < set->n && strcmp(set->options[i].name, name) != 0)
+        i++;
+    return i;
+}
+
+int cli_case_given(const cli_case *c, const char *name)
+{
+    cli_case any;
+    const cli_set set = cli_case_set(&any);
+    return c->given[option_index(&set, name)];
+}
+
+cli_exit cli_case_refuse(const cli_case *c, const char *name, const char *reason)
+{
+    cli_case any;
+    const cli_set set = cli_case_set(&any);
+    const int i = option_index(&set, name);
     char room[400];
-    for (int i = 0; i < set->n; i++) {
-        const cli_option *o = &set->options[i];
-        const cli_exit code = set->given[i] > 0 ? CLI_DATA : CLI_USAGE;
-        if (!set->given[i] || o->kind == CLI_GROUP)
-            continue;
-        for (int k = 0; k < 2 && c->rc.formulation != RB_TRANSIENT; k++)
-            if (strcmp(o->name, of_transient[k]) == 0)
-                return cli_fail(code, "%s: of transient rolling only",
-                                cli_source(o, set->given[i], c->path, room, sizeof room));
-        if (strcmp(o->name, "history") == 0 && c->rc.formulation == RB_STEADY)
-            return cli_fail(code, "%s: steady rolling has no history",
-                            cli_source(o, set->given[i], c->path, room, sizeof room));
-    }
-    if (c->rc.formulation == RB_TRANSIENT && !c->history_file && !(c->rc.distance > 0.0))
-        return cli_fail(CLI_USAGE, "transient rolling needs --distance or --history");
-    return CLI_CONTINUE;
+    if (!c->given[i])
+        return CLI_CONTINUE;
+    return cli_fail(c->given[i] > 0 ? CLI_DATA : CLI_USAGE, "%s: %s",
+                    cli_source(&set.options[i], c->given[i], c->path, room, sizeof room),
+                    reason);
+}
+
+/* The paper's own example stays on its equal elements. */
+static void choose_mesh(cli_case *c)
+{
+    rb_rolling_case *rc = &c->rc;
+    const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
+    if (!cli_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper &&
+        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE)
+        rc->mesh = RB_MESH_FITTED;
+    if (!cli_case_given(c, "contact-elements") && rc->mesh == RB_MESH_FITTED)
+        rc->contact_elements = 100;
+}
+
+static cli_exit check_lists(const cli_case *c)
+{
+    return c->mus.n > 1 && !c->lists
+               ? cli_case_refuse(c, "mu", "expected one number; a curve takes several")
+               : CLI_CONTINUE;
+}
+
+/* Options of one formulation mean nothing to the others. */
+static cli_exit check_formulation(const cli_case *c)
+{
+    const int transient = c->rc.formulation == RB_TRANSIENT;
+    cli_exit code = CLI_CONTINUE;
+    if (!transient)
+        code = cli_case_refuse(c, "distance", "of transient rolling only");
+    else if (c->history_file)
+        code = cli_case_refuse(c, "distance", "the history says how far");
+    if (code == CLI_CONTINUE && !transient)
+        code = cli_case_refuse(c, "steps", "of transient rolling only");
+    if (code == CLI_CONTINUE && c->rc.formulation == RB_STEADY)
+        code = cli_case_refuse(c, "history", "steady rolling has no history");
+    if (code == CLI_CONTINUE && (c->history_file || transient) &&
+        c->rc.mesh == RB_MESH_FITTED)
+        code = cli_case_refuse(c, "mesh", "step by step the elements are equal");
+    if (code == CLI_CONTINUE && transient && !c->history_file && !(c->rc.distance > 0.0))
+        code = cli_fail(CLI_USAGE, "transient rolling needs --distance or --history");
+    return code;
 }
 
 /* ---- All together ----------------------------------------------------------------- */
@@ -182,13 +229,16 @@ cli_exit cli_case_finish(const cli_spec *spec, cli_case *c, cli_args *args)
     if (code == CLI_CONTINUE)
         code = settle_body_b(&set, c);
     if (code == CLI_CONTINUE)
-        code = check_formulation(&set, c);
+        code = check_formulation(c);
     if (code == CLI_CONTINUE)
         code = read_profile(c);
     if (code == CLI_CONTINUE)
         code = read_history(c);
+    if (code == CLI_CONTINUE)
+        code = check_lists(c);
     if (code != CLI_CONTINUE)
         return code;
+    choose_mesh(c);
     const rb_status s = rb_rolling_case_check(&c->rc, &why);
     return s == RB_OK ? CLI_CONTINUE : cli_case_refused(c, s, &why);
 }
@@ -202,6 +252,9 @@ static json_t *input(const cli_option *o, const cli_case *c)
     switch (o->kind) {
     case CLI_NUMBER: {
         const double v = *(const double *)place;
+        const cli_list *list = (const cli_list *)((const char *)c + o->list);
+        if (o->list && list->n > 1)
+            return rb_report_json_numbers(list->n, list->value);
         return o->word && v == o->word_value ? json_string(o->word)
                                              : rb_report_json_number(v);
     }

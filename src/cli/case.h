@@ -6,7 +6,7 @@
 #include "cli/cli.h"
 #include "rollbem/io.h"
 
-enum { CLI_CASE_OPTIONS_MAX = 48 };
+enum { CLI_CASE_OPTIONS_MAX = 64 };
 
 /* For --help of every command that takes a case. */
 #define CLI_CASE_SIGNS                                                                   \
@@ -25,13 +25,15 @@ typedef struct {
     const char *gap_file; /* profile of the initial gap, or NULL */
     int similar;          /* B is of A's material */
     double young_b, poisson_b, radius_b;
+    cli_list mus;             /* more than one: for curves */
+    const char *history_file; /* or NULL */
 
-    const char *history_file;   /* table of controls, or NULL */
     rb_rolling_program program; /* n = 0: none; its columns stand in history */
     rb_io_table history;
 
     char path[320]; /* case file, "" without */
     int given[CLI_CASE_OPTIONS_MAX];
+    int lists;       /* 1: the command takes several mu */
     double *profile; /* x, then gap; owned */
 } cli_case;
 
@@ -48,6 +50,11 @@ unsigned cli_case_alike(const cli_case *c);
  * contradictions, reads the gap profile, checks.  CLI_CONTINUE or an exit code, its line
  * printed. */
 cli_exit cli_case_finish(const cli_spec *spec, cli_case *c, cli_args *args);
+
+/* 1: --name was given on the command line or in the file. */
+int cli_case_given(const cli_case *c, const char *name);
+/* CLI_CONTINUE, or the line "--name: reason" when that option was given. */
+cli_exit cli_case_refuse(const cli_case *c, const char *name, const char *reason);
 
 /* Prints why the library refused the case; the exit code tells command line from file. */
 cli_exit cli_case_refused(const cli_case *c, rb_status s, const rb_message *why);

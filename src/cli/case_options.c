@@ -69,6 +69,10 @@ static const cli_option options[] = {
                     "half-angle of its clamped arc"),
     CLI_NUMBER_LINE("hub-ratio-b", RC(b.hub_ratio), "-", CLI_BETWEEN(0, 1),
                     "radius of its rigid core / radius"),
+    CLI_NUMBER_LINE("datum-b", RC(b.datum), "mm", CLI_ABOVE(0),
+                    "halfplane: depth of zero displacement; auto: 2/e of its radius, or "
+                    "of A's for a plane",
+                    .word = "auto", .word_value = 0.0),
 
     CLI_GROUP_LINE("gap", "Initial gap"),
     CLI_CHOICE_LINE("gap", RC(gap), gaps,
@@ -76,7 +80,9 @@ static const cli_option options[] = {
                     .path = PLACE(gap_file), .path_value = RB_GAP_TABLE),
 
     CLI_GROUP_LINE("friction", "Friction"),
-    CLI_NUMBER_LINE("mu", RC(mu), "-", CLI_FROM(0), "Coulomb's coefficient"),
+    CLI_NUMBER_LINE("mu", RC(mu), "-", CLI_FROM(0),
+                    "Coulomb's coefficient; curve: several with commas between",
+                    .list = PLACE(mus)),
 
     CLI_GROUP_LINE("normal", "Normal direction: one of"),
     CLI_NUMBER_LINE("approach", RC(approach), "mm", CLI_ABOVE(0),
@@ -101,7 +107,7 @@ static const cli_option options[] = {
     CLI_NUMBER_LINE("force", RC(force), "N/mm", CLI_ANY,
                     "tangential load Q on A, towards +x", .unset = "not given",
                     .excludes = ONE_LOADING),
-    CLI_NUMBER_LINE("force-ratio", RC(force_ratio), "-", CLI_FROM_TO(-1, 1),
+    CLI_NUMBER_LINE("force-ratio", RC(force_ratio), "-", CLI_ANY,
                     "Q/(mu P), the sign of Q", .unset = "not given",
                     .excludes = ONE_LOADING),
 
@@ -121,9 +127,12 @@ static const cli_option options[] = {
 
     CLI_GROUP_LINE("mesh", "Mesh"),
     CLI_CHOICE_LINE("mesh", RC(mesh), meshes,
-                    "equal elements, or fitted to the contact edges"),
+                    "equal elements, or fitted to the contact edges",
+                    .unset = "fitted in steady rolling under a given load, half-width or "
+                             "approach without zone and gap file; else uniform"),
     CLI_INTEGER_LINE("contact-elements", RC(contact_elements), CLI_FROM(3),
-                     "uniform: in the potential contact; fitted: across the contact"),
+                     "uniform: in the potential contact; fitted: across the contact",
+                     .unset = "60, fitted 100"),
     CLI_NUMBER_LINE(
         "zone", RC(zone), "mm", CLI_ABOVE(0),
         "half-width of the potential contact; auto: grown until three separated "

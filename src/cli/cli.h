@@ -17,6 +17,7 @@
 /* ---- Commands -------------------------------------------------------------------- */
 
 int cli_solve(int argc, char **argv); /* the default command */
+int cli_curve(int argc, char **argv);
 int cli_verify(int argc, char **argv);
 int cli_lcp(int argc, char **argv);
 int cli_help(int argc, char **argv);
@@ -112,6 +113,14 @@ typedef struct {
         x, y, 1, 0                                                                       \
     } /* (x, y] */
 
+/* Numbers separated by commas. */
+enum { CLI_LIST_MAX = 16 };
+
+typedef struct {
+    int n;
+    double value[CLI_LIST_MAX];
+} cli_list;
+
 /* Every option once: parser, INI reader, JSON `inputs`, help and range errors are all
  * made from this. */
 typedef struct {
@@ -122,6 +131,8 @@ typedef struct {
     cli_range range;  /* numbers and integers */
     const char *word; /* numbers: a word that stands for word_value, or NULL */
     double word_value;
+    size_t list; /* numbers: when not 0, more of them may follow after commas; all are
+                    stored here (cli_list), the first one as the value */
     const cli_choice *choices; /* ends with a NULL name */
     size_t path; /* choices: when not 0, any other word is a file name, stored here
                     (const char *), and the value is path_value */

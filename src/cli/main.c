@@ -15,6 +15,7 @@ static const struct {
     int (*run)(int argc, char **argv);
     const char *help;
 } commands[] = {
+    {"curve", cli_curve, "creep curve: the tangential force over the creepage"},
     {"verify", cli_verify,
      "every reference that the program should meet, and how it does"},
     {"lcp", cli_lcp, "solves linear complementarity problems from files"},

@@ -94,6 +94,27 @@ static int set_number(const cli_option *o, double *place, const char *value)
     return 1;
 }
 
+static int set_list(const cli_option *o, char *target, const char *value)
+{
+    cli_list list = {0};
+    char word[64];
+    for (size_t n; list.n < CLI_LIST_MAX; value += n + 1) {
+        n = strcspn(value, ",");
+        if (n >= sizeof word)
+            return 0;
+        memcpy(word, value, n);
+        word[n] = '\0';
+        if (!set_number(o, &list.value[list.n++], word))
+            return 0;
+        if (value[n] == '\0') {
+            *(cli_list *)(target + o->list) = list;
+            *(double *)(target + o->offset) = list.value[0];
+            return 1;
+        }
+    }
+    return 0;
+}
+
 static int set_integer(const cli_option *o, int *place, const char *value)
 {
     int v;
@@ -131,7 +152,7 @@ static int set_any(const cli_option *o, char *target, const char *value)
     void *place = target + o->offset;
     switch (o->kind) {
     case CLI_NUMBER:
-        return set_number(o, place, value);
+        return o->list ? set_list(o, target, value) : set_number(o, place, value);
     case CLI_INTEGER:
         return set_integer(o, place, value);
     case CLI_CHOICE:

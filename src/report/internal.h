@@ -17,4 +17,41 @@ extern const int rb_report_column_n;
 const double *rb_report_doubles(const rb_rolling_solution *s, const rb_report_column *c);
 const int *rb_report_ints(const rb_rolling_solution *s, const rb_report_column *c);
 
+/* ---- Series: tables and JSON of everything but the tractions ----------------------- */
+
+/* One column, of doubles or of whole numbers. */
+typedef struct {
+    const char *name; /* in tables, with its unit */
+    const char *key;  /* in JSON; NULL: name */
+    const double *x;  /* borrowed */
+    const int *k;     /* where x is NULL; borrowed */
+} rb_report_series;
+
+/* # lines with version, command, conventions. */
+void rb_report_print_head(FILE *out, const char *command);
+/* The names, on a # line unless bare. */
+void rb_report_print_names(FILE *out, int columns, const rb_report_series *series,
+                           int bare);
+void rb_report_print_rows(FILE *out, int rows, int columns,
+                          const rb_report_series *series);
+/* Flushes.  RB_EWRITE: see errno. */
+rb_status rb_report_print_end(FILE *out);
+
+void rb_report_json_series(struct json_t *object, int rows, int columns,
+                           const rb_report_series *series);
+
+/* ---- Pictures ---------------------------------------------------------------------- */
+
+/* gnuplot's terminal, and the font of a key that would otherwise be larger. */
+const char *rb_report_terminal(rb_report_picture_kind kind);
+const char *rb_report_key_font(rb_report_picture_kind kind);
+/* The next of 1, 2, 5 times a power of ten. */
+double rb_report_round_step(double step);
+
+/* Writes the script and runs gnuplot. */
+typedef void rb_report_script(FILE *script, rb_report_picture_kind kind,
+                              const void *view);
+rb_status rb_report_draw(FILE *out, rb_report_picture_kind kind, rb_report_script *script,
+                         const void *view, rb_message *why);
+
 #endif

@@ -144,6 +144,15 @@ json_t *rb_report_json_table(const rb_rolling_solution *s)
     return table;
 }
 
+void rb_report_json_series(json_t *object, int rows, int columns,
+                           const rb_report_series *series)
+{
+    for (int j = 0; j < columns; j++)
+        json_object_set_new(object, series[j].key ? series[j].key : series[j].name,
+                            series[j].x ? rb_report_json_numbers(rows, series[j].x)
+                                        : whole_numbers(rows, series[j].k));
+}
+
 rb_status rb_report_json_write(FILE *out, const json_t *json)
 {
     if (!json)

@@ -31,6 +31,29 @@ static const struct {
     {"pdfcairo size 10in,7.5in font 'DejaVu Sans,21' linewidth 1.6 background '#ffffff'",
      ",21"}};
 
+const char *rb_report_terminal(rb_report_picture_kind kind)
+{
+    return looks[kind].terminal;
+}
+
+const char *rb_report_key_font(rb_report_picture_kind kind)
+{
+    return looks[kind].key_font;
+}
+
+rb_status rb_report_draw(FILE *out, rb_report_picture_kind kind, rb_report_script *script,
+                         const void *view, rb_message *why)
+{
+    FILE *file = tmpfile();
+    if (!file)
+        return rb_fail(why, RB_EWRITE, "temporary file: %s", strerror(errno));
+    fprintf(file, "set encoding utf8\nset terminal %s enhanced\n", looks[kind].terminal);
+    script(file, kind, view);
+    const rb_status status = rb_report_gnuplot(file, out, why);
+    fclose(file);
+    return status;
+}
+
 /* What the axes show. */
 typedef struct {
     const rb_rolling_case *rc;
@@ -248,8 +271,7 @@ static void write_tractions(FILE *out, const view *v, const char *key_font)
     fputs("\n", out);
 }
 
-/* The next of 1, 2, 5 times a power of ten. */
-static double round_step(double step)
+double rb_report_round_step(double step)
 {
     const double power = pow(10.0, floor(log10(step)));
     const double digit = step / power;
@@ -262,7 +284,7 @@ static void write_slip(FILE *out, const view *v)
           "set tmargin at screen 0.36\nset bmargin at screen 0.115\nset format x '%g'\n",
           out);
     fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->slip_from, v->slip_to,
-            round_step((v->slip_to - v->slip_from) / 4.0));
+            rb_report_round_step((v->slip_to - v->slip_from) / 4.0));
     fprintf(out, "set xlabel '%s%s' offset 0,0.3\n", v->x_label,
             v->s->formulation == RB_STATIC ? "" : "      (rolling towards +x →)");
     fputs("set label 3 'slip", out);
@@ -275,9 +297,9 @@ static void write_slip(FILE *out, const view *v)
           out);
 }
 
-static void write_script(FILE *out, const view *v, rb_report_picture_kind kind)
+static void write_script(FILE *out, rb_report_picture_kind kind, const void *context)
 {
-    fprintf(out, "set encoding utf8\nset terminal %s enhanced\n", looks[kind].terminal);
+    const view *v = context;
     write_data(out, v);
     if (v->carter)
         write_carter(out, v);
@@ -297,12 +319,6 @@ rb_status rb_report_picture(FILE *out, rb_report_picture_kind kind,
 {
     if (s->n < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
-    FILE *script = tmpfile();
-    if (!script)
-        return rb_fail(why, RB_EWRITE, "temporary file: %s", strerror(errno));
     const view v = make_view(rc, s);
-    write_script(script, &v, kind);
-    const rb_status status = rb_report_gnuplot(script, out, why);
-    fclose(script);
-    return status;
+    return rb_report_draw(out, kind, write_script, &v, why);
 }

@@ -59,9 +59,7 @@ const int *rb_report_ints(const rb_rolling_solution *s, const rb_report_column *
 
 static void print_headers(FILE *out, const rb_rolling_solution *s, const char *command)
 {
-    fprintf(out, "# rollbem %s\n# %s\n", RB_VERSION, command);
-    for (const char *const *line = rb_report_conventions; *line; line++)
-        fprintf(out, "# %s\n", *line);
+    rb_report_print_head(out, command);
     fprintf(out, "# %s, %s; residual %.3g\n", rb_report_formulation(s->formulation),
             rb_status_text(s->status), s->residual);
 }
@@ -90,5 +88,5 @@ rb_status rb_report_table(FILE *out, const rb_rolling_solution *s, const char *c
     fputc('\n', out);
     for (int i = 0; i < s->n; i++)
         print_row(out, s, i);
-    return fflush(out) == 0 && !ferror(out) ? RB_OK : RB_EWRITE;
+    return rb_report_print_end(out);
 }

@@ -1,0 +1,179 @@
+/* rollbem curve: the tangential force over the creepage. */
+#include "cli/case.h"
+#include "cli/output.h"
+
+#include <jansson.h>
+#include <stddef.h>
+#include <string.h>
+
+typedef struct {
+    double from, to;
+    int points, over_creep;
+    int given[5];
+} range_options;
+
+#define PLACE(member) offsetof(range_options, member)
+
+static const cli_choice variables[] = {{"creep-ratio", 0}, {"creep", 1}, {NULL, 0}};
+
+static const cli_option options[] = {
+    CLI_GROUP_LINE("curve", "Range of the curve"),
+    CLI_NUMBER_LINE("from", PLACE(from), "-", CLI_ANY, "first value"),
+    CLI_NUMBER_LINE("to", PLACE(to), "-", CLI_ANY, "last value"),
+    CLI_INTEGER_LINE("points", PLACE(points), CLI_FROM_TO(2, 1000000),
+                     "equally spaced, both ends among them"),
+    CLI_CHOICE_LINE("over", PLACE(over_creep), variables,
+                    "what is varied: xi R/(mu a), or xi itself"),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+_Static_assert(OPTIONS == 5, "given");
+
+static const char about[] =
+    "Computes a creep curve, the tangential force of steady rolling over the\n"
+    "creepage, on one mesh with warm starts, and prints a row per creepage. --mu\n"
+    "takes several values with commas between: a curve each.\n"
+    "The picture shows -Q/(mu P), or -Q/P over xi where there are several mu, and\n"
+    "Carter's law (similar bodies) beside it.\n"
+    "\n" CLI_CASE_SIGNS;
+
+static const char notes[] = CLI_CASE_NOTES
+    "Example: rollbem curve --similar --support halfplane --load 500 --plot curve.png\n";
+
+/* ---- Solve ------------------------------------------------------------------------ */
+
+typedef struct {
+    const cli_case *c;
+    const range_options *range;
+    rb_report_curves curves;
+} result;
+
+static rb_status solve_curves(const cli_case *c, const range_options *range,
+                              rb_report_curves *curves, rb_message *why)
+{
+    const cli_list one = {1, {c->rc.mu}};
+    const cli_list *mus = c->mus.n > 0 ? &c->mus : &one;
+    rb_rolling_case rc = c->rc;
+    rb_status s = RB_OK;
+    for (int k = 0; k < mus->n && s == RB_OK; k++) {
+        rb_message reason = {""};
+        rc.mu = curves->mu[k] = mus->value[k];
+        s = rb_rolling_curve_solve(&rc, range->over_creep, range->from, range->to,
+                                   range->points, &curves->curve[k], &reason);
+        curves->n += s >= 0;
+        if (s != RB_OK && mus->n > 1)
+            rb_fail(why, s, "mu = %g: %.280s", rc.mu, reason.text);
+        else if (s != RB_OK)
+            *why = reason;
+    }
+    return s;
+}
+
+/* ---- Print ------------------------------------------------------------------------ */
+
+static rb_status print_json(FILE *out, const result *r)
+{
+    json_t *root = rb_report_json_start(cli_command_line());
+    json_t *inputs = cli_case_inputs(r->c);
+    json_object_set_new(inputs, "from", json_real(r->range->from));
+    json_object_set_new(inputs, "to", json_real(r->range->to));
+    json_object_set_new(inputs, "points", json_integer(r->range->points));
+    json_object_set_new(inputs, "over",
+                        json_string(variables[r->range->over_creep].name));
+    json_object_set_new(root, "inputs", inputs);
+    rb_report_json_curves(root, &r->curves);
+    const rb_status s = rb_report_json_write(out, root);
+    json_decref(root);
+    return s;
+}
+
+static rb_status print(FILE *out, const cli_output *o, const void *context)
+{
+    const result *r = context;
+    return o->json ? print_json(out, r)
+                   : rb_report_curve_table(out, &r->curves, cli_command_line(), o->bare);
+}
+
+static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
+                      rb_message *why)
+{
+    const result *r = context;
+    return rb_report_curve_picture(out, kind, &r->c->rc, &r->curves, r->range->over_creep,
+                                   why);
+}
+
+/* ---- Command ---------------------------------------------------------------------- */
+
+static cli_exit check_case(const cli_case *c)
+{
+    static const char *const driving[] = {"shift", "creep",       "creep-ratio",
+                                          "force", "force-ratio", "history"};
+    cli_exit code = CLI_CONTINUE;
+    for (int k = 0; k < 6 && code == CLI_CONTINUE; k++)
+        code = cli_case_refuse(c, driving[k],
+                               "the curve runs over --from ... --to by itself");
+    if (code == CLI_CONTINUE && c->rc.formulation != RB_STEADY)
+        code = cli_case_refuse(c, "formulation", "a curve is one of steady rolling");
+    return code;
+}
+
+static cli_exit show(cli_sink *sink, const result *r)
+{
+    const cli_output *o = sink->o;
+    cli_exit code = cli_sink_write(sink, print, r);
+    if (code == CLI_OK && !o->quiet)
+        rb_report_curve_summary(stderr, &r->curves);
+    if (code == CLI_OK)
+        code = cli_output_draw(o, draw, r);
+    return code;
+}
+
+static cli_exit solve(const cli_case *c, const range_options *range, const cli_output *o)
+{
+    result r = {.c = c, .range = range};
+    cli_sink sink;
+    rb_message why = {""};
+    cli_exit code = cli_sink_open(o, &sink);
+    if (code != CLI_CONTINUE)
+        return code;
+    const rb_status s = solve_curves(c, range, &r.curves, &why);
+    code = CLI_OK;
+    if (r.curves.n > 0 && r.curves.curve[0].n > 0)
+        code = show(&sink, &r);
+    cli_sink_abandon(&sink);
+    if (code == CLI_OK && s != RB_OK)
+        code = cli_case_refused(c, s, &why);
+    for (int k = 0; k < CLI_LIST_MAX; k++)
+        rb_rolling_curve_free(&r.curves.curve[k]);
+    return code;
+}
+
+int cli_curve(int argc, char **argv)
+{
+    cli_case c;
+    cli_output o = {0};
+    range_options range = {.from = 0.0, .to = 1.5, .points = 61};
+    cli_args args = {0};
+    cli_case_defaults(&c);
+    c.rc.formulation = RB_STEADY;
+    c.lists = 1;
+    const cli_spec spec = {
+        "rollbem curve [OPTION...] [CASE.ini]",
+        about,
+        notes,
+        {cli_case_set(&c), {options, OPTIONS, &range, range.given}, cli_output_set(&o)},
+        3};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE)
+        code = cli_case_finish(&spec, &c, &args);
+    if (code == CLI_CONTINUE)
+        code = check_case(&c);
+    if (code == CLI_CONTINUE)
+        code = cli_output_check(&o);
+    if (code == CLI_CONTINUE)
+        code = solve(&c, &range, &o);
+    cli_args_free(&args);
+    cli_case_free(&c);
+    return code;
+}

@@ -1,0 +1,241 @@
+/* Creep curves: table, JSON, lines for people, picture with Carter's law. */
+#include "report/internal.h"
+
+#include "rollbem/closed_forms.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- Table and JSON ---------------------------------------------------------------- */
+
+enum { COLUMNS = 8 };
+
+static void series_of(const rb_rolling_curve *c, rb_report_series series[COLUMNS])
+{
+    const rb_report_series all[COLUMNS] = {
+        {"creepage_1", "creepage", c->creepage, NULL},
+        {"creep_ratio_1", "creep_ratio", c->creep_ratio, NULL},
+        {"force_ratio_1", "force_ratio", c->force_ratio, NULL},
+        {"Q_N/mm", "tangential_load", c->tangential_load, NULL},
+        {"P_N/mm", "normal_load", c->normal_load, NULL},
+        {"stick_ratio_1", "stick_ratio", c->stick_ratio, NULL},
+        {"dissipation_N/mm", "dissipation", c->dissipation, NULL},
+        {"residual_1", "residual", c->residual, NULL}};
+    for (int j = 0; j < COLUMNS; j++)
+        series[j] = all[j];
+}
+
+/* The coefficient of friction stands before the columns of its curve. */
+static void print_curve(FILE *out, double mu, const rb_rolling_curve *c, int named,
+                        int bare)
+{
+    rb_report_series series[COLUMNS];
+    series_of(c, series);
+    if (named) {
+        fputs(bare ? "mu_1\t" : "# mu_1\t", out);
+        rb_report_print_names(out, COLUMNS, series, 1);
+    }
+    for (int i = 0; i < c->n; i++) {
+        fprintf(out, "%.17g\t", mu);
+        for (int j = 0; j < COLUMNS; j++)
+            fprintf(out, "%.17g%c", series[j].x[i], j + 1 < COLUMNS ? '\t' : '\n');
+    }
+}
+
+rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
+                                const char *command, int bare)
+{
+    if (!bare)
+        rb_report_print_head(out, command);
+    for (int k = 0; k < curves->n; k++)
+        print_curve(out, curves->mu[k], &curves->curve[k], k == 0, bare);
+    return rb_report_print_end(out);
+}
+
+static json_t *json_curve(double mu, const rb_rolling_curve *c)
+{
+    rb_report_series series[COLUMNS];
+    json_t *curve = json_object();
+    series_of(c, series);
+    json_object_set_new(curve, "mu", rb_report_json_number(mu));
+    rb_report_json_series(curve, c->n, COLUMNS, series);
+    json_object_set_new(curve, "free_creepage", rb_report_json_number(c->free_creepage));
+    json_object_set_new(curve, "hertz_half_width", rb_report_json_number(c->half_width));
+    json_object_set_new(curve, "iterations", json_integer(c->iterations));
+    json_object_set_new(curve, "seconds", rb_report_json_number(c->seconds));
+    return curve;
+}
+
+void rb_report_json_curves(json_t *root, const rb_report_curves *curves)
+{
+    json_t *all = json_array();
+    for (int k = 0; k < curves->n; k++)
+        json_array_append_new(all, json_curve(curves->mu[k], &curves->curve[k]));
+    if (curves->n > 0)
+        json_object_set(root, "curve", json_array_get(all, 0));
+    if (curves->n > 1)
+        json_object_set(root, "curves", all);
+    json_decref(all);
+}
+
+/* ---- For people -------------------------------------------------------------------- */
+
+/* The first point from which on nothing sticks, or -1. */
+static int full_sliding_from(const rb_rolling_curve *c)
+{
+    int k = c->n;
+    while (k > 0 && c->stick_ratio[k - 1] == 0.0)
+        k--;
+    return k < c->n ? k : -1;
+}
+
+void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
+{
+    for (int k = 0; k < curves->n; k++) {
+        const rb_rolling_curve *c = &curves->curve[k];
+        const int sliding = full_sliding_from(c);
+        double residual = 0.0;
+        for (int i = 0; i < c->n; i++)
+            residual = fmax(residual, c->residual[i]);
+        fprintf(out, "curve, mu = %g: %d points in %.2g s, residual <= %.2g\n",
+                curves->mu[k], c->n, c->seconds, residual);
+        if (isfinite(c->free_creepage))
+            fprintf(out, "  free rolling (Q = 0) at xi = %.5g\n",
+                    c->free_creepage + 0.0); /* -0 is 0 */
+        if (sliding >= 0)
+            fprintf(out, "  full sliding from xi = %.5g, xi R/(mu a) = %.4g on\n",
+                    c->creepage[sliding], c->creep_ratio[sliding]);
+    }
+}
+
+/* ---- Picture ----------------------------------------------------------------------- */
+
+typedef struct {
+    const rb_rolling_case *rc;
+    const rb_report_curves *curves;
+    int over_creep; /* x: xi instead of xi R/(mu a) */
+    int over_load;  /* y: -Q/P instead of -Q/(mu P) */
+    int exponent;   /* of the x axis */
+    double from, to;
+} view;
+
+static double x_of(const view *v, const rb_rolling_curve *c, int i)
+{
+    return v->over_creep ? c->creepage[i] / pow(10.0, v->exponent) : c->creep_ratio[i];
+}
+
+static double y_of(const view *v, double force_ratio, double mu)
+{
+    return v->over_load ? -force_ratio * mu : -force_ratio;
+}
+
+static void write_data(FILE *out, const view *v)
+{
+    for (int k = 0; k < v->curves->n; k++) {
+        const rb_rolling_curve *c = &v->curves->curve[k];
+        fprintf(out, "$curve%d << EOD\n", k);
+        for (int i = 0; i < c->n; i++)
+            fprintf(out, "%.9g %.9g %.9g\n", x_of(v, c, i),
+                    y_of(v, c->force_ratio[i], v->curves->mu[k]), c->stick_ratio[i]);
+        fputs("EOD\n", out);
+    }
+}
+
+/* Carter's law on a finer grid than the curve; ratio and creepage are proportional. */
+static void write_carter(FILE *out, const view *v)
+{
+    enum { POINTS = 300 };
+    for (int k = 0; k < v->curves->n; k++) {
+        const rb_rolling_curve *c = &v->curves->curve[k];
+        const int last = c->n - 1;
+        fprintf(out, "$carter%d << EOD\n", k);
+        for (int i = 0; i <= POINTS; i++) {
+            const double t = (double)i / POINTS;
+            const double s = (1.0 - t) * c->creep_ratio[0] + t * c->creep_ratio[last];
+            fprintf(out, "%.9g %.9g\n", (1.0 - t) * x_of(v, c, 0) + t * x_of(v, c, last),
+                    y_of(v, rb_closed_carter_force_ratio(s), v->curves->mu[k]));
+        }
+        fputs("EOD\n", out);
+    }
+}
+
+static void choose_x_axis(view *v)
+{
+    double largest = 0.0;
+    for (int k = 0; k < v->curves->n; k++)
+        for (int i = 0; i < v->curves->curve[k].n; i++)
+            largest = fmax(largest, fabs(v->curves->curve[k].creepage[i]));
+    if (largest > 0.0 && largest < 0.1)
+        v->exponent = (int)floor(log10(largest));
+    v->from = INFINITY;
+    v->to = -INFINITY;
+    for (int k = 0; k < v->curves->n; k++)
+        for (int i = 0; i < v->curves->curve[k].n; i++) {
+            v->from = fmin(v->from, x_of(v, &v->curves->curve[k], i));
+            v->to = fmax(v->to, x_of(v, &v->curves->curve[k], i));
+        }
+}
+
+static void write_labels(FILE *out, const view *v)
+{
+    const rb_rolling_curve *c = &v->curves->curve[0];
+    fprintf(out,
+            "set label 1 '{/:Bold Creep curve}   P = %.5g N/mm,  a = %.4g mm' "
+            "at screen 0.54, 0.955 center\n",
+            c->normal_load[c->n - 1], c->half_width);
+    if (v->over_creep && v->exponent)
+        fprintf(out, "set xlabel 'creepage ξ  [10^{%d}]'\n", v->exponent);
+    else
+        fprintf(out, "set xlabel '%s'\n",
+                v->over_creep ? "creepage ξ" : "creepage ratio  ξR/(μa)");
+    fprintf(out, "set ylabel 'braking force  −Q/%s' offset 1,0\n",
+            v->over_load ? "P" : "(μP)");
+}
+
+static void write_script(FILE *out, rb_report_picture_kind kind, const void *context)
+{
+    static const char *const colours[] = {"#1f4e79", "#c0392b", "#b9770e", "#6c3483",
+                                          "#117864", "#5d6d7e", "#7b241c", "#2e86c1"};
+    const view *v = context;
+    write_data(out, v);
+    write_carter(out, v);
+    fputs("set lmargin at screen 0.13\nset rmargin at screen 0.965\n"
+          "set bmargin at screen 0.14\nset tmargin at screen 0.92\n"
+          "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
+          "set grid linecolor rgb '#dddddd' linewidth 0.6\nset offsets 0,0,graph 0.05,0\n"
+          "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
+          out);
+    fprintf(out, "set key right bottom samplen 2.2 font '%s'\n",
+            rb_report_key_font(kind));
+    fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
+    write_labels(out, v);
+    fputs("plot ", out);
+    for (int k = 0; k < v->curves->n; k++)
+        fprintf(out,
+                "$curve%d using 1:2 with lines linecolor rgb '%s' linewidth 2.6 title "
+                "'μ = %g', ",
+                k, colours[k % 8], v->curves->mu[k]);
+    for (int k = 0; k < v->curves->n; k++)
+        fprintf(out,
+                "$carter%d using 1:2 with lines dashtype (8,8) linecolor rgb '#111111' "
+                "linewidth 1.1 %s%s",
+                k, k == 0 ? "title 'law of Carter'" : "notitle",
+                k + 1 < v->curves->n ? ", " : "\n");
+}
+
+rb_status rb_report_curve_picture(FILE *out, rb_report_picture_kind kind,
+                                  const rb_rolling_case *rc,
+                                  const rb_report_curves *curves, int over_creep,
+                                  rb_message *why)
+{
+    view v = {.rc = rc,
+              .curves = curves,
+              .over_creep = over_creep || curves->n > 1,
+              .over_load = curves->n > 1};
+    for (int k = 0; k < curves->n; k++)
+        if (curves->curve[k].n < 2 || curves->mu[k] == 0.0)
+            return rb_fail(why, RB_EINVAL, "no curve to draw at mu = %g", curves->mu[k]);
+    choose_x_axis(&v);
+    return rb_report_draw(out, kind, write_script, &v, why);
+}

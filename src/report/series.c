@@ -1,0 +1,42 @@
+/* Tables of named series: what curves, histories and stresses have in common. */
+#include "report/internal.h"
+
+void rb_report_print_head(FILE *out, const char *command)
+{
+    fprintf(out, "# rollbem %s\n# %s\n", RB_VERSION, command);
+    for (const char *const *line = rb_report_conventions; *line; line++)
+        fprintf(out, "# %s\n", *line);
+}
+
+void rb_report_print_names(FILE *out, int columns, const rb_report_series *series,
+                           int bare)
+{
+    for (int j = 0; j < columns; j++)
+        fprintf(out, "%s%s", j > 0 ? "\t" : bare ? "" : "# ", series[j].name);
+    fputc('\n', out);
+}
+
+static void print_row(FILE *out, int i, int columns, const rb_report_series *series)
+{
+    for (int j = 0; j < columns; j++) {
+        if (j > 0)
+            fputc('\t', out);
+        if (series[j].x)
+            fprintf(out, "%.17g", series[j].x[i]);
+        else
+            fprintf(out, "%d", series[j].k[i]);
+    }
+    fputc('\n', out);
+}
+
+void rb_report_print_rows(FILE *out, int rows, int columns,
+                          const rb_report_series *series)
+{
+    for (int i = 0; i < rows; i++)
+        print_row(out, i, columns, series);
+}
+
+rb_status rb_report_print_end(FILE *out)
+{
+    return fflush(out) == 0 && !ferror(out) ? RB_OK : RB_EWRITE;
+}
