@@ -213,7 +213,7 @@ typedef struct {
     int press, shear; /* steps in which the force grows, steps of driving */
 } rb_fem_wall_options;
 
-/* About 1700 contact points and 8200 unknowns; 10 + 65 steps of 5 ms. */
+/* About 1700 contact points and 8200 unknowns; 10 + 65 steps of 10 ms. */
 rb_fem_wall_options rb_fem_wall_defaults(void);
 
 /* One step that was solved. */

@@ -20,6 +20,7 @@ int cli_solve(int argc, char **argv); /* the default command */
 int cli_curve(int argc, char **argv);
 int cli_verify(int argc, char **argv);
 int cli_lcp(int argc, char **argv);
+int cli_example(int argc, char **argv);
 int cli_help(int argc, char **argv);
 
 /* Calls the command of that name; its exit code, or CLI_USAGE when there is none. */

@@ -1,0 +1,46 @@
+/* Pictures and JSON of the finite-element examples. */
+#ifndef ROLLBEM_REPORT_FEM_H
+#define ROLLBEM_REPORT_FEM_H
+
+#include "rollbem/fem.h"
+#include "rollbem/report.h"
+
+/* ---- Pictures: FILE gets the whole picture; statuses of rb_report_gnuplot ------------
+ */
+
+/* The deformed mesh and the reactions after the last increment (*Kanno*, figures 5, 6).
+ */
+rb_status rb_report_picture_bar(FILE *out, rb_report_picture_kind kind,
+                                const rb_fem_model *model, const rb_fem_history *history,
+                                rb_message *why);
+
+/* Displacement increments of a quarter of the contact nodes and their displacements at
+ * the end (*Kanno*, figures 3, 4). */
+rb_status rb_report_picture_truss(FILE *out, rb_report_picture_kind kind,
+                                  const rb_fem_model *model,
+                                  const rb_fem_history *history, rb_message *why);
+
+/* The deformed wall, and the shear force and the solver's iterations over the drift. */
+rb_status rb_report_picture_wall(FILE *out, rb_report_picture_kind kind,
+                                 const rb_fem_wall *wall, int steps,
+                                 const rb_fem_wall_step *step, rb_message *why);
+
+/* ---- JSON: arrays of one object a step; new references, NULL without memory ----------
+ */
+
+struct json_t *rb_report_json_bar(const rb_fem_model *model,
+                                  const rb_fem_history *history);
+struct json_t *rb_report_json_truss(const rb_fem_model *model,
+                                    const rb_fem_history *history);
+struct json_t *rb_report_json_wall(int steps, const rb_fem_wall_step *step);
+
+/* Corner, sums and maxima of one increment. */
+typedef struct {
+    double corner[2];             /* bar: displacement of its last node [mm] */
+    double normal, tangential[2]; /* sums of the reactions [N] */
+    double increment;             /* largest tangential increment of a contact [mm] */
+} rb_report_fem_sums;
+
+rb_report_fem_sums rb_report_fem_sum(const rb_fem_model *model, const rb_fem_step *step);
+
+#endif

@@ -1,0 +1,455 @@
+/* rollbem example bar|truss|wall: the finite-element examples of the two papers. */
+#include "cli/cli.h"
+
+#include "rollbem/io.h"
+#include "rollbem/report_fem.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+typedef struct {
+    const char *solver, *output, *plot;
+    double tol;
+    int json, quiet;
+    int layout, nodes;         /* truss */
+    int mesh, rigid, problems; /* wall */
+} example_options;
+
+static const cli_choice layouts[] = {{"upper-inside", RB_FEM_UPPER_INSIDE},
+                                     {"upper-overhanging", RB_FEM_UPPER_OVERHANGING},
+                                     {NULL, 0}};
+
+enum { MESH_COARSE, MESH_MEDIUM, MESH_FINE };
+
+static const cli_choice meshes[] = {
+    {"coarse", MESH_COARSE}, {"medium", MESH_MEDIUM}, {"fine", MESH_FINE}, {NULL, 0}};
+
+#define PLACE(member) offsetof(example_options, member)
+
+static const cli_option options[] = {
+    CLI_GROUP_LINE("example", "Example"),
+    CLI_TEXT_LINE("solver", PLACE(solver), "NAME",
+                  "friction solver, as in `rollbem friction`",
+                  .unset = "bar nsn-nm, truss and wall nsn-ac"),
+    CLI_NUMBER_LINE("tol", PLACE(tol), "", CLI_ABOVE(0.0),
+                    "tolerance of the friction solver"),
+    CLI_CHOICE_LINE("layout", PLACE(layout), layouts,
+                    "truss: the upper nodes; the paper has its layout in a figure only"),
+    CLI_INTEGER_LINE("nodes", PLACE(nodes), CLI_FROM_TO(2, 100),
+                     "truss: contact nodes per side"),
+    CLI_CHOICE_LINE(
+        "mesh", PLACE(mesh), meshes,
+        "wall: 161, 606 or 1722 contact points; fine: as large as the paper's"),
+    CLI_FLAG_LINE("rigid", PLACE(rigid), "wall: rigid blocks, the same contact points"),
+    CLI_INTEGER_LINE("problems", PLACE(problems), CLI_FROM_TO(1, 75),
+                     "wall: how many problems go to the folder"),
+    CLI_FLAG_LINE("json", PLACE(json), "JSON instead of the table"),
+    CLI_TEXT_LINE("output", PLACE(output), "PATH",
+                  "bar, truss: file for the table or JSON; wall: folder for its problems "
+                  "(FCLib)",
+                  .unset = "none"),
+    CLI_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
+                  .unset = "none"),
+    CLI_FLAG_LINE("quiet", PLACE(quiet), "wall: no line per step on standard error"),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+static const char about[] =
+    "Solves a finite-element example and prints one row per increment.\n"
+    "  bar    Kanno, example 3.2: plane-strain bar on an obstacle, pushed from its end\n"
+    "  truss  Kanno, example 3.1: double-layer grid of bars, loaded, then unloaded\n"
+    "  wall   after Acary (2017): 12 elastic blocks in running bond, pressed and "
+    "sheared;\n"
+    "         implicit dynamics, backward Euler, 10 + 65 steps of 10 ms\n"
+    "Units: bar and truss N, mm, MPa; wall SI. x to the right, the last axis up; normal\n"
+    "reactions >= 0 push up.";
+
+/* ---- Writing --------------------------------------------------------------------------
+ */
+
+static cli_exit end_write(rb_io_writer *w, rb_status s)
+{
+    rb_message why = {""};
+    if (s != RB_OK)
+        rb_fail(&why, s, "%s", s == RB_EWRITE ? strerror(errno) : rb_status_text(s));
+    else if ((s = rb_io_writer_commit(w, &why)) == RB_OK)
+        return CLI_OK;
+    rb_io_writer_abandon(w);
+    return cli_fail(cli_exit_of(s), "%s", why.text);
+}
+
+static json_t *inputs_of(const example_options *o, const char *name)
+{
+    json_t *inputs = json_object();
+    json_object_set_new(inputs, "example", json_string(name));
+    json_object_set_new(inputs, "solver", json_string(o->solver));
+    json_object_set_new(inputs, "tol", rb_report_json_number(o->tol));
+    if (strcmp(name, "truss") == 0) {
+        json_object_set_new(inputs, "layout", json_string(layouts[o->layout].name));
+        json_object_set_new(inputs, "nodes", json_integer(o->nodes));
+    } else if (strcmp(name, "wall") == 0) {
+        json_object_set_new(inputs, "mesh", json_string(meshes[o->mesh].name));
+        json_object_set_new(inputs, "rigid", json_boolean(o->rigid));
+    }
+    return inputs;
+}
+
+static rb_status write_json(FILE *out, const example_options *o, const char *name,
+                            json_t *steps)
+{
+    json_t *root = rb_report_json_start(cli_command_line());
+    json_object_set_new(root, "inputs", inputs_of(o, name));
+    json_object_set_new(root, "steps", steps);
+    const rb_status s = rb_report_json_write(out, root);
+    json_decref(root);
+    return s;
+}
+
+static void write_head(FILE *out, const char *columns)
+{
+    fprintf(out, "# rollbem %s\n# %s\n# %s\n", RB_VERSION, cli_command_line(), columns);
+}
+
+static rb_status written(FILE *out)
+{
+    return ferror(out) ? RB_EWRITE : RB_OK;
+}
+
+/* ---- Bar and truss --------------------------------------------------------------------
+ */
+
+typedef struct {
+    const char *name, *columns;
+    void (*row)(FILE *out, const rb_report_fem_sums *sums);
+    json_t *(*json)(const rb_fem_model *model, const rb_fem_history *history);
+    rb_status (*picture)(FILE *out, rb_report_picture_kind kind,
+                         const rb_fem_model *model, const rb_fem_history *history,
+                         rb_message *why);
+} example;
+
+static void bar_row(FILE *out, const rb_report_fem_sums *sums)
+{
+    fprintf(out, "%.17g\t%.17g\t%.17g\t%.17g\t", sums->corner[0], sums->corner[1],
+            sums->normal, sums->tangential[0]);
+}
+
+static void truss_row(FILE *out, const rb_report_fem_sums *sums)
+{
+    fprintf(out, "%.17g\t%.17g\t", sums->increment, sums->normal);
+}
+
+static const example bar = {
+    "bar",
+    "step stick slip separated corner_ux_mm corner_uy_mm normal_sum_N "
+    "tangential_sum_N iterations residual",
+    bar_row, rb_report_json_bar, rb_report_picture_bar};
+static const example truss = {"truss",
+                              "step stick slip separated max_increment_mm normal_sum_N "
+                              "iterations residual",
+                              truss_row, rb_report_json_truss, rb_report_picture_truss};
+
+static rb_status write_table(FILE *out, const example *e, const rb_fem_model *model,
+                             const rb_fem_history *history)
+{
+    write_head(out, e->columns);
+    for (int k = 0; k < history->steps; k++) {
+        const rb_fem_step *s = &history->step[k];
+        const rb_report_fem_sums sums = rb_report_fem_sum(model, s);
+        fprintf(out, "%d\t%d\t%d\t%d\t", k + 1, s->stick, s->slip, s->separated);
+        e->row(out, &sums);
+        fprintf(out, "%d\t%.3g\n", s->iterations, s->residual);
+    }
+    return written(out);
+}
+
+static cli_exit write_history(const example_options *o, const example *e,
+                              const rb_fem_model *model, const rb_fem_history *history)
+{
+    rb_io_writer w;
+    rb_message why = {""};
+    const rb_status s = rb_io_writer_open(o->output, &w, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    return end_write(&w, o->json ? write_json(w.file, o, e->name, e->json(model, history))
+                                 : write_table(w.file, e, model, history));
+}
+
+static cli_exit draw_history(const char *path, const example *e,
+                             const rb_fem_model *model, const rb_fem_history *history)
+{
+    rb_report_picture_kind kind;
+    rb_io_writer w;
+    rb_message why = {""};
+    rb_status s = rb_report_picture_kind_of(path, &kind, &why);
+    if (s == RB_OK)
+        s = rb_io_writer_open(path, &w, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "--plot: %s", why.text);
+    s = e->picture(w.file, kind, model, history, &why);
+    if (s == RB_OK)
+        return end_write(&w, s);
+    rb_io_writer_abandon(&w);
+    return cli_fail(CLI_INTERNAL, "--plot: %s", why.text);
+}
+
+static cli_exit run_history(const example_options *o, const example *e,
+                            const rb_fem_model *model)
+{
+    rb_fem_history history;
+    rb_message why = {""};
+    const rb_status s = rb_fem_run(model, o->solver, o->tol, &history, &why);
+    cli_exit code = CLI_OK;
+    if (s >= RB_OK)
+        code = write_history(o, e, model, &history);
+    if (s >= RB_OK && code == CLI_OK && o->plot)
+        code = draw_history(o->plot, e, model, &history);
+    if (s != RB_OK && code == CLI_OK)
+        code = cli_fail(cli_exit_of(s), "%s", why.text);
+    rb_fem_history_free(&history);
+    return code;
+}
+
+static cli_exit run_bar(const example_options *o)
+{
+    rb_fem_model model;
+    rb_message why = {""};
+    const rb_status s = rb_fem_model_bar(160, 16, &model, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    const cli_exit code = run_history(o, &bar, &model);
+    rb_fem_model_free(&model);
+    return code;
+}
+
+static cli_exit run_truss(const example_options *o)
+{
+    rb_fem_model model;
+    rb_message why = {""};
+    const rb_status s =
+        rb_fem_model_truss((rb_fem_layout)o->layout, o->nodes, &model, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    const cli_exit code = run_history(o, &truss, &model);
+    rb_fem_model_free(&model);
+    return code;
+}
+
+/* ---- Wall
+ * ------------------------------------------------------------------------------ */
+
+typedef struct {
+    rb_fem_wall *wall;
+    rb_fem_wall_step *step;
+    int steps;
+} wall_run;
+
+static rb_status write_wall_table(FILE *out, const wall_run *run)
+{
+    write_head(out,
+               "time_s compression_N shear_N drift_m stick slip separated iterations "
+               "residual seconds");
+    for (int k = 0; k < run->steps; k++) {
+        const rb_fem_wall_step *s = &run->step[k];
+        fprintf(out, "%g\t%g\t%.9g\t%g\t%d\t%d\t%d\t%d\t%.3g\t%.3g\n", s->time,
+                s->compression, s->shear, s->drift, s->stick, s->slip, s->separated,
+                s->iterations, s->residual, s->seconds);
+    }
+    return written(out);
+}
+
+static cli_exit print_wall(const example_options *o, const wall_run *run)
+{
+    rb_io_writer w;
+    rb_message why = {""};
+    const rb_status s = rb_io_writer_open(NULL, &w, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    return end_write(&w, o->json ? write_json(w.file, o, "wall",
+                                              rb_report_json_wall(run->steps, run->step))
+                                 : write_wall_table(w.file, run));
+}
+
+static cli_exit draw_wall(const char *path, const wall_run *run)
+{
+    rb_report_picture_kind kind;
+    rb_io_writer w;
+    rb_message why = {""};
+    rb_status s = rb_report_picture_kind_of(path, &kind, &why);
+    if (s == RB_OK)
+        s = rb_io_writer_open(path, &w, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "--plot: %s", why.text);
+    s = rb_report_picture_wall(w.file, kind, run->wall, run->steps, run->step, &why);
+    if (s == RB_OK)
+        return end_write(&w, s);
+    rb_io_writer_abandon(&w);
+    return cli_fail(CLI_INTERNAL, "--plot: %s", why.text);
+}
+
+static cli_exit write_problem(const wall_run *run, const char *folder, int rank, int step)
+{
+    char path[1024], title[200];
+    rb_friction_problem problem;
+    rb_message why = {""};
+    if (snprintf(path, sizeof path, "%s/wall-%02d.hdf5", folder, rank) >=
+        (int)sizeof path)
+        return cli_fail(CLI_USAGE, "--output: '%s' is too long", folder);
+    snprintf(title, sizeof title, "rollbem wall, step %d, solved in %d iterations",
+             step + 1, run->step[step].iterations);
+    rb_status s = rb_fem_wall_problem(run->wall, step, &problem);
+    if (s == RB_OK)
+        s = rb_friction_write(path, &problem, NULL, NULL, NULL, title, &why);
+    rb_friction_problem_free(&problem);
+    return s == RB_OK ? CLI_OK
+                      : cli_fail(cli_exit_of(s), "%s",
+                                 why.text[0] ? why.text : rb_status_text(s));
+}
+
+static cli_exit write_problems(const example_options *o, const wall_run *run)
+{
+    int chosen[75];
+    const int count = o->problems < run->steps ? o->problems : run->steps;
+    if (mkdir(o->output, 0777) != 0 && errno != EEXIST)
+        return cli_fail(CLI_CANTWRITE, "%s: %s", o->output, strerror(errno));
+    const rb_status s = rb_fem_wall_select(run->wall, count, chosen);
+    cli_exit code =
+        s == RB_OK ? CLI_OK : cli_fail(cli_exit_of(s), "%s", rb_status_text(s));
+    for (int k = 0; code == CLI_OK && k < count; k++)
+        code = write_problem(run, o->output, k + 1, chosen[k]);
+    return code;
+}
+
+static cli_exit advance_all(const example_options *o, wall_run *run)
+{
+    const int planned = rb_fem_wall_steps(run->wall);
+    rb_message why = {""};
+    rb_status s = RB_OK;
+    while (s == RB_OK && run->steps < planned) {
+        rb_fem_wall_step *step = &run->step[run->steps];
+        s = rb_fem_wall_advance(run->wall, o->solver, o->tol, step, &why);
+        if (s < RB_OK)
+            break;
+        run->steps++;
+        if (!o->quiet)
+            fprintf(stderr, "step %d of %d: shear %.0f N, %d iterations, %.2f s\n",
+                    run->steps, planned, step->shear, step->iterations, step->seconds);
+    }
+    return s == RB_OK ? CLI_OK : cli_fail(cli_exit_of(s), "%s", why.text);
+}
+
+static rb_fem_wall_options wall_options(const example_options *o)
+{
+    static const int fine[2][3] = {{4, 3, 3}, {8, 6, 3}},
+                     coarse[2][3] = {{3, 2, 3}, {4, 3, 3}};
+    rb_fem_wall_options w = rb_fem_wall_defaults();
+    if (o->mesh != MESH_FINE) {
+        memcpy(w.fine, fine[o->mesh], sizeof w.fine);
+        memcpy(w.coarse, coarse[o->mesh], sizeof w.coarse);
+    }
+    w.rigid = o->rigid;
+    return w;
+}
+
+static cli_exit finish_wall(const example_options *o, const wall_run *run)
+{
+    cli_exit code = run->steps > 0 ? print_wall(o, run) : CLI_OK;
+    if (code == CLI_OK && run->steps > 0 && o->plot)
+        code = draw_wall(o->plot, run);
+    if (code == CLI_OK && run->steps > 0 && o->output)
+        code = write_problems(o, run);
+    return code;
+}
+
+static cli_exit run_wall(const example_options *o)
+{
+    const rb_fem_wall_options w = wall_options(o);
+    wall_run run = {NULL, NULL, 0};
+    rb_message why = {""};
+    const rb_status s = rb_fem_wall_create(&w, &run.wall, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text[0] ? why.text : rb_status_text(s));
+    if (!o->quiet)
+        fprintf(stderr, "wall: %d contact points, %d degrees of freedom\n",
+                rb_fem_wall_contacts(run.wall), rb_fem_wall_dofs(run.wall));
+    run.step = calloc((size_t)rb_fem_wall_steps(run.wall), sizeof *run.step);
+    cli_exit code =
+        run.step ? advance_all(o, &run) : cli_fail(CLI_INTERNAL, "out of memory");
+    if (run.step) {
+        const cli_exit finished = finish_wall(o, &run);
+        code = code == CLI_OK ? finished : code;
+    }
+    free(run.step);
+    rb_fem_wall_free(run.wall);
+    return code;
+}
+
+/* ---- Command
+ * --------------------------------------------------------------------------- */
+
+static cli_exit check_solver(const char *name)
+{
+    int count;
+    const rb_friction_solver *solver = rb_friction_solvers(&count);
+    cli_guess guess = {.word = name};
+    for (int k = 0; k < count; k++) {
+        if (strcmp(solver[k].name, name) == 0)
+            return CLI_CONTINUE;
+        cli_guess_try(&guess, solver[k].name);
+    }
+    return cli_fail(CLI_USAGE, "--solver: unknown solver '%s'%s", name,
+                    cli_guess_text(&guess, ""));
+}
+
+static cli_exit check(const example_options *o, const cli_args *args)
+{
+    rb_report_picture_kind kind;
+    rb_message why;
+    if (args->operands != 1)
+        return cli_fail(CLI_USAGE, "example: expected one of bar, truss, wall");
+    if (o->plot && rb_report_picture_kind_of(o->plot, &kind, &why) != RB_OK)
+        return cli_fail(CLI_USAGE, "--plot: %s", why.text);
+    return o->solver ? check_solver(o->solver) : CLI_CONTINUE;
+}
+
+static cli_exit run_example(example_options *o, const char *name)
+{
+    static const struct {
+        const char *name, *solver; /* the quickest */
+        cli_exit (*run)(const example_options *o);
+    } examples[] = {{"bar", "nsn-nm", run_bar},
+                    {"truss", "nsn-ac", run_truss},
+                    {"wall", "nsn-ac", run_wall}};
+    cli_guess guess = {.word = name};
+    for (int k = 0; k < 3; k++) {
+        if (strcmp(examples[k].name, name) == 0) {
+            o->solver = o->solver ? o->solver : examples[k].solver;
+            return examples[k].run(o);
+        }
+        cli_guess_try(&guess, examples[k].name);
+    }
+    return cli_fail(CLI_USAGE, "example: expected bar, truss or wall, got '%s'%s", name,
+                    cli_guess_text(&guess, ""));
+}
+
+int cli_example(int argc, char **argv)
+{
+    example_options o = {
+        .solver = "nsn-ac", .tol = 1e-10, .nodes = 12, .mesh = MESH_FINE, .problems = 50};
+    cli_args args = {0};
+    const cli_spec spec = {"rollbem example [OPTION...] bar|truss|wall",
+                           about,
+                           NULL,
+                           {{options, OPTIONS, &o, NULL}},
+                           1};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE)
+        code = check(&o, &args);
+    if (code == CLI_CONTINUE)
+        code = run_example(&o, args.operand[0]);
+    cli_args_free(&args);
+    return code;
+}

@@ -1,0 +1,162 @@
+/* The wall's picture: its deformed front on the left, forces and contacts over time on
+ * the right. */
+#include "report/fem_internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct {
+    const rb_fem_mesh *mesh;
+    double *u; /* 3 x nodes; owned */
+    double magnify, width, height;
+} front;
+
+static rb_status open_front(const rb_fem_wall *wall, front *f)
+{
+    const rb_fem_mesh *mesh = rb_fem_wall_mesh(wall);
+    double most = 0.0;
+    *f = (front){mesh, rb_alloc(3, (size_t)mesh->nodes), 1.0, 0.0, 0.0};
+    if (!f->u || rb_fem_wall_displacements(wall, f->u) != RB_OK)
+        return RB_ENOMEM;
+    for (int a = 0; a < mesh->nodes; a++) {
+        most = fmax(most, hypot(f->u[3 * a], f->u[3 * a + 2]));
+        f->width = fmax(f->width, mesh->x[3 * a]);
+        f->height = fmax(f->height, mesh->x[3 * a + 2]);
+    }
+    if (most > 0.0)
+        f->magnify = rb_report_fem_round(0.12 * f->height / most);
+    return RB_OK;
+}
+
+static void write_node(FILE *out, const front *f, int node)
+{
+    fprintf(out, "%.6g %.6g\n", f->mesh->x[3 * node] + f->magnify * f->u[3 * node],
+            f->mesh->x[3 * node + 2] + f->magnify * f->u[3 * node + 2]);
+}
+
+/* Corners of element e on the plane y = 0; 0 when it lies behind. */
+static int front_face(const front *f, int e, int corner[4])
+{
+    static const int which[4] = {0, 1, 5, 4};
+    for (int k = 0; k < 4; k++) {
+        corner[k] = f->mesh->node[8 * e + which[k]];
+        if (f->mesh->x[3 * corner[k] + 1] != 0.0)
+            return 0;
+    }
+    return 1;
+}
+
+/* 1: another front face has the same edge, run through the other way. */
+static int is_inner(const front *f, int a, int b)
+{
+    int corner[4];
+    for (int e = 0; e < f->mesh->elements; e++) {
+        if (!front_face(f, e, corner))
+            continue;
+        for (int k = 0; k < 4; k++)
+            if (corner[k] == b && corner[(k + 1) % 4] == a)
+                return 1;
+    }
+    return 0;
+}
+
+static void write_front(FILE *out, const front *f)
+{
+    int corner[4];
+    fputs("$mesh << EOD\n", out);
+    for (int e = 0; e < f->mesh->elements; e++)
+        if (front_face(f, e, corner)) {
+            for (int k = 0; k < 5; k++)
+                write_node(out, f, corner[k % 4]);
+            fputs("\n", out);
+        }
+    fputs("EOD\n$edge << EOD\n", out);
+    for (int e = 0; e < f->mesh->elements; e++)
+        for (int k = 0; k < 4 && front_face(f, e, corner); k++)
+            if (!is_inner(f, corner[k], corner[(k + 1) % 4])) {
+                write_node(out, f, corner[k]);
+                write_node(out, f, corner[(k + 1) % 4]);
+                fputs("\n", out);
+            }
+    fputs("EOD\n", out);
+}
+
+static void write_steps(FILE *out, int steps, const rb_fem_wall_step *step)
+{
+    fputs("$step << EOD\n", out);
+    for (int k = 0; k < steps; k++)
+        fprintf(out, "%g %.6g %.6g %d %d %d %d\n", step[k].time,
+                1e-3 * step[k].compression, 1e-3 * step[k].shear, step[k].stick,
+                step[k].slip, step[k].separated, step[k].iterations);
+    fputs("EOD\n", out);
+}
+
+static void write_wall(FILE *out, const front *f, const rb_fem_wall_step *last)
+{
+    fprintf(
+        out,
+        "set multiplot\nset label 1 '{/:Bold Wall of 12 elastic blocks, pressed with %g "
+        "kN "
+        "and sheared}' at screen 0.5, 0.955 center\n"
+        "set label 2 'displacements × %g, drift of the upper support %.3g mm' at screen "
+        "0.31, 0.885 center textcolor rgb '#444444'\n",
+        1e-3 * last->compression, f->magnify, 1e3 * last->drift);
+    fprintf(
+        out,
+        "set size ratio -1\nset lmargin at screen 0.08\nset rmargin at screen 0.54\n"
+        "set tmargin at screen 0.85\nset bmargin at screen 0.14\nset xrange [%g:%g]\n"
+        "set yrange [%g:%g]\nset xlabel 'x [m]' offset 0,0.3\nset ylabel 'z [m]' offset "
+        "1.5,0\nset "
+        "xtics 0, 0.1\n"
+        "set ytics 0, 0.1\n"
+        "set object rectangle from %g, %g to %g, 0 fillcolor rgb '#bdbdbd' fillstyle "
+        "solid "
+        "noborder behind\n"
+        "plot $mesh using 1:2 with lines linecolor rgb '#d9a679' linewidth 0.4 notitle, "
+        "$edge using 1:2 with lines linecolor rgb '#7b3f00' linewidth 1.3 notitle\n",
+        -0.1 * f->width, 1.35 * f->width, -0.05 * f->height, 1.08 * f->height,
+        -0.1 * f->width, -0.05 * f->height, 1.35 * f->width);
+}
+
+static void write_curves(FILE *out)
+{
+    fputs(
+        "unset label\nunset object\nset size noratio\nset lmargin at screen 0.63\n"
+        "set rmargin at screen 0.965\nset tmargin at screen 0.87\nset bmargin at screen "
+        "0.53\nset xrange [0:*]\nset yrange [0:*]\nset xtics autofreq\nset ytics "
+        "autofreq\n"
+        "unset xlabel\nset format x ''\nset ylabel 'force [kN]'\n"
+        "set key bottom right Left reverse samplen 2\n"
+        "plot $step using 1:2 with lines linecolor rgb '#1f4e79' title 'compression', "
+        "$step using 1:3 with lines linecolor rgb '#c0392b' title 'shear'\n"
+        "set tmargin at screen 0.485\nset bmargin at screen 0.14\nset format x '%g'\n"
+        "set xlabel 'time [s]' offset 0,0.3\nset ylabel 'contact points'\nset key center "
+        "left Left reverse\n"
+        "plot $step using 1:4 with lines linecolor rgb '#1f4e79' title 'stick', "
+        "$step using 1:5 with lines linecolor rgb '#c0392b' title 'slip', "
+        "$step using 1:6 with lines linecolor rgb '#777777' title 'separated'\n"
+        "unset multiplot\n",
+        out);
+}
+
+rb_status rb_report_picture_wall(FILE *out, rb_report_picture_kind kind,
+                                 const rb_fem_wall *wall, int steps,
+                                 const rb_fem_wall_step *step, rb_message *why)
+{
+    front f;
+    if (steps < 1)
+        return rb_fail(why, RB_EINVAL, "nothing to draw");
+    if (open_front(wall, &f) != RB_OK) {
+        free(f.u);
+        return rb_fail(why, RB_ENOMEM, "out of memory");
+    }
+    FILE *script = rb_report_fem_script(kind);
+    if (script) {
+        write_front(script, &f);
+        write_steps(script, steps, step);
+        write_wall(script, &f, &step[steps - 1]);
+        write_curves(script);
+    }
+    free(f.u);
+    return rb_report_fem_draw(script, out, why);
+}
