@@ -174,6 +174,7 @@ typedef struct {
     measure *of;
     double scale; /* half-width: unit of the search */
     double from, to, depth;
+    rb_status status; /* of the evaluations so far */
 } search;
 
 static rb_status stress_below(const search *s, double x, double depth,
@@ -186,15 +187,18 @@ static rb_status stress_below(const search *s, double x, double depth,
 /* Smaller is better; outside the box the nearest point of it counts. */
 static double search_value(const gsl_vector *place, void *context)
 {
-    const search *s = context;
+    search *s = context;
     const double x = gsl_vector_get(place, 0) * s->scale;
     const double depth = gsl_vector_get(place, 1) * s->scale;
     const double inside_x = fmin(fmax(x, s->from), s->to);
     const double inside_depth = fmin(fmax(depth, 0.0), s->depth);
     rb_rolling_stress at;
 
-    if (stress_below(s, inside_x, inside_depth, &at) != RB_OK)
-        return GSL_POSINF;
+    const rb_status status = stress_below(s, inside_x, inside_depth, &at);
+    if (status != RB_OK) {
+        s->status = status;
+        return GSL_DBL_MAX;
+    }
     const double away = hypot(x - inside_x, depth - inside_depth) / s->scale;
     return -s->of(&at) * (1.0 - away);
 }
@@ -220,13 +224,16 @@ static rb_status refine(search *s, rb_rolling_extremum *best)
         const double depth =
             fmin(fmax(gsl_vector_get(m->x, 1) * s->scale, 0.0), s->depth);
         rb_rolling_stress at;
-        if (stress_below(s, x, depth, &at) == RB_OK && s->of(&at) > best->value)
+        status = s->status == RB_OK ? stress_below(s, x, depth, &at) : s->status;
+        if (status == RB_OK && s->of(&at) > best->value)
             *best = (rb_rolling_extremum){s->of(&at), at.x, at.y};
     }
     if (m)
         gsl_multimin_fminimizer_free(m);
-    gsl_vector_free(start);
-    gsl_vector_free(step);
+    if (start)
+        gsl_vector_free(start);
+    if (step)
+        gsl_vector_free(step);
     return status;
 }
 

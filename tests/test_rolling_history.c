@@ -1,0 +1,297 @@
+/* Sequences: Cattaneo to Carter, loading histories, bad programs, interruption. */
+#include "check.h"
+#include "rolling/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+/* Similar steel bodies on the half-plane (theory.md 6): CONTACT's case. */
+static rb_rolling_case steel_wheel(int across)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.poisson = 0.28;
+    rc.a.young = 2.0 * 82000.0 * 1.28;
+    rc.a.radius = 500.0;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.load = 178.896;
+    rc.contact_elements = across + 10;
+    rc.zone = rb_rolling_hertz_half_width(&rc, rc.load) * (across + 10) / across;
+    return rc;
+}
+
+static void run(const rb_rolling_case *rc, const rb_rolling_program *program,
+                rb_rolling_model *model, rb_rolling_history *history)
+{
+    rb_message why = {""};
+    if (rb_rolling_history_run(rc, program, NULL, NULL, model, history, &why) != RB_OK)
+        fail_msg("%s", why.text);
+}
+
+static void release(rb_rolling_model *model, rb_rolling_history *history)
+{
+    rb_rolling_model_free(model);
+    rb_rolling_history_free(history);
+}
+
+/* CONTACT, n = 200, c = h (theory.md 6): distance/a, 1e4 |xi|. */
+static const double contact_says[][2] = {
+    {0.04, 1.214}, {0.1, 1.243}, {0.2, 1.298}, {0.4, 1.432}, {0.6, 1.619},
+    {0.8, 2.027},  {1.0, 2.818}, {1.4, 2.393}, {2.0, 2.371}, {3.0, 2.389}};
+
+static void from_cattaneo_to_carter(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steel_wheel(200);
+    rb_rolling_model model;
+    rb_rolling_history h;
+    rc.formulation = RB_TRANSIENT;
+    rc.force_ratio = -0.64;
+    rc.distance = 3.0;
+    run(&rc, NULL, &model, &h);
+    CHECK_REL(h.step / model.half_width, 0.01, 1e-9, "c = h");
+    for (size_t j = 0; j < sizeof contact_says / sizeof *contact_says; j++) {
+        int k = 0;
+        while (k < h.n - 1 && h.distance[k] < contact_says[j][0] - 1e-9)
+            k++;
+        CHECK_REL(1e4 * h.creepage[k], contact_says[j][1], 1e-2, "distance %g",
+                  contact_says[j][0]);
+    }
+    for (int k = 0; k < h.n; k++) {
+        CHECK_ABS(h.force_ratio[k], -0.64, 1e-10, "step %d", k);
+        CHECK_MAX(h.residual[k], 1e-10, "step %d", k);
+    }
+    release(&model, &h);
+}
+
+/* Steps of other lengths than the element: the displacement is evaluated where the
+ * particle was. */
+static void other_steps_tell_the_same_story(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steel_wheel(100);
+    rb_rolling_model model[2];
+    rb_rolling_history h[2];
+    rc.formulation = RB_TRANSIENT;
+    rc.force_ratio = -0.64;
+    rc.distance = 0.4;
+    run(&rc, NULL, &model[0], &h[0]);
+    rc.steps = 53;
+    run(&rc, NULL, &model[1], &h[1]);
+    assert_int_equal(h[1].n, 54);
+    CHECK_REL(h[1].creepage[53], h[0].creepage[h[0].n - 1], 1e-2, "c other than h");
+    release(&model[0], &h[0]);
+    release(&model[1], &h[1]);
+}
+
+/* c = h: the limit is the steady state with the upstream difference, not merely near it.
+ */
+static void the_limit_is_the_steady_state(void **state)
+{
+    (void)state;
+    for (int dissimilar = 0; dissimilar < 2; dissimilar++) {
+        rb_rolling_case rc = steel_wheel(40);
+        rb_rolling_model model;
+        rb_rolling_history h;
+        rb_rolling_solution steady;
+        rc.elastic_b = !dissimilar;
+        rc.formulation = RB_TRANSIENT;
+        rc.creep = 2e-4;
+        rc.distance = 40.0;
+        run(&rc, NULL, &model, &h);
+        rc.formulation = RB_STEADY;
+        CHECK_STATUS(rb_rolling_solve(&rc, &steady, NULL), RB_OK);
+        for (int i = 0; i < steady.n; i++)
+            CHECK_ABS(model.state.q[i], steady.q[i], 1e-3 * rc.mu * steady.max_pressure,
+                      "q, element %d", i);
+        CHECK_ABS(h.force_ratio[h.n - 1], steady.force_ratio, 1e-4, "Q");
+        assert_true(h.steady_from > 0 && h.steady_from < h.n);
+        rb_rolling_solution_free(&steady);
+        release(&model, &h);
+    }
+}
+
+/* Mindlin-Deresiewicz: loaded to Q1 and back to Q2, the friction is the sum of Cattaneo's
+ * for Q1 and twice the negative of that for (Q1 - Q2)/2. */
+static void unloading_follows_mindlin_and_deresiewicz(void **state)
+{
+    (void)state;
+    const double force[] = {0.0, 0.3, 0.6, 0.4, 0.2, 0.0, -0.1};
+    rb_rolling_case rc = steel_wheel(200);
+    const rb_rolling_program program = {.n = 7, .force_ratio = force};
+    rb_rolling_model model;
+    rb_rolling_history h;
+    run(&rc, &program, &model, &h);
+    assert_int_equal(h.n, 7);
+    const double a = model.half_width, bound = rc.mu * 2.0 * rc.load / (M_PI * a);
+    const double q1 = 0.6, q2 = -0.1;
+    const double c1 = sqrt(1.0 - q1), c2 = sqrt(1.0 - 0.5 * (q1 - q2));
+    double square = 0.0;
+    for (int i = 0; i < model.mesh.n; i++) {
+        const double x = model.bodies.f.x[i] / a;
+        const double outer = sqrt(fmax(0.0, 1.0 - x * x));
+        const double first = outer - sqrt(fmax(0.0, c1 * c1 - x * x));
+        const double back = outer - sqrt(fmax(0.0, c2 * c2 - x * x));
+        const double error = model.state.q[i] / bound - (first - 2.0 * back);
+        square += error * error * model.bodies.f.h[i] / (2.0 * a);
+    }
+    CHECK_MAX(sqrt(square), 4e-3, "rms of q");
+    for (int k = 0; k < h.n; k++)
+        CHECK_ABS(h.force_ratio[k], force[k], 1e-10, "row %d", k + 1);
+    release(&model, &h);
+}
+
+/* The shift that a given force causes, given back as a shift, causes that force. */
+static void shift_and_force_are_two_sides_of_one_history(void **state)
+{
+    (void)state;
+    const double force[] = {0.2, 0.5, 0.3}, load[] = {150.0, 178.0, 160.0};
+    rb_rolling_case rc = steel_wheel(60);
+    rb_rolling_program program = {.n = 3, .force_ratio = force, .load = load};
+    rb_rolling_model model;
+    rb_rolling_history by_force, by_shift;
+    rc.load = NAN;
+    rc.approach = NAN;
+    rc.zone = 0.0;
+    run(&rc, &program, &model, &by_force);
+    rb_rolling_model_free(&model);
+    program.force_ratio = NULL;
+    program.shift = by_force.shift;
+    run(&rc, &program, &model, &by_shift);
+    for (int k = 0; k < 3; k++) {
+        CHECK_ABS(by_shift.force_ratio[k], force[k], 1e-9, "row %d", k + 1);
+        CHECK_REL(by_shift.normal_load[k], load[k], 1e-10, "row %d", k + 1);
+    }
+    rb_rolling_history_free(&by_force);
+    release(&model, &by_shift);
+}
+
+/* A load that grows on the way: at every step the given one. */
+static void loads_vary_along_the_way(void **state)
+{
+    (void)state;
+    const double distance[] = {0.0, 1.0, 2.0}, load[] = {100.0, 178.0, 120.0},
+                 creep[] = {1e-4, 2e-4, 1e-4};
+    rb_rolling_case rc = steel_wheel(40);
+    const rb_rolling_program program = {
+        .n = 3, .distance = distance, .load = load, .creep = creep};
+    rb_rolling_model model;
+    rb_rolling_history h;
+    rc.formulation = RB_TRANSIENT;
+    rc.load = NAN;
+    rc.zone = 0.0;
+    run(&rc, &program, &model, &h);
+    for (int k = 0; k < h.n; k++) {
+        const double d = fmin(h.distance[k], 2.0);
+        const double want = d <= 1.0 ? 100.0 + 78.0 * d : 178.0 - 58.0 * (d - 1.0);
+        CHECK_REL(h.normal_load[k], want, 2e-2, "distance %g", d);
+    }
+    release(&model, &h);
+}
+
+typedef struct {
+    const char *word;
+    rb_rolling_program program;
+    rb_rolling_formulation formulation;
+} bad_program;
+
+static void bad_programs_name_the_row(void **state)
+{
+    (void)state;
+    static const double back[] = {0.0, 1.0, 0.5}, twice[] = {0.0, 1.0, 1.0},
+                        hole[] = {1.0, NAN, 1.0}, negative[] = {1.0, 1.0, -1.0},
+                        way[] = {0.0, 1.0, 2.0};
+    const bad_program bad[] = {
+        {"row 3: distance", {.n = 3, .distance = back}, RB_TRANSIENT},
+        {"row 3: distance", {.n = 3, .distance = twice}, RB_TRANSIENT},
+        {"row 2: load", {.n = 3, .load = hole}, RB_STATIC},
+        {"row 3: load", {.n = 3, .load = negative}, RB_STATIC},
+        {"row 1: shift", {.n = 3, .distance = way, .shift = way}, RB_TRANSIENT},
+        {"row 3: force ratio", {.n = 3, .force_ratio = way}, RB_STATIC}, /* 2 mu P */
+        {"column distance", {.n = 3, .load = way + 1}, RB_TRANSIENT},
+        {"1 row", {.n = 0, .load = way}, RB_STATIC},
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        rb_rolling_case rc = steel_wheel(20);
+        rb_rolling_model model;
+        rb_rolling_history h;
+        rb_message why = {""};
+        rc.formulation = bad[k].formulation;
+        CHECK_STATUS(
+            rb_rolling_history_run(&rc, &bad[k].program, NULL, NULL, &model, &h, &why),
+            RB_EINVAL);
+        if (!strstr(why.text, bad[k].word))
+            fail_msg("'%s' does not say '%s'", why.text, bad[k].word);
+        release(&model, &h);
+    }
+}
+
+static int stop_at_five(const rb_rolling_model *model, const rb_rolling_history *history,
+                        int step, int steps, void *context)
+{
+    (void)model;
+    (void)steps;
+    *(int *)context = history->n;
+    return step == 4;
+}
+
+static void an_interrupted_run_keeps_its_steps(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steel_wheel(20);
+    rb_rolling_model model;
+    rb_rolling_history h;
+    rb_message why = {""};
+    int seen = 0;
+    rc.formulation = RB_TRANSIENT;
+    rc.creep = 1e-4;
+    rc.distance = 2.0;
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, stop_at_five, &seen, &model, &h, &why),
+                 RB_INTERRUPTED);
+    assert_int_equal(seen, 5);
+    assert_int_equal(h.n, 5);
+    assert_true(h.normal_load[4] > 0.0);
+    release(&model, &h);
+}
+
+static void every_failed_allocation_is_reported(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steel_wheel(12);
+    int refused = 1;
+    rc.formulation = RB_TRANSIENT;
+    rc.creep = 1e-4;
+    rc.distance = 0.5;
+    rc.steps = 2;
+    for (int count = 0; refused; count++) {
+        rb_rolling_model model;
+        rb_rolling_history h;
+        alloc_fail_after(count);
+        const rb_status s =
+            rb_rolling_history_run(&rc, NULL, NULL, NULL, &model, &h, NULL);
+        refused = alloc_failed();
+        alloc_succeed();
+        if (refused && s == RB_OK)
+            fail_msg("allocation %d failed unnoticed", count);
+        release(&model, &h);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(from_cattaneo_to_carter),
+        cmocka_unit_test(other_steps_tell_the_same_story),
+        cmocka_unit_test(the_limit_is_the_steady_state),
+        cmocka_unit_test(unloading_follows_mindlin_and_deresiewicz),
+        cmocka_unit_test(shift_and_force_are_two_sides_of_one_history),
+        cmocka_unit_test(loads_vary_along_the_way),
+        cmocka_unit_test(bad_programs_name_the_row),
+        cmocka_unit_test(an_interrupted_run_keeps_its_steps),
+        cmocka_unit_test(every_failed_allocation_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

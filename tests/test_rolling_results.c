@@ -1,0 +1,323 @@
+/* What follows from a solved model: creep curves, stress, dissipation, error bars. */
+#include "check.h"
+#include "rolling/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+static rb_rolling_case wheel_on_plane(double poisson)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.poisson = poisson;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.half_width = 1e-4 * rc.a.radius;
+    rc.mesh = RB_MESH_FITTED;
+    return rc;
+}
+
+static double carter(double s)
+{
+    return s >= 1.0 ? 1.0 : s * (2.0 - s);
+}
+
+static void a_creep_curve_is_carters(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel_on_plane(0.5);
+    rb_rolling_curve c;
+    rc.contact_elements = 100;
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, -1.2, 1.2, 49, &c, NULL), RB_OK);
+    assert_int_equal(c.n, 49);
+    for (int k = 0; k < c.n; k++) {
+        const double s = c.creep_ratio[k];
+        CHECK_ABS(s, -1.2 + 0.05 * k, 1e-12, "point %d", k);
+        CHECK_ABS(c.force_ratio[k], -(s < 0 ? -1 : 1) * carter(fabs(s)), 1.5e-4, "s = %g",
+                  s);
+        CHECK_ABS(c.stick_ratio[k], fmax(0.0, 1.0 - fabs(s)), 0.15, "s = %g", s);
+        CHECK_MAX(c.residual[k], 1e-10, "s = %g", s);
+    }
+    CHECK_ABS(c.free_creepage, 0.0, 1e-15, "free rolling");
+    rb_rolling_curve_free(&c);
+}
+
+/* Each point of a curve is what the same case says alone, dissimilar bodies included. */
+static void a_curve_agrees_with_single_solves(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel_on_plane(0.3);
+    rb_rolling_curve c;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.zone = 1.6 * rc.half_width;
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, 1, -2e-4, 2e-4, 9, &c, NULL), RB_OK);
+    for (int k = 0; k < c.n; k++) {
+        rb_rolling_solution s;
+        rc.formulation = RB_STEADY;
+        rc.creep = c.creepage[k];
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        CHECK_ABS(c.force_ratio[k], s.force_ratio, 1e-10, "xi = %g", c.creepage[k]);
+        CHECK_ABS(c.dissipation[k], s.dissipation, 1e-10 * s.normal_load, "xi = %g",
+                  c.creepage[k]);
+        rb_rolling_solution_free(&s);
+    }
+    rb_rolling_curve_free(&c);
+}
+
+static void bad_curves_are_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel_on_plane(0.5);
+    rb_rolling_curve c;
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.0, NAN, 5, &c, NULL), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.0, 1.0, 0, &c, NULL), RB_EINVAL);
+    rc.mu = 0.0;
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.0, 1.0, 5, &c, NULL), RB_EINVAL);
+}
+
+/* ---- Stress
+ * ----------------------------------------------------------------------------- */
+
+static void check_extremum(const char *name, rb_rolling_extremum got, double value,
+                           double x, double y, double p0, double a)
+{
+    CHECK_REL(got.value, value * p0, 3e-3, "%s, value", name);
+    CHECK_ABS(fabs(got.x), x * a, 1e-2 * a, "%s, x", name);
+    CHECK_ABS(got.y, y * a, 1e-2 * a, "%s, y", name);
+}
+
+static void hertz_below_the_surface(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel_on_plane(0.3);
+    rb_rolling_model model;
+    rb_rolling_stress_maxima m;
+    rc.mu = 0.0;
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL), RB_OK);
+    const double a = rc.half_width, p0 = 2.0 * model.problem.load / (M_PI * a);
+    check_extremum("max shear", m.max_shear, 0.30028, 0.0, 0.78615, p0, a);
+    check_extremum("von Mises", m.von_mises, 0.55752, 0.0, 0.70429, p0, a);
+    check_extremum("orthogonal shear", m.orthogonal_shear, 0.25, 0.866, 0.5, p0, a);
+    rb_rolling_model_free(&model);
+}
+
+/* Full sliding, friction on A towards +x (xi < 0). */
+static void full_sliding_below_the_surface(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel_on_plane(0.3);
+    rb_rolling_model model;
+    rb_rolling_stress_maxima m;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.mu = 0.2;
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = -1.5;
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL), RB_OK);
+    const double a = rc.half_width, p0 = 2.0 * model.problem.load / (M_PI * a);
+    check_extremum("max shear", m.max_shear, 0.31899, 0.625, 0.601, p0, a);
+    assert_true(m.max_shear.x > 0.0);
+    rb_rolling_model_free(&model);
+}
+
+/* The wheel's own boundary elements see the same stress as the half-plane, up to a/R. */
+static void a_wheel_has_the_stress_of_the_half_plane(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel_on_plane(0.3);
+    rb_rolling_model model;
+    rb_rolling_stress_maxima m;
+    rc.a.support = RB_BEM_HUB;
+    rc.half_width = 1e-3 * rc.a.radius;
+    rc.mu = 0.0;
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL), RB_OK);
+    const double a = rc.half_width, p0 = 2.0 * model.problem.load / (M_PI * a);
+    check_extremum("max shear", m.max_shear, 0.30028, 0.0, 0.78615, p0, a);
+    check_extremum("von Mises", m.von_mises, 0.55752, 0.0, 0.70429, p0, a);
+    rb_rolling_model_free(&model);
+}
+
+/* On y = 0 inside the contact: syy = -p, sxy = -q (A lies above its surface). */
+static void the_surface_carries_the_tractions(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel_on_plane(0.3);
+    rb_rolling_model model;
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = 0.5;
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    for (int i = 0; i < model.mesh.n; i += 3) {
+        const double xy[] = {model.bodies.f.x[i], 0.0};
+        rb_rolling_stress s;
+        CHECK_STATUS(rb_rolling_stress_at(&model, 1, xy, &s, NULL), RB_OK);
+        CHECK_ABS(s.syy, -model.state.p[i], 1e-10 * model.problem.stress, "syy at %d", i);
+        CHECK_ABS(s.sxy, -model.state.q[i], 1e-10 * model.problem.stress, "sxy at %d", i);
+        CHECK_ABS(s.principal_1 + s.principal_2, s.sxx + s.syy,
+                  1e-10 * model.problem.stress, "trace");
+    }
+    const double above[] = {0.0, -1e-3};
+    rb_rolling_stress s;
+    CHECK_STATUS(rb_rolling_stress_at(&model, 1, above, &s, NULL), RB_EINVAL);
+    rb_rolling_model_free(&model);
+}
+
+/* ---- Dissipation (theory.md 6)
+ * ------------------------------------------------------------ */
+
+/* D = -xi Q + (1/R) int x p dx for bodies similar or not. */
+static void dissipation_is_the_work_of_the_forces(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_case rc = wheel_on_plane(k & 1 ? 0.3 : 0.5);
+        rb_rolling_solution s;
+        rc.contact_elements = 200;
+        rc.formulation = RB_STEADY;
+        rc.creep_ratio = k & 2 ? -0.6 : 0.6;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        double moment = 0.0;
+        for (int i = 0; i < s.n; i++)
+            moment += s.x[i] * s.p[i] * s.h[i];
+        const double work = -s.creepage * s.tangential_load + moment / rc.a.radius;
+        CHECK_REL(s.dissipation, work, 1e-3, "case %d", k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* ---- Error bars
+ * ----------------------------------------------------------------------------- */
+
+static double uniform(double a, double b)
+{
+    return a + (b - a) * (rand() / (double)RAND_MAX);
+}
+
+/* Counts what an error bar held and how wide it was. */
+typedef struct {
+    int held, all, narrow; /* narrow: bars below ten times the error */
+} tally;
+
+static void count(tally *t, double error, double bar)
+{
+    if (fabs(error) < 1e-10) /* met exactly: nothing to hold */
+        return;
+    t->all++;
+    t->held += fabs(error) <= bar;
+    t->narrow += bar <= 10.0 * fabs(error);
+}
+
+/* Carter by creepage and by force, Cattaneo by force; Hertz in all of them. */
+static void count_random_case(int fitted, tally *t)
+{
+    rb_rolling_case rc = wheel_on_plane(0.5);
+    const int kind = rand() % 3;
+    const double s = uniform(0.05, 0.95);
+    rb_rolling_solution so;
+    rb_rolling_errors e;
+
+    rc.mesh = fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+    rc.contact_elements = 40 + rand() % 60;
+    if (!fitted)
+        rc.zone = rc.half_width * uniform(1.1, 1.4);
+    rc.formulation = kind == 2 ? RB_STATIC : RB_STEADY;
+    if (kind == 0)
+        rc.creep_ratio = s;
+    else
+        rc.force_ratio = -s;
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &so, &e, NULL), RB_OK);
+    const double a = rc.half_width, p0 = 2.0 * so.normal_load / (M_PI * a);
+    count(t, so.max_pressure - p0, e.max_pressure);
+    count(t, so.half_width - a, e.half_width);
+    count(t, so.force_ratio + (kind == 0 ? carter(s) : s), e.force_ratio);
+    if (kind == 1)
+        count(t, so.creepage - (1.0 - sqrt(1.0 - s)) * rc.mu * a / rc.a.radius,
+              e.creepage);
+    if (kind == 2)
+        count(t, so.stick_to - a * sqrt(1.0 - s), e.stick_to);
+    rb_rolling_solution_free(&so);
+}
+
+static void error_bars_hold_the_truth(void **state)
+{
+    (void)state;
+    srand(3);
+    for (int fitted = 0; fitted < 2; fitted++) {
+        tally t = {0};
+        for (int k = 0; k < 120; k++)
+            count_random_case(fitted, &t);
+        CHECK_MAX(1.0 - (double)t.held / t.all, 0.05, "held %d of %d", t.held, t.all);
+        CHECK_MAX(0.5, (double)t.narrow / t.all,
+                  "at most ten times too wide in the median");
+    }
+}
+
+static void refinement_reaches_the_accuracy(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel_on_plane(0.5);
+    rb_rolling_solution s;
+    rb_rolling_errors e;
+    int elements = 0;
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = 0.4;
+    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-3, &s, &e, &elements, NULL), RB_OK);
+    CHECK_ABS(s.force_ratio, -0.64, 1e-3, "Q with %d elements", elements);
+    CHECK_MAX(e.force_ratio, 1e-3, "its estimate");
+    rb_rolling_solution_free(&s);
+    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 2.0, &s, &e, &elements, NULL),
+                 RB_EINVAL);
+    rc.contact_elements = 5;
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, NULL), RB_EINVAL);
+}
+
+static void every_failed_allocation_is_reported(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel_on_plane(0.5);
+    rb_rolling_model model;
+    rb_rolling_stress_maxima maxima;
+    int refused = 1;
+    rc.contact_elements = 12;
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    for (int count = 0; refused && count < 100; count++) {
+        alloc_fail_after(count);
+        const rb_status s = rb_rolling_stress_maxima_find(&model, 0.0, &maxima, NULL);
+        refused = alloc_failed();
+        alloc_succeed();
+        if (refused && s == RB_OK)
+            fail_msg("allocation %d failed unnoticed", count);
+    }
+    rb_rolling_model_free(&model);
+    refused = 1;
+    for (int count = 0; refused; count++) {
+        rb_rolling_curve c;
+        alloc_fail_after(count);
+        const rb_status s = rb_rolling_curve_solve(&rc, 0, 0.1, 0.5, 3, &c, NULL);
+        refused = alloc_failed();
+        alloc_succeed();
+        if (refused && s == RB_OK)
+            fail_msg("allocation %d of a curve failed unnoticed", count);
+        rb_rolling_curve_free(&c);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_creep_curve_is_carters),
+        cmocka_unit_test(a_curve_agrees_with_single_solves),
+        cmocka_unit_test(bad_curves_are_refused),
+        cmocka_unit_test(hertz_below_the_surface),
+        cmocka_unit_test(full_sliding_below_the_surface),
+        cmocka_unit_test(a_wheel_has_the_stress_of_the_half_plane),
+        cmocka_unit_test(the_surface_carries_the_tractions),
+        cmocka_unit_test(dissipation_is_the_work_of_the_forces),
+        cmocka_unit_test(error_bars_hold_the_truth),
+        cmocka_unit_test(refinement_reaches_the_accuracy),
+        cmocka_unit_test(every_failed_allocation_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
