@@ -10,6 +10,7 @@
 
 #include "rollbem/base.h"
 #include "rollbem/bem.h"
+#include "rollbem/friction.h"
 #include "rollbem/lcp.h"
 
 /* ---- Case ------------------------------------------------------------------------ */
@@ -17,7 +18,12 @@
 typedef enum { RB_STATIC, RB_STEADY, RB_TRANSIENT } rb_rolling_formulation;
 typedef enum { RB_GAP_PARABOLA, RB_GAP_EXACT, RB_GAP_TABLE } rb_rolling_gap;
 typedef enum { RB_MESH_UNIFORM, RB_MESH_FITTED } rb_rolling_mesh_kind;
-typedef enum { RB_SOLVER_AUTO, RB_SOLVER_LEMKE, RB_SOLVER_NEWTON } rb_rolling_solver;
+typedef enum {
+    RB_SOLVER_AUTO,
+    RB_SOLVER_LEMKE,
+    RB_SOLVER_NEWTON,
+    RB_SOLVER_CONE /* the one of src/friction that the case names */
+} rb_rolling_solver;
 typedef enum { RB_LCP_PIVOTED, RB_LCP_KWAK } rb_rolling_lcp_form;
 
 typedef struct {
@@ -60,6 +66,8 @@ typedef struct {
     rb_bem_normals normals;
 
     rb_rolling_solver solver;
+    const char
+        *cone_solver; /* RB_SOLVER_CONE: a name of rb_friction_solvers(); borrowed */
     rb_rolling_lcp_form lcp_form;
     double tol; /* of the scaled natural residual */
 
@@ -262,6 +270,17 @@ typedef struct {
 } rb_rolling_solution;
 
 void rb_rolling_solution_free(rb_rolling_solution *s);
+
+/* ---- The same problem for the cone solvers
+ * --------------------------------------------- */
+
+/* u = W r + q with r in units of problem->stress, u_N of gap_length, u_T of slip_length;
+ * delta and xi given.  cone: free with rb_friction_problem_free. */
+rb_status rb_rolling_cone_problem(const rb_rolling_problem *problem, double delta,
+                                  double xi, rb_friction_problem *cone, rb_message *why);
+/* p and q of the state, for its delta and xi, by the cone solver of that name. */
+rb_status rb_rolling_cone_solve(const rb_rolling_problem *problem, const char *solver,
+                                rb_rolling_state *state, rb_message *why);
 
 /* ---- A case at work ------------------------------------------------------------------
  */

@@ -266,6 +266,8 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
                        "normals surface: a half-plane has the obstacle's");
     if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->elastic_b)
         return rb_fail(why, RB_EINVAL, "normals surface: with a rigid plane only");
+    if (rc->solver == RB_SOLVER_CONE && !rc->cone_solver)
+        return rb_fail(why, RB_EINVAL, "solver: a cone solver needs its name");
     if (!is_positive(rc->tol))
         return rb_fail(why, RB_EINVAL, "tol: expected > 0, got %g", rc->tol);
     return RB_OK;

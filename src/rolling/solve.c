@@ -281,12 +281,34 @@ static rb_status check_capacity(const rb_rolling_problem *problem,
     return RB_RAY;
 }
 
+/* The cone solvers know neither a given load nor a given force: delta and xi of such a
+ * case are those that our own solvers find. */
+static rb_status solve_cone(const rb_rolling_problem *problem, const rb_rolling_case *rc,
+                            rb_rolling_state *state, rb_message *why)
+{
+    rb_status s = RB_OK;
+
+    state->delta = problem->delta;
+    state->xi = problem->xi;
+    if (problem->load_given || problem->force_given)
+        s = solve_given(problem, rc, 0, state, why);
+    if (s == RB_OK)
+        s = rb_rolling_cone_solve(problem, rc->cone_solver, state, why);
+    if (s < 0)
+        return s;
+    const rb_status t = complete(problem, state);
+    state->solver = RB_SOLVER_CONE;
+    s = t < 0 ? t : s;
+    return s == RB_OK && !is_solved(s, rc, state) ? RB_INACCURATE : s;
+}
+
 rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
                                    const rb_rolling_case *rc, int warm,
                                    rb_rolling_state *state, rb_message *why)
 {
     state->iterations = 0;
-    rb_status s = slides_fully(problem)
+    rb_status s = rc->solver == RB_SOLVER_CONE ? solve_cone(problem, rc, state, why)
+                  : slides_fully(problem)
                       ? solve_sliding(problem, rc, problem->force_ratio > 0.0, state, why)
                       : solve_given(problem, rc, warm, state, why);
 

@@ -1,0 +1,70 @@
+/* The rolling problems through the cone solvers of src/friction: a third opinion. */
+#include "check.h"
+#include "rolling/internal.h"
+
+/* Steady rolling of dissimilar bodies: W is not symmetric. */
+static rb_rolling_case dissimilar_rolling(void)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.poisson = 0.28;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.formulation = RB_STEADY;
+    rc.half_width = 1e-3 * rc.a.radius;
+    rc.creep_ratio = 0.5;
+    rc.contact_elements = 40;
+    return rc;
+}
+
+static void cone_solvers_agree_with_lemke(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"auto", "nsn-ac", "nsgs-ac", "lemke"};
+    rb_rolling_case rc = dissimilar_rolling();
+    rb_rolling_model model;
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        rb_rolling_state cone;
+        rb_message why = {""};
+        CHECK_STATUS(rb_rolling_state_alloc(model.mesh.n, &cone), RB_OK);
+        cone.delta = model.state.delta;
+        cone.xi = model.state.xi;
+        if (rb_rolling_cone_solve(&model.problem, names[k], &cone, &why) != RB_OK)
+            fail_msg("%s: %s", names[k], why.text);
+        for (int i = 0; i < cone.n; i++) {
+            CHECK_ABS(cone.p[i], model.state.p[i], 1e-8 * model.problem.stress,
+                      "%s: p %d", names[k], i);
+            CHECK_ABS(cone.q[i], model.state.q[i], 1e-8 * model.problem.stress,
+                      "%s: q %d", names[k], i);
+        }
+        rb_rolling_state_free(&cone);
+    }
+    rb_rolling_model_free(&model);
+}
+
+static void a_case_may_name_a_cone_solver(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = dissimilar_rolling();
+    rb_rolling_solution lemke, cone;
+    CHECK_STATUS(rb_rolling_solve(&rc, &lemke, NULL), RB_OK);
+    rc.solver = RB_SOLVER_CONE;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_EINVAL);
+    rc.cone_solver = "nsn-ac";
+    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_OK);
+    assert_int_equal(cone.solver, RB_SOLVER_CONE);
+    CHECK_MAX(cone.residual, 1e-10, "residual");
+    CHECK_ABS(cone.force_ratio, lemke.force_ratio, 1e-9, "Q");
+    rb_rolling_solution_free(&cone);
+    rb_rolling_solution_free(&lemke);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cone_solvers_agree_with_lemke),
+        cmocka_unit_test(a_case_may_name_a_cone_solver),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
