@@ -13,6 +13,8 @@ SUITESPARSE = -lumfpack -lspqr -lcholmod -lsuitesparseconfig
 # -lgslcblas would shadow OpenBLAS: take GSL's flags without it
 LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS))) -lfftw3_threads $(SUITESPARSE) -lm $(OPENMP)
 CPPFLAGS += $(OPENMP) -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS))
+# make V=1 shows the whole commands
+Q := $(if $(filter 1,$(V)),,@)
 VERSION := $(shell sed -n 's/.*RB_VERSION "\(.*\)"/\1/p' include/rollbem/base.h)
 
 LIB_SRC := $(filter-out src/cli/%,$(wildcard src/*/*.c))
@@ -57,23 +59,28 @@ bench: packages
 
 $(B)/librollbem.a: $(LIB_OBJ)
 	@rm -f $@
-	$(AR) rcs $@ $^
+	@echo "  AR  $@"
+	$(Q)$(AR) rcs $@ $^
 
 $(B)/librollbem.so: $(LIB_OBJ)
-	$(CC) $(CFLAGS) -shared -Wl,-soname,librollbem.so.0 -o $@ $^ $(LDFLAGS) $(LDLIBS)
+	@echo "  LD  $@"
+	$(Q)$(CC) $(CFLAGS) -shared -Wl,-soname,librollbem.so.0 -o $@ $^ $(LDFLAGS) $(LDLIBS)
 
 $(B)/rollbem: $(CLI_OBJ) $(B)/librollbem.a
-	$(CC) $(CFLAGS) -o $@ $(CLI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)
+	@echo "  LD  $@"
+	$(Q)$(CC) $(CFLAGS) -o $@ $(CLI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -fPIC -MMD -MP -c -o $@ $<
+	@echo "  CC  $<"
+	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -fPIC -MMD -MP -c -o $@ $<
 
 # tests of failing allocations count the library's own calls: --wrap sees the static library
 WRAP = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc
 $(B)/tests/%: tests/%.c tests/check.h tests/failing_alloc.c $(B)/librollbem.a
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< tests/failing_alloc.c $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
+	@echo "  CC  $<"
+	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< tests/failing_alloc.c $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
 
 # compared with where it is installed, never needed
 ifneq ($(wildcard /usr/include/siconos/SiconosConfig.h),)
@@ -83,7 +90,8 @@ endif
 
 $(B)/bench/%: bench/%.c $(B)/librollbem.a
 	@mkdir -p $(@D)
-	$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -MMD -MP -MF $@.d -o $@ $< $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)
+	@echo "  CC  $<"
+	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -MMD -MP -MF $@.d -o $@ $< $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)
 
 install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include/rollbem
