@@ -437,6 +437,34 @@ static void interrupted_run_keeps_its_steps(void **state)
     json_decref(root);
 }
 
+/* ---- Error bars ----------------------------------------------------------------------
+ */
+
+/* s = 0.4: exact Q/(mu P) = -0.64. */
+static void error_bars_hold_the_truth(void **state)
+{
+    (void)state;
+    json_t *root =
+        solve_json("--support halfplane --similar --gap parabola --load 100 "
+                   "--formulation steady --creep-ratio 0.4 --mesh fitted --error");
+    const json_t *summary = json_object_get(root, "summary");
+    const double error = json_number_value(
+        json_object_get(json_object_get(summary, "errors"), "force_ratio"));
+    CHECK_ABS(member(root, "summary", "force_ratio"), -0.64, error, "force ratio");
+    assert_true(error > 0.0 && error < 0.01);
+    json_decref(root);
+    root = solve_json(
+        "--support halfplane --similar --gap parabola --load 100 "
+        "--formulation steady --creep-ratio 0.4 --mesh fitted --accuracy 1e-3");
+    CHECK_REL(member(root, "summary", "force_ratio"), -0.64, 1e-3, "force ratio");
+    json_decref(root);
+    assert_int_equal(rollbem(QUICK " --error"), 0);
+    assert_non_null(strstr(err, "max_pressure"));
+    check_refused("--accuracy 2", 64, "--accuracy: expected a number in (0, 1) or off");
+    check_refused("--formulation transient --distance 1 --creep 0 --error", 64,
+                  "--error: of static and steady cases");
+}
+
 /* ---- Behind the solution ----------------------------------------------------------- */
 
 static double *read_matrix(const char *name, int rows, int cols)
@@ -628,6 +656,7 @@ int main(void)
         cmocka_unit_test(transient_rolls_step_by_step),
         cmocka_unit_test(bad_histories_are_refused),
         cmocka_unit_test(interrupted_run_keeps_its_steps),
+        cmocka_unit_test(error_bars_hold_the_truth),
         cmocka_unit_test(dump_holds_the_problem),
         cmocka_unit_test(dumped_influence_moves_rigidly),
         cmocka_unit_test(dump_that_cannot_be_written),

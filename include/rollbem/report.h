@@ -41,6 +41,7 @@ struct json_t *rb_report_json_numbers(int n, const double *x);
 struct json_t *rb_report_json_summary(const rb_rolling_case *rc,
                                       const rb_rolling_solution *s);
 struct json_t *rb_report_json_table(const rb_rolling_solution *s);
+struct json_t *rb_report_json_errors(const rb_rolling_errors *errors);
 struct json_t *rb_report_json_history(const rb_rolling_history *h);
 /* Writes with a final newline.  RB_ENOMEM when json is NULL, RB_EWRITE: see errno. */
 rb_status rb_report_json_write(FILE *out, const struct json_t *json);
@@ -53,6 +54,9 @@ rb_status rb_report_json_write(FILE *out, const struct json_t *json);
 void rb_report_strip(const rb_rolling_solution *s, int width, char *strip);
 /* A few lines; width: of the terminal. */
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width);
+/* Values with their error bars. */
+void rb_report_errors(FILE *out, const rb_rolling_solution *s,
+                      const rb_rolling_errors *e);
 void rb_report_history_summary(FILE *out, const rb_rolling_history *h);
 /* One line each where a result must be read with care: linear theory stretched, `static`
  * with a creepage, an arc support that rolls, slip that does not oppose the friction. */

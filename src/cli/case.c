@@ -167,6 +167,21 @@ static cli_exit check_lists(const cli_case *c)
                : CLI_CONTINUE;
 }
 
+int cli_case_has_steps(const cli_case *c)
+{
+    return c->rc.formulation == RB_TRANSIENT || c->program.n > 0;
+}
+
+/* The estimates compare meshes, not steps. */
+static cli_exit check_accuracy(const cli_case *c)
+{
+    static const char *const reason = "of static and steady cases without history only";
+    if (!cli_case_has_steps(c))
+        return CLI_CONTINUE;
+    const cli_exit code = cli_case_refuse(c, "error", reason);
+    return code == CLI_CONTINUE ? cli_case_refuse(c, "accuracy", reason) : code;
+}
+
 /* Options of one formulation mean nothing to the others. */
 static cli_exit check_formulation(const cli_case *c)
 {
@@ -236,6 +251,8 @@ cli_exit cli_case_finish(const cli_spec *spec, cli_case *c, cli_args *args)
         code = read_history(c);
     if (code == CLI_CONTINUE)
         code = check_lists(c);
+    if (code == CLI_CONTINUE)
+        code = check_accuracy(c);
     if (code != CLI_CONTINUE)
         return code;
     choose_mesh(c);

@@ -31,6 +31,9 @@ typedef struct {
     rb_rolling_program program; /* n = 0: none; its columns stand in history */
     rb_io_table history;
 
+    int error;       /* 1: estimate discretisation errors */
+    double accuracy; /* refine until they are below this; 0: no */
+
     char path[320]; /* case file, "" without */
     int given[CLI_CASE_OPTIONS_MAX];
     int lists;       /* 1: the command takes several mu */
@@ -55,6 +58,9 @@ cli_exit cli_case_finish(const cli_spec *spec, cli_case *c, cli_args *args);
 int cli_case_given(const cli_case *c, const char *name);
 /* CLI_CONTINUE, or the line "--name: reason" when that option was given. */
 cli_exit cli_case_refuse(const cli_case *c, const char *name, const char *reason);
+
+/* 1: transient rolling or a static history. */
+int cli_case_has_steps(const cli_case *c);
 
 /* Prints why the library refused the case; the exit code tells command line from file. */
 cli_exit cli_case_refused(const cli_case *c, rb_status s, const rb_message *why);

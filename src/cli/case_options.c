@@ -150,6 +150,16 @@ static const cli_option options[] = {
                     "pivoted (no inverse), or kwak: the matrix of Addi et al. (38)"),
     CLI_NUMBER_LINE("tol", RC(tol), "-", CLI_ABOVE(0),
                     "bound on the natural residual of the scaled problem"),
+
+    CLI_GROUP_LINE("accuracy", "Accuracy"),
+    CLI_FLAG_LINE(
+        "error", PLACE(error),
+        "error bars: estimates of the discretisation error from coarser meshes"),
+    CLI_NUMBER_LINE(
+        "accuracy", PLACE(accuracy), "-", CLI_BETWEEN(0, 1),
+        "refine until the relative error of forces, half-width, p0 and creepage "
+        "is estimated below this",
+        .word = "off", .word_value = 0.0),
 };
 
 _Static_assert(sizeof options / sizeof options[0] <= CLI_CASE_OPTIONS_MAX,

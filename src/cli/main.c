@@ -124,7 +124,8 @@ static int close_output(int code)
 {
     errno = 0;
     const int failed_before = ferror(stdout);
-    if (fclose(stdout) != 0 || failed_before)
+    const int failed = fclose(stdout) != 0 || failed_before;
+    if (failed && code != CLI_CANTWRITE) /* not said yet */
         return cli_fail(CLI_CANTWRITE, "standard output: %s",
                         errno ? strerror(errno) : "write error");
     return code;

@@ -55,31 +55,34 @@ static rb_status run_steps(const cli_case *c, int progress, cli_run_result *r,
 
 /* ---- All --------------------------------------------------------------------------- */
 
-static rb_status finish(const cli_case *c, rb_status s, cli_run_result *r,
-                        rb_message *why)
+static rb_status run_and_finish_steps(const cli_case *c, int progress, cli_run_result *r,
+                                      rb_message *why)
 {
+    const double start = rb_seconds();
+    rb_status s = run_steps(c, progress, r, why);
     if (s >= 0 && r->model.state.p) {
         const rb_status t = rb_rolling_model_solution(&r->model, &r->solution, why);
         s = t == RB_OK ? s : t;
     }
-    if (s == RB_OK && c->rc.formulation == RB_STEADY && c->rc.mu > 0.0)
-        s = rb_rolling_free_creepage(&r->model, &r->solution.free_creepage, why);
     if (s >= 0)
         r->solution.status = s;
+    r->solution.seconds_total = rb_seconds() - start;
     return s;
 }
 
 rb_status cli_run_case(const cli_case *c, int progress, cli_run_result *r,
                        rb_message *why)
 {
-    const double start = rb_seconds();
     memset(r, 0, sizeof *r);
-    const int steps = c->rc.formulation == RB_TRANSIENT || c->program.n > 0;
-    rb_status s = steps ? run_steps(c, progress, r, why)
-                        : rb_rolling_model_create(&c->rc, &r->model, why);
-    s = finish(c, s, r, why);
-    r->solution.seconds_total = rb_seconds() - start;
-    return s;
+    r->has_errors = c->error || c->accuracy > 0.0;
+    if (cli_case_has_steps(c))
+        return run_and_finish_steps(c, progress, r, why);
+    if (c->accuracy > 0.0)
+        return rb_rolling_solve_to_accuracy(&c->rc, c->accuracy, &r->solution, &r->errors,
+                                            &r->elements, why);
+    if (c->error)
+        return rb_rolling_solve_with_errors(&c->rc, 0, &r->solution, &r->errors, why);
+    return rb_rolling_solve_model(&c->rc, &r->model, &r->solution, why);
 }
 
 void cli_run_free(cli_run_result *r)

@@ -55,8 +55,10 @@ static rb_status write_json(FILE *out, const result *it)
 {
     json_t *root = rb_report_json_start(cli_command_line());
     json_object_set_new(root, "inputs", cli_case_inputs(it->c));
-    json_object_set_new(root, "summary",
-                        rb_report_json_summary(&it->c->rc, &it->r->solution));
+    json_t *summary = rb_report_json_summary(&it->c->rc, &it->r->solution);
+    if (it->r->has_errors)
+        json_object_set_new(summary, "errors", rb_report_json_errors(&it->r->errors));
+    json_object_set_new(root, "summary", summary);
     json_object_set_new(root, "table", rb_report_json_table(&it->r->solution));
     if (it->r->history.n > 0)
         json_object_set_new(root, "history", rb_report_json_history(&it->r->history));
@@ -103,6 +105,8 @@ static cli_exit show_behind(const solve_options *so, const rb_rolling_model *mod
 {
     rb_message why;
     rb_status s = RB_OK;
+    if ((so->dump || so->trace) && !model->state.p)
+        return cli_fail(CLI_USAGE, "--dump and --trace: not together with error bars");
     if (so->dump)
         s = rb_report_dump(so->dump, model, &why);
     if (s != RB_OK)
@@ -117,6 +121,8 @@ static cli_exit show_behind(const solve_options *so, const rb_rolling_model *mod
 static void tell_people(const result *it)
 {
     rb_report_summary(stderr, &it->r->solution, cli_terminal_width());
+    if (it->r->has_errors)
+        rb_report_errors(stderr, &it->r->solution, &it->r->errors);
     if (it->r->history.n > 0)
         rb_report_history_summary(stderr, &it->r->history);
     rb_report_notes(stderr, &it->c->rc, &it->r->solution);
