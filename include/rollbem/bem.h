@@ -151,8 +151,9 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
 
 /* The same half-plane seen at any points x of its surface: w = W r, W: 2 points x 2n
  * column-major, rows (w_N, w_T); ends: n + 1.  RB_EINVAL: sizes, material, datum <= 0. */
-rb_status rb_bem_halfplane_displacement(int n, const double *ends, rb_bem_material material,
-                                        double datum, int points, const double *x, double *W);
+rb_status rb_bem_halfplane_displacement(int n, const double *ends,
+                                        rb_bem_material material, double datum,
+                                        int points, const double *x, double *W);
 
 /* Two bodies in contact (4.5): F_A + F_B, B computed as the mirror image (an upper body),
  * so that its coupling blocks enter with the opposite sign.  Takes over a and b (both are
@@ -164,6 +165,17 @@ void rb_bem_flexibility_apply(const rb_bem_flexibility *f, const double *r, doub
 /* F: 2m x 2n column-major, ldf >= 2m. */
 rb_status rb_bem_flexibility_matrix(const rb_bem_flexibility *f, double *F, int ldf);
 void rb_bem_flexibility_free(rb_bem_flexibility *f);
+
+/* Approximate inverses for iterative solvers, on a line of equal elements: of F_NN or
+ * F_TT (apply), and of (I - S) F_TT, S the value one element upstream, towards +x
+ * (apply_upstream).  w and r: n each, may be the same.  One thread at a time. */
+typedef struct rb_bem_circulant rb_bem_circulant;
+rb_status rb_bem_circulant_create(const rb_bem_flexibility *f,
+                                  rb_bem_circulant **circulant);
+void rb_bem_circulant_apply(const rb_bem_circulant *c, const double *w, double *r);
+void rb_bem_circulant_apply_upstream(const rb_bem_circulant *c, const double *w,
+                                     double *r);
+void rb_bem_circulant_free(rb_bem_circulant *circulant);
 
 /* ---- Interior (B8) ---------------------------------------------------------------- */
 

@@ -104,7 +104,8 @@ void rb_rolling_mesh_free(rb_rolling_mesh *mesh);
 typedef struct {
     rb_bem_flexibility f;               /* of both bodies together; owned */
     rb_bem_system *system_a, *system_b; /* NULL for half-planes and rigid bodies; owned */
-    double *F; /* 2m x 2n dense flexibility, ld = 2m, m = n + 1; owned */
+    double *F; /* 2m x 2n dense flexibility, ld = 2m, m = n + 1; owned; NULL where products
+                  with f serve instead (large contacts) */
     double seconds_assembly, seconds_factor, seconds_condense;
 } rb_rolling_bodies;
 
@@ -125,6 +126,11 @@ typedef struct {
         *F; /* gap rows 0 .. n-1, 2n columns, ld = ldf; borrowed from the bodies */
     int ldf;
     double *S;                                   /* n x 2n; owned, as the arrays below */
+    /* Where F and S are NULL: */
+    rb_bem_flexibility f; /* its arrays borrowed from the bodies */
+    int upstream;                /* A = I - S of steady rolling; 0: A = I */
+    double *product;             /* 2n + 2m, room for one product with f */
+    struct rb_rolling_krylov *krylov; /* preconditioners; owned */
     double *d_N, *d_T;                           /* n [length] */
     double *e_T;                                 /* n: [length] per unit of xi */
     double *load_N, *load_T, *force_N, *force_T; /* n [length] */

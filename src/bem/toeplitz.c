@@ -2,32 +2,26 @@
  * elements alone, so that its flexibility is Toeplitz and a product takes Fourier
  * transforms, n log n work and memory of a few n. */
 #include "bem/toeplitz.h"
+#include "bem/fourier.h"
 #include "bem/internal.h"
 
-#include <fftw3.h>
 #include <float.h>
 #include <math.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 #include <stdlib.h>
 #include <string.h>
 
-/* Below this length a transform is over before a second thread has begun. */
-enum { THREADS_FROM = 1 << 17 };
-
 /* w_N = t * r_N + s * r_T, w_T = t * r_T - s * r_N, with t even, s odd in the distance.
- * Transforms of length `size` >= 2n + 1 let nothing wrap around.  The transform of t less
+ * Transforms of length >= 2n + 1 let nothing wrap around.  The transform of t less
  * its mean `base` is real, that of s imaginary; `base` times the sum of the tractions is
  * added apart: with a deep datum it would drown the rest in rounding.
  * work: room for one product, so that an operator serves one thread at a time. */
 typedef struct {
-    int n, size, coupled;
+    int n, coupled;
     double base;
     double *t, *s;         /* n + 1 each: distances 0 ... n elements; s(-k) = -s(k) */
     double *t_hat, *s_hat; /* size/2 + 1: real and imaginary part of the transforms */
-    double *work[2];       /* size + 2, in place */
-    fftw_plan forward, backward;
+    double *work[2];
+    rb_fourier fourier;
 } toeplitz;
 
 static void toeplitz_free(void *data)
@@ -35,13 +29,7 @@ static void toeplitz_free(void *data)
     toeplitz *o = data;
     if (!o)
         return;
-#pragma omp critical(rb_fftw_planner)
-    {
-        if (o->forward)
-            fftw_destroy_plan(o->forward);
-        if (o->backward)
-            fftw_destroy_plan(o->backward);
-    }
+    rb_fourier_free(&o->fourier);
     fftw_free(o->work[0]);
     fftw_free(o->work[1]);
     free(o->t);
@@ -51,66 +39,22 @@ static void toeplitz_free(void *data)
     free(o);
 }
 
-/* The smallest even 2^a 3^b 5^c >= least, which FFTW transforms fastest. */
-static int good_size(int least)
-{
-    for (int size = least + least % 2;; size += 2) {
-        int rest = size;
-        while (rest % 2 == 0)
-            rest /= 2;
-        while (rest % 3 == 0)
-            rest /= 3;
-        while (rest % 5 == 0)
-            rest /= 5;
-        if (rest == 1)
-            return size;
-    }
-}
-
-static void choose_threads(int size)
-{
-#ifdef _OPENMP
-    fftw_plan_with_nthreads(size >= THREADS_FROM ? omp_get_max_threads() : 1);
-#else
-    (void)size;
-#endif
-}
-
-/* FFTW's planner is not reentrant, nor is the end of a plan. */
-static void make_plans(toeplitz *o)
-{
-#pragma omp critical(rb_fftw_planner)
-    {
-        static int prepared;
-        if (!prepared) {
-            fftw_init_threads();
-            prepared = 1;
-        }
-        choose_threads(o->size);
-        o->forward = fftw_plan_dft_r2c_1d(o->size, o->work[0], (fftw_complex *)o->work[0],
-                                          FFTW_ESTIMATE);
-        o->backward = fftw_plan_dft_c2r_1d(o->size, (fftw_complex *)o->work[0],
-                                           o->work[0], FFTW_ESTIMATE);
-    }
-}
-
 static toeplitz *toeplitz_alloc(int n)
 {
     toeplitz *o = calloc(1, sizeof *o);
     if (!o)
         return NULL;
     o->n = n;
-    o->size = good_size(2 * n + 1);
-    const size_t half = (size_t)o->size / 2 + 1;
-    o->t = rb_alloc((size_t)n + 1, 1);
-    o->s = rb_alloc((size_t)n + 1, 1);
-    o->t_hat = rb_alloc(half, 1);
-    o->s_hat = rb_alloc(half, 1);
-    for (int k = 0; k < 2; k++)
-        o->work[k] = fftw_alloc_real(2 * half);
+    if (rb_fourier_make(2 * n + 1, &o->fourier)) {
+        const size_t half = (size_t)o->fourier.size / 2 + 1;
+        o->t = rb_alloc((size_t)n + 1, 1);
+        o->s = rb_alloc((size_t)n + 1, 1);
+        o->t_hat = rb_alloc(half, 1);
+        o->s_hat = rb_alloc(half, 1);
+        for (int k = 0; k < 2; k++)
+            o->work[k] = rb_fourier_alloc(&o->fourier);
+    }
     if (o->t && o->s && o->t_hat && o->s_hat && o->work[0] && o->work[1])
-        make_plans(o);
-    if (o->forward && o->backward)
         return o;
     toeplitz_free(o);
     return NULL;
@@ -134,17 +78,9 @@ static double sum_of(int n, const double *x)
     return sum;
 }
 
-/* FFTW finds buffers of fftw_alloc_real() aligned alike, as the new-array calls ask. */
-static void transform(const toeplitz *o, const double *r, double *work)
-{
-    memcpy(work, r, (size_t)o->n * sizeof *work);
-    memset(work + o->n, 0, (size_t)(o->size + 2 - o->n) * sizeof *work);
-    fftw_execute_dft_r2c(o->forward, work, (fftw_complex *)work);
-}
-
 static void transform_back(const toeplitz *o, double constant, double *work, double *w)
 {
-    fftw_execute_dft_c2r(o->backward, (fftw_complex *)work, work);
+    rb_fourier_backward(&o->fourier, work);
     for (int i = 0; i <= o->n; i++)
         w[i] = work[i] + constant;
 }
@@ -152,14 +88,12 @@ static void transform_back(const toeplitz *o, double constant, double *work, dou
 /* One traction, no coupling: the product with t. */
 static void apply_alone(const toeplitz *o, const double *r, double *w)
 {
-    fftw_complex *z = (fftw_complex *)o->work[0];
-
     if (all_zero(o->n, r)) {
         memset(w, 0, ((size_t)o->n + 1) * sizeof *w);
         return;
     }
-    transform(o, r, o->work[0]);
-    for (int k = 0; k <= o->size / 2; k++) {
+    fftw_complex *z = rb_fourier_forward(&o->fourier, o->n, r, o->work[0]);
+    for (int k = 0; k <= o->fourier.size / 2; k++) {
         z[k][0] *= o->t_hat[k];
         z[k][1] *= o->t_hat[k];
     }
@@ -169,11 +103,11 @@ static void apply_alone(const toeplitz *o, const double *r, double *w)
 /* Both at once: i s_hat is the transform of s. */
 static void apply_coupled(const toeplitz *o, const double *r, double *w)
 {
-    fftw_complex *N = (fftw_complex *)o->work[0], *T = (fftw_complex *)o->work[1];
+    const rb_fourier *f = &o->fourier;
+    fftw_complex *N = rb_fourier_forward(f, o->n, r, o->work[0]);
+    fftw_complex *T = rb_fourier_forward(f, o->n, r + o->n, o->work[1]);
 
-    transform(o, r, o->work[0]);
-    transform(o, r + o->n, o->work[1]);
-    for (int k = 0; k <= o->size / 2; k++) {
+    for (int k = 0; k <= f->size / 2; k++) {
         const double t = o->t_hat[k], s = o->s_hat[k];
         const double n0 = N[k][0], n1 = N[k][1], t0 = T[k][0], t1 = T[k][1];
         N[k][0] = t * n0 - s * t1;
@@ -220,21 +154,21 @@ static rb_status toeplitz_matrix(const rb_bem_flexibility *f, double *F, int ldf
 /* Transforms of t and s, with FFTW's factor `size` of a transform and its inverse. */
 static void set_transforms(toeplitz *o)
 {
-    const int n = o->n, size = o->size;
+    const rb_fourier *f = &o->fourier;
+    const int n = o->n, size = f->size;
     double *even = o->work[0], *odd = o->work[1];
-    fftw_complex *even_hat = (fftw_complex *)even, *odd_hat = (fftw_complex *)odd;
 
     o->base = sum_of(n + 1, o->t) / (n + 1);
-    memset(even, 0, ((size_t)size + 2) * sizeof *even);
-    memset(odd, 0, ((size_t)size + 2) * sizeof *odd);
+    memset(even, 0, (size_t)size * sizeof *even);
+    memset(odd, 0, (size_t)size * sizeof *odd);
     even[0] = o->t[0] - o->base;
     for (int k = 1; k <= n; k++) {
         even[k] = even[size - k] = o->t[k] - o->base;
         odd[k] = o->s[k];
         odd[size - k] = -o->s[k];
     }
-    fftw_execute_dft_r2c(o->forward, even, even_hat);
-    fftw_execute_dft_r2c(o->forward, odd, odd_hat);
+    fftw_complex *even_hat = rb_fourier_forward(f, size, even, even);
+    fftw_complex *odd_hat = rb_fourier_forward(f, size, odd, odd);
     for (int k = 0; k <= size / 2; k++) {
         o->t_hat[k] = even_hat[k][0] / size;
         o->s_hat[k] = odd_hat[k][1] / size;

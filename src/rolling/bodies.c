@@ -1,8 +1,12 @@
 #include "rolling/internal.h"
 
+#include <cblas.h>
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* From here on products by Fourier transforms are faster than a dense matrix. */
+enum { LARGE_FROM = 1500 };
 
 void rb_rolling_bodies_free(rb_rolling_bodies *bodies)
 {
@@ -16,6 +20,13 @@ void rb_rolling_bodies_free(rb_rolling_bodies *bodies)
 double rb_rolling_datum(const rb_rolling_body *body, double radius)
 {
     return body->datum > 0.0 ? body->datum : 2.0 * radius / M_E;
+}
+
+int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
+{
+    return mesh->n >= LARGE_FROM && rc->solver != RB_SOLVER_LEMKE &&
+           rc->mesh == RB_MESH_UNIFORM && rc->a.support == RB_BEM_HALFPLANE &&
+           (!rc->elastic_b || rc->b.support == RB_BEM_HALFPLANE);
 }
 
 static rb_status cylinder_flexibility(const rb_rolling_case *rc,
@@ -58,9 +69,13 @@ static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_bo
         return cylinder_flexibility(rc, body, mesh, system, bodies, f, why);
     const double radius = isfinite(body->radius) ? body->radius : rc->a.radius;
     const double start = rb_seconds();
-    const rb_status s = rb_bem_flexibility_halfplane(
-        mesh->n, mesh->ends, rb_bem_material_from_young(body->young, body->poisson),
-        rb_rolling_datum(body, radius), f, why);
+    const rb_bem_material material =
+        rb_bem_material_from_young(body->young, body->poisson);
+    const double datum = rb_rolling_datum(body, radius);
+    const rb_status s =
+        rb_rolling_is_large(rc, mesh)
+            ? rb_bem_flexibility_toeplitz(mesh->n, mesh->ends, material, datum, f, why)
+            : rb_bem_flexibility_halfplane(mesh->n, mesh->ends, material, datum, f, why);
     bodies->seconds_condense += rb_seconds() - start;
     return s;
 }
@@ -90,7 +105,7 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
         bodies->f = a;
         memset(&a, 0, sizeof a);
     }
-    if (s == RB_OK)
+    if (s == RB_OK && !rb_rolling_is_large(rc, mesh))
         s = dense_matrix(bodies);
     rb_bem_flexibility_free(&a);
     rb_bem_flexibility_free(&b);
@@ -99,4 +114,24 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
     return s == RB_ENOMEM
                ? rb_fail(why, s, "no memory for the flexibility of %d elements", mesh->n)
                : s;
+}
+
+rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
+                                  const double *q, double *w)
+{
+    const int n = bodies->f.n, rows = 2 * bodies->f.m;
+    double *r = rb_alloc(2 * (size_t)n, 1);
+
+    if (!r)
+        return RB_ENOMEM;
+    memcpy(r, p, (size_t)n * sizeof *r);
+    memcpy(r + n, q, (size_t)n * sizeof *r);
+    if (bodies->F)
+        cblas_dgemv(CblasColMajor, CblasNoTrans, rows, 2 * n, 1.0, bodies->F, rows, r, 1,
+                    0.0, w, 1);
+    else
+        rb_bem_flexibility_apply(&bodies->f, r, w);
+    cblas_daxpy(rows, 1.0, bodies->f.w0, 1, w, 1);
+    free(r);
+    return RB_OK;
 }

@@ -136,20 +136,28 @@ typedef struct {
 
 /* w_T of the present tractions: at the same places, or where a particle that arrives at x
  * was a step earlier. */
-static void remember(run *r, int rolling)
+static rb_status remember(run *r, int rolling)
 {
     const rb_rolling_state *state = &r->model->state;
-    const int n = state->n, m = n + 1, ahead = rolling && !r->W;
-    const double *F_T = r->W && rolling ? r->W + n : r->model->bodies.F + m + ahead;
-    const int ld = r->W && rolling ? 2 * n : 2 * m;
-    const double *w0_T = r->model->bodies.f.w0 + m + ahead;
+    const int n = state->n, m = n + 1;
 
-    memcpy(r->w_T, w0_T, (size_t)n * sizeof(double));
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_T, ld, state->p, 1, 1.0, r->w_T,
-                1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_T + (size_t)n * (size_t)ld, ld,
-                state->q, 1, 1.0, r->w_T, 1);
     memcpy(r->q, state->q, (size_t)n * sizeof(double));
+    if (r->W && rolling) {
+        const double *W_T = r->W + n, *w0_T = r->model->bodies.f.w0 + m;
+        memcpy(r->w_T, w0_T, (size_t)n * sizeof(double));
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, W_T, 2 * n, state->p, 1, 1.0,
+                    r->w_T, 1);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, W_T + 2 * (size_t)n * n,
+                    2 * n, state->q, 1, 1.0, r->w_T, 1);
+        return RB_OK;
+    }
+    double *w = rb_alloc(2 * (size_t)m, 1);
+    const rb_status s =
+        w ? rb_rolling_displacement(&r->model->bodies, state->p, state->q, w) : RB_ENOMEM;
+    if (s == RB_OK)
+        memcpy(r->w_T, w + m + rolling, (size_t)n * sizeof(double));
+    free(w);
+    return s;
 }
 
 static void record(run *r, double distance, int rolling)
@@ -249,9 +257,10 @@ static rb_status one_step(run *r, int row, double from, double to, rb_message *w
     const double t1 = rolling ? (to - d[row - 1]) / span : 1.0;
     const rb_rolling_case at = case_at(r->rc, r->program, row, 0.5 * (t0 + t1), t1);
 
-    if (r->history->n > 0)
-        remember(r, rolling);
-    const rb_status s = rolling ? rolling_step(r, &at, why) : static_step(r, &at, why);
+    rb_status s = r->history->n > 0 ? remember(r, rolling) : RB_OK;
+    if (s != RB_OK)
+        return s;
+    s = rolling ? rolling_step(r, &at, why) : static_step(r, &at, why);
     if (s >= 0)
         record(r, rolling ? to : 0.0, rolling);
     return s;

@@ -26,12 +26,34 @@ double rb_rolling_estimate_half_width(const rb_rolling_case *rc);
 /* The given datum of a half-plane, or 2R/e. */
 double rb_rolling_datum(const rb_rolling_body *body, double radius);
 
+/* w = w0 + F (p, q), 2m values, m = n + 1.  RB_ENOMEM. */
+rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
+                                  const double *q, double *w);
+
 /* ---- problem.c: what changes from step to step ----------------------------------------
  */
 
 void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                          const rb_rolling_past *past, double step, rb_rolling_problem *p);
 void rb_rolling_set_control(const rb_rolling_case *rc, rb_rolling_problem *p);
+
+/* 1 where products with the flexibility replace the dense matrix: half-planes under a
+ * long line of equal elements, any solver but Lemke. */
+int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
+/* Row i of A w for w (m values) of theory.md 4.2: w itself, or what a particle gains on
+ * its way from the element upstream (towards +x). */
+double rb_rolling_kinematic(int upstream, const double *w, int i);
+/* gap += F (p, q), slip += S (p, q), in the rows of the problem. */
+void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
+                             const double *q, double *gap, double *slip);
+
+/* ---- matrix_free.c --------------------------------------------------------------------
+ */
+
+/* What the solves without a matrix keep: preconditioners, from the problem's f. */
+rb_status rb_rolling_krylov_create(const rb_rolling_problem *problem,
+                                   struct rb_rolling_krylov **krylov);
+void rb_rolling_krylov_free(struct rb_rolling_krylov *krylov);
 
 /* ---- newton.c ------------------------------------------------------------------------
  */

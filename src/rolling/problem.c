@@ -1,4 +1,6 @@
-#include "rolling/internal.h"
+#include "rolling/reduced.h"
+
+#include <cblas.h>
 
 #include <stdlib.h>
 #include <string.h>
@@ -6,6 +8,8 @@
 void rb_rolling_problem_free(rb_rolling_problem *p)
 {
     free(p->S);
+    free(p->product);
+    rb_rolling_krylov_free(p->krylov);
     free(p->d_N);
     free(p->d_T);
     free(p->e_T);
@@ -16,7 +20,7 @@ void rb_rolling_problem_free(rb_rolling_problem *p)
     memset(p, 0, sizeof *p);
 }
 
-static rb_status problem_alloc(int n, rb_rolling_problem *p)
+static rb_status problem_alloc(int n, int dense, rb_rolling_problem *p)
 {
     double **const vectors[] = {&p->d_N,    &p->d_T,     &p->e_T,    &p->load_N,
                                 &p->load_T, &p->force_N, &p->force_T};
@@ -24,12 +28,15 @@ static rb_status problem_alloc(int n, rb_rolling_problem *p)
 
     memset(p, 0, sizeof *p);
     p->n = n;
-    p->S = rb_alloc((size_t)n, 2 * (size_t)n);
+    if (dense)
+        p->S = rb_alloc((size_t)n, 2 * (size_t)n);
+    else
+        p->product = rb_alloc(4 * (size_t)n + 2, 1);
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++) {
         *vectors[k] = rb_alloc((size_t)n, 1);
         complete = complete && *vectors[k];
     }
-    if (p->S && complete)
+    if ((p->S || p->product) && complete)
         return RB_OK;
     rb_rolling_problem_free(p);
     return RB_ENOMEM;
@@ -37,25 +44,24 @@ static rb_status problem_alloc(int n, rb_rolling_problem *p)
 
 /* A w for the tangential displacement w (m values) of theory.md 4.2: w itself, or what a
  * particle gains on its way from the element upstream (towards +x). */
-static double kinematic(rb_rolling_formulation formulation, const double *w, int i)
+double rb_rolling_kinematic(int upstream, const double *w, int i)
 {
-    return formulation == RB_STEADY ? w[i] - w[i + 1] : w[i];
+    return upstream ? w[i] - w[i + 1] : w[i];
 }
 
 /* S = A [F_TN F_TT] (K2). */
-static void set_kinematic_operator(const rb_rolling_case *rc,
-                                   const rb_rolling_bodies *bodies, rb_rolling_problem *p)
+static void set_kinematic_operator(const rb_rolling_bodies *bodies, rb_rolling_problem *p)
 {
     const int n = p->n, m = n + 1;
 
     for (int j = 0; j < 2 * n; j++) {
         const double *w_T = bodies->F + (size_t)j * 2 * (size_t)m + m;
         for (int i = 0; i < n; i++)
-            p->S[i + (size_t)j * n] = kinematic(rc->formulation, w_T, i);
+            p->S[i + (size_t)j * n] = rb_rolling_kinematic(p->upstream, w_T, i);
     }
 }
 
-/* d_T and e_T (K2).  Here and in kinematic() lives the formulation. */
+/* d_T and e_T (K2).  Here, in kinematic and in `upstream` lives the formulation. */
 void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                          const rb_rolling_past *past, double step, rb_rolling_problem *p)
 {
@@ -63,7 +69,7 @@ void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bod
     const double *x = bodies->f.x, *w0_T = bodies->f.w0 + m;
 
     for (int i = 0; i < n; i++) {
-        p->d_T[i] = kinematic(rc->formulation, w0_T, i);
+        p->d_T[i] = rb_rolling_kinematic(p->upstream, w0_T, i);
         if (past)
             p->d_T[i] -= past->w_T[i];
         p->e_T[i] = rc->formulation == RB_STEADY      ? x[i + 1] - x[i]
@@ -124,34 +130,50 @@ void rb_rolling_force_row(const rb_rolling_problem *p, double *control_N,
     }
 }
 
+/* ---- Products, and what the scales need of them ---------------------------------------
+ */
+
+void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
+                             const double *q, double *gap, double *slip)
+{
+    const int n = problem->n;
+    const size_t half = (size_t)n;
+
+    if (!problem->F) {
+        double *r = problem->product, *w = r + 2 * half;
+        memcpy(r, p, half * sizeof *r);
+        memcpy(r + half, q, half * sizeof *r);
+        rb_bem_flexibility_apply(&problem->f, r, w);
+        for (int i = 0; i < n; i++) {
+            gap[i] += w[i];
+            slip[i] += rb_rolling_kinematic(problem->upstream, w + half + 1, i);
+        }
+        return;
+    }
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, problem->F, problem->ldf, p, 1,
+                1.0, gap, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0,
+                problem->F + half * (size_t)problem->ldf, problem->ldf, q, 1, 1.0, gap,
+                1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, problem->S, n, p, 1, 1.0, slip,
+                1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, problem->S + half * half, n, q, 1,
+                1.0, slip, 1);
+}
+
+/* Sizes of the answers to unit tractions: the scales are made of them. */
+typedef struct {
+    double gap, slip;    /* diagonals of F_NN and A F_TT */
+    double coupled_slip; /* that unit pressures leave at the middle element */
+    int coupled;
+} response;
+
 static double mean_diagonal(int n, const double *M, size_t ld)
 {
     double sum = 0.0;
     for (int i = 0; i < n; i++)
         sum += fabs(M[i + (size_t)i * ld]);
     return sum / n;
-}
-
-/* Slip that unit pressures leave at the middle element: 0 for similar bodies. */
-static double coupled_slip(const rb_rolling_problem *p)
-{
-    double sum = 0.0;
-    for (int j = 0; j < p->n; j++)
-        sum += fabs(p->S[p->n / 2 + (size_t)j * p->n]);
-    return sum;
-}
-
-/* Stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become about 1;
- * where mu is small, the slip of dissimilar bodies comes from the pressure. */
-static void set_scales(const rb_rolling_case *rc, rb_rolling_problem *p)
-{
-    const double a = rb_rolling_estimate_half_width(rc);
-
-    p->stress = rb_rolling_contact_modulus(rc) * a / (2.0 * rb_rolling_radius(rc));
-    p->gap_length = p->stress * mean_diagonal(p->n, p->F, (size_t)p->ldf);
-    const double friction = (p->mu > 0.0 ? p->mu : 1.0) *
-                            mean_diagonal(p->n, p->S + (size_t)p->n * p->n, (size_t)p->n);
-    p->slip_length = p->stress * fmax(friction, coupled_slip(p));
 }
 
 static int any_nonzero(int n, const double *M, int ld)
@@ -163,27 +185,89 @@ static int any_nonzero(int n, const double *M, int ld)
     return 0;
 }
 
+static void dense_response(const rb_rolling_problem *p, response *unit)
+{
+    const size_t n = (size_t)p->n;
+
+    unit->gap = mean_diagonal(p->n, p->F, (size_t)p->ldf);
+    unit->slip = mean_diagonal(p->n, p->S + n * n, n);
+    unit->coupled_slip = cblas_dasum(p->n, p->S + n / 2, p->n);
+    unit->coupled = any_nonzero(p->n, p->S, p->n) ||
+                    any_nonzero(p->n, p->F + n * (size_t)p->ldf, p->ldf);
+}
+
+/* On equal elements the middle one stands for all. */
+static rb_status product_response(const rb_rolling_problem *p, response *unit)
+{
+    const int n = p->n, j = n / 2;
+    double *r = rb_alloc((size_t)n, 6);
+    if (!r)
+        return RB_ENOMEM;
+    double *none = r + n, *N = none + n, *T = N + 2 * (size_t)n;
+
+    r[j] = 1.0;
+    rb_rolling_add_products(p, r, none, N, N + n);
+    rb_rolling_add_products(p, none, r, T, T + n);
+    unit->gap = fabs(N[j]);
+    unit->slip = fabs(T[n + j]);
+    unit->coupled_slip = cblas_dasum(n, N + n, 1);
+    unit->coupled = unit->coupled_slip != 0.0;
+    free(r);
+    return RB_OK;
+}
+
+/* Stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become about 1;
+ * where mu is small, the slip of dissimilar bodies comes from the pressure. */
+static void set_scales(const rb_rolling_case *rc, const response *unit,
+                       rb_rolling_problem *p)
+{
+    const double a = rb_rolling_estimate_half_width(rc);
+    const double friction = (p->mu > 0.0 ? p->mu : 1.0) * unit->slip;
+
+    p->stress = rb_rolling_contact_modulus(rc) * a / (2.0 * rb_rolling_radius(rc));
+    p->gap_length = p->stress * unit->gap;
+    p->slip_length = p->stress * fmax(friction, unit->coupled_slip);
+    p->coupled = unit->coupled;
+}
+
+/* F and S themselves, or products with f. */
+static rb_status set_operators(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                               rb_rolling_problem *p, response *unit)
+{
+    p->upstream = rc->formulation == RB_STEADY;
+    p->f = bodies->f;
+    p->F = bodies->F;
+    p->ldf = 2 * bodies->f.m;
+    if (p->F) {
+        set_kinematic_operator(bodies, p);
+        dense_response(p, unit);
+        return RB_OK;
+    }
+    const rb_status s = product_response(p, unit);
+    return s == RB_OK ? rb_rolling_krylov_create(p, &p->krylov) : s;
+}
+
 rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
                                     const rb_rolling_mesh *mesh,
                                     const rb_rolling_bodies *bodies,
                                     const rb_rolling_past *past, double step,
                                     rb_rolling_problem *p, rb_message *why)
 {
-    const rb_status s = problem_alloc(mesh->n, p);
+    response unit;
+    rb_status s = problem_alloc(mesh->n, bodies->F != NULL, p);
 
-    if (s != RB_OK)
+    if (s == RB_OK)
+        s = set_operators(rc, bodies, p, &unit);
+    if (s != RB_OK) {
+        rb_rolling_problem_free(p);
         return rb_fail(why, s, "no memory for a contact problem of %d elements", mesh->n);
+    }
     p->mu = rc->mu;
-    p->F = bodies->F;
-    p->ldf = 2 * bodies->f.m;
     for (int i = 0; i < p->n; i++)
         p->d_N[i] = mesh->gap[i] + bodies->f.w0[i];
-    set_kinematic_operator(rc, bodies, p);
     rb_rolling_set_past(rc, bodies, past, step, p);
     set_weights(rc, bodies, p);
     rb_rolling_set_control(rc, p);
-    set_scales(rc, p);
-    p->coupled = any_nonzero(p->n, p->S, p->n) ||
-                 any_nonzero(p->n, p->F + (size_t)p->n * (size_t)p->ldf, p->ldf);
+    set_scales(rc, &unit, p);
     return RB_OK;
 }

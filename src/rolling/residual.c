@@ -30,22 +30,11 @@ void rb_rolling_state_free(rb_rolling_state *state)
 void rb_rolling_kinematics(const rb_rolling_problem *problem,
                            const rb_rolling_state *state, double *gap, double *lambda)
 {
-    const int n = problem->n;
-    const size_t half = (size_t)n;
-
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < problem->n; i++) {
         gap[i] = problem->d_N[i] - state->delta;
         lambda[i] = problem->d_T[i] + state->xi * problem->e_T[i];
     }
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, problem->F, problem->ldf,
-                state->p, 1, 1.0, gap, 1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0,
-                problem->F + half * (size_t)problem->ldf, problem->ldf, state->q, 1, 1.0,
-                gap, 1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, problem->S, n, state->p, 1, 1.0,
-                lambda, 1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, problem->S + half * half, n,
-                state->q, 1, 1.0, lambda, 1);
+    rb_rolling_add_products(problem, state->p, state->q, gap, lambda);
 }
 
 /* Coulomb's law in natural form: min(lambda+, gamma+) and min(lambda-, gamma-), with

@@ -237,12 +237,14 @@ static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s
 {
     const int n = s->n, m = n + 1;
     const rb_rolling_state *state = &model->state;
-    double *r = rb_alloc(2 * (size_t)n, 1), *w = rb_alloc(2 * (size_t)m, 1);
+    double *w = rb_alloc(2 * (size_t)m, 1);
+    rb_status status = w ? RB_OK : RB_ENOMEM;
 
-    if (!r || !w) {
-        free(r);
+    if (status == RB_OK)
+        status = rb_rolling_displacement(&model->bodies, state->p, state->q, w);
+    if (status != RB_OK) {
         free(w);
-        return RB_ENOMEM;
+        return status;
     }
     memcpy(s->x, model->bodies.f.x, (size_t)n * sizeof(double));
     memcpy(s->h, model->bodies.f.h, (size_t)n * sizeof(double));
@@ -251,15 +253,9 @@ static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s
     memcpy(s->shift, state->lambda, (size_t)n * sizeof(double));
     memcpy(s->zone, state->zone, (size_t)n * sizeof(int));
     rb_rolling_kinematics(&model->problem, state, s->gap, s->slip);
-    memcpy(r, s->p, (size_t)n * sizeof(double));
-    memcpy(r + n, s->q, (size_t)n * sizeof(double));
-    cblas_dcopy(2 * m, model->bodies.f.w0, 1, w, 1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, 2 * m, 2 * n, 1.0, model->bodies.F, 2 * m, r,
-                1, 1.0, w, 1);
     memcpy(s->un, w, (size_t)n * sizeof(double));
     memcpy(s->ut, w + m, (size_t)n * sizeof(double));
     set_slip(model, w + m, s);
-    free(r);
     free(w);
     return RB_OK;
 }

@@ -63,7 +63,8 @@ static rb_status complete(const rb_rolling_problem *problem, rb_rolling_state *s
     if (s == RB_OK) {
         rb_rolling_kinematics(problem, state, gap, state->lambda);
         rb_rolling_classify(problem, 1e-12, state);
-        s = polish(problem, state, &trial);
+        if (problem->F)
+            s = polish(problem, state, &trial);
     }
     if (s == RB_OK) {
         rb_rolling_kinematics(problem, state, gap, state->lambda);
@@ -196,13 +197,13 @@ static rb_status solve_given(const rb_rolling_problem *problem, const rb_rolling
                              int warm, rb_rolling_state *state, rb_message *why)
 {
     const int newton_first =
-        rc->solver == RB_SOLVER_NEWTON ||
+        !problem->F || rc->solver == RB_SOLVER_NEWTON ||
         (rc->solver == RB_SOLVER_AUTO && (warm || problem->n > LEMKE_UP_TO));
     rb_status s = RB_RAY;
 
     for (int k = 0; k < 3 && s >= 0; k++) {
         const int newton = newton_first ? k < 2 : k == 1;
-        if (newton && k == 0 && !warm)
+        if ((newton && k == 0 && !warm) || (!newton && !problem->F))
             continue;
         s = newton ? solve_newton(problem, k == 0, state)
                    : solve_lemke(problem, rc, state, why);

@@ -1,0 +1,123 @@
+/* A preconditioner: the inverse of a flexibility on an endless line of equal elements,
+ * where Fourier modes are its eigenvectors, cut to the line at hand. */
+#include "bem/fourier.h"
+#include "bem/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <math.h>
+#include <stdlib.h>
+
+struct rb_bem_circulant {
+    int n;
+    double *inverse; /* size/2 + 1: 1/(transform of the kernel), over `size` */
+    double *cot;     /* size/2 + 1: cot(theta/2)/2 */
+    double *work;
+    rb_fourier fourier;
+};
+
+void rb_bem_circulant_free(rb_bem_circulant *c)
+{
+    if (!c)
+        return;
+    rb_fourier_free(&c->fourier);
+    fftw_free(c->work);
+    free(c->inverse);
+    free(c->cot);
+    free(c);
+}
+
+/* Transform of t_j = -int ln|s| ds over [j - 1/2, j + 1/2]:
+ * sum over m of pi/|w| sin(w/2)/(w/2), w = theta + 2 pi m. */
+static double log_kernel(double theta)
+{
+    double sum = 0.0;
+    for (int m = -4; m <= 4; m++) {
+        const double w = theta + 2.0 * M_PI * m;
+        sum += M_PI / fabs(w) * sin(0.5 * w) / (0.5 * w);
+    }
+    return sum;
+}
+
+/* f's factor on t_j, from the displacements that differ most: whatever the body, near its
+ * load it answers like a half-plane. */
+static rb_status kernel_scale(const rb_bem_flexibility *f, double *scale)
+{
+    const double t0 = 1.0 + M_LN2, t1 = 1.0 - 1.5 * log(1.5) - 0.5 * M_LN2;
+    const int j = f->n / 2;
+    double *r = rb_alloc(2 * (size_t)f->n, 1), *w = rb_alloc(2 * (size_t)f->m, 1);
+    const rb_status s = r && w ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK) {
+        r[j] = 1.0;
+        rb_bem_flexibility_apply(f, r, w);
+        *scale = (w[j] - w[j + 1]) / (t0 - t1);
+    }
+    free(r);
+    free(w);
+    return s;
+}
+
+/* The mean, which the datum of the body decides, gets a number that does no harm. */
+static void set_inverse(double scale, rb_bem_circulant *c)
+{
+    const int size = c->fourier.size;
+
+    for (int k = 1; k <= size / 2; k++) {
+        const double theta = 2.0 * M_PI * k / size;
+        c->inverse[k] = 1.0 / (scale * log_kernel(theta) * size);
+        c->cot[k] = 0.5 / tan(0.5 * theta);
+    }
+    c->inverse[0] = 0.25 * c->inverse[1];
+}
+
+rb_status rb_bem_circulant_create(const rb_bem_flexibility *f,
+                                  rb_bem_circulant **circulant)
+{
+    double scale = 1.0;
+    rb_bem_circulant *c = calloc(1, sizeof *c);
+
+    *circulant = NULL;
+    if (c && rb_fourier_make(f->n + f->n / 8 + 2, &c->fourier)) {
+        const size_t half = (size_t)c->fourier.size / 2 + 1;
+        c->n = f->n;
+        c->inverse = rb_alloc(half, 1);
+        c->cot = rb_alloc(half, 1);
+        c->work = rb_fourier_alloc(&c->fourier);
+    }
+    if (!c || !c->inverse || !c->cot || !c->work || kernel_scale(f, &scale) != RB_OK) {
+        rb_bem_circulant_free(c);
+        return RB_ENOMEM;
+    }
+    set_inverse(scale, c);
+    *circulant = c;
+    return RB_OK;
+}
+
+void rb_bem_circulant_apply(const rb_bem_circulant *c, const double *w, double *r)
+{
+    fftw_complex *z = rb_fourier_forward(&c->fourier, c->n, w, c->work);
+
+    for (int k = 0; k <= c->fourier.size / 2; k++) {
+        z[k][0] *= c->inverse[k];
+        z[k][1] *= c->inverse[k];
+    }
+    rb_fourier_backward(&c->fourier, c->work);
+    for (int i = 0; i < c->n; i++)
+        r[i] = c->work[i];
+}
+
+/* 1/(1 - exp(i theta)) = 1/2 + i/2 cot(theta/2) */
+void rb_bem_circulant_apply_upstream(const rb_bem_circulant *c, const double *w,
+                                     double *r)
+{
+    fftw_complex *z = rb_fourier_forward(&c->fourier, c->n, w, c->work);
+
+    for (int k = 0; k <= c->fourier.size / 2; k++) {
+        const double a = z[k][0], b = z[k][1];
+        z[k][0] = c->inverse[k] * (0.5 * a - c->cot[k] * b);
+        z[k][1] = c->inverse[k] * (0.5 * b + c->cot[k] * a);
+    }
+    rb_fourier_backward(&c->fourier, c->work);
+    for (int i = 0; i < c->n; i++)
+        r[i] = c->work[i];
+}

@@ -1,0 +1,25 @@
+/* Real Fourier transforms in place (FFTW); not installed. */
+#ifndef ROLLBEM_BEM_FOURIER_H
+#define ROLLBEM_BEM_FOURIER_H
+
+#include <fftw3.h>
+
+typedef struct {
+    int size; /* even, quick to transform */
+    fftw_plan forward, backward;
+} rb_fourier;
+
+/* Length at least `least`; 0 without memory, f is then empty. */
+int rb_fourier_make(int least, rb_fourier *f);
+void rb_fourier_free(rb_fourier *f);
+
+/* Room for one sequence and its transform, size/2 + 1 numbers; fftw_free(). */
+double *rb_fourier_alloc(const rb_fourier *f);
+
+/* x (n values, zeros behind them) to its transform, and back without the factor 1/size.
+ */
+fftw_complex *rb_fourier_forward(const rb_fourier *f, int n, const double *x,
+                                 double *work);
+void rb_fourier_backward(const rb_fourier *f, double *work);
+
+#endif

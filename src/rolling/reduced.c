@@ -1,0 +1,139 @@
+#include "rolling/reduced.h"
+
+#include <cblas.h>
+#include <stdlib.h>
+#include <string.h>
+
+double rb_rolling_slope(int zone)
+{
+    return zone == RB_ZONE_SLIP_NEGATIVE   ? -1.0
+           : zone == RB_ZONE_SLIP_POSITIVE ? 1.0
+                                           : 0.0;
+}
+
+void rb_rolling_reduced_free(rb_rolling_reduced *r)
+{
+    free(r->contact);
+    free(r->stick);
+    free(r->control_N);
+    free(r->control_T);
+    free(r->gap);
+    free(r->lambda);
+    free(r->start);
+    free(r->x);
+}
+
+static void set_start(const rb_rolling_problem *p, const rb_rolling_state *state,
+                      rb_rolling_reduced *r)
+{
+    int k = 0;
+
+    for (int c = 0; c < r->contacts; c++)
+        r->start[k++] = state->p[r->contact[c]] / p->stress;
+    for (int c = 0; c < r->sticks; c++)
+        r->start[k++] = state->q[r->stick[c]] / p->stress;
+    if (r->load) /* unknown to begin with: NAN */
+        r->start[k++] = isfinite(state->delta) ? state->delta / p->gap_length : 0.0;
+    if (r->force)
+        r->start[k] = state->xi * p->e_T[0] / p->slip_length;
+}
+
+rb_status rb_rolling_reduced_alloc(const rb_rolling_problem *p,
+                                   rb_rolling_unknowns unknowns,
+                                   const rb_rolling_state *state, rb_rolling_reduced *r)
+{
+    const int *zone = state->zone;
+    const size_t n = (size_t)p->n;
+
+    memset(r, 0, sizeof *r);
+    r->unknowns = unknowns;
+    r->contact = rb_alloc_int(n);
+    r->stick = rb_alloc_int(n);
+    r->control_N = rb_alloc(n, 1);
+    r->control_T = rb_alloc(n, 1);
+    r->gap = rb_alloc(n, 1);
+    r->lambda = rb_alloc(n, 1);
+    if (!r->contact || !r->stick || !r->control_N || !r->control_T || !r->gap ||
+        !r->lambda)
+        return RB_ENOMEM;
+    for (int i = 0; i < p->n; i++) {
+        if ((unknowns & RB_NORMAL) && zone[i] != RB_ZONE_SEPARATED)
+            r->contact[r->contacts++] = i;
+        if ((unknowns & RB_TANGENTIAL) && zone[i] == RB_ZONE_STICK)
+            r->stick[r->sticks++] = i;
+    }
+    r->load = (unknowns & RB_NORMAL) && p->load_given;
+    r->force = (unknowns & RB_TANGENTIAL) && p->force_given;
+    r->size = r->contacts + r->sticks + r->load + r->force;
+    r->start = rb_alloc((size_t)r->size, 1);
+    r->x = rb_alloc((size_t)r->size, 1);
+    if (!r->start || !r->x)
+        return RB_ENOMEM;
+    set_start(p, state, r);
+    rb_rolling_force_row(p, r->control_N, r->control_T);
+    return RB_OK;
+}
+
+double rb_rolling_force_scale(const rb_rolling_problem *p)
+{
+    return p->mu * p->stress * cblas_dasum(p->n, p->load_N, 1);
+}
+
+double rb_rolling_reduced_mu(const rb_rolling_problem *p, const rb_rolling_reduced *r)
+{
+    return r->unknowns == RB_BOTH ? p->mu : 0.0;
+}
+
+static void clear_unknowns(const rb_rolling_problem *p, const rb_rolling_reduced *r,
+                           rb_rolling_state *state)
+{
+    for (int i = 0; i < p->n; i++) {
+        const int zone = state->zone[i];
+        if ((r->unknowns & RB_NORMAL) || zone == RB_ZONE_SEPARATED)
+            state->p[i] = 0.0;
+        if ((r->unknowns & RB_TANGENTIAL) || zone == RB_ZONE_SEPARATED)
+            state->q[i] = rb_rolling_slope(zone) * p->mu * state->p[i];
+    }
+    if (r->unknowns & RB_NORMAL)
+        state->delta = p->load_given ? 0.0 : p->delta;
+    if (r->unknowns & RB_TANGENTIAL)
+        state->xi = p->force_given ? 0.0 : p->xi;
+}
+
+void rb_rolling_reduced_right_side(const rb_rolling_problem *p, rb_rolling_state *state,
+                                   rb_rolling_reduced *r)
+{
+    int row = 0;
+
+    clear_unknowns(p, r, state);
+    rb_rolling_kinematics(p, state, r->gap, r->lambda);
+    for (int k = 0; k < r->contacts; k++)
+        r->x[row++] = -r->gap[r->contact[k]] / p->gap_length;
+    for (int k = 0; k < r->sticks; k++)
+        r->x[row++] = -r->lambda[r->stick[k]] / p->slip_length;
+    if (r->load)
+        r->x[row++] = 1.0 - cblas_ddot(p->n, p->load_T, 1, state->q, 1) / p->load;
+    if (r->force)
+        r->x[row] = (p->force - cblas_ddot(p->n, r->control_N, 1, state->p, 1) -
+                     cblas_ddot(p->n, r->control_T, 1, state->q, 1)) /
+                    rb_rolling_force_scale(p);
+}
+
+void rb_rolling_reduced_result(const rb_rolling_problem *p, const rb_rolling_reduced *r,
+                               rb_rolling_state *state)
+{
+    int row = 0;
+
+    for (int k = 0; k < r->contacts; k++) {
+        const int i = r->contact[k];
+        state->p[i] = p->stress * r->x[row++];
+        if (r->unknowns == RB_BOTH)
+            state->q[i] = rb_rolling_slope(state->zone[i]) * p->mu * state->p[i];
+    }
+    for (int k = 0; k < r->sticks; k++)
+        state->q[r->stick[k]] = p->stress * r->x[row++];
+    if (r->load)
+        state->delta = p->gap_length * r->x[row++];
+    if (r->force)
+        state->xi = p->slip_length / p->e_T[0] * r->x[row];
+}
