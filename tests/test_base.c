@@ -26,6 +26,15 @@ static void arrays_are_zeroed_and_overflow_is_refused(void **state)
     alloc_succeed();
 }
 
+static void absurd_sizes_are_refused_by_name(void **state)
+{
+    (void)state;
+    rb_message why = {""};
+    CHECK_STATUS(rb_memory_check(1e3, "a small thing", &why), RB_OK);
+    CHECK_STATUS(rb_memory_check(1e18, "a contact of 9 elements", &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "a contact of 9 elements would need 1e+09 GB"));
+}
+
 static void the_norm_does_not_lose_a_nan(void **state)
 {
     (void)state;
@@ -48,6 +57,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refusals_write_their_line),
         cmocka_unit_test(arrays_are_zeroed_and_overflow_is_refused),
+        cmocka_unit_test(absurd_sizes_are_refused_by_name),
         cmocka_unit_test(the_norm_does_not_lose_a_nan),
         cmocka_unit_test(every_status_has_its_own_words),
     };

@@ -45,6 +45,10 @@ const char *rb_status_text(rb_status s);
 double *rb_alloc(size_t rows, size_t cols);
 int *rb_alloc_int(size_t n);
 
+/* RB_EINVAL, with the memory that `what` needs and the machine's in why, where it has not
+ * that much: to be asked before allocating. */
+rb_status rb_memory_check(double bytes, const char *what, rb_message *why);
+
 /* Seconds on a clock that only moves forward. */
 double rb_seconds(void);
 

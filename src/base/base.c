@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
+#include <unistd.h>
 
 rb_status rb_fail(rb_message *why, rb_status s, const char *format, ...)
 {
@@ -67,6 +68,18 @@ double *rb_alloc(size_t rows, size_t cols)
 int *rb_alloc_int(size_t n)
 {
     return alloc_array(n, 1, sizeof(int));
+}
+
+rb_status rb_memory_check(double bytes, const char *what, rb_message *why)
+{
+    const double machine =
+        (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+
+    if (bytes <= machine)
+        return RB_OK;
+    return rb_fail(why, RB_EINVAL,
+                   "%s would need %.3g GB of memory; this machine has %.3g GB", what,
+                   bytes / 1e9, machine / 1e9);
 }
 
 double rb_seconds(void)

@@ -7,6 +7,7 @@
 #include <cblas.h>
 #include <lapacke.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -257,6 +258,14 @@ static rb_status factor(rb_bem_system *s, rb_message *why)
     return status;
 }
 
+static rb_status check_memory(const rb_bem_mesh *mesh, rb_message *why)
+{
+    char what[80];
+
+    snprintf(what, sizeof what, "a boundary of %d elements", mesh->n);
+    return rb_memory_check(rb_bem_system_bytes(mesh->n, mesh->contact_n), what, why);
+}
+
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                rb_bem_system **system, rb_message *why)
 {
@@ -266,6 +275,8 @@ rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material
         status = rb_bem_material_check(material, why);
     if (status == RB_OK)
         status = rb_bem_support_check(mesh, why);
+    if (status == RB_OK)
+        status = check_memory(mesh, why);
     if (status != RB_OK)
         return status;
     const double start = rb_seconds();

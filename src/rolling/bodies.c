@@ -2,6 +2,7 @@
 
 #include <cblas.h>
 #include <gsl/gsl_math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -90,12 +91,26 @@ static rb_status dense_matrix(rb_rolling_bodies *bodies)
     return rb_bem_flexibility_matrix(&bodies->f, bodies->F, (int)rows);
 }
 
+/* The dense matrices of n contact elements: the bodies' own, F, S, and Lemke's or
+ * Newton's at their largest. */
+static rb_status check_memory(const rb_rolling_case *rc, int n, rb_message *why)
+{
+    const double square = sizeof(double) * (double)n * n;
+    char what[80];
+
+    snprintf(what, sizeof what, "a contact of %d elements", n);
+    return rb_memory_check(square * (4.0 * (2 + rc->elastic_b) + 2.0 + 9.0), what, why);
+}
+
 rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                    rb_rolling_bodies *bodies, rb_message *why)
 {
     memset(bodies, 0, sizeof *bodies);
     rb_bem_flexibility a = {0}, b = {0};
-    rb_status s = body_flexibility(rc, &rc->a, mesh, &bodies->system_a, bodies, &a, why);
+    rb_status s = check_memory(rc, mesh->n, why);
+
+    if (s == RB_OK)
+        s = body_flexibility(rc, &rc->a, mesh, &bodies->system_a, bodies, &a, why);
 
     if (s == RB_OK && rc->elastic_b) {
         s = body_flexibility(rc, &rc->b, mesh, &bodies->system_b, bodies, &b, why);
