@@ -93,12 +93,15 @@ static rb_status dense_matrix(rb_rolling_bodies *bodies)
 
 /* The dense matrices of n contact elements: the bodies' own, F, S, and Lemke's or
  * Newton's at their largest. */
-static rb_status check_memory(const rb_rolling_case *rc, int n, rb_message *why)
+static rb_status check_memory(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                              rb_message *why)
 {
-    const double square = sizeof(double) * (double)n * n;
+    const double square = sizeof(double) * (double)mesh->n * mesh->n;
     char what[80];
 
-    snprintf(what, sizeof what, "a contact of %d elements", n);
+    if (rb_rolling_is_large(rc, mesh))
+        return RB_OK;
+    snprintf(what, sizeof what, "a contact of %d elements", mesh->n);
     return rb_memory_check(square * (4.0 * (2 + rc->elastic_b) + 2.0 + 9.0), what, why);
 }
 
@@ -107,11 +110,10 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
 {
     memset(bodies, 0, sizeof *bodies);
     rb_bem_flexibility a = {0}, b = {0};
-    rb_status s = check_memory(rc, mesh->n, why);
+    rb_status s = check_memory(rc, mesh, why);
 
     if (s == RB_OK)
         s = body_flexibility(rc, &rc->a, mesh, &bodies->system_a, bodies, &a, why);
-
     if (s == RB_OK && rc->elastic_b) {
         s = body_flexibility(rc, &rc->b, mesh, &bodies->system_b, bodies, &b, why);
         if (s == RB_OK)
