@@ -7,7 +7,9 @@ CFLAGS ?= -O3 -g
 STD = -std=c11 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wpedantic -Wshadow
 # without OpenMP the loops run on one processor
 OPENMP := $(shell echo 'int main(void) { return 0; }' | $(CC) -fopenmp -x c -o /dev/null - 2>/dev/null && echo -fopenmp || echo -Wno-unknown-pragmas)
-PKGS = openblas lapacke gsl inih jansson hdf5-serial fftw3
+# Debian's name for HDF5, or everybody else's
+HDF5 := $(shell pkg-config --exists hdf5-serial && echo hdf5-serial || echo hdf5)
+PKGS = openblas lapacke gsl inih jansson $(HDF5) fftw3
 # SuiteSparse 5 has no pkg-config file
 SUITESPARSE = -lumfpack -lspqr -lcholmod -lsuitesparseconfig
 # -lgslcblas would shadow OpenBLAS: take GSL's flags without it
