@@ -122,6 +122,36 @@ static void by_hand_is_computed_again_by_octave(void **state)
     compare_pages(page, "examples/by-hand/page.txt");
 }
 
+/* The commands of README's ```sh blocks that call the program, each in a fresh shell; a
+ * line that ends in a backslash goes on. */
+static void commands_of_the_readme_run(void **state)
+{
+    (void)state;
+    char line[400], command[1000] = "";
+    FILE *file = fopen("README.md", "r");
+    int in_block = 0, commands = 0;
+    assert_non_null(file);
+    assert_int_equal(run("ln -sfn \"$(realpath %s)\" %s/build", build_folder(), folder),
+                     0);
+    while (fgets(line, sizeof line, file)) {
+        line[strcspn(line, "\n")] = '\0';
+        if (strncmp(line, "```", 3) == 0)
+            in_block = strcmp(line, "```sh") == 0;
+        if (!in_block || (!command[0] && strncmp(line, "build/rollbem", 13) != 0))
+            continue;
+        const size_t used = strlen(command), n = strlen(line);
+        const int goes_on = n > 0 && line[n - 1] == '\\';
+        snprintf(command + used, sizeof command - used, "%.*s ", (int)n - goes_on, line);
+        if (goes_on)
+            continue;
+        assert_int_equal(run("cd %s && { %s ; } 2>err", folder, command), 0);
+        command[0] = '\0';
+        commands++;
+    }
+    fclose(file);
+    assert_true(commands >= 2);
+}
+
 static int make_folder(void **state)
 {
     (void)state;
@@ -139,6 +169,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tables_are_as_recorded),
         cmocka_unit_test(figures_of_the_paper_are_drawn),
+        cmocka_unit_test(commands_of_the_readme_run),
         cmocka_unit_test(by_hand_is_computed_again_by_octave),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
