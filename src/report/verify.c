@@ -1,29 +1,11 @@
-/* The references of theory.md 6 against what the program computes. */
-#include "rollbem/report.h"
-
-#include "rollbem/closed_forms.h"
-#include "rollbem/lcp.h"
+/* `verify`: every reference against what the program computes. */
+#include "report/verify.h"
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 
-typedef struct {
-    rb_report_each_check *each;
-    void *context;
-    int failed;
-    const char *why;
-} run;
-
-enum { ABSOLUTE, RELATIVE };
-
-#if defined(__GNUC__)
-__attribute__((format(printf, 6, 7)))
-#endif
-static void
-compare(run *r, double got, double wanted, double bound, int relative, const char *what,
-        ...)
+void rb_verify_compare(rb_verify *v, double got, double wanted, double bound,
+                       int relative, const char *what, ...)
 {
     rb_report_check c = {
         .wanted = wanted, .got = got, .bound = bound, .relative = relative};
@@ -33,16 +15,30 @@ compare(run *r, double got, double wanted, double bound, int relative, const cha
     va_end(args);
     c.error = fabs(got - wanted) / (relative ? fabs(wanted) : 1.0);
     c.holds = c.error <= bound; /* false for NaN */
-    c.why = r->why;
-    r->failed += !c.holds;
-    r->each(&c, r->context);
+    c.why = v->why;
+    v->failed += !c.holds;
+    v->each(&c, v->context);
 }
 
-/* ---- Cases ------------------------------------------------------------------------ */
+void rb_verify_note(rb_verify *v, rb_status s, const rb_message *why)
+{
+    v->why = s == RB_OK ? NULL : why->text[0] ? why->text : rb_status_text(s);
+}
 
-/* A half-plane against a rigid plane under the load whose Hertz half-width is R/1e4; with
- * nu = 1/2 the pair has no coupling, as similar bodies. */
-static rb_rolling_case uncoupled(void)
+void rb_verify_solve(rb_verify *v, const rb_rolling_case *rc, rb_rolling_solution *s)
+{
+    static rb_message why;
+    why.text[0] = '\0';
+    *s = (rb_rolling_solution){0};
+    const rb_status status = rb_rolling_solve(rc, s, &why);
+    rb_verify_note(v, status, &why);
+    if (status != RB_OK) {
+        s->normal_load = s->force_ratio = s->max_pressure = s->half_width = NAN;
+        s->approach = s->creepage = s->stick_from = s->stick_to = s->dissipation = NAN;
+    }
+}
+
+rb_rolling_case rb_verify_uncoupled(void)
 {
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.a.support = RB_BEM_HALFPLANE;
@@ -54,243 +50,11 @@ static rb_rolling_case uncoupled(void)
     return rc;
 }
 
-static rb_rolling_case rolling_at(double s)
-{
-    rb_rolling_case rc = uncoupled();
-    rc.formulation = RB_STEADY;
-    rc.creep_ratio = s;
-    return rc;
-}
-
-/* Solves; when that fails every value stays NaN and the reason is kept. */
-static void solve(run *r, const rb_rolling_case *rc, rb_rolling_solution *s)
-{
-    static rb_message why;
-    why.text[0] = '\0';
-    *s = (rb_rolling_solution){0};
-    const rb_status status = rb_rolling_solve(rc, s, &why);
-    r->why = status == RB_OK ? NULL : why.text[0] ? why.text : rb_status_text(status);
-    if (status != RB_OK) {
-        s->normal_load = s->force_ratio = s->max_pressure = s->half_width = NAN;
-        s->approach = s->creepage = s->stick_from = s->stick_to = NAN;
-    }
-}
-
-/* rms of f(x) - wanted over the contact elements, divided by scale */
-static double rms_error(const rb_rolling_solution *s, const double *f, double scale,
-                        double (*wanted)(double x, const void *context),
-                        const void *context)
-{
-    double sum = 0.0, length = 0.0;
-    for (int i = 0; i < s->n; i++) {
-        const double e = (f[i] - wanted(s->x[i], context)) / scale;
-        sum += e * e * s->h[i];
-        length += s->h[i];
-    }
-    return sqrt(sum / length);
-}
-
-typedef struct {
-    double mu, p0, a, s;
-} curve;
-
-static double hertz_at(double x, const void *context)
-{
-    const curve *c = context;
-    return rb_closed_hertz_pressure(c->p0, c->a, x);
-}
-
-static double carter_at(double x, const void *context)
-{
-    const curve *c = context;
-    return rb_closed_carter_traction(c->mu, c->p0, c->a, c->s, x);
-}
-
-/* ---- Normal contact --------------------------------------------------------------- */
-
-static void hertz(run *r, rb_rolling_mesh_kind mesh, int elements, const char *name,
-                  const double bound[4])
-{
-    rb_rolling_case rc = uncoupled();
-    rb_rolling_solution s;
-    rc.mesh = mesh;
-    rc.contact_elements = elements;
-    const double modulus = rc.a.young / 0.75, a = rc.half_width;
-    const double P = rb_closed_hertz_load(a, rc.a.radius, modulus);
-    const curve c = {.p0 = rb_closed_hertz_max_pressure(P, a), .a = a};
-    solve(r, &rc, &s);
-    compare(r, s.normal_load, P, 1e-9, RELATIVE, "Hertz, %s: load", name);
-    compare(r, s.max_pressure / c.p0, 1.0, bound[0], ABSOLUTE, "Hertz, %s: p0", name);
-    compare(r, s.half_width / a, 1.0, bound[1], ABSOLUTE, "Hertz, %s: half-width", name);
-    compare(r, rms_error(&s, s.p, c.p0, hertz_at, &c), 0.0, bound[2], ABSOLUTE,
-            "Hertz, %s: rms of p / p0", name);
-    compare(r, s.approach / rb_closed_half_cylinder_approach(P, rc.a.radius, modulus, a),
-            1.0, bound[3], ABSOLUTE, "half-cylinder compression, %s", name);
-    rb_rolling_solution_free(&s);
-}
-
-/* ---- Similar bodies --------------------------------------------------------------- */
-
-static void carter(run *r, double ratio)
-{
-    const rb_rolling_case rc = rolling_at(ratio);
-    rb_rolling_solution s;
-    solve(r, &rc, &s);
-    const double a = rc.half_width, P = s.normal_load;
-    const curve c = {rc.mu, rb_closed_hertz_max_pressure(P, a), a, ratio};
-    compare(r, s.force_ratio, rb_closed_carter_force_ratio(ratio), 5e-4, ABSOLUTE,
-            "Carter, s = %g: Q/(mu P)", ratio);
-    if (fabs(ratio) < 1.0)
-        compare(r, s.stick_from / a, 1.0 - 2.0 * (1.0 - fabs(ratio)), 0.04, ABSOLUTE,
-                "Carter, s = %g: start of stick / a", ratio);
-    compare(r, rms_error(&s, s.q, rc.mu * c.p0, carter_at, &c), 0.0, 1e-2, ABSOLUTE,
-            "Carter, s = %g: rms of q / (mu p0)", ratio);
-    rb_rolling_solution_free(&s);
-}
-
-/* A cylinder with a boundary on a half-plane of its material: a/R = 1e-3, so half-plane
- * theory holds to the order of approach/R (theory.md 4.3). */
-static void carter_on(run *r, rb_bem_support support, const char *name)
-{
-    rb_rolling_case rc = rolling_at(0.4);
-    rb_rolling_solution s;
-    rc.a.support = support;
-    rc.a.poisson = rc.b.poisson = 0.3;
-    rc.elastic_b = 1;
-    rc.half_width = rc.a.radius * 1e-3;
-    rc.mesh = RB_MESH_UNIFORM;
-    rc.contact_elements = 100;
-    solve(r, &rc, &s);
-    compare(r, s.force_ratio, rb_closed_carter_force_ratio(0.4), 0.02, ABSOLUTE,
-            "Carter on a cylinder held by its %s", name);
-    rb_rolling_solution_free(&s);
-}
-
-/* The matrix of Addi et al. and its pivoted form are one problem. */
-static void two_forms(run *r)
-{
-    rb_rolling_case rc = rolling_at(0.4);
-    rb_rolling_solution s, t;
-    rc.solver = RB_SOLVER_LEMKE;
-    solve(r, &rc, &s);
-    rc.lcp_form = RB_LCP_KWAK;
-    solve(r, &rc, &t);
-    double difference = s.n == t.n ? 0.0 : NAN;
-    for (int i = 0; i < s.n && s.n == t.n; i++)
-        difference = fmax(difference, fabs(s.q[i] - t.q[i]) + fabs(s.p[i] - t.p[i]));
-    compare(r, difference / s.max_pressure, 0.0, 1e-9, ABSOLUTE,
-            "LCP of Kwak against the pivoted form: tractions / p0");
-    rb_rolling_solution_free(&s);
-    rb_rolling_solution_free(&t);
-}
-
-static void cattaneo(run *r, double ratio)
-{
-    rb_rolling_case rc = uncoupled();
-    rb_rolling_solution s;
-    rc.force_ratio = ratio;
-    solve(r, &rc, &s);
-    compare(r, s.force_ratio, ratio, 1e-9, RELATIVE,
-            "Cattaneo-Mindlin: Q/(mu P) as asked");
-    compare(r, (s.stick_to - s.stick_from) / (2.0 * rc.half_width),
-            rb_closed_cattaneo_stick(ratio), 0.02, ABSOLUTE,
-            "Cattaneo-Mindlin, Q = %g mu P: stick half-width / a", ratio);
-    rb_rolling_solution_free(&s);
-}
-
-/* ---- Dissimilar bodies ------------------------------------------------------------ */
-
-/* Aluminium on steel rolling freely, R_A = R_B = 50, a = 0.1. */
-static rb_rolling_case aluminium_on_steel(double mu)
-{
-    rb_rolling_case rc = uncoupled();
-    rc.a.young = 2.0 * 23000.0 * 1.31;
-    rc.a.poisson = 0.31;
-    rc.b = rc.a;
-    rc.b.young = 2.0 * 82000.0 * 1.28;
-    rc.b.poisson = 0.28;
-    rc.elastic_b = 1;
-    rc.half_width = 0.1;
-    rc.mu = mu;
-    rc.formulation = RB_STEADY;
-    rc.force = 0.0;
-    return rc;
-}
-
-static void bentall_johnson(run *r)
-{
-    const double beta = 0.143834, modulus = 51572.3, a = 0.1, R = 25.0;
-    const rb_closed_bentall_johnson rough =
-        rb_closed_bentall_johnson_stick(beta, a, R, modulus);
-    rb_rolling_case rc = aluminium_on_steel(20.0);
-    rb_rolling_solution s;
-    solve(r, &rc, &s);
-    compare(r, s.creepage, -rough.creepage, 1e-3, RELATIVE,
-            "Bentall-Johnson, mu = 20: creepage of mu -> inf");
-    compare(r, s.half_width, rough.half_width, 1e-3, RELATIVE,
-            "Bentall-Johnson, mu = 20: half-width of mu -> inf");
-    rb_rolling_solution_free(&s);
-    rc = aluminium_on_steel(1e-4);
-    solve(r, &rc, &s);
-    compare(r, s.creepage, -rb_closed_bentall_johnson_slip(beta, a, R), 2e-3, RELATIVE,
-            "Bentall-Johnson, mu = 1e-4: creepage of mu -> 0");
-    rb_rolling_solution_free(&s);
-}
-
-/* ---- Below the surface ------------------------------------------------------------ */
-
-enum { STRIPS = 400, DEPTHS = 160 };
-
-/* Largest shear on the axis under a Hertz pressure, and where (Johnson 4.2: independent
- * of Poisson's ratio). */
-static void subsurface(run *r)
-{
-    double ends[STRIPS + 1], p[STRIPS], q[STRIPS], xy[2 * DEPTHS], stress[3 * DEPTHS];
-    for (int i = 0; i <= STRIPS; i++)
-        ends[i] = -cos(3.14159265358979 * i / STRIPS);
-    for (int i = 0; i < STRIPS; i++) {
-        p[i] = rb_closed_hertz_pressure(1.0, 1.0, (ends[i] + ends[i + 1]) / 2.0);
-        q[i] = 0.0;
-    }
-    for (int k = 0; k < DEPTHS; k++) {
-        xy[2 * k] = 0.0;
-        xy[2 * k + 1] = 0.01 * (k + 1);
-    }
-    r->why = NULL;
-    const rb_status status =
-        rb_bem_halfplane_stress(STRIPS, ends, p, q, DEPTHS, xy, stress);
-    if (status != RB_OK)
-        r->why = rb_status_text(status);
-    double largest = 0.0, depth = NAN;
-    for (int k = 0; k < DEPTHS && status == RB_OK; k++) {
-        const double *t = stress + 3 * k;
-        const double shear = hypot((t[0] - t[1]) / 2.0, t[2]);
-        if (shear > largest) {
-            largest = shear;
-            depth = xy[2 * k + 1];
-        }
-    }
-    compare(r, largest, 0.30028, 1e-3, RELATIVE, "largest shear under Hertz / p0");
-    compare(r, depth, 0.78615, 0.01, ABSOLUTE, "its depth / a");
-}
-
-/* ---- All -------------------------------------------------------------------------- */
-
 int rb_report_verify(rb_report_each_check *each, void *context)
 {
-    static const double ratios[] = {0.1, 0.4, 0.7, -0.7, 0.95, 1.5};
-    static const double equal[] = {1e-3, 2e-3, 3e-3, 1e-3},
-                        fitted[] = {3e-4, 2e-4, 1e-3, 1e-4};
-    run r = {.each = each, .context = context};
-    hertz(&r, RB_MESH_UNIFORM, 240, "equal elements", equal);
-    hertz(&r, RB_MESH_FITTED, 100, "fitted elements", fitted);
-    for (size_t k = 0; k < sizeof ratios / sizeof ratios[0]; k++)
-        carter(&r, ratios[k]);
-    carter_on(&r, RB_BEM_ARC, "arc");
-    carter_on(&r, RB_BEM_HUB, "hub");
-    two_forms(&r);
-    cattaneo(&r, 0.64);
-    bentall_johnson(&r);
-    subsurface(&r);
-    return r.failed;
+    rb_verify v = {.each = each, .context = context};
+    rb_verify_bodies(&v);
+    rb_verify_contact(&v);
+    rb_verify_rolling(&v);
+    return v.failed;
 }

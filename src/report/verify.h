@@ -1,0 +1,37 @@
+/* What the references of `verify` share. */
+#ifndef ROLLBEM_REPORT_VERIFY_H
+#define ROLLBEM_REPORT_VERIFY_H
+
+#include "rollbem/report.h"
+
+typedef struct {
+    rb_report_each_check *each;
+    void *context;
+    int failed;
+    const char *why; /* of the solution at hand; NULL: it is one */
+} rb_verify;
+
+enum { RB_VERIFY_ABSOLUTE, RB_VERIFY_RELATIVE };
+
+/* Hands on one line; what: printf format. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 6, 7)))
+#endif
+void rb_verify_compare(rb_verify *v, double got, double wanted, double bound, int relative,
+                       const char *what, ...);
+
+/* Keeps the reason of a failure for the next lines. */
+void rb_verify_note(rb_verify *v, rb_status s, const rb_message *why);
+
+/* Solves; when that fails every value compared is NaN and the reason is kept. */
+void rb_verify_solve(rb_verify *v, const rb_rolling_case *rc, rb_rolling_solution *s);
+
+/* A half-plane against a rigid plane under the load whose Hertz half-width is R/1e4, 100
+ * fitted elements; with nu = 1/2 the pair has no coupling, as similar bodies. */
+rb_rolling_case rb_verify_uncoupled(void);
+
+void rb_verify_contact(rb_verify *v); /* Hertz, Carter, Cattaneo, Bentall-Johnson */
+void rb_verify_bodies(rb_verify *v);  /* the elastic body alone, and below the contact */
+void rb_verify_rolling(rb_verify *v); /* transients, dissipation */
+
+#endif

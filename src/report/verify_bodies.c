@@ -1,0 +1,149 @@
+/* The elastic body alone, and the stress below a contact. */
+#include "report/verify.h"
+
+#include "rollbem/closed_forms.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { ABSOLUTE = RB_VERIFY_ABSOLUTE, RELATIVE = RB_VERIFY_RELATIVE };
+
+static const double PI = 3.14159265358979323846;
+
+/* ---- A thick ring ------------------------------------------------------------------ */
+
+enum { RING = 240 };
+
+static const double inner = 1.0, outer = 2.0, pressure = 1.0;
+
+/* The outer contour counter-clockwise and held, the inner one clockwise under pressure.
+ */
+static void set_ring_element(rb_bem_mesh *mesh, int j)
+{
+    const int is_outer = j < RING;
+    const double R = is_outer ? outer : inner, turn = is_outer ? 1.0 : -1.0;
+    const double a0 = turn * 2.0 * PI * (j % RING) / RING;
+    const double a1 = turn * 2.0 * PI * ((j + 1) % RING) / RING;
+    mesh->x0[j] = R * cos(a0);
+    mesh->y0[j] = R * sin(a0);
+    mesh->x1[j] = R * cos(a1);
+    mesh->y1[j] = R * sin(a1);
+    for (int d = 0; d < 2; d++)
+        mesh->condition[2 * j + d] = is_outer ? RB_BEM_DISPLACEMENT : RB_BEM_TRACTION;
+    if (!is_outer) {
+        const double middle = turn * 2.0 * PI * (j % RING + 0.5) / RING;
+        mesh->value[2 * j] = pressure * cos(middle);
+        mesh->value[2 * j + 1] = pressure * sin(middle);
+    }
+}
+
+static rb_status solve_ring(rb_bem_material material, double *u, double *t,
+                            rb_message *why)
+{
+    rb_bem_mesh mesh;
+    rb_bem_system *system = NULL;
+    rb_status s = rb_bem_mesh_alloc(2 * RING, &mesh);
+    for (int j = 0; j < 2 * RING && s == RB_OK; j++)
+        set_ring_element(&mesh, j);
+    if (s == RB_OK)
+        s = rb_bem_system_create(&mesh, material, &system, why);
+    if (s == RB_OK)
+        s = rb_bem_system_solve(system, NULL, u, t);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+    return s;
+}
+
+/* Lame: u = A r + B/r with u(outer) = 0 and s_rr(inner) = -pressure. */
+static void ring(rb_verify *v)
+{
+    const rb_bem_material m = {1.0, 0.3};
+    const double c = 2.0 * m.shear, k = 1.0 / (1.0 - 2.0 * m.poisson);
+    /* s_rr = c (A k - B/r^2), A = -B/outer^2 */
+    const double B = pressure / c / (k / (outer * outer) + 1.0 / (inner * inner));
+    const double u_inner = B / inner - B * inner / (outer * outer);
+    const double s_outer = -c * B * (k + 1.0) / (outer * outer);
+    /* constant elements on a polygon are of first order: 0.43/n was measured */
+    const double bound = 0.6 / RING;
+    double u[4 * RING], t[4 * RING];
+    rb_message why = {""};
+    const rb_status s = solve_ring(m, u, t, &why);
+    rb_verify_note(v, s, &why);
+    /* the first elements of both contours lie around the x axis, half an element off */
+    const double u_got = s == RB_OK ? hypot(u[2 * RING], u[2 * RING + 1]) : NAN;
+    const double s_got = s == RB_OK ? -hypot(t[0], t[1]) : NAN;
+    rb_verify_compare(v, u_got, u_inner, bound, RELATIVE,
+                      "ring under inner pressure (Lame): displacement of the hole");
+    rb_verify_compare(v, s_got, s_outer, bound, RELATIVE,
+                      "ring under inner pressure (Lame): stress at the held rim");
+}
+
+/* ---- Below the surface ------------------------------------------------------------- */
+
+static void maxima(rb_verify *v, const rb_rolling_case *rc, rb_rolling_stress_maxima *m,
+                   double *a, double *p0)
+{
+    static rb_message why;
+    rb_rolling_model model;
+    rb_rolling_solution s = {0};
+    const rb_rolling_extremum nothing = {NAN, NAN, NAN};
+    *m = (rb_rolling_stress_maxima){nothing, nothing, nothing, nothing};
+    why.text[0] = '\0';
+    rb_status status = rb_rolling_solve_model(rc, &model, &s, &why);
+    *a = s.hertz_half_width;
+    *p0 = status == RB_OK ? rb_closed_hertz_max_pressure(s.normal_load, *a) : NAN;
+    if (status == RB_OK)
+        status = rb_rolling_stress_maxima_find(&model, 0.0, m, &why);
+    rb_verify_note(v, status, &why);
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+}
+
+static void extremum(rb_verify *v, const rb_rolling_extremum *e, double a, double p0,
+                     double value, double x, double y, const char *name)
+{
+    rb_verify_compare(v, e->value / p0, value, 3e-3, RELATIVE, "%s / p0", name);
+    rb_verify_compare(v, hypot(fabs(e->x) / a - x, e->y / a - y), 0.0, 1e-2, ABSOLUTE,
+                      "%s: distance from its place / a", name);
+}
+
+/* Johnson, Contact Mechanics, 4.2 and 7.1; nu = 0.3. */
+static void below_hertz(rb_verify *v)
+{
+    rb_rolling_stress_maxima m;
+    double a, p0;
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.poisson = 0.3;
+    rc.mu = 0.0;
+    maxima(v, &rc, &m, &a, &p0);
+    extremum(v, &m.max_shear, a, p0, 0.30028, 0.0, 0.78615, "Hertz: largest shear");
+    extremum(v, &m.von_mises, a, p0, 0.55752, 0.0, 0.70429, "Hertz: von Mises");
+    extremum(v, &m.orthogonal_shear, a, p0, 0.25, 0.866, 0.5, "Hertz: orthogonal shear");
+}
+
+/* Similar bodies sliding fully, mu = 0.2; friction on A towards +x for xi < 0. */
+static void below_sliding(rb_verify *v)
+{
+    rb_rolling_stress_maxima m;
+    double a, p0;
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.poisson = 0.3;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.mu = 0.2;
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = -2.0;
+    maxima(v, &rc, &m, &a, &p0);
+    extremum(v, &m.max_shear, a, p0, 0.31899, 0.625, 0.601,
+             "full sliding: largest shear");
+    rb_verify_compare(v, m.max_shear.x / a, 0.625, 1e-2, ABSOLUTE,
+                      "full sliding: its side");
+}
+
+void rb_verify_bodies(rb_verify *v)
+{
+    ring(v);
+    below_hertz(v);
+    below_sliding(v);
+}

@@ -1,0 +1,198 @@
+/* Closed forms of contact on half-planes. */
+#include "report/verify.h"
+
+#include "rollbem/closed_forms.h"
+
+#include <math.h>
+
+enum { ABSOLUTE = RB_VERIFY_ABSOLUTE, RELATIVE = RB_VERIFY_RELATIVE };
+
+static rb_rolling_case rolling_at(double s)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = s;
+    return rc;
+}
+
+/* rms of f(x) - wanted over the contact elements, divided by scale */
+static double rms_error(const rb_rolling_solution *s, const double *f, double scale,
+                        double (*wanted)(double x, const void *context),
+                        const void *context)
+{
+    double sum = 0.0, length = 0.0;
+    for (int i = 0; i < s->n; i++) {
+        const double e = (f[i] - wanted(s->x[i], context)) / scale;
+        sum += e * e * s->h[i];
+        length += s->h[i];
+    }
+    return sqrt(sum / length);
+}
+
+typedef struct {
+    double mu, p0, a, s;
+} curve;
+
+static double hertz_at(double x, const void *context)
+{
+    const curve *c = context;
+    return rb_closed_hertz_pressure(c->p0, c->a, x);
+}
+
+static double carter_at(double x, const void *context)
+{
+    const curve *c = context;
+    return rb_closed_carter_traction(c->mu, c->p0, c->a, c->s, x);
+}
+
+/* ---- Normal contact --------------------------------------------------------------- */
+
+static void hertz(rb_verify *v, rb_rolling_mesh_kind mesh, int elements, const char *name,
+                  const double bound[4])
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_solution s;
+    rc.mesh = mesh;
+    rc.contact_elements = elements;
+    const double modulus = rc.a.young / 0.75, a = rc.half_width;
+    const double P = rb_closed_hertz_load(a, rc.a.radius, modulus);
+    const curve c = {.p0 = rb_closed_hertz_max_pressure(P, a), .a = a};
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_compare(v, s.normal_load, P, 1e-9, RELATIVE, "Hertz, %s: load", name);
+    rb_verify_compare(v, s.max_pressure / c.p0, 1.0, bound[0], ABSOLUTE, "Hertz, %s: p0",
+                      name);
+    rb_verify_compare(v, s.half_width / a, 1.0, bound[1], ABSOLUTE,
+                      "Hertz, %s: half-width", name);
+    rb_verify_compare(v, rms_error(&s, s.p, c.p0, hertz_at, &c), 0.0, bound[2], ABSOLUTE,
+                      "Hertz, %s: rms of p / p0", name);
+    rb_verify_compare(
+        v, s.approach / rb_closed_half_cylinder_approach(P, rc.a.radius, modulus, a), 1.0,
+        bound[3], ABSOLUTE, "half-cylinder compression, %s", name);
+    rb_rolling_solution_free(&s);
+}
+
+/* ---- Similar bodies --------------------------------------------------------------- */
+
+static void carter(rb_verify *v, double ratio)
+{
+    const rb_rolling_case rc = rolling_at(ratio);
+    rb_rolling_solution s;
+    rb_verify_solve(v, &rc, &s);
+    const double a = rc.half_width, P = s.normal_load;
+    const curve c = {rc.mu, rb_closed_hertz_max_pressure(P, a), a, ratio};
+    rb_verify_compare(v, s.force_ratio, rb_closed_carter_force_ratio(ratio), 5e-4,
+                      ABSOLUTE, "Carter, s = %g: Q/(mu P)", ratio);
+    if (fabs(ratio) < 1.0)
+        rb_verify_compare(v, s.stick_from / a, 1.0 - 2.0 * (1.0 - fabs(ratio)), 0.04,
+                          ABSOLUTE, "Carter, s = %g: start of stick / a", ratio);
+    rb_verify_compare(v, rms_error(&s, s.q, rc.mu * c.p0, carter_at, &c), 0.0, 1e-2,
+                      ABSOLUTE, "Carter, s = %g: rms of q / (mu p0)", ratio);
+    rb_rolling_solution_free(&s);
+}
+
+/* A cylinder with a boundary on a half-plane of its material: a/R = 1e-3, so half-plane
+ * theory holds to the order of approach/R (theory.md 4.3). */
+static void carter_on(rb_verify *v, rb_bem_support support, const char *name)
+{
+    rb_rolling_case rc = rolling_at(0.4);
+    rb_rolling_solution s;
+    rc.a.support = support;
+    rc.a.poisson = rc.b.poisson = 0.3;
+    rc.elastic_b = 1;
+    rc.half_width = rc.a.radius * 1e-3;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.contact_elements = 100;
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_compare(v, s.force_ratio, rb_closed_carter_force_ratio(0.4), 0.02, ABSOLUTE,
+                      "Carter on a cylinder held by its %s", name);
+    rb_rolling_solution_free(&s);
+}
+
+/* The matrix of Addi et al. and its pivoted form are one problem. */
+static void two_forms(rb_verify *v)
+{
+    rb_rolling_case rc = rolling_at(0.4);
+    rb_rolling_solution s, t;
+    rc.solver = RB_SOLVER_LEMKE;
+    rb_verify_solve(v, &rc, &s);
+    rc.lcp_form = RB_LCP_KWAK;
+    rb_verify_solve(v, &rc, &t);
+    double difference = s.n == t.n ? 0.0 : NAN;
+    for (int i = 0; i < s.n && s.n == t.n; i++)
+        difference = fmax(difference, fabs(s.q[i] - t.q[i]) + fabs(s.p[i] - t.p[i]));
+    rb_verify_compare(v, difference / s.max_pressure, 0.0, 1e-9, ABSOLUTE,
+                      "LCP of Kwak against the pivoted form: tractions / p0");
+    rb_rolling_solution_free(&s);
+    rb_rolling_solution_free(&t);
+}
+
+static void cattaneo(rb_verify *v, double ratio)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_solution s;
+    rc.force_ratio = ratio;
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_compare(v, s.force_ratio, ratio, 1e-9, RELATIVE,
+                      "Cattaneo-Mindlin: Q/(mu P) as asked");
+    rb_verify_compare(v, (s.stick_to - s.stick_from) / (2.0 * rc.half_width),
+                      rb_closed_cattaneo_stick(ratio), 0.02, ABSOLUTE,
+                      "Cattaneo-Mindlin, Q = %g mu P: stick half-width / a", ratio);
+    rb_rolling_solution_free(&s);
+}
+
+/* ---- Dissimilar bodies ------------------------------------------------------------ */
+
+/* Aluminium on steel rolling freely, R_A = R_B = 50, a = 0.1. */
+static rb_rolling_case aluminium_on_steel(double mu)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.young = 2.0 * 23000.0 * 1.31;
+    rc.a.poisson = 0.31;
+    rc.b = rc.a;
+    rc.b.young = 2.0 * 82000.0 * 1.28;
+    rc.b.poisson = 0.28;
+    rc.elastic_b = 1;
+    rc.half_width = 0.1;
+    rc.mu = mu;
+    rc.formulation = RB_STEADY;
+    rc.force = 0.0;
+    return rc;
+}
+
+static void bentall_johnson(rb_verify *v)
+{
+    const double beta = 0.143834, modulus = 51572.3, a = 0.1, R = 25.0;
+    const rb_closed_bentall_johnson rough =
+        rb_closed_bentall_johnson_stick(beta, a, R, modulus);
+    rb_rolling_case rc = aluminium_on_steel(20.0);
+    rb_rolling_solution s;
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_compare(v, s.creepage, -rough.creepage, 1e-3, RELATIVE,
+                      "Bentall-Johnson, mu = 20: creepage of mu -> inf");
+    rb_verify_compare(v, s.half_width, rough.half_width, 1e-3, RELATIVE,
+                      "Bentall-Johnson, mu = 20: half-width of mu -> inf");
+    rb_rolling_solution_free(&s);
+    rc = aluminium_on_steel(1e-4);
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_compare(v, s.creepage, -rb_closed_bentall_johnson_slip(beta, a, R), 2e-3,
+                      RELATIVE, "Bentall-Johnson, mu = 1e-4: creepage of mu -> 0");
+    rb_rolling_solution_free(&s);
+}
+
+/* ---- All -------------------------------------------------------------------------- */
+
+void rb_verify_contact(rb_verify *v)
+{
+    static const double ratios[] = {0.1, 0.4, 0.7, -0.7, 0.95, 1.5};
+    static const double equal[] = {1e-3, 2e-3, 3e-3, 1e-3},
+                        fitted[] = {3e-4, 2e-4, 1e-3, 1e-4};
+    hertz(v, RB_MESH_UNIFORM, 240, "equal elements", equal);
+    hertz(v, RB_MESH_FITTED, 100, "fitted elements", fitted);
+    for (size_t k = 0; k < sizeof ratios / sizeof ratios[0]; k++)
+        carter(v, ratios[k]);
+    carter_on(v, RB_BEM_ARC, "arc");
+    carter_on(v, RB_BEM_HUB, "hub");
+    two_forms(v);
+    cattaneo(v, 0.64);
+    bentall_johnson(v);
+}

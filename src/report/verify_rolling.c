@@ -1,0 +1,77 @@
+/* Rolling in time, and what it costs. */
+#include "report/verify.h"
+
+#include "rollbem/closed_forms.h"
+
+#include <math.h>
+
+enum { RELATIVE = RB_VERIFY_RELATIVE };
+
+/* ---- Cattaneo to Carter ------------------------------------------------------------ */
+
+/* Creepage in the middle of the step that ends nearest to the distance. */
+static double creepage_at(const rb_rolling_history *h, double distance)
+{
+    int nearest = 0;
+    for (int k = 1; k < h->n; k++)
+        if (fabs(h->distance[k] - distance) < fabs(h->distance[nearest] - distance))
+            nearest = k;
+    return h->n > 0 ? h->creepage[nearest] : NAN;
+}
+
+/* Steel on steel from rest to Q = 0.64 mu P: theory.md 6, computed with CONTACT, 200
+ * elements across, steps of one element.  Near the kink at 0.8 it still moves with n. */
+static void cattaneo_to_carter(rb_verify *v)
+{
+    static const double distance[] = {0.04, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.4, 2.0, 3.0};
+    static const double wanted[] = {1.214e-4, 1.243e-4, 1.298e-4, 1.432e-4, 1.619e-4,
+                                    2.027e-4, 2.818e-4, 2.393e-4, 2.371e-4, 2.389e-4};
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_history h;
+    rb_rolling_model model;
+    static rb_message why;
+    rc.a.radius = 500.0;
+    rc.a.poisson = 0.28;
+    rc.a.young = 2.0 * 82000.0 * 1.28;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.half_width = NAN;
+    rc.load = 178.896;
+    rc.mu = 0.3;
+    rc.formulation = RB_TRANSIENT;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.contact_elements = 250;
+    rc.zone = 1.25 * rb_closed_hertz_half_width(rc.load, rc.a.radius,
+                                                rc.a.young / 2.0 / (1.0 - 0.28 * 0.28));
+    rc.force_ratio = -0.64;
+    rc.distance = 3.0;
+    const rb_status s = rb_rolling_history_run(&rc, NULL, NULL, NULL, &model, &h, &why);
+    rb_verify_note(v, s, &why);
+    for (int k = 0; k < 10; k++)
+        rb_verify_compare(v, creepage_at(&h, distance[k]), wanted[k], 0.01, RELATIVE,
+                          "Cattaneo to Carter: creepage after %g a", distance[k]);
+    rb_rolling_history_free(&h);
+    rb_rolling_model_free(&model);
+}
+
+/* ---- Power ------------------------------------------------------------------------- */
+
+/* Similar bodies: what friction loses is what the creepage feeds, D = -xi Q. */
+static void dissipation(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_solution s;
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = 0.4;
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_compare(v, s.dissipation, -s.creepage * s.tangential_load, 1e-3, RELATIVE,
+                      "dissipated power: D = -xi Q");
+    rb_rolling_solution_free(&s);
+}
+
+void rb_verify_rolling(rb_verify *v)
+{
+    dissipation(v);
+    cattaneo_to_carter(v);
+}
