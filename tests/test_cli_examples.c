@@ -30,8 +30,8 @@ static int run(const char *format, ...)
 static void compare_tables(const char *got_path, const char *wanted_path)
 {
     enum { COLUMNS = 10 };
-    int rows, wanted_rows;
-    double *got, *wanted;
+    int rows = 0, wanted_rows = 0;
+    double *got = NULL, *wanted = NULL;
     rb_message why = {""};
     if (rb_io_read_columns(got_path, COLUMNS, &rows, &got, &why) != RB_OK ||
         rb_io_read_columns(wanted_path, COLUMNS, &wanted_rows, &wanted, &why) != RB_OK)

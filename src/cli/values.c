@@ -195,7 +195,9 @@ const char *cli_value_text(const cli_option *o, const void *target, char room[64
         const double v = *(const double *)place;
         if (o->word && v == o->word_value)
             return o->word;
-        snprintf(room, 64, isnan(v) ? "" : "%.15g", v);
+        if (isnan(v))
+            return "";
+        snprintf(room, 64, "%.15g", v);
         return room;
     }
     case CLI_INTEGER:
