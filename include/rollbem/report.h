@@ -105,6 +105,52 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_picture_kind kind,
                                   const rb_report_curves *curves, int over_creep,
                                   rb_message *why);
 
+/* ---- Subsurface stress ------------------------------------------------------------- */
+
+/* Stress at points of body A: a grid (nx x ny, row by row from the surface) or, with
+ * nx = 0, n points.  Grid points outside the body are left out. */
+typedef struct {
+    int nx, ny, n;
+    const rb_rolling_stress *at; /* n; borrowed, as all here */
+    const int *inside;           /* n; NULL: all */
+    const rb_rolling_stress_maxima *maxima;
+    const rb_rolling_stress_maxima *errors; /* NULL: not asked for */
+    const rb_rolling_case *rc;
+    const rb_rolling_solution *s;
+} rb_report_stress;
+
+/* One row per point; the maxima stand in the header.  RB_EWRITE: see errno. */
+rb_status rb_report_stress_table(FILE *out, const rb_report_stress *stress,
+                                 const char *command, int bare);
+/* Sets "maxima", and "grid" or "points". */
+void rb_report_json_stress(struct json_t *root, const rb_report_stress *stress);
+/* The maxima, with their errors where known. */
+void rb_report_stress_summary(FILE *out, const rb_report_stress *stress);
+/* Contours of maximum shear and of von Mises over a grid. */
+rb_status rb_report_stress_picture(FILE *out, rb_report_picture_kind kind,
+                                   const rb_report_stress *stress, rb_message *why);
+/* Photoelastic fringes: dark where sigma_1 - sigma_2 is a multiple of fringe [stress]; 0:
+ * about ten of them. */
+rb_status rb_report_fringes(FILE *out, rb_report_picture_kind kind,
+                            const rb_report_stress *stress, double fringe,
+                            rb_message *why);
+
+/* Files of the Visualization Toolkit, for ParaView. */
+typedef enum {
+    RB_REPORT_VTI, /* regular grids: half-planes */
+    RB_REPORT_VTU  /* any grid: quadrilaterals of points inside the body; points */
+} rb_report_vtk_kind;
+
+/* By the end of the name.  RB_EINVAL: neither .vti nor .vtu. */
+rb_status rb_report_vtk_kind_of(const char *path, rb_report_vtk_kind *kind,
+                                rb_message *why);
+/* RB_EINVAL: .vti for points or for the grid of a wheel, which follows its surface. */
+rb_status rb_report_vtk_check(rb_report_vtk_kind kind, const rb_report_stress *stress,
+                              rb_message *why);
+/* RB_EWRITE: see errno.  RB_ENOMEM. */
+rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind,
+                        const rb_report_stress *stress);
+
 /* ---- Behind the solution ------------------------------------------------------------
  */
 

@@ -424,6 +424,24 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
                                         rb_rolling_stress_maxima *maxima,
                                         rb_message *why);
 
+/* inside[k] = 1 where point k lies in A or on its surface: where rb_rolling_stress_at
+ * has an answer.  RB_ENOMEM. */
+rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *xy,
+                            int *inside);
+
+/* Stress on a grid that follows A's surface: row by row, the first one on the surface. */
+typedef struct {
+    int nx, ny;
+    rb_rolling_stress *at; /* nx x ny; NAN but for x and y where not inside; owned */
+    int *inside;           /* nx x ny; owned */
+} rb_rolling_stress_grid;
+
+/* Over the same width and depth as the maxima; nx, ny >= 2.  grid: overwritten. */
+rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny,
+                                    double depth, rb_rolling_stress_grid *grid,
+                                    rb_message *why);
+void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid);
+
 /* ---- Error bars (theory.md 5.1)
  * ----------------------------------------------------------- */
 

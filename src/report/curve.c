@@ -237,5 +237,5 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_picture_kind kind,
         if (curves->curve[k].n < 2 || curves->mu[k] == 0.0)
             return rb_fail(why, RB_EINVAL, "no curve to draw at mu = %g", curves->mu[k]);
     choose_x_axis(&v);
-    return rb_report_draw(out, kind, write_script, &v, why);
+    return rb_report_draw(out, kind, RB_REPORT_SLIDE, write_script, &v, why);
 }

@@ -40,18 +40,33 @@ rb_status rb_report_print_end(FILE *out);
 void rb_report_json_series(struct json_t *object, int rows, int columns,
                            const rb_report_series *series);
 
+/* ---- Stress ------------------------------------------------------------------------ */
+
+/* Column of the stress at a point. */
+typedef struct {
+    const char *name, *key; /* with its unit; in VTK */
+    size_t offset;          /* in rb_rolling_stress */
+} rb_report_stress_column;
+
+extern const rb_report_stress_column rb_report_stress_columns[];
+enum { RB_REPORT_STRESS_COLUMNS = 11 };
+
+double rb_report_stress_value(const rb_rolling_stress *at, int column);
+int rb_report_stress_is_inside(const rb_report_stress *s, int k);
+
 /* ---- Pictures ---------------------------------------------------------------------- */
 
-/* gnuplot's terminal, and the font of a key that would otherwise be larger. */
-const char *rb_report_terminal(rb_report_picture_kind kind);
+/* The font of a key that would otherwise be larger. */
 const char *rb_report_key_font(rb_report_picture_kind kind);
 /* The next of 1, 2, 5 times a power of ten. */
 double rb_report_round_step(double step);
 
+typedef enum { RB_REPORT_SLIDE, RB_REPORT_WIDE } rb_report_shape; /* 4:3, 2:1 */
+
 /* Writes the script and runs gnuplot. */
 typedef void rb_report_script(FILE *script, rb_report_picture_kind kind,
                               const void *view);
-rb_status rb_report_draw(FILE *out, rb_report_picture_kind kind, rb_report_script *script,
-                         const void *view, rb_message *why);
+rb_status rb_report_draw(FILE *out, rb_report_picture_kind kind, rb_report_shape shape,
+                         rb_report_script *script, const void *view, rb_message *why);
 
 #endif

@@ -23,31 +23,30 @@ rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *ki
 
 /* Sizes that suit a slide.  The key needs its font named: svg would take a larger one. */
 static const struct {
-    const char *terminal, *key_font;
-} looks[] = {
-    {"pngcairo size 1600,1200 font 'DejaVu Sans,24' linewidth 2.2 background '#ffffff'",
-     ",24"},
-    {"svg size 1000,750 font 'DejaVu Sans,18' linewidth 1.5 background '#ffffff'", ",15"},
-    {"pdfcairo size 10in,7.5in font 'DejaVu Sans,21' linewidth 1.6 background '#ffffff'",
-     ",21"}};
-
-const char *rb_report_terminal(rb_report_picture_kind kind)
-{
-    return looks[kind].terminal;
-}
+    const char *terminal, *size[2];
+    int font[2];
+    double line;
+    const char *key_font;
+} looks[] = {{"pngcairo", {"1600,1200", "1800,900"}, {24, 20}, 2.2, ",24"},
+             {"svg", {"1000,750", "1200,600"}, {18, 14}, 1.5, ",15"},
+             {"pdfcairo", {"10in,7.5in", "12in,6in"}, {21, 19}, 1.6, ",21"}};
 
 const char *rb_report_key_font(rb_report_picture_kind kind)
 {
     return looks[kind].key_font;
 }
 
-rb_status rb_report_draw(FILE *out, rb_report_picture_kind kind, rb_report_script *script,
-                         const void *view, rb_message *why)
+rb_status rb_report_draw(FILE *out, rb_report_picture_kind kind, rb_report_shape shape,
+                         rb_report_script *script, const void *view, rb_message *why)
 {
     FILE *file = tmpfile();
     if (!file)
         return rb_fail(why, RB_EWRITE, "temporary file: %s", strerror(errno));
-    fprintf(file, "set encoding utf8\nset terminal %s enhanced\n", looks[kind].terminal);
+    fprintf(file,
+            "set encoding utf8\nset terminal %s size %s font 'DejaVu Sans,%d' "
+            "linewidth %g background '#ffffff' enhanced\n",
+            looks[kind].terminal, looks[kind].size[shape], looks[kind].font[shape],
+            looks[kind].line);
     script(file, kind, view);
     const rb_status status = rb_report_gnuplot(file, out, why);
     fclose(file);
@@ -320,5 +319,5 @@ rb_status rb_report_picture(FILE *out, rb_report_picture_kind kind,
     if (s->n < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
     const view v = make_view(rc, s);
-    return rb_report_draw(out, kind, write_script, &v, why);
+    return rb_report_draw(out, kind, RB_REPORT_SLIDE, write_script, &v, why);
 }

@@ -196,7 +196,8 @@ static double search_value(const gsl_vector *place, void *context)
 
     const rb_status status = stress_below(s, inside_x, inside_depth, &at);
     if (status != RB_OK) {
-        s->status = status;
+        if (status != RB_EINVAL) /* that is a place in the hub */
+            s->status = status;
         return GSL_DBL_MAX;
     }
     const double away = hypot(x - inside_x, depth - inside_depth) / s->scale;
@@ -227,6 +228,8 @@ static rb_status refine(search *s, rb_rolling_extremum *best)
         status = s->status == RB_OK ? stress_below(s, x, depth, &at) : s->status;
         if (status == RB_OK && s->of(&at) > best->value)
             *best = (rb_rolling_extremum){s->of(&at), at.x, at.y};
+        if (status == RB_EINVAL)
+            status = RB_OK;
     }
     if (m)
         gsl_multimin_fminimizer_free(m);
@@ -237,72 +240,201 @@ static rb_status refine(search *s, rb_rolling_extremum *best)
     return status;
 }
 
-static rb_status maximum(search *s, const rb_rolling_stress *grid,
+/* Grid points outside the body are no number and never the best. */
+static rb_status maximum(search *s, const rb_rolling_stress_grid *grid,
                          rb_rolling_extremum *best)
 {
     *best = (rb_rolling_extremum){-INFINITY, NAN, NAN};
-    for (int k = 0; k < GRID_X * GRID_Y; k++)
-        if (s->of(&grid[k]) > best->value)
-            *best = (rb_rolling_extremum){s->of(&grid[k]), grid[k].x, grid[k].y};
+    for (int k = 0; k < grid->nx * grid->ny; k++) {
+        const rb_rolling_stress *at = &grid->at[k];
+        if (s->of(at) > best->value)
+            *best = (rb_rolling_extremum){s->of(at), at->x, at->y};
+    }
     return refine(s, best);
 }
 
-static void grid_points(const search *s, double *xy)
+/* Contact edges, half-width, and the box that is looked at. */
+static rb_status choose_box(const rb_rolling_model *model, double depth, search *box,
+                            rb_message *why)
 {
-    for (int j = 0; j < GRID_Y; j++)
-        for (int i = 0; i < GRID_X; i++, xy += 2) {
-            xy[0] = s->from + (s->to - s->from) * i / (GRID_X - 1);
-            xy[1] = rb_rolling_surface(&s->f->model->rc, xy[0]) +
-                    s->depth * gsl_pow_2((double)j / (GRID_Y - 1));
-        }
+    double from, to;
+
+    rb_rolling_contact_edges(&model->mesh, model->state.p, &from, &to);
+    const double a = 0.5 * (to - from);
+    if (!(a > 0.0))
+        return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
+    *box = (search){.scale = a,
+                    .from = from - a,
+                    .to = to + a,
+                    .depth = depth > 0.0 ? depth : 2.5 * a};
+    if (model->bodies.system_a) { /* a wheel: stay below its own equator */
+        const double widest = 0.9 * model->rc.a.radius;
+        box->from = fmax(box->from, -widest);
+        box->to = fmin(box->to, widest);
+    }
+    return RB_OK;
 }
 
-static rb_status all_maxima(search *s, rb_rolling_stress_maxima *maxima, rb_message *why)
+/* ---- Grid ---------------------------------------------------------------------------
+ */
+
+void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid)
+{
+    free(grid->at);
+    free(grid->inside);
+    memset(grid, 0, sizeof *grid);
+}
+
+/* 1: an odd number of elements lies straight below the point. */
+static int encloses(const rb_bem_mesh *mesh, double x, double y)
+{
+    int odd = 0;
+    for (int j = 0; j < mesh->n; j++) {
+        const double x0 = mesh->x0[j], x1 = mesh->x1[j];
+        if ((x0 <= x) == (x1 <= x))
+            continue;
+        const double s = (x - x0) / (x1 - x0);
+        odd ^= mesh->y0[j] + s * (mesh->y1[j] - mesh->y0[j]) <= y;
+    }
+    return odd;
+}
+
+rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *xy,
+                            int *inside)
+{
+    if (!model->bodies.system_a) {
+        for (int k = 0; k < n; k++)
+            inside[k] = xy[2 * k + 1] >= 0.0;
+        return RB_OK;
+    }
+    const rb_bem_mesh *mesh = rb_bem_system_mesh(model->bodies.system_a);
+    double *moved = rb_alloc((size_t)n, 2);
+    if (!moved)
+        return RB_ENOMEM;
+    memcpy(moved, xy, 2 * (size_t)n * sizeof(double));
+    lift_onto_polygon(mesh, n, moved);
+    for (int k = 0; k < n; k++)
+        inside[k] = moved[2 * k + 1] != xy[2 * k + 1] ||
+                    encloses(mesh, moved[2 * k], moved[2 * k + 1]);
+    free(moved);
+    return RB_OK;
+}
+
+/* Keeps the points inside the body, in their order. */
+static int gather(int n, const double *xy, const int *inside, double *kept)
+{
+    int m = 0;
+    for (int k = 0; k < n; k++)
+        if (inside[k]) {
+            kept[2 * m] = xy[2 * k];
+            kept[2 * m++ + 1] = xy[2 * k + 1];
+        }
+    return m;
+}
+
+/* From the m answers back to the places of the grid. */
+static void scatter(int n, const double *xy, const int *inside,
+                    const rb_rolling_stress *kept, rb_rolling_stress *at)
+{
+    for (int k = 0, m = 0; k < n; k++)
+        if (inside[k])
+            at[k] = kept[m++];
+        else
+            at[k] = (rb_rolling_stress){xy[2 * k], xy[2 * k + 1], NAN, NAN, NAN, NAN,
+                                        NAN,       NAN,           NAN, NAN, NAN};
+}
+
+/* The depth of the rows grows like a power. */
+static rb_status fill_grid(const rb_rolling_model *model, const search *box, int power,
+                           rb_rolling_stress_grid *grid, rb_message *why)
+{
+    const int n = grid->nx * grid->ny;
+    double *xy = rb_alloc((size_t)n, 2), *kept = rb_alloc((size_t)n, 2);
+    rb_rolling_stress *at = calloc((size_t)n, sizeof *at);
+    rb_status s = xy && kept && at ? RB_OK : RB_ENOMEM;
+
+    for (int k = 0; k < n && s == RB_OK; k++) {
+        xy[2 * k] = box->from + (box->to - box->from) * (k % grid->nx) / (grid->nx - 1);
+        xy[2 * k + 1] =
+            rb_rolling_surface(&model->rc, xy[2 * k]) +
+            box->depth * gsl_pow_int((double)(k / grid->nx) / (grid->ny - 1), power);
+    }
+    if (s == RB_OK)
+        s = rb_rolling_inside(model, n, xy, grid->inside);
+    if (s == RB_OK)
+        s = rb_rolling_stress_at(model, gather(n, xy, grid->inside, kept), kept, at, why);
+    if (s == RB_OK)
+        scatter(n, xy, grid->inside, at, grid->at);
+    free(xy);
+    free(kept);
+    free(at);
+    return s;
+}
+
+static rb_status make_grid(const rb_rolling_model *model, const search *box, int nx,
+                           int ny, int power, rb_rolling_stress_grid *grid,
+                           rb_message *why)
+{
+    grid->nx = nx;
+    grid->ny = ny;
+    grid->at = calloc((size_t)nx * (size_t)ny, sizeof *grid->at);
+    grid->inside = rb_alloc_int((size_t)nx * (size_t)ny);
+    const rb_status s =
+        grid->at && grid->inside ? fill_grid(model, box, power, grid, why) : RB_ENOMEM;
+    if (s != RB_OK)
+        rb_rolling_stress_grid_free(grid);
+    return s == RB_ENOMEM
+               ? rb_fail(why, s, "no memory for the stress at %d x %d points", nx, ny)
+               : s;
+}
+
+rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny,
+                                    double depth, rb_rolling_stress_grid *grid,
+                                    rb_message *why)
+{
+    search box = {0};
+    memset(grid, 0, sizeof *grid);
+    if (nx < 2 || ny < 2 || (double)nx * ny > 1e8)
+        return rb_fail(why, RB_EINVAL, "grid: expected 2 x 2 ... 1e8 points, got %d x %d",
+                       nx, ny);
+    const rb_status s = choose_box(model, depth, &box, why);
+    return s == RB_OK ? make_grid(model, &box, nx, ny, 1, grid, why) : s;
+}
+
+/* ---- All maxima -----------------------------------------------------------------------
+ */
+
+static rb_status all_maxima(search *s, const rb_rolling_stress_grid *grid,
+                            rb_rolling_stress_maxima *maxima)
 {
     measure *const measures[] = {max_shear, von_mises, orthogonal_shear, tension};
     rb_rolling_extremum *const results[] = {&maxima->max_shear, &maxima->von_mises,
                                             &maxima->orthogonal_shear, &maxima->tension};
-    const size_t points = GRID_X * GRID_Y;
-    double *xy = rb_alloc(points, 2);
-    rb_rolling_stress *grid = calloc(points, sizeof *grid);
-    rb_status status = xy && grid ? RB_OK : RB_ENOMEM;
+    rb_status status = RB_OK;
 
-    if (status == RB_OK) {
-        grid_points(s, xy);
-        status = stress_of_field(s->f, (int)points, xy, grid, why);
-    }
     for (int k = 0; k < 4 && status == RB_OK; k++) {
         s->of = measures[k];
         status = maximum(s, grid, results[k]);
     }
-    free(xy);
-    free(grid);
     return status;
 }
 
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
                                         rb_rolling_stress_maxima *maxima, rb_message *why)
 {
-    field f;
-    double from, to;
-    rb_status s = field_create(model, &f);
+    field f = {0};
+    search box = {0};
+    rb_rolling_stress_grid grid = {0};
+    rb_status s = choose_box(model, depth, &box, why);
 
-    rb_rolling_contact_edges(&model->mesh, model->state.p, &from, &to);
-    const double a = 0.5 * (to - from);
-    search box = {.f = &f,
-                  .scale = a,
-                  .from = from - a,
-                  .to = to + a,
-                  .depth = depth > 0.0 ? depth : 2.5 * a};
-    if (s == RB_OK && f.u) { /* a wheel: stay below its own equator */
-        const double widest = 0.9 * model->rc.a.radius;
-        box.from = fmax(box.from, -widest);
-        box.to = fmin(box.to, widest);
-    }
-    if (s == RB_OK && !(a > 0.0))
-        s = rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
     if (s == RB_OK)
-        s = all_maxima(&box, maxima, why);
+        s = field_create(model, &f);
+    box.f = &f;
+    if (s == RB_OK) /* finer where the stress changes faster */
+        s = make_grid(model, &box, GRID_X, GRID_Y, 2, &grid, why);
+    if (s == RB_OK)
+        s = all_maxima(&box, &grid, maxima);
+    rb_rolling_stress_grid_free(&grid);
     field_free(&f);
     return s;
 }

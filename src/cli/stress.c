@@ -1,0 +1,329 @@
+/* rollbem stress: the stress below the surface of body A. */
+#include "cli/case.h"
+#include "cli/output.h"
+#include "cli/run.h"
+
+#include <jansson.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    const char *grid, *points, *vtk, *fringes;
+    double depth, fringe;
+    int given[7];
+} stress_options;
+
+#define PLACE(member) offsetof(stress_options, member)
+
+static const cli_option options[] = {
+    CLI_GROUP_LINE("stress", "Stress"),
+    CLI_TEXT_LINE("grid", PLACE(grid), "NXxNY",
+                  "points along the surface and into the depth", .unset = "61x41"),
+    CLI_NUMBER_LINE("depth", PLACE(depth), "mm", CLI_ABOVE(0),
+                    "of the grid and of the search for maxima; auto: 2.5 half-widths",
+                    .word = "auto", .word_value = 0.0),
+    CLI_TEXT_LINE("points", PLACE(points), "FILE",
+                  "instead of a grid: rows x, y [mm], y > 0 inside A", .unset = "none"),
+    CLI_TEXT_LINE("vtk", PLACE(vtk), "FILE",
+                  "for ParaView: .vtu, or .vti (half-planes only)", .unset = "none"),
+    CLI_TEXT_LINE("fringes", PLACE(fringes), "FILE",
+                  "picture of photoelastic fringes: .png, .svg or .pdf", .unset = "none"),
+    CLI_NUMBER_LINE("fringe", PLACE(fringe), "MPa", CLI_ABOVE(0),
+                    "difference of the principal stresses from one fringe to the next; "
+                    "auto: about ten fringes",
+                    .word = "auto", .word_value = 0.0),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+_Static_assert(OPTIONS == 7, "given");
+
+/* Pictures are finer than tables, and fringes finer than contours. */
+enum { CONTOURS_X = 161, CONTOURS_Y = 101, FRINGES_X = 241, FRINGES_Y = 151 };
+
+static const char about[] =
+    "Solves a case and prints the stress in body A below the contact: the tensor\n"
+    "(tension positive), principal stresses, maximum shear, von Mises, hydrostatic\n"
+    "stress; in the header, the values and places of the maxima. --plot draws contours\n"
+    "of maximum shear and von Mises. The grid reaches a half-width beyond the contact\n"
+    "and follows the surface of a wheel.\n"
+    "\n" CLI_CASE_SIGNS;
+
+static const char notes[] = CLI_CASE_NOTES "Example: rollbem stress --support halfplane "
+                                           "--similar --load 500 --plot stress.png\n";
+
+/* ---- What is asked for ----------------------------------------------------------------
+ */
+
+typedef struct {
+    int nx, ny;
+    double depth;
+    rb_io_table points; /* rows = 0: the grid */
+    double *xy;         /* points.rows pairs; owned */
+} places;
+
+static cli_exit read_grid(const stress_options *o, places *p)
+{
+    int end = 0;
+    p->nx = 61;
+    p->ny = 41;
+    p->depth = o->depth;
+    if (o->grid && (sscanf(o->grid, "%5dx%5d%n", &p->nx, &p->ny, &end) != 2 ||
+                    o->grid[end] || p->nx < 2 || p->ny < 2))
+        return cli_fail(CLI_USAGE,
+                        "--grid: expected two numbers >= 2 such as 61x41, got '%s'",
+                        o->grid);
+    if (o->grid && o->points)
+        return cli_fail(CLI_USAGE, "--grid and --points exclude each other");
+    return CLI_CONTINUE;
+}
+
+static cli_exit read_points(const stress_options *o, places *p)
+{
+    rb_message why;
+    if (!o->points)
+        return CLI_CONTINUE;
+    const rb_status s = rb_io_table_read(o->points, &p->points, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    const int n = p->points.rows;
+    if (p->points.columns != 2)
+        return cli_fail(CLI_DATA, "%s:%d: expected 2 numbers, x and y, got %d", o->points,
+                        p->points.line[0], p->points.columns);
+    p->xy = rb_alloc((size_t)n, 2);
+    if (!p->xy)
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    for (int k = 0; k < n; k++) {
+        p->xy[2 * k] = p->points.x[k];
+        p->xy[2 * k + 1] = p->points.x[k + n];
+    }
+    return CLI_CONTINUE;
+}
+
+static cli_exit check_vtk(const stress_options *o, const cli_case *c)
+{
+    rb_report_vtk_kind kind;
+    rb_message why;
+    const rb_report_stress asked = {.nx = o->points ? 0 : 1, .rc = &c->rc};
+    if (o->vtk && (rb_report_vtk_kind_of(o->vtk, &kind, &why) != RB_OK ||
+                   rb_report_vtk_check(kind, &asked, &why) != RB_OK))
+        return cli_fail(CLI_USAGE, "--vtk: %s", why.text);
+    return CLI_CONTINUE;
+}
+
+/* ---- Stress ---------------------------------------------------------------------------
+ */
+
+typedef struct {
+    const cli_case *c;
+    const stress_options *options;
+    const places *where;
+    cli_run_result run;
+    rb_rolling_stress_maxima maxima;
+    rb_rolling_stress_grid grid, fine; /* fine: of the pictures */
+    rb_rolling_stress *at;             /* of the points */
+    rb_report_stress table, picture;
+} result;
+
+static void result_free(result *r)
+{
+    cli_run_free(&r->run);
+    rb_rolling_stress_grid_free(&r->grid);
+    rb_rolling_stress_grid_free(&r->fine);
+    free(r->at);
+}
+
+/* The first point that is not in the body is named by its line. */
+static rb_status stress_at_points(result *r, rb_message *why)
+{
+    const places *p = r->where;
+    const int n = p->points.rows;
+    int *inside = rb_alloc_int((size_t)n);
+    r->at = calloc((size_t)n, sizeof *r->at);
+    rb_status s = inside && r->at ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK)
+        s = rb_rolling_inside(&r->run.model, n, p->xy, inside);
+    for (int k = 0; k < n && s == RB_OK; k++)
+        if (!inside[k])
+            s = rb_fail(
+                why, RB_EFORMAT, "%.200s:%d: the point (%g, %g) lies outside body A",
+                r->options->points, p->points.line[k], p->xy[2 * k], p->xy[2 * k + 1]);
+    if (s == RB_OK)
+        s = rb_rolling_stress_at(&r->run.model, n, p->xy, r->at, why);
+    free(inside);
+    return s;
+}
+
+static rb_report_stress of_grid(const result *r, const rb_rolling_stress_grid *grid)
+{
+    return (rb_report_stress){.nx = grid->nx,
+                              .ny = grid->ny,
+                              .n = grid->nx * grid->ny,
+                              .at = grid->at,
+                              .inside = grid->inside,
+                              .maxima = &r->maxima,
+                              .rc = &r->c->rc,
+                              .s = &r->run.solution};
+}
+
+static rb_status find_stress(result *r, const cli_output *o, rb_message *why)
+{
+    const places *p = r->where;
+    const rb_rolling_model *model = &r->run.model;
+    rb_status s = rb_rolling_stress_maxima_find(model, p->depth, &r->maxima, why);
+    if (s == RB_OK && p->points.rows > 0)
+        s = stress_at_points(r, why);
+    else if (s == RB_OK)
+        s = rb_rolling_stress_on_grid(model, p->nx, p->ny, p->depth, &r->grid, why);
+    if (s == RB_OK && r->options->fringes)
+        s = rb_rolling_stress_on_grid(model, FRINGES_X, FRINGES_Y, p->depth, &r->fine,
+                                      why);
+    else if (s == RB_OK && o->plot)
+        s = rb_rolling_stress_on_grid(model, CONTOURS_X, CONTOURS_Y, p->depth, &r->fine,
+                                      why);
+    r->table = of_grid(r, &r->grid);
+    r->picture = of_grid(r, &r->fine);
+    if (p->points.rows > 0) {
+        r->table.n = p->points.rows;
+        r->table.at = r->at;
+    }
+    return s;
+}
+
+/* ---- Print ----------------------------------------------------------------------------
+ */
+
+static rb_status print_json(FILE *out, const result *r)
+{
+    json_t *root = rb_report_json_start(cli_command_line());
+    json_object_set_new(root, "inputs", cli_case_inputs(r->c));
+    json_object_set_new(root, "summary",
+                        rb_report_json_summary(&r->c->rc, &r->run.solution));
+    rb_report_json_stress(root, &r->table);
+    const rb_status s = rb_report_json_write(out, root);
+    json_decref(root);
+    return s;
+}
+
+static rb_status print(FILE *out, const cli_output *o, const void *context)
+{
+    const result *r = context;
+    return o->json ? print_json(out, r)
+                   : rb_report_stress_table(out, &r->table, cli_command_line(), o->bare);
+}
+
+static rb_status print_vtk(FILE *out, const cli_output *o, const void *context)
+{
+    const result *r = context;
+    rb_report_vtk_kind kind;
+    const rb_status s = rb_report_vtk_kind_of(o->output, &kind, NULL);
+    return s == RB_OK ? rb_report_vtk(out, kind, &r->table) : s;
+}
+
+static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
+                      rb_message *why)
+{
+    const result *r = context;
+    return rb_report_stress_picture(out, kind, &r->picture, why);
+}
+
+static rb_status draw_fringes(FILE *out, rb_report_picture_kind kind, const void *context,
+                              rb_message *why)
+{
+    const result *r = context;
+    return rb_report_fringes(out, kind, &r->picture, r->options->fringe, why);
+}
+
+static cli_exit save_vtk(const result *r)
+{
+    const cli_output where = {.output = r->options->vtk};
+    cli_sink sink;
+    if (!where.output)
+        return CLI_OK;
+    const cli_exit code = cli_sink_open(&where, &sink);
+    return code == CLI_CONTINUE ? cli_sink_write(&sink, print_vtk, r) : code;
+}
+
+static cli_exit show(cli_sink *sink, const cli_output *fringes, const result *r)
+{
+    const cli_output *o = sink->o;
+    cli_exit code = cli_sink_write(sink, print, r);
+    if (code == CLI_OK && !o->quiet) {
+        rb_report_summary(stderr, &r->run.solution, cli_terminal_width());
+        rb_report_stress_summary(stderr, &r->table);
+        rb_report_notes(stderr, &r->c->rc, &r->run.solution);
+    }
+    if (code == CLI_OK)
+        code = save_vtk(r);
+    if (code == CLI_OK)
+        code = cli_output_draw(o, draw, r);
+    if (code == CLI_OK)
+        code = cli_output_draw(fringes, draw_fringes, r);
+    return code;
+}
+
+/* ---- Command --------------------------------------------------------------------------
+ */
+
+static cli_exit solve(const cli_case *c, const stress_options *so, const places *where,
+                      const cli_output *o, const cli_output *fringes)
+{
+    result r = {.c = c, .options = so, .where = where};
+    cli_sink sink;
+    rb_message why = {""};
+    cli_exit code = cli_sink_open(o, &sink);
+    if (code != CLI_CONTINUE)
+        return code;
+    rb_status s = cli_run_case(c, 0, &r.run, &why);
+    if (s == RB_OK)
+        s = find_stress(&r, o, &why);
+    code = s == RB_OK ? show(&sink, fringes, &r) : CLI_OK;
+    cli_sink_abandon(&sink);
+    if (code == CLI_OK && s != RB_OK)
+        code = cli_case_refused(c, s, &why);
+    result_free(&r);
+    return code;
+}
+
+static cli_exit check(const cli_case *c, const stress_options *so, const cli_output *o,
+                      const cli_output *fringes, places *where)
+{
+    cli_exit code = cli_output_check(o);
+    if (code == CLI_CONTINUE)
+        code = cli_output_check(fringes);
+    if (code == CLI_CONTINUE)
+        code = check_vtk(so, c);
+    if (code == CLI_CONTINUE)
+        code = read_grid(so, where);
+    return code == CLI_CONTINUE ? read_points(so, where) : code;
+}
+
+int cli_stress(int argc, char **argv)
+{
+    cli_case c;
+    cli_output o = {0};
+    stress_options so = {0};
+    places where = {0};
+    cli_args args = {0};
+    cli_case_defaults(&c);
+    const cli_spec spec = {
+        "rollbem stress [OPTION...] [CASE.ini]",
+        about,
+        notes,
+        {cli_case_set(&c), {options, OPTIONS, &so, so.given}, cli_output_set(&o)},
+        3};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE)
+        code = cli_case_finish(&spec, &c, &args);
+    const cli_output fringes = {.plot = so.fringes};
+    if (code == CLI_CONTINUE)
+        code = check(&c, &so, &o, &fringes, &where);
+    if (code == CLI_CONTINUE)
+        code = solve(&c, &so, &where, &o, &fringes);
+    rb_io_table_free(&where.points);
+    free(where.xy);
+    cli_args_free(&args);
+    cli_case_free(&c);
+    return code;
+}

@@ -1,0 +1,152 @@
+/* Subsurface stress: table, JSON, lines for people. */
+#include "report/internal.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stddef.h>
+
+#define COLUMN(name, key, member)                                                        \
+    {                                                                                    \
+        name, key, offsetof(rb_rolling_stress, member)                                   \
+    }
+
+const rb_report_stress_column rb_report_stress_columns[RB_REPORT_STRESS_COLUMNS] = {
+    COLUMN("x_mm", "x", x),
+    COLUMN("y_mm", "y", y),
+    COLUMN("sxx_MPa", "sxx", sxx),
+    COLUMN("syy_MPa", "syy", syy),
+    COLUMN("szz_MPa", "szz", szz),
+    COLUMN("sxy_MPa", "sxy", sxy),
+    COLUMN("principal_1_MPa", "principal_1", principal_1),
+    COLUMN("principal_2_MPa", "principal_2", principal_2),
+    COLUMN("max_shear_MPa", "max_shear", max_shear),
+    COLUMN("von_mises_MPa", "von_mises", von_mises),
+    COLUMN("hydrostatic_MPa", "hydrostatic", hydrostatic)};
+
+double rb_report_stress_value(const rb_rolling_stress *at, int column)
+{
+    return *(const double *)((const char *)at + rb_report_stress_columns[column].offset);
+}
+
+int rb_report_stress_is_inside(const rb_report_stress *s, int k)
+{
+    return !s->inside || s->inside[k];
+}
+
+/* ---- Maxima ------------------------------------------------------------------------ */
+
+static const struct {
+    const char *key, *name;
+    size_t offset; /* in rb_rolling_stress_maxima */
+} maxima[] = {
+    {"max_shear", "maximum shear", offsetof(rb_rolling_stress_maxima, max_shear)},
+    {"von_mises", "von Mises", offsetof(rb_rolling_stress_maxima, von_mises)},
+    {"orthogonal_shear", "orthogonal shear |sxy|",
+     offsetof(rb_rolling_stress_maxima, orthogonal_shear)},
+    {"tension", "largest principal stress", offsetof(rb_rolling_stress_maxima, tension)}};
+
+enum { MAXIMA = sizeof maxima / sizeof maxima[0] };
+
+static const rb_rolling_extremum *extremum(const rb_rolling_stress_maxima *all, int k)
+{
+    return (const rb_rolling_extremum *)((const char *)all + maxima[k].offset);
+}
+
+static void print_quantity(FILE *out, double value, const double *error, const char *unit)
+{
+    fprintf(out, "%.6g", value);
+    if (error && isfinite(*error))
+        fprintf(out, " +- %.2g", *error);
+    fprintf(out, " %s", unit);
+}
+
+static void print_maximum(FILE *out, const rb_report_stress *s, int k)
+{
+    const rb_rolling_extremum *m = extremum(s->maxima, k);
+    const rb_rolling_extremum *e = s->errors ? extremum(s->errors, k) : NULL;
+    fprintf(out, "%-24s ", maxima[k].name);
+    print_quantity(out, m->value, e ? &e->value : NULL, "MPa");
+    fputs(" at x = ", out);
+    print_quantity(out, m->x, e ? &e->x : NULL, "mm, y = ");
+    print_quantity(out, m->y, e ? &e->y : NULL, "mm");
+    fprintf(out, "; %.5g p0\n", m->value / s->s->max_pressure);
+}
+
+void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
+{
+    fprintf(out, "stress in A under p0 = %.6g MPa, a = %.5g mm\n", s->s->max_pressure,
+            s->s->half_width);
+    for (int k = 0; k < MAXIMA; k++) {
+        fputs("  ", out);
+        print_maximum(out, s, k);
+    }
+}
+
+/* ---- Table ------------------------------------------------------------------------- */
+
+static void print_headers(FILE *out, const rb_report_stress *s, const char *command)
+{
+    rb_report_print_head(out, command);
+    fputs("# tension positive; y > 0 inside A; the grid follows A's surface\n", out);
+    for (int k = 0; k < MAXIMA; k++) {
+        fputs("# ", out);
+        print_maximum(out, s, k);
+    }
+}
+
+rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s,
+                                 const char *command, int bare)
+{
+    enum { LAST = RB_REPORT_STRESS_COLUMNS - 1 };
+    if (!bare)
+        print_headers(out, s, command);
+    fputs(bare ? "" : "# ", out);
+    for (int j = 0; j <= LAST; j++)
+        fprintf(out, "%s%c", rb_report_stress_columns[j].name, j < LAST ? '\t' : '\n');
+    for (int k = 0; k < s->n; k++)
+        for (int j = 0; j <= LAST && rb_report_stress_is_inside(s, k); j++)
+            fprintf(out, "%.17g%c", rb_report_stress_value(&s->at[k], j),
+                    j < LAST ? '\t' : '\n');
+    return rb_report_print_end(out);
+}
+
+/* ---- JSON -------------------------------------------------------------------------- */
+
+static json_t *json_extremum(const rb_rolling_extremum *m)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "value", rb_report_json_number(m->value));
+    json_object_set_new(object, "x", rb_report_json_number(m->x));
+    json_object_set_new(object, "y", rb_report_json_number(m->y));
+    return object;
+}
+
+static json_t *json_maxima(const rb_report_stress *s)
+{
+    json_t *all = json_object();
+    for (int k = 0; k < MAXIMA; k++) {
+        json_t *one = json_extremum(extremum(s->maxima, k));
+        if (s->errors)
+            json_object_set_new(one, "errors", json_extremum(extremum(s->errors, k)));
+        json_object_set_new(all, maxima[k].key, one);
+    }
+    return all;
+}
+
+void rb_report_json_stress(json_t *root, const rb_report_stress *s)
+{
+    json_t *points = json_object();
+    json_object_set_new(root, "maxima", json_maxima(s));
+    if (s->nx > 0) {
+        json_object_set_new(points, "nx", json_integer(s->nx));
+        json_object_set_new(points, "ny", json_integer(s->ny));
+    }
+    for (int j = 0; j < RB_REPORT_STRESS_COLUMNS; j++) {
+        json_t *list = json_array();
+        for (int k = 0; k < s->n; k++)
+            json_array_append_new(
+                list, rb_report_json_number(rb_report_stress_value(&s->at[k], j)));
+        json_object_set_new(points, rb_report_stress_columns[j].name, list);
+    }
+    json_object_set_new(root, s->nx > 0 ? "grid" : "points", points);
+}

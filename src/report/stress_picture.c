@@ -1,0 +1,211 @@
+/* Pictures of the stress below the surface: contours and photoelastic fringes. */
+#include "report/internal.h"
+
+#include <math.h>
+
+typedef struct {
+    const rb_report_stress *s;
+    double unit; /* length of one unit of the axes */
+    const char *length_label;
+    double stress_unit;
+    const char *stress_label;
+    double from, to, depth; /* in units */
+    double fringe;          /* [stress] */
+} view;
+
+static view make_view(const rb_report_stress *s)
+{
+    const double a = s->s->half_width;
+    const int ratio = a < 0.01 || a > 1e5, large = s->s->max_pressure >= 1e4;
+    view v = {.s = s,
+              .unit = ratio ? a : 1.0,
+              .length_label = ratio ? "/ a" : "[mm]",
+              .stress_unit = large ? 1000.0 : 1.0,
+              .stress_label = large ? "GPa" : "MPa"};
+    v.from = s->at[0].x / v.unit;
+    v.to = s->at[s->nx - 1].x / v.unit;
+    v.depth = 0.0;
+    for (int k = 0; k < s->n; k++)
+        if (rb_report_stress_is_inside(s, k))
+            v.depth = fmax(v.depth, s->at[k].y / v.unit);
+    return v;
+}
+
+/* x, y, maximum shear, von Mises, order of the fringe; rows apart, as splot wants. */
+static void write_grid(FILE *out, const view *v)
+{
+    const rb_report_stress *s = v->s;
+    fputs("$grid << EOD\n", out);
+    for (int k = 0; k < s->n; k++) {
+        const rb_rolling_stress *at = &s->at[k];
+        fprintf(out, "%.9g %.9g ", at->x / v->unit, at->y / v->unit);
+        if (rb_report_stress_is_inside(s, k))
+            fprintf(out, "%.7g %.7g %.7g\n", at->max_shear / v->stress_unit,
+                    at->von_mises / v->stress_unit,
+                    v->fringe > 0.0 ? 2.0 * at->max_shear / v->fringe : 0.0);
+        else
+            fputs("NaN NaN NaN\n", out);
+        if (k % s->nx == s->nx - 1)
+            fputc('\n', out);
+    }
+    fputs("EOD\n", out);
+}
+
+/* Where A touches: one line for each zone, drawn below the surface. */
+static void write_contact(FILE *out, const view *v)
+{
+    static const char *const colours[] = {"", "#1f4e79", "#d35400", "#c0392b"};
+    const rb_rolling_solution *s = v->s->s;
+    for (int i = 0; i < s->n;) {
+        const int first = i;
+        while (i < s->n && s->zone[i] == s->zone[first])
+            i++;
+        if (s->zone[first] == RB_ZONE_SEPARATED)
+            continue;
+        fprintf(out,
+                "set arrow from %.9g, graph -0.018 to %.9g, graph -0.018 nohead "
+                "linewidth 4 linecolor rgb '%s' front\n",
+                (s->x[first] - s->h[first] / 2) / v->unit,
+                (s->x[i - 1] + s->h[i - 1] / 2) / v->unit, colours[s->zone[first]]);
+    }
+}
+
+static void write_axes(FILE *out, const view *v)
+{
+    fputs("set view map\nset size ratio -1\nset tics out nomirror scale 0.6\n"
+          "set border 3 linecolor rgb '#444444' linewidth 0.7\nunset key\n"
+          "set pm3d map corners2color mean\n",
+          out);
+    fprintf(out, "set xrange [%.9g:%.9g]\nset yrange [0:%.9g]\n", v->from, v->to,
+            v->depth);
+    fprintf(out, "set xlabel 'x %s   (rolling towards +x →)' offset 0,0.2\n",
+            v->length_label);
+    fprintf(out, "set ylabel 'y %s, into A' offset 0.8,0\n", v->length_label);
+    write_contact(out, v);
+}
+
+static void write_subtitle(FILE *out, const view *v, const char *title, double y)
+{
+    static const char *const kinds[] = {"static", "steady rolling", "transient rolling"};
+    const rb_rolling_solution *s = v->s->s;
+    fprintf(out, "set label 1 '{/:Bold %s}   %s,  μ = %g,  p_0 = %.5g MPa,  a = %.4g mm",
+            title, kinds[s->formulation], v->s->rc->mu, s->max_pressure, s->half_width);
+    if (isfinite(s->force_ratio))
+        fprintf(out, ",  Q/(μP) = %.4g", s->force_ratio + 0.0);
+    fprintf(out,
+            "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: blue stick, orange "
+            "and red slip}' at screen 0.99, 0.025 right textcolor rgb '#444444'\n",
+            y);
+}
+
+/* ---- Contours ------------------------------------------------------------------------
+ */
+
+/* Contour lines of a column, into a data block. */
+static void write_lines(FILE *out, int column)
+{
+    fprintf(out,
+            "set contour base\nunset surface\nset cntrparam levels auto 10\n"
+            "set table $lines%d\nsplot $grid using 1:2:%d\nunset table\n"
+            "unset contour\nset surface\n",
+            column, column);
+}
+
+static void write_panel(FILE *out, const view *v, const char *name, int column,
+                        const rb_rolling_extremum *m, double left)
+{
+    const double width = 0.36, shape = 2.0; /* of the canvas: twice as wide as high */
+    const double height = fmin(0.64, width * shape * v->depth / (v->to - v->from));
+    const double bottom = 0.49 - height / 2, top = bottom + height;
+    fprintf(out,
+            "set lmargin at screen %g\nset rmargin at screen %g\n"
+            "set bmargin at screen %g\nset tmargin at screen %g\n",
+            left, left + width, bottom, top);
+    fprintf(out,
+            "set colorbox user origin %g, %g size 0.013, %g\n"
+            "set label 2 '%s  [%s]' at screen %g, %g center\n",
+            left + width + 0.012, bottom, height, name, v->stress_label, left + width / 2,
+            top + 0.045);
+    fprintf(out,
+            "set label 3 '%.4g' at first %.9g, %.9g point pointtype 1 pointsize 1.2 "
+            "linecolor rgb '#111111' offset 0.6,0.5 textcolor rgb '#111111' front\n",
+            m->value / v->stress_unit, m->x / v->unit, m->y / v->unit);
+    fprintf(out,
+            "splot $grid using 1:2:%d with pm3d, $lines%d using 1:2:3 with lines "
+            "linecolor rgb '#ffffff' linewidth 0.6\n",
+            column, column);
+}
+
+static void write_contours(FILE *out, rb_report_picture_kind kind, const void *context)
+{
+    const view *v = context;
+    (void)kind;
+    write_grid(out, v);
+    write_lines(out, 3);
+    write_lines(out, 4);
+    write_axes(out, v);
+    fputs("set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', "
+          "0.45 '#277f8e', 0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')\n"
+          "set multiplot\n",
+          out);
+    write_subtitle(out, v, "Stress below the surface of A", 0.94);
+    write_panel(out, v, "maximum shear", 3, &v->s->maxima->max_shear, 0.07);
+    fputs("unset label 1\nunset label 4\nunset ylabel\n", out);
+    write_panel(out, v, "von Mises", 4, &v->s->maxima->von_mises, 0.555);
+    fputs("unset multiplot\n", out);
+}
+
+static rb_status check_grid(const rb_report_stress *s, rb_message *why)
+{
+    return s->nx > 1 && s->ny > 1
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL, "a picture of the stress needs a grid");
+}
+
+rb_status rb_report_stress_picture(FILE *out, rb_report_picture_kind kind,
+                                   const rb_report_stress *s, rb_message *why)
+{
+    if (check_grid(s, why) != RB_OK)
+        return RB_EINVAL;
+    const view v = make_view(s);
+    return rb_report_draw(out, kind, RB_REPORT_WIDE, write_contours, &v, why);
+}
+
+/* ---- Fringes -------------------------------------------------------------------------
+ */
+
+/* Between crossed polarisers light passes as sin^2 of pi times the order. */
+static void write_fringes(FILE *out, rb_report_picture_kind kind, const void *context)
+{
+    const view *v = context;
+    (void)kind;
+    write_grid(out, v);
+    fputs("set palette gray\nset cbrange [0:1]\nunset colorbox\n"
+          "set lmargin at screen 0.10\nset rmargin at screen 0.97\n"
+          "set bmargin at screen 0.13\nset tmargin at screen 0.88\n",
+          out);
+    write_axes(out, v);
+    write_subtitle(out, v, "Isochromatics", 0.965);
+    fprintf(out,
+            "set label 2 'dark where σ_1 − σ_2 is a multiple of %.4g MPa' at screen 0.5, "
+            "0.925 center textcolor rgb '#444444'\n",
+            v->fringe);
+    fputs("splot $grid using 1:2:(sin(pi*$5)**2) with pm3d\n", out);
+}
+
+/* A round number is easier to count with. */
+static double choose_fringe(const rb_report_stress *s)
+{
+    enum { ORDERS = 12 };
+    return rb_report_round_step(2.0 * s->maxima->max_shear.value / ORDERS);
+}
+
+rb_status rb_report_fringes(FILE *out, rb_report_picture_kind kind,
+                            const rb_report_stress *s, double fringe, rb_message *why)
+{
+    if (check_grid(s, why) != RB_OK)
+        return RB_EINVAL;
+    view v = make_view(s);
+    v.fringe = fringe > 0.0 ? fringe : choose_fringe(s);
+    return rb_report_draw(out, kind, RB_REPORT_SLIDE, write_fringes, &v, why);
+}

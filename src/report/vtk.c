@@ -1,0 +1,248 @@
+/* XML files of the Visualization Toolkit, which ParaView reads: .vti (ImageData) and .vtu
+ * (UnstructuredGrid); arrays inline in base64, each behind its size in bytes. */
+#include "report/internal.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+rb_status rb_report_vtk_kind_of(const char *path, rb_report_vtk_kind *kind,
+                                rb_message *why)
+{
+    const char *end = strrchr(path, '.');
+    if (end && strcmp(end, ".vti") == 0)
+        *kind = RB_REPORT_VTI;
+    else if (end && strcmp(end, ".vtu") == 0)
+        *kind = RB_REPORT_VTU;
+    else
+        return rb_fail(why, RB_EINVAL, "expected a name ending in .vti or .vtu, got '%s'",
+                       path);
+    return RB_OK;
+}
+
+rb_status rb_report_vtk_check(rb_report_vtk_kind kind, const rb_report_stress *s,
+                              rb_message *why)
+{
+    if (kind == RB_REPORT_VTI && s->nx == 0)
+        return rb_fail(why, RB_EINVAL, ".vti holds regular grids; for points use .vtu");
+    if (kind == RB_REPORT_VTI && s->rc->a.support != RB_BEM_HALFPLANE)
+        return rb_fail(why, RB_EINVAL,
+                       ".vti holds regular grids, that of a wheel follows its surface; "
+                       "use .vtu");
+    return RB_OK;
+}
+
+/* ---- Arrays ------------------------------------------------------------------------ */
+
+static void write_base64(FILE *out, size_t n, const unsigned char *bytes)
+{
+    static const char digits[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < n; i += 3) {
+        const size_t left = n - i;
+        const unsigned long word = (unsigned long)bytes[i] << 16 |
+                                   (left > 1 ? (unsigned long)bytes[i + 1] << 8 : 0) |
+                                   (left > 2 ? bytes[i + 2] : 0);
+        fputc(digits[word >> 18 & 63], out);
+        fputc(digits[word >> 12 & 63], out);
+        fputc(left > 1 ? digits[word >> 6 & 63] : '=', out);
+        fputc(left > 2 ? digits[word & 63] : '=', out);
+    }
+}
+
+static void write_array(FILE *out, const char *type, const char *name, int components,
+                        size_t bytes, const void *data)
+{
+    const uint64_t size = bytes;
+    fprintf(out,
+            "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" "
+            "format=\"binary\">",
+            type, name, components);
+    write_base64(out, sizeof size, (const unsigned char *)&size);
+    write_base64(out, bytes, data);
+    fputs("</DataArray>\n", out);
+}
+
+/* ---- The points that are written ------------------------------------------------------
+ */
+
+typedef struct {
+    const rb_report_stress *s;
+    int n;         /* points inside the body */
+    int *number;   /* s->n: their new numbers, -1 outside */
+    double *room;  /* 6 n: for one array at a time */
+    int32_t *cell; /* 4 per cell */
+    int cells, per_cell;
+} selection;
+
+static void selection_free(selection *v)
+{
+    free(v->number);
+    free(v->room);
+    free(v->cell);
+}
+
+/* Quadrilaterals of which all corners are inside, or a vertex per point. */
+static void make_cells(selection *v)
+{
+    const rb_report_stress *s = v->s;
+    if (s->nx == 0) {
+        for (int k = 0; k < v->n; k++)
+            v->cell[v->cells++] = k;
+        return;
+    }
+    for (int j = 0; j + 1 < s->ny; j++)
+        for (int i = 0; i + 1 < s->nx; i++) {
+            const int k = i + j * s->nx;
+            const int corner[] = {v->number[k], v->number[k + 1],
+                                  v->number[k + s->nx + 1], v->number[k + s->nx]};
+            if (corner[0] < 0 || corner[1] < 0 || corner[2] < 0 || corner[3] < 0)
+                continue;
+            for (int c = 0; c < 4; c++)
+                v->cell[4 * v->cells + c] = corner[c];
+            v->cells++;
+        }
+}
+
+static rb_status select_points(const rb_report_stress *s, selection *v)
+{
+    *v = (selection){.s = s, .per_cell = s->nx > 0 ? 4 : 1};
+    v->number = rb_alloc_int((size_t)s->n);
+    v->room = rb_alloc((size_t)s->n, 6);
+    v->cell = calloc((size_t)s->n * 4, sizeof *v->cell);
+    if (!v->number || !v->room || !v->cell)
+        return RB_ENOMEM;
+    for (int k = 0; k < s->n; k++)
+        v->number[k] = rb_report_stress_is_inside(s, k) ? v->n++ : -1;
+    make_cells(v);
+    return RB_OK;
+}
+
+/* ---- Point data
+ * ------------------------------------------------------------------------ */
+
+static void write_scalar(FILE *out, selection *v, int column)
+{
+    for (int k = 0, m = 0; k < v->s->n; k++)
+        if (v->number[k] >= 0)
+            v->room[m++] = rb_report_stress_value(&v->s->at[k], column);
+    write_array(out, "Float64", rb_report_stress_columns[column].key, 1,
+                sizeof(double) * (size_t)v->n, v->room);
+}
+
+/* ParaView's order of a symmetric tensor: xx, yy, zz, xy, yz, xz. */
+static void write_tensor(FILE *out, selection *v)
+{
+    double *to = v->room;
+    for (int k = 0; k < v->s->n; k++) {
+        const rb_rolling_stress *at = &v->s->at[k];
+        if (v->number[k] < 0)
+            continue;
+        const double six[] = {at->sxx, at->syy, at->szz, at->sxy, 0.0, 0.0};
+        memcpy(to, six, sizeof six);
+        to += 6;
+    }
+    write_array(out, "Float64", "stress", 6, sizeof(double) * 6 * (size_t)v->n, v->room);
+}
+
+static void write_point_data(FILE *out, selection *v)
+{
+    enum { FIRST_SCALAR = 6 }; /* behind x, y and the tensor */
+    fputs("<PointData Scalars=\"max_shear\" Tensors=\"stress\">\n", out);
+    for (int j = FIRST_SCALAR; j < RB_REPORT_STRESS_COLUMNS; j++)
+        write_scalar(out, v, j);
+    write_tensor(out, v);
+    fputs("</PointData>\n", out);
+}
+
+/* ---- Files ---------------------------------------------------------------------------
+ */
+
+static void write_head(FILE *out, const char *type)
+{
+    const uint16_t one = 1;
+    const int little = *(const unsigned char *)&one;
+    fprintf(out,
+            "<?xml version=\"1.0\"?>\n"
+            "<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"%s\" "
+            "header_type=\"UInt64\">\n",
+            type, little ? "LittleEndian" : "BigEndian");
+}
+
+static void write_image(FILE *out, selection *v)
+{
+    const rb_report_stress *s = v->s;
+    const rb_rolling_stress *first = &s->at[0], *last = &s->at[s->n - 1];
+    write_head(out, "ImageData");
+    fprintf(out,
+            "<ImageData WholeExtent=\"0 %d 0 %d 0 0\" Origin=\"%.17g %.17g 0\" "
+            "Spacing=\"%.17g %.17g 1\">\n<Piece Extent=\"0 %d 0 %d 0 0\">\n",
+            s->nx - 1, s->ny - 1, first->x, first->y, (last->x - first->x) / (s->nx - 1),
+            (last->y - first->y) / (s->ny - 1), s->nx - 1, s->ny - 1);
+    write_point_data(out, v);
+    fputs("</Piece>\n</ImageData>\n</VTKFile>\n", out);
+}
+
+static void write_points(FILE *out, selection *v)
+{
+    double *to = v->room;
+    for (int k = 0; k < v->s->n; k++)
+        if (v->number[k] >= 0) {
+            *to++ = v->s->at[k].x;
+            *to++ = v->s->at[k].y;
+            *to++ = 0.0;
+        }
+    fputs("<Points>\n", out);
+    write_array(out, "Float64", "Points", 3, sizeof(double) * 3 * (size_t)v->n, v->room);
+    fputs("</Points>\n", out);
+}
+
+static rb_status write_cells(FILE *out, const selection *v)
+{
+    enum { VERTEX = 1, QUADRILATERAL = 9 };
+    const size_t n = (size_t)v->cells;
+    int32_t *offset = calloc(n ? n : 1, sizeof *offset);
+    uint8_t *type = calloc(n ? n : 1, 1);
+    const rb_status s = offset && type ? RB_OK : RB_ENOMEM;
+    for (size_t k = 0; k < n && s == RB_OK; k++) {
+        offset[k] = (int32_t)(k + 1) * v->per_cell;
+        type[k] = v->per_cell == 4 ? QUADRILATERAL : VERTEX;
+    }
+    if (s == RB_OK) {
+        fputs("<Cells>\n", out);
+        write_array(out, "Int32", "connectivity", 1,
+                    sizeof *v->cell * n * (size_t)v->per_cell, v->cell);
+        write_array(out, "Int32", "offsets", 1, sizeof *offset * n, offset);
+        write_array(out, "UInt8", "types", 1, n, type);
+        fputs("</Cells>\n", out);
+    }
+    free(offset);
+    free(type);
+    return s;
+}
+
+static rb_status write_unstructured(FILE *out, selection *v)
+{
+    write_head(out, "UnstructuredGrid");
+    fprintf(out,
+            "<UnstructuredGrid>\n<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n",
+            v->n, v->cells);
+    write_point_data(out, v);
+    write_points(out, v);
+    const rb_status s = write_cells(out, v);
+    fputs("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n", out);
+    return s;
+}
+
+rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stress *s)
+{
+    selection v;
+    rb_status status = select_points(s, &v);
+    if (status == RB_OK && kind == RB_REPORT_VTI)
+        write_image(out, &v);
+    else if (status == RB_OK)
+        status = write_unstructured(out, &v);
+    selection_free(&v);
+    return status == RB_OK ? rb_report_print_end(out) : status;
+}

@@ -1,0 +1,115 @@
+/* Runs the program in a folder of its own, as its users do.  B: the build directory,
+ * default build. */
+#ifndef ROLLBEM_TESTS_CLI_RUN_H
+#define ROLLBEM_TESTS_CLI_RUN_H
+
+#include "check.h"
+
+#include <jansson.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char program[600], folder[] = "/tmp/rollbem-cli-XXXXXX";
+static char out[1000000], err[20000];
+
+static inline void slurp(const char *name, char *text, size_t size)
+{
+    FILE *file = fopen(name, "r");
+    assert_non_null(file);
+    text[fread(text, 1, size - 1, file)] = '\0';
+    fclose(file);
+}
+
+static inline void write_file(const char *name, const char *text)
+{
+    FILE *file = fopen(name, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* A shell line in the test's folder where $R is the program; stdout and stderr land in
+ * out and err.  The exit code. */
+static inline int shell(const char *line)
+{
+    char command[4000];
+    snprintf(command, sizeof command, "R='%s'; { %s ; } >out 2>err", program, line);
+    const int status = system(command);
+    assert_true(WIFEXITED(status));
+    slurp("out", out, sizeof out);
+    slurp("err", err, sizeof err);
+    return WEXITSTATUS(status);
+}
+
+static inline int rollbem(const char *arguments)
+{
+    char line[2500];
+    snprintf(line, sizeof line, "\"$R\" %s", arguments);
+    return shell(line);
+}
+
+/* Nothing on stdout, exactly one line on stderr, containing `part`. */
+static inline void check_refused(const char *arguments, int code, const char *part)
+{
+    const int got = rollbem(arguments);
+    const size_t n = strlen(err);
+    if (got != code || strncmp(err, "rollbem: ", 9) != 0 || !strstr(err, part) ||
+        strchr(err, '\n') != err + n - 1 || out[0])
+        print_error("rollbem %s\nexit %d, want %d with '%s'; stderr: %s\n", arguments,
+                    got, code, part, err);
+    assert_int_equal(got, code);
+    assert_int_equal(strncmp(err, "rollbem: ", 9), 0);
+    assert_non_null(strstr(err, part));
+    assert_ptr_equal(strchr(err, '\n'), err + n - 1);
+    assert_string_equal(out, "");
+}
+
+/* The JSON of a run that ends well. */
+static inline json_t *run_json(const char *arguments)
+{
+    char line[1000];
+    snprintf(line, sizeof line, "%s --json --quiet", arguments);
+    const int code = rollbem(line);
+    if (code)
+        print_error("rollbem %s: %s\n", line, err);
+    assert_int_equal(code, 0);
+    json_t *root = json_loads(out, 0, NULL);
+    assert_non_null(root);
+    return root;
+}
+
+static inline double number_in(const json_t *object, const char *name)
+{
+    const json_t *value = json_object_get(object, name);
+    return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+static inline double entry(const json_t *object, const char *list, size_t i)
+{
+    const json_t *value = json_array_get(json_object_get(object, list), i);
+    return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+static inline int enter_folder(void **state)
+{
+    (void)state;
+    const char *build = getenv("B") ? getenv("B") : "build";
+    char here[400];
+    assert_non_null(getcwd(here, sizeof here));
+    if (build[0] == '/')
+        snprintf(program, sizeof program, "%s/rollbem", build);
+    else
+        snprintf(program, sizeof program, "%s/%s/rollbem", here, build);
+    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static inline int leave_folder(void **state)
+{
+    (void)state;
+    char command[100];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return chdir("/") == 0 ? system(command) : -1;
+}
+
+#endif

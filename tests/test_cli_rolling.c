@@ -1,0 +1,351 @@
+/* Creep curves and subsurface stress as the program's users meet them. */
+#include "cli_run.h"
+#include "rollbem/io.h"
+
+#include <sys/stat.h>
+
+/* Carter's case: similar bodies. */
+#define SIMILAR "--support halfplane --similar --half-width 0.5 --poisson 0.3 "
+
+/* ---- Bad input -----------------------------------------------------------------------
+ */
+
+static const struct {
+    const char *arguments;
+    int code;
+    const char *part;
+} bad[] = {
+    {"curve --from x", 64, "--from: expected a number, got 'x'"},
+    {"curve --points 1", 64, "--points: expected a whole number in [2, 1e+06]"},
+    {"curve --over slip", 64, "--over: expected creep-ratio or creep, got 'slip'"},
+    {"curve --creep 0.1", 64, "--creep: the curve runs over --from ... --to by itself"},
+    {"curve --force 0", 64, "--force: the curve runs over"},
+    {"curve --formulation static", 64, "--formulation: a curve is one of steady rolling"},
+    {"curve --mu 0.1,,0.3", 64, "--mu: expected a number >= 0, got '0.1,,0.3'"},
+    {"curve --mu 0.1,x", 64, "--mu: expected a number >= 0, got '0.1,x'"},
+    {"curve --mu 0", 64, "xi R/(mu a) has no meaning at mu = 0"},
+    {"--mu 0.1,0.2", 64, "--mu: expected one number; a curve takes several"},
+    {"curve --plot a.bmp", 64, "--plot: expected a name ending in .png, .svg or .pdf"},
+    {"stress --grid 10", 64, "--grid: expected two numbers >= 2 such as 61x41, got '10'"},
+    {"stress --grid 10x", 64, "got '10x'"},
+    {"stress --grid 10x1", 64, "got '10x1'"},
+    {"stress --grid 10x5y", 64, "got '10x5y'"},
+    {"stress --grid 9x9 --points p", 64, "--grid and --points exclude each other"},
+    {"stress --depth 0", 64, "--depth: expected a number > 0 or auto"},
+    {"stress --vtk a.vts", 64, "--vtk: expected a name ending in .vti or .vtu"},
+    {"stress --vtk a.vti", 64, "--vtk: .vti holds regular grids, that of a wheel"},
+    {"stress --fringes a.bmp", 64, "--plot: expected a name ending in .png"},
+    {"stress --points nowhere", 66, "nowhere: No such file"},
+};
+
+static void bad_arguments_are_refused(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
+        check_refused(bad[k].arguments, bad[k].code, bad[k].part);
+}
+
+static void bad_points_are_named_by_their_line(void **state)
+{
+    (void)state;
+    static const char *const texts[][2] = {
+        {"0 1\n0 1 2\n", "points:2: expected 2 numbers, got 3"},
+        {"0\n", "points:1: expected 2 numbers, x and y, got 1"},
+        {"0 1\nsome text\n", "points:2: expected a number, got 'some'"},
+        {"# x y\n0 1\n\n0 -1\n", "points:4: the point (0, -1) lies outside body A"}};
+    for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
+        write_file("points", texts[k][0]);
+        check_refused("stress " SIMILAR "--points points", 65, texts[k][1]);
+    }
+    write_file("points", "0 50\n");
+    check_refused("stress --support hub --points points", 65, "points:1: the point");
+}
+
+/* ---- Curves --------------------------------------------------------------------------
+ */
+
+/* Carter (1926): Q/(mu P) = -s (2 - s). */
+static void curve_follows_carter(void **state)
+{
+    (void)state;
+    json_t *root = run_json("curve " SIMILAR "--from -1.2 --to 1.2 --points 25 "
+                            "--contact-elements 50");
+    const json_t *curve = json_object_get(root, "curve");
+    assert_int_equal(json_array_size(json_object_get(curve, "creepage")), 25);
+    for (size_t i = 0; i < 25; i++) {
+        const double s = -1.2 + 0.1 * (double)i, t = fmin(fabs(s), 1.0);
+        CHECK_ABS(entry(curve, "creep_ratio", i), s, 1e-9, "ratio");
+        CHECK_ABS(entry(curve, "force_ratio", i), -copysign(t * (2.0 - t), s), 1e-3,
+                  "s = %g", s);
+        CHECK_MAX(entry(curve, "residual", i), 1e-10, "s = %g", s);
+    }
+    CHECK_ABS(number_in(curve, "free_creepage"), 0.0, 1e-12, "free rolling");
+    json_decref(root);
+}
+
+static void table_holds_the_numbers_of_json(void **state)
+{
+    (void)state;
+    static const char *const columns[][2] = {{"creepage_1", "creepage"},
+                                             {"creep_ratio_1", "creep_ratio"},
+                                             {"force_ratio_1", "force_ratio"},
+                                             {"stick_ratio_1", "stick_ratio"}};
+    const char *line = "curve " SIMILAR "--points 7 --mu 0.1,0.3 --contact-elements 20 "
+                       "--over creep --to 0.01";
+    char command[400];
+    rb_io_table t;
+    json_t *root = run_json(line);
+    const json_t *curves = json_object_get(root, "curves");
+    snprintf(command, sizeof command, "%s --quiet --output curve.tsv", line);
+    assert_int_equal(rollbem(command), 0);
+    assert_int_equal(rb_io_table_read("curve.tsv", &t, NULL), RB_OK);
+    assert_int_equal(t.rows, 14);
+    assert_int_equal(json_array_size(curves), 2);
+    assert_true(json_equal(json_array_get(curves, 0), json_object_get(root, "curve")));
+    for (size_t i = 0; i < 14; i++)
+        CHECK_ABS(rb_io_table_column(&t, "mu_1")[i], i < 7 ? 0.1 : 0.3, 0.0, "mu");
+    for (size_t j = 0; j < 4; j++)
+        for (size_t i = 0; i < 14; i++)
+            CHECK_ABS(rb_io_table_column(&t, columns[j][0])[i],
+                      entry(json_array_get(curves, i / 7), columns[j][1], i % 7), 0.0,
+                      "%s", columns[j][0]);
+    rb_io_table_free(&t);
+    json_decref(root);
+}
+
+/* 100 points at 100 elements; a second leaves room for a busy machine. */
+static void curve_is_fast(void **state)
+{
+    (void)state;
+    json_t *root = run_json("curve " SIMILAR "--points 100 --contact-elements 100");
+    const json_t *curve = json_object_get(root, "curve");
+    print_message("curve of 100 points at 100 elements: %g s\n",
+                  number_in(curve, "seconds"));
+    assert_int_equal(json_array_size(json_object_get(curve, "creepage")), 100);
+    json_decref(root);
+}
+
+/* ---- Stress --------------------------------------------------------------------------
+ */
+
+static void check_maximum(const json_t *root, const char *name, double value, double x,
+                          double y)
+{
+    const json_t *m = json_object_get(json_object_get(root, "maxima"), name);
+    const double p0 = number_in(json_object_get(root, "summary"), "max_pressure");
+    CHECK_REL(number_in(m, "value") / p0, value, 3e-3, "%s / p0", name);
+    CHECK_ABS(fabs(number_in(m, "x")) / 0.5, fabs(x), 0.01, "x / a of %s", name);
+    CHECK_ABS(number_in(m, "y") / 0.5, y, 0.01, "y / a of %s", name);
+}
+
+/* Closed forms for nu = 0.3 (theory.md 6). */
+static void maxima_are_those_of_hertz_and_full_sliding(void **state)
+{
+    (void)state;
+    json_t *root = run_json("stress " SIMILAR "--shift 0 --mesh fitted --grid 3x3");
+    check_maximum(root, "max_shear", 0.30028, 0.0, 0.78615);
+    check_maximum(root, "von_mises", 0.55752, 0.0, 0.70429);
+    check_maximum(root, "orthogonal_shear", 0.25, 0.866, 0.5);
+    json_decref(root);
+    root = run_json("stress " SIMILAR "--mu 0.2 --formulation steady --creep-ratio 2 "
+                    "--grid 3x3");
+    check_maximum(root, "max_shear", 0.31899, -0.625, 0.601);
+    assert_true(number_in(json_object_get(json_object_get(root, "maxima"), "max_shear"),
+                          "x") < 0.0); /* braked: friction on A towards -x */
+    json_decref(root);
+}
+
+/* The first row of the grid lies on the surface: its tractions are those of the table. */
+static void surface_row_shows_the_tractions(void **state)
+{
+    (void)state;
+    json_t *root = run_json("stress " SIMILAR "--formulation steady --creep-ratio 0.5 "
+                            "--grid 41x2 --contact-elements 200");
+    const json_t *grid = json_object_get(root, "grid"),
+                 *summary = json_object_get(root, "summary");
+    const double p0 = number_in(summary, "max_pressure"), a = 0.5;
+    assert_int_equal(number_in(grid, "nx"), 41);
+    for (size_t i = 0; i < 41; i++) {
+        const double x = entry(grid, "x_mm", i) / a;
+        const double p = fabs(x) < 1.0 ? p0 * sqrt(1.0 - x * x) : 0.0;
+        CHECK_ABS(-entry(grid, "syy_MPa", i), p, 0.02 * p0, "x = %g a", x);
+        CHECK_ABS(entry(grid, "y_mm", i), 0.0, 0.0, "surface");
+    }
+    json_decref(root);
+}
+
+static void table_of_points(void **state)
+{
+    (void)state;
+    rb_io_table t;
+    write_file("points", "# x y\n0 0.39308\n0.1, 0\n");
+    assert_int_equal(rollbem("stress " SIMILAR "--shift 0 --mesh fitted --points points"),
+                     0);
+    assert_non_null(strstr(out, "# maximum shear "));
+    assert_non_null(strstr(err, "von Mises"));
+    assert_int_equal(rb_io_table_read("out", &t, NULL), RB_OK);
+    assert_int_equal(t.rows, 2);
+    CHECK_ABS(rb_io_table_column(&t, "x_mm")[1], 0.1, 0.0, "x");
+    const double sxx = rb_io_table_column(&t, "sxx_MPa")[0];
+    const double syy = rb_io_table_column(&t, "syy_MPa")[0];
+    CHECK_REL(rb_io_table_column(&t, "max_shear_MPa")[0], (sxx - syy) / 2, 1e-6, "tau");
+    CHECK_REL(rb_io_table_column(&t, "szz_MPa")[0], 0.3 * (sxx + syy), 1e-12, "szz");
+    rb_io_table_free(&t);
+}
+
+/* A wheel's grid follows its surface; places in the hub are left out. */
+static void grid_of_a_wheel(void **state)
+{
+    (void)state;
+    const char *wheel = "stress --support hub --approach 5 --outer-elements 60 "
+                        "--contact-elements 30 --grid 21x16 --depth 45";
+    char line[300];
+    rb_io_table t;
+    json_t *root = run_json(wheel);
+    const json_t *grid = json_object_get(root, "grid");
+    int inside = 0;
+    for (size_t k = 0; k < 21 * 16; k++) {
+        const double x = entry(grid, "x_mm", k), y = entry(grid, "y_mm", k);
+        const double r = hypot(x, y - 50.0);
+        const int there = !isnan(entry(grid, "sxx_MPa", k));
+        inside += there;
+        if (k < 21) /* the surface itself */
+            assert_true(there);
+        if (r < 0.98 * 15.0 || r > 50.0 + 1e-9)
+            assert_false(there);
+        if (r > 1.02 * 15.0 && r < 0.98 * 50.0)
+            assert_true(there);
+    }
+    assert_true(inside < 21 * 16);
+    json_decref(root);
+    snprintf(line, sizeof line, "%s --quiet --output wheel.tsv --vtk wheel.vtu", wheel);
+    assert_int_equal(rollbem(line), 0);
+    assert_int_equal(rb_io_table_read("wheel.tsv", &t, NULL), RB_OK);
+    assert_int_equal(t.rows, inside);
+    rb_io_table_free(&t);
+    slurp("wheel.vtu", out, sizeof out);
+    snprintf(line, sizeof line, "NumberOfPoints=\"%d\"", inside);
+    assert_non_null(strstr(out, line));
+}
+
+/* ---- ParaView files
+ * -------------------------------------------------------------------- */
+
+static int digit(char c)
+{
+    static const char digits[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const char *at = strchr(digits, c);
+    return c && at ? (int)(at - digits) : -1;
+}
+
+/* Decodes base64 up to the first other character; the bytes. */
+static size_t decode(const char *text, unsigned char *bytes, size_t size)
+{
+    size_t n = 0;
+    for (; digit(text[0]) >= 0; text += 4) {
+        const int d[4] = {digit(text[0]), digit(text[1]), digit(text[2]), digit(text[3])};
+        assert_true(n + 3 <= size);
+        bytes[n++] = (unsigned char)(d[0] << 2 | d[1] >> 4);
+        if (d[2] >= 0)
+            bytes[n++] = (unsigned char)(d[1] << 4 | d[2] >> 2);
+        if (d[3] >= 0)
+            bytes[n++] = (unsigned char)(d[2] << 6 | d[3]);
+        if (d[3] < 0)
+            break;
+    }
+    return n;
+}
+
+/* The array of that name: first its size in bytes, then itself (VTK file formats, "XML
+ * file formats": inline, base64, header and data encoded apart). */
+static size_t read_array(const char *name, double *x, size_t size)
+{
+    char mark[60];
+    unsigned char head[12];
+    uint64_t bytes;
+    snprintf(mark, sizeof mark, "Name=\"%s\"", name);
+    const char *at = strstr(out, mark);
+    assert_non_null(at);
+    at = strchr(at, '>') + 1;
+    decode(at, head, sizeof head);
+    memcpy(&bytes, head, sizeof bytes);
+    assert_true(bytes <= size);
+    at = strchr(at, '=') + 1; /* 8 bytes end with one = */
+    assert_int_equal(decode(at, (unsigned char *)x, size), bytes);
+    return bytes;
+}
+
+static void vtk_holds_the_numbers_of_the_table(void **state)
+{
+    (void)state;
+    enum { NX = 7, NY = 5, N = NX * NY };
+    double x[6 * N + 3];
+    rb_io_table t;
+    assert_int_equal(rollbem("stress " SIMILAR "--contact-elements 20 --grid 7x5 "
+                             "--quiet --output s.tsv --vtk s.vti"),
+                     0);
+    assert_int_equal(rb_io_table_read("s.tsv", &t, NULL), RB_OK);
+    slurp("s.vti", out, sizeof out);
+    assert_non_null(strstr(out, "<VTKFile type=\"ImageData\" version=\"1.0\""));
+    assert_non_null(strstr(out, "WholeExtent=\"0 6 0 4 0 0\""));
+    assert_int_equal(read_array("von_mises", x, sizeof x), N * sizeof(double));
+    for (int k = 0; k < N; k++)
+        CHECK_ABS(x[k], rb_io_table_column(&t, "von_mises_MPa")[k], 0.0, "von Mises");
+    assert_int_equal(read_array("stress", x, sizeof x), 6 * N * sizeof(double));
+    for (int k = 0; k < N; k++) {
+        CHECK_ABS(x[6 * k + 1], rb_io_table_column(&t, "syy_MPa")[k], 0.0, "syy");
+        CHECK_ABS(x[6 * k + 3], rb_io_table_column(&t, "sxy_MPa")[k], 0.0, "sxy");
+    }
+    assert_int_equal(rollbem("stress " SIMILAR "--contact-elements 20 --grid 7x5 "
+                             "--quiet --vtk s.vtu"),
+                     0);
+    slurp("s.vtu", out, sizeof out);
+    assert_non_null(strstr(out, "NumberOfPoints=\"35\" NumberOfCells=\"24\""));
+    assert_int_equal(read_array("Points", x, sizeof x), 3 * N * sizeof(double));
+    for (int k = 0; k < N; k++)
+        CHECK_ABS(x[3 * k + 1], rb_io_table_column(&t, "y_mm")[k], 0.0, "y");
+    rb_io_table_free(&t);
+    assert_int_equal(rollbem("stress " SIMILAR "--contact-elements 20 --quiet "
+                             "--vtk /nonexistent/s.vtu"),
+                     73);
+}
+
+/* ---- Pictures -------------------------------------------------------------------------
+ */
+
+static void pictures_are_drawn(void **state)
+{
+    (void)state;
+    struct stat st;
+    assert_int_equal(rollbem("curve " SIMILAR "--points 9 --contact-elements 20 --mu "
+                             "0.1,0.3 --quiet --plot curve.svg"),
+                     0);
+    slurp("curve.svg", out, sizeof out);
+    assert_non_null(strstr(out, "law of Carter"));
+    assert_int_equal(rollbem("stress " SIMILAR "--contact-elements 20 --quiet "
+                             "--plot stress.png --fringes fringes.png"),
+                     0);
+    assert_int_equal(stat("stress.png", &st), 0);
+    assert_true(st.st_size > 20000);
+    assert_int_equal(stat("fringes.png", &st), 0);
+    assert_true(st.st_size > 20000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_arguments_are_refused),
+        cmocka_unit_test(bad_points_are_named_by_their_line),
+        cmocka_unit_test(curve_follows_carter),
+        cmocka_unit_test(table_holds_the_numbers_of_json),
+        cmocka_unit_test(curve_is_fast),
+        cmocka_unit_test(maxima_are_those_of_hertz_and_full_sliding),
+        cmocka_unit_test(surface_row_shows_the_tractions),
+        cmocka_unit_test(table_of_points),
+        cmocka_unit_test(grid_of_a_wheel),
+        cmocka_unit_test(vtk_holds_the_numbers_of_the_table),
+        cmocka_unit_test(pictures_are_drawn),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
