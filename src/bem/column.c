@@ -6,7 +6,7 @@
 #include <immintrin.h>
 #endif
 
-enum { BLOCK = 16, CHUNK = 128 }; /* points in one vector loop; in one streamed piece */
+enum { BLOCK = 32, CHUNK = 256 }; /* points in one vector loop; in one buffer */
 
 void rb_points_free(rb_points *points)
 {
@@ -47,22 +47,64 @@ rb_status rb_points_make(int n, const double *x, const double *y, rb_points *poi
 }
 
 /* Stores past the caches: the matrix is not read before it is complete, and a plain store
- * would fetch every line first.  Whole lines of 8 at a time. */
+ * would fetch every line first.  Whole lines of 8, as soon as they are there, so that
+ * they drain while the next block is computed; returns how far it came. */
 typedef void stream_line(double *to, const double *from);
 
-RB_INLINE void stream(double *to, const double *from, int n, stream_line *line)
+RB_INLINE int stream(double *to, const double *from, int sent, int ready,
+                     stream_line *line)
 {
-    int i = 0;
-    for (; i < n && (uintptr_t)(to + i) % 64; i++)
-        to[i] = from[i];
-    for (; i + 8 <= n; i += 8)
-        line(to + i, from + i);
-    for (; i < n; i++)
-        to[i] = from[i];
+    for (; sent + 8 <= ready; sent += 8)
+        line(to + sent, from + sent);
+    return sent;
+}
+
+/* Doubles before the first whole line. */
+static int head(const double *to)
+{
+    return (int)((64 - (uintptr_t)to % 64) % 64 / sizeof *to);
 }
 
 /* One block of points; buffer: four columns of 2 CHUNK. */
 typedef double rb_buffer[4][2 * CHUNK];
+
+typedef struct {
+    double X[BLOCK], d[BLOCK], square_re[BLOCK], square_im[BLOCK], dot[BLOCK],
+        cross[BLOCK], W[BLOCK], over_W[BLOCK], a_over_rho[BLOCK], Lam[BLOCK], Th[BLOCK],
+        log_W[BLOCK];
+} rb_seen_block;
+
+RB_INLINE void keep(const rb_seen *v, rb_seen_block *b, int i)
+{
+    b->X[i] = v->X;
+    b->d[i] = v->d;
+    b->square_re[i] = v->square_re;
+    b->square_im[i] = v->square_im;
+    b->dot[i] = v->dot;
+    b->cross[i] = v->cross;
+    b->W[i] = v->W;
+    b->over_W[i] = v->over_W;
+    b->a_over_rho[i] = v->a_over_rho;
+    b->log_W[i] = v->log_W;
+}
+
+RB_INLINE rb_seen kept(const rb_seen_block *b, int i)
+{
+    rb_seen v;
+    v.X = b->X[i];
+    v.d = b->d[i];
+    v.square_re = b->square_re[i];
+    v.square_im = b->square_im[i];
+    v.dot = b->dot[i];
+    v.cross = b->cross[i];
+    v.W = b->W[i];
+    v.over_W = b->over_W[i];
+    v.a_over_rho = b->a_over_rho[i];
+    v.Lam = b->Lam[i];
+    v.Th = b->Th[i];
+    v.log_W = b->log_W[i];
+    return v;
+}
 
 RB_INLINE void put(const rb_influence *v, int with_G, rb_buffer buffer, int i)
 {
@@ -77,36 +119,58 @@ RB_INLINE void put(const rb_influence *v, int with_G, rb_buffer buffer, int i)
     }
 }
 
-RB_INLINE void far_block(const rb_constants *k, const rb_element *e, const double *x,
-                         const double *y, int with_G, rb_buffer buffer, int at)
+/* y = x where chosen = 1, y where it is 0: no branch. */
+RB_INLINE void choose(double chosen, double x, double *y)
 {
+    *y = chosen * x + (1.0 - chosen) * *y;
+}
+
+/* What the far form is not good for, at the near points of a block. */
+RB_INLINE void mend_near(const rb_element *e, const double *x, const double *y,
+                         int with_G, rb_seen_block *b)
+{
+    double near[BLOCK];
+    for (int i = 0; i < BLOCK; i++)
+        near[i] = rb_is_far(e, x[i], y[i]) ? 0.0 : 1.0;
     for (int i = 0; i < BLOCK; i++) {
-        rb_influence out;
-        rb_seen v = rb_see(e, x[i], y[i]);
-        rb_turn_far(e->a, with_G, &v);
-        rb_integrate_H(k, e->a, &v, &out);
+        const rb_seen v = kept(b, i);
+        choose(near[i], rb_Lam_near(e->a, &v), &b->Lam[i]);
+    }
+    for (int i = 0; i < BLOCK; i++) {
+        const rb_seen v = kept(b, i);
+        choose(near[i], rb_Th_near(&v), &b->Th[i]);
+    }
+    for (int i = 0; i < BLOCK; i++) {
+        choose(near[i], 1.0 / b->W[i], &b->over_W[i]);
         if (with_G)
-            rb_integrate_G(k, e->a, &v, &out);
-        put(&out, with_G, buffer, 2 * (at + i));
+            choose(near[i], rb_log(b->W[i]), &b->log_W[i]);
     }
 }
 
-/* Both forms, and of each point the one that suits it: no result depends on neighbours.
- */
-RB_INLINE void mixed_block(const rb_constants *k, const rb_element *e, const double *x,
-                           const double *y, int with_G, rb_buffer buffer, int at)
+/* In short loops, whose steps are independent: in one long one each result would wait for
+ * the last, and the processor does not look far enough ahead to fill the time. */
+RB_INLINE void integrate_block(const rb_constants *k, const rb_element *e,
+                               const double *x, const double *y, int far, int with_G,
+                               rb_buffer buffer, int at)
 {
+    rb_seen_block b;
+    for (int i = 0; i < BLOCK; i++) {
+        rb_seen v = rb_see(e, x[i], y[i]);
+        v.log_W = 0.0;
+        rb_divide_far(e->a, with_G, &v);
+        keep(&v, &b, i);
+    }
+    for (int i = 0; i < BLOCK; i++) {
+        rb_seen v = kept(&b, i);
+        rb_turn_far(e->a, &v);
+        b.Lam[i] = v.Lam;
+        b.Th[i] = v.Th;
+    }
+    if (!far)
+        mend_near(e, x, y, with_G, &b);
     for (int i = 0; i < BLOCK; i++) {
         rb_influence out;
-        rb_seen v = rb_see(e, x[i], y[i]), far = v;
-        const int is_far = rb_is_far(e, x[i], y[i]);
-        rb_turn_near(e->a, with_G, &v);
-        rb_turn_far(e->a, with_G, &far);
-        v.over_W = is_far ? far.over_W : v.over_W;
-        v.Lam = is_far ? far.Lam : v.Lam;
-        v.Th = is_far ? far.Th : v.Th;
-        if (with_G)
-            v.log_W = is_far ? far.log_W : v.log_W;
+        const rb_seen v = kept(&b, i);
         rb_integrate_H(k, e->a, &v, &out);
         if (with_G)
             rb_integrate_G(k, e->a, &v, &out);
@@ -129,27 +193,50 @@ static void put_self(const rb_constants *k, const rb_element *e, rb_buffer buffe
     put(&out, 1, buffer, 2 * i);
 }
 
+RB_INLINE void fill_block(const rb_constants *k, const rb_element *e, int self,
+                          const rb_points *points, int first, int at, int with_G,
+                          rb_buffer buffer)
+{
+    const int i = first + at;
+    const int far = all_far(e, points->circle + 3 * (i / BLOCK));
+    integrate_block(k, e, points->x + i, points->y + i, far, with_G, buffer, at);
+    if (self >= i && self < i + BLOCK)
+        put_self(k, e, buffer, self - first);
+}
+
+/* Points first ... first + count - 1. */
+RB_INLINE void fill_chunk(const rb_constants *k, const rb_element *e, int self,
+                          const rb_points *points, int first, int count,
+                          double *const out[4], int with_G, stream_line *line)
+{
+    rb_buffer buffer;
+    int start[4], sent[4];
+    for (int c = 0; c < 4; c++)
+        start[c] = sent[c] = out[c] ? head(out[c] + 2 * first) : 0;
+    for (int at = 0; at < count; at += BLOCK) {
+        const int ready = 2 * (at + BLOCK < count ? at + BLOCK : count);
+        fill_block(k, e, self, points, first, at, with_G, buffer);
+        for (int c = 0; c < 4; c++)
+            if (out[c])
+                sent[c] = stream(out[c] + 2 * first, buffer[c], sent[c], ready, line);
+    }
+    for (int c = 0; c < 4; c++) {
+        for (int i = 0; out[c] && i < start[c] && i < 2 * count; i++)
+            out[c][2 * first + i] = buffer[c][i];
+        for (int i = sent[c]; out[c] && i < 2 * count; i++)
+            out[c][2 * first + i] = buffer[c][i];
+    }
+}
+
 RB_INLINE void fill(const rb_constants *k, const rb_element *e, int self,
                     const rb_points *points, double *const out[4], stream_line *line)
 {
-    const int with_G = out[2] || out[3];
-    rb_buffer buffer;
     for (int first = 0; first < points->n; first += CHUNK) {
         const int count = points->n - first < CHUNK ? points->n - first : CHUNK;
-        for (int at = 0; at < count; at += BLOCK) {
-            const double *x = points->x + first + at, *y = points->y + first + at;
-            if (!all_far(e, points->circle + 3 * ((first + at) / BLOCK)))
-                mixed_block(k, e, x, y, with_G, buffer, at);
-            else if (with_G)
-                far_block(k, e, x, y, 1, buffer, at);
-            else
-                far_block(k, e, x, y, 0, buffer, at);
-        }
-        if (self >= first && self < first + count)
-            put_self(k, e, buffer, self - first);
-        for (int c = 0; c < 4; c++)
-            if (out[c])
-                stream(out[c] + 2 * first, buffer[c], 2 * count, line);
+        if (out[2] || out[3])
+            fill_chunk(k, e, self, points, first, count, out, 1, line);
+        else
+            fill_chunk(k, e, self, points, first, count, out, 0, line);
     }
 }
 

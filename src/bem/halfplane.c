@@ -126,12 +126,10 @@ rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends,
 static rb_seen see_strip(const rb_element *strip, double x, double y)
 {
     rb_seen v = rb_see(strip, x, y);
-    if (rb_is_far(strip, x, y))
-        rb_turn_far(strip->a, 0, &v);
-    else if (v.W > 0.0)
-        rb_turn_near(strip->a, 0, &v);
-    else
-        v.Th = 0.5 * M_PI;
+    if (v.W > 0.0)
+        return rb_look(strip, x, y);
+    v.over_W = v.Lam = 0.0;
+    v.Th = 0.5 * M_PI;
     return v;
 }
 

@@ -105,16 +105,11 @@ RB_INLINE double rb_log_split(double x, double *k)
 /* ln(2^k m) from s = (m-1)/(m+1):  ln m = 2 atanh s,  s^2 < 0.0295: ten terms. */
 RB_INLINE double rb_log_join(double k, double s)
 {
-    const double z = s * s;
-    double p = 1.0 / 19;
-    p = p * z + 1.0 / 17;
-    p = p * z + 1.0 / 15;
-    p = p * z + 1.0 / 13;
-    p = p * z + 1.0 / 11;
-    p = p * z + 1.0 / 9;
-    p = p * z + 1.0 / 7;
-    p = p * z + 1.0 / 5;
-    p = p * z + 1.0 / 3;
+    /* in pairs: a chain of nine would wait for each product */
+    const double z = s * s, zz = z * z, z4 = zz * zz;
+    const double low = (1.0 / 3 + z * (1.0 / 5)) + zz * (1.0 / 7 + z * (1.0 / 9)),
+                 high = (1.0 / 11 + z * (1.0 / 13)) + zz * (1.0 / 15 + z * (1.0 / 17));
+    const double p = low + z4 * (high + z4 * (1.0 / 19));
     const double twice = s + s;
     return k * 0.69314718055994530942 + (twice + twice * (z * p));
 }
@@ -127,21 +122,23 @@ RB_INLINE double rb_log(double x)
 }
 
 /* atan2(y, x), not both 0: the angle of the first octant less that of the nearest of the
- * slopes 0, 1/4, 1/2, 3/4, 1, |tan| < 1/8: nine terms. */
+ * slopes 0, 1/4, 1/2, 3/4, 1, |tan| < 1/8: nine terms.  Conditions are numbers, because
+ * branches would keep loops from being vectorised. */
 RB_INLINE double rb_atan2(double y, double x)
 {
     const double pi = 3.14159265358979323846, pi_low = 1.2246467991473532e-16;
     const double ax = fabs(x), ay = fabs(y), big = ax > ay ? ax : ay,
                  small = ax > ay ? ay : ax;
-    double slope = 0.0, base = 0.0;
-    slope = small > 0.125 * big ? 0.25 : slope;
-    base = small > 0.125 * big ? 0.24497866312686415417 : base;
-    slope = small > 0.375 * big ? 0.5 : slope;
-    base = small > 0.375 * big ? 0.46364760900080611621 : base;
-    slope = small > 0.625 * big ? 0.75 : slope;
-    base = small > 0.625 * big ? 0.64350110879328438680 : base;
-    slope = small > 0.875 * big ? 1.0 : slope;
-    base = small > 0.875 * big ? 0.78539816339744830962 : base;
+    const double q1 = small > 0.125 * big ? 1.0 : 0.0,
+                 q2 = small > 0.375 * big ? 1.0 : 0.0,
+                 q3 = small > 0.625 * big ? 1.0 : 0.0,
+                 q4 = small > 0.875 * big ? 1.0 : 0.0;
+    const double steep = ay > ax ? 1.0 : 0.0, left = x < 0.0 ? 1.0 : 0.0,
+                 sign = y < 0.0 ? -1.0 : 1.0;
+    const double slope = 0.25 * ((q1 + q2) + (q3 + q4));
+    /* atan 1/4 and what each further quarter adds */
+    const double base = (q1 * 0.24497866312686415417 + q2 * 0.21866894587394196204) +
+                        (q3 * 0.17985349979247827059 + q4 * 0.14189705460416392281);
     const double s = (small - slope * big) / (big + slope * small), z = s * s;
     double p = 1.0 / 17;
     p = 1.0 / 15 - p * z;
@@ -151,16 +148,16 @@ RB_INLINE double rb_atan2(double y, double x)
     p = 1.0 / 7 - p * z;
     p = 1.0 / 5 - p * z;
     p = 1.0 / 3 - p * z;
-    double angle = base + (s - s * z * p);
-    angle = ay > ax ? 0.5 * pi - (angle - 0.5 * pi_low) : angle;
-    angle = x < 0.0 ? pi - (angle - pi_low) : angle;
-    return y < 0.0 ? -angle : angle;
+    const double octant = base + (s - s * z * p);
+    const double half =
+        steep * (0.5 * pi) + (1.0 - 2.0 * steep) * (octant - steep * (0.5 * pi_low));
+    return sign * (left * pi + (1.0 - 2.0 * left) * (half - left * pi_low));
 }
 
 /* rho = X^2 + d^2; square = (X + i d)^2, real part and imaginary part. */
 typedef struct {
     double X, d, rho, square_re, square_im, dot, cross, W, over_W;
-    double Lam, Th, log_W;
+    double a_over_rho, Lam, Th, log_W;
 } rb_seen;
 
 /* Where rho > 400 a^2 the two transcendentals are one short series. */
@@ -186,10 +183,8 @@ RB_INLINE rb_seen rb_see(const rb_element *e, double px, double py)
     return v;
 }
 
-/* Lam + i Th = 2 atanh u = 2u (1 + w/3 + w^2/5 + ...), u = a (X + i d)/rho, w = u^2,
- * |w| < 1/400: six terms, summed in real arithmetic (b_k = c_k + 2 Re w b_k+1 -
- * |w|^2 b_k+2).  One division serves 1/W, 1/rho and, where wanted, ln W. */
-RB_INLINE void rb_turn_far(double a, int with_log, rb_seen *v)
+/* One division serves 1/W, 1/rho and, where wanted, ln W. */
+RB_INLINE void rb_divide_far(double a, int with_log, rb_seen *v)
 {
     double k = 0.0, m = 1.0, over = v->W * v->rho;
     if (with_log) {
@@ -201,7 +196,15 @@ RB_INLINE void rb_turn_far(double a, int with_log, rb_seen *v)
         over = 1.0 / over;
     }
     v->over_W = over * v->rho;
-    const double f = a * (over * v->W), ff = f * f, af = a * f;
+    v->a_over_rho = a * (over * v->W);
+}
+
+/* Lam + i Th = 2 atanh u = 2u (1 + w/3 + w^2/5 + ...), u = a (X + i d)/rho, w = u^2,
+ * |w| < 1/400: six terms, summed in real arithmetic (b_k = c_k + 2 Re w b_k+1 -
+ * |w|^2 b_k+2). */
+RB_INLINE void rb_turn_far(double a, rb_seen *v)
+{
+    const double f = v->a_over_rho, ff = f * f, af = a * f;
     const double wr = ff * v->square_re, half_wi = 0.5 * (ff * v->square_im);
     const double p = wr + wr, q = af * af;
     const double b4 = 1.0 / 9 + p * (1.0 / 11), b3 = 1.0 / 7 + p * b4 - q * (1.0 / 11),
@@ -212,14 +215,15 @@ RB_INLINE void rb_turn_far(double a, int with_log, rb_seen *v)
     v->Th = ur * si + ui * sr;
 }
 
-RB_INLINE void rb_turn_near(double a, int with_log, rb_seen *v)
+RB_INLINE double rb_Lam_near(double a, const rb_seen *v)
 {
     const double x1 = v->X - a, x2 = v->X + a, dd = v->d * v->d;
-    v->over_W = 1.0 / v->W;
-    v->Lam = 0.5 * rb_log((x2 * x2 + dd) / (x1 * x1 + dd));
-    v->Th = rb_atan2(v->cross, v->dot);
-    if (with_log)
-        v->log_W = rb_log(v->W);
+    return 0.5 * rb_log((x2 * x2 + dd) / (x1 * x1 + dd));
+}
+
+RB_INLINE double rb_Th_near(const rb_seen *v)
+{
+    return rb_atan2(v->cross, v->dot);
 }
 
 RB_INLINE void rb_integrate_H(const rb_constants *k, double a, const rb_seen *v,
@@ -260,10 +264,15 @@ static inline void rb_integrate_self(const rb_constants *k, double a, rb_influen
 RB_INLINE rb_seen rb_look(const rb_element *e, double px, double py)
 {
     rb_seen v = rb_see(e, px, py);
-    if (rb_is_far(e, px, py))
-        rb_turn_far(e->a, 1, &v);
-    else
-        rb_turn_near(e->a, 1, &v);
+    if (rb_is_far(e, px, py)) {
+        rb_divide_far(e->a, 1, &v);
+        rb_turn_far(e->a, &v);
+    } else {
+        v.over_W = 1.0 / v.W;
+        v.log_W = rb_log(v.W);
+        v.Lam = rb_Lam_near(e->a, &v);
+        v.Th = rb_Th_near(&v);
+    }
     return v;
 }
 
