@@ -17,6 +17,9 @@ extern const int rb_report_column_n;
 const double *rb_report_doubles(const rb_rolling_solution *s, const rb_report_column *c);
 const int *rb_report_ints(const rb_rolling_solution *s, const rb_report_column *c);
 
+/* For people: 0 where x is rounding of a sum of terms of that size. */
+double rb_report_tidy(double x, double size);
+
 /* ---- Series: tables and JSON of everything but the tractions ----------------------- */
 
 /* One column, of doubles or of whole numbers. */

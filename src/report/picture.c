@@ -216,32 +216,60 @@ static void write_zones(FILE *out, const view *v, int labelled)
 
 /* ---- Panels ----------------------------------------------------------------------- */
 
+/* What the case came to, behind its name. */
+static void write_results(FILE *out, const view *v)
+{
+    const rb_rolling_solution *s = v->s;
+    const int moves = s->formulation != RB_STATIC || s->creepage != 0.0;
+    if (s->contact == 0) {
+        fputs("no contact", out);
+        return;
+    }
+    fprintf(out, "a = %.4g mm,  p_0 = %.5g MPa", s->half_width, s->max_pressure);
+    if (!isnan(s->creepage) && moves)
+        fprintf(out, ",  ξ = %.4g", s->creepage);
+    if (!isnan(s->creep_ratio) && moves)
+        fprintf(out, ",  ξR/(μa) = %.3g", s->creep_ratio);
+    if (!isnan(s->force_ratio))
+        fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0));
+}
+
 static void write_title(FILE *out, const view *v)
 {
     static const char *const kinds[] = {"Static contact", "Steady rolling",
                                         "Transient rolling"};
     const rb_rolling_solution *s = v->s;
     fprintf(out, "set label 1 '{/:Bold %s}   μ = %g,  P = %.5g N/mm,  Q = %.5g N/mm",
-            kinds[s->formulation], v->rc->mu, s->normal_load, s->tangential_load);
-    fputs("' at screen 0.53, 0.965 center\nset label 2 '", out);
-    fprintf(out, "a = %.4g mm,  p_0 = %.5g MPa", s->half_width, s->max_pressure);
-    const int moves = s->formulation != RB_STATIC || s->creepage != 0.0;
-    if (!isnan(s->creepage) && moves)
-        fprintf(out, ",  ξ = %.4g", s->creepage);
-    if (!isnan(s->creep_ratio) && moves)
-        fprintf(out, ",  ξR/(μa) = %.4g", s->creep_ratio);
-    if (!isnan(s->force_ratio))
-        fprintf(out, ",  Q/(μP) = %.4g", s->force_ratio);
-    fputs("' at screen 0.53, 0.925 center textcolor rgb '#444444'\n", out);
+            kinds[s->formulation], v->rc->mu, s->normal_load,
+            rb_report_tidy(s->tangential_load, s->normal_load));
+    fputs("' at screen 0.53, 0.965 center\nset label 2 '{/*0.95 ", out);
+    write_results(out, v);
+    fputs("}' at screen 0.53, 0.925 center textcolor rgb '#444444'\n", out);
 }
+
+/* Room for p, q and the bounds; at mu > 1 the bounds may leave it. */
+static void write_stress_range(FILE *out, const view *v)
+{
+    const rb_rolling_solution *s = v->s;
+    double p = 0.0, q = 0.0;
+    for (int i = 0; i < s->n; i++) {
+        p = fmax(p, s->p[i]);
+        q = fmax(q, fabs(s->q[i]));
+    }
+    const double scale = p > 0.0 ? p : v->stress_unit;
+    const double bound = fmax(q, fmin(v->rc->mu, 1.0) * p);
+    const double below = fmax(1.2 * bound, 0.08 * scale);
+    /* a ninth of the height is left to the names of the zones */
+    const double above = (fmax(scale, bound) + below / 9.0) * 9.0 / 8.0;
+    fprintf(out, "set yrange [%.9g:%.9g]\n", -below / v->stress_unit,
+            above / v->stress_unit);
+}
+
+enum { STEPS_UP_TO = 16 };
 
 static void write_tractions(FILE *out, const view *v, const char *key_font)
 {
-    const double p0 =
-        v->s->max_pressure > 0.0 ? v->s->max_pressure / v->stress_unit : 1.0;
-    const double bound = v->rc->mu * p0;
-    fprintf(out, "set yrange [%.9g:%.9g]\n", -fmax(1.2 * bound, 0.08 * p0),
-            1.16 * fmax(p0, bound));
+    write_stress_range(out, v);
     fputs("set tmargin at screen 0.83\nset bmargin at screen 0.40\nset format x ''\n",
           out);
     fprintf(out, "set label 3 'traction  [%s]' at screen 0.028, 0.615 center rotate\n",
@@ -252,17 +280,19 @@ static void write_tractions(FILE *out, const view *v, const char *key_font)
         "font '%s'\n",
         key_font);
     write_zones(out, v, 1);
-    fputs(
-        "plot 0 with lines linecolor rgb '#999999' linewidth 0.6 notitle, "
-        "$data using 1:4 with lines dashtype (6,4) linecolor rgb '#7a7a7a' linewidth 0.9 "
-        "title '±μp', "
-        "$data using 1:(-$4) with lines dashtype (6,4) linecolor rgb '#7a7a7a' "
-        "linewidth 0.9 notitle, "
-        "$data using 1:2 with lines linecolor rgb '#1f4e79' linewidth 1.8 "
-        "title 'pressure p', "
-        "$data using 1:3 with lines linecolor rgb '#c0392b' linewidth 1.8 "
-        "title 'friction q'",
-        out);
+    /* few elements: what each of them carries; many: a curve */
+    const char *style = v->s->n <= STEPS_UP_TO ? "histeps" : "lines";
+    fprintf(out,
+            "plot 0 with lines linecolor rgb '#999999' linewidth 0.6 notitle, "
+            "$data using 1:4 with %s dashtype (6,4) linecolor rgb '#7a7a7a' "
+            "linewidth 0.9 title '±μp', "
+            "$data using 1:(-$4) with %s dashtype (6,4) linecolor rgb '#7a7a7a' "
+            "linewidth 0.9 notitle, "
+            "$data using 1:2 with %s linecolor rgb '#1f4e79' linewidth 1.8 "
+            "title 'pressure p', "
+            "$data using 1:3 with %s linecolor rgb '#c0392b' linewidth 1.8 "
+            "title 'friction q'",
+            style, style, style, style);
     if (v->carter)
         fputs(", $carter using 1:2 with lines dashtype (10,5) linecolor rgb '#1e8449' "
               "linewidth 1.4 title 'Carter'",
@@ -291,9 +321,10 @@ static void write_slip(FILE *out, const view *v)
         fprintf(out, "  [10^{%d}]", v->slip_exponent);
     fputs("' at screen 0.028, 0.2375 center rotate\n", out);
     write_zones(out, v, 0);
-    fputs("plot 0 with lines linecolor rgb '#999999' linewidth 0.6, "
-          "$data using 1:5 with lines linecolor rgb '#6c3483' linewidth 1.8\n",
-          out);
+    fprintf(out,
+            "plot 0 with lines linecolor rgb '#999999' linewidth 0.6, "
+            "$data using 1:5 with %s linecolor rgb '#6c3483' linewidth 1.8\n",
+            v->s->n <= STEPS_UP_TO ? "linespoints pointtype 7" : "lines");
 }
 
 static void write_script(FILE *out, rb_report_picture_kind kind, const void *context)

@@ -67,12 +67,17 @@ void rb_report_strip(const rb_rolling_solution *s, int width, char *strip)
 
 /* ---- Summary ---------------------------------------------------------------------- */
 
+double rb_report_tidy(double x, double size)
+{
+    return fabs(x) <= 1e-12 * fabs(size) ? 0.0 : x;
+}
+
 static void print_forces(FILE *out, const rb_rolling_solution *s)
 {
     fprintf(out, "  load      P = %.6g N/mm, Q = %.6g N/mm", s->normal_load,
-            s->tangential_load);
+            rb_report_tidy(s->tangential_load, s->normal_load));
     if (!isnan(s->force_ratio))
-        fprintf(out, ", Q/(mu P) = %.5g", s->force_ratio);
+        fprintf(out, ", Q/(mu P) = %.5g", rb_report_tidy(s->force_ratio, 1.0));
     fputc('\n', out);
     if (s->contact > 0)
         fprintf(out, "  contact   %.5g ... %.5g mm, p0 = %.6g MPa, approach %.5g mm\n",
