@@ -69,7 +69,7 @@ typedef struct {
     const char
         *cone_solver; /* RB_SOLVER_CONE: a name of rb_friction_solvers(); borrowed */
     rb_rolling_lcp_form lcp_form;
-    double tol; /* of the scaled natural residual */
+    double tol; /* of the scaled natural residual; on large contacts not below rounding */
 
     rb_lcp_trace *trace; /* sees every pivot of Lemke, with trace_context; NULL: nobody */
     void *trace_context;
@@ -143,6 +143,8 @@ typedef struct {
     int coupled; /* 0: pressure causes no slip and friction no gap (similar half-planes)
                   */
     double stress, gap_length, slip_length; /* scales of r, y_N, lambda (4.4) */
+    double rounding; /* of the scaled residual on large contacts: gaps between neighbours are
+                        small against the displacement of all; 0 with a dense F */
 } rb_rolling_problem;
 
 /* The state that a static history or a transient starts from. */
@@ -251,6 +253,7 @@ typedef struct {
     rb_status status;
     rb_rolling_formulation formulation;
     rb_rolling_solver solver; /* that gave the answer */
+    int large; /* 1: products by Fourier transforms, no matrix was formed */
     rb_rolling_lcp_form lcp_form;
     int iterations;  /* pivots or Newton steps, of all solves */
     double residual; /* natural residual of the scaled problem, recomputed from p, q,

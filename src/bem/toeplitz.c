@@ -70,12 +70,13 @@ static int all_zero(int n, const double *x)
     return 1;
 }
 
+/* Of many tractions, each of which moves every point: in more digits than double. */
 static double sum_of(int n, const double *x)
 {
-    double sum = 0.0;
+    long double sum = 0.0;
     for (int i = 0; i < n; i++)
         sum += x[i];
-    return sum;
+    return (double)sum;
 }
 
 static void transform_back(const toeplitz *o, double constant, double *work, double *w)

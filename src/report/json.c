@@ -120,6 +120,8 @@ json_t *rb_report_json_summary(const rb_rolling_case *rc, const rb_rolling_solut
     json_object_set_new(summary, "formulation",
                         json_string(rb_report_formulation(s->formulation)));
     json_object_set_new(summary, "solver", json_string(rb_report_solver(s->solver)));
+    json_object_set_new(summary, "flexibility",
+                        json_string(s->large ? "transforms" : "matrix"));
     json_object_set_new(summary, "lcp_form",
                         json_string(rb_report_lcp_form(s->lcp_form)));
     set_fields(summary, s, results, sizeof results / sizeof results[0]);

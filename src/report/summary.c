@@ -121,7 +121,8 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
     fprintf(out, "%s: %s by ", rb_report_formulation(s->formulation),
             rb_status_text(s->status));
     if (newton)
-        fprintf(out, "Newton, %d steps", s->iterations);
+        fprintf(out, "Newton%s, %d steps", s->large ? " with Fourier transforms" : "",
+                s->iterations);
     else
         fprintf(out, "Lemke (%s form), %d pivots", rb_report_lcp_form(s->lcp_form),
                 s->iterations);

@@ -6,9 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From here on products by Fourier transforms are faster than a dense matrix. */
-enum { LARGE_FROM = 1500 };
-
 void rb_rolling_bodies_free(rb_rolling_bodies *bodies)
 {
     rb_bem_flexibility_free(&bodies->f);
@@ -25,7 +22,8 @@ double rb_rolling_datum(const rb_rolling_body *body, double radius)
 
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 {
-    return mesh->n >= LARGE_FROM && rc->solver != RB_SOLVER_LEMKE &&
+    return mesh->n >= RB_ROLLING_LARGE_FROM &&
+           (rc->solver == RB_SOLVER_AUTO || rc->solver == RB_SOLVER_NEWTON) &&
            rc->mesh == RB_MESH_UNIFORM && rc->a.support == RB_BEM_HALFPLANE &&
            (!rc->elastic_b || rc->b.support == RB_BEM_HALFPLANE);
 }

@@ -37,8 +37,11 @@ void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bod
                          const rb_rolling_past *past, double step, rb_rolling_problem *p);
 void rb_rolling_set_control(const rb_rolling_case *rc, rb_rolling_problem *p);
 
+/* Elements from which on products by Fourier transforms are faster than a dense matrix.
+ */
+enum { RB_ROLLING_LARGE_FROM = 1500 };
 /* 1 where products with the flexibility replace the dense matrix: half-planes under a
- * long line of equal elements, any solver but Lemke. */
+ * long line of equal elements, by Newton. */
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
 /* Row i of A w for w (m values) of theory.md 4.2: w itself, or what a particle gains on
  * its way from the element upstream (towards +x). */
@@ -54,6 +57,15 @@ void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
 rb_status rb_rolling_krylov_create(const rb_rolling_problem *problem,
                                    struct rb_rolling_krylov **krylov);
 void rb_rolling_krylov_free(struct rb_rolling_krylov *krylov);
+
+/* ---- large.c --------------------------------------------------------------------------
+ */
+
+/* Elements of the mesh that starts one of n. */
+int rb_rolling_coarse_elements(int n);
+/* Tractions, zones, delta and xi from a solution on fewer elements over the same line. */
+void rb_rolling_start_from(const rb_rolling_mesh *mesh, const rb_rolling_state *coarse,
+                           const rb_rolling_mesh *fine_mesh, rb_rolling_state *fine);
 
 /* ---- newton.c ------------------------------------------------------------------------
  */

@@ -65,6 +65,28 @@ rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why)
     return solve_ratio(model, 1, why);
 }
 
+static rb_status build_and_solve(rb_rolling_model *model, rb_rolling_mesh *mesh,
+                                 rb_message *why);
+
+/* Zones and tractions of a large contact, from fewer elements over the same line. */
+static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
+{
+    const double *ends = model->mesh.ends;
+    rb_rolling_model coarse = {.rc = model->rc};
+    rb_rolling_mesh mesh;
+
+    coarse.rc.contact_elements = rb_rolling_coarse_elements(model->mesh.n);
+    rb_status s =
+        rb_rolling_mesh_uniform(&coarse.rc, ends[0], ends[model->mesh.n], &mesh, why);
+    if (s == RB_OK)
+        s = build_and_solve(&coarse, &mesh, why);
+    if (s >= 0)
+        rb_rolling_start_from(&coarse.mesh, &coarse.state, &model->mesh, &model->state);
+    model->iterations += coarse.iterations;
+    rb_rolling_model_free(&coarse);
+    return s < 0 ? s : RB_OK;
+}
+
 /* Takes over the mesh, builds the bodies on it and solves. */
 static rb_status build_and_solve(rb_rolling_model *model, rb_rolling_mesh *mesh,
                                  rb_message *why)
@@ -81,7 +103,10 @@ static rb_status build_and_solve(rb_rolling_model *model, rb_rolling_mesh *mesh,
                                       &model->problem, why);
     if (s == RB_OK)
         s = rb_rolling_state_alloc(model->mesh.n, &model->state);
-    return s == RB_OK ? solve_ratio(model, 0, why) : s;
+    const int large = !model->bodies.F;
+    if (s == RB_OK && large)
+        s = start_from_coarse(model, why);
+    return s == RB_OK ? solve_ratio(model, large, why) : s;
 }
 
 static rb_status solve_uniform(rb_rolling_model *model, double zone, rb_message *why)
@@ -111,10 +136,13 @@ static double widest_zone(const rb_rolling_case *rc)
 
 /* Grows the potential contact until three separated elements stand at each end, and
  * tightens it when the contact turns out to fill less than two thirds of it. */
-static rb_status solve_automatic_zone(rb_rolling_model *model, rb_message *why)
+static rb_status solve_automatic_zone(rb_rolling_model *model, double known,
+                                      rb_message *why)
 {
     const double widest = widest_zone(&model->rc);
-    double zone = fmin(1.3 * rb_rolling_estimate_half_width(&model->rc), widest);
+    double zone = known > 0.0
+                      ? known
+                      : fmin(1.3 * rb_rolling_estimate_half_width(&model->rc), widest);
     double too_narrow = 0.0;
     rb_status s = RB_OK;
 
@@ -142,6 +170,22 @@ static rb_status solve_automatic_zone(rb_rolling_model *model, rb_message *why)
         zone = wanted;
     }
     return s;
+}
+
+/* Many elements need not be solved to learn how wide their line should be; 0: unknown. */
+static double coarse_zone(const rb_rolling_case *rc)
+{
+    rb_rolling_case few = *rc;
+    rb_rolling_model model;
+    double zone = 0.0;
+
+    if (rc->contact_elements < RB_ROLLING_LARGE_FROM)
+        return zone;
+    few.contact_elements = rb_rolling_coarse_elements(0);
+    if (rb_rolling_model_create(&few, &model, NULL) == RB_OK)
+        zone = model.mesh.ends[model.mesh.n];
+    rb_rolling_model_free(&model);
+    return zone;
 }
 
 /* A potential contact that fills is no potential contact: says how wide it should be. */
@@ -196,11 +240,36 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
     rb_status s = rb_rolling_case_check(rc, why);
     if (s == RB_OK)
         s = rc->zone > 0.0 ? solve_given_zone(model, why)
-                           : solve_automatic_zone(model, why);
+                           : solve_automatic_zone(model, coarse_zone(rc), why);
     if (s >= 0 && separated_at_ends(&model->state) == model->state.n)
         s = rb_fail(why, RB_NO_CONTACT, "no contact: the bodies do not touch");
     if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
         s = fit(model, why);
+    return s;
+}
+
+/* Similar bodies without a history roll freely at no creepage. */
+static int rolls_freely_at_rest(const rb_rolling_problem *problem)
+{
+    return !problem->coupled && rb_norm_inf((size_t)problem->n, problem->d_T) == 0.0;
+}
+
+/* Large: as a case of its own, which starts on fewer elements. */
+static rb_status free_creepage_of_large(const rb_rolling_model *model, double *creepage,
+                                        rb_message *why)
+{
+    rb_rolling_model freely = {.rc = model->rc};
+    rb_rolling_mesh mesh;
+
+    freely.rc.creep = freely.rc.creep_ratio = freely.rc.force = NAN;
+    freely.rc.force_ratio = 0.0;
+    rb_status s = rb_rolling_mesh_uniform(&freely.rc, model->mesh.ends[0],
+                                          model->mesh.ends[model->mesh.n], &mesh, why);
+    if (s == RB_OK)
+        s = build_and_solve(&freely, &mesh, why);
+    if (s == RB_OK)
+        *creepage = freely.state.xi;
+    rb_rolling_model_free(&freely);
     return s;
 }
 
@@ -209,9 +278,13 @@ rb_status rb_rolling_free_creepage(const rb_rolling_model *model, double *creepa
 {
     rb_rolling_problem problem = model->problem; /* arrays stay the model's */
     rb_rolling_state state;
-    rb_status s = rb_rolling_state_alloc(problem.n, &state);
 
-    *creepage = NAN;
+    *creepage = rolls_freely_at_rest(&problem) ? 0.0 : NAN;
+    if (*creepage == 0.0)
+        return RB_OK;
+    if (!problem.F)
+        return free_creepage_of_large(model, creepage, why);
+    rb_status s = rb_rolling_state_alloc(problem.n, &state);
     if (s != RB_OK)
         return s;
     problem.force_given = 1;

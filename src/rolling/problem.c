@@ -2,6 +2,7 @@
 
 #include <cblas.h>
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -165,6 +166,7 @@ void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
 typedef struct {
     double gap, slip;    /* diagonals of F_NN and A F_TT */
     double coupled_slip; /* that unit pressures leave at the middle element */
+    double reach; /* sum of a row of F_NN over its diagonal, where F is not dense */
     int coupled;
 } response;
 
@@ -212,6 +214,7 @@ static rb_status product_response(const rb_rolling_problem *p, response *unit)
     unit->slip = fabs(T[n + j]);
     unit->coupled_slip = cblas_dasum(n, N + n, 1);
     unit->coupled = unit->coupled_slip != 0.0;
+    unit->reach = cblas_dasum(n, N, 1) / unit->gap;
     free(r);
     return RB_OK;
 }
@@ -228,6 +231,7 @@ static void set_scales(const rb_rolling_case *rc, const response *unit,
     p->gap_length = p->stress * unit->gap;
     p->slip_length = p->stress * fmax(friction, unit->coupled_slip);
     p->coupled = unit->coupled;
+    p->rounding = 64.0 * DBL_EPSILON * unit->reach;
 }
 
 /* F and S themselves, or products with f. */
@@ -253,7 +257,7 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
                                     const rb_rolling_past *past, double step,
                                     rb_rolling_problem *p, rb_message *why)
 {
-    response unit;
+    response unit = {0};
     rb_status s = problem_alloc(mesh->n, bodies->F != NULL, p);
 
     if (s == RB_OK)

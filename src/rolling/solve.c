@@ -172,7 +172,16 @@ rb_status rb_rolling_lcp_first(const rb_rolling_problem *problem,
                                  at[first].xi0, lcp, why);
 }
 
-static rb_status solve_newton(const rb_rolling_problem *problem, int warm,
+static int is_solved(rb_status s, const rb_rolling_problem *problem,
+                     const rb_rolling_case *rc, const rb_rolling_state *state)
+{
+    return s == RB_OK && state->residual <= fmax(rc->tol, problem->rounding);
+}
+
+/* On large contacts an element whose traction is rounding may come and go: a cycle that
+ * ends in a solution is one. */
+static rb_status solve_newton(const rb_rolling_problem *problem,
+                              const rb_rolling_case *rc, int warm,
                               rb_rolling_state *state)
 {
     rb_status s = rb_rolling_newton(problem, warm, state);
@@ -182,13 +191,9 @@ static rb_status solve_newton(const rb_rolling_problem *problem, int warm,
         const rb_status t = complete(problem, state);
         s = t < 0 ? t : s;
     }
+    if (s == RB_MAXITER && !problem->F && is_solved(RB_OK, problem, rc, state))
+        s = RB_OK;
     return s;
-}
-
-static int is_solved(rb_status s, const rb_rolling_case *rc,
-                     const rb_rolling_state *state)
-{
-    return s == RB_OK && state->residual <= rc->tol;
 }
 
 /* The wanted solver first; where it ends without a solution, the other one.  A warm start
@@ -205,12 +210,12 @@ static rb_status solve_given(const rb_rolling_problem *problem, const rb_rolling
         const int newton = newton_first ? k < 2 : k == 1;
         if ((newton && k == 0 && !warm) || (!newton && !problem->F))
             continue;
-        s = newton ? solve_newton(problem, k == 0, state)
+        s = newton ? solve_newton(problem, rc, k == 0, state)
                    : solve_lemke(problem, rc, state, why);
-        if (is_solved(s, rc, state))
+        if (is_solved(s, problem, rc, state))
             break;
     }
-    return s == RB_OK && !is_solved(s, rc, state) ? RB_INACCURATE : s;
+    return s == RB_OK && !is_solved(s, problem, rc, state) ? RB_INACCURATE : s;
 }
 
 /* ---- Full sliding
@@ -300,7 +305,7 @@ static rb_status solve_cone(const rb_rolling_problem *problem, const rb_rolling_
     const rb_status t = complete(problem, state);
     state->solver = RB_SOLVER_CONE;
     s = t < 0 ? t : s;
-    return s == RB_OK && !is_solved(s, rc, state) ? RB_INACCURATE : s;
+    return s == RB_OK && !is_solved(s, problem, rc, state) ? RB_INACCURATE : s;
 }
 
 rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,

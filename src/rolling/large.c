@@ -1,0 +1,60 @@
+/* Large contacts: a solution on fewer elements is the start on more, so that the number
+ * of Newton steps does not grow. */
+#include "rolling/internal.h"
+
+#include <stdlib.h>
+
+/* Elements of the coarsest mesh, which starts cold. */
+enum { COARSEST = 400 };
+
+int rb_rolling_coarse_elements(int n)
+{
+    return n / 4 >= RB_ROLLING_LARGE_FROM ? n / 4 : COARSEST;
+}
+
+/* Value at x of tractions at the coarse midpoints, linear in between. */
+static double interpolated(const rb_rolling_mesh *mesh, const double *value, double x,
+                           int j)
+{
+    const double here = 0.5 * (mesh->ends[j] + mesh->ends[j + 1]);
+    const int other = x < here ? j - 1 : j + 1;
+
+    if (other < 0 || other >= mesh->n)
+        return value[j];
+    const double there = 0.5 * (mesh->ends[other] + mesh->ends[other + 1]);
+    return value[j] + (value[other] - value[j]) * (x - here) / (there - here);
+}
+
+/* The coarse edges are known to less than an element: the outermost zones follow them. */
+static int zone_at(const rb_rolling_state *coarse, int j, double x, double from,
+                   double to)
+{
+    const int zone = coarse->zone[j];
+
+    if (x < from || x > to)
+        return RB_ZONE_SEPARATED;
+    if (zone != RB_ZONE_SEPARATED)
+        return zone;
+    const int left = j > 0 ? coarse->zone[j - 1] : RB_ZONE_SEPARATED;
+    const int right = j + 1 < coarse->n ? coarse->zone[j + 1] : RB_ZONE_SEPARATED;
+    return left != RB_ZONE_SEPARATED ? left : right;
+}
+
+void rb_rolling_start_from(const rb_rolling_mesh *mesh, const rb_rolling_state *coarse,
+                           const rb_rolling_mesh *fine_mesh, rb_rolling_state *fine)
+{
+    double from, to;
+    int j = 0;
+
+    rb_rolling_contact_edges(mesh, coarse->p, &from, &to);
+    for (int i = 0; i < fine_mesh->n; i++) {
+        const double x = 0.5 * (fine_mesh->ends[i] + fine_mesh->ends[i + 1]);
+        while (j < mesh->n - 1 && mesh->ends[j + 1] < x)
+            j++;
+        fine->p[i] = interpolated(mesh, coarse->p, x, j);
+        fine->q[i] = interpolated(mesh, coarse->q, x, j);
+        fine->zone[i] = zone_at(coarse, j, x, from, to);
+    }
+    fine->delta = coarse->delta;
+    fine->xi = coarse->xi;
+}
