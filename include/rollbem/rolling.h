@@ -18,6 +18,9 @@
 typedef enum { RB_STATIC, RB_STEADY, RB_TRANSIENT } rb_rolling_formulation;
 typedef enum { RB_GAP_PARABOLA, RB_GAP_EXACT, RB_GAP_TABLE } rb_rolling_gap;
 typedef enum { RB_MESH_UNIFORM, RB_MESH_FITTED } rb_rolling_mesh_kind;
+/* So many equal elements on half-planes are solved by Fourier transforms, without a
+ * matrix. */
+enum { RB_ROLLING_LARGE = 1500 };
 typedef enum {
     RB_SOLVER_AUTO,
     RB_SOLVER_LEMKE,
@@ -104,8 +107,8 @@ void rb_rolling_mesh_free(rb_rolling_mesh *mesh);
 typedef struct {
     rb_bem_flexibility f;               /* of both bodies together; owned */
     rb_bem_system *system_a, *system_b; /* NULL for half-planes and rigid bodies; owned */
-    double *F; /* 2m x 2n dense flexibility, ld = 2m, m = n + 1; owned; NULL where products
-                  with f serve instead (large contacts) */
+    double *F; /* 2m x 2n dense flexibility, ld = 2m, m = n + 1; owned; NULL where
+                  products with f serve instead (large contacts) */
     double seconds_assembly, seconds_factor, seconds_condense;
 } rb_rolling_bodies;
 
@@ -125,14 +128,14 @@ typedef struct {
     const double
         *F; /* gap rows 0 .. n-1, 2n columns, ld = ldf; borrowed from the bodies */
     int ldf;
-    double *S;                                   /* n x 2n; owned, as the arrays below */
+    double *S; /* n x 2n; owned, as the arrays below */
     /* Where F and S are NULL: */
-    rb_bem_flexibility f; /* its arrays borrowed from the bodies */
-    int upstream;                /* A = I - S of steady rolling; 0: A = I */
-    double *product;             /* 2n + 2m, room for one product with f */
+    rb_bem_flexibility f;             /* its arrays borrowed from the bodies */
+    int upstream;                     /* A = I - S of steady rolling; 0: A = I */
+    double *product;                  /* 2n + 2m, room for one product with f */
     struct rb_rolling_krylov *krylov; /* preconditioners; owned */
-    double *d_N, *d_T;                           /* n [length] */
-    double *e_T;                                 /* n: [length] per unit of xi */
+    double *d_N, *d_T;                /* n [length] */
+    double *e_T;                      /* n: [length] per unit of xi */
     double *load_N, *load_T, *force_N, *force_T; /* n [length] */
 
     int load_given;  /* 1: P = load, delta is an unknown; 0: delta is given */
@@ -143,8 +146,8 @@ typedef struct {
     int coupled; /* 0: pressure causes no slip and friction no gap (similar half-planes)
                   */
     double stress, gap_length, slip_length; /* scales of r, y_N, lambda (4.4) */
-    double rounding; /* of the scaled residual on large contacts: gaps between neighbours are
-                        small against the displacement of all; 0 with a dense F */
+    double rounding; /* of the scaled residual on large contacts: gaps between neighbours
+                        are small against the displacement of all; 0 with a dense F */
 } rb_rolling_problem;
 
 /* The state that a static history or a transient starts from. */

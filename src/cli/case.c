@@ -123,7 +123,8 @@ static cli_exit read_history(cli_case *c)
 static int option_index(const cli_set *set, const char *name)
 {
     int i = 0;
-    while (i < set->n && strcmp(set->options[i].name, name) != 0)
+    while (i < set->n && (set->options[i].kind == CLI_GROUP || /* headings share names */
+                          strcmp(set->options[i].name, name) != 0))
         i++;
     return i;
 }
@@ -148,13 +149,15 @@ cli_exit cli_case_refuse(const cli_case *c, const char *name, const char *reason
                     reason);
 }
 
-/* The paper's own example stays on its equal elements. */
+/* The paper's own example stays on its equal elements, as do large contacts, which need
+ * them. */
 static void choose_mesh(cli_case *c)
 {
     rb_rolling_case *rc = &c->rc;
     const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
     if (!cli_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper &&
-        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE)
+        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE &&
+        rc->contact_elements < RB_ROLLING_LARGE)
         rc->mesh = RB_MESH_FITTED;
     if (!cli_case_given(c, "contact-elements") && rc->mesh == RB_MESH_FITTED)
         rc->contact_elements = 100;

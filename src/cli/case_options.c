@@ -129,7 +129,8 @@ static const cli_option options[] = {
     CLI_CHOICE_LINE("mesh", RC(mesh), meshes,
                     "equal elements, or fitted to the contact edges",
                     .unset = "fitted in steady rolling under a given load, half-width or "
-                             "approach without zone and gap file; else uniform"),
+                             "approach without zone and gap file, below 1500 elements; else "
+                             "uniform"),
     CLI_INTEGER_LINE("contact-elements", RC(contact_elements), CLI_FROM(3),
                      "uniform: in the potential contact; fitted: across the contact",
                      .unset = "60, fitted 100"),

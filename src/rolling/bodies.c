@@ -22,7 +22,7 @@ double rb_rolling_datum(const rb_rolling_body *body, double radius)
 
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 {
-    return mesh->n >= RB_ROLLING_LARGE_FROM &&
+    return mesh->n >= RB_ROLLING_LARGE &&
            (rc->solver == RB_SOLVER_AUTO || rc->solver == RB_SOLVER_NEWTON) &&
            rc->mesh == RB_MESH_UNIFORM && rc->a.support == RB_BEM_HALFPLANE &&
            (!rc->elastic_b || rc->b.support == RB_BEM_HALFPLANE);

@@ -37,9 +37,6 @@ void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bod
                          const rb_rolling_past *past, double step, rb_rolling_problem *p);
 void rb_rolling_set_control(const rb_rolling_case *rc, rb_rolling_problem *p);
 
-/* Elements from which on products by Fourier transforms are faster than a dense matrix.
- */
-enum { RB_ROLLING_LARGE_FROM = 1500 };
 /* 1 where products with the flexibility replace the dense matrix: half-planes under a
  * long line of equal elements, by Newton. */
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);

@@ -9,7 +9,7 @@ enum { COARSEST = 400 };
 
 int rb_rolling_coarse_elements(int n)
 {
-    return n / 4 >= RB_ROLLING_LARGE_FROM ? n / 4 : COARSEST;
+    return n / 4 >= RB_ROLLING_LARGE ? n / 4 : COARSEST;
 }
 
 /* Value at x of tractions at the coarse midpoints, linear in between. */

@@ -179,9 +179,10 @@ static double coarse_zone(const rb_rolling_case *rc)
     rb_rolling_model model;
     double zone = 0.0;
 
-    if (rc->contact_elements < RB_ROLLING_LARGE_FROM)
+    if (rc->contact_elements < RB_ROLLING_LARGE)
         return zone;
     few.contact_elements = rb_rolling_coarse_elements(0);
+    few.mesh = RB_MESH_UNIFORM;
     if (rb_rolling_model_create(&few, &model, NULL) == RB_OK)
         zone = model.mesh.ends[model.mesh.n];
     rb_rolling_model_free(&model);

@@ -1,0 +1,294 @@
+/* Large contacts on half-planes: no matrix, the same answers. */
+#include "check.h"
+#include "rollbem/rolling.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+/* Steel cylinder on a plane of steel, of a softer metal, or rigid. */
+typedef enum { SIMILAR, DISSIMILAR, RIGID } pairing;
+
+static rb_rolling_case steady(pairing pair, int elements)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a = (rb_rolling_body){
+        .young = 210000.0, .poisson = 0.28, .radius = 500.0, .support = RB_BEM_HALFPLANE};
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = pair != RIGID;
+    if (pair == DISSIMILAR) {
+        rc.b.young = 60000.0;
+        rc.b.poisson = 0.1;
+    }
+    rc.gap = RB_GAP_PARABOLA;
+    rc.formulation = RB_STEADY;
+    rc.half_width = 1.0;
+    rc.creep_ratio = 0.4;
+    rc.contact_elements = elements;
+    return rc;
+}
+
+static rb_rolling_model solved(const rb_rolling_case *rc)
+{
+    rb_rolling_model model;
+    rb_message why = {{0}};
+    const rb_status s = rb_rolling_model_create(rc, &model, &why);
+    if (s != RB_OK)
+        print_error("%s\n", why.text);
+    CHECK_STATUS(s, RB_OK);
+    return model;
+}
+
+/* ---- Against the dense path ----------------------------------------------------------
+ */
+
+/* The model's problem once more, with the matrix. */
+static void compare_with_matrix(const rb_rolling_case *rc)
+{
+    rb_rolling_model model = solved(rc);
+    rb_rolling_case dense = *rc;
+    rb_rolling_bodies bodies;
+    rb_rolling_problem problem;
+    rb_rolling_state state;
+    rb_message why;
+
+    assert_null(model.bodies.F);
+    assert_null(model.problem.S);
+    dense.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
+    CHECK_STATUS(rb_rolling_bodies_create(&dense, &model.mesh, &bodies, &why), RB_OK);
+    assert_non_null(bodies.F);
+    CHECK_STATUS(rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, 0.0,
+                                           &problem, &why),
+                 RB_OK);
+    CHECK_REL(model.problem.gap_length, problem.gap_length, 1e-12, "scale of gaps");
+    CHECK_REL(model.problem.slip_length, problem.slip_length, 1e-3, "scale of slips");
+    assert_int_equal(model.problem.coupled, problem.coupled);
+    CHECK_STATUS(rb_rolling_state_alloc(model.mesh.n, &state), RB_OK);
+    dense.solver = RB_SOLVER_NEWTON;
+    memcpy(state.zone, model.state.zone, (size_t)state.n * sizeof(int));
+    CHECK_STATUS(rb_rolling_problem_solve(&problem, &dense, 1, &state, &why), RB_OK);
+    for (int i = 0; i < state.n; i++) {
+        assert_int_equal(state.zone[i], model.state.zone[i]);
+        CHECK_ABS(model.state.p[i], state.p[i], 1e-9 * problem.stress, "p of %d", i);
+        CHECK_ABS(model.state.q[i], state.q[i], 1e-9 * problem.stress, "q of %d", i);
+    }
+    CHECK_REL(model.state.delta, state.delta, 1e-11, "delta");
+    CHECK_REL(model.state.xi, state.xi, 1e-9, "xi");
+    rb_rolling_state_free(&state);
+    rb_rolling_problem_free(&problem);
+    rb_rolling_bodies_free(&bodies);
+    rb_rolling_model_free(&model);
+}
+
+static void equals_the_matrix_in_steady_rolling(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steady(DISSIMILAR, RB_ROLLING_LARGE);
+    compare_with_matrix(&rc);
+    rc = steady(SIMILAR, RB_ROLLING_LARGE);
+    rc.creep_ratio = NAN;
+    rc.force_ratio = -0.5;
+    compare_with_matrix(&rc);
+}
+
+static void equals_the_matrix_in_static_contact(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
+    rc.formulation = RB_STATIC;
+    rc.half_width = rc.creep_ratio = NAN;
+    rc.approach = 0.01;
+    rc.shift = 0.0007;
+    compare_with_matrix(&rc);
+}
+
+/* ---- Residual from the solution alone -------------------------------------------------
+ */
+
+/* Displacement of the pair at two points, strip by strip, without transforms. */
+static void displacement(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                         const double x[2], double w_N[2], double w_T[2])
+{
+    const rb_rolling_body *body[2] = {&rc->a, &rc->b};
+
+    w_N[0] = w_N[1] = w_T[0] = w_T[1] = 0.0;
+    for (int b = 0; b < 1 + rc->elastic_b; b++)
+        for (int j = 0; j < s->n; j++) {
+            const double ends[2] = {s->x[j] - 0.5 * s->h[j], s->x[j] + 0.5 * s->h[j]};
+            const double sign = b ? -1.0 : 1.0;
+            double W[8];
+            rb_bem_halfplane_displacement(
+                1, ends, rb_bem_material_from_young(body[b]->young, body[b]->poisson),
+                2.0 * 500.0 / M_E, 2, x, W);
+            for (int k = 0; k < 2; k++) {
+                w_N[k] += W[k] * s->p[j] + sign * W[4 + k] * s->q[j];
+                w_T[k] += sign * W[2 + k] * s->p[j] + W[6 + k] * s->q[j];
+            }
+        }
+}
+
+/* Every 331st element: gap and slip of the printed tractions obey Signorini and Coulomb.
+ */
+static void check_rows(const rb_rolling_case *rc, const rb_rolling_solution *s)
+{
+    for (int i = 7; i < s->n - 1; i += 331) {
+        const double x[2] = {s->x[i], s->x[i + 1]}, limit = rc->mu * s->p[i];
+        double w_N[2], w_T[2];
+        displacement(rc, s, x, w_N, w_T);
+        const double gap = x[0] * x[0] / 1000.0 + w_N[0] - s->approach;
+        const double slip = s->creepage * (x[1] - x[0]) + w_T[0] - w_T[1];
+        CHECK_ABS(gap, s->gap[i], 1e-12, "gap of %d", i);
+        CHECK_ABS(slip, s->shift[i], 1e-12, "shift of %d", i);
+        CHECK_ABS(fmin(gap / s->approach, s->p[i] / s->max_pressure), 0.0, 1e-9,
+                  "complementarity of %d", i);
+        assert_true(fabs(s->q[i]) <= limit * (1.0 + 1e-12));
+        CHECK_ABS(fmin(fmax(slip, 0.0) / s->h[i], (limit + s->q[i]) / s->max_pressure),
+                  0.0, 1e-9, "slip forwards of %d", i);
+        CHECK_ABS(fmin(fmax(-slip, 0.0) / s->h[i], (limit - s->q[i]) / s->max_pressure),
+                  0.0, 1e-9, "slip backwards of %d", i);
+    }
+}
+
+static void residual_is_true(void **state)
+{
+    (void)state;
+    for (int pair = SIMILAR; pair <= RIGID; pair++) {
+        const rb_rolling_case rc = steady((pairing)pair, 4000);
+        rb_rolling_solution s;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        assert_int_equal(s.large, 1);
+        CHECK_MAX(s.residual, 1e-10, "pair %d", pair);
+        CHECK_MAX(s.load_error, 1e-12, "pair %d", pair);
+        check_rows(&rc, &s);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* ---- Closed forms ---------------------------------------------------------------------
+ */
+
+/* Carter: Q/(mu P) = s (2 - s); Hertz: p0 = E* a/(2R).  First order in 1/n. */
+static void carter(void **state)
+{
+    (void)state;
+    for (int n = 5000; n <= 80000; n *= 4) {
+        const rb_rolling_case rc = steady(SIMILAR, n);
+        rb_rolling_solution s;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        CHECK_REL(-s.force_ratio, 0.64, 1.5 / n, "n = %d", n);
+        CHECK_REL(s.half_width, 1.0, 0.5 / n, "n = %d", n);
+        CHECK_REL(s.max_pressure, 210000.0 / (1 - 0.28 * 0.28) / 2 / 1000.0, 0.5 / n,
+                  "n = %d", n);
+        CHECK_REL(s.stick_from, -0.2, 15.0 / n, "n = %d", n);
+        CHECK_ABS(s.free_creepage, 0.0, 0.0, "n = %d", n);
+        assert_int_equal(s.slip_violations, 0);
+        CHECK_MAX(s.residual, 1e-9, "n = %d", n);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Cattaneo and Mindlin: c/a = sqrt(1 - Q/(mu P)). */
+static void cattaneo(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steady(SIMILAR, 20000);
+    rb_rolling_solution s;
+    rc.formulation = RB_STATIC;
+    rc.creep_ratio = NAN;
+    rc.force_ratio = 0.6;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    CHECK_REL(s.force_ratio, 0.6, 1e-10, "Q/(mu P)");
+    CHECK_REL(s.stick_to, sqrt(0.4), 5e-4, "stick");
+    CHECK_REL(s.stick_from, -sqrt(0.4), 5e-4, "stick");
+    rb_rolling_solution_free(&s);
+}
+
+/* Free rolling of dissimilar cylinders at very small friction (Bentall and Johnson). */
+static void bentall_johnson(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steady(RIGID, 6000);
+    rc.mu = 1e-3;
+    rc.creep_ratio = NAN;
+    rc.force = 0.0;
+    rb_rolling_solution s;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    const double beta = (1 - 2 * 0.28) / (2 * (1 - 0.28));
+    CHECK_REL(fabs(s.creepage), 2 * beta * s.half_width / 500.0 * 0.457386, 5e-3, "xi");
+    CHECK_ABS(s.tangential_load / (rc.mu * s.normal_load), 0.0, 1e-9, "Q");
+    rb_rolling_solution_free(&s);
+}
+
+static void frictionless_and_sliding(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steady(RIGID, 2000);
+    rb_rolling_solution s;
+    rc.mu = 0.0;
+    rc.creep_ratio = NAN;
+    rc.creep = 1e-3;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    CHECK_ABS(s.tangential_load, 0.0, 0.0, "Q");
+    rb_rolling_solution_free(&s);
+    rc = steady(SIMILAR, 2000);
+    rc.creep_ratio = NAN;
+    rc.force_ratio = -1.0;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    CHECK_REL(s.force_ratio, -1.0, 1e-10, "Q/(mu P)");
+    assert_int_equal(s.stick, 0);
+    rb_rolling_solution_free(&s);
+}
+
+/* ---- Work and memory ------------------------------------------------------------------
+ */
+
+/* Newton steps of all levels: they grow with the number of levels only. */
+static void steps_hardly_grow(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steady(SIMILAR, 2000);
+    rb_rolling_model model = solved(&rc);
+    const int few = model.iterations;
+    rb_rolling_model_free(&model);
+    rc.contact_elements = 128000;
+    model = solved(&rc);
+    CHECK_MAX(model.iterations, few + 24, "steps at 2000: %d", few);
+    rb_rolling_model_free(&model);
+}
+
+static void failing_allocations(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = steady(DISSIMILAR, RB_ROLLING_LARGE);
+    rb_message why;
+
+    for (int k = 0, refused = 1, runs = 0; refused; k += 1 + k / 12, runs++) {
+        rb_rolling_model model;
+        alloc_fail_after(k);
+        const rb_status s = rb_rolling_model_create(&rc, &model, &why);
+        refused = alloc_failed();
+        alloc_succeed();
+        if (!refused)
+            CHECK_STATUS(s, RB_OK);
+        else if (s != RB_OK) /* a refused guess of the zone is no failure */
+            CHECK_STATUS(s, RB_ENOMEM);
+        rb_rolling_model_free(&model);
+        assert_true(runs < 200);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(equals_the_matrix_in_steady_rolling),
+        cmocka_unit_test(equals_the_matrix_in_static_contact),
+        cmocka_unit_test(residual_is_true),
+        cmocka_unit_test(carter),
+        cmocka_unit_test(cattaneo),
+        cmocka_unit_test(bentall_johnson),
+        cmocka_unit_test(frictionless_and_sliding),
+        cmocka_unit_test(steps_hardly_grow),
+        cmocka_unit_test(failing_allocations),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
