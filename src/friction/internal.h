@@ -110,9 +110,9 @@ typedef struct {
     int d, contacts, m, n;     /* n: 0 for the local form */
     rb_friction_blocks blocks; /* local form */
     double *rho;               /* 2 per contact: rho_n, rho_t, 1/(W's own block) */
-    double *J;                 /* dense local form: m x m */
+    double *J;                 /* n + m squared where dense LU is faster, else NULL */
     int *pivots;
-    rb_sparse jt; /* sparse: the transposed matrix */
+    rb_sparse jt; /* the transposed matrix */
     rb_sparse_lu *lu;
     double *rhs, *x; /* n + m */
     double flops;

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Above this share of blocks dense LU is the faster one. */
-#define DENSE_FILL 0.3
+/* Above this share of entries, and below this order, dense LU is the faster one. */
+#define DENSE_FILL 0.15
 #define DENSE_ORDER 120
 
 void rb_friction_system_free(rb_friction_system *s)
@@ -26,7 +26,10 @@ void rb_friction_system_free(rb_friction_system *s)
 /* ---- rho: the inverse of each contact's own compliance --------------------------------
  */
 
-/* Global form: of H' diag(K)^-1 H, its diagonal alone. */
+/* Of finite-element structures diag(K)^-1 is about a tenth of a node's compliance. */
+#define DIAGONAL_SHARE 0.1
+
+/* Global form: from the diagonal of H' diag(K)^-1 H. */
 static rb_status global_rho(const rb_friction_problem *p, double *rho)
 {
     const rb_sparse *h = &p->H;
@@ -42,7 +45,7 @@ static rb_status global_rho(const rb_friction_problem *p, double *rho)
         double w = 0.0, *at = &rho[2 * (j / d) + (j % d > 0)];
         for (int k = h->p[j]; k < h->p[j + 1]; k++)
             if (diagonal[h->i[k]] > 0.0)
-                w += h->x[k] * h->x[k] / diagonal[h->i[k]];
+                w += h->x[k] * h->x[k] / (DIAGONAL_SHARE * diagonal[h->i[k]]);
         *at = fmax(*at, w);
     }
     rb_friction_invert_compliances(p->contacts, rho);
@@ -126,10 +129,15 @@ static rb_status global_pattern(rb_friction_system *s)
     return st;
 }
 
-static int wants_dense(const rb_friction_system *s)
+static rb_status choose_solver(rb_friction_system *s)
 {
-    const double all = (double)s->contacts * s->contacts;
-    return s->m <= DENSE_ORDER || s->blocks.p[s->contacts] > DENSE_FILL * all;
+    const size_t order = (size_t)(s->n + s->m);
+    const double all = (double)order * (double)order;
+    if (order > DENSE_ORDER && s->jt.p[order] <= DENSE_FILL * all)
+        return rb_sparse_lu_create(&s->jt, &s->lu);
+    s->J = rb_alloc(order, order);
+    s->pivots = rb_alloc_int(order);
+    return s->J && s->pivots ? RB_OK : RB_ENOMEM;
 }
 
 rb_status rb_friction_system_init(const rb_friction_problem *problem,
@@ -150,15 +158,10 @@ rb_status rb_friction_system_init(const rb_friction_problem *problem,
         st = rb_friction_blocks_init(problem, &s->blocks);
     if (st == RB_OK)
         st = choose_rho(s);
-    if (st == RB_OK && !n && wants_dense(s)) {
-        s->J = rb_alloc((size_t)m, (size_t)m);
-        s->pivots = rb_alloc_int((size_t)m);
-        st = s->J && s->pivots ? RB_OK : RB_ENOMEM;
-    } else if (st == RB_OK) {
+    if (st == RB_OK)
         st = n ? global_pattern(s) : local_pattern(s);
-        if (st == RB_OK)
-            st = rb_sparse_lu_create(&s->jt, &s->lu);
-    }
+    if (st == RB_OK)
+        st = choose_solver(s);
     if (st != RB_OK)
         rb_friction_system_free(s);
     return st;
@@ -200,25 +203,6 @@ static double row_times_block(int d, const double *B, int a, const double *w, in
     for (int c = 0; c < d; c++)
         sum += B[a + c * d] * w[c + b * d];
     return sum;
-}
-
-static void fill_dense(rb_friction_system *s, const double *A, const double *B)
-{
-    const rb_friction_blocks *w = &s->blocks;
-    const int d = s->d, dd = d * d;
-    const size_t m = (size_t)s->m;
-    for (size_t k = 0; k < m * m; k++)
-        s->J[k] = 0.0;
-    for (int i = 0; i < s->contacts; i++)
-        for (int k = w->p[i]; k < w->p[i + 1]; k++)
-            for (int b = 0; b < d; b++)
-                for (int a = 0; a < d; a++) {
-                    double x =
-                        row_times_block(d, B + i * dd, a, w->x + (size_t)k * dd, b);
-                    if (k == w->diag[i])
-                        x += A[i * dd + a + b * d];
-                    s->J[(size_t)(i * d + a) + m * (size_t)(w->j[k] * d + b)] = x;
-                }
 }
 
 static void fill_local(rb_friction_system *s, const double *A, const double *B)
@@ -270,10 +254,19 @@ rb_status rb_friction_lapack_status(int info)
 
 static rb_status solve_dense(rb_friction_system *s)
 {
-    const double m = s->m;
-    const int info =
-        LAPACKE_dgesv(LAPACK_COL_MAJOR, s->m, 1, s->J, s->m, s->pivots, s->x, s->m);
-    s->flops += m * m * (2.0 / 3.0 * m + 2.0);
+    const int n = s->n + s->m;
+    const size_t order = (size_t)n;
+    for (size_t k = 0; k < order * order; k++)
+        s->J[k] = 0.0;
+    for (size_t j = 0; j < order; j++)
+        for (int k = s->jt.p[j]; k < s->jt.p[j + 1]; k++)
+            s->J[(size_t)s->jt.i[k] + order * j] = s->jt.x[k];
+    for (size_t k = 0; k < order; k++)
+        s->x[k] = s->rhs[k];
+    int info = LAPACKE_dgetrf(LAPACK_COL_MAJOR, n, n, s->J, n, s->pivots);
+    if (info == 0)
+        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'T', n, 1, s->J, n, s->pivots, s->x, n);
+    s->flops += (double)n * n * (2.0 / 3.0 * n + 2.0);
     return rb_friction_lapack_status(info);
 }
 
@@ -293,16 +286,12 @@ rb_status rb_friction_system_step(rb_friction_system *s, const double *A, const 
     const int n = s->n;
     if (n)
         fill_global(s, A, B);
-    else if (s->J)
-        fill_dense(s, A, B);
     else
         fill_local(s, A, B);
     for (int i = 0; i < n; i++)
         s->rhs[i] = -e[i];
     for (int k = 0; k < s->m; k++)
         s->rhs[n + k] = -F[k];
-    for (int k = 0; s->J && k < s->m; k++)
-        s->x[k] = s->rhs[k];
     s->flops += 2.0 * s->d *
                 (n ? (double)s->problem->H.p[s->m] * s->d
                    : (double)s->blocks.p[s->contacts] * s->d * s->d);
