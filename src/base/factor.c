@@ -79,6 +79,9 @@ rb_status rb_sparse_lu_create(const rb_sparse *a, rb_sparse_lu **lu)
         return RB_ENOMEM;
     umfpack_di_defaults(f->control);
     f->control[UMFPACK_PRL] = 0;
+    /* patterns here are symmetric, which UMFPACK does not see before it has the numbers:
+     * four times fewer operations on the wall of the examples */
+    f->control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
     const rb_status s = umfpack_status(umfpack_di_symbolic(
         a->rows, a->cols, a->p, a->i, NULL, &f->symbolic, f->control, NULL));
     if (s == RB_OK)
