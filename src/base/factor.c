@@ -176,7 +176,8 @@ static rb_status cholmod_outcome(rb_sparse_cholesky *f)
     if (f->c.status < 0)
         return RB_EINVAL;
     /* cholmod_rcond: (smallest/largest diagonal of L)^2.  A structure condensed to its
-     * contacts (a bar of 321 unknowns, free to float) leaves 6e-13 of a pivot that is 0. */
+     * contacts (a bar of 321 unknowns, free to float) leaves 6e-13 of a pivot that is 0.
+     */
     if (f->l->minor < f->l->n || cholmod_rcond(f->l, &f->c) < 1e-11)
         return RB_SINGULAR;
     return RB_OK;
@@ -248,36 +249,73 @@ rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b, 
     return RB_OK;
 }
 
-static rb_status take_copy(cholmod_sparse *from, cholmod_common *c, rb_sparse *to)
+#define PANEL 32 /* columns solved at once */
+
+/* One panel of W = H' S (S K S)^-1 S H: columns from ... from + n - 1, dense, h->cols
+ * rows each. */
+static rb_status congruence_panel(rb_sparse_cholesky *f, const rb_sparse *h, int from,
+                                  int n, double *rhs, double *w)
 {
-    if (!from || !cholmod_sort(from, c))
+    const int rows = h->rows;
+    memset(rhs, 0, (size_t)rows * (size_t)n * sizeof *rhs);
+    for (int j = 0; j < n; j++)
+        for (int k = h->p[from + j]; k < h->p[from + j + 1]; k++)
+            rhs[(size_t)j * (size_t)rows + (size_t)h->i[k]] = f->scale[h->i[k]] * h->x[k];
+    cholmod_dense b = dense_view(rows, rhs);
+    b.ncol = (size_t)n;
+    b.nzmax = (size_t)rows * (size_t)n;
+    cholmod_dense *x = cholmod_solve(CHOLMOD_A, f->l, &b, &f->c);
+    if (!x)
         return RB_ENOMEM;
-    const rb_sparse borrowed = {(int)from->nrow, (int)from->ncol, from->p, from->i,
-                                from->x};
-    return rb_sparse_copy(&borrowed, to);
+    double *v = x->x;
+    for (int j = 0; j < n; j++, v += rows) {
+        for (int i = 0; i < rows; i++)
+            v[i] *= f->scale[i];
+        rb_sparse_apply_transposed(1.0, h, v, 0.0, w + (size_t)j * (size_t)h->cols);
+    }
+    cholmod_free_dense(&x, &f->c);
+    f->flops += 4.0 * n * (f->c.lnz + h->p[h->cols]);
+    return RB_OK;
+}
+
+/* The lower triangle of a panel, with its mirror image. */
+static int append_panel(int rows, int from, int n, const double *w, int nz, int *row,
+                        int *col, double *x)
+{
+    for (int j = 0; j < n; j++)
+        for (int i = from + j; i < rows; i++) {
+            const double value = w[i + (size_t)j * (size_t)rows];
+            if (value == 0.0)
+                continue;
+            row[nz] = i, col[nz] = from + j, x[nz++] = value;
+            if (i != from + j)
+                row[nz] = from + j, col[nz] = i, x[nz++] = value;
+        }
+    return nz;
 }
 
 rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_sparse *h,
                                         rb_sparse *w)
 {
     *w = (rb_sparse){0};
-    cholmod_common *c = &factor->c;
-    rb_sparse sh;
-    if (rb_sparse_copy(h, &sh) != RB_OK)
-        return RB_ENOMEM;
-    for (int k = 0; k < h->p[h->cols]; k++)
-        sh.x[k] *= factor->scale[h->i[k]];
-    cholmod_sparse view = view_of(&sh, 0);
-    cholmod_sparse *ph = cholmod_spsolve(CHOLMOD_P, factor->l, &view, c);
-    cholmod_sparse *x = ph ? cholmod_spsolve(CHOLMOD_L, factor->l, ph, c) : NULL;
-    cholmod_sparse *xt = x ? cholmod_transpose(x, 1, c) : NULL;
-    cholmod_sparse *half = xt ? cholmod_aat(xt, NULL, 0, 1, c) : NULL;
-    const rb_status s = take_copy(half, c, w);
-    cholmod_free_sparse(&half, c);
-    cholmod_free_sparse(&xt, c);
-    cholmod_free_sparse(&x, c);
-    cholmod_free_sparse(&ph, c);
-    rb_sparse_free(&sh);
+    const size_t m = (size_t)h->cols;
+    double *rhs = rb_alloc((size_t)h->rows, PANEL), *panel = rb_alloc(m, PANEL);
+    int *row = rb_alloc_int(m * m), *col = rb_alloc_int(m * m), nz = 0;
+    double *x = rb_alloc(m, m);
+    rb_status s = rhs && panel && row && col && x ? RB_OK : RB_ENOMEM;
+    for (int j = 0; s == RB_OK && j < h->cols; j += PANEL) {
+        const int n = h->cols - j < PANEL ? h->cols - j : PANEL;
+        s = congruence_panel(factor, h, j, n, rhs, panel);
+        if (s == RB_OK)
+            nz = append_panel(h->cols, j, n, panel, nz, row, col, x);
+    }
+    if (s == RB_OK)
+        s = rb_sparse_from_triplets(h->cols, h->cols, nz, row, col, x, w);
+    free(x);
+    free(col);
+    free(row);
+    free(panel);
+    free(rhs);
     return s;
 }
 

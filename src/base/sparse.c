@@ -186,3 +186,33 @@ void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *
         y[j] = alpha * sum + (beta == 0.0 ? 0.0 : beta * y[j]);
     }
 }
+
+static int find_root(int *up, int i)
+{
+    while (up[i] != i)
+        i = up[i] = up[up[i]];
+    return i;
+}
+
+rb_status rb_sparse_components(const rb_sparse *a, int *count, int *part)
+{
+    *count = 0;
+    if (a->rows != a->cols)
+        return RB_EINVAL;
+    int *up = rb_alloc_int((size_t)a->cols);
+    if (!up)
+        return RB_ENOMEM;
+    for (int j = 0; j < a->cols; j++)
+        up[j] = j;
+    for (int j = 0; j < a->cols; j++)
+        for (int k = a->p[j]; k < a->p[j + 1]; k++) {
+            const int x = find_root(up, a->i[k]), y = find_root(up, j);
+            up[x > y ? x : y] = x > y ? y : x; /* the root is the smallest index */
+        }
+    for (int j = 0; j < a->cols; j++) {
+        const int root = find_root(up, j);
+        part[j] = root == j ? (*count)++ : part[root];
+    }
+    free(up);
+    return RB_OK;
+}

@@ -104,60 +104,6 @@ rb_status rb_friction_problem_check(const rb_friction_problem *p, rb_message *wh
     return s == RB_OK ? check_vector("q", (size_t)m, p->q, why) : s;
 }
 
-/* ---- Condensation --------------------------------------------------------------------
- */
-
-static rb_status name_the_nullity(const rb_sparse *k, rb_message *why)
-{
-    int rank;
-    if (rb_sparse_rank(k, &rank) != RB_OK)
-        return RB_ENOMEM;
-    return rb_fail(why, RB_SINGULAR,
-                   "K is singular to rounding (nullity %d): there is no W to condense to",
-                   k->rows - rank);
-}
-
-/* q = w + H' K^-1 f */
-static rb_status condense_load(rb_sparse_cholesky *factor, const rb_friction_problem *p,
-                               double *q)
-{
-    const int m = p->dimension * p->contacts;
-    double *v = rb_alloc((size_t)p->dofs, 1);
-    rb_status s = v ? rb_sparse_cholesky_solve(factor, p->f, v) : RB_ENOMEM;
-    for (int k = 0; s == RB_OK && k < m; k++)
-        q[k] = p->w[k];
-    if (s == RB_OK)
-        rb_sparse_apply_transposed(1.0, &p->H, v, 1.0, q);
-    free(v);
-    return s;
-}
-
-rb_status rb_friction_condense(const rb_friction_problem *global,
-                               rb_friction_problem *local, rb_message *why)
-{
-    const int m = global->dimension * global->contacts;
-    *local = (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
-                                   .dimension = global->dimension,
-                                   .contacts = global->contacts};
-    rb_sparse_cholesky *factor;
-    rb_status s = rb_sparse_cholesky_create(&global->K, &factor);
-    if (s == RB_SINGULAR)
-        return name_the_nullity(&global->K, why);
-    if (s != RB_OK)
-        return s;
-    local->mu = rb_alloc((size_t)global->contacts, 1);
-    local->q = rb_alloc((size_t)m, 1);
-    s = local->mu && local->q ? condense_load(factor, global, local->q) : RB_ENOMEM;
-    for (int c = 0; s == RB_OK && c < global->contacts; c++)
-        local->mu[c] = global->mu[c];
-    if (s == RB_OK)
-        s = rb_sparse_cholesky_congruence(factor, &global->H, &local->Ws);
-    rb_sparse_cholesky_free(factor);
-    if (s != RB_OK)
-        rb_friction_problem_free(local);
-    return s;
-}
-
 /* ---- Facts ----------------------------------------------------------------------------
  */
 
