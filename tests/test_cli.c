@@ -305,6 +305,30 @@ static void table_obeys_its_own_conventions(void **state)
     json_decref(root);
 }
 
+/* Fitted is the default of steady rolling under a given load; what is asked for wins. */
+static void the_mesh_asked_for_is_used(void **state)
+{
+    static const struct {
+        const char *options, *mesh;
+    } cases[] = {{"", "fitted"},
+                 {"--mesh fitted", "fitted"},
+                 {"--mesh uniform", "uniform"},
+                 {"--mesh uniform --contact-elements 24", "uniform"},
+                 {"--zone 2", "uniform"}};
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char command[200];
+        snprintf(command, sizeof command,
+                 "--support halfplane --half-width 0.5 --formulation steady %s",
+                 cases[k].options);
+        json_t *root = solve_json(command);
+        assert_string_equal(
+            json_string_value(json_object_get(json_object_get(root, "inputs"), "mesh")),
+            cases[k].mesh);
+        json_decref(root);
+    }
+}
+
 static void header_names_the_command(void **state)
 {
     (void)state;
@@ -647,6 +671,7 @@ int main(void)
         cmocka_unit_test(output_options_stand_in_the_file_too),
         cmocka_unit_test(json_and_table_hold_the_same_numbers),
         cmocka_unit_test(table_obeys_its_own_conventions),
+        cmocka_unit_test(the_mesh_asked_for_is_used),
         cmocka_unit_test(header_names_the_command),
         cmocka_unit_test(readme_case_is_solved),
         cmocka_unit_test(version_help_and_usage),
