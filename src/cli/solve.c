@@ -14,7 +14,7 @@ typedef struct {
 #define PLACE(member) offsetof(solve_options, member)
 
 static const cli_option options[] = {
-    CLI_GROUP_LINE("behind", "Behind the solution"),
+    CLI_GROUP_LINE("output", "Behind the solution"),
     CLI_TEXT_LINE("history-table", PLACE(history_table), "FILE",
                   "the steps of a transient or a static history, one row each",
                   .unset = "none"),
