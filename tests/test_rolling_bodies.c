@@ -1,0 +1,170 @@
+/* Two elastic bodies (4.5), each with its own support. */
+#include "check.h"
+#include "rolling/internal.h"
+
+static rb_rolling_solution solved(const rb_rolling_case *rc)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    if (rb_rolling_solve(rc, &s, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return s;
+}
+
+static rb_rolling_case steady_wheel(rb_bem_support support, double poisson)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.poisson = poisson;
+    rc.a.support = support;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 50;
+    rc.half_width = 1e-4 * rc.a.radius;
+    return rc;
+}
+
+/* nu = 1/2 on a rigid plane and two similar cylinders of any nu are one problem,
+ * Carter's. */
+static void similar_cylinders_are_an_incompressible_wheel_on_a_rigid_plane(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 9; k += 4) {
+        rb_rolling_case rigid = steady_wheel(RB_BEM_HALFPLANE, 0.5);
+        rb_rolling_case pair = steady_wheel(RB_BEM_HALFPLANE, 0.2);
+        pair.b = pair.a;
+        pair.b.radius = 3.0 * pair.a.radius;
+        pair.elastic_b = 1;
+        rigid.creep_ratio = pair.creep_ratio = 0.1 * k;
+        rb_rolling_solution one = solved(&rigid), two = solved(&pair);
+        assert_int_equal(one.n, two.n);
+        CHECK_ABS(two.force_ratio, one.force_ratio, 1e-9, "s = %g", 0.1 * k);
+        for (int i = 0; i < one.n; i++)
+            CHECK_ABS(two.q[i] / two.max_pressure, one.q[i] / one.max_pressure, 1e-8,
+                      "q, element %d", i);
+        rb_rolling_solution_free(&one);
+        rb_rolling_solution_free(&two);
+    }
+}
+
+/* The same by boundary elements: two equal wheels with a hub are mirror images, so that
+ * not even the shape of the wheels couples pressure and slip. */
+static void equal_wheels_lose_their_coupling(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steady_wheel(RB_BEM_HUB, 0.28);
+    rc.b = rc.a;
+    rc.elastic_b = 1;
+    rc.half_width = 0.02 * rc.a.radius;
+    rc.creep_ratio = 0.4;
+    rb_rolling_solution s = solved(&rc);
+    CHECK_ABS(s.free_creepage, 0.0, 1e-9 * s.creepage, "free rolling of equal wheels");
+    CHECK_ABS(s.force_ratio, -0.64, 2e-2, "Carter, a/R = 0.02");
+    rb_rolling_solution_free(&s);
+}
+
+/* Who is A and who is B: mirrored, the creepage and the friction change their sign. */
+static void exchanging_the_bodies_mirrors_the_result(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steady_wheel(RB_BEM_HUB, 0.1);
+    rc.b = rc.a;
+    rc.b.poisson = 0.4;
+    rc.b.young = 3.0 * rc.a.young;
+    rc.b.support = RB_BEM_ARC;
+    rc.elastic_b = 1;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.half_width = 0.01 * rc.a.radius;
+    rc.zone = 1.3 * rc.half_width;
+    rc.creep_ratio = 0.3;
+    rb_rolling_solution ab = solved(&rc);
+    const rb_rolling_body a = rc.a;
+    rc.a = rc.b;
+    rc.b = a;
+    rc.creep_ratio = -0.3;
+    rb_rolling_solution ba = solved(&rc);
+    for (int i = 0; i < ab.n; i++) {
+        CHECK_ABS(ab.p[i], ba.p[i], 1e-7 * ab.max_pressure, "p, element %d", i);
+        CHECK_ABS(ab.q[i], -ba.q[i], 1e-7 * ab.max_pressure, "q, element %d", i);
+    }
+    rb_rolling_solution_free(&ab);
+    rb_rolling_solution_free(&ba);
+}
+
+/* Aluminium on steel (theory.md 6), free rolling, both wheels with hubs. */
+static double finite_free_creepage(double ratio, double mu)
+{
+    rb_rolling_case rc = steady_wheel(RB_BEM_HUB, 0.31);
+    rc.a.young = 2.0 * 23000.0 * 1.31;
+    rc.b = rc.a;
+    rc.b.poisson = 0.28;
+    rc.b.young = 2.0 * 82000.0 * 1.28;
+    rc.elastic_b = 1;
+    rc.mu = mu;
+    rc.half_width = ratio * rc.a.radius;
+    rc.force = 0.0;
+    rb_rolling_solution s = solved(&rc);
+    const double scaled = s.creepage * rb_rolling_radius(&rc) / rc.half_width;
+    rb_rolling_solution_free(&s);
+    return scaled;
+}
+
+static void finite_cylinders_tend_to_bentall_and_johnson(void **state)
+{
+    (void)state;
+    /* xi R/a of the closed forms: a/R = 0.1/25 there */
+    const double mu_infinite = -3.67269e-4 / 0.004, mu_zero = -2.0 * 0.143834 * 0.457386;
+    const double coarse = finite_free_creepage(1e-2, 10.0) - mu_infinite;
+    const double fine = finite_free_creepage(1e-6, 10.0) - mu_infinite;
+    CHECK_MAX(fabs(fine), 1e-3 * fabs(mu_infinite), "mu -> infinity, a/R = 1e-6");
+    CHECK_MAX(fabs(fine), 0.1 * fabs(coarse), "a/R = %g against %g", 1e-6, 1e-2);
+    CHECK_REL(finite_free_creepage(1e-6, 1e-4), mu_zero, 5e-3, "mu -> 0, a/R = 1e-6");
+}
+
+static double uniform(double a, double b)
+{
+    return a + (b - a) * (rand() / (double)RAND_MAX);
+}
+
+static double log_uniform(double a, double b)
+{
+    return exp(uniform(log(a), log(b)));
+}
+
+static void force_control_never_fails_on_wheels(void **state)
+{
+    (void)state;
+    srand(5);
+    for (int k = 0; k < 12; k++) {
+        rb_rolling_case rc =
+            steady_wheel(k % 2 ? RB_BEM_HUB : RB_BEM_ARC, uniform(0.0, 0.5));
+        const double ratio = log_uniform(1e-6, 0.1);
+        rc.b = rc.a;
+        rc.b.young *= log_uniform(0.1, 10.0);
+        rc.b.poisson = uniform(0.0, 0.5);
+        rc.elastic_b = k % 3 > 0;
+        rc.a.hub_ratio = uniform(0.2, 0.9);
+        rc.gap = RB_GAP_EXACT;
+        rc.contact_elements = 20;
+        rc.half_width = ratio * rb_rolling_radius(&rc);
+        rc.mu = fmin(10.0, log_uniform(1e-6, 0.1) / ratio);
+        rc.force_ratio = k % 4 ? uniform(-0.999, 0.999) : 0.999;
+        rb_rolling_solution s = solved(&rc);
+        CHECK_ABS(s.force_ratio, rc.force_ratio, 1e-10, "case %d", k);
+        CHECK_MAX(s.load_error, 1e-10, "case %d", k);
+        CHECK_MAX(s.residual, 1e-10, "case %d", k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(similar_cylinders_are_an_incompressible_wheel_on_a_rigid_plane),
+        cmocka_unit_test(equal_wheels_lose_their_coupling),
+        cmocka_unit_test(exchanging_the_bodies_mirrors_the_result),
+        cmocka_unit_test(finite_cylinders_tend_to_bentall_and_johnson),
+        cmocka_unit_test(force_control_never_fails_on_wheels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
