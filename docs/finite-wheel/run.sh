@@ -36,7 +36,7 @@ rows() { # material, values of a/R, options
 
 {
     rows rubber "1e-4 1e-3 0.01 0.02 0.05 0.1" --poisson 0.5 --mesh fitted --contact-elements 100
-    rows steel "0.01 0.02 0.05 0.1" --poisson 0.3 --similar --contact-elements 250
+    rows steel "0.01 0.02 0.05 0.1" --poisson 0.3 --similar --mesh uniform --contact-elements 250
 } | awk '
     BEGIN { OFS = "\t"
             print "# material", "wheel", "a_H/R", "a/a_H", "p0/p0_H", "delta/delta_H", "k",

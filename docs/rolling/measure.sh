@@ -30,7 +30,7 @@ supports() { # options
         zone=$(awk "BEGIN { print 1.3 * $a }")
         for support in halfplane hub arc; do
             solve --formulation steady --creep-ratio 0.4 --half-width "$a" --zone "$zone" \
-                --support $support --header=bare "$@" > "$scratch/$support"
+                --support $support --mesh uniform --header=bare "$@" > "$scratch/$support"
         done
         printf '%s  hub - halfplane: %s  arc - halfplane: %s  hub - arc: %s\n' "$ratio" \
             "$(difference "$scratch/hub" "$scratch/halfplane")" \
@@ -64,7 +64,7 @@ echo "## support_balance: case, support, contact + outer elements, balance"
 for support in arc hub; do
     for fine in 1 2 4 8; do
         printf '%s %s + %s  steel %s Addi %s\n' $support $((30 * fine)) $((60 * fine)) \
-            "$(solve --formulation steady --poisson 0.3 --half-width 1 --creep-ratio 0.4 --support $support \
+            "$(solve --formulation steady --poisson 0.3 --half-width 1 --creep-ratio 0.4 --support $support --mesh uniform \
                 --contact-elements $((30 * fine)) --outer-elements $((60 * fine)) --json | summary support_balance)" \
             "$(solve --support $support --contact-elements $((30 * fine)) --outer-elements $((60 * fine)) --json |
                 summary support_balance)"
@@ -76,7 +76,7 @@ for ratio in 1e-3 0.02; do
     for support in arc hub; do
         for normals in obstacle surface; do
             printf '%s %s %s ' $ratio $support $normals
-            solve --formulation steady --poisson 0.5 --mu 0.4 --support $support --normals $normals \
+            solve --formulation steady --poisson 0.5 --mu 0.4 --support $support --normals $normals --mesh uniform \
                 --contact-elements 100 --half-width "$(half_width $ratio)" --creep-ratio 0.4 --json |
                 summary force_ratio free_creepage approach |
                 awk '{ printf "%.4f  %.3e  %.3e\n", $1, $2, $3 / 50 }'
