@@ -317,7 +317,7 @@ static void outside_files_are_read(void **state)
         rb_friction_read(outside_data("fclib/LMGC_100_PR_PerioBox-i00361-60-03000.hdf5"),
                          &p, &why),
         RB_OK);
-    CHECK_STATUS(rb_friction_examine(&p, &facts), RB_OK);
+    CHECK_STATUS(rb_friction_examine(&p, 1, &facts), RB_OK);
     assert_int_equal(p.contacts, 60);
     assert_true(facts.rank >= 72 && facts.rank <= 73);
     rb_friction_problem_free(&p);

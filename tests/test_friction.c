@@ -214,7 +214,7 @@ static void a_structure_held_by_friction_alone_is_solved(void **state)
     p.f[2 * 4] = 0.3; /* contact 2 sticks too */
     CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_SINGULAR);
     assert_non_null(strstr(why.text, "nullity 6"));
-    CHECK_STATUS(rb_friction_examine(&p, &facts), RB_OK);
+    CHECK_STATUS(rb_friction_examine(&p, 1, &facts), RB_OK);
     assert_int_equal(facts.nullity, 6);
     assert_int_equal(facts.rank, 6);
     assert_int_equal(facts.hyperstaticity, 0);
@@ -270,18 +270,18 @@ static void facts_are_reported(void **state)
     rb_friction_facts facts;
     double r[9];
     plant(3, 3, 4, &p, r);
-    CHECK_STATUS(rb_friction_examine(&p, &facts), RB_OK);
+    CHECK_STATUS(rb_friction_examine(&p, 1, &facts), RB_OK);
     assert_int_equal(facts.rank, 9);
     assert_int_equal(facts.indefinite, 0);
     CHECK_MAX(facts.asymmetry, 1e-14, "symmetric W");
     p.W[1] += 0.5;
     p.W[80] = -1.0;
-    CHECK_STATUS(rb_friction_examine(&p, &facts), RB_OK);
+    CHECK_STATUS(rb_friction_examine(&p, 1, &facts), RB_OK);
     assert_int_equal(facts.indefinite, 1);
     assert_true(facts.asymmetry > 0.05);
     for (int k = 0; k < 9; k++)
         p.W[8 + 9 * k] = p.W[k * 9 + 8] = 0.0;
-    CHECK_STATUS(rb_friction_examine(&p, &facts), RB_OK);
+    CHECK_STATUS(rb_friction_examine(&p, 1, &facts), RB_OK);
     assert_int_equal(facts.rank, 8);
     assert_int_equal(facts.hyperstaticity, 1);
     rb_friction_problem_free(&p);

@@ -55,15 +55,32 @@ typedef struct {
                            -1e-10 of the largest entry; 0 for the global form */
 } rb_friction_facts;
 
-rb_status rb_friction_examine(const rb_friction_problem *problem,
+/* with_rank 0: ranks and nullity, which cost a QR, are left at 0. */
+rb_status rb_friction_examine(const rb_friction_problem *problem, int with_rank,
                               rb_friction_facts *facts);
 
 /* ---- Files --------------------------------------------------------------------------
  */
 
-/* RB_ENOENT; RB_EFORMAT: not a problem, or one that rb_friction_problem_check refuses. */
+typedef enum {
+    RB_FRICTION_FILE_ANY,           /* told by the head of the file */
+    RB_FRICTION_FILE_FCLIB,         /* HDF5 */
+    RB_FRICTION_FILE_SICONOS,       /* text: d, n_c, W, q, mu */
+    RB_FRICTION_FILE_SICONOS_SOCLCP /* text: n, n_c, M, q, cones, slopes */
+} rb_friction_file;
+
+/* What the head of a file tells (FCLIB, SICONOS, SICONOS_SOCLCP).  RB_ENOENT; RB_EFORMAT:
+ * none of them. */
+rb_status rb_friction_file_kind(const char *path, rb_friction_file *kind,
+                                rb_message *why);
+
+/* RB_ENOENT; RB_EFORMAT: not a friction problem, or one that rb_friction_problem_check
+ * refuses. */
 rb_status rb_friction_read(const char *path, rb_friction_problem *problem,
                            rb_message *why);
+/* As `kind` whatever the head tells (ANY: as rb_friction_read). */
+rb_status rb_friction_read_as(const char *path, rb_friction_file kind,
+                              rb_friction_problem *problem, rb_message *why);
 
 /* As FCLib (HDF5); r, u, v: a solution to go with it, or NULL.  RB_EWRITE. */
 rb_status rb_friction_write(const char *path, const rb_friction_problem *problem,
@@ -125,6 +142,14 @@ rb_status rb_friction_solve(const char *solver, const rb_friction_problem *probl
                             const rb_friction_options *opt, double *r, double *u,
                             double *v, rb_friction_info *info);
 
+/* ---- Performance profiles (Dolan and More) ----------------------------------------- */
+
+/* cost[p + s * problems]: of solver s on problem p, INFINITY where it failed. rho_s(tau),
+ * *Acary* (16): share of the problems on which the cost is at most tau times the least
+ * one; problems that nobody solved count.  rho: taus x solvers, written. */
+void rb_friction_profile(int problems, int solvers, const double *cost, int taus,
+                         const double *tau, double *rho);
+
 /* ---- The canonical SOCLCP, *Kanno* (1) ------------------------------------------------
  */
 
@@ -137,6 +162,19 @@ typedef struct {
     const int *size; /* cones: k > 1 the Lorentz cone {x_0 >= ||x_1 ...||}, 1 a half-line;
                         at most 64 */
 } rb_friction_soclcp_problem;
+
+/* The same, owning its arrays.  Cones of slope tau in a file, ||x_1|| <= tau x_0, are
+ * brought to slope 1: x_0 is tau times, y_0 1/tau times what the file means. */
+typedef struct {
+    rb_friction_soclcp_problem problem;
+    double *M, *q;
+    int *size;
+    double *tau; /* cones */
+} rb_friction_soclcp_data;
+
+rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *data,
+                                  rb_message *why);
+void rb_friction_soclcp_data_free(rb_friction_soclcp_data *data);
 
 /* Smoothing and regularisation (Hayashi, Yamashita, Fukushima).  opt->r0: start x.  x, y:
  * n, written.  info->residual: ||x - P(x - y)|| / ||q||, recomputed from x. */

@@ -26,7 +26,8 @@ static rb_status name_the_nullity(const rb_sparse *k, rb_message *why)
                    k->rows - rank);
 }
 
-/* The entries of a in rows of `body` and in the listed columns, renumbered to rows x cols. */
+/* The entries of a in rows of `body` and in the listed columns, renumbered to rows x
+ * cols. */
 static rb_status part_of(const condenser *c, const rb_sparse *a, int body, int cols,
                          const int *list, int rows, rb_sparse *part)
 {

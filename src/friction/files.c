@@ -1,6 +1,7 @@
 /* Between friction problems and the files of other projects. */
 #include "friction/internal.h"
 
+#include "rollbem/io.h"
 #include "rollbem/io_fclib.h"
 
 #include <stdlib.h>
@@ -47,20 +48,163 @@ static rb_status read_fclib(const char *path, rb_friction_problem *problem,
     return s;
 }
 
-rb_status rb_friction_read(const char *path, rb_friction_problem *problem,
-                           rb_message *why)
+/* Below this share of entries a dense W is kept sparse. */
+#define SPARSE_FILL 0.5
+
+static rb_status adopt_siconos(rb_io_friction *file, rb_friction_problem *p)
+{
+    const size_t m = (size_t)file->dimension * (size_t)file->contacts;
+    rb_sparse w;
+    rb_status s = rb_io_matrix_to_sparse(&file->W, &w);
+    if (s != RB_OK)
+        return s;
+    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
+                               .dimension = file->dimension,
+                               .contacts = file->contacts};
+    if ((double)w.p[w.cols] <= SPARSE_FILL * (double)m * (double)m) {
+        p->Ws = w;
+    } else {
+        rb_sparse_free(&w);
+        s = rb_io_matrix_to_dense(&file->W);
+        p->form = RB_FRICTION_LOCAL_DENSE;
+        p->W = file->W.dense;
+        file->W.dense = NULL;
+    }
+    p->q = file->q;
+    p->mu = file->mu;
+    file->q = file->mu = NULL;
+    return s;
+}
+
+static rb_status read_siconos(const char *path, rb_friction_problem *problem,
+                              rb_message *why)
+{
+    rb_io_friction file = {0};
+    rb_status s = rb_io_siconos_read_friction(path, &file, why);
+    if (s == RB_OK &&
+        (file.W.rows != file.W.cols || file.W.rows != file.dimension * file.contacts))
+        s = rb_fail(why, RB_EFORMAT, "%s: W is %d x %d, expected %d rows and columns",
+                    path, file.W.rows, file.W.cols, file.dimension * file.contacts);
+    if (s == RB_OK)
+        s = adopt_siconos(&file, problem);
+    rb_io_friction_free(&file);
+    return s;
+}
+
+rb_status rb_friction_file_kind(const char *path, rb_friction_file *kind, rb_message *why)
+{
+    rb_io_siconos_kind text;
+    if (rb_io_is_hdf5(path)) {
+        *kind = RB_FRICTION_FILE_FCLIB;
+        return RB_OK;
+    }
+    const rb_status s = rb_io_siconos_guess(path, &text, why);
+    if (s == RB_OK && text == RB_IO_SICONOS_LCP)
+        return rb_fail(why, RB_EFORMAT,
+                       "%s: a linear complementarity problem: see 'rollbem lcp'", path);
+    *kind = text == RB_IO_SICONOS_SOCLCP ? RB_FRICTION_FILE_SICONOS_SOCLCP
+                                         : RB_FRICTION_FILE_SICONOS;
+    return s;
+}
+
+rb_status rb_friction_read_as(const char *path, rb_friction_file kind,
+                              rb_friction_problem *problem, rb_message *why)
 {
     *problem = (rb_friction_problem){0};
     rb_message detail = {""};
-    rb_status s = read_fclib(path, problem, why);
-    if (s != RB_OK)
-        return s;
-    s = rb_friction_problem_check(problem, &detail);
+    rb_status s = RB_OK;
+    if (kind == RB_FRICTION_FILE_ANY)
+        s = rb_friction_file_kind(path, &kind, why);
+    if (s == RB_OK && kind == RB_FRICTION_FILE_SICONOS_SOCLCP)
+        s = rb_fail(why, RB_EFORMAT, "%s: a problem on cones, not one of friction", path);
     if (s == RB_OK)
-        return s;
-    rb_friction_problem_free(problem);
-    return s == RB_EINVAL ? rb_fail(why, RB_EFORMAT, "%s: %s", path, detail.text) : s;
+        s = kind == RB_FRICTION_FILE_FCLIB ? read_fclib(path, problem, why)
+                                           : read_siconos(path, problem, why);
+    if (s == RB_OK)
+        s = rb_friction_problem_check(problem, &detail);
+    if (s == RB_EINVAL)
+        s = rb_fail(why, RB_EFORMAT, "%s: %s", path, detail.text);
+    if (s != RB_OK)
+        rb_friction_problem_free(problem);
+    return s;
 }
+
+rb_status rb_friction_read(const char *path, rb_friction_problem *problem,
+                           rb_message *why)
+{
+    return rb_friction_read_as(path, RB_FRICTION_FILE_ANY, problem, why);
+}
+
+/* ---- SOCLCP
+ * -------------------------------------------------------------------------------- */
+
+void rb_friction_soclcp_data_free(rb_friction_soclcp_data *data)
+{
+    if (!data)
+        return;
+    free(data->M);
+    free(data->q);
+    free(data->size);
+    free(data->tau);
+    *data = (rb_friction_soclcp_data){0};
+}
+
+/* S^-1 M S^-1 and S^-1 q, S = tau on the first entry of every cone */
+static void to_slope_one(rb_friction_soclcp_data *d, const rb_io_soclcp *file)
+{
+    const size_t n = (size_t)file->n;
+    for (int c = 0; c < file->cones; c++) {
+        const size_t first = (size_t)file->start[c];
+        d->size[c] = file->start[c + 1] - file->start[c];
+        if (d->size[c] == 1) /* a half-line has no slope */
+            d->tau[c] = 1.0;
+        for (size_t i = 0; i < n; i++)
+            d->M[i + first * n] /= d->tau[c];
+        for (size_t j = 0; j < n; j++)
+            d->M[first + j * n] /= d->tau[c];
+        d->q[first] /= d->tau[c];
+    }
+    d->problem = (rb_friction_soclcp_problem){file->n, d->M, d->q, file->cones, d->size};
+}
+
+static rb_status adopt_soclcp(const char *path, rb_io_soclcp *file,
+                              rb_friction_soclcp_data *d, rb_message *why)
+{
+    for (int c = 0; c < file->cones; c++)
+        if (!(file->tau[c] > 0.0))
+            return rb_fail(why, RB_EFORMAT, "%s: slope of cone %d is %g, expected > 0",
+                           path, c + 1, file->tau[c]);
+    rb_status s = rb_io_matrix_to_dense(&file->M);
+    d->size = rb_alloc_int((size_t)file->cones);
+    if (s != RB_OK || !d->size)
+        return RB_ENOMEM;
+    d->M = file->M.dense;
+    d->q = file->q;
+    d->tau = file->tau;
+    file->M.dense = file->q = file->tau = NULL;
+    to_slope_one(d, file);
+    return RB_OK;
+}
+
+rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *data,
+                                  rb_message *why)
+{
+    rb_io_soclcp file = {0};
+    *data = (rb_friction_soclcp_data){0};
+    rb_status s = rb_io_siconos_read_soclcp(path, &file, why);
+    if (s == RB_OK && (file.M.rows != file.n || file.M.cols != file.n))
+        s = rb_fail(why, RB_EFORMAT, "%s: M is %d x %d, expected %d rows and columns",
+                    path, file.M.rows, file.M.cols, file.n);
+    if (s == RB_OK)
+        s = adopt_soclcp(path, &file, data, why);
+    rb_io_soclcp_free(&file);
+    if (s != RB_OK)
+        rb_friction_soclcp_data_free(data);
+    return s;
+}
+
+/* ---- Writing
+ * ------------------------------------------------------------------------------- */
 
 static rb_status describe(const rb_friction_problem *p, rb_io_fclib *file)
 {

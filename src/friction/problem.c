@@ -137,10 +137,11 @@ static rb_status examine_definiteness(const rb_sparse *w, double largest, int *i
     return s == RB_SINGULAR ? RB_OK : s;
 }
 
-static rb_status examine_local(const rb_sparse *w, rb_friction_facts *facts)
+static rb_status examine_local(const rb_sparse *w, int with_rank,
+                               rb_friction_facts *facts)
 {
     double difference, largest;
-    rb_status s = rb_sparse_rank(w, &facts->rank);
+    rb_status s = with_rank ? rb_sparse_rank(w, &facts->rank) : RB_OK;
     if (s == RB_OK)
         s = sparse_asymmetry(w, &difference, &largest);
     if (s == RB_OK)
@@ -150,30 +151,40 @@ static rb_status examine_local(const rb_sparse *w, rb_friction_facts *facts)
     return s;
 }
 
-rb_status rb_friction_examine(const rb_friction_problem *problem,
+static rb_status examine_global(const rb_friction_problem *p, int with_rank,
+                                rb_friction_facts *facts)
+{
+    int rank = p->dofs;
+    if (!with_rank)
+        return RB_OK;
+    rb_status s = rb_sparse_rank(&p->H, &facts->rank);
+    if (s == RB_OK)
+        s = rb_sparse_rank(&p->K, &rank);
+    facts->nullity = p->dofs - rank;
+    return s;
+}
+
+rb_status rb_friction_examine(const rb_friction_problem *problem, int with_rank,
                               rb_friction_facts *facts)
 {
     const int m = problem->dimension * problem->contacts;
     rb_sparse w = {0};
     rb_status s;
-    int rank = 0;
     *facts = (rb_friction_facts){0};
     switch (problem->form) {
     case RB_FRICTION_GLOBAL:
-        s = rb_sparse_rank(&problem->H, &facts->rank);
-        if (s == RB_OK)
-            s = rb_sparse_rank(&problem->K, &rank);
-        facts->nullity = problem->dofs - rank;
+        s = examine_global(problem, with_rank, facts);
         break;
     case RB_FRICTION_LOCAL_SPARSE:
-        s = examine_local(&problem->Ws, facts);
+        s = examine_local(&problem->Ws, with_rank, facts);
         break;
     default:
         s = rb_sparse_from_dense(m, m, problem->W, m, &w);
         if (s == RB_OK)
-            s = examine_local(&w, facts);
+            s = examine_local(&w, with_rank, facts);
         rb_sparse_free(&w);
     }
-    facts->hyperstaticity = m - facts->rank;
+    if (with_rank)
+        facts->hyperstaticity = m - facts->rank;
     return s;
 }
