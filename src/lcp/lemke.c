@@ -34,17 +34,25 @@ rb_lcp_options rb_lcp_defaults(void)
 
 /* ---- Input ----------------------------------------------------------------------- */
 
+/* The sum of absolute values tells at once that a column is finite. */
+static rb_status check_column(int n, int j, const double *x, rb_message *why)
+{
+    if (isfinite(cblas_dasum(n, x, 1)))
+        return RB_OK;
+    for (int i = 0; i < n; i++)
+        if (!isfinite(x[i]))
+            return rb_fail(why, RB_EINVAL,
+                           "lcp: M(%d, %d) = %g: expected a finite number", i + 1, j + 1,
+                           x[i]);
+    return RB_OK;
+}
+
 static rb_status check_numbers(int n, const double *M, int ldm, const double *q,
                                const double *cover, rb_message *why)
 {
     for (int j = 0; j < n; j++)
-        for (int i = 0; i < n; i++) {
-            const double m = M[(size_t)i + (size_t)j * (size_t)ldm];
-            if (!isfinite(m))
-                return rb_fail(why, RB_EINVAL,
-                               "lcp: M(%d, %d) = %g: expected a finite number", i + 1,
-                               j + 1, m);
-        }
+        if (check_column(n, j, M + (size_t)j * (size_t)ldm, why) != RB_OK)
+            return RB_EINVAL;
     for (int i = 0; i < n; i++) {
         if (!isfinite(q[i]))
             return rb_fail(why, RB_EINVAL, "lcp: q(%d) = %g: expected a finite number",
@@ -97,20 +105,27 @@ static int first_row(const lemke *l)
     return r;
 }
 
+static double largest(int n, const double *x)
+{
+    return fabs(x[cblas_idamax(n, x, 1)]);
+}
+
 /* The rows whose ratio ties with the least; their number, 0 when no row blocks. */
 static int tied_rows(lemke *l)
 {
-    const double *a = l->a, *q = l->t.q;
-    const double a_max = rb_norm_inf((size_t)l->n, a),
-                 q_max = rb_norm_inf((size_t)l->n, q);
-    double least = INFINITY;
-    for (int i = 0; i < l->n; i++)
-        if (a[i] < -NOISE * a_max)
-            least = fmin(least, fmax(q[i], 0.0) / -a[i]);
-    const double bound = least + TIE * fmax(least, q_max / a_max);
+    const int n = l->n;
+    const double *a = l->a, *q = l->t.q, a_max = largest(n, a), noise = -NOISE * a_max;
+    double *ratio = l->other, least = INFINITY;
+    for (int i = 0; i < n; i++)
+        ratio[i] = a[i] < noise ? (q[i] > 0.0 ? q[i] : 0.0) / -a[i] : INFINITY;
+    for (int i = 0; i < n; i++)
+        least = ratio[i] < least ? ratio[i] : least;
+    if (!isfinite(least))
+        return 0;
+    const double bound = least + TIE * fmax(least, largest(n, q) / a_max);
     int count = 0;
-    for (int i = 0; i < l->n; i++)
-        if (a[i] < -NOISE * a_max && fmax(q[i], 0.0) / -a[i] <= bound)
+    for (int i = 0; i < n; i++)
+        if (ratio[i] <= bound)
             l->tied[count++] = i;
     return count;
 }
