@@ -189,7 +189,31 @@ static void planted_problems_are_solved(void **state)
         CHECK_STATUS(s, RB_OK);
         CHECK_MAX(natural_residual(n, M_, ldm, q_, z_), 1e-12 * size_of(n, q_),
                   "problem %d, kind %d, n = %d, %d pivots", k, (int)which, n, info.iters);
+        CHECK_ABS(info.res, natural_residual(n, M_, ldm, q_, z_), 1e-13 * size_of(n, q_),
+                  "the residual handed back, problem %d", k);
     }
+}
+
+/* Against a product written out, at a point that is no solution, across panels. */
+static void the_residual_is_that_of_z(void **state)
+{
+    (void)state;
+    const int n = 150, ldm = 151;
+    double w[150];
+    make_matrix(NONSYMMETRIC, n, ldm, M_);
+    for (int i = 0; i < n; i++) {
+        q_[i] = uniform();
+        z_[i] = uniform();
+    }
+    const double want = natural_residual(n, M_, ldm, q_, z_);
+    CHECK_REL(rb_lcp_residual(n, M_, ldm, q_, z_, NULL), want, 1e-13, "without w");
+    CHECK_REL(rb_lcp_residual(n, M_, ldm, q_, z_, w), want, 1e-13, "with w");
+    double last = q_[n - 1];
+    for (int j = 0; j < n; j++)
+        last += M_[n - 1 + j * ldm] * z_[j];
+    CHECK_REL(w[n - 1], last, 1e-12, "last w");
+    z_[70] = NAN;
+    assert_true(isnan(rb_lcp_residual(n, M_, ldm, q_, z_, NULL)));
 }
 
 /* ---- Ties ------------------------------------------------------------------------- */
@@ -519,6 +543,7 @@ int main(void)
         cmocka_unit_test(two_by_two),
         cmocka_unit_test(a_secondary_ray_names_its_variable),
         cmocka_unit_test(planted_problems_are_solved),
+        cmocka_unit_test(the_residual_is_that_of_z),
         cmocka_unit_test(kostreva_cycles_only_without_the_lexicographic_rule),
         cmocka_unit_test(integer_problems_do_not_cycle),
         cmocka_unit_test(the_trace_sees_every_pivot),

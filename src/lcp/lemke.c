@@ -9,7 +9,7 @@
 
 /* Entries of the driving column below this part of its largest count as zero; ratios
  * closer than this, relative to the step or to max |q| / max |a|, count as tied. */
-static const double NOISE = 1e-12, TIE = 1e-13;
+static const double NOISE = 1e-12, TIE = 1e-13, NEAR = 1e-10, DROP = 1e-13;
 
 /* The constants are refined whenever z0 has fallen by this factor. */
 static const double REFRESH = 1e-3;
@@ -82,6 +82,22 @@ static rb_status check_input(int n, const double *M, int ldm, const double *q,
 
 /* ---- Which row leaves ------------------------------------------------------------ */
 
+static double largest(int n, const double *x)
+{
+    return fabs(x[cblas_idamax(n, x, 1)]);
+}
+
+/* The column of a nonbasic variable without the rounding errors that stand for zeros:
+ * they would decide between rows that tie, and may be taken for pivots. */
+static void clean_column(lemke *l, int variable, double *x)
+{
+    rb_lcp_tableau_column(&l->t, -1 - l->t.place[variable], x);
+    const double noise = DROP * largest(l->n, x);
+    for (int i = 0; i < l->n; i++)
+        if (fabs(x[i]) <= noise)
+            x[i] = 0.0;
+}
+
 static double cover_of(const lemke *l, int i)
 {
     return l->cover ? l->cover[i] : 1.0;
@@ -105,44 +121,49 @@ static int first_row(const lemke *l)
     return r;
 }
 
-static double largest(int n, const double *x)
+/* The least ratio, and the ratios (infinite where a row does not block). */
+static double least_ratio(const lemke *l, double a_max, double *ratio)
 {
-    return fabs(x[cblas_idamax(n, x, 1)]);
+    const double *a = l->a, *q = l->t.q, noise = -NOISE * a_max;
+    double least = INFINITY;
+    for (int i = 0; i < l->n; i++)
+        ratio[i] = a[i] < noise ? (q[i] > 0.0 ? q[i] : 0.0) / -a[i] : INFINITY;
+    for (int i = 0; i < l->n; i++)
+        least = ratio[i] < least ? ratio[i] : least;
+    return least;
 }
 
-/* The rows whose ratio ties with the least; their number, 0 when no row blocks. */
+/* The rows that tie: the least ratio brings them to zero within rounding, and theirs is
+ * so close that taking it instead leaves no row visibly negative.  Their number, 0 when
+ * no row blocks. */
 static int tied_rows(lemke *l)
 {
     const int n = l->n;
-    const double *a = l->a, *q = l->t.q, a_max = largest(n, a), noise = -NOISE * a_max;
-    double *ratio = l->other, least = INFINITY;
-    for (int i = 0; i < n; i++)
-        ratio[i] = a[i] < noise ? (q[i] > 0.0 ? q[i] : 0.0) / -a[i] : INFINITY;
-    for (int i = 0; i < n; i++)
-        least = ratio[i] < least ? ratio[i] : least;
+    const double *a = l->a, *q = l->t.q;
+    const double a_max = largest(n, a), q_max = largest(n, q);
+    double *ratio = l->other;
+    const double least = least_ratio(l, a_max, ratio);
     if (!isfinite(least))
         return 0;
-    const double bound = least + TIE * fmax(least, largest(n, q) / a_max);
+    const double zero = TIE * (q_max + least * a_max);
+    const double most = least + NEAR * fmax(least, q_max / a_max);
     int count = 0;
     for (int i = 0; i < n; i++)
-        if (ratio[i] <= bound)
+        if (ratio[i] <= most && q[i] + least * a[i] <= zero)
             l->tied[count++] = i;
     return count;
 }
 
-/* Keeps the tied rows with the least value[i] / -a[i], value over the rows of the
- * tableau. */
-static int keep_least(lemke *l, int count, double sign, const double *value)
+/* Keeps the tied rows with the least -x_i / -a_i: of a column of the basis inverse. */
+static int keep_least(lemke *l, int count, const double *x)
 {
-    double least = INFINITY, size = 0.0;
-    for (int k = 0; k < count; k++) {
-        const double x = sign * value[l->tied[k]] / -l->a[l->tied[k]];
-        least = fmin(least, x);
-        size = fmax(size, fabs(x));
-    }
+    double least = INFINITY;
+    for (int k = 0; k < count; k++)
+        least = fmin(least, x[l->tied[k]] / l->a[l->tied[k]]);
+    const double zero = NOISE * (largest(l->n, x) + fabs(least) * largest(l->n, l->a));
     int kept = 0;
     for (int k = 0; k < count; k++)
-        if (sign * value[l->tied[k]] / -l->a[l->tied[k]] <= least + NOISE * size)
+        if (least * l->a[l->tied[k]] - x[l->tied[k]] <= zero)
             l->tied[kept++] = l->tied[k];
     return kept;
 }
@@ -166,8 +187,8 @@ static int lexicographic_row(lemke *l, int count)
         if (l->t.place[j] >= 0) {
             count = drop_row(l, count, l->t.place[j]);
         } else {
-            rb_lcp_tableau_column(&l->t, -1 - l->t.place[j], l->other);
-            count = keep_least(l, count, -1.0, l->other);
+            clean_column(l, j, l->other);
+            count = keep_least(l, count, l->other);
         }
     }
     return l->tied[0];
@@ -271,7 +292,7 @@ static rb_status follow_path(lemke *l)
     if (row < 0)
         return RB_OK;
     for (;;) {
-        rb_lcp_tableau_column(&l->t, -1 - l->t.place[entering], l->a);
+        clean_column(l, entering, l->a);
         if (entering != z0)
             row = blocking_row(l);
         if (row < 0)

@@ -1,8 +1,13 @@
 #include "lcp/tableau.h"
 
 #include <cblas.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* A constant that a step brings to this part of itself was to vanish: kept, its rounding
+ * error would break ties that are to be broken lexicographically. */
+static const double SNAP = 1e-12;
 
 /* Memory traffic per pivot: 16 n^2/depth bytes in the product, 4 n depth in the columns.
  */
@@ -180,7 +185,10 @@ static void remember_pivot(lcp_tableau *t, int r, int c, const double *a)
 void rb_lcp_tableau_pivot(lcp_tableau *t, int r, int c, const double *a)
 {
     const double step = t->q[r] / a[r];
-    cblas_daxpy(t->n, -step, a, 1, t->q, 1);
+    for (int i = 0; i < t->n; i++) {
+        const double change = step * a[i], value = t->q[i] - change;
+        t->q[i] = fabs(value) <= SNAP * fabs(change) ? 0.0 : value;
+    }
     t->q[r] = -step;
     remember_pivot(t, r, c, a);
     exchange(t, r, c);
