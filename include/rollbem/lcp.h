@@ -50,8 +50,9 @@ rb_lcp_options rb_lcp_defaults(void);
 
 /* Lemke's method.  M: n x n, column-major, ldm >= n; q: n; z: n, written (the last
  * basic point when not solved).  opt NULL: defaults.
- * RB_OK, RB_RAY, RB_MAXITER; RB_EINVAL: n < 1, ldm < n, NaN or infinity, cover <= 0;
- * RB_ENOMEM. */
+ * RB_OK, RB_RAY, RB_MAXITER; RB_INACCURATE: rounding has spoilt the solution, residual
+ * above 1e-6 max |q|; RB_EINVAL: n < 1, ldm < n, NaN or infinity, cover <= 0; RB_ENOMEM.
+ */
 rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
                        const rb_lcp_options *opt, double *z, rb_lcp_info *info);
 

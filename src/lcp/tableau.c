@@ -7,7 +7,7 @@
 
 /* A constant that a step brings to this part of itself was to vanish: kept, its rounding
  * error would break ties that are to be broken lexicographically. */
-static const double SNAP = 1e-12;
+static const double SNAP = 1e-11;
 
 /* Memory traffic per pivot: 16 n^2/depth bytes in the product, 4 n depth in the columns.
  */
@@ -34,7 +34,7 @@ void rb_lcp_tableau_free(lcp_tableau *t)
     memset(t, 0, sizeof *t);
 }
 
-static void forget_pivots(lcp_tableau *t)
+void rb_lcp_tableau_forget(lcp_tableau *t)
 {
     memset(t->row_hit, 0, (size_t)t->n * sizeof *t->row_hit);
     for (int c = 0; c <= t->n; c++)
@@ -42,30 +42,29 @@ static void forget_pivots(lcp_tableau *t)
     t->k = 0;
 }
 
-static void start(int n, const double *M, int ldm, const double *q, const double *cover,
-                  lcp_tableau *t)
+static void start(const lcp_data *data, lcp_tableau *t)
 {
+    const int n = data->n;
     const size_t bytes = (size_t)n * sizeof(double);
     for (int j = 0; j < n; j++)
-        memcpy(column_of(t, j), M + (size_t)j * (size_t)ldm, bytes);
+        memcpy(column_of(t, j), data->M + (size_t)j * (size_t)data->ldm, bytes);
     for (int i = 0; i < n; i++)
-        column_of(t, n)[i] = cover ? cover[i] : 1.0;
-    memcpy(t->q, q, bytes);
+        column_of(t, n)[i] = rb_lcp_cover(data, i);
+    memcpy(t->q, data->q, bytes);
     for (int i = 0; i < n; i++)
         t->basis[i] = t->place[i] = i;
     for (int c = 0; c <= n; c++) {
         t->nonbasis[c] = n + c;
         t->place[n + c] = -1 - c;
     }
-    forget_pivots(t);
+    rb_lcp_tableau_forget(t);
 }
 
-rb_status rb_lcp_tableau_create(int n, const double *M, int ldm, const double *q,
-                                const double *cover, lcp_tableau *t)
+rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
 {
-    const size_t rows = (size_t)n, cols = rows + 1, depth = (size_t)delay(n);
+    const size_t rows = (size_t)data->n, cols = rows + 1, depth = (size_t)delay(data->n);
     memset(t, 0, sizeof *t);
-    t->n = n;
+    t->n = data->n;
     t->depth = (int)depth;
     t->T = rb_alloc(rows, cols);
     t->q = rb_alloc(rows, 1);
@@ -84,7 +83,7 @@ rb_status rb_lcp_tableau_create(int n, const double *M, int ldm, const double *q
     t->first = t->row + depth;
     t->row_hit = t->first + depth;
     t->col_hit = t->row_hit + rows;
-    start(n, M, ldm, q, cover, t);
+    start(data, t);
     return RB_OK;
 }
 
@@ -152,7 +151,7 @@ void rb_lcp_tableau_flush(lcp_tableau *t)
         last = c + 1;
     }
     update_columns(t, first, last);
-    forget_pivots(t);
+    rb_lcp_tableau_forget(t);
 }
 
 static void exchange(lcp_tableau *t, int r, int c)

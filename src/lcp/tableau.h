@@ -5,6 +5,18 @@
 
 #include "rollbem/base.h"
 
+/* w = q + M z + d z0; all borrowed. */
+typedef struct {
+    int n;
+    const double *M, *q, *cover; /* cover: d, NULL: ones */
+    int ldm;
+} lcp_data;
+
+static inline double rb_lcp_cover(const lcp_data *data, int i)
+{
+    return data->cover ? data->cover[i] : 1.0;
+}
+
 /* Variables: w_i = i, z_i = n + i, z0 = 2n, as in rollbem/lcp.h.
  *
  * A pivot on (r, c) exchanges the basic variable of row r with the nonbasic one of column
@@ -32,9 +44,8 @@ typedef struct {
     int *col_hit; /* n + 1: the column's last pivot since the flush, or -1 */
 } lcp_tableau;
 
-/* T = [M, cover] (NULL: ones); basis w, nonbasis z, z0. */
-rb_status rb_lcp_tableau_create(int n, const double *M, int ldm, const double *q,
-                                const double *cover, lcp_tableau *t);
+/* T = [M, d]; basis w, nonbasis z, z0. */
+rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t);
 void rb_lcp_tableau_free(lcp_tableau *t);
 
 /* a = T_:c, n. */
@@ -43,5 +54,9 @@ void rb_lcp_tableau_column(lcp_tableau *t, int c, double *a);
 void rb_lcp_tableau_pivot(lcp_tableau *t, int r, int c, const double *a);
 /* Brings T up to date. */
 void rb_lcp_tableau_flush(lcp_tableau *t);
+/* T and q anew from the data and the basis.  RB_SINGULAR (t as before), RB_ENOMEM. */
+rb_status rb_lcp_tableau_rebuild(const lcp_data *data, lcp_tableau *t);
+/* T is up to date by other means. */
+void rb_lcp_tableau_forget(lcp_tableau *t);
 
 #endif

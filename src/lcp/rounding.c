@@ -1,0 +1,179 @@
+#include "lcp/lemke.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <math.h>
+#include <string.h>
+
+/* Beyond this relative defect a tableau is not refined but rebuilt. */
+static const double DRIFT = 1e-12;
+
+/* A zero that comes out of a refinement as less than this part of the largest constant is
+ * still zero. */
+static const double ZERO = 1e-10;
+
+/* ---- On the way ------------------------------------------------------------------- */
+
+/* Of the variables first ... first + n - 1: the basic ones as given, `entering` 1, the
+ * other nonbasic ones 0. */
+static double values(const lemke *l, const double *basic, int entering, int first,
+                     double *x)
+{
+    for (int i = 0; i < l->n; i++) {
+        const int v = first + i, row = l->t.place[v];
+        x[i] = row >= 0 ? basic[row] : (double)(v == entering);
+    }
+    return rb_norm_inf((size_t)l->n, x);
+}
+
+/* r = constant + M z + d z0 - w at these values, which is zero but for rounding; constant
+ * NULL: 0.  Returns max |r| as a part of the terms' size.  z: scratch. */
+static double defect(const lemke *l, const double *constant, const double *basic,
+                     int entering, double *z, double *r)
+{
+    const int n = l->n, z0_row = l->t.place[2 * n];
+    const double z0 = z0_row >= 0 ? basic[z0_row] : (double)(entering == 2 * n);
+    double size = values(l, basic, entering, 0, r);
+    for (int i = 0; i < n; i++) {
+        const double fixed = constant ? constant[i] : 0.0;
+        const double cover = rb_lcp_cover(&l->data, i) * z0;
+        size = fmax(size, fmax(fabs(fixed), fabs(cover)));
+        r[i] = fixed + cover - r[i];
+    }
+    size = fmax(size, l->largest * values(l, basic, entering, n, z));
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, l->data.M, l->data.ldm, z, 1, 1.0,
+                r, 1);
+    return size > 0.0 ? rb_norm_inf((size_t)n, r) / size : 0.0;
+}
+
+/* One step of iterative refinement: the tableau's columns of w hold minus the basis
+ * inverse. */
+static void refine(lemke *l, const double *r)
+{
+    const int n = l->n, *place = l->t.place;
+    rb_lcp_tableau_flush(&l->t);
+    for (int i = 0; i < n; i++)
+        if (place[i] >= 0)
+            l->t.q[place[i]] += r[i];
+    for (int i = 0; i < n; i++)
+        if (place[i] < 0)
+            cblas_daxpy(n, -r[i], l->t.T + (size_t)(-1 - place[i]) * (size_t)n, 1, l->t.q,
+                        1);
+}
+
+rb_status rb_lcp_lemke_rebuild(lemke *l)
+{
+    l->rebuilt = l->info->iters;
+    const rb_status s = rb_lcp_tableau_rebuild(&l->data, &l->t);
+    return s == RB_ENOMEM
+               ? rb_fail(&l->info->msg, s, "lcp: no memory to rebuild the tableau")
+               : s;
+}
+
+/* A constant that was zero stays zero: noise in its place would break ties. */
+static void keep_zeros(lemke *l, const double *before)
+{
+    const double zero = ZERO * rb_norm_inf((size_t)l->n, l->t.q);
+    for (int i = 0; i < l->n; i++)
+        if (before[i] == 0.0 && fabs(l->t.q[i]) <= zero)
+            l->t.q[i] = 0.0;
+}
+
+rb_status rb_lcp_lemke_refresh(lemke *l)
+{
+    rb_status s = RB_SINGULAR;
+    double *r = l->a, *before = l->scratch;
+    memcpy(before, l->t.q, (size_t)l->n * sizeof *before);
+    if (defect(l, l->data.q, l->t.q, -1, l->other, r) > DRIFT)
+        s = rb_lcp_lemke_rebuild(l);
+    if (s == RB_SINGULAR)
+        refine(l, r);
+    keep_zeros(l, before);
+    l->refreshed = rb_lcp_lemke_z0(l);
+    l->checked = l->info->iters;
+    return s == RB_ENOMEM ? s : RB_OK;
+}
+
+int rb_lcp_lemke_column_holds(lemke *l, int entering)
+{
+    return l->rebuilt == l->info->iters ||
+           defect(l, NULL, l->a, entering, l->other, l->scratch) <= DRIFT;
+}
+
+/* ---- The answer ------------------------------------------------------------------- */
+
+static double residual(const lemke *l, const double *z, double *w)
+{
+    return rb_lcp_residual(l->n, l->data.M, l->data.ldm, l->data.q, z, w);
+}
+
+static void basic_point(const lemke *l, double *z)
+{
+    const int n = l->n;
+    for (int i = 0; i < n; i++) {
+        const int row = l->t.place[n + i];
+        z[i] = row >= 0 ? fmax(l->t.q[row], 0.0) : 0.0;
+    }
+}
+
+typedef struct {
+    int m, *index, *pivots; /* the basic z, n each */
+    double *LU;             /* m x m: M_BB */
+} final_basis;
+
+static int factor(const lemke *l, final_basis *b)
+{
+    const int n = l->n;
+    const size_t ldm = (size_t)l->data.ldm;
+    b->m = 0;
+    for (int i = 0; i < n; i++)
+        if (l->t.place[n + i] >= 0)
+            b->index[b->m++] = i;
+    const size_t m = (size_t)b->m;
+    for (size_t j = 0; j < m; j++)
+        for (size_t i = 0; i < m; i++)
+            b->LU[i + j * m] = l->data.M[(size_t)b->index[i] + (size_t)b->index[j] * ldm];
+    return m > 0 &&
+           LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, b->m, b->m, b->LU, b->m, b->pivots) == 0;
+}
+
+/* x_B -= M_BB^-1 (M x + q)_B */
+static void correct(const lemke *l, const final_basis *b, double *w, double *r, double *x)
+{
+    residual(l, x, w);
+    for (int k = 0; k < b->m; k++)
+        r[k] = w[b->index[k]];
+    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', b->m, 1, b->LU, b->m, b->pivots, r, b->m);
+    for (int k = 0; k < b->m; k++)
+        x[b->index[k]] -= r[k];
+}
+
+/* Removes the pivots' rounding errors: z_B from the final basis B and the original
+ * matrix, one factorisation (in the tableau's memory) and one correction.  Taken only
+ * when it is the better of the two. */
+static void polish(lemke *l, double *z)
+{
+    const size_t n = (size_t)l->n;
+    final_basis b = {.index = l->tied, .pivots = l->t.basis, .LU = l->t.T};
+    double *x = l->t.q;
+    if (!factor(l, &b))
+        return;
+    memset(x, 0, n * sizeof *x);
+    correct(l, &b, l->a, l->other, x);
+    correct(l, &b, l->a, l->other, x);
+    for (size_t i = 0; i < n; i++)
+        x[i] = fmax(x[i], 0.0);
+    const double res = residual(l, x, NULL);
+    if (res <= l->info->res) {
+        memcpy(z, x, n * sizeof *z);
+        l->info->res = res;
+    }
+}
+
+void rb_lcp_lemke_answer(lemke *l, int solved, double *z)
+{
+    basic_point(l, z);
+    l->info->res = residual(l, z, NULL);
+    if (solved)
+        polish(l, z);
+}

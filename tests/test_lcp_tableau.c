@@ -1,0 +1,152 @@
+/* The delayed-update tableau: after any pivots it is the one solved for from the data. */
+#include "check.h"
+#include "lcp/tableau.h"
+
+#include <string.h>
+
+enum { N = 60, LDM = 61 };
+
+static double M_[N * LDM], q_[N], cover_[N];
+static const lcp_data data_ = {N, M_, q_, cover_, LDM};
+static unsigned long long seed = 7;
+
+static double uniform(void)
+{
+    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+    return (double)(seed >> 11) / 4503599627370496.0 - 1.0;
+}
+
+static int below(int n)
+{
+    return (int)(0.5 * (1.0 + uniform()) * n);
+}
+
+/* M random with a fifth of its entries zero: then flushes skip columns. */
+static void make_tableau(lcp_tableau *t)
+{
+    for (int k = 0; k < N * LDM; k++)
+        M_[k] = uniform() < -0.6 ? 0.0 : uniform();
+    for (int i = 0; i < N; i++) {
+        q_[i] = uniform();
+        cover_[i] = 2.0 + uniform();
+    }
+    CHECK_STATUS(rb_lcp_tableau_create(&data_, t), RB_OK);
+}
+
+/* Pivots of size: anywhere in the column, rows and columns come again and again. */
+static void pivot_somewhere(lcp_tableau *t, double *a)
+{
+    const int c = below(N + 1);
+    int r = below(N);
+    rb_lcp_tableau_column(t, c, a);
+    for (int i = 0; i < 10; i++) {
+        const int other = below(N);
+        if (fabs(a[other]) > fabs(a[r]))
+            r = other;
+    }
+    if (fabs(a[r]) > 0.1)
+        rb_lcp_tableau_pivot(t, r, c, a);
+}
+
+static void check_same(lcp_tableau *t, lcp_tableau *anew, int pivots)
+{
+    double a[N], b[N];
+    for (int c = 0; c <= N; c++) {
+        rb_lcp_tableau_column(t, c, a);
+        rb_lcp_tableau_column(anew, c, b);
+        for (int i = 0; i < N; i++)
+            CHECK_ABS(a[i], b[i], 1e-9 * (1.0 + fabs(b[i])), "%d pivots, T(%d, %d)",
+                      pivots, i, c);
+    }
+    for (int i = 0; i < N; i++)
+        CHECK_ABS(t->q[i], anew->q[i], 1e-9 * (1.0 + fabs(anew->q[i])),
+                  "%d pivots, q(%d)", pivots, i);
+}
+
+static void any_pivots_give_the_tableau_of_the_basis(void **state)
+{
+    (void)state;
+    lcp_tableau t, anew;
+    double a[N];
+    make_tableau(&t);
+    CHECK_STATUS(rb_lcp_tableau_create(&data_, &anew), RB_OK);
+    for (int k = 1; k <= 150; k++) {
+        pivot_somewhere(&t, a);
+        if (k % 7)
+            continue;
+        memcpy(anew.basis, t.basis, N * sizeof *t.basis);
+        memcpy(anew.nonbasis, t.nonbasis, (N + 1) * sizeof *t.nonbasis);
+        memcpy(anew.place, t.place, (2 * N + 1) * sizeof *t.place);
+        CHECK_STATUS(rb_lcp_tableau_rebuild(&data_, &anew), RB_OK);
+        check_same(&t, &anew, k);
+    }
+    rb_lcp_tableau_free(&t);
+    rb_lcp_tableau_free(&anew);
+}
+
+static void without_pivots_nothing_changes(void **state)
+{
+    (void)state;
+    lcp_tableau t;
+    double a[N];
+    make_tableau(&t);
+    rb_lcp_tableau_flush(&t);
+    CHECK_STATUS(rb_lcp_tableau_rebuild(&data_, &t), RB_OK);
+    for (int c = 0; c < N; c++) {
+        rb_lcp_tableau_column(&t, c, a);
+        for (int i = 0; i < N; i++)
+            CHECK_ABS(a[i], M_[i + c * LDM], 0.0, "M(%d, %d)", i, c);
+    }
+    rb_lcp_tableau_free(&t);
+}
+
+static void short_memory_leaves_the_tableau(void **state)
+{
+    (void)state;
+    lcp_tableau t;
+    double a[N];
+    make_tableau(&t);
+    for (int k = 0; k < 20; k++)
+        pivot_somewhere(&t, a);
+    for (int i = 0;; i++) {
+        alloc_fail_after(i);
+        const rb_status s = rb_lcp_tableau_rebuild(&data_, &t);
+        const int refused = alloc_failed();
+        alloc_succeed();
+        if (!refused) {
+            CHECK_STATUS(s, RB_OK);
+            assert_true(i > 2);
+            break;
+        }
+        CHECK_STATUS(s, RB_ENOMEM);
+    }
+    rb_lcp_tableau_free(&t);
+}
+
+/* A basis of two equal columns. */
+static void a_singular_basis_is_told(void **state)
+{
+    (void)state;
+    lcp_tableau t;
+    make_tableau(&t);
+    memcpy(M_ + LDM, M_, N * sizeof *M_);
+    for (int k = 0; k < 2; k++) { /* z_0, z_1 for w_0, w_1 */
+        t.basis[k] = N + k;
+        t.place[N + k] = k;
+        t.nonbasis[k] = k;
+        t.place[k] = -1 - k;
+    }
+    CHECK_STATUS(rb_lcp_tableau_rebuild(&data_, &t), RB_SINGULAR);
+    rb_lcp_tableau_free(&t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_pivots_give_the_tableau_of_the_basis),
+        cmocka_unit_test(without_pivots_nothing_changes),
+        cmocka_unit_test(short_memory_leaves_the_tableau),
+        cmocka_unit_test(a_singular_basis_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
