@@ -117,6 +117,42 @@ static void compressible_wheels_need_small_elements_too(void **state)
     }
 }
 
+/* Aluminium on steel (theory.md 6), both of them wheels, mu -> infinity. */
+static double bentall_johnson_error(rb_bem_support support, int elements)
+{
+    rb_rolling_case rc = wheel(support, 2e-5);
+    rc.a.young = 60260.0;
+    rc.a.poisson = 0.31;
+    rc.b = rc.a;
+    rc.b.young = 209920.0;
+    rc.b.poisson = 0.28;
+    rc.elastic_b = 1;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = elements;
+    rc.mu = 10.0;
+    rc.creep_ratio = NAN;
+    rc.force = 0.0;
+    rb_rolling_solution s = solved(&rc);
+    const double modulus = rb_rolling_contact_modulus(&rc), R = rb_rolling_radius(&rc);
+    const rb_closed_bentall_johnson want = rb_closed_bentall_johnson_stick(
+        rb_rolling_dundurs(&rc), rc.half_width, R, modulus);
+    const double error = fabs(s.creepage + want.creepage) / want.creepage;
+    rb_rolling_solution_free(&s);
+    return error;
+}
+
+static void bentall_johnson_on_two_wheels(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const double coarse = bentall_johnson_error(wheels[k], 100);
+        const double fine = bentall_johnson_error(wheels[k], 200);
+        CHECK_MAX(fine, 1e-2, "%s", name_of(wheels[k]));
+        CHECK_MAX(1.0, log2(coarse / fine), "order, %s", name_of(wheels[k]));
+    }
+}
+
 /* delta = P (1 - nu^2)/(pi E) [2 ln(4R/a) - 1 + k]: k belongs to the support alone. */
 static double support_constant(const rb_rolling_case *rc)
 {
@@ -384,6 +420,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tractions_tend_to_the_halfplane_with_first_order),
         cmocka_unit_test(compressible_wheels_need_small_elements_too),
+        cmocka_unit_test(bentall_johnson_on_two_wheels),
         cmocka_unit_test(approach_differs_by_a_constant_of_the_support),
         cmocka_unit_test(a_contact_of_1e_8_of_the_radius_keeps_its_digits),
         cmocka_unit_test(the_two_signs_mirror_up_to_delta_over_R),
