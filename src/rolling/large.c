@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 /* Elements of the coarsest mesh, which starts cold. */
-enum { COARSEST = 400 };
+enum { COARSEST = 150 };
 
 int rb_rolling_coarse_elements(int n)
 {

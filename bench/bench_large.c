@@ -1,0 +1,192 @@
+/* Large contacts: steady Carter on half-planes (similar bodies, s = 0.4, equal elements)
+ * from input to solution, without a matrix, against the dense path on the same problem;
+ * how cost and memory grow; one product of the Toeplitz operator against one of the
+ * matrix. Arguments: the numbers of elements (default 1000 ... 100000; 1300000 is a
+ * million in contact). */
+#include "rollbem/rolling.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+enum { REPEATS = 5 };
+
+static rb_rolling_case carter(int n)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a = (rb_rolling_body){
+        .young = 210000.0, .poisson = 0.28, .radius = 500.0, .support = RB_BEM_HALFPLANE};
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.formulation = RB_STEADY;
+    rc.half_width = 1.0;
+    rc.creep_ratio = 0.4;
+    rc.contact_elements = n;
+    return rc;
+}
+
+static void stop(const char *what)
+{
+    fprintf(stderr, "bench_large: %s\n", what);
+    exit(70);
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double d = *(const double *)a - *(const double *)b;
+    return (d > 0) - (d < 0);
+}
+
+static double median(int n, double *t)
+{
+    qsort(t, (size_t)n, sizeof *t, by_size);
+    return t[n / 2];
+}
+
+static double peak_megabytes(void)
+{
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss / 1024.0;
+}
+
+/* ---- Growth ---------------------------------------------------------------------------
+ */
+
+static double solve_seconds(int n)
+{
+    const rb_rolling_case rc = carter(n);
+    const int repeats = n > 200000 ? 1 : REPEATS;
+    double t[REPEATS];
+    rb_rolling_solution s;
+
+    for (int k = 0; k < repeats; k++) {
+        rb_message why;
+        const double start = rb_seconds();
+        if (rb_rolling_solve(&rc, &s, &why) != RB_OK)
+            stop(why.text);
+        t[k] = rb_seconds() - start;
+        if (k + 1 < repeats)
+            rb_rolling_solution_free(&s);
+    }
+    const double seconds = median(repeats, t);
+    printf("%9d %9d  %-10s %6d %9.4f %10.2e %12.2e %9.0f\n", n, s.contact,
+           s.large ? "transforms" : "matrix", s.iterations, seconds, s.residual,
+           fabs(-s.force_ratio / 0.64 - 1.0), peak_megabytes());
+    fflush(stdout);
+    rb_rolling_solution_free(&s);
+    return seconds;
+}
+
+static void growth(int count, const int *n)
+{
+    double first = 0.0, last = 0.0;
+
+    printf("%9s %9s  %-10s %6s %9s %10s %12s %9s\n", "elements", "contact", "by", "steps",
+           "seconds", "residual", "error of Q", "peak MB");
+    for (int k = 0; k < count; k++) {
+        last = solve_seconds(n[k]);
+        first = k == 0 ? last : first;
+    }
+    if (count > 1)
+        printf("cost grows like n^%.2f from n = %d to %d (wanted: at most 1.3)\n",
+               log(last / first) / log((double)n[count - 1] / n[0]), n[0], n[count - 1]);
+}
+
+/* ---- Against the matrix ---------------------------------------------------------------
+ */
+
+static void apply_both(int n)
+{
+    const rb_rolling_case rc = carter(n);
+    rb_rolling_mesh mesh;
+    rb_rolling_bodies bodies;
+    double t[2][REPEATS], *r = rb_alloc(2 * (size_t)n, 1),
+                          *w = rb_alloc(2 * (size_t)n + 2, 1);
+
+    if (!r || !w || rb_rolling_mesh_uniform(&rc, -1.3, 1.3, &mesh, NULL) != RB_OK)
+        stop("no memory");
+    for (int i = 0; i < 2 * n; i++)
+        r[i] = sin(i);
+    for (int dense = 0; dense < 2; dense++) {
+        rb_rolling_case by = rc;
+        by.solver = dense ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON;
+        if (rb_rolling_bodies_create(&by, &mesh, &bodies, NULL) != RB_OK)
+            stop("no memory");
+        for (int k = 0; k < REPEATS; k++) {
+            const double start = rb_seconds();
+            rb_bem_flexibility_apply(&bodies.f, r, w);
+            t[dense][k] = rb_seconds() - start;
+        }
+        rb_rolling_bodies_free(&bodies);
+    }
+    const double fast = median(REPEATS, t[0]), slow = median(REPEATS, t[1]);
+    printf("one product, n = %d: matrix %.3g s, transforms %.3g s: %.0f times faster\n",
+           n, slow, fast, slow / fast);
+    free(r);
+    free(w);
+    rb_rolling_mesh_free(&mesh);
+}
+
+/* The same problem by Newton with the matrix, cold, flexibility and all. */
+static void solve_both(int n)
+{
+    const rb_rolling_case rc = carter(n);
+    rb_rolling_case dense = rc;
+    rb_rolling_model model;
+    rb_rolling_bodies bodies;
+    rb_rolling_problem problem;
+    rb_rolling_state state;
+
+    double start = rb_seconds();
+    if (rb_rolling_model_create(&rc, &model, NULL) != RB_OK)
+        stop("no solution");
+    const double fast = rb_seconds() - start;
+    dense.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
+    start = rb_seconds();
+    if (rb_rolling_bodies_create(&dense, &model.mesh, &bodies, NULL) != RB_OK ||
+        rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, 0.0, &problem,
+                                  NULL) != RB_OK ||
+        rb_rolling_state_alloc(n, &state) != RB_OK)
+        stop("no memory");
+    dense.solver = RB_SOLVER_NEWTON;
+    if (rb_rolling_problem_solve(&problem, &dense, 0, &state, NULL) != RB_OK)
+        stop("no solution with the matrix");
+    const double slow = rb_seconds() - start;
+    double difference = 0.0;
+    for (int i = 0; i < n; i++)
+        difference =
+            fmax(difference, fabs(state.q[i] - model.state.q[i]) / problem.stress);
+    printf("one solution, n = %d: matrix %.3g s, transforms %.3g s: %.0f times faster; "
+           "largest difference of q/p0 %.1e\n",
+           n, slow, fast, slow / fast, difference);
+    rb_rolling_state_free(&state);
+    rb_rolling_problem_free(&problem);
+    rb_rolling_bodies_free(&bodies);
+    rb_rolling_model_free(&model);
+}
+
+int main(int argc, char **argv)
+{
+    static const int standard[] = {1000, 3200, 10000, 32000, 100000};
+    int n[32], count = argc - 1;
+
+    if (count > 32)
+        stop("too many arguments");
+    for (int k = 0; k < count; k++)
+        if ((n[k] = atoi(argv[k + 1])) < 3)
+            stop("expected numbers of elements");
+    solve_seconds(2000); /* warm */
+    if (count > 0) {
+        growth(count, n);
+        return 0;
+    }
+    growth(5, standard);
+    apply_both(4000);
+    solve_both(2000);
+    return 0;
+}
