@@ -25,6 +25,8 @@ static const struct {
     {"curve --mu 0.1,x", 64, "--mu: expected a number >= 0, got '0.1,x'"},
     {"curve --mu 0", 64, "xi R/(mu a) has no meaning at mu = 0"},
     {"--mu 0.1,0.2", 64, "--mu: expected one number; a curve takes several"},
+    {"curve --error", 64, "--error: curves have no error bars"},
+    {"stress --accuracy 0.1", 64, "--accuracy: stress has error bars"},
     {"curve --plot a.bmp", 64, "--plot: expected a name ending in .png, .svg or .pdf"},
     {"stress --grid 10", 64, "--grid: expected two numbers >= 2 such as 61x41, got '10'"},
     {"stress --grid 10x", 64, "got '10x'"},
@@ -50,7 +52,7 @@ static void bad_points_are_named_by_their_line(void **state)
     (void)state;
     static const char *const texts[][2] = {
         {"0 1\n0 1 2\n", "points:2: expected 2 numbers, got 3"},
-        {"0\n", "points:1: expected 2 numbers, x and y, got 1"},
+        {"0\n", "points:1: expected 2 numbers, got 1"},
         {"0 1\nsome text\n", "points:2: expected a number, got 'some'"},
         {"# x y\n0 1\n\n0 -1\n", "points:4: the point (0, -1) lies outside body A"}};
     for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
@@ -311,6 +313,111 @@ static void vtk_holds_the_numbers_of_the_table(void **state)
                      73);
 }
 
+/* ---- Steps
+ * ----------------------------------------------------------------------------- */
+
+#define ROLLING SIMILAR "--formulation transient --creep-ratio 0.5 --contact-elements 20 "
+
+static void steps_leave_snapshots_and_a_picture(void **state)
+{
+    (void)state;
+    rb_io_table first, last;
+    assert_int_equal(rollbem(ROLLING "--distance 0.5 --quiet --output last.tsv "
+                                     "--snapshots snap --every 2 --history-plot h.svg "
+                                     "--history-table h.tsv --progress"),
+                     0);
+    assert_non_null(strstr(err, " s left\n"));
+    assert_int_equal(rb_io_table_read("snap/step_000002.tsv", &first, NULL), RB_OK);
+    rb_io_table_free(&first);
+    assert_int_equal(shell("cmp \"$(ls snap/*.tsv | tail -1)\" last.tsv"), 0);
+    assert_int_equal(rb_io_table_read("h.tsv", &last, NULL), RB_OK);
+    const int n = last.rows;
+    CHECK_REL(rb_io_table_column(&last, "distance_a")[n - 1], 0.5, 0.15, "distance");
+    rb_io_table_free(&last);
+    slurp("h.svg", out, sizeof out);
+    assert_non_null(strstr(out, "Transient rolling"));
+    write_file("plain", "");
+    check_refused(ROLLING "--distance 0.2 --quiet --snapshots plain", 73,
+                  "plain: File exists");
+    check_refused(SIMILAR "--every 2", 64, "--every: for --formulation transient");
+}
+
+static void bad_rows_are_named_by_their_line(void **state)
+{
+    (void)state;
+    static const char *const histories[][2] = {
+        {"distance load creep\n0 50 0\n\n2 50 1e-3\n1 50 1e-3\n",
+         "h.txt:5: distance 1 is behind the row before"},
+        {"# all\ndistance load creep\n0 50 0\n2 -50 0\n", "h.txt:4: load"},
+        {"distance load approach\n0 50 1\n", "h.txt:2: approach, load"},
+        {"distance load creep\n0 50\n",
+         "h.txt:2: expected 3 numbers (distance, load, creep), got 2"},
+        {"load creep\n50 0\n", "h.txt: history: transient rolling needs a column"}};
+    for (size_t k = 0; k < sizeof histories / sizeof histories[0]; k++) {
+        write_file("h.txt", histories[k][0]);
+        check_refused("--support halfplane --similar --formulation transient "
+                      "--history h.txt",
+                      65, histories[k][1]);
+    }
+    write_file("gap.txt", "0 0\n1 1\n\n1 2\n");
+    check_refused("--load 10 --gap gap.txt", 65, "gap.txt:4: expected an x larger");
+    write_file("gap.txt", "0 0\n");
+    check_refused("--load 10 --gap gap.txt", 65, "needs 2 points or more, got 1");
+}
+
+/* ---- Slip
+ * ------------------------------------------------------------------------------ */
+
+/* The friction power along the contact adds up to the dissipation, which is -xi Q. */
+static void friction_power_adds_up(void **state)
+{
+    (void)state;
+    json_t *root =
+        run_json(SIMILAR "--formulation steady --creep-ratio 0.5 --contact-elements 100");
+    const json_t *table = json_object_get(root, "table"),
+                 *summary = json_object_get(root, "summary");
+    double power = 0.0;
+    for (size_t i = 0; i < json_array_size(json_object_get(table, "h_mm")); i++) {
+        assert_true(entry(table, "friction_power_MPa", i) >= -1e-12);
+        power += entry(table, "friction_power_MPa", i) * entry(table, "h_mm", i);
+    }
+    CHECK_REL(power, number_in(summary, "dissipation"), 1e-12, "sum");
+    CHECK_REL(power,
+              -number_in(summary, "creepage") * number_in(summary, "tangential_load"),
+              1e-3, "balance");
+    json_decref(root);
+}
+
+static void full_sliding_says_that_creepage_is_open(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem(SIMILAR "--formulation steady --force-ratio -1"), 0);
+    assert_non_null(strstr(err, "the creepage is not unique"));
+    assert_int_equal(rollbem(SIMILAR "--formulation steady --force-ratio -0.9"), 0);
+    assert_null(strstr(err, "not unique"));
+}
+
+static void fitted_is_the_default_for_steady(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *arguments, *mesh;
+        int elements;
+    } cases[] = {{SIMILAR "--formulation steady", "fitted", 100},
+                 {SIMILAR "--formulation steady --mesh uniform", "uniform", 60},
+                 {SIMILAR "--formulation steady --zone 0.7", "uniform", 60},
+                 {SIMILAR, "uniform", 60},
+                 {"--formulation steady --creep 0.1", "uniform", 60}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        json_t *root = run_json(cases[k].arguments);
+        const json_t *inputs = json_object_get(root, "inputs");
+        assert_string_equal(json_string_value(json_object_get(inputs, "mesh")),
+                            cases[k].mesh);
+        assert_int_equal(number_in(inputs, "contact-elements"), cases[k].elements);
+        json_decref(root);
+    }
+}
+
 /* ---- Pictures -------------------------------------------------------------------------
  */
 
@@ -345,6 +452,11 @@ int main(void)
         cmocka_unit_test(table_of_points),
         cmocka_unit_test(grid_of_a_wheel),
         cmocka_unit_test(vtk_holds_the_numbers_of_the_table),
+        cmocka_unit_test(steps_leave_snapshots_and_a_picture),
+        cmocka_unit_test(bad_rows_are_named_by_their_line),
+        cmocka_unit_test(friction_power_adds_up),
+        cmocka_unit_test(full_sliding_says_that_creepage_is_open),
+        cmocka_unit_test(fitted_is_the_default_for_steady),
         cmocka_unit_test(pictures_are_drawn),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

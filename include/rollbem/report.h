@@ -151,6 +151,13 @@ rb_status rb_report_vtk_check(rb_report_vtk_kind kind, const rb_report_stress *s
 rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind,
                         const rb_report_stress *stress);
 
+/* ---- Steps -------------------------------------------------------------------------- */
+
+/* Creepage or shift, force and stick over the rolled distance, or over the increments of
+ * a static history. */
+rb_status rb_report_history_picture(FILE *out, rb_report_picture_kind kind,
+                                    const rb_rolling_history *history, rb_message *why);
+
 /* ---- Behind the solution ------------------------------------------------------------
  */
 

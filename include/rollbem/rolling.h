@@ -283,6 +283,11 @@ typedef struct {
 
 void rb_rolling_solution_free(rb_rolling_solution *s);
 
+/* Friction power per area and unit speed [stress], n values with sum power h =
+ * dissipation: the energy that a wear law takes.  In steady rolling the slip lives between
+ * midpoints and counts half for either element (theory.md 6).  NAN in static. */
+void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
+
 /* ---- The same problem for the cone solvers
  * --------------------------------------------- */
 

@@ -18,8 +18,7 @@ void cli_case_defaults(cli_case *c)
 
 void cli_case_free(cli_case *c)
 {
-    free(c->profile);
-    c->profile = NULL;
+    rb_io_table_free(&c->profile);
     rb_io_table_free(&c->history);
 }
 
@@ -56,19 +55,27 @@ static cli_exit settle_body_b(const cli_set *set, cli_case *c)
 
 /* ---- Gap profile ------------------------------------------------------------------ */
 
-static cli_exit read_profile(cli_case *c)
+cli_exit cli_read_pairs(const char *path, rb_io_table *t)
 {
     rb_message why;
-    int rows = 0;
-    if (c->rc.gap != RB_GAP_TABLE)
-        return CLI_CONTINUE;
-    const rb_status s = rb_io_read_columns(c->gap_file, 2, &rows, &c->profile, &why);
+    const rb_status s = rb_io_table_read(path, t, &why);
     if (s != RB_OK)
         return cli_fail(cli_exit_of(s), "%s", why.text);
-    c->rc.profile_n = rows;
-    c->rc.profile_x = c->profile;
-    c->rc.profile_gap = c->profile + rows;
+    if (t->columns != 2)
+        return cli_fail(CLI_DATA, "%s:%d: expected 2 numbers, got %d", path, t->line[0],
+                        t->columns);
     return CLI_CONTINUE;
+}
+
+static cli_exit read_profile(cli_case *c)
+{
+    if (c->rc.gap != RB_GAP_TABLE)
+        return CLI_CONTINUE;
+    const cli_exit code = cli_read_pairs(c->gap_file, &c->profile);
+    c->rc.profile_n = c->profile.rows;
+    c->rc.profile_x = c->profile.x;
+    c->rc.profile_gap = c->profile.x + c->profile.rows;
+    return code;
 }
 
 /* ---- History ---------------------------------------------------------------------- */
@@ -217,8 +224,29 @@ static int all_from_file(const cli_case *c)
     return c->path[0] != '\0';
 }
 
+/* "history: row 3: ..." of the library, by the file and its line. */
+static cli_exit blame_row(const char *path, const int *line, int rows, const char *name,
+                          const char *text)
+{
+    int row = 0, rest = 0;
+    const size_t n = strlen(name);
+    if (!path || strncmp(text, name, n) != 0)
+        return CLI_CONTINUE;
+    if (sscanf(text + n, ": row %d: %n", &row, &rest) < 1 || row < 1 || row > rows)
+        return cli_fail(CLI_DATA, "%s: %s", path, text);
+    return cli_fail(CLI_DATA, "%s:%d: %s", path, line[row - 1], text + n + rest);
+}
+
 cli_exit cli_case_refused(const cli_case *c, rb_status s, const rb_message *why)
 {
+    cli_exit code = CLI_CONTINUE;
+    if (s == RB_EINVAL)
+        code = blame_row(c->history_file, c->history.line, c->history.rows, "history",
+                         why->text);
+    if (s == RB_EINVAL && code == CLI_CONTINUE)
+        code = blame_row(c->gap_file, c->profile.line, c->profile.rows, "gap", why->text);
+    if (code != CLI_CONTINUE)
+        return code;
     if (s == RB_EINVAL && all_from_file(c))
         return cli_fail(CLI_DATA, "%s: %s", c->path, why->text);
     return cli_fail(cli_exit_of(s), "%s", why->text);

@@ -36,8 +36,8 @@ typedef struct {
 
     char path[320]; /* case file, "" without */
     int given[CLI_CASE_OPTIONS_MAX];
-    int lists;       /* 1: the command takes several mu */
-    double *profile; /* x, then gap; owned */
+    int lists;           /* 1: the command takes several mu */
+    rb_io_table profile; /* x, gap */
 } cli_case;
 
 void cli_case_defaults(cli_case *c);
@@ -61,6 +61,9 @@ cli_exit cli_case_refuse(const cli_case *c, const char *name, const char *reason
 
 /* 1: transient rolling or a static history. */
 int cli_case_has_steps(const cli_case *c);
+
+/* A table of two columns.  CLI_CONTINUE or an exit code, its line printed. */
+cli_exit cli_read_pairs(const char *path, rb_io_table *t);
 
 /* Prints why the library refused the case; the exit code tells command line from file. */
 cli_exit cli_case_refused(const cli_case *c, rb_status s, const rb_message *why);

@@ -113,6 +113,8 @@ static cli_exit check_case(const cli_case *c)
     for (int k = 0; k < 6 && code == CLI_CONTINUE; k++)
         code = cli_case_refuse(c, driving[k],
                                "the curve runs over --from ... --to by itself");
+    for (int k = 0; k < 2 && code == CLI_CONTINUE; k++)
+        code = cli_case_refuse(c, k ? "accuracy" : "error", "curves have no error bars");
     if (code == CLI_CONTINUE && c->rc.formulation != RB_STEADY)
         code = cli_case_refuse(c, "formulation", "a curve is one of steady rolling");
     return code;

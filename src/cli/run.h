@@ -13,11 +13,19 @@ typedef struct {
     int elements; /* that --accuracy took; 0: not asked */
 } cli_run_result;
 
+/* What a sequence of steps leaves on its way. */
+typedef struct {
+    int progress;          /* a line on standard error now and then */
+    int terminal;          /* the line stays in its place */
+    const char *snapshots; /* folder for traction tables, or NULL */
+    int every;             /* steps from one to the next; the last step has one too */
+} cli_steps;
+
 /* Steady and static cases at once, transients and histories step by step; an interrupt
- * (control-C) ends the latter after the step at hand.  progress: a line on standard error
- * now and then.  With error bars there is no model (model.state.p NULL).  Free the result
+ * (control-C) ends the latter after the step at hand. steps NULL: nothing on
+ * the way.  With error bars there is no model (model.state.p NULL).  Free the result
  * in any case. */
-rb_status cli_run_case(const cli_case *c, int progress, cli_run_result *r,
+rb_status cli_run_case(const cli_case *c, const cli_steps *steps, cli_run_result *r,
                        rb_message *why);
 void cli_run_free(cli_run_result *r);
 

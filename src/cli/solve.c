@@ -5,27 +5,40 @@
 
 #include <jansson.h>
 #include <stddef.h>
+#include <string.h>
+#include <unistd.h>
 
 typedef struct {
-    int trace, progress;
-    const char *dump, *history_table;
+    int trace;
+    const char *dump, *history_table, *history_plot;
+    cli_steps steps;
 } solve_options;
 
 #define PLACE(member) offsetof(solve_options, member)
 
 static const cli_option options[] = {
     CLI_GROUP_LINE("output", "Behind the solution"),
-    CLI_TEXT_LINE("history-table", PLACE(history_table), "FILE",
-                  "the steps of a transient or a static history, one row each",
-                  .unset = "none"),
     CLI_TEXT_LINE(
         "dump", PLACE(dump), "DIR",
         "mesh, H, G, F, M, b as Matrix Market files; with --trace also tableaux",
         .unset = "none"),
     CLI_FLAG_LINE("trace", PLACE(trace),
                   "every pivot of Lemke's method, on standard error"),
-    CLI_FLAG_LINE("progress", PLACE(progress),
-                  "a line on standard error now and then while steps are rolled"),
+
+    CLI_GROUP_LINE("output", "Steps of a transient or of a static history"),
+    CLI_TEXT_LINE("history-table", PLACE(history_table), "FILE",
+                  "one row per step; standard output has the tractions of the last one",
+                  .unset = "none"),
+    CLI_TEXT_LINE("history-plot", PLACE(history_plot), "FILE",
+                  "picture of creepage or shift, force and stick over the way: .png, "
+                  ".svg or .pdf",
+                  .unset = "none"),
+    CLI_TEXT_LINE("snapshots", PLACE(steps.snapshots), "DIR",
+                  "tractions on the way as step_000001.tsv, ...", .unset = "none"),
+    CLI_INTEGER_LINE("every", PLACE(steps.every), CLI_FROM(1),
+                     "steps from one snapshot to the next; the last step has one too"),
+    CLI_FLAG_LINE("progress", PLACE(steps.progress),
+                  "a line on standard error now and then; terminals get it anyway"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -88,6 +101,13 @@ static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *contex
     return rb_report_picture(out, kind, &it->c->rc, &it->r->solution, why);
 }
 
+static rb_status draw_history(FILE *out, rb_report_picture_kind kind, const void *context,
+                              rb_message *why)
+{
+    const result *it = context;
+    return rb_report_history_picture(out, kind, &it->r->history, why);
+}
+
 /* The steps in a file of their own. */
 static cli_exit save_history(const solve_options *so, const cli_output *o,
                              const result *it)
@@ -140,6 +160,9 @@ static cli_exit print_result(cli_sink *sink, const solve_options *so, const resu
         tell_people(it);
     if (code == CLI_OK)
         code = cli_output_draw(o, draw, it);
+    const cli_output steps = {.plot = so->history_plot};
+    if (code == CLI_OK)
+        code = cli_output_draw(&steps, draw_history, it);
     return code;
 }
 
@@ -153,7 +176,7 @@ static cli_exit solve(const solve_options *so, const cli_output *o, const cli_ca
     cli_exit code = cli_sink_open(o, &sink);
     if (code != CLI_CONTINUE)
         return code;
-    const rb_status status = cli_run_case(c, so->progress, &r, &why);
+    const rb_status status = cli_run_case(c, &so->steps, &r, &why);
     code = CLI_OK;
     if (status >= 0 && r.solution.n > 0) {
         const result it = {c, &r};
@@ -166,11 +189,25 @@ static cli_exit solve(const solve_options *so, const cli_output *o, const cli_ca
     return code;
 }
 
+/* Options of steps mean nothing without any. */
+static cli_exit check_steps(const solve_options *so, const int *given, const cli_case *c)
+{
+    const cli_output pictures = {.plot = so->history_plot};
+    int steps = 0;
+    for (int i = 0; i < OPTIONS && !cli_case_has_steps(c); i++) {
+        steps |= strcmp(options[i].name, "history-table") == 0; /* the first of them */
+        if (steps && given[i] == CLI_GIVEN_ARGUMENT)
+            return cli_fail(CLI_USAGE, "--%s: for --formulation transient or --history",
+                            options[i].name);
+    }
+    return cli_output_check(&pictures);
+}
+
 int cli_solve(int argc, char **argv)
 {
     cli_case c;
     cli_output o = {0};
-    solve_options so = {0};
+    solve_options so = {.steps.every = 1};
     cli_args args = {0};
     int given[OPTIONS] = {0};
     cli_case_defaults(&c);
@@ -185,6 +222,9 @@ int cli_solve(int argc, char **argv)
         code = cli_case_finish(&spec, &c, &args);
     if (code == CLI_CONTINUE)
         code = cli_output_check(&o);
+    if (code == CLI_CONTINUE)
+        code = check_steps(&so, given, &c);
+    so.steps.terminal = !o.quiet && isatty(STDERR_FILENO);
     if (so.trace && c.rc.solver == RB_SOLVER_AUTO)
         c.rc.solver = RB_SOLVER_LEMKE; /* the one that pivots */
     if (code == CLI_CONTINUE)

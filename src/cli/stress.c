@@ -81,16 +81,12 @@ static cli_exit read_grid(const stress_options *o, places *p)
 
 static cli_exit read_points(const stress_options *o, places *p)
 {
-    rb_message why;
     if (!o->points)
         return CLI_CONTINUE;
-    const rb_status s = rb_io_table_read(o->points, &p->points, &why);
-    if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "%s", why.text);
+    const cli_exit code = cli_read_pairs(o->points, &p->points);
     const int n = p->points.rows;
-    if (p->points.columns != 2)
-        return cli_fail(CLI_DATA, "%s:%d: expected 2 numbers, x and y, got %d", o->points,
-                        p->points.line[0], p->points.columns);
+    if (code != CLI_CONTINUE)
+        return code;
     p->xy = rb_alloc((size_t)n, 2);
     if (!p->xy)
         return cli_fail(CLI_INTERNAL, "out of memory");
@@ -121,6 +117,7 @@ typedef struct {
     const places *where;
     cli_run_result run;
     rb_rolling_stress_maxima maxima;
+    rb_rolling_errors errors;          /* with --error */
     rb_rolling_stress_grid grid, fine; /* fine: of the pictures */
     rb_rolling_stress *at;             /* of the points */
     rb_report_stress table, picture;
@@ -163,8 +160,22 @@ static rb_report_stress of_grid(const result *r, const rb_rolling_stress_grid *g
                               .at = grid->at,
                               .inside = grid->inside,
                               .maxima = &r->maxima,
+                              .errors = r->c->error ? &r->errors.stress : NULL,
                               .rc = &r->c->rc,
                               .s = &r->run.solution};
+}
+
+/* The model belongs to a plain solution; its error bars are estimated beside it. */
+static rb_status run_case(result *r, rb_message *why)
+{
+    cli_case plain = *r->c;
+    rb_rolling_solution again = {0};
+    plain.error = 0;
+    rb_status s = cli_run_case(&plain, NULL, &r->run, why);
+    if (s == RB_OK && r->c->error)
+        s = rb_rolling_solve_with_errors(&r->c->rc, 1, &again, &r->errors, why);
+    rb_rolling_solution_free(&again);
+    return s;
 }
 
 static rb_status find_stress(result *r, const cli_output *o, rb_message *why)
@@ -275,7 +286,7 @@ static cli_exit solve(const cli_case *c, const stress_options *so, const places 
     cli_exit code = cli_sink_open(o, &sink);
     if (code != CLI_CONTINUE)
         return code;
-    rb_status s = cli_run_case(c, 0, &r.run, &why);
+    rb_status s = run_case(&r, &why);
     if (s == RB_OK)
         s = find_stress(&r, o, &why);
     code = s == RB_OK ? show(&sink, fringes, &r) : CLI_OK;
@@ -289,7 +300,10 @@ static cli_exit solve(const cli_case *c, const stress_options *so, const places 
 static cli_exit check(const cli_case *c, const stress_options *so, const cli_output *o,
                       const cli_output *fringes, places *where)
 {
-    cli_exit code = cli_output_check(o);
+    cli_exit code =
+        cli_case_refuse(c, "accuracy", "stress has error bars, but does not refine");
+    if (code == CLI_CONTINUE)
+        code = cli_output_check(o);
     if (code == CLI_CONTINUE)
         code = cli_output_check(fringes);
     if (code == CLI_CONTINUE)

@@ -3,6 +3,7 @@
 
 #include <jansson.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 json_t *rb_report_json_number(double x)
@@ -133,6 +134,17 @@ json_t *rb_report_json_summary(const rb_rolling_case *rc, const rb_rolling_solut
     return summary;
 }
 
+static json_t *friction_power(const rb_rolling_solution *s)
+{
+    double *power = rb_alloc((size_t)s->n, 1);
+    if (!power)
+        return NULL;
+    rb_rolling_friction_power(s, power);
+    json_t *list = rb_report_json_numbers(s->n, power);
+    free(power);
+    return list;
+}
+
 json_t *rb_report_json_table(const rb_rolling_solution *s)
 {
     json_t *table = json_object();
@@ -143,6 +155,8 @@ json_t *rb_report_json_table(const rb_rolling_solution *s)
                                 ? whole_numbers(s->n, rb_report_ints(s, c))
                                 : rb_report_json_numbers(s->n, rb_report_doubles(s, c)));
     }
+    if (s->formulation != RB_STATIC)
+        json_object_set_new(table, "friction_power_MPa", friction_power(s));
     return table;
 }
 

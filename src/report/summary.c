@@ -149,6 +149,19 @@ static void note_strain(FILE *out, const rb_rolling_case *rc,
                 approach, width);
 }
 
+/* Beyond full sliding the force does not change: it does not tell the creepage. */
+static void note_full_sliding(FILE *out, const rb_rolling_case *rc,
+                              const rb_rolling_solution *s)
+{
+    const int force = !isnan(rc->force) || !isnan(rc->force_ratio);
+    if (s->formulation == RB_STATIC || !force || s->stick > 0 || rc->mu == 0.0 ||
+        s->contact == 0)
+        return;
+    fputs("rollbem: note: full sliding: the creepage is not unique; every larger one "
+          "gives the same force\n",
+          out);
+}
+
 void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
@@ -162,6 +175,7 @@ void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solu
             out,
             "rollbem: note: at %d points the slip of (12) does not oppose the friction\n",
             s->slip_violations);
+    note_full_sliding(out, rc, s);
     if (rc->formulation != RB_STATIC && rc->a.support == RB_BEM_ARC)
         fputs("rollbem: note: on an arc support rolling differs at every angle of the "
               "wheel; "

@@ -239,10 +239,11 @@ static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
                        rc->profile_n);
     for (int i = 0; i < rc->profile_n; i++)
         if (!isfinite(rc->profile_x[i]) || !isfinite(rc->profile_gap[i]))
-            return rb_fail(why, RB_EINVAL, "gap: point %d is not a finite number", i + 1);
+            return rb_fail(why, RB_EINVAL, "gap: row %d is not a finite number", i + 1);
     for (int i = 1; i < rc->profile_n; i++)
         if (rc->profile_x[i] <= rc->profile_x[i - 1])
-            return rb_fail(why, RB_EINVAL, "gap: x must increase, point %d does not",
+            return rb_fail(why, RB_EINVAL,
+                           "gap: row %d: expected an x larger than in the row before",
                            i + 1);
     return RB_OK;
 }

@@ -1,0 +1,122 @@
+/* Picture of a history: creepage or shift, force, stick over the way. */
+#include "report/internal.h"
+
+#include <math.h>
+
+typedef struct {
+    const rb_rolling_history *h;
+    int rolls;    /* 1: over the rolled distance, 0: over the increments */
+    int exponent; /* of the creepage or shift */
+    double power; /* 10^exponent */
+    double from, to;
+} view;
+
+static double motion(const view *v, int i)
+{
+    return v->rolls ? v->h->creepage[i] : v->h->shift[i];
+}
+
+/* Steps at rest have no creepage. */
+static int is_shown(const view *v, int i)
+{
+    return !v->rolls || v->h->distance[i] > 0.0;
+}
+
+static double place(const view *v, int i)
+{
+    return v->rolls ? v->h->distance[i] : i + 1;
+}
+
+static view make_view(const rb_rolling_history *h)
+{
+    view v = {.h = h, .rolls = h->step > 0.0, .to = 1.0};
+    double largest = 0.0;
+    for (int i = 0; i < h->n; i++)
+        largest = is_shown(&v, i) ? fmax(largest, fabs(motion(&v, i))) : largest;
+    if (largest > 0.0 && largest < 0.1)
+        v.exponent = (int)floor(log10(largest));
+    v.power = pow(10.0, v.exponent);
+    v.from = v.rolls ? 0.0 : 1.0;
+    v.to = fmax(v.from + 1e-6, place(&v, h->n - 1));
+    return v;
+}
+
+static void write_data(FILE *out, const view *v)
+{
+    fputs("$data << EOD\n", out);
+    for (int i = 0; i < v->h->n; i++) {
+        const int contact = v->h->stick[i] + v->h->slipping[i];
+        if (is_shown(v, i))
+            fprintf(out, "%.9g %.9g %.9g %.9g\n", place(v, i), motion(v, i) / v->power,
+                    v->h->force_ratio[i], contact ? (double)v->h->stick[i] / contact : 0);
+    }
+    fputs("EOD\n", out);
+}
+
+/* Panel k of three, from above. */
+static void write_panel(FILE *out, int k, const char *label, int column,
+                        const char *colour, int points)
+{
+    static const double top[] = {0.91, 0.64, 0.37}, height = 0.235;
+    fprintf(out,
+            "set tmargin at screen %g\nset bmargin at screen %g\n"
+            "set label 2 '%s' at screen 0.03, %g center rotate\n"
+            "plot $data using 1:%d with %s linecolor rgb '%s' linewidth 1.8 "
+            "pointtype 7 pointsize 0.8\n",
+            top[k], top[k] - height, label, top[k] - height / 2, column,
+            points ? "linespoints" : "lines", colour);
+}
+
+/* Zero belongs to the picture of a force, also of one that does not change. */
+static void write_force_range(FILE *out, const rb_rolling_history *h)
+{
+    double least = 0.0, most = 0.0;
+    for (int i = 0; i < h->n; i++) {
+        least = fmin(least, h->force_ratio[i]);
+        most = fmax(most, h->force_ratio[i]);
+    }
+    const double margin = 0.08 * fmax(most - least, 1e-3);
+    fprintf(out, "set yrange [%.9g:%.9g]\n", least - margin, most + margin);
+}
+
+static void write_script(FILE *out, rb_report_picture_kind kind, const void *context)
+{
+    const view *v = context;
+    const int last = v->h->n - 1, points = v->h->n <= 40;
+    char label[80];
+    (void)kind;
+    write_data(out, v);
+    fputs("set multiplot\nset lmargin at screen 0.14\nset rmargin at screen 0.965\n"
+          "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
+          "set grid linecolor rgb '#dddddd' linewidth 0.6\nunset key\n"
+          "set offsets 0,0,graph 0.08,graph 0.08\nset format x ''\n",
+          out);
+    fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
+    fprintf(out,
+            "set label 1 '{/:Bold %s}   %d steps,  at the end P = %.5g N/mm,  Q = %.5g "
+            "N/mm' at screen 0.54, 0.955 center\n",
+            v->rolls ? "Transient rolling" : "Static history", v->h->n,
+            v->h->normal_load[last], v->h->tangential_load[last]);
+    if (v->exponent)
+        snprintf(label, sizeof label, "%s  [10^{%d}%s]", v->rolls ? "ξ" : "shift",
+                 v->exponent, v->rolls ? "" : " mm");
+    else
+        snprintf(label, sizeof label, "%s", v->rolls ? "ξ" : "shift  [mm]");
+    write_panel(out, 0, label, 2, "#6c3483", points);
+    fputs("unset label 1\n", out);
+    write_force_range(out, v->h);
+    write_panel(out, 1, "Q/(μP)", 3, "#c0392b", points);
+    fprintf(out, "set format x '%%g'\nset xlabel '%s' offset 0,0.3\nset yrange [0:1]\n",
+            v->rolls ? "rolled distance / a" : "increment");
+    write_panel(out, 2, "stick / contact", 4, "#1f4e79", points);
+    fputs("unset multiplot\n", out);
+}
+
+rb_status rb_report_history_picture(FILE *out, rb_report_picture_kind kind,
+                                    const rb_rolling_history *history, rb_message *why)
+{
+    if (history->n < 1)
+        return rb_fail(why, RB_EINVAL, "no steps to draw");
+    const view v = make_view(history);
+    return rb_report_draw(out, kind, RB_REPORT_SLIDE, write_script, &v, why);
+}
