@@ -47,7 +47,7 @@ static double mean_diagonal(const rb_sparse *k)
 static rb_status factor_with_springs(rb_friction_measure *measure)
 {
     const rb_friction_problem *p = measure->problem;
-    rb_sparse held;
+    rb_sparse held = {0};
     measure->spring = mean_diagonal(&p->K);
     rb_status s = add_springs(&p->K, &p->H, measure->spring, &held);
     if (s == RB_OK)
