@@ -213,7 +213,8 @@ typedef struct {
     int press, shear; /* steps in which the force grows, steps of driving */
 } rb_fem_wall_options;
 
-/* About 1700 contact points and 8200 unknowns; 10 + 65 steps of 10 ms. */
+/* About 1700 contact points and 8200 unknowns; one step under its
+ * weight, then 10 + 65 of 10 ms. */
 rb_fem_wall_options rb_fem_wall_defaults(void);
 
 /* One step that was solved. */
@@ -248,8 +249,9 @@ rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
 /* The friction problem of a solved step (from 0), in global form. */
 rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step,
                               rb_friction_problem *problem);
-/* count of the solved steps, spread evenly over their difficulty (iterations, then time),
- * the easiest first.  RB_EINVAL: count < 1 or more than were solved. */
+/* count of the solved steps but the first, spread evenly over their difficulty
+ * (iterations, then time), the easiest first.  RB_EINVAL: count < 1 or more than were
+ * solved. */
 rb_status rb_fem_wall_select(const rb_fem_wall *wall, int count, int *step);
 
 #endif

@@ -12,7 +12,7 @@
 
 typedef struct {
     const char *solver, *output, *plot;
-    double tol;
+    double tol, step;
     int json, quiet;
     int layout, nodes;         /* truss */
     int mesh, rigid, problems; /* wall */
@@ -43,6 +43,8 @@ static const cli_option options[] = {
     CLI_CHOICE_LINE(
         "mesh", PLACE(mesh), meshes,
         "wall: 161, 606 or 1722 contact points; fine: as large as the paper's"),
+    CLI_NUMBER_LINE("step", PLACE(step), "s", CLI_ABOVE(0.0),
+                    "wall: length of a time step"),
     CLI_FLAG_LINE("rigid", PLACE(rigid), "wall: rigid blocks, the same contact points"),
     CLI_INTEGER_LINE("problems", PLACE(problems), CLI_FROM_TO(1, 75),
                      "wall: how many problems go to the folder"),
@@ -64,7 +66,8 @@ static const char about[] =
     "  truss  Kanno, example 3.1: double-layer grid of bars, loaded, then unloaded\n"
     "  wall   after Acary (2017): 12 elastic blocks in running bond, pressed and "
     "sheared;\n"
-    "         implicit dynamics, backward Euler, 10 + 65 steps of 10 ms\n"
+    "         implicit dynamics, backward Euler; one step under its weight, 10 in\n"
+    "         which the force grows to 30 kN, 65 in which the upper support moves\n"
     "Units: bar and truss N, mm, MPa; wall SI. x to the right, the last axis up; normal\n"
     "reactions >= 0 push up.";
 
@@ -94,6 +97,7 @@ static json_t *inputs_of(const example_options *o, const char *name)
     } else if (strcmp(name, "wall") == 0) {
         json_object_set_new(inputs, "mesh", json_string(meshes[o->mesh].name));
         json_object_set_new(inputs, "rigid", json_boolean(o->rigid));
+        json_object_set_new(inputs, "step_s", rb_report_json_number(o->step));
     }
     return inputs;
 }
@@ -312,7 +316,7 @@ static cli_exit write_problem(const wall_run *run, const char *folder, int rank,
 static cli_exit write_problems(const example_options *o, const wall_run *run)
 {
     int chosen[75];
-    const int count = o->problems < run->steps ? o->problems : run->steps;
+    const int count = o->problems < run->steps ? o->problems : run->steps - 1;
     if (mkdir(o->output, 0777) != 0 && errno != EEXIST)
         return cli_fail(CLI_CANTWRITE, "%s: %s", o->output, strerror(errno));
     const rb_status s = rb_fem_wall_select(run->wall, count, chosen);
@@ -351,6 +355,7 @@ static rb_fem_wall_options wall_options(const example_options *o)
         memcpy(w.coarse, coarse[o->mesh], sizeof w.coarse);
     }
     w.rigid = o->rigid;
+    w.dt = o->step;
     return w;
 }
 
@@ -438,7 +443,7 @@ static cli_exit run_example(example_options *o, const char *name)
 int cli_example(int argc, char **argv)
 {
     example_options o = {
-        .solver = "nsn-ac", .tol = 1e-10, .nodes = 12, .mesh = MESH_FINE, .problems = 50};
+        .tol = 1e-10, .step = 1e-2, .nodes = 12, .mesh = MESH_FINE, .problems = 50};
     cli_args args = {0};
     const cli_spec spec = {"rollbem example [OPTION...] bar|truss|wall",
                            about,

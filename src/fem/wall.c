@@ -171,7 +171,7 @@ int rb_fem_wall_dofs(const rb_fem_wall *wall)
 
 int rb_fem_wall_steps(const rb_fem_wall *wall)
 {
-    return wall->options.press + wall->options.shear;
+    return 1 + wall->options.press + wall->options.shear;
 }
 
 const rb_fem_mesh *rb_fem_wall_mesh(const rb_fem_wall *wall)
@@ -199,7 +199,7 @@ rb_status rb_fem_wall_displacements(const rb_fem_wall *wall, double *u)
 
 static double force_at(const rb_fem_wall *w, int step)
 {
-    return most_force * fmin(1.0, (step + 1.0) / w->options.press);
+    return most_force * fmin(1.0, (double)step / w->options.press);
 }
 
 /* f = M v0 + dt (F - K u0); w_N = gap/dt, w_T1 = -drive at the upper support. */
@@ -215,7 +215,7 @@ static void step_vectors(const rb_fem_wall *wall, double *f, double *w)
     rb_sparse_apply_transposed(1.0 / dt, &s->H, c->u, 0.0, w);
     for (int i = 0; i < c->contacts; i++) {
         const int driven =
-            c->contact[i].other == UPPER_SUPPORT && c->solved >= c->options.press;
+            c->contact[i].other == UPPER_SUPPORT && c->solved > c->options.press;
         w[3 * i + 1] = driven ? -drive : 0.0;
         w[3 * i + 2] = 0.0;
     }
@@ -262,11 +262,22 @@ static void describe_step(const rb_fem_wall *w, const rb_friction_info *info,
     const int k = w->solved;
     step->time = (k + 1) * w->options.dt;
     step->compression = force_at(w, k);
-    step->drift = drive * w->options.dt * fmax(0, k + 1 - w->options.press);
+    step->drift = drive * w->options.dt * fmax(0, k - w->options.press);
     step->iterations = info->iters;
     step->residual = info->residual;
     step->seconds = info->seconds;
     count_contacts(w, step);
+}
+
+/* The first step, under the weight alone, starts from contacts that all press a little:
+ * at r = 0 the blocks fall together and every joint between them is undecided. */
+static void guess_first(rb_fem_wall *w)
+{
+    double weight = 0.0;
+    for (int i = 0; i < w->system.dofs; i++)
+        weight += fabs(w->system.weight[i]);
+    for (int i = 0; i < w->contacts; i++)
+        w->r[3 * i] = w->options.dt * weight / w->contacts;
 }
 
 /* u = W r + q with q = w + H' A^-1 f, then v = A^-1 (f + H r). */
@@ -281,6 +292,7 @@ static rb_status solve_step(rb_fem_wall *w, const recorded_step *now, const char
                                        .Ws = w->W,
                                        .q = w->q};
     options.tol = tol;
+    options.r0 = w->solved == 0 ? w->r : NULL;
     rb_status s = rb_sparse_cholesky_solve(w->factor, now->f, w->work);
     if (s != RB_OK)
         return s;
@@ -316,6 +328,8 @@ rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
     recorded_step *now = &wall->record[wall->solved];
     rb_friction_info info = {0};
     rb_status s = record_vectors(wall, now);
+    if (wall->solved == 0)
+        guess_first(wall);
     if (s == RB_OK)
         s = solve_step(wall, now, solver, tol, &info);
     if (s < RB_OK)
@@ -366,7 +380,7 @@ rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step,
 
 rb_status rb_fem_wall_select(const rb_fem_wall *wall, int count, int *step)
 {
-    const int n = wall->solved;
+    const int n = wall->solved - 1;
     if (count < 1 || count > n)
         return RB_EINVAL;
     int *order = rb_alloc_int((size_t)n);

@@ -1,0 +1,351 @@
+/* The bar and both trusses against tests/data/kanno/reference.json, each by two solvers;
+ * equilibrium and the contact laws recomputed from the states alone. */
+#include "check.h"
+#include "rollbem/fem.h"
+
+#include <jansson.h>
+#include <string.h>
+
+static json_t *reference;
+
+static int load_reference(void **state)
+{
+    (void)state;
+    reference = json_load_file("tests/data/kanno/reference.json", 0, NULL);
+    return reference ? 0 : -1;
+}
+
+static int drop_reference(void **state)
+{
+    (void)state;
+    json_decref(reference);
+    return 0;
+}
+
+static double number(const json_t *o, const char *key)
+{
+    const json_t *x = json_object_get(o, key);
+    assert_true(json_is_number(x));
+    return json_number_value(x);
+}
+
+static double entry(const json_t *o, const char *key, size_t k)
+{
+    return json_number_value(json_array_get(json_object_get(o, key), k));
+}
+
+static double tangential(int d, const double *x)
+{
+    return d == 2 ? fabs(x[1]) : hypot(x[1], x[2]);
+}
+
+/* Coulomb's law and Signorini's for every contact, and K u = F + H r on the full mesh. */
+static void laws_hold(const rb_fem_model *model, const rb_fem_history *h, double tol)
+{
+    const int d = model->mesh.dimension, n = model->structure.dofs;
+    double *u = rb_alloc((size_t)n, 1), *f = rb_alloc((size_t)n, 1);
+    double far = 0.0;
+    for (int k = 0; k < h->steps; k++)
+        for (int i = 0; i < model->structure.contacts; i++)
+            far = fmax(far, tangential(d, h->step[k].du + d * i));
+    for (int k = 0; k < h->steps; k++) {
+        const rb_fem_step *s = &h->step[k];
+        double most = 0.0;
+        for (int i = 0; i < model->structure.contacts; i++)
+            most = fmax(most, s->r[d * i]);
+        for (int i = 0; i < model->structure.contacts; i++) {
+            const double *r = s->r + d * i, *du = s->du + d * i;
+            const double limit = model->structure.mu[i] * r[0], t = tangential(d, r);
+            double work = 0.0;
+            for (int a = 1; a < d; a++)
+                work += r[a] * du[a];
+            CHECK_MAX(-r[0], tol * most, "step %d, contact %d pulls", k, i);
+            CHECK_MAX(-s->gap[i], tol, "step %d, contact %d penetrates", k, i);
+            CHECK_MAX(fmin(r[0] / most, s->gap[i]), tol, "step %d, contact %d", k, i);
+            CHECK_MAX(t - limit, tol * most, "step %d, contact %d outside its cone", k,
+                      i);
+            CHECK_ABS(work, -limit * tangential(d, du), tol * most * far,
+                      "step %d, contact %d: dissipation", k, i);
+        }
+        for (int i = 0; i < d * model->mesh.nodes; i++)
+            if (model->mesh.dof[i] >= 0)
+                u[model->mesh.dof[i]] = s->u[i];
+        memcpy(f, model->load + (size_t)k * (size_t)n, (size_t)n * sizeof *f);
+        rb_sparse_apply(1.0, &model->structure.H, s->r, 1.0, f);
+        rb_sparse_apply(-1.0, &model->structure.K, u, 1.0, f);
+        CHECK_MAX(rb_norm_inf((size_t)n, f), tol * most, "step %d: balance", k);
+    }
+    free(u);
+    free(f);
+}
+
+/* ---- Bar ----------------------------------------------------------------------------
+ */
+
+static void check_bar_state(const json_t *want, const rb_fem_model *model,
+                            const rb_fem_step *got)
+{
+    const double *top = got->u + 2 * (model->mesh.nodes - 1), *bottom = got->u + 2 * 160;
+    double rn = 0.0, rt = 0.0, rn_max = 0.0;
+    int at = 0;
+    for (int i = 0; i < 161; i++) {
+        rn += got->r[2 * i];
+        rt += got->r[2 * i + 1];
+        if (got->r[2 * i] > rn_max)
+            rn_max = got->r[2 * (at = i)];
+    }
+    assert_int_equal(got->stick, (int)number(want, "stick"));
+    assert_int_equal(got->slip, (int)number(want, "slip_left"));
+    assert_int_equal(got->separated, (int)number(want, "separated"));
+    for (size_t k = 0; k < 2; k++) {
+        CHECK_REL(top[k], entry(want, "u_top_right_mm", k), 1e-9, "corner %zu", k);
+        CHECK_ABS(bottom[k], entry(want, "u_bottom_right_mm", k), 1e-10, "bottom %zu", k);
+    }
+    CHECK_REL(rn, 40.0, 1e-10, "sum of normal reactions");
+    CHECK_REL(rt, number(want, "sum_rt_N"), 1e-9, "sum of friction");
+    CHECK_REL(rn_max, number(want, "rn_max_N"), 1e-9, "largest reaction");
+    assert_int_equal(at, (int)number(want, "rn_max_node"));
+}
+
+/* The reference gives ten digits: 1e-9 of each value, or of the largest in its column. */
+static void check_bar_nodes(const json_t *final, const rb_fem_step *s)
+{
+    static const char *const keys[] = {"rn_N", "rt_N", "ut_mm", "un_mm"};
+    const json_t *nodes = json_object_get(final, "nodes");
+    for (size_t c = 0; c < 4; c++) {
+        double largest = 0.0;
+        for (size_t k = 0; k < json_array_size(nodes); k++)
+            largest = fmax(largest, fabs(entry(final, keys[c], k)));
+        for (size_t k = 0; k < json_array_size(nodes); k++) {
+            const int i = (int)json_integer_value(json_array_get(nodes, k));
+            const double got[4] = {s->r[2 * i], s->r[2 * i + 1], s->u[2 * i], s->gap[i]};
+            CHECK_ABS(got[c], entry(final, keys[c], k), 1e-9 * largest, "%s of node %d",
+                      keys[c], i);
+        }
+    }
+}
+
+static void bar_by(const char *solver)
+{
+    const json_t *bar = json_object_get(reference, "bar");
+    const json_t *increments = json_object_get(bar, "increments");
+    rb_fem_model model;
+    rb_fem_history h;
+    rb_message why = {""};
+    CHECK_STATUS(rb_fem_model_bar(160, 16, &model, &why), RB_OK);
+    CHECK_STATUS(rb_fem_run(&model, solver, 1e-12, &h, &why), RB_OK);
+    assert_int_equal(h.steps, 5);
+    for (int k = 0; k < 5; k++)
+        check_bar_state(json_array_get(increments, (size_t)k), &model, &h.step[k]);
+    check_bar_nodes(json_object_get(bar, "final"), &h.step[4]);
+    laws_hold(&model, &h, 1e-9);
+    rb_fem_history_free(&h);
+    rb_fem_model_free(&model);
+}
+
+static void bar_by_lemke(void **state)
+{
+    (void)state;
+    bar_by("lemke");
+}
+
+static void bar_by_newton(void **state)
+{
+    (void)state;
+    bar_by("nsn-nm");
+}
+
+/* ---- Truss --------------------------------------------------------------------------
+ */
+
+static void check_truss_state(const json_t *want, const rb_fem_model *model,
+                              const rb_fem_step *got)
+{
+    double du = 0.0, total = 0.0, least = 1e300, most = 0.0, rt = 0.0;
+    for (int i = 0; i < model->structure.contacts; i++) {
+        du = fmax(du, tangential(3, got->du + 3 * i));
+        total = fmax(total, hypot(got->u[3 * i], got->u[3 * i + 1]));
+        least = fmin(least, got->r[3 * i]);
+        most = fmax(most, got->r[3 * i]);
+        rt = fmax(rt, tangential(3, got->r + 3 * i));
+    }
+    assert_int_equal(got->stick, (int)number(want, "stick"));
+    assert_int_equal(got->slip, (int)number(want, "slip"));
+    assert_int_equal(got->separated, (int)number(want, "separated"));
+    CHECK_ABS(du, number(want, "max_increment_mm"), 1e-8 * fmax(du, 1e-5), "increment");
+    CHECK_REL(total, number(want, "max_total_mm"), 1e-8, "displacement");
+    CHECK_REL(least, number(want, "rn_min_N"), 1e-8, "least reaction");
+    CHECK_REL(most, number(want, "rn_max_N"), 1e-8, "largest reaction");
+    CHECK_REL(rt, number(want, "rt_max_N"), 1e-8, "largest friction");
+}
+
+static int node_near(const rb_fem_model *model, double x, double y)
+{
+    for (int i = 0; i < model->structure.contacts; i++)
+        if (hypot(model->mesh.x[3 * i] - x, model->mesh.x[3 * i + 1] - y) < 1.0)
+            return i;
+    fail_msg("no node at %g, %g", x, y);
+    return -1;
+}
+
+static void check_truss_node(const json_t *want, const rb_fem_model *model,
+                             const rb_fem_history *h)
+{
+    const rb_fem_step *s = &h->step[(int)number(want, "m") - 1];
+    const int i = node_near(model, number(want, "x_mm"), number(want, "y_mm"));
+    const double size = fmax(hypot(s->u[3 * i], s->u[3 * i + 1]), 1e-2);
+    CHECK_REL(s->r[3 * i], number(want, "rn_N"), 1e-8, "node %d, rn", i);
+    for (size_t k = 0; k < 2; k++) {
+        CHECK_ABS(s->u[3 * i + (int)k], entry(want, "ut_mm", k), 1e-8 * size, "node %d",
+                  i);
+        CHECK_ABS(s->r[3 * i + 1 + (int)k], entry(want, "rt_N", k), 1e-8 * s->r[3 * i],
+                  "node %d, rt", i);
+    }
+}
+
+/* u(-x, y) = -u_x, u_y and so on, against the largest increment of the step. */
+static void mirror_symmetry(const rb_fem_model *model, const rb_fem_history *h)
+{
+    for (int k = 0; k < h->steps; k++) {
+        const double *du = h->step[k].du;
+        double largest = 1e-6;
+        for (int i = 0; i < model->structure.contacts; i++)
+            largest = fmax(largest, tangential(3, du + 3 * i));
+        for (int i = 0; i < model->structure.contacts; i++) {
+            const double *x = model->mesh.x + 3 * i;
+            const double *a = du + 3 * node_near(model, -x[0], x[1]);
+            const double *b = du + 3 * node_near(model, x[0], -x[1]);
+            CHECK_ABS(a[1], -du[3 * i + 1], 1e-9 * largest, "step %d, node %d", k, i);
+            CHECK_ABS(a[2], du[3 * i + 2], 1e-9 * largest, "step %d, node %d", k, i);
+            CHECK_ABS(b[1], du[3 * i + 1], 1e-9 * largest, "step %d, node %d", k, i);
+            CHECK_ABS(b[2], -du[3 * i + 2], 1e-9 * largest, "step %d, node %d", k, i);
+        }
+    }
+}
+
+static void truss_by(const char *solver, rb_fem_layout layout, int n)
+{
+    static const char *const names[] = {"upper_inside", "upper_overhanging"};
+    const json_t *truss = json_object_get(reference, "truss");
+    const json_t *set = json_object_get(json_object_get(truss, "layouts"), names[layout]);
+    const json_t *increments =
+        json_object_get(set, n == 12 ? "n12_increments" : "n4_increments");
+    const json_t *nodes = json_object_get(set, n == 12 ? "n12_nodes" : "n4_nodes");
+    rb_fem_model model;
+    rb_fem_history h;
+    rb_message why = {""};
+    CHECK_STATUS(rb_fem_model_truss(layout, n, &model, &why), RB_OK);
+    CHECK_STATUS(rb_fem_run(&model, solver, 1e-12, &h, &why), RB_OK);
+    assert_int_equal(h.steps, 6);
+    for (int k = 0; k < 6; k++)
+        check_truss_state(json_array_get(increments, (size_t)k), &model, &h.step[k]);
+    for (size_t k = 0; k < json_array_size(nodes); k++)
+        check_truss_node(json_array_get(nodes, k), &model, &h);
+    mirror_symmetry(&model, &h);
+    laws_hold(&model, &h, 1e-9);
+    rb_fem_history_free(&h);
+    rb_fem_model_free(&model);
+}
+
+static void small_trusses_by_every_newton(void **state)
+{
+    (void)state;
+    static const char *const solvers[] = {"nsn-ac", "soclcp-smoothing"};
+    for (int k = 0; k < 4; k++)
+        truss_by(solvers[k / 2], (rb_fem_layout)(k % 2), 4);
+}
+
+static void trusses_by_newton(void **state)
+{
+    (void)state;
+    truss_by("nsn-ac", RB_FEM_UPPER_INSIDE, 12);
+    truss_by("nsn-ac", RB_FEM_UPPER_OVERHANGING, 12);
+}
+
+static void trusses_by_smoothing(void **state)
+{
+    (void)state;
+    truss_by("soclcp-smoothing", RB_FEM_UPPER_INSIDE, 12);
+    truss_by("soclcp-smoothing", RB_FEM_UPPER_OVERHANGING, 12);
+}
+
+/* The full system, without condensation, gives the same first increment. */
+static void condensation_changes_nothing(void **state)
+{
+    (void)state;
+    rb_fem_model model;
+    rb_fem_history h;
+    rb_fem_state start;
+    rb_fem_units units;
+    rb_friction_problem problem;
+    rb_friction_info info;
+    rb_message why = {""};
+    CHECK_STATUS(rb_fem_model_truss(RB_FEM_UPPER_INSIDE, 4, &model, &why), RB_OK);
+    CHECK_STATUS(rb_fem_run(&model, "nsn-ac", 1e-12, &h, &why), RB_OK);
+    CHECK_STATUS(rb_fem_state_alloc(&model.structure, &start), RB_OK);
+    CHECK_STATUS(rb_fem_problem(&model.structure, model.load, &start, &problem, &units),
+                 RB_OK);
+    const int m = 3 * model.structure.contacts;
+    double *r = rb_alloc((size_t)m, 1), *u = rb_alloc((size_t)m, 1);
+    rb_friction_options options = rb_friction_defaults();
+    options.tol = 1e-12;
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &problem, &options, r, u, NULL, &info),
+                 RB_OK);
+    for (int k = 0; k < m; k++)
+        CHECK_ABS(units.force * r[k], h.step[0].r[k], 1e-4, "reaction %d of 3e5 N", k);
+    free(r);
+    free(u);
+    rb_friction_problem_free(&problem);
+    rb_fem_state_free(&start);
+    rb_fem_history_free(&h);
+    rb_fem_model_free(&model);
+}
+
+static void an_unknown_solver_is_refused(void **state)
+{
+    (void)state;
+    rb_fem_model model;
+    rb_fem_history h;
+    rb_message why = {""};
+    CHECK_STATUS(rb_fem_model_bar(4, 2, &model, &why), RB_OK);
+    CHECK_STATUS(rb_fem_run(&model, "nosuch", 1e-8, &h, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "nosuch"));
+    rb_fem_history_free(&h);
+    rb_fem_model_free(&model);
+}
+
+static void memory_runs_out(void **state)
+{
+    (void)state;
+    rb_fem_model model;
+    CHECK_STATUS(rb_fem_model_bar(4, 2, &model, NULL), RB_OK);
+    for (int k = 0;; k++) {
+        rb_fem_history h;
+        alloc_fail_after(k);
+        const rb_status s = rb_fem_run(&model, "nsn-nm", 1e-10, &h, NULL);
+        const int refused = alloc_failed();
+        alloc_succeed();
+        rb_fem_history_free(&h);
+        if (!refused) {
+            CHECK_STATUS(s, RB_OK);
+            break;
+        }
+        CHECK_STATUS(s, RB_ENOMEM);
+    }
+    rb_fem_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bar_by_lemke),
+        cmocka_unit_test(bar_by_newton),
+        cmocka_unit_test(small_trusses_by_every_newton),
+        cmocka_unit_test(trusses_by_newton),
+        cmocka_unit_test(trusses_by_smoothing),
+        cmocka_unit_test(condensation_changes_nothing),
+        cmocka_unit_test(an_unknown_solver_is_refused),
+        cmocka_unit_test(memory_runs_out),
+    };
+    return cmocka_run_group_tests(tests, load_reference, drop_reference);
+}
