@@ -78,7 +78,7 @@ $(B)/%.o: %.c
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -fPIC -MMD -MP -c -o $@ $<
 
 # tests of failing allocations count the library's own calls: --wrap sees the static library
-WRAP = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc
+WRAP = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc
 $(B)/tests/%: tests/%.c tests/check.h tests/failing_alloc.c $(B)/librollbem.a
 	@mkdir -p $(@D)
 	@echo "  CC  $<"

@@ -298,9 +298,11 @@ static double lu_alone(int order)
         state = state * 1664525u + 1013904223u;
         A[k] = state / 4294967296.0 - 0.5;
     }
+    const int threads = rb_blas_threads(0);
     const double start = rb_seconds();
     LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, order, order, A, order, pivot);
     const double seconds = rb_seconds() - start;
+    rb_blas_threads(threads);
     free(pivot);
     free(A);
     return seconds;

@@ -7,15 +7,15 @@
 
 double *rb_large_alloc(size_t rows, size_t cols)
 {
-    if (cols && rows > SIZE_MAX / sizeof(double) / cols)
+    const size_t page = (size_t)2 << 20, line = 64;
+    if (cols && rows > (SIZE_MAX - page) / sizeof(double) / cols)
         return NULL;
-    const size_t bytes = rows * cols * sizeof(double), page = (size_t)2 << 20;
-    double *p = malloc(bytes ? bytes : 1);
+    const size_t bytes = rows * cols * sizeof(double), unit = bytes < page ? line : page;
+    const size_t whole = (bytes / unit + 1) * unit;
+    double *p = aligned_alloc(unit, whole);
 #ifdef MADV_HUGEPAGE
-    const uintptr_t first = ((uintptr_t)p + page - 1) / page * page,
-                    last = ((uintptr_t)p + bytes) / page * page;
-    if (p && first < last)
-        madvise((char *)p + (first - (uintptr_t)p), last - first, MADV_HUGEPAGE);
+    if (p && unit == page)
+        madvise(p, whole, MADV_HUGEPAGE);
 #endif
     return p;
 }

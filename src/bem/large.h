@@ -4,8 +4,9 @@
 
 #include <stddef.h>
 
-/* rows x cols doubles, not set; in huge pages where the system has them, because touching
- * small pages for the first time costs many times the writing.  Released with free(). */
+/* rows x cols doubles, not set, from the start of a cache line; in huge pages where the
+ * system has them, because touching small pages for the first time costs many times the
+ * writing.  Released with free(). */
 double *rb_large_alloc(size_t rows, size_t cols);
 
 #endif

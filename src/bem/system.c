@@ -21,6 +21,7 @@ enum { PARALLEL_LU = 1500 };
 struct rb_bem_system {
     rb_bem_mesh mesh;
     int dofs;     /* 2n */
+    int ld;       /* of A and Gc */
     int offset;   /* the dof that comes first */
     double *A;    /* LU, 2n x 2n */
     double *b;    /* of the given values, 2n */
@@ -66,6 +67,13 @@ void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double
     *factor = system->seconds_factor;
 }
 
+/* Columns begin at a cache line, and not all at the same place of the caches. */
+static int leading_dimension(int dofs)
+{
+    const int ld = (dofs + 7) / 8 * 8;
+    return ld % 512 ? ld : ld + 8;
+}
+
 static rb_bem_system *system_alloc(const rb_bem_mesh *mesh)
 {
     const size_t dofs = 2 * (size_t)mesh->n, loads = 2 * (size_t)mesh->contact_n;
@@ -74,8 +82,9 @@ static rb_bem_system *system_alloc(const rb_bem_mesh *mesh)
         return NULL;
     s->dofs = 2 * mesh->n;
     s->offset = loads ? 2 * (mesh->contact_first + mesh->contact_n + 1) % s->dofs : 0;
-    s->A = rb_large_alloc(dofs, dofs);
-    s->Gc = rb_large_alloc(dofs, loads);
+    s->ld = leading_dimension(s->dofs);
+    s->A = rb_large_alloc((size_t)s->ld, dofs);
+    s->Gc = rb_large_alloc((size_t)s->ld, loads);
     s->b = rb_alloc(dofs, 1);
     s->unit = rb_alloc(dofs, 1);
     s->pivot = calloc(dofs, sizeof *s->pivot);
@@ -88,14 +97,13 @@ static rb_bem_system *system_alloc(const rb_bem_mesh *mesh)
 
 static double *column_of(const rb_bem_system *s, int dof)
 {
-    return s->A + (size_t)((dof - s->offset + s->dofs) % s->dofs) * (size_t)s->dofs;
+    return s->A + (size_t)((dof - s->offset + s->dofs) % s->dofs) * (size_t)s->ld;
 }
 
 /* Element j: the unknowns' columns into A, a contact element's loads into Gc. */
 static void assemble_element(rb_bem_system *s, const rb_assembly *assembly, int j)
 {
     const rb_bem_condition *condition = s->mesh.condition + 2 * j;
-    const size_t dofs = (size_t)s->dofs;
     double *H[2] = {NULL, NULL}, *G[2] = {NULL, NULL};
     double factor = 1.0;
 
@@ -107,7 +115,8 @@ static void assemble_element(rb_bem_system *s, const rb_assembly *assembly, int 
             H[k] = column_of(s, 2 * j + k);
         }
         if (condition[k] == RB_BEM_CONTACT)
-            G[k] = s->Gc + (2 * (size_t)(j - s->mesh.contact_first) + (size_t)k) * dofs;
+            G[k] = s->Gc +
+                   (2 * (size_t)(j - s->mesh.contact_first) + (size_t)k) * (size_t)s->ld;
     }
     rb_assembly_columns(assembly, j, factor, (double *const[4]){H[0], H[1], G[0], G[1]});
 }
@@ -217,12 +226,12 @@ static rb_status assemble(rb_bem_system *s, rb_bem_material material)
     return status;
 }
 
-static double norm_one(int n, const double *A)
+static double norm_one(int n, const double *A, int ld)
 {
     double norm = 0.0;
 #pragma omp parallel for reduction(max : norm) if (0.25 * n * n > rb_pairs_for_threads)
     for (int j = 0; j < n; j++) {
-        const double *column = A + (size_t)j * (size_t)n;
+        const double *column = A + (size_t)j * (size_t)ld;
         double sum = 0.0;
         for (int i = 0; i < n; i++)
             sum += fabs(column[i]);
@@ -235,16 +244,16 @@ static double norm_one(int n, const double *A)
 static rb_status factor(rb_bem_system *s, rb_message *why)
 {
     const lapack_int n = s->dofs;
-    const double norm = norm_one(n, s->A);
+    const double norm = norm_one(n, s->A, s->ld);
     double *work = rb_alloc((size_t)n, 4);
     lapack_int *iwork = calloc((size_t)n, sizeof *iwork);
     rb_status status = RB_ENOMEM;
 
     if (work && iwork) {
         const int threads = rb_blas_threads(n >= PARALLEL_LU ? 0 : 1);
-        LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, s->A, n, s->pivot);
+        LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, s->A, s->ld, s->pivot);
         rb_blas_threads(threads);
-        LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, s->A, n, norm, &s->rcond, work,
+        LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', n, s->A, s->ld, norm, &s->rcond, work,
                             iwork);
         status = s->rcond > 1e-14
                      ? RB_OK
@@ -332,9 +341,9 @@ rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_conta
         return RB_ENOMEM;
     memcpy(x, s->b, (size_t)n * sizeof *x);
     if (t_contact && loads)
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, loads, 1.0, s->Gc, n, t_contact, 1,
-                    1.0, x, 1);
-    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, 1, s->A, n, s->pivot, x, n);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, loads, 1.0, s->Gc, s->ld, t_contact,
+                    1, 1.0, x, 1);
+    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, 1, s->A, s->ld, s->pivot, x, n);
     distribute(s, x, t_contact, u, t);
     free(x);
     return RB_OK;
@@ -349,17 +358,20 @@ rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_conta
 static double *solve_contact(const rb_bem_system *s)
 {
     const int n = s->dofs, loads = 2 * s->mesh.contact_n, kept = loads + 2;
-    const size_t rows = (size_t)n, corner = rows - (size_t)kept;
+    const int ld = s->ld;
+    const size_t rows = (size_t)ld, corner = (size_t)(n - kept);
     double *X = rb_large_alloc(rows, (size_t)loads + 1);
     if (!X)
         return NULL;
     memcpy(X, s->Gc, rows * (size_t)loads * sizeof *X);
-    memcpy(X + rows * (size_t)loads, s->b, rows * sizeof *X);
-    LAPACKE_dlaswp_work(LAPACK_COL_MAJOR, loads + 1, X, n, 1, n, s->pivot, 1);
+    memcpy(X + rows * (size_t)loads, s->b, (size_t)n * sizeof *X);
+    const int threads = rb_blas_threads(n >= PARALLEL_LU ? 0 : 1);
+    LAPACKE_dlaswp_work(LAPACK_COL_MAJOR, loads + 1, X, ld, 1, n, s->pivot, 1);
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, n,
-                loads + 1, 1.0, s->A, n, X, n);
+                loads + 1, 1.0, s->A, ld, X, ld);
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, kept,
-                loads + 1, 1.0, s->A + corner * (rows + 1), n, X + corner, n);
+                loads + 1, 1.0, s->A + corner * (rows + 1), ld, X + corner, ld);
+    rb_blas_threads(threads);
     return X;
 }
 
@@ -380,8 +392,8 @@ static void turn_to_frames(const rb_bem_system *s, rb_bem_normals normals,
                            const double *X, rb_bem_flexibility *f, double *F)
 {
     const int n = f->n, m = f->m, first = s->mesh.contact_first;
-    const size_t ld = (size_t)s->dofs;
-    const double *U = X + ld - 2 * (size_t)m;
+    const size_t ld = (size_t)s->ld;
+    const double *U = X + s->dofs - 2 * m;
     double to[2][2], from[2][2];
 
     for (int i = 0; i < m; i++) {
