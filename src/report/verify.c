@@ -50,11 +50,29 @@ rb_rolling_case rb_verify_uncoupled(void)
     return rc;
 }
 
+/* Aluminium on steel rolling freely, R_A = R_B = 50, a = 0.1. */
+rb_rolling_case rb_verify_aluminium_on_steel(double mu)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.young = 2.0 * 23000.0 * 1.31;
+    rc.a.poisson = 0.31;
+    rc.b = rc.a;
+    rc.b.young = 2.0 * 82000.0 * 1.28;
+    rc.b.poisson = 0.28;
+    rc.elastic_b = 1;
+    rc.half_width = 0.1;
+    rc.mu = mu;
+    rc.formulation = RB_STEADY;
+    rc.force = 0.0;
+    return rc;
+}
+
 int rb_report_verify(rb_report_each_check *each, void *context)
 {
     rb_verify v = {.each = each, .context = context};
     rb_verify_bodies(&v);
     rb_verify_contact(&v);
     rb_verify_rolling(&v);
+    rb_verify_accuracy(&v);
     return v.failed;
 }

@@ -30,8 +30,13 @@ void rb_verify_solve(rb_verify *v, const rb_rolling_case *rc, rb_rolling_solutio
  * fitted elements; with nu = 1/2 the pair has no coupling, as similar bodies. */
 rb_rolling_case rb_verify_uncoupled(void);
 
+/* Aluminium on steel rolling freely, R_A = R_B = 50, a = 0.1 (theory.md 6). */
+rb_rolling_case rb_verify_aluminium_on_steel(double mu);
+
 void rb_verify_contact(rb_verify *v); /* Hertz, Carter, Cattaneo, Bentall-Johnson */
 void rb_verify_bodies(rb_verify *v);  /* the elastic body alone, and below the contact */
 void rb_verify_rolling(rb_verify *v); /* transients, dissipation */
+void rb_verify_accuracy(
+    rb_verify *v); /* how near fitted elements come, by their number */
 
 #endif

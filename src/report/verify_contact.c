@@ -142,29 +142,12 @@ static void cattaneo(rb_verify *v, double ratio)
 
 /* ---- Dissimilar bodies ------------------------------------------------------------ */
 
-/* Aluminium on steel rolling freely, R_A = R_B = 50, a = 0.1. */
-static rb_rolling_case aluminium_on_steel(double mu)
-{
-    rb_rolling_case rc = rb_verify_uncoupled();
-    rc.a.young = 2.0 * 23000.0 * 1.31;
-    rc.a.poisson = 0.31;
-    rc.b = rc.a;
-    rc.b.young = 2.0 * 82000.0 * 1.28;
-    rc.b.poisson = 0.28;
-    rc.elastic_b = 1;
-    rc.half_width = 0.1;
-    rc.mu = mu;
-    rc.formulation = RB_STEADY;
-    rc.force = 0.0;
-    return rc;
-}
-
 static void bentall_johnson(rb_verify *v)
 {
     const double beta = 0.143834, modulus = 51572.3, a = 0.1, R = 25.0;
     const rb_closed_bentall_johnson rough =
         rb_closed_bentall_johnson_stick(beta, a, R, modulus);
-    rb_rolling_case rc = aluminium_on_steel(20.0);
+    rb_rolling_case rc = rb_verify_aluminium_on_steel(20.0);
     rb_rolling_solution s;
     rb_verify_solve(v, &rc, &s);
     rb_verify_compare(v, s.creepage, -rough.creepage, 1e-3, RELATIVE,
@@ -172,7 +155,7 @@ static void bentall_johnson(rb_verify *v)
     rb_verify_compare(v, s.half_width, rough.half_width, 1e-3, RELATIVE,
                       "Bentall-Johnson, mu = 20: half-width of mu -> inf");
     rb_rolling_solution_free(&s);
-    rc = aluminium_on_steel(1e-4);
+    rc = rb_verify_aluminium_on_steel(1e-4);
     rb_verify_solve(v, &rc, &s);
     rb_verify_compare(v, s.creepage, -rb_closed_bentall_johnson_slip(beta, a, R), 2e-3,
                       RELATIVE, "Bentall-Johnson, mu = 1e-4: creepage of mu -> 0");

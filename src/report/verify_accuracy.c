@@ -1,0 +1,144 @@
+/* How near elements fitted to the contact come to the closed forms, and pairs of cases
+ * that must give the same. */
+#include "report/verify.h"
+
+#include "rollbem/closed_forms.h"
+
+#include <math.h>
+
+enum { ABSOLUTE = RB_VERIFY_ABSOLUTE, RELATIVE = RB_VERIFY_RELATIVE };
+
+/* ---- Carter -------------------------------------------------------------------------
+ */
+
+/* Largest error of Q/(mu P) for s = 0.1 ... 0.95. */
+static void carter_at(rb_verify *v, int elements, double bound)
+{
+    double largest = 0.0;
+    for (int k = 1; k <= 10; k++) {
+        const double ratio = fmin(0.1 * k, 0.95);
+        rb_rolling_case rc = rb_verify_uncoupled();
+        rb_rolling_solution s;
+        rc.formulation = RB_STEADY;
+        rc.contact_elements = elements;
+        rc.creep_ratio = ratio;
+        rb_verify_solve(v, &rc, &s);
+        const double error = fabs(s.force_ratio - rb_closed_carter_force_ratio(ratio));
+        largest = error <= largest ? largest : error; /* keeps NaN */
+        rb_rolling_solution_free(&s);
+    }
+    rb_verify_compare(v, largest, 0.0, bound, ABSOLUTE,
+                      "Carter, %d elements: largest error of Q/(mu P)", elements);
+}
+
+/* The creepage of a given force, Q/(mu P) = 0.1 ... 0.99. */
+static void carter_by_force(rb_verify *v)
+{
+    double largest = 0.0, off = 0.0;
+    for (int k = 1; k <= 10; k++) {
+        const double ratio = fmin(0.1 * k, 0.99);
+        rb_rolling_case rc = rb_verify_uncoupled();
+        rb_rolling_solution s;
+        rc.formulation = RB_STEADY;
+        rc.contact_elements = 200;
+        rc.force_ratio = -ratio;
+        rb_verify_solve(v, &rc, &s);
+        const double wanted = rb_closed_carter_creep_ratio(-ratio);
+        const double error = fabs(s.creep_ratio / wanted - 1.0);
+        largest = error <= largest ? largest : error;
+        off = fmax(off, fabs(s.force_ratio / ratio + 1.0));
+        rb_rolling_solution_free(&s);
+    }
+    rb_verify_compare(v, off, 0.0, 1e-10, ABSOLUTE,
+                      "Carter by force: Q as asked, relative");
+    rb_verify_compare(v, largest, 0.0, 2e-4, ABSOLUTE,
+                      "Carter by force, 200 elements: creepage, relative");
+}
+
+/* Two similar cylinders roll as one of nu = 1/2 on a rigid plane. */
+static void similar_pair(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_solution one, two;
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = 0.4;
+    rb_verify_solve(v, &rc, &one);
+    rc.a.poisson = 0.3;
+    rc.b = rc.a;
+    rc.elastic_b = 1;
+    rb_verify_solve(v, &rc, &two);
+    rb_verify_compare(v, two.force_ratio, one.force_ratio, 1e-9, RELATIVE,
+                      "similar cylinders as nu = 1/2 on a rigid plane");
+    rb_rolling_solution_free(&one);
+    rb_rolling_solution_free(&two);
+}
+
+/* ---- Cattaneo ------------------------------------------------------------------------
+ */
+
+static void cattaneo_traction(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_solution s;
+    double sum = 0.0, length = 0.0;
+    rc.contact_elements = 200;
+    rc.force_ratio = 0.64;
+    rb_verify_solve(v, &rc, &s);
+    const double a = rc.half_width, p0 = rb_closed_hertz_max_pressure(s.normal_load, a);
+    for (int i = 0; i < s.n; i++) {
+        const double q = rb_closed_cattaneo_traction(rc.mu, p0, a, 0.64, s.x[i]);
+        sum += (s.q[i] - q) * (s.q[i] - q) * s.h[i];
+        length += s.h[i];
+    }
+    rb_verify_compare(v, sqrt(sum / length) / (rc.mu * p0), 0.0, 2e-3, ABSOLUTE,
+                      "Cattaneo-Mindlin, 200 elements: rms of q / (mu p0)");
+    rb_rolling_solution_free(&s);
+}
+
+/* ---- Bentall and Johnson
+ * --------------------------------------------------------------- */
+
+static void bentall_johnson_at(rb_verify *v, double mu, double wanted, double bound)
+{
+    rb_rolling_case rc = rb_verify_aluminium_on_steel(mu);
+    rb_rolling_solution s;
+    rc.contact_elements = 200;
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_compare(v, s.creepage, wanted, bound, RELATIVE,
+                      "Bentall-Johnson, mu = %g, 200 elements: creepage", mu);
+    rb_rolling_solution_free(&s);
+}
+
+/* Dissimilar bodies also do work against the pressure: D = -xi Q + (1/R) int x p dx. */
+static void dissimilar_dissipation(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_aluminium_on_steel(0.1);
+    rb_rolling_solution s;
+    double moment = 0.0;
+    rc.contact_elements = 200;
+    rc.force = NAN;
+    rc.creep_ratio = 0.4;
+    rb_verify_solve(v, &rc, &s);
+    for (int i = 0; i < s.n; i++)
+        moment += s.x[i] * s.p[i] * s.h[i];
+    rb_verify_compare(v, s.dissipation, -s.creepage * s.tangential_load + moment / 25.0,
+                      1e-3, RELATIVE, "dissipated power of dissimilar bodies");
+    rb_rolling_solution_free(&s);
+}
+
+void rb_verify_accuracy(rb_verify *v)
+{
+    const double beta = 0.143834, modulus = 51572.3, a = 0.1, R = 25.0;
+    const double rough = rb_closed_bentall_johnson_stick(beta, a, R, modulus).creepage,
+                 smooth = rb_closed_bentall_johnson_slip(beta, a, R);
+    carter_at(v, 50, 3e-4);
+    carter_at(v, 100, 1.5e-4);
+    carter_at(v, 200, 3e-5);
+    carter_by_force(v);
+    similar_pair(v);
+    cattaneo_traction(v);
+    bentall_johnson_at(v, 10.0, -rough, 1e-3);
+    bentall_johnson_at(v, 1e-4, -smooth, 5e-3);
+    bentall_johnson_at(v, 1e-6, -smooth, 5e-3);
+    dissimilar_dissipation(v);
+}
