@@ -1,0 +1,376 @@
+/* rollbem friction FILE...: frictional contact problems, and problems on second-order
+ * cones, from files. */
+#include "cli/cli.h"
+
+#include "rollbem/friction.h"
+#include "rollbem/io.h"
+#include "rollbem/report.h"
+
+#include <jansson.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    const char *solver;
+    double tol, seconds;
+    int max_iters, format, facts, solution, json;
+    const char *output;
+} friction_options;
+
+static const cli_choice formats[] = {{"any", RB_FRICTION_FILE_ANY},
+                                     {"fclib", RB_FRICTION_FILE_FCLIB},
+                                     {"siconos", RB_FRICTION_FILE_SICONOS},
+                                     {"siconos-soclcp", RB_FRICTION_FILE_SICONOS_SOCLCP},
+                                     {NULL, 0}};
+
+#define PLACE(member) offsetof(friction_options, member)
+
+static const cli_option options[] = {
+    CLI_GROUP_LINE("solver", "Solver"),
+    CLI_TEXT_LINE("solver", PLACE(solver), "NAME", "which solver; names below"),
+    CLI_NUMBER_LINE("tol", PLACE(tol), "", CLI_ABOVE(0.0),
+                    "error that counts as solved: ||r - P_K(r - uhat)|| / ||q||"),
+    CLI_INTEGER_LINE("max-iters", PLACE(max_iters), CLI_FROM_TO(1, 1e9),
+                     "iteration limit", .unset = "the solver's own"),
+    CLI_NUMBER_LINE("seconds", PLACE(seconds), "s", CLI_ABOVE(0.0), "time limit per file",
+                    .unset = "none"),
+    CLI_CHOICE_LINE("format", PLACE(format), formats,
+                    "kind of the files, where their head does not tell"),
+    CLI_GROUP_LINE("output", "Output"),
+    CLI_FLAG_LINE("facts", PLACE(facts),
+                  "rank, degree of hyperstaticity, nullity of K, asymmetry"),
+    CLI_FLAG_LINE("solution", PLACE(solution), "reactions r and velocities u"),
+    CLI_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
+    CLI_TEXT_LINE("output", PLACE(output), "FILE",
+                  "where the tables or JSON go, whole or not at all",
+                  .unset = "standard output"),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+static const char about[] =
+    "Solves frictional contact problems u = W r + q (or K v = H r + f, u = H' v + w) "
+    "with "
+    "Coulomb's\n"
+    "law in two and three dimensions, [N, T...] per contact, N first.\n"
+    "FILE: FCLib (HDF5) or text format of Siconos; also Siconos' problems on "
+    "second-order "
+    "cones.";
+
+static const char notes[] =
+    "One line per file: name, solver that gave the answer, status, contacts, dimension, "
+    "iterations,\n"
+    "residual (recomputed from r), floor (what rounding of the data allows), seconds. "
+    "Status\n"
+    "solved-to-rounding: above the tolerance, at or below the floor.\n"
+    "After a file that fails the others are still solved.\n"
+    "Solvers: auto, nsn-ac, nsn-jm, nsn-nm, nsn-fb (each also -nls: without line "
+    "search),\n"
+    "nsn-ac-hybrid, nsgs-ac, nsgs-fp, fixed-point, extragradient, soclcp-smoothing, "
+    "lemke "
+    "(2D).\n"
+    "Exit codes, the largest of all files: 0 solved; 1 not solved; 64 wrong command "
+    "line; "
+    "65\n"
+    "malformed file, or one the solver does not take; 66 no such file; 70 internal; 73 "
+    "cannot write.\n";
+
+typedef struct {
+    const friction_options *o;
+    FILE *out;
+    json_t *problems; /* JSON only */
+} friction_run;
+
+typedef struct {
+    const char *file, *status;
+    int contacts, dimension, m; /* m: 0 when not read */
+    rb_friction_info info;
+    rb_friction_facts facts;
+    double *r, *u; /* m; owned */
+} friction_result;
+
+/* ---- Output ----------------------------------------------------------------------- */
+
+static json_t *count(int known, int n)
+{
+    return known ? json_integer(n) : json_null();
+}
+
+static void add_facts(json_t *p, const friction_result *r)
+{
+    json_object_set_new(p, "rank", count(r->m > 0, r->facts.rank));
+    json_object_set_new(p, "hyperstaticity", count(r->m > 0, r->facts.hyperstaticity));
+    json_object_set_new(p, "nullity", count(r->m > 0, r->facts.nullity));
+    json_object_set_new(p, "asymmetry", rb_report_json_number(r->facts.asymmetry));
+    json_object_set_new(p, "indefinite", count(r->m > 0, r->facts.indefinite));
+}
+
+static void add_problem(friction_run *run, const friction_result *r)
+{
+    json_t *file = json_string(r->file), *p = json_object();
+    json_object_set_new(p, "file", file ? file : json_null());
+    json_object_set_new(p, "solver", json_string(r->info.solver));
+    json_object_set_new(p, "status", json_string(r->status));
+    json_object_set_new(p, "contacts", count(r->m > 0, r->contacts));
+    json_object_set_new(p, "dimension", count(r->dimension > 0, r->dimension));
+    json_object_set_new(p, "iterations", count(r->m > 0, r->info.iters));
+    json_object_set_new(p, "residual", rb_report_json_number(r->info.residual));
+    json_object_set_new(p, "floor", rb_report_json_number(r->info.floor));
+    json_object_set_new(p, "flops", rb_report_json_number(r->info.flops));
+    json_object_set_new(p, "seconds", rb_report_json_number(r->info.seconds));
+    if (run->o->facts)
+        add_facts(p, r);
+    if (run->o->solution) {
+        json_object_set_new(p, "r",
+                            r->r ? rb_report_json_numbers(r->m, r->r) : json_null());
+        json_object_set_new(p, "u",
+                            r->u ? rb_report_json_numbers(r->m, r->u) : json_null());
+    }
+    json_array_append_new(run->problems, p);
+}
+
+static void print_problem(friction_run *run, const friction_result *r)
+{
+    FILE *out = run->out;
+    if (!r->m)
+        return;
+    fprintf(out, "%s\t%s\t%s\t%d\t%d\t%d\t%.17g\t%.3g\t%.3g\n", r->file, r->info.solver,
+            r->status, r->contacts, r->dimension, r->info.iters, r->info.residual,
+            r->info.floor, r->info.seconds);
+    if (run->o->facts)
+        fprintf(out, "# rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s\n",
+                r->facts.rank, r->facts.hyperstaticity, r->facts.nullity,
+                r->facts.asymmetry, r->facts.indefinite ? ", indefinite" : "");
+    if (!run->o->solution || !r->r)
+        return;
+    fprintf(out, "\n\n# i\tr\tu\n");
+    for (int i = 0; i < r->m; i++)
+        fprintf(out, "%d\t%.17g\t%.17g\n", i + 1, r->r[i], r->u[i]);
+    fprintf(out, "\n\n");
+}
+
+/* ---- One file --------------------------------------------------------------------- */
+
+static cli_exit failed(friction_result *r, rb_status s, const char *text)
+{
+    r->status = rb_status_text(s);
+    r->m = 0;
+    r->info.residual = r->info.floor = r->info.flops = r->info.seconds = NAN;
+    return cli_fail(s == RB_EINVAL ? CLI_DATA : cli_exit_of(s), "%s: %s", r->file, text);
+}
+
+static cli_exit unreadable(friction_result *r, rb_status s, const rb_message *why)
+{
+    r->status = rb_status_text(s);
+    r->info.residual = r->info.floor = r->info.flops = r->info.seconds = NAN;
+    return cli_fail(cli_exit_of(s), "%s", why->text);
+}
+
+/* Beyond this many rows only --facts looks at W's shape: it costs a factorisation. */
+#define MOST_ROWS 3000
+
+/* Ranks on request; unsymmetric and indefinite W in any case. */
+static cli_exit examine(const friction_run *run, const rb_friction_problem *p,
+                        friction_result *r)
+{
+    if (!run->o->facts && r->m > MOST_ROWS)
+        return CLI_OK;
+    const rb_status s = rb_friction_examine(p, run->o->facts, &r->facts);
+    if (s != RB_OK)
+        return failed(r, s, rb_status_text(s));
+    if (r->facts.asymmetry > 1e-12)
+        fprintf(stderr,
+                "rollbem: %s: note: W is not symmetric (|W - W'| is %.2g of |W|)\n",
+                r->file, r->facts.asymmetry);
+    if (r->facts.indefinite)
+        fprintf(
+            stderr,
+            "rollbem: %s: note: W is indefinite: a solution need not exist, nor be the "
+            "only one\n",
+            r->file);
+    return CLI_OK;
+}
+
+static cli_exit judge(friction_run *run, friction_result *r, rb_status s)
+{
+    r->status = rb_friction_status_text(s, run->o->tol, &r->info);
+    if (s < 0 || (s == RB_SINGULAR && r->info.msg.text[0]))
+        return failed(r, s, r->info.msg.text);
+    if (s == RB_OK)
+        return CLI_OK;
+    return cli_fail(CLI_UNSOLVED, "%s: %s: %s after %d iterations, residual %.2g",
+                    r->file, r->info.solver, r->status, r->info.iters, r->info.residual);
+}
+
+static rb_friction_options solver_options(const friction_options *o)
+{
+    rb_friction_options opt = rb_friction_defaults();
+    opt.tol = o->tol;
+    opt.max_iters = o->max_iters;
+    opt.seconds = o->seconds;
+    return opt;
+}
+
+static cli_exit solve_friction(friction_run *run, friction_result *r)
+{
+    rb_friction_problem p;
+    rb_message why;
+    rb_status s =
+        rb_friction_read_as(r->file, (rb_friction_file)run->o->format, &p, &why);
+    if (s != RB_OK)
+        return unreadable(r, s, &why);
+    r->contacts = p.contacts;
+    r->dimension = p.dimension;
+    r->m = p.dimension * p.contacts;
+    r->r = rb_alloc((size_t)r->m, 1);
+    r->u = rb_alloc((size_t)r->m, 1);
+    cli_exit code =
+        r->r && r->u ? examine(run, &p, r) : failed(r, RB_ENOMEM, "out of memory");
+    if (code == CLI_OK) {
+        const rb_friction_options opt = solver_options(run->o);
+        s = rb_friction_solve(run->o->solver, &p, &opt, r->r, r->u, NULL, &r->info);
+        code = judge(run, r, s);
+    }
+    rb_friction_problem_free(&p);
+    return code;
+}
+
+/* Back from slope 1 to the slopes of the file. */
+static void restore_slopes(const rb_friction_soclcp_data *d, double *x, double *y)
+{
+    for (int c = 0, at = 0; c < d->problem.cones; at += d->size[c++]) {
+        x[at] /= d->tau[c];
+        y[at] *= d->tau[c];
+    }
+}
+
+static cli_exit solve_cones(friction_run *run, friction_result *r)
+{
+    rb_friction_soclcp_data d;
+    rb_message why;
+    rb_status s = rb_friction_soclcp_read(r->file, &d, &why);
+    if (s != RB_OK)
+        return unreadable(r, s, &why);
+    r->contacts = d.problem.cones;
+    r->m = d.problem.n;
+    r->r = rb_alloc((size_t)r->m, 1);
+    r->u = rb_alloc((size_t)r->m, 1);
+    cli_exit code = CLI_OK;
+    if (!r->r || !r->u)
+        code = failed(r, RB_ENOMEM, "out of memory");
+    if (strcmp(run->o->solver, "auto") && strcmp(run->o->solver, "soclcp-smoothing"))
+        code = failed(r, RB_EINVAL, "problems on cones are for soclcp-smoothing alone");
+    if (code == CLI_OK) {
+        const rb_friction_options opt = solver_options(run->o);
+        s = rb_friction_soclcp(&d.problem, &opt, r->r, r->u, &r->info);
+        restore_slopes(&d, r->r, r->u);
+        code = judge(run, r, s);
+    }
+    rb_friction_soclcp_data_free(&d);
+    return code;
+}
+
+static cli_exit solve_file(friction_run *run, const char *path)
+{
+    friction_result r = {
+        .file = path, .info = {.solver = run->o->solver, .residual = NAN, .floor = NAN}};
+    rb_friction_file kind = (rb_friction_file)run->o->format;
+    rb_message why;
+    rb_status s = RB_OK;
+    if (kind == RB_FRICTION_FILE_ANY)
+        s = rb_friction_file_kind(path, &kind, &why);
+    cli_exit code;
+    if (s != RB_OK)
+        code = unreadable(&r, s, &why);
+    else if (kind == RB_FRICTION_FILE_SICONOS_SOCLCP)
+        code = solve_cones(run, &r);
+    else
+        code = solve_friction(run, &r);
+    if (run->o->json)
+        add_problem(run, &r);
+    else
+        print_problem(run, &r);
+    free(r.r);
+    free(r.u);
+    return code;
+}
+
+/* ---- Command ---------------------------------------------------------------------- */
+
+static cli_exit check_solver(const char *name)
+{
+    int n;
+    const rb_friction_solver *all = rb_friction_solvers(&n);
+    cli_guess guess = {.word = name};
+    for (int k = 0; k < n; k++) {
+        if (!strcmp(all[k].name, name))
+            return CLI_CONTINUE;
+        cli_guess_try(&guess, all[k].name);
+    }
+    return cli_fail(CLI_USAGE, "--solver: no friction solver is called '%s'%s", name,
+                    cli_guess_text(&guess, ""));
+}
+
+static rb_status write_json(friction_run *run)
+{
+    json_t *root = rb_report_json_start(cli_command_line());
+    json_object_set_new(
+        root, "conventions",
+        json_string("[N, T...] per contact, u = W r + q, uhat = u + mu "
+                    "||u_T|| N, K* contains uhat, complementary to r in K"));
+    json_object_set(root, "problems", run->problems);
+    const rb_status s = rb_report_json_write(run->out, root);
+    json_decref(root);
+    return s;
+}
+
+static cli_exit solve_files(const friction_options *o, int n, char **files)
+{
+    rb_io_writer w;
+    rb_message why;
+    rb_status s = rb_io_writer_open(o->output, &w, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    friction_run run = {o, w.file, o->json ? json_array() : NULL};
+    cli_exit worst = CLI_OK;
+    if (!o->json)
+        fprintf(run.out,
+                "# rollbem %s\n# %s\n# "
+                "file\tsolver\tstatus\tcontacts\tdimension\titerations\t"
+                "residual\tfloor\tseconds\n",
+                RB_VERSION, cli_command_line());
+    for (int i = 0; i < n; i++) {
+        const cli_exit code = solve_file(&run, files[i]);
+        worst = code > worst ? code : worst;
+    }
+    if (o->json)
+        s = write_json(&run);
+    json_decref(run.problems);
+    if (s == RB_ENOMEM) {
+        rb_io_writer_abandon(&w);
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    }
+    s = rb_io_writer_commit(&w, &why);
+    return s == RB_OK ? worst : cli_fail(cli_exit_of(s), "%s", why.text);
+}
+
+int cli_friction(int argc, char **argv)
+{
+    friction_options o = {.solver = "auto", .tol = 1e-8};
+    cli_args args = {0};
+    const cli_spec spec = {"rollbem friction [OPTION...] FILE...",
+                           about,
+                           notes,
+                           {{options, OPTIONS, &o, NULL}},
+                           1};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE && args.operands < 1)
+        code = cli_fail(CLI_USAGE, "friction: expected at least one FILE");
+    if (code == CLI_CONTINUE)
+        code = check_solver(o.solver);
+    if (code == CLI_CONTINUE)
+        code = solve_files(&o, args.operands, args.operand);
+    cli_args_free(&args);
+    return code;
+}
