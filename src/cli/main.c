@@ -21,6 +21,7 @@ static const struct {
      "every reference that the program should meet, and how it does"},
     {"lcp", cli_lcp, "solves linear complementarity problems from files"},
     {"friction", cli_friction, "solves frictional contact problems from files"},
+    {"compare", cli_compare, "performance profiles of friction solvers over files"},
     {"example", cli_example, "finite elements: bar, truss, wall"},
     {"help", cli_help, "this list, or the options of one command"},
 };

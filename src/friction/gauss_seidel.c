@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SWEEPS 20000
+#define SWEEPS 100000
 #define LOOK_EVERY 200 /* sweeps between looks at (13) that (14) did not ask for */
 
 typedef struct {

@@ -1,0 +1,406 @@
+/* rollbem compare FILE...: performance profiles of friction solvers (Dolan and More). */
+#include "cli/cli.h"
+
+#include "rollbem/friction.h"
+#include "rollbem/io.h"
+#include "rollbem/report.h"
+
+#include <jansson.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef enum { COST_FLOPS, COST_SECONDS, COST_ITERATIONS } cost_kind;
+
+typedef struct {
+    const char *solvers;
+    double tol, limit;
+    int measure, max_iters, json;
+    const char *plot, *output;
+} compare_options;
+
+static const cli_choice measures[] = {{"flops", COST_FLOPS},
+                                      {"seconds", COST_SECONDS},
+                                      {"iterations", COST_ITERATIONS},
+                                      {NULL, 0}};
+
+#define PLACE(member) offsetof(compare_options, member)
+
+static const cli_option options[] = {
+    CLI_GROUP_LINE("compare", "Comparison"),
+    CLI_TEXT_LINE("solvers", PLACE(solvers), "A,B,...", "which solvers",
+                  .unset = "all that rollbem friction has"),
+    CLI_NUMBER_LINE("tol", PLACE(tol), "", CLI_ABOVE(0.0),
+                    "recomputed error that counts as solved"),
+    CLI_NUMBER_LINE("limit", PLACE(limit), "s", CLI_ABOVE(0.0),
+                    "time for one solver on one problem"),
+    CLI_INTEGER_LINE("max-iters", PLACE(max_iters), CLI_FROM_TO(1, 1e9),
+                     "iteration limit", .unset = "each solver's own"),
+    CLI_CHOICE_LINE("measure", PLACE(measure), measures,
+                    "cost that the profiles and the picture compare"),
+    CLI_GROUP_LINE("output", "Output"),
+    CLI_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
+    CLI_TEXT_LINE("plot", PLACE(plot), "FILE",
+                  "picture of the profiles (.png, .svg, .pdf)", .unset = "none"),
+    CLI_TEXT_LINE("output", PLACE(output), "FILE",
+                  "where the tables or JSON go, whole or not at all",
+                  .unset = "standard output"),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0], MOST_SOLVERS = 32, TAUS = 61 };
+
+static const char about[] = "Runs friction solvers on problems from files and compares "
+                            "them: a table of the runs, "
+                            "then\n"
+                            "the share rho_s(tau) of problems that solver s solves at a "
+                            "cost of at most tau times "
+                            "the\n"
+                            "least one. FILE: as for rollbem friction.";
+
+static const char notes[] =
+    "A run counts as failed, at infinite cost, when the error recomputed from r is above "
+    "both\n"
+    "the tolerance and the rounding floor, when the time limit is passed, or when the "
+    "solver does\n"
+    "not take the problem. Files that cannot be read are named and left out.\n"
+    "Exit codes, the largest of all files: 0 all runs done, whatever their outcome; 64, "
+    "65, "
+    "66, 70,\n"
+    "73 as for rollbem friction; 1 when no file could be compared.\n";
+
+typedef struct {
+    rb_status status;
+    rb_friction_info info;
+} run_result;
+
+typedef struct {
+    const compare_options *o;
+    int solvers, problems; /* problems: those that could be read */
+    const char *solver[MOST_SOLVERS];
+    char *names;        /* copy of --solvers, cut at its commas; owned */
+    const char **file;  /* problems; owned */
+    run_result *result; /* solvers per problem; owned */
+    double tau[TAUS], *rho;
+} comparison;
+
+static void comparison_free(comparison *c)
+{
+    free(c->names);
+    free(c->file);
+    free(c->result);
+    free(c->rho);
+}
+
+/* ---- Which solvers ----------------------------------------------------------------- */
+
+static cli_exit add_solver(comparison *c, const char *name)
+{
+    int n;
+    const rb_friction_solver *all = rb_friction_solvers(&n);
+    cli_guess guess = {.word = name};
+    for (int k = 0; k < n; k++) {
+        cli_guess_try(&guess, all[k].name);
+        if (strcmp(all[k].name, name))
+            continue;
+        for (int s = 0; s < c->solvers; s++)
+            if (c->solver[s] == all[k].name)
+                return cli_fail(CLI_USAGE, "--solvers: '%s' is given twice", name);
+        c->solver[c->solvers++] = all[k].name;
+        return CLI_CONTINUE;
+    }
+    return cli_fail(CLI_USAGE, "--solvers: no friction solver is called '%s'%s", name,
+                    cli_guess_text(&guess, ""));
+}
+
+static cli_exit choose_solvers(comparison *c)
+{
+    cli_exit code = CLI_CONTINUE;
+    int n;
+    const rb_friction_solver *all = rb_friction_solvers(&n);
+    for (int k = 0; !c->o->solvers && k < n && k < MOST_SOLVERS; k++)
+        c->solver[c->solvers++] = all[k].name;
+    if (!c->o->solvers)
+        return CLI_CONTINUE;
+    c->names = strdup(c->o->solvers);
+    if (!c->names)
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    char *name = c->names;
+    while (name && code == CLI_CONTINUE) {
+        char *comma = strchr(name, ',');
+        if (comma)
+            *comma++ = '\0';
+        code = add_solver(c, name);
+        name = comma;
+    }
+    return code;
+}
+
+/* ---- Runs -------------------------------------------------------------------------- */
+
+static cli_exit run_problem(comparison *c, const char *path, const rb_friction_problem *p)
+{
+    const size_t m = (size_t)(p->dimension * p->contacts);
+    double *r = rb_alloc(m, 1), *u = rb_alloc(m, 1);
+    rb_friction_options opt = rb_friction_defaults();
+    opt.tol = c->o->tol;
+    opt.seconds = c->o->limit;
+    opt.max_iters = c->o->max_iters;
+    cli_exit code = r && u ? CLI_OK : cli_fail(CLI_INTERNAL, "out of memory");
+    for (int s = 0; code == CLI_OK && s < c->solvers; s++) {
+        run_result *one = &c->result[c->problems * c->solvers + s];
+        one->status = rb_friction_solve(c->solver[s], p, &opt, r, u, NULL, &one->info);
+        if (one->status == RB_ENOMEM)
+            code = cli_fail(CLI_INTERNAL, "%s: %s: out of memory", path, c->solver[s]);
+    }
+    if (code == CLI_OK)
+        c->file[c->problems++] = path;
+    free(u);
+    free(r);
+    return code;
+}
+
+static cli_exit run_file(comparison *c, const char *path)
+{
+    rb_friction_problem p;
+    rb_message why;
+    const rb_status s = rb_friction_read(path, &p, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    const cli_exit code = run_problem(c, path, &p);
+    rb_friction_problem_free(&p);
+    return code;
+}
+
+static double cost_of(const comparison *c, int problem, int solver)
+{
+    const run_result *one = &c->result[problem * c->solvers + solver];
+    if (one->status != RB_OK || one->info.seconds > c->o->limit)
+        return INFINITY;
+    switch ((cost_kind)c->o->measure) {
+    case COST_FLOPS:
+        return fmax(one->info.flops, 1.0);
+    case COST_SECONDS:
+        return one->info.seconds;
+    default:
+        return fmax(one->info.iters, 1.0);
+    }
+}
+
+static cli_exit make_profiles(comparison *c)
+{
+    double *cost = rb_alloc((size_t)c->problems, (size_t)c->solvers);
+    c->rho = rb_alloc(TAUS, (size_t)c->solvers);
+    if (!cost || !c->rho) {
+        free(cost);
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    }
+    for (int k = 0; k < TAUS; k++) /* 1 ... 1000, twenty in a decade */
+        c->tau[k] = pow(10.0, 0.05 * k);
+    for (int p = 0; p < c->problems; p++)
+        for (int s = 0; s < c->solvers; s++)
+            cost[p + s * c->problems] = cost_of(c, p, s);
+    rb_friction_profile(c->problems, c->solvers, cost, TAUS, c->tau, c->rho);
+    free(cost);
+    return CLI_OK;
+}
+
+/* ---- Output -------------------------------------------------------------------------
+ */
+
+static const char *status_of(const comparison *c, const run_result *one)
+{
+    return one->status == RB_EINVAL
+               ? "not taken"
+               : rb_friction_status_text(one->status, c->o->tol, &one->info);
+}
+
+static void print_tables(const comparison *c, FILE *out)
+{
+    fprintf(
+        out,
+        "# rollbem %s\n# %s\n# file\tsolver\tstatus\titerations\tresidual\tfloor\tflops\t"
+        "seconds\n",
+        RB_VERSION, cli_command_line());
+    for (int p = 0; p < c->problems; p++)
+        for (int s = 0; s < c->solvers; s++) {
+            const run_result *one = &c->result[p * c->solvers + s];
+            fprintf(out, "%s\t%s\t%s\t%d\t%.3g\t%.3g\t%.4g\t%.4g\n", c->file[p],
+                    c->solver[s], status_of(c, one), one->info.iters, one->info.residual,
+                    one->info.floor, one->info.flops, one->info.seconds);
+        }
+    fprintf(out, "\n\n# profiles over %s, %d problems\n# tau",
+            measures[c->o->measure].name, c->problems);
+    for (int s = 0; s < c->solvers; s++)
+        fprintf(out, "\t%s", c->solver[s]);
+    for (int k = 0; k < TAUS; k++) {
+        fprintf(out, "\n%.4g", c->tau[k]);
+        for (int s = 0; s < c->solvers; s++)
+            fprintf(out, "\t%.4g", c->rho[k + s * TAUS]);
+    }
+    fprintf(out, "\n");
+}
+
+static json_t *json_runs(const comparison *c)
+{
+    json_t *runs = json_array();
+    for (int p = 0; p < c->problems; p++)
+        for (int s = 0; s < c->solvers; s++) {
+            const run_result *one = &c->result[p * c->solvers + s];
+            json_t *run = json_object(), *file = json_string(c->file[p]);
+            json_object_set_new(run, "file", file ? file : json_null());
+            json_object_set_new(run, "solver", json_string(c->solver[s]));
+            json_object_set_new(run, "status", json_string(status_of(c, one)));
+            json_object_set_new(run, "iterations", json_integer(one->info.iters));
+            json_object_set_new(run, "residual",
+                                rb_report_json_number(one->info.residual));
+            json_object_set_new(run, "floor", rb_report_json_number(one->info.floor));
+            json_object_set_new(run, "flops", rb_report_json_number(one->info.flops));
+            json_object_set_new(run, "seconds", rb_report_json_number(one->info.seconds));
+            json_array_append_new(runs, run);
+        }
+    return runs;
+}
+
+static rb_status write_json(const comparison *c, FILE *out)
+{
+    json_t *root = rb_report_json_start(cli_command_line()), *profiles = json_object();
+    json_object_set_new(root, "measure", json_string(measures[c->o->measure].name));
+    json_object_set_new(root, "tol", rb_report_json_number(c->o->tol));
+    json_object_set_new(root, "runs", json_runs(c));
+    json_object_set_new(root, "tau", rb_report_json_numbers(TAUS, c->tau));
+    for (int s = 0; s < c->solvers; s++)
+        json_object_set_new(profiles, c->solver[s],
+                            rb_report_json_numbers(TAUS, c->rho + s * TAUS));
+    json_object_set_new(root, "profiles", profiles);
+    const rb_status s = rb_report_json_write(out, root);
+    json_decref(root);
+    return s;
+}
+
+static const char *terminal(rb_report_picture_kind kind)
+{
+    switch (kind) {
+    case RB_REPORT_PNG:
+        return "pngcairo size 900,600";
+    case RB_REPORT_SVG:
+        return "svg size 900,600";
+    default:
+        return "pdfcairo size 18cm,12cm";
+    }
+}
+
+static void write_script(const comparison *c, rb_report_picture_kind kind, FILE *script)
+{
+    fprintf(script,
+            "set terminal %s\nset logscale x\nset xrange [1:1000]\nset yrange [0:1.05]\n"
+            "set xlabel 'tau: %s over the least of all solvers'\n"
+            "set ylabel 'share of %d problems solved'\nset key outside right\nset grid\n"
+            "$profiles << EOD\n",
+            terminal(kind), measures[c->o->measure].name, c->problems);
+    for (int k = 0; k < TAUS; k++) {
+        fprintf(script, "%.4g", c->tau[k]);
+        for (int s = 0; s < c->solvers; s++)
+            fprintf(script, " %.4g", c->rho[k + s * TAUS]);
+        fprintf(script, "\n");
+    }
+    fprintf(script, "EOD\nplot ");
+    for (int s = 0; s < c->solvers; s++)
+        fprintf(script, "%s$profiles using 1:%d with steps lw 2 dt %d title '%s'",
+                s ? ", " : "", s + 2, 1 + s / 8, c->solver[s]);
+    fprintf(script, "\n");
+}
+
+static cli_exit draw(const comparison *c, rb_report_picture_kind kind)
+{
+    rb_io_writer w;
+    rb_message why;
+    rb_status s = rb_io_writer_open(c->o->plot, &w, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    FILE *script = tmpfile();
+    if (!script) {
+        rb_io_writer_abandon(&w);
+        return cli_fail(CLI_CANTWRITE, "no temporary file for the picture");
+    }
+    write_script(c, kind, script);
+    s = rb_report_gnuplot(script, w.file, &why);
+    fclose(script);
+    if (s == RB_OK)
+        s = rb_io_writer_commit(&w, &why);
+    else
+        rb_io_writer_abandon(&w);
+    if (s == RB_OK)
+        return CLI_OK;
+    return cli_fail(s == RB_EFORMAT ? CLI_INTERNAL : cli_exit_of(s), "%s", why.text);
+}
+
+static cli_exit write_results(const comparison *c)
+{
+    rb_io_writer w;
+    rb_message why;
+    rb_status s = rb_io_writer_open(c->o->output, &w, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    if (c->o->json)
+        s = write_json(c, w.file);
+    else
+        print_tables(c, w.file);
+    if (s == RB_ENOMEM) {
+        rb_io_writer_abandon(&w);
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    }
+    s = rb_io_writer_commit(&w, &why);
+    return s == RB_OK ? CLI_OK : cli_fail(cli_exit_of(s), "%s", why.text);
+}
+
+/* ---- Command --------------------------------------------------------------------------
+ */
+
+static cli_exit compare_files(comparison *c, int n, char **files)
+{
+    rb_report_picture_kind kind = RB_REPORT_PNG;
+    rb_message why;
+    if (c->o->plot && rb_report_picture_kind_of(c->o->plot, &kind, &why) != RB_OK)
+        return cli_fail(CLI_USAGE, "--plot: %s", why.text);
+    c->file = calloc((size_t)n, sizeof *c->file);
+    c->result = calloc((size_t)n * (size_t)c->solvers, sizeof *c->result);
+    if (!c->file || !c->result)
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    cli_exit worst = CLI_OK, code;
+    for (int k = 0; k < n; k++) {
+        code = run_file(c, files[k]);
+        worst = code > worst ? code : worst;
+        if (code == CLI_INTERNAL)
+            return code;
+    }
+    if (!c->problems)
+        return worst ? worst : CLI_UNSOLVED;
+    code = make_profiles(c);
+    if (code == CLI_OK)
+        code = write_results(c);
+    if (code == CLI_OK && c->o->plot)
+        code = draw(c, kind);
+    return code > worst ? code : worst;
+}
+
+int cli_compare(int argc, char **argv)
+{
+    compare_options o = {.tol = 1e-8, .limit = 1000.0};
+    comparison c = {.o = &o};
+    cli_args args = {0};
+    const cli_spec spec = {"rollbem compare [OPTION...] FILE...",
+                           about,
+                           notes,
+                           {{options, OPTIONS, &o, NULL}},
+                           1};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE && args.operands < 1)
+        code = cli_fail(CLI_USAGE, "compare: expected at least one FILE");
+    if (code == CLI_CONTINUE)
+        code = choose_solvers(&c);
+    if (code == CLI_CONTINUE)
+        code = compare_files(&c, args.operands, args.operand);
+    comparison_free(&c);
+    cli_args_free(&args);
+    return code;
+}
