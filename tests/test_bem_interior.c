@@ -14,9 +14,8 @@ static const rb_bem_material material = {.shear = 80.0, .poisson = 0.3};
 static void known_field(double x, double y, double u[2], double s[3])
 {
     const double G = material.shear, kap = 3.0 - 4.0 * material.poisson;
-    const double complex z = CMPLX(x, y), phi = z * z + 0.5 * I * z,
-                         d = 2.0 * z + 0.5 * I, psi = 2.0 * z - I * z * z,
-                         dpsi = 2.0 - 2.0 * I * z;
+    const double complex z = x + y * I, phi = z * z + 0.5 * I * z, d = 2.0 * z + 0.5 * I,
+                         psi = 2.0 * z - I * z * z, dpsi = 2.0 - 2.0 * I * z;
     const double complex w = (kap * phi - z * conj(d) - conj(psi)) / (2.0 * G);
     const double complex m = 2.0 * (conj(z) * 2.0 + dpsi);
     u[0] = creal(w);

@@ -41,9 +41,15 @@ typedef struct {
     double shear, nu, kap;
 } rb_interior;
 
+/* CMPLX of C11, which clang's library headers may lack */
+static cplx complex_of(double re, double im)
+{
+    return re + im * I;
+}
+
 static cplx pair_of(const double *values, int j)
 {
-    return CMPLX(values[2 * j], values[2 * j + 1]);
+    return complex_of(values[2 * j], values[2 * j + 1]);
 }
 
 static double length(const rb_bem_mesh *mesh, int j)
@@ -72,9 +78,9 @@ static void make_pieces(rb_interior *in)
         rb_piece *p = in->piece + 2 * j;
         p[0].e = rb_element_make(mesh->x0[j], mesh->y0[j], mx, my, r0);
         p[1].e = rb_element_make(mx, my, mesh->x1[j], mesh->y1[j], r0);
-        p[0].z1 = CMPLX(mesh->x0[j], mesh->y0[j]);
-        p[1].z1 = CMPLX(mx, my);
-        p[0].direction = p[1].direction = CMPLX(p[0].e.tx, p[0].e.ty);
+        p[0].z1 = complex_of(mesh->x0[j], mesh->y0[j]);
+        p[1].z1 = complex_of(mx, my);
+        p[0].direction = p[1].direction = complex_of(p[0].e.tx, p[0].e.ty);
         p[0].a_t = p[1].a_t = per_t * pair_of(in->t, j);
         p[0].a_s = per_s * before;
         p[1].a_s = per_s * after;
@@ -132,13 +138,14 @@ static void add_piece(const rb_interior *in, const rb_piece *p, double x, double
                       rb_field *field)
 {
     const rb_seen v = rb_look(&p->e, x, y);
-    const cplx z = CMPLX(x, y), turn = CMPLX(v.Lam, v.Th), back = conj(p->direction);
+    const cplx z = complex_of(x, y), turn = complex_of(v.Lam, v.Th),
+               back = conj(p->direction);
     const double l = 2.0 * p->e.a;
     const double L =
         v.X * v.Lam + 0.5 * p->e.a * v.log_W + v.d * v.Th - l * (1.0 + p->e.log_r0);
     /* w1 w2 = e^2 (X + i d - a)(X + i d + a), mirrored in the piece's own axes */
-    const cplx w1w2 =
-        p->direction * p->direction * CMPLX(v.square_re - p->e.a * p->e.a, -v.square_im);
+    const cplx w1w2 = p->direction * p->direction *
+                      complex_of(v.square_re - p->e.a * p->e.a, -v.square_im);
     const cplx shift = -2.0 * I * v.d * back;
     const cplx I0 = -back * turn, I1 = back * back * I0 + shift * l / w1w2,
                J1 = back * back * l + shift * I0;
@@ -214,7 +221,7 @@ static void surface_stress(const rb_interior *in, int j, double s, double *stres
     const double ss = (2.0 * in->shear * strain + in->nu * nn) / (1.0 - in->nu);
     /* in the axes (e, i e): s11 = ss, s22 = nn, s12 = -ns */
     const double mean = 0.5 * (ss + nn);
-    const cplx deviator = CMPLX(0.5 * (nn - ss), -ns) * conj(e) * conj(e);
+    const cplx deviator = complex_of(0.5 * (nn - ss), -ns) * conj(e) * conj(e);
     stress[0] = mean - creal(deviator);
     stress[1] = mean + creal(deviator);
     stress[2] = cimag(deviator);
