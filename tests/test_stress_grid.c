@@ -1,0 +1,153 @@
+/* The stress on a grid, what it leaves out, and its files. */
+#include "check.h"
+#include "rollbem/report.h"
+
+#include <gsl/gsl_math.h>
+
+#include <string.h>
+
+static rb_rolling_case pressed(rb_bem_support support)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = support;
+    rc.half_width = 5.0;
+    rc.contact_elements = 24;
+    rc.outer_elements = 40;
+    return rc;
+}
+
+/* Rows follow the surface; every answer is that of the point alone. */
+static void grid_holds_the_stress_of_its_points(void **state)
+{
+    (void)state;
+    static const rb_bem_support supports[] = {RB_BEM_HALFPLANE, RB_BEM_ARC};
+    for (int k = 0; k < 2; k++) {
+        const rb_rolling_case rc = pressed(supports[k]);
+        rb_rolling_model model;
+        rb_rolling_stress_grid grid;
+        assert_int_equal(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+        assert_int_equal(rb_rolling_stress_on_grid(&model, 9, 4, 6.0, &grid, NULL),
+                         RB_OK);
+        for (int i = 0; i < 36; i++) {
+            const rb_rolling_stress *at = &grid.at[i];
+            const double xy[] = {at->x, at->y};
+            rb_rolling_stress alone;
+            CHECK_ABS(at->y - rb_rolling_surface(&rc, at->x), 2.0 * (i / 9), 1e-12,
+                      "depth of %d", i);
+            assert_true(grid.inside[i]);
+            assert_int_equal(rb_rolling_stress_at(&model, 1, xy, &alone, NULL), RB_OK);
+            CHECK_ABS(at->von_mises, alone.von_mises, 1e-9 * model.problem.stress,
+                      "point %d", i);
+        }
+        rb_rolling_stress_grid_free(&grid);
+        rb_rolling_model_free(&model);
+    }
+}
+
+/* rb_rolling_inside says where rb_rolling_stress_at has an answer. */
+static void inside_is_where_there_is_stress(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = pressed(RB_BEM_HUB);
+    rb_rolling_model model;
+    int count = 0;
+    assert_int_equal(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    for (int k = 0; k < 400; k++) {
+        const double xy[] = {-57.0 + 6.03 * (k % 20), -7.0 + 6.07 * (k / 20)};
+        int inside;
+        rb_rolling_stress s;
+        assert_int_equal(rb_rolling_inside(&model, 1, xy, &inside), RB_OK);
+        const rb_status status = rb_rolling_stress_at(&model, 1, xy, &s, NULL);
+        assert_int_equal(status, inside ? RB_OK : RB_EINVAL);
+        count += inside;
+    }
+    /* area of the ring over that of a cell */
+    CHECK_REL(count, M_PI * (50.0 * 50.0 - 15.0 * 15.0) / (6.03 * 6.07), 0.05, "count");
+    rb_rolling_model_free(&model);
+}
+
+static void bad_grids_are_refused(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = pressed(RB_BEM_HALFPLANE);
+    rb_rolling_model model;
+    rb_rolling_stress_grid grid;
+    rb_message why = {""};
+    assert_int_equal(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    assert_int_equal(rb_rolling_stress_on_grid(&model, 1, 4, 0.0, &grid, &why),
+                     RB_EINVAL);
+    assert_non_null(strstr(why.text, "got 1 x 4"));
+    assert_int_equal(
+        rb_rolling_stress_on_grid(&model, 1 << 20, 1 << 20, 0.0, &grid, NULL), RB_EINVAL);
+    rb_rolling_stress_grid_free(&grid);
+    rb_rolling_model_free(&model);
+}
+
+/* Grid and maxima, then the ParaView file, on each failing allocation. */
+static void stress_without_memory(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = pressed(RB_BEM_HUB);
+    rb_rolling_model model;
+    rb_rolling_solution solution;
+    rb_rolling_stress_maxima maxima;
+    int refused = 1, refusals = 0;
+    assert_int_equal(rb_rolling_solve_model(&rc, &model, &solution, NULL), RB_OK);
+    for (int k = 0; refused; k++) {
+        rb_rolling_stress_grid grid = {0};
+        FILE *file = fopen("/dev/null", "w");
+        assert_non_null(file);
+        alloc_fail_after(k);
+        rb_status s = rb_rolling_stress_on_grid(&model, 6, 4, 0.0, &grid, NULL);
+        const rb_report_stress stress = {.nx = 6,
+                                         .ny = 4,
+                                         .n = 24,
+                                         .at = grid.at,
+                                         .inside = grid.inside,
+                                         .maxima = &maxima,
+                                         .rc = &rc,
+                                         .s = &solution};
+        if (s == RB_OK)
+            s = rb_report_vtk(file, RB_REPORT_VTU, &stress);
+        refused = alloc_failed();
+        alloc_succeed();
+        refusals += refused;
+        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        rb_rolling_stress_grid_free(&grid);
+        fclose(file);
+    }
+    assert_true(refusals > 10);
+    rb_rolling_solution_free(&solution);
+    rb_rolling_model_free(&model);
+}
+
+static void full_disc_is_told(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = pressed(RB_BEM_HALFPLANE);
+    static const rb_rolling_stress at[4];
+    rb_rolling_solution solution = {.max_pressure = 1.0};
+    static const rb_rolling_stress_maxima maxima;
+    const rb_report_stress stress = {
+        .n = 4, .at = at, .maxima = &maxima, .rc = &rc, .s = &solution};
+    FILE *full = fopen("/dev/full", "w");
+    if (!full)
+        skip();
+    assert_int_equal(rb_report_stress_table(full, &stress, "x", 0), RB_EWRITE);
+    fclose(full);
+    full = fopen("/dev/full", "w");
+    assert_int_equal(rb_report_vtk(full, RB_REPORT_VTU, &stress), RB_EWRITE);
+    fclose(full);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(grid_holds_the_stress_of_its_points),
+        cmocka_unit_test(inside_is_where_there_is_stress),
+        cmocka_unit_test(bad_grids_are_refused),
+        cmocka_unit_test(stress_without_memory),
+        cmocka_unit_test(full_disc_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
