@@ -86,8 +86,8 @@ $(B)/tests/%: tests/%.c tests/check.h tests/failing_alloc.c $(B)/librollbem.a
 
 # compared with where it is installed, never needed
 ifneq ($(wildcard /usr/include/siconos/SiconosConfig.h),)
-$(B)/bench/bench_lemke: CPPFLAGS += -DHAVE_SICONOS -isystem /usr/include/siconos -isystem /usr/include/siconos/numerics
-$(B)/bench/bench_lemke: LDLIBS += -lsiconos_numerics
+$(B)/bench/bench_lemke $(B)/bench/bench_friction: CPPFLAGS += -DHAVE_SICONOS -isystem /usr/include/siconos -isystem /usr/include/siconos/numerics
+$(B)/bench/bench_lemke $(B)/bench/bench_friction: LDLIBS += -lsiconos_numerics
 endif
 
 $(B)/bench/%: bench/%.c $(B)/librollbem.a
