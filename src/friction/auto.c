@@ -6,27 +6,39 @@
 #include <stdlib.h>
 #include <string.h>
 
+typedef enum {
+    RESUME = 1,  /* from where the stage before ended, instead of the start */
+    NEEDS_W = 2, /* condensed when first wanted; skipped where there is none */
+    GIVEN_W = 4, /* only for problems that came in local form */
+    ONLY_2D = 8
+} stage_flags;
+
 typedef struct {
     const char *name;
     rb_friction_method *method;
-    int limit;   /* iterations */
-    int sweeps;  /* of Gauss-Seidel before it */
-    int needs_w; /* skipped where there is none */
-    int only_2d;
+    int limit; /* iterations */
+    int flags;
 } stage;
 
+/* A few sweeps are cheap where W is there and find most states; the global form would
+ * have to be condensed for them. */
 static const stage stages[] = {
-    {"nsn-ac", rb_friction_nsn_ac, 40, 0, 0, 0},
-    {"nsn-ac-nls", rb_friction_nsn_ac_nls, 30, 100, 1, 0},
-    {"nsn-fb", rb_friction_nsn_fb, 60, 0, 0, 0},
-    {"nsn-nm", rb_friction_nsn_nm, 60, 0, 0, 0},
-    {"nsn-jm", rb_friction_nsn_jm, 100, 0, 0, 0},
-    {"soclcp-smoothing", rb_friction_soclcp_smoothing, 150, 0, 0, 0},
-    {"lemke", rb_friction_lemke, 0, 0, 0, 1},
-    {"nsgs-ac", rb_friction_nsgs_ac, 5000, 0, 1, 0},
-    {"nsgs-fp", rb_friction_nsgs_fp, 5000, 0, 1, 0},
-    {"nsn-ac", rb_friction_nsn_ac, 400, 0, 0, 0},
-    {"extragradient", rb_friction_extragradient, 100000, 0, 1, 0},
+    {"nsgs-ac", rb_friction_nsgs_ac, 64, GIVEN_W},
+    {"nsn-ac-hybrid", rb_friction_nsn_ac_nls, 12, GIVEN_W | RESUME},
+    {"nsn-fb", rb_friction_nsn_fb, 40, GIVEN_W},
+    {"nsgs-ac", rb_friction_nsgs_ac, 1000, GIVEN_W},
+    {"nsn-ac", rb_friction_nsn_ac, 40, 0},
+    {"nsgs-ac", rb_friction_nsgs_ac, 1000, NEEDS_W},
+    {"nsn-ac-hybrid", rb_friction_nsn_ac_nls, 30, NEEDS_W | RESUME},
+    {"nsn-fb", rb_friction_nsn_fb, 60, 0},
+    {"nsn-nm", rb_friction_nsn_nm, 60, 0},
+    {"nsn-jm", rb_friction_nsn_jm, 100, 0},
+    {"soclcp-smoothing", rb_friction_soclcp_smoothing, 150, 0},
+    {"lemke", rb_friction_lemke, 0, ONLY_2D},
+    {"nsgs-fp", rb_friction_nsgs_fp, 5000, NEEDS_W},
+    {"nsgs-ac", rb_friction_nsgs_ac, 20000, NEEDS_W},
+    {"nsn-ac", rb_friction_nsn_ac, 400, 0},
+    {"extragradient", rb_friction_extragradient, 100000, NEEDS_W},
 };
 
 /* Dense tableaus beyond this take longer than what comes after. */
@@ -52,13 +64,10 @@ static void store(const rb_friction_task *task, double *to)
 
 static rb_status try_stage(rb_friction_task *task, const stage *s, record *rec)
 {
-    rb_status status = RB_MAXITER;
-    load(task, rec->start);
+    if (!(s->flags & RESUME))
+        load(task, rec->start);
     task->opt.max_iters = s->limit;
-    if (s->sweeps)
-        status = rb_friction_sweeps(task, 0, s->sweeps);
-    if (status > 0)
-        status = s->method(task);
+    const rb_status status = s->method(task);
     if (status < 0)
         return status;
     const double error = rb_friction_task_error(task);
@@ -75,9 +84,11 @@ static rb_status try_stage(rb_friction_task *task, const stage *s, record *rec)
 /* W is condensed when the first stage asks for it. */
 static int fits(rb_friction_task *task, const stage *s)
 {
-    if (s->only_2d && (task->d != 2 || task->contacts > MOST_FOR_LEMKE))
+    if ((s->flags & ONLY_2D) && (task->d != 2 || task->contacts > MOST_FOR_LEMKE))
         return 0;
-    if (!s->needs_w || task->local)
+    if (s->flags & GIVEN_W)
+        return !task->n;
+    if (!(s->flags & NEEDS_W) || task->local)
         return 1;
     return task->measure->spring == 0.0 && rb_friction_task_condense(task) == RB_OK;
 }

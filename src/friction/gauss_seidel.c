@@ -12,6 +12,8 @@ typedef struct {
     rb_friction_blocks blocks;
     double *rho;        /* 2 per contact */
     double *fixed;      /* contacts: rho of the fixed point, which adapts */
+    double *inverse;    /* d x d per contact: of W's own block */
+    int *regular;       /* contacts: that inverse exists */
     int use_projection; /* local solver: fixed point instead of Newton */
 } sweeper;
 
@@ -21,20 +23,29 @@ static rb_status sweeper_init(rb_friction_task *task, int use_projection, sweepe
     *s = (sweeper){.task = task,
                    .use_projection = use_projection,
                    .rho = rb_alloc((size_t)nc, 2),
-                   .fixed = rb_alloc((size_t)nc, 1)};
-    rb_status st = s->rho && s->fixed ? RB_OK : RB_ENOMEM;
+                   .fixed = rb_alloc((size_t)nc, 1),
+                   .inverse = rb_alloc((size_t)nc, (size_t)(task->d * task->d)),
+                   .regular = rb_alloc_int((size_t)nc)};
+    rb_status st = s->rho && s->fixed && s->inverse && s->regular ? RB_OK : RB_ENOMEM;
     if (st == RB_OK)
         st = rb_friction_blocks_init(task->local, &s->blocks);
     if (st == RB_OK)
         rb_friction_blocks_rho(&s->blocks, s->rho);
-    for (int c = 0; st == RB_OK && c < nc; c++)
+    const size_t dd = (size_t)(task->d * task->d);
+    for (int c = 0; st == RB_OK && c < nc; c++) {
         s->fixed[c] = fmin(s->rho[2 * c], s->rho[2 * c + 1]);
+        s->regular[c] = rb_friction_contact_invert(
+            task->d, s->blocks.x + (size_t)s->blocks.diag[c] * dd,
+            s->inverse + (size_t)c * dd);
+    }
     return st;
 }
 
 static void sweeper_free(sweeper *s)
 {
     rb_friction_blocks_free(&s->blocks);
+    free(s->regular);
+    free(s->inverse);
     free(s->fixed);
     free(s->rho);
 }
@@ -53,8 +64,14 @@ static double relax(sweeper *s, int c, double *local_steps)
         for (int b = 0; b < d; b++)
             q[a] -= W[a + b * d] * r[b];
     }
-    const rb_friction_contact alone = {d, p->mu[c], s->rho[2 * c], s->rho[2 * c + 1],
-                                       W, q};
+    const rb_friction_contact alone = {.d = d,
+                                       .mu = p->mu[c],
+                                       .rho_n = s->rho[2 * c],
+                                       .rho_t = s->rho[2 * c + 1],
+                                       .W = W,
+                                       .q = q,
+                                       .inverse =
+                                           s->regular[c] ? s->inverse + c * d * d : NULL};
     *local_steps += s->use_projection
                         ? rb_friction_contact_fixed_point(&alone, &s->fixed[c], r)
                         : rb_friction_contact_newton(&alone, r);
@@ -75,6 +92,12 @@ static double sweep(sweeper *s)
     return norm > 0.0 ? sqrt(change) / norm : sqrt(change);
 }
 
+/* Early on, where a few sweeps may do, it looks at every power of two. */
+static int looks_now(int k, int limit)
+{
+    return k % LOOK_EVERY == 0 || k == limit || (k < LOOK_EVERY && (k & (k - 1)) == 0);
+}
+
 static rb_status sweep_until(sweeper *s, int limit)
 {
     rb_friction_task *t = s->task;
@@ -86,7 +109,7 @@ static rb_status sweep_until(sweeper *s, int limit)
         t->info->iters++;
         if (rb_friction_task_late(t))
             return RB_INTERRUPTED;
-        if (change > tau && k % LOOK_EVERY && k < limit)
+        if (change > tau && !looks_now(k, limit))
             continue;
         error = rb_friction_task_error(t);
         if (rb_friction_task_accepts(t, error))

@@ -74,9 +74,12 @@ void rb_friction_invert_compliances(int contacts, double *rho);
 typedef struct {
     int d;
     double mu, rho_n, rho_t;
-    const double *W, *q; /* d x d column-major, d */
+    const double *W, *q;   /* d x d column-major, d */
+    const double *inverse; /* of W; NULL: it has none */
 } rb_friction_contact;
 
+/* 1 when W has an inverse */
+int rb_friction_contact_invert(int d, const double *W, double *inverse);
 /* Both start at r and return the steps taken.  rho: of the fixed point, adapts. */
 int rb_friction_contact_newton(const rb_friction_contact *contact, double *r);
 int rb_friction_contact_fixed_point(const rb_friction_contact *contact, double *rho,

@@ -38,6 +38,16 @@ static int solve_small(int d, const double *M, const double *b, double *x)
     return det != 0.0 && isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
 }
 
+int rb_friction_contact_invert(int d, const double *W, double *inverse)
+{
+    for (int b = 0; b < d; b++) {
+        const double e[3] = {b == 0, b == 1, b == 2};
+        if (!solve_small(d, W, e, inverse + b * d))
+            return 0;
+    }
+    return 1;
+}
+
 /* F at r; M = A + B W where wanted.  Returns ||F||. */
 static double contact_function(const rb_friction_contact *c, const double *r, double *F,
                                double *M)
@@ -108,14 +118,63 @@ int rb_friction_contact_fixed_point(const rb_friction_contact *c, double *rho, d
     return k + 1;
 }
 
+/* ||r_T|| <= mu r_N */
+static int inside(const rb_friction_contact *c, const double *r)
+{
+    return rb_friction_tangential(c->d, r) <= c->mu * r[0];
+}
+
+/* 2D: r_T = side mu r_N and u_N = 0, when u_T then opposes r_T */
+static int slides(const rb_friction_contact *c, double side, double *r)
+{
+    const double slope = side * c->mu;
+    const double rn = -c->q[0] / (c->W[0] + slope * c->W[2]);
+    if (!(rn >= 0.0) || !isfinite(rn))
+        return 0;
+    const double ut = c->q[1] + (c->W[1] + slope * c->W[3]) * rn;
+    if (side * ut > 0.0)
+        return 0;
+    r[0] = rn;
+    r[1] = slope * rn;
+    return 1;
+}
+
+/* Take-off, stick, and in 2D sliding have closed forms. */
+static int closed_form(const rb_friction_contact *c, double *r)
+{
+    const int d = c->d;
+    double stuck[3] = {0.0, 0.0, 0.0};
+    if (c->q[0] >= 0.0) {
+        for (int a = 0; a < d; a++)
+            r[a] = 0.0;
+        return 1;
+    }
+    if (c->inverse) {
+        for (int a = 0; a < d; a++) {
+            for (int b = 0; b < d; b++)
+                stuck[a] -= c->inverse[a + b * d] * c->q[b];
+        }
+        if (inside(c, stuck)) {
+            for (int a = 0; a < d; a++)
+                r[a] = stuck[a];
+            return 1;
+        }
+        if (r[0] <= 0.0) /* a start for Newton */
+            rb_friction_project(d, c->mu, stuck, r);
+    }
+    return d == 2 && (slides(c, 1.0, r) || slides(c, -1.0, r));
+}
+
 /* Newton can cycle on one contact already (large mu, strong coupling of N and T): the
  * fixed point then takes over from the best point. */
 int rb_friction_contact_newton(const rb_friction_contact *c, double *r)
 {
     const int d = c->d;
-    double F[3], M[9], dr[3], best[3] = {r[0], r[1], d == 3 ? r[2] : 0.0};
+    double F[3], M[9], dr[3], best[3] = {0.0, 0.0, 0.0};
     double least = INFINITY;
     int k = 0;
+    if (closed_form(c, r))
+        return 1;
     for (; k < NEWTON_STEPS; k++) {
         const double f = contact_function(c, r, F, M), size = contact_size(c, r);
         if (f < least) {
