@@ -27,53 +27,50 @@ static rb_status measure(const rb_rolling_problem *problem, rb_rolling_state *st
     return s;
 }
 
-/* Polishes a solution by one solve with its zones, when that makes it better. */
-static rb_status polish(const rb_rolling_problem *problem, rb_rolling_state *state,
-                        rb_rolling_state *trial)
+/* One solve with the zones of the state, kept when that makes it better. */
+static rb_status polish(const rb_rolling_problem *problem, rb_rolling_state *state)
 {
     const size_t bytes = (size_t)problem->n * sizeof(double);
-
-    memcpy(trial->zone, state->zone, (size_t)problem->n * sizeof(int));
-    rb_status s = rb_rolling_solve_zones(problem, RB_BOTH, trial);
-    if (s == RB_SINGULAR)
-        return RB_OK;
-    if (s == RB_OK)
-        s = measure(problem, trial);
-    if (s == RB_OK && trial->residual < state->residual) {
-        memcpy(state->p, trial->p, bytes);
-        memcpy(state->q, trial->q, bytes);
-        state->delta = trial->delta;
-        state->xi = trial->xi;
-        state->residual = trial->residual;
-    }
-    return s;
-}
-
-/* lambda, zones and residual of p, q, delta, xi. */
-static rb_status complete(const rb_rolling_problem *problem, rb_rolling_state *state)
-{
-    double *gap = rb_alloc((size_t)problem->n, 1);
     rb_rolling_state trial;
     rb_status s = rb_rolling_state_alloc(problem->n, &trial);
 
-    if (s == RB_OK && !gap)
-        s = RB_ENOMEM;
+    if (s != RB_OK)
+        return s;
+    memcpy(trial.zone, state->zone, (size_t)problem->n * sizeof(int));
+    s = rb_rolling_solve_zones(problem, RB_BOTH, &trial);
     if (s == RB_OK)
-        s = measure(problem, state);
+        s = measure(problem, &trial);
+    if (s == RB_OK && trial.residual < state->residual) {
+        memcpy(state->p, trial.p, bytes);
+        memcpy(state->q, trial.q, bytes);
+        state->delta = trial.delta;
+        state->xi = trial.xi;
+        state->residual = trial.residual;
+    }
+    rb_rolling_state_free(&trial);
+    return s == RB_SINGULAR ? RB_OK : s;
+}
+
+/* lambda, zones and residual of p, q, delta, xi.  exact: they solve the equations of
+ * their zones already, as Newton's do. */
+static rb_status complete(const rb_rolling_problem *problem, int exact,
+                          rb_rolling_state *state)
+{
+    double *gap = rb_alloc((size_t)problem->n, 1);
+    rb_status s = gap ? measure(problem, state) : RB_ENOMEM;
+
     if (s == RB_OK) {
         rb_rolling_kinematics(problem, state, gap, state->lambda);
         rb_rolling_classify(problem, 1e-12, state);
-        if (problem->F)
-            s = polish(problem, state, &trial);
     }
-    if (s == RB_OK) {
+    if (s == RB_OK && !exact) {
+        s = polish(problem, state);
         rb_rolling_kinematics(problem, state, gap, state->lambda);
-        for (int i = 0; i < problem->n; i++)
-            if (state->zone[i] == RB_ZONE_STICK)
-                state->lambda[i] = 0.0;
     }
+    for (int i = 0; i < problem->n && s == RB_OK; i++)
+        if (state->zone[i] == RB_ZONE_STICK)
+            state->lambda[i] = 0.0;
     free(gap);
-    rb_rolling_state_free(&trial);
     return s;
 }
 
@@ -111,7 +108,7 @@ static rb_status try_lemke(const rb_rolling_problem *problem, const rb_rolling_c
         state->solver = RB_SOLVER_LEMKE;
         state->mirrored = at->mirrored;
         state->xi0 = at->xi0;
-        const rb_status t = complete(problem, state);
+        const rb_status t = complete(problem, 0, state);
         s = t < 0 ? t : s;
     }
     free(z);
@@ -188,7 +185,7 @@ static rb_status solve_newton(const rb_rolling_problem *problem,
 
     if (s >= 0) {
         state->solver = RB_SOLVER_NEWTON;
-        const rb_status t = complete(problem, state);
+        const rb_status t = complete(problem, 1, state);
         s = t < 0 ? t : s;
     }
     if (s == RB_MAXITER && !problem->F && is_solved(RB_OK, problem, rc, state))
@@ -302,7 +299,7 @@ static rb_status solve_cone(const rb_rolling_problem *problem, const rb_rolling_
         s = rb_rolling_cone_solve(problem, rc->cone_solver, state, why);
     if (s < 0)
         return s;
-    const rb_status t = complete(problem, state);
+    const rb_status t = complete(problem, 0, state);
     state->solver = RB_SOLVER_CONE;
     s = t < 0 ? t : s;
     return s == RB_OK && !is_solved(s, problem, rc, state) ? RB_INACCURATE : s;
