@@ -238,6 +238,8 @@ void rb_fem_wall_free(rb_fem_wall *wall);
 int rb_fem_wall_contacts(const rb_fem_wall *wall);
 int rb_fem_wall_dofs(const rb_fem_wall *wall);
 int rb_fem_wall_steps(const rb_fem_wall *wall); /* planned */
+/* Rank of H; what it lacks of 3 x contacts is the degree of hyperstaticity. */
+rb_status rb_fem_wall_rank(const rb_fem_wall *wall, int *rank);
 /* Borrowed: all blocks, none of whose nodes are shared. */
 const rb_fem_mesh *rb_fem_wall_mesh(const rb_fem_wall *wall);
 /* Displacements of the nodes after the last solved step (3 x nodes). */

@@ -369,6 +369,18 @@ static cli_exit finish_wall(const example_options *o, const wall_run *run)
     return code;
 }
 
+static void introduce(const rb_fem_wall *wall)
+{
+    const int contacts = rb_fem_wall_contacts(wall);
+    int rank;
+    fprintf(stderr, "wall: %d contact points, %d degrees of freedom", contacts,
+            rb_fem_wall_dofs(wall));
+    if (rb_fem_wall_rank(wall, &rank) == RB_OK)
+        fprintf(stderr, ", H has rank %d: %d times hyperstatic", rank,
+                3 * contacts - rank);
+    fputs("\n", stderr);
+}
+
 static cli_exit run_wall(const example_options *o)
 {
     const rb_fem_wall_options w = wall_options(o);
@@ -378,8 +390,7 @@ static cli_exit run_wall(const example_options *o)
     if (s != RB_OK)
         return cli_fail(cli_exit_of(s), "%s", why.text[0] ? why.text : rb_status_text(s));
     if (!o->quiet)
-        fprintf(stderr, "wall: %d contact points, %d degrees of freedom\n",
-                rb_fem_wall_contacts(run.wall), rb_fem_wall_dofs(run.wall));
+        introduce(run.wall);
     run.step = calloc((size_t)rb_fem_wall_steps(run.wall), sizeof *run.step);
     cli_exit code =
         run.step ? advance_all(o, &run) : cli_fail(CLI_INTERNAL, "out of memory");

@@ -174,6 +174,11 @@ int rb_fem_wall_steps(const rb_fem_wall *wall)
     return 1 + wall->options.press + wall->options.shear;
 }
 
+rb_status rb_fem_wall_rank(const rb_fem_wall *wall, int *rank)
+{
+    return rb_sparse_rank(&wall->system.H, rank);
+}
+
 const rb_fem_mesh *rb_fem_wall_mesh(const rb_fem_wall *wall)
 {
     return &wall->mesh;
