@@ -136,6 +136,13 @@ struct rb_bem_flexibility {
 rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
                           rb_bem_flexibility *f, rb_message *why);
 
+/* The same flexibility, more accurate close to the load (B10): each load is given the
+ * exact solution of the half-plane on its element, and the boundary elements solve for
+ * the smooth rest.  RB_EINVAL also where the body does not lie on the inner side of every
+ * contact element. */
+rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals normals,
+                                     rb_bem_flexibility *f, rb_message *why);
+
 /* Half-plane (kernels of theory.md, Flamant): ends as in rb_bem_mesh_cylinder, any real
  * numbers; displacement zero at depth datum > 0 under the point. */
 rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends,

@@ -28,6 +28,13 @@ typedef enum {
     RB_SOLVER_CONE /* the one of src/friction that the case names */
 } rb_rolling_solver;
 typedef enum { RB_LCP_PIVOTED, RB_LCP_KWAK } rb_rolling_lcp_form;
+/* Close to a load a wheel answers by its boundary elements alone, as in *Addi*, or by the
+ * exact strip on the half-plane with the boundary elements solving for the rest (B10). */
+typedef enum {
+    RB_NEAR_FIELD_AUTO, /* exact on fitted meshes */
+    RB_NEAR_FIELD_PLAIN,
+    RB_NEAR_FIELD_EXACT
+} rb_rolling_near_field;
 
 typedef struct {
     double young, poisson; /* [stress], [-] */
@@ -67,6 +74,7 @@ typedef struct {
     double zone;          /* half-width of the potential contact [length]; 0: automatic */
     int outer_elements;   /* 0: automatic */
     rb_bem_normals normals;
+    rb_rolling_near_field near_field; /* of wheels */
 
     rb_rolling_solver solver;
     const char
@@ -284,8 +292,8 @@ typedef struct {
 void rb_rolling_solution_free(rb_rolling_solution *s);
 
 /* Friction power per area and unit speed [stress], n values with sum power h =
- * dissipation: the energy that a wear law takes.  In steady rolling the slip lives between
- * midpoints and counts half for either element (theory.md 6).  NAN in static. */
+ * dissipation: the energy that a wear law takes.  In steady rolling the slip lives
+ * between midpoints and counts half for either element (theory.md 6).  NAN in static. */
 void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
 
 /* ---- The same problem for the cone solvers

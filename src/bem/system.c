@@ -1,4 +1,5 @@
-/* Mixed problems (B4) and their condensation to the contact (B5). */
+/* Mixed problems (B4): assembly and LU. */
+#include "bem/system.h"
 #include "bem/assemble.h"
 #include "bem/internal.h"
 #include "rollbem/blas.h"
@@ -10,26 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Order from which on the LU is worth more than one thread. */
-enum { PARALLEL_LU = 1500 };
-
-/* Unknowns: the displacement where the traction is given or kept, else the traction,
- * measured in shear/length of the element so that all columns of A are of order one.
- * Their order is that of the contour, turned so that the contact and the upstream element
- * come last: the back substitution for them alone is then a small one. */
-struct rb_bem_system {
-    rb_bem_mesh mesh;
-    int dofs;     /* 2n */
-    int ld;       /* of A and Gc */
-    int offset;   /* the dof that comes first */
-    double *A;    /* LU, 2n x 2n */
-    double *b;    /* of the given values, 2n */
-    double *Gc;   /* columns of the contact tractions, 2n x 2 contact_n */
-    double *unit; /* of each element's tractions, n [stress] */
-    lapack_int *pivot;
-    double rcond, seconds_assembly, seconds_factor;
-};
 
 double rb_bem_system_bytes(int n, int n_c)
 {
@@ -290,6 +271,8 @@ rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material
         return status;
     const double start = rb_seconds();
     rb_bem_system *s = system_alloc(mesh);
+    if (s)
+        s->material = material;
     status = s ? assemble(s, material) : RB_ENOMEM;
     if (status == RB_OK) {
         const double assembled = rb_seconds();
@@ -347,93 +330,4 @@ rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_conta
     distribute(s, x, t_contact, u, t);
     free(x);
     return RB_OK;
-}
-
-/* ---- Condensation (B5) --------------------------------------------------------------
- */
-
-/* Displacements of the contact and of the upstream element, the last 2m unknowns, for the
- * unit contact tractions and (last column) for the given values: all of L, but of U only
- * the last corner. */
-static double *solve_contact(const rb_bem_system *s)
-{
-    const int n = s->dofs, loads = 2 * s->mesh.contact_n, kept = loads + 2;
-    const int ld = s->ld;
-    const size_t rows = (size_t)ld, corner = (size_t)(n - kept);
-    double *X = rb_large_alloc(rows, (size_t)loads + 1);
-    if (!X)
-        return NULL;
-    memcpy(X, s->Gc, rows * (size_t)loads * sizeof *X);
-    memcpy(X + rows * (size_t)loads, s->b, (size_t)n * sizeof *X);
-    const int threads = rb_blas_threads(n >= PARALLEL_LU ? 0 : 1);
-    LAPACKE_dlaswp_work(LAPACK_COL_MAJOR, loads + 1, X, ld, 1, n, s->pivot, 1);
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, n,
-                loads + 1, 1.0, s->A, ld, X, ld);
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, kept,
-                loads + 1, 1.0, s->A + corner * (rows + 1), ld, X + corner, ld);
-    rb_blas_threads(threads);
-    return X;
-}
-
-/* Normal into the body and tangent of element j, as rows: frame[0] = n, frame[1] = t. */
-static void contact_frame(const rb_bem_mesh *mesh, int j, rb_bem_normals normals,
-                          double frame[2][2])
-{
-    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j],
-                 h = hypot(dx, dy);
-    const int flat = normals == RB_BEM_NORMALS_OBSTACLE;
-    frame[1][0] = frame[0][1] = flat ? 1.0 : dx / h;
-    frame[1][1] = flat ? 0.0 : dy / h;
-    frame[0][0] = -frame[1][1];
-}
-
-/* F_ab(i, j) = e_a(i)' U(i, j) e_b(j), a, b in {N, T}; the last column of X gives w0. */
-static void turn_to_frames(const rb_bem_system *s, rb_bem_normals normals,
-                           const double *X, rb_bem_flexibility *f, double *F)
-{
-    const int n = f->n, m = f->m, first = s->mesh.contact_first;
-    const size_t ld = (size_t)s->ld;
-    const double *U = X + s->dofs - 2 * m;
-    double to[2][2], from[2][2];
-
-    for (int i = 0; i < m; i++) {
-        const double *w0 = U + 2 * i + 2 * (size_t)n * ld;
-        contact_frame(&s->mesh, first + i, normals, to);
-        for (int a = 0; a < 2; a++)
-            f->w0[a * m + i] = to[a][0] * w0[0] + to[a][1] * w0[1];
-        for (int j = 0; j < n; j++) {
-            const double *x = U + 2 * i + 2 * (size_t)j * ld, *y = x + ld;
-            contact_frame(&s->mesh, first + j, normals, from);
-            for (int a = 0; a < 2; a++)
-                for (int b = 0; b < 2; b++)
-                    F[(size_t)(a * m + i) + (size_t)(b * n + j) * 2 * (size_t)m] =
-                        to[a][0] * (x[0] * from[b][0] + y[0] * from[b][1]) +
-                        to[a][1] * (x[1] * from[b][0] + y[1] * from[b][1]);
-        }
-    }
-}
-
-rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
-                          rb_bem_flexibility *f, rb_message *why)
-{
-    const rb_bem_mesh *mesh = &system->mesh;
-    const int n = mesh->contact_n;
-    double *F = NULL, *X;
-    *f = (rb_bem_flexibility){0};
-    if (n < 1)
-        return rb_fail(why, RB_EINVAL, "condensation: the mesh has no contact elements");
-    X = solve_contact(system);
-    rb_status s = X ? rb_bem_flexibility_dense(n, f, &F) : RB_ENOMEM;
-    if (s == RB_OK) {
-        for (int i = 0; i < f->m; i++) {
-            const int j = mesh->contact_first + i;
-            f->x[i] = 0.5 * (mesh->x0[j] + mesh->x1[j]);
-            f->h[i] = hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
-        }
-        turn_to_frames(system, normals, X, f, F);
-    } else {
-        rb_fail(why, s, "condensation: no memory for %d contact elements", n);
-    }
-    free(X);
-    return s;
 }

@@ -18,6 +18,10 @@ static const cli_choice meshes[] = {
 static const cli_choice normals[] = {{"obstacle", RB_BEM_NORMALS_OBSTACLE},
                                      {"surface", RB_BEM_NORMALS_SURFACE},
                                      {NULL, 0}};
+static const cli_choice near_fields[] = {{"auto", RB_NEAR_FIELD_AUTO},
+                                         {"plain", RB_NEAR_FIELD_PLAIN},
+                                         {"exact", RB_NEAR_FIELD_EXACT},
+                                         {NULL, 0}};
 static const cli_choice solvers[] = {{"auto", RB_SOLVER_AUTO},
                                      {"lemke", RB_SOLVER_LEMKE},
                                      {"newton", RB_SOLVER_NEWTON},
@@ -126,11 +130,11 @@ static const cli_option options[] = {
                   .unset = "none"),
 
     CLI_GROUP_LINE("mesh", "Mesh"),
-    CLI_CHOICE_LINE("mesh", RC(mesh), meshes,
-                    "equal elements, or fitted to the contact edges",
-                    .unset = "fitted in steady rolling under a given load, half-width or "
-                             "approach without zone and gap file, below 1500 elements; else "
-                             "uniform"),
+    CLI_CHOICE_LINE(
+        "mesh", RC(mesh), meshes, "equal elements, or fitted to the contact edges",
+        .unset = "fitted in steady rolling under a given load, half-width or "
+                 "approach without zone and gap file, below 1500 elements; else "
+                 "uniform"),
     CLI_INTEGER_LINE("contact-elements", RC(contact_elements), CLI_FROM(3),
                      "uniform: in the potential contact; fitted: across the contact",
                      .unset = "60, fitted 100"),
@@ -144,6 +148,10 @@ static const cli_option options[] = {
     CLI_CHOICE_LINE(
         "normals", RC(normals), normals,
         "contact frame: the obstacle's, or the polygon's own as in Addi et al."),
+    CLI_CHOICE_LINE(
+        "near-field", RC(near_field), near_fields,
+        "of a load on a wheel: plain boundary elements, or the exact strip and "
+        "elements for the rest; auto: exact on fitted meshes"),
 
     CLI_GROUP_LINE("solver", "Solver"),
     CLI_CHOICE_LINE("solver", RC(solver), solvers, "of the complementarity problem"),

@@ -28,6 +28,12 @@ int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
            (!rc->elastic_b || rc->b.support == RB_BEM_HALFPLANE);
 }
 
+static int wants_exact_field(const rb_rolling_case *rc)
+{
+    return rc->near_field == RB_NEAR_FIELD_AUTO ? rc->mesh == RB_MESH_FITTED
+                                                : rc->near_field == RB_NEAR_FIELD_EXACT;
+}
+
 static rb_status cylinder_flexibility(const rb_rolling_case *rc,
                                       const rb_rolling_body *body,
                                       const rb_rolling_mesh *mesh, rb_bem_system **system,
@@ -52,7 +58,8 @@ static rb_status cylinder_flexibility(const rb_rolling_case *rc,
         bodies->seconds_assembly += assembly;
         bodies->seconds_factor += factor;
         const double start = rb_seconds();
-        s = rb_bem_condense(*system, rc->normals, f, why);
+        s = (wants_exact_field(rc) ? rb_bem_condense_subtracted
+                                   : rb_bem_condense)(*system, rc->normals, f, why);
         bodies->seconds_condense += rb_seconds() - start;
     }
     rb_bem_mesh_free(&boundary);

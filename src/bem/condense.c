@@ -1,0 +1,271 @@
+/* Condensation of a mixed system to its contact (B5), with the singular part of each load
+ * solved in closed form where that is wanted (B10). */
+#include "bem/system.h"
+#include "bem/assemble.h"
+#include "bem/internal.h"
+#include "bem/large.h"
+#include "bem/strip.h"
+#include "rollbem/blas.h"
+
+#include <cblas.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Displacements of the contact and of the upstream element, the last 2m unknowns, for the
+ * unit contact tractions and (last column) for the given values: all of L, but of U only
+ * the last corner. */
+static void solve_contact(const rb_bem_system *s, double *X)
+{
+    const int n = s->dofs, ld = s->ld, loads = 2 * s->mesh.contact_n, kept = loads + 2;
+    const size_t rows = (size_t)ld, corner = (size_t)(n - kept);
+    const int threads = rb_blas_threads(n >= PARALLEL_LU ? 0 : 1);
+
+    LAPACKE_dlaswp_work(LAPACK_COL_MAJOR, loads + 1, X, ld, 1, n, s->pivot, 1);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, n,
+                loads + 1, 1.0, s->A, ld, X, ld);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, kept,
+                loads + 1, 1.0, s->A + corner * (rows + 1), ld, X + corner, ld);
+    rb_blas_threads(threads);
+}
+
+/* ---- Singularities subtracted (B10)
+ * ---------------------------------------------------- */
+
+/* What the strip on a contact element leaves for the boundary elements to solve: the
+ * tractions and displacements that it causes where others are given. */
+typedef struct {
+    const rb_bem_system *s;
+    double unit;
+} particular;
+
+static double complex midpoint_of(const rb_bem_mesh *mesh, int j)
+{
+    return 0.5 * (mesh->x0[j] + mesh->x1[j]) + 0.5 * (mesh->y0[j] + mesh->y1[j]) * I;
+}
+
+static double complex outward_normal(const rb_bem_mesh *mesh, int j)
+{
+    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j];
+    return (dy - dx * I) / hypot(dx, dy);
+}
+
+/* Boundary values of element k against the load `direction` on contact element c: rows
+ * u_x, u_y (where the displacement is given) or t_x, t_y, of one column. */
+static void left_over(const particular *p, int k, int c, int direction, double value[2])
+{
+    const rb_bem_mesh *mesh = &p->s->mesh;
+    const int j = mesh->contact_first + c;
+    const rb_strip strip = rb_strip_on(mesh, j, p->s->material, p->unit);
+    const double complex load = direction ? I : 1.0, z = midpoint_of(mesh, k);
+    const int held_x = mesh->condition[2 * k] == RB_BEM_DISPLACEMENT;
+    const int held_y = mesh->condition[2 * k + 1] == RB_BEM_DISPLACEMENT;
+    const double complex u =
+        held_x || held_y ? rb_strip_displacement(&strip, z, load) : 0.0;
+    const double complex t =
+        (held_x && held_y) || k == j
+            ? 0.0
+            : rb_strip_traction(&strip, z, load, outward_normal(mesh, k));
+
+    value[0] = -creal(held_x ? u : t);
+    value[1] = -cimag(held_y ? u : t);
+}
+
+enum { BLOCK = 32 }; /* elements whose columns are multiplied at once */
+
+/* X += [G, -H] times the boundary values left over, for elements from ... to - 1.
+ * columns: ld x 2 BLOCK, values: 2 BLOCK x loads. */
+static void add_left_over(const particular *p, const rb_assembly *assembly, int from,
+                          int to, double *columns, double *values, double *X)
+{
+    const rb_bem_system *s = p->s;
+    const int loads = 2 * s->mesh.contact_n, rows = 2 * BLOCK;
+
+#pragma omp parallel for schedule(static)
+    for (int k = from; k < to; k++) {
+        double *out[4] = {NULL, NULL, NULL, NULL};
+        for (int d = 0; d < 2; d++) {
+            const int held = s->mesh.condition[2 * k + d] == RB_BEM_DISPLACEMENT;
+            out[held ? d : 2 + d] =
+                columns + (size_t)(2 * (k - from) + d) * (size_t)s->ld;
+        }
+        rb_assembly_columns(assembly, k, 1.0, out);
+        for (int l = 0; l < loads; l++) {
+            double *value = values + 2 * (k - from) + (size_t)l * rows;
+            left_over(p, k, l / 2, l % 2, value);
+            for (int d = 0; d < 2; d++)
+                if (out[d])
+                    value[d] = -value[d];
+        }
+    }
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, s->dofs, loads,
+                2 * (to - from), 1.0, columns, s->ld, values, rows, 1.0, X, s->ld);
+}
+
+static rb_status check_convex(const rb_bem_system *s, rb_message *why)
+{
+    const rb_bem_mesh *mesh = &s->mesh;
+    const double size = rb_bem_mesh_size(mesh);
+
+    for (int c = 0; c < mesh->contact_n; c++) {
+        const rb_strip strip =
+            rb_strip_on(mesh, mesh->contact_first + c, s->material, size);
+        for (int k = 0; k < mesh->n; k++)
+            if (rb_strip_depth(&strip, midpoint_of(mesh, k)) < -1e-12 * size)
+                return rb_fail(why, RB_EINVAL,
+                               "condensation: element %d lies outside the half-plane of "
+                               "contact element %d",
+                               k, c);
+    }
+    return RB_OK;
+}
+
+static rb_status subtracted_loads(const rb_bem_system *s, double *X)
+{
+    const size_t loads = 2 * (size_t)s->mesh.contact_n;
+    const particular p = {s, rb_bem_mesh_size(&s->mesh)};
+    double *columns = rb_alloc((size_t)s->ld, 2 * BLOCK),
+           *values = rb_alloc(2 * BLOCK, loads);
+    rb_assembly assembly;
+    rb_status status = columns && values
+                           ? rb_assembly_begin(&s->mesh, s->material, &assembly)
+                           : RB_ENOMEM;
+
+    if (status == RB_OK) {
+        for (int from = 0; from < s->mesh.n; from += BLOCK) {
+            const int to = from + BLOCK < s->mesh.n ? from + BLOCK : s->mesh.n;
+            add_left_over(&p, &assembly, from, to, columns, values, X);
+        }
+        rb_assembly_end(&assembly);
+    }
+    free(columns);
+    free(values);
+    return status;
+}
+
+/* The strips' own displacements, on top of what was solved for. */
+static void add_particular(const rb_bem_system *s, double *X)
+{
+    const rb_bem_mesh *mesh = &s->mesh;
+    const int m = mesh->contact_n + 1;
+    const double unit = rb_bem_mesh_size(mesh);
+
+    for (int l = 0; l < 2 * mesh->contact_n; l++) {
+        const rb_strip strip =
+            rb_strip_on(mesh, mesh->contact_first + l / 2, s->material, unit);
+        double *U = X + (size_t)l * (size_t)s->ld + (size_t)(s->dofs - 2 * m);
+        for (int i = 0; i < m; i++) {
+            const double complex u = rb_strip_displacement(
+                &strip, midpoint_of(mesh, mesh->contact_first + i), l % 2 ? I : 1.0);
+            U[2 * i] += creal(u);
+            U[2 * i + 1] += cimag(u);
+        }
+    }
+}
+
+/* Normal into the body and tangent of element j, as rows: frame[0] = n, frame[1] = t. */
+static void contact_frame(const rb_bem_mesh *mesh, int j, rb_bem_normals normals,
+                          double frame[2][2])
+{
+    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j],
+                 h = hypot(dx, dy);
+    const int flat = normals == RB_BEM_NORMALS_OBSTACLE;
+    frame[1][0] = frame[0][1] = flat ? 1.0 : dx / h;
+    frame[1][1] = flat ? 0.0 : dy / h;
+    frame[0][0] = -frame[1][1];
+}
+
+/* F_ab(i, j) = e_a(i)' U(i, j) e_b(j), a, b in {N, T}; the last column of X gives w0. */
+static void turn_to_frames(const rb_bem_system *s, rb_bem_normals normals,
+                           const double *X, rb_bem_flexibility *f, double *F)
+{
+    const int n = f->n, m = f->m, first = s->mesh.contact_first;
+    const size_t ld = (size_t)s->ld;
+    const double *U = X + s->dofs - 2 * m;
+    double to[2][2], from[2][2];
+
+    for (int i = 0; i < m; i++) {
+        const double *w0 = U + 2 * i + 2 * (size_t)n * ld;
+        contact_frame(&s->mesh, first + i, normals, to);
+        for (int a = 0; a < 2; a++)
+            f->w0[a * m + i] = to[a][0] * w0[0] + to[a][1] * w0[1];
+        for (int j = 0; j < n; j++) {
+            const double *x = U + 2 * i + 2 * (size_t)j * ld, *y = x + ld;
+            contact_frame(&s->mesh, first + j, normals, from);
+            for (int a = 0; a < 2; a++)
+                for (int b = 0; b < 2; b++)
+                    F[(size_t)(a * m + i) + (size_t)(b * n + j) * 2 * (size_t)m] =
+                        to[a][0] * (x[0] * from[b][0] + y[0] * from[b][1]) +
+                        to[a][1] * (x[1] * from[b][0] + y[1] * from[b][1]);
+        }
+    }
+}
+
+/* Unit tractions on the contact, given values in the last column: the right-hand sides.
+ */
+static rb_status contact_displacements(const rb_bem_system *s, int subtract, double **X)
+{
+    const size_t rows = (size_t)s->ld, loads = 2 * (size_t)s->mesh.contact_n;
+    rb_status status = RB_OK;
+
+    *X = rb_large_alloc(rows, loads + 1);
+    if (!*X)
+        return RB_ENOMEM;
+    memcpy(*X + rows * loads, s->b, (size_t)s->dofs * sizeof **X);
+    if (subtract) {
+        memset(*X, 0, rows * loads * sizeof **X);
+        status = subtracted_loads(s, *X);
+    } else {
+        memcpy(*X, s->Gc, rows * loads * sizeof **X);
+    }
+    if (status != RB_OK)
+        return status;
+    solve_contact(s, *X);
+    if (subtract)
+        add_particular(s, *X);
+    return RB_OK;
+}
+
+static rb_status condense(const rb_bem_system *system, rb_bem_normals normals,
+                          int subtract, rb_bem_flexibility *f, rb_message *why)
+{
+    const rb_bem_mesh *mesh = &system->mesh;
+    const int n = mesh->contact_n;
+    double *F = NULL, *X = NULL;
+
+    *f = (rb_bem_flexibility){0};
+    if (n < 1)
+        return rb_fail(why, RB_EINVAL, "condensation: the mesh has no contact elements");
+    rb_status s = contact_displacements(system, subtract, &X);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_dense(n, f, &F);
+    if (s == RB_OK) {
+        for (int i = 0; i < f->m; i++) {
+            const int j = mesh->contact_first + i;
+            f->x[i] = 0.5 * (mesh->x0[j] + mesh->x1[j]);
+            f->h[i] = hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+        }
+        turn_to_frames(system, normals, X, f, F);
+    } else {
+        rb_fail(why, s, "condensation: no memory for %d contact elements", n);
+    }
+    free(X);
+    return s;
+}
+
+rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
+                          rb_bem_flexibility *f, rb_message *why)
+{
+    return condense(system, normals, 0, f, why);
+}
+
+rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals normals,
+                                     rb_bem_flexibility *f, rb_message *why)
+{
+    const rb_status s = check_convex(system, why);
+
+    if (s == RB_OK)
+        return condense(system, normals, 1, f, why);
+    *f = (rb_bem_flexibility){0};
+    return s;
+}

@@ -1,0 +1,88 @@
+/* Kolosov-Muskhelishvili potentials of a force F at the origin of the half-plane y > 0:
+ *   phi = -F/(2 pi) ln z,  psi = conj(F)/(2 pi) ln z,
+ *   2G u = kappa phi - z conj(phi') - conj(psi),
+ * integrated over the strip.  With a, b the distances of z from its two ends (complex),
+ *   Lambda = int dz/(z - s) = ln a - ln b,  L = int ln(z - s) ds. */
+#include "bem/strip.h"
+
+#include <gsl/gsl_math.h>
+#include <math.h>
+
+rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material,
+                     double unit)
+{
+    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j];
+    const double h = hypot(dx, dy);
+
+    return (rb_strip){.middle = 0.5 * (mesh->x0[j] + mesh->x1[j]) +
+                                0.5 * (mesh->y0[j] + mesh->y1[j]) * I,
+                      .along = (dx + dy * I) / h,
+                      .h = h,
+                      .shear = material.shear,
+                      .kappa = 3.0 - 4.0 * material.poisson,
+                      .unit = unit};
+}
+
+/* CMPLX of C11, which clang's library headers may lack */
+static double complex complex_of(double re, double im)
+{
+    return re + im * I;
+}
+
+static double complex to_local(const rb_strip *strip, double complex z)
+{
+    return conj(strip->along) * (z - strip->middle);
+}
+
+double rb_strip_depth(const rb_strip *strip, double complex z)
+{
+    return cimag(to_local(strip, z));
+}
+
+/* The point in the strip's frame; what rounding has put above the edge is on it, from
+ * inside. */
+static double complex below(const rb_strip *strip, double complex z)
+{
+    const double complex local = to_local(strip, z);
+    return complex_of(creal(local), cimag(local) > 0.0 ? cimag(local) : 0.0);
+}
+
+/* Lambda without cancellation far away. */
+static double complex log_ratio(double complex z, double h)
+{
+    if (cabs(z) > 2.0 * h)
+        return 2.0 * catanh(0.5 * h / z);
+    return clog(complex_of(creal(z) + 0.5 * h, cimag(z))) -
+           clog(complex_of(creal(z) - 0.5 * h, cimag(z)));
+}
+
+double complex rb_strip_displacement(const rb_strip *strip, double complex z,
+                                     double complex f)
+{
+    const double h = strip->h, unit = strip->unit;
+    const double complex at = below(strip, z), force = conj(strip->along) * f;
+    const double complex lambda = log_ratio(at, h);
+    const double complex sum = clog(complex_of(creal(at) + 0.5 * h, cimag(at)) / unit) +
+                               clog(complex_of(creal(at) - 0.5 * h, cimag(at)) / unit);
+    const double complex L = at * lambda + 0.5 * h * sum - h;
+    const double complex u = -strip->kappa * force * L +
+                             conj(force) * (h + 2.0 * I * cimag(at) * conj(lambda)) -
+                             force * conj(L);
+
+    return strip->along * u / (4.0 * M_PI * strip->shear);
+}
+
+/* sxx + syy = 4 Re phi', syy - sxx + 2i sxy = 2(conj(z) phi'' + psi'). */
+double complex rb_strip_traction(const rb_strip *strip, double complex z,
+                                 double complex f, double complex normal)
+{
+    const double h = strip->h;
+    const double complex at = below(strip, z), force = conj(strip->along) * f;
+    const double complex n = conj(strip->along) * normal, lambda = log_ratio(at, h);
+    const double complex curve = -h / (at * at - 0.25 * h * h); /* 1/a - 1/b */
+    const double mean = creal(-2.0 * force * lambda) / M_PI;    /* sxx + syy */
+    const double complex difference =
+        (force * (lambda + 2.0 * I * cimag(at) * curve) + conj(force) * lambda) / M_PI;
+
+    return strip->along * 0.5 * (mean * n - conj(n) * conj(difference));
+}

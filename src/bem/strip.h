@@ -1,0 +1,32 @@
+/* The uniformly loaded strip on a half-plane in complex form: displacement and traction
+ * anywhere below it. */
+#ifndef ROLLBEM_BEM_STRIP_H
+#define ROLLBEM_BEM_STRIP_H
+
+#include "rollbem/bem.h"
+
+#include <complex.h>
+
+/* A straight element as the loaded part of the edge of the half-plane on its left. */
+typedef struct {
+    double complex middle, along; /* midpoint, unit tangent */
+    double h;                     /* length */
+    double shear, kappa;          /* kappa = 3 - 4 nu */
+    double unit;                  /* length inside the logarithm */
+} rb_strip;
+
+rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material,
+                     double unit);
+
+/* Depth of the point below the edge; negative outside the half-plane. */
+double rb_strip_depth(const rb_strip *strip, double complex z);
+
+/* Displacement ux + i uy at z under the traction f = fx + i fy per length of the strip.
+ */
+double complex rb_strip_displacement(const rb_strip *strip, double complex z,
+                                     double complex f);
+/* Traction tx + i ty at z on a section with outward normal nx + i ny. */
+double complex rb_strip_traction(const rb_strip *strip, double complex z,
+                                 double complex f, double complex normal);
+
+#endif

@@ -1,0 +1,30 @@
+/* The factored mixed system, shared by its own file and the condensation. */
+#ifndef ROLLBEM_BEM_SYSTEM_H
+#define ROLLBEM_BEM_SYSTEM_H
+
+#include "rollbem/bem.h"
+
+#include <lapacke.h>
+
+/* Order from which on the LU is worth more than one thread. */
+enum { PARALLEL_LU = 1500 };
+
+/* Unknowns: the displacement where the traction is given or kept, else the traction,
+ * measured in shear/length of the element so that all columns of A are of order one.
+ * Their order is that of the contour, turned so that the contact and the upstream element
+ * come last: the back substitution for them alone is then a small one. */
+struct rb_bem_system {
+    rb_bem_mesh mesh;
+    rb_bem_material material;
+    int dofs;     /* 2n */
+    int ld;       /* of A and Gc */
+    int offset;   /* the dof that comes first */
+    double *A;    /* LU, 2n x 2n */
+    double *b;    /* of the given values, 2n */
+    double *Gc;   /* columns of the contact tractions, 2n x 2 contact_n */
+    double *unit; /* of each element's tractions, n [stress] */
+    lapack_int *pivot;
+    double rcond, seconds_assembly, seconds_factor;
+};
+
+#endif

@@ -1,0 +1,197 @@
+/* The strip in complex form, and the flexibility whose singular part it is (B10). */
+#include "check.h"
+#include "bem/strip.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+static const rb_bem_material steel = {.shear = 82000.0, .poisson = 0.28};
+
+/* One strip from x = -0.3 to 0.5 on the edge of y > 0. */
+static rb_strip flat_strip(rb_bem_mesh *mesh)
+{
+    CHECK_STATUS(rb_bem_mesh_alloc(1, mesh), RB_OK);
+    mesh->x0[0] = -0.3;
+    mesh->x1[0] = 0.5;
+    return rb_strip_on(mesh, 0, steel, 1.0);
+}
+
+static void the_strip_is_flamants_on_the_surface(void **state)
+{
+    (void)state;
+    const double ends[] = {-0.3, 0.5}, x[] = {-3.0, -0.31, -0.1, 0.1, 0.49, 40.0};
+    double W[4 * 6];
+    rb_bem_mesh mesh;
+    const rb_strip strip = flat_strip(&mesh);
+    CHECK_STATUS(rb_bem_halfplane_displacement(1, ends, steel, 1.0, 6, x, W), RB_OK);
+    /* the datum and the rotation-free constant differ: compare with the first point */
+    for (int load = 0; load < 2; load++)
+        for (int i = 1; i < 6; i++) {
+            const double complex f = load ? 1.0 : I;
+            const double complex u = rb_strip_displacement(&strip, x[i], f) -
+                                     rb_strip_displacement(&strip, x[0], f);
+            const double *column = W + 12 * load;
+            CHECK_ABS(cimag(u), column[i] - column[0], 1e-18, "w_N at %g", x[i]);
+            CHECK_ABS(creal(u), column[6 + i] - column[6], 1e-18, "w_T at %g", x[i]);
+        }
+    rb_bem_mesh_free(&mesh);
+}
+
+static void its_tractions_are_those_of_the_stress(void **state)
+{
+    (void)state;
+    const double ends[] = {-0.3, 0.5}, p = 2.0, q = -0.7;
+    const double xy[] = {0.1, 0.0, 0.2, 0.3, -1.0, 0.01, 5.0, 7.0};
+    double sigma[12];
+    rb_bem_mesh mesh;
+    const rb_strip strip = flat_strip(&mesh);
+    CHECK_STATUS(rb_bem_halfplane_stress(1, ends, &p, &q, 4, xy, sigma), RB_OK);
+    for (int k = 0; k < 4; k++)
+        for (int turn = 0; turn < 4; turn++) {
+            const double nx = cos(0.3 + turn), ny = sin(0.3 + turn), *s = sigma + 3 * k;
+            const double complex t = rb_strip_traction(
+                &strip, xy[2 * k] + xy[2 * k + 1] * I, q + p * I, nx + ny * I);
+            CHECK_ABS(creal(t), s[0] * nx + s[2] * ny, 1e-14, "t_x, point %d", k);
+            CHECK_ABS(cimag(t), s[2] * nx + s[1] * ny, 1e-14, "t_y, point %d", k);
+        }
+    rb_bem_mesh_free(&mesh);
+}
+
+/* Far away the strip is a force: no digit is lost there. */
+static void far_away_it_keeps_its_digits(void **state)
+{
+    (void)state;
+    rb_bem_mesh mesh;
+    CHECK_STATUS(rb_bem_mesh_alloc(1, &mesh), RB_OK);
+    mesh.x0[0] = -5e-11;
+    mesh.x1[0] = 5e-11;
+    const rb_strip strip = rb_strip_on(&mesh, 0, steel, 1.0);
+    const double complex z = 0.3 + 0.4 * I, F = 1e-10 * I;
+    const double kappa = 3.0 - 4.0 * steel.poisson;
+    const double complex point =
+        -kappa * F * clog(z) + z * conj(F) / conj(z) - F * conj(clog(z));
+    const double complex want = point / (4.0 * M_PI * steel.shear);
+    const double complex got = rb_strip_displacement(&strip, z, I);
+    CHECK_MAX(cabs(got - want), 1e-14 * cabs(want), "against the force");
+    rb_bem_mesh_free(&mesh);
+}
+
+/* A wheel with a hub, n equal elements over a zone of half-width a = 1 on R = 1000. */
+static rb_bem_system *wheel_system(int n)
+{
+    const rb_bem_cylinder cylinder = {
+        .radius = 1000.0, .support = RB_BEM_HUB, .hub_ratio = 0.3};
+    double *ends = rb_alloc((size_t)n + 2, 1);
+    rb_bem_mesh mesh;
+    rb_bem_system *system = NULL;
+    for (int i = 0; i < n + 2; i++)
+        ends[i] = -1.0 + 2.0 * i / n;
+    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_system_create(&mesh, steel, &system, NULL), RB_OK);
+    rb_bem_mesh_free(&mesh);
+    free(ends);
+    return system;
+}
+
+/* Largest difference of two columns' differences: rigid motion of the wheel drops out. */
+static double distance_from_halfplane(int n, int subtracted)
+{
+    rb_bem_system *system = wheel_system(n);
+    rb_bem_flexibility f, flat;
+    const int m = n + 1;
+    double *ends = rb_alloc((size_t)n + 2, 1),
+           *F = rb_alloc(2 * (size_t)m, 2 * (size_t)n),
+           *H = rb_alloc(2 * (size_t)m, 2 * (size_t)n);
+    double worst = 0.0, size = 0.0;
+    for (int i = 0; i < n + 2; i++)
+        ends[i] = -1.0 + 2.0 * i / n;
+    CHECK_STATUS((subtracted ? rb_bem_condense_subtracted : rb_bem_condense)(
+                     system, RB_BEM_NORMALS_OBSTACLE, &f, NULL),
+                 RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_halfplane(n, ends, steel, 1000.0, &flat, NULL),
+                 RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&flat, H, 2 * m), RB_OK);
+    for (int j = 0; j < 2 * n; j++)
+        for (int i = 0; i < 2 * m; i++) {
+            const size_t at = (size_t)i + (size_t)j * 2 * m, first = at - (size_t)(i % m);
+            worst = fmax(worst, fabs((F[at] - F[first]) - (H[at] - H[first])));
+            size = fmax(size, fabs(H[at] - H[first]));
+        }
+    rb_bem_flexibility_free(&f);
+    rb_bem_flexibility_free(&flat);
+    rb_bem_system_free(system);
+    free(ends);
+    free(F);
+    free(H);
+    return worst / size;
+}
+
+static void the_near_field_is_the_half_planes(void **state)
+{
+    (void)state;
+    CHECK_MAX(distance_from_halfplane(20, 1), 2e-3, "a/R = 1e-3, subtracted");
+    assert_true(distance_from_halfplane(20, 0) > 5.0 * distance_from_halfplane(20, 1));
+}
+
+static void a_hollow_contact_is_refused(void **state)
+{
+    (void)state;
+    /* a square whose lower side is bent inwards */
+    static const double x[] = {0, 1, 2, 2, 0}, y[] = {0, 0.5, 0, 2, 2};
+    rb_bem_mesh mesh;
+    rb_bem_system *system;
+    rb_bem_flexibility f;
+    rb_message why = {""};
+    CHECK_STATUS(rb_bem_mesh_alloc(5, &mesh), RB_OK);
+    for (int j = 0; j < 5; j++) {
+        mesh.x0[j] = x[j];
+        mesh.y0[j] = y[j];
+        mesh.x1[j] = x[(j + 1) % 5];
+        mesh.y1[j] = y[(j + 1) % 5];
+    }
+    mesh.condition[0] = mesh.condition[1] = RB_BEM_CONTACT;
+    mesh.contact_n = 1;
+    for (int dof = 4; dof < 8; dof++) /* the right and the upper side */
+        mesh.condition[dof] = RB_BEM_DISPLACEMENT;
+    if (rb_bem_system_create(&mesh, steel, &system, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    CHECK_STATUS(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, "outside the half-plane"));
+    CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &why), RB_OK);
+    rb_bem_flexibility_free(&f);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+}
+
+static void every_failed_allocation_is_reported(void **state)
+{
+    (void)state;
+    rb_bem_system *system = wheel_system(4);
+    int refused = 1;
+    for (int count = 0; refused; count++) {
+        rb_bem_flexibility f;
+        alloc_fail_after(count);
+        const rb_status s =
+            rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL);
+        refused = alloc_failed();
+        alloc_succeed();
+        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+        rb_bem_flexibility_free(&f);
+    }
+    rb_bem_system_free(system);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_strip_is_flamants_on_the_surface),
+        cmocka_unit_test(its_tractions_are_those_of_the_stress),
+        cmocka_unit_test(far_away_it_keeps_its_digits),
+        cmocka_unit_test(the_near_field_is_the_half_planes),
+        cmocka_unit_test(a_hollow_contact_is_refused),
+        cmocka_unit_test(every_failed_allocation_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
