@@ -57,6 +57,35 @@ static inline void give(rb_bem_mesh *mesh, int j, rb_bem_condition what, double 
     mesh->value[2 * j + 1] = y;
 }
 
+/* A disc whose elements are centred on the axes, held by its symmetry alone: ux = 0 at
+ * the top and bottom elements, uy = 0 at the left and right ones; the other direction of
+ * these elements carries its traction.  n: a multiple of 4. */
+static inline rb_bem_mesh symmetric_disc(int n, double radius)
+{
+    rb_bem_mesh mesh;
+    assert_int_equal(rb_bem_mesh_alloc(n, &mesh), RB_OK);
+    put_circle(&mesh, 0, n, radius, 1, -M_PI / n);
+    mesh.condition[2 * (n / 4)] = mesh.condition[2 * (3 * n / 4)] = RB_BEM_DISPLACEMENT;
+    mesh.condition[1] = mesh.condition[2 * (n / 2) + 1] = RB_BEM_DISPLACEMENT;
+    return mesh;
+}
+
+/* The same, of radius 1, under the pressure 1 on arcs of half-angle alpha about its top
+ * and bottom, which end at element ends: alpha = (2k + 1) pi/n. */
+static inline rb_bem_mesh pressed_disc(int n, double alpha)
+{
+    rb_bem_mesh mesh = symmetric_disc(n, 1.0);
+    for (int j = 0; j < n; j++) {
+        const double x = midpoint_x(&mesh, j), y = midpoint_y(&mesh, j), r = hypot(x, y);
+        if (fabs(x / r) > sin(alpha))
+            continue;
+        if (mesh.condition[2 * j] == RB_BEM_TRACTION)
+            mesh.value[2 * j] = -x / r;
+        mesh.value[2 * j + 1] = -y / r;
+    }
+    return mesh;
+}
+
 /* log2 of the ratio of two errors on meshes one of which is twice as fine */
 static inline double order(double coarse, double fine)
 {

@@ -122,33 +122,12 @@ static void rigid_motions_have_no_stress(void **state)
 /* ---- Diametral compression
  * --------------------------------------------------------------- */
 
-/* A disc whose elements are centred on the axes, held by its symmetry alone: ux = 0 at
- * the top and bottom elements, uy = 0 at the left and right ones; the other direction of
- * these elements carries its traction.  n: a multiple of 4. */
-static rb_bem_mesh symmetric_disc(int n, double radius)
-{
-    rb_bem_mesh mesh;
-    CHECK_STATUS(rb_bem_mesh_alloc(n, &mesh), RB_OK);
-    put_circle(&mesh, 0, n, radius, 1, -M_PI / n);
-    mesh.condition[2 * (n / 4)] = mesh.condition[2 * (3 * n / 4)] = RB_BEM_DISPLACEMENT;
-    mesh.condition[1] = mesh.condition[2 * (n / 2) + 1] = RB_BEM_DISPLACEMENT;
-    return mesh;
-}
-
 /* Pressure 1 on arcs of half-angle alpha about the top and bottom; at the centre
  * sxx = (2/pi)(sin 2 alpha - alpha), syy = -(2/pi)(sin 2 alpha + alpha)  (Hondros).
  * The arcs end at element ends: alpha = (2k + 1) pi/n. */
 static errors compression_error(int n, double alpha)
 {
-    rb_bem_mesh mesh = symmetric_disc(n, 1.0);
-    for (int j = 0; j < n; j++) {
-        const double x = midpoint_x(&mesh, j), y = midpoint_y(&mesh, j), r = hypot(x, y);
-        if (fabs(x / r) > sin(alpha))
-            continue;
-        if (mesh.condition[2 * j] == RB_BEM_TRACTION)
-            mesh.value[2 * j] = -x / r;
-        mesh.value[2 * j + 1] = -y / r;
-    }
+    rb_bem_mesh mesh = pressed_disc(n, alpha);
     rb_bem_system *system;
     double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1), s[3], at[2];
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
