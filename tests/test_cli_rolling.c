@@ -18,6 +18,7 @@ static const struct {
     {"curve --from x", 64, "--from: expected a number, got 'x'"},
     {"curve --points 1", 64, "--points: expected a whole number in [2, 1e+06]"},
     {"curve --over slip", 64, "--over: expected creep-ratio or creep, got 'slip'"},
+    {"curve --from 1 --to 1", 64, "--from and --to: expected two different values"},
     {"curve --creep 0.1", 64, "--creep: the curve runs over --from ... --to by itself"},
     {"curve --force 0", 64, "--force: the curve runs over"},
     {"curve --formulation static", 64, "--formulation: a curve is one of steady rolling"},
@@ -152,6 +153,11 @@ static void maxima_are_those_of_hertz_and_full_sliding(void **state)
     root = run_json("stress " SIMILAR "--mu 0.2 --formulation steady --creep-ratio 2 "
                     "--grid 3x3");
     check_maximum(root, "max_shear", 0.31899, -0.625, 0.601);
+    const json_t *tension = json_object_get(json_object_get(root, "maxima"), "tension");
+    CHECK_REL(number_in(tension, "value"),
+              0.4 * number_in(json_object_get(root, "summary"), "max_pressure"), 0.03,
+              "2 mu p0");
+    CHECK_ABS(number_in(tension, "x"), 0.5, 0.01, "at the pulled edge");
     assert_true(number_in(json_object_get(json_object_get(root, "maxima"), "max_shear"),
                           "x") < 0.0); /* braked: friction on A towards -x */
     json_decref(root);

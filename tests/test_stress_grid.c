@@ -66,6 +66,69 @@ static void inside_is_where_there_is_stress(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* A roof of pressure and friction against a thousand constant strips. */
+static void linear_tractions_are_the_limit_of_strips(void **state)
+{
+    (void)state;
+    enum { STRIPS = 2000 };
+    static const double nodes[] = {-1.0, 0.25, 1.0}, p[] = {0.0, 1.0, 0.0},
+                        q[] = {0.0, -0.3, 0.0};
+    static const double xy[] = {0.0, 0.5, 0.9, 0.1, -2.0, 0.3, 0.2, 3.0};
+    static double ends[STRIPS + 1], ps[STRIPS], qs[STRIPS];
+    double linear[12], strips[12];
+    for (int i = 0; i <= STRIPS; i++)
+        ends[i] = -1.0 + 2.0 * i / STRIPS;
+    for (int i = 0; i < STRIPS; i++) {
+        const double x = 0.5 * (ends[i] + ends[i + 1]);
+        ps[i] = x < 0.25 ? (x + 1.0) / 1.25 : (1.0 - x) / 0.75;
+        qs[i] = -0.3 * ps[i];
+    }
+    assert_int_equal(rb_bem_halfplane_stress_linear(3, nodes, p, q, 4, xy, linear),
+                     RB_OK);
+    assert_int_equal(rb_bem_halfplane_stress(STRIPS, ends, ps, qs, 4, xy, strips), RB_OK);
+    for (int c = 0; c < 12; c++)
+        CHECK_ABS(linear[c], strips[c], 1e-6, "component %d", c);
+}
+
+/* Sliding: sxx = 2 mu p0 at the edge that is pulled, and -p - 2 mu p0 x/a between. */
+static void sliding_pulls_at_the_edge(void **state)
+{
+    (void)state;
+    enum { N = 401 };
+    static double x[N], p[N], q[N], xy[2 * N], s[3 * N];
+    for (int j = 0; j < N; j++) {
+        x[j] = -cos(M_PI * j / (N - 1));
+        p[j] = j == 0 || j == N - 1 ? 0.0 : sqrt(1.0 - x[j] * x[j]);
+        q[j] = -0.3 * p[j];
+        xy[2 * j] = x[j];
+    }
+    assert_int_equal(rb_bem_halfplane_stress_linear(N, x, p, q, N, xy, s), RB_OK);
+    for (int j = 0; j < N; j++) {
+        CHECK_ABS(s[3 * j], -p[j] + 0.6 * x[j], 5e-3, "sxx at %g", x[j]);
+        CHECK_ABS(s[3 * j + 1], -p[j], 1e-10, "syy at %g", x[j]);
+        CHECK_ABS(s[3 * j + 2], -q[j], 1e-10, "sxy at %g", x[j]);
+    }
+}
+
+static void bad_linear_tractions_are_refused(void **state)
+{
+    (void)state;
+    const double nodes[] = {0.0, 1.0}, back[] = {1.0, 0.0}, none[] = {0.0, 0.0},
+                 above[] = {0.0, -1.0}, xy[] = {0.0, 1.0};
+    double s[3];
+    assert_int_equal(rb_bem_halfplane_stress_linear(1, nodes, none, none, 1, xy, s),
+                     RB_EINVAL);
+    assert_int_equal(rb_bem_halfplane_stress_linear(2, back, none, none, 1, xy, s),
+                     RB_EINVAL);
+    assert_int_equal(rb_bem_halfplane_stress_linear(2, nodes, none, none, 1, above, s),
+                     RB_EINVAL);
+    alloc_fail_after(0);
+    const rb_status status =
+        rb_bem_halfplane_stress_linear(2, nodes, none, none, 1, xy, s);
+    alloc_succeed();
+    assert_int_equal(status, RB_ENOMEM);
+}
+
 static void bad_grids_are_refused(void **state)
 {
     (void)state;
@@ -145,6 +208,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(grid_holds_the_stress_of_its_points),
         cmocka_unit_test(inside_is_where_there_is_stress),
+        cmocka_unit_test(linear_tractions_are_the_limit_of_strips),
+        cmocka_unit_test(sliding_pulls_at_the_edge),
+        cmocka_unit_test(bad_linear_tractions_are_refused),
         cmocka_unit_test(bad_grids_are_refused),
         cmocka_unit_test(stress_without_memory),
         cmocka_unit_test(full_disc_is_told),

@@ -202,6 +202,13 @@ rb_status rb_bem_halfplane_stress(int n, const double *ends, const double *p,
                                   const double *q, int points, const double *xy,
                                   double *stress);
 
+/* The same below tractions that are linear between n nodes and zero at the first and the
+ * last: sxx is finite everywhere.  For points within some widths of the load: digits go
+ * with the distance over that of the nodes. */
+rb_status rb_bem_halfplane_stress_linear(int n, const double *nodes, const double *p,
+                                         const double *q, int points, const double *xy,
+                                         double *stress);
+
 /* ---- A reference --------------------------------------------------------------------- */
 
 /* Exact elastic disc: displacement of its rim (u_r outwards, u_t counter-clockwise) at

@@ -49,6 +49,13 @@ typedef struct {
     rb_report_curves curves;
 } result;
 
+static cli_exit check_range(const range_options *range, const cli_output *o)
+{
+    if (range->from == range->to)
+        return cli_fail(CLI_USAGE, "--from and --to: expected two different values");
+    return cli_output_check(o);
+}
+
 static rb_status solve_curves(const cli_case *c, const range_options *range,
                               rb_report_curves *curves, rb_message *why)
 {
@@ -172,7 +179,7 @@ int cli_curve(int argc, char **argv)
     if (code == CLI_CONTINUE)
         code = check_case(&c);
     if (code == CLI_CONTINUE)
-        code = cli_output_check(&o);
+        code = check_range(&range, &o);
     if (code == CLI_CONTINUE)
         code = solve(&c, &range, &o);
     cli_args_free(&args);

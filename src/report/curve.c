@@ -103,7 +103,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
         if (isfinite(c->free_creepage))
             fprintf(out, "  free rolling (Q = 0) at xi = %.5g\n",
                     c->free_creepage + 0.0); /* -0 is 0 */
-        if (sliding >= 0)
+        if (sliding >= 0 && curves->mu[k] > 0.0)
             fprintf(out, "  full sliding from xi = %.5g, xi R/(mu a) = %.4g on\n",
                     c->creepage[sliding], c->creep_ratio[sliding]);
     }

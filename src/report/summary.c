@@ -100,6 +100,9 @@ static void print_motion(FILE *out, const rb_rolling_solution *s)
         fprintf(out, ", free rolling at %.5g", zero ? 0.0 : s->free_creepage);
     }
     fputc('\n', out);
+    if (!isnan(s->dissipation))
+        fprintf(out, "  power     %.5g N/mm dissipated, per unit speed\n",
+                s->dissipation + 0.0);
 }
 
 static void print_zones(FILE *out, const rb_rolling_solution *s, int width)

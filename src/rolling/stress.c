@@ -68,6 +68,42 @@ static void lift_onto_polygon(const rb_bem_mesh *mesh, int n, double *xy)
     }
 }
 
+/* Constant strips jump in q, which makes sxx infinite at their ends: tractions linear
+ * between the midpoints do not, and have the same error of second order. */
+static rb_status near_halfplane(const rb_rolling_model *model, int n, const double *xy,
+                                double *sigma)
+{
+    const size_t m = (size_t)model->mesh.n;
+    double *nodes = rb_alloc(m + 2, 3);
+    if (!nodes)
+        return RB_ENOMEM;
+    double *p = nodes + m + 2, *q = p + m + 2;
+    nodes[0] = model->mesh.ends[0];
+    nodes[m + 1] = model->mesh.ends[m];
+    for (size_t i = 0; i < m; i++)
+        nodes[i + 1] = 0.5 * (model->mesh.ends[i] + model->mesh.ends[i + 1]);
+    memcpy(p + 1, model->state.p, m * sizeof(double));
+    memcpy(q + 1, model->state.q, m * sizeof(double));
+    const rb_status s =
+        rb_bem_halfplane_stress_linear((int)m + 2, nodes, p, q, n, xy, sigma);
+    free(nodes);
+    return s;
+}
+
+/* Far away the strips keep more digits. */
+static rb_status halfplane_stress(const rb_rolling_model *model, int n, const double *xy,
+                                  double *sigma)
+{
+    const double *ends = model->mesh.ends;
+    const double width = ends[model->mesh.n] - ends[0], far = 20.0 * width;
+    rb_status s = near_halfplane(model, n, xy, sigma);
+    for (int k = 0; k < n && s == RB_OK; k++)
+        if (hypot(xy[2 * k] - ends[0], xy[2 * k + 1]) > far)
+            s = rb_bem_halfplane_stress(model->mesh.n, ends, model->state.p,
+                                        model->state.q, 1, xy + 2 * k, sigma + 3 * k);
+    return s;
+}
+
 /* sxx, syy, sxy at each point. */
 static rb_status evaluate(const field *f, int n, const double *xy, double *sigma,
                           rb_message *why)
@@ -80,8 +116,7 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
                 return rb_fail(why, RB_EINVAL,
                                "point %d at (%g, %g) lies above the surface", k + 1,
                                xy[2 * k], xy[2 * k + 1]);
-        return rb_bem_halfplane_stress(model->mesh.n, model->mesh.ends, model->state.p,
-                                       model->state.q, n, xy, sigma);
+        return halfplane_stress(model, n, xy, sigma);
     }
     double *moved = rb_alloc((size_t)n, 2);
     if (!moved)

@@ -1,0 +1,67 @@
+/* Stress in a half-plane below tractions that are linear between nodes: no jump of q, so
+ * sxx stays finite on the surface. */
+#include "rollbem/bem.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include <gsl/gsl_math.h>
+
+typedef double complex cplx;
+
+/* With g = -p + i q on y = 0 and Phi = (1/2 pi i) int g(t)/(t - z) dt (Muskhelishvili):
+ *     sxx + syy = 4 Re Phi(z),
+ *     syy - i sxy = Phi(z) - Phi(z*) + (z - z*) Phi'(z)*.
+ * For g linear between nodes t_j and 0 at both ends, integration leaves one term for each
+ * node, with the change of slope k_j there:
+ *     2 pi i Phi = sum k_j (z - t_j) ln(t_j - z),   2 pi i Phi' = sum k_j ln(t_j - z). */
+static void stress_at(int n, const double *t, const cplx *k, double x, double y,
+                      double *stress)
+{
+    cplx above = 0.0, below = 0.0, slope = 0.0;
+    for (int j = 0; j < n; j++) {
+        const double dx = x - t[j];
+        if (dx == 0.0 && y == 0.0)
+            continue;                        /* w ln w -> 0 */
+        const cplx l = clog(CMPLX(-dx, -y)); /* -0: the limit from inside */
+        above += k[j] * CMPLX(dx, y) * l;
+        below += k[j] * CMPLX(dx, -y) * conj(l);
+        slope += k[j] * l;
+    }
+    const cplx c = 1.0 / (2.0 * M_PI * I);
+    const cplx normal = c * above - c * below + 2.0 * I * y * conj(c * slope);
+    stress[1] = creal(normal);
+    stress[0] = 4.0 * creal(c * above) - stress[1];
+    stress[2] = -cimag(normal);
+}
+
+rb_status rb_bem_halfplane_stress_linear(int n, const double *nodes, const double *p,
+                                         const double *q, int points, const double *xy,
+                                         double *stress)
+{
+    if (n < 2 || points < 0)
+        return RB_EINVAL;
+    for (int j = 0; j + 1 < n; j++)
+        if (!(nodes[j] < nodes[j + 1]))
+            return RB_EINVAL;
+    for (int i = 0; i < points; i++)
+        if (!(xy[2 * i + 1] >= 0.0))
+            return RB_EINVAL;
+    cplx *k = malloc((size_t)n * sizeof *k);
+    if (!k)
+        return RB_ENOMEM;
+    cplx before = 0.0;
+    for (int j = 0; j < n; j++) {
+        const cplx after = j + 1 < n ? CMPLX(p[j] - p[j + 1], q[j + 1] - q[j]) /
+                                           (nodes[j + 1] - nodes[j])
+                                     : 0.0;
+        k[j] = before - after;
+        before = after;
+    }
+#pragma omp parallel for schedule(static) if ((double)points * n > 1e5)
+    for (int i = 0; i < points; i++)
+        stress_at(n, nodes, k, xy[2 * i], xy[2 * i + 1], stress + 3 * i);
+    free(k);
+    return RB_OK;
+}
