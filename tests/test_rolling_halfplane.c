@@ -250,6 +250,11 @@ static void bentall_johnson_free_rolling(void **state)
     CHECK_REL(s.normal_load, 16.20192, 1e-6, "load");
     CHECK_REL(s.creepage, -3.67269e-4, 1e-3, "mu -> infinity");
     rb_rolling_solution_free(&s);
+    rc.force = NAN; /* asked for beside another creepage: the same */
+    rc.creep = 0.0;
+    s = solved(&rc);
+    CHECK_REL(s.free_creepage, -3.67269e-4, 1e-3, "free creepage of a case at xi = 0");
+    rb_rolling_solution_free(&s);
     rc = aluminium_on_steel(1e-4);
     s = solved(&rc);
     CHECK_REL(s.creepage, -2.0 * 0.143834 * 0.004 * 0.457386, 5e-3, "mu -> 0");

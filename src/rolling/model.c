@@ -255,19 +255,26 @@ static int rolls_freely_at_rest(const rb_rolling_problem *problem)
     return !problem->coupled && rb_norm_inf((size_t)problem->n, problem->d_T) == 0.0;
 }
 
-/* Large: as a case of its own, which starts on fewer elements. */
-static rb_status free_creepage_of_large(const rb_rolling_model *model, double *creepage,
-                                        rb_message *why)
+/* As a case of its own: a fitted mesh belongs to the contact that rolls freely, and a
+ * large one starts on fewer elements. */
+static rb_status free_creepage_alone(const rb_rolling_model *model, double *creepage,
+                                     rb_message *why)
 {
     rb_rolling_model freely = {.rc = model->rc};
     rb_rolling_mesh mesh;
+    rb_status s;
 
     freely.rc.creep = freely.rc.creep_ratio = freely.rc.force = NAN;
     freely.rc.force_ratio = 0.0;
-    rb_status s = rb_rolling_mesh_uniform(&freely.rc, model->mesh.ends[0],
-                                          model->mesh.ends[model->mesh.n], &mesh, why);
-    if (s == RB_OK)
-        s = build_and_solve(&freely, &mesh, why);
+    if (model->rc.mesh == RB_MESH_FITTED) {
+        const rb_rolling_case rc = freely.rc;
+        s = rb_rolling_model_create(&rc, &freely, why);
+    } else {
+        s = rb_rolling_mesh_uniform(&freely.rc, model->mesh.ends[0],
+                                    model->mesh.ends[model->mesh.n], &mesh, why);
+        if (s == RB_OK)
+            s = build_and_solve(&freely, &mesh, why);
+    }
     if (s == RB_OK)
         *creepage = freely.state.xi;
     rb_rolling_model_free(&freely);
@@ -283,8 +290,8 @@ rb_status rb_rolling_free_creepage(const rb_rolling_model *model, double *creepa
     *creepage = rolls_freely_at_rest(&problem) ? 0.0 : NAN;
     if (*creepage == 0.0)
         return RB_OK;
-    if (!problem.F)
-        return free_creepage_of_large(model, creepage, why);
+    if (!problem.F || model->rc.mesh == RB_MESH_FITTED)
+        return free_creepage_alone(model, creepage, why);
     rb_status s = rb_rolling_state_alloc(problem.n, &state);
     if (s != RB_OK)
         return s;
