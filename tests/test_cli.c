@@ -1,6 +1,6 @@
 /* The program as its users meet it: exit codes, the one line of each error, whole files
  * or none, the same numbers in every format.  B: the build directory, default build. */
-#include "check.h"
+#include "cli_run.h"
 #include "rollbem/io.h"
 #include "rollbem/lcp.h"
 
@@ -10,63 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static char program[600], folder[] = "/tmp/rollbem-cli-XXXXXX";
-static char out[400000], err[20000];
-
 /* A quick, exact case. */
 #define QUICK "--support halfplane --load 100 --contact-elements 24"
-
-static void slurp(const char *name, char *text, size_t size)
-{
-    FILE *file = fopen(name, "r");
-    assert_non_null(file);
-    text[fread(text, 1, size - 1, file)] = '\0';
-    fclose(file);
-}
-
-/* Runs a shell line in the test's folder where $R is the program; stdout and stderr land
- * in out and err.  The exit code. */
-static int shell(const char *line)
-{
-    char command[3000];
-    snprintf(command, sizeof command, "R='%s'; { %s ; } >out 2>err", program, line);
-    const int status = system(command);
-    assert_true(WIFEXITED(status));
-    slurp("out", out, sizeof out);
-    slurp("err", err, sizeof err);
-    return WEXITSTATUS(status);
-}
-
-static int rollbem(const char *arguments)
-{
-    char line[2500];
-    snprintf(line, sizeof line, "\"$R\" %s", arguments);
-    return shell(line);
-}
-
-static void write_file(const char *name, const char *text)
-{
-    FILE *file = fopen(name, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
-}
-
-/* Nothing on stdout, exactly one line on stderr, containing `part`. */
-static void check_refused(const char *arguments, int code, const char *part)
-{
-    const int got = rollbem(arguments);
-    const size_t n = strlen(err);
-    if (got != code || strncmp(err, "rollbem: ", 9) != 0 || !strstr(err, part) ||
-        strchr(err, '\n') != err + n - 1 || out[0])
-        print_error("rollbem %s\nexit %d, want %d with '%s'; stderr: %s\n", arguments,
-                    got, code, part, err);
-    assert_int_equal(got, code);
-    assert_int_equal(strncmp(err, "rollbem: ", 9), 0);
-    assert_non_null(strstr(err, part));
-    assert_ptr_equal(strchr(err, '\n'), err + n - 1);
-    assert_string_equal(out, "");
-}
 
 /* ---- Errors on the command line ---------------------------------------------------- */
 
@@ -186,19 +131,6 @@ static void bad_profile_is_refused(void **state)
 
 /* ---- Case files against options ---------------------------------------------------- */
 
-static json_t *solve_json(const char *arguments)
-{
-    char line[1000];
-    snprintf(line, sizeof line, "--json --quiet %s", arguments);
-    const int code = rollbem(line);
-    if (code)
-        print_error("rollbem %s: %s\n", line, err);
-    assert_int_equal(code, 0);
-    json_t *root = json_loads(out, 0, NULL);
-    assert_non_null(root);
-    return root;
-}
-
 static double member(const json_t *root, const char *group, const char *name)
 {
     const json_t *value = json_object_get(json_object_get(root, group), name);
@@ -211,8 +143,8 @@ static void case_file_equals_options(void **state)
     write_file("case.ini", "[body-a]\nsupport = halfplane\nradius = 40 ; mm\n"
                            "[normal]\n  load = 100\n[mesh]\n  contact-elements = 24\n"
                            "[friction]\n\tmu=0.2\n");
-    json_t *a = solve_json("case.ini");
-    json_t *b = solve_json(QUICK " --radius 40 --mu=0.2");
+    json_t *a = run_json("case.ini");
+    json_t *b = run_json(QUICK " --radius 40 --mu=0.2");
     assert_int_equal(
         json_equal(json_object_get(a, "inputs"), json_object_get(b, "inputs")), 1);
     assert_int_equal(json_equal(json_object_get(a, "table"), json_object_get(b, "table")),
@@ -226,7 +158,7 @@ static void command_line_wins_over_the_file(void **state)
     (void)state;
     write_file("case.ini", "support = halfplane\nload = 100\nmu = 0.2\n"
                            "contact-elements = 24\n");
-    json_t *root = solve_json("--mu 0.4 case.ini --half-width 0.3");
+    json_t *root = run_json("--mu 0.4 case.ini --half-width 0.3");
     CHECK_ABS(member(root, "inputs", "mu"), 0.4, 0.0, "mu");
     CHECK_ABS(member(root, "inputs", "half-width"), 0.3, 0.0, "half-width");
     assert_true(isnan(member(root, "inputs", "load"))); /* of the same group */
@@ -253,7 +185,7 @@ static void json_and_table_hold_the_same_numbers(void **state)
     (void)state;
     static const char *const names[] = {"x_mm",  "h_mm",  "gap_mm",   "p_MPa",  "q_MPa",
                                         "un_mm", "ut_mm", "shift_mm", "slip_1", "zone"};
-    json_t *root = solve_json(QUICK " --shift 0.001");
+    json_t *root = run_json(QUICK " --shift 0.001");
     const json_t *table = json_object_get(root, "table");
     assert_int_equal(rollbem(QUICK " --shift 0.001 --header=bare --quiet"), 0);
     assert_string_equal(err, "");
@@ -276,7 +208,7 @@ static void json_and_table_hold_the_same_numbers(void **state)
 static void table_obeys_its_own_conventions(void **state)
 {
     (void)state;
-    json_t *root = solve_json(QUICK " --formulation steady --creep-ratio 0.5 --mu 0.3");
+    json_t *root = run_json(QUICK " --formulation steady --creep-ratio 0.5 --mu 0.3");
     const json_t *table = json_object_get(root, "table");
     double P = 0.0, Q = 0.0;
     for (size_t i = 0; i < json_array_size(json_object_get(table, "h_mm")); i++) {
@@ -321,7 +253,7 @@ static void the_mesh_asked_for_is_used(void **state)
         snprintf(command, sizeof command,
                  "--support halfplane --half-width 0.5 --formulation steady %s",
                  cases[k].options);
-        json_t *root = solve_json(command);
+        json_t *root = run_json(command);
         assert_string_equal(
             json_string_value(json_object_get(json_object_get(root, "inputs"), "mesh")),
             cases[k].mesh);
@@ -398,8 +330,8 @@ static void static_history_from_a_table(void **state)
 {
     (void)state;
     write_file("history.txt", "load force_ratio\n50 0\n100 0.5\n100 -0.5\n");
-    json_t *root = solve_json("--support halfplane --similar --contact-elements 24 "
-                              "--gap parabola --history history.txt");
+    json_t *root = run_json("--support halfplane --similar --contact-elements 24 "
+                            "--gap parabola --history history.txt");
     assert_int_equal(history_length(root, "normal_load"), 3);
     assert_int_equal(history_length(root, "stick"), 3);
     CHECK_REL(member(root, "summary", "normal_load"), 100.0, 1e-9, "last load");
@@ -410,8 +342,8 @@ static void static_history_from_a_table(void **state)
 static void transient_rolls_step_by_step(void **state)
 {
     (void)state;
-    json_t *root = solve_json(QUICK " --similar --formulation transient --distance 1 "
-                                    "--creep-ratio 0.5 --history-table steps.tsv");
+    json_t *root = run_json(QUICK " --similar --formulation transient --distance 1 "
+                                  "--creep-ratio 0.5 --history-table steps.tsv");
     const size_t steps = history_length(root, "creepage");
     assert_true(steps > 5);
     assert_string_equal(json_string_value(json_object_get(
@@ -469,17 +401,17 @@ static void error_bars_hold_the_truth(void **state)
 {
     (void)state;
     json_t *root =
-        solve_json("--support halfplane --similar --gap parabola --load 100 "
-                   "--formulation steady --creep-ratio 0.4 --mesh fitted --error");
+        run_json("--support halfplane --similar --gap parabola --load 100 "
+                 "--formulation steady --creep-ratio 0.4 --mesh fitted --error");
     const json_t *summary = json_object_get(root, "summary");
     const double error = json_number_value(
         json_object_get(json_object_get(summary, "errors"), "force_ratio"));
     CHECK_ABS(member(root, "summary", "force_ratio"), -0.64, error, "force ratio");
     assert_true(error > 0.0 && error < 0.01);
     json_decref(root);
-    root = solve_json(
-        "--support halfplane --similar --gap parabola --load 100 "
-        "--formulation steady --creep-ratio 0.4 --mesh fitted --accuracy 1e-3");
+    root =
+        run_json("--support halfplane --similar --gap parabola --load 100 "
+                 "--formulation steady --creep-ratio 0.4 --mesh fitted --accuracy 1e-3");
     CHECK_REL(member(root, "summary", "force_ratio"), -0.64, 1e-3, "force ratio");
     json_decref(root);
     assert_int_equal(rollbem(QUICK " --error"), 0);
@@ -512,8 +444,8 @@ static void dump_holds_the_problem(void **state)
     (void)state;
     enum { N = 6, SIZE = 3 * N };
     json_t *root =
-        solve_json("--approach 5 --zone 20 --contact-elements 6 --dump d --trace "
-                   "2>trace");
+        run_json("--approach 5 --zone 20 --contact-elements 6 --dump d --trace "
+                 "2>trace");
     double *M = read_matrix("d/M.mtx", SIZE, SIZE), *b = read_matrix("d/b.mtx", SIZE, 1);
     double *scale = read_matrix("d/z_scale.mtx", SIZE, 1), z[SIZE];
     double *F = read_matrix("d/F.mtx", 2 * (N + 1), 2 * N);
@@ -636,27 +568,6 @@ static void pictures_are_written_or_not_there(void **state)
 }
 
 /* ---- The run ----------------------------------------------------------------------- */
-
-static int enter_folder(void **state)
-{
-    (void)state;
-    const char *build = getenv("B") ? getenv("B") : "build";
-    char here[400];
-    assert_non_null(getcwd(here, sizeof here));
-    if (build[0] == '/')
-        snprintf(program, sizeof program, "%s/rollbem", build);
-    else
-        snprintf(program, sizeof program, "%s/%s/rollbem", here, build);
-    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
-}
-
-static int leave_folder(void **state)
-{
-    (void)state;
-    char command[100];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return chdir("/") == 0 ? system(command) : -1;
-}
 
 int main(void)
 {
