@@ -7,7 +7,8 @@ here=$(dirname "$0")
 
 # Scalars of one wheel, R = 50 mm, s = 0.4, mu = 0.3: ...support and material options
 solve() {
-    "$rollbem" --formulation steady --creep-ratio 0.4 --mu 0.3 --gap exact --json --quiet "$@"
+    "$rollbem" --formulation steady --creep-ratio 0.4 --mu 0.3 --gap exact --mesh fitted \
+        --contact-elements 100 --json --quiet "$@"
 }
 
 value() { printf '%s\n' "$json" | sed -n "/\"summary\"/,/^ }/s/^ *\"$1\": \([^,]*\),*\$/\1/p"; }
@@ -35,8 +36,8 @@ rows() { # material, values of a/R, options
 }
 
 {
-    rows rubber "1e-4 1e-3 0.01 0.02 0.05 0.1" --poisson 0.5 --mesh fitted --contact-elements 100
-    rows steel "0.01 0.02 0.05 0.1" --poisson 0.3 --similar --mesh uniform --contact-elements 250
+    rows rubber "1e-4 1e-3 0.01 0.02 0.05 0.1" --poisson 0.5
+    rows steel "1e-4 1e-3 0.01 0.02 0.05 0.1" --poisson 0.3 --similar
 } | awk '
     BEGIN { OFS = "\t"
             print "# material", "wheel", "a_H/R", "a/a_H", "p0/p0_H", "delta/delta_H", "k",
