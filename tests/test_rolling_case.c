@@ -100,7 +100,7 @@ static void profiles_must_increase(void **state)
     rc.profile_n = 1;
     check_refused(&rc, "gap", "2 points");
     rc.profile_n = 3;
-    check_refused(&rc, "gap", "point 3");
+    check_refused(&rc, "gap", "row 3");
 }
 
 static void hertz_closes_the_circle(void **state)

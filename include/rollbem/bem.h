@@ -209,12 +209,13 @@ rb_status rb_bem_halfplane_stress_linear(int n, const double *nodes, const doubl
                                          const double *q, int points, const double *xy,
                                          double *stress);
 
-/* ---- A reference --------------------------------------------------------------------- */
+/* ---- A reference ---------------------------------------------------------------------
+ */
 
 /* Exact elastic disc: displacement of its rim (u_r outwards, u_t counter-clockwise) at
  * `angle` counter-clockwise from the middle of an arc of width h, 0 < h < 2 pi, under
- * uniform tractions (p_r, p_t); up to a rigid motion; the resultant is balanced by a force
- * and a couple at the centre.  response [length/stress]: 2 x 2 column-major, rows
+ * uniform tractions (p_r, p_t); up to a rigid motion; the resultant is balanced by a
+ * force and a couple at the centre.  response [length/stress]: 2 x 2 column-major, rows
  * (u_r, u_t), columns (p_r, p_t). */
 rb_status rb_bem_disc_response(double radius, rb_bem_material material, double h,
                                double angle, double response[4]);

@@ -12,7 +12,7 @@ struct json_t; /* jansson's */
 /* ---- Names ------------------------------------------------------------------------ */
 
 const char *rb_report_formulation(rb_rolling_formulation formulation);
-const char *rb_report_solver(rb_rolling_solver solver);
+const char *rb_report_solver(const rb_rolling_solution *s);
 const char *rb_report_lcp_form(rb_rolling_lcp_form form);
 
 /* The signs of creepage, slip and zones, one line each; ends with NULL. */
@@ -151,7 +151,8 @@ rb_status rb_report_vtk_check(rb_report_vtk_kind kind, const rb_report_stress *s
 rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind,
                         const rb_report_stress *stress);
 
-/* ---- Steps -------------------------------------------------------------------------- */
+/* ---- Steps --------------------------------------------------------------------------
+ */
 
 /* Creepage or shift, force and stick over the rolled distance, or over the increments of
  * a static history. */

@@ -264,6 +264,7 @@ typedef struct {
     rb_status status;
     rb_rolling_formulation formulation;
     rb_rolling_solver solver; /* that gave the answer */
+    const char *cone_solver;  /* its name, RB_SOLVER_CONE; borrowed from the case */
     int large; /* 1: products by Fourier transforms, no matrix was formed */
     rb_rolling_lcp_form lcp_form;
     int iterations;  /* pivots or Newton steps, of all solves */
@@ -328,6 +329,11 @@ typedef struct {
 rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
                                   rb_message *why);
 void rb_rolling_model_free(rb_rolling_model *model);
+
+/* The model's problem and its tractions as an FCLib file.  RB_EINVAL: too large for a
+ * dense W; RB_EWRITE. */
+rb_status rb_rolling_cone_write(const char *path, const rb_rolling_model *model,
+                                rb_message *why);
 
 /* The creepage at which Q = 0 (steady, mu > 0), on the model's mesh. */
 rb_status rb_rolling_free_creepage(const rb_rolling_model *model, double *creepage,

@@ -29,8 +29,8 @@ void rb_sparse_apply(double alpha, const rb_sparse *a, const double *x, double b
 void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *x,
                                 double beta, double *y);
 
-/* part[i]: number, from 0, of the connected component of the graph of A + A' that i belongs
- * to.  A square. */
+/* part[i]: number, from 0, of the connected component of the graph of A + A' that i
+ * belongs to.  A square. */
 rb_status rb_sparse_components(const rb_sparse *a, int *count, int *part);
 
 /* Numerical rank by rank-revealing QR (SuiteSparseQR), with its default tolerance
@@ -60,8 +60,8 @@ typedef struct rb_sparse_cholesky rb_sparse_cholesky;
 rb_status rb_sparse_cholesky_create(const rb_sparse *k, rb_sparse_cholesky **factor);
 rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b,
                                    double *x);
-/* W = H' K^-1 H, symmetric to the last digit: solves with a few columns of H at a time, no
- * inverse.  K in separate blocks (unconnected bodies) leaves W sparse. */
+/* W = H' K^-1 H, symmetric to the last digit: solves with a few columns of H at a time,
+ * no inverse.  K in separate blocks (unconnected bodies) leaves W sparse. */
 rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_sparse *h,
                                         rb_sparse *w);
 double rb_sparse_cholesky_flops(const rb_sparse_cholesky *factor);

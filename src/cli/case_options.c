@@ -154,7 +154,10 @@ static const cli_option options[] = {
         "elements for the rest; auto: exact on fitted meshes"),
 
     CLI_GROUP_LINE("solver", "Solver"),
-    CLI_CHOICE_LINE("solver", RC(solver), solvers, "of the complementarity problem"),
+    CLI_CHOICE_LINE("solver", RC(solver), solvers,
+                    "of the complementarity problem; or a cone solver by its name, see "
+                    "rollbem help friction",
+                    .path = RC(cone_solver), .path_value = RB_SOLVER_CONE),
     CLI_CHOICE_LINE("lcp-form", RC(lcp_form), lcp_forms,
                     "pivoted (no inverse), or kwak: the matrix of Addi et al. (38)"),
     CLI_NUMBER_LINE("tol", RC(tol), "-", CLI_ABOVE(0),

@@ -10,7 +10,7 @@
 
 typedef struct {
     int trace;
-    const char *dump, *history_table, *history_plot;
+    const char *dump, *fclib, *history_table, *history_plot;
     cli_steps steps;
 } solve_options;
 
@@ -22,6 +22,10 @@ static const cli_option options[] = {
         "dump", PLACE(dump), "DIR",
         "mesh, H, G, F, M, b as Matrix Market files; with --trace also tableaux",
         .unset = "none"),
+    CLI_TEXT_LINE("fclib", PLACE(fclib), "FILE",
+                  "the contact problem with its approach and creepage as FCLib (HDF5), "
+                  "for rollbem friction and others",
+                  .unset = "none"),
     CLI_FLAG_LINE("trace", PLACE(trace),
                   "every pivot of Lemke's method, on standard error"),
 
@@ -125,8 +129,13 @@ static cli_exit show_behind(const solve_options *so, const rb_rolling_model *mod
 {
     rb_message why;
     rb_status s = RB_OK;
-    if ((so->dump || so->trace) && !model->state.p)
-        return cli_fail(CLI_USAGE, "--dump and --trace: not together with error bars");
+    if ((so->dump || so->trace || so->fclib) && !model->state.p)
+        return cli_fail(CLI_USAGE,
+                        "--dump, --fclib and --trace: not together with error bars");
+    if (so->fclib)
+        s = rb_rolling_cone_write(so->fclib, model, &why);
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "--fclib: %s", why.text);
     if (so->dump)
         s = rb_report_dump(so->dump, model, &why);
     if (s != RB_OK)

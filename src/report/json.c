@@ -120,7 +120,7 @@ json_t *rb_report_json_summary(const rb_rolling_case *rc, const rb_rolling_solut
     json_object_set_new(summary, "status", json_string(rb_status_text(s->status)));
     json_object_set_new(summary, "formulation",
                         json_string(rb_report_formulation(s->formulation)));
-    json_object_set_new(summary, "solver", json_string(rb_report_solver(s->solver)));
+    json_object_set_new(summary, "solver", json_string(rb_report_solver(s)));
     json_object_set_new(summary, "flexibility",
                         json_string(s->large ? "transforms" : "matrix"));
     json_object_set_new(summary, "lcp_form",

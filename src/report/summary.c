@@ -123,7 +123,9 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
     const int newton = s->solver == RB_SOLVER_NEWTON;
     fprintf(out, "%s: %s by ", rb_report_formulation(s->formulation),
             rb_status_text(s->status));
-    if (newton)
+    if (s->solver == RB_SOLVER_CONE)
+        fprintf(out, "%s, %d iterations", rb_report_solver(s), s->iterations);
+    else if (newton)
         fprintf(out, "Newton%s, %d steps", s->large ? " with Fourier transforms" : "",
                 s->iterations);
     else

@@ -31,10 +31,10 @@ const char *rb_report_formulation(rb_rolling_formulation formulation)
     return names[formulation];
 }
 
-const char *rb_report_solver(rb_rolling_solver solver)
+const char *rb_report_solver(const rb_rolling_solution *s)
 {
     static const char *const names[] = {"auto", "lemke", "newton"};
-    return names[solver];
+    return s->solver == RB_SOLVER_CONE ? s->cone_solver : names[s->solver];
 }
 
 const char *rb_report_lcp_form(rb_rolling_lcp_form form)

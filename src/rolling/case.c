@@ -2,6 +2,7 @@
 
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_roots.h>
+#include <string.h>
 
 rb_rolling_case rb_rolling_case_defaults(void)
 {
@@ -248,6 +249,17 @@ static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+static int is_cone_solver(const char *name)
+{
+    int count = 0;
+    const rb_friction_solver *solver = rb_friction_solvers(&count);
+
+    for (int k = 0; name && k < count; k++)
+        if (strcmp(solver[k].name, name) == 0)
+            return 1;
+    return 0;
+}
+
 static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->contact_elements < 3 || rc->contact_elements > 1 << 24)
@@ -267,8 +279,11 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
                        "normals surface: a half-plane has the obstacle's");
     if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->elastic_b)
         return rb_fail(why, RB_EINVAL, "normals surface: with a rigid plane only");
-    if (rc->solver == RB_SOLVER_CONE && !rc->cone_solver)
-        return rb_fail(why, RB_EINVAL, "solver: a cone solver needs its name");
+    if (rc->solver == RB_SOLVER_CONE && !is_cone_solver(rc->cone_solver))
+        return rb_fail(
+            why, RB_EINVAL,
+            "solver: expected auto, lemke, newton or a cone solver, got '%.60s'",
+            rc->cone_solver ? rc->cone_solver : "");
     if (!is_positive(rc->tol))
         return rb_fail(why, RB_EINVAL, "tol: expected > 0, got %g", rc->tol);
     return RB_OK;

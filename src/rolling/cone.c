@@ -67,3 +67,28 @@ rb_status rb_rolling_cone_solve(const rb_rolling_problem *p, const char *solver,
     rb_friction_problem_free(&cone);
     return s;
 }
+
+rb_status rb_rolling_cone_write(const char *path, const rb_rolling_model *model,
+                                rb_message *why)
+{
+    const rb_rolling_problem *p = &model->problem;
+    const rb_rolling_state *state = &model->state;
+    rb_friction_problem cone;
+
+    if (!p->F)
+        return rb_fail(why, RB_EINVAL, "%d elements are too many for a dense W", p->n);
+    double *r = rb_alloc(2 * (size_t)p->n, 1);
+    rb_status s = r ? rb_rolling_cone_problem(p, state->delta, state->xi, &cone, why)
+                    : rb_fail(why, RB_ENOMEM, "no memory for %d contacts", p->n);
+    if (s == RB_OK) {
+        for (int i = 0; i < p->n; i++) {
+            r[2 * i] = state->p[i] / p->stress;
+            r[2 * i + 1] = state->q[i] / p->stress;
+        }
+        s = rb_friction_write(path, &cone, r, NULL, NULL, "rolling contact by rollbem",
+                              why);
+        rb_friction_problem_free(&cone);
+    }
+    free(r);
+    return s;
+}

@@ -6,7 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ZONE_ROUNDS = 12, SEPARATED_AT_END = 3, FIT_ROUNDS = 4, RATIO_ROUNDS = 40 };
+enum {
+    ZONE_ROUNDS = 12,
+    SEPARATED_AT_END = 3,
+    FIT_ROUNDS = 4,
+    RATIO_ROUNDS = 40,
+    FIRST_FIT = 30
+};
 
 void rb_rolling_model_free(rb_rolling_model *model)
 {
@@ -233,6 +239,23 @@ static rb_status fit(rb_rolling_model *model, rb_message *why)
     return s;
 }
 
+/* A uniform mesh for the answer, or a coarse one to fit the next to. */
+static rb_status solve_uniform_stage(const rb_rolling_case *rc, rb_rolling_model *model,
+                                     rb_message *why)
+{
+    if (rc->mesh == RB_MESH_FITTED && rc->zone == 0.0) {
+        model->rc.contact_elements =
+            FIRST_FIT > rc->contact_elements / 2 ? FIRST_FIT : rc->contact_elements / 2;
+        model->rc.near_field = RB_NEAR_FIELD_PLAIN;
+    }
+    const rb_status s = rc->zone > 0.0
+                            ? solve_given_zone(model, why)
+                            : solve_automatic_zone(model, coarse_zone(rc), why);
+    model->rc.contact_elements = rc->contact_elements;
+    model->rc.near_field = rc->near_field;
+    return s;
+}
+
 rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
                                   rb_message *why)
 {
@@ -240,8 +263,7 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
     model->rc = *rc;
     rb_status s = rb_rolling_case_check(rc, why);
     if (s == RB_OK)
-        s = rc->zone > 0.0 ? solve_given_zone(model, why)
-                           : solve_automatic_zone(model, coarse_zone(rc), why);
+        s = solve_uniform_stage(rc, model, why);
     if (s >= 0 && separated_at_ends(&model->state) == model->state.n)
         s = rb_fail(why, RB_NO_CONTACT, "no contact: the bodies do not touch");
     if (s == RB_OK && rc->mesh == RB_MESH_FITTED)

@@ -268,6 +268,7 @@ static rb_status set_proof(const rb_rolling_model *model, rb_rolling_solution *s
 
     s->status = state->status;
     s->solver = state->solver;
+    s->cone_solver = model->rc.cone_solver;
     s->large = !model->problem.F;
     s->lcp_form = state->lcp_form;
     s->iterations = model->iterations;
