@@ -500,4 +500,31 @@ rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solut
 rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_rolling_solution *solution, rb_message *why);
 
+/* ---- Parameter studies ------------------------------------------------------------------
+ */
+
+/* Results of one case; NAN where there is none. */
+typedef struct {
+    double normal_load, tangential_load, force_ratio, approach;
+    double creepage, creep_ratio, free_creepage, half_width, max_pressure;
+    double dissipation, residual;
+    int contact, stick, slip, iterations;
+    rb_status status;
+} rb_rolling_sweep_row;
+
+/* Cases first ... first + count - 1, by processes of this machine (0: as many as it has
+ * processors), one thread each.  make runs in them, see and tick in the caller: see gets the
+ * rows in order, tick comes every few milliseconds with the number seen; a value other than
+ * 0 ends the run.  A process that dies leaves its case with RB_ENOMEM and is replaced. */
+typedef struct {
+    int first, count, workers;
+    rb_status (*make)(int k, rb_rolling_case *rc, void *context);
+    int (*see)(int k, const rb_rolling_sweep_row *row, void *context);
+    int (*tick)(int seen, void *context); /* or NULL */
+    void *context;
+} rb_rolling_sweep;
+
+/* RB_INTERRUPTED: see or tick said so; no process is left in any case. */
+rb_status rb_rolling_sweep_run(const rb_rolling_sweep *sweep, rb_message *why);
+
 #endif

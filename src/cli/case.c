@@ -291,6 +291,44 @@ cli_exit cli_case_finish(const cli_spec *spec, cli_case *c, cli_args *args)
     return s == RB_OK ? CLI_CONTINUE : cli_case_refused(c, s, &why);
 }
 
+/* ---- Studies ---------------------------------------------------------------------- */
+
+int cli_case_is_number(const cli_case *c, const char *name)
+{
+    cli_case any = *c;
+    const cli_set set = cli_case_set(&any);
+    const int i = option_index(&set, name);
+    return i < set.n &&
+           (set.options[i].kind == CLI_NUMBER || set.options[i].kind == CLI_INTEGER);
+}
+
+cli_exit cli_case_vary(cli_case *c, int number, const char *name, double value)
+{
+    char text[32], what[80];
+    const cli_set set = cli_case_set(c);
+    const int i = option_index(&set, name);
+
+    snprintf(text, sizeof text, "%.17g", value);
+    snprintf(what, sizeof what, "case %d: %.50s", number, name);
+    c->given[i] = CLI_GIVEN_ARGUMENT;
+    return cli_set_value(&set.options[i], c, what, text, CLI_DATA);
+}
+
+cli_exit cli_case_settle_again(cli_case *c)
+{
+    rb_message why;
+    const cli_set set = cli_case_set(c);
+    const cli_exit code = settle_body_b(&set, c);
+
+    if (code != CLI_CONTINUE)
+        return code;
+    if (!cli_case_given(c, "mesh"))
+        c->rc.mesh = RB_MESH_UNIFORM;
+    choose_mesh(c);
+    const rb_status s = rb_rolling_case_check(&c->rc, &why);
+    return s == RB_OK ? CLI_CONTINUE : cli_case_refused(c, s, &why);
+}
+
 /* ---- Inputs ----------------------------------------------------------------------- */
 
 static json_t *input(const cli_option *o, const cli_case *c)

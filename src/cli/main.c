@@ -16,6 +16,7 @@ static const struct {
     const char *help;
 } commands[] = {
     {"curve", cli_curve, "creep curve: the tangential force over the creepage"},
+    {"sweep", cli_sweep, "parameter studies over all processors"},
     {"stress", cli_stress, "the stress below the surface: table, pictures, ParaView"},
     {"verify", cli_verify,
      "every reference that the program should meet, and how it does"},

@@ -1,0 +1,563 @@
+/* rollbem sweep: parameter studies over all processors. */
+#include "cli/case.h"
+#include "rollbem/report.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <jansson.h>
+#include <signal.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { VARIED_MAX = 4, COLUMNS_MAX = 64 };
+
+typedef struct {
+    const char *vary[VARIED_MAX], *cases, *output;
+    int jobs, restart, progress, quiet;
+    int given[16];
+} sweep_options;
+
+#define PLACE(member) offsetof(sweep_options, member)
+
+static const cli_option options[] = {
+    CLI_GROUP_LINE("sweep", "Study"),
+    CLI_TEXT_LINE("vary-1", PLACE(vary[0]), "SPEC",
+                  "an option of numbers and its values: 'mu 0.1 0.2 0.3', "
+                  "'creep-ratio 0:1.5:31' (first, last, how many), 'load 1:1e4:9:log'",
+                  .unset = "none"),
+    CLI_TEXT_LINE("vary-2", PLACE(vary[1]), "SPEC", "a second one: every pair is a case",
+                  .unset = "none"),
+    CLI_TEXT_LINE("vary-3", PLACE(vary[2]), "SPEC", "a third one", .unset = "none"),
+    CLI_TEXT_LINE("vary-4", PLACE(vary[3]), "SPEC", "a fourth one", .unset = "none"),
+    CLI_TEXT_LINE("cases", PLACE(cases), "FILE",
+                  "a case per row; the columns are named like the options",
+                  .unset = "none"),
+    CLI_TEXT_LINE("output", PLACE(output), "FILE",
+                  "where the rows go as they come; where it holds the first rows of this "
+                  "study already, the study goes on from there",
+                  .unset = "standard output"),
+    CLI_FLAG_LINE("restart", PLACE(restart),
+                  "begin again, whatever the output file holds"),
+    CLI_INTEGER_LINE("jobs", PLACE(jobs), CLI_FROM_TO(0, 256),
+                     "processes; 0: as many as there are processors"),
+    CLI_FLAG_LINE("progress", PLACE(progress),
+                  "time left on standard error also where that is no terminal"),
+    CLI_FLAG_LINE("quiet", PLACE(quiet), "no summary on standard error"),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+_Static_assert(OPTIONS <= 16, "given");
+
+static const char about[] =
+    "Solves many cases that differ in some options, one process per processor, and\n"
+    "prints a row per case, in order. STUDY.ini is a case file with a section [sweep].\n"
+    "Every combination of the values of vary-1 ... vary-4, with every row of the cases,\n"
+    "is a case; the last one varies fastest.\n"
+    "\n" CLI_CASE_SIGNS;
+
+static const char notes[] = CLI_CASE_NOTES
+    "Columns: case, the varied options, status (0 solved), then results.\n"
+    "Example: rollbem sweep --similar --support halfplane --formulation steady \\\n"
+    "           --load 500 --vary-1 'mu 0.1 0.3' --vary-2 'creep-ratio 0:1.5:31'\n";
+
+/* ---- What varies ----------------------------------------------------------------------
+ */
+
+/* Columns of one factor vary together: one option of a --vary, or those of the cases. */
+typedef struct {
+    char name[40], heading[40]; /* creep-ratio, creep_ratio */
+    int factor;
+    const double *value; /* one per row of the factor */
+} column;
+
+typedef struct {
+    const cli_case *base;
+    const sweep_options *o;
+    column column[COLUMNS_MAX];
+    int columns, factors, cases;
+    int rows[VARIED_MAX + 1]; /* of each factor */
+    double *owned[VARIED_MAX];
+    rb_io_table table;
+    FILE *out;
+    int worst; /* exit code so far */
+    int unsolved, first;
+    double start, shown;
+} study;
+
+static void study_free(study *st)
+{
+    for (int k = 0; k < VARIED_MAX; k++)
+        free(st->owned[k]);
+    rb_io_table_free(&st->table);
+}
+
+static cli_exit add_column(study *st, const char *source, const char *name,
+                           const double *value)
+{
+    column *c = &st->column[st->columns];
+    if (st->columns == COLUMNS_MAX || strlen(name) >= sizeof c->name)
+        return cli_fail(CLI_DATA, "%s: '%.60s' is no option of a case", source, name);
+    for (size_t k = 0; k <= strlen(name); k++) {
+        c->name[k] = name[k] == '_' ? '-' : name[k];
+        c->heading[k] = name[k] == '-' ? '_' : name[k];
+    }
+    for (int k = 0; k < st->columns; k++)
+        if (strcmp(st->column[k].name, c->name) == 0)
+            return cli_fail(CLI_DATA, "%s: '%s' varies already", source, c->name);
+    c->factor = st->factors;
+    c->value = value;
+    st->columns++;
+    return cli_case_is_number(st->base, c->name)
+               ? CLI_CONTINUE
+               : cli_fail(CLI_DATA, "%s: '%s' is no option of a case that takes a number",
+                          source, c->name);
+}
+
+static cli_exit add_factor(study *st, const char *source, int rows)
+{
+    const double cases = (double)st->cases * rows;
+    if (cases > 1e8)
+        return cli_fail(CLI_DATA, "%s: %g cases, expected at most 1e8", source, cases);
+    st->rows[st->factors++] = rows;
+    st->cases = (int)cases;
+    return CLI_CONTINUE;
+}
+
+/* "from:to:count" or "from:to:count:log"; 0 where the word is something else. */
+static int read_range(const char *word, double **value)
+{
+    double from, to, count;
+    char a[64], b[64], n[64], kind[8] = "";
+    const int parts = sscanf(word, "%63[^:]:%63[^:]:%63[^:]:%7s", a, b, n, kind);
+    const int logarithmic = parts == 4 && strcmp(kind, "log") == 0;
+
+    if (parts < 3 || (parts == 4 && !logarithmic) || !cli_number(a, &from) ||
+        !cli_number(b, &to) || !cli_number(n, &count) || count < 2 || count > 1e7 ||
+        count != floor(count) || (logarithmic && !(from > 0.0 && to > 0.0)))
+        return 0;
+    *value = rb_alloc((size_t)count, 1);
+    for (int k = 0; *value && k < count; k++) {
+        const double t = k / (count - 1.0);
+        (*value)[k] = logarithmic ? from * pow(to / from, t) : from + (to - from) * t;
+    }
+    if (*value)
+        (*value)[(int)count - 1] = to;
+    return *value ? (int)count : 0;
+}
+
+static int read_values(char *text, double **value)
+{
+    int n = 0;
+    char *rest, *word = strtok_r(text, " \t,", &rest);
+    if (!word)
+        return 0;
+    if (strchr(word, ':'))
+        return strtok_r(NULL, " \t,", &rest) ? 0 : read_range(word, value);
+    *value = rb_alloc(strlen(word) + strlen(rest) + 1, 1);
+    for (; *value && word; word = strtok_r(NULL, " \t,", &rest))
+        if (!cli_number(word, &(*value)[n++]))
+            return 0;
+    return *value ? n : 0;
+}
+
+static cli_exit add_varied(study *st, int k)
+{
+    char source[16], text[4096], name[64];
+    int at = 0;
+
+    snprintf(source, sizeof source, "--vary-%d", k + 1);
+    if (strlen(st->o->vary[k]) >= sizeof text)
+        return cli_fail(CLI_USAGE, "%s: too long; use --cases", source);
+    strcpy(text, st->o->vary[k]);
+    const int rows = sscanf(text, "%63s%n", name, &at) == 1
+                         ? read_values(text + at, &st->owned[k])
+                         : 0;
+    if (rows < 1)
+        return cli_fail(
+            CLI_USAGE,
+            "%s: expected an option and numbers, or first:last:count, got '%s'", source,
+            st->o->vary[k]);
+    cli_exit code = add_column(st, source, name, st->owned[k]);
+    return code == CLI_CONTINUE ? add_factor(st, source, rows) : code;
+}
+
+static cli_exit add_table(study *st)
+{
+    const char *path = st->o->cases;
+    rb_message why;
+    const rb_status s = rb_io_table_read(path, &st->table, &why);
+    cli_exit code = CLI_CONTINUE;
+
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s", why.text);
+    if (!st->table.name)
+        return cli_fail(CLI_DATA, "%s: expected a line that names the columns", path);
+    for (int j = 0; j < st->table.columns && code == CLI_CONTINUE; j++)
+        code = add_column(st, path, st->table.name[j],
+                          st->table.x + (size_t)j * (size_t)st->table.rows);
+    return code == CLI_CONTINUE ? add_factor(st, path, st->table.rows) : code;
+}
+
+static cli_exit read_study(study *st)
+{
+    cli_exit code = CLI_CONTINUE;
+
+    st->cases = 1;
+    if (st->o->cases)
+        code = add_table(st);
+    for (int k = 0; k < VARIED_MAX && code == CLI_CONTINUE; k++)
+        if (st->o->vary[k])
+            code = add_varied(st, k);
+    if (code == CLI_CONTINUE && st->factors == 0)
+        code = cli_fail(CLI_USAGE, "a study needs --vary-1 or --cases");
+    return code;
+}
+
+static double value_of(const study *st, const column *c, int number)
+{
+    for (int f = st->factors - 1; f > c->factor; f--)
+        number /= st->rows[f];
+    return c->value[number % st->rows[c->factor]];
+}
+
+static cli_exit case_of(const study *st, int number, cli_case *c)
+{
+    cli_exit code = CLI_CONTINUE;
+
+    *c = *st->base; /* tables stay the base's */
+    for (int k = 0; k < st->columns && code == CLI_CONTINUE; k++)
+        code = cli_case_vary(c, number + 1, st->column[k].name,
+                             value_of(st, &st->column[k], number));
+    return code == CLI_CONTINUE ? cli_case_settle_again(c) : code;
+}
+
+/* What is refused is refused before anything is solved. */
+static cli_exit check_cases(const study *st)
+{
+    cli_exit code = CLI_CONTINUE;
+    cli_case c;
+
+    for (int k = 0; k < st->cases && code == CLI_CONTINUE; k++)
+        code = case_of(st, k, &c);
+    return code;
+}
+
+/* ---- Rows -----------------------------------------------------------------------------
+ */
+
+static uint64_t add_bytes(uint64_t hash, const void *data, size_t size)
+{
+    const unsigned char *byte = data;
+    for (size_t k = 0; k < size; k++)
+        hash = (hash ^ byte[k]) * 1099511628211u;
+    return hash;
+}
+
+/* FNV-1a of every input: tells whether a file holds rows of this study. */
+static uint64_t fingerprint(const study *st)
+{
+    json_t *inputs = cli_case_inputs(st->base);
+    char *text = json_dumps(inputs, JSON_COMPACT);
+    uint64_t hash = add_bytes(14695981039346656037u, RB_VERSION, sizeof RB_VERSION);
+
+    if (text)
+        hash = add_bytes(hash, text, strlen(text));
+    for (int k = 0; k < st->columns; k++) {
+        const column *c = &st->column[k];
+        hash = add_bytes(hash, c->name, strlen(c->name));
+        hash = add_bytes(hash, c->value, (size_t)st->rows[c->factor] * sizeof(double));
+    }
+    free(text);
+    json_decref(inputs);
+    return hash;
+}
+
+static void study_line(const study *st, char *line, size_t size)
+{
+    snprintf(line, size, "# study %016" PRIx64 " of %d cases\n", fingerprint(st),
+             st->cases);
+}
+
+/* Results that have a column: place in the row, whole: an int. */
+static const struct {
+    const char *name;
+    size_t offset;
+    int whole;
+} results[] = {
+#define RESULT(name, member)                                                             \
+    {                                                                                    \
+        name, offsetof(rb_rolling_sweep_row, member), 0                                  \
+    }
+#define WHOLE(name, member)                                                              \
+    {                                                                                    \
+        name, offsetof(rb_rolling_sweep_row, member), 1                                  \
+    }
+    WHOLE("status", status),
+    RESULT("normal_load_N/mm", normal_load),
+    RESULT("tangential_load_N/mm", tangential_load),
+    RESULT("force_ratio", force_ratio),
+    RESULT("approach_mm", approach),
+    RESULT("creepage", creepage),
+    RESULT("creep_ratio", creep_ratio),
+    RESULT("free_creepage", free_creepage),
+    RESULT("half_width_mm", half_width),
+    RESULT("max_pressure_MPa", max_pressure),
+    WHOLE("contact", contact),
+    WHOLE("stick", stick),
+    WHOLE("slip", slip),
+    RESULT("dissipation_N/mm", dissipation),
+    RESULT("residual", residual),
+    WHOLE("iterations", iterations),
+};
+
+enum { RESULTS = sizeof results / sizeof results[0] };
+
+/* A file names a column once: what was given is not printed again. */
+static int is_given(const study *st, const char *name)
+{
+    for (int k = 0; k < st->columns; k++)
+        if (strcmp(st->column[k].heading, name) == 0)
+            return 1;
+    return 0;
+}
+
+static void write_head(study *st)
+{
+    char line[80];
+    study_line(st, line, sizeof line);
+    fprintf(st->out, "# rollbem %s\n# %s\n%s", RB_VERSION, cli_command_line(), line);
+    fputs("# status 0: solved. xi > 0: A's surface slides towards +x, the friction on A "
+          "points to -x, Q < 0\n# case",
+          st->out);
+    for (int k = 0; k < st->columns; k++)
+        fprintf(st->out, "\t%s", st->column[k].heading);
+    for (int j = 0; j < RESULTS; j++)
+        if (!is_given(st, results[j].name))
+            fprintf(st->out, "\t%s", results[j].name);
+    fputc('\n', st->out);
+}
+
+static void write_result(FILE *out, const rb_rolling_sweep_row *row, int j)
+{
+    const char *place = (const char *)row + results[j].offset;
+    if (results[j].whole)
+        fprintf(out, "\t%d", *(const int *)(const void *)place);
+    else if (isnan(*(const double *)(const void *)place))
+        fputs("\tnan", out);
+    else
+        fprintf(out, "\t%.17g", *(const double *)(const void *)place);
+}
+
+static int see_row(int k, const rb_rolling_sweep_row *row, void *context)
+{
+    study *st = context;
+
+    fprintf(st->out, "%d", k + 1);
+    for (int j = 0; j < st->columns; j++)
+        fprintf(st->out, "\t%.17g", value_of(st, &st->column[j], k));
+    for (int j = 0; j < RESULTS; j++)
+        if (!is_given(st, results[j].name))
+            write_result(st->out, row, j);
+    fputc('\n', st->out);
+    if (row->status != RB_OK) {
+        const int code = cli_exit_of(row->status);
+        st->unsolved++;
+        st->worst = code > st->worst ? code : st->worst;
+    }
+    return ferror(st->out);
+}
+
+static rb_status make_case(int k, rb_rolling_case *rc, void *context)
+{
+    cli_case c;
+    if (case_of(context, k, &c) != CLI_CONTINUE)
+        return RB_EINVAL;
+    *rc = c.rc;
+    return RB_OK;
+}
+
+/* ---- Progress -------------------------------------------------------------------------
+ */
+
+static volatile sig_atomic_t interrupted;
+
+static void note_interrupt(int signal_number)
+{
+    (void)signal_number;
+    interrupted = 1;
+}
+
+/* Rows reach the file at least twice a second. */
+static int tick(int seen, void *context)
+{
+    study *st = context;
+    const double now = rb_seconds(), spent = now - st->start;
+    const int terminal = isatty(STDERR_FILENO), left = st->cases - st->first - seen;
+
+    if (interrupted)
+        return 1;
+    if (now - st->shown < 0.5)
+        return 0;
+    st->shown = now;
+    if (seen > 0 && !st->o->quiet && (terminal || st->o->progress))
+        fprintf(stderr, "%scase %d of %d, %.0f s left%s", terminal ? "\r" : "",
+                st->first + seen, st->cases, spent / seen * left,
+                terminal && left > 0 ? "\033[K" : "\n");
+    return fflush(st->out) != 0;
+}
+
+/* ---- The output file ------------------------------------------------------------------
+ */
+
+/* Counts whole rows of this study; *end: behind the last one.  -1: not this study. */
+static int rows_of_study(const study *st, FILE *file, long *end)
+{
+    char wanted[80], line[4096];
+    int known = 0, rows = 0;
+
+    study_line(st, wanted, sizeof wanted);
+    *end = 0;
+    while (fgets(line, sizeof line, file)) {
+        const size_t n = strlen(line);
+        if (line[n - 1] != '\n')
+            break;
+        known = known || strcmp(line, wanted) == 0;
+        rows += line[0] != '#';
+        *end = ftell(file);
+    }
+    return known ? rows : -1;
+}
+
+static cli_exit resume(study *st)
+{
+    long end;
+    const char *path = st->o->output;
+    const int rows = rows_of_study(st, st->out, &end);
+
+    if (rows < 0)
+        return cli_fail(CLI_CANTWRITE,
+                        "%s: holds something else; --restart would overwrite it", path);
+    if (fflush(st->out) != 0 || ftruncate(fileno(st->out), end) != 0 ||
+        fseek(st->out, end, SEEK_SET) != 0)
+        return cli_fail(CLI_CANTWRITE, "%s: %s", path, strerror(errno));
+    st->first = rows < st->cases ? rows : st->cases;
+    if (!st->o->quiet && rows > 0)
+        fprintf(stderr, "rollbem: %s holds %d of %d cases\n", path, rows, st->cases);
+    return CLI_CONTINUE;
+}
+
+static cli_exit open_output(study *st)
+{
+    const char *path = st->o->output;
+
+    st->out = stdout;
+    if (path) {
+        st->out = st->o->restart ? NULL : fopen(path, "r+");
+        if (st->out) {
+            const cli_exit code = resume(st);
+            if (code != CLI_CONTINUE)
+                fclose(st->out);
+            return code;
+        }
+        st->out = fopen(path, "w");
+        if (!st->out)
+            return cli_fail(CLI_CANTWRITE, "%s: %s", path, strerror(errno));
+    }
+    write_head(st);
+    return CLI_CONTINUE;
+}
+
+static cli_exit close_output(study *st, cli_exit code)
+{
+    const int failed = ferror(st->out) || fflush(st->out) != 0;
+    const int e = errno;
+    if (st->out != stdout && fclose(st->out) != 0 && !failed)
+        return cli_fail(CLI_CANTWRITE, "%s: %s", st->o->output, strerror(errno));
+    return failed
+               ? cli_fail(CLI_CANTWRITE, "%s: %s",
+                          st->o->output ? st->o->output : "standard output", strerror(e))
+               : code;
+}
+
+/* ---- Command --------------------------------------------------------------------------
+ */
+
+static cli_exit run(study *st)
+{
+    struct sigaction act = {.sa_handler = note_interrupt}, before;
+    rb_message why = {""};
+    const rb_rolling_sweep sweep = {.first = st->first,
+                                    .count = st->cases - st->first,
+                                    .workers = st->o->jobs,
+                                    .make = make_case,
+                                    .see = see_row,
+                                    .tick = tick,
+                                    .context = st};
+
+    fflush(st->out); /* or every process would have what is in the buffer */
+    sigaction(SIGINT, &act, &before);
+    st->start = st->shown = rb_seconds();
+    const rb_status s = rb_rolling_sweep_run(&sweep, &why);
+    sigaction(SIGINT, &before, NULL);
+    const double spent = rb_seconds() - st->start;
+    if (s == RB_INTERRUPTED && ferror(st->out))
+        return CLI_CANTWRITE; /* close_output says it */
+    if (s != RB_OK)
+        return cli_fail(cli_exit_of(s), "%s%s", why.text,
+                        st->o->output ? "; the same command goes on from there" : "");
+    if (!st->o->quiet)
+        fprintf(stderr, "study: %d cases in %.3g s, %d not solved\n", sweep.count, spent,
+                st->unsolved);
+    return (cli_exit)st->worst;
+}
+
+static cli_exit check_base(const cli_case *c)
+{
+    cli_exit code = CLI_CONTINUE;
+    for (int k = 0; k < 2 && code == CLI_CONTINUE; k++)
+        code = cli_case_refuse(c, k ? "accuracy" : "error", "studies have no error bars");
+    if (code == CLI_CONTINUE && cli_case_has_steps(c))
+        code = cli_fail(CLI_USAGE, "a study is one of static or steady cases");
+    return code;
+}
+
+static cli_exit solve(const cli_case *c, const sweep_options *o)
+{
+    study st = {.base = c, .o = o};
+    cli_exit code = read_study(&st);
+
+    if (code == CLI_CONTINUE)
+        code = check_cases(&st);
+    if (code == CLI_CONTINUE)
+        code = open_output(&st);
+    if (code == CLI_CONTINUE)
+        code = close_output(&st, run(&st));
+    study_free(&st);
+    return code;
+}
+
+int cli_sweep(int argc, char **argv)
+{
+    cli_case c;
+    sweep_options o = {0};
+    cli_args args = {0};
+    cli_case_defaults(&c);
+    const cli_spec spec = {"rollbem sweep [OPTION...] [STUDY.ini]",
+                           about,
+                           notes,
+                           {cli_case_set(&c), {options, OPTIONS, &o, o.given}},
+                           2};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE)
+        code = cli_case_finish(&spec, &c, &args);
+    if (code == CLI_CONTINUE)
+        code = check_base(&c);
+    if (code == CLI_CONTINUE)
+        code = solve(&c, &o);
+    cli_args_free(&args);
+    cli_case_free(&c);
+    return code;
+}

@@ -1,0 +1,207 @@
+/* Parameter studies: the library's processes and the program. */
+#include "cli_run.h"
+#include "rollbem/io.h"
+#include "rollbem/rolling.h"
+
+#include <signal.h>
+
+/* ---- The library ----------------------------------------------------------------------
+ */
+
+enum { CASES = 23 };
+
+typedef struct {
+    int first, seen, stop_at, kill_at;
+    rb_rolling_sweep_row row[CASES];
+} record;
+
+static rb_status make(int k, rb_rolling_case *rc, void *context)
+{
+    const record *r = context;
+    if (k == r->kill_at)
+        raise(SIGKILL);
+    *rc = rb_rolling_case_defaults();
+    rc->a.support = RB_BEM_HALFPLANE;
+    rc->formulation = RB_STEADY;
+    rc->half_width = 1.0;
+    rc->creep_ratio = 0.05 * k;
+    rc->contact_elements = k == 5 ? 1 : 40; /* too few: a case that fails */
+    return RB_OK;
+}
+
+static int see(int k, const rb_rolling_sweep_row *row, void *context)
+{
+    record *r = context;
+    assert_int_equal(k, r->first + r->seen); /* in order */
+    r->row[r->seen++] = *row;
+    return r->seen == r->stop_at;
+}
+
+static rb_status run(record *r, int workers, rb_message *why)
+{
+    const rb_rolling_sweep sweep = {.first = r->first,
+                                    .count = CASES,
+                                    .workers = workers,
+                                    .make = make,
+                                    .see = see,
+                                    .context = r};
+    return rb_rolling_sweep_run(&sweep, why);
+}
+
+static void rows_are_those_of_single_solutions(void **state)
+{
+    (void)state;
+    record r = {.first = 2, .kill_at = -1};
+    CHECK_STATUS(run(&r, 3, NULL), RB_OK);
+    assert_int_equal(r.seen, CASES);
+    for (int i = 0; i < CASES; i++) {
+        rb_rolling_case rc;
+        rb_rolling_solution s;
+        CHECK_STATUS(make(2 + i, &rc, &r), RB_OK);
+        assert_int_equal(r.row[i].status, rb_rolling_solve(&rc, &s, NULL));
+        if (2 + i == 5) {
+            assert_int_equal(r.row[i].status, RB_EINVAL);
+            assert_true(isnan(r.row[i].normal_load));
+        } else {
+            CHECK_ABS(r.row[i].tangential_load, s.tangential_load, 0.0, "Q of %d", i);
+            CHECK_ABS(r.row[i].free_creepage, s.free_creepage, 0.0, "xi0 of %d", i);
+            assert_int_equal(r.row[i].stick, s.stick);
+        }
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void a_process_that_dies_loses_one_case(void **state)
+{
+    (void)state;
+    record r = {.kill_at = 9};
+    CHECK_STATUS(run(&r, 2, NULL), RB_OK);
+    for (int i = 0; i < CASES; i++)
+        assert_int_equal(r.row[i].status, i == 9   ? RB_ENOMEM
+                                          : i == 5 ? RB_EINVAL
+                                                   : RB_OK);
+}
+
+static void stops_when_told(void **state)
+{
+    (void)state;
+    record r = {.stop_at = 4, .kill_at = -1};
+    rb_message why;
+    CHECK_STATUS(run(&r, 0, &why), RB_INTERRUPTED);
+    assert_int_equal(r.seen, 4);
+    assert_non_null(strstr(why.text, "after case 4"));
+    CHECK_STATUS(run(&r, -1, &why), RB_EINVAL);
+    CHECK_STATUS(run(&r, 100000, &why), RB_EINVAL);
+}
+
+/* ---- The program ----------------------------------------------------------------------
+ */
+
+#define STUDY "sweep --support halfplane --formulation steady --load 500 --quiet "
+
+static const struct {
+    const char *arguments;
+    int code;
+    const char *part;
+} bad[] = {
+    {"", 64, "a study needs --vary-1 or --cases"},
+    {"--vary-1 mu", 64, "--vary-1: expected an option and numbers"},
+    {"--vary-1 'mu 0.1 x'", 64, "got 'mu 0.1 x'"},
+    {"--vary-1 'mu 0:1:1'", 64, "got 'mu 0:1:1'"},
+    {"--vary-1 'mu 0:1:5:log'", 64, "got 'mu 0:1:5:log'"},
+    {"--vary-1 'solver 1'", 65, "'solver' is no option of a case that takes a number"},
+    {"--vary-1 'friction 1'", 65, "'friction' is no option of a case"},
+    {"--vary-1 'mu 0.1 -1'", 65, "case 2: mu: expected a number >= 0"},
+    {"--vary-1 'mu 0.1' --vary-2 'mu 0.2'", 65, "'mu' varies already"},
+    {"--vary-1 'half-width 1'", 64, "exclude each other"},
+    {"--vary-1 'mu 0.1' --error", 64, "--error: studies have no error bars"},
+    {"--cases nowhere", 66, "nowhere: No such file"},
+    {"--vary-1 'mu 0:1:10000000' --vary-2 'load 1:2:10000000'", 65, "at most 1e8"},
+    {"--vary-1 'mu 0.1' --output /no/such/file", 73, "/no/such/file: No such file"},
+    {"--vary-1 'mu 0.1' --jobs -1", 64, "--jobs: expected a whole number"},
+};
+
+static void bad_studies_are_refused(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+        char line[400];
+        snprintf(line, sizeof line, STUDY "%s", bad[k].arguments);
+        check_refused(line, bad[k].code, bad[k].part);
+    }
+}
+
+/* A grid from a file, times a table: every combination, the last varying fastest. */
+static void grid_times_table(void **state)
+{
+    (void)state;
+    rb_io_table t;
+    write_file("study.ini",
+               "support = halfplane\nformulation = steady\n[normal]\nload = 500\n"
+               "[sweep]\ncases = cases\nvary-1 = creep-ratio 0:1:3\n");
+    write_file("cases", "mu young\n0.1 2e5\n0.2 1e5\n");
+    assert_int_equal(rollbem("sweep study.ini --quiet --contact-elements 40"), 0);
+    write_file("rows", out);
+    CHECK_STATUS(rb_io_table_read("rows", &t, NULL), RB_OK);
+    assert_int_equal(t.rows, 6);
+    const double *mu = rb_io_table_column(&t, "mu"),
+                 *young = rb_io_table_column(&t, "young"),
+                 *ratio = rb_io_table_column(&t, "creep_ratio"),
+                 *force = rb_io_table_column(&t, "force_ratio");
+    assert_true(mu && young && ratio && force);
+    for (int i = 0; i < 6; i++) {
+        CHECK_ABS(mu[i], i < 3 ? 0.1 : 0.2, 0.0, "mu");
+        CHECK_ABS(young[i], i < 3 ? 2e5 : 1e5, 0.0, "young");
+        CHECK_ABS(ratio[i], 0.5 * (i % 3), 0.0, "creep ratio");
+    }
+    rb_io_table_free(&t);
+}
+
+/* The whole file at once, and cut off in the middle of a row and gone on with. */
+static void an_interrupted_study_goes_on(void **state)
+{
+    (void)state;
+    static const char study[] =
+        STUDY "--contact-elements 30 --vary-1 'creep-ratio 0:1.5:31' --output study.tsv";
+    static char whole[100000], again[100000];
+    assert_int_equal(rollbem(study), 0);
+    slurp("study.tsv", whole, sizeof whole);
+    assert_int_equal(shell("head -c 2000 study.tsv >cut && cp cut study.tsv"), 0);
+    assert_int_equal(rollbem(study), 0);
+    slurp("study.tsv", again, sizeof again);
+    assert_string_equal(again, whole);
+    assert_int_equal(rollbem(study), 0); /* nothing left to do */
+    slurp("study.tsv", again, sizeof again);
+    assert_string_equal(again, whole);
+    check_refused(STUDY "--vary-1 'creep-ratio 0:1:3' --output study.tsv", 73,
+                  "study.tsv: holds something else");
+    assert_int_equal(rollbem(STUDY "--contact-elements 30 --vary-1 'creep-ratio 0:1:3' "
+                                   "--output study.tsv --restart"),
+                     0);
+    slurp("study.tsv", again, sizeof again);
+    assert_null(strstr(again, "of 31 cases"));
+}
+
+static void cases_that_fail_are_rows_and_an_exit_code(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("sweep --support halfplane --mu 0 --vary-1 'load 1 2' "
+                             "--zone 0.001 --contact-elements 10"),
+                     1);
+    assert_non_null(strstr(err, "2 cases"));
+    assert_non_null(strstr(err, "2 not solved"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_are_those_of_single_solutions),
+        cmocka_unit_test(a_process_that_dies_loses_one_case),
+        cmocka_unit_test(stops_when_told),
+        cmocka_unit_test(bad_studies_are_refused),
+        cmocka_unit_test(grid_times_table),
+        cmocka_unit_test(an_interrupted_study_goes_on),
+        cmocka_unit_test(cases_that_fail_are_rows_and_an_exit_code),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
