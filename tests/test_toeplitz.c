@@ -2,6 +2,7 @@
 #include "check.h"
 #include "rollbem/bem.h"
 
+#include <gsl/gsl_math.h>
 #include <string.h>
 
 typedef rb_status make(int, const double *, rb_bem_material, double, rb_bem_flexibility *,
@@ -147,6 +148,141 @@ static void refuse(int n, const double *ends, rb_bem_material material, double d
     rb_bem_flexibility_free(&f);
 }
 
+/* ---- The disc
+ * --------------------------------------------------------------------------
+ */
+
+static double *equal_arcs(int n, double radius, double from, double to)
+{
+    double *ends = equal_ends(n, from, to);
+    for (int i = 0; i <= n + 1; i++)
+        ends[i] = radius * sin(ends[i]);
+    return ends;
+}
+
+static rb_bem_flexibility disc(int n, double radius, double from, double to,
+                               rb_bem_normals normals)
+{
+    double *ends = equal_arcs(n, radius, from, to);
+    rb_bem_flexibility f;
+    rb_message why;
+    CHECK_STATUS(rb_bem_flexibility_disc(n, ends, radius, steel, normals, &f, &why),
+                 RB_OK);
+    free(ends);
+    return f;
+}
+
+/* Products are those of the matrix, in both frames; the matrix is symmetric. */
+static void the_disc_is_symmetric(void **state)
+{
+    (void)state;
+    enum { n = 90, m = n + 1 };
+    static double F[2 * m * 2 * n], r[2 * n], w[2 * m];
+    for (int normals = 0; normals < 2; normals++) {
+        rb_bem_flexibility f = disc(n, 40.0, -1.2, 0.7, (rb_bem_normals)normals);
+        CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m), RB_OK);
+        const double scale = largest(sizeof F / sizeof *F, F);
+        for (int i = 0; i < 2 * n; i++) {
+            r[i] = sin(3.0 * i * i);
+            for (int j = 0; j < i; j++) {
+                const int row = i < n ? i : i + 1, column = j < n ? j : j + 1;
+                CHECK_ABS(F[row + j * 2 * m], F[column + i * 2 * m], 1e-13 * scale,
+                          "entry %d, %d", i, j);
+            }
+        }
+        rb_bem_flexibility_apply(&f, r, w);
+        for (int i = 0; i < 2 * m; i++) {
+            double sum = 0.0;
+            for (int j = 0; j < 2 * n; j++)
+                sum += F[i + j * 2 * m] * r[j];
+            CHECK_ABS(w[i], sum, 1e-12 * scale, "row %d", i);
+        }
+        rb_bem_flexibility_free(&f);
+    }
+}
+
+/* A rigid motion apart it is the reference: u and what is expected differ by c, t e_x. */
+static void the_disc_is_the_reference_but_for_a_translation(void **state)
+{
+    (void)state;
+    enum { n = 40, m = n + 1, j = 13 };
+    static double r[2 * n], w[2 * m];
+    const double radius = 40.0, h = 2.0 / n;
+    rb_bem_flexibility f = disc(n, radius, -1.1, 0.9, RB_BEM_NORMALS_SURFACE);
+    r[j] = -0.6; /* p_r = 0.6, p_t = 1.3 */
+    r[n + j] = 1.3;
+    rb_bem_flexibility_apply(&f, r, w);
+    double first[2] = {0.0, 0.0};
+    for (int i = 0; i < m; i++) {
+        double u[4], angle = -1.1 + (i + 0.5) * h - 0.5 * M_PI;
+        CHECK_STATUS(rb_bem_disc_response(radius, steel, h, (i - j) * h, u), RB_OK);
+        const double dr = -w[i] - (0.6 * u[0] + 1.3 * u[2]);
+        const double dt = w[m + i] - (0.6 * u[1] + 1.3 * u[3]);
+        const double dx = dr * cos(angle) - dt * sin(angle),
+                     dy = dr * sin(angle) + dt * cos(angle);
+        if (i == 0) {
+            first[0] = dx;
+            first[1] = dy;
+        }
+        CHECK_ABS(dx, first[0], 1e-13 * fabs(u[0]) + 1e-18, "x of point %d", i);
+        CHECK_ABS(dy, first[1], 1e-13 * fabs(u[0]) + 1e-18, "y of point %d", i);
+    }
+    rb_bem_flexibility_free(&f);
+}
+
+/* Near its load the disc answers like a half-plane, to the order of the angle. */
+static void a_short_arc_is_a_half_plane(void **state)
+{
+    (void)state;
+    enum { n = 50, m = n + 1 };
+    static double r[2 * n], w[2 * m], v[2 * m];
+    double *ends = equal_arcs(n, 1e4, -1e-7, 1e-7);
+    rb_bem_flexibility half, f = disc(n, 1e4, -1e-7, 1e-7, RB_BEM_NORMALS_OBSTACLE);
+    CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, steel, 1.0, &half, NULL), RB_OK);
+    for (int i = 0; i < n; i++) {
+        r[i] = 1.0 + sin(i);
+        r[n + i] = cos(i);
+    }
+    rb_bem_flexibility_apply(&f, r, w);
+    rb_bem_flexibility_apply(&half, r, v);
+    for (int i = 1; i < m; i++) {
+        CHECK_ABS(w[i] - w[0], v[i] - v[0], 1e-5 * fabs(v[n / 2] - v[0]), "N of %d", i);
+        CHECK_ABS(w[m + i] - w[m], v[m + i] - v[m], 1e-5 * fabs(v[n / 2] - v[0]),
+                  "T of %d", i);
+    }
+    free(ends);
+    rb_bem_flexibility_free(&half);
+    rb_bem_flexibility_free(&f);
+}
+
+static void bad_discs_are_refused(void **state)
+{
+    (void)state;
+    const double equal[] = {-1.5, -0.5, 0.5, 1.5};
+    rb_bem_flexibility f;
+    rb_message why;
+    CHECK_STATUS(
+        rb_bem_flexibility_disc(2, equal, 2.0, steel, RB_BEM_NORMALS_SURFACE, &f, &why),
+        RB_EINVAL);
+    assert_non_null(strstr(why.text, "arc"));
+    CHECK_STATUS(
+        rb_bem_flexibility_disc(2, equal, 1.5, steel, RB_BEM_NORMALS_SURFACE, &f, &why),
+        RB_EINVAL);
+    assert_non_null(strstr(why.text, "wider"));
+    double *ends = equal_arcs(6, 3.0, -0.5, 0.5);
+    for (int k = 0, refused = 1; refused; k++) {
+        alloc_fail_after(k);
+        const rb_status s = rb_bem_flexibility_disc(6, ends, 3.0, steel,
+                                                    RB_BEM_NORMALS_OBSTACLE, &f, &why);
+        refused = alloc_failed();
+        alloc_succeed();
+        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        rb_bem_flexibility_free(&f);
+        assert_true(k < 40);
+    }
+    free(ends);
+}
+
 static void bad_input(void **state)
 {
     (void)state;
@@ -190,6 +326,10 @@ int main(void)
         cmocka_unit_test(equals_the_dense_matrix),
         cmocka_unit_test(keeps_differences_under_a_deep_datum),
         cmocka_unit_test(long_lines_work),
+        cmocka_unit_test(the_disc_is_symmetric),
+        cmocka_unit_test(the_disc_is_the_reference_but_for_a_translation),
+        cmocka_unit_test(a_short_arc_is_a_half_plane),
+        cmocka_unit_test(bad_discs_are_refused),
         cmocka_unit_test(bad_input),
         cmocka_unit_test(failing_allocations),
     };

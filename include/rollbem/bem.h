@@ -156,7 +156,17 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
                                       rb_bem_material material, double datum,
                                       rb_bem_flexibility *f, rb_message *why);
 
-/* The same half-plane seen at any points x of its surface: w = W r, W: 2 points x 2n
+/* The disc in closed form, without elements elsewhere on its boundary: equal arcs at the
+ * lowest point, ends as in rb_bem_mesh_cylinder.  Its load is carried by a force and a
+ * moment at the centre; displacements are those relative to the centre, less the
+ * translation that a point force makes infinite there, and without mean rotation.
+ * Toeplitz in the frames of the surface.  RB_EINVAL: as above, and arcs of different
+ * lengths. */
+rb_status rb_bem_flexibility_disc(int n_c, const double *ends, double radius,
+                                  rb_bem_material material, rb_bem_normals normals,
+                                  rb_bem_flexibility *f, rb_message *why);
+
+/* A half-plane seen at any points x of its surface: w = W r, W: 2 points x 2n
  * column-major, rows (w_N, w_T); ends: n + 1.  RB_EINVAL: sizes, material, datum <= 0. */
 rb_status rb_bem_halfplane_displacement(int n, const double *ends,
                                         rb_bem_material material, double datum,

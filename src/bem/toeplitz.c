@@ -1,27 +1,33 @@
-/* The half-plane on equal elements (B6): the response depends on the distance between two
- * elements alone, so that its flexibility is Toeplitz and a product takes Fourier
- * transforms, n log n work and memory of a few n. */
+/* Flexibilities that depend on the distance between two elements alone: the half-plane
+ * (B6) on equal elements, the disc on equal arcs.  They are Toeplitz, and a product takes
+ * Fourier transforms, n log n work and memory of a few n. */
 #include "bem/toeplitz.h"
 #include "bem/fourier.h"
 #include "bem/internal.h"
 
 #include <float.h>
+#include <gsl/gsl_math.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* w_N = t * r_N + s * r_T, w_T = t * r_T - s * r_N, with t even, s odd in the distance.
- * Transforms of length >= 2n + 1 let nothing wrap around.  The transform of t less
- * its mean `base` is real, that of s imaginary; `base` times the sum of the tractions is
- * added apart: with a deep datum it would drown the rest in rounding.
- * work: room for one product, so that an operator serves one thread at a time. */
+enum { N, T };
+
+/* w_N = t_N * r_N + s * r_T, w_T = t_T * r_T - s * r_N, with t even, s odd in the
+ * distance; the half-plane has one t for both.  Transforms of length >= 2n + 1 let
+ * nothing wrap around.  The transform of t less its mean `base` is real, that of s
+ * imaginary; `base` times the sum of the tractions is added apart: with a deep datum it
+ * would drown the rest in rounding.  work: room for one product, so that an operator
+ * serves one thread at a time. */
 typedef struct {
-    int n, coupled;
-    double base;
-    double *t, *s;         /* n + 1 each: distances 0 ... n elements; s(-k) = -s(k) */
-    double *t_hat, *s_hat; /* size/2 + 1: real and imaginary part of the transforms */
+    int n, coupled, alike; /* alike: t_T is t_N */
+    double base[2];
+    double *t[2], *s;         /* n + 1: distances 0 ... n elements; s(-k) = -s(k) */
+    double *t_hat[2], *s_hat; /* size/2 + 1: real and imaginary part of the transforms */
     double *work[2];
     rb_fourier fourier;
+    double *cosine, *sine; /* m: of the angle to the obstacle's frame; NULL: none */
+    double *turned;        /* 2n: tractions in the surface's frame */
 } toeplitz;
 
 static void toeplitz_free(void *data)
@@ -30,31 +36,44 @@ static void toeplitz_free(void *data)
     if (!o)
         return;
     rb_fourier_free(&o->fourier);
-    fftw_free(o->work[0]);
-    fftw_free(o->work[1]);
-    free(o->t);
+    for (int k = 0; k < 2; k++) {
+        fftw_free(o->work[k]);
+        if (k == N || !o->alike) {
+            free(o->t[k]);
+            free(o->t_hat[k]);
+        }
+    }
     free(o->s);
-    free(o->t_hat);
     free(o->s_hat);
+    free(o->cosine);
+    free(o->sine);
+    free(o->turned);
     free(o);
 }
 
-static toeplitz *toeplitz_alloc(int n)
+static int alloc_kernels(toeplitz *o)
+{
+    const size_t m = (size_t)o->n + 1, half = (size_t)o->fourier.size / 2 + 1;
+
+    for (int k = 0; k < 2; k++) {
+        o->t[k] = k && o->alike ? o->t[N] : rb_alloc(m, 1);
+        o->t_hat[k] = k && o->alike ? o->t_hat[N] : rb_alloc(half, 1);
+        o->work[k] = rb_fourier_alloc(&o->fourier);
+    }
+    o->s = rb_alloc(m, 1);
+    o->s_hat = rb_alloc(half, 1);
+    return o->t[N] && o->t[T] && o->s && o->t_hat[N] && o->t_hat[T] && o->s_hat &&
+           o->work[N] && o->work[T];
+}
+
+static toeplitz *toeplitz_alloc(int n, int alike)
 {
     toeplitz *o = calloc(1, sizeof *o);
     if (!o)
         return NULL;
     o->n = n;
-    if (rb_fourier_make(2 * n + 1, &o->fourier)) {
-        const size_t half = (size_t)o->fourier.size / 2 + 1;
-        o->t = rb_alloc((size_t)n + 1, 1);
-        o->s = rb_alloc((size_t)n + 1, 1);
-        o->t_hat = rb_alloc(half, 1);
-        o->s_hat = rb_alloc(half, 1);
-        for (int k = 0; k < 2; k++)
-            o->work[k] = rb_fourier_alloc(&o->fourier);
-    }
-    if (o->t && o->s && o->t_hat && o->s_hat && o->work[0] && o->work[1])
+    o->alike = alike;
+    if (rb_fourier_make(2 * n + 1, &o->fourier) && alloc_kernels(o))
         return o;
     toeplitz_free(o);
     return NULL;
@@ -87,49 +106,96 @@ static void transform_back(const toeplitz *o, double constant, double *work, dou
 }
 
 /* One traction, no coupling: the product with t. */
-static void apply_alone(const toeplitz *o, const double *r, double *w)
+static void apply_alone(const toeplitz *o, int k, const double *r, double *w)
 {
+    const double *t_hat = o->t_hat[k];
+
     if (all_zero(o->n, r)) {
         memset(w, 0, ((size_t)o->n + 1) * sizeof *w);
         return;
     }
     fftw_complex *z = rb_fourier_forward(&o->fourier, o->n, r, o->work[0]);
-    for (int k = 0; k <= o->fourier.size / 2; k++) {
-        z[k][0] *= o->t_hat[k];
-        z[k][1] *= o->t_hat[k];
+    for (int j = 0; j <= o->fourier.size / 2; j++) {
+        z[j][0] *= t_hat[j];
+        z[j][1] *= t_hat[j];
     }
-    transform_back(o, o->base * sum_of(o->n, r), o->work[0], w);
+    transform_back(o, o->base[k] * sum_of(o->n, r), o->work[0], w);
 }
 
 /* Both at once: i s_hat is the transform of s. */
 static void apply_coupled(const toeplitz *o, const double *r, double *w)
 {
     const rb_fourier *f = &o->fourier;
-    fftw_complex *N = rb_fourier_forward(f, o->n, r, o->work[0]);
-    fftw_complex *T = rb_fourier_forward(f, o->n, r + o->n, o->work[1]);
+    fftw_complex *p = rb_fourier_forward(f, o->n, r, o->work[N]);
+    fftw_complex *q = rb_fourier_forward(f, o->n, r + o->n, o->work[T]);
 
     for (int k = 0; k <= f->size / 2; k++) {
-        const double t = o->t_hat[k], s = o->s_hat[k];
-        const double n0 = N[k][0], n1 = N[k][1], t0 = T[k][0], t1 = T[k][1];
-        N[k][0] = t * n0 - s * t1;
-        N[k][1] = t * n1 + s * t0;
-        T[k][0] = t * t0 + s * n1;
-        T[k][1] = t * t1 - s * n0;
+        const double t_N = o->t_hat[N][k], t_T = o->t_hat[T][k], s = o->s_hat[k];
+        const double p0 = p[k][0], p1 = p[k][1], q0 = q[k][0], q1 = q[k][1];
+        p[k][0] = t_N * p0 - s * q1;
+        p[k][1] = t_N * p1 + s * q0;
+        q[k][0] = t_T * q0 + s * p1;
+        q[k][1] = t_T * q1 - s * p0;
     }
-    transform_back(o, o->base * sum_of(o->n, r), o->work[0], w);
-    transform_back(o, o->base * sum_of(o->n, r + o->n), o->work[1], w + o->n + 1);
+    transform_back(o, o->base[N] * sum_of(o->n, r), o->work[N], w);
+    transform_back(o, o->base[T] * sum_of(o->n, r + o->n), o->work[T], w + o->n + 1);
+}
+
+/* From the frame of the obstacle to that of the surface (way = 1), or back (way = -1):
+ * r_n = cos r_N - way sin r_T, r_t = way sin r_N + cos r_T. */
+static void turn(const toeplitz *o, int way, int count, const double *from, double *to)
+{
+    for (int i = 0; i < count; i++) {
+        const double c = o->cosine[i], s = way * o->sine[i];
+        const double along_n = from[i], along_t = from[count + i];
+        to[i] = c * along_n - s * along_t;
+        to[count + i] = s * along_n + c * along_t;
+    }
 }
 
 static void toeplitz_apply(const rb_bem_flexibility *f, const double *r, double *w)
 {
     const toeplitz *o = f->data;
 
+    if (o->cosine) {
+        turn(o, 1, f->n, r, o->turned);
+        r = o->turned;
+    }
     if (o->coupled) {
         apply_coupled(o, r, w);
-        return;
+    } else {
+        apply_alone(o, N, r, w);
+        apply_alone(o, T, r + f->n, w + f->m);
     }
-    apply_alone(o, r, w);
-    apply_alone(o, r + f->n, w + f->m);
+    if (o->cosine)
+        turn(o, -1, f->m, w, w);
+}
+
+/* Entries of point i and element j in the surface's frames: NN, TN, NT, TT. */
+static void entry(const toeplitz *o, size_t i, size_t j, double *e)
+{
+    const size_t k = i > j ? i - j : j - i;
+
+    e[0] = o->t[N][k];
+    e[2] = i > j ? o->s[k] : -o->s[k];
+    e[1] = -e[2];
+    e[3] = o->t[T][k];
+}
+
+/* e = R_i^T e R_j for the turns R of turn(). */
+static void turn_entry(const toeplitz *o, size_t i, size_t j, double *e)
+{
+    const double ci = o->cosine[i], si = o->sine[i], cj = o->cosine[j], sj = o->sine[j];
+    double f[4];
+
+    for (int c = 0; c < 2; c++) {
+        f[2 * c] = ci * e[2 * c] + si * e[2 * c + 1];
+        f[2 * c + 1] = -si * e[2 * c] + ci * e[2 * c + 1];
+    }
+    for (int k = 0; k < 2; k++) {
+        e[k] = f[k] * cj + f[2 + k] * sj;
+        e[2 + k] = -f[k] * sj + f[2 + k] * cj;
+    }
 }
 
 static rb_status toeplitz_matrix(const rb_bem_flexibility *f, double *F, int ldf)
@@ -138,13 +204,15 @@ static rb_status toeplitz_matrix(const rb_bem_flexibility *f, double *F, int ldf
     const size_t n = (size_t)f->n, m = (size_t)f->m, ld = (size_t)ldf;
 
     for (size_t j = 0; j < n; j++) {
-        double *N = F + j * ld, *T = F + (j + n) * ld;
+        double *column_N = F + j * ld, *column_T = F + (j + n) * ld, e[4];
         for (size_t i = 0; i < m; i++) {
-            const size_t k = i > j ? i - j : j - i;
-            const double s = i > j ? o->s[k] : -o->s[k];
-            N[i] = T[m + i] = o->t[k];
-            T[i] = s;
-            N[m + i] = -s;
+            entry(o, i, j, e);
+            if (o->cosine)
+                turn_entry(o, i, j, e);
+            column_N[i] = e[0];
+            column_N[m + i] = e[1];
+            column_T[i] = e[2];
+            column_T[m + i] = e[3];
         }
     }
     return RB_OK;
@@ -153,27 +221,39 @@ static rb_status toeplitz_matrix(const rb_bem_flexibility *f, double *F, int ldf
 /* ---- Construction ------------------------------------------------------------------ */
 
 /* Transforms of t and s, with FFTW's factor `size` of a transform and its inverse. */
+static void transform_even(toeplitz *o, int k)
+{
+    const int n = o->n, size = o->fourier.size;
+    double *even = o->work[0];
+
+    o->base[k] = sum_of(n + 1, o->t[k]) / (n + 1);
+    memset(even, 0, (size_t)size * sizeof *even);
+    even[0] = o->t[k][0] - o->base[k];
+    for (int j = 1; j <= n; j++)
+        even[j] = even[size - j] = o->t[k][j] - o->base[k];
+    fftw_complex *even_hat = rb_fourier_forward(&o->fourier, size, even, even);
+    for (int j = 0; j <= size / 2; j++)
+        o->t_hat[k][j] = even_hat[j][0] / size;
+}
+
 static void set_transforms(toeplitz *o)
 {
-    const rb_fourier *f = &o->fourier;
-    const int n = o->n, size = f->size;
-    double *even = o->work[0], *odd = o->work[1];
+    const int n = o->n, size = o->fourier.size;
+    double *odd = o->work[1];
 
-    o->base = sum_of(n + 1, o->t) / (n + 1);
-    memset(even, 0, (size_t)size * sizeof *even);
+    transform_even(o, N);
+    if (o->alike)
+        o->base[T] = o->base[N];
+    else
+        transform_even(o, T);
     memset(odd, 0, (size_t)size * sizeof *odd);
-    even[0] = o->t[0] - o->base;
     for (int k = 1; k <= n; k++) {
-        even[k] = even[size - k] = o->t[k] - o->base;
         odd[k] = o->s[k];
         odd[size - k] = -o->s[k];
     }
-    fftw_complex *even_hat = rb_fourier_forward(f, size, even, even);
-    fftw_complex *odd_hat = rb_fourier_forward(f, size, odd, odd);
-    for (int k = 0; k <= size / 2; k++) {
-        o->t_hat[k] = even_hat[k][0] / size;
+    fftw_complex *odd_hat = rb_fourier_forward(&o->fourier, size, odd, odd);
+    for (int k = 0; k <= size / 2; k++)
         o->s_hat[k] = odd_hat[k][1] / size;
-    }
     o->coupled = !all_zero(n + 1, o->s);
 }
 
@@ -192,7 +272,7 @@ static rb_status set_response(toeplitz *o, double h, rb_bem_material material,
         s = rb_bem_halfplane_displacement(1, strip, material, datum, m, x, W);
     }
     if (s == RB_OK) {
-        memcpy(o->t, W, (size_t)m * sizeof *W);
+        memcpy(o->t[N], W, (size_t)m * sizeof *W);
         memcpy(o->s, W + 2 * m, (size_t)m * sizeof *W);
         set_transforms(o);
     }
@@ -232,6 +312,24 @@ static rb_status check(int n_c, const double *ends, rb_bem_material material,
     return s;
 }
 
+/* An operator without kernels at the midpoints of the ends. */
+static toeplitz *start(int n_c, const double *ends, int alike, rb_bem_flexibility *f)
+{
+    toeplitz *o =
+        rb_bem_flexibility_points(n_c, f) == RB_OK ? toeplitz_alloc(n_c, alike) : NULL;
+    if (!o)
+        return NULL;
+    f->data = o;
+    f->apply = toeplitz_apply;
+    f->matrix = toeplitz_matrix;
+    f->free_data = toeplitz_free;
+    for (int i = 0; i < f->m; i++) {
+        f->x[i] = 0.5 * (ends[i] + ends[i + 1]);
+        f->h[i] = ends[i + 1] - ends[i];
+    }
+    return o;
+}
+
 rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
                                       rb_bem_material material, double datum,
                                       rb_bem_flexibility *f, rb_message *why)
@@ -240,25 +338,13 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
     rb_status s = check(n_c, ends, material, datum, why);
     if (s != RB_OK)
         return s;
-    s = rb_bem_flexibility_points(n_c, f);
-    toeplitz *o = s == RB_OK ? toeplitz_alloc(n_c) : NULL;
-    if (o) {
-        f->data = o;
-        f->apply = toeplitz_apply;
-        f->matrix = toeplitz_matrix;
-        f->free_data = toeplitz_free;
-        for (int i = 0; i < f->m; i++) {
-            f->x[i] = 0.5 * (ends[i] + ends[i + 1]);
-            f->h[i] = ends[i + 1] - ends[i];
-        }
-        s = set_response(o, (ends[n_c + 1] - ends[0]) / (n_c + 1), material, datum);
-    }
-    if (!o || s != RB_OK) {
-        rb_bem_flexibility_free(f);
-        return rb_fail(why, RB_ENOMEM, "half-plane: no memory for %d contact elements",
-                       n_c);
-    }
-    return RB_OK;
+    toeplitz *o = start(n_c, ends, 1, f);
+    s = o ? set_response(o, (ends[n_c + 1] - ends[0]) / (n_c + 1), material, datum)
+          : RB_ENOMEM;
+    if (s == RB_OK)
+        return s;
+    rb_bem_flexibility_free(f);
+    return rb_fail(why, RB_ENOMEM, "half-plane: no memory for %d contact elements", n_c);
 }
 
 int rb_bem_toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
@@ -267,10 +353,101 @@ int rb_bem_toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
         return 0;
     toeplitz *o = a->data;
     const toeplitz *other = b->data;
+    if (!o->alike || !other->alike) /* discs: frames of their own */
+        return 0;
     for (int k = 0; k <= o->n; k++) {
-        o->t[k] += other->t[k];
+        o->t[N][k] += other->t[N][k];
         o->s[k] -= other->s[k];
     }
     set_transforms(o);
     return 1;
+}
+
+/* ---- Disc ----------------------------------------------------------------------------
+ */
+
+static rb_status check_disc(int n_c, const double *ends, double radius,
+                            rb_bem_material material, rb_message *why)
+{
+    rb_status s = rb_bem_material_check(material, why);
+
+    if (s == RB_OK)
+        s = rb_bem_ends_check(n_c, ends, why);
+    if (s == RB_OK &&
+        !(isfinite(radius) && fabs(ends[0]) < radius && fabs(ends[n_c + 1]) < radius))
+        s = rb_fail(why, RB_EINVAL, "disc of radius %g: contact from %g to %g is wider",
+                    radius, ends[0], ends[n_c + 1]);
+    if (s != RB_OK)
+        return s;
+    const double first = asin(ends[0] / radius);
+    const double h = (asin(ends[n_c + 1] / radius) - first) / (n_c + 1);
+    for (int i = 1; i <= n_c; i++)
+        if (!(fabs(asin(ends[i] / radius) - (first + i * h)) <= 1e-6 * h))
+            return rb_fail(why, RB_EINVAL,
+                           "disc: contact element %d is not of the others' arc", i);
+    return RB_OK;
+}
+
+/* Turns by the angle from the lowest point; arcs are longer than their projections. */
+static rb_status set_frames(toeplitz *o, double first, double h, double radius,
+                            rb_bem_normals normals, rb_bem_flexibility *f)
+{
+    const size_t m = (size_t)f->m;
+
+    for (int i = 0; i < f->m; i++)
+        f->h[i] = radius * h;
+    if (normals == RB_BEM_NORMALS_SURFACE)
+        return RB_OK;
+    o->cosine = rb_alloc(m, 1);
+    o->sine = rb_alloc(m, 1);
+    o->turned = rb_alloc(2 * m, 1);
+    if (!o->cosine || !o->sine || !o->turned)
+        return RB_ENOMEM;
+    for (int i = 0; i < f->m; i++) {
+        o->cosine[i] = cos(first + (i + 0.5) * h);
+        o->sine[i] = sin(first + (i + 0.5) * h);
+    }
+    return RB_OK;
+}
+
+/* From the response of disc.c, outwards and counter-clockwise, to n inwards.  The
+ * translation -conj(P) exp(2 i alpha) of theory.md's letters is added to it:
+ * displacements are then measured from where the load is held, and the flexibility is
+ * symmetric. */
+static rb_status set_disc(toeplitz *o, double h, double radius, rb_bem_material material)
+{
+    const double scale = radius / (4.0 * M_PI * material.shear);
+
+    for (int k = 0; k <= o->n; k++) {
+        double u[4];
+        const rb_status s = rb_bem_disc_response(radius, material, h, k * h, u);
+        if (s != RB_OK)
+            return s;
+        const double shift = scale * 2.0 * sin(0.5 * h) * cos(k * h);
+        o->t[N][k] = u[0] - shift;
+        o->t[T][k] = u[3] + shift;
+        o->s[k] = k == 0 ? 0.0 : 0.5 * (u[1] - u[2]);
+    }
+    set_transforms(o);
+    return RB_OK;
+}
+
+rb_status rb_bem_flexibility_disc(int n_c, const double *ends, double radius,
+                                  rb_bem_material material, rb_bem_normals normals,
+                                  rb_bem_flexibility *f, rb_message *why)
+{
+    *f = (rb_bem_flexibility){0};
+    rb_status s = check_disc(n_c, ends, radius, material, why);
+    if (s != RB_OK)
+        return s;
+    const double first = asin(ends[0] / radius);
+    const double h = (asin(ends[n_c + 1] / radius) - first) / (n_c + 1);
+    toeplitz *o = start(n_c, ends, 0, f);
+    s = o ? set_frames(o, first, h, radius, normals, f) : RB_ENOMEM;
+    if (s == RB_OK)
+        s = set_disc(o, h, radius, material);
+    if (s == RB_OK)
+        return s;
+    rb_bem_flexibility_free(f);
+    return rb_fail(why, s, "disc: no memory for %d contact elements", n_c);
 }
