@@ -111,12 +111,19 @@ static void write_lines(FILE *out, int column)
             column, column);
 }
 
+static const double panel_width = 0.345, panel_middle = 0.47;
+
+static double panel_height(const view *v)
+{
+    const double shape = 2.0; /* of the canvas: twice as wide as high */
+    return fmin(0.64, panel_width * shape * v->depth / (v->to - v->from));
+}
+
 static void write_panel(FILE *out, const view *v, const char *name, int column,
                         const rb_rolling_extremum *m, double left)
 {
-    const double width = 0.36, shape = 2.0; /* of the canvas: twice as wide as high */
-    const double height = fmin(0.64, width * shape * v->depth / (v->to - v->from));
-    const double bottom = 0.49 - height / 2, top = bottom + height;
+    const double width = panel_width, height = panel_height(v);
+    const double bottom = panel_middle - height / 2, top = bottom + height;
     fprintf(out,
             "set lmargin at screen %g\nset rmargin at screen %g\n"
             "set bmargin at screen %g\nset tmargin at screen %g\n",
@@ -126,10 +133,11 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
             "set label 2 '%s  [%s]' at screen %g, %g center\n",
             left + width + 0.012, bottom, height, name, v->stress_label, left + width / 2,
             top + 0.045);
-    fprintf(out,
-            "set label 3 '%.4g' at first %.9g, %.9g point pointtype 1 pointsize 1.2 "
-            "linecolor rgb '#111111' offset 0.6,0.5 textcolor rgb '#111111' front\n",
-            m->value / v->stress_unit, m->x / v->unit, m->y / v->unit);
+    fprintf(
+        out,
+        "set label 3 '%.4g' at first %.9g, %.9g boxed point pointtype 1 pointsize 1.2 "
+        "linecolor rgb '#111111' offset 0.8,0.9 textcolor rgb '#111111' front\n",
+        m->value / v->stress_unit, m->x / v->unit, m->y / v->unit);
     fprintf(out,
             "splot $grid using 1:2:%d with pm3d, $lines%d using 1:2:3 with lines "
             "linecolor rgb '#ffffff' linewidth 0.6\n",
@@ -148,10 +156,15 @@ static void write_contours(FILE *out, rb_report_picture_kind kind, const void *c
           "0.45 '#277f8e', 0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')\n"
           "set multiplot\n",
           out);
-    write_subtitle(out, v, "Stress below the surface of A", 0.94);
-    write_panel(out, v, "maximum shear", 3, &v->s->maxima->max_shear, 0.07);
+    fprintf(out,
+            "set xtics %.9g\nset ylabel offset 0,0\n"
+            "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
+            rb_report_round_step((v->to - v->from) / 5.0));
+    write_subtitle(out, v, "Stress below the surface of A",
+                   panel_middle + panel_height(v) / 2 + 0.14);
+    write_panel(out, v, "maximum shear", 3, &v->s->maxima->max_shear, 0.085);
     fputs("unset label 1\nunset label 4\nunset ylabel\n", out);
-    write_panel(out, v, "von Mises", 4, &v->s->maxima->von_mises, 0.555);
+    write_panel(out, v, "von Mises", 4, &v->s->maxima->von_mises, 0.57);
     fputs("unset multiplot\n", out);
 }
 
