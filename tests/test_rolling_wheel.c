@@ -186,6 +186,7 @@ static void approach_differs_by_a_constant_of_the_support(void **state)
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(wheels[k], 1e-4);
         rc.mesh = RB_MESH_FITTED;
+        rc.contact_elements = 40;
         const double want = support_constant(&rc);
         for (double ratio = 1e-6; ratio > 1e-9; ratio *= 0.01) {
             rc.half_width = ratio * rc.a.radius;
@@ -202,14 +203,14 @@ static void a_contact_of_1e_8_of_the_radius_keeps_its_digits(void **state)
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = wheel(wheels[k], 1e-8);
         rc.mesh = RB_MESH_FITTED;
-        rc.contact_elements = 100;
+        rc.contact_elements = 50;
         rb_rolling_solution s = solved(&rc);
-        CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(0.4), 1.5e-4, "Carter, %s",
+        CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(0.4), 3e-4, "Carter, %s",
                   name_of(wheels[k]));
         CHECK_REL(s.max_pressure,
-                  rb_closed_hertz_max_pressure(s.normal_load, rc.half_width), 5e-4,
+                  rb_closed_hertz_max_pressure(s.normal_load, rc.half_width), 1e-3,
                   "p0, %s", name_of(wheels[k]));
-        CHECK_REL(s.half_width, rc.half_width, 5e-4, "half-width, %s",
+        CHECK_REL(s.half_width, rc.half_width, 1e-3, "half-width, %s",
                   name_of(wheels[k]));
         CHECK_MAX(s.load_error, 1e-10, "load, %s", name_of(wheels[k]));
         rb_rolling_solution_free(&s);
@@ -239,7 +240,7 @@ static void the_two_signs_mirror_up_to_delta_over_R(void **state)
             rb_rolling_case rc = wheel(wheels[k], ratio);
             double approach;
             rc.mesh = RB_MESH_FITTED;
-            rc.contact_elements = 100;
+            rc.contact_elements = 50;
             const double sum = creepage_of_force(rc, -0.64, &approach) +
                                creepage_of_force(rc, 0.64, &approach);
             const double slope = sum / (approach / rc.a.radius);
