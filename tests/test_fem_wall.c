@@ -128,6 +128,99 @@ static void rigid_blocks_have_their_inertia(void **state)
     close_parts(&p);
 }
 
+/* Three steps of pressing and three of driving: every recorded problem is solved by
+ * another solver too, with the same velocities (H has full rank and M + dt^2 K is
+ * regular). */
+static void steps_are_problems_for_every_solver(void **state)
+{
+    (void)state;
+    rb_fem_wall_options o = small_wall(0);
+    rb_fem_wall *wall;
+    rb_fem_wall_step step;
+    rb_message why = {""};
+    o.press = 3;
+    o.shear = 3;
+    CHECK_STATUS(rb_fem_wall_create(&o, &wall, &why), RB_OK);
+    assert_int_equal(rb_fem_wall_steps(wall), 7);
+    for (int k = 0; k < 7; k++) {
+        CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-10, &step, &why), RB_OK);
+        CHECK_REL(step.compression, 10e3 * fmin(k, 3), 1e-14, "step %d", k);
+        assert_int_equal(step.stick + step.slip + step.separated,
+                         rb_fem_wall_contacts(wall));
+    }
+    CHECK_REL(step.drift, 3e-5, 1e-12, "drift");
+    assert_true(step.shear > 500.0 && step.shear < 0.53 * 30e3);
+    CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-10, &step, &why), RB_EINVAL);
+    const size_t m = 3 * (size_t)rb_fem_wall_contacts(wall);
+    double *r = rb_alloc(m, 2), *u = rb_alloc(m, 2);
+    for (int k = 2; k < 7; k += 4) {
+        static const char *const solvers[] = {"nsn-ac", "nsn-jm"};
+        rb_friction_problem problem;
+        rb_friction_info info;
+        rb_friction_options options = rb_friction_defaults();
+        options.tol = 1e-11;
+        CHECK_STATUS(rb_fem_wall_problem(wall, k, &problem), RB_OK);
+        for (size_t l = 0; l < 2; l++)
+            CHECK_STATUS(rb_friction_solve(solvers[l], &problem, &options, r + l * m,
+                                           u + l * m, NULL, &info),
+                         RB_OK);
+        for (size_t i = 0; i < m; i++)
+            CHECK_ABS(u[i], u[i + m], 1e-7 * 1e-3, "step %d, entry %zu", k, i);
+        rb_friction_problem_free(&problem);
+    }
+    free(r);
+    free(u);
+    rb_fem_wall_free(wall);
+}
+
+static void selection_is_by_difficulty(void **state)
+{
+    (void)state;
+    rb_fem_wall_options o = small_wall(0);
+    rb_fem_wall *wall;
+    rb_fem_wall_step step[6];
+    int chosen[5], seen[6] = {0};
+    o.press = 2;
+    o.shear = 3;
+    CHECK_STATUS(rb_fem_wall_create(&o, &wall, NULL), RB_OK);
+    for (int k = 0; k < 6; k++)
+        CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-8, &step[k], NULL), RB_OK);
+    CHECK_STATUS(rb_fem_wall_select(wall, 6, chosen), RB_EINVAL);
+    CHECK_STATUS(rb_fem_wall_select(wall, 5, chosen), RB_OK);
+    for (int k = 0; k < 5; k++) {
+        assert_true(chosen[k] > 0 && !seen[chosen[k]]++);
+        assert_true(k == 0 ||
+                    step[chosen[k]].iterations >= step[chosen[k - 1]].iterations);
+    }
+    rb_fem_wall_free(wall);
+}
+
+/* Rigid blocks: 73 freedoms, H of rank 73, hundreds of times hyperstatic; pressed only,
+ * the contacts of the upper support carry the force. */
+static void rigid_wall_carries_its_load(void **state)
+{
+    (void)state;
+    rb_fem_wall_options o = small_wall(1);
+    rb_fem_wall *wall;
+    rb_fem_wall_step step;
+    int rank = 0;
+    o.press = 2;
+    o.shear = 0;
+    CHECK_STATUS(rb_fem_wall_create(&o, &wall, NULL), RB_OK);
+    assert_int_equal(rb_fem_wall_dofs(wall), 73);
+    CHECK_STATUS(rb_fem_wall_rank(wall, &rank), RB_OK);
+    assert_int_equal(rank, 73);
+    for (int k = 0; k < 3; k++)
+        CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-9, &step, NULL), RB_OK);
+    const rb_fem_mesh *mesh = rb_fem_wall_mesh(wall);
+    double *u = rb_alloc(3, (size_t)mesh->nodes);
+    CHECK_STATUS(rb_fem_wall_displacements(wall, u), RB_OK);
+    CHECK_MAX(rb_norm_inf(3 * (size_t)mesh->nodes, u), 1e-8,
+              "rigid blocks do not sink [m]");
+    free(u);
+    rb_fem_wall_free(wall);
+}
+
 static void bad_input_is_refused(void **state)
 {
     (void)state;
@@ -173,6 +266,9 @@ int main(void)
         cmocka_unit_test(contact_map_has_full_rank),
         cmocka_unit_test(common_motion_leaves_the_joints_alone),
         cmocka_unit_test(rigid_blocks_have_their_inertia),
+        cmocka_unit_test(steps_are_problems_for_every_solver),
+        cmocka_unit_test(selection_is_by_difficulty),
+        cmocka_unit_test(rigid_wall_carries_its_load),
         cmocka_unit_test(bad_input_is_refused),
         cmocka_unit_test(memory_runs_out),
     };

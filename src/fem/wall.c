@@ -21,10 +21,7 @@ struct rb_fem_wall {
     wall_contact *contact;
     rb_sparse R; /* rigid: nodal velocities of the freedoms; empty else */
     wall_system system;
-    rb_sparse A;                /* M + dt^2 K */
-    rb_sparse_cholesky *factor; /* of A */
-    rb_sparse W;                /* H' A^-1 H: the same in every step */
-    double *q, *work;           /* 3 contacts, dofs */
+    rb_sparse A;            /* M + dt^2 K */
     double *u, *v, *r, *ur; /* displacements, velocities, impulses, relative velocities */
     double *mu;
     recorded_step *record; /* press + shear */
@@ -80,10 +77,8 @@ static rb_status alloc_state(rb_fem_wall *w)
     w->r = rb_alloc(m, 1);
     w->ur = rb_alloc(m, 1);
     w->mu = rb_alloc((size_t)w->contacts, 1);
-    w->q = rb_alloc(m, 1);
-    w->work = rb_alloc(n, 1);
     w->record = calloc((size_t)rb_fem_wall_steps(w), sizeof *w->record);
-    if (!w->u || !w->v || !w->r || !w->ur || !w->mu || !w->q || !w->work || !w->record)
+    if (!w->u || !w->v || !w->r || !w->ur || !w->mu || !w->record)
         return RB_ENOMEM;
     for (int i = 0; i < w->contacts; i++) {
         const int other = w->contact[i].other;
@@ -107,10 +102,6 @@ static rb_status build_wall(rb_fem_wall *w, rb_message *why)
         s = alloc_state(w);
     if (s == RB_OK)
         s = step_matrix(&w->system, w->options.dt, &w->A);
-    if (s == RB_OK)
-        s = rb_sparse_cholesky_create(&w->A, &w->factor);
-    if (s == RB_OK)
-        s = rb_sparse_cholesky_congruence(w->factor, &w->system.H, &w->W);
     return s;
 }
 
@@ -146,10 +137,6 @@ void rb_fem_wall_free(rb_fem_wall *w)
     wall_system_free(&w->system);
     rb_sparse_free(&w->R);
     rb_sparse_free(&w->A);
-    rb_sparse_free(&w->W);
-    rb_sparse_cholesky_free(w->factor);
-    free(w->q);
-    free(w->work);
     free(w->contact);
     free(w->u);
     free(w->v);
@@ -285,32 +272,15 @@ static void guess_first(rb_fem_wall *w)
         w->r[3 * i] = w->options.dt * weight / w->contacts;
 }
 
-/* u = W r + q with q = w + H' A^-1 f, then v = A^-1 (f + H r). */
-static rb_status solve_step(rb_fem_wall *w, const recorded_step *now, const char *solver,
-                            double tol, rb_friction_info *info)
+/* In global form: its Newton systems stay sparse, W would not. */
+static rb_status solve_step(rb_fem_wall *w, const char *solver, double tol,
+                            rb_friction_info *info)
 {
+    const rb_friction_problem problem = borrowed_problem(w, w->solved);
     rb_friction_options options = rb_friction_defaults();
-    const rb_friction_problem local = {.form = RB_FRICTION_LOCAL_SPARSE,
-                                       .dimension = 3,
-                                       .contacts = w->contacts,
-                                       .mu = w->mu,
-                                       .Ws = w->W,
-                                       .q = w->q};
     options.tol = tol;
     options.r0 = w->solved == 0 ? w->r : NULL;
-    rb_status s = rb_sparse_cholesky_solve(w->factor, now->f, w->work);
-    if (s != RB_OK)
-        return s;
-    memcpy(w->q, now->w, 3 * (size_t)w->contacts * sizeof *w->q);
-    rb_sparse_apply_transposed(1.0, &w->system.H, w->work, 1.0, w->q);
-    const rb_status solved =
-        rb_friction_solve(solver, &local, &options, w->r, w->ur, NULL, info);
-    if (solved < RB_OK)
-        return solved;
-    memcpy(w->work, now->f, (size_t)w->system.dofs * sizeof *w->work);
-    rb_sparse_apply(1.0, &w->system.H, w->r, 1.0, w->work);
-    s = rb_sparse_cholesky_solve(w->factor, w->work, w->v);
-    return s == RB_OK ? solved : s;
+    return rb_friction_solve(solver, &problem, &options, w->r, w->ur, w->v, info);
 }
 
 static rb_status record_vectors(rb_fem_wall *wall, recorded_step *now)
@@ -336,7 +306,7 @@ rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
     if (wall->solved == 0)
         guess_first(wall);
     if (s == RB_OK)
-        s = solve_step(wall, now, solver, tol, &info);
+        s = solve_step(wall, solver, tol, &info);
     if (s < RB_OK)
         return rb_fail(why, s, "wall, step %d: %s", wall->solved + 1, info.msg.text);
     describe_step(wall, &info, step);
@@ -391,8 +361,8 @@ rb_status rb_fem_wall_select(const rb_fem_wall *wall, int count, int *step)
     int *order = rb_alloc_int((size_t)n);
     if (!order)
         return RB_ENOMEM;
-    for (int k = 0; k < n; k++) { /* stable insertion: equals stay in time */
-        int at = k;
+    for (int k = 1; k <= n; k++) { /* stable insertion: equals stay in time */
+        int at = k - 1;
         for (; at > 0 &&
                wall->record[order[at - 1]].iterations > wall->record[k].iterations;
              at--)

@@ -9,8 +9,7 @@ FILE *rb_report_fem_script(rb_report_picture_kind kind)
     static const char *const terminals[] = {
         "pngcairo size 1920,1080 font 'DejaVu Sans,24' linewidth 2 background '#ffffff'",
         "svg size 1280,720 font 'DejaVu Sans,18' linewidth 1.4 background '#ffffff'",
-        "pdfcairo size 13.33in,7.5in font 'DejaVu Sans,20' linewidth 1.5 background "
-        "'#ffffff'"};
+        "pdfcairo size 13.33in,7.5in font 'DejaVu Sans,20' linewidth 1.5"};
     FILE *script = tmpfile();
     if (script)
         fprintf(script,
