@@ -1,5 +1,6 @@
 /* A creep curve of 1000 creepages at 100 elements (half-planes, similar and dissimilar
  * bodies) against as many separate solutions, of which every tenth is timed. */
+#include "fast_blas.h"
 #include "rollbem/rolling.h"
 
 #include <math.h>
@@ -64,8 +65,10 @@ static double separate_seconds(const rb_rolling_case *rc, const double *force,
     return (rb_seconds() - start) * POINTS / SAMPLES;
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    (void)argc;
+    fast_blas(argv);
     for (int k = 0; k < 4; k++) {
         const int similar = k % 2 == 0, fitted = k / 2;
         const rb_rolling_case rc =

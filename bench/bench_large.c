@@ -3,6 +3,7 @@
  * how cost and memory grow; one product of the Toeplitz operator against one of the
  * matrix. Arguments: the numbers of elements (default 1000 ... 100000; 1300000 is a
  * million in contact). */
+#include "fast_blas.h"
 #include "rollbem/rolling.h"
 
 #include <math.h>
@@ -175,6 +176,7 @@ int main(int argc, char **argv)
     static const int standard[] = {1000, 3200, 10000, 32000, 100000};
     int n[32], count = argc - 1;
 
+    fast_blas(argv);
     if (count > 32)
         stop("too many arguments");
     for (int k = 0; k < count; k++)
