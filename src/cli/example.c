@@ -113,9 +113,13 @@ static rb_status write_json(FILE *out, const example_options *o, const char *nam
     return s;
 }
 
+/* columns: names between blanks, which become tabs */
 static void write_head(FILE *out, const char *columns)
 {
-    fprintf(out, "# rollbem %s\n# %s\n# %s\n", RB_VERSION, cli_command_line(), columns);
+    fprintf(out, "# rollbem %s\n# %s\n# ", RB_VERSION, cli_command_line());
+    for (const char *c = columns; *c; c++)
+        fputc(*c == ' ' ? '\t' : *c, out);
+    fputc('\n', out);
 }
 
 static rb_status written(FILE *out)

@@ -1,0 +1,158 @@
+/* rollbem example: recorded outputs, JSON, pictures, problem files, refusals.  Run from
+ * the project's root; B: the build directory. */
+#include "check.h"
+#include "rollbem/friction.h"
+#include "rollbem/io.h"
+
+#include <jansson.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/rollbem-fem-XXXXXX";
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int run(const char *format, ...)
+{
+    char command[1000] = "", arguments[800];
+    const char *build = getenv("B");
+    va_list args;
+    va_start(args, format);
+    vsnprintf(arguments, sizeof arguments, format, args);
+    va_end(args);
+    snprintf(command, sizeof command, "%s/rollbem example %s", build ? build : "build",
+             arguments);
+    const int status = system(command);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static int drop_folder(void **state)
+{
+    (void)state;
+    char command[200];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command);
+}
+
+static const char *inside(const char *name)
+{
+    static char path[300];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+/* How the solver came there may differ from machine to machine. */
+static int is_result(const char *name)
+{
+    return strcmp(name, "iterations") != 0 && strcmp(name, "residual") != 0 &&
+           strcmp(name, "seconds") != 0;
+}
+
+static void matches(const char *recorded)
+{
+    rb_io_table got, want;
+    rb_message why = {""};
+    CHECK_STATUS(rb_io_table_read(inside("out.tsv"), &got, &why), RB_OK);
+    CHECK_STATUS(rb_io_table_read(recorded, &want, &why), RB_OK);
+    assert_int_equal(got.rows, want.rows);
+    assert_int_equal(got.columns, want.columns);
+    for (int j = 0; j < want.columns; j++) {
+        const double *x = want.x + j * want.rows, *y = got.x + j * want.rows;
+        const double scale = rb_norm_inf((size_t)want.rows, x);
+        assert_string_equal(got.name[j], want.name[j]);
+        for (int i = 0; i < want.rows && is_result(want.name[j]); i++)
+            CHECK_ABS(y[i], x[i], 1e-8 * scale, "%s: row %d, %s", recorded, i,
+                      want.name[j]);
+    }
+    rb_io_table_free(&got);
+    rb_io_table_free(&want);
+}
+
+static void recorded_outputs_are_todays(void **state)
+{
+    (void)state;
+    assert_int_equal(run("bar --solver lemke --output %s", inside("out.tsv")), 0);
+    matches("examples/bar/output.tsv");
+    assert_int_equal(run("truss --output %s", inside("out.tsv")), 0);
+    matches("examples/truss/upper-inside.tsv");
+    assert_int_equal(
+        run("truss --layout upper-overhanging --output %s", inside("out.tsv")), 0);
+    matches("examples/truss/upper-overhanging.tsv");
+}
+
+static void json_and_picture_are_written(void **state)
+{
+    (void)state;
+    assert_int_equal(run("truss --nodes 4 --json --output %s --plot %s.png",
+                         inside("out.json"), folder),
+                     0);
+    json_t *root = json_load_file(inside("out.json"), 0, NULL);
+    const json_t *steps = json_object_get(root, "steps");
+    static const int stick[] = {0, 16, 4, 0, 0, 0};
+    assert_string_equal(json_string_value(json_object_get(root, "schema")), "rollbem/1");
+    assert_int_equal(json_array_size(steps), 6);
+    for (size_t k = 0; k < 6; k++)
+        assert_int_equal(
+            json_integer_value(json_object_get(json_array_get(steps, k), "stick")),
+            stick[k]);
+    json_decref(root);
+    char picture[300];
+    snprintf(picture, sizeof picture, "%s.png", folder);
+    FILE *file = fopen(picture, "rb");
+    char head[5] = "";
+    assert_non_null(file);
+    assert_int_equal(fread(head, 1, 4, file), 4);
+    fclose(file);
+    remove(picture);
+    assert_string_equal(head, "\x89PNG");
+}
+
+static void the_wall_writes_its_problems(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        run("wall --mesh coarse --problems 3 --quiet --output %s >%s/wall.tsv",
+            inside("wall"), folder),
+        0);
+    for (int k = 1; k <= 3; k++) {
+        char name[40];
+        rb_friction_problem problem;
+        rb_message why = {""};
+        snprintf(name, sizeof name, "wall/wall-%02d.hdf5", k);
+        CHECK_STATUS(rb_friction_read(inside(name), &problem, &why), RB_OK);
+        assert_int_equal(problem.form, RB_FRICTION_GLOBAL);
+        assert_int_equal(problem.contacts, 161);
+        assert_int_equal(problem.dofs, 901);
+        rb_friction_problem_free(&problem);
+    }
+}
+
+static void refusals_have_their_exit_codes(void **state)
+{
+    (void)state;
+    assert_int_equal(run("2>/dev/null"), 64);
+    assert_int_equal(run("bra 2>/dev/null"), 64);
+    assert_int_equal(run("bar truss 2>/dev/null"), 64);
+    assert_int_equal(run("bar --solver nosuch 2>/dev/null"), 64);
+    assert_int_equal(run("bar --plot picture.gif 2>/dev/null"), 64);
+    assert_int_equal(run("truss --nodes 1 2>/dev/null"), 64);
+    assert_int_equal(run("truss --layout other 2>/dev/null"), 64);
+    assert_int_equal(run("wall --step 0 2>/dev/null"), 64);
+    assert_int_equal(run("truss --nodes 4 --output /no/such/folder/x 2>/dev/null"), 73);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(recorded_outputs_are_todays),
+        cmocka_unit_test(json_and_picture_are_written),
+        cmocka_unit_test(the_wall_writes_its_problems),
+        cmocka_unit_test(refusals_have_their_exit_codes),
+    };
+    return cmocka_run_group_tests(tests, make_folder, drop_folder);
+}
