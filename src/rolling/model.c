@@ -154,7 +154,7 @@ static rb_status solve_automatic_zone(rb_rolling_model *model, double known,
 
     for (int round = 0; round < ZONE_ROUNDS; round++) {
         s = solve_uniform(model, zone, why);
-        if (s < 0)
+        if (s < 0 || !model->state.p)
             return s;
         const int separated = separated_at_ends(&model->state);
         double from, to;
@@ -200,7 +200,7 @@ static rb_status solve_given_zone(rb_rolling_model *model, rb_message *why)
 {
     const rb_status s = solve_uniform(model, model->rc.zone, why);
 
-    if (s < 0 || separated_at_ends(&model->state) > 0)
+    if (s < 0 || !model->state.p || separated_at_ends(&model->state) > 0)
         return s;
     rb_rolling_case free_zone = model->rc;
     rb_rolling_model wider = {0};
@@ -264,7 +264,7 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
     rb_status s = rb_rolling_case_check(rc, why);
     if (s == RB_OK)
         s = solve_uniform_stage(rc, model, why);
-    if (s >= 0 && separated_at_ends(&model->state) == model->state.n)
+    if (s >= 0 && model->state.p && separated_at_ends(&model->state) == model->state.n)
         s = rb_fail(why, RB_NO_CONTACT, "no contact: the bodies do not touch");
     if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
         s = fit(model, why);
