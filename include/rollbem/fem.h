@@ -224,7 +224,7 @@ typedef struct {
     double shear;       /* force along the wall on the upper support's contacts [N] */
     double drift;       /* displacement of the upper support along the wall [m] */
     int stick, slip, separated;
-    int iterations;  /* of the solver, from r = 0: the step's difficulty */
+    int iterations;  /* of the solver, from the previous r: the difficulty */
     double residual; /* *Acary* (13) */
     double seconds;
 } rb_fem_wall_step;
