@@ -10,7 +10,8 @@ typedef enum {
     RESUME = 1,  /* from where the stage before ended, instead of the start */
     NEEDS_W = 2, /* condensed when first wanted; skipped where there is none */
     GIVEN_W = 4, /* only for problems that came in local form */
-    ONLY_2D = 8
+    ONLY_2D = 8,
+    FROM_BEST = 16 /* from the best point so far */
 } stage_flags;
 
 typedef struct {
@@ -37,8 +38,14 @@ static const stage stages[] = {
     {"lemke", rb_friction_lemke, 0, ONLY_2D},
     {"nsgs-fp", rb_friction_nsgs_fp, 5000, NEEDS_W},
     {"nsgs-ac", rb_friction_nsgs_ac, 20000, NEEDS_W},
+    {"nsn-ac", rb_friction_nsn_ac, 60, FROM_BEST},
+    {"nsn-fb", rb_friction_nsn_fb, 60, FROM_BEST},
+    {"nsn-nm", rb_friction_nsn_nm, 60, FROM_BEST},
+    {"nsn-jm", rb_friction_nsn_jm, 60, FROM_BEST},
     {"nsn-ac", rb_friction_nsn_ac, 400, 0},
-    {"extragradient", rb_friction_extragradient, 100000, NEEDS_W},
+    {"nsn-nm", rb_friction_nsn_nm, 500, FROM_BEST},
+    {"nsgs-ac", rb_friction_nsgs_ac, 300000, NEEDS_W | FROM_BEST},
+    {"extragradient", rb_friction_extragradient, 300000, NEEDS_W},
 };
 
 /* Dense tableaus beyond this take longer than what comes after. */
@@ -62,11 +69,25 @@ static void store(const rb_friction_task *task, double *to)
     memcpy(to + task->m, task->v, (size_t)task->n * sizeof *to);
 }
 
+/* Long runs of sweeps on large problems stop here. */
+#define MOST_OPERATIONS 1e11
+
+static int affordable(const rb_friction_task *task, const stage *s)
+{
+    const double m = task->m;
+    if (!task->local || !(s->flags & (NEEDS_W | GIVEN_W)))
+        return s->limit;
+    const double entries =
+        task->local->form == RB_FRICTION_LOCAL_DENSE ? m * m : task->local->Ws.p[task->m];
+    const double most = fmax(100.0, MOST_OPERATIONS / (2.0 * entries + 100.0 * m));
+    return s->limit < most ? s->limit : (int)most;
+}
+
 static rb_status try_stage(rb_friction_task *task, const stage *s, record *rec)
 {
     if (!(s->flags & RESUME))
-        load(task, rec->start);
-    task->opt.max_iters = s->limit;
+        load(task, s->flags & FROM_BEST ? rec->best : rec->start);
+    task->opt.max_iters = affordable(task, s);
     const rb_status status = s->method(task);
     if (status < 0)
         return status;
