@@ -252,22 +252,96 @@ static void failing_allocations_are_reported(void **state)
 /* ---- Files of other projects
  * ---------------------------------------------------------------- */
 
+static void solve_outside(const char *file)
+{
+    rb_friction_problem p;
+    rb_friction_info info;
+    rb_message why = {""};
+    double r[900], u[900], error;
+    const rb_status s = rb_friction_read(outside_data(file), &p, &why);
+    if (s != RB_OK)
+        print_error("%s\n", why.text);
+    CHECK_STATUS(s, RB_OK);
+    CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, r, u, NULL, &info), RB_OK);
+    CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &error, NULL), RB_OK);
+    CHECK_MAX(error, 1e-8, "%s", file);
+    rb_friction_problem_free(&p);
+}
+
 static void fclib_files_are_solved(void **state)
 {
     (void)state;
-    const char *files[] = {"fclib/CubeH8.hdf5", "fclib/Capsules-i125-1213.hdf5",
-                           "fclib/LMGC_100_PR_PerioBox-i00361-60-03000.hdf5"};
-    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
-        rb_friction_problem p;
-        rb_friction_info info;
-        rb_message why = {""};
-        double r[900], u[900], error;
-        CHECK_STATUS(rb_friction_read(outside_data(files[k]), &p, &why), RB_OK);
-        CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, r, u, NULL, &info), RB_OK);
-        CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &error, NULL), RB_OK);
-        CHECK_MAX(error, 1e-8, "%s", files[k]);
-        rb_friction_problem_free(&p);
-    }
+    solve_outside("fclib/CubeH8.hdf5");
+    solve_outside("fclib/Capsules-i125-1213.hdf5");
+    solve_outside("fclib/LMGC_100_PR_PerioBox-i00361-60-03000.hdf5");
+}
+
+static void siconos_files_are_solved(void **state)
+{
+    (void)state;
+    solve_outside("siconos/fc2d/FC2D_SliderCrankLagrangian00000.dat");
+    solve_outside("siconos/fc2d/FrictionContactProblem00394.dat");
+    solve_outside("siconos/fc2d/FrictionContactProblem00031.dat");
+    solve_outside("siconos/fc2d/FrictionContactProblem00071.dat");
+    solve_outside("siconos/fc2d/FrictionContactProblem00727.dat");
+    solve_outside("siconos/fc3d/FC3D_Example1_SBM.dat");
+    solve_outside("siconos/fc3d/FrictionContact3D_1c.dat");
+    solve_outside("siconos/fc3d/Rover11035.dat");
+    solve_outside("siconos/fc3d/Rover1039.dat");
+    solve_outside("siconos/fc3d/NESpheres_10_1.dat");
+    solve_outside("siconos/fc3d/OneObject-i100000-499.hdf5.dat");
+    solve_outside("siconos/fc3d/Capsules-i101-404.dat");
+}
+
+static void the_soclcp_file_is_solved(void **state)
+{
+    (void)state;
+    /* from its README: the same reaction three times, slope 0.1 */
+    const double want[] = {1.303196, -0.041211, -0.123632};
+    rb_friction_soclcp_data d;
+    rb_friction_info info;
+    rb_message why = {""};
+    double x[9], y[9];
+    CHECK_STATUS(rb_friction_soclcp_read(
+                     outside_data("siconos/soclcp/Example1_SOCLCP_SBM.dat"), &d, &why),
+                 RB_OK);
+    CHECK_STATUS(rb_friction_soclcp(&d.problem, NULL, x, y, &info), RB_OK);
+    for (int i = 0; i < 9; i++)
+        CHECK_ABS(x[i] / (i % 3 ? 1.0 : d.tau[i / 3]), want[i % 3], 1e-6, "x[%d]", i);
+    rb_friction_soclcp_data_free(&d);
+}
+
+static void other_text_files_are_refused(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_message why = {""};
+    CHECK_STATUS(rb_friction_read(outside_data("siconos/lcp/lcp_mmc.dat"), &p, &why),
+                 RB_EFORMAT);
+    assert_non_null(strstr(why.text, "rollbem lcp"));
+    CHECK_STATUS(rb_friction_read(outside_data("siconos/soclcp/Example1_SOCLCP_SBM.dat"),
+                                  &p, &why),
+                 RB_EFORMAT);
+    CHECK_STATUS(rb_friction_read("/nowhere", &p, &why), RB_ENOENT);
+    CHECK_STATUS(rb_friction_read_as(outside_data("fclib/CubeH8.hdf5"),
+                                     RB_FRICTION_FILE_SICONOS, &p, &why),
+                 RB_EFORMAT);
+}
+
+/* ---- Profiles
+ * -------------------------------------------------------------------------------- */
+
+static void profiles_count_as_dolan_and_more_do(void **state)
+{
+    (void)state;
+    /* three problems, two solvers; the third is solved by neither */
+    const double cost[] = {1.0, 4.0, INFINITY, 3.0, 2.0, INFINITY};
+    const double tau[] = {1.0, 2.0, 3.0};
+    const double want[] = {1.0 / 3, 2.0 / 3, 2.0 / 3, 1.0 / 3, 1.0 / 3, 2.0 / 3};
+    double rho[6];
+    rb_friction_profile(3, 2, cost, 3, tau, rho);
+    for (int k = 0; k < 6; k++)
+        CHECK_ABS(rho[k], want[k], 1e-15, "rho[%d]", k);
 }
 
 int main(void)
@@ -280,6 +354,10 @@ int main(void)
         cmocka_unit_test(bad_cones_are_refused),
         cmocka_unit_test(failing_allocations_are_reported),
         cmocka_unit_test(fclib_files_are_solved),
+        cmocka_unit_test(siconos_files_are_solved),
+        cmocka_unit_test(the_soclcp_file_is_solved),
+        cmocka_unit_test(other_text_files_are_refused),
+        cmocka_unit_test(profiles_count_as_dolan_and_more_do),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
