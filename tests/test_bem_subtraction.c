@@ -76,6 +76,44 @@ static void far_away_it_keeps_its_digits(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
+/* Two strips that share an end where the traction has a kink, against the tent of the
+ * half-plane; the end itself included. */
+static void linear_strips_make_a_tent(void **state)
+{
+    (void)state;
+    const double nodes[] = {-0.3, 0.1, 0.5}, p[] = {0.0, 2.0, 0.0},
+                 q[] = {0.0, -0.7, 0.0};
+    const double xy[] = {0.0, 0.3, 0.1, 0.2, 0.1, 0.0, -1.0, 0.01, 0.3, 0.0, 2.0, 1.0};
+    const rb_strip left = rb_strip_between(-0.3, 0.1, steel, 1.0),
+                   right = rb_strip_between(0.1, 0.5, steel, 1.0);
+    const double complex top = q[1] + p[1] * I;
+    double want[18], a[3], b[3];
+    CHECK_STATUS(rb_bem_halfplane_stress_linear(3, nodes, p, q, 6, xy, want), RB_OK);
+    for (int k = 0; k < 6; k++) {
+        const double complex z = xy[2 * k] + xy[2 * k + 1] * I;
+        rb_strip_linear_stress(&left, z, 0.5 * top, top / 0.4, a);
+        rb_strip_linear_stress(&right, z, 0.5 * top, -top / 0.4, b);
+        for (int i = 0; i < 3; i++)
+            CHECK_ABS(a[i] + b[i], want[3 * k + i], 1e-7, "point %d, component %d", k, i);
+    }
+}
+
+/* Turning strip and point together turns the stress: its invariants stay. */
+static void linear_strips_do_not_know_their_direction(void **state)
+{
+    (void)state;
+    const double complex turn = cos(0.7) + sin(0.7) * I, z = 0.2 + 0.1 * I;
+    const rb_strip flat = rb_strip_between(-0.3, 0.5, steel, 1.0),
+                   turned = rb_strip_between(-0.3 * turn, 0.5 * turn, steel, 1.0);
+    double a[3], b[3];
+    rb_strip_linear_stress(&flat, z, 1.0 + 2.0 * I, 0.3 * I, a);
+    rb_strip_linear_stress(&turned, z * turn, (1.0 + 2.0 * I) * turn, 0.3 * I * turn, b);
+    const double c = cos(0.7), s = sin(0.7);
+    CHECK_ABS(b[0], c * c * a[0] + s * s * a[1] - 2.0 * c * s * a[2], 1e-13, "sxx");
+    CHECK_ABS(b[1], s * s * a[0] + c * c * a[1] + 2.0 * c * s * a[2], 1e-13, "syy");
+    CHECK_ABS(b[2], c * s * (a[0] - a[1]) + (c * c - s * s) * a[2], 1e-13, "sxy");
+}
+
 /* A wheel with a hub, n equal elements over a zone of half-width a = 1 on R = 1000. */
 static rb_bem_system *wheel_system(int n)
 {
@@ -180,6 +218,17 @@ static void every_failed_allocation_is_reported(void **state)
         CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
         rb_bem_flexibility_free(&f);
     }
+    const double t[8] = {0.0, 1.0, 0.1, 2.0, 0.1, 2.0, 0.0, 1.0};
+    refused = 1;
+    for (int count = 0; refused; count++) {
+        rb_bem_field *field;
+        alloc_fail_after(count);
+        const rb_status s = rb_bem_field_create(system, t, &field, NULL);
+        refused = alloc_failed();
+        alloc_succeed();
+        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+        rb_bem_field_free(field);
+    }
     rb_bem_system_free(system);
 }
 
@@ -189,6 +238,8 @@ int main(void)
         cmocka_unit_test(the_strip_is_flamants_on_the_surface),
         cmocka_unit_test(its_tractions_are_those_of_the_stress),
         cmocka_unit_test(far_away_it_keeps_its_digits),
+        cmocka_unit_test(linear_strips_make_a_tent),
+        cmocka_unit_test(linear_strips_do_not_know_their_direction),
         cmocka_unit_test(the_near_field_is_the_half_planes),
         cmocka_unit_test(a_hollow_contact_is_refused),
         cmocka_unit_test(every_failed_allocation_is_reported),

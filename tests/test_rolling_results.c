@@ -140,6 +140,31 @@ static void a_wheel_has_the_stress_of_the_half_plane(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* Where friction pulls, at the edge on the very surface, the elements' ends leave no
+ * mark. */
+static void the_pulled_edge_of_a_wheel_is_that_of_the_half_plane(void **state)
+{
+    (void)state;
+    double tension[2];
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = wheel_on_plane(0.3);
+        rb_rolling_model model;
+        rb_rolling_stress_maxima m;
+        rc.a.support = k ? RB_BEM_HUB : RB_BEM_HALFPLANE;
+        rc.b = rc.a;
+        rc.elastic_b = 1;
+        rc.half_width = 1e-3 * rc.a.radius;
+        rc.mu = 0.2;
+        rc.formulation = RB_STEADY;
+        rc.creep_ratio = -2.0;
+        CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL), RB_OK);
+        tension[k] = m.tension.value;
+        rb_rolling_model_free(&model);
+    }
+    CHECK_REL(tension[1], tension[0], 2e-2, "largest principal stress");
+}
+
 /* On y = 0 inside the contact: syy = -p, sxy = -q (A lies above its surface). */
 static void the_surface_carries_the_tractions(void **state)
 {
@@ -313,6 +338,7 @@ int main(void)
         cmocka_unit_test(hertz_below_the_surface),
         cmocka_unit_test(full_sliding_below_the_surface),
         cmocka_unit_test(a_wheel_has_the_stress_of_the_half_plane),
+        cmocka_unit_test(the_pulled_edge_of_a_wheel_is_that_of_the_half_plane),
         cmocka_unit_test(the_surface_carries_the_tractions),
         cmocka_unit_test(dissipation_is_the_work_of_the_forces),
         cmocka_unit_test(error_bars_hold_the_truth),

@@ -205,6 +205,17 @@ rb_status rb_bem_interior(const rb_bem_mesh *mesh, rb_bem_material material,
                           const double *u, const double *t, int points, const double *xy,
                           double *displacement, double *stress, rb_message *why);
 
+/* The same stress of a body under contact tractions, accurate right up to the loaded
+ * surface: tractions linear between the midpoints, their strips in closed form (B10).
+ * t_contact: 2 contact_n, global.  The field borrows the system.  RB_EINVAL: the body
+ * does not lie on the inner side of every contact element. */
+typedef struct rb_bem_field rb_bem_field;
+rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_contact,
+                              rb_bem_field **field, rb_message *why);
+rb_status rb_bem_field_stress(const rb_bem_field *field, int points, const double *xy,
+                              double *stress, rb_message *why);
+void rb_bem_field_free(rb_bem_field *field);
+
 /* Stress in a half-plane y >= 0 loaded on y = 0 by n constant strips [ends[i], ends[i+1]]
  * of tractions p (along +y, into the body: pressure) and q (along +x).  stress: 3 per
  * point (sxx, syy, sxy); on y = 0 the limit from inside. */

@@ -102,7 +102,7 @@ static void add_left_over(const particular *p, const rb_assembly *assembly, int 
                 2 * (to - from), 1.0, columns, s->ld, values, rows, 1.0, X, s->ld);
 }
 
-static rb_status check_convex(const rb_bem_system *s, rb_message *why)
+rb_status rb_bem_check_convex(const rb_bem_system *s, rb_message *why)
 {
     const rb_bem_mesh *mesh = &s->mesh;
     const double size = rb_bem_mesh_size(mesh);
@@ -262,7 +262,7 @@ rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
 rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals normals,
                                      rb_bem_flexibility *f, rb_message *why)
 {
-    const rb_status s = check_convex(system, why);
+    const rb_status s = rb_bem_check_convex(system, why);
 
     if (s == RB_OK)
         return condense(system, normals, 1, f, why);

@@ -8,15 +8,13 @@
 #include <gsl/gsl_math.h>
 #include <math.h>
 
-rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material,
-                     double unit)
+rb_strip rb_strip_between(double complex from, double complex to,
+                          rb_bem_material material, double unit)
 {
-    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j];
-    const double h = hypot(dx, dy);
+    const double h = cabs(to - from);
 
-    return (rb_strip){.middle = 0.5 * (mesh->x0[j] + mesh->x1[j]) +
-                                0.5 * (mesh->y0[j] + mesh->y1[j]) * I,
-                      .along = (dx + dy * I) / h,
+    return (rb_strip){.middle = 0.5 * (from + to),
+                      .along = (to - from) / h,
                       .h = h,
                       .shear = material.shear,
                       .kappa = 3.0 - 4.0 * material.poisson,
@@ -27,6 +25,13 @@ rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material,
 static double complex complex_of(double re, double im)
 {
     return re + im * I;
+}
+
+rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material,
+                     double unit)
+{
+    return rb_strip_between(complex_of(mesh->x0[j], mesh->y0[j]),
+                            complex_of(mesh->x1[j], mesh->y1[j]), material, unit);
 }
 
 static double complex to_local(const rb_strip *strip, double complex z)
@@ -85,4 +90,36 @@ double complex rb_strip_traction(const rb_strip *strip, double complex z,
         (force * (lambda + 2.0 * I * cimag(at) * curve) + conj(force) * lambda) / M_PI;
 
     return strip->along * 0.5 * (mean * n - conj(n) * conj(difference));
+}
+
+/* At the ends the logarithm of a strip is infinite; those of its neighbours, whose
+ * traction goes on from there, cancel it next to the end. */
+static double complex off_the_ends(double complex z, double h)
+{
+    const double close = 1e-9 * h;
+    const int at_end = cabs(z - 0.5 * h) < close || cabs(z + 0.5 * h) < close;
+    return at_end ? z + close * I : z;
+}
+
+/* With w = z - s and F = f_z - slope w, f_z = f + slope z:
+ * int F/w ds = f_z Lambda - slope h,  int F/w^2 ds = f_z (1/b - 1/a) - slope Lambda. */
+void rb_strip_linear_stress(const rb_strip *strip, double complex z, double complex f,
+                            double complex slope, double stress[3])
+{
+    const double h = strip->h;
+    const double complex at = off_the_ends(below(strip, z), h), lambda = log_ratio(at, h);
+    const double complex turn = conj(strip->along), middle = turn * f;
+    /* far away the slope is not felt, and would cost digits */
+    const double complex rise = cabs(at) < 1e4 * h ? turn * slope : 0.0;
+    const double complex f_z = middle + rise * at, g_z = conj(middle) + conj(rise) * at;
+    const double complex first = f_z * lambda - rise * h;
+    const double complex second = f_z * h / (at * at - 0.25 * h * h) - rise * lambda;
+    const double mean = -2.0 * creal(first) / M_PI; /* sxx + syy */
+    const double complex local =
+        (first - 2.0 * I * cimag(at) * second + g_z * lambda - conj(rise) * h) / M_PI;
+    const double complex difference = local * turn * turn; /* syy - sxx + 2i sxy */
+
+    stress[0] = 0.5 * (mean - creal(difference));
+    stress[1] = 0.5 * (mean + creal(difference));
+    stress[2] = 0.5 * cimag(difference);
 }

@@ -15,6 +15,8 @@ typedef struct {
     double unit;                  /* length inside the logarithm */
 } rb_strip;
 
+rb_strip rb_strip_between(double complex from, double complex to,
+                          rb_bem_material material, double unit);
 rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material,
                      double unit);
 
@@ -28,5 +30,10 @@ double complex rb_strip_displacement(const rb_strip *strip, double complex z,
 /* Traction tx + i ty at z on a section with outward normal nx + i ny. */
 double complex rb_strip_traction(const rb_strip *strip, double complex z,
                                  double complex f, double complex normal);
+
+/* Stress (sxx, syy, sxy) at z under a traction that is f in the middle of the strip and
+ * changes by `slope` per length along it. */
+void rb_strip_linear_stress(const rb_strip *strip, double complex z, double complex f,
+                            double complex slope, double stress[3]);
 
 #endif

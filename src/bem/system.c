@@ -102,8 +102,10 @@ static void assemble_element(rb_bem_system *s, const rb_assembly *assembly, int 
     rb_assembly_columns(assembly, j, factor, (double *const[4]){H[0], H[1], G[0], G[1]});
 }
 
-/* b += G t for given tractions, b -= H u for given displacements. */
-static rb_status assemble_given(rb_bem_system *s, const rb_assembly *assembly)
+/* b += G t for given tractions, b -= H u for given displacements; value: 2n, t or u as
+ * the conditions have it. */
+static rb_status add_given(const rb_bem_system *s, const rb_assembly *assembly,
+                           const double *value, double *b)
 {
     const size_t dofs = (size_t)s->dofs;
     double *room = rb_alloc(dofs, 4);
@@ -111,15 +113,15 @@ static rb_status assemble_given(rb_bem_system *s, const rb_assembly *assembly)
         return RB_ENOMEM;
     double *const out[4] = {room, room + dofs, room + 2 * dofs, room + 3 * dofs};
     for (int j = 0; j < s->mesh.n; j++) {
-        const double *value = s->mesh.value + 2 * j;
-        if (value[0] == 0.0 && value[1] == 0.0)
+        const double *own = value + 2 * j;
+        if (own[0] == 0.0 && own[1] == 0.0)
             continue;
         rb_assembly_columns(assembly, j, 1.0, out);
         for (int k = 0; k < 2; k++) {
             if (s->mesh.condition[2 * j + k] == RB_BEM_DISPLACEMENT)
-                cblas_daxpy(s->dofs, -value[k], out[k], 1, s->b, 1);
-            else if (s->mesh.condition[2 * j + k] == RB_BEM_TRACTION)
-                cblas_daxpy(s->dofs, value[k], out[2 + k], 1, s->b, 1);
+                cblas_daxpy(s->dofs, -own[k], out[k], 1, b, 1);
+            else
+                cblas_daxpy(s->dofs, own[k], out[2 + k], 1, b, 1);
         }
     }
     free(room);
@@ -200,7 +202,7 @@ static rb_status assemble(rb_bem_system *s, rb_bem_material material)
 #pragma omp parallel for schedule(static) if (pairs > rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++)
         assemble_element(s, &assembly, j);
-    status = assemble_given(s, &assembly);
+    status = add_given(s, &assembly, s->mesh.value, s->b);
     rb_assembly_end(&assembly);
     if (status == RB_OK)
         status = fix_pressures(s, material);
@@ -290,28 +292,25 @@ rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material
     return status;
 }
 
-/* x -> u and t: what was given, what was solved for. */
-static void distribute(const rb_bem_system *s, const double *x, const double *t_contact,
+/* x -> u and t: what was given (value), what was solved for. */
+static void distribute(const rb_bem_system *s, const double *x, const double *value,
                        double *u, double *t)
 {
-    const rb_bem_mesh *mesh = &s->mesh;
     for (int dof = 0; dof < s->dofs; dof++) {
         const double unknown = x[(dof - s->offset + s->dofs) % s->dofs];
-        const int local = dof - 2 * mesh->contact_first;
-        switch (mesh->condition[dof]) {
-        case RB_BEM_DISPLACEMENT:
-            u[dof] = mesh->value[dof];
-            t[dof] = s->unit[dof / 2] * unknown;
-            break;
-        case RB_BEM_CONTACT:
-            u[dof] = unknown;
-            t[dof] = t_contact ? t_contact[local] : 0.0;
-            break;
-        default:
-            u[dof] = unknown;
-            t[dof] = mesh->value[dof];
-        }
+        const int held = s->mesh.condition[dof] == RB_BEM_DISPLACEMENT;
+        u[dof] = held ? value[dof] : unknown;
+        t[dof] = held ? s->unit[dof / 2] * unknown : value[dof];
     }
+}
+
+/* x: the right-hand side, then the unknowns. */
+static void solve_values(const rb_bem_system *s, double *x, const double *value,
+                         double *u, double *t)
+{
+    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', s->dofs, 1, s->A, s->ld, s->pivot, x,
+                        s->dofs);
+    distribute(s, x, value, u, t);
 }
 
 rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_contact,
@@ -319,15 +318,35 @@ rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_conta
 {
     const rb_bem_system *s = system;
     const int n = s->dofs, loads = 2 * s->mesh.contact_n;
-    double *x = rb_alloc((size_t)n, 1);
+    double *x = rb_alloc((size_t)n, 2), *value = x + n;
     if (!x)
         return RB_ENOMEM;
     memcpy(x, s->b, (size_t)n * sizeof *x);
+    memcpy(value, s->mesh.value, (size_t)n * sizeof *value);
+    for (int k = 0; k < loads; k++)
+        value[2 * s->mesh.contact_first + k] = t_contact ? t_contact[k] : 0.0;
     if (t_contact && loads)
         cblas_dgemv(CblasColMajor, CblasNoTrans, n, loads, 1.0, s->Gc, s->ld, t_contact,
                     1, 1.0, x, 1);
-    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, 1, s->A, s->ld, s->pivot, x, n);
-    distribute(s, x, t_contact, u, t);
+    solve_values(s, x, value, u, t);
     free(x);
     return RB_OK;
+}
+
+rb_status rb_bem_system_solve_values(const rb_bem_system *s, const double *value,
+                                     double *u, double *t)
+{
+    double *x = rb_alloc((size_t)s->dofs, 1);
+    rb_assembly assembly;
+    rb_status status =
+        x ? rb_assembly_begin(&s->mesh, s->material, &assembly) : RB_ENOMEM;
+
+    if (status == RB_OK) {
+        status = add_given(s, &assembly, value, x);
+        rb_assembly_end(&assembly);
+    }
+    if (status == RB_OK)
+        solve_values(s, x, value, u, t);
+    free(x);
+    return status;
 }

@@ -27,4 +27,12 @@ struct rb_bem_system {
     double rcond, seconds_assembly, seconds_factor;
 };
 
+/* u and t (2n each) under other given values than the mesh's: value (2n) holds u where
+ * the displacement is given, t elsewhere, also on the contact. */
+rb_status rb_bem_system_solve_values(const rb_bem_system *system, const double *value,
+                                     double *u, double *t);
+
+/* RB_EINVAL unless the body lies on the inner side of every contact element. */
+rb_status rb_bem_check_convex(const rb_bem_system *system, rb_message *why);
+
 #endif

@@ -72,14 +72,6 @@ static void print_maximum(FILE *out, const rb_report_stress *s, int k)
     fprintf(out, "; %.5g p0\n", m->value / s->s->max_pressure);
 }
 
-/* A wheel's tractions are constant on each element: their jumps are felt that deep. */
-static int is_near_wheel_surface(const rb_report_stress *s, const rb_rolling_extremum *m)
-{
-    const double element = 2.0 * s->s->half_width / fmax(1.0, s->s->contact);
-    return s->rc->a.support != RB_BEM_HALFPLANE &&
-           m->y - rb_rolling_surface(s->rc, m->x) < element;
-}
-
 void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
 {
     fprintf(out, "stress in A under p0 = %.6g MPa, a = %.5g mm\n", s->s->max_pressure,
@@ -88,13 +80,6 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
         fputs("  ", out);
         print_maximum(out, s, k);
     }
-    for (int k = 0; k < MAXIMA; k++)
-        if (is_near_wheel_surface(s, extremum(s->maxima, k)))
-            fprintf(
-                out,
-                "rollbem: note: %s: within an element of a wheel's surface, where it is "
-                "overestimated; a half-plane has no such spikes\n",
-                maxima[k].name);
 }
 
 /* ---- Table ------------------------------------------------------------------------- */

@@ -110,9 +110,8 @@ double rb_rolling_dissipated_power(rb_rolling_formulation formulation, int n,
                                    const double *lambda, const double *q, const double *h,
                                    const double *e_T);
 
-/* Displacement u and traction t (2 per element) of wheel A under the model's tractions.
- */
-rb_status rb_rolling_boundary_values(const rb_rolling_model *model, double *u, double *t);
+/* Tractions of the state on A in global x, y: 2 per contact element. */
+void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
 
 /* Contact edges where p^2 extrapolates to zero. */
 void rb_rolling_contact_edges(const rb_rolling_mesh *mesh, const double *p, double *from,

@@ -162,19 +162,23 @@ double rb_rolling_dissipated_power(rb_rolling_formulation formulation, int n,
 /* ---- Forces
  * ----------------------------------------------------------------------------- */
 
-rb_status rb_rolling_boundary_values(const rb_rolling_model *model, double *u, double *t)
+void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t)
 {
-    const int n = model->problem.n;
-    double *t_c = rb_alloc(2 * (size_t)n, 1);
+    for (int i = 0; i < model->problem.n; i++) {
+        const double h = model->bodies.f.h[i];
+        const double c = model->problem.load_N[i] / h, d = model->problem.load_T[i] / h;
+        t[2 * i] = c * model->state.q[i] - d * model->state.p[i];
+        t[2 * i + 1] = c * model->state.p[i] + d * model->state.q[i];
+    }
+}
+
+static rb_status boundary_values(const rb_rolling_model *model, double *u, double *t)
+{
+    double *t_c = rb_alloc(2 * (size_t)model->problem.n, 1);
 
     if (!t_c)
         return RB_ENOMEM;
-    for (int i = 0; i < n; i++) {
-        const double h = model->bodies.f.h[i];
-        const double c = model->problem.load_N[i] / h, d = model->problem.load_T[i] / h;
-        t_c[2 * i] = c * model->state.q[i] - d * model->state.p[i];
-        t_c[2 * i + 1] = c * model->state.p[i] + d * model->state.q[i];
-    }
+    rb_rolling_contact_tractions(model, t_c);
     const rb_status s = rb_bem_system_solve(model->bodies.system_a, t_c, u, t);
     free(t_c);
     return s;
@@ -190,7 +194,7 @@ static rb_status support_balance(const rb_rolling_model *model, double load,
         return RB_OK;
     const rb_bem_mesh *mesh = rb_bem_system_mesh(model->bodies.system_a);
     double *u = rb_alloc(2 * (size_t)mesh->n, 1), *t = rb_alloc(2 * (size_t)mesh->n, 1);
-    rb_status s = u && t ? rb_rolling_boundary_values(model, u, t) : RB_ENOMEM;
+    rb_status s = u && t ? boundary_values(model, u, t) : RB_ENOMEM;
     double reaction = 0.0;
 
     for (int j = 0; j < mesh->n && s == RB_OK; j++)

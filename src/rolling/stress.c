@@ -20,25 +20,27 @@ double rb_rolling_surface(const rb_rolling_case *rc, double x)
 
 typedef struct {
     const rb_rolling_model *model;
-    double *u, *t; /* boundary values of a wheel; NULL for a half-plane; owned */
+    rb_bem_field *wheel; /* NULL for a half-plane; owned */
 } field;
 
 static void field_free(field *f)
 {
-    free(f->u);
-    free(f->t);
+    rb_bem_field_free(f->wheel);
 }
 
-static rb_status field_create(const rb_rolling_model *model, field *f)
+static rb_status field_create(const rb_rolling_model *model, field *f, rb_message *why)
 {
     memset(f, 0, sizeof *f);
     f->model = model;
     if (!model->bodies.system_a)
         return RB_OK;
-    const size_t n = (size_t)rb_bem_system_mesh(model->bodies.system_a)->n;
-    f->u = rb_alloc(n, 2);
-    f->t = rb_alloc(n, 2);
-    return f->u && f->t ? rb_rolling_boundary_values(model, f->u, f->t) : RB_ENOMEM;
+    double *t = rb_alloc(2 * (size_t)model->mesh.n, 1);
+    if (!t)
+        return RB_ENOMEM;
+    rb_rolling_contact_tractions(model, t);
+    const rb_status s = rb_bem_field_create(model->bodies.system_a, t, &f->wheel, why);
+    free(t);
+    return s;
 }
 
 /* The element below x that runs towards +x: on the underside of the wheel. */
@@ -110,7 +112,7 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
 {
     const rb_rolling_model *model = f->model;
 
-    if (!f->u) {
+    if (!f->wheel) {
         for (int k = 0; k < n; k++)
             if (!(xy[2 * k + 1] >= 0.0))
                 return rb_fail(why, RB_EINVAL,
@@ -124,9 +126,7 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
     const rb_bem_mesh *mesh = rb_bem_system_mesh(model->bodies.system_a);
     memcpy(moved, xy, 2 * (size_t)n * sizeof(double));
     lift_onto_polygon(mesh, n, moved);
-    const rb_status s = rb_bem_interior(
-        mesh, rb_bem_material_from_young(model->rc.a.young, model->rc.a.poisson), f->u,
-        f->t, n, moved, NULL, sigma, why);
+    const rb_status s = rb_bem_field_stress(f->wheel, n, moved, sigma, why);
     free(moved);
     return s;
 }
@@ -166,8 +166,8 @@ rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const doubl
                                rb_rolling_stress *stress, rb_message *why)
 {
     field f;
-    rb_status s =
-        n < 1 ? rb_fail(why, RB_EINVAL, "stress: %d points", n) : field_create(model, &f);
+    rb_status s = n < 1 ? rb_fail(why, RB_EINVAL, "stress: %d points", n)
+                        : field_create(model, &f, why);
 
     if (n < 1)
         return s;
@@ -463,7 +463,7 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
     rb_status s = choose_box(model, depth, &box, why);
 
     if (s == RB_OK)
-        s = field_create(model, &f);
+        s = field_create(model, &f, why);
     box.f = &f;
     if (s == RB_OK) /* finer where the stress changes faster */
         s = make_grid(model, &box, GRID_X, GRID_Y, 2, &grid, why);

@@ -1,0 +1,172 @@
+/* Stress inside a loaded body (B8, B10): strips under the contact tractions, taken linear
+ * between the midpoints, in closed form, and Somigliana's identity for the smooth rest.
+ */
+#include "bem/internal.h"
+#include "bem/strip.h"
+#include "bem/system.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Half of a contact element; the traction in its middle and its change per length. */
+typedef struct {
+    rb_strip strip;
+    double complex traction, slope;
+} piece;
+
+struct rb_bem_field {
+    const rb_bem_system *system; /* borrowed */
+    int pieces;
+    piece *piece;  /* owned */
+    double *u, *t; /* 2n: boundary values of the rest; owned, t behind u */
+};
+
+void rb_bem_field_free(rb_bem_field *field)
+{
+    if (!field)
+        return;
+    free(field->piece);
+    free(field->u);
+    free(field);
+}
+
+static double complex traction_of(const double *t_contact, int n, int c)
+{
+    return c < 0 || c >= n ? 0.0 : t_contact[2 * c] + t_contact[2 * c + 1] * I;
+}
+
+static double length_of(const rb_bem_mesh *mesh, int j)
+{
+    return hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+}
+
+/* Traction at the end between contact elements c - 1 and c, linear between midpoints. */
+static double complex end_traction(const rb_bem_mesh *mesh, const double *t_contact,
+                                   int c)
+{
+    const int n = mesh->contact_n, j = mesh->contact_first + c;
+    const double before = c > 0 ? length_of(mesh, j - 1) : length_of(mesh, j);
+    const double after = c < n ? length_of(mesh, j) : before;
+
+    return (before * traction_of(t_contact, n, c) +
+            after * traction_of(t_contact, n, c - 1)) /
+           (before + after);
+}
+
+static piece half_element(double complex from, double complex to, double complex f_from,
+                          double complex f_to, rb_bem_material material, double unit)
+{
+    const rb_strip strip = rb_strip_between(from, to, material, unit);
+    return (piece){strip, 0.5 * (f_from + f_to), (f_to - f_from) / strip.h};
+}
+
+static void make_pieces(rb_bem_field *f, const double *t_contact)
+{
+    const rb_bem_mesh *mesh = &f->system->mesh;
+    const double unit = rb_bem_mesh_size(mesh);
+
+    for (int c = 0; c < mesh->contact_n; c++) {
+        const int j = mesh->contact_first + c;
+        const double complex from = mesh->x0[j] + mesh->y0[j] * I;
+        const double complex to = mesh->x1[j] + mesh->y1[j] * I,
+                             middle = 0.5 * (from + to);
+        const double complex own = traction_of(t_contact, mesh->contact_n, c);
+        f->piece[2 * c] = half_element(from, middle, end_traction(mesh, t_contact, c),
+                                       own, f->system->material, unit);
+        f->piece[2 * c + 1] =
+            half_element(middle, to, own, end_traction(mesh, t_contact, c + 1),
+                         f->system->material, unit);
+    }
+}
+
+static void add_strips(const rb_bem_field *f, double complex z, double stress[3])
+{
+    for (int k = 0; k < f->pieces; k++) {
+        const piece *p = &f->piece[k];
+        double own[3];
+        if (p->traction == 0.0 && p->slope == 0.0)
+            continue;
+        rb_strip_linear_stress(&p->strip, z, p->traction, p->slope, own);
+        for (int i = 0; i < 3; i++)
+            stress[i] += own[i];
+    }
+}
+
+/* Displacement of the strips; far away, where it is asked for, their mean is enough. */
+static double complex strips_displacement(const rb_bem_field *f, double complex z)
+{
+    double complex u = 0.0;
+    for (int k = 0; k < f->pieces; k++)
+        u += rb_strip_displacement(&f->piece[k].strip, z, f->piece[k].traction);
+    return u;
+}
+
+/* What the strips leave of the given value at element j in one direction. */
+static void left_over(const rb_bem_field *f, const double *t_contact, int j,
+                      double value[2])
+{
+    const rb_bem_mesh *mesh = &f->system->mesh;
+    const double h = length_of(mesh, j);
+    const double n[2] = {(mesh->y1[j] - mesh->y0[j]) / h,
+                         (mesh->x0[j] - mesh->x1[j]) / h};
+    const double complex z =
+        0.5 * (mesh->x0[j] + mesh->x1[j]) + 0.5 * (mesh->y0[j] + mesh->y1[j]) * I;
+    double s[3] = {0.0, 0.0, 0.0};
+
+    add_strips(f, z, s);
+    const double t[2] = {s[0] * n[0] + s[2] * n[1], s[2] * n[0] + s[1] * n[1]};
+    const double complex u = strips_displacement(f, z);
+    for (int d = 0; d < 2; d++) {
+        const rb_bem_condition condition = mesh->condition[2 * j + d];
+        value[d] = condition == RB_BEM_CONTACT
+                       ? t_contact[2 * (j - mesh->contact_first) + d] - t[d]
+                   : condition == RB_BEM_TRACTION
+                       ? mesh->value[2 * j + d] - t[d]
+                       : mesh->value[2 * j + d] - (d ? cimag(u) : creal(u));
+    }
+}
+
+rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_contact,
+                              rb_bem_field **field, rb_message *why)
+{
+    const size_t dofs = (size_t)system->dofs;
+    *field = NULL;
+    rb_status s = rb_bem_check_convex(system, why);
+    if (s != RB_OK)
+        return s;
+    rb_bem_field *f = calloc(1, sizeof *f);
+    double *value = rb_alloc(dofs, 1);
+    s = RB_ENOMEM;
+    if (f && value) {
+        f->system = system;
+        f->pieces = 2 * system->mesh.contact_n;
+        f->piece = calloc((size_t)f->pieces + 1, sizeof *f->piece);
+        f->u = rb_alloc(dofs, 2);
+    }
+    if (f && value && f->piece && f->u) {
+        f->t = f->u + dofs;
+        make_pieces(f, t_contact);
+        for (int j = 0; j < system->mesh.n; j++)
+            left_over(f, t_contact, j, value + 2 * j);
+        s = rb_bem_system_solve_values(system, value, f->u, f->t);
+    }
+    free(value);
+    if (s == RB_OK)
+        *field = f;
+    else
+        rb_bem_field_free(f);
+    return s;
+}
+
+rb_status rb_bem_field_stress(const rb_bem_field *field, int points, const double *xy,
+                              double *stress, rb_message *why)
+{
+    const rb_bem_system *system = field->system;
+    const rb_status s = rb_bem_interior(&system->mesh, system->material, field->u,
+                                        field->t, points, xy, NULL, stress, why);
+
+    for (int k = 0; k < points && s == RB_OK; k++)
+        add_strips(field, xy[2 * k] + xy[2 * k + 1] * I, stress + 3 * k);
+    return s;
+}
