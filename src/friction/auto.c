@@ -11,7 +11,9 @@ typedef enum {
     NEEDS_W = 2, /* condensed when first wanted; skipped where there is none */
     GIVEN_W = 4, /* only for problems that came in local form */
     ONLY_2D = 8,
-    FROM_BEST = 16 /* from the best point so far */
+    FROM_BEST = 16, /* from the best point so far */
+    EARLY =
+        32 /* factors, before the sweeps had a long run: not where W is large and dense */
 } stage_flags;
 
 typedef struct {
@@ -25,16 +27,16 @@ typedef struct {
  * have to be condensed for them. */
 static const stage stages[] = {
     {"nsgs-ac", rb_friction_nsgs_ac, 64, GIVEN_W},
-    {"nsn-ac-hybrid", rb_friction_nsn_ac_nls, 12, GIVEN_W | RESUME},
-    {"nsn-fb", rb_friction_nsn_fb, 40, GIVEN_W},
+    {"nsn-ac-hybrid", rb_friction_nsn_ac_nls, 12, GIVEN_W | RESUME | EARLY},
+    {"nsn-fb", rb_friction_nsn_fb, 40, GIVEN_W | EARLY},
     {"nsgs-ac", rb_friction_nsgs_ac, 1000, GIVEN_W},
-    {"nsn-ac", rb_friction_nsn_ac, 40, 0},
+    {"nsn-ac", rb_friction_nsn_ac, 40, EARLY},
     {"nsgs-ac", rb_friction_nsgs_ac, 1000, NEEDS_W},
-    {"nsn-ac-hybrid", rb_friction_nsn_ac_nls, 30, NEEDS_W | RESUME},
-    {"nsn-fb", rb_friction_nsn_fb, 60, 0},
-    {"nsn-nm", rb_friction_nsn_nm, 60, 0},
-    {"nsn-jm", rb_friction_nsn_jm, 100, 0},
-    {"soclcp-smoothing", rb_friction_soclcp_smoothing, 150, 0},
+    {"nsn-ac-hybrid", rb_friction_nsn_ac_nls, 30, NEEDS_W | RESUME | EARLY},
+    {"nsn-fb", rb_friction_nsn_fb, 60, EARLY},
+    {"nsn-nm", rb_friction_nsn_nm, 60, EARLY},
+    {"nsn-jm", rb_friction_nsn_jm, 100, EARLY},
+    {"soclcp-smoothing", rb_friction_soclcp_smoothing, 150, EARLY},
     {"lemke", rb_friction_lemke, 0, ONLY_2D},
     {"nsgs-fp", rb_friction_nsgs_fp, 5000, NEEDS_W},
     {"nsgs-ac", rb_friction_nsgs_ac, 20000, NEEDS_W},
@@ -102,9 +104,23 @@ static rb_status try_stage(rb_friction_task *task, const stage *s, record *rec)
     return status == RB_OK ? RB_INACCURATE : status;
 }
 
+/* A dense LU of this order takes longer than a thousand sweeps. */
+#define MOST_DENSE_ROWS 2500
+
+static int heavy(const rb_friction_task *task)
+{
+    const double m = task->m;
+    if (task->n || task->m <= MOST_DENSE_ROWS)
+        return 0;
+    return task->problem->form == RB_FRICTION_LOCAL_DENSE ||
+           task->problem->Ws.p[task->m] > 0.1 * m * m;
+}
+
 /* W is condensed when the first stage asks for it. */
 static int fits(rb_friction_task *task, const stage *s)
 {
+    if ((s->flags & EARLY) && heavy(task))
+        return 0;
     if ((s->flags & ONLY_2D) && (task->d != 2 || task->contacts > MOST_FOR_LEMKE))
         return 0;
     if (s->flags & GIVEN_W)
