@@ -93,13 +93,17 @@ static rb_status try_stage(rb_friction_task *task, const stage *s, record *rec)
     const rb_status status = s->method(task);
     if (status < 0)
         return status;
-    const double error = rb_friction_task_error(task);
+    double error = rb_friction_task_error(task);
+    const int accepted = rb_friction_task_accepts(task, error);
+    if (!accepted &&
+        error <= task->opt.tol) /* r so large that the measure does not see it */
+        error = INFINITY;
     if (error < rec->error || !rec->solver) {
         rec->error = error;
         rec->solver = s->name;
         store(task, rec->best);
     }
-    if (rb_friction_task_accepts(task, error))
+    if (accepted)
         return RB_OK;
     return status == RB_OK ? RB_INACCURATE : status;
 }

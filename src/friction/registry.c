@@ -1,6 +1,7 @@
 /* The solvers by name, and the one door through which they are called. */
 #include "friction/internal.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,13 +76,25 @@ double rb_friction_task_error(rb_friction_task *task)
 /* A floor beyond this means an iterate that runs away, not rounding. */
 #define LARGEST_FLOOR 1e-6
 
+/* r - P_K(r - uhat) in numbers of size ||r||: below this it says nothing, and is exactly
+ * 0 for any r that is large enough. */
+static double resolution(const rb_friction_task *task)
+{
+    return DBL_EPSILON * rb_friction_norm((size_t)task->m, task->r) /
+           task->measure->scale;
+}
+
 int rb_friction_task_accepts(const rb_friction_task *task, double error)
 {
-    if (error <= task->opt.tol)
-        return 1;
+    double allowed = task->opt.tol;
+    if (!(error <= fmax(allowed, LARGEST_FLOOR)))
+        return 0;
     /* the floor costs as much as the error: ask only when it can matter */
-    return error <= LARGEST_FLOOR &&
-           error <= rb_friction_measure_floor(task->measure, task->r, task->v);
+    if (error > allowed || resolution(task) > allowed)
+        allowed = fmax(allowed,
+                       fmin(LARGEST_FLOOR,
+                            rb_friction_measure_floor(task->measure, task->r, task->v)));
+    return error <= allowed && resolution(task) <= allowed;
 }
 
 int rb_friction_task_late(const rb_friction_task *task)

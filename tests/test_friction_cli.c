@@ -1,0 +1,159 @@
+/* `rollbem friction` and `rollbem compare` as their users meet them. */
+#define _XOPEN_SOURCE 700
+#include "cli_run.h"
+
+/* One contact, W = 1: pressed with 2, drawn with 3 against mu = 0.5: slides, r = (2, -1).
+ */
+static const char SLIDING[] = "2 1 0 2 2 2 2 1 0 0 1 -2 3 0.5";
+/* K = 0 cannot be in this format; W = 0 with q_N < 0 has no solution. */
+static const char WITHOUT_SOLUTION[] = "2 1 0 2 2 2 2 0 0 0 0 -2 3 0.5";
+static const char ZERO_Q[] = "2 1 0 2 2 2 2 1 0 0 1 0 0 0.5";
+static const char UNSYMMETRIC[] = "2 1 0 2 2 2 2 1 0.2 0 -1 -2 3 0.1";
+static const char CONE[] = "2 1 0 2 2 2 2 1 0 0 1 -2 3 0 2 0.5";
+
+static int set_up(void **state)
+{
+    const int bad = enter_folder(state);
+    if (bad)
+        return bad;
+    write_file("slides", SLIDING);
+    write_file("no", WITHOUT_SOLUTION);
+    write_file("zero", ZERO_Q);
+    write_file("odd", UNSYMMETRIC);
+    write_file("cone", CONE);
+    write_file("nan", "2 1 0 2 2 2 2 1 0 0 nan -2 3 0.5");
+    write_file("mu", "2 1 0 2 2 2 2 1 0 0 1 -2 3 -0.5");
+    write_file("short", "2 1 0 2 2 2 2 1 0 0 1 -2");
+    write_file("dimension", "4 1 0 4 4 4 4 1 0 0 1");
+    write_file("empty", "");
+    write_file("foreign.hdf5", "\x89HDF\r\n\x1a\n and then nothing of the kind");
+    return 0;
+}
+
+static void the_answer_can_be_checked(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("friction --json --solution slides"), 0);
+    json_t *root = json_loads(out, 0, NULL);
+    assert_non_null(root);
+    const json_t *p = json_array_get(json_object_get(root, "problems"), 0);
+    assert_non_null(p);
+    assert_string_equal(json_string_value(json_object_get(p, "status")), "solved");
+    assert_string_equal(json_string_value(json_object_get(p, "file")), "slides");
+    CHECK_ABS(entry(p, "r", 0), 2.0, 1e-7, "r_N");
+    CHECK_ABS(entry(p, "r", 1), -1.0, 1e-7, "r_T");
+    CHECK_ABS(entry(p, "u", 1), 2.0, 1e-7, "u_T");
+    CHECK_MAX(number_in(p, "residual"), 1e-8, "residual");
+    CHECK_ABS(number_in(p, "contacts"), 1.0, 0.0, "contacts");
+    CHECK_ABS(number_in(p, "dimension"), 2.0, 0.0, "dimension");
+    assert_true(number_in(p, "floor") > 0.0 && number_in(p, "seconds") > 0.0);
+    json_decref(root);
+}
+
+static void every_solver_is_there_by_name(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "auto",        "nsn-ac",        "nsn-jm",           "nsn-nm",
+        "nsn-fb",      "nsn-ac-nls",    "nsn-jm-nls",       "nsn-nm-nls",
+        "nsn-fb-nls",  "nsn-ac-hybrid", "nsgs-ac",          "nsgs-fp",
+        "fixed-point", "extragradient", "soclcp-smoothing", "lemke"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        char line[100];
+        snprintf(line, sizeof line, "friction --solver %s slides zero", names[k]);
+        if (rollbem(line) != 0)
+            print_error("%s: %s%s", names[k], out, err);
+        assert_non_null(strstr(out, "slides\t"));
+        assert_int_equal(rollbem(line), 0);
+    }
+}
+
+static void bad_files_get_a_line_each_and_the_others_run(void **state)
+{
+    (void)state;
+    const int code =
+        rollbem("friction nan mu short dimension empty foreign.hdf5 nowhere slides");
+    assert_int_equal(code, 66);
+    static const char *const wanted[] = {"rollbem: nan",    "rollbem: mu",
+                                         "rollbem: short",  "rollbem: dimension",
+                                         "rollbem: empty",  "rollbem: foreign.hdf5",
+                                         "rollbem: nowhere"};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++) {
+        if (!strstr(err, wanted[k]))
+            print_error("no line '%s' in:\n%s", wanted[k], err);
+        assert_non_null(strstr(err, wanted[k]));
+    }
+    int lines = 0;
+    for (const char *c = err; *c; c++)
+        lines += *c == '\n';
+    assert_int_equal(lines, 7);
+    assert_non_null(strstr(out, "slides\t"));
+    check_refused("friction --output x mu", 65, "mu");
+    check_refused("friction --output x nowhere", 66, "nowhere");
+}
+
+static void what_is_not_solved_says_so(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("friction no slides"), 1);
+    assert_non_null(strstr(err, "rollbem: no: "));
+    assert_non_null(strstr(out, "slides\t"));
+    assert_int_equal(rollbem("friction --facts odd zero"), 0);
+    assert_non_null(strstr(err, "not symmetric"));
+    assert_non_null(strstr(err, "indefinite"));
+    assert_non_null(strstr(out, "hyperstaticity 0"));
+}
+
+static void cones_and_forced_formats(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("friction --format siconos-soclcp --solution cone"), 0);
+    assert_non_null(strstr(out, "soclcp-smoothing"));
+    check_refused("friction --output x --format siconos-soclcp --solver lemke cone", 65,
+                  "soclcp-smoothing alone");
+    check_refused("friction --output x --format fclib slides", 65, "not an HDF5 file");
+}
+
+static void the_command_line_is_checked(void **state)
+{
+    (void)state;
+    check_refused("friction", 64, "FILE");
+    check_refused("friction --solver nsn-acc slides", 64, "did you mean 'nsn-ac'");
+    check_refused("friction --tol 0 slides", 64, "--tol");
+    check_refused("friction --output /nowhere/x slides", 73, "/nowhere/x");
+    check_refused("compare --solvers nsn-ac,nsn-ac slides", 64, "twice");
+    check_refused("compare --solvers nsn-ac,newton slides", 64, "'newton'");
+    check_refused("compare --plot x.txt slides", 64, "--plot");
+    check_refused("compare", 64, "FILE");
+}
+
+static void profiles_are_printed(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        rollbem("compare --solvers nsn-ac,nsgs-ac,lemke --json slides zero no"), 0);
+    json_t *root = json_loads(out, 0, NULL);
+    assert_non_null(root);
+    assert_int_equal(json_array_size(json_object_get(root, "runs")), 9);
+    const json_t *profiles = json_object_get(root, "profiles");
+    const size_t last = json_array_size(json_object_get(root, "tau")) - 1;
+    CHECK_ABS(entry(profiles, "nsn-ac", last), 2.0 / 3.0, 1e-12, "two of three");
+    json_decref(root);
+    assert_int_equal(rollbem("compare --solvers auto slides nowhere --plot p.svg"), 66);
+    assert_non_null(strstr(out, "# profiles over flops, 1 problems"));
+    assert_int_equal(shell("grep -q '<svg' p.svg"), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_answer_can_be_checked),
+        cmocka_unit_test(every_solver_is_there_by_name),
+        cmocka_unit_test(bad_files_get_a_line_each_and_the_others_run),
+        cmocka_unit_test(what_is_not_solved_says_so),
+        cmocka_unit_test(cones_and_forced_formats),
+        cmocka_unit_test(the_command_line_is_checked),
+        cmocka_unit_test(profiles_are_printed),
+    };
+    return cmocka_run_group_tests(tests, set_up, leave_folder);
+}
