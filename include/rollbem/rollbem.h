@@ -4,9 +4,16 @@
 
 #include "rollbem/base.h"
 #include "rollbem/bem.h"
+#include "rollbem/blas.h"
+#include "rollbem/closed_forms.h"
 #include "rollbem/fem.h"
 #include "rollbem/friction.h"
+#include "rollbem/io.h"
+#include "rollbem/io_fclib.h"
 #include "rollbem/lcp.h"
+#include "rollbem/report.h"
+#include "rollbem/report_fem.h"
 #include "rollbem/rolling.h"
+#include "rollbem/sparse.h"
 
 #endif
