@@ -94,13 +94,18 @@ double rb_bem_system_bytes(int n, int n_c);
 /* "AVX-512", "AVX2" or "plain": what the integrals run on here. */
 const char *rb_bem_vector_name(void);
 
+/* From so many elements on (compressible bodies) the matrix is a hierarchical one: the same
+ * answers to 1e-6, n log^2 n work and memory. */
+enum { RB_BEM_HIERARCHICAL = 3000 };
+
 /* One assembly and one LU.  The mesh is copied.  RB_EINVAL: no support (three rigid
  * motions remain; the message says so), bad material or mesh; RB_SINGULAR; RB_ENOMEM. */
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                rb_bem_system **system, rb_message *why);
 void rb_bem_system_free(rb_bem_system *system);
 const rb_bem_mesh *rb_bem_system_mesh(const rb_bem_system *system);
-/* Reciprocal condition (1-norm, estimated) of the scaled matrix A. */
+/* Reciprocal condition (1-norm, estimated) of the scaled matrix A; NAN where it is
+ * hierarchical. */
 double rb_bem_system_rcond(const rb_bem_system *system);
 /* Seconds spent in assembly and in the LU. */
 void rb_bem_system_seconds(const rb_bem_system *system, double *assembly, double *factor);

@@ -15,8 +15,10 @@
 /* Displacements of the contact and of the upstream element, the last 2m unknowns, for the
  * unit contact tractions and (last column) for the given values: all of L, but of U only
  * the last corner. */
-static void solve_contact(const rb_bem_system *s, double *X)
+static rb_status solve_contact(const rb_bem_system *s, double *X)
 {
+    if (!s->A)
+        return rb_bem_system_solve_columns(s, 2 * s->mesh.contact_n + 1, X);
     const int n = s->dofs, ld = s->ld, loads = 2 * s->mesh.contact_n, kept = loads + 2;
     const size_t rows = (size_t)ld, corner = (size_t)(n - kept);
     const int threads = rb_blas_threads(n >= PARALLEL_LU ? 0 : 1);
@@ -27,6 +29,7 @@ static void solve_contact(const rb_bem_system *s, double *X)
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, kept,
                 loads + 1, 1.0, s->A + corner * (rows + 1), ld, X + corner, ld);
     rb_blas_threads(threads);
+    return RB_OK;
 }
 
 /* ---- Singularities subtracted (B10)
@@ -220,10 +223,10 @@ static rb_status contact_displacements(const rb_bem_system *s, int subtract, dou
     }
     if (status != RB_OK)
         return status;
-    solve_contact(s, *X);
-    if (subtract)
+    status = solve_contact(s, *X);
+    if (status == RB_OK && subtract)
         add_particular(s, *X);
-    return RB_OK;
+    return status;
 }
 
 static rb_status condense(const rb_bem_system *system, rb_bem_normals normals,

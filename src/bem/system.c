@@ -12,6 +12,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of every block of a hierarchical matrix: what it leaves of the flexibility's error is
+ * far below that of the elements (1e-4 at such lengths). */
+static const double TOLERANCE = 1e-7;
+
 double rb_bem_system_bytes(int n, int n_c)
 {
     const double dofs = 2.0 * n, loads = 2.0 * n_c;
@@ -25,6 +29,7 @@ void rb_bem_system_free(rb_bem_system *system)
         return;
     rb_bem_mesh_free(&system->mesh);
     free(system->A);
+    rb_hierarchical_free(system->h);
     free(system->b);
     free(system->Gc);
     free(system->unit);
@@ -55,7 +60,7 @@ static int leading_dimension(int dofs)
     return ld % 512 ? ld : ld + 8;
 }
 
-static rb_bem_system *system_alloc(const rb_bem_mesh *mesh)
+static rb_bem_system *system_alloc(const rb_bem_mesh *mesh, int dense)
 {
     const size_t dofs = 2 * (size_t)mesh->n, loads = 2 * (size_t)mesh->contact_n;
     rb_bem_system *s = calloc(1, sizeof *s);
@@ -63,14 +68,15 @@ static rb_bem_system *system_alloc(const rb_bem_mesh *mesh)
         return NULL;
     s->dofs = 2 * mesh->n;
     s->offset = loads ? 2 * (mesh->contact_first + mesh->contact_n + 1) % s->dofs : 0;
-    s->ld = leading_dimension(s->dofs);
-    s->A = rb_large_alloc((size_t)s->ld, dofs);
+    s->ld = dense ? leading_dimension(s->dofs) : s->dofs;
+    if (dense)
+        s->A = rb_large_alloc((size_t)s->ld, dofs);
     s->Gc = rb_large_alloc((size_t)s->ld, loads);
     s->b = rb_alloc(dofs, 1);
     s->unit = rb_alloc(dofs, 1);
     s->pivot = calloc(dofs, sizeof *s->pivot);
-    if (rb_bem_mesh_copy(mesh, &s->mesh) == RB_OK && s->A && s->Gc && s->b && s->unit &&
-        s->pivot)
+    if (rb_bem_mesh_copy(mesh, &s->mesh) == RB_OK && (s->A || !dense) && s->Gc && s->b &&
+        s->unit && s->pivot)
         return s;
     rb_bem_system_free(s);
     return NULL;
@@ -88,8 +94,12 @@ static void assemble_element(rb_bem_system *s, const rb_assembly *assembly, int 
     double *H[2] = {NULL, NULL}, *G[2] = {NULL, NULL};
     double factor = 1.0;
 
+    if (!s->A && condition[0] != RB_BEM_CONTACT)
+        return;
     for (int k = 0; k < 2; k++) {
-        if (condition[k] == RB_BEM_DISPLACEMENT) {
+        if (!s->A) {
+            H[k] = NULL;
+        } else if (condition[k] == RB_BEM_DISPLACEMENT) {
             G[k] = column_of(s, 2 * j + k);
             factor = -s->unit[j];
         } else {
@@ -204,8 +214,10 @@ static rb_status assemble(rb_bem_system *s, rb_bem_material material)
         assemble_element(s, &assembly, j);
     status = add_given(s, &assembly, s->mesh.value, s->b);
     rb_assembly_end(&assembly);
-    if (status == RB_OK)
+    if (status == RB_OK && s->A)
         status = fix_pressures(s, material);
+    else if (status == RB_OK)
+        status = rb_hierarchical_create(mesh, material, s->unit, TOLERANCE, &s->h);
     return status;
 }
 
@@ -224,7 +236,7 @@ static double norm_one(int n, const double *A, int ld)
 }
 
 /* A singular system is one whose condition leaves no digit. */
-static rb_status factor(rb_bem_system *s, rb_message *why)
+static rb_status factor_dense(rb_bem_system *s, rb_message *why)
 {
     const lapack_int n = s->dofs;
     const double norm = norm_one(n, s->A, s->ld);
@@ -250,6 +262,25 @@ static rb_status factor(rb_bem_system *s, rb_message *why)
     return status;
 }
 
+/* Its condition is not known. */
+static rb_status factor(rb_bem_system *s, rb_message *why)
+{
+    if (s->A)
+        return factor_dense(s, why);
+    s->rcond = NAN;
+    const rb_status status = rb_hierarchical_factor(s->h);
+    return status == RB_OK
+               ? status
+               : rb_fail(why, status, "boundary elements: the system is singular");
+}
+
+/* Long boundaries of compressible bodies: a hierarchical matrix. */
+static int is_dense(const rb_bem_mesh *mesh, rb_bem_material material)
+{
+    return mesh->n < RB_BEM_HIERARCHICAL ||
+           1.0 - 2.0 * material.poisson <= INCOMPRESSIBLE;
+}
+
 static rb_status check_memory(const rb_bem_mesh *mesh, rb_message *why)
 {
     char what[80];
@@ -267,12 +298,12 @@ rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material
         status = rb_bem_material_check(material, why);
     if (status == RB_OK)
         status = rb_bem_support_check(mesh, why);
-    if (status == RB_OK)
+    if (status == RB_OK && is_dense(mesh, material))
         status = check_memory(mesh, why);
     if (status != RB_OK)
         return status;
     const double start = rb_seconds();
-    rb_bem_system *s = system_alloc(mesh);
+    rb_bem_system *s = system_alloc(mesh, is_dense(mesh, material));
     if (s)
         s->material = material;
     status = s ? assemble(s, material) : RB_ENOMEM;
@@ -304,13 +335,41 @@ static void distribute(const rb_bem_system *s, const double *x, const double *va
     }
 }
 
-/* x: the right-hand side, then the unknowns. */
-static void solve_values(const rb_bem_system *s, double *x, const double *value,
-                         double *u, double *t)
+/* Solutions come in the order of the dofs, the unknowns are turned by `offset`. */
+static rb_status solve_hierarchical(const rb_bem_system *s, int columns, double *X)
 {
-    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', s->dofs, 1, s->A, s->ld, s->pivot, x,
+    const size_t dofs = (size_t)s->dofs, offset = (size_t)s->offset;
+    double *turned = rb_alloc(dofs, 1);
+    rb_status status = turned ? rb_hierarchical_solve(s->h, columns, X) : RB_ENOMEM;
+
+    for (int k = 0; k < columns && status == RB_OK; k++) {
+        double *x = X + (size_t)k * dofs;
+        memcpy(turned, x + offset, (dofs - offset) * sizeof *x);
+        memcpy(turned + dofs - offset, x, offset * sizeof *x);
+        memcpy(x, turned, dofs * sizeof *x);
+    }
+    free(turned);
+    return status;
+}
+
+rb_status rb_bem_system_solve_columns(const rb_bem_system *s, int columns, double *X)
+{
+    if (!s->A)
+        return solve_hierarchical(s, columns, X);
+    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', s->dofs, columns, s->A, s->ld, s->pivot, X,
                         s->dofs);
-    distribute(s, x, value, u, t);
+    return RB_OK;
+}
+
+/* x: the right-hand side, then the unknowns. */
+static rb_status solve_values(const rb_bem_system *s, double *x, const double *value,
+                              double *u, double *t)
+{
+    const rb_status status = rb_bem_system_solve_columns(s, 1, x);
+
+    if (status == RB_OK)
+        distribute(s, x, value, u, t);
+    return status;
 }
 
 rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_contact,
@@ -328,9 +387,9 @@ rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_conta
     if (t_contact && loads)
         cblas_dgemv(CblasColMajor, CblasNoTrans, n, loads, 1.0, s->Gc, s->ld, t_contact,
                     1, 1.0, x, 1);
-    solve_values(s, x, value, u, t);
+    const rb_status status = solve_values(s, x, value, u, t);
     free(x);
-    return RB_OK;
+    return status;
 }
 
 rb_status rb_bem_system_solve_values(const rb_bem_system *s, const double *value,
@@ -346,7 +405,7 @@ rb_status rb_bem_system_solve_values(const rb_bem_system *s, const double *value
         rb_assembly_end(&assembly);
     }
     if (status == RB_OK)
-        solve_values(s, x, value, u, t);
+        status = solve_values(s, x, value, u, t);
     free(x);
     return status;
 }

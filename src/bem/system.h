@@ -2,6 +2,7 @@
 #ifndef ROLLBEM_BEM_SYSTEM_H
 #define ROLLBEM_BEM_SYSTEM_H
 
+#include "bem/hierarchical.h"
 #include "rollbem/bem.h"
 
 #include <lapacke.h>
@@ -16,10 +17,11 @@ enum { PARALLEL_LU = 1500 };
 struct rb_bem_system {
     rb_bem_mesh mesh;
     rb_bem_material material;
-    int dofs;     /* 2n */
-    int ld;       /* of A and Gc */
-    int offset;   /* the dof that comes first */
-    double *A;    /* LU, 2n x 2n */
+    int dofs;   /* 2n */
+    int ld;     /* of A and Gc */
+    int offset; /* the dof that comes first */
+    double *A;  /* LU, 2n x 2n; NULL where a hierarchical one stands instead: */
+    rb_hierarchical *h;
     double *b;    /* of the given values, 2n */
     double *Gc;   /* columns of the contact tractions, 2n x 2 contact_n */
     double *unit; /* of each element's tractions, n [stress] */
@@ -34,5 +36,9 @@ rb_status rb_bem_system_solve_values(const rb_bem_system *system, const double *
 
 /* RB_EINVAL unless the body lies on the inner side of every contact element. */
 rb_status rb_bem_check_convex(const rb_bem_system *system, rb_message *why);
+
+/* Solutions of A X = B in place, 2n x columns; rows in, as the
+ * dofs; out, as the unknowns. */
+rb_status rb_bem_system_solve_columns(const rb_bem_system *s, int columns, double *X);
 
 #endif
