@@ -121,16 +121,16 @@ static void write_wall(FILE *out, const front *f, const rb_fem_wall_step *last)
 static void write_curves(FILE *out)
 {
     fputs(
-        "unset label\nunset object\nset size noratio\nset lmargin at screen 0.63\n"
+        "unset label\nunset object\nset size noratio\nset lmargin at screen 0.655\n"
         "set rmargin at screen 0.965\nset tmargin at screen 0.87\nset bmargin at screen "
         "0.53\nset xrange [0:*]\nset yrange [0:*]\nset xtics autofreq\nset ytics "
         "autofreq\n"
-        "unset xlabel\nset format x ''\nset ylabel 'force [kN]'\n"
+        "unset xlabel\nset format x ''\nset ylabel 'force [kN]' offset -0.7,0\n"
         "set key bottom right Left reverse samplen 2\n"
         "plot $step using 1:2 with lines linecolor rgb '#1f4e79' title 'compression', "
         "$step using 1:3 with lines linecolor rgb '#c0392b' title 'shear'\n"
         "set tmargin at screen 0.485\nset bmargin at screen 0.14\nset format x '%g'\n"
-        "set xlabel 'time [s]' offset 0,0.3\nset ylabel 'contact points'\nset key center "
+        "set xlabel 'time [s]' offset 0,0.3\nset ylabel 'contact points' offset -0.7,0\nset key center "
         "left Left reverse\n"
         "plot $step using 1:4 with lines linecolor rgb '#1f4e79' title 'stick', "
         "$step using 1:5 with lines linecolor rgb '#c0392b' title 'slip', "
