@@ -28,7 +28,8 @@ typedef struct {
 static const stage stages[] = {
     {"nsgs-ac", rb_friction_nsgs_ac, 64, GIVEN_W},
     {"nsn-ac-hybrid", rb_friction_nsn_ac_nls, 12, GIVEN_W | RESUME | EARLY},
-    {"nsn-fb", rb_friction_nsn_fb, 40, GIVEN_W | EARLY},
+    {"nsn-fb", rb_friction_nsn_fb, 15, GIVEN_W | EARLY},
+    {"nsn-ac", rb_friction_nsn_ac, 25, GIVEN_W | EARLY},
     {"nsgs-ac", rb_friction_nsgs_ac, 1000, GIVEN_W},
     {"nsn-ac", rb_friction_nsn_ac, 40, EARLY},
     {"nsgs-ac", rb_friction_nsgs_ac, 1000, NEEDS_W},
@@ -147,6 +148,9 @@ rb_status rb_friction_auto(rb_friction_task *task)
     for (size_t k = 0; s > 0 && s != RB_INTERRUPTED && k < n; k++)
         if (fits(task, &stages[k]))
             s = try_stage(task, &stages[k], &rec);
+    if (s > 0 &&
+        s != RB_INTERRUPTED) /* what the last stage stumbled on is not the reason */
+        s = RB_MAXITER;
     if (rec.solver) {
         load(task, rec.best);
         task->info->solver = rec.solver;
