@@ -8,13 +8,13 @@ STD = -std=c11 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wpedantic -Wshadow
 # without OpenMP the loops run on one processor
 OPENMP := $(shell echo 'int main(void) { return 0; }' | $(CC) -fopenmp -x c -o /dev/null - 2>/dev/null && echo -fopenmp || echo -Wno-unknown-pragmas)
 # Debian's name for HDF5, or everybody else's
-HDF5 := $(shell pkg-config --exists hdf5-serial && echo hdf5-serial || echo hdf5)
+HDF5 := $(shell pkg-config --exists hdf5-serial 2>/dev/null && echo hdf5-serial || echo hdf5)
 PKGS = openblas lapacke gsl inih jansson $(HDF5) fftw3
 # SuiteSparse 5 has no pkg-config file
 SUITESPARSE = -lumfpack -lspqr -lcholmod -lsuitesparseconfig
 # -lgslcblas would shadow OpenBLAS: take GSL's flags without it
-LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS))) -lfftw3_threads -lhmat $(SUITESPARSE) -lm $(OPENMP)
-CPPFLAGS += $(OPENMP) -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS))
+LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS) 2>/dev/null)) -lfftw3_threads -lhmat $(SUITESPARSE) -lm $(OPENMP)
+CPPFLAGS += $(OPENMP) -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 # make V=1 shows the whole commands
 Q := $(if $(filter 1,$(V)),,@)
 VERSION := $(shell sed -n 's/.*RB_VERSION "\(.*\)"/\1/p' include/rollbem/base.h)
