@@ -165,7 +165,7 @@ static int read_values(char *text, double **value)
 
 static cli_exit add_varied(study *st, int k)
 {
-    char source[16], text[4096], name[64];
+    char source[24], text[4096], name[64];
     int at = 0;
 
     snprintf(source, sizeof source, "--vary-%d", k + 1);
