@@ -1,5 +1,6 @@
 /* Stress in a half-plane below tractions that are linear between nodes: no jump of q, so
  * sxx stays finite on the surface. */
+#include "bem/complex.h"
 #include "rollbem/bem.h"
 
 #include <complex.h>
@@ -23,10 +24,10 @@ static void stress_at(int n, const double *t, const cplx *k, double x, double y,
     for (int j = 0; j < n; j++) {
         const double dx = x - t[j];
         if (dx == 0.0 && y == 0.0)
-            continue;                        /* w ln w -> 0 */
-        const cplx l = clog(CMPLX(-dx, -y)); /* -0: the limit from inside */
-        above += k[j] * CMPLX(dx, y) * l;
-        below += k[j] * CMPLX(dx, -y) * conj(l);
+            continue;                             /* w ln w -> 0 */
+        const cplx l = clog(complex_of(-dx, -y)); /* -0: the limit from inside */
+        above += k[j] * complex_of(dx, y) * l;
+        below += k[j] * complex_of(dx, -y) * conj(l);
         slope += k[j] * l;
     }
     const cplx c = 1.0 / (2.0 * M_PI * I);
@@ -53,7 +54,7 @@ rb_status rb_bem_halfplane_stress_linear(int n, const double *nodes, const doubl
         return RB_ENOMEM;
     cplx before = 0.0;
     for (int j = 0; j < n; j++) {
-        const cplx after = j + 1 < n ? CMPLX(p[j] - p[j + 1], q[j + 1] - q[j]) /
+        const cplx after = j + 1 < n ? complex_of(p[j] - p[j + 1], q[j + 1] - q[j]) /
                                            (nodes[j + 1] - nodes[j])
                                      : 0.0;
         k[j] = before - after;

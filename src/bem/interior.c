@@ -16,6 +16,7 @@
  *          + sum [kap Q(alpha) - conj(Q(conj alpha)) - conj(a_s J1)]
  * where alpha = i G u/(pi (1+kap)) and Q(f) = int f dz0/w for f linear along the piece,
  * by parts -(f continued to z)(Lam + i Th) - f_s l. */
+#include "bem/complex.h"
 #include "bem/internal.h"
 #include "bem/kernels.h"
 
@@ -40,12 +41,6 @@ typedef struct {
     int *next, *previous; /* owned */
     double shear, nu, kap;
 } rb_interior;
-
-/* CMPLX of C11, which clang's library headers may lack */
-static cplx complex_of(double re, double im)
-{
-    return re + im * I;
-}
 
 static cplx pair_of(const double *values, int j)
 {

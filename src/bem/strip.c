@@ -3,6 +3,7 @@
  *   2G u = kappa phi - z conj(phi') - conj(psi),
  * integrated over the strip.  With a, b the distances of z from its two ends (complex),
  *   Lambda = int dz/(z - s) = ln a - ln b,  L = int ln(z - s) ds. */
+#include "bem/complex.h"
 #include "bem/strip.h"
 
 #include <gsl/gsl_math.h>
@@ -19,12 +20,6 @@ rb_strip rb_strip_between(double complex from, double complex to,
                       .shear = material.shear,
                       .kappa = 3.0 - 4.0 * material.poisson,
                       .unit = unit};
-}
-
-/* CMPLX of C11, which clang's library headers may lack */
-static double complex complex_of(double re, double im)
-{
-    return re + im * I;
 }
 
 rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material,
