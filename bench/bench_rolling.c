@@ -1,0 +1,128 @@
+/* Where the time of one solution goes, against the numbers of boundary and of contact
+ * elements; and Lemke beside Newton on the same problems. */
+#include "fast_blas.h"
+#include "rollbem/rolling.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { RUNS = 5 };
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* A steel wheel on a hub over a rigid plane, steady, equal elements. */
+static rb_rolling_case wheel(int elements)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.young = 210000.0;
+    rc.a.poisson = 0.28;
+    rc.a.support = RB_BEM_HUB;
+    rc.formulation = RB_STEADY;
+    rc.load = 1000.0;
+    rc.creep_ratio = 0.4;
+    rc.contact_elements = elements;
+    return rc;
+}
+
+/* Median run by total time. */
+static rb_rolling_solution median_solution(const rb_rolling_case *rc)
+{
+    rb_rolling_solution best = {0};
+    double total[RUNS];
+
+    for (int k = 0; k < RUNS; k++) {
+        rb_rolling_solution_free(&best);
+        rb_rolling_solve(rc, &best, NULL);
+        total[k] = best.seconds_total;
+    }
+    qsort(total, RUNS, sizeof *total, ascending);
+    best.seconds_total = total[RUNS / 2];
+    return best;
+}
+
+static int boundary_elements(const rb_rolling_case *rc)
+{
+    rb_rolling_model model;
+    int n = 0;
+    if (rb_rolling_model_create(rc, &model, NULL) == RB_OK && model.bodies.system_a)
+        n = rb_bem_system_mesh(model.bodies.system_a)->n;
+    rb_rolling_model_free(&model);
+    return n;
+}
+
+static void stages(void)
+{
+    static const int contact[] = {50, 100, 200, 400, 800};
+
+    printf(
+        "one solution of a wheel on a hub, seconds (the zone found, free rolling too)\n"
+        "%8s %8s %9s %9s %9s %9s %9s %10s\n",
+        "n", "n_c", "assembly", "LU", "condense", "LCP", "total", "residual");
+    for (size_t k = 0; k < sizeof contact / sizeof *contact; k++) {
+        const rb_rolling_case rc = wheel(contact[k]);
+        rb_rolling_solution s = median_solution(&rc);
+        printf("%8d %8d %9.4f %9.4f %9.4f %9.4f %9.4f %10.1e\n", boundary_elements(&rc),
+               contact[k], s.seconds_assembly, s.seconds_factor, s.seconds_condense,
+               s.seconds_lcp, s.seconds_total, s.residual);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Seconds of the complementarity problem alone, by one solver on one model. */
+static double solve_seconds(const rb_rolling_model *model, rb_rolling_solver solver,
+                            int runs)
+{
+    rb_rolling_case rc = model->rc;
+    rb_rolling_state state;
+    double best = INFINITY;
+
+    rc.solver = solver;
+    if (rb_rolling_state_alloc(model->mesh.n, &state) != RB_OK)
+        return NAN;
+    for (int k = 0; k < runs; k++) {
+        const double start = rb_seconds();
+        if (rb_rolling_problem_solve(&model->problem, &rc, 0, &state, NULL) != RB_OK)
+            best = NAN;
+        best = fmin(best, rb_seconds() - start);
+    }
+    rb_rolling_state_free(&state);
+    return best;
+}
+
+static void lemke_beside_newton(void)
+{
+    static const int contact[] = {100, 200, 800, 3200};
+
+    printf("\nthe same dense problem by both solvers, dissimilar half-planes, s = 0.4\n"
+           "%8s %12s %12s %12s\n",
+           "n_c", "Lemke [s]", "Newton [s]", "ratio");
+    for (size_t k = 0; k < sizeof contact / sizeof *contact; k++) {
+        rb_rolling_case rc = wheel(contact[k]);
+        rb_rolling_model model;
+        rc.a.support = RB_BEM_HALFPLANE;
+        rc.gap = RB_GAP_PARABOLA;
+        rc.solver = RB_SOLVER_LEMKE; /* keeps the matrix at any size */
+        if (rb_rolling_model_create(&rc, &model, NULL) == RB_OK) {
+            const int runs = contact[k] > 1000 ? 1 : 3;
+            const double lemke = solve_seconds(&model, RB_SOLVER_LEMKE, runs);
+            const double newton = solve_seconds(&model, RB_SOLVER_NEWTON, runs);
+            printf("%8d %12.4f %12.4f %12.1f\n", contact[k], lemke, newton,
+                   lemke / newton);
+        }
+        rb_rolling_model_free(&model);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    (void)argc;
+    fast_blas(argv);
+    stages();
+    lemke_beside_newton();
+    return 0;
+}
