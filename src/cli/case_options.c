@@ -81,7 +81,8 @@ static const cli_option options[] = {
     CLI_GROUP_LINE("gap", "Initial gap"),
     CLI_CHOICE_LINE("gap", RC(gap), gaps,
                     "x^2/(2R), the cylinder's own, or a file of rows x, gap [mm]",
-                    .path = PLACE(gap_file), .path_value = RB_GAP_TABLE),
+                    .path = PLACE(gap_file), .path_value = RB_GAP_TABLE,
+                    .path_name = "FILE"),
 
     CLI_GROUP_LINE("friction", "Friction"),
     CLI_NUMBER_LINE("mu", RC(mu), "-", CLI_FROM(0),
@@ -157,7 +158,8 @@ static const cli_option options[] = {
     CLI_CHOICE_LINE("solver", RC(solver), solvers,
                     "of the complementarity problem; or a cone solver by its name, see "
                     "rollbem help friction",
-                    .path = RC(cone_solver), .path_value = RB_SOLVER_CONE),
+                    .path = RC(cone_solver), .path_value = RB_SOLVER_CONE,
+                    .path_name = "NAME"),
     CLI_CHOICE_LINE("lcp-form", RC(lcp_form), lcp_forms,
                     "pivoted (no inverse), or kwak: the matrix of Addi et al. (38)"),
     CLI_NUMBER_LINE("tol", RC(tol), "-", CLI_ABOVE(0),

@@ -139,11 +139,12 @@ typedef struct {
     size_t list; /* numbers: when not 0, more of them may follow after commas; all are
                     stored here (cli_list), the first one as the value */
     const cli_choice *choices; /* ends with a NULL name */
-    size_t path; /* choices: when not 0, any other word is a file name, stored here
+    size_t path; /* choices: when not 0, any other word is a name, stored here
                     (const char *), and the value is path_value */
     int path_value;
-    unsigned excludes; /* of options that share a bit only one may be given */
-    const char *unset; /* help: what stands for the default; NULL: the value itself */
+    const char *path_name; /* of that other word in the help: FILE, NAME */
+    unsigned excludes;     /* of options that share a bit only one may be given */
+    const char *unset;     /* help: what stands for the default; NULL: the value itself */
     const char *help;
 } cli_option;
 

@@ -21,7 +21,7 @@ static void metavar(const cli_option *o, char *text, size_t size)
             used += (size_t)snprintf(text + used, size - used, "%s%s",
                                      c == o->choices ? " " : "|", c->name);
         if (o->path && used < size)
-            snprintf(text + used, size - used, "|FILE");
+            snprintf(text + used, size - used, "|%s", o->path_name);
         break;
     case CLI_TEXT:
         snprintf(text, size, " %s", *o->unit ? o->unit : "NAME");
