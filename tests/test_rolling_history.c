@@ -188,6 +188,9 @@ static void loads_vary_along_the_way(void **state)
         const double d = fmin(h.distance[k], 2.0);
         const double want = d <= 1.0 ? 100.0 + 78.0 * d : 178.0 - 58.0 * (d - 1.0);
         CHECK_REL(h.normal_load[k], want, 2e-2, "distance %g", d);
+        const double middle = d - 0.5 * h.step / model.half_width;
+        if (k > 0 && middle < 0.95) /* the mean over a step, not the value at its end */
+            CHECK_REL(h.creepage[k], 1e-4 * (1.0 + middle), 1e-2, "distance %g", d);
     }
     release(&model, &h);
 }
