@@ -22,6 +22,8 @@ typedef struct {
 
 static const double automatic_growth = 0.15; /* neighbours differ by at most a fifth */
 static const double largest_angle = 2.0 * M_PI / 72.0;
+/* What is finer, a clamped point or a thin rim, would need the whole circle as fine. */
+static const double smallest_feature = 0.003;
 
 static double side_length(const graded_side *side)
 {
@@ -108,7 +110,8 @@ static int hub_elements(const rb_bem_cylinder *cylinder, double scale)
 {
     const double rho = cylinder->hub_ratio;
     const double size =
-        fmin(largest_angle, fmin(2.0 * M_PI * rho / 36.0, (1.0 - rho) / 4.0));
+        fmin(largest_angle,
+             fmin(2.0 * M_PI * rho / 36.0, fmax((1.0 - rho) / 4.0, smallest_feature)));
     return (int)fmin(fmax(16.0, ceil(scale * 2.0 * M_PI * rho / size)), 20000.0);
 }
 
@@ -120,7 +123,8 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
     const double feature =
         has_hub ? (1.0 - cylinder->hub_ratio) / 4.0 : 2.0 * cylinder->arc / 8.0;
     const graded_side side = {.growth = automatic_growth,
-                              .cap = fmin(largest_angle, feature)};
+                              .cap =
+                                  fmin(largest_angle, fmax(feature, smallest_feature))};
     outer_layout layout = {.right = side, .left = side};
 
     layout.right.from = last;
