@@ -293,7 +293,9 @@ static rb_status solve_cone(const rb_rolling_problem *problem, const rb_rolling_
 
     state->delta = problem->delta;
     state->xi = problem->xi;
-    if (problem->load_given || problem->force_given)
+    if (slides_fully(problem))
+        s = solve_sliding(problem, rc, problem->force_ratio > 0.0, state, why);
+    else if (problem->load_given || problem->force_given)
         s = solve_given(problem, rc, 0, state, why);
     if (s == RB_OK)
         s = rb_rolling_cone_solve(problem, rc->cone_solver, state, why);
