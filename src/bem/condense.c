@@ -42,17 +42,6 @@ typedef struct {
     double unit;
 } particular;
 
-static double complex midpoint_of(const rb_bem_mesh *mesh, int j)
-{
-    return 0.5 * (mesh->x0[j] + mesh->x1[j]) + 0.5 * (mesh->y0[j] + mesh->y1[j]) * I;
-}
-
-static double complex outward_normal(const rb_bem_mesh *mesh, int j)
-{
-    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j];
-    return (dy - dx * I) / hypot(dx, dy);
-}
-
 /* Boundary values of element k against the load `direction` on contact element c: rows
  * u_x, u_y (where the displacement is given) or t_x, t_y, of one column. */
 static void left_over(const particular *p, int k, int c, int direction, double value[2])
@@ -60,7 +49,7 @@ static void left_over(const particular *p, int k, int c, int direction, double v
     const rb_bem_mesh *mesh = &p->s->mesh;
     const int j = mesh->contact_first + c;
     const rb_strip strip = rb_strip_on(mesh, j, p->s->material, p->unit);
-    const double complex load = direction ? I : 1.0, z = midpoint_of(mesh, k);
+    const double complex load = direction ? I : 1.0, z = rb_strip_midpoint(mesh, k);
     const int held_x = mesh->condition[2 * k] == RB_BEM_DISPLACEMENT;
     const int held_y = mesh->condition[2 * k + 1] == RB_BEM_DISPLACEMENT;
     const double complex u =
@@ -68,7 +57,7 @@ static void left_over(const particular *p, int k, int c, int direction, double v
     const double complex t =
         (held_x && held_y) || k == j
             ? 0.0
-            : rb_strip_traction(&strip, z, load, outward_normal(mesh, k));
+            : rb_strip_traction(&strip, z, load, rb_strip_outward(mesh, k));
 
     value[0] = -creal(held_x ? u : t);
     value[1] = -cimag(held_y ? u : t);
@@ -114,7 +103,7 @@ rb_status rb_bem_check_convex(const rb_bem_system *s, rb_message *why)
         const rb_strip strip =
             rb_strip_on(mesh, mesh->contact_first + c, s->material, size);
         for (int k = 0; k < mesh->n; k++)
-            if (rb_strip_depth(&strip, midpoint_of(mesh, k)) < -1e-12 * size)
+            if (rb_strip_depth(&strip, rb_strip_midpoint(mesh, k)) < -1e-12 * size)
                 return rb_fail(why, RB_EINVAL,
                                "condensation: element %d lies outside the half-plane of "
                                "contact element %d",
@@ -159,7 +148,8 @@ static void add_particular(const rb_bem_system *s, double *X)
         double *U = X + (size_t)l * (size_t)s->ld + (size_t)(s->dofs - 2 * m);
         for (int i = 0; i < m; i++) {
             const double complex u = rb_strip_displacement(
-                &strip, midpoint_of(mesh, mesh->contact_first + i), l % 2 ? I : 1.0);
+                &strip, rb_strip_midpoint(mesh, mesh->contact_first + i),
+                l % 2 ? I : 1.0);
             U[2 * i] += creal(u);
             U[2 * i + 1] += cimag(u);
         }

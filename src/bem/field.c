@@ -107,11 +107,9 @@ static void left_over(const rb_bem_field *f, const double *t_contact, int j,
                       double value[2])
 {
     const rb_bem_mesh *mesh = &f->system->mesh;
-    const double h = length_of(mesh, j);
-    const double n[2] = {(mesh->y1[j] - mesh->y0[j]) / h,
-                         (mesh->x0[j] - mesh->x1[j]) / h};
-    const double complex z =
-        0.5 * (mesh->x0[j] + mesh->x1[j]) + 0.5 * (mesh->y0[j] + mesh->y1[j]) * I;
+    const double complex z = rb_strip_midpoint(mesh, j),
+                         normal = rb_strip_outward(mesh, j);
+    const double n[2] = {creal(normal), cimag(normal)};
     double s[3] = {0.0, 0.0, 0.0};
 
     add_strips(f, z, s);

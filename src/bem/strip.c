@@ -29,6 +29,18 @@ rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material,
                             complex_of(mesh->x1[j], mesh->y1[j]), material, unit);
 }
 
+double complex rb_strip_midpoint(const rb_bem_mesh *mesh, int j)
+{
+    return complex_of(0.5 * (mesh->x0[j] + mesh->x1[j]),
+                      0.5 * (mesh->y0[j] + mesh->y1[j]));
+}
+
+double complex rb_strip_outward(const rb_bem_mesh *mesh, int j)
+{
+    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j];
+    return complex_of(dy, -dx) / hypot(dx, dy);
+}
+
 static double complex to_local(const rb_strip *strip, double complex z)
 {
     return conj(strip->along) * (z - strip->middle);

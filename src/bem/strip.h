@@ -20,6 +20,10 @@ rb_strip rb_strip_between(double complex from, double complex to,
 rb_strip rb_strip_on(const rb_bem_mesh *mesh, int j, rb_bem_material material,
                      double unit);
 
+/* Midpoint and outward normal of element j as complex numbers. */
+double complex rb_strip_midpoint(const rb_bem_mesh *mesh, int j);
+double complex rb_strip_outward(const rb_bem_mesh *mesh, int j);
+
 /* Depth of the point below the edge; negative outside the half-plane. */
 double rb_strip_depth(const rb_strip *strip, double complex z);
 

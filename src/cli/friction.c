@@ -1,6 +1,7 @@
 /* rollbem friction FILE...: frictional contact problems, and problems on second-order
  * cones, from files. */
 #include "cli/cli.h"
+#include "cli/output.h"
 
 #include "rollbem/friction.h"
 #include "rollbem/io.h"
@@ -312,24 +313,15 @@ static cli_exit check_solver(const char *name)
                     cli_guess_text(&guess, ""));
 }
 
-static rb_status write_json(friction_run *run)
-{
-    json_t *root = rb_report_json_start(cli_command_line());
-    json_object_set_new(
-        root, "conventions",
-        json_string("[N, T...] per contact, u = W r + q, uhat = u + mu "
-                    "||u_T|| N, K* contains uhat, complementary to r in K"));
-    json_object_set(root, "problems", run->problems);
-    const rb_status s = rb_report_json_write(run->out, root);
-    json_decref(root);
-    return s;
-}
+static const char conventions[] =
+    "[N, T...] per contact, u = W r + q, uhat = u + mu ||u_T|| N, K* contains "
+    "uhat, complementary to r in K";
 
 static cli_exit solve_files(const friction_options *o, int n, char **files)
 {
     rb_io_writer w;
     rb_message why;
-    rb_status s = rb_io_writer_open(o->output, &w, &why);
+    const rb_status s = rb_io_writer_open(o->output, &w, &why);
     if (s != RB_OK)
         return cli_fail(cli_exit_of(s), "%s", why.text);
     friction_run run = {o, w.file, o->json ? json_array() : NULL};
@@ -344,15 +336,7 @@ static cli_exit solve_files(const friction_options *o, int n, char **files)
         const cli_exit code = solve_file(&run, files[i]);
         worst = code > worst ? code : worst;
     }
-    if (o->json)
-        s = write_json(&run);
-    json_decref(run.problems);
-    if (s == RB_ENOMEM) {
-        rb_io_writer_abandon(&w);
-        return cli_fail(CLI_INTERNAL, "out of memory");
-    }
-    s = rb_io_writer_commit(&w, &why);
-    return s == RB_OK ? worst : cli_fail(cli_exit_of(s), "%s", why.text);
+    return cli_finish_problems(&w, conventions, run.problems, worst);
 }
 
 int cli_friction(int argc, char **argv)

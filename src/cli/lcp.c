@@ -1,5 +1,6 @@
 /* rollbem lcp FILE...: Lemke's method on problems from files. */
 #include "cli/cli.h"
+#include "cli/output.h"
 
 #include "rollbem/io.h"
 #include "rollbem/lcp.h"
@@ -246,22 +247,13 @@ static void print_head(const lcp_run *run)
         fprintf(run->out, "# file\tstatus\tn\tpivots\tresidual\tseconds\n");
 }
 
-static rb_status write_json(lcp_run *run)
-{
-    json_t *root = rb_report_json_start(cli_command_line());
-    json_object_set_new(root, "conventions",
-                        json_string("z >= 0, w = M z + q >= 0, z'w = 0"));
-    json_object_set(root, "problems", run->problems);
-    const rb_status s = rb_report_json_write(run->out, root);
-    json_decref(root);
-    return s;
-}
+static const char conventions[] = "z >= 0, w = M z + q >= 0, z'w = 0";
 
 static cli_exit solve_files(const lcp_options *o, int n, char **files)
 {
     rb_io_writer w;
     rb_message why;
-    rb_status s = rb_io_writer_open(o->output, &w, &why);
+    const rb_status s = rb_io_writer_open(o->output, &w, &why);
     if (s != RB_OK)
         return cli_fail(cli_exit_of(s), "%s", why.text);
     lcp_run run = {.o = o, .out = w.file, .problems = o->json ? json_array() : NULL};
@@ -272,15 +264,7 @@ static cli_exit solve_files(const lcp_options *o, int n, char **files)
         const cli_exit code = solve_file(&run, files[i]);
         worst = code > worst ? code : worst;
     }
-    if (o->json)
-        s = write_json(&run);
-    json_decref(run.problems);
-    if (s == RB_ENOMEM) {
-        rb_io_writer_abandon(&w);
-        return cli_fail(CLI_INTERNAL, "out of memory");
-    }
-    s = rb_io_writer_commit(&w, &why); /* knows of failed writes */
-    return s == RB_OK ? worst : cli_fail(cli_exit_of(s), "%s", why.text);
+    return cli_finish_problems(&w, conventions, run.problems, worst);
 }
 
 int cli_lcp(int argc, char **argv)

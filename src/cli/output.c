@@ -120,3 +120,31 @@ int cli_terminal_width(void)
         return size.ws_col;
     return 80;
 }
+
+/* ---- Problems from files
+ * --------------------------------------------------------------- */
+
+static rb_status write_problems(FILE *out, const char *conventions, json_t *problems)
+{
+    json_t *root = rb_report_json_start(cli_command_line());
+    json_object_set_new(root, "conventions", json_string(conventions));
+    json_object_set(root, "problems", problems);
+    const rb_status s = rb_report_json_write(out, root);
+    json_decref(root);
+    return s;
+}
+
+cli_exit cli_finish_problems(rb_io_writer *w, const char *conventions, json_t *problems,
+                             cli_exit worst)
+{
+    rb_message why;
+    rb_status s = problems ? write_problems(w->file, conventions, problems) : RB_OK;
+
+    json_decref(problems);
+    if (s == RB_ENOMEM) {
+        rb_io_writer_abandon(w);
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    }
+    s = rb_io_writer_commit(w, &why); /* knows of failed writes */
+    return s == RB_OK ? worst : cli_fail(cli_exit_of(s), "%s", why.text);
+}

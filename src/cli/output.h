@@ -4,6 +4,9 @@
 
 #include "cli/cli.h"
 #include "rollbem/report.h"
+#include "rollbem/io.h"
+
+#include <jansson.h>
 
 enum { CLI_OUTPUT_OPTIONS_MAX = 8 };
 
@@ -40,5 +43,11 @@ cli_exit cli_output_draw(const cli_output *o, cli_draw *draw, const void *contex
 
 /* Characters in a line of standard error. */
 int cli_terminal_width(void);
+
+/* The end of a command that runs over problems from files: the writer takes them as JSON
+ * (problems, taken over; NULL: the table is written already) and is committed.  Returns
+ * worst, or what went wrong. */
+cli_exit cli_finish_problems(rb_io_writer *w, const char *conventions, json_t *problems,
+                             cli_exit worst);
 
 #endif

@@ -38,9 +38,8 @@ static void record(const rb_rolling_model *model, rb_rolling_curve *c)
 {
     const rb_rolling_problem *p = &model->problem;
     const rb_rolling_state *state = &model->state;
-    const double P = rb_rolling_model_load(model), mu = p->mu;
-    const double Q = cblas_ddot(p->n, p->force_N, 1, state->p, 1) +
-                     cblas_ddot(p->n, p->force_T, 1, state->q, 1);
+    const double P = rb_rolling_model_load(model), Q = rb_rolling_model_force(model);
+    const double mu = p->mu;
     const int k = c->n++;
     int contact = 0, stick = 0;
 

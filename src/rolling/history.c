@@ -172,8 +172,7 @@ static void record(run *r, double distance, int rolling)
     h->shift[k] = r->shift;
     h->approach[k] = state->delta;
     h->normal_load[k] = rb_rolling_model_load(r->model);
-    h->tangential_load[k] = cblas_ddot(p->n, p->force_N, 1, state->p, 1) +
-                            cblas_ddot(p->n, p->force_T, 1, state->q, 1);
+    h->tangential_load[k] = rb_rolling_model_force(r->model);
     h->force_ratio[k] =
         p->mu > 0.0 ? h->tangential_load[k] / (p->mu * h->normal_load[k]) : NAN;
     h->residual[k] = state->residual;

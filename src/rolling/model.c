@@ -30,6 +30,13 @@ double rb_rolling_model_load(const rb_rolling_model *model)
            cblas_ddot(p->n, p->load_T, 1, model->state.q, 1);
 }
 
+double rb_rolling_model_force(const rb_rolling_model *model)
+{
+    const rb_rolling_problem *p = &model->problem;
+    return cblas_ddot(p->n, p->force_N, 1, model->state.p, 1) +
+           cblas_ddot(p->n, p->force_T, 1, model->state.q, 1);
+}
+
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why)
 {
     const double start = rb_seconds();

@@ -214,8 +214,7 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
     const double R = rb_rolling_radius(&model->rc), mu = model->rc.mu;
 
     s->normal_load = rb_rolling_model_load(model);
-    s->tangential_load = cblas_ddot(p->n, p->force_N, 1, s->p, 1) +
-                         cblas_ddot(p->n, p->force_T, 1, s->q, 1);
+    s->tangential_load = rb_rolling_model_force(model);
     s->load_error = p->load_given ? fabs(s->normal_load - p->load) / p->load : NAN;
     s->hertz_half_width = model->half_width;
     s->approach = model->state.delta;
