@@ -55,6 +55,29 @@ static inline void check_max_(double got, double bound, const char *file, int li
     va_end(args);
 }
 
+/* What error bars held and how wide they were. */
+typedef struct {
+    double wide; /* bars beyond so many times the error are too wide; 0: ten */
+    int held, all, narrow;
+} tally;
+
+static inline void tally_count(tally *t, double error, double bar)
+{
+    if (fabs(error) < 1e-10) /* met exactly: nothing to hold */
+        return;
+    t->all++;
+    t->held += fabs(error) <= bar;
+    t->narrow += bar <= (t->wide > 0.0 ? t->wide : 10.0) * fabs(error);
+}
+
+/* 95 of 100 hold the error, half of them are not too wide. */
+static inline void tally_check(const tally *t, const char *of)
+{
+    CHECK_MAX(1.0 - (double)t->held / t->all, 0.05, "%s: held %d of %d", of, t->held,
+              t->all);
+    CHECK_MAX(0.5, (double)t->narrow / t->all, "%s: too wide in the median", of);
+}
+
 /* The next allocations of the library succeed `count` times, then every one fails until
  * alloc_succeed().  alloc_failed() tells whether one was refused. */
 void alloc_fail_after(int count);

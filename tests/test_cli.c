@@ -417,8 +417,8 @@ static void error_bars_hold_the_truth(void **state)
     assert_int_equal(rollbem(QUICK " --error"), 0);
     assert_non_null(strstr(err, "max_pressure"));
     check_refused("--accuracy 2", 64, "--accuracy: expected a number in (0, 1) or off");
-    check_refused("--formulation transient --distance 1 --creep 0 --error", 64,
-                  "--error: of static and steady cases");
+    check_refused("--formulation transient --distance 1 --creep 0 --accuracy 1e-3", 64,
+                  "--accuracy: of static and steady cases");
 }
 
 /* ---- Behind the solution ----------------------------------------------------------- */

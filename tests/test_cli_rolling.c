@@ -26,7 +26,7 @@ static const struct {
     {"curve --mu 0.1,x", 64, "--mu: expected a number >= 0, got '0.1,x'"},
     {"curve --mu 0", 64, "xi R/(mu a) has no meaning at mu = 0"},
     {"--mu 0.1,0.2", 64, "--mu: expected one number; a curve takes several"},
-    {"curve --error", 64, "--error: curves have no error bars"},
+    {"curve --accuracy 1e-3", 64, "--accuracy: of single cases"},
     {"stress --accuracy 0.1", 64, "--accuracy: stress has error bars"},
     {"curve --plot a.bmp", 64, "--plot: expected a name ending in .png, .svg or .pdf"},
     {"stress --grid 10", 64, "--grid: expected two numbers >= 2 such as 61x41, got '10'"},
@@ -319,6 +319,35 @@ static void vtk_holds_the_numbers_of_the_table(void **state)
                      73);
 }
 
+static double last_of(const char *path, const char *column)
+{
+    rb_io_table t;
+    assert_int_equal(rb_io_table_read(path, &t, NULL), RB_OK);
+    const double *x = rb_io_table_column(&t, column);
+    assert_non_null(x);
+    const double value = x[t.rows - 1];
+    rb_io_table_free(&t);
+    return value;
+}
+
+/* Carter at s = 0.4, the end of a curve and of a long way. */
+static void curves_and_steps_have_error_bars(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("curve " SIMILAR "--to 0.4 --points 3 --error --plot c.svg "
+                             "--output c.tsv"),
+                     0);
+    assert_non_null(strstr(err, "error of Q/(mu P) <= "));
+    CHECK_ABS(last_of("c.tsv", "force_ratio_1"), -0.64,
+              last_of("c.tsv", "error_force_ratio_1"), "curve");
+    assert_int_equal(rollbem(SIMILAR "--formulation transient --creep-ratio 0.4 "
+                                     "--contact-elements 20 --distance 60 --error "
+                                     "--history-table h.tsv --quiet > last.tsv"),
+                     0);
+    CHECK_ABS(last_of("h.tsv", "force_ratio_1"), -0.64,
+              last_of("h.tsv", "error_force_ratio_1"), "history");
+}
+
 /* ---- Steps
  * ----------------------------------------------------------------------------- */
 
@@ -458,6 +487,7 @@ int main(void)
         cmocka_unit_test(table_of_points),
         cmocka_unit_test(grid_of_a_wheel),
         cmocka_unit_test(vtk_holds_the_numbers_of_the_table),
+        cmocka_unit_test(curves_and_steps_have_error_bars),
         cmocka_unit_test(steps_leave_snapshots_and_a_picture),
         cmocka_unit_test(bad_rows_are_named_by_their_line),
         cmocka_unit_test(friction_power_adds_up),

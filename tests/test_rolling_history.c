@@ -260,6 +260,108 @@ static void an_interrupted_run_keeps_its_steps(void **state)
     release(&model, &h);
 }
 
+/* The truth: four times as many elements and steps.  The elements do not end at the edges
+ * of the contact. */
+static void count_history(double creep, double force_ratio, double zone, tally *of_force,
+                          tally *of_creepage)
+{
+    rb_rolling_case rc = steel_wheel(60), finer = steel_wheel(240);
+    rb_rolling_model model;
+    rb_rolling_history h, e, truth;
+    rc.zone = finer.zone = zone * rb_rolling_hertz_half_width(&rc, rc.load);
+    finer.contact_elements = 4 * rc.contact_elements;
+    rc.formulation = finer.formulation = RB_TRANSIENT;
+    rc.creep = finer.creep = creep;
+    rc.force_ratio = finer.force_ratio = force_ratio;
+    rc.distance = finer.distance = 2.0;
+    run(&finer, NULL, &model, &truth);
+    rb_rolling_model_free(&model);
+    CHECK_STATUS(
+        rb_rolling_history_with_errors(&rc, NULL, NULL, NULL, &model, &h, &e, NULL),
+        RB_OK);
+    assert_int_equal(e.n, h.n);
+    for (int k = 1; k < h.n && 4 * k < truth.n; k++) {
+        const double *xi = truth.creepage + 4 * k - 3;
+        tally_count(of_force, h.force_ratio[k] - truth.force_ratio[4 * k],
+                    e.force_ratio[k]);
+        tally_count(of_creepage,
+                    1e4 * (h.creepage[k] - 0.25 * (xi[0] + xi[1] + xi[2] + xi[3])),
+                    1e4 * e.creepage[k]);
+    }
+    rb_rolling_history_free(&truth);
+    rb_rolling_history_free(&e);
+    release(&model, &h);
+}
+
+/* Steps and elements err against each other and partly cancel, in the spread less than in
+ * the error: the bars are about eleven times too wide in the median. */
+static void error_bars_hold_finer_runs(void **state)
+{
+    (void)state;
+    tally of_force = {.wide = 15.0}, of_creepage = {.wide = 15.0};
+    for (int k = 1; k <= 4; k++) {
+        count_history(1e-4 * k, NAN, 1.06 + 0.067 * k, &of_force, &of_creepage);
+        count_history(NAN, -0.2 * k, 1.06 + 0.067 * k, &of_force, &of_creepage);
+    }
+    tally_check(&of_force, "force");
+    tally_check(&of_creepage, "creepage");
+}
+
+/* Static increments: no steps, the same rows on all meshes. */
+static void error_bars_hold_mindlin(void **state)
+{
+    (void)state;
+    const double force[] = {0.3, 0.6, 0.9, 0.4, -0.2};
+    const rb_rolling_program program = {.n = 5, .force_ratio = force};
+    rb_rolling_case rc = steel_wheel(60), finer = steel_wheel(240);
+    rb_rolling_model model;
+    rb_rolling_history h, e, truth;
+    rc.zone = finer.zone = 1.17 * rb_rolling_hertz_half_width(&rc, rc.load);
+    run(&finer, &program, &model, &truth);
+    rb_rolling_model_free(&model);
+    CHECK_STATUS(
+        rb_rolling_history_with_errors(&rc, &program, NULL, NULL, &model, &h, &e, NULL),
+        RB_OK);
+    for (int k = 0; k < 5; k++) {
+        const double unit = rc.mu * model.half_width * model.half_width / rc.a.radius;
+        CHECK_MAX(fabs(h.shift[k] - truth.shift[k]) / unit, e.shift[k] / unit, "row %d",
+                  k + 1);
+        CHECK_MAX(e.shift[k] / unit, 0.02, "of a shift of 1");
+        CHECK_MAX(e.force_ratio[k], 1e-12, "a given force has no error");
+    }
+    rb_rolling_history_free(&truth);
+    rb_rolling_history_free(&e);
+    release(&model, &h);
+}
+
+static int stop_in_companion(const rb_rolling_model *model,
+                             const rb_rolling_history *history, int step, int steps,
+                             void *context)
+{
+    (void)history;
+    (void)steps;
+    (void)context;
+    return !model && step == 1;
+}
+
+static void companions_can_be_interrupted(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steel_wheel(20);
+    rb_rolling_model model;
+    rb_rolling_history h, e;
+    rc.formulation = RB_TRANSIENT;
+    rc.creep = 1e-4;
+    rc.distance = 1.0;
+    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, stop_in_companion, NULL,
+                                                &model, &h, &e, NULL),
+                 RB_INTERRUPTED);
+    assert_int_equal(h.n, 11); /* the run itself is complete */
+    assert_int_equal(e.n, 0);
+    rb_rolling_history_free(&e);
+    release(&model, &h);
+}
+
 static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
@@ -271,14 +373,15 @@ static void every_failed_allocation_is_reported(void **state)
     rc.steps = 2;
     for (int count = 0; refused; count++) {
         rb_rolling_model model;
-        rb_rolling_history h;
+        rb_rolling_history h, e;
         alloc_fail_after(count);
         const rb_status s =
-            rb_rolling_history_run(&rc, NULL, NULL, NULL, &model, &h, NULL);
+            rb_rolling_history_with_errors(&rc, NULL, NULL, NULL, &model, &h, &e, NULL);
         refused = alloc_failed();
         alloc_succeed();
         if (refused && s == RB_OK)
             fail_msg("allocation %d failed unnoticed", count);
+        rb_rolling_history_free(&e);
         release(&model, &h);
     }
 }
@@ -294,6 +397,9 @@ int main(void)
         cmocka_unit_test(loads_vary_along_the_way),
         cmocka_unit_test(bad_programs_name_the_row),
         cmocka_unit_test(an_interrupted_run_keeps_its_steps),
+        cmocka_unit_test(error_bars_hold_finer_runs),
+        cmocka_unit_test(error_bars_hold_mindlin),
+        cmocka_unit_test(companions_can_be_interrupted),
         cmocka_unit_test(every_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -26,8 +26,10 @@ extern const char *const rb_report_conventions[];
 rb_status rb_report_table(FILE *out, const rb_rolling_solution *s, const char *command,
                           int bare);
 
-/* The steps of a transient or a static history, one row each; headers as above. */
-rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *command,
+/* The steps of a transient or a static history, one row each; headers as above.  errors
+ * (NULL: not asked for, here as below): columns of their own, error_*. */
+rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
+                            const rb_rolling_history *errors, const char *command,
                             int bare);
 
 /* ---- JSON ------------------------------------------------------------------------- */
@@ -42,7 +44,8 @@ struct json_t *rb_report_json_summary(const rb_rolling_case *rc,
                                       const rb_rolling_solution *s);
 struct json_t *rb_report_json_table(const rb_rolling_solution *s);
 struct json_t *rb_report_json_errors(const rb_rolling_errors *errors);
-struct json_t *rb_report_json_history(const rb_rolling_history *h);
+struct json_t *rb_report_json_history(const rb_rolling_history *h,
+                                      const rb_rolling_history *errors);
 /* Writes with a final newline.  RB_ENOMEM when json is NULL, RB_EWRITE: see errno. */
 rb_status rb_report_json_write(FILE *out, const struct json_t *json);
 
@@ -57,7 +60,8 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width);
 /* Values with their error bars. */
 void rb_report_errors(FILE *out, const rb_rolling_solution *s,
                       const rb_rolling_errors *e);
-void rb_report_history_summary(FILE *out, const rb_rolling_history *h);
+void rb_report_history_summary(FILE *out, const rb_rolling_history *h,
+                               const rb_rolling_history *errors);
 /* One line each where a result must be read with care: linear theory stretched, `static`
  * with a creepage, an arc support that rolls, slip that does not oppose the friction. */
 void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s);
@@ -89,9 +93,11 @@ typedef struct {
     int n;
     double mu[RB_REPORT_CURVES];
     rb_rolling_curve curve[RB_REPORT_CURVES];
+    int has_errors;
+    rb_rolling_curve error[RB_REPORT_CURVES]; /* with has_errors */
 } rb_report_curves;
 
-/* One row per mu and creepage.  RB_EWRITE: see errno. */
+/* One row per mu and creepage, errors in columns of their own.  RB_EWRITE: see errno. */
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
                                 const char *command, int bare);
 /* Sets "curve", of the first mu, and "curves", of all, where there are several. */
@@ -99,7 +105,7 @@ void rb_report_json_curves(struct json_t *root, const rb_report_curves *curves);
 /* A few lines for people. */
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves);
 /* Braking force -Q/(mu P) over xi R/(mu a) or xi; of several mu -Q/P over xi.  Carter's
- * law dashed. */
+ * law dashed; errors as bands. */
 rb_status rb_report_curve_picture(FILE *out, rb_report_picture_kind kind,
                                   const rb_rolling_case *rc,
                                   const rb_report_curves *curves, int over_creep,
@@ -155,9 +161,10 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind,
  */
 
 /* Creepage or shift, force and stick over the rolled distance, or over the increments of
- * a static history. */
+ * a static history; errors as bands. */
 rb_status rb_report_history_picture(FILE *out, rb_report_picture_kind kind,
-                                    const rb_rolling_history *history, rb_message *why);
+                                    const rb_rolling_history *history,
+                                    const rb_rolling_history *errors, rb_message *why);
 
 /* ---- Behind the solution ------------------------------------------------------------
  */

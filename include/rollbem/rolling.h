@@ -398,6 +398,7 @@ typedef struct {
     double *dissipation;                                 /* power per unit speed */
     double *residual;
     double free_creepage, half_width, seconds;
+    int contact; /* elements in contact at the last creepage */
     int iterations;
 } rb_rolling_curve;
 
@@ -490,6 +491,24 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
                                        rb_rolling_errors *errors, int *elements,
                                        rb_message *why);
 
+/* A curve and its errors: errors->force_ratio[k] and so on belong to the k-th creepage,
+ * errors->residual means nothing.  Takes twice as long.  Free both in any case. */
+rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, int over_creep,
+                                       double from, double to, int points,
+                                       rb_rolling_curve *curve, rb_rolling_curve *errors,
+                                       rb_message *why);
+
+/* A history and its errors: errors->tangential_load[k] and so on belong to the k-th step,
+ * errors->residual means nothing.  The coarser runs have longer steps, so that the errors
+ * are those of the steps too; `step` sees them after the run itself, with model and
+ * history NULL.  Free all in any case. */
+rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
+                                         const rb_rolling_program *program,
+                                         rb_rolling_step *step, void *context,
+                                         rb_rolling_model *model,
+                                         rb_rolling_history *history,
+                                         rb_rolling_history *errors, rb_message *why);
+
 /* From case to solution in one call.  On a positive status the solution holds what there
  * is.  solution: overwritten; free it in any case. */
 rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
@@ -500,7 +519,8 @@ rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solut
 rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_rolling_solution *solution, rb_message *why);
 
-/* ---- Parameter studies ------------------------------------------------------------------
+/* ---- Parameter studies
+ * ------------------------------------------------------------------
  */
 
 /* Results of one case; NAN where there is none. */
@@ -513,9 +533,10 @@ typedef struct {
 } rb_rolling_sweep_row;
 
 /* Cases first ... first + count - 1, by processes of this machine (0: as many as it has
- * processors), one thread each.  make runs in them, see and tick in the caller: see gets the
- * rows in order, tick comes every few milliseconds with the number seen; a value other than
- * 0 ends the run.  A process that dies leaves its case with RB_ENOMEM and is replaced. */
+ * processors), one thread each.  make runs in them, see and tick in the caller: see gets
+ * the rows in order, tick comes every few milliseconds with the number seen; a value
+ * other than 0 ends the run.  A process that dies leaves its case with RB_ENOMEM and is
+ * replaced. */
 typedef struct {
     int first, count, workers;
     rb_status (*make)(int k, rb_rolling_case *rc, void *context);

@@ -182,14 +182,12 @@ int cli_case_has_steps(const cli_case *c)
     return c->rc.formulation == RB_TRANSIENT || c->program.n > 0;
 }
 
-/* The estimates compare meshes, not steps. */
 static cli_exit check_accuracy(const cli_case *c)
 {
-    static const char *const reason = "of static and steady cases without history only";
-    if (!cli_case_has_steps(c))
-        return CLI_CONTINUE;
-    const cli_exit code = cli_case_refuse(c, "error", reason);
-    return code == CLI_CONTINUE ? cli_case_refuse(c, "accuracy", reason) : code;
+    return cli_case_has_steps(c)
+               ? cli_case_refuse(c, "accuracy",
+                                 "of static and steady cases without history only")
+               : CLI_CONTINUE;
 }
 
 /* Options of one formulation mean nothing to the others. */

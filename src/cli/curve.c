@@ -56,6 +56,16 @@ static cli_exit check_range(const range_options *range, const cli_output *o)
     return cli_output_check(o);
 }
 
+static rb_status solve_curve(const rb_rolling_case *rc, const range_options *r,
+                             int with_errors, rb_rolling_curve *curve,
+                             rb_rolling_curve *errors, rb_message *why)
+{
+    return with_errors ? rb_rolling_curve_with_errors(rc, r->over_creep, r->from, r->to,
+                                                      r->points, curve, errors, why)
+                       : rb_rolling_curve_solve(rc, r->over_creep, r->from, r->to,
+                                                r->points, curve, why);
+}
+
 static rb_status solve_curves(const cli_case *c, const range_options *range,
                               rb_report_curves *curves, rb_message *why)
 {
@@ -63,11 +73,12 @@ static rb_status solve_curves(const cli_case *c, const range_options *range,
     const cli_list *mus = c->mus.n > 0 ? &c->mus : &one;
     rb_rolling_case rc = c->rc;
     rb_status s = RB_OK;
+    curves->has_errors = c->error;
     for (int k = 0; k < mus->n && s == RB_OK; k++) {
         rb_message reason = {""};
         rc.mu = curves->mu[k] = mus->value[k];
-        s = rb_rolling_curve_solve(&rc, range->over_creep, range->from, range->to,
-                                   range->points, &curves->curve[k], &reason);
+        s = solve_curve(&rc, range, c->error, &curves->curve[k], &curves->error[k],
+                        &reason);
         curves->n += s >= 0;
         if (s != RB_OK && mus->n > 1)
             rb_fail(why, s, "mu = %g: %.280s", rc.mu, reason.text);
@@ -120,8 +131,8 @@ static cli_exit check_case(const cli_case *c)
     for (int k = 0; k < 6 && code == CLI_CONTINUE; k++)
         code = cli_case_refuse(c, driving[k],
                                "the curve runs over --from ... --to by itself");
-    for (int k = 0; k < 2 && code == CLI_CONTINUE; k++)
-        code = cli_case_refuse(c, k ? "accuracy" : "error", "curves have no error bars");
+    if (code == CLI_CONTINUE)
+        code = cli_case_refuse(c, "accuracy", "of single cases; a curve has --error");
     if (code == CLI_CONTINUE && c->rc.formulation != RB_STEADY)
         code = cli_case_refuse(c, "formulation", "a curve is one of steady rolling");
     return code;
@@ -153,8 +164,10 @@ static cli_exit solve(const cli_case *c, const range_options *range, const cli_o
     cli_sink_abandon(&sink);
     if (code == CLI_OK && s != RB_OK)
         code = cli_case_refused(c, s, &why);
-    for (int k = 0; k < CLI_LIST_MAX; k++)
+    for (int k = 0; k < CLI_LIST_MAX; k++) {
         rb_rolling_curve_free(&r.curves.curve[k]);
+        rb_rolling_curve_free(&r.curves.error[k]);
+    }
     return code;
 }
 

@@ -68,6 +68,8 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
 {
     watch *w = context;
     const cli_steps *asked = w->steps;
+    if (!model) /* a coarser run, for the error bars */
+        return interrupted;
     if (asked->progress || asked->terminal)
         show_progress(w, history, step, steps);
     if (asked->snapshots && ((step + 1) % asked->every == 0 || step + 1 == steps))
@@ -99,8 +101,11 @@ static rb_status run_steps(const cli_case *c, const cli_steps *steps, cli_run_re
     interrupted = 0;
     sigaction(SIGINT, &act, &before);
     const rb_rolling_program *program = c->program.n > 0 ? &c->program : NULL;
-    s = rb_rolling_history_run(&c->rc, program, after_step, &w, &r->model, &r->history,
-                               why);
+    s = c->error
+            ? rb_rolling_history_with_errors(&c->rc, program, after_step, &w, &r->model,
+                                             &r->history, &r->history_errors, why)
+            : rb_rolling_history_run(&c->rc, program, after_step, &w, &r->model,
+                                     &r->history, why);
     sigaction(SIGINT, &before, NULL);
     if (w.failed == RB_OK)
         return s;
@@ -130,9 +135,9 @@ rb_status cli_run_case(const cli_case *c, const cli_steps *steps, cli_run_result
                        rb_message *why)
 {
     memset(r, 0, sizeof *r);
-    r->has_errors = c->error || c->accuracy > 0.0;
     if (cli_case_has_steps(c))
         return run_and_finish_steps(c, steps, r, why);
+    r->has_errors = c->error || c->accuracy > 0.0;
     if (c->accuracy > 0.0)
         return rb_rolling_solve_to_accuracy(&c->rc, c->accuracy, &r->solution, &r->errors,
                                             &r->elements, why);
@@ -145,5 +150,6 @@ void cli_run_free(cli_run_result *r)
 {
     rb_rolling_solution_free(&r->solution);
     rb_rolling_history_free(&r->history);
+    rb_rolling_history_free(&r->history_errors);
     rb_rolling_model_free(&r->model);
 }

@@ -6,9 +6,10 @@
 
 typedef struct {
     rb_rolling_model model;
-    rb_rolling_solution solution; /* n = 0: there is none */
-    rb_rolling_history history;   /* n = 0: not a sequence of steps */
-    int has_errors;
+    rb_rolling_solution solution;      /* n = 0: there is none */
+    rb_rolling_history history;        /* n = 0: not a sequence of steps */
+    rb_rolling_history history_errors; /* n = 0: not asked for */
+    int has_errors; /* of the solution; of a history each step has them */
     rb_rolling_errors errors;
     int elements; /* that --accuracy took; 0: not asked */
 } cli_run_result;
@@ -23,8 +24,8 @@ typedef struct {
 
 /* Steady and static cases at once, transients and histories step by step; an interrupt
  * (control-C) ends the latter after the step at hand. steps NULL: nothing on
- * the way.  With error bars there is no model (model.state.p NULL).  Free the result
- * in any case. */
+ * the way.  With error bars of a solution there is no model (model.state.p NULL).  Free
+ * the result in any case. */
 rb_status cli_run_case(const cli_case *c, const cli_steps *steps, cli_run_result *r,
                        rb_message *why);
 void cli_run_free(cli_run_result *r);

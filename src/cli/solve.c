@@ -68,6 +68,12 @@ typedef struct {
 
 /* ---- Output ----------------------------------------------------------------------- */
 
+/* NULL where they were not asked for. */
+static const rb_rolling_history *step_errors(const cli_run_result *r)
+{
+    return r->history_errors.n > 0 ? &r->history_errors : NULL;
+}
+
 static rb_status write_json(FILE *out, const result *it)
 {
     json_t *root = rb_report_json_start(cli_command_line());
@@ -78,7 +84,8 @@ static rb_status write_json(FILE *out, const result *it)
     json_object_set_new(root, "summary", summary);
     json_object_set_new(root, "table", rb_report_json_table(&it->r->solution));
     if (it->r->history.n > 0)
-        json_object_set_new(root, "history", rb_report_json_history(&it->r->history));
+        json_object_set_new(root, "history",
+                            rb_report_json_history(&it->r->history, step_errors(it->r)));
     const rb_status status = rb_report_json_write(out, root);
     json_decref(root);
     return status;
@@ -95,7 +102,8 @@ static rb_status write_table(FILE *out, const cli_output *o, const void *context
 static rb_status write_history(FILE *out, const cli_output *o, const void *context)
 {
     const result *it = context;
-    return rb_report_history(out, &it->r->history, cli_command_line(), o->bare);
+    return rb_report_history(out, &it->r->history, step_errors(it->r), cli_command_line(),
+                             o->bare);
 }
 
 static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
@@ -109,7 +117,7 @@ static rb_status draw_history(FILE *out, rb_report_picture_kind kind, const void
                               rb_message *why)
 {
     const result *it = context;
-    return rb_report_history_picture(out, kind, &it->r->history, why);
+    return rb_report_history_picture(out, kind, &it->r->history, step_errors(it->r), why);
 }
 
 /* The steps in a file of their own. */
@@ -153,7 +161,7 @@ static void tell_people(const result *it)
     if (it->r->has_errors)
         rb_report_errors(stderr, &it->r->solution, &it->r->errors);
     if (it->r->history.n > 0)
-        rb_report_history_summary(stderr, &it->r->history);
+        rb_report_history_summary(stderr, &it->r->history, step_errors(it->r));
     rb_report_notes(stderr, &it->c->rc, &it->r->solution);
 }
 

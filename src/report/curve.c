@@ -5,41 +5,46 @@
 
 #include <jansson.h>
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 /* ---- Table and JSON ---------------------------------------------------------------- */
 
-enum { COLUMNS = 8 };
+/* Columns; those from FIRST to before LAST have errors. */
+enum { COLUMNS = 8, FIRST = 2, LAST = 7, ERRORS = LAST - FIRST };
 
 static void series_of(const rb_rolling_curve *c, rb_report_series series[COLUMNS])
 {
     const rb_report_series all[COLUMNS] = {
-        {"creepage_1", "creepage", c->creepage, NULL},
-        {"creep_ratio_1", "creep_ratio", c->creep_ratio, NULL},
-        {"force_ratio_1", "force_ratio", c->force_ratio, NULL},
-        {"Q_N/mm", "tangential_load", c->tangential_load, NULL},
-        {"P_N/mm", "normal_load", c->normal_load, NULL},
-        {"stick_ratio_1", "stick_ratio", c->stick_ratio, NULL},
-        {"dissipation_N/mm", "dissipation", c->dissipation, NULL},
-        {"residual_1", "residual", c->residual, NULL}};
-    for (int j = 0; j < COLUMNS; j++)
-        series[j] = all[j];
+        {"creepage_1", "creepage", c->creepage, NULL, 0},
+        {"creep_ratio_1", "creep_ratio", c->creep_ratio, NULL, 0},
+        {"force_ratio_1", "force_ratio", c->force_ratio, NULL, 0},
+        {"Q_N/mm", "tangential_load", c->tangential_load, NULL, 0},
+        {"P_N/mm", "normal_load", c->normal_load, NULL, 0},
+        {"stick_ratio_1", "stick_ratio", c->stick_ratio, NULL, 0},
+        {"dissipation_N/mm", "dissipation", c->dissipation, NULL, 0},
+        {"residual_1", "residual", c->residual, NULL, 0}};
+    memcpy(series, all, sizeof all);
 }
 
 /* The coefficient of friction stands before the columns of its curve. */
-static void print_curve(FILE *out, double mu, const rb_rolling_curve *c, int named,
-                        int bare)
+static void print_curve(FILE *out, const rb_report_curves *curves, int k, int bare)
 {
-    rb_report_series series[COLUMNS];
+    const rb_rolling_curve *c = &curves->curve[k];
+    rb_report_series series[COLUMNS + ERRORS], error[COLUMNS];
+    int columns = COLUMNS;
+
     series_of(c, series);
-    if (named) {
+    series_of(&curves->error[k], error);
+    if (curves->has_errors)
+        columns += rb_report_add_errors(ERRORS, error + FIRST, series + COLUMNS);
+    if (k == 0) {
         fputs(bare ? "mu_1\t" : "# mu_1\t", out);
-        rb_report_print_names(out, COLUMNS, series, 1);
+        rb_report_print_names(out, columns, series, 1);
     }
     for (int i = 0; i < c->n; i++) {
-        fprintf(out, "%.17g\t", mu);
-        for (int j = 0; j < COLUMNS; j++)
-            fprintf(out, "%.17g%c", series[j].x[i], j + 1 < COLUMNS ? '\t' : '\n');
+        fprintf(out, "%.17g\t", curves->mu[k]);
+        for (int j = 0; j < columns; j++)
+            fprintf(out, "%.17g%c", series[j].x[i], j + 1 < columns ? '\t' : '\n');
     }
 }
 
@@ -49,21 +54,37 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
     if (!bare)
         rb_report_print_head(out, command);
     for (int k = 0; k < curves->n; k++)
-        print_curve(out, curves->mu[k], &curves->curve[k], k == 0, bare);
+        print_curve(out, curves, k, bare);
     return rb_report_print_end(out);
 }
 
-static json_t *json_curve(double mu, const rb_rolling_curve *c)
+static json_t *json_errors(const rb_rolling_curve *error)
 {
     rb_report_series series[COLUMNS];
+    json_t *errors = json_object();
+
+    series_of(error, series);
+    rb_report_json_series(errors, error->n, ERRORS, series + FIRST);
+    json_object_set_new(errors, "free_creepage",
+                        rb_report_json_number(error->free_creepage));
+    return errors;
+}
+
+static json_t *json_curve(const rb_report_curves *curves, int k)
+{
+    const rb_rolling_curve *c = &curves->curve[k];
+    rb_report_series series[COLUMNS];
     json_t *curve = json_object();
+
     series_of(c, series);
-    json_object_set_new(curve, "mu", rb_report_json_number(mu));
+    json_object_set_new(curve, "mu", rb_report_json_number(curves->mu[k]));
     rb_report_json_series(curve, c->n, COLUMNS, series);
     json_object_set_new(curve, "free_creepage", rb_report_json_number(c->free_creepage));
     json_object_set_new(curve, "hertz_half_width", rb_report_json_number(c->half_width));
     json_object_set_new(curve, "iterations", json_integer(c->iterations));
     json_object_set_new(curve, "seconds", rb_report_json_number(c->seconds));
+    if (curves->has_errors)
+        json_object_set_new(curve, "errors", json_errors(&curves->error[k]));
     return curve;
 }
 
@@ -71,7 +92,7 @@ void rb_report_json_curves(json_t *root, const rb_report_curves *curves)
 {
     json_t *all = json_array();
     for (int k = 0; k < curves->n; k++)
-        json_array_append_new(all, json_curve(curves->mu[k], &curves->curve[k]));
+        json_array_append_new(all, json_curve(curves, k));
     if (curves->n > 0)
         json_object_set(root, "curve", json_array_get(all, 0));
     if (curves->n > 1)
@@ -90,19 +111,30 @@ static int full_sliding_from(const rb_rolling_curve *c)
     return k < c->n ? k : -1;
 }
 
+static double largest(int n, const double *x)
+{
+    double most = 0.0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, x[i]);
+    return most;
+}
+
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
 {
     for (int k = 0; k < curves->n; k++) {
         const rb_rolling_curve *c = &curves->curve[k];
         const int sliding = full_sliding_from(c);
-        double residual = 0.0;
-        for (int i = 0; i < c->n; i++)
-            residual = fmax(residual, c->residual[i]);
         fprintf(out, "curve, mu = %g: %d points in %.2g s, residual <= %.2g\n",
-                curves->mu[k], c->n, c->seconds, residual);
+                curves->mu[k], c->n, c->seconds, largest(c->n, c->residual));
         if (isfinite(c->free_creepage))
             fprintf(out, "  free rolling (Q = 0) at xi = %.5g\n",
                     c->free_creepage + 0.0); /* -0 is 0 */
+        if (curves->has_errors)
+            fprintf(out,
+                    "  error of Q/(mu P) <= %.1g, of P <= %.1g N/mm (estimated from "
+                    "coarser meshes)\n",
+                    largest(c->n, curves->error[k].force_ratio),
+                    largest(c->n, curves->error[k].normal_load));
         if (sliding >= 0 && curves->mu[k] > 0.0)
             fprintf(out, "  full sliding from xi = %.5g, xi R/(mu a) = %.4g on\n",
                     c->creepage[sliding], c->creep_ratio[sliding]);
@@ -130,6 +162,14 @@ static double y_of(const view *v, double force_ratio, double mu)
     return v->over_load ? -force_ratio * mu : -force_ratio;
 }
 
+/* In units of y; 0 where it was not asked for. */
+static double error_of(const view *v, int k, int i)
+{
+    return v->curves->has_errors
+               ? fabs(y_of(v, v->curves->error[k].force_ratio[i], v->curves->mu[k]))
+               : 0.0;
+}
+
 static void write_data(FILE *out, const view *v)
 {
     for (int k = 0; k < v->curves->n; k++) {
@@ -137,7 +177,7 @@ static void write_data(FILE *out, const view *v)
         fprintf(out, "$curve%d << EOD\n", k);
         for (int i = 0; i < c->n; i++)
             fprintf(out, "%.9g %.9g %.9g\n", x_of(v, c, i),
-                    y_of(v, c->force_ratio[i], v->curves->mu[k]), c->stick_ratio[i]);
+                    y_of(v, c->force_ratio[i], v->curves->mu[k]), error_of(v, k, i));
         fputs("EOD\n", out);
     }
 }
@@ -211,6 +251,11 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
     write_labels(out, v);
     fputs("plot ", out);
+    for (int k = 0; k < v->curves->n && v->curves->has_errors; k++)
+        fprintf(out,
+                "$curve%d using 1:($2-$3):($2+$3) with filledcurves linecolor rgb '%s' "
+                "fillstyle transparent solid 0.25 noborder notitle, ",
+                k, colours[k % 8]);
     for (int k = 0; k < v->curves->n; k++)
         fprintf(out,
                 "$curve%d using 1:2 with lines linecolor rgb '%s' linewidth 2.6 title "

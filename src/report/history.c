@@ -1,80 +1,89 @@
 /* Steps of a transient or of a static history. */
-#include "rollbem/report.h"
+#include "report/internal.h"
 
 #include <jansson.h>
 #include <math.h>
-#include <stddef.h>
+#include <string.h>
 
-typedef struct {
-    const char *name, *unit; /* JSON; the table's column is name_unit */
-    size_t offset;
-    int whole;
-} column;
+/* Columns; those from FIRST to before LAST have errors. */
+enum { COLUMNS = 10, FIRST = 1, LAST = 7, ERRORS = LAST - FIRST };
 
-#define NUMBER(member, unit)                                                             \
-    {                                                                                    \
-#member, unit, offsetof(rb_rolling_history, member), 0                           \
-    }
-
-static const column columns[] = {
-    NUMBER(distance, "a"),
-    NUMBER(creepage, "1"),
-    NUMBER(shift, "mm"),
-    NUMBER(approach, "mm"),
-    NUMBER(normal_load, "N/mm"),
-    NUMBER(tangential_load, "N/mm"),
-    NUMBER(force_ratio, "1"),
-    {"stick", "elements", offsetof(rb_rolling_history, stick), 1},
-    {"slip", "elements", offsetof(rb_rolling_history, slipping), 1},
-    NUMBER(residual, "1"),
-};
-
-enum { COLUMNS = sizeof columns / sizeof columns[0] };
-
-static double value(const rb_rolling_history *h, const column *c, int i)
+static void series_of(const rb_rolling_history *h, rb_report_series series[COLUMNS])
 {
-    const void *place = (const char *)h + c->offset;
-    return c->whole ? (*(int *const *)place)[i] : (*(double *const *)place)[i];
+    const rb_report_series all[COLUMNS] = {
+        {"distance_a", "distance", h->distance, NULL, 0},
+        {"creepage_1", "creepage", h->creepage, NULL, 0},
+        {"shift_mm", "shift", h->shift, NULL, 0},
+        {"approach_mm", "approach", h->approach, NULL, 0},
+        {"normal_load_N/mm", "normal_load", h->normal_load, NULL, 0},
+        {"tangential_load_N/mm", "tangential_load", h->tangential_load, NULL, 0},
+        {"force_ratio_1", "force_ratio", h->force_ratio, NULL, 0},
+        {"stick_elements", "stick", NULL, h->stick, 0},
+        {"slip_elements", "slip", NULL, h->slipping, 0},
+        {"residual_1", "residual", h->residual, NULL, 0}};
+    memcpy(series, all, sizeof all);
 }
 
-rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *command,
+rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
+                            const rb_rolling_history *errors, const char *command,
                             int bare)
 {
-    if (!bare) {
-        fprintf(out, "# rollbem %s\n# %s\n", RB_VERSION, command);
-        for (const char *const *line = rb_report_conventions; *line; line++)
-            fprintf(out, "# %s\n", *line);
-        fprintf(out, "# distance in Hertz half-widths; creepage: mean over the step\n# ");
+    rb_report_series series[COLUMNS + ERRORS];
+    int columns = COLUMNS;
+
+    series_of(h, series);
+    if (errors) {
+        rb_report_series error[COLUMNS];
+        series_of(errors, error);
+        columns += rb_report_add_errors(ERRORS, error + FIRST, series + COLUMNS);
     }
-    for (int j = 0; j < COLUMNS; j++)
-        fprintf(out, "%s_%s%c", columns[j].name, columns[j].unit,
-                j + 1 < COLUMNS ? '\t' : '\n');
-    for (int i = 0; i < h->n; i++)
-        for (int j = 0; j < COLUMNS; j++)
-            fprintf(out, "%.17g%c", value(h, &columns[j], i),
-                    j + 1 < COLUMNS ? '\t' : '\n');
-    return fflush(out) == 0 && !ferror(out) ? RB_OK : RB_EWRITE;
+    if (!bare) {
+        rb_report_print_head(out, command);
+        fputs("# distance in Hertz half-widths; creepage: mean over the step\n", out);
+    }
+    rb_report_print_names(out, columns, series, bare);
+    rb_report_print_rows(out, h->n, columns, series);
+    return rb_report_print_end(out);
 }
 
-json_t *rb_report_json_history(const rb_rolling_history *h)
+json_t *rb_report_json_history(const rb_rolling_history *h,
+                               const rb_rolling_history *errors)
 {
+    rb_report_series series[COLUMNS];
     json_t *history = json_object();
-    for (int j = 0; j < COLUMNS; j++) {
-        json_t *list = json_array();
-        for (int i = 0; i < h->n; i++) {
-            const double v = value(h, &columns[j], i);
-            json_array_append_new(list, columns[j].whole ? json_integer((json_int_t)v)
-                                                         : rb_report_json_number(v));
-        }
-        json_object_set_new(history, columns[j].name, list);
-    }
+
+    series_of(h, series);
+    rb_report_json_series(history, h->n, COLUMNS, series);
     json_object_set_new(history, "step", rb_report_json_number(h->step));
     json_object_set_new(history, "steady_from",
                         h->steady_from < 0 ? json_null() : json_integer(h->steady_from));
+    if (errors) {
+        json_t *object = json_object();
+        series_of(errors, series);
+        rb_report_json_series(object, h->n, ERRORS, series + FIRST);
+        json_object_set_new(history, "errors", object);
+    }
     return history;
 }
 
-void rb_report_history_summary(FILE *out, const rb_rolling_history *h)
+/* The last step's values with their errors. */
+static void print_errors(FILE *out, const rb_rolling_history *h,
+                         const rb_rolling_history *errors)
+{
+    rb_report_series value[COLUMNS], error[COLUMNS];
+
+    series_of(h, value);
+    series_of(errors, error);
+    fputs("  error bars at the end (estimated from coarser meshes and longer steps)\n",
+          out);
+    for (int j = FIRST; j < LAST; j++)
+        if (!isnan(value[j].x[h->n - 1]) && !isnan(error[j].x[h->n - 1]))
+            fprintf(out, "    %-16s %.8g +- %.1g\n", value[j].key,
+                    value[j].x[h->n - 1] + 0.0, error[j].x[h->n - 1]);
+}
+
+void rb_report_history_summary(FILE *out, const rb_rolling_history *h,
+                               const rb_rolling_history *errors)
 {
     const int last = h->n - 1;
     fprintf(out, "  history   %d steps", h->n);
@@ -84,4 +93,6 @@ void rb_report_history_summary(FILE *out, const rb_rolling_history *h)
         fprintf(out, "; steady from step %d, %.4g a, on", h->steady_from + 1,
                 h->distance[h->steady_from]);
     fputc('\n', out);
+    if (errors)
+        print_errors(out, h, errors);
 }

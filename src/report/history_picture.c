@@ -4,16 +4,25 @@
 #include <math.h>
 
 typedef struct {
-    const rb_rolling_history *h;
+    const rb_rolling_history *h, *errors; /* errors: NULL or as many steps */
     int rolls;    /* 1: over the rolled distance, 0: over the increments */
     int exponent; /* of the creepage or shift */
     double power; /* 10^exponent */
     double from, to;
 } view;
 
-static double motion(const view *v, int i)
+/* What a panel shows of step i of the history or of its errors. */
+typedef double quantity(const view *v, const rb_rolling_history *h, int i);
+
+static double motion(const view *v, const rb_rolling_history *h, int i)
 {
-    return v->rolls ? v->h->creepage[i] : v->h->shift[i];
+    return (v->rolls ? h->creepage[i] : h->shift[i]) / v->power;
+}
+
+static double force(const view *v, const rb_rolling_history *h, int i)
+{
+    (void)v;
+    return h->force_ratio[i];
 }
 
 /* Steps at rest have no creepage. */
@@ -27,12 +36,12 @@ static double place(const view *v, int i)
     return v->rolls ? v->h->distance[i] : i + 1;
 }
 
-static view make_view(const rb_rolling_history *h)
+static view make_view(const rb_rolling_history *h, const rb_rolling_history *errors)
 {
-    view v = {.h = h, .rolls = h->step > 0.0, .to = 1.0};
+    view v = {.h = h, .errors = errors, .rolls = h->step > 0.0, .power = 1.0, .to = 1.0};
     double largest = 0.0;
     for (int i = 0; i < h->n; i++)
-        largest = is_shown(&v, i) ? fmax(largest, fabs(motion(&v, i))) : largest;
+        largest = is_shown(&v, i) ? fmax(largest, fabs(motion(&v, h, i))) : largest;
     if (largest > 0.0 && largest < 0.1)
         v.exponent = (int)floor(log10(largest));
     v.power = pow(10.0, v.exponent);
@@ -47,36 +56,48 @@ static void write_data(FILE *out, const view *v)
     for (int i = 0; i < v->h->n; i++) {
         const int contact = v->h->stick[i] + v->h->slipping[i];
         if (is_shown(v, i))
-            fprintf(out, "%.9g %.9g %.9g %.9g\n", place(v, i), motion(v, i) / v->power,
-                    v->h->force_ratio[i], contact ? (double)v->h->stick[i] / contact : 0);
+            fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g\n", place(v, i),
+                    motion(v, v->h, i), force(v, v->h, i),
+                    contact ? (double)v->h->stick[i] / contact : 0,
+                    v->errors ? motion(v, v->errors, i) : 0,
+                    v->errors ? force(v, v->errors, i) : 0);
     }
     fputs("EOD\n", out);
 }
 
-/* Panel k of three, from above. */
-static void write_panel(FILE *out, int k, const char *label, int column,
+/* Panel k of three, from above; error: column of half the width of a band, or 0. */
+static void write_panel(FILE *out, int k, const char *label, int column, int error,
                         const char *colour, int points)
 {
     static const double top[] = {0.91, 0.64, 0.37}, height = 0.235;
     fprintf(out,
             "set tmargin at screen %g\nset bmargin at screen %g\n"
-            "set label 2 '%s' at screen 0.03, %g center rotate\n"
-            "plot $data using 1:%d with %s linecolor rgb '%s' linewidth 1.8 "
-            "pointtype 7 pointsize 0.8\n",
-            top[k], top[k] - height, label, top[k] - height / 2, column,
-            points ? "linespoints" : "lines", colour);
+            "set label 2 '%s' at screen 0.03, %g center rotate\nplot ",
+            top[k], top[k] - height, label, top[k] - height / 2);
+    if (error)
+        fprintf(out,
+                "$data using 1:($%d-$%d):($%d+$%d) with filledcurves linecolor rgb '%s' "
+                "fillstyle transparent solid 0.25 noborder, ",
+                column, error, column, error, colour);
+    fprintf(out,
+            "$data using 1:%d with %s linecolor rgb '%s' linewidth 1.8 pointtype 7 "
+            "pointsize 0.8\n",
+            column, points ? "linespoints" : "lines", colour);
 }
 
-/* Zero belongs to the picture of a force, also of one that does not change. */
-static void write_force_range(FILE *out, const rb_rolling_history *h)
+/* A range and tics for the values with their errors, and for what else must be seen. */
+static void write_range(FILE *out, const view *v, quantity *of, double least, double most)
 {
-    double least = 0.0, most = 0.0;
-    for (int i = 0; i < h->n; i++) {
-        least = fmin(least, h->force_ratio[i]);
-        most = fmax(most, h->force_ratio[i]);
+    for (int i = 0; i < v->h->n; i++) {
+        const double error = v->errors ? of(v, v->errors, i) : 0.0;
+        if (!is_shown(v, i))
+            continue;
+        least = fmin(least, of(v, v->h, i) - error);
+        most = fmax(most, of(v, v->h, i) + error);
     }
-    const double margin = 0.08 * fmax(most - least, 1e-3);
-    fprintf(out, "set yrange [%.9g:%.9g]\n", least - margin, most + margin);
+    const double height = fmax(most - least, 1e-3 * fmax(1.0, fabs(most)));
+    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", least - 0.08 * height,
+            most + 0.08 * height, rb_report_round_step(height / 5.0));
 }
 
 static void write_script(FILE *out, rb_report_picture_kind kind, const void *context)
@@ -89,34 +110,39 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
     fputs("set multiplot\nset lmargin at screen 0.14\nset rmargin at screen 0.965\n"
           "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
           "set grid linecolor rgb '#dddddd' linewidth 0.6\nunset key\n"
-          "set offsets 0,0,graph 0.08,graph 0.08\nset format x ''\n",
+          "set format x ''\n",
           out);
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
     fprintf(out,
             "set label 1 '{/:Bold %s}   %d steps,  at the end P = %.5g N/mm,  Q = %.5g "
             "N/mm' at screen 0.54, 0.955 center\n",
             v->rolls ? "Transient rolling" : "Static history", v->h->n,
-            v->h->normal_load[last], v->h->tangential_load[last]);
+            v->h->normal_load[last],
+            rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]));
     if (v->exponent)
         snprintf(label, sizeof label, "%s  [10^{%d}%s]", v->rolls ? "ξ" : "shift",
                  v->exponent, v->rolls ? "" : " mm");
     else
         snprintf(label, sizeof label, "%s", v->rolls ? "ξ" : "shift  [mm]");
-    write_panel(out, 0, label, 2, "#6c3483", points);
+    write_range(out, v, motion, INFINITY, -INFINITY);
+    write_panel(out, 0, label, 2, v->errors ? 5 : 0, "#6c3483", points);
     fputs("unset label 1\n", out);
-    write_force_range(out, v->h);
-    write_panel(out, 1, "Q/(μP)", 3, "#c0392b", points);
-    fprintf(out, "set format x '%%g'\nset xlabel '%s' offset 0,0.3\nset yrange [0:1]\n",
+    write_range(out, v, force, 0.0, 0.0); /* a force is seen against none */
+    write_panel(out, 1, "Q/(μP)", 3, v->errors ? 6 : 0, "#c0392b", points);
+    fprintf(out,
+            "set format x '%%g'\nset xlabel '%s' offset 0,0.3\nset yrange [0:1]\nset "
+            "ytics 0.2\n",
             v->rolls ? "rolled distance / a" : "increment");
-    write_panel(out, 2, "stick / contact", 4, "#1f4e79", points);
+    write_panel(out, 2, "stick / contact", 4, 0, "#1f4e79", points);
     fputs("unset multiplot\n", out);
 }
 
 rb_status rb_report_history_picture(FILE *out, rb_report_picture_kind kind,
-                                    const rb_rolling_history *history, rb_message *why)
+                                    const rb_rolling_history *history,
+                                    const rb_rolling_history *errors, rb_message *why)
 {
     if (history->n < 1)
         return rb_fail(why, RB_EINVAL, "no steps to draw");
-    const view v = make_view(history);
+    const view v = make_view(history, errors);
     return rb_report_draw(out, kind, RB_REPORT_SLIDE, write_script, &v, why);
 }

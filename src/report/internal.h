@@ -28,6 +28,7 @@ typedef struct {
     const char *key;  /* in JSON; NULL: name */
     const double *x;  /* borrowed */
     const int *k;     /* where x is NULL; borrowed */
+    int is_error;     /* 1: error_NAME in tables */
 } rb_report_series;
 
 /* # lines with version, command, conventions. */
@@ -35,6 +36,9 @@ void rb_report_print_head(FILE *out, const char *command);
 /* The names, on a # line unless bare. */
 void rb_report_print_names(FILE *out, int columns, const rb_report_series *series,
                            int bare);
+/* Copies series as errors; returns how many. */
+int rb_report_add_errors(int columns, const rb_report_series *error,
+                         rb_report_series *series);
 void rb_report_print_rows(FILE *out, int rows, int columns,
                           const rb_report_series *series);
 /* Flushes.  RB_EWRITE: see errno. */

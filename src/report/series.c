@@ -12,8 +12,22 @@ void rb_report_print_names(FILE *out, int columns, const rb_report_series *serie
                            int bare)
 {
     for (int j = 0; j < columns; j++)
-        fprintf(out, "%s%s", j > 0 ? "\t" : bare ? "" : "# ", series[j].name);
+        fprintf(out, "%s%s%s",
+                j > 0  ? "\t"
+                : bare ? ""
+                       : "# ",
+                series[j].is_error ? "error_" : "", series[j].name);
     fputc('\n', out);
+}
+
+int rb_report_add_errors(int columns, const rb_report_series *error,
+                         rb_report_series *series)
+{
+    for (int j = 0; j < columns; j++) {
+        series[j] = error[j];
+        series[j].is_error = 1;
+    }
+    return columns;
 }
 
 static void print_row(FILE *out, int i, int columns, const rb_report_series *series)

@@ -2,7 +2,6 @@
 #include "rolling/internal.h"
 
 #include <cblas.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Shift of a contact edge, in half-widths, beyond which a fitted mesh is fitted again. */
@@ -10,28 +9,8 @@ static const double REFIT = 0.01;
 
 void rb_rolling_curve_free(rb_rolling_curve *c)
 {
-    double *const arrays[] = {c->creepage,        c->creep_ratio, c->force_ratio,
-                              c->tangential_load, c->normal_load, c->stick_ratio,
-                              c->dissipation,     c->residual};
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
-        free(arrays[k]);
+    rb_rolling_columns_free(&rb_rolling_curve_columns, c);
     memset(c, 0, sizeof *c);
-}
-
-static rb_status curve_alloc(int points, rb_rolling_curve *c)
-{
-    double **const arrays[] = {&c->creepage,        &c->creep_ratio, &c->force_ratio,
-                               &c->tangential_load, &c->normal_load, &c->stick_ratio,
-                               &c->dissipation,     &c->residual};
-    int complete = 1;
-
-    memset(c, 0, sizeof *c);
-    c->free_creepage = NAN;
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
-        *arrays[k] = rb_alloc((size_t)points, 1);
-        complete = complete && *arrays[k];
-    }
-    return complete ? RB_OK : RB_ENOMEM;
 }
 
 static void record(const rb_rolling_model *model, rb_rolling_curve *c)
@@ -59,6 +38,7 @@ static void record(const rb_rolling_model *model, rb_rolling_curve *c)
         model->rc.formulation, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
     c->residual[k] = state->residual;
     c->half_width = model->half_width;
+    c->contact = contact;
 }
 
 /* A fitted mesh whose contact has moved is fitted again; a uniform one that the contact
@@ -134,11 +114,12 @@ rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, int over_creep, doub
     rb_status s = check_curve(rc, over_creep, from, to, points, why);
 
     memset(curve, 0, sizeof *curve);
+    curve->free_creepage = NAN;
     steady.formulation = RB_STEADY;
     steady.shift = steady.force = steady.force_ratio = NAN;
     set_creepage(over_creep, from, &steady);
     if (s == RB_OK)
-        s = curve_alloc(points, curve);
+        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, points, curve);
     if (s == RB_OK)
         s = rb_rolling_model_create(&steady, &model, why);
     if (s == RB_OK)

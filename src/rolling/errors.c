@@ -43,39 +43,49 @@ static double spread(double a, double b, double c)
 
 /* Twice the spread held the true error where 200 elements or more stand across the
  * contact, three times below. */
-static double safety(const sample *fine)
+double rb_rolling_error_of(int contact, double a, double b, double c)
 {
-    return fine->solution.contact >= 200 ? 2.0 : 3.0;
+    return (contact >= 200 ? 2.0 : 3.0) * spread(a, b, c);
 }
 
 static void estimate(const sample s[3], int with_stress, rb_rolling_errors *errors)
 {
-    const double factor = safety(&s[2]);
+    const int contact = s[2].solution.contact;
 
     for (size_t k = 0; k < sizeof scalars / sizeof *scalars; k++) {
-        const double e = factor * spread(at(&s[0].solution, scalars[k].value),
-                                         at(&s[1].solution, scalars[k].value),
-                                         at(&s[2].solution, scalars[k].value));
+        const size_t value = scalars[k].value;
+        const double e =
+            rb_rolling_error_of(contact, at(&s[0].solution, value),
+                                at(&s[1].solution, value), at(&s[2].solution, value));
         memcpy((char *)errors + scalars[k].error, &e, sizeof e);
     }
     for (size_t k = 0; k < STRESS_NUMBERS; k++) {
         const size_t offset = k * sizeof(double);
-        const double e = with_stress ? factor * spread(at(&s[0].stress, offset),
-                                                       at(&s[1].stress, offset),
-                                                       at(&s[2].stress, offset))
-                                     : NAN;
+        const double e =
+            with_stress
+                ? rb_rolling_error_of(contact, at(&s[0].stress, offset),
+                                      at(&s[1].stress, offset), at(&s[2].stress, offset))
+                : NAN;
         memcpy((char *)&errors->stress + offset, &e, sizeof e);
     }
 }
 
-static rb_status take_sample(const rb_rolling_case *rc, int elements, int with_stress,
-                             sample *s, rb_message *why)
+rb_rolling_case rb_rolling_error_mesh(const rb_rolling_case *rc, int k)
 {
-    rb_rolling_case refined = *rc;
-    rb_rolling_model model = {0};
+    static const double part[RB_ERROR_MESHES] = {0.5, 0.7, 1.0};
+    rb_rolling_case companion = *rc;
 
-    refined.contact_elements = elements;
-    rb_status status = rb_rolling_solve_model(&refined, &model, &s->solution, why);
+    companion.contact_elements = (int)(part[k] * rc->contact_elements);
+    if (rc->steps > 0)
+        companion.steps = (int)ceil(part[k] * rc->steps);
+    return companion;
+}
+
+static rb_status take_sample(const rb_rolling_case *rc, int with_stress, sample *s,
+                             rb_message *why)
+{
+    rb_rolling_model model = {0};
+    rb_status status = rb_rolling_solve_model(rc, &model, &s->solution, why);
     if (status == RB_OK && with_stress)
         status = rb_rolling_stress_maxima_find(&model, 0.0, &s->stress, why);
     rb_rolling_model_free(&model);
@@ -95,7 +105,7 @@ static void give_finest(sample s[3], rb_rolling_solution *solution)
     memset(&s[2].solution, 0, sizeof s[2].solution);
 }
 
-static rb_status check_count(const rb_rolling_case *rc, rb_message *why)
+rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->contact_elements < 12)
         return rb_fail(why, RB_EINVAL,
@@ -109,14 +119,14 @@ rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, int with_stres
                                        rb_rolling_solution *solution,
                                        rb_rolling_errors *errors, rb_message *why)
 {
-    const int n = rc->contact_elements;
-    const int counts[] = {n / 2, (int)(0.7 * n), n};
-    sample s[3] = {0};
-    rb_status status = check_count(rc, why);
+    sample s[RB_ERROR_MESHES] = {0};
+    rb_status status = rb_rolling_error_check(rc, why);
 
     memset(solution, 0, sizeof *solution);
-    for (int k = 0; k < 3 && status == RB_OK; k++)
-        status = take_sample(rc, counts[k], with_stress, &s[k], why);
+    for (int k = 0; k < RB_ERROR_MESHES && status == RB_OK; k++) {
+        const rb_rolling_case companion = rb_rolling_error_mesh(rc, k);
+        status = take_sample(&companion, with_stress, &s[k], why);
+    }
     if (status == RB_OK)
         estimate(s, with_stress, errors);
     if (status == RB_OK || s[2].solution.p)
@@ -155,9 +165,10 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
                                        rb_message *why)
 {
     sample s[3] = {0};
+    rb_rolling_case refined = *rc;
     int n = rc->contact_elements / 2;
     double worst = INFINITY;
-    rb_status status = check_count(rc, why);
+    rb_status status = rb_rolling_error_check(rc, why);
 
     memset(solution, 0, sizeof *solution);
     if (status == RB_OK && !(accuracy > 0.0 && accuracy < 1.0))
@@ -167,7 +178,8 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
         rb_rolling_solution_free(&s[0].solution);
         memmove(s, s + 1, 2 * sizeof *s);
         memset(&s[2], 0, sizeof s[2]);
-        status = take_sample(rc, n, 0, &s[2], why);
+        refined.contact_elements = n;
+        status = take_sample(&refined, 0, &s[2], why);
         *elements = n;
         if (status != RB_OK || k < 2)
             continue;

@@ -12,30 +12,19 @@ static const double STEADY_RATE = 1e-3;
 
 void rb_rolling_history_free(rb_rolling_history *h)
 {
-    double *const arrays[] = {h->distance,    h->creepage,    h->shift,
-                              h->approach,    h->normal_load, h->tangential_load,
-                              h->force_ratio, h->residual};
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
-        free(arrays[k]);
+    rb_rolling_columns_free(&rb_rolling_history_columns, h);
     free(h->stick);
     free(h->slipping);
     memset(h, 0, sizeof *h);
 }
 
-static rb_status history_alloc(int steps, rb_rolling_history *h)
+rb_status rb_rolling_history_alloc(int steps, rb_rolling_history *h)
 {
-    double **const arrays[] = {&h->distance,    &h->creepage,    &h->shift,
-                               &h->approach,    &h->normal_load, &h->tangential_load,
-                               &h->force_ratio, &h->residual};
-    int complete = 1;
+    const rb_status s = rb_rolling_columns_alloc(&rb_rolling_history_columns, steps, h);
 
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
-        *arrays[k] = rb_alloc((size_t)steps, 1);
-        complete = complete && *arrays[k];
-    }
     h->stick = rb_alloc_int((size_t)steps);
     h->slipping = rb_alloc_int((size_t)steps);
-    return complete && h->stick && h->slipping ? RB_OK : RB_ENOMEM;
+    return s == RB_OK && h->stick && h->slipping ? RB_OK : RB_ENOMEM;
 }
 
 /* ---- The program --------------------------------------------------------------------
@@ -399,7 +388,7 @@ static rb_status prepare(run *r, rb_message *why)
         return RB_ENOMEM;
     s = plan_steps(r, why);
     if (s == RB_OK)
-        s = history_alloc(r->steps, r->history);
+        s = rb_rolling_history_alloc(r->steps, r->history);
     r->history->step = r->step;
     r->history->steady_from = -1;
     return s;

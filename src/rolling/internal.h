@@ -47,6 +47,41 @@ double rb_rolling_kinematic(int upstream, const double *w, int i);
 void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
                              const double *q, double *gap, double *slip);
 
+/* ---- columns.c ------------------------------------------------------------------------
+ */
+
+/* Curves and histories keep their numbers in columns: arrays of double, one entry per
+ * point or step, whose pointers stand at these offsets. */
+typedef struct {
+    int n;
+    const size_t *offset;
+} rb_rolling_columns;
+
+extern const rb_rolling_columns rb_rolling_curve_columns, rb_rolling_history_columns;
+
+double *rb_rolling_column(const void *owner, size_t offset);
+/* Zeros; what there is on RB_ENOMEM is freed as if it were complete. */
+rb_status rb_rolling_columns_alloc(const rb_rolling_columns *columns, int rows,
+                                   void *owner);
+void rb_rolling_columns_free(const rb_rolling_columns *columns, void *owner);
+
+/* ---- history.c ------------------------------------------------------------------------
+ */
+
+rb_status rb_rolling_history_alloc(int steps, rb_rolling_history *history);
+
+/* ---- errors.c -------------------------------------------------------------------------
+ */
+
+/* The case on the k-th of the meshes whose spread is the error, the last one its own. */
+enum { RB_ERROR_MESHES = 3 };
+rb_rolling_case rb_rolling_error_mesh(const rb_rolling_case *rc, int k);
+/* RB_EINVAL where the case has too few elements to be halved. */
+rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why);
+/* Of three values that belong to those meshes; contact: elements in contact on the last.
+ */
+double rb_rolling_error_of(int contact, double a, double b, double c);
+
 /* ---- matrix_free.c --------------------------------------------------------------------
  */
 
