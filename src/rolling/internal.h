@@ -90,7 +90,7 @@ rb_status rb_rolling_krylov_create(const rb_rolling_problem *problem,
                                    struct rb_rolling_krylov **krylov);
 void rb_rolling_krylov_free(struct rb_rolling_krylov *krylov);
 
-/* ---- large.c --------------------------------------------------------------------------
+/* ---- coarse.c -------------------------------------------------------------------------
  */
 
 /* Elements of the mesh that starts one of n. */
@@ -98,6 +98,13 @@ int rb_rolling_coarse_elements(int n);
 /* Tractions, zones, delta and xi from a solution on fewer elements over the same line. */
 void rb_rolling_start_from(const rb_rolling_mesh *mesh, const rb_rolling_state *coarse,
                            const rb_rolling_mesh *fine_mesh, rb_rolling_state *fine);
+
+/* A dense problem with its elements in pairs: a pair has one traction, the mean gap and
+ * slip and the sum of the forces.  half: arrays in the room that is returned, for free();
+ * NULL: no memory. */
+double *rb_rolling_halve(const rb_rolling_problem *fine, rb_rolling_problem *half);
+/* Every element takes over what its pair has. */
+void rb_rolling_start_from_half(const rb_rolling_state *half, rb_rolling_state *state);
 
 /* ---- newton.c ------------------------------------------------------------------------
  */

@@ -10,6 +10,8 @@
 #include <string.h>
 
 enum { MAX_STEPS = 60, STAGGERED_ROUNDS = 3 };
+/* From so many elements on a cold start solves for pairs of them first. */
+enum { HALVED = 100 };
 
 /* One column: the answers of gaps, slips, load and force to a unit of an unknown that
  * stands for tractions (t_N, t_T) at element j. */
@@ -273,18 +275,60 @@ static rb_status alternate(const rb_rolling_problem *p, int rounds, workspace *w
     return s;
 }
 
+/* From the zones of the state. */
+static rb_status from_zones(const rb_rolling_problem *p, workspace *ws,
+                            rb_rolling_state *state)
+{
+    return p->coupled ? iterate(p, RB_BOTH, ws, state) : alternate(p, 1, ws, state);
+}
+
+static rb_status from_nothing(const rb_rolling_problem *p, workspace *ws,
+                              rb_rolling_state *state)
+{
+    cold_start(p, state);
+    const rb_status s = alternate(p, p->coupled ? STAGGERED_ROUNDS : 1, ws, state);
+    return s >= 0 && p->coupled ? iterate(p, RB_BOTH, ws, state) : s;
+}
+
+/* Zones and tractions of the same problem on half as many elements; its steps count. */
+static rb_status start_from_half(const rb_rolling_problem *p, rb_rolling_state *state)
+{
+    rb_rolling_problem half;
+    rb_rolling_state coarse = {0};
+    double *room = rb_rolling_halve(p, &half);
+    rb_status s = room ? rb_rolling_state_alloc(half.n, &coarse) : RB_ENOMEM;
+
+    if (s == RB_OK)
+        s = rb_rolling_newton(&half, 0, &coarse);
+    if (s == RB_OK)
+        rb_rolling_start_from_half(&coarse, state);
+    state->iterations += coarse.iterations;
+    rb_rolling_state_free(&coarse);
+    free(room);
+    return s;
+}
+
+static rb_status from_half(const rb_rolling_problem *p, workspace *ws,
+                           rb_rolling_state *state)
+{
+    const rb_status s = start_from_half(p, state);
+    return s == RB_OK ? from_zones(p, ws, state) : s;
+}
+
 rb_status rb_rolling_newton(const rb_rolling_problem *problem, int warm,
                             rb_rolling_state *state)
 {
     workspace ws = {rb_alloc((size_t)problem->n, 1), rb_alloc_int((size_t)problem->n)};
     rb_status s = ws.gap && ws.zone ? RB_OK : RB_ENOMEM;
 
-    if (s == RB_OK && !warm)
-        cold_start(problem, state);
-    if (s == RB_OK && (!warm || !problem->coupled))
-        s = alternate(problem, problem->coupled ? STAGGERED_ROUNDS : 1, &ws, state);
-    if (s >= 0 && problem->coupled)
-        s = iterate(problem, RB_BOTH, &ws, state);
+    if (s == RB_OK && warm)
+        s = from_zones(problem, &ws, state);
+    else if (s == RB_OK) {
+        s = problem->F && problem->n >= HALVED ? from_half(problem, &ws, state)
+                                               : RB_MAXITER;
+        if (s > 0)
+            s = from_nothing(problem, &ws, state);
+    }
     free(ws.gap);
     free(ws.zone);
     return s;

@@ -1,0 +1,232 @@
+/* Newton with a matrix: the problem on pairs of elements, the cold start from it, and the
+ * answers beside Lemke's. */
+#include "check.h"
+#include "rolling/internal.h"
+
+#include <string.h>
+
+/* A steel wheel on a plane of aluminium; half-planes or a wheel on its hub. */
+static rb_rolling_case steady(rb_bem_support support, int elements)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+
+    rc.a = (rb_rolling_body){.young = 210000.0,
+                             .poisson = 0.28,
+                             .radius = 500.0,
+                             .support = support,
+                             .hub_ratio = 0.5};
+    rc.b = rc.a;
+    rc.b.young = 70000.0;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = support == RB_BEM_HALFPLANE;
+    rc.formulation = RB_STEADY;
+    rc.half_width = 10.0;
+    rc.mu = 0.1;
+    rc.creep_ratio = 0.4;
+    rc.contact_elements = elements;
+    return rc;
+}
+
+static rb_rolling_model solved(const rb_rolling_case *rc)
+{
+    rb_rolling_model model;
+    rb_message why = {{0}};
+
+    if (rb_rolling_model_create(rc, &model, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return model;
+}
+
+/* ---- Elements in pairs --------------------------------------------------------------
+ */
+
+static double pair_mean(int n, const double *x, int k)
+{
+    return 2 * k + 1 < n ? 0.5 * (x[2 * k] + x[2 * k + 1]) : x[2 * k];
+}
+
+static double pair_sum(int n, const double *x, int k)
+{
+    return 2 * k + 1 < n ? x[2 * k] + x[2 * k + 1] : x[2 * k];
+}
+
+/* What the fine problem answers to the tractions of the pairs: mean gaps, and slips that
+ * are differences of mean displacements upstream, or mean ones. */
+static void check_pairs(const rb_rolling_problem *p, const rb_rolling_problem *half,
+                        const rb_rolling_state *fine, const rb_rolling_state *coarse)
+{
+    const int n = p->n, m = half->n, inner = p->upstream ? m - 1 : m;
+    double *gap = rb_alloc((size_t)n, 2), *half_gap = rb_alloc((size_t)m, 2);
+    double *r = rb_alloc((size_t)n, 2), *w = rb_alloc((size_t)n + 1, 2);
+
+    rb_rolling_kinematics(p, fine, gap, gap + n);
+    rb_rolling_kinematics(half, coarse, half_gap, half_gap + m);
+    memcpy(r, fine->p, (size_t)n * sizeof *r);
+    memcpy(r + n, fine->q, (size_t)n * sizeof *r);
+    rb_bem_flexibility_apply(&p->f, r, w);
+    const double *w_T = w + n + 1;
+    for (int i = 0; i <= n; i++)
+        w[n + 1 + i] += fine->xi * (p->upstream ? -p->f.x[i] : 1.0);
+    for (int k = 0; k < m; k++)
+        CHECK_ABS(half_gap[k], pair_mean(n, gap, k), 1e-11 * p->gap_length, "gap %d", k);
+    for (int k = 0; k < inner; k++) {
+        const double want =
+            p->upstream ? 0.5 * (pair_mean(n + 1, w_T, k) - pair_mean(n, w_T, k + 1))
+                        : pair_mean(n, w_T, k);
+        const int alone = p->upstream && n % 2 && k == inner - 1;
+        if (!alone)
+            CHECK_ABS(half_gap[m + k], want, 1e-11 * p->slip_length, "slip %d", k);
+    }
+    free(gap);
+    free(half_gap);
+    free(r);
+    free(w);
+}
+
+static void check_half(const rb_rolling_model *model)
+{
+    const rb_rolling_problem *p = &model->problem;
+    rb_rolling_problem half;
+    rb_rolling_state fine, coarse;
+    double *room = rb_rolling_halve(p, &half);
+
+    assert_non_null(room);
+    assert_int_equal(half.n, (p->n + 1) / 2);
+    CHECK_STATUS(rb_rolling_state_alloc(p->n, &fine), RB_OK);
+    CHECK_STATUS(rb_rolling_state_alloc(half.n, &coarse), RB_OK);
+    for (int k = 0; k < half.n; k++) {
+        coarse.p[k] = p->stress * rand() / RAND_MAX;
+        coarse.q[k] = 0.2 * p->stress * rand() / RAND_MAX;
+        coarse.zone[k] = rand() % 4;
+        CHECK_REL(half.load_N[k], pair_sum(p->n, p->load_N, k), 1e-14, "load %d", k);
+        CHECK_REL(half.force_T[k], pair_sum(p->n, p->force_T, k), 1e-14, "force %d", k);
+    }
+    coarse.delta = 3.0;
+    coarse.xi = 7e-4;
+    rb_rolling_start_from_half(&coarse, &fine);
+    assert_int_equal(fine.zone[p->n - 1], coarse.zone[half.n - 1]);
+    check_pairs(p, &half, &fine, &coarse);
+    rb_rolling_state_free(&fine);
+    rb_rolling_state_free(&coarse);
+    free(room);
+}
+
+static void pairs_answer_as_their_elements_do(void **state)
+{
+    (void)state;
+    srand(3);
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 40 + k / 2);
+        if (k % 2) {
+            rc.formulation = RB_STATIC;
+            rc.creep_ratio = NAN;
+            rc.shift = 0.01;
+        }
+        rb_rolling_model model = solved(&rc);
+        check_half(&model);
+        rb_rolling_model_free(&model);
+    }
+}
+
+/* ---- Cold starts --------------------------------------------------------------------
+ */
+
+/* Newton alone from nothing, and Lemke. */
+static void check_beside_lemke(const rb_rolling_model *model)
+{
+    const rb_rolling_problem *p = &model->problem;
+    rb_rolling_case rc = model->rc;
+    rb_rolling_state newton, lemke;
+
+    CHECK_STATUS(rb_rolling_state_alloc(p->n, &newton), RB_OK);
+    CHECK_STATUS(rb_rolling_state_alloc(p->n, &lemke), RB_OK);
+    CHECK_STATUS(rb_rolling_newton(p, 0, &newton), RB_OK);
+    rc.solver = RB_SOLVER_LEMKE;
+    CHECK_STATUS(rb_rolling_problem_solve(p, &rc, 0, &lemke, NULL), RB_OK);
+    assert_int_equal(lemke.solver, RB_SOLVER_LEMKE);
+    for (int i = 0; i < p->n; i++) {
+        CHECK_ABS(newton.p[i], lemke.p[i], 1e-10 * p->stress, "p of %d", i);
+        CHECK_ABS(newton.q[i], lemke.q[i], 1e-10 * p->stress, "q of %d", i);
+    }
+    CHECK_REL(newton.delta, lemke.delta, 1e-10, "delta");
+    CHECK_ABS(newton.xi, lemke.xi, 1e-10 * p->slip_length / p->e_T[0], "xi");
+    rb_rolling_state_free(&newton);
+    rb_rolling_state_free(&lemke);
+}
+
+/* mu = 0.1, where an undamped Newton without the coarse start has cycled; all controls.
+ */
+static void cold_starts_end_where_lemke_does(void **state)
+{
+    static const int elements[] = {101, 102, 150, 151, 400, 500, 600};
+
+    (void)state;
+    for (int k = 0; k < 7; k++) {
+        rb_rolling_case rc = steady(k == 1 ? RB_BEM_HUB : RB_BEM_HALFPLANE, elements[k]);
+        if (k % 2) {
+            rc.creep_ratio = NAN;
+            rc.force_ratio = -0.6;
+        }
+        if (k == 3)
+            rc.mesh = RB_MESH_FITTED;
+        rb_rolling_model model = solved(&rc);
+        check_beside_lemke(&model);
+        rb_rolling_model_free(&model);
+    }
+}
+
+/* The levels below share one number of steps, the finest one adds a few. */
+static void steps_grow_by_levels(void **state)
+{
+    (void)state;
+    for (int similar = 0; similar < 2; similar++) {
+        rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
+        rb_rolling_state cold;
+        int few = 0;
+        if (similar)
+            rc.b.young = rc.a.young;
+        for (int doubled = 0; doubled < 3; doubled++, rc.contact_elements *= 2) {
+            rb_rolling_model model = solved(&rc);
+            CHECK_STATUS(rb_rolling_state_alloc(model.mesh.n, &cold), RB_OK);
+            CHECK_STATUS(rb_rolling_newton(&model.problem, 0, &cold), RB_OK);
+            if (doubled == 0)
+                few = cold.iterations;
+            CHECK_MAX(cold.iterations, few + 6 * doubled, "level %d", doubled);
+            rb_rolling_state_free(&cold);
+            rb_rolling_model_free(&model);
+        }
+    }
+}
+
+/* ---- Memory -------------------------------------------------------------------------
+ */
+
+static void failing_allocations(void **state)
+{
+    rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 120);
+    rb_rolling_model model = solved(&rc);
+
+    (void)state;
+    for (int k = 0, refused = 1; refused; k += 1 + k / 10) {
+        rb_rolling_state cold;
+        CHECK_STATUS(rb_rolling_state_alloc(model.mesh.n, &cold), RB_OK);
+        alloc_fail_after(k);
+        const rb_status s = rb_rolling_newton(&model.problem, 0, &cold);
+        refused = alloc_failed();
+        alloc_succeed();
+        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+        rb_rolling_state_free(&cold);
+    }
+    rb_rolling_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pairs_answer_as_their_elements_do),
+        cmocka_unit_test(cold_starts_end_where_lemke_does),
+        cmocka_unit_test(steps_grow_by_levels),
+        cmocka_unit_test(failing_allocations),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
