@@ -13,7 +13,7 @@ PKGS = openblas lapacke gsl inih jansson $(HDF5) fftw3
 # SuiteSparse 5 has no pkg-config file
 SUITESPARSE = -lumfpack -lspqr -lcholmod -lsuitesparseconfig
 # -lgslcblas would shadow OpenBLAS: take GSL's flags without it
-LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS) 2>/dev/null)) -lfftw3_threads -lhmat $(SUITESPARSE) -lm $(OPENMP)
+LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS) 2>/dev/null)) -lfftw3_threads $(SUITESPARSE) -lm $(OPENMP)
 CPPFLAGS += $(OPENMP) -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 # make V=1 shows the whole commands
 Q := $(if $(filter 1,$(V)),,@)

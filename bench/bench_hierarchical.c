@@ -1,16 +1,30 @@
 /* A wheel on a hub, from the mesh to the flexibility of 40 contact elements: hierarchical
- * matrices against the dense matrix on the same mesh (an incompressible body, for which
- * the library keeps the dense one), and how they grow. Arguments: elements up to which
- * the dense one is timed (default 4000), and the most elements (default 64000). */
+ * matrix against dense LU on the same mesh, how it grows, and what both leave of the
+ * flexibility.  Arguments: elements up to which the dense one is timed (default 4000),
+ * the most elements (default 64000), processors for both (default: all). */
+#define _DEFAULT_SOURCE /* wait4 */
+#include "bem/system.h"
 #include "fast_blas.h"
-#include "rollbem/bem.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
-enum { CONTACT = 40 };
+enum { CONTACT = 40, SIZE = 2 * (CONTACT + 1) * 2 * CONTACT };
+
+static const rb_bem_material steel = {82000.0, 0.28};
+
+typedef struct {
+    double seconds, megabytes; /* peak of its process */
+    double F[SIZE];
+} result;
 
 static void stop(const rb_message *why)
 {
@@ -35,28 +49,52 @@ static rb_bem_mesh wheel(int n)
     return mesh;
 }
 
-static double seconds(const rb_bem_mesh *mesh, double poisson)
+static void solve(int n, int dense, result *r)
 {
-    const rb_bem_material material = {82000.0, poisson};
+    rb_bem_mesh mesh = wheel(n);
     rb_bem_system *system;
     rb_bem_flexibility f;
     rb_message why;
     const double start = rb_seconds();
 
-    if (rb_bem_system_create(mesh, material, &system, &why) != RB_OK ||
+    if (rb_bem_system_create_as(&mesh, steel, dense, &system, &why) != RB_OK ||
         rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &why) != RB_OK)
         stop(&why);
-    const double spent = rb_seconds() - start;
+    r->seconds = rb_seconds() - start;
+    rb_bem_flexibility_matrix(&f, r->F, 2 * (CONTACT + 1));
     rb_bem_flexibility_free(&f);
     rb_bem_system_free(system);
-    return spent;
+    rb_bem_mesh_free(&mesh);
 }
 
-static double peak_megabytes(void)
+/* In a process of its own, whose memory is counted alone. */
+static void run(int n, int dense, result *r)
 {
+    int ends[2], status;
     struct rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss / 1024.0;
+    if (pipe(ends) != 0)
+        exit(70);
+    const pid_t child = fork();
+    if (child == 0) {
+        solve(n, dense, r);
+        _exit(write(ends[1], r, sizeof *r) == (ssize_t)sizeof *r ? 0 : 70);
+    }
+    if (child < 0 || read(ends[0], r, sizeof *r) != (ssize_t)sizeof *r ||
+        wait4(child, &status, 0, &usage) != child || status != 0)
+        exit(70);
+    close(ends[0]);
+    close(ends[1]);
+    r->megabytes = (double)usage.ru_maxrss / 1024.0;
+}
+
+static double difference(const result *a, const result *b)
+{
+    double most = 0.0, scale = 0.0;
+    for (int i = 0; i < SIZE; i++) {
+        most = fmax(most, fabs(a->F[i] - b->F[i]));
+        scale = fmax(scale, fabs(b->F[i]));
+    }
+    return most / scale;
 }
 
 int main(int argc, char **argv)
@@ -64,26 +102,28 @@ int main(int argc, char **argv)
     fast_blas(argv);
     const int dense_to = argc > 1 ? atoi(argv[1]) : 4000;
     const int most = argc > 2 ? atoi(argv[2]) : 64000;
-    double spent[16];
-    int elements[16], count = 0;
+    const int threads = argc > 3 ? atoi(argv[3]) : 0;
+    static result h, dense;
 
-    /* small first: the peak is that of the hierarchical runs as long as nothing is dense
-     */
-    for (int n = 4000; n <= most && count < 16; n *= 2, count++) {
+    rb_blas_threads(threads);
+#ifdef _OPENMP
+    if (threads)
+        omp_set_num_threads(threads);
+    printf("%d processors for both\n", omp_get_max_threads());
+#endif
+    printf("elements  hierarchical  memory    dense  memory  ratio  difference of F\n");
+    for (int n = 4000; n <= most; n *= 2) {
         rb_bem_mesh mesh = wheel(n);
-        elements[count] = mesh.n;
-        spent[count] = seconds(&mesh, 0.28);
-        printf("%6d elements: hierarchical %.2f s, peak memory so far %.0f MB\n", mesh.n,
-               spent[count], peak_megabytes());
+        run(n, 0, &h);
+        printf("%8d %11.2f s %4.0f MB", mesh.n, h.seconds, h.megabytes);
+        rb_bem_mesh_free(&mesh);
+        if (n <= dense_to) {
+            run(n, 1, &dense);
+            printf(" %6.2f s %4.0f MB %6.1f  %.1e", dense.seconds, dense.megabytes,
+                   dense.seconds / h.seconds, difference(&h, &dense));
+        }
+        printf("\n");
         fflush(stdout);
-        rb_bem_mesh_free(&mesh);
-    }
-    for (int k = 0; k < count && 4000 << k <= dense_to; k++) {
-        rb_bem_mesh mesh = wheel(4000 << k);
-        const double dense = seconds(&mesh, 0.5);
-        printf("%6d elements: dense %.2f s, hierarchical %.2f s: %.0f times faster\n",
-               elements[k], dense, spent[k], dense / spent[k]);
-        rb_bem_mesh_free(&mesh);
     }
     return 0;
 }

@@ -1,5 +1,9 @@
-/* The matrix of a mixed problem as a hierarchical matrix (hmat-oss) and its LU: what lies
- * far apart has low rank; n log^2 n work and memory.  Not installed. */
+/* The factored matrix of a mixed problem, without ever having been there as a whole:
+ * recursive skeletonisation (Martinsson and Rokhlin 2005, Ho and Ying 2016).  What a
+ * cluster of elements and all that lies far from it exchange has low rank: a few of its
+ * rows and columns, the skeleton, stand for all; the others are eliminated.  Two
+ * clusters' skeletons are a cluster of the next level.  About n log n work, memory of
+ * order n.  Not installed. */
 #ifndef ROLLBEM_BEM_HIERARCHICAL_H
 #define ROLLBEM_BEM_HIERARCHICAL_H
 
@@ -8,13 +12,13 @@
 typedef struct rb_hierarchical rb_hierarchical;
 
 /* Unknowns in the order of the dofs: displacements where the traction is given or kept,
- * else tractions over `unit` (n, one per element).  tolerance: relative, of every block.
+ * else tractions over `unit` (n, one per element).  tolerance: relative, of what a
+ * cluster's skeleton says of the others.  RB_SINGULAR, RB_ENOMEM.  Uses every processor.
  */
 rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                  const double *unit, double tolerance,
                                  rb_hierarchical **h);
-rb_status rb_hierarchical_factor(rb_hierarchical *h);
-/* X: 2n x columns, overwritten by the solutions. */
+/* X: 2n x columns, leading dimension 2n, overwritten by the solutions. */
 rb_status rb_hierarchical_solve(const rb_hierarchical *h, int columns, double *X);
 /* Numbers stored / 4 n^2. */
 double rb_hierarchical_ratio(const rb_hierarchical *h);

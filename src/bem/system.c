@@ -14,7 +14,7 @@
 
 /* Of every block of a hierarchical matrix: what it leaves of the flexibility's error is
  * far below that of the elements (1e-4 at such lengths). */
-static const double TOLERANCE = 1e-7;
+static const double TOLERANCE = 1e-8;
 
 double rb_bem_system_bytes(int n, int n_c)
 {
@@ -216,8 +216,6 @@ static rb_status assemble(rb_bem_system *s, rb_bem_material material)
     rb_assembly_end(&assembly);
     if (status == RB_OK && s->A)
         status = fix_pressures(s, material);
-    else if (status == RB_OK)
-        status = rb_hierarchical_create(mesh, material, s->unit, TOLERANCE, &s->h);
     return status;
 }
 
@@ -268,7 +266,8 @@ static rb_status factor(rb_bem_system *s, rb_message *why)
     if (s->A)
         return factor_dense(s, why);
     s->rcond = NAN;
-    const rb_status status = rb_hierarchical_factor(s->h);
+    const rb_status status =
+        rb_hierarchical_create(&s->mesh, s->material, s->unit, TOLERANCE, &s->h);
     return status == RB_OK
                ? status
                : rb_fail(why, status, "boundary elements: the system is singular");
@@ -289,8 +288,8 @@ static rb_status check_memory(const rb_bem_mesh *mesh, rb_message *why)
     return rb_memory_check(rb_bem_system_bytes(mesh->n, mesh->contact_n), what, why);
 }
 
-rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
-                               rb_bem_system **system, rb_message *why)
+rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material,
+                                  int dense, rb_bem_system **system, rb_message *why)
 {
     *system = NULL;
     rb_status status = rb_bem_mesh_check(mesh, why);
@@ -298,12 +297,12 @@ rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material
         status = rb_bem_material_check(material, why);
     if (status == RB_OK)
         status = rb_bem_support_check(mesh, why);
-    if (status == RB_OK && is_dense(mesh, material))
+    if (status == RB_OK && dense)
         status = check_memory(mesh, why);
     if (status != RB_OK)
         return status;
     const double start = rb_seconds();
-    rb_bem_system *s = system_alloc(mesh, is_dense(mesh, material));
+    rb_bem_system *s = system_alloc(mesh, dense);
     if (s)
         s->material = material;
     status = s ? assemble(s, material) : RB_ENOMEM;
@@ -321,6 +320,12 @@ rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material
     else
         rb_bem_system_free(s);
     return status;
+}
+
+rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
+                               rb_bem_system **system, rb_message *why)
+{
+    return rb_bem_system_create_as(mesh, material, is_dense(mesh, material), system, why);
 }
 
 /* x -> u and t: what was given (value), what was solved for. */

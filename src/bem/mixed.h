@@ -1,0 +1,49 @@
+/* Any entries of the matrix of a mixed problem (B4), and what stands for all that is far
+ * from a set of elements. */
+#ifndef ROLLBEM_BEM_MIXED_H
+#define ROLLBEM_BEM_MIXED_H
+
+#include "bem/cluster.h"
+#include "bem/column.h"
+
+/* Rows: displacement at the midpoints.  Columns: the unknowns, displacements or, where
+ * these are given, tractions over unit[j].  Dofs 2j, 2j + 1 in the clusters' order. */
+typedef struct {
+    int n;
+    rb_element *element;     /* n, owned, as all here */
+    rb_constants *constants; /* G times -unit */
+    int *held;               /* 2n: 1 where the unknown is a traction */
+    rb_bem_material material;
+    double size; /* of the mesh, inside the logarithm */
+} rb_mixed;
+
+/* order: element j is the mesh's order[j]; unit in the mesh's order. */
+rb_status rb_mixed_make(const rb_bem_mesh *mesh, rb_bem_material material,
+                        const double *unit, int levels, int *order, rb_mixed *a);
+void rb_mixed_free(rb_mixed *a);
+
+/* Rows of A, and then two at each of some points on a circle. */
+typedef struct {
+    rb_points points;
+    int rows;
+    int *at; /* the row's place in a column over all points */
+} rb_mixed_rows;
+
+/* row: ascending.  points: on the circle; 0: none. */
+rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row,
+                             const rb_circle *circle, int points, rb_mixed_rows *r);
+void rb_mixed_rows_free(rb_mixed_rows *r);
+
+/* out[i row_step + j column_step] = A(row i, column[j]).  own: the element of the first
+ * point where the columns' elements are among the rows', which are then consecutive, or
+ * -1. */
+rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
+                         const int *column, int own, double *out, size_t row_step,
+                         size_t column_step);
+
+/* The same for loads along x and y on each of `points` parts of the circle; of order one.
+ */
+rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circle,
+                       int points, double *out, size_t row_step, size_t column_step);
+
+#endif

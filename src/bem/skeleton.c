@@ -1,0 +1,87 @@
+#include "bem/skeleton.h"
+
+#include <cblas.h>
+#include <math.h>
+#include <stdlib.h>
+
+void rb_skeleton_free(rb_skeleton *s)
+{
+    free(s->K);
+    free(s->scale);
+    free(s->pivot);
+    *s = (rb_skeleton){0};
+}
+
+rb_status rb_skeleton_alloc(int rows, int columns, rb_skeleton *s)
+{
+    const int ld = rows > 0 ? rows : 1;
+
+    *s = (rb_skeleton){.rows = rows, .columns = columns, .ld = ld};
+    s->K = rb_alloc((size_t)ld, (size_t)columns);
+    s->scale = rb_alloc((size_t)columns, 1);
+    s->pivot = calloc((size_t)columns, sizeof *s->pivot);
+    if (s->K && s->scale && s->pivot)
+        return RB_OK;
+    rb_skeleton_free(s);
+    return RB_ENOMEM;
+}
+
+rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance)
+{
+    const int n = s->columns, most = s->rows < n ? s->rows : n, block = 32;
+    const lapack_int room = 2 * n + (n + 1) * block;
+    double *work = rb_alloc((size_t)room, 1);
+
+    if (!work)
+        return RB_ENOMEM;
+    LAPACKE_dgeqp3_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->pivot, s->scale,
+                        work, room);
+    free(work);
+    const double least = tolerance * fabs(s->K[0]);
+    while (s->rank < most && fabs(s->K[(size_t)s->rank * (size_t)(s->ld + 1)]) > least)
+        s->rank++;
+    return RB_OK;
+}
+
+/* to[i]: the place of pivot i among the first `kept`, or among the others. */
+static void sort_pivots(const rb_skeleton *s, int kept, int *order, int *to)
+{
+    const int n = s->columns;
+    int *place = order; /* of each column in the pivots, until it is overwritten */
+
+    for (int i = 0; i < n; i++)
+        place[s->pivot[i] - 1] = i;
+    int first = 0, other = kept;
+    for (int c = 0; c < n; c++)
+        to[place[c]] = place[c] < kept ? first++ : other++;
+    for (int i = 0; i < n; i++)
+        order[to[i]] = s->pivot[i] - 1;
+}
+
+rb_status rb_skeleton_split(const rb_skeleton *s, int kept, int *order, double *T)
+{
+    const int others = s->columns - kept, used = kept < s->rank ? kept : s->rank;
+    const size_t ld = (size_t)s->ld;
+    int *to = rb_alloc_int((size_t)s->columns);
+    double *X = rb_alloc((size_t)kept, (size_t)others);
+
+    if (!to || !X) {
+        free(to);
+        free(X);
+        return RB_ENOMEM;
+    }
+    for (int j = 0; j < others; j++)
+        cblas_dcopy(used, s->K + (size_t)(kept + j) * ld, 1, X + (size_t)j * (size_t)kept,
+                    1);
+    if (used && others)
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit,
+                    used, others, 1.0, s->K, s->ld, X, kept);
+    sort_pivots(s, kept, order, to);
+    for (int j = 0; j < others; j++)
+        for (int i = 0; i < kept; i++)
+            T[to[i] + (size_t)(to[kept + j] - kept) * (size_t)kept] =
+                X[i + (size_t)j * (size_t)kept];
+    free(to);
+    free(X);
+    return RB_OK;
+}

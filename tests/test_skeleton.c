@@ -1,0 +1,90 @@
+/* The interpolative decomposition on matrices of planted rank. */
+#include "bem/skeleton.h"
+#include "check.h"
+
+#include <string.h>
+
+enum { ROWS = 23, COLUMNS = 14, RANK = 5 };
+
+/* K = sum of RANK products of smooth vectors, to 10^-decades the last. */
+static void plant(double decades, double K[ROWS * COLUMNS])
+{
+    memset(K, 0, sizeof *K * ROWS * COLUMNS);
+    for (int r = 0; r < RANK; r++)
+        for (int j = 0; j < COLUMNS; j++)
+            for (int i = 0; i < ROWS; i++)
+                K[i + j * ROWS] += pow(10.0, -decades * r / (RANK - 1)) *
+                                   cos(1.0 + r * (1.0 + i)) * sin(2.0 + (r + 1.0) * j);
+}
+
+static void decompose(const double *K, int kept, int *rank, int *order, double *T)
+{
+    rb_skeleton s;
+    CHECK_STATUS(rb_skeleton_alloc(ROWS, COLUMNS, &s), RB_OK);
+    memcpy(s.K, K, sizeof *K * ROWS * COLUMNS);
+    CHECK_STATUS(rb_skeleton_factor(&s, 1e-9), RB_OK);
+    *rank = s.rank;
+    CHECK_STATUS(rb_skeleton_split(&s, kept < 0 ? *rank : kept, order, T), RB_OK);
+    rb_skeleton_free(&s);
+}
+
+static double worst_column(const double *K, int kept, const int *order, const double *T)
+{
+    double worst = 0.0;
+    for (int j = kept; j < COLUMNS; j++)
+        for (int i = 0; i < ROWS; i++) {
+            double sum = 0.0;
+            for (int k = 0; k < kept; k++)
+                sum += K[i + order[k] * ROWS] * T[k + (j - kept) * kept];
+            worst = fmax(worst, fabs(sum - K[i + order[j] * ROWS]));
+        }
+    return worst;
+}
+
+static void the_rank_is_found(void **state)
+{
+    (void)state;
+    double K[ROWS * COLUMNS], T[COLUMNS * COLUMNS];
+    int rank, order[COLUMNS], seen[COLUMNS] = {0};
+
+    plant(3.0, K);
+    decompose(K, -1, &rank, order, T);
+    assert_int_equal(rank, RANK);
+    CHECK_MAX(worst_column(K, rank, order, T), 1e-12, "all columns");
+    for (int i = 0; i < COLUMNS; i++) {
+        seen[order[i]]++;
+        assert_true(i == 0 || i == rank || order[i] > order[i - 1]);
+    }
+    for (int i = 0; i < COLUMNS; i++)
+        assert_int_equal(seen[i], 1);
+}
+
+/* Below the tolerance nothing counts; more may be kept than needed. */
+static void what_is_small_is_left_out(void **state)
+{
+    (void)state;
+    double K[ROWS * COLUMNS], T[COLUMNS * COLUMNS];
+    int rank, order[COLUMNS];
+
+    plant(16.0, K);
+    decompose(K, -1, &rank, order, T);
+    assert_int_equal(rank, 3);
+    CHECK_MAX(worst_column(K, rank, order, T), 1e-8, "to the tolerance");
+    plant(3.0, K);
+    decompose(K, RANK + 2, &rank, order, T);
+    CHECK_MAX(worst_column(K, RANK + 2, order, T), 1e-11, "two more");
+    memset(K, 0, sizeof K);
+    decompose(K, 2, &rank, order, T);
+    assert_int_equal(rank, 0);
+    for (int i = 0; i < 2 * (COLUMNS - 2); i++)
+        CHECK_ABS(T[i], 0.0, 0.0, "of nothing");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_rank_is_found),
+        cmocka_unit_test(what_is_small_is_left_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
