@@ -430,10 +430,34 @@ static void every_failed_allocation_is_reported(void **state)
     }
 }
 
+/* The edges are found with few elements around the contact: the answer still has all of
+ * them, and its mesh ends where its own contact does. */
+static void many_outer_elements_fit_their_own_contact(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel(RB_BEM_HUB, 0.02);
+    rb_rolling_model model;
+    rb_rolling_solution s;
+    rc.a.poisson = 0.28;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 40;
+    rc.outer_elements = 700;
+    CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, NULL), RB_OK);
+    const double *ends = model.mesh.ends + (model.mesh.n - rc.contact_elements) / 2;
+    const double h = ends[1] - ends[0];
+    assert_true(s.boundary_elements > 700);
+    assert_int_equal(model.rc.outer_elements, 700);
+    CHECK_ABS(s.contact_from, ends[0], 0.5 * h, "left edge");
+    CHECK_ABS(s.contact_to, ends[rc.contact_elements], 0.5 * h, "right edge");
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tractions_tend_to_the_halfplane_with_first_order),
+        cmocka_unit_test(many_outer_elements_fit_their_own_contact),
         cmocka_unit_test(compressible_wheels_need_small_elements_too),
         cmocka_unit_test(bentall_johnson_on_two_wheels),
         cmocka_unit_test(the_exact_near_field_spares_the_small_elements),

@@ -265,7 +265,9 @@ typedef struct {
     rb_rolling_formulation formulation;
     rb_rolling_solver solver; /* that gave the answer */
     const char *cone_solver;  /* its name, RB_SOLVER_CONE; borrowed from the case */
-    int large; /* 1: products by Fourier transforms, no matrix was formed */
+    int large;             /* 1: products by Fourier transforms, no matrix was formed */
+    int boundary_elements; /* of both bodies; 0: half-planes have none */
+    int hierarchical;      /* 1: a boundary's matrix was a hierarchical one */
     rb_rolling_lcp_form lcp_form;
     int iterations;  /* pivots or Newton steps, of all solves */
     double residual; /* natural residual of the scaled problem, recomputed from p, q,

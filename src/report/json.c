@@ -1,5 +1,6 @@
 /* Solutions as JSON: schema rollbem/1. */
 #include "report/internal.h"
+#include "rollbem/blas.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -129,6 +130,12 @@ json_t *rb_report_json_summary(const rb_rolling_case *rc, const rb_rolling_solut
     const int flat = rc->a.support == RB_BEM_HALFPLANE;
     const double datum = rc->a.datum > 0.0 ? rc->a.datum : 2.0 * rc->a.radius / exp(1.0);
     json_object_set_new(summary, "datum", rb_report_json_number(flat ? datum : NAN));
+    json_object_set_new(summary, "boundary_elements", json_integer(s->boundary_elements));
+    if (s->boundary_elements > 0)
+        json_object_set_new(summary, "boundary_matrix",
+                            json_string(s->hierarchical ? "hierarchical" : "dense"));
+    json_object_set_new(summary, "integrals", json_string(rb_bem_vector_name()));
+    json_object_set_new(summary, "openblas", json_string(rb_blas_core()));
     set_fields(times, s, seconds, sizeof seconds / sizeof seconds[0]);
     json_object_set_new(summary, "seconds", times);
     return summary;

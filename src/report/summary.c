@@ -1,5 +1,6 @@
 /* A solution in a few lines for people, and the notes on how to read it. */
 #include "report/internal.h"
+#include "rollbem/blas.h"
 
 #include <math.h>
 #include <string.h>
@@ -118,6 +119,16 @@ static void print_zones(FILE *out, const rb_rolling_solution *s, int width)
     fprintf(out, "\n            %s\n", strip);
 }
 
+/* What it ran on: where it was slow, this says why. */
+static void print_machine(FILE *out, const rb_rolling_solution *s)
+{
+    fprintf(out, "  computed  in %.3g s", s->seconds_total);
+    if (s->boundary_elements > 0)
+        fprintf(out, "; %d boundary elements (%s matrix, %s)", s->boundary_elements,
+                s->hierarchical ? "hierarchical" : "dense", rb_bem_vector_name());
+    fprintf(out, "; OpenBLAS for %s\n", rb_blas_core());
+}
+
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
 {
     const int newton = s->solver == RB_SOLVER_NEWTON;
@@ -135,6 +146,7 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
     print_forces(out, s);
     print_motion(out, s);
     print_zones(out, s, width);
+    print_machine(out, s);
 }
 
 /* ---- Notes ------------------------------------------------------------------------ */

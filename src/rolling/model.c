@@ -11,7 +11,8 @@ enum {
     SEPARATED_AT_END = 3,
     FIT_ROUNDS = 4,
     RATIO_ROUNDS = 40,
-    FIRST_FIT = 30
+    FIRST_FIT = 30,
+    MANY_OUTER = 600 /* elements not worth solving to learn where the contact is */
 };
 
 void rb_rolling_model_free(rb_rolling_model *model)
@@ -192,9 +193,11 @@ static double coarse_zone(const rb_rolling_case *rc)
     rb_rolling_model model;
     double zone = 0.0;
 
-    if (rc->contact_elements < RB_ROLLING_LARGE)
+    if (rc->contact_elements < RB_ROLLING_LARGE && rc->outer_elements < MANY_OUTER)
         return zone;
-    few.contact_elements = rb_rolling_coarse_elements(0);
+    if (rc->contact_elements >= RB_ROLLING_LARGE)
+        few.contact_elements = rb_rolling_coarse_elements(0);
+    few.outer_elements = 0;
     few.mesh = RB_MESH_UNIFORM;
     if (rb_rolling_model_create(&few, &model, NULL) == RB_OK)
         zone = model.mesh.ends[model.mesh.n];
@@ -224,24 +227,35 @@ static rb_status solve_given_zone(rb_rolling_model *model, rb_message *why)
         model->rc.zone, wanted);
 }
 
-/* theory.md 5.1: from a uniform solution to elements fitted to its edges, until these
- * move by less than a tenth of the smallest element. */
-static rb_status fit(rb_rolling_model *model, rb_message *why)
+/* Edges that have come to rest; or that go to and fro by less than an element, because
+ * another one is the last in contact whenever they move. */
+static int rests(double moved, double moved_before, double h)
 {
-    rb_status s = RB_OK;
-    double from, to, old_from = INFINITY, old_to = INFINITY;
+    return moved < 0.1 * h || (moved < 0.5 * h && moved > 0.5 * moved_before);
+}
 
+/* theory.md 5.1: from a solution to elements fitted to its edges, until these rest.
+ * *moved: how far they came last; INFINITY before the first call. */
+static rb_status fit(rb_rolling_model *model, double *moved, rb_message *why)
+{
+    double from, to, moved_before = INFINITY, h = 0.0;
+    rb_status s = RB_OK;
+
+    rb_rolling_contact_edges(&model->mesh, model->state.p, &from, &to);
     for (int round = 0; round < FIT_ROUNDS && s == RB_OK; round++) {
+        const double old_from = from, old_to = to;
         rb_rolling_mesh mesh;
-        rb_rolling_contact_edges(&model->mesh, model->state.p, &from, &to);
-        const double h = model->mesh.ends[7] - model->mesh.ends[6];
-        if (fabs(from - old_from) < 0.1 * h && fabs(to - old_to) < 0.1 * h)
+        if (round > 0 && rests(*moved, moved_before, h))
             break;
         s = rb_rolling_mesh_fitted(&model->rc, from, to, &mesh, why);
         if (s == RB_OK)
             s = build_and_solve(model, &mesh, why);
-        old_from = from;
-        old_to = to;
+        if (s != RB_OK)
+            break;
+        rb_rolling_contact_edges(&model->mesh, model->state.p, &from, &to);
+        moved_before = *moved;
+        *moved = fmax(fabs(from - old_from), fabs(to - old_to));
+        h = model->mesh.ends[7] - model->mesh.ends[6];
     }
     return s;
 }
@@ -254,10 +268,12 @@ static rb_status solve_uniform_stage(const rb_rolling_case *rc, rb_rolling_model
         model->rc.contact_elements =
             FIRST_FIT > rc->contact_elements / 2 ? FIRST_FIT : rc->contact_elements / 2;
         model->rc.near_field = RB_NEAR_FIELD_PLAIN;
+        if (rc->outer_elements > MANY_OUTER)
+            model->rc.outer_elements = 0;
     }
     const rb_status s = rc->zone > 0.0
                             ? solve_given_zone(model, why)
-                            : solve_automatic_zone(model, coarse_zone(rc), why);
+                            : solve_automatic_zone(model, coarse_zone(&model->rc), why);
     model->rc.contact_elements = rc->contact_elements;
     model->rc.near_field = rc->near_field;
     return s;
@@ -266,6 +282,8 @@ static rb_status solve_uniform_stage(const rb_rolling_case *rc, rb_rolling_model
 rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
                                   rb_message *why)
 {
+    double moved = INFINITY;
+
     memset(model, 0, sizeof *model);
     model->rc = *rc;
     rb_status s = rb_rolling_case_check(rc, why);
@@ -274,7 +292,11 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
     if (s >= 0 && model->state.p && separated_at_ends(&model->state) == model->state.n)
         s = rb_fail(why, RB_NO_CONTACT, "no contact: the bodies do not touch");
     if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
-        s = fit(model, why);
+        s = fit(model, &moved, why);
+    if (s == RB_OK && model->rc.outer_elements != rc->outer_elements) {
+        model->rc.outer_elements = rc->outer_elements;
+        s = fit(model, &moved, why);
+    }
     return s;
 }
 

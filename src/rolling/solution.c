@@ -263,6 +263,14 @@ static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s
     return RB_OK;
 }
 
+static void add_boundary(const rb_bem_system *system, rb_rolling_solution *s)
+{
+    if (!system)
+        return;
+    s->boundary_elements += rb_bem_system_mesh(system)->n;
+    s->hierarchical |= isnan(rb_bem_system_rcond(system));
+}
+
 static rb_status set_proof(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     const rb_rolling_state *state = &model->state;
@@ -273,6 +281,8 @@ static rb_status set_proof(const rb_rolling_model *model, rb_rolling_solution *s
     s->solver = state->solver;
     s->cone_solver = model->rc.cone_solver;
     s->large = !model->problem.F;
+    add_boundary(model->bodies.system_a, s);
+    add_boundary(model->bodies.system_b, s);
     s->lcp_form = state->lcp_form;
     s->iterations = model->iterations;
     s->residual = violation.scaled;
