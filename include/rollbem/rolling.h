@@ -521,9 +521,7 @@ rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solut
 rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_rolling_solution *solution, rb_message *why);
 
-/* ---- Parameter studies
- * ------------------------------------------------------------------
- */
+/* ---- Parameter studies --------------------------------------------------------------- */
 
 /* Results of one case; NAN where there is none. */
 typedef struct {
@@ -549,5 +547,24 @@ typedef struct {
 
 /* RB_INTERRUPTED: see or tick said so; no process is left in any case. */
 rb_status rb_rolling_sweep_run(const rb_rolling_sweep *sweep, rb_message *why);
+
+/* Those who solve the cases, as the one who hands them out sees them. */
+typedef struct rb_rolling_crew {
+    int (*room)(struct rb_rolling_crew *crew); /* how many more cases it takes now */
+    rb_status (*give)(struct rb_rolling_crew *crew, int k); /* one, where there is room */
+    /* 1: the row of case *k; 0: none came within so many milliseconds; a negative
+     * status: the crew cannot go on. */
+    int (*take)(struct rb_rolling_crew *crew, int milliseconds, int *k,
+                rb_rolling_sweep_row *row);
+    void (*dismiss)(struct rb_rolling_crew *crew); /* at once; its memory goes as well */
+} rb_rolling_crew;
+
+/* The processes of rb_rolling_sweep_run: sweep->workers of them, at most sweep->count;
+ * sweep is borrowed. */
+rb_status rb_rolling_crew_start(const rb_rolling_sweep *sweep, rb_rolling_crew **crew,
+                                rb_message *why);
+/* rb_rolling_sweep_run by any crew, which is dismissed in any case. */
+rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_crew *crew,
+                              rb_message *why);
 
 #endif
