@@ -15,19 +15,24 @@ SUITESPARSE = -lumfpack -lspqr -lcholmod -lsuitesparseconfig
 # -lgslcblas would shadow OpenBLAS: take GSL's flags without it
 LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS) 2>/dev/null)) -lfftw3_threads $(SUITESPARSE) -lm $(OPENMP)
 CPPFLAGS += $(OPENMP) -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
+# rollbem-mpi, for studies over machines: where Open MPI's headers are; make MPI= goes without
+MPI := $(shell pkg-config --exists ompi-c 2>/dev/null && echo ompi-c)
 # make V=1 shows the whole commands
 Q := $(if $(filter 1,$(V)),,@)
 VERSION := $(shell sed -n 's/.*RB_VERSION "\(.*\)"/\1/p' include/rollbem/base.h)
 
-LIB_SRC := $(filter-out src/cli/%,$(wildcard src/*/*.c))
+LIB_SRC := $(filter-out src/cli/% src/mpi/%,$(wildcard src/*/*.c))
 CLI_SRC := $(wildcard src/cli/*.c)
 LIB_OBJ := $(LIB_SRC:%.c=$(B)/%.o)
 CLI_OBJ := $(CLI_SRC:%.c=$(B)/%.o)
+# the same program with another crew
+MPI_OBJ := $(filter-out %/crew.o,$(CLI_OBJ)) $(B)/src/mpi/crew.o
+PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
 .PHONY: all run test check-tests asan bench install help clean packages check-packages
-all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(B)/rollbem
+all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
 	@echo "make            build $(B)/rollbem and the libraries (installs nothing)"
@@ -72,6 +77,12 @@ $(B)/rollbem: $(CLI_OBJ) $(B)/librollbem.a
 	@echo "  LD  $@"
 	$(Q)$(CC) $(CFLAGS) -o $@ $(CLI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)
 
+$(B)/rollbem-mpi: $(MPI_OBJ) $(B)/librollbem.a
+	@echo "  LD  $@"
+	$(Q)$(CC) $(CFLAGS) -o $@ $(MPI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS) $(shell pkg-config --libs $(MPI))
+
+$(B)/src/mpi/%.o: CPPFLAGS += $(subst -I,-isystem ,$(shell pkg-config --cflags $(MPI)))
+
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
@@ -97,7 +108,7 @@ $(B)/bench/%: bench/%.c $(B)/librollbem.a
 
 install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include/rollbem
-	install -m 755 $(B)/rollbem $(DESTDIR)$(PREFIX)/bin
+	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
 	install -m 644 $(B)/librollbem.a $(DESTDIR)$(PREFIX)/lib
 	install -m 755 $(B)/librollbem.so $(DESTDIR)$(PREFIX)/lib/librollbem.so.$(VERSION)
 	ln -sf librollbem.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/librollbem.so.0
@@ -107,4 +118,4 @@ install: all
 
 clean: ; rm -rf $(B)
 
--include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)
+-include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(MPI_OBJ:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)

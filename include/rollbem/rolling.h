@@ -521,7 +521,7 @@ rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solut
 rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_rolling_solution *solution, rb_message *why);
 
-/* ---- Parameter studies --------------------------------------------------------------- */
+/* ---- Parameter studies ----------------------------------------------------------- */
 
 /* Results of one case; NAN where there is none. */
 typedef struct {

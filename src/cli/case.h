@@ -61,8 +61,9 @@ cli_exit cli_case_refuse(const cli_case *c, const char *name, const char *reason
 
 /* 1: an option of that name takes a number. */
 int cli_case_is_number(const cli_case *c, const char *name);
-/* Gives an option of a finished case another value (number: of the case in messages); then what depends on it is settled
- * again and checked.  CLI_CONTINUE or an exit code, its line printed. */
+/* Gives an option of a finished case another value (number: of the case in messages);
+ * then what depends on it is settled again and checked.  CLI_CONTINUE or an exit code,
+ * its line printed. */
 cli_exit cli_case_vary(cli_case *c, int number, const char *name, double value);
 cli_exit cli_case_settle_again(cli_case *c);
 

@@ -61,6 +61,10 @@ __attribute__((format(printf, 2, 3)))
 cli_exit
 cli_fail(cli_exit code, const char *format, ...);
 
+/* From now on cli_fail keeps its line for cli_kept_failure() ("": none so far). */
+void cli_keep_failures(void);
+const char *cli_kept_failure(void);
+
 /* The candidate nearest to a misspelt word.  Start with {.word = word}. */
 typedef struct cli_guess {
     const char *word, *best;

@@ -16,7 +16,8 @@ static const struct {
     const char *help;
 } commands[] = {
     {"curve", cli_curve, "creep curve: the tangential force over the creepage"},
-    {"sweep", cli_sweep, "parameter studies over all processors"},
+    {"sweep", cli_sweep,
+     "parameter studies over all processors and, under mpirun, machines"},
     {"stress", cli_stress, "the stress below the surface: table, pictures, ParaView"},
     {"verify", cli_verify,
      "every reference that the program should meet, and how it does"},

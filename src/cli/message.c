@@ -24,13 +24,30 @@ cli_exit cli_exit_of(rb_status s)
     }
 }
 
+static char kept[400];
+static int keeps;
+
+void cli_keep_failures(void)
+{
+    keeps = 1;
+}
+
+const char *cli_kept_failure(void)
+{
+    return kept;
+}
+
 cli_exit cli_fail(cli_exit code, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    fputs("rollbem: ", stderr);
-    vfprintf(stderr, format, args);
-    fputc('\n', stderr);
+    if (keeps) {
+        vsnprintf(kept, sizeof kept, format, args);
+    } else {
+        fputs("rollbem: ", stderr);
+        vfprintf(stderr, format, args);
+        fputc('\n', stderr);
+    }
     va_end(args);
     return code;
 }

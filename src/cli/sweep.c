@@ -1,5 +1,6 @@
 /* rollbem sweep: parameter studies over all processors. */
 #include "cli/case.h"
+#include "cli/crew.h"
 #include "rollbem/report.h"
 
 #include <errno.h>
@@ -55,7 +56,8 @@ static const char about[] =
     "Solves many cases that differ in some options, one process per processor, and\n"
     "prints a row per case, in order. STUDY.ini is a case file with a section [sweep].\n"
     "Every combination of the values of vary-1 ... vary-4, with every row of the cases,\n"
-    "is a case; the last one varies fastest.\n"
+    "is a case; the last one varies fastest.  Under mpirun its processes share the\n"
+    "work, each with its part of its machine's processors.\n"
     "\n" CLI_CASE_SIGNS;
 
 static const char notes[] = CLI_CASE_NOTES
@@ -395,13 +397,14 @@ static int tick(int seen, void *context)
 {
     study *st = context;
     const double now = rb_seconds(), spent = now - st->start;
-    const int terminal = isatty(STDERR_FILENO), left = st->cases - st->first - seen;
+    const int left = st->cases - st->first - seen;
 
     if (interrupted)
         return 1;
     if (now - st->shown < 0.5)
         return 0;
     st->shown = now;
+    const int terminal = isatty(STDERR_FILENO);
     if (seen > 0 && !st->o->quiet && (terminal || st->o->progress))
         fprintf(stderr, "%scase %d of %d, %.0f s left%s", terminal ? "\r" : "",
                 st->first + seen, st->cases, spent / seen * left,
@@ -458,8 +461,10 @@ static cli_exit open_output(study *st)
         st->out = st->o->restart ? NULL : fopen(path, "r+");
         if (st->out) {
             const cli_exit code = resume(st);
-            if (code != CLI_CONTINUE)
+            if (code != CLI_CONTINUE) {
                 fclose(st->out);
+                st->out = NULL;
+            }
             return code;
         }
         st->out = fopen(path, "w");
@@ -485,23 +490,30 @@ static cli_exit close_output(study *st, cli_exit code)
 /* ---- Command --------------------------------------------------------------------------
  */
 
+static rb_rolling_sweep sweep_of(study *st)
+{
+    return (rb_rolling_sweep){.first = st->first,
+                              .count = st->cases - st->first,
+                              .workers = st->o->jobs,
+                              .make = make_case,
+                              .see = see_row,
+                              .tick = tick,
+                              .context = st};
+}
+
 static cli_exit run(study *st)
 {
-    struct sigaction act = {.sa_handler = note_interrupt}, before;
+    struct sigaction act = {.sa_handler = note_interrupt}, before[2];
     rb_message why = {""};
-    const rb_rolling_sweep sweep = {.first = st->first,
-                                    .count = st->cases - st->first,
-                                    .workers = st->o->jobs,
-                                    .make = make_case,
-                                    .see = see_row,
-                                    .tick = tick,
-                                    .context = st};
+    const rb_rolling_sweep sweep = sweep_of(st);
 
     fflush(st->out); /* or every process would have what is in the buffer */
-    sigaction(SIGINT, &act, &before);
+    sigaction(SIGINT, &act, &before[0]);
+    sigaction(SIGTERM, &act, &before[1]);
     st->start = st->shown = rb_seconds();
-    const rb_status s = rb_rolling_sweep_run(&sweep, &why);
-    sigaction(SIGINT, &before, NULL);
+    const rb_status s = cli_crew_run(&sweep, &why);
+    sigaction(SIGTERM, &before[1], NULL);
+    sigaction(SIGINT, &before[0], NULL);
     const double spent = rb_seconds() - st->start;
     if (s == RB_INTERRUPTED && ferror(st->out))
         return CLI_CANTWRITE; /* close_output says it */
@@ -524,19 +536,38 @@ static cli_exit check_base(const cli_case *c)
     return code;
 }
 
-static cli_exit solve(const cli_case *c, const sweep_options *o)
+/* All that can be refused, and the output file. */
+static cli_exit prepare(const cli_spec *spec, int argc, char **argv, cli_case *c,
+                        cli_args *args, study *st)
 {
-    study st = {.base = c, .o = o};
-    cli_exit code = read_study(&st);
+    cli_exit code = cli_parse(spec, argc, argv, args);
 
     if (code == CLI_CONTINUE)
-        code = check_cases(&st);
+        code = cli_case_finish(spec, c, args);
     if (code == CLI_CONTINUE)
-        code = open_output(&st);
+        code = check_base(c);
     if (code == CLI_CONTINUE)
-        code = close_output(&st, run(&st));
-    study_free(&st);
+        code = read_study(st);
+    if (code == CLI_CONTINUE)
+        code = check_cases(st);
+    if (code == CLI_CONTINUE && !cli_crew_helps())
+        code = open_output(st);
     return code;
+}
+
+static cli_exit solve(study *st, cli_exit code)
+{
+    code = cli_crew_agree(code, code == CLI_CONTINUE ? fingerprint(st) : 0);
+    if (cli_crew_helps()) {
+        const rb_rolling_sweep sweep = sweep_of(st);
+        rb_message why;
+        if (code == CLI_CONTINUE)
+            cli_crew_run(&sweep, &why);
+        return CLI_OK; /* rank 0 has the exit code */
+    }
+    if (code == CLI_CONTINUE)
+        code = run(st);
+    return st->out ? close_output(st, code) : code;
 }
 
 int cli_sweep(int argc, char **argv)
@@ -544,19 +575,19 @@ int cli_sweep(int argc, char **argv)
     cli_case c;
     sweep_options o = {0};
     cli_args args = {0};
+    study st = {.base = &c, .o = &o};
     cli_case_defaults(&c);
     const cli_spec spec = {"rollbem sweep [OPTION...] [STUDY.ini]",
                            about,
                            notes,
                            {cli_case_set(&c), {options, OPTIONS, &o, o.given}},
                            2};
-    cli_exit code = cli_parse(&spec, argc, argv, &args);
-    if (code == CLI_CONTINUE)
-        code = cli_case_finish(&spec, &c, &args);
-    if (code == CLI_CONTINUE)
-        code = check_base(&c);
-    if (code == CLI_CONTINUE)
-        code = solve(&c, &o);
+    cli_exit code = cli_crew_begin(argc, argv);
+    if (code != CLI_CONTINUE)
+        return code;
+    code = solve(&st, prepare(&spec, argc, argv, &c, &args, &st));
+    cli_crew_end();
+    study_free(&st);
     cli_args_free(&args);
     cli_case_free(&c);
     return code;

@@ -1,0 +1,50 @@
+/* The crew of rollbem: processes of this machine.  Under mpirun rollbem-mpi takes over:
+ * the library of MPI would slow the start of every command. */
+#include "cli/crew.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The program beside this one. */
+static cli_exit take_over(int argc, char **argv)
+{
+    char path[4096];
+    const ssize_t n = readlink("/proc/self/exe", path, sizeof path - sizeof "-mpi");
+    char **all = calloc((size_t)argc + 2, sizeof *all);
+
+    if (n > 0 && all) {
+        strcpy(path + n, "-mpi");
+        all[0] = path;
+        memcpy(all + 1, argv, (size_t)argc * sizeof *all);
+        execv(path, all);
+    }
+    free(all);
+    return cli_fail(CLI_INTERNAL, "started by mpirun, but there is no rollbem-mpi beside "
+                                  "rollbem: built without Open MPI");
+}
+
+cli_exit cli_crew_begin(int argc, char **argv)
+{
+    return cli_crew_is_launched() ? take_over(argc, argv) : CLI_CONTINUE;
+}
+
+int cli_crew_helps(void)
+{
+    return 0;
+}
+
+cli_exit cli_crew_agree(cli_exit code, uint64_t study)
+{
+    (void)study;
+    return code;
+}
+
+rb_status cli_crew_run(const rb_rolling_sweep *sweep, rb_message *why)
+{
+    return rb_rolling_sweep_run(sweep, why);
+}
+
+void cli_crew_end(void)
+{
+}
