@@ -41,25 +41,34 @@ static void record(const rb_rolling_model *model, rb_rolling_curve *c)
     c->contact = contact;
 }
 
-/* A fitted mesh whose contact has moved is fitted again; a uniform one that the contact
- * fills is chosen anew. */
+/* The whole search for the contact again. */
+static rb_status start_anew(rb_rolling_model *model, rb_message *why)
+{
+    const rb_rolling_case rc = model->rc;
+    const int iterations = model->iterations;
+
+    rb_rolling_model_free(model);
+    const rb_status s = rb_rolling_model_create(&rc, model, why);
+    model->iterations += iterations;
+    return s;
+}
+
+/* A fitted mesh whose contact has moved is fitted again; a potential contact that is
+ * full is chosen anew. */
 static rb_status follow_contact(rb_rolling_model *model, double edge[2], rb_message *why)
 {
     double from, to;
     const int last = model->state.n - 1;
-    rb_rolling_case rc = model->rc;
     const int fills = model->state.zone[0] != RB_ZONE_SEPARATED ||
                       model->state.zone[last] != RB_ZONE_SEPARATED;
 
     rb_rolling_contact_edges(&model->mesh, model->state.p, &from, &to);
     const double moved =
         fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
-    if (!fills && !(rc.mesh == RB_MESH_FITTED && moved > REFIT))
+    if (!fills && !(model->rc.mesh == RB_MESH_FITTED && moved > REFIT))
         return RB_OK;
-    const int iterations = model->iterations;
-    rb_rolling_model_free(model);
-    const rb_status s = rb_rolling_model_create(&rc, model, why);
-    model->iterations += iterations;
+    const rb_status s =
+        fills ? start_anew(model, why) : rb_rolling_model_refit(model, why);
     if (s == RB_OK)
         rb_rolling_contact_edges(&model->mesh, model->state.p, &edge[0], &edge[1]);
     return s;

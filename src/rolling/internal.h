@@ -130,6 +130,8 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
 /* The same on the present mesh under the controls that model->rc has now, from the
  * present zones. */
 rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
+/* A fitted mesh, bodies and solution anew for the edges that the model has now. */
+rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why);
 /* P and Q of the state. */
 double rb_rolling_model_load(const rb_rolling_model *model);
 double rb_rolling_model_force(const rb_rolling_model *model);

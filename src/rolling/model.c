@@ -260,6 +260,13 @@ static rb_status fit(rb_rolling_model *model, double *moved, rb_message *why)
     return s;
 }
 
+rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
+{
+    double moved = INFINITY;
+
+    return fit(model, &moved, why);
+}
+
 /* A uniform mesh for the answer, or a coarse one to fit the next to. */
 static rb_status solve_uniform_stage(const rb_rolling_case *rc, rb_rolling_model *model,
                                      rb_message *why)
