@@ -55,21 +55,30 @@ static const stage stages[] = {
 #define MOST_FOR_LEMKE 1000
 
 typedef struct {
-    double *start, *best; /* m + n each: r, v */
+    double *start, *best; /* m + n each: r, v; start NULL: zero */
     double error;
     const char *solver;
 } record;
 
 static void load(rb_friction_task *task, const double *from)
 {
-    memcpy(task->r, from, (size_t)task->m * sizeof *from);
-    memcpy(task->v, from + task->m, (size_t)task->n * sizeof *from);
+    const size_t m = (size_t)task->m, n = (size_t)task->n;
+    for (size_t k = 0; k < m; k++)
+        task->r[k] = from ? from[k] : 0.0;
+    for (size_t i = 0; i < n; i++)
+        task->v[i] = from ? from[m + i] : 0.0;
 }
 
-static void store(const rb_friction_task *task, double *to)
+/* 0: no memory */
+static int store(const rb_friction_task *task, double **to)
 {
-    memcpy(to, task->r, (size_t)task->m * sizeof *to);
-    memcpy(to + task->m, task->v, (size_t)task->n * sizeof *to);
+    if (!*to)
+        *to = rb_alloc((size_t)(task->m + task->n), 1);
+    if (*to) {
+        memcpy(*to, task->r, (size_t)task->m * sizeof **to);
+        memcpy(*to + task->m, task->v, (size_t)task->n * sizeof **to);
+    }
+    return *to != NULL;
 }
 
 /* Long runs of sweeps on large problems stop here. */
@@ -92,21 +101,19 @@ static rb_status try_stage(rb_friction_task *task, const stage *s, record *rec)
         load(task, s->flags & FROM_BEST ? rec->best : rec->start);
     task->opt.max_iters = affordable(task, s);
     const rb_status status = s->method(task);
-    if (status < 0)
+    task->info->solver = s->name;
+    if (status <= 0) /* methods say so only of what the measure accepted */
         return status;
     double error = rb_friction_task_error(task);
-    const int accepted = rb_friction_task_accepts(task, error);
-    if (!accepted &&
-        error <= task->opt.tol) /* r so large that the measure does not see it */
+    if (error <= task->opt.tol) /* r so large that the measure does not see it */
         error = INFINITY;
     if (error < rec->error || !rec->solver) {
         rec->error = error;
         rec->solver = s->name;
-        store(task, rec->best);
+        if (!store(task, &rec->best))
+            return RB_ENOMEM;
     }
-    if (accepted)
-        return RB_OK;
-    return status == RB_OK ? RB_INACCURATE : status;
+    return status;
 }
 
 /* A dense LU of this order takes longer than a thousand sweeps. */
@@ -138,20 +145,18 @@ static int fits(rb_friction_task *task, const stage *s)
 rb_status rb_friction_auto(rb_friction_task *task)
 {
     const rb_friction_options given = task->opt;
-    const size_t size = (size_t)(task->m + task->n);
-    record rec = {
-        .start = rb_alloc(size, 1), .best = rb_alloc(size, 1), .error = INFINITY};
-    rb_status s = rec.start && rec.best ? RB_MAXITER : RB_ENOMEM;
-    if (s == RB_MAXITER)
-        store(task, rec.start);
     const size_t n = sizeof stages / sizeof *stages;
+    record rec = {.error = INFINITY};
+    rb_status s = RB_MAXITER;
+    if ((given.r0 || given.v0) && !store(task, &rec.start))
+        s = RB_ENOMEM;
     for (size_t k = 0; s > 0 && s != RB_INTERRUPTED && k < n; k++)
         if (fits(task, &stages[k]))
             s = try_stage(task, &stages[k], &rec);
     if (s > 0 &&
         s != RB_INTERRUPTED) /* what the last stage stumbled on is not the reason */
         s = RB_MAXITER;
-    if (rec.solver) {
+    if (s > 0 && rec.solver) {
         load(task, rec.best);
         task->info->solver = rec.solver;
     }

@@ -1,5 +1,8 @@
+/* W in d x d blocks, block column by block column: a contact whose force changes adds its
+ * own column to the velocities, and one that stays open costs nothing. */
 #include "friction/internal.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,131 +11,159 @@ void rb_friction_blocks_free(rb_friction_blocks *blocks)
     if (!blocks)
         return;
     free(blocks->p);
-    free(blocks->j);
-    free(blocks->diag);
+    free(blocks->i);
     free(blocks->x);
     *blocks = (rb_friction_blocks){0};
 }
 
-/* Marks the block columns of block row i; returns how many.  wt: W'. */
-static int mark_row(const rb_sparse *wt, int d, int i, int *seen, int *columns)
+/* ---- Reading W, the d columns of one contact together --------------------------------
+ */
+
+typedef struct {
+    const rb_friction_problem *local;
+    int contact, d;
+    int at[3], end[3]; /* sparse: what is left of each column */
+    int diagonal;      /* sparse: its first row, INT_MAX when it has been read */
+    int next;          /* dense: block row */
+} reader;
+
+static void reader_start(const rb_friction_problem *local, int contact, reader *s)
 {
+    const int d = local->dimension;
+    *s = (reader){.local = local, .contact = contact, .d = d};
+    s->diagonal = contact * d;
+    for (int b = 0; local->form == RB_FRICTION_LOCAL_SPARSE && b < d; b++) {
+        s->at[b] = local->Ws.p[contact * d + b];
+        s->end[b] = local->Ws.p[contact * d + b + 1];
+    }
+}
+
+static int next_sparse(reader *s, double *block)
+{
+    const rb_sparse *w = &s->local->Ws;
+    const int d = s->d;
+    int first = s->diagonal;
+    for (int b = 0; b < d; b++)
+        if (s->at[b] < s->end[b] && w->i[s->at[b]] < first)
+            first = w->i[s->at[b]];
+    if (first == INT_MAX)
+        return -1;
+    const int row = first / d, top = row * d;
+    for (int b = 0; b < d; b++)
+        for (; s->at[b] < s->end[b] && w->i[s->at[b]] < top + d; s->at[b]++)
+            if (block)
+                block[w->i[s->at[b]] - top + b * d] = w->x[s->at[b]];
+    if (row == s->contact)
+        s->diagonal = INT_MAX;
+    return row;
+}
+
+static int next_dense(reader *s, double *block)
+{
+    const int d = s->d;
+    const size_t m = (size_t)(d * s->local->contacts);
+    for (int row = s->next; row < s->local->contacts; row++) {
+        const double *w = s->local->W + row * d + (size_t)(s->contact * d) * m;
+        int any = row == s->contact;
+        for (int b = 0; b < d; b++)
+            for (int a = 0; a < d; a++) {
+                any |= w[a + (size_t)b * m] != 0.0;
+                if (block)
+                    block[a + b * d] = w[a + (size_t)b * m];
+            }
+        s->next = row + 1;
+        if (any)
+            return row;
+    }
+    return -1;
+}
+
+/* The next block row that has an entry or is the diagonal, -1 after the last.  block:
+ * d x d zeros to be filled, or NULL. */
+static int next_block(reader *s, double *block)
+{
+    return s->local->form == RB_FRICTION_LOCAL_DENSE ? next_dense(s, block)
+                                                     : next_sparse(s, block);
+}
+
+/* ---- Blocks --------------------------------------------------------------------------
+ */
+
+static int count_column(const rb_friction_problem *local, int contact)
+{
+    reader from;
     int n = 0;
-    seen[i] = i, columns[n++] = i;
-    for (int a = i * d; a < (i + 1) * d; a++)
-        for (int k = wt->p[a]; k < wt->p[a + 1]; k++) {
-            const int j = wt->i[k] / d;
-            if (seen[j] != i)
-                seen[j] = i, columns[n++] = j;
-        }
+    reader_start(local, contact, &from);
+    while (next_block(&from, NULL) >= 0)
+        n++;
     return n;
 }
 
-static int by_value(const void *a, const void *b)
+static void fill_column(const rb_friction_problem *local, int contact,
+                        rb_friction_blocks *b)
 {
-    return *(const int *)a - *(const int *)b;
+    const size_t dd = (size_t)(b->d * b->d);
+    reader from;
+    reader_start(local, contact, &from);
+    for (int k = b->p[contact]; k < b->p[contact + 1]; k++) {
+        b->i[k] = next_block(&from, b->x + (size_t)k * dd);
+        if (b->i[k] == contact)
+            b->diag[contact] = k;
+    }
 }
 
-static rb_status find_pattern(const rb_sparse *wt, int *seen, int *columns,
-                              rb_friction_blocks *b)
+rb_status rb_friction_blocks_init(const rb_friction_problem *local, rb_friction_blocks *b)
 {
-    const int nc = b->contacts;
-    for (int i = 0; i < nc; i++)
-        seen[i] = -1;
-    for (int i = 0; i < nc; i++)
-        b->p[i + 1] = b->p[i] + mark_row(wt, b->d, i, seen, columns);
-    b->j = rb_alloc_int((size_t)b->p[nc]);
-    b->x = rb_alloc((size_t)b->p[nc], (size_t)(b->d * b->d));
-    if (!b->j || !b->x)
+    const int nc = local->contacts, d = local->dimension;
+    *b = (rb_friction_blocks){.d = d, .contacts = nc};
+    b->p = rb_alloc_int(2 * (size_t)nc + 1);
+    if (!b->p)
         return RB_ENOMEM;
-    for (int i = 0; i < nc; i++)
-        seen[i] = -1;
-    for (int i = 0; i < nc; i++) {
-        const int n = mark_row(wt, b->d, i, seen, b->j + b->p[i]);
-        qsort(b->j + b->p[i], (size_t)n, sizeof *b->j, by_value);
-        for (int k = b->p[i]; k < b->p[i + 1]; k++)
-            if (b->j[k] == i)
-                b->diag[i] = k;
+    b->diag = b->p + nc + 1;
+    for (int c = 0; c < nc; c++)
+        b->p[c + 1] = b->p[c] + count_column(local, c);
+    b->i = rb_alloc_int((size_t)b->p[nc]);
+    b->x = rb_alloc((size_t)b->p[nc], (size_t)(d * d));
+    if (!b->i || !b->x) {
+        rb_friction_blocks_free(b);
+        return RB_ENOMEM;
     }
+    for (int c = 0; c < nc; c++)
+        fill_column(local, c, b);
     return RB_OK;
 }
 
-/* place[j]: number of block (i, j) while row i is filled */
-static void fill(const rb_sparse *wt, int *place, rb_friction_blocks *b)
-{
-    const int d = b->d;
-    for (int i = 0; i < b->contacts; i++) {
-        for (int k = b->p[i]; k < b->p[i + 1]; k++)
-            place[b->j[k]] = k;
-        for (int a = 0; a < d; a++)
-            for (int k = wt->p[i * d + a]; k < wt->p[i * d + a + 1]; k++) {
-                double *block = b->x + (size_t)place[wt->i[k] / d] * (size_t)(d * d);
-                block[a + wt->i[k] % d * d] = wt->x[k];
-            }
-    }
-}
-
-static rb_status blocks_from_rows(const rb_sparse *wt, rb_friction_blocks *b)
-{
-    const size_t nc = (size_t)b->contacts;
-    int *seen = rb_alloc_int(nc), *columns = rb_alloc_int(nc);
-    b->p = rb_alloc_int(nc + 1);
-    b->diag = rb_alloc_int(nc);
-    rb_status s = seen && columns && b->p && b->diag ? RB_OK : RB_ENOMEM;
-    if (s == RB_OK)
-        s = find_pattern(wt, seen, columns, b);
-    if (s == RB_OK)
-        fill(wt, seen, b);
-    free(columns);
-    free(seen);
-    return s;
-}
-
-rb_status rb_friction_blocks_init(const rb_friction_problem *local,
-                                  rb_friction_blocks *blocks)
-{
-    const int m = local->dimension * local->contacts;
-    *blocks = (rb_friction_blocks){.d = local->dimension, .contacts = local->contacts};
-    rb_sparse w = {0}, wt = {0};
-    rb_status s = RB_OK;
-    if (local->form == RB_FRICTION_LOCAL_DENSE)
-        s = rb_sparse_from_dense(m, m, local->W, m, &w);
-    if (s == RB_OK)
-        s = rb_sparse_transpose(local->form == RB_FRICTION_LOCAL_DENSE ? &w : &local->Ws,
-                                &wt);
-    if (s == RB_OK)
-        s = blocks_from_rows(&wt, blocks);
-    rb_sparse_free(&wt);
-    rb_sparse_free(&w);
-    if (s != RB_OK)
-        rb_friction_blocks_free(blocks);
-    return s;
-}
-
-void rb_friction_blocks_row(const rb_friction_blocks *b, int contact, const double *x,
+void rb_friction_blocks_add(const rb_friction_blocks *b, int contact, const double *x,
                             double *y)
 {
-    const int d = b->d;
-    double sum[3] = {0.0, 0.0, 0.0};
-    for (int k = b->p[contact]; k < b->p[contact + 1]; k++) {
-        const double *w = b->x + (size_t)k * (size_t)(d * d), *xj = x + b->j[k] * d;
-        if (d == 3) {
-            sum[0] += w[0] * xj[0] + w[3] * xj[1] + w[6] * xj[2];
-            sum[1] += w[1] * xj[0] + w[4] * xj[1] + w[7] * xj[2];
-            sum[2] += w[2] * xj[0] + w[5] * xj[1] + w[8] * xj[2];
-        } else {
-            sum[0] += w[0] * xj[0] + w[2] * xj[1];
-            sum[1] += w[1] * xj[0] + w[3] * xj[1];
+    const int first = b->p[contact], end = b->p[contact + 1];
+    const double x0 = x[0], x1 = x[1];
+    if (b->d == 2) {
+        const double *w = b->x + 4 * (size_t)first;
+        for (int k = first; k < end; k++, w += 4) {
+            double *yi = y + 2 * b->i[k];
+            yi[0] += w[0] * x0 + w[2] * x1;
+            yi[1] += w[1] * x0 + w[3] * x1;
         }
+        return;
     }
-    for (int a = 0; a < d; a++)
-        y[a] = sum[a];
+    const double x2 = x[2], *w = b->x + 9 * (size_t)first;
+    for (int k = first; k < end; k++, w += 9) {
+        double *yi = y + 3 * b->i[k];
+        yi[0] += w[0] * x0 + w[3] * x1 + w[6] * x2;
+        yi[1] += w[1] * x0 + w[4] * x1 + w[7] * x2;
+        yi[2] += w[2] * x0 + w[5] * x1 + w[8] * x2;
+    }
 }
 
 void rb_friction_blocks_apply(const rb_friction_blocks *b, const double *x, double *y)
 {
-    for (int i = 0; i < b->contacts; i++)
-        rb_friction_blocks_row(b, i, x, y + i * b->d);
+    const int d = b->d;
+    for (int i = 0; i < d * b->contacts; i++)
+        y[i] = 0.0;
+    for (int c = 0; c < b->contacts; c++)
+        if (x[c * d] != 0.0 || x[c * d + 1] != 0.0 || x[c * d + d - 1] != 0.0)
+            rb_friction_blocks_add(b, c, x + c * d, y);
 }
 
 static double largest_tangential(int d, const double *w)

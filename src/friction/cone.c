@@ -2,13 +2,21 @@
 
 #include <math.h>
 
+/* Sums of squares in this range have lost nothing to overflow or underflow. */
+#define LEAST_SQUARE 1e-280
+#define LARGEST_SQUARE 1e280
+
 double rb_friction_norm(size_t n, const double *x)
 {
-    /* sums of squares of data far from 1 neither overflow nor vanish */
+    double sum = 0.0;
+    for (size_t k = 0; k < n; k++)
+        sum += x[k] * x[k];
+    if (sum >= LEAST_SQUARE && sum <= LARGEST_SQUARE)
+        return sqrt(sum);
     const double largest = rb_norm_inf(n, x);
     if (!(largest > 0.0) || !isfinite(largest))
         return largest;
-    double sum = 0.0;
+    sum = 0.0;
     for (size_t k = 0; k < n; k++)
         sum += (x[k] / largest) * (x[k] / largest);
     return largest * sqrt(sum);
@@ -16,7 +24,10 @@ double rb_friction_norm(size_t n, const double *x)
 
 double rb_friction_tangential(int d, const double *x)
 {
-    return d == 2 ? fabs(x[1]) : hypot(x[1], x[2]);
+    if (d == 2)
+        return fabs(x[1]);
+    const double sum = x[1] * x[1] + x[2] * x[2];
+    return sum >= LEAST_SQUARE && sum <= LARGEST_SQUARE ? sqrt(sum) : hypot(x[1], x[2]);
 }
 
 void rb_friction_project(int d, double mu, const double *z, double *p)

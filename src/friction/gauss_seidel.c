@@ -10,74 +10,106 @@
 
 typedef struct {
     rb_friction_task *task;
-    rb_friction_blocks blocks;
-    double *rho;        /* 2 per contact */
-    double *fixed;      /* contacts: rho of the fixed point, which adapts */
-    double *inverse;    /* d x d per contact: of W's own block */
-    int *regular;       /* contacts: that inverse exists */
-    int use_projection; /* local solver: fixed point instead of Newton */
+    const rb_friction_blocks *blocks;
+    rb_friction_contact *contact; /* contacts */
+    double *rho;                  /* 2 per contact; NULL until one contact needs it */
+    double *fixed;                /* contacts: rho of the fixed point, which adapts */
+    double *u;                    /* W r + q, kept up with every change of r */
+    int use_projection;           /* local solver: fixed point instead of Newton */
+    double touched, steps; /* blocks, steps at single contacts: to count operations */
+    rb_status failed;
 } sweeper;
+
+static void start_velocities(sweeper *s)
+{
+    const rb_friction_task *t = s->task;
+    rb_friction_blocks_apply(s->blocks, t->r, s->u);
+    for (int k = 0; k < t->m; k++)
+        s->u[k] += t->local->q[k];
+    s->touched += s->blocks->p[t->contacts];
+}
+
+static rb_status wanted_rho(sweeper *s)
+{
+    const size_t nc = (size_t)s->task->contacts;
+    if (s->rho)
+        return RB_OK;
+    s->rho = rb_alloc(nc, 3);
+    if (!s->rho)
+        return RB_ENOMEM;
+    rb_friction_blocks_rho(s->blocks, s->rho);
+    s->fixed = s->rho + 2 * nc;
+    for (size_t c = 0; c < nc; c++)
+        s->fixed[c] = fmin(s->rho[2 * c], s->rho[2 * c + 1]);
+    return RB_OK;
+}
 
 static rb_status sweeper_init(rb_friction_task *task, int use_projection, sweeper *s)
 {
-    const int nc = task->contacts;
-    *s = (sweeper){.task = task,
-                   .use_projection = use_projection,
-                   .rho = rb_alloc((size_t)nc, 2),
-                   .fixed = rb_alloc((size_t)nc, 1),
-                   .inverse = rb_alloc((size_t)nc, (size_t)(task->d * task->d)),
-                   .regular = rb_alloc_int((size_t)nc)};
-    rb_status st = s->rho && s->fixed && s->inverse && s->regular ? RB_OK : RB_ENOMEM;
-    if (st == RB_OK)
-        st = rb_friction_blocks_init(task->local, &s->blocks);
-    if (st == RB_OK)
-        rb_friction_blocks_rho(&s->blocks, s->rho);
-    const size_t dd = (size_t)(task->d * task->d);
-    for (int c = 0; st == RB_OK && c < nc; c++) {
-        s->fixed[c] = fmin(s->rho[2 * c], s->rho[2 * c + 1]);
-        s->regular[c] = rb_friction_contact_invert(
-            task->d, s->blocks.x + (size_t)s->blocks.diag[c] * dd,
-            s->inverse + (size_t)c * dd);
-    }
-    return st;
+    const size_t nc = (size_t)task->contacts, dd = (size_t)(task->d * task->d);
+    *s = (sweeper){.task = task, .use_projection = use_projection};
+    rb_status st = rb_friction_task_blocks(task, &s->blocks);
+    if (st == RB_OK && use_projection)
+        st = wanted_rho(s);
+    if (st != RB_OK)
+        return st;
+    s->contact = malloc(nc * sizeof *s->contact);
+    s->u = rb_alloc((size_t)task->m, 1);
+    if (!s->contact || !s->u)
+        return RB_ENOMEM;
+    for (size_t c = 0; c < nc; c++)
+        rb_friction_contact_init(task->d, task->local->mu[c],
+                                 s->blocks->x + (size_t)s->blocks->diag[c] * dd,
+                                 &s->contact[c]);
+    start_velocities(s);
+    return RB_OK;
 }
 
 static void sweeper_free(sweeper *s)
 {
-    rb_friction_blocks_free(&s->blocks);
-    free(s->regular);
-    free(s->inverse);
-    free(s->fixed);
+    s->task->info->flops += 2.0 * s->task->d * s->task->d * s->touched + 80.0 * s->steps;
+    free(s->u);
+    free(s->contact);
     free(s->rho);
 }
 
-/* One contact with the others held; returns ||change||^2. */
-static double relax(sweeper *s, int c, double *local_steps)
+/* The new force of contact c where q is its velocity without it; steps taken. */
+static int solve_contact(sweeper *s, int c, const double *q, double *r)
 {
-    const rb_friction_problem *p = s->task->local;
-    const int d = p->dimension;
+    rb_friction_contact *contact = &s->contact[c];
+    if (s->use_projection)
+        return rb_friction_contact_fixed_point(contact, &s->fixed[c], q, r);
+    const int steps = rb_friction_contact_exact(contact, q, r);
+    if (steps)
+        return steps;
+    s->failed = wanted_rho(s);
+    return s->failed == RB_OK ? rb_friction_contact_newton(contact, s->rho + 2 * c, q, r)
+                              : 1;
+}
+
+/* One contact with the others held; returns ||change||^2. */
+static double relax(sweeper *s, int c)
+{
+    const int d = s->task->d;
+    const double *W = s->contact[c].W, *u = s->u + c * d;
     double *r = s->task->r + c * d, old[3], q[3], change = 0.0;
-    const double *W = s->blocks.x + (size_t)s->blocks.diag[c] * (size_t)(d * d);
-    rb_friction_blocks_row(&s->blocks, c, s->task->r, q);
+    if (r[0] == 0.0 && r[1] == 0.0 && r[d - 1] == 0.0 && u[0] >= 0.0)
+        return 0.0; /* it stays open */
     for (int a = 0; a < d; a++) {
         old[a] = r[a];
-        q[a] += p->q[c * d + a];
+        q[a] = u[a];
         for (int b = 0; b < d; b++)
             q[a] -= W[a + b * d] * r[b];
     }
-    const rb_friction_contact alone = {.d = d,
-                                       .mu = p->mu[c],
-                                       .rho_n = s->rho[2 * c],
-                                       .rho_t = s->rho[2 * c + 1],
-                                       .W = W,
-                                       .q = q,
-                                       .inverse =
-                                           s->regular[c] ? s->inverse + c * d * d : NULL};
-    *local_steps += s->use_projection
-                        ? rb_friction_contact_fixed_point(&alone, &s->fixed[c], r)
-                        : rb_friction_contact_newton(&alone, r);
-    for (int a = 0; a < d; a++)
-        change += (r[a] - old[a]) * (r[a] - old[a]);
+    s->steps += solve_contact(s, c, q, r);
+    for (int a = 0; a < d; a++) {
+        old[a] = r[a] - old[a];
+        change += old[a] * old[a];
+    }
+    if (change > 0.0) {
+        rb_friction_blocks_add(s->blocks, c, old, s->u);
+        s->touched += s->blocks->p[c + 1] - s->blocks->p[c];
+    }
     return change;
 }
 
@@ -85,10 +117,9 @@ static double relax(sweeper *s, int c, double *local_steps)
 static double sweep(sweeper *s)
 {
     const rb_friction_task *t = s->task;
-    double change = 0.0, steps = 0.0;
+    double change = 0.0;
     for (int c = 0; c < t->contacts; c++)
-        change += relax(s, c, &steps);
-    t->info->flops += 2.0 * s->blocks.p[t->contacts] * t->d * t->d + 80.0 * steps;
+        change += relax(s, c);
     const double norm = rb_friction_norm((size_t)t->m, t->r);
     return norm > 0.0 ? sqrt(change) / norm : sqrt(change);
 }
@@ -99,28 +130,45 @@ static int looks_now(int k, int limit)
     return k % LOOK_EVERY == 0 || k == limit || (k < LOOK_EVERY && (k & (k - 1)) == 0);
 }
 
+/* (13) with the velocities at hand; recomputed where it is met or `refresh` asks for it.
+ */
+static double look(sweeper *s, int refresh)
+{
+    rb_friction_task *t = s->task;
+    double error = rb_friction_natural_norm(t->d, t->contacts, t->local->mu, t->r, s->u) /
+                   t->measure->scale;
+    t->info->flops += 25.0 * t->m;
+    if (error > t->opt.tol && !refresh)
+        return error;
+    error = rb_friction_task_error(t);
+    if (error > t->opt.tol)
+        start_velocities(s);
+    return error;
+}
+
 static rb_status sweep_until(sweeper *s, int limit)
 {
     rb_friction_task *t = s->task;
-    double tau = t->opt.tol, error = rb_friction_task_error(t);
+    double tau = t->opt.tol, error = look(s, 0);
     if (rb_friction_task_accepts(t, error))
         return RB_OK;
     for (int k = 1; k <= limit; k++) {
         const double change = sweep(s);
         t->info->iters++;
+        if (s->failed != RB_OK)
+            return s->failed;
         if (rb_friction_task_late(t))
             return RB_INTERRUPTED;
         if (change > tau && !looks_now(k, limit))
             continue;
-        error = rb_friction_task_error(t);
+        error = look(s, k % LOOK_EVERY == 0 || change <= 1e-16);
         if (rb_friction_task_accepts(t, error))
             return RB_OK;
         if (!isfinite(error))
             return RB_SINGULAR;
         if (change <= 1e-16) /* the sweeps stand still short of the tolerance */
             return RB_INACCURATE;
-        if (change <= tau)
-            tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
+        tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
     }
     return RB_MAXITER;
 }

@@ -26,7 +26,8 @@ typedef struct {
     double scale;               /* ||q||, or 1 where q = 0 */
     rb_sparse_cholesky *factor; /* GLOBAL: of K, or of K + k H H' where K is singular */
     double spring;              /* k; 0 where K is regular */
-    double *e;                  /* GLOBAL: n, workspace */
+    double *y;                  /* m + n, workspace; e: its last n */
+    double *e;
 } rb_friction_measure;
 
 rb_status rb_friction_measure_init(const rb_friction_problem *problem,
@@ -48,18 +49,19 @@ void rb_friction_measure_free(rb_friction_measure *measure);
 
 typedef struct {
     int d, contacts;
-    int *p;    /* contacts + 1: where a block row starts */
-    int *j;    /* block column, increasing within a row; the diagonal is always there */
-    int *diag; /* contacts: number of the diagonal block */
+    int *p;    /* contacts + 1: where a block column starts */
+    int *i;    /* block row, increasing within a column; the diagonal is always there */
+    int *diag; /* contacts: number of the diagonal block; in the memory of p */
     double *x; /* d x d column-major each */
 } rb_friction_blocks;
 
 rb_status rb_friction_blocks_init(const rb_friction_problem *local,
                                   rb_friction_blocks *blocks);
 void rb_friction_blocks_free(rb_friction_blocks *blocks);
-/* y = (W x) of one contact: d entries */
-void rb_friction_blocks_row(const rb_friction_blocks *blocks, int contact,
+/* y += what the force x (d entries) of one contact adds to all velocities */
+void rb_friction_blocks_add(const rb_friction_blocks *blocks, int contact,
                             const double *x, double *y);
+/* y = W x */
 void rb_friction_blocks_apply(const rb_friction_blocks *blocks, const double *x,
                               double *y);
 
@@ -73,23 +75,52 @@ void rb_friction_invert_compliances(int contacts, double *rho);
 
 typedef struct {
     int d;
-    double mu, rho_n, rho_t;
-    const double *W, *q;   /* d x d column-major, d */
-    const double *inverse; /* of W; NULL: it has none */
+    double mu;
+    const double *W; /* d x d column-major; borrowed */
+    int regular;     /* the normal can be eliminated, what is left is positive definite */
+    double normal, row[2], column[2]; /* 1/W_NN; W_NT and W_TN over W_NN */
+    double S[4];                      /* W_TT - W_TN W_NT / W_NN */
+    double lambda;                    /* -u_T / r_T when it slid last */
 } rb_friction_contact;
 
-/* 1 when W has an inverse */
-int rb_friction_contact_invert(int d, const double *W, double *inverse);
-/* Both start at r and return the steps taken.  rho: of the fixed point, adapts. */
-int rb_friction_contact_newton(const rb_friction_contact *contact, double *r);
+void rb_friction_contact_init(int d, double mu, const double *W,
+                              rb_friction_contact *contact);
+/* All return the steps taken.  q: velocity without the contact's own force; rho: two, of
+ * the functions below.  exact: 0, and r as it was, where the contact is closed and not
+ * regular. newton and fixed_point start at r; rho of the fixed point adapts. */
+int rb_friction_contact_exact(rb_friction_contact *contact, const double *q, double *r);
+int rb_friction_contact_newton(const rb_friction_contact *contact, const double *rho,
+                               const double *q, double *r);
 int rb_friction_contact_fixed_point(const rb_friction_contact *contact, double *rho,
-                                    double *r);
+                                    const double *q, double *r);
 
 /* The rule for rho (UPK): a step r -> p is taken when
  * rho ||uhat(p) - uhat(r)|| <= MOST ||p - r||; rho grows when even LEAST held. */
 #define RB_FRICTION_UPK_MOST 0.9
 #define RB_FRICTION_UPK_LEAST 0.3
 #define RB_FRICTION_UPK_SHRINK (2.0 / 3.0)
+
+/* ---- One solve in progress (registry.c) -- */
+
+typedef struct {
+    const rb_friction_problem *problem; /* as given */
+    const rb_friction_problem *local;   /* its local form; NULL: not condensed */
+    rb_friction_problem condensed;      /* owned; local points here if W was not given */
+    rb_friction_blocks blocks;          /* owned; of local, made when first wanted */
+    rb_friction_measure *measure;       /* of problem */
+    rb_friction_options opt;
+    rb_friction_info *info;
+    int d, contacts, m, n; /* n: 0 for the local form */
+    double deadline;       /* on rb_seconds(); 0: none */
+    double *r, *u;         /* m: the iterate; start on entry */
+    double *v;             /* n */
+} rb_friction_task;
+
+/* W of the task's problem: condensed at first use.  RB_SINGULAR: there is none. */
+rb_status rb_friction_task_condense(rb_friction_task *task);
+/* The blocks of the task's W; borrowed by all who work with them. */
+rb_status rb_friction_task_blocks(rb_friction_task *task,
+                                  const rb_friction_blocks **blocks);
 
 /* ---- Functions whose roots are solutions (functions.c) -- */
 
@@ -110,19 +141,20 @@ rb_friction_function rb_friction_fischer_burmeister;
  * Global form: K dv - H dr = -e,  B H' dv + A dr = -F: one sparse system, no W. */
 typedef struct {
     const rb_friction_problem *problem;
-    int d, contacts, m, n;     /* n: 0 for the local form */
-    rb_friction_blocks blocks; /* local form */
-    double *rho;               /* 2 per contact: rho_n, rho_t, 1/(W's own block) */
-    double *J;                 /* n + m squared where dense LU is faster, else NULL */
-    int *pivots;
-    rb_sparse jt; /* the transposed matrix */
+    const rb_friction_blocks *blocks; /* local form; borrowed from the task */
+    int d, contacts, m, n;            /* n: 0 for the local form */
+    double *rho;                      /* 2 per contact: rho_n, rho_t, 1/(W's own block) */
+    double *rhs, *x;                  /* n + m */
+    int *place;  /* contacts: number among those not known to be open, -1 if open */
+    rb_sparse j; /* sparse LU: the matrix (local form), or its transposed (global) */
     rb_sparse_lu *lu;
-    double *rhs, *x; /* n + m */
+    double *dense; /* dense LU */
+    int *pivots;
+    size_t order; /* that there is memory for */
     double flops;
 } rb_friction_system;
 
-rb_status rb_friction_system_init(const rb_friction_problem *problem,
-                                  rb_friction_system *system);
+rb_status rb_friction_system_init(rb_friction_task *task, rb_friction_system *system);
 void rb_friction_system_free(rb_friction_system *system);
 /* u = W r + q, or H' v + w; constant 0 leaves q and w out (changes of u). */
 void rb_friction_system_velocity(const rb_friction_system *system, double constant,
@@ -135,27 +167,21 @@ rb_status rb_friction_system_step(rb_friction_system *system, const double *A,
                                   const double *B, const double *F, const double *e,
                                   double *dr, double *dv);
 
+/* What the two forms share: which LU is the faster one; dense: room for that order,
+ * zeroed, and its solution with x as the right-hand side ('T': transposed). */
+int rb_friction_system_is_dense(int order, double fill);
+rb_status rb_friction_system_dense(rb_friction_system *system, size_t order);
+rb_status rb_friction_system_solve_dense(rb_friction_system *system, int order,
+                                         char transposed);
+/* The step of the local form (system_local.c), into x. */
+rb_status rb_friction_local_step(rb_friction_system *system, const double *A,
+                                 const double *B, const double *F);
+
 rb_status rb_friction_lapack_status(int info);
 
-/* ---- One solve in progress (registry.c) -- */
-
-typedef struct {
-    const rb_friction_problem *problem; /* as given */
-    const rb_friction_problem *local;   /* its local form; NULL: not condensed */
-    rb_friction_problem condensed;      /* owned; local points here if W was not given */
-    rb_friction_measure *measure;       /* of problem */
-    rb_friction_options opt;
-    rb_friction_info *info;
-    int d, contacts, m, n; /* n: 0 for the local form */
-    double deadline;       /* on rb_seconds(); 0: none */
-    double *r, *u;         /* m: the iterate; start on entry */
-    double *v;             /* n */
-} rb_friction_task;
+/* ---- Methods -- */
 
 typedef rb_status rb_friction_method(rb_friction_task *task);
-
-/* W of the task's problem: condensed at first use.  RB_SINGULAR: there is none. */
-rb_status rb_friction_task_condense(rb_friction_task *task);
 
 rb_friction_method rb_friction_nsn_ac, rb_friction_nsn_jm, rb_friction_nsn_nm,
     rb_friction_nsn_fb, rb_friction_nsn_ac_nls, rb_friction_nsn_jm_nls,

@@ -1,4 +1,11 @@
-/* One contact alone: u = W r + q with its own block W (d x d). */
+/* One contact alone: u = W r + q with its own block W (d x d).
+ *
+ * Where W_NN > 0 the normal is eliminated: u_N = 0 gives r_N = -(q_N + W_NT r_T) / W_NN,
+ * and sliding, u_T = -lambda r_T with lambda > 0, becomes
+ *     (S + lambda) r_T = -b,   ||r_T|| = mu r_N,   S = W_TT - W_TN W_NT / W_NN,
+ *                                                  b = q_T - W_TN q_N / W_NN,
+ * one equation for lambda; lambda = 0 is stick.  With S positive definite and q_N < 0 it
+ * has a root wherever the stuck contact leaves the cone. */
 #include "friction/internal.h"
 
 #include <math.h>
@@ -38,24 +45,117 @@ static int solve_small(int d, const double *M, const double *b, double *x)
     return det != 0.0 && isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
 }
 
-int rb_friction_contact_invert(int d, const double *W, double *inverse)
+/* ---- The normal eliminated -----------------------------------------------------------
+ */
+
+#define LEAST_DETERMINANT 1e-13 /* of S, below which it counts as singular */
+#define ROOT_STEPS 60
+
+void rb_friction_contact_init(int d, double mu, const double *W, rb_friction_contact *c)
 {
-    for (int b = 0; b < d; b++) {
-        const double e[3] = {b == 0, b == 1, b == 2};
-        if (!solve_small(d, W, e, inverse + b * d))
-            return 0;
+    *c = (rb_friction_contact){.d = d, .mu = mu, .W = W};
+    if (!(W[0] > 0.0))
+        return;
+    c->normal = 1.0 / W[0];
+    for (int a = 1; a < d; a++) {
+        c->row[a - 1] = W[a * d] * c->normal;
+        c->column[a - 1] = W[a] * c->normal;
     }
-    return 1;
+    for (int b = 1; b < d; b++)
+        for (int a = 1; a < d; a++)
+            c->S[a - 1 + 2 * (b - 1)] = W[a + b * d] - W[a] * c->row[b - 1];
+    if (d == 2) /* a second direction in which nothing happens */
+        c->S[3] = c->S[0];
+    const double trace = c->S[0] + c->S[3];
+    const double det = c->S[0] * c->S[3] - c->S[1] * c->S[2];
+    c->regular = trace > 0.0 && det > LEAST_DETERMINANT * trace * trace;
 }
 
+/* t = -(S + lambda)^-1 b */
+static void tangential_force(const rb_friction_contact *c, double lambda, const double *b,
+                             double *t)
+{
+    const double s0 = c->S[0] + lambda, s3 = c->S[3] + lambda;
+    const double factor = -1.0 / (s0 * s3 - c->S[1] * c->S[2]);
+    const double b0 = b[0], b1 = b[1];
+    t[0] = factor * (s3 * b0 - c->S[2] * b1);
+    t[1] = factor * (s0 * b1 - c->S[1] * b0);
+}
+
+static double normal_force(const rb_friction_contact *c, double qn, const double *t)
+{
+    return -(qn * c->normal + c->row[0] * t[0] + c->row[1] * t[1]);
+}
+
+/* lambda, the root of mu r_N / ||r_T|| - 1, which is nearly linear in lambda: Newton
+ * within brackets, from the root of the last time.  t: at that root, written. */
+static int slide(rb_friction_contact *c, double qn, const double *b, double *t)
+{
+    double low = 0.0, high = INFINITY, lambda = c->lambda;
+    int k = 1;
+    for (; k <= ROOT_STEPS; k++) {
+        double dt[2];
+        tangential_force(c, lambda, b, t);
+        tangential_force(c, lambda, t, dt); /* dt / d lambda */
+        const double size2 = t[0] * t[0] + t[1] * t[1], size = sqrt(size2);
+        const double n = c->mu * normal_force(c, qn, t);
+        const double dn = -c->mu * (c->row[0] * dt[0] + c->row[1] * dt[1]);
+        const double f = n - size;
+        const double slope = dn - n * (t[0] * dt[0] + t[1] * dt[1]) / size2;
+        if (f < 0.0)
+            low = lambda;
+        else
+            high = lambda;
+        double next = lambda - f / slope;
+        if (!(next >= low && next <= high))
+            next = isfinite(high) ? 0.5 * (low + high) : 2.0 * lambda + c->S[0] + c->S[3];
+        const double step = fabs(next - lambda);
+        lambda = next;
+        if (step <= 1e-9 * (lambda + c->S[0] + c->S[3])) /* the next one is below 1e-16 */
+            break;
+    }
+    tangential_force(c, lambda, b, t);
+    c->lambda = lambda;
+    return k;
+}
+
+int rb_friction_contact_exact(rb_friction_contact *c, const double *q, double *r)
+{
+    const int d = c->d;
+    double t[2] = {0.0, 0.0};
+    if (q[0] >= 0.0) {
+        for (int a = 0; a < d; a++)
+            r[a] = 0.0;
+        return 1;
+    }
+    if (!c->regular)
+        return 0;
+    int steps = 1;
+    if (c->mu > 0.0) {
+        const double b[2] = {q[1] - c->column[0] * q[0],
+                             d == 3 ? q[2] - c->column[1] * q[0] : 0.0};
+        tangential_force(c, 0.0, b, t);
+        const double most = c->mu * normal_force(c, q[0], t);
+        if (!(most >= 0.0 && t[0] * t[0] + t[1] * t[1] <= most * most))
+            steps += slide(c, q[0], b, t);
+    }
+    r[0] = normal_force(c, q[0], t);
+    for (int a = 1; a < d; a++)
+        r[a] = t[a - 1];
+    return steps;
+}
+
+/* ---- Without elimination: any W ------------------------------------------------------
+ */
+
 /* F at r; M = A + B W where wanted.  Returns ||F||. */
-static double contact_function(const rb_friction_contact *c, const double *r, double *F,
-                               double *M)
+static double contact_function(const rb_friction_contact *c, const double *rho,
+                               const double *q, const double *r, double *F, double *M)
 {
     const int d = c->d;
     double u[3], A[9], B[9];
-    contact_velocity(d, c->W, c->q, r, u);
-    rb_friction_alart_curnier(d, c->mu, c->rho_n, c->rho_t, r, u, F, A, B);
+    contact_velocity(d, c->W, q, r, u);
+    rb_friction_alart_curnier(d, c->mu, rho[0], rho[1], r, u, F, A, B);
     for (int a = 0; M && a < d; a++)
         for (int b = 0; b < d; b++) {
             M[a + b * d] = A[a + b * d];
@@ -65,11 +165,12 @@ static double contact_function(const rb_friction_contact *c, const double *r, do
     return d == 2 ? hypot(F[0], F[1]) : sqrt(F[0] * F[0] + F[1] * F[1] + F[2] * F[2]);
 }
 
-static double contact_size(const rb_friction_contact *c, const double *r)
+static double contact_size(const rb_friction_contact *c, double rho, const double *q,
+                           const double *r)
 {
     double size = 0.0;
     for (int a = 0; a < c->d; a++)
-        size = fmax(size, fabs(r[a]) + c->rho_n * fabs(c->q[a]));
+        size = fmax(size, fabs(r[a]) + rho * fabs(q[a]));
     return size;
 }
 
@@ -82,22 +183,24 @@ static void project_step(const rb_friction_contact *c, double rho, const double 
     rb_friction_project(c->d, c->mu, z, p);
 }
 
-static void contact_uhat(const rb_friction_contact *c, const double *r, double *uhat)
+static void contact_uhat(const rb_friction_contact *c, const double *q, const double *r,
+                         double *uhat)
 {
-    contact_velocity(c->d, c->W, c->q, r, uhat);
+    contact_velocity(c->d, c->W, q, r, uhat);
     uhat[0] += c->mu * rb_friction_tangential(c->d, uhat);
 }
 
-int rb_friction_contact_fixed_point(const rb_friction_contact *c, double *rho, double *r)
+int rb_friction_contact_fixed_point(const rb_friction_contact *c, double *rho,
+                                    const double *q, double *r)
 {
     const int d = c->d;
     double uhat[3], p[3], up[3];
-    contact_uhat(c, r, uhat);
+    contact_uhat(c, q, r, uhat);
     int k = 0;
     for (; k < PROJECTIONS; k++) {
         double step = 0.0, change = 0.0, size = 0.0;
         project_step(c, *rho, r, uhat, p);
-        contact_uhat(c, p, up);
+        contact_uhat(c, q, p, up);
         for (int a = 0; a < d; a++) {
             step += (p[a] - r[a]) * (p[a] - r[a]);
             change += (up[a] - uhat[a]) * (up[a] - uhat[a]);
@@ -125,13 +228,13 @@ static int inside(const rb_friction_contact *c, const double *r)
 }
 
 /* 2D: r_T = side mu r_N and u_N = 0, when u_T then opposes r_T */
-static int slides(const rb_friction_contact *c, double side, double *r)
+static int slides(const rb_friction_contact *c, double side, const double *q, double *r)
 {
     const double slope = side * c->mu;
-    const double rn = -c->q[0] / (c->W[0] + slope * c->W[2]);
+    const double rn = -q[0] / (c->W[0] + slope * c->W[2]);
     if (!(rn >= 0.0) || !isfinite(rn))
         return 0;
-    const double ut = c->q[1] + (c->W[1] + slope * c->W[3]) * rn;
+    const double ut = q[1] + (c->W[1] + slope * c->W[3]) * rn;
     if (side * ut > 0.0)
         return 0;
     r[0] = rn;
@@ -139,21 +242,14 @@ static int slides(const rb_friction_contact *c, double side, double *r)
     return 1;
 }
 
-/* Take-off, stick, and in 2D sliding have closed forms. */
-static int closed_form(const rb_friction_contact *c, double *r)
+/* Stick, and in 2D sliding, have closed forms; take-off is known already. */
+static int closed_form(const rb_friction_contact *c, const double *q, double *r)
 {
     const int d = c->d;
     double stuck[3] = {0.0, 0.0, 0.0};
-    if (c->q[0] >= 0.0) {
+    if (solve_small(d, c->W, q, stuck)) {
         for (int a = 0; a < d; a++)
-            r[a] = 0.0;
-        return 1;
-    }
-    if (c->inverse) {
-        for (int a = 0; a < d; a++) {
-            for (int b = 0; b < d; b++)
-                stuck[a] -= c->inverse[a + b * d] * c->q[b];
-        }
+            stuck[a] = -stuck[a];
         if (inside(c, stuck)) {
             for (int a = 0; a < d; a++)
                 r[a] = stuck[a];
@@ -162,21 +258,23 @@ static int closed_form(const rb_friction_contact *c, double *r)
         if (r[0] <= 0.0) /* a start for Newton */
             rb_friction_project(d, c->mu, stuck, r);
     }
-    return d == 2 && (slides(c, 1.0, r) || slides(c, -1.0, r));
+    return d == 2 && (slides(c, 1.0, q, r) || slides(c, -1.0, q, r));
 }
 
 /* Newton can cycle on one contact already (large mu, strong coupling of N and T): the
  * fixed point then takes over from the best point. */
-int rb_friction_contact_newton(const rb_friction_contact *c, double *r)
+int rb_friction_contact_newton(const rb_friction_contact *c, const double *rho,
+                               const double *q, double *r)
 {
     const int d = c->d;
     double F[3], M[9], dr[3], best[3] = {0.0, 0.0, 0.0};
     double least = INFINITY;
     int k = 0;
-    if (closed_form(c, r))
+    if (closed_form(c, q, r))
         return 1;
     for (; k < NEWTON_STEPS; k++) {
-        const double f = contact_function(c, r, F, M), size = contact_size(c, r);
+        const double f = contact_function(c, rho, q, r, F, M);
+        const double size = contact_size(c, rho[0], q, r);
         if (f < least) {
             least = f;
             for (int a = 0; a < d; a++)
@@ -191,8 +289,8 @@ int rb_friction_contact_newton(const rb_friction_contact *c, double *r)
     }
     for (int a = 0; a < d; a++)
         r[a] = best[a];
-    if (least <= 1e-10 * contact_size(c, r))
+    if (least <= 1e-10 * contact_size(c, rho[0], q, r))
         return k + 1;
-    double rho = fmin(c->rho_n, c->rho_t);
-    return k + 1 + rb_friction_contact_fixed_point(c, &rho, r);
+    double both = fmin(rho[0], rho[1]);
+    return k + 1 + rb_friction_contact_fixed_point(c, &both, q, r);
 }

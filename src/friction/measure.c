@@ -112,14 +112,16 @@ static rb_status global_scale(rb_friction_measure *measure)
 rb_status rb_friction_measure_init(const rb_friction_problem *p,
                                    rb_friction_measure *measure)
 {
-    *measure = (rb_friction_measure){.problem = p, .scale = 1.0};
-    if (p->form != RB_FRICTION_GLOBAL) {
-        measure->scale = norm_or_one((size_t)(p->dimension * p->contacts), p->q);
+    const size_t m = (size_t)(p->dimension * p->contacts);
+    const size_t n = p->form == RB_FRICTION_GLOBAL ? (size_t)p->dofs : 0;
+    *measure = (rb_friction_measure){.problem = p, .scale = 1.0, .y = rb_alloc(m + n, 1)};
+    if (!measure->y)
+        return RB_ENOMEM;
+    measure->e = measure->y + m;
+    if (!n) {
+        measure->scale = norm_or_one(m, p->q);
         return RB_OK;
     }
-    measure->e = rb_alloc((size_t)p->dofs, 1);
-    if (!measure->e)
-        return RB_ENOMEM;
     rb_status s = rb_sparse_cholesky_create(&p->K, &measure->factor);
     if (s == RB_SINGULAR)
         s = factor_with_springs(measure);
@@ -133,7 +135,7 @@ rb_status rb_friction_measure_init(const rb_friction_problem *p,
 void rb_friction_measure_free(rb_friction_measure *measure)
 {
     rb_sparse_cholesky_free(measure->factor);
-    free(measure->e);
+    free(measure->y);
     *measure = (rb_friction_measure){0};
 }
 
@@ -206,9 +208,7 @@ double rb_friction_measure_floor(const rb_friction_measure *measure, const doubl
 {
     const rb_friction_problem *p = measure->problem;
     const int m = p->dimension * p->contacts;
-    double sum = 0.0, *y = rb_alloc((size_t)m, 1);
-    if (!y)
-        return 0.0;
+    double *y = measure->y;
     const double *constant = p->form == RB_FRICTION_GLOBAL ? p->w : p->q;
     for (int i = 0; i < m; i++)
         y[i] = fabs(constant[i]);
@@ -222,9 +222,7 @@ double rb_friction_measure_floor(const rb_friction_measure *measure, const doubl
     for (int j = 0; p->form == RB_FRICTION_GLOBAL && j < m; j++)
         for (int k = p->H.p[j]; k < p->H.p[j + 1]; k++)
             y[j] += fabs(p->H.x[k] * v[p->H.i[k]]);
-    sum = rb_friction_norm((size_t)m, y);
-    free(y);
-    return 1e-14 * sum / measure->scale;
+    return 1e-14 * rb_friction_norm((size_t)m, y) / measure->scale;
 }
 
 rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,

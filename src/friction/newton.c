@@ -51,7 +51,7 @@ static rb_status newton_init(rb_friction_task *task, rb_friction_function *funct
     for (int k = 0; k < MEMORY; k++)
         s->history[k] = INFINITY;
     s->shift = LEAST_SHIFT;
-    const rb_status st = rb_friction_system_init(task->problem, &s->system);
+    const rb_status st = rb_friction_system_init(task, &s->system);
     if (st != RB_OK)
         newton_free(s);
     return st;

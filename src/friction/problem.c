@@ -1,5 +1,6 @@
 #include "rollbem/friction.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -23,7 +24,10 @@ static rb_status check_vector(const char *name, size_t n, const double *x,
 {
     if (!x)
         return rb_fail(why, RB_EINVAL, "%s is missing", name);
+    int bad = 0; /* without a jump, since almost always nothing is found */
     for (size_t k = 0; k < n; k++)
+        bad |= !(fabs(x[k]) <= DBL_MAX);
+    for (size_t k = 0; bad && k < n; k++)
         if (!isfinite(x[k]))
             return rb_fail(why, RB_EINVAL, "%s: entry %zu is %g", name, k + 1, x[k]);
     return RB_OK;

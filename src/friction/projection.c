@@ -10,7 +10,7 @@
 
 typedef struct {
     rb_friction_task *task;
-    rb_friction_blocks blocks;
+    const rb_friction_blocks *blocks;
     double *uhat, *p, *up; /* at r; the projected point; uhat there */
     double rho;
 } projector;
@@ -22,11 +22,11 @@ static rb_status projector_init(rb_friction_task *task, projector *s)
     double *rho = rb_alloc((size_t)task->contacts, 2);
     rb_status st = s->uhat && rho ? RB_OK : RB_ENOMEM;
     if (st == RB_OK)
-        st = rb_friction_blocks_init(task->local, &s->blocks);
+        st = rb_friction_task_blocks(task, &s->blocks);
     if (st == RB_OK) {
         s->p = s->uhat + m;
         s->up = s->p + m;
-        rb_friction_blocks_rho(&s->blocks, rho);
+        rb_friction_blocks_rho(s->blocks, rho);
         s->rho = rho[0];
     }
     free(rho);
@@ -35,7 +35,6 @@ static rb_status projector_init(rb_friction_task *task, projector *s)
 
 static void projector_free(projector *s)
 {
-    rb_friction_blocks_free(&s->blocks);
     free(s->uhat);
 }
 
@@ -43,13 +42,13 @@ static void uhat_at(const projector *s, const double *r, double *uhat)
 {
     const rb_friction_problem *p = s->task->local;
     const int d = p->dimension;
-    rb_friction_blocks_apply(&s->blocks, r, uhat);
+    rb_friction_blocks_apply(s->blocks, r, uhat);
     for (int c = 0; c < p->contacts; c++) {
         for (int a = 0; a < d; a++)
             uhat[c * d + a] += p->q[c * d + a];
         uhat[c * d] += p->mu[c] * rb_friction_tangential(d, uhat + c * d);
     }
-    s->task->info->flops += 2.0 * s->blocks.p[p->contacts] * d * d + 8.0 * s->task->m;
+    s->task->info->flops += 2.0 * s->blocks->p[p->contacts] * d * d + 8.0 * s->task->m;
 }
 
 /* p = P_K(r - rho uhat) */

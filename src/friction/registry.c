@@ -155,6 +155,13 @@ rb_status rb_friction_task_condense(rb_friction_task *task)
     return s;
 }
 
+rb_status rb_friction_task_blocks(rb_friction_task *task,
+                                  const rb_friction_blocks **blocks)
+{
+    *blocks = &task->blocks;
+    return task->blocks.p ? RB_OK : rb_friction_blocks_init(task->local, &task->blocks);
+}
+
 static rb_status prepare(rb_friction_task *task, int needs)
 {
     rb_status s = RB_OK;
@@ -196,7 +203,7 @@ rb_status rb_friction_solve(const char *solver, const rb_friction_problem *probl
 
     rb_friction_measure measure = {0};
     const int n = problem->form == RB_FRICTION_GLOBAL ? problem->dofs : 0;
-    double *own_v = rb_alloc((size_t)n, 1);
+    double *own_v = v ? NULL : rb_alloc((size_t)n, 1);
     rb_friction_task task = {.problem = problem,
                              .measure = &measure,
                              .opt = used,
@@ -210,12 +217,13 @@ rb_status rb_friction_solve(const char *solver, const rb_friction_problem *probl
                              .u = u,
                              .v = v ? v : own_v};
     info->solver = solvers[chosen].name;
-    s = own_v ? prepare(&task, solvers[chosen].needs) : RB_ENOMEM;
+    s = task.v ? prepare(&task, solvers[chosen].needs) : RB_ENOMEM;
     if (s == RB_OK) {
         load_start(&task);
         s = run(&task, methods[chosen]);
     }
     rb_friction_measure_free(&measure);
+    rb_friction_blocks_free(&task.blocks);
     rb_friction_problem_free(&task.condensed);
     free(own_v);
     info->seconds = rb_seconds() - start;

@@ -386,8 +386,7 @@ rb_status rb_friction_soclcp_smoothing(rb_friction_task *task)
     friction f = {.task = task};
     f.u = rb_alloc(m * (3 + 2 * d) + nc * (2 + 2 * d), 1);
     double *z = rb_alloc(m + nc + (size_t)task->n, 1);
-    rb_status st =
-        f.u && z ? rb_friction_system_init(task->problem, &f.system) : RB_ENOMEM;
+    rb_status st = f.u && z ? rb_friction_system_init(task, &f.system) : RB_ENOMEM;
     if (st == RB_OK) {
         f.du = f.u + m;
         f.F = f.du + m;

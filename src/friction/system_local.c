@@ -1,0 +1,176 @@
+/* The linear system of a Newton step in local form, (A + B W) dr = -F.
+ *
+ * A contact whose equation reads r = 0 (A = 1, B = 0) has dr = -F on its own: the dense
+ * system is that of the others.  The sparse one keeps its pattern; such rows cost it
+ * nothing. */
+#include "friction/internal.h"
+
+#include <stdlib.h>
+
+static int says_open(int d, const double *A, const double *B)
+{
+    for (int b = 0; b < d; b++)
+        for (int a = 0; a < d; a++)
+            if (B[a + b * d] != 0.0 || A[a + b * d] != (a == b))
+                return 0;
+    return 1;
+}
+
+/* Numbers the contacts that are not open; how many. */
+static int number_closed(rb_friction_system *s, const double *A, const double *B)
+{
+    const int dd = s->d * s->d;
+    int closed = 0;
+    for (int c = 0; c < s->contacts; c++)
+        s->place[c] = says_open(s->d, A + c * dd, B + c * dd) ? -1 : closed++;
+    return closed;
+}
+
+/* x: W dr of the open contacts, added */
+static void move_open(const rb_friction_system *s, const double *F, double *x)
+{
+    const int d = s->d;
+    for (int c = 0; c < s->contacts; c++) {
+        double dr[3] = {0.0, 0.0, 0.0};
+        int any = 0;
+        for (int a = 0; s->place[c] < 0 && a < d; a++) {
+            dr[a] = -F[c * d + a];
+            any |= dr[a] != 0.0;
+        }
+        if (any)
+            rb_friction_blocks_add(s->blocks, c, dr, x);
+    }
+}
+
+/* y = B x for d x d column-major B */
+static void times(int d, const double *B, const double *x, double *y)
+{
+    for (int a = 0; a < d; a++) {
+        y[a] = B[a] * x[0];
+        for (int b = 1; b < d; b++)
+            y[a] += B[a + b * d] * x[b];
+    }
+}
+
+/* ---- Dense ---------------------------------------------------------------------------
+ */
+
+/* The columns of contact c in the matrix of the closed contacts. */
+static void fill_dense_columns(rb_friction_system *s, int c, size_t order,
+                               const double *A, const double *B)
+{
+    const rb_friction_blocks *w = s->blocks;
+    const int d = s->d, dd = d * d;
+    double *column = s->dense + (size_t)(s->place[c] * d) * order;
+    for (int k = w->p[c]; k < w->p[c + 1]; k++) {
+        const int i = w->i[k], row = s->place[i] * d;
+        for (int b = 0; s->place[i] >= 0 && b < d; b++)
+            times(d, B + i * dd, w->x + (size_t)k * (size_t)dd + b * d,
+                  column + (size_t)b * order + row);
+    }
+    for (int b = 0; b < d; b++)
+        for (int a = 0; a < d; a++)
+            column[(size_t)b * order + (size_t)(s->place[c] * d + a)] +=
+                A[c * dd + a + b * d];
+}
+
+static rb_status solve_dense(rb_friction_system *s, int order, const double *A,
+                             const double *B, const double *F)
+{
+    const int d = s->d, dd = d * d;
+    double *moved = s->rhs;
+    const rb_status st = rb_friction_system_dense(s, (size_t)order);
+    if (st != RB_OK)
+        return st;
+    for (int k = 0; k < s->m; k++)
+        moved[k] = 0.0;
+    move_open(s, F, moved);
+    for (int c = 0; c < s->contacts; c++) {
+        if (s->place[c] < 0)
+            continue;
+        double *x = s->x + s->place[c] * d;
+        times(d, B + c * dd, moved + c * d, x);
+        for (int a = 0; a < d; a++)
+            x[a] = -F[c * d + a] - x[a];
+        fill_dense_columns(s, c, (size_t)order, A, B);
+    }
+    return order ? rb_friction_system_solve_dense(s, order, 'N') : RB_OK;
+}
+
+/* x of the closed contacts -> dr of all; from the end, since both are in s->x */
+static void spread(rb_friction_system *s, const double *F)
+{
+    const int d = s->d;
+    for (int c = s->contacts - 1; c >= 0; c--)
+        for (int a = 0; a < d; a++)
+            s->x[c * d + a] = s->place[c] < 0 ? -F[c * d + a] : s->x[s->place[c] * d + a];
+}
+
+/* ---- Sparse --------------------------------------------------------------------------
+ */
+
+static rb_status make_pattern(rb_friction_system *s)
+{
+    const rb_friction_blocks *w = s->blocks;
+    const int d = s->d;
+    const size_t nz = (size_t)w->p[s->contacts] * (size_t)(d * d);
+    s->j = (rb_sparse){.rows = s->m,
+                       .cols = s->m,
+                       .p = rb_alloc_int((size_t)s->m + 1),
+                       .i = rb_alloc_int(nz),
+                       .x = rb_alloc(nz, 1)};
+    if (!s->j.p || !s->j.i || !s->j.x)
+        return RB_ENOMEM;
+    int n = 0;
+    for (int j = 0; j < s->m; j++) {
+        for (int k = w->p[j / d]; k < w->p[j / d + 1]; k++)
+            for (int a = 0; a < d; a++)
+                s->j.i[n++] = w->i[k] * d + a;
+        s->j.p[j + 1] = n;
+    }
+    return rb_sparse_lu_create(&s->j, &s->lu);
+}
+
+static void fill_sparse(rb_friction_system *s, const double *A, const double *B)
+{
+    const rb_friction_blocks *w = s->blocks;
+    const int d = s->d, dd = d * d;
+    double *x = s->j.x;
+    for (int c = 0; c < s->contacts; c++)
+        for (int b = 0; b < d; b++)
+            for (int k = w->p[c]; k < w->p[c + 1]; k++, x += d) {
+                times(d, B + w->i[k] * dd, w->x + (size_t)k * (size_t)dd + b * d, x);
+                for (int a = 0; k == w->diag[c] && a < d; a++)
+                    x[a] += A[c * dd + a + b * d];
+            }
+}
+
+static rb_status solve_sparse(rb_friction_system *s, const double *A, const double *B,
+                              const double *F)
+{
+    rb_status st = s->lu ? RB_OK : make_pattern(s);
+    if (st != RB_OK)
+        return st;
+    fill_sparse(s, A, B);
+    for (int k = 0; k < s->m; k++)
+        s->rhs[k] = -F[k];
+    st = rb_sparse_lu_factor(s->lu, &s->j, &s->flops);
+    if (st == RB_OK)
+        st = rb_sparse_lu_solve(s->lu, s->rhs, s->x);
+    s->flops += 4.0 * s->j.p[s->j.cols];
+    return st;
+}
+
+rb_status rb_friction_local_step(rb_friction_system *s, const double *A, const double *B,
+                                 const double *F)
+{
+    const double blocks = s->blocks->p[s->contacts], nc = s->contacts;
+    const int order = s->d * number_closed(s, A, B);
+    s->flops += 2.0 * s->d * s->d * s->d * blocks;
+    if (!rb_friction_system_is_dense(order, blocks / (nc * nc)))
+        return solve_sparse(s, A, B, F);
+    const rb_status st = solve_dense(s, order, A, B, F);
+    if (st == RB_OK)
+        spread(s, F);
+    return st;
+}

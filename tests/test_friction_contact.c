@@ -1,0 +1,221 @@
+/* What the friction solvers are made of: one contact alone, W in blocks, one Newton step.
+ */
+#include "check.h"
+#include "friction/internal.h"
+
+#include <string.h>
+
+static double uniform(unsigned *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (double)(*state >> 8) / (1u << 24) * 2.0 - 1.0;
+}
+
+/* A A' + shift, with a part that is not symmetric */
+static void positive_definite(int d, double unsymmetric, unsigned *seed, double *W)
+{
+    double a[9];
+    for (int k = 0; k < d * d; k++)
+        a[k] = uniform(seed);
+    for (int i = 0; i < d; i++)
+        for (int j = 0; j < d; j++) {
+            W[i + j * d] = (i == j) * 0.1 + unsymmetric * (i < j ? 1.0 : -1.0) * (i != j);
+            for (int k = 0; k < d; k++)
+                W[i + j * d] += a[i + k * d] * a[j + k * d];
+        }
+}
+
+static void velocity(int d, const double *W, const double *q, const double *r, double *u)
+{
+    for (int a = 0; a < d; a++) {
+        u[a] = q[a];
+        for (int b = 0; b < d; b++)
+            u[a] += W[a + b * d] * r[b];
+    }
+}
+
+/* How far (r, u) is from Coulomb's law, u = W r + q */
+static double violation(int d, double mu, const double *r, const double *u)
+{
+    const double rt = d == 2 ? fabs(r[1]) : hypot(r[1], r[2]);
+    const double ut = d == 2 ? fabs(u[1]) : hypot(u[1], u[2]);
+    double power = mu * r[0] * ut;
+    for (int a = 1; a < d; a++)
+        power += r[a] * u[a];
+    return fmax(fmax(fmax(-r[0], -u[0]), rt - mu * r[0]),
+                fmax(fabs(r[0] * u[0]), fabs(power)));
+}
+
+static void one_contact_obeys_coulomb(void **state)
+{
+    (void)state;
+    unsigned seed = 5;
+    int states[3] = {0, 0, 0}; /* open, stuck, sliding */
+    for (int k = 0; k < 6000; k++) {
+        const int d = 2 + k % 2;
+        const double mu = k % 11 ? fabs(uniform(&seed)) : 0.0;
+        double W[9], q[3], r[3] = {0.0, 0.0, 0.0}, u[3];
+        rb_friction_contact c;
+        positive_definite(d, k % 3 ? 0.0 : 1e-2, &seed, W);
+        rb_friction_contact_init(d, mu, W, &c);
+        for (int again = 0; again < 3; again++) { /* lambda of the time before */
+            for (int a = 0; a < d; a++)
+                q[a] = uniform(&seed) - (a == 0) * 0.5;
+            const int steps = rb_friction_contact_exact(&c, q, r);
+            assert_true(steps > 0 && steps < 20);
+            velocity(d, W, q, r, u);
+            CHECK_MAX(violation(d, mu, r, u), 1e-11, "contact %d, d = %d, mu = %g", k, d,
+                      mu);
+            const double rt = d == 2 ? fabs(r[1]) : hypot(r[1], r[2]);
+            states[r[0] == 0.0 ? 0 : rt < mu * r[0] * (1.0 - 1e-9) ? 1 : 2]++;
+        }
+    }
+    assert_true(states[0] > 500 && states[1] > 500 && states[2] > 500);
+}
+
+/* Elimination and Newton on Alart-Curnier's function are two ways to the same force. */
+static void elimination_agrees_with_newton(void **state)
+{
+    (void)state;
+    unsigned seed = 7;
+    for (int k = 0; k < 200; k++) {
+        const int d = 2 + k % 2;
+        double W[9], q[3], r[3] = {0.0, 0.0, 0.0}, s[3] = {0.0, 0.0, 0.0};
+        rb_friction_contact c;
+        positive_definite(d, 0.0, &seed, W);
+        rb_friction_contact_init(d, 0.3, W, &c);
+        for (int a = 0; a < d; a++)
+            q[a] = a ? uniform(&seed) : -0.3 - fabs(uniform(&seed));
+        const double rho[] = {1.0 / W[0], 1.0 / (W[d + 1] + (d == 3 ? W[8] : 0.0))};
+        assert_true(rb_friction_contact_exact(&c, q, r) > 0);
+        assert_true(rb_friction_contact_newton(&c, rho, q, s) > 0);
+        for (int a = 0; a < d; a++)
+            CHECK_ABS(s[a], r[a], 1e-7, "contact %d, r[%d]", k, a);
+    }
+}
+
+static void a_singular_block_is_left_to_newton(void **state)
+{
+    (void)state;
+    const double loose[] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
+    const double upside_down[] = {-1.0, 0.0, 0.0, 1.0};
+    const double q[] = {-1.0, 0.2, 0.1}, away[] = {0.0, 1.0, 2.0};
+    double r[] = {7.0, 8.0, 9.0};
+    rb_friction_contact c;
+    rb_friction_contact_init(3, 0.3, loose, &c);
+    assert_int_equal(rb_friction_contact_exact(&c, q, r), 0);
+    CHECK_ABS(r[0], 7.0, 0.0, "r as it was");
+    rb_friction_contact_init(2, 0.3, upside_down, &c);
+    assert_int_equal(rb_friction_contact_exact(&c, q, r), 0);
+    assert_int_equal(rb_friction_contact_exact(&c, away, r), 1); /* open all the same */
+    CHECK_ABS(r[0], 0.0, 0.0, "it opens");
+}
+
+/* nc contacts, about a third of the blocks, one of them on the diagonal empty */
+static void random_problem(int d, int nc, unsigned *seed, rb_friction_problem *p)
+{
+    const int m = d * nc;
+    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
+                               .dimension = d,
+                               .contacts = nc,
+                               .W = rb_alloc((size_t)m, (size_t)m)};
+    for (int j = 0; j < m; j++)
+        for (int i = 0; i < m; i++)
+            if ((i / d + 2 * (j / d)) % 3 == 0 && i / d + j / d != 2)
+                p->W[i + j * m] = (i + j) % 4 ? uniform(seed) : 0.0;
+}
+
+static void make_sparse(rb_friction_problem *p)
+{
+    const int m = p->dimension * p->contacts;
+    CHECK_STATUS(rb_sparse_from_dense(m, m, p->W, m, &p->Ws), RB_OK);
+    p->form = RB_FRICTION_LOCAL_SPARSE;
+}
+
+static void blocks_multiply_as_the_matrix_does(void **state)
+{
+    (void)state;
+    unsigned seed = 3;
+    for (int k = 0; k < 4; k++) {
+        rb_friction_problem p;
+        rb_friction_blocks b;
+        const int d = 2 + k % 2, nc = 7, m = d * nc;
+        double x[21], y[21];
+        random_problem(d, nc, &seed, &p);
+        for (int i = 0; i < m; i++)
+            x[i] = i / d == 4 ? 0.0 : uniform(&seed);
+        if (k / 2)
+            make_sparse(&p);
+        CHECK_STATUS(rb_friction_blocks_init(&p, &b), RB_OK);
+        for (int c = 0; c < nc; c++)
+            assert_int_equal(b.i[b.diag[c]], c);
+        rb_friction_blocks_apply(&b, x, y);
+        for (int i = 0; i < m; i++) {
+            double sum = 0.0;
+            for (int j = 0; j < m; j++)
+                sum += p.W[i + j * m] * x[j];
+            CHECK_ABS(y[i], sum, 1e-14, "d = %d, form %d, row %d", d, (int)p.form, i);
+        }
+        rb_friction_blocks_free(&b);
+        rb_friction_problem_free(&p);
+    }
+}
+
+/* (A + B W) dr + F, with some contacts open (A = 1, B = 0), by the dense and by the
+ * sparse LU (which large orders take) */
+static void a_newton_step_solves_its_system(void **state)
+{
+    (void)state;
+    unsigned seed = 9;
+    static const int sizes[] = {5, 130};
+    for (int k = 0; k < 4; k++) {
+        rb_friction_problem p;
+        rb_friction_system s;
+        const int d = 2 + k % 2, nc = sizes[k / 2], m = d * nc, dd = d * d;
+        double *A = rb_alloc((size_t)m, 3 * (size_t)d + 3), *B = A + m * d;
+        double *F = B + m * d, *dr = F + m, *y = dr + m;
+        random_problem(d, nc, &seed, &p);
+        for (int j = 0; j < m && k / 2; j++) /* thin it out */
+            for (int i = 0; i < m; i++)
+                if (abs(i / d - j / d) > 3)
+                    p.W[i + j * m] = 0.0;
+        make_sparse(&p);
+        for (int i = 0; i < m; i++)
+            F[i] = uniform(&seed);
+        for (int i = 0; i < m * d; i++) {
+            const int open = (i / dd) % 5 == 1;
+            A[i] = (i % dd % (d + 1) == 0) * (open ? 1.0 : 5.0);
+            B[i] = open ? 0.0 : uniform(&seed);
+        }
+        rb_friction_task task = {
+            .problem = &p, .local = &p, .d = d, .contacts = nc, .m = m};
+        CHECK_STATUS(rb_friction_system_init(&task, &s), RB_OK);
+        CHECK_STATUS(rb_friction_system_step(&s, A, B, F, NULL, dr, NULL), RB_OK);
+        assert_true((s.lu != NULL) == (k / 2));
+        rb_friction_blocks_apply(&task.blocks, dr, y);
+        for (int c = 0; c < nc; c++)
+            for (int a = 0; a < d; a++) {
+                double sum = F[c * d + a];
+                for (int b = 0; b < d; b++)
+                    sum += A[c * dd + a + b * d] * dr[c * d + b] +
+                           B[c * dd + a + b * d] * y[c * d + b];
+                CHECK_ABS(sum, 0.0, 1e-11, "d = %d, nc = %d, row %d", d, nc, c * d + a);
+            }
+        rb_friction_system_free(&s);
+        rb_friction_blocks_free(&task.blocks);
+        rb_friction_problem_free(&p);
+        free(A);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_contact_obeys_coulomb),
+        cmocka_unit_test(elimination_agrees_with_newton),
+        cmocka_unit_test(a_singular_block_is_left_to_newton),
+        cmocka_unit_test(blocks_multiply_as_the_matrix_does),
+        cmocka_unit_test(a_newton_step_solves_its_system),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
