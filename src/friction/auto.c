@@ -26,11 +26,11 @@ typedef struct {
 /* A few sweeps are cheap where W is there and find most states; the global form would
  * have to be condensed for them. */
 static const stage stages[] = {
-    {"nsgs-ac", rb_friction_nsgs_ac, 64, GIVEN_W},
+    {"nsgs-aa", rb_friction_nsgs_aa, 100, GIVEN_W},
     {"nsn-ac-hybrid", rb_friction_nsn_ac_nls, 12, GIVEN_W | RESUME | EARLY},
     {"nsn-fb", rb_friction_nsn_fb, 15, GIVEN_W | EARLY},
     {"nsn-ac", rb_friction_nsn_ac, 25, GIVEN_W | EARLY},
-    {"nsgs-ac", rb_friction_nsgs_ac, 1000, GIVEN_W},
+    {"nsgs-aa", rb_friction_nsgs_aa, 1000, GIVEN_W},
     {"nsn-ac", rb_friction_nsn_ac, 40, EARLY},
     {"nsgs-ac", rb_friction_nsgs_ac, 1000, NEEDS_W},
     {"nsn-ac-hybrid", rb_friction_nsn_ac_nls, 30, NEEDS_W | RESUME | EARLY},

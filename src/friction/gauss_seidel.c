@@ -6,7 +6,8 @@
 #include <string.h>
 
 #define SWEEPS 100000
-#define LOOK_EVERY 200 /* sweeps between looks at (13) that (14) did not ask for */
+#define LEAST_CHANGE 1e-16 /* of (14), below which the sweeps stand still */
+#define LOOK_EVERY 200     /* sweeps between looks at (13) that (14) did not ask for */
 
 typedef struct {
     rb_friction_task *task;
@@ -15,7 +16,9 @@ typedef struct {
     double *rho;                  /* 2 per contact; NULL until one contact needs it */
     double *fixed;                /* contacts: rho of the fixed point, which adapts */
     double *u;                    /* W r + q, kept up with every change of r */
-    int use_projection;           /* local solver: fixed point instead of Newton */
+    int flags;                    /* rb_friction_sweep_flags */
+    rb_friction_anderson anderson;
+    double *start;         /* m, where accelerated: r before the sweep */
     double touched, steps; /* blocks, steps at single contacts: to count operations */
     rb_status failed;
 } sweeper;
@@ -44,12 +47,12 @@ static rb_status wanted_rho(sweeper *s)
     return RB_OK;
 }
 
-static rb_status sweeper_init(rb_friction_task *task, int use_projection, sweeper *s)
+static rb_status sweeper_init(rb_friction_task *task, int flags, sweeper *s)
 {
     const size_t nc = (size_t)task->contacts, dd = (size_t)(task->d * task->d);
-    *s = (sweeper){.task = task, .use_projection = use_projection};
+    *s = (sweeper){.task = task, .flags = flags};
     rb_status st = rb_friction_task_blocks(task, &s->blocks);
-    if (st == RB_OK && use_projection)
+    if (st == RB_OK && (flags & RB_FRICTION_SWEEP_PROJECTION))
         st = wanted_rho(s);
     if (st != RB_OK)
         return st;
@@ -67,6 +70,8 @@ static rb_status sweeper_init(rb_friction_task *task, int use_projection, sweepe
 
 static void sweeper_free(sweeper *s)
 {
+    rb_friction_anderson_free(&s->anderson);
+    free(s->start);
     s->task->info->flops += 2.0 * s->task->d * s->task->d * s->touched + 80.0 * s->steps;
     free(s->u);
     free(s->contact);
@@ -77,7 +82,7 @@ static void sweeper_free(sweeper *s)
 static int solve_contact(sweeper *s, int c, const double *q, double *r)
 {
     rb_friction_contact *contact = &s->contact[c];
-    if (s->use_projection)
+    if (s->flags & RB_FRICTION_SWEEP_PROJECTION)
         return rb_friction_contact_fixed_point(contact, &s->fixed[c], q, r);
     const int steps = rb_friction_contact_exact(contact, q, r);
     if (steps)
@@ -146,37 +151,66 @@ static double look(sweeper *s, int refresh)
     return error;
 }
 
-static rb_status sweep_until(sweeper *s, int limit)
+/* The next sweep starts from where the last ones point to. */
+static rb_status accelerate(sweeper *s)
 {
     rb_friction_task *t = s->task;
-    double tau = t->opt.tol, error = look(s, 0);
+    if (s->start) {
+        rb_friction_anderson_step(&s->anderson, s->start, t->r, s->u);
+        t->info->flops += (6.0 + 8.0 * s->anderson.used) * t->m;
+    } else { /* after the first sweep, which is often the last */
+        s->start = rb_alloc((size_t)t->m, 1);
+        if (!s->start || rb_friction_anderson_init(t->m, &s->anderson) != RB_OK)
+            return RB_ENOMEM;
+    }
+    memcpy(s->start, t->r, (size_t)t->m * sizeof(double));
+    return RB_OK;
+}
+
+/* After sweep k, which changed r by `change` (14); RB_MAXITER: it goes on.  tau: the
+ * change at which the measure is worth a look. */
+static rb_status judge(sweeper *s, int k, int limit, double change, double *tau)
+{
+    rb_friction_task *t = s->task;
+    if (s->failed != RB_OK)
+        return s->failed;
+    if (rb_friction_task_late(t))
+        return RB_INTERRUPTED;
+    if (change > *tau && !looks_now(k, limit))
+        return RB_MAXITER;
+    const double error = look(s, k % LOOK_EVERY == 0 || change <= LEAST_CHANGE);
     if (rb_friction_task_accepts(t, error))
         return RB_OK;
-    for (int k = 1; k <= limit; k++) {
-        const double change = sweep(s);
-        t->info->iters++;
-        if (s->failed != RB_OK)
-            return s->failed;
-        if (rb_friction_task_late(t))
-            return RB_INTERRUPTED;
-        if (change > tau && !looks_now(k, limit))
-            continue;
-        error = look(s, k % LOOK_EVERY == 0 || change <= 1e-16);
-        if (rb_friction_task_accepts(t, error))
-            return RB_OK;
-        if (!isfinite(error))
-            return RB_SINGULAR;
-        if (change <= 1e-16) /* the sweeps stand still short of the tolerance */
-            return RB_INACCURATE;
-        tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
-    }
+    if (!isfinite(error))
+        return RB_SINGULAR;
+    if (change <= LEAST_CHANGE)
+        return RB_INACCURATE;
+    *tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
     return RB_MAXITER;
 }
 
-rb_status rb_friction_sweeps(rb_friction_task *task, int use_projection, int limit)
+static rb_status sweep_until(sweeper *s, int limit)
+{
+    rb_friction_task *t = s->task;
+    double tau = t->opt.tol;
+    if (rb_friction_task_accepts(t, look(s, 0)))
+        return RB_OK;
+    rb_status st = RB_MAXITER;
+    for (int k = 1; st == RB_MAXITER && k <= limit; k++) {
+        const double change = sweep(s);
+        t->info->iters++;
+        st = judge(s, k, limit, change, &tau);
+        if (st == RB_MAXITER && (s->flags & RB_FRICTION_SWEEP_ANDERSON) && k < limit &&
+            accelerate(s) != RB_OK)
+            return RB_ENOMEM;
+    }
+    return st;
+}
+
+rb_status rb_friction_sweeps(rb_friction_task *task, int flags, int limit)
 {
     sweeper s;
-    rb_status st = sweeper_init(task, use_projection, &s);
+    rb_status st = sweeper_init(task, flags, &s);
     if (st == RB_OK)
         st = sweep_until(&s, limit);
     sweeper_free(&s);
@@ -193,9 +227,14 @@ rb_status rb_friction_nsgs_ac(rb_friction_task *task)
     return rb_friction_sweeps(task, 0, limit_of(task));
 }
 
+rb_status rb_friction_nsgs_aa(rb_friction_task *task)
+{
+    return rb_friction_sweeps(task, RB_FRICTION_SWEEP_ANDERSON, limit_of(task));
+}
+
 rb_status rb_friction_nsgs_fp(rb_friction_task *task)
 {
-    return rb_friction_sweeps(task, 1, limit_of(task));
+    return rb_friction_sweeps(task, RB_FRICTION_SWEEP_PROJECTION, limit_of(task));
 }
 
 #define SWEEPS_BEFORE 100

@@ -122,6 +122,26 @@ rb_status rb_friction_task_condense(rb_friction_task *task);
 rb_status rb_friction_task_blocks(rb_friction_task *task,
                                   const rb_friction_blocks **blocks);
 
+/* ---- Anderson's acceleration (anderson.c) -- */
+
+#define RB_FRICTION_ANDERSON_DEPTH 5
+
+typedef struct {
+    int m, used, next;    /* differences kept, place of the next one */
+    int known;            /* there is a step before */
+    double *f, *r, *u;    /* m: that step, what it led to; owned by f, as what follows */
+    double *df, *dr, *du; /* m x DEPTH */
+    double size;          /* ||f|| */
+    double gram[RB_FRICTION_ANDERSON_DEPTH][RB_FRICTION_ANDERSON_DEPTH];
+} rb_friction_anderson;
+
+rb_status rb_friction_anderson_init(int m, rb_friction_anderson *a);
+void rb_friction_anderson_free(rb_friction_anderson *a);
+/* An iteration went from start to r, with velocities u: r and u become those from which
+ * the next one is to start. */
+void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, double *r,
+                               double *u);
+
 /* ---- Functions whose roots are solutions (functions.c) -- */
 
 /* One contact: F(r, u) in units of force, A = dF/dr, B = dF/du (d x d column-major; all
@@ -186,12 +206,17 @@ typedef rb_status rb_friction_method(rb_friction_task *task);
 rb_friction_method rb_friction_nsn_ac, rb_friction_nsn_jm, rb_friction_nsn_nm,
     rb_friction_nsn_fb, rb_friction_nsn_ac_nls, rb_friction_nsn_jm_nls,
     rb_friction_nsn_nm_nls, rb_friction_nsn_fb_nls, rb_friction_nsn_ac_hybrid,
-    rb_friction_nsgs_ac, rb_friction_nsgs_fp, rb_friction_fixed_point,
-    rb_friction_extragradient, rb_friction_lemke, rb_friction_soclcp_smoothing,
-    rb_friction_auto;
+    rb_friction_nsgs_ac, rb_friction_nsgs_aa, rb_friction_nsgs_fp,
+    rb_friction_fixed_point, rb_friction_extragradient, rb_friction_lemke,
+    rb_friction_soclcp_smoothing, rb_friction_auto;
+
+typedef enum {
+    RB_FRICTION_SWEEP_PROJECTION = 1, /* fixed point at each contact */
+    RB_FRICTION_SWEEP_ANDERSON = 2    /* accelerated */
+} rb_friction_sweep_flags;
 
 /* `limit` sweeps of Gauss-Seidel, or fewer where the tolerance is met. */
-rb_status rb_friction_sweeps(rb_friction_task *task, int use_projection, int limit);
+rb_status rb_friction_sweeps(rb_friction_task *task, int flags, int limit);
 
 /* (13) at the task's r and v, which also brings u (and v) up to date; counts flops. */
 double rb_friction_task_error(rb_friction_task *task);

@@ -20,6 +20,7 @@ static const rb_friction_solver solvers[] = {
     {"nsn-ac-hybrid", "100 sweeps of nsgs-ac, then nsn-ac-nls, if need be nsn-ac",
      RB_FRICTION_NEEDS_W},
     {"nsgs-ac", "Gauss-Seidel, Newton at each contact", RB_FRICTION_NEEDS_W},
+    {"nsgs-aa", "the same with Anderson's acceleration", RB_FRICTION_NEEDS_W},
     {"nsgs-fp", "Gauss-Seidel, fixed point at each contact", RB_FRICTION_NEEDS_W},
     {"fixed-point", "projection with adaptive step", RB_FRICTION_NEEDS_W},
     {"extragradient", "projection, twice per step", RB_FRICTION_NEEDS_W},
@@ -27,11 +28,14 @@ static const rb_friction_solver solvers[] = {
     {"lemke", "Lemke's pivots on an LCP of size 3 n_c", RB_FRICTION_ONLY_2D},
 };
 static rb_friction_method *const methods[] = {
-    rb_friction_auto,          rb_friction_nsn_ac,        rb_friction_nsn_ac_nls,
-    rb_friction_nsn_jm,        rb_friction_nsn_jm_nls,    rb_friction_nsn_nm,
-    rb_friction_nsn_nm_nls,    rb_friction_nsn_fb,        rb_friction_nsn_fb_nls,
-    rb_friction_nsn_ac_hybrid, rb_friction_nsgs_ac,       rb_friction_nsgs_fp,
-    rb_friction_fixed_point,   rb_friction_extragradient, rb_friction_soclcp_smoothing,
+    rb_friction_auto,          rb_friction_nsn_ac,
+    rb_friction_nsn_ac_nls,    rb_friction_nsn_jm,
+    rb_friction_nsn_jm_nls,    rb_friction_nsn_nm,
+    rb_friction_nsn_nm_nls,    rb_friction_nsn_fb,
+    rb_friction_nsn_fb_nls,    rb_friction_nsn_ac_hybrid,
+    rb_friction_nsgs_ac,       rb_friction_nsgs_aa,
+    rb_friction_nsgs_fp,       rb_friction_fixed_point,
+    rb_friction_extragradient, rb_friction_soclcp_smoothing,
     rb_friction_lemke,
 };
 
