@@ -100,11 +100,11 @@ static rb_status try_stage(rb_friction_task *task, const stage *s, record *rec)
     if (!(s->flags & RESUME))
         load(task, s->flags & FROM_BEST ? rec->best : rec->start);
     task->opt.max_iters = affordable(task, s);
-    const rb_status status = s->method(task);
+    const rb_status status = rb_friction_run(task, s->method);
     task->info->solver = s->name;
-    if (status <= 0) /* methods say so only of what the measure accepted */
+    if (status <= 0)
         return status;
-    double error = rb_friction_task_error(task);
+    double error = task->info->residual;
     if (error <= task->opt.tol) /* r so large that the measure does not see it */
         error = INFINITY;
     if (error < rec->error || !rec->solver) {
@@ -159,6 +159,7 @@ rb_status rb_friction_auto(rb_friction_task *task)
     if (s > 0 && rec.solver) {
         load(task, rec.best);
         task->info->solver = rec.solver;
+        task->info->residual = rb_friction_task_error(task);
     }
     task->opt = given;
     free(rec.best);

@@ -10,8 +10,6 @@ void rb_friction_blocks_free(rb_friction_blocks *blocks)
 {
     if (!blocks)
         return;
-    free(blocks->p);
-    free(blocks->i);
     free(blocks->x);
     *blocks = (rb_friction_blocks){0};
 }
@@ -103,32 +101,32 @@ static void fill_column(const rb_friction_problem *local, int contact,
                         rb_friction_blocks *b)
 {
     const size_t dd = (size_t)(b->d * b->d);
+    int k = b->p[contact];
     reader from;
     reader_start(local, contact, &from);
-    for (int k = b->p[contact]; k < b->p[contact + 1]; k++) {
-        b->i[k] = next_block(&from, b->x + (size_t)k * dd);
+    while ((b->i[k] = next_block(&from, b->x + (size_t)k * dd)) >= 0) {
         if (b->i[k] == contact)
             b->diag[contact] = k;
+        k++;
     }
+    b->p[contact + 1] = k;
 }
 
 rb_status rb_friction_blocks_init(const rb_friction_problem *local, rb_friction_blocks *b)
 {
-    const int nc = local->contacts, d = local->dimension;
-    *b = (rb_friction_blocks){.d = d, .contacts = nc};
-    b->p = rb_alloc_int(2 * (size_t)nc + 1);
-    if (!b->p)
+    const size_t nc = (size_t)local->contacts, d = (size_t)local->dimension;
+    size_t total = 1; /* the reader writes one past the last block */
+    for (int c = 0; c < local->contacts; c++)
+        total += (size_t)count_column(local, c);
+    const size_t indices = total + 2 * nc + 1;
+    *b = (rb_friction_blocks){.d = local->dimension, .contacts = local->contacts};
+    b->x = rb_alloc(total * d * d + indices * sizeof *b->p / sizeof *b->x + 1, 1);
+    if (!b->x)
         return RB_ENOMEM;
+    b->p = (int *)(b->x + total * d * d);
     b->diag = b->p + nc + 1;
-    for (int c = 0; c < nc; c++)
-        b->p[c + 1] = b->p[c] + count_column(local, c);
-    b->i = rb_alloc_int((size_t)b->p[nc]);
-    b->x = rb_alloc((size_t)b->p[nc], (size_t)(d * d));
-    if (!b->i || !b->x) {
-        rb_friction_blocks_free(b);
-        return RB_ENOMEM;
-    }
-    for (int c = 0; c < nc; c++)
+    b->i = b->diag + nc;
+    for (int c = 0; c < local->contacts; c++)
         fill_column(local, c, b);
     return RB_OK;
 }
@@ -156,14 +154,25 @@ void rb_friction_blocks_add(const rb_friction_blocks *b, int contact, const doub
     }
 }
 
-void rb_friction_blocks_apply(const rb_friction_blocks *b, const double *x, double *y)
+int rb_friction_blocks_add_all(const rb_friction_blocks *b, const double *x, double *y)
 {
     const int d = b->d;
-    for (int i = 0; i < d * b->contacts; i++)
+    int touched = 0;
+    for (int c = 0; c < b->contacts; c++) {
+        const double *xc = x + c * d;
+        if (xc[0] == 0.0 && xc[1] == 0.0 && xc[d - 1] == 0.0)
+            continue;
+        rb_friction_blocks_add(b, c, xc, y);
+        touched += b->p[c + 1] - b->p[c];
+    }
+    return touched;
+}
+
+void rb_friction_blocks_apply(const rb_friction_blocks *b, const double *x, double *y)
+{
+    for (int i = 0; i < b->d * b->contacts; i++)
         y[i] = 0.0;
-    for (int c = 0; c < b->contacts; c++)
-        if (x[c * d] != 0.0 || x[c * d + 1] != 0.0 || x[c * d + d - 1] != 0.0)
-            rb_friction_blocks_add(b, c, x + c * d, y);
+    rb_friction_blocks_add_all(b, x, y);
 }
 
 static double largest_tangential(int d, const double *w)

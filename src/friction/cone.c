@@ -39,7 +39,7 @@ void rb_friction_project(int d, double mu, const double *z, double *p)
         return;
     }
     /* on the face, or the apex where -z lies in K* */
-    const double pn = fmax(0.0, (zn + mu * t) / (1.0 + mu * mu));
+    const double face = (zn + mu * t) / (1.0 + mu * mu), pn = face > 0.0 ? face : 0.0;
     const double factor = t > 0.0 ? mu * pn / t : 0.0;
     for (int a = 1; a < d; a++)
         p[a] = factor * z[a];

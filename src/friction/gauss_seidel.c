@@ -15,7 +15,6 @@ typedef struct {
     rb_friction_contact *contact; /* contacts */
     double *rho;                  /* 2 per contact; NULL until one contact needs it */
     double *fixed;                /* contacts: rho of the fixed point, which adapts */
-    double *u;                    /* W r + q, kept up with every change of r */
     int flags;                    /* rb_friction_sweep_flags */
     rb_friction_anderson anderson;
     double *start;         /* m, where accelerated: r before the sweep */
@@ -23,13 +22,12 @@ typedef struct {
     rb_status failed;
 } sweeper;
 
+/* u = W r + q of the task is kept up with every change of r. */
 static void start_velocities(sweeper *s)
 {
     const rb_friction_task *t = s->task;
-    rb_friction_blocks_apply(s->blocks, t->r, s->u);
-    for (int k = 0; k < t->m; k++)
-        s->u[k] += t->local->q[k];
-    s->touched += s->blocks->p[t->contacts];
+    memcpy(t->u, t->local->q, (size_t)t->m * sizeof(double));
+    s->touched += rb_friction_blocks_add_all(s->blocks, t->r, t->u);
 }
 
 static rb_status wanted_rho(sweeper *s)
@@ -49,21 +47,17 @@ static rb_status wanted_rho(sweeper *s)
 
 static rb_status sweeper_init(rb_friction_task *task, int flags, sweeper *s)
 {
-    const size_t nc = (size_t)task->contacts, dd = (size_t)(task->d * task->d);
     *s = (sweeper){.task = task, .flags = flags};
     rb_status st = rb_friction_task_blocks(task, &s->blocks);
     if (st == RB_OK && (flags & RB_FRICTION_SWEEP_PROJECTION))
         st = wanted_rho(s);
     if (st != RB_OK)
         return st;
-    s->contact = malloc(nc * sizeof *s->contact);
-    s->u = rb_alloc((size_t)task->m, 1);
-    if (!s->contact || !s->u)
+    s->contact = malloc((size_t)task->contacts * sizeof *s->contact);
+    if (!s->contact)
         return RB_ENOMEM;
-    for (size_t c = 0; c < nc; c++)
-        rb_friction_contact_init(task->d, task->local->mu[c],
-                                 s->blocks->x + (size_t)s->blocks->diag[c] * dd,
-                                 &s->contact[c]);
+    for (int c = 0; c < task->contacts; c++)
+        s->contact[c].W = NULL;
     start_velocities(s);
     return RB_OK;
 }
@@ -73,15 +67,25 @@ static void sweeper_free(sweeper *s)
     rb_friction_anderson_free(&s->anderson);
     free(s->start);
     s->task->info->flops += 2.0 * s->task->d * s->task->d * s->touched + 80.0 * s->steps;
-    free(s->u);
     free(s->contact);
     free(s->rho);
 }
 
-/* The new force of contact c where q is its velocity without it; steps taken. */
-static int solve_contact(sweeper *s, int c, const double *q, double *r)
+/* Made when the contact closes: many never do. */
+static rb_friction_contact *wanted_contact(sweeper *s, int c)
 {
-    rb_friction_contact *contact = &s->contact[c];
+    const int d = s->task->d;
+    if (!s->contact[c].W)
+        rb_friction_contact_init(
+            d, s->task->local->mu[c],
+            s->blocks->x + (size_t)s->blocks->diag[c] * (size_t)(d * d), &s->contact[c]);
+    return &s->contact[c];
+}
+
+/* The new force of contact c where q is its velocity without it; steps taken. */
+static int solve_contact(sweeper *s, int c, rb_friction_contact *contact, const double *q,
+                         double *r)
+{
     if (s->flags & RB_FRICTION_SWEEP_PROJECTION)
         return rb_friction_contact_fixed_point(contact, &s->fixed[c], q, r);
     const int steps = rb_friction_contact_exact(contact, q, r);
@@ -96,23 +100,25 @@ static int solve_contact(sweeper *s, int c, const double *q, double *r)
 static double relax(sweeper *s, int c)
 {
     const int d = s->task->d;
-    const double *W = s->contact[c].W, *u = s->u + c * d;
-    double *r = s->task->r + c * d, old[3], q[3], change = 0.0;
+    double *r = s->task->r + c * d, *u = s->task->u + c * d;
     if (r[0] == 0.0 && r[1] == 0.0 && r[d - 1] == 0.0 && u[0] >= 0.0)
         return 0.0; /* it stays open */
+    rb_friction_contact *contact = wanted_contact(s, c);
+    const double *W = contact->W;
+    double old[3], q[3], change = 0.0;
     for (int a = 0; a < d; a++) {
         old[a] = r[a];
         q[a] = u[a];
         for (int b = 0; b < d; b++)
             q[a] -= W[a + b * d] * r[b];
     }
-    s->steps += solve_contact(s, c, q, r);
+    s->steps += solve_contact(s, c, contact, q, r);
     for (int a = 0; a < d; a++) {
         old[a] = r[a] - old[a];
         change += old[a] * old[a];
     }
     if (change > 0.0) {
-        rb_friction_blocks_add(s->blocks, c, old, s->u);
+        rb_friction_blocks_add(s->blocks, c, old, s->task->u);
         s->touched += s->blocks->p[c + 1] - s->blocks->p[c];
     }
     return change;
@@ -135,20 +141,21 @@ static int looks_now(int k, int limit)
     return k % LOOK_EVERY == 0 || k == limit || (k < LOOK_EVERY && (k & (k - 1)) == 0);
 }
 
-/* (13) with the velocities at hand; recomputed where it is met or `refresh` asks for it.
- */
+/* What rounding of the velocities kept up cannot reach. */
+#define SAFE_TOLERANCE 1e-12
+
+/* (13) with the velocities at hand; recomputed where `refresh` or a close call asks for
+ * it. */
 static double look(sweeper *s, int refresh)
 {
     rb_friction_task *t = s->task;
-    double error = rb_friction_natural_norm(t->d, t->contacts, t->local->mu, t->r, s->u) /
-                   t->measure->scale;
+    const double tol = t->opt.tol;
+    const double error =
+        rb_friction_natural_norm(t->d, t->contacts, t->local->mu, t->r, t->u) /
+        t->measure->scale;
     t->info->flops += 25.0 * t->m;
-    if (error > t->opt.tol && !refresh)
-        return error;
-    error = rb_friction_task_error(t);
-    if (error > t->opt.tol)
-        start_velocities(s);
-    return error;
+    const int clear = error > tol || (error <= 0.5 * tol && tol >= SAFE_TOLERANCE);
+    return clear && !refresh ? error : rb_friction_task_error(t);
 }
 
 /* The next sweep starts from where the last ones point to. */
@@ -156,7 +163,7 @@ static rb_status accelerate(sweeper *s)
 {
     rb_friction_task *t = s->task;
     if (s->start) {
-        rb_friction_anderson_step(&s->anderson, s->start, t->r, s->u);
+        rb_friction_anderson_step(&s->anderson, s->start, t->r, t->u);
         t->info->flops += (6.0 + 8.0 * s->anderson.used) * t->m;
     } else { /* after the first sweep, which is often the last */
         s->start = rb_alloc((size_t)t->m, 1);
@@ -193,7 +200,7 @@ static rb_status sweep_until(sweeper *s, int limit)
 {
     rb_friction_task *t = s->task;
     double tau = t->opt.tol;
-    if (rb_friction_task_accepts(t, look(s, 0)))
+    if (t->opt.r0 && rb_friction_task_accepts(t, look(s, 0)))
         return RB_OK;
     rb_status st = RB_MAXITER;
     for (int k = 1; st == RB_MAXITER && k <= limit; k++) {

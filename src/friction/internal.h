@@ -51,8 +51,8 @@ typedef struct {
     int d, contacts;
     int *p;    /* contacts + 1: where a block column starts */
     int *i;    /* block row, increasing within a column; the diagonal is always there */
-    int *diag; /* contacts: number of the diagonal block; in the memory of p */
-    double *x; /* d x d column-major each */
+    int *diag; /* contacts: number of the diagonal block */
+    double *x; /* d x d column-major each; owns the memory of all */
 } rb_friction_blocks;
 
 rb_status rb_friction_blocks_init(const rb_friction_problem *local,
@@ -61,7 +61,9 @@ void rb_friction_blocks_free(rb_friction_blocks *blocks);
 /* y += what the force x (d entries) of one contact adds to all velocities */
 void rb_friction_blocks_add(const rb_friction_blocks *blocks, int contact,
                             const double *x, double *y);
-/* y = W x */
+/* y += W x, y = W x; add_all returns how many blocks that took. */
+int rb_friction_blocks_add_all(const rb_friction_blocks *blocks, const double *x,
+                               double *y);
 void rb_friction_blocks_apply(const rb_friction_blocks *blocks, const double *x,
                               double *y);
 
@@ -214,6 +216,10 @@ typedef enum {
     RB_FRICTION_SWEEP_PROJECTION = 1, /* fixed point at each contact */
     RB_FRICTION_SWEEP_ANDERSON = 2    /* accelerated */
 } rb_friction_sweep_flags;
+
+/* Runs the method on the prepared task and judges the outcome by (13), recomputed from r
+ * (and v) alone, which goes to info. */
+rb_status rb_friction_run(rb_friction_task *task, rb_friction_method *method);
 
 /* `limit` sweeps of Gauss-Seidel, or fewer where the tolerance is met. */
 rb_status rb_friction_sweeps(rb_friction_task *task, int flags, int limit);

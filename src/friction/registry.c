@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Same order in both tables. */
+/* Same order in both tables; auto is the first and runs others. */
 static const rb_friction_solver solvers[] = {
     {"auto", "one method after the other until one meets the tolerance", 0},
     {"nsn-ac", "Newton on Alart-Curnier's function, line search", 0},
@@ -134,9 +134,7 @@ static rb_status check_call(const char *name, const rb_friction_problem *p,
     return s;
 }
 
-/* Runs the method on the prepared task and judges the outcome by the recomputed measure.
- */
-static rb_status run(rb_friction_task *task, rb_friction_method *method)
+rb_status rb_friction_run(rb_friction_task *task, rb_friction_method *method)
 {
     rb_status s = method(task);
     if (s < 0)
@@ -163,7 +161,7 @@ rb_status rb_friction_task_blocks(rb_friction_task *task,
                                   const rb_friction_blocks **blocks)
 {
     *blocks = &task->blocks;
-    return task->blocks.p ? RB_OK : rb_friction_blocks_init(task->local, &task->blocks);
+    return task->blocks.x ? RB_OK : rb_friction_blocks_init(task->local, &task->blocks);
 }
 
 static rb_status prepare(rb_friction_task *task, int needs)
@@ -207,7 +205,7 @@ rb_status rb_friction_solve(const char *solver, const rb_friction_problem *probl
 
     rb_friction_measure measure = {0};
     const int n = problem->form == RB_FRICTION_GLOBAL ? problem->dofs : 0;
-    double *own_v = v ? NULL : rb_alloc((size_t)n, 1);
+    double *own_v = v || !n ? NULL : rb_alloc((size_t)n, 1);
     rb_friction_task task = {.problem = problem,
                              .measure = &measure,
                              .opt = used,
@@ -219,12 +217,14 @@ rb_status rb_friction_solve(const char *solver, const rb_friction_problem *probl
                              .deadline = used.seconds > 0.0 ? start + used.seconds : 0.0,
                              .r = r,
                              .u = u,
-                             .v = v ? v : own_v};
+                             .v = v   ? v
+                                  : n ? own_v
+                                      : r}; /* n = 0: never touched */
     info->solver = solvers[chosen].name;
     s = task.v ? prepare(&task, solvers[chosen].needs) : RB_ENOMEM;
     if (s == RB_OK) {
         load_start(&task);
-        s = run(&task, methods[chosen]);
+        s = chosen ? rb_friction_run(&task, methods[chosen]) : rb_friction_auto(&task);
     }
     rb_friction_measure_free(&measure);
     rb_friction_blocks_free(&task.blocks);
