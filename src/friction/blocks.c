@@ -65,9 +65,8 @@ static int next_dense(reader *s, double *block)
         int any = row == s->contact;
         for (int b = 0; b < d; b++)
             for (int a = 0; a < d; a++) {
-                any |= w[a + (size_t)b * m] != 0.0;
-                if (block)
-                    block[a + b * d] = w[a + (size_t)b * m];
+                block[a + b * d] = w[a + (size_t)b * m];
+                any |= block[a + b * d] != 0.0;
             }
         s->next = row + 1;
         if (any)
@@ -77,7 +76,7 @@ static int next_dense(reader *s, double *block)
 }
 
 /* The next block row that has an entry or is the diagonal, -1 after the last.  block:
- * d x d zeros to be filled, or NULL. */
+ * d x d zeros to be filled, or NULL (sparse W only). */
 static int next_block(reader *s, double *block)
 {
     return s->local->form == RB_FRICTION_LOCAL_DENSE ? next_dense(s, block)
@@ -87,14 +86,25 @@ static int next_block(reader *s, double *block)
 /* ---- Blocks --------------------------------------------------------------------------
  */
 
-static int count_column(const rb_friction_problem *local, int contact)
+/* Below this, room for one block per entry costs less than counting the blocks. */
+#define NOT_WORTH_COUNTING 10000
+
+static size_t count_blocks(const rb_friction_problem *local)
 {
-    reader from;
-    int n = 0;
-    reader_start(local, contact, &from);
-    while (next_block(&from, NULL) >= 0)
-        n++;
-    return n;
+    const size_t nc = (size_t)local->contacts, m = nc * (size_t)local->dimension;
+    if (local->form == RB_FRICTION_LOCAL_DENSE)
+        return nc * nc;
+    const size_t most = (size_t)local->Ws.p[m] + nc;
+    if (most <= NOT_WORTH_COUNTING)
+        return most < nc * nc ? most : nc * nc;
+    size_t total = 0;
+    for (int c = 0; c < local->contacts; c++) {
+        reader from;
+        reader_start(local, c, &from);
+        while (next_block(&from, NULL) >= 0)
+            total++;
+    }
+    return total;
 }
 
 static void fill_column(const rb_friction_problem *local, int contact,
@@ -115,9 +125,7 @@ static void fill_column(const rb_friction_problem *local, int contact,
 rb_status rb_friction_blocks_init(const rb_friction_problem *local, rb_friction_blocks *b)
 {
     const size_t nc = (size_t)local->contacts, d = (size_t)local->dimension;
-    size_t total = 1; /* the reader writes one past the last block */
-    for (int c = 0; c < local->contacts; c++)
-        total += (size_t)count_column(local, c);
+    const size_t total = count_blocks(local) + 1; /* the reader looks past the last */
     const size_t indices = total + 2 * nc + 1;
     *b = (rb_friction_blocks){.d = local->dimension, .contacts = local->contacts};
     b->x = rb_alloc(total * d * d + indices * sizeof *b->p / sizeof *b->x + 1, 1);

@@ -91,14 +91,15 @@ static double resolution(const rb_friction_task *task)
 int rb_friction_task_accepts(const rb_friction_task *task, double error)
 {
     double allowed = task->opt.tol;
-    if (!(error <= fmax(allowed, LARGEST_FLOOR)))
+    if (!(error <= allowed) && !(error <= LARGEST_FLOOR))
         return 0;
+    const double least = resolution(task);
     /* the floor costs as much as the error: ask only when it can matter */
-    if (error > allowed || resolution(task) > allowed)
+    if (error > allowed || least > allowed)
         allowed = fmax(allowed,
                        fmin(LARGEST_FLOOR,
                             rb_friction_measure_floor(task->measure, task->r, task->v)));
-    return error <= allowed && resolution(task) <= allowed;
+    return error <= allowed && least <= allowed;
 }
 
 int rb_friction_task_late(const rb_friction_task *task)
