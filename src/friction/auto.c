@@ -23,11 +23,20 @@ typedef struct {
     int flags;
 } stage;
 
-/* A few sweeps are cheap where W is there and find most states; the global form would
+static rb_status quick_sweeps(rb_friction_task *task)
+{
+    return rb_friction_sweeps(
+        task, RB_FRICTION_SWEEP_ANDERSON | RB_FRICTION_SWEEP_UNLESS_STALLED,
+        task->opt.max_iters);
+}
+
+/* Some sweeps are cheap where W is there and solve most problems; where they stall,
+ * Jean-Moreau's function is the one that cycles least from there.  The global form would
  * have to be condensed for them. */
 static const stage stages[] = {
-    {"nsgs-aa", rb_friction_nsgs_aa, 100, GIVEN_W},
-    {"nsn-ac-hybrid", rb_friction_nsn_ac_nls, 12, GIVEN_W | RESUME | EARLY},
+    {"nsgs-aa", quick_sweeps, 100, GIVEN_W},
+    {"nsn-jm-nls", rb_friction_nsn_jm_nls, 16, GIVEN_W | RESUME | EARLY},
+    {"nsn-ac-nls", rb_friction_nsn_ac_nls, 12, GIVEN_W | FROM_BEST | EARLY},
     {"nsn-fb", rb_friction_nsn_fb, 15, GIVEN_W | EARLY},
     {"nsn-ac", rb_friction_nsn_ac, 25, GIVEN_W | EARLY},
     {"nsgs-aa", rb_friction_nsgs_aa, 1000, GIVEN_W},

@@ -18,6 +18,7 @@ typedef struct {
     int flags;                    /* rb_friction_sweep_flags */
     rb_friction_anderson anderson;
     double *start;         /* m, where accelerated: r before the sweep */
+    double before;         /* (13) when it was last asked whether the sweeps stall */
     double touched, steps; /* blocks, steps at single contacts: to count operations */
     rb_status failed;
 } sweeper;
@@ -174,6 +175,19 @@ static rb_status accelerate(sweeper *s)
     return RB_OK;
 }
 
+#define STALL_FROM 16
+#define STALL 0.85
+
+/* (13) has hardly fallen while the number of sweeps doubled. */
+static int stalled(sweeper *s, int k, double error)
+{
+    if (k < STALL_FROM / 2 || (k & (k - 1)) != 0)
+        return 0;
+    const double before = s->before;
+    s->before = error;
+    return k >= STALL_FROM && error > STALL * before;
+}
+
 /* After sweep k, which changed r by `change` (14); RB_MAXITER: it goes on.  tau: the
  * change at which the measure is worth a look. */
 static rb_status judge(sweeper *s, int k, int limit, double change, double *tau)
@@ -191,6 +205,8 @@ static rb_status judge(sweeper *s, int k, int limit, double change, double *tau)
     if (!isfinite(error))
         return RB_SINGULAR;
     if (change <= LEAST_CHANGE)
+        return RB_INACCURATE;
+    if ((s->flags & RB_FRICTION_SWEEP_UNLESS_STALLED) && stalled(s, k, error))
         return RB_INACCURATE;
     *tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
     return RB_MAXITER;

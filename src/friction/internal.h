@@ -214,14 +214,16 @@ rb_friction_method rb_friction_nsn_ac, rb_friction_nsn_jm, rb_friction_nsn_nm,
 
 typedef enum {
     RB_FRICTION_SWEEP_PROJECTION = 1, /* fixed point at each contact */
-    RB_FRICTION_SWEEP_ANDERSON = 2    /* accelerated */
+    RB_FRICTION_SWEEP_ANDERSON = 2,   /* accelerated */
+    RB_FRICTION_SWEEP_UNLESS_STALLED = 4
 } rb_friction_sweep_flags;
 
 /* Runs the method on the prepared task and judges the outcome by (13), recomputed from r
  * (and v) alone, which goes to info. */
 rb_status rb_friction_run(rb_friction_task *task, rb_friction_method *method);
 
-/* `limit` sweeps of Gauss-Seidel, or fewer where the tolerance is met. */
+/* `limit` sweeps of Gauss-Seidel, or fewer where the tolerance is met or, if so flagged,
+ * they stall: RB_INACCURATE. */
 rb_status rb_friction_sweeps(rb_friction_task *task, int flags, int limit);
 
 /* (13) at the task's r and v, which also brings u (and v) up to date; counts flops. */
