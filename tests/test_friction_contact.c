@@ -208,6 +208,120 @@ static void a_newton_step_solves_its_system(void **state)
     }
 }
 
+/* r -> M r + b in four dimensions, u = 2 r - 1: GMRES needs four products. */
+static void acceleration_solves_a_linear_iteration(void **state)
+{
+    (void)state;
+    enum { M = 4 };
+    const double b[M] = {1.0, -2.0, 0.5, 3.0};
+    unsigned seed = 21;
+    double matrix[M * M], r[M] = {0.0}, u[M], start[M];
+    rb_friction_anderson a;
+    for (int k = 0; k < M * M; k++)
+        matrix[k] = 0.6 * uniform(&seed); /* on its own it need not converge */
+    CHECK_STATUS(rb_friction_anderson_init(M, &a), RB_OK);
+    for (int k = 0; k < M + 3; k++) {
+        memcpy(start, r, sizeof r);
+        for (int i = 0; i < M; i++) {
+            r[i] = b[i];
+            for (int j = 0; j < M; j++)
+                r[i] += matrix[i + j * M] * start[j];
+        }
+        for (int i = 0; i < M; i++)
+            u[i] = 2.0 * r[i] - 1.0;
+        rb_friction_anderson_step(&a, start, r, u);
+    }
+    for (int i = 0; i < M; i++) {
+        double next = b[i];
+        for (int j = 0; j < M; j++)
+            next += matrix[i + j * M] * r[j];
+        CHECK_ABS(r[i], next, 1e-8, "fixed point, r[%d]", i);
+        CHECK_ABS(u[i], 2.0 * r[i] - 1.0, 1e-8, "u goes along, u[%d]", i);
+    }
+    rb_friction_anderson_free(&a);
+}
+
+static void acceleration_goes_back_where_it_was_led_astray(void **state)
+{
+    (void)state;
+    static const double led_to[] = {1.0, 1.5, 40.0};
+    double r[1] = {0.0}, u[1] = {0.0}, start[1];
+    rb_friction_anderson a;
+    CHECK_STATUS(rb_friction_anderson_init(1, &a), RB_OK);
+    for (int k = 0; k < 3; k++) {
+        start[0] = k == 1 ? 1.0 : r[0];
+        r[0] = u[0] = led_to[k];
+        rb_friction_anderson_step(&a, start, r, u);
+    }
+    CHECK_ABS(r[0], 1.5, 0.0, "the last point before the extrapolation");
+    CHECK_ABS(u[0], 1.5, 0.0, "with its velocity");
+    rb_friction_anderson_free(&a);
+}
+
+/* A pile: every contact pressed by its neighbours, W_NN tridiagonal. */
+static void pile(int nc, double coupling, rb_friction_problem *p)
+{
+    const int m = 2 * nc;
+    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
+                               .dimension = 2,
+                               .contacts = nc,
+                               .mu = rb_alloc((size_t)nc, 1),
+                               .W = rb_alloc((size_t)m, (size_t)m),
+                               .q = rb_alloc((size_t)m, 1)};
+    for (int i = 0; i < m; i++) {
+        p->W[i + i * m] = 2.0;
+        if (i + 2 < m)
+            p->W[i + (i + 2) * m] = p->W[i + 2 + i * m] = -coupling;
+        p->q[i] = i % 2 ? 0.05 : -1.0;
+    }
+    for (int c = 0; c < nc; c++)
+        p->mu[c] = 0.5;
+}
+
+static void acceleration_saves_sweeps(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_friction_info plain, fast;
+    double r[60], s[60], u[60];
+    pile(30, 1.0, &p);
+    CHECK_STATUS(rb_friction_solve("nsgs-ac", &p, NULL, r, u, NULL, &plain), RB_OK);
+    CHECK_STATUS(rb_friction_solve("nsgs-aa", &p, NULL, s, u, NULL, &fast), RB_OK);
+    CHECK_MAX((double)fast.iters, plain.iters / 5.0, "%d sweeps without", plain.iters);
+    for (int k = 0; k < 60; k++)
+        CHECK_ABS(s[k], r[k], 1e-4, "r[%d]", k);
+    rb_friction_problem_free(&p);
+}
+
+/* Contacts that push each other the more, the more they are pushed: no solution. */
+static void sweeps_that_stall_are_given_up(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_friction_info info = {0};
+    rb_friction_measure measure;
+    double r[8] = {0.0}, u[8], v[1];
+    pile(4, 3.0, &p);
+    CHECK_STATUS(rb_friction_measure_init(&p, &measure), RB_OK);
+    rb_friction_task task = {.problem = &p,
+                             .local = &p,
+                             .measure = &measure,
+                             .opt = rb_friction_defaults(),
+                             .info = &info,
+                             .d = 2,
+                             .contacts = 4,
+                             .m = 8,
+                             .r = r,
+                             .u = u,
+                             .v = v};
+    CHECK_STATUS(rb_friction_sweeps(&task, RB_FRICTION_SWEEP_UNLESS_STALLED, 100),
+                 RB_INACCURATE);
+    assert_int_equal(info.iters, 16);
+    rb_friction_blocks_free(&task.blocks);
+    rb_friction_measure_free(&measure);
+    rb_friction_problem_free(&p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -216,6 +330,10 @@ int main(void)
         cmocka_unit_test(a_singular_block_is_left_to_newton),
         cmocka_unit_test(blocks_multiply_as_the_matrix_does),
         cmocka_unit_test(a_newton_step_solves_its_system),
+        cmocka_unit_test(acceleration_solves_a_linear_iteration),
+        cmocka_unit_test(acceleration_goes_back_where_it_was_led_astray),
+        cmocka_unit_test(acceleration_saves_sweeps),
+        cmocka_unit_test(sweeps_that_stall_are_given_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

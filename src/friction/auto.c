@@ -41,7 +41,7 @@ static const stage stages[] = {
     {"nsn-ac", rb_friction_nsn_ac, 25, GIVEN_W | EARLY},
     {"nsgs-aa", rb_friction_nsgs_aa, 1000, GIVEN_W},
     {"nsn-ac", rb_friction_nsn_ac, 40, EARLY},
-    {"nsgs-ac", rb_friction_nsgs_ac, 1000, NEEDS_W},
+    {"nsgs-aa", rb_friction_nsgs_aa, 1000, NEEDS_W},
     {"nsn-ac-hybrid", rb_friction_nsn_ac_nls, 30, NEEDS_W | RESUME | EARLY},
     {"nsn-fb", rb_friction_nsn_fb, 60, EARLY},
     {"nsn-nm", rb_friction_nsn_nm, 60, EARLY},

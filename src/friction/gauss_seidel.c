@@ -259,31 +259,3 @@ rb_status rb_friction_nsgs_fp(rb_friction_task *task)
 {
     return rb_friction_sweeps(task, RB_FRICTION_SWEEP_PROJECTION, limit_of(task));
 }
-
-#define SWEEPS_BEFORE 100
-#define STEPS_BEFORE_SEARCH 30
-
-/* 100 sweeps find the rough state, Newton the digits: without line search as in *Acary*,
- * and where that cycles once more from the rough state with it. */
-rb_status rb_friction_nsn_ac_hybrid(rb_friction_task *task)
-{
-    rb_status st = rb_friction_sweeps(task, 0, SWEEPS_BEFORE);
-    if (st != RB_MAXITER && st != RB_INACCURATE)
-        return st;
-    const rb_friction_options given = task->opt;
-    const size_t m = (size_t)task->m;
-    double *rough = rb_alloc(m, 1);
-    if (!rough)
-        return RB_ENOMEM;
-    memcpy(rough, task->r, m * sizeof *rough);
-    if (!given.max_iters || given.max_iters > STEPS_BEFORE_SEARCH)
-        task->opt.max_iters = STEPS_BEFORE_SEARCH;
-    st = rb_friction_nsn_ac_nls(task);
-    task->opt = given;
-    if (st == RB_MAXITER || st == RB_SINGULAR) {
-        memcpy(task->r, rough, m * sizeof *rough);
-        st = rb_friction_nsn_ac(task);
-    }
-    free(rough);
-    return st;
-}

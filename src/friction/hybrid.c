@@ -1,0 +1,74 @@
+/* Gauss-Seidel for the rough state, Newton without line search for the digits, *Acary*.
+ *
+ * How many sweeps: a few show what they are worth.  Where they lower the error well, the
+ * contacts are mostly in their final states and Newton needs a step or two; where they do
+ * not, the state that they leave is a worse start than the one given (wall-study.md), and
+ * a hundred of them would be wasted. */
+#include "friction/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FIRST_SWEEPS 7
+#define WORTH 0.3 /* of the error before: above, Newton starts where the sweeps did */
+#define MANY_SWEEPS 100
+#define STEPS_BEFORE_SEARCH 30
+
+static int goes_on(rb_status s)
+{
+    return s == RB_MAXITER || s == RB_INACCURATE || s == RB_SINGULAR;
+}
+
+static rb_status plain_newton(rb_friction_task *task)
+{
+    const rb_friction_options given = task->opt;
+    if (!given.max_iters || given.max_iters > STEPS_BEFORE_SEARCH)
+        task->opt.max_iters = STEPS_BEFORE_SEARCH;
+    const rb_status st = rb_friction_nsn_ac_nls(task);
+    task->opt = given;
+    return st;
+}
+
+static rb_status few_sweeps(rb_friction_task *task, const double *start)
+{
+    const double before = rb_friction_task_error(task);
+    const rb_status st =
+        rb_friction_sweeps(task, RB_FRICTION_SWEEP_ANDERSON, FIRST_SWEEPS);
+    if (!goes_on(st))
+        return st;
+    if (rb_friction_task_error(task) > WORTH * before)
+        memcpy(task->r, start, (size_t)task->m * sizeof *start);
+    return plain_newton(task);
+}
+
+/* Where that cycles: the hundred sweeps of *Acary*, Newton from there, and if need be
+ * once more with line search.  rough: m, workspace */
+static rb_status many_sweeps(rb_friction_task *task, double *rough)
+{
+    const size_t bytes = (size_t)task->m * sizeof *rough;
+    rb_status st = rb_friction_sweeps(task, 0, MANY_SWEEPS);
+    if (!goes_on(st))
+        return st;
+    memcpy(rough, task->r, bytes);
+    st = plain_newton(task);
+    if (!goes_on(st))
+        return st;
+    memcpy(task->r, rough, bytes);
+    return rb_friction_nsn_ac(task);
+}
+
+rb_status rb_friction_nsn_ac_hybrid(rb_friction_task *task)
+{
+    const size_t bytes = (size_t)task->m * sizeof(double);
+    double *start = rb_alloc((size_t)task->m, 1);
+    if (!start)
+        return RB_ENOMEM;
+    memcpy(start, task->r, bytes);
+    rb_status st = few_sweeps(task, start);
+    if (goes_on(st)) {
+        memcpy(task->r, start, bytes);
+        st = many_sweeps(task, start);
+    }
+    free(start);
+    return st;
+}
