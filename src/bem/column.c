@@ -6,7 +6,8 @@
 #include <immintrin.h>
 #endif
 
-enum { BLOCK = 32, CHUNK = 256 }; /* points in one vector loop; in one buffer */
+/* Points in one vector loop; in one buffer; in the widest vector. */
+enum { BLOCK = 32, CHUNK = 256, EIGHT = 8 };
 
 void rb_points_free(rb_points *points)
 {
@@ -68,129 +69,167 @@ static int head(const double *to)
 /* One block of points; buffer: four columns of 2 CHUNK. */
 typedef double rb_buffer[4][2 * CHUNK];
 
+/* What rb_seen holds, for the points of a block; over = 2a/(W rho), ln W from k and s. */
+typedef double rb_lane[BLOCK];
 typedef struct {
-    double X[BLOCK], d[BLOCK], square_re[BLOCK], square_im[BLOCK], dot[BLOCK],
-        cross[BLOCK], W[BLOCK], over_W[BLOCK], a_over_rho[BLOCK], Lam[BLOCK], Th[BLOCK],
-        log_W[BLOCK];
+    rb_lane X, d, rho, Z_re, Z_im, W, over, q, Lam, Th, M, k, s;
 } rb_seen_block;
-
-RB_INLINE void keep(const rb_seen *v, rb_seen_block *b, int i)
-{
-    b->X[i] = v->X;
-    b->d[i] = v->d;
-    b->square_re[i] = v->square_re;
-    b->square_im[i] = v->square_im;
-    b->dot[i] = v->dot;
-    b->cross[i] = v->cross;
-    b->W[i] = v->W;
-    b->over_W[i] = v->over_W;
-    b->a_over_rho[i] = v->a_over_rho;
-    b->log_W[i] = v->log_W;
-}
 
 RB_INLINE rb_seen kept(const rb_seen_block *b, int i)
 {
-    rb_seen v;
-    v.X = b->X[i];
-    v.d = b->d[i];
-    v.square_re = b->square_re[i];
-    v.square_im = b->square_im[i];
-    v.dot = b->dot[i];
-    v.cross = b->cross[i];
-    v.W = b->W[i];
-    v.over_W = b->over_W[i];
-    v.a_over_rho = b->a_over_rho[i];
-    v.Lam = b->Lam[i];
-    v.Th = b->Th[i];
-    v.log_W = b->log_W[i];
-    return v;
+    return (rb_seen){.X = b->X[i],
+                     .d = b->d[i],
+                     .rho = b->rho[i],
+                     .Z_re = b->Z_re[i],
+                     .Z_im = b->Z_im[i],
+                     .W = b->W[i],
+                     .q = b->q[i],
+                     .Lam = b->Lam[i],
+                     .Th = b->Th[i],
+                     .M = b->M[i]};
 }
 
-RB_INLINE void put(const rb_influence *v, int with_G, rb_buffer buffer, int i)
+RB_INLINE void put_H(const rb_influence *v, rb_buffer buffer, int i)
 {
     buffer[0][i] = v->Hxx;
     buffer[0][i + 1] = v->Hyx;
     buffer[1][i] = v->Hxy;
     buffer[1][i + 1] = v->Hyy;
-    if (with_G) {
-        buffer[2][i] = v->Gxx;
-        buffer[2][i + 1] = buffer[3][i] = v->Gxy;
-        buffer[3][i + 1] = v->Gyy;
+}
+
+RB_INLINE void put_G(const rb_influence *v, rb_buffer buffer, int i)
+{
+    buffer[2][i] = v->Gxx;
+    buffer[2][i + 1] = buffer[3][i] = v->Gxy;
+    buffer[3][i + 1] = v->Gyy;
+}
+
+RB_INLINE void see_block(const rb_element *e, const double *x, const double *y,
+                         rb_seen_block *b)
+{
+    const double length = e->a + e->a;
+    for (int i = 0; i < BLOCK; i++) {
+        const rb_seen v = rb_see(e, x[i], y[i]);
+        b->X[i] = v.X;
+        b->d[i] = v.d;
+        b->rho[i] = v.rho;
+        b->Z_re[i] = v.Z_re;
+        b->Z_im[i] = v.Z_im;
+        b->W[i] = v.W;
+        b->over[i] = length / (v.W * v.rho);
     }
 }
 
-/* y = x where chosen = 1, y where it is 0: no branch. */
-RB_INLINE void choose(double chosen, double x, double *y)
+RB_INLINE void split_log_block(rb_seen_block *b)
 {
-    *y = chosen * x + (1.0 - chosen) * *y;
+    for (int i = 0; i < BLOCK; i++) {
+        const double m = rb_log_split(b->W[i], &b->k[i]);
+        b->s[i] = (m - 1.0) / (m + 1.0);
+    }
 }
 
-/* What the far form is not good for, at the near points of a block. */
-RB_INLINE void mend_near(const rb_element *e, const double *x, const double *y,
-                         int with_G, rb_seen_block *b)
+RB_INLINE void turn_far_block(double a, int terms, int with_G, rb_seen_block *b)
 {
-    double near[BLOCK];
-    for (int i = 0; i < BLOCK; i++)
-        near[i] = rb_is_far(e, x[i], y[i]) ? 0.0 : 1.0;
     for (int i = 0; i < BLOCK; i++) {
-        const rb_seen v = kept(b, i);
-        choose(near[i], rb_Lam_near(e->a, &v), &b->Lam[i]);
-    }
-    for (int i = 0; i < BLOCK; i++) {
-        const rb_seen v = kept(b, i);
-        choose(near[i], rb_Th_near(&v), &b->Th[i]);
-    }
-    for (int i = 0; i < BLOCK; i++) {
-        choose(near[i], 1.0 / b->W[i], &b->over_W[i]);
+        rb_seen v = kept(b, i);
+        rb_turn_far(a, terms, b->over[i] * b->W[i], &v);
+        b->q[i] = v.d * (b->over[i] * b->rho[i]);
+        b->Lam[i] = v.Lam;
+        b->Th[i] = v.Th;
         if (with_G)
-            choose(near[i], rb_log(b->W[i]), &b->log_W[i]);
+            b->M[i] = v.M;
+    }
+}
+
+RB_INLINE int any_within(double reach2, const double *rho)
+{
+    int64_t near = 0;
+    for (int i = 0; i < EIGHT; i++)
+        near |= rho[i] > reach2 ? 0 : 1;
+    return near != 0;
+}
+
+/* What the series is not good for, at the near points among eight.  From its own midpoint
+ * an element is seen under -pi: then the free term 1/2 stands in H.  A number stored
+ * apart would hold up the vectors that are read behind it. */
+RB_INLINE void mend_near(double a, double reach2, int first, int self, int with_G,
+                         rb_seen_block *b)
+{
+    const double pi = 3.14159265358979323846;
+    for (int i = first; i < first + EIGHT; i++) {
+        const rb_seen v = kept(b, i);
+        const double Lam = rb_Lam_near(a, &v);
+        b->Lam[i] = b->rho[i] > reach2 ? v.Lam : Lam;
+    }
+    for (int i = first; i < first + EIGHT; i++) {
+        const rb_seen v = kept(b, i);
+        const double Th = rb_Th_near(a, &v), from_self = (double)(i - self);
+        const double turn = from_self == 0.0 ? -pi : Th;
+        b->Th[i] = b->rho[i] > reach2 ? v.Th : turn;
+        b->q[i] = (a + a) * v.d / v.W;
+    }
+    for (int i = first; with_G && i < first + EIGHT; i++) {
+        const rb_seen v = kept(b, i);
+        const double M = rb_M_near(a, &v);
+        b->M[i] = b->rho[i] > reach2 ? v.M : M;
+    }
+}
+
+RB_INLINE void mend_near_block(double a, int self, int with_G, rb_seen_block *b)
+{
+    const double reach = rb_far.reach * a, reach2 = reach * reach;
+    for (int first = 0; first < BLOCK; first += EIGHT)
+        if (any_within(reach2, b->rho + first))
+            mend_near(a, reach2, first, self, with_G, b);
+}
+
+RB_INLINE void put_H_block(const rb_constants *k, const rb_seen_block *b,
+                           rb_buffer buffer, int at)
+{
+    for (int i = 0; i < BLOCK; i++) {
+        rb_influence out;
+        const rb_seen v = kept(b, i);
+        rb_integrate_H(k, &v, &out);
+        put_H(&out, buffer, 2 * (at + i));
+    }
+}
+
+RB_INLINE void put_G_block(const rb_constants *k, double a, const rb_seen_block *b,
+                           rb_buffer buffer, int at)
+{
+    for (int i = 0; i < BLOCK; i++) {
+        rb_influence out;
+        rb_seen v = kept(b, i);
+        v.log_W = rb_log_join(b->k[i], b->s[i]);
+        rb_integrate_G(k, a, &v, &out);
+        put_G(&out, buffer, 2 * (at + i));
     }
 }
 
 /* In short loops, whose steps are independent: in one long one each result would wait for
  * the last, and the processor does not look far enough ahead to fill the time. */
 RB_INLINE void integrate_block(const rb_constants *k, const rb_element *e,
-                               const double *x, const double *y, int far, int with_G,
-                               rb_buffer buffer, int at)
+                               const double *x, const double *y, int terms, int self,
+                               int with_G, rb_buffer buffer, int at)
 {
     rb_seen_block b;
-    for (int i = 0; i < BLOCK; i++) {
-        rb_seen v = rb_see(e, x[i], y[i]);
-        v.log_W = 0.0;
-        rb_divide_far(e->a, with_G, &v);
-        keep(&v, &b, i);
-    }
-    for (int i = 0; i < BLOCK; i++) {
-        rb_seen v = kept(&b, i);
-        rb_turn_far(e->a, &v);
-        b.Lam[i] = v.Lam;
-        b.Th[i] = v.Th;
-    }
-    if (!far)
-        mend_near(e, x, y, with_G, &b);
-    for (int i = 0; i < BLOCK; i++) {
-        rb_influence out;
-        const rb_seen v = kept(&b, i);
-        rb_integrate_H(k, e->a, &v, &out);
-        if (with_G)
-            rb_integrate_G(k, e->a, &v, &out);
-        put(&out, with_G, buffer, 2 * (at + i));
-    }
+    see_block(e, x, y, &b);
+    if (with_G)
+        split_log_block(&b);
+    turn_far_block(e->a, terms, with_G, &b);
+    if (terms == rb_far.terms)
+        mend_near_block(e->a, self, with_G, &b);
+    put_H_block(k, &b, buffer, at);
+    if (with_G)
+        put_G_block(k, e->a, &b, buffer, at);
 }
 
-/* Every point of the block lies in its circle: one comparison for all. */
-RB_INLINE int all_far(const rb_element *e, const double circle[3])
+/* All points of the block, which lie in its circle, are beyond that many half-lengths. */
+RB_INLINE int all_beyond(double reach, const rb_element *e, const double circle[3])
 {
-    const double reach = 20.0 * e->a + circle[2], dx = e->mx - circle[0],
+    const double r = reach * e->a + circle[2], dx = e->mx - circle[0],
                  dy = e->my - circle[1];
-    return dx * dx + dy * dy > 1.000001 * (reach * reach);
-}
-
-static void put_self(const rb_constants *k, const rb_element *e, rb_buffer buffer, int i)
-{
-    rb_influence out;
-    rb_integrate_self(k, e->a, &out);
-    put(&out, 1, buffer, 2 * i);
+    return dx * dx + dy * dy > 1.000001 * (r * r);
 }
 
 RB_INLINE void fill_block(const rb_constants *k, const rb_element *e, int self,
@@ -198,10 +237,14 @@ RB_INLINE void fill_block(const rb_constants *k, const rb_element *e, int self,
                           rb_buffer buffer)
 {
     const int i = first + at;
-    const int far = all_far(e, points->circle + 3 * (i / BLOCK));
-    integrate_block(k, e, points->x + i, points->y + i, far, with_G, buffer, at);
-    if (self >= i && self < i + BLOCK)
-        put_self(k, e, buffer, self - first);
+    const double *x = points->x + i, *y = points->y + i,
+                 *circle = points->circle + 3 * (i / BLOCK);
+    if (all_beyond(rb_farthest.reach, e, circle))
+        integrate_block(k, e, x, y, rb_farthest.terms, -1, with_G, buffer, at);
+    else if (all_beyond(rb_farther.reach, e, circle))
+        integrate_block(k, e, x, y, rb_farther.terms, -1, with_G, buffer, at);
+    else
+        integrate_block(k, e, x, y, rb_far.terms, self - i, with_G, buffer, at);
 }
 
 /* Points first ... first + count - 1. */
@@ -270,7 +313,7 @@ static const rb_column_variant plain = {"plain", fill_plain};
 #define AVX512                                                                           \
     __attribute__((target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")))
 #endif
-#define AVX2 __attribute__((target("avx2")))
+#define AVX2 __attribute__((target("avx2,fma")))
 
 AVX2 RB_INLINE void line_avx2(double *to, const double *from)
 {
@@ -304,7 +347,7 @@ const rb_column_variant *rb_column_variant_get(int i)
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl"))
         found[n++] = &avx512;
-    if (__builtin_cpu_supports("avx2"))
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
         found[n++] = &avx2;
     found[n++] = &plain;
     return i >= 0 && i < n ? found[i] : NULL;

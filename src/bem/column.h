@@ -20,8 +20,8 @@ void rb_points_free(rb_points *points);
 typedef void rb_column_fn(const rb_constants *k, const rb_element *e, int self,
                           const rb_points *points, double *const out[4]);
 
-/* What this processor can run, the best first; NULL past the last.  All give the same
- * bits. */
+/* What this processor can run, the best first; NULL past the last.  All give the same to
+ * rounding. */
 typedef struct {
     const char *name;
     rb_column_fn *fill;

@@ -13,7 +13,7 @@ void rb_bem_element_integrals(double x0, double y0, double x1, double y1, double
         rb_integrate_self(&k, e.a, &out);
     } else {
         const rb_seen v = rb_look(&e, px, py);
-        rb_integrate_H(&k, e.a, &v, &out);
+        rb_integrate_H(&k, &v, &out);
         rb_integrate_G(&k, e.a, &v, &out);
     }
     H[0] = out.Hxx;

@@ -128,7 +128,7 @@ static rb_seen see_strip(const rb_element *strip, double x, double y)
     rb_seen v = rb_see(strip, x, y);
     if (v.W > 0.0)
         return rb_look(strip, x, y);
-    v.over_W = v.Lam = 0.0;
+    v.q = v.Lam = 0.0;
     v.Th = 0.5 * M_PI;
     return v;
 }
@@ -142,7 +142,7 @@ static void add_strip(const rb_element *strip, double p, double q, double x, dou
                       double *stress)
 {
     const rb_seen v = see_strip(strip, x, y);
-    const double q_ = v.cross * v.over_W, dQ = q_ * (2.0 * v.d * v.d - v.dot),
+    const double q_ = v.q, dQ = q_ * (2.0 * v.d * v.d - (v.rho - strip->a * strip->a)),
                  d2P = -2.0 * v.d * v.X * q_;
     stress[0] += (-p * (v.Th - dQ) + q * (2.0 * v.Lam + d2P)) / M_PI;
     stress[1] += (-p * (v.Th + dQ) - q * d2P) / M_PI;

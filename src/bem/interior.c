@@ -138,9 +138,7 @@ static void add_piece(const rb_interior *in, const rb_piece *p, double x, double
     const double l = 2.0 * p->e.a;
     const double L =
         v.X * v.Lam + 0.5 * p->e.a * v.log_W + v.d * v.Th - l * (1.0 + p->e.log_r0);
-    /* w1 w2 = e^2 (X + i d - a)(X + i d + a), mirrored in the piece's own axes */
-    const cplx w1w2 = p->direction * p->direction *
-                      complex_of(v.square_re - p->e.a * p->e.a, -v.square_im);
+    const cplx w1w2 = complex_of(v.Z_re, v.Z_im);
     const cplx shift = -2.0 * I * v.d * back;
     const cplx I0 = -back * turn, I1 = back * back * I0 + shift * l / w1w2,
                J1 = back * back * l + shift * I0;
