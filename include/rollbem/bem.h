@@ -94,8 +94,8 @@ double rb_bem_system_bytes(int n, int n_c);
 /* "AVX-512", "AVX2" or "plain": what the integrals run on here. */
 const char *rb_bem_vector_name(void);
 
-/* From so many elements on (compressible bodies) the matrix is a hierarchical one: the same
- * answers to 1e-6, n log^2 n work and memory. */
+/* From so many elements on the matrix is hierarchical: the same answers to 1e-6, about
+ * n log n work, memory of order n. */
 enum { RB_BEM_HIERARCHICAL = 3000 };
 
 /* One assembly and one LU.  The mesh is copied.  RB_EINVAL: no support (three rigid

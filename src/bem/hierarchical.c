@@ -1,4 +1,5 @@
 #include "bem/hierarchical.h"
+#include "bem/elimination.h"
 #include "bem/internal.h"
 #include "bem/mixed.h"
 #include "bem/skeleton.h"
@@ -6,6 +7,7 @@
 
 #include <cblas.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,18 +18,12 @@ enum { LEAF = 32, TOP = 2, PANEL = 16 };
 /* Radius of the circle that separates far from near, over that of the cluster. */
 static const double REACH = 2.0;
 
-/* A cluster: m rows and columns, skeleton first.  With the others eliminated,
- *     row R - V' row S,   column R - column S Z,   X_RR = LU,
- * its part of the matrix is X_SS - lower X_RR^-1 X_RS, and upper = X_RR^-1 X_RS. */
 typedef struct {
+    rb_elimination e; /* its rows and columns */
     rb_circle circle; /* about its elements */
-    int m, kept;
-    int *row, *column; /* owned, one allocation */
-    int *order;        /* of the rows, then of the columns: skeleton first; owned */
-    double *D;         /* m x m, then X_SS in its corner; owned, gone with the parent's */
-    double *V, *Z;     /* kept x others; owned with the rest in one allocation */
-    double *lower, *upper, *LU;
-    lapack_int *pivot; /* owned */
+    int *order;       /* of the rows, then of the columns: skeleton first; owned */
+    double *D;        /* its part of the matrix, m x m, then the skeleton's in its corner;
+                         owned, gone with the parent's */
 } cluster;
 
 struct rb_hierarchical {
@@ -44,13 +40,16 @@ static cluster *cluster_at(const rb_hierarchical *h, int level, int k)
     return h->cluster + ((size_t)1 << level) - 1 + k;
 }
 
+static int clusters(const rb_hierarchical *h)
+{
+    return (2 << h->levels) - 1;
+}
+
 static void cluster_free(cluster *c)
 {
-    free(c->row);
+    rb_elimination_free(&c->e);
     free(c->order);
     free(c->D);
-    free(c->V);
-    free(c->pivot);
     *c = (cluster){0};
 }
 
@@ -58,7 +57,7 @@ void rb_hierarchical_free(rb_hierarchical *h)
 {
     if (!h)
         return;
-    for (int i = 0; h->cluster && i < (2 << h->levels) - 1; i++)
+    for (int i = 0; h->cluster && i < clusters(h); i++)
         cluster_free(&h->cluster[i]);
     free(h->cluster);
     free(h->order);
@@ -72,12 +71,11 @@ void rb_hierarchical_free(rb_hierarchical *h)
 static rb_status cluster_alloc(int m, cluster *c)
 {
     const size_t size = (size_t)m;
-    c->m = c->kept = m;
-    c->row = rb_alloc_int(2 * size);
-    c->column = c->row + size;
+    const rb_status s = rb_elimination_begin(m, &c->e);
+
     c->order = rb_alloc_int(2 * size);
     c->D = rb_alloc(size, size);
-    return c->row && c->order && c->D ? RB_OK : RB_ENOMEM;
+    return s == RB_OK && c->order && c->D ? RB_OK : RB_ENOMEM;
 }
 
 static rb_status make_leaf(const rb_hierarchical *h, int level, int k, cluster *c)
@@ -88,12 +86,12 @@ static rb_status make_leaf(const rb_hierarchical *h, int level, int k, cluster *
 
     if (cluster_alloc(2 * (last - first), c) != RB_OK)
         return RB_ENOMEM;
-    for (int i = 0; i < c->m; i++)
-        c->row[i] = c->column[i] = 2 * first + i;
-    rb_status s = rb_mixed_rows_make(&h->matrix, c->m, c->row, NULL, 0, &rows);
+    for (int i = 0; i < c->e.m; i++)
+        c->e.row[i] = c->e.column[i] = 2 * first + i;
+    rb_status s = rb_mixed_rows_make(&h->matrix, c->e.m, c->e.row, NULL, 0, &rows);
     if (s == RB_OK)
-        s = rb_mixed_block(&h->matrix, &rows, c->m, c->column, first, c->D, 1,
-                           (size_t)c->m);
+        s = rb_mixed_block(&h->matrix, &rows, c->e.m, c->e.column, c->D, 1,
+                           (size_t)c->e.m);
     rb_mixed_rows_free(&rows);
     return s;
 }
@@ -103,10 +101,10 @@ static rb_status between(const rb_hierarchical *h, const cluster *a, const clust
                          double *D, int ld)
 {
     rb_mixed_rows rows;
-    rb_status s = rb_mixed_rows_make(&h->matrix, a->kept, a->row, NULL, 0, &rows);
+    rb_status s = rb_mixed_rows_make(&h->matrix, a->e.kept, a->e.row, NULL, 0, &rows);
 
     if (s == RB_OK)
-        s = rb_mixed_block(&h->matrix, &rows, b->kept, b->column, -1, D, 1, (size_t)ld);
+        s = rb_mixed_block(&h->matrix, &rows, b->e.kept, b->e.column, D, 1, (size_t)ld);
     rb_mixed_rows_free(&rows);
     return s;
 }
@@ -116,16 +114,18 @@ static rb_status merge(const rb_hierarchical *h, cluster *part, int count, clust
 {
     int m = 0;
     for (int i = 0; i < count; i++)
-        m += part[i].kept;
+        m += part[i].e.kept;
     rb_status s = cluster_alloc(m, c);
-    for (int j = 0, column = 0; s == RB_OK && j < count; column += part[j++].kept) {
-        memcpy(c->row + column, part[j].row, (size_t)part[j].kept * sizeof *c->row);
-        memcpy(c->column + column, part[j].column, (size_t)part[j].kept * sizeof *c->row);
+    for (int j = 0, column = 0; s == RB_OK && j < count; column += part[j++].e.kept) {
+        memcpy(c->e.row + column, part[j].e.row,
+               (size_t)part[j].e.kept * sizeof *c->e.row);
+        memcpy(c->e.column + column, part[j].e.column,
+               (size_t)part[j].e.kept * sizeof *c->e.row);
         double *D = c->D + (size_t)column * (size_t)m;
-        for (int i = 0; s == RB_OK && i < count; D += part[i++].kept)
+        for (int i = 0; s == RB_OK && i < count; D += part[i++].e.kept)
             if (i == j)
-                LAPACKE_dlacpy_work(LAPACK_COL_MAJOR, 'A', part[j].kept, part[j].kept,
-                                    part[j].D, part[j].m, D, m);
+                LAPACKE_dlacpy_work(LAPACK_COL_MAJOR, 'A', part[j].e.kept, part[j].e.kept,
+                                    part[j].D, part[j].e.m, D, m);
             else
                 s = between(h, &part[i], &part[j], D, m);
     }
@@ -166,7 +166,7 @@ static rb_status neighbours_alloc(const rb_hierarchical *h, int level, int k,
     for (int i = 0; i < 1 << level; i++) {
         const cluster *c = cluster_at(h, level, i);
         if (i != k && overlap(&c->circle, reach))
-            most += (size_t)c->m;
+            most += (size_t)c->e.m;
     }
     *near = (neighbours){.row = rb_alloc_int(2 * most)};
     near->column = near->row + most;
@@ -182,11 +182,11 @@ static rb_status find_neighbours(const rb_hierarchical *h, int level, int k,
         const cluster *c = cluster_at(h, level, i);
         if (i == k || !overlap(&c->circle, reach))
             continue;
-        for (int d = 0; d < c->m; d++) {
-            if (reaches_into(h, c->row[d], reach))
-                near->row[near->rows++] = c->row[d];
-            if (reaches_into(h, c->column[d], reach))
-                near->column[near->columns++] = c->column[d];
+        for (int d = 0; d < c->e.m; d++) {
+            if (reaches_into(h, c->e.row[d], reach))
+                near->row[near->rows++] = c->e.row[d];
+            if (reaches_into(h, c->e.column[d], reach))
+                near->column[near->columns++] = c->e.column[d];
         }
     }
     return RB_OK;
@@ -200,9 +200,9 @@ static rb_status see_columns(const rb_hierarchical *h, const cluster *c,
     rb_status status =
         rb_mixed_rows_make(&h->matrix, near->rows, near->row, &reach, h->points, &rows);
     if (status == RB_OK)
-        status = rb_skeleton_alloc(rows.rows, c->m, s);
+        status = rb_skeleton_alloc(rows.rows, c->e.m, s);
     if (status == RB_OK)
-        status = rb_mixed_block(&h->matrix, &rows, c->m, c->column, -1, s->K, 1,
+        status = rb_mixed_block(&h->matrix, &rows, c->e.m, c->e.column, s->K, 1,
                                 (size_t)s->ld);
     rb_mixed_rows_free(&rows);
     return status;
@@ -214,12 +214,12 @@ static rb_status see_rows(const rb_hierarchical *h, const cluster *c,
                           const neighbours *near, rb_circle reach, rb_skeleton *s)
 {
     rb_mixed_rows rows;
-    rb_status status = rb_mixed_rows_make(&h->matrix, c->m, c->row, NULL, 0, &rows);
+    rb_status status = rb_mixed_rows_make(&h->matrix, c->e.m, c->e.row, NULL, 0, &rows);
 
     if (status == RB_OK)
-        status = rb_skeleton_alloc(near->columns + 2 * h->points, c->m, s);
+        status = rb_skeleton_alloc(near->columns + 2 * h->points, c->e.m, s);
     if (status == RB_OK)
-        status = rb_mixed_block(&h->matrix, &rows, near->columns, near->column, -1, s->K,
+        status = rb_mixed_block(&h->matrix, &rows, near->columns, near->column, s->K,
                                 (size_t)s->ld, 1);
     if (status == RB_OK)
         status = rb_mixed_far(&h->matrix, &rows, reach, h->points, s->K + near->columns,
@@ -228,35 +228,22 @@ static rb_status see_rows(const rb_hierarchical *h, const cluster *c,
     return status;
 }
 
-static rb_status store_alloc(cluster *c)
-{
-    const size_t kept = (size_t)c->kept, others = (size_t)(c->m - c->kept);
-    c->V = rb_alloc(4 * kept + others + 1, others + 1);
-    c->pivot = calloc(others + 1, sizeof *c->pivot);
-    if (!c->V || !c->pivot)
-        return RB_ENOMEM;
-    c->Z = c->V + kept * others;
-    c->lower = c->Z + kept * others;
-    c->upper = c->lower + kept * others;
-    c->LU = c->upper + kept * others;
-    return RB_OK;
-}
-
 /* Both decompositions to the larger of their ranks. */
 static rb_status split(const rb_hierarchical *h, cluster *c, rb_skeleton *columns,
                        rb_skeleton *rows)
 {
+    rb_elimination *e = &c->e;
     rb_status s = rb_skeleton_factor(columns, h->tolerance);
 
     if (s == RB_OK)
         s = rb_skeleton_factor(rows, h->tolerance);
-    c->kept = rows->rank > columns->rank ? rows->rank : columns->rank;
     if (s == RB_OK)
-        s = store_alloc(c);
+        s = rb_elimination_keep(rows->rank > columns->rank ? rows->rank : columns->rank,
+                                e);
     if (s == RB_OK)
-        s = rb_skeleton_split(columns, c->kept, c->order + c->m, c->Z);
+        s = rb_skeleton_split(columns, e->kept, c->order + e->m, e->Z);
     if (s == RB_OK)
-        s = rb_skeleton_split(rows, c->kept, c->order, c->V);
+        s = rb_skeleton_split(rows, e->kept, c->order, e->V);
     return s;
 }
 
@@ -287,60 +274,32 @@ static rb_status skeletonise(const rb_hierarchical *h, int level, int k)
 /* X = D in the new order; the lists too. */
 static rb_status reorder(cluster *c, double *X)
 {
-    const size_t m = (size_t)c->m;
+    const size_t m = (size_t)c->e.m;
     int *old = rb_alloc_int(2 * m);
 
     if (!old)
         return RB_ENOMEM;
-    memcpy(old, c->row, 2 * m * sizeof *old);
+    memcpy(old, c->e.row, 2 * m * sizeof *old);
     for (size_t j = 0; j < m; j++) {
         const double *from = c->D + (size_t)c->order[m + j] * m;
         for (size_t i = 0; i < m; i++)
             X[i + j * m] = from[c->order[i]];
-        c->row[j] = old[c->order[j]];
-        c->column[j] = old[m + (size_t)c->order[m + j]];
+        c->e.row[j] = old[c->order[j]];
+        c->e.column[j] = old[m + (size_t)c->order[m + j]];
     }
     free(old);
-    return RB_OK;
-}
-
-/* Leading dimension of a matrix of so many rows. */
-static int lead(int rows)
-{
-    return rows > 0 ? rows : 1;
-}
-
-/* X_RR = LU, and what is left of the skeleton's own part. */
-static rb_status eliminate_others(cluster *c, double *X)
-{
-    const int m = c->m, kept = c->kept, others = m - kept, ld = lead(kept);
-    double *RS = X + kept, *SR = X + (size_t)kept * (size_t)m, *RR = SR + kept;
-
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, m, others, kept, -1.0, X, m,
-                c->Z, ld, 1.0, SR, m); /* and RR below it */
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, others, m, kept, -1.0, c->V, ld,
-                X, m, 1.0, RS, m); /* and RR beside it */
-    LAPACKE_dlacpy_work(LAPACK_COL_MAJOR, 'A', others, others, RR, m, c->LU, others);
-    LAPACKE_dlacpy_work(LAPACK_COL_MAJOR, 'A', others, kept, RS, m, c->upper, others);
-    LAPACKE_dlacpy_work(LAPACK_COL_MAJOR, 'A', kept, others, SR, m, c->lower, ld);
-    if (LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, others, others, c->LU, others, c->pivot))
-        return RB_SINGULAR;
-    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', others, kept, c->LU, others, c->pivot,
-                        c->upper, others);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, kept, kept, others, -1.0,
-                c->lower, ld, c->upper, others, 1.0, X, m);
     return RB_OK;
 }
 
 static rb_status eliminate(const rb_hierarchical *h, int level, int k)
 {
     cluster *c = cluster_at(h, level, k);
-    const size_t m = (size_t)c->m;
+    const size_t m = (size_t)c->e.m;
     double *X = rb_alloc(m, m);
     rb_status s = X ? reorder(c, X) : RB_ENOMEM;
 
-    if (s == RB_OK && c->kept < c->m)
-        s = eliminate_others(c, X);
+    if (s == RB_OK && c->e.kept < c->e.m)
+        s = rb_elimination_run(&c->e, X);
     free(c->D);
     c->D = X;
     return s;
@@ -395,11 +354,10 @@ static rb_status solve_top(const rb_hierarchical *h)
     cluster *top = cluster_at(h, 0, 0);
     rb_status s = h->levels == 0 ? make_leaf(h, 0, 0, top)
                                  : merge(h, cluster_at(h, TOP, 0), 1 << TOP, top);
-    top->kept = 0;
     if (s == RB_OK)
-        s = store_alloc(top);
+        s = rb_elimination_keep(0, &top->e);
     if (s == RB_OK)
-        s = eliminate_others(top, top->D);
+        s = rb_elimination_run(&top->e, top->D);
     free(top->D);
     top->D = NULL;
     return s;
@@ -423,84 +381,8 @@ static rb_hierarchical *hierarchical_alloc(int n, double tolerance)
     return NULL;
 }
 
-rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material material,
-                                 const double *unit, double tolerance,
-                                 rb_hierarchical **out)
-{
-    rb_hierarchical *h = hierarchical_alloc(mesh->n, tolerance);
-    rb_status s = h ? rb_mixed_make(mesh, material, unit, h->levels, h->order, &h->matrix)
-                    : RB_ENOMEM;
-    const int threads = rb_blas_threads(1);
-
-    for (int level = h ? h->levels : 0; s == RB_OK && level >= TOP; level--)
-        s = reduce_level(h, level);
-    if (s == RB_OK)
-        s = solve_top(h);
-    rb_blas_threads(threads);
-    *out = s == RB_OK ? h : NULL;
-    if (s != RB_OK)
-        rb_hierarchical_free(h);
-    return s;
-}
-
 /* ---- Solutions ----------------------------------------------------------------------
  */
-
-/* Rows list of X (n x columns) to or from the rows of a small matrix. */
-static void gather(const double *X, size_t n, int columns, const int *list, int count,
-                   double *to)
-{
-    for (int c = 0; c < columns; c++)
-        for (int i = 0; i < count; i++)
-            to[i + (size_t)c * (size_t)count] = X[(size_t)list[i] + (size_t)c * n];
-}
-
-static void put_back(const double *from, int columns, const int *list, int count,
-                     double *X, size_t n)
-{
-    for (int c = 0; c < columns; c++)
-        for (int i = 0; i < count; i++)
-            X[(size_t)list[i] + (size_t)c * n] = from[i + (size_t)c * (size_t)count];
-}
-
-/* b_R -= V' b_S,  y_R = X_RR^-1 b_R,  b_S -= lower y_R */
-static void solve_up(const cluster *c, size_t n, int q, double *b, double *y,
-                     double *room)
-{
-    const int kept = c->kept, others = c->m - kept, ld = lead(kept);
-    double *S = room, *R = room + (size_t)kept * (size_t)q;
-
-    if (others == 0)
-        return;
-    gather(b, n, q, c->row, kept, S);
-    gather(b, n, q, c->row + kept, others, R);
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, others, q, kept, -1.0, c->V, ld,
-                S, ld, 1.0, R, others);
-    LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', others, q, c->LU, others, c->pivot, R,
-                        others);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, kept, q, others, -1.0,
-                c->lower, ld, R, others, 1.0, S, ld);
-    put_back(S, q, c->row, kept, b, n);
-    put_back(R, q, c->column + kept, others, y, n);
-}
-
-/* y_R -= upper y_S,  x_R = y_R,  x_S = y_S - Z y_R */
-static void solve_down(const cluster *c, size_t n, int q, double *y, double *room)
-{
-    const int kept = c->kept, others = c->m - kept, ld = lead(kept);
-    double *S = room, *R = room + (size_t)kept * (size_t)q;
-
-    if (others == 0)
-        return;
-    gather(y, n, q, c->column, kept, S);
-    gather(y, n, q, c->column + kept, others, R);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, others, q, kept, -1.0,
-                c->upper, others, S, ld, 1.0, R, others);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, kept, q, others, -1.0, c->Z,
-                ld, R, others, 1.0, S, ld);
-    put_back(S, q, c->column, kept, y, n);
-    put_back(R, q, c->column + kept, others, y, n);
-}
 
 /* Columns of X from the mesh's order to the clusters', or back. */
 static void permute(const rb_hierarchical *h, int q, const double *from, double *to,
@@ -515,43 +397,155 @@ static void permute(const rb_hierarchical *h, int q, const double *from, double 
             }
 }
 
-/* room: 2 dofs x q, then the largest cluster's m x q. */
-static void solve_panel(const rb_hierarchical *h, int q, double *X, double *room)
+/* y = A^-1 b in the clusters' order, dofs x q; b is used up.  room: of largest_cluster
+ * x q. */
+static void solve_ordered(const rb_hierarchical *h, int q, double *b, double *y,
+                          double *room)
 {
     const size_t dofs = 2 * (size_t)h->matrix.n;
-    const int all = (2 << h->levels) - 1;
-    double *b = room, *y = b + dofs * (size_t)q, *small = y + dofs * (size_t)q;
+    for (int i = clusters(h) - 1; i >= 0; i--)
+        rb_elimination_up(&h->cluster[i].e, dofs, q, b, y, room);
+    for (int i = 1; i < clusters(h); i++)
+        rb_elimination_down(&h->cluster[i].e, dofs, q, y, room);
+}
 
+static size_t largest_cluster(const rb_hierarchical *h)
+{
+    int most = 0;
+    for (int i = 0; i < clusters(h); i++)
+        most = h->cluster[i].e.m > most ? h->cluster[i].e.m : most;
+    return (size_t)most;
+}
+
+static rb_status solve_panel(const rb_hierarchical *h, int q, double *X)
+{
+    const size_t all = 2 * (size_t)h->matrix.n * (size_t)q;
+    double *b = rb_alloc(2 * all + largest_cluster(h) * (size_t)q, 1), *y = b + all;
+
+    if (!b)
+        return RB_ENOMEM;
     permute(h, q, X, b, 0);
-    for (int i = all - 1; i >= 0; i--)
-        solve_up(&h->cluster[i], dofs, q, b, y, small);
-    for (int i = 1; i < all; i++)
-        solve_down(&h->cluster[i], dofs, q, y, small);
+    solve_ordered(h, q, b, y, y + all);
     permute(h, q, y, X, 1);
+    free(b);
+    return RB_OK;
 }
 
 rb_status rb_hierarchical_solve(const rb_hierarchical *h, int columns, double *X)
 {
-    const size_t dofs = 2 * (size_t)h->matrix.n;
     const int panels = (columns + PANEL - 1) / PANEL;
     const int threads = rb_blas_threads(1);
     rb_status s = RB_OK;
-    size_t most = 0;
 
-    for (int i = 0; i < (2 << h->levels) - 1; i++)
-        most = (size_t)h->cluster[i].m > most ? (size_t)h->cluster[i].m : most;
 #pragma omp parallel for schedule(dynamic) if (panels > 1)
     for (int p = 0; p < panels; p++) {
-        const int first = p * PANEL,
-                  q = columns - first < PANEL ? columns - first : PANEL;
-        double *room = rb_alloc(2 * dofs + most, (size_t)q);
-        if (room)
-            solve_panel(h, q, X + (size_t)first * dofs, room);
+        const int first = p * PANEL, rest = columns - first;
+        const rb_status own = solve_panel(h, rest < PANEL ? rest : PANEL,
+                                          X + 2 * (size_t)h->matrix.n * (size_t)first);
+        if (own != RB_OK)
 #pragma omp critical
-        s = room ? s : RB_ENOMEM;
-        free(room);
+            s = own;
     }
     rb_blas_threads(threads);
+    return s;
+}
+
+/* ---- Whether it is an inverse ---------------------------------------------------------
+ */
+
+enum { SAMPLES = 64, CHUNK = 256 };
+
+/* b - A x at the sampled elements, the largest. */
+static rb_status sample_residual(const rb_hierarchical *h, int rows, const int *row,
+                                 const double *b, const double *x, double *largest)
+{
+    double *A = rb_alloc((size_t)rows, CHUNK), *r = rb_alloc((size_t)rows, 1);
+    int column[CHUNK];
+    rb_mixed_rows of_A = {0};
+    rb_status s =
+        A && r ? rb_mixed_rows_make(&h->matrix, rows, row, NULL, 0, &of_A) : RB_ENOMEM;
+
+    for (int i = 0; s == RB_OK && i < rows; i++)
+        r[i] = b[row[i]];
+    for (int first = 0; s == RB_OK && first < 2 * h->matrix.n; first += CHUNK) {
+        const int rest = 2 * h->matrix.n - first, count = rest < CHUNK ? rest : CHUNK;
+        for (int c = 0; c < count; c++)
+            column[c] = first + c;
+        s = rb_mixed_block(&h->matrix, &of_A, count, column, A, 1, (size_t)rows);
+        if (s == RB_OK)
+            cblas_dgemv(CblasColMajor, CblasNoTrans, rows, count, -1.0, A, rows,
+                        x + first, 1, 1.0, r, 1);
+    }
+    *largest = s == RB_OK ? rb_norm_inf((size_t)rows, r) : INFINITY;
+    rb_mixed_rows_free(&of_A);
+    free(A);
+    free(r);
+    return s;
+}
+
+/* Elements all over the boundary, and the one whose unknowns are largest, ascending. */
+static int choose_samples(const rb_hierarchical *h, const double *x, int *row)
+{
+    const int n = h->matrix.n, count = n < SAMPLES ? n : SAMPLES;
+    const int largest = (int)cblas_idamax(2 * n, x, 1) / 2;
+    int rows = 0;
+
+    for (int i = 0, last = -1; i < count; i++) {
+        int j = (int)((double)i * n / count);
+        const int next = (int)((i + 1.0) * n / count);
+        if (largest > j && largest < next)
+            j = largest;
+        if (j != last)
+            for (int k = 0; k < 2; k++)
+                row[rows++] = 2 * j + k;
+        last = j;
+    }
+    return rows;
+}
+
+/* A singular matrix has an inverse too where low ranks and rounding have moved it a
+ * little: one that does not give b back, and a random b has something of all vectors. */
+static rb_status verify(const rb_hierarchical *h)
+{
+    const size_t dofs = 2 * (size_t)h->matrix.n;
+    double *b = rb_alloc(dofs, 3), *x = b + dofs, *used = x + dofs,
+           *room = rb_alloc(largest_cluster(h), 1), left = INFINITY;
+    int row[2 * SAMPLES];
+    rb_status s = b && room ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK) {
+        uint32_t state = 1;
+        for (size_t i = 0; i < dofs; i++) {
+            state = 1664525 * state + 1013904223;
+            used[i] = b[i] = state / 4294967296.0 - 0.5;
+        }
+        solve_ordered(h, 1, used, x, room);
+        s = sample_residual(h, choose_samples(h, x, row), row, b, x, &left);
+    }
+    free(b);
+    free(room);
+    return s == RB_OK && !(left < fmin(1e4 * h->tolerance, 1e-3)) ? RB_SINGULAR : s;
+}
+
+rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material material,
+                                 const double *unit, double tolerance,
+                                 rb_hierarchical **out)
+{
+    rb_hierarchical *h = hierarchical_alloc(mesh->n, tolerance);
+    rb_status s = h ? rb_mixed_make(mesh, material, unit, h->levels, h->order, &h->matrix)
+                    : RB_ENOMEM;
+    const int threads = rb_blas_threads(1);
+
+    for (int level = h ? h->levels : 0; s == RB_OK && level >= TOP; level--)
+        s = reduce_level(h, level);
+    if (s == RB_OK)
+        s = solve_top(h);
+    if (s == RB_OK)
+        s = verify(h);
+    rb_blas_threads(threads);
+    *out = s == RB_OK ? h : NULL;
+    if (s != RB_OK)
+        rb_hierarchical_free(h);
     return s;
 }
 
@@ -559,8 +553,8 @@ double rb_hierarchical_ratio(const rb_hierarchical *h)
 {
     const double dofs = 2.0 * h->matrix.n;
     double stored = 0.0;
-    for (int i = 0; i < (2 << h->levels) - 1; i++) {
-        const double kept = h->cluster[i].kept, others = h->cluster[i].m - kept;
+    for (int i = 0; i < clusters(h); i++) {
+        const double kept = h->cluster[i].e.kept, others = h->cluster[i].e.m - kept;
         stored += (4.0 * kept + others) * others;
     }
     return stored / (dofs * dofs);

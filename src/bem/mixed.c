@@ -8,6 +8,7 @@ void rb_mixed_free(rb_mixed *a)
     free(a->element);
     free(a->constants);
     free(a->held);
+    rb_held_contours_free(&a->contours);
     *a = (rb_mixed){0};
 }
 
@@ -39,6 +40,27 @@ static rb_status order_elements(const rb_bem_mesh *mesh, int levels, int *order,
     return RB_OK;
 }
 
+/* The same of the contours. */
+static rb_status order_contours(const rb_bem_mesh *mesh, const int *order, rb_mixed *a)
+{
+    rb_held_contours *to = &a->contours, from;
+    rb_status s = rb_held_contours_find(mesh, a->material, &from);
+
+    if (s != RB_OK || from.count == 0)
+        return s;
+    *to = (rb_held_contours){.count = from.count,
+                             .contour = rb_alloc_int((size_t)a->n),
+                             .normal = rb_alloc((size_t)a->n, 2)};
+    s = to->contour && to->normal ? RB_OK : RB_ENOMEM;
+    for (int j = 0; s == RB_OK && j < a->n; j++) {
+        to->contour[j] = from.contour[order[j]];
+        for (int k = 0; k < 2; k++)
+            to->normal[2 * j + k] = from.normal[2 * order[j] + k];
+    }
+    rb_held_contours_free(&from);
+    return s;
+}
+
 rb_status rb_mixed_make(const rb_bem_mesh *mesh, rb_bem_material material,
                         const double *unit, int levels, int *order, rb_mixed *a)
 {
@@ -49,7 +71,8 @@ rb_status rb_mixed_make(const rb_bem_mesh *mesh, rb_bem_material material,
     a->constants = calloc(n, sizeof *a->constants);
     a->held = rb_alloc_int(2 * n);
     if (!a->element || !a->constants || !a->held ||
-        order_elements(mesh, levels, order, a) != RB_OK) {
+        order_elements(mesh, levels, order, a) != RB_OK ||
+        order_contours(mesh, order, a) != RB_OK) {
         rb_mixed_free(a);
         return RB_ENOMEM;
     }
@@ -64,6 +87,7 @@ rb_status rb_mixed_make(const rb_bem_mesh *mesh, rb_bem_material material,
 void rb_mixed_rows_free(rb_mixed_rows *r)
 {
     rb_points_free(&r->points);
+    free(r->element);
     free(r->at);
     *r = (rb_mixed_rows){0};
 }
@@ -73,31 +97,48 @@ static double angle(int q, int points)
     return 2.0 * 3.14159265358979323846 * q / points;
 }
 
+/* x, y: of the points, after those of the rows' elements. */
+static void put_on_circle(const rb_circle *circle, int points, double *x, double *y,
+                          rb_mixed_rows *r)
+{
+    for (int q = 0; q < points; q++) {
+        const int point = r->elements + q;
+        x[point] = circle->x + circle->r * cos(angle(q, points));
+        y[point] = circle->y + circle->r * sin(angle(q, points));
+        for (int k = 0; k < 2; k++)
+            r->at[r->own + 2 * q + k] = 2 * point + k;
+    }
+}
+
+static void put_elements(const rb_mixed *a, double *x, double *y, rb_mixed_rows *r)
+{
+    int last = -1;
+    for (int i = 0; i < r->own; i++) {
+        const int j = r->row[i] / 2;
+        if (j != last) {
+            x[r->elements] = a->element[j].mx;
+            y[r->elements] = a->element[j].my;
+            r->element[r->elements++] = last = j;
+        }
+        r->at[i] = 2 * (r->elements - 1) + r->row[i] % 2;
+    }
+}
+
 rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row,
                              const rb_circle *circle, int points, rb_mixed_rows *r)
 {
     const size_t all = (size_t)rows + 2 * (size_t)points;
     double *x = rb_alloc(all, 2), *y = x + all;
-    int count = 0, last = -1;
     rb_status s = RB_ENOMEM;
 
-    *r = (rb_mixed_rows){.rows = (int)all, .at = rb_alloc_int(all)};
-    for (int i = 0; x && r->at && i < rows; i++) {
-        if (row[i] / 2 != last) {
-            last = row[i] / 2;
-            x[count] = a->element[last].mx;
-            y[count++] = a->element[last].my;
-        }
-        r->at[i] = 2 * (count - 1) + row[i] % 2;
+    *r = (rb_mixed_rows){.rows = (int)all, .own = rows, .row = row};
+    r->at = rb_alloc_int(all);
+    r->element = rb_alloc_int((size_t)rows);
+    if (x && r->at && r->element) {
+        put_elements(a, x, y, r);
+        put_on_circle(circle, points, x, y, r);
+        s = rb_points_make(r->elements + points, x, y, &r->points);
     }
-    for (int q = 0; x && r->at && q < points; q++, count++) {
-        x[count] = circle->x + circle->r * cos(angle(q, points));
-        y[count] = circle->y + circle->r * sin(angle(q, points));
-        r->at[rows + 2 * q] = 2 * count;
-        r->at[rows + 2 * q + 1] = 2 * count + 1;
-    }
-    if (x && r->at)
-        s = rb_points_make(count, x, y, &r->points);
     free(x);
     if (s != RB_OK)
         rb_mixed_rows_free(r);
@@ -110,8 +151,31 @@ static void scatter(const rb_mixed_rows *r, const double *from, double *to, size
         to[(size_t)i * step] = from[r->at[i]];
 }
 
+static void add_term(const rb_mixed *a, const rb_mixed_rows *r, int column, double *to,
+                     size_t step)
+{
+    if (a->contours.count && a->contours.contour[column / 2] >= 0)
+        for (int i = 0; i < r->own; i++)
+            to[(size_t)i * step] +=
+                rb_held_contours_term(&a->contours, r->row[i], column);
+}
+
+/* The point on element j, or -1. */
+static int point_on(const rb_mixed_rows *r, int j)
+{
+    int low = 0, high = r->elements;
+    while (low < high) {
+        const int middle = (low + high) / 2;
+        if (r->element[middle] < j)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < r->elements && r->element[low] == j ? low : -1;
+}
+
 rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
-                         const int *column, int own, double *out, size_t row_step,
+                         const int *column, double *out, size_t row_step,
                          size_t column_step)
 {
     const size_t rows = 2 * (size_t)r->points.n;
@@ -121,17 +185,19 @@ rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
     if (!buffer)
         return RB_ENOMEM;
     for (int c = 0; c < columns;) {
-        const int j = column[c] / 2, self = own < 0 ? -1 : j - own;
+        const int j = column[c] / 2;
         double *part[4] = {NULL, NULL, NULL, NULL};
         int end = c;
         for (; end < columns && column[end] / 2 == j; end++) {
             const int k = column[end] % 2;
             part[a->held[column[end]] ? 2 + k : k] = buffer + (size_t)k * rows;
         }
-        fill(&a->constants[j], &a->element[j], self, &r->points, part);
-        for (; c < end; c++)
-            scatter(r, buffer + (size_t)(column[c] % 2) * rows,
-                    out + (size_t)c * column_step, row_step);
+        fill(&a->constants[j], &a->element[j], point_on(r, j), &r->points, part);
+        for (; c < end; c++) {
+            double *to = out + (size_t)c * column_step;
+            scatter(r, buffer + (size_t)(column[c] % 2) * rows, to, row_step);
+            add_term(a, r, column[c], to, row_step);
+        }
     }
     free(buffer);
     return RB_OK;

@@ -5,6 +5,7 @@
 
 #include "bem/cluster.h"
 #include "bem/column.h"
+#include "bem/incompressible.h"
 
 /* Rows: displacement at the midpoints.  Columns: the unknowns, displacements or, where
  * these are given, tractions over unit[j].  Dofs 2j, 2j + 1 in the clusters' order. */
@@ -15,6 +16,7 @@ typedef struct {
     int *held;               /* 2n: 1 where the unknown is a traction */
     rb_bem_material material;
     double size; /* of the mesh, inside the logarithm */
+    rb_held_contours contours;
 } rb_mixed;
 
 /* order: element j is the mesh's order[j]; unit in the mesh's order. */
@@ -25,8 +27,11 @@ void rb_mixed_free(rb_mixed *a);
 /* Rows of A, and then two at each of some points on a circle. */
 typedef struct {
     rb_points points;
-    int rows;
-    int *at; /* the row's place in a column over all points */
+    int rows, own;  /* own: of A */
+    const int *row; /* own, borrowed */
+    int elements;   /* of which the own rows are */
+    int *element;   /* their numbers, ascending; owned */
+    int *at;        /* the row's place in a column over all points */
 } rb_mixed_rows;
 
 /* row: ascending.  points: on the circle; 0: none. */
@@ -34,11 +39,9 @@ rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row,
                              const rb_circle *circle, int points, rb_mixed_rows *r);
 void rb_mixed_rows_free(rb_mixed_rows *r);
 
-/* out[i row_step + j column_step] = A(row i, column[j]).  own: the element of the first
- * point where the columns' elements are among the rows', which are then consecutive, or
- * -1. */
+/* out[i row_step + j column_step] = A(row i, column[j]). */
 rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
-                         const int *column, int own, double *out, size_t row_step,
+                         const int *column, double *out, size_t row_step,
                          size_t column_step);
 
 /* The same for loads along x and y on each of `points` parts of the circle; of order one.

@@ -1,6 +1,7 @@
 /* Mixed problems (B4): assembly and LU. */
 #include "bem/system.h"
 #include "bem/assemble.h"
+#include "bem/incompressible.h"
 #include "bem/internal.h"
 #include "rollbem/blas.h"
 #include "bem/large.h"
@@ -12,15 +13,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of every block of a hierarchical matrix: what it leaves of the flexibility's error is
- * far below that of the elements (1e-4 at such lengths). */
+/* Of a hierarchical matrix: it leaves an error of the flexibility of 1e-7, far below that
+ * of the elements (1e-4 at such lengths). */
 static const double TOLERANCE = 1e-8;
 
-double rb_bem_system_bytes(int n, int n_c)
+static double dense_bytes(int n, int n_c)
 {
     const double dofs = 2.0 * n, loads = 2.0 * n_c;
     const double system = dofs * (dofs + loads), condensation = (dofs + loads) * loads;
     return sizeof(double) * (system + condensation);
+}
+
+/* Measured on wheels (docs/performance.md), and the contact's columns twice. */
+static double hierarchical_bytes(int n, int n_c)
+{
+    return 6000.0 * n + sizeof(double) * 8.0 * n * n_c;
+}
+
+double rb_bem_system_bytes(int n, int n_c)
+{
+    return n < RB_BEM_HIERARCHICAL ? dense_bytes(n, n_c) : hierarchical_bytes(n, n_c);
 }
 
 void rb_bem_system_free(rb_bem_system *system)
@@ -138,64 +150,16 @@ static rb_status add_given(const rb_bem_system *s, const rb_assembly *assembly,
     return RB_OK;
 }
 
-/* ---- Incompressible bodies --------------------------------------------------------- */
-
-/* Below this 1 - 2 nu a body counts as incompressible: what is left of the term that the
- * pressure of a hub works on drowns in the rounding of the others. */
-static const double INCOMPRESSIBLE = 1e-9;
-
-static int is_held(const rb_bem_mesh *mesh, int j)
+static rb_status fix_pressures(rb_bem_system *s)
 {
-    return mesh->condition[2 * j] == RB_BEM_DISPLACEMENT &&
-           mesh->condition[2 * j + 1] == RB_BEM_DISPLACEMENT;
-}
+    rb_held_contours held;
+    const rb_status status = rb_held_contours_find(&s->mesh, s->material, &held);
 
-/* Outward normal times 1/sqrt(number of elements). */
-static void scaled_normal(const rb_bem_mesh *mesh, int j, int count, double normal[2])
-{
-    const double dx = mesh->x1[j] - mesh->x0[j], dy = mesh->y1[j] - mesh->y0[j],
-                 scale = 1.0 / (hypot(dx, dy) * sqrt(count));
-    normal[0] = dy * scale;
-    normal[1] = -dx * scale;
-}
-
-/* Elements first ... last - 1 are a whole contour. */
-static void fix_pressure(rb_bem_system *s, int first, int last)
-{
-    double row[2], column[2];
-    for (int j = first; j < last; j++) {
-        scaled_normal(&s->mesh, j, last - first, column);
-        for (int i = first; i < last; i++) {
-            scaled_normal(&s->mesh, i, last - first, row);
-            for (int k = 0; k < 2; k++)
-                for (int l = 0; l < 2; l++)
-                    column_of(s, 2 * j + k)[2 * i + l] += row[l] * column[k];
-        }
-    }
-}
-
-/* A uniform pressure on a contour that is held all around takes no volume from an
- * incompressible body: div U = 0, so G has no answer to it and A would be singular.  No
- * displacement depends on it; a rank-one term sets its mean to zero. */
-static rb_status fix_pressures(rb_bem_system *s, rb_bem_material material)
-{
-    if (1.0 - 2.0 * material.poisson > INCOMPRESSIBLE)
-        return RB_OK;
-    int *next = rb_alloc_int((size_t)s->mesh.n), first = 0, held = 1;
-    if (!next)
-        return RB_ENOMEM;
-    rb_bem_mesh_next(&s->mesh, next);
-    for (int j = 0; j < s->mesh.n; j++) {
-        held = held && is_held(&s->mesh, j);
-        if (next[j] == j + 1)
-            continue;
-        if (held)
-            fix_pressure(s, first, j + 1);
-        first = j + 1;
-        held = 1;
-    }
-    free(next);
-    return RB_OK;
+    for (int j = 0; held.count && j < s->dofs; j++)
+        for (int i = 0; held.contour[j / 2] >= 0 && i < s->dofs; i++)
+            column_of(s, j)[i] += rb_held_contours_term(&held, i, j);
+    rb_held_contours_free(&held);
+    return status;
 }
 
 static rb_status assemble(rb_bem_system *s, rb_bem_material material)
@@ -215,7 +179,7 @@ static rb_status assemble(rb_bem_system *s, rb_bem_material material)
     status = add_given(s, &assembly, s->mesh.value, s->b);
     rb_assembly_end(&assembly);
     if (status == RB_OK && s->A)
-        status = fix_pressures(s, material);
+        status = fix_pressures(s);
     return status;
 }
 
@@ -268,24 +232,19 @@ static rb_status factor(rb_bem_system *s, rb_message *why)
     s->rcond = NAN;
     const rb_status status =
         rb_hierarchical_create(&s->mesh, s->material, s->unit, TOLERANCE, &s->h);
-    return status == RB_OK
-               ? status
-               : rb_fail(why, status, "boundary elements: the system is singular");
+    return status == RB_SINGULAR
+               ? rb_fail(why, status, "boundary elements: the system is singular")
+               : status;
 }
 
-/* Long boundaries of compressible bodies: a hierarchical matrix. */
-static int is_dense(const rb_bem_mesh *mesh, rb_bem_material material)
+static rb_status check_memory(const rb_bem_mesh *mesh, int dense, rb_message *why)
 {
-    return mesh->n < RB_BEM_HIERARCHICAL ||
-           1.0 - 2.0 * material.poisson <= INCOMPRESSIBLE;
-}
-
-static rb_status check_memory(const rb_bem_mesh *mesh, rb_message *why)
-{
+    const int n = mesh->n, n_c = mesh->contact_n;
     char what[80];
 
-    snprintf(what, sizeof what, "a boundary of %d elements", mesh->n);
-    return rb_memory_check(rb_bem_system_bytes(mesh->n, mesh->contact_n), what, why);
+    snprintf(what, sizeof what, "a boundary of %d elements", n);
+    return rb_memory_check(dense ? dense_bytes(n, n_c) : hierarchical_bytes(n, n_c), what,
+                           why);
 }
 
 rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material,
@@ -297,8 +256,8 @@ rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material mater
         status = rb_bem_material_check(material, why);
     if (status == RB_OK)
         status = rb_bem_support_check(mesh, why);
-    if (status == RB_OK && dense)
-        status = check_memory(mesh, why);
+    if (status == RB_OK)
+        status = check_memory(mesh, dense, why);
     if (status != RB_OK)
         return status;
     const double start = rb_seconds();
@@ -325,7 +284,8 @@ rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material mater
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                rb_bem_system **system, rb_message *why)
 {
-    return rb_bem_system_create_as(mesh, material, is_dense(mesh, material), system, why);
+    return rb_bem_system_create_as(mesh, material, mesh->n < RB_BEM_HIERARCHICAL, system,
+                                   why);
 }
 
 /* x -> u and t: what was given (value), what was solved for. */
