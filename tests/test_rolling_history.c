@@ -87,6 +87,94 @@ static void other_steps_tell_the_same_story(void **state)
     release(&model[1], &h[1]);
 }
 
+/* A rubber-like wheel on a steel rail: both bodies count, and they are coupled. */
+static rb_rolling_case wheel_on_rail(rb_bem_support support, int across)
+{
+    rb_rolling_case rc = steel_wheel(across);
+    rc.a.support = support;
+    rc.a.young /= 3.0;
+    rc.a.poisson = 0.4;
+    rc.load *= 100.0;
+    rc.zone = 1.2 * rb_rolling_hertz_half_width(&rc, rc.load);
+    return rc;
+}
+
+/* Whole elements ahead are rows of F, which does not know of half-planes. */
+static void whole_elements_ahead_are_known(void **state)
+{
+    (void)state;
+    for (int hub = 0; hub < 2; hub++) {
+        const rb_rolling_case rc = wheel_on_rail(hub ? RB_BEM_HUB : RB_BEM_ARC, 20);
+        rb_rolling_model model;
+        CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+        const int n = model.mesh.n, m = n + 1;
+        const double *F = model.bodies.F, size = fabs(F[0]);
+        double *W_T = calloc((size_t)(2 * n * n), sizeof *W_T);
+        for (int ahead = 0; ahead <= 3; ahead++) {
+            memset(W_T, 0, (size_t)(2 * n * n) * sizeof *W_T);
+            CHECK_STATUS(rb_rolling_displacement_ahead(
+                             &rc, &model.bodies, ahead * model.bodies.f.h[n / 2], W_T),
+                         RB_OK);
+            for (int j = 0; j < 2 * n; j++)
+                for (int i = 0; i + ahead < m && i < n; i++)
+                    CHECK_ABS(W_T[i + j * n], F[m + i + ahead + j * 2 * m], 1e-12 * size,
+                              "%d ahead of %d, column %d", ahead, i, j);
+        }
+        free(W_T);
+        rb_rolling_model_free(&model);
+    }
+}
+
+/* A quarter ahead of a midpoint lies a midpoint of elements half as long, two of which
+ * carry what one did. */
+static void a_quarter_ahead_is_a_midpoint_of_halves(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel_on_rail(RB_BEM_HUB, 20);
+    rb_rolling_model coarse, fine;
+    rc.a.datum = rc.b.datum = 100.0;
+    rc.outer_elements = 200;
+    CHECK_STATUS(rb_rolling_model_create(&rc, &coarse, NULL), RB_OK);
+    rc.contact_elements *= 2;
+    CHECK_STATUS(rb_rolling_model_create(&rc, &fine, NULL), RB_OK);
+    const int n = coarse.mesh.n, m = 2 * n + 1;
+    double *W_T = calloc((size_t)(2 * n * n), sizeof *W_T);
+    CHECK_STATUS(rb_rolling_displacement_ahead(&rc, &coarse.bodies,
+                                               0.25 * coarse.bodies.f.h[n / 2], W_T),
+                 RB_OK);
+    const double *F = fine.bodies.F, size = fabs(F[m + 4 * n * m]); /* TT */
+    for (int j = 0; j < 2 * n; j++)
+        for (int i = 0; i < n; i++) {
+            const double *a = F + (size_t)(4 * j * m) + m + 2 * i + 1, *b = a + 2 * m;
+            CHECK_ABS(W_T[i + j * n], *a + *b, 5e-3 * size, "%d, column %d of %d", i, j,
+                      2 * n);
+        }
+    free(W_T);
+    rb_rolling_model_free(&coarse);
+    rb_rolling_model_free(&fine);
+}
+
+static void other_steps_on_a_wheel(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel_on_rail(RB_BEM_HUB, 60);
+    rb_rolling_model model;
+    rb_rolling_history h;
+    double end[3];
+    rc.formulation = RB_TRANSIENT;
+    rc.force_ratio = -0.64;
+    rc.distance = 1.0;
+    for (int k = 0; k < 3; k++) {
+        rc.steps = k == 0 ? 0 : 17 * (2 * k - 1) + 2; /* h, 1.6 h, 0.57 h */
+        run(&rc, NULL, &model, &h);
+        end[k] = h.creepage[h.n - 1];
+        CHECK_MAX(h.residual[h.n - 1], 1e-10, "steps %d", rc.steps);
+        release(&model, &h);
+    }
+    CHECK_REL(end[1], end[0], 3e-2, "longer");
+    CHECK_REL(end[2], end[0], 3e-2, "shorter");
+}
+
 /* c = h: the limit is the steady state with the upstream difference, not merely near it.
  */
 static void the_limit_is_the_steady_state(void **state)
@@ -391,6 +479,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(from_cattaneo_to_carter),
         cmocka_unit_test(other_steps_tell_the_same_story),
+        cmocka_unit_test(whole_elements_ahead_are_known),
+        cmocka_unit_test(a_quarter_ahead_is_a_midpoint_of_halves),
+        cmocka_unit_test(other_steps_on_a_wheel),
         cmocka_unit_test(the_limit_is_the_steady_state),
         cmocka_unit_test(unloading_follows_mindlin_and_deresiewicz),
         cmocka_unit_test(shift_and_force_are_two_sides_of_one_history),

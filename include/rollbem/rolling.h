@@ -381,9 +381,8 @@ typedef int rb_rolling_step(const rb_rolling_model *model,
                             void *context);
 
 /* Runs the program (NULL: the case's own controls, rolled over rc->distance).  Transient
- * steps: rc->steps of equal length, or of one element where that is 0; other lengths than
- * one element need half-planes.  model and history: overwritten, hold the finished steps
- * also on RB_INTERRUPTED and other positive ends; free them in any case. */
+ * steps: rc->steps of equal length, or of one element where that is 0.  model and history:
+ * overwritten, hold the finished steps also on RB_INTERRUPTED and other positive ends; free them in any case. */
 rb_status rb_rolling_history_run(const rb_rolling_case *rc,
                                  const rb_rolling_program *program, rb_rolling_step *step,
                                  void *context, rb_rolling_model *model,

@@ -120,7 +120,7 @@ typedef struct {
     double shift; /* rigid shift so far [length] */
     double *w_T;  /* n: tangential displacement that the next step starts from */
     double *q;    /* n: friction before the step */
-    double *W;    /* 2n x 2n: displacement at x + c; NULL where that is the next point */
+    double *W_T;  /* n x 2n: w_T at x + c; NULL where that is the next point */
 } run;
 
 /* w_T of the present tractions: at the same places, or where a particle that arrives at x
@@ -131,13 +131,12 @@ static rb_status remember(run *r, int rolling)
     const int n = state->n, m = n + 1;
 
     memcpy(r->q, state->q, (size_t)n * sizeof(double));
-    if (r->W && rolling) {
-        const double *W_T = r->W + n, *w0_T = r->model->bodies.f.w0 + m;
-        memcpy(r->w_T, w0_T, (size_t)n * sizeof(double));
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, W_T, 2 * n, state->p, 1, 1.0,
+    if (r->W_T && rolling) {
+        memcpy(r->w_T, r->model->bodies.f.w0 + m, (size_t)n * sizeof(double));
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, r->W_T, n, state->p, 1, 1.0,
                     r->w_T, 1);
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, W_T + 2 * (size_t)n * n,
-                    2 * n, state->q, 1, 1.0, r->w_T, 1);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, r->W_T + (size_t)n * n, n,
+                    state->q, 1, 1.0, r->w_T, 1);
         return RB_OK;
     }
     double *w = rb_alloc(2 * (size_t)m, 1);
@@ -308,49 +307,14 @@ static rb_status widest_contact(const rb_rolling_case *rc,
     return rb_rolling_model_create(&widest, model, why);
 }
 
-static double datum_of_body(const rb_rolling_case *rc, const rb_rolling_body *body)
+static rb_status look_ahead(run *r)
 {
-    return rb_rolling_datum(body, isfinite(body->radius) ? body->radius : rc->a.radius);
-}
+    const size_t n = (size_t)r->model->mesh.n;
 
-/* Adds what a half-plane contributes to the displacement at x + c, mirrored for B. */
-static void add_halfplane(const rb_rolling_case *rc, const rb_rolling_body *body,
-                          double sign, const rb_rolling_mesh *mesh, const double *x,
-                          double *one, double *W)
-{
-    const size_t n = (size_t)mesh->n;
-
-    rb_bem_halfplane_displacement(mesh->n, mesh->ends,
-                                  rb_bem_material_from_young(body->young, body->poisson),
-                                  datum_of_body(rc, body), mesh->n, x, one);
-    for (size_t j = 0; j < 2 * n; j++)
-        for (size_t i = 0; i < 2 * n; i++)
-            W[i + j * 2 * n] += ((i < n) == (j < n) ? 1.0 : sign) * one[i + j * 2 * n];
-}
-
-static rb_status displacement_ahead(run *r, rb_message *why)
-{
-    const rb_rolling_case *rc = r->rc;
-    const rb_rolling_mesh *mesh = &r->model->mesh;
-    const size_t n = (size_t)mesh->n;
-
-    if (rc->a.support != RB_BEM_HALFPLANE ||
-        (rc->elastic_b && rc->b.support != RB_BEM_HALFPLANE))
-        return rb_fail(why, RB_EINVAL,
-                       "steps: on a wheel a step is one element long; leave --steps out");
-    double *x = rb_alloc(n, 1), *one = rb_alloc(2 * n, 2 * n);
-    r->W = rb_alloc(2 * n, 2 * n);
-    if (x && one && r->W) {
-        for (size_t i = 0; i < n; i++)
-            x[i] = r->model->bodies.f.x[i] + r->step;
-        add_halfplane(rc, &rc->a, 1.0, mesh, x, one, r->W);
-        if (rc->elastic_b)
-            add_halfplane(rc, &rc->b, -1.0, mesh, x, one, r->W);
-    }
-    const rb_status s = x && one && r->W ? RB_OK : RB_ENOMEM;
-    free(x);
-    free(one);
-    return s;
+    r->W_T = rb_alloc(n, 2 * n);
+    return r->W_T
+               ? rb_rolling_displacement_ahead(r->rc, &r->model->bodies, r->step, r->W_T)
+               : RB_ENOMEM;
 }
 
 /* Step length and number; one element long where the case does not say. */
@@ -371,7 +335,7 @@ static rb_status plan_steps(run *r, rb_message *why)
                        way / r->unit, count);
     r->steps += (int)count;
     r->step = r->rc->steps > 0 ? way / count : h;
-    return fabs(r->step - h) <= 1e-9 * h ? RB_OK : displacement_ahead(r, why);
+    return fabs(r->step - h) <= 1e-9 * h ? RB_OK : look_ahead(r);
 }
 
 static rb_status prepare(run *r, rb_message *why)
@@ -422,6 +386,6 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
         s = all_steps(&r, step, context, why);
     free(r.w_T);
     free(r.q);
-    free(r.W);
+    free(r.W_T);
     return s;
 }

@@ -30,6 +30,16 @@ double rb_rolling_datum(const rb_rolling_body *body, double radius);
 rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
                                   const double *q, double *w);
 
+/* ---- ahead.c --------------------------------------------------------------------------
+ */
+
+/* Tangential displacement a length `step` further along the surface than each midpoint:
+ * w_T = w0_T + W_T (p, q).  Equal elements, half-planes and wheels.  W_T: n x 2n,
+ * zeroed. */
+rb_status rb_rolling_displacement_ahead(const rb_rolling_case *rc,
+                                        const rb_rolling_bodies *bodies, double step,
+                                        double *W_T);
+
 /* ---- problem.c: what changes from step to step ----------------------------------------
  */
 

@@ -1,0 +1,88 @@
+/* Where a particle was one step ago, when a step is not one element: between the
+ * midpoints and beyond them. */
+#include "rolling/internal.h"
+
+#include <cblas.h>
+#include <stdlib.h>
+
+/* T rows of the half-plane with a body's elasticity under n elements of length h, at
+ * `points` places s along the surface, the first element's midpoint at 0.  sum: points x
+ * 2n, added to; coupling: -1 for body B, which is mirrored. */
+static rb_status add_halfplane(const rb_rolling_case *rc, const rb_rolling_body *body,
+                               double coupling, int n, double h, int points,
+                               const double *s, double *sum)
+{
+    const size_t rows = (size_t)points, columns = 2 * (size_t)n;
+    const double datum =
+        rb_rolling_datum(body, isfinite(body->radius) ? body->radius : rc->a.radius);
+    double *ends = rb_alloc((size_t)n + 1, 1), *W = rb_alloc(2 * rows, columns);
+    rb_status status = ends && W ? RB_OK : RB_ENOMEM;
+
+    for (int i = 0; i <= n && status == RB_OK; i++)
+        ends[i] = (i - 0.5) * h;
+    if (status == RB_OK)
+        status = rb_bem_halfplane_displacement(
+            n, ends, rb_bem_material_from_young(body->young, body->poisson), datum,
+            points, s, W);
+    for (size_t j = 0; j < columns && status == RB_OK; j++)
+        cblas_daxpy(points, j < (size_t)n ? coupling : 1.0, W + rows + j * 2 * rows, 1,
+                    sum + j * rows, 1);
+    free(ends);
+    free(W);
+    return status;
+}
+
+/* Of all elastic bodies; sum: overwritten. */
+static rb_status halfplanes(const rb_rolling_case *rc, int n, double h, int points,
+                            double first, double *sum)
+{
+    double *s = rb_alloc((size_t)points, 1);
+    rb_status status = s ? RB_OK : RB_ENOMEM;
+
+    for (int i = 0; i < points && status == RB_OK; i++)
+        s[i] = first + i * h;
+    if (status == RB_OK)
+        status = add_halfplane(rc, &rc->a, 1.0, n, h, points, s, sum);
+    if (status == RB_OK && rc->elastic_b)
+        status = add_halfplane(rc, &rc->b, -1.0, n, h, points, s, sum);
+    free(s);
+    return status;
+}
+
+/* What the bodies have over half-planes is smooth along the surface: linear in between,
+ * at `ahead` elements from each of the m = n + 1 midpoints, the last one's line going on.
+ */
+static void add_between(int n, const double *rest, double ahead, double *W_T)
+{
+    const size_t rows = (size_t)n, m = rows + 1;
+
+    for (int i = 0; i < n; i++) {
+        const int before = i + ahead < n - 1 ? (int)(i + ahead) : n - 1;
+        const double t = i + ahead - before;
+        cblas_daxpy(2 * n, 1.0 - t, rest + before, (int)m, W_T + i, n);
+        cblas_daxpy(2 * n, t, rest + before + 1, (int)m, W_T + i, n);
+    }
+}
+
+rb_status rb_rolling_displacement_ahead(const rb_rolling_case *rc,
+                                        const rb_rolling_bodies *bodies, double step,
+                                        double *W_T)
+{
+    const int n = bodies->f.n, m = bodies->f.m;
+    const double h = bodies->f.h[n / 2];
+    double *rest = bodies->F ? rb_alloc((size_t)m, 2 * (size_t)n) : NULL;
+    rb_status s = rest || !bodies->F ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK)
+        s = halfplanes(rc, n, h, n, step, W_T);
+    if (s == RB_OK && rest) {
+        s = halfplanes(rc, n, h, m, 0.0, rest);
+        for (size_t j = 0; j < 2 * (size_t)n; j++)
+            for (size_t i = 0; i < (size_t)m; i++)
+                rest[i + j * m] =
+                    bodies->F[(size_t)m + i + j * 2 * (size_t)m] - rest[i + j * m];
+        add_between(n, rest, step / h, W_T);
+    }
+    free(rest);
+    return s;
+}
