@@ -1,7 +1,7 @@
 /* Newton with a matrix: the problem on pairs of elements, the cold start from it, and the
  * answers beside Lemke's. */
 #include "check.h"
-#include "rolling/internal.h"
+#include "rolling/reduced.h"
 
 #include <string.h>
 
@@ -198,6 +198,101 @@ static void steps_grow_by_levels(void **state)
     }
 }
 
+/* ---- The LU that is kept --------------------------------------------------------------
+ */
+
+/* The reduced problem of the zones by a kept LU or by a new one; returns the changes that
+ * it was solved over. */
+static int direct(const rb_rolling_problem *p, rb_rolling_unknowns unknowns, int keep,
+                  rb_rolling_state *s, rb_rolling_reduced *r)
+{
+    CHECK_STATUS(rb_rolling_reduced_alloc(p, unknowns, s, r), RB_OK);
+    rb_rolling_reduced_clear(p, r, s);
+    rb_rolling_reduced_right_side(p, s, r);
+    CHECK_STATUS(rb_rolling_reduced_direct(p, s->zone, keep, r), RB_OK);
+    return r->changes;
+}
+
+/* A few elements anywhere go into any zone; at least one sticks. */
+static void disturb(int count, rb_rolling_state *s)
+{
+    for (int k = 0; k < count; k++)
+        s->zone[rand() % s->n] = rand() % 4;
+    s->zone[s->n / 2] = RB_ZONE_STICK;
+}
+
+/* Returns the changes that the kept LU was used over. */
+static int check_kept(const rb_rolling_problem *p, rb_rolling_unknowns unknowns,
+                      rb_rolling_state *s)
+{
+    rb_rolling_reduced kept, fresh;
+
+    direct(p, unknowns, 0, s, &fresh);
+    rb_rolling_reduced_free(&fresh);
+    disturb(3, s);
+    rb_rolling_problem changed = *p; /* the same matrices under other controls */
+    changed.force_given = rand() % 2;
+    changed.load_given = rand() % 2;
+    changed.delta = 0.1;
+    changed.force_ratio = 0.3;
+    const int changes = direct(&changed, unknowns, 1, s, &kept);
+    assert_int_equal(direct(&changed, unknowns, 0, s, &fresh), 0);
+    const double scale = rb_norm_inf((size_t)fresh.size, fresh.x);
+    for (int i = 0; i < fresh.size; i++)
+        CHECK_ABS(kept.x[i], fresh.x[i], 1e-9 * scale, "unknown %d of %d, %d changes", i,
+                  fresh.size, changes);
+    rb_rolling_reduced_free(&kept);
+    rb_rolling_reduced_free(&fresh);
+    return changes;
+}
+
+static void a_kept_lu_serves_other_zones(void **state)
+{
+    rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
+    rb_rolling_model model = solved(&rc);
+    rb_rolling_state s;
+    int changes = 0;
+
+    (void)state;
+    srand(5);
+    CHECK_STATUS(rb_rolling_state_alloc(model.mesh.n, &s), RB_OK);
+    for (int k = 0; k < 60; k++) {
+        memcpy(s.zone, model.state.zone, (size_t)s.n * sizeof(int));
+        disturb(3, &s);
+        changes += check_kept(&model.problem, (rb_rolling_unknowns)(1 + k % 3), &s);
+    }
+    assert_true(changes > 60);
+    rb_rolling_state_free(&s);
+    rb_rolling_model_free(&model);
+}
+
+/* From no contact to all in stick: nothing that is kept may be used. */
+static void a_kept_lu_gives_way_to_a_new_one(void **state)
+{
+    rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
+    rb_rolling_model model = solved(&rc);
+    rb_rolling_problem *p = &model.problem;
+    rb_rolling_reduced r;
+    rb_rolling_state s;
+
+    (void)state;
+    CHECK_STATUS(rb_rolling_state_alloc(p->n, &s), RB_OK);
+    p->load_given = 0;
+    p->delta = 0.1;
+    assert_int_equal(direct(p, RB_BOTH, 1, &s, &r), 0);
+    rb_rolling_reduced_free(&r);
+    for (int i = 0; i < p->n; i++)
+        s.zone[i] = RB_ZONE_STICK;
+    assert_int_equal(direct(p, RB_BOTH, 1, &s, &r), 0);
+    rb_rolling_reduced_free(&r);
+    for (int i = 0; i < p->n; i++)
+        s.zone[i] = i % 2 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_STICK;
+    assert_int_equal(direct(p, RB_BOTH, 1, &s, &r), 0);
+    rb_rolling_reduced_free(&r);
+    rb_rolling_state_free(&s);
+    rb_rolling_model_free(&model);
+}
+
 /* ---- Memory -------------------------------------------------------------------------
  */
 
@@ -226,6 +321,8 @@ int main(void)
         cmocka_unit_test(pairs_answer_as_their_elements_do),
         cmocka_unit_test(cold_starts_end_where_lemke_does),
         cmocka_unit_test(steps_grow_by_levels),
+        cmocka_unit_test(a_kept_lu_serves_other_zones),
+        cmocka_unit_test(a_kept_lu_gives_way_to_a_new_one),
         cmocka_unit_test(failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -137,6 +137,7 @@ typedef struct {
         *F; /* gap rows 0 .. n-1, 2n columns, ld = ldf; borrowed from the bodies */
     int ldf;
     double *S; /* n x 2n; owned, as the arrays below */
+    struct rb_rolling_factors *factors; /* LU of earlier solves; owned */
     /* Where F and S are NULL: */
     rb_bem_flexibility f;             /* its arrays borrowed from the bodies */
     int upstream;                     /* A = I - S of steady rolling; 0: A = I */

@@ -135,6 +135,7 @@ double *rb_rolling_halve(const rb_rolling_problem *fine, rb_rolling_problem *hal
     if (!room)
         return NULL;
     *half = *fine;
+    half->factors = NULL;
     half->n = (int)m;
     half->F = next;
     half->ldf = (int)m;

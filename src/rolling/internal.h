@@ -100,6 +100,13 @@ rb_status rb_rolling_krylov_create(const rb_rolling_problem *problem,
                                    struct rb_rolling_krylov **krylov);
 void rb_rolling_krylov_free(struct rb_rolling_krylov *krylov);
 
+/* ---- factors.c ------------------------------------------------------------------------
+ */
+
+/* What the solves with a matrix keep: the LU of earlier zones; empty at first. */
+rb_status rb_rolling_factors_create(struct rb_rolling_factors **factors);
+void rb_rolling_factors_free(struct rb_rolling_factors *factors);
+
 /* ---- coarse.c -------------------------------------------------------------------------
  */
 
@@ -111,7 +118,7 @@ void rb_rolling_start_from(const rb_rolling_mesh *mesh, const rb_rolling_state *
 
 /* A dense problem with its elements in pairs: a pair has one traction, the mean gap and
  * slip and the sum of the forces.  half: arrays in the room that is returned, for free();
- * NULL: no memory. */
+ * NULL: no memory.  Its factors are NULL. */
 double *rb_rolling_halve(const rb_rolling_problem *fine, rb_rolling_problem *half);
 /* Every element takes over what its pair has. */
 void rb_rolling_start_from_half(const rb_rolling_state *half, rb_rolling_state *state);

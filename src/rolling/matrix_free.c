@@ -94,7 +94,7 @@ static void border_rows(const system_of *s, double *y)
     if (r->force)
         *y = (cblas_ddot(p->n, r->control_N, 1, r_N, 1) +
               cblas_ddot(p->n, r->control_T, 1, r_T, 1)) /
-             rb_rolling_force_scale(p);
+             r->force_scale;
 }
 
 /* Column k of B: delta opens no gap, xi makes slip. */

@@ -3,8 +3,6 @@
  * again; the same solve polishes what Lemke found. */
 #include "rolling/reduced.h"
 
-#include <cblas.h>
-#include <lapacke.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,51 +10,10 @@
 enum { MAX_STEPS = 60, STAGGERED_ROUNDS = 3 };
 /* From so many elements on a cold start solves for pairs of them first. */
 enum { HALVED = 100 };
-
-/* One column: the answers of gaps, slips, load and force to a unit of an unknown that
- * stands for tractions (t_N, t_T) at element j. */
-static void traction_column(const rb_rolling_problem *p, const rb_rolling_reduced *r,
-                            int j, double t_N, double t_T, double *column)
-{
-    const double *F_N = p->F + (size_t)j * p->ldf, *F_T = F_N + (size_t)p->n * p->ldf;
-    const double *S_N = p->S + (size_t)j * p->n, *S_T = S_N + (size_t)p->n * p->n;
-    const double gap = p->stress / p->gap_length, slip = p->stress / p->slip_length;
-    int row = 0;
-
-    for (int k = 0; k < r->contacts; k++, row++)
-        column[row] = gap * (t_N * F_N[r->contact[k]] + t_T * F_T[r->contact[k]]);
-    for (int k = 0; k < r->sticks; k++, row++)
-        column[row] = slip * (t_N * S_N[r->stick[k]] + t_T * S_T[r->stick[k]]);
-    if (r->load)
-        column[row++] = (t_N * p->load_N[j] + t_T * p->load_T[j]) * p->stress / p->load;
-    if (r->force)
-        column[row] = (t_N * r->control_N[j] + t_T * r->control_T[j]) * p->stress /
-                      rb_rolling_force_scale(p);
-}
-
-/* Where both groups are unknown, friction of a slipping element follows its pressure. */
-static void reduced_matrix(const rb_rolling_problem *p, const int *zone,
-                           const rb_rolling_reduced *r, double *A)
-{
-    const size_t size = (size_t)r->size;
-    const double coupled = rb_rolling_reduced_mu(p, r);
-    double *column = A;
-
-    for (int k = 0; k < r->contacts; k++, column += size) {
-        const int j = r->contact[k];
-        traction_column(p, r, j, 1.0, rb_rolling_slope(zone[j]) * coupled, column);
-    }
-    for (int k = 0; k < r->sticks; k++, column += size)
-        traction_column(p, r, r->stick[k], 0.0, 1.0, column);
-    if (r->load) {
-        for (int k = 0; k < r->contacts; k++)
-            column[k] = -1.0;
-        column += size;
-    }
-    if (r->force)
-        for (int k = 0; k < r->sticks; k++)
-            column[r->contacts + k] = p->e_T[r->stick[k]] / p->e_T[0];
-}
+/* Solves with a kept LU before it is given up, and the relative correction that is the
+ * last one. */
+enum { PASSES = 3 };
+static const double SMALL = 1e-6;
 
 static int is_finite(int n, const double *x)
 {
@@ -66,27 +23,48 @@ static int is_finite(int n, const double *x)
     return 1;
 }
 
-/* r->x: right-hand side, then solution. */
-static rb_status solve_dense(const rb_rolling_problem *p, const int *zone,
+/* Solves, and where a kept LU served, solves again for what the equations still lack,
+ * until a correction is small.  *settled: 0 where none was. */
+static rb_status solve_direct(const rb_rolling_problem *p, int keep,
+                              rb_rolling_state *state, rb_rolling_reduced *r,
+                              int *settled)
+{
+    double size = 0.0;
+
+    *settled = 0;
+    rb_rolling_reduced_clear(p, r, state);
+    for (int pass = 0; pass < PASSES && !*settled; pass++) {
+        rb_rolling_reduced_right_side(p, state, r);
+        const rb_status s = rb_rolling_reduced_direct(p, state->zone, keep, r);
+        if (s != RB_OK || !is_finite(r->size, r->x))
+            return s < 0 ? s : RB_SINGULAR;
+        rb_rolling_reduced_add(p, r, state);
+        const double change = rb_norm_inf((size_t)r->size, r->x);
+        *settled = r->changes == 0 || (pass > 0 && change <= SMALL * size);
+        size = fmax(size, change);
+    }
+    return RB_OK;
+}
+
+static rb_status solve_dense(const rb_rolling_problem *p, rb_rolling_state *state,
                              rb_rolling_reduced *r)
 {
-    const size_t size = (size_t)r->size;
-    double *A = rb_alloc(size, size);
-    lapack_int *pivots = calloc(size + 1, sizeof *pivots);
-    rb_status s = A && pivots ? RB_OK : RB_ENOMEM;
+    int settled;
+    rb_status s = solve_direct(p, 1, state, r, &settled);
 
-    if (s == RB_OK) {
-        reduced_matrix(p, zone, r, A);
-        const lapack_int fault = r->size == 0
-                                     ? 0
-                                     : LAPACKE_dgesv(LAPACK_COL_MAJOR, r->size, 1, A,
-                                                     r->size, pivots, r->x, r->size);
-        if (fault != 0)
-            s = RB_SINGULAR;
-    }
-    free(A);
-    free(pivots);
-    return s;
+    return s >= 0 && !settled ? solve_direct(p, 0, state, r, &settled) : s;
+}
+
+static rb_status solve_products(const rb_rolling_problem *p, rb_rolling_state *state,
+                                rb_rolling_reduced *r)
+{
+    rb_rolling_reduced_clear(p, r, state);
+    rb_rolling_reduced_right_side(p, state, r);
+    const rb_status s = rb_rolling_reduced_krylov(p, state->zone, r);
+    if (s != RB_OK || !is_finite(r->size, r->x))
+        return s < 0 ? s : RB_SINGULAR;
+    rb_rolling_reduced_add(p, r, state);
+    return RB_OK;
 }
 
 rb_status rb_rolling_solve_zones(const rb_rolling_problem *problem,
@@ -95,15 +73,9 @@ rb_status rb_rolling_solve_zones(const rb_rolling_problem *problem,
     rb_rolling_reduced r;
     rb_status s = rb_rolling_reduced_alloc(problem, unknowns, state, &r);
 
-    if (s == RB_OK) {
-        rb_rolling_reduced_right_side(problem, state, &r);
-        s = problem->F ? solve_dense(problem, state->zone, &r)
-                       : rb_rolling_reduced_krylov(problem, state->zone, &r);
-    }
-    if (s == RB_OK && !is_finite(r.size, r.x))
-        s = RB_SINGULAR;
     if (s == RB_OK)
-        rb_rolling_reduced_result(problem, &r, state);
+        s = problem->F ? solve_dense(problem, state, &r)
+                       : solve_products(problem, state, &r);
     rb_rolling_reduced_free(&r);
     return s;
 }
@@ -299,11 +271,15 @@ static rb_status start_from_half(const rb_rolling_problem *p, rb_rolling_state *
     rb_status s = room ? rb_rolling_state_alloc(half.n, &coarse) : RB_ENOMEM;
 
     if (s == RB_OK)
+        s = rb_rolling_factors_create(&half.factors);
+    if (s == RB_OK)
         s = rb_rolling_newton(&half, 0, &coarse);
     if (s == RB_OK)
         rb_rolling_start_from_half(&coarse, state);
     state->iterations += coarse.iterations;
     rb_rolling_state_free(&coarse);
+    if (room)
+        rb_rolling_factors_free(half.factors);
     free(room);
     return s;
 }

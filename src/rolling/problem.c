@@ -11,6 +11,7 @@ void rb_rolling_problem_free(rb_rolling_problem *p)
     free(p->S);
     free(p->product);
     rb_rolling_krylov_free(p->krylov);
+    rb_rolling_factors_free(p->factors);
     free(p->d_N);
     free(p->d_T);
     free(p->e_T);
@@ -134,6 +135,20 @@ void rb_rolling_force_row(const rb_rolling_problem *p, double *control_N,
 /* ---- Products, and what the scales need of them ---------------------------------------
  */
 
+/* y += A x; separated elements at the ends cost nothing. */
+static void add_product(int n, const double *A, int lda, const double *x, double *y)
+{
+    int from = 0, to = n;
+
+    while (from < to && x[from] == 0.0)
+        from++;
+    while (from < to && x[to - 1] == 0.0)
+        to--;
+    if (from < to)
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, to - from, 1.0,
+                    A + (size_t)from * (size_t)lda, lda, x + from, 1, 1.0, y, 1);
+}
+
 void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
                              const double *q, double *gap, double *slip)
 {
@@ -151,15 +166,12 @@ void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
         }
         return;
     }
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, problem->F, problem->ldf, p, 1,
-                1.0, gap, 1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0,
-                problem->F + half * (size_t)problem->ldf, problem->ldf, q, 1, 1.0, gap,
-                1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, problem->S, n, p, 1, 1.0, slip,
-                1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, problem->S + half * half, n, q, 1,
-                1.0, slip, 1);
+    add_product(n, problem->F, problem->ldf, p, gap);
+    add_product(n, problem->S + half * half, n, q, slip);
+    if (problem->coupled) {
+        add_product(n, problem->F + half * (size_t)problem->ldf, problem->ldf, q, gap);
+        add_product(n, problem->S, n, p, slip);
+    }
 }
 
 /* Sizes of the answers to unit tractions: the scales are made of them. */
@@ -245,7 +257,7 @@ static rb_status set_operators(const rb_rolling_case *rc, const rb_rolling_bodie
     if (p->F) {
         set_kinematic_operator(bodies, p);
         dense_response(p, unit);
-        return RB_OK;
+        return rb_rolling_factors_create(&p->factors);
     }
     const rb_status s = product_response(p, unit);
     return s == RB_OK ? rb_rolling_krylov_create(p, &p->krylov) : s;

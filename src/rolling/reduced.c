@@ -62,6 +62,7 @@ rb_status rb_rolling_reduced_alloc(const rb_rolling_problem *p,
         if ((unknowns & RB_TANGENTIAL) && zone[i] == RB_ZONE_STICK)
             r->stick[r->sticks++] = i;
     }
+    r->force_scale = p->mu * p->stress * cblas_dasum(p->n, p->load_N, 1);
     r->load = (unknowns & RB_NORMAL) && p->load_given;
     r->force = (unknowns & RB_TANGENTIAL) && p->force_given;
     r->size = r->contacts + r->sticks + r->load + r->force;
@@ -74,18 +75,13 @@ rb_status rb_rolling_reduced_alloc(const rb_rolling_problem *p,
     return RB_OK;
 }
 
-double rb_rolling_force_scale(const rb_rolling_problem *p)
-{
-    return p->mu * p->stress * cblas_dasum(p->n, p->load_N, 1);
-}
-
 double rb_rolling_reduced_mu(const rb_rolling_problem *p, const rb_rolling_reduced *r)
 {
     return r->unknowns == RB_BOTH ? p->mu : 0.0;
 }
 
-static void clear_unknowns(const rb_rolling_problem *p, const rb_rolling_reduced *r,
-                           rb_rolling_state *state)
+void rb_rolling_reduced_clear(const rb_rolling_problem *p, const rb_rolling_reduced *r,
+                              rb_rolling_state *state)
 {
     for (int i = 0; i < p->n; i++) {
         const int zone = state->zone[i];
@@ -100,40 +96,41 @@ static void clear_unknowns(const rb_rolling_problem *p, const rb_rolling_reduced
         state->xi = p->force_given ? 0.0 : p->xi;
 }
 
-void rb_rolling_reduced_right_side(const rb_rolling_problem *p, rb_rolling_state *state,
-                                   rb_rolling_reduced *r)
+void rb_rolling_reduced_right_side(const rb_rolling_problem *p,
+                                   const rb_rolling_state *state, rb_rolling_reduced *r)
 {
     int row = 0;
 
-    clear_unknowns(p, r, state);
     rb_rolling_kinematics(p, state, r->gap, r->lambda);
     for (int k = 0; k < r->contacts; k++)
         r->x[row++] = -r->gap[r->contact[k]] / p->gap_length;
     for (int k = 0; k < r->sticks; k++)
         r->x[row++] = -r->lambda[r->stick[k]] / p->slip_length;
     if (r->load)
-        r->x[row++] = 1.0 - cblas_ddot(p->n, p->load_T, 1, state->q, 1) / p->load;
+        r->x[row++] = 1.0 - (cblas_ddot(p->n, p->load_N, 1, state->p, 1) +
+                             cblas_ddot(p->n, p->load_T, 1, state->q, 1)) /
+                                p->load;
     if (r->force)
         r->x[row] = (p->force - cblas_ddot(p->n, r->control_N, 1, state->p, 1) -
                      cblas_ddot(p->n, r->control_T, 1, state->q, 1)) /
-                    rb_rolling_force_scale(p);
+                    r->force_scale;
 }
 
-void rb_rolling_reduced_result(const rb_rolling_problem *p, const rb_rolling_reduced *r,
-                               rb_rolling_state *state)
+void rb_rolling_reduced_add(const rb_rolling_problem *p, const rb_rolling_reduced *r,
+                            rb_rolling_state *state)
 {
     int row = 0;
 
     for (int k = 0; k < r->contacts; k++) {
         const int i = r->contact[k];
-        state->p[i] = p->stress * r->x[row++];
-        if (r->unknowns == RB_BOTH)
+        state->p[i] += p->stress * r->x[row++];
+        if (r->unknowns == RB_BOTH && state->zone[i] != RB_ZONE_STICK)
             state->q[i] = rb_rolling_slope(state->zone[i]) * p->mu * state->p[i];
     }
     for (int k = 0; k < r->sticks; k++)
-        state->q[r->stick[k]] = p->stress * r->x[row++];
+        state->q[r->stick[k]] += p->stress * r->x[row++];
     if (r->load)
-        state->delta = p->gap_length * r->x[row++];
+        state->delta += p->gap_length * r->x[row++];
     if (r->force)
-        state->xi = p->slip_length / p->e_T[0] * r->x[row];
+        state->xi += p->slip_length / p->e_T[0] * r->x[row];
 }

@@ -14,9 +14,11 @@ typedef struct {
     int contacts, sticks, load, force, size;
     int *contact, *stick;          /* element numbers */
     double *control_N, *control_T; /* n: row of the given force */
+    double force_scale;            /* of that row */
     double *gap, *lambda;          /* n: with the unknowns at zero */
     double *start;                 /* size: the unknowns as the state had them */
     double *x;                     /* size: right-hand side, then solution */
+    int changes;                   /* of unknowns since the LU that solved it */
 } rb_rolling_reduced;
 
 rb_status rb_rolling_reduced_alloc(const rb_rolling_problem *problem,
@@ -30,16 +32,25 @@ double rb_rolling_slope(int zone);
  * pressure is not moved together with it. */
 double rb_rolling_reduced_mu(const rb_rolling_problem *problem,
                              const rb_rolling_reduced *r);
-/* Scale of the row of the given force. */
-double rb_rolling_force_scale(const rb_rolling_problem *problem);
 
 /* Sets the unknowns of the state to zero and the friction of slipping elements to its
- * bound; what is left is the right-hand side. */
+ * bound. */
+void rb_rolling_reduced_clear(const rb_rolling_problem *problem,
+                              const rb_rolling_reduced *r, rb_rolling_state *state);
+/* r->x: what the equations lack with the unknowns as the state has them. */
 void rb_rolling_reduced_right_side(const rb_rolling_problem *problem,
-                                   rb_rolling_state *state, rb_rolling_reduced *r);
-/* r->x into the state. */
-void rb_rolling_reduced_result(const rb_rolling_problem *problem,
-                               const rb_rolling_reduced *r, rb_rolling_state *state);
+                                   const rb_rolling_state *state, rb_rolling_reduced *r);
+/* Adds r->x to the unknowns of the state. */
+void rb_rolling_reduced_add(const rb_rolling_problem *problem,
+                            const rb_rolling_reduced *r, rb_rolling_state *state);
+
+/* ---- factors.c ------------------------------------------------------------------------
+ */
+
+/* Solves the reduced problem by the LU of an earlier one, where `keep` allows it and the
+ * zones have not changed too much, or by a new one. */
+rb_status rb_rolling_reduced_direct(const rb_rolling_problem *problem, const int *zone,
+                                    int keep, rb_rolling_reduced *r);
 
 /* ---- matrix_free.c --------------------------------------------------------------------
  */
