@@ -330,13 +330,13 @@ static void watch(const rb_lcp_pivot *seen, void *context)
 
 static watched p_, p_full_;
 
-/* The whole tableau is handed over and right; asking for it does not change the pivots.
- */
+/* The whole tableau is handed over and right; asking for it, so that every column is
+ * brought up to date at every pivot, does not change the pivots. */
 static void the_trace_sees_every_pivot(void **state)
 {
     (void)state;
-    const int n = 90, ldm = 92;
-    double cover[90];
+    const int n = 180, ldm = 182;
+    double cover[180];
     rb_lcp_info info;
     rb_lcp_options opt = rb_lcp_defaults();
     make_matrix(P_MATRIX, n, ldm, M_);

@@ -63,25 +63,78 @@ static void check_same(lcp_tableau *t, lcp_tableau *anew, int pivots)
                   "%d pivots, q(%d)", pivots, i);
 }
 
+static void take_basis(const lcp_tableau *t, lcp_tableau *anew)
+{
+    memcpy(anew->basis, t->basis, N * sizeof *t->basis);
+    memcpy(anew->nonbasis, t->nonbasis, (N + 1) * sizeof *t->nonbasis);
+    memcpy(anew->place, t->place, (2 * N + 1) * sizeof *t->place);
+    CHECK_STATUS(rb_lcp_tableau_rebuild(&data_, anew), RB_OK);
+}
+
+/* Every so often some columns, any and in any order, are brought up to date. */
+static void advance_some(lcp_tableau *t)
+{
+    int columns[N + 1], count = 0;
+    const double share = uniform();
+    for (int c = 0; c <= N; c++)
+        if (uniform() > share)
+            columns[count++] = c;
+    for (int i = count - 1; i > 0; i--) {
+        const int j = below(i + 1), c = columns[i];
+        columns[i] = columns[j];
+        columns[j] = c;
+    }
+    rb_lcp_tableau_advance(t, count, columns);
+    for (int i = 0; i < count; i++)
+        assert_int_equal(rb_lcp_tableau_behind(t, columns[i]), 0);
+}
+
+/* Blocks begin and end, memory for pivots runs out, columns stand at different pivots,
+ * inside blocks and at their ends. */
 static void any_pivots_give_the_tableau_of_the_basis(void **state)
 {
     (void)state;
     lcp_tableau t, anew;
     double a[N];
     make_tableau(&t);
+    assert_true(t.depth < t.room && t.room < 150);
     CHECK_STATUS(rb_lcp_tableau_create(&data_, &anew), RB_OK);
     for (int k = 1; k <= 150; k++) {
         pivot_somewhere(&t, a);
+        if (k % 9 == 0)
+            advance_some(&t);
         if (k % 7)
             continue;
-        memcpy(anew.basis, t.basis, N * sizeof *t.basis);
-        memcpy(anew.nonbasis, t.nonbasis, (N + 1) * sizeof *t.nonbasis);
-        memcpy(anew.place, t.place, (2 * N + 1) * sizeof *t.place);
-        CHECK_STATUS(rb_lcp_tableau_rebuild(&data_, &anew), RB_OK);
+        take_basis(&t, &anew);
         check_same(&t, &anew, k);
     }
     rb_lcp_tableau_free(&t);
     rb_lcp_tableau_free(&anew);
+}
+
+static void a_combination_is_the_sum_of_its_columns(void **state)
+{
+    (void)state;
+    lcp_tableau t;
+    double a[N], scratch[N], sum[N], want[N], weight[N + 1];
+    make_tableau(&t);
+    for (int k = 0; k < 100; k++) {
+        pivot_somewhere(&t, a);
+        if (k % 11 == 0)
+            advance_some(&t);
+        memset(want, 0, sizeof want);
+        for (int c = 0; c <= N; c++) {
+            weight[c] = k % 3 && uniform() > 0.0 ? 0.0 : uniform();
+            rb_lcp_tableau_column(&t, c, a);
+            for (int i = 0; i < N; i++)
+                want[i] += weight[c] * a[i];
+        }
+        rb_lcp_tableau_combine(&t, weight, scratch, sum);
+        const double zero = 1e-11 * (1.0 + rb_norm_inf(N, want));
+        for (int i = 0; i < N; i++)
+            CHECK_ABS(sum[i], want[i], zero, "%d pivots, row %d", k + 1, i);
+    }
+    rb_lcp_tableau_free(&t);
 }
 
 static void without_pivots_nothing_changes(void **state)
@@ -144,6 +197,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_pivots_give_the_tableau_of_the_basis),
+        cmocka_unit_test(a_combination_is_the_sum_of_its_columns),
         cmocka_unit_test(without_pivots_nothing_changes),
         cmocka_unit_test(short_memory_leaves_the_tableau),
         cmocka_unit_test(a_singular_basis_is_told),

@@ -67,11 +67,6 @@ static rb_status check_input(int n, const double *M, int ldm, const double *q,
 
 /* ---- Pivots ---------------------------------------------------------------------- */
 
-static int complement(int n, int variable)
-{
-    return variable < n ? variable + n : variable - n;
-}
-
 double rb_lcp_lemke_z0(const lemke *l)
 {
     const int row = l->t.place[2 * l->n];
@@ -157,7 +152,7 @@ static rb_status follow_path(lemke *l, int entering)
         if (l->info->iters >= l->opt.max_iters)
             return rb_fail(&l->info->msg, RB_MAXITER, "lcp: no solution after %d pivots",
                            l->info->iters);
-        entering = complement(l->n, leaving);
+        entering = rb_lcp_complement(l->n, leaving);
     }
 }
 
@@ -169,7 +164,7 @@ static rb_status run(lemke *l)
     rb_lcp_lemke_column(l, z0);
     const int leaving = pivot(l, row, z0);
     l->start = l->refreshed = rb_lcp_lemke_z0(l);
-    return follow_path(l, complement(l->n, leaving));
+    return follow_path(l, rb_lcp_complement(l->n, leaving));
 }
 
 static rb_status judge(lemke *l)
@@ -200,8 +195,8 @@ static rb_status allocate(lemke *l)
     const size_t n = (size_t)l->n;
     const int traced = l->opt.trace && l->opt.trace_tableau;
     const rb_status s = rb_lcp_tableau_create(&l->data, &l->t);
-    l->a = rb_alloc(n, 3);
-    l->tied = rb_alloc_int(n);
+    l->a = rb_alloc(n + 1, 6);
+    l->tied = rb_alloc_int(2 * n + 1);
     l->image = traced ? rb_alloc(n, n + 2) : NULL;
     if (s != RB_OK || !l->a || !l->tied || (traced && !l->image))
         return rb_fail(&l->info->msg, RB_ENOMEM,
@@ -209,6 +204,10 @@ static rb_status allocate(lemke *l)
                        8e-6 * (double)n * ((double)n + 2.0));
     l->other = l->a + n;
     l->scratch = l->other + n;
+    l->r = l->scratch + n;
+    l->sum = l->r + n;
+    l->weight = l->sum + n;
+    l->near = l->tied + n;
     return RB_OK;
 }
 

@@ -12,6 +12,9 @@ typedef struct {
     lcp_tableau t;
     double *a;               /* n: driving column */
     double *other, *scratch; /* n each */
+    double *r, *sum;         /* n each: defect and its correction */
+    double *weight;          /* n + 1: of the columns */
+    int *near;               /* n + 1: columns brought up to date together; scratch */
     double *image;           /* n x (n + 2) for the trace, or NULL */
     int *tied;               /* n: rows that tie; scratch */
     double start, refreshed; /* z0 after the first pivot, at the last refresh */
@@ -22,6 +25,19 @@ typedef struct {
 
 /* z0, 0 when nonbasic. */
 double rb_lcp_lemke_z0(const lemke *l);
+
+static inline int rb_lcp_complement(int n, int variable)
+{
+    return variable < n ? variable + n : variable - n;
+}
+
+/* ---- ahead.c: which columns of the tableau are brought up to date ---- */
+
+/* The column of the variable that enters now, and with it those that will be asked for
+ * soon. */
+void rb_lcp_lemke_prepare(lemke *l, int column);
+/* A column that breaks a tie. */
+void rb_lcp_lemke_prepare_alone(lemke *l, int column);
 
 /* ---- ratio.c: which row leaves ---- */
 

@@ -25,6 +25,7 @@ static void clean_column(lemke *l, int variable, double *x)
 
 void rb_lcp_lemke_column(lemke *l, int variable)
 {
+    rb_lcp_lemke_prepare(l, -1 - l->t.place[variable]);
     clean_column(l, variable, l->a);
 }
 
@@ -112,6 +113,7 @@ static int lexicographic_row(lemke *l, int count)
         if (l->t.place[j] >= 0) {
             count = drop_row(l, count, l->t.place[j]);
         } else {
+            rb_lcp_lemke_prepare_alone(l, -1 - l->t.place[j]);
             clean_column(l, j, l->other);
             count = keep_least(l, count, l->other);
         }

@@ -117,7 +117,7 @@ rb_status rb_lcp_tableau_rebuild(const lcp_data *data, lcp_tableau *t)
             t->q[k] = data->q[p.row[k]];
         solve(&p, t, n + 1, t->T);
         solve(&p, t, 1, t->q);
-        rb_lcp_tableau_forget(t);
+        rb_lcp_tableau_renewed(t);
     } else {
         s = RB_SINGULAR;
     }

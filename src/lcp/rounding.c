@@ -51,14 +51,14 @@ static double defect(const lemke *l, const double *constant, const double *basic
 static void refine(lemke *l, const double *r)
 {
     const int n = l->n, *place = l->t.place;
-    rb_lcp_tableau_flush(&l->t);
+    memset(l->weight, 0, ((size_t)n + 1) * sizeof *l->weight);
     for (int i = 0; i < n; i++)
         if (place[i] >= 0)
             l->t.q[place[i]] += r[i];
-    for (int i = 0; i < n; i++)
-        if (place[i] < 0)
-            cblas_daxpy(n, -r[i], l->t.T + (size_t)(-1 - place[i]) * (size_t)n, 1, l->t.q,
-                        1);
+        else
+            l->weight[-1 - place[i]] = -r[i];
+    rb_lcp_tableau_combine(&l->t, l->weight, l->other, l->sum);
+    cblas_daxpy(n, 1.0, l->sum, 1, l->t.q, 1);
 }
 
 rb_status rb_lcp_lemke_rebuild(lemke *l)
@@ -82,7 +82,7 @@ static void keep_zeros(lemke *l, const double *before)
 rb_status rb_lcp_lemke_refresh(lemke *l)
 {
     rb_status s = RB_SINGULAR;
-    double *r = l->a, *before = l->scratch;
+    double *r = l->r, *before = l->scratch;
     memcpy(before, l->t.q, (size_t)l->n * sizeof *before);
     if (defect(l, l->data.q, l->t.q, -1, l->other, r) > DRIFT)
         s = rb_lcp_lemke_rebuild(l);

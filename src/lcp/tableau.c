@@ -9,11 +9,30 @@
  * error would break ties that are to be broken lexicographically. */
 static const double SNAP = 1e-11;
 
-/* Memory traffic per pivot: 16 n^2/depth bytes in the product, 4 n depth in the columns.
- */
-static int delay(int n)
+/* Where column c of T stands, `level` pivots after the last flush. */
+enum {
+    UNTOUCHED, /* in the data: not copied before it changes */
+    KEPT,      /* in T */
+    BORN /* nowhere: pivot number `level` was on it, and what it was before is gone */
+};
+
+/* Pivots to a block, and columns that pass through the blocks together: products wide
+ * enough to be fast, memory that small problems do not notice. */
+enum { LARGEST_GROUP = 64 };
+
+static int depth_of(int n)
 {
-    return n < 16 ? n : n < 256 ? 16 : n < 1024 ? 24 : 64;
+    return n < 16 ? n : n < 512 ? 16 : 32;
+}
+
+static int group_of(int n)
+{
+    return n < 16 ? n + 1 : n < 1024 ? depth_of(n) : LARGEST_GROUP;
+}
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
 }
 
 static double *column_of(const lcp_tableau *t, int c)
@@ -26,133 +45,263 @@ void rb_lcp_tableau_free(lcp_tableau *t)
     free(t->T);
     free(t->q);
     free(t->basis);
+    free(t->level);
     free(t->U);
-    free(t->S);
     free(t->L);
-    free(t->s);
     free(t->row);
+    free(t->X);
     memset(t, 0, sizeof *t);
 }
 
-void rb_lcp_tableau_forget(lcp_tableau *t)
+static void no_pivots(lcp_tableau *t)
 {
-    memset(t->row_hit, 0, (size_t)t->n * sizeof *t->row_hit);
+    for (int i = 0; i < t->n; i++)
+        t->last[i] = -1;
     for (int c = 0; c <= t->n; c++)
-        t->col_hit[c] = -1;
+        t->level[c] = 0;
     t->k = 0;
 }
 
-static void start(const lcp_data *data, lcp_tableau *t)
+void rb_lcp_tableau_renewed(lcp_tableau *t)
 {
-    const int n = data->n;
-    const size_t bytes = (size_t)n * sizeof(double);
-    for (int j = 0; j < n; j++)
-        memcpy(column_of(t, j), data->M + (size_t)j * (size_t)data->ldm, bytes);
-    for (int i = 0; i < n; i++)
-        column_of(t, n)[i] = rb_lcp_cover(data, i);
-    memcpy(t->q, data->q, bytes);
+    for (int c = 0; c <= t->n; c++)
+        t->source[c] = KEPT;
+    no_pivots(t);
+}
+
+static void start(lcp_tableau *t)
+{
+    const int n = t->n;
+    memcpy(t->q, t->data->q, (size_t)n * sizeof *t->q);
     for (int i = 0; i < n; i++)
         t->basis[i] = t->place[i] = i;
     for (int c = 0; c <= n; c++) {
         t->nonbasis[c] = n + c;
         t->place[n + c] = -1 - c;
+        t->source[c] = UNTOUCHED;
     }
-    rb_lcp_tableau_forget(t);
+    no_pivots(t);
+}
+
+/* The integers share two arrays. */
+static void share(lcp_tableau *t)
+{
+    const int n = t->n;
+    t->nonbasis = t->basis + n;
+    t->place = t->nonbasis + n + 1;
+    t->source = t->level + n + 1;
+    t->last = t->source + n + 1;
+    t->before = t->row + t->room;
+    t->S = t->X + (size_t)n * (size_t)t->group;
 }
 
 rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
 {
-    const size_t rows = (size_t)data->n, cols = rows + 1, depth = (size_t)delay(data->n);
+    const int n = data->n, depth = depth_of(n), blocks = (n + depth - 1) / depth;
     memset(t, 0, sizeof *t);
-    t->n = data->n;
-    t->depth = (int)depth;
-    t->T = rb_alloc(rows, cols);
+    *t = (lcp_tableau){.n = n,
+                       .data = data,
+                       .depth = depth,
+                       .room = blocks * depth,
+                       .group = group_of(n)};
+    const size_t rows = (size_t)n, room = (size_t)t->room, group = (size_t)t->group;
+    t->T = rb_alloc(rows, rows + 1);
     t->q = rb_alloc(rows, 1);
-    t->U = rb_alloc(rows, depth);
-    t->S = rb_alloc(depth, cols);
-    t->L = rb_alloc(depth, depth);
-    t->s = rb_alloc(depth, 1);
-    t->basis = rb_alloc_int(2 * (rows + cols));
-    t->row = rb_alloc_int(2 * depth + rows + cols);
-    if (!t->T || !t->q || !t->U || !t->S || !t->L || !t->s || !t->basis || !t->row) {
+    t->U = rb_alloc(rows, room);
+    t->L = rb_alloc((size_t)depth, room);
+    t->X = rb_alloc(rows + (size_t)depth, group);
+    t->basis = rb_alloc_int(4 * rows + 2);
+    t->level = rb_alloc_int(3 * rows + 2);
+    t->row = rb_alloc_int(2 * room);
+    if (!t->T || !t->q || !t->U || !t->L || !t->X || !t->basis || !t->level || !t->row) {
         rb_lcp_tableau_free(t);
         return RB_ENOMEM;
     }
-    t->nonbasis = t->basis + rows;
-    t->place = t->nonbasis + cols;
-    t->first = t->row + depth;
-    t->row_hit = t->first + depth;
-    t->col_hit = t->row_hit + rows;
-    start(data, t);
+    share(t);
+    start(t);
     return RB_OK;
 }
 
-/* Takes the pivot rows out of column c (x: its values at the last flush): they are the
- * right-hand side of the triangular solve for S_:c. */
-static void take_pivot_rows(const lcp_tableau *t, int c, double *x, double *rhs)
+/* ---- Columns ---------------------------------------------------------------------- */
+
+/* x = T_:c after `level` pivots. */
+static void load(const lcp_tableau *t, int c, double *x)
 {
-    if (t->col_hit[c] < 0) {
-        for (int j = 0; j < t->k; j++)
-            rhs[j] = t->first[j] ? x[t->row[j]] : 0.0;
-        for (int j = 0; j < t->k; j++)
-            x[t->row[j]] = 0.0;
+    const size_t n = (size_t)t->n;
+    if (t->source[c] == KEPT) {
+        memcpy(x, column_of(t, c), n * sizeof *x);
+    } else if (t->source[c] == BORN) {
+        memset(x, 0, n * sizeof *x);
+    } else if (c < t->n) {
+        memcpy(x, t->data->M + (size_t)c * (size_t)t->data->ldm, n * sizeof *x);
     } else {
-        memset(rhs, 0, (size_t)t->k * sizeof *rhs);
-        memset(x, 0, (size_t)t->n * sizeof *x);
-        rhs[t->col_hit[c]] = -1.0;
+        for (int i = 0; i < t->n; i++)
+            x[i] = rb_lcp_cover(t->data, i);
     }
+}
+
+/* Takes the rows of the pivots from `from` to before `to`, of one block, out of x: they
+ * are the right-hand side for s. */
+static void take_rows(const lcp_tableau *t, int from, int to, double *x, double *rhs)
+{
+    for (int j = from; j < to; j++)
+        rhs[j - from] = t->before[j] < from ? x[t->row[j]] : 0.0;
+    for (int j = from; j < to; j++)
+        x[t->row[j]] = 0.0;
+}
+
+/* The same for column c, loaded into x. */
+static void take_rows_of(const lcp_tableau *t, int c, int to, double *x, double *rhs)
+{
+    take_rows(t, t->level[c], to, x, rhs);
+    if (t->source[c] == BORN && to > t->level[c])
+        rhs[0] = -1.0;
+}
+
+/* s from rhs, x -= U s; pivots from `from` to before `to`, of one block. */
+static void apply(const lcp_tableau *t, int from, int to, double *s, double *x)
+{
+    const size_t depth = (size_t)t->depth, first = (size_t)(from - from % t->depth);
+    const double *L = t->L + first * depth + ((size_t)from - first) * (depth + 1);
+    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, to - from, L,
+                t->depth, s, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, t->n, to - from, -1.0,
+                t->U + (size_t)from * (size_t)t->n, t->n, s, 1, 1.0, x, 1);
+}
+
+static int end_of_block(const lcp_tableau *t, int pivot)
+{
+    return least(t->k, pivot - pivot % t->depth + t->depth);
 }
 
 void rb_lcp_tableau_column(lcp_tableau *t, int c, double *a)
 {
-    memcpy(a, column_of(t, c), (size_t)t->n * sizeof *a);
-    if (!t->k)
-        return;
-    take_pivot_rows(t, c, a, t->s);
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, t->k, t->L,
-                t->depth, t->s, 1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, t->n, t->k, -1.0, t->U, t->n, t->s, 1, 1.0,
-                a, 1);
+    load(t, c, a);
+    for (int from = t->level[c], to; from < t->k; from = to) {
+        to = end_of_block(t, from);
+        if (from == t->level[c])
+            take_rows_of(t, c, to, a, t->S);
+        else
+            take_rows(t, from, to, a, t->S);
+        apply(t, from, to, t->S, a);
+    }
 }
 
-static int is_zero(int n, const double *x)
+int rb_lcp_tableau_behind(const lcp_tableau *t, int c)
 {
-    int i = 0;
-    while (i < n && x[i] == 0.0)
-        i++;
-    return i == n;
+    return t->k - t->level[c];
 }
 
-/* T <- T - U S on the columns from first to before last. */
-static void update_columns(lcp_tableau *t, int first, int last)
+/* The columns of this block's share that begin in it or before: their right-hand sides,
+ * zero where a column has seen the pivot. */
+static int gather_rows(lcp_tableau *t, int count, const int *columns, int first, int to)
 {
-    double *S = t->S + (size_t)first * (size_t)t->depth;
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, t->k,
-                last - first, 1.0, t->L, t->depth, S, t->depth);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, t->n, last - first, t->k, -1.0,
-                t->U, t->n, S, t->depth, 1.0, column_of(t, first), t->n);
+    int active = 0;
+    for (; active < count && t->level[columns[active]] < to; active++) {
+        const int c = columns[active], level = t->level[c];
+        double *x = t->X + (size_t)active * (size_t)t->n,
+               *rhs = t->S + (size_t)active * (size_t)t->depth;
+        if (level < first) {
+            take_rows(t, first, to, x, rhs);
+        } else {
+            memset(rhs, 0, (size_t)(level - first) * sizeof *rhs);
+            take_rows_of(t, c, to, x, rhs + (level - first));
+        }
+    }
+    return active;
 }
 
-/* Columns without entries in the pivot rows do not change: half of them in the pivoted
- * form of friction problems.  A gap shorter than GAP is not worth another product. */
+static void apply_block(lcp_tableau *t, int columns, int first, int to)
+{
+    const size_t n = (size_t)t->n;
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit,
+                to - first, columns, 1.0, t->L + (size_t)first * (size_t)t->depth,
+                t->depth, t->S, t->depth);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, t->n, columns, to - first,
+                -1.0, t->U + (size_t)first * n, t->n, t->S, t->depth, 1.0, t->X, t->n);
+}
+
+static void advance_group(lcp_tableau *t, int count, const int *columns)
+{
+    const size_t n = (size_t)t->n;
+    for (int g = 0; g < count; g++)
+        load(t, columns[g], t->X + (size_t)g * n);
+    const int level = t->level[columns[0]];
+    for (int first = level - level % t->depth, to; first < t->k; first = to) {
+        to = end_of_block(t, first);
+        const int active = gather_rows(t, count, columns, first, to);
+        apply_block(t, active, first, to);
+    }
+    for (int g = 0; g < count; g++) {
+        memcpy(column_of(t, columns[g]), t->X + (size_t)g * n, n * sizeof *t->X);
+        t->level[columns[g]] = t->k;
+        t->source[columns[g]] = KEPT;
+    }
+}
+
+/* Those that are farthest behind first (insertion: they come nearly in order). */
+static void sort_by_level(const lcp_tableau *t, int count, int *columns)
+{
+    for (int i = 1; i < count; i++) {
+        const int c = columns[i];
+        int j = i;
+        for (; j > 0 && t->level[columns[j - 1]] > t->level[c]; j--)
+            columns[j] = columns[j - 1];
+        columns[j] = c;
+    }
+}
+
+void rb_lcp_tableau_advance(lcp_tableau *t, int count, int *columns)
+{
+    for (int done = 0; done < count; done += t->group) {
+        const int size = least(t->group, count - done);
+        sort_by_level(t, size, columns + done);
+        advance_group(t, size, columns + done);
+    }
+}
+
+/* A column enters the sum in the block in which it stands; before it, nothing of it is
+ * changed. */
+void rb_lcp_tableau_combine(lcp_tableau *t, const double *weight, double *scratch,
+                            double *x)
+{
+    const int n = t->n;
+    double *s = t->S, *own = t->S + t->depth;
+    memset(x, 0, (size_t)n * sizeof *x);
+    for (int first = 0, to; first < t->k; first = to) {
+        to = end_of_block(t, first);
+        take_rows(t, first, to, x, s);
+        for (int c = 0; c <= n; c++) {
+            const int level = t->level[c];
+            if (weight[c] == 0.0 || level < first || level >= to)
+                continue;
+            load(t, c, scratch);
+            take_rows_of(t, c, to, scratch, own);
+            cblas_daxpy(n, weight[c], scratch, 1, x, 1);
+            cblas_daxpy(to - level, weight[c], own, 1, s + (level - first), 1);
+        }
+        apply(t, first, to, s, x);
+    }
+    for (int c = 0; c <= n; c++)
+        if (weight[c] != 0.0 && t->level[c] == t->k) {
+            load(t, c, scratch);
+            cblas_daxpy(n, weight[c], scratch, 1, x, 1);
+        }
+}
+
 void rb_lcp_tableau_flush(lcp_tableau *t)
 {
-    enum { GAP = 32 };
-    int first = 0, last = 0;
-    for (int c = 0; c <= t->n && t->k; c++) {
-        double *rhs = t->S + (size_t)c * (size_t)t->depth;
-        take_pivot_rows(t, c, column_of(t, c), rhs);
-        if (is_zero(t->k, rhs))
-            continue;
-        if (c - last >= GAP) {
-            update_columns(t, first, last);
-            first = c;
-        }
-        last = c + 1;
+    int columns[LARGEST_GROUP];
+    for (int c = 0; c <= t->n; c += t->group) {
+        const int count = least(t->group, t->n + 1 - c);
+        for (int g = 0; g < count; g++)
+            columns[g] = c + g;
+        rb_lcp_tableau_advance(t, count, columns);
     }
-    update_columns(t, first, last);
-    rb_lcp_tableau_forget(t);
+    no_pivots(t);
 }
+
+/* ---- Pivots ----------------------------------------------------------------------- */
 
 static void exchange(lcp_tableau *t, int r, int c)
 {
@@ -166,19 +315,22 @@ static void exchange(lcp_tableau *t, int r, int c)
 /* Pivot number k enters L and U. */
 static void remember_pivot(lcp_tableau *t, int r, int c, const double *a)
 {
-    const size_t n = (size_t)t->n, depth = (size_t)t->depth, k = (size_t)t->k;
-    for (size_t j = 0; j < k; j++) {
-        double *u = t->U + j * n + r;
-        t->L[k + j * depth] = *u;
+    const size_t n = (size_t)t->n, depth = (size_t)t->depth;
+    const int k = t->k, first = k - k % t->depth;
+    double *L = t->L + (size_t)first * depth + (k - first);
+    for (int j = first; j < k; j++, L += depth) {
+        double *u = t->U + (size_t)j * n + r;
+        *L = *u;
         *u = 0.0;
     }
-    t->L[k + k * depth] = a[r];
-    memcpy(t->U + k * n, a, n * sizeof *a);
-    t->U[k * n + (size_t)r] = 1.0;
+    *L = a[r];
+    memcpy(t->U + (size_t)k * n, a, n * sizeof *a);
+    t->U[(size_t)k * n + (size_t)r] = 1.0;
     t->row[k] = r;
-    t->first[k] = !t->row_hit[r];
-    t->row_hit[r] = 1;
-    t->col_hit[c] = t->k++;
+    t->before[k] = t->last[r];
+    t->last[r] = k;
+    t->source[c] = BORN;
+    t->level[c] = t->k++;
 }
 
 void rb_lcp_tableau_pivot(lcp_tableau *t, int r, int c, const double *a)
@@ -191,6 +343,6 @@ void rb_lcp_tableau_pivot(lcp_tableau *t, int r, int c, const double *a)
     t->q[r] = -step;
     remember_pivot(t, r, c, a);
     exchange(t, r, c);
-    if (t->k == t->depth)
+    if (t->k == t->room)
         rb_lcp_tableau_flush(t);
 }

@@ -22,26 +22,33 @@ static inline double rb_lcp_cover(const lcp_data *data, int i)
  * A pivot on (r, c) exchanges the basic variable of row r with the nonbasic one of column
  * c.  With a = T_:c before it, p = a_r, and u = a except u_r = 1, any column x of T
  * becomes x_r <- 0;  x <- x - s u,  s = x_r / p          (column c itself: x <- 0, s =
- * -1/p) so that k pivots together are  T <- T - U S  with the pivot rows of T, and of the
- * earlier columns of U, set to zero: nothing cancels.  S follows from the k pivot rows by
- * a triangular solve: for one column (all that Lemke's method asks for) or, every `depth`
- * pivots, for all columns, followed by one matrix product. */
+ * -1/p) so that the pivots of a block together are  x <- x - U s  with their rows of x,
+ * and of the earlier columns of U, set to zero: nothing cancels.  s follows from those
+ * rows by a triangular solve.
+ *
+ * Pivots are kept, and every column is brought up to date by itself: on the way of
+ * Lemke's method most columns are asked for once or never. */
 typedef struct {
     int n;
-    double *T; /* n x (n + 1) column-major, as of the last flush; owned, as all here */
+    const lcp_data *data; /* borrowed */
+    double *T; /* n x (n + 1) column-major: column c after `level` pivots; owned, as all
+                  here */
     double *q; /* n: the constants, always current */
     int *basis, *nonbasis; /* variable of each row (n), of each column (n + 1) */
     int *place;            /* of each variable: its row, or -1 - its column */
+    int *level;            /* n + 1 */
+    int *source;           /* n + 1: where column c stands, see tableau.c */
 
-    int depth, k; /* pivots that U can hold, and that it holds */
-    double *U;    /* n x depth */
-    double *S;    /* depth x (n + 1) */
-    double *L;    /* depth x depth, lower: row j = (U_rj before pivot j, p_j) */
-    double *s;    /* depth */
-    int *row;     /* depth: pivot rows */
-    int *first;   /* depth: 1 if no earlier pivot since the flush had the same row */
-    int *row_hit; /* n: 1 if the row was pivoted since the flush */
-    int *col_hit; /* n + 1: the column's last pivot since the flush, or -1 */
+    int depth, room, k; /* pivots of a block; that U can hold; that it holds */
+    double *U;          /* n x room */
+    double *L;   /* depth x room, lower by blocks: row j = (U_rj before pivot j, p_j) */
+    int *row;    /* room: pivot rows */
+    int *before; /* room: the last pivot on the same row before, or -1 */
+    int *last;   /* n: the row's last pivot, or -1 */
+
+    int group; /* columns brought up to date together */
+    double *X; /* n x group */
+    double *S; /* depth x group */
 } lcp_tableau;
 
 /* T = [M, d]; basis w, nonbasis z, z0. */
@@ -52,11 +59,18 @@ void rb_lcp_tableau_free(lcp_tableau *t);
 void rb_lcp_tableau_column(lcp_tableau *t, int c, double *a);
 /* a: column c as rb_lcp_tableau_column gave it. */
 void rb_lcp_tableau_pivot(lcp_tableau *t, int r, int c, const double *a);
+/* Pivots that T_:c has not seen. */
+int rb_lcp_tableau_behind(const lcp_tableau *t, int c);
+/* Brings these columns of T up to date; the order of `columns` is lost. */
+void rb_lcp_tableau_advance(lcp_tableau *t, int count, int *columns);
+/* x = the sum of weight_c T_:c; scratch: n. */
+void rb_lcp_tableau_combine(lcp_tableau *t, const double *weight, double *scratch,
+                            double *x);
 /* Brings T up to date. */
 void rb_lcp_tableau_flush(lcp_tableau *t);
 /* T and q anew from the data and the basis.  RB_SINGULAR (t as before), RB_ENOMEM. */
 rb_status rb_lcp_tableau_rebuild(const lcp_data *data, lcp_tableau *t);
-/* T is up to date by other means. */
-void rb_lcp_tableau_forget(lcp_tableau *t);
+/* T has been brought up to date by other means. */
+void rb_lcp_tableau_renewed(lcp_tableau *t);
 
 #endif
