@@ -23,6 +23,10 @@ typedef struct {
     rb_lcp_info *info;
 } lemke;
 
+/* w += M z; residual.c. */
+void rb_lcp_add_product(int rows, int columns, const double *M, int ldm, const double *z,
+                        double *w);
+
 /* z0, 0 when nonbasic. */
 double rb_lcp_lemke_z0(const lemke *l);
 

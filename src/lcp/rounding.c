@@ -41,8 +41,7 @@ static double defect(const lemke *l, const double *constant, const double *basic
         r[i] = fixed + cover - r[i];
     }
     size = fmax(size, l->largest * values(l, basic, entering, n, z));
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, l->data.M, l->data.ldm, z, 1, 1.0,
-                r, 1);
+    rb_lcp_add_product(n, n, l->data.M, l->data.ldm, z, r);
     return size > 0.0 ? rb_norm_inf((size_t)n, r) / size : 0.0;
 }
 
