@@ -254,7 +254,7 @@ static void compare_file(const char *name, const char *path, const rb_friction_p
     t->any += isfinite(fastest);
     if (isfinite(ours) && isfinite(fastest))
         t->best[t->best_n++] = fastest / ours;
-    printf("\n");
+    printf("  fastest / ours %.2f\n", fastest / ours);
 }
 
 static void conclude(tally *t)

@@ -50,6 +50,7 @@ static int solve_small(int d, const double *M, const double *b, double *x)
 
 #define LEAST_DETERMINANT 1e-13 /* of S, below which it counts as singular */
 #define ROOT_STEPS 60
+#define LAST_STEP 1e-7 /* of lambda + trace S: the next one would be below rounding */
 
 void rb_friction_contact_init(int d, double mu, const double *W, rb_friction_contact *c)
 {
@@ -100,18 +101,18 @@ static int slide(rb_friction_contact *c, double qn, const double *b, double *t)
         const double size2 = t[0] * t[0] + t[1] * t[1], size = sqrt(size2);
         const double n = c->mu * normal_force(c, qn, t);
         const double dn = -c->mu * (c->row[0] * dt[0] + c->row[1] * dt[1]);
-        const double f = n - size;
-        const double slope = dn - n * (t[0] * dt[0] + t[1] * dt[1]) / size2;
+        const double f = n - size; /* of the sign of the function */
+        const double slope = dn * size2 - n * (t[0] * dt[0] + t[1] * dt[1]);
         if (f < 0.0)
             low = lambda;
         else
             high = lambda;
-        double next = lambda - f / slope;
+        double next = lambda - f * size2 / slope;
         if (!(next >= low && next <= high))
             next = isfinite(high) ? 0.5 * (low + high) : 2.0 * lambda + c->S[0] + c->S[3];
         const double step = fabs(next - lambda);
         lambda = next;
-        if (step <= 1e-9 * (lambda + c->S[0] + c->S[3])) /* the next one is below 1e-16 */
+        if (step <= LAST_STEP * (lambda + c->S[0] + c->S[3]))
             break;
     }
     tangential_force(c, lambda, b, t);
