@@ -293,6 +293,25 @@ static void acceleration_saves_sweeps(void **state)
     rb_friction_problem_free(&p);
 }
 
+/* Weakly coupled contacts: a few sweeps leave Newton one step.  Strongly coupled ones:
+ * Newton goes from zero as if there had been no sweeps. */
+static void the_hybrid_sees_what_sweeps_are_worth(void **state)
+{
+    (void)state;
+    for (int strong = 0; strong < 2; strong++) {
+        rb_friction_problem p;
+        rb_friction_info newton, hybrid;
+        double r[120], u[120];
+        pile(60, strong ? 1.0 : 0.3, &p);
+        CHECK_STATUS(rb_friction_solve("nsn-ac-nls", &p, NULL, r, u, NULL, &newton),
+                     RB_OK);
+        CHECK_STATUS(rb_friction_solve("nsn-ac-hybrid", &p, NULL, r, u, NULL, &hybrid),
+                     RB_OK);
+        assert_int_equal(hybrid.iters, 7 + (strong ? newton.iters : 1));
+        rb_friction_problem_free(&p);
+    }
+}
+
 /* Contacts that push each other the more, the more they are pushed: no solution. */
 static void sweeps_that_stall_are_given_up(void **state)
 {
@@ -333,6 +352,7 @@ int main(void)
         cmocka_unit_test(acceleration_solves_a_linear_iteration),
         cmocka_unit_test(acceleration_goes_back_where_it_was_led_astray),
         cmocka_unit_test(acceleration_saves_sweeps),
+        cmocka_unit_test(the_hybrid_sees_what_sweeps_are_worth),
         cmocka_unit_test(sweeps_that_stall_are_given_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

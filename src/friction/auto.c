@@ -168,7 +168,7 @@ rb_status rb_friction_auto(rb_friction_task *task)
     if (s > 0 && rec.solver) {
         load(task, rec.best);
         task->info->solver = rec.solver;
-        task->info->residual = rb_friction_task_error(task);
+        rb_friction_prove(task);
     }
     task->opt = given;
     free(rec.best);

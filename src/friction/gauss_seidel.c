@@ -106,20 +106,20 @@ static double relax(sweeper *s, int c)
         return 0.0; /* it stays open */
     rb_friction_contact *contact = wanted_contact(s, c);
     const double *W = contact->W;
-    double old[3], q[3], change = 0.0;
+    double dr[3], q[3], change = 0.0;
     for (int a = 0; a < d; a++) {
-        old[a] = r[a];
+        dr[a] = -r[a];
         q[a] = u[a];
         for (int b = 0; b < d; b++)
             q[a] -= W[a + b * d] * r[b];
     }
     s->steps += solve_contact(s, c, contact, q, r);
     for (int a = 0; a < d; a++) {
-        old[a] = r[a] - old[a];
-        change += old[a] * old[a];
+        dr[a] += r[a];
+        change += dr[a] * dr[a];
     }
     if (change > 0.0) {
-        rb_friction_blocks_add(s->blocks, c, old, s->task->u);
+        rb_friction_blocks_add(s->blocks, c, dr, s->task->u);
         s->touched += s->blocks->p[c + 1] - s->blocks->p[c];
     }
     return change;

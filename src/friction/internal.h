@@ -218,8 +218,9 @@ typedef enum {
     RB_FRICTION_SWEEP_UNLESS_STALLED = 4
 } rb_friction_sweep_flags;
 
-/* Runs the method on the prepared task and judges the outcome by (13), recomputed from r
- * (and v) alone, which goes to info. */
+/* (13) recomputed from r (and v) alone, and its floor, into info; 1: accepted. */
+int rb_friction_prove(rb_friction_task *task);
+/* Runs the method on the prepared task; RB_OK: what it ended with is proved. */
 rb_status rb_friction_run(rb_friction_task *task, rb_friction_method *method);
 
 /* `limit` sweeps of Gauss-Seidel, or fewer where the tolerance is met or, if so flagged,

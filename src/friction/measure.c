@@ -114,7 +114,8 @@ rb_status rb_friction_measure_init(const rb_friction_problem *p,
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
     const size_t n = p->form == RB_FRICTION_GLOBAL ? (size_t)p->dofs : 0;
-    *measure = (rb_friction_measure){.problem = p, .scale = 1.0, .y = malloc((m + n) * sizeof(double))};
+    *measure = (rb_friction_measure){
+        .problem = p, .scale = 1.0, .y = malloc((m + n) * sizeof(double))};
     if (!measure->y)
         return RB_ENOMEM;
     measure->e = measure->y + m;

@@ -135,14 +135,19 @@ static rb_status check_call(const char *name, const rb_friction_problem *p,
     return s;
 }
 
-rb_status rb_friction_run(rb_friction_task *task, rb_friction_method *method)
+int rb_friction_prove(rb_friction_task *task)
 {
-    rb_status s = method(task);
-    if (s < 0)
-        return s;
     task->info->residual = rb_friction_task_error(task);
     task->info->floor = rb_friction_measure_floor(task->measure, task->r, task->v);
-    if (rb_friction_task_accepts(task, task->info->residual))
+    return rb_friction_task_accepts(task, task->info->residual);
+}
+
+rb_status rb_friction_run(rb_friction_task *task, rb_friction_method *method)
+{
+    const rb_status s = method(task);
+    if (s < 0)
+        return s;
+    if (rb_friction_prove(task))
         return RB_OK;
     return s == RB_OK ? RB_INACCURATE : s;
 }
