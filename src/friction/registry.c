@@ -17,7 +17,7 @@ static const rb_friction_solver solvers[] = {
     {"nsn-nm-nls", "the same without line search", 0},
     {"nsn-fb", "Newton on Fischer-Burmeister's function, line search", 0},
     {"nsn-fb-nls", "the same without line search", 0},
-    {"nsn-ac-hybrid", "8 sweeps, then nsn-ac-nls; if need be 100, then nsn-ac",
+    {"nsn-ac-hybrid", "7 sweeps, then nsn-ac-nls; if need be 100, then nsn-ac",
      RB_FRICTION_NEEDS_W},
     {"nsgs-ac", "Gauss-Seidel, Newton at each contact", RB_FRICTION_NEEDS_W},
     {"nsgs-aa", "the same with Anderson's acceleration", RB_FRICTION_NEEDS_W},
