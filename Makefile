@@ -82,8 +82,9 @@ $(B)/rollbem-mpi: $(MPI_OBJ) $(B)/librollbem.a
 	$(Q)$(CC) $(CFLAGS) -o $@ $(MPI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS) $(shell pkg-config --libs $(MPI))
 
 $(B)/src/mpi/%.o: CPPFLAGS += $(subst -I,-isystem ,$(shell pkg-config --cflags $(MPI)))
+
 # fused multiply-adds where the instruction set has them: -std=c11 takes them off
-$(B)/src/bem/column.o $(B)/bench/bench_bem: STD += -ffp-contract=fast
+$(B)/src/bem/column.o $(B)/bench/bench_bem: private STD += -ffp-contract=fast
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)

@@ -34,10 +34,7 @@ void rb_assembly_columns(const rb_assembly *assembly, int j, double G_factor,
     const rb_element e =
         rb_element_make(mesh->x0[j], mesh->y0[j], mesh->x1[j], mesh->y1[j], assembly->r0);
     rb_constants k = rb_constants_make(&e, assembly->material);
-    k.G_cos *= G_factor;
-    k.G_sin *= G_factor;
-    k.G_kap *= G_factor;
-    k.G_mean *= G_factor;
+    rb_constants_scale_G(&k, G_factor);
     rb_column_variant_get(0)->fill(&k, &e, j, &assembly->midpoints, out);
 }
 

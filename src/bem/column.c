@@ -6,8 +6,8 @@
 #include <immintrin.h>
 #endif
 
-/* Points in one vector loop; in one buffer; in the widest vector. */
-enum { BLOCK = 32, CHUNK = 256, EIGHT = 8 };
+/* Points in one vector loop; in the widest vector. */
+enum { BLOCK = 32, EIGHT = 8 };
 
 void rb_points_free(rb_points *points)
 {
@@ -47,27 +47,34 @@ rb_status rb_points_make(int n, const double *x, const double *y, rb_points *poi
     return RB_OK;
 }
 
+/* The columns of one block of points. */
+typedef double rb_buffer[4][2 * BLOCK];
+
 /* Stores past the caches: the matrix is not read before it is complete, and a plain store
- * would fetch every line first.  Whole lines of 8, as soon as they are there, so that
- * they drain while the next block is computed; returns how far it came. */
+ * would fetch every line first.  Whole lines of 8 where the column begins at one. */
 typedef void stream_line(double *to, const double *from);
 
-RB_INLINE int stream(double *to, const double *from, int sent, int ready,
-                     stream_line *line)
+RB_INLINE void stream(double *to, const double *from, int count, stream_line *line,
+                      stream_line *pair)
 {
-    for (; sent + 8 <= ready; sent += 8)
-        line(to + sent, from + sent);
-    return sent;
+    int i = 0;
+    if ((uintptr_t)to % 64 == 0)
+        for (; i + 8 <= count; i += 8)
+            line(to + i, from + i);
+    if ((uintptr_t)to % 16 == 0)
+        for (; i < count; i += 2)
+            pair(to + i, from + i);
+    memcpy(to + i, from + i, (size_t)(count - i) * sizeof *to);
 }
 
-/* Doubles before the first whole line. */
-static int head(const double *to)
+/* The columns of points i ... i + count - 1. */
+RB_INLINE void send(rb_buffer buffer, int count, int i, double *const out[4],
+                    stream_line *line, stream_line *pair)
 {
-    return (int)((64 - (uintptr_t)to % 64) % 64 / sizeof *to);
+    for (int c = 0; c < 4; c++)
+        if (out[c])
+            stream(out[c] + 2 * i, buffer[c], 2 * count, line, pair);
 }
-
-/* One block of points; buffer: four columns of 2 CHUNK. */
-typedef double rb_buffer[4][2 * CHUNK];
 
 /* What rb_seen holds, for the points of a block; over = 2a/(W rho), ln W from k and s. */
 typedef double rb_lane[BLOCK];
@@ -184,25 +191,25 @@ RB_INLINE void mend_near_block(double a, int self, int with_G, rb_seen_block *b)
 }
 
 RB_INLINE void put_H_block(const rb_constants *k, const rb_seen_block *b,
-                           rb_buffer buffer, int at)
+                           rb_buffer buffer)
 {
     for (int i = 0; i < BLOCK; i++) {
         rb_influence out;
         const rb_seen v = kept(b, i);
         rb_integrate_H(k, &v, &out);
-        put_H(&out, buffer, 2 * (at + i));
+        put_H(&out, buffer, 2 * i);
     }
 }
 
 RB_INLINE void put_G_block(const rb_constants *k, double a, const rb_seen_block *b,
-                           rb_buffer buffer, int at)
+                           rb_buffer buffer)
 {
     for (int i = 0; i < BLOCK; i++) {
         rb_influence out;
         rb_seen v = kept(b, i);
         v.log_W = rb_log_join(b->k[i], b->s[i]);
         rb_integrate_G(k, a, &v, &out);
-        put_G(&out, buffer, 2 * (at + i));
+        put_G(&out, buffer, 2 * i);
     }
 }
 
@@ -210,7 +217,7 @@ RB_INLINE void put_G_block(const rb_constants *k, double a, const rb_seen_block 
  * the last, and the processor does not look far enough ahead to fill the time. */
 RB_INLINE void integrate_block(const rb_constants *k, const rb_element *e,
                                const double *x, const double *y, int terms, int self,
-                               int with_G, rb_buffer buffer, int at)
+                               int with_G, rb_buffer buffer)
 {
     rb_seen_block b;
     see_block(e, x, y, &b);
@@ -219,9 +226,9 @@ RB_INLINE void integrate_block(const rb_constants *k, const rb_element *e,
     turn_far_block(e->a, terms, with_G, &b);
     if (terms == rb_far.terms)
         mend_near_block(e->a, self, with_G, &b);
-    put_H_block(k, &b, buffer, at);
+    put_H_block(k, &b, buffer);
     if (with_G)
-        put_G_block(k, e->a, &b, buffer, at);
+        put_G_block(k, e->a, &b, buffer);
 }
 
 /* All points of the block, which lie in its circle, are beyond that many half-lengths. */
@@ -232,76 +239,70 @@ RB_INLINE int all_beyond(double reach, const rb_element *e, const double circle[
     return dx * dx + dy * dy > 1.000001 * (r * r);
 }
 
+/* Points i ... i + BLOCK - 1. */
 RB_INLINE void fill_block(const rb_constants *k, const rb_element *e, int self,
-                          const rb_points *points, int first, int at, int with_G,
-                          rb_buffer buffer)
+                          const rb_points *points, int i, int with_G, rb_buffer buffer)
 {
-    const int i = first + at;
     const double *x = points->x + i, *y = points->y + i,
                  *circle = points->circle + 3 * (i / BLOCK);
     if (all_beyond(rb_farthest.reach, e, circle))
-        integrate_block(k, e, x, y, rb_farthest.terms, -1, with_G, buffer, at);
+        integrate_block(k, e, x, y, rb_farthest.terms, -1, with_G, buffer);
     else if (all_beyond(rb_farther.reach, e, circle))
-        integrate_block(k, e, x, y, rb_farther.terms, -1, with_G, buffer, at);
+        integrate_block(k, e, x, y, rb_farther.terms, -1, with_G, buffer);
     else
-        integrate_block(k, e, x, y, rb_far.terms, self - i, with_G, buffer, at);
-}
-
-/* Points first ... first + count - 1. */
-RB_INLINE void fill_chunk(const rb_constants *k, const rb_element *e, int self,
-                          const rb_points *points, int first, int count,
-                          double *const out[4], int with_G, stream_line *line)
-{
-    rb_buffer buffer;
-    int start[4], sent[4];
-    for (int c = 0; c < 4; c++)
-        start[c] = sent[c] = out[c] ? head(out[c] + 2 * first) : 0;
-    for (int at = 0; at < count; at += BLOCK) {
-        const int ready = 2 * (at + BLOCK < count ? at + BLOCK : count);
-        fill_block(k, e, self, points, first, at, with_G, buffer);
-        for (int c = 0; c < 4; c++)
-            if (out[c])
-                sent[c] = stream(out[c] + 2 * first, buffer[c], sent[c], ready, line);
-    }
-    for (int c = 0; c < 4; c++) {
-        for (int i = 0; out[c] && i < start[c] && i < 2 * count; i++)
-            out[c][2 * first + i] = buffer[c][i];
-        for (int i = sent[c]; out[c] && i < 2 * count; i++)
-            out[c][2 * first + i] = buffer[c][i];
-    }
+        integrate_block(k, e, x, y, rb_far.terms, self - i, with_G, buffer);
 }
 
 RB_INLINE void fill(const rb_constants *k, const rb_element *e, int self,
-                    const rb_points *points, double *const out[4], stream_line *line)
+                    const rb_points *points, double *const out[4], stream_line *line,
+                    stream_line *pair)
 {
-    for (int first = 0; first < points->n; first += CHUNK) {
-        const int count = points->n - first < CHUNK ? points->n - first : CHUNK;
-        if (out[2] || out[3])
-            fill_chunk(k, e, self, points, first, count, out, 1, line);
+    const int with_G = out[2] || out[3];
+    for (int i = 0; i < points->n; i += BLOCK) {
+        rb_buffer buffer;
+        const int count = points->n - i < BLOCK ? points->n - i : BLOCK;
+        if (with_G)
+            fill_block(k, e, self, points, i, 1, buffer);
         else
-            fill_chunk(k, e, self, points, first, count, out, 0, line);
+            fill_block(k, e, self, points, i, 0, buffer);
+        if (count == BLOCK)
+            send(buffer, BLOCK, i, out, line, pair);
+        else
+            send(buffer, count, i, out, line, pair);
     }
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
+RB_INLINE void pair_sse2(double *to, const double *from)
+{
+    _mm_stream_pd(to, _mm_loadu_pd(from));
+}
+
 RB_INLINE void line_sse2(double *to, const double *from)
 {
     for (int i = 0; i < 8; i += 2)
-        _mm_stream_pd(to + i, _mm_loadu_pd(from + i));
+        pair_sse2(to + i, from + i);
 }
 #define PLAIN_LINE line_sse2
+#define PLAIN_PAIR pair_sse2
 #else
 RB_INLINE void line_plain(double *to, const double *from)
 {
     memcpy(to, from, 8 * sizeof *to);
 }
+
+RB_INLINE void pair_plain(double *to, const double *from)
+{
+    memcpy(to, from, 2 * sizeof *to);
+}
 #define PLAIN_LINE line_plain
+#define PLAIN_PAIR pair_plain
 #endif
 
 static void fill_plain(const rb_constants *k, const rb_element *e, int self,
                        const rb_points *points, double *const out[4])
 {
-    fill(k, e, self, points, out, PLAIN_LINE);
+    fill(k, e, self, points, out, PLAIN_LINE, PLAIN_PAIR);
 }
 
 static const rb_column_variant plain = {"plain", fill_plain};
@@ -329,13 +330,13 @@ AVX512 RB_INLINE void line_avx512(double *to, const double *from)
 AVX2 static void fill_avx2(const rb_constants *k, const rb_element *e, int self,
                            const rb_points *points, double *const out[4])
 {
-    fill(k, e, self, points, out, line_avx2);
+    fill(k, e, self, points, out, line_avx2, pair_sse2);
 }
 
 AVX512 static void fill_avx512(const rb_constants *k, const rb_element *e, int self,
                                const rb_points *points, double *const out[4])
 {
-    fill(k, e, self, points, out, line_avx512);
+    fill(k, e, self, points, out, line_avx512, pair_sse2);
 }
 
 const rb_column_variant *rb_column_variant_get(int i)

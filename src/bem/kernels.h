@@ -14,7 +14,7 @@
  *     Z = w1 w2 = (m-p)^2 - (a t)^2   (complex; w1, w2: from p to its ends)
  *     W = |Z|^2 = dot^2 + cross^2 = r1^2 r2^2
  *     Lam = ln(r2/r1),   Th = atan2(cross, dot)  (the angle that it subtends, with sign)
- *     L   = int ln r ds = (a/2) ln W + M,   M = X Lam + d Th - 2a  (small far away)
+ *     L   = int ln r ds = (a/2) ln W + 2a M,   M = (X Lam + d Th)/2a - 1  (0 far away)
  *
  *     G11, G22 = C (a - kap L) +- C (a - d Th),   G12 = G21 = C d Lam
  *
@@ -46,8 +46,7 @@ typedef struct {
 typedef struct {
     double H_mean, H_dev, H_skew; /* D times 2 (1-nu), 1, 1 - 2 nu */
     double G_cos, G_sin;          /* C times cos 2 angle, sin */
-    double G_kap, G_mean;         /* C kap; C a (1 + 2 kap ln r0) */
-    double half_a;
+    double G_mean, G_log, G_M;    /* C a (1 + 2 kap ln r0); C kap times a/2, 2a */
 } rb_constants;
 
 /* G: Gxx, Gyy, Gxy = Gyx; H: row = load direction at p, column = component. */
@@ -81,9 +80,19 @@ static inline rb_constants rb_constants_make(const rb_element *e,
                           .H_skew = (1.0 - 2.0 * nu) * D,
                           .G_cos = C * cos2,
                           .G_sin = C * sin2,
-                          .G_kap = C * kap,
                           .G_mean = C * e->a * (1.0 + 2.0 * kap * e->log_r0),
-                          .half_a = 0.5 * e->a};
+                          .G_log = 0.5 * C * kap * e->a,
+                          .G_M = 2.0 * C * kap * e->a};
+}
+
+/* G times factor. */
+static inline void rb_constants_scale_G(rb_constants *k, double factor)
+{
+    k->G_cos *= factor;
+    k->G_sin *= factor;
+    k->G_mean *= factor;
+    k->G_log *= factor;
+    k->G_M *= factor;
 }
 
 /* x = 2^k m with m in [sqrt(1/2), sqrt 2), for normal x > 0. */
@@ -109,11 +118,11 @@ RB_INLINE double rb_log_join(double k, double s)
 {
     /* in pairs: a chain of six would wait for each product */
     const double z = s * s, zz = z * z;
-    const double low = (0.66666666666667340 + z * 0.39999999999414661) +
-                       zz * (0.28571428742392652 + z * 0.22222198572670959),
-                 high = (0.18183564351825265 + z * 0.15314049925196338) +
-                        zz * 0.14795955669007360;
-    return k * 0.69314718055994530942 + s * (2.0 + z * (low + (zz * zz) * high));
+    const double p0 = 0.66666666666667340 + z * 0.39999999999414661,
+                 p1 = 0.28571428742392652 + z * 0.22222198572670959,
+                 p2 = 0.18183564351825265 + z * 0.15314049925196338;
+    const double p = p0 + zz * (p1 + zz * (p2 + zz * 0.14795955669007360));
+    return k * 0.69314718055994530942 + s * (2.0 + z * p);
 }
 
 RB_INLINE double rb_log(double x)
@@ -189,7 +198,7 @@ RB_INLINE rb_seen rb_see(const rb_element *e, double px, double py)
 
 /* Lam + i Th = 2 atanh u = 2u (1 + w/3 + w^2/5 + ...), u = a (X + i d)/rho, w = u^2, in
  * U = 2u = factor (X + i d) and V = U^2 = 4w:  U (1 + c_0 V + c_1 V^2 + ...), summed in
- * real arithmetic (b_k = c_k + 2 Re V b_k+1 - |V|^2 b_k+2);  M = 2a Re (c_0 V + ...).
+ * real arithmetic (b_k = c_k + 2 Re V b_k+1 - |V|^2 b_k+2);  M = Re (c_0 V + ...).
  * The rest is below |w|^terms/(2 terms + 1), |w| = 1/reach^2: 1e-17, 2e-17, 1e-17. */
 RB_INLINE void rb_turn_far(double a, int terms, double factor, rb_seen *v)
 {
@@ -207,7 +216,7 @@ RB_INLINE void rb_turn_far(double a, int terms, double factor, rb_seen *v)
     const double sr = Vr * b - VV * next, si = 2.0 * (half_Vi * b);
     v->Lam = (Ur + Ur * sr) - Ui * si;
     v->Th = (Ui + Ui * sr) + Ur * si;
-    v->M = (a + a) * sr;
+    v->M = sr;
 }
 
 RB_INLINE double rb_Lam_near(double a, const rb_seen *v)
@@ -223,7 +232,7 @@ RB_INLINE double rb_Th_near(double a, const rb_seen *v)
 
 RB_INLINE double rb_M_near(double a, const rb_seen *v)
 {
-    return (v->X * v->Lam + v->d * v->Th) - (a + a);
+    return (v->X * v->Lam + v->d * v->Th) / (a + a) - 1.0;
 }
 
 RB_INLINE void rb_integrate_H(const rb_constants *k, const rb_seen *v, rb_influence *out)
@@ -240,7 +249,7 @@ RB_INLINE void rb_integrate_G(const rb_constants *k, double a, const rb_seen *v,
                               rb_influence *out)
 {
     const double s11 = a - v->d * v->Th, s12 = v->d * v->Lam;
-    const double mean = k->G_mean - k->G_kap * (v->M + k->half_a * v->log_W);
+    const double mean = (k->G_mean - k->G_M * v->M) - k->G_log * v->log_W;
     const double dev = k->G_cos * s11 + k->G_sin * s12;
     out->Gxx = mean + dev;
     out->Gyy = mean - dev;
@@ -250,7 +259,7 @@ RB_INLINE void rb_integrate_G(const rb_constants *k, double a, const rb_seen *v,
 /* p = m: the principal value of T is 0, the free term 1/2 stands in H. */
 static inline void rb_integrate_self(const rb_constants *k, double a, rb_influence *out)
 {
-    const rb_seen v = {.M = -(a + a), .log_W = rb_log(a * a * (a * a))};
+    const rb_seen v = {.M = -1.0, .log_W = rb_log(a * a * (a * a))};
     rb_integrate_G(k, a, &v, out);
     out->Hxx = out->Hyy = 0.5;
     out->Hxy = out->Hyx = 0.0;

@@ -15,10 +15,7 @@ void rb_mixed_free(rb_mixed *a)
 static rb_constants scaled(const rb_element *e, rb_bem_material material, double factor)
 {
     rb_constants k = rb_constants_make(e, material);
-    k.G_cos *= factor;
-    k.G_sin *= factor;
-    k.G_kap *= factor;
-    k.G_mean *= factor;
+    rb_constants_scale_G(&k, factor);
     return k;
 }
 
