@@ -110,7 +110,7 @@ static void lemke_beside_newton(void)
         if (rb_rolling_model_create(&rc, &model, NULL) == RB_OK) {
             const int runs = contact[k] > 1000 ? 1 : 3;
             const double lemke = solve_seconds(&model, RB_SOLVER_LEMKE, runs);
-            const double newton = solve_seconds(&model, RB_SOLVER_NEWTON, runs);
+            const double newton = solve_seconds(&model, RB_SOLVER_NEWTON, RUNS);
             printf("%8d %12.4f %12.4f %12.1f\n", contact[k], lemke, newton,
                    lemke / newton);
         }
