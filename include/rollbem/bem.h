@@ -186,6 +186,8 @@ rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
 void rb_bem_flexibility_apply(const rb_bem_flexibility *f, const double *r, double *w);
 /* F: 2m x 2n column-major, ldf >= 2m. */
 rb_status rb_bem_flexibility_matrix(const rb_bem_flexibility *f, double *F, int ldf);
+/* The dense matrix behind f, ld = 2m, borrowed; NULL where there is none. */
+const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f);
 void rb_bem_flexibility_free(rb_bem_flexibility *f);
 
 /* Approximate inverses for iterative solvers, on a line of equal elements: of F_NN or

@@ -115,8 +115,8 @@ void rb_rolling_mesh_free(rb_rolling_mesh *mesh);
 typedef struct {
     rb_bem_flexibility f;               /* of both bodies together; owned */
     rb_bem_system *system_a, *system_b; /* NULL for half-planes and rigid bodies; owned */
-    double *F; /* 2m x 2n dense flexibility, ld = 2m, m = n + 1; owned; NULL where
-                  products with f serve instead (large contacts) */
+    const double *F; /* 2m x 2n dense flexibility, ld = 2m, m = n + 1; f's; NULL where
+                        products with f serve instead (large contacts) */
     double seconds_assembly, seconds_factor, seconds_condense;
 } rb_rolling_bodies;
 
@@ -515,6 +515,11 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
  * is.  solution: overwritten; free it in any case. */
 rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
                            rb_message *why);
+
+/* Bytes at the peak of that, to refuse absurd sizes beforehand: n contact elements on one
+ * wheel of so many boundary elements (0: half-planes).  unknowns: of Newton's last linear
+ * problem, contact and stuck elements together, at most 2n. */
+double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unknowns);
 
 /* The same, with the model kept for what comes after (stress, further solves); free both
  * in any case. */

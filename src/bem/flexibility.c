@@ -76,12 +76,18 @@ rb_status rb_bem_flexibility_dense(int n, rb_bem_flexibility *f, double **F)
     return s;
 }
 
+const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f)
+{
+    return f->apply == dense_apply ? f->data : NULL;
+}
+
 /* ---- Two bodies (4.5) ---------------------------------------------------------------
  */
 
 /* B's own frame is the mirror image: its tangential tractions and displacements are those
  * of the pair with the sign changed, which changes the sign of its coupling blocks.
- * r, w: room for one product, so that a pair serves one thread at a time. */
+ * Two operators of one kind become one (add_to_a); others stay side by side.
+ * r, w: room for one product, so that such a pair serves one thread at a time. */
 typedef struct {
     rb_bem_flexibility a, b;
     double *r, *w;
@@ -113,6 +119,19 @@ static void add_mirrored(int m, const double *w, double *sum)
     }
 }
 
+/* Columns of B, mirrored, onto those of A, 2m x 2n each. */
+static void add_mirrored_columns(int n, int m, const double *B, double *A, int lda)
+{
+    const size_t rows = 2 * (size_t)m;
+
+    for (int j = 0; j < 2 * n; j++) {
+        const double sign = j < n ? 1.0 : -1.0, *b = B + (size_t)j * rows;
+        double *a = A + (size_t)j * (size_t)lda;
+        cblas_daxpy(m, sign, b, 1, a, 1);
+        cblas_daxpy(m, -sign, b + m, 1, a + m, 1);
+    }
+}
+
 static void pair_apply(const rb_bem_flexibility *f, const double *r, double *w)
 {
     const body_pair *pair = f->data;
@@ -131,12 +150,8 @@ static rb_status pair_matrix(const rb_bem_flexibility *f, double *F, int ldf)
 
     if (s == RB_OK)
         s = rb_bem_flexibility_matrix(&pair->b, B, 2 * m);
-    for (int j = 0; j < 2 * n && s == RB_OK; j++) {
-        double *column = B + (size_t)j * 2 * (size_t)m;
-        if (j >= n)
-            cblas_dscal(2 * m, -1.0, column, 1);
-        add_mirrored(m, column, F + (size_t)j * (size_t)ldf);
-    }
+    if (s == RB_OK)
+        add_mirrored_columns(n, m, B, F, ldf);
     free(B);
     return s;
 }
@@ -171,6 +186,17 @@ static rb_status join(const body_pair *pair, rb_bem_flexibility *f)
     return RB_OK;
 }
 
+/* 1: a is the pair now. */
+static int add_to_a(rb_bem_flexibility *a, const rb_bem_flexibility *b)
+{
+    if (a->apply == dense_apply && b->apply == dense_apply)
+        add_mirrored_columns(a->n, a->m, b->data, a->data, 2 * a->m);
+    else if (!rb_bem_toeplitz_add(a, b))
+        return 0;
+    add_mirrored(a->m, b->w0, a->w0);
+    return 1;
+}
+
 rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
                                   rb_bem_flexibility *f, rb_message *why)
 {
@@ -178,8 +204,7 @@ rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
     const size_t n = (size_t)a->n, m = (size_t)a->m;
 
     memset(f, 0, sizeof *f);
-    if (s == RB_OK && rb_bem_toeplitz_add(a, b)) {
-        add_mirrored(a->m, b->w0, a->w0);
+    if (s == RB_OK && add_to_a(a, b)) {
         *f = *a;
         memset(a, 0, sizeof *a);
         rb_bem_flexibility_free(b);

@@ -11,7 +11,6 @@ void rb_rolling_bodies_free(rb_rolling_bodies *bodies)
     rb_bem_flexibility_free(&bodies->f);
     rb_bem_system_free(bodies->system_a);
     rb_bem_system_free(bodies->system_b);
-    free(bodies->F);
     memset(bodies, 0, sizeof *bodies);
 }
 
@@ -86,28 +85,14 @@ static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_bo
     return s;
 }
 
-static rb_status dense_matrix(rb_rolling_bodies *bodies)
-{
-    const size_t rows = 2 * (size_t)bodies->f.m, cols = 2 * (size_t)bodies->f.n;
-
-    bodies->F = rb_alloc(rows, cols);
-    if (!bodies->F)
-        return RB_ENOMEM;
-    return rb_bem_flexibility_matrix(&bodies->f, bodies->F, (int)rows);
-}
-
-/* The dense matrices of n contact elements: the bodies' own, F, S, and Lemke's or
- * Newton's at their largest. */
+/* Without the boundaries of wheels, which rb_bem_system_create looks at. */
 static rb_status check_memory(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                               rb_message *why)
 {
-    const double square = sizeof(double) * (double)mesh->n * mesh->n;
     char what[80];
 
-    if (rb_rolling_is_large(rc, mesh))
-        return RB_OK;
     snprintf(what, sizeof what, "a contact of %d elements", mesh->n);
-    return rb_memory_check(square * (4.0 * (2 + rc->elastic_b) + 2.0 + 9.0), what, why);
+    return rb_memory_check(rb_rolling_bytes(rc, mesh->n, 0, 2 * mesh->n), what, why);
 }
 
 rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
@@ -127,8 +112,8 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
         bodies->f = a;
         memset(&a, 0, sizeof a);
     }
-    if (s == RB_OK && !rb_rolling_is_large(rc, mesh))
-        s = dense_matrix(bodies);
+    if (s == RB_OK)
+        bodies->F = rb_bem_flexibility_stored(&bodies->f);
     rb_bem_flexibility_free(&a);
     rb_bem_flexibility_free(&b);
     if (s != RB_OK)
@@ -141,19 +126,15 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
 rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
                                   const double *q, double *w)
 {
-    const int n = bodies->f.n, rows = 2 * bodies->f.m;
+    const int n = bodies->f.n;
     double *r = rb_alloc(2 * (size_t)n, 1);
 
     if (!r)
         return RB_ENOMEM;
     memcpy(r, p, (size_t)n * sizeof *r);
     memcpy(r + n, q, (size_t)n * sizeof *r);
-    if (bodies->F)
-        cblas_dgemv(CblasColMajor, CblasNoTrans, rows, 2 * n, 1.0, bodies->F, rows, r, 1,
-                    0.0, w, 1);
-    else
-        rb_bem_flexibility_apply(&bodies->f, r, w);
-    cblas_daxpy(rows, 1.0, bodies->f.w0, 1, w, 1);
+    rb_bem_flexibility_apply(&bodies->f, r, w);
+    cblas_daxpy(2 * bodies->f.m, 1.0, bodies->f.w0, 1, w, 1);
     free(r);
     return RB_OK;
 }

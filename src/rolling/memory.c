@@ -1,0 +1,28 @@
+/* Memory at the peak of a solution: the formulas of docs/performance.md, "Memory". */
+#include "rolling/internal.h"
+
+/* Numbers per n^2 of Lemke's method on an LCP of order 3n: its matrix and the tableau,
+ * the inverse in Kwak's form. */
+static double lemke_squares(const rb_rolling_case *rc)
+{
+    return 18.0 + (rc->lcp_form == RB_LCP_KWAK);
+}
+
+double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unknowns)
+{
+    const rb_rolling_mesh mesh = {.n = n};
+    const double square = (double)n * n, newton = (double)unknowns * unknowns;
+
+    if (rb_rolling_is_large(rc,
+                            &mesh)) /* similar bodies: one group of unknowns at once */
+        return (rb_rolling_dundurs(rc) == 0.0 ? 500.0 : 650.0) * n;
+    const double lcp =
+        rc->solver == RB_SOLVER_LEMKE ? lemke_squares(rc) * square : newton;
+    const double solution = sizeof(double) * (6.0 * square + lcp);
+    if (!boundary)
+        return fmax(sizeof(double) * 4.0 * (1 + rc->elastic_b) * square, solution);
+    const double both = rb_bem_system_bytes(boundary, n),
+                 condensation =
+                     sizeof(double) * (4.0 * (double)boundary * n + 4.0 * square);
+    return both + fmax(0.0, solution - condensation);
+}
