@@ -150,84 +150,129 @@ static rb_status invert(int n, double *B)
     return fault == 0 ? RB_OK : RB_SINGULAR;
 }
 
-/* r_T = R z + r_0 for z = (r_N, lambda, delta', xi'): R is n x size. */
-static void tangential_traction(const rb_rolling_problem *p, const rb_rolling_lcp *lcp,
-                                double *R, double *r_0)
+/* r_T = R z + r_0 for z = (r_N, lambda, delta', xi').  R's columns of lambda+ and lambda-
+ * are B^-1 and -B^-1, that of delta' is zero; here are the others. */
+typedef struct {
+    double *N;    /* n x n, of r_N: -B^-1 S_N; owned */
+    double *xi;   /* n; zero where the force is not given */
+    double *rest; /* n: r_0 */
+} traction;
+
+static rb_status tangential_traction(const rb_rolling_problem *p,
+                                     const rb_rolling_lcp *lcp, traction *R)
 {
     const int n = p->n;
+    const size_t length = (size_t)n;
     const double *Bi = lcp->B_inverse;
-    double *d =
-        R + (size_t)n * (size_t)lambda_column(n, 0, 0); /* scratch: written below */
 
+    R->N = rb_alloc(length, length + 3);
+    if (!R->N)
+        return RB_ENOMEM;
+    R->xi = R->N + length * length;
+    R->rest = R->xi + length;
+    double *d = R->rest + length;
     for (int i = 0; i < n; i++)
         d[i] = slip_offset(p, lcp, i);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, Bi, n, d, 1, 0.0, r_0, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, Bi, n, d, 1, 0.0, R->rest, 1);
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, -1.0, Bi, n, p->S, n,
-                0.0, R, n);
-    for (int j = 0; j < n; j++)
-        for (int i = 0; i < n; i++) {
-            R[i + (size_t)n * lambda_column(n, j, 0)] = Bi[i + (size_t)j * n];
-            R[i + (size_t)n * lambda_column(n, j, 1)] = -Bi[i + (size_t)j * n];
-        }
+                0.0, R->N, n);
     if (p->force_given)
         cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -xi_direction(lcp), Bi, n, p->e_T,
-                    1, 0.0, R + (size_t)n * xi_column(p), 1);
+                    1, 0.0, R->xi, 1);
+    return RB_OK;
 }
 
-/* y_N = d_N + F_NN r_N + F_NT r_T, gamma+- = mu r_N +- r_T (K1, K3). */
-static void kwak_rows(const rb_rolling_problem *p, const double *R, const double *r_0,
-                      rb_rolling_lcp *lcp)
+/* y_N = d_N + F_NN r_N + F_NT r_T (K1). */
+static void kwak_gap_rows(const rb_rolling_problem *p, const traction *R,
+                          rb_rolling_lcp *lcp)
 {
     const int n = p->n, ld = lcp->size;
     const double *F_NT = p->F + (size_t)n * p->ldf;
+    double *lambda = lcp->M + (size_t)lambda_column(n, 0, 0) * ld;
 
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, ld, n, 1.0, F_NT, p->ldf, R,
-                n, 0.0, lcp->M, ld);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, 1.0, F_NT, p->ldf,
+                R->N, n, 0.0, lcp->M, ld);
     add_block(n, 1.0, p->F, p->ldf, lcp->M, ld);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, 1.0, F_NT, p->ldf,
+                lcp->B_inverse, n, 0.0, lambda, 2 * ld);
+    add_block(n, -1.0, lambda, 2 * ld, lambda + ld, 2 * ld);
+    if (p->force_given)
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_NT, p->ldf, R->xi, 1, 0.0,
+                    lcp->M + (size_t)xi_column(p) * ld, 1);
     cblas_dcopy(n, p->d_N, 1, lcp->b, 1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_NT, p->ldf, r_0, 1, 1.0, lcp->b,
-                1);
-    for (int i = 0; i < n; i++)
-        for (int sign = 0; sign < 2; sign++) {
-            const int row = lambda_column(n, i, sign);
-            cblas_daxpy(ld, sign ? -1.0 : 1.0, R + i, n, lcp->M + row, ld);
-            lcp->M[row + (size_t)i * ld] += p->mu;
-            lcp->b[row] = sign ? -r_0[i] : r_0[i];
-        }
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_NT, p->ldf, R->rest, 1, 1.0,
+                lcp->b, 1);
 }
 
-static void kwak_force_row(const rb_rolling_problem *p, const double *R,
-                           const double *r_0, rb_rolling_lcp *lcp, int row, double sign,
-                           const double *a_N, const double *a_T, double value)
+/* gamma+ and gamma- of a column of M, or of b: +- the column x of R. */
+static void set_friction(int n, double sign, const double *x, double *column)
 {
-    cblas_dgemv(CblasColMajor, CblasTrans, p->n, lcp->size, sign, R, p->n, a_T, 1, 0.0,
-                lcp->M + row, lcp->size);
-    cblas_daxpy(p->n, sign, a_N, 1, lcp->M + row, lcp->size);
-    lcp->b[row] = sign * (cblas_ddot(p->n, a_T, 1, r_0, 1) - value);
+    for (int i = 0; i < n; i++) {
+        column[lambda_column(n, i, 0)] = sign * x[i];
+        column[lambda_column(n, i, 1)] = -sign * x[i];
+    }
+}
+
+/* gamma+- = mu r_N +- r_T (K3). */
+static void kwak_friction_rows(const rb_rolling_problem *p, const traction *R,
+                               rb_rolling_lcp *lcp)
+{
+    const int n = p->n;
+    const size_t length = (size_t)n, ld = (size_t)lcp->size;
+
+    for (int j = 0; j < n; j++) {
+        const double *Bi = lcp->B_inverse + (size_t)j * length;
+        double *column = lcp->M + (size_t)j * ld;
+        set_friction(n, 1.0, R->N + (size_t)j * length, column);
+        for (int sign = 0; sign < 2; sign++) {
+            column[lambda_column(n, j, sign)] += p->mu;
+            set_friction(n, sign ? -1.0 : 1.0, Bi,
+                         lcp->M + (size_t)lambda_column(n, j, sign) * ld);
+        }
+    }
+    if (p->force_given)
+        set_friction(n, 1.0, R->xi, lcp->M + (size_t)xi_column(p) * ld);
+    set_friction(n, 1.0, R->rest, lcp->b);
+}
+
+/* Row `row` = sign (a_N'r_N + a_T'r_T - value). */
+static void kwak_force_row(const rb_rolling_problem *p, const traction *R,
+                           rb_rolling_lcp *lcp, int row, double sign, const double *a_N,
+                           const double *a_T, double value)
+{
+    const int n = p->n, ld = lcp->size;
+    double *r_N = lcp->M + row, *lambda = r_N + (size_t)lambda_column(n, 0, 0) * ld;
+
+    cblas_dgemv(CblasColMajor, CblasTrans, n, n, sign, R->N, n, a_T, 1, 0.0, r_N, ld);
+    cblas_daxpy(n, sign, a_N, 1, r_N, ld);
+    cblas_dgemv(CblasColMajor, CblasTrans, n, n, sign, lcp->B_inverse, n, a_T, 1, 0.0,
+                lambda, 2 * ld);
+    cblas_daxpy(n, -1.0, lambda, 2 * ld, lambda + ld, 2 * ld);
+    if (p->force_given)
+        r_N[(size_t)xi_column(p) * ld] = sign * cblas_ddot(n, a_T, 1, R->xi, 1);
+    lcp->b[row] = sign * (cblas_ddot(n, a_T, 1, R->rest, 1) - value);
 }
 
 static rb_status kwak_form(const rb_rolling_problem *p, rb_rolling_lcp *lcp)
 {
     const int n = p->n;
-    double *R = rb_alloc((size_t)n, (size_t)lcp->size), *r_0 = rb_alloc((size_t)n, 1);
-    rb_status s = R && r_0 ? RB_OK : RB_ENOMEM;
+    traction R = {0};
 
+    memcpy(lcp->B_inverse, p->S + (size_t)n * n, (size_t)n * n * sizeof(double));
+    rb_status s = invert(n, lcp->B_inverse);
+    if (s == RB_OK)
+        s = tangential_traction(p, lcp, &R);
     if (s == RB_OK) {
-        memcpy(lcp->B_inverse, p->S + (size_t)n * n, (size_t)n * n * sizeof(double));
-        s = invert(n, lcp->B_inverse);
-    }
-    if (s == RB_OK) {
-        tangential_traction(p, lcp, R, r_0);
-        kwak_rows(p, R, r_0, lcp);
+        kwak_gap_rows(p, &R, lcp);
+        kwak_friction_rows(p, &R, lcp);
         if (p->load_given)
-            kwak_force_row(p, R, r_0, lcp, delta_column(p), 1.0, p->load_N, p->load_T,
+            kwak_force_row(p, &R, lcp, delta_column(p), 1.0, p->load_N, p->load_T,
                            p->load);
         if (p->force_given)
-            kwak_force_row(p, R, r_0, lcp, xi_column(p), -xi_direction(lcp),
-                           lcp->control_N, lcp->control_T, p->force);
+            kwak_force_row(p, &R, lcp, xi_column(p), -xi_direction(lcp), lcp->control_N,
+                           lcp->control_T, p->force);
     }
-    free(R);
-    free(r_0);
+    free(R.N);
     return s;
 }
 
