@@ -2,6 +2,8 @@
 #include "check.h"
 #include "rolling/internal.h"
 
+#include <string.h>
+
 static rb_rolling_solution solved(const rb_rolling_case *rc)
 {
     rb_rolling_solution s;
@@ -158,6 +160,29 @@ static void force_control_never_fails_on_wheels(void **state)
     }
 }
 
+/* More than any machine has is refused before a matrix is allocated; a contact without a
+ * matrix of the same size is not. */
+static void absurd_sizes_are_refused(void **state)
+{
+    (void)state;
+    enum { n = 1000000 };
+    rb_rolling_case rc = steady_wheel(RB_BEM_HALFPLANE, 0.3);
+    rb_rolling_mesh mesh = {.n = n};
+    rb_rolling_bodies bodies;
+    rb_message why;
+
+    rc.mesh = RB_MESH_UNIFORM;
+    CHECK_MAX(rb_rolling_bytes(&rc, n, 0, 2 * n), 1e9, "no matrix");
+    rc.solver = RB_SOLVER_LEMKE;
+    CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, &why), RB_EINVAL);
+    assert_non_null(
+        strstr(why.text, "a contact of 1000000 elements would need 1.92e+05"));
+    rc.a.support = RB_BEM_HUB;
+    rc.solver = RB_SOLVER_NEWTON;
+    CHECK_MAX(rb_bem_system_bytes(600, 200), rb_rolling_bytes(&rc, 200, 600, 300),
+              "a wheel");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -166,6 +191,7 @@ int main(void)
         cmocka_unit_test(exchanging_the_bodies_mirrors_the_result),
         cmocka_unit_test(finite_cylinders_tend_to_bentall_and_johnson),
         cmocka_unit_test(force_control_never_fails_on_wheels),
+        cmocka_unit_test(absurd_sizes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

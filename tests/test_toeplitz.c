@@ -92,6 +92,34 @@ static void equals_the_dense_matrix(void **state)
     }
 }
 
+/* A pair of two kinds keeps both; two matrices become one, in the place of the first. */
+static void pairs_of_any_kind_agree(void **state)
+{
+    (void)state;
+    enum { n = 12, m = n + 1 };
+    make *const kind[] = {rb_bem_flexibility_halfplane, rb_bem_flexibility_toeplitz};
+    double F[4][4 * m * n], w[4][2 * m], r[2 * n], *ends = equal_ends(n, -1.0, 2.0);
+
+    for (int j = 0; j < 2 * n; j++)
+        r[j] = sin(1.0 + j);
+    for (int k = 0; k < 4; k++) {
+        rb_bem_flexibility a, b, f;
+        CHECK_STATUS(kind[k / 2](n, ends, steel, 9.0, &a, NULL), RB_OK);
+        CHECK_STATUS(kind[k % 2](n, ends, aluminium, 4.0, &b, NULL), RB_OK);
+        const double *first = rb_bem_flexibility_stored(&a);
+        CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, NULL), RB_OK);
+        assert_ptr_equal(rb_bem_flexibility_stored(&f), k == 0 ? first : NULL);
+        CHECK_STATUS(rb_bem_flexibility_matrix(&f, F[k], 2 * m), RB_OK);
+        rb_bem_flexibility_apply(&f, r, w[k]);
+        rb_bem_flexibility_free(&f);
+        for (int i = 0; i < 4 * m * n; i++)
+            CHECK_ABS(F[k][i], F[0][i], 1e-13 * largest(4 * m * n, F[0]), "pair %d", k);
+        for (int i = 0; i < 2 * m; i++)
+            CHECK_ABS(w[k][i], w[0][i], 1e-13 * largest(2 * m, w[0]), "pair %d", k);
+    }
+    free(ends);
+}
+
 /* A deep datum adds a constant that must not drown the rest. */
 static void keeps_differences_under_a_deep_datum(void **state)
 {
@@ -324,6 +352,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equals_the_dense_matrix),
+        cmocka_unit_test(pairs_of_any_kind_agree),
         cmocka_unit_test(keeps_differences_under_a_deep_datum),
         cmocka_unit_test(long_lines_work),
         cmocka_unit_test(the_disc_is_symmetric),

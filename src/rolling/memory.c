@@ -1,11 +1,12 @@
 /* Memory at the peak of a solution: the formulas of docs/performance.md, "Memory". */
 #include "rolling/internal.h"
 
-/* Numbers per n^2 of Lemke's method on an LCP of order 3n: its matrix and the tableau,
- * the inverse in Kwak's form. */
+/* Numbers per n^2 of Lemke's method on an LCP of order 3n: its matrix and the tableau. In
+ * Kwak's form also the inverse, and a tableau rebuilt for accuracy: 3n rows of the at
+ * most 2n variables in the basis. */
 static double lemke_squares(const rb_rolling_case *rc)
 {
-    return 18.0 + (rc->lcp_form == RB_LCP_KWAK);
+    return rc->lcp_form == RB_LCP_KWAK ? 9.0 + 9.0 + 1.0 + 6.0 : 9.0 + 9.0;
 }
 
 double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unknowns)
