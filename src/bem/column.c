@@ -51,29 +51,26 @@ rb_status rb_points_make(int n, const double *x, const double *y, rb_points *poi
 typedef double rb_buffer[4][2 * BLOCK];
 
 /* Stores past the caches: the matrix is not read before it is complete, and a plain store
- * would fetch every line first.  Whole lines of 8 where the column begins at one. */
+ * would fetch every line first.  Only where the column begins at a line of 8: lines in
+ * two pieces cost more than they save. */
 typedef void stream_line(double *to, const double *from);
 
-RB_INLINE void stream(double *to, const double *from, int count, stream_line *line,
-                      stream_line *pair)
+RB_INLINE void stream(double *to, const double *from, int count, stream_line *line)
 {
     int i = 0;
     if ((uintptr_t)to % 64 == 0)
         for (; i + 8 <= count; i += 8)
             line(to + i, from + i);
-    if ((uintptr_t)to % 16 == 0)
-        for (; i < count; i += 2)
-            pair(to + i, from + i);
     memcpy(to + i, from + i, (size_t)(count - i) * sizeof *to);
 }
 
 /* The columns of points i ... i + count - 1. */
 RB_INLINE void send(rb_buffer buffer, int count, int i, double *const out[4],
-                    stream_line *line, stream_line *pair)
+                    stream_line *line)
 {
     for (int c = 0; c < 4; c++)
         if (out[c])
-            stream(out[c] + 2 * i, buffer[c], 2 * count, line, pair);
+            stream(out[c] + 2 * i, buffer[c], 2 * count, line);
 }
 
 /* What rb_seen holds, for the points of a block; over = 2a/(W rho), ln W from k and s. */
@@ -254,8 +251,7 @@ RB_INLINE void fill_block(const rb_constants *k, const rb_element *e, int self,
 }
 
 RB_INLINE void fill(const rb_constants *k, const rb_element *e, int self,
-                    const rb_points *points, double *const out[4], stream_line *line,
-                    stream_line *pair)
+                    const rb_points *points, double *const out[4], stream_line *line)
 {
     const int with_G = out[2] || out[3];
     for (int i = 0; i < points->n; i += BLOCK) {
@@ -266,43 +262,31 @@ RB_INLINE void fill(const rb_constants *k, const rb_element *e, int self,
         else
             fill_block(k, e, self, points, i, 0, buffer);
         if (count == BLOCK)
-            send(buffer, BLOCK, i, out, line, pair);
+            send(buffer, BLOCK, i, out, line);
         else
-            send(buffer, count, i, out, line, pair);
+            send(buffer, count, i, out, line);
     }
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
-RB_INLINE void pair_sse2(double *to, const double *from)
-{
-    _mm_stream_pd(to, _mm_loadu_pd(from));
-}
-
 RB_INLINE void line_sse2(double *to, const double *from)
 {
     for (int i = 0; i < 8; i += 2)
-        pair_sse2(to + i, from + i);
+        _mm_stream_pd(to + i, _mm_loadu_pd(from + i));
 }
 #define PLAIN_LINE line_sse2
-#define PLAIN_PAIR pair_sse2
 #else
 RB_INLINE void line_plain(double *to, const double *from)
 {
     memcpy(to, from, 8 * sizeof *to);
 }
-
-RB_INLINE void pair_plain(double *to, const double *from)
-{
-    memcpy(to, from, 2 * sizeof *to);
-}
 #define PLAIN_LINE line_plain
-#define PLAIN_PAIR pair_plain
 #endif
 
 static void fill_plain(const rb_constants *k, const rb_element *e, int self,
                        const rb_points *points, double *const out[4])
 {
-    fill(k, e, self, points, out, PLAIN_LINE, PLAIN_PAIR);
+    fill(k, e, self, points, out, PLAIN_LINE);
 }
 
 static const rb_column_variant plain = {"plain", fill_plain};
@@ -330,13 +314,13 @@ AVX512 RB_INLINE void line_avx512(double *to, const double *from)
 AVX2 static void fill_avx2(const rb_constants *k, const rb_element *e, int self,
                            const rb_points *points, double *const out[4])
 {
-    fill(k, e, self, points, out, line_avx2, pair_sse2);
+    fill(k, e, self, points, out, line_avx2);
 }
 
 AVX512 static void fill_avx512(const rb_constants *k, const rb_element *e, int self,
                                const rb_points *points, double *const out[4])
 {
-    fill(k, e, self, points, out, line_avx512, pair_sse2);
+    fill(k, e, self, points, out, line_avx512);
 }
 
 const rb_column_variant *rb_column_variant_get(int i)
