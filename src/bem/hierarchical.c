@@ -524,7 +524,8 @@ static rb_status verify(const rb_hierarchical *h)
     }
     free(b);
     free(room);
-    return s == RB_OK && !(left < fmin(1e4 * h->tolerance, 1e-3)) ? RB_SINGULAR : s;
+    const double most = fmin(fmax(1e4 * h->tolerance, 1e-4), 1e-3);
+    return s == RB_OK && !(left < most) ? RB_SINGULAR : s;
 }
 
 rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material material,

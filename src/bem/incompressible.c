@@ -4,9 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Below this 1 - 2 nu a body counts as incompressible: what is left of the term that the
- * pressure of a hub works on drowns in the rounding of the others. */
-static const double INCOMPRESSIBLE = 1e-9;
+int rb_is_incompressible(rb_bem_material material)
+{
+    return 1.0 - 2.0 * material.poisson <= 1e-9;
+}
 
 void rb_held_contours_free(rb_held_contours *held)
 {
@@ -56,7 +57,7 @@ rb_status rb_held_contours_find(const rb_bem_mesh *mesh, rb_bem_material materia
     const size_t n = (size_t)mesh->n;
 
     *held = (rb_held_contours){0};
-    if (1.0 - 2.0 * material.poisson > INCOMPRESSIBLE)
+    if (!rb_is_incompressible(material))
         return RB_OK;
     int *next = rb_alloc_int(n);
     held->contour = rb_alloc_int(n);

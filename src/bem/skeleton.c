@@ -26,14 +26,30 @@ rb_status rb_skeleton_alloc(int rows, int columns, rb_skeleton *s)
     return RB_ENOMEM;
 }
 
+enum { WIDE = 96 };
+
+/* K = Q R first where there are many columns: pivoting cannot work on whole blocks, and
+ * then does so on fewer rows. */
+static void shorten(rb_skeleton *s, double *work, lapack_int room)
+{
+    const int n = s->columns;
+
+    if (n < WIDE || s->rows < n)
+        return;
+    LAPACKE_dgeqrf_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->scale, work, room);
+    s->rows = n;
+    LAPACKE_dlaset_work(LAPACK_COL_MAJOR, 'L', n - 1, n - 1, 0.0, 0.0, s->K + 1, s->ld);
+}
+
 rb_status rb_skeleton_factor(rb_skeleton *s, double tolerance)
 {
-    const int n = s->columns, most = s->rows < n ? s->rows : n, block = 32;
+    const int n = s->columns, most = s->rows < n ? s->rows : n, block = 64;
     const lapack_int room = 2 * n + (n + 1) * block;
     double *work = rb_alloc((size_t)room, 1);
 
     if (!work)
         return RB_ENOMEM;
+    shorten(s, work, room);
     LAPACKE_dgeqp3_work(LAPACK_COL_MAJOR, s->rows, n, s->K, s->ld, s->pivot, s->scale,
                         work, room);
     free(work);
