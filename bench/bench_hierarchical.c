@@ -22,7 +22,8 @@ enum { CONTACT = 40, SIZE = 2 * (CONTACT + 1) * 2 * CONTACT };
 static const rb_bem_material steel = {82000.0, 0.28};
 
 typedef struct {
-    double seconds, megabytes; /* peak of its process */
+    double seconds, processor; /* by the clock; of all processors */
+    double megabytes;          /* peak of its process */
     double F[SIZE];
 } result;
 
@@ -85,6 +86,8 @@ static void run(int n, int dense, result *r)
     close(ends[0]);
     close(ends[1]);
     r->megabytes = (double)usage.ru_maxrss / 1024.0;
+    r->processor = (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+                   1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
 
 static double difference(const result *a, const result *b)
@@ -111,16 +114,19 @@ int main(int argc, char **argv)
         omp_set_num_threads(threads);
     printf("%d processors for both\n", omp_get_max_threads());
 #endif
-    printf("elements  hierarchical  memory    dense  memory  ratio  difference of F\n");
+    printf(
+        "elements: hierarchical s, processor s, MB; dense s, processor s, MB; ratio of "
+        "s, of processor s; difference of F\n");
     for (int n = 4000; n <= most; n *= 2) {
         rb_bem_mesh mesh = wheel(n);
         run(n, 0, &h);
-        printf("%8d %11.2f s %4.0f MB", mesh.n, h.seconds, h.megabytes);
+        printf("%6d: %6.2f %6.2f %4.0f", mesh.n, h.seconds, h.processor, h.megabytes);
         rb_bem_mesh_free(&mesh);
         if (n <= dense_to) {
             run(n, 1, &dense);
-            printf(" %6.2f s %4.0f MB %6.1f  %.1e", dense.seconds, dense.megabytes,
-                   dense.seconds / h.seconds, difference(&h, &dense));
+            printf("; %6.2f %6.2f %4.0f; %5.1f %5.1f; %.1e", dense.seconds,
+                   dense.processor, dense.megabytes, dense.seconds / h.seconds,
+                   dense.processor / h.processor, difference(&h, &dense));
         }
         printf("\n");
         fflush(stdout);
