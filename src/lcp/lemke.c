@@ -77,7 +77,8 @@ static void take_image(lemke *l)
 {
     const size_t n = (size_t)l->n;
     rb_lcp_tableau_flush(&l->t);
-    memcpy(l->image, l->t.T, n * (n + 1) * sizeof(double));
+    for (int c = 0; c <= l->n; c++)
+        rb_lcp_tableau_column(&l->t, c, l->image + (size_t)c * n);
     memcpy(l->image + n * (n + 1), l->t.q, n * sizeof(double));
 }
 

@@ -47,16 +47,35 @@ int rb_lcp_lemke_first_row(const lemke *l)
     return r;
 }
 
-/* The least ratio, and the ratios (infinite where a row does not block). */
+/* In lanes, so that comparisons need not wait for each other. */
+static double least_of(int n, const double *x)
+{
+    enum { LANES = 16 };
+    double least[LANES];
+    int i = 0;
+    for (int k = 0; k < LANES; k++)
+        least[k] = INFINITY;
+    for (; i + LANES <= n; i += LANES)
+        for (int k = 0; k < LANES; k++)
+            least[k] = x[i + k] < least[k] ? x[i + k] : least[k];
+    for (; i < n; i++)
+        least[0] = x[i] < least[0] ? x[i] : least[0];
+    for (int k = 1; k < LANES; k++)
+        least[0] = least[k] < least[0] ? least[k] : least[0];
+    return least[0];
+}
+
+/* The least ratio, and the ratios (infinite where a row does not block); without
+ * branches: signs follow no pattern. */
 static double least_ratio(const lemke *l, double a_max, double *ratio)
 {
     const double *a = l->a, *q = l->t.q, noise = -NOISE * a_max;
-    double least = INFINITY;
-    for (int i = 0; i < l->n; i++)
-        ratio[i] = a[i] < noise ? (q[i] > 0.0 ? q[i] : 0.0) / -a[i] : INFINITY;
-    for (int i = 0; i < l->n; i++)
-        least = ratio[i] < least ? ratio[i] : least;
-    return least;
+    for (int i = 0; i < l->n; i++) {
+        const double down = a[i] < noise ? -a[i] : 1.0;
+        const double x = (q[i] > 0.0 ? q[i] : 0.0) / down;
+        ratio[i] = a[i] < noise ? x : INFINITY;
+    }
+    return least_of(l->n, ratio);
 }
 
 /* The rows that tie: the least ratio brings them to zero within rounding, and theirs is

@@ -9,11 +9,10 @@
  * error would break ties that are to be broken lexicographically. */
 static const double SNAP = 1e-11;
 
-/* Where column c of T stands, `level` pivots after the last flush. */
+/* Columns that stand nowhere in T. */
 enum {
-    UNTOUCHED, /* in the data: not copied before it changes */
-    KEPT,      /* in T */
-    BORN /* nowhere: pivot number `level` was on it, and what it was before is gone */
+    UNTOUCHED = -1, /* as in the data: not copied before it changes */
+    BORN = -2       /* pivot number `level` was on it, and what it was before is gone */
 };
 
 /* Pivots to a block, and columns that pass through the blocks together: products wide
@@ -37,7 +36,7 @@ static int least(int a, int b)
 
 static double *column_of(const lcp_tableau *t, int c)
 {
-    return t->T + (size_t)c * (size_t)t->n;
+    return t->T + (size_t)t->slot[c] * (size_t)t->n;
 }
 
 void rb_lcp_tableau_free(lcp_tableau *t)
@@ -65,7 +64,8 @@ static void no_pivots(lcp_tableau *t)
 void rb_lcp_tableau_renewed(lcp_tableau *t)
 {
     for (int c = 0; c <= t->n; c++)
-        t->source[c] = KEPT;
+        t->slot[c] = c;
+    t->spares = 0;
     no_pivots(t);
 }
 
@@ -78,8 +78,10 @@ static void start(lcp_tableau *t)
     for (int c = 0; c <= n; c++) {
         t->nonbasis[c] = n + c;
         t->place[n + c] = -1 - c;
-        t->source[c] = UNTOUCHED;
+        t->slot[c] = UNTOUCHED;
+        t->spare[c] = n - c;
     }
+    t->spares = n + 1;
     no_pivots(t);
 }
 
@@ -89,8 +91,9 @@ static void share(lcp_tableau *t)
     const int n = t->n;
     t->nonbasis = t->basis + n;
     t->place = t->nonbasis + n + 1;
-    t->source = t->level + n + 1;
-    t->last = t->source + n + 1;
+    t->slot = t->level + n + 1;
+    t->spare = t->slot + n + 1;
+    t->last = t->spare + n + 1;
     t->before = t->row + t->room;
     t->S = t->X + (size_t)n * (size_t)t->group;
 }
@@ -111,7 +114,7 @@ rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
     t->L = rb_alloc((size_t)depth, room);
     t->X = rb_alloc(rows + (size_t)depth, group);
     t->basis = rb_alloc_int(4 * rows + 2);
-    t->level = rb_alloc_int(3 * rows + 2);
+    t->level = rb_alloc_int(4 * rows + 3);
     t->row = rb_alloc_int(2 * room);
     if (!t->T || !t->q || !t->U || !t->L || !t->X || !t->basis || !t->level || !t->row) {
         rb_lcp_tableau_free(t);
@@ -128,9 +131,9 @@ rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
 static void load(const lcp_tableau *t, int c, double *x)
 {
     const size_t n = (size_t)t->n;
-    if (t->source[c] == KEPT) {
+    if (t->slot[c] >= 0) {
         memcpy(x, column_of(t, c), n * sizeof *x);
-    } else if (t->source[c] == BORN) {
+    } else if (t->slot[c] == BORN) {
         memset(x, 0, n * sizeof *x);
     } else if (c < t->n) {
         memcpy(x, t->data->M + (size_t)c * (size_t)t->data->ldm, n * sizeof *x);
@@ -154,7 +157,7 @@ static void take_rows(const lcp_tableau *t, int from, int to, double *x, double 
 static void take_rows_of(const lcp_tableau *t, int c, int to, double *x, double *rhs)
 {
     take_rows(t, t->level[c], to, x, rhs);
-    if (t->source[c] == BORN && to > t->level[c])
+    if (t->slot[c] == BORN && to > t->level[c])
         rhs[0] = -1.0;
 }
 
@@ -221,6 +224,15 @@ static void apply_block(lcp_tableau *t, int columns, int first, int to)
                 -1.0, t->U + (size_t)first * n, t->n, t->S, t->depth, 1.0, t->X, t->n);
 }
 
+/* Places are taken up again as soon as they are free: T stays small and warm. */
+static void keep(lcp_tableau *t, int c, const double *x)
+{
+    if (t->slot[c] < 0)
+        t->slot[c] = t->spare[--t->spares];
+    memcpy(column_of(t, c), x, (size_t)t->n * sizeof *x);
+    t->level[c] = t->k;
+}
+
 static void advance_group(lcp_tableau *t, int count, const int *columns)
 {
     const size_t n = (size_t)t->n;
@@ -232,11 +244,8 @@ static void advance_group(lcp_tableau *t, int count, const int *columns)
         const int active = gather_rows(t, count, columns, first, to);
         apply_block(t, active, first, to);
     }
-    for (int g = 0; g < count; g++) {
-        memcpy(column_of(t, columns[g]), t->X + (size_t)g * n, n * sizeof *t->X);
-        t->level[columns[g]] = t->k;
-        t->source[columns[g]] = KEPT;
-    }
+    for (int g = 0; g < count; g++)
+        keep(t, columns[g], t->X + (size_t)g * n);
 }
 
 /* Those that are farthest behind first (insertion: they come nearly in order). */
@@ -329,7 +338,9 @@ static void remember_pivot(lcp_tableau *t, int r, int c, const double *a)
     t->row[k] = r;
     t->before[k] = t->last[r];
     t->last[r] = k;
-    t->source[c] = BORN;
+    if (t->slot[c] >= 0)
+        t->spare[t->spares++] = t->slot[c];
+    t->slot[c] = BORN;
     t->level[c] = t->k++;
 }
 

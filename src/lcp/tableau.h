@@ -31,13 +31,14 @@ static inline double rb_lcp_cover(const lcp_data *data, int i)
 typedef struct {
     int n;
     const lcp_data *data; /* borrowed */
-    double *T; /* n x (n + 1) column-major: column c after `level` pivots; owned, as all
-                  here */
+    double *T; /* n x (n + 1): columns after `level` pivots each, in any order; owned, as
+                  all here */
     double *q; /* n: the constants, always current */
     int *basis, *nonbasis; /* variable of each row (n), of each column (n + 1) */
     int *place;            /* of each variable: its row, or -1 - its column */
     int *level;            /* n + 1 */
-    int *source;           /* n + 1: where column c stands, see tableau.c */
+    int *slot;             /* n + 1: where column c stands in T; < 0: nowhere */
+    int *spare, spares;    /* n + 1: free places in T, and how many */
 
     int depth, room, k; /* pivots of a block; that U can hold; that it holds */
     double *U;          /* n x room */
