@@ -42,13 +42,9 @@ static double *column_of(const lcp_tableau *t, int c)
 void rb_lcp_tableau_free(lcp_tableau *t)
 {
     free(t->T);
-    free(t->q);
-    free(t->basis);
-    free(t->level);
-    free(t->U);
     free(t->L);
+    free(t->basis);
     free(t->row);
-    free(t->X);
     memset(t, 0, sizeof *t);
 }
 
@@ -85,17 +81,21 @@ static void start(lcp_tableau *t)
     no_pivots(t);
 }
 
-/* The integers share two arrays. */
+/* Few arrays: the system then keeps their memory for the next small problem. */
 static void share(lcp_tableau *t)
 {
     const int n = t->n;
+    t->q = t->T + (size_t)n * ((size_t)n + 1);
+    t->U = t->q + n;
+    t->X = t->U + (size_t)n * (size_t)t->room;
+    t->S = t->L + (size_t)t->depth * (size_t)t->room;
     t->nonbasis = t->basis + n;
     t->place = t->nonbasis + n + 1;
+    t->level = t->place + 2 * n + 1;
     t->slot = t->level + n + 1;
     t->spare = t->slot + n + 1;
     t->last = t->spare + n + 1;
     t->before = t->row + t->room;
-    t->S = t->X + (size_t)n * (size_t)t->group;
 }
 
 rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
@@ -108,15 +108,11 @@ rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
                        .room = blocks * depth,
                        .group = group_of(n)};
     const size_t rows = (size_t)n, room = (size_t)t->room, group = (size_t)t->group;
-    t->T = rb_alloc(rows, rows + 1);
-    t->q = rb_alloc(rows, 1);
-    t->U = rb_alloc(rows, room);
-    t->L = rb_alloc((size_t)depth, room);
-    t->X = rb_alloc(rows + (size_t)depth, group);
-    t->basis = rb_alloc_int(4 * rows + 2);
-    t->level = rb_alloc_int(4 * rows + 3);
+    t->T = rb_alloc(rows, rows + 2 + room + group);
+    t->L = rb_alloc((size_t)depth, room + group);
+    t->basis = rb_alloc_int(8 * rows + 5);
     t->row = rb_alloc_int(2 * room);
-    if (!t->T || !t->q || !t->U || !t->L || !t->X || !t->basis || !t->level || !t->row) {
+    if (!t->T || !t->L || !t->basis || !t->row) {
         rb_lcp_tableau_free(t);
         return RB_ENOMEM;
     }
