@@ -2,6 +2,7 @@
  * rounds. One thread, processor time, medians; the pipeline: all threads, wall time. */
 #include "bem/column.h"
 #include "bem/large.h"
+#include "bem/system.h"
 #include "rollbem/blas.h"
 
 #include <cblas.h>
@@ -380,7 +381,7 @@ static void pipeline(int elements, int repeat)
         rb_bem_flexibility f;
         alone[k] = lu_alone(2 * mesh.n);
         const double start = rb_seconds();
-        if (rb_bem_system_create(&mesh, material, &system, NULL) != RB_OK)
+        if (rb_bem_system_create_as(&mesh, material, 1, &system, NULL) != RB_OK)
             exit(70);
         const double made = rb_seconds();
         if (rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, NULL) != RB_OK)
@@ -392,7 +393,7 @@ static void pipeline(int elements, int repeat)
         rb_bem_flexibility_free(&f);
         rb_bem_system_free(system);
     }
-    printf("mesh to flexibility, n = %d, n_c = %d, all threads\n", mesh.n,
+    printf("mesh to flexibility, dense, n = %d, n_c = %d, all threads\n", mesh.n,
            mesh.contact_n);
     show("assembly", 1e3 * median(repeat, assemble), "ms", "");
     show("LU and condition", 1e3 * median(repeat, factor), "ms", "");

@@ -96,7 +96,7 @@ const char *rb_bem_vector_name(void);
 
 /* From so many elements on the matrix is hierarchical: the same answers to 1e-6, about
  * n log n work, memory of order n. */
-enum { RB_BEM_HIERARCHICAL = 3000 };
+enum { RB_BEM_HIERARCHICAL = 1500 };
 
 /* One assembly and one LU.  The mesh is copied.  RB_EINVAL: no support (three rigid
  * motions remain; the message says so), bad material or mesh; RB_SINGULAR; RB_ENOMEM. */
