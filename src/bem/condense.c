@@ -63,35 +63,55 @@ static void left_over(const particular *p, int k, int c, int direction, double v
     value[1] = -cimag(held_y ? u : t);
 }
 
-enum { BLOCK = 32 }; /* elements whose columns are multiplied at once */
+/* Elements whose columns are multiplied at once; rows of one product. */
+enum { BLOCK = 32, SLICE = 256 };
 
-/* X += [G, -H] times the boundary values left over, for elements from ... to - 1.
- * columns: ld x 2 BLOCK, values: 2 BLOCK x loads. */
-static void add_left_over(const particular *p, const rb_assembly *assembly, int from,
-                          int to, double *columns, double *values, double *X)
+/* A block of elements: columns of [G, -H] for the values that are left over (ld x 2
+ * BLOCK), and these (2 BLOCK x loads). */
+typedef struct {
+    double *columns, *values;
+} block;
+
+/* The part of element k, the i-th of its block. */
+static void fill_left_over(const particular *p, const rb_assembly *assembly, int k, int i,
+                           const block *b)
 {
     const rb_bem_system *s = p->s;
-    const int loads = 2 * s->mesh.contact_n, rows = 2 * BLOCK;
+    double *out[4] = {NULL, NULL, NULL, NULL};
 
-#pragma omp parallel for schedule(static)
-    for (int k = from; k < to; k++) {
-        double *out[4] = {NULL, NULL, NULL, NULL};
-        for (int d = 0; d < 2; d++) {
-            const int held = s->mesh.condition[2 * k + d] == RB_BEM_DISPLACEMENT;
-            out[held ? d : 2 + d] =
-                columns + (size_t)(2 * (k - from) + d) * (size_t)s->ld;
-        }
-        rb_assembly_columns(assembly, k, 1.0, out);
-        for (int l = 0; l < loads; l++) {
-            double *value = values + 2 * (k - from) + (size_t)l * rows;
-            left_over(p, k, l / 2, l % 2, value);
-            for (int d = 0; d < 2; d++)
-                if (out[d])
-                    value[d] = -value[d];
-        }
+    for (int d = 0; d < 2; d++) {
+        const int held = s->mesh.condition[2 * k + d] == RB_BEM_DISPLACEMENT;
+        out[held ? d : 2 + d] = b->columns + (size_t)(2 * i + d) * (size_t)s->ld;
     }
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, s->dofs, loads,
-                2 * (to - from), 1.0, columns, s->ld, values, rows, 1.0, X, s->ld);
+    rb_assembly_columns(assembly, k, 1.0, out);
+    for (int l = 0; l < 2 * s->mesh.contact_n; l++) {
+        double *value = b->values + 2 * i + (size_t)l * 2 * BLOCK;
+        left_over(p, k, l / 2, l % 2, value);
+        for (int d = 0; d < 2; d++)
+            if (out[d])
+                value[d] = -value[d];
+    }
+}
+
+/* X += [G, -H] times the boundary values left over, for elements from ... to - 1.  All in
+ * one parallel region: threads that wait for a product by one of them would spin. */
+static void add_left_over(const particular *p, const rb_assembly *assembly, int from,
+                          int to, const block *b, double *X)
+{
+    const rb_bem_system *s = p->s;
+
+#pragma omp parallel if ((double)(to - from) * s->mesh.n > rb_pairs_for_threads / 32)
+    {
+#pragma omp for schedule(static)
+        for (int k = from; k < to; k++)
+            fill_left_over(p, assembly, k, k - from, b);
+#pragma omp for schedule(static)
+        for (int row = 0; row < s->dofs; row += SLICE)
+            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans,
+                        s->dofs - row < SLICE ? s->dofs - row : SLICE,
+                        2 * s->mesh.contact_n, 2 * (to - from), 1.0, b->columns + row,
+                        s->ld, b->values, 2 * BLOCK, 1.0, X + row, s->ld);
+    }
 }
 
 rb_status rb_bem_check_convex(const rb_bem_system *s, rb_message *why)
@@ -116,22 +136,23 @@ static rb_status subtracted_loads(const rb_bem_system *s, double *X)
 {
     const size_t loads = 2 * (size_t)s->mesh.contact_n;
     const particular p = {s, rb_bem_mesh_size(&s->mesh)};
-    double *columns = rb_alloc((size_t)s->ld, 2 * BLOCK),
-           *values = rb_alloc(2 * BLOCK, loads);
+    const block b = {rb_alloc((size_t)s->ld, 2 * BLOCK), rb_alloc(2 * BLOCK, loads)};
+    const int threads = rb_blas_threads(1);
     rb_assembly assembly;
-    rb_status status = columns && values
+    rb_status status = b.columns && b.values
                            ? rb_assembly_begin(&s->mesh, s->material, &assembly)
                            : RB_ENOMEM;
 
     if (status == RB_OK) {
         for (int from = 0; from < s->mesh.n; from += BLOCK) {
             const int to = from + BLOCK < s->mesh.n ? from + BLOCK : s->mesh.n;
-            add_left_over(&p, &assembly, from, to, columns, values, X);
+            add_left_over(&p, &assembly, from, to, &b, X);
         }
         rb_assembly_end(&assembly);
     }
-    free(columns);
-    free(values);
+    rb_blas_threads(threads);
+    free(b.columns);
+    free(b.values);
     return status;
 }
 
