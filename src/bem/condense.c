@@ -39,28 +39,28 @@ static rb_status solve_contact(const rb_bem_system *s, double *X)
  * tractions and displacements that it causes where others are given. */
 typedef struct {
     const rb_bem_system *s;
-    double unit;
+    rb_strip *strip; /* one per contact element */
 } particular;
 
-/* Boundary values of element k against the load `direction` on contact element c: rows
- * u_x, u_y (where the displacement is given) or t_x, t_y, of one column. */
-static void left_over(const particular *p, int k, int c, int direction, double value[2])
+/* Boundary values of element k against the strip on contact element c: u_x, u_y (where
+ * the displacement is given) or t_x, t_y, under its load along x and along y. */
+static void left_over(const particular *p, int k, int c, double value[2][2])
 {
     const rb_bem_mesh *mesh = &p->s->mesh;
-    const int j = mesh->contact_first + c;
-    const rb_strip strip = rb_strip_on(mesh, j, p->s->material, p->unit);
-    const double complex load = direction ? I : 1.0, z = rb_strip_midpoint(mesh, k);
+    const double complex z = rb_strip_midpoint(mesh, k);
     const int held_x = mesh->condition[2 * k] == RB_BEM_DISPLACEMENT;
     const int held_y = mesh->condition[2 * k + 1] == RB_BEM_DISPLACEMENT;
-    const double complex u =
-        held_x || held_y ? rb_strip_displacement(&strip, z, load) : 0.0;
-    const double complex t =
-        (held_x && held_y) || k == j
-            ? 0.0
-            : rb_strip_traction(&strip, z, load, rb_strip_outward(mesh, k));
+    rb_strip_answer u = {0.0, 0.0}, t = {0.0, 0.0};
 
-    value[0] = -creal(held_x ? u : t);
-    value[1] = -cimag(held_y ? u : t);
+    if (held_x || held_y)
+        u = rb_strip_displacement(&p->strip[c], z);
+    if (!(held_x && held_y) && k != mesh->contact_first + c)
+        t = rb_strip_traction(&p->strip[c], z, rb_strip_outward(mesh, k));
+    for (int direction = 0; direction < 2; direction++) {
+        const double complex load = direction ? I : 1.0;
+        value[direction][0] = -creal(rb_strip_under(held_x ? u : t, load));
+        value[direction][1] = -cimag(rb_strip_under(held_y ? u : t, load));
+    }
 }
 
 /* Elements whose columns are multiplied at once; rows of one product. */
@@ -84,12 +84,13 @@ static void fill_left_over(const particular *p, const rb_assembly *assembly, int
         out[held ? d : 2 + d] = b->columns + (size_t)(2 * i + d) * (size_t)s->ld;
     }
     rb_assembly_columns(assembly, k, 1.0, out);
-    for (int l = 0; l < 2 * s->mesh.contact_n; l++) {
-        double *value = b->values + 2 * i + (size_t)l * 2 * BLOCK;
-        left_over(p, k, l / 2, l % 2, value);
-        for (int d = 0; d < 2; d++)
-            if (out[d])
-                value[d] = -value[d];
+    for (int c = 0; c < s->mesh.contact_n; c++) {
+        double value[2][2];
+        left_over(p, k, c, value);
+        for (int l = 0; l < 2; l++)
+            for (int d = 0; d < 2; d++)
+                b->values[2 * i + d + (size_t)(2 * c + l) * 2 * BLOCK] =
+                    out[d] ? -value[l][d] : value[l][d];
     }
 }
 
@@ -132,10 +133,21 @@ rb_status rb_bem_check_convex(const rb_bem_system *s, rb_message *why)
     return RB_OK;
 }
 
-static rb_status subtracted_loads(const rb_bem_system *s, double *X)
+static rb_status particular_make(const rb_bem_system *s, particular *p)
 {
+    const rb_bem_mesh *mesh = &s->mesh;
+    const double unit = rb_bem_mesh_size(mesh);
+
+    *p = (particular){s, calloc((size_t)mesh->contact_n, sizeof *p->strip)};
+    for (int c = 0; c < mesh->contact_n && p->strip; c++)
+        p->strip[c] = rb_strip_on(mesh, mesh->contact_first + c, s->material, unit);
+    return p->strip ? RB_OK : RB_ENOMEM;
+}
+
+static rb_status subtracted_loads(const particular *p, double *X)
+{
+    const rb_bem_system *s = p->s;
     const size_t loads = 2 * (size_t)s->mesh.contact_n;
-    const particular p = {s, rb_bem_mesh_size(&s->mesh)};
     const block b = {rb_alloc((size_t)s->ld, 2 * BLOCK), rb_alloc(2 * BLOCK, loads)};
     const int threads = rb_blas_threads(1);
     rb_assembly assembly;
@@ -146,7 +158,7 @@ static rb_status subtracted_loads(const rb_bem_system *s, double *X)
     if (status == RB_OK) {
         for (int from = 0; from < s->mesh.n; from += BLOCK) {
             const int to = from + BLOCK < s->mesh.n ? from + BLOCK : s->mesh.n;
-            add_left_over(&p, &assembly, from, to, &b, X);
+            add_left_over(p, &assembly, from, to, &b, X);
         }
         rb_assembly_end(&assembly);
     }
@@ -157,22 +169,22 @@ static rb_status subtracted_loads(const rb_bem_system *s, double *X)
 }
 
 /* The strips' own displacements, on top of what was solved for. */
-static void add_particular(const rb_bem_system *s, double *X)
+static void add_particular(const particular *p, double *X)
 {
+    const rb_bem_system *s = p->s;
     const rb_bem_mesh *mesh = &s->mesh;
     const int m = mesh->contact_n + 1;
-    const double unit = rb_bem_mesh_size(mesh);
 
-    for (int l = 0; l < 2 * mesh->contact_n; l++) {
-        const rb_strip strip =
-            rb_strip_on(mesh, mesh->contact_first + l / 2, s->material, unit);
-        double *U = X + (size_t)l * (size_t)s->ld + (size_t)(s->dofs - 2 * m);
+    for (int c = 0; c < mesh->contact_n; c++) {
+        double *U = X + 2 * (size_t)c * (size_t)s->ld + (size_t)(s->dofs - 2 * m);
         for (int i = 0; i < m; i++) {
-            const double complex u = rb_strip_displacement(
-                &strip, rb_strip_midpoint(mesh, mesh->contact_first + i),
-                l % 2 ? I : 1.0);
-            U[2 * i] += creal(u);
-            U[2 * i + 1] += cimag(u);
+            const rb_strip_answer answer = rb_strip_displacement(
+                &p->strip[c], rb_strip_midpoint(mesh, mesh->contact_first + i));
+            for (int l = 0; l < 2; l++) {
+                const double complex u = rb_strip_under(answer, l ? I : 1.0);
+                U[2 * i + (size_t)l * (size_t)s->ld] += creal(u);
+                U[2 * i + 1 + (size_t)l * (size_t)s->ld] += cimag(u);
+            }
         }
     }
 }
@@ -215,28 +227,38 @@ static void turn_to_frames(const rb_bem_system *s, rb_bem_normals normals,
     }
 }
 
-/* Unit tractions on the contact, given values in the last column: the right-hand sides.
- */
-static rb_status contact_displacements(const rb_bem_system *s, int subtract, double **X)
+/* Unit tractions on the contact, given values in the last column: the right-hand sides,
+ * solved.  p: NULL where nothing is subtracted. */
+static rb_status solve_loads(const rb_bem_system *s, const particular *p, double *X)
 {
     const size_t rows = (size_t)s->ld, loads = 2 * (size_t)s->mesh.contact_n;
     rb_status status = RB_OK;
 
-    *X = rb_large_alloc(rows, loads + 1);
-    if (!*X)
-        return RB_ENOMEM;
-    memcpy(*X + rows * loads, s->b, (size_t)s->dofs * sizeof **X);
-    if (subtract) {
-        memset(*X, 0, rows * loads * sizeof **X);
-        status = subtracted_loads(s, *X);
+    memcpy(X + rows * loads, s->b, (size_t)s->dofs * sizeof *X);
+    if (p) {
+        memset(X, 0, rows * loads * sizeof *X);
+        status = subtracted_loads(p, X);
     } else {
-        memcpy(*X, s->Gc, rows * loads * sizeof **X);
+        memcpy(X, s->Gc, rows * loads * sizeof *X);
     }
-    if (status != RB_OK)
-        return status;
-    status = solve_contact(s, *X);
-    if (status == RB_OK && subtract)
-        add_particular(s, *X);
+    if (status == RB_OK)
+        status = solve_contact(s, X);
+    if (status == RB_OK && p)
+        add_particular(p, X);
+    return status;
+}
+
+static rb_status contact_displacements(const rb_bem_system *s, int subtract, double **X)
+{
+    particular p = {0};
+    rb_status status = subtract ? particular_make(s, &p) : RB_OK;
+
+    *X = rb_large_alloc((size_t)s->ld, 2 * (size_t)s->mesh.contact_n + 1);
+    if (!*X)
+        status = RB_ENOMEM;
+    if (status == RB_OK)
+        status = solve_loads(s, subtract ? &p : NULL, *X);
+    free(p.strip);
     return status;
 }
 

@@ -98,7 +98,8 @@ static double complex strips_displacement(const rb_bem_field *f, double complex 
 {
     double complex u = 0.0;
     for (int k = 0; k < f->pieces; k++)
-        u += rb_strip_displacement(&f->piece[k].strip, z, f->piece[k].traction);
+        u += rb_strip_under(rb_strip_displacement(&f->piece[k].strip, z),
+                            f->piece[k].traction);
     return u;
 }
 

@@ -68,35 +68,36 @@ static double complex log_ratio(double complex z, double h)
            clog(complex_of(creal(z) - 0.5 * h, cimag(z)));
 }
 
-double complex rb_strip_displacement(const rb_strip *strip, double complex z,
-                                     double complex f)
+/* 2G u = -kappa F L + conj(F) (h + 2iy conj(Lambda)) - F conj(L), over 2 pi, in the
+ * strip's frame; turned, F = conj(along) f. */
+rb_strip_answer rb_strip_displacement(const rb_strip *strip, double complex z)
 {
-    const double h = strip->h, unit = strip->unit;
-    const double complex at = below(strip, z), force = conj(strip->along) * f;
-    const double complex lambda = log_ratio(at, h);
+    const double h = strip->h, unit = strip->unit, C = 1.0 / (4.0 * M_PI * strip->shear);
+    const double complex at = below(strip, z), lambda = log_ratio(at, h);
     const double complex sum = clog(complex_of(creal(at) + 0.5 * h, cimag(at)) / unit) +
                                clog(complex_of(creal(at) - 0.5 * h, cimag(at)) / unit);
     const double complex L = at * lambda + 0.5 * h * sum - h;
-    const double complex u = -strip->kappa * force * L +
-                             conj(force) * (h + 2.0 * I * cimag(at) * conj(lambda)) -
-                             force * conj(L);
 
-    return strip->along * u / (4.0 * M_PI * strip->shear);
+    return (rb_strip_answer){-C * (strip->kappa * L + conj(L)),
+                             C * strip->along * strip->along *
+                                 (h + 2.0 * I * cimag(at) * conj(lambda))};
 }
 
-/* sxx + syy = 4 Re phi', syy - sxx + 2i sxy = 2(conj(z) phi'' + psi'). */
-double complex rb_strip_traction(const rb_strip *strip, double complex z,
-                                 double complex f, double complex normal)
+/* sxx + syy = 4 Re phi' = -(F Lambda + conj(F Lambda))/pi,
+ * syy - sxx + 2i sxy = 2(conj(z) phi'' + psi') = (F (Lambda + 2iy Lambda') + conj(F)
+ * Lambda)/pi. */
+rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z,
+                                  double complex normal)
 {
-    const double h = strip->h;
-    const double complex at = below(strip, z), force = conj(strip->along) * f;
-    const double complex n = conj(strip->along) * normal, lambda = log_ratio(at, h);
+    const double h = strip->h, C = -0.5 / M_PI;
+    const double complex at = below(strip, z), lambda = log_ratio(at, h);
+    const double complex n = conj(strip->along) * normal;
     const double complex curve = -h / (at * at - 0.25 * h * h); /* 1/a - 1/b */
-    const double mean = creal(-2.0 * force * lambda) / M_PI;    /* sxx + syy */
-    const double complex difference =
-        (force * (lambda + 2.0 * I * cimag(at) * curve) + conj(force) * lambda) / M_PI;
+    const double complex bent = lambda + 2.0 * I * cimag(at) * curve;
 
-    return strip->along * 0.5 * (mean * n - conj(n) * conj(difference));
+    return (rb_strip_answer){C * (lambda * n + conj(n * lambda)),
+                             C * strip->along * strip->along *
+                                 (conj(lambda) * n + conj(n * bent))};
 }
 
 /* At the ends the logarithm of a strip is infinite; those of its neighbours, whose

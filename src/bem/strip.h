@@ -27,13 +27,22 @@ double complex rb_strip_outward(const rb_bem_mesh *mesh, int j);
 /* Depth of the point below the edge; negative outside the half-plane. */
 double rb_strip_depth(const rb_strip *strip, double complex z);
 
-/* Displacement ux + i uy at z under the traction f = fx + i fy per length of the strip.
- */
-double complex rb_strip_displacement(const rb_strip *strip, double complex z,
-                                     double complex f);
+/* What answers f and conj(f), where the strip carries the traction f = fx + i fy per
+ * length: same f + other conj(f). */
+typedef struct {
+    double complex same, other;
+} rb_strip_answer;
+
+static inline double complex rb_strip_under(rb_strip_answer answer, double complex f)
+{
+    return answer.same * f + answer.other * conj(f);
+}
+
+/* Displacement ux + i uy at z. */
+rb_strip_answer rb_strip_displacement(const rb_strip *strip, double complex z);
 /* Traction tx + i ty at z on a section with outward normal nx + i ny. */
-double complex rb_strip_traction(const rb_strip *strip, double complex z,
-                                 double complex f, double complex normal);
+rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z,
+                                  double complex normal);
 
 /* Stress (sxx, syy, sxy) at z under a traction that is f in the middle of the strip and
  * changes by `slope` per length along it. */
