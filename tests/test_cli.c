@@ -66,6 +66,11 @@ static const struct {
     {"help nothing", 64, "unknown command 'nothing'"},
     {"--contact-elements 10000000 --zone 10", 64, "GB of memory"},
     {"--force-ratio 1.5", 64, "friction carries at most 1"},
+    {"--error --dump d", 64, "--dump, --fclib and --trace: not together with error bars"},
+    {"--accuracy 0.1 --trace", 64, "--trace: not together with error bars"},
+    {"--trace --solver newton", 64, "--trace: only --solver lemke pivots"},
+    {"--support hub --contact-elements 3 --zone 47.5 --approach 1", 64,
+     "no room for the element before it within the radius 50"},
 };
 
 static void bad_arguments_are_refused(void **state)
@@ -316,6 +321,13 @@ static void not_solved_is_1(void **state)
     assert_non_null(strstr(out, "# x_mm")); /* what there is, is printed */
     assert_int_equal(rollbem("--approach 25 --zone 5"), 1);
     assert_non_null(strstr(err, "zone"));
+    /* a solver that ends without a contact under a load does not widen the zone to nan */
+    assert_int_equal(rollbem("--support halfplane --radius 69.4903 --young-b 210000 "
+                             "--poisson-b .5 --radius-b 5 --support-b arc --gap parabola "
+                             "--mu 2 --half-width 10 --formulation steady "
+                             "--creep-ratio 1.2 --mesh fitted --solver nsn-jm-nls"),
+                     1);
+    assert_null(strstr(err, "nan"));
 }
 
 /* ---- Steps --------------------------------------------------------------------------

@@ -25,6 +25,8 @@ static const struct {
     {"curve --mu 0.1,,0.3", 64, "--mu: expected a number >= 0, got '0.1,,0.3'"},
     {"curve --mu 0.1,x", 64, "--mu: expected a number >= 0, got '0.1,x'"},
     {"curve --mu 0", 64, "xi R/(mu a) has no meaning at mu = 0"},
+    {"curve --support halfplane --load 9 --points 2 --mu 0.3,0 --quiet", 64,
+     "mu = 0: curve: xi R/(mu a) has no meaning"},
     {"--mu 0.1,0.2", 64, "--mu: expected one number; a curve takes several"},
     {"curve --accuracy 1e-3", 64, "--accuracy: of single cases"},
     {"stress --accuracy 0.1", 64, "--accuracy: stress has error bars"},

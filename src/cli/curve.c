@@ -159,7 +159,7 @@ static cli_exit solve(const cli_case *c, const range_options *range, const cli_o
         return code;
     const rb_status s = solve_curves(c, range, &r.curves, &why);
     code = CLI_OK;
-    if (r.curves.n > 0 && r.curves.curve[0].n > 0)
+    if (s >= 0 && r.curves.n > 0 && r.curves.curve[0].n > 0)
         code = show(&sink, &r);
     cli_sink_abandon(&sink);
     if (code == CLI_OK && s != RB_OK)

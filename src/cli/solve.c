@@ -137,9 +137,6 @@ static cli_exit show_behind(const solve_options *so, const rb_rolling_model *mod
 {
     rb_message why;
     rb_status s = RB_OK;
-    if ((so->dump || so->trace || so->fclib) && !model->state.p)
-        return cli_fail(CLI_USAGE,
-                        "--dump, --fclib and --trace: not together with error bars");
     if (so->fclib)
         s = rb_rolling_cone_write(so->fclib, model, &why);
     if (s != RB_OK)
@@ -220,6 +217,18 @@ static cli_exit check_steps(const solve_options *so, const int *given, const cli
     return cli_output_check(&pictures);
 }
 
+/* With error bars of a solution there is no model to show (run.h). */
+static cli_exit check_behind(const solve_options *so, const cli_case *c)
+{
+    const int model_kept = cli_case_has_steps(c) || !(c->error || c->accuracy > 0.0);
+    if ((so->dump || so->trace || so->fclib) && !model_kept)
+        return cli_fail(CLI_USAGE,
+                        "--dump, --fclib and --trace: not together with error bars");
+    if (so->trace && c->rc.solver != RB_SOLVER_AUTO && c->rc.solver != RB_SOLVER_LEMKE)
+        return cli_fail(CLI_USAGE, "--trace: only --solver lemke pivots");
+    return CLI_CONTINUE;
+}
+
 int cli_solve(int argc, char **argv)
 {
     cli_case c;
@@ -241,6 +250,8 @@ int cli_solve(int argc, char **argv)
         code = cli_output_check(&o);
     if (code == CLI_CONTINUE)
         code = check_steps(&so, given, &c);
+    if (code == CLI_CONTINUE)
+        code = check_behind(&so, &c);
     so.steps.terminal = !o.quiet && isatty(STDERR_FILENO);
     if (so.trace && c.rc.solver == RB_SOLVER_AUTO)
         c.rc.solver = RB_SOLVER_LEMKE; /* the one that pivots */

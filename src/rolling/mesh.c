@@ -106,7 +106,13 @@ rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, double from, double
         return s;
     equal_ends(rc, from, to, mesh->n, mesh->ends);
     set_gap(rc, mesh);
-    return RB_OK;
+    if (mesh->ends[mesh->n + 1] > mesh->ends[mesh->n])
+        return RB_OK;
+    rb_rolling_mesh_free(mesh); /* an arc beyond the quarter circle turns back */
+    return rb_fail(why, RB_EINVAL,
+                   "potential contact from %g to %g: no room for the element before it "
+                   "within the radius %g; take more elements",
+                   from, to, rc->a.radius);
 }
 
 /* ends[OUTSIDE .. OUTSIDE + n] at from ... to, symmetric to rounding. */

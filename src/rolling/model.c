@@ -166,7 +166,7 @@ static rb_status solve_automatic_zone(rb_rolling_model *model, double known,
             return s;
         const int separated = separated_at_ends(&model->state);
         double from, to;
-        if (separated == model->state.n && model->problem.load_given == 0)
+        if (separated == model->state.n)
             return s;
         if (separated < SEPARATED_AT_END) {
             too_narrow = zone;
@@ -296,7 +296,7 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
     rb_status s = rb_rolling_case_check(rc, why);
     if (s == RB_OK)
         s = solve_uniform_stage(rc, model, why);
-    if (s >= 0 && model->state.p && separated_at_ends(&model->state) == model->state.n)
+    if (s == RB_OK && separated_at_ends(&model->state) == model->state.n)
         s = rb_fail(why, RB_NO_CONTACT, "no contact: the bodies do not touch");
     if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
         s = fit(model, &moved, why);
