@@ -39,7 +39,9 @@ static const struct {
     {"stress --depth 0", 64, "--depth: expected a number > 0 or auto"},
     {"stress --vtk a.vts", 64, "--vtk: expected a name ending in .vti or .vtu"},
     {"stress --vtk a.vti", 64, "--vtk: .vti holds regular grids, that of a wheel"},
-    {"stress --fringes a.bmp", 64, "--plot: expected a name ending in .png"},
+    {"stress --fringes a.bmp", 64, "--fringes: expected a name ending in .png"},
+    {"--formulation transient --distance 1 --creep 0 --history-plot a.bmp", 64,
+     "--history-plot: expected a name ending in .png"},
     {"stress --points nowhere", 66, "nowhere: No such file"},
 };
 

@@ -36,12 +36,18 @@ cli_set cli_output_set(cli_output *o)
     return (cli_set){options, OPTIONS, o, o->given};
 }
 
+static cli_exit refuse_picture(const cli_output *o, cli_exit code, const rb_message *why)
+{
+    return cli_fail(code, "--%s: %s", o->plot_option ? o->plot_option : "plot",
+                    why->text);
+}
+
 cli_exit cli_output_check(const cli_output *o)
 {
     rb_report_picture_kind kind;
     rb_message why;
     if (o->plot && rb_report_picture_kind_of(o->plot, &kind, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--plot: %s", why.text);
+        return refuse_picture(o, CLI_USAGE, &why);
     return CLI_CONTINUE;
 }
 
@@ -103,11 +109,11 @@ cli_exit cli_output_draw(const cli_output *o, cli_draw *draw, const void *contex
     if (s == RB_OK)
         s = rb_io_writer_open(o->plot, &w, &why);
     if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "--plot: %s", why.text);
+        return refuse_picture(o, cli_exit_of(s), &why);
     s = draw(w.file, kind, context, &why);
     if (s != RB_OK) {
         rb_io_writer_abandon(&w);
-        return cli_fail(CLI_INTERNAL, "--plot: %s", why.text);
+        return refuse_picture(o, CLI_INTERNAL, &why);
     }
     s = rb_io_writer_commit(&w, &why);
     return s == RB_OK ? CLI_OK : cli_fail(cli_exit_of(s), "%s", why.text);

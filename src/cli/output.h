@@ -13,6 +13,7 @@ enum { CLI_OUTPUT_OPTIONS_MAX = 8 };
 typedef struct {
     int json, bare, quiet;
     const char *output, *plot;
+    const char *plot_option; /* that names the picture; NULL: plot */
     int given[CLI_OUTPUT_OPTIONS_MAX];
 } cli_output;
 

@@ -162,6 +162,11 @@ static void tell_people(const result *it)
     rb_report_notes(stderr, &it->c->rc, &it->r->solution);
 }
 
+static cli_output history_picture(const solve_options *so)
+{
+    return (cli_output){.plot = so->history_plot, .plot_option = "history-plot"};
+}
+
 static cli_exit print_result(cli_sink *sink, const solve_options *so, const result *it)
 {
     const cli_output *o = sink->o;
@@ -174,7 +179,7 @@ static cli_exit print_result(cli_sink *sink, const solve_options *so, const resu
         tell_people(it);
     if (code == CLI_OK)
         code = cli_output_draw(o, draw, it);
-    const cli_output steps = {.plot = so->history_plot};
+    const cli_output steps = history_picture(so);
     if (code == CLI_OK)
         code = cli_output_draw(&steps, draw_history, it);
     return code;
@@ -206,7 +211,7 @@ static cli_exit solve(const solve_options *so, const cli_output *o, const cli_ca
 /* Options of steps mean nothing without any. */
 static cli_exit check_steps(const solve_options *so, const int *given, const cli_case *c)
 {
-    const cli_output pictures = {.plot = so->history_plot};
+    const cli_output pictures = history_picture(so);
     int steps = 0;
     for (int i = 0; i < OPTIONS && !cli_case_has_steps(c); i++) {
         steps |= strcmp(options[i].name, "history-table") == 0; /* the first of them */

@@ -330,7 +330,7 @@ int cli_stress(int argc, char **argv)
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE)
         code = cli_case_finish(&spec, &c, &args);
-    const cli_output fringes = {.plot = so.fringes};
+    const cli_output fringes = {.plot = so.fringes, .plot_option = "fringes"};
     if (code == CLI_CONTINUE)
         code = check(&c, &so, &o, &fringes, &where);
     if (code == CLI_CONTINUE)
