@@ -68,6 +68,8 @@ static const struct {
     {"--force-ratio 1.5", 64, "friction carries at most 1"},
     {"--error --dump d", 64, "--dump, --fclib and --trace: not together with error bars"},
     {"--accuracy 0.1 --trace", 64, "--trace: not together with error bars"},
+    {"--support halfplane --load 9 --contact-elements 2100 --fclib f.hdf5", 64,
+     "--fclib: 2100 elements are too many for a dense W"},
     {"--trace --solver newton", 64, "--trace: only --solver lemke pivots"},
     {"--support hub --contact-elements 3 --zone 47.5 --approach 1", 64,
      "no room for the element before it within the radius 50"},

@@ -170,11 +170,12 @@ static cli_output history_picture(const solve_options *so)
 static cli_exit print_result(cli_sink *sink, const solve_options *so, const result *it)
 {
     const cli_output *o = sink->o;
-    cli_exit code = cli_sink_write(sink, write_table, it);
+    /* first what may yet refuse: then there is no table either */
+    cli_exit code = show_behind(so, &it->r->model);
+    if (code == CLI_OK)
+        code = cli_sink_write(sink, write_table, it);
     if (code == CLI_OK)
         code = save_history(so, o, it);
-    if (code == CLI_OK)
-        code = show_behind(so, &it->r->model);
     if (code == CLI_OK && !o->quiet)
         tell_people(it);
     if (code == CLI_OK)

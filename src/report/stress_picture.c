@@ -80,7 +80,8 @@ static void write_axes(FILE *out, const view *v)
             v->depth);
     fprintf(out, "set xlabel 'x %s   (rolling towards +x →)' offset 0,0.2\n",
             v->length_label);
-    fprintf(out, "set ylabel 'y %s, into A' offset 0.8,0\n", v->length_label);
+    fprintf(out, "set ylabel 'y %s, into A'\nset ytics %.9g\n", v->length_label,
+            rb_report_round_step(v->depth / 5.0));
     write_contact(out, v);
 }
 
@@ -157,7 +158,7 @@ static void write_contours(FILE *out, rb_report_picture_kind kind, const void *c
           "set multiplot\n",
           out);
     fprintf(out,
-            "set xtics %.9g\nset ylabel offset 0,0\n"
+            "set xtics %.9g\n"
             "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
             rb_report_round_step((v->to - v->from) / 5.0));
     write_subtitle(out, v, "Stress below the surface of A",
@@ -194,7 +195,7 @@ static void write_fringes(FILE *out, rb_report_picture_kind kind, const void *co
     (void)kind;
     write_grid(out, v);
     fputs("set palette gray\nset cbrange [0:1]\nunset colorbox\n"
-          "set lmargin at screen 0.10\nset rmargin at screen 0.97\n"
+          "set lmargin at screen 0.11\nset rmargin at screen 0.97\n"
           "set bmargin at screen 0.13\nset tmargin at screen 0.88\n",
           out);
     write_axes(out, v);
