@@ -68,7 +68,7 @@ const char *rb_report_key_font(rb_report_picture_kind kind);
 /* The next of 1, 2, 5 times a power of ten. */
 double rb_report_round_step(double step);
 
-typedef enum { RB_REPORT_SLIDE, RB_REPORT_WIDE } rb_report_shape; /* 4:3, 2:1 */
+typedef enum { RB_REPORT_SLIDE, RB_REPORT_WIDE } rb_report_shape; /* 4:3, 12:5 */
 
 /* Writes the script and runs gnuplot. */
 typedef void rb_report_script(FILE *script, rb_report_picture_kind kind,

@@ -27,9 +27,9 @@ static const struct {
     int font[2];
     double line;
     const char *key_font;
-} looks[] = {{"pngcairo", {"1600,1200", "1800,900"}, {24, 20}, 2.2, ",24"},
-             {"svg", {"1000,750", "1200,600"}, {18, 14}, 1.5, ",15"},
-             {"pdfcairo", {"10in,7.5in", "12in,6in"}, {21, 19}, 1.6, ",21"}};
+} looks[] = {{"pngcairo", {"1600,1200", "1800,750"}, {24, 20}, 2.2, ",24"},
+             {"svg", {"1000,750", "1200,500"}, {18, 14}, 1.5, ",15"},
+             {"pdfcairo", {"10in,7.5in", "12in,5in"}, {21, 19}, 1.6, ",21"}};
 
 const char *rb_report_key_font(rb_report_picture_kind kind)
 {

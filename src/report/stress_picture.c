@@ -95,7 +95,7 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
         fprintf(out, ",  Q/(μP) = %.4g", s->force_ratio + 0.0);
     fprintf(out,
             "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: blue stick, orange "
-            "and red slip}' at screen 0.99, 0.025 right textcolor rgb '#444444'\n",
+            "and red slip}' at screen 0.5, 0.025 center textcolor rgb '#444444'\n",
             y);
 }
 
@@ -112,12 +112,12 @@ static void write_lines(FILE *out, int column)
             column, column);
 }
 
-static const double panel_width = 0.345, panel_middle = 0.47;
+static const double panel_width = 0.345, panel_middle = 0.48;
 
 static double panel_height(const view *v)
 {
-    const double shape = 2.0; /* of the canvas: twice as wide as high */
-    return fmin(0.64, panel_width * shape * v->depth / (v->to - v->from));
+    const double shape = 2.4; /* of the canvas: width over height */
+    return fmin(0.60, panel_width * shape * v->depth / (v->to - v->from));
 }
 
 static void write_panel(FILE *out, const view *v, const char *name, int column,
@@ -133,7 +133,7 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
             "set colorbox user origin %g, %g size 0.013, %g\n"
             "set label 2 '%s  [%s]' at screen %g, %g center\n",
             left + width + 0.012, bottom, height, name, v->stress_label, left + width / 2,
-            top + 0.045);
+            top + 0.05);
     fprintf(
         out,
         "set label 3 '%.4g' at first %.9g, %.9g boxed point pointtype 1 pointsize 1.2 "
