@@ -172,8 +172,7 @@ static void singular_systems_are_refused(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
-/* ---- Behind the system
- * ----------------------------------------------------------------- */
+/* ---- Behind the system ------------------------------------------------------------- */
 
 static void condense(const rb_bem_mesh *mesh, int dense, double *F)
 {

@@ -1,0 +1,135 @@
+/* Skeletons: the rows and columns of a cluster that stand for all of them, seen from the
+ * rest of the body. */
+#include "bem/hierarchical_parts.h"
+#include "bem/skeleton.h"
+
+#include <stdlib.h>
+
+/* The rows and columns of other clusters that reach into a circle. */
+typedef struct {
+    int rows, columns;
+    int *row, *column; /* owned, one allocation */
+} neighbours;
+
+static int reaches_into(const rb_hierarchical *h, int dof, const rb_circle *circle)
+{
+    const rb_element *e = &h->matrix.element[dof / 2];
+    const double dx = e->mx - circle->x, dy = e->my - circle->y, r = circle->r + e->a;
+    return dx * dx + dy * dy < r * r;
+}
+
+static int overlap(const rb_circle *a, const rb_circle *b)
+{
+    const double dx = a->x - b->x, dy = a->y - b->y, r = a->r + b->r;
+    return dx * dx + dy * dy < r * r;
+}
+
+static rb_status neighbours_alloc(const rb_hierarchical *h, int level, int k,
+                                  const rb_circle *reach, neighbours *near)
+{
+    size_t most = 1;
+
+    for (int i = 0; i < 1 << level; i++) {
+        const rb_hierarchical_cluster *c = rb_hierarchical_cluster_at(h, level, i);
+        if (i != k && overlap(&c->circle, reach))
+            most += (size_t)c->e.m;
+    }
+    *near = (neighbours){.row = rb_alloc_int(2 * most)};
+    near->column = near->row + most;
+    return near->row ? RB_OK : RB_ENOMEM;
+}
+
+static rb_status find_neighbours(const rb_hierarchical *h, int level, int k,
+                                 const rb_circle *reach, neighbours *near)
+{
+    if (neighbours_alloc(h, level, k, reach, near) != RB_OK)
+        return RB_ENOMEM;
+    for (int i = 0; i < 1 << level; i++) {
+        const rb_hierarchical_cluster *c = rb_hierarchical_cluster_at(h, level, i);
+        if (i == k || !overlap(&c->circle, reach))
+            continue;
+        for (int d = 0; d < c->e.m; d++) {
+            if (reaches_into(h, c->e.row[d], reach))
+                near->row[near->rows++] = c->e.row[d];
+            if (reaches_into(h, c->e.column[d], reach))
+                near->column[near->columns++] = c->e.column[d];
+        }
+    }
+    return RB_OK;
+}
+
+/* What the cluster's columns do to the others' rows, and to the far circle. */
+static rb_status see_columns(const rb_hierarchical *h, const rb_hierarchical_cluster *c,
+                             const neighbours *near, rb_circle reach, rb_skeleton *s)
+{
+    rb_mixed_rows rows;
+    rb_status status =
+        rb_mixed_rows_make(&h->matrix, near->rows, near->row, &reach, h->points, &rows);
+    if (status == RB_OK)
+        status = rb_skeleton_alloc(rows.rows, c->e.m, s);
+    if (status == RB_OK)
+        status = rb_mixed_block(&h->matrix, &rows, c->e.m, c->e.column, s->K, 1,
+                                (size_t)s->ld);
+    rb_mixed_rows_free(&rows);
+    return status;
+}
+
+/* What the others' columns, and loads on the far circle, do to the cluster's rows:
+ * transposed. */
+static rb_status see_rows(const rb_hierarchical *h, const rb_hierarchical_cluster *c,
+                          const neighbours *near, rb_circle reach, rb_skeleton *s)
+{
+    rb_mixed_rows rows;
+    rb_status status = rb_mixed_rows_make(&h->matrix, c->e.m, c->e.row, NULL, 0, &rows);
+
+    if (status == RB_OK)
+        status = rb_skeleton_alloc(near->columns + 2 * h->points, c->e.m, s);
+    if (status == RB_OK)
+        status = rb_mixed_block(&h->matrix, &rows, near->columns, near->column, s->K,
+                                (size_t)s->ld, 1);
+    if (status == RB_OK)
+        status = rb_mixed_far(&h->matrix, &rows, reach, h->points, s->K + near->columns,
+                              (size_t)s->ld, 1);
+    rb_mixed_rows_free(&rows);
+    return status;
+}
+
+/* Both decompositions to the larger of their ranks. */
+static rb_status split(const rb_hierarchical *h, rb_hierarchical_cluster *c,
+                       rb_skeleton *columns, rb_skeleton *rows)
+{
+    rb_elimination *e = &c->e;
+    rb_status s = rb_skeleton_factor(columns, h->tolerance);
+
+    if (s == RB_OK)
+        s = rb_skeleton_factor(rows, h->tolerance);
+    if (s == RB_OK)
+        s = rb_elimination_keep(rows->rank > columns->rank ? rows->rank : columns->rank,
+                                e);
+    if (s == RB_OK)
+        s = rb_skeleton_split(columns, e->kept, c->order + e->m, e->Z);
+    if (s == RB_OK)
+        s = rb_skeleton_split(rows, e->kept, c->order, e->V);
+    return s;
+}
+
+rb_status rb_hierarchical_skeletonise(const rb_hierarchical *h, int level, int k)
+{
+    rb_hierarchical_cluster *c = rb_hierarchical_cluster_at(h, level, k);
+    rb_circle reach = c->circle;
+    rb_skeleton columns = {0}, rows = {0};
+    neighbours near;
+
+    reach.r *= RB_HIERARCHICAL_REACH;
+    rb_status s = find_neighbours(h, level, k, &reach, &near);
+    if (s == RB_OK)
+        s = see_columns(h, c, &near, reach, &columns);
+    if (s == RB_OK)
+        s = see_rows(h, c, &near, reach, &rows);
+    if (s == RB_OK)
+        s = split(h, c, &columns, &rows);
+    rb_skeleton_free(&columns);
+    rb_skeleton_free(&rows);
+    free(near.row);
+    return s;
+}

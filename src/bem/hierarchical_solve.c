@@ -1,0 +1,151 @@
+/* Solutions with a hierarchical matrix, and the check that they are solutions. */
+#include "bem/hierarchical_parts.h"
+#include "rollbem/blas.h"
+
+#include <cblas.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+enum { PANEL = 16 }; /* right-hand sides that are solved together */
+
+/* Columns of X from the mesh's order to the clusters', or back. */
+static void permute(const rb_hierarchical *h, int q, const double *from, double *to,
+                    int back)
+{
+    const size_t dofs = 2 * (size_t)h->matrix.n;
+    for (int c = 0; c < q; c++, from += dofs, to += dofs)
+        for (int j = 0; j < h->matrix.n; j++)
+            for (int k = 0; k < 2; k++) {
+                const int own = 2 * j + k, mesh = 2 * h->order[j] + k;
+                to[back ? mesh : own] = from[back ? own : mesh];
+            }
+}
+
+/* y = A^-1 b in the clusters' order, dofs x q; b is used up.  room: of largest_cluster
+ * x q. */
+static void solve_ordered(const rb_hierarchical *h, int q, double *b, double *y,
+                          double *room)
+{
+    const size_t dofs = 2 * (size_t)h->matrix.n;
+    for (int i = rb_hierarchical_clusters(h) - 1; i >= 0; i--)
+        rb_elimination_up(&h->cluster[i].e, dofs, q, b, y, room);
+    for (int i = 1; i < rb_hierarchical_clusters(h); i++)
+        rb_elimination_down(&h->cluster[i].e, dofs, q, y, room);
+}
+
+static size_t largest_cluster(const rb_hierarchical *h)
+{
+    int most = 0;
+    for (int i = 0; i < rb_hierarchical_clusters(h); i++)
+        most = h->cluster[i].e.m > most ? h->cluster[i].e.m : most;
+    return (size_t)most;
+}
+
+static rb_status solve_panel(const rb_hierarchical *h, int q, double *X)
+{
+    const size_t all = 2 * (size_t)h->matrix.n * (size_t)q;
+    double *b = rb_alloc(2 * all + largest_cluster(h) * (size_t)q, 1), *y = b + all;
+
+    if (!b)
+        return RB_ENOMEM;
+    permute(h, q, X, b, 0);
+    solve_ordered(h, q, b, y, y + all);
+    permute(h, q, y, X, 1);
+    free(b);
+    return RB_OK;
+}
+
+rb_status rb_hierarchical_solve(const rb_hierarchical *h, int columns, double *X)
+{
+    const int panels = (columns + PANEL - 1) / PANEL;
+    const int threads = rb_blas_threads(1);
+    rb_status s = RB_OK;
+
+#pragma omp parallel for schedule(dynamic) if (panels > 1)
+    for (int p = 0; p < panels; p++) {
+        const int first = p * PANEL, rest = columns - first;
+        const rb_status own = solve_panel(h, rest < PANEL ? rest : PANEL,
+                                          X + 2 * (size_t)h->matrix.n * (size_t)first);
+        if (own != RB_OK)
+#pragma omp critical
+            s = own;
+    }
+    rb_blas_threads(threads);
+    return s;
+}
+
+/* ---- Whether it is an inverse ------------------------------------------------------ */
+
+enum { SAMPLES = 64, CHUNK = 256 };
+
+/* b - A x at the sampled elements, the largest. */
+static rb_status sample_residual(const rb_hierarchical *h, int rows, const int *row,
+                                 const double *b, const double *x, double *largest)
+{
+    double *A = rb_alloc((size_t)rows, CHUNK), *r = rb_alloc((size_t)rows, 1);
+    int column[CHUNK];
+    rb_mixed_rows of_A = {0};
+    rb_status s =
+        A && r ? rb_mixed_rows_make(&h->matrix, rows, row, NULL, 0, &of_A) : RB_ENOMEM;
+
+    for (int i = 0; s == RB_OK && i < rows; i++)
+        r[i] = b[row[i]];
+    for (int first = 0; s == RB_OK && first < 2 * h->matrix.n; first += CHUNK) {
+        const int rest = 2 * h->matrix.n - first, count = rest < CHUNK ? rest : CHUNK;
+        for (int c = 0; c < count; c++)
+            column[c] = first + c;
+        s = rb_mixed_block(&h->matrix, &of_A, count, column, A, 1, (size_t)rows);
+        if (s == RB_OK)
+            cblas_dgemv(CblasColMajor, CblasNoTrans, rows, count, -1.0, A, rows,
+                        x + first, 1, 1.0, r, 1);
+    }
+    *largest = s == RB_OK ? rb_norm_inf((size_t)rows, r) : INFINITY;
+    rb_mixed_rows_free(&of_A);
+    free(A);
+    free(r);
+    return s;
+}
+
+/* Elements all over the boundary, and the one whose unknowns are largest, ascending. */
+static int choose_samples(const rb_hierarchical *h, const double *x, int *row)
+{
+    const int n = h->matrix.n, count = n < SAMPLES ? n : SAMPLES;
+    const int largest = (int)cblas_idamax(2 * n, x, 1) / 2;
+    int rows = 0;
+
+    for (int i = 0; i < count; i++) {
+        int j = (int)((double)i * n / count);
+        const int next = (int)((i + 1.0) * n / count);
+        if (largest > j && largest < next)
+            j = largest;
+        for (int k = 0; k < 2; k++)
+            row[rows++] = 2 * j + k;
+    }
+    return rows;
+}
+
+/* A singular matrix has an inverse too where low ranks and rounding have moved it a
+ * little: one that does not give b back, and a random b has something of all vectors. */
+rb_status rb_hierarchical_verify(const rb_hierarchical *h)
+{
+    const size_t dofs = 2 * (size_t)h->matrix.n;
+    double *b = rb_alloc(dofs, 3), *x = b + dofs, *used = x + dofs,
+           *room = rb_alloc(largest_cluster(h), 1), left = INFINITY;
+    int row[2 * SAMPLES];
+    rb_status s = b && room ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK) {
+        uint32_t state = 1;
+        for (size_t i = 0; i < dofs; i++) {
+            state = 1664525 * state + 1013904223;
+            used[i] = b[i] = state / 4294967296.0 - 0.5;
+        }
+        solve_ordered(h, 1, used, x, room);
+        s = sample_residual(h, choose_samples(h, x, row), row, b, x, &left);
+    }
+    free(b);
+    free(room);
+    const double most = fmin(fmax(1e4 * h->tolerance, 1e-4), 1e-3);
+    return s == RB_OK && !(left < most) ? RB_SINGULAR : s;
+}
