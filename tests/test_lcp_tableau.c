@@ -21,7 +21,7 @@ static int below(int n)
     return (int)(0.5 * (1.0 + uniform()) * n);
 }
 
-/* M random with a fifth of its entries zero: then flushes skip columns. */
+/* M random with a fifth of its entries zero. */
 static void make_tableau(lcp_tableau *t)
 {
     for (int k = 0; k < N * LDM; k++)

@@ -115,12 +115,10 @@ static void assemble_element(rb_bem_system *s, const rb_assembly *assembly, int 
     if (!s->A && condition[0] != RB_BEM_CONTACT)
         return;
     for (int k = 0; k < 2; k++) {
-        if (!s->A) {
-            H[k] = NULL;
-        } else if (condition[k] == RB_BEM_DISPLACEMENT) {
+        if (s->A && condition[k] == RB_BEM_DISPLACEMENT) {
             G[k] = column_of(s, 2 * j + k);
             factor = -s->unit[j];
-        } else {
+        } else if (s->A) {
             H[k] = column_of(s, 2 * j + k);
         }
         if (condition[k] == RB_BEM_CONTACT)
@@ -168,17 +166,17 @@ static rb_status fix_pressures(rb_bem_system *s)
     return status;
 }
 
-static rb_status assemble(rb_bem_system *s, rb_bem_material material)
+static rb_status assemble(rb_bem_system *s)
 {
     const rb_bem_mesh *mesh = &s->mesh;
     const double pairs = (double)mesh->n * mesh->n;
     rb_assembly assembly;
-    rb_status status = rb_assembly_begin(mesh, material, &assembly);
+    rb_status status = rb_assembly_begin(mesh, s->material, &assembly);
     if (status != RB_OK)
         return status;
     for (int j = 0; j < mesh->n; j++)
-        s->unit[j] =
-            material.shear / hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+        s->unit[j] = s->material.shear /
+                     hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
 #pragma omp parallel for schedule(static) if (pairs > rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++)
         assemble_element(s, &assembly, j);
@@ -243,14 +241,17 @@ static rb_status factor(rb_bem_system *s, rb_message *why)
                : status;
 }
 
+static double bytes_of(const rb_bem_mesh *mesh, int dense)
+{
+    return (dense ? dense_bytes : hierarchical_bytes)(mesh->n, mesh->contact_n);
+}
+
 static rb_status check_memory(const rb_bem_mesh *mesh, int dense, rb_message *why)
 {
-    const int n = mesh->n, n_c = mesh->contact_n;
     char what[80];
 
-    snprintf(what, sizeof what, "a boundary of %d elements", n);
-    return rb_memory_check(dense ? dense_bytes(n, n_c) : hierarchical_bytes(n, n_c), what,
-                           why);
+    snprintf(what, sizeof what, "a boundary of %d elements", mesh->n);
+    return rb_memory_check(bytes_of(mesh, dense), what, why);
 }
 
 rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material,
@@ -270,7 +271,7 @@ rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material mater
     rb_bem_system *s = system_alloc(mesh, dense);
     if (s)
         s->material = material;
-    status = s ? assemble(s, material) : RB_ENOMEM;
+    status = s ? assemble(s) : RB_ENOMEM;
     if (status == RB_OK) {
         const double assembled = rb_seconds();
         s->seconds_assembly = assembled - start;
@@ -279,7 +280,7 @@ rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material mater
     }
     if (status == RB_ENOMEM)
         rb_fail(why, status, "boundary elements: no memory for %d elements (%.3g MB)",
-                mesh->n, rb_bem_system_bytes(mesh->n, mesh->contact_n) / 1e6);
+                mesh->n, bytes_of(mesh, dense) / 1e6);
     if (status == RB_OK)
         *system = s;
     else
