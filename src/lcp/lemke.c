@@ -109,11 +109,14 @@ static rb_status ray(lemke *l, int entering)
                    rb_lcp_lemke_z0(l));
 }
 
-/* No row blocks: the column may be wrong. */
-static rb_status look_again(lemke *l, int entering, int *row)
+/* The row that blocks the entering variable, whose column comes to l->a; -1: none does.
+ * Where none does, or the pivot may be a rounding error, the column may be wrong. */
+static rb_status find_row(lemke *l, int entering, int *row)
 {
-    *row = -1;
-    if (rb_lcp_lemke_column_holds(l, entering))
+    rb_lcp_lemke_column(l, entering);
+    *row = rb_lcp_lemke_blocking_row(l);
+    if (*row >= 0 ? rb_lcp_lemke_pivot_holds(l, *row)
+                  : rb_lcp_lemke_column_holds(l, entering))
         return RB_OK;
     const rb_status s = rb_lcp_lemke_rebuild(l);
     if (s == RB_OK) {
@@ -135,11 +138,8 @@ static rb_status keep_accurate(lemke *l)
 static rb_status follow_path(lemke *l, int entering)
 {
     for (;;) {
-        rb_status s = RB_OK;
-        rb_lcp_lemke_column(l, entering);
-        int row = rb_lcp_lemke_blocking_row(l);
-        if (row < 0)
-            s = look_again(l, entering, &row);
+        int row;
+        rb_status s = find_row(l, entering, &row);
         if (s == RB_OK && row < 0)
             s = ray(l, entering);
         if (s != RB_OK)

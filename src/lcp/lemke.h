@@ -52,6 +52,8 @@ void rb_lcp_lemke_column(lemke *l, int variable);
 int rb_lcp_lemke_first_row(const lemke *l);
 /* The row that blocks the variable whose column is l->a; -1: none does. */
 int rb_lcp_lemke_blocking_row(lemke *l);
+/* 1 when the entry of this row of l->a cannot be a rounding error. */
+int rb_lcp_lemke_pivot_holds(const lemke *l, int row);
 
 /* ---- rounding.c: what the pivots' rounding errors have done ---- */
 

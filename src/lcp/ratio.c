@@ -4,10 +4,11 @@
 #include <math.h>
 
 /* Parts of the largest entry of a column: below DROP they are zeros, below NOISE no
- * pivots. Rows tie that the least ratio brings below TIE of the largest constant, unless
- * their own ratio is more than NEAR away, relative to the step or to max |q| / max |a|.
+ * pivots, below DOUBT pivots only in a tableau just rebuilt. Rows tie that the least
+ * ratio brings below TIE of the largest constant, unless their own ratio is more than
+ * NEAR away, relative to the step or to max |q| / max |a|.
  */
-static const double DROP = 1e-13, NOISE = 1e-12, TIE = 1e-12, NEAR = 1e-10;
+static const double DROP = 1e-13, NOISE = 1e-12, DOUBT = 1e-10, TIE = 1e-12, NEAR = 1e-10;
 
 static double largest(int n, const double *x)
 {
@@ -150,4 +151,9 @@ int rb_lcp_lemke_blocking_row(lemke *l)
         if (l->tied[k] == z0_row)
             return z0_row; /* z0 leaves as soon as it can: that is a solution */
     return l->opt.rule == RB_LCP_FIRST_INDEX ? l->tied[0] : lexicographic_row(l, count);
+}
+
+int rb_lcp_lemke_pivot_holds(const lemke *l, int row)
+{
+    return l->rebuilt == l->info->iters || fabs(l->a[row]) > DOUBT * largest(l->n, l->a);
 }
