@@ -80,11 +80,12 @@ static void run(int n, int dense, result *r)
         solve(n, dense, r);
         _exit(write(ends[1], r, sizeof *r) == (ssize_t)sizeof *r ? 0 : 70);
     }
-    if (child < 0 || read(ends[0], r, sizeof *r) != (ssize_t)sizeof *r ||
+    close(ends[1]); /* else a child that dies is waited for in vain */
+    FILE *from = fdopen(ends[0], "r");
+    if (child < 0 || !from || fread(r, sizeof *r, 1, from) != 1 ||
         wait4(child, &status, 0, &usage) != child || status != 0)
         exit(70);
-    close(ends[0]);
-    close(ends[1]);
+    fclose(from);
     r->megabytes = (double)usage.ru_maxrss / 1024.0;
     r->processor = (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
                    1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
