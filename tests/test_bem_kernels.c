@@ -143,8 +143,7 @@ static void nearly_singular_points_are_right(void **state)
         }
 }
 
-/* ---- Columns: every instruction set, every range of distances
- * ---------------------- */
+/* ---- Columns: every instruction set, every range of distances --------------------- */
 
 enum { n_seen = 1003, rounds = 40 };
 typedef double columns_of_H_and_G[4][2 * n_seen]; /* of odd alignments */

@@ -12,23 +12,19 @@ typedef struct {
     double low[2], high[2];
 } box;
 
-static box box_around(const rb_element *element, const int *order, int count)
-{
-    box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-    for (int i = 0; i < count; i++) {
-        const rb_element *e = &element[order[i]];
-        const double m[2] = {e->mx, e->my};
-        for (int k = 0; k < 2; k++) {
-            b.low[k] = fmin(b.low[k], m[k]);
-            b.high[k] = fmax(b.high[k], m[k]);
-        }
-    }
-    return b;
-}
+static const box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 
 static double along(const rb_element *e, int axis)
 {
     return axis ? e->my : e->mx;
+}
+
+static void enclose(const rb_element *e, box *b)
+{
+    for (int k = 0; k < 2; k++) {
+        b->low[k] = fmin(b->low[k], along(e, k));
+        b->high[k] = fmax(b->high[k], along(e, k));
+    }
 }
 
 /* The `middle` elements that come first along the axis to the front (Hoare). */
@@ -68,7 +64,9 @@ void rb_cluster_order(int n, const rb_element *element, int levels, int *order)
             const int first = rb_cluster_first(n, level, k),
                       count = rb_cluster_first(n, level, k + 1) - first,
                       half = rb_cluster_first(n, level + 1, 2 * k + 1) - first;
-            const box b = box_around(element, order + first, count);
+            box b = nothing;
+            for (int i = 0; i < count; i++)
+                enclose(&element[order[first + i]], &b);
             const int axis = b.high[1] - b.low[1] > b.high[0] - b.low[0];
             select_front(element, axis, order + first, count, half);
         }
@@ -76,13 +74,10 @@ void rb_cluster_order(int n, const rb_element *element, int levels, int *order)
 
 rb_circle rb_cluster_circle(const rb_element *element, int first, int last)
 {
-    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    box b = nothing;
     for (int j = first; j < last; j++)
-        for (int k = 0; k < 2; k++) {
-            low[k] = fmin(low[k], along(&element[j], k));
-            high[k] = fmax(high[k], along(&element[j], k));
-        }
-    rb_circle c = {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.0};
+        enclose(&element[j], &b);
+    rb_circle c = {0.5 * (b.low[0] + b.high[0]), 0.5 * (b.low[1] + b.high[1]), 0.0};
     for (int j = first; j < last; j++)
         c.r = fmax(c.r, hypot(element[j].mx - c.x, element[j].my - c.y) + element[j].a);
     return c;

@@ -41,8 +41,8 @@ rb_status rb_bem_system_solve_values(const rb_bem_system *system, const double *
 /* RB_EINVAL unless the body lies on the inner side of every contact element. */
 rb_status rb_bem_check_convex(const rb_bem_system *system, rb_message *why);
 
-/* Solutions of A X = B in place, 2n x columns; rows in, as the
- * dofs; out, as the unknowns. */
+/* Solutions of A X = B in place, 2n x columns, leading dimension 2n; rows in, as the
+ * dofs; out, as the unknowns.  RB_ENOMEM. */
 rb_status rb_bem_system_solve_columns(const rb_bem_system *s, int columns, double *X);
 
 #endif
