@@ -3,6 +3,7 @@
 #include "check.h"
 #include "rolling/reduced.h"
 
+#include <gsl/gsl_math.h>
 #include <string.h>
 
 /* A steel wheel on a plane of aluminium; half-planes or a wheel on its hub. */
@@ -203,13 +204,13 @@ static void steps_grow_by_levels(void **state)
 
 /* The reduced problem of the zones by a kept LU or by a new one; returns the changes that
  * it was solved over. */
-static int direct(const rb_rolling_problem *p, rb_rolling_unknowns unknowns, int keep,
-                  rb_rolling_state *s, rb_rolling_reduced *r)
+static int direct(const rb_rolling_problem *p, rb_rolling_unknowns unknowns,
+                  rb_rolling_lu lu, rb_rolling_state *s, rb_rolling_reduced *r)
 {
     CHECK_STATUS(rb_rolling_reduced_alloc(p, unknowns, s, r), RB_OK);
     rb_rolling_reduced_clear(p, r, s);
     rb_rolling_reduced_right_side(p, s, r);
-    CHECK_STATUS(rb_rolling_reduced_direct(p, s->zone, keep, r), RB_OK);
+    CHECK_STATUS(rb_rolling_reduced_direct(p, s->zone, lu, r), RB_OK);
     return r->changes;
 }
 
@@ -227,7 +228,7 @@ static int check_kept(const rb_rolling_problem *p, rb_rolling_unknowns unknowns,
 {
     rb_rolling_reduced kept, fresh;
 
-    direct(p, unknowns, 0, s, &fresh);
+    direct(p, unknowns, RB_LU_NEW, s, &fresh);
     rb_rolling_reduced_free(&fresh);
     disturb(3, s);
     rb_rolling_problem changed = *p; /* the same matrices under other controls */
@@ -235,8 +236,8 @@ static int check_kept(const rb_rolling_problem *p, rb_rolling_unknowns unknowns,
     changed.load_given = rand() % 2;
     changed.delta = 0.1;
     changed.force_ratio = 0.3;
-    const int changes = direct(&changed, unknowns, 1, s, &kept);
-    assert_int_equal(direct(&changed, unknowns, 0, s, &fresh), 0);
+    const int changes = direct(&changed, unknowns, RB_LU_KEPT, s, &kept);
+    assert_int_equal(direct(&changed, unknowns, RB_LU_NEW, s, &fresh), 0);
     const double scale = rb_norm_inf((size_t)fresh.size, fresh.x);
     for (int i = 0; i < fresh.size; i++)
         CHECK_ABS(kept.x[i], fresh.x[i], 1e-9 * scale, "unknown %d of %d, %d changes", i,
@@ -279,18 +280,66 @@ static void a_kept_lu_gives_way_to_a_new_one(void **state)
     CHECK_STATUS(rb_rolling_state_alloc(p->n, &s), RB_OK);
     p->load_given = 0;
     p->delta = 0.1;
-    assert_int_equal(direct(p, RB_BOTH, 1, &s, &r), 0);
+    assert_int_equal(direct(p, RB_BOTH, RB_LU_KEPT, &s, &r), 0);
     rb_rolling_reduced_free(&r);
     for (int i = 0; i < p->n; i++)
         s.zone[i] = RB_ZONE_STICK;
-    assert_int_equal(direct(p, RB_BOTH, 1, &s, &r), 0);
+    assert_int_equal(direct(p, RB_BOTH, RB_LU_KEPT, &s, &r), 0);
     rb_rolling_reduced_free(&r);
     for (int i = 0; i < p->n; i++)
         s.zone[i] = i % 2 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_STICK;
-    assert_int_equal(direct(p, RB_BOTH, 1, &s, &r), 0);
+    assert_int_equal(direct(p, RB_BOTH, RB_LU_KEPT, &s, &r), 0);
     rb_rolling_reduced_free(&r);
     rb_rolling_state_free(&s);
     rb_rolling_model_free(&model);
+}
+
+/* ---- A block that has no inverse ------------------------------------------------------
+ */
+
+/* How the approach grows with the load where the zones stay. */
+static double compliance(rb_rolling_problem problem, rb_rolling_state *s)
+{
+    CHECK_STATUS(rb_rolling_solve_zones(&problem, RB_BOTH, s), RB_OK);
+    const double delta = s->delta, load = problem.load;
+    problem.load *= 2.0;
+    CHECK_STATUS(rb_rolling_solve_zones(&problem, RB_BOTH, s), RB_OK);
+    return (s->delta - delta) / load;
+}
+
+/* The datum of half-planes adds the same displacement per load everywhere: 2 ln(ratio) /
+ * (pi E*).  Where that makes the compliance vanish, a given approach has no solution and
+ * the tractions' block no inverse; under a given load the tractions are what they were
+ * with any other datum. */
+static void a_given_load_does_not_feel_the_datum(void **state)
+{
+    rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
+    rb_rolling_model usual = solved(&rc), critical;
+    rb_rolling_problem *p;
+    rb_rolling_state s;
+
+    (void)state;
+    CHECK_STATUS(rb_rolling_state_alloc(usual.mesh.n, &s), RB_OK);
+    memcpy(s.zone, usual.state.zone, (size_t)s.n * sizeof(int));
+    const double soft = compliance(usual.problem, &s);
+    rc.a.datum = rb_rolling_datum(&rc.a, rc.a.radius) *
+                 exp(-0.5 * M_PI * rb_rolling_contact_modulus(&rc) * soft);
+    rc.b.datum = rc.a.datum;
+    critical = solved(&rc);
+    p = &critical.problem;
+    assert_int_equal(p->n, s.n);
+    CHECK_ABS(critical.mesh.ends[p->n], usual.mesh.ends[p->n], 0.0, "zone");
+    rb_rolling_factors_free(p->factors); /* a new LU, of just these zones */
+    CHECK_STATUS(rb_rolling_factors_create(&p->factors), RB_OK);
+    CHECK_ABS(compliance(*p, &s), 0.0, 1e-9 * soft, "compliance");
+    CHECK_STATUS(rb_rolling_solve_zones(p, RB_BOTH, &s), RB_OK);
+    for (int i = 0; i < p->n; i++) {
+        CHECK_ABS(s.p[i], usual.state.p[i], 1e-9 * p->stress, "pressure %d", i);
+        CHECK_ABS(s.q[i], usual.state.q[i], 1e-9 * p->stress, "friction %d", i);
+    }
+    rb_rolling_state_free(&s);
+    rb_rolling_model_free(&usual);
+    rb_rolling_model_free(&critical);
 }
 
 /* ---- Memory -------------------------------------------------------------------------
@@ -323,6 +372,7 @@ int main(void)
         cmocka_unit_test(steps_grow_by_levels),
         cmocka_unit_test(a_kept_lu_serves_other_zones),
         cmocka_unit_test(a_kept_lu_gives_way_to_a_new_one),
+        cmocka_unit_test(a_given_load_does_not_feel_the_datum),
         cmocka_unit_test(failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

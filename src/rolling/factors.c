@@ -5,6 +5,7 @@
 #include "rolling/reduced.h"
 
 #include <cblas.h>
+#include <float.h>
 #include <lapacke.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -289,8 +290,8 @@ static void fill_border(const rb_rolling_problem *p, const rb_rolling_reduced *r
     }
 }
 
-/* (f, g) into (x, y). */
-static rb_status eliminate(const kept_lu *k, int count, const bordered *m)
+/* (f, g) into (x, y); growth: |A^-1 f| / |x|, the digits that cancel. */
+static rb_status eliminate(const kept_lu *k, int count, const bordered *m, double *growth)
 {
     const int n = k->size;
     lapack_int *pivots = calloc((size_t)count + 1, sizeof *pivots);
@@ -300,6 +301,7 @@ static rb_status eliminate(const kept_lu *k, int count, const bordered *m)
     if (n > 0)
         LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', n, count + 1, k->LU, n, k->pivots,
                             m->V, n);
+    *growth = rb_norm_inf((size_t)n, m->f);
     if (n > 0 && count > 0) {
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, count, count, n, -1.0,
                     m->W, count, m->V, n, 1.0, m->T, count);
@@ -313,6 +315,7 @@ static rb_status eliminate(const kept_lu *k, int count, const bordered *m)
     if (n > 0 && count > 0)
         cblas_dgemv(CblasColMajor, CblasNoTrans, n, count, -1.0, m->V, n, m->g, 1, 1.0,
                     m->f, 1);
+    *growth /= fmax(rb_norm_inf((size_t)n, m->f), DBL_MIN);
     free(pivots);
     return fault == 0 ? RB_OK : RB_SINGULAR;
 }
@@ -333,7 +336,7 @@ static rb_status solve_bordered(const rb_rolling_problem *p, const kept_lu *k,
     for (int i = 0; i < r->size; i++)
         m.f[pl->source[i]] = r->x[i];
     fill_border(p, r, k, pl, &m);
-    const rb_status s = eliminate(k, pl->count, &m);
+    const rb_status s = eliminate(k, pl->count, &m, &r->growth);
     for (int i = 0; i < r->size; i++)
         r->x[i] = m.f[pl->source[i]];
     free(room);
@@ -344,26 +347,27 @@ static rb_status solve_bordered(const rb_rolling_problem *p, const kept_lu *k,
  * steps: least in sum where b is about the root of twice the size. */
 static int is_near(const plan *pl, const kept_lu *k)
 {
-    return pl->changes * pl->changes <= 2 * k->size;
+    return (double)pl->changes * pl->changes <= 2.0 * k->size;
 }
 
 rb_status rb_rolling_reduced_direct(const rb_rolling_problem *p, const int *zone,
-                                    int keep, rb_rolling_reduced *r)
+                                    rb_rolling_lu lu, rb_rolling_reduced *r)
 {
-    kept_lu *k = &p->factors->kept[r->unknowns - 1];
+    kept_lu none = {0}; /* all unknowns are borders then */
+    kept_lu *k = lu == RB_LU_WHOLE ? &none : &p->factors->kept[r->unknowns - 1];
     plan pl = {0};
     rb_status s = plan_alloc(r, k->size, &pl);
 
     if (s == RB_OK) {
         make_plan(p, zone, r, k, &pl);
-        if (!keep || !is_near(&pl, k)) {
+        if (lu == RB_LU_NEW || (lu == RB_LU_KEPT && !is_near(&pl, k))) {
             s = factor(p, r, pl.unknown, k);
             make_plan(p, zone, r, k, &pl);
         }
     }
     if (s == RB_OK)
         s = solve_bordered(p, k, &pl, r);
-    r->changes = pl.changes;
+    r->changes = k->size > 0 ? pl.changes : 0;
     plan_free(&pl);
     return s;
 }

@@ -10,10 +10,12 @@
 enum { MAX_STEPS = 60, STAGGERED_ROUNDS = 3 };
 /* From so many elements on a cold start solves for pairs of them first. */
 enum { HALVED = 100 };
-/* Solves with a kept LU before it is given up, and the relative correction that is the
- * last one. */
+/* Solves with one LU before it is given up, and the relative correction that is the last
+ * one. */
 enum { PASSES = 3 };
 static const double SMALL = 1e-6;
+/* Of the tractions before delta and xi take part: three digits cancel. */
+static const double MOST_GROWTH = 1e3;
 
 static int is_finite(int n, const double *x)
 {
@@ -23,9 +25,9 @@ static int is_finite(int n, const double *x)
     return 1;
 }
 
-/* Solves, and where a kept LU served, solves again for what the equations still lack,
- * until a correction is small.  *settled: 0 where none was. */
-static rb_status solve_direct(const rb_rolling_problem *p, int keep,
+/* Solves, and where a kept LU served or digits were lost, solves again for what the
+ * equations still lack, until a correction is small.  *settled: 0 where none was. */
+static rb_status solve_direct(const rb_rolling_problem *p, rb_rolling_lu lu,
                               rb_rolling_state *state, rb_rolling_reduced *r,
                               int *settled)
 {
@@ -35,12 +37,13 @@ static rb_status solve_direct(const rb_rolling_problem *p, int keep,
     rb_rolling_reduced_clear(p, r, state);
     for (int pass = 0; pass < PASSES && !*settled; pass++) {
         rb_rolling_reduced_right_side(p, state, r);
-        const rb_status s = rb_rolling_reduced_direct(p, state->zone, keep, r);
+        const rb_status s = rb_rolling_reduced_direct(p, state->zone, lu, r);
         if (s != RB_OK || !is_finite(r->size, r->x))
             return s < 0 ? s : RB_SINGULAR;
         rb_rolling_reduced_add(p, r, state);
         const double change = rb_norm_inf((size_t)r->size, r->x);
-        *settled = r->changes == 0 || (pass > 0 && change <= SMALL * size);
+        *settled = (r->changes == 0 && r->growth < MOST_GROWTH) ||
+                   (pass > 0 && change <= SMALL * size);
         size = fmax(size, change);
     }
     return RB_OK;
@@ -49,10 +52,12 @@ static rb_status solve_direct(const rb_rolling_problem *p, int keep,
 static rb_status solve_dense(const rb_rolling_problem *p, rb_rolling_state *state,
                              rb_rolling_reduced *r)
 {
-    int settled;
-    rb_status s = solve_direct(p, 1, state, r, &settled);
+    rb_status s = RB_OK;
+    int settled = 0;
 
-    return s >= 0 && !settled ? solve_direct(p, 0, state, r, &settled) : s;
+    for (int lu = RB_LU_KEPT; lu < RB_LU_KINDS && s >= 0 && !settled; lu++)
+        s = solve_direct(p, (rb_rolling_lu)lu, state, r, &settled);
+    return s;
 }
 
 static rb_status solve_products(const rb_rolling_problem *p, rb_rolling_state *state,

@@ -19,6 +19,7 @@ typedef struct {
     double *start;                 /* size: the unknowns as the state had them */
     double *x;                     /* size: right-hand side, then solution */
     int changes;                   /* of unknowns since the LU that solved it */
+    double growth;                 /* of tractions without borders over those with */
 } rb_rolling_reduced;
 
 rb_status rb_rolling_reduced_alloc(const rb_rolling_problem *problem,
@@ -47,10 +48,14 @@ void rb_rolling_reduced_add(const rb_rolling_problem *problem,
 /* ---- factors.c ------------------------------------------------------------------------
  */
 
-/* Solves the reduced problem by the LU of an earlier one, where `keep` allows it and the
- * zones have not changed too much, or by a new one. */
+/* Which LU: of the tractions for earlier zones where these have not changed too much, or
+ * else, or at once, for the present ones; or of all unknowns together, which is not kept:
+ * the tractions alone may have no inverse where the load or the force is given. */
+typedef enum { RB_LU_KEPT, RB_LU_NEW, RB_LU_WHOLE, RB_LU_KINDS } rb_rolling_lu;
+
+/* Solves the reduced problem.  RB_SINGULAR, RB_ENOMEM. */
 rb_status rb_rolling_reduced_direct(const rb_rolling_problem *problem, const int *zone,
-                                    int keep, rb_rolling_reduced *r);
+                                    rb_rolling_lu lu, rb_rolling_reduced *r);
 
 /* ---- matrix_free.c --------------------------------------------------------------------
  */
