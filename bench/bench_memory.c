@@ -93,8 +93,7 @@ static rb_rolling_case wheel(int n)
     return rc;
 }
 
-/* ---- What runs in the process
- * -----------------------------------------------------------
+/* ---- What runs in the process --------------------------------------------------------
  */
 
 static int boundary_of(const rb_rolling_model *model)

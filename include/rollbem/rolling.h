@@ -136,7 +136,7 @@ typedef struct {
     const double
         *F; /* gap rows 0 .. n-1, 2n columns, ld = ldf; borrowed from the bodies */
     int ldf;
-    double *S; /* n x 2n; owned, as the arrays below */
+    double *S;                          /* n x 2n; owned, as the arrays below */
     struct rb_rolling_factors *factors; /* LU of earlier solves; owned */
     /* Where F and S are NULL: */
     rb_bem_flexibility f;             /* its arrays borrowed from the bodies */
@@ -382,8 +382,9 @@ typedef int rb_rolling_step(const rb_rolling_model *model,
                             void *context);
 
 /* Runs the program (NULL: the case's own controls, rolled over rc->distance).  Transient
- * steps: rc->steps of equal length, or of one element where that is 0.  model and history:
- * overwritten, hold the finished steps also on RB_INTERRUPTED and other positive ends; free them in any case. */
+ * steps: rc->steps of equal length, or of one element where that is 0.  model and
+ * history: overwritten, hold the finished steps also on RB_INTERRUPTED and other positive
+ * ends; free them in any case. */
 rb_status rb_rolling_history_run(const rb_rolling_case *rc,
                                  const rb_rolling_program *program, rb_rolling_step *step,
                                  void *context, rb_rolling_model *model,

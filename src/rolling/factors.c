@@ -52,13 +52,19 @@ typedef struct {
     int count, changes; /* borders; those that stand for zones */
 } plan;
 
-void rb_rolling_factors_free(struct rb_rolling_factors *factors)
+void rb_rolling_factors_clear(struct rb_rolling_factors *factors)
 {
     for (int k = 0; factors && k < 3; k++) {
         free(factors->kept[k].unknown);
         free(factors->kept[k].LU);
         free(factors->kept[k].pivots);
+        factors->kept[k] = (kept_lu){0};
     }
+}
+
+void rb_rolling_factors_free(struct rb_rolling_factors *factors)
+{
+    rb_rolling_factors_clear(factors);
     free(factors);
 }
 

@@ -103,8 +103,10 @@ void rb_rolling_krylov_free(struct rb_rolling_krylov *krylov);
 /* ---- factors.c ------------------------------------------------------------------------
  */
 
-/* What the solves with a matrix keep: the LU of earlier zones; empty at first. */
+/* What the solves with a matrix keep: the LU of earlier zones, one for each of
+ * rb_rolling_unknowns; empty at first and when cleared.  NULL is skipped. */
 rb_status rb_rolling_factors_create(struct rb_rolling_factors **factors);
+void rb_rolling_factors_clear(struct rb_rolling_factors *factors);
 void rb_rolling_factors_free(struct rb_rolling_factors *factors);
 
 /* ---- coarse.c -------------------------------------------------------------------------
@@ -139,8 +141,8 @@ rb_status rb_rolling_solve_zones(const rb_rolling_problem *problem,
 rb_status rb_rolling_newton(const rb_rolling_problem *problem, int warm,
                             rb_rolling_state *state);
 
-/* ---- model.c
- * --------------------------------------------------------------------------- */
+/* ---- model.c -------------------------------------------------------------------------
+ */
 
 /* Solves the model's problem again, with the times and counts kept. */
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why);

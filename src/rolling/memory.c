@@ -9,16 +9,24 @@ static double lemke_squares(const rb_rolling_case *rc)
     return rc->lcp_form == RB_LCP_KWAK ? 9.0 + 9.0 + 1.0 + 6.0 : 9.0 + 9.0;
 }
 
+/* The kept LU of all tractions, or those of the normal and of the tangential ones, which
+ * are less together; before it the problem of half as many elements and its LU. */
+static double newton_numbers(double square, double lu)
+{
+    return fmax(lu, square + 0.25 * lu);
+}
+
 double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unknowns)
 {
     const rb_rolling_mesh mesh = {.n = n};
-    const double square = (double)n * n, newton = (double)unknowns * unknowns;
+    const double square = (double)n * n;
 
     if (rb_rolling_is_large(rc,
                             &mesh)) /* similar bodies: one group of unknowns at once */
         return (rb_rolling_dundurs(rc) == 0.0 ? 500.0 : 650.0) * n;
-    const double lcp =
-        rc->solver == RB_SOLVER_LEMKE ? lemke_squares(rc) * square : newton;
+    const double lcp = rc->solver == RB_SOLVER_LEMKE
+                           ? lemke_squares(rc) * square
+                           : newton_numbers(square, (double)unknowns * unknowns);
     const double solution = sizeof(double) * (6.0 * square + lcp);
     if (!boundary)
         return fmax(sizeof(double) * 4.0 * (1 + rc->elastic_b) * square, solution);

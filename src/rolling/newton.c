@@ -259,12 +259,18 @@ static rb_status from_zones(const rb_rolling_problem *p, workspace *ws,
     return p->coupled ? iterate(p, RB_BOTH, ws, state) : alternate(p, 1, ws, state);
 }
 
+/* An LU of all tractions and those of one group each never take memory together: no later
+ * solve would use both (memory.c). */
 static rb_status from_nothing(const rb_rolling_problem *p, workspace *ws,
                               rb_rolling_state *state)
 {
     cold_start(p, state);
+    rb_rolling_factors_clear(p->factors);
     const rb_status s = alternate(p, p->coupled ? STAGGERED_ROUNDS : 1, ws, state);
-    return s >= 0 && p->coupled ? iterate(p, RB_BOTH, ws, state) : s;
+    if (s < 0 || !p->coupled)
+        return s;
+    rb_rolling_factors_clear(p->factors);
+    return iterate(p, RB_BOTH, ws, state);
 }
 
 /* Zones and tractions of the same problem on half as many elements; its steps count. */
