@@ -175,6 +175,9 @@ static void an_interrupted_study_goes_on(void **state)
     assert_string_equal(again, whole);
     check_refused(STUDY "--vary-1 'creep-ratio 0:1:3' --output study.tsv", 73,
                   "study.tsv: holds something else");
+    assert_int_equal(shell("printf '\\000\\n' >binary"), 0);
+    check_refused(STUDY "--vary-1 'creep-ratio 0:1:3' --output binary", 73,
+                  "binary: holds something else");
     assert_int_equal(rollbem(STUDY "--contact-elements 30 --vary-1 'creep-ratio 0:1:3' "
                                    "--output study.tsv --restart"),
                      0);

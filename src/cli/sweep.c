@@ -425,7 +425,7 @@ static int rows_of_study(const study *st, FILE *file, long *end)
     *end = 0;
     while (fgets(line, sizeof line, file)) {
         const size_t n = strlen(line);
-        if (line[n - 1] != '\n')
+        if (n == 0 || line[n - 1] != '\n') /* n = 0: a zero byte */
             break;
         known = known || strcmp(line, wanted) == 0;
         rows += line[0] != '#';
