@@ -73,7 +73,6 @@ static rb_status solve_curves(const cli_case *c, const range_options *range,
     const cli_list *mus = c->mus.n > 0 ? &c->mus : &one;
     rb_rolling_case rc = c->rc;
     rb_status s = RB_OK;
-    curves->has_errors = c->error;
     for (int k = 0; k < mus->n && s == RB_OK; k++) {
         rb_message reason = {""};
         rc.mu = curves->mu[k] = mus->value[k];
@@ -85,6 +84,7 @@ static rb_status solve_curves(const cli_case *c, const range_options *range,
         else if (s != RB_OK)
             *why = reason;
     }
+    curves->has_errors = c->error && s == RB_OK; /* an unfinished curve has none */
     return s;
 }
 

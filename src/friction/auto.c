@@ -12,8 +12,7 @@ typedef enum {
     GIVEN_W = 4, /* only for problems that came in local form */
     ONLY_2D = 8,
     FROM_BEST = 16, /* from the best point so far */
-    EARLY =
-        32 /* factors, before the sweeps had a long run: not where W is large and dense */
+    EARLY = 32      /* before long runs of sweeps; not where a factorisation is heavy */
 } stage_flags;
 
 typedef struct {
@@ -162,9 +161,8 @@ rb_status rb_friction_auto(rb_friction_task *task)
     for (size_t k = 0; s > 0 && s != RB_INTERRUPTED && k < n; k++)
         if (fits(task, &stages[k]))
             s = try_stage(task, &stages[k], &rec);
-    if (s > 0 &&
-        s != RB_INTERRUPTED) /* what the last stage stumbled on is not the reason */
-        s = RB_MAXITER;
+    if (s > 0 && s != RB_INTERRUPTED)
+        s = RB_MAXITER; /* what the last stage stumbled on is not the reason */
     if (s > 0 && rec.solver) {
         load(task, rec.best);
         task->info->solver = rec.solver;

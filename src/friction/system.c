@@ -124,8 +124,8 @@ rb_status rb_friction_system_init(rb_friction_task *task, rb_friction_system *s)
     return st;
 }
 
-/* ---- Products
- * ---------------------------------------------------------------------------- */
+/* ---- Products ------------------------------------------------------------------------
+ */
 
 void rb_friction_system_velocity(const rb_friction_system *s, double constant,
                                  const double *r, const double *v, double *u)
@@ -159,8 +159,8 @@ int rb_friction_system_is_dense(int order, double fill)
     return order <= DENSE_ORDER || fill > DENSE_FILL;
 }
 
-/* ---- Steps
- * ------------------------------------------------------------------------------- */
+/* ---- Steps ---------------------------------------------------------------------------
+ */
 
 /* The contact equations B H' dv + A dr; K and -H stay. */
 static void fill_global(rb_friction_system *s, const double *A, const double *B)
