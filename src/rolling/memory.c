@@ -21,8 +21,8 @@ double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unkn
     const rb_rolling_mesh mesh = {.n = n};
     const double square = (double)n * n;
 
-    if (rb_rolling_is_large(rc,
-                            &mesh)) /* similar bodies: one group of unknowns at once */
+    /* similar bodies: one group of unknowns at once */
+    if (rb_rolling_is_large(rc, &mesh))
         return (rb_rolling_dundurs(rc) == 0.0 ? 500.0 : 650.0) * n;
     const double lcp = rc->solver == RB_SOLVER_LEMKE
                            ? lemke_squares(rc) * square
