@@ -330,6 +330,10 @@ static void not_solved_is_1(void **state)
                              "--creep-ratio 1.2 --mesh fitted --solver nsn-jm-nls"),
                      1);
     assert_null(strstr(err, "nan"));
+    /* a cone solver that gives up on its own measure where the case's residual is met */
+    assert_int_equal(rollbem("--support hub --datum 50 --similar --mu 0.1 --half-width 2 "
+                             "--force-ratio 1 --contact-elements 55 --solver nsn-fb"),
+                     0);
 }
 
 /* ---- Steps --------------------------------------------------------------------------

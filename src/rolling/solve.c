@@ -303,8 +303,12 @@ static rb_status solve_cone(const rb_rolling_problem *problem, const rb_rolling_
         return s;
     const rb_status t = complete(problem, 0, state);
     state->solver = RB_SOLVER_CONE;
-    s = t < 0 ? t : s;
-    return s == RB_OK && !is_solved(s, problem, rc, state) ? RB_INACCURATE : s;
+    if (t < 0)
+        return t;
+    /* the case's residual decides, whatever the cone solver thinks of its own */
+    if (is_solved(RB_OK, problem, rc, state))
+        return RB_OK;
+    return s == RB_OK ? RB_INACCURATE : s;
 }
 
 rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
