@@ -13,14 +13,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a hierarchical matrix: 1e-8 leaves an error of the flexibility of 1e-7, far below
+/* Of a hierarchical matrix: 1e-9 leaves an error of the flexibility of 1e-8, far below
  * that of the elements (1e-4 at such lengths).  In a nearly incompressible body the
  * matrix hardly feels a uniform pressure on a held contour, by 1 - 2 nu: this has to
  * stand out. */
 static double tolerance(rb_bem_material material)
 {
     const double volume = 1.0 - 2.0 * material.poisson;
-    return rb_is_incompressible(material) ? 1e-8 : fmin(1e-8, fmax(1e-12, 1e-5 * volume));
+    return rb_is_incompressible(material) ? 1e-9 : fmin(1e-9, fmax(1e-12, 1e-6 * volume));
 }
 
 static double dense_bytes(int n, int n_c)
