@@ -119,6 +119,30 @@ static void full_sliding_gives_the_least_creepage(void **state)
     }
 }
 
+/* On tilted elements all that slides has another ratio than 1: a little more than 1 on a
+ * small contact, so that something sticks; less on a large one, where there is no answer
+ * and none is given out as one. */
+static void full_sliding_of_tilted_elements_is_checked(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s;
+    rc.formulation = RB_STEADY;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.normals = RB_BEM_NORMALS_SURFACE;
+    rc.force_ratio = 1.0;
+    rc.half_width = 1e-3 * rc.a.radius;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    CHECK_ABS(s.force_ratio, 1.0, 1e-10, "force");
+    CHECK_MAX(s.residual, 1e-10, "residual");
+    assert_true(s.stick > 0);
+    rb_rolling_solution_free(&s);
+    rc.half_width = 0.1 * rc.a.radius;
+    assert_true(rb_rolling_solve(&rc, &s, NULL) > 0);
+    assert_true(s.residual > 1e-3);
+    rb_rolling_solution_free(&s);
+}
+
 static void approach_control_finds_the_force_too_large(void **state)
 {
     (void)state;
@@ -166,6 +190,7 @@ int main(void)
         cmocka_unit_test(lemke_and_newton_agree_on_500_cases),
         cmocka_unit_test(force_control_never_fails_on_the_halfplane),
         cmocka_unit_test(full_sliding_gives_the_least_creepage),
+        cmocka_unit_test(full_sliding_of_tilted_elements_is_checked),
         cmocka_unit_test(approach_control_finds_the_force_too_large),
         cmocka_unit_test(the_creepage_ratio_is_met_under_approach_control),
     };

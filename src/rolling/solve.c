@@ -266,6 +266,22 @@ static rb_status solve_sliding(const rb_rolling_problem *problem,
     return s == RB_OK ? RB_MAXITER : s;
 }
 
+/* Where elements are tilted P has a part of the friction and Q one of the pressure: full
+ * sliding is not the force that was given then. */
+static rb_status solve_driven(const rb_rolling_problem *problem,
+                              const rb_rolling_case *rc, int warm,
+                              rb_rolling_state *state, rb_message *why)
+{
+    if (!slides_fully(problem))
+        return solve_given(problem, rc, warm, state, why);
+    rb_status s = solve_sliding(problem, rc, problem->force_ratio > 0.0, state, why);
+    if (s == RB_OK)
+        s = measure(problem, state);
+    if (s == RB_OK && !is_solved(s, problem, rc, state))
+        s = solve_given(problem, rc, 0, state, why);
+    return s;
+}
+
 /* A given force that friction cannot carry under the load that the approach brings. */
 static rb_status check_capacity(const rb_rolling_problem *problem,
                                 const rb_rolling_case *rc, rb_rolling_state *state,
@@ -293,10 +309,8 @@ static rb_status solve_cone(const rb_rolling_problem *problem, const rb_rolling_
 
     state->delta = problem->delta;
     state->xi = problem->xi;
-    if (slides_fully(problem))
-        s = solve_sliding(problem, rc, problem->force_ratio > 0.0, state, why);
-    else if (problem->load_given || problem->force_given)
-        s = solve_given(problem, rc, 0, state, why);
+    if (problem->load_given || problem->force_given)
+        s = solve_driven(problem, rc, 0, state, why);
     if (s == RB_OK)
         s = rb_rolling_cone_solve(problem, rc->cone_solver, state, why);
     if (s < 0)
@@ -316,10 +330,9 @@ rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
                                    rb_rolling_state *state, rb_message *why)
 {
     state->iterations = 0;
-    rb_status s = rc->solver == RB_SOLVER_CONE ? solve_cone(problem, rc, state, why)
-                  : slides_fully(problem)
-                      ? solve_sliding(problem, rc, problem->force_ratio > 0.0, state, why)
-                      : solve_given(problem, rc, warm, state, why);
+    rb_status s = rc->solver == RB_SOLVER_CONE
+                      ? solve_cone(problem, rc, state, why)
+                      : solve_driven(problem, rc, warm, state, why);
 
     if (s > 0 && problem->force_given && problem->force != 0.0) {
         const rb_status t = check_capacity(problem, rc, state, why);
