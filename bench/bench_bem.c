@@ -229,7 +229,7 @@ static void stores_only(const rb_bem_mesh *mesh, int j, const rb_points *points,
 static double processor_seconds(void)
 {
     struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 

@@ -41,11 +41,12 @@ static double *need(size_t rows, size_t cols)
     return x;
 }
 
-/* Of the processor: other work on the machine does not count. */
+/* Of this thread: neither other work on the machine counts nor threads that OpenBLAS keeps
+ * waiting, which spin for the first tenth of a second. */
 static double cpu_seconds(void)
 {
     struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
@@ -389,7 +390,7 @@ int main(int argc, char **argv)
         execv("/proc/self/exe", argv); /* read only while OpenBLAS is loaded */
     rb_blas_threads(1);
     printf("Lemke's method, one thread, OpenBLAS kernels: %s\n", rb_blas_core());
-    compare(200, 7);
+    compare(200, 31);
     compare(800, 3);
     return 0;
 }
