@@ -78,8 +78,8 @@ static void write_axes(FILE *out, const view *v)
           out);
     fprintf(out, "set xrange [%.9g:%.9g]\nset yrange [0:%.9g]\n", v->from, v->to,
             v->depth);
-    fprintf(out, "set xlabel 'x %s   (rolling towards +x →)' offset 0,0.2\n",
-            v->length_label);
+    fprintf(out, "set xlabel 'x %s%s' offset 0,0.2\n", v->length_label,
+            v->s->s->formulation == RB_STATIC ? "" : "   (rolling towards +x →)");
     fprintf(out, "set ylabel 'y %s, into A'\nset ytics %.9g\n", v->length_label,
             rb_report_round_step(v->depth / 5.0));
     write_contact(out, v);
@@ -92,7 +92,7 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
     fprintf(out, "set label 1 '{/:Bold %s}   %s,  μ = %g,  p_0 = %.5g MPa,  a = %.4g mm",
             title, kinds[s->formulation], v->s->rc->mu, s->max_pressure, s->half_width);
     if (isfinite(s->force_ratio))
-        fprintf(out, ",  Q/(μP) = %.4g", s->force_ratio + 0.0);
+        fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0) + 0.0);
     fprintf(out,
             "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: blue stick, orange "
             "and red slip}' at screen 0.5, 0.025 center textcolor rgb '#444444'\n",
@@ -101,16 +101,6 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
 
 /* ---- Contours ------------------------------------------------------------------------
  */
-
-/* Contour lines of a column, into a data block. */
-static void write_lines(FILE *out, int column)
-{
-    fprintf(out,
-            "set contour base\nunset surface\nset cntrparam levels auto 10\n"
-            "set table $lines%d\nsplot $grid using 1:2:%d\nunset table\n"
-            "unset contour\nset surface\n",
-            column, column);
-}
 
 static const double panel_width = 0.345, panel_middle = 0.48;
 
@@ -140,8 +130,8 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
         "linecolor rgb '#111111' offset 0.8,0.9 textcolor rgb '#111111' front\n",
         m->value / v->stress_unit, m->x / v->unit, m->y / v->unit);
     fprintf(out,
-            "splot $grid using 1:2:%d with pm3d, $lines%d using 1:2:3 with lines "
-            "linecolor rgb '#ffffff' linewidth 0.6\n",
+            "splot $grid using 1:2:%d with pm3d nocontour, $grid using 1:2:%d with lines "
+            "nosurface linecolor rgb '#ffffff' linewidth 0.6\n",
             column, column);
 }
 
@@ -150,9 +140,9 @@ static void write_contours(FILE *out, rb_report_picture_kind kind, const void *c
     const view *v = context;
     (void)kind;
     write_grid(out, v);
-    write_lines(out, 3);
-    write_lines(out, 4);
     write_axes(out, v);
+    fputs("set contour base\nset cntrlabel onecolor\nset cntrparam levels auto 10\n",
+          out);
     fputs("set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', "
           "0.45 '#277f8e', 0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')\n"
           "set multiplot\n",
