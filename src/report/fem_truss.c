@@ -76,8 +76,6 @@ static void write_panel(FILE *out, const quarter *q, const rb_fem_step *step, in
                 "set label 3 '{/*0.8 stick %d, slip %d}' at graph 0.5, graph 1.06 center "
                 "textcolor rgb '#555555'\n",
                 step->stick, step->slip);
-    else
-        fputs("unset label 3\n", out);
     fprintf(
         out,
         "plot $rest%d using 1:2 with points pointtype 6 pointsize 1.1 linecolor rgb "
@@ -113,8 +111,10 @@ static void write_script(FILE *out, const quarter *q, const rb_fem_history *hist
     fprintf(out, "set xrange [0:%g]\nset yrange [0:%g]\nset xtics 0, 4\nset ytics 0, 4\n",
             q->width + 1.1 * q->spacing, q->height + 1.1 * q->spacing);
     write_legend(out);
-    for (int k = 0; k < history->steps; k++)
+    for (int k = 0; k < history->steps; k++) {
         write_panel(out, q, &history->step[k], 0, k);
+        fputs("unset label\n", out); /* drawn over and over they grow fat */
+    }
     write_panel(out, q, &history->step[history->steps - 1], 1, history->steps);
     fputs("unset multiplot\n", out);
 }
