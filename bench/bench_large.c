@@ -3,6 +3,7 @@
  * how cost and memory grow; one product of the Toeplitz operator against one of the
  * matrix. Arguments: the numbers of elements (default 1000 ... 100000; 1300000 is a
  * million in contact). */
+#include "carter.h"
 #include "fast_blas.h"
 #include "rollbem/rolling.h"
 
@@ -13,22 +14,6 @@
 #include <sys/resource.h>
 
 enum { REPEATS = 5 };
-
-static rb_rolling_case carter(int n)
-{
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a = (rb_rolling_body){
-        .young = 210000.0, .poisson = 0.28, .radius = 500.0, .support = RB_BEM_HALFPLANE};
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.formulation = RB_STEADY;
-    rc.half_width = 1.0;
-    rc.creep_ratio = 0.4;
-    rc.contact_elements = n;
-    return rc;
-}
 
 static void stop(const char *what)
 {

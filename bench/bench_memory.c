@@ -1,6 +1,7 @@
 /* Peak memory of every path against its formula (docs/performance.md, Memory).  Each case
  * runs in a process of its own, after a small one of its kind: the growth of the largest
  * resident set is what the case takes. */
+#include "carter.h"
 #include "fast_blas.h"
 #include "rollbem/rolling.h"
 
@@ -36,18 +37,8 @@ static double peak(void)
 
 static rb_rolling_case halfplanes(int n)
 {
-    rb_rolling_case rc = rb_rolling_case_defaults();
-    rc.a = (rb_rolling_body){
-        .young = 210000.0, .poisson = 0.28, .radius = 500.0, .support = RB_BEM_HALFPLANE};
-    rc.b = rc.a;
+    rb_rolling_case rc = carter(n);
     rc.b.young = 70000.0; /* coupled: Newton's largest systems */
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
-    rc.gap = RB_GAP_PARABOLA;
-    rc.formulation = RB_STEADY;
-    rc.half_width = 1.0;
-    rc.creep_ratio = 0.4;
-    rc.contact_elements = n;
     return rc;
 }
 
