@@ -30,21 +30,22 @@ static void series_of(const rb_rolling_curve *c, rb_report_series series[COLUMNS
 static void print_curve(FILE *out, const rb_report_curves *curves, int k, int bare)
 {
     const rb_rolling_curve *c = &curves->curve[k];
-    rb_report_series series[COLUMNS + ERRORS], error[COLUMNS];
+    rb_report_series series[COLUMNS + ERRORS];
     int columns = COLUMNS;
 
     series_of(c, series);
-    series_of(&curves->error[k], error);
-    if (curves->has_errors)
+    if (curves->has_errors) {
+        rb_report_series error[COLUMNS];
+        series_of(&curves->error[k], error);
         columns += rb_report_add_errors(ERRORS, error + FIRST, series + COLUMNS);
+    }
     if (k == 0) {
         fputs(bare ? "mu_1\t" : "# mu_1\t", out);
         rb_report_print_names(out, columns, series, 1);
     }
     for (int i = 0; i < c->n; i++) {
         fprintf(out, "%.17g\t", curves->mu[k]);
-        for (int j = 0; j < columns; j++)
-            fprintf(out, "%.17g%c", series[j].x[i], j + 1 < columns ? '\t' : '\n');
+        rb_report_print_row(out, i, columns, series);
     }
 }
 

@@ -39,6 +39,7 @@ void rb_report_print_names(FILE *out, int columns, const rb_report_series *serie
 /* Copies series as errors; returns how many. */
 int rb_report_add_errors(int columns, const rb_report_series *error,
                          rb_report_series *series);
+void rb_report_print_row(FILE *out, int i, int columns, const rb_report_series *series);
 void rb_report_print_rows(FILE *out, int rows, int columns,
                           const rb_report_series *series);
 /* Flushes.  RB_EWRITE: see errno. */

@@ -11,12 +11,11 @@ void rb_report_print_head(FILE *out, const char *command)
 void rb_report_print_names(FILE *out, int columns, const rb_report_series *series,
                            int bare)
 {
+    if (!bare)
+        fputs("# ", out);
     for (int j = 0; j < columns; j++)
-        fprintf(out, "%s%s%s",
-                j > 0  ? "\t"
-                : bare ? ""
-                       : "# ",
-                series[j].is_error ? "error_" : "", series[j].name);
+        fprintf(out, "%s%s%s", j > 0 ? "\t" : "", series[j].is_error ? "error_" : "",
+                series[j].name);
     fputc('\n', out);
 }
 
@@ -30,7 +29,7 @@ int rb_report_add_errors(int columns, const rb_report_series *error,
     return columns;
 }
 
-static void print_row(FILE *out, int i, int columns, const rb_report_series *series)
+void rb_report_print_row(FILE *out, int i, int columns, const rb_report_series *series)
 {
     for (int j = 0; j < columns; j++) {
         if (j > 0)
@@ -47,7 +46,7 @@ void rb_report_print_rows(FILE *out, int rows, int columns,
                           const rb_report_series *series)
 {
     for (int i = 0; i < rows; i++)
-        print_row(out, i, columns, series);
+        rb_report_print_row(out, i, columns, series);
 }
 
 rb_status rb_report_print_end(FILE *out)

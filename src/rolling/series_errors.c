@@ -118,7 +118,7 @@ static rb_status place_history(const rb_rolling_history *from,
 }
 
 /* An error changes its sign wherever an edge passes an element: each rolled step takes
- * the largest within one step of the coarsest mesh, which is two of its own. */
+ * the largest of its own and its neighbours'. */
 static rb_status widen(const rb_rolling_history *h, double *error)
 {
     const int rest = steps_at_rest(h), rolled = h->n - rest;
@@ -168,14 +168,14 @@ static int see_companion(const rb_rolling_model *model, const rb_rolling_history
 
 /* The same way on the k-th mesh, at the steps of `own`. */
 static rb_status companion(const rb_rolling_case *rc, const rb_rolling_program *program,
-                           int k, const watcher *w, const rb_rolling_history *own,
+                           int k, watcher *w, const rb_rolling_history *own,
                            rb_rolling_history *placed, rb_message *why)
 {
     const rb_rolling_case mesh = rb_rolling_error_mesh(rc, k);
     rb_rolling_model model = {0};
     rb_rolling_history history = {0};
-    rb_status s = rb_rolling_history_run(&mesh, program, see_companion, (void *)w, &model,
-                                         &history, why);
+    rb_status s =
+        rb_rolling_history_run(&mesh, program, see_companion, w, &model, &history, why);
 
     if (s == RB_OK)
         s = place_history(&history, own, placed);
@@ -192,7 +192,7 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                                          rb_rolling_history *errors, rb_message *why)
 {
     rb_rolling_history placed[2] = {0};
-    const watcher w = {step, context};
+    watcher w = {step, context};
     rb_status s = rb_rolling_error_check(rc, why);
 
     memset(model, 0, sizeof *model);
