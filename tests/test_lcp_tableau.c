@@ -68,7 +68,7 @@ static void take_basis(const lcp_tableau *t, lcp_tableau *anew)
     memcpy(anew->basis, t->basis, N * sizeof *t->basis);
     memcpy(anew->nonbasis, t->nonbasis, (N + 1) * sizeof *t->nonbasis);
     memcpy(anew->place, t->place, (2 * N + 1) * sizeof *t->place);
-    CHECK_STATUS(rb_lcp_tableau_rebuild(&data_, anew), RB_OK);
+    CHECK_STATUS(rb_lcp_tableau_rebuild(anew), RB_OK);
 }
 
 /* Every so often some columns, any and in any order, are brought up to date. */
@@ -144,7 +144,7 @@ static void without_pivots_nothing_changes(void **state)
     double a[N];
     make_tableau(&t);
     rb_lcp_tableau_flush(&t);
-    CHECK_STATUS(rb_lcp_tableau_rebuild(&data_, &t), RB_OK);
+    CHECK_STATUS(rb_lcp_tableau_rebuild(&t), RB_OK);
     for (int c = 0; c < N; c++) {
         rb_lcp_tableau_column(&t, c, a);
         for (int i = 0; i < N; i++)
@@ -163,7 +163,7 @@ static void short_memory_leaves_the_tableau(void **state)
         pivot_somewhere(&t, a);
     for (int i = 0;; i++) {
         alloc_fail_after(i);
-        const rb_status s = rb_lcp_tableau_rebuild(&data_, &t);
+        const rb_status s = rb_lcp_tableau_rebuild(&t);
         const int refused = alloc_failed();
         alloc_succeed();
         if (!refused) {
@@ -189,7 +189,7 @@ static void a_singular_basis_is_told(void **state)
         t.nonbasis[k] = k;
         t.place[k] = -1 - k;
     }
-    CHECK_STATUS(rb_lcp_tableau_rebuild(&data_, &t), RB_SINGULAR);
+    CHECK_STATUS(rb_lcp_tableau_rebuild(&t), RB_SINGULAR);
     rb_lcp_tableau_free(&t);
 }
 

@@ -1,3 +1,6 @@
+/* Lemke's method with a lexicographic rule (Cottle, Pang, Stone, algorithm 4.4.5): from
+ * the check of the input to the first pivot, the ratio test, the path of complementary
+ * pivots and its end. */
 #include "lcp/lemke.h"
 
 #include <cblas.h>
@@ -5,11 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The constants are refined whenever z0 has fallen by this factor: otherwise z0 drowns in
- * rounding just when it should vanish. */
-static const double REFRESH = 1e-3;
+/* Parts of the largest entry of a column: entries below DROP are zeros, below NOISE they
+ * are no pivots, below DOUBT they are pivots only in a tableau that has just been
+ * rebuilt.  Rows tie that the least ratio brings below TIE of the largest constant,
+ * unless their own ratio is more than NEAR away, relative to the step or to max |q| / max
+ * |a|. */
+static const double DROP = 1e-13, NOISE = 1e-12, DOUBT = 1e-10, TIE = 1e-12, NEAR = 1e-10;
 
-/* A solution whose residual is beyond this part of max |q| is none. */
+/* A solution whose residual is above this part of max |q| is spoilt by rounding. */
 static const double SPOILT = 1e-6;
 
 rb_lcp_options rb_lcp_defaults(void)
@@ -65,107 +71,246 @@ static rb_status check_input(int n, const double *M, int ldm, const double *q,
     return check_numbers(n, M, ldm, q, opt->cover, why);
 }
 
-/* ---- Pivots ---------------------------------------------------------------------- */
+/* ---- The ratio test: which row leaves ---------------------------------------------- */
 
-double rb_lcp_lemke_z0(const lemke *l)
+static double largest(int n, const double *x)
 {
-    const int row = l->t.place[2 * l->n];
-    return row >= 0 ? l->t.q[row] : 0.0;
+    return fabs(x[cblas_idamax(n, x, 1)]);
 }
 
-static void take_image(lemke *l)
+/* x = the column of a nonbasic variable.  Rounding errors that stand for zeros are set to
+ * zero: they would decide between rows that tie, and might be taken for pivots. */
+static void clean_column(lemke *l, int variable, double *x)
+{
+    rb_lcp_tableau_column(&l->t, -1 - l->t.place[variable], x);
+    const double noise = DROP * largest(l->n, x);
+    for (int i = 0; i < l->n; i++)
+        if (fabs(x[i]) <= noise)
+            x[i] = 0.0;
+}
+
+/* l->a = the column of the entering variable. */
+static void driving_column(lemke *l, int entering)
+{
+    rb_lcp_tableau_fetch(&l->t, -1 - l->t.place[entering], l->a);
+    clean_column(l, entering, l->a);
+}
+
+/* The row of the first pivot: the lexicographic minimum of (q_i, e_i)/d_i, that is the
+ * least q_i/d_i and among equal ones the last; -1 when q >= 0. */
+static int first_row(const lemke *l)
+{
+    int r = -1;
+    double least = 0.0;
+    for (int i = 0; i < l->n; i++) {
+        const double ratio = l->data.q[i] / rb_lcp_cover(&l->data, i);
+        const int wins =
+            l->opt.rule == RB_LCP_LEXICOGRAPHIC ? ratio <= least : ratio < least;
+        if (ratio < 0.0 && wins) {
+            least = ratio;
+            r = i;
+        }
+    }
+    return r;
+}
+
+/* min x_i, in lanes that need not wait for each other's comparison. */
+static double least_of(int n, const double *x)
+{
+    enum { LANES = 16 };
+    double least[LANES];
+    int i = 0;
+    for (int k = 0; k < LANES; k++)
+        least[k] = INFINITY;
+    for (; i + LANES <= n; i += LANES)
+        for (int k = 0; k < LANES; k++)
+            least[k] = x[i + k] < least[k] ? x[i + k] : least[k];
+    for (; i < n; i++)
+        least[0] = x[i] < least[0] ? x[i] : least[0];
+    for (int k = 1; k < LANES; k++)
+        least[0] = least[k] < least[0] ? least[k] : least[0];
+    return least[0];
+}
+
+/* The rows that tie go to l->tied: the least ratio brings them to zero within rounding,
+ * and their own ratio is so close to it that taking it instead leaves no row visibly
+ * negative. Returns their number, 0 when no row blocks.  The first loop has no branches
+ * because the signs of a follow no pattern. */
+static int tied_rows(lemke *l)
+{
+    const int n = l->n;
+    const double *a = l->a, *q = l->t.q;
+    const double a_max = largest(n, a), q_max = largest(n, q), noise = -NOISE * a_max;
+    double *ratio = l->other;
+
+    for (int i = 0; i < n; i++) {
+        const double down = a[i] < noise ? -a[i] : 1.0;
+        const double x = (q[i] > 0.0 ? q[i] : 0.0) / down;
+        ratio[i] = a[i] < noise ? x : INFINITY;
+    }
+    const double least = least_of(n, ratio);
+    if (!isfinite(least))
+        return 0;
+
+    const double zero = TIE * (q_max + least * a_max);
+    const double most = least + NEAR * fmax(least, q_max / a_max);
+    int count = 0;
+    for (int i = 0; i < n; i++)
+        if (ratio[i] <= most && q[i] + least * a[i] <= zero)
+            l->tied[count++] = i;
+    return count;
+}
+
+/* Keeps the tied rows with the least x_i/a_i, x being minus a column of the basis
+ * inverse. */
+static int keep_least(lemke *l, int count, const double *x)
+{
+    double least = INFINITY;
+    for (int k = 0; k < count; k++)
+        least = fmin(least, x[l->tied[k]] / l->a[l->tied[k]]);
+    const double zero = NOISE * (largest(l->n, x) + fabs(least) * largest(l->n, l->a));
+    int kept = 0;
+    for (int k = 0; k < count; k++)
+        if (least * l->a[l->tied[k]] - x[l->tied[k]] <= zero)
+            l->tied[kept++] = l->tied[k];
+    return kept;
+}
+
+/* w_j is basic in this row, which has a one in that column of the basis inverse; the
+ * other rows have a zero and win. */
+static int drop_row(lemke *l, int count, int row)
+{
+    int kept = 0;
+    for (int k = 0; k < count; k++)
+        if (l->tied[k] != row)
+            l->tied[kept++] = l->tied[k];
+    return kept ? kept : count;
+}
+
+/* The basis inverse restricted to the column of w_j is -T_:w_j where w_j is nonbasic, a
+ * unit vector where it is basic.  Columns are looked at only as long as rows tie. */
+static int lexicographic_row(lemke *l, int count)
+{
+    for (int j = 0; j < l->n && count > 1; j++) {
+        if (l->t.place[j] >= 0) {
+            count = drop_row(l, count, l->t.place[j]);
+        } else {
+            rb_lcp_tableau_fetch(&l->t, -1 - l->t.place[j], NULL);
+            clean_column(l, j, l->other);
+            count = keep_least(l, count, l->other);
+        }
+    }
+    return l->tied[0];
+}
+
+/* The row that blocks the variable whose column is l->a; -1: none does.  z0 leaves as
+ * soon as it can, because that is a solution. */
+static int blocking_row(lemke *l)
+{
+    const int count = tied_rows(l), z0_row = l->t.place[2 * l->n];
+    if (!count)
+        return -1;
+    for (int k = 0; k < count; k++)
+        if (l->tied[k] == z0_row)
+            return z0_row;
+    return l->opt.rule == RB_LCP_FIRST_INDEX ? l->tied[0] : lexicographic_row(l, count);
+}
+
+/* The row that blocks the entering variable, whose column comes to l->a; -1: none does. A
+ * pivot near rounding and the absence of one are believed only when the column holds for
+ * the original matrix; else the tableau is rebuilt and the column formed once more. */
+static rb_status find_row(lemke *l, int entering, int *row)
+{
+    driving_column(l, entering);
+    *row = blocking_row(l);
+    const int holds = *row < 0 ? rb_lcp_lemke_column_holds(l, entering)
+                               : l->rebuilt == l->info->iters ||
+                                     fabs(l->a[*row]) > DOUBT * largest(l->n, l->a);
+    if (holds)
+        return RB_OK;
+    const rb_status s = rb_lcp_lemke_rebuild(l);
+    if (s == RB_OK) {
+        driving_column(l, entering);
+        *row = blocking_row(l);
+    }
+    return s == RB_ENOMEM ? s : RB_OK;
+}
+
+/* ---- The path ---------------------------------------------------------------------- */
+
+/* Hands the pivot to the trace, with the whole tableau where that is wanted. */
+static void tell_trace(lemke *l, rb_lcp_pivot seen)
 {
     const size_t n = (size_t)l->n;
-    rb_lcp_tableau_flush(&l->t);
-    for (int c = 0; c <= l->n; c++)
-        rb_lcp_tableau_column(&l->t, c, l->image + (size_t)c * n);
-    memcpy(l->image + n * (n + 1), l->t.q, n * sizeof(double));
+    if (l->image) {
+        rb_lcp_tableau_flush(&l->t);
+        for (int c = 0; c <= l->n; c++)
+            rb_lcp_tableau_column(&l->t, c, l->image + (size_t)c * n);
+        memcpy(l->image + n * (n + 1), l->t.q, n * sizeof(double));
+    }
+    seen.tableau = l->image;
+    l->opt.trace(&seen, l->opt.trace_context);
 }
 
-/* Exchanges the nonbasic variable, whose column is in l->a, with the one of the row. */
+/* Exchanges the entering variable, whose column is in l->a, with the basic one of the
+ * row, which is returned. */
 static int pivot(lemke *l, int row, int entering)
 {
     lcp_tableau *t = &l->t;
     const int leaving = t->basis[row], iter = l->info->iters++;
     rb_lcp_tableau_pivot(t, row, -1 - t->place[entering], l->a);
-    if (l->opt.trace) {
-        if (l->image)
-            take_image(l);
-        const rb_lcp_pivot seen = {
-            iter, entering, leaving,     row,     t->q[row], rb_lcp_lemke_z0(l),
-            l->n, t->basis, t->nonbasis, l->image};
-        l->opt.trace(&seen, l->opt.trace_context);
-    }
+    if (l->opt.trace)
+        tell_trace(l, (rb_lcp_pivot){.pivot = iter,
+                                     .entering = entering,
+                                     .leaving = leaving,
+                                     .row = row,
+                                     .ratio = t->q[row],
+                                     .z0 = lemke_z0(l),
+                                     .n = l->n,
+                                     .basis = t->basis,
+                                     .nonbasis = t->nonbasis});
     return leaving;
 }
 
-static rb_status ray(lemke *l, int entering)
+static rb_status secondary_ray(lemke *l, int entering)
 {
     const int n = l->n;
     l->info->ray_variable = entering;
     return rb_fail(&l->info->msg, RB_RAY,
                    "lcp: secondary ray after %d pivots: no row blocks %c(%d); z0 = %g",
                    l->info->iters, entering < n ? 'w' : 'z', entering % n + 1,
-                   rb_lcp_lemke_z0(l));
+                   lemke_z0(l));
 }
 
-/* The row that blocks the entering variable, whose column comes to l->a; -1: none does.
- * Where none does, or the pivot may be a rounding error, the column may be wrong. */
-static rb_status find_row(lemke *l, int entering, int *row)
+/* z0 enters and makes w >= 0; then the complement of what has left enters, until z0
+ * leaves or vanishes (solved) or nothing blocks the entering variable (secondary ray). */
+static rb_status follow_path(lemke *l)
 {
-    rb_lcp_lemke_column(l, entering);
-    *row = rb_lcp_lemke_blocking_row(l);
-    if (*row >= 0 ? rb_lcp_lemke_pivot_holds(l, *row)
-                  : rb_lcp_lemke_column_holds(l, entering))
+    const int z0 = 2 * l->n;
+    int row = first_row(l);
+    if (row < 0)
         return RB_OK;
-    const rb_status s = rb_lcp_lemke_rebuild(l);
-    if (s == RB_OK) {
-        rb_lcp_lemke_column(l, entering);
-        *row = rb_lcp_lemke_blocking_row(l);
-    }
-    return s == RB_ENOMEM ? s : RB_OK;
-}
+    driving_column(l, z0);
+    int leaving = pivot(l, row, z0);
+    l->start = l->refreshed = lemke_z0(l);
 
-/* Errors are looked at when z0 has fallen, and now and then. */
-static rb_status keep_accurate(lemke *l)
-{
-    const int due = l->info->iters - l->checked >= 50 + l->n / 4;
-    return due || rb_lcp_lemke_z0(l) <= REFRESH * l->refreshed ? rb_lcp_lemke_refresh(l)
-                                                               : RB_OK;
-}
-
-/* After z0 has entered, until it leaves or vanishes. */
-static rb_status follow_path(lemke *l, int entering)
-{
     for (;;) {
-        int row;
+        const int entering = rb_lcp_complement(l->n, leaving);
         rb_status s = find_row(l, entering, &row);
         if (s == RB_OK && row < 0)
-            s = ray(l, entering);
+            s = secondary_ray(l, entering);
         if (s != RB_OK)
             return s;
-        const int leaving = pivot(l, row, entering);
-        if (leaving == 2 * l->n)
+        leaving = pivot(l, row, entering);
+        if (leaving == z0)
             return RB_OK;
-        s = keep_accurate(l);
-        if (s != RB_OK || rb_lcp_lemke_z0(l) <= l->opt.tol * l->start)
+        s = rb_lcp_lemke_keep_accurate(l);
+        if (s != RB_OK || lemke_z0(l) <= l->opt.tol * l->start)
             return s;
         if (l->info->iters >= l->opt.max_iters)
             return rb_fail(&l->info->msg, RB_MAXITER, "lcp: no solution after %d pivots",
                            l->info->iters);
-        entering = rb_lcp_complement(l->n, leaving);
     }
-}
-
-static rb_status run(lemke *l)
-{
-    const int row = rb_lcp_lemke_first_row(l), z0 = 2 * l->n;
-    if (row < 0)
-        return RB_OK;
-    rb_lcp_lemke_column(l, z0);
-    const int leaving = pivot(l, row, z0);
-    l->start = l->refreshed = rb_lcp_lemke_z0(l);
-    return follow_path(l, rb_lcp_complement(l->n, leaving));
 }
 
 static rb_status judge(lemke *l)
@@ -179,16 +324,14 @@ static rb_status judge(lemke *l)
                      l->info->res, l->info->iters);
 }
 
-/* ---- All together ---------------------------------------------------------------- */
+/* ---- All together ------------------------------------------------------------------ */
 
 static double largest_entry(const lcp_data *data)
 {
-    double largest = 0.0;
-    for (int j = 0; j < data->n; j++) {
-        const double *x = data->M + (size_t)j * (size_t)data->ldm;
-        largest = fmax(largest, fabs(x[cblas_idamax(data->n, x, 1)]));
-    }
-    return largest;
+    double most = 0.0;
+    for (int j = 0; j < data->n; j++)
+        most = fmax(most, largest(data->n, data->M + (size_t)j * (size_t)data->ldm));
+    return most;
 }
 
 static rb_status allocate(lemke *l)
@@ -197,7 +340,7 @@ static rb_status allocate(lemke *l)
     const int traced = l->opt.trace && l->opt.trace_tableau;
     const rb_status s = rb_lcp_tableau_create(&l->data, &l->t);
     l->a = rb_alloc(n + 1, 6);
-    l->tied = rb_alloc_int(2 * n + 1);
+    l->tied = rb_alloc_int(n);
     l->image = traced ? rb_alloc(n, n + 2) : NULL;
     if (s != RB_OK || !l->a || !l->tied || (traced && !l->image))
         return rb_fail(&l->info->msg, RB_ENOMEM,
@@ -208,7 +351,6 @@ static rb_status allocate(lemke *l)
     l->r = l->scratch + n;
     l->sum = l->r + n;
     l->weight = l->sum + n;
-    l->near = l->tied + n;
     return RB_OK;
 }
 
@@ -236,7 +378,7 @@ rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
     s = allocate(&l);
     if (s == RB_OK) {
         l.largest = largest_entry(&l.data);
-        s = run(&l);
+        s = follow_path(&l);
         rb_lcp_lemke_answer(&l, s == RB_OK, z);
     }
     if (s == RB_OK)

@@ -1,6 +1,9 @@
+/* The tableau of Lemke's method: pivots are collected, and each column is brought up to
+ * date when it is asked for; or all of it is formed anew from the data and the basis. */
 #include "lcp/tableau.h"
 
 #include <cblas.h>
+#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +21,10 @@ enum {
 /* Pivots to a block, and columns that pass through the blocks together: products wide
  * enough to be fast, memory that small problems do not notice. */
 enum { LARGEST_GROUP = 64 };
+
+/* A column that fewer pivots than NEARBY have passed is formed on the spot.  Where it is
+ * more than FAR pivots behind, the path is long enough for the largest group. */
+enum { NEARBY = 20, FAR = 64 };
 
 static int depth_of(int n)
 {
@@ -57,7 +64,8 @@ static void no_pivots(lcp_tableau *t)
     t->k = 0;
 }
 
-void rb_lcp_tableau_renewed(lcp_tableau *t)
+/* All columns of T are up to date. */
+static void all_current(lcp_tableau *t)
 {
     for (int c = 0; c <= t->n; c++)
         t->slot[c] = c;
@@ -95,6 +103,7 @@ static void share(lcp_tableau *t)
     t->slot = t->level + n + 1;
     t->spare = t->slot + n + 1;
     t->last = t->spare + n + 1;
+    t->wanted = t->last + n;
     t->before = t->row + t->room;
 }
 
@@ -110,7 +119,7 @@ rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
     const size_t rows = (size_t)n, room = (size_t)t->room, group = (size_t)t->group;
     t->T = rb_alloc(rows, rows + 2 + room + group);
     t->L = rb_alloc((size_t)depth, room + group);
-    t->basis = rb_alloc_int(8 * rows + 5);
+    t->basis = rb_alloc_int(9 * rows + 6);
     t->row = rb_alloc_int(2 * room);
     if (!t->T || !t->L || !t->basis || !t->row) {
         rb_lcp_tableau_free(t);
@@ -306,6 +315,58 @@ void rb_lcp_tableau_flush(lcp_tableau *t)
     no_pivots(t);
 }
 
+/* ---- Look-ahead ------------------------------------------------------------------- */
+
+/* Columns in the order of increasing ratios, at most `room` of them. */
+typedef struct {
+    int count, room;
+    int *column;
+    double *ratio;
+} shortlist;
+
+static void insert(shortlist *k, int column, double ratio)
+{
+    if (k->count == k->room && ratio >= k->ratio[k->count - 1])
+        return;
+    int j = k->count < k->room ? k->count++ : k->room - 1;
+    for (; j > 0 && k->ratio[j - 1] > ratio; j--) {
+        k->ratio[j] = k->ratio[j - 1];
+        k->column[j] = k->column[j - 1];
+    }
+    k->ratio[j] = ratio;
+    k->column[j] = column;
+}
+
+/* When a basic variable leaves, its complement enters, and the rows with the least ratios
+ * are the next to leave.  The step of the last driving column has been taken since, which
+ * changes all ratios alike. */
+static void choose_next(const lcp_tableau *t, int c, const double *driving, shortlist *k)
+{
+    insert(k, c, -1.0);
+    for (int i = 0; i < t->n; i++) {
+        if (driving[i] >= 0.0 || t->basis[i] == 2 * t->n)
+            continue;
+        const int place = t->place[rb_lcp_complement(t->n, t->basis[i])];
+        if (place < 0 && -1 - place != c)
+            insert(k, -1 - place, fmax(t->q[i], 0.0) / -driving[i]);
+    }
+}
+
+void rb_lcp_tableau_fetch(lcp_tableau *t, int c, const double *driving)
+{
+    const int behind = rb_lcp_tableau_behind(t, c);
+    if (behind <= NEARBY)
+        return;
+    if (!driving) {
+        rb_lcp_tableau_advance(t, 1, &c);
+        return;
+    }
+    const int room = behind > FAR || t->group < NEARBY ? t->group : NEARBY;
+    shortlist k = {0, room, t->wanted, t->S};
+    choose_next(t, c, driving, &k);
+    rb_lcp_tableau_advance(t, k.count, k.column);
+}
+
 /* ---- Pivots ----------------------------------------------------------------------- */
 
 static void exchange(lcp_tableau *t, int r, int c)
@@ -352,4 +413,128 @@ void rb_lcp_tableau_pivot(lcp_tableau *t, int r, int c, const double *a)
     exchange(t, r, c);
     if (t->k == t->room)
         rb_lcp_tableau_flush(t);
+}
+
+/* ---- The tableau from the data and the basis ----------------------------------------
+ */
+
+/* w = q + M z + d z0 solved for the basic variables: with C the basic ones of z and z0, R
+ * the rows whose w is nonbasic (as many), A = [M d]_RC and E = [M d]_rest,C,
+ *     x_C = -A^-1 g_R,   w_rest = g_rest + E x_C
+ * where g is q, or the coefficients of a nonbasic variable: M_:j, d, -e_i for w_i. */
+typedef struct {
+    const lcp_data *data;
+    int n, m;       /* order; size of R and C */
+    int *row, *var; /* n: R, then the rest; the variables solved for, in that order */
+    int *pivots;    /* m */
+    double *A, *E;  /* m x m, (n - m) x m */
+    double *g;      /* n: a column in the order of row */
+} solver;
+
+static void solver_free(solver *p)
+{
+    free(p->row);
+    free(p->A);
+    free(p->g);
+}
+
+static rb_status solver_alloc(const lcp_data *data, const lcp_tableau *t, solver *p)
+{
+    const int n = data->n;
+    *p = (solver){.data = data, .n = n};
+    for (int i = 0; i < n; i++)
+        p->m += t->place[i] < 0;
+    const size_t m = (size_t)p->m;
+    p->row = rb_alloc_int(2 * (size_t)n + m);
+    p->A = rb_alloc((size_t)n, m);
+    p->g = rb_alloc((size_t)n, 1);
+    if (!p->row || !p->A || !p->g) {
+        solver_free(p);
+        return RB_ENOMEM;
+    }
+    p->var = p->row + n;
+    p->pivots = p->var + n;
+    p->E = p->A + m * m;
+    return RB_OK;
+}
+
+static void choose_rows(const lcp_tableau *t, solver *p)
+{
+    const int n = p->n;
+    int r = 0, rest = p->m, c = 0;
+    for (int i = 0; i < n; i++)
+        p->row[t->place[i] < 0 ? r++ : rest++] = i;
+    for (int v = n; v <= 2 * n; v++)
+        if (t->place[v] >= 0)
+            p->var[c++] = v;
+    memcpy(p->var + p->m, p->row + p->m, (size_t)(n - p->m) * sizeof *p->var);
+}
+
+/* g of variable v. */
+static void gather(const solver *p, int v)
+{
+    const int n = p->n;
+    const double *x = p->data->M + (size_t)(v < n ? 0 : v - n) * (size_t)p->data->ldm;
+    for (int k = 0; k < n; k++) {
+        const int i = p->row[k];
+        p->g[k] = v < n ? -(double)(i == v) : v < 2 * n ? x[i] : rb_lcp_cover(p->data, i);
+    }
+}
+
+static int factor(solver *p)
+{
+    const size_t m = (size_t)p->m, rest = (size_t)(p->n - p->m);
+    for (size_t c = 0; c < m; c++) {
+        gather(p, p->var[c]);
+        memcpy(p->A + c * m, p->g, m * sizeof *p->A);
+        if (rest)
+            memcpy(p->E + c * rest, p->g + m, rest * sizeof *p->E);
+    }
+    return m == 0 ||
+           LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, p->m, p->m, p->A, p->m, p->pivots) == 0;
+}
+
+/* The columns of X, ld n, hold g in the order of row; they become the tableau's. */
+static void solve(solver *p, const lcp_tableau *t, int columns, double *X)
+{
+    const int n = p->n, m = p->m;
+    for (int c = 0; c < columns; c++)
+        cblas_dscal(m, -1.0, X + (size_t)c * (size_t)n, 1);
+    if (m)
+        LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', m, columns, p->A, m, p->pivots, X, n);
+    if (n > m)
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n - m, columns, m, 1.0,
+                    p->E, n - m, X, n, 1.0, X + m, n);
+    for (int c = 0; c < columns; c++) {
+        double *x = X + (size_t)c * (size_t)n;
+        memcpy(p->g, x, (size_t)n * sizeof *x);
+        for (int k = 0; k < n; k++)
+            x[t->place[p->var[k]]] = p->g[k];
+    }
+}
+
+rb_status rb_lcp_tableau_rebuild(lcp_tableau *t)
+{
+    const lcp_data *data = t->data;
+    const int n = t->n;
+    solver p;
+    rb_status s = solver_alloc(data, t, &p);
+    if (s != RB_OK)
+        return s;
+    choose_rows(t, &p);
+    if (factor(&p)) {
+        for (int c = 0; c <= n; c++) {
+            gather(&p, t->nonbasis[c]);
+            memcpy(t->T + (size_t)c * (size_t)n, p.g, (size_t)n * sizeof *p.g);
+        }
+        for (int k = 0; k < n; k++)
+            t->q[k] = data->q[p.row[k]];
+        solve(&p, t, n + 1, t->T);
+        solve(&p, t, 1, t->q);
+        all_current(t);
+    } else {
+        s = RB_SINGULAR;
+    }
+    solver_free(&p);
+    return s;
 }

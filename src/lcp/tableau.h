@@ -1,5 +1,5 @@
 /* The tableau of Lemke's method: basic = q + T nonbasic, with delayed updates.  Private
- * to the room lcp. */
+ * to src/lcp. */
 #ifndef LCP_TABLEAU_H
 #define LCP_TABLEAU_H
 
@@ -11,6 +11,11 @@ typedef struct {
     const double *M, *q, *cover; /* cover: d, NULL: ones */
     int ldm;
 } lcp_data;
+
+static inline int rb_lcp_complement(int n, int variable)
+{
+    return variable < n ? variable + n : variable - n;
+}
 
 static inline double rb_lcp_cover(const lcp_data *data, int i)
 {
@@ -46,6 +51,7 @@ typedef struct {
     int *row;    /* room: pivot rows */
     int *before; /* room: the last pivot on the same row before, or -1 */
     int *last;   /* n: the row's last pivot, or -1 */
+    int *wanted; /* n + 1: columns chosen by the look-ahead; scratch */
 
     int group; /* columns brought up to date together */
     double *X; /* n x group */
@@ -64,14 +70,16 @@ void rb_lcp_tableau_pivot(lcp_tableau *t, int r, int c, const double *a);
 int rb_lcp_tableau_behind(const lcp_tableau *t, int c);
 /* Brings these columns of T up to date; the order of `columns` is lost. */
 void rb_lcp_tableau_advance(lcp_tableau *t, int count, int *columns);
+/* Brings column c up to date if it is far behind and, where `driving` (the last driving
+ * column, n) is not NULL, with it the columns that Lemke's method will probably ask for
+ * next. */
+void rb_lcp_tableau_fetch(lcp_tableau *t, int c, const double *driving);
 /* x = the sum of weight_c T_:c; scratch: n. */
 void rb_lcp_tableau_combine(lcp_tableau *t, const double *weight, double *scratch,
                             double *x);
 /* Brings T up to date. */
 void rb_lcp_tableau_flush(lcp_tableau *t);
 /* T and q anew from the data and the basis.  RB_SINGULAR (t as before), RB_ENOMEM. */
-rb_status rb_lcp_tableau_rebuild(const lcp_data *data, lcp_tableau *t);
-/* T has been brought up to date by other means. */
-void rb_lcp_tableau_renewed(lcp_tableau *t);
+rb_status rb_lcp_tableau_rebuild(lcp_tableau *t);
 
 #endif

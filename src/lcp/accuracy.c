@@ -1,9 +1,16 @@
+/* What the rounding errors of the pivots have done, measured against the original matrix:
+ * the residual, the refreshing of the constants on the path, and the answer made exact.
+ */
 #include "lcp/lemke.h"
 
 #include <cblas.h>
 #include <lapacke.h>
 #include <math.h>
 #include <string.h>
+
+/* The constants are refreshed whenever z0 has fallen by this factor: otherwise z0 drowns
+ * in rounding just when it should vanish. */
+static const double REFRESH = 1e-3;
 
 /* Beyond this relative defect a tableau is not refined but rebuilt. */
 static const double DRIFT = 1e-12;
@@ -12,7 +19,50 @@ static const double DRIFT = 1e-12;
  * still zero. */
 static const double ZERO = 1e-10;
 
-/* ---- On the way ------------------------------------------------------------------- */
+/* ---- The residual ------------------------------------------------------------------ */
+
+enum { PANEL = 512 }; /* rows of w formed at a time: no memory is asked for */
+
+/* The larger of worst and max |min(z, w)|; a NaN stays. */
+static double natural(int n, const double *z, const double *w, double worst)
+{
+    for (int i = 0; i < n; i++) {
+        const double m = z[i] < w[i] ? z[i] : w[i];
+        if (isnan(z[i]) || isnan(w[i]) || isnan(worst))
+            return NAN;
+        worst = fmax(worst, fabs(m));
+    }
+    return worst;
+}
+
+/* Half of z and more is zero: only runs of other entries are gone through. */
+static void add_product(int rows, int columns, const double *M, int ldm, const double *z,
+                        double *w)
+{
+    for (int from = 0, to; from < columns; from = to + 1) {
+        for (to = from; to < columns && z[to] != 0.0;)
+            to++;
+        if (to > from)
+            cblas_dgemv(CblasColMajor, CblasNoTrans, rows, to - from, 1.0,
+                        M + (size_t)from * (size_t)ldm, ldm, z + from, 1, 1.0, w, 1);
+    }
+}
+
+double rb_lcp_residual(int n, const double *M, int ldm, const double *q, const double *z,
+                       double *w)
+{
+    double panel[PANEL], worst = 0.0;
+    for (int first = 0; first < n; first += PANEL) {
+        const int rows = n - first < PANEL ? n - first : PANEL;
+        double *part = w ? w + first : panel;
+        cblas_dcopy(rows, q + first, 1, part, 1);
+        add_product(rows, n, M + first, ldm, z, part);
+        worst = natural(rows, z + first, part, worst);
+    }
+    return worst;
+}
+
+/* ---- On the path ------------------------------------------------------------------- */
 
 /* Of the variables first ... first + n - 1: the basic ones as given, `entering` 1, the
  * other nonbasic ones 0. */
@@ -41,7 +91,7 @@ static double defect(const lemke *l, const double *constant, const double *basic
         r[i] = fixed + cover - r[i];
     }
     size = fmax(size, l->largest * values(l, basic, entering, n, z));
-    rb_lcp_add_product(n, n, l->data.M, l->data.ldm, z, r);
+    add_product(n, n, l->data.M, l->data.ldm, z, r);
     return size > 0.0 ? rb_norm_inf((size_t)n, r) / size : 0.0;
 }
 
@@ -63,7 +113,7 @@ static void refine(lemke *l, const double *r)
 rb_status rb_lcp_lemke_rebuild(lemke *l)
 {
     l->rebuilt = l->info->iters;
-    const rb_status s = rb_lcp_tableau_rebuild(&l->data, &l->t);
+    const rb_status s = rb_lcp_tableau_rebuild(&l->t);
     return s == RB_ENOMEM
                ? rb_fail(&l->info->msg, s, "lcp: no memory to rebuild the tableau")
                : s;
@@ -78,7 +128,7 @@ static void keep_zeros(lemke *l, const double *before)
             l->t.q[i] = 0.0;
 }
 
-rb_status rb_lcp_lemke_refresh(lemke *l)
+static rb_status refresh(lemke *l)
 {
     rb_status s = RB_SINGULAR;
     double *r = l->r, *before = l->scratch;
@@ -88,9 +138,15 @@ rb_status rb_lcp_lemke_refresh(lemke *l)
     if (s == RB_SINGULAR)
         refine(l, r);
     keep_zeros(l, before);
-    l->refreshed = rb_lcp_lemke_z0(l);
+    l->refreshed = lemke_z0(l);
     l->checked = l->info->iters;
     return s == RB_ENOMEM ? s : RB_OK;
+}
+
+rb_status rb_lcp_lemke_keep_accurate(lemke *l)
+{
+    const int many_pivots = l->info->iters - l->checked >= 50 + l->n / 4;
+    return many_pivots || lemke_z0(l) <= REFRESH * l->refreshed ? refresh(l) : RB_OK;
 }
 
 int rb_lcp_lemke_column_holds(lemke *l, int entering)
