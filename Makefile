@@ -31,13 +31,14 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: all run test check-tests asan bench install help clean packages check-packages
+.PHONY: all run test test-all check-tests asan bench install help clean packages check-packages
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
 	@echo "make            build $(B)/rollbem and the libraries (installs nothing)"
 	@echo "make run        install missing packages, build, solve and print the main example"
 	@echo "make test       install missing packages, build, run all tests"
+	@echo "make test-all   the same without leaving out any case of the long tests"
 	@echo "make asan       the tests under the address and undefined-behaviour sanitizers"
 	@echo "make bench      the benchmarks (ratios measured in one run)"
 	@echo "make install    to PREFIX=$(PREFIX), below DESTDIR"
@@ -52,6 +53,9 @@ run: packages
 
 test: packages
 	@$(MAKE) --no-print-directory B=$(B) check-tests
+
+# tests with more cases than a minute allows run a part of them unless this variable is set
+test-all: ; @ROLLBEM_TEST_ALL=1 $(MAKE) --no-print-directory B=$(B) test
 
 # only the summary line comes last: continuous integration reads it
 check-tests: all $(TESTS)
