@@ -155,6 +155,47 @@ static void what_has_no_solution_is_not_solved(void **state)
     }
 }
 
+static void the_iteration_limit_is_that_of_the_whole_call(void **state)
+{
+    (void)state;
+    int count;
+    const rb_friction_solver *all = rb_friction_solvers(&count);
+    for (int k = 0; k < count; k++)
+        for (int most = 1; most <= 3; most += 2) {
+            rb_friction_problem p;
+            rb_friction_info info;
+            rb_friction_options opt = rb_friction_defaults();
+            double r[120], u[120];
+            opt.tol = 1e-14;
+            opt.max_iters = most;
+            chain(2, 60, &p);
+            rb_friction_solve(all[k].name, &p, &opt, r, u, NULL, &info);
+            CHECK_MAX(info.iters, most, "%s with --max-iters %d", all[k].name, most);
+            rb_friction_problem_free(&p);
+        }
+}
+
+static void info_may_be_null(void **state)
+{
+    (void)state;
+    int count;
+    const rb_friction_solver *all = rb_friction_solvers(&count);
+    rb_friction_problem p;
+    double r[20], u[20];
+    chain(2, 10, &p);
+    for (int k = 0; k < count; k++)
+        CHECK_STATUS(rb_friction_solve(all[k].name, &p, NULL, r, u, NULL, NULL), RB_OK);
+    CHECK_STATUS(rb_friction_solve("none", &p, NULL, r, u, NULL, NULL), RB_EINVAL);
+    CHECK_MAX(violation(&p, r, u), 1e-6, "without info");
+    rb_friction_problem_free(&p);
+    const double M[] = {2.0}, q[] = {-1.0};
+    const int one[] = {1};
+    const rb_friction_soclcp_problem cone = {1, M, q, 1, one};
+    CHECK_STATUS(rb_friction_soclcp(&cone, NULL, r, u, NULL), RB_OK);
+    CHECK_ABS(r[0], 0.5, 1e-7, "half a line");
+    assert_non_null(rb_friction_status_text(RB_OK, 1e-8, NULL));
+}
+
 /* ---- The canonical SOCLCP -------------------------------------------------------------
  */
 
@@ -201,6 +242,29 @@ static void cones_of_every_size(void **state)
         CHECK_ABS(x[i], want[i], 1e-9, "x[%d]", i);
         CHECK_ABS(y[i], planted[i], 1e-9, "y[%d]", i);
     }
+}
+
+/* x = (1, e), y = (1, -e) / 2 on one cone of 200 entries: W = 1, q = y - x. */
+static void a_cone_of_any_size(void **state)
+{
+    (void)state;
+    enum { N = 200 };
+    const int size[] = {N};
+    static double M[N * N], q[N], x[N], y[N];
+    unsigned seed = 9;
+    double norm = 0.0;
+    for (int i = 1; i < N; i++)
+        x[i] = uniform(&seed), norm = hypot(norm, x[i]);
+    x[0] = norm;
+    for (int i = 0; i < N; i++) {
+        M[i + i * N] = 1.0;
+        q[i] = (i ? -0.5 : 0.5) * x[i] - x[i];
+    }
+    const rb_friction_soclcp_problem p = {N, M, q, 1, size};
+    rb_friction_info info;
+    CHECK_MAX(rb_friction_soclcp_error(&p, x, y), 1e-14, "planted");
+    CHECK_STATUS(rb_friction_soclcp(&p, NULL, x, y, &info), RB_OK);
+    CHECK_ABS(x[0], norm, 1e-6, "x_0");
 }
 
 static void bad_cones_are_refused(void **state)
@@ -350,7 +414,10 @@ int main(void)
         cmocka_unit_test(every_solver_obeys_coulomb),
         cmocka_unit_test(solvers_without_need_of_w_take_a_singular_k),
         cmocka_unit_test(what_has_no_solution_is_not_solved),
+        cmocka_unit_test(the_iteration_limit_is_that_of_the_whole_call),
+        cmocka_unit_test(info_may_be_null),
         cmocka_unit_test(cones_of_every_size),
+        cmocka_unit_test(a_cone_of_any_size),
         cmocka_unit_test(bad_cones_are_refused),
         cmocka_unit_test(failing_allocations_are_reported),
         cmocka_unit_test(fclib_files_are_solved),

@@ -102,7 +102,8 @@ rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
 
 typedef struct {
     double tol;       /* on the measure (13); default 1e-8 */
-    int max_iters;    /* 0: the solver's own limit */
+    int max_iters;    /* of the whole call, every part of a solver that runs others
+                         counted; 0: the solver's own limit */
     double seconds;   /* time limit; 0: none */
     const double *r0; /* m: start; NULL: zero; borrowed */
     const double *v0; /* n: start of the global form with singular K; NULL: zero */
@@ -137,7 +138,7 @@ rb_friction_options rb_friction_defaults(void);
  * the best iterate when not solved. RB_OK: residual <= max(tol, floor).  RB_MAXITER,
  * RB_RAY, RB_SINGULAR, RB_INACCURATE, RB_INTERRUPTED (time limit): not solved. RB_EINVAL:
  * unknown solver, problem refused by rb_friction_problem_check or by the solver;
- * info->msg says which. */
+ * info->msg says which.  info: written, or NULL. */
 rb_status rb_friction_solve(const char *solver, const rb_friction_problem *problem,
                             const rb_friction_options *opt, double *r, double *u,
                             double *v, rb_friction_info *info);
@@ -159,8 +160,8 @@ typedef struct {
     const double *M; /* n x n column-major */
     const double *q; /* n */
     int cones;
-    const int *size; /* cones: k > 1 the Lorentz cone {x_0 >= ||x_1 ...||}, 1 a half-line;
-                        at most 64 */
+    const int
+        *size; /* cones: k > 1 the Lorentz cone {x_0 >= ||x_1 ...||}, 1 a half-line */
 } rb_friction_soclcp_problem;
 
 /* The same, owning its arrays.  Cones of slope tau in a file, ||x_1|| <= tau x_0, are
@@ -177,7 +178,8 @@ rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *dat
 void rb_friction_soclcp_data_free(rb_friction_soclcp_data *data);
 
 /* Smoothing and regularisation (Hayashi, Yamashita, Fukushima).  opt->r0: start x.  x, y:
- * n, written.  info->residual: ||x - P(x - y)|| / ||q||, recomputed from x. */
+ * n, written.  info->residual: ||x - P(x - y)|| / ||q||, recomputed from x; info may be
+ * NULL. */
 rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *problem,
                              const rb_friction_options *opt, double *x, double *y,
                              rb_friction_info *info);

@@ -18,22 +18,24 @@ typedef enum {
 typedef struct {
     const char *name;
     rb_friction_method *method;
-    int limit; /* iterations */
+    int limit; /* iterations; 0: the method's own */
     int flags;
 } stage;
+
+#define QUICK_SWEEPS 100
 
 static rb_status quick_sweeps(rb_friction_task *task)
 {
     return rb_friction_sweeps(
         task, RB_FRICTION_SWEEP_ANDERSON | RB_FRICTION_SWEEP_UNLESS_STALLED,
-        task->opt.max_iters);
+        rb_friction_task_left(task, QUICK_SWEEPS));
 }
 
 /* Some sweeps are cheap where W is there and solve most problems; where they stall,
  * Jean-Moreau's function is the one that cycles least from there.  The global form would
  * have to be condensed for them. */
 static const stage stages[] = {
-    {"nsgs-aa", quick_sweeps, 100, GIVEN_W},
+    {"nsgs-aa", quick_sweeps, QUICK_SWEEPS, GIVEN_W},
     {"nsn-jm-nls", rb_friction_nsn_jm_nls, 16, GIVEN_W | RESUME | EARLY},
     {"nsn-ac-nls", rb_friction_nsn_ac_nls, 12, GIVEN_W | FROM_BEST | EARLY},
     {"nsn-fb", rb_friction_nsn_fb, 15, GIVEN_W | EARLY},
@@ -41,7 +43,7 @@ static const stage stages[] = {
     {"nsgs-aa", rb_friction_nsgs_aa, 1000, GIVEN_W},
     {"nsn-ac", rb_friction_nsn_ac, 40, EARLY},
     {"nsgs-aa", rb_friction_nsgs_aa, 1000, NEEDS_W},
-    {"nsn-ac-hybrid", rb_friction_nsn_ac_nls, 30, NEEDS_W | RESUME | EARLY},
+    {"nsn-ac-nls", rb_friction_nsn_ac_nls, 30, NEEDS_W | RESUME | EARLY},
     {"nsn-fb", rb_friction_nsn_fb, 60, EARLY},
     {"nsn-nm", rb_friction_nsn_nm, 60, EARLY},
     {"nsn-jm", rb_friction_nsn_jm, 100, EARLY},
@@ -64,6 +66,7 @@ static const stage stages[] = {
 
 typedef struct {
     double *start, *best; /* m + n each: r, v; start NULL: zero */
+    int most;             /* iterations of all stages together; 0: no limit */
     double error;
     const char *solver;
 } record;
@@ -107,7 +110,10 @@ static rb_status try_stage(rb_friction_task *task, const stage *s, record *rec)
 {
     if (!(s->flags & RESUME))
         load(task, s->flags & FROM_BEST ? rec->best : rec->start);
-    task->opt.max_iters = affordable(task, s);
+    const int limit = affordable(task, s);
+    task->opt.max_iters = rec->most;
+    if (limit)
+        task->opt.max_iters = task->info->iters + rb_friction_task_left(task, limit);
     const rb_status status = rb_friction_run(task, s->method);
     task->info->solver = s->name;
     if (status <= 0)
@@ -154,13 +160,17 @@ rb_status rb_friction_auto(rb_friction_task *task)
 {
     const rb_friction_options given = task->opt;
     const size_t n = sizeof stages / sizeof *stages;
-    record rec = {.error = INFINITY};
+    record rec = {.most = given.max_iters, .error = INFINITY};
     rb_status s = RB_MAXITER;
     if ((given.r0 || given.v0) && !store(task, &rec.start))
         s = RB_ENOMEM;
-    for (size_t k = 0; s > 0 && s != RB_INTERRUPTED && k < n; k++)
+    for (size_t k = 0; s > 0 && s != RB_INTERRUPTED && k < n; k++) {
+        task->opt.max_iters = given.max_iters;
+        if (k && !rb_friction_task_left(task, 1))
+            break;
         if (fits(task, &stages[k]))
             s = try_stage(task, &stages[k], &rec);
+    }
     if (s > 0 && s != RB_INTERRUPTED)
         s = RB_MAXITER; /* what the last stage stumbled on is not the reason */
     if (s > 0 && rec.solver) {

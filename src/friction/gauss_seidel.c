@@ -242,7 +242,7 @@ rb_status rb_friction_sweeps(rb_friction_task *task, int flags, int limit)
 
 static int limit_of(const rb_friction_task *task)
 {
-    return task->opt.max_iters ? task->opt.max_iters : SWEEPS;
+    return rb_friction_task_left(task, SWEEPS);
 }
 
 rb_status rb_friction_nsgs_ac(rb_friction_task *task)

@@ -22,8 +22,8 @@ static int goes_on(rb_status s)
 static rb_status plain_newton(rb_friction_task *task)
 {
     const rb_friction_options given = task->opt;
-    if (!given.max_iters || given.max_iters > STEPS_BEFORE_SEARCH)
-        task->opt.max_iters = STEPS_BEFORE_SEARCH;
+    task->opt.max_iters =
+        task->info->iters + rb_friction_task_left(task, STEPS_BEFORE_SEARCH);
     const rb_status st = rb_friction_nsn_ac_nls(task);
     task->opt = given;
     return st;
@@ -32,8 +32,8 @@ static rb_status plain_newton(rb_friction_task *task)
 static rb_status few_sweeps(rb_friction_task *task, const double *start)
 {
     const double before = rb_friction_task_error(task);
-    const rb_status st =
-        rb_friction_sweeps(task, RB_FRICTION_SWEEP_ANDERSON, FIRST_SWEEPS);
+    const rb_status st = rb_friction_sweeps(task, RB_FRICTION_SWEEP_ANDERSON,
+                                            rb_friction_task_left(task, FIRST_SWEEPS));
     if (!goes_on(st))
         return st;
     if (rb_friction_task_error(task) > WORTH * before)
@@ -46,7 +46,7 @@ static rb_status few_sweeps(rb_friction_task *task, const double *start)
 static rb_status many_sweeps(rb_friction_task *task, double *rough)
 {
     const size_t bytes = (size_t)task->m * sizeof *rough;
-    rb_status st = rb_friction_sweeps(task, 0, MANY_SWEEPS);
+    rb_status st = rb_friction_sweeps(task, 0, rb_friction_task_left(task, MANY_SWEEPS));
     if (!goes_on(st))
         return st;
     memcpy(rough, task->r, bytes);

@@ -229,6 +229,9 @@ rb_status rb_friction_sweeps(rb_friction_task *task, int flags, int limit);
 
 /* (13) at the task's r and v, which also brings u (and v) up to date; counts flops. */
 double rb_friction_task_error(rb_friction_task *task);
+/* Iterations that the task's max_iters leaves: at most `own` of a method, which has
+ * max_iters 0 mean. */
+int rb_friction_task_left(const rb_friction_task *task, int own);
 /* error at or below the tolerance or the floor */
 int rb_friction_task_accepts(const rb_friction_task *task, double error);
 int rb_friction_task_late(const rb_friction_task *task);

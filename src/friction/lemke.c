@@ -13,6 +13,7 @@
 #include "rollbem/lcp.h"
 
 #include <lapacke.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -258,6 +259,9 @@ static rb_status run_attempt(lemke *s, const attempt *a)
     rb_friction_task *t = s->task;
     rb_lcp_options opt = rb_lcp_defaults();
     rb_lcp_info info = {0};
+    const int left = rb_friction_task_left(t, INT_MAX);
+    if (!left)
+        return RB_MAXITER;
     if (a->mirror)
         mirror(s);
     rb_status st = form(s, a);
@@ -265,7 +269,7 @@ static rb_status run_attempt(lemke *s, const attempt *a)
         choose_cover(s, a);
         opt.cover = s->cover;
         opt.rule = a->rule;
-        opt.max_iters = t->opt.max_iters;
+        opt.max_iters = left < INT_MAX ? left : 0; /* 0: Lemke's own limit */
         st = rb_lcp_lemke(s->n, s->M, s->n, s->b, &opt, s->z, &info);
         t->info->iters += info.iters;
         t->info->flops += 2.0 * s->n * (double)s->n * info.iters;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define STEPS 200
 #define MEMORY 5 /* merit values a step may rise to */
 #define HALVINGS 12
 #define LEAST_SHIFT 1e-12 /* of W's own blocks, added to W in the matrix (not in F) */
@@ -182,7 +183,7 @@ static rb_status solve(rb_friction_task *task, rb_friction_function *function,
     rb_status st = newton_init(task, function, &s);
     if (st != RB_OK)
         return st;
-    st = iterate(&s, line_search, task->opt.max_iters ? task->opt.max_iters : 200);
+    st = iterate(&s, line_search, rb_friction_task_left(task, STEPS));
     if (isfinite(s.best)) {
         memcpy(task->r, s.best_r, (size_t)task->m * sizeof(double));
         memcpy(task->v, s.best_v, (size_t)task->n * sizeof(double));

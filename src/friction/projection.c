@@ -130,8 +130,7 @@ static rb_status solve(rb_friction_task *task, int extragradient)
     projector s;
     rb_status st = projector_init(task, &s);
     if (st == RB_OK)
-        st =
-            iterate(&s, extragradient, task->opt.max_iters ? task->opt.max_iters : STEPS);
+        st = iterate(&s, extragradient, rb_friction_task_left(task, STEPS));
     projector_free(&s);
     return st;
 }

@@ -52,7 +52,7 @@ rb_friction_options rb_friction_defaults(void)
 
 const char *rb_friction_status_text(rb_status s, double tol, const rb_friction_info *info)
 {
-    if (s == RB_OK && info->residual > tol)
+    if (s == RB_OK && info && info->residual > tol)
         return "solved-to-rounding";
     return rb_status_text(s);
 }
@@ -100,6 +100,15 @@ int rb_friction_task_accepts(const rb_friction_task *task, double error)
                        fmin(LARGEST_FLOOR,
                             rb_friction_measure_floor(task->measure, task->r, task->v)));
     return error <= allowed && least <= allowed;
+}
+
+int rb_friction_task_left(const rb_friction_task *task, int own)
+{
+    const int most = task->opt.max_iters;
+    if (!most)
+        return own;
+    const int left = most > task->info->iters ? most - task->info->iters : 0;
+    return left < own ? left : own;
 }
 
 int rb_friction_task_late(const rb_friction_task *task)
@@ -204,6 +213,9 @@ rb_status rb_friction_solve(const char *solver, const rb_friction_problem *probl
     const rb_friction_options used = opt ? *opt : rb_friction_defaults();
     const char *name = solver ? solver : "auto";
     int chosen;
+    rb_friction_info unwanted;
+    if (!info)
+        info = &unwanted;
     *info = (rb_friction_info){.solver = name, .residual = INFINITY};
     rb_status s = check_call(name, problem, &used, &chosen, &info->msg);
     if (s != RB_OK)

@@ -90,11 +90,31 @@ static int canonical_late(void *context)
     return c->deadline > 0.0 && rb_seconds() > c->deadline;
 }
 
+/* ||x - P(x - y)|| on one Lorentz cone of any size */
+static double cone_error(int size, const double *x, const double *y)
+{
+    const double s0 = x[0] - y[0];
+    double t = 0.0, sum = 0.0;
+    for (int a = 1; a < size; a++)
+        t = hypot(t, x[a] - y[a]);
+    /* of s = x - y: P(s) = (p_0, g s_1) */
+    double p0 = s0, g = 1.0;
+    if (s0 <= -t) {
+        p0 = g = 0.0;
+    } else if (s0 < t) {
+        p0 = 0.5 * (s0 + t);
+        g = p0 / t;
+    }
+    for (int a = 1; a < size; a++)
+        sum = hypot(sum, x[a] - g * (x[a] - y[a]));
+    return hypot(sum, x[0] - p0);
+}
+
 double rb_friction_soclcp_error(const rb_friction_soclcp_problem *p, const double *x,
                                 double *y)
 {
     const int n = p->n;
-    double sum = 0.0, norm = 0.0, s[64], P[64];
+    double sum = 0.0, norm = 0.0;
     for (int i = 0; i < n; i++) {
         y[i] = p->q[i];
         norm = hypot(norm, p->q[i]);
@@ -102,13 +122,8 @@ double rb_friction_soclcp_error(const rb_friction_soclcp_problem *p, const doubl
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++)
             y[i] += p->M[i + (size_t)j * (size_t)n] * x[j];
-    for (int k = 0, at = 0; k < p->cones; at += p->size[k++]) {
-        for (int a = 0; a < p->size[k]; a++)
-            s[a] = x[at + a] - y[at + a];
-        rb_friction_smoothed(p->size[k], 0.0, s, P, NULL);
-        for (int a = 0; a < p->size[k]; a++)
-            sum = hypot(sum, x[at + a] - P[a]);
-    }
+    for (int k = 0, at = 0; k < p->cones; at += p->size[k++])
+        sum = hypot(sum, cone_error(p->size[k], x + at, y + at));
     return norm > 0.0 ? sum / norm : sum;
 }
 
@@ -124,9 +139,10 @@ static rb_status check_canonical(const rb_friction_soclcp_problem *p, int *large
     int sum = 0;
     *largest = 0;
     for (int k = 0; k < p->cones; k++) {
-        if (p->size[k] < 1 || p->size[k] > 64)
-            return rb_fail(why, RB_EINVAL, "cone %d has dimension %d: expected 1 ... 64",
-                           k + 1, p->size[k]);
+        if (p->size[k] < 1 || p->size[k] > p->n - sum)
+            return rb_fail(why, RB_EINVAL,
+                           "cone %d has dimension %d: expected 1 ... %d, what is left",
+                           k + 1, p->size[k], p->n - sum);
         sum += p->size[k];
         if (p->size[k] > *largest)
             *largest = p->size[k];
@@ -179,6 +195,9 @@ rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p,
     const double start = rb_seconds();
     const rb_friction_options used = opt ? *opt : rb_friction_defaults();
     int largest;
+    rb_friction_info unwanted;
+    if (!info)
+        info = &unwanted;
     *info = (rb_friction_info){.solver = "soclcp-smoothing", .residual = INFINITY};
     rb_status s = check_canonical(p, &largest, &info->msg);
     if (s != RB_OK)
@@ -374,7 +393,7 @@ static rb_status run_friction(friction *f, double *z)
     };
     memcpy(z, t->r, (size_t)t->m * sizeof *z);
     memcpy(z + t->m + t->contacts, t->v, (size_t)t->n * sizeof *z);
-    const int limit = t->opt.max_iters ? t->opt.max_iters : LIMIT;
+    const int limit = rb_friction_task_left(t, LIMIT);
     const rb_status st = rb_friction_smooth(&smooth, limit, z, &t->info->iters);
     friction_accepts(f, z);
     return st;

@@ -295,6 +295,9 @@ static rb_status follow_path(lemke *l)
     l->start = l->refreshed = lemke_z0(l);
 
     for (;;) {
+        if (l->info->iters >= l->opt.max_iters)
+            return rb_fail(&l->info->msg, RB_MAXITER, "lcp: no solution after %d pivots",
+                           l->info->iters);
         const int entering = rb_lcp_complement(l->n, leaving);
         rb_status s = find_row(l, entering, &row);
         if (s == RB_OK && row < 0)
@@ -307,9 +310,6 @@ static rb_status follow_path(lemke *l)
         s = rb_lcp_lemke_keep_accurate(l);
         if (s != RB_OK || lemke_z0(l) <= l->opt.tol * l->start)
             return s;
-        if (l->info->iters >= l->opt.max_iters)
-            return rb_fail(&l->info->msg, RB_MAXITER, "lcp: no solution after %d pivots",
-                           l->info->iters);
     }
 }
 
