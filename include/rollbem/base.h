@@ -26,7 +26,7 @@ typedef enum {
 
 /* One line for people: what, where, what was wanted.  Callers may pass NULL. */
 typedef struct {
-    char text[320];
+    char text[640];
 } rb_message;
 
 /* Writes the formatted line into why (if any) and returns s, so that a refusal is
@@ -39,6 +39,18 @@ rb_fail(rb_message *why, rb_status s, const char *format, ...);
 
 /* "solved", "secondary ray", ...: static text. */
 const char *rb_status_text(rb_status s);
+
+/* The candidate nearest to a misspelt word.  Start with {.word = word}. */
+typedef struct {
+    const char *word, *best;
+    int distance;
+    char text[80];
+} rb_guess;
+
+void rb_guess_try(rb_guess *guess, const char *candidate);
+/* " (did you mean '...'?)", or "" when nothing is near; prefix is put before the word.
+ * Returns guess->text. */
+const char *rb_guess_text(rb_guess *guess, const char *prefix);
 
 /* rows x cols doubles (or ints, or n bytes), zeroed; NULL when memory is short or the
  * product overflows.  Released with free(). */

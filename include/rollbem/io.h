@@ -42,11 +42,14 @@ typedef struct {
  * than in the first row or than names, not a number, a name twice, no row; RB_ENOMEM.
  * t: overwritten, empty after a failure. */
 rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why);
+/* The same for a table of exactly that many columns. */
+rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t,
+                                   rb_message *why);
 /* rows numbers; NULL when there is no such column. */
 const double *rb_io_table_column(const rb_io_table *t, const char *name);
 void rb_io_table_free(rb_io_table *t);
 
-/* A table of exactly that many columns.  x: *rows values of the first column, then of the
+/* Its numbers alone.  x: *rows values of the first column, then of the
  * second, ...; owned by the caller.  Otherwise as rb_io_table_read. */
 rb_status rb_io_read_columns(const char *path, int columns, int *rows, double **x,
                              rb_message *why);

@@ -3,6 +3,7 @@
 #ifndef ROLLBEM_REPORT_H
 #define ROLLBEM_REPORT_H
 
+#include "rollbem/case.h"
 #include "rollbem/rolling.h"
 
 #include <stdio.h>
@@ -42,6 +43,8 @@ struct json_t *rb_report_json_number(double x);
 struct json_t *rb_report_json_numbers(int n, const double *x);
 struct json_t *rb_report_json_summary(const rb_rolling_case *rc,
                                       const rb_rolling_solution *s);
+/* Every value that the settled case uses, defaults included. */
+struct json_t *rb_report_json_inputs(const rb_case *c);
 struct json_t *rb_report_json_table(const rb_rolling_solution *s);
 struct json_t *rb_report_json_errors(const rb_rolling_errors *errors);
 struct json_t *rb_report_json_history(const rb_rolling_history *h,

@@ -5,6 +5,7 @@
 #include "rollbem/base.h"
 #include "rollbem/bem.h"
 #include "rollbem/blas.h"
+#include "rollbem/case.h"
 #include "rollbem/closed_forms.h"
 #include "rollbem/fem.h"
 #include "rollbem/friction.h"

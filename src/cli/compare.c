@@ -19,32 +19,32 @@ typedef struct {
     const char *plot, *output;
 } compare_options;
 
-static const cli_choice measures[] = {{"flops", COST_FLOPS},
-                                      {"seconds", COST_SECONDS},
-                                      {"iterations", COST_ITERATIONS},
-                                      {NULL, 0}};
+static const rb_choice measures[] = {{"flops", COST_FLOPS},
+                                     {"seconds", COST_SECONDS},
+                                     {"iterations", COST_ITERATIONS},
+                                     {NULL, 0}};
 
 #define PLACE(member) offsetof(compare_options, member)
 
-static const cli_option options[] = {
-    CLI_GROUP_LINE("compare", "Comparison"),
-    CLI_TEXT_LINE("solvers", PLACE(solvers), "A,B,...", "which solvers",
-                  .unset = "all that rollbem friction has"),
-    CLI_NUMBER_LINE("tol", PLACE(tol), "", CLI_ABOVE(0.0),
-                    "recomputed error that counts as solved"),
-    CLI_NUMBER_LINE("limit", PLACE(limit), "s", CLI_ABOVE(0.0),
-                    "time for one solver on one problem"),
-    CLI_INTEGER_LINE("max-iters", PLACE(max_iters), CLI_FROM_TO(1, 1e9),
-                     "iteration limit", .unset = "each solver's own"),
-    CLI_CHOICE_LINE("measure", PLACE(measure), measures,
-                    "cost that the profiles and the picture compare"),
-    CLI_GROUP_LINE("output", "Output"),
-    CLI_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
-    CLI_TEXT_LINE("plot", PLACE(plot), "FILE",
-                  "picture of the profiles (.png, .svg, .pdf)", .unset = "none"),
-    CLI_TEXT_LINE("output", PLACE(output), "FILE",
-                  "where the tables or JSON go, whole or not at all",
-                  .unset = "standard output"),
+static const rb_option options[] = {
+    RB_GROUP_LINE("compare", "Comparison"),
+    RB_TEXT_LINE("solvers", PLACE(solvers), "A,B,...", "which solvers",
+                 .unset = "all that rollbem friction has"),
+    RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
+                   "recomputed error that counts as solved"),
+    RB_NUMBER_LINE("limit", PLACE(limit), "s", RB_ABOVE(0.0),
+                   "time for one solver on one problem"),
+    RB_INTEGER_LINE("max-iters", PLACE(max_iters), RB_FROM_TO(1, 1e9), "iteration limit",
+                    .unset = "each solver's own"),
+    RB_CHOICE_LINE("measure", PLACE(measure), measures,
+                   "cost that the profiles and the picture compare"),
+    RB_GROUP_LINE("output", "Output"),
+    RB_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
+    RB_TEXT_LINE("plot", PLACE(plot), "FILE",
+                 "picture of the profiles (.png, .svg, .pdf)", .unset = "none"),
+    RB_TEXT_LINE("output", PLACE(output), "FILE",
+                 "where the tables or JSON go, whole or not at all",
+                 .unset = "standard output"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0], MOST_SOLVERS = 32, TAUS = 61 };
@@ -97,9 +97,9 @@ static cli_exit add_solver(comparison *c, const char *name)
 {
     int n;
     const rb_friction_solver *all = rb_friction_solvers(&n);
-    cli_guess guess = {.word = name};
+    rb_guess guess = {.word = name};
     for (int k = 0; k < n; k++) {
-        cli_guess_try(&guess, all[k].name);
+        rb_guess_try(&guess, all[k].name);
         if (strcmp(all[k].name, name))
             continue;
         for (int s = 0; s < c->solvers; s++)
@@ -109,7 +109,7 @@ static cli_exit add_solver(comparison *c, const char *name)
         return CLI_CONTINUE;
     }
     return cli_fail(CLI_USAGE, "--solvers: no friction solver is called '%s'%s", name,
-                    cli_guess_text(&guess, ""));
+                    rb_guess_text(&guess, ""));
 }
 
 static cli_exit choose_solvers(comparison *c)

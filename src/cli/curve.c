@@ -14,16 +14,16 @@ typedef struct {
 
 #define PLACE(member) offsetof(range_options, member)
 
-static const cli_choice variables[] = {{"creep-ratio", 0}, {"creep", 1}, {NULL, 0}};
+static const rb_choice variables[] = {{"creep-ratio", 0}, {"creep", 1}, {NULL, 0}};
 
-static const cli_option options[] = {
-    CLI_GROUP_LINE("curve", "Range of the curve"),
-    CLI_NUMBER_LINE("from", PLACE(from), "-", CLI_ANY, "first value"),
-    CLI_NUMBER_LINE("to", PLACE(to), "-", CLI_ANY, "last value"),
-    CLI_INTEGER_LINE("points", PLACE(points), CLI_FROM_TO(2, 1000000),
-                     "equally spaced, both ends among them"),
-    CLI_CHOICE_LINE("over", PLACE(over_creep), variables,
-                    "what is varied: xi R/(mu a), or xi itself"),
+static const rb_option options[] = {
+    RB_GROUP_LINE("curve", "Range of the curve"),
+    RB_NUMBER_LINE("from", PLACE(from), "-", RB_ANY, "first value"),
+    RB_NUMBER_LINE("to", PLACE(to), "-", RB_ANY, "last value"),
+    RB_INTEGER_LINE("points", PLACE(points), RB_FROM_TO(2, 1000000),
+                    "equally spaced, both ends among them"),
+    RB_CHOICE_LINE("over", PLACE(over_creep), variables,
+                   "what is varied: xi R/(mu a), or xi itself"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -44,7 +44,8 @@ static const char notes[] = CLI_CASE_NOTES
 /* ---- Solve ------------------------------------------------------------------------ */
 
 typedef struct {
-    const cli_case *c;
+    const rb_case *words;
+    const rb_settled_case *c;
     const range_options *range;
     rb_report_curves curves;
 } result;
@@ -66,11 +67,11 @@ static rb_status solve_curve(const rb_rolling_case *rc, const range_options *r,
                                                 r->points, curve, why);
 }
 
-static rb_status solve_curves(const cli_case *c, const range_options *range,
+static rb_status solve_curves(const rb_settled_case *c, const range_options *range,
                               rb_report_curves *curves, rb_message *why)
 {
-    const cli_list one = {1, {c->rc.mu}};
-    const cli_list *mus = c->mus.n > 0 ? &c->mus : &one;
+    const rb_numbers one = {1, {c->rc.mu}};
+    const rb_numbers *mus = c->mus.n > 0 ? &c->mus : &one;
     rb_rolling_case rc = c->rc;
     rb_status s = RB_OK;
     for (int k = 0; k < mus->n && s == RB_OK; k++) {
@@ -93,7 +94,7 @@ static rb_status solve_curves(const cli_case *c, const range_options *range,
 static rb_status print_json(FILE *out, const result *r)
 {
     json_t *root = rb_report_json_start(cli_command_line());
-    json_t *inputs = cli_case_inputs(r->c);
+    json_t *inputs = rb_report_json_inputs(r->words);
     json_object_set_new(inputs, "from", json_real(r->range->from));
     json_object_set_new(inputs, "to", json_real(r->range->to));
     json_object_set_new(inputs, "points", json_integer(r->range->points));
@@ -123,7 +124,7 @@ static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *contex
 
 /* ---- Command ---------------------------------------------------------------------- */
 
-static cli_exit check_case(const cli_case *c)
+static cli_exit check_case(const rb_case *c)
 {
     static const char *const driving[] = {"shift", "creep",       "creep-ratio",
                                           "force", "force-ratio", "history"};
@@ -133,7 +134,7 @@ static cli_exit check_case(const cli_case *c)
                                "the curve runs over --from ... --to by itself");
     if (code == CLI_CONTINUE)
         code = cli_case_refuse(c, "accuracy", "of single cases; a curve has --error");
-    if (code == CLI_CONTINUE && c->rc.formulation != RB_STEADY)
+    if (code == CLI_CONTINUE && rb_case_settled(c)->rc.formulation != RB_STEADY)
         code = cli_case_refuse(c, "formulation", "a curve is one of steady rolling");
     return code;
 }
@@ -149,9 +150,11 @@ static cli_exit show(cli_sink *sink, const result *r)
     return code;
 }
 
-static cli_exit solve(const cli_case *c, const range_options *range, const cli_output *o)
+static cli_exit solve(const rb_case *words, const range_options *range,
+                      const cli_output *o)
 {
-    result r = {.c = c, .range = range};
+    const rb_settled_case *c = rb_case_settled(words);
+    result r = {.words = words, .c = c, .range = range};
     cli_sink sink;
     rb_message why = {""};
     cli_exit code = cli_sink_open(o, &sink);
@@ -163,8 +166,8 @@ static cli_exit solve(const cli_case *c, const range_options *range, const cli_o
         code = show(&sink, &r);
     cli_sink_abandon(&sink);
     if (code == CLI_OK && s != RB_OK)
-        code = cli_case_refused(c, s, &why);
-    for (int k = 0; k < CLI_LIST_MAX; k++) {
+        code = cli_case_refused(words, s, &why);
+    for (int k = 0; k < RB_NUMBERS_MAX; k++) {
         rb_rolling_curve_free(&r.curves.curve[k]);
         rb_rolling_curve_free(&r.curves.error[k]);
     }
@@ -173,29 +176,26 @@ static cli_exit solve(const cli_case *c, const range_options *range, const cli_o
 
 int cli_curve(int argc, char **argv)
 {
-    cli_case c;
     cli_output o = {0};
     range_options range = {.from = 0.0, .to = 1.5, .points = 61};
     cli_args args = {0};
-    cli_case_defaults(&c);
-    c.rc.formulation = RB_STEADY;
-    c.lists = 1;
+    rb_case *c = cli_case_create(RB_CASE_CURVE);
+    if (!c)
+        return CLI_INTERNAL;
     const cli_spec spec = {
         "rollbem curve [OPTION...] [CASE.ini]",
         about,
         notes,
-        {cli_case_set(&c), {options, OPTIONS, &range, range.given}, cli_output_set(&o)},
+        {rb_case_options(c), {options, OPTIONS, &range, range.given}, cli_output_set(&o)},
         3};
-    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     if (code == CLI_CONTINUE)
-        code = cli_case_finish(&spec, &c, &args);
-    if (code == CLI_CONTINUE)
-        code = check_case(&c);
+        code = check_case(c);
     if (code == CLI_CONTINUE)
         code = check_range(&range, &o);
     if (code == CLI_CONTINUE)
-        code = solve(&c, &range, &o);
+        code = solve(c, &range, &o);
     cli_args_free(&args);
-    cli_case_free(&c);
+    rb_case_free(c);
     return code;
 }

@@ -18,44 +18,44 @@ typedef struct {
     int mesh, rigid, problems; /* wall */
 } example_options;
 
-static const cli_choice layouts[] = {{"upper-inside", RB_FEM_UPPER_INSIDE},
-                                     {"upper-overhanging", RB_FEM_UPPER_OVERHANGING},
-                                     {NULL, 0}};
+static const rb_choice layouts[] = {{"upper-inside", RB_FEM_UPPER_INSIDE},
+                                    {"upper-overhanging", RB_FEM_UPPER_OVERHANGING},
+                                    {NULL, 0}};
 
 enum { MESH_COARSE, MESH_MEDIUM, MESH_FINE };
 
-static const cli_choice meshes[] = {
+static const rb_choice meshes[] = {
     {"coarse", MESH_COARSE}, {"medium", MESH_MEDIUM}, {"fine", MESH_FINE}, {NULL, 0}};
 
 #define PLACE(member) offsetof(example_options, member)
 
-static const cli_option options[] = {
-    CLI_GROUP_LINE("example", "Example"),
-    CLI_TEXT_LINE("solver", PLACE(solver), "NAME",
-                  "friction solver, as in `rollbem friction`",
-                  .unset = "bar nsn-nm, truss and wall nsn-ac"),
-    CLI_NUMBER_LINE("tol", PLACE(tol), "", CLI_ABOVE(0.0),
-                    "tolerance of the friction solver"),
-    CLI_CHOICE_LINE("layout", PLACE(layout), layouts,
-                    "truss: the upper nodes; the paper has its layout in a figure only"),
-    CLI_INTEGER_LINE("nodes", PLACE(nodes), CLI_FROM_TO(2, 100),
-                     "truss: contact nodes per side"),
-    CLI_CHOICE_LINE(
+static const rb_option options[] = {
+    RB_GROUP_LINE("example", "Example"),
+    RB_TEXT_LINE("solver", PLACE(solver), "NAME",
+                 "friction solver, as in `rollbem friction`",
+                 .unset = "bar nsn-nm, truss and wall nsn-ac"),
+    RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
+                   "tolerance of the friction solver"),
+    RB_CHOICE_LINE("layout", PLACE(layout), layouts,
+                   "truss: the upper nodes; the paper has its layout in a figure only"),
+    RB_INTEGER_LINE("nodes", PLACE(nodes), RB_FROM_TO(2, 100),
+                    "truss: contact nodes per side"),
+    RB_CHOICE_LINE(
         "mesh", PLACE(mesh), meshes,
         "wall: 161, 606 or 1722 contact points; fine: as large as the paper's"),
-    CLI_NUMBER_LINE("step", PLACE(step), "s", CLI_ABOVE(0.0),
-                    "wall: length of a time step"),
-    CLI_FLAG_LINE("rigid", PLACE(rigid), "wall: rigid blocks, the same contact points"),
-    CLI_INTEGER_LINE("problems", PLACE(problems), CLI_FROM_TO(1, 75),
-                     "wall: how many problems go to the folder"),
-    CLI_FLAG_LINE("json", PLACE(json), "JSON instead of the table"),
-    CLI_TEXT_LINE("output", PLACE(output), "PATH",
-                  "bar, truss: file for the table or JSON; wall: folder for its problems "
-                  "(FCLib)",
-                  .unset = "none"),
-    CLI_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
-                  .unset = "none"),
-    CLI_FLAG_LINE("quiet", PLACE(quiet), "wall: no line per step on standard error"),
+    RB_NUMBER_LINE("step", PLACE(step), "s", RB_ABOVE(0.0),
+                   "wall: length of a time step"),
+    RB_FLAG_LINE("rigid", PLACE(rigid), "wall: rigid blocks, the same contact points"),
+    RB_INTEGER_LINE("problems", PLACE(problems), RB_FROM_TO(1, 75),
+                    "wall: how many problems go to the folder"),
+    RB_FLAG_LINE("json", PLACE(json), "JSON instead of the table"),
+    RB_TEXT_LINE("output", PLACE(output), "PATH",
+                 "bar, truss: file for the table or JSON; wall: folder for its problems "
+                 "(FCLib)",
+                 .unset = "none"),
+    RB_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
+                 .unset = "none"),
+    RB_FLAG_LINE("quiet", PLACE(quiet), "wall: no line per step on standard error"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -414,14 +414,14 @@ static cli_exit check_solver(const char *name)
 {
     int count;
     const rb_friction_solver *solver = rb_friction_solvers(&count);
-    cli_guess guess = {.word = name};
+    rb_guess guess = {.word = name};
     for (int k = 0; k < count; k++) {
         if (strcmp(solver[k].name, name) == 0)
             return CLI_CONTINUE;
-        cli_guess_try(&guess, solver[k].name);
+        rb_guess_try(&guess, solver[k].name);
     }
     return cli_fail(CLI_USAGE, "--solver: unknown solver '%s'%s", name,
-                    cli_guess_text(&guess, ""));
+                    rb_guess_text(&guess, ""));
 }
 
 static cli_exit check(const example_options *o, const cli_args *args)
@@ -443,16 +443,16 @@ static cli_exit run_example(example_options *o, const char *name)
     } examples[] = {{"bar", "nsn-nm", run_bar},
                     {"truss", "nsn-ac", run_truss},
                     {"wall", "nsn-ac", run_wall}};
-    cli_guess guess = {.word = name};
+    rb_guess guess = {.word = name};
     for (int k = 0; k < 3; k++) {
         if (strcmp(examples[k].name, name) == 0) {
             o->solver = o->solver ? o->solver : examples[k].solver;
             return examples[k].run(o);
         }
-        cli_guess_try(&guess, examples[k].name);
+        rb_guess_try(&guess, examples[k].name);
     }
     return cli_fail(CLI_USAGE, "example: expected bar, truss or wall, got '%s'%s", name,
-                    cli_guess_text(&guess, ""));
+                    rb_guess_text(&guess, ""));
 }
 
 int cli_example(int argc, char **argv)

@@ -19,33 +19,33 @@ typedef struct {
     const char *output;
 } friction_options;
 
-static const cli_choice formats[] = {{"any", RB_FRICTION_FILE_ANY},
-                                     {"fclib", RB_FRICTION_FILE_FCLIB},
-                                     {"siconos", RB_FRICTION_FILE_SICONOS},
-                                     {"siconos-soclcp", RB_FRICTION_FILE_SICONOS_SOCLCP},
-                                     {NULL, 0}};
+static const rb_choice formats[] = {{"any", RB_FRICTION_FILE_ANY},
+                                    {"fclib", RB_FRICTION_FILE_FCLIB},
+                                    {"siconos", RB_FRICTION_FILE_SICONOS},
+                                    {"siconos-soclcp", RB_FRICTION_FILE_SICONOS_SOCLCP},
+                                    {NULL, 0}};
 
 #define PLACE(member) offsetof(friction_options, member)
 
-static const cli_option options[] = {
-    CLI_GROUP_LINE("solver", "Solver"),
-    CLI_TEXT_LINE("solver", PLACE(solver), "NAME", "which solver; names below"),
-    CLI_NUMBER_LINE("tol", PLACE(tol), "", CLI_ABOVE(0.0),
-                    "error that counts as solved: ||r - P_K(r - uhat)|| / ||q||"),
-    CLI_INTEGER_LINE("max-iters", PLACE(max_iters), CLI_FROM_TO(1, 1e9),
-                     "iteration limit", .unset = "the solver's own"),
-    CLI_NUMBER_LINE("seconds", PLACE(seconds), "s", CLI_ABOVE(0.0), "time limit per file",
-                    .unset = "none"),
-    CLI_CHOICE_LINE("format", PLACE(format), formats,
-                    "kind of the files, where their head does not tell"),
-    CLI_GROUP_LINE("output", "Output"),
-    CLI_FLAG_LINE("facts", PLACE(facts),
-                  "rank, degree of hyperstaticity, nullity of K, asymmetry"),
-    CLI_FLAG_LINE("solution", PLACE(solution), "reactions r and velocities u"),
-    CLI_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
-    CLI_TEXT_LINE("output", PLACE(output), "FILE",
-                  "where the tables or JSON go, whole or not at all",
-                  .unset = "standard output"),
+static const rb_option options[] = {
+    RB_GROUP_LINE("solver", "Solver"),
+    RB_TEXT_LINE("solver", PLACE(solver), "NAME", "which solver; names below"),
+    RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
+                   "error that counts as solved: ||r - P_K(r - uhat)|| / ||q||"),
+    RB_INTEGER_LINE("max-iters", PLACE(max_iters), RB_FROM_TO(1, 1e9), "iteration limit",
+                    .unset = "the solver's own"),
+    RB_NUMBER_LINE("seconds", PLACE(seconds), "s", RB_ABOVE(0.0), "time limit per file",
+                   .unset = "none"),
+    RB_CHOICE_LINE("format", PLACE(format), formats,
+                   "kind of the files, where their head does not tell"),
+    RB_GROUP_LINE("output", "Output"),
+    RB_FLAG_LINE("facts", PLACE(facts),
+                 "rank, degree of hyperstaticity, nullity of K, asymmetry"),
+    RB_FLAG_LINE("solution", PLACE(solution), "reactions r and velocities u"),
+    RB_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
+    RB_TEXT_LINE("output", PLACE(output), "FILE",
+                 "where the tables or JSON go, whole or not at all",
+                 .unset = "standard output"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -302,14 +302,14 @@ static cli_exit check_solver(const char *name)
 {
     int n;
     const rb_friction_solver *all = rb_friction_solvers(&n);
-    cli_guess guess = {.word = name};
+    rb_guess guess = {.word = name};
     for (int k = 0; k < n; k++) {
         if (!strcmp(all[k].name, name))
             return CLI_CONTINUE;
-        cli_guess_try(&guess, all[k].name);
+        rb_guess_try(&guess, all[k].name);
     }
     return cli_fail(CLI_USAGE, "--solver: no friction solver is called '%s'%s", name,
-                    cli_guess_text(&guess, ""));
+                    rb_guess_text(&guess, ""));
 }
 
 static const char conventions[] =

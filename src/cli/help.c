@@ -6,24 +6,24 @@
 
 enum { NAME_COLUMN = 28, WIDTH = 88 };
 
-static void metavar(const cli_option *o, char *text, size_t size)
+static void metavar(const rb_option *o, char *text, size_t size)
 {
     size_t used = 0;
     switch (o->kind) {
-    case CLI_NUMBER:
+    case RB_OPTION_NUMBER:
         snprintf(text, size, " X%s%s", o->word ? "|" : "", o->word ? o->word : "");
         break;
-    case CLI_INTEGER:
+    case RB_OPTION_INTEGER:
         snprintf(text, size, " N");
         break;
-    case CLI_CHOICE:
-        for (const cli_choice *c = o->choices; c->name && used < size; c++)
+    case RB_OPTION_CHOICE:
+        for (const rb_choice *c = o->choices; c->name && used < size; c++)
             used += (size_t)snprintf(text + used, size - used, "%s%s",
                                      c == o->choices ? " " : "|", c->name);
         if (o->path && used < size)
             snprintf(text + used, size - used, "|%s", o->path_name);
         break;
-    case CLI_TEXT:
+    case RB_OPTION_TEXT:
         snprintf(text, size, " %s", *o->unit ? o->unit : "NAME");
         break;
     default:
@@ -53,24 +53,25 @@ static void print_wrapped(const char *text, int column, int indent)
 }
 
 /* What stands behind the help line: unit, range, default. */
-static void describe(const cli_option *o, const void *target, char *text, size_t size)
+static void describe(const rb_option *o, const void *target, char *text, size_t size)
 {
     char room[64], expected[200];
-    const int numeric = o->kind == CLI_NUMBER || o->kind == CLI_INTEGER;
-    const char *shown = o->unset ? o->unset : cli_value_text(o, target, room);
+    const int numeric = o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER;
+    const char *shown = o->unset ? o->unset : rb_option_text(o, target, room);
     const char *range = "";
     if (numeric) {
-        const char *whole = cli_expected(o, expected, sizeof expected);
-        range = whole + strlen(o->kind == CLI_NUMBER ? "a number" : "a whole number");
+        const char *whole = rb_option_expected(o, expected, sizeof expected);
+        range =
+            whole + strlen(o->kind == RB_OPTION_NUMBER ? "a number" : "a whole number");
     }
-    if (o->kind == CLI_FLAG || (o->kind == CLI_TEXT && !o->unset))
+    if (o->kind == RB_OPTION_FLAG || (o->kind == RB_OPTION_TEXT && !o->unset))
         shown = "";
     snprintf(text, size, "%s%s%s%s%s%s%s%s%s", o->help, numeric && *o->unit ? " [" : "",
              numeric ? o->unit : "", numeric && *o->unit ? "]" : "", *range ? "," : "",
              range, *shown ? " (" : "", shown, *shown ? ")" : "");
 }
 
-static void print_option(const cli_option *o, const void *target)
+static void print_option(const rb_option *o, const void *target)
 {
     char values[120], text[600];
     metavar(o, values, sizeof values);
@@ -88,8 +89,8 @@ void cli_print_help(const cli_spec *spec)
     printf("Usage: %s\n\n%s\n", spec->synopsis, spec->about);
     for (int s = 0; s < spec->set_n; s++)
         for (int i = 0; i < spec->sets[s].n; i++) {
-            const cli_option *o = &spec->sets[s].options[i];
-            if (o->kind == CLI_GROUP)
+            const rb_option *o = &spec->sets[s].options[i];
+            if (o->kind == RB_OPTION_GROUP)
                 printf("\n%s [%s]\n", o->help, o->name);
             else
                 print_option(o, spec->sets[s].target);
@@ -109,8 +110,8 @@ void cli_print_usage(const cli_spec *spec)
     printf("Usage: %s\n", spec->synopsis);
     for (int s = 0; s < spec->set_n; s++)
         for (int i = 0; i < spec->sets[s].n; i++) {
-            const cli_option *o = &spec->sets[s].options[i];
-            if (o->kind == CLI_GROUP)
+            const rb_option *o = &spec->sets[s].options[i];
+            if (o->kind == RB_OPTION_GROUP)
                 continue;
             metavar(o, values, sizeof values);
             const int n = (int)(strlen(o->name) + strlen(values)) + 5;

@@ -16,27 +16,27 @@ typedef struct {
     const char *output;
 } lcp_options;
 
-static const cli_choice rules[] = {{"lexicographic", RB_LCP_LEXICOGRAPHIC},
-                                   {"first-index", RB_LCP_FIRST_INDEX},
-                                   {NULL, 0}};
+static const rb_choice rules[] = {{"lexicographic", RB_LCP_LEXICOGRAPHIC},
+                                  {"first-index", RB_LCP_FIRST_INDEX},
+                                  {NULL, 0}};
 
 #define PLACE(member) offsetof(lcp_options, member)
 
-static const cli_option options[] = {
-    CLI_GROUP_LINE("solver", "Solver"),
-    CLI_NUMBER_LINE("tol", PLACE(tol), "", CLI_ABOVE(0.0),
-                    "residual that counts as solved, as a part of max |q|"),
-    CLI_INTEGER_LINE("max-pivots", PLACE(max_pivots), CLI_FROM_TO(1, 1e9),
-                     "iteration limit", .unset = "50 n + 1000"),
-    CLI_CHOICE_LINE("rule", PLACE(rule), rules,
-                    "which row leaves when ratios tie; first-index can cycle"),
-    CLI_GROUP_LINE("output", "Output"),
-    CLI_FLAG_LINE("trace", PLACE(trace), "every pivot"),
-    CLI_FLAG_LINE("solution", PLACE(solution), "z and w = M z + q"),
-    CLI_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
-    CLI_TEXT_LINE("output", PLACE(output), "FILE",
-                  "where the tables or JSON go, whole or not at all",
-                  .unset = "standard output"),
+static const rb_option options[] = {
+    RB_GROUP_LINE("solver", "Solver"),
+    RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
+                   "residual that counts as solved, as a part of max |q|"),
+    RB_INTEGER_LINE("max-pivots", PLACE(max_pivots), RB_FROM_TO(1, 1e9),
+                    "iteration limit", .unset = "50 n + 1000"),
+    RB_CHOICE_LINE("rule", PLACE(rule), rules,
+                   "which row leaves when ratios tie; first-index can cycle"),
+    RB_GROUP_LINE("output", "Output"),
+    RB_FLAG_LINE("trace", PLACE(trace), "every pivot"),
+    RB_FLAG_LINE("solution", PLACE(solution), "z and w = M z + q"),
+    RB_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
+    RB_TEXT_LINE("output", PLACE(output), "FILE",
+                 "where the tables or JSON go, whole or not at all",
+                 .unset = "standard output"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };

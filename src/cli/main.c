@@ -37,21 +37,20 @@ const char *cli_command_line(void)
     return command_line ? command_line : "rollbem";
 }
 
-void cli_guess_command(cli_guess *guess)
+void cli_guess_command(rb_guess *guess)
 {
     for (int i = 0; i < COMMANDS; i++)
-        cli_guess_try(guess, commands[i].name);
+        rb_guess_try(guess, commands[i].name);
 }
 
 int cli_run(const char *name, int argc, char **argv)
 {
-    cli_guess guess = {.word = name};
+    rb_guess guess = {.word = name};
     for (int i = 0; i < COMMANDS; i++)
         if (strcmp(name, commands[i].name) == 0)
             return commands[i].run(argc, argv);
     cli_guess_command(&guess);
-    return cli_fail(CLI_USAGE, "unknown command '%s'%s", name,
-                    cli_guess_text(&guess, ""));
+    return cli_fail(CLI_USAGE, "unknown command '%s'%s", name, rb_guess_text(&guess, ""));
 }
 
 static int is_command(const char *name)

@@ -9,21 +9,21 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-static const cli_choice headers[] = {{"full", 0}, {"bare", 1}, {NULL, 0}};
+static const rb_choice headers[] = {{"full", 0}, {"bare", 1}, {NULL, 0}};
 
 #define PLACE(member) offsetof(cli_output, member)
 
-static const cli_option options[] = {
-    CLI_GROUP_LINE("output", "Output"),
-    CLI_FLAG_LINE("json", PLACE(json), "JSON instead of the table"),
-    CLI_CHOICE_LINE("header", PLACE(bare), headers,
-                    "of the table: # lines and column names, or the names alone"),
-    CLI_TEXT_LINE("output", PLACE(output), "FILE",
-                  "where the table or JSON goes, whole or not at all",
-                  .unset = "standard output"),
-    CLI_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
-                  .unset = "none"),
-    CLI_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),
+static const rb_option options[] = {
+    RB_GROUP_LINE("output", "Output"),
+    RB_FLAG_LINE("json", PLACE(json), "JSON instead of the table"),
+    RB_CHOICE_LINE("header", PLACE(bare), headers,
+                   "of the table: # lines and column names, or the names alone"),
+    RB_TEXT_LINE("output", PLACE(output), "FILE",
+                 "where the table or JSON goes, whole or not at all",
+                 .unset = "standard output"),
+    RB_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
+                 .unset = "none"),
+    RB_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -31,9 +31,9 @@ enum { OPTIONS = sizeof options / sizeof options[0] };
 _Static_assert((int)OPTIONS <= (int)CLI_OUTPUT_OPTIONS_MAX,
                "CLI_OUTPUT_OPTIONS_MAX is too small");
 
-cli_set cli_output_set(cli_output *o)
+rb_option_set cli_output_set(cli_output *o)
 {
-    return (cli_set){options, OPTIONS, o, o->given};
+    return (rb_option_set){options, OPTIONS, o, o->given};
 }
 
 static cli_exit refuse_picture(const cli_output *o, cli_exit code, const rb_message *why)

@@ -18,7 +18,7 @@ typedef struct {
 } cli_output;
 
 /* --json, --header, --output, --plot, --quiet: section [output]. */
-cli_set cli_output_set(cli_output *o);
+rb_option_set cli_output_set(cli_output *o);
 
 /* Refuses a picture of an unknown kind before anything is solved. */
 cli_exit cli_output_check(const cli_output *o);

@@ -1,5 +1,6 @@
 #include "cli/run.h"
 
+#include "cli/cli.h"
 #include "rollbem/io.h"
 #include "rollbem/report.h"
 
@@ -88,8 +89,8 @@ static rb_status make_folder(const char *path, rb_message *why)
     return rb_fail(why, RB_EWRITE, "%.200s: %s", path, strerror(e));
 }
 
-static rb_status run_steps(const cli_case *c, const cli_steps *steps, cli_run_result *r,
-                           rb_message *why)
+static rb_status run_steps(const rb_settled_case *c, const cli_steps *steps,
+                           cli_run_result *r, rb_message *why)
 {
     static const cli_steps silent = {0};
     rb_message snapshot = {""};
@@ -116,7 +117,7 @@ static rb_status run_steps(const cli_case *c, const cli_steps *steps, cli_run_re
 
 /* ---- All --------------------------------------------------------------------------- */
 
-static rb_status run_and_finish_steps(const cli_case *c, const cli_steps *steps,
+static rb_status run_and_finish_steps(const rb_settled_case *c, const cli_steps *steps,
                                       cli_run_result *r, rb_message *why)
 {
     const double start = rb_seconds();
@@ -131,11 +132,11 @@ static rb_status run_and_finish_steps(const cli_case *c, const cli_steps *steps,
     return s;
 }
 
-rb_status cli_run_case(const cli_case *c, const cli_steps *steps, cli_run_result *r,
-                       rb_message *why)
+rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
+                       cli_run_result *r, rb_message *why)
 {
     memset(r, 0, sizeof *r);
-    if (cli_case_has_steps(c))
+    if (rb_case_has_steps(c))
         return run_and_finish_steps(c, steps, r, why);
     r->has_errors = c->error || c->accuracy > 0.0;
     if (c->accuracy > 0.0)

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_CLI_RUN_H
 #define ROLLBEM_CLI_RUN_H
 
-#include "cli/case.h"
+#include "rollbem/case.h"
 
 typedef struct {
     rb_rolling_model model;
@@ -26,8 +26,8 @@ typedef struct {
  * (control-C) ends the latter after the step at hand. steps NULL: nothing on
  * the way.  With error bars of a solution there is no model (model.state.p NULL).  Free
  * the result in any case. */
-rb_status cli_run_case(const cli_case *c, const cli_steps *steps, cli_run_result *r,
-                       rb_message *why);
+rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
+                       cli_run_result *r, rb_message *why);
 void cli_run_free(cli_run_result *r);
 
 #endif

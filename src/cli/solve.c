@@ -16,33 +16,32 @@ typedef struct {
 
 #define PLACE(member) offsetof(solve_options, member)
 
-static const cli_option options[] = {
-    CLI_GROUP_LINE("output", "Behind the solution"),
-    CLI_TEXT_LINE(
-        "dump", PLACE(dump), "DIR",
-        "mesh, H, G, F, M, b as Matrix Market files; with --trace also tableaux",
-        .unset = "none"),
-    CLI_TEXT_LINE("fclib", PLACE(fclib), "FILE",
-                  "the contact problem with its approach and creepage as FCLib (HDF5), "
-                  "for rollbem friction and others",
-                  .unset = "none"),
-    CLI_FLAG_LINE("trace", PLACE(trace),
-                  "every pivot of Lemke's method, on standard error"),
+static const rb_option options[] = {
+    RB_GROUP_LINE("output", "Behind the solution"),
+    RB_TEXT_LINE("dump", PLACE(dump), "DIR",
+                 "mesh, H, G, F, M, b as Matrix Market files; with --trace also tableaux",
+                 .unset = "none"),
+    RB_TEXT_LINE("fclib", PLACE(fclib), "FILE",
+                 "the contact problem with its approach and creepage as FCLib (HDF5), "
+                 "for rollbem friction and others",
+                 .unset = "none"),
+    RB_FLAG_LINE("trace", PLACE(trace),
+                 "every pivot of Lemke's method, on standard error"),
 
-    CLI_GROUP_LINE("output", "Steps of a transient or of a static history"),
-    CLI_TEXT_LINE("history-table", PLACE(history_table), "FILE",
-                  "one row per step; standard output has the tractions of the last one",
-                  .unset = "none"),
-    CLI_TEXT_LINE("history-plot", PLACE(history_plot), "FILE",
-                  "picture of creepage or shift, force and stick over the way: .png, "
-                  ".svg or .pdf",
-                  .unset = "none"),
-    CLI_TEXT_LINE("snapshots", PLACE(steps.snapshots), "DIR",
-                  "tractions on the way as step_000001.tsv, ...", .unset = "none"),
-    CLI_INTEGER_LINE("every", PLACE(steps.every), CLI_FROM(1),
-                     "steps from one snapshot to the next; the last step has one too"),
-    CLI_FLAG_LINE("progress", PLACE(steps.progress),
-                  "a line on standard error now and then; terminals get it anyway"),
+    RB_GROUP_LINE("output", "Steps of a transient or of a static history"),
+    RB_TEXT_LINE("history-table", PLACE(history_table), "FILE",
+                 "one row per step; standard output has the tractions of the last one",
+                 .unset = "none"),
+    RB_TEXT_LINE("history-plot", PLACE(history_plot), "FILE",
+                 "picture of creepage or shift, force and stick over the way: .png, "
+                 ".svg or .pdf",
+                 .unset = "none"),
+    RB_TEXT_LINE("snapshots", PLACE(steps.snapshots), "DIR",
+                 "tractions on the way as step_000001.tsv, ...", .unset = "none"),
+    RB_INTEGER_LINE("every", PLACE(steps.every), RB_FROM(1),
+                    "steps from one snapshot to the next; the last step has one too"),
+    RB_FLAG_LINE("progress", PLACE(steps.progress),
+                 "a line on standard error now and then; terminals get it anyway"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -62,7 +61,8 @@ static const char notes[] = CLI_CASE_NOTES
     "on the command line, 65 in a file; 66 no such file; 70 internal; 73 cannot write.\n";
 
 typedef struct {
-    const cli_case *c;
+    const rb_case *words;
+    const rb_settled_case *c;
     const cli_run_result *r;
 } result;
 
@@ -77,7 +77,7 @@ static const rb_rolling_history *step_errors(const cli_run_result *r)
 static rb_status write_json(FILE *out, const result *it)
 {
     json_t *root = rb_report_json_start(cli_command_line());
-    json_object_set_new(root, "inputs", cli_case_inputs(it->c));
+    json_object_set_new(root, "inputs", rb_report_json_inputs(it->words));
     json_t *summary = rb_report_json_summary(&it->c->rc, &it->r->solution);
     if (it->r->has_errors)
         json_object_set_new(summary, "errors", rb_report_json_errors(&it->r->errors));
@@ -188,8 +188,9 @@ static cli_exit print_result(cli_sink *sink, const solve_options *so, const resu
 
 /* ---- Command ---------------------------------------------------------------------- */
 
-static cli_exit solve(const solve_options *so, const cli_output *o, const cli_case *c)
+static cli_exit solve(const solve_options *so, const cli_output *o, const rb_case *words)
 {
+    const rb_settled_case *c = rb_case_settled(words);
     cli_run_result r;
     cli_sink sink;
     rb_message why = {""};
@@ -199,24 +200,25 @@ static cli_exit solve(const solve_options *so, const cli_output *o, const cli_ca
     const rb_status status = cli_run_case(c, &so->steps, &r, &why);
     code = CLI_OK;
     if (status >= 0 && r.solution.n > 0) {
-        const result it = {c, &r};
+        const result it = {words, c, &r};
         code = print_result(&sink, so, &it);
     }
     cli_sink_abandon(&sink);
     if (code == CLI_OK && status != RB_OK)
-        code = cli_case_refused(c, status, &why);
+        code = cli_case_refused(words, status, &why);
     cli_run_free(&r);
     return code;
 }
 
 /* Options of steps mean nothing without any. */
-static cli_exit check_steps(const solve_options *so, const int *given, const cli_case *c)
+static cli_exit check_steps(const solve_options *so, const int *given,
+                            const rb_settled_case *c)
 {
     const cli_output pictures = history_picture(so);
     int steps = 0;
-    for (int i = 0; i < OPTIONS && !cli_case_has_steps(c); i++) {
+    for (int i = 0; i < OPTIONS && !rb_case_has_steps(c); i++) {
         steps |= strcmp(options[i].name, "history-table") == 0; /* the first of them */
-        if (steps && given[i] == CLI_GIVEN_ARGUMENT)
+        if (steps && given[i] == RB_GIVEN_ARGUMENT)
             return cli_fail(CLI_USAGE, "--%s: for --formulation transient or --history",
                             options[i].name);
     }
@@ -224,9 +226,9 @@ static cli_exit check_steps(const solve_options *so, const int *given, const cli
 }
 
 /* With error bars of a solution there is no model to show (run.h). */
-static cli_exit check_behind(const solve_options *so, const cli_case *c)
+static cli_exit check_behind(const solve_options *so, const rb_settled_case *c)
 {
-    const int model_kept = cli_case_has_steps(c) || !(c->error || c->accuracy > 0.0);
+    const int model_kept = rb_case_has_steps(c) || !(c->error || c->accuracy > 0.0);
     if ((so->dump || so->trace || so->fclib) && !model_kept)
         return cli_fail(CLI_USAGE,
                         "--dump, --fclib and --trace: not together with error bars");
@@ -235,35 +237,46 @@ static cli_exit check_behind(const solve_options *so, const cli_case *c)
     return CLI_CONTINUE;
 }
 
+/* Only Lemke's method has pivots to trace. */
+static cli_exit choose_pivots(rb_case *c)
+{
+    rb_message why;
+    if (rb_case_settled(c)->rc.solver != RB_SOLVER_AUTO)
+        return CLI_CONTINUE;
+    rb_status s = rb_case_set(c, "solver", "lemke", RB_GIVEN_ARGUMENT, &why);
+    if (s == RB_OK)
+        s = rb_case_settle(c, &why);
+    return cli_say(s, &why);
+}
+
 int cli_solve(int argc, char **argv)
 {
-    cli_case c;
     cli_output o = {0};
     solve_options so = {.steps.every = 1};
     cli_args args = {0};
     int given[OPTIONS] = {0};
-    cli_case_defaults(&c);
+    rb_case *c = cli_case_create(RB_CASE_SINGLE);
+    if (!c)
+        return CLI_INTERNAL;
     const cli_spec spec = {
         "rollbem [OPTION...] [CASE.ini]",
         about,
         notes,
-        {cli_case_set(&c), cli_output_set(&o), {options, OPTIONS, &so, given}},
+        {rb_case_options(c), cli_output_set(&o), {options, OPTIONS, &so, given}},
         3};
-    cli_exit code = cli_parse(&spec, argc, argv, &args);
-    if (code == CLI_CONTINUE)
-        code = cli_case_finish(&spec, &c, &args);
+    cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     if (code == CLI_CONTINUE)
         code = cli_output_check(&o);
     if (code == CLI_CONTINUE)
-        code = check_steps(&so, given, &c);
+        code = check_steps(&so, given, rb_case_settled(c));
     if (code == CLI_CONTINUE)
-        code = check_behind(&so, &c);
+        code = check_behind(&so, rb_case_settled(c));
+    if (code == CLI_CONTINUE && so.trace)
+        code = choose_pivots(c);
     so.steps.terminal = !o.quiet && isatty(STDERR_FILENO);
-    if (so.trace && c.rc.solver == RB_SOLVER_AUTO)
-        c.rc.solver = RB_SOLVER_LEMKE; /* the one that pivots */
     if (code == CLI_CONTINUE)
-        code = solve(&so, &o, &c);
+        code = solve(&so, &o, c);
     cli_args_free(&args);
-    cli_case_free(&c);
+    rb_case_free(c);
     return code;
 }

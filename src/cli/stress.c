@@ -16,23 +16,23 @@ typedef struct {
 
 #define PLACE(member) offsetof(stress_options, member)
 
-static const cli_option options[] = {
-    CLI_GROUP_LINE("stress", "Stress"),
-    CLI_TEXT_LINE("grid", PLACE(grid), "NXxNY",
-                  "points along the surface and into the depth", .unset = "61x41"),
-    CLI_NUMBER_LINE("depth", PLACE(depth), "mm", CLI_ABOVE(0),
-                    "of the grid and of the search for maxima; auto: 2.5 half-widths",
-                    .word = "auto", .word_value = 0.0),
-    CLI_TEXT_LINE("points", PLACE(points), "FILE",
-                  "instead of a grid: rows x, y [mm], y > 0 inside A", .unset = "none"),
-    CLI_TEXT_LINE("vtk", PLACE(vtk), "FILE",
-                  "for ParaView: .vtu, or .vti (half-planes only)", .unset = "none"),
-    CLI_TEXT_LINE("fringes", PLACE(fringes), "FILE",
-                  "picture of photoelastic fringes: .png, .svg or .pdf", .unset = "none"),
-    CLI_NUMBER_LINE("fringe", PLACE(fringe), "MPa", CLI_ABOVE(0),
-                    "difference of the principal stresses from one fringe to the next; "
-                    "auto: about ten fringes",
-                    .word = "auto", .word_value = 0.0),
+static const rb_option options[] = {
+    RB_GROUP_LINE("stress", "Stress"),
+    RB_TEXT_LINE("grid", PLACE(grid), "NXxNY",
+                 "points along the surface and into the depth", .unset = "61x41"),
+    RB_NUMBER_LINE("depth", PLACE(depth), "mm", RB_ABOVE(0),
+                   "of the grid and of the search for maxima; auto: 2.5 half-widths",
+                   .word = "auto", .word_value = 0.0),
+    RB_TEXT_LINE("points", PLACE(points), "FILE",
+                 "instead of a grid: rows x, y [mm], y > 0 inside A", .unset = "none"),
+    RB_TEXT_LINE("vtk", PLACE(vtk), "FILE",
+                 "for ParaView: .vtu, or .vti (half-planes only)", .unset = "none"),
+    RB_TEXT_LINE("fringes", PLACE(fringes), "FILE",
+                 "picture of photoelastic fringes: .png, .svg or .pdf", .unset = "none"),
+    RB_NUMBER_LINE("fringe", PLACE(fringe), "MPa", RB_ABOVE(0),
+                   "difference of the principal stresses from one fringe to the next; "
+                   "auto: about ten fringes",
+                   .word = "auto", .word_value = 0.0),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -83,10 +83,11 @@ static cli_exit read_points(const stress_options *o, places *p)
 {
     if (!o->points)
         return CLI_CONTINUE;
-    const cli_exit code = cli_read_pairs(o->points, &p->points);
+    rb_message why;
+    const rb_status s = rb_io_table_read_columns(o->points, 2, &p->points, &why);
     const int n = p->points.rows;
-    if (code != CLI_CONTINUE)
-        return code;
+    if (s != RB_OK)
+        return cli_say(s, &why);
     p->xy = rb_alloc((size_t)n, 2);
     if (!p->xy)
         return cli_fail(CLI_INTERNAL, "out of memory");
@@ -97,7 +98,7 @@ static cli_exit read_points(const stress_options *o, places *p)
     return CLI_CONTINUE;
 }
 
-static cli_exit check_vtk(const stress_options *o, const cli_case *c)
+static cli_exit check_vtk(const stress_options *o, const rb_settled_case *c)
 {
     rb_report_vtk_kind kind;
     rb_message why;
@@ -112,7 +113,8 @@ static cli_exit check_vtk(const stress_options *o, const cli_case *c)
  */
 
 typedef struct {
-    const cli_case *c;
+    const rb_case *words;
+    const rb_settled_case *c;
     const stress_options *options;
     const places *where;
     cli_run_result run;
@@ -168,7 +170,7 @@ static rb_report_stress of_grid(const result *r, const rb_rolling_stress_grid *g
 /* The model belongs to a plain solution; its error bars are estimated beside it. */
 static rb_status run_case(result *r, rb_message *why)
 {
-    cli_case plain = *r->c;
+    rb_settled_case plain = *r->c;
     rb_rolling_solution again = {0};
     plain.error = 0;
     rb_status s = cli_run_case(&plain, NULL, &r->run, why);
@@ -208,7 +210,7 @@ static rb_status find_stress(result *r, const cli_output *o, rb_message *why)
 static rb_status print_json(FILE *out, const result *r)
 {
     json_t *root = rb_report_json_start(cli_command_line());
-    json_object_set_new(root, "inputs", cli_case_inputs(r->c));
+    json_object_set_new(root, "inputs", rb_report_json_inputs(r->words));
     json_object_set_new(root, "summary",
                         rb_report_json_summary(&r->c->rc, &r->run.solution));
     rb_report_json_stress(root, &r->table);
@@ -277,10 +279,11 @@ static cli_exit show(cli_sink *sink, const cli_output *fringes, const result *r)
 /* ---- Command --------------------------------------------------------------------------
  */
 
-static cli_exit solve(const cli_case *c, const stress_options *so, const places *where,
+static cli_exit solve(const rb_case *words, const stress_options *so, const places *where,
                       const cli_output *o, const cli_output *fringes)
 {
-    result r = {.c = c, .options = so, .where = where};
+    result r = {
+        .words = words, .c = rb_case_settled(words), .options = so, .where = where};
     cli_sink sink;
     rb_message why = {""};
     cli_exit code = cli_sink_open(o, &sink);
@@ -292,12 +295,12 @@ static cli_exit solve(const cli_case *c, const stress_options *so, const places 
     code = s == RB_OK ? show(&sink, fringes, &r) : CLI_OK;
     cli_sink_abandon(&sink);
     if (code == CLI_OK && s != RB_OK)
-        code = cli_case_refused(c, s, &why);
+        code = cli_case_refused(words, s, &why);
     result_free(&r);
     return code;
 }
 
-static cli_exit check(const cli_case *c, const stress_options *so, const cli_output *o,
+static cli_exit check(const rb_case *c, const stress_options *so, const cli_output *o,
                       const cli_output *fringes, places *where)
 {
     cli_exit code =
@@ -307,7 +310,7 @@ static cli_exit check(const cli_case *c, const stress_options *so, const cli_out
     if (code == CLI_CONTINUE)
         code = cli_output_check(fringes);
     if (code == CLI_CONTINUE)
-        code = check_vtk(so, c);
+        code = check_vtk(so, rb_case_settled(c));
     if (code == CLI_CONTINUE)
         code = read_grid(so, where);
     return code == CLI_CONTINUE ? read_points(so, where) : code;
@@ -315,29 +318,28 @@ static cli_exit check(const cli_case *c, const stress_options *so, const cli_out
 
 int cli_stress(int argc, char **argv)
 {
-    cli_case c;
     cli_output o = {0};
     stress_options so = {0};
     places where = {0};
     cli_args args = {0};
-    cli_case_defaults(&c);
+    rb_case *c = cli_case_create(RB_CASE_SINGLE);
+    if (!c)
+        return CLI_INTERNAL;
     const cli_spec spec = {
         "rollbem stress [OPTION...] [CASE.ini]",
         about,
         notes,
-        {cli_case_set(&c), {options, OPTIONS, &so, so.given}, cli_output_set(&o)},
+        {rb_case_options(c), {options, OPTIONS, &so, so.given}, cli_output_set(&o)},
         3};
-    cli_exit code = cli_parse(&spec, argc, argv, &args);
-    if (code == CLI_CONTINUE)
-        code = cli_case_finish(&spec, &c, &args);
+    cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     const cli_output fringes = {.plot = so.fringes, .plot_option = "fringes"};
     if (code == CLI_CONTINUE)
-        code = check(&c, &so, &o, &fringes, &where);
+        code = check(c, &so, &o, &fringes, &where);
     if (code == CLI_CONTINUE)
-        code = solve(&c, &so, &where, &o, &fringes);
+        code = solve(c, &so, &where, &o, &fringes);
     rb_io_table_free(&where.points);
     free(where.xy);
     cli_args_free(&args);
-    cli_case_free(&c);
+    rb_case_free(c);
     return code;
 }

@@ -22,30 +22,30 @@ typedef struct {
 
 #define PLACE(member) offsetof(sweep_options, member)
 
-static const cli_option options[] = {
-    CLI_GROUP_LINE("sweep", "Study"),
-    CLI_TEXT_LINE("vary-1", PLACE(vary[0]), "SPEC",
-                  "an option of numbers and its values: 'mu 0.1 0.2 0.3', "
-                  "'creep-ratio 0:1.5:31' (first, last, how many), 'load 1:1e4:9:log'",
-                  .unset = "none"),
-    CLI_TEXT_LINE("vary-2", PLACE(vary[1]), "SPEC", "a second one: every pair is a case",
-                  .unset = "none"),
-    CLI_TEXT_LINE("vary-3", PLACE(vary[2]), "SPEC", "a third one", .unset = "none"),
-    CLI_TEXT_LINE("vary-4", PLACE(vary[3]), "SPEC", "a fourth one", .unset = "none"),
-    CLI_TEXT_LINE("cases", PLACE(cases), "FILE",
-                  "a case per row; the columns are named like the options",
-                  .unset = "none"),
-    CLI_TEXT_LINE("output", PLACE(output), "FILE",
-                  "where the rows go as they come; where it holds the first rows of this "
-                  "study already, the study goes on from there",
-                  .unset = "standard output"),
-    CLI_FLAG_LINE("restart", PLACE(restart),
-                  "begin again, whatever the output file holds"),
-    CLI_INTEGER_LINE("jobs", PLACE(jobs), CLI_FROM_TO(0, 256),
-                     "processes; 0: as many as there are processors"),
-    CLI_FLAG_LINE("progress", PLACE(progress),
-                  "time left on standard error also where that is no terminal"),
-    CLI_FLAG_LINE("quiet", PLACE(quiet), "no summary on standard error"),
+static const rb_option options[] = {
+    RB_GROUP_LINE("sweep", "Study"),
+    RB_TEXT_LINE("vary-1", PLACE(vary[0]), "SPEC",
+                 "an option of numbers and its values: 'mu 0.1 0.2 0.3', "
+                 "'creep-ratio 0:1.5:31' (first, last, how many), 'load 1:1e4:9:log'",
+                 .unset = "none"),
+    RB_TEXT_LINE("vary-2", PLACE(vary[1]), "SPEC", "a second one: every pair is a case",
+                 .unset = "none"),
+    RB_TEXT_LINE("vary-3", PLACE(vary[2]), "SPEC", "a third one", .unset = "none"),
+    RB_TEXT_LINE("vary-4", PLACE(vary[3]), "SPEC", "a fourth one", .unset = "none"),
+    RB_TEXT_LINE("cases", PLACE(cases), "FILE",
+                 "a case per row; the columns are named like the options",
+                 .unset = "none"),
+    RB_TEXT_LINE("output", PLACE(output), "FILE",
+                 "where the rows go as they come; where it holds the first rows of this "
+                 "study already, the study goes on from there",
+                 .unset = "standard output"),
+    RB_FLAG_LINE("restart", PLACE(restart),
+                 "begin again, whatever the output file holds"),
+    RB_INTEGER_LINE("jobs", PLACE(jobs), RB_FROM_TO(0, 256),
+                    "processes; 0: as many as there are processors"),
+    RB_FLAG_LINE("progress", PLACE(progress),
+                 "time left on standard error also where that is no terminal"),
+    RB_FLAG_LINE("quiet", PLACE(quiet), "no summary on standard error"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -76,7 +76,8 @@ typedef struct {
 } column;
 
 typedef struct {
-    const cli_case *base;
+    const rb_case *base;
+    rb_case *one; /* the case at hand: a copy of base with its own numbers */
     const sweep_options *o;
     column column[COLUMNS_MAX];
     int columns, factors, cases;
@@ -94,6 +95,7 @@ static void study_free(study *st)
     for (int k = 0; k < VARIED_MAX; k++)
         free(st->owned[k]);
     rb_io_table_free(&st->table);
+    rb_case_free(st->one);
 }
 
 static cli_exit add_column(study *st, const char *source, const char *name,
@@ -112,7 +114,8 @@ static cli_exit add_column(study *st, const char *source, const char *name,
     c->factor = st->factors;
     c->value = value;
     st->columns++;
-    return cli_case_is_number(st->base, c->name)
+    const rb_option *o = rb_case_option(c->name);
+    return o && (o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER)
                ? CLI_CONTINUE
                : cli_fail(CLI_DATA, "%s: '%s' is no option of a case that takes a number",
                           source, c->name);
@@ -136,9 +139,10 @@ static int read_range(const char *word, double **value)
     const int parts = sscanf(word, "%63[^:]:%63[^:]:%63[^:]:%7s", a, b, n, kind);
     const int logarithmic = parts == 4 && strcmp(kind, "log") == 0;
 
-    if (parts < 3 || (parts == 4 && !logarithmic) || !cli_number(a, &from) ||
-        !cli_number(b, &to) || !cli_number(n, &count) || count < 2 || count > 1e7 ||
-        count != floor(count) || (logarithmic && !(from > 0.0 && to > 0.0)))
+    if (parts < 3 || (parts == 4 && !logarithmic) || !rb_option_number(a, &from) ||
+        !rb_option_number(b, &to) || !rb_option_number(n, &count) || count < 2 ||
+        count > 1e7 || count != floor(count) ||
+        (logarithmic && !(from > 0.0 && to > 0.0)))
         return 0;
     *value = rb_alloc((size_t)count, 1);
     for (int k = 0; *value && k < count; k++) {
@@ -160,7 +164,7 @@ static int read_values(char *text, double **value)
         return strtok_r(NULL, " \t,", &rest) ? 0 : read_range(word, value);
     *value = rb_alloc(strlen(word) + strlen(rest) + 1, 1);
     for (; *value && word; word = strtok_r(NULL, " \t,", &rest))
-        if (!cli_number(word, &(*value)[n++]))
+        if (!rb_option_number(word, &(*value)[n++]))
             return 0;
     return *value ? n : 0;
 }
@@ -225,25 +229,28 @@ static double value_of(const study *st, const column *c, int number)
     return c->value[number % st->rows[c->factor]];
 }
 
-static cli_exit case_of(const study *st, int number, cli_case *c)
+/* Sets st->one to that case. */
+static cli_exit make_one(study *st, int number)
 {
-    cli_exit code = CLI_CONTINUE;
-
-    *c = *st->base; /* tables stay the base's */
-    for (int k = 0; k < st->columns && code == CLI_CONTINUE; k++)
-        code = cli_case_vary(c, number + 1, st->column[k].name,
-                             value_of(st, &st->column[k], number));
-    return code == CLI_CONTINUE ? cli_case_settle_again(c) : code;
+    rb_message why;
+    for (int k = 0; k < st->columns; k++)
+        if (rb_case_set_number(st->one, st->column[k].name,
+                               value_of(st, &st->column[k], number), &why) != RB_OK)
+            return cli_fail(CLI_DATA, "case %d: %s", number + 1, why.text);
+    const rb_status s = rb_case_settle(st->one, &why);
+    return cli_say(s, &why);
 }
 
 /* What is refused is refused before anything is solved. */
-static cli_exit check_cases(const study *st)
+static cli_exit check_cases(study *st)
 {
     cli_exit code = CLI_CONTINUE;
-    cli_case c;
 
+    st->one = rb_case_copy(st->base);
+    if (!st->one)
+        return cli_fail(CLI_INTERNAL, "out of memory");
     for (int k = 0; k < st->cases && code == CLI_CONTINUE; k++)
-        code = case_of(st, k, &c);
+        code = make_one(st, k);
     return code;
 }
 
@@ -261,7 +268,7 @@ static uint64_t add_bytes(uint64_t hash, const void *data, size_t size)
 /* FNV-1a of every input: tells whether a file holds rows of this study. */
 static uint64_t fingerprint(const study *st)
 {
-    json_t *inputs = cli_case_inputs(st->base);
+    json_t *inputs = rb_report_json_inputs(st->base);
     char *text = json_dumps(inputs, JSON_COMPACT);
     uint64_t hash = add_bytes(14695981039346656037u, RB_VERSION, sizeof RB_VERSION);
 
@@ -374,10 +381,10 @@ static int see_row(int k, const rb_rolling_sweep_row *row, void *context)
 
 static rb_status make_case(int k, rb_rolling_case *rc, void *context)
 {
-    cli_case c;
-    if (case_of(context, k, &c) != CLI_CONTINUE)
+    study *st = context;
+    if (make_one(st, k) != CLI_CONTINUE)
         return RB_EINVAL;
-    *rc = c.rc;
+    *rc = rb_case_settled(st->one)->rc;
     return RB_OK;
 }
 
@@ -526,24 +533,22 @@ static cli_exit run(study *st)
     return (cli_exit)st->worst;
 }
 
-static cli_exit check_base(const cli_case *c)
+static cli_exit check_base(const rb_case *c)
 {
     cli_exit code = CLI_CONTINUE;
     for (int k = 0; k < 2 && code == CLI_CONTINUE; k++)
         code = cli_case_refuse(c, k ? "accuracy" : "error", "studies have no error bars");
-    if (code == CLI_CONTINUE && cli_case_has_steps(c))
+    if (code == CLI_CONTINUE && rb_case_has_steps(rb_case_settled(c)))
         code = cli_fail(CLI_USAGE, "a study is one of static or steady cases");
     return code;
 }
 
 /* All that can be refused, and the output file. */
-static cli_exit prepare(const cli_spec *spec, int argc, char **argv, cli_case *c,
+static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
                         cli_args *args, study *st)
 {
-    cli_exit code = cli_parse(spec, argc, argv, args);
+    cli_exit code = cli_case_parse(spec, argc, argv, c, args);
 
-    if (code == CLI_CONTINUE)
-        code = cli_case_finish(spec, c, args);
     if (code == CLI_CONTINUE)
         code = check_base(c);
     if (code == CLI_CONTINUE)
@@ -572,23 +577,26 @@ static cli_exit solve(study *st, cli_exit code)
 
 int cli_sweep(int argc, char **argv)
 {
-    cli_case c;
     sweep_options o = {0};
     cli_args args = {0};
-    study st = {.base = &c, .o = &o};
-    cli_case_defaults(&c);
+    rb_case *c = cli_case_create(RB_CASE_SINGLE);
+    study st = {.base = c, .o = &o};
+    if (!c)
+        return CLI_INTERNAL;
     const cli_spec spec = {"rollbem sweep [OPTION...] [STUDY.ini]",
                            about,
                            notes,
-                           {cli_case_set(&c), {options, OPTIONS, &o, o.given}},
+                           {rb_case_options(c), {options, OPTIONS, &o, o.given}},
                            2};
     cli_exit code = cli_crew_begin(argc, argv);
-    if (code != CLI_CONTINUE)
+    if (code != CLI_CONTINUE) {
+        rb_case_free(c);
         return code;
-    code = solve(&st, prepare(&spec, argc, argv, &c, &args, &st));
+    }
+    code = solve(&st, prepare(&spec, argc, argv, c, &args, &st));
     cli_crew_end();
     study_free(&st);
     cli_args_free(&args);
-    cli_case_free(&c);
+    rb_case_free(c);
     return code;
 }

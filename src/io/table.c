@@ -241,16 +241,25 @@ rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why)
     return s;
 }
 
+rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t,
+                                   rb_message *why)
+{
+    rb_status s = rb_io_table_read(path, t, why);
+    if (s == RB_OK && t->columns != columns) {
+        s = rb_fail(why, RB_EFORMAT, "%s:%d: expected %d numbers, got %d", path,
+                    t->line[0], columns, t->columns);
+        rb_io_table_free(t);
+    }
+    return s;
+}
+
 rb_status rb_io_read_columns(const char *path, int columns, int *rows, double **x,
                              rb_message *why)
 {
     rb_io_table t;
-    rb_status s = rb_io_table_read(path, &t, why);
+    const rb_status s = rb_io_table_read_columns(path, columns, &t, why);
     *x = NULL;
     *rows = 0;
-    if (s == RB_OK && t.columns != columns)
-        s = rb_fail(why, RB_EFORMAT, "%s:%d: expected %d numbers, got %d", path,
-                    t.line[0], columns, t.columns);
     if (s == RB_OK) {
         *x = t.x;
         *rows = t.rows;

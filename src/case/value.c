@@ -1,13 +1,14 @@
 /* One value of one option: from text, strictly, and back. */
-#include "cli/cli.h"
+#include "rollbem/case.h"
 
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-int cli_number(const char *text, double *value)
+int rb_option_number(const char *text, double *value)
 {
     char *end;
     if (*text == '\0' || strchr(" \t\n", *text))
@@ -27,14 +28,14 @@ static int whole_number(const char *text, int *value)
     return *end == '\0' && errno == 0 && v >= INT_MIN && v <= INT_MAX;
 }
 
-static int in_range(double v, const cli_range *r)
+static int in_range(double v, const rb_range *r)
 {
     const int above = r->from_open ? v > r->from : v >= r->from;
     const int below = r->to_open ? v < r->to : v <= r->to;
     return above && below;
 }
 
-static void range_text(const cli_range *r, char *text, size_t size)
+static void range_text(const rb_range *r, char *text, size_t size)
 {
     if (isfinite(r->from) && isfinite(r->to))
         snprintf(text, size, " in %c%g, %g%c", r->from_open ? '(' : '[', r->from, r->to,
@@ -47,7 +48,7 @@ static void range_text(const cli_range *r, char *text, size_t size)
         text[0] = '\0';
 }
 
-static void choices_text(const cli_choice *c, char *text, size_t size)
+static void choices_text(const rb_choice *c, char *text, size_t size)
 {
     size_t used = 0;
     text[0] = '\0';
@@ -57,48 +58,48 @@ static void choices_text(const cli_choice *c, char *text, size_t size)
     }
 }
 
-const char *cli_expected(const cli_option *o, char *text, size_t size)
+const char *rb_option_expected(const rb_option *o, char *text, size_t size)
 {
     char range[64];
     range_text(&o->range, range, sizeof range);
     switch (o->kind) {
-    case CLI_NUMBER:
+    case RB_OPTION_NUMBER:
         snprintf(text, size, "a number%s%s%s", range, o->word ? " or " : "",
                  o->word ? o->word : "");
         break;
-    case CLI_INTEGER:
+    case RB_OPTION_INTEGER:
         snprintf(text, size, "a whole number%s", range);
         break;
-    case CLI_CHOICE:
+    case RB_OPTION_CHOICE:
         choices_text(o->choices, text, size);
         break;
-    case CLI_FLAG:
+    case RB_OPTION_FLAG:
         snprintf(text, size, "yes or no");
         break;
-    case CLI_TEXT:
-    case CLI_GROUP:
+    case RB_OPTION_TEXT:
+    case RB_OPTION_GROUP:
         snprintf(text, size, "a name");
         break;
     }
     return text;
 }
 
-static int set_number(const cli_option *o, double *place, const char *value)
+static int set_number(const rb_option *o, double *place, const char *value)
 {
     double v;
     if (o->word && strcmp(value, o->word) == 0)
         v = o->word_value;
-    else if (!cli_number(value, &v) || !in_range(v, &o->range))
+    else if (!rb_option_number(value, &v) || !in_range(v, &o->range))
         return 0;
     *place = v;
     return 1;
 }
 
-static int set_list(const cli_option *o, char *target, const char *value)
+static int set_list(const rb_option *o, char *target, const char *value)
 {
-    cli_list list = {0};
+    rb_numbers list = {0};
     char word[64];
-    for (size_t n; list.n < CLI_LIST_MAX; value += n + 1) {
+    for (size_t n; list.n < RB_NUMBERS_MAX; value += n + 1) {
         n = strcspn(value, ",");
         if (n >= sizeof word)
             return 0;
@@ -107,7 +108,7 @@ static int set_list(const cli_option *o, char *target, const char *value)
         if (!set_number(o, &list.value[list.n++], word))
             return 0;
         if (value[n] == '\0') {
-            *(cli_list *)(target + o->list) = list;
+            *(rb_numbers *)(target + o->list) = list;
             *(double *)(target + o->offset) = list.value[0];
             return 1;
         }
@@ -115,7 +116,7 @@ static int set_list(const cli_option *o, char *target, const char *value)
     return 0;
 }
 
-static int set_integer(const cli_option *o, int *place, const char *value)
+static int set_integer(const rb_option *o, int *place, const char *value)
 {
     int v;
     if (!whole_number(value, &v) || !in_range(v, &o->range))
@@ -124,10 +125,10 @@ static int set_integer(const cli_option *o, int *place, const char *value)
     return 1;
 }
 
-static int set_choice(const cli_option *o, char *target, const char *value)
+static int set_choice(const rb_option *o, char *target, const char *value)
 {
     int *place = (int *)(target + o->offset);
-    for (const cli_choice *c = o->choices; c->name; c++)
+    for (const rb_choice *c = o->choices; c->name; c++)
         if (strcmp(value, c->name) == 0) {
             *place = c->value;
             return 1;
@@ -147,51 +148,51 @@ static int set_flag(int *place, const char *value)
     return yes || no;
 }
 
-static int set_any(const cli_option *o, char *target, const char *value)
+static int set_any(const rb_option *o, char *target, const char *value)
 {
     void *place = target + o->offset;
     switch (o->kind) {
-    case CLI_NUMBER:
+    case RB_OPTION_NUMBER:
         return o->list ? set_list(o, target, value) : set_number(o, place, value);
-    case CLI_INTEGER:
+    case RB_OPTION_INTEGER:
         return set_integer(o, place, value);
-    case CLI_CHOICE:
+    case RB_OPTION_CHOICE:
         return set_choice(o, target, value);
-    case CLI_FLAG:
+    case RB_OPTION_FLAG:
         return set_flag(place, value);
-    case CLI_TEXT:
+    case RB_OPTION_TEXT:
         *(const char **)place = value;
         return *value != '\0';
-    case CLI_GROUP:
+    case RB_OPTION_GROUP:
         break;
     }
     return 0;
 }
 
-cli_exit cli_set_value(const cli_option *option, void *target, const char *what,
-                       const char *value, cli_exit code)
+rb_status rb_option_read(const rb_option *option, void *target, const char *what,
+                         const char *text, rb_message *why)
 {
     char expected[200];
-    if (set_any(option, target, value))
-        return CLI_CONTINUE;
-    return cli_fail(code, "%s: expected %s, got '%s'", what,
-                    cli_expected(option, expected, sizeof expected), value);
+    if (set_any(option, target, text))
+        return RB_OK;
+    return rb_fail(why, RB_EINVAL, "%s: expected %s, got '%s'", what,
+                   rb_option_expected(option, expected, sizeof expected), text);
 }
 
-static const char *choice_name(const cli_option *o, const char *target)
+static const char *choice_name(const rb_option *o, const char *target)
 {
     const int value = *(const int *)(target + o->offset);
-    for (const cli_choice *c = o->choices; c->name; c++)
+    for (const rb_choice *c = o->choices; c->name; c++)
         if (c->value == value)
             return c->name;
     return o->path ? *(const char *const *)(target + o->path) : "";
 }
 
-const char *cli_value_text(const cli_option *o, const void *target, char room[64])
+const char *rb_option_text(const rb_option *o, const void *target, char room[64])
 {
     const void *place = (const char *)target + o->offset;
     switch (o->kind) {
-    case CLI_NUMBER: {
+    case RB_OPTION_NUMBER: {
         const double v = *(const double *)place;
         if (o->word && v == o->word_value)
             return o->word;
@@ -200,18 +201,18 @@ const char *cli_value_text(const cli_option *o, const void *target, char room[64
         snprintf(room, 64, "%.15g", v);
         return room;
     }
-    case CLI_INTEGER:
+    case RB_OPTION_INTEGER:
         snprintf(room, 64, "%d", *(const int *)place);
         return room;
-    case CLI_CHOICE:
+    case RB_OPTION_CHOICE:
         return choice_name(o, target);
-    case CLI_FLAG:
+    case RB_OPTION_FLAG:
         return *(const int *)place ? "yes" : "no";
-    case CLI_TEXT: {
+    case RB_OPTION_TEXT: {
         const char *text = *(const char *const *)place;
         return text ? text : "";
     }
-    case CLI_GROUP:
+    case RB_OPTION_GROUP:
         break;
     }
     return "";

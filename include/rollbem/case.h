@@ -1,0 +1,230 @@
+/* A case by names: one table holds every option of a case (name, section, unit, range,
+ * choices, default, help), and whatever reads or shows a case is made from it: the
+ * command line, case files, JSON `inputs`, --help, studies, and callers of this library.
+ *
+ *     rb_case *c = rb_case_create(RB_CASE_SINGLE);
+ *     rb_case_set(c, "support", "halfplane", RB_GIVEN_ARGUMENT, &why);
+ *     rb_case_set_number(c, "load", 500.0, &why);
+ *     if (rb_case_settle(c, &why) == RB_OK)
+ *         rb_rolling_solve(&rb_case_settled(c)->rc, &solution, &why);
+ *     rb_case_free(c);
+ *
+ * Nothing here prints.  A refusal is a status and a line: RB_EINVAL where an argument is
+ * to blame, RB_EFORMAT where a file is, RB_ENOENT where there is no such file. */
+#ifndef ROLLBEM_CASE_H
+#define ROLLBEM_CASE_H
+
+#include "rollbem/base.h"
+#include "rollbem/rolling.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/* ---- Options --------------------------------------------------------------------- */
+
+typedef enum {
+    RB_OPTION_GROUP,   /* no option: a heading; name is the section, help the title */
+    RB_OPTION_NUMBER,  /* double */
+    RB_OPTION_INTEGER, /* int */
+    RB_OPTION_CHOICE,  /* int (an enum) */
+    RB_OPTION_FLAG,    /* int: yes or no */
+    RB_OPTION_TEXT     /* const char * */
+} rb_option_kind;
+
+typedef struct {
+    const char *name;
+    int value;
+} rb_choice;
+
+typedef struct {
+    double from, to;
+    int from_open, to_open; /* 1: the end itself is not allowed */
+} rb_range;
+
+/* Numbers separated by commas. */
+enum { RB_NUMBERS_MAX = 16 };
+
+typedef struct {
+    int n;
+    double value[RB_NUMBERS_MAX];
+} rb_numbers;
+
+/* One option: what it is called, what it may be, and where its value goes in the struct
+ * that the table belongs to. */
+typedef struct {
+    const char *name; /* --name, and the key in a case file */
+    rb_option_kind kind;
+    size_t offset;    /* of the value in the set's target */
+    const char *unit; /* "mm"; "" for none; of a text: what stands for it in the help */
+    rb_range range;   /* numbers and integers */
+    const char *word; /* numbers: a word that stands for word_value, or NULL */
+    double word_value;
+    size_t list; /* numbers: when not 0, more of them may follow after commas; all are
+                    stored here (rb_numbers), the first one as the value */
+    const rb_choice *choices; /* ends with a NULL name */
+    size_t path; /* choices: when not 0, any other word is a name, stored here
+                    (const char *), and the value is path_value */
+    int path_value;
+    const char *path_name; /* of that other word in the help: FILE, NAME */
+    unsigned excludes;     /* of options that share a bit only one may be given */
+    const char *unset;     /* help: what stands for the default; NULL: the value itself */
+    const char *help;
+} rb_option;
+
+/* Ranges and lines of an option table: */
+#define RB_ANY                                                                           \
+    {                                                                                    \
+        -INFINITY, INFINITY, 1, 1                                                        \
+    }
+#define RB_ABOVE(x)                                                                      \
+    {                                                                                    \
+        x, INFINITY, 1, 1                                                                \
+    }
+#define RB_FROM(x)                                                                       \
+    {                                                                                    \
+        x, INFINITY, 0, 1                                                                \
+    }
+#define RB_BETWEEN(x, y)                                                                 \
+    {                                                                                    \
+        x, y, 1, 1                                                                       \
+    } /* (x, y) */
+#define RB_FROM_TO(x, y)                                                                 \
+    {                                                                                    \
+        x, y, 0, 0                                                                       \
+    } /* [x, y] */
+#define RB_ABOVE_UPTO(x, y)                                                              \
+    {                                                                                    \
+        x, y, 1, 0                                                                       \
+    } /* (x, y] */
+
+#define RB_GROUP_LINE(section, title)                                                    \
+    {                                                                                    \
+        .name = section, .kind = RB_OPTION_GROUP, .help = title                          \
+    }
+#define RB_NUMBER_LINE(name_, place, unit_, range_, ...)                                 \
+    {                                                                                    \
+        .name = name_, .kind = RB_OPTION_NUMBER, .offset = place, .unit = unit_,         \
+        .range = range_, .help = __VA_ARGS__                                             \
+    }
+#define RB_INTEGER_LINE(name_, place, range_, ...)                                       \
+    {                                                                                    \
+        .name = name_, .kind = RB_OPTION_INTEGER, .offset = place, .unit = "",           \
+        .range = range_, .help = __VA_ARGS__                                             \
+    }
+#define RB_CHOICE_LINE(name_, place, choices_, ...)                                      \
+    {                                                                                    \
+        .name = name_, .kind = RB_OPTION_CHOICE, .offset = place, .unit = "",            \
+        .choices = choices_, .help = __VA_ARGS__                                         \
+    }
+#define RB_FLAG_LINE(name_, place, ...)                                                  \
+    {                                                                                    \
+        .name = name_, .kind = RB_OPTION_FLAG, .offset = place, .unit = "",              \
+        .help = __VA_ARGS__                                                              \
+    }
+#define RB_TEXT_LINE(name_, place, metavar, ...)                                         \
+    {                                                                                    \
+        .name = name_, .kind = RB_OPTION_TEXT, .offset = place, .unit = metavar,         \
+        .help = __VA_ARGS__                                                              \
+    }
+
+/* A table and the struct its values go to. */
+typedef struct {
+    const rb_option *options;
+    int n;
+    void *target;
+    int *given; /* n: who gave the value, see below; NULL where nobody asks */
+} rb_option_set;
+
+/* Who gave a value: nobody (0), line k > 0 of the case file, an argument that wins over
+ * the file, or rb_case_set_number. */
+enum { RB_GIVEN_ARGUMENT = -1, RB_GIVEN_NUMBER = -2 };
+
+/* The option of that name (its first `length` characters) among n sets: its set, and its
+ * place there in *index; NULL: there is none, and guess has tried the others' names. */
+const rb_option_set *rb_option_find(int n, const rb_option_set *sets, const char *name,
+                                    size_t length, int *index, rb_guess *guess);
+
+/* One value, strictly.  what: how messages call it ("--mu", "case.ini:3: mu").  Text is
+ * borrowed.  RB_EINVAL: "what: expected ..., got '...'". */
+rb_status rb_option_read(const rb_option *option, void *target, const char *what,
+                         const char *text, rb_message *why);
+
+/* "a number >= 0", "lemke, newton or auto": what the option wants.  Returns text. */
+const char *rb_option_expected(const rb_option *option, char *text, size_t size);
+
+/* The value as text of a case file; room for 64 bytes or the text itself. */
+const char *rb_option_text(const rb_option *option, const void *target, char room[64]);
+
+/* 1: the whole of text is one finite number. */
+int rb_option_number(const char *text, double *value);
+
+/* ---- Cases ----------------------------------------------------------------------- */
+
+typedef struct rb_case rb_case;
+
+typedef enum {
+    RB_CASE_SINGLE,
+    RB_CASE_CURVE /* steady unless told otherwise; mu may be several */
+} rb_case_purpose;
+
+/* The defaults, settled already.  NULL: no memory. */
+rb_case *rb_case_create(rb_case_purpose purpose);
+/* Borrows files and texts of c, which must live longer.  NULL: no memory. */
+rb_case *rb_case_copy(const rb_case *c);
+void rb_case_free(rb_case *c);
+
+/* The table with the values as given, for those who read or show them; borrowed. */
+rb_option_set rb_case_options(rb_case *c);
+/* All n options and their headings, in the order of the help; their values stand in an
+ * rb_settled_case. */
+const rb_option *rb_case_describe(int *n);
+/* The option of that name; NULL: there is none. */
+const rb_option *rb_case_option(const char *name);
+/* The section that it stands in. */
+const char *rb_case_section(const rb_option *option);
+
+/* by: RB_GIVEN_ARGUMENT, or the line of the case file.  The text is copied.  RB_EINVAL:
+ * no such option, or a value out of its range. */
+rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by,
+                      rb_message *why);
+/* Options of numbers only. */
+rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_message *why);
+
+/* Reads a case file; what an argument gave before keeps its value.  also: n further
+ * tables whose keys the file may hold.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
+rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set *also,
+                       rb_message *why);
+
+/* What the words mean together: contradictions are refused, body B, the mesh and the
+ * files of gap and history are settled, the result is checked.  Again after every
+ * further change. */
+rb_status rb_case_settle(rb_case *c, rb_message *why);
+
+/* The values of a case, as settled. */
+typedef struct {
+    rb_rolling_case rc;
+    const char *gap_file; /* profile of the initial gap, or NULL */
+    int similar;          /* B is of A's material */
+    double young_b, poisson_b, radius_b;
+    rb_numbers mus;             /* more than one: for curves */
+    const char *history_file;   /* or NULL */
+    rb_rolling_program program; /* its history; n = 0: none */
+    int error;                  /* 1: estimate discretisation errors */
+    double accuracy;            /* refine until they are below this; 0: no */
+} rb_settled_case;
+
+/* Borrowed, valid until c changes. */
+const rb_settled_case *rb_case_settled(const rb_case *c);
+/* 1: transient rolling or a static history. */
+int rb_case_has_steps(const rb_settled_case *settled);
+
+/* Who gave the option of that name; 0: it has its default. */
+int rb_case_given(const rb_case *c, const char *name);
+/* RB_OK, or the line "--name: reason" when that option was given. */
+rb_status rb_case_refuse(const rb_case *c, const char *name, const char *reason,
+                         rb_message *why);
+/* Turns a refusal s of rollbem/rolling.h into one of this case: the file and the line
+ * where they are to blame.  Returns the status that says which. */
+rb_status rb_case_blame(const rb_case *c, rb_status s, rb_message *why);
+
+#endif

@@ -1,0 +1,420 @@
+/* A case from its words: set by name, settled, checked. */
+#include "case/internal.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Making one -------------------------------------------------------------------- */
+
+static rb_settled_case default_words(rb_case_purpose purpose)
+{
+    rb_settled_case words = {.rc = rb_rolling_case_defaults(),
+                             .young_b = NAN,
+                             .poisson_b = NAN,
+                             .radius_b = INFINITY};
+    if (purpose == RB_CASE_CURVE)
+        words.rc.formulation = RB_STEADY;
+    return words;
+}
+
+rb_case *rb_case_create(rb_case_purpose purpose)
+{
+    rb_case *c = calloc(1, sizeof *c);
+    if (!c)
+        return NULL;
+    c->purpose = purpose;
+    c->words = default_words(purpose);
+    rb_case_settle(c, NULL);
+    return c;
+}
+
+rb_case *rb_case_copy(const rb_case *c)
+{
+    rb_case *copy = malloc(sizeof *copy);
+    if (!copy)
+        return NULL;
+    *copy = *c;
+    copy->gap.borrowed = copy->history.borrowed = 1;
+    copy->text = NULL;
+    copy->texts = 0;
+    return copy;
+}
+
+static void free_table(case_table *t)
+{
+    if (!t->borrowed)
+        rb_io_table_free(&t->table);
+    *t = (case_table){.path = NULL};
+}
+
+void rb_case_free(rb_case *c)
+{
+    if (!c)
+        return;
+    free_table(&c->gap);
+    free_table(&c->history);
+    for (int i = 0; i < c->texts; i++)
+        free(c->text[i]);
+    free(c->text);
+    free(c);
+}
+
+const char *rb_case_keep(rb_case *c, const char *text)
+{
+    char **kept = realloc(c->text, sizeof *kept * (size_t)(c->texts + 1));
+    char *copy = malloc(strlen(text) + 1);
+    if (kept)
+        c->text = kept;
+    if (!kept || !copy) {
+        free(copy);
+        return NULL;
+    }
+    strcpy(copy, text);
+    return c->text[c->texts++] = copy;
+}
+
+/* ---- The table --------------------------------------------------------------------- */
+
+const rb_option_set *rb_option_find(int n, const rb_option_set *sets, const char *name,
+                                    size_t length, int *index, rb_guess *guess)
+{
+    for (int k = 0; k < n; k++)
+        for (int i = 0; i < sets[k].n; i++) {
+            const rb_option *o = &sets[k].options[i];
+            if (o->kind == RB_OPTION_GROUP) /* headings share names with options */
+                continue;
+            if (strlen(o->name) == length && strncmp(o->name, name, length) == 0) {
+                *index = i;
+                return &sets[k];
+            }
+            rb_guess_try(guess, o->name);
+        }
+    return NULL;
+}
+
+rb_option_set rb_case_options(rb_case *c)
+{
+    return (rb_option_set){rb_case_table, rb_case_table_n, &c->words, c->given};
+}
+
+const rb_option *rb_case_describe(int *n)
+{
+    *n = rb_case_table_n;
+    return rb_case_table;
+}
+
+const rb_option *rb_case_option(const char *name)
+{
+    for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++)
+        if (o->kind != RB_OPTION_GROUP && strcmp(o->name, name) == 0)
+            return o;
+    return NULL;
+}
+
+const char *rb_case_section(const rb_option *option)
+{
+    while (option->kind != RB_OPTION_GROUP)
+        option--;
+    return option->name;
+}
+
+/* ---- Setting ----------------------------------------------------------------------- */
+
+/* NULL, with a line in why, where there is no such option. */
+static const rb_option *find(const char *name, rb_message *why)
+{
+    int i;
+    rb_guess guess = {.word = name};
+    const rb_option_set set = {rb_case_table, rb_case_table_n, NULL, NULL};
+    if (rb_option_find(1, &set, name, strlen(name), &i, &guess))
+        return &rb_case_table[i];
+    rb_fail(why, RB_EINVAL, "unknown option '%s'%s", name, rb_guess_text(&guess, ""));
+    return NULL;
+}
+
+static rb_status set(rb_case *c, const rb_option *o, const char *text, int by,
+                     rb_message *why)
+{
+    char what[400];
+    rb_option_source(o, by, c->path, what, sizeof what);
+    const rb_status s = rb_option_read(o, &c->words, what, text, why);
+    if (s != RB_OK)
+        return by > 0 ? RB_EFORMAT : s;
+    c->given[o - rb_case_table] = by;
+    return RB_OK;
+}
+
+rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by,
+                      rb_message *why)
+{
+    const rb_option *o = find(name, why);
+    if (!o)
+        return RB_EINVAL;
+    const char *kept = rb_case_keep(c, text);
+    return kept ? set(c, o, kept, by, why) : rb_fail(why, RB_ENOMEM, "out of memory");
+}
+
+rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_message *why)
+{
+    char text[32];
+    const rb_option *o = find(name, why);
+    if (!o)
+        return RB_EINVAL;
+    if (o->kind != RB_OPTION_NUMBER && o->kind != RB_OPTION_INTEGER)
+        return rb_fail(why, RB_EINVAL, "%s: takes no number", name);
+    snprintf(text, sizeof text, "%.17g", value);
+    return set(c, o, text, RB_GIVEN_NUMBER, why);
+}
+
+/* ---- Who is to blame --------------------------------------------------------------- */
+
+int rb_case_given(const rb_case *c, const char *name)
+{
+    const rb_option *o = rb_case_option(name);
+    return o ? c->given[o - rb_case_table] : 0;
+}
+
+static rb_status refuse(const rb_case *c, const rb_option *o, const char *reason,
+                        rb_message *why)
+{
+    char room[400];
+    const int by = c->given[o - rb_case_table];
+    return rb_fail(why, by > 0 ? RB_EFORMAT : RB_EINVAL, "%s: %s",
+                   rb_option_source(o, by, c->path, room, sizeof room), reason);
+}
+
+rb_status rb_case_refuse(const rb_case *c, const char *name, const char *reason,
+                         rb_message *why)
+{
+    const rb_option *o = rb_case_option(name);
+    return o && rb_case_given(c, name) ? refuse(c, o, reason, why) : RB_OK;
+}
+
+/* 1: the case file is to blame, since nothing else gives anything of the case. */
+static int all_from_file(const rb_case *c)
+{
+    for (int i = 0; i < rb_case_table_n; i++)
+        if (c->given[i] < 0)
+            return 0;
+    return c->path[0] != '\0';
+}
+
+/* "history: row 3: ..." of the library, by the file and its line: RB_EFORMAT; else
+ * RB_OK. */
+static rb_status blame_row(const case_table *t, const char *name, rb_message *why)
+{
+    int row = 0, rest = 0;
+    const size_t n = strlen(name);
+    const rb_message said = *why;
+    if (!t->path || strncmp(said.text, name, n) != 0)
+        return RB_OK;
+    if (sscanf(said.text + n, ": row %d: %n", &row, &rest) < 1 || row < 1 ||
+        row > t->table.rows)
+        return rb_fail(why, RB_EFORMAT, "%s: %s", t->path, said.text);
+    return rb_fail(why, RB_EFORMAT, "%s:%d: %s", t->path, t->table.line[row - 1],
+                   said.text + n + rest);
+}
+
+rb_status rb_case_blame(const rb_case *c, rb_status s, rb_message *why)
+{
+    if (s != RB_EINVAL || !why)
+        return s;
+    rb_status blamed = blame_row(&c->history, "history", why);
+    if (blamed == RB_OK)
+        blamed = blame_row(&c->gap, "gap", why);
+    if (blamed != RB_OK || !all_from_file(c))
+        return blamed != RB_OK ? blamed : s;
+    const rb_message said = *why;
+    return rb_fail(why, RB_EFORMAT, "%s: %s", c->path, said.text);
+}
+
+/* ---- Body B ------------------------------------------------------------------------ */
+
+/* Options of the second body mean nothing to a rigid plane. */
+static rb_status check_rigid(const rb_case *c, rb_message *why)
+{
+    for (int i = 0; i < rb_case_table_n; i++)
+        if (c->given[i] && strcmp(rb_case_section(&rb_case_table[i]), "body-b") == 0)
+            return refuse(c, &rb_case_table[i],
+                          "body B is rigid without --similar or --young-b", why);
+    return RB_OK;
+}
+
+static rb_status settle_body_b(rb_case *c, rb_message *why)
+{
+    rb_settled_case *s = &c->settled;
+    rb_rolling_case *rc = &s->rc;
+    rc->elastic_b = s->similar || !isnan(s->young_b);
+    if (!rc->elastic_b) {
+        s->young_b = s->poisson_b = NAN;
+        return check_rigid(c, why);
+    }
+    rc->b.young = s->similar ? rc->a.young : s->young_b;
+    rc->b.poisson = s->similar || isnan(s->poisson_b) ? rc->a.poisson : s->poisson_b;
+    rc->b.radius = s->radius_b;
+    s->young_b = rc->b.young;
+    s->poisson_b = rc->b.poisson;
+    return RB_OK;
+}
+
+/* ---- Files that the case names ------------------------------------------------------
+ */
+
+/* columns: how many there must be; 0: any number of them. */
+static rb_status read_table(case_table *t, const char *path, int columns, rb_message *why)
+{
+    if (t->path && strcmp(t->path, path) == 0)
+        return RB_OK;
+    free_table(t);
+    const rb_status s = columns > 0
+                            ? rb_io_table_read_columns(path, columns, &t->table, why)
+                            : rb_io_table_read(path, &t->table, why);
+    t->path = s == RB_OK ? path : NULL;
+    return s;
+}
+
+static rb_status read_profile(rb_case *c, rb_message *why)
+{
+    rb_settled_case *settled = &c->settled;
+    const rb_io_table *t = &c->gap.table;
+    if (settled->rc.gap != RB_GAP_TABLE)
+        return RB_OK;
+    const rb_status s = read_table(&c->gap, settled->gap_file, 2, why);
+    if (s != RB_OK)
+        return s;
+    settled->rc.profile_n = t->rows;
+    settled->rc.profile_x = t->x;
+    settled->rc.profile_gap = t->x + t->rows;
+    return RB_OK;
+}
+
+/* Where a column of that name belongs in the program; NULL: nowhere. */
+static const double **program_column(rb_rolling_program *p, const char *name,
+                                     rb_guess *guess)
+{
+    const struct {
+        const char *name;
+        const double **place;
+    } columns[] = {
+        {"distance", &p->distance}, {"load", &p->load},
+        {"approach", &p->approach}, {"shift", &p->shift},
+        {"creep", &p->creep},       {"creep_ratio", &p->creep_ratio},
+        {"force", &p->force},       {"force_ratio", &p->force_ratio},
+    };
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
+        if (strcmp(name, columns[k].name) == 0)
+            return columns[k].place;
+        rb_guess_try(guess, columns[k].name);
+    }
+    return NULL;
+}
+
+static rb_status read_history(rb_case *c, rb_message *why)
+{
+    rb_settled_case *settled = &c->settled;
+    const rb_io_table *t = &c->history.table;
+    const char *path = settled->history_file;
+    if (!path)
+        return RB_OK;
+    const rb_status s = read_table(&c->history, path, 0, why);
+    if (s != RB_OK)
+        return s;
+    if (!t->name)
+        return rb_fail(why, RB_EFORMAT, "%s: expected a line that names the columns",
+                       path);
+    settled->program.n = t->rows;
+    for (int j = 0; j < t->columns; j++) {
+        rb_guess guess = {.word = t->name[j]};
+        const double **place = program_column(&settled->program, t->name[j], &guess);
+        if (!place)
+            return rb_fail(why, RB_EFORMAT, "%s: unknown column '%s'%s", path, t->name[j],
+                           rb_guess_text(&guess, ""));
+        *place = t->x + (size_t)j * (size_t)t->rows;
+    }
+    return RB_OK;
+}
+
+/* ---- What depends on other options --------------------------------------------------
+ */
+
+/* The paper's own example stays on its equal elements, as do large contacts, which need
+ * them. */
+static void choose_mesh(rb_case *c)
+{
+    rb_rolling_case *rc = &c->settled.rc;
+    const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
+    if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper &&
+        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE &&
+        rc->contact_elements < RB_ROLLING_LARGE)
+        rc->mesh = RB_MESH_FITTED;
+    if (!rb_case_given(c, "contact-elements") && rc->mesh == RB_MESH_FITTED)
+        rc->contact_elements = 100;
+}
+
+int rb_case_has_steps(const rb_settled_case *settled)
+{
+    return settled->rc.formulation == RB_TRANSIENT || settled->program.n > 0;
+}
+
+/* Options of one formulation mean nothing to the others. */
+static rb_status check_formulation(const rb_case *c, rb_message *why)
+{
+    const rb_settled_case *settled = &c->settled;
+    const int transient = settled->rc.formulation == RB_TRANSIENT;
+    const int history = settled->history_file != NULL;
+    rb_status s = RB_OK;
+    if (!transient)
+        s = rb_case_refuse(c, "distance", "of transient rolling only", why);
+    else if (history)
+        s = rb_case_refuse(c, "distance", "the history says how far", why);
+    if (s == RB_OK && !transient)
+        s = rb_case_refuse(c, "steps", "of transient rolling only", why);
+    if (s == RB_OK && settled->rc.formulation == RB_STEADY)
+        s = rb_case_refuse(c, "history", "steady rolling has no history", why);
+    if (s == RB_OK && (history || transient) && settled->rc.mesh == RB_MESH_FITTED)
+        s = rb_case_refuse(c, "mesh", "step by step the elements are equal", why);
+    if (s == RB_OK && transient && !history && !(settled->rc.distance > 0.0))
+        s = rb_fail(why, RB_EINVAL, "transient rolling needs --distance or --history");
+    return s;
+}
+
+static rb_status check_purpose(const rb_case *c, rb_message *why)
+{
+    rb_status s = RB_OK;
+    if (c->settled.mus.n > 1 && c->purpose != RB_CASE_CURVE)
+        s = rb_case_refuse(c, "mu", "expected one number; a curve takes several", why);
+    if (s == RB_OK && rb_case_has_steps(&c->settled))
+        s = rb_case_refuse(c, "accuracy",
+                           "of static and steady cases without history only", why);
+    return s;
+}
+
+rb_status rb_case_settle(rb_case *c, rb_message *why)
+{
+    const rb_settled_case defaults = default_words(c->purpose);
+    const rb_option_set set = rb_case_options(c);
+    rb_status s = rb_option_settle(&set, &defaults,
+                                   rb_case_alike(c->words.rc.formulation), c->path, why);
+    c->settled = c->words;
+    if (s == RB_OK)
+        s = settle_body_b(c, why);
+    if (s == RB_OK)
+        s = check_formulation(c, why);
+    if (s == RB_OK)
+        s = read_profile(c, why);
+    if (s == RB_OK)
+        s = read_history(c, why);
+    if (s == RB_OK)
+        s = check_purpose(c, why);
+    if (s != RB_OK)
+        return s;
+    choose_mesh(c);
+    s = rb_rolling_case_check(&c->settled.rc, why);
+    return rb_case_blame(c, s, why);
+}
+
+const rb_settled_case *rb_case_settled(const rb_case *c)
+{
+    return &c->settled;
+}

@@ -1,0 +1,151 @@
+/* Case files: section by section, key = value, by the tables of options. */
+#include "case/internal.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <ini.h>
+
+typedef struct {
+    rb_case *c;
+    int n;
+    const rb_option_set *sets; /* the case's own, and those of the command */
+    const char *path;
+    FILE *file;
+    int line;
+    rb_status status; /* of the first error */
+    rb_message *why;
+} ini_state;
+
+/* fgets for inih: counts lines, takes away the indentation (inih would read an indented
+ * line as more of the last value) and refuses what does not fit. */
+static char *read_line(char *line, int size, void *context)
+{
+    ini_state *st = context;
+    if (st->status != RB_OK || !fgets(line, size, st->file))
+        return NULL;
+    st->line++;
+    const size_t n = strlen(line);
+    if (n + 1 == (size_t)size && line[n - 1] != '\n') {
+        st->status =
+            rb_fail(st->why, RB_EFORMAT, "%s:%d: line too long", st->path, st->line);
+        return NULL;
+    }
+    const size_t indent = strspn(line, " \t");
+    memmove(line, line + indent, n + 1 - indent);
+    return line;
+}
+
+/* The section that option i stands in: the heading above it. */
+static const char *section_of(const rb_option_set *set, int i)
+{
+    while (i >= 0 && set->options[i].kind != RB_OPTION_GROUP)
+        i--;
+    return i >= 0 ? set->options[i].name : "";
+}
+
+static int known_section(const ini_state *st, const char *name, rb_guess *guess)
+{
+    for (int k = 0; k < st->n; k++)
+        for (int i = 0; i < st->sets[k].n; i++) {
+            const rb_option *o = &st->sets[k].options[i];
+            if (o->kind != RB_OPTION_GROUP)
+                continue;
+            if (strcmp(o->name, name) == 0)
+                return 1;
+            rb_guess_try(guess, o->name);
+        }
+    return 0;
+}
+
+static rb_status check_section(const ini_state *st, const rb_option_set *set, int i,
+                               const char *section)
+{
+    const char *wanted = section_of(set, i);
+    if (*section == '\0' || strcmp(section, wanted) == 0)
+        return RB_OK;
+    return rb_fail(st->why, RB_EFORMAT,
+                   "%s:%d: key '%s' belongs to section [%s], not [%s]", st->path,
+                   st->line, set->options[i].name, wanted, section);
+}
+
+static rb_status set_value(const ini_state *st, const rb_option_set *set, int i,
+                           const char *value)
+{
+    char what[400];
+    const rb_option *o = &set->options[i];
+    const char *kept = rb_case_keep(st->c, value); /* inih's lives until the next line */
+    if (!kept)
+        return rb_fail(st->why, RB_ENOMEM, "out of memory");
+    snprintf(what, sizeof what, "%s:%d: %s", st->path, st->line, o->name);
+    if (set->given)
+        set->given[i] = st->line;
+    return rb_option_read(o, set->target, what, kept, st->why) == RB_OK ? RB_OK
+                                                                        : RB_EFORMAT;
+}
+
+static rb_status set_key(const ini_state *st, const char *section, const char *name,
+                         const char *value)
+{
+    int i;
+    rb_guess guess = {.word = name}, near = {.word = section};
+    const rb_option_set *set =
+        rb_option_find(st->n, st->sets, name, strlen(name), &i, &guess);
+    if (*section != '\0' && !known_section(st, section, &near))
+        return rb_fail(st->why, RB_EFORMAT, "%s:%d: unknown section '%s'%s", st->path,
+                       st->line, section, rb_guess_text(&near, ""));
+    if (!set)
+        return rb_fail(st->why, RB_EFORMAT, "%s:%d: unknown key '%s'%s", st->path,
+                       st->line, name, rb_guess_text(&guess, ""));
+    if (check_section(st, set, i, section) != RB_OK)
+        return RB_EFORMAT;
+    const int before = set->given ? set->given[i] : 0;
+    if (before > 0)
+        return rb_fail(st->why, RB_EFORMAT,
+                       "%s:%d: key '%s' was given before, in line %d", st->path, st->line,
+                       name, before);
+    return before == RB_GIVEN_ARGUMENT ? RB_OK : set_value(st, set, i, value);
+}
+
+static int handle_key(void *context, const char *section, const char *name,
+                      const char *value)
+{
+    ini_state *st = context;
+    if (st->status == RB_OK)
+        st->status = set_key(st, section, name, value);
+    return st->status == RB_OK;
+}
+
+static rb_status read_keys(ini_state *st)
+{
+    st->file = fopen(st->path, "r");
+    if (!st->file)
+        return rb_fail(st->why, RB_ENOENT, "%s: %s", st->path, strerror(errno));
+    const int bad_line = ini_parse_stream(read_line, st, handle_key, st);
+    if (ferror(st->file))
+        st->status = rb_fail(st->why, RB_ENOENT, "%s: %s", st->path, strerror(errno));
+    else if (st->status == RB_OK && bad_line)
+        st->status =
+            rb_fail(st->why, RB_EFORMAT, "%s:%d: expected [section] or key = value",
+                    st->path, bad_line);
+    fclose(st->file);
+    return st->status;
+}
+
+rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set *also,
+                       rb_message *why)
+{
+    rb_option_set *sets = calloc((size_t)n + 1, sizeof *sets);
+    ini_state st = {.c = c, .n = n + 1, .sets = sets, .path = path, .why = why};
+    if (!sets)
+        return rb_fail(why, RB_ENOMEM, "out of memory");
+    sets[0] = rb_case_options(c);
+    if (n > 0)
+        memcpy(sets + 1, also, sizeof *sets * (size_t)n);
+    snprintf(c->path, sizeof c->path, "%s", path);
+    const rb_status s = read_keys(&st);
+    free(sets);
+    return s;
+}

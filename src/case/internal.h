@@ -1,0 +1,48 @@
+/* What the files of src/case share. */
+#ifndef ROLLBEM_CASE_INTERNAL_H
+#define ROLLBEM_CASE_INTERNAL_H
+
+#include "rollbem/case.h"
+#include "rollbem/io.h"
+
+enum { RB_CASE_OPTIONS_MAX = 64 };
+
+/* A table read from a file that an option names. */
+typedef struct {
+    rb_io_table table;
+    const char *path; /* that it was read from; NULL: not yet */
+    int borrowed;     /* 1: it belongs to the case that this one is a copy of */
+} case_table;
+
+struct rb_case {
+    rb_case_purpose purpose;
+    rb_settled_case words, settled; /* as given; as used */
+    char path[320];                 /* case file, "" without */
+    int given[RB_CASE_OPTIONS_MAX];
+    case_table gap, history;
+    char **text; /* copies of values; owned */
+    int texts;
+};
+
+/* The options of a case; their values go to an rb_settled_case. */
+extern const rb_option rb_case_table[];
+extern const int rb_case_table_n;
+
+/* Bits of `excludes` that count as one in that formulation. */
+unsigned rb_case_alike(rb_rolling_formulation formulation);
+
+/* A copy that lives as long as c; NULL: no memory. */
+const char *rb_case_keep(rb_case *c, const char *text);
+
+/* Where an option came from in a message: "--load", "case.ini:3: load".  Returns room. */
+const char *rb_option_source(const rb_option *option, int given, const char *path,
+                             char *room, size_t size);
+
+/* Two given options that share a bit of `excludes` are refused, naming both, unless one
+ * is an argument and one comes from the file: then the argument wins and the other
+ * returns to its value in defaults (a struct like the set's target).  Bits in `alike`
+ * count as one bit. */
+rb_status rb_option_settle(const rb_option_set *set, const void *defaults, unsigned alike,
+                           const char *path, rb_message *why);
+
+#endif

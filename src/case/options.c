@@ -1,0 +1,187 @@
+/* The options of a case, each once: everything that reads or shows them is made from this
+ * table. */
+#include "case/internal.h"
+
+#include <stddef.h>
+
+#define PLACE(member) offsetof(rb_settled_case, member)
+#define RC(member) offsetof(rb_settled_case, rc.member)
+
+static const rb_choice supports[] = {
+    {"arc", RB_BEM_ARC}, {"hub", RB_BEM_HUB}, {"halfplane", RB_BEM_HALFPLANE}, {NULL, 0}};
+static const rb_choice gaps[] = {
+    {"parabola", RB_GAP_PARABOLA}, {"exact", RB_GAP_EXACT}, {NULL, 0}};
+static const rb_choice formulations[] = {
+    {"static", RB_STATIC}, {"steady", RB_STEADY}, {"transient", RB_TRANSIENT}, {NULL, 0}};
+static const rb_choice meshes[] = {
+    {"uniform", RB_MESH_UNIFORM}, {"fitted", RB_MESH_FITTED}, {NULL, 0}};
+static const rb_choice normals[] = {{"obstacle", RB_BEM_NORMALS_OBSTACLE},
+                                    {"surface", RB_BEM_NORMALS_SURFACE},
+                                    {NULL, 0}};
+static const rb_choice near_fields[] = {{"auto", RB_NEAR_FIELD_AUTO},
+                                        {"plain", RB_NEAR_FIELD_PLAIN},
+                                        {"exact", RB_NEAR_FIELD_EXACT},
+                                        {NULL, 0}};
+static const rb_choice solvers[] = {{"auto", RB_SOLVER_AUTO},
+                                    {"lemke", RB_SOLVER_LEMKE},
+                                    {"newton", RB_SOLVER_NEWTON},
+                                    {NULL, 0}};
+static const rb_choice lcp_forms[] = {
+    {"pivoted", RB_LCP_PIVOTED}, {"kwak", RB_LCP_KWAK}, {NULL, 0}};
+
+/* What excludes what. */
+enum {
+    ONE_NORMAL = 1,
+    ONE_CREEPAGE = 2,
+    ONE_LOADING = 4,
+    ONE_YOUNG_B = 8,
+    ONE_POISSON_B = 16
+};
+
+const rb_option rb_case_table[] = {
+    RB_GROUP_LINE("body-a", "Body A: the cylinder that rolls"),
+    RB_NUMBER_LINE("radius", RC(a.radius), "mm", RB_ABOVE(0), "radius R"),
+    RB_NUMBER_LINE("young", RC(a.young), "MPa", RB_ABOVE(0), "Young's modulus E"),
+    RB_NUMBER_LINE("poisson", RC(a.poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
+                   "Poisson's ratio nu"),
+    RB_CHOICE_LINE("support", RC(a.support), supports,
+                   "how it is held: clamped arc at the top, rigid core, or a half-plane "
+                   "instead of the cylinder's boundary"),
+    RB_NUMBER_LINE("arc", RC(a.arc), "degrees", RB_ABOVE_UPTO(0, 90),
+                   "half-angle of the clamped arc"),
+    RB_NUMBER_LINE("hub-ratio", RC(a.hub_ratio), "-", RB_BETWEEN(0, 1),
+                   "radius of the rigid core / R"),
+    RB_NUMBER_LINE(
+        "datum", RC(a.datum), "mm", RB_ABOVE(0),
+        "halfplane: depth of zero displacement; auto: 2R/e, the compression of a "
+        "half-cylinder",
+        .word = "auto", .word_value = 0.0),
+
+    RB_GROUP_LINE("body-b", "Body B: a rigid plane unless an option makes it elastic"),
+    RB_FLAG_LINE("similar", PLACE(similar), "elastic, of the same material as A",
+                 .excludes = ONE_YOUNG_B | ONE_POISSON_B),
+    RB_NUMBER_LINE("young-b", PLACE(young_b), "MPa", RB_ABOVE(0),
+                   "Young's modulus; makes B elastic", .unset = "rigid",
+                   .excludes = ONE_YOUNG_B),
+    RB_NUMBER_LINE("poisson-b", PLACE(poisson_b), "-", RB_ABOVE_UPTO(-1, 0.5),
+                   "Poisson's ratio", .unset = "A's", .excludes = ONE_POISSON_B),
+    RB_NUMBER_LINE("radius-b", PLACE(radius_b), "mm", RB_ABOVE(0),
+                   "radius of an elastic B, or plane", .word = "plane",
+                   .word_value = INFINITY),
+    RB_CHOICE_LINE("support-b", RC(b.support), supports, "how an elastic B is held"),
+    RB_NUMBER_LINE("arc-b", RC(b.arc), "degrees", RB_ABOVE_UPTO(0, 90),
+                   "half-angle of its clamped arc"),
+    RB_NUMBER_LINE("hub-ratio-b", RC(b.hub_ratio), "-", RB_BETWEEN(0, 1),
+                   "radius of its rigid core / radius"),
+    RB_NUMBER_LINE("datum-b", RC(b.datum), "mm", RB_ABOVE(0),
+                   "halfplane: depth of zero displacement; auto: 2/e of its radius, or "
+                   "of A's for a plane",
+                   .word = "auto", .word_value = 0.0),
+
+    RB_GROUP_LINE("gap", "Initial gap"),
+    RB_CHOICE_LINE("gap", RC(gap), gaps,
+                   "x^2/(2R), the cylinder's own, or a file of rows x, gap [mm]",
+                   .path = PLACE(gap_file), .path_value = RB_GAP_TABLE,
+                   .path_name = "FILE"),
+
+    RB_GROUP_LINE("friction", "Friction"),
+    RB_NUMBER_LINE("mu", RC(mu), "-", RB_FROM(0),
+                   "Coulomb's coefficient; curve: several with commas between",
+                   .list = PLACE(mus)),
+
+    RB_GROUP_LINE("normal", "Normal direction: one of"),
+    RB_NUMBER_LINE("approach", RC(approach), "mm", RB_ABOVE(0),
+                   "A moves down by this, towards B", .unset = "R/2",
+                   .excludes = ONE_NORMAL),
+    RB_NUMBER_LINE("load", RC(load), "N/mm", RB_ABOVE(0), "normal load P",
+                   .unset = "not given", .excludes = ONE_NORMAL),
+    RB_NUMBER_LINE("half-width", RC(half_width), "mm", RB_ABOVE(0),
+                   "the load whose Hertz half-width a is this", .unset = "not given",
+                   .excludes = ONE_NORMAL),
+
+    RB_GROUP_LINE("tangential", "Tangential direction: one of (static: see the notes)"),
+    RB_NUMBER_LINE(
+        "shift", RC(shift), "mm", RB_ANY, "static: rigid displacement of A towards +x",
+        .unset = "a tenth of the approach; 0 under load", .excludes = ONE_LOADING),
+    RB_NUMBER_LINE("creep", RC(creep), "-", RB_ANY,
+                   "creepage xi; > 0: braked wheel, Q < 0", .unset = "not given",
+                   .excludes = ONE_CREEPAGE),
+    RB_NUMBER_LINE("creep-ratio", RC(creep_ratio), "-", RB_ANY,
+                   "xi R/(mu a), the sign of xi; 1: full sliding of similar bodies",
+                   .unset = "not given", .excludes = ONE_CREEPAGE),
+    RB_NUMBER_LINE("force", RC(force), "N/mm", RB_ANY,
+                   "tangential load Q on A, towards +x", .unset = "not given",
+                   .excludes = ONE_LOADING),
+    RB_NUMBER_LINE("force-ratio", RC(force_ratio), "-", RB_ANY, "Q/(mu P), the sign of Q",
+                   .unset = "not given", .excludes = ONE_LOADING),
+
+    RB_GROUP_LINE("problem", "Problem"),
+    RB_CHOICE_LINE("formulation", RC(formulation), formulations,
+                   "static: displaced without rolling; steady: rolling towards +x; "
+                   "transient: rolling from rest, step by step"),
+    RB_NUMBER_LINE("distance", RC(distance), "a", RB_ABOVE(0),
+                   "transient: rolled distance, in Hertz half-widths",
+                   .unset = "as --history says"),
+    RB_INTEGER_LINE("steps", RC(steps), RB_FROM(0),
+                    "transient: steps of equal length; 0: of one element"),
+    RB_TEXT_LINE("history", PLACE(history_file), "FILE",
+                 "table of controls with named columns: distance (transient), load or "
+                 "approach, shift, creep, creep_ratio, force or force_ratio",
+                 .unset = "none"),
+
+    RB_GROUP_LINE("mesh", "Mesh"),
+    RB_CHOICE_LINE(
+        "mesh", RC(mesh), meshes, "equal elements, or fitted to the contact edges",
+        .unset = "fitted in steady rolling under a given load, half-width or "
+                 "approach without zone and gap file, below 1500 elements; else "
+                 "uniform"),
+    RB_INTEGER_LINE("contact-elements", RC(contact_elements), RB_FROM(3),
+                    "uniform: in the potential contact; fitted: across the contact",
+                    .unset = "60, fitted 100"),
+    RB_NUMBER_LINE(
+        "zone", RC(zone), "mm", RB_ABOVE(0),
+        "half-width of the potential contact; auto: grown until three separated "
+        "elements stand at each end",
+        .word = "auto", .word_value = 0.0),
+    RB_INTEGER_LINE("outer-elements", RC(outer_elements), RB_FROM(0),
+                    "on the circle outside the contact; 0: graded geometrically"),
+    RB_CHOICE_LINE(
+        "normals", RC(normals), normals,
+        "contact frame: the obstacle's, or the polygon's own as in Addi et al."),
+    RB_CHOICE_LINE(
+        "near-field", RC(near_field), near_fields,
+        "of a load on a wheel: plain boundary elements, or the exact strip and "
+        "elements for the rest; auto: exact on fitted meshes"),
+
+    RB_GROUP_LINE("solver", "Solver"),
+    RB_CHOICE_LINE("solver", RC(solver), solvers,
+                   "of the complementarity problem; or a cone solver by its name, see "
+                   "rollbem help friction",
+                   .path = RC(cone_solver), .path_value = RB_SOLVER_CONE,
+                   .path_name = "NAME"),
+    RB_CHOICE_LINE("lcp-form", RC(lcp_form), lcp_forms,
+                   "pivoted (no inverse), or kwak: the matrix of Addi et al. (38)"),
+    RB_NUMBER_LINE("tol", RC(tol), "-", RB_ABOVE(0),
+                   "bound on the natural residual of the scaled problem"),
+
+    RB_GROUP_LINE("accuracy", "Accuracy"),
+    RB_FLAG_LINE("error", PLACE(error),
+                 "error bars: estimates of the discretisation error from coarser meshes"),
+    RB_NUMBER_LINE(
+        "accuracy", PLACE(accuracy), "-", RB_BETWEEN(0, 1),
+        "refine until the relative error of forces, half-width, p0 and creepage "
+        "is estimated below this",
+        .word = "off", .word_value = 0.0),
+};
+
+const int rb_case_table_n = sizeof rb_case_table / sizeof rb_case_table[0];
+
+_Static_assert(sizeof rb_case_table / sizeof rb_case_table[0] <= RB_CASE_OPTIONS_MAX,
+               "RB_CASE_OPTIONS_MAX is too small");
+
+/* In rolling a force stands in the place of a creepage; static contact knows no rolling.
+ */
+unsigned rb_case_alike(rb_rolling_formulation formulation)
+{
+    return formulation == RB_STATIC ? 0 : ONE_CREEPAGE | ONE_LOADING;
+}

@@ -1,0 +1,76 @@
+/* Options that exclude each other. */
+#include "case/internal.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const char *rb_option_source(const rb_option *option, int given, const char *path,
+                             char *room, size_t size)
+{
+    if (given > 0)
+        snprintf(room, size, "%s:%d: %s", path, given, option->name);
+    else
+        snprintf(room, size, "%s%s", given == RB_GIVEN_ARGUMENT ? "--" : "",
+                 option->name);
+    return room;
+}
+
+static size_t size_of(rb_option_kind kind)
+{
+    switch (kind) {
+    case RB_OPTION_NUMBER:
+        return sizeof(double);
+    case RB_OPTION_TEXT:
+        return sizeof(const char *);
+    default:
+        return sizeof(int);
+    }
+}
+
+static void take_back(const rb_option_set *set, int i, const void *defaults)
+{
+    const rb_option *o = &set->options[i];
+    memcpy((char *)set->target + o->offset, (const char *)defaults + o->offset,
+           size_of(o->kind));
+    set->given[i] = 0;
+}
+
+static int exclude_each_other(unsigned a, unsigned b, unsigned alike)
+{
+    a |= a & alike ? alike : 0;
+    b |= b & alike ? alike : 0;
+    return (a & b) != 0;
+}
+
+/* i and j are both given and exclude each other. */
+static rb_status settle_pair(const rb_option_set *set, int i, int j, const void *defaults,
+                             const char *path, rb_message *why)
+{
+    char first[400], second[400];
+    const int by_i = set->given[i], by_j = set->given[j];
+    if ((by_i == RB_GIVEN_ARGUMENT && by_j > 0) ||
+        (by_j == RB_GIVEN_ARGUMENT && by_i > 0)) {
+        take_back(set, by_i > 0 ? i : j, defaults);
+        return RB_OK;
+    }
+    const rb_option *a = &set->options[i], *b = &set->options[j];
+    return rb_fail(why, by_i > 0 && by_j > 0 ? RB_EFORMAT : RB_EINVAL,
+                   "%s and %s exclude each other",
+                   rb_option_source(a, by_i, path, first, sizeof first),
+                   rb_option_source(b, by_j, path, second, sizeof second));
+}
+
+rb_status rb_option_settle(const rb_option_set *set, const void *defaults, unsigned alike,
+                           const char *path, rb_message *why)
+{
+    for (int i = 0; i < set->n; i++)
+        for (int j = i + 1; j < set->n && set->given[i]; j++) {
+            if (!set->given[j] || !exclude_each_other(set->options[i].excludes,
+                                                      set->options[j].excludes, alike))
+                continue;
+            const rb_status s = settle_pair(set, i, j, defaults, path, why);
+            if (s != RB_OK)
+                return s;
+        }
+    return RB_OK;
+}

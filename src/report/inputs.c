@@ -1,0 +1,38 @@
+/* The inputs of a case as JSON: every value used, defaults included. */
+#include "report/internal.h"
+#include "rollbem/case.h"
+
+#include <jansson.h>
+
+static json_t *input(const rb_option *o, const void *values)
+{
+    char room[64];
+    const char *place = (const char *)values + o->offset;
+    switch (o->kind) {
+    case RB_OPTION_NUMBER: {
+        const double v = *(const double *)(const void *)place;
+        const rb_numbers *list = (const void *)((const char *)values + o->list);
+        if (o->list && list->n > 1)
+            return rb_report_json_numbers(list->n, list->value);
+        return o->word && v == o->word_value ? json_string(o->word)
+                                             : rb_report_json_number(v);
+    }
+    case RB_OPTION_INTEGER:
+        return json_integer(*(const int *)(const void *)place);
+    case RB_OPTION_FLAG:
+        return json_boolean(*(const int *)(const void *)place);
+    default:
+        return json_string(rb_option_text(o, values, room));
+    }
+}
+
+json_t *rb_report_json_inputs(const rb_case *c)
+{
+    int n;
+    const rb_option *o = rb_case_describe(&n);
+    json_t *inputs = json_object();
+    for (int i = 0; i < n; i++)
+        if (o[i].kind != RB_OPTION_GROUP)
+            json_object_set_new(inputs, o[i].name, input(&o[i], rb_case_settled(c)));
+    return inputs;
+}
