@@ -2,6 +2,8 @@
  * --wrap, so that no product code knows of it. */
 #include "check.h"
 
+#include <errno.h>
+
 static int remaining = -1; /* < 0: never fail */
 static int refused;
 
@@ -30,6 +32,7 @@ static int allowed(void)
         return 1;
     }
     refused = 1;
+    errno = ENOMEM;
     return 0;
 }
 

@@ -4,8 +4,10 @@
 #include "rollbem/io.h"
 
 #include <dirent.h>
+#include <signal.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 static char folder[64], path[128];
@@ -101,6 +103,82 @@ static void an_old_file_keeps_its_mode_and_a_link_its_place(void **state)
     unlink(link);
 }
 
+/* The link stays; what it names appears. */
+static void a_link_to_a_file_yet_to_come_is_followed(void **state)
+{
+    (void)state;
+    char link[160];
+    struct stat st;
+    snprintf(link, sizeof link, "%s/link", folder);
+    assert_int_equal(symlink("out", link), 0);
+    rb_io_writer w;
+    CHECK_STATUS(rb_io_writer_open(link, &w, NULL), RB_OK);
+    fputs("new", w.file);
+    CHECK_STATUS(rb_io_writer_commit(&w, NULL), RB_OK);
+    assert_string_equal(content(), "new");
+    assert_int_equal(lstat(link, &st), 0);
+    assert_true(S_ISLNK(st.st_mode));
+    unlink(link);
+    assert_int_equal(symlink("link", link), 0); /* to itself */
+    CHECK_STATUS(rb_io_writer_open(link, &w, NULL), RB_EWRITE);
+    unlink(link);
+}
+
+static void a_new_file_has_the_mode_that_the_umask_leaves(void **state)
+{
+    (void)state;
+    struct stat st;
+    const mode_t before = umask(027);
+    write_line("new");
+    umask(before);
+    assert_int_equal(stat(path, &st), 0);
+    assert_int_equal(st.st_mode & 07777, 0640);
+}
+
+/* Temporary names must not be longer than the target's. */
+static void the_longest_name_is_taken(void **state)
+{
+    (void)state;
+    char name[400];
+    rb_io_writer w;
+    const int n = snprintf(name, sizeof name, "%s/", folder);
+    memset(name + n, 'a', 255);
+    name[n + 255] = '\0';
+    CHECK_STATUS(rb_io_writer_open(name, &w, NULL), RB_OK);
+    fputs("new", w.file);
+    CHECK_STATUS(rb_io_writer_commit(&w, NULL), RB_OK);
+    assert_int_equal(unlink(name), 0);
+}
+
+static void a_program_that_is_killed_leaves_nothing(void **state)
+{
+    (void)state;
+    int status;
+    const pid_t pid = fork();
+    if (pid == 0) {
+        rb_io_writer w;
+        rb_io_writer_open(path, &w, NULL);
+        fputs("half of it", w.file);
+        fflush(w.file);
+        raise(SIGKILL);
+    }
+    assert_int_equal(waitpid(pid, &status, 0), pid);
+    assert_true(WIFSIGNALED(status));
+    assert_int_equal(entries(), 0);
+}
+
+static void checking_changes_nothing(void **state)
+{
+    (void)state;
+    CHECK_STATUS(rb_io_writer_check(path, NULL), RB_OK);
+    assert_int_equal(entries(), 0);
+    write_line("old");
+    CHECK_STATUS(rb_io_writer_check(path, NULL), RB_OK);
+    assert_string_equal(content(), "old");
+    CHECK_STATUS(rb_io_writer_check(folder, NULL), RB_EWRITE);
+    CHECK_STATUS(rb_io_writer_check("/dev/null", NULL), RB_OK);
+}
+
 static void what_cannot_be_written_is_refused(void **state)
 {
     (void)state;
@@ -167,6 +245,11 @@ int main(void)
         IN_FOLDER(the_target_appears_on_commit),
         IN_FOLDER(abandoning_leaves_the_old_file),
         IN_FOLDER(an_old_file_keeps_its_mode_and_a_link_its_place),
+        IN_FOLDER(a_link_to_a_file_yet_to_come_is_followed),
+        IN_FOLDER(a_new_file_has_the_mode_that_the_umask_leaves),
+        IN_FOLDER(the_longest_name_is_taken),
+        IN_FOLDER(a_program_that_is_killed_leaves_nothing),
+        IN_FOLDER(checking_changes_nothing),
         IN_FOLDER(what_cannot_be_written_is_refused),
         cmocka_unit_test(a_full_device_is_noticed),
         cmocka_unit_test(stdout_is_not_closed),

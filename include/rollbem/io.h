@@ -10,21 +10,26 @@
 
 /* ---- Output written whole or not at all ------------------------------------------- */
 
-/* Everything goes to a temporary file beside the target; commit renames it. */
+/* Everything goes to a file beside the target that has no name; commit names it.  So
+ * nothing is left behind, whatever ends the program. */
 typedef struct {
-    FILE *file;               /* write here; NULL when closed */
-    char *temporary, *target; /* owned; NULL for stdout and for devices */
+    FILE *file;   /* write here; NULL when closed */
+    char *target; /* of a file; owned */
+    char *device; /* its name, written directly; owned.  Both NULL: stdout */
 } rb_io_writer;
 
 /* path NULL or "-": stdout.  An existing target keeps its mode; a link is followed; a
  * device or pipe is written directly.  RB_EWRITE with the reason, RB_ENOMEM. */
 rb_status rb_io_writer_open(const char *path, rb_io_writer *w, rb_message *why);
 
+/* What rb_io_writer_open would say; the path stays as it is. */
+rb_status rb_io_writer_check(const char *path, rb_message *why);
+
 /* The target appears with its whole content.  On RB_EWRITE (disk full, ...) nothing is
  * left behind and an old target is untouched.  Either way w is closed. */
 rb_status rb_io_writer_commit(rb_io_writer *w, rb_message *why);
 
-/* Removes what was written; w may be closed already. */
+/* Nothing appears; w may be closed already. */
 void rb_io_writer_abandon(rb_io_writer *w);
 
 /* ---- Tables of numbers ------------------------------------------------------------- */

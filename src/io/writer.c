@@ -1,61 +1,138 @@
-#define _XOPEN_SOURCE 700 /* realpath */
+#define _GNU_SOURCE /* O_TMPFILE, realpath */
 #include "rollbem/io.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* errno says why; 0: a write failed whose reason is forgotten. */
 static rb_status cannot_write(const char *path, rb_message *why)
 {
-    return rb_fail(why, RB_EWRITE, "%s: cannot write: %s", path, strerror(errno));
+    if (errno == ENOMEM)
+        return rb_fail(why, RB_ENOMEM, "%s: out of memory", path);
+    return rb_fail(why, RB_EWRITE, "%s: cannot write: %s", path,
+                   errno ? strerror(errno) : "write error");
 }
 
-static void forget(rb_io_writer *w)
-{
-    free(w->temporary);
-    free(w->target);
-    *w = (rb_io_writer){0};
-}
+/* ---- Names -------------------------------------------------------------------------- */
 
-static char *copy(const char *path, const char *suffix)
+/* The path of `name` in the folder of `target`; owned by the caller. */
+static char *beside(const char *target, const char *name)
 {
-    char *text = malloc(strlen(path) + strlen(suffix) + 1);
-    if (text)
-        strcat(strcpy(text, path), suffix);
-    return text;
-}
-
-/* The mode of a new file: that of the old one, or what the umask leaves. */
-static mode_t mode_for(const struct stat *old)
-{
-    if (old)
-        return old->st_mode & 07777;
-    const mode_t mask = umask(0);
-    umask(mask);
-    return 0666 & ~mask;
-}
-
-/* mkstemp makes files that nobody else may read: old (or NULL) says what it shall be. */
-static rb_status open_temporary(const struct stat *old, rb_io_writer *w, rb_message *why)
-{
-    const int fd = mkstemp(w->temporary);
-    if (fd >= 0) {
-        fchmod(fd, mode_for(old));
-        w->file = fdopen(fd, "w");
-        if (w->file)
-            return RB_OK;
-        close(fd);
-        unlink(w->temporary);
+    const char *slash = strrchr(target, '/');
+    const size_t n = slash ? (size_t)(slash + 1 - target) : 0;
+    char *path = malloc(n + strlen(name) + 1);
+    if (path) {
+        memcpy(path, target, n);
+        strcpy(path + n, name);
     }
-    return cannot_write(w->target, why);
+    return path;
 }
 
-static rb_status open_directly(const char *path, rb_io_writer *w, rb_message *why)
+/* The file behind all links, which need not exist yet; owned by the caller. */
+static char *resolve(const char *path)
 {
-    w->file = fopen(path, "w");
-    return w->file ? RB_OK : cannot_write(path, why);
+    char to[PATH_MAX];
+    char *real = realpath(path, NULL);
+    if (real || errno != ENOENT)
+        return real;
+    const ssize_t n = readlink(path, to, sizeof to - 1);
+    if (n < 0)
+        return strdup(path);
+    to[n] = '\0';
+    char *next = to[0] == '/' ? strdup(to) : beside(path, to);
+    real = next ? resolve(next) : NULL;
+    free(next);
+    return real;
+}
+
+/* Calls make with unused names beside the target until one is taken. */
+static char *take_name(const char *target, int (*make)(const char *name, int fd), int *fd)
+{
+    for (int k = 0; k < 10000; k++) {
+        char name[40];
+        snprintf(name, sizeof name, ".rollbem-%ld-%d", (long)getpid(), k);
+        char *path = beside(target, name);
+        const int made = path ? make(path, *fd) : -1;
+        if (made >= 0) {
+            *fd = made;
+            return path;
+        }
+        free(path);
+        if (errno != EEXIST)
+            break;
+    }
+    return NULL;
+}
+
+static int create(const char *name, int fd)
+{
+    (void)fd;
+    return open(name, O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
+}
+
+static int link_nameless(const char *name, int fd)
+{
+    char self[40];
+    snprintf(self, sizeof self, "/proc/self/fd/%d", fd);
+    return linkat(AT_FDCWD, self, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0 ? fd : -1;
+}
+
+/* ---- Open --------------------------------------------------------------------------- */
+
+/* A file in the target's folder that has no name until it is committed: whatever ends the
+ * program, nothing is left behind. */
+static int open_nameless(const char *target)
+{
+    int fd = -1;
+#ifdef O_TMPFILE
+    char *folder = beside(target, ".");
+    if (!folder)
+        return -1;
+    fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    free(folder);
+    if (fd >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL))
+        return fd;
+#endif
+    char *name = take_name(target, create, &fd);
+    if (name)
+        unlink(name);
+    free(name);
+    return fd;
+}
+
+static rb_status open_file(const char *path, const struct stat *old, rb_io_writer *w,
+                           rb_message *why)
+{
+    if (old && access(path, W_OK) != 0)
+        return cannot_write(path, why);
+    w->target = resolve(path);
+    const int fd = w->target ? open_nameless(w->target) : -1;
+    if (fd >= 0 && (!old || fchmod(fd, old->st_mode & 07777) == 0))
+        w->file = fdopen(fd, "w+");
+    if (w->file)
+        return RB_OK;
+    const rb_status s = cannot_write(path, why);
+    if (fd >= 0)
+        close(fd);
+    rb_io_writer_abandon(w);
+    return s;
+}
+
+static rb_status open_device(const char *path, rb_io_writer *w, rb_message *why)
+{
+    w->device = strdup(path);
+    w->file = w->device ? fopen(path, "w") : NULL;
+    if (w->file)
+        return RB_OK;
+    const rb_status s = cannot_write(path, why);
+    rb_io_writer_abandon(w);
+    return s;
 }
 
 rb_status rb_io_writer_open(const char *path, rb_io_writer *w, rb_message *why)
@@ -68,38 +145,111 @@ rb_status rb_io_writer_open(const char *path, rb_io_writer *w, rb_message *why)
     }
     const int exists = stat(path, &old) == 0;
     if (exists && !S_ISREG(old.st_mode))
-        return open_directly(path, w, why);
-    if (exists && access(path, W_OK) != 0)
-        return cannot_write(path, why);
-    w->target = exists ? realpath(path, NULL) : copy(path, "");
-    w->temporary = w->target ? copy(w->target, ".XXXXXX") : NULL;
-    rb_status s = w->temporary ? open_temporary(exists ? &old : NULL, w, why)
-                               : rb_fail(why, RB_ENOMEM, "%s: out of memory", path);
-    if (s != RB_OK)
-        forget(w);
+        return open_device(path, w, why);
+    return open_file(path, exists ? &old : NULL, w, why);
+}
+
+rb_status rb_io_writer_check(const char *path, rb_message *why)
+{
+    rb_io_writer w;
+    struct stat st;
+    if (stat(path, &st) == 0 && !S_ISREG(st.st_mode) && !S_ISDIR(st.st_mode))
+        return access(path, W_OK) == 0 ? RB_OK : cannot_write(path, why);
+    const rb_status s = rb_io_writer_open(path, &w, why);
+    if (s == RB_OK)
+        rb_io_writer_abandon(&w);
     return s;
 }
+
+/* ---- End ---------------------------------------------------------------------------- */
 
 /* Flushes, and closes what is not stdout; errno tells the first error. */
 static int finish(FILE *file)
 {
-    int bad = fflush(file) != 0 || ferror(file);
-    if (file != stdout && fclose(file) != 0)
+    const int lost = ferror(file); /* the reason is forgotten */
+    errno = 0;
+    int bad = fflush(file) != 0 || lost;
+    const int e = errno;
+    if (file != stdout && fclose(file) != 0 && !bad)
         bad = 1;
+    else
+        errno = e;
+    return bad;
+}
+
+/* Where the system cannot give the nameless file a name. */
+static char *copy_to_name(const char *target, int from)
+{
+    char buffer[1 << 14];
+    struct stat st;
+    int to = -1, bad = fstat(from, &st) != 0;
+    char *name = bad ? NULL : take_name(target, create, &to);
+    ssize_t n = 0;
+    if (!name)
+        return NULL;
+    bad = fchmod(to, st.st_mode & 07777) != 0 || lseek(from, 0, SEEK_SET) != 0;
+    while (!bad && (n = read(from, buffer, sizeof buffer)) > 0)
+        for (ssize_t at = 0, part; at < n && !bad; at += part)
+            bad = (part = write(to, buffer + at, (size_t)(n - at))) <= 0;
+    bad |= n < 0;
+    bad |= close(to) != 0;
+    if (!bad)
+        return name;
+    const int e = errno;
+    unlink(name);
+    free(name);
+    errno = e;
+    return NULL;
+}
+
+/* The target takes the place of an old one at once. */
+static int replace(rb_io_writer *w)
+{
+    int fd = fileno(w->file), bad;
+    errno = 0;
+    if (ferror(w->file) || fflush(w->file) != 0)
+        return 1;
+    char *name = take_name(w->target, link_nameless, &fd);
+    if (!name)
+        name = copy_to_name(w->target, fd);
+    if (!name)
+        return 1;
+    bad = finish(w->file);
+    w->file = NULL;
+    bad = bad || rename(name, w->target) != 0;
+    if (bad) {
+        const int e = errno;
+        unlink(name);
+        errno = e;
+    }
+    free(name);
+    return bad;
+}
+
+/* As long as the file has a name that is not its own, no signal ends the program. */
+static int replace_undisturbed(rb_io_writer *w)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, &before);
+    const int bad = replace(w), e = errno;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    errno = e;
     return bad;
 }
 
 rb_status rb_io_writer_commit(rb_io_writer *w, rb_message *why)
 {
-    rb_status s = RB_OK;
-    errno = 0;
-    const int bad = finish(w->file);
-    if (bad || (w->target && rename(w->temporary, w->target) != 0)) {
-        s = cannot_write(w->target ? w->target : "output", why);
-        if (w->temporary)
-            unlink(w->temporary);
+    int bad;
+    if (w->target) {
+        bad = replace_undisturbed(w);
+    } else {
+        bad = finish(w->file);
+        w->file = NULL;
     }
-    forget(w);
+    const char *name = w->target ? w->target : w->device ? w->device : "standard output";
+    const rb_status s = bad ? cannot_write(name, why) : RB_OK;
+    rb_io_writer_abandon(w);
     return s;
 }
 
@@ -107,7 +257,7 @@ void rb_io_writer_abandon(rb_io_writer *w)
 {
     if (w->file && w->file != stdout)
         fclose(w->file);
-    if (w->temporary)
-        unlink(w->temporary);
-    forget(w);
+    free(w->target);
+    free(w->device);
+    *w = (rb_io_writer){0};
 }
