@@ -1,11 +1,13 @@
 /* Reports of a solution made by hand: Carter's closed form on 20 elements. */
 #include "check.h"
+#include "report/internal.h"
 #include "rollbem/closed_forms.h"
 #include "rollbem/io.h"
 #include "rollbem/report.h"
 
 #include <jansson.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { N = 20 };
@@ -274,7 +276,8 @@ static void gnuplot_complaint_is_handed_on(void **state)
     FILE *script = tmpfile(), *out = tmpfile();
     rb_message why = {""};
     fputs("plt 1\n", script);
-    assert_int_equal(rb_report_gnuplot(script, out, &why), RB_EFORMAT);
+    assert_int_equal(rb_report_gnuplot(script, RB_REPORT_SVG, 20.0, out, &why),
+                     RB_EFORMAT);
     assert_non_null(strstr(why.text, "invalid command"));
     fclose(script);
     fclose(out);
@@ -288,12 +291,99 @@ static void missing_gnuplot_is_named(void **state)
     FILE *script = tmpfile(), *out = tmpfile();
     rb_message why = {""};
     setenv("PATH", "/nonexistent", 1);
-    const rb_status s = rb_report_gnuplot(script, out, &why);
+    const rb_status s = rb_report_gnuplot(script, RB_REPORT_SVG, 20.0, out, &why);
     setenv("PATH", path, 1);
     assert_int_equal(s, RB_EFORMAT);
     assert_non_null(strstr(why.text, "not installed"));
     fclose(script);
     fclose(out);
+}
+
+/* ---- A gnuplot that misbehaves ---- */
+
+/* A program called gnuplot, of that shell script, comes first in PATH. */
+static rb_status draw_by(const char *lines, double seconds, rb_report_picture_kind kind,
+                         FILE *out, rb_message *why)
+{
+    char folder[] = "/tmp/rollbem-gnuplot-XXXXXX", name[64], path[4200], before[4096];
+    assert_non_null(mkdtemp(folder));
+    snprintf(name, sizeof name, "%s/gnuplot", folder);
+    FILE *program = fopen(name, "w"), *script = tmpfile();
+    fprintf(program, "#!/bin/sh\n%s\n", lines);
+    fclose(program);
+    chmod(name, 0755);
+    snprintf(before, sizeof before, "%s", getenv("PATH"));
+    snprintf(path, sizeof path, "%s:%s", folder, before);
+    setenv("PATH", path, 1);
+    fputs("plot x\n", script);
+    const rb_status s = rb_report_gnuplot(script, kind, seconds, out, why);
+    setenv("PATH", before, 1);
+    fclose(script);
+    unlink(name);
+    rmdir(folder);
+    return s;
+}
+
+/* Full disks leave a part, or nothing, and exit code 0. */
+static void a_part_of_a_picture_is_none(void **state)
+{
+    (void)state;
+    static const struct {
+        rb_report_picture_kind kind;
+        const char *part, *all;
+    } pictures[] = {
+        {RB_REPORT_SVG, "printf '<?xml <svg>'", "printf '<?xml <svg> more </svg>\\n\\n'"},
+        {RB_REPORT_PDF, "printf '%%PDF-1.5 and so on'",
+         "printf '%%PDF-1.5 and so on %%%%EOF\\n'"},
+        {RB_REPORT_PNG, "printf '\\211PNG\\r\\n\\032\\n and so on'",
+         "printf '\\211PNG\\r\\n\\032\\n and so on IEND\\256B`\\202'"},
+        {RB_REPORT_SVG, ":", "printf '<?xml <svg> more </svg>'"}};
+    for (int k = 0; k < 4; k++) {
+        FILE *out = tmpfile();
+        rb_message why = {""};
+        CHECK_STATUS(draw_by(pictures[k].part, 20.0, pictures[k].kind, out, &why),
+                     RB_EWRITE);
+        assert_non_null(strstr(why.text, "a part of the picture only"));
+        assert_int_equal(ftell(out), 0);
+        CHECK_STATUS(draw_by(pictures[k].all, 20.0, pictures[k].kind, out, &why), RB_OK);
+        assert_true(ftell(out) > 20);
+        fclose(out);
+    }
+}
+
+static void gnuplot_has_a_time_limit(void **state)
+{
+    (void)state;
+    FILE *out = tmpfile();
+    rb_message why = {""};
+    const double start = rb_seconds();
+    CHECK_STATUS(draw_by("exec sleep 20", 0.2, RB_REPORT_SVG, out, &why), RB_EFORMAT);
+    assert_non_null(strstr(why.text, "longer than 0.2 s"));
+    CHECK_MAX(rb_seconds() - start, 5.0, "seconds");
+    fclose(out);
+}
+
+/* A start-up file that would end every picture. */
+static void start_up_files_are_off(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/rollbem-home-XXXXXX", name[64], home[4096];
+    assert_non_null(mkdtemp(folder));
+    snprintf(name, sizeof name, "%s/.gnuplot", folder);
+    FILE *file = fopen(name, "w"), *out = tmpfile();
+    fputs("exit status 3\n", file);
+    fclose(file);
+    snprintf(home, sizeof home, "%s", getenv("HOME") ? getenv("HOME") : "/");
+    setenv("HOME", folder, 1);
+    const rb_rolling_solution s = carter();
+    const rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_message why = {""};
+    const rb_status status = rb_report_picture(out, RB_REPORT_SVG, &rc, &s, &why);
+    setenv("HOME", home, 1);
+    unlink(name);
+    rmdir(folder);
+    fclose(out);
+    CHECK_STATUS(status, RB_OK);
 }
 
 /* ---- Tables of numbers ------------------------------------------------------------- */
@@ -378,6 +468,9 @@ int main(void)
         cmocka_unit_test(picture_of_another_kind),
         cmocka_unit_test(gnuplot_complaint_is_handed_on),
         cmocka_unit_test(missing_gnuplot_is_named),
+        cmocka_unit_test(a_part_of_a_picture_is_none),
+        cmocka_unit_test(gnuplot_has_a_time_limit),
+        cmocka_unit_test(start_up_files_are_off),
         cmocka_unit_test(columns_are_read),
         cmocka_unit_test(bad_columns_are_named),
         cmocka_unit_test(columns_without_memory),

@@ -30,8 +30,8 @@ int rb_io_is_hdf5(const char *path);
  * indices out of range, rolling friction (spacedim 5), bilateral constraints. */
 rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *why);
 
-/* title and description may be NULL.  The file appears whole or not at all.  RB_EWRITE.
- */
+/* title and description may be NULL.  The file appears whole or not at all (io.h); HDF5
+ * makes it in memory.  RB_EWRITE, RB_ENOMEM. */
 rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem,
                             rb_io_fclib_layout layout, const char *title,
                             const char *description, rb_message *why);

@@ -73,6 +73,9 @@ void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solu
 
 typedef enum { RB_REPORT_PNG, RB_REPORT_SVG, RB_REPORT_PDF } rb_report_picture_kind;
 
+/* All pictures are made by gnuplot and written whole or not at all.  RB_EFORMAT: it is
+ * missing or refuses; RB_EWRITE; RB_ENOMEM. */
+
 /* By the end of the name.  RB_EINVAL: none of .png, .svg, .pdf. */
 rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind,
                                     rb_message *why);
@@ -81,11 +84,6 @@ rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *ki
 rb_status rb_report_picture(FILE *out, rb_report_picture_kind kind,
                             const rb_rolling_case *rc, const rb_rolling_solution *s,
                             rb_message *why);
-
-/* Runs gnuplot on a script; its standard output goes to out.  The script names no file:
- * `set terminal` and data blocks only.  RB_EFORMAT: gnuplot is missing or refuses; its
- * first line is in why. */
-rb_status rb_report_gnuplot(FILE *script, FILE *out, rb_message *why);
 
 /* ---- Creep curves ------------------------------------------------------------------ */
 
@@ -168,6 +166,22 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind,
 rb_status rb_report_history_picture(FILE *out, rb_report_picture_kind kind,
                                     const rb_rolling_history *history,
                                     const rb_rolling_history *errors, rb_message *why);
+
+/* ---- Performance profiles -----------------------------------------------------------
+ */
+
+/* rho_s(tau): share of the problems that solver s solves at a cost of at most tau times
+ * the least one. */
+typedef struct {
+    int problems, solvers, n; /* n: values of tau */
+    const char *const *solver;
+    const char *measure; /* of the cost */
+    const double *tau;   /* n */
+    const double *rho;   /* n x solvers, column-major */
+} rb_report_profiles;
+
+rb_status rb_report_profiles_picture(FILE *out, rb_report_picture_kind kind,
+                                     const rb_report_profiles *profiles, rb_message *why);
 
 /* ---- Behind the solution ------------------------------------------------------------
  */

@@ -277,39 +277,6 @@ static rb_status write_json(const comparison *c, FILE *out)
     return s;
 }
 
-static const char *terminal(rb_report_picture_kind kind)
-{
-    switch (kind) {
-    case RB_REPORT_PNG:
-        return "pngcairo size 900,600";
-    case RB_REPORT_SVG:
-        return "svg size 900,600";
-    default:
-        return "pdfcairo size 18cm,12cm";
-    }
-}
-
-static void write_script(const comparison *c, rb_report_picture_kind kind, FILE *script)
-{
-    fprintf(script,
-            "set terminal %s\nset logscale x\nset xrange [1:1000]\nset yrange [0:1.05]\n"
-            "set xlabel 'tau: %s over the least of all solvers'\n"
-            "set ylabel 'share of %d problems solved'\nset key outside right\nset grid\n"
-            "$profiles << EOD\n",
-            terminal(kind), measures[c->o->measure].name, c->problems);
-    for (int k = 0; k < TAUS; k++) {
-        fprintf(script, "%.4g", c->tau[k]);
-        for (int s = 0; s < c->solvers; s++)
-            fprintf(script, " %.4g", c->rho[k + s * TAUS]);
-        fprintf(script, "\n");
-    }
-    fprintf(script, "EOD\nplot ");
-    for (int s = 0; s < c->solvers; s++)
-        fprintf(script, "%s$profiles using 1:%d with steps lw 2 dt %d title '%s'",
-                s ? ", " : "", s + 2, 1 + s / 8, c->solver[s]);
-    fprintf(script, "\n");
-}
-
 static cli_exit draw(const comparison *c, rb_report_picture_kind kind)
 {
     rb_io_writer w;
@@ -317,14 +284,14 @@ static cli_exit draw(const comparison *c, rb_report_picture_kind kind)
     rb_status s = rb_io_writer_open(c->o->plot, &w, &why);
     if (s != RB_OK)
         return cli_fail(cli_exit_of(s), "%s", why.text);
-    FILE *script = tmpfile();
-    if (!script) {
-        rb_io_writer_abandon(&w);
-        return cli_fail(CLI_CANTWRITE, "no temporary file for the picture");
-    }
-    write_script(c, kind, script);
-    s = rb_report_gnuplot(script, w.file, &why);
-    fclose(script);
+    const rb_report_profiles profiles = {.problems = c->problems,
+                                         .solvers = c->solvers,
+                                         .n = TAUS,
+                                         .solver = c->solver,
+                                         .measure = measures[c->o->measure].name,
+                                         .tau = c->tau,
+                                         .rho = c->rho};
+    s = rb_report_profiles_picture(w.file, kind, &profiles, &why);
     if (s == RB_OK)
         s = rb_io_writer_commit(&w, &why);
     else

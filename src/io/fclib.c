@@ -1,5 +1,7 @@
 #include "rollbem/io_fclib.h"
 
+#include "rollbem/io.h"
+
 #include <hdf5.h>
 
 #include <stdio.h>
@@ -532,25 +534,54 @@ static int write_file(hid_t file, const rb_io_fclib *p, rb_io_fclib_layout layou
     return bad || write_solution(file, p);
 }
 
+/* The file as bytes in memory, so that HDF5 writes to no disk: where one is full, it ends
+ * in a signal.  Owned by the caller; NULL: out of memory, the only thing that can fail.
+ */
+static void *make_image(const rb_io_fclib *p, rb_io_fclib_layout layout,
+                        const char *title, const char *description, size_t *size)
+{
+    enum { GROWTH = 1 << 20 };
+    void *image = NULL;
+    ssize_t n = -1;
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    hid_t file = -1;
+    if (access >= 0 && H5Pset_fapl_core(access, GROWTH, 0) >= 0)
+        file = H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    if (file >= 0 && !write_file(file, p, layout, title, description) &&
+        H5Fflush(file, H5F_SCOPE_LOCAL) >= 0)
+        n = H5Fget_file_image(file, NULL, 0);
+    if (n > 0 && (image = malloc((size_t)n)) != NULL &&
+        H5Fget_file_image(file, image, (size_t)n) != n) {
+        free(image);
+        image = NULL;
+    }
+    if (file >= 0)
+        H5Fclose(file);
+    if (access >= 0)
+        H5Pclose(access);
+    *size = image ? (size_t)n : 0;
+    return image;
+}
+
 rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem,
                             rb_io_fclib_layout layout, const char *title,
                             const char *description, rb_message *why)
 {
-    const size_t size = strlen(path) + 6;
-    char *part = malloc(size);
-    if (!part)
-        return RB_ENOMEM;
-    snprintf(part, size, "%s.part", path);
+    rb_io_writer w;
+    size_t size;
+    rb_status s = rb_io_writer_open(path, &w, why);
+    if (s != RB_OK)
+        return s;
     const errors e = silence();
-    const hid_t file = H5Fcreate(part, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    int bad = file < 0 || write_file(file, problem, layout, title, description);
-    if (file >= 0 && H5Fclose(file) < 0)
-        bad = 1;
+    void *image = make_image(problem, layout, title, description, &size);
     restore(e);
-    if (!bad)
-        bad = rename(part, path) != 0;
-    if (bad)
-        remove(part);
-    free(part);
-    return bad ? rb_fail(why, RB_EWRITE, "%s: cannot be written", path) : RB_OK;
+    if (image) {
+        fwrite(image, 1, size, w.file);
+        s = rb_io_writer_commit(&w, why);
+    } else {
+        rb_io_writer_abandon(&w);
+        s = rb_fail(why, RB_ENOMEM, "%s: out of memory", path);
+    }
+    free(image);
+    return s;
 }

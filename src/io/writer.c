@@ -19,7 +19,8 @@ static rb_status cannot_write(const char *path, rb_message *why)
                    errno ? strerror(errno) : "write error");
 }
 
-/* ---- Names -------------------------------------------------------------------------- */
+/* ---- Names --------------------------------------------------------------------------
+ */
 
 /* The path of `name` in the folder of `target`; owned by the caller. */
 static char *beside(const char *target, const char *name)
@@ -83,7 +84,8 @@ static int link_nameless(const char *name, int fd)
     return linkat(AT_FDCWD, self, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0 ? fd : -1;
 }
 
-/* ---- Open --------------------------------------------------------------------------- */
+/* ---- Open ---------------------------------------------------------------------------
+ */
 
 /* A file in the target's folder that has no name until it is committed: whatever ends the
  * program, nothing is left behind. */
@@ -161,19 +163,23 @@ rb_status rb_io_writer_check(const char *path, rb_message *why)
     return s;
 }
 
-/* ---- End ---------------------------------------------------------------------------- */
+/* ---- End ----------------------------------------------------------------------------
+ */
 
-/* Flushes, and closes what is not stdout; errno tells the first error. */
+/* 1: something was not written; errno says why, 0 where that is forgotten. */
+static int flush(FILE *file)
+{
+    errno = 0;
+    return fflush(file) != 0 || ferror(file);
+}
+
+/* The same, and closes what is not stdout. */
 static int finish(FILE *file)
 {
-    const int lost = ferror(file); /* the reason is forgotten */
-    errno = 0;
-    int bad = fflush(file) != 0 || lost;
-    const int e = errno;
+    const int bad = flush(file), e = errno;
     if (file != stdout && fclose(file) != 0 && !bad)
-        bad = 1;
-    else
-        errno = e;
+        return 1;
+    errno = e;
     return bad;
 }
 
@@ -206,9 +212,11 @@ static char *copy_to_name(const char *target, int from)
 static int replace(rb_io_writer *w)
 {
     int fd = fileno(w->file), bad;
-    errno = 0;
-    if (ferror(w->file) || fflush(w->file) != 0)
+    if (flush(w->file)) {
+        if (errno == 0 && write(fd, "", 1) >= 0) /* ask for the reason once more */
+            errno = 0;
         return 1;
+    }
     char *name = take_name(w->target, link_nameless, &fd);
     if (!name)
         name = copy_to_name(w->target, fd);

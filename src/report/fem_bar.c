@@ -92,8 +92,11 @@ static void write_zones(FILE *out, const bar_view *v)
     }
 }
 
-static void write_script(FILE *out, const bar_view *v)
+static void write_script(FILE *out, rb_report_picture_kind kind, const void *view)
 {
+    const bar_view *v = view;
+    (void)kind;
+    rb_report_fem_axes(out);
     write_mesh(out, v);
     write_reactions(out, v);
     fprintf(
@@ -137,8 +140,5 @@ rb_status rb_report_picture_bar(FILE *out, rb_report_picture_kind kind,
     if (history->steps < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
     const bar_view v = make_view(model, history);
-    FILE *script = rb_report_fem_script(kind);
-    if (script)
-        write_script(script, &v);
-    return rb_report_fem_draw(script, out, why);
+    return rb_report_draw(out, kind, RB_REPORT_SCREEN, write_script, &v, why);
 }

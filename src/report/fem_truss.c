@@ -101,13 +101,23 @@ static void write_legend(FILE *out)
                 lines[k], 0.36 - 0.035 * k);
 }
 
-static void write_script(FILE *out, const quarter *q, const rb_fem_history *history,
-                         const char *layout)
+typedef struct {
+    quarter q;
+    const rb_fem_history *history;
+    const char *layout;
+} truss_view;
+
+static void write_script(FILE *out, rb_report_picture_kind kind, const void *view)
 {
+    const truss_view *v = view;
+    const quarter *q = &v->q;
+    const rb_fem_history *history = v->history;
+    (void)kind;
+    rb_report_fem_axes(out);
     fprintf(out,
             "set multiplot\nset label 1 '{/:Bold Truss on an obstacle: increments of the "
             "contact nodes} (Kanno, example 3.1; %s)' at screen 0.5, 0.955 center\n",
-            layout);
+            v->layout);
     fprintf(out, "set xrange [0:%g]\nset yrange [0:%g]\nset xtics 0, 4\nset ytics 0, 4\n",
             q->width + 1.1 * q->spacing, q->height + 1.1 * q->spacing);
     write_legend(out);
@@ -125,12 +135,9 @@ rb_status rb_report_picture_truss(FILE *out, rb_report_picture_kind kind,
 {
     if (history->steps < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
-    const quarter q = make_quarter(model);
     const int upper = model->mesh.nodes - model->structure.contacts;
-    FILE *script = rb_report_fem_script(kind);
-    if (script)
-        write_script(script, &q, history,
-                     upper < model->structure.contacts ? "upper nodes inside"
-                                                       : "upper nodes overhanging");
-    return rb_report_fem_draw(script, out, why);
+    const truss_view v = {make_quarter(model), history,
+                          upper < model->structure.contacts ? "upper nodes inside"
+                                                            : "upper nodes overhanging"};
+    return rb_report_draw(out, kind, RB_REPORT_SCREEN, write_script, &v, why);
 }

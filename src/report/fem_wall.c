@@ -130,7 +130,8 @@ static void write_curves(FILE *out)
         "plot $step using 1:2 with lines linecolor rgb '#1f4e79' title 'compression', "
         "$step using 1:3 with lines linecolor rgb '#c0392b' title 'shear'\n"
         "set tmargin at screen 0.485\nset bmargin at screen 0.14\nset format x '%g'\n"
-        "set xlabel 'time [s]' offset 0,0.3\nset ylabel 'contact points' offset -0.7,0\nset key center "
+        "set xlabel 'time [s]' offset 0,0.3\nset ylabel 'contact points' offset "
+        "-0.7,0\nset key center "
         "left Left reverse\n"
         "plot $step using 1:4 with lines linecolor rgb '#1f4e79' title 'stick', "
         "$step using 1:5 with lines linecolor rgb '#c0392b' title 'slip', "
@@ -139,24 +140,34 @@ static void write_curves(FILE *out)
         out);
 }
 
+typedef struct {
+    front f;
+    int steps;
+    const rb_fem_wall_step *step;
+} wall_view;
+
+static void write_script(FILE *out, rb_report_picture_kind kind, const void *view)
+{
+    const wall_view *v = view;
+    (void)kind;
+    rb_report_fem_axes(out);
+    write_front(out, &v->f);
+    write_steps(out, v->steps, v->step);
+    write_wall(out, &v->f, &v->step[v->steps - 1]);
+    write_curves(out);
+}
+
 rb_status rb_report_picture_wall(FILE *out, rb_report_picture_kind kind,
                                  const rb_fem_wall *wall, int steps,
                                  const rb_fem_wall_step *step, rb_message *why)
 {
-    front f;
+    wall_view v = {.steps = steps, .step = step};
     if (steps < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
-    if (open_front(wall, &f) != RB_OK) {
-        free(f.u);
-        return rb_fail(why, RB_ENOMEM, "out of memory");
-    }
-    FILE *script = rb_report_fem_script(kind);
-    if (script) {
-        write_front(script, &f);
-        write_steps(script, steps, step);
-        write_wall(script, &f, &step[steps - 1]);
-        write_curves(script);
-    }
-    free(f.u);
-    return rb_report_fem_draw(script, out, why);
+    const rb_status s =
+        open_front(wall, &v.f) == RB_OK
+            ? rb_report_draw(out, kind, RB_REPORT_SCREEN, write_script, &v, why)
+            : rb_fail(why, RB_ENOMEM, "out of memory");
+    free(v.f.u);
+    return s;
 }

@@ -1,24 +1,48 @@
-/* Runs gnuplot: script on its stdin, picture from its stdout, so that no file name ever
- * enters a script or a shell. */
-#include "rollbem/report.h"
+/* Pictures by gnuplot: script on its stdin, picture from its stdout, so that no file name
+ * ever enters a script or a shell. */
+#include "report/internal.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
 
 extern char **environ;
 
-static int spawn(FILE *script, FILE *out, FILE *errors, pid_t *pid)
+/* ---- The program --------------------------------------------------------------------
+ */
+
+/* A file without a name that gnuplot does not inherit. */
+static FILE *temporary(void)
 {
-    char *const argv[] = {"gnuplot", NULL};
+    FILE *file = tmpfile();
+    if (file)
+        fcntl(fileno(file), F_SETFD, FD_CLOEXEC);
+    return file;
+}
+
+static rb_status no_temporary(rb_message *why)
+{
+    return errno == ENOMEM
+               ? rb_fail(why, RB_ENOMEM, "out of memory")
+               : rb_fail(why, RB_EWRITE, "temporary file: %s", strerror(errno));
+}
+
+/* -d: without the start-up files of the machine and of the user. */
+static int spawn(FILE *script, FILE *picture, FILE *errors, pid_t *pid)
+{
+    char *const argv[] = {"gnuplot", "-d", NULL};
     posix_spawn_file_actions_t actions;
     int e = posix_spawn_file_actions_init(&actions);
     if (e)
         return e;
     e = posix_spawn_file_actions_adddup2(&actions, fileno(script), 0);
     if (!e)
-        e = posix_spawn_file_actions_adddup2(&actions, fileno(out), 1);
+        e = posix_spawn_file_actions_adddup2(&actions, fileno(picture), 1);
     if (!e)
         e = posix_spawn_file_actions_adddup2(&actions, fileno(errors), 2);
     if (!e)
@@ -33,6 +57,8 @@ static rb_status missing(int e, rb_message *why)
         return rb_fail(
             why, RB_EFORMAT,
             "gnuplot is not installed; pictures need it (package gnuplot-nox)");
+    if (e == ENOMEM)
+        return rb_fail(why, RB_ENOMEM, "gnuplot does not start: out of memory");
     return rb_fail(why, RB_EFORMAT, "gnuplot does not start: %s", strerror(e));
 }
 
@@ -49,12 +75,21 @@ static rb_status complaint(FILE *errors, rb_message *why)
     return rb_fail(why, RB_EFORMAT, "gnuplot failed: %s", last);
 }
 
-static rb_status wait_for(pid_t pid, FILE *errors, rb_message *why)
+static rb_status wait_for(pid_t pid, double seconds, FILE *errors, rb_message *why)
 {
+    const struct timespec pause = {.tv_nsec = 2000000};
+    const double end = rb_seconds() + seconds;
     int status;
-    while (waitpid(pid, &status, 0) < 0)
-        if (errno != EINTR)
-            return rb_fail(why, RB_EFORMAT, "gnuplot: %s", strerror(errno));
+    pid_t ended;
+    while ((ended = waitpid(pid, &status, WNOHANG)) == 0 && rb_seconds() < end)
+        nanosleep(&pause, NULL);
+    if (ended == 0) {
+        kill(pid, SIGKILL);
+        waitpid(pid, &status, 0);
+        return rb_fail(why, RB_EFORMAT, "gnuplot took longer than %g s", seconds);
+    }
+    if (ended < 0)
+        return rb_fail(why, RB_EFORMAT, "gnuplot: %s", strerror(errno));
     /* posix_spawn may report a missing program only by this exit status */
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
         return missing(ENOENT, why);
@@ -63,17 +98,135 @@ static rb_status wait_for(pid_t pid, FILE *errors, rb_message *why)
     return RB_OK;
 }
 
-rb_status rb_report_gnuplot(FILE *script, FILE *out, rb_message *why)
+/* ---- The picture --------------------------------------------------------------------
+ */
+
+/* How a whole picture begins and ends, line ends apart. */
+static const struct {
+    const char *begin, *end;
+    size_t end_size;
+} whole[] = {{"\x89PNG\r\n\x1a\n", "IEND\xae\x42\x60\x82", 8},
+             {"<?xml", "</svg>", 6},
+             {"%PDF-", "%%EOF", 5}};
+
+/* gnuplot does not say that its output could not be written. */
+static int is_whole(FILE *picture, rb_report_picture_kind kind)
+{
+    char head[16] = "", tail[16];
+    rewind(picture);
+    if (fread(head, 1, strlen(whole[kind].begin), picture) == 0 ||
+        strcmp(head, whole[kind].begin) != 0 ||
+        fseek(picture, -(long)sizeof tail, SEEK_END) != 0 ||
+        fread(tail, 1, sizeof tail, picture) != sizeof tail)
+        return 0;
+    size_t n = sizeof tail;
+    while (kind != RB_REPORT_PNG && n > 0 && strchr("\r\n", tail[n - 1]))
+        n--;
+    const size_t size = whole[kind].end_size;
+    return n >= size && memcmp(tail + n - size, whole[kind].end, size) == 0;
+}
+
+static rb_status copy(FILE *picture, FILE *out, rb_message *why)
+{
+    char buffer[1 << 14];
+    size_t n;
+    rewind(picture);
+    while ((n = fread(buffer, 1, sizeof buffer, picture)) > 0 &&
+           fwrite(buffer, 1, n, out) == n)
+        ;
+    if (ferror(picture) || ferror(out))
+        return rb_fail(why, RB_EWRITE, "cannot write: %s", strerror(errno));
+    return RB_OK;
+}
+
+static rb_status run(FILE *script, rb_report_picture_kind kind, double seconds,
+                     FILE *picture, FILE *errors, rb_message *why)
 {
     pid_t pid;
-    FILE *errors = tmpfile();
-    if (!errors)
-        return rb_fail(why, RB_EWRITE, "temporary file: %s", strerror(errno));
-    fflush(script);
+    if (fflush(script) != 0 || ferror(script))
+        return no_temporary(why);
     rewind(script);
-    fflush(out);
-    const int e = spawn(script, out, errors, &pid);
-    const rb_status s = e ? missing(e, why) : wait_for(pid, errors, why);
-    fclose(errors);
+    const int e = spawn(script, picture, errors, &pid);
+    const rb_status s = e ? missing(e, why) : wait_for(pid, seconds, errors, why);
+    if (s == RB_OK && !is_whole(picture, kind))
+        return rb_fail(why, RB_EWRITE,
+                       "gnuplot wrote a part of the picture only (is the disk full?)");
+    return s;
+}
+
+rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds,
+                            FILE *out, rb_message *why)
+{
+    FILE *picture = temporary(), *errors = picture ? temporary() : NULL;
+    rb_status s =
+        errors ? run(script, kind, seconds, picture, errors, why) : no_temporary(why);
+    if (s == RB_OK)
+        s = copy(picture, out, why);
+    if (errors)
+        fclose(errors);
+    if (picture)
+        fclose(picture);
+    return s;
+}
+
+/* ---- Kinds and shapes ---------------------------------------------------------------
+ */
+
+rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind,
+                                    rb_message *why)
+{
+    static const char *const ends[] = {".png", ".svg", ".pdf"};
+    const size_t n = strlen(path);
+    for (int k = 0; k < 3; k++)
+        if (n > 4 && strcmp(path + n - 4, ends[k]) == 0) {
+            *kind = (rb_report_picture_kind)k;
+            return RB_OK;
+        }
+    return rb_fail(why, RB_EINVAL,
+                   "expected a name ending in .png, .svg or .pdf, got '%s'", path);
+}
+
+/* Sizes that suit a slide.  The key needs its font named: svg would take a larger one. */
+static const struct {
+    const char *terminal, *size[4];
+    int font[4];
+    double line[4];
+    const char *key_font;
+} looks[] = {{"pngcairo",
+              {"1600,1200", "1800,750", "1920,1080", "900,600"},
+              {24, 20, 24, 14},
+              {2.2, 2.2, 2.0, 1.0},
+              ",24"},
+             {"svg",
+              {"1000,750", "1200,500", "1280,720", "900,600"},
+              {18, 14, 18, 14},
+              {1.5, 1.5, 1.4, 1.0},
+              ",15"},
+             {"pdfcairo",
+              {"10in,7.5in", "12in,5in", "13.33in,7.5in", "18cm,12cm"},
+              {21, 19, 20, 12},
+              {1.6, 1.6, 1.5, 1.0},
+              ",21"}};
+
+const char *rb_report_key_font(rb_report_picture_kind kind)
+{
+    return looks[kind].key_font;
+}
+
+rb_status rb_report_draw(FILE *out, rb_report_picture_kind kind, rb_report_shape shape,
+                         rb_report_script *script, const void *view, rb_message *why)
+{
+    enum { SECONDS = 120 }; /* the largest picture takes one or two */
+    FILE *file = temporary();
+    if (!file)
+        return no_temporary(why);
+    fprintf(file,
+            "set encoding utf8\nset terminal %s size %s font 'DejaVu Sans,%d' "
+            "linewidth %g background '#ffffff' enhanced\n",
+            looks[kind].terminal, looks[kind].size[shape], looks[kind].font[shape],
+            looks[kind].line[shape]);
+    script(file, kind, view);
+    const rb_status s = rb_report_gnuplot(file, kind, SECONDS, out, why);
+    fclose(file);
     return s;
 }

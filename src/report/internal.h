@@ -69,9 +69,20 @@ const char *rb_report_key_font(rb_report_picture_kind kind);
 /* The next of 1, 2, 5 times a power of ten. */
 double rb_report_round_step(double step);
 
-typedef enum { RB_REPORT_SLIDE, RB_REPORT_WIDE } rb_report_shape; /* 4:3, 12:5 */
+typedef enum {
+    RB_REPORT_SLIDE,  /* 4:3 */
+    RB_REPORT_WIDE,   /* 12:5 */
+    RB_REPORT_SCREEN, /* 16:9 */
+    RB_REPORT_CHART   /* 3:2, smaller */
+} rb_report_shape;
 
-/* Writes the script and runs gnuplot. */
+/* Runs gnuplot on a script, which names no file: data blocks only.  out gets the whole
+ * picture or nothing.  RB_EFORMAT: gnuplot is missing, refuses, or took longer than so
+ * many seconds; RB_EWRITE: the disk is full; RB_ENOMEM. */
+rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds,
+                            FILE *out, rb_message *why);
+
+/* A picture from what `script` writes behind the settings of its kind and shape. */
 typedef void rb_report_script(FILE *script, rb_report_picture_kind kind,
                               const void *view);
 rb_status rb_report_draw(FILE *out, rb_report_picture_kind kind, rb_report_shape shape,

@@ -3,55 +3,8 @@
 
 #include "rollbem/closed_forms.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
-
-rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind,
-                                    rb_message *why)
-{
-    static const char *const ends[] = {".png", ".svg", ".pdf"};
-    const size_t n = strlen(path);
-    for (int k = 0; k < 3; k++)
-        if (n > 4 && strcmp(path + n - 4, ends[k]) == 0) {
-            *kind = (rb_report_picture_kind)k;
-            return RB_OK;
-        }
-    return rb_fail(why, RB_EINVAL,
-                   "expected a name ending in .png, .svg or .pdf, got '%s'", path);
-}
-
-/* Sizes that suit a slide.  The key needs its font named: svg would take a larger one. */
-static const struct {
-    const char *terminal, *size[2];
-    int font[2];
-    double line;
-    const char *key_font;
-} looks[] = {{"pngcairo", {"1600,1200", "1800,750"}, {24, 20}, 2.2, ",24"},
-             {"svg", {"1000,750", "1200,500"}, {18, 14}, 1.5, ",15"},
-             {"pdfcairo", {"10in,7.5in", "12in,5in"}, {21, 19}, 1.6, ",21"}};
-
-const char *rb_report_key_font(rb_report_picture_kind kind)
-{
-    return looks[kind].key_font;
-}
-
-rb_status rb_report_draw(FILE *out, rb_report_picture_kind kind, rb_report_shape shape,
-                         rb_report_script *script, const void *view, rb_message *why)
-{
-    FILE *file = tmpfile();
-    if (!file)
-        return rb_fail(why, RB_EWRITE, "temporary file: %s", strerror(errno));
-    fprintf(file,
-            "set encoding utf8\nset terminal %s size %s font 'DejaVu Sans,%d' "
-            "linewidth %g background '#ffffff' enhanced\n",
-            looks[kind].terminal, looks[kind].size[shape], looks[kind].font[shape],
-            looks[kind].line);
-    script(file, kind, view);
-    const rb_status status = rb_report_gnuplot(file, out, why);
-    fclose(file);
-    return status;
-}
 
 /* What the axes show. */
 typedef struct {
@@ -338,7 +291,7 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
           out);
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
     write_title(out, v);
-    write_tractions(out, v, looks[kind].key_font);
+    write_tractions(out, v, rb_report_key_font(kind));
     write_slip(out, v);
     fputs("unset multiplot\n", out);
 }
