@@ -7,6 +7,9 @@
 
 #include <gsl/gsl_math.h>
 
+/* An elastic half-plane with its datum, for calls that take a surface. */
+#define HALFPLANE(solid, depth) (&(rb_bem_surface){.material = (solid), .datum = (depth)})
+
 /* Elements first ... first + n - 1 on a circle about (0, 0); turn: +1 counter-clockwise
  * (outer contour), -1 clockwise (hole).  The first end is at the angle `from`. */
 static inline void put_circle(rb_bem_mesh *mesh, int first, int n, double radius,

@@ -453,8 +453,9 @@ static double halfplane_difference(const rb_bem_cylinder *cylinder, int n_c, dou
                        plane;
     double *ends = equal_ends(n_c, a), *r = rb_alloc(2 * (size_t)n_c, 1),
            *w = rb_alloc(4 * (size_t)wheel.m, 1), *v = w + 2 * wheel.m;
-    CHECK_STATUS(rb_bem_flexibility_halfplane(n_c, ends, material, 50.0, &plane, NULL),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_bem_flexibility_surface(n_c, ends, HALFPLANE(material, 50.0), &plane, NULL),
+        RB_OK);
     for (int i = 0; i < n_c; i++)
         r[friction * n_c + i] = sqrt(1.0 - pow(wheel.x[i] / a, 2));
     rb_bem_flexibility_apply(&wheel, r, w);
@@ -576,8 +577,9 @@ static void the_default_datum_is_the_half_cylinder(void **state)
     const double R = 50.0, a = 0.1;
     double *ends = equal_ends(n, a), r[2 * n] = {0}, w[2 * (n + 1)];
     rb_bem_flexibility f;
-    CHECK_STATUS(rb_bem_flexibility_halfplane(n, ends, material, 2.0 * R / M_E, &f, NULL),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_bem_flexibility_surface(n, ends, HALFPLANE(material, 2.0 * R / M_E), &f, NULL),
+        RB_OK);
     for (int i = 0; i < n; i++)
         r[i] = hertz_mean(ends[i] / a, fmin(1.0, ends[i + 1] / a));
     rb_bem_flexibility_apply(&f, r, w);

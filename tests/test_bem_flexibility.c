@@ -1,4 +1,5 @@
 /* Flexibilities of the contact: the half-plane and the pair of bodies. */
+#include "bem_shapes.h"
 #include "check.h"
 #include "rollbem/bem.h"
 
@@ -37,7 +38,8 @@ static void halfplane_is_flamants_integral(void **state)
                  c = (1.0 - 2.0 * steel.poisson) / (4.0 * steel.shear);
     double F[2 * m * 2 * n];
     rb_bem_flexibility f;
-    CHECK_STATUS(rb_bem_flexibility_halfplane(n, uneven, steel, datum, &f, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_surface(n, uneven, HALFPLANE(steel, datum), &f, NULL),
+                 RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m), RB_OK);
     for (int j = 0; j < n; j++)
         for (int i = 0; i < m; i++) {
@@ -62,7 +64,8 @@ static void distant_strips_lose_no_digits(void **state)
                  K = (1.0 - steel.poisson) / (M_PI * steel.shear);
     const double ends[] = {0.0, h, X, X + h};
     rb_bem_flexibility f;
-    CHECK_STATUS(rb_bem_flexibility_halfplane(2, ends, steel, 40.0, &f, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_surface(2, ends, HALFPLANE(steel, 40.0), &f, NULL),
+                 RB_OK);
     double w[6];
     rb_bem_flexibility_apply(&f, (const double[]){1.0, 0.0, 0.0, 0.0}, w);
     CHECK_REL(w[2], -K * h * (log(X / 40.0) - pow(0.5 * h / X, 2) / 6.0), 1e-14, "far");
@@ -75,8 +78,10 @@ static void apply_is_the_matrix_and_ldf_is_kept(void **state)
     enum { n = n_uneven, m = n + 1, ld = 2 * m + 3 };
     double F[ld * 2 * n], r[2 * n], w[2 * m];
     rb_bem_flexibility a, b, f;
-    CHECK_STATUS(rb_bem_flexibility_halfplane(n, uneven, steel, 7.0, &a, NULL), RB_OK);
-    CHECK_STATUS(rb_bem_flexibility_halfplane(n, uneven, steel, 9.0, &b, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_surface(n, uneven, HALFPLANE(steel, 7.0), &a, NULL),
+                 RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_surface(n, uneven, HALFPLANE(steel, 9.0), &b, NULL),
+                 RB_OK);
     CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, NULL), RB_OK);
     for (int i = 0; i < ld * 2 * n; i++)
         F[i] = -77.0;
@@ -104,8 +109,10 @@ static void identical_bodies_lose_their_coupling(void **state)
     enum { n = n_uneven, m = n + 1 };
     double A[2 * m * 2 * n], F[2 * m * 2 * n];
     rb_bem_flexibility a, b, f;
-    CHECK_STATUS(rb_bem_flexibility_halfplane(n, uneven, steel, 7.0, &a, NULL), RB_OK);
-    CHECK_STATUS(rb_bem_flexibility_halfplane(n, uneven, steel, 7.0, &b, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_surface(n, uneven, HALFPLANE(steel, 7.0), &a, NULL),
+                 RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_surface(n, uneven, HALFPLANE(steel, 7.0), &b, NULL),
+                 RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&a, A, 2 * m), RB_OK);
     a.w0[1] = a.w0[m + 1] = 3.0;
     b.w0[1] = b.w0[m + 1] = 5.0;
@@ -144,21 +151,26 @@ static void bad_input_is_refused(void **state)
         {1, two, {1.0, 0.51}, 1.0, "Poisson"}, {1, two, {1.0, NAN}, 1.0, "Poisson"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-        CHECK_STATUS(rb_bem_flexibility_halfplane(bad[k].n, bad[k].ends, bad[k].material,
-                                                  bad[k].datum, &f, &why),
+        CHECK_STATUS(rb_bem_flexibility_surface(bad[k].n, bad[k].ends,
+                                                HALFPLANE(bad[k].material, bad[k].datum),
+                                                &f, &why),
                      RB_EINVAL);
         assert_non_null(strstr(why.text, bad[k].text));
         assert_null(f.x);
     }
     const double moved[] = {0.0, 1.0, 2.1};
-    CHECK_STATUS(rb_bem_flexibility_halfplane(1, two, steel, 1.0, &a, NULL), RB_OK);
-    CHECK_STATUS(rb_bem_flexibility_halfplane(1, moved, steel, 1.0, &b, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_surface(1, two, HALFPLANE(steel, 1.0), &a, NULL),
+                 RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_surface(1, moved, HALFPLANE(steel, 1.0), &b, NULL),
+                 RB_OK);
     CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "point 1"));
     assert_null(a.x);
-    CHECK_STATUS(rb_bem_flexibility_halfplane(1, two, steel, 1.0, &a, NULL), RB_OK);
-    CHECK_STATUS(rb_bem_flexibility_halfplane(n_uneven, uneven, steel, 1.0, &b, NULL),
+    CHECK_STATUS(rb_bem_flexibility_surface(1, two, HALFPLANE(steel, 1.0), &a, NULL),
                  RB_OK);
+    CHECK_STATUS(
+        rb_bem_flexibility_surface(n_uneven, uneven, HALFPLANE(steel, 1.0), &b, NULL),
+        RB_OK);
     CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, NULL), RB_EINVAL);
 }
 
@@ -171,9 +183,10 @@ static void failing_memory_is_reported(void **state)
         double F[2 * (n_uneven + 1) * 2 * n_uneven];
         alloc_fail_after(count);
         rb_status s =
-            rb_bem_flexibility_halfplane(n_uneven, uneven, steel, 1.0, &a, NULL);
+            rb_bem_flexibility_surface(n_uneven, uneven, HALFPLANE(steel, 1.0), &a, NULL);
         if (s == RB_OK)
-            s = rb_bem_flexibility_halfplane(n_uneven, uneven, steel, 1.0, &b, NULL);
+            s = rb_bem_flexibility_surface(n_uneven, uneven, HALFPLANE(steel, 1.0), &b,
+                                           NULL);
         if (s == RB_OK)
             s = rb_bem_flexibility_pair(&a, &b, &f, NULL);
         if (s == RB_OK)

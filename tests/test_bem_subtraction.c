@@ -1,4 +1,5 @@
 /* The strip in complex form, and the flexibility whose singular part it is (B10). */
+#include "bem_shapes.h"
 #include "check.h"
 #include "bem/strip.h"
 
@@ -23,7 +24,8 @@ static void the_strip_is_flamants_on_the_surface(void **state)
     double W[4 * 6];
     rb_bem_mesh mesh;
     const rb_strip strip = flat_strip(&mesh);
-    CHECK_STATUS(rb_bem_halfplane_displacement(1, ends, steel, 1.0, 6, x, W), RB_OK);
+    CHECK_STATUS(rb_bem_surface_displacement(HALFPLANE(steel, 1.0), 1, ends, 6, x, W),
+                 RB_OK);
     /* the datum and the rotation-free constant differ: compare with the first point */
     for (int load = 0; load < 2; load++)
         for (int i = 1; i < 6; i++) {
@@ -148,8 +150,9 @@ static double distance_from_halfplane(int n, int subtracted)
     CHECK_STATUS((subtracted ? rb_bem_condense_subtracted : rb_bem_condense)(
                      system, RB_BEM_NORMALS_OBSTACLE, &f, NULL),
                  RB_OK);
-    CHECK_STATUS(rb_bem_flexibility_halfplane(n, ends, steel, 1000.0, &flat, NULL),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_bem_flexibility_surface(n, ends, HALFPLANE(steel, 1000.0), &flat, NULL),
+        RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m), RB_OK);
     CHECK_STATUS(rb_bem_flexibility_matrix(&flat, H, 2 * m), RB_OK);
     for (int j = 0; j < 2 * n; j++)

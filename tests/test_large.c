@@ -117,9 +117,10 @@ static void displacement(const rb_rolling_case *rc, const rb_rolling_solution *s
             const double ends[2] = {s->x[j] - 0.5 * s->h[j], s->x[j] + 0.5 * s->h[j]};
             const double sign = b ? -1.0 : 1.0;
             double W[8];
-            rb_bem_halfplane_displacement(
-                1, ends, rb_bem_material_from_young(body[b]->young, body[b]->poisson),
-                2.0 * 500.0 / M_E, 2, x, W);
+            const rb_bem_surface plane = rb_bem_halfplane(
+                rb_bem_material_from_young(body[b]->young, body[b]->poisson),
+                2.0 * 500.0 / M_E);
+            rb_bem_surface_displacement(&plane, 1, ends, 2, x, W);
             for (int k = 0; k < 2; k++) {
                 w_N[k] += W[k] * s->p[j] + sign * W[4 + k] * s->q[j];
                 w_T[k] += sign * W[2 + k] * s->p[j] + W[6 + k] * s->q[j];

@@ -1,11 +1,12 @@
 /* The half-plane by Fourier transforms against its dense matrix. */
+#include "bem_shapes.h"
 #include "check.h"
 #include "rollbem/bem.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>
 
-typedef rb_status make(int, const double *, rb_bem_material, double, rb_bem_flexibility *,
+typedef rb_status make(int, const double *, const rb_bem_surface *, rb_bem_flexibility *,
                        rb_message *);
 
 static double *equal_ends(int n, double from, double to)
@@ -26,10 +27,10 @@ static rb_bem_flexibility built(make *by, int n, rb_bem_material a,
     double *ends = equal_ends(n, -1.3e-3, 1.1e-3);
     rb_bem_flexibility f, of_a, of_b;
     rb_message why;
-    CHECK_STATUS(by(n, ends, a, datum, &of_a, &why), RB_OK);
+    CHECK_STATUS(by(n, ends, HALFPLANE(a, datum), &of_a, &why), RB_OK);
     f = of_a;
     if (b) {
-        CHECK_STATUS(by(n, ends, *b, 2.0 * datum, &of_b, &why), RB_OK);
+        CHECK_STATUS(by(n, ends, HALFPLANE(*b, 2.0 * datum), &of_b, &why), RB_OK);
         CHECK_STATUS(rb_bem_flexibility_pair(&of_a, &of_b, &f, &why), RB_OK);
     }
     free(ends);
@@ -44,7 +45,7 @@ static double largest(size_t n, const double *x)
 /* Entries, products with random tractions, points: relative to the largest entry. */
 static void compare(int n, rb_bem_material a, const rb_bem_material *b, double datum)
 {
-    rb_bem_flexibility dense = built(rb_bem_flexibility_halfplane, n, a, b, datum);
+    rb_bem_flexibility dense = built(rb_bem_flexibility_surface, n, a, b, datum);
     rb_bem_flexibility fast = built(rb_bem_flexibility_toeplitz, n, a, b, datum);
     const int m = dense.m, ld = 2 * m + 3;
     double *F = rb_alloc((size_t)ld, 2 * (size_t)n),
@@ -97,15 +98,15 @@ static void pairs_of_any_kind_agree(void **state)
 {
     (void)state;
     enum { n = 12, m = n + 1 };
-    make *const kind[] = {rb_bem_flexibility_halfplane, rb_bem_flexibility_toeplitz};
+    make *const kind[] = {rb_bem_flexibility_surface, rb_bem_flexibility_toeplitz};
     double F[4][4 * m * n], w[4][2 * m], r[2 * n], *ends = equal_ends(n, -1.0, 2.0);
 
     for (int j = 0; j < 2 * n; j++)
         r[j] = sin(1.0 + j);
     for (int k = 0; k < 4; k++) {
         rb_bem_flexibility a, b, f;
-        CHECK_STATUS(kind[k / 2](n, ends, steel, 9.0, &a, NULL), RB_OK);
-        CHECK_STATUS(kind[k % 2](n, ends, aluminium, 4.0, &b, NULL), RB_OK);
+        CHECK_STATUS(kind[k / 2](n, ends, HALFPLANE(steel, 9.0), &a, NULL), RB_OK);
+        CHECK_STATUS(kind[k % 2](n, ends, HALFPLANE(aluminium, 4.0), &b, NULL), RB_OK);
         const double *first = rb_bem_flexibility_stored(&a);
         CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, NULL), RB_OK);
         assert_ptr_equal(rb_bem_flexibility_stored(&f), k == 0 ? first : NULL);
@@ -154,8 +155,9 @@ static void long_lines_work(void **state)
     for (int i = 0; i < f.m; i += 19997) {
         one[0] = f.x[i];
         one[1] = f.x[i] + 1.0;
-        CHECK_STATUS(rb_bem_halfplane_displacement(1, ends, steel, 10.0, 2, one, W),
-                     RB_OK);
+        CHECK_STATUS(
+            rb_bem_surface_displacement(HALFPLANE(steel, 10.0), 1, ends, 2, one, W),
+            RB_OK);
         CHECK_REL(w[i], 3.0 * W[0] - 2.0 * W[4], 1e-9, "N of row %d", i);
         CHECK_REL(w[f.m + i], 3.0 * W[2] - 2.0 * W[6], 1e-9, "T of row %d", i);
     }
@@ -169,8 +171,9 @@ static void refuse(int n, const double *ends, rb_bem_material material, double d
 {
     rb_bem_flexibility f;
     rb_message why;
-    CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, material, datum, &f, &why),
-                 RB_EINVAL);
+    CHECK_STATUS(
+        rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(material, datum), &f, &why),
+        RB_EINVAL);
     assert_non_null(strstr(why.text, word));
     assert_null(f.x);
     rb_bem_flexibility_free(&f);
@@ -266,7 +269,8 @@ static void a_short_arc_is_a_half_plane(void **state)
     static double r[2 * n], w[2 * m], v[2 * m];
     double *ends = equal_arcs(n, 1e4, -1e-7, 1e-7);
     rb_bem_flexibility half, f = disc(n, 1e4, -1e-7, 1e-7, RB_BEM_NORMALS_OBSTACLE);
-    CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, steel, 1.0, &half, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, 1.0), &half, NULL),
+                 RB_OK);
     for (int i = 0; i < n; i++) {
         r[i] = 1.0 + sin(i);
         r[n + i] = cos(i);
@@ -338,7 +342,8 @@ static void failing_allocations(void **state)
     for (int k = 0, refused = 1; refused; k++) {
         rb_bem_flexibility f;
         alloc_fail_after(k);
-        const rb_status s = rb_bem_flexibility_toeplitz(6, ends, steel, 1.0, &f, &why);
+        const rb_status s =
+            rb_bem_flexibility_toeplitz(6, ends, HALFPLANE(steel, 1.0), &f, &why);
         refused = alloc_failed();
         alloc_succeed();
         assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);

@@ -148,18 +148,38 @@ rb_status rb_bem_condense(const rb_bem_system *system, rb_bem_normals normals,
 rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals normals,
                                      rb_bem_flexibility *f, rb_message *why);
 
-/* Half-plane (kernels of theory.md, Flamant): ends as in rb_bem_mesh_cylinder, any real
- * numbers; displacement zero at depth datum > 0 under the point. */
-rb_status rb_bem_flexibility_halfplane(int n_c, const double *ends,
-                                       rb_bem_material material, double datum,
-                                       rb_bem_flexibility *f, rb_message *why);
+/* A body whose surface answers alike everywhere, unlike a wheel's: displacement and
+ * traction depend on distance alone.  A half-plane (kernels of theory.md, Flamant),
+ * elastic or with fading memory in steady rolling towards +x, or a layer of that material
+ * bonded to a rigid or elastic base.  All borrowed. */
+typedef struct {
+    rb_bem_material material; /* of the half-plane or layer; the glassy one with memory */
+    double datum; /* depth of zero displacement of the half-plane or elastic base */
+    int terms;    /* of the memory: creep compliance 1 + sum f_k (1 - exp(-t/tau_k)) */
+    const double *ratio;  /* terms: f_k >= 0 */
+    const double *length; /* terms: rolling speed times tau_k [length], >= 0 */
+    double thickness;     /* of the layer; 0: half-plane */
+    int elastic_base;     /* of the layer; 0: rigid */
+    rb_bem_material base;
+} rb_bem_surface;
+
+/* Elastic, displacement zero at depth datum > 0 under the point. */
+rb_bem_surface rb_bem_halfplane(rb_bem_material material, double datum);
+
+/* RB_EINVAL: material, datum, terms or thickness out of range. */
+rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why);
+
+/* ends as in rb_bem_mesh_cylinder, any real numbers. */
+rb_status rb_bem_flexibility_surface(int n_c, const double *ends,
+                                     const rb_bem_surface *body, rb_bem_flexibility *f,
+                                     rb_message *why);
 
 /* The same on equal elements as a Toeplitz operator: products by Fourier transforms,
  * n log n work, memory of a few n.  A pair of two such is again one.  apply serves one
  * thread at a time.  RB_EINVAL: as above, and elements of different lengths. */
 rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
-                                      rb_bem_material material, double datum,
-                                      rb_bem_flexibility *f, rb_message *why);
+                                      const rb_bem_surface *body, rb_bem_flexibility *f,
+                                      rb_message *why);
 
 /* The disc in closed form, without elements elsewhere on its boundary: equal arcs at the
  * lowest point, ends as in rb_bem_mesh_cylinder.  Its load is carried by a force and a
@@ -171,11 +191,11 @@ rb_status rb_bem_flexibility_disc(int n_c, const double *ends, double radius,
                                   rb_bem_material material, rb_bem_normals normals,
                                   rb_bem_flexibility *f, rb_message *why);
 
-/* A half-plane seen at any points x of its surface: w = W r, W: 2 points x 2n
- * column-major, rows (w_N, w_T); ends: n + 1.  RB_EINVAL: sizes, material, datum <= 0. */
-rb_status rb_bem_halfplane_displacement(int n, const double *ends,
-                                        rb_bem_material material, double datum,
-                                        int points, const double *x, double *W);
+/* The body seen at any points x of its surface: w = W r, W: 2 points x 2n column-major,
+ * rows (w_N, w_T); ends: n + 1.  RB_EINVAL: sizes, body; RB_ENOMEM. */
+rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n,
+                                      const double *ends, int points, const double *x,
+                                      double *W);
 
 /* Two bodies in contact (4.5): F_A + F_B, B computed as the mirror image (an upper body),
  * so that its coupling blocks enter with the opposite sign.  Takes over a and b (both are

@@ -13,17 +13,18 @@
 
 enum { N, T };
 
-/* w_N = t_N * r_N + s * r_T, w_T = t_T * r_T - s * r_N, with t even, s odd in the
- * distance; the half-plane has one t for both.  Transforms of length >= 2n + 1 let
- * nothing wrap around.  The transform of t less its mean `base` is real, that of s
- * imaginary; `base` times the sum of the tractions is added apart: with a deep datum it
- * would drown the rest in rounding.  work: room for one product, so that an operator
- * serves one thread at a time. */
+/* w_N = t_N * r_N + s * r_T, w_T = t_T * r_T - s * r_N.  Elastic bodies have t even and s
+ * odd in the distance, bodies with memory neither; those whose surface is alike
+ * everywhere have one t for both.  Transforms of length >= 2n + 1 let nothing wrap
+ * around.  `base`, the mean of t, times the sum of the tractions is added apart: with a
+ * deep datum it would drown the rest in rounding.  work: room for one product, so that an
+ * operator serves one thread at a time. */
 typedef struct {
     int n, coupled, alike; /* alike: t_T is t_N */
+    int flat;              /* 0: the elements lie on a disc */
     double base[2];
-    double *t[2], *s;         /* n + 1: distances 0 ... n elements; s(-k) = -s(k) */
-    double *t_hat[2], *s_hat; /* size/2 + 1: real and imaginary part of the transforms */
+    double *t[2], *s;               /* 2n + 1: of distances -n ... n elements */
+    fftw_complex *t_hat[2], *s_hat; /* size/2 + 1: transforms, t less its base */
     double *work[2];
     rb_fourier fourier;
     double *cosine, *sine; /* m: of the angle to the obstacle's frame; NULL: none */
@@ -53,15 +54,15 @@ static void toeplitz_free(void *data)
 
 static int alloc_kernels(toeplitz *o)
 {
-    const size_t m = (size_t)o->n + 1, half = (size_t)o->fourier.size / 2 + 1;
+    const size_t distances = 2 * (size_t)o->n + 1, half = (size_t)o->fourier.size / 2 + 1;
 
     for (int k = 0; k < 2; k++) {
-        o->t[k] = k && o->alike ? o->t[N] : rb_alloc(m, 1);
-        o->t_hat[k] = k && o->alike ? o->t_hat[N] : rb_alloc(half, 1);
+        o->t[k] = k && o->alike ? o->t[N] : rb_alloc(distances, 1);
+        o->t_hat[k] = k && o->alike ? o->t_hat[N] : calloc(half, sizeof *o->t_hat[k]);
         o->work[k] = rb_fourier_alloc(&o->fourier);
     }
-    o->s = rb_alloc(m, 1);
-    o->s_hat = rb_alloc(half, 1);
+    o->s = rb_alloc(distances, 1);
+    o->s_hat = calloc(half, sizeof *o->s_hat);
     return o->t[N] && o->t[T] && o->s && o->t_hat[N] && o->t_hat[T] && o->s_hat &&
            o->work[N] && o->work[T];
 }
@@ -108,7 +109,7 @@ static void transform_back(const toeplitz *o, double constant, double *work, dou
 /* One traction, no coupling: the product with t. */
 static void apply_alone(const toeplitz *o, int k, const double *r, double *w)
 {
-    const double *t_hat = o->t_hat[k];
+    fftw_complex *const t = o->t_hat[k];
 
     if (all_zero(o->n, r)) {
         memset(w, 0, ((size_t)o->n + 1) * sizeof *w);
@@ -116,13 +117,14 @@ static void apply_alone(const toeplitz *o, int k, const double *r, double *w)
     }
     fftw_complex *z = rb_fourier_forward(&o->fourier, o->n, r, o->work[0]);
     for (int j = 0; j <= o->fourier.size / 2; j++) {
-        z[j][0] *= t_hat[j];
-        z[j][1] *= t_hat[j];
+        const double re = z[j][0], im = z[j][1];
+        z[j][0] = t[j][0] * re - t[j][1] * im;
+        z[j][1] = t[j][0] * im + t[j][1] * re;
     }
     transform_back(o, o->base[k] * sum_of(o->n, r), o->work[0], w);
 }
 
-/* Both at once: i s_hat is the transform of s. */
+/* Both at once. */
 static void apply_coupled(const toeplitz *o, const double *r, double *w)
 {
     const rb_fourier *f = &o->fourier;
@@ -130,12 +132,12 @@ static void apply_coupled(const toeplitz *o, const double *r, double *w)
     fftw_complex *q = rb_fourier_forward(f, o->n, r + o->n, o->work[T]);
 
     for (int k = 0; k <= f->size / 2; k++) {
-        const double t_N = o->t_hat[N][k], t_T = o->t_hat[T][k], s = o->s_hat[k];
+        const double *t_N = o->t_hat[N][k], *t_T = o->t_hat[T][k], *s = o->s_hat[k];
         const double p0 = p[k][0], p1 = p[k][1], q0 = q[k][0], q1 = q[k][1];
-        p[k][0] = t_N * p0 - s * q1;
-        p[k][1] = t_N * p1 + s * q0;
-        q[k][0] = t_T * q0 + s * p1;
-        q[k][1] = t_T * q1 - s * p0;
+        p[k][0] = t_N[0] * p0 - t_N[1] * p1 + s[0] * q0 - s[1] * q1;
+        p[k][1] = t_N[0] * p1 + t_N[1] * p0 + s[0] * q1 + s[1] * q0;
+        q[k][0] = t_T[0] * q0 - t_T[1] * q1 - s[0] * p0 + s[1] * p1;
+        q[k][1] = t_T[0] * q1 + t_T[1] * q0 - s[0] * p1 - s[1] * p0;
     }
     transform_back(o, o->base[N] * sum_of(o->n, r), o->work[N], w);
     transform_back(o, o->base[T] * sum_of(o->n, r + o->n), o->work[T], w + o->n + 1);
@@ -174,10 +176,10 @@ static void toeplitz_apply(const rb_bem_flexibility *f, const double *r, double 
 /* Entries of point i and element j in the surface's frames: NN, TN, NT, TT. */
 static void entry(const toeplitz *o, size_t i, size_t j, double *e)
 {
-    const size_t k = i > j ? i - j : j - i;
+    const size_t k = (size_t)o->n + i - j;
 
     e[0] = o->t[N][k];
-    e[2] = i > j ? o->s[k] : -o->s[k];
+    e[2] = o->s[k];
     e[1] = -e[2];
     e[3] = o->t[T][k];
 }
@@ -220,60 +222,68 @@ static rb_status toeplitz_matrix(const rb_bem_flexibility *f, double *F, int ldf
 
 /* ---- Construction ------------------------------------------------------------------ */
 
-/* Transforms of t and s, with FFTW's factor `size` of a transform and its inverse. */
-static void transform_even(toeplitz *o, int k)
+/* +1: the same at both sides, -1: of opposite sign, 0: neither. */
+static int parity(int n, const double *kernel)
 {
-    const int n = o->n, size = o->fourier.size;
-    double *even = o->work[0];
+    int even = 1, odd = 1;
+    for (int k = 0; k <= n; k++) {
+        even = even && kernel[n + k] == kernel[n - k];
+        odd = odd && kernel[n + k] == -kernel[n - k];
+    }
+    return even ? 1 : odd ? -1 : 0;
+}
 
-    o->base[k] = sum_of(n + 1, o->t[k]) / (n + 1);
-    memset(even, 0, (size_t)size * sizeof *even);
-    even[0] = o->t[k][0] - o->base[k];
-    for (int j = 1; j <= n; j++)
-        even[j] = even[size - j] = o->t[k][j] - o->base[k];
-    fftw_complex *even_hat = rb_fourier_forward(&o->fourier, size, even, even);
-    for (int j = 0; j <= size / 2; j++)
-        o->t_hat[k][j] = even_hat[j][0] / size;
+/* The transform of a kernel less its base, with FFTW's factor `size` of a transform and
+ * its inverse.  Of even and odd kernels the part that is rounding alone is set to zero.
+ */
+static void transform(const toeplitz *o, const double *kernel, double base,
+                      fftw_complex *hat)
+{
+    const int n = o->n, size = o->fourier.size, way = parity(n, kernel);
+    double *line = o->work[0];
+
+    memset(line, 0, (size_t)size * sizeof *line);
+    for (int k = -n; k <= n; k++)
+        line[k < 0 ? size + k : k] = kernel[n + k] - base;
+    fftw_complex *z = rb_fourier_forward(&o->fourier, size, line, line);
+    for (int j = 0; j <= size / 2; j++) {
+        hat[j][0] = way < 0 ? 0.0 : z[j][0] / size;
+        hat[j][1] = way > 0 ? 0.0 : z[j][1] / size;
+    }
 }
 
 static void set_transforms(toeplitz *o)
 {
-    const int n = o->n, size = o->fourier.size;
-    double *odd = o->work[1];
+    const int n = o->n;
 
-    transform_even(o, N);
-    if (o->alike)
-        o->base[T] = o->base[N];
-    else
-        transform_even(o, T);
-    memset(odd, 0, (size_t)size * sizeof *odd);
-    for (int k = 1; k <= n; k++) {
-        odd[k] = o->s[k];
-        odd[size - k] = -o->s[k];
+    for (int k = N; k <= T; k++) {
+        o->base[k] = sum_of(n + 1, o->t[k] + n) / (n + 1);
+        if (k == N || !o->alike)
+            transform(o, o->t[k], o->base[k], o->t_hat[k]);
     }
-    fftw_complex *odd_hat = rb_fourier_forward(&o->fourier, size, odd, odd);
-    for (int k = 0; k <= size / 2; k++)
-        o->s_hat[k] = odd_hat[k][1] / size;
-    o->coupled = !all_zero(n + 1, o->s);
+    transform(o, o->s, 0.0, o->s_hat);
+    o->coupled = !all_zero(2 * n + 1, o->s);
 }
 
-/* One strip seen from distances 0 ... n elements. */
-static rb_status set_response(toeplitz *o, double h, rb_bem_material material,
-                              double datum)
+/* One strip seen from distances -n ... n elements. */
+static rb_status set_response(toeplitz *o, double h, const rb_bem_surface *body)
 {
     const double strip[2] = {-0.5 * h, 0.5 * h};
-    const int m = o->n + 1;
-    double *x = rb_alloc((size_t)m, 1), *W = rb_alloc(2 * (size_t)m, 2);
+    const int n = o->n;
+    const size_t points = 2 * (size_t)n + 1;
+    double *x = rb_alloc(points, 1), *W = rb_alloc(2 * points, 2);
     rb_status s = x && W ? RB_OK : RB_ENOMEM;
 
     if (s == RB_OK) {
-        for (int i = 0; i < m; i++)
-            x[i] = i * h;
-        s = rb_bem_halfplane_displacement(1, strip, material, datum, m, x, W);
+        for (int i = -n; i <= n; i++)
+            x[n + i] = i * h;
+        s = rb_bem_surface_displacement(body, 1, strip, (int)points, x, W);
     }
     if (s == RB_OK) {
-        memcpy(o->t[N], W, (size_t)m * sizeof *W);
-        memcpy(o->s, W + 2 * m, (size_t)m * sizeof *W);
+        memcpy(o->t[N], W, points * sizeof *W);
+        if (!o->alike)
+            memcpy(o->t[T], W + 3 * points, points * sizeof *W);
+        memcpy(o->s, W + 2 * points, points * sizeof *W);
         set_transforms(o);
     }
     free(x);
@@ -292,10 +302,10 @@ int rb_bem_ends_equal(int n_c, const double *ends)
     return 1;
 }
 
-static rb_status check(int n_c, const double *ends, rb_bem_material material,
-                       double datum, rb_message *why)
+static rb_status check(int n_c, const double *ends, const rb_bem_surface *body,
+                       rb_message *why)
 {
-    rb_status s = rb_bem_material_check(material, why);
+    rb_status s = rb_bem_surface_check(body, why);
 
     if (s == RB_OK)
         s = rb_bem_ends_check(n_c, ends, why);
@@ -307,8 +317,6 @@ static rb_status check(int n_c, const double *ends, rb_bem_material material,
     if (s == RB_OK && n_c > 1 << 28)
         s = rb_fail(why, RB_EINVAL, "contact elements: %d, expected at most %d", n_c,
                     1 << 28);
-    if (s == RB_OK && !(datum > 0.0 && isfinite(datum)))
-        s = rb_fail(why, RB_EINVAL, "datum = %g: expected a depth > 0", datum);
     return s;
 }
 
@@ -331,16 +339,17 @@ static toeplitz *start(int n_c, const double *ends, int alike, rb_bem_flexibilit
 }
 
 rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
-                                      rb_bem_material material, double datum,
-                                      rb_bem_flexibility *f, rb_message *why)
+                                      const rb_bem_surface *body, rb_bem_flexibility *f,
+                                      rb_message *why)
 {
     *f = (rb_bem_flexibility){0};
-    rb_status s = check(n_c, ends, material, datum, why);
+    rb_status s = check(n_c, ends, body, why);
     if (s != RB_OK)
         return s;
-    toeplitz *o = start(n_c, ends, 1, f);
-    s = o ? set_response(o, (ends[n_c + 1] - ends[0]) / (n_c + 1), material, datum)
-          : RB_ENOMEM;
+    toeplitz *o = start(n_c, ends, body->thickness == 0.0, f);
+    if (o)
+        o->flat = 1;
+    s = o ? set_response(o, (ends[n_c + 1] - ends[0]) / (n_c + 1), body) : RB_ENOMEM;
     if (s == RB_OK)
         return s;
     rb_bem_flexibility_free(f);
@@ -353,10 +362,12 @@ int rb_bem_toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
         return 0;
     toeplitz *o = a->data;
     const toeplitz *other = b->data;
-    if (!o->alike || !other->alike) /* discs: frames of their own */
+    if (!o->flat || !other->flat || (o->alike && !other->alike))
         return 0;
-    for (int k = 0; k <= o->n; k++) {
+    for (int k = 0; k <= 2 * o->n; k++) {
         o->t[N][k] += other->t[N][k];
+        if (!o->alike)
+            o->t[T][k] += other->t[T][k];
         o->s[k] -= other->s[k];
     }
     set_transforms(o);
@@ -420,13 +431,15 @@ static rb_status set_disc(toeplitz *o, double h, double radius, rb_bem_material 
 
     for (int k = 0; k <= o->n; k++) {
         double u[4];
+        const int up = o->n + k, down = o->n - k;
         const rb_status s = rb_bem_disc_response(radius, material, h, k * h, u);
         if (s != RB_OK)
             return s;
         const double shift = scale * 2.0 * sin(0.5 * h) * cos(k * h);
-        o->t[N][k] = u[0] - shift;
-        o->t[T][k] = u[3] + shift;
-        o->s[k] = k == 0 ? 0.0 : 0.5 * (u[1] - u[2]);
+        o->t[N][up] = o->t[N][down] = u[0] - shift;
+        o->t[T][up] = o->t[T][down] = u[3] + shift;
+        o->s[up] = k == 0 ? 0.0 : 0.5 * (u[1] - u[2]);
+        o->s[down] = -o->s[up];
     }
     set_transforms(o);
     return RB_OK;

@@ -13,17 +13,16 @@ static rb_status add_halfplane(const rb_rolling_case *rc, const rb_rolling_body 
                                const double *s, double *sum)
 {
     const size_t rows = (size_t)points, columns = 2 * (size_t)n;
-    const double datum =
-        rb_rolling_datum(body, isfinite(body->radius) ? body->radius : rc->a.radius);
+    const rb_bem_surface surface = rb_bem_halfplane(
+        rb_bem_material_from_young(body->young, body->poisson),
+        rb_rolling_datum(body, isfinite(body->radius) ? body->radius : rc->a.radius));
     double *ends = rb_alloc((size_t)n + 1, 1), *W = rb_alloc(2 * rows, columns);
     rb_status status = ends && W ? RB_OK : RB_ENOMEM;
 
     for (int i = 0; i <= n && status == RB_OK; i++)
         ends[i] = (i - 0.5) * h;
     if (status == RB_OK)
-        status = rb_bem_halfplane_displacement(
-            n, ends, rb_bem_material_from_young(body->young, body->poisson), datum,
-            points, s, W);
+        status = rb_bem_surface_displacement(&surface, n, ends, points, s, W);
     for (size_t j = 0; j < columns && status == RB_OK; j++)
         cblas_daxpy(points, j < (size_t)n ? coupling : 1.0, W + rows + j * 2 * rows, 1,
                     sum + j * rows, 1);

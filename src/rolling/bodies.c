@@ -76,11 +76,12 @@ static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_bo
     const double start = rb_seconds();
     const rb_bem_material material =
         rb_bem_material_from_young(body->young, body->poisson);
-    const double datum = rb_rolling_datum(body, radius);
+    const rb_bem_surface surface =
+        rb_bem_halfplane(material, rb_rolling_datum(body, radius));
     const rb_status s =
         rb_rolling_is_large(rc, mesh)
-            ? rb_bem_flexibility_toeplitz(mesh->n, mesh->ends, material, datum, f, why)
-            : rb_bem_flexibility_halfplane(mesh->n, mesh->ends, material, datum, f, why);
+            ? rb_bem_flexibility_toeplitz(mesh->n, mesh->ends, &surface, f, why)
+            : rb_bem_flexibility_surface(mesh->n, mesh->ends, &surface, f, why);
     bodies->seconds_condense += rb_seconds() - start;
     return s;
 }

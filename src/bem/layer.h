@@ -1,0 +1,14 @@
+/* A layer on a rigid or elastic base; not installed. */
+#ifndef ROLLBEM_BEM_LAYER_H
+#define ROLLBEM_BEM_LAYER_H
+
+#include "rollbem/bem.h"
+
+/* The smooth remainder of a layer over a half-plane of its material (L3): displacements
+ * of `points` abscissae x under n strips between ends (n + 1), added to W, 2 points x 2n
+ * column-major as in rb_bem_surface_displacement.  RB_ENOMEM. */
+rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points,
+                                     const double *x, int n, const double *ends,
+                                     double *W);
+
+#endif

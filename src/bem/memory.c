@@ -1,0 +1,63 @@
+/* Element integrals of a viscoelastic half-plane (V2): the response of steady rolling is
+ * the elastic one plus an exponential average over what the particle has passed upstream.
+ */
+#include "bem/memory.h"
+
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_sf_expint.h>
+#include <math.h>
+
+/* exp(z) E1(z) for z > 0, the principal value -exp(z) Ei(-z) for z < 0. */
+static double scaled_exponential_integral(double z)
+{
+    gsl_sf_result r = {0.0, 0.0};
+    if (z > 0.0)
+        gsl_sf_expint_E1_scaled_e(z, &r);
+    else
+        gsl_sf_expint_Ei_scaled_e(-z, &r);
+    return z > 0.0 ? r.val : -r.val;
+}
+
+/* sum over k >= 1 of (-z)^k / (k k!) for |z| <= 1. */
+static double entire_part(double z)
+{
+    double term = 1.0, sum = 0.0;
+    for (int k = 1; k <= 24 && fabs(term) > 1e-19; k++) {
+        term *= -z / k;
+        sum += term / k;
+    }
+    return sum;
+}
+
+/* Phi(y) = int_0^inf exp(-r/L) ln|y + r| dr, less the constant L (ln L - gamma): only
+ * differences count, and elements that are short against L would lose their digits in it.
+ */
+static double log_average(double y, double L)
+{
+    const double z = y / L;
+    if (z == 0.0)
+        return 0.0;
+    if (fabs(z) <= 1.0)
+        return L * (-expm1(z) * (log(fabs(z)) + M_EULER) - exp(z) * entire_part(z));
+    return L * (log(fabs(z)) + M_EULER + scaled_exponential_integral(z));
+}
+
+/* What E - 1 makes of |y|, less the constant L. */
+static double sign_average(double y, double L)
+{
+    return y >= 0.0 ? 0.0 : 2.0 * L * expm1(y / L);
+}
+
+void rb_bem_memory_integrals(const rb_bem_surface *body, double x, double b, double *log,
+                             double *sign)
+{
+    const double ahead = x + b, behind = x - b;
+    *log = *sign = 0.0;
+    for (int k = 0; k < body->terms; k++) {
+        const double f = body->ratio[k], L = body->length[k];
+        if (!(L > 0.0))
+            continue; /* E is the identity */
+        *log += f * (log_average(ahead, L) - log_average(behind, L));
+        *sign += f * (sign_average(ahead, L) - sign_average(behind, L));
+    }
+}

@@ -1,0 +1,167 @@
+/* Displacement of bodies whose surface answers alike everywhere, over constant strips:
+ * the half-plane of Flamant (B6), with fading memory (V2), and the layer on a base (L3).
+ */
+#include "bem/internal.h"
+#include "bem/layer.h"
+#include "bem/memory.h"
+
+#include <float.h>
+#include <gsl/gsl_math.h>
+#include <math.h>
+
+rb_bem_surface rb_bem_halfplane(rb_bem_material material, double datum)
+{
+    return (rb_bem_surface){.material = material, .datum = datum};
+}
+
+rb_status rb_bem_ends_check(int n_c, const double *ends, rb_message *why)
+{
+    if (n_c < 1 || !ends)
+        return rb_fail(why, RB_EINVAL, "contact elements: %d, expected at least 1", n_c);
+    for (int i = 0; i <= n_c; i++)
+        if (!(isfinite(ends[i]) && isfinite(ends[i + 1]) && ends[i] < ends[i + 1]))
+            return rb_fail(
+                why, RB_EINVAL,
+                "contact element %d from x = %g to %g: expected increasing ends", i,
+                ends[i], ends[i + 1]);
+    return RB_OK;
+}
+
+rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why)
+{
+    rb_status s = rb_bem_material_check(body->material, why);
+    if (s == RB_OK && body->thickness > 0.0 && body->elastic_base)
+        s = rb_bem_material_check(body->base, why);
+    if (s != RB_OK)
+        return s;
+    if (!(body->thickness >= 0.0 && isfinite(body->thickness)))
+        return rb_fail(why, RB_EINVAL, "layer of thickness %g: expected >= 0",
+                       body->thickness);
+    const int has_datum = body->thickness == 0.0 || body->elastic_base;
+    if (has_datum && !(body->datum > 0.0 && isfinite(body->datum)))
+        return rb_fail(why, RB_EINVAL, "datum = %g: expected a depth > 0", body->datum);
+    for (int k = 0; k < body->terms; k++)
+        if (!(body->ratio[k] >= 0.0 && isfinite(body->ratio[k]) &&
+              body->length[k] >= 0.0 && isfinite(body->length[k])))
+            return rb_fail(why, RB_EINVAL,
+                           "memory term %d: ratio %g, length %g: expected numbers >= 0",
+                           k + 1, body->ratio[k], body->length[k]);
+    return RB_OK;
+}
+
+/* ---- One strip ------------------------------------------------------------------------
+ */
+
+/* int ln|s/d| ds over the strip of half-length b whose midpoint lies X from the point.
+ * Near: [s ln|s/d| - s].  Far: the difference of its two large parts is formed as
+ * X ln((X + b)/(X - b)). */
+static double strip_log(double X, double b, double d)
+{
+    const double s1 = X - b, s2 = X + b;
+    if (fabs(X) < 4.0 * b) {
+        const double l1 = s1 != 0.0 ? s1 * log(fabs(s1 / d)) : 0.0;
+        const double l2 = s2 != 0.0 ? s2 * log(fabs(s2 / d)) : 0.0;
+        return l2 - l1 - 2.0 * b;
+    }
+    const double far = X * 2.0 * atanh(b / X); /* X ln(s2/s1) */
+    return far - 2.0 * b + b * log(s1 / d * (s2 / d));
+}
+
+/* int sgn(x - s) ds over the same strip: -2b where it lies ahead (X >= b). */
+static double strip_sign(double X, double b)
+{
+    return -2.0 * fmin(fmax(X, -b), b);
+}
+
+/* Displacement at a point under a strip of half-length b whose middle lies X upstream of
+ * it: w_N = -K int p ln|(x-s)/d| + c int q sgn(x-s),  K = 2(1-nu^2)/(pi E) = (1-nu)/(pi
+ * G) w_T = -K int q ln|(x-s)/d| - c int p sgn(x-s),  c = (1-2nu)(1+nu)/(2E) =
+ * (1-2nu)/(4G) both times what the memory makes of the integrals (V2).  A layer's
+ * logarithm is that of the distance over its thickness (L3). */
+typedef struct {
+    const rb_bem_surface *body;
+    double K, c, depth, slow; /* slow: 1 + sum f_k */
+} strip_kernel;
+
+static strip_kernel kernel_of(const rb_bem_surface *body)
+{
+    const rb_bem_material m = body->material;
+    strip_kernel k = {body, (1.0 - m.poisson) / (M_PI * m.shear),
+                      (1.0 - 2.0 * m.poisson) / (4.0 * m.shear),
+                      body->thickness > 0.0 ? body->thickness : body->datum, 1.0};
+    for (int j = 0; j < body->terms; j++)
+        k.slow += body->ratio[j];
+    return k;
+}
+
+/* Row i of m points, strip j of n: the four entries of the 2m x 2n matrix F. */
+static void set_entries(const strip_kernel *k, double X, double b, size_t i, size_t m,
+                        size_t j, size_t n, double *F)
+{
+    double *N = F + j * 2 * m, *T = F + (j + n) * 2 * m;
+    double log_memory = 0.0, sign_memory = 0.0;
+    if (k->body->terms > 0)
+        rb_bem_memory_integrals(k->body, -X, b, &log_memory, &sign_memory);
+    N[i] = T[m + i] = -k->K * (k->slow * strip_log(X, b, k->depth) + log_memory);
+    T[i] = k->c * (k->slow * strip_sign(X, b) + sign_memory);
+    N[m + i] = -T[i];
+}
+
+/* ---- Many -----------------------------------------------------------------------------
+ */
+
+rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n,
+                                      const double *ends, int points, const double *x,
+                                      double *W)
+{
+    if (rb_bem_surface_check(body, NULL) != RB_OK || n < 1 || points < 1)
+        return RB_EINVAL;
+    const strip_kernel kernel = kernel_of(body);
+    for (size_t j = 0; j < (size_t)n; j++)
+        for (size_t i = 0; i < (size_t)points; i++)
+            set_entries(&kernel, 0.5 * ((ends[j] - x[i]) + (ends[j + 1] - x[i])),
+                        0.5 * (ends[j + 1] - ends[j]), i, (size_t)points, j, (size_t)n,
+                        W);
+    return body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, points, x, n, ends, W)
+                                 : RB_OK;
+}
+
+/* Distances are differences of ends, exact where the ends nearly meet (B9). */
+static rb_status fill(int n, const double *ends, const rb_bem_surface *body,
+                      const double *x, double *F)
+{
+    const strip_kernel kernel = kernel_of(body);
+    const size_t m = (size_t)n + 1;
+
+    for (size_t j = 0; j < (size_t)n; j++)
+        for (size_t i = 0; i < m; i++)
+            set_entries(&kernel,
+                        0.5 * ((ends[j] - ends[i]) + (ends[j + 1] - ends[i + 1])),
+                        0.5 * (ends[j + 1] - ends[j]), i, m, j, (size_t)n, F);
+    return body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, (int)m, x, n, ends, F)
+                                 : RB_OK;
+}
+
+rb_status rb_bem_flexibility_surface(int n_c, const double *ends,
+                                     const rb_bem_surface *body, rb_bem_flexibility *f,
+                                     rb_message *why)
+{
+    double *F = NULL;
+    *f = (rb_bem_flexibility){0};
+    rb_status s = rb_bem_surface_check(body, why);
+    if (s == RB_OK)
+        s = rb_bem_ends_check(n_c, ends, why);
+    if (s != RB_OK)
+        return s;
+    s = rb_bem_flexibility_dense(n_c, f, &F);
+    for (int i = 0; i < f->m; i++) {
+        f->x[i] = 0.5 * (ends[i] + ends[i + 1]);
+        f->h[i] = ends[i + 1] - ends[i];
+    }
+    if (s == RB_OK)
+        s = fill(n_c, ends, body, f->x, F);
+    if (s == RB_OK)
+        return s;
+    rb_bem_flexibility_free(f);
+    return rb_fail(why, s, "half-plane: no memory for %d contact elements", n_c);
+}
