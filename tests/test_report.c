@@ -51,7 +51,7 @@ static rb_rolling_solution carter(void)
     s.creepage = 1.5e-3;
     s.half_width = s.contact_to = s.hertz_half_width = 1.0;
     s.contact_from = -1.0;
-    s.stick_to = 1.0;
+    s.stick_to = s.stick_length = 1.0;
     s.max_pressure = p0;
     s.load_error = s.support_balance = NAN;
     return s;
@@ -212,6 +212,22 @@ static void summary_fits_the_terminal(void **state)
             strstr(text, "steady: solved by Lemke (pivoted form), 21 pivots"));
         assert_non_null(strstr(text, "Q/(mu P) = -0.75"));
         assert_null(strstr(text, "nan"));
+        fclose(file);
+    }
+}
+
+/* From the first to the last stuck element there may be slip. */
+static void summary_says_how_much_of_the_stick_zone_sticks(void **state)
+{
+    (void)state;
+    for (int hole = 0; hole < 2; hole++) {
+        rb_rolling_solution s = carter();
+        FILE *file = tmpfile();
+        s.stick_length = hole ? 0.75 : 1.0;
+        rb_report_summary(file, &s, 80);
+        const char *text = content(file);
+        assert_non_null(strstr(text, "; stick 0 ... 1 mm"));
+        assert_int_equal(strstr(text, "1 mm, 0.75 of these 1 mm\n") != NULL, hole);
         fclose(file);
     }
 }
@@ -463,6 +479,7 @@ int main(void)
         cmocka_unit_test(command_that_is_not_utf8),
         cmocka_unit_test(strip_shows_the_contact),
         cmocka_unit_test(summary_fits_the_terminal),
+        cmocka_unit_test(summary_says_how_much_of_the_stick_zone_sticks),
         cmocka_unit_test(notes_warn_where_due),
         cmocka_unit_test(pictures_of_three_kinds),
         cmocka_unit_test(picture_of_another_kind),

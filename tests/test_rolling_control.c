@@ -184,6 +184,72 @@ static void the_creepage_ratio_is_met_under_approach_control(void **state)
     rb_rolling_solution_free(&s);
 }
 
+/* A solve that misses its tolerance leaves its own tractions, with the force that was
+ * asked for, whatever else was solved to learn whether friction can carry that force. */
+static void a_failed_force_leaves_its_iterate(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.formulation = RB_STEADY;
+    rc.approach = 1e-4;
+    rc.force = 1e-3;
+    rc.tol = 1e-300;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_INACCURATE);
+    CHECK_REL(s.tangential_load, 1e-3, 1e-9, "force");
+    CHECK_MAX(s.residual, 1e-10, "residual");
+    assert_true(s.stick > 0);
+    rb_rolling_solution_free(&s);
+}
+
+/* Wide contacts answer a creepage with load: plain substitution was 2.5e-9 off after 40
+ * rounds and called that solved. */
+static void the_creepage_ratio_is_met_where_the_load_depends_on_it(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s;
+    rc.a.poisson = 0.38;
+    rc.mu = 1.616;
+    rc.approach = 1.898;
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = 1.36;
+    rc.contact_elements = 13;
+    rc.mesh = RB_MESH_FITTED;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    CHECK_REL(s.creep_ratio, 1.36, 1e-12, "xi R/(mu a)");
+    rb_rolling_solution_free(&s);
+}
+
+/* With the tolerance between the residual of the case and that of its free rolling, the
+ * case is solved and says only that the free creepage is unknown. */
+static void a_failed_free_creepage_leaves_the_case_solved(void **state)
+{
+    (void)state;
+    int unknown = 0;
+    for (int n = 20; n < 32; n++) {
+        rb_rolling_case rc = rb_rolling_case_defaults();
+        rb_rolling_solution s;
+        rb_rolling_curve c;
+        rc.a.support = RB_BEM_HALFPLANE;
+        rc.formulation = RB_STEADY;
+        rc.half_width = 0.1;
+        rc.creep_ratio = 0.4;
+        rc.contact_elements = n;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        rc.tol = s.residual * (1.0 + 1e-6);
+        rb_rolling_solution_free(&s);
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        CHECK_STATUS(s.status, RB_OK);
+        unknown += isnan(s.free_creepage);
+        rb_rolling_solution_free(&s);
+        CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.4, 0.4, 1, &c, NULL), RB_OK);
+        rb_rolling_curve_free(&c);
+    }
+    assert_true(unknown > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -193,6 +259,9 @@ int main(void)
         cmocka_unit_test(full_sliding_of_tilted_elements_is_checked),
         cmocka_unit_test(approach_control_finds_the_force_too_large),
         cmocka_unit_test(the_creepage_ratio_is_met_under_approach_control),
+        cmocka_unit_test(a_failed_force_leaves_its_iterate),
+        cmocka_unit_test(the_creepage_ratio_is_met_where_the_load_depends_on_it),
+        cmocka_unit_test(a_failed_free_creepage_leaves_the_case_solved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

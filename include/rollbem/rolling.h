@@ -280,14 +280,17 @@ typedef struct {
     double load_error;                 /* |P - wanted|/wanted; NAN without load control */
     double support_balance;            /* (reaction + load)/P; NAN for half-planes */
     double approach, tangential_shift; /* delta; rigid shift (static) [length] */
-    double creepage, free_creepage;    /* xi; xi at Q = 0 (steady), else NAN */
+    double creepage, free_creepage;    /* xi; xi at Q = 0 (steady), else NAN, also
+                                          where no such xi was found */
     double hertz_half_width; /* of P and the combined radius: scale of the ratios */
     double creep_ratio, force_ratio; /* xi R/(mu a), Q/(mu P); NAN at mu = 0 */
     double half_width;               /* where p^2 extrapolates to zero [length] */
     double contact_from, contact_to; /* its edges */
     double max_pressure;             /* p0 [stress] */
     int contact, stick, slipping;    /* elements */
-    double stick_from, stick_to;     /* element ends; NAN without stick */
+    double stick_from, stick_to;     /* outermost ends of stuck elements; NAN without */
+    double stick_length;             /* of all of them, less than from ... to where slip
+                                        lies between [length] */
     int slip_violations;             /* slip that does not oppose the friction */
     double dissipation;              /* power per unit speed [force/length] */
     double seconds_assembly, seconds_factor, seconds_condense, seconds_lcp, seconds_total;
@@ -397,8 +400,9 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
 typedef struct {
     int n;
     double *creepage, *creep_ratio, *force_ratio;
-    double *tangential_load, *normal_load, *stick_ratio; /* stuck / contact elements */
-    double *dissipation;                                 /* power per unit speed */
+    double *tangential_load, *normal_load;
+    double *stick_ratio; /* stuck length / length in contact */
+    double *dissipation; /* power per unit speed */
     double *residual;
     double free_creepage, half_width, seconds;
     int contact; /* elements in contact at the last creepage */

@@ -94,6 +94,7 @@ static const field results[] = {
     WHOLE("slip", slipping),
     NUMBER("stick_from", stick_from),
     NUMBER("stick_to", stick_to),
+    NUMBER("stick_length", stick_length),
     WHOLE("slip_violations", slip_violations),
     NUMBER("dissipation", dissipation),
 };

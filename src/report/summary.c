@@ -99,6 +99,8 @@ static void print_motion(FILE *out, const rb_rolling_solution *s)
     if (!isnan(s->free_creepage)) {
         const int zero = fabs(s->free_creepage) <= 1e-12 + 1e-9 * fabs(s->creepage);
         fprintf(out, ", free rolling at %.5g", zero ? 0.0 : s->free_creepage);
+    } else if (s->formulation == RB_STEADY && !isnan(s->creep_ratio)) {
+        fputs(", free rolling not found", out);
     }
     fputc('\n', out);
     if (!isnan(s->dissipation))
@@ -113,8 +115,12 @@ static void print_zones(FILE *out, const rb_rolling_solution *s, int width)
     const int room = width - 13 < LONGEST ? width - 13 : LONGEST;
     fprintf(out, "  elements  %d: %d stick, %d slip, %d separated", s->n, s->stick,
             s->slipping, s->n - s->contact);
-    if (s->stick > 0)
+    if (s->stick > 0) {
+        const double between = s->stick_to - s->stick_from;
         fprintf(out, "; stick %.5g ... %.5g mm", s->stick_from, s->stick_to);
+        if (s->stick_length < (1.0 - 1e-9) * between)
+            fprintf(out, ", %.5g of these %.5g mm", s->stick_length, between);
+    }
     rb_report_strip(s, room < 8 ? 8 : room, strip);
     fprintf(out, "\n            %s\n", strip);
 }

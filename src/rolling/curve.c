@@ -20,12 +20,9 @@ static void record(const rb_rolling_model *model, rb_rolling_curve *c)
     const double P = rb_rolling_model_load(model), Q = rb_rolling_model_force(model);
     const double mu = p->mu;
     const int k = c->n++;
-    int contact = 0, stick = 0;
+    double contact, stick;
 
-    for (int i = 0; i < p->n; i++) {
-        contact += state->zone[i] != RB_ZONE_SEPARATED;
-        stick += state->zone[i] == RB_ZONE_STICK;
-    }
+    rb_rolling_zone_lengths(p->n, state->zone, model->bodies.f.h, &contact, &stick);
     c->creepage[k] = state->xi;
     c->creep_ratio[k] =
         mu > 0.0 ? state->xi * rb_rolling_radius(&model->rc) / (mu * model->half_width)
@@ -33,12 +30,14 @@ static void record(const rb_rolling_model *model, rb_rolling_curve *c)
     c->normal_load[k] = P;
     c->tangential_load[k] = Q;
     c->force_ratio[k] = mu > 0.0 ? Q / (mu * P) : NAN;
-    c->stick_ratio[k] = contact ? (double)stick / contact : 0.0;
+    c->stick_ratio[k] = contact > 0.0 ? stick / contact : 0.0;
     c->dissipation[k] = rb_rolling_dissipated_power(
         model->rc.formulation, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
     c->residual[k] = state->residual;
     c->half_width = model->half_width;
-    c->contact = contact;
+    c->contact = 0;
+    for (int i = 0; i < p->n; i++)
+        c->contact += state->zone[i] != RB_ZONE_SEPARATED;
 }
 
 /* The whole search for the contact again. */
@@ -134,7 +133,7 @@ rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, int over_creep, doub
     if (s == RB_OK)
         s = all_points(&model, over_creep, from, to, points, curve, why);
     if (s == RB_OK && rc->mu > 0.0)
-        s = rb_rolling_free_creepage(&model, &curve->free_creepage, why);
+        s = rb_rolling_free_creepage_if_any(&model, &curve->free_creepage, why);
     curve->iterations = model.iterations;
     curve->seconds = rb_seconds() - start;
     rb_rolling_model_free(&model);

@@ -151,6 +151,10 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
 rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
 /* A fitted mesh, bodies and solution anew for the edges that the model has now. */
 rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why);
+/* The free creepage as one result among others: where it is not found it is NAN, and the
+ * case that was solved stays solved.  RB_ENOMEM. */
+rb_status rb_rolling_free_creepage_if_any(const rb_rolling_model *model, double *creepage,
+                                          rb_message *why);
 /* P and Q of the state. */
 double rb_rolling_model_load(const rb_rolling_model *model);
 double rb_rolling_model_force(const rb_rolling_model *model);
@@ -176,6 +180,10 @@ double rb_rolling_dissipated_power(rb_rolling_formulation formulation, int n,
 
 /* Tractions of the state on A in global x, y: 2 per contact element. */
 void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
+
+/* Lengths of the elements in contact and of those among them that stick. */
+void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
+                             double *stick);
 
 /* Contact edges where p^2 extrapolates to zero. */
 void rb_rolling_contact_edges(const rb_rolling_mesh *mesh, const double *p, double *from,

@@ -52,24 +52,37 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
     return s;
 }
 
-/* A given creepage ratio refers to the load, which approach control only finds: iterate.
- */
+/* A given creepage ratio refers to the load, which approach control only finds: secants
+ * to the creepage that is the one of the load found with it, as nearly as rounding lets
+ * them. */
 static rb_status solve_ratio(rb_rolling_model *model, int warm, rb_message *why)
 {
     const rb_rolling_case *rc = &model->rc;
+    double step = NAN, excess_before = NAN, missing = INFINITY;
     rb_status s = rb_rolling_model_resolve(model, warm, why);
 
     if (isnan(rc->creep_ratio) || rc->formulation == RB_STATIC ||
         model->problem.load_given)
         return s;
-    for (int k = 0; k < RATIO_ROUNDS && s == RB_OK; k++) {
+    for (int k = 0; s == RB_OK; k++) {
         const double xi =
             rc->creep_ratio * rc->mu * model->half_width / rb_rolling_radius(rc);
-        if (fabs(xi - model->problem.xi) <= 1e-13 * fabs(xi))
+        const double excess = model->problem.xi - xi;
+        missing = fabs(excess / xi);
+        if (!(missing > 1e-13) || k == RATIO_ROUNDS)
             break;
-        model->problem.xi = xi;
+        const double slope = k > 0 ? (excess - excess_before) / step : 1.0;
+        step = -excess / (slope > 0.1 && slope < 10.0 ? slope : 1.0);
+        excess_before = excess;
+        model->problem.xi += step;
         s = rb_rolling_model_resolve(model, 1, why);
     }
+    if (s == RB_OK && missing > fmax(rc->tol, model->problem.rounding))
+        s = model->state.status =
+            rb_fail(why, RB_MAXITER,
+                    "creep-ratio: the load changes with the creepage; after %d rounds "
+                    "the two differ by %.2g of the creepage",
+                    RATIO_ROUNDS, missing);
     return s;
 }
 
@@ -361,4 +374,15 @@ rb_status rb_rolling_free_creepage(const rb_rolling_model *model, double *creepa
         *creepage = state.xi;
     rb_rolling_state_free(&state);
     return s;
+}
+
+rb_status rb_rolling_free_creepage_if_any(const rb_rolling_model *model, double *creepage,
+                                          rb_message *why)
+{
+    rb_message reason = {""};
+    const rb_status s = rb_rolling_free_creepage(model, creepage, &reason);
+
+    if (s != RB_OK)
+        *creepage = NAN;
+    return s == RB_ENOMEM ? rb_fail(why, s, "%s", reason.text) : RB_OK;
 }

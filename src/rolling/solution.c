@@ -92,8 +92,21 @@ static double peak_pressure(const rb_rolling_mesh *mesh, const double *p)
     return sqrt(squared(p[k]) - squared(gradient) / (4.0 * curvature));
 }
 
+void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
+                             double *stick)
+{
+    *contact = *stick = 0.0;
+    for (int i = 0; i < n; i++) {
+        *contact += zone[i] != RB_ZONE_SEPARATED ? h[i] : 0.0;
+        *stick += zone[i] == RB_ZONE_STICK ? h[i] : 0.0;
+    }
+}
+
 static void set_stick_limits(const rb_rolling_mesh *mesh, rb_rolling_solution *s)
 {
+    double contact;
+
+    rb_rolling_zone_lengths(s->n, s->zone, s->h, &contact, &s->stick_length);
     s->stick_from = s->stick_to = NAN;
     for (int i = 0; i < s->n; i++) {
         s->contact += s->zone[i] != RB_ZONE_SEPARATED;
@@ -342,7 +355,7 @@ rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *mo
             s = t;
     }
     if (s == RB_OK && rc->formulation == RB_STEADY && rc->mu > 0.0)
-        s = rb_rolling_free_creepage(model, &solution->free_creepage, why);
+        s = rb_rolling_free_creepage_if_any(model, &solution->free_creepage, why);
     if (s >= 0)
         solution->status = s;
     solution->seconds_total = rb_seconds() - start;

@@ -1,6 +1,7 @@
 /* The order of attempts: Lemke's three, Newton, and who comes first. */
 #include "rolling/internal.h"
 
+#include <cblas.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -282,22 +283,28 @@ static rb_status solve_driven(const rb_rolling_problem *problem,
     return s;
 }
 
-/* A given force that friction cannot carry under the load that the approach brings. */
+/* Whether a given force is more than friction carries under the load that the approach
+ * brings: RB_EINVAL.  Full sliding, which has that load, is solved in a state of its own,
+ * because the state that failed is what the caller prints. */
 static rb_status check_capacity(const rb_rolling_problem *problem,
-                                const rb_rolling_case *rc, rb_rolling_state *state,
-                                rb_message *why)
+                                const rb_rolling_case *rc, rb_message *why)
 {
+    rb_rolling_state sliding;
     double P = 0.0;
-    const rb_status s = solve_sliding(problem, rc, problem->force > 0.0, state, NULL);
+    rb_status s = rb_rolling_state_alloc(problem->n, &sliding);
 
-    for (int i = 0; i < problem->n; i++)
-        P += problem->load_N[i] * state->p[i] + problem->load_T[i] * state->q[i];
+    if (s == RB_OK)
+        s = solve_sliding(problem, rc, problem->force > 0.0, &sliding, NULL);
+    if (s == RB_OK)
+        P = cblas_ddot(problem->n, problem->load_N, 1, sliding.p, 1) +
+            cblas_ddot(problem->n, problem->load_T, 1, sliding.q, 1);
+    rb_rolling_state_free(&sliding);
     if (s == RB_OK && fabs(problem->force) > problem->mu * P)
         return rb_fail(
             why, RB_EINVAL,
             "force Q = %g: friction carries at most mu P = %g at this approach",
             problem->force, problem->mu * P);
-    return RB_RAY;
+    return s < 0 ? s : RB_OK;
 }
 
 /* The cone solvers know neither a given load nor a given force: delta and xi of such a
@@ -335,7 +342,7 @@ rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
                       : solve_driven(problem, rc, warm, state, why);
 
     if (s > 0 && problem->force_given && problem->force != 0.0) {
-        const rb_status t = check_capacity(problem, rc, state, why);
+        const rb_status t = check_capacity(problem, rc, why);
         if (t < 0)
             return t;
     }
