@@ -6,7 +6,8 @@
  *     rb_case_set(c, "support", "halfplane", RB_GIVEN_ARGUMENT, &why);
  *     rb_case_set_number(c, "load", 500.0, &why);
  *     if (rb_case_settle(c, &why) == RB_OK)
- *         rb_rolling_solve(&rb_case_settled(c)->rc, &solution, &why);
+ *         rb_case_solve(rb_case_settled(c), NULL, NULL, &result, &why);
+ *     rb_case_result_free(&result);
  *     rb_case_free(c);
  *
  * Nothing here prints.  A refusal is a status and a line: RB_EINVAL where an argument is
@@ -217,6 +218,29 @@ typedef struct {
 const rb_settled_case *rb_case_settled(const rb_case *c);
 /* 1: transient rolling or a static history. */
 int rb_case_has_steps(const rb_settled_case *settled);
+
+/* ---- Solving ------------------------------------------------------------------------
+ */
+
+typedef struct {
+    rb_rolling_model model;            /* without state where there are error bars */
+    rb_rolling_solution solution;      /* n = 0: there is none */
+    rb_rolling_history history;        /* n = 0: not a sequence of steps */
+    rb_rolling_history history_errors; /* n = 0: not asked for */
+    int has_errors; /* of the solution; of a history each step has them */
+    rb_rolling_errors errors;
+    int elements; /* that the accuracy took; 0: not asked */
+} rb_case_result;
+
+/* Steady and static cases at once, transients and histories step by step, with the error
+ * bars or the accuracy that the case asks for.  step: sees the model after each step; may
+ * be NULL.  Free the result in any case. */
+rb_status rb_case_solve(const rb_settled_case *settled, rb_rolling_step *step,
+                        void *context, rb_case_result *result, rb_message *why);
+void rb_case_result_free(rb_case_result *result);
+
+/* ---- Whose fault it is --------------------------------------------------------------
+ */
 
 /* Who gave the option of that name; 0: it has its default. */
 int rb_case_given(const rb_case *c, const char *name);

@@ -9,8 +9,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* ---- Steps ------------------------------------------------------------------------- */
-
 static volatile sig_atomic_t interrupted;
 
 static void note_interrupt(int signal_number)
@@ -89,68 +87,33 @@ static rb_status make_folder(const char *path, rb_message *why)
     return rb_fail(why, RB_EWRITE, "%.200s: %s", path, strerror(e));
 }
 
-static rb_status run_steps(const rb_settled_case *c, const cli_steps *steps,
-                           cli_run_result *r, rb_message *why)
+/* An interrupt ends the run after the step at hand. */
+static rb_status run_steps(const rb_settled_case *c, watch *w, rb_case_result *r,
+                           rb_message *why)
+{
+    struct sigaction act = {.sa_handler = note_interrupt}, before;
+    interrupted = 0;
+    sigaction(SIGINT, &act, &before);
+    const rb_status s = rb_case_solve(c, after_step, w, r, why);
+    sigaction(SIGINT, &before, NULL);
+    return s;
+}
+
+rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
+                       rb_case_result *r, rb_message *why)
 {
     static const cli_steps silent = {0};
     rb_message snapshot = {""};
     watch w = {.steps = steps ? steps : &silent, .start = rb_seconds(), .why = &snapshot};
-    struct sigaction act = {.sa_handler = note_interrupt}, before;
+    memset(r, 0, sizeof *r);
+    if (!rb_case_has_steps(c))
+        return rb_case_solve(c, NULL, NULL, r, why);
     rb_status s = make_folder(w.steps->snapshots, why);
-    if (s != RB_OK)
-        return s;
-    interrupted = 0;
-    sigaction(SIGINT, &act, &before);
-    const rb_rolling_program *program = c->program.n > 0 ? &c->program : NULL;
-    s = c->error
-            ? rb_rolling_history_with_errors(&c->rc, program, after_step, &w, &r->model,
-                                             &r->history, &r->history_errors, why)
-            : rb_rolling_history_run(&c->rc, program, after_step, &w, &r->model,
-                                     &r->history, why);
-    sigaction(SIGINT, &before, NULL);
+    if (s == RB_OK)
+        s = run_steps(c, &w, r, why);
     if (w.failed == RB_OK)
         return s;
     if (why)
         *why = snapshot;
     return w.failed;
-}
-
-/* ---- All --------------------------------------------------------------------------- */
-
-static rb_status run_and_finish_steps(const rb_settled_case *c, const cli_steps *steps,
-                                      cli_run_result *r, rb_message *why)
-{
-    const double start = rb_seconds();
-    rb_status s = run_steps(c, steps, r, why);
-    if (s >= 0 && r->model.state.p) {
-        const rb_status t = rb_rolling_model_solution(&r->model, &r->solution, why);
-        s = t == RB_OK ? s : t;
-    }
-    if (s >= 0)
-        r->solution.status = s;
-    r->solution.seconds_total = rb_seconds() - start;
-    return s;
-}
-
-rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
-                       cli_run_result *r, rb_message *why)
-{
-    memset(r, 0, sizeof *r);
-    if (rb_case_has_steps(c))
-        return run_and_finish_steps(c, steps, r, why);
-    r->has_errors = c->error || c->accuracy > 0.0;
-    if (c->accuracy > 0.0)
-        return rb_rolling_solve_to_accuracy(&c->rc, c->accuracy, &r->solution, &r->errors,
-                                            &r->elements, why);
-    if (c->error)
-        return rb_rolling_solve_with_errors(&c->rc, 0, &r->solution, &r->errors, why);
-    return rb_rolling_solve_model(&c->rc, &r->model, &r->solution, why);
-}
-
-void cli_run_free(cli_run_result *r)
-{
-    rb_rolling_solution_free(&r->solution);
-    rb_rolling_history_free(&r->history);
-    rb_rolling_history_free(&r->history_errors);
-    rb_rolling_model_free(&r->model);
 }

@@ -63,13 +63,13 @@ static const char notes[] = CLI_CASE_NOTES
 typedef struct {
     const rb_case *words;
     const rb_settled_case *c;
-    const cli_run_result *r;
+    const rb_case_result *r;
 } result;
 
 /* ---- Output ----------------------------------------------------------------------- */
 
 /* NULL where they were not asked for. */
-static const rb_rolling_history *step_errors(const cli_run_result *r)
+static const rb_rolling_history *step_errors(const rb_case_result *r)
 {
     return r->history_errors.n > 0 ? &r->history_errors : NULL;
 }
@@ -191,7 +191,7 @@ static cli_exit print_result(cli_sink *sink, const solve_options *so, const resu
 static cli_exit solve(const solve_options *so, const cli_output *o, const rb_case *words)
 {
     const rb_settled_case *c = rb_case_settled(words);
-    cli_run_result r;
+    rb_case_result r;
     cli_sink sink;
     rb_message why = {""};
     cli_exit code = cli_sink_open(o, &sink);
@@ -206,7 +206,7 @@ static cli_exit solve(const solve_options *so, const cli_output *o, const rb_cas
     cli_sink_abandon(&sink);
     if (code == CLI_OK && status != RB_OK)
         code = cli_case_refused(words, status, &why);
-    cli_run_free(&r);
+    rb_case_result_free(&r);
     return code;
 }
 

@@ -117,7 +117,7 @@ typedef struct {
     const rb_settled_case *c;
     const stress_options *options;
     const places *where;
-    cli_run_result run;
+    rb_case_result run;
     rb_rolling_stress_maxima maxima;
     rb_rolling_errors errors;          /* with --error */
     rb_rolling_stress_grid grid, fine; /* fine: of the pictures */
@@ -127,7 +127,7 @@ typedef struct {
 
 static void result_free(result *r)
 {
-    cli_run_free(&r->run);
+    rb_case_result_free(&r->run);
     rb_rolling_stress_grid_free(&r->grid);
     rb_rolling_stress_grid_free(&r->fine);
     free(r->at);

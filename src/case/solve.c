@@ -1,0 +1,48 @@
+/* A settled case, solved: whatever its formulation, with what it asks for. */
+#include "rollbem/case.h"
+
+#include <string.h>
+
+static rb_status solve_steps(const rb_settled_case *c, rb_rolling_step *step,
+                             void *context, rb_case_result *r, rb_message *why)
+{
+    const double start = rb_seconds();
+    const rb_rolling_program *program = c->program.n > 0 ? &c->program : NULL;
+    rb_status s =
+        c->error
+            ? rb_rolling_history_with_errors(&c->rc, program, step, context, &r->model,
+                                             &r->history, &r->history_errors, why)
+            : rb_rolling_history_run(&c->rc, program, step, context, &r->model,
+                                     &r->history, why);
+    if (s >= 0 && r->model.state.p) {
+        const rb_status t = rb_rolling_model_solution(&r->model, &r->solution, why);
+        s = t == RB_OK ? s : t;
+    }
+    if (s >= 0)
+        r->solution.status = s;
+    r->solution.seconds_total = rb_seconds() - start;
+    return s;
+}
+
+rb_status rb_case_solve(const rb_settled_case *c, rb_rolling_step *step, void *context,
+                        rb_case_result *r, rb_message *why)
+{
+    memset(r, 0, sizeof *r);
+    if (rb_case_has_steps(c))
+        return solve_steps(c, step, context, r, why);
+    r->has_errors = c->error || c->accuracy > 0.0;
+    if (c->accuracy > 0.0)
+        return rb_rolling_solve_to_accuracy(&c->rc, c->accuracy, &r->solution, &r->errors,
+                                            &r->elements, why);
+    if (c->error)
+        return rb_rolling_solve_with_errors(&c->rc, 0, &r->solution, &r->errors, why);
+    return rb_rolling_solve_model(&c->rc, &r->model, &r->solution, why);
+}
+
+void rb_case_result_free(rb_case_result *r)
+{
+    rb_rolling_solution_free(&r->solution);
+    rb_rolling_history_free(&r->history);
+    rb_rolling_history_free(&r->history_errors);
+    rb_rolling_model_free(&r->model);
+}
