@@ -21,7 +21,9 @@ static rb_bem_mesh mesh_of(const rb_bem_cylinder *cylinder, int n_c, double a)
 {
     rb_bem_mesh mesh;
     double *ends = equal_ends(n_c, a);
-    CHECK_STATUS(rb_bem_mesh_cylinder(cylinder, n_c, ends, &mesh, NULL), RB_OK);
+    rb_message why = {""};
+    if (rb_bem_mesh_cylinder(cylinder, n_c, ends, &mesh, &why) != RB_OK)
+        fail_msg("%s", why.text);
     free(ends);
     return mesh;
 }
@@ -103,16 +105,58 @@ static void small_contacts_keep_their_digits(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
+/* Not on the hub. */
+static int on_circle(const rb_bem_mesh *mesh, int j)
+{
+    return hypot(mesh->x0[j], mesh->y0[j] - 50.0) > 49.9;
+}
+
+/* Ends x, y and condition of element j against those of element k in the mirror x = 0. */
+static void check_mirrored(const rb_bem_mesh *mesh, int j, int k, double R)
+{
+    CHECK_ABS(mesh->x0[j], -mesh->x1[k], 1e-15 * R, "elements %d, %d", j, k);
+    CHECK_ABS(mesh->x1[j], -mesh->x0[k], 1e-15 * R, "elements %d, %d", j, k);
+    CHECK_ABS(mesh->y0[j], mesh->y1[k], 1e-15 * R, "elements %d, %d", j, k);
+    CHECK_ABS(mesh->y1[j], mesh->y0[k], 1e-15 * R, "elements %d, %d", j, k);
+    assert_int_equal(mesh->condition[2 * j], mesh->condition[2 * k]);
+}
+
+static void symmetric_ends_make_a_symmetric_mesh(void **state)
+{
+    (void)state;
+    const int outer[] = {0, 8, 11, 60, 61, 700};
+    for (double a = 30.0; a > 1e-6; a *= 0.03)
+        for (int k = 0; k < 12; k++) {
+            rb_bem_cylinder cylinder = k % 2 ? on_arc : on_hub;
+            const int n_c = 20 + k, few = cylinder.support == RB_BEM_HUB ? 40 : 0;
+            cylinder.outer_elements = outer[k / 2] == 0 ? 0 : outer[k / 2] + few;
+            rb_bem_mesh mesh = mesh_of(&cylinder, n_c, a);
+            int circle = 0;
+            while (circle < mesh.n && on_circle(&mesh, circle))
+                circle++;
+            for (int j = 0; j < circle; j++)
+                check_mirrored(&mesh, j, (n_c - 1 - j + circle) % circle, 50.0);
+            for (int j = circle; j < mesh.n; j++)
+                check_mirrored(&mesh, j, mesh.n - 1 - (j - circle), 50.0);
+            rb_bem_mesh_free(&mesh);
+        }
+}
+
+/* Contact or not, to the last one; an odd number gets one more to stay symmetric. */
 static void outer_elements_are_as_many_as_asked_for(void **state)
 {
     (void)state;
-    for (int wanted = 40; wanted < 2000; wanted *= 3) {
-        rb_bem_cylinder cylinder = on_arc;
-        cylinder.outer_elements = wanted;
-        rb_bem_mesh mesh = mesh_of(&cylinder, 100, 0.5);
-        CHECK_ABS(mesh.n - 101, wanted, 2.0, "outer elements");
-        rb_bem_mesh_free(&mesh);
-    }
+    for (int k = 0; k < 2; k++)
+        for (int wanted = k ? 8 : 40; wanted < 3000; wanted += 1 + wanted / 3) {
+            rb_bem_cylinder cylinder = k ? on_arc : on_hub;
+            cylinder.outer_elements = wanted;
+            rb_bem_mesh mesh = mesh_of(&cylinder, 100, 0.5);
+            int outside = 0;
+            for (int j = 100; j < mesh.n; j++)
+                outside += on_circle(&mesh, j);
+            assert_int_equal(outside, wanted + wanted % 2);
+            rb_bem_mesh_free(&mesh);
+        }
 }
 
 static void bad_cylinders_are_refused(void **state)
@@ -136,6 +180,7 @@ static void bad_cylinders_are_refused(void **state)
         {{50, RB_BEM_HUB, 0, 0.0, 0}, 2, ends, "hub ratio"},
         {{50, RB_BEM_HALFPLANE, 0.5, 0.5, 0}, 2, ends, "support"},
         {{50, RB_BEM_ARC, 0.5, 0, 7}, 2, ends, "outer elements"},
+        {{50, RB_BEM_HUB, 0, 0.6, 8}, 2, ends, "cut the hub"},
         {{50, RB_BEM_ARC, 0.5, 0, 2000000}, 2, ends, "million"},
         {{50, RB_BEM_ARC, 0.5, 0, 0}, 2, wide, "radius of 50"},
         {{50, RB_BEM_ARC, M_PI_2, 0, 0}, 2, most, "clamped arc"},
@@ -643,6 +688,7 @@ int main(void)
         cmocka_unit_test(neighbours_differ_by_a_fifth_at_most),
         cmocka_unit_test(the_arc_ends_at_element_ends),
         cmocka_unit_test(small_contacts_keep_their_digits),
+        cmocka_unit_test(symmetric_ends_make_a_symmetric_mesh),
         cmocka_unit_test(outer_elements_are_as_many_as_asked_for),
         cmocka_unit_test(bad_cylinders_are_refused),
         cmocka_unit_test(spoilt_meshes_are_refused),

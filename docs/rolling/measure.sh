@@ -60,13 +60,13 @@ for support in arc hub; do
     done
 done
 
-echo "## support_balance: case, support, contact + outer elements, balance"
+echo "## support_balance: case, support, contact + outer elements, balance; Addi: 52 outer ones for 60"
 for support in arc hub; do
     for fine in 1 2 4 8; do
         printf '%s %s + %s  steel %s Addi %s\n' $support $((30 * fine)) $((60 * fine)) \
             "$(solve --formulation steady --poisson 0.3 --half-width 1 --creep-ratio 0.4 --support $support --mesh uniform \
                 --contact-elements $((30 * fine)) --outer-elements $((60 * fine)) --json | summary support_balance)" \
-            "$(solve --support $support --contact-elements $((30 * fine)) --outer-elements $((60 * fine)) --json |
+            "$(solve --support $support --contact-elements $((30 * fine)) --outer-elements $((52 * fine)) --json |
                 summary support_balance)"
     done
 done

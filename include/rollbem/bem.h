@@ -56,14 +56,16 @@ typedef struct {
     rb_bem_support support; /* RB_BEM_ARC or RB_BEM_HUB */
     double arc;             /* half-angle of the clamped arc [rad], in (0, pi/2] */
     double hub_ratio;       /* in (0, 1) */
-    int outer_elements;     /* about so many outside the contact on the outer circle, none
-                               smaller than at the ends of the zone; 0: chosen so that
-                               neighbours differ by at most a fifth */
+    int outer_elements;     /* so many on the outer circle outside the contact, with the
+                               upstream one; one more for an odd number where the mesh
+                               is symmetric; 0: chosen so that neighbours differ by at
+                               most a fifth */
 } rb_bem_cylinder;
 
 /* ends: n_c + 2 increasing abscissae |x| < R: the ends of n_c contact elements and of the
- * upstream element after them.  Geometric grading outside.
- * RB_EINVAL: zone reaching the support, ends not increasing, counts absurd. */
+ * upstream element after them.  Geometric grading outside; symmetric ends make a
+ * symmetric mesh. RB_EINVAL: zone reaching the support, ends not increasing, counts
+ * absurd. */
 rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
                                const double *ends, rb_bem_mesh *mesh, rb_message *why);
 

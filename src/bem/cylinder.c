@@ -5,18 +5,18 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The sides of the outer circle, from the two ends of the zone to the top, are graded: at
- * the angle s from the zone elements have the size h(s) = min(h0 + g s, cap), so that
- *     N(s) = int ds/h = ln(1 + g s/h0)/g   up to  s* = (cap - h0)/g,  then linear,
- * elements lie between, and ends are where N is a multiple of N(total)/elements. */
+/* Beside the contact lies one element on each side: the upstream one on the right and its
+ * mirror image on the left.  From there to the top each side is graded: at the distance
+ * s, an angle, elements have the size h(s) = min(h0 + g s, cap), so that N(s) = int ds/h
+ * = ln(1 + g s/h0)/g   up to  s* = (cap - h0)/g,  then linear, elements lie between, and
+ * ends are where N is a multiple of N(total)/elements.  Both sides count angles from the
+ * lowest point as positive: symmetric ends make a symmetric mesh. */
 typedef struct {
-    double from;   /* angle of the zone's end, from the lowest point */
-    double to;     /* the top: +pi or -pi */
-    double h0;     /* size of the element at the zone's end */
-    double growth; /* g; negative where the cap is below h0 */
-    double cap;
-    double
-        clamped; /* angle from the zone at which the clamped arc starts; to top: none */
+    double from;    /* angle at which the element beside the contact ends */
+    double h0;      /* size of that element */
+    double growth;  /* g; negative where the cap is below h0 */
+    double cap;     /* largest size */
+    double clamped; /* s at which the clamped arc starts; the top where there is none */
     int free_n, arc_n;
 } graded_side;
 
@@ -27,7 +27,7 @@ static const double smallest_feature = 0.003;
 
 static double side_length(const graded_side *side)
 {
-    return fabs(side->to - side->from);
+    return M_PI - side->from;
 }
 
 static double elements_until(const graded_side *side, double s)
@@ -45,31 +45,38 @@ static double angle_after(const graded_side *side, double elements)
            fmax(elements - graded, 0.0) * side->cap;
 }
 
+static double side_elements(const graded_side *side)
+{
+    return elements_until(side, side_length(side));
+}
+
 static double arc_elements(const graded_side *side)
 {
-    return elements_until(side, side_length(side)) - elements_until(side, side->clamped);
+    return side_elements(side) - elements_until(side, side->clamped);
 }
 
-/* Whole numbers of elements on the free and on the clamped part. */
-static void count_elements(graded_side *side)
+/* Whole numbers of elements on the free and on the clamped part: as many as the grading
+ * asks for, or `all` together. */
+static void count_elements(graded_side *side, int all)
 {
-    side->free_n = (int)fmax(1.0, round(elements_until(side, side->clamped)));
-    side->arc_n =
-        side->clamped < side_length(side) ? (int)fmax(1.0, round(arc_elements(side))) : 0;
+    const double share = all > 0 ? all / side_elements(side) : 1.0;
+    const int has_arc = side->clamped < side_length(side);
+
+    side->arc_n = has_arc ? (int)fmax(1.0, round(share * arc_elements(side))) : 0;
+    side->free_n =
+        all > 0 ? all - side->arc_n : (int)round(elements_until(side, side->clamped));
+    side->free_n = side->free_n > 0 ? side->free_n : 1;
 }
 
-/* Angle of end k, k = 0 ... free_n + arc_n, counted from the zone. */
+/* Angle of end k, k = 0 ... free_n + arc_n, counted from the contact. */
 static double end_angle(const graded_side *side, int k)
 {
-    const int all = side->free_n + side->arc_n;
     const double free_part = elements_until(side, side->clamped);
     const double N = k <= side->free_n ? free_part * k / side->free_n
                                        : free_part + arc_elements(side) *
                                                          (k - side->free_n) / side->arc_n;
     const double s = k == side->free_n ? side->clamped : angle_after(side, N);
-    if (k == all)
-        return side->to;
-    return side->to > side->from ? side->from + s : side->from - s;
+    return k == side->free_n + side->arc_n ? M_PI : side->from + s;
 }
 
 typedef struct {
@@ -77,21 +84,22 @@ typedef struct {
     int hub_n;
 } outer_layout;
 
+/* With the two elements beside the contact. */
 static int outer_count(const outer_layout *layout)
 {
-    return layout->right.free_n + layout->right.arc_n + layout->left.free_n +
+    return 2 + layout->right.free_n + layout->right.arc_n + layout->left.free_n +
            layout->left.arc_n;
 }
 
 static double outer_demand(const outer_layout *layout)
 {
-    return elements_until(&layout->right, side_length(&layout->right)) +
-           elements_until(&layout->left, side_length(&layout->left));
+    return 2.0 + side_elements(&layout->right) + side_elements(&layout->left);
 }
 
 /* `wanted` elements outside the contact: the growth that needs so many, without a cap,
- * by bisection of the falling function outer_demand. */
-static void fit_growth(outer_layout *layout, double wanted)
+ * by bisection of the falling function outer_demand.  Where even equal elements are too
+ * few the growth ends at zero, and count_elements takes smaller ones. */
+static void fit_growth(outer_layout *layout, int wanted)
 {
     double low = 1e-9, high = 20.0;
     layout->right.cap = layout->left.cap = 1e6; /* none */
@@ -103,6 +111,10 @@ static void fit_growth(outer_layout *layout, double wanted)
         else
             high = g;
     }
+    const double right = side_elements(&layout->right),
+                 left = side_elements(&layout->left);
+    count_elements(&layout->right, (int)round((wanted - 2) * right / (right + left)));
+    count_elements(&layout->left, (int)round((wanted - 2) * left / (right + left)));
 }
 
 /* The hub's elements are as small as the largest outer ones, and resolve the rim. */
@@ -115,35 +127,47 @@ static int hub_elements(const rb_bem_cylinder *cylinder, double scale)
     return (int)fmin(fmax(16.0, ceil(scale * 2.0 * M_PI * rho / size)), 20000.0);
 }
 
-static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const double *ends)
+/* Angle at which the mirror image of the upstream element ends, left of the contact: it
+ * is to the first contact element what the upstream one is to the last. */
+static double downstream_angle(double R, int n_c, const double *ends)
 {
-    const double R = cylinder->radius, first = asin(ends[0] / R),
-                 last = asin(ends[n_c + 1] / R);
+    const double first = asin(ends[0] / R), last = asin(ends[n_c] / R);
+    const double ratio = (asin(ends[1] / R) - first) / (last - asin(ends[n_c - 1] / R));
+    return first - ratio * (asin(ends[n_c + 1] / R) - last);
+}
+
+static graded_side lay_out_side(const rb_bem_cylinder *cylinder, double contact,
+                                double from)
+{
     const int has_hub = cylinder->support == RB_BEM_HUB;
     const double feature =
         has_hub ? (1.0 - cylinder->hub_ratio) / 4.0 : 2.0 * cylinder->arc / 8.0;
-    const graded_side side = {.growth = automatic_growth,
-                              .cap =
-                                  fmin(largest_angle, fmax(feature, smallest_feature))};
-    outer_layout layout = {.right = side, .left = side};
+    graded_side side = {.from = from, .h0 = from - contact};
 
-    layout.right.from = last;
-    layout.right.to = M_PI;
-    layout.right.h0 = last - asin(ends[n_c] / R);
-    layout.left.from = first;
-    layout.left.to = -M_PI;
-    layout.left.h0 = asin(ends[1] / R) - first;
-    layout.right.clamped = side_length(&layout.right) - (has_hub ? 0.0 : cylinder->arc);
-    layout.left.clamped = side_length(&layout.left) - (has_hub ? 0.0 : cylinder->arc);
-    layout.right.growth = copysign(automatic_growth, layout.right.cap - layout.right.h0);
-    layout.left.growth = copysign(automatic_growth, layout.left.cap - layout.left.h0);
-    const double automatic = outer_demand(&layout);
-    if (cylinder->outer_elements > 0)
+    side.cap = fmin(largest_angle, fmax(feature, smallest_feature));
+    side.growth = copysign(automatic_growth, side.cap - side.h0);
+    side.clamped = side_length(&side) - (has_hub ? 0.0 : cylinder->arc);
+    return side;
+}
+
+static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const double *ends)
+{
+    const double R = cylinder->radius;
+    outer_layout layout = {
+        .right = lay_out_side(cylinder, asin(ends[n_c] / R), asin(ends[n_c + 1] / R)),
+        .left =
+            lay_out_side(cylinder, -asin(ends[0] / R), -downstream_angle(R, n_c, ends))};
+    double finer = 1.0;
+
+    if (cylinder->outer_elements > 0) {
+        finer = cylinder->outer_elements / outer_demand(&layout);
         fit_growth(&layout, cylinder->outer_elements);
-    count_elements(&layout.right);
-    count_elements(&layout.left);
-    layout.hub_n =
-        has_hub ? hub_elements(cylinder, outer_demand(&layout) / automatic) : 0;
+    } else {
+        count_elements(&layout.right, 0);
+        count_elements(&layout.left, 0);
+    }
+    if (cylinder->support == RB_BEM_HUB)
+        layout.hub_n = hub_elements(cylinder, finer);
     return layout;
 }
 
@@ -174,10 +198,15 @@ static rb_status check_cylinder(const rb_bem_cylinder *c, int n_c, const double 
     if (!(reach < c->radius))
         return rb_fail(why, RB_EINVAL, "zone up to |x| = %g on a radius of %g", reach,
                        c->radius);
-    if (c->support == RB_BEM_ARC && asin(reach / c->radius) > 0.95 * (M_PI - c->arc))
+    const double angle =
+        fmax(asin(ends[n_c + 1] / c->radius), -downstream_angle(c->radius, n_c, ends));
+    if (c->support == RB_BEM_ARC && angle > 0.95 * (M_PI - c->arc))
         return rb_fail(why, RB_EINVAL,
                        "zone up to |x| = %g reaches the clamped arc of half-angle %g",
                        reach, c->arc);
+    if (angle > 0.95 * M_PI)
+        return rb_fail(why, RB_EINVAL,
+                       "zone up to |x| = %g: no room for elements beside it", reach);
     return RB_OK;
 }
 
@@ -202,13 +231,13 @@ static point outer_node(const outer_layout *layout, double R, int n_c, const dou
                         int k)
 {
     const int zone = n_c + 1, right = layout->right.free_n + layout->right.arc_n,
-              left = layout->left.free_n + layout->left.arc_n;
+              all = n_c + outer_count(layout);
     if (k <= zone)
         return at_abscissa(R, ends[k]);
     if (k <= zone + right)
         return at_angle(R, end_angle(&layout->right, k - zone));
-    if (k < zone + right + left)
-        return at_angle(R, end_angle(&layout->left, zone + right + left - k));
+    if (k < all)
+        return at_angle(R, -end_angle(&layout->left, all - 1 - k));
     return at_abscissa(R, ends[0]);
 }
 
@@ -226,7 +255,7 @@ static void place_outer(const rb_bem_cylinder *cylinder, int n_c, const double *
 {
     const int arc_first = n_c + 1 + layout->right.free_n,
               arc_n = layout->right.arc_n + layout->left.arc_n,
-              n = n_c + 1 + outer_count(layout);
+              n = n_c + outer_count(layout);
     point from = outer_node(layout, cylinder->radius, n_c, ends, 0);
     for (int j = 0; j < n; j++) {
         const point to = outer_node(layout, cylinder->radius, n_c, ends, j + 1);
@@ -253,6 +282,21 @@ static void place_hub(const rb_bem_cylinder *cylinder, int first, int n,
     }
 }
 
+/* Few elements are long chords, which must not cut the core. */
+static rb_status check_chords(const rb_bem_cylinder *cylinder, int outer,
+                              const rb_bem_mesh *mesh, rb_message *why)
+{
+    const double R = cylinder->radius, core = cylinder->hub_ratio * R;
+    for (int j = 0; cylinder->support == RB_BEM_HUB && j < outer; j++)
+        if (hypot(0.5 * (mesh->x0[j] + mesh->x1[j]),
+                  0.5 * (mesh->y0[j] + mesh->y1[j]) - R) <= core)
+            return rb_fail(why, RB_EINVAL,
+                           "outer elements = %d: so few are chords that cut the hub of "
+                           "radius %g; take more, or 0",
+                           cylinder->outer_elements, core);
+    return RB_OK;
+}
+
 rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
                                const double *ends, rb_bem_mesh *mesh, rb_message *why)
 {
@@ -261,7 +305,7 @@ rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
     if (s != RB_OK)
         return s;
     const outer_layout layout = lay_out(cylinder, n_c, ends);
-    const int outer = n_c + 1 + outer_count(&layout);
+    const int outer = n_c + outer_count(&layout);
 
     s = rb_bem_mesh_alloc(outer + layout.hub_n, mesh);
     if (s != RB_OK)
@@ -270,5 +314,6 @@ rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
     mesh->contact_n = n_c;
     place_outer(cylinder, n_c, ends, &layout, mesh);
     place_hub(cylinder, outer, layout.hub_n, mesh);
-    return rb_bem_mesh_check(mesh, why);
+    s = check_chords(cylinder, outer, mesh, why);
+    return s == RB_OK ? rb_bem_mesh_check(mesh, why) : s;
 }

@@ -144,7 +144,8 @@ const rb_option rb_case_table[] = {
         "elements stand at each end",
         .word = "auto", .word_value = 0.0),
     RB_INTEGER_LINE("outer-elements", RC(outer_elements), RB_FROM(0),
-                    "on the circle outside the contact; 0: graded geometrically"),
+                    "on the circle outside the contact, one more if that makes the mesh "
+                    "symmetric; 0: graded, neighbours differ by a fifth at most"),
     RB_CHOICE_LINE(
         "normals", RC(normals), normals,
         "contact frame: the obstacle's, or the polygon's own as in Addi et al."),
