@@ -58,7 +58,7 @@ test: packages
 test-all: ; @ROLLBEM_TEST_ALL=1 $(MAKE) --no-print-directory B=$(B) test
 
 # only the summary line comes last: continuous integration reads it
-check-tests: all $(TESTS)
+check-tests: all $(B)/packings $(TESTS)
 	@B=$(B) tests/run $(TESTS)
 
 asan:
@@ -84,6 +84,12 @@ $(B)/rollbem: $(CLI_OBJ) $(B)/librollbem.a
 $(B)/rollbem-mpi: $(MPI_OBJ) $(B)/librollbem.a
 	@echo "  LD  $@"
 	$(Q)$(CC) $(CFLAGS) -o $@ $(MPI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS) $(shell pkg-config --libs $(MPI))
+
+# the generator of the friction problems of examples/packings, for the tests and the study
+$(B)/packings: examples/packings/packings.c
+	@mkdir -p $(@D)
+	@echo "  CC  $<"
+	$(Q)$(CC) $(STD) $(CFLAGS) -o $@ $< -lm
 
 $(B)/src/mpi/%.o: CPPFLAGS += $(subst -I,-isystem ,$(shell pkg-config --cflags $(MPI)))
 

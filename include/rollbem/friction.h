@@ -91,30 +91,51 @@ rb_status rb_friction_write(const char *path, const rb_friction_problem *problem
  */
 
 /* Equation (13) of *Acary*, rho = 1: ||r - P_K(r - uhat)|| / ||q||, u recomputed from r
- * (||F|| itself where q = 0).  Global form: u from K v = H r + f; where K is singular,
- * from v, see docs/friction.md.  floor: what rounding of the data allows.  v: n, global
- * form only, else NULL; u: m, written, or NULL; floor: written, or NULL. */
+ * (||F|| itself where q = 0).  It adds forces to velocities and so depends on units.
+ * Global form: u from K v = H r + f; where K is singular, from v, see docs/friction.md.
+ * floor: what rounding of the data allows.  v: n, global form only, else NULL; u: m,
+ * written, or NULL; floor: written, or NULL. */
 rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
                             const double *v, double *u, double *error, double *floor);
+
+/* What decides whether a problem is solved, (13) with rho_c = 1/W_NN of each contact's
+ * own block, in units of velocity: || (r - P_K(r - rho_c uhat)) / rho_c || / ||q||.
+ * Multiplying W, q, lengths or masses by constants does not change it.  Global form: W_NN
+ * is estimated from diag(K).  u: m, written, or NULL. */
+rb_status rb_friction_scaled_error(const rb_friction_problem *problem, const double *r,
+                                   const double *v, double *u, double *error);
 
 /* ---- Solvers ------------------------------------------------------------------------
  */
 
+/* An iterate whose error was measured. */
 typedef struct {
-    double tol;       /* on the measure (13); default 1e-8 */
+    const char *solver;
+    int iters;           /* of this solver so far; of auto: of this member */
+    double flops, error; /* likewise; scaled measure */
+    const double *r;     /* m */
+} rb_friction_progress;
+
+typedef struct {
+    double tol;       /* on the scaled measure; default 1e-8 */
     int max_iters;    /* of the whole call, every part of a solver that runs others
                          counted; 0: the solver's own limit */
     double seconds;   /* time limit; 0: none */
     const double *r0; /* m: start; NULL: zero; borrowed */
     const double *v0; /* n: start of the global form with singular K; NULL: zero */
+    /* NULL, or called with every iterate measured; other than 0: the call ends with
+     * RB_INTERRUPTED. */
+    int (*progress)(const rb_friction_progress *at, void *context);
+    void *context;
 } rb_friction_options;
 
 typedef struct {
     const char *solver; /* that gave the answer; static text */
     int iters;          /* Newton steps, sweeps, pivots */
     double residual;    /* (13), recomputed from r (and v) alone */
-    double floor;
-    double flops; /* floating-point operations, docs/friction.md says how counted */
+    double scaled;      /* rb_friction_scaled_error, which decides */
+    double floor;       /* of both, from rounding of the data */
+    double flops;       /* floating-point operations, docs/friction.md says how counted */
     double seconds;
     rb_message msg;
 } rb_friction_info;
@@ -125,17 +146,22 @@ typedef enum {
 } rb_friction_needs;
 
 typedef struct {
-    const char *name, *summary;
-    int needs; /* rb_friction_needs, or-ed */
+    const char *name, *method;            /* method: the family it belongs to */
+    const char *summary;                  /* one line of help */
+    int needs;                            /* rb_friction_needs, or-ed */
+    const struct rb_friction_method *run; /* how it is run: private, as the variant */
+    int variant;
 } rb_friction_solver;
 
-/* The solvers by name; count: written. */
+/* The solvers, auto first; count: written. */
 const rb_friction_solver *rb_friction_solvers(int *count);
+/* NULL: there is none of that name. */
+const rb_friction_solver *rb_friction_solver_named(const char *name);
 
 rb_friction_options rb_friction_defaults(void);
 
 /* solver NULL: "auto".  opt NULL: defaults.  r, u: m, written; v: n, written, or NULL;
- * the best iterate when not solved. RB_OK: residual <= max(tol, floor).  RB_MAXITER,
+ * the best iterate when not solved. RB_OK: scaled <= max(tol, floor).  RB_MAXITER,
  * RB_RAY, RB_SINGULAR, RB_INACCURATE, RB_INTERRUPTED (time limit): not solved. RB_EINVAL:
  * unknown solver, problem refused by rb_friction_problem_check or by the solver;
  * info->msg says which.  info: written, or NULL. */
@@ -178,8 +204,9 @@ rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *dat
 void rb_friction_soclcp_data_free(rb_friction_soclcp_data *data);
 
 /* Smoothing and regularisation (Hayashi, Yamashita, Fukushima).  opt->r0: start x.  x, y:
- * n, written.  info->residual: ||x - P(x - y)|| / ||q||, recomputed from x; info may be
- * NULL. */
+ * n, written.  info->residual: ||x - P(x - y)|| / ||q||, recomputed from x;
+ * info->scaled, which decides: the same with y and q in units of x (over the mean of M's
+ * diagonal).  info may be NULL. */
 rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *problem,
                              const rb_friction_options *opt, double *x, double *y,
                              rb_friction_info *info);

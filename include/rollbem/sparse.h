@@ -43,6 +43,8 @@ typedef struct rb_sparse_lu rb_sparse_lu;
 
 /* Orders the pattern; no numbers yet.  RB_EINVAL: not square. */
 rb_status rb_sparse_lu_create(const rb_sparse *a, rb_sparse_lu **lu);
+/* Operations of one factorisation at most, as far as the pattern tells. */
+double rb_sparse_lu_estimate(const rb_sparse_lu *lu);
 /* Factors a, which has the pattern given to create and must outlive the solves.
  * flops (NULL: not wanted) grows by the operations done. */
 rb_status rb_sparse_lu_factor(rb_sparse_lu *lu, const rb_sparse *a, double *flops);

@@ -1,5 +1,6 @@
 /* rollbem compare FILE...: performance profiles of friction solvers (Dolan and More). */
 #include "cli/cli.h"
+#include "cli/solvers.h"
 
 #include "rollbem/friction.h"
 #include "rollbem/io.h"
@@ -31,7 +32,7 @@ static const rb_option options[] = {
     RB_TEXT_LINE("solvers", PLACE(solvers), "A,B,...", "which solvers",
                  .unset = "all that rollbem friction has"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
-                   "recomputed error that counts as solved"),
+                   "scaled error, recomputed, that counts as solved"),
     RB_NUMBER_LINE("limit", PLACE(limit), "s", RB_ABOVE(0.0),
                    "time for one solver on one problem"),
     RB_INTEGER_LINE("max-iters", PLACE(max_iters), RB_FROM_TO(1, 1e9), "iteration limit",
@@ -95,21 +96,14 @@ static void comparison_free(comparison *c)
 
 static cli_exit add_solver(comparison *c, const char *name)
 {
-    int n;
-    const rb_friction_solver *all = rb_friction_solvers(&n);
-    rb_guess guess = {.word = name};
-    for (int k = 0; k < n; k++) {
-        rb_guess_try(&guess, all[k].name);
-        if (strcmp(all[k].name, name))
-            continue;
-        for (int s = 0; s < c->solvers; s++)
-            if (c->solver[s] == all[k].name)
-                return cli_fail(CLI_USAGE, "--solvers: '%s' is given twice", name);
-        c->solver[c->solvers++] = all[k].name;
-        return CLI_CONTINUE;
-    }
-    return cli_fail(CLI_USAGE, "--solvers: no friction solver is called '%s'%s", name,
-                    rb_guess_text(&guess, ""));
+    const rb_friction_solver *solver;
+    const cli_exit code = cli_friction_solver("solvers", name, &solver);
+    for (int s = 0; code == CLI_CONTINUE && s < c->solvers; s++)
+        if (c->solver[s] == solver->name)
+            return cli_fail(CLI_USAGE, "--solvers: '%s' is given twice", name);
+    if (code == CLI_CONTINUE)
+        c->solver[c->solvers++] = solver->name;
+    return code;
 }
 
 static cli_exit choose_solvers(comparison *c)
@@ -219,14 +213,15 @@ static void print_tables(const comparison *c, FILE *out)
     fprintf(
         out,
         "# rollbem %s\n# %s\n# file\tsolver\tstatus\titerations\tresidual\tfloor\tflops\t"
-        "seconds\n",
+        "seconds\tscaled\n",
         RB_VERSION, cli_command_line());
     for (int p = 0; p < c->problems; p++)
         for (int s = 0; s < c->solvers; s++) {
             const run_result *one = &c->result[p * c->solvers + s];
-            fprintf(out, "%s\t%s\t%s\t%d\t%.3g\t%.3g\t%.4g\t%.4g\n", c->file[p],
+            fprintf(out, "%s\t%s\t%s\t%d\t%.3g\t%.3g\t%.4g\t%.4g\t%.3g\n", c->file[p],
                     c->solver[s], status_of(c, one), one->info.iters, one->info.residual,
-                    one->info.floor, one->info.flops, one->info.seconds);
+                    one->info.floor, one->info.flops, one->info.seconds,
+                    one->info.scaled);
         }
     fprintf(out, "\n\n# profiles over %s, %d problems\n# tau",
             measures[c->o->measure].name, c->problems);
@@ -253,6 +248,8 @@ static json_t *json_runs(const comparison *c)
             json_object_set_new(run, "iterations", json_integer(one->info.iters));
             json_object_set_new(run, "residual",
                                 rb_report_json_number(one->info.residual));
+            json_object_set_new(run, "scaled_residual",
+                                rb_report_json_number(one->info.scaled));
             json_object_set_new(run, "floor", rb_report_json_number(one->info.floor));
             json_object_set_new(run, "flops", rb_report_json_number(one->info.flops));
             json_object_set_new(run, "seconds", rb_report_json_number(one->info.seconds));

@@ -1,5 +1,6 @@
 /* rollbem example bar|truss|wall: the finite-element examples of the two papers. */
 #include "cli/cli.h"
+#include "cli/solvers.h"
 
 #include "rollbem/io.h"
 #include "rollbem/report_fem.h"
@@ -410,20 +411,6 @@ static cli_exit run_wall(const example_options *o)
 /* ---- Command
  * --------------------------------------------------------------------------- */
 
-static cli_exit check_solver(const char *name)
-{
-    int count;
-    const rb_friction_solver *solver = rb_friction_solvers(&count);
-    rb_guess guess = {.word = name};
-    for (int k = 0; k < count; k++) {
-        if (strcmp(solver[k].name, name) == 0)
-            return CLI_CONTINUE;
-        rb_guess_try(&guess, solver[k].name);
-    }
-    return cli_fail(CLI_USAGE, "--solver: unknown solver '%s'%s", name,
-                    rb_guess_text(&guess, ""));
-}
-
 static cli_exit check(const example_options *o, const cli_args *args)
 {
     rb_report_picture_kind kind;
@@ -432,7 +419,8 @@ static cli_exit check(const example_options *o, const cli_args *args)
         return cli_fail(CLI_USAGE, "example: expected one of bar, truss, wall");
     if (o->plot && rb_report_picture_kind_of(o->plot, &kind, &why) != RB_OK)
         return cli_fail(CLI_USAGE, "--plot: %s", why.text);
-    return o->solver ? check_solver(o->solver) : CLI_CONTINUE;
+    const rb_friction_solver *solver;
+    return o->solver ? cli_friction_solver("solver", o->solver, &solver) : CLI_CONTINUE;
 }
 
 static cli_exit run_example(example_options *o, const char *name)

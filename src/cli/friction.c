@@ -2,6 +2,7 @@
  * cones, from files. */
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cli/solvers.h"
 
 #include "rollbem/friction.h"
 #include "rollbem/io.h"
@@ -15,7 +16,7 @@
 typedef struct {
     const char *solver;
     double tol, seconds;
-    int max_iters, format, facts, solution, json;
+    int max_iters, format, facts, solution, trace, json;
     const char *output;
 } friction_options;
 
@@ -31,7 +32,7 @@ static const rb_option options[] = {
     RB_GROUP_LINE("solver", "Solver"),
     RB_TEXT_LINE("solver", PLACE(solver), "NAME", "which solver; names below"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
-                   "error that counts as solved: ||r - P_K(r - uhat)|| / ||q||"),
+                   "scaled error that counts as solved: see below"),
     RB_INTEGER_LINE("max-iters", PLACE(max_iters), RB_FROM_TO(1, 1e9), "iteration limit",
                     .unset = "the solver's own"),
     RB_NUMBER_LINE("seconds", PLACE(seconds), "s", RB_ABOVE(0.0), "time limit per file",
@@ -42,6 +43,8 @@ static const rb_option options[] = {
     RB_FLAG_LINE("facts", PLACE(facts),
                  "rank, degree of hyperstaticity, nullity of K, asymmetry"),
     RB_FLAG_LINE("solution", PLACE(solution), "reactions r and velocities u"),
+    RB_FLAG_LINE("trace", PLACE(trace),
+                 "every iterate measured, as the solvers take turns"),
     RB_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
                  "where the tables or JSON go, whole or not at all",
@@ -62,24 +65,31 @@ static const char about[] =
 static const char notes[] =
     "One line per file: name, solver that gave the answer, status, contacts, dimension, "
     "iterations,\n"
-    "residual (recomputed from r), floor (what rounding of the data allows), seconds. "
-    "Status\n"
-    "solved-to-rounding: above the tolerance, at or below the floor.\n"
+    "residual (*Acary* (13), ||r - P_K(r - uhat)|| / ||q||, recomputed from r), floor "
+    "(what "
+    "rounding\n"
+    "of the data allows), seconds, scaled residual. The last one decides: (13) with rho "
+    "= "
+    "1/W_NN\n"
+    "of each contact, in units of velocity, which does not change with the units of the "
+    "file.\n"
+    "Status solved-to-rounding: above the tolerance, at or below the floor.\n"
+    "--trace: every iterate measured, with the solver, its own iterations and operations "
+    "so far,\n"
+    "and the scaled residual; members of auto take turns.\n"
     "After a file that fails the others are still solved.\n"
-    "Solvers: auto, nsn-ac, nsn-jm, nsn-nm, nsn-fb (each also -nls: without line "
-    "search),\n"
-    "nsn-ac-hybrid, nsgs-ac, nsgs-aa, nsgs-fp, fixed-point, extragradient,\n"
-    "soclcp-smoothing, lemke (2D).\n"
     "Exit codes, the largest of all files: 0 solved; 1 not solved; 64 wrong command "
     "line; "
     "65\n"
     "malformed file, or one the solver does not take; 66 no such file; 70 internal; 73 "
-    "cannot write.\n";
+    "cannot write.\n"
+    "Solvers:\n";
 
 typedef struct {
     const friction_options *o;
     FILE *out;
     json_t *problems; /* JSON only */
+    json_t *steps;    /* --trace with --json: of the present file */
 } friction_run;
 
 typedef struct {
@@ -116,6 +126,7 @@ static void add_problem(friction_run *run, const friction_result *r)
     json_object_set_new(p, "dimension", count(r->dimension > 0, r->dimension));
     json_object_set_new(p, "iterations", count(r->m > 0, r->info.iters));
     json_object_set_new(p, "residual", rb_report_json_number(r->info.residual));
+    json_object_set_new(p, "scaled_residual", rb_report_json_number(r->info.scaled));
     json_object_set_new(p, "floor", rb_report_json_number(r->info.floor));
     json_object_set_new(p, "flops", rb_report_json_number(r->info.flops));
     json_object_set_new(p, "seconds", rb_report_json_number(r->info.seconds));
@@ -127,6 +138,8 @@ static void add_problem(friction_run *run, const friction_result *r)
         json_object_set_new(p, "u",
                             r->u ? rb_report_json_numbers(r->m, r->u) : json_null());
     }
+    if (run->steps)
+        json_object_set(p, "trace", run->steps);
     json_array_append_new(run->problems, p);
 }
 
@@ -135,9 +148,9 @@ static void print_problem(friction_run *run, const friction_result *r)
     FILE *out = run->out;
     if (!r->m)
         return;
-    fprintf(out, "%s\t%s\t%s\t%d\t%d\t%d\t%.17g\t%.3g\t%.3g\n", r->file, r->info.solver,
-            r->status, r->contacts, r->dimension, r->info.iters, r->info.residual,
-            r->info.floor, r->info.seconds);
+    fprintf(out, "%s\t%s\t%s\t%d\t%d\t%d\t%.17g\t%.3g\t%.3g\t%.17g\n", r->file,
+            r->info.solver, r->status, r->contacts, r->dimension, r->info.iters,
+            r->info.residual, r->info.floor, r->info.seconds, r->info.scaled);
     if (run->o->facts)
         fprintf(out, "# rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s\n",
                 r->facts.rank, r->facts.hyperstaticity, r->facts.nullity,
@@ -156,14 +169,16 @@ static cli_exit failed(friction_result *r, rb_status s, const char *text)
 {
     r->status = rb_status_text(s);
     r->m = 0;
-    r->info.residual = r->info.floor = r->info.flops = r->info.seconds = NAN;
+    r->info.residual = r->info.scaled = r->info.floor = r->info.flops = r->info.seconds =
+        NAN;
     return cli_fail(s == RB_EINVAL ? CLI_DATA : cli_exit_of(s), "%s: %s", r->file, text);
 }
 
 static cli_exit unreadable(friction_result *r, rb_status s, const rb_message *why)
 {
     r->status = rb_status_text(s);
-    r->info.residual = r->info.floor = r->info.flops = r->info.seconds = NAN;
+    r->info.residual = r->info.scaled = r->info.floor = r->info.flops = r->info.seconds =
+        NAN;
     return cli_fail(cli_exit_of(s), "%s", why->text);
 }
 
@@ -199,16 +214,34 @@ static cli_exit judge(friction_run *run, friction_result *r, rb_status s)
         return failed(r, s, r->info.msg.text);
     if (s == RB_OK)
         return CLI_OK;
-    return cli_fail(CLI_UNSOLVED, "%s: %s: %s after %d iterations, residual %.2g",
-                    r->file, r->info.solver, r->status, r->info.iters, r->info.residual);
+    return cli_fail(CLI_UNSOLVED, "%s: %s: %s after %d iterations, scaled residual %.2g",
+                    r->file, r->info.solver, r->status, r->info.iters, r->info.scaled);
 }
 
-static rb_friction_options solver_options(const friction_options *o)
+static int trace(const rb_friction_progress *at, void *context)
 {
+    friction_run *run = context;
+    if (run->steps)
+        json_array_append_new(
+            run->steps,
+            json_pack("{s:s, s:i, s:o, s:o}", "solver", at->solver, "iterations",
+                      at->iters, "flops", rb_report_json_number(at->flops),
+                      "scaled_residual", rb_report_json_number(at->error)));
+    else
+        fprintf(run->out, "# %s\t%d\t%.4g\t%.3g\n", at->solver, at->iters, at->flops,
+                at->error);
+    return 0;
+}
+
+static rb_friction_options solver_options(friction_run *run)
+{
+    const friction_options *o = run->o;
     rb_friction_options opt = rb_friction_defaults();
     opt.tol = o->tol;
     opt.max_iters = o->max_iters;
     opt.seconds = o->seconds;
+    opt.progress = o->trace ? trace : NULL;
+    opt.context = run;
     return opt;
 }
 
@@ -228,7 +261,7 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
     cli_exit code =
         r->r && r->u ? examine(run, &p, r) : failed(r, RB_ENOMEM, "out of memory");
     if (code == CLI_OK) {
-        const rb_friction_options opt = solver_options(run->o);
+        const rb_friction_options opt = solver_options(run);
         s = rb_friction_solve(run->o->solver, &p, &opt, r->r, r->u, NULL, &r->info);
         code = judge(run, r, s);
     }
@@ -262,7 +295,7 @@ static cli_exit solve_cones(friction_run *run, friction_result *r)
     if (strcmp(run->o->solver, "auto") && strcmp(run->o->solver, "soclcp-smoothing"))
         code = failed(r, RB_EINVAL, "problems on cones are for soclcp-smoothing alone");
     if (code == CLI_OK) {
-        const rb_friction_options opt = solver_options(run->o);
+        const rb_friction_options opt = solver_options(run);
         s = rb_friction_soclcp(&d.problem, &opt, r->r, r->u, &r->info);
         restore_slopes(&d, r->r, r->u);
         code = judge(run, r, s);
@@ -274,12 +307,14 @@ static cli_exit solve_cones(friction_run *run, friction_result *r)
 static cli_exit solve_file(friction_run *run, const char *path)
 {
     friction_result r = {
-        .file = path, .info = {.solver = run->o->solver, .residual = NAN, .floor = NAN}};
+        .file = path,
+        .info = {.solver = run->o->solver, .residual = NAN, .scaled = NAN, .floor = NAN}};
     rb_friction_file kind = (rb_friction_file)run->o->format;
     rb_message why;
     rb_status s = RB_OK;
     if (kind == RB_FRICTION_FILE_ANY)
         s = rb_friction_file_kind(path, &kind, &why);
+    run->steps = run->o->json && run->o->trace ? json_array() : NULL;
     cli_exit code;
     if (s != RB_OK)
         code = unreadable(&r, s, &why);
@@ -291,26 +326,13 @@ static cli_exit solve_file(friction_run *run, const char *path)
         add_problem(run, &r);
     else
         print_problem(run, &r);
+    json_decref(run->steps);
     free(r.r);
     free(r.u);
     return code;
 }
 
 /* ---- Command ---------------------------------------------------------------------- */
-
-static cli_exit check_solver(const char *name)
-{
-    int n;
-    const rb_friction_solver *all = rb_friction_solvers(&n);
-    rb_guess guess = {.word = name};
-    for (int k = 0; k < n; k++) {
-        if (!strcmp(all[k].name, name))
-            return CLI_CONTINUE;
-        rb_guess_try(&guess, all[k].name);
-    }
-    return cli_fail(CLI_USAGE, "--solver: no friction solver is called '%s'%s", name,
-                    rb_guess_text(&guess, ""));
-}
 
 static const char conventions[] =
     "[N, T...] per contact, u = W r + q, uhat = u + mu ||u_T|| N, K* contains "
@@ -323,13 +345,13 @@ static cli_exit solve_files(const friction_options *o, int n, char **files)
     const rb_status s = rb_io_writer_open(o->output, &w, &why);
     if (s != RB_OK)
         return cli_fail(cli_exit_of(s), "%s", why.text);
-    friction_run run = {o, w.file, o->json ? json_array() : NULL};
+    friction_run run = {o, w.file, o->json ? json_array() : NULL, NULL};
     cli_exit worst = CLI_OK;
     if (!o->json)
         fprintf(run.out,
                 "# rollbem %s\n# %s\n# "
                 "file\tsolver\tstatus\tcontacts\tdimension\titerations\t"
-                "residual\tfloor\tseconds\n",
+                "residual\tfloor\tseconds\tscaled\n",
                 RB_VERSION, cli_command_line());
     for (int i = 0; i < n; i++) {
         const cli_exit code = solve_file(&run, files[i]);
@@ -342,16 +364,20 @@ int cli_friction(int argc, char **argv)
 {
     friction_options o = {.solver = "auto", .tol = 1e-8};
     cli_args args = {0};
+    const rb_friction_solver *solver;
+    char text[6000];
+    const size_t n = (size_t)snprintf(text, sizeof text, "%s", notes);
+    cli_friction_solver_lines(text + n, sizeof text - n);
     const cli_spec spec = {"rollbem friction [OPTION...] FILE...",
                            about,
-                           notes,
+                           text,
                            {{options, OPTIONS, &o, NULL}},
                            1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "friction: expected at least one FILE");
     if (code == CLI_CONTINUE)
-        code = check_solver(o.solver);
+        code = cli_friction_solver("solver", o.solver, &solver);
     if (code == CLI_CONTINUE)
         code = solve_files(&o, args.operands, args.operand);
     cli_args_free(&args);

@@ -111,6 +111,11 @@ static void extrapolate(rb_friction_anderson *a, double *r, double *u)
     }
 }
 
+void rb_friction_anderson_forget(rb_friction_anderson *a)
+{
+    a->used = a->next = a->known = 0;
+}
+
 static double distance(size_t n, const double *x, const double *y)
 {
     double sum = 0.0;
@@ -127,7 +132,7 @@ void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, dou
     if (a->used && size > WORST_GROWTH * a->size) {
         memcpy(r, a->r, bytes);
         memcpy(u, a->u, bytes);
-        a->used = a->next = a->known = 0;
+        rb_friction_anderson_forget(a);
         return;
     }
     if (a->known)

@@ -1,185 +1,280 @@
-/* The safeguarded choice: methods in the order in which they tend to be quick, each from
- * the start given, until one meets the tolerance; otherwise the best point seen. */
+/* The portfolio: members that take turns until one meets the tolerance.
+ *
+ * The first member has the first turn to itself, and what it used is the first allowance
+ * L.  Then every member in turn goes on from where it stood until its own operations
+ * reach its share of L, and L grows by GROWTH from round to round.  A member that
+ * succeeds after T operations of its own was let go on because L < GROWTH T / share; the
+ * others have then used at most that, which bounds the whole (docs/friction.md).
+ * Operations are counted by formulas, so that the same problem always takes the same
+ * path. */
 #include "friction/internal.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum {
-    RESUME = 1,  /* from where the stage before ended, instead of the start */
-    NEEDS_W = 2, /* condensed when first wanted; skipped where there is none */
-    GIVEN_W = 4, /* only for problems that came in local form */
-    ONLY_2D = 8,
-    FROM_BEST = 16, /* from the best point so far */
-    EARLY = 32      /* before long runs of sweeps; not where a factorisation is heavy */
-} stage_flags;
+#define GROWTH 1.5
+/* Nobody goes on beyond this. */
+#define MOST_OPERATIONS 1e11
 
+typedef enum { FROM_START, FROM_BEST } stage_origin;
+
+/* What a member does: one stage after the other. */
 typedef struct {
-    const char *name;
-    rb_friction_method *method;
-    int limit; /* iterations; 0: the method's own */
-    int flags;
+    const char *solver; /* NULL: the end */
+    int limit;          /* iterations; 0: the solver's own */
+    stage_origin from;
 } stage;
 
-#define QUICK_SWEEPS 100
+static const stage sweeps[] = {
+    {"nsgs-aa", 0, FROM_START}, {"extragradient", 0, FROM_BEST}, {NULL, 0, FROM_START}};
+static const stage plain_sweeps[] = {{"nsgs-ac", 300000, FROM_START},
+                                     {"nsgs-fp", 5000, FROM_START},
+                                     {NULL, 0, FROM_START}};
+/* From sweeps Jean-Moreau's function is the one that cycles least. */
+static const stage newton_after_sweeps[] = {
+    {"nsn-jm-nls", 16, FROM_BEST}, {"nsn-ac-nls", 12, FROM_BEST},
+    {"nsn-fb", 15, FROM_START},    {"nsn-ac", 25, FROM_START},
+    {"nsn-nm", 60, FROM_START},    {"nsn-fb", 60, FROM_BEST},
+    {"nsn-jm", 100, FROM_START},   {"soclcp-smoothing", 150, FROM_START},
+    {"lemke", 0, FROM_START},      {"nsn-ac", 60, FROM_BEST},
+    {"nsn-nm", 60, FROM_BEST},     {"nsn-jm", 60, FROM_BEST},
+    {"nsn-ac", 400, FROM_START},   {"nsn-nm", 500, FROM_BEST},
+    {NULL, 0, FROM_START}};
+static const stage newton_first[] = {
+    {"nsn-ac", 40, FROM_START},    {"nsn-fb", 60, FROM_START},
+    {"nsn-ac-nls", 30, FROM_BEST}, {"nsn-nm", 60, FROM_START},
+    {"nsn-jm", 100, FROM_START},   {"soclcp-smoothing", 150, FROM_START},
+    {"lemke", 0, FROM_START},      {"nsn-ac", 60, FROM_BEST},
+    {"nsn-fb", 60, FROM_BEST},     {"nsn-nm", 60, FROM_BEST},
+    {"nsn-ac", 400, FROM_START},   {"nsn-nm", 500, FROM_BEST},
+    {NULL, 0, FROM_START}};
 
-static rb_status quick_sweeps(rb_friction_task *task)
+/* first_turn: iterations of the first member's turn alone. */
+typedef struct {
+    const stage *stages;
+    double share;
+    int first_turn;
+} plan;
+
+enum { MEMBERS = 3 };
+
+/* Some sweeps are cheap where W is there and solve most problems.  The global form would
+ * have to be condensed for them. */
+static const plan local_plan[MEMBERS] = {
+    {sweeps, 1.0, 100}, {newton_after_sweeps, 1.0, 0}, {plain_sweeps, 0.25, 0}};
+static const plan global_plan[MEMBERS] = {
+    {newton_first, 1.0, 40}, {sweeps, 1.0, 0}, {plain_sweeps, 0.25, 0}};
+
+typedef struct {
+    const plan *plan;
+    int stage;
+    const rb_friction_solver *solver; /* of the stage; NULL: not begun */
+    void *state;                      /* of its method, where that goes in parts */
+    int stage_end;                    /* iterations of the member; 0: no limit */
+    int over;                         /* no stage is left */
+    rb_friction_task task;
+    rb_friction_info info; /* the member's own */
+} member;
+
+typedef struct {
+    rb_friction_task *task; /* the call's */
+    member member[MEMBERS];
+    double *memory; /* r, u, v of the members */
+} portfolio;
+
+static rb_status portfolio_init(rb_friction_task *task, portfolio *p)
 {
-    return rb_friction_sweeps(
-        task, RB_FRICTION_SWEEP_ANDERSON | RB_FRICTION_SWEEP_UNLESS_STALLED,
-        rb_friction_task_left(task, QUICK_SWEEPS));
+    const size_t m = (size_t)task->m, n = (size_t)task->n;
+    const plan *plans = task->n ? global_plan : local_plan;
+    *p = (portfolio){.task = task, .memory = rb_alloc(2 * m + n, MEMBERS)};
+    if (!p->memory)
+        return RB_ENOMEM;
+    for (int k = 0; k < MEMBERS; k++) {
+        member *a = &p->member[k];
+        a->plan = &plans[k];
+        a->task = *task;
+        a->task.info = &a->info;
+        a->task.r = p->memory + (size_t)k * (2 * m + n);
+        a->task.u = a->task.r + m;
+        a->task.v = a->task.u + m;
+    }
+    return RB_OK;
 }
 
-/* Some sweeps are cheap where W is there and solve most problems; where they stall,
- * Jean-Moreau's function is the one that cycles least from there.  The global form would
- * have to be condensed for them. */
-static const stage stages[] = {
-    {"nsgs-aa", quick_sweeps, QUICK_SWEEPS, GIVEN_W},
-    {"nsn-jm-nls", rb_friction_nsn_jm_nls, 16, GIVEN_W | RESUME | EARLY},
-    {"nsn-ac-nls", rb_friction_nsn_ac_nls, 12, GIVEN_W | FROM_BEST | EARLY},
-    {"nsn-fb", rb_friction_nsn_fb, 15, GIVEN_W | EARLY},
-    {"nsn-ac", rb_friction_nsn_ac, 25, GIVEN_W | EARLY},
-    {"nsgs-aa", rb_friction_nsgs_aa, 1000, GIVEN_W},
-    {"nsn-ac", rb_friction_nsn_ac, 40, EARLY},
-    {"nsgs-aa", rb_friction_nsgs_aa, 1000, NEEDS_W},
-    {"nsn-ac-nls", rb_friction_nsn_ac_nls, 30, NEEDS_W | RESUME | EARLY},
-    {"nsn-fb", rb_friction_nsn_fb, 60, EARLY},
-    {"nsn-nm", rb_friction_nsn_nm, 60, EARLY},
-    {"nsn-jm", rb_friction_nsn_jm, 100, EARLY},
-    {"soclcp-smoothing", rb_friction_soclcp_smoothing, 150, EARLY},
-    {"lemke", rb_friction_lemke, 0, ONLY_2D},
-    {"nsgs-fp", rb_friction_nsgs_fp, 5000, NEEDS_W},
-    {"nsgs-ac", rb_friction_nsgs_ac, 20000, NEEDS_W},
-    {"nsn-ac", rb_friction_nsn_ac, 60, FROM_BEST},
-    {"nsn-fb", rb_friction_nsn_fb, 60, FROM_BEST},
-    {"nsn-nm", rb_friction_nsn_nm, 60, FROM_BEST},
-    {"nsn-jm", rb_friction_nsn_jm, 60, FROM_BEST},
-    {"nsn-ac", rb_friction_nsn_ac, 400, 0},
-    {"nsn-nm", rb_friction_nsn_nm, 500, FROM_BEST},
-    {"nsgs-ac", rb_friction_nsgs_ac, 300000, NEEDS_W | FROM_BEST},
-    {"extragradient", rb_friction_extragradient, 300000, NEEDS_W},
-};
+static void end_stage(member *a)
+{
+    if (a->state)
+        a->solver->run->finish(a->state);
+    free(a->state);
+    a->state = NULL;
+    a->solver = NULL;
+    a->stage++;
+}
+
+static void portfolio_free(portfolio *p)
+{
+    for (int k = 0; k < MEMBERS; k++)
+        end_stage(&p->member[k]);
+    free(p->memory);
+}
+
+/* ---- Stages ---------------------------------------------------------------------------
+ */
 
 /* Dense tableaus beyond this take longer than what comes after. */
 #define MOST_FOR_LEMKE 1000
 
-typedef struct {
-    double *start, *best; /* m + n each: r, v; start NULL: zero */
-    int most;             /* iterations of all stages together; 0: no limit */
-    double error;
-    const char *solver;
-} record;
-
-static void load(rb_friction_task *task, const double *from)
-{
-    const size_t m = (size_t)task->m, n = (size_t)task->n;
-    for (size_t k = 0; k < m; k++)
-        task->r[k] = from ? from[k] : 0.0;
-    for (size_t i = 0; i < n; i++)
-        task->v[i] = from ? from[m + i] : 0.0;
-}
-
-/* 0: no memory */
-static int store(const rb_friction_task *task, double **to)
-{
-    if (!*to)
-        *to = rb_alloc((size_t)(task->m + task->n), 1);
-    if (*to) {
-        memcpy(*to, task->r, (size_t)task->m * sizeof **to);
-        memcpy(*to + task->m, task->v, (size_t)task->n * sizeof **to);
-    }
-    return *to != NULL;
-}
-
-/* Long runs of sweeps on large problems stop here. */
-#define MOST_OPERATIONS 1e11
-
-static int affordable(const rb_friction_task *task, const stage *s)
-{
-    const double m = task->m;
-    if (!task->local || !(s->flags & (NEEDS_W | GIVEN_W)))
-        return s->limit;
-    const double entries =
-        task->local->form == RB_FRICTION_LOCAL_DENSE ? m * m : task->local->Ws.p[task->m];
-    const double most = fmax(100.0, MOST_OPERATIONS / (2.0 * entries + 100.0 * m));
-    return s->limit < most ? s->limit : (int)most;
-}
-
-static rb_status try_stage(rb_friction_task *task, const stage *s, record *rec)
-{
-    if (!(s->flags & RESUME))
-        load(task, s->flags & FROM_BEST ? rec->best : rec->start);
-    const int limit = affordable(task, s);
-    task->opt.max_iters = rec->most;
-    if (limit)
-        task->opt.max_iters = task->info->iters + rb_friction_task_left(task, limit);
-    const rb_status status = rb_friction_run(task, s->method);
-    task->info->solver = s->name;
-    if (status <= 0)
-        return status;
-    double error = task->info->residual;
-    if (error <= task->opt.tol) /* r so large that the measure does not see it */
-        error = INFINITY;
-    if (error < rec->error || !rec->solver) {
-        rec->error = error;
-        rec->solver = s->name;
-        if (!store(task, &rec->best))
-            return RB_ENOMEM;
-    }
-    return status;
-}
-
-/* A dense LU of this order takes longer than a thousand sweeps. */
-#define MOST_DENSE_ROWS 2500
-
-static int heavy(const rb_friction_task *task)
-{
-    const double m = task->m;
-    if (task->n || task->m <= MOST_DENSE_ROWS)
-        return 0;
-    return task->problem->form == RB_FRICTION_LOCAL_DENSE ||
-           task->problem->Ws.p[task->m] > 0.1 * m * m;
-}
-
 /* W is condensed when the first stage asks for it. */
-static int fits(rb_friction_task *task, const stage *s)
+static int fits(rb_friction_task *task, const rb_friction_solver *solver)
 {
-    if ((s->flags & EARLY) && heavy(task))
+    if ((solver->needs & RB_FRICTION_ONLY_2D) &&
+        (task->d != 2 || task->contacts > MOST_FOR_LEMKE))
         return 0;
-    if ((s->flags & ONLY_2D) && (task->d != 2 || task->contacts > MOST_FOR_LEMKE))
-        return 0;
-    if (s->flags & GIVEN_W)
-        return !task->n;
-    if (!(s->flags & NEEDS_W) || task->local)
+    if (!(solver->needs & RB_FRICTION_NEEDS_W) || task->shared->local)
         return 1;
     return task->measure->spring == 0.0 && rb_friction_task_condense(task) == RB_OK;
 }
 
-rb_status rb_friction_auto(rb_friction_task *task)
+/* Operations of a method that cannot pause, roughly: pivots on a tableau of order 3 n_c,
+ * or twenty factorisations. */
+static double cost_of(const rb_friction_task *task, const rb_friction_solver *solver)
 {
-    const rb_friction_options given = task->opt;
-    const size_t n = sizeof stages / sizeof *stages;
-    record rec = {.most = given.max_iters, .error = INFINITY};
-    rb_status s = RB_MAXITER;
-    if ((given.r0 || given.v0) && !store(task, &rec.start))
-        s = RB_ENOMEM;
-    for (size_t k = 0; s > 0 && s != RB_INTERRUPTED && k < n; k++) {
-        task->opt.max_iters = given.max_iters;
-        if (k && !rb_friction_task_left(task, 1))
-            break;
-        if (fits(task, &stages[k]))
-            s = try_stage(task, &stages[k], &rec);
+    const double m = task->m, tableau = 3.0 * task->contacts, order = m + task->n;
+    if (solver->needs & RB_FRICTION_ONLY_2D)
+        return 5.0 * tableau * tableau * tableau;
+    return 20.0 * order * fmin(order * order, 1e4);
+}
+
+static void load_stage(const portfolio *p, member *a, stage_origin from)
+{
+    rb_friction_task *t = &a->task;
+    const int best = from == FROM_BEST && isfinite(t->best->error);
+    memcpy(t->r, best ? t->best->r : p->task->r, (size_t)t->m * sizeof(double));
+    memcpy(t->v, best ? t->best->r + t->m : p->task->v, (size_t)t->n * sizeof(double));
+}
+
+/* The next stage that fits, ready to go on; none is left: over. */
+static rb_status begin_stage(const portfolio *p, member *a)
+{
+    const stage *s = &a->plan->stages[a->stage];
+    while (s->solver && !fits(&a->task, rb_friction_solver_named(s->solver)))
+        s = &a->plan->stages[++a->stage];
+    a->over = !s->solver;
+    if (a->over)
+        return RB_OK;
+    a->solver = rb_friction_solver_named(s->solver);
+    a->info.solver = a->solver->name;
+    a->stage_end = s->limit ? a->info.iters + s->limit : 0;
+    a->task.opt.max_iters = a->stage_end;
+    load_stage(p, a, s->from);
+    const rb_friction_method *method = a->solver->run;
+    if (method->run)
+        return RB_OK;
+    a->state = calloc(1, method->size);
+    if (!a->state)
+        return RB_ENOMEM;
+    const int yields = method == &rb_friction_sweeps ? RB_FRICTION_SWEEP_YIELD : 0;
+    return method->start(&a->task, a->solver->variant | yields, a->state);
+}
+
+/* ---- Turns ----------------------------------------------------------------------------
+ */
+
+static int iterations_left(const portfolio *p)
+{
+    int sum = 0;
+    for (int k = 0; k < MEMBERS; k++)
+        sum += p->member[k].info.iters;
+    const int most = p->task->opt.max_iters;
+    return !most ? INT_MAX : most > sum ? most - sum : 0;
+}
+
+/* The stage goes on until it ends (*paused 0), or the allowance or the iterations of the
+ * turn are used. */
+static rb_status go_on(const portfolio *p, member *a, double allowance, int turn,
+                       int *paused)
+{
+    const rb_friction_method *method = a->solver->run;
+    rb_friction_task *t = &a->task;
+    const int left = iterations_left(p), most = turn && turn < left ? turn : left;
+    const int end = most < INT_MAX ? a->info.iters + most : 0;
+    t->opt.max_iters = !end || (a->stage_end && a->stage_end < end) ? a->stage_end : end;
+    t->budget = method->run ? INFINITY : allowance;
+    if (method->run) {
+        *paused = a->info.flops + cost_of(t, a->solver) > allowance;
+        return *paused ? RB_MAXITER : method->run(t, a->solver->variant);
     }
-    if (s > 0 && s != RB_INTERRUPTED)
-        s = RB_MAXITER; /* what the last stage stumbled on is not the reason */
-    if (s > 0 && rec.solver) {
-        load(task, rec.best);
-        task->info->solver = rec.solver;
-        rb_friction_prove(task);
-    }
-    task->opt = given;
-    free(rec.best);
-    free(rec.start);
+    const rb_status s = method->go_on(a->state);
+    *paused = s == RB_MAXITER &&
+              (a->info.flops >= t->budget ||
+               (end && a->info.iters >= end && a->info.iters != a->stage_end));
     return s;
 }
+
+/* RB_MAXITER: the member has used its allowance, or has no stage left.  What a stage
+ * stumbles on is not the reason why the problem is not solved. */
+static rb_status take_turn(const portfolio *p, member *a, double allowance, int turn)
+{
+    int paused = 0;
+    for (int stages = 0; !paused && iterations_left(p) && !(turn && stages); stages++) {
+        rb_status s = a->solver ? RB_OK : begin_stage(p, a);
+        if (a->over)
+            break;
+        if (s == RB_OK)
+            s = go_on(p, a, allowance, turn, &paused);
+        if (s == RB_OK && rb_friction_prove(&a->task))
+            return RB_OK;
+        if (s == RB_ENOMEM || s == RB_INTERRUPTED)
+            return s;
+        if (!paused)
+            end_stage(a);
+    }
+    return RB_MAXITER;
+}
+
+static rb_status play(portfolio *p, member **winner)
+{
+    member *first = &p->member[0];
+    rb_status s = take_turn(p, first, INFINITY, first->plan->first_turn);
+    double allowance = fmax(first->info.flops, 1.0);
+    *winner = first;
+    for (int left = MEMBERS; s == RB_MAXITER && left && iterations_left(p);) {
+        left = 0;
+        for (int k = 0; s == RB_MAXITER && k < MEMBERS; k++) {
+            member *a = *winner = &p->member[k];
+            if (!a->over)
+                s = take_turn(p, a, allowance * a->plan->share, 0);
+            left += !a->over;
+        }
+        if (allowance > MOST_OPERATIONS)
+            break;
+        allowance *= GROWTH;
+    }
+    return s;
+}
+
+static rb_status run_auto(rb_friction_task *task, int variant)
+{
+    (void)variant;
+    portfolio p;
+    member *winner = NULL;
+    rb_status s = portfolio_init(task, &p);
+    if (s != RB_OK)
+        return s;
+    s = play(&p, &winner);
+    for (int k = 0; k < MEMBERS; k++) {
+        task->info->iters += p.member[k].info.iters;
+        task->info->flops += p.member[k].info.flops;
+    }
+    if (s == RB_OK) {
+        memcpy(task->r, winner->task.r, (size_t)task->m * sizeof(double));
+        memcpy(task->v, winner->task.v, (size_t)task->n * sizeof(double));
+        task->info->solver = winner->info.solver;
+    }
+    portfolio_free(&p);
+    return s;
+}
+
+const rb_friction_method rb_friction_auto_method = {.run = run_auto};

@@ -3,7 +3,6 @@
 #include "friction/internal.h"
 
 #include <limits.h>
-#include <math.h>
 #include <stdlib.h>
 
 void rb_friction_blocks_free(rb_friction_blocks *blocks)
@@ -181,34 +180,4 @@ void rb_friction_blocks_apply(const rb_friction_blocks *b, const double *x, doub
     for (int i = 0; i < b->d * b->contacts; i++)
         y[i] = 0.0;
     rb_friction_blocks_add_all(b, x, y);
-}
-
-static double largest_tangential(int d, const double *w)
-{
-    if (d == 2)
-        return fabs(w[3]);
-    const double mean = 0.5 * (w[4] + w[8]), b = 0.5 * (w[5] + w[7]);
-    return fabs(mean) + hypot(0.5 * (w[4] - w[8]), b);
-}
-
-void rb_friction_invert_compliances(int contacts, double *rho)
-{
-    double sum = 0.0;
-    int count = 0;
-    for (int k = 0; k < 2 * contacts; k++)
-        if (rho[k] > 0.0)
-            sum += rho[k], count++;
-    const double mean = count ? sum / count : 1.0;
-    for (int k = 0; k < 2 * contacts; k++)
-        rho[k] = 1.0 / (rho[k] > 1e-12 * mean ? rho[k] : mean);
-}
-
-void rb_friction_blocks_rho(const rb_friction_blocks *b, double *rho)
-{
-    for (int c = 0; c < b->contacts; c++) {
-        const double *w = b->x + (size_t)b->diag[c] * (size_t)(b->d * b->d);
-        rho[2 * c] = fabs(w[0]);
-        rho[2 * c + 1] = largest_tangential(b->d, w);
-    }
-    rb_friction_invert_compliances(b->contacts, rho);
 }

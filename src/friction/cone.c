@@ -69,19 +69,21 @@ void rb_friction_project_derivative(int d, double mu, const double *z, double *D
     }
 }
 
-double rb_friction_natural_norm(int d, int contacts, const double *mu, const double *r,
-                                const double *u)
+double rb_friction_natural_norm(int d, int contacts, const double *mu, const double *rho,
+                                const double *r, const double *u)
 {
     double sum = 0.0;
     for (int c = 0; c < contacts; c++) {
-        const double *rc = r + c * d, *uc = u + c * d;
+        const double *rc = r + c * d, *uc = u + c * d, k = rho ? rho[2 * c] : 1.0;
         double z[3], p[3];
         for (int a = 0; a < d; a++)
-            z[a] = rc[a] - uc[a];
-        z[0] -= mu[c] * rb_friction_tangential(d, uc);
+            z[a] = rc[a] - k * uc[a];
+        z[0] -= k * mu[c] * rb_friction_tangential(d, uc);
         rb_friction_project(d, mu[c], z, p);
-        for (int a = 0; a < d; a++)
-            sum += (rc[a] - p[a]) * (rc[a] - p[a]);
+        for (int a = 0; a < d; a++) {
+            const double x = (rc[a] - p[a]) / k;
+            sum += x * x;
+        }
     }
     return sqrt(sum);
 }

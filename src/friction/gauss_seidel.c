@@ -17,9 +17,16 @@ typedef struct {
     double *fixed;                /* contacts: rho of the fixed point, which adapts */
     int flags;                    /* rb_friction_sweep_flags */
     rb_friction_anderson anderson;
-    double *start;         /* m, where accelerated: r before the sweep */
-    double before;         /* (13) when it was last asked whether the sweeps stall */
-    double touched, steps; /* blocks, steps at single contacts: to count operations */
+    double *start;   /* m, where accelerated: r before the sweep */
+    double *kept;    /* 2 m: r and u after the sweep of the least change */
+    double least;    /* that change (14) */
+    int since;       /* number of that sweep */
+    int plain, rest; /* sweeps without acceleration: still to do, and next time */
+    int fresh;       /* the acceleration has seen no sweep since it was left off */
+    int k, limit;    /* sweeps done, and at most */
+    double tau;      /* change (14) at which the measure is worth a look */
+    double before;   /* the measure when it was last asked whether the sweeps stall */
+    double touched, steps; /* blocks, steps at single contacts: not yet counted */
     rb_status failed;
 } sweeper;
 
@@ -27,7 +34,7 @@ typedef struct {
 static void start_velocities(sweeper *s)
 {
     const rb_friction_task *t = s->task;
-    memcpy(t->u, t->local->q, (size_t)t->m * sizeof(double));
+    memcpy(t->u, t->shared->local->q, (size_t)t->m * sizeof(double));
     s->touched += rb_friction_blocks_add_all(s->blocks, t->r, t->u);
 }
 
@@ -39,16 +46,22 @@ static rb_status wanted_rho(sweeper *s)
     s->rho = rb_alloc(nc, 3);
     if (!s->rho)
         return RB_ENOMEM;
-    rb_friction_blocks_rho(s->blocks, s->rho);
+    const rb_status st = rb_friction_rho(s->task->shared->local, s->rho);
+    if (st != RB_OK)
+        return st;
     s->fixed = s->rho + 2 * nc;
     for (size_t c = 0; c < nc; c++)
         s->fixed[c] = fmin(s->rho[2 * c], s->rho[2 * c + 1]);
     return RB_OK;
 }
 
-static rb_status sweeper_init(rb_friction_task *task, int flags, sweeper *s)
+static rb_status start_sweeps(rb_friction_task *task, int flags, void *state)
 {
-    *s = (sweeper){.task = task, .flags = flags};
+    sweeper *s = state;
+    *s = (sweeper){.task = task,
+                   .flags = flags,
+                   .limit = rb_friction_task_left(task, SWEEPS),
+                   .tau = task->opt.tol};
     rb_status st = rb_friction_task_blocks(task, &s->blocks);
     if (st == RB_OK && (flags & RB_FRICTION_SWEEP_PROJECTION))
         st = wanted_rho(s);
@@ -63,11 +76,12 @@ static rb_status sweeper_init(rb_friction_task *task, int flags, sweeper *s)
     return RB_OK;
 }
 
-static void sweeper_free(sweeper *s)
+static void finish_sweeps(void *state)
 {
+    sweeper *s = state;
     rb_friction_anderson_free(&s->anderson);
     free(s->start);
-    s->task->info->flops += 2.0 * s->task->d * s->task->d * s->touched + 80.0 * s->steps;
+    free(s->kept);
     free(s->contact);
     free(s->rho);
 }
@@ -78,7 +92,7 @@ static rb_friction_contact *wanted_contact(sweeper *s, int c)
     const int d = s->task->d;
     if (!s->contact[c].W)
         rb_friction_contact_init(
-            d, s->task->local->mu[c],
+            d, s->task->shared->local->mu[c],
             s->blocks->x + (size_t)s->blocks->diag[c] * (size_t)(d * d), &s->contact[c]);
     return &s->contact[c];
 }
@@ -132,6 +146,9 @@ static double sweep(sweeper *s)
     double change = 0.0;
     for (int c = 0; c < t->contacts; c++)
         change += relax(s, c);
+    t->info->iters++;
+    t->info->flops += 2.0 * t->d * t->d * s->touched + 80.0 * s->steps;
+    s->touched = s->steps = 0.0;
     const double norm = rb_friction_norm((size_t)t->m, t->r);
     return norm > 0.0 ? sqrt(change) / norm : sqrt(change);
 }
@@ -151,26 +168,74 @@ static double look(sweeper *s, int refresh)
 {
     rb_friction_task *t = s->task;
     const double tol = t->opt.tol;
-    const double error =
-        rb_friction_natural_norm(t->d, t->contacts, t->local->mu, t->r, t->u) /
-        t->measure->scale;
+    const double error = rb_friction_natural_norm(t->d, t->contacts, t->problem->mu,
+                                                  t->measure->rho, t->r, t->u) /
+                         t->measure->scale;
     t->info->flops += 25.0 * t->m;
     const int clear = error > tol || (error <= 0.5 * tol && tol >= SAFE_TOLERANCE);
-    return clear && !refresh ? error : rb_friction_task_error(t);
+    if (!clear || refresh)
+        return rb_friction_task_error(t);
+    rb_friction_task_seen(t, error);
+    return error;
+}
+
+/* Acceleration that has not lowered the change to FALL of the least one for PATIENCE
+ * sweeps leads nowhere: the sweeps go on without it from their best state, REST of them
+ * the first time and twice as many each time after. */
+#define FALL 0.7
+#define PATIENCE 100
+#define REST 100
+
+static void keep_state(sweeper *s, double change)
+{
+    const size_t m = (size_t)s->task->m;
+    s->least = change;
+    s->since = s->k;
+    memcpy(s->kept, s->task->r, m * sizeof(double));
+    memcpy(s->kept + m, s->task->u, m * sizeof(double));
+}
+
+static void rest_from_acceleration(sweeper *s)
+{
+    const size_t m = (size_t)s->task->m;
+    memcpy(s->task->r, s->kept, m * sizeof(double));
+    memcpy(s->task->u, s->kept + m, m * sizeof(double));
+    rb_friction_anderson_forget(&s->anderson);
+    s->plain = s->rest;
+    s->rest *= 2;
+    s->fresh = 1;
+}
+
+static rb_status start_acceleration(sweeper *s)
+{
+    const size_t m = (size_t)s->task->m;
+    s->start = rb_alloc(m, 1);
+    s->kept = rb_alloc(m, 2);
+    s->rest = REST;
+    s->fresh = 1;
+    return s->start && s->kept ? rb_friction_anderson_init(s->task->m, &s->anderson)
+                               : RB_ENOMEM;
 }
 
 /* The next sweep starts from where the last ones point to. */
-static rb_status accelerate(sweeper *s)
+static rb_status accelerate(sweeper *s, double change)
 {
     rb_friction_task *t = s->task;
-    if (s->start) {
+    if (!s->start && start_acceleration(s) != RB_OK)
+        return RB_ENOMEM;
+    if (s->plain > 0 && --s->plain > 0)
+        return RB_OK;
+    if (s->fresh || change < FALL * s->least)
+        keep_state(s, change);
+    else if (s->k - s->since >= PATIENCE) {
+        rest_from_acceleration(s);
+        return RB_OK;
+    }
+    if (!s->fresh) {
         rb_friction_anderson_step(&s->anderson, s->start, t->r, t->u);
         t->info->flops += (6.0 + 8.0 * s->anderson.used) * t->m;
-    } else { /* after the first sweep, which is often the last */
-        s->start = rb_alloc((size_t)t->m, 1);
-        if (!s->start || rb_friction_anderson_init(t->m, &s->anderson) != RB_OK)
-            return RB_ENOMEM;
     }
+    s->fresh = 0;
     memcpy(s->start, t->r, (size_t)t->m * sizeof(double));
     return RB_OK;
 }
@@ -178,84 +243,62 @@ static rb_status accelerate(sweeper *s)
 #define STALL_FROM 16
 #define STALL 0.85
 
-/* (13) has hardly fallen while the number of sweeps doubled. */
-static int stalled(sweeper *s, int k, double error)
+/* The measure has hardly fallen while the number of sweeps doubled. */
+static int stalls(sweeper *s, double error)
 {
-    if (k < STALL_FROM / 2 || (k & (k - 1)) != 0)
+    if (s->k < STALL_FROM / 2 || (s->k & (s->k - 1)) != 0)
         return 0;
     const double before = s->before;
     s->before = error;
-    return k >= STALL_FROM && error > STALL * before;
+    return s->k >= STALL_FROM && error > STALL * before;
 }
 
-/* After sweep k, which changed r by `change` (14); RB_MAXITER: it goes on.  tau: the
- * change at which the measure is worth a look. */
-static rb_status judge(sweeper *s, int k, int limit, double change, double *tau)
+/* After a sweep, which changed r by `change` (14); RB_MAXITER: it goes on. */
+static rb_status judge(sweeper *s, double change, int *stalled)
 {
     rb_friction_task *t = s->task;
+    *stalled = 0;
     if (s->failed != RB_OK)
         return s->failed;
     if (rb_friction_task_late(t))
         return RB_INTERRUPTED;
-    if (change > *tau && !looks_now(k, limit))
+    if (change > s->tau && !looks_now(s->k, s->limit))
         return RB_MAXITER;
-    const double error = look(s, k % LOOK_EVERY == 0 || change <= LEAST_CHANGE);
+    const double error = look(s, s->k % LOOK_EVERY == 0 || change <= LEAST_CHANGE);
     if (rb_friction_task_accepts(t, error))
         return RB_OK;
     if (!isfinite(error))
         return RB_SINGULAR;
     if (change <= LEAST_CHANGE)
         return RB_INACCURATE;
-    if ((s->flags & RB_FRICTION_SWEEP_UNLESS_STALLED) && stalled(s, k, error))
-        return RB_INACCURATE;
-    *tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
+    *stalled = stalls(s, error);
+    s->tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
     return RB_MAXITER;
 }
 
-static rb_status sweep_until(sweeper *s, int limit)
+static rb_status go_on_sweeping(void *state)
 {
+    sweeper *s = state;
     rb_friction_task *t = s->task;
-    double tau = t->opt.tol;
-    if (t->opt.r0 && rb_friction_task_accepts(t, look(s, 0)))
+    if (s->k == 0 && t->opt.r0 && rb_friction_task_accepts(t, look(s, 0)))
         return RB_OK;
-    rb_status st = RB_MAXITER;
-    for (int k = 1; st == RB_MAXITER && k <= limit; k++) {
+    while (s->k < s->limit && rb_friction_task_goes_on(t)) {
+        int stalled;
         const double change = sweep(s);
-        t->info->iters++;
-        st = judge(s, k, limit, change, &tau);
-        if (st == RB_MAXITER && (s->flags & RB_FRICTION_SWEEP_ANDERSON) && k < limit &&
-            accelerate(s) != RB_OK)
+        s->k++;
+        const rb_status st = judge(s, change, &stalled);
+        if (st != RB_MAXITER)
+            return st;
+        if ((s->flags & RB_FRICTION_SWEEP_ANDERSON) && s->k < s->limit &&
+            accelerate(s, change) != RB_OK)
             return RB_ENOMEM;
+        if (stalled && (s->flags & RB_FRICTION_SWEEP_YIELD) && isinf(t->budget))
+            t->budget = t->info->flops;
     }
-    return st;
+    return RB_MAXITER;
 }
 
-rb_status rb_friction_sweeps(rb_friction_task *task, int flags, int limit)
-{
-    sweeper s;
-    rb_status st = sweeper_init(task, flags, &s);
-    if (st == RB_OK)
-        st = sweep_until(&s, limit);
-    sweeper_free(&s);
-    return st;
-}
-
-static int limit_of(const rb_friction_task *task)
-{
-    return rb_friction_task_left(task, SWEEPS);
-}
-
-rb_status rb_friction_nsgs_ac(rb_friction_task *task)
-{
-    return rb_friction_sweeps(task, 0, limit_of(task));
-}
-
-rb_status rb_friction_nsgs_aa(rb_friction_task *task)
-{
-    return rb_friction_sweeps(task, RB_FRICTION_SWEEP_ANDERSON, limit_of(task));
-}
-
-rb_status rb_friction_nsgs_fp(rb_friction_task *task)
-{
-    return rb_friction_sweeps(task, RB_FRICTION_SWEEP_PROJECTION, limit_of(task));
-}
+const rb_friction_method rb_friction_sweeps = {.size = sizeof(sweeper),
+                                               .start = start_sweeps,
+                                               .go_on = go_on_sweeping,
+                                               .finish = finish_sweeps};

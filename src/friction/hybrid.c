@@ -21,19 +21,15 @@ static int goes_on(rb_status s)
 
 static rb_status plain_newton(rb_friction_task *task)
 {
-    const rb_friction_options given = task->opt;
-    task->opt.max_iters =
-        task->info->iters + rb_friction_task_left(task, STEPS_BEFORE_SEARCH);
-    const rb_status st = rb_friction_nsn_ac_nls(task);
-    task->opt = given;
-    return st;
+    return rb_friction_run(task, &rb_friction_newton, RB_FRICTION_ALART_CURNIER,
+                           STEPS_BEFORE_SEARCH);
 }
 
 static rb_status few_sweeps(rb_friction_task *task, const double *start)
 {
     const double before = rb_friction_task_error(task);
-    const rb_status st = rb_friction_sweeps(task, RB_FRICTION_SWEEP_ANDERSON,
-                                            rb_friction_task_left(task, FIRST_SWEEPS));
+    const rb_status st = rb_friction_run(task, &rb_friction_sweeps,
+                                         RB_FRICTION_SWEEP_ANDERSON, FIRST_SWEEPS);
     if (!goes_on(st))
         return st;
     if (rb_friction_task_error(task) > WORTH * before)
@@ -46,7 +42,7 @@ static rb_status few_sweeps(rb_friction_task *task, const double *start)
 static rb_status many_sweeps(rb_friction_task *task, double *rough)
 {
     const size_t bytes = (size_t)task->m * sizeof *rough;
-    rb_status st = rb_friction_sweeps(task, 0, rb_friction_task_left(task, MANY_SWEEPS));
+    rb_status st = rb_friction_run(task, &rb_friction_sweeps, 0, MANY_SWEEPS);
     if (!goes_on(st))
         return st;
     memcpy(rough, task->r, bytes);
@@ -54,11 +50,13 @@ static rb_status many_sweeps(rb_friction_task *task, double *rough)
     if (!goes_on(st))
         return st;
     memcpy(task->r, rough, bytes);
-    return rb_friction_nsn_ac(task);
+    return rb_friction_run(task, &rb_friction_newton,
+                           RB_FRICTION_ALART_CURNIER | RB_FRICTION_LINE_SEARCH, 0);
 }
 
-rb_status rb_friction_nsn_ac_hybrid(rb_friction_task *task)
+static rb_status run_hybrid(rb_friction_task *task, int variant)
 {
+    (void)variant;
     const size_t bytes = (size_t)task->m * sizeof(double);
     double *start = rb_alloc((size_t)task->m, 1);
     if (!start)
@@ -72,3 +70,5 @@ rb_status rb_friction_nsn_ac_hybrid(rb_friction_task *task)
     free(start);
     return st;
 }
+
+const rb_friction_method rb_friction_hybrid = {.run = run_hybrid};

@@ -14,10 +14,17 @@ void rb_friction_project(int d, double mu, const double *z, double *p);
 void rb_friction_project_derivative(int d, double mu, const double *z, double *D);
 /* ||x_T|| of a contact's d entries */
 double rb_friction_tangential(int d, const double *x);
-/* F = r - P_K(r - rho (u + mu ||u_T|| e_N)) over all contacts; its 2-norm. */
-double rb_friction_natural_norm(int d, int contacts, const double *mu, const double *r,
-                                const double *u);
+/* F = (r - P_K(r - rho (u + mu ||u_T|| e_N))) / rho over all contacts; its 2-norm.  rho:
+ * every second entry, as rb_friction_rho writes it; NULL: 1. */
+double rb_friction_natural_norm(int d, int contacts, const double *mu, const double *rho,
+                                const double *r, const double *u);
 double rb_friction_norm(size_t n, const double *x);
+
+/* ---- Units (rho.c) -- */
+
+/* 2 per contact: rho_n = 1/W_NN, rho_t = 1/(largest eigenvalue of W_TT) of its own block;
+ * of the mean of all where that vanishes.  Global form: estimated from diag(K). */
+rb_status rb_friction_rho(const rb_friction_problem *problem, double *rho);
 
 /* ---- Measure (measure.c) -- */
 
@@ -26,15 +33,21 @@ typedef struct {
     double scale;               /* ||q||, or 1 where q = 0 */
     rb_sparse_cholesky *factor; /* GLOBAL: of K, or of K + k H H' where K is singular */
     double spring;              /* k; 0 where K is regular */
-    double *y;                  /* m + n, workspace; e: its last n */
-    double *e;
+    double *y;                  /* m, workspace; owns e and rho too */
+    double *e;                  /* n, workspace */
+    double *rho;                /* 2 per contact */
 } rb_friction_measure;
 
 rb_status rb_friction_measure_init(const rb_friction_problem *problem,
                                    rb_friction_measure *measure);
-/* v: n, global form: corrected to equilibrium with r; else unused.  u: m, written. */
+/* v: n, global form: corrected to equilibrium with r; else unused.  u: m, written.
+ * scaled: the measure that decides; paper: (13), or NULL. */
 rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *r,
-                                    double *v, double *u, double *error);
+                                    double *v, double *u, double *scaled, double *paper);
+/* What of the measure numbers of the size of r can resolve: below this it says nothing,
+ * and is exactly 0 for any r that is large enough. */
+double rb_friction_measure_resolution(const rb_friction_measure *measure,
+                                      const double *r);
 double rb_friction_measure_floor(const rb_friction_measure *measure, const double *r,
                                  const double *v);
 /* Global form.  v = K_k^-1 (H (r + k (u - w)) + f): the displacements that go with r and
@@ -67,12 +80,6 @@ int rb_friction_blocks_add_all(const rb_friction_blocks *blocks, const double *x
 void rb_friction_blocks_apply(const rb_friction_blocks *blocks, const double *x,
                               double *y);
 
-/* 2 per contact: rho_n = 1/W_NN, rho_t = 1/(largest eigenvalue of W_TT) of its own block;
- * the mean of the others where that vanishes. */
-void rb_friction_blocks_rho(const rb_friction_blocks *blocks, double *rho);
-/* The compliances themselves -> rho, in place. */
-void rb_friction_invert_compliances(int contacts, double *rho);
-
 /* ---- One contact alone (local_contact.c) -- */
 
 typedef struct {
@@ -102,18 +109,39 @@ int rb_friction_contact_fixed_point(const rb_friction_contact *contact, double *
 #define RB_FRICTION_UPK_LEAST 0.3
 #define RB_FRICTION_UPK_SHRINK (2.0 / 3.0)
 
-/* ---- One solve in progress (registry.c) -- */
+/* ---- One solve in progress (task.c) -- */
+
+/* What all methods that work on one problem share. */
+typedef struct {
+    const rb_friction_problem *problem; /* as given; borrowed */
+    const rb_friction_problem *local;   /* its local form; NULL: not condensed */
+    rb_friction_problem condensed;      /* local points here if W was not given */
+    rb_friction_blocks blocks;          /* of local, made when first wanted */
+    rb_friction_measure measure;        /* of problem */
+    int stop;                           /* the caller has asked for it */
+} rb_friction_shared;
+
+rb_status rb_friction_shared_init(const rb_friction_problem *problem,
+                                  rb_friction_shared *shared, rb_message *why);
+void rb_friction_shared_free(rb_friction_shared *shared);
+
+/* The best iterate that any method has measured. */
+typedef struct {
+    double *r; /* m + n: r and v */
+    double error;
+    const char *solver;
+} rb_friction_record;
 
 typedef struct {
-    const rb_friction_problem *problem; /* as given */
-    const rb_friction_problem *local;   /* its local form; NULL: not condensed */
-    rb_friction_problem condensed;      /* owned; local points here if W was not given */
-    rb_friction_blocks blocks;          /* owned; of local, made when first wanted */
-    rb_friction_measure *measure;       /* of problem */
+    rb_friction_shared *shared;
+    const rb_friction_problem *problem; /* of shared, as the next one */
+    rb_friction_measure *measure;
+    rb_friction_record *best;
     rb_friction_options opt;
     rb_friction_info *info;
     int d, contacts, m, n; /* n: 0 for the local form */
     double deadline;       /* on rb_seconds(); 0: none */
+    double budget;         /* of info->flops, where a method pauses; INFINITY: never */
     double *r, *u;         /* m: the iterate; start on entry */
     double *v;             /* n */
 } rb_friction_task;
@@ -123,6 +151,26 @@ rb_status rb_friction_task_condense(rb_friction_task *task);
 /* The blocks of the task's W; borrowed by all who work with them. */
 rb_status rb_friction_task_blocks(rb_friction_task *task,
                                   const rb_friction_blocks **blocks);
+/* The scaled measure at the task's r and v, which also brings u (and v) up to date, and
+ * keeps them where they are the best; counts flops. */
+double rb_friction_task_error(rb_friction_task *task);
+/* Iterations that the task's max_iters leaves: at most `own` of a method, which has
+ * max_iters 0 mean. */
+int rb_friction_task_left(const rb_friction_task *task, int own);
+/* error at or below the tolerance or the floor */
+int rb_friction_task_accepts(const rb_friction_task *task, double error);
+/* Neither the budget nor the iterations are used. */
+int rb_friction_task_goes_on(const rb_friction_task *task);
+/* The time is over, or the caller wants no more. */
+int rb_friction_task_late(const rb_friction_task *task);
+/* The task's iterate has this error: kept where it is the best, told to whoever traces.
+ */
+void rb_friction_task_seen(rb_friction_task *task, double error);
+/* The measures recomputed from r (and v) alone, and their floor, into info; 1: accepted.
+ */
+int rb_friction_prove(rb_friction_task *task);
+/* r, v and info->solver of the best iterate, where one is on record. */
+void rb_friction_task_recall(rb_friction_task *task);
 
 /* ---- Anderson's acceleration (anderson.c) -- */
 
@@ -139,6 +187,7 @@ typedef struct {
 
 rb_status rb_friction_anderson_init(int m, rb_friction_anderson *a);
 void rb_friction_anderson_free(rb_friction_anderson *a);
+void rb_friction_anderson_forget(rb_friction_anderson *a);
 /* An iteration went from start to r, with velocities u: r and u become those from which
  * the next one is to start. */
 void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, double *r,
@@ -184,6 +233,8 @@ void rb_friction_system_velocity(const rb_friction_system *system, double consta
 /* e = K v - H r - f; nothing for the local form */
 void rb_friction_system_imbalance(const rb_friction_system *system, const double *r,
                                   const double *v, double *e);
+/* Operations that the first step may take, from the pattern of its matrix alone. */
+rb_status rb_friction_system_estimate(rb_friction_system *system, double *flops);
 /* A, B: d x d per contact; F: m; e: n.  dr: m, dv: n, written. */
 rb_status rb_friction_system_step(rb_friction_system *system, const double *A,
                                   const double *B, const double *F, const double *e,
@@ -195,7 +246,8 @@ int rb_friction_system_is_dense(int order, double fill);
 rb_status rb_friction_system_dense(rb_friction_system *system, size_t order);
 rb_status rb_friction_system_solve_dense(rb_friction_system *system, int order,
                                          char transposed);
-/* The step of the local form (system_local.c), into x. */
+/* What follows is of the local form (system_local.c): its pattern; the step, into x. */
+rb_status rb_friction_local_pattern(rb_friction_system *system);
 rb_status rb_friction_local_step(rb_friction_system *system, const double *A,
                                  const double *B, const double *F);
 
@@ -203,37 +255,42 @@ rb_status rb_friction_lapack_status(int info);
 
 /* ---- Methods -- */
 
-typedef rb_status rb_friction_method(rb_friction_task *task);
-
-rb_friction_method rb_friction_nsn_ac, rb_friction_nsn_jm, rb_friction_nsn_nm,
-    rb_friction_nsn_fb, rb_friction_nsn_ac_nls, rb_friction_nsn_jm_nls,
-    rb_friction_nsn_nm_nls, rb_friction_nsn_fb_nls, rb_friction_nsn_ac_hybrid,
-    rb_friction_nsgs_ac, rb_friction_nsgs_aa, rb_friction_nsgs_fp,
-    rb_friction_fixed_point, rb_friction_extragradient, rb_friction_lemke,
-    rb_friction_soclcp_smoothing, rb_friction_auto;
+/* How a solver is run.  Either all at once, or in parts: start, then go_on until it no
+ * longer pauses, then finish, which takes a state of zeros and one whose start failed. */
+typedef struct rb_friction_method {
+    rb_status (*run)(rb_friction_task *task, int variant); /* NULL: in parts */
+    size_t size;                                           /* of the state */
+    rb_status (*start)(rb_friction_task *task, int variant, void *state);
+    /* RB_MAXITER with info->flops at or beyond the task's budget: paused. */
+    rb_status (*go_on)(void *state);
+    void (*finish)(void *state);
+} rb_friction_method;
 
 typedef enum {
-    RB_FRICTION_SWEEP_PROJECTION = 1, /* fixed point at each contact */
+    RB_FRICTION_SWEEP_PROJECTION = 1, /* fixed point at each contact, instead of exact */
     RB_FRICTION_SWEEP_ANDERSON = 2,   /* accelerated */
-    RB_FRICTION_SWEEP_UNLESS_STALLED = 4
-} rb_friction_sweep_flags;
+    RB_FRICTION_SWEEP_YIELD = 4 /* pauses where it stalls, as long as it has no budget */
+} rb_friction_sweep_variant;
 
-/* (13) recomputed from r (and v) alone, and its floor, into info; 1: accepted. */
-int rb_friction_prove(rb_friction_task *task);
-/* Runs the method on the prepared task; RB_OK: what it ended with is proved. */
-rb_status rb_friction_run(rb_friction_task *task, rb_friction_method *method);
+typedef enum {
+    RB_FRICTION_ALART_CURNIER,
+    RB_FRICTION_JEAN_MOREAU,
+    RB_FRICTION_NATURAL_MAP,
+    RB_FRICTION_FISCHER_BURMEISTER,
+    RB_FRICTION_LINE_SEARCH = 8 /* or-ed to one of the others */
+} rb_friction_newton_variant;
 
-/* `limit` sweeps of Gauss-Seidel, or fewer where the tolerance is met or, if so flagged,
- * they stall: RB_INACCURATE. */
-rb_status rb_friction_sweeps(rb_friction_task *task, int flags, int limit);
+typedef enum {
+    RB_FRICTION_FIXED_POINT,
+    RB_FRICTION_EXTRAGRADIENT
+} rb_friction_projection_variant;
 
-/* (13) at the task's r and v, which also brings u (and v) up to date; counts flops. */
-double rb_friction_task_error(rb_friction_task *task);
-/* Iterations that the task's max_iters leaves: at most `own` of a method, which has
- * max_iters 0 mean. */
-int rb_friction_task_left(const rb_friction_task *task, int own);
-/* error at or below the tolerance or the floor */
-int rb_friction_task_accepts(const rb_friction_task *task, double error);
-int rb_friction_task_late(const rb_friction_task *task);
+extern const rb_friction_method rb_friction_sweeps, rb_friction_newton,
+    rb_friction_projections, rb_friction_hybrid, rb_friction_smoothing_method,
+    rb_friction_lemke_method, rb_friction_auto_method;
+
+/* Runs a method on the prepared task, all at once; `limit` iterations at most. */
+rb_status rb_friction_run(rb_friction_task *task, const rb_friction_method *method,
+                          int variant, int limit);
 
 #endif

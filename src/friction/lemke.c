@@ -289,8 +289,8 @@ static rb_status run_attempt(lemke *s, const attempt *a)
 static rb_status load(lemke *s)
 {
     rb_status st = RB_OK;
-    if (s->task->local)
-        load_local(s, s->task->local);
+    if (s->task->shared->local)
+        load_local(s, s->task->shared->local);
     else
         st = load_held(s);
     if (st == RB_OK)
@@ -298,8 +298,9 @@ static rb_status load(lemke *s)
     return st;
 }
 
-rb_status rb_friction_lemke(rb_friction_task *task)
+static rb_status run_lemke(rb_friction_task *task, int variant)
 {
+    (void)variant;
     lemke s;
     if (task->d != 2)
         return RB_EINVAL;
@@ -320,3 +321,5 @@ rb_status rb_friction_lemke(rb_friction_task *task)
     lemke_free(&s);
     return st > 0 ? first : st;
 }
+
+const rb_friction_method rb_friction_lemke_method = {.run = run_lemke};

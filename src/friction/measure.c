@@ -1,4 +1,8 @@
-/* Equation (13) of *Acary* on both forms.
+/* Equation (13) of *Acary* on both forms, and the scaled measure that decides: with
+ * rho_c = 1/W_NN of each contact's own block,
+ *     || (r_c - P_K(r_c - rho_c uhat_c)) / rho_c || / ||q||,
+ * a ratio of velocities.  (13) adds forces to velocities and changes with the units; this
+ * is (13) where every W_NN is 1.
  *
  * Global form with regular K: v = K^-1 (H r + f), u = H' v + w, q = w + H' K^-1 f: (13)
  * as printed.  Where K is singular there is no q and r alone does not fix u: the contacts
@@ -7,6 +11,7 @@
  * and the imbalance K v - H r - f of a given v counts with the displacement it causes. */
 #include "friction/internal.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -114,20 +119,23 @@ rb_status rb_friction_measure_init(const rb_friction_problem *p,
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
     const size_t n = p->form == RB_FRICTION_GLOBAL ? (size_t)p->dofs : 0;
+    const size_t nc = (size_t)p->contacts;
     *measure = (rb_friction_measure){
-        .problem = p, .scale = 1.0, .y = malloc((m + n) * sizeof(double))};
+        .problem = p, .scale = 1.0, .y = malloc((m + n + 2 * nc) * sizeof(double))};
     if (!measure->y)
         return RB_ENOMEM;
     measure->e = measure->y + m;
-    if (!n) {
+    measure->rho = measure->e + n;
+    rb_status s = rb_friction_rho(p, measure->rho);
+    if (s == RB_OK && !n)
         measure->scale = norm_or_one(m, p->q);
-        return RB_OK;
+    if (s == RB_OK && n) {
+        s = rb_sparse_cholesky_create(&p->K, &measure->factor);
+        if (s == RB_SINGULAR)
+            s = factor_with_springs(measure);
+        if (s == RB_OK)
+            s = global_scale(measure);
     }
-    rb_status s = rb_sparse_cholesky_create(&p->K, &measure->factor);
-    if (s == RB_SINGULAR)
-        s = factor_with_springs(measure);
-    if (s == RB_OK)
-        s = global_scale(measure);
     if (s != RB_OK)
         rb_friction_measure_free(measure);
     return s;
@@ -186,21 +194,45 @@ static rb_status balance(rb_friction_measure *measure, const double *r, double *
     return s;
 }
 
+static double relative(const rb_friction_measure *measure, double size)
+{
+    const double error = size / measure->scale;
+    return isnan(error) ? INFINITY : error;
+}
+
 rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *r,
-                                    double *v, double *u, double *error)
+                                    double *v, double *u, double *scaled, double *paper)
 {
     const rb_friction_problem *p = measure->problem;
+    const int d = p->dimension, nc = p->contacts;
     double correction = 0.0;
     rb_status s = RB_OK;
+    *scaled = INFINITY;
+    if (paper)
+        *paper = INFINITY;
     if (p->form == RB_FRICTION_GLOBAL)
         s = balance(measure, r, v, u, &correction);
     else
         local_velocity(p, r, u);
-    const double f = rb_friction_natural_norm(p->dimension, p->contacts, p->mu, r, u);
-    *error = s == RB_OK ? (f + correction) / measure->scale : INFINITY;
-    if (isnan(*error))
-        *error = INFINITY;
-    return s;
+    if (s != RB_OK)
+        return s;
+    *scaled = relative(
+        measure, correction + rb_friction_natural_norm(d, nc, p->mu, measure->rho, r, u));
+    if (paper)
+        *paper = relative(
+            measure, correction + rb_friction_natural_norm(d, nc, p->mu, NULL, r, u));
+    return RB_OK;
+}
+
+double rb_friction_measure_resolution(const rb_friction_measure *measure, const double *r)
+{
+    const rb_friction_problem *p = measure->problem;
+    const int d = p->dimension;
+    for (int c = 0; c < p->contacts; c++)
+        for (int a = 0; a < d; a++)
+            measure->y[c * d + a] = r[c * d + a] / measure->rho[2 * c];
+    return DBL_EPSILON * rb_friction_norm((size_t)(d * p->contacts), measure->y) /
+           measure->scale;
 }
 
 /* 1e-14 || |W| |r| + |q| || / ||q||; global: |H'| |v| + |w| */
@@ -226,8 +258,9 @@ double rb_friction_measure_floor(const rb_friction_measure *measure, const doubl
     return 1e-14 * rb_friction_norm((size_t)m, y) / measure->scale;
 }
 
-rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
-                            const double *v, double *u, double *error, double *floor)
+static rb_status error_of(const rb_friction_problem *problem, const double *r,
+                          const double *v, double *u, double *scaled, double *paper,
+                          double *floor)
 {
     const size_t m = (size_t)(problem->dimension * problem->contacts);
     const size_t n = problem->form == RB_FRICTION_GLOBAL ? (size_t)problem->dofs : 0;
@@ -237,7 +270,7 @@ rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
     if (s == RB_OK) {
         for (size_t i = 0; v && i < n; i++)
             at[i] = v[i];
-        s = rb_friction_measure_error(&measure, r, at, u ? u : own, error);
+        s = rb_friction_measure_error(&measure, r, at, u ? u : own, scaled, paper);
     }
     if (s == RB_OK && floor)
         *floor = rb_friction_measure_floor(&measure, r, at);
@@ -245,4 +278,17 @@ rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
     free(at);
     free(own);
     return s;
+}
+
+rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
+                            const double *v, double *u, double *error, double *floor)
+{
+    double scaled;
+    return error_of(problem, r, v, u, &scaled, error, floor);
+}
+
+rb_status rb_friction_scaled_error(const rb_friction_problem *problem, const double *r,
+                                   const double *v, double *u, double *error)
+{
+    return error_of(problem, r, v, u, error, NULL, NULL);
 }

@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define STEPS 200
 #define MEMORY 5 /* merit values a step may rise to */
@@ -19,23 +18,32 @@ typedef struct {
     double *F, *A, *B, *e; /* at the iterate */
     double *dr, *du, *dv;
     double *r, *u, *v; /* m, m, n: trial */
-    double *best_r, *best_v, best;
     double history[MEMORY];
     double shift;
+    double last; /* operations of the last step; before it, an estimate */
+    int k, limit, line_search;
 } newton;
 
-static void newton_free(newton *s)
+static void finish_newton(void *state)
 {
+    newton *s = state;
     rb_friction_system_free(&s->system);
     free(s->F);
 }
 
-static rb_status newton_init(rb_friction_task *task, rb_friction_function *function,
-                             newton *s)
+static rb_status start_newton(rb_friction_task *task, int variant, void *state)
 {
+    static rb_friction_function *const functions[] = {
+        rb_friction_alart_curnier, rb_friction_jean_moreau, rb_friction_natural_map,
+        rb_friction_fischer_burmeister};
     const size_t m = (size_t)task->m, n = (size_t)task->n, d = (size_t)task->d;
-    *s = (newton){.task = task, .function = function, .best = INFINITY};
-    s->F = rb_alloc(m * (6 + 2 * d) + 4 * n, 1);
+    newton *s = state;
+    *s = (newton){.task = task,
+                  .function = functions[variant & ~RB_FRICTION_LINE_SEARCH],
+                  .line_search = variant & RB_FRICTION_LINE_SEARCH,
+                  .limit = rb_friction_task_left(task, STEPS),
+                  .shift = LEAST_SHIFT};
+    s->F = rb_alloc(m * (5 + 2 * d) + 3 * n, 1);
     if (!s->F)
         return RB_ENOMEM;
     s->A = s->F + m;
@@ -44,18 +52,12 @@ static rb_status newton_init(rb_friction_task *task, rb_friction_function *funct
     s->du = s->dr + m;
     s->r = s->du + m;
     s->u = s->r + m;
-    s->best_r = s->u + m;
-    s->best_v = s->best_r + m;
-    s->e = s->best_v + n;
+    s->e = s->u + m;
     s->dv = s->e + n;
     s->v = s->dv + n;
     for (int k = 0; k < MEMORY; k++)
         s->history[k] = INFINITY;
-    s->shift = LEAST_SHIFT;
-    const rb_status st = rb_friction_system_init(task, &s->system);
-    if (st != RB_OK)
-        newton_free(s);
-    return st;
+    return rb_friction_system_init(task, &s->system);
 }
 
 /* F at (r, u), and A, B where wanted; returns ||F||^2 */
@@ -130,16 +132,6 @@ static double step_length(newton *s, double merit, double imbalance)
     return best;
 }
 
-static void keep_best(newton *s, double error)
-{
-    const rb_friction_task *t = s->task;
-    if (!(error < s->best))
-        return;
-    s->best = error;
-    memcpy(s->best_r, t->r, (size_t)t->m * sizeof(double));
-    memcpy(s->best_v, t->v, (size_t)t->n * sizeof(double));
-}
-
 static void move(newton *s, double t)
 {
     rb_friction_task *k = s->task;
@@ -149,86 +141,59 @@ static void move(newton *s, double t)
         k->v[i] += t * s->dv[i];
 }
 
-static rb_status iterate(newton *s, int line_search, int limit)
+static rb_status step(newton *s)
 {
     rb_friction_task *t = s->task;
-    for (int k = 0; k <= limit; k++) {
-        const double error = rb_friction_task_error(t);
-        keep_best(s, error);
-        if (rb_friction_task_accepts(t, error))
-            return RB_OK;
-        if (!isfinite(error))
-            return RB_SINGULAR;
-        if (k == limit)
-            break;
-        if (rb_friction_task_late(t))
-            return RB_INTERRUPTED;
-        const double merit = evaluate(s, t->r, t->u, s->F);
-        rb_friction_system_imbalance(&s->system, t->r, t->v, s->e);
-        const rb_status st = direction(s);
-        if (st != RB_OK)
-            return st;
+    const double before = t->info->flops;
+    const double merit = evaluate(s, t->r, t->u, s->F);
+    rb_friction_system_imbalance(&s->system, t->r, t->v, s->e);
+    const rb_status st = direction(s);
+    if (st == RB_OK) {
         const double e = rb_friction_norm((size_t)t->n, s->e), imbalance = e * e;
-        s->history[k % MEMORY] = merit + imbalance;
-        move(s, line_search ? step_length(s, merit + imbalance, imbalance) : 1.0);
+        s->history[s->k % MEMORY] = merit + imbalance;
+        move(s, s->line_search ? step_length(s, merit + imbalance, imbalance) : 1.0);
         t->info->iters++;
     }
-    return RB_MAXITER;
-}
-
-static rb_status solve(rb_friction_task *task, rb_friction_function *function,
-                       int line_search)
-{
-    newton s;
-    rb_status st = newton_init(task, function, &s);
-    if (st != RB_OK)
-        return st;
-    st = iterate(&s, line_search, rb_friction_task_left(task, STEPS));
-    if (isfinite(s.best)) {
-        memcpy(task->r, s.best_r, (size_t)task->m * sizeof(double));
-        memcpy(task->v, s.best_v, (size_t)task->n * sizeof(double));
-    }
-    task->info->flops += s.system.flops;
-    newton_free(&s);
+    t->info->flops += s->system.flops;
+    s->system.flops = 0.0;
+    s->last = t->info->flops - before;
     return st;
 }
 
-rb_status rb_friction_nsn_ac(rb_friction_task *task)
+/* RB_MAXITER: not there yet. */
+static rb_status judge(newton *s)
 {
-    return solve(task, rb_friction_alart_curnier, 1);
+    rb_friction_task *t = s->task;
+    const double error = rb_friction_task_error(t);
+    if (rb_friction_task_accepts(t, error))
+        return RB_OK;
+    if (!isfinite(error))
+        return RB_SINGULAR;
+    return rb_friction_task_late(t) ? RB_INTERRUPTED : RB_MAXITER;
 }
 
-rb_status rb_friction_nsn_jm(rb_friction_task *task)
+static rb_status go_on_stepping(void *state)
 {
-    return solve(task, rb_friction_jean_moreau, 1);
+    newton *s = state;
+    rb_friction_task *t = s->task;
+    rb_status st = s->k ? RB_MAXITER : judge(s);
+    if (st == RB_MAXITER && s->last == 0.0 && isfinite(t->budget) &&
+        rb_friction_system_estimate(&s->system, &s->last) == RB_ENOMEM)
+        return RB_ENOMEM;
+    while (st == RB_MAXITER && s->k < s->limit && rb_friction_task_left(t, 1)) {
+        if (t->info->flops + s->last > t->budget) {
+            t->budget = t->info->flops; /* a step more would cost too much */
+            return st;
+        }
+        st = step(s);
+        s->k++;
+        if (st == RB_OK)
+            st = judge(s);
+    }
+    return st;
 }
 
-rb_status rb_friction_nsn_nm(rb_friction_task *task)
-{
-    return solve(task, rb_friction_natural_map, 1);
-}
-
-rb_status rb_friction_nsn_fb(rb_friction_task *task)
-{
-    return solve(task, rb_friction_fischer_burmeister, 1);
-}
-
-rb_status rb_friction_nsn_ac_nls(rb_friction_task *task)
-{
-    return solve(task, rb_friction_alart_curnier, 0);
-}
-
-rb_status rb_friction_nsn_jm_nls(rb_friction_task *task)
-{
-    return solve(task, rb_friction_jean_moreau, 0);
-}
-
-rb_status rb_friction_nsn_nm_nls(rb_friction_task *task)
-{
-    return solve(task, rb_friction_natural_map, 0);
-}
-
-rb_status rb_friction_nsn_fb_nls(rb_friction_task *task)
-{
-    return solve(task, rb_friction_fischer_burmeister, 0);
-}
+const rb_friction_method rb_friction_newton = {.size = sizeof(newton),
+                                               .start = start_newton,
+                                               .go_on = go_on_stepping,
+                                               .finish = finish_newton};

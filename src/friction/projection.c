@@ -12,35 +12,39 @@ typedef struct {
     rb_friction_task *task;
     const rb_friction_blocks *blocks;
     double *uhat, *p, *up; /* at r; the projected point; uhat there */
-    double rho;
+    double rho, tau;       /* tau: change at which the measure is worth a look */
+    int k, limit, extragradient;
 } projector;
 
-static rb_status projector_init(rb_friction_task *task, projector *s)
+static void uhat_at(const projector *s, const double *r, double *uhat);
+
+static rb_status start_projections(rb_friction_task *task, int variant, void *state)
 {
     const size_t m = (size_t)task->m;
-    *s = (projector){.task = task, .uhat = rb_alloc(m, 3)};
-    double *rho = rb_alloc((size_t)task->contacts, 2);
-    rb_status st = s->uhat && rho ? RB_OK : RB_ENOMEM;
-    if (st == RB_OK)
-        st = rb_friction_task_blocks(task, &s->blocks);
-    if (st == RB_OK) {
-        s->p = s->uhat + m;
-        s->up = s->p + m;
-        rb_friction_blocks_rho(s->blocks, rho);
-        s->rho = rho[0];
-    }
-    free(rho);
-    return st;
+    projector *s = state;
+    *s = (projector){.task = task,
+                     .uhat = rb_alloc(m, 3),
+                     .rho = task->measure->rho[0],
+                     .tau = task->opt.tol,
+                     .limit = rb_friction_task_left(task, STEPS),
+                     .extragradient = variant == RB_FRICTION_EXTRAGRADIENT};
+    const rb_status st = s->uhat ? rb_friction_task_blocks(task, &s->blocks) : RB_ENOMEM;
+    if (st != RB_OK)
+        return st;
+    s->p = s->uhat + m;
+    s->up = s->p + m;
+    uhat_at(s, task->r, s->uhat);
+    return RB_OK;
 }
 
-static void projector_free(projector *s)
+static void finish_projections(void *state)
 {
-    free(s->uhat);
+    free(((projector *)state)->uhat);
 }
 
 static void uhat_at(const projector *s, const double *r, double *uhat)
 {
-    const rb_friction_problem *p = s->task->local;
+    const rb_friction_problem *p = s->task->shared->local;
     const int d = p->dimension;
     rb_friction_blocks_apply(s->blocks, r, uhat);
     for (int c = 0; c < p->contacts; c++) {
@@ -58,7 +62,7 @@ static void project_all(const projector *s, const double *uhat, double *p)
     for (int k = 0; k < t->m; k++)
         p[k] = t->r[k] - s->rho * uhat[k];
     for (int c = 0; c < t->contacts; c++)
-        rb_friction_project(t->d, t->local->mu[c], p + c * t->d, p + c * t->d);
+        rb_friction_project(t->d, t->problem->mu[c], p + c * t->d, p + c * t->d);
     t->info->flops += 12.0 * t->m;
 }
 
@@ -72,7 +76,7 @@ static double distance(int n, const double *x, const double *y)
 
 /* One step from r, uhat; ||r_{k+1} - r_k|| / ||r_{k+1}||.  rho shrinks until the step
  * passes, and grows where it passed easily. */
-static double advance(projector *s, int extragradient)
+static double advance(projector *s)
 {
     rb_friction_task *t = s->task;
     double step, ratio;
@@ -85,7 +89,7 @@ static double advance(projector *s, int extragradient)
             break;
         s->rho *= RB_FRICTION_UPK_SHRINK;
     }
-    if (extragradient) {
+    if (s->extragradient) {
         project_all(s, s->up, s->p);
         step = distance(t->m, s->p, t->r);
         uhat_at(s, s->p, s->up);
@@ -98,49 +102,39 @@ static double advance(projector *s, int extragradient)
     return norm > 0.0 ? step / norm : step;
 }
 
-static rb_status iterate(projector *s, int extragradient, int limit)
+static rb_status judge(projector *s, double change)
 {
     rb_friction_task *t = s->task;
-    double tau = t->opt.tol, error = rb_friction_task_error(t);
+    const double error = rb_friction_task_error(t);
     if (rb_friction_task_accepts(t, error))
         return RB_OK;
-    uhat_at(s, t->r, s->uhat);
-    for (int k = 1; k <= limit; k++) {
-        const double change = advance(s, extragradient);
-        t->info->iters++;
-        if (rb_friction_task_late(t))
-            return RB_INTERRUPTED;
-        if (change > tau && k % 200 && k < limit)
-            continue;
-        error = rb_friction_task_error(t);
-        if (rb_friction_task_accepts(t, error))
-            return RB_OK;
-        if (!isfinite(error))
-            return RB_SINGULAR;
-        if (change <= 1e-17)
-            return RB_INACCURATE;
-        if (change <= tau)
-            tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
-    }
+    if (!isfinite(error))
+        return RB_SINGULAR;
+    if (change <= 1e-17)
+        return RB_INACCURATE;
+    if (change <= s->tau)
+        s->tau = fmin(0.5 * change, 0.9 * change * t->opt.tol / error);
     return RB_MAXITER;
 }
 
-static rb_status solve(rb_friction_task *task, int extragradient)
+static rb_status go_on_projecting(void *state)
 {
-    projector s;
-    rb_status st = projector_init(task, &s);
-    if (st == RB_OK)
-        st = iterate(&s, extragradient, rb_friction_task_left(task, STEPS));
-    projector_free(&s);
+    projector *s = state;
+    rb_friction_task *t = s->task;
+    rb_status st = s->k ? RB_MAXITER : judge(s, INFINITY);
+    while (st == RB_MAXITER && s->k < s->limit && rb_friction_task_goes_on(t)) {
+        const double change = advance(s);
+        s->k++;
+        t->info->iters++;
+        if (rb_friction_task_late(t))
+            return RB_INTERRUPTED;
+        if (change <= s->tau || s->k % 200 == 0 || s->k == s->limit)
+            st = judge(s, change);
+    }
     return st;
 }
 
-rb_status rb_friction_fixed_point(rb_friction_task *task)
-{
-    return solve(task, 0);
-}
-
-rb_status rb_friction_extragradient(rb_friction_task *task)
-{
-    return solve(task, 1);
-}
+const rb_friction_method rb_friction_projections = {.size = sizeof(projector),
+                                                    .start = start_projections,
+                                                    .go_on = go_on_projecting,
+                                                    .finish = finish_projections};

@@ -16,7 +16,8 @@
 
 typedef struct {
     const rb_friction_soclcp_problem *p;
-    double tol, scale, deadline;
+    double unit; /* y in units of x: the mean of M's diagonal is 1 */
+    double tol, deadline;
     double *y, *s, *P; /* n; x - y; its projection */
     double *D;         /* largest cone squared */
     double *J;         /* n x n */
@@ -28,10 +29,10 @@ static void image(canonical *c, double eps, const double *x, double *y)
 {
     const int n = c->p->n;
     for (int i = 0; i < n; i++)
-        y[i] = c->p->q[i] + eps * x[i];
+        y[i] = c->unit * c->p->q[i] + eps * x[i];
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++)
-            y[i] += c->p->M[i + (size_t)j * (size_t)n] * x[j];
+            y[i] += c->unit * c->p->M[i + (size_t)j * (size_t)n] * x[j];
     c->flops += 2.0 * n * (double)n;
 }
 
@@ -70,7 +71,7 @@ static rb_status canonical_step(void *context, double mu, double eps, const doub
             for (int a = 0; a < size; a++) {
                 double sum = at + a == j;
                 for (int b = 0; b < size; b++) {
-                    const double m = c->p->M[at + b + (size_t)j * (size_t)n];
+                    const double m = c->unit * c->p->M[at + b + (size_t)j * (size_t)n];
                     sum += c->D[a + b * size] * (m + (eps - 1.0) * (at + b == j));
                 }
                 c->J[at + a + (size_t)j * (size_t)n] = sum;
@@ -90,13 +91,13 @@ static int canonical_late(void *context)
     return c->deadline > 0.0 && rb_seconds() > c->deadline;
 }
 
-/* ||x - P(x - y)|| on one Lorentz cone of any size */
-static double cone_error(int size, const double *x, const double *y)
+/* ||x - P(x - unit y)|| on one Lorentz cone of any size */
+static double cone_error(int size, double unit, const double *x, const double *y)
 {
-    const double s0 = x[0] - y[0];
+    const double s0 = x[0] - unit * y[0];
     double t = 0.0, sum = 0.0;
     for (int a = 1; a < size; a++)
-        t = hypot(t, x[a] - y[a]);
+        t = hypot(t, x[a] - unit * y[a]);
     /* of s = x - y: P(s) = (p_0, g s_1) */
     double p0 = s0, g = 1.0;
     if (s0 <= -t) {
@@ -106,12 +107,13 @@ static double cone_error(int size, const double *x, const double *y)
         g = p0 / t;
     }
     for (int a = 1; a < size; a++)
-        sum = hypot(sum, x[a] - g * (x[a] - y[a]));
+        sum = hypot(sum, x[a] - g * (x[a] - unit * y[a]));
     return hypot(sum, x[0] - p0);
 }
 
-double rb_friction_soclcp_error(const rb_friction_soclcp_problem *p, const double *x,
-                                double *y)
+/* ||x - P(x - unit y)|| / ||unit q|| */
+static double error_in(const rb_friction_soclcp_problem *p, double unit, const double *x,
+                       double *y)
 {
     const int n = p->n;
     double sum = 0.0, norm = 0.0;
@@ -123,14 +125,29 @@ double rb_friction_soclcp_error(const rb_friction_soclcp_problem *p, const doubl
         for (int i = 0; i < n; i++)
             y[i] += p->M[i + (size_t)j * (size_t)n] * x[j];
     for (int k = 0, at = 0; k < p->cones; at += p->size[k++])
-        sum = hypot(sum, cone_error(p->size[k], x + at, y + at));
-    return norm > 0.0 ? sum / norm : sum;
+        sum = hypot(sum, cone_error(p->size[k], unit, x + at, y + at));
+    return norm > 0.0 ? sum / (unit * norm) : sum;
+}
+
+double rb_friction_soclcp_error(const rb_friction_soclcp_problem *p, const double *x,
+                                double *y)
+{
+    return error_in(p, 1.0, x, y);
+}
+
+/* The inverse of the mean of M's diagonal */
+static double unit_of(const rb_friction_soclcp_problem *p)
+{
+    double trace = 0.0;
+    for (size_t i = 0; i < (size_t)p->n; i++)
+        trace += fabs(p->M[i + i * (size_t)p->n]);
+    return trace > 0.0 ? p->n / trace : 1.0;
 }
 
 static int canonical_accepts(void *context, const double *x)
 {
     canonical *c = context;
-    return rb_friction_soclcp_error(c->p, x, c->y) <= c->tol;
+    return error_in(c->p, c->unit, x, c->y) <= c->tol;
 }
 
 static rb_status check_canonical(const rb_friction_soclcp_problem *p, int *largest,
@@ -198,22 +215,25 @@ rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p,
     rb_friction_info unwanted;
     if (!info)
         info = &unwanted;
-    *info = (rb_friction_info){.solver = "soclcp-smoothing", .residual = INFINITY};
+    *info = (rb_friction_info){
+        .solver = "soclcp-smoothing", .residual = INFINITY, .scaled = INFINITY};
     rb_status s = check_canonical(p, &largest, &info->msg);
     if (s != RB_OK)
         return s;
     canonical c = {.p = p,
+                   .unit = unit_of(p),
                    .tol = used.tol,
                    .deadline = used.seconds > 0.0 ? start + used.seconds : 0.0};
     for (int i = 0; i < p->n; i++)
         x[i] = used.r0 ? used.r0[i] : 0.0;
     s = run_canonical(&c, largest, used.max_iters ? used.max_iters : LIMIT, x,
                       &info->iters);
+    info->scaled = error_in(p, c.unit, x, y);
     info->residual = rb_friction_soclcp_error(p, x, y);
     info->flops = c.flops;
     info->seconds = rb_seconds() - start;
     if (s >= 0)
-        s = info->residual <= used.tol ? RB_OK : s == RB_OK ? RB_INACCURATE : s;
+        s = info->scaled <= used.tol ? RB_OK : s == RB_OK ? RB_INACCURATE : s;
     return s;
 }
 
@@ -399,8 +419,9 @@ static rb_status run_friction(friction *f, double *z)
     return st;
 }
 
-rb_status rb_friction_soclcp_smoothing(rb_friction_task *task)
+static rb_status run_smoothing(rb_friction_task *task, int variant)
 {
+    (void)variant;
     const size_t m = (size_t)task->m, d = (size_t)task->d, nc = (size_t)task->contacts;
     friction f = {.task = task};
     f.u = rb_alloc(m * (3 + 2 * d) + nc * (2 + 2 * d), 1);
@@ -420,3 +441,5 @@ rb_status rb_friction_soclcp_smoothing(rb_friction_task *task)
     free(f.u);
     return st;
 }
+
+const rb_friction_method rb_friction_smoothing_method = {.run = run_smoothing};

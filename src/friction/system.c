@@ -18,44 +18,6 @@ void rb_friction_system_free(rb_friction_system *s)
     *s = (rb_friction_system){0};
 }
 
-/* ---- rho: the inverse of each contact's own compliance --------------------------------
- */
-
-/* Of finite-element structures diag(K)^-1 is about a tenth of a node's compliance. */
-#define DIAGONAL_SHARE 0.1
-
-/* Global form: from the diagonal of H' diag(K)^-1 H. */
-static rb_status global_rho(const rb_friction_problem *p, double *rho)
-{
-    const rb_sparse *h = &p->H;
-    const int d = p->dimension;
-    double *diagonal = rb_alloc((size_t)p->dofs, 1);
-    if (!diagonal)
-        return RB_ENOMEM;
-    for (int j = 0; j < p->dofs; j++)
-        for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++)
-            if (p->K.i[k] == j)
-                diagonal[j] = p->K.x[k];
-    for (int j = 0; j < h->cols; j++) {
-        double w = 0.0, *at = &rho[2 * (j / d) + (j % d > 0)];
-        for (int k = h->p[j]; k < h->p[j + 1]; k++)
-            if (diagonal[h->i[k]] > 0.0)
-                w += h->x[k] * h->x[k] / (DIAGONAL_SHARE * diagonal[h->i[k]]);
-        *at = fmax(*at, w);
-    }
-    rb_friction_invert_compliances(p->contacts, rho);
-    free(diagonal);
-    return RB_OK;
-}
-
-static rb_status choose_rho(rb_friction_system *s)
-{
-    if (s->n)
-        return global_rho(s->problem, s->rho);
-    rb_friction_blocks_rho(s->blocks, s->rho);
-    return RB_OK;
-}
-
 /* ---- Global form: the transposed matrix, whose columns are the equations -------------
  */
 
@@ -118,7 +80,7 @@ rb_status rb_friction_system_init(rb_friction_task *task, rb_friction_system *s)
         st = task->n ? global_pattern(s) : rb_friction_task_blocks(task, &s->blocks);
     }
     if (st == RB_OK)
-        st = choose_rho(s);
+        st = rb_friction_rho(task->n ? task->problem : task->shared->local, s->rho);
     if (st != RB_OK)
         rb_friction_system_free(s);
     return st;
@@ -256,6 +218,22 @@ static rb_status global_step(rb_friction_system *s, const double *A, const doubl
     return rb_friction_system_is_dense(order, s->j.p[order] / ((double)order * order))
                ? solve_global_dense(s)
                : solve_global_sparse(s);
+}
+
+rb_status rb_friction_system_estimate(rb_friction_system *s, double *flops)
+{
+    const double order = s->n + s->m, nc = s->contacts;
+    const double fill = s->n ? s->j.p[s->n + s->m] / (order * order)
+                             : s->blocks->p[s->contacts] / (nc * nc);
+    rb_status st = RB_OK;
+    *flops = 2.0 / 3.0 * order * order * order;
+    if (rb_friction_system_is_dense((int)order, fill))
+        return st;
+    if (!s->lu)
+        st = s->n ? rb_sparse_lu_create(&s->j, &s->lu) : rb_friction_local_pattern(s);
+    if (st == RB_OK)
+        *flops = rb_sparse_lu_estimate(s->lu);
+    return st;
 }
 
 rb_status rb_friction_system_step(rb_friction_system *s, const double *A, const double *B,

@@ -109,7 +109,7 @@ static void spread(rb_friction_system *s, const double *F)
 /* ---- Sparse --------------------------------------------------------------------------
  */
 
-static rb_status make_pattern(rb_friction_system *s)
+rb_status rb_friction_local_pattern(rb_friction_system *s)
 {
     const rb_friction_blocks *w = s->blocks;
     const int d = s->d;
@@ -148,7 +148,7 @@ static void fill_sparse(rb_friction_system *s, const double *A, const double *B)
 static rb_status solve_sparse(rb_friction_system *s, const double *A, const double *B,
                               const double *F)
 {
-    rb_status st = s->lu ? RB_OK : make_pattern(s);
+    rb_status st = s->lu ? RB_OK : rb_friction_local_pattern(s);
     if (st != RB_OK)
         return st;
     fill_sparse(s, A, B);

@@ -1,0 +1,177 @@
+/* One solve in progress: what the methods ask, and how they are run. */
+#include "friction/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- What methods on one problem share ----------------------------------------------
+ */
+
+rb_status rb_friction_shared_init(const rb_friction_problem *problem,
+                                  rb_friction_shared *shared, rb_message *why)
+{
+    *shared = (rb_friction_shared){.problem = problem};
+    if (problem->form != RB_FRICTION_GLOBAL)
+        shared->local = problem;
+    const rb_status s = rb_friction_measure_init(problem, &shared->measure);
+    if (s == RB_SINGULAR)
+        return rb_fail(why, s,
+                       "K is singular even with every contact held: the structure has "
+                       "motions that no contact sees");
+    return s;
+}
+
+void rb_friction_shared_free(rb_friction_shared *shared)
+{
+    rb_friction_measure_free(&shared->measure);
+    rb_friction_blocks_free(&shared->blocks);
+    rb_friction_problem_free(&shared->condensed);
+    *shared = (rb_friction_shared){0};
+}
+
+rb_status rb_friction_task_condense(rb_friction_task *task)
+{
+    rb_friction_shared *shared = task->shared;
+    if (shared->local)
+        return RB_OK;
+    const rb_status s =
+        rb_friction_condense(shared->problem, &shared->condensed, &task->info->msg);
+    if (s == RB_OK)
+        shared->local = &shared->condensed;
+    return s;
+}
+
+rb_status rb_friction_task_blocks(rb_friction_task *task,
+                                  const rb_friction_blocks **blocks)
+{
+    rb_friction_shared *shared = task->shared;
+    *blocks = &shared->blocks;
+    return shared->blocks.x ? RB_OK
+                            : rb_friction_blocks_init(shared->local, &shared->blocks);
+}
+
+/* ---- The measure ----------------------------------------------------------------------
+ */
+
+static void count_measure(rb_friction_task *task)
+{
+    const rb_friction_problem *p = task->problem;
+    const double m = task->m;
+    task->info->flops += 25.0 * m;
+    if (p->form == RB_FRICTION_LOCAL_DENSE)
+        task->info->flops += 2.0 * m * m;
+    else if (p->form == RB_FRICTION_LOCAL_SPARSE)
+        task->info->flops += 2.0 * p->Ws.p[task->m];
+    else
+        task->info->flops += 4.0 * p->H.p[task->m] + 2.0 * p->K.p[task->n];
+}
+
+/* An iterate at or below the tolerance that was not accepted is so large that the measure
+ * does not see it: it is no candidate. */
+void rb_friction_task_seen(rb_friction_task *task, double error)
+{
+    rb_friction_record *best = task->best;
+    if (task->opt.progress) {
+        const rb_friction_progress at = {task->info->solver, task->info->iters,
+                                         task->info->flops, error, task->r};
+        task->shared->stop |= task->opt.progress(&at, task->opt.context) != 0;
+    }
+    if (!(error < best->error) || error <= task->opt.tol)
+        return;
+    best->error = error;
+    best->solver = task->info->solver;
+    memcpy(best->r, task->r, (size_t)task->m * sizeof(double));
+    memcpy(best->r + task->m, task->v, (size_t)task->n * sizeof(double));
+}
+
+double rb_friction_task_error(rb_friction_task *task)
+{
+    double error;
+    rb_friction_measure_error(task->measure, task->r, task->v, task->u, &error, NULL);
+    count_measure(task);
+    rb_friction_task_seen(task, error);
+    return error;
+}
+
+/* A floor beyond this means an iterate that runs away, not rounding. */
+#define LARGEST_FLOOR 1e-6
+
+int rb_friction_task_accepts(const rb_friction_task *task, double error)
+{
+    double allowed = task->opt.tol;
+    if (!(error <= allowed) && !(error <= LARGEST_FLOOR))
+        return 0;
+    const double least = rb_friction_measure_resolution(task->measure, task->r);
+    /* the floor costs as much as the error: ask only when it can matter */
+    if (error > allowed || least > allowed)
+        allowed = fmax(allowed,
+                       fmin(LARGEST_FLOOR,
+                            rb_friction_measure_floor(task->measure, task->r, task->v)));
+    return error <= allowed && least <= allowed;
+}
+
+int rb_friction_prove(rb_friction_task *task)
+{
+    rb_friction_info *info = task->info;
+    rb_friction_measure_error(task->measure, task->r, task->v, task->u, &info->scaled,
+                              &info->residual);
+    info->floor = rb_friction_measure_floor(task->measure, task->r, task->v);
+    count_measure(task);
+    return rb_friction_task_accepts(task, info->scaled);
+}
+
+/* ---- Limits
+ * ----------------------------------------------------------------------------- */
+
+int rb_friction_task_left(const rb_friction_task *task, int own)
+{
+    const int most = task->opt.max_iters;
+    if (!most)
+        return own;
+    const int left = most > task->info->iters ? most - task->info->iters : 0;
+    return left < own ? left : own;
+}
+
+int rb_friction_task_goes_on(const rb_friction_task *task)
+{
+    return task->info->flops < task->budget && rb_friction_task_left(task, 1);
+}
+
+int rb_friction_task_late(const rb_friction_task *task)
+{
+    return task->shared->stop || (task->deadline > 0.0 && rb_seconds() > task->deadline);
+}
+
+/* ---- Runs
+ * ------------------------------------------------------------------------------- */
+
+rb_status rb_friction_run(rb_friction_task *task, const rb_friction_method *method,
+                          int variant, int limit)
+{
+    if (method->run)
+        return method->run(task, variant);
+    void *state = calloc(1, method->size);
+    if (!state)
+        return RB_ENOMEM;
+    const int given = task->opt.max_iters;
+    if (limit)
+        task->opt.max_iters = task->info->iters + rb_friction_task_left(task, limit);
+    rb_status s = method->start(task, variant, state);
+    if (s == RB_OK)
+        s = method->go_on(state);
+    method->finish(state);
+    free(state);
+    task->opt.max_iters = given;
+    return s;
+}
+
+void rb_friction_task_recall(rb_friction_task *task)
+{
+    const rb_friction_record *best = task->best;
+    if (!isfinite(best->error))
+        return;
+    memcpy(task->r, best->r, (size_t)task->m * sizeof(double));
+    memcpy(task->v, best->r + task->m, (size_t)task->n * sizeof(double));
+    task->info->solver = best->solver;
+}

@@ -1,0 +1,246 @@
+/* What auto does beside its members, on the packings of examples/packings: stacks, walls
+ * and heaps with more contact equations than motions. */
+#define _XOPEN_SOURCE 700
+#include "check.h"
+#include "friction/internal.h"
+
+#include <string.h>
+#include <unistd.h>
+
+/* The problem that `packings ARGUMENTS` prints, W sparse. */
+static void packing(const char *arguments, rb_friction_problem *p)
+{
+    const char *build = getenv("B") ? getenv("B") : "build";
+    char name[] = "/tmp/rollbem-packing-XXXXXX", command[400];
+    rb_message why = {""};
+    const int file = mkstemp(name);
+    assert_true(file >= 0);
+    close(file);
+    snprintf(command, sizeof command, "%s/packings %s > %s", build, arguments, name);
+    assert_int_equal(system(command), 0);
+    const rb_status s = rb_friction_read(name, p, &why);
+    unlink(name);
+    if (s != RB_OK)
+        print_error("%s\n", why.text);
+    CHECK_STATUS(s, RB_OK);
+    const int m = p->dimension * p->contacts;
+    if (p->form == RB_FRICTION_LOCAL_DENSE)
+        CHECK_STATUS(rb_sparse_from_dense(m, m, p->W, m, &p->Ws), RB_OK);
+    p->form = RB_FRICTION_LOCAL_SPARSE;
+}
+
+/* Coulomb's law contact by contact, from r alone; in units of velocity over ||q||.  W is
+ * sparse. */
+static double violation(const rb_friction_problem *p, const double *r)
+{
+    const int d = p->dimension, m = d * p->contacts;
+    double *u = rb_alloc((size_t)m, 1), worst = 0.0, q = 0.0;
+    for (int i = 0; i < m; i++)
+        u[i] = p->q[i], q = hypot(q, p->q[i]);
+    for (int j = 0; j < m; j++)
+        for (int k = p->Ws.p[j]; k < p->Ws.p[j + 1]; k++)
+            u[p->Ws.i[k]] += p->Ws.x[k] * r[j];
+    for (int c = 0; c < p->contacts; c++) {
+        const double *rc = r + c * d, *uc = u + c * d, mu = p->mu[c];
+        const double rt = d == 2 ? fabs(rc[1]) : hypot(rc[1], rc[2]);
+        const double ut = d == 2 ? fabs(uc[1]) : hypot(uc[1], uc[2]);
+        worst = fmax(worst, fmax(-uc[0], fmin(rc[0], uc[0]))); /* W_NN is about 1 */
+        worst = fmax(worst, fmax(-rc[0], rt - mu * rc[0]));
+        worst = fmax(worst, fmin(ut, mu * rc[0] - rt)); /* slips only at the limit */
+    }
+    free(u);
+    return worst / q;
+}
+
+/* Newton from zero needs few steps, or fails on these problems. */
+static rb_status run(const char *solver, const rb_friction_problem *p, double *r,
+                     rb_friction_info *info)
+{
+    double *u = rb_alloc((size_t)(p->dimension * p->contacts), 1);
+    rb_friction_options opt = rb_friction_defaults();
+    opt.max_iters = strncmp(solver, "nsn", 3) ? 0 : 25;
+    const rb_status s = rb_friction_solve(solver, p, &opt, r, u, NULL, info);
+    free(u);
+    return s;
+}
+
+/* auto beside the solvers named: at most `most` times the operations of the best one, and
+ * 1.1 times those of its first member where that needs no more than its first turn. */
+static void compare(const char *name, const rb_friction_problem *p, double most)
+{
+    static const char *const members[] = {"nsgs-aa", "nsgs-ac", "nsn-ac", "nsn-fb"};
+    const size_t m = (size_t)(p->dimension * p->contacts);
+    double *r = rb_alloc(m, 1), best = INFINITY;
+    rb_friction_info info, first = {0};
+    for (int k = 0; k < 4; k++) {
+        if (run(members[k], p, r, &info) == RB_OK)
+            best = fmin(best, info.flops);
+        if (k == 0)
+            first = info;
+    }
+    CHECK_STATUS(run("auto", p, r, &info), RB_OK);
+    CHECK_MAX(violation(p, r), 1e-7, "%s", name);
+    CHECK_MAX(info.flops, most * best, "%s", name);
+    if (first.iters <= 100 && !strcmp(info.solver, "nsgs-aa"))
+        CHECK_MAX(info.flops, 1.1 * first.flops, "%s: the first turn", name);
+    free(r);
+}
+
+static void auto_loses_little_to_its_members(void **state)
+{
+    (void)state;
+    static const char *const packings[] = {
+        "boxes 4 0.3 1",   "boxes 30 0.5 3",  "boxes 100 0.1 4", "discs 25 0 2",
+        "discs 60 0.5 3",  "discs 200 0.2 5", "bricks 3 0.5 1",  "bricks 8 0.3 2",
+        "bricks 20 0.6 3", "spheres 3 0.2 1", "spheres 8 0.4 2", "spheres 40 0.5 4"};
+    for (size_t k = 0; k < sizeof packings / sizeof *packings; k++) {
+        rb_friction_problem p;
+        packing(packings[k], &p);
+        compare(packings[k], &p, 3.0);
+        rb_friction_problem_free(&p);
+    }
+}
+
+/* 24 s and 18.7 s where plain sweeps took 0.03 and 0.13. */
+static void auto_on_the_packings_it_lost_on(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"packings/boxes2d_300_mu2.0.dat",
+                                        "packings/disks2d_300_mu0.5.dat"};
+    for (int k = 0; k < 2; k++) {
+        rb_friction_problem p;
+        rb_message why;
+        rb_friction_info plain, fast;
+        CHECK_STATUS(rb_friction_read(outside_data(files[k]), &p, &why), RB_OK);
+        compare(files[k], &p, 3.0);
+        double *r = rb_alloc((size_t)(2 * p.contacts), 1);
+        CHECK_STATUS(run("nsgs-ac", &p, r, &plain), RB_OK);
+        CHECK_STATUS(run("nsgs-aa", &p, r, &fast), RB_OK);
+        CHECK_MAX(fast.iters, plain.iters, "%s: acceleration", files[k]);
+        free(r);
+        rb_friction_problem_free(&p);
+    }
+}
+
+/* The same path twice, to the last digit. */
+static void auto_repeats_itself(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_friction_info one, two;
+    packing("boxes 100 0.7 2", &p);
+    const size_t m = (size_t)(2 * p.contacts);
+    double *r = rb_alloc(m, 2);
+    CHECK_STATUS(run("auto", &p, r, &one), RB_OK);
+    CHECK_STATUS(run("auto", &p, r + m, &two), RB_OK);
+    assert_int_equal(one.iters, two.iters);
+    assert_true(one.flops == two.flops);
+    assert_int_equal(memcmp(r, r + m, m * sizeof *r), 0);
+    free(r);
+    rb_friction_problem_free(&p);
+}
+
+/* A method that pauses and goes on arrives where it does without pauses. */
+static void pauses_change_nothing(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"nsgs-aa",       "nsgs-ac", "nsn-fb",
+                                        "extragradient", "nsgs-fp", "fixed-point"};
+    rb_friction_problem p;
+    packing("spheres 20 0.4 3", &p);
+    const int m = 3 * p.contacts;
+    double *whole = rb_alloc((size_t)m, 4), *r = whole + m, *u = r + m, *best = u + m;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        const rb_friction_solver *solver = rb_friction_solver_named(names[k]);
+        rb_friction_info info, parts = {0};
+        rb_friction_shared shared;
+        double v[1];
+        rb_friction_record record = {.r = best, .error = INFINITY};
+        CHECK_STATUS(rb_friction_solve(names[k], &p, NULL, whole, u, NULL, &info), RB_OK);
+        CHECK_STATUS(rb_friction_shared_init(&p, &shared, NULL), RB_OK);
+        memset(r, 0, (size_t)m * sizeof *r);
+        rb_friction_task task = {.shared = &shared,
+                                 .problem = &p,
+                                 .measure = &shared.measure,
+                                 .best = &record,
+                                 .opt = rb_friction_defaults(),
+                                 .info = &parts,
+                                 .d = 3,
+                                 .contacts = p.contacts,
+                                 .m = m,
+                                 .r = r,
+                                 .u = u,
+                                 .v = v};
+        void *state_of = calloc(1, solver->run->size);
+        int pauses = -1;
+        rb_status s = solver->run->start(&task, solver->variant, state_of);
+        for (; s == RB_OK; pauses++) {
+            task.budget = parts.flops + info.flops / 5.0;
+            s = solver->run->go_on(state_of);
+            if (s == RB_OK || parts.flops < task.budget)
+                break;
+            s = RB_OK;
+        }
+        solver->run->finish(state_of);
+        free(state_of);
+        rb_friction_shared_free(&shared);
+        CHECK_STATUS(s, RB_OK);
+        assert_true(pauses >= 1);
+        assert_int_equal(parts.iters, info.iters);
+        assert_int_equal(memcmp(r, whole, (size_t)m * sizeof *r), 0);
+    }
+    free(whole);
+    rb_friction_problem_free(&p);
+}
+
+typedef struct {
+    int calls, last;
+} listener;
+
+static int hear(const rb_friction_progress *at, void *context)
+{
+    listener *l = context;
+    assert_non_null(rb_friction_solver_named(at->solver));
+    assert_true(at->error >= 0.0 && at->flops > 0.0);
+    return ++l->calls == l->last;
+}
+
+static void the_caller_hears_and_may_stop(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_friction_info info;
+    packing("boxes 12 0.5 3", &p);
+    double *r = rb_alloc((size_t)(2 * p.contacts), 2), *u = r + 2 * p.contacts;
+    listener l = {0, -1};
+    rb_friction_options opt = rb_friction_defaults();
+    opt.progress = hear;
+    opt.context = &l;
+    int count;
+    const rb_friction_solver *all = rb_friction_solvers(&count);
+    for (int k = 0; k < count; k++) {
+        l = (listener){0, -1};
+        opt.max_iters = 100;
+        rb_friction_solve(all[k].name, &p, &opt, r, u, NULL, &info);
+        if (!l.calls)
+            print_error("%s tells nothing\n", all[k].name);
+        assert_true(l.calls > 0);
+    }
+    l = (listener){0, 2};
+    CHECK_STATUS(rb_friction_solve("auto", &p, &opt, r, u, NULL, &info), RB_INTERRUPTED);
+    assert_int_equal(l.calls, 2);
+    free(r);
+    rb_friction_problem_free(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(auto_loses_little_to_its_members),
+        cmocka_unit_test(auto_on_the_packings_it_lost_on),
+        cmocka_unit_test(auto_repeats_itself),
+        cmocka_unit_test(pauses_change_nothing),
+        cmocka_unit_test(the_caller_hears_and_may_stop),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
