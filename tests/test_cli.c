@@ -369,7 +369,7 @@ static void transient_rolls_step_by_step(void **state)
                         "transient");
     double *x;
     int rows;
-    assert_int_equal(rb_io_read_columns("steps.tsv", 10, &rows, &x, NULL), RB_OK);
+    assert_int_equal(rb_io_read_columns("steps.tsv", 15, &rows, &x, NULL), RB_OK);
     assert_int_equal(rows, steps);
     CHECK_ABS(x[rows - 1 + 5 * rows], member(root, "summary", "tangential_load"), 1e-9,
               "Q of the last step");

@@ -207,16 +207,17 @@ typedef struct {
     const char *gap_file; /* profile of the initial gap, or NULL */
     int similar;          /* B is of A's material */
     double young_b, poisson_b, radius_b;
-    rb_numbers mus;             /* more than one: for curves */
-    const char *history_file;   /* or NULL */
-    rb_rolling_program program; /* its history; n = 0: none */
-    int error;                  /* 1: estimate discretisation errors */
-    double accuracy;            /* refine until they are below this; 0: no */
+    rb_numbers mus;                /* more than one: for curves */
+    const char *irregularity_file; /* or NULL */
+    const char *history_file;      /* or NULL */
+    rb_rolling_program program;    /* its history; n = 0: none */
+    int error;                     /* 1: estimate discretisation errors */
+    double accuracy;               /* refine until they are below this; 0: no */
 } rb_settled_case;
 
 /* Borrowed, valid until c changes. */
 const rb_settled_case *rb_case_settled(const rb_case *c);
-/* 1: transient rolling or a static history. */
+/* 1: transient rolling, a static history or increments. */
 int rb_case_has_steps(const rb_settled_case *settled);
 
 /* ---- Solving ------------------------------------------------------------------------

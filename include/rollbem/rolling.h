@@ -54,6 +54,13 @@ typedef struct {
     rb_rolling_gap gap;
     int profile_n;                         /* RB_GAP_TABLE: points of the initial gap */
     const double *profile_x, *profile_gap; /* [length]; borrowed */
+    /* What a surface has too little (> 0) or too much (< 0) of where it is irregular,
+     * added to the gap: points that begin and end with 0 and lie at these x before
+     * rolling.  It rides with the material, towards -x; `passed` says how far.  Not in
+     * steady. */
+    int irregularity_n;
+    const double *irregularity_x, *irregularity_gap; /* [length]; borrowed */
+    double passed;                                   /* [length]; histories set it */
 
     double mu;
 
@@ -65,6 +72,8 @@ typedef struct {
     double shift, creep, creep_ratio, force, force_ratio;
 
     rb_rolling_formulation formulation;
+    int increments;  /* static, transient: above 1 the bodies are pressed, then loaded
+                        tangentially, in so many increments each (theory.md 5.3) */
     double distance; /* transient: rolled distance / Hertz half-width */
     int steps;       /* transient */
 
@@ -324,6 +333,7 @@ typedef struct {
     rb_rolling_bodies bodies;
     rb_rolling_problem problem;
     rb_rolling_state state;
+    double shift;      /* rigid shift before the state's own, in a history [length] */
     double half_width; /* Hertz's, of the load found last: scale of the ratios */
     double seconds_lcp;
     int iterations; /* of all solves so far */
@@ -352,11 +362,12 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model,
 /* ---- Histories: static increments and transient rolling -------------------------------
  */
 
-/* Controls along the way, one row each; a NULL column keeps the value of the case.
- * Without distance: increments of a static history.  With distance (in Hertz half-widths,
- * not decreasing): rows at distance 0 are static increments, the others are rolled to,
- * with load, approach and force linear in between and the creepage of each step its mean.
- */
+/* Controls along the way, one row each; a NULL column keeps the value of the case, any
+ * other one replaces it.  Without distance: increments of a static history.  With
+ * distance: transient rolling; rows at distance 0 are static increments, the others are
+ * rolled to, with load, approach and force linear in between and the creepage of each
+ * step its mean. Distances do not decrease and count in half-widths: Hertz's of the
+ * largest load of the program (of the load that its largest approach brings, at rest). */
 typedef struct {
     int n;
     const double *distance;
@@ -364,30 +375,53 @@ typedef struct {
     const double *shift, *creep, *creep_ratio, *force, *force_ratio; /* at most one */
 } rb_rolling_program;                                                /* all borrowed */
 
+/* The columns by their names in tables. */
+typedef struct {
+    const char *name;
+    size_t column; /* offset of its pointer in rb_rolling_program */
+    size_t value;  /* offset in rb_rolling_case of what it replaces; distance: SIZE_MAX */
+    int is_mean;   /* 1: a rolled step has the mean over its length, 0: the end's value */
+} rb_rolling_program_column;
+
+enum { RB_ROLLING_PROGRAM_COLUMNS = 8 };
+extern const rb_rolling_program_column
+    rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS];
+
 /* One entry per step. */
 typedef struct {
     int n;
     double *distance; /* rolled, at the end of the step, in half-widths; owned, as all */
-    double *creepage; /* mean over the step (transient) */
+    double *creepage; /* mean over the step; 0 at rest */
     double *shift;    /* rigid shift so far (static steps) [length] */
     double *approach, *normal_load, *tangential_load, *force_ratio;
     double *residual;
+    double *max_pressure;              /* p0 [stress]; 0 without contact */
+    double *contact_from, *contact_to; /* edges [length]; NAN without contact */
+    double *dissipation;   /* power per unit speed [force/length]; 0 at rest */
+    double *moment;        /* int x p dx [force]; > 0: the load leads */
     int *stick, *slipping; /* elements */
+    double half_width;     /* that distances count in [length] */
     double step;           /* c [length]; 0 in a static history */
     int steady_from;       /* first step of the steady state that the end is in, or -1 */
 } rb_rolling_history;
 
 void rb_rolling_history_free(rb_rolling_history *history);
 
+/* 1: the case is a sequence of steps by itself, of rolling or of increments. */
+int rb_rolling_has_steps(const rb_rolling_case *rc);
+
 /* Sees the model after every step; a value other than 0 ends the run. */
 typedef int rb_rolling_step(const rb_rolling_model *model,
                             const rb_rolling_history *history, int step, int steps,
                             void *context);
 
-/* Runs the program (NULL: the case's own controls, rolled over rc->distance).  Transient
- * steps: rc->steps of equal length, or of one element where that is 0.  model and
- * history: overwritten, hold the finished steps also on RB_INTERRUPTED and other positive
- * ends; free them in any case. */
+/* Runs the program (NULL: the case's own controls: pressed at rest in its increments,
+ * then rolled over rc->distance).  Transient steps: rc->steps of equal length; where that
+ * is 0, so many that none is longer than an element.  The last one ends on the last row.
+ * Where the contact outgrows an automatic zone the run begins anew on a wider one, with
+ * step 0.  model and history: overwritten, hold the finished steps also on RB_INTERRUPTED
+ * and other positive ends; model->rc is the case of the last step; free them in any case.
+ */
 rb_status rb_rolling_history_run(const rb_rolling_case *rc,
                                  const rb_rolling_program *program, rb_rolling_step *step,
                                  void *context, rb_rolling_model *model,
@@ -516,8 +550,9 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                                          rb_rolling_history *history,
                                          rb_rolling_history *errors, rb_message *why);
 
-/* From case to solution in one call.  On a positive status the solution holds what there
- * is.  solution: overwritten; free it in any case. */
+/* From case to solution in one call; of a case of steps the last one's.  On a positive
+ * status the solution holds what there is.  solution: overwritten; free it in any case.
+ */
 rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
                            rb_message *why);
 

@@ -35,7 +35,7 @@ rb_case *rb_case_copy(const rb_case *c)
     if (!copy)
         return NULL;
     *copy = *c;
-    copy->gap.borrowed = copy->history.borrowed = 1;
+    copy->gap.borrowed = copy->irregularity.borrowed = copy->history.borrowed = 1;
     copy->text = NULL;
     copy->texts = 0;
     return copy;
@@ -53,6 +53,7 @@ void rb_case_free(rb_case *c)
     if (!c)
         return;
     free_table(&c->gap);
+    free_table(&c->irregularity);
     free_table(&c->history);
     for (int i = 0; i < c->texts; i++)
         free(c->text[i]);
@@ -223,6 +224,8 @@ rb_status rb_case_blame(const rb_case *c, rb_status s, rb_message *why)
     rb_status blamed = blame_row(&c->history, "history", why);
     if (blamed == RB_OK)
         blamed = blame_row(&c->gap, "gap", why);
+    if (blamed == RB_OK)
+        blamed = blame_row(&c->irregularity, "irregularity", why);
     if (blamed != RB_OK || !all_from_file(c))
         return blamed != RB_OK ? blamed : s;
     const rb_message said = *why;
@@ -289,50 +292,92 @@ static rb_status read_profile(rb_case *c, rb_message *why)
     return RB_OK;
 }
 
-/* Where a column of that name belongs in the program; NULL: nowhere. */
-static const double **program_column(rb_rolling_program *p, const char *name,
-                                     rb_guess *guess)
-{
-    const struct {
-        const char *name;
-        const double **place;
-    } columns[] = {
-        {"distance", &p->distance}, {"load", &p->load},
-        {"approach", &p->approach}, {"shift", &p->shift},
-        {"creep", &p->creep},       {"creep_ratio", &p->creep_ratio},
-        {"force", &p->force},       {"force_ratio", &p->force_ratio},
-    };
-    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++) {
-        if (strcmp(name, columns[k].name) == 0)
-            return columns[k].place;
-        rb_guess_try(guess, columns[k].name);
-    }
-    return NULL;
-}
-
-static rb_status read_history(rb_case *c, rb_message *why)
+static rb_status read_irregularity(rb_case *c, rb_message *why)
 {
     rb_settled_case *settled = &c->settled;
-    const rb_io_table *t = &c->history.table;
-    const char *path = settled->history_file;
-    if (!path)
+    const rb_io_table *t = &c->irregularity.table;
+    if (!settled->irregularity_file)
         return RB_OK;
-    const rb_status s = read_table(&c->history, path, 0, why);
+    const rb_status s = read_table(&c->irregularity, settled->irregularity_file, 2, why);
     if (s != RB_OK)
         return s;
-    if (!t->name)
-        return rb_fail(why, RB_EFORMAT, "%s: expected a line that names the columns",
-                       path);
-    settled->program.n = t->rows;
+    settled->rc.irregularity_n = t->rows;
+    settled->rc.irregularity_x = t->x;
+    settled->rc.irregularity_gap = t->x + t->rows;
+    return RB_OK;
+}
+
+/* Index of a column in rb_rolling_program_columns; -1: none has that name. */
+static int program_column(const char *name, rb_guess *guess)
+{
+    for (int k = 0; k < RB_ROLLING_PROGRAM_COLUMNS; k++) {
+        if (strcmp(name, rb_rolling_program_columns[k].name) == 0)
+            return k;
+        rb_guess_try(guess, rb_rolling_program_columns[k].name);
+    }
+    return -1;
+}
+
+static rb_status set_program(const rb_io_table *t, const char *path,
+                             rb_rolling_program *program, rb_message *why)
+{
+    *program = (rb_rolling_program){.n = t->rows};
     for (int j = 0; j < t->columns; j++) {
         rb_guess guess = {.word = t->name[j]};
-        const double **place = program_column(&settled->program, t->name[j], &guess);
-        if (!place)
+        const int k = program_column(t->name[j], &guess);
+        if (k < 0)
             return rb_fail(why, RB_EFORMAT, "%s: unknown column '%s'%s", path, t->name[j],
                            rb_guess_text(&guess, ""));
-        *place = t->x + (size_t)j * (size_t)t->rows;
+        const double *column = t->x + (size_t)j * (size_t)t->rows;
+        memcpy((char *)program + rb_rolling_program_columns[k].column, &column,
+               sizeof column);
     }
     return RB_OK;
+}
+
+/* The option whose value a column replaces: creep-ratio by creep_ratio; NULL: none. */
+static const rb_option *replaced_option(const char *column)
+{
+    char name[32];
+    snprintf(name, sizeof name, "%s", column);
+    for (char *c = name; *c; c++)
+        *c = *c == '_' ? '-' : *c;
+    return strcmp(name, "distance") == 0 ? NULL : rb_case_option(name);
+}
+
+/* A column stands in the place of an option: as between two options the command line wins
+ * over the file, and otherwise both at once are refused. */
+static rb_status settle_columns(rb_case *c, rb_message *why)
+{
+    const rb_settled_case defaults = default_words(c->purpose);
+    const rb_option_set set = rb_case_options(c);
+    const rb_io_table *t = &c->history.table;
+    rb_status s = RB_OK;
+    for (int j = 0; j < t->columns && s == RB_OK; j++) {
+        char reason[80];
+        const rb_option *option = replaced_option(t->name[j]);
+        snprintf(reason, sizeof reason, "the history has a column %s", t->name[j]);
+        if (option)
+            s = rb_option_settle_against(
+                &set, option, rb_case_given(c, "history"), &defaults,
+                rb_case_alike(c->words.rc.formulation), c->path, reason, why);
+    }
+    return s;
+}
+
+/* Before the words are used: the table may replace some of them. */
+static rb_status read_history(rb_case *c, rb_message *why)
+{
+    const rb_io_table *t = &c->history.table;
+    const char *path = c->words.history_file;
+    if (!path)
+        return RB_OK;
+    rb_status s = read_table(&c->history, path, 0, why);
+    if (s == RB_OK && !t->name)
+        s = rb_fail(why, RB_EFORMAT, "%s: expected a line that names the columns", path);
+    if (s == RB_OK)
+        s = set_program(t, path, &c->words.program, why);
+    return s == RB_OK ? settle_columns(c, why) : s;
 }
 
 /* ---- What depends on other options --------------------------------------------------
@@ -354,7 +399,7 @@ static void choose_mesh(rb_case *c)
 
 int rb_case_has_steps(const rb_settled_case *settled)
 {
-    return settled->rc.formulation == RB_TRANSIENT || settled->program.n > 0;
+    return settled->program.n > 0 || rb_rolling_has_steps(&settled->rc);
 }
 
 /* Options of one formulation mean nothing to the others. */
@@ -370,9 +415,15 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
         s = rb_case_refuse(c, "distance", "the history says how far", why);
     if (s == RB_OK && !transient)
         s = rb_case_refuse(c, "steps", "of transient rolling only", why);
+    if (s == RB_OK && !transient)
+        s = rb_case_refuse(c, "irregularity",
+                           "it rides through the contact; of transient rolling only",
+                           why);
     if (s == RB_OK && settled->rc.formulation == RB_STEADY)
         s = rb_case_refuse(c, "history", "steady rolling has no history", why);
-    if (s == RB_OK && (history || transient) && settled->rc.mesh == RB_MESH_FITTED)
+    if (s == RB_OK && history)
+        s = rb_case_refuse(c, "increments", "the history says them row by row", why);
+    if (s == RB_OK && rb_case_has_steps(settled) && settled->rc.mesh == RB_MESH_FITTED)
         s = rb_case_refuse(c, "mesh", "step by step the elements are equal", why);
     if (s == RB_OK && transient && !history && !(settled->rc.distance > 0.0))
         s = rb_fail(why, RB_EINVAL, "transient rolling needs --distance or --history");
@@ -385,8 +436,8 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
     if (c->settled.mus.n > 1 && c->purpose != RB_CASE_CURVE)
         s = rb_case_refuse(c, "mu", "expected one number; a curve takes several", why);
     if (s == RB_OK && rb_case_has_steps(&c->settled))
-        s = rb_case_refuse(c, "accuracy",
-                           "of static and steady cases without history only", why);
+        s = rb_case_refuse(c, "accuracy", "of static and steady cases without steps only",
+                           why);
     return s;
 }
 
@@ -396,6 +447,8 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     const rb_option_set set = rb_case_options(c);
     rb_status s = rb_option_settle(&set, &defaults,
                                    rb_case_alike(c->words.rc.formulation), c->path, why);
+    if (s == RB_OK)
+        s = read_history(c, why);
     c->settled = c->words;
     if (s == RB_OK)
         s = settle_body_b(c, why);
@@ -404,7 +457,7 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     if (s == RB_OK)
         s = read_profile(c, why);
     if (s == RB_OK)
-        s = read_history(c, why);
+        s = read_irregularity(c, why);
     if (s == RB_OK)
         s = check_purpose(c, why);
     if (s != RB_OK)

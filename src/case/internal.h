@@ -19,7 +19,7 @@ struct rb_case {
     rb_settled_case words, settled; /* as given; as used */
     char path[320];                 /* case file, "" without */
     int given[RB_CASE_OPTIONS_MAX];
-    case_table gap, history;
+    case_table gap, irregularity, history;
     char **text; /* copies of values; owned */
     int texts;
 };
@@ -44,5 +44,10 @@ const char *rb_option_source(const rb_option *option, int given, const char *pat
  * count as one bit. */
 rb_status rb_option_settle(const rb_option_set *set, const void *defaults, unsigned alike,
                            const char *path, rb_message *why);
+/* The options that exclude `option` give way to its value from elsewhere, which somebody
+ * gave (by, as in `given`); refused with the reason where settling would refuse both. */
+rb_status rb_option_settle_against(const rb_option_set *set, const rb_option *option,
+                                   int by, const void *defaults, unsigned alike,
+                                   const char *path, const char *reason, rb_message *why);
 
 #endif

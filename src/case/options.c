@@ -83,6 +83,12 @@ const rb_option rb_case_table[] = {
                    "x^2/(2R), the cylinder's own, or a file of rows x, gap [mm]",
                    .path = PLACE(gap_file), .path_value = RB_GAP_TABLE,
                    .path_name = "FILE"),
+    RB_TEXT_LINE(
+        "irregularity", PLACE(irregularity_file), "FILE",
+        "transient: rows x, gap [mm] of a flat (> 0) or a bump (< 0) that adds to "
+        "the gap, begins and ends with 0, lies at these x before rolling and "
+        "rides with the surface, towards -x",
+        .unset = "none"),
 
     RB_GROUP_LINE("friction", "Friction"),
     RB_NUMBER_LINE("mu", RC(mu), "-", RB_FROM(0),
@@ -119,14 +125,20 @@ const rb_option rb_case_table[] = {
     RB_CHOICE_LINE("formulation", RC(formulation), formulations,
                    "static: displaced without rolling; steady: rolling towards +x; "
                    "transient: rolling from rest, step by step"),
+    RB_INTEGER_LINE("increments", RC(increments), RB_FROM(1),
+                    "static, start of a transient: press from load or approach 0 in so "
+                    "many increments, then shift or load tangentially in as many"),
     RB_NUMBER_LINE("distance", RC(distance), "a", RB_ABOVE(0),
-                   "transient: rolled distance, in Hertz half-widths",
+                   "transient: rolled distance, in Hertz half-widths of the load",
                    .unset = "as --history says"),
     RB_INTEGER_LINE("steps", RC(steps), RB_FROM(0),
-                    "transient: steps of equal length; 0: of one element"),
+                    "transient: steps of equal length; 0: so many that none is longer "
+                    "than an element"),
     RB_TEXT_LINE("history", PLACE(history_file), "FILE",
-                 "table of controls with named columns: distance (transient), load or "
-                 "approach, shift, creep, creep_ratio, force or force_ratio",
+                 "table of controls with named columns: distance (transient, in Hertz "
+                 "half-widths of the largest load), load or approach, shift, creep, "
+                 "creep_ratio, force or force_ratio; a column replaces the case's own "
+                 "value",
                  .unset = "none"),
 
     RB_GROUP_LINE("mesh", "Mesh"),

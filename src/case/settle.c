@@ -42,14 +42,18 @@ static int exclude_each_other(unsigned a, unsigned b, unsigned alike)
     return (a & b) != 0;
 }
 
+static int is_argument_over_file(int by, int other)
+{
+    return by == RB_GIVEN_ARGUMENT && other > 0;
+}
+
 /* i and j are both given and exclude each other. */
 static rb_status settle_pair(const rb_option_set *set, int i, int j, const void *defaults,
                              const char *path, rb_message *why)
 {
     char first[400], second[400];
     const int by_i = set->given[i], by_j = set->given[j];
-    if ((by_i == RB_GIVEN_ARGUMENT && by_j > 0) ||
-        (by_j == RB_GIVEN_ARGUMENT && by_i > 0)) {
+    if (is_argument_over_file(by_i, by_j) || is_argument_over_file(by_j, by_i)) {
         take_back(set, by_i > 0 ? i : j, defaults);
         return RB_OK;
     }
@@ -72,5 +76,25 @@ rb_status rb_option_settle(const rb_option_set *set, const void *defaults, unsig
             if (s != RB_OK)
                 return s;
         }
+    return RB_OK;
+}
+
+rb_status rb_option_settle_against(const rb_option_set *set, const rb_option *option,
+                                   int by, const void *defaults, unsigned alike,
+                                   const char *path, const char *reason, rb_message *why)
+{
+    char room[400];
+    for (int i = 0; i < set->n; i++) {
+        const int given = set->given[i];
+        if (!given ||
+            !exclude_each_other(option->excludes, set->options[i].excludes, alike))
+            continue;
+        if (!is_argument_over_file(by, given))
+            return rb_fail(
+                why, given > 0 ? RB_EFORMAT : RB_EINVAL, "%s: %s",
+                rb_option_source(&set->options[i], given, path, room, sizeof room),
+                reason);
+        take_back(set, i, defaults);
+    }
     return RB_OK;
 }

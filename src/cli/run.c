@@ -20,6 +20,7 @@ static void note_interrupt(int signal_number)
 typedef struct {
     const cli_steps *steps;
     double start, shown; /* when the run began, when the last line was printed [s] */
+    int written;         /* the last step that has a snapshot, counted from 1 */
     rb_status failed;    /* of a snapshot */
     rb_message *why;
 } watch;
@@ -42,24 +43,40 @@ static void show_progress(watch *w, const rb_rolling_history *h, int step, int s
     w->shown = now;
 }
 
-static rb_status write_snapshot(const char *folder, const rb_rolling_model *model,
-                                int step, rb_message *why)
+static void name_snapshot(const char *folder, int step, char *path, size_t size)
+{
+    snprintf(path, size, "%.1000s/step_%06d.tsv", folder, step);
+}
+
+static rb_status write_snapshot(watch *w, const rb_rolling_model *model, int step)
 {
     char path[1100];
     rb_rolling_solution solution = {0};
-    rb_io_writer w;
-    snprintf(path, sizeof path, "%.1000s/step_%06d.tsv", folder, step + 1);
-    rb_status s = rb_rolling_model_solution(model, &solution, why);
+    rb_io_writer file;
+    name_snapshot(w->steps->snapshots, step, path, sizeof path);
+    rb_status s = rb_rolling_model_solution(model, &solution, w->why);
     if (s == RB_OK)
-        s = rb_io_writer_open(path, &w, why);
+        s = rb_io_writer_open(path, &file, w->why);
     if (s == RB_OK &&
-        rb_report_table(w.file, &solution, cli_command_line(), 0) != RB_OK) {
-        s = rb_fail(why, RB_EWRITE, "%.200s: %s", path, strerror(errno));
-        rb_io_writer_abandon(&w);
+        rb_report_table(file.file, &solution, cli_command_line(), 0) != RB_OK) {
+        s = rb_fail(w->why, RB_EWRITE, "%.200s: %s", path, strerror(errno));
+        rb_io_writer_abandon(&file);
     } else if (s == RB_OK)
-        s = rb_io_writer_commit(&w, why);
+        s = rb_io_writer_commit(&file, w->why);
+    w->written = step;
     rb_rolling_solution_free(&solution);
     return s;
+}
+
+/* A run that begins anew, on a wider zone, has other steps. */
+static void remove_snapshots(watch *w)
+{
+    char path[1100];
+    for (int step = w->steps->every; step <= w->written; step += w->steps->every) {
+        name_snapshot(w->steps->snapshots, step, path, sizeof path);
+        remove(path);
+    }
+    w->written = 0;
 }
 
 static int after_step(const rb_rolling_model *model, const rb_rolling_history *history,
@@ -71,8 +88,10 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
         return interrupted;
     if (asked->progress || asked->terminal)
         show_progress(w, history, step, steps);
+    if (step == 0 && w->written > 0)
+        remove_snapshots(w);
     if (asked->snapshots && ((step + 1) % asked->every == 0 || step + 1 == steps))
-        w->failed = write_snapshot(asked->snapshots, model, step, w->why);
+        w->failed = write_snapshot(w, model, step + 1);
     return interrupted || w->failed != RB_OK;
 }
 

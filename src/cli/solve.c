@@ -57,6 +57,15 @@ static const char notes[] = CLI_CASE_NOTES
     "--creep-ratio only enter the slip computed afterwards. In steady and transient\n"
     "rolling one of --creep, --creep-ratio, --force, --force-ratio drives it.\n"
     "\n"
+    "A static case is one step from no contact to the last state. Where the bodies are "
+    "of\n"
+    "different materials and friction matters, pressing is a sequence: what slips early\n"
+    "sticks later. --increments N follows it, and --history any other sequence.\n"
+    "\n"
+    "Distances, of --distance and of a history, count in half-widths a: Hertz's of the\n"
+    "load, the largest one of a history (under a given approach, of the load that the\n"
+    "largest approach brings at rest). Its length stands above --history-table's rows.\n"
+    "\n"
     "Exit codes: 0 solved; 1 not solved (what there is, is printed); 64 wrong values\n"
     "on the command line, 65 in a file; 66 no such file; 70 internal; 73 cannot write.\n";
 
@@ -219,8 +228,9 @@ static cli_exit check_steps(const solve_options *so, const int *given,
     for (int i = 0; i < OPTIONS && !rb_case_has_steps(c); i++) {
         steps |= strcmp(options[i].name, "history-table") == 0; /* the first of them */
         if (steps && given[i] == RB_GIVEN_ARGUMENT)
-            return cli_fail(CLI_USAGE, "--%s: for --formulation transient or --history",
-                            options[i].name);
+            return cli_fail(
+                CLI_USAGE, "--%s: for --formulation transient, --history or --increments",
+                options[i].name);
     }
     return cli_output_check(&pictures);
 }

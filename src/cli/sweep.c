@@ -538,7 +538,9 @@ static cli_exit check_base(const rb_case *c)
     cli_exit code = CLI_CONTINUE;
     for (int k = 0; k < 2 && code == CLI_CONTINUE; k++)
         code = cli_case_refuse(c, k ? "accuracy" : "error", "studies have no error bars");
-    if (code == CLI_CONTINUE && rb_case_has_steps(rb_case_settled(c)))
+    if (code == CLI_CONTINUE)
+        code = cli_case_refuse(c, "history", "a study has none");
+    if (code == CLI_CONTINUE && rb_case_settled(c)->rc.formulation == RB_TRANSIENT)
         code = cli_fail(CLI_USAGE, "a study is one of static or steady cases");
     return code;
 }

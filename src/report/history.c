@@ -5,44 +5,84 @@
 #include <math.h>
 #include <string.h>
 
-/* Columns; those from FIRST to before LAST have errors. */
-enum { COLUMNS = 10, FIRST = 1, LAST = 7, ERRORS = LAST - FIRST };
+/* The columns in their order; new ones at the end. */
+static const struct {
+    const char *name, *key; /* in tables, in JSON */
+    size_t column;          /* offset in rb_rolling_history */
+    int whole;              /* 1: of whole numbers */
+    int has_error;
+} columns[] = {
+#define COLUMN(name, key, member, whole, has_error)                                      \
+    {                                                                                    \
+        name, key, offsetof(rb_rolling_history, member), whole, has_error                \
+    }
+    COLUMN("distance_a", "distance", distance, 0, 0),
+    COLUMN("creepage_1", "creepage", creepage, 0, 1),
+    COLUMN("shift_mm", "shift", shift, 0, 1),
+    COLUMN("approach_mm", "approach", approach, 0, 1),
+    COLUMN("normal_load_N/mm", "normal_load", normal_load, 0, 1),
+    COLUMN("tangential_load_N/mm", "tangential_load", tangential_load, 0, 1),
+    COLUMN("force_ratio_1", "force_ratio", force_ratio, 0, 1),
+    COLUMN("stick_elements", "stick", stick, 1, 0),
+    COLUMN("slip_elements", "slip", slipping, 1, 0),
+    COLUMN("residual_1", "residual", residual, 0, 0),
+    COLUMN("max_pressure_MPa", "max_pressure", max_pressure, 0, 1),
+    COLUMN("contact_from_mm", "contact_from", contact_from, 0, 1),
+    COLUMN("contact_to_mm", "contact_to", contact_to, 0, 1),
+    COLUMN("dissipation_N/mm", "dissipation", dissipation, 0, 1),
+    COLUMN("moment_N", "moment", moment, 0, 1),
+#undef COLUMN
+};
 
-static void series_of(const rb_rolling_history *h, rb_report_series series[COLUMNS])
+enum { COLUMNS = sizeof columns / sizeof columns[0] };
+
+static rb_report_series series_of(const rb_rolling_history *h, int j)
 {
-    const rb_report_series all[COLUMNS] = {
-        {"distance_a", "distance", h->distance, NULL, 0},
-        {"creepage_1", "creepage", h->creepage, NULL, 0},
-        {"shift_mm", "shift", h->shift, NULL, 0},
-        {"approach_mm", "approach", h->approach, NULL, 0},
-        {"normal_load_N/mm", "normal_load", h->normal_load, NULL, 0},
-        {"tangential_load_N/mm", "tangential_load", h->tangential_load, NULL, 0},
-        {"force_ratio_1", "force_ratio", h->force_ratio, NULL, 0},
-        {"stick_elements", "stick", NULL, h->stick, 0},
-        {"slip_elements", "slip", NULL, h->slipping, 0},
-        {"residual_1", "residual", h->residual, NULL, 0}};
-    memcpy(series, all, sizeof all);
+    void *column;
+    memcpy(&column, (const char *)h + columns[j].column, sizeof column);
+    return (rb_report_series){.name = columns[j].name,
+                              .key = columns[j].key,
+                              .x = columns[j].whole ? NULL : column,
+                              .k = columns[j].whole ? column : NULL};
+}
+
+/* All columns, or those that have errors; returns how many. */
+static int all_series(const rb_rolling_history *h, int errors, rb_report_series *series)
+{
+    int n = 0;
+    for (int j = 0; j < COLUMNS; j++)
+        if (!errors || columns[j].has_error)
+            series[n++] = series_of(h, j);
+    return n;
+}
+
+static void print_meaning(FILE *out, const rb_rolling_history *h)
+{
+    fprintf(out,
+            "# distance in a = %.9g mm, the Hertz half-width of the largest load of the "
+            "history\n"
+            "# creepage and dissipation (friction power per unit speed): "
+            "means over the step, 0 at rest; shift: so far\n"
+            "# moment: int x p dx, > 0: the load acts ahead of x = 0; edges of the "
+            "contact: nan without contact\n",
+            h->half_width);
 }
 
 rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
                             const rb_rolling_history *errors, const char *command,
                             int bare)
 {
-    rb_report_series series[COLUMNS + ERRORS];
-    int columns = COLUMNS;
+    rb_report_series series[2 * COLUMNS], error[COLUMNS];
+    int n = all_series(h, 0, series);
 
-    series_of(h, series);
-    if (errors) {
-        rb_report_series error[COLUMNS];
-        series_of(errors, error);
-        columns += rb_report_add_errors(ERRORS, error + FIRST, series + COLUMNS);
-    }
+    if (errors)
+        n += rb_report_add_errors(all_series(errors, 1, error), error, series + n);
     if (!bare) {
         rb_report_print_head(out, command);
-        fputs("# distance in Hertz half-widths; creepage: mean over the step\n", out);
+        print_meaning(out, h);
     }
-    rb_report_print_names(out, columns, series, bare);
-    rb_report_print_rows(out, h->n, columns, series);
+    rb_report_print_names(out, n, series, bare);
+    rb_report_print_rows(out, h->n, n, series);
     return rb_report_print_end(out);
 }
 
@@ -52,15 +92,14 @@ json_t *rb_report_json_history(const rb_rolling_history *h,
     rb_report_series series[COLUMNS];
     json_t *history = json_object();
 
-    series_of(h, series);
-    rb_report_json_series(history, h->n, COLUMNS, series);
+    rb_report_json_series(history, h->n, all_series(h, 0, series), series);
+    json_object_set_new(history, "half_width", rb_report_json_number(h->half_width));
     json_object_set_new(history, "step", rb_report_json_number(h->step));
     json_object_set_new(history, "steady_from",
                         h->steady_from < 0 ? json_null() : json_integer(h->steady_from));
     if (errors) {
         json_t *object = json_object();
-        series_of(errors, series);
-        rb_report_json_series(object, h->n, ERRORS, series + FIRST);
+        rb_report_json_series(object, h->n, all_series(errors, 1, series), series);
         json_object_set_new(history, "errors", object);
     }
     return history;
@@ -71,15 +110,15 @@ static void print_errors(FILE *out, const rb_rolling_history *h,
                          const rb_rolling_history *errors)
 {
     rb_report_series value[COLUMNS], error[COLUMNS];
+    const int n = all_series(h, 1, value), last = h->n - 1;
 
-    series_of(h, value);
-    series_of(errors, error);
+    all_series(errors, 1, error);
     fputs("  error bars at the end (estimated from coarser meshes and longer steps)\n",
           out);
-    for (int j = FIRST; j < LAST; j++)
-        if (!isnan(value[j].x[h->n - 1]) && !isnan(error[j].x[h->n - 1]))
-            fprintf(out, "    %-16s %.8g +- %.1g\n", value[j].key,
-                    value[j].x[h->n - 1] + 0.0, error[j].x[h->n - 1]);
+    for (int j = 0; j < n; j++)
+        if (!isnan(value[j].x[last]) && !isnan(error[j].x[last]))
+            fprintf(out, "    %-16s %.8g +- %.1g\n", value[j].key, value[j].x[last] + 0.0,
+                    error[j].x[last]);
 }
 
 void rb_report_history_summary(FILE *out, const rb_rolling_history *h,
@@ -88,7 +127,8 @@ void rb_report_history_summary(FILE *out, const rb_rolling_history *h,
     const int last = h->n - 1;
     fprintf(out, "  history   %d steps", h->n);
     if (h->step > 0.0)
-        fprintf(out, " of %.5g mm, rolled %.5g a", h->step, h->distance[last]);
+        fprintf(out, " of %.5g mm, rolled %.5g a (a = %.5g mm)", h->step,
+                h->distance[last], h->half_width);
     if (h->steady_from >= 0)
         fprintf(out, "; steady from step %d, %.4g a, on", h->steady_from + 1,
                 h->distance[h->steady_from]);

@@ -1,6 +1,8 @@
 /* Tables of named series: what curves, histories and stresses have in common. */
 #include "report/internal.h"
 
+#include <math.h>
+
 void rb_report_print_head(FILE *out, const char *command)
 {
     fprintf(out, "# rollbem %s\n# %s\n", RB_VERSION, command);
@@ -34,10 +36,12 @@ void rb_report_print_row(FILE *out, int i, int columns, const rb_report_series *
     for (int j = 0; j < columns; j++) {
         if (j > 0)
             fputc('\t', out);
-        if (series[j].x)
+        if (!series[j].x)
+            fprintf(out, "%d", series[j].k[i]);
+        else if (isfinite(series[j].x[i]))
             fprintf(out, "%.17g", series[j].x[i]);
         else
-            fprintf(out, "%d", series[j].k[i]);
+            fputs("nan", out); /* whatever its sign: there is no value */
     }
     fputc('\n', out);
 }

@@ -4,6 +4,7 @@
 
 #include <cblas.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* T rows of the half-plane with a body's elasticity under n elements of length h, at
  * `points` places s along the surface, the first element's midpoint at 0.  sum: points x
@@ -63,19 +64,18 @@ static void add_between(int n, const double *rest, double ahead, double *W_T)
     }
 }
 
-rb_status rb_rolling_displacement_ahead(const rb_rolling_case *rc,
-                                        const rb_rolling_bodies *bodies, double step,
-                                        double *W_T)
+/* Every pair of points and elements by its own. */
+static rb_status dense_ahead(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                             double step, double *W_T)
 {
     const int n = bodies->f.n, m = bodies->f.m;
     const double h = bodies->f.h[n / 2];
-    double *rest = bodies->F ? rb_alloc((size_t)m, 2 * (size_t)n) : NULL;
-    rb_status s = rest || !bodies->F ? RB_OK : RB_ENOMEM;
+    double *rest = rb_alloc((size_t)m, 2 * (size_t)n);
+    rb_status s = rest ? halfplanes(rc, n, h, n, step, W_T) : RB_ENOMEM;
 
     if (s == RB_OK)
-        s = halfplanes(rc, n, h, n, step, W_T);
-    if (s == RB_OK && rest) {
         s = halfplanes(rc, n, h, m, 0.0, rest);
+    if (s == RB_OK) {
         for (size_t j = 0; j < 2 * (size_t)n; j++)
             for (size_t i = 0; i < (size_t)m; i++)
                 rest[i + j * m] =
@@ -84,4 +84,54 @@ rb_status rb_rolling_displacement_ahead(const rb_rolling_case *rc,
     }
     free(rest);
     return s;
+}
+
+rb_status rb_rolling_ahead_create(const rb_rolling_case *rc,
+                                  const rb_rolling_bodies *bodies, double step,
+                                  rb_rolling_ahead *ahead)
+{
+    const int n = bodies->f.n;
+    const double h = bodies->f.h[n / 2];
+    rb_status s = RB_ENOMEM;
+
+    *ahead = (rb_rolling_ahead){.n = n, .step = step};
+    if (bodies->F) {
+        ahead->W_T = rb_alloc((size_t)n, 2 * (size_t)n);
+        if (ahead->W_T)
+            s = dense_ahead(rc, bodies, step, ahead->W_T);
+    } else {
+        /* half-planes: only the distance of point and element counts */
+        ahead->response = rb_alloc(2 * (size_t)n - 1, 2);
+        if (ahead->response)
+            s = halfplanes(rc, 1, h, 2 * n - 1, step - (n - 1) * h, ahead->response);
+    }
+    if (s != RB_OK)
+        rb_rolling_ahead_free(ahead);
+    return s;
+}
+
+void rb_rolling_ahead_apply(const rb_rolling_ahead *ahead,
+                            const rb_rolling_bodies *bodies, const double *p,
+                            const double *q, double *w_T)
+{
+    const int n = ahead->n;
+
+    memcpy(w_T, bodies->f.w0 + n + 1, (size_t)n * sizeof *w_T);
+    for (int j = 0; j < n; j++) {
+        const size_t at = (size_t)j * (size_t)n;
+        const double *of_p = ahead->W_T ? ahead->W_T + at : ahead->response + n - 1 - j;
+        const double *of_q =
+            of_p + (ahead->W_T ? (size_t)n * (size_t)n : 2 * (size_t)n - 1);
+        if (p[j] != 0.0)
+            cblas_daxpy(n, p[j], of_p, 1, w_T, 1);
+        if (q[j] != 0.0)
+            cblas_daxpy(n, q[j], of_q, 1, w_T, 1);
+    }
+}
+
+void rb_rolling_ahead_free(rb_rolling_ahead *ahead)
+{
+    free(ahead->W_T);
+    free(ahead->response);
+    memset(ahead, 0, sizeof *ahead);
 }

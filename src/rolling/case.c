@@ -21,6 +21,7 @@ rb_rolling_case rb_rolling_case_defaults(void)
     rc.approach = rc.load = rc.half_width = NAN;
     rc.shift = rc.creep = rc.creep_ratio = rc.force = rc.force_ratio = NAN;
     rc.formulation = RB_STATIC;
+    rc.increments = 1;
     rc.mesh = RB_MESH_UNIFORM;
     rc.contact_elements = 60;
     rc.normals = RB_BEM_NORMALS_OBSTACLE;
@@ -124,6 +125,16 @@ double rb_rolling_estimate_half_width(const rb_rolling_case *rc)
     if (isnan(approach))
         return rb_rolling_hertz_half_width(rc, rb_rolling_wanted_load(rc));
     return half_width_of_approach(rb_rolling_radius(rc), approach);
+}
+
+double rb_rolling_widest_zone(const rb_rolling_case *rc)
+{
+    return 0.95 * fmin(rc->a.radius, rc->b.radius);
+}
+
+double rb_rolling_force_ratio(double mu, double P, double Q)
+{
+    return mu > 0.0 && P > 0.0 ? Q / (mu * P) : NAN;
 }
 
 /* ---- Checks ------------------------------------------------------------------------ */
@@ -231,21 +242,62 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
     return check_force(rc, why);
 }
 
+/* x, gap of a profile or of an irregularity. */
+static rb_status check_points(const char *what, int least, int n, const double *x,
+                              const double *gap, rb_message *why)
+{
+    if (n < least)
+        return rb_fail(why, RB_EINVAL, "%s: a profile needs %d points or more, got %d",
+                       what, least, n);
+    for (int i = 0; i < n; i++)
+        if (!isfinite(x[i]) || !isfinite(gap[i]))
+            return rb_fail(why, RB_EINVAL, "%s: row %d is not a finite number", what,
+                           i + 1);
+    for (int i = 1; i < n; i++)
+        if (x[i] <= x[i - 1])
+            return rb_fail(why, RB_EINVAL,
+                           "%s: row %d: expected an x larger than in the row before",
+                           what, i + 1);
+    return RB_OK;
+}
+
 static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
 {
-    if (rc->gap != RB_GAP_TABLE)
+    return rc->gap == RB_GAP_TABLE ? check_points("gap", 2, rc->profile_n, rc->profile_x,
+                                                  rc->profile_gap, why)
+                                   : RB_OK;
+}
+
+/* The surface is smooth again where the points end; steady rolling sees nothing pass. */
+static rb_status check_irregularity(const rb_rolling_case *rc, rb_message *why)
+{
+    const int n = rc->irregularity_n;
+
+    if (n == 0)
         return RB_OK;
-    if (rc->profile_n < 2)
-        return rb_fail(why, RB_EINVAL, "gap: a profile needs 2 points or more, got %d",
-                       rc->profile_n);
-    for (int i = 0; i < rc->profile_n; i++)
-        if (!isfinite(rc->profile_x[i]) || !isfinite(rc->profile_gap[i]))
-            return rb_fail(why, RB_EINVAL, "gap: row %d is not a finite number", i + 1);
-    for (int i = 1; i < rc->profile_n; i++)
-        if (rc->profile_x[i] <= rc->profile_x[i - 1])
+    if (rc->formulation == RB_STEADY)
+        return rb_fail(why, RB_EINVAL,
+                       "irregularity: it rides through the contact, which is transient "
+                       "rolling");
+    const rb_status s =
+        check_points("irregularity", 3, n, rc->irregularity_x, rc->irregularity_gap, why);
+    for (int i = 0; s == RB_OK && i < n; i += n - 1)
+        if (rc->irregularity_gap[i] != 0.0)
             return rb_fail(why, RB_EINVAL,
-                           "gap: row %d: expected an x larger than in the row before",
-                           i + 1);
+                           "irregularity: row %d: expected gap 0 where it ends, got %g",
+                           i + 1, rc->irregularity_gap[i]);
+    return s;
+}
+
+static rb_status check_increments(const rb_rolling_case *rc, rb_message *why)
+{
+    if (rc->increments < 0 || rc->increments > 1000000)
+        return rb_fail(why, RB_EINVAL, "increments: expected 0 ... 1000000, got %d",
+                       rc->increments);
+    if (rc->increments > 1 && rc->formulation == RB_STEADY)
+        return rb_fail(why, RB_EINVAL,
+                       "increments: of static contact and of the start of a transient; "
+                       "steady rolling forgets how it began");
     return RB_OK;
 }
 
@@ -303,6 +355,10 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
         s = check_tangential(rc, why);
     if (s == RB_OK)
         s = check_gap(rc, why);
+    if (s == RB_OK)
+        s = check_irregularity(rc, why);
+    if (s == RB_OK)
+        s = check_increments(rc, why);
     if (s == RB_OK)
         s = check_mesh(rc, why);
     return s;

@@ -9,10 +9,12 @@ static const size_t curve[] = {
     CURVE(creepage),    CURVE(creep_ratio), CURVE(force_ratio), CURVE(tangential_load),
     CURVE(normal_load), CURVE(stick_ratio), CURVE(dissipation), CURVE(residual)};
 
-static const size_t history[] = {HISTORY(distance),    HISTORY(creepage),
-                                 HISTORY(shift),       HISTORY(approach),
-                                 HISTORY(normal_load), HISTORY(tangential_load),
-                                 HISTORY(force_ratio), HISTORY(residual)};
+static const size_t history[] = {
+    HISTORY(distance),     HISTORY(creepage),    HISTORY(shift),
+    HISTORY(approach),     HISTORY(normal_load), HISTORY(tangential_load),
+    HISTORY(force_ratio),  HISTORY(residual),    HISTORY(max_pressure),
+    HISTORY(contact_from), HISTORY(contact_to),  HISTORY(dissipation),
+    HISTORY(moment)};
 
 const rb_rolling_columns rb_rolling_curve_columns = {sizeof curve / sizeof *curve, curve};
 const rb_rolling_columns rb_rolling_history_columns = {sizeof history / sizeof *history,

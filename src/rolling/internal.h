@@ -19,6 +19,11 @@ double rb_rolling_wanted_load(const rb_rolling_case *rc);
 double rb_rolling_wanted_approach(const rb_rolling_case *rc);
 /* From the load by Hertz, from the approach by the compression of a half-cylinder. */
 double rb_rolling_estimate_half_width(const rb_rolling_case *rc);
+/* The widest potential contact [length]: it must stay on the lower half of every wheel.
+ */
+double rb_rolling_widest_zone(const rb_rolling_case *rc);
+/* Q/(mu P); NAN without friction or load. */
+double rb_rolling_force_ratio(double mu, double P, double Q);
 
 /* ---- bodies.c ------------------------------------------------------------------------
  */
@@ -30,15 +35,33 @@ double rb_rolling_datum(const rb_rolling_body *body, double radius);
 rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
                                   const double *q, double *w);
 
+/* ---- mesh.c ---------------------------------------------------------------------------
+ */
+
+/* Gaps at the midpoints, with the irregularity where it is now.  RB_ENOMEM. */
+rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh);
+
 /* ---- ahead.c --------------------------------------------------------------------------
  */
 
 /* Tangential displacement a length `step` further along the surface than each midpoint:
- * w_T = w0_T + W_T (p, q).  Equal elements, half-planes and wheels.  W_T: n x 2n,
- * zeroed. */
-rb_status rb_rolling_displacement_ahead(const rb_rolling_case *rc,
-                                        const rb_rolling_bodies *bodies, double step,
-                                        double *W_T);
+ * w_T = w0_T + W_T (p, q).  Equal elements, half-planes and wheels. */
+typedef struct {
+    int n;
+    double step;      /* 0: there is none */
+    double *W_T;      /* n x 2n; NULL without a dense flexibility; owned, as below */
+    double *response; /* there: w_T of a unit p and of a unit q at 2n - 1 distances */
+} rb_rolling_ahead;
+
+/* ahead: overwritten. */
+rb_status rb_rolling_ahead_create(const rb_rolling_case *rc,
+                                  const rb_rolling_bodies *bodies, double step,
+                                  rb_rolling_ahead *ahead);
+/* w_T: n, overwritten. */
+void rb_rolling_ahead_apply(const rb_rolling_ahead *ahead,
+                            const rb_rolling_bodies *bodies, const double *p,
+                            const double *q, double *w_T);
+void rb_rolling_ahead_free(rb_rolling_ahead *ahead);
 
 /* ---- problem.c: what changes from step to step ----------------------------------------
  */
@@ -46,6 +69,11 @@ rb_status rb_rolling_displacement_ahead(const rb_rolling_case *rc,
 void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                          const rb_rolling_past *past, double step, rb_rolling_problem *p);
 void rb_rolling_set_control(const rb_rolling_case *rc, rb_rolling_problem *p);
+/* The given rigid shift or its default: a tenth of the approach, 0 under load control. */
+double rb_rolling_wanted_shift(const rb_rolling_case *rc);
+/* d_N, from the gaps of the mesh. */
+void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bodies,
+                        rb_rolling_problem *p);
 
 /* 1 where products with the flexibility replace the dense matrix: half-planes under a
  * long line of equal elements, by Newton. */
@@ -74,6 +102,26 @@ double *rb_rolling_column(const void *owner, size_t offset);
 rb_status rb_rolling_columns_alloc(const rb_rolling_columns *columns, int rows,
                                    void *owner);
 void rb_rolling_columns_free(const rb_rolling_columns *columns, void *owner);
+
+/* ---- program.c ------------------------------------------------------------------------
+ */
+
+/* Rows at rest that the program begins with. */
+int rb_rolling_program_at_rest(const rb_rolling_program *program);
+/* The case of row r, at rest. */
+rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program,
+                                       const rb_rolling_case *rc, int r);
+/* The case of a step rolled from one distance to another. */
+rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
+                                        const rb_rolling_case *rc, double from,
+                                        double to);
+/* Each row must be a case that could be solved. */
+rb_status rb_rolling_program_check(const rb_rolling_program *program,
+                                   const rb_rolling_case *rc, rb_message *why);
+/* The case's own: increments of pressing and of loading, then the way.  room: its
+ * columns, for free(); NULL: no memory. */
+double *rb_rolling_program_of_case(const rb_rolling_case *rc,
+                                   rb_rolling_program *program);
 
 /* ---- history.c ------------------------------------------------------------------------
  */
@@ -185,6 +233,8 @@ void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
 void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
                              double *stick);
 
+/* p0: the vertex of p^2 at the largest element. */
+double rb_rolling_peak_pressure(const rb_rolling_mesh *mesh, const double *p);
 /* Contact edges where p^2 extrapolates to zero. */
 void rb_rolling_contact_edges(const rb_rolling_mesh *mesh, const double *p, double *from,
                               double *to);

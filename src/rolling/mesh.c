@@ -1,6 +1,7 @@
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
+#include <gsl/gsl_spline.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,10 +59,35 @@ static rb_status mesh_alloc(int n, rb_rolling_mesh *mesh)
     return RB_ENOMEM;
 }
 
-static void set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh)
+static double midpoint(const rb_rolling_mesh *mesh, int i)
+{
+    return 0.5 * (mesh->ends[i] + mesh->ends[i + 1]);
+}
+
+/* Steffen's interpolation, which invents no maxima between the points. */
+static rb_status add_irregularity(const rb_rolling_case *rc, rb_rolling_mesh *mesh)
+{
+    const size_t n = (size_t)rc->irregularity_n;
+    const double *x = rc->irregularity_x;
+    gsl_spline *spline = gsl_spline_alloc(gsl_interp_steffen, n);
+
+    if (!spline)
+        return RB_ENOMEM;
+    gsl_spline_init(spline, x, rc->irregularity_gap, n);
+    for (int i = 0; i < mesh->n; i++) {
+        const double place = midpoint(mesh, i) + rc->passed;
+        if (place > x[0] && place < x[n - 1])
+            mesh->gap[i] += gsl_spline_eval(spline, place, NULL);
+    }
+    gsl_spline_free(spline);
+    return RB_OK;
+}
+
+rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh)
 {
     for (int i = 0; i < mesh->n; i++)
-        mesh->gap[i] = initial_gap(rc, 0.5 * (mesh->ends[i] + mesh->ends[i + 1]));
+        mesh->gap[i] = initial_gap(rc, midpoint(mesh, i));
+    return rc->irregularity_n > 0 ? add_irregularity(rc, mesh) : RB_OK;
 }
 
 /* The mesh must stay on the lower half of every round body. */
@@ -105,10 +131,13 @@ rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, double from, double
     if (s != RB_OK)
         return s;
     equal_ends(rc, from, to, mesh->n, mesh->ends);
-    set_gap(rc, mesh);
-    if (mesh->ends[mesh->n + 1] > mesh->ends[mesh->n])
+    s = rb_rolling_mesh_set_gap(rc, mesh);
+    if (s == RB_OK && mesh->ends[mesh->n + 1] > mesh->ends[mesh->n])
         return RB_OK;
-    rb_rolling_mesh_free(mesh); /* an arc beyond the quarter circle turns back */
+    rb_rolling_mesh_free(mesh);
+    if (s != RB_OK)
+        return s;
+    /* an arc beyond the quarter circle turns back */
     return rb_fail(why, RB_EINVAL,
                    "potential contact from %g to %g: no room for the element before it "
                    "within the radius %g; take more elements",
@@ -146,8 +175,8 @@ rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, double from, double 
         edge[across + k] = edge[across + k - 1] + step;
     s = check_extent(rc, mesh->ends[0], mesh->ends[mesh->n + 1], why);
     if (s == RB_OK)
-        set_gap(rc, mesh);
-    else
+        s = rb_rolling_mesh_set_gap(rc, mesh);
+    if (s != RB_OK)
         rb_rolling_mesh_free(mesh);
     return s;
 }

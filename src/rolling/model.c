@@ -156,17 +156,12 @@ static int separated_at_ends(const rb_rolling_state *state)
     return left == state->n ? state->n : left < right ? left : right;
 }
 
-static double widest_zone(const rb_rolling_case *rc)
-{
-    return 0.95 * fmin(rc->a.radius, rc->b.radius);
-}
-
 /* Grows the potential contact until three separated elements stand at each end, and
  * tightens it when the contact turns out to fill less than two thirds of it. */
 static rb_status solve_automatic_zone(rb_rolling_model *model, double known,
                                       rb_message *why)
 {
-    const double widest = widest_zone(&model->rc);
+    const double widest = rb_rolling_widest_zone(&model->rc);
     double zone = known > 0.0
                       ? known
                       : fmin(1.3 * rb_rolling_estimate_half_width(&model->rc), widest);

@@ -80,6 +80,13 @@ void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bod
     }
 }
 
+void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bodies,
+                        rb_rolling_problem *p)
+{
+    for (int i = 0; i < p->n; i++)
+        p->d_N[i] = mesh->gap[i] + bodies->f.w0[i];
+}
+
 /* Vertical and horizontal force of unit tractions along n and t. */
 static void set_weights(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                         rb_rolling_problem *p)
@@ -94,6 +101,13 @@ static void set_weights(const rb_rolling_case *rc, const rb_rolling_bodies *bodi
         p->force_N[i] = -h * sine;
         p->force_T[i] = h * cosine;
     }
+}
+
+double rb_rolling_wanted_shift(const rb_rolling_case *rc)
+{
+    if (!isnan(rc->shift))
+        return rc->shift;
+    return isnan(rb_rolling_wanted_load(rc)) ? 0.1 * rb_rolling_wanted_approach(rc) : 0.0;
 }
 
 /* Given values of theory.md 4.6.  The creepage ratio refers to the Hertz half-width of
@@ -116,7 +130,7 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_rolling_problem *p)
     else if (p->force_given)
         p->force = rc->force;
     else if (rc->formulation == RB_STATIC)
-        p->xi = !isnan(rc->shift) ? rc->shift : p->load_given ? 0.0 : 0.1 * p->delta;
+        p->xi = rb_rolling_wanted_shift(rc);
     else if (!isnan(rc->creep_ratio))
         p->xi = rc->creep_ratio * rc->mu * a / R;
     else
@@ -279,8 +293,7 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
         return rb_fail(why, s, "no memory for a contact problem of %d elements", mesh->n);
     }
     p->mu = rc->mu;
-    for (int i = 0; i < p->n; i++)
-        p->d_N[i] = mesh->gap[i] + bodies->f.w0[i];
+    rb_rolling_set_gap(mesh, bodies, p);
     rb_rolling_set_past(rc, bodies, past, step, p);
     set_weights(rc, bodies, p);
     rb_rolling_set_control(rc, p);

@@ -65,12 +65,19 @@ static int steps_at_rest(const rb_rolling_history *h)
     return k;
 }
 
-/* Where the entry of a rolled step belongs: creepages are means over their step. */
+/* Creepage and power are means over a rolled step: they do not start from the value at
+ * rest. */
+static int is_mean(const rb_rolling_history *h, const double *column)
+{
+    return column == h->creepage || column == h->dissipation;
+}
+
+/* Where the entry of a rolled step belongs. */
 static double place(const rb_rolling_history *h, const double *column, int k, int rest)
 {
     const double before = k > rest ? h->distance[k - 1] : 0.0;
 
-    return column == h->creepage ? 0.5 * (before + h->distance[k]) : h->distance[k];
+    return is_mean(h, column) ? 0.5 * (before + h->distance[k]) : h->distance[k];
 }
 
 /* Linear between entries k and k + 1 of a column; beyond the last one that. */
@@ -83,13 +90,13 @@ static double between(const rb_rolling_history *h, const double *column, int k, 
     return column[k] + (column[k + 1] - column[k]) * (x - x0) / (x1 - x0);
 }
 
-/* A column at the steps of another history; rolling starts from the last state at rest,
- * which has no creepage. */
+/* A column at the steps of another history; rolling starts from the last state at rest.
+ */
 static void place_column(const rb_rolling_history *from, const double *column,
                          const rb_rolling_history *to, const double *places, double *out)
 {
     const int rest = steps_at_rest(from);
-    int k = column == from->creepage || rest == 0 ? rest : rest - 1;
+    int k = is_mean(from, column) || rest == 0 ? rest : rest - 1;
 
     for (int i = 0; i < to->n; i++) {
         if (to->distance[i] == 0.0) {

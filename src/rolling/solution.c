@@ -76,7 +76,7 @@ void rb_rolling_contact_edges(const rb_rolling_mesh *mesh, const double *p, doub
 
 /* Vertex of the parabola of p^2 through the largest element and its neighbours: exact for
  * Hertz's ellipse. */
-static double peak_pressure(const rb_rolling_mesh *mesh, const double *p)
+double rb_rolling_peak_pressure(const rb_rolling_mesh *mesh, const double *p)
 {
     const int k = (int)cblas_idamax(mesh->n, p, 1);
     if (k == 0 || k == mesh->n - 1)
@@ -203,7 +203,7 @@ static rb_status support_balance(const rb_rolling_model *model, double load,
                                  double *balance)
 {
     *balance = NAN;
-    if (!model->bodies.system_a)
+    if (!model->bodies.system_a || !(load > 0.0))
         return RB_OK;
     const rb_bem_mesh *mesh = rb_bem_system_mesh(model->bodies.system_a);
     double *u = rb_alloc(2 * (size_t)mesh->n, 1), *t = rb_alloc(2 * (size_t)mesh->n, 1);
@@ -233,7 +233,7 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
     s->approach = model->state.delta;
     if (s->formulation == RB_STATIC) {
         const rb_rolling_case *rc = &model->rc;
-        s->tangential_shift = model->state.xi;
+        s->tangential_shift = model->shift + model->state.xi;
         s->creepage = !isnan(rc->creep) ? rc->creep
                       : !isnan(rc->creep_ratio)
                           ? rc->creep_ratio * mu * s->hertz_half_width / R
@@ -242,8 +242,10 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
         s->tangential_shift = NAN;
         s->creepage = model->state.xi;
     }
-    s->force_ratio = mu > 0.0 ? s->tangential_load / (mu * s->normal_load) : NAN;
-    s->creep_ratio = mu > 0.0 ? s->creepage * R / (mu * s->hertz_half_width) : NAN;
+    s->force_ratio = rb_rolling_force_ratio(mu, s->normal_load, s->tangential_load);
+    s->creep_ratio = mu > 0.0 && s->hertz_half_width > 0.0
+                         ? s->creepage * R / (mu * s->hertz_half_width)
+                         : NAN;
 }
 
 /* ---- All together
@@ -333,7 +335,7 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
                        model->mesh.n);
     }
     set_stick_limits(&model->mesh, s);
-    s->max_pressure = peak_pressure(&model->mesh, s->p);
+    s->max_pressure = rb_rolling_peak_pressure(&model->mesh, s->p);
     rb_rolling_contact_edges(&model->mesh, s->p, &s->contact_from, &s->contact_to);
     s->half_width = 0.5 * (s->contact_to - s->contact_from);
     s->slip_violations = count_violations(model, s);
@@ -346,8 +348,12 @@ rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *mo
                                  rb_rolling_solution *solution, rb_message *why)
 {
     const double start = rb_seconds();
-    rb_status s = rb_rolling_model_create(rc, model, why);
+    rb_rolling_history history = {0};
+    rb_status s = rb_rolling_has_steps(rc)
+                      ? rb_rolling_history_run(rc, NULL, NULL, NULL, model, &history, why)
+                      : rb_rolling_model_create(rc, model, why);
 
+    rb_rolling_history_free(&history);
     memset(solution, 0, sizeof *solution);
     if (s >= 0 && model->state.p) {
         const rb_status t = rb_rolling_model_solution(model, solution, why);

@@ -1,0 +1,231 @@
+/* The program of a history: its columns, and the case that each step of it is. */
+#include "rolling/internal.h"
+
+#include <gsl/gsl_interp.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COLUMN(name, is_mean)                                                            \
+    {                                                                                    \
+#name, offsetof(rb_rolling_program, name), offsetof(rb_rolling_case, name),      \
+            is_mean                                                                      \
+    }
+
+const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS] = {
+    {"distance", offsetof(rb_rolling_program, distance), SIZE_MAX, 0},
+    COLUMN(load, 0),
+    COLUMN(approach, 0),
+    COLUMN(shift, 0),
+    COLUMN(force, 0),
+    COLUMN(force_ratio, 0),
+    COLUMN(creep, 1),
+    COLUMN(creep_ratio, 1),
+};
+
+static const double *column_of(const rb_rolling_program *program, int c)
+{
+    const double *column;
+    memcpy(&column, (const char *)program + rb_rolling_program_columns[c].column,
+           sizeof column);
+    return column;
+}
+
+static void replace(rb_rolling_case *rc, int c, double value)
+{
+    memcpy((char *)rc + rb_rolling_program_columns[c].value, &value, sizeof value);
+}
+
+/* ---- The case of a step ------------------------------------------------------------ */
+
+int rb_rolling_program_at_rest(const rb_rolling_program *program)
+{
+    int rows = 0;
+    while (rows < program->n && (!program->distance || program->distance[rows] == 0.0))
+        rows++;
+    return rows;
+}
+
+rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program,
+                                       const rb_rolling_case *rc, int r)
+{
+    rb_rolling_case at = *rc;
+
+    for (int c = 1; c < RB_ROLLING_PROGRAM_COLUMNS; c++)
+        if (column_of(program, c))
+            replace(&at, c, column_of(program, c)[r]);
+    return at;
+}
+
+/* The last row at or before distance x that has a row behind it. */
+static int row_before(const rb_rolling_program *program, double x)
+{
+    return program->n < 2
+               ? 0
+               : (int)gsl_interp_bsearch(program->distance, x, 0, (size_t)program->n - 1);
+}
+
+/* Linear between the rows; before the first one and behind the last one theirs. */
+static double value_at(const rb_rolling_program *program, const double *column, double x)
+{
+    const double *d = program->distance;
+    const int i = row_before(program, x);
+
+    if (x <= d[0])
+        return column[0];
+    if (x >= d[program->n - 1])
+        return column[program->n - 1];
+    const double t = (x - d[i]) / (d[i + 1] - d[i]);
+    return (1.0 - t) * column[i] + t * column[i + 1];
+}
+
+/* Mean between two distances, exact across the rows. */
+static double mean_between(const rb_rolling_program *program, const double *column,
+                           double from, double to)
+{
+    double sum = 0.0, x = from;
+
+    while (x < to) {
+        const int next = row_before(program, x) + 1;
+        const double end = next < program->n && program->distance[next] > x
+                               ? fmin(to, program->distance[next])
+                               : to;
+        sum += 0.5 * (end - x) *
+               (value_at(program, column, x) + value_at(program, column, end));
+        x = end;
+    }
+    return sum / (to - from);
+}
+
+rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
+                                        const rb_rolling_case *rc, double from, double to)
+{
+    rb_rolling_case at = *rc;
+
+    for (int c = 1; c < RB_ROLLING_PROGRAM_COLUMNS; c++) {
+        const double *column = column_of(program, c);
+        if (column)
+            replace(&at, c,
+                    rb_rolling_program_columns[c].is_mean
+                        ? mean_between(program, column, from, to)
+                        : value_at(program, column, to));
+    }
+    return at;
+}
+
+/* ---- Checks ------------------------------------------------------------------------ */
+
+static rb_status check_distances(const rb_rolling_program *program, rb_message *why)
+{
+    const double *d = program->distance;
+
+    if (d[0] != 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "history: row 1: expected distance 0, where the contact starts "
+                       "from rest, got %g",
+                       d[0]);
+    for (int r = 1; r < program->n; r++) {
+        if (d[r] < d[r - 1])
+            return rb_fail(why, RB_EINVAL,
+                           "history: row %d: distance %g is behind the row before", r + 1,
+                           d[r]);
+        if (d[r] > 0.0 && d[r] == d[r - 1])
+            return rb_fail(why, RB_EINVAL,
+                           "history: row %d: distance %g twice; a jump needs two rows a "
+                           "little apart",
+                           r + 1, d[r]);
+    }
+    return RB_OK;
+}
+
+static rb_status check_columns(const rb_rolling_program *program,
+                               rb_rolling_formulation formulation, rb_message *why)
+{
+    if (program->n < 1)
+        return rb_fail(why, RB_EINVAL, "history: expected 1 row or more");
+    if (formulation == RB_STEADY)
+        return rb_fail(why, RB_EINVAL, "history: steady rolling has none");
+    if (formulation == RB_TRANSIENT && !program->distance)
+        return rb_fail(why, RB_EINVAL,
+                       "history: transient rolling needs a column distance");
+    if (formulation == RB_STATIC && program->distance)
+        return rb_fail(why, RB_EINVAL,
+                       "history: a column distance is one of transient rolling; static "
+                       "contact does not roll");
+    for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++)
+        for (int r = 0; column_of(program, c) && r < program->n; r++)
+            if (!isfinite(column_of(program, c)[r]))
+                return rb_fail(why, RB_EINVAL, "history: row %d: %s is not a number",
+                               r + 1, rb_rolling_program_columns[c].name);
+    return program->distance ? check_distances(program, why) : RB_OK;
+}
+
+rb_status rb_rolling_program_check(const rb_rolling_program *program,
+                                   const rb_rolling_case *rc, rb_message *why)
+{
+    rb_status s = check_columns(program, rc->formulation, why);
+    rb_message reason = {""};
+
+    for (int r = 0; r < program->n && s == RB_OK; r++) {
+        const rb_rolling_case at = rb_rolling_program_row(program, rc, r);
+        s = rb_rolling_case_check(&at, &reason);
+        if (s != RB_OK)
+            rb_fail(why, s, "history: row %d: %.200s", r + 1, reason.text);
+    }
+    return s;
+}
+
+/* ---- The case's own program -------------------------------------------------------- */
+
+int rb_rolling_has_steps(const rb_rolling_case *rc)
+{
+    return rc->formulation == RB_TRANSIENT ||
+           (rc->formulation == RB_STATIC && rc->increments > 1);
+}
+
+/* The tangential control that loads the contact at rest: its column and last value. A
+ * transient that is driven by its creepage starts without a force. */
+static double last_loading(const rb_rolling_case *rc, double *columns, int rows,
+                           rb_rolling_program *program)
+{
+    double *column = columns + 2 * (size_t)rows;
+
+    if (!isnan(rc->force_ratio)) {
+        program->force_ratio = column;
+        return rc->force_ratio;
+    }
+    if (!isnan(rc->force) || rc->formulation == RB_TRANSIENT) {
+        program->force = isnan(rc->force) ? NULL : column;
+        return isnan(rc->force) ? 0.0 : rc->force;
+    }
+    program->shift = column;
+    return rb_rolling_wanted_shift(rc);
+}
+
+double *rb_rolling_program_of_case(const rb_rolling_case *rc, rb_rolling_program *program)
+{
+    const int rolls = rc->formulation == RB_TRANSIENT;
+    const int count = rc->increments > 1 ? rc->increments : 1;
+    const double P = rb_rolling_wanted_load(rc);
+    const double most = isnan(P) ? rb_rolling_wanted_approach(rc) : P;
+    const int rows = 2 * count + 1; /* at most */
+    double *columns = rb_alloc((size_t)rows, 3);
+
+    if (!columns)
+        return NULL;
+    double *distance = columns, *normal = columns + rows, *loading = normal + rows;
+    *program = (rb_rolling_program){.distance = rolls ? distance : NULL};
+    *(isnan(P) ? &program->approach : &program->load) = normal;
+    const double last = last_loading(rc, columns, rows, program);
+    const int loaded = last != 0.0 && count > 1;
+    program->n = count + (loaded ? count : 0) + rolls;
+    for (int r = 0; r < program->n; r++) {
+        normal[r] = r < count ? most * (r + 1) / count : most;
+        loading[r] = !loaded || r >= 2 * count ? last
+                     : r < count               ? 0.0
+                                               : last * (r + 1 - count) / count;
+    }
+    if (rolls)
+        distance[program->n - 1] = rc->distance;
+    return columns;
+}
