@@ -377,9 +377,129 @@ static void transient_rolls_step_by_step(void **state)
     json_decref(root);
 }
 
+/* A column replaces what a case file says, as the command line does. */
+static void columns_win_over_the_case_file(void **state)
+{
+    (void)state;
+    write_file("history.txt", "load force_ratio\n50 0\n100 0.5\n");
+    write_file("case.ini", "load = 7\nforce = 2\nsupport = halfplane\nsimilar = yes\n"
+                           "gap = parabola\ncontact-elements = 24\n");
+    json_t *root = run_json("case.ini --history history.txt");
+    CHECK_REL(member(root, "summary", "normal_load"), 100.0, 1e-9, "last load");
+    assert_true(json_is_null(json_object_get(json_object_get(root, "inputs"), "load")));
+    json_decref(root);
+    check_refused("case.ini --history history.txt --load 5", 64,
+                  "--load: the history has a column load");
+    check_refused("--half-width 5 --history history.txt", 64,
+                  "--half-width: the history has a column load");
+    check_refused("--force 5 --history history.txt", 64,
+                  "--force: the history has a column force_ratio");
+    write_file("case.ini", "load = 7\nhistory = history.txt\n");
+    check_refused("case.ini", 65, "case.ini:1: load: the history has a column load");
+}
+
+/* The unit of distance is told, and the rows end where the table does. */
+static void distances_have_a_unit(void **state)
+{
+    (void)state;
+    write_file("history.txt", "distance load force_ratio\n0 100 0\n1 400 .5\n2 100 .5\n");
+    json_t *root =
+        run_json("--support halfplane --similar --gap parabola --contact-elements 24 "
+                 "--formulation transient --history history.txt --history-table "
+                 "steps.tsv");
+    const json_t *history = json_object_get(root, "history");
+    const size_t last = history_length(root, "distance") - 1;
+    const double a = number_in(history, "half_width");
+    char told[100];
+    CHECK_ABS(entry(history, "distance", last), 2.0, 0.0, "the end of the way");
+    CHECK_REL(entry(history, "normal_load", last), 100.0, 1e-9, "and its load");
+    CHECK_REL(a, sqrt(4.0 * 400.0 * 50.0 * 2.0 * 0.99 / (3.14159265358979 * 94500.0)),
+              1e-9, "Hertz's half-width of the largest load");
+    CHECK_REL(entry(history, "max_pressure", last),
+              member(root, "summary", "max_pressure"), 1e-12, "p0");
+    assert_int_equal(shell("grep -h '^# distance in a' steps.tsv"), 0);
+    snprintf(told, sizeof told, "# distance in a = %.9g mm", a);
+    assert_int_equal(strncmp(out, told, strlen(told)), 0);
+    assert_int_equal(shell("\"$R\" --help | grep -c 'half-widths of the largest'"), 0);
+    json_decref(root);
+}
+
+/* Nothing touches where the surface is missing: null in JSON, nan in tables. */
+static void lost_contact_has_no_ratios(void **state)
+{
+    (void)state;
+    write_file("hole.txt", "1.5 0\n2 .3\n4 1\n6 1\n8 .3\n9 0\n");
+    json_t *root =
+        run_json("--support halfplane --similar --gap parabola --contact-elements 24 "
+                 "--formulation transient --approach .03 --creep .001 --distance 8 "
+                 "--irregularity hole.txt --history-table steps.tsv --history-plot "
+                 "steps.svg");
+    const json_t *history = json_object_get(root, "history");
+    int lost = 0;
+    for (size_t i = 0; i < history_length(root, "distance"); i++)
+        if (entry(history, "normal_load", i) == 0.0) {
+            lost++;
+            assert_true(
+                json_is_null(json_array_get(json_object_get(history, "force_ratio"), i)));
+            assert_true(
+                json_is_null(json_array_get(json_object_get(history, "contact_to"), i)));
+        }
+    assert_true(lost > 3);
+    assert_int_equal(shell("grep -v '^#' steps.tsv | grep -E -e '-nan|inf'"), 1);
+    assert_int_equal(shell("grep -c nan steps.tsv"), 0);
+    json_decref(root);
+}
+
+/* Increments come with their history, in studies with the last state only. */
+static void increments_press_gradually(void **state)
+{
+    (void)state;
+    json_t *root = run_json("--support halfplane --gap parabola --load 100 "
+                            "--contact-elements 40 --increments 5 --force-ratio .3 "
+                            "--error");
+    assert_int_equal(history_length(root, "normal_load"), 10);
+    CHECK_REL(entry(json_object_get(root, "history"), "normal_load", 0), 20.0, 1e-9,
+              "the first increment");
+    CHECK_ABS(member(root, "summary", "force_ratio"), 0.3, 1e-9, "the last state");
+    json_t *table = json_object_get(json_object_get(root, "history"), "errors");
+    assert_int_equal(json_array_size(json_object_get(table, "max_pressure")), 10);
+    const double stick = member(root, "summary", "stick");
+    json_decref(root);
+    assert_int_equal(rollbem("sweep --support halfplane --gap parabola --load 100 "
+                             "--contact-elements 40 --force-ratio .3 --quiet "
+                             "--vary-1 'increments 1 5'"),
+                     0);
+    write_file("study.tsv", out);
+    assert_int_equal(shell("tail -1 study.tsv | cut -f14"), 0);
+    CHECK_ABS(atof(out), stick, 0.0, "of the study's second case");
+    check_refused("curve --increments 5 --load 10", 64, "--increments:");
+    check_refused("--formulation steady --increments 5", 64, "--increments:");
+    check_refused("--history history.txt --increments 5", 64, "--increments:");
+}
+
+static void irregularities_are_of_transients(void **state)
+{
+    (void)state;
+    write_file("open.txt", "1 0\n2 .3\n4 1\n");
+    check_refused("--irregularity open.txt", 64, "--irregularity: it rides through");
+    check_refused("--formulation steady --irregularity open.txt", 64, "--irregularity:");
+    check_refused("curve --irregularity open.txt", 64, "--irregularity:");
+    check_refused("--formulation transient --creep 1e-3 --distance 1 --irregularity "
+                  "open.txt",
+                  65, "open.txt:3: expected gap 0 where it ends");
+    check_refused("--formulation transient --creep 1e-3 --distance 1 --irregularity "
+                  "nowhere.txt",
+                  66, "nowhere.txt");
+}
+
 static void bad_histories_are_refused(void **state)
 {
     (void)state;
+    write_file("history.txt", "distance load\n0 50\n1 50\n");
+    check_refused("--history history.txt", 65, "static contact does not roll");
+    write_file("history.txt", "distance load\n1 50\n2 50\n");
+    check_refused("--formulation transient --history history.txt", 65,
+                  "history.txt:2: expected distance 0");
     write_file("history.txt", "load forc\n1 1\n");
     check_refused("--history history.txt", 65,
                   "unknown column 'forc' (did you mean 'force'?)");
@@ -607,6 +727,11 @@ int main(void)
         cmocka_unit_test(references_are_met),
         cmocka_unit_test(not_solved_is_1),
         cmocka_unit_test(static_history_from_a_table),
+        cmocka_unit_test(columns_win_over_the_case_file),
+        cmocka_unit_test(distances_have_a_unit),
+        cmocka_unit_test(lost_contact_has_no_ratios),
+        cmocka_unit_test(increments_press_gradually),
+        cmocka_unit_test(irregularities_are_of_transients),
         cmocka_unit_test(transient_rolls_step_by_step),
         cmocka_unit_test(bad_histories_are_refused),
         cmocka_unit_test(interrupted_run_keeps_its_steps),

@@ -370,7 +370,7 @@ static rb_status read_history(rb_case *c, rb_message *why)
 {
     const rb_io_table *t = &c->history.table;
     const char *path = c->words.history_file;
-    if (!path)
+    if (!path || c->words.rc.formulation == RB_STEADY) /* check_formulation refuses it */
         return RB_OK;
     rb_status s = read_table(&c->history, path, 0, why);
     if (s == RB_OK && !t->name)
@@ -421,6 +421,9 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
                            why);
     if (s == RB_OK && settled->rc.formulation == RB_STEADY)
         s = rb_case_refuse(c, "history", "steady rolling has no history", why);
+    if (s == RB_OK && settled->rc.formulation == RB_STEADY && settled->rc.increments > 1)
+        s = rb_case_refuse(c, "increments", "steady rolling forgets how it was pressed",
+                           why);
     if (s == RB_OK && history)
         s = rb_case_refuse(c, "increments", "the history says them row by row", why);
     if (s == RB_OK && rb_case_has_steps(settled) && settled->rc.mesh == RB_MESH_FITTED)

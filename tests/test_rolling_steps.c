@@ -1,0 +1,751 @@
+/* What a sequence of steps must have in common with a single case, where it ends, what
+ * its columns say, and what rides through the contact. */
+#include "check.h"
+#include "rolling/internal.h"
+
+#include <string.h>
+
+static const rb_bem_support supports[] = {RB_BEM_ARC, RB_BEM_HUB, RB_BEM_HALFPLANE};
+enum { KINDS = 12 };
+
+/* Support, body B and normal control of the k-th kind of case. */
+static rb_rolling_case kind_of_case(int k)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+
+    rc.a.support = supports[k % 3];
+    rc.gap = RB_GAP_PARABOLA;
+    rc.elastic_b = k / 3 % 2;
+    rc.b.young = 70000.0;
+    rc.b.poisson = 0.33;
+    rc.contact_elements = 30;
+    rc.zone = 2.0;
+    if (k < KINDS / 2)
+        rc.load = 1000.0;
+    else
+        rc.approach = 0.03;
+    return rc;
+}
+
+static void run(const rb_rolling_case *rc, const rb_rolling_program *program,
+                rb_rolling_model *model, rb_rolling_history *h)
+{
+    rb_message why = {""};
+    if (rb_rolling_history_run(rc, program, NULL, NULL, model, h, &why) != RB_OK)
+        fail_msg("%s", why.text);
+}
+
+static void release(rb_rolling_model *model, rb_rolling_history *h)
+{
+    rb_rolling_model_free(model);
+    rb_rolling_history_free(h);
+}
+
+static void solve(const rb_rolling_case *rc, rb_rolling_solution *s)
+{
+    rb_message why = {""};
+    if (rb_rolling_solve(rc, s, &why) != RB_OK)
+        fail_msg("%s", why.text);
+}
+
+static void check_same(const rb_rolling_solution *a, const rb_rolling_solution *b, int k)
+{
+    const double p0 = b->max_pressure;
+
+    assert_int_equal(a->n, b->n);
+    assert_int_equal(a->formulation, b->formulation);
+    for (int i = 0; i < a->n; i++) {
+        CHECK_ABS(a->p[i], b->p[i], 1e-9 * p0, "kind %d: p, element %d", k, i);
+        CHECK_ABS(a->q[i], b->q[i], 1e-9 * p0, "kind %d: q, element %d", k, i);
+        CHECK_ABS(a->slip[i], b->slip[i], 1e-10, "kind %d: slip, element %d", k, i);
+        assert_int_equal(a->zone[i], b->zone[i]);
+    }
+    CHECK_REL(a->tangential_shift, b->tangential_shift, 1e-8, "kind %d: shift", k);
+    CHECK_REL(a->creepage, b->creepage, 1e-9, "kind %d: creepage of (12)", k);
+    CHECK_REL(a->creep_ratio, b->creep_ratio, 1e-9, "kind %d: its ratio", k);
+    CHECK_REL(a->normal_load, b->normal_load, 1e-9, "kind %d: P", k);
+}
+
+/* Static contact, a static history of one row and a transient that stays at rest are one
+ * problem; the creepage enters (12) in all of them. */
+static void one_step_at_rest_is_a_static_case(void **state)
+{
+    (void)state;
+    static const double start[] = {0.0}, force[] = {0.4};
+    for (int k = 0; k < KINDS; k++)
+        for (int by_force = 0; by_force < 2; by_force++) {
+            rb_rolling_case rc = kind_of_case(k);
+            rb_rolling_model model;
+            rb_rolling_history h;
+            rb_rolling_solution single, step;
+            rc.creep_ratio = 0.5;
+            rb_rolling_case one = rc;
+            if (by_force)
+                one.force_ratio = 0.4;
+            else
+                one.shift = 1e-3;
+            solve(&one, &single);
+            const rb_rolling_program row = {.n = 1,
+                                            .force_ratio = by_force ? force : NULL,
+                                            .shift = by_force ? NULL : &one.shift};
+            run(&rc, &row, &model, &h);
+            CHECK_STATUS(rb_rolling_model_solution(&model, &step, NULL), RB_OK);
+            check_same(&step, &single, k);
+            rb_rolling_solution_free(&step);
+            release(&model, &h);
+            if (by_force) {
+                const rb_rolling_program rest = {
+                    .n = 1, .distance = start, .force_ratio = force};
+                rc.creep_ratio = NAN; /* in rolling a force stands in its place */
+                one.creep_ratio = NAN;
+                rb_rolling_solution_free(&single);
+                solve(&one, &single);
+                rc.formulation = RB_TRANSIENT;
+                run(&rc, &rest, &model, &h);
+                CHECK_STATUS(rb_rolling_model_solution(&model, &step, NULL), RB_OK);
+                single.creepage = step.creepage = 1.0; /* there is none */
+                single.creep_ratio = step.creep_ratio = 1.0;
+                check_same(&step, &single, k);
+                rb_rolling_solution_free(&step);
+                release(&model, &h);
+            }
+            rb_rolling_solution_free(&single);
+        }
+}
+
+/* The shift of a history is the whole one, in its column and in the solution. */
+static void shifts_add_up(void **state)
+{
+    (void)state;
+    const double shift[] = {1e-3, 3e-3, 4e-3};
+    const rb_rolling_program program = {.n = 3, .shift = shift};
+    for (int k = 0; k < KINDS; k++) {
+        const rb_rolling_case rc = kind_of_case(k);
+        rb_rolling_model model;
+        rb_rolling_history h;
+        rb_rolling_solution s;
+        run(&rc, &program, &model, &h);
+        CHECK_STATUS(rb_rolling_model_solution(&model, &s, NULL), RB_OK);
+        for (int i = 0; i < 3; i++)
+            CHECK_REL(h.shift[i], shift[i], 1e-12, "kind %d, row %d", k, i + 1);
+        CHECK_REL(s.tangential_shift, shift[2], 1e-12, "kind %d", k);
+        rb_rolling_solution_free(&s);
+        release(&model, &h);
+    }
+}
+
+/* ---- Pressing in increments -----------------------------------------------------------
+ */
+
+/* Steel on a rigid plane, half-plane: beta/mu = 0.952. */
+static rb_rolling_case spence(int elements)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.young = 209920.0;
+    rc.a.poisson = 0.3;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.load = 100.0;
+    rc.contact_elements = elements;
+    return rc;
+}
+
+/* Half-width of the stick of the state over that of its contact; an element that is half
+ * on either side counts by the place where |q| and mu p cross. */
+static double stick_part(const rb_rolling_model *model)
+{
+    const rb_rolling_state *state = &model->state;
+    double stick = 0.0, contact = 0.0;
+
+    for (int i = 0; i < state->n; i++) {
+        stick += state->zone[i] == RB_ZONE_STICK ? model->bodies.f.h[i] : 0.0;
+        contact += state->zone[i] != RB_ZONE_SEPARATED ? model->bodies.f.h[i] : 0.0;
+    }
+    return stick / contact;
+}
+
+typedef struct {
+    double first, last; /* stick over contact in the second half of the increments */
+    double least, most;
+} spread;
+
+static int watch_stick(const rb_rolling_model *model, const rb_rolling_history *h,
+                       int step, int steps, void *context)
+{
+    spread *s = context;
+    const double c = stick_part(model);
+
+    (void)h;
+    if (step == 0)
+        s->first = c;
+    if (step >= steps / 2) {
+        s->least = fmin(s->least, c);
+        s->most = fmax(s->most, c);
+    }
+    s->last = c;
+    return 0;
+}
+
+/* Spence: the rate of the tractions under a load that grows on a parabola is that of a
+ * flat punch as wide as the contact of the moment, and of that one step is enough because
+ * its contact does not grow.  So the stick of the flat punch is that of the parabola, and
+ * it does not depend on the load. */
+static double stick_under_a_flat_punch(int elements)
+{
+    const rb_rolling_case rc = spence(elements);
+    rb_rolling_mesh mesh;
+    rb_rolling_model model = {.rc = rc};
+
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -0.1, 0.1, &mesh, NULL), RB_OK);
+    memset(mesh.gap, 0, (size_t)mesh.n * sizeof(double));
+    model.mesh = mesh;
+    CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &model.bodies, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_problem_create(&rc, &mesh, &model.bodies, NULL, 0.0,
+                                           &model.problem, NULL),
+                 RB_OK);
+    CHECK_STATUS(rb_rolling_state_alloc(mesh.n, &model.state), RB_OK);
+    CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, NULL),
+                 RB_OK);
+    const double part = stick_part(&model);
+    rb_rolling_model_free(&model);
+    return part;
+}
+
+static void increments_press_as_spence(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = spence(400);
+    rb_rolling_model model;
+    rb_rolling_history h;
+    spread s = {.least = 1.0};
+    const double punch = stick_under_a_flat_punch(400);
+
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    CHECK_ABS(stick_part(&model), 0.298, 0.01, "in one step");
+    rb_rolling_model_free(&model);
+    rc.increments = 60;
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, watch_stick, &s, &model, &h, NULL),
+                 RB_OK);
+    assert_int_equal(h.n, 60);
+    CHECK_ABS(s.last, punch, 0.01, "the flat punch");
+    CHECK_ABS(s.last, 0.687, 0.01, "in increments");
+    CHECK_MAX(s.most - s.least, 0.03, "at all loads");
+    for (int k = 0; k < h.n; k++)
+        CHECK_REL(h.normal_load[k], 100.0 * (k + 1) / 60, 1e-10, "row %d", k + 1);
+    release(&model, &h);
+}
+
+/* After pressing as many increments of shift or force lead to what the case asks for. */
+static void increments_end_where_the_case_says(void **state)
+{
+    (void)state;
+    for (int k = 0; k < KINDS; k++)
+        for (int by_force = 0; by_force < 2; by_force++) {
+            rb_rolling_case rc = kind_of_case(k);
+            rb_rolling_solution s;
+            rc.increments = 4;
+            rc.zone = 0.0;
+            rc.shift = by_force ? NAN : 2e-3;
+            rc.force_ratio = by_force ? -0.3 : NAN;
+            solve(&rc, &s);
+            if (k < KINDS / 2)
+                CHECK_REL(s.normal_load, rc.load, 1e-9, "kind %d: P", k);
+            else
+                CHECK_REL(s.approach, rc.approach, 1e-12, "kind %d: approach", k);
+            if (by_force)
+                CHECK_REL(s.force_ratio, -0.3, 1e-9, "kind %d: Q/(mu P)", k);
+            else
+                CHECK_REL(s.tangential_shift, 2e-3, 1e-12, "kind %d: shift", k);
+            assert_int_equal(s.formulation, RB_STATIC);
+            rb_rolling_solution_free(&s);
+        }
+}
+
+static int count_steps(const rb_rolling_model *model, const rb_rolling_history *h,
+                       int step, int steps, void *context)
+{
+    (void)step;
+    (void)steps;
+    if (model && h->distance[h->n - 1] == 0.0)
+        ++*(int *)context;
+    return 0;
+}
+
+/* Similar bodies do not care how they are pressed (their pressure causes no slip), and a
+ * transient presses as a static case does. */
+static void similar_bodies_press_at_once(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = spence(40);
+    rb_rolling_solution one, many;
+    rb_rolling_model model;
+    rb_rolling_history h;
+    int at_rest = 0;
+
+    rc.elastic_b = 1;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.force_ratio = 0.5;
+    solve(&rc, &one);
+    rc.increments = 5;
+    solve(&rc, &many);
+    for (int i = 0; i < one.n; i++)
+        CHECK_ABS(many.q[i], one.q[i], 1e-9 * one.max_pressure, "q, element %d", i);
+    rb_rolling_solution_free(&one);
+    rb_rolling_solution_free(&many);
+    rc.formulation = RB_TRANSIENT;
+    rc.distance = 0.5;
+    CHECK_STATUS(
+        rb_rolling_history_run(&rc, NULL, count_steps, &at_rest, &model, &h, NULL),
+        RB_OK);
+    assert_int_equal(at_rest, 10);
+    CHECK_REL(h.distance[h.n - 1], 0.5, 1e-15, "rolled");
+    release(&model, &h);
+}
+
+/* ---- Where a history ends
+ * ---------------------------------------------------------------
+ */
+
+static void histories_end_on_their_last_row(void **state)
+{
+    (void)state;
+    static const double distance[] = {0.0, 1.0, 2.0},
+                        up_and_down[] = {100.0, 400.0, 100.0}, force[] = {0.0, 0.5, 0.5},
+                        away[] = {0.0, 2.0}, let_go[] = {100.0, 0.01},
+                        pulled[] = {0.0, 0.5};
+    const rb_rolling_program programs[] = {
+        {.n = 3, .distance = distance, .load = up_and_down, .force_ratio = force},
+        {.n = 2, .distance = away, .load = let_go, .force_ratio = pulled}};
+    for (int j = 0; j < 2; j++)
+        for (int k = 0; k < 6; k++) {
+            rb_rolling_case rc = kind_of_case(k);
+            rb_rolling_model model;
+            rb_rolling_history h;
+            rc.formulation = RB_TRANSIENT;
+            rc.load = NAN;
+            rc.zone = 0.0;
+            rc.contact_elements = 60;
+            run(&rc, &programs[j], &model, &h);
+            const int last = h.n - 1, row = programs[j].n - 1;
+            assert_true(h.distance[last] == 2.0);
+            CHECK_REL(h.normal_load[last], programs[j].load[row], 1e-9, "P");
+            CHECK_REL(h.force_ratio[last], 0.5, 1e-9, "Q/(mu P)");
+            for (int i = 0; i < h.n; i++) {
+                CHECK_MAX(h.normal_load[i], 400.0 * (1.0 + 1e-12), "no load is beyond");
+                assert_true(isfinite(h.force_ratio[i]));
+            }
+            release(&model, &h);
+        }
+}
+
+/* Under a given force the last creepage does not jump with the place where the way ends.
+ */
+static void the_last_creepage_is_one_of_many(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = spence(50);
+    double end[5];
+
+    rc.elastic_b = 1;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.zone = 1.25 * rb_rolling_hertz_half_width(&rc, rc.load);
+    rc.formulation = RB_TRANSIENT;
+    rc.force_ratio = -0.64;
+    for (int k = 0; k < 5; k++) {
+        rb_rolling_model model;
+        rb_rolling_history h;
+        rc.distance = 1.3 + 0.012 * k;
+        run(&rc, NULL, &model, &h);
+        CHECK_MAX(h.step, model.bodies.f.h[0] * (1.0 + 1e-9), "at most an element");
+        end[k] = h.creepage[h.n - 1];
+        CHECK_REL(end[k], end[0], 0.02, "distance %g", rc.distance);
+        release(&model, &h);
+    }
+}
+
+/* Half-way through a half-plane without a matrix: one element ahead is the next midpoint.
+ */
+static void large_contacts_know_what_is_ahead(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = spence(RB_ROLLING_LARGE);
+    rb_rolling_mesh mesh;
+    rb_rolling_bodies bodies;
+    rb_rolling_ahead ahead;
+    const int n = RB_ROLLING_LARGE, m = n + 1;
+
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -0.2, 0.2, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, NULL), RB_OK);
+    assert_null(bodies.F);
+    CHECK_STATUS(rb_rolling_ahead_create(&rc, &bodies, bodies.f.h[0], &ahead), RB_OK);
+    double *r = calloc((size_t)(2 * n), sizeof *r),
+           *w = calloc((size_t)(2 * m), sizeof *w), *w_T = calloc((size_t)n, sizeof *w_T);
+    for (int i = n / 3; i < 2 * n / 3; i++) {
+        r[i] = 1.0 + 0.3 * sin(0.01 * i);
+        r[n + i] = cos(0.02 * i);
+    }
+    CHECK_STATUS(rb_rolling_displacement(&bodies, r, r + n, w), RB_OK);
+    rb_rolling_ahead_apply(&ahead, &bodies, r, r + n, w_T);
+    for (int i = 0; i < n; i++)
+        CHECK_ABS(w_T[i], w[m + i + 1], 1e-11 * fabs(w[m + n / 2]), "element %d", i);
+    free(r);
+    free(w);
+    free(w_T);
+    rb_rolling_ahead_free(&ahead);
+    rb_rolling_bodies_free(&bodies);
+    rb_rolling_mesh_free(&mesh);
+}
+
+/* A creepage ratio refers to the load of the step, which a given approach only brings. */
+static void ratios_refer_to_the_load_of_the_step(void **state)
+{
+    (void)state;
+    for (int k = KINDS / 2; k < KINDS; k++) {
+        rb_rolling_case rc = kind_of_case(k);
+        rb_rolling_model model;
+        rb_rolling_history h;
+        rb_rolling_solution s;
+        rc.formulation = RB_TRANSIENT;
+        rc.creep_ratio = 0.4;
+        rc.distance = 0.3;
+        run(&rc, NULL, &model, &h);
+        CHECK_STATUS(rb_rolling_model_solution(&model, &s, NULL), RB_OK);
+        CHECK_REL(s.creep_ratio, 0.4, 1e-9, "kind %d", k);
+        rb_rolling_solution_free(&s);
+        release(&model, &h);
+    }
+}
+
+/* ---- Columns ----------------------------------------------------------------------- */
+
+static void columns_are_those_of_the_solution(void **state)
+{
+    (void)state;
+    for (int k = 0; k < KINDS; k++) {
+        rb_rolling_case rc = kind_of_case(k);
+        rb_rolling_model model;
+        rb_rolling_history h;
+        rb_rolling_solution s;
+        double moment = 0.0;
+        rc.formulation = RB_TRANSIENT;
+        rc.creep = 2e-3;
+        rc.distance = 0.7;
+        run(&rc, NULL, &model, &h);
+        CHECK_STATUS(rb_rolling_model_solution(&model, &s, NULL), RB_OK);
+        const int last = h.n - 1;
+        for (int i = 0; i < s.n; i++)
+            moment += s.x[i] * s.p[i] * s.h[i];
+        CHECK_REL(h.moment[last], moment, 1e-12, "kind %d: moment", k);
+        CHECK_REL(h.max_pressure[last], s.max_pressure, 1e-12, "kind %d: p0", k);
+        CHECK_REL(h.contact_from[last], s.contact_from, 1e-12, "kind %d: from", k);
+        CHECK_REL(h.contact_to[last], s.contact_to, 1e-12, "kind %d: to", k);
+        CHECK_REL(h.dissipation[last], s.dissipation, 1e-12, "kind %d: power", k);
+        assert_true(h.dissipation[0] == 0.0 && h.creepage[0] == 0.0);
+        release(&model, &h);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* In a steady state D = -xi Q + (1/R) int x p dx (theory.md 6). */
+static void power_and_moment_balance_when_steady(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = spence(160);
+    rb_rolling_model model;
+    rb_rolling_history h;
+
+    rc.formulation = RB_TRANSIENT;
+    rc.creep = 1e-3;
+    rc.distance = 12.0;
+    run(&rc, NULL, &model, &h);
+    const int last = h.n - 1;
+    assert_true(h.steady_from > 0);
+    CHECK_REL(h.dissipation[last],
+              -h.creepage[last] * h.tangential_load[last] + h.moment[last] / rc.a.radius,
+              0.01, "energy");
+    assert_true(h.moment[last] > 0.0);
+    release(&model, &h);
+}
+
+/* ---- Irregular surfaces
+ * ------------------------------------------------------------------
+ */
+
+/* A round flat of depth d [mm] and half-length l around x. */
+typedef struct {
+    double x[21], gap[21];
+} spot;
+
+static spot make_spot(double x, double l, double d)
+{
+    spot s;
+    for (int i = 0; i < 21; i++) {
+        const double t = (i - 10) / 10.0;
+        s.x[i] = x + l * t;
+        s.gap[i] = i == 0 || i == 20 ? 0.0 : d * (1.0 - t * t) * (1.0 - t * t);
+    }
+    return s;
+}
+
+static rb_rolling_case with_spot(const rb_rolling_case *rc, const spot *s)
+{
+    rb_rolling_case other = *rc;
+    other.irregularity_n = 21;
+    other.irregularity_x = s->x;
+    other.irregularity_gap = s->gap;
+    return other;
+}
+
+/* An irregularity of height 0 is none: the history comes to the steady state. */
+static void nothing_passes_unnoticed(void **state)
+{
+    (void)state;
+    const spot flat = make_spot(0.3, 0.2, 0.0);
+    for (int k = 0; k < KINDS; k++) {
+        rb_rolling_case rc = kind_of_case(k);
+        rb_rolling_model model[2];
+        rb_rolling_history h[2];
+        rc.formulation = RB_TRANSIENT;
+        rc.creep = 3e-3;
+        rc.distance = k == 2 ? 8.0 : 1.0;
+        const rb_rolling_case moving = with_spot(&rc, &flat);
+        run(&rc, NULL, &model[0], &h[0]);
+        run(&moving, NULL, &model[1], &h[1]);
+        assert_int_equal(h[0].n, h[1].n);
+        for (int i = 0; i < h[0].n; i++)
+            CHECK_ABS(h[1].tangential_load[i], h[0].tangential_load[i],
+                      1e-9 * h[0].normal_load[i], "kind %d, step %d", k, i);
+        if (k == 2) {
+            rb_rolling_solution steady;
+            rc.formulation = RB_STEADY;
+            solve(&rc, &steady);
+            CHECK_REL(h[1].force_ratio[h[1].n - 1], steady.force_ratio, 3e-3, "steady");
+            rb_rolling_solution_free(&steady);
+        }
+        release(&model[0], &h[0]);
+        release(&model[1], &h[1]);
+    }
+}
+
+/* Pressures of all steps, and of how many. */
+typedef struct {
+    double p[300][80];
+    int n;
+} film;
+
+static int take(const rb_rolling_model *model, const rb_rolling_history *h, int step,
+                int steps, void *context)
+{
+    film *f = context;
+
+    (void)h;
+    (void)steps;
+    memcpy(f->p[step], model->state.p, (size_t)model->mesh.n * sizeof(double));
+    f->n = step + 1;
+    return step + 1 == 300;
+}
+
+/* A bump that lies before the contact rides through it from +x to -x, by the rolled
+ * distance: there the pressure differs most from that without it, and what is behind it
+ * is as before. */
+static void a_bump_passes_from_front_to_back(void **state)
+{
+    (void)state;
+    static film smooth, bumpy;
+    for (int k = 0; k < 6; k++) {
+        rb_rolling_case rc = kind_of_case(k);
+        const double start = 2.6;
+        const spot bump = make_spot(start, 0.25, -5e-4);
+        rb_rolling_model model[2];
+        rb_rolling_history h[2];
+        int inside = 0;
+        rc.contact_elements = 80;
+        rc.formulation = RB_TRANSIENT;
+        rc.creep = 2e-3;
+        rc.distance = 6.0;
+        rb_rolling_case moving = with_spot(&rc, &bump);
+        CHECK_STATUS(
+            rb_rolling_history_run(&rc, NULL, take, &smooth, &model[0], &h[0], NULL),
+            RB_OK);
+        CHECK_STATUS(
+            rb_rolling_history_run(&moving, NULL, take, &bumpy, &model[1], &h[1], NULL),
+            RB_OK);
+        assert_int_equal(smooth.n, bumpy.n);
+        for (int step = 0; step < bumpy.n; step++) {
+            const double x = start - h[1].distance[step] * h[1].half_width;
+            const double *p = bumpy.p[step], *q = smooth.p[step];
+            int at = 0;
+            for (int i = 1; i < 80; i++)
+                at = p[i] - q[i] > p[at] - q[at] ? i : at;
+            if (fabs(x) > 0.8 * h[1].half_width)
+                continue;
+            CHECK_ABS(model[1].bodies.f.x[at], x, 0.051, "kind %d, step %d", k, step);
+            inside++;
+        }
+        assert_true(inside > 20);
+        const int last = h[1].n - 1;
+        CHECK_REL(h[1].max_pressure[last], h[0].max_pressure[last], 1e-3,
+                  "kind %d: p0 behind it", k);
+        release(&model[0], &h[0]);
+        release(&model[1], &h[1]);
+    }
+}
+
+/* A hole as wide as the contact and deeper than the approach: nothing touches for a
+ * while, and a ratio to no load is no number, nor is it infinite. */
+static void contact_may_be_lost_and_found(void **state)
+{
+    (void)state;
+    const spot hole = make_spot(9.0, 6.0, 0.5);
+    for (int k = KINDS / 2; k < KINDS; k++) {
+        rb_rolling_case rc = kind_of_case(k);
+        rb_rolling_model model;
+        rb_rolling_history h;
+        int lost = 0;
+        rc.formulation = RB_TRANSIENT;
+        rc.creep = 1e-3;
+        rc.distance = 28.0;
+        rc.steps = 80;
+        const rb_rolling_case moving = with_spot(&rc, &hole);
+        run(&moving, NULL, &model, &h);
+        for (int i = 0; i < h.n; i++) {
+            assert_false(isinf(h.force_ratio[i]) || isinf(h.contact_to[i]));
+            if (h.normal_load[i] > 0.0)
+                continue;
+            lost++;
+            assert_true(isnan(h.force_ratio[i]) && isnan(h.contact_from[i]));
+            assert_true(h.tangential_load[i] == 0.0 && h.max_pressure[i] == 0.0);
+        }
+        assert_true(lost > 5);
+        CHECK_REL(h.normal_load[h.n - 1], h.normal_load[0], 0.02, "kind %d: found", k);
+        release(&model, &h);
+    }
+}
+
+static int find_widest(const rb_rolling_model *model, const rb_rolling_history *h,
+                       int step, int steps, void *context)
+{
+    double *widest = context;
+
+    (void)h;
+    (void)steps;
+    *widest = step == 0 ? 0.0 : *widest;
+    for (int i = 0; i < model->mesh.n; i++)
+        if (model->state.p[i] > 0.0)
+            *widest = fmax(*widest, fabs(model->bodies.f.x[i]));
+    return 0;
+}
+
+/* A flat under a given load widens the contact beyond that at rest: an automatic zone
+ * grows, a given one is refused with a line. */
+static void zones_grow_with_what_passes(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = spence(60);
+    const spot flat = make_spot(0.9, 0.45, 3e-3);
+    rb_rolling_model model;
+    rb_rolling_history h;
+    rb_message why = {""};
+    double widest = 0.0;
+
+    rc.formulation = RB_TRANSIENT;
+    rc.force_ratio = 0.0;
+    rc.distance = 12.0;
+    rb_rolling_case moving = with_spot(&rc, &flat);
+    CHECK_STATUS(
+        rb_rolling_history_run(&moving, NULL, find_widest, &widest, &model, &h, NULL),
+        RB_OK);
+    const double a = h.half_width;
+    CHECK_MAX(1.7 * a, widest, "a wide contact");
+    CHECK_MAX(widest, model.mesh.ends[model.mesh.n], "in the zone");
+    assert_true(h.distance[h.n - 1] == 12.0);
+    release(&model, &h);
+    moving.zone = 1.3 * a;
+    CHECK_STATUS(rb_rolling_history_run(&moving, NULL, NULL, NULL, &model, &h, &why),
+                 RB_ZONE);
+    assert_non_null(strstr(why.text, "widen the zone"));
+    release(&model, &h);
+}
+
+static void bad_irregularities_are_refused(void **state)
+{
+    (void)state;
+    static const double x[] = {0.0, 1.0, 2.0}, back[] = {0.0, 1.0, 1.0},
+                        open[] = {0.0, 1.0, 0.5}, closed[] = {0.0, 1.0, 0.0},
+                        hole[] = {0.0, NAN, 0.0};
+    const struct {
+        const char *word;
+        rb_rolling_formulation formulation;
+        int n;
+        const double *x, *gap;
+    } bad[] = {{"needs 3 points", RB_TRANSIENT, 2, x, closed},
+               {"row 3: expected an x larger", RB_TRANSIENT, 3, back, closed},
+               {"row 3: expected gap 0", RB_TRANSIENT, 3, x, open},
+               {"row 2 is not a finite", RB_TRANSIENT, 3, x, hole},
+               {"transient", RB_STEADY, 3, x, closed}};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        rb_rolling_case rc = kind_of_case(0);
+        rb_message why = {""};
+        rc.formulation = bad[k].formulation;
+        rc.irregularity_n = bad[k].n;
+        rc.irregularity_x = bad[k].x;
+        rc.irregularity_gap = bad[k].gap;
+        CHECK_STATUS(rb_rolling_case_check(&rc, &why), RB_EINVAL);
+        if (!strstr(why.text, bad[k].word))
+            fail_msg("'%s' does not say '%s'", why.text, bad[k].word);
+    }
+}
+
+static void every_failed_allocation_is_reported(void **state)
+{
+    (void)state;
+    const spot bump = make_spot(0.3, 0.2, -1e-4);
+    rb_rolling_case rc = kind_of_case(2);
+    int refused = 1;
+
+    rc.contact_elements = 12;
+    rc.formulation = RB_TRANSIENT;
+    rc.increments = 2;
+    rc.force_ratio = 0.3;
+    rc.distance = 0.4;
+    const rb_rolling_case moving = with_spot(&rc, &bump);
+    for (int count = 0; refused; count++) {
+        rb_rolling_model model;
+        rb_rolling_history h;
+        alloc_fail_after(count);
+        const rb_status s =
+            rb_rolling_history_run(&moving, NULL, NULL, NULL, &model, &h, NULL);
+        refused = alloc_failed();
+        alloc_succeed();
+        if (refused && s == RB_OK)
+            fail_msg("allocation %d failed unnoticed", count);
+        release(&model, &h);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_step_at_rest_is_a_static_case),
+        cmocka_unit_test(shifts_add_up),
+        cmocka_unit_test(increments_press_as_spence),
+        cmocka_unit_test(increments_end_where_the_case_says),
+        cmocka_unit_test(similar_bodies_press_at_once),
+        cmocka_unit_test(histories_end_on_their_last_row),
+        cmocka_unit_test(the_last_creepage_is_one_of_many),
+        cmocka_unit_test(large_contacts_know_what_is_ahead),
+        cmocka_unit_test(ratios_refer_to_the_load_of_the_step),
+        cmocka_unit_test(columns_are_those_of_the_solution),
+        cmocka_unit_test(power_and_moment_balance_when_steady),
+        cmocka_unit_test(nothing_passes_unnoticed),
+        cmocka_unit_test(a_bump_passes_from_front_to_back),
+        cmocka_unit_test(contact_may_be_lost_and_found),
+        cmocka_unit_test(zones_grow_with_what_passes),
+        cmocka_unit_test(bad_irregularities_are_refused),
+        cmocka_unit_test(every_failed_allocation_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
