@@ -241,7 +241,7 @@ static void contradictions_are_refused(void **state)
         {"formulation=transient", "needs --distance or --history"},
         {"steps=4", "of transient rolling only"},
         {"mu=0.1,0.2", "a curve takes several"},
-        {"accuracy=1e-3 formulation=transient distance=1", "without history only"},
+        {"accuracy=1e-3 formulation=transient distance=1", "without steps only"},
         {"force-ratio=1.5", "at most 1"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
