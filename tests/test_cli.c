@@ -448,6 +448,14 @@ static void lost_contact_has_no_ratios(void **state)
     assert_int_equal(shell("grep -v '^#' steps.tsv | grep -E -e '-nan|inf'"), 1);
     assert_int_equal(shell("grep -c nan steps.tsv"), 0);
     json_decref(root);
+    /* and where the last state is such a one, people see none either */
+    assert_int_equal(rollbem("--support halfplane --similar --gap parabola "
+                             "--contact-elements 24 --formulation transient --approach "
+                             ".03 --creep .001 --distance 4 --irregularity hole.txt"),
+                     0);
+    assert_non_null(strstr(err, "P = 0 N/mm"));
+    assert_null(strstr(err, "nan"));
+    assert_null(strstr(err, "inf"));
 }
 
 /* Increments come with their history, in studies with the last state only. */

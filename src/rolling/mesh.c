@@ -64,12 +64,12 @@ static double midpoint(const rb_rolling_mesh *mesh, int i)
     return 0.5 * (mesh->ends[i] + mesh->ends[i + 1]);
 }
 
-/* Steffen's interpolation, which invents no maxima between the points. */
+/* A cubic spline: the pressure follows the curvature, which it keeps continuous. */
 static rb_status add_irregularity(const rb_rolling_case *rc, rb_rolling_mesh *mesh)
 {
     const size_t n = (size_t)rc->irregularity_n;
     const double *x = rc->irregularity_x;
-    gsl_spline *spline = gsl_spline_alloc(gsl_interp_steffen, n);
+    gsl_spline *spline = gsl_spline_alloc(gsl_interp_cspline, n);
 
     if (!spline)
         return RB_ENOMEM;
