@@ -401,7 +401,12 @@ static void bad_rows_are_named_by_their_line(void **state)
     write_file("gap.txt", "0 0\n1 1\n\n1 2\n");
     check_refused("--load 10 --gap gap.txt", 65, "gap.txt:4: expected an x larger");
     write_file("gap.txt", "0 0\n");
-    check_refused("--load 10 --gap gap.txt", 65, "needs 2 points or more, got 1");
+    check_refused("--load 10 --gap gap.txt", 65, "needs 3 points or more, got 1");
+    write_file("gap.txt", "# x gap\n-1 -.5\n0 0\n1 -.5\n");
+    check_refused("--load 10 --gap gap.txt", 65, "gap.txt:4: the smallest gap, -0.5");
+    check_refused("--load 10 --gap-smoothing 1e-3", 64,
+                  "--gap-smoothing: of a gap from a file only");
+    check_refused("--load 10 --gap gap.txt --gap-smoothing -1", 64, "--gap-smoothing");
 }
 
 /* ---- Slip

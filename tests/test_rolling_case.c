@@ -89,18 +89,12 @@ static void contradictions_name_both_sides(void **state)
     check_refused(&rc, "normals", "half-plane");
 }
 
-static void profiles_must_increase(void **state)
+static void a_table_gap_needs_its_table(void **state)
 {
     (void)state;
-    const double x[] = {0.0, 1.0, 1.0}, gap[] = {0.0, 1.0, 2.0};
     rb_rolling_case rc = rb_rolling_case_defaults();
     rc.gap = RB_GAP_TABLE;
-    rc.profile_x = x;
-    rc.profile_gap = gap;
-    rc.profile_n = 1;
-    check_refused(&rc, "gap", "2 points");
-    rc.profile_n = 3;
-    check_refused(&rc, "gap", "row 3");
+    check_refused(&rc, "gap", "none is given");
 }
 
 static void hertz_closes_the_circle(void **state)
@@ -133,7 +127,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_values_are_refused_by_name),
         cmocka_unit_test(contradictions_name_both_sides),
-        cmocka_unit_test(profiles_must_increase),
+        cmocka_unit_test(a_table_gap_needs_its_table),
         cmocka_unit_test(hertz_closes_the_circle),
         cmocka_unit_test(the_half_width_of_an_approach_inverts_the_compression),
     };

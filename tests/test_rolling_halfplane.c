@@ -305,39 +305,41 @@ static void a_zone_that_fills_says_how_wide_it_should_be(void **state)
 static void a_gap_that_never_closes_is_no_contact(void **state)
 {
     (void)state;
-    const double x[] = {-100.0, 100.0}, gap[] = {1.0, 1.0};
+    const double x[] = {-100.0, 0.0, 100.0}, gap[] = {1.1, 1.0, 1.1};
     rb_rolling_case rc = incompressible_wheel();
     rb_rolling_solution s;
     rb_message why = {""};
+    rb_rolling_profile *profile;
+    CHECK_STATUS(rb_rolling_profile_create(3, x, gap, 0.0, &profile, NULL), RB_OK);
     rc.gap = RB_GAP_TABLE;
-    rc.profile_n = 2;
-    rc.profile_x = x;
-    rc.profile_gap = gap;
+    rc.profile = profile;
     rc.half_width = NAN;
     rc.approach = 0.5;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_NO_CONTACT);
     rb_rolling_solution_free(&s);
+    rb_rolling_profile_free(profile);
 }
 
 /* A profile of the parabola itself gives the parabola's answer. */
 static void a_table_gap_is_the_gap_it_tabulates(void **state)
 {
     (void)state;
-    enum { POINTS = 4001 };
-    static double x[POINTS], gap[POINTS];
+    enum { POINTS = 41 };
+    double x[POINTS], gap[POINTS];
+    rb_rolling_profile *profile;
     rb_rolling_case rc = incompressible_wheel();
     for (int i = 0; i < POINTS; i++) {
         x[i] = 2.0 * rc.half_width * (i - POINTS / 2) / (POINTS / 2);
         gap[i] = x[i] * x[i] / (2.0 * rc.a.radius);
     }
+    CHECK_STATUS(rb_rolling_profile_create(POINTS, x, gap, 0.0, &profile, NULL), RB_OK);
     rb_rolling_solution want = rolling_at(rc, 0.4);
     rc.gap = RB_GAP_TABLE;
-    rc.profile_n = POINTS;
-    rc.profile_x = x;
-    rc.profile_gap = gap;
+    rc.profile = profile;
     rb_rolling_solution got = rolling_at(rc, 0.4);
     CHECK_REL(got.max_pressure, want.max_pressure, 1e-5, "p0");
     CHECK_ABS(got.force_ratio, want.force_ratio, 1e-5, "Q");
+    rb_rolling_profile_free(profile);
     rb_rolling_solution_free(&got);
     rb_rolling_solution_free(&want);
 }

@@ -684,7 +684,7 @@ static void bad_irregularities_are_refused(void **state)
     } bad[] = {{"needs 3 points", RB_TRANSIENT, 2, x, closed},
                {"row 3: expected an x larger", RB_TRANSIENT, 3, back, closed},
                {"row 3: expected gap 0", RB_TRANSIENT, 3, x, open},
-               {"row 2 is not a finite", RB_TRANSIENT, 3, x, hole},
+               {"row 2: not a finite", RB_TRANSIENT, 3, x, hole},
                {"transient", RB_STEADY, 3, x, closed}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_rolling_case rc = kind_of_case(0);

@@ -205,6 +205,7 @@ rb_status rb_case_settle(rb_case *c, rb_message *why);
 typedef struct {
     rb_rolling_case rc;
     const char *gap_file; /* profile of the initial gap, or NULL */
+    double gap_smoothing; /* standard deviation of its noise [length] */
     int similar;          /* B is of A's material */
     double young_b, poisson_b, radius_b;
     rb_numbers mus;                /* more than one: for curves */

@@ -45,6 +45,23 @@ typedef struct {
     double datum;     /* half-plane: depth of zero displacement; 0: 2R/e */
 } rb_rolling_body;
 
+/* A measured gap g_0(x) [length]: n points, x increasing, as a cubic spline, whose
+ * curvature, which the pressure follows, is continuous.  noise: 0: the spline goes
+ * through the points; > 0: the standard deviation of their noise [length], and the spline
+ * is the smoothest curve that stays so close to them (root mean square).  RB_EINVAL with
+ * the row: too few points, x that does not increase, the smallest gap at an end, so that
+ * the table does not enclose a contact; RB_ENOMEM. */
+typedef struct rb_rolling_profile rb_rolling_profile;
+rb_status rb_rolling_profile_create(int n, const double *x, const double *gap,
+                                    double noise, rb_rolling_profile **profile,
+                                    rb_message *why);
+void rb_rolling_profile_free(rb_rolling_profile *profile);
+/* First and last x. */
+void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from,
+                              double *to);
+/* At any x; straight on beyond the ends, where no contact is accepted. */
+double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x);
+
 /* Every input of one case.  Quantities of which "one of" is asked are NAN when not given.
  * rb_rolling_case_defaults() is the example of *Addi* (theory.md 7). */
 typedef struct {
@@ -52,8 +69,7 @@ typedef struct {
     int elastic_b; /* 0: B is a rigid plane and b is not read */
 
     rb_rolling_gap gap;
-    int profile_n;                         /* RB_GAP_TABLE: points of the initial gap */
-    const double *profile_x, *profile_gap; /* [length]; borrowed */
+    const rb_rolling_profile *profile; /* RB_GAP_TABLE; borrowed */
     /* What a surface has too little (> 0) or too much (< 0) of where it is irregular,
      * added to the gap: points that begin and end with 0 and lie at these x before
      * rolling.  It rides with the material, towards -x; `passed` says how far.  Not in

@@ -36,6 +36,7 @@ rb_case *rb_case_copy(const rb_case *c)
         return NULL;
     *copy = *c;
     copy->gap.borrowed = copy->irregularity.borrowed = copy->history.borrowed = 1;
+    copy->profile.borrowed = 1;
     copy->text = NULL;
     copy->texts = 0;
     return copy;
@@ -48,10 +49,18 @@ static void free_table(case_table *t)
     *t = (case_table){.path = NULL};
 }
 
+static void free_profile(case_profile *p)
+{
+    if (!p->borrowed)
+        rb_rolling_profile_free(p->curve);
+    *p = (case_profile){.curve = NULL};
+}
+
 void rb_case_free(rb_case *c)
 {
     if (!c)
         return;
+    free_profile(&c->profile);
     free_table(&c->gap);
     free_table(&c->irregularity);
     free_table(&c->history);
@@ -264,10 +273,15 @@ static rb_status settle_body_b(rb_case *c, rb_message *why)
 /* ---- Files that the case names ------------------------------------------------------
  */
 
+static int is_read(const case_table *t, const char *path)
+{
+    return t->path && strcmp(t->path, path) == 0;
+}
+
 /* columns: how many there must be; 0: any number of them. */
 static rb_status read_table(case_table *t, const char *path, int columns, rb_message *why)
 {
-    if (t->path && strcmp(t->path, path) == 0)
+    if (is_read(t, path))
         return RB_OK;
     free_table(t);
     const rb_status s = columns > 0
@@ -281,15 +295,20 @@ static rb_status read_profile(rb_case *c, rb_message *why)
 {
     rb_settled_case *settled = &c->settled;
     const rb_io_table *t = &c->gap.table;
+    const double noise = settled->gap_smoothing;
     if (settled->rc.gap != RB_GAP_TABLE)
-        return RB_OK;
-    const rb_status s = read_table(&c->gap, settled->gap_file, 2, why);
-    if (s != RB_OK)
-        return s;
-    settled->rc.profile_n = t->rows;
-    settled->rc.profile_x = t->x;
-    settled->rc.profile_gap = t->x + t->rows;
-    return RB_OK;
+        return rb_case_refuse(c, "gap-smoothing", "of a gap from a file only", why);
+    if (!is_read(&c->gap, settled->gap_file) || c->profile.noise != noise)
+        free_profile(&c->profile);
+    rb_status s = read_table(&c->gap, settled->gap_file, 2, why);
+    if (s == RB_OK && !c->profile.curve) {
+        c->profile = (case_profile){.noise = noise};
+        s = rb_rolling_profile_create(t->rows, t->x, t->x + t->rows, noise,
+                                      &c->profile.curve, why);
+        s = rb_case_blame(c, s, why);
+    }
+    settled->rc.profile = c->profile.curve;
+    return s;
 }
 
 static rb_status read_irregularity(rb_case *c, rb_message *why)

@@ -14,12 +14,20 @@ typedef struct {
     int borrowed;     /* 1: it belongs to the case that this one is a copy of */
 } case_table;
 
+/* The gap made of a table, kept while table and noise stay the same. */
+typedef struct {
+    rb_rolling_profile *curve;
+    double noise;
+    int borrowed;
+} case_profile;
+
 struct rb_case {
     rb_case_purpose purpose;
     rb_settled_case words, settled; /* as given; as used */
     char path[320];                 /* case file, "" without */
     int given[RB_CASE_OPTIONS_MAX];
     case_table gap, irregularity, history;
+    case_profile profile;
     char **text; /* copies of values; owned */
     int texts;
 };

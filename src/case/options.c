@@ -83,6 +83,9 @@ const rb_option rb_case_table[] = {
                    "x^2/(2R), the cylinder's own, or a file of rows x, gap [mm]",
                    .path = PLACE(gap_file), .path_value = RB_GAP_TABLE,
                    .path_name = "FILE"),
+    RB_NUMBER_LINE("gap-smoothing", PLACE(gap_smoothing), "mm", RB_FROM(0),
+                   "standard deviation of the noise in the gap file: the smoothest curve "
+                   "that stays so close to its points; 0: a cubic spline through them"),
     RB_TEXT_LINE(
         "irregularity", PLACE(irregularity_file), "FILE",
         "transient: rows x, gap [mm] of a flat (> 0) or a bump (< 0) that adds to "

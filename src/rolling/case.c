@@ -242,30 +242,11 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
     return check_force(rc, why);
 }
 
-/* x, gap of a profile or of an irregularity. */
-static rb_status check_points(const char *what, int least, int n, const double *x,
-                              const double *gap, rb_message *why)
-{
-    if (n < least)
-        return rb_fail(why, RB_EINVAL, "%s: a profile needs %d points or more, got %d",
-                       what, least, n);
-    for (int i = 0; i < n; i++)
-        if (!isfinite(x[i]) || !isfinite(gap[i]))
-            return rb_fail(why, RB_EINVAL, "%s: row %d is not a finite number", what,
-                           i + 1);
-    for (int i = 1; i < n; i++)
-        if (x[i] <= x[i - 1])
-            return rb_fail(why, RB_EINVAL,
-                           "%s: row %d: expected an x larger than in the row before",
-                           what, i + 1);
-    return RB_OK;
-}
-
 static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
 {
-    return rc->gap == RB_GAP_TABLE ? check_points("gap", 2, rc->profile_n, rc->profile_x,
-                                                  rc->profile_gap, why)
-                                   : RB_OK;
+    return rc->gap == RB_GAP_TABLE && !rc->profile
+               ? rb_fail(why, RB_EINVAL, "gap: a table is wanted, and none is given")
+               : RB_OK;
 }
 
 /* The surface is smooth again where the points end; steady rolling sees nothing pass. */
@@ -279,8 +260,8 @@ static rb_status check_irregularity(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "irregularity: it rides through the contact, which is transient "
                        "rolling");
-    const rb_status s =
-        check_points("irregularity", 3, n, rc->irregularity_x, rc->irregularity_gap, why);
+    const rb_status s = rb_rolling_points_check("irregularity", n, rc->irregularity_x,
+                                                rc->irregularity_gap, why);
     for (int i = 0; s == RB_OK && i < n; i += n - 1)
         if (rc->irregularity_gap[i] != 0.0)
             return rb_fail(why, RB_EINVAL,

@@ -25,6 +25,13 @@ double rb_rolling_widest_zone(const rb_rolling_case *rc);
 /* Q/(mu P); NAN without friction or load. */
 double rb_rolling_force_ratio(double mu, double P, double Q);
 
+/* ---- profile.c ----------------------------------------------------------------------
+ */
+
+/* Three points or more, finite, x increasing: RB_EINVAL "<what>: row ...". */
+rb_status rb_rolling_points_check(const char *what, int n, const double *x,
+                                  const double *gap, rb_message *why);
+
 /* ---- bodies.c ------------------------------------------------------------------------
  */
 

@@ -15,18 +15,6 @@ void rb_rolling_mesh_free(rb_rolling_mesh *mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
-/* Linear between the points of a measured profile, and beyond them along the last ones.
- */
-static double profile_gap(const rb_rolling_case *rc, double x)
-{
-    const double *px = rc->profile_x, *pg = rc->profile_gap;
-    int i = 1;
-
-    while (i < rc->profile_n - 1 && px[i] < x)
-        i++;
-    return pg[i - 1] + (pg[i] - pg[i - 1]) * (x - px[i - 1]) / (px[i] - px[i - 1]);
-}
-
 /* R - sqrt(R^2 - x^2) without cancellation (B9); 0 for a plane. */
 static double circle_gap(double radius, double x)
 {
@@ -37,7 +25,7 @@ static double initial_gap(const rb_rolling_case *rc, double x)
 {
     switch (rc->gap) {
     case RB_GAP_TABLE:
-        return profile_gap(rc, x);
+        return rb_rolling_profile_gap(rc->profile, x);
     case RB_GAP_EXACT:
         return circle_gap(rc->a.radius, x) +
                (isfinite(rc->b.radius) ? circle_gap(rc->b.radius, x) : 0.0);

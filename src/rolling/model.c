@@ -38,10 +38,30 @@ double rb_rolling_model_force(const rb_rolling_model *model)
            cblas_ddot(p->n, p->force_T, 1, model->state.q, 1);
 }
 
+/* Beyond a gap table nothing is known of the gap: no contact there is a result. */
+static rb_status check_within_table(const rb_rolling_model *model, rb_message *why)
+{
+    const double *ends = model->mesh.ends;
+    double from, to;
+
+    if (model->rc.gap != RB_GAP_TABLE)
+        return RB_OK;
+    rb_rolling_profile_range(model->rc.profile, &from, &to);
+    for (int i = 0; i < model->mesh.n; i++) {
+        const double middle = 0.5 * (ends[i] + ends[i + 1]);
+        if (model->state.zone[i] != RB_ZONE_SEPARATED && (middle < from || middle > to))
+            return rb_fail(why, RB_ZONE,
+                           "the contact reaches x = %g, and the gap table has x from %g "
+                           "to %g only",
+                           middle, from, to);
+    }
+    return RB_OK;
+}
+
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why)
 {
     const double start = rb_seconds();
-    const rb_status s =
+    rb_status s =
         rb_rolling_problem_solve(&model->problem, &model->rc, warm, &model->state, why);
 
     model->seconds_lcp += rb_seconds() - start;
@@ -49,6 +69,8 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
     if (s >= 0)
         model->half_width = rb_rolling_hertz_half_width(
             &model->rc, fmax(0.0, rb_rolling_model_load(model)));
+    if (s == RB_OK)
+        s = check_within_table(model, why);
     return s;
 }
 

@@ -1,0 +1,251 @@
+/* Measured gaps: the spline through a table, its smoothing, and what is refused. */
+#include "check.h"
+#include "rolling/internal.h"
+
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A wheel of 460 mm under p0 = 1 GPa, a = 8 mm (examples/rail). */
+static rb_rolling_case rail(void)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.young = rc.b.young = 210000.0;
+    rc.a.poisson = rc.b.poisson = 0.3;
+    rc.a.radius = 460.0;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.elastic_b = 1;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.load = 12500.0;
+    rc.contact_elements = 100;
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = 0.4;
+    return rc;
+}
+
+enum { MOST = 6001 };
+
+/* The rail's parabola every `step` from `from` to `to`, with noise; how many points. */
+static int tabulate(double from, double to, double step, double noise, unsigned long seed,
+                    double *x, double *gap)
+{
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    const int n = (int)lround((to - from) / step) + 1;
+    gsl_rng_set(rng, seed);
+    for (int i = 0; i < n; i++) {
+        x[i] = from + step * i;
+        gap[i] = x[i] * x[i] / 920.0 + gsl_ran_gaussian(rng, noise);
+    }
+    gsl_rng_free(rng);
+    return n;
+}
+
+static rb_rolling_profile *profile_of(int n, const double *x, const double *gap,
+                                      double noise)
+{
+    rb_rolling_profile *profile;
+    rb_message why = {""};
+    if (rb_rolling_profile_create(n, x, gap, noise, &profile, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return profile;
+}
+
+static double peak(const rb_rolling_case *rc)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    if (rb_rolling_solve(rc, &s, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    const double p0 = s.max_pressure;
+    rb_rolling_solution_free(&s);
+    return p0;
+}
+
+static double x[MOST], gap[MOST];
+
+/* p0 of the rail case on the tabulated parabola. */
+static double tabulated_peak(int n, double noise)
+{
+    rb_rolling_case rc = rail();
+    rb_rolling_profile *profile = profile_of(n, x, gap, noise);
+    rc.gap = RB_GAP_TABLE;
+    rc.profile = profile;
+    const double p0 = peak(&rc);
+    rb_rolling_profile_free(profile);
+    return p0;
+}
+
+static void a_coarse_table_of_a_parabola_is_that_parabola(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = rail();
+    const double want = peak(&rc);
+    const double steps[] = {0.5, 1.0, 2.0}, offsets[] = {0.0, 0.13, 0.25};
+    for (int k = 0; k < 9; k++) {
+        const double step = steps[k / 3];
+        const int n = tabulate(-30.0 + offsets[k % 3], 30.0, step, 0.0, 1, x, gap);
+        CHECK_REL(tabulated_peak(n, 0.0), want, 1e-5, "every %g mm from %g", step, x[0]);
+        CHECK_REL(tabulated_peak(n, 1e-3), want, 1e-5, "the same, smoothed");
+    }
+}
+
+static void smoothing_takes_the_noise_away(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = rail();
+    const double want = peak(&rc), noise = 2e-3, steps[] = {0.5, 0.5, 0.5, 0.1, 0.01};
+    for (unsigned long k = 0; k < 5; k++) {
+        const int n = tabulate(-30.0, 30.0, steps[k], noise, 7 + k, x, gap);
+        CHECK_REL(tabulated_peak(n, noise), want, 0.01, "seed %lu", 7 + k);
+        CHECK_REL(tabulated_peak(n, 3.0 * noise), want, 0.01, "three times the noise");
+    }
+    const int n = tabulate(-12.0, 30.0, 0.5, noise, 3, x, gap);
+    CHECK_REL(tabulated_peak(n, noise), want, 0.01, "not centred");
+}
+
+/* The curve stays within the noise of the points, and a shape larger than the noise is
+ * still there. */
+static void smoothing_keeps_the_shape(void **state)
+{
+    (void)state;
+    const double noise = 1e-3;
+    const int n = tabulate(-30.0, 30.0, 0.25, noise, 11, x, gap);
+    double sum = 0.0, worst = 0.0;
+    for (int i = 0; i < n; i++)
+        gap[i] += 0.02 * exp(-0.5 * x[i] * x[i] / 9.0);
+    rb_rolling_profile *profile = profile_of(n, x, gap, noise);
+    for (int i = 0; i < n; i++) {
+        const double shape = x[i] * x[i] / 920.0 + 0.02 * exp(-0.5 * x[i] * x[i] / 9.0);
+        const double got = rb_rolling_profile_gap(profile, x[i]);
+        sum += (got - gap[i]) * (got - gap[i]);
+        worst = fmax(worst, fabs(got - shape));
+    }
+    CHECK_REL(sqrt(sum / n), noise, 0.1, "distance from the points");
+    CHECK_MAX(worst, 2.0 * noise, "distance from the shape");
+    rb_rolling_profile_free(profile);
+}
+
+/* On points anywhere, also on uneven ones; beyond them straight on. */
+static void the_spline_passes_through_its_points(void **state)
+{
+    (void)state;
+    const double u[] = {-3.0, -2.9, -1.0, 0.5, 4.0}, g[] = {2.0, 1.9, 0.3, 0.1, 3.0};
+    double from, to;
+    rb_rolling_profile *profile = profile_of(5, u, g, 0.0);
+    for (int i = 0; i < 5; i++)
+        CHECK_ABS(rb_rolling_profile_gap(profile, u[i]), g[i], 1e-14, "point %d", i);
+    rb_rolling_profile_range(profile, &from, &to);
+    assert_true(from == -3.0 && to == 4.0);
+    for (int side = -1; side < 2; side += 2) {
+        const double end = side < 0 ? from : to;
+        const double at_end = rb_rolling_profile_gap(profile, end);
+        const double one = rb_rolling_profile_gap(profile, end + side) - at_end;
+        const double step = rb_rolling_profile_gap(profile, end - 1e-6 * side) - at_end;
+        CHECK_REL(rb_rolling_profile_gap(profile, end + 7.0 * side) - at_end, 7.0 * one,
+                  1e-12, "straight");
+        CHECK_REL(one, -1e6 * step, 1e-4, "slope at the end");
+    }
+    rb_rolling_profile_free(profile);
+}
+
+static void check_refused(int n, const double *u, const double *g, double noise,
+                          const char *text)
+{
+    rb_rolling_profile *profile;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_profile_create(n, u, g, noise, &profile, &why), RB_EINVAL);
+    assert_null(profile);
+    if (!strstr(why.text, text))
+        fail_msg("'%s' does not say '%s'", why.text, text);
+}
+
+static void bad_tables_are_refused(void **state)
+{
+    (void)state;
+    const double u[] = {-1.0, 0.0, 1.0, 2.0}, g[] = {1.0, 0.0, 1.0, 2.0};
+    const double twice[] = {-1.0, 0.0, 0.0, 2.0}, back[] = {2.0, 1.0, 0.0, -1.0};
+    const double wrong_sign[] = {-1.0, 0.0, -1.0, -2.0}, flat[] = {1.0, 1.0, 1.0, 1.0};
+    const double none[] = {1.0, 0.0, NAN, 1.0};
+    const double far[] = {1e12, 1e12 + 1.0, 1e12 + 2.0, 1e12 + 3.0};
+    check_refused(2, u, g, 0.0, "3 points");
+    check_refused(4, twice, g, 0.0, "row 3: expected an x larger");
+    check_refused(4, back, g, 0.0, "row 2: expected an x larger");
+    check_refused(4, u, none, 0.0, "row 3: not a finite");
+    check_refused(4, u, wrong_sign, 0.0, "row 4: the smallest gap, -2");
+    check_refused(4, u, flat, 0.0, "the smallest gap, 1");
+    check_refused(3, u + 1, g + 1, 0.0, "row 1: the smallest gap, 0");
+    check_refused(4, u, g, -1.0, "smoothing");
+    check_refused(4, u, g, NAN, "smoothing");
+    check_refused(4, far, g, 1e-3, "x = 1e+12");
+}
+
+/* Under load and under approach, without rolling and with it, on half-planes and wheels:
+ * a contact wider than the table is no result. */
+static void contact_beyond_the_table_is_no_result(void **state)
+{
+    (void)state;
+    const int n = tabulate(-5.0, 5.0, 0.5, 0.0, 1, x, gap);
+    rb_rolling_profile *profile = profile_of(n, x, gap, 0.0);
+    for (int k = 0; k < 16; k++) {
+        rb_rolling_solution s;
+        rb_message why = {""};
+        rb_rolling_case rc = rail();
+        rc.gap = RB_GAP_TABLE;
+        rc.profile = profile;
+        rc.contact_elements = 50;
+        if (k & 1) {
+            rc.load = NAN;
+            rc.approach = 0.34;
+        }
+        if (k & 2) {
+            rc.formulation = RB_STATIC;
+            rc.creep_ratio = NAN;
+        }
+        if (k & 4)
+            rc.mesh = RB_MESH_FITTED;
+        if (k & 8)
+            rc.a.support = RB_BEM_HUB;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_ZONE);
+        if (!strstr(why.text, "from -5 to 5"))
+            fail_msg("case %d: '%s'", k, why.text);
+        rb_rolling_solution_free(&s);
+    }
+    rb_rolling_profile_free(profile);
+}
+
+/* The spline's own library ends the program where its memory runs out, if it is let. */
+static void every_failed_allocation_is_reported(void **state)
+{
+    (void)state;
+    const int n = tabulate(-30.0, 30.0, 0.5, 0.0, 1, x, gap);
+    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    for (int k = 0; k < 2; k++) {
+        int refused = 1;
+        for (int count = 0; refused; count++) {
+            rb_rolling_profile *profile;
+            alloc_fail_after(count);
+            const rb_status s =
+                rb_rolling_profile_create(n, x, gap, k ? 1e-3 : 0.0, &profile, NULL);
+            refused = alloc_failed();
+            alloc_succeed();
+            CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+            rb_rolling_profile_free(profile);
+        }
+    }
+    gsl_set_error_handler(handler);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_coarse_table_of_a_parabola_is_that_parabola),
+        cmocka_unit_test(smoothing_takes_the_noise_away),
+        cmocka_unit_test(smoothing_keeps_the_shape),
+        cmocka_unit_test(the_spline_passes_through_its_points),
+        cmocka_unit_test(bad_tables_are_refused),
+        cmocka_unit_test(contact_beyond_the_table_is_no_result),
+        cmocka_unit_test(every_failed_allocation_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
