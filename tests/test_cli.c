@@ -637,6 +637,57 @@ static void dumped_influence_moves_rigidly(void **state)
     rb_io_matrix_free(&m);
 }
 
+static double table_entry(const json_t *root, const char *column, int i)
+{
+    const json_t *table = json_object_get(root, "table");
+    return json_number_value(json_array_get(json_object_get(table, column), (size_t)i));
+}
+
+/* Row i, column j of a Toeplitz block from its first and last column. */
+static double toeplitz(const double *first, const double *last, int n, int i, int j)
+{
+    return i >= j ? first[i - j] : last[n - 1 + i - j];
+}
+
+/* Where no matrix is formed, four columns are dumped; with the tractions of the table
+ * they give its displacements. */
+static void dump_of_a_large_contact_holds_its_flexibility(void **state)
+{
+    (void)state;
+    enum { N = 1500, M = N + 1 };
+    json_t *root = run_json("--support halfplane --half-width 0.05 --contact-elements "
+                            "1500 --shift 1e-5 --dump large");
+    double *F = read_matrix("large/F_columns.mtx", 2 * M, 4);
+    const double *NN = F, *NT = F + 4 * M; /* first columns; the last ones follow */
+    double largest = 0.0;
+    for (int i = 0; i < N; i++)
+        largest = fmax(largest, fabs(table_entry(root, "un_mm", i)));
+    for (int i = 0; i < N; i += 7) {
+        double un = 0.0, ut = 0.0;
+        for (int j = 0; j < N; j++) {
+            const double p = table_entry(root, "p_MPa", j),
+                         q = table_entry(root, "q_MPa", j);
+            un += toeplitz(NN, NN + 2 * M, N, i, j) * p +
+                  toeplitz(NT, NT + 2 * M, N, i, j) * q;
+            ut += toeplitz(NN + M, NN + 3 * M, N, i, j) * p +
+                  toeplitz(NT + M, NT + 3 * M, N, i, j) * q;
+        }
+        CHECK_ABS(un, table_entry(root, "un_mm", i), 1e-12 * largest, "un of %d", i);
+        CHECK_ABS(ut, table_entry(root, "ut_mm", i), 1e-12 * largest, "ut of %d", i);
+    }
+    free(read_matrix("large/contact.mtx", N, 3));
+    assert_int_equal(system("test \"$(ls -A large | tr '\\n' ' ')\" = "
+                            "'F_columns.mtx contact.mtx '"),
+                     0);
+    free(F);
+    json_decref(root);
+    assert_int_equal(rollbem("--support halfplane --half-width 0.05 --contact-elements "
+                             "1500 --fclib large.h5 --dump none"),
+                     64);
+    assert_non_null(strstr(err, "--fclib: 1500 elements are too many"));
+    assert_int_not_equal(system("test -e large.h5 || test -e none"), 0);
+}
+
 static void dump_that_cannot_be_written(void **state)
 {
     (void)state;
@@ -746,6 +797,7 @@ int main(void)
         cmocka_unit_test(error_bars_hold_the_truth),
         cmocka_unit_test(dump_holds_the_problem),
         cmocka_unit_test(dumped_influence_moves_rigidly),
+        cmocka_unit_test(dump_of_a_large_contact_holds_its_flexibility),
         cmocka_unit_test(dump_that_cannot_be_written),
         cmocka_unit_test(output_is_whole_or_not_there),
         cmocka_unit_test(full_device_is_73),

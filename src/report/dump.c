@@ -112,12 +112,33 @@ static rb_status dump_body(const target *t, const char *suffix,
                           rb_bem_material_from_young(body->young, body->poisson));
 }
 
-static rb_status dump_flexibility(const target *t, const rb_rolling_model *model)
+static rb_status dump_dense(const target *t, const rb_rolling_model *model)
 {
     const int n = model->mesh.n, m = n + 1;
     return write_matrix(t, "F", 2 * m, 2 * n, model->bodies.F, 2 * m,
                         "w = F r: w_N then w_T, each at the contact elements and the one "
                         "upstream; r_N then r_T");
+}
+
+/* Four columns hold all of F where its blocks are constant along their diagonals. */
+static rb_status dump_toeplitz(const target *t, const rb_bem_flexibility *f)
+{
+    const int n = f->n, m = f->m, column[] = {0, n - 1, n, 2 * n - 1};
+    const size_t rows = 2 * (size_t)m;
+    double *w = rb_alloc(rows, 4), *r = rb_alloc(2 * (size_t)n, 1);
+    rb_status s = w && r ? RB_OK : rb_fail(t->why, RB_ENOMEM, "out of memory");
+    for (int k = 0; k < 4 && s == RB_OK; k++) {
+        r[column[k]] = 1.0;
+        rb_bem_flexibility_apply(f, r, w + (size_t)k * rows);
+        r[column[k]] = 0.0;
+    }
+    if (s == RB_OK)
+        s = write_matrix(t, "F_columns", 2 * m, 4, w, 2 * m,
+                         "columns 1, n, n + 1 and 2n of F, w = F r: its four blocks are "
+                         "Toeplitz matrices");
+    free(w);
+    free(r);
+    return s;
 }
 
 /* ---- LCP --------------------------------------------------------------------------- */
@@ -152,9 +173,10 @@ rb_status rb_report_dump(const char *folder, const rb_rolling_model *model,
         s = dump_body(&t, "", model->bodies.system_a, &model->rc.a);
     if (s == RB_OK)
         s = dump_body(&t, "_b", model->bodies.system_b, &model->rc.b);
-    if (s == RB_OK)
-        s = dump_flexibility(&t, model);
-    if (s == RB_OK)
-        s = dump_lcp(&t, model);
-    return s;
+    if (s != RB_OK)
+        return s;
+    if (!model->bodies.F) /* a large contact: neither F nor M has been formed */
+        return dump_toeplitz(&t, &model->bodies.f);
+    s = dump_dense(&t, model);
+    return s == RB_OK ? dump_lcp(&t, model) : s;
 }
