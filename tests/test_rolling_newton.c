@@ -133,9 +133,9 @@ static void pairs_answer_as_their_elements_do(void **state)
  */
 
 /* Newton alone from nothing, and Lemke. */
-static void check_beside_lemke(const rb_rolling_model *model)
+static void check_beside_lemke(rb_rolling_model *model)
 {
-    const rb_rolling_problem *p = &model->problem;
+    rb_rolling_problem *p = &model->problem;
     rb_rolling_case rc = model->rc;
     rb_rolling_state newton, lemke;
 
@@ -204,8 +204,8 @@ static void steps_grow_by_levels(void **state)
 
 /* The reduced problem of the zones by a kept LU or by a new one; returns the changes that
  * it was solved over. */
-static int direct(const rb_rolling_problem *p, rb_rolling_unknowns unknowns,
-                  rb_rolling_lu lu, rb_rolling_state *s, rb_rolling_reduced *r)
+static int direct(rb_rolling_problem *p, rb_rolling_unknowns unknowns, rb_rolling_lu lu,
+                  rb_rolling_state *s, rb_rolling_reduced *r)
 {
     CHECK_STATUS(rb_rolling_reduced_alloc(p, unknowns, s, r), RB_OK);
     rb_rolling_reduced_clear(p, r, s);
@@ -223,7 +223,7 @@ static void disturb(int count, rb_rolling_state *s)
 }
 
 /* Returns the changes that the kept LU was used over. */
-static int check_kept(const rb_rolling_problem *p, rb_rolling_unknowns unknowns,
+static int check_kept(rb_rolling_problem *p, rb_rolling_unknowns unknowns,
                       rb_rolling_state *s)
 {
     rb_rolling_reduced kept, fresh;

@@ -212,6 +212,27 @@ static void the_surface_carries_the_tractions(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* Of points outside the body the first is named, on every support by the same number. */
+static void a_point_outside_has_its_index(void **state)
+{
+    (void)state;
+    const rb_bem_support supports[] = {RB_BEM_HALFPLANE, RB_BEM_HUB, RB_BEM_ARC};
+    const double xy[] = {0.0, 1.0, 0.1, 1.0, 0.0, -1.0, 0.0, -2.0};
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_case rc = wheel_on_plane(0.3);
+        rb_rolling_model model;
+        rb_rolling_stress s[4];
+        rb_message why = {""};
+        rc.a.support = supports[k];
+        rc.contact_elements = 12;
+        CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_stress_at(&model, 4, xy, s, &why), RB_EINVAL);
+        if (!strstr(why.text, "point 2 at (0, -1) lies outside the body"))
+            fail_msg("support %d: '%s'", k, why.text);
+        rb_rolling_model_free(&model);
+    }
+}
+
 /* ---- Dissipation (theory.md 6)
  * ------------------------------------------------------------ */
 
@@ -373,6 +394,7 @@ int main(void)
         cmocka_unit_test(a_wheel_has_the_stress_of_the_half_plane),
         cmocka_unit_test(the_pulled_edge_of_a_wheel_is_that_of_the_half_plane),
         cmocka_unit_test(the_surface_carries_the_tractions),
+        cmocka_unit_test(a_point_outside_has_its_index),
         cmocka_unit_test(dissipation_is_the_work_of_the_forces),
         cmocka_unit_test(error_bars_hold_the_truth),
         cmocka_unit_test(error_bars_of_curves_hold_the_truth),

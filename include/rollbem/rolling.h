@@ -264,9 +264,8 @@ rb_status rb_rolling_residual(const rb_rolling_problem *problem,
 
 /* Solves the problem by the solver of the case, and by the other one where that fails
  * (state->solver says which one did it).  warm: the zones of the state are a start. */
-rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
-                                   const rb_rolling_case *rc, int warm,
-                                   rb_rolling_state *state, rb_message *why);
+rb_status rb_rolling_problem_solve(rb_rolling_problem *problem, const rb_rolling_case *rc,
+                                   int warm, rb_rolling_state *state, rb_message *why);
 
 /* ---- Solution -------------------------------------------------------------------- */
 
@@ -367,8 +366,9 @@ void rb_rolling_model_free(rb_rolling_model *model);
 rb_status rb_rolling_cone_write(const char *path, const rb_rolling_model *model,
                                 rb_message *why);
 
-/* The creepage at which Q = 0 (steady, mu > 0), on the model's mesh. */
-rb_status rb_rolling_free_creepage(const rb_rolling_model *model, double *creepage,
+/* The creepage at which Q = 0 (steady, mu > 0), on the model's mesh.  The model's
+ * solution stays; what it keeps for further solves changes. */
+rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
                                    rb_message *why);
 
 /* Tractions, slip, zones, forces and the proof of them. */
@@ -482,8 +482,8 @@ typedef struct {
 } rb_rolling_stress;
 
 /* Stress of a solved model at n points xy (x0, y0, x1, y1, ...).  For a wheel the points
- * must lie inside it or on its surface: RB_EINVAL with the number of the one that does
- * not. */
+ * must lie inside it or on its surface, of a half-plane at y >= 0: RB_EINVAL with the
+ * number k of the first that does not, counted from 0 as in xy[2k]. */
 rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const double *xy,
                                rb_rolling_stress *stress, rb_message *why);
 

@@ -57,6 +57,17 @@ static cli_exit check_range(const range_options *range, const cli_output *o)
     return cli_output_check(o);
 }
 
+/* The picture shows the force as a part of the friction, mu P. */
+static cli_exit check_picture(const rb_settled_case *c, const cli_output *o)
+{
+    int frictionless = c->rc.mu == 0.0;
+    for (int k = 0; k < c->mus.n; k++)
+        frictionless |= c->mus.value[k] == 0.0;
+    return o->plot && frictionless
+               ? cli_fail(CLI_USAGE, "--plot: no curve to draw at mu = 0")
+               : CLI_CONTINUE;
+}
+
 static rb_status solve_curve(const rb_rolling_case *rc, const range_options *r,
                              int with_errors, rb_rolling_curve *curve,
                              rb_rolling_curve *errors, rb_message *why)
@@ -193,6 +204,8 @@ int cli_curve(int argc, char **argv)
         code = check_case(c);
     if (code == CLI_CONTINUE)
         code = check_range(&range, &o);
+    if (code == CLI_CONTINUE)
+        code = check_picture(rb_case_settled(c), &o);
     if (code == CLI_CONTINUE)
         code = solve(c, &range, &o);
     cli_args_free(&args);

@@ -356,7 +356,7 @@ static int is_near(const plan *pl, const kept_lu *k)
     return (double)pl->changes * pl->changes <= 2.0 * k->size;
 }
 
-rb_status rb_rolling_reduced_direct(const rb_rolling_problem *p, const int *zone,
+rb_status rb_rolling_reduced_direct(rb_rolling_problem *p, const int *zone,
                                     rb_rolling_lu lu, rb_rolling_reduced *r)
 {
     kept_lu none = {0}; /* all unknowns are borders then */

@@ -188,12 +188,12 @@ typedef enum { RB_NORMAL = 1, RB_TANGENTIAL = 2, RB_BOTH = 3 } rb_rolling_unknow
 
 /* One exact solve with the zones of the state held fixed.  RB_SINGULAR: p and q have lost
  * their values. */
-rb_status rb_rolling_solve_zones(const rb_rolling_problem *problem,
+rb_status rb_rolling_solve_zones(rb_rolling_problem *problem,
                                  rb_rolling_unknowns unknowns, rb_rolling_state *state);
 
 /* Newton, from the zones of the state (warm) or by alternating normal and tangential
  * problems first.  RB_MAXITER where it cycles, RB_SINGULAR. */
-rb_status rb_rolling_newton(const rb_rolling_problem *problem, int warm,
+rb_status rb_rolling_newton(rb_rolling_problem *problem, int warm,
                             rb_rolling_state *state);
 
 /* ---- model.c -------------------------------------------------------------------------
@@ -208,7 +208,7 @@ rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
 rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why);
 /* The free creepage as one result among others: where it is not found it is NAN, and the
  * case that was solved stays solved.  RB_ENOMEM. */
-rb_status rb_rolling_free_creepage_if_any(const rb_rolling_model *model, double *creepage,
+rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
                                           rb_message *why);
 /* P and Q of the state. */
 double rb_rolling_model_load(const rb_rolling_model *model);

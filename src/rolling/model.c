@@ -369,7 +369,7 @@ static rb_status free_creepage_alone(const rb_rolling_model *model, double *cree
     return s;
 }
 
-rb_status rb_rolling_free_creepage(const rb_rolling_model *model, double *creepage,
+rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
                                    rb_message *why)
 {
     rb_rolling_problem problem = model->problem; /* arrays stay the model's */
@@ -393,7 +393,7 @@ rb_status rb_rolling_free_creepage(const rb_rolling_model *model, double *creepa
     return s;
 }
 
-rb_status rb_rolling_free_creepage_if_any(const rb_rolling_model *model, double *creepage,
+rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
                                           rb_message *why)
 {
     rb_message reason = {""};

@@ -27,7 +27,7 @@ static int is_finite(int n, const double *x)
 
 /* Solves, and where a kept LU served or digits were lost, solves again for what the
  * equations still lack, until a correction is small.  *settled: 0 where none was. */
-static rb_status solve_direct(const rb_rolling_problem *p, rb_rolling_lu lu,
+static rb_status solve_direct(rb_rolling_problem *p, rb_rolling_lu lu,
                               rb_rolling_state *state, rb_rolling_reduced *r,
                               int *settled)
 {
@@ -49,7 +49,7 @@ static rb_status solve_direct(const rb_rolling_problem *p, rb_rolling_lu lu,
     return RB_OK;
 }
 
-static rb_status solve_dense(const rb_rolling_problem *p, rb_rolling_state *state,
+static rb_status solve_dense(rb_rolling_problem *p, rb_rolling_state *state,
                              rb_rolling_reduced *r)
 {
     rb_status s = RB_OK;
@@ -60,7 +60,7 @@ static rb_status solve_dense(const rb_rolling_problem *p, rb_rolling_state *stat
     return s;
 }
 
-static rb_status solve_products(const rb_rolling_problem *p, rb_rolling_state *state,
+static rb_status solve_products(rb_rolling_problem *p, rb_rolling_state *state,
                                 rb_rolling_reduced *r)
 {
     rb_rolling_reduced_clear(p, r, state);
@@ -72,7 +72,7 @@ static rb_status solve_products(const rb_rolling_problem *p, rb_rolling_state *s
     return RB_OK;
 }
 
-rb_status rb_rolling_solve_zones(const rb_rolling_problem *problem,
+rb_status rb_rolling_solve_zones(rb_rolling_problem *problem,
                                  rb_rolling_unknowns unknowns, rb_rolling_state *state)
 {
     rb_rolling_reduced r;
@@ -206,7 +206,7 @@ typedef struct {
 
 /* Solves and corrects until the zones stay: RB_OK; RB_MAXITER when a set of zones comes
  * back, which ends every cycle. */
-static rb_status iterate(const rb_rolling_problem *p, rb_rolling_unknowns unknowns,
+static rb_status iterate(rb_rolling_problem *p, rb_rolling_unknowns unknowns,
                          workspace *ws, rb_rolling_state *state)
 {
     uint64_t seen[MAX_STEPS];
@@ -239,7 +239,7 @@ static void cold_start(const rb_rolling_problem *p, rb_rolling_state *state)
 
 /* Normal problem with the friction held, tangential problem with the pressure held, in
  * turn: exact after one round where the two are not coupled. */
-static rb_status alternate(const rb_rolling_problem *p, int rounds, workspace *ws,
+static rb_status alternate(rb_rolling_problem *p, int rounds, workspace *ws,
                            rb_rolling_state *state)
 {
     rb_status s = RB_OK;
@@ -253,15 +253,14 @@ static rb_status alternate(const rb_rolling_problem *p, int rounds, workspace *w
 }
 
 /* From the zones of the state. */
-static rb_status from_zones(const rb_rolling_problem *p, workspace *ws,
-                            rb_rolling_state *state)
+static rb_status from_zones(rb_rolling_problem *p, workspace *ws, rb_rolling_state *state)
 {
     return p->coupled ? iterate(p, RB_BOTH, ws, state) : alternate(p, 1, ws, state);
 }
 
 /* An LU of all tractions and those of one group each never take memory together: no later
  * solve would use both (memory.c). */
-static rb_status from_nothing(const rb_rolling_problem *p, workspace *ws,
+static rb_status from_nothing(rb_rolling_problem *p, workspace *ws,
                               rb_rolling_state *state)
 {
     cold_start(p, state);
@@ -295,14 +294,13 @@ static rb_status start_from_half(const rb_rolling_problem *p, rb_rolling_state *
     return s;
 }
 
-static rb_status from_half(const rb_rolling_problem *p, workspace *ws,
-                           rb_rolling_state *state)
+static rb_status from_half(rb_rolling_problem *p, workspace *ws, rb_rolling_state *state)
 {
     const rb_status s = start_from_half(p, state);
     return s == RB_OK ? from_zones(p, ws, state) : s;
 }
 
-rb_status rb_rolling_newton(const rb_rolling_problem *problem, int warm,
+rb_status rb_rolling_newton(rb_rolling_problem *problem, int warm,
                             rb_rolling_state *state)
 {
     workspace ws = {rb_alloc((size_t)problem->n, 1), rb_alloc_int((size_t)problem->n)};

@@ -54,7 +54,7 @@ void rb_rolling_reduced_add(const rb_rolling_problem *problem,
 typedef enum { RB_LU_KEPT, RB_LU_NEW, RB_LU_WHOLE, RB_LU_KINDS } rb_rolling_lu;
 
 /* Solves the reduced problem.  RB_SINGULAR, RB_ENOMEM. */
-rb_status rb_rolling_reduced_direct(const rb_rolling_problem *problem, const int *zone,
+rb_status rb_rolling_reduced_direct(rb_rolling_problem *problem, const int *zone,
                                     rb_rolling_lu lu, rb_rolling_reduced *r);
 
 /* ---- matrix_free.c --------------------------------------------------------------------

@@ -29,7 +29,7 @@ static rb_status measure(const rb_rolling_problem *problem, rb_rolling_state *st
 }
 
 /* One solve with the zones of the state, kept when that makes it better. */
-static rb_status polish(const rb_rolling_problem *problem, rb_rolling_state *state)
+static rb_status polish(rb_rolling_problem *problem, rb_rolling_state *state)
 {
     const size_t bytes = (size_t)problem->n * sizeof(double);
     rb_rolling_state trial;
@@ -54,8 +54,7 @@ static rb_status polish(const rb_rolling_problem *problem, rb_rolling_state *sta
 
 /* lambda, zones and residual of p, q, delta, xi.  exact: they solve the equations of
  * their zones already, as Newton's do. */
-static rb_status complete(const rb_rolling_problem *problem, int exact,
-                          rb_rolling_state *state)
+static rb_status complete(rb_rolling_problem *problem, int exact, rb_rolling_state *state)
 {
     double *gap = rb_alloc((size_t)problem->n, 1);
     rb_status s = gap ? measure(problem, state) : RB_ENOMEM;
@@ -83,7 +82,7 @@ typedef struct {
 
 enum { ATTEMPTS = 3 };
 
-static rb_status try_lemke(const rb_rolling_problem *problem, const rb_rolling_case *rc,
+static rb_status try_lemke(rb_rolling_problem *problem, const rb_rolling_case *rc,
                            const attempt *at, rb_rolling_state *state, rb_message *why)
 {
     rb_lcp_options options = rb_lcp_defaults();
@@ -142,7 +141,7 @@ static int plan_attempts(const rb_rolling_problem *problem, const rb_rolling_cas
     return rc->lcp_form == RB_LCP_KWAK ? 2 : 0;
 }
 
-static rb_status solve_lemke(const rb_rolling_problem *problem, const rb_rolling_case *rc,
+static rb_status solve_lemke(rb_rolling_problem *problem, const rb_rolling_case *rc,
                              rb_rolling_state *state, rb_message *why)
 {
     attempt at[ATTEMPTS];
@@ -178,9 +177,8 @@ static int is_solved(rb_status s, const rb_rolling_problem *problem,
 
 /* On large contacts an element whose traction is rounding may come and go: a cycle that
  * ends in a solution is one. */
-static rb_status solve_newton(const rb_rolling_problem *problem,
-                              const rb_rolling_case *rc, int warm,
-                              rb_rolling_state *state)
+static rb_status solve_newton(rb_rolling_problem *problem, const rb_rolling_case *rc,
+                              int warm, rb_rolling_state *state)
 {
     rb_status s = rb_rolling_newton(problem, warm, state);
 
@@ -196,7 +194,7 @@ static rb_status solve_newton(const rb_rolling_problem *problem,
 
 /* The wanted solver first; where it ends without a solution, the other one.  A warm start
  * is Newton's: it costs a few steps where Lemke would begin anew. */
-static rb_status solve_given(const rb_rolling_problem *problem, const rb_rolling_case *rc,
+static rb_status solve_given(rb_rolling_problem *problem, const rb_rolling_case *rc,
                              int warm, rb_rolling_state *state, rb_message *why)
 {
     const int newton_first =
@@ -244,9 +242,8 @@ static double slowest_slip(const rb_rolling_problem *problem,
 
 /* Every creepage beyond a least one will do: finds one by doubling, then the least, which
  * has the same tractions. */
-static rb_status solve_sliding(const rb_rolling_problem *problem,
-                               const rb_rolling_case *rc, int backwards,
-                               rb_rolling_state *state, rb_message *why)
+static rb_status solve_sliding(rb_rolling_problem *problem, const rb_rolling_case *rc,
+                               int backwards, rb_rolling_state *state, rb_message *why)
 {
     const double sign = backwards ? -1.0 : 1.0;
     rb_rolling_problem given = *problem; /* arrays stay the problem's */
@@ -269,9 +266,8 @@ static rb_status solve_sliding(const rb_rolling_problem *problem,
 
 /* Where elements are tilted P has a part of the friction and Q one of the pressure: full
  * sliding is not the force that was given then. */
-static rb_status solve_driven(const rb_rolling_problem *problem,
-                              const rb_rolling_case *rc, int warm,
-                              rb_rolling_state *state, rb_message *why)
+static rb_status solve_driven(rb_rolling_problem *problem, const rb_rolling_case *rc,
+                              int warm, rb_rolling_state *state, rb_message *why)
 {
     if (!slides_fully(problem))
         return solve_given(problem, rc, warm, state, why);
@@ -286,8 +282,8 @@ static rb_status solve_driven(const rb_rolling_problem *problem,
 /* Whether a given force is more than friction carries under the load that the approach
  * brings: RB_EINVAL.  Full sliding, which has that load, is solved in a state of its own,
  * because the state that failed is what the caller prints. */
-static rb_status check_capacity(const rb_rolling_problem *problem,
-                                const rb_rolling_case *rc, rb_message *why)
+static rb_status check_capacity(rb_rolling_problem *problem, const rb_rolling_case *rc,
+                                rb_message *why)
 {
     rb_rolling_state sliding;
     double P = 0.0;
@@ -309,7 +305,7 @@ static rb_status check_capacity(const rb_rolling_problem *problem,
 
 /* The cone solvers know neither a given load nor a given force: delta and xi of such a
  * case are those that our own solvers find. */
-static rb_status solve_cone(const rb_rolling_problem *problem, const rb_rolling_case *rc,
+static rb_status solve_cone(rb_rolling_problem *problem, const rb_rolling_case *rc,
                             rb_rolling_state *state, rb_message *why)
 {
     rb_status s = RB_OK;
@@ -332,9 +328,8 @@ static rb_status solve_cone(const rb_rolling_problem *problem, const rb_rolling_
     return s == RB_OK ? RB_INACCURATE : s;
 }
 
-rb_status rb_rolling_problem_solve(const rb_rolling_problem *problem,
-                                   const rb_rolling_case *rc, int warm,
-                                   rb_rolling_state *state, rb_message *why)
+rb_status rb_rolling_problem_solve(rb_rolling_problem *problem, const rb_rolling_case *rc,
+                                   int warm, rb_rolling_state *state, rb_message *why)
 {
     state->iterations = 0;
     rb_status s = rc->solver == RB_SOLVER_CONE

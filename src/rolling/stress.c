@@ -116,8 +116,8 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
         for (int k = 0; k < n; k++)
             if (!(xy[2 * k + 1] >= 0.0))
                 return rb_fail(why, RB_EINVAL,
-                               "point %d at (%g, %g) lies above the surface", k + 1,
-                               xy[2 * k], xy[2 * k + 1]);
+                               "point %d at (%g, %g) lies outside the body", k, xy[2 * k],
+                               xy[2 * k + 1]);
         return halfplane_stress(model, n, xy, sigma);
     }
     double *moved = rb_alloc((size_t)n, 2);
