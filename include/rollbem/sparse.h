@@ -19,6 +19,17 @@ rb_status rb_sparse_from_triplets(int rows, int cols, int nz, const int *row,
 /* From a column-major dense matrix, lda >= rows; exact zeros are left out. */
 rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda,
                                rb_sparse *a);
+/* Triplets in the making: make room for some more before appending them.  Zeroed: none. */
+typedef struct {
+    int nz, room;
+    int *row, *col; /* room; owned */
+    double *x;      /* room; owned */
+} rb_triplets;
+
+/* RB_ENOMEM, also for more than INT_MAX triplets, which an rb_sparse cannot hold. */
+rb_status rb_triplets_reserve(rb_triplets *t, size_t more);
+void rb_triplets_free(rb_triplets *t);
+
 rb_status rb_sparse_copy(const rb_sparse *a, rb_sparse *b);
 rb_status rb_sparse_transpose(const rb_sparse *a, rb_sparse *t);
 void rb_sparse_free(rb_sparse *a);

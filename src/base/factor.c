@@ -286,20 +286,32 @@ static rb_status congruence_panel(rb_sparse_cholesky *f, const rb_sparse *h, int
     return RB_OK;
 }
 
-/* The lower triangle of a panel, with its mirror image. */
-static int append_panel(int rows, int from, int n, const double *w, int nz, int *row,
-                        int *col, double *x)
+static void append(rb_triplets *t, int row, int col, double x)
 {
-    for (int j = 0; j < n; j++)
+    t->row[t->nz] = row;
+    t->col[t->nz] = col;
+    t->x[t->nz++] = x;
+}
+
+/* The lower triangle of a panel, with its mirror image, column by column. */
+static rb_status append_panel(int rows, int from, int n, const double *w, rb_triplets *t)
+{
+    for (int j = 0; j < n; j++) {
+        const double *column = w + (size_t)j * (size_t)rows;
+        size_t entries = 0;
+        for (int i = from + j; i < rows; i++)
+            entries += column[i] != 0.0;
+        if (rb_triplets_reserve(t, 2 * entries) != RB_OK)
+            return RB_ENOMEM;
         for (int i = from + j; i < rows; i++) {
-            const double value = w[i + (size_t)j * (size_t)rows];
-            if (value == 0.0)
+            if (column[i] == 0.0)
                 continue;
-            row[nz] = i, col[nz] = from + j, x[nz++] = value;
+            append(t, i, from + j, column[i]);
             if (i != from + j)
-                row[nz] = from + j, col[nz] = i, x[nz++] = value;
+                append(t, from + j, i, column[i]);
         }
-    return nz;
+    }
+    return RB_OK;
 }
 
 rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_sparse *h,
@@ -308,20 +320,17 @@ rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_spa
     *w = (rb_sparse){0};
     const size_t m = (size_t)h->cols;
     double *rhs = rb_alloc((size_t)h->rows, PANEL), *panel = rb_alloc(m, PANEL);
-    int *row = rb_alloc_int(m * m), *col = rb_alloc_int(m * m), nz = 0;
-    double *x = rb_alloc(m, m);
-    rb_status s = rhs && panel && row && col && x ? RB_OK : RB_ENOMEM;
+    rb_triplets t = {0};
+    rb_status s = rhs && panel ? RB_OK : RB_ENOMEM;
     for (int j = 0; s == RB_OK && j < h->cols; j += PANEL) {
         const int n = h->cols - j < PANEL ? h->cols - j : PANEL;
         s = congruence_panel(factor, h, j, n, rhs, panel);
         if (s == RB_OK)
-            nz = append_panel(h->cols, j, n, panel, nz, row, col, x);
+            s = append_panel(h->cols, j, n, panel, &t);
     }
     if (s == RB_OK)
-        s = rb_sparse_from_triplets(h->cols, h->cols, nz, row, col, x, w);
-    free(x);
-    free(col);
-    free(row);
+        s = rb_sparse_from_triplets(h->cols, h->cols, t.nz, t.row, t.col, t.x, w);
+    rb_triplets_free(&t);
     free(panel);
     free(rhs);
     return s;

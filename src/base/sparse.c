@@ -1,5 +1,6 @@
 #include "rollbem/sparse.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -106,22 +107,53 @@ rb_status rb_sparse_from_triplets(int rows, int cols, int nz, const int *row,
     return s;
 }
 
+rb_status rb_triplets_reserve(rb_triplets *t, size_t more)
+{
+    const size_t wanted = (size_t)t->nz + more;
+    if (wanted <= (size_t)t->room)
+        return RB_OK;
+    if (wanted > INT_MAX)
+        return RB_ENOMEM;
+    const size_t room = wanted <= INT_MAX / 2 ? 2 * wanted : INT_MAX;
+    int *row = realloc(t->row, room * sizeof *row);
+    if (row)
+        t->row = row;
+    int *col = realloc(t->col, room * sizeof *col);
+    if (col)
+        t->col = col;
+    double *x = realloc(t->x, room * sizeof *x);
+    if (x)
+        t->x = x;
+    if (!row || !col || !x)
+        return RB_ENOMEM;
+    t->room = (int)room;
+    return RB_OK;
+}
+
+void rb_triplets_free(rb_triplets *t)
+{
+    free(t->row);
+    free(t->col);
+    free(t->x);
+    *t = (rb_triplets){0};
+}
+
 rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda,
                                rb_sparse *a)
 {
     *a = (rb_sparse){0};
     if (rows < 0 || cols < 0 || lda < rows)
         return RB_EINVAL;
-    int nz = 0;
+    size_t entries = 0;
     for (int j = 0; j < cols; j++)
         for (int i = 0; i < rows; i++)
-            nz += dense[i + (size_t)j * lda] != 0.0;
-    if (sparse_alloc(rows, cols, nz, a) != RB_OK)
+            entries += dense[i + (size_t)j * (size_t)lda] != 0.0;
+    if (entries > INT_MAX || sparse_alloc(rows, cols, (int)entries, a) != RB_OK)
         return RB_ENOMEM;
-    nz = 0;
+    int nz = 0;
     for (int j = 0; j < cols; j++) {
         for (int i = 0; i < rows; i++) {
-            const double x = dense[i + (size_t)j * lda];
+            const double x = dense[i + (size_t)j * (size_t)lda];
             if (x != 0.0) {
                 a->i[nz] = i;
                 a->x[nz++] = x;

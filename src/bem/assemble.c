@@ -7,7 +7,7 @@ rb_status rb_assembly_begin(const rb_bem_mesh *mesh, rb_bem_material material,
                             rb_assembly *assembly)
 {
     const int n = mesh->n;
-    double *x = rb_alloc((size_t)n, 2), *y = x + n;
+    double *x = rb_alloc((size_t)n, 2), *y = x ? x + n : NULL;
     rb_status s = RB_ENOMEM;
 
     *assembly =

@@ -45,10 +45,11 @@ static size_t largest_cluster(const rb_hierarchical *h)
 static rb_status solve_panel(const rb_hierarchical *h, int q, double *X)
 {
     const size_t all = 2 * (size_t)h->matrix.n * (size_t)q;
-    double *b = rb_alloc(2 * all + largest_cluster(h) * (size_t)q, 1), *y = b + all;
+    double *b = rb_alloc(2 * all + largest_cluster(h) * (size_t)q, 1);
 
     if (!b)
         return RB_ENOMEM;
+    double *y = b + all;
     permute(h, q, X, b, 0);
     solve_ordered(h, q, b, y, y + all);
     permute(h, q, y, X, 1);
@@ -130,12 +131,13 @@ static int choose_samples(const rb_hierarchical *h, const double *x, int *row)
 rb_status rb_hierarchical_verify(const rb_hierarchical *h)
 {
     const size_t dofs = 2 * (size_t)h->matrix.n;
-    double *b = rb_alloc(dofs, 3), *x = b + dofs, *used = x + dofs,
-           *room = rb_alloc(largest_cluster(h), 1), left = INFINITY;
+    double *b = rb_alloc(dofs, 3), *room = rb_alloc(largest_cluster(h), 1);
+    double left = INFINITY;
     int row[2 * SAMPLES];
     rb_status s = b && room ? RB_OK : RB_ENOMEM;
 
     if (s == RB_OK) {
+        double *x = b + dofs, *used = x + dofs;
         uint32_t state = 1;
         for (size_t i = 0; i < dofs; i++) {
             state = 1664525 * state + 1013904223;

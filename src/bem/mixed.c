@@ -125,7 +125,7 @@ rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row,
                              const rb_circle *circle, int points, rb_mixed_rows *r)
 {
     const size_t all = (size_t)rows + 2 * (size_t)points;
-    double *x = rb_alloc(all, 2), *y = x + all;
+    double *x = rb_alloc(all, 2), *y = x ? x + all : NULL;
     rb_status s = RB_ENOMEM;
 
     *r = (rb_mixed_rows){.rows = (int)all, .own = rows, .row = row};

@@ -349,9 +349,10 @@ rb_status rb_bem_system_solve(const rb_bem_system *system, const double *t_conta
 {
     const rb_bem_system *s = system;
     const int n = s->dofs, loads = 2 * s->mesh.contact_n;
-    double *x = rb_alloc((size_t)n, 2), *value = x + n;
+    double *x = rb_alloc((size_t)n, 2);
     if (!x)
         return RB_ENOMEM;
+    double *value = x + n;
     memcpy(x, s->b, (size_t)n * sizeof *x);
     memcpy(value, s->mesh.value, (size_t)n * sizeof *value);
     for (int k = 0; k < loads; k++)

@@ -11,9 +11,7 @@ typedef struct {
     int *number;   /* n: its number within the body */
     int *column;   /* m: columns of H that touch the present body */
     double *f, *v; /* n: of the present body */
-    int nz, room;  /* triplets of W so far */
-    int *row, *col;
-    double *x;
+    rb_triplets W; /* so far */
 } condenser;
 
 static rb_status name_the_nullity(const rb_sparse *k, rb_message *why)
@@ -60,26 +58,14 @@ static int touches(const condenser *c, int column, int body)
 
 static rb_status append(condenser *c, const rb_sparse *w)
 {
-    const int more = w->p[w->cols];
-    if (c->nz + more > c->room) {
-        c->room = 2 * (c->nz + more);
-        int *row = realloc(c->row, (size_t)c->room * sizeof *row);
-        if (row)
-            c->row = row;
-        int *col = realloc(c->col, (size_t)c->room * sizeof *col);
-        if (col)
-            c->col = col;
-        double *x = realloc(c->x, (size_t)c->room * sizeof *x);
-        if (x)
-            c->x = x;
-        if (!row || !col || !x)
-            return RB_ENOMEM;
-    }
+    rb_triplets *W = &c->W;
+    if (rb_triplets_reserve(W, (size_t)w->p[w->cols]) != RB_OK)
+        return RB_ENOMEM;
     for (int j = 0; j < w->cols; j++)
         for (int k = w->p[j]; k < w->p[j + 1]; k++) {
-            c->row[c->nz] = c->column[w->i[k]];
-            c->col[c->nz] = c->column[j];
-            c->x[c->nz++] = w->x[k];
+            W->row[W->nz] = c->column[w->i[k]];
+            W->col[W->nz] = c->column[j];
+            W->x[W->nz++] = w->x[k];
         }
     return RB_OK;
 }
@@ -162,11 +148,9 @@ static rb_status condense(condenser *c, rb_friction_problem *local)
     if (s == RB_OK)
         s = add_bodies(c, local->q);
     if (s == RB_OK)
-        s = rb_sparse_from_triplets((int)m, (int)m, c->nz, c->row, c->col, c->x,
+        s = rb_sparse_from_triplets((int)m, (int)m, c->W.nz, c->W.row, c->W.col, c->W.x,
                                     &local->Ws);
-    free(c->x);
-    free(c->col);
-    free(c->row);
+    rb_triplets_free(&c->W);
     free(c->v);
     free(c->f);
     free(c->column);

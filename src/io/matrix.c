@@ -115,6 +115,8 @@ rb_status rb_io_matrix_market_read(const char *path, rb_io_matrix *m, rb_message
     read_head(&t);
     m->rows = rb_io_tokens_int(&t, 0, INT_MAX, "rows");
     m->cols = rb_io_tokens_int(&t, 0, INT_MAX, "columns");
+    if (t.status == RB_OK && (m->rows == 0) != (m->cols == 0))
+        rb_io_tokens_fail(&t, "a matrix of %d by %d has no entries", m->rows, m->cols);
     m->dense = rb_io_tokens_alloc(&t, (size_t)m->rows, (size_t)m->cols, "matrix");
     rb_io_tokens_reals(&t, (size_t)m->rows * (size_t)m->cols, m->dense, "matrix");
     if (t.status == RB_OK && rb_io_tokens_more(&t))

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 enum { DENSE, BLOCKS, SPARSE };
+enum { MOST = INT_MAX / 4 }; /* unknowns: sums of a few such numbers are still ints */
 enum { TRIPLETS = 1, COLUMNS = 2 };
 
 static int ok(const io_tokens *t)
@@ -27,7 +28,7 @@ static void read_dense(io_tokens *t, rb_io_matrix *m)
 static void alloc_triplets(io_tokens *t, size_t nz, rb_io_matrix *m)
 {
     if (nz > INT_MAX)
-        rb_io_tokens_fail(t, "matrix: %zu entries are too many", nz);
+        rb_io_tokens_fail(t, "matrix: more than %d entries", INT_MAX);
     m->row = rb_io_tokens_alloc_int(t, nz, "matrix");
     m->col = rb_io_tokens_alloc_int(t, nz, "matrix");
     m->x = rb_io_tokens_alloc(t, nz, 1, "matrix");
@@ -61,7 +62,7 @@ static void blocks_free(blocks *b)
 
 static void read_pattern(io_tokens *t, const rb_io_matrix *m, blocks *b)
 {
-    b->count = rb_io_tokens_int(t, 0, INT_MAX, "number of blocks");
+    b->count = rb_io_tokens_int(t, 0, MOST, "number of blocks");
     b->rows = rb_io_tokens_int(t, 0, m->rows, "rows of blocks");
     b->cols = rb_io_tokens_int(t, 0, m->cols, "columns of blocks");
     b->row_end = read_increasing(t, b->rows, 1, 1, m->rows, "cumulated block sizes");
@@ -79,11 +80,12 @@ static int extent(const int *end, int i)
     return end[i] - (i ? end[i - 1] : 0);
 }
 
+/* More than INT_MAX: too many, and not all of them counted. */
 static size_t entries_of(const blocks *b)
 {
     size_t nz = 0;
     for (int i = 0; i < b->rows; i++)
-        for (int k = b->first[i]; k < b->first[i + 1]; k++)
+        for (int k = b->first[i]; k < b->first[i + 1] && nz <= INT_MAX; k++)
             nz +=
                 (size_t)extent(b->row_end, i) * (size_t)extent(b->col_end, b->column[k]);
     return nz;
@@ -210,7 +212,7 @@ rb_status rb_io_siconos_read_lcp(const char *path, rb_io_lcp *p, rb_message *why
     io_tokens t;
     *p = (rb_io_lcp){0};
     rb_io_tokens_open(path, &t, why);
-    p->n = rb_io_tokens_int(&t, 1, INT_MAX, "n");
+    p->n = rb_io_tokens_int(&t, 1, MOST, "n");
     read_matrix(&t, p->n, &p->M);
     p->q = read_vector(&t, p->n, "q");
     if (!ok(&t))
@@ -243,7 +245,7 @@ rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p,
     *p = (rb_io_friction){0};
     rb_io_tokens_open(path, &t, why);
     p->dimension = rb_io_tokens_int(&t, 2, 3, "dimension");
-    p->contacts = rb_io_tokens_int(&t, 1, INT_MAX / 3, "number of contacts");
+    p->contacts = rb_io_tokens_int(&t, 1, MOST / 3, "number of contacts");
     const int m = p->dimension * p->contacts;
     read_matrix(&t, m, &p->W);
     p->q = read_vector(&t, m, "q");
@@ -269,7 +271,7 @@ rb_status rb_io_siconos_read_soclcp(const char *path, rb_io_soclcp *p, rb_messag
     io_tokens t;
     *p = (rb_io_soclcp){0};
     rb_io_tokens_open(path, &t, why);
-    p->n = rb_io_tokens_int(&t, 1, INT_MAX, "n");
+    p->n = rb_io_tokens_int(&t, 1, MOST, "n");
     p->cones = rb_io_tokens_int(&t, 1, p->n, "number of cones");
     read_matrix(&t, p->n, &p->M);
     p->q = read_vector(&t, p->n, "q");

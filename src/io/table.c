@@ -2,6 +2,7 @@
 #include "rollbem/io.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -119,6 +120,9 @@ static rb_status make_room(reading *r)
     rb_io_table *t = r->t;
     if (t->rows < r->room)
         return RB_OK;
+    if (r->room > INT_MAX / 2)
+        return rb_fail(r->why, RB_EFORMAT, "%s:%d: more than %d rows", r->path, r->line,
+                       r->room);
     const int room = r->room ? 2 * r->room : 64;
     double *x = realloc(t->x, sizeof(double) * (size_t)room * (size_t)(t->columns + 1));
     if (x)
@@ -157,7 +161,7 @@ static rb_status read_row(reading *r, const char *text)
             return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected a number, got '%.*s'",
                            r->path, r->line, length < 60 ? (int)length : 60, word);
         if (n < t->columns)
-            t->x[t->rows * t->columns + n] = value;
+            t->x[(size_t)t->rows * (size_t)t->columns + (size_t)n] = value;
     }
     if (n != t->columns)
         return wrong_count(r, n);
@@ -219,7 +223,8 @@ static rb_status by_columns(const reading *r)
         return no_memory(r);
     for (int i = 0; i < t->rows; i++)
         for (int j = 0; j < t->columns; j++)
-            x[i + (size_t)j * (size_t)t->rows] = t->x[i * t->columns + j];
+            x[i + (size_t)j * (size_t)t->rows] =
+                t->x[(size_t)i * (size_t)t->columns + (size_t)j];
     free(t->x);
     t->x = x;
     return RB_OK;

@@ -292,7 +292,7 @@ static void fill_border(const rb_rolling_problem *p, const rb_rolling_reduced *r
         if (row->kind == LAPSED || row->kind == TURNED)
             m->W[b + (size_t)row->place * (size_t)count] = 1.0;
         for (int c = 0; c < count; c++)
-            m->T[b + c * count] = corner(p, r, row, &pl->border[c]);
+            m->T[b + (size_t)c * (size_t)count] = corner(p, r, row, &pl->border[c]);
     }
 }
 
