@@ -337,6 +337,11 @@ static void a_copy_is_settled_from_its_words(void **state)
     rb_case_free(base);
 }
 
+static double gap_at(const rb_case *c, double x)
+{
+    return rb_rolling_profile_gap(rb_case_settled(c)->rc.profile, x);
+}
+
 static void a_copy_borrows_the_files(void **state)
 {
     (void)state;
@@ -345,14 +350,18 @@ static void a_copy_borrows_the_files(void **state)
     write_file("other.txt", "-5 0.5\n-1 0.1\n0 0\n5 0.5\n");
     rb_case *base = case_of("gap=gap.txt load=500"), *c = rb_case_copy(base);
     CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
-    assert_ptr_equal(rb_case_settled(c)->rc.profile_x,
-                     rb_case_settled(base)->rc.profile_x);
+    assert_ptr_equal(rb_case_settled(c)->rc.profile, rb_case_settled(base)->rc.profile);
+    CHECK_STATUS(rb_case_set_number(c, "gap-smoothing", 0.5, &why), RB_OK);
+    CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
+    assert_ptr_not_equal(rb_case_settled(c)->rc.profile,
+                         rb_case_settled(base)->rc.profile);
+    CHECK_ABS(gap_at(c, 5.0), 0.25, 1e-12, "a parabola smoothed");
+    CHECK_STATUS(rb_case_set_number(c, "gap-smoothing", 0.0, &why), RB_OK);
     CHECK_STATUS(rb_case_set(c, "gap", "other.txt", RB_GIVEN_ARGUMENT, &why), RB_OK);
     CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
-    assert_int_equal(rb_case_settled(c)->rc.profile_n, 4);
+    assert_true(gap_at(c, 5.0) == 0.5);
     rb_case_free(c);
-    assert_int_equal(rb_case_settled(base)->rc.profile_n, 3);
-    assert_true(rb_case_settled(base)->rc.profile_gap[2] == 0.25);
+    assert_true(gap_at(base, 5.0) == 0.25);
     rb_case_free(base);
 }
 

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 enum { DENSE, BLOCKS, SPARSE };
-enum { MOST = INT_MAX / 4 }; /* unknowns: sums of a few such numbers are still ints */
 enum { TRIPLETS = 1, COLUMNS = 2 };
 
 static int ok(const io_tokens *t)
@@ -62,11 +61,13 @@ static void blocks_free(blocks *b)
 
 static void read_pattern(io_tokens *t, const rb_io_matrix *m, blocks *b)
 {
-    b->count = rb_io_tokens_int(t, 0, MOST, "number of blocks");
+    b->count = rb_io_tokens_int(t, 0, INT_MAX, "number of blocks");
     b->rows = rb_io_tokens_int(t, 0, m->rows, "rows of blocks");
     b->cols = rb_io_tokens_int(t, 0, m->cols, "columns of blocks");
     b->row_end = read_increasing(t, b->rows, 1, 1, m->rows, "cumulated block sizes");
     b->col_end = read_increasing(t, b->cols, 1, 1, m->cols, "cumulated block sizes");
+    if (!ok(t))
+        return;
     rb_io_tokens_int(t, b->rows + 1, b->rows + 1, "length of the first index");
     rb_io_tokens_int(t, b->count, b->count, "length of the second index");
     b->first = read_increasing(t, b->rows + 1, 0, 0, b->count, "first index");
@@ -212,7 +213,7 @@ rb_status rb_io_siconos_read_lcp(const char *path, rb_io_lcp *p, rb_message *why
     io_tokens t;
     *p = (rb_io_lcp){0};
     rb_io_tokens_open(path, &t, why);
-    p->n = rb_io_tokens_int(&t, 1, MOST, "n");
+    p->n = rb_io_tokens_int(&t, 1, INT_MAX, "n");
     read_matrix(&t, p->n, &p->M);
     p->q = read_vector(&t, p->n, "q");
     if (!ok(&t))
@@ -245,7 +246,7 @@ rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p,
     *p = (rb_io_friction){0};
     rb_io_tokens_open(path, &t, why);
     p->dimension = rb_io_tokens_int(&t, 2, 3, "dimension");
-    p->contacts = rb_io_tokens_int(&t, 1, MOST / 3, "number of contacts");
+    p->contacts = rb_io_tokens_int(&t, 1, INT_MAX / 3, "number of contacts");
     const int m = p->dimension * p->contacts;
     read_matrix(&t, m, &p->W);
     p->q = read_vector(&t, m, "q");
@@ -271,11 +272,12 @@ rb_status rb_io_siconos_read_soclcp(const char *path, rb_io_soclcp *p, rb_messag
     io_tokens t;
     *p = (rb_io_soclcp){0};
     rb_io_tokens_open(path, &t, why);
-    p->n = rb_io_tokens_int(&t, 1, MOST, "n");
+    p->n = rb_io_tokens_int(&t, 1, INT_MAX, "n");
     p->cones = rb_io_tokens_int(&t, 1, p->n, "number of cones");
     read_matrix(&t, p->n, &p->M);
     p->q = read_vector(&t, p->n, "q");
-    p->start = read_increasing(&t, p->cones + 1, 0, 1, p->n, "start of the cones");
+    if (ok(&t)) /* then n numbers have been read, and n + 1 is an int */
+        p->start = read_increasing(&t, p->cones + 1, 0, 1, p->n, "start of the cones");
     p->tau = read_vector(&t, p->cones, "tau");
     expect_end(&t);
     if (!ok(&t))
