@@ -359,9 +359,9 @@ static void a_copy_borrows_the_files(void **state)
     CHECK_STATUS(rb_case_set_number(c, "gap-smoothing", 0.0, &why), RB_OK);
     CHECK_STATUS(rb_case_set(c, "gap", "other.txt", RB_GIVEN_ARGUMENT, &why), RB_OK);
     CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
-    assert_true(gap_at(c, 5.0) == 0.5);
+    CHECK_ABS(gap_at(c, 5.0), 0.5, 1e-14, "the other file");
     rb_case_free(c);
-    assert_true(gap_at(base, 5.0) == 0.25);
+    CHECK_ABS(gap_at(base, 5.0), 0.25, 1e-14, "its own file");
     rb_case_free(base);
 }
 

@@ -241,6 +241,31 @@ static void blocks_and_columns_must_fit(void **state)
                   "expected 2 entries, got 1");
 }
 
+/* Files of a few bytes that speak of gigabytes, or of sizes whose sums and products are
+ * no integers any more. */
+static void absurd_sizes_are_refused(void **state)
+{
+    (void)state;
+    check_refused(read_market, "%%MatrixMarket matrix array real general\n2147483647 0\n",
+                  ":2: a matrix of 2147483647 by 0 has no entries");
+    check_refused(read_market, "%%MatrixMarket matrix array real general\n0 2147483647\n",
+                  "a matrix of 0 by 2147483647 has no entries");
+    check_refused(read_lcp,
+                  "2147483647 1 2147483647 2147483647 1 2147483647 2147483647 1",
+                  "room for");
+    check_refused(read_soclcp,
+                  "2147483647 2147483647 2 2147483647 2147483647 1\nCSparse\n"
+                  "triplet: 2147483647-by-2147483647, nzmax: 0 nnz: 0\n1",
+                  "room for");
+    /* 64 blocks of 2^29 x 2^29 entries: 2^64 in all */
+    char text[2000] = "1073741824 1 1073741824 1073741824\n64 2 2 "
+                      "536870912 1073741824 536870912 1073741824 3 64 0 64 64";
+    for (int k = 0; k < 64; k++)
+        strcat(text, " 0");
+    strcat(text, " 0 1 2 3 4 5 6 7 8 9");
+    check_refused(read_lcp, text, "more than 2147483647 entries");
+}
+
 /* Every file cut short is refused (a comment may be cut), and no file with one byte
  * changed does worse than that. */
 static void damaged_files_are_refused_or_read(void **state)
@@ -383,6 +408,7 @@ int main(void)
         WITH_FILE(friction_and_cones),
         WITH_FILE(what_is_wrong_is_named_with_its_line),
         WITH_FILE(blocks_and_columns_must_fit),
+        WITH_FILE(absurd_sizes_are_refused),
         WITH_FILE(damaged_files_are_refused_or_read),
         cmocka_unit_test(missing_files_and_folders),
         WITH_FILE(short_memory_is_reported),

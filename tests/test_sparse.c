@@ -1,7 +1,10 @@
 #include "check.h"
 #include "rollbem/sparse.h"
 
+#include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 static double next_random(unsigned *state)
 {
@@ -200,6 +203,46 @@ static void cholesky_solves_condenses_and_refuses(void **state)
     rb_sparse_free(&k);
 }
 
+/* W of unconnected bodies is sparse, and so is what it takes to make it: here 6000^2
+ * entries with their places would need 576 MB. */
+static void a_sparse_congruence_takes_little_memory(void **state)
+{
+    (void)state;
+#if defined(__SANITIZE_ADDRESS__)
+    skip(); /* it takes address space of its own */
+#elif defined(__linux__)
+    enum { N = 6000 };
+    struct rlimit before, tight;
+    unsigned long pages = 0;
+    rb_sparse one, w;
+    rb_sparse_cholesky *f;
+    int place[N];
+    double value[N];
+    FILE *statm = fopen("/proc/self/statm", "r");
+    assert_non_null(statm);
+    assert_int_equal(fscanf(statm, "%lu", &pages), 1);
+    fclose(statm);
+    for (int i = 0; i < N; i++) {
+        place[i] = i;
+        value[i] = 1.0;
+    }
+    CHECK_STATUS(rb_sparse_from_triplets(N, N, N, place, place, value, &one), RB_OK);
+    CHECK_STATUS(rb_sparse_cholesky_create(&one, &f), RB_OK);
+    getrlimit(RLIMIT_AS, &before);
+    tight = before;
+    tight.rlim_cur = pages * (rlim_t)sysconf(_SC_PAGESIZE) + (200 << 20);
+    setrlimit(RLIMIT_AS, &tight);
+    const rb_status s = rb_sparse_cholesky_congruence(f, &one, &w);
+    setrlimit(RLIMIT_AS, &before);
+    CHECK_STATUS(s, RB_OK);
+    assert_int_equal(w.p[N], N);
+    CHECK_ABS(w.x[N - 1], 1.0, 1e-15, "identity");
+    rb_sparse_free(&w);
+    rb_sparse_free(&one);
+    rb_sparse_cholesky_free(f);
+#endif
+}
+
 static rb_status build_and_factor(void)
 {
     const int row[] = {0, 1, 1}, col[] = {0, 0, 1};
@@ -252,6 +295,7 @@ int main(void)
         cmocka_unit_test(ranks_are_seen),
         cmocka_unit_test(lu_solves_and_names_singular_matrices),
         cmocka_unit_test(cholesky_solves_condenses_and_refuses),
+        cmocka_unit_test(a_sparse_congruence_takes_little_memory),
         cmocka_unit_test(failing_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
