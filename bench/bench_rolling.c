@@ -74,7 +74,7 @@ static void stages(void)
 }
 
 /* Seconds of the complementarity problem alone, by one solver on one model. */
-static double solve_seconds(const rb_rolling_model *model, rb_rolling_solver solver,
+static double solve_seconds(rb_rolling_model *model, rb_rolling_solver solver,
                             int runs)
 {
     rb_rolling_case rc = model->rc;
