@@ -54,12 +54,16 @@ typedef struct rb_sparse_lu rb_sparse_lu;
 
 /* Orders the pattern; no numbers yet.  RB_EINVAL: not square. */
 rb_status rb_sparse_lu_create(const rb_sparse *a, rb_sparse_lu **lu);
-/* Operations of one factorisation at most, as far as the pattern tells. */
-double rb_sparse_lu_estimate(const rb_sparse_lu *lu);
+/* Operations of one factorisation of a matrix of this pattern, which is symmetric. */
+rb_status rb_sparse_lu_estimate(const rb_sparse *a, double *flops);
 /* Factors a, which has the pattern given to create and must outlive the solves.
  * flops (NULL: not wanted) grows by the operations done. */
 rb_status rb_sparse_lu_factor(rb_sparse_lu *lu, const rb_sparse *a, double *flops);
 rb_status rb_sparse_lu_solve(const rb_sparse_lu *lu, const double *b, double *x);
+/* Without refinement of the solution. */
+rb_status rb_sparse_lu_solve_once(const rb_sparse_lu *lu, const double *b, double *x);
+/* Stored in both factors, once there are numbers. */
+double rb_sparse_lu_entries(const rb_sparse_lu *lu);
 rb_status rb_sparse_lu_solve_transposed(const rb_sparse_lu *lu, const double *b,
                                         double *x);
 void rb_sparse_lu_free(rb_sparse_lu *lu);

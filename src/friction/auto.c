@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define GROWTH 1.5
+#define GROWTH 1.1
 /* Nobody goes on beyond this. */
 #define MOST_OPERATIONS 1e11
 
@@ -29,6 +29,7 @@ typedef struct {
 
 static const stage sweeps[] = {
     {"nsgs-aa", 0, FROM_START}, {"extragradient", 0, FROM_BEST}, {NULL, 0, FROM_START}};
+static const stage alternating[] = {{"admm", 0, FROM_START}, {NULL, 0, FROM_START}};
 static const stage plain_sweeps[] = {{"nsgs-ac", 300000, FROM_START},
                                      {"nsgs-fp", 5000, FROM_START},
                                      {NULL, 0, FROM_START}};
@@ -58,14 +59,18 @@ typedef struct {
     int first_turn;
 } plan;
 
-enum { MEMBERS = 3 };
+enum { MEMBERS = 4 };
 
 /* Some sweeps are cheap where W is there and solve most problems.  The global form would
  * have to be condensed for them. */
-static const plan local_plan[MEMBERS] = {
-    {sweeps, 1.0, 100}, {newton_after_sweeps, 1.0, 0}, {plain_sweeps, 0.25, 0}};
-static const plan global_plan[MEMBERS] = {
-    {newton_first, 1.0, 40}, {sweeps, 1.0, 0}, {plain_sweeps, 0.25, 0}};
+static const plan local_plan[MEMBERS] = {{sweeps, 1.0, 100},
+                                         {newton_after_sweeps, 0.7, 0},
+                                         {alternating, 1.0, 0},
+                                         {plain_sweeps, 0.1, 0}};
+static const plan global_plan[MEMBERS] = {{newton_first, 1.0, 40},
+                                          {sweeps, 0.7, 0},
+                                          {alternating, 1.0, 0},
+                                          {plain_sweeps, 0.1, 0}};
 
 typedef struct {
     const plan *plan;

@@ -226,6 +226,9 @@ typedef struct {
 } rb_friction_system;
 
 rb_status rb_friction_system_init(rb_friction_task *task, rb_friction_system *system);
+/* Of the local form, also where the problem is global and W has been condensed. */
+rb_status rb_friction_system_init_local(rb_friction_task *task,
+                                        rb_friction_system *system);
 void rb_friction_system_free(rb_friction_system *system);
 /* u = W r + q, or H' v + w; constant 0 leaves q and w out (changes of u). */
 void rb_friction_system_velocity(const rb_friction_system *system, double constant,
@@ -248,6 +251,10 @@ rb_status rb_friction_system_solve_dense(rb_friction_system *system, int order,
                                          char transposed);
 /* What follows is of the local form (system_local.c): its pattern; the step, into x. */
 rb_status rb_friction_local_pattern(rb_friction_system *system);
+/* A + B W factored once, and solved with x as the right-hand side as often as wanted. */
+rb_status rb_friction_local_factor(rb_friction_system *system, const double *A,
+                                   const double *B);
+rb_status rb_friction_local_solve(rb_friction_system *system, double *x);
 rb_status rb_friction_local_step(rb_friction_system *system, const double *A,
                                  const double *B, const double *F);
 
@@ -285,7 +292,7 @@ typedef enum {
     RB_FRICTION_EXTRAGRADIENT
 } rb_friction_projection_variant;
 
-extern const rb_friction_method rb_friction_sweeps, rb_friction_newton,
+extern const rb_friction_method rb_friction_sweeps, rb_friction_newton, rb_friction_admm,
     rb_friction_projections, rb_friction_hybrid, rb_friction_smoothing_method,
     rb_friction_lemke_method, rb_friction_auto_method;
 

@@ -254,6 +254,9 @@ static void unfold(lemke *s, const attempt *a)
     }
 }
 
+/* Pivots of one attempt: solvable problems take n to 3 n. */
+#define MOST_PIVOTS(n) (10 * (n) + 1000)
+
 static rb_status run_attempt(lemke *s, const attempt *a)
 {
     rb_friction_task *t = s->task;
@@ -269,7 +272,7 @@ static rb_status run_attempt(lemke *s, const attempt *a)
         choose_cover(s, a);
         opt.cover = s->cover;
         opt.rule = a->rule;
-        opt.max_iters = left < INT_MAX ? left : 0; /* 0: Lemke's own limit */
+        opt.max_iters = left < MOST_PIVOTS(s->n) ? left : MOST_PIVOTS(s->n);
         st = rb_lcp_lemke(s->n, s->M, s->n, s->b, &opt, s->z, &info);
         t->info->iters += info.iters;
         t->info->flops += 2.0 * s->n * (double)s->n * info.iters;
@@ -283,6 +286,38 @@ static rb_status run_attempt(lemke *s, const attempt *a)
         st = rb_friction_measure_displacement(t->measure, t->r, t->u, t->v);
     if (st == RB_OK && !rb_friction_task_accepts(t, rb_friction_task_error(t)))
         st = RB_INACCURATE;
+    return st;
+}
+
+/* Where contacts are redundant W is singular, and the path runs through thousands of
+ * degenerate pivots or into a ray.  The proximal point method solves a few neighbours
+ * instead, whose W is positive definite:
+ *     u = (W + delta) r_{k+1} + q - delta r_k,   delta in units of W's mean diagonal. */
+#define DELTA 1e-3
+#define NEIGHBOURS 30
+
+static rb_status run_neighbours(lemke *s)
+{
+    static const attempt forces = {FORCE, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC};
+    const rb_friction_task *t = s->task;
+    const size_t m = (size_t)t->m;
+    double *q = rb_alloc(m, 1);
+    rb_status st = q ? RB_INACCURATE : RB_ENOMEM;
+    for (size_t i = 0; q && i < m; i++) {
+        q[i] = s->q[i];
+        s->W[i * (m + 1)] += DELTA;
+        t->r[i] = t->opt.r0 ? t->opt.r0[i] : 0.0;
+    }
+    for (int k = 0; k < NEIGHBOURS && st == RB_INACCURATE; k++) {
+        for (size_t i = 0; i < m; i++)
+            s->q[i] = q[i] - DELTA * t->r[i];
+        st = rb_friction_task_late(t) ? RB_INTERRUPTED : run_attempt(s, &forces);
+    }
+    for (size_t i = 0; q && i < m; i++) {
+        s->q[i] = q[i];
+        s->W[i * (m + 1)] -= DELTA;
+    }
+    free(q);
     return st;
 }
 
@@ -309,6 +344,8 @@ static rb_status run_lemke(rb_friction_task *task, int variant)
         st = load(&s);
     for (size_t k = 0; st >= 0 && k < sizeof attempts / sizeof *attempts; k++) {
         st = run_attempt(&s, &attempts[k]);
+        if (st > 0 && k == 0 && !s.E)
+            st = run_neighbours(&s);
         if (st <= 0)
             break;
         if (first == RB_OK || first == RB_SINGULAR)

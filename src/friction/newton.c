@@ -21,7 +21,7 @@ typedef struct {
     double history[MEMORY];
     double shift;
     double last; /* operations of the last step; before it, an estimate */
-    int k, limit, line_search;
+    int k, limit, line_search, begun;
 } newton;
 
 static void finish_newton(void *state)
@@ -176,10 +176,11 @@ static rb_status go_on_stepping(void *state)
 {
     newton *s = state;
     rb_friction_task *t = s->task;
-    rb_status st = s->k ? RB_MAXITER : judge(s);
-    if (st == RB_MAXITER && s->last == 0.0 && isfinite(t->budget) &&
+    rb_status st = s->begun ? RB_MAXITER : judge(s);
+    if (!s->begun && st == RB_MAXITER && isfinite(t->budget) &&
         rb_friction_system_estimate(&s->system, &s->last) == RB_ENOMEM)
         return RB_ENOMEM;
+    s->begun = 1;
     while (st == RB_MAXITER && s->k < s->limit && rb_friction_task_left(t, 1)) {
         if (t->info->flops + s->last > t->budget) {
             t->budget = t->info->flops; /* a step more would cost too much */

@@ -13,7 +13,7 @@ typedef struct {
     const rb_friction_blocks *blocks;
     double *uhat, *p, *up; /* at r; the projected point; uhat there */
     double rho, tau;       /* tau: change at which the measure is worth a look */
-    int k, limit, extragradient;
+    int k, limit, extragradient, begun;
 } projector;
 
 static void uhat_at(const projector *s, const double *r, double *uhat);
@@ -121,7 +121,8 @@ static rb_status go_on_projecting(void *state)
 {
     projector *s = state;
     rb_friction_task *t = s->task;
-    rb_status st = s->k ? RB_MAXITER : judge(s, INFINITY);
+    rb_status st = s->begun ? RB_MAXITER : judge(s, INFINITY);
+    s->begun = 1;
     while (st == RB_MAXITER && s->k < s->limit && rb_friction_task_goes_on(t)) {
         const double change = advance(s);
         s->k++;

@@ -42,6 +42,8 @@ static const rb_friction_solver solvers[] = {
      &rb_friction_projections, RB_FRICTION_FIXED_POINT},
     {"extragradient", "projection", "of all contacts at once, twice per step", WANTS_W,
      &rb_friction_projections, RB_FRICTION_EXTRAGRADIENT},
+    {"admm", "splitting", "linear system and cones in turn", WANTS_W, &rb_friction_admm,
+     0},
     {"soclcp-smoothing", "smoothing", "and regularisation on Kanno's cones", 0,
      &rb_friction_smoothing_method, 0},
     {"lemke", "pivots", "Lemke's on an LCP of size 3 n_c", FLAT,

@@ -63,27 +63,38 @@ static rb_status global_pattern(rb_friction_system *s)
     return st;
 }
 
-rb_status rb_friction_system_init(rb_friction_task *task, rb_friction_system *s)
+/* n: 0 for the local form */
+static rb_status init(rb_friction_task *task, int n, rb_friction_system *s)
 {
-    const size_t order = (size_t)(task->n + task->m), nc = (size_t)task->contacts;
+    const size_t order = (size_t)(n + task->m), nc = (size_t)task->contacts;
     *s = (rb_friction_system){.problem = task->problem,
                               .d = task->d,
                               .contacts = task->contacts,
                               .m = task->m,
-                              .n = task->n,
+                              .n = n,
                               .rho = rb_alloc(2 * nc + 2 * order, 1),
                               .place = rb_alloc_int(nc)};
     rb_status st = s->rho && s->place ? RB_OK : RB_ENOMEM;
     if (st == RB_OK) {
         s->rhs = s->rho + 2 * nc;
         s->x = s->rhs + order;
-        st = task->n ? global_pattern(s) : rb_friction_task_blocks(task, &s->blocks);
+        st = n ? global_pattern(s) : rb_friction_task_blocks(task, &s->blocks);
     }
     if (st == RB_OK)
-        st = rb_friction_rho(task->n ? task->problem : task->shared->local, s->rho);
+        st = rb_friction_rho(n ? task->problem : task->shared->local, s->rho);
     if (st != RB_OK)
         rb_friction_system_free(s);
     return st;
+}
+
+rb_status rb_friction_system_init(rb_friction_task *task, rb_friction_system *s)
+{
+    return init(task, task->n, s);
+}
+
+rb_status rb_friction_system_init_local(rb_friction_task *task, rb_friction_system *s)
+{
+    return init(task, 0, s);
 }
 
 /* ---- Products ------------------------------------------------------------------------
@@ -231,9 +242,7 @@ rb_status rb_friction_system_estimate(rb_friction_system *s, double *flops)
         return st;
     if (!s->lu)
         st = s->n ? rb_sparse_lu_create(&s->j, &s->lu) : rb_friction_local_pattern(s);
-    if (st == RB_OK)
-        *flops = rb_sparse_lu_estimate(s->lu);
-    return st;
+    return st == RB_OK ? rb_sparse_lu_estimate(&s->j, flops) : st;
 }
 
 rb_status rb_friction_system_step(rb_friction_system *s, const double *A, const double *B,

@@ -5,6 +5,7 @@
  * nothing. */
 #include "friction/internal.h"
 
+#include <lapacke.h>
 #include <stdlib.h>
 
 static int says_open(int d, const double *A, const double *B)
@@ -173,4 +174,50 @@ rb_status rb_friction_local_step(rb_friction_system *s, const double *A, const d
     if (st == RB_OK)
         spread(s, F);
     return st;
+}
+
+/* ---- One factorisation, many solves --------------------------------------------------
+ */
+
+static int wants_dense(const rb_friction_system *s)
+{
+    const double nc = s->contacts;
+    return rb_friction_system_is_dense(s->m, s->blocks->p[s->contacts] / (nc * nc));
+}
+
+rb_status rb_friction_local_factor(rb_friction_system *s, const double *A,
+                                   const double *B)
+{
+    const double m = s->m;
+    s->flops += 2.0 * s->d * s->d * s->d * (double)s->blocks->p[s->contacts];
+    if (!wants_dense(s)) {
+        const rb_status st = s->lu ? RB_OK : rb_friction_local_pattern(s);
+        if (st != RB_OK)
+            return st;
+        fill_sparse(s, A, B);
+        return rb_sparse_lu_factor(s->lu, &s->j, &s->flops);
+    }
+    const rb_status st = rb_friction_system_dense(s, (size_t)s->m);
+    if (st != RB_OK)
+        return st;
+    for (int c = 0; c < s->contacts; c++)
+        s->place[c] = c;
+    for (int c = 0; c < s->contacts; c++)
+        fill_dense_columns(s, c, (size_t)s->m, A, B);
+    s->flops += 2.0 / 3.0 * m * m * m;
+    return rb_friction_lapack_status(
+        LAPACKE_dgetrf(LAPACK_COL_MAJOR, s->m, s->m, s->dense, s->m, s->pivots));
+}
+
+rb_status rb_friction_local_solve(rb_friction_system *s, double *x)
+{
+    if (wants_dense(s)) {
+        s->flops += 2.0 * s->m * (double)s->m;
+        return rb_friction_lapack_status(LAPACKE_dgetrs(
+            LAPACK_COL_MAJOR, 'N', s->m, 1, s->dense, s->m, s->pivots, x, s->m));
+    }
+    for (int k = 0; k < s->m; k++)
+        s->rhs[k] = x[k];
+    s->flops += 2.0 * rb_sparse_lu_entries(s->lu);
+    return rb_sparse_lu_solve_once(s->lu, s->rhs, x);
 }
