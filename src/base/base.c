@@ -72,10 +72,11 @@ int *rb_alloc_int(size_t n)
 
 rb_status rb_memory_check(double bytes, const char *what, rb_message *why)
 {
-    const double machine =
-        (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+    const double machine = (double)pages * (double)page;
 
-    if (bytes <= machine)
+    /* -1 where the system does not tell: then the allocation itself decides */
+    if (pages <= 0 || page <= 0 || bytes <= machine)
         return RB_OK;
     return rb_fail(why, RB_EINVAL,
                    "%s would need %.3g GB of memory; this machine has %.3g GB", what,
