@@ -132,7 +132,7 @@ static void json_holds_the_same_numbers(void **state)
     const rb_rolling_solution s = carter();
     const rb_rolling_case rc = rb_rolling_case_defaults();
     json_t *root = rb_report_json_start("rollbem 'a b'");
-    json_object_set_new(root, "summary", rb_report_json_summary(&rc, &s));
+    json_object_set_new(root, "summary", rb_report_json_summary(&s));
     json_object_set_new(root, "table", rb_report_json_table(&s));
     FILE *file = tmpfile();
     assert_int_equal(rb_report_json_write(file, root), RB_OK);

@@ -201,6 +201,12 @@ rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set 
  * further change. */
 rb_status rb_case_settle(rb_case *c, rb_message *why);
 
+/* Relaxation as it is typed: the first number, and all of them. */
+typedef struct {
+    double time, ratio;
+    rb_numbers times, ratios;
+} rb_case_memory;
+
 /* The values of a case, as settled. */
 typedef struct {
     rb_rolling_case rc;
@@ -208,6 +214,7 @@ typedef struct {
     double gap_smoothing; /* standard deviation of its noise [length] */
     int similar;          /* B is of A's material */
     double young_b, poisson_b, radius_b;
+    rb_case_memory memory_a, memory_b;
     rb_numbers mus;                /* more than one: for curves */
     const char *irregularity_file; /* or NULL */
     const char *history_file;      /* or NULL */

@@ -41,8 +41,7 @@ struct json_t *rb_report_json_start(const char *command);
 /* A number; null for NaN and infinities. */
 struct json_t *rb_report_json_number(double x);
 struct json_t *rb_report_json_numbers(int n, const double *x);
-struct json_t *rb_report_json_summary(const rb_rolling_case *rc,
-                                      const rb_rolling_solution *s);
+struct json_t *rb_report_json_summary(const rb_rolling_solution *s);
 /* Every value that the settled case uses, defaults included. */
 struct json_t *rb_report_json_inputs(const rb_case *c);
 struct json_t *rb_report_json_table(const rb_rolling_solution *s);

@@ -36,13 +36,26 @@ typedef enum {
     RB_NEAR_FIELD_EXACT
 } rb_rolling_near_field;
 
+/* Relaxation of a viscoelastic half-plane (V1): creep compliance
+ * J(t) = J_g [1 + sum f_k (1 - exp(-t/tau_k))], Poisson's ratio constant. */
+enum { RB_ROLLING_TERMS = 16 };
 typedef struct {
-    double young, poisson; /* [stress], [-] */
+    int n;                          /* 0: elastic */
+    double time[RB_ROLLING_TERMS];  /* tau_k > 0 [s] */
+    double ratio[RB_ROLLING_TERMS]; /* f_k >= 0 */
+} rb_rolling_memory;
+
+typedef struct {
+    double young, poisson; /* [stress], [-]; the glassy modulus of a body with memory */
     double radius;         /* [length]; INFINITY: a plane (body B only) */
     rb_bem_support support;
     double arc;       /* half-angle of the clamped arc [degrees] */
     double hub_ratio; /* radius of the rigid hub / radius */
     double datum;     /* half-plane: depth of zero displacement; 0: 2R/e */
+    double layer;     /* half-plane: thickness of a layer of this material, bonded to a
+                         base [length]; 0: no layer */
+    double base_young, base_poisson; /* of that base; young NAN: rigid */
+    rb_rolling_memory memory;        /* half-plane, steady rolling */
 } rb_rolling_body;
 
 /* A measured gap g_0(x) [length]: n points, x increasing, as a cubic spline, whose
@@ -90,6 +103,7 @@ typedef struct {
     rb_rolling_formulation formulation;
     int increments;  /* static, transient: above 1 the bodies are pressed, then loaded
                         tangentially, in so many increments each (theory.md 5.3) */
+    double speed;    /* of rolling [length/s]; read where a body has memory */
     double distance; /* transient: rolled distance / Hertz half-width */
     int steps;       /* transient */
 
@@ -113,6 +127,10 @@ typedef struct {
 } rb_rolling_case;
 
 rb_rolling_case rb_rolling_case_defaults(void);
+
+/* 1 where Carter's law holds: steady rolling of similar homogeneous half-planes, no table
+ * as gap. */
+int rb_rolling_carter_holds(const rb_rolling_case *rc);
 
 /* Ranges and contradictions.  RB_EINVAL with one line in why. */
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why);
@@ -309,6 +327,7 @@ typedef struct {
     double hertz_half_width; /* of P and the combined radius: scale of the ratios */
     double creep_ratio, force_ratio; /* xi R/(mu a), Q/(mu P); NAN at mu = 0 */
     double half_width;               /* where p^2 extrapolates to zero [length] */
+    double datum;                    /* of A; NAN where it has none [length] */
     double contact_from, contact_to; /* its edges */
     double max_pressure;             /* p0 [stress] */
     int contact, stick, slipping;    /* elements */

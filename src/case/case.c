@@ -12,7 +12,9 @@ static rb_settled_case default_words(rb_case_purpose purpose)
     rb_settled_case words = {.rc = rb_rolling_case_defaults(),
                              .young_b = NAN,
                              .poisson_b = NAN,
-                             .radius_b = INFINITY};
+                             .radius_b = INFINITY,
+                             .memory_a = {.time = NAN, .ratio = NAN},
+                             .memory_b = {.time = NAN, .ratio = NAN}};
     if (purpose == RB_CASE_CURVE)
         words.rc.formulation = RB_STEADY;
     return words;
@@ -270,6 +272,50 @@ static rb_status settle_body_b(rb_case *c, rb_message *why)
     return RB_OK;
 }
 
+/* ---- Layers and memory ---------------------------------------------------------------
+ */
+
+/* As many times as ratios. */
+static rb_status settle_memory(const rb_case_memory *typed, const char *which,
+                               rb_rolling_memory *memory, rb_message *why)
+{
+    if (typed->times.n != typed->ratios.n)
+        return rb_fail(
+            why, RB_EINVAL,
+            "--relaxation-time%s and --relaxation-ratio%s: expected as many of "
+            "one as of the other, got %d and %d",
+            which, which, typed->times.n, typed->ratios.n);
+    memory->n = typed->times.n;
+    for (int k = 0; k < memory->n; k++) {
+        memory->time[k] = typed->times.value[k];
+        memory->ratio[k] = typed->ratios.value[k];
+    }
+    return RB_OK;
+}
+
+static rb_status settle_bodies(rb_case *c, rb_message *why)
+{
+    rb_settled_case *s = &c->settled;
+    const int layer[2] = {s->rc.a.layer > 0.0, s->rc.b.layer > 0.0};
+    static const char *const base[2][2] = {{"base-young", "base-poisson"},
+                                           {"base-young-b", "base-poisson-b"}};
+    rb_status status = settle_memory(&s->memory_a, "", &s->rc.a.memory, why);
+    if (status == RB_OK)
+        status = settle_memory(&s->memory_b, "-b", &s->rc.b.memory, why);
+    for (int b = 0; b < 2; b++)
+        for (int k = 0; k < 2 && status == RB_OK && !layer[b]; k++)
+            status = rb_case_refuse(c, base[b][k],
+                                    "a base has its layer on it, see "
+                                    "--layer-thickness",
+                                    why);
+    if (status == RB_OK && s->rc.a.memory.n + s->rc.b.memory.n == 0)
+        status = rb_case_refuse(c, "speed",
+                                "for bodies that relax only, see "
+                                "--relaxation-time",
+                                why);
+    return status;
+}
+
 /* ---- Files that the case names ------------------------------------------------------
  */
 
@@ -474,6 +520,8 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     c->settled = c->words;
     if (s == RB_OK)
         s = settle_body_b(c, why);
+    if (s == RB_OK)
+        s = settle_bodies(c, why);
     if (s == RB_OK)
         s = check_formulation(c, why);
     if (s == RB_OK)

@@ -5,7 +5,7 @@
 #include "rollbem/case.h"
 #include "rollbem/io.h"
 
-enum { RB_CASE_OPTIONS_MAX = 64 };
+enum { RB_CASE_OPTIONS_MAX = 96 };
 
 /* A table read from a file that an option names. */
 typedef struct {

@@ -87,7 +87,7 @@ static rb_status write_json(FILE *out, const result *it)
 {
     json_t *root = rb_report_json_start(cli_command_line());
     json_object_set_new(root, "inputs", rb_report_json_inputs(it->words));
-    json_t *summary = rb_report_json_summary(&it->c->rc, &it->r->solution);
+    json_t *summary = rb_report_json_summary(&it->r->solution);
     if (it->r->has_errors)
         json_object_set_new(summary, "errors", rb_report_json_errors(&it->r->errors));
     json_object_set_new(root, "summary", summary);

@@ -212,7 +212,7 @@ static rb_status print_json(FILE *out, const result *r)
     json_t *root = rb_report_json_start(cli_command_line());
     json_object_set_new(root, "inputs", rb_report_json_inputs(r->words));
     json_object_set_new(root, "summary",
-                        rb_report_json_summary(&r->c->rc, &r->run.solution));
+                        rb_report_json_summary(&r->run.solution));
     rb_report_json_stress(root, &r->table);
     const rb_status s = rb_report_json_write(out, root);
     json_decref(root);

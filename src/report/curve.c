@@ -259,15 +259,15 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
                 k, colours[k % 8]);
     for (int k = 0; k < v->curves->n; k++)
         fprintf(out,
-                "$curve%d using 1:2 with lines linecolor rgb '%s' linewidth 2.6 title "
-                "'μ = %g', ",
-                k, colours[k % 8], v->curves->mu[k]);
-    for (int k = 0; k < v->curves->n; k++)
+                "%s$curve%d using 1:2 with lines linecolor rgb '%s' linewidth 2.6 title "
+                "'μ = %g'",
+                k > 0 ? ", " : "", k, colours[k % 8], v->curves->mu[k]);
+    for (int k = 0; k < v->curves->n && rb_rolling_carter_holds(v->rc); k++)
         fprintf(out,
-                "$carter%d using 1:2 with lines dashtype (8,8) linecolor rgb '#111111' "
-                "linewidth 1.1 %s%s",
-                k, k == 0 ? "title 'law of Carter'" : "notitle",
-                k + 1 < v->curves->n ? ", " : "\n");
+                ", $carter%d using 1:2 with lines dashtype (8,8) linecolor rgb '#111111' "
+                "linewidth 1.1 %s",
+                k, k == 0 ? "title 'law of Carter'" : "notitle");
+    fputs("\n", out);
 }
 
 rb_status rb_report_curve_picture(FILE *out, rb_report_picture_kind kind,

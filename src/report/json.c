@@ -116,7 +116,7 @@ static void set_fields(json_t *object, const rb_rolling_solution *s, const field
     }
 }
 
-json_t *rb_report_json_summary(const rb_rolling_case *rc, const rb_rolling_solution *s)
+json_t *rb_report_json_summary(const rb_rolling_solution *s)
 {
     json_t *summary = json_object(), *times = json_object();
     json_object_set_new(summary, "status", json_string(rb_status_text(s->status)));
@@ -128,9 +128,7 @@ json_t *rb_report_json_summary(const rb_rolling_case *rc, const rb_rolling_solut
     json_object_set_new(summary, "lcp_form",
                         json_string(rb_report_lcp_form(s->lcp_form)));
     set_fields(summary, s, results, sizeof results / sizeof results[0]);
-    const int flat = rc->a.support == RB_BEM_HALFPLANE;
-    const double datum = rc->a.datum > 0.0 ? rc->a.datum : 2.0 * rc->a.radius / exp(1.0);
-    json_object_set_new(summary, "datum", rb_report_json_number(flat ? datum : NAN));
+    json_object_set_new(summary, "datum", rb_report_json_number(s->datum));
     json_object_set_new(summary, "boundary_elements", json_integer(s->boundary_elements));
     if (s->boundary_elements > 0)
         json_object_set_new(summary, "boundary_matrix",

@@ -74,8 +74,8 @@ static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s)
     choose_x_axis(&v);
     choose_slip_axis(&v);
     choose_stress_unit(&v);
-    v.carter = s->formulation == RB_STEADY && isfinite(s->creep_ratio) && rc->mu > 0.0 &&
-               s->normal_load > 0.0;
+    v.carter =
+        rb_rolling_carter_holds(rc) && isfinite(s->creep_ratio) && s->normal_load > 0.0;
     return v;
 }
 

@@ -14,9 +14,8 @@ static rb_status add_halfplane(const rb_rolling_case *rc, const rb_rolling_body 
                                const double *s, double *sum)
 {
     const size_t rows = (size_t)points, columns = 2 * (size_t)n;
-    const rb_bem_surface surface = rb_bem_halfplane(
-        rb_bem_material_from_young(body->young, body->poisson),
-        rb_rolling_datum(body, isfinite(body->radius) ? body->radius : rc->a.radius));
+    double length[RB_ROLLING_TERMS];
+    const rb_bem_surface surface = rb_rolling_surface_of(rc, body, length);
     double *ends = rb_alloc((size_t)n + 1, 1), *W = rb_alloc(2 * rows, columns);
     rb_status status = ends && W ? RB_OK : RB_ENOMEM;
 

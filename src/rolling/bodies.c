@@ -14,9 +14,47 @@ void rb_rolling_bodies_free(rb_rolling_bodies *bodies)
     memset(bodies, 0, sizeof *bodies);
 }
 
-double rb_rolling_datum(const rb_rolling_body *body, double radius)
+static double depth_of_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
+    const double radius = isfinite(body->radius) ? body->radius : rc->a.radius;
     return body->datum > 0.0 ? body->datum : 2.0 * radius / M_E;
+}
+
+double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    const int on_rigid_base = body->layer > 0.0 && isnan(body->base_young);
+    return body->support != RB_BEM_HALFPLANE || on_rigid_base ? NAN
+                                                              : depth_of_datum(rc, body);
+}
+
+rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
+                                     const rb_rolling_body *body,
+                                     double length[RB_ROLLING_TERMS])
+{
+    for (int k = 0; k < body->memory.n; k++)
+        length[k] = rc->speed * body->memory.time[k];
+    const int elastic_base = body->layer > 0.0 && !isnan(body->base_young);
+    return (rb_bem_surface){
+        .material = rb_bem_material_from_young(body->young, body->poisson),
+        .datum = depth_of_datum(rc, body),
+        .terms = body->memory.n,
+        .ratio = body->memory.ratio,
+        .length = length,
+        .thickness = body->layer,
+        .elastic_base = elastic_base,
+        .base = elastic_base
+                    ? rb_bem_material_from_young(body->base_young, body->base_poisson)
+                    : (rb_bem_material){0}};
+}
+
+static int body_is_homogeneous(const rb_rolling_body *body)
+{
+    return body->layer == 0.0 && body->memory.n == 0;
+}
+
+int rb_rolling_is_homogeneous(const rb_rolling_case *rc)
+{
+    return body_is_homogeneous(&rc->a) && (!rc->elastic_b || body_is_homogeneous(&rc->b));
 }
 
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
@@ -72,18 +110,24 @@ static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_bo
 {
     if (body->support != RB_BEM_HALFPLANE)
         return cylinder_flexibility(rc, body, mesh, system, bodies, f, why);
-    const double radius = isfinite(body->radius) ? body->radius : rc->a.radius;
+    double length[RB_ROLLING_TERMS];
     const double start = rb_seconds();
-    const rb_bem_material material =
-        rb_bem_material_from_young(body->young, body->poisson);
-    const rb_bem_surface surface =
-        rb_bem_halfplane(material, rb_rolling_datum(body, radius));
+    const rb_bem_surface surface = rb_rolling_surface_of(rc, body, length);
     const rb_status s =
         rb_rolling_is_large(rc, mesh)
             ? rb_bem_flexibility_toeplitz(mesh->n, mesh->ends, &surface, f, why)
             : rb_bem_flexibility_surface(mesh->n, mesh->ends, &surface, f, why);
     bodies->seconds_condense += rb_seconds() - start;
     return s;
+}
+
+int rb_rolling_carter_holds(const rb_rolling_case *rc)
+{
+    const int flat = rc->a.support == RB_BEM_HALFPLANE &&
+                     (!rc->elastic_b || rc->b.support == RB_BEM_HALFPLANE);
+    return rc->formulation == RB_STEADY && rc->mu > 0.0 && flat &&
+           rc->gap != RB_GAP_TABLE && rb_rolling_is_homogeneous(rc) &&
+           fabs(rb_rolling_dundurs(rc)) < 1e-9;
 }
 
 /* Without the boundaries of wheels, which rb_bem_system_create looks at. */

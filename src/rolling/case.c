@@ -14,6 +14,9 @@ rb_rolling_case rb_rolling_case_defaults(void)
                                   .hub_ratio = 0.3};
     rb_rolling_case rc = {.a = body, .b = body};
 
+    rc.a.base_young = rc.b.base_young = NAN;
+    rc.a.base_poisson = rc.b.base_poisson = body.poisson;
+    rc.speed = NAN;
     rc.b.radius = INFINITY;
     rc.b.support = RB_BEM_HALFPLANE;
     rc.gap = RB_GAP_EXACT;
@@ -167,9 +170,53 @@ static rb_status check_body(const rb_rolling_body *b, const char *which,
     if (b->support == RB_BEM_HUB && !(b->hub_ratio > 0.0 && b->hub_ratio < 1.0))
         return rb_fail(why, RB_EINVAL, "hub ratio%s: expected in (0, 1), got %g", which,
                        b->hub_ratio);
+    if (b->support != RB_BEM_HALFPLANE && (b->layer > 0.0 || b->memory.n > 0))
+        return rb_fail(why, RB_EINVAL,
+                       "%s%s: for the support halfplane only, got a wheel",
+                       b->layer > 0.0 ? "layer thickness" : "relaxation", which);
+    if (!(isfinite(b->layer) && b->layer >= 0.0))
+        return rb_fail(why, RB_EINVAL, "layer thickness%s: expected > 0, got %g", which,
+                       b->layer);
+    if (!isnan(b->base_young) && !is_positive(b->base_young))
+        return rb_fail(why, RB_EINVAL,
+                       "Young's modulus of the base%s: expected > 0, got %g", which,
+                       b->base_young);
+    if (!(b->base_poisson > -1.0 && b->base_poisson <= 0.5))
+        return rb_fail(why, RB_EINVAL,
+                       "Poisson's ratio of the base%s: expected in (-1, 0.5], got %g",
+                       which, b->base_poisson);
     if (b->support == RB_BEM_HALFPLANE && !(isfinite(b->datum) && b->datum >= 0.0))
         return rb_fail(why, RB_EINVAL, "datum%s: expected a depth >= 0, got %g", which,
                        b->datum);
+    return RB_OK;
+}
+
+/* Memory averages over what a particle has passed: in steady rolling, at a speed. */
+static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
+{
+    const rb_rolling_memory *const memory[2] = {&rc->a.memory, &rc->b.memory};
+    int terms = 0;
+
+    for (int b = 0; b < 1 + rc->elastic_b; b++) {
+        if (memory[b]->n < 0 || memory[b]->n > RB_ROLLING_TERMS)
+            return rb_fail(why, RB_EINVAL, "relaxation: expected 0 ... %d terms, got %d",
+                           RB_ROLLING_TERMS, memory[b]->n);
+        for (int k = 0; k < memory[b]->n; k++)
+            if (!is_positive(memory[b]->time[k]) || !(memory[b]->ratio[k] >= 0.0) ||
+                isinf(memory[b]->ratio[k]))
+                return rb_fail(
+                    why, RB_EINVAL,
+                    "relaxation: expected times > 0 and ratios >= 0, got %g and %g",
+                    memory[b]->time[k], memory[b]->ratio[k]);
+        terms += memory[b]->n;
+    }
+    if (terms > 0 && rc->formulation != RB_STEADY)
+        return rb_fail(why, RB_EINVAL,
+                       "relaxation: bodies that relax roll steadily here, add "
+                       "--formulation steady");
+    if (terms > 0 && !is_positive(rc->speed))
+        return rb_fail(why, RB_EINVAL,
+                       "relaxation: needs the speed of rolling, add --speed");
     return RB_OK;
 }
 
@@ -328,6 +375,8 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
 
     if (s == RB_OK && rc->elastic_b)
         s = check_body(&rc->b, " of body B", 1, why);
+    if (s == RB_OK)
+        s = check_memory(rc, why);
     if (s == RB_OK && !(isfinite(rc->mu) && rc->mu >= 0.0))
         s = rb_fail(why, RB_EINVAL, "mu: expected >= 0, got %g", rc->mu);
     if (s == RB_OK)

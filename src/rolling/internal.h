@@ -35,8 +35,17 @@ rb_status rb_rolling_points_check(const char *what, int n, const double *x,
 /* ---- bodies.c ------------------------------------------------------------------------
  */
 
-/* The given datum of a half-plane, or 2R/e. */
-double rb_rolling_datum(const rb_rolling_body *body, double radius);
+/* The given datum of a half-plane, or 2R/e, R of the body or of A where it is a plane; NAN
+ * where nothing is measured from one: wheels, and layers on a rigid base. */
+double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body);
+/* A half-plane of the case, with its layer and memory.  length: room for the memory's
+ * lengths, which the surface borrows like the body's ratios. */
+rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
+                                     const rb_rolling_body *body,
+                                     double length[RB_ROLLING_TERMS]);
+/* 1 where all bodies are homogeneous and elastic: then Hertz's half-width means what it
+ * says. */
+int rb_rolling_is_homogeneous(const rb_rolling_case *rc);
 
 /* w = w0 + F (p, q), 2m values, m = n + 1.  RB_ENOMEM. */
 rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,

@@ -230,6 +230,7 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
     s->tangential_load = rb_rolling_model_force(model);
     s->load_error = p->load_given ? fabs(s->normal_load - p->load) / p->load : NAN;
     s->hertz_half_width = model->half_width;
+    s->datum = rb_rolling_datum(&model->rc, &model->rc.a);
     s->approach = model->state.delta;
     if (s->formulation == RB_STATIC) {
         const rb_rolling_case *rc = &model->rc;

@@ -1,0 +1,332 @@
+/* Viscoelastic half-planes and layers in rolling contact: Hunter's exact solution, limits
+ * of speed, figures of CONTACT, asymptotes of thick and thin layers. */
+#include "check.h"
+#include "rollbem/rolling.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+static double moment_of(const rb_rolling_solution *s)
+{
+    double M = 0.0;
+    for (int i = 0; i < s->n; i++)
+        M += s->x[i] * s->p[i] * s->h[i];
+    return M;
+}
+
+/* A frictionless cylinder R = 100 with a_g = 1 on a rigid plane, one relaxation time. */
+static rb_rolling_case hunter(double f, double length, int n)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.radius = 100.0;
+    rc.a.young = 1000.0;
+    rc.a.poisson = 0.3;
+    rc.a.memory = (rb_rolling_memory){1, {length}, {f}};
+    rc.speed = 1.0;
+    rc.half_width = 1.0;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.mu = 0.0;
+    rc.creep = 0.0;
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = n;
+    return rc;
+}
+
+/* docs/theory.md (V3): f, V tau/a_g, leading and trailing edge, p_max/p0g, M/(P a_g). */
+static const double rows[7][6] = {
+    {1, 0.1, 1.4135769, -1.3649042, 0.7078300, 0.0473514},
+    {1, 1, 1.3698037, -1.0148946, 0.8318884, 0.2621595},
+    {1, 3, 1.2558838, -0.8442050, 0.9553298, 0.2462507},
+    {1, 10, 1.1283544, -0.8863649, 0.9930890, 0.1334710},
+    {4, 0.1, 2.2355433, -2.1566171, 0.4474386, 0.0778542},
+    {4, 1, 2.1922928, -1.5023576, 0.5770909, 0.5920417},
+    {4, 10, 1.5142122, -0.5617763, 0.9747033, 0.5284636},
+};
+
+static void hunters_solution_is_met(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 7; k++) {
+        const double *row = rows[k];
+        rb_rolling_solution s;
+        rb_message why = {""};
+        rb_rolling_case rc = hunter(row[0], row[1], 200);
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
+        const double E = rc.a.young / (1.0 - gsl_pow_2(rc.a.poisson));
+        const double a = 0.5 * (row[2] - row[3]);
+        CHECK_ABS(s.contact_to, row[2], 1e-3 * a, "row %d: leading edge", k);
+        CHECK_ABS(s.contact_from, row[3], 1e-3 * a, "row %d: trailing edge", k);
+        CHECK_REL(s.max_pressure, row[4] * E / 200.0, 2e-3, "row %d: p_max", k);
+        CHECK_ABS(moment_of(&s) / s.normal_load, row[5], 1e-4, "row %d: M/P", k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Slow: Hertz with the rubbery modulus; fast: with the glassy one. */
+static void speed_has_its_limits(void **state)
+{
+    (void)state;
+    const double f = 3.0;
+    for (int fast = 0; fast < 2; fast++) {
+        rb_rolling_solution s;
+        rb_rolling_case rc = hunter(f, fast ? 1e5 : 1e-5, 100);
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        const double wide = fast ? 1.0 : sqrt(1.0 + f);
+        CHECK_REL(s.half_width, wide, 1e-3, "fast %d", fast);
+        CHECK_REL(s.max_pressure, 2.0 * s.normal_load / (M_PI * wide), 2e-3, "fast %d",
+                  fast);
+        const double L = rc.a.memory.time[0],
+                     moment = fast ? f / (2.0 * L) * (log(2.0 * L) + 0.25 - M_EULER)
+                                   : f * L / (1.0 + f);
+        CHECK_REL(moment_of(&s) / s.normal_load, moment, 2e-2, "fast %d", fast);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* ---- CONTACT's visc_cylindr: two cylinders on a grid of 99 elements, x0 = -0.08
+ * ---------- */
+
+typedef struct {
+    double tau, xi, p_max, approach, power;
+    int contact, stick;
+} contact_row;
+
+static rb_rolling_case two_cylinders(double tau)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = rc.b.support = RB_BEM_HALFPLANE;
+    rc.a.radius = rc.b.radius = 100.0;
+    rc.a.young = 2.0 * 1143.0 * 1.4;
+    rc.a.poisson = 0.4;
+    rc.a.datum = 1000.0;
+    rc.a.memory = (rb_rolling_memory){1, {tau}, {1.0}};
+    rc.b = rc.a;
+    rc.elastic_b = 1;
+    rc.speed = 1000.0;
+    rc.load = 600.0;
+    rc.force_ratio = -0.6;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.formulation = RB_STEADY;
+    return rc;
+}
+
+static void contacts_figures_are_met(void **state)
+{
+    (void)state;
+    static const contact_row want[2] = {
+        {0.009, 1.36501e-2, 78.737, 2.36732, 913.55, 62, 37},
+        {2.0, 9.9451e-3, 85.299, 1.30047, 1010.3, 56, 35}};
+    for (int k = 0; k < 2; k++) {
+        const rb_rolling_case rc = two_cylinders(want[k].tau);
+        rb_rolling_mesh mesh;
+        rb_rolling_bodies bodies;
+        rb_rolling_problem problem;
+        rb_rolling_state s;
+        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -8.0, 7.84, &mesh, NULL), RB_OK);
+        rb_rolling_mesh_free(&mesh);
+        rb_rolling_case grid = rc;
+        grid.contact_elements = 99;
+        CHECK_STATUS(rb_rolling_mesh_uniform(&grid, -8.0, 7.84, &mesh, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_bodies_create(&grid, &mesh, &bodies, NULL), RB_OK);
+        CHECK_STATUS(
+            rb_rolling_problem_create(&grid, &mesh, &bodies, NULL, 0.0, &problem, NULL),
+            RB_OK);
+        CHECK_STATUS(rb_rolling_state_alloc(99, &s), RB_OK);
+        CHECK_STATUS(rb_rolling_problem_solve(&problem, &grid, 0, &s, NULL), RB_OK);
+        int contact = 0, stick = 0;
+        double power = 0.0, p_max = 0.0;
+        for (int i = 0; i < 99; i++) {
+            contact += s.zone[i] != RB_ZONE_SEPARATED;
+            stick += s.zone[i] == RB_ZONE_STICK;
+            power += fabs(s.q[i] * s.lambda[i]);
+            p_max = fmax(p_max, s.p[i]);
+        }
+        CHECK_REL(s.xi, want[k].xi, 2e-4, "tau %g: creepage", want[k].tau);
+        CHECK_REL(p_max, want[k].p_max, 5e-4, "tau %g: p_max", want[k].tau);
+        CHECK_REL(s.delta, want[k].approach, 2e-4, "tau %g: approach", want[k].tau);
+        CHECK_REL(power * grid.speed, want[k].power, 1e-3, "tau %g: power", want[k].tau);
+        assert_int_equal(contact, want[k].contact);
+        assert_int_equal(stick, want[k].stick);
+        rb_rolling_state_free(&s);
+        rb_rolling_problem_free(&problem);
+        rb_rolling_bodies_free(&bodies);
+        rb_rolling_mesh_free(&mesh);
+    }
+}
+
+/* ---- Layers
+ * ------------------------------------------------------------------------------ */
+
+static rb_rolling_case layered(double thickness, double nu, int n)
+{
+    rb_rolling_case rc = hunter(0.0, 1.0, n);
+    rc.a.memory.n = 0;
+    rc.a.poisson = nu;
+    rc.a.layer = thickness;
+    return rc;
+}
+
+/* P (1 - c1 a^2/d^2) = pi E* a^2/(4R) to (a/d)^4 */
+static void thick_layers_have_their_series(void **state)
+{
+    (void)state;
+    static const double nu[2] = {0.3, 0.5}, c1[2] = {0.715969, 1.023603};
+    for (int k = 0; k < 2; k++)
+        for (int j = 1; j <= 2; j++) {
+            const double ratio = 0.1 * j;
+            rb_rolling_solution s;
+            rb_rolling_case rc = layered(1.0 / ratio, nu[k], 200);
+            CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+            const double a = s.half_width, d = rc.a.layer,
+                         E = rc.a.young / (1.0 - nu[k] * nu[k]),
+                         hertz = M_PI * E * a * a / (4.0 * rc.a.radius);
+            CHECK_REL(s.normal_load * (1.0 - c1[k] * a * a / (d * d)), hertz,
+                      2.0 * gsl_pow_4(ratio) + 2e-4, "nu %g, a/d %g", nu[k], ratio);
+            rb_rolling_solution_free(&s);
+        }
+}
+
+/* delta = a^2/(2R), P = 2 a^3 M/(3 R d) */
+static void thin_layers_are_mattresses(void **state)
+{
+    (void)state;
+    static const double want[3] = {0.99701, 0.99910, 0.99973};
+    for (int k = 0; k < 3; k++) {
+        const double nu = 0.3, d = 1.0 / (5 << k);
+        rb_rolling_solution s;
+        rb_rolling_case rc = layered(d, nu, 200);
+        rc.half_width = NAN;
+        rc.approach = 1.0 / (2.0 * rc.a.radius);
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        const double M = rc.a.young * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+        CHECK_REL(s.normal_load / (2.0 * M / (3.0 * rc.a.radius * d)), want[k], 1e-3,
+                  "a/d = %d", 5 << k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Free rolling of a covered roll, docs/physics: xi R/c at nu = 0.5, c/d = 1. */
+static void incompressible_covers_stretch_in_the_nip(void **state)
+{
+    (void)state;
+    static const double mu[2] = {0.1, 0.3}, want[2] = {0.16692, 0.16488};
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_solution s;
+        rb_rolling_case rc = layered(2.0, 0.5, 100);
+        rc.half_width = 2.0;
+        rc.mu = mu[k];
+        rc.creep = NAN;
+        rc.force = 0.0;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        CHECK_ABS(s.creepage * rc.a.radius / 2.0, want[k], 4e-3 * want[k] + 4e-4,
+                  "mu = %g", mu[k]);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* A layer on a half-plane of its own material is that half-plane. */
+static void a_layer_of_the_same_material_is_none(void **state)
+{
+    (void)state;
+    rb_rolling_solution s[2];
+    rb_rolling_case rc = layered(0.0, 0.3, 60);
+    rc.mu = 0.3;
+    rc.creep = NAN;
+    rc.creep_ratio = 0.5;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s[0], NULL), RB_OK);
+    rc.a.layer = 0.7;
+    rc.a.base_young = rc.a.young;
+    rc.a.base_poisson = rc.a.poisson;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s[1], NULL), RB_OK);
+    CHECK_REL(s[1].tangential_load, s[0].tangential_load, 1e-8, "Q");
+    CHECK_REL(s[1].approach, s[0].approach, 1e-8, "approach");
+    CHECK_REL(s[1].max_pressure, s[0].max_pressure, 1e-8, "p0");
+    rb_rolling_solution_free(&s[0]);
+    rb_rolling_solution_free(&s[1]);
+}
+
+/* ---- All solvers, and many elements
+ * ------------------------------------------------------ */
+
+/* Lemke in both forms and Newton on the same equal elements; the transforms against
+ * fitted ones. */
+static void all_solvers_agree(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 2; kind++) {
+        double Q[5], M[5];
+        for (int k = 0; k < 5; k++) {
+            rb_rolling_solution s;
+            rb_message why = {""};
+            rb_rolling_case rc = kind ? layered(1.5, 0.45, 60) : hunter(2.0, 0.8, 60);
+            rc.mu = 0.3;
+            rc.creep = NAN;
+            rc.creep_ratio = 0.7;
+            if (k < 4) {
+                rc.mesh = RB_MESH_UNIFORM;
+                rc.zone = 2.5;
+                rc.solver = k < 2 ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON;
+                rc.lcp_form = k == 1 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+            }
+            if (k == 3)
+                rc.contact_elements = 1600;
+            CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
+            assert_int_equal(s.large, k == 3);
+            Q[k] = s.tangential_load;
+            M[k] = moment_of(&s);
+            rb_rolling_solution_free(&s);
+        }
+        for (int k = 1; k < 3; k++)
+            CHECK_REL(Q[k], Q[0], 1e-9, "kind %d, solver %d", kind, k);
+        CHECK_REL(Q[3], Q[4], 5e-3, "kind %d, many elements", kind);
+        CHECK_ABS(M[3], M[4], 3e-3 * fabs(M[4]) + 2e-3, "kind %d, many elements", kind);
+    }
+}
+
+static void bad_bodies_are_refused(void **state)
+{
+    (void)state;
+    const struct {
+        double time, ratio, speed, layer;
+        rb_bem_support support;
+        rb_rolling_formulation formulation;
+        const char *word;
+    } bad[] = {
+        {-1, 1, 1, 0, RB_BEM_HALFPLANE, RB_STEADY, "times > 0"},
+        {1, -1, 1, 0, RB_BEM_HALFPLANE, RB_STEADY, "ratios >= 0"},
+        {1, 1, 0, 0, RB_BEM_HALFPLANE, RB_STEADY, "speed"},
+        {1, 1, 1, 0, RB_BEM_HUB, RB_STEADY, "halfplane"},
+        {1, 1, 1, 0, RB_BEM_HALFPLANE, RB_STATIC, "steady"},
+        {1, 1, 1, -1, RB_BEM_HALFPLANE, RB_STEADY, "thickness"},
+        {1, 1, 1, 2, RB_BEM_ARC, RB_STEADY, "halfplane"},
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        rb_rolling_case rc = hunter(bad[k].ratio, bad[k].time, 60);
+        rb_message why = {""};
+        rc.speed = bad[k].speed;
+        rc.a.layer = bad[k].layer;
+        rc.a.support = bad[k].support;
+        rc.formulation = bad[k].formulation;
+        CHECK_STATUS(rb_rolling_case_check(&rc, &why), RB_EINVAL);
+        if (!strstr(why.text, bad[k].word))
+            fail_msg("'%s' does not say '%s'", why.text, bad[k].word);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hunters_solution_is_met),
+        cmocka_unit_test(speed_has_its_limits),
+        cmocka_unit_test(contacts_figures_are_met),
+        cmocka_unit_test(thick_layers_have_their_series),
+        cmocka_unit_test(thin_layers_are_mattresses),
+        cmocka_unit_test(incompressible_covers_stretch_in_the_nip),
+        cmocka_unit_test(a_layer_of_the_same_material_is_none),
+        cmocka_unit_test(all_solvers_agree),
+        cmocka_unit_test(bad_bodies_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
