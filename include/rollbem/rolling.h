@@ -500,6 +500,9 @@ typedef struct {
     double von_mises, hydrostatic;   /* hydrostatic = trace/3 */
 } rb_rolling_stress;
 
+/* RB_EINVAL where the stress inside A is not known: layers, bodies that relax. */
+rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why);
+
 /* Stress of a solved model at n points xy (x0, y0, x1, y1, ...).  For a wheel the points
  * must lie inside it or on its surface, of a half-plane at y >= 0: RB_EINVAL with the
  * number k of the first that does not, counted from 0 as in xy[2k]. */

@@ -211,8 +211,7 @@ static rb_status print_json(FILE *out, const result *r)
 {
     json_t *root = rb_report_json_start(cli_command_line());
     json_object_set_new(root, "inputs", rb_report_json_inputs(r->words));
-    json_object_set_new(root, "summary",
-                        rb_report_json_summary(&r->run.solution));
+    json_object_set_new(root, "summary", rb_report_json_summary(&r->run.solution));
     rb_report_json_stress(root, &r->table);
     const rb_status s = rb_report_json_write(out, root);
     json_decref(root);
@@ -300,11 +299,20 @@ static cli_exit solve(const rb_case *words, const stress_options *so, const plac
     return code;
 }
 
+static cli_exit check_known(const rb_case *c)
+{
+    rb_message why;
+    const rb_status s = rb_rolling_stress_check(&rb_case_settled(c)->rc, &why);
+    return s == RB_OK ? CLI_CONTINUE : cli_case_refused(c, s, &why);
+}
+
 static cli_exit check(const rb_case *c, const stress_options *so, const cli_output *o,
                       const cli_output *fringes, places *where)
 {
     cli_exit code =
         cli_case_refuse(c, "accuracy", "stress has error bars, but does not refine");
+    if (code == CLI_CONTINUE)
+        code = check_known(c);
     if (code == CLI_CONTINUE)
         code = cli_output_check(o);
     if (code == CLI_CONTINUE)

@@ -28,12 +28,23 @@ static void field_free(field *f)
     rb_bem_field_free(f->wheel);
 }
 
+rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why)
+{
+    return rc->a.layer == 0.0 && rc->a.memory.n == 0
+               ? RB_OK
+               : rb_fail(
+                     why, RB_EINVAL,
+                     "stress: inside a homogeneous elastic body only; below a layer or "
+                     "a body that relaxes it is not known");
+}
+
 static rb_status field_create(const rb_rolling_model *model, field *f, rb_message *why)
 {
     memset(f, 0, sizeof *f);
     f->model = model;
-    if (!model->bodies.system_a)
-        return RB_OK;
+    const rb_status known = rb_rolling_stress_check(&model->rc, why);
+    if (known != RB_OK || !model->bodies.system_a)
+        return known;
     double *t = rb_alloc(2 * (size_t)model->mesh.n, 1);
     if (!t)
         return RB_ENOMEM;
