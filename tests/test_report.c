@@ -130,7 +130,6 @@ static void json_holds_the_same_numbers(void **state)
 {
     (void)state;
     const rb_rolling_solution s = carter();
-    const rb_rolling_case rc = rb_rolling_case_defaults();
     json_t *root = rb_report_json_start("rollbem 'a b'");
     json_object_set_new(root, "summary", rb_report_json_summary(&s));
     json_object_set_new(root, "table", rb_report_json_table(&s));

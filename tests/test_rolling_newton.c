@@ -322,7 +322,7 @@ static void a_given_load_does_not_feel_the_datum(void **state)
     CHECK_STATUS(rb_rolling_state_alloc(usual.mesh.n, &s), RB_OK);
     memcpy(s.zone, usual.state.zone, (size_t)s.n * sizeof(int));
     const double soft = compliance(usual.problem, &s);
-    rc.a.datum = rb_rolling_datum(&rc.a, rc.a.radius) *
+    rc.a.datum = rb_rolling_datum(&rc, &rc.a) *
                  exp(-0.5 * M_PI * rb_rolling_contact_modulus(&rc) * soft);
     rc.b.datum = rc.a.datum;
     critical = solved(&rc);
