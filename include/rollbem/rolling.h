@@ -54,7 +54,7 @@ typedef struct {
     double datum;     /* half-plane: depth of zero displacement; 0: 2R/e */
     double layer;     /* half-plane: thickness of a layer of this material, bonded to a
                          base [length]; 0: no layer */
-    double base_young, base_poisson; /* of that base; young NAN: rigid */
+    double base_young, base_poisson; /* of that base; young 0: rigid */
     rb_rolling_memory memory;        /* half-plane, steady rolling */
 } rb_rolling_body;
 
@@ -103,7 +103,7 @@ typedef struct {
     rb_rolling_formulation formulation;
     int increments;  /* static, transient: above 1 the bodies are pressed, then loaded
                         tangentially, in so many increments each (theory.md 5.3) */
-    double speed;    /* of rolling [length/s]; read where a body has memory */
+    double speed;    /* of rolling [length/s]; > 0 where a body has memory */
     double distance; /* transient: rolled distance / Hertz half-width */
     int steps;       /* transient */
 

@@ -22,7 +22,7 @@ static double depth_of_datum(const rb_rolling_case *rc, const rb_rolling_body *b
 
 double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
-    const int on_rigid_base = body->layer > 0.0 && isnan(body->base_young);
+    const int on_rigid_base = body->layer > 0.0 && body->base_young == 0.0;
     return body->support != RB_BEM_HALFPLANE || on_rigid_base ? NAN
                                                               : depth_of_datum(rc, body);
 }
@@ -33,7 +33,7 @@ rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
 {
     for (int k = 0; k < body->memory.n; k++)
         length[k] = rc->speed * body->memory.time[k];
-    const int elastic_base = body->layer > 0.0 && !isnan(body->base_young);
+    const int elastic_base = body->layer > 0.0 && body->base_young > 0.0;
     return (rb_bem_surface){
         .material = rb_bem_material_from_young(body->young, body->poisson),
         .datum = depth_of_datum(rc, body),

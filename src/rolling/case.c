@@ -14,9 +14,7 @@ rb_rolling_case rb_rolling_case_defaults(void)
                                   .hub_ratio = 0.3};
     rb_rolling_case rc = {.a = body, .b = body};
 
-    rc.a.base_young = rc.b.base_young = NAN;
     rc.a.base_poisson = rc.b.base_poisson = body.poisson;
-    rc.speed = NAN;
     rc.b.radius = INFINITY;
     rc.b.support = RB_BEM_HALFPLANE;
     rc.gap = RB_GAP_EXACT;
@@ -177,11 +175,11 @@ static rb_status check_body(const rb_rolling_body *b, const char *which,
     if (!(isfinite(b->layer) && b->layer >= 0.0))
         return rb_fail(why, RB_EINVAL, "layer thickness%s: expected > 0, got %g", which,
                        b->layer);
-    if (!isnan(b->base_young) && !is_positive(b->base_young))
+    if (!(isfinite(b->base_young) && b->base_young >= 0.0))
         return rb_fail(why, RB_EINVAL,
                        "Young's modulus of the base%s: expected > 0, got %g", which,
                        b->base_young);
-    if (!(b->base_poisson > -1.0 && b->base_poisson <= 0.5))
+    if (b->base_young > 0.0 && !(b->base_poisson > -1.0 && b->base_poisson <= 0.5))
         return rb_fail(why, RB_EINVAL,
                        "Poisson's ratio of the base%s: expected in (-1, 0.5], got %g",
                        which, b->base_poisson);
