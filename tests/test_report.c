@@ -45,6 +45,7 @@ static rb_rolling_solution carter(void)
     s.contact = 16;
     s.stick = s.slipping = 8;
     s.normal_load = 157.0;
+    s.datum = NAN; /* as of a wheel */
     s.tangential_load = -35.0;
     s.creep_ratio = 0.5;
     s.force_ratio = -0.75;
