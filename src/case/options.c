@@ -157,7 +157,7 @@ const rb_option rb_case_table[] = {
     RB_CHOICE_LINE("formulation", RC(formulation), formulations,
                    "static: displaced without rolling; steady: rolling towards +x; "
                    "transient: rolling from rest, step by step"),
-    RB_INTEGER_LINE("increments", RC(increments), RB_FROM(1),
+    RB_INTEGER_LINE("increments", RC(increments), RB_FROM_TO(1, 1000000),
                     "static, start of a transient: press from load or approach 0 in so "
                     "many increments, then shift or load tangentially in as many"),
     RB_NUMBER_LINE("distance", RC(distance), "a", RB_ABOVE(0),
