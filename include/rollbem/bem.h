@@ -28,7 +28,7 @@ typedef enum {
  * counter-clockwise, holes clockwise).  Element j runs from (x0, y0)[j] to (x1, y1)[j].
  * The contact elements, if any, are contiguous, contact_first ... + contact_n - 1, in the
  * order of increasing x, and both their directions are RB_BEM_CONTACT.  The element after
- * them is the upstream one (design 4.2): traction-free, its displacement is kept. */
+ * them is the upstream one (theory.md 4.2): traction-free, its displacement is kept. */
 typedef struct {
     int n;
     double *x0, *y0, *x1, *y1;   /* n each [length]; owned */
@@ -96,8 +96,8 @@ double rb_bem_system_bytes(int n, int n_c);
 /* "AVX-512", "AVX2" or "plain": what the integrals run on here. */
 const char *rb_bem_vector_name(void);
 
-/* From so many elements on the matrix is hierarchical: the same answers to 1e-6, about
- * n log n work, memory of order n. */
+/* From so many elements on the matrix is hierarchical: the same flexibility to 1e-8,
+ * about n log n work, memory of order n. */
 enum { RB_BEM_HIERARCHICAL = 1500 };
 
 /* One assembly and one LU.  The mesh is copied.  RB_EINVAL: no support (three rigid
@@ -125,8 +125,8 @@ typedef enum { RB_BEM_NORMALS_OBSTACLE, RB_BEM_NORMALS_SURFACE } rb_bem_normals;
 
 /* w = w0 + F r: r = (r_N, r_T), 2n tractions on A along n and t, one per contact element;
  * w = (w_N, w_T), 2m displacements, m = n + 1: the n contact midpoints and the midpoint
- * of the upstream element, which carries no traction. An interface: a dense matrix, a
- * Toeplitz operator or a hierarchical matrix stand behind the same calls. */
+ * of the upstream element, which carries no traction. A dense matrix or a
+ * Toeplitz operator stands behind the same calls. */
 typedef struct rb_bem_flexibility rb_bem_flexibility;
 struct rb_bem_flexibility {
     int n, m;

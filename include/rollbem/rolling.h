@@ -1,6 +1,6 @@
 /* Rolling contact in two dimensions: case -> contact mesh -> flexibility -> LCP -> solver
- * -> solution.  Each arrow is one public function with one struct in and one out, so that
- * one may stop after any of them and print what is there.
+ * -> solution.  Each arrow is a public function that takes the structs before it and
+ * fills the next one, so that one may stop after any of them and print what is there.
  * Conventions (theory.md 2): A rolls towards +x, material passes the contact from +x to
  * -x; creepage xi > 0 is a braked wheel: A's surface slides towards +x over the ground,
  * the friction on A points to -x, Q < 0.  Loads are per unit length (plane strain).
@@ -208,8 +208,8 @@ typedef struct {
         *w_T; /* transient: at the former places x + c; static: at the same place */
 } rb_rolling_past;
 
-/* Builds (A, d_T) for the formulation of the case: the only place that knows it. past
- * NULL: from rest.  step: rolled distance c of a transient step [length]. */
+/* Builds (A, d_T) for the formulation of the case; the solvers do not know which it is.
+ * past NULL: from rest.  step: rolled distance c of a transient step [length]. */
 rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
                                     const rb_rolling_mesh *mesh,
                                     const rb_rolling_bodies *bodies,
@@ -260,7 +260,8 @@ rb_status rb_rolling_lcp_create(const rb_rolling_problem *problem,
                                 rb_rolling_lcp_form form, int mirrored, double xi0,
                                 rb_rolling_lcp *lcp, rb_message *why);
 void rb_rolling_lcp_free(rb_rolling_lcp *lcp);
-/* The LCP that Lemke tries first, or the one that gave the state (not NULL). */
+/* The LCP that gave the state, where Lemke's method did; for any other state, or NULL,
+ * the one that Lemke tries first. */
 rb_status rb_rolling_lcp_first(const rb_rolling_problem *problem,
                                const rb_rolling_case *rc, const rb_rolling_state *state,
                                rb_rolling_lcp *lcp, rb_message *why);

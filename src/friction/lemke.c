@@ -161,8 +161,9 @@ static size_t row_of(const lemke *s, size_t i)
     return i / 2 + (i % 2 ? (size_t)s->nc : 0);
 }
 
-/* Both bases at once: M = [coefficients of r_N, s+, u-], basis = [-coefficients of u_N,
- * u+, s-] in the equations  (E u - W r)_i = q_i  and  s+ + s- - 2 mu r_N = 0. */
+/* (E u - W r)_i = q_i and s+ + s- - 2 mu r_N = 0, as
+ *     of_force (r_N, s+, u-) + of_displacement (u_N, u+, s-) = b:
+ * one of the two groups is z, the other the basis. */
 static void equations(lemke *s, double *of_force, double *of_displacement)
 {
     const size_t nc = (size_t)s->nc, n = (size_t)s->n, m = 2 * nc;

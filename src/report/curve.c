@@ -103,7 +103,7 @@ void rb_report_json_curves(json_t *root, const rb_report_curves *curves)
 
 /* ---- For people -------------------------------------------------------------------- */
 
-/* The first point from which on nothing sticks, or -1. */
+/* The first of the points at the end of the curve at which nothing sticks, or -1. */
 static int full_sliding_from(const rb_rolling_curve *c)
 {
     int k = c->n;
@@ -136,9 +136,15 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                     "coarser meshes)\n",
                     largest(c->n, curves->error[k].force_ratio),
                     largest(c->n, curves->error[k].normal_load));
-        if (sliding >= 0 && curves->mu[k] > 0.0)
-            fprintf(out, "  full sliding from xi = %.5g, xi R/(mu a) = %.4g on\n",
-                    c->creepage[sliding], c->creep_ratio[sliding]);
+        if (sliding > 0 && curves->mu[k] > 0.0)
+            fprintf(
+                out,
+                "  full sliding begins between xi = %.5g and %.5g, xi R/(mu a) = %.4g "
+                "and %.4g\n",
+                c->creepage[sliding - 1], c->creepage[sliding],
+                c->creep_ratio[sliding - 1], c->creep_ratio[sliding]);
+        else if (sliding == 0 && curves->mu[k] > 0.0)
+            fprintf(out, "  full sliding at every point\n");
     }
 }
 

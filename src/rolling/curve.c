@@ -1,4 +1,4 @@
-/* Creep curves: one mesh and one factorisation for all creepages (design 4.6). */
+/* Creep curves: one mesh and one factorisation for all creepages (theory.md 4.6). */
 #include "rolling/internal.h"
 
 #include <cblas.h>

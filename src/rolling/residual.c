@@ -46,7 +46,7 @@ static double friction_violation(double lambda, double gamma_plus, double gamma_
     return fmax(fabs(plus), fabs(minus));
 }
 
-/* The friction bound scales with mu, but not below what rounding of p leaves of it. */
+/* Scale of the friction bound mu p; without friction that of p. */
 static double friction_scale(const rb_rolling_problem *problem)
 {
     return problem->mu > 0.0 ? problem->mu * problem->stress : problem->stress;
