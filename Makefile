@@ -58,7 +58,7 @@ test: packages
 test-all: ; @ROLLBEM_TEST_ALL=1 $(MAKE) --no-print-directory B=$(B) test
 
 # only the summary line comes last: continuous integration reads it
-check-tests: all $(B)/packings $(TESTS)
+check-tests: all $(B)/packings $(TESTS) $(B)/tests/checker
 	@B=$(B) tests/run $(TESTS)
 
 asan:
@@ -107,6 +107,12 @@ $(B)/tests/%: tests/%.c tests/check.h tests/failing_alloc.c $(B)/librollbem.a
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< tests/failing_alloc.c $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
+
+# the judge of the net shares nothing with the library
+$(B)/tests/checker: tests/checker.c
+	@mkdir -p $(@D)
+	@echo "  CC  $<"
+	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -o $@ $< $(LDFLAGS) -ljansson -lm
 
 # compared with where it is installed, never needed
 ifneq ($(wildcard /usr/include/siconos/SiconosConfig.h),)

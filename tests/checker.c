@@ -1,0 +1,912 @@
+/* An independent judge of what rollbem prints: it shares no source with the library and
+ * reads only what the program wrote.  From the printed tractions it computes loads, laws
+ * of contact and friction, and on half-planes also the displacements again, by Flamant's
+ * integrals in long double.
+ *
+ *     checker [--table FILE] [--summary FILE] [--controls FILE] [--steps DIR] RESULT.json
+ *
+ * RESULT.json: of the same command with --json.  --table: its traction table; --summary:
+ * its standard error; --controls: the table given to --history; --steps: the folder given
+ * to --snapshots (every step).  One line for each law that is violated; exit 1 when there
+ * is one, 2 when a file cannot be read. */
+#include <jansson.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+static int violations;
+
+/* One line for each law: the first place where it is violated. */
+static void violated(const char *law, const char *format, ...)
+{
+    static const char *told[200];
+    va_list args;
+    violations++;
+    for (int k = 0; k < 200; k++) {
+        if (told[k] && strcmp(told[k], law) == 0)
+            return;
+        if (!told[k]) {
+            told[k] = law;
+            break;
+        }
+    }
+    va_start(args, format);
+    printf("%s: ", law);
+    vprintf(format, args);
+    putchar('\n');
+    va_end(args);
+}
+
+static void cannot(const char *what, const char *name)
+{
+    fprintf(stderr, "checker: cannot %s %s\n", what, name);
+    exit(2);
+}
+
+/* |got - want| <= tol; NAN is equal to nothing. */
+static void expect(const char *law, double got, double want, double tol)
+{
+    if (!(fabs(got - want) <= tol))
+        violated(law, "%.17g, expected %.17g (difference %.2g, allowed %.2g)", got, want,
+                 got - want, tol);
+}
+
+/* ---- What the program wrote ---------------------------------------------------------
+ */
+
+enum { X, H, GAP, P, Q, UN, UT, SHIFT, SLIP, ZONE, COLUMNS };
+static const char *const column_names[COLUMNS] = {"x_mm",   "h_mm",  "gap_mm", "p_MPa",
+                                                  "q_MPa",  "un_mm", "ut_mm",  "shift_mm",
+                                                  "slip_1", "zone"};
+enum { SEPARATED, STICK, SLIP_NEGATIVE, SLIP_POSITIVE };
+
+typedef struct {
+    int n;
+    double *column[COLUMNS];
+} table;
+
+/* A body of the case; young = 0: rigid. */
+typedef struct {
+    double young, poisson, radius, datum;
+    int halfplane;
+} body;
+
+typedef struct {
+    const json_t *inputs, *summary;
+    body a, b;
+    double mu, modulus, radius; /* E*, combined R */
+    int surface_normals;
+    enum { STATIC, STEADY, TRANSIENT } formulation;
+    int steps; /* 1: a static history or a transient */
+} contact;
+
+static double *doubles(size_t n)
+{
+    double *x = calloc(n ? n : 1, sizeof *x);
+    if (!x)
+        cannot("find memory for", "a table");
+    return x;
+}
+
+static double number(const json_t *object, const char *key)
+{
+    const json_t *value = json_object_get(object, key);
+    return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+static const char *word(const json_t *object, const char *key)
+{
+    const char *text = json_string_value(json_object_get(object, key));
+    return text ? text : "";
+}
+
+static table table_from_json(const json_t *object)
+{
+    table t = {(int)json_array_size(json_object_get(object, "x_mm")), {NULL}};
+    for (int j = 0; j < COLUMNS; j++) {
+        const json_t *list = json_object_get(object, column_names[j]);
+        t.column[j] = doubles((size_t)t.n);
+        if ((int)json_array_size(list) != t.n)
+            violated("JSON table", "%s has %zu entries, x_mm %d", column_names[j],
+                     json_array_size(list), t.n);
+        for (int i = 0; i < t.n; i++) {
+            const json_t *value = json_array_get(list, (size_t)i);
+            t.column[j][i] = json_is_number(value) ? json_number_value(value) : NAN;
+        }
+    }
+    return t;
+}
+
+/* The numbers of a line; how many. */
+static int numbers_of(const char *line, double *value, int room)
+{
+    int n = 0;
+    char *end;
+    while (n < room) {
+        value[n] = strtod(line, &end);
+        if (end == line)
+            break;
+        line = end;
+        n++;
+    }
+    return n;
+}
+
+/* Rows of numbers below lines that begin with # or a name; the names stand in header. */
+typedef struct {
+    int rows, columns;
+    double *x; /* row by row */
+    char header[1000];
+} rows;
+
+static rows rows_from_file(const char *path)
+{
+    enum { WIDEST = 64 };
+    static char line[20000];
+    double value[WIDEST];
+    rows r = {0, 0, NULL, ""};
+    FILE *file = fopen(path, "r");
+    if (!file)
+        cannot("read", path);
+    while (fgets(line, sizeof line, file)) {
+        const char *text = line + strspn(line, "# \t");
+        if (line[0] == '#' || numbers_of(text, value, 1) == 0) {
+            snprintf(r.header, sizeof r.header, "%.*s", (int)strcspn(text, "\n"), text);
+            continue;
+        }
+        const int n = numbers_of(line, value, WIDEST);
+        if (r.columns && n != r.columns)
+            violated(path, "row %d has %d numbers, expected %d", r.rows + 1, n,
+                     r.columns);
+        r.columns = r.columns ? r.columns : n;
+        r.x = realloc(r.x, (size_t)(r.rows + 1) * (size_t)r.columns * sizeof *r.x);
+        if (!r.x)
+            cannot("find memory for", path);
+        memcpy(r.x + (size_t)r.rows * (size_t)r.columns, value,
+               (size_t)r.columns * sizeof *value);
+        r.rows++;
+    }
+    fclose(file);
+    return r;
+}
+
+/* Where `name` stands among the tab-separated or blank-separated names; -1: nowhere. */
+static int column_of(const char *header, const char *name)
+{
+    int at = 0;
+    for (const char *p = header; *p; at++) {
+        const size_t n = strcspn(p, " \t");
+        if (n == strlen(name) && strncmp(p, name, n) == 0)
+            return at;
+        p += n;
+        p += strspn(p, " \t");
+    }
+    return -1;
+}
+
+static table table_from_file(const char *path)
+{
+    const rows r = rows_from_file(path);
+    table t = {r.rows, {NULL}};
+    for (int j = 0; j < COLUMNS; j++) {
+        const int k = column_of(r.header, column_names[j]);
+        if (k != j)
+            violated("table", "%s: column %d is not %s", path, j + 1, column_names[j]);
+        t.column[j] = doubles((size_t)t.n);
+        for (int i = 0; i < t.n && j < r.columns; i++)
+            t.column[j][i] = r.x[i * r.columns + j];
+    }
+    free(r.x);
+    return t;
+}
+
+static void table_free(table *t)
+{
+    for (int j = 0; j < COLUMNS; j++)
+        free(t->column[j]);
+}
+
+/* ---- The case -----------------------------------------------------------------------
+ */
+
+static body body_of(const json_t *inputs, const char *suffix)
+{
+    char young[20], poisson[20], radius[20], datum[20], support[20];
+    snprintf(young, sizeof young, "young%s", suffix);
+    snprintf(poisson, sizeof poisson, "poisson%s", suffix);
+    snprintf(radius, sizeof radius, "radius%s", suffix);
+    snprintf(datum, sizeof datum, "datum%s", suffix);
+    snprintf(support, sizeof support, "support%s", suffix);
+    body b = {number(inputs, young), number(inputs, poisson), number(inputs, radius),
+              number(inputs, datum), strcmp(word(inputs, support), "halfplane") == 0};
+    if (isnan(b.young))
+        b.young = 0.0;
+    if (isnan(b.radius))
+        b.radius = INFINITY;
+    return b;
+}
+
+/* The depth of zero displacement: 2R/e unless given; a plane takes A's radius. */
+static void settle_datum(body *b, double radius)
+{
+    if (isnan(b->datum))
+        b->datum = 2.0 * (isinf(b->radius) ? radius : b->radius) / exp(1.0);
+}
+
+static contact contact_of(const json_t *root)
+{
+    contact c = {.inputs = json_object_get(root, "inputs"),
+                 .summary = json_object_get(root, "summary")};
+    const char *formulation = word(c.inputs, "formulation");
+    c.a = body_of(c.inputs, "");
+    c.b = body_of(c.inputs, "-b");
+    settle_datum(&c.a, c.a.radius);
+    settle_datum(&c.b, c.a.radius);
+    c.mu = number(c.inputs, "mu");
+    double compliance = (1.0 - c.a.poisson * c.a.poisson) / c.a.young;
+    if (c.b.young > 0.0)
+        compliance += (1.0 - c.b.poisson * c.b.poisson) / c.b.young;
+    c.modulus = 1.0 / compliance;
+    c.radius = 1.0 / (1.0 / c.a.radius + (c.b.young > 0.0 ? 1.0 / c.b.radius : 0.0));
+    c.surface_normals = strcmp(word(c.inputs, "normals"), "surface") == 0;
+    c.formulation = strcmp(formulation, "steady") == 0      ? STEADY
+                    : strcmp(formulation, "transient") == 0 ? TRANSIENT
+                                                            : STATIC;
+    c.steps = c.formulation == TRANSIENT || word(c.inputs, "history")[0];
+    return c;
+}
+
+static double largest(int n, const double *x)
+{
+    double most = 0.0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, fabs(x[i]));
+    return most;
+}
+
+/* A residual of 1e-10 of the scaled problem, as a length: p0 on one element presses the
+ * surface by that. */
+static double length_scale(const contact *c, const table *t)
+{
+    const double h = largest(t->n, t->column[H]);
+    return largest(t->n, t->column[P]) * h / c->modulus *
+           (1.0 + log(1.0 + c->a.radius / h));
+}
+
+static double tolerance(const contact *c)
+{
+    const double tol = number(c->inputs, "tol"), reached = number(c->summary, "residual");
+    return 10.0 *
+           fmax(isnan(tol) ? 1e-10 : tol, isnan(reached) ? 0.0 : fmin(reached, 1e-8));
+}
+
+/* ---- Laws, element by element --------------------------------------------------------
+ */
+
+static void check_elements(const table *t)
+{
+    const double *x = t->column[X], *h = t->column[H];
+    for (int i = 0; i < t->n; i++)
+        for (int j = 0; j < COLUMNS; j++)
+            if (!isfinite(t->column[j][i]))
+                violated("finite", "%s of element %d is no number", column_names[j],
+                         i + 1);
+    for (int i = 0; i < t->n; i++)
+        if (!(h[i] > 0.0))
+            violated("mesh", "length of element %d is %g", i + 1, h[i]);
+    for (int i = 1; i < t->n; i++)
+        if (!(x[i] > x[i - 1]))
+            violated("mesh", "element %d does not follow element %d", i + 1, i);
+}
+
+/* Signorini: p >= 0, gap >= 0, one of them 0. */
+static void check_contact(const contact *c, const table *t)
+{
+    const double *p = t->column[P], *gap = t->column[GAP], *zone = t->column[ZONE];
+    const double eps = tolerance(c), length = eps * length_scale(c, t);
+    for (int i = 0; i < t->n; i++) {
+        if (p[i] < 0.0)
+            violated("p >= 0", "element %d: %g", i + 1, p[i]);
+        if (gap[i] < -length)
+            violated("gap >= 0", "element %d: %g (allowed %.2g)", i + 1, gap[i], length);
+        if (p[i] > 0.0 && fabs(gap[i]) > length)
+            violated("p gap = 0", "element %d: p = %g, gap = %g (allowed %.2g)", i + 1,
+                     p[i], gap[i], length);
+        if ((p[i] > 0.0) != (zone[i] != SEPARATED))
+            violated("zone", "element %d: p = %g, zone %g", i + 1, p[i], zone[i]);
+    }
+    if (t->n > 0 && (p[0] > 0.0 || p[t->n - 1] > 0.0))
+        violated("ends", "the contact reaches an end of the potential contact");
+}
+
+/* Coulomb: |q| <= mu p, stick without slip, slip against the friction. */
+static void check_friction(const contact *c, const table *t)
+{
+    const double *p = t->column[P], *q = t->column[Q], *shift = t->column[SHIFT];
+    const double *slip = t->column[SLIP], *zone = t->column[ZONE];
+    const double eps = tolerance(c), length = eps * length_scale(c, t);
+    const double stress = eps * fmax(c->mu, 1e-3) * largest(t->n, p);
+    for (int i = 0; i < t->n; i++) {
+        const double bound = c->mu * p[i];
+        if (fabs(q[i]) > bound + stress)
+            violated("Coulomb", "element %d: |q| = %.17g, mu p = %.17g", i + 1,
+                     fabs(q[i]), bound);
+        if (zone[i] == STICK && fabs(shift[i]) > length)
+            violated("stick", "element %d slips by %g (allowed %.2g)", i + 1, shift[i],
+                     length);
+        if (zone[i] == SLIP_NEGATIVE &&
+            (fabs(q[i] + bound) > stress || shift[i] < -length))
+            violated("slip", "element %d, zone 2: q = %g, mu p = %g, shift %g", i + 1,
+                     q[i], bound, shift[i]);
+        if (zone[i] == SLIP_POSITIVE &&
+            (fabs(q[i] - bound) > stress || shift[i] > length))
+            violated("slip", "element %d, zone 3: q = %g, mu p = %g, shift %g", i + 1,
+                     q[i], bound, shift[i]);
+        if (c->formulation != STATIC && slip[i] * shift[i] < 0.0)
+            violated("slip_1", "element %d: %g against a shift of %g", i + 1, slip[i],
+                     shift[i]);
+    }
+}
+
+/* ---- Sums and counts ------------------------------------------------------------------
+ */
+
+typedef struct {
+    double P, Q;
+    int contact, stick, slip, first, last; /* loaded elements */
+    double stick_from, stick_to;
+} sums;
+
+/* Half of an element's extent along x: on a wheel elements are chords of the circle. */
+static double half_extent(const contact *c, double x, double h)
+{
+    if (c->a.halfplane)
+        return 0.5 * h;
+    const double R = c->a.radius, middle = sqrt(R * R - 0.25 * h * h); /* of the chord */
+    return 0.5 * h * sqrt(1.0 - x * x / (middle * middle));
+}
+
+/* With surface normals p and q are turned by the angle of the circle at x. */
+static sums sums_of(const contact *c, const table *t)
+{
+    sums s = {.first = -1, .last = -1, .stick_from = NAN, .stick_to = NAN};
+    for (int i = 0; i < t->n; i++) {
+        const double x = t->column[X][i], h = t->column[H][i], p = t->column[P][i];
+        const double q = t->column[Q][i], zone = t->column[ZONE][i];
+        const double sine = c->surface_normals ? x / c->a.radius : 0.0;
+        const double cosine = sqrt(1.0 - sine * sine);
+        s.P += h * (p * cosine + q * sine);
+        s.Q += h * (q * cosine - p * sine);
+        s.contact += zone != SEPARATED;
+        s.stick += zone == STICK;
+        s.slip += zone > STICK;
+        if (zone == STICK && isnan(s.stick_from))
+            s.stick_from = x - half_extent(c, x, h);
+        if (zone == STICK)
+            s.stick_to = x + half_extent(c, x, h);
+        if (p > 0.0 && s.first < 0)
+            s.first = i;
+        if (p > 0.0)
+            s.last = i;
+    }
+    return s;
+}
+
+static void expect_count(const contact *c, const char *key, int want)
+{
+    if (number(c->summary, key) != want)
+        violated(key, "%g, the table has %d", number(c->summary, key), want);
+}
+
+/* NAN where the table has none. */
+static void expect_same(const contact *c, const char *key, double want, double tol)
+{
+    const double got = number(c->summary, key);
+    if (isnan(want) && isnan(got))
+        return;
+    expect(key, got, want, tol);
+}
+
+/* An edge lies between the middle of the first open element and the inner end of the last
+ * loaded one. */
+static void check_edges(const contact *c, const table *t, const sums *s)
+{
+    const double *x = t->column[X], *h = t->column[H];
+    const double from = number(c->summary, "contact_from");
+    const double to = number(c->summary, "contact_to");
+    const double a = number(c->summary, "half_width"), tiny = 1e-12 * c->a.radius;
+    if (s->first > 0 && !(from >= x[s->first - 1] - tiny &&
+                          from <= x[s->first] + 0.5 * h[s->first] + tiny))
+        violated("contact_from", "%g, first loaded element at %g", from, x[s->first]);
+    if (s->last >= 0 && s->last + 1 < t->n &&
+        !(to <= x[s->last + 1] + tiny && to >= x[s->last] - 0.5 * h[s->last] - tiny))
+        violated("contact_to", "%g, last loaded element at %g", to, x[s->last]);
+    if (s->first >= 0)
+        expect("half_width", a, 0.5 * (to - from), 1e-12 * fabs(a) + tiny);
+}
+
+static void check_sums(const contact *c, const table *t)
+{
+    const sums s = sums_of(c, t);
+    const double p0 = largest(t->n, t->column[P]);
+    const double peak = number(c->summary, "max_pressure");
+    expect_same(c, "normal_load", s.P, 1e-12 * s.P);
+    expect_same(c, "tangential_load", s.Q, 1e-12 * s.P * fmax(c->mu, 1.0));
+    expect_count(c, "contact", s.contact);
+    expect_count(c, "stick", s.stick);
+    expect_count(c, "slip", s.slip);
+    const double tiny = 1e-9 * largest(t->n, t->column[H]);
+    expect_same(c, "stick_from", s.stick_from, tiny);
+    expect_same(c, "stick_to", s.stick_to, tiny);
+    /* the vertex of a parabola through three elements */
+    if (!(peak >= p0 * (1.0 - 1e-12) && peak <= 1.2 * p0))
+        violated("max_pressure", "%g, the largest of the table is %g", peak, p0);
+    check_edges(c, t, &s);
+}
+
+static void check_ratios(const contact *c)
+{
+    const double P_ = number(c->summary, "normal_load");
+    const double Q_ = number(c->summary, "tangential_load");
+    const double a = sqrt(4.0 * P_ * c->radius / (pi * c->modulus));
+    expect_same(c, "hertz_half_width", a, 1e-9 * a);
+    if (c->mu > 0.0) {
+        const double ratio = number(c->summary, "creepage") * c->radius / (c->mu * a);
+        expect_same(c, "force_ratio", Q_ / (c->mu * P_), 1e-12);
+        expect_same(c, "creep_ratio", ratio, 1e-9 * fabs(ratio));
+        if (fabs(Q_) > c->mu * P_ * (1.0 + 1e-9) && !c->surface_normals)
+            violated("Coulomb", "|Q| = %g, mu P = %g", fabs(Q_), c->mu * P_);
+    } else if (!isnan(number(c->summary, "force_ratio")) ||
+               !isnan(number(c->summary, "creep_ratio")))
+        violated("ratios", "of a case without friction are not null");
+}
+
+/* ---- What was asked for ---------------------------------------------------------------
+ */
+
+/* The last row of a history, or the options themselves. */
+static double wanted(const contact *c, const rows *controls, const char *column,
+                     const char *key)
+{
+    const int j = controls ? column_of(controls->header, column) : -1;
+    if (j >= 0 && controls->rows > 0)
+        return controls->x[(controls->rows - 1) * controls->columns + j];
+    return number(c->inputs, key);
+}
+
+/* NAN under a given approach. */
+static double wanted_load(const contact *c, const rows *controls)
+{
+    const double half_width = number(c->inputs, "half-width");
+    const double load = wanted(c, controls, "load", "load");
+    return isnan(load) ? pi * c->modulus * half_width * half_width / (4.0 * c->radius)
+                       : load;
+}
+
+static void check_normal_control(const contact *c, const rows *controls)
+{
+    const double approach = wanted(c, controls, "approach", "approach");
+    const double load = wanted_load(c, controls);
+    if (!isnan(load))
+        expect("wanted load", number(c->summary, "normal_load"), load, 1e-10 * load);
+    else if (!isnan(approach))
+        expect("wanted approach", number(c->summary, "approach"), approach,
+               1e-12 * approach);
+}
+
+static void check_tangential_control(const contact *c, const rows *controls)
+{
+    const double load = number(c->summary, "normal_load");
+    const double shift = wanted(c, controls, "shift", "shift");
+    const double force = wanted(c, controls, "force", "force");
+    const double force_ratio = wanted(c, controls, "force_ratio", "force-ratio");
+    const double xi = number(c->summary, "creepage");
+    const int column = controls && (column_of(controls->header, "creep") >= 0 ||
+                                    column_of(controls->header, "creep_ratio") >= 0);
+    if (!isnan(shift) && c->formulation == STATIC)
+        expect("wanted shift", number(c->summary, "tangential_shift"), shift,
+               1e-12 * fabs(shift));
+    if (!isnan(force) && c->mu > 0.0)
+        expect("wanted force", number(c->summary, "tangential_load"), force,
+               1e-10 * fmax(c->mu * load, fabs(force)) +
+                   (c->surface_normals ? 1e-8 * load : 0.0));
+    if (!isnan(force_ratio) && c->mu > 0.0)
+        expect("wanted force ratio", number(c->summary, "force_ratio"), force_ratio,
+               1e-10);
+    if (column) /* of a step it is the mean between two rows */
+        return;
+    const double creep = number(c->inputs, "creep");
+    const double creep_ratio = number(c->inputs, "creep-ratio");
+    if (!isnan(creep))
+        expect("wanted creepage", xi, creep, 1e-12 * fabs(creep));
+    /* of steps the half-width is that of the largest load, here it is the last one's */
+    if (!isnan(creep_ratio) && !controls && !(c->steps && isnan(wanted_load(c, NULL))))
+        expect("wanted creep ratio", number(c->summary, "creep_ratio"), creep_ratio,
+               1e-8 * fabs(creep_ratio));
+}
+
+/* ---- Kinematics
+ * ------------------------------------------------------------------------ */
+
+/* g_0 where a formula gives it; NAN for a table. */
+static double initial_gap(const contact *c, double x)
+{
+    const char *gap = word(c->inputs, "gap");
+    if (strcmp(gap, "parabola") == 0)
+        return x * x / (2.0 * c->radius);
+    if (strcmp(gap, "exact") != 0)
+        return NAN;
+    const double A = c->a.radius, B = c->b.radius;
+    const double of_a = x * x / (A + sqrt(A * A - x * x));
+    return c->b.young > 0.0 && isfinite(B) ? of_a + x * x / (B + sqrt(B * B - x * x))
+                                           : of_a;
+}
+
+/* Gap and slip from the printed displacements. */
+static void check_kinematics(const contact *c, const table *t)
+{
+    const double *x = t->column[X], *un = t->column[UN], *ut = t->column[UT];
+    const double delta = number(c->summary, "approach");
+    const double rounding = 1e-13 * (largest(t->n, un) + largest(t->n, ut) + delta);
+    const double length = tolerance(c) * length_scale(c, t) + rounding;
+    for (int i = 0; i < t->n; i++) {
+        const double g0 = initial_gap(c, x[i]);
+        if (!isnan(g0) && !c->surface_normals)
+            expect("gap = g0 + un - approach", t->column[GAP][i], g0 + un[i] - delta,
+                   length);
+    }
+    if (c->steps || c->surface_normals)
+        return;
+    for (int i = 0; i + 1 < t->n; i++) {
+        const double dx = x[i + 1] - x[i];
+        if (c->formulation == STATIC) {
+            const double xi = number(c->summary, "creepage");
+            expect("shift = shift + ut", t->column[SHIFT][i],
+                   number(c->summary, "tangential_shift") + ut[i], length);
+            expect("slip (12)", t->column[SLIP][i], xi - (ut[i + 1] - ut[i]) / dx,
+                   length / dx + 1e-12 * fabs(xi));
+        } else {
+            const double xi = number(c->summary, "creepage");
+            expect("shift = xi dx - (ut' - ut)", t->column[SHIFT][i],
+                   xi * dx + ut[i] - ut[i + 1], length + 1e-12 * fabs(xi) * dx);
+            expect("slip_1 = shift/dx", t->column[SLIP][i], t->column[SHIFT][i] / dx,
+                   length / dx);
+        }
+    }
+}
+
+/* ---- Flamant: the displacements of half-planes again
+ * ----------------------------------- */
+
+static long double y_ln_y(long double y)
+{
+    return y == 0.0L ? 0.0L : y * logl(fabsl(y));
+}
+
+/* Displacements under p and q of table t at the abscissa x: for each body
+ * -2 (1 - nu^2)/(pi E) int ln(|x - s|/d) ds of the same direction, +-c int sgn(x - s) ds
+ * of the other one, c = (1 - 2 nu)(1 + nu)/(2E), B with the opposite sign of c. */
+static void flamant(const contact *c, const table *t, double x, long double *un,
+                    long double *ut)
+{
+    const body *const bodies[] = {&c->a, &c->b};
+    *un = *ut = 0.0L;
+    for (int i = 0; i < t->n; i++) {
+        const long double h = t->column[H][i], p = t->column[P][i], q = t->column[Q][i];
+        if (p == 0.0L && q == 0.0L)
+            continue;
+        const long double from = t->column[X][i] - 0.5L * h, to = from + h;
+        const long double log_integral = y_ln_y(x - from) - y_ln_y(x - to) - h;
+        const long double sign_integral = fabsl(x - from) - fabsl(x - to);
+        for (int k = 0; k < 2; k++) {
+            const long double E = bodies[k]->young, nu = bodies[k]->poisson;
+            if (E == 0.0L)
+                continue;
+            const long double direct = -2.0L * (1.0L - nu * nu) / (pi * E) *
+                                       (log_integral - h * logl(bodies[k]->datum));
+            const long double cross = (k == 0 ? 1.0L : -1.0L) * (1.0L - 2.0L * nu) *
+                                      (1.0L + nu) / (2.0L * E) * sign_integral;
+            *un += direct * p + cross * q;
+            *ut += direct * q - cross * p;
+        }
+    }
+}
+
+static void check_flamant(const contact *c, const table *t)
+{
+    const double size = largest(t->n, t->column[UN]) + largest(t->n, t->column[UT]);
+    if (!c->a.halfplane || (c->b.young > 0.0 && !c->b.halfplane))
+        return;
+    for (int i = 0; i < t->n; i++) {
+        long double un, ut;
+        flamant(c, t, t->column[X][i], &un, &ut);
+        expect("un by Flamant", t->column[UN][i], (double)un, 1e-11 * size);
+        expect("ut by Flamant", t->column[UT][i], (double)ut, 1e-11 * size);
+    }
+}
+
+/* ---- Dissipation and error bars
+ * ---------------------------------------------------------- */
+
+static void check_power(const contact *c, const table *t, const json_t *list)
+{
+    const double D = number(c->summary, "dissipation");
+    const double p0 = largest(t->n, t->column[P]);
+    const double largest_slip = largest(t->n, t->column[SLIP]);
+    double sum = 0.0, size = 0.0;
+    if (c->formulation == STATIC) {
+        if (!isnan(D))
+            violated("dissipation", "of static contact is not null");
+        return;
+    }
+    for (int i = 0; i < t->n; i++) {
+        const double power = json_number_value(json_array_get(list, (size_t)i));
+        sum += power * t->column[H][i];
+        size += fabs(t->column[SLIP][i] * t->column[Q][i]) * t->column[H][i];
+        /* of a steady state it is shared between neighbours, whatever their signs */
+        if (c->formulation == TRANSIENT && power < -1e-9 * p0 * largest_slip)
+            violated("friction power", "element %d gives %g", i + 1, power);
+    }
+    expect("dissipation", D, sum, 1e-11 * size + 1e-14 * p0);
+}
+
+static void check_errors(const contact *c)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach(json_object_get(c->summary, "errors"), key, value)
+    {
+        const double bar = json_number_value(value), of = number(c->summary, key);
+        if (json_is_number(value) && !(bar >= 0.0))
+            violated("error bar", "of %s is %g", key, bar);
+        if (json_is_null(value) && !isnan(of) && strcmp(key, "stress") != 0)
+            violated("error bar", "of %s = %g is missing", key, of);
+    }
+}
+
+/* ---- Table and summary say what the JSON says
+ * --------------------------------------------- */
+
+/* Digit for digit; Fourier transforms may round differently from run to run. */
+static void check_table(const contact *c, const table *json, const char *path)
+{
+    table t = table_from_file(path);
+    const int rounded = strcmp(word(c->summary, "flexibility"), "transforms") == 0;
+    if (t.n != json->n)
+        violated("table", "%d rows, JSON has %d", t.n, json->n);
+    for (int j = 0; j < COLUMNS; j++) {
+        const double tol = rounded ? 1e-10 * largest(t.n, t.column[j]) : 0.0;
+        for (int i = 0; i < t.n && i < json->n; i++)
+            if (!(fabs(t.column[j][i] - json->column[j][i]) <= tol))
+                violated("table", "%s of element %d: %.17g, in JSON %.17g",
+                         column_names[j], i + 1, t.column[j][i], json->column[j][i]);
+    }
+    table_free(&t);
+}
+
+static char *text_of(const char *path)
+{
+    FILE *file = fopen(path, "r");
+    char *text = calloc(1, 200001);
+    if (!file || !text)
+        cannot("read", path);
+    text[fread(text, 1, 200000, file)] = '\0';
+    fclose(file);
+    return text;
+}
+
+/* Numbers of the lines for people, by the words before them; they have 5 digits or more,
+ * and what is small against `beside` is printed as 0. */
+static void check_summary(const contact *c, const char *path)
+{
+    static const struct {
+        const char *line, *before, *key, *beside;
+    } said[] = {{"\n  load ", "P = ", "normal_load", NULL},
+                {"\n  load ", ", Q = ", "tangential_load", "normal_load"},
+                {"\n  load ", "Q/(mu P) = ", "force_ratio", NULL},
+                {"\n  contact ", "contact ", "contact_from", NULL},
+                {"\n  contact ", "... ", "contact_to", NULL},
+                {"\n  contact ", "p0 = ", "max_pressure", NULL},
+                {"\n  contact ", "approach ", "approach", NULL},
+                {"\n  shift ", "shift ", "tangential_shift", NULL},
+                {"\n  creepage ", "xi = ", "creepage", NULL},
+                {"\n  creepage ", "xi R/(mu a) = ", "creep_ratio", NULL},
+                {"\n  creepage ", "free rolling at ", "free_creepage", "creepage"},
+                {"\n  power ", "power ", "dissipation", NULL},
+                {"\n  elements ", ": ", "stick", NULL},
+                {"\n  elements ", "stick, ", "slip", NULL},
+                {"\n  elements ", "; stick ", "stick_from", NULL}};
+    char *text = text_of(path);
+    for (size_t k = 0; k < sizeof said / sizeof said[0]; k++) {
+        char *line = strstr(text, said[k].line); /* "\n  load ..." */
+        if (!line) {
+            if (k == 0)
+                violated("summary", "says nothing of the load");
+            continue;
+        }
+        char room[400];
+        snprintf(room, sizeof room, "%.*s", (int)strcspn(line + 1, "\n"), line + 1);
+        const char *at = strstr(room, said[k].before);
+        const double want = number(c->summary, said[k].key);
+        if (!at)
+            continue;
+        double tol = 6e-5 * fabs(want) + 1e-12;
+        if (said[k].beside)
+            tol += 2e-9 * fabs(number(c->summary, said[k].beside));
+        expect(said[k].before, strtod(at + strlen(said[k].before), NULL), want, tol);
+    }
+    free(text);
+}
+
+/* ---- Histories
+ * ------------------------------------------------------------------------- */
+
+static double last_of(const json_t *list)
+{
+    return json_number_value(json_array_get(list, json_array_size(list) - 1));
+}
+
+/* The last step is what the table shows. */
+static void check_history(const contact *c, const json_t *history, const rows *controls)
+{
+    static const char *const same[] = {"approach",    "normal_load", "tangential_load",
+                                       "force_ratio", "stick",       "slip"};
+    const json_t *distance = json_object_get(history, "distance");
+    if (!history) {
+        if (c->steps)
+            violated("history", "is missing");
+        return;
+    }
+    for (size_t k = 0; k < sizeof same / sizeof same[0]; k++) {
+        const json_t *list = json_object_get(history, same[k]);
+        const double want = number(c->summary, same[k]);
+        if (json_array_size(list) == 0 || (c->mu == 0.0 && k == 3))
+            continue;
+        expect(same[k], last_of(list), want, 1e-12 * fabs(want));
+    }
+    for (size_t i = 1; i < json_array_size(distance); i++)
+        if (json_number_value(json_array_get(distance, i)) <
+            json_number_value(json_array_get(distance, i - 1)))
+            violated("history", "step %zu goes back", i + 1);
+    const double end = wanted(c, controls, "distance", "distance");
+    if (c->formulation == TRANSIENT)
+        expect("rolled distance", last_of(distance), end, 1e-9 * end);
+}
+
+/* ---- Curves
+ * ----------------------------------------------------------------------------- */
+
+static double entry(const json_t *object, const char *key, size_t i)
+{
+    const json_t *value = json_array_get(json_object_get(object, key), i);
+    return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+/* With surface normals Q holds a part of the pressure. */
+static void check_curve(const json_t *curve, int surface_normals)
+{
+    const double mu = number(curve, "mu");
+    for (size_t i = 0; i < json_array_size(json_object_get(curve, "creepage")); i++) {
+        const double P_ = entry(curve, "normal_load", i),
+                     Q_ = entry(curve, "tangential_load", i);
+        const double ratio = entry(curve, "force_ratio", i);
+        const double stick = entry(curve, "stick_ratio", i);
+        const double xi = entry(curve, "creepage", i), D = entry(curve, "dissipation", i);
+        if (!(P_ > 0.0) ||
+            (fabs(Q_) > (mu * (1.0 + 1e-9) + 1e-12) * P_ && !surface_normals))
+            violated("curve", "point %zu: P = %g, Q = %g, mu = %g", i + 1, P_, Q_, mu);
+        if (mu > 0.0)
+            expect("curve, force_ratio", ratio, Q_ / (mu * P_), 1e-12);
+        if (!(stick >= 0.0 && stick <= 1.0))
+            violated("curve", "point %zu: stick_ratio = %g", i + 1, stick);
+        if (!(D >= -1e-9 * P_ * (fabs(xi) + 1e-12)))
+            violated("curve", "point %zu: dissipation %g", i + 1, D);
+        if (!(entry(curve, "residual", i) <= 1e-8))
+            violated("curve", "point %zu: residual %g", i + 1,
+                     entry(curve, "residual", i));
+    }
+}
+
+/* ---- Stress
+ * ------------------------------------------------------------------------------ */
+
+/* Plane strain: what follows from the tensor follows from the printed tensor. */
+static void check_stress(const json_t *inputs, const json_t *at)
+{
+    const double nu = number(inputs, "poisson");
+    for (size_t i = 0; i < json_array_size(json_object_get(at, "x_mm")); i++) {
+        const double xx = entry(at, "sxx_MPa", i), yy = entry(at, "syy_MPa", i);
+        const double zz = entry(at, "szz_MPa", i), xy = entry(at, "sxy_MPa", i);
+        if (isnan(xx))
+            continue;
+        const double mean = 0.5 * (xx + yy), shear = hypot(0.5 * (xx - yy), xy);
+        const double third = (xx + yy + zz) / 3.0;
+        const double mises = sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) +
+                                         (zz - xx) * (zz - xx)) +
+                                  3.0 * xy * xy);
+        const double tol = 1e-11 * (fabs(xx) + fabs(yy) + fabs(xy)) + 1e-300;
+        expect("szz", zz, nu * (xx + yy), tol);
+        expect("max_shear", entry(at, "max_shear_MPa", i), shear, tol);
+        expect("principal_1", entry(at, "principal_1_MPa", i), mean + shear, tol);
+        expect("principal_2", entry(at, "principal_2_MPa", i), mean - shear, tol);
+        expect("hydrostatic", entry(at, "hydrostatic_MPa", i), third, tol);
+        expect("von_mises", entry(at, "von_mises_MPa", i), mises, tol);
+    }
+}
+
+/* ---- All together
+ * ------------------------------------------------------------------------- */
+
+static void check_case(const json_t *root, const char *table_path,
+                       const char *summary_path, const rows *controls)
+{
+    const contact c = contact_of(root);
+    const json_t *object = json_object_get(root, "table");
+    const char *status = word(c.summary, "status");
+    table t = table_from_json(object);
+    if (strcmp(status, "solved") != 0)
+        violated("status", "'%s' with exit code 0", status);
+    check_elements(&t);
+    check_contact(&c, &t);
+    check_friction(&c, &t);
+    check_sums(&c, &t);
+    check_ratios(&c);
+    check_normal_control(&c, controls);
+    check_tangential_control(&c, controls);
+    check_kinematics(&c, &t);
+    check_flamant(&c, &t);
+    check_power(&c, &t, json_object_get(object, "friction_power_MPa"));
+    check_errors(&c);
+    check_history(&c, json_object_get(root, "history"), controls);
+    if (table_path)
+        check_table(&c, &t, table_path);
+    if (summary_path)
+        check_summary(&c, summary_path);
+    table_free(&t);
+}
+
+int main(int argc, char **argv)
+{
+    const char *table_path = NULL, *summary_path = NULL, *controls_path = NULL;
+    json_error_t error;
+    rows controls = {0, 0, NULL, ""};
+    int k = 1;
+    for (; k + 1 < argc; k += 2) {
+        if (strcmp(argv[k], "--table") == 0)
+            table_path = argv[k + 1];
+        else if (strcmp(argv[k], "--summary") == 0)
+            summary_path = argv[k + 1];
+        else if (strcmp(argv[k], "--controls") == 0)
+            controls_path = argv[k + 1];
+        else
+            cannot("understand", argv[k]);
+    }
+    if (k >= argc)
+        cannot("work without", "a JSON file");
+    json_t *root = json_load_file(argv[k], JSON_REJECT_DUPLICATES, &error);
+    if (!root)
+        cannot("read", argv[k]);
+    if (controls_path)
+        controls = rows_from_file(controls_path);
+    if (strcmp(word(root, "schema"), "rollbem/1") != 0)
+        violated("schema", "'%s'", word(root, "schema"));
+    if (json_object_get(root, "table"))
+        check_case(root, table_path, summary_path, controls_path ? &controls : NULL);
+    const json_t *inputs = json_object_get(root, "inputs");
+    const json_t *curve = json_object_get(root, "curve");
+    if (curve)
+        check_curve(curve, strcmp(word(inputs, "normals"), "surface") == 0);
+    if (json_object_get(root, "grid"))
+        check_stress(inputs, json_object_get(root, "grid"));
+    if (json_object_get(root, "points"))
+        check_stress(inputs, json_object_get(root, "points"));
+    if (!json_object_get(root, "table") && !curve && !json_object_get(root, "grid") &&
+        !json_object_get(root, "points"))
+        violated("JSON", "has no table, curve or stress");
+    free(controls.x);
+    json_decref(root);
+    return violations > 0;
+}
