@@ -150,7 +150,8 @@ static const char *const options_elsewhere[] = {"similar",
                                                 "accuracy",
                                                 "radius",
                                                 "young",
-                                                "irregularity"};
+                                                "irregularity",
+                                                "increments"};
 
 enum { LEVELS = 40 };
 static level levels[FACTORS][LEVELS];
@@ -393,7 +394,7 @@ static void write_controls(const int *row)
     else if (!rolls)
         column[n].name = "shift", column[n++].last = 2e-3;
 
-    FILE *file = fopen("controls.txt", "flat.txt", "w");
+    FILE *file = fopen("controls.txt", "w");
     assert_non_null(file);
     for (int j = 0; j < n; j++)
         fprintf(file, "%s%s", column[j].name, j + 1 < n ? " " : "\n");
@@ -616,8 +617,8 @@ static void check_whole(const char *path)
 static int is_known(const char *name, const int *row)
 {
     static const char *const ours[] = {
-        "json",         "json.err", "out.table",  "table.err", "verdict",  "verdict.err",
-        "controls.txt", "gap.txt",  "points.txt", "again",     "again.err"};
+        "json",     "json.err",     "out.table", "table.err",  "verdict", "verdict.err",
+        "flat.txt", "controls.txt", "gap.txt",   "points.txt", "again",   "again.err"};
     for (size_t k = 0; k < sizeof ours / sizeof ours[0]; k++)
         if (strcmp(name, ours[k]) == 0)
             return 1;
