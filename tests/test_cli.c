@@ -699,6 +699,31 @@ static void dump_that_cannot_be_written(void **state)
     assert_non_null(strstr(err, "--solver lemke pivots"));
 }
 
+/* The solution is Newton's, of a start with the zones of the mesh before: Lemke's pivots
+ * can be seen all the same. */
+static void trace_of_a_case_that_newton_solved(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("--support arc --similar --radius-b 50 --support-b arc "
+                             "--formulation static --mesh fitted --contact-elements 40 "
+                             "--gap parabola --mu 1e-3 --load 800 --force-ratio -0.4 "
+                             "--near-field exact --trace"),
+                     0);
+    assert_non_null(strstr(err, "pivot    1 "));
+}
+
+/* The reason is told, not that there is nothing to draw. */
+static void no_picture_of_no_steps(void **state)
+{
+    (void)state;
+    write_file("steep.txt", "load shift\n800 1\n800 2\n");
+    assert_int_equal(rollbem("--support hub --formulation static --history steep.txt "
+                             "--zone 0.1 --contact-elements 20 --history-plot h.svg"),
+                     1);
+    assert_non_null(strstr(err, "the contact fills the potential contact"));
+    assert_null(strstr(err, "no steps to draw"));
+}
+
 /* ---- Writing ----------------------------------------------------------------------- */
 
 static void output_is_whole_or_not_there(void **state)
@@ -799,6 +824,8 @@ int main(void)
         cmocka_unit_test(dumped_influence_moves_rigidly),
         cmocka_unit_test(dump_of_a_large_contact_holds_its_flexibility),
         cmocka_unit_test(dump_that_cannot_be_written),
+        cmocka_unit_test(trace_of_a_case_that_newton_solved),
+        cmocka_unit_test(no_picture_of_no_steps),
         cmocka_unit_test(output_is_whole_or_not_there),
         cmocka_unit_test(full_device_is_73),
         cmocka_unit_test(closed_pipe_is_73),

@@ -262,6 +262,7 @@ static const conflict conflicts[] = {
     {{"size=transforms", "output=trace"}, NULL},
     {{"size=transforms", "output=dump*"}, NULL},
     {{"size=transforms", "output=accuracy"}, NULL},
+    {{"size=transforms", "output=error", "regime=transient*"}, NULL},
     /* issue 9, 21: the contact grows beyond the zone of the first step */
     {{"regime=transient-history", "normals=surface", "mu=3"}, NULL},
     /* issue 9, 8: ends with 70 */
@@ -538,7 +539,7 @@ static int words(char *line, char **word, int room)
 static int run(const char *file, const char *arguments, const char *to,
                const char *errors)
 {
-    enum { SECONDS = 60 };
+    enum { SECONDS = 300 };
     char line[2500], *word[100];
     snprintf(line, sizeof line, "%s %s", file, arguments);
     words(line, word, 100);
@@ -717,7 +718,8 @@ static void check_verdict(const int *row, int table)
 /* Cone solvers may fail, but say so; what there is, is printed. */
 static int may_fail(const int *row)
 {
-    return is(row, SOLVER, "cone");
+    /* nor does Newton's method without a matrix always end at mu = 3 */
+    return is(row, SOLVER, "cone") || (is(row, SIZE, "transforms") && is(row, MU, "3"));
 }
 
 static void check_failure(const int *row, int code)

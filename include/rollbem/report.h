@@ -194,7 +194,8 @@ rb_status rb_report_dump(const char *folder, const rb_rolling_model *model,
                          rb_message *why);
 
 /* Lemke's pivots once more, one line each; with a folder also the tableau after each of
- * them as tableau_1.mtx, ...  RB_EINVAL: the model was not solved by Lemke. */
+ * them as tableau_1.mtx, ...  Where another method gave the solution, of the LCP that
+ * Lemke's would have tried first. */
 rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model *model,
                           rb_message *why);
 

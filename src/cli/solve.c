@@ -190,7 +190,7 @@ static cli_exit print_result(cli_sink *sink, const solve_options *so, const resu
     if (code == CLI_OK)
         code = cli_output_draw(o, draw, it);
     const cli_output steps = history_picture(so);
-    if (code == CLI_OK)
+    if (code == CLI_OK && it->r->history.n > 0)
         code = cli_output_draw(&steps, draw_history, it);
     return code;
 }

@@ -121,6 +121,9 @@ static rb_status follow(trace *t, const rb_rolling_lcp *lcp)
     free(z);
     if (s < 0)
         return rb_fail(t->why, s, "%s", info.msg.text);
+    if (s != RB_OK)
+        fprintf(t->out, "Lemke's method ends here without a solution: %s\n",
+                rb_status_text(s));
     return t->status;
 }
 
@@ -129,14 +132,11 @@ rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model 
 {
     rb_rolling_lcp lcp;
     const rb_rolling_state *state = &model->state;
-    if (state->solver != RB_SOLVER_LEMKE)
-        return rb_fail(why, RB_EINVAL,
-                       "the case was solved by Newton's method; --solver lemke "
-                       "pivots");
-    rb_status s = rb_rolling_lcp_create(&model->problem, state->lcp_form, state->mirrored,
-                                        state->xi0, &lcp, why);
+    rb_status s = rb_rolling_lcp_first(&model->problem, &model->rc, state, &lcp, why);
     if (s != RB_OK)
         return s;
+    if (state->solver != RB_SOLVER_LEMKE)
+        fputs("the case was solved by another method; Lemke's on the same problem:\n", out);
     trace t = {.out = out, .folder = folder, .lcp = &lcp, .n = model->mesh.n, .why = why};
     s = follow(&t, &lcp);
     rb_rolling_lcp_free(&lcp);
