@@ -201,6 +201,112 @@ static void condensation_gives_the_same_problem(void **state)
     rb_friction_problem_free(&p);
 }
 
+/* Chains of `size` springs, held at one end with stiffness 1, touched at the other ends;
+ * K of one chain is tridiagonal, and K^-1 at its end is 1 + (size - 1). */
+static void chains(int size, int nc, rb_friction_problem *p)
+{
+    const int m = 2 * nc, n = m * size;
+    int *row = rb_alloc_int((size_t)(3 * n)), *col = rb_alloc_int((size_t)(3 * n)),
+        nz = 0;
+    double *x = rb_alloc((size_t)(3 * n), 1);
+    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
+                               .dimension = 2,
+                               .contacts = nc,
+                               .dofs = n,
+                               .mu = rb_alloc((size_t)nc, 1),
+                               .f = rb_alloc((size_t)n, 1),
+                               .w = rb_alloc((size_t)m, 1)};
+    for (int k = 0; k < m; k++)
+        for (int i = 0; i < size; i++) {
+            const int at = k * size + i;
+            row[nz] = col[nz] = at, x[nz++] = i + 1 < size ? 2.0 : 1.0;
+            if (i + 1 < size) {
+                row[nz] = at, col[nz] = at + 1, x[nz++] = -1.0;
+                row[nz] = at + 1, col[nz] = at, x[nz++] = -1.0;
+            }
+        }
+    CHECK_STATUS(rb_sparse_from_triplets(n, n, nz, row, col, x, &p->K), RB_OK);
+    for (int k = 0; k < m; k++) {
+        row[k] = (k + 1) * size - 1, col[k] = k, x[k] = 1.0;
+        p->f[row[k]] = k % 2 ? 0.2 * (k % 5) : -1.0;
+    }
+    CHECK_STATUS(rb_sparse_from_triplets(n, m, m, row, col, x, &p->H), RB_OK);
+    for (int c = 0; c < nc; c++)
+        p->mu[c] = 0.3;
+    free(x);
+    free(col);
+    free(row);
+}
+
+/* Masses (one degree of freedom), bodies inverted densely and bodies for CHOLMOD. */
+static void bodies_of_every_size_are_condensed(void **state)
+{
+    (void)state;
+    static const int sizes[] = {1, 2, 6, 12, 13, 40};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        rb_friction_problem p, local;
+        rb_message why;
+        chains(sizes[s], 5, &p);
+        CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_OK);
+        for (int j = 0; j < 10; j++) {
+            assert_int_equal(local.Ws.p[j + 1] - local.Ws.p[j], 1);
+            CHECK_REL(local.Ws.x[j], (double)sizes[s], 1e-12, "W of %d", sizes[s]);
+            CHECK_ABS(local.q[j], sizes[s] * p.f[(j + 1) * sizes[s] - 1], 1e-10, "q");
+        }
+        rb_friction_problem_free(&local);
+        p.K.x[0] = 0.0; /* the first mass is gone; longer chains lose their hold */
+        if (sizes[s] == 1)
+            CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_SINGULAR);
+        rb_friction_problem_free(&p);
+    }
+}
+
+/* The same structure under other loads: as if each were solved by itself. */
+static void a_handle_solves_one_load_after_another(void **state)
+{
+    (void)state;
+    for (int global = 0; global < 2; global++) {
+        rb_friction_problem p;
+        rb_friction_handle *handle;
+        rb_friction_info warm, cold;
+        rb_message why;
+        double r[90], u[90], r2[90], u2[90], planted[90];
+        if (global)
+            chains(3, 20, &p);
+        else
+            plant(2, 20, 9, &p, planted);
+        const int m = 2 * p.contacts;
+        CHECK_STATUS(rb_friction_setup(&p, &handle, &why), RB_OK);
+        for (int load = 0; load < 4; load++) {
+            static const char *const solvers[] = {"nsgs-ac", "auto", "nsgs-ac",
+                                                  "nsgs-aa"};
+            for (int k = 0; load && k < m; k++)
+                *(global ? &p.w[k] : &p.q[k]) += 1e-3 * (k % 7);
+            p.mu[load] *= 0.9;
+            CHECK_STATUS(rb_friction_update(handle, &why), RB_OK);
+            CHECK_STATUS(
+                rb_friction_handle_solve(handle, solvers[load], NULL, r, u, NULL, &warm),
+                RB_OK);
+            CHECK_STATUS(rb_friction_solve(solvers[load], &p, NULL, r2, u2, NULL, &cold),
+                         RB_OK);
+            for (int k = 0; k < m; k++)
+                CHECK_ABS(r[k], r2[k], 1e-6, "load %d, r[%d]", load, k);
+            assert_true(warm.iters <= cold.iters);
+        }
+        /* solved already: nothing is left to do */
+        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", NULL, r, u, NULL, &warm),
+                     RB_OK);
+        assert_int_equal(warm.iters, 0);
+        p.mu[0] = -1.0;
+        CHECK_STATUS(rb_friction_update(handle, &why), RB_EINVAL);
+        rb_friction_handle_free(handle);
+        CHECK_STATUS(rb_friction_setup(&p, &handle, &why), RB_EINVAL);
+        assert_null(handle);
+        rb_friction_problem_free(&p);
+    }
+    rb_friction_handle_free(NULL);
+}
+
 static void a_structure_held_by_friction_alone_is_solved(void **state)
 {
     (void)state;
@@ -422,6 +528,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_measure_is_equation_13),
         cmocka_unit_test(condensation_gives_the_same_problem),
+        cmocka_unit_test(bodies_of_every_size_are_condensed),
+        cmocka_unit_test(a_handle_solves_one_load_after_another),
         cmocka_unit_test(a_structure_held_by_friction_alone_is_solved),
         cmocka_unit_test(newton_solves_planted_problems),
         cmocka_unit_test(facts_are_reported),

@@ -169,6 +169,25 @@ rb_status rb_friction_solve(const char *solver, const rb_friction_problem *probl
                             const rb_friction_options *opt, double *r, double *u,
                             double *v, rb_friction_info *info);
 
+/* ---- One structure, many loads ------------------------------------------------------
+ */
+
+/* Keeps what depends on W, or K and H, alone: the factor of K, the condensed W, its
+ * blocks.  Borrows the problem. */
+typedef struct rb_friction_handle rb_friction_handle;
+
+/* As rb_friction_solve: RB_EINVAL, RB_SINGULAR with the reason in why. */
+rb_status rb_friction_setup(const rb_friction_problem *problem,
+                            rb_friction_handle **handle, rb_message *why);
+/* To be called after the problem's q, or f and w, or mu have changed; W, K and H must be
+ * what they were. */
+rb_status rb_friction_update(rb_friction_handle *handle, rb_message *why);
+/* As rb_friction_solve; opt->r0 NULL: starts from the last solution, if there is one. */
+rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *solver,
+                                   const rb_friction_options *opt, double *r, double *u,
+                                   double *v, rb_friction_info *info);
+void rb_friction_handle_free(rb_friction_handle *handle);
+
 /* ---- Performance profiles (Dolan and More) ----------------------------------------- */
 
 /* cost[p + s * problems]: of solver s on problem p, INFINITY where it failed. rho_s(tau),

@@ -155,7 +155,8 @@ void rb_sparse_lu_free(rb_sparse_lu *lu)
 
 struct rb_sparse_cholesky {
     cholmod_common c;
-    cholmod_factor *l; /* L L' = P (S K S) P' */
+    int n;
+    cholmod_factor *l; /* L L' = P (S K S) P'; NULL: K is diagonal, S K S = 1 */
     double *scale;     /* S = diag(K)^-1/2: pivots then tell rank whatever the units */
     double flops;
 };
@@ -219,10 +220,28 @@ static rb_status equilibrate(const rb_sparse *k, double *scale, rb_sparse *sks)
     return RB_OK;
 }
 
+/* Diagonal and positive: nothing needs factoring. */
+static int is_diagonal(const rb_sparse *k)
+{
+    if (k->p[k->cols] != k->cols)
+        return 0;
+    for (int j = 0; j < k->cols; j++)
+        if (k->p[j] != j || k->i[j] != j || !(k->x[j] > 0.0))
+            return 0;
+    return 1;
+}
+
 static rb_status factorize(const rb_sparse *k, rb_sparse_cholesky *f)
 {
     rb_sparse sks = {0};
+    f->n = k->rows;
     f->scale = rb_alloc((size_t)k->rows, 1);
+    if (f->scale && is_diagonal(k)) {
+        for (int i = 0; i < f->n; i++)
+            f->scale[i] = 1.0 / sqrt(k->x[i]);
+        f->flops = f->n;
+        return RB_OK;
+    }
     if (equilibrate(k, f->scale, &sks) != RB_OK)
         return RB_ENOMEM;
     cholmod_sparse view = view_of(&sks, 1);
@@ -255,9 +274,11 @@ rb_status rb_sparse_cholesky_create(const rb_sparse *k, rb_sparse_cholesky **fac
 
 rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b, double *x)
 {
-    const int n = (int)factor->l->n;
+    const int n = factor->n;
     for (int i = 0; i < n; i++)
-        x[i] = factor->scale[i] * b[i];
+        x[i] = (factor->l ? 1.0 : factor->scale[i]) * factor->scale[i] * b[i];
+    if (!factor->l)
+        return RB_OK;
     cholmod_dense rhs = dense_view(n, x);
     cholmod_dense *y = cholmod_solve(CHOLMOD_A, factor->l, &rhs, &factor->c);
     if (!y)
@@ -283,17 +304,18 @@ static rb_status congruence_panel(rb_sparse_cholesky *f, const rb_sparse *h, int
     cholmod_dense b = dense_view(rows, rhs);
     b.ncol = (size_t)n;
     b.nzmax = (size_t)rows * (size_t)n;
-    cholmod_dense *x = cholmod_solve(CHOLMOD_A, f->l, &b, &f->c);
-    if (!x)
+    cholmod_dense *x = f->l ? cholmod_solve(CHOLMOD_A, f->l, &b, &f->c) : NULL;
+    if (f->l && !x)
         return RB_ENOMEM;
-    double *v = x->x;
+    double *v = f->l ? x->x : rhs;
     for (int j = 0; j < n; j++, v += rows) {
         for (int i = 0; i < rows; i++)
             v[i] *= f->scale[i];
         rb_sparse_apply_transposed(1.0, h, v, 0.0, w + (size_t)j * (size_t)h->cols);
     }
-    cholmod_free_dense(&x, &f->c);
-    f->flops += 4.0 * n * (f->c.lnz + h->p[h->cols]);
+    if (x)
+        cholmod_free_dense(&x, &f->c);
+    f->flops += 4.0 * n * ((f->l ? f->c.lnz : rows) + h->p[h->cols]);
     return RB_OK;
 }
 

@@ -40,6 +40,8 @@ typedef struct {
 
 rb_status rb_friction_measure_init(const rb_friction_problem *problem,
                                    rb_friction_measure *measure);
+/* After q, or f and w, have changed. */
+rb_status rb_friction_measure_reload(rb_friction_measure *measure);
 /* v: n, global form: corrected to equilibrium with r; else unused.  u: m, written.
  * scaled: the measure that decides; paper: (13), or NULL. */
 rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *r,
@@ -123,6 +125,8 @@ typedef struct {
 
 rb_status rb_friction_shared_init(const rb_friction_problem *problem,
                                   rb_friction_shared *shared, rb_message *why);
+/* After q, or f and w, or mu have changed. */
+rb_status rb_friction_shared_reload(rb_friction_shared *shared);
 void rb_friction_shared_free(rb_friction_shared *shared);
 
 /* The best iterate that any method has measured. */
@@ -146,6 +150,10 @@ typedef struct {
     double *v;             /* n */
 } rb_friction_task;
 
+/* As rb_friction_condense; flops grows by the operations. */
+rb_status rb_friction_condense_counted(const rb_friction_problem *global,
+                                       rb_friction_problem *local, double *flops,
+                                       rb_message *why);
 /* W of the task's problem: condensed at first use.  RB_SINGULAR: there is none. */
 rb_status rb_friction_task_condense(rb_friction_task *task);
 /* The blocks of the task's W; borrowed by all who work with them. */

@@ -114,6 +114,15 @@ static rb_status global_scale(rb_friction_measure *measure)
     return s;
 }
 
+rb_status rb_friction_measure_reload(rb_friction_measure *measure)
+{
+    const rb_friction_problem *p = measure->problem;
+    if (p->form == RB_FRICTION_GLOBAL)
+        return global_scale(measure);
+    measure->scale = norm_or_one((size_t)(p->dimension * p->contacts), p->q);
+    return RB_OK;
+}
+
 rb_status rb_friction_measure_init(const rb_friction_problem *p,
                                    rb_friction_measure *measure)
 {
@@ -127,15 +136,13 @@ rb_status rb_friction_measure_init(const rb_friction_problem *p,
     measure->e = measure->y + m;
     measure->rho = measure->e + n;
     rb_status s = rb_friction_rho(p, measure->rho);
-    if (s == RB_OK && !n)
-        measure->scale = norm_or_one(m, p->q);
     if (s == RB_OK && n) {
         s = rb_sparse_cholesky_create(&p->K, &measure->factor);
         if (s == RB_SINGULAR)
             s = factor_with_springs(measure);
-        if (s == RB_OK)
-            s = global_scale(measure);
     }
+    if (s == RB_OK)
+        s = rb_friction_measure_reload(measure);
     if (s != RB_OK)
         rb_friction_measure_free(measure);
     return s;

@@ -91,10 +91,9 @@ static rb_status check_call(const char *name, const rb_friction_problem *p,
     if (!(opt->tol > 0.0) || opt->max_iters < 0 || !(opt->seconds >= 0.0))
         return rb_fail(why, RB_EINVAL, "tol = %g, max_iters = %d, seconds = %g", opt->tol,
                        opt->max_iters, opt->seconds);
-    const rb_status s = rb_friction_problem_check(p, why);
-    if (s == RB_OK && ((*chosen)->needs & FLAT) && p->dimension != 2)
+    if (((*chosen)->needs & FLAT) && p->dimension != 2)
         return rb_fail(why, RB_EINVAL, "%s solves problems in 2D only", name);
-    return s;
+    return RB_OK;
 }
 
 static void load_start(rb_friction_task *task)
@@ -126,48 +125,150 @@ static rb_status run_and_prove(rb_friction_task *task, const rb_friction_solver 
     return s == RB_OK ? RB_INACCURATE : s;
 }
 
-rb_status rb_friction_solve(const char *solver, const rb_friction_problem *problem,
-                            const rb_friction_options *opt, double *r, double *u,
-                            double *v, rb_friction_info *info)
-{
-    const double start = rb_seconds();
-    const rb_friction_options used = opt ? *opt : rb_friction_defaults();
-    const char *name = solver ? solver : "auto";
-    const rb_friction_solver *chosen;
-    rb_friction_info unwanted;
-    if (!info)
-        info = &unwanted;
-    *info = (rb_friction_info){.solver = name, .residual = INFINITY, .scaled = INFINITY};
-    rb_status s = check_call(name, problem, &used, &chosen, &info->msg);
-    if (s != RB_OK)
-        return s;
+struct rb_friction_handle {
+    rb_friction_shared shared;
+    double *last; /* m + n: r and v of the last solution; NULL: none yet */
+};
 
+static rb_status setup(const rb_friction_problem *problem, rb_friction_handle *handle,
+                       rb_message *why)
+{
+    *handle = (rb_friction_handle){0};
+    const rb_status s = rb_friction_problem_check(problem, why);
+    return s == RB_OK ? rb_friction_shared_init(problem, &handle->shared, why) : s;
+}
+
+static void release(rb_friction_handle *handle)
+{
+    rb_friction_shared_free(&handle->shared);
+    free(handle->last);
+}
+
+/* start: when the call began. */
+static rb_status solve(rb_friction_shared *shared, const rb_friction_solver *solver,
+                       const rb_friction_options *opt, double start, double *r, double *u,
+                       double *v, rb_friction_info *info)
+{
+    const rb_friction_problem *problem = shared->problem;
     const int m = problem->dimension * problem->contacts;
     const int n = problem->form == RB_FRICTION_GLOBAL ? problem->dofs : 0;
     double *memory = malloc((size_t)(m + 2 * n) * sizeof *memory);
-    rb_friction_shared shared = {0};
     rb_friction_record best = {.r = memory, .error = INFINITY};
-    rb_friction_task task = {.shared = &shared,
+    rb_friction_task task = {.shared = shared,
                              .problem = problem,
-                             .measure = &shared.measure,
+                             .measure = &shared->measure,
                              .best = &best,
-                             .opt = used,
+                             .opt = *opt,
                              .info = info,
                              .d = problem->dimension,
                              .contacts = problem->contacts,
                              .m = m,
                              .n = n,
-                             .deadline = used.seconds > 0.0 ? start + used.seconds : 0.0,
+                             .deadline = opt->seconds > 0.0 ? start + opt->seconds : 0.0,
                              .budget = INFINITY,
                              .r = r,
                              .u = u,
                              .v = v ? v : memory + m + n};
-    info->solver = chosen->name;
-    s = memory ? rb_friction_shared_init(problem, &shared, &info->msg) : RB_ENOMEM;
-    if (s == RB_OK)
-        s = run_and_prove(&task, chosen);
-    rb_friction_shared_free(&shared);
+    info->solver = solver->name;
+    shared->stop = 0;
+    const rb_status s = memory ? run_and_prove(&task, solver) : RB_ENOMEM;
     free(memory);
     info->seconds = rb_seconds() - start;
     return s;
+}
+
+static void clear(rb_friction_info *info, const char *solver)
+{
+    *info =
+        (rb_friction_info){.solver = solver, .residual = INFINITY, .scaled = INFINITY};
+}
+
+rb_status rb_friction_solve(const char *name, const rb_friction_problem *problem,
+                            const rb_friction_options *opt, double *r, double *u,
+                            double *v, rb_friction_info *info)
+{
+    const double start = rb_seconds();
+    const rb_friction_options used = opt ? *opt : rb_friction_defaults();
+    const rb_friction_solver *solver;
+    rb_friction_info unwanted;
+    rb_friction_handle handle;
+    info = info ? info : &unwanted;
+    name = name ? name : "auto";
+    clear(info, name);
+    rb_status s = check_call(name, problem, &used, &solver, &info->msg);
+    if (s != RB_OK)
+        return s;
+    s = setup(problem, &handle, &info->msg);
+    if (s == RB_OK)
+        s = solve(&handle.shared, solver, &used, start, r, u, v, info);
+    release(&handle);
+    return s;
+}
+
+/* ---- One structure, many loads --------------------------------------------------------
+ */
+
+rb_status rb_friction_setup(const rb_friction_problem *problem,
+                            rb_friction_handle **handle, rb_message *why)
+{
+    *handle = malloc(sizeof **handle);
+    if (!*handle)
+        return RB_ENOMEM;
+    const rb_status s = setup(problem, *handle, why);
+    if (s != RB_OK) {
+        rb_friction_handle_free(*handle);
+        *handle = NULL;
+    }
+    return s;
+}
+
+rb_status rb_friction_update(rb_friction_handle *handle, rb_message *why)
+{
+    const rb_status s = rb_friction_problem_check(handle->shared.problem, why);
+    return s == RB_OK ? rb_friction_shared_reload(&handle->shared) : s;
+}
+
+rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *name,
+                                   const rb_friction_options *opt, double *r, double *u,
+                                   double *v, rb_friction_info *info)
+{
+    const double start = rb_seconds();
+    const rb_friction_problem *p = handle->shared.problem;
+    const size_t m = (size_t)(p->dimension * p->contacts);
+    const size_t n = p->form == RB_FRICTION_GLOBAL ? (size_t)p->dofs : 0;
+    rb_friction_options used = opt ? *opt : rb_friction_defaults();
+    const rb_friction_solver *solver;
+    rb_friction_info unwanted;
+    info = info ? info : &unwanted;
+    name = name ? name : "auto";
+    clear(info, name);
+    rb_status s = check_call(name, p, &used, &solver, &info->msg);
+    if (s != RB_OK)
+        return s;
+    if (!used.r0 && handle->last) {
+        used.r0 = handle->last;
+        used.v0 = handle->last + m;
+    }
+    double *own = v || !n ? NULL : rb_alloc(n, 1);
+    double *at = v ? v : own;
+    if (n && !at)
+        return RB_ENOMEM;
+    s = solve(&handle->shared, solver, &used, start, r, u, at, info);
+    if (s == RB_OK && !handle->last)
+        handle->last = rb_alloc(m + n, 1);
+    if (s == RB_OK && handle->last) {
+        memcpy(handle->last, r, m * sizeof *r);
+        if (n)
+            memcpy(handle->last + m, at, n * sizeof *at);
+    }
+    free(own);
+    return s;
+}
+
+void rb_friction_handle_free(rb_friction_handle *handle)
+{
+    if (!handle)
+        return;
+    release(handle);
+    free(handle);
 }

@@ -22,6 +22,17 @@ rb_status rb_friction_shared_init(const rb_friction_problem *problem,
     return s;
 }
 
+rb_status rb_friction_shared_reload(rb_friction_shared *shared)
+{
+    const rb_friction_problem *p = shared->problem;
+    rb_status s = rb_friction_measure_reload(&shared->measure);
+    if (s != RB_OK || shared->local != &shared->condensed)
+        return s;
+    for (int c = 0; c < p->contacts; c++)
+        shared->condensed.mu[c] = p->mu[c];
+    return rb_friction_measure_spring_load(&shared->measure, shared->condensed.q);
+}
+
 void rb_friction_shared_free(rb_friction_shared *shared)
 {
     rb_friction_measure_free(&shared->measure);
@@ -35,8 +46,8 @@ rb_status rb_friction_task_condense(rb_friction_task *task)
     rb_friction_shared *shared = task->shared;
     if (shared->local)
         return RB_OK;
-    const rb_status s =
-        rb_friction_condense(shared->problem, &shared->condensed, &task->info->msg);
+    const rb_status s = rb_friction_condense_counted(
+        shared->problem, &shared->condensed, &task->info->flops, &task->info->msg);
     if (s == RB_OK)
         shared->local = &shared->condensed;
     return s;
