@@ -31,7 +31,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: all run test test-all check-tests asan bench install help clean packages check-packages
+.PHONY: all run test test-all check-tests asan bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -40,6 +40,7 @@ help:
 	@echo "make test       install missing packages, build, run all tests"
 	@echo "make test-all   the same without leaving out any case of the long tests"
 	@echo "make asan       the tests under the address and undefined-behaviour sanitizers"
+	@echo "make study      the friction solvers on published files and on packings: tables, false successes"
 	@echo "make bench      the benchmarks (ratios measured in one run)"
 	@echo "make install    to PREFIX=$(PREFIX), below DESTDIR"
 	@echo "make clean      remove $(B)"
@@ -63,6 +64,11 @@ check-tests: all $(B)/packings $(TESTS) $(B)/tests/checker
 
 asan:
 	@$(MAKE) --no-print-directory B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined" test
+
+# friction solvers on published files and on packings of our own
+study: packages
+	@$(MAKE) --no-print-directory B=$(B) all $(B)/packings
+	@B=$(B) scripts/friction-study
 
 bench: packages
 	@$(MAKE) --no-print-directory B=$(B) all $(BENCHES)
