@@ -295,6 +295,14 @@ typedef enum {
     RB_ZONE_SLIP_POSITIVE = 3  /* r_T = +mu r_N */
 } rb_rolling_zone;
 
+/* A part of the contact with separated elements on either side. */
+typedef struct {
+    double from, to;                     /* edges [length] */
+    double normal_load, tangential_load; /* its part of P and Q [force/length] */
+    double max_pressure, peak;           /* [stress], its place [length] */
+    int contact, stick;                  /* elements */
+} rb_rolling_patch;
+
 typedef struct {
     int n;           /* contact elements, in the order of increasing x */
     double *x, *h;   /* midpoints and lengths [length]; owned, as all arrays here */
@@ -304,6 +312,9 @@ typedef struct {
     double *shift;   /* T_T lambda [length]; 0 in stick */
     double *slip;    /* relative slip velocity [-]: (12) in static, shift/distance else */
     int *zone;       /* rb_rolling_zone */
+
+    int patches;
+    rb_rolling_patch *patch; /* in the order of increasing x; owned */
 
     rb_status status;
     rb_rolling_formulation formulation;
@@ -327,16 +338,19 @@ typedef struct {
                                           where no such xi was found */
     double hertz_half_width; /* of P and the combined radius: scale of the ratios */
     double creep_ratio, force_ratio; /* xi R/(mu a), Q/(mu P); NAN at mu = 0 */
-    double half_width;               /* where p^2 extrapolates to zero [length] */
+    double half_width;               /* of the contact, from edge to edge [length] */
     double datum;                    /* of A; NAN where it has none [length] */
-    double contact_from, contact_to; /* its edges */
-    double max_pressure;             /* p0 [stress] */
-    int contact, stick, slipping;    /* elements */
-    double stick_from, stick_to;     /* outermost ends of stuck elements; NAN without */
-    double stick_length;             /* of all of them, less than from ... to where slip
-                                        lies between [length] */
-    int slip_violations;             /* slip that does not oppose the friction */
-    double dissipation;              /* power per unit speed [force/length] */
+    double contact_from, contact_to; /* outermost edges (theory.md 5.1) */
+    int edges_bounded; /* 1: p does not fall as theory.md (E1) has it at some edge, which
+                          the elements beside it bound */
+    int equal_instead; /* 1: of fitted elements, whose edges did not come to rest */
+    double max_pressure;          /* p0 [stress] */
+    int contact, stick, slipping; /* elements */
+    double stick_from, stick_to;  /* outermost ends of stuck elements; NAN without */
+    double stick_length;          /* of all of them, less than from ... to where slip
+                                     lies between [length] */
+    int slip_violations;          /* slip that does not oppose the friction */
+    double dissipation;           /* power per unit speed [force/length] */
     double seconds_assembly, seconds_factor, seconds_condense, seconds_lcp, seconds_total;
 } rb_rolling_solution;
 
@@ -369,14 +383,15 @@ typedef struct {
     rb_rolling_problem problem;
     rb_rolling_state state;
     double shift;      /* rigid shift before the state's own, in a history [length] */
+    int equal_instead; /* 1: of fitted elements, whose edges did not come to rest */
     double half_width; /* Hertz's, of the load found last: scale of the ratios */
     double seconds_lcp;
     int iterations; /* of all solves so far */
 } rb_rolling_model;
 
 /* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a
- * positive status the model holds what there is.  model: overwritten; free it in any
- * case. */
+ * positive status the model holds what there is; RB_ZONE: the contact does not end within
+ * the given zone, the wheel or the table.  model: overwritten; free it in any case. */
 rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
                                   rb_message *why);
 void rb_rolling_model_free(rb_rolling_model *model);

@@ -105,15 +105,48 @@ static const field seconds[] = {
     NUMBER("total", seconds_total),
 };
 
-static void set_fields(json_t *object, const rb_rolling_solution *s, const field *fields,
-                       size_t n)
+#undef NUMBER
+#undef WHOLE
+#define NUMBER(name, member)                                                             \
+    {                                                                                    \
+        name, offsetof(rb_rolling_patch, member), 0                                      \
+    }
+#define WHOLE(name, member)                                                              \
+    {                                                                                    \
+        name, offsetof(rb_rolling_patch, member), 1                                      \
+    }
+
+static const field of_patch[] = {
+    NUMBER("from", from),
+    NUMBER("to", to),
+    NUMBER("normal_load", normal_load),
+    NUMBER("tangential_load", tangential_load),
+    NUMBER("max_pressure", max_pressure),
+    NUMBER("peak", peak),
+    WHOLE("contact", contact),
+    WHOLE("stick", stick),
+};
+
+/* owner: the struct that the offsets belong to. */
+static void set_fields(json_t *object, const void *owner, const field *fields, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
-        const void *place = (const char *)s + fields[i].offset;
+        const void *place = (const char *)owner + fields[i].offset;
         json_t *value = fields[i].whole ? json_integer(*(const int *)place)
                                         : rb_report_json_number(*(const double *)place);
         json_object_set_new(object, fields[i].name, value);
     }
+}
+
+static json_t *patches(const rb_rolling_solution *s)
+{
+    json_t *list = json_array();
+    for (int k = 0; k < s->patches; k++) {
+        json_t *patch = json_object();
+        set_fields(patch, &s->patch[k], of_patch, sizeof of_patch / sizeof of_patch[0]);
+        json_array_append_new(list, patch);
+    }
+    return list;
 }
 
 json_t *rb_report_json_summary(const rb_rolling_solution *s)
@@ -128,6 +161,12 @@ json_t *rb_report_json_summary(const rb_rolling_solution *s)
     json_object_set_new(summary, "lcp_form",
                         json_string(rb_report_lcp_form(s->lcp_form)));
     set_fields(summary, s, results, sizeof results / sizeof results[0]);
+    if (s->patches > 1)
+        json_object_set_new(summary, "patches", patches(s));
+    if (s->equal_instead)
+        json_object_set_new(summary, "mesh", json_string("uniform"));
+    if (s->edges_bounded)
+        json_object_set_new(summary, "edges", json_string("bounded"));
     json_object_set_new(summary, "datum", rb_report_json_number(s->datum));
     json_object_set_new(summary, "boundary_elements", json_integer(s->boundary_elements));
     if (s->boundary_elements > 0)

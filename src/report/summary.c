@@ -83,6 +83,10 @@ static void print_forces(FILE *out, const rb_rolling_solution *s)
     if (s->contact > 0)
         fprintf(out, "  contact   %.5g ... %.5g mm, p0 = %.6g MPa, approach %.5g mm\n",
                 s->contact_from, s->contact_to, s->max_pressure, s->approach);
+    for (int k = 0; k < s->patches && s->patches > 1; k++)
+        fprintf(out, "  patch %-3d %.5g ... %.5g mm, p0 = %.6g MPa, P = %.6g N/mm\n",
+                k + 1, s->patch[k].from, s->patch[k].to, s->patch[k].max_pressure,
+                s->patch[k].normal_load);
 }
 
 static void print_motion(FILE *out, const rb_rolling_solution *s)
@@ -185,10 +189,24 @@ static void note_full_sliding(FILE *out, const rb_rolling_case *rc,
           out);
 }
 
+static void note_mesh(FILE *out, const rb_rolling_solution *s)
+{
+    if (s->equal_instead)
+        fputs(
+            "rollbem: note: the edges that elements were fitted to did not come to rest: "
+            "equal elements instead\n",
+            out);
+    if (s->edges_bounded && s->contact > 0)
+        fputs("rollbem: note: the pressure does not fall to zero like a power of the "
+              "distance at every edge: such an edge is only known to an element\n",
+              out);
+}
+
 void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
     note_strain(out, rc, s);
+    note_mesh(out, s);
     if (rc->formulation == RB_STATIC && creeps)
         fputs("rollbem: note: static: the creepage enters only the slip of (12), not the "
               "tractions; for rolling, --formulation steady\n",

@@ -62,6 +62,12 @@ static void print_headers(FILE *out, const rb_rolling_solution *s, const char *c
     rb_report_print_head(out, command);
     fprintf(out, "# %s, %s; residual %.3g\n", rb_report_formulation(s->formulation),
             rb_status_text(s->status), s->residual);
+    for (int k = 0; k < s->patches && s->patches > 1; k++)
+        fprintf(out,
+                "# patch %d: from %.9g to %.9g mm, p0 = %.9g MPa, P = %.9g, Q = %.9g "
+                "N/mm\n",
+                k + 1, s->patch[k].from, s->patch[k].to, s->patch[k].max_pressure,
+                s->patch[k].normal_load, s->patch[k].tangential_load);
 }
 
 static void print_row(FILE *out, const rb_rolling_solution *s, int i)

@@ -128,11 +128,6 @@ double rb_rolling_estimate_half_width(const rb_rolling_case *rc)
     return half_width_of_approach(rb_rolling_radius(rc), approach);
 }
 
-double rb_rolling_widest_zone(const rb_rolling_case *rc)
-{
-    return 0.95 * fmin(rc->a.radius, rc->b.radius);
-}
-
 double rb_rolling_force_ratio(double mu, double P, double Q)
 {
     return mu > 0.0 && P > 0.0 ? Q / (mu * P) : NAN;

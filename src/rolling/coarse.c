@@ -43,13 +43,14 @@ static int zone_at(const rb_rolling_state *coarse, int j, double x, double from,
     return left != RB_ZONE_SEPARATED ? left : right;
 }
 
-void rb_rolling_start_from(const rb_rolling_mesh *mesh, const rb_rolling_state *coarse,
+void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                           const rb_rolling_state *coarse,
                            const rb_rolling_mesh *fine_mesh, rb_rolling_state *fine)
 {
     double from, to;
     int j = 0;
 
-    rb_rolling_contact_edges(mesh, coarse->p, &from, &to);
+    rb_rolling_contact_edges(rc, mesh, coarse, &from, &to);
     for (int i = 0; i < fine_mesh->n; i++) {
         const double x = 0.5 * (fine_mesh->ends[i] + fine_mesh->ends[i + 1]);
         while (j < mesh->n - 1 && mesh->ends[j + 1] < x)

@@ -54,14 +54,12 @@ static rb_status start_anew(rb_rolling_model *model, rb_message *why)
 
 /* A fitted mesh whose contact has moved is fitted again; a potential contact that is
  * full is chosen anew. */
-static rb_status follow_contact(rb_rolling_model *model, double edge[2], rb_message *why)
+static rb_status follow_contact(rb_rolling_model *model, int fills, double edge[2],
+                                rb_message *why)
 {
     double from, to;
-    const int last = model->state.n - 1;
-    const int fills = model->state.zone[0] != RB_ZONE_SEPARATED ||
-                      model->state.zone[last] != RB_ZONE_SEPARATED;
 
-    rb_rolling_contact_edges(&model->mesh, model->state.p, &from, &to);
+    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &from, &to);
     const double moved =
         fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
     if (!fills && !(model->rc.mesh == RB_MESH_FITTED && moved > REFIT))
@@ -69,7 +67,8 @@ static rb_status follow_contact(rb_rolling_model *model, double edge[2], rb_mess
     const rb_status s =
         fills ? start_anew(model, why) : rb_rolling_model_refit(model, why);
     if (s == RB_OK)
-        rb_rolling_contact_edges(&model->mesh, model->state.p, &edge[0], &edge[1]);
+        rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &edge[0],
+                                 &edge[1]);
     return s;
 }
 
@@ -85,13 +84,13 @@ static rb_status all_points(rb_rolling_model *model, int over_creep, double from
     double edge[2];
     rb_status s = RB_OK;
 
-    rb_rolling_contact_edges(&model->mesh, model->state.p, &edge[0], &edge[1]);
+    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &edge[0], &edge[1]);
     for (int k = 0; k < points && s == RB_OK; k++) {
         const double t = points > 1 ? (double)k / (points - 1) : 0.0;
         set_creepage(over_creep, from + t * (to - from), &model->rc);
         s = rb_rolling_model_control(model, why);
-        if (s == RB_OK)
-            s = follow_contact(model, edge, why);
+        if (s == RB_OK || s == RB_ZONE)
+            s = follow_contact(model, s == RB_ZONE, edge, why);
         if (s >= 0)
             record(model, c);
     }

@@ -19,15 +19,14 @@ double rb_rolling_wanted_load(const rb_rolling_case *rc);
 double rb_rolling_wanted_approach(const rb_rolling_case *rc);
 /* From the load by Hertz, from the approach by the compression of a half-cylinder. */
 double rb_rolling_estimate_half_width(const rb_rolling_case *rc);
-/* The widest potential contact [length]: it must stay on the lower half of every wheel.
- */
-double rb_rolling_widest_zone(const rb_rolling_case *rc);
 /* Q/(mu P); NAN without friction or load. */
 double rb_rolling_force_ratio(double mu, double P, double Q);
 
 /* ---- profile.c ----------------------------------------------------------------------
  */
 
+/* Number and places of the points that the spline goes through; borrowed. */
+int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x);
 /* Three points or more, finite, x increasing: RB_EINVAL "<what>: row ...". */
 rb_status rb_rolling_points_check(const char *what, int n, const double *x,
                                   const double *gap, rb_message *why);
@@ -35,8 +34,8 @@ rb_status rb_rolling_points_check(const char *what, int n, const double *x,
 /* ---- bodies.c ------------------------------------------------------------------------
  */
 
-/* The given datum of a half-plane, or 2R/e, R of the body or of A where it is a plane; NAN
- * where nothing is measured from one: wheels, and layers on a rigid base. */
+/* The given datum of a half-plane, or 2R/e, R of the body or of A where it is a plane;
+ * NAN where nothing is measured from one: wheels, and layers on a rigid base. */
 double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body);
 /* A half-plane of the case, with its layer and memory.  length: room for the memory's
  * lengths, which the surface borrows like the body's ratios. */
@@ -179,7 +178,8 @@ void rb_rolling_factors_free(struct rb_rolling_factors *factors);
 /* Elements of the mesh that starts one of n. */
 int rb_rolling_coarse_elements(int n);
 /* Tractions, zones, delta and xi from a solution on fewer elements over the same line. */
-void rb_rolling_start_from(const rb_rolling_mesh *mesh, const rb_rolling_state *coarse,
+void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                           const rb_rolling_state *coarse,
                            const rb_rolling_mesh *fine_mesh, rb_rolling_state *fine);
 
 /* A dense problem with its elements in pairs: a pair has one traction, the mean gap and
@@ -208,13 +208,16 @@ rb_status rb_rolling_newton(rb_rolling_problem *problem, int warm,
 /* ---- model.c -------------------------------------------------------------------------
  */
 
-/* Solves the model's problem again, with the times and counts kept. */
+/* Takes over the mesh, builds the bodies on it and solves.  RB_ZONE: solved, and the
+ * contact does not end within the mesh. */
+rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
+                                 rb_message *why);
+/* Solves the model's problem again, with the times and counts kept.  Every solve on any
+ * mesh comes here and ends with rb_rolling_check_enclosed. */
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why);
 /* The same on the present mesh under the controls that model->rc has now, from the
  * present zones. */
 rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
-/* A fitted mesh, bodies and solution anew for the edges that the model has now. */
-rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why);
 /* The free creepage as one result among others: where it is not found it is NAN, and the
  * case that was solved stays solved.  RB_ENOMEM. */
 rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
@@ -222,6 +225,67 @@ rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creep
 /* P and Q of the state. */
 double rb_rolling_model_load(const rb_rolling_model *model);
 double rb_rolling_model_force(const rb_rolling_model *model);
+
+/* ---- outside.c ------------------------------------------------------------------------
+ */
+
+enum { RB_MOST_OVERLAPS = 16 };
+
+/* Stretches where the bodies of a state overlap and no element of the mesh sees it. */
+typedef struct {
+    int count;
+    double from[RB_MOST_OVERLAPS], to[RB_MOST_OVERLAPS];
+} rb_rolling_overlap;
+
+/* Looks along the whole table; other gaps are convex, so that nothing can touch beyond
+ * the contact (theory.md 5.1).  RB_ENOMEM. */
+rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
+                                  const rb_rolling_state *state,
+                                  rb_rolling_overlap *overlap);
+
+/* ---- zone.c ---------------------------------------------------------------------------
+ */
+
+/* RB_ZONE: an element in contact stands at an end of the mesh, so that the contact may
+ * reach further, or the bodies overlap where no element sees it.  state: of the model's
+ * problem. */
+rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
+                                    const rb_rolling_state *state, rb_message *why);
+/* Solves on equal elements in the given potential contact, or in one that holds the
+ * contact.  coarse: elements may be too long for separate patches.  RB_ZONE where there
+ * is none; RB_NO_CONTACT. */
+rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why);
+
+/* ---- fit.c ----------------------------------------------------------------------------
+ */
+
+/* Solves on elements fitted to the contact edges; on equal ones where these do not come
+ * to rest, with model->equal_instead saying so. */
+rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why);
+/* A fitted mesh, bodies and solution anew for the edges that the model has now. */
+rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why);
+
+/* ---- mesh.c ---------------------------------------------------------------------------
+ */
+
+/* The undeformed gap of the profile at x. */
+double rb_rolling_initial_gap(const rb_rolling_case *rc, double x);
+/* The same at n places, with the irregularity that has come there.  RB_ENOMEM. */
+rb_status rb_rolling_gap_along(const rb_rolling_case *rc, int n, const double *x,
+                               double *gap);
+/* 0: a gap that may touch in several places. */
+int rb_rolling_is_convex(const rb_rolling_case *rc);
+/* Where elements may stand: on the lower half of every round body, within the table. */
+void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to);
+
+/* A patch to fit elements to, and how far beyond either edge they have to reach. */
+typedef struct {
+    double from, to, room_left, room_right;
+} rb_rolling_span;
+
+rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int count,
+                                const rb_rolling_span *span, rb_rolling_mesh *mesh,
+                                rb_message *why);
 
 /* ---- residual.c ----------------------------------------------------------------------
  */
@@ -249,10 +313,26 @@ void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
 void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
                              double *stick);
 
-/* p0: the vertex of p^2 at the largest element. */
-double rb_rolling_peak_pressure(const rb_rolling_mesh *mesh, const double *p);
-/* Contact edges where p^2 extrapolates to zero. */
-void rb_rolling_contact_edges(const rb_rolling_mesh *mesh, const double *p, double *from,
-                              double *to);
+/* ---- patches.c ------------------------------------------------------------------------
+ */
+
+/* A patch: neighbouring elements first ... last in contact, and its edges. */
+typedef struct {
+    int first, last;
+    double from, to;
+    int bounded; /* 1: an edge is known to the elements beside it only */
+} rb_rolling_run;
+
+/* The next patch from element `at` on; 0 where there is none. */
+int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                          const rb_rolling_state *state, int at, rb_rolling_run *run);
+/* The outer edges of all patches; NAN without contact. */
+void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                              const rb_rolling_state *state, double *from, double *to);
+/* p0: the largest peak of all patches; 0 without contact. */
+double rb_rolling_peak_pressure(const rb_rolling_model *model);
+/* The patches of a solution and what is taken from all of them.  RB_ENOMEM. */
+rb_status rb_rolling_set_patches(const rb_rolling_model *model,
+                                 rb_rolling_solution *solution);
 
 #endif

@@ -5,8 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { OUTSIDE = 6 };             /* fitted: elements beyond each edge */
-static const double GROWTH = 1.5; /* of one such element to the next */
+enum {
+    OUTSIDE = 6, /* fitted: elements beyond each edge at least */
+    MOST_OUTSIDE = 64,
+    LEAST_ACROSS = 12 /* elements of one of several patches */
+};
+static const double GROWTH = 1.5; /* of one element beyond an edge to the next */
 
 void rb_rolling_mesh_free(rb_rolling_mesh *mesh)
 {
@@ -21,7 +25,7 @@ static double circle_gap(double radius, double x)
     return x * x / (radius + sqrt(radius * radius - x * x));
 }
 
-static double initial_gap(const rb_rolling_case *rc, double x)
+double rb_rolling_initial_gap(const rb_rolling_case *rc, double x)
 {
     switch (rc->gap) {
     case RB_GAP_TABLE:
@@ -47,42 +51,80 @@ static rb_status mesh_alloc(int n, rb_rolling_mesh *mesh)
     return RB_ENOMEM;
 }
 
-static double midpoint(const rb_rolling_mesh *mesh, int i)
-{
-    return 0.5 * (mesh->ends[i] + mesh->ends[i + 1]);
-}
-
 /* A cubic spline: the pressure follows the curvature, which it keeps continuous. */
-static rb_status add_irregularity(const rb_rolling_case *rc, rb_rolling_mesh *mesh)
+static rb_status add_irregularity(const rb_rolling_case *rc, int n, const double *x,
+                                  double *gap)
 {
-    const size_t n = (size_t)rc->irregularity_n;
-    const double *x = rc->irregularity_x;
-    gsl_spline *spline = gsl_spline_alloc(gsl_interp_cspline, n);
+    const size_t rows = (size_t)rc->irregularity_n;
+    const double *row = rc->irregularity_x;
+    gsl_spline *spline = gsl_spline_alloc(gsl_interp_cspline, rows);
 
     if (!spline)
         return RB_ENOMEM;
-    gsl_spline_init(spline, x, rc->irregularity_gap, n);
-    for (int i = 0; i < mesh->n; i++) {
-        const double place = midpoint(mesh, i) + rc->passed;
-        if (place > x[0] && place < x[n - 1])
-            mesh->gap[i] += gsl_spline_eval(spline, place, NULL);
+    gsl_spline_init(spline, row, rc->irregularity_gap, rows);
+    for (int i = 0; i < n; i++) {
+        const double place = x[i] + rc->passed;
+        if (place > row[0] && place < row[rows - 1])
+            gap[i] += gsl_spline_eval(spline, place, NULL);
     }
     gsl_spline_free(spline);
     return RB_OK;
 }
 
+rb_status rb_rolling_gap_along(const rb_rolling_case *rc, int n, const double *x,
+                               double *gap)
+{
+    for (int i = 0; i < n; i++)
+        gap[i] = rb_rolling_initial_gap(rc, x[i]);
+    return rc->irregularity_n > 0 ? add_irregularity(rc, n, x, gap) : RB_OK;
+}
+
+int rb_rolling_is_convex(const rb_rolling_case *rc)
+{
+    return rc->gap != RB_GAP_TABLE && rc->irregularity_n == 0;
+}
+
 rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh)
 {
-    for (int i = 0; i < mesh->n; i++)
-        mesh->gap[i] = initial_gap(rc, midpoint(mesh, i));
-    return rc->irregularity_n > 0 ? add_irregularity(rc, mesh) : RB_OK;
+    double *x = rb_alloc((size_t)mesh->n, 1);
+    rb_status s = x ? RB_OK : RB_ENOMEM;
+
+    for (int i = 0; i < mesh->n && x; i++)
+        x[i] = 0.5 * (mesh->ends[i] + mesh->ends[i + 1]);
+    if (s == RB_OK)
+        s = rb_rolling_gap_along(rc, mesh->n, x, mesh->gap);
+    free(x);
+    return s;
+}
+
+/* Half-width of the lower half of every round body.  Half-planes under a table are flat.
+ */
+static double lower_half(const rb_rolling_case *rc)
+{
+    const int wheels = rc->a.support != RB_BEM_HALFPLANE ||
+                       (rc->elastic_b && rc->b.support != RB_BEM_HALFPLANE);
+
+    return rc->gap == RB_GAP_TABLE && !wheels ? INFINITY
+                                              : fmin(rc->a.radius, rc->b.radius);
+}
+
+void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to)
+{
+    *to = 0.95 * lower_half(rc);
+    *from = -*to;
+    if (rc->gap == RB_GAP_TABLE) {
+        double first, last;
+        rb_rolling_profile_range(rc->profile, &first, &last);
+        *from = fmax(*from, first);
+        *to = fmin(*to, last);
+    }
 }
 
 /* The mesh must stay on the lower half of every round body. */
 static rb_status check_extent(const rb_rolling_case *rc, double from, double to,
                               rb_message *why)
 {
-    const double radius = fmin(rc->a.radius, rc->b.radius);
+    const double radius = lower_half(rc);
 
     if (!(from < to))
         return rb_fail(why, RB_EINVAL, "potential contact from %g to %g is empty", from,
@@ -132,39 +174,137 @@ rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, double from, double
                    from, to, rc->a.radius);
 }
 
-/* ends[OUTSIDE .. OUTSIDE + n] at from ... to, symmetric to rounding. */
-static void cosine_ends(double from, double to, int n, double *ends)
+/* ---- Fitted elements ------------------------------------------------------------------
+ */
+
+/* n elements between from and to, symmetric to rounding; returns the last end. */
+static double *put_cosine(double from, double to, int n, double *end)
 {
     const double centre = 0.5 * (from + to), half = 0.5 * (to - from);
 
-    for (int i = 0; i <= n; i++)
-        ends[i] = centre - half * sin(0.5 * M_PI * (n - 2 * i) / n);
-    ends[0] = from;
-    ends[n] = to;
+    for (int i = 1; i < n; i++)
+        *++end = centre - half * sin(0.5 * M_PI * (n - 2 * i) / n);
+    *++end = to;
+    return end;
+}
+
+/* Distances from an edge at which elements beyond it end: the first one as long as the
+ * last inside, OUTSIDE of them or as many as reach `room`, none beyond `available`. */
+static int distances(double step, double room, double available, double *distance)
+{
+    double reach = 0.0;
+    int n = 0;
+
+    while ((n < OUTSIDE || reach < room) && n < MOST_OUTSIDE && reach < available) {
+        reach = reach + 1.25 * step < available ? reach + step : available;
+        distance[n++] = reach;
+        step *= GROWTH;
+    }
+    return n;
+}
+
+/* Elements between two patches: they grow from either edge until they meet. */
+static double *put_between(double from, double to, double left, double right, double *end)
+{
+    double distance[2][MOST_OUTSIDE], step[2] = {left, right}, reach[2] = {0.0, 0.0};
+    int n[2] = {0, 0};
+
+    while (n[0] + n[1] < MOST_OUTSIDE) {
+        const double next = fmin(step[0], step[1]) * (1.0 + 1e-9); /* both where alike */
+        const int grows[2] = {step[0] <= next, step[1] <= next};
+        if (reach[0] + reach[1] + (grows[0] + grows[1]) * next > to - from)
+            break;
+        for (int side = 0; side < 2; side++)
+            if (grows[side]) {
+                distance[side][n[side]++] = reach[side] += step[side];
+                step[side] *= GROWTH;
+            }
+    }
+    const double stretch = (to - from) / (reach[0] + reach[1]);
+    for (int k = 0; k < n[0] - (n[1] == 0); k++)
+        *++end = from + stretch * distance[0][k];
+    for (int k = n[1] - 2; k >= 0; k--) /* the last of either side is the same */
+        *++end = to - stretch * distance[1][k];
+    *++end = to;
+    return end;
+}
+/* Elements of a patch: its share of those across the contact, and not too few of them. */
+static int elements_across(const rb_rolling_case *rc, int count,
+                           const rb_rolling_span *span, int k)
+{
+    const int all = rc->contact_elements;
+    double width = 0.0;
+
+    if (count == 1)
+        return all;
+    for (int l = 0; l < count; l++)
+        width += span[l].to - span[l].from;
+    return (int)fmax(fmax(LEAST_ACROSS, all / 4),
+                     round(all * (span[k].to - span[k].from) / width));
+}
+
+/* Length of the element beside either edge of a patch. */
+static double edge_step(const rb_rolling_span *span, int across)
+{
+    return (span->to - span->from) * gsl_pow_2(sin(0.5 * M_PI / across));
+}
+
+/* All ends, the one behind the upstream element included, from end[0] on; returns the
+ * number of contact elements. */
+static int put_ends(const rb_rolling_case *rc, int count, const rb_rolling_span *span,
+                    double *ends)
+{
+    const rb_rolling_span *last = span + count - 1;
+    double from, to, distance[MOST_OUTSIDE], *end = ends;
+
+    rb_rolling_extent(rc, &from, &to);
+    double step = edge_step(span, elements_across(rc, count, span, 0));
+    const int left = distances(step, span->room_left, span->from - from, distance);
+    for (int k = left - 1; k >= 0; k--)
+        *end++ = span->from - distance[k];
+    *end = span->from;
+    for (int k = 0; k < count; k++) {
+        const int across = elements_across(rc, count, span, k);
+        step = edge_step(span + k, across);
+        end = put_cosine(span[k].from, span[k].to, across, end);
+        if (k + 1 < count)
+            end = put_between(
+                span[k].to, span[k + 1].from, step,
+                edge_step(span + k + 1, elements_across(rc, count, span, k + 1)), end);
+    }
+    const int right = distances(step, last->room_right, to - last->to, distance);
+    for (int k = 0; k < right; k++)
+        *++end = last->to + distance[k];
+    const int n = (int)(end - ends);
+    step = GROWTH * (ends[n] - ends[n - 1]);
+    *++end = ends[n] + fmin(step, 0.5 * (lower_half(rc) - ends[n]));
+    return n;
+}
+
+rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int count,
+                                const rb_rolling_span *span, rb_rolling_mesh *mesh,
+                                rb_message *why)
+{
+    int most = (count + 1) * 2 * MOST_OUTSIDE;
+    rb_status s = check_extent(rc, span[0].from, span[count - 1].to, why);
+
+    for (int k = 0; k < count; k++)
+        most += elements_across(rc, count, span, k);
+    if (s == RB_OK)
+        s = mesh_alloc(most, mesh);
+    if (s != RB_OK)
+        return s;
+    mesh->n = put_ends(rc, count, span, mesh->ends);
+    s = rb_rolling_mesh_set_gap(rc, mesh);
+    if (s != RB_OK)
+        rb_rolling_mesh_free(mesh);
+    return s;
 }
 
 rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, double from, double to,
                                  rb_rolling_mesh *mesh, rb_message *why)
 {
-    const int across = rc->contact_elements;
-    rb_status s = check_extent(rc, from, to, why);
+    const rb_rolling_span span = {.from = from, .to = to};
 
-    if (s == RB_OK)
-        s = mesh_alloc(across + 2 * OUTSIDE, mesh);
-    if (s != RB_OK)
-        return s;
-    double *edge = mesh->ends + OUTSIDE;
-    cosine_ends(from, to, across, edge);
-    double step = edge[1] - edge[0];
-    for (int k = 1; k <= OUTSIDE; k++, step *= GROWTH)
-        edge[-k] = edge[-k + 1] - step;
-    step = edge[across] - edge[across - 1];
-    for (int k = 1; k <= OUTSIDE + 1; k++, step *= GROWTH)
-        edge[across + k] = edge[across + k - 1] + step;
-    s = check_extent(rc, mesh->ends[0], mesh->ends[mesh->n + 1], why);
-    if (s == RB_OK)
-        s = rb_rolling_mesh_set_gap(rc, mesh);
-    if (s != RB_OK)
-        rb_rolling_mesh_free(mesh);
-    return s;
+    return rb_rolling_mesh_spans(rc, 1, &span, mesh, why);
 }

@@ -294,6 +294,12 @@ void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from, d
     *to = profile->to;
 }
 
+int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x)
+{
+    *x = profile->spline->x;
+    return (int)profile->spline->size;
+}
+
 double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x)
 {
     const double inside = fmin(fmax(x, profile->from), profile->to);

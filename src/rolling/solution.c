@@ -4,11 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static double squared(double x)
-{
-    return x * x;
-}
-
 void rb_rolling_solution_free(rb_rolling_solution *s)
 {
     double *const arrays[] = {s->x,  s->h,  s->gap,   s->p,   s->q,
@@ -16,6 +11,7 @@ void rb_rolling_solution_free(rb_rolling_solution *s)
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
         free(arrays[k]);
     free(s->zone);
+    free(s->patch);
     memset(s, 0, sizeof *s);
 }
 
@@ -37,60 +33,6 @@ static rb_status solution_alloc(int n, rb_rolling_solution *s)
 
 /* ---- Scalars of the traction distribution ---------------------------------------------
  */
-
-static double midpoint(const rb_rolling_mesh *mesh, int i)
-{
-    return 0.5 * (mesh->ends[i] + mesh->ends[i + 1]);
-}
-
-/* Where the straight line of p^2 through elements i (inner) and j crosses zero.  The
- * outermost element is only partly in contact and left out. */
-static double extrapolated_edge(const rb_rolling_mesh *mesh, const double *p, int i,
-                                int j)
-{
-    const double xi = midpoint(mesh, i), xj = midpoint(mesh, j);
-    return xj - squared(p[j]) * (xj - xi) / (squared(p[j]) - squared(p[i]));
-}
-
-void rb_rolling_contact_edges(const rb_rolling_mesh *mesh, const double *p, double *from,
-                              double *to)
-{
-    int first = 0, last = mesh->n - 1;
-
-    *from = *to = NAN;
-    while (first < mesh->n && p[first] <= 0.0)
-        first++;
-    if (first == mesh->n)
-        return;
-    while (p[last] <= 0.0)
-        last--;
-    *from = mesh->ends[first];
-    *to = mesh->ends[last + 1];
-    if (last - first < 4)
-        return;
-    if (p[first + 2] > p[first + 1])
-        *from = extrapolated_edge(mesh, p, first + 2, first + 1);
-    if (p[last - 2] > p[last - 1])
-        *to = extrapolated_edge(mesh, p, last - 2, last - 1);
-}
-
-/* Vertex of the parabola of p^2 through the largest element and its neighbours: exact for
- * Hertz's ellipse. */
-double rb_rolling_peak_pressure(const rb_rolling_mesh *mesh, const double *p)
-{
-    const int k = (int)cblas_idamax(mesh->n, p, 1);
-    if (k == 0 || k == mesh->n - 1)
-        return p[k];
-    const double dl = midpoint(mesh, k - 1) - midpoint(mesh, k);
-    const double dr = midpoint(mesh, k + 1) - midpoint(mesh, k);
-    const double fl = squared(p[k - 1]) - squared(p[k]),
-                 fr = squared(p[k + 1]) - squared(p[k]);
-    const double curvature = (fl / dl - fr / dr) / (dl - dr);
-    const double gradient = fl / dl - curvature * dl;
-    if (!(curvature < 0.0))
-        return p[k];
-    return sqrt(squared(p[k]) - squared(gradient) / (4.0 * curvature));
-}
 
 void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
                              double *stick)
@@ -330,15 +272,15 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     }
     if (status == RB_OK)
         status = support_balance(model, s->normal_load, &s->support_balance);
+    if (status == RB_OK)
+        status = rb_rolling_set_patches(model, s);
     if (status != RB_OK) {
         rb_rolling_solution_free(s);
         return rb_fail(why, status, "no memory for a solution of %d elements",
                        model->mesh.n);
     }
     set_stick_limits(&model->mesh, s);
-    s->max_pressure = rb_rolling_peak_pressure(&model->mesh, s->p);
-    rb_rolling_contact_edges(&model->mesh, s->p, &s->contact_from, &s->contact_to);
-    s->half_width = 0.5 * (s->contact_to - s->contact_from);
+    s->equal_instead = model->equal_instead;
     s->slip_violations = count_violations(model, s);
     s->dissipation = rb_rolling_dissipated_power(s->formulation, s->n, s->shift, s->q,
                                                  s->h, model->problem.e_T);

@@ -305,7 +305,7 @@ static rb_status choose_box(const rb_rolling_model *model, double depth, search 
 {
     double from, to;
 
-    rb_rolling_contact_edges(&model->mesh, model->state.p, &from, &to);
+    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &from, &to);
     const double a = 0.5 * (to - from);
     if (!(a > 0.0))
         return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");

@@ -1,0 +1,290 @@
+/* Elements fitted to the patches of the contact, whose edges only a solution tells
+ * (theory.md 5.1). */
+#include "rolling/internal.h"
+
+#include <string.h>
+
+enum {
+    FIRST = 30, /* elements at least that the first edges are found with */
+    MANY_OUTER =
+        600, /* boundary elements not worth solving to learn where the contact is */
+    ROUNDS = 10,
+    MOST_PATCHES = 16
+};
+/* Edges that have come to rest, or near enough after all rounds: in lengths of the
+ * outermost elements, which are the smallest of the mesh. */
+static const double AT_REST = 0.1, NEAR_REST = 3.0;
+/* Patches nearer than this part of the wider one are fitted as one. */
+static const double NARROW = 0.02;
+
+/* Patches to fit elements to, and the lengths of the elements beside their edges. */
+typedef struct {
+    int count;
+    rb_rolling_span span[MOST_PATCHES];
+    double left[MOST_PATCHES], right[MOST_PATCHES];
+} patches;
+
+static double length_of(const rb_rolling_mesh *mesh, int i)
+{
+    return mesh->ends[i + 1] - mesh->ends[i];
+}
+
+/* An edge is known to the distance of the two midpoints around it; where no open element
+ * stands beyond it, to a part of the patch. */
+static double room_beyond(const rb_rolling_mesh *mesh, const rb_rolling_run *run,
+                          int outer, int open)
+{
+    if (open < 0 || open >= mesh->n)
+        return 0.1 * (run->to - run->from);
+    return 0.5 * (length_of(mesh, outer) + length_of(mesh, open));
+}
+
+/* 1: elements between the patches k - 1 and k would be of no use.  Under a convex gap the
+ * contact is one patch, whatever single elements beside an edge do. */
+static int are_one(const rb_rolling_case *rc, const patches *found, int k)
+{
+    const rb_rolling_span *a = &found->span[k - 1], *b = &found->span[k];
+    const double wider = fmax(a->to - a->from, b->to - b->from);
+
+    return rb_rolling_is_convex(rc) || b->from - a->to < NARROW * wider;
+}
+
+static void join(patches *found, int k)
+{
+    const size_t behind = (size_t)(--found->count - k);
+
+    found->span[k - 1].to = fmax(found->span[k - 1].to, found->span[k].to);
+    found->span[k - 1].room_right = found->span[k].room_right;
+    found->right[k - 1] = found->right[k];
+    memmove(found->span + k, found->span + k + 1, behind * sizeof *found->span);
+    memmove(found->left + k, found->left + k + 1, behind * sizeof *found->left);
+    memmove(found->right + k, found->right + k + 1, behind * sizeof *found->right);
+}
+
+/* Into the order of x, together with those that it touches.  0: there is no room. */
+static int add_patch(const rb_rolling_case *rc, const rb_rolling_span *span, double left,
+                     double right, patches *found)
+{
+    if (found->count == MOST_PATCHES)
+        return 0;
+    int k = found->count++;
+    for (; k > 0 && found->span[k - 1].from > span->from; k--) {
+        found->span[k] = found->span[k - 1];
+        found->left[k] = found->left[k - 1];
+        found->right[k] = found->right[k - 1];
+    }
+    found->span[k] = *span;
+    found->left[k] = left;
+    found->right[k] = right;
+    for (k = found->count - 1; k > 0; k--)
+        if (are_one(rc, found, k))
+            join(found, k);
+    return 1;
+}
+
+/* The patches of the model's state and, where its mesh does not hold the contact, the
+ * places where it should.  RB_EINVAL: more than elements are fitted to. */
+static rb_status find_patches(const rb_rolling_model *model, patches *found)
+{
+    const rb_rolling_mesh *mesh = &model->mesh;
+    rb_rolling_run run = {.last = -1};
+    rb_rolling_overlap overlap = {0};
+    int complete = 1;
+
+    found->count = 0;
+    while (rb_rolling_next_patch(&model->rc, mesh, &model->state, run.last + 1, &run)) {
+        const rb_rolling_span span = {
+            .from = run.from,
+            .to = run.to,
+            .room_left = room_beyond(mesh, &run, run.first, run.first - 1),
+            .room_right = room_beyond(mesh, &run, run.last, run.last + 1)};
+        complete = complete && add_patch(&model->rc, &span, length_of(mesh, run.first),
+                                         length_of(mesh, run.last), found);
+    }
+    if (model->state.status == RB_ZONE) {
+        const rb_status s = rb_rolling_find_overlap(model, &model->state, &overlap);
+        if (s != RB_OK)
+            return s;
+    }
+    for (int k = 0; k < overlap.count; k++) {
+        const double room = 0.1 * (overlap.to[k] - overlap.from[k]);
+        const rb_rolling_span span = {overlap.from[k], overlap.to[k], room, room};
+        complete = complete && add_patch(&model->rc, &span, room, room, found);
+    }
+    return complete ? RB_OK : RB_EINVAL;
+}
+
+/* ---- One edge ------------------------------------------------------------------------
+ */
+
+/* Outward positions of fitted edges beyond which the contact was found to go, and those
+ * that it was found not to reach. */
+typedef struct {
+    double inner, outer;
+} bracket;
+
+/* The edge that a mesh should be fitted to, as a function of the one that it was fitted
+ * to, jumps where another element becomes the last in contact, and mostly it crosses the
+ * identity there: so the fixed point is bracketed.  Results are best on the outer side of
+ * the jump.  fitted, found: outward positions; h: element beside the edge.  Returns how
+ * far from rest the edge is, in elements, and where to fit next. */
+static double refine(double found, double h, double *fitted, bracket *b)
+{
+    const double moved = fabs(found - *fitted) / h;
+
+    if (moved > 2.0)
+        *b = (bracket){-INFINITY, INFINITY};
+    if (found > *fitted)
+        b->inner = fmax(b->inner, *fitted);
+    else
+        b->outer = fmin(b->outer, *fitted);
+    if (moved < AT_REST)
+        return moved;
+    if (b->outer - b->inner < AT_REST * h) {
+        const int rests = *fitted == b->outer;
+        *fitted = b->outer;
+        return rests ? 0.0 : moved;
+    }
+    const int is_inside = found > b->inner && found < b->outer;
+    *fitted = is_inside ? found : 0.5 * (b->inner + b->outer);
+    return moved;
+}
+
+typedef struct {
+    bracket left, right;
+} brackets;
+
+static void forget(brackets *known)
+{
+    const bracket open = {-INFINITY, INFINITY};
+
+    for (int k = 0; k < MOST_PATCHES; k++)
+        known[k] = (brackets){open, open};
+}
+
+/* The next edges to fit to; returns how far the worst one is from rest. */
+static double refine_all(const patches *found, brackets *known, patches *fitted)
+{
+    double worst = 0.0;
+
+    for (int k = 0; k < fitted->count; k++) {
+        const rb_rolling_span *now = &found->span[k];
+        rb_rolling_span *span = &fitted->span[k];
+        double left = -span->from;
+        worst = fmax(worst, refine(-now->from, found->left[k], &left, &known[k].left));
+        worst = fmax(worst, refine(now->to, found->right[k], &span->to, &known[k].right));
+        span->from = -left;
+        span->room_left = now->room_left;
+        span->room_right = now->room_right;
+    }
+    return worst;
+}
+
+/* ---- All of them ---------------------------------------------------------------------
+ */
+
+/* On a mesh that ends somewhere a corner of a punch can be a solution as well.  Where the
+ * solver finds that one, the zones of the solution that the mesh was fitted to lead to
+ * the other one. */
+static rb_status solve_on(rb_rolling_model *model, const patches *now, rb_message *why)
+{
+    rb_rolling_mesh mesh, old_mesh = model->mesh;
+    rb_rolling_state old = model->state;
+    const int was_enclosed = old.status == RB_OK;
+    rb_status s = rb_rolling_mesh_spans(&model->rc, now->count, now->span, &mesh, why);
+
+    if (s != RB_OK)
+        return s;
+    memset(&model->mesh, 0, sizeof model->mesh);
+    memset(&model->state, 0, sizeof model->state);
+    s = rb_rolling_model_build(model, &mesh, why);
+    if (s == RB_ZONE && was_enclosed) {
+        rb_rolling_start_from(&model->rc, &old_mesh, &old, &model->mesh, &model->state);
+        s = rb_rolling_model_resolve(model, 1, why);
+    }
+    rb_rolling_mesh_free(&old_mesh);
+    rb_rolling_state_free(&old);
+    return s;
+}
+
+/* From a solution to elements fitted to its edges, until these rest.  *rest: 0 where they
+ * do not. */
+static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
+{
+    patches fitted, found;
+    brackets known[MOST_PATCHES];
+    double moved = INFINITY;
+
+    *rest = 0;
+    forget(known);
+    if (find_patches(model, &fitted) != RB_OK)
+        return RB_OK;
+    for (int round = 0; round < ROUNDS && !*rest; round++) {
+        const rb_status s = solve_on(model, &fitted, why);
+        if (s != RB_OK && s != RB_ZONE)
+            return s;
+        if (find_patches(model, &found) != RB_OK)
+            return RB_OK;
+        if (s == RB_OK && found.count == fitted.count) {
+            moved = refine_all(&found, known, &fitted);
+            *rest = moved < (round + 1 < ROUNDS ? AT_REST : NEAR_REST);
+        } else {
+            forget(known);
+            fitted = found;
+        }
+    }
+    return RB_OK;
+}
+
+/* As many equal elements across the contact. */
+static rb_status solve_equal_instead(rb_rolling_model *model, rb_message *why)
+{
+    const int wanted = model->rc.contact_elements;
+
+    model->rc.contact_elements = (int)ceil(1.3 * wanted);
+    const rb_status s = rb_rolling_solve_zone(model, 0, why);
+    model->rc.contact_elements = wanted;
+    return s;
+}
+
+rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
+{
+    int rest;
+    const rb_status s = fit(model, &rest, why);
+
+    model->equal_instead = !rest;
+    return s != RB_OK || rest ? s : solve_equal_instead(model, why);
+}
+
+/* A coarse solution to fit to: where the rest of a wheel has many elements, with few of
+ * them. */
+static rb_status solve_first(rb_rolling_model *model, rb_message *why)
+{
+    const rb_rolling_case rc = model->rc;
+
+    if (rc.zone == 0.0) {
+        model->rc.contact_elements = (int)fmax(FIRST, rc.contact_elements / 2);
+        model->rc.near_field = RB_NEAR_FIELD_PLAIN;
+        if (rc.outer_elements > MANY_OUTER)
+            model->rc.outer_elements = 0;
+    }
+    const rb_status s = rb_rolling_solve_zone(model, 1, why);
+    model->rc.contact_elements = rc.contact_elements;
+    model->rc.near_field = rc.near_field;
+    return s;
+}
+
+rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
+{
+    const int outer = model->rc.outer_elements;
+    rb_status s = solve_first(model, why);
+
+    if (s == RB_OK)
+        s = rb_rolling_model_refit(model, why);
+    if (s == RB_OK && model->rc.outer_elements != outer) {
+        model->rc.outer_elements = outer;
+        s = model->equal_instead ? solve_equal_instead(model, why)
+                                 : rb_rolling_model_refit(model, why);
+    }
+    return s;
+}

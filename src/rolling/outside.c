@@ -1,0 +1,395 @@
+/* The gap beyond the elements that could carry load: under a table the bodies may touch
+ * at places where nobody has looked (theory.md 5.1). */
+#include "rolling/internal.h"
+
+#include <cblas.h>
+#include <gsl/gsl_math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MOST_STRIPS = 1024, /* that stand for the loaded elements, seen from afar */
+    BLOCK = 64,         /* places at a time */
+    BETWEEN = 4,        /* places from one row of the table to the next */
+    MOST_PLACES = 20000
+};
+/* Part of the undeformed gap at the edge of Hertz's contact: a patch that overlaps less
+ * would carry next to nothing. */
+static const double NEGLIGIBLE = 1e-3;
+
+/* ---- Displacement of the surfaces away from the contact -------------------------------
+ */
+
+/* Elements in groups with the mean of their tractions. */
+typedef struct {
+    int n;
+    double *ends, *p, *q; /* owned: ends holds them all */
+} strips;
+
+static rb_status gather_strips(const rb_rolling_mesh *mesh, const rb_rolling_state *state,
+                               strips *s)
+{
+    const int group = (mesh->n + MOST_STRIPS - 1) / MOST_STRIPS;
+
+    s->n = (mesh->n + group - 1) / group;
+    s->ends = rb_alloc((size_t)s->n + 1, 3);
+    if (!s->ends)
+        return RB_ENOMEM;
+    s->p = s->ends + s->n + 1;
+    s->q = s->p + s->n;
+    for (int k = 0; k < s->n; k++) {
+        const int first = k * group;
+        const int last = first + group < mesh->n ? first + group : mesh->n;
+        s->ends[k] = mesh->ends[first];
+        s->ends[k + 1] = mesh->ends[last];
+        for (int i = first; i < last; i++) {
+            const double share =
+                (mesh->ends[i + 1] - mesh->ends[i]) / (s->ends[k + 1] - s->ends[k]);
+            s->p[k] += share * state->p[i];
+            s->q[k] += share * state->q[i];
+        }
+    }
+    return RB_OK;
+}
+
+/* w += w_N of a half-plane at the places x. */
+static rb_status add_halfplane(const rb_rolling_case *rc, const rb_rolling_body *body,
+                               double coupling, const strips *s, int places,
+                               const double *x, double *w)
+{
+    double length[RB_ROLLING_TERMS];
+    const rb_bem_surface surface = rb_rolling_surface_of(rc, body, length);
+    double *W = rb_alloc(2 * BLOCK, 2 * (size_t)s->n);
+    rb_status status = W ? RB_OK : RB_ENOMEM;
+
+    for (int first = 0; first < places && status == RB_OK; first += BLOCK) {
+        const int m = places - first < BLOCK ? places - first : BLOCK;
+        status = rb_bem_surface_displacement(&surface, s->n, s->ends, m, x + first, W);
+        if (status != RB_OK)
+            break;
+        cblas_dgemv(CblasColMajor, CblasNoTrans, m, s->n, 1.0, W, 2 * m, s->p, 1, 1.0,
+                    w + first, 1);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, m, s->n, coupling,
+                    W + 2 * (size_t)m * (size_t)s->n, 2 * m, s->q, 1, 1.0, w + first, 1);
+    }
+    free(W);
+    return status;
+}
+
+typedef struct {
+    double x, u;
+} point;
+
+static int by_x(const void *a, const void *b)
+{
+    const double x = ((const point *)a)->x, y = ((const point *)b)->x;
+    return (x > y) - (x < y);
+}
+
+/* w += values at x of the line through n points. */
+static void add_line(int n, const point *at, int places, const double *x, double *w)
+{
+    for (int i = 0; i < places; i++) {
+        int k = 0;
+        for (int end = n - 1; end - k > 1;) {
+            const int middle = (k + end) / 2;
+            *(at[middle].x <= x[i] ? &k : &end) = middle;
+        }
+        const double t = (x[i] - at[k].x) / (at[k + 1].x - at[k].x);
+        w[i] += at[k].u + t * (at[k + 1].u - at[k].u);
+    }
+}
+
+/* w += vertical displacement of the lower half of a wheel under contact tractions t_c. */
+static rb_status add_wheel(const rb_bem_system *system, double radius, const double *t_c,
+                           int places, const double *x, double *w)
+{
+    const rb_bem_mesh *mesh = rb_bem_system_mesh(system);
+    const size_t n = (size_t)mesh->n;
+    double *u = rb_alloc(2 * n, 2);
+    point *at = calloc(n, sizeof *at);
+    rb_status s = u && at ? rb_bem_system_solve(system, t_c, u, u + 2 * n) : RB_ENOMEM;
+    int lower = 0;
+
+    for (int j = 0; j < mesh->n && s == RB_OK; j++) {
+        const double mx = 0.5 * (mesh->x0[j] + mesh->x1[j]);
+        const double my = 0.5 * (mesh->y0[j] + mesh->y1[j]);
+        const int is_rim =
+            hypot(mesh->x0[j], mesh->y0[j] - radius) > (1.0 - 1e-9) * radius;
+        if (is_rim && my < radius)
+            at[lower++] = (point){mx, u[2 * j + 1]};
+    }
+    if (lower > 1) {
+        qsort(at, (size_t)lower, sizeof *at, by_x);
+        add_line(lower, at, places, x, w);
+    }
+    free(at);
+    free(u);
+    return s;
+}
+
+/* w += w_N of one body.  coupling: -1 for body B, which is mirrored. */
+static rb_status add_body(const rb_rolling_model *model, const rb_rolling_state *state,
+                          const rb_rolling_body *body, const rb_bem_system *system,
+                          double coupling, const strips *s, int places, const double *x,
+                          double *w)
+{
+    if (!system)
+        return add_halfplane(&model->rc, body, coupling, s, places, x, w);
+    const int n = model->mesh.n;
+    double *t_c = rb_alloc(2 * (size_t)n, 1);
+    if (!t_c)
+        return RB_ENOMEM;
+    for (int i = 0; i < n; i++) {
+        t_c[2 * i] = coupling * state->q[i];
+        t_c[2 * i + 1] = state->p[i];
+    }
+    const rb_status status = add_wheel(system, body->radius, t_c, places, x, w);
+    free(t_c);
+    return status;
+}
+
+/* w += w_N of both bodies. */
+static rb_status add_bodies(const rb_rolling_model *model, const rb_rolling_state *state,
+                            const strips *s, int places, const double *x, double *w)
+{
+    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_bodies *b = &model->bodies;
+    rb_status status = add_body(model, state, &rc->a, b->system_a, 1.0, s, places, x, w);
+
+    if (status == RB_OK && rc->elastic_b)
+        status = add_body(model, state, &rc->b, b->system_b, -1.0, s, places, x, w);
+    return status;
+}
+
+/* Pressed half-planes are displaced the less the further away: between from and to
+ * nowhere less than at that length from either end.  A bound for wheels is not needed:
+ * all their places cost one solve. */
+static rb_status least_displacement(const rb_rolling_model *model,
+                                    const rb_rolling_state *state, const strips *s,
+                                    double from, double to, double *least)
+{
+    const double x[2] = {2.0 * from - to, 2.0 * to - from};
+    double w[2] = {0.0, 0.0};
+
+    *least = -INFINITY;
+    if (model->bodies.system_a || model->bodies.system_b ||
+        !rb_rolling_is_homogeneous(&model->rc))
+        return RB_OK;
+    const rb_status status = add_bodies(model, state, s, 2, x, w);
+    *least = fmin(w[0], w[1]);
+    return status;
+}
+
+/* w: w_N at the places x, whose last two are the outermost midpoints of the mesh.  There
+ * the flexibility is known, from which the boundary elements of a wheel differ a little:
+ * the difference is taken off all along. */
+static rb_status displacement(const rb_rolling_model *model,
+                              const rb_rolling_state *state, const strips *s, int places,
+                              const double *x, double *w)
+{
+    const int n = model->mesh.n, left = places - 2, right = places - 1;
+    double *own = rb_alloc(2 * (size_t)n + 2, 1);
+    rb_status status = own ? add_bodies(model, state, s, places, x, w) : RB_ENOMEM;
+
+    if (status == RB_OK)
+        status = rb_rolling_displacement(&model->bodies, state->p, state->q, own);
+    if (status == RB_OK) {
+        const double off[2] = {own[0] - w[left], own[n - 1] - w[right]};
+        for (int i = 0; i < places; i++) {
+            const double t = (x[i] - x[left]) / (x[right] - x[left]);
+            w[i] += off[0] + fmin(1.0, fmax(0.0, t)) * (off[1] - off[0]);
+        }
+    }
+    free(own);
+    return status;
+}
+
+/* ---- Where nobody has looked ---------------------------------------------------------
+ */
+
+/* Element of the mesh that x lies in; -1, n: before and behind all. */
+static int element_at(const rb_rolling_mesh *mesh, double x)
+{
+    int from = -1, to = mesh->n;
+
+    if (x < mesh->ends[0])
+        return -1;
+    while (to - from > 1) {
+        const int middle = (from + to) / 2;
+        *(mesh->ends[middle] <= x ? &from : &to) = middle;
+    }
+    return x < mesh->ends[mesh->n] ? from : mesh->n;
+}
+
+static double shortest(const rb_rolling_mesh *mesh)
+{
+    double h = INFINITY;
+    for (int i = 0; i < mesh->n; i++)
+        h = fmin(h, mesh->ends[i + 1] - mesh->ends[i]);
+    return h;
+}
+
+static int is_loaded(const rb_rolling_state *state, int i)
+{
+    return i >= 0 && i < state->n && state->zone[i] != RB_ZONE_SEPARATED;
+}
+
+/* 1 beyond the mesh and in open elements much longer than the shortest, which see the gap
+ * at their midpoints only. */
+static int is_unseen(const rb_rolling_mesh *mesh, const rb_rolling_state *state, double h,
+                     double x)
+{
+    const int i = element_at(mesh, x);
+
+    if (i < 0 || i >= mesh->n)
+        return 1;
+    return !is_loaded(state, i - 1) && !is_loaded(state, i) && !is_loaded(state, i + 1) &&
+           mesh->ends[i + 1] - mesh->ends[i] > 2.0 * h;
+}
+
+static size_t most_places(int rows)
+{
+    return (size_t)fmin(BETWEEN * (double)rows, MOST_PLACES) + BETWEEN;
+}
+
+/* Appends the rows of a table and places between them, thinned out where they are very
+ * many; returns how many places there are now. */
+static int add_places(const rb_rolling_model *model, const rb_rolling_state *state,
+                      int rows, const double *row, double passed, double *x, int n)
+{
+    const double h = shortest(&model->mesh);
+    const int all = BETWEEN * (rows - 1), stride = 1 + all / MOST_PLACES;
+    double from, to;
+
+    rb_rolling_extent(&model->rc, &from, &to);
+    for (int k = 0; k <= all; k += stride) {
+        const int r = k < all ? k / BETWEEN : rows - 2;
+        const double t = (double)(k - BETWEEN * r) / BETWEEN;
+        const double place = row[r] + t * (row[r + 1] - row[r]) - passed;
+        if (place >= from && place <= to && is_unseen(&model->mesh, state, h, place))
+            x[n++] = place;
+    }
+    return n;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The rows of the profile and of the irregularity. */
+typedef struct {
+    int profile, irregularity;
+    const double *profile_x;
+} tables;
+
+static tables tables_of(const rb_rolling_case *rc)
+{
+    tables t = {.irregularity = rc->irregularity_n};
+
+    if (rc->gap == RB_GAP_TABLE)
+        t.profile = rb_rolling_profile_rows(rc->profile, &t.profile_x);
+    return t;
+}
+
+/* Places of both tables in order, and the undeformed gap there. */
+static rb_status unseen_places(const rb_rolling_model *model,
+                               const rb_rolling_state *state, int *places, double *x,
+                               double *gap)
+{
+    const rb_rolling_case *rc = &model->rc;
+    const tables t = tables_of(rc);
+
+    *places = 0;
+    if (t.profile > 0)
+        *places = add_places(model, state, t.profile, t.profile_x, 0.0, x, 0);
+    if (t.irregularity > 0)
+        *places = add_places(model, state, t.irregularity, rc->irregularity_x, rc->passed,
+                             x, *places);
+    qsort(x, (size_t)*places, sizeof *x, by_value);
+    return rb_rolling_gap_along(rc, *places, x, gap);
+}
+
+/* Leaves the places whose gap is less than `reach`. */
+static int within_reach(int places, double reach, double *x, double *gap)
+{
+    int n = 0;
+
+    for (int i = 0; i < places; i++)
+        if (gap[i] < reach) {
+            x[n] = x[i];
+            gap[n++] = gap[i];
+        }
+    return n;
+}
+
+/* Neighbouring places of overlap as one stretch, reaching to the next places without. */
+static void add_place(const double *x, int places, int i, rb_rolling_overlap *o)
+{
+    const double from = i > 0 ? x[i - 1] : x[i], to = i + 1 < places ? x[i + 1] : x[i];
+    const int last = o->count - 1;
+
+    if (o->count > 0 && (from <= o->to[last] || o->count == RB_MOST_OVERLAPS))
+        o->to[last] = to;
+    else {
+        o->from[o->count] = from;
+        o->to[o->count++] = to;
+    }
+}
+
+/* Of undeformed gaps: the one at the edge of Hertz's contact under the state's load. */
+static double hertz_edge_gap(const rb_rolling_model *model, const rb_rolling_state *state)
+{
+    const double P = cblas_ddot(state->n, model->problem.load_N, 1, state->p, 1);
+
+    return 2.0 * fmax(P, 0.0) / (M_PI * rb_rolling_contact_modulus(&model->rc));
+}
+
+/* The same in the room for x, w and gap. */
+static rb_status look(const rb_rolling_model *model, const rb_rolling_state *state,
+                      const strips *s, size_t room, double *x, rb_rolling_overlap *o)
+{
+    const rb_rolling_mesh *mesh = &model->mesh;
+    const double tolerance = NEGLIGIBLE * hertz_edge_gap(model, state);
+    double *w = x + room, *gap = w + room, least;
+    int places;
+    rb_status status = unseen_places(model, state, &places, x, gap);
+
+    if (status != RB_OK || places == 0)
+        return status;
+    status = least_displacement(model, state, s, fmin(x[0], mesh->ends[0]),
+                                fmax(x[places - 1], mesh->ends[mesh->n]), &least);
+    if (status != RB_OK)
+        return status;
+    places = within_reach(places, state->delta - least, x, gap);
+    x[places] = model->bodies.f.x[0];
+    x[places + 1] = model->bodies.f.x[mesh->n - 1];
+    if (places > 0)
+        status = displacement(model, state, s, places + 2, x, w);
+    for (int i = 0; i < places && status == RB_OK; i++)
+        if (gap[i] - state->delta + w[i] < -tolerance)
+            add_place(x, places, i, o);
+    return status;
+}
+
+rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
+                                  const rb_rolling_state *state, rb_rolling_overlap *o)
+{
+    const rb_rolling_case *rc = &model->rc;
+    strips s = {0};
+
+    o->count = 0;
+    if (rb_rolling_is_convex(rc) || model->mesh.n < 2)
+        return RB_OK;
+    const tables t = tables_of(rc);
+    const size_t room = most_places(t.profile) + most_places(t.irregularity) + 2;
+    double *x = rb_alloc(room, 3);
+    rb_status status = x ? gather_strips(&model->mesh, state, &s) : RB_ENOMEM;
+    if (status == RB_OK)
+        status = look(model, state, &s, room, x, o);
+    free(s.ends);
+    free(x);
+    return status;
+}

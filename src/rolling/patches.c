@@ -1,0 +1,195 @@
+/* Where the contact begins and ends: its patches and their edges (theory.md 5.1). */
+#include "rolling/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <stdlib.h>
+
+/* An exponent of the pressure at an edge below which it is steep there. */
+static const double STEEP = 0.45;
+
+static double midpoint(const rb_rolling_mesh *mesh, int i)
+{
+    return 0.5 * (mesh->ends[i] + mesh->ends[i + 1]);
+}
+
+/* (E1) Where A slides with q = -+mu p up to the edge on the side `side` (-1 left, +1
+ * right), p falls there like the distance to the power 1/2 + side atan(beta q/p)/pi;
+ * without friction, without coupling and in stick like a square root.  i, j: elements
+ * near the edge, a slip zone that is shorter than they are does not count. */
+static double edge_exponent(double beta, const rb_rolling_state *state, int i, int j,
+                            int side)
+{
+    const int slides =
+        state->zone[j] != RB_ZONE_STICK && state->zone[i] == state->zone[j];
+
+    return slides ? 0.5 + side * atan(beta * state->q[j] / state->p[j]) / M_PI : 0.5;
+}
+
+/* Where the power law through elements i and j, the outer one, reaches zero. */
+static double zero_of(const rb_rolling_mesh *mesh, const double *p, int i, int j,
+                      double exponent)
+{
+    const double fall = pow(p[j] / p[i], 1.0 / exponent);
+
+    return midpoint(mesh, j) +
+           (midpoint(mesh, j) - midpoint(mesh, i)) * fall / (1.0 - fall);
+}
+
+/* The edge of the run whose outermost element on that side is `outer`.  This element is
+ * only partly in contact, so the power law goes through the next two, or where it is
+ * steep through the two behind its neighbour, which then is disturbed too.  Contact is
+ * decided at midpoints: the edge lies between those of the last loaded and of the first
+ * open element.  *bounded: set where this interval is all that is known, because p does
+ * not fall or the power law misses the interval by more than its length. */
+static double edge(double beta, const rb_rolling_mesh *mesh,
+                   const rb_rolling_state *state, int outer, int side, int length,
+                   int *bounded)
+{
+    const int open = outer + side;
+    const double end = mesh->ends[side > 0 ? outer + 1 : outer];
+    const double nearest = midpoint(mesh, outer);
+    const double farthest = open >= 0 && open < mesh->n ? midpoint(mesh, open) : end;
+    int j = outer - side;
+
+    if (length < 5) {
+        *bounded = 1;
+        return end;
+    }
+    const double exponent = edge_exponent(beta, state, j - side, j, side);
+    if (exponent < STEEP)
+        j -= side;
+    if (!(state->p[j] < state->p[j - side])) {
+        *bounded = 1;
+        return end;
+    }
+    const double x = zero_of(mesh, state->p, j - side, j, exponent);
+    const double off = fmax(side * (nearest - x), side * (x - farthest));
+    *bounded |= off > fabs(farthest - nearest);
+    return side > 0 ? fmin(fmax(x, nearest), farthest) : fmax(fmin(x, nearest), farthest);
+}
+
+int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                          const rb_rolling_state *state, int at, rb_rolling_run *run)
+{
+    const double beta = rb_rolling_dundurs(rc);
+
+    while (at < state->n && state->zone[at] == RB_ZONE_SEPARATED)
+        at++;
+    if (at >= state->n)
+        return 0;
+    *run = (rb_rolling_run){.first = at};
+    while (at < state->n && state->zone[at] != RB_ZONE_SEPARATED)
+        at++;
+    run->last = at - 1;
+    const int length = at - run->first;
+    run->from = edge(beta, mesh, state, run->first, -1, length, &run->bounded);
+    run->to = edge(beta, mesh, state, run->last, 1, length, &run->bounded);
+    return 1;
+}
+
+void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                              const rb_rolling_state *state, double *from, double *to)
+{
+    rb_rolling_run run = {.last = -1};
+
+    *from = *to = NAN;
+    for (int at = 0; rb_rolling_next_patch(rc, mesh, state, at, &run);
+         at = run.last + 1) {
+        if (isnan(*from))
+            *from = run.from;
+        *to = run.to;
+    }
+}
+
+/* ---- Results -------------------------------------------------------------------------
+ */
+
+/* Vertex of the parabola of p^2 through the largest element and its neighbours: exact for
+ * Hertz's ellipse. */
+static void set_peak(const rb_rolling_mesh *mesh, const double *p,
+                     const rb_rolling_run *run, rb_rolling_patch *patch)
+{
+    int k = run->first;
+
+    for (int i = run->first; i <= run->last; i++)
+        k = p[i] > p[k] ? i : k;
+    patch->max_pressure = p[k];
+    patch->peak = midpoint(mesh, k);
+    if (k == 0 || k == mesh->n - 1)
+        return;
+    const double dl = midpoint(mesh, k - 1) - midpoint(mesh, k);
+    const double dr = midpoint(mesh, k + 1) - midpoint(mesh, k);
+    const double fl = gsl_pow_2(p[k - 1]) - gsl_pow_2(p[k]),
+                 fr = gsl_pow_2(p[k + 1]) - gsl_pow_2(p[k]);
+    const double curvature = (fl / dl - fr / dr) / (dl - dr);
+    const double gradient = fl / dl - curvature * dl;
+    if (!(curvature < 0.0))
+        return;
+    patch->max_pressure = sqrt(gsl_pow_2(p[k]) - gsl_pow_2(gradient) / (4.0 * curvature));
+    patch->peak -= gradient / (2.0 * curvature);
+}
+
+static rb_rolling_patch patch_of(const rb_rolling_model *model, const rb_rolling_run *run)
+{
+    const rb_rolling_problem *problem = &model->problem;
+    const rb_rolling_state *state = &model->state;
+    rb_rolling_patch patch = {.from = run->from, .to = run->to};
+
+    for (int i = run->first; i <= run->last; i++) {
+        patch.normal_load +=
+            problem->load_N[i] * state->p[i] + problem->load_T[i] * state->q[i];
+        patch.tangential_load +=
+            problem->force_N[i] * state->p[i] + problem->force_T[i] * state->q[i];
+        patch.stick += state->zone[i] == RB_ZONE_STICK;
+    }
+    patch.contact = run->last - run->first + 1;
+    set_peak(&model->mesh, state->p, run, &patch);
+    return patch;
+}
+
+static int count_patches(const rb_rolling_model *model)
+{
+    rb_rolling_run run = {.last = -1};
+    int count = 0;
+
+    while (rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, run.last + 1,
+                                 &run))
+        count++;
+    return count;
+}
+
+double rb_rolling_peak_pressure(const rb_rolling_model *model)
+{
+    rb_rolling_run run = {.last = -1};
+    rb_rolling_patch patch;
+    double p0 = 0.0;
+
+    while (rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, run.last + 1,
+                                 &run)) {
+        set_peak(&model->mesh, model->state.p, &run, &patch);
+        p0 = fmax(p0, patch.max_pressure);
+    }
+    return p0;
+}
+
+rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solution *s)
+{
+    rb_rolling_run run = {.last = -1};
+
+    s->contact_from = s->contact_to = NAN;
+    s->max_pressure = 0.0;
+    s->patch = calloc((size_t)count_patches(model) + 1, sizeof *s->patch);
+    if (!s->patch)
+        return RB_ENOMEM;
+    while (rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, run.last + 1,
+                                 &run)) {
+        const rb_rolling_patch patch = patch_of(model, &run);
+        s->contact_from = s->patches ? s->contact_from : patch.from;
+        s->contact_to = patch.to;
+        s->max_pressure = fmax(s->max_pressure, patch.max_pressure);
+        s->edges_bounded |= run.bounded;
+        s->patch[s->patches++] = patch;
+    }
+    s->half_width = 0.5 * (s->contact_to - s->contact_from);
+    return RB_OK;
+}

@@ -1,0 +1,373 @@
+/* The potential contact: where elements must stand so that every place where the bodies
+ * touch has some (theory.md 5.1). */
+#include "rolling/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    ROUNDS = 24,
+    SEPARATED_AT_END = 3, /* elements that a chosen potential contact ends with */
+    MANY_OUTER = 600,     /* elements not worth solving to learn where the contact is */
+    MOST_EQUAL = 3000     /* with a dense matrix, to resolve patches far apart */
+};
+
+typedef struct {
+    double from, to;
+} interval;
+
+static double width(interval zone)
+{
+    return zone.to - zone.from;
+}
+
+/* Measured profiles have no axis of symmetry; the others have one at x = 0, and so has
+ * the potential contact. */
+static int is_symmetric(const rb_rolling_case *rc)
+{
+    return rc->gap != RB_GAP_TABLE;
+}
+
+static interval extent(const rb_rolling_case *rc)
+{
+    interval all;
+
+    rb_rolling_extent(rc, &all.from, &all.to);
+    return all;
+}
+
+/* About its middle. */
+static interval scaled(interval zone, double factor)
+{
+    const double middle = 0.5 * (zone.from + zone.to), half = 0.5 * width(zone);
+    return (interval){middle - factor * half, middle + factor * half};
+}
+
+static interval within(interval zone, interval limit)
+{
+    return (interval){fmax(zone.from, limit.from), fmin(zone.to, limit.to)};
+}
+
+/* ---- Where the elements end ---------------------------------------------------------
+ */
+
+static int is_loaded(const rb_rolling_state *state, int i)
+{
+    return state->zone[i] != RB_ZONE_SEPARATED;
+}
+
+static rb_status check_end(const rb_rolling_model *model, const rb_rolling_state *state,
+                           int right, rb_message *why)
+{
+    const int n = model->mesh.n;
+    const interval limit = extent(&model->rc);
+    const double x = model->mesh.ends[right ? n : 0];
+    const double rounding = 1e-9 * width(limit);
+    const int no_room = right ? x >= limit.to - rounding : x <= limit.from + rounding;
+
+    if (!is_loaded(state, right ? n - 1 : 0))
+        return RB_OK;
+    if (no_room && model->rc.gap == RB_GAP_TABLE)
+        return rb_fail(why, RB_ZONE,
+                       "the contact reaches x = %g, and the gap table or the wheel has x "
+                       "from %g to %g only",
+                       x, limit.from, limit.to);
+    if (no_room)
+        return rb_fail(why, RB_ZONE,
+                       "the contact does not end within %g of the lowest point", fabs(x));
+    return rb_fail(
+        why, RB_ZONE,
+        "the contact reaches the end of the potential contact at x = %g; widen the zone",
+        x);
+}
+
+rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
+                                    const rb_rolling_state *state, rb_message *why)
+{
+    rb_rolling_overlap overlap;
+    rb_status s = check_end(model, state, 0, why);
+
+    if (s == RB_OK)
+        s = check_end(model, state, 1, why);
+    if (s == RB_OK)
+        s = rb_rolling_find_overlap(model, state, &overlap);
+    if (s == RB_OK && overlap.count > 0)
+        s = rb_fail(why, RB_ZONE,
+                    "the bodies overlap from x = %g to %g, outside the potential "
+                    "contact; widen the zone",
+                    overlap.from[0], overlap.to[0]);
+    return s;
+}
+
+/* Elements without contact at either end; n of them if there is no contact. */
+static void separated_at_ends(const rb_rolling_state *state, int *left, int *right)
+{
+    *left = *right = 0;
+    while (*left < state->n && !is_loaded(state, *left))
+        ++*left;
+    while (*right < state->n && !is_loaded(state, state->n - 1 - *right))
+        ++*right;
+}
+
+static int is_open(const rb_rolling_model *model)
+{
+    int left, right;
+
+    separated_at_ends(&model->state, &left, &right);
+    return left == model->state.n;
+}
+
+/* ---- Equal elements -----------------------------------------------------------------
+ */
+
+/* Lengths of all patches together, and how many there are. */
+static int covered(const rb_rolling_model *model, double *length)
+{
+    rb_rolling_run run = {.last = -1};
+    int count = 0;
+
+    *length = 0.0;
+    for (; rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, run.last + 1,
+                                 &run);
+         count++)
+        *length += run.to - run.from;
+    return count;
+}
+
+/* Patches with separated elements between them get elements as short as if they lay side
+ * by side. */
+static int elements_for(const rb_rolling_model *model, interval zone)
+{
+    const int n = model->rc.contact_elements;
+    double length;
+
+    if (covered(model, &length) < 2)
+        return n;
+    return (int)fmin(1 << 24, fmax(n, ceil(n * width(zone) / (1.5 * length))));
+}
+
+/* 1: so many elements are too many for a dense matrix. */
+static int are_too_many(const rb_rolling_case *rc, int elements)
+{
+    const rb_rolling_mesh mesh = {.n = elements};
+
+    return elements > rc->contact_elements && elements > MOST_EQUAL &&
+           !rb_rolling_is_large(rc, &mesh);
+}
+
+static rb_status solve_equal(rb_rolling_model *model, interval zone, int elements,
+                             rb_message *why)
+{
+    rb_rolling_case rc = model->rc;
+    rb_rolling_mesh mesh;
+
+    rc.contact_elements = elements;
+    const rb_status s = rb_rolling_mesh_uniform(&rc, zone.from, zone.to, &mesh, why);
+    return s == RB_OK ? rb_rolling_model_build(model, &mesh, why) : s;
+}
+
+/* ---- The first potential contact ----------------------------------------------------
+ */
+
+/* Where the gap reaches `level` between x, where it is less, and x + step. */
+static double crossing(const rb_rolling_case *rc, double x, double step, double level)
+{
+    for (int k = 0; k < 50; k++) {
+        step *= 0.5;
+        if (rb_rolling_initial_gap(rc, x + step) <= level)
+            x += step;
+    }
+    return x;
+}
+
+/* Where the undeformed gap is less than at the edge of Hertz's contact, a^2/(2R): this is
+ * 2P/(pi E*) and does not depend on the radius. */
+static interval near_gap(const rb_rolling_case *rc, double a, interval limit)
+{
+    enum { POINTS = 4096 };
+    const double step = width(limit) / POINTS;
+    int lowest = 0, first = 0, last = POINTS;
+    double least = INFINITY;
+
+    for (int k = 0; k <= POINTS; k++)
+        if (rb_rolling_initial_gap(rc, limit.from + k * step) < least) {
+            least = rb_rolling_initial_gap(rc, limit.from + k * step);
+            lowest = k;
+        }
+    double level = least + 0.5 * a * a / rb_rolling_radius(rc);
+    if (!isnan(
+            rb_rolling_wanted_approach(rc))) /* beyond it not even rigid bodies touch */
+        level = fmin(level, rb_rolling_wanted_approach(rc));
+    while (first < lowest &&
+           rb_rolling_initial_gap(rc, limit.from + first * step) > level)
+        first++;
+    while (last > lowest && rb_rolling_initial_gap(rc, limit.from + last * step) > level)
+        last--;
+    const interval zone = {crossing(rc, limit.from + first * step, -step, level),
+                           crossing(rc, limit.from + last * step, step, level)};
+    return within(width(zone) > 0.0 ? zone : (interval){zone.from - step, zone.to + step},
+                  limit);
+}
+
+static interval first_zone(const rb_rolling_case *rc)
+{
+    const double a = rb_rolling_estimate_half_width(rc);
+    const interval limit = extent(rc);
+    interval zone = {-a, a};
+
+    if (!is_symmetric(rc))
+        zone = near_gap(rc, a, limit);
+    return within(scaled(zone, 1.3), limit);
+}
+
+/* ---- The automatic one --------------------------------------------------------------
+ */
+
+/* The zone grown where fewer than three separated elements stand at its end. */
+static interval grown_at_ends(const rb_rolling_model *model, interval zone)
+{
+    int left, right;
+
+    separated_at_ends(&model->state, &left, &right);
+    const int at_left = left < SEPARATED_AT_END, at_right = right < SEPARATED_AT_END;
+    const int both = is_symmetric(&model->rc) && (at_left || at_right);
+    const interval wider = within(scaled(zone, 1.3), extent(&model->rc));
+    if (at_left || both)
+        zone.from = fmin(zone.from, wider.from);
+    if (at_right || both)
+        zone.to = fmax(zone.to, wider.to);
+    return zone;
+}
+
+/* The same, and over all places where the bodies overlap outside it. */
+static rb_status grown(const rb_rolling_model *model, interval zone, interval *wider)
+{
+    rb_rolling_overlap overlap;
+    const rb_status s = rb_rolling_find_overlap(model, &model->state, &overlap);
+
+    *wider = grown_at_ends(model, zone);
+    for (int k = 0; k < overlap.count; k++) {
+        const interval there = scaled((interval){overlap.from[k], overlap.to[k]}, 1.3);
+        wider->from = fmin(wider->from, there.from);
+        wider->to = fmax(wider->to, there.to);
+    }
+    *wider = within(*wider, extent(&model->rc));
+    return s;
+}
+
+/* What would do: a quarter of the half-width beyond either edge. */
+static interval tightened(const rb_rolling_model *model)
+{
+    interval edge;
+
+    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &edge.from,
+                             &edge.to);
+    if (is_symmetric(&model->rc)) {
+        edge.to = fmax(fabs(edge.from), fabs(edge.to));
+        edge.from = -edge.to;
+    }
+    return within(scaled(edge, 1.25), extent(&model->rc));
+}
+
+/* Grows the potential contact until three separated elements stand at each end, or no
+ * material is left; tightens it when the contact turns out to fill less than two thirds
+ * of it; and takes more elements where they are too long for separate patches, unless a
+ * coarse solution will do. */
+static rb_status solve_automatic(rb_rolling_model *model, interval zone, int coarse,
+                                 rb_message *why)
+{
+    int elements = model->rc.contact_elements;
+    double too_narrow = 0.0;
+    rb_status s = RB_OK;
+
+    for (int round = 0; round < ROUNDS; round++) {
+        s = solve_equal(model, zone, elements, why);
+        if (s < 0 || !model->state.p)
+            return s;
+        interval wider;
+        const rb_status t = grown(model, zone, &wider);
+        if (t != RB_OK)
+            return t;
+        if (wider.from < zone.from || wider.to > zone.to) {
+            too_narrow = fmax(too_narrow, width(zone));
+            zone = wider;
+            continue;
+        }
+        if (is_open(model))
+            return s;
+        const interval wanted = tightened(model);
+        const int more = coarse ? elements : elements_for(model, zone);
+        const int keeps_zone =
+            width(zone) < 1.25 * width(wanted) || width(wanted) <= 1.05 * too_narrow;
+        if (keeps_zone && more <= 1.25 * elements)
+            return s;
+        zone = keeps_zone ? zone : wanted;
+        elements = coarse ? elements : elements_for(model, zone);
+        if (are_too_many(&model->rc, elements))
+            return rb_fail(why, RB_ZONE,
+                           "the contact has patches so far apart that equal elements "
+                           "would be %d; fit them to the patches (mesh fitted), or take "
+                           "fewer",
+                           elements);
+    }
+    return rb_fail(why, RB_ZONE,
+                   "no potential contact holds the contact and fits it: the last one "
+                   "tried reaches from %g to %g",
+                   zone.from, zone.to);
+}
+
+/* Many elements need not be solved to learn how wide their line should be. */
+static interval known_zone(const rb_rolling_case *rc)
+{
+    rb_rolling_case few = *rc;
+    rb_rolling_model model = {0};
+    interval zone = first_zone(rc);
+
+    if (rc->contact_elements < RB_ROLLING_LARGE && rc->outer_elements < MANY_OUTER)
+        return zone;
+    if (rc->contact_elements >= RB_ROLLING_LARGE)
+        few.contact_elements = rb_rolling_coarse_elements(0);
+    few.outer_elements = 0;
+    few.mesh = RB_MESH_UNIFORM;
+    if (rb_rolling_model_create(&few, &model, NULL) == RB_OK)
+        zone = (interval){model.mesh.ends[0], model.mesh.ends[model.mesh.n]};
+    rb_rolling_model_free(&model);
+    return zone;
+}
+
+/* ---- A given one --------------------------------------------------------------------
+ */
+
+/* A potential contact that does not hold the contact: says how wide it should be. */
+static rb_status solve_given(rb_rolling_model *model, rb_message *why)
+{
+    const double zone = model->rc.zone;
+    const interval limit = extent(&model->rc);
+    const rb_status s = solve_equal(model, within((interval){-zone, zone}, limit),
+                                    model->rc.contact_elements, why);
+
+    if (s != RB_ZONE)
+        return s;
+    rb_rolling_case free_zone = model->rc;
+    rb_rolling_model wider = {0};
+    double wanted = 1.3 * zone;
+    free_zone.zone = 0.0;
+    if (rb_rolling_model_create(&free_zone, &wider, NULL) == RB_OK)
+        wanted = fmax(fabs(wider.mesh.ends[0]), wider.mesh.ends[wider.mesh.n]);
+    rb_rolling_model_free(&wider);
+    return rb_fail(why, RB_ZONE,
+                   "zone: the contact is not within the potential contact of half-width "
+                   "%g; widen it to %.4g or leave it out",
+                   zone, wanted);
+}
+
+rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why)
+{
+    const rb_status s = model->rc.zone > 0.0
+                            ? solve_given(model, why)
+                            : solve_automatic(model, known_zone(&model->rc), coarse, why);
+
+    return s == RB_OK && is_open(model)
+               ? rb_fail(why, RB_NO_CONTACT, "no contact: the bodies do not touch")
+               : s;
+}

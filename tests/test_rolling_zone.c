@@ -1,0 +1,404 @@
+/* The potential contact, the edges of the contact and elements fitted to them. */
+#include "check.h"
+#include "rolling/internal.h"
+
+#include <gsl/gsl_math.h>
+
+#include <string.h>
+
+static double uniform(double a, double b)
+{
+    return a + (b - a) * (rand() / (double)RAND_MAX);
+}
+
+static rb_rolling_case halfplane(double poisson, double mu, int elements)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.young = 1000.0;
+    rc.a.poisson = poisson;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.mu = mu;
+    rc.formulation = RB_STEADY;
+    rc.contact_elements = elements;
+    return rc;
+}
+
+static rb_rolling_solution solved(const rb_rolling_case *rc)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    if (rb_rolling_solve(rc, &s, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return s;
+}
+
+/* What every solution owes, whatever its mesh: separated elements at both ends, and edges
+ * between the midpoints of the last loaded and of the first open element. */
+static void check_ends(const rb_rolling_solution *s, const char *what)
+{
+    int first = 0, last = s->n - 1;
+
+    assert_int_equal(s->zone[0], RB_ZONE_SEPARATED);
+    assert_int_equal(s->zone[last], RB_ZONE_SEPARATED);
+    while (!(s->p[first] > 0.0))
+        first++;
+    while (!(s->p[last] > 0.0))
+        last--;
+    CHECK_MAX(s->x[first - 1], s->contact_from, "%s: left edge, outer bound", what);
+    CHECK_MAX(s->contact_from, s->x[first], "%s: left edge, inner bound", what);
+    CHECK_MAX(s->x[last], s->contact_to, "%s: right edge, inner bound", what);
+    CHECK_MAX(s->contact_to, s->x[last + 1], "%s: right edge, outer bound", what);
+}
+
+/* ---- Edges ------------------------------------------------------------------------- */
+
+/* Full sliding: p falls like a power other than 1/2 (theory.md E1), which extrapolation
+ * of p^2 misses by up to some elements. */
+static void edges_of_sliding_contacts_are_those_of_fine_meshes(void **state)
+{
+    (void)state;
+    static const double poisson[] = {0.0, 0.3, -0.2}, mu[] = {1.0, 3.0, 2.0};
+    for (int k = 0; k < 3; k++) {
+        double edge[2] = {0.0, 0.0};
+        for (int n = 400; n >= 25; n /= 2) {
+            rb_rolling_case rc = halfplane(poisson[k], mu[k], n);
+            rc.half_width = 2.0;
+            rc.creep_ratio = 4.0;
+            rc.solver = RB_SOLVER_NEWTON;
+            rb_rolling_solution s = solved(&rc);
+            check_ends(&s, "sliding");
+            assert_int_equal(s.stick, 0);
+            if (n == 400) {
+                edge[0] = s.contact_from;
+                edge[1] = s.contact_to;
+            }
+            CHECK_ABS(s.contact_from, edge[0], s.h[n / 2], "left, case %d, %d", k, n);
+            CHECK_ABS(s.contact_to, edge[1], s.h[n / 2], "right, case %d, %d", k, n);
+            rb_rolling_solution_free(&s);
+        }
+    }
+}
+
+/* ---- Fitted elements --------------------------------------------------------------- */
+
+static double sum(int n, const double *a, const double *h)
+{
+    double total = 0.0;
+    for (int i = 0; i < n; i++)
+        total += a[i] * h[i];
+    return total;
+}
+
+/* Cases whose mesh ended inside the contact, where a corner of a punch was called solved
+ * (p0 115.9 and 108, Q -0.922), and one whose edges jump to and fro by some elements. */
+static void fitted_elements_hold_the_contact(void **state)
+{
+    (void)state;
+    static const struct {
+        double poisson, mu, creep_ratio, load;
+        int elements;
+        double p0, force_ratio;
+    } cases[] = {{0.1, 0.8, 0.1, 3.966655, 400, 6.309, -0.6344},
+                 {-0.2, 1.0, 0.0, 12.0, 100, 12.95, -0.5566},
+                 {-0.2, 2.0, -0.3, 12.0, 60, NAN, 0.0}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        rb_rolling_case rc = halfplane(cases[k].poisson, cases[k].mu, cases[k].elements);
+        rc.mesh = RB_MESH_FITTED;
+        rc.load = cases[k].load;
+        rc.creep_ratio = cases[k].creep_ratio;
+        rb_rolling_solution s = solved(&rc);
+        check_ends(&s, "fitted");
+        assert_int_equal(s.equal_instead, 0);
+        CHECK_REL(sum(s.n, s.p, s.h), rc.load, 1e-9, "load, case %zu", k);
+        double p0 = cases[k].p0, force_ratio = cases[k].force_ratio;
+        if (isnan(p0)) { /* equal elements converge to the same */
+            rb_rolling_case fine = rc;
+            fine.mesh = RB_MESH_UNIFORM;
+            fine.contact_elements = 400;
+            rb_rolling_solution f = solved(&fine);
+            p0 = f.max_pressure;
+            force_ratio = f.force_ratio;
+            rb_rolling_solution_free(&f);
+        }
+        CHECK_REL(s.max_pressure, p0, 1e-3, "p0, case %zu", k);
+        CHECK_ABS(s.force_ratio, force_ratio, 2e-3, "Q, case %zu", k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Fitted against fine equal elements for bodies of any kind. */
+static void fitted_and_equal_elements_agree(void **state)
+{
+    (void)state;
+    srand(9);
+    for (int k = 0; k < 15; k++) {
+        rb_rolling_case rc = halfplane(uniform(-0.3, 0.5), uniform(0.05, 3.0), 60);
+        rc.half_width = exp(uniform(log(1e-4), log(1e-2))) * rc.a.radius;
+        rc.creep_ratio = uniform(-1.2, 1.2);
+        rc.elastic_b = rand() % 2;
+        rc.b.poisson = uniform(-0.3, 0.5);
+        rc.b.young = rc.a.young * exp(uniform(-2.0, 2.0));
+        rb_rolling_case fine = rc;
+        rc.mesh = RB_MESH_FITTED;
+        fine.contact_elements = 300;
+        rb_rolling_solution s = solved(&rc), f = solved(&fine);
+        check_ends(&s, "fitted");
+        check_ends(&f, "equal");
+        CHECK_REL(s.approach, f.approach, 1e-3, "approach, case %d", k);
+        CHECK_REL(s.max_pressure, f.max_pressure, 0.1, "p0, case %d", k);
+        CHECK_ABS(s.force_ratio, f.force_ratio, 1e-2, "Q, case %d", k);
+        CHECK_ABS(s.contact_from, f.contact_from, 1e-2 * s.half_width, "left, %d", k);
+        CHECK_ABS(s.contact_to, f.contact_to, 1e-2 * s.half_width, "right, %d", k);
+        rb_rolling_solution_free(&f);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Seen upside down B lies on A: the creepage and the friction change their signs and the
+ * pressure stays, element by element. */
+static void exchanged_bodies_have_the_same_pressure(void **state)
+{
+    (void)state;
+    srand(10);
+    for (int k = 0; k < 20; k++) {
+        rb_rolling_case rc = halfplane(uniform(-0.3, 0.5), uniform(0.05, 2.0), 40);
+        rc.mesh = k % 2 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        rc.half_width = 1e-3 * rc.a.radius;
+        rc.creep_ratio = uniform(-1.2, 1.2);
+        rc.elastic_b = 1;
+        rc.b.radius = exp(uniform(2.0, 6.0));
+        rc.b.poisson = uniform(-0.3, 0.5);
+        rc.b.young = rc.a.young * exp(uniform(-2.0, 2.0));
+        rc.a.datum = rc.b.datum = 40.0;
+        rb_rolling_case swapped = rc;
+        swapped.a = rc.b;
+        swapped.b = rc.a;
+        swapped.creep_ratio = -rc.creep_ratio;
+        rb_rolling_solution s = solved(&rc), t = solved(&swapped);
+        assert_int_equal(s.n, t.n);
+        for (int i = 0; i < s.n; i++) {
+            CHECK_ABS(t.x[i], s.x[i], 1e-9 * s.half_width, "x, case %d at %d", k, i);
+            CHECK_ABS(t.p[i], s.p[i], 1e-6 * s.max_pressure, "p, case %d at %d", k, i);
+            CHECK_ABS(t.q[i], -s.q[i], 1e-6 * s.max_pressure, "q, case %d at %d", k, i);
+        }
+        rb_rolling_solution_free(&t);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* ---- Potential contact ------------------------------------------------------------- */
+
+/* A flat of half-width b worn into a parabola, under a load whose Hertz contact would be
+ * much narrower than the flat. */
+enum { POINTS = 2001 };
+static double table_x[POINTS], table_gap[POINTS];
+static rb_rolling_profile *profile;
+
+/* The table as the gap of the case, until the next one. */
+static void take_table(rb_rolling_case *rc)
+{
+    rb_message why = {""};
+    rb_rolling_profile_free(profile);
+    profile = NULL;
+    if (rb_rolling_profile_create(POINTS, table_x, table_gap, 0.0, &profile, &why) !=
+        RB_OK)
+        fail_msg("%s", why.text);
+    rc->gap = RB_GAP_TABLE;
+    rc->profile = profile;
+}
+
+static void set_table(rb_rolling_case *rc, double half_length, double flat)
+{
+    for (int i = 0; i < POINTS; i++) {
+        const double x = half_length * (2.0 * i / (POINTS - 1) - 1.0);
+        const double beyond = fmax(0.0, fabs(x) - flat);
+        table_x[i] = x;
+        table_gap[i] = beyond * beyond / (2.0 * rc->a.radius);
+    }
+    take_table(rc);
+}
+
+static void a_worn_flat_is_held_by_the_potential_contact(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_case rc = halfplane(0.5, 0.3, 80);
+        rc.half_width = 0.02;
+        rc.creep_ratio = 0.4;
+        rc.mesh = k == 0 ? RB_MESH_UNIFORM : RB_MESH_FITTED;
+        rc.formulation = k == 2 ? RB_STATIC : RB_STEADY;
+        set_table(&rc, 10.0, 2.0);
+        rb_rolling_solution s = solved(&rc);
+        check_ends(&s, "flat");
+        CHECK_MAX(2.0, s.half_width, "the flat is in contact");
+        CHECK_MAX(s.half_width, 2.3, "and little more");
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* ---- Patches ----------------------------------------------------------------------- */
+
+/* Two lobes of radius 10 whose lowest points are at -+c, the right one higher by d; with
+ * mirror = -1 the left one. */
+static void set_lobes(rb_rolling_case *rc, double c, double d, int mirror)
+{
+    const double half_length = 2.0 * c;
+    for (int i = 0; i < POINTS; i++) {
+        const double x = half_length * (2.0 * i / (POINTS - 1) - 1.0);
+        const double left = (x + mirror * c) * (x + mirror * c) / 20.0;
+        table_x[i] = x;
+        table_gap[i] = fmin(left, (x - mirror * c) * (x - mirror * c) / 20.0 + d);
+    }
+    take_table(rc);
+}
+
+/* The second patch lies far outside the first guess of the potential contact, on equal
+ * elements, fitted ones, half-planes and wheels. */
+static void every_patch_is_found(void **state)
+{
+    (void)state;
+    static const rb_bem_support supports[] = {RB_BEM_HALFPLANE, RB_BEM_HUB, RB_BEM_ARC};
+    for (int k = 0; k < 6; k++) {
+        const double c = k % 2 ? 4.0 : 3.0;
+        rb_rolling_case rc = halfplane(0.3, 0.3, 40);
+        rc.a.support = supports[k / 2];
+        rc.near_field = RB_NEAR_FIELD_EXACT;
+        rc.mesh = k % 2 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        rc.load = 4.0;
+        rc.creep = 0.001;
+        set_lobes(&rc, c, 0.004, 1);
+        rb_rolling_solution s = solved(&rc);
+        check_ends(&s, "lobes");
+        assert_int_equal(s.patches, 2);
+        double load = 0.0, force = 0.0;
+        for (int i = 0; i < 2; i++) {
+            const rb_rolling_patch *p = &s.patch[i];
+            const double at = i ? c : -c;
+            load += p->normal_load;
+            force += p->tangential_load;
+            CHECK_MAX(p->from, at, "patch %d of case %d", i, k);
+            CHECK_MAX(at, p->to, "patch %d of case %d", i, k);
+            CHECK_ABS(p->peak, at, 0.1, "its peak, case %d", k);
+            /* each nearly Hertz's contact of its own load */
+            const double E = rb_rolling_contact_modulus(&rc);
+            CHECK_REL(p->max_pressure, sqrt(p->normal_load * E / (M_PI * 10.0)), 0.05,
+                      "its pressure, case %d", k);
+            CHECK_REL(p->to - p->from,
+                      2.0 * sqrt(4.0 * p->normal_load * 10.0 / (M_PI * E)), 0.1,
+                      "its width, case %d", k);
+            CHECK_MAX(9.0, p->contact, "its elements, case %d", k);
+        }
+        CHECK_REL(load, s.normal_load, 1e-9, "load, case %d", k);
+        CHECK_REL(force, s.tangential_load, 1e-9, "force, case %d", k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void a_mirrored_profile_has_mirrored_patches(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = halfplane(0.3, 0.3, 40);
+    rc.formulation = RB_STATIC;
+    rc.shift = 0.0;
+    rc.mu = 0.0;
+    rc.load = 4.0;
+    for (int k = 0; k < 2; k++) {
+        rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        set_lobes(&rc, 3.0, 0.004, 1);
+        rb_rolling_solution s = solved(&rc);
+        set_lobes(&rc, 3.0, 0.004, -1);
+        rb_rolling_solution t = solved(&rc);
+        assert_int_equal(s.patches, 2);
+        assert_int_equal(t.patches, 2);
+        for (int i = 0; i < 2; i++) {
+            CHECK_REL(t.patch[1 - i].normal_load, s.patch[i].normal_load, 1e-3, "load");
+            CHECK_ABS(t.patch[1 - i].from, -s.patch[i].to, 0.02, "edge");
+        }
+        rb_rolling_solution_free(&t);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void a_given_zone_must_hold_every_patch(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = halfplane(0.3, 0.3, 40);
+    rb_rolling_solution s;
+    rb_message why = {""};
+    rc.load = 4.0;
+    rc.creep = 0.001;
+    set_lobes(&rc, 3.0, 0.004, 1);
+    for (int i = 0; i < POINTS; i++) /* the first lobe to the middle */
+        table_x[i] += 3.0;
+    take_table(&rc);
+    rc.zone = 1.0;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_ZONE);
+    assert_non_null(strstr(why.text, "widen it"));
+    rb_rolling_solution_free(&s);
+}
+
+/* ---- Refusals ---------------------------------------------------------------------- */
+
+static void a_contact_without_an_end_is_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = halfplane(0.5, 0.3, 60);
+    rb_rolling_solution s;
+    rb_message why = {""};
+    rc.half_width = 1.0;
+    rc.creep_ratio = 0.4;
+    set_table(&rc, 0.6, 0.0);
+    for (int k = 0; k < 2; k++) {
+        rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_ZONE);
+        assert_non_null(strstr(why.text, "table"));
+        assert_int_equal(s.status, RB_ZONE);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void a_curve_and_a_history_find_the_end_of_their_mesh(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = halfplane(0.0, 1.0, 40);
+    rb_rolling_curve curve;
+    rb_rolling_model model;
+    rb_rolling_history history;
+    rb_message why = {""};
+    rc.half_width = 1.0;
+    rc.zone = 1.2; /* sliding moves the contact beyond it */
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.0, 3.0, 7, &curve, &why), RB_ZONE);
+    rb_rolling_curve_free(&curve);
+    rc.formulation = RB_TRANSIENT;
+    rc.creep_ratio = 3.0;
+    rc.distance = 3.0;
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, NULL, &model, &history, &why),
+                 RB_ZONE);
+    assert_int_equal(model.state.status, RB_ZONE);
+    rb_rolling_history_free(&history);
+    rb_rolling_model_free(&model);
+    rc.zone = 0.0;
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.0, 3.0, 7, &curve, &why), RB_OK);
+    rb_rolling_curve_free(&curve);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(edges_of_sliding_contacts_are_those_of_fine_meshes),
+        cmocka_unit_test(fitted_elements_hold_the_contact),
+        cmocka_unit_test(fitted_and_equal_elements_agree),
+        cmocka_unit_test(exchanged_bodies_have_the_same_pressure),
+        cmocka_unit_test(a_worn_flat_is_held_by_the_potential_contact),
+        cmocka_unit_test(every_patch_is_found),
+        cmocka_unit_test(a_mirrored_profile_has_mirrored_patches),
+        cmocka_unit_test(a_given_zone_must_hold_every_patch),
+        cmocka_unit_test(a_contact_without_an_end_is_refused),
+        cmocka_unit_test(a_curve_and_a_history_find_the_end_of_their_mesh),
+    };
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    rb_rolling_profile_free(profile);
+    return failed;
+}
