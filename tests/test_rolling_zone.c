@@ -321,6 +321,31 @@ static void a_mirrored_profile_has_mirrored_patches(void **state)
     }
 }
 
+/* Below patches that lie far apart in comparison with their widths. */
+static void stress_is_looked_for_below_every_patch(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = halfplane(0.3, 0.0, 80);
+    rb_rolling_model model;
+    rb_rolling_solution s;
+    rb_rolling_stress_maxima maxima;
+    rb_message why = {""};
+    rc.mesh = RB_MESH_FITTED;
+    rc.load = 4.0;
+    set_lobes(&rc, 25.0, 0.004, 1);
+    if (rb_rolling_solve_model(&rc, &model, &s, &why) != RB_OK ||
+        rb_rolling_stress_maxima_find(&model, 0.0, &maxima, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    assert_int_equal(s.patches, 2);
+    const rb_rolling_patch *p = &s.patch[0]; /* the lower lobe carries more */
+    const double a = 0.5 * (p->to - p->from);
+    CHECK_REL(maxima.max_shear.value, 0.30028 * p->max_pressure, 5e-3, "max shear");
+    CHECK_ABS(maxima.max_shear.x, -25.0, 0.05 * a, "its place");
+    CHECK_REL(maxima.max_shear.y, 0.78615 * a, 2e-2, "its depth");
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+}
+
 static void a_given_zone_must_hold_every_patch(void **state)
 {
     (void)state;
@@ -394,6 +419,7 @@ int main(void)
         cmocka_unit_test(a_worn_flat_is_held_by_the_potential_contact),
         cmocka_unit_test(every_patch_is_found),
         cmocka_unit_test(a_mirrored_profile_has_mirrored_patches),
+        cmocka_unit_test(stress_is_looked_for_below_every_patch),
         cmocka_unit_test(a_given_zone_must_hold_every_patch),
         cmocka_unit_test(a_contact_without_an_end_is_refused),
         cmocka_unit_test(a_curve_and_a_history_find_the_end_of_their_mesh),

@@ -167,8 +167,10 @@ static const double stretched_approach = 0.02, stretched_width = 0.1;
 static void note_strain(FILE *out, const rb_rolling_case *rc,
                         const rb_rolling_solution *s)
 {
-    const double approach = s->approach / rc->a.radius,
-                 width = s->half_width / rc->a.radius;
+    double widest = s->patches > 1 ? 0.0 : s->half_width;
+    for (int k = 0; k < s->patches && s->patches > 1; k++)
+        widest = fmax(widest, 0.5 * (s->patch[k].to - s->patch[k].from));
+    const double approach = s->approach / rc->a.radius, width = widest / rc->a.radius;
     if (approach > stretched_approach || width > stretched_width)
         fprintf(out,
                 "rollbem: note: approach/R = %.2g, a/R = %.2g: linear elasticity is "

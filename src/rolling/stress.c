@@ -299,26 +299,22 @@ static rb_status maximum(search *s, const rb_rolling_stress_grid *grid,
     return refine(s, best);
 }
 
-/* Contact edges, half-width, and the box that is looked at. */
-static rb_status choose_box(const rb_rolling_model *model, double depth, search *box,
-                            rb_message *why)
+/* The box that is looked at under a contact, or a patch of it, between two edges. */
+static search box_under(const rb_rolling_model *model, double from, double to,
+                        double depth)
 {
-    double from, to;
-
-    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &from, &to);
     const double a = 0.5 * (to - from);
-    if (!(a > 0.0))
-        return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
-    *box = (search){.scale = a,
-                    .from = from - a,
-                    .to = to + a,
-                    .depth = depth > 0.0 ? depth : 2.5 * a};
+    search box = {.scale = a,
+                  .from = from - a,
+                  .to = to + a,
+                  .depth = depth > 0.0 ? depth : 2.5 * a};
+
     if (model->bodies.system_a) { /* a wheel: stay below its own equator */
         const double widest = 0.9 * model->rc.a.radius;
-        box->from = fmax(box->from, -widest);
-        box->to = fmin(box->to, widest);
+        box.from = fmax(box.from, -widest);
+        box.to = fmin(box.to, widest);
     }
-    return RB_OK;
+    return box;
 }
 
 /* ---- Grid ---------------------------------------------------------------------------
@@ -438,19 +434,24 @@ rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int n
                                     double depth, rb_rolling_stress_grid *grid,
                                     rb_message *why)
 {
-    search box = {0};
+    double from, to;
+
     memset(grid, 0, sizeof *grid);
     if (nx < 2 || ny < 2 || (double)nx * ny > 1e8)
         return rb_fail(why, RB_EINVAL, "grid: expected 2 x 2 ... 1e8 points, got %d x %d",
                        nx, ny);
-    const rb_status s = choose_box(model, depth, &box, why);
-    return s == RB_OK ? make_grid(model, &box, nx, ny, 1, grid, why) : s;
+    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &from, &to);
+    if (!(from < to))
+        return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
+    const search box = box_under(model, from, to, depth);
+    return make_grid(model, &box, nx, ny, 1, grid, why);
 }
 
 /* ---- All maxima -----------------------------------------------------------------------
  */
 
-static rb_status all_maxima(search *s, const rb_rolling_stress_grid *grid,
+/* Of one patch, each where it is larger than those found so far. */
+static rb_status add_maxima(search *s, const rb_rolling_stress_grid *grid,
                             rb_rolling_stress_maxima *maxima)
 {
     measure *const measures[] = {max_shear, von_mises, orthogonal_shear, tension};
@@ -459,8 +460,11 @@ static rb_status all_maxima(search *s, const rb_rolling_stress_grid *grid,
     rb_status status = RB_OK;
 
     for (int k = 0; k < 4 && status == RB_OK; k++) {
+        rb_rolling_extremum here;
         s->of = measures[k];
-        status = maximum(s, grid, results[k]);
+        status = maximum(s, grid, &here);
+        if (here.value > results[k]->value)
+            *results[k] = here;
     }
     return status;
 }
@@ -468,19 +472,27 @@ static rb_status all_maxima(search *s, const rb_rolling_stress_grid *grid,
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
                                         rb_rolling_stress_maxima *maxima, rb_message *why)
 {
+    const rb_rolling_extremum none = {-INFINITY, NAN, NAN};
+    rb_rolling_run run = {.last = -1};
     field f = {0};
-    search box = {0};
-    rb_rolling_stress_grid grid = {0};
-    rb_status s = choose_box(model, depth, &box, why);
+    rb_status s = field_create(model, &f, why);
+    int patches = 0;
 
-    if (s == RB_OK)
-        s = field_create(model, &f, why);
-    box.f = &f;
-    if (s == RB_OK) /* finer where the stress changes faster */
+    *maxima = (rb_rolling_stress_maxima){none, none, none, none};
+    while (s == RB_OK && rb_rolling_next_patch(&model->rc, &model->mesh, &model->state,
+                                               run.last + 1, &run)) {
+        rb_rolling_stress_grid grid = {0};
+        search box = box_under(model, run.from, run.to, depth);
+        box.f = &f;
+        /* finer where the stress changes faster */
         s = make_grid(model, &box, GRID_X, GRID_Y, 2, &grid, why);
-    if (s == RB_OK)
-        s = all_maxima(&box, &grid, maxima);
-    rb_rolling_stress_grid_free(&grid);
+        if (s == RB_OK)
+            s = add_maxima(&box, &grid, maxima);
+        rb_rolling_stress_grid_free(&grid);
+        patches++;
+    }
     field_free(&f);
-    return s;
+    return s == RB_OK && patches == 0
+               ? rb_fail(why, RB_NO_CONTACT, "no contact, no stress")
+               : s;
 }
