@@ -113,7 +113,14 @@ WRAP = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc
 $(B)/tests/%: tests/%.c tests/check.h tests/failing_alloc.c $(B)/librollbem.a
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
-	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< tests/failing_alloc.c $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
+	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $(filter tests/%.c,$^) $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
+
+# the program under failing system calls, and under failing allocations
+$(B)/tests/test_faults: tests/fault_call.c $(B)/tests/fault_malloc.so
+$(B)/tests/fault_malloc.so: tests/fault_malloc.c
+	@mkdir -p $(@D)
+	@echo "  CC  $<"
+	$(Q)$(CC) $(STD) -O1 -Wall -Wextra -fPIC -shared -o $@ $< -ldl
 
 # the judge of the net shares nothing with the library
 $(B)/tests/checker: tests/checker.c

@@ -381,7 +381,7 @@ static void steps_leave_snapshots_and_a_picture(void **state)
     assert_non_null(strstr(out, "Transient rolling"));
     write_file("plain", "");
     check_refused(ROLLING "--distance 0.2 --quiet --snapshots plain", 73,
-                  "plain: File exists");
+                  "plain: cannot write: Not a directory");
     check_refused(SIMILAR "--every 2", 64, "--every: for --formulation transient");
 }
 

@@ -294,7 +294,7 @@ static void failing_allocations_are_reported(void **state)
             s = rb_io_fclib_read(path, &p, NULL);
             const int refused_one = alloc_failed();
             alloc_succeed();
-            assert_int_equal(s == RB_ENOMEM, refused_one);
+            assert_true(s == RB_ENOMEM || (s == RB_OK && !refused_one));
         }
         assert_true(count > 10);
         rb_io_fclib_free(&p);

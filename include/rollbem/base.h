@@ -15,6 +15,7 @@ typedef enum {
     RB_ENOENT = -3,  /* no such input file */
     RB_EFORMAT = -4, /* a file that does not say what it should */
     RB_EWRITE = -5,  /* an output that cannot be written */
+    RB_EHELPER = -6, /* another program that is missing or fails */
     RB_MAXITER = 1,  /* iteration limit */
     RB_RAY = 2,      /* Lemke: secondary ray */
     RB_SINGULAR = 3, /* a matrix without inverse */
@@ -51,6 +52,11 @@ void rb_guess_try(rb_guess *guess, const char *candidate);
 /* " (did you mean '...'?)", or "" when nothing is near; prefix is put before the word.
  * Returns guess->text. */
 const char *rb_guess_text(rb_guess *guess, const char *prefix);
+
+/* What a file name or an argument looks like in print: bytes that are not UTF-8 and
+ * control characters become \xHH.  At most size - 1 bytes, whole characters; returns to.
+ * 4 times the length holds any text. */
+char *rb_printable(const char *text, char *to, size_t size);
 
 /* rows x cols doubles (or ints, or n bytes), zeroed; NULL when memory is short or the
  * product overflows.  Released with free(). */

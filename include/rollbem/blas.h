@@ -16,4 +16,9 @@ const char *rb_blas_better_core(void);
  * before.  Threads cost the small products of Lemke and Newton more than they bring. */
 int rb_blas_threads(int threads);
 
+/* Under a limit of address space (ulimit -v) a thread of OpenBLAS that gets no buffer
+ * waits for it for ever.  1: there is room for all; where it has one thread only, OpenMP is
+ * reduced to one too if need be. */
+int rb_blas_has_room(void);
+
 #endif

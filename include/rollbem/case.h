@@ -50,6 +50,15 @@ typedef struct {
     double value[RB_NUMBERS_MAX];
 } rb_numbers;
 
+/* What the file is for that an option names. */
+typedef enum {
+    RB_FILE_NONE, /* the option names no file */
+    RB_FILE_READ,
+    RB_FILE_WRITTEN,
+    RB_FILE_PICTURE, /* written too, its kind told by the end of the name */
+    RB_FILE_FOLDER   /* that is written into */
+} rb_option_file;
+
 /* One option: what it is called, what it may be, and where its value goes in the struct
  * that the table belongs to. */
 typedef struct {
@@ -67,6 +76,7 @@ typedef struct {
                     (const char *), and the value is path_value */
     int path_value;
     const char *path_name; /* of that other word in the help: FILE, NAME */
+    rb_option_file file;   /* texts, and choices with another word */
     unsigned excludes;     /* of options that share a bit only one may be given */
     const char *unset;     /* help: what stands for the default; NULL: the value itself */
     const char *help;
@@ -155,6 +165,9 @@ const char *rb_option_expected(const rb_option *option, char *text, size_t size)
 
 /* The value as text of a case file; room for 64 bytes or the text itself. */
 const char *rb_option_text(const rb_option *option, const void *target, char room[64]);
+
+/* The file that the option names; NULL: none. */
+const char *rb_option_path(const rb_option *option, const void *target);
 
 /* 1: the whole of text is one finite number. */
 int rb_option_number(const char *text, double *value);

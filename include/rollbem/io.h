@@ -32,6 +32,16 @@ rb_status rb_io_writer_commit(rb_io_writer *w, rb_message *why);
 /* Nothing appears; w may be closed already. */
 void rb_io_writer_abandon(rb_io_writer *w);
 
+/* The path of `name` in a folder; owned by the caller, NULL: no memory. */
+char *rb_io_join(const char *folder, const char *name);
+/* Makes the folder unless it is there.  RB_EWRITE, RB_ENOMEM. */
+rb_status rb_io_make_folder(const char *path, rb_message *why);
+/* What rb_io_make_folder and a file in the folder would say; nothing is made. */
+rb_status rb_io_folder_check(const char *path, rb_message *why);
+
+/* An input file, to be closed by the caller; NULL: *s is RB_ENOENT or RB_ENOMEM. */
+FILE *rb_io_open_input(const char *path, rb_status *s, rb_message *why);
+
 /* ---- Tables of numbers ------------------------------------------------------------- */
 
 /* Numbers between blanks or commas, a row per line; # starts a comment.  The columns are

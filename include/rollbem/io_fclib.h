@@ -1,4 +1,6 @@
-/* The FCLib format (HDF5): frictional contact problems as numbers; no mechanics here. */
+/* The FCLib format (HDF5): frictional contact problems as numbers; no mechanics here.
+ * HDF5 runs in a process of its own (fork): where it crashes, for want of memory or on a
+ * damaged file, these calls return RB_ENOMEM. */
 #ifndef ROLLBEM_IO_FCLIB_H
 #define ROLLBEM_IO_FCLIB_H
 
@@ -30,8 +32,8 @@ int rb_io_is_hdf5(const char *path);
  * indices out of range, rolling friction (spacedim 5), bilateral constraints. */
 rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *why);
 
-/* title and description may be NULL.  The file appears whole or not at all (io.h); HDF5
- * makes it in memory.  RB_EWRITE, RB_ENOMEM. */
+/* title and description may be NULL.  The file appears whole or not at all (io.h).
+ * RB_EWRITE, RB_ENOMEM. */
 rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem,
                             rb_io_fclib_layout layout, const char *title,
                             const char *description, rb_message *why);

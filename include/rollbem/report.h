@@ -35,9 +35,17 @@ rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
 
 /* ---- JSON ------------------------------------------------------------------------- */
 
-/* {"schema", "version", "command", "conventions"}: how every result starts.  NULL: no
- * memory.  All JSON objects here are new references. */
+/* Objects here are new references, NULL where memory is short.  A member that cannot be
+ * stored makes the whole NULL: rb_report_json_set and _append take the value over, and
+ * where it is NULL or does not fit they free *object and set it to NULL; later ones do
+ * nothing. */
+void rb_report_json_set(struct json_t **object, const char *name, struct json_t *value);
+void rb_report_json_append(struct json_t **list, struct json_t *value);
+
+/* {"schema", "version", "command", "conventions"}: how every result starts. */
 struct json_t *rb_report_json_start(const char *command);
+/* Text of any bytes (rb_printable). */
+struct json_t *rb_report_json_text(const char *text);
 /* A number; null for NaN and infinities. */
 struct json_t *rb_report_json_number(double x);
 struct json_t *rb_report_json_numbers(int n, const double *x);
@@ -48,8 +56,8 @@ struct json_t *rb_report_json_table(const rb_rolling_solution *s);
 struct json_t *rb_report_json_errors(const rb_rolling_errors *errors);
 struct json_t *rb_report_json_history(const rb_rolling_history *h,
                                       const rb_rolling_history *errors);
-/* Writes with a final newline.  RB_ENOMEM when json is NULL, RB_EWRITE: see errno. */
-rb_status rb_report_json_write(FILE *out, const struct json_t *json);
+/* Writes with a final newline and takes json over.  RB_ENOMEM: it is NULL; RB_EWRITE. */
+rb_status rb_report_json_write(FILE *out, struct json_t *json);
 
 /* ---- For people ------------------------------------------------------------------- */
 
@@ -72,7 +80,7 @@ void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solu
 
 typedef enum { RB_REPORT_PNG, RB_REPORT_SVG, RB_REPORT_PDF } rb_report_picture_kind;
 
-/* All pictures are made by gnuplot and written whole or not at all.  RB_EFORMAT: it is
+/* All pictures are made by gnuplot and written whole or not at all.  RB_EHELPER: it is
  * missing or refuses; RB_EWRITE; RB_ENOMEM. */
 
 /* By the end of the name.  RB_EINVAL: none of .png, .svg, .pdf. */
@@ -101,7 +109,7 @@ typedef struct {
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
                                 const char *command, int bare);
 /* Sets "curve", of the first mu, and "curves", of all, where there are several. */
-void rb_report_json_curves(struct json_t *root, const rb_report_curves *curves);
+void rb_report_json_curves(struct json_t **root, const rb_report_curves *curves);
 /* A few lines for people. */
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves);
 /* Braking force -Q/(mu P) over xi R/(mu a) or xi; of several mu -Q/P over xi.  Carter's
@@ -129,7 +137,7 @@ typedef struct {
 rb_status rb_report_stress_table(FILE *out, const rb_report_stress *stress,
                                  const char *command, int bare);
 /* Sets "maxima", and "grid" or "points". */
-void rb_report_json_stress(struct json_t *root, const rb_report_stress *stress);
+void rb_report_json_stress(struct json_t **root, const rb_report_stress *stress);
 /* The maxima, with their errors where known. */
 void rb_report_stress_summary(FILE *out, const rb_report_stress *stress);
 /* Contours of maximum shear and of von Mises over a grid. */

@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -34,6 +35,8 @@ const char *rb_status_text(rb_status s)
         return "malformed file";
     case RB_EWRITE:
         return "cannot write";
+    case RB_EHELPER:
+        return "a helper program failed";
     case RB_MAXITER:
         return "iteration limit";
     case RB_RAY:
@@ -50,6 +53,48 @@ const char *rb_status_text(rb_status s)
         return "interrupted";
     }
     return "unknown status";
+}
+
+/* Bytes of the UTF-8 character at text; 0: none, or a control character. */
+static size_t character_size(const unsigned char *text)
+{
+    static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
+    const unsigned char first = text[0];
+    const size_t n = first < 0x80   ? 1
+                     : first < 0xc0 ? 0
+                     : first < 0xe0 ? 2
+                     : first < 0xf0 ? 3
+                                    : 4;
+    if (n < 2)
+        return n == 1 && first >= ' ' && first != 127;
+    unsigned code = first & (0x7fu >> n);
+    for (size_t i = 1; i < n; i++) {
+        if ((text[i] & 0xc0) != 0x80)
+            return 0;
+        code = code << 6 | (text[i] & 0x3fu);
+    }
+    return code >= least[n] && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff) &&
+                   code >= 0xa0
+               ? n
+               : 0;
+}
+
+char *rb_printable(const char *text, char *to, size_t size)
+{
+    char *at = to;
+    while (*text) {
+        const size_t n = character_size((const unsigned char *)text);
+        if (at + (n ? n : 4) >= to + size)
+            break;
+        if (n)
+            memcpy(at, text, n);
+        else
+            snprintf(at, 5, "\\x%02x", (unsigned)(unsigned char)*text);
+        at += n ? n : 4;
+        text += n ? n : 1;
+    }
+    *at = '\0';
+    return to;
 }
 
 static void *alloc_array(size_t rows, size_t cols, size_t size)

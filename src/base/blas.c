@@ -1,8 +1,15 @@
+#define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include "rollbem/blas.h"
 
 #include <cblas.h>
+#include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 const char *rb_blas_core(void)
 {
@@ -44,4 +51,42 @@ int rb_blas_threads(int threads)
     else if (!getenv("OPENBLAS_NUM_THREADS"))
         openblas_set_num_threads(openblas_get_num_procs());
     return before;
+}
+
+static int is_room_for(size_t bytes)
+{
+    void *room = mmap(NULL, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (room != MAP_FAILED)
+        munmap(room, bytes);
+    return room != MAP_FAILED;
+}
+
+static int other_threads(void)
+{
+#ifdef _OPENMP
+    return omp_get_max_threads() - 1;
+#else
+    return 0;
+#endif
+}
+
+int rb_blas_has_room(void)
+{
+    const size_t buffer = (size_t)160 << 20; /* OpenBLAS: 32 to 128 MB each */
+    const int threads = openblas_get_num_threads();
+    struct rlimit limit;
+    double a = 1.0;
+    lapack_int pivot;
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return 1;
+    if (!is_room_for(buffer * (size_t)(threads + other_threads()))) {
+        if (threads > 1 || !is_room_for(buffer))
+            return 0;
+#ifdef _OPENMP
+        omp_set_num_threads(1);
+#endif
+    }
+    /* takes one and keeps it */
+    LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, 1, 1, &a, 1, &pivot);
+    return 1;
 }

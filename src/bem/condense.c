@@ -283,7 +283,7 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals,
         }
         turn_to_frames(system, normals, X, f, F);
     } else {
-        rb_fail(why, s, "condensation: no memory for %d contact elements", n);
+        rb_fail(why, s, "condensation: out of memory for %d contact elements", n);
     }
     free(X);
     return s;

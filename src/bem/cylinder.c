@@ -309,7 +309,7 @@ rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
 
     s = rb_bem_mesh_alloc(outer + layout.hub_n, mesh);
     if (s != RB_OK)
-        return rb_fail(why, s, "cylinder: no memory for %d elements",
+        return rb_fail(why, s, "cylinder: out of memory for %d elements",
                        outer + layout.hub_n);
     mesh->contact_n = n_c;
     place_outer(cylinder, n_c, ends, &layout, mesh);

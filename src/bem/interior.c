@@ -267,7 +267,7 @@ rb_status rb_bem_interior(const rb_bem_mesh *mesh, rb_bem_material material,
         return s;
     s = interior_make(mesh, material, u, t, &in);
     if (s != RB_OK)
-        return rb_fail(why, s, "interior: no memory for %d elements", mesh->n);
+        return rb_fail(why, s, "interior: out of memory for %d elements", mesh->n);
     const int outside = evaluate(&in, points, xy, displacement, stress);
     if (outside < points)
         s = rb_fail(why, RB_EINVAL, "point %d at (%g, %g) lies outside the body", outside,

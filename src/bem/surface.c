@@ -163,5 +163,5 @@ rb_status rb_bem_flexibility_surface(int n_c, const double *ends,
     if (s == RB_OK)
         return s;
     rb_bem_flexibility_free(f);
-    return rb_fail(why, s, "half-plane: no memory for %d contact elements", n_c);
+    return rb_fail(why, s, "half-plane: out of memory for %d contact elements", n_c);
 }

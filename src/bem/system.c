@@ -279,7 +279,7 @@ rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material mater
         s->seconds_factor = rb_seconds() - assembled;
     }
     if (status == RB_ENOMEM)
-        rb_fail(why, status, "boundary elements: no memory for %d elements (%.3g MB)",
+        rb_fail(why, status, "boundary elements: out of memory for %d elements (%.3g MB)",
                 mesh->n, bytes_of(mesh, dense) / 1e6);
     if (status == RB_OK)
         *system = s;

@@ -353,7 +353,7 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
     if (s == RB_OK)
         return s;
     rb_bem_flexibility_free(f);
-    return rb_fail(why, RB_ENOMEM, "half-plane: no memory for %d contact elements", n_c);
+    return rb_fail(why, RB_ENOMEM, "half-plane: out of memory for %d contact elements", n_c);
 }
 
 int rb_bem_toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
@@ -462,5 +462,5 @@ rb_status rb_bem_flexibility_disc(int n_c, const double *ends, double radius,
     if (s == RB_OK)
         return s;
     rb_bem_flexibility_free(f);
-    return rb_fail(why, s, "disc: no memory for %d contact elements", n_c);
+    return rb_fail(why, s, "disc: out of memory for %d contact elements", n_c);
 }

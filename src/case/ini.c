@@ -120,9 +120,9 @@ static int handle_key(void *context, const char *section, const char *name,
 
 static rb_status read_keys(ini_state *st)
 {
-    st->file = fopen(st->path, "r");
+    st->file = rb_io_open_input(st->path, &st->status, st->why);
     if (!st->file)
-        return rb_fail(st->why, RB_ENOENT, "%s: %s", st->path, strerror(errno));
+        return st->status;
     const int bad_line = ini_parse_stream(read_line, st, handle_key, st);
     if (ferror(st->file))
         st->status = rb_fail(st->why, RB_ENOENT, "%s: %s", st->path, strerror(errno));

@@ -111,7 +111,7 @@ const rb_option rb_case_table[] = {
     RB_CHOICE_LINE("gap", RC(gap), gaps,
                    "x^2/(2R), the cylinder's own, or a file of rows x, gap [mm]",
                    .path = PLACE(gap_file), .path_value = RB_GAP_TABLE,
-                   .path_name = "FILE"),
+                   .path_name = "FILE", .file = RB_FILE_READ),
     RB_NUMBER_LINE("gap-smoothing", PLACE(gap_smoothing), "mm", RB_FROM(0),
                    "standard deviation of the noise in the gap file: the smoothest curve "
                    "that stays so close to its points; 0: a cubic spline through them"),
@@ -120,7 +120,7 @@ const rb_option rb_case_table[] = {
         "transient: rows x, gap [mm] of a flat (> 0) or a bump (< 0) that adds to "
         "the gap, begins and ends with 0, lies at these x before rolling and "
         "rides with the surface, towards -x",
-        .unset = "none"),
+        .unset = "none", .file = RB_FILE_READ),
 
     RB_GROUP_LINE("friction", "Friction"),
     RB_NUMBER_LINE("mu", RC(mu), "-", RB_FROM(0),
@@ -171,7 +171,7 @@ const rb_option rb_case_table[] = {
                  "half-widths of the largest load), load or approach, shift, creep, "
                  "creep_ratio, force or force_ratio; a column replaces the case's own "
                  "value",
-                 .unset = "none"),
+                 .unset = "none", .file = RB_FILE_READ),
 
     RB_GROUP_LINE("mesh", "Mesh"),
     RB_CHOICE_LINE(

@@ -217,3 +217,15 @@ const char *rb_option_text(const rb_option *o, const void *target, char room[64]
     }
     return "";
 }
+
+const char *rb_option_path(const rb_option *o, const void *target)
+{
+    const char *values = target;
+    if (o->file == RB_FILE_NONE)
+        return NULL;
+    if (o->kind == RB_OPTION_CHOICE &&
+        *(const int *)(values + o->offset) != o->path_value)
+        return NULL;
+    return *(const char *const *)(values +
+                                  (o->kind == RB_OPTION_CHOICE ? o->path : o->offset));
+}

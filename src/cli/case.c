@@ -1,4 +1,5 @@
 #include "cli/case.h"
+#include "cli/output.h"
 
 rb_case *cli_case_create(rb_case_purpose purpose)
 {
@@ -6,11 +7,6 @@ rb_case *cli_case_create(rb_case_purpose purpose)
     if (!c)
         cli_fail(CLI_INTERNAL, "out of memory");
     return c;
-}
-
-cli_exit cli_say(rb_status s, const rb_message *why)
-{
-    return s == RB_OK ? CLI_CONTINUE : cli_fail(cli_exit_of(s), "%s", why->text);
 }
 
 /* A misspelt command looks like a case file that is not there. */
@@ -28,14 +24,16 @@ static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *
 cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
                         cli_args *args)
 {
-    rb_message why;
+    rb_message why = {""};
     cli_exit code = cli_parse(spec, argc, argv, args);
     if (code == CLI_CONTINUE && args->operands > 1)
         code = cli_fail(CLI_USAGE, "one case file at a time, got '%s' and '%s'",
                         args->operand[0], args->operand[1]);
     if (code == CLI_CONTINUE && args->operands == 1)
         code = read_case_file(spec, args->operand[0], c);
-    return code == CLI_CONTINUE ? cli_say(rb_case_settle(c, &why), &why) : code;
+    if (code == CLI_CONTINUE)
+        code = cli_say(rb_case_settle(c, &why), &why);
+    return code == CLI_CONTINUE ? cli_check_files(spec, args) : code;
 }
 
 cli_exit cli_case_refuse(const rb_case *c, const char *name, const char *reason)

@@ -19,14 +19,11 @@
 /* A case of defaults, or NULL after saying that there is no memory. */
 rb_case *cli_case_create(rb_case_purpose purpose);
 
-/* Parses the arguments, reads the case file (the only operand allowed) and settles the
- * case, which is the first set of spec.  CLI_CONTINUE or an exit code, its line
- * printed. */
+/* Parses the arguments, reads the case file (the only operand allowed), settles the case,
+ * which is the first set of spec, and checks the files that the options name.
+ * CLI_CONTINUE or an exit code, its line printed. */
 cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
                         cli_args *args);
-
-/* CLI_CONTINUE where s is RB_OK, or the exit code after printing the line of why. */
-cli_exit cli_say(rb_status s, const rb_message *why);
 
 /* CLI_CONTINUE, or the line "--name: reason" when that option was given. */
 cli_exit cli_case_refuse(const rb_case *c, const char *name, const char *reason);

@@ -60,6 +60,11 @@ __attribute__((format(printf, 2, 3)))
 cli_exit
 cli_fail(cli_exit code, const char *format, ...);
 
+/* CLI_CONTINUE where s is RB_OK, or the exit code after printing the line of why. */
+cli_exit cli_say(rb_status s, const rb_message *why);
+/* The same behind the name of an option. */
+cli_exit cli_say_of(const char *option, rb_status s, const rb_message *why);
+
 /* From now on cli_fail keeps its line for cli_kept_failure() ("": none so far). */
 void cli_keep_failures(void);
 const char *cli_kept_failure(void);

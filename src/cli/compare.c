@@ -1,5 +1,6 @@
 /* rollbem compare FILE...: performance profiles of friction solvers (Dolan and More). */
 #include "cli/cli.h"
+#include "cli/output.h"
 #include "cli/solvers.h"
 
 #include "rollbem/friction.h"
@@ -42,10 +43,11 @@ static const rb_option options[] = {
     RB_GROUP_LINE("output", "Output"),
     RB_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
     RB_TEXT_LINE("plot", PLACE(plot), "FILE",
-                 "picture of the profiles (.png, .svg, .pdf)", .unset = "none"),
+                 "picture of the profiles (.png, .svg, .pdf)", .unset = "none",
+                 .file = RB_FILE_PICTURE),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
                  "where the tables or JSON go, whole or not at all",
-                 .unset = "standard output"),
+                 .unset = "standard output", .file = RB_FILE_WRITTEN),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0], MOST_SOLVERS = 32, TAUS = 61 };
@@ -159,7 +161,7 @@ static cli_exit run_file(comparison *c, const char *path)
     rb_message why;
     const rb_status s = rb_friction_read(path, &p, &why);
     if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "%s", why.text);
+        return cli_say(s, &why);
     const cli_exit code = run_problem(c, path, &p);
     rb_friction_problem_free(&p);
     return code;
@@ -241,19 +243,19 @@ static json_t *json_runs(const comparison *c)
     for (int p = 0; p < c->problems; p++)
         for (int s = 0; s < c->solvers; s++) {
             const run_result *one = &c->result[p * c->solvers + s];
-            json_t *run = json_object(), *file = json_string(c->file[p]);
-            json_object_set_new(run, "file", file ? file : json_null());
-            json_object_set_new(run, "solver", json_string(c->solver[s]));
-            json_object_set_new(run, "status", json_string(status_of(c, one)));
-            json_object_set_new(run, "iterations", json_integer(one->info.iters));
-            json_object_set_new(run, "residual",
-                                rb_report_json_number(one->info.residual));
-            json_object_set_new(run, "scaled_residual",
-                                rb_report_json_number(one->info.scaled));
-            json_object_set_new(run, "floor", rb_report_json_number(one->info.floor));
-            json_object_set_new(run, "flops", rb_report_json_number(one->info.flops));
-            json_object_set_new(run, "seconds", rb_report_json_number(one->info.seconds));
-            json_array_append_new(runs, run);
+            json_t *run = json_object();
+            rb_report_json_set(&run, "file", rb_report_json_text(c->file[p]));
+            rb_report_json_set(&run, "solver", json_string(c->solver[s]));
+            rb_report_json_set(&run, "status", json_string(status_of(c, one)));
+            rb_report_json_set(&run, "iterations", json_integer(one->info.iters));
+            rb_report_json_set(&run, "residual",
+                               rb_report_json_number(one->info.residual));
+            rb_report_json_set(&run, "scaled_residual",
+                               rb_report_json_number(one->info.scaled));
+            rb_report_json_set(&run, "floor", rb_report_json_number(one->info.floor));
+            rb_report_json_set(&run, "flops", rb_report_json_number(one->info.flops));
+            rb_report_json_set(&run, "seconds", rb_report_json_number(one->info.seconds));
+            rb_report_json_append(&runs, run);
         }
     return runs;
 }
@@ -261,26 +263,31 @@ static json_t *json_runs(const comparison *c)
 static rb_status write_json(const comparison *c, FILE *out)
 {
     json_t *root = rb_report_json_start(cli_command_line()), *profiles = json_object();
-    json_object_set_new(root, "measure", json_string(measures[c->o->measure].name));
-    json_object_set_new(root, "tol", rb_report_json_number(c->o->tol));
-    json_object_set_new(root, "runs", json_runs(c));
-    json_object_set_new(root, "tau", rb_report_json_numbers(TAUS, c->tau));
+    rb_report_json_set(&root, "measure", json_string(measures[c->o->measure].name));
+    rb_report_json_set(&root, "tol", rb_report_json_number(c->o->tol));
+    rb_report_json_set(&root, "runs", json_runs(c));
+    rb_report_json_set(&root, "tau", rb_report_json_numbers(TAUS, c->tau));
     for (int s = 0; s < c->solvers; s++)
-        json_object_set_new(profiles, c->solver[s],
-                            rb_report_json_numbers(TAUS, c->rho + s * TAUS));
-    json_object_set_new(root, "profiles", profiles);
-    const rb_status s = rb_report_json_write(out, root);
-    json_decref(root);
-    return s;
+        rb_report_json_set(&profiles, c->solver[s],
+                           rb_report_json_numbers(TAUS, c->rho + s * TAUS));
+    rb_report_json_set(&root, "profiles", profiles);
+    return rb_report_json_write(out, root);
 }
 
-static cli_exit draw(const comparison *c, rb_report_picture_kind kind)
+static rb_status write_results(FILE *out, const void *context, rb_message *why)
 {
-    rb_io_writer w;
-    rb_message why;
-    rb_status s = rb_io_writer_open(c->o->plot, &w, &why);
-    if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "%s", why.text);
+    const comparison *c = context;
+    (void)why;
+    if (c->o->json)
+        return write_json(c, out);
+    print_tables(c, out);
+    return RB_OK;
+}
+
+static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
+                      rb_message *why)
+{
+    const comparison *c = context;
     const rb_report_profiles profiles = {.problems = c->problems,
                                          .solvers = c->solvers,
                                          .n = TAUS,
@@ -288,33 +295,7 @@ static cli_exit draw(const comparison *c, rb_report_picture_kind kind)
                                          .measure = measures[c->o->measure].name,
                                          .tau = c->tau,
                                          .rho = c->rho};
-    s = rb_report_profiles_picture(w.file, kind, &profiles, &why);
-    if (s == RB_OK)
-        s = rb_io_writer_commit(&w, &why);
-    else
-        rb_io_writer_abandon(&w);
-    if (s == RB_OK)
-        return CLI_OK;
-    return cli_fail(s == RB_EFORMAT ? CLI_INTERNAL : cli_exit_of(s), "%s", why.text);
-}
-
-static cli_exit write_results(const comparison *c)
-{
-    rb_io_writer w;
-    rb_message why;
-    rb_status s = rb_io_writer_open(c->o->output, &w, &why);
-    if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "%s", why.text);
-    if (c->o->json)
-        s = write_json(c, w.file);
-    else
-        print_tables(c, w.file);
-    if (s == RB_ENOMEM) {
-        rb_io_writer_abandon(&w);
-        return cli_fail(CLI_INTERNAL, "out of memory");
-    }
-    s = rb_io_writer_commit(&w, &why);
-    return s == RB_OK ? CLI_OK : cli_fail(cli_exit_of(s), "%s", why.text);
+    return rb_report_profiles_picture(out, kind, &profiles, why);
 }
 
 /* ---- Command --------------------------------------------------------------------------
@@ -322,10 +303,6 @@ static cli_exit write_results(const comparison *c)
 
 static cli_exit compare_files(comparison *c, int n, char **files)
 {
-    rb_report_picture_kind kind = RB_REPORT_PNG;
-    rb_message why;
-    if (c->o->plot && rb_report_picture_kind_of(c->o->plot, &kind, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--plot: %s", why.text);
     c->file = calloc((size_t)n, sizeof *c->file);
     c->result = calloc((size_t)n * (size_t)c->solvers, sizeof *c->result);
     if (!c->file || !c->result)
@@ -341,9 +318,9 @@ static cli_exit compare_files(comparison *c, int n, char **files)
         return worst ? worst : CLI_UNSOLVED;
     code = make_profiles(c);
     if (code == CLI_OK)
-        code = write_results(c);
-    if (code == CLI_OK && c->o->plot)
-        code = draw(c, kind);
+        code = cli_write_file(c->o->output, write_results, c);
+    if (code == CLI_OK)
+        code = cli_draw_file("plot", c->o->plot, draw, c);
     return code > worst ? code : worst;
 }
 
@@ -360,6 +337,8 @@ int cli_compare(int argc, char **argv)
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "compare: expected at least one FILE");
+    if (code == CLI_CONTINUE)
+        code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE)
         code = choose_solvers(&c);
     if (code == CLI_CONTINUE)

@@ -47,15 +47,9 @@ typedef struct {
     const rb_case *words;
     const rb_settled_case *c;
     const range_options *range;
+    const cli_output *o;
     rb_report_curves curves;
 } result;
-
-static cli_exit check_range(const range_options *range, const cli_output *o)
-{
-    if (range->from == range->to)
-        return cli_fail(CLI_USAGE, "--from and --to: expected two different values");
-    return cli_output_check(o);
-}
 
 /* The picture shows the force as a part of the friction, mu P. */
 static cli_exit check_picture(const rb_settled_case *c, const cli_output *o)
@@ -106,23 +100,23 @@ static rb_status print_json(FILE *out, const result *r)
 {
     json_t *root = rb_report_json_start(cli_command_line());
     json_t *inputs = rb_report_json_inputs(r->words);
-    json_object_set_new(inputs, "from", json_real(r->range->from));
-    json_object_set_new(inputs, "to", json_real(r->range->to));
-    json_object_set_new(inputs, "points", json_integer(r->range->points));
-    json_object_set_new(inputs, "over",
-                        json_string(variables[r->range->over_creep].name));
-    json_object_set_new(root, "inputs", inputs);
-    rb_report_json_curves(root, &r->curves);
-    const rb_status s = rb_report_json_write(out, root);
-    json_decref(root);
-    return s;
+    rb_report_json_set(&inputs, "from", json_real(r->range->from));
+    rb_report_json_set(&inputs, "to", json_real(r->range->to));
+    rb_report_json_set(&inputs, "points", json_integer(r->range->points));
+    rb_report_json_set(&inputs, "over",
+                       json_string(variables[r->range->over_creep].name));
+    rb_report_json_set(&root, "inputs", inputs);
+    rb_report_json_curves(&root, &r->curves);
+    return rb_report_json_write(out, root);
 }
 
-static rb_status print(FILE *out, const cli_output *o, const void *context)
+static rb_status print(FILE *out, const void *context, rb_message *why)
 {
     const result *r = context;
-    return o->json ? print_json(out, r)
-                   : rb_report_curve_table(out, &r->curves, cli_command_line(), o->bare);
+    (void)why;
+    return r->o->json
+               ? print_json(out, r)
+               : rb_report_curve_table(out, &r->curves, cli_command_line(), r->o->bare);
 }
 
 static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
@@ -150,14 +144,13 @@ static cli_exit check_case(const rb_case *c)
     return code;
 }
 
-static cli_exit show(cli_sink *sink, const result *r)
+static cli_exit show(const result *r)
 {
-    const cli_output *o = sink->o;
-    cli_exit code = cli_sink_write(sink, print, r);
-    if (code == CLI_OK && !o->quiet)
+    cli_exit code = cli_write_file(r->o->output, print, r);
+    if (code == CLI_OK && !r->o->quiet)
         rb_report_curve_summary(stderr, &r->curves);
     if (code == CLI_OK)
-        code = cli_output_draw(o, draw, r);
+        code = cli_draw_file("plot", r->o->plot, draw, r);
     return code;
 }
 
@@ -165,17 +158,12 @@ static cli_exit solve(const rb_case *words, const range_options *range,
                       const cli_output *o)
 {
     const rb_settled_case *c = rb_case_settled(words);
-    result r = {.words = words, .c = c, .range = range};
-    cli_sink sink;
+    result r = {.words = words, .c = c, .range = range, .o = o};
     rb_message why = {""};
-    cli_exit code = cli_sink_open(o, &sink);
-    if (code != CLI_CONTINUE)
-        return code;
+    cli_exit code = CLI_OK;
     const rb_status s = solve_curves(c, range, &r.curves, &why);
-    code = CLI_OK;
     if (s >= 0 && r.curves.n > 0 && r.curves.curve[0].n > 0)
-        code = show(&sink, &r);
-    cli_sink_abandon(&sink);
+        code = show(&r);
     if (code == CLI_OK && s != RB_OK)
         code = cli_case_refused(words, s, &why);
     for (int k = 0; k < RB_NUMBERS_MAX; k++) {
@@ -202,8 +190,8 @@ int cli_curve(int argc, char **argv)
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     if (code == CLI_CONTINUE)
         code = check_case(c);
-    if (code == CLI_CONTINUE)
-        code = check_range(&range, &o);
+    if (code == CLI_CONTINUE && range.from == range.to)
+        code = cli_fail(CLI_USAGE, "--from and --to: expected two different values");
     if (code == CLI_CONTINUE)
         code = check_picture(rb_case_settled(c), &o);
     if (code == CLI_CONTINUE)

@@ -1,15 +1,14 @@
 /* rollbem example bar|truss|wall: the finite-element examples of the two papers. */
-#include "cli/cli.h"
+#include "cli/interrupt.h"
+#include "cli/output.h"
 #include "cli/solvers.h"
 
 #include "rollbem/io.h"
 #include "rollbem/report_fem.h"
 
-#include <errno.h>
 #include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct {
     const char *solver, *output, *plot;
@@ -55,7 +54,7 @@ static const rb_option options[] = {
                  "(FCLib)",
                  .unset = "none"),
     RB_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
-                 .unset = "none"),
+                 .unset = "none", .file = RB_FILE_PICTURE),
     RB_FLAG_LINE("quiet", PLACE(quiet), "wall: no line per step on standard error"),
 };
 
@@ -75,30 +74,19 @@ static const char about[] =
 /* ---- Writing --------------------------------------------------------------------------
  */
 
-static cli_exit end_write(rb_io_writer *w, rb_status s)
-{
-    rb_message why = {""};
-    if (s != RB_OK)
-        rb_fail(&why, s, "%s", s == RB_EWRITE ? strerror(errno) : rb_status_text(s));
-    else if ((s = rb_io_writer_commit(w, &why)) == RB_OK)
-        return CLI_OK;
-    rb_io_writer_abandon(w);
-    return cli_fail(cli_exit_of(s), "%s", why.text);
-}
-
 static json_t *inputs_of(const example_options *o, const char *name)
 {
     json_t *inputs = json_object();
-    json_object_set_new(inputs, "example", json_string(name));
-    json_object_set_new(inputs, "solver", json_string(o->solver));
-    json_object_set_new(inputs, "tol", rb_report_json_number(o->tol));
+    rb_report_json_set(&inputs, "example", json_string(name));
+    rb_report_json_set(&inputs, "solver", json_string(o->solver));
+    rb_report_json_set(&inputs, "tol", rb_report_json_number(o->tol));
     if (strcmp(name, "truss") == 0) {
-        json_object_set_new(inputs, "layout", json_string(layouts[o->layout].name));
-        json_object_set_new(inputs, "nodes", json_integer(o->nodes));
+        rb_report_json_set(&inputs, "layout", json_string(layouts[o->layout].name));
+        rb_report_json_set(&inputs, "nodes", json_integer(o->nodes));
     } else if (strcmp(name, "wall") == 0) {
-        json_object_set_new(inputs, "mesh", json_string(meshes[o->mesh].name));
-        json_object_set_new(inputs, "rigid", json_boolean(o->rigid));
-        json_object_set_new(inputs, "step_s", rb_report_json_number(o->step));
+        rb_report_json_set(&inputs, "mesh", json_string(meshes[o->mesh].name));
+        rb_report_json_set(&inputs, "rigid", json_boolean(o->rigid));
+        rb_report_json_set(&inputs, "step_s", rb_report_json_number(o->step));
     }
     return inputs;
 }
@@ -107,11 +95,9 @@ static rb_status write_json(FILE *out, const example_options *o, const char *nam
                             json_t *steps)
 {
     json_t *root = rb_report_json_start(cli_command_line());
-    json_object_set_new(root, "inputs", inputs_of(o, name));
-    json_object_set_new(root, "steps", steps);
-    const rb_status s = rb_report_json_write(out, root);
-    json_decref(root);
-    return s;
+    rb_report_json_set(&root, "inputs", inputs_of(o, name));
+    rb_report_json_set(&root, "steps", steps);
+    return rb_report_json_write(out, root);
 }
 
 /* columns: names between blanks, which become tabs */
@@ -161,6 +147,13 @@ static const example truss = {"truss",
                               "iterations residual",
                               truss_row, rb_report_json_truss, rb_report_picture_truss};
 
+typedef struct {
+    const example_options *o;
+    const example *e;
+    const rb_fem_model *model;
+    const rb_fem_history *history;
+} example_run;
+
 static rb_status write_table(FILE *out, const example *e, const rb_fem_model *model,
                              const rb_fem_history *history)
 {
@@ -175,34 +168,20 @@ static rb_status write_table(FILE *out, const example *e, const rb_fem_model *mo
     return written(out);
 }
 
-static cli_exit write_history(const example_options *o, const example *e,
-                              const rb_fem_model *model, const rb_fem_history *history)
+static rb_status write_history(FILE *out, const void *context, rb_message *why)
 {
-    rb_io_writer w;
-    rb_message why = {""};
-    const rb_status s = rb_io_writer_open(o->output, &w, &why);
-    if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "%s", why.text);
-    return end_write(&w, o->json ? write_json(w.file, o, e->name, e->json(model, history))
-                                 : write_table(w.file, e, model, history));
+    const example_run *r = context;
+    (void)why;
+    return r->o->json
+               ? write_json(out, r->o, r->e->name, r->e->json(r->model, r->history))
+               : write_table(out, r->e, r->model, r->history);
 }
 
-static cli_exit draw_history(const char *path, const example *e,
-                             const rb_fem_model *model, const rb_fem_history *history)
+static rb_status draw_history(FILE *out, rb_report_picture_kind kind, const void *context,
+                              rb_message *why)
 {
-    rb_report_picture_kind kind;
-    rb_io_writer w;
-    rb_message why = {""};
-    rb_status s = rb_report_picture_kind_of(path, &kind, &why);
-    if (s == RB_OK)
-        s = rb_io_writer_open(path, &w, &why);
-    if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "--plot: %s", why.text);
-    s = e->picture(w.file, kind, model, history, &why);
-    if (s == RB_OK)
-        return end_write(&w, s);
-    rb_io_writer_abandon(&w);
-    return cli_fail(CLI_INTERNAL, "--plot: %s", why.text);
+    const example_run *r = context;
+    return r->e->picture(out, kind, r->model, r->history, why);
 }
 
 static cli_exit run_history(const example_options *o, const example *e,
@@ -211,13 +190,14 @@ static cli_exit run_history(const example_options *o, const example *e,
     rb_fem_history history;
     rb_message why = {""};
     const rb_status s = rb_fem_run(model, o->solver, o->tol, &history, &why);
+    const example_run r = {o, e, model, &history};
     cli_exit code = CLI_OK;
     if (s >= RB_OK)
-        code = write_history(o, e, model, &history);
-    if (s >= RB_OK && code == CLI_OK && o->plot)
-        code = draw_history(o->plot, e, model, &history);
+        code = cli_write_file(o->output, write_history, &r);
+    if (s >= RB_OK && code == CLI_OK)
+        code = cli_draw_file("plot", o->plot, draw_history, &r);
     if (s != RB_OK && code == CLI_OK)
-        code = cli_fail(cli_exit_of(s), "%s", why.text);
+        code = cli_say(s, &why);
     rb_fem_history_free(&history);
     return code;
 }
@@ -228,7 +208,7 @@ static cli_exit run_bar(const example_options *o)
     rb_message why = {""};
     const rb_status s = rb_fem_model_bar(160, 16, &model, &why);
     if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "%s", why.text);
+        return cli_say(s, &why);
     const cli_exit code = run_history(o, &bar, &model);
     rb_fem_model_free(&model);
     return code;
@@ -241,7 +221,7 @@ static cli_exit run_truss(const example_options *o)
     const rb_status s =
         rb_fem_model_truss((rb_fem_layout)o->layout, o->nodes, &model, &why);
     if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "%s", why.text);
+        return cli_say(s, &why);
     const cli_exit code = run_history(o, &truss, &model);
     rb_fem_model_free(&model);
     return code;
@@ -251,6 +231,7 @@ static cli_exit run_truss(const example_options *o)
  * ------------------------------------------------------------------------------ */
 
 typedef struct {
+    const example_options *o;
     rb_fem_wall *wall;
     rb_fem_wall_step *step;
     int steps;
@@ -270,66 +251,49 @@ static rb_status write_wall_table(FILE *out, const wall_run *run)
     return written(out);
 }
 
-static cli_exit print_wall(const example_options *o, const wall_run *run)
+static rb_status write_wall(FILE *out, const void *context, rb_message *why)
 {
-    rb_io_writer w;
-    rb_message why = {""};
-    const rb_status s = rb_io_writer_open(NULL, &w, &why);
-    if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "%s", why.text);
-    return end_write(&w, o->json ? write_json(w.file, o, "wall",
-                                              rb_report_json_wall(run->steps, run->step))
-                                 : write_wall_table(w.file, run));
+    const wall_run *run = context;
+    (void)why;
+    return run->o->json ? write_json(out, run->o, "wall",
+                                     rb_report_json_wall(run->steps, run->step))
+                        : write_wall_table(out, run);
 }
 
-static cli_exit draw_wall(const char *path, const wall_run *run)
+static rb_status draw_wall(FILE *out, rb_report_picture_kind kind, const void *context,
+                           rb_message *why)
 {
-    rb_report_picture_kind kind;
-    rb_io_writer w;
-    rb_message why = {""};
-    rb_status s = rb_report_picture_kind_of(path, &kind, &why);
-    if (s == RB_OK)
-        s = rb_io_writer_open(path, &w, &why);
-    if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "--plot: %s", why.text);
-    s = rb_report_picture_wall(w.file, kind, run->wall, run->steps, run->step, &why);
-    if (s == RB_OK)
-        return end_write(&w, s);
-    rb_io_writer_abandon(&w);
-    return cli_fail(CLI_INTERNAL, "--plot: %s", why.text);
+    const wall_run *run = context;
+    return rb_report_picture_wall(out, kind, run->wall, run->steps, run->step, why);
 }
 
-static cli_exit write_problem(const wall_run *run, const char *folder, int rank, int step)
+static rb_status write_problem(const wall_run *run, int rank, int step, rb_message *why)
 {
-    char path[1024], title[200];
-    rb_friction_problem problem;
-    rb_message why = {""};
-    if (snprintf(path, sizeof path, "%s/wall-%02d.hdf5", folder, rank) >=
-        (int)sizeof path)
-        return cli_fail(CLI_USAGE, "--output: '%s' is too long", folder);
+    char name[40], title[200];
+    rb_friction_problem problem = {0};
+    snprintf(name, sizeof name, "wall-%02d.hdf5", rank);
     snprintf(title, sizeof title, "rollbem wall, step %d, solved in %d iterations",
              step + 1, run->step[step].iterations);
-    rb_status s = rb_fem_wall_problem(run->wall, step, &problem);
+    char *path = rb_io_join(run->o->output, name);
+    rb_status s = path ? rb_fem_wall_problem(run->wall, step, &problem) : RB_ENOMEM;
     if (s == RB_OK)
-        s = rb_friction_write(path, &problem, NULL, NULL, NULL, title, &why);
+        s = rb_friction_write(path, &problem, NULL, NULL, NULL, title, why);
     rb_friction_problem_free(&problem);
-    return s == RB_OK ? CLI_OK
-                      : cli_fail(cli_exit_of(s), "%s",
-                                 why.text[0] ? why.text : rb_status_text(s));
+    free(path);
+    return s;
 }
 
-static cli_exit write_problems(const example_options *o, const wall_run *run)
+static cli_exit write_problems(const wall_run *run)
 {
     int chosen[75];
-    const int count = o->problems < run->steps ? o->problems : run->steps - 1;
-    if (mkdir(o->output, 0777) != 0 && errno != EEXIST)
-        return cli_fail(CLI_CANTWRITE, "%s: %s", o->output, strerror(errno));
-    const rb_status s = rb_fem_wall_select(run->wall, count, chosen);
-    cli_exit code =
-        s == RB_OK ? CLI_OK : cli_fail(cli_exit_of(s), "%s", rb_status_text(s));
-    for (int k = 0; code == CLI_OK && k < count; k++)
-        code = write_problem(run, o->output, k + 1, chosen[k]);
-    return code;
+    rb_message why = {""};
+    const int count = run->o->problems < run->steps ? run->o->problems : run->steps - 1;
+    rb_status s = rb_io_make_folder(run->o->output, &why);
+    if (s == RB_OK)
+        s = rb_fem_wall_select(run->wall, count, chosen);
+    for (int k = 0; s == RB_OK && k < count; k++)
+        s = write_problem(run, k + 1, chosen[k], &why);
+    return s == RB_OK ? CLI_OK : cli_say(s, &why);
 }
 
 static cli_exit advance_all(const example_options *o, wall_run *run)
@@ -337,7 +301,8 @@ static cli_exit advance_all(const example_options *o, wall_run *run)
     const int planned = rb_fem_wall_steps(run->wall);
     rb_message why = {""};
     rb_status s = RB_OK;
-    while (s == RB_OK && run->steps < planned) {
+    cli_interrupts_catch();
+    while (s == RB_OK && run->steps < planned && !cli_interrupted()) {
         rb_fem_wall_step *step = &run->step[run->steps];
         s = rb_fem_wall_advance(run->wall, o->solver, o->tol, step, &why);
         if (s < RB_OK)
@@ -347,7 +312,10 @@ static cli_exit advance_all(const example_options *o, wall_run *run)
             fprintf(stderr, "step %d of %d: shear %.0f N, %d iterations, %.2f s\n",
                     run->steps, planned, step->shear, step->iterations, step->seconds);
     }
-    return s == RB_OK ? CLI_OK : cli_fail(cli_exit_of(s), "%s", why.text);
+    cli_interrupts_leave();
+    if (s == RB_OK && run->steps < planned)
+        s = rb_fail(&why, RB_INTERRUPTED, "interrupted after step %d", run->steps);
+    return s == RB_OK ? CLI_OK : cli_say(s, &why);
 }
 
 static rb_fem_wall_options wall_options(const example_options *o)
@@ -364,13 +332,14 @@ static rb_fem_wall_options wall_options(const example_options *o)
     return w;
 }
 
-static cli_exit finish_wall(const example_options *o, const wall_run *run)
+static cli_exit finish_wall(const wall_run *run)
 {
-    cli_exit code = run->steps > 0 ? print_wall(o, run) : CLI_OK;
-    if (code == CLI_OK && run->steps > 0 && o->plot)
-        code = draw_wall(o->plot, run);
-    if (code == CLI_OK && run->steps > 0 && o->output)
-        code = write_problems(o, run);
+    const example_options *o = run->o;
+    cli_exit code = cli_write_file(NULL, write_wall, run);
+    if (code == CLI_OK)
+        code = cli_draw_file("plot", o->plot, draw_wall, run);
+    if (code == CLI_OK && o->output)
+        code = write_problems(run);
     return code;
 }
 
@@ -389,18 +358,18 @@ static void introduce(const rb_fem_wall *wall)
 static cli_exit run_wall(const example_options *o)
 {
     const rb_fem_wall_options w = wall_options(o);
-    wall_run run = {NULL, NULL, 0};
+    wall_run run = {.o = o};
     rb_message why = {""};
     const rb_status s = rb_fem_wall_create(&w, &run.wall, &why);
     if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "%s", why.text[0] ? why.text : rb_status_text(s));
+        return cli_say(s, &why);
     if (!o->quiet)
         introduce(run.wall);
     run.step = calloc((size_t)rb_fem_wall_steps(run.wall), sizeof *run.step);
     cli_exit code =
         run.step ? advance_all(o, &run) : cli_fail(CLI_INTERNAL, "out of memory");
-    if (run.step) {
-        const cli_exit finished = finish_wall(o, &run);
+    if (run.steps > 0) {
+        const cli_exit finished = finish_wall(&run);
         code = code == CLI_OK ? finished : code;
     }
     free(run.step);
@@ -413,12 +382,16 @@ static cli_exit run_wall(const example_options *o)
 
 static cli_exit check(const example_options *o, const cli_args *args)
 {
-    rb_report_picture_kind kind;
-    rb_message why;
+    rb_message why = {""};
     if (args->operands != 1)
         return cli_fail(CLI_USAGE, "example: expected one of bar, truss, wall");
-    if (o->plot && rb_report_picture_kind_of(o->plot, &kind, &why) != RB_OK)
-        return cli_fail(CLI_USAGE, "--plot: %s", why.text);
+    if (o->output) { /* a folder or a file */
+        const rb_status s = strcmp(args->operand[0], "wall") == 0
+                                ? rb_io_folder_check(o->output, &why)
+                                : rb_io_writer_check(o->output, &why);
+        if (s != RB_OK)
+            return cli_say(s, &why);
+    }
     const rb_friction_solver *solver;
     return o->solver ? cli_friction_solver("solver", o->solver, &solver) : CLI_CONTINUE;
 }
@@ -454,6 +427,8 @@ int cli_example(int argc, char **argv)
                            {{options, OPTIONS, &o, NULL}},
                            1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE)
+        code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE)
         code = check(&o, &args);
     if (code == CLI_CONTINUE)

@@ -48,7 +48,7 @@ static const rb_option options[] = {
     RB_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
                  "where the tables or JSON go, whole or not at all",
-                 .unset = "standard output"),
+                 .unset = "standard output", .file = RB_FILE_WRITTEN),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -107,40 +107,40 @@ static json_t *count(int known, int n)
     return known ? json_integer(n) : json_null();
 }
 
-static void add_facts(json_t *p, const friction_result *r)
+static void add_facts(json_t **p, const friction_result *r)
 {
-    json_object_set_new(p, "rank", count(r->m > 0, r->facts.rank));
-    json_object_set_new(p, "hyperstaticity", count(r->m > 0, r->facts.hyperstaticity));
-    json_object_set_new(p, "nullity", count(r->m > 0, r->facts.nullity));
-    json_object_set_new(p, "asymmetry", rb_report_json_number(r->facts.asymmetry));
-    json_object_set_new(p, "indefinite", count(r->m > 0, r->facts.indefinite));
+    rb_report_json_set(p, "rank", count(r->m > 0, r->facts.rank));
+    rb_report_json_set(p, "hyperstaticity", count(r->m > 0, r->facts.hyperstaticity));
+    rb_report_json_set(p, "nullity", count(r->m > 0, r->facts.nullity));
+    rb_report_json_set(p, "asymmetry", rb_report_json_number(r->facts.asymmetry));
+    rb_report_json_set(p, "indefinite", count(r->m > 0, r->facts.indefinite));
 }
 
 static void add_problem(friction_run *run, const friction_result *r)
 {
-    json_t *file = json_string(r->file), *p = json_object();
-    json_object_set_new(p, "file", file ? file : json_null());
-    json_object_set_new(p, "solver", json_string(r->info.solver));
-    json_object_set_new(p, "status", json_string(r->status));
-    json_object_set_new(p, "contacts", count(r->m > 0, r->contacts));
-    json_object_set_new(p, "dimension", count(r->dimension > 0, r->dimension));
-    json_object_set_new(p, "iterations", count(r->m > 0, r->info.iters));
-    json_object_set_new(p, "residual", rb_report_json_number(r->info.residual));
-    json_object_set_new(p, "scaled_residual", rb_report_json_number(r->info.scaled));
-    json_object_set_new(p, "floor", rb_report_json_number(r->info.floor));
-    json_object_set_new(p, "flops", rb_report_json_number(r->info.flops));
-    json_object_set_new(p, "seconds", rb_report_json_number(r->info.seconds));
+    json_t *p = json_object();
+    rb_report_json_set(&p, "file", rb_report_json_text(r->file));
+    rb_report_json_set(&p, "solver", json_string(r->info.solver));
+    rb_report_json_set(&p, "status", json_string(r->status));
+    rb_report_json_set(&p, "contacts", count(r->m > 0, r->contacts));
+    rb_report_json_set(&p, "dimension", count(r->dimension > 0, r->dimension));
+    rb_report_json_set(&p, "iterations", count(r->m > 0, r->info.iters));
+    rb_report_json_set(&p, "residual", rb_report_json_number(r->info.residual));
+    rb_report_json_set(&p, "scaled_residual", rb_report_json_number(r->info.scaled));
+    rb_report_json_set(&p, "floor", rb_report_json_number(r->info.floor));
+    rb_report_json_set(&p, "flops", rb_report_json_number(r->info.flops));
+    rb_report_json_set(&p, "seconds", rb_report_json_number(r->info.seconds));
     if (run->o->facts)
-        add_facts(p, r);
+        add_facts(&p, r);
     if (run->o->solution) {
-        json_object_set_new(p, "r",
-                            r->r ? rb_report_json_numbers(r->m, r->r) : json_null());
-        json_object_set_new(p, "u",
-                            r->u ? rb_report_json_numbers(r->m, r->u) : json_null());
+        rb_report_json_set(&p, "r",
+                           r->r ? rb_report_json_numbers(r->m, r->r) : json_null());
+        rb_report_json_set(&p, "u",
+                           r->u ? rb_report_json_numbers(r->m, r->u) : json_null());
     }
-    if (run->steps)
-        json_object_set(p, "trace", run->steps);
-    json_array_append_new(run->problems, p);
+    if (run->o->trace)
+        rb_report_json_set(&p, "trace", json_incref(run->steps));
+    rb_report_json_append(&run->problems, p);
 }
 
 static void print_problem(friction_run *run, const friction_result *r)
@@ -179,7 +179,7 @@ static cli_exit unreadable(friction_result *r, rb_status s, const rb_message *wh
     r->status = rb_status_text(s);
     r->info.residual = r->info.scaled = r->info.floor = r->info.flops = r->info.seconds =
         NAN;
-    return cli_fail(cli_exit_of(s), "%s", why->text);
+    return cli_say(s, why);
 }
 
 /* Beyond this many rows only --facts looks at W's shape: it costs a factorisation. */
@@ -221,9 +221,9 @@ static cli_exit judge(friction_run *run, friction_result *r, rb_status s)
 static int trace(const rb_friction_progress *at, void *context)
 {
     friction_run *run = context;
-    if (run->steps)
-        json_array_append_new(
-            run->steps,
+    if (run->o->json)
+        rb_report_json_append(
+            &run->steps,
             json_pack("{s:s, s:i, s:o, s:o}", "solver", at->solver, "iterations",
                       at->iters, "flops", rb_report_json_number(at->flops),
                       "scaled_residual", rb_report_json_number(at->error)));
@@ -338,26 +338,28 @@ static const char conventions[] =
     "[N, T...] per contact, u = W r + q, uhat = u + mu ||u_T|| N, K* contains "
     "uhat, complementary to r in K";
 
-static cli_exit solve_files(const friction_options *o, int n, char **files)
+typedef struct {
+    const friction_options *o;
+    const cli_args *args;
+    cli_exit *worst;
+} friction_files;
+
+static rb_status solve_files(FILE *out, const void *context, rb_message *why)
 {
-    rb_io_writer w;
-    rb_message why;
-    const rb_status s = rb_io_writer_open(o->output, &w, &why);
-    if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "%s", why.text);
-    friction_run run = {o, w.file, o->json ? json_array() : NULL, NULL};
-    cli_exit worst = CLI_OK;
-    if (!o->json)
-        fprintf(run.out,
+    const friction_files *all = context;
+    friction_run run = {all->o, out, all->o->json ? json_array() : NULL, NULL};
+    (void)why;
+    if (!all->o->json)
+        fprintf(out,
                 "# rollbem %s\n# %s\n# "
                 "file\tsolver\tstatus\tcontacts\tdimension\titerations\t"
                 "residual\tfloor\tseconds\tscaled\n",
                 RB_VERSION, cli_command_line());
-    for (int i = 0; i < n; i++) {
-        const cli_exit code = solve_file(&run, files[i]);
-        worst = code > worst ? code : worst;
+    for (int i = 0; i < all->args->operands; i++) {
+        const cli_exit code = solve_file(&run, all->args->operand[i]);
+        *all->worst = code > *all->worst ? code : *all->worst;
     }
-    return cli_finish_problems(&w, conventions, run.problems, worst);
+    return all->o->json ? cli_write_problems(out, conventions, run.problems) : RB_OK;
 }
 
 int cli_friction(int argc, char **argv)
@@ -379,7 +381,13 @@ int cli_friction(int argc, char **argv)
     if (code == CLI_CONTINUE)
         code = cli_friction_solver("solver", o.solver, &solver);
     if (code == CLI_CONTINUE)
-        code = solve_files(&o, args.operands, args.operand);
+        code = cli_check_files(&spec, &args);
+    if (code == CLI_CONTINUE) {
+        cli_exit worst = CLI_OK;
+        const friction_files all = {&o, &args, &worst};
+        code = cli_write_file(o.output, solve_files, &all);
+        code = code == CLI_OK ? worst : code;
+    }
     cli_args_free(&args);
     return code;
 }

@@ -36,7 +36,7 @@ static const rb_option options[] = {
     RB_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
                  "where the tables or JSON go, whole or not at all",
-                 .unset = "standard output"),
+                 .unset = "standard output", .file = RB_FILE_WRITTEN),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -61,7 +61,8 @@ static const char notes[] =
 typedef struct {
     const lcp_options *o;
     FILE *out;
-    json_t *problems, *pivots; /* JSON only; pivots of the present file */
+    json_t *problems,
+        *pivots; /* JSON only, NULL without memory; pivots of the file at hand */
 } lcp_run;
 
 typedef struct {
@@ -88,8 +89,8 @@ static void trace(const rb_lcp_pivot *p, void *context)
     char in[24], out[24];
     const char *entering = variable(p->n, p->entering, in);
     const char *leaving = variable(p->n, p->leaving, out);
-    if (run->pivots)
-        json_array_append_new(run->pivots,
+    if (run->o->json)
+        rb_report_json_append(&run->pivots,
                               json_pack("{s:s, s:s, s:i, s:o, s:o}", "entering", entering,
                                         "leaving", leaving, "row", p->row + 1, "ratio",
                                         rb_report_json_number(p->ratio), "z0",
@@ -109,24 +110,24 @@ static json_t *vector(int n, const double *x)
 static void add_problem(lcp_run *run, const lcp_result *r)
 {
     const int known = r->n > 0;
-    json_t *file = json_string(r->file), *p = json_object();
-    json_object_set_new(p, "file", file ? file : json_null());
-    json_object_set_new(p, "solver", json_string("lemke"));
-    json_object_set_new(p, "status", json_string(r->status));
-    json_object_set_new(p, "contacts", json_null());
-    json_object_set_new(p, "dimension", known ? json_integer(r->n) : json_null());
-    json_object_set_new(p, "iterations",
-                        known ? json_integer(r->info.iters) : json_null());
-    json_object_set_new(p, "residual", rb_report_json_number(r->info.res));
-    json_object_set_new(p, "floor", rb_report_json_number(r->floor));
-    json_object_set_new(p, "seconds", rb_report_json_number(r->seconds));
+    json_t *p = json_object();
+    rb_report_json_set(&p, "file", rb_report_json_text(r->file));
+    rb_report_json_set(&p, "solver", json_string("lemke"));
+    rb_report_json_set(&p, "status", json_string(r->status));
+    rb_report_json_set(&p, "contacts", json_null());
+    rb_report_json_set(&p, "dimension", known ? json_integer(r->n) : json_null());
+    rb_report_json_set(&p, "iterations",
+                       known ? json_integer(r->info.iters) : json_null());
+    rb_report_json_set(&p, "residual", rb_report_json_number(r->info.res));
+    rb_report_json_set(&p, "floor", rb_report_json_number(r->floor));
+    rb_report_json_set(&p, "seconds", rb_report_json_number(r->seconds));
     if (run->o->solution) {
-        json_object_set_new(p, "z", vector(r->n, r->z));
-        json_object_set_new(p, "w", vector(r->n, r->w));
+        rb_report_json_set(&p, "z", vector(r->n, r->z));
+        rb_report_json_set(&p, "w", vector(r->n, r->w));
     }
-    if (run->pivots)
-        json_object_set(p, "pivots", run->pivots);
-    json_array_append_new(run->problems, p);
+    if (run->o->trace)
+        rb_report_json_set(&p, "pivots", json_incref(run->pivots));
+    rb_report_json_append(&run->problems, p);
 }
 
 static void print_problem(lcp_run *run, const lcp_result *r)
@@ -210,7 +211,7 @@ static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
         return failed(r, RB_ENOMEM, "out of memory");
     r->M = p->M.dense;
     r->q = p->q;
-    if (run->o->trace && !run->pivots)
+    if (run->o->trace && !run->o->json)
         fprintf(run->out, "# pivot\tentering\tleaving\trow\tratio\tz0\n");
     return run_lemke(run, r);
 }
@@ -249,22 +250,25 @@ static void print_head(const lcp_run *run)
 
 static const char conventions[] = "z >= 0, w = M z + q >= 0, z'w = 0";
 
-static cli_exit solve_files(const lcp_options *o, int n, char **files)
+typedef struct {
+    const lcp_options *o;
+    const cli_args *args;
+    cli_exit *worst;
+} lcp_files;
+
+static rb_status solve_files(FILE *out, const void *context, rb_message *why)
 {
-    rb_io_writer w;
-    rb_message why;
-    const rb_status s = rb_io_writer_open(o->output, &w, &why);
-    if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "%s", why.text);
-    lcp_run run = {.o = o, .out = w.file, .problems = o->json ? json_array() : NULL};
-    cli_exit worst = CLI_OK;
-    if (!o->json)
+    const lcp_files *all = context;
+    lcp_run run = {
+        .o = all->o, .out = out, .problems = all->o->json ? json_array() : NULL};
+    (void)why;
+    if (!all->o->json)
         print_head(&run);
-    for (int i = 0; i < n; i++) {
-        const cli_exit code = solve_file(&run, files[i]);
-        worst = code > worst ? code : worst;
+    for (int i = 0; i < all->args->operands; i++) {
+        const cli_exit code = solve_file(&run, all->args->operand[i]);
+        *all->worst = code > *all->worst ? code : *all->worst;
     }
-    return cli_finish_problems(&w, conventions, run.problems, worst);
+    return all->o->json ? cli_write_problems(out, conventions, run.problems) : RB_OK;
 }
 
 int cli_lcp(int argc, char **argv)
@@ -280,7 +284,13 @@ int cli_lcp(int argc, char **argv)
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "lcp: expected at least one FILE");
     if (code == CLI_CONTINUE)
-        code = solve_files(&o, args.operands, args.operand);
+        code = cli_check_files(&spec, &args);
+    if (code == CLI_CONTINUE) {
+        cli_exit worst = CLI_OK;
+        const lcp_files all = {&o, &args, &worst};
+        code = cli_write_file(o.output, solve_files, &all);
+        code = code == CLI_OK ? worst : code;
+    }
     cli_args_free(&args);
     return code;
 }

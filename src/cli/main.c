@@ -3,6 +3,7 @@
 #include "rollbem/blas.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -77,7 +78,8 @@ int cli_help(int argc, char **argv)
     return CLI_OK;
 }
 
-/* Room for every character quoted ('\''), a pair of quotes and a space each. */
+/* Room for every character quoted ('\''), a pair of quotes and a space each; then 4 bytes
+ * for each of them in print. */
 static size_t quoted_size(int argc, char **argv)
 {
     size_t size = sizeof "rollbem";
@@ -101,8 +103,7 @@ static char *append_quoted(char *to, const char *word)
             memcpy(to, "'\\'", 3);
             to += 3;
         }
-        /* one header line, one line of text */
-        *to++ = *c == '\n' || *c == '\r' ? ' ' : *c;
+        *to++ = *c;
     }
     *to++ = '\'';
     return to;
@@ -120,44 +121,84 @@ static char *quote(int argc, char **argv)
         to = append_quoted(to, argv[i]);
     }
     *to = '\0';
-    return line;
+    char *printable = malloc(4 * strlen(line) + 1);
+    if (printable)
+        rb_printable(line, printable, 4 * strlen(line) + 1);
+    free(line);
+    return printable;
 }
 
-/* A full disc or a closed pipe shows here at the latest. */
+/* A full disc or a closed pipe shows here at the latest.  Where standard output was
+ * closed from the beginning and nothing went there, nothing is lost. */
 static int close_output(int code)
 {
     errno = 0;
-    const int failed_before = ferror(stdout);
-    const int failed = fclose(stdout) != 0 || failed_before;
+    int failed = fflush(stdout) != 0 || ferror(stdout);
+    failed = (fclose(stdout) != 0 && errno != EBADF) || failed;
     if (failed && code != CLI_CANTWRITE) /* not said yet */
         return cli_fail(CLI_CANTWRITE, "standard output: %s",
                         errno ? strerror(errno) : "write error");
     return code;
 }
 
-/* OpenBLAS reads its environment only while it is loaded: hence the second start.  Where
- * exec fails, the kernels that it chose do as well. */
-static void take_fast_blas(char **argv)
+/* Files must not get the numbers of standard input, output and error: a closed one is
+ * opened the wrong way round, so that using it is the error that it was. */
+static void fill_descriptors(void)
+{
+    for (int fd = 0; fd <= 2; fd++)
+        if (fcntl(fd, F_GETFD) < 0)
+            open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
+}
+
+/* OpenBLAS reads its environment only while it is loaded: hence a second start. */
+static void start_again_with(const char *name, const char *value, char **argv)
+{
+    if (!getenv(name) && setenv(name, value, 1) == 0)
+        execv("/proc/self/exe", argv);
+}
+
+/* Where the second start fails, the kernels that OpenBLAS chose do as well. */
+static void prepare_blas(char **argv)
 {
     const char *core = rb_blas_better_core();
-    if (core && !getenv("OPENBLAS_CORETYPE") && setenv("OPENBLAS_CORETYPE", core, 1) == 0)
-        execv("/proc/self/exe", argv);
+    if (core)
+        start_again_with("OPENBLAS_CORETYPE", core, argv);
+    if (!rb_blas_has_room()) {
+        start_again_with("OPENBLAS_NUM_THREADS", "1", argv);
+        cli_fail(CLI_INTERNAL, "out of memory: no address space for OpenBLAS's buffers");
+        _exit(CLI_INTERNAL); /* its threads would never end */
+    }
+    if (!getenv("OPENBLAS_NUM_THREADS"))
+        rb_blas_threads(1);
+}
+
+/* Some libraries end the program where memory is short (OpenMP, with exit code 1). */
+static int came_to_the_end;
+
+static void say_who_ended_it(void)
+{
+    if (!came_to_the_end)
+        _exit(cli_fail(CLI_INTERNAL, "out of memory"));
 }
 
 int main(int argc, char **argv)
 {
-    take_fast_blas(argv);
-    if (!getenv("OPENBLAS_NUM_THREADS"))
-        rb_blas_threads(1);
+    atexit(say_who_ended_it);
+    fill_descriptors();
+    prepare_blas(argv);
     gsl_set_error_handler_off();
-    signal(SIGPIPE, SIG_IGN); /* a closed pipe becomes a write error */
+    signal(SIGPIPE, SIG_IGN); /* a closed pipe becomes a write error, */
+    signal(SIGXFSZ, SIG_IGN); /* and so does a limit of file sizes */
     command_line = quote(argc, argv);
     int code;
-    if (argc > 1 && is_command(argv[1]))
+    if (!command_line)
+        code = cli_fail(CLI_INTERNAL, "out of memory");
+    else if (argc > 1 && is_command(argv[1]))
         code = cli_run(argv[1], argc - 1, argv + 1);
     else
         code = cli_solve(argc, argv);
     code = close_output(code);
     free(command_line);
+    came_to_the_end = 1;
     return code;
 }

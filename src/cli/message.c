@@ -39,15 +39,28 @@ const char *cli_kept_failure(void)
 
 cli_exit cli_fail(cli_exit code, const char *format, ...)
 {
+    char line[4000], shown[8000];
     va_list args;
     va_start(args, format);
-    if (keeps) {
-        vsnprintf(kept, sizeof kept, format, args);
-    } else {
-        fputs("rollbem: ", stderr);
-        vfprintf(stderr, format, args);
-        fputc('\n', stderr);
-    }
+    vsnprintf(line, sizeof line, format, args);
     va_end(args);
+    rb_printable(line, shown, sizeof shown);
+    if (keeps)
+        snprintf(kept, sizeof kept, "%.399s", shown);
+    else
+        fprintf(stderr, "rollbem: %s\n", shown);
     return code;
+}
+
+cli_exit cli_say_of(const char *option, rb_status s, const rb_message *why)
+{
+    if (s == RB_OK)
+        return CLI_CONTINUE;
+    return cli_fail(cli_exit_of(s), "%s%s%s%s", option ? "--" : "", option ? option : "",
+                    option ? ": " : "", why->text[0] ? why->text : rb_status_text(s));
+}
+
+cli_exit cli_say(rb_status s, const rb_message *why)
+{
+    return cli_say_of(NULL, s, why);
 }

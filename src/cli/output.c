@@ -3,10 +3,11 @@
 #include "rollbem/io.h"
 
 #include <errno.h>
+#include <jansson.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const rb_choice headers[] = {{"full", 0}, {"bare", 1}, {NULL, 0}};
@@ -20,9 +21,9 @@ static const rb_option options[] = {
                    "of the table: # lines and column names, or the names alone"),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
                  "where the table or JSON goes, whole or not at all",
-                 .unset = "standard output"),
+                 .unset = "standard output", .file = RB_FILE_WRITTEN),
     RB_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
-                 .unset = "none"),
+                 .unset = "none", .file = RB_FILE_PICTURE),
     RB_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),
 };
 
@@ -36,87 +37,151 @@ rb_option_set cli_output_set(cli_output *o)
     return (rb_option_set){options, OPTIONS, o, o->given};
 }
 
-static cli_exit refuse_picture(const cli_output *o, cli_exit code, const rb_message *why)
+/* ---- Files that options name ----------------------------------------------------------
+ */
+
+/* The same file, by whatever names.  Devices may be input and output. */
+static int same_file(const char *a, const char *b)
 {
-    return cli_fail(code, "--%s: %s", o->plot_option ? o->plot_option : "plot",
-                    why->text);
+    struct stat x, y;
+    if (stat(a, &x) != 0 || stat(b, &y) != 0)
+        return strcmp(a, b) == 0;
+    return x.st_dev == y.st_dev && x.st_ino == y.st_ino && !S_ISCHR(x.st_mode);
 }
 
-cli_exit cli_output_check(const cli_output *o)
+/* The next option from (*set, *i) on that names a file; its path, or NULL. */
+static const char *next_path(const cli_spec *spec, int *set, int *i, const rb_option **o)
 {
-    rb_report_picture_kind kind;
-    rb_message why;
-    if (o->plot && rb_report_picture_kind_of(o->plot, &kind, &why) != RB_OK)
-        return refuse_picture(o, CLI_USAGE, &why);
+    for (; *set < spec->set_n; ++*set, *i = 0)
+        for (; *i < spec->sets[*set].n; ++*i) {
+            *o = &spec->sets[*set].options[*i];
+            const char *path = rb_option_path(*o, spec->sets[*set].target);
+            if (path) {
+                ++*i;
+                return path;
+            }
+        }
+    return NULL;
+}
+
+static int is_output(const rb_option *o)
+{
+    return o->file == RB_FILE_WRITTEN || o->file == RB_FILE_PICTURE;
+}
+
+/* The output `path` of option `o` against all other files. */
+static cli_exit check_clash(const cli_spec *spec, const cli_args *args,
+                            const rb_option *o, const char *path)
+{
+    const rb_option *other;
+    const char *name;
+    int set = 0, i = 0;
+    for (int k = 0; k < args->operands; k++)
+        if (same_file(path, args->operand[k]))
+            return cli_fail(CLI_USAGE, "--%s: '%s' is an input: it would be written over",
+                            o->name, path);
+    while ((name = next_path(spec, &set, &i, &other)) != NULL) {
+        if (other == o || other->file == RB_FILE_FOLDER || !same_file(path, name))
+            continue;
+        if (is_output(other))
+            return cli_fail(CLI_USAGE, "--%s and --%s: both would write '%s'", o->name,
+                            other->name, path);
+        return cli_fail(CLI_USAGE,
+                        "--%s: '%s' is an input (--%s): it would be written over",
+                        o->name, path, other->name);
+    }
     return CLI_CONTINUE;
 }
 
-cli_exit cli_sink_open(const cli_output *o, cli_sink *sink)
+static cli_exit check_path(const rb_option *o, const char *path)
 {
-    rb_message why = {"out of memory"};
-    rb_io_writer *w = calloc(1, sizeof *w);
-    *sink = (cli_sink){o, w};
-    const rb_status s = w ? rb_io_writer_open(o->output, w, &why) : RB_ENOMEM;
-    if (s == RB_OK)
-        return CLI_CONTINUE;
-    free(w);
-    sink->writer = NULL;
-    return cli_fail(cli_exit_of(s), "%s", why.text);
-}
-
-static cli_exit cannot_write(const cli_output *o, rb_status s)
-{
-    const char *reason = s == RB_EWRITE ? strerror(errno) : rb_status_text(s);
-    return cli_fail(cli_exit_of(s), "%s: %s", o->output ? o->output : "standard output",
-                    reason);
-}
-
-cli_exit cli_sink_write(cli_sink *sink, cli_write *write, const void *context)
-{
+    rb_report_picture_kind kind;
     rb_message why;
-    rb_io_writer *w = sink->writer;
-    rb_status s = write(w->file, sink->o, context);
-    cli_exit code = CLI_OK;
-    if (s != RB_OK) {
-        code = cannot_write(sink->o, s);
-        rb_io_writer_abandon(w);
-    } else {
-        s = rb_io_writer_commit(w, &why);
-        if (s != RB_OK)
-            code = cli_fail(cli_exit_of(s), "%s", why.text);
+    if (o->file == RB_FILE_PICTURE &&
+        rb_report_picture_kind_of(path, &kind, &why) != RB_OK)
+        return cli_fail(CLI_USAGE, "--%s: %s", o->name, why.text);
+    return cli_say(o->file == RB_FILE_FOLDER ? rb_io_folder_check(path, &why)
+                                             : rb_io_writer_check(path, &why),
+                   &why);
+}
+
+cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
+{
+    const rb_option *o;
+    const char *path;
+    cli_exit code = CLI_CONTINUE;
+    int set = 0, i = 0;
+    while (code == CLI_CONTINUE && (path = next_path(spec, &set, &i, &o)) != NULL) {
+        if (is_output(o) && strcmp(path, "-") != 0)
+            code = check_clash(spec, args, o, path);
+        if (code == CLI_CONTINUE && o->file != RB_FILE_READ)
+            code = check_path(o, path);
     }
-    free(w);
-    sink->writer = NULL;
     return code;
 }
 
-void cli_sink_abandon(cli_sink *sink)
+/* ---- Open, write, commit --------------------------------------------------------------
+ */
+
+rb_status cli_write_to(const char *path, cli_write *write, const void *context,
+                       rb_message *why)
 {
-    if (sink->writer)
-        rb_io_writer_abandon(sink->writer);
-    free(sink->writer);
-    sink->writer = NULL;
+    rb_io_writer w;
+    rb_status s = rb_io_writer_open(path, &w, why);
+    if (s != RB_OK)
+        return s;
+    s = write(w.file, context, why);
+    if (s == RB_OK)
+        return rb_io_writer_commit(&w, why);
+    if (s == RB_EWRITE && ferror(w.file))
+        rb_fail(why, s, "%s: cannot write: %s", path ? path : "standard output",
+                strerror(errno));
+    rb_io_writer_abandon(&w);
+    return s;
 }
 
-cli_exit cli_output_draw(const cli_output *o, cli_draw *draw, const void *context)
+cli_exit cli_write_file(const char *path, cli_write *write, const void *context)
 {
+    rb_message why = {""};
+    const rb_status s = cli_write_to(path, write, context, &why);
+    return s == RB_OK ? CLI_OK : cli_say(s, &why);
+}
+
+typedef struct {
+    const char *option;
     rb_report_picture_kind kind;
-    rb_io_writer w;
+    cli_draw *draw;
+    const void *context;
+} drawing;
+
+static rb_status draw_picture(FILE *out, const void *context, rb_message *why)
+{
+    const drawing *d = context;
+    rb_message reason = {""};
+    const rb_status s = d->draw(out, d->kind, d->context, &reason);
+    if (s == RB_OK || (s == RB_EWRITE && ferror(out)))
+        return s;
+    return rb_fail(why, s, "--%s: %s", d->option,
+                   reason.text[0] ? reason.text : rb_status_text(s));
+}
+
+cli_exit cli_draw_file(const char *option, const char *path, cli_draw *draw,
+                       const void *context)
+{
+    drawing d = {.option = option, .draw = draw, .context = context};
     rb_message why;
-    if (!o->plot)
+    if (!path)
         return CLI_OK;
-    rb_status s = rb_report_picture_kind_of(o->plot, &kind, &why);
-    if (s == RB_OK)
-        s = rb_io_writer_open(o->plot, &w, &why);
-    if (s != RB_OK)
-        return refuse_picture(o, cli_exit_of(s), &why);
-    s = draw(w.file, kind, context, &why);
-    if (s != RB_OK) {
-        rb_io_writer_abandon(&w);
-        return refuse_picture(o, CLI_INTERNAL, &why);
-    }
-    s = rb_io_writer_commit(&w, &why);
-    return s == RB_OK ? CLI_OK : cli_fail(cli_exit_of(s), "%s", why.text);
+    const rb_status s = rb_report_picture_kind_of(path, &d.kind, &why);
+    return s == RB_OK ? cli_write_file(path, draw_picture, &d) : cli_say(s, &why);
+}
+
+rb_status cli_write_problems(FILE *out, const char *conventions, json_t *problems)
+{
+    json_t *root = rb_report_json_start(cli_command_line());
+    rb_report_json_set(&root, "conventions", json_string(conventions));
+    rb_report_json_set(&root, "problems", problems);
+    return rb_report_json_write(out, root);
 }
 
 int cli_terminal_width(void)
@@ -125,32 +190,4 @@ int cli_terminal_width(void)
     if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
         return size.ws_col;
     return 80;
-}
-
-/* ---- Problems from files
- * --------------------------------------------------------------- */
-
-static rb_status write_problems(FILE *out, const char *conventions, json_t *problems)
-{
-    json_t *root = rb_report_json_start(cli_command_line());
-    json_object_set_new(root, "conventions", json_string(conventions));
-    json_object_set(root, "problems", problems);
-    const rb_status s = rb_report_json_write(out, root);
-    json_decref(root);
-    return s;
-}
-
-cli_exit cli_finish_problems(rb_io_writer *w, const char *conventions, json_t *problems,
-                             cli_exit worst)
-{
-    rb_message why;
-    rb_status s = problems ? write_problems(w->file, conventions, problems) : RB_OK;
-
-    json_decref(problems);
-    if (s == RB_ENOMEM) {
-        rb_io_writer_abandon(w);
-        return cli_fail(CLI_INTERNAL, "out of memory");
-    }
-    s = rb_io_writer_commit(w, &why); /* knows of failed writes */
-    return s == RB_OK ? worst : cli_fail(cli_exit_of(s), "%s", why.text);
 }

@@ -1,54 +1,46 @@
-/* Where the results of a command that solves go, and in which format. */
+/* Where the results of a command go: every file whole or not at all. */
 #ifndef ROLLBEM_CLI_OUTPUT_H
 #define ROLLBEM_CLI_OUTPUT_H
 
 #include "cli/cli.h"
 #include "rollbem/report.h"
-#include "rollbem/io.h"
-
-#include <jansson.h>
 
 enum { CLI_OUTPUT_OPTIONS_MAX = 8 };
 
 typedef struct {
     int json, bare, quiet;
     const char *output, *plot;
-    const char *plot_option; /* that names the picture; NULL: plot */
     int given[CLI_OUTPUT_OPTIONS_MAX];
 } cli_output;
 
 /* --json, --header, --output, --plot, --quiet: section [output]. */
 rb_option_set cli_output_set(cli_output *o);
 
-/* Refuses a picture of an unknown kind before anything is solved. */
-cli_exit cli_output_check(const cli_output *o);
+/* Before the work: refuses what the options of spec name and cannot be written, pictures
+ * of an unknown kind, and files that would be written over while they are inputs or
+ * another option's output. */
+cli_exit cli_check_files(const cli_spec *spec, const cli_args *args);
 
-/* Both write what context is.  RB_EWRITE: errno says why. */
-typedef rb_status cli_write(FILE *out, const cli_output *o, const void *context);
+/* Writes what context is.  RB_EWRITE: errno says why where out has failed, otherwise the
+ * message, which is empty before. */
+typedef rb_status cli_write(FILE *out, const void *context, rb_message *why);
 typedef rb_status cli_draw(FILE *out, rb_report_picture_kind kind, const void *context,
                            rb_message *why);
 
-/* An output opened before the work, because what cannot be written need not be solved. */
-typedef struct {
-    const cli_output *o;
-    void *writer; /* opaque */
-} cli_sink;
+/* Opens, writes and commits; path NULL: standard output. */
+rb_status cli_write_to(const char *path, cli_write *write, const void *context,
+                       rb_message *why);
+/* The same, its failure printed. */
+cli_exit cli_write_file(const char *path, cli_write *write, const void *context);
+/* The same for a picture, that --option asked for; path NULL: nothing to draw. */
+cli_exit cli_draw_file(const char *option, const char *path, cli_draw *draw,
+                       const void *context);
 
-cli_exit cli_sink_open(const cli_output *o, cli_sink *sink);
-cli_exit cli_sink_write(cli_sink *sink, cli_write *write, const void *context);
-/* Nothing appears; does nothing after a write. */
-void cli_sink_abandon(cli_sink *sink);
-
-/* The picture asked for by --plot, if any. */
-cli_exit cli_output_draw(const cli_output *o, cli_draw *draw, const void *context);
+/* The results of a command that runs over problems from files, as JSON; problems is taken
+ * over. */
+rb_status cli_write_problems(FILE *out, const char *conventions, struct json_t *problems);
 
 /* Characters in a line of standard error. */
 int cli_terminal_width(void);
-
-/* The end of a command that runs over problems from files: the writer takes them as JSON
- * (problems, taken over; NULL: the table is written already) and is committed.  Returns
- * worst, or what went wrong. */
-cli_exit cli_finish_problems(rb_io_writer *w, const char *conventions, json_t *problems,
-                             cli_exit worst);
 
 #endif

@@ -1,21 +1,12 @@
 #include "cli/run.h"
 
-#include "cli/cli.h"
+#include "cli/interrupt.h"
+#include "cli/output.h"
 #include "rollbem/io.h"
 #include "rollbem/report.h"
 
-#include <errno.h>
-#include <signal.h>
+#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-
-static volatile sig_atomic_t interrupted;
-
-static void note_interrupt(int signal_number)
-{
-    (void)signal_number;
-    interrupted = 1;
-}
 
 typedef struct {
     const cli_steps *steps;
@@ -43,38 +34,42 @@ static void show_progress(watch *w, const rb_rolling_history *h, int step, int s
     w->shown = now;
 }
 
-static void name_snapshot(const char *folder, int step, char *path, size_t size)
+static rb_status write_table(FILE *out, const void *context, rb_message *why)
 {
-    snprintf(path, size, "%.1000s/step_%06d.tsv", folder, step);
+    (void)why;
+    return rb_report_table(out, context, cli_command_line(), 0);
+}
+
+/* Owned by the caller; NULL: no memory. */
+static char *name_snapshot(const char *folder, int step)
+{
+    char name[40];
+    snprintf(name, sizeof name, "step_%06d.tsv", step);
+    return rb_io_join(folder, name);
 }
 
 static rb_status write_snapshot(watch *w, const rb_rolling_model *model, int step)
 {
-    char path[1100];
     rb_rolling_solution solution = {0};
-    rb_io_writer file;
-    name_snapshot(w->steps->snapshots, step, path, sizeof path);
-    rb_status s = rb_rolling_model_solution(model, &solution, w->why);
+    char *path = name_snapshot(w->steps->snapshots, step);
+    rb_status s = path ? rb_rolling_model_solution(model, &solution, w->why)
+                       : rb_fail(w->why, RB_ENOMEM, "out of memory");
     if (s == RB_OK)
-        s = rb_io_writer_open(path, &file, w->why);
-    if (s == RB_OK &&
-        rb_report_table(file.file, &solution, cli_command_line(), 0) != RB_OK) {
-        s = rb_fail(w->why, RB_EWRITE, "%.200s: %s", path, strerror(errno));
-        rb_io_writer_abandon(&file);
-    } else if (s == RB_OK)
-        s = rb_io_writer_commit(&file, w->why);
+        s = cli_write_to(path, write_table, &solution, w->why);
     w->written = step;
     rb_rolling_solution_free(&solution);
+    free(path);
     return s;
 }
 
 /* A run that begins anew, on a wider zone, has other steps. */
 static void remove_snapshots(watch *w)
 {
-    char path[1100];
     for (int step = w->steps->every; step <= w->written; step += w->steps->every) {
-        name_snapshot(w->steps->snapshots, step, path, sizeof path);
-        remove(path);
+        char *path = name_snapshot(w->steps->snapshots, step);
+        if (path)
+            remove(path);
+        free(path);
     }
     w->written = 0;
 }
@@ -85,36 +80,23 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
     watch *w = context;
     const cli_steps *asked = w->steps;
     if (!model) /* a coarser run, for the error bars */
-        return interrupted;
+        return cli_interrupted();
     if (asked->progress || asked->terminal)
         show_progress(w, history, step, steps);
     if (step == 0 && w->written > 0)
         remove_snapshots(w);
     if (asked->snapshots && ((step + 1) % asked->every == 0 || step + 1 == steps))
         w->failed = write_snapshot(w, model, step + 1);
-    return interrupted || w->failed != RB_OK;
-}
-
-static rb_status make_folder(const char *path, rb_message *why)
-{
-    struct stat st;
-    if (!path || mkdir(path, 0777) == 0)
-        return RB_OK;
-    const int e = errno;
-    if (e == EEXIST && stat(path, &st) == 0 && S_ISDIR(st.st_mode))
-        return RB_OK;
-    return rb_fail(why, RB_EWRITE, "%.200s: %s", path, strerror(e));
+    return cli_interrupted() || w->failed != RB_OK;
 }
 
 /* An interrupt ends the run after the step at hand. */
 static rb_status run_steps(const rb_settled_case *c, watch *w, rb_case_result *r,
                            rb_message *why)
 {
-    struct sigaction act = {.sa_handler = note_interrupt}, before;
-    interrupted = 0;
-    sigaction(SIGINT, &act, &before);
+    cli_interrupts_catch();
     const rb_status s = rb_case_solve(c, after_step, w, r, why);
-    sigaction(SIGINT, &before, NULL);
+    cli_interrupts_leave();
     return s;
 }
 
@@ -127,7 +109,7 @@ rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
     memset(r, 0, sizeof *r);
     if (!rb_case_has_steps(c))
         return rb_case_solve(c, NULL, NULL, r, why);
-    rb_status s = make_folder(w.steps->snapshots, why);
+    rb_status s = w.steps->snapshots ? rb_io_make_folder(w.steps->snapshots, why) : RB_OK;
     if (s == RB_OK)
         s = run_steps(c, &w, r, why);
     if (w.failed == RB_OK)

@@ -12,8 +12,8 @@ typedef struct {
     int every;             /* steps from one to the next; the last step has one too */
 } cli_steps;
 
-/* rb_case_solve, where an interrupt (control-C) ends a sequence of steps after the one at
- * hand.  steps NULL: nothing on the way.  Free the result in any case. */
+/* rb_case_solve, where an interrupt (control-C, SIGTERM, SIGHUP) ends a sequence of steps
+ * after the one at hand.  steps NULL: nothing on the way.  Free the result in any case. */
 rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
                        rb_case_result *r, rb_message *why);
 

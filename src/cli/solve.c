@@ -20,24 +20,25 @@ static const rb_option options[] = {
     RB_GROUP_LINE("output", "Behind the solution"),
     RB_TEXT_LINE("dump", PLACE(dump), "DIR",
                  "mesh, H, G, F, M, b as Matrix Market files; with --trace also tableaux",
-                 .unset = "none"),
+                 .unset = "none", .file = RB_FILE_FOLDER),
     RB_TEXT_LINE("fclib", PLACE(fclib), "FILE",
                  "the contact problem with its approach and creepage as FCLib (HDF5), "
                  "for rollbem friction and others",
-                 .unset = "none"),
+                 .unset = "none", .file = RB_FILE_WRITTEN),
     RB_FLAG_LINE("trace", PLACE(trace),
                  "every pivot of Lemke's method, on standard error"),
 
     RB_GROUP_LINE("output", "Steps of a transient or of a static history"),
     RB_TEXT_LINE("history-table", PLACE(history_table), "FILE",
                  "one row per step; standard output has the tractions of the last one",
-                 .unset = "none"),
+                 .unset = "none", .file = RB_FILE_WRITTEN),
     RB_TEXT_LINE("history-plot", PLACE(history_plot), "FILE",
                  "picture of creepage or shift, force and stick over the way: .png, "
                  ".svg or .pdf",
-                 .unset = "none"),
+                 .unset = "none", .file = RB_FILE_PICTURE),
     RB_TEXT_LINE("snapshots", PLACE(steps.snapshots), "DIR",
-                 "tractions on the way as step_000001.tsv, ...", .unset = "none"),
+                 "tractions on the way as step_000001.tsv, ...", .unset = "none",
+                 .file = RB_FILE_FOLDER),
     RB_INTEGER_LINE("every", PLACE(steps.every), RB_FROM(1),
                     "steps from one snapshot to the next; the last step has one too"),
     RB_FLAG_LINE("progress", PLACE(steps.progress),
@@ -72,6 +73,8 @@ static const char notes[] = CLI_CASE_NOTES
 typedef struct {
     const rb_case *words;
     const rb_settled_case *c;
+    const solve_options *options;
+    const cli_output *o;
     const rb_case_result *r;
 } result;
 
@@ -86,33 +89,33 @@ static const rb_rolling_history *step_errors(const rb_case_result *r)
 static rb_status write_json(FILE *out, const result *it)
 {
     json_t *root = rb_report_json_start(cli_command_line());
-    json_object_set_new(root, "inputs", rb_report_json_inputs(it->words));
     json_t *summary = rb_report_json_summary(&it->r->solution);
     if (it->r->has_errors)
-        json_object_set_new(summary, "errors", rb_report_json_errors(&it->r->errors));
-    json_object_set_new(root, "summary", summary);
-    json_object_set_new(root, "table", rb_report_json_table(&it->r->solution));
+        rb_report_json_set(&summary, "errors", rb_report_json_errors(&it->r->errors));
+    rb_report_json_set(&root, "inputs", rb_report_json_inputs(it->words));
+    rb_report_json_set(&root, "summary", summary);
+    rb_report_json_set(&root, "table", rb_report_json_table(&it->r->solution));
     if (it->r->history.n > 0)
-        json_object_set_new(root, "history",
-                            rb_report_json_history(&it->r->history, step_errors(it->r)));
-    const rb_status status = rb_report_json_write(out, root);
-    json_decref(root);
-    return status;
+        rb_report_json_set(&root, "history",
+                           rb_report_json_history(&it->r->history, step_errors(it->r)));
+    return rb_report_json_write(out, root);
 }
 
-static rb_status write_table(FILE *out, const cli_output *o, const void *context)
+static rb_status write_table(FILE *out, const void *context, rb_message *why)
 {
     const result *it = context;
-    if (o->json)
+    (void)why;
+    if (it->o->json)
         return write_json(out, it);
-    return rb_report_table(out, &it->r->solution, cli_command_line(), o->bare);
+    return rb_report_table(out, &it->r->solution, cli_command_line(), it->o->bare);
 }
 
-static rb_status write_history(FILE *out, const cli_output *o, const void *context)
+static rb_status write_history(FILE *out, const void *context, rb_message *why)
 {
     const result *it = context;
+    (void)why;
     return rb_report_history(out, &it->r->history, step_errors(it->r), cli_command_line(),
-                             o->bare);
+                             it->o->bare);
 }
 
 static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
@@ -129,36 +132,17 @@ static rb_status draw_history(FILE *out, rb_report_picture_kind kind, const void
     return rb_report_history_picture(out, kind, &it->r->history, step_errors(it->r), why);
 }
 
-/* The steps in a file of their own. */
-static cli_exit save_history(const solve_options *so, const cli_output *o,
-                             const result *it)
-{
-    cli_sink sink;
-    cli_output where = *o;
-    if (!so->history_table || it->r->history.n == 0)
-        return CLI_OK;
-    where.output = so->history_table;
-    const cli_exit code = cli_sink_open(&where, &sink);
-    return code == CLI_CONTINUE ? cli_sink_write(&sink, write_history, it) : code;
-}
-
 static cli_exit show_behind(const solve_options *so, const rb_rolling_model *model)
 {
-    rb_message why;
-    rb_status s = RB_OK;
+    rb_message why = {""};
+    cli_exit code = CLI_CONTINUE;
     if (so->fclib)
-        s = rb_rolling_cone_write(so->fclib, model, &why);
-    if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "--fclib: %s", why.text);
-    if (so->dump)
-        s = rb_report_dump(so->dump, model, &why);
-    if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "--dump: %s", why.text);
-    if (so->trace)
-        s = rb_report_trace(stderr, so->dump, model, &why);
-    if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "--trace: %s", why.text);
-    return CLI_OK;
+        code = cli_say_of("fclib", rb_rolling_cone_write(so->fclib, model, &why), &why);
+    if (so->dump && code == CLI_CONTINUE)
+        code = cli_say_of("dump", rb_report_dump(so->dump, model, &why), &why);
+    if (so->trace && code == CLI_CONTINUE)
+        code = cli_say_of("trace", rb_report_trace(stderr, so->dump, model, &why), &why);
+    return code == CLI_CONTINUE ? CLI_OK : code;
 }
 
 static void tell_people(const result *it)
@@ -171,27 +155,22 @@ static void tell_people(const result *it)
     rb_report_notes(stderr, &it->c->rc, &it->r->solution);
 }
 
-static cli_output history_picture(const solve_options *so)
+static cli_exit print_result(const result *it)
 {
-    return (cli_output){.plot = so->history_plot, .plot_option = "history-plot"};
-}
-
-static cli_exit print_result(cli_sink *sink, const solve_options *so, const result *it)
-{
-    const cli_output *o = sink->o;
+    const solve_options *so = it->options;
+    const cli_output *o = it->o;
     /* first what may yet refuse: then there is no table either */
     cli_exit code = show_behind(so, &it->r->model);
     if (code == CLI_OK)
-        code = cli_sink_write(sink, write_table, it);
-    if (code == CLI_OK)
-        code = save_history(so, o, it);
+        code = cli_write_file(o->output, write_table, it);
+    if (code == CLI_OK && so->history_table && it->r->history.n > 0)
+        code = cli_write_file(so->history_table, write_history, it);
     if (code == CLI_OK && !o->quiet)
         tell_people(it);
     if (code == CLI_OK)
-        code = cli_output_draw(o, draw, it);
-    const cli_output steps = history_picture(so);
+        code = cli_draw_file("plot", o->plot, draw, it);
     if (code == CLI_OK && it->r->history.n > 0)
-        code = cli_output_draw(&steps, draw_history, it);
+        code = cli_draw_file("history-plot", so->history_plot, draw_history, it);
     return code;
 }
 
@@ -201,18 +180,12 @@ static cli_exit solve(const solve_options *so, const cli_output *o, const rb_cas
 {
     const rb_settled_case *c = rb_case_settled(words);
     rb_case_result r;
-    cli_sink sink;
     rb_message why = {""};
-    cli_exit code = cli_sink_open(o, &sink);
-    if (code != CLI_CONTINUE)
-        return code;
     const rb_status status = cli_run_case(c, &so->steps, &r, &why);
-    code = CLI_OK;
-    if (status >= 0 && r.solution.n > 0) {
-        const result it = {words, c, &r};
-        code = print_result(&sink, so, &it);
-    }
-    cli_sink_abandon(&sink);
+    const result it = {words, c, so, o, &r};
+    cli_exit code = CLI_OK;
+    if (status >= 0 && r.solution.n > 0)
+        code = print_result(&it);
     if (code == CLI_OK && status != RB_OK)
         code = cli_case_refused(words, status, &why);
     rb_case_result_free(&r);
@@ -220,19 +193,18 @@ static cli_exit solve(const solve_options *so, const cli_output *o, const rb_cas
 }
 
 /* Options of steps mean nothing without any. */
-static cli_exit check_steps(const solve_options *so, const int *given,
-                            const rb_settled_case *c)
+static cli_exit check_steps(const int *given, const rb_settled_case *c)
 {
-    const cli_output pictures = history_picture(so);
     int steps = 0;
     for (int i = 0; i < OPTIONS && !rb_case_has_steps(c); i++) {
         steps |= strcmp(options[i].name, "history-table") == 0; /* the first of them */
-        if (steps && given[i] == RB_GIVEN_ARGUMENT)
+        if (steps && given[i])
             return cli_fail(
-                CLI_USAGE, "--%s: for --formulation transient, --history or --increments",
+                given[i] > 0 ? CLI_DATA : CLI_USAGE,
+                "--%s: for --formulation transient, --history or --increments",
                 options[i].name);
     }
-    return cli_output_check(&pictures);
+    return CLI_CONTINUE;
 }
 
 /* With error bars of a solution there is no model to show (run.h). */
@@ -276,9 +248,7 @@ int cli_solve(int argc, char **argv)
         3};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     if (code == CLI_CONTINUE)
-        code = cli_output_check(&o);
-    if (code == CLI_CONTINUE)
-        code = check_steps(&so, given, rb_case_settled(c));
+        code = check_steps(given, rb_case_settled(c));
     if (code == CLI_CONTINUE)
         code = check_behind(&so, rb_case_settled(c));
     if (code == CLI_CONTINUE && so.trace)

@@ -24,11 +24,14 @@ static const rb_option options[] = {
                    "of the grid and of the search for maxima; auto: 2.5 half-widths",
                    .word = "auto", .word_value = 0.0),
     RB_TEXT_LINE("points", PLACE(points), "FILE",
-                 "instead of a grid: rows x, y [mm], y > 0 inside A", .unset = "none"),
+                 "instead of a grid: rows x, y [mm], y > 0 inside A", .unset = "none",
+                 .file = RB_FILE_READ),
     RB_TEXT_LINE("vtk", PLACE(vtk), "FILE",
-                 "for ParaView: .vtu, or .vti (half-planes only)", .unset = "none"),
+                 "for ParaView: .vtu, or .vti (half-planes only)", .unset = "none",
+                 .file = RB_FILE_WRITTEN),
     RB_TEXT_LINE("fringes", PLACE(fringes), "FILE",
-                 "picture of photoelastic fringes: .png, .svg or .pdf", .unset = "none"),
+                 "picture of photoelastic fringes: .png, .svg or .pdf", .unset = "none",
+                 .file = RB_FILE_PICTURE),
     RB_NUMBER_LINE("fringe", PLACE(fringe), "MPa", RB_ABOVE(0),
                    "difference of the principal stresses from one fringe to the next; "
                    "auto: about ten fringes",
@@ -116,6 +119,7 @@ typedef struct {
     const rb_case *words;
     const rb_settled_case *c;
     const stress_options *options;
+    const cli_output *o;
     const places *where;
     rb_case_result run;
     rb_rolling_stress_maxima maxima;
@@ -180,7 +184,7 @@ static rb_status run_case(result *r, rb_message *why)
     return s;
 }
 
-static rb_status find_stress(result *r, const cli_output *o, rb_message *why)
+static rb_status find_stress(result *r, rb_message *why)
 {
     const places *p = r->where;
     const rb_rolling_model *model = &r->run.model;
@@ -192,7 +196,7 @@ static rb_status find_stress(result *r, const cli_output *o, rb_message *why)
     if (s == RB_OK && r->options->fringes)
         s = rb_rolling_stress_on_grid(model, FRINGES_X, FRINGES_Y, p->depth, &r->fine,
                                       why);
-    else if (s == RB_OK && o->plot)
+    else if (s == RB_OK && r->o->plot)
         s = rb_rolling_stress_on_grid(model, CONTOURS_X, CONTOURS_Y, p->depth, &r->fine,
                                       why);
     r->table = of_grid(r, &r->grid);
@@ -210,26 +214,26 @@ static rb_status find_stress(result *r, const cli_output *o, rb_message *why)
 static rb_status print_json(FILE *out, const result *r)
 {
     json_t *root = rb_report_json_start(cli_command_line());
-    json_object_set_new(root, "inputs", rb_report_json_inputs(r->words));
-    json_object_set_new(root, "summary", rb_report_json_summary(&r->run.solution));
-    rb_report_json_stress(root, &r->table);
-    const rb_status s = rb_report_json_write(out, root);
-    json_decref(root);
-    return s;
+    rb_report_json_set(&root, "inputs", rb_report_json_inputs(r->words));
+    rb_report_json_set(&root, "summary", rb_report_json_summary(&r->run.solution));
+    rb_report_json_stress(&root, &r->table);
+    return rb_report_json_write(out, root);
 }
 
-static rb_status print(FILE *out, const cli_output *o, const void *context)
+static rb_status print(FILE *out, const void *context, rb_message *why)
 {
     const result *r = context;
-    return o->json ? print_json(out, r)
-                   : rb_report_stress_table(out, &r->table, cli_command_line(), o->bare);
+    (void)why;
+    return r->o->json
+               ? print_json(out, r)
+               : rb_report_stress_table(out, &r->table, cli_command_line(), r->o->bare);
 }
 
-static rb_status print_vtk(FILE *out, const cli_output *o, const void *context)
+static rb_status print_vtk(FILE *out, const void *context, rb_message *why)
 {
     const result *r = context;
     rb_report_vtk_kind kind;
-    const rb_status s = rb_report_vtk_kind_of(o->output, &kind, NULL);
+    const rb_status s = rb_report_vtk_kind_of(r->options->vtk, &kind, why);
     return s == RB_OK ? rb_report_vtk(out, kind, &r->table) : s;
 }
 
@@ -247,31 +251,20 @@ static rb_status draw_fringes(FILE *out, rb_report_picture_kind kind, const void
     return rb_report_fringes(out, kind, &r->picture, r->options->fringe, why);
 }
 
-static cli_exit save_vtk(const result *r)
+static cli_exit show(const result *r)
 {
-    const cli_output where = {.output = r->options->vtk};
-    cli_sink sink;
-    if (!where.output)
-        return CLI_OK;
-    const cli_exit code = cli_sink_open(&where, &sink);
-    return code == CLI_CONTINUE ? cli_sink_write(&sink, print_vtk, r) : code;
-}
-
-static cli_exit show(cli_sink *sink, const cli_output *fringes, const result *r)
-{
-    const cli_output *o = sink->o;
-    cli_exit code = cli_sink_write(sink, print, r);
-    if (code == CLI_OK && !o->quiet) {
+    cli_exit code = cli_write_file(r->o->output, print, r);
+    if (code == CLI_OK && !r->o->quiet) {
         rb_report_summary(stderr, &r->run.solution, cli_terminal_width());
         rb_report_stress_summary(stderr, &r->table);
         rb_report_notes(stderr, &r->c->rc, &r->run.solution);
     }
+    if (code == CLI_OK && r->options->vtk)
+        code = cli_write_file(r->options->vtk, print_vtk, r);
     if (code == CLI_OK)
-        code = save_vtk(r);
+        code = cli_draw_file("plot", r->o->plot, draw, r);
     if (code == CLI_OK)
-        code = cli_output_draw(o, draw, r);
-    if (code == CLI_OK)
-        code = cli_output_draw(fringes, draw_fringes, r);
+        code = cli_draw_file("fringes", r->options->fringes, draw_fringes, r);
     return code;
 }
 
@@ -279,20 +272,18 @@ static cli_exit show(cli_sink *sink, const cli_output *fringes, const result *r)
  */
 
 static cli_exit solve(const rb_case *words, const stress_options *so, const places *where,
-                      const cli_output *o, const cli_output *fringes)
+                      const cli_output *o)
 {
-    result r = {
-        .words = words, .c = rb_case_settled(words), .options = so, .where = where};
-    cli_sink sink;
+    result r = {.words = words,
+                .c = rb_case_settled(words),
+                .options = so,
+                .o = o,
+                .where = where};
     rb_message why = {""};
-    cli_exit code = cli_sink_open(o, &sink);
-    if (code != CLI_CONTINUE)
-        return code;
     rb_status s = run_case(&r, &why);
     if (s == RB_OK)
-        s = find_stress(&r, o, &why);
-    code = s == RB_OK ? show(&sink, fringes, &r) : CLI_OK;
-    cli_sink_abandon(&sink);
+        s = find_stress(&r, &why);
+    cli_exit code = s == RB_OK ? show(&r) : CLI_OK;
     if (code == CLI_OK && s != RB_OK)
         code = cli_case_refused(words, s, &why);
     result_free(&r);
@@ -306,17 +297,12 @@ static cli_exit check_known(const rb_case *c)
     return s == RB_OK ? CLI_CONTINUE : cli_case_refused(c, s, &why);
 }
 
-static cli_exit check(const rb_case *c, const stress_options *so, const cli_output *o,
-                      const cli_output *fringes, places *where)
+static cli_exit check(const rb_case *c, const stress_options *so, places *where)
 {
     cli_exit code =
         cli_case_refuse(c, "accuracy", "stress has error bars, but does not refine");
     if (code == CLI_CONTINUE)
         code = check_known(c);
-    if (code == CLI_CONTINUE)
-        code = cli_output_check(o);
-    if (code == CLI_CONTINUE)
-        code = cli_output_check(fringes);
     if (code == CLI_CONTINUE)
         code = check_vtk(so, rb_case_settled(c));
     if (code == CLI_CONTINUE)
@@ -340,11 +326,10 @@ int cli_stress(int argc, char **argv)
         {rb_case_options(c), {options, OPTIONS, &so, so.given}, cli_output_set(&o)},
         3};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
-    const cli_output fringes = {.plot = so.fringes, .plot_option = "fringes"};
     if (code == CLI_CONTINUE)
-        code = check(c, &so, &o, &fringes, &where);
+        code = check(c, &so, &where);
     if (code == CLI_CONTINUE)
-        code = solve(c, &so, &where, &o, &fringes);
+        code = solve(c, &so, &where, &o);
     rb_io_table_free(&where.points);
     free(where.xy);
     cli_args_free(&args);

@@ -34,11 +34,11 @@ static const rb_option options[] = {
     RB_TEXT_LINE("vary-4", PLACE(vary[3]), "SPEC", "a fourth one", .unset = "none"),
     RB_TEXT_LINE("cases", PLACE(cases), "FILE",
                  "a case per row; the columns are named like the options",
-                 .unset = "none"),
+                 .unset = "none", .file = RB_FILE_READ),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
                  "where the rows go as they come; where it holds the first rows of this "
                  "study already, the study goes on from there",
-                 .unset = "standard output"),
+                 .unset = "standard output", .file = RB_FILE_WRITTEN),
     RB_FLAG_LINE("restart", PLACE(restart),
                  "begin again, whatever the output file holds"),
     RB_INTEGER_LINE("jobs", PLACE(jobs), RB_FROM_TO(0, 256),
@@ -198,7 +198,7 @@ static cli_exit add_table(study *st)
     cli_exit code = CLI_CONTINUE;
 
     if (s != RB_OK)
-        return cli_fail(cli_exit_of(s), "%s", why.text);
+        return cli_say(s, &why);
     if (!st->table.name)
         return cli_fail(CLI_DATA, "%s: expected a line that names the columns", path);
     for (int j = 0; j < st->table.columns && code == CLI_CONTINUE; j++)

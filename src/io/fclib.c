@@ -1,12 +1,16 @@
 #include "rollbem/io_fclib.h"
 
+#include "io/child.h"
 #include "rollbem/io.h"
 
 #include <hdf5.h>
 
+#include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 void rb_io_fclib_free(rb_io_fclib *problem)
 {
@@ -30,12 +34,12 @@ int rb_io_is_hdf5(const char *path)
     static const unsigned char signature[] = {0x89, 'H',  'D',  'F',
                                               '\r', '\n', 0x1a, '\n'};
     unsigned char head[sizeof signature];
-    FILE *file = fopen(path, "rb");
-    if (!file)
+    const int fd = open(path, O_RDONLY);
+    if (fd < 0)
         return 0;
-    const size_t got = fread(head, 1, sizeof head, file);
-    fclose(file);
-    return got == sizeof head && !memcmp(head, signature, sizeof head);
+    const ssize_t got = read(fd, head, sizeof head);
+    close(fd);
+    return got == (ssize_t)sizeof head && !memcmp(head, signature, sizeof head);
 }
 
 /* ---- Reading -------------------------------------------------------------------------
@@ -347,44 +351,148 @@ static rb_status read_file(const reader *in, rb_io_fclib *p)
     return s == RB_OK ? read_solution(in, p) : s;
 }
 
-/* HDF5 prints its own errors unless told not to; the caller's setting comes back. */
-typedef struct {
-    H5E_auto2_t print;
-    void *data;
-} errors;
+/* ---- HDF5 in a process of its own
+ * ------------------------------------------------------- It crashes where memory is
+ * short and on damaged files, and says of both the same. */
 
-static errors silence(void)
+static herr_t look_for_memory(unsigned n, const H5E_error2_t *error, void *found)
 {
-    errors e;
-    H5Eget_auto2(H5E_DEFAULT, &e.print, &e.data);
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    return e;
+    (void)n;
+    if (error->maj_num == H5E_RESOURCE || error->min_num == H5E_NOSPACE ||
+        error->min_num == H5E_CANTALLOC)
+        *(int *)found = 1;
+    return 0;
 }
 
-static void restore(errors e)
+/* Called by HDF5 for each of its errors, which it would print otherwise. */
+static herr_t note_error(hid_t stack, void *no_memory)
 {
-    H5Eset_auto2(H5E_DEFAULT, e.print, e.data);
+    return H5Ewalk2(stack, H5E_WALK_DOWNWARD, look_for_memory, no_memory);
+}
+
+/* ---- From the child to the parent: sizes and arrays as they lie in memory
+ * --------------- */
+
+static void put_array(FILE *out, const void *x, size_t size, int n)
+{
+    const int count = x ? n : -1;
+    fwrite(&count, sizeof count, 1, out);
+    if (x)
+        fwrite(x, size, (size_t)n, out);
+}
+
+static void put_sparse(FILE *out, const rb_sparse *a)
+{
+    const int nz = a->p ? a->p[a->cols] : 0;
+    fwrite(&a->rows, sizeof a->rows, 1, out);
+    fwrite(&a->cols, sizeof a->cols, 1, out);
+    put_array(out, a->p, sizeof *a->p, a->cols + 1);
+    put_array(out, a->i, sizeof *a->i, nz);
+    put_array(out, a->x, sizeof *a->x, nz);
+}
+
+static rb_status read_in_child(FILE *out, const void *path, rb_message *why)
+{
+    rb_io_fclib p = {0};
+    int no_memory = 0;
+    if (H5Eset_auto2(H5E_DEFAULT, note_error, &no_memory) < 0) /* its first call */
+        no_memory = 1;
+    const reader in = {path, H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), why};
+    const rb_status s =
+        in.file < 0
+            ? rb_fail(why, RB_EFORMAT, "%s: HDF5 cannot open it (truncated?)", in.path)
+            : read_file(&in, &p);
+    void *probe = malloc(1 << 16); /* it may not even have had room for its errors */
+    if (no_memory || s == RB_ENOMEM || !probe)
+        return rb_fail(why, RB_ENOMEM, "%s: out of memory", in.path);
+    free(probe);
+    if (s != RB_OK)
+        return s;
+    const int m = p.contacts * p.spacedim;
+    fwrite(&p, sizeof p, 1, out);
+    put_sparse(out, &p.W);
+    put_sparse(out, &p.M);
+    put_sparse(out, &p.H);
+    put_array(out, p.q, sizeof *p.q, m);
+    put_array(out, p.f, sizeof *p.f, p.M.rows);
+    put_array(out, p.w, sizeof *p.w, m);
+    put_array(out, p.mu, sizeof *p.mu, p.contacts);
+    put_array(out, p.r, sizeof *p.r, m);
+    put_array(out, p.u, sizeof *p.u, m);
+    put_array(out, p.v, sizeof *p.v, p.M.rows);
+    return RB_OK;
+}
+
+typedef struct {
+    const char *at;
+    int no_memory;
+} bytes_in;
+
+static void take(bytes_in *in, void *to, size_t size)
+{
+    memcpy(to, in->at, size);
+    in->at += size;
+}
+
+static void *take_array(bytes_in *in, size_t size)
+{
+    int n;
+    take(in, &n, sizeof n);
+    if (n < 0)
+        return NULL;
+    void *x = malloc(n ? size * (size_t)n : 1);
+    if (x)
+        memcpy(x, in->at, size * (size_t)n);
+    else
+        in->no_memory = 1;
+    in->at += size * (size_t)n;
+    return x;
+}
+
+static void take_sparse(bytes_in *in, rb_sparse *a)
+{
+    take(in, &a->rows, sizeof a->rows);
+    take(in, &a->cols, sizeof a->cols);
+    a->p = take_array(in, sizeof *a->p);
+    a->i = take_array(in, sizeof *a->i);
+    a->x = take_array(in, sizeof *a->x);
+}
+
+static rb_status take_problem(const char *bytes, rb_io_fclib *p)
+{
+    bytes_in in = {.at = bytes};
+    rb_io_fclib sizes;
+    take(&in, &sizes, sizeof sizes);
+    *p = (rb_io_fclib){
+        .global = sizes.global, .spacedim = sizes.spacedim, .contacts = sizes.contacts};
+    take_sparse(&in, &p->W);
+    take_sparse(&in, &p->M);
+    take_sparse(&in, &p->H);
+    p->q = take_array(&in, sizeof *p->q);
+    p->f = take_array(&in, sizeof *p->f);
+    p->w = take_array(&in, sizeof *p->w);
+    p->mu = take_array(&in, sizeof *p->mu);
+    p->r = take_array(&in, sizeof *p->r);
+    p->u = take_array(&in, sizeof *p->u);
+    p->v = take_array(&in, sizeof *p->v);
+    return in.no_memory ? RB_ENOMEM : RB_OK;
 }
 
 rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *why)
 {
+    char *bytes;
+    size_t size;
     *problem = (rb_io_fclib){0};
-    FILE *there = fopen(path, "rb");
-    if (!there)
-        return rb_fail(why, RB_ENOENT, "%s: no such file", path);
-    fclose(there);
+    if (access(path, R_OK) != 0)
+        return rb_fail(why, RB_ENOENT, "%s: %s", path, strerror(errno));
     if (!rb_io_is_hdf5(path))
         return rb_fail(why, RB_EFORMAT, "%s: not an HDF5 file", path);
-    const errors e = silence();
-    const reader in = {path, H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), why};
-    rb_status s = in.file < 0 ? rb_fail(why, RB_EFORMAT,
-                                        "%s: HDF5 cannot open it (truncated?)", path)
-                              : read_file(&in, problem);
-    if (in.file >= 0)
-        H5Fclose(in.file);
-    restore(e);
-    if (s != RB_OK)
+    rb_status s = rb_io_in_child(path, read_in_child, path, &bytes, &size, why);
+    if (s == RB_OK && (s = take_problem(bytes, problem)) != RB_OK) {
         rb_io_fclib_free(problem);
+        rb_fail(why, s, "%s: out of memory", path);
+    }
+    free(bytes);
     return s;
 }
 
@@ -397,12 +505,15 @@ static int write_array(hid_t parent, const char *name, hid_t type, int n,
 {
     const hsize_t size = (hsize_t)n;
     const hid_t space = H5Screate_simple(1, &size, NULL);
+    const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(properties, 0); /* the same numbers give the same bytes */
     const hid_t set =
-        H5Dcreate2(parent, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT);
     const int bad =
         set < 0 || (n && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0);
     if (set >= 0)
         H5Dclose(set);
+    H5Pclose(properties);
     H5Sclose(space);
     return bad;
 }
@@ -415,13 +526,16 @@ static int write_int(hid_t parent, const char *name, int value)
 static int write_text(hid_t parent, const char *name, const char *text)
 {
     const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(properties, 0);
     H5Tset_size(type, strlen(text) + 1);
     const hid_t set =
-        H5Dcreate2(parent, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT);
     const int bad =
         set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0;
     if (set >= 0)
         H5Dclose(set);
+    H5Pclose(properties);
     H5Sclose(space);
     H5Tclose(type);
     return bad;
@@ -534,53 +648,56 @@ static int write_file(hid_t file, const rb_io_fclib *p, rb_io_fclib_layout layou
     return bad || write_solution(file, p);
 }
 
-/* The file as bytes in memory, so that HDF5 writes to no disk: where one is full, it ends
- * in a signal.  Owned by the caller; NULL: out of memory, the only thing that can fail.
- */
-static void *make_image(const rb_io_fclib *p, rb_io_fclib_layout layout,
-                        const char *title, const char *description, size_t *size)
+typedef struct {
+    const rb_io_fclib *problem;
+    rb_io_fclib_layout layout;
+    const char *title, *description;
+} contents;
+
+/* The file in memory: HDF5 touches no disk, where it crashes when that is full. */
+static int write_image(FILE *out, hid_t file)
+{
+    const ssize_t n =
+        H5Fflush(file, H5F_SCOPE_LOCAL) >= 0 ? H5Fget_file_image(file, NULL, 0) : -1;
+    void *image = n > 0 ? malloc((size_t)n) : NULL;
+    const int bad = !image || H5Fget_file_image(file, image, (size_t)n) != n ||
+                    fwrite(image, 1, (size_t)n, out) != (size_t)n;
+    free(image);
+    return bad;
+}
+
+static rb_status write_in_child(FILE *out, const void *context, rb_message *why)
 {
     enum { GROWTH = 1 << 20 };
-    void *image = NULL;
-    ssize_t n = -1;
+    const contents *c = context;
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     hid_t file = -1;
     if (access >= 0 && H5Pset_fapl_core(access, GROWTH, 0) >= 0)
         file = H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access);
-    if (file >= 0 && !write_file(file, p, layout, title, description) &&
-        H5Fflush(file, H5F_SCOPE_LOCAL) >= 0)
-        n = H5Fget_file_image(file, NULL, 0);
-    if (n > 0 && (image = malloc((size_t)n)) != NULL &&
-        H5Fget_file_image(file, image, (size_t)n) != n) {
-        free(image);
-        image = NULL;
-    }
-    if (file >= 0)
-        H5Fclose(file);
-    if (access >= 0)
-        H5Pclose(access);
-    *size = image ? (size_t)n : 0;
-    return image;
+    const int bad = file < 0 ||
+                    write_file(file, c->problem, c->layout, c->title, c->description) ||
+                    write_image(out, file);
+    return bad ? rb_fail(why, RB_ENOMEM, "HDF5: out of memory") : RB_OK;
 }
 
 rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem,
                             rb_io_fclib_layout layout, const char *title,
                             const char *description, rb_message *why)
 {
+    const contents c = {problem, layout, title, description};
     rb_io_writer w;
+    char *image;
     size_t size;
     rb_status s = rb_io_writer_open(path, &w, why);
     if (s != RB_OK)
         return s;
-    const errors e = silence();
-    void *image = make_image(problem, layout, title, description, &size);
-    restore(e);
-    if (image) {
+    s = rb_io_in_child(path, write_in_child, &c, &image, &size, why);
+    if (s == RB_OK) {
         fwrite(image, 1, size, w.file);
         s = rb_io_writer_commit(&w, why);
     } else {
         rb_io_writer_abandon(&w);
-        s = rb_fail(why, RB_ENOMEM, "%s: out of memory", path);
     }
     free(image);
     return s;

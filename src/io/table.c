@@ -233,11 +233,12 @@ static rb_status by_columns(const reading *r)
 rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why)
 {
     reading r = {.path = path, .t = t, .why = why};
-    FILE *file = fopen(path, "r");
+    rb_status s;
+    FILE *file = rb_io_open_input(path, &s, why);
     memset(t, 0, sizeof *t);
     if (!file)
-        return rb_fail(why, RB_ENOENT, "%s: %s", path, strerror(errno));
-    rb_status s = read_lines(&r, file);
+        return s;
+    s = read_lines(&r, file);
     fclose(file);
     if (s == RB_OK)
         s = by_columns(&r);

@@ -269,3 +269,45 @@ void rb_io_writer_abandon(rb_io_writer *w)
     free(w->device);
     *w = (rb_io_writer){0};
 }
+
+/* ---- Folders ------------------------------------------------------------------------
+ */
+
+char *rb_io_join(const char *folder, const char *name)
+{
+    char *path = malloc(strlen(folder) + strlen(name) + 2);
+    if (path)
+        sprintf(path, "%s/%s", folder, name);
+    return path;
+}
+
+rb_status rb_io_make_folder(const char *path, rb_message *why)
+{
+    struct stat st;
+    if (mkdir(path, 0777) == 0 ||
+        (errno == EEXIST && stat(path, &st) == 0 && S_ISDIR(st.st_mode)))
+        return RB_OK;
+    return cannot_write(path, why);
+}
+
+rb_status rb_io_folder_check(const char *path, rb_message *why)
+{
+    struct stat st;
+    const int exists = stat(path, &st) == 0;
+    if (exists && !S_ISDIR(st.st_mode)) {
+        errno = ENOTDIR;
+        return cannot_write(path, why);
+    }
+    if (exists)
+        return access(path, W_OK | X_OK) == 0 ? RB_OK : cannot_write(path, why);
+    char *parent = strdup(path);
+    size_t n = parent ? strlen(parent) : 0;
+    while (n > 1 && parent[n - 1] == '/')
+        parent[--n] = '\0';
+    char *here = parent ? beside(parent, ".") : NULL;
+    const rb_status s =
+        here && access(here, W_OK | X_OK) == 0 ? RB_OK : cannot_write(path, why);
+    free(here);
+    free(parent);
+    return s;
+}

@@ -115,7 +115,7 @@ rb_status rb_lcp_lemke_rebuild(lemke *l)
     l->rebuilt = l->info->iters;
     const rb_status s = rb_lcp_tableau_rebuild(&l->t);
     return s == RB_ENOMEM
-               ? rb_fail(&l->info->msg, s, "lcp: no memory to rebuild the tableau")
+               ? rb_fail(&l->info->msg, s, "lcp: out of memory to rebuild the tableau")
                : s;
 }
 

@@ -344,7 +344,7 @@ static rb_status allocate(lemke *l)
     l->image = traced ? rb_alloc(n, n + 2) : NULL;
     if (s != RB_OK || !l->a || !l->tied || (traced && !l->image))
         return rb_fail(&l->info->msg, RB_ENOMEM,
-                       "lcp: no memory for a tableau of order %d (%.3g MB)", l->n,
+                       "lcp: out of memory for a tableau of order %d (%.3g MB)", l->n,
                        8e-6 * (double)n * ((double)n + 2.0));
     l->other = l->a + n;
     l->scratch = l->other + n;

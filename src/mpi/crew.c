@@ -280,7 +280,7 @@ rb_status cli_crew_run(const rb_rolling_sweep *sweep, rb_message *why)
 
     here.workers = sweep->workers ? sweep->workers : share();
     if (!left || rb_rolling_crew_start(&here, &own, why) != RB_OK)
-        give_up(left ? why->text : "no memory");
+        give_up(left ? why->text : "out of memory");
     /* a second case waits at each solver, so that none waits for a message */
     const int most = 2 * own->room(own);
     MPI_Gather(&most, 1, MPI_INT, left, 1, MPI_INT, 0, MPI_COMM_WORLD);

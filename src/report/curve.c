@@ -65,9 +65,9 @@ static json_t *json_errors(const rb_rolling_curve *error)
     json_t *errors = json_object();
 
     series_of(error, series);
-    rb_report_json_series(errors, error->n, ERRORS, series + FIRST);
-    json_object_set_new(errors, "free_creepage",
-                        rb_report_json_number(error->free_creepage));
+    rb_report_json_series(&errors, error->n, ERRORS, series + FIRST);
+    rb_report_json_set(&errors, "free_creepage",
+                       rb_report_json_number(error->free_creepage));
     return errors;
 }
 
@@ -78,26 +78,26 @@ static json_t *json_curve(const rb_report_curves *curves, int k)
     json_t *curve = json_object();
 
     series_of(c, series);
-    json_object_set_new(curve, "mu", rb_report_json_number(curves->mu[k]));
-    rb_report_json_series(curve, c->n, COLUMNS, series);
-    json_object_set_new(curve, "free_creepage", rb_report_json_number(c->free_creepage));
-    json_object_set_new(curve, "hertz_half_width", rb_report_json_number(c->half_width));
-    json_object_set_new(curve, "iterations", json_integer(c->iterations));
-    json_object_set_new(curve, "seconds", rb_report_json_number(c->seconds));
+    rb_report_json_set(&curve, "mu", rb_report_json_number(curves->mu[k]));
+    rb_report_json_series(&curve, c->n, COLUMNS, series);
+    rb_report_json_set(&curve, "free_creepage", rb_report_json_number(c->free_creepage));
+    rb_report_json_set(&curve, "hertz_half_width", rb_report_json_number(c->half_width));
+    rb_report_json_set(&curve, "iterations", json_integer(c->iterations));
+    rb_report_json_set(&curve, "seconds", rb_report_json_number(c->seconds));
     if (curves->has_errors)
-        json_object_set_new(curve, "errors", json_errors(&curves->error[k]));
+        rb_report_json_set(&curve, "errors", json_errors(&curves->error[k]));
     return curve;
 }
 
-void rb_report_json_curves(json_t *root, const rb_report_curves *curves)
+void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
 {
     json_t *all = json_array();
     for (int k = 0; k < curves->n; k++)
-        json_array_append_new(all, json_curve(curves, k));
+        rb_report_json_append(&all, json_curve(curves, k));
     if (curves->n > 0)
-        json_object_set(root, "curve", json_array_get(all, 0));
+        rb_report_json_set(root, "curve", json_incref(json_array_get(all, 0)));
     if (curves->n > 1)
-        json_object_set(root, "curves", all);
+        rb_report_json_set(root, "curves", json_incref(all));
     json_decref(all);
 }
 

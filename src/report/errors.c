@@ -34,8 +34,8 @@ json_t *rb_report_json_errors(const rb_rolling_errors *e)
 {
     json_t *errors = json_object();
     for (int k = 0; k < FIELDS; k++)
-        json_object_set_new(errors, fields[k].name,
-                            rb_report_json_number(number_at(e, fields[k].error)));
+        rb_report_json_set(&errors, fields[k].name,
+                           rb_report_json_number(number_at(e, fields[k].error)));
     return errors;
 }
 

@@ -55,11 +55,11 @@ static rb_status missing(int e, rb_message *why)
 {
     if (e == ENOENT)
         return rb_fail(
-            why, RB_EFORMAT,
+            why, RB_EHELPER,
             "gnuplot is not installed; pictures need it (package gnuplot-nox)");
     if (e == ENOMEM)
         return rb_fail(why, RB_ENOMEM, "gnuplot does not start: out of memory");
-    return rb_fail(why, RB_EFORMAT, "gnuplot does not start: %s", strerror(e));
+    return rb_fail(why, RB_EHELPER, "gnuplot does not start: %s", strerror(e));
 }
 
 /* The line that says what was wrong comes last, after the lines it points at. */
@@ -72,7 +72,7 @@ static rb_status complaint(FILE *errors, rb_message *why)
         if (line[strspn(line, " ^")])
             memcpy(last, line, sizeof last);
     }
-    return rb_fail(why, RB_EFORMAT, "gnuplot failed: %s", last);
+    return rb_fail(why, RB_EHELPER, "gnuplot failed: %s", last);
 }
 
 static rb_status wait_for(pid_t pid, double seconds, FILE *errors, rb_message *why)
@@ -86,10 +86,10 @@ static rb_status wait_for(pid_t pid, double seconds, FILE *errors, rb_message *w
     if (ended == 0) {
         kill(pid, SIGKILL);
         waitpid(pid, &status, 0);
-        return rb_fail(why, RB_EFORMAT, "gnuplot took longer than %g s", seconds);
+        return rb_fail(why, RB_EHELPER, "gnuplot took longer than %g s", seconds);
     }
     if (ended < 0)
-        return rb_fail(why, RB_EFORMAT, "gnuplot: %s", strerror(errno));
+        return rb_fail(why, RB_EHELPER, "gnuplot: %s", strerror(errno));
     /* posix_spawn may report a missing program only by this exit status */
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
         return missing(ENOENT, why);

@@ -92,15 +92,15 @@ json_t *rb_report_json_history(const rb_rolling_history *h,
     rb_report_series series[COLUMNS];
     json_t *history = json_object();
 
-    rb_report_json_series(history, h->n, all_series(h, 0, series), series);
-    json_object_set_new(history, "half_width", rb_report_json_number(h->half_width));
-    json_object_set_new(history, "step", rb_report_json_number(h->step));
-    json_object_set_new(history, "steady_from",
-                        h->steady_from < 0 ? json_null() : json_integer(h->steady_from));
+    rb_report_json_series(&history, h->n, all_series(h, 0, series), series);
+    rb_report_json_set(&history, "half_width", rb_report_json_number(h->half_width));
+    rb_report_json_set(&history, "step", rb_report_json_number(h->step));
+    rb_report_json_set(&history, "steady_from",
+                       h->steady_from < 0 ? json_null() : json_integer(h->steady_from));
     if (errors) {
         json_t *object = json_object();
-        rb_report_json_series(object, h->n, all_series(errors, 1, series), series);
-        json_object_set_new(history, "errors", object);
+        rb_report_json_series(&object, h->n, all_series(errors, 1, series), series);
+        rb_report_json_set(&history, "errors", object);
     }
     return history;
 }

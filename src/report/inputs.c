@@ -22,7 +22,7 @@ static json_t *input(const rb_option *o, const void *values)
     case RB_OPTION_FLAG:
         return json_boolean(*(const int *)(const void *)place);
     default:
-        return json_string(rb_option_text(o, values, room));
+        return rb_report_json_text(rb_option_text(o, values, room));
     }
 }
 
@@ -33,6 +33,6 @@ json_t *rb_report_json_inputs(const rb_case *c)
     json_t *inputs = json_object();
     for (int i = 0; i < n; i++)
         if (o[i].kind != RB_OPTION_GROUP)
-            json_object_set_new(inputs, o[i].name, input(&o[i], rb_case_settled(c)));
+            rb_report_json_set(&inputs, o[i].name, input(&o[i], rb_case_settled(c)));
     return inputs;
 }

@@ -45,7 +45,7 @@ void rb_report_print_rows(FILE *out, int rows, int columns,
 /* Flushes.  RB_EWRITE: see errno. */
 rb_status rb_report_print_end(FILE *out);
 
-void rb_report_json_series(struct json_t *object, int rows, int columns,
+void rb_report_json_series(struct json_t **object, int rows, int columns,
                            const rb_report_series *series);
 
 /* ---- Stress ------------------------------------------------------------------------ */
@@ -77,7 +77,7 @@ typedef enum {
 } rb_report_shape;
 
 /* Runs gnuplot on a script, which names no file: data blocks only.  out gets the whole
- * picture or nothing.  RB_EFORMAT: gnuplot is missing, refuses, or took longer than so
+ * picture or nothing.  RB_EHELPER: gnuplot is missing, refuses, or took longer than so
  * many seconds; RB_EWRITE: the disk is full; RB_ENOMEM. */
 rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds,
                             FILE *out, rb_message *why);

@@ -12,11 +12,36 @@ json_t *rb_report_json_number(double x)
     return isfinite(x) ? json_real(x) : json_null();
 }
 
+void rb_report_json_set(json_t **object, const char *name, json_t *value)
+{
+    if (json_object_set_new(*object, name, value) == 0)
+        return;
+    json_decref(*object);
+    *object = NULL;
+}
+
+void rb_report_json_append(json_t **list, json_t *value)
+{
+    if (json_array_append_new(*list, value) == 0)
+        return;
+    json_decref(*list);
+    *list = NULL;
+}
+
+json_t *rb_report_json_text(const char *text)
+{
+    const size_t size = 4 * strlen(text) + 1;
+    char *printable = malloc(size);
+    json_t *value = printable ? json_string(rb_printable(text, printable, size)) : NULL;
+    free(printable);
+    return value;
+}
+
 json_t *rb_report_json_numbers(int n, const double *x)
 {
     json_t *list = json_array();
     for (int i = 0; i < n; i++)
-        json_array_append_new(list, rb_report_json_number(x[i]));
+        rb_report_json_append(&list, rb_report_json_number(x[i]));
     return list;
 }
 
@@ -24,7 +49,7 @@ static json_t *whole_numbers(int n, const int *x)
 {
     json_t *list = json_array();
     for (int i = 0; i < n; i++)
-        json_array_append_new(list, json_integer(x[i]));
+        rb_report_json_append(&list, json_integer(x[i]));
     return list;
 }
 
@@ -42,12 +67,10 @@ static json_t *conventions_text(void)
 json_t *rb_report_json_start(const char *command)
 {
     json_t *root = json_object();
-    json_object_set_new(root, "schema", json_string("rollbem/1"));
-    json_object_set_new(root, "version", json_string(RB_VERSION));
-    /* an argument need not be UTF-8 */
-    json_t *line = json_string(command);
-    json_object_set_new(root, "command", line ? line : json_null());
-    json_object_set_new(root, "conventions", conventions_text());
+    rb_report_json_set(&root, "schema", json_string("rollbem/1"));
+    rb_report_json_set(&root, "version", json_string(RB_VERSION));
+    rb_report_json_set(&root, "command", rb_report_json_text(command));
+    rb_report_json_set(&root, "conventions", conventions_text());
     return root;
 }
 
@@ -128,13 +151,13 @@ static const field of_patch[] = {
 };
 
 /* owner: the struct that the offsets belong to. */
-static void set_fields(json_t *object, const void *owner, const field *fields, size_t n)
+static void set_fields(json_t **object, const void *owner, const field *fields, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         const void *place = (const char *)owner + fields[i].offset;
         json_t *value = fields[i].whole ? json_integer(*(const int *)place)
                                         : rb_report_json_number(*(const double *)place);
-        json_object_set_new(object, fields[i].name, value);
+        rb_report_json_set(object, fields[i].name, value);
     }
 }
 
@@ -143,8 +166,8 @@ static json_t *patches(const rb_rolling_solution *s)
     json_t *list = json_array();
     for (int k = 0; k < s->patches; k++) {
         json_t *patch = json_object();
-        set_fields(patch, &s->patch[k], of_patch, sizeof of_patch / sizeof of_patch[0]);
-        json_array_append_new(list, patch);
+        set_fields(&patch, &s->patch[k], of_patch, sizeof of_patch / sizeof of_patch[0]);
+        rb_report_json_append(&list, patch);
     }
     return list;
 }
@@ -152,30 +175,30 @@ static json_t *patches(const rb_rolling_solution *s)
 json_t *rb_report_json_summary(const rb_rolling_solution *s)
 {
     json_t *summary = json_object(), *times = json_object();
-    json_object_set_new(summary, "status", json_string(rb_status_text(s->status)));
-    json_object_set_new(summary, "formulation",
-                        json_string(rb_report_formulation(s->formulation)));
-    json_object_set_new(summary, "solver", json_string(rb_report_solver(s)));
-    json_object_set_new(summary, "flexibility",
-                        json_string(s->large ? "transforms" : "matrix"));
-    json_object_set_new(summary, "lcp_form",
-                        json_string(rb_report_lcp_form(s->lcp_form)));
-    set_fields(summary, s, results, sizeof results / sizeof results[0]);
+    rb_report_json_set(&summary, "status", json_string(rb_status_text(s->status)));
+    rb_report_json_set(&summary, "formulation",
+                       json_string(rb_report_formulation(s->formulation)));
+    rb_report_json_set(&summary, "solver", json_string(rb_report_solver(s)));
+    rb_report_json_set(&summary, "flexibility",
+                       json_string(s->large ? "transforms" : "matrix"));
+    rb_report_json_set(&summary, "lcp_form",
+                       json_string(rb_report_lcp_form(s->lcp_form)));
+    set_fields(&summary, s, results, sizeof results / sizeof results[0]);
     if (s->patches > 1)
-        json_object_set_new(summary, "patches", patches(s));
+        rb_report_json_set(&summary, "patches", patches(s));
     if (s->equal_instead)
-        json_object_set_new(summary, "mesh", json_string("uniform"));
+        rb_report_json_set(&summary, "mesh", json_string("uniform"));
     if (s->edges_bounded)
-        json_object_set_new(summary, "edges", json_string("bounded"));
-    json_object_set_new(summary, "datum", rb_report_json_number(s->datum));
-    json_object_set_new(summary, "boundary_elements", json_integer(s->boundary_elements));
+        rb_report_json_set(&summary, "edges", json_string("bounded"));
+    rb_report_json_set(&summary, "datum", rb_report_json_number(s->datum));
+    rb_report_json_set(&summary, "boundary_elements", json_integer(s->boundary_elements));
     if (s->boundary_elements > 0)
-        json_object_set_new(summary, "boundary_matrix",
-                            json_string(s->hierarchical ? "hierarchical" : "dense"));
-    json_object_set_new(summary, "integrals", json_string(rb_bem_vector_name()));
-    json_object_set_new(summary, "openblas", json_string(rb_blas_core()));
-    set_fields(times, s, seconds, sizeof seconds / sizeof seconds[0]);
-    json_object_set_new(summary, "seconds", times);
+        rb_report_json_set(&summary, "boundary_matrix",
+                           json_string(s->hierarchical ? "hierarchical" : "dense"));
+    rb_report_json_set(&summary, "integrals", json_string(rb_bem_vector_name()));
+    rb_report_json_set(&summary, "openblas", json_string(rb_blas_core()));
+    set_fields(&times, s, seconds, sizeof seconds / sizeof seconds[0]);
+    rb_report_json_set(&summary, "seconds", times);
     return summary;
 }
 
@@ -195,31 +218,34 @@ json_t *rb_report_json_table(const rb_rolling_solution *s)
     json_t *table = json_object();
     for (int j = 0; j < rb_report_column_n; j++) {
         const rb_report_column *c = &rb_report_columns[j];
-        json_object_set_new(table, c->name,
-                            c->whole
-                                ? whole_numbers(s->n, rb_report_ints(s, c))
-                                : rb_report_json_numbers(s->n, rb_report_doubles(s, c)));
+        rb_report_json_set(&table, c->name,
+                           c->whole
+                               ? whole_numbers(s->n, rb_report_ints(s, c))
+                               : rb_report_json_numbers(s->n, rb_report_doubles(s, c)));
     }
     if (s->formulation != RB_STATIC)
-        json_object_set_new(table, "friction_power_MPa", friction_power(s));
+        rb_report_json_set(&table, "friction_power_MPa", friction_power(s));
     return table;
 }
 
-void rb_report_json_series(json_t *object, int rows, int columns,
+void rb_report_json_series(json_t **object, int rows, int columns,
                            const rb_report_series *series)
 {
     for (int j = 0; j < columns; j++)
-        json_object_set_new(object, series[j].key ? series[j].key : series[j].name,
-                            series[j].x ? rb_report_json_numbers(rows, series[j].x)
-                                        : whole_numbers(rows, series[j].k));
+        rb_report_json_set(object, series[j].key ? series[j].key : series[j].name,
+                           series[j].x ? rb_report_json_numbers(rows, series[j].x)
+                                       : whole_numbers(rows, series[j].k));
 }
 
-rb_status rb_report_json_write(FILE *out, const json_t *json)
+rb_status rb_report_json_write(FILE *out, json_t *json)
 {
     if (!json)
         return RB_ENOMEM;
-    if (json_dumpf(json, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) != 0)
-        return RB_EWRITE;
+    const int failed =
+        json_dumpf(json, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) != 0;
+    json_decref(json);
+    if (failed && !ferror(out))
+        return RB_ENOMEM;
     fputc('\n', out);
     return fflush(out) == 0 && !ferror(out) ? RB_OK : RB_EWRITE;
 }

@@ -115,9 +115,9 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s,
 static json_t *json_extremum(const rb_rolling_extremum *m)
 {
     json_t *object = json_object();
-    json_object_set_new(object, "value", rb_report_json_number(m->value));
-    json_object_set_new(object, "x", rb_report_json_number(m->x));
-    json_object_set_new(object, "y", rb_report_json_number(m->y));
+    rb_report_json_set(&object, "value", rb_report_json_number(m->value));
+    rb_report_json_set(&object, "x", rb_report_json_number(m->x));
+    rb_report_json_set(&object, "y", rb_report_json_number(m->y));
     return object;
 }
 
@@ -127,26 +127,26 @@ static json_t *json_maxima(const rb_report_stress *s)
     for (int k = 0; k < MAXIMA; k++) {
         json_t *one = json_extremum(extremum(s->maxima, k));
         if (s->errors)
-            json_object_set_new(one, "errors", json_extremum(extremum(s->errors, k)));
-        json_object_set_new(all, maxima[k].key, one);
+            rb_report_json_set(&one, "errors", json_extremum(extremum(s->errors, k)));
+        rb_report_json_set(&all, maxima[k].key, one);
     }
     return all;
 }
 
-void rb_report_json_stress(json_t *root, const rb_report_stress *s)
+void rb_report_json_stress(json_t **root, const rb_report_stress *s)
 {
     json_t *points = json_object();
-    json_object_set_new(root, "maxima", json_maxima(s));
+    rb_report_json_set(root, "maxima", json_maxima(s));
     if (s->nx > 0) {
-        json_object_set_new(points, "nx", json_integer(s->nx));
-        json_object_set_new(points, "ny", json_integer(s->ny));
+        rb_report_json_set(&points, "nx", json_integer(s->nx));
+        rb_report_json_set(&points, "ny", json_integer(s->ny));
     }
     for (int j = 0; j < RB_REPORT_STRESS_COLUMNS; j++) {
         json_t *list = json_array();
         for (int k = 0; k < s->n; k++)
-            json_array_append_new(
-                list, rb_report_json_number(rb_report_stress_value(&s->at[k], j)));
-        json_object_set_new(points, rb_report_stress_columns[j].name, list);
+            rb_report_json_append(
+                &list, rb_report_json_number(rb_report_stress_value(&s->at[k], j)));
+        rb_report_json_set(&points, rb_report_stress_columns[j].name, list);
     }
-    json_object_set_new(root, s->nx > 0 ? "grid" : "points", points);
+    rb_report_json_set(root, s->nx > 0 ? "grid" : "points", points);
 }

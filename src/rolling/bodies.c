@@ -164,7 +164,7 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
     if (s != RB_OK)
         rb_rolling_bodies_free(bodies);
     return s == RB_ENOMEM
-               ? rb_fail(why, s, "no memory for the flexibility of %d elements", mesh->n)
+               ? rb_fail(why, s, "out of memory for the flexibility of %d elements", mesh->n)
                : s;
 }
 

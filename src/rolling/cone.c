@@ -20,7 +20,7 @@ rb_status rb_rolling_cone_problem(const rb_rolling_problem *p, double delta, dou
     cone->q = rb_alloc(m, 1);
     if (!cone->mu || !cone->W || !cone->q) {
         rb_friction_problem_free(cone);
-        return rb_fail(why, RB_ENOMEM, "no memory for a cone problem of %d contacts",
+        return rb_fail(why, RB_ENOMEM, "out of memory for a cone problem of %d contacts",
                        p->n);
     }
     for (size_t j = 0; j < m; j++) {
@@ -79,7 +79,7 @@ rb_status rb_rolling_cone_write(const char *path, const rb_rolling_model *model,
         return rb_fail(why, RB_EINVAL, "%d elements are too many for a dense W", p->n);
     double *r = rb_alloc(2 * (size_t)p->n, 1);
     rb_status s = r ? rb_rolling_cone_problem(p, state->delta, state->xi, &cone, why)
-                    : rb_fail(why, RB_ENOMEM, "no memory for %d contacts", p->n);
+                    : rb_fail(why, RB_ENOMEM, "out of memory for %d contacts", p->n);
     if (s == RB_OK) {
         for (int i = 0; i < p->n; i++) {
             r[2 * i] = state->p[i] / p->stress;

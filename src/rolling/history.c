@@ -123,7 +123,8 @@ static void watch_steadiness(run *r, double c)
 static rb_status judge(const run *r, rb_status s, rb_message *reason, rb_message *why)
 {
     if (s != RB_OK)
-        rb_fail(why, s, "step %d: %.260s", r->history->n + 1, reason->text);
+        rb_fail(why, s, "step %d: %.260s", r->history->n + 1,
+                reason->text[0] ? reason->text : rb_status_text(s));
     return s;
 }
 

@@ -290,7 +290,7 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
         s = set_operators(rc, bodies, p, &unit);
     if (s != RB_OK) {
         rb_rolling_problem_free(p);
-        return rb_fail(why, s, "no memory for a contact problem of %d elements", mesh->n);
+        return rb_fail(why, s, "out of memory for a contact problem of %d elements", mesh->n);
     }
     p->mu = rc->mu;
     rb_rolling_set_gap(mesh, bodies, p);

@@ -276,7 +276,7 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
         status = rb_rolling_set_patches(model, s);
     if (status != RB_OK) {
         rb_rolling_solution_free(s);
-        return rb_fail(why, status, "no memory for a solution of %d elements",
+        return rb_fail(why, status, "out of memory for a solution of %d elements",
                        model->mesh.n);
     }
     set_stick_limits(&model->mesh, s);

@@ -185,7 +185,7 @@ rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const doubl
     if (s == RB_OK)
         s = stress_of_field(&f, n, xy, stress, why);
     field_free(&f);
-    return s == RB_ENOMEM ? rb_fail(why, s, "no memory for the stress at %d points", n)
+    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the stress at %d points", n)
                           : s;
 }
 
@@ -426,7 +426,7 @@ static rb_status make_grid(const rb_rolling_model *model, const search *box, int
     if (s != RB_OK)
         rb_rolling_stress_grid_free(grid);
     return s == RB_ENOMEM
-               ? rb_fail(why, s, "no memory for the stress at %d x %d points", nx, ny)
+               ? rb_fail(why, s, "out of memory for the stress at %d x %d points", nx, ny)
                : s;
 }
 

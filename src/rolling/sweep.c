@@ -85,7 +85,7 @@ rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_crew *cr
     const rb_status s =
         r.row && r.came
             ? supervise(&r, why)
-            : rb_fail(why, RB_ENOMEM, "sweep: no memory for %d rows", r.window);
+            : rb_fail(why, RB_ENOMEM, "sweep: out of memory for %d rows", r.window);
     crew->dismiss(crew);
     free(r.came);
     free(r.row);

@@ -1,0 +1,111 @@
+#include "io/child.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+char *rb_io_read_all(FILE *file, size_t *size)
+{
+    size_t room = 0, got;
+    char *text = NULL;
+    *size = 0;
+    do {
+        if (*size + 1 >= room) {
+            room = room ? 2 * room : 1 << 16;
+            char *larger = realloc(text, room);
+            if (!larger) {
+                free(text);
+                return NULL;
+            }
+            text = larger;
+        }
+        got = fread(text + *size, 1, room - *size - 1, file);
+        *size += got;
+    } while (got);
+    if (ferror(file)) {
+        free(text);
+        return NULL;
+    }
+    text[*size] = '\0';
+    return text;
+}
+
+/* Stands behind the bytes: a child that crashed does not come so far. */
+typedef struct {
+    rb_status status;
+    rb_message why;
+} ending;
+
+/* What a crash would print, and the core it would leave, helps nobody. */
+static void be_quiet(void)
+{
+    const struct rlimit none = {0, 0};
+    const int null = open("/dev/null", O_WRONLY);
+    setrlimit(RLIMIT_CORE, &none);
+    if (null >= 0)
+        dup2(null, STDERR_FILENO);
+}
+
+static void run_child(int to, io_work *work, const void *context)
+{
+    ending end = {.status = RB_ENOMEM};
+    FILE *out = fdopen(to, "wb");
+    be_quiet();
+    if (out) {
+        end.status = work(out, context, &end.why);
+        fwrite(&end, sizeof end, 1, out);
+        fflush(out);
+    }
+    _exit(0); /* the library's own end may crash too */
+}
+
+static rb_status crashed(const char *name, int status, rb_message *why)
+{
+    if (WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL)
+        return rb_fail(why, RB_ENOMEM,
+                       "%s: HDF5 crashed: out of memory, or a damaged file", name);
+    return rb_fail(why, RB_ENOMEM, "%s: out of memory", name);
+}
+
+rb_status rb_io_in_child(const char *name, io_work *work, const void *context,
+                         char **bytes, size_t *size, rb_message *why)
+{
+    int end[2], status = 0;
+    ending e;
+    *bytes = NULL;
+    *size = 0;
+    if (pipe(end) != 0)
+        return rb_fail(why, RB_ENOMEM, "%s: out of memory: %s", name, strerror(errno));
+    fflush(NULL); /* or the child would have what is in the buffers */
+    const pid_t pid = fork();
+    if (pid == 0) {
+        close(end[0]);
+        run_child(end[1], work, context);
+    }
+    close(end[1]);
+    FILE *from = pid > 0 ? fdopen(end[0], "rb") : NULL;
+    char *all = from ? rb_io_read_all(from, size) : NULL;
+    if (from)
+        fclose(from);
+    else
+        close(end[0]);
+    while (pid > 0 && waitpid(pid, &status, 0) < 0 && errno == EINTR)
+        ;
+    if (!all || *size < sizeof e) {
+        free(all);
+        return crashed(name, status, why);
+    }
+    *size -= sizeof e;
+    memcpy(&e, all + *size, sizeof e);
+    if (e.status == RB_OK) {
+        *bytes = all;
+        return RB_OK;
+    }
+    free(all);
+    return rb_fail(why, e.status, "%s", e.why.text);
+}

@@ -1,0 +1,249 @@
+/* The program's files: whole or not there, inputs never written over, nothing left behind
+ * by a signal, memory and disks that end. */
+#include "cli_run.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+
+#define CASE "--support halfplane --load 100 --contact-elements 24 --quiet "
+
+static int is_there(const char *name)
+{
+    struct stat st;
+    return lstat(name, &st) == 0;
+}
+
+/* Files in the folder, hidden ones too, apart from out and err. */
+static int files(void)
+{
+    DIR *d = opendir(".");
+    int n = -4; /* ., .., out, err */
+    assert_non_null(d);
+    while (readdir(d))
+        n++;
+    closedir(d);
+    return n;
+}
+
+static void clear(void)
+{
+    assert_int_equal(system("rm -rf ./* .r*; : >out; : >err"), 0);
+}
+
+/* ---- Inputs ---------------------------------------------------------------------------
+ */
+
+static const struct {
+    const char *arguments, *part;
+} clashes[] = {
+    {"m.ini --output m.ini", "--output: 'm.ini' is an input"},
+    {"m.ini --output ./m.ini", "--output: './m.ini' is an input"},
+    {"m.ini --output link", "--output: 'link' is an input"},
+    {"m.ini --history-table m.ini --history h.tsv",
+     "--history-table: 'm.ini' is an input"},
+    {"m.ini --history h.tsv --history-table h.tsv", "'h.tsv' is an input (--history)"},
+    {"m.ini --fclib m.ini", "--fclib: 'm.ini' is an input"},
+    {CASE "--gap gap.tsv --output gap.tsv", "'gap.tsv' is an input (--gap)"},
+    {"m.ini --output same.svg --plot same.svg", "both would write 'same.svg'"},
+    {"stress m.ini --points p.tsv --vtk p.tsv", "'p.tsv' is an input (--points)"},
+    {"curve m.ini --output m.ini", "--output: 'm.ini' is an input"},
+    {"sweep m.ini --vary-1 'mu 0.1 0.2' --output m.ini", "--output: 'm.ini' is an input"},
+    {"sweep m.ini --cases c.tsv --output c.tsv", "'c.tsv' is an input (--cases)"},
+    {"lcp m.ini --output m.ini", "--output: 'm.ini' is an input"},
+    {"friction m.ini --output m.ini", "--output: 'm.ini' is an input"},
+    {"compare m.ini --output m.ini", "--output: 'm.ini' is an input"},
+};
+
+static void inputs_are_not_written_over(void **state)
+{
+    (void)state;
+    write_file("m.ini", "support = halfplane\nload = 100\ncontact-elements = 24\n");
+    write_file("gap.tsv", "-1 0.01\n0 0\n1 0.01\n");
+    write_file("h.tsv", "load\n100\n");
+    write_file("p.tsv", "0 0.1\n");
+    write_file("c.tsv", "mu\n0.1\n");
+    assert_int_equal(symlink("m.ini", "link"), 0);
+    for (size_t k = 0; k < sizeof clashes / sizeof clashes[0]; k++)
+        check_refused(clashes[k].arguments, 64, clashes[k].part);
+    char text[200];
+    slurp("m.ini", text, sizeof text);
+    assert_non_null(strstr(text, "support = halfplane"));
+    slurp("h.tsv", text, sizeof text);
+    assert_string_equal(text, "load\n100\n");
+    clear();
+}
+
+/* ---- What cannot be written -----------------------------------------------------------
+ */
+
+static const char *const unwritable[] = {
+    CASE "--output /no/file",         CASE "--plot /no/file.svg",
+    CASE "--fclib /no/file",          CASE "--dump /no/folder",
+    "curve " CASE "--plot /no/a.svg", "stress " CASE "--vtk /no/a.vtu",
+    "example bar --output /no/file",  "example wall --output /no/folder",
+};
+
+static void what_cannot_be_written_is_not_solved(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof unwritable / sizeof unwritable[0]; k++)
+        check_refused(unwritable[k], 73, "cannot write: No such file or directory");
+}
+
+/* A limit of file sizes is what a full disk looks like. */
+static void full_disks_leave_nothing(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {CASE "--contact-elements 300 --output a.tsv",
+                                        CASE "--fclib a.hdf5", CASE "--plot a.png",
+                                        "stress " CASE "--grid 40x40 --fringes a.png",
+                                        "stress " CASE "--grid 40x40 --vtk a.vtu"};
+    clear();
+    for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++) {
+        char line[400];
+        snprintf(line, sizeof line,
+                 "(ulimit -f 8; \"$R\" %s | cat >/dev/null; exit "
+                 "${PIPESTATUS[0]})",
+                 lines[k]);
+        write_file("job", line);
+        const int code = shell("bash -c \"R='$R'; $(cat job)\"");
+        unlink("job");
+        if (code != 73 || files() != 0)
+            print_error("%s: exit %d, %d files, %s\n", lines[k], code, files(), err);
+        assert_int_equal(code, 73);
+        assert_int_equal(files(), 0);
+    }
+}
+
+/* Links, pipes and devices stay what they are; modes too. */
+static void fclib_files_are_written_as_all_others(void **state)
+{
+    (void)state;
+    struct stat st;
+    clear();
+    write_file("real", "old");
+    assert_int_equal(chmod("real", 0640), 0);
+    assert_int_equal(symlink("real", "link"), 0);
+    assert_int_equal(symlink("real", "new.part"), 0); /* was followed once */
+    assert_int_equal(rollbem(CASE "--fclib new"), 0);
+    char text[20];
+    slurp("real", text, sizeof text);
+    assert_string_equal(text, "old");
+    assert_int_equal(rollbem(CASE "--fclib link"), 0);
+    assert_int_equal(lstat("link", &st), 0);
+    assert_true(S_ISLNK(st.st_mode));
+    assert_int_equal(stat("real", &st), 0);
+    assert_true(st.st_size > 1000 && (st.st_mode & 0777) == 0640);
+    assert_int_equal(shell("mkfifo pipe; cat pipe >copy & \"$R\" " CASE
+                           "--fclib pipe && wait && cmp copy new && test -p pipe"),
+                     0);
+    assert_int_equal(rollbem(CASE "--fclib /dev/full"), 73);
+    assert_int_equal(stat("/dev/full", &st), 0);
+    assert_true(S_ISCHR(st.st_mode));
+    clear();
+}
+
+/* ---- Signals --------------------------------------------------------------------------
+ */
+
+static void signals_leave_nothing_behind(void **state)
+{
+    (void)state;
+    static const char *const jobs[] = {
+        CASE "--support hub --contact-elements 400 --error --output a.tsv",
+        CASE "--formulation transient --distance 1e5 --creep 1e-3 --output a.tsv",
+        "curve " CASE "--points 100000 --output a.tsv",
+        "example wall --quiet",
+    };
+    clear();
+    for (size_t k = 0; k < sizeof jobs / sizeof jobs[0]; k++)
+        for (int s = 0; s < 2; s++) {
+            char line[400];
+            snprintf(line, sizeof line,
+                     "\"$R\" %s >/dev/null & p=$!; sleep 0.3; kill -%s $p; wait $p",
+                     jobs[k], s ? "HUP" : "TERM");
+            assert_int_not_equal(shell(line), 0);
+            /* steps that were finished may be there, whole */
+            const int steps = is_there("a.tsv") && strstr(err, "interrupted after step");
+            if (files() != steps)
+                print_error("%s: %d files, %s\n", jobs[k], files(), err);
+            assert_int_equal(files(), steps);
+            clear();
+        }
+}
+
+/* ---- Descriptors and names ------------------------------------------------------------
+ */
+
+static void a_closed_output_matters_only_where_it_is_used(void **state)
+{
+    (void)state;
+    assert_int_equal(shell("\"$R\" " CASE "--output a.tsv >&-"), 0);
+    assert_int_equal(shell("\"$R\" " CASE "--output b.tsv >&- 2>&- <&-"), 0);
+    assert_int_equal(shell("cmp a.tsv b.tsv || diff a.tsv b.tsv | grep -c output"), 0);
+    assert_int_equal(shell("\"$R\" " CASE ">&-"), 73);
+    clear();
+}
+
+static void names_of_any_bytes_are_printed(void **state)
+{
+    (void)state;
+    clear();
+    assert_int_equal(
+        shell("n=$(printf 'a\\377b\\033.ini'); printf 'load = 1\\n' >\"$n\"; "
+              "\"$R\" \"$n\" " CASE "--json --output a.json"),
+        0);
+    json_t *root = json_load_file("a.json", 0, NULL);
+    assert_non_null(root);
+    assert_non_null(
+        strstr(json_string_value(json_object_get(root, "command")), "a\\xffb\\x1b.ini"));
+    json_decref(root);
+    assert_int_equal(shell("\"$R\" \"$(printf 'none\\377\\033')\""), 66);
+    assert_non_null(strstr(err, "none\\xff\\x1b: No such file"));
+    assert_int_equal(shell("\"$R\" lcp --json \"$(printf 'none\\377')\""), 66);
+    assert_non_null(strstr(out, "\"none\\\\xff\""));
+    clear();
+}
+
+/* ---- Memory ---------------------------------------------------------------------------
+ */
+
+/* OpenBLAS waits for ever for its buffer. */
+static void a_limit_of_memory_is_said(void **state)
+{
+    (void)state;
+#if defined(__SANITIZE_ADDRESS__)
+    skip(); /* reserves terabytes */
+#endif
+    int said = 0;
+    for (int megabytes = 100; megabytes <= 400; megabytes += 50) {
+        char line[300];
+        snprintf(line, sizeof line,
+                 "ulimit -v %d; timeout 60 \"$R\" --support hub --contact-elements 200 "
+                 "--quiet",
+                 1024 * megabytes);
+        const int code = shell(line);
+        if (code == 127) /* not even the libraries */
+            continue;
+        if (code != 0 && (code != 70 || !strstr(err, "out of memory")))
+            print_error("%d MB: exit %d, %s\n", megabytes, code, err);
+        assert_true(code == 0 || (code == 70 && strstr(err, "out of memory")));
+        said += code == 70;
+    }
+    assert_true(said > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(inputs_are_not_written_over),
+        cmocka_unit_test(what_cannot_be_written_is_not_solved),
+        cmocka_unit_test(full_disks_leave_nothing),
+        cmocka_unit_test(fclib_files_are_written_as_all_others),
+        cmocka_unit_test(signals_leave_nothing_behind),
+        cmocka_unit_test(a_closed_output_matters_only_where_it_is_used),
+        cmocka_unit_test(names_of_any_bytes_are_printed),
+        cmocka_unit_test(a_limit_of_memory_is_said),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
