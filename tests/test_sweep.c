@@ -117,7 +117,7 @@ static const struct {
     {"--vary-1 'mu 0.1' --error", 64, "--error: studies have no error bars"},
     {"--cases nowhere", 66, "nowhere: No such file"},
     {"--vary-1 'mu 0:1:10000000' --vary-2 'load 1:2:10000000'", 65, "at most 1e8"},
-    {"--vary-1 'mu 0.1' --output /no/such/file", 73, "/no/such/file: No such file"},
+    {"--vary-1 'mu 0.1' --output /no/such/file", 73, "/no/such/file: cannot write: No such file"},
     {"--vary-1 'mu 0.1' --jobs -1", 64, "--jobs: expected a whole number"},
 };
 
