@@ -171,7 +171,8 @@ static cli_exit failed(friction_result *r, rb_status s, const char *text)
     r->m = 0;
     r->info.residual = r->info.scaled = r->info.floor = r->info.flops = r->info.seconds =
         NAN;
-    return cli_fail(s == RB_EINVAL ? CLI_DATA : cli_exit_of(s), "%s: %s", r->file, text);
+    return cli_fail(s == RB_EINVAL ? CLI_DATA : cli_exit_of(s), "%s: %s", r->file,
+                    text[0] ? text : rb_status_text(s));
 }
 
 static cli_exit unreadable(friction_result *r, rb_status s, const rb_message *why)

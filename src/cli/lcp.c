@@ -179,7 +179,7 @@ static cli_exit failed(lcp_result *r, rb_status s, const char *text)
 {
     r->status = rb_status_text(s);
     r->n = 0;
-    return cli_fail(cli_exit_of(s), "%s", text);
+    return cli_fail(cli_exit_of(s), "%s", text[0] ? text : rb_status_text(s));
 }
 
 static cli_exit run_lemke(lcp_run *run, lcp_result *r)
