@@ -25,8 +25,8 @@ LIB_SRC := $(filter-out src/cli/% src/mpi/%,$(wildcard src/*/*.c))
 CLI_SRC := $(wildcard src/cli/*.c)
 LIB_OBJ := $(LIB_SRC:%.c=$(B)/%.o)
 CLI_OBJ := $(CLI_SRC:%.c=$(B)/%.o)
-# the same program with another crew
-MPI_OBJ := $(filter-out %/crew.o,$(CLI_OBJ)) $(B)/src/mpi/crew.o
+# the same program with another worker pool
+MPI_OBJ := $(filter-out %/cli/pool.o,$(CLI_OBJ)) $(B)/src/mpi/pool.o
 PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))

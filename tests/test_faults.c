@@ -38,6 +38,7 @@ static const job jobs[] = {
      0, 0},
     {"curve", "curve case.ini --points 4 --json --output c.json", 0, 0},
     {"stress", "stress case.ini --grid 5x4 --vtk v.vtu --output s.tsv", 0, 0},
+    {"study", "sweep study.ini --jobs 1 --output w.tsv", 0, 1},
     {"friction", "friction input.hdf5 --json --solution --output r.json", 0, 0},
 };
 
@@ -131,7 +132,8 @@ static int same_json(const char *a, const char *b)
 static int says_so(const char *text)
 {
     json_t *root = json_loads(text, 0, NULL);
-    const json_t *problem = json_array_get(json_object_get(root, "problems"), 0);
+    const json_t *problem =
+        json_array_get(json_object_get(root, "problems"), 0);
     const char *status = json_string_value(json_object_get(problem, "status"));
     const int said = status && strcmp(status, "out of memory") == 0;
     json_decref(root);

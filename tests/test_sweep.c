@@ -1,9 +1,11 @@
+#define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 /* Parameter studies: the library's processes and the program. */
 #include "cli_run.h"
 #include "rollbem/io.h"
 #include "rollbem/rolling.h"
 
 #include <signal.h>
+#include <sys/mman.h>
 
 /* ---- The library ----------------------------------------------------------------------
  */
@@ -12,13 +14,14 @@ enum { CASES = 23 };
 
 typedef struct {
     int first, seen, stop_at, kill_at;
+    int *deaths; /* in memory that all processes share; NULL: die every time */
     rb_rolling_sweep_row row[CASES];
 } record;
 
 static rb_status make(int k, rb_rolling_case *rc, void *context)
 {
     const record *r = context;
-    if (k == r->kill_at)
+    if (k == r->kill_at && (!r->deaths || ++*r->deaths == 1))
         raise(SIGKILL);
     *rc = rb_rolling_case_defaults();
     rc->a.support = RB_BEM_HALFPLANE;
@@ -71,6 +74,20 @@ static void rows_are_those_of_single_solutions(void **state)
     }
 }
 
+/* The memory killer of the system may have taken it. */
+static void a_case_is_tried_again_after_its_process_died(void **state)
+{
+    (void)state;
+    int *deaths = mmap(NULL, sizeof *deaths, PROT_READ | PROT_WRITE,
+                       MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    record r = {.kill_at = 9, .deaths = deaths};
+    CHECK_STATUS(run(&r, 2, NULL), RB_OK);
+    assert_int_equal(*deaths, 2); /* once, and once more alive */
+    for (int i = 0; i < CASES; i++)
+        assert_int_equal(r.row[i].status, i == 5 ? RB_EINVAL : RB_OK);
+    munmap(deaths, sizeof *deaths);
+}
+
 static void a_process_that_dies_loses_one_case(void **state)
 {
     (void)state;
@@ -117,7 +134,8 @@ static const struct {
     {"--vary-1 'mu 0.1' --error", 64, "--error: studies have no error bars"},
     {"--cases nowhere", 66, "nowhere: No such file"},
     {"--vary-1 'mu 0:1:10000000' --vary-2 'load 1:2:10000000'", 65, "at most 1e8"},
-    {"--vary-1 'mu 0.1' --output /no/such/file", 73, "/no/such/file: cannot write: No such file"},
+    {"--vary-1 'mu 0.1' --output /no/such/file", 73,
+     "/no/such/file: cannot write: No such file"},
     {"--vary-1 'mu 0.1' --jobs -1", 64, "--jobs: expected a whole number"},
 };
 
@@ -192,19 +210,114 @@ static void cases_that_fail_are_rows_and_an_exit_code(void **state)
                              "--zone 0.001 --contact-elements 10"),
                      1);
     assert_non_null(strstr(err, "2 cases"));
-    assert_non_null(strstr(err, "2 not solved"));
+    assert_non_null(strstr(err, "not solved: 2 of 2"));
+}
+
+#define THREE STUDY "--contact-elements 20 --vary-1 'creep-ratio 0:1:3' --output s.tsv "
+
+static void check_not_resumed(const char *change, const char *part)
+{
+    assert_int_equal(rollbem(THREE "--restart"), 0);
+    assert_int_equal(shell(change), 0);
+    check_refused(THREE, 73, part);
+}
+
+/* Every line is one that this study would have written. */
+static void what_is_no_row_of_the_study_is_refused(void **state)
+{
+    (void)state;
+    check_not_resumed("echo hello >>s.tsv", "s.tsv:9: not the row of case 4");
+    check_not_resumed("sed -i '7s/.*/hello/' s.tsv", "s.tsv:7: not the row of case 2");
+    check_not_resumed("sed -i 6d s.tsv", "s.tsv:6: not the row of case 1");
+    check_not_resumed("sed -i '7s/0.5/0.6/' s.tsv", "s.tsv:7: not the row of case 2");
+    check_not_resumed("sed -i '8s/\\t[^\\t]*$//' s.tsv",
+                      "s.tsv:8: not the row of case 3");
+    check_not_resumed("sed -i '5s/force_ratio/x/' s.tsv", "holds something else");
+    check_not_resumed("sed -i '8p' s.tsv", "s.tsv:9: not the row of case 4");
+}
+
+static void an_empty_file_is_a_start(void **state)
+{
+    (void)state;
+    char whole[20000], got[20000];
+    assert_int_equal(rollbem(THREE "--restart"), 0);
+    slurp("s.tsv", whole, sizeof whole);
+    write_file("s.tsv", "");
+    assert_int_equal(rollbem(THREE), 0);
+    slurp("s.tsv", got, sizeof got);
+    assert_string_equal(strstr(got, "# study"), strstr(whole, "# study"));
+}
+
+/* More than a page of command line, as a study of many values has. */
+static void a_long_command_line_is_resumed(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        shell("v=$(seq -s' ' 0.0001 0.0001 0.1); "
+              "\"$R\" " STUDY "--contact-elements 10 --vary-1 \"mu $v\" "
+              "--output long.tsv && head -n 500 long.tsv >l && cp long.tsv w && "
+              "cp l long.tsv && \"$R\" " STUDY "--contact-elements 10 "
+              "--vary-1 \"mu $v\" --output long.tsv && cmp w long.tsv"),
+        0);
+}
+
+static void files_of_the_case_belong_to_the_study(void **state)
+{
+    (void)state;
+    static const char study[] =
+        "sweep --support halfplane --formulation steady --load 100 "
+        "--quiet --gap gap.tsv --zone 0.4 --contact-elements 20 "
+        "--vary-1 'creep-ratio 0:1:3' --output g.tsv";
+    assert_int_equal(shell("seq -2 0.1 2 | awk '{print $1, $1*$1/100}' >gap.tsv"), 0);
+    assert_int_equal(rollbem(study), 0);
+    assert_int_equal(rollbem(study), 0);
+    assert_int_equal(shell("seq -2 0.1 2 | awk '{print $1, $1*$1/120}' >gap.tsv"), 0);
+    check_refused(study, 73, "g.tsv: holds something else");
+}
+
+static void two_programs_on_one_file_are_refused(void **state)
+{
+    (void)state;
+    static const char line[] =
+        "\"$R\" " STUDY "--contact-elements 200 --jobs 1 --vary-1 'creep-ratio 0:1:4000' "
+        "--output both.tsv & p=$!; until [ -s both.tsv ]; do sleep 0.02; done; "
+        "\"$R\" " STUDY "--contact-elements 200 --vary-1 'creep-ratio 0:1:4000' --output "
+                        "both.tsv; code=$?; "
+        "\"$R\" " STUDY "--contact-elements 200 --vary-1 'creep-ratio 0:1:4000' "
+        "--output both.tsv --restart; again=$?; kill $p; wait $p; "
+        "[ $again = 73 ] && exit $code";
+    assert_int_equal(shell(line), 73);
+    assert_non_null(strstr(err, "both.tsv: another process is writing it"));
+}
+
+static void a_finished_study_keeps_its_exit_code(void **state)
+{
+    (void)state;
+    static const char study[] = "sweep --support halfplane --mu 0 --vary-1 'load 1 2' "
+                                "--zone 0.001 --contact-elements 10 --output f.tsv";
+    assert_int_equal(rollbem(study), 1);
+    assert_int_equal(rollbem(study), 1);
+    assert_non_null(strstr(err, "holds 2 of 2 cases"));
+    assert_non_null(strstr(err, "not solved: 2 of 2"));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_are_those_of_single_solutions),
+        cmocka_unit_test(a_case_is_tried_again_after_its_process_died),
         cmocka_unit_test(a_process_that_dies_loses_one_case),
         cmocka_unit_test(stops_when_told),
         cmocka_unit_test(bad_studies_are_refused),
         cmocka_unit_test(grid_times_table),
         cmocka_unit_test(an_interrupted_study_goes_on),
         cmocka_unit_test(cases_that_fail_are_rows_and_an_exit_code),
+        cmocka_unit_test(what_is_no_row_of_the_study_is_refused),
+        cmocka_unit_test(an_empty_file_is_a_start),
+        cmocka_unit_test(a_long_command_line_is_resumed),
+        cmocka_unit_test(files_of_the_case_belong_to_the_study),
+        cmocka_unit_test(two_programs_on_one_file_are_refused),
+        cmocka_unit_test(a_finished_study_keeps_its_exit_code),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -634,8 +634,8 @@ typedef struct {
 /* Cases first ... first + count - 1, by processes of this machine (0: as many as it has
  * processors), one thread each.  make runs in them, see and tick in the caller: see gets
  * the rows in order, tick comes every few milliseconds with the number seen; a value
- * other than 0 ends the run.  A process that dies leaves its case with RB_ENOMEM and is
- * replaced. */
+ * other than 0 ends the run.  A process that dies is replaced and its case tried once
+ * more; where it dies of it again, the case is left with RB_ENOMEM. */
 typedef struct {
     int first, count, workers;
     rb_status (*make)(int k, rb_rolling_case *rc, void *context);
@@ -647,23 +647,23 @@ typedef struct {
 /* RB_INTERRUPTED: see or tick said so; no process is left in any case. */
 rb_status rb_rolling_sweep_run(const rb_rolling_sweep *sweep, rb_message *why);
 
-/* Those who solve the cases, as the one who hands them out sees them. */
-typedef struct rb_rolling_crew {
-    int (*room)(struct rb_rolling_crew *crew); /* how many more cases it takes now */
-    rb_status (*give)(struct rb_rolling_crew *crew, int k); /* one, where there is room */
+/* The processes that solve the cases, as the one that hands them out sees them. */
+typedef struct rb_rolling_pool {
+    int (*idle)(struct rb_rolling_pool *pool); /* how many more cases it takes now */
+    rb_status (*submit)(struct rb_rolling_pool *pool, int k); /* one, where one is idle */
     /* 1: the row of case *k; 0: none came within so many milliseconds; a negative
-     * status: the crew cannot go on. */
-    int (*take)(struct rb_rolling_crew *crew, int milliseconds, int *k,
-                rb_rolling_sweep_row *row);
-    void (*dismiss)(struct rb_rolling_crew *crew); /* at once; its memory goes as well */
-} rb_rolling_crew;
+     * status: the pool cannot go on. */
+    int (*collect)(struct rb_rolling_pool *pool, int milliseconds, int *k,
+                   rb_rolling_sweep_row *row);
+    void (*stop)(struct rb_rolling_pool *pool); /* at once; its memory goes as well */
+} rb_rolling_pool;
 
 /* The processes of rb_rolling_sweep_run: sweep->workers of them, at most sweep->count;
  * sweep is borrowed. */
-rb_status rb_rolling_crew_start(const rb_rolling_sweep *sweep, rb_rolling_crew **crew,
+rb_status rb_rolling_pool_start(const rb_rolling_sweep *sweep, rb_rolling_pool **pool,
                                 rb_message *why);
-/* rb_rolling_sweep_run by any crew, which is dismissed in any case. */
-rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_crew *crew,
+/* rb_rolling_sweep_run by any pool, which is stopped in any case. */
+rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_pool *pool,
                               rb_message *why);
 
 #endif

@@ -1,10 +1,10 @@
 /* Whether this process is one of several. */
-#include "cli/crew.h"
+#include "cli/pool.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-int cli_crew_is_launched(void)
+int cli_pool_is_launched(void)
 {
     const char *size = getenv("OMPI_COMM_WORLD_SIZE");
 

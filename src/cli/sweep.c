@@ -1,18 +1,20 @@
 /* rollbem sweep: parameter studies over all processors. */
 #include "cli/case.h"
-#include "cli/crew.h"
+#include "cli/interrupt.h"
+#include "cli/pool.h"
 #include "rollbem/report.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <jansson.h>
-#include <signal.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-enum { VARIED_MAX = 4, COLUMNS_MAX = 64 };
+enum { VARIED_MAX = 4, COLUMNS_MAX = 64, NO_MEMORY = -1 };
 
 typedef struct {
     const char *vary[VARIED_MAX], *cases, *output;
@@ -84,9 +86,13 @@ typedef struct {
     int rows[VARIED_MAX + 1]; /* of each factor */
     double *owned[VARIED_MAX];
     rb_io_table table;
+    uint64_t fingerprint; /* of all inputs */
     FILE *out;
-    int worst; /* exit code so far */
-    int unsolved, first;
+    const char *path; /* of the file that keeps the rows; NULL: stdout, a device */
+    long whole;       /* its length up to the last row that reached it whole */
+    int created;      /* 1: there was no such file */
+    int worst;        /* exit code so far */
+    int unsolved, no_memory, first;
     double start, shown;
 } study;
 
@@ -151,37 +157,41 @@ static int read_range(const char *word, double **value)
     }
     if (*value)
         (*value)[(int)count - 1] = to;
-    return *value ? (int)count : 0;
+    return *value ? (int)count : NO_MEMORY;
 }
 
+/* How many numbers the text has; 0: it is none of the forms; NO_MEMORY. */
 static int read_values(char *text, double **value)
 {
     int n = 0;
+    const size_t most = strlen(text) + 1;
     char *rest, *word = strtok_r(text, " \t,", &rest);
     if (!word)
         return 0;
     if (strchr(word, ':'))
         return strtok_r(NULL, " \t,", &rest) ? 0 : read_range(word, value);
-    *value = rb_alloc(strlen(word) + strlen(rest) + 1, 1);
+    *value = rb_alloc(most, 1);
     for (; *value && word; word = strtok_r(NULL, " \t,", &rest))
         if (!rb_option_number(word, &(*value)[n++]))
             return 0;
-    return *value ? n : 0;
+    return *value ? n : NO_MEMORY;
 }
 
 static cli_exit add_varied(study *st, int k)
 {
-    char source[24], text[4096], name[64];
+    char source[24], name[64];
     int at = 0;
 
     snprintf(source, sizeof source, "--vary-%d", k + 1);
-    if (strlen(st->o->vary[k]) >= sizeof text)
-        return cli_fail(CLI_USAGE, "%s: too long; use --cases", source);
-    strcpy(text, st->o->vary[k]);
-    const int rows = sscanf(text, "%63s%n", name, &at) == 1
-                         ? read_values(text + at, &st->owned[k])
-                         : 0;
-    if (rows < 1)
+    char *text = strdup(st->o->vary[k]);
+    const int named = text && sscanf(text, "%63s%n", name, &at) == 1;
+    const int rows = !text   ? NO_MEMORY
+                     : named ? read_values(text + at, &st->owned[k])
+                             : 0;
+    free(text);
+    if (rows == NO_MEMORY)
+        return cli_fail(CLI_INTERNAL, "%s: out of memory", source);
+    if (rows == 0)
         return cli_fail(
             CLI_USAGE,
             "%s: expected an option and numbers, or first:last:count, got '%s'", source,
@@ -265,29 +275,30 @@ static uint64_t add_bytes(uint64_t hash, const void *data, size_t size)
     return hash;
 }
 
-/* FNV-1a of every input: tells whether a file holds rows of this study. */
-static uint64_t fingerprint(const study *st)
+/* FNV-1a of every input, the contents of files among them: tells whether a file holds
+ * rows of this study. */
+static cli_exit find_fingerprint(study *st)
 {
+    const rb_rolling_case *rc = &rb_case_settled(st->base)->rc;
+    const size_t profile = sizeof(double) * (size_t)rc->profile_n;
     json_t *inputs = rb_report_json_inputs(st->base);
-    char *text = json_dumps(inputs, JSON_COMPACT);
+    char *text = inputs ? json_dumps(inputs, JSON_COMPACT) : NULL;
     uint64_t hash = add_bytes(14695981039346656037u, RB_VERSION, sizeof RB_VERSION);
 
-    if (text)
-        hash = add_bytes(hash, text, strlen(text));
+    json_decref(inputs);
+    if (!text)
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    hash = add_bytes(hash, text, strlen(text));
+    free(text);
+    hash = add_bytes(hash, rc->profile_x, profile);
+    hash = add_bytes(hash, rc->profile_gap, profile);
     for (int k = 0; k < st->columns; k++) {
         const column *c = &st->column[k];
         hash = add_bytes(hash, c->name, strlen(c->name));
         hash = add_bytes(hash, c->value, (size_t)st->rows[c->factor] * sizeof(double));
     }
-    free(text);
-    json_decref(inputs);
-    return hash;
-}
-
-static void study_line(const study *st, char *line, size_t size)
-{
-    snprintf(line, size, "# study %016" PRIx64 " of %d cases\n", fingerprint(st),
-             st->cases);
+    st->fingerprint = hash;
+    return CLI_CONTINUE;
 }
 
 /* Results that have a column: place in the row, whole: an int. */
@@ -333,20 +344,37 @@ static int is_given(const study *st, const char *name)
     return 0;
 }
 
-static void write_head(study *st)
+enum { HEAD_LINES = 5, COMMAND_LINE = 1 };
+
+static void write_head(const study *st, FILE *out)
 {
-    char line[80];
-    study_line(st, line, sizeof line);
-    fprintf(st->out, "# rollbem %s\n# %s\n%s", RB_VERSION, cli_command_line(), line);
+    fprintf(out, "# rollbem %s\n# %s\n", RB_VERSION, cli_command_line());
+    fprintf(out, "# study %016" PRIx64 " of %d cases\n", st->fingerprint, st->cases);
     fputs("# status 0: solved. xi > 0: A's surface slides towards +x, the friction on A "
           "points to -x, Q < 0\n# case",
-          st->out);
+          out);
     for (int k = 0; k < st->columns; k++)
-        fprintf(st->out, "\t%s", st->column[k].heading);
+        fprintf(out, "\t%s", st->column[k].heading);
     for (int j = 0; j < RESULTS; j++)
         if (!is_given(st, results[j].name))
-            fprintf(st->out, "\t%s", results[j].name);
-    fputc('\n', st->out);
+            fprintf(out, "\t%s", results[j].name);
+    fputc('\n', out);
+}
+
+static void write_inputs(const study *st, int k, FILE *out)
+{
+    fprintf(out, "%d", k + 1);
+    for (int j = 0; j < st->columns; j++)
+        fprintf(out, "\t%.17g", value_of(st, &st->column[j], k));
+}
+
+/* A case that was not solved shows in the exit code. */
+static void count_status(study *st, rb_status status)
+{
+    const int code = cli_exit_of(status);
+    st->unsolved += status != RB_OK;
+    st->no_memory += status == RB_ENOMEM;
+    st->worst = code > st->worst ? code : st->worst;
 }
 
 static void write_result(FILE *out, const rb_rolling_sweep_row *row, int j)
@@ -364,18 +392,12 @@ static int see_row(int k, const rb_rolling_sweep_row *row, void *context)
 {
     study *st = context;
 
-    fprintf(st->out, "%d", k + 1);
-    for (int j = 0; j < st->columns; j++)
-        fprintf(st->out, "\t%.17g", value_of(st, &st->column[j], k));
+    write_inputs(st, k, st->out);
     for (int j = 0; j < RESULTS; j++)
         if (!is_given(st, results[j].name))
             write_result(st->out, row, j);
     fputc('\n', st->out);
-    if (row->status != RB_OK) {
-        const int code = cli_exit_of(row->status);
-        st->unsolved++;
-        st->worst = code > st->worst ? code : st->worst;
-    }
+    count_status(st, row->status);
     return ferror(st->out);
 }
 
@@ -391,12 +413,14 @@ static rb_status make_case(int k, rb_rolling_case *rc, void *context)
 /* ---- Progress -------------------------------------------------------------------------
  */
 
-static volatile sig_atomic_t interrupted;
-
-static void note_interrupt(int signal_number)
+/* 1: all rows so far are in the file. */
+static int flush_rows(study *st)
 {
-    (void)signal_number;
-    interrupted = 1;
+    if (fflush(st->out) != 0)
+        return 0;
+    if (st->path)
+        st->whole = ftell(st->out);
+    return 1;
 }
 
 /* Rows reach the file at least twice a second. */
@@ -406,7 +430,7 @@ static int tick(int seen, void *context)
     const double now = rb_seconds(), spent = now - st->start;
     const int left = st->cases - st->first - seen;
 
-    if (interrupted)
+    if (cli_interrupted())
         return 1;
     if (now - st->shown < 0.5)
         return 0;
@@ -416,82 +440,180 @@ static int tick(int seen, void *context)
         fprintf(stderr, "%scase %d of %d, %.0f s left%s", terminal ? "\r" : "",
                 st->first + seen, st->cases, spent / seen * left,
                 terminal && left > 0 ? "\033[K" : "\n");
-    return fflush(st->out) != 0;
+    return !flush_rows(st);
 }
 
 /* ---- The output file ------------------------------------------------------------------
  */
 
-/* Counts whole rows of this study; *end: behind the last one.  -1: not this study. */
-static int rows_of_study(const study *st, FILE *file, long *end)
+static cli_exit cannot_write(const char *path)
 {
-    char wanted[80], line[4096];
-    int known = 0, rows = 0;
-
-    study_line(st, wanted, sizeof wanted);
-    *end = 0;
-    while (fgets(line, sizeof line, file)) {
-        const size_t n = strlen(line);
-        if (n == 0 || line[n - 1] != '\n') /* n = 0: a zero byte */
-            break;
-        known = known || strcmp(line, wanted) == 0;
-        rows += line[0] != '#';
-        *end = ftell(file);
-    }
-    return known ? rows : -1;
+    return cli_fail(errno == ENOMEM ? CLI_INTERNAL : CLI_CANTWRITE, "%s: %s", path,
+                    errno == ENOMEM ? "out of memory" : strerror(errno));
 }
 
+/* The head of this study, but for the command line, which may name another count of jobs.
+ * 0: the file begins with something else. */
+static int has_head(const study *st, char **line, size_t *room)
+{
+    char *head = NULL;
+    size_t size;
+    FILE *memory = open_memstream(&head, &size);
+    int same = memory != NULL;
+    if (memory) {
+        write_head(st, memory);
+        same = fclose(memory) == 0;
+    }
+    const char *wanted = head;
+    for (int k = 0; same && k < HEAD_LINES; k++) {
+        const size_t n = strcspn(wanted, "\n") + 1;
+        const ssize_t got = getline(line, room, st->out);
+        same = k == COMMAND_LINE ? got > 0
+                                 : got == (ssize_t)n && memcmp(*line, wanted, n) == 0;
+        wanted += n;
+    }
+    free(head);
+    return same;
+}
+
+/* The row of case k, as this study writes it: number and inputs to the digit, then as
+ * many numbers as there are results. */
+static int is_row(study *st, int k, const char *line, size_t length)
+{
+    char *wanted = NULL, *end;
+    size_t size = 0;
+    FILE *memory = open_memstream(&wanted, &size);
+    if (memory) {
+        write_inputs(st, k, memory);
+        fclose(memory);
+    }
+    int good = wanted && length == strlen(line) && strncmp(line, wanted, size) == 0;
+    const char *at = line + size;
+    free(wanted);
+    for (int j = 0; good && j < RESULTS; j++) {
+        if (is_given(st, results[j].name))
+            continue;
+        const double value = *at == '\t' ? strtod(at + 1, &end) : 0.0;
+        good = *at == '\t' && end > at + 1;
+        at = good ? end : at;
+        if (good && results[j].offset == offsetof(rb_rolling_sweep_row, status))
+            count_status(st, (rb_status)value);
+    }
+    return good && *at == '\n';
+}
+
+/* Reads the rows that are there; what was cut at the end is written over. */
 static cli_exit resume(study *st)
 {
-    long end;
-    const char *path = st->o->output;
-    const int rows = rows_of_study(st, st->out, &end);
-
-    if (rows < 0)
-        return cli_fail(CLI_CANTWRITE,
-                        "%s: holds something else; --restart would overwrite it", path);
-    if (fflush(st->out) != 0 || ftruncate(fileno(st->out), end) != 0 ||
-        fseek(st->out, end, SEEK_SET) != 0)
-        return cli_fail(CLI_CANTWRITE, "%s: %s", path, strerror(errno));
-    st->first = rows < st->cases ? rows : st->cases;
-    if (!st->o->quiet && rows > 0)
-        fprintf(stderr, "rollbem: %s holds %d of %d cases\n", path, rows, st->cases);
-    return CLI_CONTINUE;
+    char *line = NULL;
+    size_t room = 0;
+    ssize_t n;
+    cli_exit code = CLI_CONTINUE;
+    if (!has_head(st, &line, &room))
+        code =
+            cli_fail(CLI_CANTWRITE,
+                     "%s: holds something else; --restart would overwrite it", st->path);
+    st->whole = ftell(st->out);
+    while (code == CLI_CONTINUE && (n = getline(&line, &room, st->out)) > 0 &&
+           line[n - 1] == '\n') {
+        if (st->first == st->cases || !is_row(st, st->first, line, (size_t)n))
+            code =
+                cli_fail(CLI_CANTWRITE,
+                         "%s:%d: not the row of case %d of this study; --restart would "
+                         "overwrite the file",
+                         st->path, HEAD_LINES + st->first + 1, st->first + 1);
+        st->first++;
+        st->whole = ftell(st->out);
+    }
+    free(line);
+    if (code == CLI_CONTINUE && (ftruncate(fileno(st->out), st->whole) != 0 ||
+                                 fseek(st->out, st->whole, SEEK_SET) != 0))
+        code = cannot_write(st->path);
+    if (code == CLI_CONTINUE && !st->o->quiet && st->first > 0)
+        fprintf(stderr, "rollbem: %s holds %d of %d cases\n", st->path, st->first,
+                st->cases);
+    return code;
 }
+
+/* Two processes on one file would mix their rows. */
+static cli_exit lock(const study *st)
+{
+    struct flock all = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    if (fcntl(fileno(st->out), F_SETLK, &all) != 0 &&
+        (errno == EACCES || errno == EAGAIN))
+        return cli_fail(CLI_CANTWRITE, "%s: another process is writing it", st->path);
+    return CLI_CONTINUE; /* or a file system without locks */
+}
+
+static cli_exit begin_file(study *st)
+{
+    struct stat now;
+    cli_exit code = lock(st);
+    if (code == CLI_CONTINUE && st->o->restart && ftruncate(fileno(st->out), 0) != 0)
+        code = cannot_write(st->path);
+    if (code != CLI_CONTINUE)
+        return code;
+    if (fstat(fileno(st->out), &now) == 0 && now.st_size > 0)
+        return resume(st);
+    write_head(st, st->out);
+    return flush_rows(st) ? CLI_CONTINUE : cannot_write(st->path);
+}
+
+static cli_exit close_output(study *st, cli_exit code);
 
 static cli_exit open_output(study *st)
 {
+    struct stat old;
     const char *path = st->o->output;
+    const int exists = path && stat(path, &old) == 0;
 
     st->out = stdout;
-    if (path) {
-        st->out = st->o->restart ? NULL : fopen(path, "r+");
-        if (st->out) {
-            const cli_exit code = resume(st);
-            if (code != CLI_CONTINUE) {
-                fclose(st->out);
-                st->out = NULL;
-            }
-            return code;
-        }
-        st->out = fopen(path, "w");
+    if (!path || strcmp(path, "-") == 0 || (exists && !S_ISREG(old.st_mode))) {
+        if (exists)
+            st->out = fopen(path, "w");
         if (!st->out)
-            return cli_fail(CLI_CANTWRITE, "%s: %s", path, strerror(errno));
+            return cannot_write(path);
+        write_head(st, st->out);
+        return CLI_CONTINUE;
     }
-    write_head(st);
-    return CLI_CONTINUE;
+    const int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    st->out = fd >= 0 ? fdopen(fd, "r+") : NULL;
+    if (!st->out) {
+        const cli_exit code = cannot_write(path);
+        if (fd >= 0)
+            close(fd);
+        return code;
+    }
+    st->path = path;
+    st->created = !exists;
+    const cli_exit code = begin_file(st);
+    return code == CLI_CONTINUE ? code : close_output(st, code);
+}
+
+/* What was not written whole is taken back: half a row, half a head. */
+static void take_back(const study *st)
+{
+    struct stat now;
+    if (st->created && st->whole == 0)
+        unlink(st->path);
+    else if (st->whole > 0 && stat(st->path, &now) == 0 && now.st_size > st->whole)
+        (void)!truncate(st->path, st->whole);
 }
 
 static cli_exit close_output(study *st, cli_exit code)
 {
-    const int failed = ferror(st->out) || fflush(st->out) != 0;
-    const int e = errno;
-    if (st->out != stdout && fclose(st->out) != 0 && !failed)
-        return cli_fail(CLI_CANTWRITE, "%s: %s", st->o->output, strerror(errno));
-    return failed
-               ? cli_fail(CLI_CANTWRITE, "%s: %s",
-                          st->o->output ? st->o->output : "standard output", strerror(e))
-               : code;
+    int failed = ferror(st->out) || !flush_rows(st), e = errno;
+    if (st->out != stdout && fclose(st->out) != 0 && !failed) {
+        failed = 1;
+        e = errno;
+    }
+    st->out = NULL;
+    if (failed && st->path)
+        take_back(st);
+    if (!failed || code == CLI_CANTWRITE)
+        return code;
+    errno = e;
+    return cannot_write(st->o->output ? st->o->output : "standard output");
 }
 
 /* ---- Command --------------------------------------------------------------------------
@@ -510,26 +632,26 @@ static rb_rolling_sweep sweep_of(study *st)
 
 static cli_exit run(study *st)
 {
-    struct sigaction act = {.sa_handler = note_interrupt}, before[2];
     rb_message why = {""};
     const rb_rolling_sweep sweep = sweep_of(st);
 
     fflush(st->out); /* or every process would have what is in the buffer */
-    sigaction(SIGINT, &act, &before[0]);
-    sigaction(SIGTERM, &act, &before[1]);
+    cli_interrupts_catch();
     st->start = st->shown = rb_seconds();
-    const rb_status s = cli_crew_run(&sweep, &why);
-    sigaction(SIGTERM, &before[1], NULL);
-    sigaction(SIGINT, &before[0], NULL);
+    const rb_status s = cli_pool_run(&sweep, &why);
+    cli_interrupts_leave();
     const double spent = rb_seconds() - st->start;
     if (s == RB_INTERRUPTED && ferror(st->out))
-        return CLI_CANTWRITE; /* close_output says it */
+        return CLI_OK; /* close_output says it */
     if (s != RB_OK)
         return cli_fail(cli_exit_of(s), "%s%s", why.text,
                         st->o->output ? "; the same command goes on from there" : "");
     if (!st->o->quiet)
-        fprintf(stderr, "study: %d cases in %.3g s, %d not solved\n", sweep.count, spent,
-                st->unsolved);
+        fprintf(stderr, "study: %d cases in %.3g s; not solved: %d of %d\n", sweep.count,
+                spent, st->unsolved, st->cases);
+    if (st->no_memory > 0)
+        cli_fail(CLI_INTERNAL, "out of memory in %d cases: their status is %d",
+                 st->no_memory, RB_ENOMEM);
     return (cli_exit)st->worst;
 }
 
@@ -557,19 +679,21 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
         code = read_study(st);
     if (code == CLI_CONTINUE)
         code = check_cases(st);
-    if (code == CLI_CONTINUE && !cli_crew_helps())
+    if (code == CLI_CONTINUE)
+        code = find_fingerprint(st);
+    if (code == CLI_CONTINUE && !cli_pool_is_worker())
         code = open_output(st);
     return code;
 }
 
 static cli_exit solve(study *st, cli_exit code)
 {
-    code = cli_crew_agree(code, code == CLI_CONTINUE ? fingerprint(st) : 0);
-    if (cli_crew_helps()) {
+    code = cli_pool_agree(code, code == CLI_CONTINUE ? st->fingerprint : 0);
+    if (cli_pool_is_worker()) {
         const rb_rolling_sweep sweep = sweep_of(st);
         rb_message why;
         if (code == CLI_CONTINUE)
-            cli_crew_run(&sweep, &why);
+            cli_pool_run(&sweep, &why);
         return CLI_OK; /* rank 0 has the exit code */
     }
     if (code == CLI_CONTINUE)
@@ -590,13 +714,13 @@ int cli_sweep(int argc, char **argv)
                            notes,
                            {rb_case_options(c), {options, OPTIONS, &o, o.given}},
                            2};
-    cli_exit code = cli_crew_begin(argc, argv);
+    cli_exit code = cli_pool_begin(argc, argv);
     if (code != CLI_CONTINUE) {
         rb_case_free(c);
         return code;
     }
     code = solve(&st, prepare(&spec, argc, argv, c, &args, &st));
-    cli_crew_end();
+    cli_pool_end();
     study_free(&st);
     cli_args_free(&args);
     rb_case_free(c);

@@ -1,4 +1,5 @@
-/* Parameter studies: cases handed out one by one to a crew, rows seen in order. */
+/* Parameter studies: cases handed out one by one to a pool of processes, rows seen in
+ * order. */
 #include "rolling/internal.h"
 
 #include <stdlib.h>
@@ -8,23 +9,23 @@ enum { WINDOW = 1 << 16 };
 
 typedef struct {
     const rb_rolling_sweep *sweep;
-    rb_rolling_crew *crew;
+    rb_rolling_pool *pool;
     int given, seen; /* cases handed out, rows seen; given - seen <= window */
     int window;
     rb_rolling_sweep_row *row; /* window: row of the k-th case at k modulo window */
     char *came;                /* window */
 } run;
 
-static rb_status hand_out(run *r)
+static rb_status submit_cases(run *r)
 {
     const rb_rolling_sweep *sweep = r->sweep;
     rb_status s = RB_OK;
 
-    for (int room = r->crew->room(r->crew);
-         s == RB_OK && room > 0 && r->given < sweep->count &&
+    for (int idle = r->pool->idle(r->pool);
+         s == RB_OK && idle > 0 && r->given < sweep->count &&
          r->given - r->seen < r->window;
-         room--)
-        s = r->crew->give(r->crew, sweep->first + r->given++);
+         idle--)
+        s = r->pool->submit(r->pool, sweep->first + r->given++);
     return s;
 }
 
@@ -32,7 +33,7 @@ static rb_status collect(run *r)
 {
     rb_rolling_sweep_row row;
     int k;
-    const int came = r->crew->take(r->crew, 5, &k, &row);
+    const int came = r->pool->collect(r->pool, 5, &k, &row);
 
     if (came <= 0)
         return (rb_status)came;
@@ -63,7 +64,7 @@ static rb_status supervise(run *r, rb_message *why)
     rb_status s = RB_OK;
 
     while (s == RB_OK && r->seen < r->sweep->count) {
-        s = hand_out(r);
+        s = submit_cases(r);
         if (s == RB_OK)
             s = collect(r);
         if (s == RB_OK)
@@ -74,10 +75,10 @@ static rb_status supervise(run *r, rb_message *why)
     return s == RB_OK ? s : rb_fail(why, s, "sweep: cannot replace a lost process");
 }
 
-rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_crew *crew,
+rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_pool *pool,
                               rb_message *why)
 {
-    run r = {.sweep = sweep, .crew = crew};
+    run r = {.sweep = sweep, .pool = pool};
 
     r.window = sweep->count < WINDOW ? sweep->count : WINDOW;
     r.row = calloc((size_t)r.window + 1, sizeof *r.row);
@@ -86,7 +87,7 @@ rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_crew *cr
         r.row && r.came
             ? supervise(&r, why)
             : rb_fail(why, RB_ENOMEM, "sweep: out of memory for %d rows", r.window);
-    crew->dismiss(crew);
+    pool->stop(pool);
     free(r.came);
     free(r.row);
     return s;
@@ -94,8 +95,8 @@ rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_crew *cr
 
 rb_status rb_rolling_sweep_run(const rb_rolling_sweep *sweep, rb_message *why)
 {
-    rb_rolling_crew *crew;
-    const rb_status s = rb_rolling_crew_start(sweep, &crew, why);
+    rb_rolling_pool *pool;
+    const rb_status s = rb_rolling_pool_start(sweep, &pool, why);
 
-    return s == RB_OK ? rb_rolling_sweep_by(sweep, crew, why) : s;
+    return s == RB_OK ? rb_rolling_sweep_by(sweep, pool, why) : s;
 }

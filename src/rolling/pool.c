@@ -1,4 +1,5 @@
-/* Processes of this machine that solve the cases of a parameter study, one at a time. */
+/* A pool of worker processes on this machine that solve the cases of a parameter study,
+ * one at a time. */
 #include "rolling/internal.h"
 
 #include <errno.h>
@@ -19,18 +20,19 @@ typedef struct {
     pid_t pid;
     int socket; /* case numbers go out, rows come in; -1: not started */
     int k;      /* the case that it solves; -1: none */
+    int again;  /* 1: another worker has died of the case already */
 } worker;
 
 typedef struct {
-    rb_rolling_crew crew; /* first: crew_of turns it back */
+    rb_rolling_pool pool; /* first: processes_of turns it back */
     const rb_rolling_sweep *sweep;
     int workers, next; /* next: whom to look at first, in turn */
     worker worker[WORKERS_MAX];
 } processes;
 
-static processes *processes_of(rb_rolling_crew *crew)
+static processes *processes_of(rb_rolling_pool *pool)
 {
-    return (processes *)(void *)crew;
+    return (processes *)(void *)pool;
 }
 
 /* ---- One worker -----------------------------------------------------------------------
@@ -78,7 +80,7 @@ static void solve_case(const rb_rolling_sweep *sweep, int k, rb_rolling_sweep_ro
 }
 
 /* 1: the whole of it; 0: the other end is gone. */
-static int receive(int from, void *data, size_t size)
+static int receive_all(int from, void *data, size_t size)
 {
     ssize_t n;
 
@@ -88,12 +90,12 @@ static int receive(int from, void *data, size_t size)
     return n == (ssize_t)size;
 }
 
-static int tell(int to, const void *data, size_t size)
+static int send_all(int to, const void *data, size_t size)
 {
     return send(to, data, size, MSG_NOSIGNAL) == (ssize_t)size;
 }
 
-static void work(const rb_rolling_sweep *sweep, int parent)
+static void run_worker(const rb_rolling_sweep *sweep, int parent)
 {
     rb_rolling_sweep_row row;
     int k;
@@ -104,10 +106,10 @@ static void work(const rb_rolling_sweep *sweep, int parent)
     signal(SIGINT, SIG_IGN); /* the parent decides */
     signal(SIGTERM, SIG_DFL);
     do {
-        if (!receive(parent, &k, sizeof k))
+        if (!receive_all(parent, &k, sizeof k))
             break;
         solve_case(sweep, k, &row);
-    } while (tell(parent, &row, sizeof row));
+    } while (send_all(parent, &row, sizeof row));
     _exit(0);
 }
 
@@ -128,7 +130,7 @@ static rb_status start_worker(processes *p, worker *w)
         for (int i = 0; i < p->workers; i++) /* or nobody would see the parent die */
             if (p->worker[i].socket >= 0)
                 close(p->worker[i].socket);
-        work(p->sweep, end[1]);
+        run_worker(p->sweep, end[1]);
     }
     close(end[1]);
     if (w->pid < 0) {
@@ -149,47 +151,69 @@ static void end_worker(worker *w)
     waitpid(w->pid, NULL, 0);
 }
 
-static int room(rb_rolling_crew *crew)
+static int idle(rb_rolling_pool *pool)
 {
-    const processes *p = processes_of(crew);
-    int idle = 0;
+    const processes *p = processes_of(pool);
+    int n = 0;
 
     for (int i = 0; i < p->workers; i++)
-        idle += p->worker[i].k < 0;
-    return idle;
+        n += p->worker[i].k < 0;
+    return n;
 }
 
-/* A worker that cannot be told is dead: take sees it. */
-static rb_status give(rb_rolling_crew *crew, int k)
+/* A worker that cannot be reached is dead: collect sees it. */
+static void assign(worker *w, int k)
 {
-    worker *w = processes_of(crew)->worker;
+    w->k = k;
+    send_all(w->socket, &k, sizeof k);
+}
+
+static rb_status submit(rb_rolling_pool *pool, int k)
+{
+    worker *w = processes_of(pool)->worker;
 
     while (w->k >= 0)
         w++;
-    w->k = k;
-    tell(w->socket, &k, sizeof k);
+    w->again = 0;
+    assign(w, k);
     return RB_OK;
 }
 
-/* The row of a worker that has something to say, or of one that died: it takes its case
- * with it, another one goes on with the rest. */
-static int hear(processes *p, worker *w, int *k, rb_rolling_sweep_row *row)
+/* Another worker takes the place of one that died, and its case; where that is its second
+ * death, the case is given up. */
+static int replace_worker(processes *p, worker *w, int *k, rb_rolling_sweep_row *row)
 {
-    *k = w->k;
-    if (receive(w->socket, row, sizeof *row)) {
-        w->k = -1;
-        return 1;
-    }
+    const int lost = w->k, again = w->again;
     end_worker(w);
-    no_row(RB_ENOMEM, row);
     const rb_status s = start_worker(p, w);
-    return s == RB_OK ? *k >= 0 : (int)s;
+    if (s != RB_OK)
+        return (int)s;
+    if (lost < 0)
+        return 0;
+    if (!again) {
+        w->again = 1;
+        assign(w, lost);
+        return 0;
+    }
+    *k = lost;
+    no_row(RB_ENOMEM, row);
+    return 1;
 }
 
-static int take(rb_rolling_crew *crew, int milliseconds, int *k,
-                rb_rolling_sweep_row *row)
+/* The row of a worker that has something to say, or has died. */
+static int collect_from(processes *p, worker *w, int *k, rb_rolling_sweep_row *row)
 {
-    processes *p = processes_of(crew);
+    if (!receive_all(w->socket, row, sizeof *row))
+        return replace_worker(p, w, k, row);
+    *k = w->k;
+    w->k = -1;
+    return 1;
+}
+
+static int collect(rb_rolling_pool *pool, int milliseconds, int *k,
+                   rb_rolling_sweep_row *row)
+{
+    processes *p = processes_of(pool);
     struct pollfd line[WORKERS_MAX];
 
     for (int i = 0; i < p->workers; i++)
@@ -200,12 +224,12 @@ static int take(rb_rolling_crew *crew, int milliseconds, int *k,
         p->next = (p->next + 1) % p->workers;
     worker *w = &p->worker[p->next];
     p->next = (p->next + 1) % p->workers;
-    return hear(p, w, k, row);
+    return collect_from(p, w, k, row);
 }
 
-static void dismiss(rb_rolling_crew *crew)
+static void stop(rb_rolling_pool *pool)
 {
-    processes *p = processes_of(crew);
+    processes *p = processes_of(pool);
 
     for (int i = 0; i < p->workers; i++)
         end_worker(&p->worker[i]);
@@ -223,10 +247,10 @@ static int workers_of(const rb_rolling_sweep *sweep)
     return wanted < sweep->count ? wanted : sweep->count;
 }
 
-rb_status rb_rolling_crew_start(const rb_rolling_sweep *sweep, rb_rolling_crew **crew,
+rb_status rb_rolling_pool_start(const rb_rolling_sweep *sweep, rb_rolling_pool **pool,
                                 rb_message *why)
 {
-    *crew = NULL;
+    *pool = NULL;
     if (sweep->count < 0 || sweep->workers < 0 || sweep->workers > WORKERS_MAX)
         return rb_fail(why, RB_EINVAL,
                        "sweep: %d cases by %d processes, expected 0 ... %d", sweep->count,
@@ -235,16 +259,17 @@ rb_status rb_rolling_crew_start(const rb_rolling_sweep *sweep, rb_rolling_crew *
     rb_status s = p ? RB_OK : RB_ENOMEM;
 
     if (p)
-        *p = (processes){.crew = {room, give, take, dismiss}, .sweep = sweep};
+        *p = (processes){.pool = {idle, submit, collect, stop}, .sweep = sweep};
     for (const int wanted = workers_of(sweep); s == RB_OK && p->workers < wanted;)
         if ((s = start_worker(p, &p->worker[p->workers])) == RB_OK)
             p->workers++;
     if (s == RB_OK) {
-        *crew = &p->crew;
+        *pool = &p->pool;
         return s;
     }
     const int e = errno;
     if (p)
-        dismiss(&p->crew);
-    return rb_fail(why, s, "sweep: cannot start a process: %s", strerror(e));
+        stop(&p->pool);
+    return rb_fail(why, s, "sweep: cannot start a process: %s",
+                   e == ENOMEM || e == EAGAIN ? "out of memory" : strerror(e));
 }

@@ -1,6 +1,6 @@
-/* The crew of rollbem: processes of this machine.  Under mpirun rollbem-mpi takes over:
- * the library of MPI would slow the start of every command. */
-#include "cli/crew.h"
+/* The worker pool of rollbem: processes of this machine.  Under mpirun rollbem-mpi takes
+ * over: the library of MPI would slow the start of every command. */
+#include "cli/pool.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -24,27 +24,27 @@ static cli_exit take_over(int argc, char **argv)
                                   "rollbem: built without Open MPI");
 }
 
-cli_exit cli_crew_begin(int argc, char **argv)
+cli_exit cli_pool_begin(int argc, char **argv)
 {
-    return cli_crew_is_launched() ? take_over(argc, argv) : CLI_CONTINUE;
+    return cli_pool_is_launched() ? take_over(argc, argv) : CLI_CONTINUE;
 }
 
-int cli_crew_helps(void)
+int cli_pool_is_worker(void)
 {
     return 0;
 }
 
-cli_exit cli_crew_agree(cli_exit code, uint64_t study)
+cli_exit cli_pool_agree(cli_exit code, uint64_t study)
 {
     (void)study;
     return code;
 }
 
-rb_status cli_crew_run(const rb_rolling_sweep *sweep, rb_message *why)
+rb_status cli_pool_run(const rb_rolling_sweep *sweep, rb_message *why)
 {
     return rb_rolling_sweep_run(sweep, why);
 }
 
-void cli_crew_end(void)
+void cli_pool_end(void)
 {
 }

@@ -1,9 +1,9 @@
-/* The crew of rollbem-mpi: the processes of mpirun, each with solvers of its own
- * (rb_rolling_crew_start).  Rank 0 hands out the cases and sees the rows, its own solvers
- * are part of the crew; the others pass on cases to theirs and rows back.  A solver never
+/* The worker pool of rollbem-mpi: the processes of mpirun, each with solvers of its own
+ * (rb_rolling_pool_start).  Rank 0 hands out the cases and sees the rows, its own solvers
+ * are part of the pool; the others pass on cases to theirs and rows back.  A solver never
  * calls MPI, so it may be forked and die at any time. */
 #define _GNU_SOURCE /* sched_getaffinity */
-#include "cli/crew.h"
+#include "cli/pool.h"
 
 #include <mpi.h>
 #include <sched.h>
@@ -24,10 +24,10 @@ static int active, rank, size, stopped;
 /* ---- Begin, agree, end ----------------------------------------------------------------
  */
 
-cli_exit cli_crew_begin(int argc, char **argv)
+cli_exit cli_pool_begin(int argc, char **argv)
 {
     (void)argc, (void)argv;
-    if (!cli_crew_is_launched())
+    if (!cli_pool_is_launched())
         return CLI_CONTINUE;
     MPI_Init(NULL, NULL);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -41,7 +41,7 @@ cli_exit cli_crew_begin(int argc, char **argv)
     return CLI_CONTINUE;
 }
 
-int cli_crew_helps(void)
+int cli_pool_is_worker(void)
 {
     return rank > 0;
 }
@@ -76,7 +76,7 @@ static cli_exit judge(const verdict *all)
     return (cli_exit)all[0].code;
 }
 
-cli_exit cli_crew_agree(cli_exit code, uint64_t study)
+cli_exit cli_pool_agree(cli_exit code, uint64_t study)
 {
     if (!active)
         return code;
@@ -95,7 +95,7 @@ cli_exit cli_crew_agree(cli_exit code, uint64_t study)
 }
 
 /* What is still on its way must have arrived. */
-void cli_crew_end(void)
+void cli_pool_end(void)
 {
     message m;
 
@@ -112,20 +112,20 @@ void cli_crew_end(void)
  */
 
 typedef struct {
-    rb_rolling_crew crew; /* first */
-    rb_rolling_crew *own;
+    rb_rolling_pool pool; /* first */
+    rb_rolling_pool *own;
     int *left; /* size: how many more cases each takes; of rank 0 not used */
 } ranks;
 
-static ranks *ranks_of(rb_rolling_crew *crew)
+static ranks *ranks_of(rb_rolling_pool *pool)
 {
-    return (ranks *)(void *)crew;
+    return (ranks *)(void *)pool;
 }
 
-static int room(rb_rolling_crew *crew)
+static int idle(rb_rolling_pool *pool)
 {
-    const ranks *all = ranks_of(crew);
-    int sum = all->own->room(all->own);
+    const ranks *all = ranks_of(pool);
+    int sum = all->own->idle(all->own);
 
     for (int r = 1; r < size; r++)
         sum += all->left[r];
@@ -133,13 +133,13 @@ static int room(rb_rolling_crew *crew)
 }
 
 /* To the own solvers, or to those with the least to do. */
-static rb_status give(rb_rolling_crew *crew, int k)
+static rb_status submit(rb_rolling_pool *pool, int k)
 {
-    ranks *all = ranks_of(crew);
+    ranks *all = ranks_of(pool);
     int to = 1;
 
-    if (all->own->room(all->own))
-        return all->own->give(all->own, k);
+    if (all->own->idle(all->own))
+        return all->own->submit(all->own, k);
     for (int r = 2; r < size; r++)
         if (all->left[r] > all->left[to])
             to = r;
@@ -148,17 +148,17 @@ static rb_status give(rb_rolling_crew *crew, int k)
     return RB_OK;
 }
 
-static int take(rb_rolling_crew *crew, int milliseconds, int *k,
-                rb_rolling_sweep_row *row)
+static int collect(rb_rolling_pool *pool, int milliseconds, int *k,
+                   rb_rolling_sweep_row *row)
 {
-    ranks *all = ranks_of(crew);
+    ranks *all = ranks_of(pool);
     MPI_Status from;
     message m;
     int here;
 
     MPI_Iprobe(MPI_ANY_SOURCE, ROW, MPI_COMM_WORLD, &here, &from);
     if (!here) /* nobody wakes us for a message */
-        return all->own->take(all->own, milliseconds > 0, k, row);
+        return all->own->collect(all->own, milliseconds > 0, k, row);
     MPI_Recv(&m, sizeof m, MPI_BYTE, from.MPI_SOURCE, ROW, MPI_COMM_WORLD,
              MPI_STATUS_IGNORE);
     all->left[from.MPI_SOURCE]++;
@@ -168,18 +168,18 @@ static int take(rb_rolling_crew *crew, int milliseconds, int *k,
 }
 
 /* Does not wait: some may be gone, and mpirun about to end the others. */
-static void dismiss(rb_rolling_crew *crew)
+static void stop(rb_rolling_pool *pool)
 {
-    static const int stop = STOP;
-    ranks *all = ranks_of(crew);
+    static const int no_more = STOP;
+    ranks *all = ranks_of(pool);
     MPI_Request request;
 
     for (int r = 1; r < size; r++) {
-        MPI_Isend(&stop, 1, MPI_INT, r, CASE, MPI_COMM_WORLD, &request);
+        MPI_Isend(&no_more, 1, MPI_INT, r, CASE, MPI_COMM_WORLD, &request);
         MPI_Request_free(&request);
     }
     stopped = size - 1;
-    all->own->dismiss(all->own);
+    all->own->stop(all->own);
     free(all->left);
     free(all);
 }
@@ -215,22 +215,22 @@ static void send_row(const message *m)
     MPI_Send(m, sizeof *m, MPI_BYTE, 0, ROW, MPI_COMM_WORLD);
 }
 
-static int help(rb_rolling_crew *own)
+static int run_rank(rb_rolling_pool *own)
 {
     queue waiting = {.n = 0};
     message m;
     int came = 0;
 
     while (came >= 0 && accept_cases(&waiting) != STOP) {
-        for (; waiting.n > 0 && own->room(own); waiting.n--) {
-            own->give(own, waiting.k[waiting.first]);
+        for (; waiting.n > 0 && own->idle(own); waiting.n--) {
+            own->submit(own, waiting.k[waiting.first]);
             waiting.first = (waiting.first + 1) % QUEUE;
         }
-        came = own->take(own, 1, &m.k, &m.row);
+        came = own->collect(own, 1, &m.k, &m.row);
         if (came > 0)
             send_row(&m);
     }
-    own->dismiss(own);
+    own->stop(own);
     m = (message){.k = STOP};
     send_row(&m);
     return came;
@@ -252,15 +252,15 @@ static int share(void)
     return most < 1 ? 1 : most > 256 ? 256 : most;
 }
 
-static rb_status lead(const rb_rolling_sweep *sweep, rb_rolling_crew *own, int *left,
+static rb_status lead(const rb_rolling_sweep *sweep, rb_rolling_pool *own, int *left,
                       rb_message *why)
 {
     ranks *all = calloc(1, sizeof *all);
 
     if (!all)
         MPI_Abort(MPI_COMM_WORLD, CLI_INTERNAL);
-    *all = (ranks){{room, give, take, dismiss}, own, left};
-    return rb_rolling_sweep_by(sweep, &all->crew, why);
+    *all = (ranks){{idle, submit, collect, stop}, own, left};
+    return rb_rolling_sweep_by(sweep, &all->pool, why);
 }
 
 /* mpirun ends all of them. */
@@ -270,24 +270,24 @@ static void give_up(const char *line)
     MPI_Abort(MPI_COMM_WORLD, CLI_INTERNAL);
 }
 
-rb_status cli_crew_run(const rb_rolling_sweep *sweep, rb_message *why)
+rb_status cli_pool_run(const rb_rolling_sweep *sweep, rb_message *why)
 {
     if (!active)
         return rb_rolling_sweep_run(sweep, why);
     rb_rolling_sweep here = *sweep;
-    rb_rolling_crew *own;
+    rb_rolling_pool *own;
     int *left = calloc((size_t)size, sizeof *left);
 
     here.workers = sweep->workers ? sweep->workers : share();
-    if (!left || rb_rolling_crew_start(&here, &own, why) != RB_OK)
+    if (!left || rb_rolling_pool_start(&here, &own, why) != RB_OK)
         give_up(left ? why->text : "out of memory");
     /* a second case waits at each solver, so that none waits for a message */
-    const int most = 2 * own->room(own);
+    const int most = 2 * own->idle(own);
     MPI_Gather(&most, 1, MPI_INT, left, 1, MPI_INT, 0, MPI_COMM_WORLD);
     if (rank == 0)
         return lead(&here, own, left, why);
     free(left);
-    if (help(own) < 0)
+    if (run_rank(own) < 0)
         give_up("cannot replace a lost solver");
     return RB_OK;
 }
