@@ -205,6 +205,30 @@ static void names_of_any_bytes_are_printed(void **state)
     clear();
 }
 
+/* ---- What is no text ------------------------------------------------------------------
+ */
+
+static void files_that_are_no_text_are_named(void **state)
+{
+    (void)state;
+    static const char *const commands[] = {"case",
+                                           CASE "--gap case",
+                                           "--history case",
+                                           "lcp case",
+                                           "sweep " CASE "--cases case",
+                                           "stress " CASE "--points case"};
+    clear();
+    for (size_t k = 0; k < sizeof commands / sizeof commands[0]; k++) {
+        assert_int_equal(shell("printf 'load\\n1\\0\\n' >case"), 0);
+        check_refused(commands[k], 65, "case:2: a zero byte, expected text");
+        assert_int_equal(shell("printf '\\377\\376l\\0o\\0' >case"), 0);
+        check_refused(commands[k], 65, "case: UTF-16 text");
+    }
+    assert_int_equal(shell("printf '\\357\\273\\277load = 100\\n' >case"), 0);
+    assert_int_equal(rollbem("case " CASE), 0); /* the mark of some editors */
+    clear();
+}
+
 /* ---- Memory ---------------------------------------------------------------------------
  */
 
@@ -243,6 +267,7 @@ int main(void)
         cmocka_unit_test(signals_leave_nothing_behind),
         cmocka_unit_test(a_closed_output_matters_only_where_it_is_used),
         cmocka_unit_test(names_of_any_bytes_are_printed),
+        cmocka_unit_test(files_that_are_no_text_are_named),
         cmocka_unit_test(a_limit_of_memory_is_said),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

@@ -39,8 +39,9 @@ rb_status rb_io_make_folder(const char *path, rb_message *why);
 /* What rb_io_make_folder and a file in the folder would say; nothing is made. */
 rb_status rb_io_folder_check(const char *path, rb_message *why);
 
-/* An input file, to be closed by the caller; NULL: *s is RB_ENOENT or RB_ENOMEM. */
-FILE *rb_io_open_input(const char *path, rb_status *s, rb_message *why);
+/* The text of an input file and a zero behind it; owned by the caller.  RB_ENOENT;
+ * RB_EFORMAT: UTF-16, or a zero byte in it; RB_ENOMEM. */
+rb_status rb_io_read_text(const char *path, char **text, size_t *size, rb_message *why);
 
 /* ---- Tables of numbers ------------------------------------------------------------- */
 

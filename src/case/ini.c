@@ -1,7 +1,6 @@
 /* Case files: section by section, key = value, by the tables of options. */
 #include "case/internal.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +12,8 @@ typedef struct {
     int n;
     const rb_option_set *sets; /* the case's own, and those of the command */
     const char *path;
-    FILE *file;
+    char *text;
+    const char *at; /* in it: the next line */
     int line;
     rb_status status; /* of the first error */
     rb_message *why;
@@ -24,17 +24,19 @@ typedef struct {
 static char *read_line(char *line, int size, void *context)
 {
     ini_state *st = context;
-    if (st->status != RB_OK || !fgets(line, size, st->file))
+    if (st->status != RB_OK || !*st->at)
         return NULL;
     st->line++;
-    const size_t n = strlen(line);
-    if (n + 1 == (size_t)size && line[n - 1] != '\n') {
+    const size_t n = strcspn(st->at, "\n");
+    if (n + 2 > (size_t)size) {
         st->status =
             rb_fail(st->why, RB_EFORMAT, "%s:%d: line too long", st->path, st->line);
         return NULL;
     }
-    const size_t indent = strspn(line, " \t");
-    memmove(line, line + indent, n + 1 - indent);
+    const size_t indent = strspn(st->at, " \t");
+    snprintf(line, (size_t)size, "%.*s\n", (int)(n - (indent < n ? indent : n)),
+             st->at + (indent < n ? indent : n));
+    st->at += n + (st->at[n] == '\n');
     return line;
 }
 
@@ -120,17 +122,19 @@ static int handle_key(void *context, const char *section, const char *name,
 
 static rb_status read_keys(ini_state *st)
 {
-    st->file = rb_io_open_input(st->path, &st->status, st->why);
-    if (!st->file)
+    size_t size;
+    st->status = rb_io_read_text(st->path, &st->text, &size, st->why);
+    if (st->status != RB_OK)
         return st->status;
+    st->at = st->text;
     const int bad_line = ini_parse_stream(read_line, st, handle_key, st);
-    if (ferror(st->file))
-        st->status = rb_fail(st->why, RB_ENOENT, "%s: %s", st->path, strerror(errno));
+    if (st->status == RB_OK && bad_line < 0)
+        st->status = rb_fail(st->why, RB_ENOMEM, "%s: out of memory", st->path);
     else if (st->status == RB_OK && bad_line)
         st->status =
             rb_fail(st->why, RB_EFORMAT, "%s:%d: expected [section] or key = value",
                     st->path, bad_line);
-    fclose(st->file);
+    free(st->text);
     return st->status;
 }
 

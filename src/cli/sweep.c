@@ -279,8 +279,6 @@ static uint64_t add_bytes(uint64_t hash, const void *data, size_t size)
  * rows of this study. */
 static cli_exit find_fingerprint(study *st)
 {
-    const rb_rolling_case *rc = &rb_case_settled(st->base)->rc;
-    const size_t profile = sizeof(double) * (size_t)rc->profile_n;
     json_t *inputs = rb_report_json_inputs(st->base);
     char *text = inputs ? json_dumps(inputs, JSON_COMPACT) : NULL;
     uint64_t hash = add_bytes(14695981039346656037u, RB_VERSION, sizeof RB_VERSION);
@@ -290,15 +288,14 @@ static cli_exit find_fingerprint(study *st)
         return cli_fail(CLI_INTERNAL, "out of memory");
     hash = add_bytes(hash, text, strlen(text));
     free(text);
-    hash = add_bytes(hash, rc->profile_x, profile);
-    hash = add_bytes(hash, rc->profile_gap, profile);
     for (int k = 0; k < st->columns; k++) {
         const column *c = &st->column[k];
         hash = add_bytes(hash, c->name, strlen(c->name));
         hash = add_bytes(hash, c->value, (size_t)st->rows[c->factor] * sizeof(double));
     }
+    const cli_exit code = add_files(rb_case_settled(st->base), &hash);
     st->fingerprint = hash;
-    return CLI_CONTINUE;
+    return code;
 }
 
 /* Results that have a column: place in the row, whole: an int. */

@@ -1,5 +1,7 @@
 #include "io/child.h"
 
+#include "io/tokens.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -8,32 +10,6 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-char *rb_io_read_all(FILE *file, size_t *size)
-{
-    size_t room = 0, got;
-    char *text = NULL;
-    *size = 0;
-    do {
-        if (*size + 1 >= room) {
-            room = room ? 2 * room : 1 << 16;
-            char *larger = realloc(text, room);
-            if (!larger) {
-                free(text);
-                return NULL;
-            }
-            text = larger;
-        }
-        got = fread(text + *size, 1, room - *size - 1, file);
-        *size += got;
-    } while (got);
-    if (ferror(file)) {
-        free(text);
-        return NULL;
-    }
-    text[*size] = '\0';
-    return text;
-}
 
 /* Stands behind the bytes: a child that crashed does not come so far. */
 typedef struct {

@@ -15,8 +15,4 @@ typedef rb_status io_work(FILE *out, const void *context, rb_message *why);
 rb_status rb_io_in_child(const char *name, io_work *work, const void *context,
                          char **bytes, size_t *size, rb_message *why);
 
-/* All that is left of a file, or of a pipe, and a zero behind it; owned by the caller.
- * NULL: errno says why. */
-char *rb_io_read_all(FILE *file, size_t *size);
-
 #endif

@@ -1,7 +1,6 @@
 /* Tables of numbers, with or without named columns. */
 #include "rollbem/io.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -9,13 +8,11 @@
 
 static const char blanks[] = " \t\r\n,";
 
-enum { LINE = 4000 };
-
 typedef struct {
     const char *path;
     int line, room;
-    char comment[LINE]; /* last one before the first row: it may name the columns */
-    rb_io_table *t;     /* x row by row until the end */
+    const char *comment; /* last one before the first row: it may name the columns */
+    rb_io_table *t;      /* x row by row until the end */
     rb_message *why;
 } reading;
 
@@ -187,7 +184,7 @@ static rb_status read_line(reading *r, char *text)
     if (comment) {
         *comment++ = '\0';
         if (r->t->rows == 0)
-            snprintf(r->comment, sizeof r->comment, "%s", comment);
+            r->comment = comment;
     }
     if (count_words(text) == 0)
         return RB_OK;
@@ -198,18 +195,16 @@ static rb_status read_line(reading *r, char *text)
     return s == RB_OK ? read_row(r, words) : s;
 }
 
-static rb_status read_lines(reading *r, FILE *file)
+static rb_status read_lines(reading *r, char *text)
 {
-    char text[LINE];
     rb_status s = RB_OK;
-    while (s == RB_OK && fgets(text, sizeof text, file)) {
+    for (char *next; s == RB_OK && *text; text = next) {
+        next = text + strcspn(text, "\n");
+        if (*next)
+            *next++ = '\0';
         r->line++;
-        if (!strchr(text, '\n') && !feof(file))
-            return rb_fail(r->why, RB_EFORMAT, "%s:%d: line too long", r->path, r->line);
         s = read_line(r, text);
     }
-    if (s == RB_OK && ferror(file))
-        s = rb_fail(r->why, RB_ENOENT, "%s: %s", r->path, strerror(errno));
     if (s == RB_OK && r->t->rows == 0)
         s = rb_fail(r->why, RB_EFORMAT, "%s: no numbers", r->path);
     return s;
@@ -232,14 +227,14 @@ static rb_status by_columns(const reading *r)
 
 rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why)
 {
-    reading r = {.path = path, .t = t, .why = why};
-    rb_status s;
-    FILE *file = rb_io_open_input(path, &s, why);
+    reading r = {.path = path, .comment = "", .t = t, .why = why};
+    char *text;
+    size_t size;
+    rb_status s = rb_io_read_text(path, &text, &size, why);
     memset(t, 0, sizeof *t);
-    if (!file)
-        return s;
-    s = read_lines(&r, file);
-    fclose(file);
+    if (s == RB_OK)
+        s = read_lines(&r, text);
+    free(text);
     if (s == RB_OK)
         s = by_columns(&r);
     if (s != RB_OK)

@@ -1,6 +1,5 @@
 #include "io/tokens.h"
 
-#include "io/child.h"
 #include "rollbem/io.h"
 
 #include <ctype.h>
@@ -11,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 void rb_io_tokens_fail(io_tokens *t, const char *format, ...)
 {
@@ -25,43 +23,13 @@ void rb_io_tokens_fail(io_tokens *t, const char *format, ...)
     t->status = rb_fail(t->why, RB_EFORMAT, "%s:%d: %s", t->path, t->line, text);
 }
 
-static rb_status read_file(FILE *f, io_tokens *t)
-{
-    size_t size;
-    t->text = rb_io_read_all(f, &size);
-    if (!t->text)
-        return errno == ENOMEM ? rb_fail(t->why, RB_ENOMEM, "%s: out of memory", t->path)
-                               : rb_fail(t->why, RB_ENOENT, "%s: cannot read: %s",
-                                         t->path, strerror(errno));
-    t->at = t->text;
-    t->end = t->text + size;
-    return RB_OK;
-}
-
-FILE *rb_io_open_input(const char *path, rb_status *s, rb_message *why)
-{
-    struct stat st;
-    FILE *file = fopen(path, "rb");
-    if (file && fstat(fileno(file), &st) == 0 && S_ISDIR(st.st_mode)) {
-        fclose(file);
-        file = NULL;
-        errno = EISDIR;
-    }
-    *s = RB_OK;
-    if (!file)
-        *s = errno == ENOMEM ? rb_fail(why, RB_ENOMEM, "%s: out of memory", path)
-                             : rb_fail(why, RB_ENOENT, "%s: %s", path, strerror(errno));
-    return file;
-}
-
 void rb_io_tokens_open(const char *path, io_tokens *t, rb_message *why)
 {
+    size_t size = 0;
     *t = (io_tokens){.path = path, .line = 1, .why = why};
-    FILE *f = rb_io_open_input(path, &t->status, why);
-    if (!f)
-        return;
-    t->status = read_file(f, t);
-    fclose(f);
+    t->status = rb_io_read_text(path, &t->text, &size, why);
+    t->at = t->text;
+    t->end = t->text ? t->text + size : NULL;
 }
 
 void rb_io_tokens_close(io_tokens *t)

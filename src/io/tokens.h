@@ -7,6 +7,12 @@
 
 #include "rollbem/base.h"
 
+#include <stdio.h>
+
+/* All that is left of a file, or of a pipe, and a zero behind it; owned by the caller.
+ * NULL: errno says why. */
+char *rb_io_read_all(FILE *file, size_t *size);
+
 typedef struct {
     const char *path; /* borrowed */
     char *text;       /* the whole file and a final zero; owned */
