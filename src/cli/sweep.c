@@ -275,6 +275,27 @@ static uint64_t add_bytes(uint64_t hash, const void *data, size_t size)
     return hash;
 }
 
+/* The contents of the files that the case names. */
+static cli_exit add_files(const rb_settled_case *c, uint64_t *hash)
+{
+    int n;
+    const rb_option *o = rb_case_describe(&n);
+    for (int i = 0; i < n; i++) {
+        const char *path = rb_option_path(&o[i], c);
+        char *text;
+        size_t size;
+        rb_message why;
+        if (!path || o[i].file != RB_FILE_READ)
+            continue;
+        const rb_status s = rb_io_read_text(path, &text, &size, &why);
+        if (s != RB_OK)
+            return cli_say(s, &why);
+        *hash = add_bytes(*hash, text, size);
+        free(text);
+    }
+    return CLI_CONTINUE;
+}
+
 /* FNV-1a of every input, the contents of files among them: tells whether a file holds
  * rows of this study. */
 static cli_exit find_fingerprint(study *st)

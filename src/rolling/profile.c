@@ -275,7 +275,7 @@ rb_status rb_rolling_profile_create(int n, const double *x, const double *gap,
                       : set_spline(p, n, x, gap);
     if (s != RB_OK) {
         rb_rolling_profile_free(p);
-        return rb_fail(why, s, "no memory for a gap of %d points", n);
+        return rb_fail(why, s, "out of memory for a gap of %d points", n);
     }
     *profile = p;
     return RB_OK;
