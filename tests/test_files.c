@@ -143,6 +143,29 @@ static void fclib_files_are_written_as_all_others(void **state)
     clear();
 }
 
+/* A dump of one case beside the matrices of another would be of neither. */
+static void a_dump_replaces_the_one_before(void **state)
+{
+    (void)state;
+    clear();
+    assert_int_equal(
+        rollbem("--support hub --load 100 --contact-elements 12 --quiet --dump d "
+                "--trace --solver lemke"),
+        0);
+    assert_true(is_there("d/H.mtx") && is_there("d/tableau_3.mtx"));
+    write_file("d/mine.mtx", "mine");
+    assert_int_equal(rollbem(CASE "--dump d"), 0);
+    assert_true(is_there("d/M.mtx") && is_there("d/mine.mtx"));
+    assert_false(is_there("d/H.mtx") || is_there("d/mesh.mtx"));
+    assert_false(is_there("d/tableau_1.mtx") || is_there("d/basis_1.txt"));
+    /* none rather than some */
+    assert_int_equal(shell("bash -c 'ulimit -f 4; \"'\"$R\"'\" " CASE "--dump e | "
+                           "cat >/dev/null; exit ${PIPESTATUS[0]}'"),
+                     73);
+    assert_false(is_there("e"));
+    clear();
+}
+
 /* ---- Signals --------------------------------------------------------------------------
  */
 
@@ -263,6 +286,7 @@ int main(void)
         cmocka_unit_test(what_cannot_be_written_is_not_solved),
         cmocka_unit_test(full_disks_leave_nothing),
         cmocka_unit_test(fclib_files_are_written_as_all_others),
+        cmocka_unit_test(a_dump_replaces_the_one_before),
         cmocka_unit_test(signals_leave_nothing_behind),
         cmocka_unit_test(a_closed_output_matters_only_where_it_is_used),
         cmocka_unit_test(names_of_any_bytes_are_printed),

@@ -194,10 +194,10 @@ rb_status rb_report_profiles_picture(FILE *out, rb_report_picture_kind kind,
  */
 
 /* Everything a solution was computed from, as Matrix Market files in a folder, which is
- * made if need be: contact, mesh, H, G (of body A; _b of body B; none of half-planes), F,
- * M, b and the scales of the LCP; of a large contact, which forms no F and M, four
- * columns of F.  docs/report.md says what is in each.  RB_EWRITE,
- * RB_ENOMEM. */
+ * made if need be and loses what an older dump left; all of them or none: contact, mesh,
+ * H, G (of body A; _b of body B; none of half-planes), F, M, b and the scales of the LCP;
+ * of a large contact, which forms no F and M, four columns of F.  docs/report.md says
+ * what is in each.  RB_EWRITE, RB_ENOMEM. */
 rb_status rb_report_dump(const char *folder, const rb_rolling_model *model,
                          rb_message *why);
 

@@ -1,37 +1,60 @@
 /* The matrices behind a solution. */
-#include "rollbem/report.h"
+#include "report/internal.h"
 
 #include "rollbem/io.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 typedef struct {
     const char *folder;
     rb_message *why;
 } target;
 
+/* ---- Files ---------------------------------------------------------------------------
+ */
+
+/* All that a dump may write: what an old one has left must not stand beside the new. */
+static const char *const names[] = {"contact", "mesh",    "mesh_b", "H",         "H_b",
+                                    "G",       "G_b",     "F",      "F_columns", "M",
+                                    "b",       "z_scale", "w_scale"};
+
+enum { NAMES = sizeof names / sizeof names[0] };
+
+static char *path_of(const char *folder, const char *name)
+{
+    char file[40];
+    snprintf(file, sizeof file, "%s.mtx", name);
+    return rb_io_join(folder, file);
+}
+
 static rb_status write_matrix(const target *t, const char *name, int rows, int cols,
                               const double *x, int ld, const char *comment)
 {
-    char path[1200];
-    snprintf(path, sizeof path, "%s/%s.mtx", t->folder, name);
-    return rb_io_matrix_market_write(path, rows, cols, x, ld, comment, t->why);
+    int known = 0;
+    for (int k = 0; k < NAMES; k++)
+        known |= strcmp(name, names[k]) == 0;
+    if (!known)
+        return rb_fail(t->why, RB_EINVAL, "dump: '%s' is missing among the names", name);
+    char *path = path_of(t->folder, name);
+    const rb_status s =
+        path ? rb_io_matrix_market_write(path, rows, cols, x, ld, comment, t->why)
+             : rb_fail(t->why, RB_ENOMEM, "out of memory");
+    free(path);
+    return s;
 }
 
-static rb_status make_folder(const target *t)
+static void remove_files(const char *folder)
 {
-    struct stat st;
-    if (strlen(t->folder) > 1000)
-        return rb_fail(t->why, RB_EWRITE, "%.40s...: name too long", t->folder);
-    if (mkdir(t->folder, 0777) == 0)
-        return RB_OK;
-    const int e = errno;
-    if (e == EEXIST && stat(t->folder, &st) == 0 && S_ISDIR(st.st_mode))
-        return RB_OK;
-    return rb_fail(t->why, RB_EWRITE, "%s: %s", t->folder, strerror(e));
+    for (int k = 0; k < NAMES; k++) {
+        char *path = path_of(folder, names[k]);
+        if (path)
+            unlink(path);
+        free(path);
+    }
+    rb_report_remove_tableaux(folder);
 }
 
 /* ---- Meshes ------------------------------------------------------------------------ */
@@ -162,21 +185,36 @@ static rb_status dump_lcp(const target *t, const rb_rolling_model *model)
     return s;
 }
 
-rb_status rb_report_dump(const char *folder, const rb_rolling_model *model,
-                         rb_message *why)
+static rb_status dump_all(const target *t, const rb_rolling_model *model)
 {
-    const target t = {folder, why};
-    rb_status s = make_folder(&t);
+    rb_status s = dump_contact(t, &model->mesh);
     if (s == RB_OK)
-        s = dump_contact(&t, &model->mesh);
+        s = dump_body(t, "", model->bodies.system_a, &model->rc.a);
     if (s == RB_OK)
-        s = dump_body(&t, "", model->bodies.system_a, &model->rc.a);
-    if (s == RB_OK)
-        s = dump_body(&t, "_b", model->bodies.system_b, &model->rc.b);
+        s = dump_body(t, "_b", model->bodies.system_b, &model->rc.b);
     if (s != RB_OK)
         return s;
     if (!model->bodies.F) /* a large contact: neither F nor M has been formed */
-        return dump_toeplitz(&t, &model->bodies.f);
-    s = dump_dense(&t, model);
-    return s == RB_OK ? dump_lcp(&t, model) : s;
+        return dump_toeplitz(t, &model->bodies.f);
+    s = dump_dense(t, model);
+    return s == RB_OK ? dump_lcp(t, model) : s;
+}
+
+rb_status rb_report_dump(const char *folder, const rb_rolling_model *model,
+                         rb_message *why)
+{
+    struct stat before;
+    const target t = {folder, why};
+    const int there = stat(folder, &before) == 0;
+    rb_status s = rb_io_make_folder(folder, why);
+    if (s != RB_OK)
+        return s;
+    remove_files(folder);
+    s = dump_all(&t, model);
+    if (s != RB_OK) {
+        remove_files(folder);
+        if (!there)
+            rmdir(folder);
+    }
+    return s;
 }

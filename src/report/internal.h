@@ -62,6 +62,12 @@ enum { RB_REPORT_STRESS_COLUMNS = 11 };
 double rb_report_stress_value(const rb_rolling_stress *at, int column);
 int rb_report_stress_is_inside(const rb_report_stress *s, int k);
 
+/* ---- Behind the solution -------------------------------------------------------------
+ */
+
+/* What rb_report_trace has left in the folder. */
+void rb_report_remove_tableaux(const char *folder);
+
 /* ---- Pictures ---------------------------------------------------------------------- */
 
 /* The font of a key that would otherwise be larger. */

@@ -1,10 +1,11 @@
 /* Lemke's pivots of a solved model, in the words of contact. */
-#include "rollbem/report.h"
+#include "report/internal.h"
 
 #include "rollbem/io.h"
 #include "rollbem/lcp.h"
 
 #include <stdlib.h>
+#include <unistd.h>
 
 typedef struct {
     FILE *out;
@@ -56,13 +57,38 @@ static void variable_name(const trace *t, int variable, char name[32])
 
 /* ---- Pivots ------------------------------------------------------------------------ */
 
+static char *path_of(const char *folder, const char *format, int k)
+{
+    char name[40];
+    snprintf(name, sizeof name, format, k);
+    return rb_io_join(folder, name);
+}
+
+static const char tableau_name[] = "tableau_%d.mtx", basis_name[] = "basis_%d.txt";
+
+void rb_report_remove_tableaux(const char *folder)
+{
+    int removed = 1;
+    for (int k = 1; removed; k++) {
+        char *tableau = path_of(folder, tableau_name, k),
+             *basis = path_of(folder, basis_name, k);
+        removed = tableau && unlink(tableau) == 0;
+        removed |= basis && unlink(basis) == 0;
+        free(tableau);
+        free(basis);
+    }
+}
+
 static void write_tableau(trace *t, const rb_lcp_pivot *p)
 {
-    char path[1200];
-    snprintf(path, sizeof path, "%s/tableau_%d.mtx", t->folder, p->pivot + 1);
-    t->status = rb_io_matrix_market_write(
-        path, p->n, p->n + 2, p->tableau, p->n,
-        "basic = last column + columns times nonbasic; their names: basis_*.txt", t->why);
+    char *path = path_of(t->folder, tableau_name, p->pivot + 1);
+    t->status = path ? rb_io_matrix_market_write(
+                           path, p->n, p->n + 2, p->tableau, p->n,
+                           "basic = last column + columns times nonbasic; their names: "
+                           "basis_*.txt",
+                           t->why)
+                     : rb_fail(t->why, RB_ENOMEM, "out of memory");
+    free(path);
 }
 
 static void write_variables(FILE *file, const trace *t, const char *what,
@@ -80,10 +106,11 @@ static void write_variables(FILE *file, const trace *t, const char *what,
 /* Which variables the rows and columns of each tableau are. */
 static void write_basis(trace *t, const rb_lcp_pivot *p)
 {
-    char path[1200];
-    snprintf(path, sizeof path, "%s/basis_%d.txt", t->folder, p->pivot + 1);
     rb_io_writer w;
-    t->status = rb_io_writer_open(path, &w, t->why);
+    char *path = path_of(t->folder, basis_name, p->pivot + 1);
+    t->status = path ? rb_io_writer_open(path, &w, t->why)
+                     : rb_fail(t->why, RB_ENOMEM, "out of memory");
+    free(path);
     if (t->status != RB_OK)
         return;
     write_variables(w.file, t, "rows", p->basis, p->n);
@@ -139,6 +166,8 @@ rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model 
         fputs("the case was solved by another method; Lemke's on the same problem:\n", out);
     trace t = {.out = out, .folder = folder, .lcp = &lcp, .n = model->mesh.n, .why = why};
     s = follow(&t, &lcp);
+    if (s != RB_OK && folder)
+        rb_report_remove_tableaux(folder);
     rb_rolling_lcp_free(&lcp);
     return s;
 }
