@@ -293,6 +293,29 @@ static rb_status settle_memory(const rb_case_memory *typed, const char *which,
     return RB_OK;
 }
 
+/* An option of one support has no effect on the others.  In a file it may stand beside a
+ * support that the command line replaces. */
+static rb_status check_support(const rb_case *c, int body, rb_message *why)
+{
+    static const struct {
+        const char *name[2], *reason;
+        rb_bem_support support;
+    } own[] = {{{"arc", "arc-b"}, "of the support arc only", RB_BEM_ARC},
+               {{"hub-ratio", "hub-ratio-b"}, "of the support hub only", RB_BEM_HUB},
+               {{"datum", "datum-b"}, "of the support halfplane only", RB_BEM_HALFPLANE}};
+    const rb_rolling_case *rc = &c->settled.rc;
+    const rb_bem_support support = body ? rc->b.support : rc->a.support;
+    const int by = rb_case_given(c, body ? "support-b" : "support");
+    rb_status s = RB_OK;
+    for (int k = 0; k < 3 && s == RB_OK; k++) {
+        const char *name = own[k].name[body];
+        const int replaced = rb_case_given(c, name) > 0 && by == RB_GIVEN_ARGUMENT;
+        if (own[k].support != support && !replaced)
+            s = rb_case_refuse(c, name, own[k].reason, why);
+    }
+    return s;
+}
+
 static rb_status settle_bodies(rb_case *c, rb_message *why)
 {
     rb_settled_case *s = &c->settled;
@@ -520,6 +543,8 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     c->settled = c->words;
     if (s == RB_OK)
         s = settle_body_b(c, why);
+    for (int body = 0; body < 2 && s == RB_OK; body++)
+        s = check_support(c, body, why);
     if (s == RB_OK)
         s = settle_bodies(c, why);
     if (s == RB_OK)

@@ -362,6 +362,29 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+/* Squares and products of what is given must be numbers too. */
+static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
+{
+    static const double least = 1e-100, most = 1e100;
+    const struct {
+        const char *what;
+        double value;
+    } sizes[] = {{"Young's modulus", rc->a.young},
+                 {"radius", rc->a.radius},
+                 {"Young's modulus of body B", rc->elastic_b ? rc->b.young : 1.0},
+                 {"radius of body B", rc->elastic_b ? rc->b.radius : INFINITY},
+                 {"load", rc->load},
+                 {"approach", rc->approach},
+                 {"half-width", rc->half_width}};
+    for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
+        const double size = fabs(sizes[k].value);
+        if (isfinite(size) && (size < least || size > most))
+            return rb_fail(why, RB_EINVAL, "%s: expected a size of %g to %g, got %g",
+                           sizes[k].what, least, most, sizes[k].value);
+    }
+    return RB_OK;
+}
+
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
 {
     rb_status s = check_body(&rc->a, "", 0, why);
@@ -382,6 +405,8 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
         s = check_irregularity(rc, why);
     if (s == RB_OK)
         s = check_increments(rc, why);
+    if (s == RB_OK)
+        s = check_sizes(rc, why);
     if (s == RB_OK)
         s = check_mesh(rc, why);
     return s;
