@@ -340,7 +340,7 @@ static void not_solved_is_1(void **state)
                      1);
     assert_null(strstr(err, "nan"));
     /* a cone solver that gives up on its own measure where the case's residual is met */
-    assert_int_equal(rollbem("--support hub --datum 50 --similar --mu 0.1 --half-width 2 "
+    assert_int_equal(rollbem("--support hub --similar --mu 0.1 --half-width 2 "
                              "--force-ratio 1 --contact-elements 55 --solver nsn-fb"),
                      0);
 }
