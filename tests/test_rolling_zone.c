@@ -431,6 +431,28 @@ static void a_curve_and_a_history_find_the_end_of_their_mesh(void **state)
     rb_rolling_curve_free(&curve);
 }
 
+static void every_failed_allocation_is_reported(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = halfplane(0.3, 0.3, 8);
+        int refused = 1;
+        rc.load = 4.0;
+        rc.creep = 0.001;
+        rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        set_lobes(&rc, 1.0, 0.004, 1);
+        for (int count = 0; refused; count += k ? 61 : 11) {
+            rb_rolling_solution s;
+            alloc_fail_after(count);
+            const rb_status status = rb_rolling_solve(&rc, &s, NULL);
+            refused = alloc_failed();
+            alloc_succeed();
+            CHECK_STATUS(status, refused ? RB_ENOMEM : RB_OK);
+            rb_rolling_solution_free(&s);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -444,6 +466,7 @@ int main(void)
         cmocka_unit_test(a_wavy_surface_gets_equal_elements),
         cmocka_unit_test(stress_is_looked_for_below_every_patch),
         cmocka_unit_test(a_given_zone_must_hold_every_patch),
+        cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(a_contact_without_an_end_is_refused),
         cmocka_unit_test(a_curve_and_a_history_find_the_end_of_their_mesh),
     };

@@ -83,7 +83,7 @@ static int add_patch(const rb_rolling_case *rc, const rb_rolling_span *span, dou
 }
 
 /* The patches of the model's state and, where its mesh does not hold the contact, the
- * places where it should.  RB_EINVAL: more than elements are fitted to. */
+ * places where it should; none where they are more than elements are fitted to. */
 static rb_status find_patches(const rb_rolling_model *model, patches *found)
 {
     const rb_rolling_mesh *mesh = &model->mesh;
@@ -111,7 +111,8 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
         const rb_rolling_span span = {overlap.from[k], overlap.to[k], room, room};
         complete = complete && add_patch(&model->rc, &span, room, room, found);
     }
-    return complete ? RB_OK : RB_EINVAL;
+    found->count = complete ? found->count : 0;
+    return RB_OK;
 }
 
 /* ---- One edge ------------------------------------------------------------------------
@@ -215,16 +216,17 @@ static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
     brackets known[MOST_PATCHES];
     double moved = INFINITY;
 
+    rb_status s = find_patches(model, &fitted);
+
     *rest = 0;
     forget(known);
-    if (find_patches(model, &fitted) != RB_OK)
-        return RB_OK;
-    for (int round = 0; round < ROUNDS && !*rest; round++) {
-        const rb_status s = solve_on(model, &fitted, why);
-        if (s != RB_OK && s != RB_ZONE)
-            return s;
-        if (find_patches(model, &found) != RB_OK)
-            return RB_OK;
+    for (int round = 0;
+         round < ROUNDS && !*rest && fitted.count > 0 && (s == RB_OK || s == RB_ZONE);
+         round++) {
+        s = solve_on(model, &fitted, why);
+        const rb_status t = s < 0 ? s : find_patches(model, &found);
+        if (t != RB_OK)
+            return t;
         if (s == RB_OK && found.count == fitted.count) {
             moved = refine_all(&found, known, &fitted);
             *rest = moved < (round + 1 < ROUNDS ? AT_REST : NEAR_REST);
@@ -233,7 +235,7 @@ static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
             fitted = found;
         }
     }
-    return RB_OK;
+    return s == RB_ZONE ? RB_OK : s;
 }
 
 /* As many equal elements across the contact. */
