@@ -139,7 +139,7 @@ static rb_status make_case(int k, rb_rolling_case *rc, void *context)
     return RB_OK;
 }
 
-static int see_row(int k, const rb_rolling_sweep_row *row, void *context)
+static int see_row(int k, const rb_rolling_solution *row, void *context)
 {
     study *st = context;
     (void)k;
@@ -153,7 +153,7 @@ static int see_row(int k, const rb_rolling_sweep_row *row, void *context)
 
 static double sweep(const rb_rolling_case *rc, int count)
 {
-    study st = {.rc = rc, .formula = (sizeof(rb_rolling_sweep_row) + 1.0) * count};
+    study st = {.rc = rc, .formula = (sizeof(rb_rolling_solution) + 1.0) * count};
     const rb_rolling_sweep run = {
         .count = count, .workers = 1, .make = make_case, .see = see_row, .context = &st};
 

@@ -24,7 +24,7 @@ static rb_status make(int k, rb_rolling_case *rc, void *context)
     return RB_OK;
 }
 
-static int see(int k, const rb_rolling_sweep_row *row, void *context)
+static int see(int k, const rb_rolling_solution *row, void *context)
 {
     int *unsolved = context;
     (void)k;

@@ -254,6 +254,31 @@ static void contradictions_are_refused(void **state)
     }
 }
 
+/* Whatever reads a case for a purpose refuses the same words. */
+static void a_purpose_refuses_what_means_nothing_to_it(void **state)
+{
+    (void)state;
+    static const struct {
+        rb_case_purpose purpose;
+        const char *words, *part;
+    } bad[] = {
+        {RB_CASE_CURVE, "load=500 creep=0.1", "--creep: the curve runs over"},
+        {RB_CASE_CURVE, "load=500 formulation=static", "one of steady rolling"},
+        {RB_CASE_CURVE, "load=500 accuracy=0.1", "a curve has --error"},
+        {RB_CASE_STRESS, "load=500 accuracy=0.1", "does not refine"},
+        {RB_CASE_STUDY, "load=500 error=yes", "studies have no error bars"},
+        {RB_CASE_STUDY, "load=500 formulation=transient distance=1",
+         "--formulation: a study is one of static or steady cases"},
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        rb_message why = {""};
+        rb_case *c = rb_case_create(bad[k].purpose);
+        CHECK_STATUS(set_words(c, bad[k].words, &why), RB_OK);
+        check_word(rb_case_settle(c, &why), &why, bad[k].part);
+        rb_case_free(c);
+    }
+}
+
 static void a_curve_takes_several_mu(void **state)
 {
     (void)state;
@@ -414,6 +439,7 @@ int main(void)
         cmocka_unit_test(numbers_are_words_too),
         cmocka_unit_test(wrong_words_are_refused),
         cmocka_unit_test(contradictions_are_refused),
+        cmocka_unit_test(a_purpose_refuses_what_means_nothing_to_it),
         cmocka_unit_test(a_curve_takes_several_mu),
         cmocka_unit_test(files_are_blamed_by_line),
         cmocka_unit_test(an_argument_wins_over_the_file),

@@ -323,7 +323,7 @@ static void a_given_load_does_not_feel_the_datum(void **state)
     memcpy(s.zone, usual.state.zone, (size_t)s.n * sizeof(int));
     const double soft = compliance(usual.problem, &s);
     rc.a.datum = rb_rolling_datum(&rc, &rc.a) *
-                 exp(-0.5 * M_PI * rb_rolling_contact_modulus(&rc) * soft);
+                 exp(-0.5 * M_PI * rb_rolling_derive(&rc).modulus * soft);
     rc.b.datum = rc.a.datum;
     critical = solved(&rc);
     p = &critical.problem;

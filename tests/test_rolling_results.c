@@ -284,14 +284,14 @@ static void count_random_case(int fitted, tally *t)
         rc.force_ratio = -s;
     CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &so, &e, NULL), RB_OK);
     const double a = rc.half_width, p0 = 2.0 * so.normal_load / (M_PI * a);
-    tally_count(t, so.max_pressure - p0, e.max_pressure);
-    tally_count(t, so.half_width - a, e.half_width);
-    tally_count(t, so.force_ratio + (kind == 0 ? carter(s) : s), e.force_ratio);
+    tally_count(t, so.max_pressure - p0, e.scalar.max_pressure);
+    tally_count(t, so.half_width - a, e.scalar.half_width);
+    tally_count(t, so.force_ratio + (kind == 0 ? carter(s) : s), e.scalar.force_ratio);
     if (kind == 1)
         tally_count(t, so.creepage - (1.0 - sqrt(1.0 - s)) * rc.mu * a / rc.a.radius,
-                    e.creepage);
+                    e.scalar.creepage);
     if (kind == 2)
-        tally_count(t, so.stick_to - a * sqrt(1.0 - s), e.stick_to);
+        tally_count(t, so.stick_to - a * sqrt(1.0 - s), e.scalar.stick_to);
     rb_rolling_solution_free(&so);
 }
 
@@ -341,12 +341,44 @@ static void refinement_reaches_the_accuracy(void **state)
     rc.creep_ratio = 0.4;
     CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-3, &s, &e, &elements, NULL), RB_OK);
     CHECK_ABS(s.force_ratio, -0.64, 1e-3, "Q with %d elements", elements);
-    CHECK_MAX(e.force_ratio, 1e-3, "its estimate");
+    CHECK_MAX(e.scalar.force_ratio, 1e-3, "its estimate");
     rb_rolling_solution_free(&s);
     CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 2.0, &s, &e, &elements, NULL),
                  RB_EINVAL);
     rc.contact_elements = 5;
     CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, NULL), RB_EINVAL);
+}
+
+/* A name is given once, and the columns of a study are numbered without a gap. */
+static void check_names(const rb_rolling_results *table)
+{
+    char heading[RB_ROLLING_HEADING];
+    for (int k = 0; k < table->n; k++) {
+        const rb_rolling_result *r = &table->row[k];
+        assert_true(r->name && *r->name && r->meaning && *r->meaning);
+        assert_true(strlen(rb_rolling_heading(r, heading)) + 1 < RB_ROLLING_HEADING);
+        for (int i = 0; i < k; i++)
+            assert_string_not_equal(table->row[i].name, r->name);
+    }
+}
+
+static void every_result_stands_once(void **state)
+{
+    (void)state;
+    int studied = 0;
+    check_names(&rb_rolling_solution_scalars);
+    check_names(&rb_rolling_solution_columns);
+    check_names(&rb_rolling_history_columns);
+    check_names(&rb_rolling_curve_columns);
+    check_names(&rb_rolling_stress_scalars);
+    for (int k = 0; k < rb_rolling_solution_scalars.n; k++)
+        studied += rb_rolling_solution_scalars.row[k].study > 0;
+    for (int k = 1; k <= studied; k++) {
+        const rb_rolling_result *r = rb_rolling_study_column(k);
+        if (!r || r->study != k)
+            fail_msg("no result is column %d of a study", k);
+    }
+    assert_null(rb_rolling_study_column(studied + 1));
 }
 
 static void every_failed_allocation_is_reported(void **state)
@@ -399,6 +431,7 @@ int main(void)
         cmocka_unit_test(error_bars_hold_the_truth),
         cmocka_unit_test(error_bars_of_curves_hold_the_truth),
         cmocka_unit_test(refinement_reaches_the_accuracy),
+        cmocka_unit_test(every_result_stands_once),
         cmocka_unit_test(every_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

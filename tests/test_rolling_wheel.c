@@ -134,9 +134,9 @@ static double bentall_johnson_error(rb_bem_support support, int elements)
     rc.creep_ratio = NAN;
     rc.force = 0.0;
     rb_rolling_solution s = solved(&rc);
-    const double modulus = rb_rolling_contact_modulus(&rc), R = rb_rolling_radius(&rc);
+    const double modulus = rb_rolling_derive(&rc).modulus, R = rb_rolling_radius(&rc);
     const rb_closed_bentall_johnson want = rb_closed_bentall_johnson_stick(
-        rb_rolling_dundurs(&rc), rc.half_width, R, modulus);
+        rb_rolling_derive(&rc).dundurs, rc.half_width, R, modulus);
     const double error = fabs(s.creepage + want.creepage) / want.creepage;
     rb_rolling_solution_free(&s);
     return error;
@@ -171,7 +171,7 @@ static void the_exact_near_field_spares_the_small_elements(void **state)
 static double support_constant(const rb_rolling_case *rc)
 {
     rb_rolling_solution s = solved(rc);
-    const double modulus = rb_rolling_contact_modulus(rc);
+    const double modulus = rb_rolling_derive(rc).modulus;
     const double k =
         (s.approach - rb_closed_half_cylinder_approach(s.normal_load, rc->a.radius,
                                                        modulus, rc->half_width)) *

@@ -15,7 +15,7 @@ enum { CASES = 23 };
 typedef struct {
     int first, seen, stop_at, kill_at;
     int *deaths; /* in memory that all processes share; NULL: die every time */
-    rb_rolling_sweep_row row[CASES];
+    rb_rolling_solution row[CASES];
 } record;
 
 static rb_status make(int k, rb_rolling_case *rc, void *context)
@@ -32,7 +32,7 @@ static rb_status make(int k, rb_rolling_case *rc, void *context)
     return RB_OK;
 }
 
-static int see(int k, const rb_rolling_sweep_row *row, void *context)
+static int see(int k, const rb_rolling_solution *row, void *context)
 {
     record *r = context;
     assert_int_equal(k, r->first + r->seen); /* in order */

@@ -62,6 +62,10 @@ typedef struct {
                                most a fifth */
 } rb_bem_cylinder;
 
+/* R - sqrt(R^2 - x^2) without cancellation (B9): height of a circle above its lowest
+ * point, |x| <= R. */
+double rb_bem_circle_height(double radius, double x);
+
 /* ends: n_c + 2 increasing abscissae |x| < R: the ends of n_c contact elements and of the
  * upstream element after them.  Geometric grading outside; symmetric ends make a
  * symmetric mesh. RB_EINVAL: zone reaching the support, ends not increasing, counts

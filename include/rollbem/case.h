@@ -176,9 +176,12 @@ int rb_option_number(const char *text, double *value);
 
 typedef struct rb_case rb_case;
 
+/* What a case is for: some options mean nothing to some of them and are refused. */
 typedef enum {
     RB_CASE_SINGLE,
-    RB_CASE_CURVE /* steady unless told otherwise; mu may be several */
+    RB_CASE_CURVE,  /* a creep curve: steady by default, several mu */
+    RB_CASE_STRESS, /* the stress below the surface */
+    RB_CASE_STUDY   /* the base of a parameter study */
 } rb_case_purpose;
 
 /* The defaults, settled already.  NULL: no memory. */
@@ -223,9 +226,10 @@ typedef struct {
 /* The values of a case, as settled. */
 typedef struct {
     rb_rolling_case rc;
-    const char *gap_file; /* profile of the initial gap, or NULL */
-    double gap_smoothing; /* standard deviation of its noise [length] */
-    int similar;          /* B is of A's material */
+    rb_rolling_derived derived; /* what follows from rc */
+    const char *gap_file;       /* profile of the initial gap, or NULL */
+    double gap_smoothing;       /* standard deviation of its noise [length] */
+    int similar;                /* B is of A's material */
     double young_b, poisson_b, radius_b;
     rb_case_memory memory_a, memory_b;
     rb_numbers mus;                /* more than one: for curves */
@@ -266,9 +270,6 @@ void rb_case_result_free(rb_case_result *result);
 
 /* Who gave the option of that name; 0: it has its default. */
 int rb_case_given(const rb_case *c, const char *name);
-/* RB_OK, or the line "--name: reason" when that option was given. */
-rb_status rb_case_refuse(const rb_case *c, const char *name, const char *reason,
-                         rb_message *why);
 /* Turns a refusal s of rollbem/rolling.h into one of this case: the file and the line
  * where they are to blame.  Returns the status that says which. */
 rb_status rb_case_blame(const rb_case *c, rb_status s, rb_message *why);

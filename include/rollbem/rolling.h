@@ -135,6 +135,19 @@ int rb_rolling_carter_holds(const rb_rolling_case *rc);
 /* Ranges and contradictions.  RB_EINVAL with one line in why. */
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why);
 
+/* What follows from a case before anything is solved. */
+typedef struct {
+    double radius;     /* 1/R = 1/R_A + 1/R_B [length] */
+    double modulus;    /* E* [stress] */
+    double dundurs;    /* beta [-] */
+    double load;       /* given, or of the given half-width; NAN: the approach is given */
+    double approach;   /* given, or R/2; NAN: the load is given */
+    double half_width; /* a: Hertz's of the load, or estimated from the approach */
+    double stress;     /* E* a/(2R), Hertz's p0: the scale of the tractions */
+} rb_rolling_derived;
+
+rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc);
+
 /* ---- Case -> contact mesh -> flexibility ------------------------------------------- */
 
 /* The potential contact: n elements between ends[0] and ends[n] and the upstream element
@@ -356,6 +369,55 @@ typedef struct {
 
 void rb_rolling_solution_free(rb_rolling_solution *s);
 
+/* ---- The results by name -------------------------------------------------------------
+ */
+
+typedef enum {
+    RB_RESULT_NUMBER,
+    RB_RESULT_WHOLE,  /* int */
+    RB_RESULT_SECONDS /* a number: time spent on it */
+} rb_rolling_result_kind;
+
+/* One result: whatever shows results, studies and error bars are made from these. */
+typedef struct {
+    const char *name; /* in JSON */
+    const char *unit; /* "mm"; NULL: none */
+    rb_rolling_result_kind kind;
+    size_t offset;      /* of the value, or of a column's pointer, in its owner */
+    int error_bar;      /* 1: its discretisation error can be estimated */
+    int study;          /* which column of a study it is; 0: none */
+    int is_mean;        /* of a rolled step: 1: mean over it, 0: value at its end */
+    const char *symbol; /* heads the column instead of the name; NULL: the name */
+    const char *meaning;
+} rb_rolling_result;
+
+typedef struct {
+    int n;
+    const rb_rolling_result *row;
+} rb_rolling_results;
+
+/* Of rb_rolling_solution: its numbers, and its columns with an entry per element. */
+extern const rb_rolling_results rb_rolling_solution_scalars, rb_rolling_solution_columns;
+/* Of rb_rolling_patch. */
+extern const rb_rolling_results rb_rolling_patch_scalars;
+/* Columns of rb_rolling_history, an entry per step, and of rb_rolling_curve, an entry per
+ * creepage. */
+extern const rb_rolling_results rb_rolling_history_columns, rb_rolling_curve_columns;
+/* Of rb_rolling_stress, at a point. */
+extern const rb_rolling_results rb_rolling_stress_scalars;
+
+/* The number, or entry i of the column, whatever its kind; owner: the struct that the
+ * table belongs to. */
+double rb_rolling_number(const rb_rolling_result *r, const void *owner);
+double rb_rolling_entry(const rb_rolling_result *r, const void *owner, int i);
+
+/* The name with its unit, as columns are headed: "max_pressure_MPa".  Returns heading. */
+enum { RB_ROLLING_HEADING = 40 };
+const char *rb_rolling_heading(const rb_rolling_result *r,
+                               char heading[RB_ROLLING_HEADING]);
+/* Column k = 1, 2, ... of a study; NULL: there are no more. */
+const rb_rolling_result *rb_rolling_study_column(int k);
+
 /* Friction power per area and unit speed [stress], n values with sum power h =
  * dissipation: the energy that a wear law takes.  In steady rolling the slip lives
  * between midpoints and counts half for either element (theory.md 6).  NAN in static. */
@@ -566,11 +628,11 @@ void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid);
 /* ---- Error bars (theory.md 5.1)
  * ----------------------------------------------------------- */
 
-/* Estimated discretisation error of each scalar; NAN where the scalar is. */
+/* Estimated discretisation errors. */
 typedef struct {
-    double normal_load, tangential_load, force_ratio, approach, creepage, free_creepage;
-    double half_width, max_pressure, stick_from, stick_to, dissipation;
-    rb_rolling_stress_maxima stress; /* errors of value and place; NAN unless asked */
+    rb_rolling_solution scalar; /* of every result that has an error bar, in its place;
+                                   NAN where the result is; no columns */
+    rb_rolling_stress_maxima stress; /* of value and place; NAN unless asked */
 } rb_rolling_errors;
 
 /* From the spread over n/2, 0.7 n and n elements; the solution is that of n. */
@@ -622,24 +684,16 @@ rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *mo
 
 /* ---- Parameter studies ----------------------------------------------------------- */
 
-/* Results of one case; NAN where there is none. */
-typedef struct {
-    double normal_load, tangential_load, force_ratio, approach;
-    double creepage, creep_ratio, free_creepage, half_width, max_pressure;
-    double dissipation, residual;
-    int contact, stick, slip, iterations;
-    rb_status status;
-} rb_rolling_sweep_row;
-
 /* Cases first ... first + count - 1, by processes of this machine (0: as many as it has
  * processors), one thread each.  make runs in them, see and tick in the caller: see gets
  * the rows in order, tick comes every few milliseconds with the number seen; a value
  * other than 0 ends the run.  A process that dies is replaced and its case tried once
- * more; where it dies of it again, the case is left with RB_ENOMEM. */
+ * more; where it dies of it again, the case is left with RB_ENOMEM.  Rows are solutions
+ * without columns; numbers are NAN where there is none. */
 typedef struct {
     int first, count, workers;
     rb_status (*make)(int k, rb_rolling_case *rc, void *context);
-    int (*see)(int k, const rb_rolling_sweep_row *row, void *context);
+    int (*see)(int k, const rb_rolling_solution *row, void *context);
     int (*tick)(int seen, void *context); /* or NULL */
     void *context;
 } rb_rolling_sweep;
@@ -654,7 +708,7 @@ typedef struct rb_rolling_pool {
     /* 1: the row of case *k; 0: none came within so many milliseconds; a negative
      * status: the pool cannot go on. */
     int (*collect)(struct rb_rolling_pool *pool, int milliseconds, int *k,
-                   rb_rolling_sweep_row *row);
+                   rb_rolling_solution *row);
     void (*stop)(struct rb_rolling_pool *pool); /* at once; its memory goes as well */
 } rb_rolling_pool;
 

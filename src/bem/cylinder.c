@@ -214,10 +214,14 @@ typedef struct {
     double x, y;
 } point;
 
-/* (B9): no difference of nearly equal numbers near the lowest point. */
+double rb_bem_circle_height(double radius, double x)
+{
+    return x * x / (radius + sqrt((radius - x) * (radius + x)));
+}
+
 static point at_abscissa(double R, double x)
 {
-    return (point){x, x * x / (R + sqrt((R - x) * (R + x)))};
+    return (point){x, rb_bem_circle_height(R, x)};
 }
 
 static point at_angle(double R, double angle)

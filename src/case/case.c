@@ -196,8 +196,9 @@ static rb_status refuse(const rb_case *c, const rb_option *o, const char *reason
                    rb_option_source(o, by, c->path, room, sizeof room), reason);
 }
 
-rb_status rb_case_refuse(const rb_case *c, const char *name, const char *reason,
-                         rb_message *why)
+/* RB_OK where the option was not given. */
+static rb_status refuse_given(const rb_case *c, const char *name, const char *reason,
+                              rb_message *why)
 {
     const rb_option *o = rb_case_option(name);
     return o && rb_case_given(c, name) ? refuse(c, o, reason, why) : RB_OK;
@@ -311,7 +312,7 @@ static rb_status check_support(const rb_case *c, int body, rb_message *why)
         const char *name = own[k].name[body];
         const int replaced = rb_case_given(c, name) > 0 && by == RB_GIVEN_ARGUMENT;
         if (own[k].support != support && !replaced)
-            s = rb_case_refuse(c, name, own[k].reason, why);
+            s = refuse_given(c, name, own[k].reason, why);
     }
     return s;
 }
@@ -327,15 +328,15 @@ static rb_status settle_bodies(rb_case *c, rb_message *why)
         status = settle_memory(&s->memory_b, "-b", &s->rc.b.memory, why);
     for (int b = 0; b < 2; b++)
         for (int k = 0; k < 2 && status == RB_OK && !layer[b]; k++)
-            status = rb_case_refuse(c, base[b][k],
-                                    "a base has its layer on it, see "
-                                    "--layer-thickness",
-                                    why);
+            status = refuse_given(c, base[b][k],
+                                  "a base has its layer on it, see "
+                                  "--layer-thickness",
+                                  why);
     if (status == RB_OK && s->rc.a.memory.n + s->rc.b.memory.n == 0)
-        status = rb_case_refuse(c, "speed",
-                                "for bodies that relax only, see "
-                                "--relaxation-time",
-                                why);
+        status = refuse_given(c, "speed",
+                              "for bodies that relax only, see "
+                              "--relaxation-time",
+                              why);
     return status;
 }
 
@@ -366,7 +367,7 @@ static rb_status read_profile(rb_case *c, rb_message *why)
     const rb_io_table *t = &c->gap.table;
     const double noise = settled->gap_smoothing;
     if (settled->rc.gap != RB_GAP_TABLE)
-        return rb_case_refuse(c, "gap-smoothing", "of a gap from a file only", why);
+        return refuse_given(c, "gap-smoothing", "of a gap from a file only", why);
     if (!is_read(&c->gap, settled->gap_file) || c->profile.noise != noise)
         free_profile(&c->profile);
     rb_status s = read_table(&c->gap, settled->gap_file, 2, why);
@@ -498,37 +499,63 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
     const int history = settled->history_file != NULL;
     rb_status s = RB_OK;
     if (!transient)
-        s = rb_case_refuse(c, "distance", "of transient rolling only", why);
+        s = refuse_given(c, "distance", "of transient rolling only", why);
     else if (history)
-        s = rb_case_refuse(c, "distance", "the history says how far", why);
+        s = refuse_given(c, "distance", "the history says how far", why);
     if (s == RB_OK && !transient)
-        s = rb_case_refuse(c, "steps", "of transient rolling only", why);
+        s = refuse_given(c, "steps", "of transient rolling only", why);
     if (s == RB_OK && !transient)
-        s = rb_case_refuse(c, "irregularity",
-                           "it rides through the contact; of transient rolling only",
-                           why);
+        s = refuse_given(c, "irregularity",
+                         "it rides through the contact; of transient rolling only", why);
     if (s == RB_OK && settled->rc.formulation == RB_STEADY)
-        s = rb_case_refuse(c, "history", "steady rolling has no history", why);
+        s = refuse_given(c, "history", "steady rolling has no history", why);
     if (s == RB_OK && settled->rc.formulation == RB_STEADY && settled->rc.increments > 1)
-        s = rb_case_refuse(c, "increments", "steady rolling forgets how it was pressed",
-                           why);
+        s = refuse_given(c, "increments", "steady rolling forgets how it was pressed",
+                         why);
     if (s == RB_OK && history)
-        s = rb_case_refuse(c, "increments", "the history says them row by row", why);
+        s = refuse_given(c, "increments", "the history says them row by row", why);
     if (s == RB_OK && rb_case_has_steps(settled) && settled->rc.mesh == RB_MESH_FITTED)
-        s = rb_case_refuse(c, "mesh", "step by step the elements are equal", why);
+        s = refuse_given(c, "mesh", "step by step the elements are equal", why);
     if (s == RB_OK && transient && !history && !(settled->rc.distance > 0.0))
         s = rb_fail(why, RB_EINVAL, "transient rolling needs --distance or --history");
     return s;
 }
 
+/* Options that mean nothing to a purpose. */
+static const struct {
+    rb_case_purpose purpose;
+    const char *option, *reason;
+} meaningless[] = {
+    {RB_CASE_CURVE, "shift", "the curve runs over --from ... --to by itself"},
+    {RB_CASE_CURVE, "creep", "the curve runs over --from ... --to by itself"},
+    {RB_CASE_CURVE, "creep-ratio", "the curve runs over --from ... --to by itself"},
+    {RB_CASE_CURVE, "force", "the curve runs over --from ... --to by itself"},
+    {RB_CASE_CURVE, "force-ratio", "the curve runs over --from ... --to by itself"},
+    {RB_CASE_CURVE, "history", "the curve runs over --from ... --to by itself"},
+    {RB_CASE_CURVE, "accuracy", "of single cases; a curve has --error"},
+    {RB_CASE_STRESS, "accuracy", "stress has error bars, but does not refine"},
+    {RB_CASE_STUDY, "error", "studies have no error bars"},
+    {RB_CASE_STUDY, "accuracy", "studies have no error bars"},
+    {RB_CASE_STUDY, "history", "a study has none"},
+};
+
 static rb_status check_purpose(const rb_case *c, rb_message *why)
 {
+    const rb_rolling_formulation formulation = c->settled.rc.formulation;
     rb_status s = RB_OK;
-    if (c->settled.mus.n > 1 && c->purpose != RB_CASE_CURVE)
-        s = rb_case_refuse(c, "mu", "expected one number; a curve takes several", why);
+    for (size_t k = 0; k < sizeof meaningless / sizeof *meaningless && s == RB_OK; k++)
+        if (c->purpose == meaningless[k].purpose)
+            s = refuse_given(c, meaningless[k].option, meaningless[k].reason, why);
+    if (s == RB_OK && c->purpose == RB_CASE_CURVE && formulation != RB_STEADY)
+        s = refuse_given(c, "formulation", "a curve is one of steady rolling", why);
+    if (s == RB_OK && c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT)
+        s = refuse_given(c, "formulation", "a study is one of static or steady cases",
+                         why);
+    if (s == RB_OK && c->purpose != RB_CASE_CURVE && c->settled.mus.n > 1)
+        s = refuse_given(c, "mu", "expected one number; a curve takes several", why);
     if (s == RB_OK && rb_case_has_steps(&c->settled))
-        s = rb_case_refuse(c, "accuracy", "of static and steady cases without steps only",
-                           why);
+        s = refuse_given(c, "accuracy", "of static and steady cases without steps only",
+                         why);
     return s;
 }
 
@@ -559,6 +586,8 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
         return s;
     choose_mesh(c);
     s = rb_rolling_case_check(&c->settled.rc, why);
+    if (s == RB_OK)
+        c->settled.derived = rb_rolling_derive(&c->settled.rc);
     return rb_case_blame(c, s, why);
 }
 

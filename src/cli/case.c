@@ -36,12 +36,6 @@ cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
     return code == CLI_CONTINUE ? cli_check_files(spec, args) : code;
 }
 
-cli_exit cli_case_refuse(const rb_case *c, const char *name, const char *reason)
-{
-    rb_message why;
-    return cli_say(rb_case_refuse(c, name, reason, &why), &why);
-}
-
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)
 {
     return cli_say(rb_case_blame(c, s, why), why);

@@ -25,8 +25,6 @@ rb_case *cli_case_create(rb_case_purpose purpose);
 cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
                         cli_args *args);
 
-/* CLI_CONTINUE, or the line "--name: reason" when that option was given. */
-cli_exit cli_case_refuse(const rb_case *c, const char *name, const char *reason);
 
 /* Prints why the library refused the case; the exit code tells command line from file. */
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why);

@@ -129,21 +129,6 @@ static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *contex
 
 /* ---- Command ---------------------------------------------------------------------- */
 
-static cli_exit check_case(const rb_case *c)
-{
-    static const char *const driving[] = {"shift", "creep",       "creep-ratio",
-                                          "force", "force-ratio", "history"};
-    cli_exit code = CLI_CONTINUE;
-    for (int k = 0; k < 6 && code == CLI_CONTINUE; k++)
-        code = cli_case_refuse(c, driving[k],
-                               "the curve runs over --from ... --to by itself");
-    if (code == CLI_CONTINUE)
-        code = cli_case_refuse(c, "accuracy", "of single cases; a curve has --error");
-    if (code == CLI_CONTINUE && rb_case_settled(c)->rc.formulation != RB_STEADY)
-        code = cli_case_refuse(c, "formulation", "a curve is one of steady rolling");
-    return code;
-}
-
 static cli_exit show(const result *r)
 {
     cli_exit code = cli_write_file(r->o->output, print, r);
@@ -188,8 +173,6 @@ int cli_curve(int argc, char **argv)
         {rb_case_options(c), {options, OPTIONS, &range, range.given}, cli_output_set(&o)},
         3};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
-    if (code == CLI_CONTINUE)
-        code = check_case(c);
     if (code == CLI_CONTINUE && range.from == range.to)
         code = cli_fail(CLI_USAGE, "--from and --to: expected two different values");
     if (code == CLI_CONTINUE)

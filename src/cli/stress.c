@@ -299,10 +299,7 @@ static cli_exit check_known(const rb_case *c)
 
 static cli_exit check(const rb_case *c, const stress_options *so, places *where)
 {
-    cli_exit code =
-        cli_case_refuse(c, "accuracy", "stress has error bars, but does not refine");
-    if (code == CLI_CONTINUE)
-        code = check_known(c);
+    cli_exit code = check_known(c);
     if (code == CLI_CONTINUE)
         code = check_vtk(so, rb_case_settled(c));
     if (code == CLI_CONTINUE)
@@ -316,7 +313,7 @@ int cli_stress(int argc, char **argv)
     stress_options so = {0};
     places where = {0};
     cli_args args = {0};
-    rb_case *c = cli_case_create(RB_CASE_SINGLE);
+    rb_case *c = cli_case_create(RB_CASE_STRESS);
     if (!c)
         return CLI_INTERNAL;
     const cli_spec spec = {

@@ -319,40 +319,6 @@ static cli_exit find_fingerprint(study *st)
     return code;
 }
 
-/* Results that have a column: place in the row, whole: an int. */
-static const struct {
-    const char *name;
-    size_t offset;
-    int whole;
-} results[] = {
-#define RESULT(name, member)                                                             \
-    {                                                                                    \
-        name, offsetof(rb_rolling_sweep_row, member), 0                                  \
-    }
-#define WHOLE(name, member)                                                              \
-    {                                                                                    \
-        name, offsetof(rb_rolling_sweep_row, member), 1                                  \
-    }
-    WHOLE("status", status),
-    RESULT("normal_load_N/mm", normal_load),
-    RESULT("tangential_load_N/mm", tangential_load),
-    RESULT("force_ratio", force_ratio),
-    RESULT("approach_mm", approach),
-    RESULT("creepage", creepage),
-    RESULT("creep_ratio", creep_ratio),
-    RESULT("free_creepage", free_creepage),
-    RESULT("half_width_mm", half_width),
-    RESULT("max_pressure_MPa", max_pressure),
-    WHOLE("contact", contact),
-    WHOLE("stick", stick),
-    WHOLE("slip", slip),
-    RESULT("dissipation_N/mm", dissipation),
-    RESULT("residual", residual),
-    WHOLE("iterations", iterations),
-};
-
-enum { RESULTS = sizeof results / sizeof results[0] };
-
 /* A file names a column once: what was given is not printed again. */
 static int is_given(const study *st, const char *name)
 {
@@ -366,6 +332,8 @@ enum { HEAD_LINES = 5, COMMAND_LINE = 1 };
 
 static void write_head(const study *st, FILE *out)
 {
+    char heading[RB_ROLLING_HEADING];
+    const rb_rolling_result *r;
     fprintf(out, "# rollbem %s\n# %s\n", RB_VERSION, cli_command_line());
     fprintf(out, "# study %016" PRIx64 " of %d cases\n", st->fingerprint, st->cases);
     fputs("# status 0: solved. xi > 0: A's surface slides towards +x, the friction on A "
@@ -373,9 +341,10 @@ static void write_head(const study *st, FILE *out)
           out);
     for (int k = 0; k < st->columns; k++)
         fprintf(out, "\t%s", st->column[k].heading);
-    for (int j = 0; j < RESULTS; j++)
-        if (!is_given(st, results[j].name))
-            fprintf(out, "\t%s", results[j].name);
+    fputs("\tstatus", out);
+    for (int k = 1; (r = rb_rolling_study_column(k)); k++)
+        if (!is_given(st, rb_rolling_heading(r, heading)))
+            fprintf(out, "\t%s", heading);
     fputc('\n', out);
 }
 
@@ -395,25 +364,19 @@ static void count_status(study *st, rb_status status)
     st->worst = code > st->worst ? code : st->worst;
 }
 
-static void write_result(FILE *out, const rb_rolling_sweep_row *row, int j)
-{
-    const char *place = (const char *)row + results[j].offset;
-    if (results[j].whole)
-        fprintf(out, "\t%d", *(const int *)(const void *)place);
-    else if (isnan(*(const double *)(const void *)place))
-        fputs("\tnan", out);
-    else
-        fprintf(out, "\t%.17g", *(const double *)(const void *)place);
-}
-
-static int see_row(int k, const rb_rolling_sweep_row *row, void *context)
+static int see_row(int k, const rb_rolling_solution *row, void *context)
 {
     study *st = context;
+    char heading[RB_ROLLING_HEADING];
+    const rb_rolling_result *r;
 
     write_inputs(st, k, st->out);
-    for (int j = 0; j < RESULTS; j++)
-        if (!is_given(st, results[j].name))
-            write_result(st->out, row, j);
+    fprintf(st->out, "\t%d", row->status);
+    for (int j = 1; (r = rb_rolling_study_column(j)); j++) {
+        const double x = rb_rolling_number(r, row);
+        if (!is_given(st, rb_rolling_heading(r, heading)))
+            fprintf(st->out, isnan(x) ? "\tnan" : "\t%.17g", x);
+    }
     fputc('\n', st->out);
     count_status(st, row->status);
     return ferror(st->out);
@@ -494,12 +457,26 @@ static int has_head(const study *st, char **line, size_t *room)
     return same;
 }
 
-/* The row of case k, as this study writes it: number and inputs to the digit, then as
- * many numbers as there are results. */
+/* The number behind a tab at *at; 1: there is one, and *at stands behind it. */
+static int next_number(const char **at, double *value)
+{
+    char *end;
+    if (**at != '\t')
+        return 0;
+    *value = strtod(*at + 1, &end);
+    const int good = end > *at + 1;
+    *at = end;
+    return good;
+}
+
+/* The row of case k, as this study writes it: number and inputs to the digit, then its
+ * status and as many numbers as there are results. */
 static int is_row(study *st, int k, const char *line, size_t length)
 {
-    char *wanted = NULL, *end;
+    char *wanted = NULL, heading[RB_ROLLING_HEADING];
     size_t size = 0;
+    double status = 0.0, value;
+    const rb_rolling_result *r;
     FILE *memory = open_memstream(&wanted, &size);
     if (memory) {
         write_inputs(st, k, memory);
@@ -508,15 +485,11 @@ static int is_row(study *st, int k, const char *line, size_t length)
     int good = wanted && length == strlen(line) && strncmp(line, wanted, size) == 0;
     const char *at = line + size;
     free(wanted);
-    for (int j = 0; good && j < RESULTS; j++) {
-        if (is_given(st, results[j].name))
-            continue;
-        const double value = *at == '\t' ? strtod(at + 1, &end) : 0.0;
-        good = *at == '\t' && end > at + 1;
-        at = good ? end : at;
-        if (good && results[j].offset == offsetof(rb_rolling_sweep_row, status))
-            count_status(st, (rb_status)value);
-    }
+    good = good && next_number(&at, &status);
+    for (int j = 1; good && (r = rb_rolling_study_column(j)); j++)
+        good = is_given(st, rb_rolling_heading(r, heading)) || next_number(&at, &value);
+    if (good && *at == '\n')
+        count_status(st, (rb_status)status);
     return good && *at == '\n';
 }
 
@@ -673,26 +646,12 @@ static cli_exit run(study *st)
     return (cli_exit)st->worst;
 }
 
-static cli_exit check_base(const rb_case *c)
-{
-    cli_exit code = CLI_CONTINUE;
-    for (int k = 0; k < 2 && code == CLI_CONTINUE; k++)
-        code = cli_case_refuse(c, k ? "accuracy" : "error", "studies have no error bars");
-    if (code == CLI_CONTINUE)
-        code = cli_case_refuse(c, "history", "a study has none");
-    if (code == CLI_CONTINUE && rb_case_settled(c)->rc.formulation == RB_TRANSIENT)
-        code = cli_fail(CLI_USAGE, "a study is one of static or steady cases");
-    return code;
-}
-
 /* All that can be refused, and the output file. */
 static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
                         cli_args *args, study *st)
 {
     cli_exit code = cli_case_parse(spec, argc, argv, c, args);
 
-    if (code == CLI_CONTINUE)
-        code = check_base(c);
     if (code == CLI_CONTINUE)
         code = read_study(st);
     if (code == CLI_CONTINUE)
@@ -723,7 +682,7 @@ int cli_sweep(int argc, char **argv)
 {
     sweep_options o = {0};
     cli_args args = {0};
-    rb_case *c = cli_case_create(RB_CASE_SINGLE);
+    rb_case *c = cli_case_create(RB_CASE_STUDY);
     study st = {.base = c, .o = &o};
     if (!c)
         return CLI_INTERNAL;

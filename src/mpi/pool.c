@@ -16,7 +16,7 @@ enum { STOP = -1 };
 
 typedef struct {
     int k;
-    rb_rolling_sweep_row row;
+    rb_rolling_solution row;
 } message;
 
 static int active, rank, size, stopped;
@@ -149,7 +149,7 @@ static rb_status submit(rb_rolling_pool *pool, int k)
 }
 
 static int collect(rb_rolling_pool *pool, int milliseconds, int *k,
-                   rb_rolling_sweep_row *row)
+                   rb_rolling_solution *row)
 {
     ranks *all = ranks_of(pool);
     MPI_Status from;

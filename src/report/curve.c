@@ -9,43 +9,26 @@
 
 /* ---- Table and JSON ---------------------------------------------------------------- */
 
-/* Columns; those from FIRST to before LAST have errors. */
-enum { COLUMNS = 8, FIRST = 2, LAST = 7, ERRORS = LAST - FIRST };
-
-static void series_of(const rb_rolling_curve *c, rb_report_series series[COLUMNS])
+static rb_report_columns columns_of(const rb_rolling_curve *c, int errors)
 {
-    const rb_report_series all[COLUMNS] = {
-        {"creepage_1", "creepage", c->creepage, NULL, 0},
-        {"creep_ratio_1", "creep_ratio", c->creep_ratio, NULL, 0},
-        {"force_ratio_1", "force_ratio", c->force_ratio, NULL, 0},
-        {"Q_N/mm", "tangential_load", c->tangential_load, NULL, 0},
-        {"P_N/mm", "normal_load", c->normal_load, NULL, 0},
-        {"stick_ratio_1", "stick_ratio", c->stick_ratio, NULL, 0},
-        {"dissipation_N/mm", "dissipation", c->dissipation, NULL, 0},
-        {"residual_1", "residual", c->residual, NULL, 0}};
-    memcpy(series, all, sizeof all);
+    return (rb_report_columns){&rb_rolling_curve_columns, c, errors};
 }
 
 /* The coefficient of friction stands before the columns of its curve. */
 static void print_curve(FILE *out, const rb_report_curves *curves, int k, int bare)
 {
     const rb_rolling_curve *c = &curves->curve[k];
-    rb_report_series series[COLUMNS + ERRORS];
-    int columns = COLUMNS;
+    const rb_report_columns part[2] = {columns_of(c, 0),
+                                       columns_of(&curves->error[k], 1)};
+    const int parts = curves->has_errors ? 2 : 1;
 
-    series_of(c, series);
-    if (curves->has_errors) {
-        rb_report_series error[COLUMNS];
-        series_of(&curves->error[k], error);
-        columns += rb_report_add_errors(ERRORS, error + FIRST, series + COLUMNS);
-    }
     if (k == 0) {
         fputs(bare ? "mu_1\t" : "# mu_1\t", out);
-        rb_report_print_names(out, columns, series, 1);
+        rb_report_print_names(out, parts, part, 1);
     }
     for (int i = 0; i < c->n; i++) {
         fprintf(out, "%.17g\t", curves->mu[k]);
-        rb_report_print_row(out, i, columns, series);
+        rb_report_print_row(out, i, parts, part);
     }
 }
 
@@ -61,11 +44,10 @@ rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
 
 static json_t *json_errors(const rb_rolling_curve *error)
 {
-    rb_report_series series[COLUMNS];
+    const rb_report_columns columns = columns_of(error, 1);
     json_t *errors = json_object();
 
-    series_of(error, series);
-    rb_report_json_series(&errors, error->n, ERRORS, series + FIRST);
+    rb_report_json_columns(&errors, error->n, &columns, 0);
     rb_report_json_set(&errors, "free_creepage",
                        rb_report_json_number(error->free_creepage));
     return errors;
@@ -74,12 +56,11 @@ static json_t *json_errors(const rb_rolling_curve *error)
 static json_t *json_curve(const rb_report_curves *curves, int k)
 {
     const rb_rolling_curve *c = &curves->curve[k];
-    rb_report_series series[COLUMNS];
+    const rb_report_columns columns = columns_of(c, 0);
     json_t *curve = json_object();
 
-    series_of(c, series);
     rb_report_json_set(&curve, "mu", rb_report_json_number(curves->mu[k]));
-    rb_report_json_series(&curve, c->n, COLUMNS, series);
+    rb_report_json_columns(&curve, c->n, &columns, 0);
     rb_report_json_set(&curve, "free_creepage", rb_report_json_number(c->free_creepage));
     rb_report_json_set(&curve, "hertz_half_width", rb_report_json_number(c->half_width));
     rb_report_json_set(&curve, "iterations", json_integer(c->iterations));

@@ -4,62 +4,35 @@
 
 #include "rollbem/report.h"
 
-/* Column of the table: an array of the solution. */
-typedef struct {
-    const char *name; /* with its unit */
-    size_t offset;    /* of the array's pointer in rb_rolling_solution */
-    int whole;        /* 1: int, 0: double */
-} rb_report_column;
-
-extern const rb_report_column rb_report_columns[];
-extern const int rb_report_column_n;
-
-const double *rb_report_doubles(const rb_rolling_solution *s, const rb_report_column *c);
-const int *rb_report_ints(const rb_rolling_solution *s, const rb_report_column *c);
-
 /* For people: 0 where x is rounding of a sum of terms of that size. */
 double rb_report_tidy(double x, double size);
 
-/* ---- Series: tables and JSON of everything but the tractions ----------------------- */
+/* ---- Columns by the tables of results ------------------------------------------------
+ */
 
-/* One column, of doubles or of whole numbers. */
+/* The columns of an owner side by side; of errors those that have error bars alone. */
 typedef struct {
-    const char *name; /* in tables, with its unit */
-    const char *key;  /* in JSON; NULL: name */
-    const double *x;  /* borrowed */
-    const int *k;     /* where x is NULL; borrowed */
-    int is_error;     /* 1: error_NAME in tables */
-} rb_report_series;
+    const rb_rolling_results *columns;
+    const void *owner;
+    int errors;
+} rb_report_columns;
 
 /* # lines with version, command, conventions. */
 void rb_report_print_head(FILE *out, const char *command);
-/* The names, on a # line unless bare. */
-void rb_report_print_names(FILE *out, int columns, const rb_report_series *series,
-                           int bare);
-/* Copies series as errors; returns how many. */
-int rb_report_add_errors(int columns, const rb_report_series *error,
-                         rb_report_series *series);
-void rb_report_print_row(FILE *out, int i, int columns, const rb_report_series *series);
-void rb_report_print_rows(FILE *out, int rows, int columns,
-                          const rb_report_series *series);
+/* The headings, on a # line unless bare. */
+void rb_report_print_names(FILE *out, int parts, const rb_report_columns *part, int bare);
+/* Entry i of every column. */
+void rb_report_print_row(FILE *out, int i, int parts, const rb_report_columns *part);
+void rb_report_print_rows(FILE *out, int rows, int parts, const rb_report_columns *part);
 /* Flushes.  RB_EWRITE: see errno. */
 rb_status rb_report_print_end(FILE *out);
 
-void rb_report_json_series(struct json_t **object, int rows, int columns,
-                           const rb_report_series *series);
+/* A list for each column, by its name or, headed, by its heading. */
+void rb_report_json_columns(struct json_t **object, int rows, const rb_report_columns *c,
+                            int headed);
 
 /* ---- Stress ------------------------------------------------------------------------ */
 
-/* Column of the stress at a point. */
-typedef struct {
-    const char *name, *key; /* with its unit; in VTK */
-    size_t offset;          /* in rb_rolling_stress */
-} rb_report_stress_column;
-
-extern const rb_report_stress_column rb_report_stress_columns[];
-enum { RB_REPORT_STRESS_COLUMNS = 11 };
-
-double rb_report_stress_value(const rb_rolling_stress *at, int column);
 int rb_report_stress_is_inside(const rb_report_stress *s, int k);
 
 /* ---- Behind the solution -------------------------------------------------------------

@@ -1,4 +1,4 @@
-/* Tables of named series: what curves, histories and stresses have in common. */
+/* Tables of columns: what tractions, curves and histories have in common. */
 #include "report/internal.h"
 
 #include <math.h>
@@ -10,47 +10,59 @@ void rb_report_print_head(FILE *out, const char *command)
         fprintf(out, "# %s\n", *line);
 }
 
-void rb_report_print_names(FILE *out, int columns, const rb_report_series *series,
-                           int bare)
+/* The k-th column of all parts, and its part; NULL: there are no more. */
+static const rb_rolling_result *column(int k, int parts, const rb_report_columns *part,
+                                       const rb_report_columns **of)
 {
-    if (!bare)
-        fputs("# ", out);
-    for (int j = 0; j < columns; j++)
-        fprintf(out, "%s%s%s", j > 0 ? "\t" : "", series[j].is_error ? "error_" : "",
-                series[j].name);
+    for (int p = 0; p < parts; p++)
+        for (int j = 0; j < part[p].columns->n; j++) {
+            const rb_rolling_result *r = &part[p].columns->row[j];
+            if (part[p].errors && !r->error_bar)
+                continue;
+            if (k-- == 0) {
+                *of = &part[p];
+                return r;
+            }
+        }
+    return NULL;
+}
+
+void rb_report_print_names(FILE *out, int parts, const rb_report_columns *part, int bare)
+{
+    const rb_report_columns *of;
+    const rb_rolling_result *r;
+    char heading[RB_ROLLING_HEADING];
+
+    for (int k = 0; (r = column(k, parts, part, &of)); k++)
+        fprintf(out, "%s%s%s",
+                k > 0  ? "\t"
+                : bare ? ""
+                       : "# ",
+                of->errors ? "error_" : "", rb_rolling_heading(r, heading));
     fputc('\n', out);
 }
 
-int rb_report_add_errors(int columns, const rb_report_series *error,
-                         rb_report_series *series)
+void rb_report_print_row(FILE *out, int i, int parts, const rb_report_columns *part)
 {
-    for (int j = 0; j < columns; j++) {
-        series[j] = error[j];
-        series[j].is_error = 1;
-    }
-    return columns;
-}
+    const rb_report_columns *of;
+    const rb_rolling_result *r;
 
-void rb_report_print_row(FILE *out, int i, int columns, const rb_report_series *series)
-{
-    for (int j = 0; j < columns; j++) {
-        if (j > 0)
+    for (int k = 0; (r = column(k, parts, part, &of)); k++) {
+        const double x = rb_rolling_entry(r, of->owner, i);
+        if (k > 0)
             fputc('\t', out);
-        if (!series[j].x)
-            fprintf(out, "%d", series[j].k[i]);
-        else if (isfinite(series[j].x[i]))
-            fprintf(out, "%.17g", series[j].x[i]);
+        if (isfinite(x))
+            fprintf(out, "%.17g", x);
         else
             fputs("nan", out); /* whatever its sign: there is no value */
     }
     fputc('\n', out);
 }
 
-void rb_report_print_rows(FILE *out, int rows, int columns,
-                          const rb_report_series *series)
+void rb_report_print_rows(FILE *out, int rows, int parts, const rb_report_columns *part)
 {
     for (int i = 0; i < rows; i++)
-        rb_report_print_row(out, i, columns, series);
+        rb_report_print_row(out, i, parts, part);
 }
 
 rb_status rb_report_print_end(FILE *out)

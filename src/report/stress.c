@@ -3,30 +3,6 @@
 
 #include <jansson.h>
 #include <math.h>
-#include <stddef.h>
-
-#define COLUMN(name, key, member)                                                        \
-    {                                                                                    \
-        name, key, offsetof(rb_rolling_stress, member)                                   \
-    }
-
-const rb_report_stress_column rb_report_stress_columns[RB_REPORT_STRESS_COLUMNS] = {
-    COLUMN("x_mm", "x", x),
-    COLUMN("y_mm", "y", y),
-    COLUMN("sxx_MPa", "sxx", sxx),
-    COLUMN("syy_MPa", "syy", syy),
-    COLUMN("szz_MPa", "szz", szz),
-    COLUMN("sxy_MPa", "sxy", sxy),
-    COLUMN("principal_1_MPa", "principal_1", principal_1),
-    COLUMN("principal_2_MPa", "principal_2", principal_2),
-    COLUMN("max_shear_MPa", "max_shear", max_shear),
-    COLUMN("von_mises_MPa", "von_mises", von_mises),
-    COLUMN("hydrostatic_MPa", "hydrostatic", hydrostatic)};
-
-double rb_report_stress_value(const rb_rolling_stress *at, int column)
-{
-    return *(const double *)((const char *)at + rb_report_stress_columns[column].offset);
-}
 
 int rb_report_stress_is_inside(const rb_report_stress *s, int k)
 {
@@ -97,16 +73,21 @@ static void print_headers(FILE *out, const rb_report_stress *s, const char *comm
 rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s,
                                  const char *command, int bare)
 {
-    enum { LAST = RB_REPORT_STRESS_COLUMNS - 1 };
+    const rb_rolling_results *columns = &rb_rolling_stress_scalars;
+    char heading[RB_ROLLING_HEADING];
     if (!bare)
         print_headers(out, s, command);
-    fputs(bare ? "" : "# ", out);
-    for (int j = 0; j <= LAST; j++)
-        fprintf(out, "%s%c", rb_report_stress_columns[j].name, j < LAST ? '\t' : '\n');
+    for (int j = 0; j < columns->n; j++)
+        fprintf(out, "%s%s",
+                j > 0  ? "\t"
+                : bare ? ""
+                       : "# ",
+                rb_rolling_heading(&columns->row[j], heading));
+    fputc('\n', out);
     for (int k = 0; k < s->n; k++)
-        for (int j = 0; j <= LAST && rb_report_stress_is_inside(s, k); j++)
-            fprintf(out, "%.17g%c", rb_report_stress_value(&s->at[k], j),
-                    j < LAST ? '\t' : '\n');
+        for (int j = 0; j < columns->n && rb_report_stress_is_inside(s, k); j++)
+            fprintf(out, "%.17g%c", rb_rolling_number(&columns->row[j], &s->at[k]),
+                    j + 1 < columns->n ? '\t' : '\n');
     return rb_report_print_end(out);
 }
 
@@ -141,12 +122,14 @@ void rb_report_json_stress(json_t **root, const rb_report_stress *s)
         rb_report_json_set(&points, "nx", json_integer(s->nx));
         rb_report_json_set(&points, "ny", json_integer(s->ny));
     }
-    for (int j = 0; j < RB_REPORT_STRESS_COLUMNS; j++) {
+    for (int j = 0; j < rb_rolling_stress_scalars.n; j++) {
+        const rb_rolling_result *r = &rb_rolling_stress_scalars.row[j];
+        char heading[RB_ROLLING_HEADING];
         json_t *list = json_array();
         for (int k = 0; k < s->n; k++)
-            rb_report_json_append(
-                &list, rb_report_json_number(rb_report_stress_value(&s->at[k], j)));
-        rb_report_json_set(&points, rb_report_stress_columns[j].name, list);
+            rb_report_json_append(&list,
+                                  rb_report_json_number(rb_rolling_number(r, &s->at[k])));
+        rb_report_json_set(&points, rb_rolling_heading(r, heading), list);
     }
     rb_report_json_set(root, s->nx > 0 ? "grid" : "points", points);
 }

@@ -3,18 +3,6 @@
 
 #include <stddef.h>
 
-#define COLUMN(name, field, whole)                                                       \
-    {                                                                                    \
-        name, offsetof(rb_rolling_solution, field), whole                                \
-    }
-
-const rb_report_column rb_report_columns[] = {
-    COLUMN("x_mm", x, 0),   COLUMN("h_mm", h, 0),         COLUMN("gap_mm", gap, 0),
-    COLUMN("p_MPa", p, 0),  COLUMN("q_MPa", q, 0),        COLUMN("un_mm", un, 0),
-    COLUMN("ut_mm", ut, 0), COLUMN("shift_mm", shift, 0), COLUMN("slip_1", slip, 0),
-    COLUMN("zone", zone, 1)};
-const int rb_report_column_n = sizeof rb_report_columns / sizeof rb_report_columns[0];
-
 const char *const rb_report_conventions[] = {
     "x to the right, y up; A is the upper body and rolls towards +x: the leading edge is "
     "at +x",
@@ -42,21 +30,6 @@ const char *rb_report_lcp_form(rb_rolling_lcp_form form)
     return form == RB_LCP_KWAK ? "kwak" : "pivoted";
 }
 
-static const void *array_of(const rb_rolling_solution *s, const rb_report_column *c)
-{
-    return (const char *)s + c->offset;
-}
-
-const double *rb_report_doubles(const rb_rolling_solution *s, const rb_report_column *c)
-{
-    return *(double *const *)array_of(s, c);
-}
-
-const int *rb_report_ints(const rb_rolling_solution *s, const rb_report_column *c)
-{
-    return *(int *const *)array_of(s, c);
-}
-
 static void print_headers(FILE *out, const rb_rolling_solution *s, const char *command)
 {
     rb_report_print_head(out, command);
@@ -70,29 +43,13 @@ static void print_headers(FILE *out, const rb_rolling_solution *s, const char *c
                 s->patch[k].normal_load, s->patch[k].tangential_load);
 }
 
-static void print_row(FILE *out, const rb_rolling_solution *s, int i)
-{
-    for (int j = 0; j < rb_report_column_n; j++) {
-        const rb_report_column *c = &rb_report_columns[j];
-        if (j > 0)
-            fputc('\t', out);
-        if (c->whole)
-            fprintf(out, "%d", rb_report_ints(s, c)[i]);
-        else
-            fprintf(out, "%.17g", rb_report_doubles(s, c)[i]);
-    }
-    fputc('\n', out);
-}
-
 rb_status rb_report_table(FILE *out, const rb_rolling_solution *s, const char *command,
                           int bare)
 {
+    const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0};
     if (!bare)
         print_headers(out, s, command);
-    for (int j = 0; j < rb_report_column_n; j++)
-        fprintf(out, "%s%s", j > 0 ? "\t" : bare ? "" : "# ", rb_report_columns[j].name);
-    fputc('\n', out);
-    for (int i = 0; i < s->n; i++)
-        print_row(out, s, i);
+    rb_report_print_names(out, 1, &columns, bare);
+    rb_report_print_rows(out, s->n, 1, &columns);
     return rb_report_print_end(out);
 }

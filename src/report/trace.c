@@ -163,7 +163,8 @@ rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model 
     if (s != RB_OK)
         return s;
     if (state->solver != RB_SOLVER_LEMKE)
-        fputs("the case was solved by another method; Lemke's on the same problem:\n", out);
+        fputs("the case was solved by another method; Lemke's on the same problem:\n",
+              out);
     trace t = {.out = out, .folder = folder, .lcp = &lcp, .n = model->mesh.n, .why = why};
     s = follow(&t, &lcp);
     if (s != RB_OK && folder)

@@ -122,13 +122,12 @@ static rb_status select_points(const rb_report_stress *s, selection *v)
 /* ---- Point data
  * ------------------------------------------------------------------------ */
 
-static void write_scalar(FILE *out, selection *v, int column)
+static void write_scalar(FILE *out, selection *v, const rb_rolling_result *r)
 {
     for (int k = 0, m = 0; k < v->s->n; k++)
         if (v->number[k] >= 0)
-            v->room[m++] = rb_report_stress_value(&v->s->at[k], column);
-    write_array(out, "Float64", rb_report_stress_columns[column].key, 1,
-                sizeof(double) * (size_t)v->n, v->room);
+            v->room[m++] = rb_rolling_number(r, &v->s->at[k]);
+    write_array(out, "Float64", r->name, 1, sizeof(double) * (size_t)v->n, v->room);
 }
 
 /* ParaView's order of a symmetric tensor: xx, yy, zz, xy, yz, xz. */
@@ -150,8 +149,8 @@ static void write_point_data(FILE *out, selection *v)
 {
     enum { FIRST_SCALAR = 6 }; /* behind x, y and the tensor */
     fputs("<PointData Scalars=\"max_shear\" Tensors=\"stress\">\n", out);
-    for (int j = FIRST_SCALAR; j < RB_REPORT_STRESS_COLUMNS; j++)
-        write_scalar(out, v, j);
+    for (int j = FIRST_SCALAR; j < rb_rolling_stress_scalars.n; j++)
+        write_scalar(out, v, &rb_rolling_stress_scalars.row[j]);
     write_tensor(out, v);
     fputs("</PointData>\n", out);
 }

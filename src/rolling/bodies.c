@@ -127,7 +127,7 @@ int rb_rolling_carter_holds(const rb_rolling_case *rc)
                      (!rc->elastic_b || rc->b.support == RB_BEM_HALFPLANE);
     return rc->formulation == RB_STEADY && rc->mu > 0.0 && flat &&
            rc->gap != RB_GAP_TABLE && rb_rolling_is_homogeneous(rc) &&
-           fabs(rb_rolling_dundurs(rc)) < 1e-9;
+           fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
 }
 
 /* Without the boundaries of wheels, which rb_bem_system_create looks at. */

@@ -34,55 +34,16 @@ rb_rolling_case rb_rolling_case_defaults(void)
 
 /* ---- Derived quantities ------------------------------------------------------------ */
 
-double rb_rolling_contact_modulus(const rb_rolling_case *rc)
+/* (1 - nu^2)/E, what a half-plane adds to 1/E*. */
+static double compliance(const rb_rolling_body *body)
 {
-    double compliance = (1.0 - gsl_pow_2(rc->a.poisson)) / rc->a.young;
-    if (rc->elastic_b)
-        compliance += (1.0 - gsl_pow_2(rc->b.poisson)) / rc->b.young;
-    return 1.0 / compliance;
-}
-
-double rb_rolling_radius(const rb_rolling_case *rc)
-{
-    return 1.0 / (1.0 / rc->a.radius + 1.0 / rc->b.radius);
+    return (1.0 - gsl_pow_2(body->poisson)) / body->young;
 }
 
 /* c of kernels (Flamant): the coupling compliance of a half-plane. */
 static double coupling(const rb_rolling_body *body)
 {
     return (1.0 - 2.0 * body->poisson) * (1.0 + body->poisson) / (2.0 * body->young);
-}
-
-double rb_rolling_dundurs(const rb_rolling_case *rc)
-{
-    double c = coupling(&rc->a);
-    if (rc->elastic_b)
-        c -= coupling(&rc->b);
-    return c * rb_rolling_contact_modulus(rc);
-}
-
-double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load)
-{
-    return sqrt(4.0 * load * rb_rolling_radius(rc) /
-                (M_PI * rb_rolling_contact_modulus(rc)));
-}
-
-double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width)
-{
-    return M_PI * rb_rolling_contact_modulus(rc) * gsl_pow_2(half_width) /
-           (4.0 * rb_rolling_radius(rc));
-}
-
-double rb_rolling_wanted_load(const rb_rolling_case *rc)
-{
-    return isnan(rc->half_width) ? rc->load : rb_rolling_hertz_load(rc, rc->half_width);
-}
-
-double rb_rolling_wanted_approach(const rb_rolling_case *rc)
-{
-    if (!isnan(rc->load) || !isnan(rc->half_width))
-        return NAN;
-    return isnan(rc->approach) ? rc->a.radius / 2.0 : rc->approach;
 }
 
 /* Half-cylinder compression (theory.md 6) minus the wanted approach; a: half-width. */
@@ -120,12 +81,42 @@ static double half_width_of_approach(double radius, double approach)
     return high;
 }
 
-double rb_rolling_estimate_half_width(const rb_rolling_case *rc)
+static double modulus(const rb_rolling_case *rc)
 {
-    const double approach = rb_rolling_wanted_approach(rc);
-    if (isnan(approach))
-        return rb_rolling_hertz_half_width(rc, rb_rolling_wanted_load(rc));
-    return half_width_of_approach(rb_rolling_radius(rc), approach);
+    return 1.0 / (compliance(&rc->a) + (rc->elastic_b ? compliance(&rc->b) : 0.0));
+}
+
+double rb_rolling_radius(const rb_rolling_case *rc)
+{
+    return 1.0 / (1.0 / rc->a.radius + 1.0 / rc->b.radius);
+}
+
+double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load)
+{
+    return sqrt(4.0 * load * rb_rolling_radius(rc) / (M_PI * modulus(rc)));
+}
+
+double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width)
+{
+    return M_PI * modulus(rc) * gsl_pow_2(half_width) / (4.0 * rb_rolling_radius(rc));
+}
+
+rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
+{
+    const rb_rolling_body *a = &rc->a, *b = &rc->b;
+    rb_rolling_derived d = {.radius = rb_rolling_radius(rc), .modulus = modulus(rc)};
+
+    d.dundurs = (coupling(a) - (rc->elastic_b ? coupling(b) : 0.0)) * d.modulus;
+    d.load = isnan(rc->half_width) ? rc->load : rb_rolling_hertz_load(rc, rc->half_width);
+    if (!isnan(d.load)) {
+        d.approach = NAN;
+        d.half_width = rb_rolling_hertz_half_width(rc, d.load);
+    } else {
+        d.approach = isnan(rc->approach) ? a->radius / 2.0 : rc->approach;
+        d.half_width = half_width_of_approach(d.radius, d.approach);
+    }
+    d.stress = d.modulus * d.half_width / (2.0 * d.radius);
+    return d;
 }
 
 double rb_rolling_force_ratio(double mu, double P, double Q)
@@ -247,7 +238,7 @@ static rb_status check_force(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "force ratio %g: Q/(mu P) has no meaning at mu = 0",
                        rc->force_ratio);
-    const double P = rb_rolling_wanted_load(rc);
+    const double P = rb_rolling_derive(rc).load;
     if (!isnan(rc->force) && !isnan(P) && fabs(rc->force) > rc->mu * P * (1.0 + 1e-12))
         return rb_fail(why, RB_EINVAL, "force Q = %g: friction carries at most mu P = %g",
                        rc->force, rc->mu * P);

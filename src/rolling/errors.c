@@ -12,21 +12,6 @@ typedef struct {
     rb_rolling_stress_maxima stress;
 } sample;
 
-/* Scalars that get an error bar: where they stand in a solution and in the errors. */
-static const struct {
-    size_t value, error;
-} scalars[] = {
-#define SCALAR(name)                                                                     \
-    {                                                                                    \
-        offsetof(rb_rolling_solution, name), offsetof(rb_rolling_errors, name)           \
-    }
-    SCALAR(normal_load), SCALAR(tangential_load), SCALAR(force_ratio),
-    SCALAR(approach),    SCALAR(creepage),        SCALAR(free_creepage),
-    SCALAR(half_width),  SCALAR(max_pressure),    SCALAR(stick_from),
-    SCALAR(stick_to),    SCALAR(dissipation),
-#undef SCALAR
-};
-
 enum { STRESS_NUMBERS = sizeof(rb_rolling_stress_maxima) / sizeof(double) };
 
 static double at(const void *base, size_t offset)
@@ -52,12 +37,15 @@ static void estimate(const sample s[3], int with_stress, rb_rolling_errors *erro
 {
     const int contact = s[2].solution.contact;
 
-    for (size_t k = 0; k < sizeof scalars / sizeof *scalars; k++) {
-        const size_t value = scalars[k].value;
-        const double e =
-            rb_rolling_error_of(contact, at(&s[0].solution, value),
-                                at(&s[1].solution, value), at(&s[2].solution, value));
-        memcpy((char *)errors + scalars[k].error, &e, sizeof e);
+    errors->scalar = rb_rolling_no_scalars(RB_OK);
+    for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
+        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+        if (!r->error_bar)
+            continue;
+        const double e = rb_rolling_error_of(
+            contact, rb_rolling_number(r, &s[0].solution),
+            rb_rolling_number(r, &s[1].solution), rb_rolling_number(r, &s[2].solution));
+        memcpy((char *)&errors->scalar + r->offset, &e, sizeof e);
     }
     for (size_t k = 0; k < STRESS_NUMBERS; k++) {
         const size_t offset = k * sizeof(double);
@@ -138,7 +126,7 @@ rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, int with_stres
 /* Largest of the relative estimates that --accuracy asks for: forces in units of their
  * bound, creepage in units of mu a/R. */
 static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solution *s,
-                             const rb_rolling_errors *e)
+                             const rb_rolling_solution *e)
 {
     double worst =
         fmax(e->normal_load / s->normal_load, e->max_pressure / s->max_pressure);
@@ -184,7 +172,7 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
         if (status != RB_OK || k < 2)
             continue;
         estimate(s, 0, errors);
-        worst = worst_relative(rc, &s[2].solution, errors);
+        worst = worst_relative(rc, &s[2].solution, &errors->scalar);
         if (worst <= accuracy)
             break;
     }

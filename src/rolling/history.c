@@ -12,18 +12,7 @@ static const double STEADY_RATE = 1e-3;
 void rb_rolling_history_free(rb_rolling_history *h)
 {
     rb_rolling_columns_free(&rb_rolling_history_columns, h);
-    free(h->stick);
-    free(h->slipping);
     memset(h, 0, sizeof *h);
-}
-
-rb_status rb_rolling_history_alloc(int steps, rb_rolling_history *h)
-{
-    const rb_status s = rb_rolling_columns_alloc(&rb_rolling_history_columns, steps, h);
-
-    h->stick = rb_alloc_int((size_t)steps);
-    h->slipping = rb_alloc_int((size_t)steps);
-    return s == RB_OK && h->stick && h->slipping ? RB_OK : RB_ENOMEM;
 }
 
 /* ---- Steps ----------------------------------------------------------------------------
@@ -277,7 +266,7 @@ static rb_status prepare(run *r, double zone, rb_message *why)
         return RB_ENOMEM;
     s = plan_steps(r, &step, why);
     if (s == RB_OK)
-        s = rb_rolling_history_alloc(r->steps, r->history);
+        s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->steps, r->history);
     r->history->half_width = r->model->half_width;
     r->history->step = step;
     r->history->steady_from = -1;

@@ -8,17 +8,9 @@
 
 /* ---- case.c: quantities derived from a case ---------------------------------------- */
 
-double rb_rolling_contact_modulus(const rb_rolling_case *rc); /* E* */
-double rb_rolling_radius(const rb_rolling_case *rc);          /* 1/R = 1/R_A + 1/R_B */
-double rb_rolling_dundurs(const rb_rolling_case *rc);         /* beta */
+double rb_rolling_radius(const rb_rolling_case *rc); /* 1/R = 1/R_A + 1/R_B */
 double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load);
 double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width);
-/* The given load, or that of the given half-width; NAN under approach control. */
-double rb_rolling_wanted_load(const rb_rolling_case *rc);
-/* The given approach or its default; NAN under load control. */
-double rb_rolling_wanted_approach(const rb_rolling_case *rc);
-/* From the load by Hertz, from the approach by the compression of a half-cylinder. */
-double rb_rolling_estimate_half_width(const rb_rolling_case *rc);
 /* Q/(mu P); NAN without friction or load. */
 double rb_rolling_force_ratio(double mu, double P, double Q);
 
@@ -100,23 +92,22 @@ double rb_rolling_kinematic(int upstream, const double *w, int i);
 void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
                              const double *q, double *gap, double *slip);
 
-/* ---- columns.c ------------------------------------------------------------------------
+/* ---- results.c
+ * -------------------------------------------------------------------------
  */
 
-/* Curves and histories keep their numbers in columns: arrays of double, one entry per
- * point or step, whose pointers stand at these offsets. */
-typedef struct {
-    int n;
-    const size_t *offset;
-} rb_rolling_columns;
+/* A solution without columns: of numbers that are not there (NAN), or those of another.
+ */
+rb_rolling_solution rb_rolling_no_scalars(rb_status status);
+rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *s);
 
-extern const rb_rolling_columns rb_rolling_curve_columns, rb_rolling_history_columns;
-
-double *rb_rolling_column(const void *owner, size_t offset);
-/* Zeros; what there is on RB_ENOMEM is freed as if it were complete. */
-rb_status rb_rolling_columns_alloc(const rb_rolling_columns *columns, int rows,
+/* Zeros for every column of the table; what there is on RB_ENOMEM is freed as if it were
+ * complete. */
+rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, int rows,
                                    void *owner);
-void rb_rolling_columns_free(const rb_rolling_columns *columns, void *owner);
+void rb_rolling_columns_free(const rb_rolling_results *table, void *owner);
+/* A column of numbers. */
+double *rb_rolling_column(const rb_rolling_result *r, const void *owner);
 
 /* ---- program.c ------------------------------------------------------------------------
  */
@@ -137,11 +128,6 @@ rb_status rb_rolling_program_check(const rb_rolling_program *program,
  * columns, for free(); NULL: no memory. */
 double *rb_rolling_program_of_case(const rb_rolling_case *rc,
                                    rb_rolling_program *program);
-
-/* ---- history.c ------------------------------------------------------------------------
- */
-
-rb_status rb_rolling_history_alloc(int steps, rb_rolling_history *history);
 
 /* ---- errors.c -------------------------------------------------------------------------
  */

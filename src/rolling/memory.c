@@ -23,7 +23,7 @@ double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unkn
 
     /* similar bodies: one group of unknowns at once */
     if (rb_rolling_is_large(rc, &mesh))
-        return (rb_rolling_dundurs(rc) == 0.0 ? 520.0 : 720.0) * n;
+        return (rb_rolling_derive(rc).dundurs == 0.0 ? 520.0 : 720.0) * n;
     const double lcp = rc->solver == RB_SOLVER_LEMKE
                            ? lemke_squares(rc) * square
                            : newton_numbers(square, (double)unknowns * unknowns);

@@ -19,20 +19,14 @@ void rb_rolling_mesh_free(rb_rolling_mesh *mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
-/* R - sqrt(R^2 - x^2) without cancellation (B9); 0 for a plane. */
-static double circle_gap(double radius, double x)
-{
-    return x * x / (radius + sqrt(radius * radius - x * x));
-}
-
 double rb_rolling_initial_gap(const rb_rolling_case *rc, double x)
 {
     switch (rc->gap) {
     case RB_GAP_TABLE:
         return rb_rolling_profile_gap(rc->profile, x);
     case RB_GAP_EXACT:
-        return circle_gap(rc->a.radius, x) +
-               (isfinite(rc->b.radius) ? circle_gap(rc->b.radius, x) : 0.0);
+        return rb_bem_circle_height(rc->a.radius, x) +
+               (isfinite(rc->b.radius) ? rb_bem_circle_height(rc->b.radius, x) : 0.0);
     case RB_GAP_PARABOLA:
         break;
     }

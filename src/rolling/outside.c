@@ -344,7 +344,7 @@ static double hertz_edge_gap(const rb_rolling_model *model, const rb_rolling_sta
 {
     const double P = cblas_ddot(state->n, model->problem.load_N, 1, state->p, 1);
 
-    return 2.0 * fmax(P, 0.0) / (M_PI * rb_rolling_contact_modulus(&model->rc));
+    return 2.0 * fmax(P, 0.0) / (M_PI * rb_rolling_derive(&model->rc).modulus);
 }
 
 /* The same in the room for x, w and gap. */

@@ -71,7 +71,7 @@ static double edge(double beta, const rb_rolling_mesh *mesh,
 int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                           const rb_rolling_state *state, int at, rb_rolling_run *run)
 {
-    const double beta = rb_rolling_dundurs(rc);
+    const double beta = rb_rolling_derive(rc).dundurs;
 
     while (at < state->n && state->zone[at] == RB_ZONE_SEPARATED)
         at++;

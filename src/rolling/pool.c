@@ -38,34 +38,7 @@ static processes *processes_of(rb_rolling_pool *pool)
 /* ---- One worker -----------------------------------------------------------------------
  */
 
-static void no_row(rb_status status, rb_rolling_sweep_row *row)
-{
-    *row = (rb_rolling_sweep_row){.status = status};
-    row->normal_load = row->tangential_load = row->force_ratio = row->approach = NAN;
-    row->creepage = row->creep_ratio = row->free_creepage = row->half_width = NAN;
-    row->max_pressure = row->dissipation = row->residual = NAN;
-}
-
-static void fill_row(const rb_rolling_solution *s, rb_rolling_sweep_row *row)
-{
-    row->normal_load = s->normal_load;
-    row->tangential_load = s->tangential_load;
-    row->force_ratio = s->force_ratio;
-    row->approach = s->approach;
-    row->creepage = s->creepage;
-    row->creep_ratio = s->creep_ratio;
-    row->free_creepage = s->free_creepage;
-    row->half_width = s->half_width;
-    row->max_pressure = s->max_pressure;
-    row->contact = s->contact;
-    row->stick = s->stick;
-    row->slip = s->slipping;
-    row->dissipation = s->dissipation;
-    row->residual = s->residual;
-    row->iterations = s->iterations;
-}
-
-static void solve_case(const rb_rolling_sweep *sweep, int k, rb_rolling_sweep_row *row)
+static void solve_case(const rb_rolling_sweep *sweep, int k, rb_rolling_solution *row)
 {
     rb_rolling_case rc;
     rb_rolling_solution solution = {0};
@@ -73,9 +46,9 @@ static void solve_case(const rb_rolling_sweep *sweep, int k, rb_rolling_sweep_ro
 
     if (s == RB_OK)
         s = rb_rolling_solve(&rc, &solution, NULL);
-    no_row(s, row);
-    if (s >= 0 && solution.p)
-        fill_row(&solution, row);
+    *row = s >= 0 && solution.p ? rb_rolling_scalars_of(&solution)
+                                : rb_rolling_no_scalars(s);
+    row->status = s;
     rb_rolling_solution_free(&solution);
 }
 
@@ -97,7 +70,7 @@ static int send_all(int to, const void *data, size_t size)
 
 static void run_worker(const rb_rolling_sweep *sweep, int parent)
 {
-    rb_rolling_sweep_row row;
+    rb_rolling_solution row;
     int k;
 
 #ifdef _OPENMP
@@ -181,7 +154,7 @@ static rb_status submit(rb_rolling_pool *pool, int k)
 
 /* Another worker takes the place of one that died, and its case; where that is its second
  * death, the case is given up. */
-static int replace_worker(processes *p, worker *w, int *k, rb_rolling_sweep_row *row)
+static int replace_worker(processes *p, worker *w, int *k, rb_rolling_solution *row)
 {
     const int lost = w->k, again = w->again;
     end_worker(w);
@@ -196,12 +169,12 @@ static int replace_worker(processes *p, worker *w, int *k, rb_rolling_sweep_row 
         return 0;
     }
     *k = lost;
-    no_row(RB_ENOMEM, row);
+    *row = rb_rolling_no_scalars(RB_ENOMEM);
     return 1;
 }
 
 /* The row of a worker that has something to say, or has died. */
-static int collect_from(processes *p, worker *w, int *k, rb_rolling_sweep_row *row)
+static int collect_from(processes *p, worker *w, int *k, rb_rolling_solution *row)
 {
     if (!receive_all(w->socket, row, sizeof *row))
         return replace_worker(p, w, k, row);
@@ -211,7 +184,7 @@ static int collect_from(processes *p, worker *w, int *k, rb_rolling_sweep_row *r
 }
 
 static int collect(rb_rolling_pool *pool, int milliseconds, int *k,
-                   rb_rolling_sweep_row *row)
+                   rb_rolling_solution *row)
 {
     processes *p = processes_of(pool);
     struct pollfd line[WORKERS_MAX];

@@ -107,32 +107,31 @@ double rb_rolling_wanted_shift(const rb_rolling_case *rc)
 {
     if (!isnan(rc->shift))
         return rc->shift;
-    return isnan(rb_rolling_wanted_load(rc)) ? 0.1 * rb_rolling_wanted_approach(rc) : 0.0;
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    return isnan(d.load) ? 0.1 * d.approach : 0.0;
 }
 
 /* Given values of theory.md 4.6.  The creepage ratio refers to the Hertz half-width of
  * the load: under approach control an estimate, which model.c corrects after a solve. */
 void rb_rolling_set_control(const rb_rolling_case *rc, rb_rolling_problem *p)
 {
-    const double P = rb_rolling_wanted_load(rc);
-    const double a = rb_rolling_estimate_half_width(rc);
-    const double R = rb_rolling_radius(rc);
+    const rb_rolling_derived d = rb_rolling_derive(rc);
 
-    p->load_given = !isnan(P);
-    p->load = P;
-    p->delta = rb_rolling_wanted_approach(rc);
+    p->load_given = !isnan(d.load);
+    p->load = d.load;
+    p->delta = d.approach;
     p->force = p->force_ratio = p->xi = 0.0;
     p->force_given = rc->mu > 0.0 && (!isnan(rc->force) || !isnan(rc->force_ratio));
     if (p->force_given && !isnan(rc->force_ratio))
         p->force_ratio = rc->force_ratio;
     else if (p->force_given && p->load_given)
-        p->force_ratio = rc->force / (rc->mu * P);
+        p->force_ratio = rc->force / (rc->mu * d.load);
     else if (p->force_given)
         p->force = rc->force;
     else if (rc->formulation == RB_STATIC)
         p->xi = rb_rolling_wanted_shift(rc);
     else if (!isnan(rc->creep_ratio))
-        p->xi = rc->creep_ratio * rc->mu * a / R;
+        p->xi = rc->creep_ratio * rc->mu * d.half_width / d.radius;
     else
         p->xi = isnan(rc->creep) ? 0.0 : rc->creep;
 }
@@ -250,10 +249,9 @@ static rb_status product_response(const rb_rolling_problem *p, response *unit)
 static void set_scales(const rb_rolling_case *rc, const response *unit,
                        rb_rolling_problem *p)
 {
-    const double a = rb_rolling_estimate_half_width(rc);
     const double friction = (p->mu > 0.0 ? p->mu : 1.0) * unit->slip;
 
-    p->stress = rb_rolling_contact_modulus(rc) * a / (2.0 * rb_rolling_radius(rc));
+    p->stress = rb_rolling_derive(rc).stress;
     p->gap_length = p->stress * unit->gap;
     p->slip_length = p->stress * fmax(friction, unit->coupled_slip);
     p->coupled = unit->coupled;

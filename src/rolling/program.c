@@ -206,8 +206,8 @@ double *rb_rolling_program_of_case(const rb_rolling_case *rc, rb_rolling_program
 {
     const int rolls = rc->formulation == RB_TRANSIENT;
     const int count = rc->increments > 1 ? rc->increments : 1;
-    const double P = rb_rolling_wanted_load(rc);
-    const double most = isnan(P) ? rb_rolling_wanted_approach(rc) : P;
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    const double most = isnan(d.load) ? d.approach : d.load;
     const int rows = 2 * count + 1; /* at most */
     double *columns = rb_alloc((size_t)rows, 3);
 
@@ -215,7 +215,7 @@ double *rb_rolling_program_of_case(const rb_rolling_case *rc, rb_rolling_program
         return NULL;
     double *distance = columns, *normal = columns + rows, *loading = normal + rows;
     *program = (rb_rolling_program){.distance = rolls ? distance : NULL};
-    *(isnan(P) ? &program->approach : &program->load) = normal;
+    *(isnan(d.load) ? &program->approach : &program->load) = normal;
     const double last = last_loading(rc, columns, rows, program);
     const int loaded = last != 0.0 && count > 1;
     program->n = count + (loaded ? count : 0) + rolls;

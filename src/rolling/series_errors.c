@@ -5,17 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Columns of what was found on the meshes, the last one's in own, over the same points.
- */
-static void error_columns(const rb_rolling_columns *columns, int rows, int contact,
+/* Of what was found on the meshes, the last one's in own, over the same points. */
+static void error_columns(const rb_rolling_results *columns, int rows, int contact,
                           const void *coarse, const void *middle, const void *own,
                           void *errors)
 {
     for (int k = 0; k < columns->n; k++) {
-        const double *a = rb_rolling_column(coarse, columns->offset[k]);
-        const double *b = rb_rolling_column(middle, columns->offset[k]);
-        const double *c = rb_rolling_column(own, columns->offset[k]);
-        double *e = rb_rolling_column(errors, columns->offset[k]);
+        const rb_rolling_result *r = &columns->row[k];
+        if (!r->error_bar)
+            continue;
+        const double *a = rb_rolling_column(r, coarse), *b = rb_rolling_column(r, middle);
+        const double *c = rb_rolling_column(r, own);
+        double *e = rb_rolling_column(r, errors);
         for (int i = 0; i < rows; i++)
             e[i] = rb_rolling_error_of(contact, a[i], b[i], c[i]);
     }
@@ -65,62 +66,57 @@ static int steps_at_rest(const rb_rolling_history *h)
     return k;
 }
 
-/* Creepage and power are means over a rolled step: they do not start from the value at
- * rest. */
-static int is_mean(const rb_rolling_history *h, const double *column)
-{
-    return column == h->creepage || column == h->dissipation;
-}
-
 /* Where the entry of a rolled step belongs. */
-static double place(const rb_rolling_history *h, const double *column, int k, int rest)
+static double place(const rb_rolling_history *h, int is_mean, int k, int rest)
 {
     const double before = k > rest ? h->distance[k - 1] : 0.0;
 
-    return is_mean(h, column) ? 0.5 * (before + h->distance[k]) : h->distance[k];
+    return is_mean ? 0.5 * (before + h->distance[k]) : h->distance[k];
 }
 
 /* Linear between entries k and k + 1 of a column; beyond the last one that. */
-static double between(const rb_rolling_history *h, const double *column, int k, int rest,
-                      double x)
+static double between(const rb_rolling_history *h, const double *column, int is_mean,
+                      int k, int rest, double x)
 {
     if (k + 1 >= h->n)
         return column[h->n - 1];
-    const double x0 = place(h, column, k, rest), x1 = place(h, column, k + 1, rest);
+    const double x0 = place(h, is_mean, k, rest), x1 = place(h, is_mean, k + 1, rest);
     return column[k] + (column[k + 1] - column[k]) * (x - x0) / (x1 - x0);
 }
 
-/* A column at the steps of another history; rolling starts from the last state at rest.
- */
+/* A column at the steps of another history.  Rolling starts from the last state at rest,
+ * but not a mean over a rolled step. */
 static void place_column(const rb_rolling_history *from, const double *column,
-                         const rb_rolling_history *to, const double *places, double *out)
+                         int is_mean, const rb_rolling_history *to, double *out)
 {
     const int rest = steps_at_rest(from);
-    int k = is_mean(from, column) || rest == 0 ? rest : rest - 1;
+    int k = is_mean || rest == 0 ? rest : rest - 1;
 
     for (int i = 0; i < to->n; i++) {
         if (to->distance[i] == 0.0) {
             out[i] = column[i];
             continue;
         }
-        const double x = place(to, places, i, rest);
-        while (k + 2 < from->n && place(from, column, k + 1, rest) < x)
+        const double x = place(to, is_mean, i, rest);
+        while (k + 2 < from->n && place(from, is_mean, k + 1, rest) < x)
             k++;
-        out[i] = between(from, column, k, rest, x);
+        out[i] = between(from, column, is_mean, k, rest, x);
     }
 }
 
-/* The history at the steps of another one. */
+/* What of the history has error bars, at the steps of another one. */
 static rb_status place_history(const rb_rolling_history *from,
                                const rb_rolling_history *to, rb_rolling_history *out)
 {
-    const rb_rolling_columns *columns = &rb_rolling_history_columns;
+    const rb_rolling_results *columns = &rb_rolling_history_columns;
     const rb_status s = rb_rolling_columns_alloc(columns, to->n, out);
 
-    for (int k = 0; k < columns->n && s == RB_OK; k++)
-        place_column(from, rb_rolling_column(from, columns->offset[k]), to,
-                     rb_rolling_column(to, columns->offset[k]),
-                     rb_rolling_column(out, columns->offset[k]));
+    for (int k = 0; k < columns->n && s == RB_OK; k++) {
+        const rb_rolling_result *r = &columns->row[k];
+        if (r->error_bar)
+            place_column(from, rb_rolling_column(r, from), r->is_mean, to,
+                         rb_rolling_column(r, out));
+    }
     return s;
 }
 
@@ -145,16 +141,17 @@ static rb_status history_errors(const rb_rolling_history *coarse,
                                 const rb_rolling_history *middle,
                                 const rb_rolling_history *own, rb_rolling_history *errors)
 {
-    const rb_rolling_columns *columns = &rb_rolling_history_columns;
+    const rb_rolling_results *columns = &rb_rolling_history_columns;
     const int last = own->n - 1, contact = own->stick[last] + own->slipping[last];
-    rb_status s = rb_rolling_history_alloc(own->n, errors);
+    rb_status s = rb_rolling_columns_alloc(columns, own->n, errors);
 
     if (s != RB_OK)
         return s;
     errors->n = own->n;
     error_columns(columns, own->n, contact, coarse, middle, own, errors);
     for (int k = 0; k < columns->n && s == RB_OK; k++)
-        s = widen(own, rb_rolling_column(errors, columns->offset[k]));
+        if (columns->row[k].error_bar)
+            s = widen(own, rb_rolling_column(&columns->row[k], errors));
     return s;
 }
 

@@ -6,29 +6,16 @@
 
 void rb_rolling_solution_free(rb_rolling_solution *s)
 {
-    double *const arrays[] = {s->x,  s->h,  s->gap,   s->p,   s->q,
-                              s->un, s->ut, s->shift, s->slip};
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
-        free(arrays[k]);
-    free(s->zone);
+    rb_rolling_columns_free(&rb_rolling_solution_columns, s);
     free(s->patch);
     memset(s, 0, sizeof *s);
 }
 
 static rb_status solution_alloc(int n, rb_rolling_solution *s)
 {
-    double **const arrays[] = {&s->x,  &s->h,  &s->gap,   &s->p,   &s->q,
-                               &s->un, &s->ut, &s->shift, &s->slip};
-    int complete = 1;
-
     memset(s, 0, sizeof *s);
     s->n = n;
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
-        *arrays[k] = rb_alloc((size_t)n, 1);
-        complete = complete && *arrays[k];
-    }
-    s->zone = rb_alloc_int((size_t)n);
-    return complete && s->zone ? RB_OK : RB_ENOMEM;
+    return rb_rolling_columns_alloc(&rb_rolling_solution_columns, n, s);
 }
 
 /* ---- Scalars of the traction distribution ---------------------------------------------

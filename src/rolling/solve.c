@@ -11,9 +11,9 @@ enum { LEMKE_UP_TO = 120 };
 /* A creepage that makes everything slide, to start a search for a given force from. */
 static double sliding_creepage(const rb_rolling_case *rc, const rb_rolling_problem *p)
 {
-    const double a = rb_rolling_estimate_half_width(rc), R = rb_rolling_radius(rc);
-    const double beta = fabs(rb_rolling_dundurs(rc));
-    const double ratio = (rc->mu + 2.0 * beta * (1.0 + rc->mu * rc->mu)) * a / R;
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    const double a = d.half_width, beta = fabs(d.dundurs);
+    const double ratio = (rc->mu + 2.0 * beta * (1.0 + rc->mu * rc->mu)) * a / d.radius;
 
     return rc->formulation == RB_STEADY ? 2.0 * ratio : 4.0 * ratio * a / p->e_T[0];
 }

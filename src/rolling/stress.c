@@ -11,8 +11,8 @@ enum { GRID_X = 64, GRID_Y = 40, SEARCH_STEPS = 200 };
 
 double rb_rolling_surface(const rb_rolling_case *rc, double x)
 {
-    const double R = rc->a.radius;
-    return rc->a.support == RB_BEM_HALFPLANE ? 0.0 : x * x / (R + sqrt(R * R - x * x));
+    return rc->a.support == RB_BEM_HALFPLANE ? 0.0
+                                             : rb_bem_circle_height(rc->a.radius, x);
 }
 
 /* ---- The field of a solved model ------------------------------------------------------

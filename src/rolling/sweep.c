@@ -5,15 +5,15 @@
 #include <stdlib.h>
 
 /* Rows that may wait for an earlier case: what a study of any length needs of memory. */
-enum { WINDOW = 1 << 16 };
+enum { WINDOW = 1 << 14 };
 
 typedef struct {
     const rb_rolling_sweep *sweep;
     rb_rolling_pool *pool;
     int given, seen; /* cases handed out, rows seen; given - seen <= window */
     int window;
-    rb_rolling_sweep_row *row; /* window: row of the k-th case at k modulo window */
-    char *came;                /* window */
+    rb_rolling_solution *row; /* window: row of the k-th case at k modulo window */
+    char *came;               /* window */
 } run;
 
 static rb_status submit_cases(run *r)
@@ -31,7 +31,7 @@ static rb_status submit_cases(run *r)
 
 static rb_status collect(run *r)
 {
-    rb_rolling_sweep_row row;
+    rb_rolling_solution row;
     int k;
     const int came = r->pool->collect(r->pool, 5, &k, &row);
 

@@ -196,8 +196,8 @@ static interval near_gap(const rb_rolling_case *rc, double a, interval limit)
         }
     double level = least + 0.5 * a * a / rb_rolling_radius(rc);
     if (!isnan(
-            rb_rolling_wanted_approach(rc))) /* beyond it not even rigid bodies touch */
-        level = fmin(level, rb_rolling_wanted_approach(rc));
+            rb_rolling_derive(rc).approach)) /* beyond it not even rigid bodies touch */
+        level = fmin(level, rb_rolling_derive(rc).approach);
     while (first < lowest &&
            rb_rolling_initial_gap(rc, limit.from + first * step) > level)
         first++;
@@ -211,7 +211,7 @@ static interval near_gap(const rb_rolling_case *rc, double a, interval limit)
 
 static interval first_zone(const rb_rolling_case *rc)
 {
-    const double a = rb_rolling_estimate_half_width(rc);
+    const double a = rb_rolling_derive(rc).half_width;
     const interval limit = extent(rc);
     interval zone = {-a, a};
 

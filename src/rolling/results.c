@@ -1,0 +1,274 @@
+/* The results, each once: JSON, tables, studies and error bars are made from these. */
+#include "rolling/internal.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define OF(owner, name_, member, ...)                                                    \
+    {                                                                                    \
+        .name = name_, .offset = offsetof(owner, member), __VA_ARGS__                    \
+    }
+#define RESULT(name, member, ...) OF(rb_rolling_solution, name, member, __VA_ARGS__)
+#define PATCH(name, member, ...) OF(rb_rolling_patch, name, member, __VA_ARGS__)
+#define STEP(name, member, ...) OF(rb_rolling_history, name, member, __VA_ARGS__)
+#define STRESS(name, member, ...) OF(rb_rolling_stress, name, member, __VA_ARGS__)
+#define POINT(name, member, ...) OF(rb_rolling_curve, name, member, __VA_ARGS__)
+
+static const rb_rolling_result scalars[] = {
+    RESULT("iterations", iterations, .kind = RB_RESULT_WHOLE, .study = 15,
+           .meaning = "pivots or Newton steps, of all solves"),
+    RESULT("residual", residual, .study = 14,
+           .meaning = "natural residual of the scaled problem, from the solution alone"),
+    RESULT("residual_gap", residual_gap, .unit = "mm",
+           .meaning = "largest violation of the contact conditions"),
+    RESULT("residual_slip", residual_slip, .unit = "mm",
+           .meaning = "largest violation of the slip conditions"),
+    RESULT("residual_friction", residual_friction, .unit = "MPa",
+           .meaning = "largest violation of Coulomb's law"),
+    RESULT("load_error", load_error, .meaning = "|P - given|/given; under a given load"),
+    RESULT("support_balance", support_balance,
+           .meaning = "(reaction at the support + P)/P; not of half-planes"),
+    RESULT("normal_load", normal_load, .unit = "N/mm", .error_bar = 1, .study = 1,
+           .meaning = "P, the sum of the pressure"),
+    RESULT("tangential_load", tangential_load, .unit = "N/mm", .error_bar = 1, .study = 2,
+           .meaning = "Q, the sum of the friction on A"),
+    RESULT("force_ratio", force_ratio, .error_bar = 1, .study = 3, .meaning = "Q/(mu P)"),
+    RESULT("approach", approach, .unit = "mm", .error_bar = 1, .study = 4,
+           .meaning = "delta: how far A moved towards B"),
+    RESULT("tangential_shift", tangential_shift, .unit = "mm",
+           .meaning = "rigid shift of A; static contact"),
+    RESULT("creepage", creepage, .error_bar = 1, .study = 5, .meaning = "xi"),
+    RESULT("creep_ratio", creep_ratio, .study = 6,
+           .meaning = "xi R/(mu a), a the Hertz half-width"),
+    RESULT("free_creepage", free_creepage, .error_bar = 1, .study = 7,
+           .meaning = "xi where Q = 0; steady rolling"),
+    RESULT("hertz_half_width", hertz_half_width, .unit = "mm",
+           .meaning = "a of P and the combined radius: scale of the ratios"),
+    RESULT("half_width", half_width, .unit = "mm", .error_bar = 1, .study = 8,
+           .meaning = "of the contact, where p^2 extrapolates to zero"),
+    RESULT("contact_from", contact_from, .unit = "mm", .meaning = "its trailing edge"),
+    RESULT("contact_to", contact_to, .unit = "mm", .meaning = "its leading edge"),
+    RESULT("max_pressure", max_pressure, .unit = "MPa", .error_bar = 1, .study = 9,
+           .meaning = "p0"),
+    RESULT("contact", contact, .kind = RB_RESULT_WHOLE, .study = 10,
+           .meaning = "elements in contact"),
+    RESULT("stick", stick, .kind = RB_RESULT_WHOLE, .study = 11,
+           .meaning = "elements that stick"),
+    RESULT("slip", slipping, .kind = RB_RESULT_WHOLE, .study = 12,
+           .meaning = "elements that slip"),
+    RESULT("stick_from", stick_from, .unit = "mm", .error_bar = 1,
+           .meaning = "first end of the elements that stick"),
+    RESULT("stick_to", stick_to, .unit = "mm", .error_bar = 1,
+           .meaning = "last end of the elements that stick"),
+    RESULT("stick_length", stick_length, .unit = "mm",
+           .meaning = "length of all elements that stick"),
+    RESULT("slip_violations", slip_violations, .kind = RB_RESULT_WHOLE,
+           .meaning = "elements whose slip does not oppose the friction"),
+    RESULT("dissipation", dissipation, .unit = "N/mm", .error_bar = 1, .study = 13,
+           .meaning = "friction power per unit speed"),
+    RESULT("datum", datum, .unit = "mm",
+           .meaning = "depth of zero displacement in A; half-planes"),
+    RESULT("boundary_elements", boundary_elements, .kind = RB_RESULT_WHOLE,
+           .meaning = "of both bodies"),
+    RESULT("assembly", seconds_assembly, .kind = RB_RESULT_SECONDS,
+           .meaning = "boundary-element matrices"),
+    RESULT("factor", seconds_factor, .kind = RB_RESULT_SECONDS,
+           .meaning = "their factorisation"),
+    RESULT("condense", seconds_condense, .kind = RB_RESULT_SECONDS,
+           .meaning = "flexibility of the contact"),
+    RESULT("lcp", seconds_lcp, .kind = RB_RESULT_SECONDS,
+           .meaning = "complementarity problem"),
+    RESULT("total", seconds_total, .kind = RB_RESULT_SECONDS, .meaning = "everything"),
+};
+
+static const rb_rolling_result columns[] = {
+    RESULT("x", x, .unit = "mm", .meaning = "midpoint"),
+    RESULT("h", h, .unit = "mm", .meaning = "length"),
+    RESULT("gap", gap, .unit = "mm", .meaning = "gap"),
+    RESULT("p", p, .unit = "MPa", .meaning = "pressure"),
+    RESULT("q", q, .unit = "MPa", .meaning = "friction on A, towards +x"),
+    RESULT("un", un, .unit = "mm", .meaning = "displacement along the normal"),
+    RESULT("ut", ut, .unit = "mm", .meaning = "displacement along the tangent"),
+    RESULT("shift", shift, .unit = "mm", .meaning = "slip displacement; 0 in stick"),
+    RESULT("slip", slip, .unit = "1", .meaning = "relative slip velocity"),
+    RESULT("zone", zone, .kind = RB_RESULT_WHOLE,
+           .meaning = "0 separated, 1 stick, 2 slip with q = -mu p, 3 with q = +mu p"),
+};
+
+/* New ones at the end: scripts count columns. */
+static const rb_rolling_result steps[] = {
+    STEP("distance", distance, .unit = "a", .meaning = "rolled so far, in half-widths"),
+    STEP("creepage", creepage, .unit = "1", .error_bar = 1, .is_mean = 1,
+         .meaning = "xi; 0 at rest"),
+    STEP("shift", shift, .unit = "mm", .error_bar = 1,
+         .meaning = "rigid shift of A so far, in static steps"),
+    STEP("approach", approach, .unit = "mm", .error_bar = 1, .meaning = "delta"),
+    STEP("normal_load", normal_load, .unit = "N/mm", .error_bar = 1, .meaning = "P"),
+    STEP("tangential_load", tangential_load, .unit = "N/mm", .error_bar = 1,
+         .meaning = "Q"),
+    STEP("force_ratio", force_ratio, .unit = "1", .error_bar = 1, .meaning = "Q/(mu P)"),
+    STEP("stick", stick, .unit = "elements", .kind = RB_RESULT_WHOLE,
+         .meaning = "elements that stick"),
+    STEP("slip", slipping, .unit = "elements", .kind = RB_RESULT_WHOLE,
+         .meaning = "elements that slip"),
+    STEP("residual", residual, .unit = "1",
+         .meaning = "natural residual of the scaled problem"),
+    STEP("max_pressure", max_pressure, .unit = "MPa", .error_bar = 1,
+         .meaning = "p0; 0 without contact"),
+    STEP("contact_from", contact_from, .unit = "mm", .error_bar = 1,
+         .meaning = "trailing edge"),
+    STEP("contact_to", contact_to, .unit = "mm", .error_bar = 1,
+         .meaning = "leading edge"),
+    STEP("dissipation", dissipation, .unit = "N/mm", .error_bar = 1, .is_mean = 1,
+         .meaning = "friction power per unit speed; 0 at rest"),
+    STEP("moment", moment, .unit = "N", .error_bar = 1,
+         .meaning = "int x p dx; > 0: the load acts ahead of x = 0"),
+};
+
+static const rb_rolling_result points[] = {
+    POINT("creepage", creepage, .unit = "1", .meaning = "xi"),
+    POINT("creep_ratio", creep_ratio, .unit = "1", .meaning = "xi R/(mu a)"),
+    POINT("force_ratio", force_ratio, .unit = "1", .error_bar = 1, .meaning = "Q/(mu P)"),
+    POINT("tangential_load", tangential_load, .symbol = "Q", .unit = "N/mm",
+          .error_bar = 1, .meaning = "Q"),
+    POINT("normal_load", normal_load, .symbol = "P", .unit = "N/mm", .error_bar = 1,
+          .meaning = "P"),
+    POINT("stick_ratio", stick_ratio, .unit = "1", .error_bar = 1,
+          .meaning = "length that sticks / length in contact"),
+    POINT("dissipation", dissipation, .unit = "N/mm", .error_bar = 1,
+          .meaning = "friction power per unit speed"),
+    POINT("residual", residual, .unit = "1",
+          .meaning = "natural residual of the scaled problem"),
+};
+
+static const rb_rolling_result patch[] = {
+    PATCH("from", from, .unit = "mm", .meaning = "trailing edge"),
+    PATCH("to", to, .unit = "mm", .meaning = "leading edge"),
+    PATCH("normal_load", normal_load, .unit = "N/mm", .meaning = "its part of P"),
+    PATCH("tangential_load", tangential_load, .unit = "N/mm", .meaning = "its part of Q"),
+    PATCH("max_pressure", max_pressure, .unit = "MPa", .meaning = "p0"),
+    PATCH("peak", peak, .unit = "mm", .meaning = "where p0 is"),
+    PATCH("contact", contact, .kind = RB_RESULT_WHOLE, .meaning = "elements in contact"),
+    PATCH("stick", stick, .kind = RB_RESULT_WHOLE, .meaning = "elements that stick"),
+};
+
+static const rb_rolling_result stresses[] = {
+    STRESS("x", x, .unit = "mm", .meaning = "along the surface"),
+    STRESS("y", y, .unit = "mm", .meaning = "depth; > 0 inside A"),
+    STRESS("sxx", sxx, .unit = "MPa", .meaning = "stress, tension positive"),
+    STRESS("syy", syy, .unit = "MPa", .meaning = "stress"),
+    STRESS("szz", szz, .unit = "MPa", .meaning = "stress along the axis"),
+    STRESS("sxy", sxy, .unit = "MPa", .meaning = "shear stress"),
+    STRESS("principal_1", principal_1, .unit = "MPa",
+           .meaning = "principal stress in the plane, the larger one"),
+    STRESS("principal_2", principal_2, .unit = "MPa",
+           .meaning = "principal stress in the plane, the smaller one"),
+    STRESS("max_shear", max_shear, .unit = "MPa",
+           .meaning = "half the difference of the principal stresses"),
+    STRESS("von_mises", von_mises, .unit = "MPa", .meaning = "stress of von Mises"),
+    STRESS("hydrostatic", hydrostatic, .unit = "MPa", .meaning = "a third of the trace"),
+};
+
+#define TABLE(rows)                                                                      \
+    {                                                                                    \
+        sizeof(rows) / sizeof *(rows), rows                                              \
+    }
+const rb_rolling_results rb_rolling_solution_scalars = TABLE(scalars);
+const rb_rolling_results rb_rolling_solution_columns = TABLE(columns);
+const rb_rolling_results rb_rolling_patch_scalars = TABLE(patch);
+const rb_rolling_results rb_rolling_history_columns = TABLE(steps);
+const rb_rolling_results rb_rolling_curve_columns = TABLE(points);
+const rb_rolling_results rb_rolling_stress_scalars = TABLE(stresses);
+
+/* ---- Values ------------------------------------------------------------------------ */
+
+static void *place(const rb_rolling_result *r, const void *owner)
+{
+    return (char *)owner + r->offset;
+}
+
+double rb_rolling_number(const rb_rolling_result *r, const void *owner)
+{
+    const void *at = place(r, owner);
+    return r->kind == RB_RESULT_WHOLE ? *(const int *)at : *(const double *)at;
+}
+
+static void *column_of(const rb_rolling_result *r, const void *owner)
+{
+    void *column;
+    memcpy(&column, place(r, owner), sizeof column);
+    return column;
+}
+
+double *rb_rolling_column(const rb_rolling_result *r, const void *owner)
+{
+    return column_of(r, owner);
+}
+
+double rb_rolling_entry(const rb_rolling_result *r, const void *owner, int i)
+{
+    const void *column = column_of(r, owner);
+    return r->kind == RB_RESULT_WHOLE ? ((const int *)column)[i]
+                                      : ((const double *)column)[i];
+}
+
+const char *rb_rolling_heading(const rb_rolling_result *r,
+                               char heading[RB_ROLLING_HEADING])
+{
+    snprintf(heading, RB_ROLLING_HEADING, "%s%s%s", r->symbol ? r->symbol : r->name,
+             r->unit ? "_" : "", r->unit ? r->unit : "");
+    return heading;
+}
+
+const rb_rolling_result *rb_rolling_study_column(int k)
+{
+    for (int i = 0; i < rb_rolling_solution_scalars.n; i++)
+        if (scalars[i].study == k)
+            return &scalars[i];
+    return NULL;
+}
+
+/* ---- Owners ------------------------------------------------------------------------ */
+
+rb_rolling_solution rb_rolling_no_scalars(rb_status status)
+{
+    rb_rolling_solution s = {.status = status};
+    for (int i = 0; i < rb_rolling_solution_scalars.n; i++)
+        if (scalars[i].kind != RB_RESULT_WHOLE)
+            *(double *)place(&scalars[i], &s) = NAN;
+    return s;
+}
+
+rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *from)
+{
+    static const void *const nothing = NULL;
+    rb_rolling_solution s = *from;
+    s.n = 0;
+    s.cone_solver = NULL;
+    s.patches = 0;
+    s.patch = NULL;
+    for (int i = 0; i < rb_rolling_solution_columns.n; i++)
+        memcpy(place(&columns[i], &s), &nothing, sizeof nothing);
+    return s;
+}
+
+rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, int rows, void *owner)
+{
+    rb_status s = RB_OK;
+    for (int k = 0; k < table->n; k++) {
+        const rb_rolling_result *r = &table->row[k];
+        void *column = r->kind == RB_RESULT_WHOLE ? (void *)rb_alloc_int((size_t)rows)
+                                                  : rb_alloc((size_t)rows, 1);
+        memcpy(place(r, owner), &column, sizeof column);
+        if (!column)
+            s = RB_ENOMEM;
+    }
+    return s;
+}
+
+void rb_rolling_columns_free(const rb_rolling_results *table, void *owner)
+{
+    for (int k = 0; k < table->n; k++)
+        free(column_of(&table->row[k], owner));
+}
