@@ -2,6 +2,7 @@
 #ifndef ROLLBEM_ROLLBEM_H
 #define ROLLBEM_ROLLBEM_H
 
+#include "rollbem/api.h"
 #include "rollbem/base.h"
 #include "rollbem/bem.h"
 #include "rollbem/blas.h"

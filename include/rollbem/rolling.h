@@ -282,6 +282,13 @@ rb_status rb_rolling_lcp_first(const rb_rolling_problem *problem,
 void rb_rolling_lcp_recover(const rb_rolling_problem *problem, const rb_rolling_lcp *lcp,
                             const double *z, rb_rolling_state *state);
 
+/* Name of one of its variables, numbered w, z, z0 (lcp.h), on n contact elements: "p[3]",
+ * "lambda+[2]"; behind the 3n of the contact stand the given load and the given force:
+ * "motion[1]", "force[1]".  Returns name. */
+enum { RB_ROLLING_VARIABLE = 32 };
+const char *rb_rolling_lcp_variable(const rb_rolling_lcp *lcp, int n, int variable,
+                                    char name[RB_ROLLING_VARIABLE]);
+
 /* Largest violations of (K1)-(K3) and of the given load and force, recomputed from p, q,
  * delta and xi alone. */
 typedef struct {
@@ -298,6 +305,12 @@ rb_status rb_rolling_residual(const rb_rolling_problem *problem,
  * (state->solver says which one did it).  warm: the zones of the state are a start. */
 rb_status rb_rolling_problem_solve(rb_rolling_problem *problem, const rb_rolling_case *rc,
                                    int warm, rb_rolling_state *state, rb_message *why);
+
+/* The linear problem of the zones that the state names, right or wrong: p, q, lambda,
+ * delta and xi of the state, and the gap (n), which tell what a wrong guess violates.
+ * RB_SINGULAR, RB_ENOMEM. */
+rb_status rb_rolling_try_zones(rb_rolling_problem *problem, rb_rolling_state *state,
+                               double *gap);
 
 /* ---- Solution -------------------------------------------------------------------- */
 

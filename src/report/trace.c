@@ -16,45 +16,6 @@ typedef struct {
     rb_message *why;
 } trace;
 
-/* ---- Names ------------------------------------------------------------------------- */
-
-/* Blocks of n (pivoted form) after r_N; w then z.  Mirrored, the signs change places. */
-static const char *pivoted_name(const rb_rolling_lcp *lcp, int is_z, int block)
-{
-    static const char *const names[2][2][2] = {
-        {{"lambda+", "gamma-"}, {"gamma+", "lambda-"}},
-        {{"lambda-", "gamma+"}, {"gamma-", "lambda+"}}};
-    return names[lcp->mirrored][is_z][block];
-}
-
-static void contact_name(const trace *t, int is_z, int k, char name[32])
-{
-    const int n = t->n;
-    if (k < n) {
-        snprintf(name, 32, "%s[%d]", is_z ? "p" : "gap", k + 1);
-    } else if (t->lcp->form == RB_LCP_KWAK) {
-        const int i = (k - n) / 2, minus = (k - n) % 2;
-        snprintf(name, 32, "%s%c[%d]", is_z ? "lambda" : "gamma", minus ? '-' : '+',
-                 i + 1);
-    } else {
-        const int block = (k - n) / n;
-        snprintf(name, 32, "%s[%d]", pivoted_name(t->lcp, is_z, block), (k - n) % n + 1);
-    }
-}
-
-/* Variables are numbered w, z, z0 (lcp.h); behind the 3n of the contact stand the given
- * load and the given force. */
-static void variable_name(const trace *t, int variable, char name[32])
-{
-    const int size = t->lcp->size, is_z = variable >= size, k = variable - is_z * size;
-    if (variable == 2 * size)
-        snprintf(name, 32, "z0");
-    else if (k < 3 * t->n)
-        contact_name(t, is_z, k, name);
-    else
-        snprintf(name, 32, "%s[%d]", is_z ? "motion" : "force", k - 3 * t->n + 1);
-}
-
 /* ---- Pivots ------------------------------------------------------------------------ */
 
 static char *path_of(const char *folder, const char *format, int k)
@@ -94,10 +55,10 @@ static void write_tableau(trace *t, const rb_lcp_pivot *p)
 static void write_variables(FILE *file, const trace *t, const char *what,
                             const int *variable, int n)
 {
-    char name[32];
+    char name[RB_ROLLING_VARIABLE];
     fprintf(file, "%s", what);
     for (int i = 0; i < n; i++) {
-        variable_name(t, variable[i], name);
+        rb_rolling_lcp_variable(t->lcp, t->n, variable[i], name);
         fprintf(file, " %s", name);
     }
     fputc('\n', file);
@@ -121,9 +82,9 @@ static void write_basis(trace *t, const rb_lcp_pivot *p)
 static void each_pivot(const rb_lcp_pivot *p, void *context)
 {
     trace *t = context;
-    char entering[32], leaving[32];
-    variable_name(t, p->entering, entering);
-    variable_name(t, p->leaving, leaving);
+    char entering[RB_ROLLING_VARIABLE], leaving[RB_ROLLING_VARIABLE];
+    rb_rolling_lcp_variable(t->lcp, t->n, p->entering, entering);
+    rb_rolling_lcp_variable(t->lcp, t->n, p->leaving, leaving);
     fprintf(t->out,
             "pivot %4d  row %4d  %-12s enters  %-12s leaves  step %-12.5g z0 %.5g\n",
             p->pivot + 1, p->row + 1, entering, leaving, p->ratio, p->z0);

@@ -4,6 +4,7 @@
 
 #include <cblas.h>
 #include <lapacke.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -403,4 +404,45 @@ void rb_rolling_lcp_recover(const rb_rolling_problem *p, const rb_rolling_lcp *l
             state->q[i] =
                 orientation(lcp) * (lcp->z_scale[n + i] * z[n + i] - p->mu * state->p[i]);
     state->lcp_form = lcp->form;
+}
+
+/* ---- Names ------------------------------------------------------------------------- */
+
+/* Blocks of n (pivoted form) after r_N; w then z.  Mirrored, the signs change places. */
+static const char *pivoted_name(const rb_rolling_lcp *lcp, int is_z, int block)
+{
+    static const char *const names[2][2][2] = {
+        {{"lambda+", "gamma-"}, {"gamma+", "lambda-"}},
+        {{"lambda-", "gamma+"}, {"gamma-", "lambda+"}}};
+    return names[lcp->mirrored][is_z][block];
+}
+
+static void contact_name(const rb_rolling_lcp *lcp, int n, int is_z, int k,
+                         char name[RB_ROLLING_VARIABLE])
+{
+    if (k < n) {
+        snprintf(name, RB_ROLLING_VARIABLE, "%s[%d]", is_z ? "p" : "gap", k + 1);
+    } else if (lcp->form == RB_LCP_KWAK) {
+        const int i = (k - n) / 2, minus = (k - n) % 2;
+        snprintf(name, RB_ROLLING_VARIABLE, "%s%c[%d]", is_z ? "lambda" : "gamma",
+                 minus ? '-' : '+', i + 1);
+    } else {
+        const int block = (k - n) / n;
+        snprintf(name, RB_ROLLING_VARIABLE, "%s[%d]", pivoted_name(lcp, is_z, block),
+                 (k - n) % n + 1);
+    }
+}
+
+const char *rb_rolling_lcp_variable(const rb_rolling_lcp *lcp, int n, int variable,
+                                    char name[RB_ROLLING_VARIABLE])
+{
+    const int size = lcp->size, is_z = variable >= size, k = variable - is_z * size;
+    if (variable == 2 * size)
+        snprintf(name, RB_ROLLING_VARIABLE, "z0");
+    else if (k < 3 * n)
+        contact_name(lcp, n, is_z, k, name);
+    else
+        snprintf(name, RB_ROLLING_VARIABLE, "%s[%d]", is_z ? "motion" : "force",
+                 k - 3 * n + 1);
+    return name;
 }

@@ -85,6 +85,15 @@ rb_status rb_rolling_solve_zones(rb_rolling_problem *problem,
     return s;
 }
 
+rb_status rb_rolling_try_zones(rb_rolling_problem *problem, rb_rolling_state *state,
+                               double *gap)
+{
+    const rb_status s = rb_rolling_solve_zones(problem, RB_BOTH, state);
+    if (s == RB_OK)
+        rb_rolling_kinematics(problem, state, gap, state->lambda);
+    return s;
+}
+
 /* ---- Newton ------------------------------------------------------------------------ */
 
 static int corrected_zone(const rb_rolling_problem *p, rb_rolling_unknowns unknowns,

@@ -1,0 +1,235 @@
+/* Opaque handles: descriptions are complete, refusals are those of the case, and the
+ * arrays satisfy the equations that they stand for. */
+#include "check.h"
+#include "rollbem/api.h"
+#include "rollbem/case.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static rb_api *solved(const char *const *words)
+{
+    rb_api *a = rb_api_create();
+    assert_non_null(a);
+    for (; *words; words += 2)
+        if (rb_api_set(a, words[0], words[1]) != RB_OK)
+            fail_msg("%s", rb_api_message(a));
+    if (rb_api_solve(a) != RB_OK)
+        fail_msg("%s", rb_api_message(a));
+    return a;
+}
+
+static const double *array(rb_api *a, const char *name, int rows, int columns)
+{
+    int r, c;
+    const double *x = rb_api_array(a, name, &r, &c);
+    if (!x || r != rows || c != columns)
+        fail_msg("%s: %d x %d, want %d x %d", name, r, c, rows, columns);
+    return x;
+}
+
+/* The wheel of the example on twelve elements: small enough to step through. */
+static const char *const wheel[] = {
+    "mu", "0.3",    "creep", "0.1", "contact-elements", "12", "outer-elements",
+    "24", "solver", "lemke", NULL};
+static const char *const steady[] = {
+    "formulation", "steady", "support", "halfplane", "support-b", "halfplane",
+    "similar",     "yes",    "load",    "500",       "mu",        "0.3",
+    "creep-ratio", "0.5",    "mesh",    "uniform",   NULL};
+
+static void descriptions_are_complete(void **state)
+{
+    static const char *const fields[] = {"name",     "section", "kind",     "unit",
+                                         "expected", "from",    "to",       "choices",
+                                         "word",     "default", "excludes", "help"};
+    static const char *const tables[] = {"number", "column", "step", "point"};
+    char text[400];
+    int n, k;
+    (void)state;
+    rb_case_describe(&n);
+    for (k = 0; k < n; k++)
+        for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
+            assert_non_null(rb_api_option(k, fields[f], text, sizeof text));
+    assert_null(rb_api_option(n, "name", text, sizeof text));
+    assert_null(rb_api_option(-1, "name", text, sizeof text));
+    assert_null(rb_api_option(1, "colour", text, sizeof text));
+    for (size_t t = 0; t < sizeof tables / sizeof *tables; t++)
+        for (k = 0; rb_api_result(tables[t], k, "name", text, sizeof text); k++)
+            assert_true(
+                strlen(rb_api_result(tables[t], k, "meaning", text, sizeof text)) > 0);
+    assert_null(rb_api_result("nothing", 0, "name", text, sizeof text));
+}
+
+static void refusals_are_those_of_the_case(void **state)
+{
+    rb_api *a = rb_api_create();
+    char text[40];
+    (void)state;
+    assert_true(rb_api_set(a, "mu", "-1") < 0);
+    assert_string_equal(rb_api_message(a), "--mu: expected a number >= 0, got '-1'");
+    assert_true(rb_api_set(a, "nu", "1") < 0);
+    assert_true(rb_api_pivots(a) < 0);
+    assert_int_equal(rb_api_set(a, "load", "500"), RB_OK);
+    assert_int_equal(rb_api_set(a, "approach", "1"), RB_OK);
+    assert_true(rb_api_solve(a) < 0);
+    assert_non_null(strstr(rb_api_message(a), "--load"));
+    assert_true(isnan(rb_api_number(a, "normal_load")));
+    assert_null(rb_api_value(a, "nothing", text, sizeof text));
+    rb_api_free(a);
+    rb_api_free(NULL);
+}
+
+static void numbers_are_the_solution(void **state)
+{
+    rb_api *a = solved(steady);
+    const int n = 60;
+    double P = 0.0, Q = 0.0;
+    char text[40];
+    (void)state;
+    const double *p = array(a, "p", n, 1), *q = array(a, "q", n, 1),
+                 *h = array(a, "h", n, 1);
+    for (int i = 0; i < n; i++) {
+        P += p[i] * h[i];
+        Q += q[i] * h[i];
+    }
+    CHECK_REL(rb_api_number(a, "normal_load"), P, 1e-12, "P");
+    CHECK_REL(rb_api_number(a, "tangential_load"), Q, 1e-12, "Q");
+    CHECK_REL(rb_api_number(a, "carter"), 1.0, 0.0, "Carter's law holds");
+    assert_true(isnan(rb_api_number(a, "nothing")));
+    assert_string_equal(rb_api_value(a, "mu", text, sizeof text), "0.3");
+
+    assert_int_equal(rb_api_curve(a, 0.0, 1.0, 5), RB_OK);
+    const double *ratio = array(a, "curve.force_ratio", 5, 1);
+    CHECK_ABS(ratio[0], 0.0, 1e-6, "free rolling");
+    CHECK_REL(ratio[2], rb_api_number(a, "force_ratio"), 2e-2, "the case on its curve");
+
+    assert_int_equal(rb_api_stress(a, 9, 7, 0.0), RB_OK);
+    const double *syy = array(a, "stress.syy", 9, 7);
+    CHECK_REL(-syy[4], rb_api_number(a, "max_pressure"), 2e-2, "under the pressure");
+    rb_api_free(a);
+}
+
+/* Before each pivot: the ratios are not negative, the row that leaves has the least of
+ * them, and the step is that least ratio. */
+static void pivots_keep_the_ratio_test(void **state)
+{
+    rb_api *a = solved(wheel);
+    int size, pivots, r;
+    char name[32];
+    (void)state;
+    assert_int_equal(rb_api_pivots(a), RB_OK);
+    const double *value = rb_api_array(a, "pivot.value", &size, &pivots);
+    assert_non_null(value);
+    const double *before = array(a, "pivot.before", size, pivots),
+                 *column = array(a, "pivot.column", size, pivots),
+                 *row = array(a, "pivot.row", 1, pivots),
+                 *ratio = array(a, "pivot.ratio", 1, pivots),
+                 *entering = array(a, "pivot.entering", 1, pivots),
+                 *z0 = array(a, "pivot.z0", 1, pivots);
+    assert_int_equal(size, 36);
+    assert_string_equal(rb_api_variable(a, (int)entering[0], name, sizeof name), "z0");
+    assert_string_equal(rb_api_variable(a, size, name, sizeof name), "p[1]");
+    assert_null(rb_api_variable(a, 2 * size + 1, name, sizeof name));
+    for (int k = 1; k < pivots; k++) {
+        const double *v = &before[k * size], *c = &column[k * size];
+        r = (int)row[k];
+        CHECK_REL(ratio[k], -v[r] / c[r], 1e-9, "pivot %d", k);
+        for (int i = 0; i < size; i++)
+            if (c[i] < -1e-9)
+                CHECK_MAX(ratio[k], -v[i] / c[i] + 1e-9, "pivot %d row %d", k, i);
+        for (int i = 0; i < size; i++)
+            CHECK_ABS(v[i], value[(k - 1) * size + i], 0.0, "what was is kept");
+    }
+    CHECK_ABS(z0[pivots - 1], 0.0, 1e-12, "z0 at the end");
+    const double *last = array(a, "pivot.p", 12, pivots) + 12 * (pivots - 1),
+                 *p = array(a, "p", 12, 1);
+    for (int i = 0; i < 12; i++)
+        CHECK_ABS(last[i], p[i], 1e-9 * rb_api_number(a, "max_pressure"), "p[%d]", i);
+    rb_api_free(a);
+}
+
+static void matrices_satisfy_their_equations(void **state)
+{
+    rb_api *a = solved(wheel);
+    int m, columns;
+    (void)state;
+    const double *H = rb_api_array(a, "H", &m, &columns);
+    assert_non_null(H);
+    assert_int_equal(m, columns);
+    assert_non_null(array(a, "G", m, m));
+    assert_non_null(array(a, "mesh.x0", m / 2, 1));
+    for (int i = 0; i < m; i++) { /* rigid motion along x */
+        double sum = 0.0;
+        for (int j = 0; j < m; j += 2)
+            sum += H[i + m * j];
+        CHECK_ABS(sum, 0.0, 1e-9, "row %d", i);
+    }
+    /* w = F r: the gap of the solution (K1) */
+    const double *F = array(a, "F", 26, 24), *p = array(a, "p", 12, 1),
+                 *q = array(a, "q", 12, 1), *gap = array(a, "gap", 12, 1),
+                 *gap0 = array(a, "gap0", 12, 1);
+    for (int i = 0; i < 12; i++) {
+        double w = gap0[i] - rb_api_number(a, "approach");
+        for (int j = 0; j < 12; j++)
+            w += F[i + 26 * j] * p[j] + F[i + 26 * (12 + j)] * q[j];
+        CHECK_ABS(gap[i], w, 1e-9 * rb_api_number(a, "approach"), "gap %d", i);
+    }
+    rb_api_free(a);
+}
+
+static void guesses_are_judged(void **state)
+{
+    rb_api *a = solved(wheel);
+    int zone[12];
+    (void)state;
+    const double *is = array(a, "zone", 12, 1), *p = array(a, "p", 12, 1);
+    for (int i = 0; i < 12; i++)
+        zone[i] = (int)is[i];
+    assert_int_equal(rb_api_guess(a, 12, zone), RB_OK);
+    const double *guess = array(a, "guess.p", 12, 1);
+    for (int i = 0; i < 12; i++)
+        CHECK_ABS(guess[i], p[i], 1e-9 * rb_api_number(a, "max_pressure"), "p[%d]", i);
+
+    for (int i = 0; i < 12; i++) /* everything pressed: the ends would have to pull */
+        zone[i] = RB_ZONE_STICK;
+    assert_int_equal(rb_api_guess(a, 12, zone), RB_OK);
+    assert_true(array(a, "guess.p", 12, 1)[0] < 0.0);
+    assert_true(rb_api_guess(a, 11, zone) < 0);
+    rb_api_free(a);
+}
+
+static void steps_are_kept(void **state)
+{
+    static const char *const words[] = {
+        "support",  "halfplane", "similar",          "yes", "load",        "500",
+        "mu",       "0.3",       "creep-ratio",      "0.5", "formulation", "transient",
+        "distance", "1",         "contact-elements", "20",  NULL};
+    rb_api *a = solved(words);
+    int n, steps;
+    (void)state;
+    const double *p = rb_api_array(a, "step.p", &n, &steps);
+    assert_non_null(p);
+    const double *load = array(a, "history.normal_load", steps, 1),
+                 *h = array(a, "h", n, 1);
+    for (int k = 0; k < steps; k++) {
+        double P = 0.0;
+        for (int i = 0; i < n; i++)
+            P += p[k * n + i] * h[i];
+        CHECK_REL(load[k], P, 1e-9, "step %d", k);
+    }
+    rb_api_free(a);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(descriptions_are_complete),
+        cmocka_unit_test(refusals_are_those_of_the_case),
+        cmocka_unit_test(numbers_are_the_solution),
+        cmocka_unit_test(pivots_keep_the_ratio_test),
+        cmocka_unit_test(matrices_satisfy_their_equations),
+        cmocka_unit_test(guesses_are_judged),
+        cmocka_unit_test(steps_are_kept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
