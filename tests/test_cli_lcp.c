@@ -66,8 +66,8 @@ static int enter_folder(void **state)
 static int leave_folder(void **state)
 {
     (void)state;
-    const char *names[] = {"good", "ray", "kostreva", "bad", "out", "err"};
-    for (int i = 0; i < 6; i++)
+    const char *names[] = {"good", "ray", "kostreva", "bad", "out", "err", "p", "x"};
+    for (int i = 0; i < 8; i++)
         unlink(names[i]);
     return chdir("/") || rmdir(folder);
 }
@@ -131,6 +131,117 @@ static void trace_and_solution_are_tables(void **state)
     CHECK_ABS(w, 0.0, 1e-15, "w(1)");
 }
 
+/* z(1) and z(2) of the only problem that was printed. */
+static void solution(double z[2])
+{
+    const char *line = strstr(out, "# i\tz\tw\n");
+    assert_non_null(line);
+    assert_int_equal(sscanf(line, "# i\tz\tw\n1\t%lf\t%*f\n2\t%lf", &z[0], &z[1]), 2);
+}
+
+/* M = [1 2; 2 1] in plain text begins like a Siconos file by blocks: 2, 1, 2, 2. */
+static void plain_text_is_read(void **state)
+{
+    (void)state;
+    static const char *const files[] = {
+        "# M is not positive definite\n2\n1 2 # row 1\n2 1\n-1 -2\n", "2 1 2 2 1 -1 -2",
+        "2\n1 2\n2 1\n-1 -2\n# and so on"};
+    for (int k = 0; k < 3; k++) {
+        double z[2];
+        put("p", files[k]);
+        assert_int_equal(lcp("--solution p"), 0);
+        solution(z);
+        const double w1 = z[0] + 2.0 * z[1] - 1.0, w2 = 2.0 * z[0] + z[1] - 2.0;
+        CHECK_ABS(fmax(fabs(fmin(z[0], w1)), fabs(fmin(z[1], w2))), 0.0, 1e-15, "file %d",
+                  k);
+        assert_int_equal(lcp("--solution - <p"), 0);
+        assert_non_null(strstr(out, "\n-\tsolved\t2\t"));
+    }
+}
+
+static void refused(const char *text, const char *arguments, const char *words)
+{
+    put("p", text);
+    assert_int_equal(lcp(arguments), 65);
+    if (!strstr(err, words))
+        fail_msg("expected '%s' in: %s", words, err);
+}
+
+static void what_is_no_problem_is_refused(void **state)
+{
+    (void)state;
+    refused("2\n1 2\n2 1\n-1\n", "p", "p:5: q, number 2: expected a finite number");
+    refused("2\n1 2\n2 1\n-1\n", "- <p", "standard input:5: q, number 2");
+    refused("2\n1 2\n2 x\n-1 1\n", "p", "p:3: M, row 2, number 2");
+    refused("2\n1 2\n2 1\n-1 1 7\n", "p", "p:4: expected the end of the file");
+    refused("", "p", "n: expected");
+    refused("2 1 0 2 2 2 2 1 0 0 1 -1 0 0.5", "p", "friction problem");
+    refused("%%MatrixMarket matrix array real general\n2 2\n1 0 0 1\n", "p", "--q");
+    put("x", "-1 -1 -1");
+    refused("%%MatrixMarket matrix array real general\n2 2\n1 0 0 1\n", "--q x p",
+            "x:1: q: expected 2 numbers, got 3");
+    refused("%%MatrixMarket matrix array real general\n3 2\n1 0 0 1 1 1\n", "--q x p",
+            "expected a square matrix, got 3 by 2");
+    refused("1 1 -1", "--q x p", "holds q itself");
+    assert_int_equal(lcp("--q x p good"), 64);
+}
+
+static void matrix_market_is_read(void **state)
+{
+    (void)state;
+    double z[2];
+    put("p",
+        "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 1\n2 2 2");
+    put("x", "-5 -6 # q\n");
+    assert_int_equal(lcp("--solution --q x p"), 0);
+    solution(z);
+    CHECK_REL(z[0], 4.0 / 3.0, 1e-15, "z(1)");
+    CHECK_REL(z[1], 7.0 / 3.0, 1e-15, "z(2)");
+    put("x", "%%MatrixMarket matrix array real general\n2 1\n-5\n-6\n");
+    assert_int_equal(lcp("--solution --q - p <x"), 0);
+    solution(z);
+    CHECK_REL(z[1], 7.0 / 3.0, 1e-15, "z(2)");
+}
+
+static void a_cover_may_hold_zeros_where_q_is_not_negative(void **state)
+{
+    (void)state;
+    double z[2];
+    put("p", "2\n2 1\n-3 2\n-1 0.5\n");
+    put("x", "1 0");
+    assert_int_equal(lcp("--solution --cover x p"), 0);
+    solution(z);
+    CHECK_REL(z[0], 2.5 / 7.0, 1e-14, "z(1)");
+    CHECK_REL(z[1], 2.0 / 7.0, 1e-14, "z(2)");
+    put("x", "0 1");
+    assert_int_equal(lcp("--cover x p"), 65);
+    assert_non_null(
+        strstr(err, "cover(1) = 0: expected a number > 0, because q(1) = -1"));
+    put("x", "1 -1");
+    assert_int_equal(lcp("--cover x p"), 65);
+    put("x", "1 1 1");
+    assert_int_equal(lcp("--cover x p"), 65);
+    assert_non_null(strstr(err, "cover: expected 2 numbers, got 3"));
+}
+
+/* Murty's example of order 11 takes 2^11 pivots, more than 50 n + 1000. */
+static void the_cap_is_named(void **state)
+{
+    (void)state;
+    FILE *f = fopen("p", "w");
+    assert_non_null(f);
+    fprintf(f, "11\n");
+    for (int k = 0; k < 121; k++)
+        fprintf(f, "%d ", k / 11 > k % 11 ? 2 : k / 11 == k % 11);
+    for (int k = 0; k < 11; k++)
+        fprintf(f, "-1 ");
+    fclose(f);
+    assert_int_equal(lcp("p"), 1);
+    assert_non_null(strstr(err, "no solution after --max-pivots 1550"));
+    assert_int_equal(lcp("--max-pivots 2048 p"), 0);
+    assert_non_null(strstr(out, "solved\t11\t2048\t0\t"));
+}
+
 static const char *text_of(const json_t *p, const char *key)
 {
     return json_string_value(json_object_get(p, key));
@@ -182,6 +293,11 @@ int main(void)
         cmocka_unit_test(the_largest_exit_code_wins_and_all_files_run),
         cmocka_unit_test(the_tie_rule_can_be_chosen),
         cmocka_unit_test(trace_and_solution_are_tables),
+        cmocka_unit_test(plain_text_is_read),
+        cmocka_unit_test(what_is_no_problem_is_refused),
+        cmocka_unit_test(matrix_market_is_read),
+        cmocka_unit_test(a_cover_may_hold_zeros_where_q_is_not_negative),
+        cmocka_unit_test(the_cap_is_named),
         cmocka_unit_test(json_holds_every_file),
         cmocka_unit_test(the_collection_is_solved),
     };

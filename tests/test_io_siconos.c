@@ -39,6 +39,7 @@ static void put(const char *text)
 /* ---- Valid files ------------------------------------------------------------------ */
 
 /* All hold M = [2 1; 0 3] (columns 2 0, 1 3), q = (-5, -6). */
+static const char PLAIN[] = "2 # n\n1 2\n2 1\n-1 -2e5\n";
 static const char DENSE[] = "2\n0\n2\n2\n2\t2\n2 0\n1 3\n-5 -6\nMurty (1988), page 1";
 static const char BLOCK[] = "2\n1\n2 2\n3\n2\n2\n1 2\n1 2\n3\n3\n0 2 3\n0 1 1\n"
                             "0\n2\n1\n1\n2\n3\n-5 -6 ";
@@ -129,6 +130,16 @@ static rb_status read_lcp(void)
 {
     rb_io_lcp p;
     const rb_status s = rb_io_siconos_read_lcp(path, &p, &why);
+    if (s != RB_OK)
+        assert_null(p.q);
+    rb_io_lcp_free(&p);
+    return s;
+}
+
+static rb_status read_any_lcp(void)
+{
+    rb_io_lcp p;
+    const rb_status s = rb_io_lcp_read(path, NULL, &p, &why);
     if (s != RB_OK)
         assert_null(p.q);
     rb_io_lcp_free(&p);
@@ -271,10 +282,11 @@ static void absurd_sizes_are_refused(void **state)
 static void damaged_files_are_refused_or_read(void **state)
 {
     (void)state;
-    const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN, FRICTION, SOCLCP};
-    reader *read[] = {read_lcp, read_lcp, read_lcp, read_lcp, read_friction, read_soclcp};
+    const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN, FRICTION, SOCLCP, BLOCK, PLAIN};
+    reader *read[] = {read_lcp,      read_lcp,    read_lcp,     read_lcp,
+                      read_friction, read_soclcp, read_any_lcp, read_any_lcp};
     const char bytes[] = {'0', '9', '-', ' ', '\n', 'e', 0, '\xff', ':', '7'};
-    for (int k = 0; k < 6; k++) {
+    for (int k = 0; k < 8; k++) {
         const size_t n = strlen(texts[k]);
         char *text = strdup(texts[k]);
         for (size_t i = 0; i < n; i++) {
@@ -306,9 +318,10 @@ static void missing_files_and_folders(void **state)
 static void short_memory_is_reported(void **state)
 {
     (void)state;
-    const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN, FRICTION, SOCLCP};
-    reader *read[] = {read_lcp, read_lcp, read_lcp, read_lcp, read_friction, read_soclcp};
-    for (int k = 0; k < 6; k++) {
+    const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN, FRICTION, SOCLCP, BLOCK, PLAIN};
+    reader *read[] = {read_lcp,      read_lcp,    read_lcp,     read_lcp,
+                      read_friction, read_soclcp, read_any_lcp, read_any_lcp};
+    for (int k = 0; k < 8; k++) {
         put(texts[k]);
         for (int i = 0;; i++) {
             alloc_fail_after(i);
@@ -343,14 +356,46 @@ static void market_gives_back_the_same_numbers(void **state)
     rb_io_matrix_free(&m);
 }
 
+/* The four kinds give the same matrix. */
+static void market_kinds(void **state)
+{
+    (void)state;
+    static const char *const files[] = {
+        "%%MatrixMarket matrix array real general\n2 2\n4 -1 -1 3\n",
+        "%%MatrixMarket MATRIX Array Integer Symmetric\n% c\n2 2\n4 -1 3\n",
+        "%%MatrixMarket matrix coordinate real general\n2 2 4\n1 1 4\n2 1 -1\n1 2 -1\n2 "
+        "2 3\n",
+        "%%MatrixMarket matrix coordinate integer symmetric\n2 2 3\n1 1 4\n2 1 -1\n2 2 "
+        "3\n"};
+    const double want[] = {4.0, -1.0, -1.0, 3.0};
+    for (int k = 0; k < 4; k++) {
+        rb_io_matrix m;
+        put(files[k]);
+        CHECK_STATUS(rb_io_matrix_market_read(path, &m, &why), RB_OK);
+        CHECK_STATUS(rb_io_matrix_to_dense(&m), RB_OK);
+        for (int i = 0; i < 4; i++)
+            CHECK_ABS(m.dense[i], want[i], 0.0, "file %d, entry %d", k, i);
+        rb_io_matrix_free(&m);
+    }
+}
+
 static void market_refusals(void **state)
 {
     (void)state;
     const double x[4] = {0.0};
     check_refused(read_market, "", "MatrixMarket");
     check_refused(read_market,
-                  "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n",
-                  "matrix array real general");
+                  "%%MatrixMarket matrix coordinate pattern general\n1 1 1\n1 1\n",
+                  "array|coordinate real|integer general|symmetric");
+    check_refused(read_market,
+                  "%%MatrixMarket matrix coordinate real general\n2 2 1\n3 1 1\n",
+                  ":3: row: expected an integer from 1 to 2, got '3'");
+    check_refused(
+        read_market,
+        "%%MatrixMarket matrix coordinate real general\n2 2 2000000000\n1 1 1\n",
+        "entries: expected");
+    check_refused(read_market, "%%MatrixMarket matrix array real symmetric\n2 3\n1 1 1\n",
+                  "symmetric matrix of 2 by 3");
     check_refused(read_market, "%%MatrixMarket matrix array real general\n% c\n2 x\n",
                   ":3: columns");
     check_refused(read_market, "%%matrixmarket matrix array real general\n1 4\n5\n",
@@ -413,6 +458,7 @@ int main(void)
         cmocka_unit_test(missing_files_and_folders),
         WITH_FILE(short_memory_is_reported),
         WITH_FILE(market_gives_back_the_same_numbers),
+        WITH_FILE(market_kinds),
         WITH_FILE(market_refusals),
         WITH_FILE(the_collection_is_read),
     };

@@ -92,7 +92,8 @@ rb_status rb_io_matrix_to_sparse(const rb_io_matrix *m, rb_sparse *a);
  * RB_EINVAL, RB_EWRITE, RB_ENOMEM. */
 rb_status rb_io_matrix_market_write(const char *path, int rows, int cols, const double *x,
                                     int ld, const char *comment, rb_message *why);
-/* RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
+/* "array" or "coordinate", "real" or "integer", "general" or "symmetric" (both triangles
+ * are in m).  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
 rb_status rb_io_matrix_market_read(const char *path, rb_io_matrix *m, rb_message *why);
 
 /* ---- Text format of Siconos ------------------------------------------------------- */
@@ -122,6 +123,18 @@ typedef struct {
 
 rb_status rb_io_siconos_read_lcp(const char *path, rb_io_lcp *p, rb_message *why);
 void rb_io_lcp_free(rb_io_lcp *p);
+
+/* ---- Linear complementarity problems of any kind ----------------------------------- */
+
+/* The text format of Siconos; plain text: n, the rows of M, q; or M in Matrix Market with
+ * q in a file of its own, which is NULL otherwise.  Behind a # stands a comment.  "-":
+ * standard input.  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
+rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p,
+                         rb_message *why);
+/* n numbers in plain text or a Matrix Market matrix of n by 1; `what` names them in
+ * messages.  x: owned by the caller, NULL after a failure.  Errors as above. */
+rb_status rb_io_vector_read(const char *path, int n, const char *what, double **x,
+                            rb_message *why);
 
 /* u = W r + q, per contact [N, T] or [N, T1, T2]. */
 typedef struct {

@@ -32,7 +32,8 @@ typedef void rb_lcp_trace(const rb_lcp_pivot *pivot, void *context);
 typedef struct {
     int max_iters;       /* 0: 50 n + 1000 */
     double tol;          /* relative size below which z0 counts as zero, default 1e-13 */
-    const double *cover; /* n, > 0: covering vector d; NULL: ones; borrowed */
+    const double *cover; /* n: covering vector d >= 0, > 0 where q < 0; NULL: ones;
+                            borrowed */
     rb_lcp_rule rule;
     rb_lcp_trace *trace; /* NULL: none */
     void *trace_context;
@@ -51,7 +52,7 @@ rb_lcp_options rb_lcp_defaults(void);
 /* Lemke's method.  M: n x n, column-major, ldm >= n; q: n; z: n, written (the last
  * basic point when not solved).  opt NULL: defaults.
  * RB_OK, RB_RAY, RB_MAXITER; RB_INACCURATE: rounding has spoilt the solution, residual
- * above 1e-6 max |q|; RB_EINVAL: n < 1, ldm < n, NaN or infinity, cover <= 0; RB_ENOMEM.
+ * above 1e-6 max |q|; RB_EINVAL: n < 1, ldm < n, NaN or infinity, no cover; RB_ENOMEM.
  */
 rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
                        const rb_lcp_options *opt, double *z, rb_lcp_info *info);

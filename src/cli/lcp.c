@@ -13,7 +13,7 @@
 typedef struct {
     double tol;
     int max_pivots, rule, trace, solution, json;
-    const char *output;
+    const char *q, *cover, *output;
 } lcp_options;
 
 static const rb_choice rules[] = {{"lexicographic", RB_LCP_LEXICOGRAPHIC},
@@ -23,11 +23,18 @@ static const rb_choice rules[] = {{"lexicographic", RB_LCP_LEXICOGRAPHIC},
 #define PLACE(member) offsetof(lcp_options, member)
 
 static const rb_option options[] = {
+    RB_GROUP_LINE("problem", "Problem"),
+    RB_TEXT_LINE("q", PLACE(q), "FILE",
+                 "q of a Matrix Market file: n numbers, plain or Matrix Market",
+                 .file = RB_FILE_READ),
     RB_GROUP_LINE("solver", "Solver"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
                    "residual that counts as solved, as a part of max |q|"),
     RB_INTEGER_LINE("max-pivots", PLACE(max_pivots), RB_FROM_TO(1, 1e9),
                     "iteration limit", .unset = "50 n + 1000"),
+    RB_TEXT_LINE("cover", PLACE(cover), "FILE",
+                 "covering vector d >= 0, d > 0 where q < 0: n numbers, as --q",
+                 .unset = "ones", .file = RB_FILE_READ),
     RB_CHOICE_LINE("rule", PLACE(rule), rules,
                    "which row leaves when ratios tie; first-index can cycle"),
     RB_GROUP_LINE("output", "Output"),
@@ -44,7 +51,12 @@ enum { OPTIONS = sizeof options / sizeof options[0] };
 static const char about[] =
     "Solves linear complementarity problems z >= 0, w = M z + q >= 0, z'w = 0 by Lemke's "
     "method.\n"
-    "FILE: text format of Siconos: n, matrix (dense, by blocks or sparse), q.";
+    "FILE: plain text: n, the n rows of M, q (# starts a comment), such as\n"
+    "    2\n"
+    "    2 1   1 2   -5 -6\n"
+    "or the text format of Siconos, or M in Matrix Market with q in --q FILE; - is "
+    "standard "
+    "input.";
 
 static const char notes[] =
     "One line per file: its name, status, n, pivots, residual max |min(z, w)| recomputed "
@@ -70,7 +82,8 @@ typedef struct {
     int n; /* 0: not read */
     rb_lcp_info info;
     double floor, seconds;
-    double *M, *q, *z, *w; /* M, q borrowed; z, w owned */
+    double *M, *q;         /* borrowed */
+    double *cover, *z, *w; /* owned; cover NULL: ones */
 } lcp_result;
 
 /* ---- Trace ------------------------------------------------------------------------ */
@@ -187,17 +200,23 @@ static cli_exit run_lemke(lcp_run *run, lcp_result *r)
     rb_lcp_options opt = rb_lcp_defaults();
     opt.max_iters = run->o->max_pivots;
     opt.rule = (rb_lcp_rule)run->o->rule;
+    opt.cover = r->cover;
     opt.trace = run->o->trace ? trace : NULL;
     opt.trace_context = run;
     const double start = rb_seconds();
     const rb_status s = rb_lcp_lemke(r->n, r->M, r->n, r->q, &opt, r->z, &r->info);
     r->seconds = rb_seconds() - start;
-    if (s < 0)
-        return failed(r, s, r->info.msg.text);
+    if (s < 0) { /* RB_EINVAL: the numbers are of a file */
+        rb_message why;
+        rb_fail(&why, s, "%s: %s", r->file, r->info.msg.text);
+        return failed(r, s == RB_EINVAL ? RB_EFORMAT : s, why.text);
+    }
     rb_lcp_residual(r->n, r->M, r->n, r->q, r->z, r->w);
     r->floor = rounding_floor(r->n, r->M, r->q, r->z);
     const cli_exit code = judge(run->o, r, s);
-    if (code != CLI_OK)
+    if (s == RB_MAXITER)
+        cli_fail(code, "%s: no solution after --max-pivots %d", r->file, r->info.iters);
+    else if (code != CLI_OK)
         cli_fail(code, "%s: %s", r->file, s == RB_OK ? r->status : r->info.msg.text);
     return code;
 }
@@ -223,7 +242,9 @@ static cli_exit solve_file(lcp_run *run, const char *path)
     lcp_result r = {.file = path, .info = {.res = NAN}, .floor = NAN, .seconds = NAN};
     cli_exit code;
     run->pivots = run->o->json && run->o->trace ? json_array() : NULL;
-    const rb_status s = rb_io_siconos_read_lcp(path, &p, &why);
+    rb_status s = rb_io_lcp_read(path, run->o->q, &p, &why);
+    if (s == RB_OK && run->o->cover)
+        s = rb_io_vector_read(run->o->cover, p.n, "cover", &r.cover, &why);
     if (s == RB_OK)
         code = solve_problem(run, &p, &r);
     else
@@ -233,6 +254,7 @@ static cli_exit solve_file(lcp_run *run, const char *path)
     else
         print_problem(run, &r);
     json_decref(run->pivots);
+    free(r.cover);
     free(r.z);
     free(r.w);
     rb_io_lcp_free(&p);
@@ -283,6 +305,8 @@ int cli_lcp(int argc, char **argv)
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "lcp: expected at least one FILE");
+    if (code == CLI_CONTINUE && o.q && args.operands > 1)
+        code = cli_fail(CLI_USAGE, "lcp: --q goes with one FILE, got %d", args.operands);
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE) {

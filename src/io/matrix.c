@@ -1,7 +1,6 @@
 #include "rollbem/io.h"
-#include "io/tokens.h"
+#include "io/readers.h"
 
-#include <ctype.h>
 #include <limits.h>
 #include <stdlib.h>
 
@@ -92,37 +91,105 @@ rb_status rb_io_matrix_market_write(const char *path, int rows, int cols, const 
     return rb_io_writer_commit(&w, why);
 }
 
-/* The banner, in any case of letters, and the comment lines. */
-static void read_head(io_tokens *t)
+/* The kinds of Matrix Market file that hold real matrices. */
+typedef struct {
+    int coordinate; /* "row column value" lines; otherwise all entries, column by column
+                     */
+    int symmetric;  /* the lower triangle alone is written */
+} market_kind;
+
+/* The banner and the comment lines. */
+static market_kind read_head(io_tokens *t)
 {
-    if (t->status != RB_OK)
-        return;
-    const size_t length = sizeof BANNER - 1;
-    int same = (size_t)(t->end - t->at) > length;
-    for (size_t i = 0; same && i < length; i++)
-        same = tolower((unsigned char)t->at[i]) == tolower((unsigned char)BANNER[i]);
-    if (!same)
-        rb_io_tokens_fail(t, "expected the line '%s'", BANNER);
+    market_kind kind = {0};
+    int known = rb_io_tokens_take(t, "%%MatrixMarket") && rb_io_tokens_take(t, "matrix");
+    kind.coordinate = rb_io_tokens_take(t, "coordinate");
+    known = known && (kind.coordinate || rb_io_tokens_take(t, "array")) &&
+            (rb_io_tokens_take(t, "real") || rb_io_tokens_take(t, "integer"));
+    kind.symmetric = rb_io_tokens_take(t, "symmetric");
+    if (!known || !(kind.symmetric || rb_io_tokens_take(t, "general")))
+        rb_io_tokens_fail(t,
+                          "expected the line '%%%%MatrixMarket matrix array|coordinate "
+                          "real|integer general|symmetric'");
     while (rb_io_tokens_more(t) && *t->at == '%')
         rb_io_tokens_skip_line(t);
+    return kind;
+}
+
+static int have(io_tokens *t, const void *memory)
+{
+    if (t->status == RB_OK && !memory)
+        t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for matrix", t->path);
+    return t->status == RB_OK;
+}
+
+static void read_array(io_tokens *t, int symmetric, rb_io_matrix *m)
+{
+    const size_t rows = (size_t)m->rows, cols = (size_t)m->cols;
+    if (!symmetric) {
+        m->dense = rb_io_tokens_alloc(t, rows, cols, "matrix");
+        rb_io_tokens_reals(t, rows * cols, m->dense, "matrix");
+        return;
+    }
+    if (!rb_io_tokens_room_for(t, rows, (cols + 1) / 2, "matrix") ||
+        !have(t, m->dense = rb_alloc(rows, cols)))
+        return;
+    for (size_t j = 0; t->status == RB_OK && j < cols; j++) {
+        rb_io_tokens_reals(t, rows - j, m->dense + j + j * rows,
+                           "column of the triangle");
+        for (size_t i = j; i < rows; i++)
+            m->dense[j + i * rows] = m->dense[i + j * rows];
+    }
+}
+
+static void read_coordinates(io_tokens *t, int symmetric, rb_io_matrix *m)
+{
+    const int most = symmetric ? INT_MAX / 2 : INT_MAX;
+    const int count = rb_io_tokens_int(t, 0, most, "number of entries");
+    const size_t room = (size_t)count << symmetric;
+    if (!rb_io_tokens_room_for(t, (size_t)count, 3, "entries"))
+        return;
+    m->row = rb_alloc_int(room);
+    m->col = rb_alloc_int(room);
+    m->x = rb_alloc(room, 1);
+    have(t, m->row && m->col ? m->x : NULL);
+    for (int k = 0; t->status == RB_OK && k < count; k++) {
+        const int i = rb_io_tokens_int(t, 1, m->rows, "row") - 1;
+        const int j = rb_io_tokens_int(t, 1, m->cols, "column") - 1;
+        const double x = rb_io_tokens_real(t, "value");
+        for (int both = 0; both <= (symmetric && i != j); both++) {
+            m->row[m->nz] = both ? j : i;
+            m->col[m->nz] = both ? i : j;
+            m->x[m->nz++] = x;
+        }
+    }
+}
+
+void rb_io_read_matrix_market(io_tokens *t, rb_io_matrix *m)
+{
+    *m = (rb_io_matrix){0};
+    const market_kind kind = read_head(t);
+    m->rows = rb_io_tokens_int(t, 0, INT_MAX, "rows");
+    m->cols = rb_io_tokens_int(t, 0, INT_MAX, "columns");
+    if (t->status == RB_OK && (m->rows == 0) != (m->cols == 0))
+        rb_io_tokens_fail(t, "a matrix of %d by %d has no entries", m->rows, m->cols);
+    if (t->status == RB_OK && kind.symmetric && m->rows != m->cols)
+        rb_io_tokens_fail(t, "a symmetric matrix of %d by %d", m->rows, m->cols);
+    if (kind.coordinate)
+        read_coordinates(t, kind.symmetric, m);
+    else
+        read_array(t, kind.symmetric, m);
+    if (t->status == RB_OK && rb_io_tokens_more(t))
+        rb_io_tokens_fail(t, "expected the end of the file after the last number");
+    if (t->status != RB_OK)
+        rb_io_matrix_free(m);
 }
 
 rb_status rb_io_matrix_market_read(const char *path, rb_io_matrix *m, rb_message *why)
 {
     io_tokens t;
-    *m = (rb_io_matrix){0};
     rb_io_tokens_open(path, &t, why);
-    read_head(&t);
-    m->rows = rb_io_tokens_int(&t, 0, INT_MAX, "rows");
-    m->cols = rb_io_tokens_int(&t, 0, INT_MAX, "columns");
-    if (t.status == RB_OK && (m->rows == 0) != (m->cols == 0))
-        rb_io_tokens_fail(&t, "a matrix of %d by %d has no entries", m->rows, m->cols);
-    m->dense = rb_io_tokens_alloc(&t, (size_t)m->rows, (size_t)m->cols, "matrix");
-    rb_io_tokens_reals(&t, (size_t)m->rows * (size_t)m->cols, m->dense, "matrix");
-    if (t.status == RB_OK && rb_io_tokens_more(&t))
-        rb_io_tokens_fail(&t, "expected the end of the file after the last number");
-    if (t.status != RB_OK)
-        rb_io_matrix_free(m);
+    rb_io_read_matrix_market(&t, m);
     rb_io_tokens_close(&t);
     return t.status;
 }

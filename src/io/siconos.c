@@ -1,6 +1,6 @@
 /* The text format of Siconos' test problems, as read off its files and their README. */
 #include "rollbem/io.h"
-#include "io/tokens.h"
+#include "io/readers.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -208,16 +208,21 @@ void rb_io_lcp_free(rb_io_lcp *p)
     *p = (rb_io_lcp){0};
 }
 
+void rb_io_read_siconos_lcp(io_tokens *t, rb_io_lcp *p)
+{
+    *p = (rb_io_lcp){0};
+    p->n = rb_io_tokens_int(t, 1, INT_MAX, "n");
+    read_matrix(t, p->n, &p->M);
+    p->q = read_vector(t, p->n, "q");
+    if (!ok(t))
+        rb_io_lcp_free(p);
+}
+
 rb_status rb_io_siconos_read_lcp(const char *path, rb_io_lcp *p, rb_message *why)
 {
     io_tokens t;
-    *p = (rb_io_lcp){0};
     rb_io_tokens_open(path, &t, why);
-    p->n = rb_io_tokens_int(&t, 1, INT_MAX, "n");
-    read_matrix(&t, p->n, &p->M);
-    p->q = read_vector(&t, p->n, "q");
-    if (!ok(&t))
-        rb_io_lcp_free(p);
+    rb_io_read_siconos_lcp(&t, p);
     rb_io_tokens_close(&t);
     return t.status;
 }
@@ -291,30 +296,31 @@ rb_status rb_io_siconos_read_soclcp(const char *path, rb_io_soclcp *p, rb_messag
 
 /* LCP: n, storage, n, n.  Friction: d, contacts, storage, m, m with m = d contacts.
  * SOCLCP: n, cones, storage, n, n. */
-static int kind_of(const int head[5], rb_io_siconos_kind *kind)
+int rb_io_siconos_kind_at(io_tokens *t)
 {
+    int head[5];
+    for (int i = 0; i < 5; i++)
+        head[i] = rb_io_tokens_int(t, 0, INT_MAX, "size at the head");
+    if (!ok(t))
+        return -1;
     const int matrix = head[2] <= SPARSE && head[3] == head[4];
     if (head[1] <= SPARSE && head[2] == head[0] && head[3] == head[0])
-        *kind = RB_IO_SICONOS_LCP;
-    else if (matrix && (head[0] == 2 || head[0] == 3) &&
-             head[3] == (long long)head[0] * head[1])
-        *kind = RB_IO_SICONOS_FRICTION;
-    else if (matrix && head[3] == head[0])
-        *kind = RB_IO_SICONOS_SOCLCP;
-    else
-        return 0;
-    return 1;
+        return RB_IO_SICONOS_LCP;
+    if (matrix && (head[0] == 2 || head[0] == 3) &&
+        head[3] == (long long)head[0] * head[1])
+        return RB_IO_SICONOS_FRICTION;
+    return matrix && head[3] == head[0] ? RB_IO_SICONOS_SOCLCP : -1;
 }
 
 rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind, rb_message *why)
 {
     io_tokens t;
-    int head[5];
     rb_io_tokens_open(path, &t, why);
-    for (int i = 0; i < 5; i++)
-        head[i] = rb_io_tokens_int(&t, 0, INT_MAX, "size at the head");
-    if (ok(&t) && !kind_of(head, kind))
+    const int found = rb_io_siconos_kind_at(&t);
+    if (ok(&t) && found < 0)
         rb_io_tokens_fail(&t, "the sizes at the head are of no known kind of problem");
+    else if (ok(&t))
+        *kind = (rb_io_siconos_kind)found;
     rb_io_tokens_close(&t);
     return t.status;
 }

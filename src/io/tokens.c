@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 void rb_io_tokens_fail(io_tokens *t, const char *format, ...)
 {
@@ -25,9 +26,12 @@ void rb_io_tokens_fail(io_tokens *t, const char *format, ...)
 
 void rb_io_tokens_open(const char *path, io_tokens *t, rb_message *why)
 {
+    const int given = !strcmp(path, "-");
     size_t size = 0;
     *t = (io_tokens){.path = path, .line = 1, .why = why};
-    t->status = rb_io_read_text(path, &t->text, &size, why);
+    t->status = rb_io_read_text(given ? "/dev/stdin" : path, &t->text, &size, why);
+    if (given)
+        t->path = "standard input";
     t->at = t->text;
     t->end = t->text ? t->text + size : NULL;
 }
@@ -139,8 +143,17 @@ void rb_io_tokens_word(io_tokens *t, const char *word)
         expected(t, "sparse matrix", word, length);
 }
 
+int rb_io_tokens_take(io_tokens *t, const char *word)
+{
+    const int length = t->status == RB_OK ? peek(t) : 0;
+    if (length != (int)strlen(word) || strncasecmp(t->at, word, (size_t)length) != 0)
+        return 0;
+    t->at += length;
+    return 1;
+}
+
 /* A number takes at least one character and a separator. */
-static int room_for(io_tokens *t, size_t rows, size_t cols, const char *what)
+int rb_io_tokens_room_for(io_tokens *t, size_t rows, size_t cols, const char *what)
 {
     if (t->status != RB_OK)
         return 0;
@@ -162,13 +175,15 @@ static void *allocated(io_tokens *t, void *memory, const char *what)
 
 double *rb_io_tokens_alloc(io_tokens *t, size_t rows, size_t cols, const char *what)
 {
-    return room_for(t, rows, cols, what) ? allocated(t, rb_alloc(rows, cols), what)
-                                         : NULL;
+    return rb_io_tokens_room_for(t, rows, cols, what)
+               ? allocated(t, rb_alloc(rows, cols), what)
+               : NULL;
 }
 
 int *rb_io_tokens_alloc_int(io_tokens *t, size_t n, const char *what)
 {
-    return room_for(t, n, 1, what) ? allocated(t, rb_alloc_int(n), what) : NULL;
+    return rb_io_tokens_room_for(t, n, 1, what) ? allocated(t, rb_alloc_int(n), what)
+                                                : NULL;
 }
 
 int rb_io_tokens_more(io_tokens *t)
@@ -180,4 +195,23 @@ void rb_io_tokens_skip_line(io_tokens *t)
 {
     while (t->at < t->end && *t->at != '\n')
         t->at++;
+}
+
+void rb_io_tokens_rewind(io_tokens *t)
+{
+    if (!t->text)
+        return;
+    t->status = RB_OK;
+    t->at = t->text;
+    t->line = 1;
+}
+
+void rb_io_tokens_blank_comments(io_tokens *t)
+{
+    if (!t->text)
+        return;
+    char *const end = t->text + (t->end - t->text);
+    for (char *c = t->text; (c = memchr(c, '#', (size_t)(end - c))) != NULL;)
+        for (; c < end && *c != '\n'; c++)
+            *c = ' ';
 }

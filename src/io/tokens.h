@@ -22,7 +22,8 @@ typedef struct {
     rb_message *why;
 } io_tokens;
 
-/* Reads the whole file; a failure is in the status; close in any case. */
+/* Reads the whole file, or standard input where path is "-"; a failure is in the status;
+ * close in any case. */
 void rb_io_tokens_open(const char *path, io_tokens *t, rb_message *why);
 void rb_io_tokens_close(io_tokens *t);
 
@@ -39,14 +40,23 @@ int rb_io_tokens_int(io_tokens *t, int low, int high, const char *what);
 double rb_io_tokens_real(io_tokens *t, const char *what);
 void rb_io_tokens_reals(io_tokens *t, size_t n, double *x, const char *what);
 void rb_io_tokens_word(io_tokens *t, const char *word);
+/* 1 when the next token is this word, in any case of letters, and has been read. */
+int rb_io_tokens_take(io_tokens *t, const char *word);
 
 /* Arrays of rows x cols numbers that the file is about to give: refused before memory is
  * asked for when the rest of the file is too short for them.  NULL on failure. */
 double *rb_io_tokens_alloc(io_tokens *t, size_t rows, size_t cols, const char *what);
 int *rb_io_tokens_alloc_int(io_tokens *t, size_t n, const char *what);
+/* 1 when the rest of the file can hold so many numbers. */
+int rb_io_tokens_room_for(io_tokens *t, size_t rows, size_t cols, const char *what);
 
 /* 1 when another token follows. */
 int rb_io_tokens_more(io_tokens *t);
 void rb_io_tokens_skip_line(io_tokens *t);
+
+/* To the beginning, whatever has failed since. */
+void rb_io_tokens_rewind(io_tokens *t);
+/* Overwrites what stands behind a # on each line with blanks. */
+void rb_io_tokens_blank_comments(io_tokens *t);
 
 #endif

@@ -48,9 +48,15 @@ static rb_status check_numbers(int n, const double *M, int ldm, const double *q,
         if (!isfinite(q[i]))
             return rb_fail(why, RB_EINVAL, "lcp: q(%d) = %g: expected a finite number",
                            i + 1, q[i]);
-        if (cover && !(isfinite(cover[i]) && cover[i] > 0.0))
-            return rb_fail(why, RB_EINVAL, "lcp: cover(%d) = %g: expected a number > 0",
+        if (cover && !(isfinite(cover[i]) && cover[i] >= 0.0))
+            return rb_fail(why, RB_EINVAL, "lcp: cover(%d) = %g: expected a number >= 0",
                            i + 1, cover[i]);
+        if (cover && cover[i] == 0.0 && q[i] < 0.0)
+            return rb_fail(
+                why, RB_EINVAL,
+                "lcp: cover(%d) = 0: expected a number > 0, because q(%d) = %g "
+                "is negative",
+                i + 1, i + 1, q[i]);
     }
     return RB_OK;
 }
@@ -97,16 +103,19 @@ static void driving_column(lemke *l, int entering)
 }
 
 /* The row of the first pivot: the lexicographic minimum of (q_i, e_i)/d_i, that is the
- * least q_i/d_i and among equal ones the last; -1 when q >= 0. */
+ * least q_i/d_i and among equal ones the last; -1 when q >= 0.  Where d_i = 0 q_i is not
+ * negative, and no z0 changes w_i. */
 static int first_row(const lemke *l)
 {
     int r = -1;
     double least = 0.0;
     for (int i = 0; i < l->n; i++) {
+        if (l->data.q[i] >= 0.0)
+            continue;
         const double ratio = l->data.q[i] / rb_lcp_cover(&l->data, i);
         const int wins =
             l->opt.rule == RB_LCP_LEXICOGRAPHIC ? ratio <= least : ratio < least;
-        if (ratio < 0.0 && wins) {
+        if (wins) {
             least = ratio;
             r = i;
         }
@@ -296,8 +305,9 @@ static rb_status follow_path(lemke *l)
 
     for (;;) {
         if (l->info->iters >= l->opt.max_iters)
-            return rb_fail(&l->info->msg, RB_MAXITER, "lcp: no solution after %d pivots",
-                           l->info->iters);
+            return rb_fail(&l->info->msg, RB_MAXITER,
+                           "lcp: no solution after max_iters = %d pivots",
+                           l->opt.max_iters);
         const int entering = rb_lcp_complement(l->n, leaving);
         rb_status s = find_row(l, entering, &row);
         if (s == RB_OK && row < 0)
