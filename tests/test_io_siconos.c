@@ -292,7 +292,8 @@ static void damaged_files_are_refused_or_read(void **state)
         for (size_t i = 0; i < n; i++) {
             put_bytes(text, i);
             const rb_status cut = read[k]();
-            if (i + 4 < n && texts[k] != DENSE)
+            /* the first words of a file by blocks alone are a plain file */
+            if (i + 4 < n && texts[k] != DENSE && k != 6)
                 CHECK_STATUS(cut, RB_EFORMAT);
             for (size_t b = 0; b < sizeof bytes; b++) {
                 text[i] = bytes[b];
