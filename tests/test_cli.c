@@ -729,7 +729,7 @@ static void no_picture_of_no_steps(void **state)
     assert_int_equal(rollbem("--support hub --formulation static --history steep.txt "
                              "--zone 0.1 --contact-elements 20 --history-plot h.svg"),
                      1);
-    assert_non_null(strstr(err, "the contact fills the potential contact"));
+    assert_non_null(strstr(err, "the contact is not within the potential contact"));
     assert_null(strstr(err, "no steps to draw"));
 }
 
