@@ -98,6 +98,13 @@ $(B)/packings: examples/packings/packings.c
 	$(Q)$(CC) $(STD) $(CFLAGS) -o $@ $< -lm
 $(B)/tests/test_friction_portfolio: | $(B)/packings
 
+# the generator of the obstacle problem, for the tests
+$(B)/obstacle: examples/lcp/obstacle.c
+	@mkdir -p $(@D)
+	@echo "  CC  $<"
+	$(Q)$(CC) $(STD) $(CFLAGS) -o $@ $<
+$(B)/tests/test_cli_lcp: | $(B)/obstacle
+
 $(B)/src/mpi/%.o: CPPFLAGS += $(subst -I,-isystem ,$(shell pkg-config --cflags $(MPI)))
 
 # fused multiply-adds where the instruction set has them: -std=c11 takes them off

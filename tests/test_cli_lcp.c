@@ -242,6 +242,42 @@ static void the_cap_is_named(void **state)
     assert_non_null(strstr(out, "solved\t11\t2048\t0\t"));
 }
 
+/* The obstacle problem of 100 x 100 points: without a dense tableau, which takes 800 MB.
+ */
+static void a_large_sparse_problem_needs_no_dense_tableau(void **state)
+{
+    (void)state;
+    char line[1500];
+    double residual;
+    const int length = (int)(strlen(program) - strlen("rollbem"));
+    snprintf(line, sizeof line, "'%.*sobstacle' 100 >p && '%.*sobstacle' -q 100 >x",
+             length, program, length, program);
+    assert_int_equal(system(line), 0);
+    snprintf(line, sizeof line,
+             "ulimit -v 600000; OPENBLAS_NUM_THREADS=1 '%s' lcp --q x p >out", program);
+    assert_int_equal(system(line), 0);
+    slurp("out", out, sizeof out);
+    line[0] = 0;
+    assert_non_null(strstr(out, "\np\tsolved\t10000\t"));
+    assert_int_equal(sscanf(strstr(out, "\np\t"), "\np\t%*s\t%*d\t%*d\t%lf", &residual),
+                     1);
+    CHECK_MAX(residual, 1e-15, "residual");
+}
+
+static void the_solver_can_be_chosen(void **state)
+{
+    (void)state;
+    double z[2];
+    assert_int_equal(lcp("--solution --solver newton good"), 0);
+    solution(z);
+    CHECK_REL(z[0], 4.0 / 3.0, 1e-15, "z(1)");
+    assert_int_equal(lcp("--solver newton ray"), 1);
+    assert_int_equal(lcp("--solver newton --trace good"), 64);
+    assert_int_equal(lcp("--solver simplex good"), 64);
+    assert_int_equal(lcp("--json --solver newton good"), 0);
+    assert_non_null(strstr(out, "newton"));
+}
+
 static const char *text_of(const json_t *p, const char *key)
 {
     return json_string_value(json_object_get(p, key));
@@ -298,6 +334,8 @@ int main(void)
         cmocka_unit_test(matrix_market_is_read),
         cmocka_unit_test(a_cover_may_hold_zeros_where_q_is_not_negative),
         cmocka_unit_test(the_cap_is_named),
+        cmocka_unit_test(the_solver_can_be_chosen),
+        cmocka_unit_test(a_large_sparse_problem_needs_no_dense_tableau),
         cmocka_unit_test(json_holds_every_file),
         cmocka_unit_test(the_collection_is_solved),
     };

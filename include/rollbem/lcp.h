@@ -5,6 +5,7 @@
 #define ROLLBEM_LCP_H
 
 #include "rollbem/base.h"
+#include "rollbem/sparse.h"
 
 /* Which row leaves when several ratios tie. */
 typedef enum {
@@ -30,10 +31,12 @@ typedef struct {
 typedef void rb_lcp_trace(const rb_lcp_pivot *pivot, void *context);
 
 typedef struct {
-    int max_iters;       /* 0: 50 n + 1000 */
+    int max_iters;       /* 0: 50 n + 1000 pivots; newton: 10 n + 100 steps */
     double tol;          /* relative size below which z0 counts as zero, default 1e-13 */
     const double *cover; /* n: covering vector d >= 0, > 0 where q < 0; NULL: ones;
                             borrowed */
+    const double *start; /* newton, n: z_i is basic at first where this is > 0 (the z of a
+                            similar problem); NULL: where q < 0; borrowed */
     rb_lcp_rule rule;
     rb_lcp_trace *trace; /* NULL: none */
     void *trace_context;
@@ -41,7 +44,7 @@ typedef struct {
 } rb_lcp_options;
 
 typedef struct {
-    int iters;        /* pivots */
+    int iters;        /* pivots; newton: linear systems */
     double res;       /* max |min(z, Mz + q)|, recomputed from z alone */
     int ray_variable; /* RB_RAY: the entering variable that no row blocks; else -1 */
     rb_message msg;
@@ -57,8 +60,18 @@ rb_lcp_options rb_lcp_defaults(void);
 rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
                        const rb_lcp_options *opt, double *z, rb_lcp_info *info);
 
+/* Block principal pivoting for sparse M: Newton's method on min(z, M z + q) = 0 with a rule
+ * that ends for every P-matrix.  Of the options max_iters and start count.  RB_OK,
+ * RB_MAXITER, RB_INACCURATE; RB_SINGULAR: a principal submatrix is, so M is no P-matrix;
+ * RB_EINVAL: M not square, NaN or infinity; RB_ENOMEM. */
+rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
+                        double *z, rb_lcp_info *info);
+
 /* w = M z + q and max_i |min(z_i, w_i)|; w: n or NULL. */
 double rb_lcp_residual(int n, const double *M, int ldm, const double *q, const double *z,
                        double *w);
+/* The same for sparse M; w: n. */
+double rb_lcp_residual_sparse(const rb_sparse *M, const double *q, const double *z,
+                              double *w);
 
 #endif

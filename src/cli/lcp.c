@@ -12,9 +12,17 @@
 
 typedef struct {
     double tol;
-    int max_pivots, rule, trace, solution, json;
+    int solver, max_pivots, rule, trace, solution, json;
     const char *q, *cover, *output;
 } lcp_options;
+
+enum { AUTO, LEMKE, NEWTON };
+
+static const rb_choice solvers[] = {
+    {"auto", AUTO}, {"lemke", LEMKE}, {"newton", NEWTON}, {NULL, 0}};
+
+/* Of this order on a matrix that is stored sparse is solved without a dense tableau. */
+enum { LARGE = 500 };
 
 static const rb_choice rules[] = {{"lexicographic", RB_LCP_LEXICOGRAPHIC},
                                   {"first-index", RB_LCP_FIRST_INDEX},
@@ -28,10 +36,14 @@ static const rb_option options[] = {
                  "q of a Matrix Market file: n numbers, plain or Matrix Market",
                  .file = RB_FILE_READ),
     RB_GROUP_LINE("solver", "Solver"),
+    RB_CHOICE_LINE(
+        "solver", PLACE(solver), solvers,
+        "auto: newton on sparse matrices of order 500 and more, lemke otherwise "
+        "and where newton fails"),
     RB_NUMBER_LINE("tol", PLACE(tol), "", RB_ABOVE(0.0),
                    "residual that counts as solved, as a part of max |q|"),
     RB_INTEGER_LINE("max-pivots", PLACE(max_pivots), RB_FROM_TO(1, 1e9),
-                    "iteration limit", .unset = "50 n + 1000"),
+                    "iteration limit", .unset = "lemke 50 n + 1000, newton 10 n + 100"),
     RB_TEXT_LINE("cover", PLACE(cover), "FILE",
                  "covering vector d >= 0, d > 0 where q < 0: n numbers, as --q",
                  .unset = "ones", .file = RB_FILE_READ),
@@ -50,7 +62,9 @@ enum { OPTIONS = sizeof options / sizeof options[0] };
 
 static const char about[] =
     "Solves linear complementarity problems z >= 0, w = M z + q >= 0, z'w = 0 by Lemke's "
-    "method.\n"
+    "method\n"
+    "(any matrix, dense) or block principal pivoting (newton: sparse, sure for "
+    "P-matrices).\n"
     "FILE: plain text: n, the n rows of M, q (# starts a comment), such as\n"
     "    2\n"
     "    2 1   1 2   -5 -6\n"
@@ -61,7 +75,8 @@ static const char about[] =
 static const char notes[] =
     "One line per file: its name, status, n, pivots, residual max |min(z, w)| recomputed "
     "from z,\n"
-    "seconds. Pivots name the variables w(1) ... w(n), z(1) ... z(n) and the artificial "
+    "seconds; newton counts linear systems. Pivots name the variables w(1) ... w(n), "
+    "z(1) ... z(n) and the artificial "
     "z0.\n"
     "After a file that fails the others are still solved.\n"
     "Exit codes, the largest of all files: 0 solved; 1 secondary ray, iteration limit or "
@@ -78,11 +93,12 @@ typedef struct {
 } lcp_run;
 
 typedef struct {
-    const char *file, *status;
+    const char *file, *status, *solver;
     int n; /* 0: not read */
     rb_lcp_info info;
     double floor, seconds;
-    double *M, *q;         /* borrowed */
+    rb_sparse M;           /* owned */
+    const double *q;       /* borrowed */
     double *cover, *z, *w; /* owned; cover NULL: ones */
 } lcp_result;
 
@@ -125,7 +141,7 @@ static void add_problem(lcp_run *run, const lcp_result *r)
     const int known = r->n > 0;
     json_t *p = json_object();
     rb_report_json_set(&p, "file", rb_report_json_text(r->file));
-    rb_report_json_set(&p, "solver", json_string("lemke"));
+    rb_report_json_set(&p, "solver", json_string(r->solver));
     rb_report_json_set(&p, "status", json_string(r->status));
     rb_report_json_set(&p, "contacts", json_null());
     rb_report_json_set(&p, "dimension", known ? json_integer(r->n) : json_null());
@@ -162,15 +178,18 @@ static void print_problem(lcp_run *run, const lcp_result *r)
 /* ---- One file --------------------------------------------------------------------- */
 
 /* What rounding of the data allows at least: 1e-14 max (|M| z + |q|). */
-static double rounding_floor(int n, const double *M, const double *q, const double *z)
+static double rounding_floor(const lcp_result *r)
 {
-    double floor = 0.0;
-    for (int i = 0; i < n; i++) {
-        double size = fabs(q[i]);
-        for (int j = 0; j < n; j++)
-            size += fabs(M[(size_t)i + (size_t)j * (size_t)n]) * z[j];
-        floor = fmax(floor, 1e-14 * size);
-    }
+    double *size = rb_alloc((size_t)r->n, 1), floor = NAN;
+    if (!size)
+        return floor;
+    for (int i = 0; i < r->n; i++)
+        size[i] = fabs(r->q[i]);
+    for (int j = 0; j < r->n; j++)
+        for (int k = r->M.p[j]; k < r->M.p[j + 1]; k++)
+            size[r->M.i[k]] += fabs(r->M.x[k]) * r->z[j];
+    floor = 1e-14 * rb_norm_inf((size_t)r->n, size);
+    free(size);
     return floor;
 }
 
@@ -195,7 +214,7 @@ static cli_exit failed(lcp_result *r, rb_status s, const char *text)
     return cli_fail(cli_exit_of(s), "%s", text[0] ? text : rb_status_text(s));
 }
 
-static cli_exit run_lemke(lcp_run *run, lcp_result *r)
+static rb_status run_lemke(lcp_run *run, rb_io_matrix *M, lcp_result *r)
 {
     rb_lcp_options opt = rb_lcp_defaults();
     opt.max_iters = run->o->max_pivots;
@@ -203,16 +222,42 @@ static cli_exit run_lemke(lcp_run *run, lcp_result *r)
     opt.cover = r->cover;
     opt.trace = run->o->trace ? trace : NULL;
     opt.trace_context = run;
+    if (rb_io_matrix_to_dense(M) != RB_OK)
+        return rb_fail(&r->info.msg, RB_ENOMEM,
+                       "lcp: no memory for a dense matrix of order %d", r->n);
+    return rb_lcp_lemke(r->n, M->dense, r->n, r->q, &opt, r->z, &r->info);
+}
+
+static int wants_newton(const lcp_options *o, const rb_io_matrix *M)
+{
+    const int of_lemke = o->trace || o->cover || o->rule != RB_LCP_LEXICOGRAPHIC;
+    return o->solver == NEWTON ||
+           (o->solver == AUTO && !M->dense && M->rows >= LARGE && !of_lemke);
+}
+
+static cli_exit run_solver(lcp_run *run, rb_io_matrix *M, lcp_result *r)
+{
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.max_iters = run->o->max_pivots;
     const double start = rb_seconds();
-    const rb_status s = rb_lcp_lemke(r->n, r->M, r->n, r->q, &opt, r->z, &r->info);
+    const int newton = wants_newton(run->o, M);
+    rb_status s = RB_OK;
+    if (newton) {
+        r->solver = "newton";
+        s = rb_lcp_newton(&r->M, r->q, &opt, r->z, &r->info);
+    }
+    if (!newton || (s > 0 && run->o->solver == AUTO)) {
+        r->solver = "lemke";
+        s = run_lemke(run, M, r);
+    }
     r->seconds = rb_seconds() - start;
     if (s < 0) { /* RB_EINVAL: the numbers are of a file */
         rb_message why;
         rb_fail(&why, s, "%s: %s", r->file, r->info.msg.text);
         return failed(r, s == RB_EINVAL ? RB_EFORMAT : s, why.text);
     }
-    rb_lcp_residual(r->n, r->M, r->n, r->q, r->z, r->w);
-    r->floor = rounding_floor(r->n, r->M, r->q, r->z);
+    r->info.res = rb_lcp_residual_sparse(&r->M, r->q, r->z, r->w);
+    r->floor = rounding_floor(r);
     const cli_exit code = judge(run->o, r, s);
     if (s == RB_MAXITER)
         cli_fail(code, "%s: no solution after --max-pivots %d", r->file, r->info.iters);
@@ -226,20 +271,23 @@ static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
     r->n = p->n;
     r->z = rb_alloc((size_t)p->n, 1);
     r->w = rb_alloc((size_t)p->n, 1);
-    if (rb_io_matrix_to_dense(&p->M) != RB_OK || !r->z || !r->w)
+    if (rb_io_matrix_to_sparse(&p->M, &r->M) != RB_OK || !r->z || !r->w)
         return failed(r, RB_ENOMEM, "out of memory");
-    r->M = p->M.dense;
     r->q = p->q;
     if (run->o->trace && !run->o->json)
         fprintf(run->out, "# pivot\tentering\tleaving\trow\tratio\tz0\n");
-    return run_lemke(run, r);
+    return run_solver(run, &p->M, r);
 }
 
 static cli_exit solve_file(lcp_run *run, const char *path)
 {
     rb_io_lcp p;
     rb_message why;
-    lcp_result r = {.file = path, .info = {.res = NAN}, .floor = NAN, .seconds = NAN};
+    lcp_result r = {.file = path,
+                    .solver = "lemke",
+                    .info = {.res = NAN},
+                    .floor = NAN,
+                    .seconds = NAN};
     cli_exit code;
     run->pivots = run->o->json && run->o->trace ? json_array() : NULL;
     rb_status s = rb_io_lcp_read(path, run->o->q, &p, &why);
@@ -254,6 +302,7 @@ static cli_exit solve_file(lcp_run *run, const char *path)
     else
         print_problem(run, &r);
     json_decref(run->pivots);
+    rb_sparse_free(&r.M);
     free(r.cover);
     free(r.z);
     free(r.w);
@@ -305,6 +354,10 @@ int cli_lcp(int argc, char **argv)
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "lcp: expected at least one FILE");
+    if (code == CLI_CONTINUE && o.solver == NEWTON && (o.trace || o.cover || o.rule))
+        code = cli_fail(
+            CLI_USAGE,
+            "lcp: --trace, --cover and --rule are Lemke's: not with --solver newton");
     if (code == CLI_CONTINUE && o.q && args.operands > 1)
         code = cli_fail(CLI_USAGE, "lcp: --q goes with one FILE, got %d", args.operands);
     if (code == CLI_CONTINUE)

@@ -1,0 +1,140 @@
+/* Block principal pivoting on sparse matrices: against Lemke, on P-matrices where plain
+ * Newton steps go round in circles, warm, and on what it cannot solve. */
+#include "check.h"
+
+#include "rollbem/lcp.h"
+
+#include <string.h>
+
+static unsigned long long state_of_random = 20;
+
+static double uniform(void)
+{
+    state_of_random = state_of_random * 6364136223846793005ULL + 1442695040888963407ULL;
+    return (double)(state_of_random >> 11) / 9007199254740992.0 - 0.5;
+}
+
+/* max |min(z, M z + q)|, from the dense matrix. */
+static double natural_residual(int n, const double *M, const double *q, const double *z)
+{
+    double worst = 0.0;
+    for (int i = 0; i < n; i++) {
+        double w = q[i];
+        for (int j = 0; j < n; j++)
+            w += M[i + j * n] * z[j];
+        worst = fmax(worst, fabs(fmin(z[i], w)));
+    }
+    return worst;
+}
+
+/* Positive definite, not symmetric, half of it zeros: a positive diagonal and a skew
+ * part. */
+static void random_problem(int n, double *M, double *q)
+{
+    memset(M, 0, (size_t)(n * n) * sizeof *M);
+    for (int i = 0; i < n; i++) {
+        q[i] = 4.0 * uniform();
+        M[i + i * n] = 1.0 + fabs(uniform());
+        for (int j = 0; j < i; j++) {
+            const double skew = uniform() > 0.0 ? 2.0 * uniform() : 0.0;
+            M[i + j * n] = skew;
+            M[j + i * n] = -skew;
+        }
+    }
+}
+
+static void p_matrices_are_solved_as_by_lemke(void **state)
+{
+    (void)state;
+    enum { N = 40 };
+    double M[N * N], q[N], z[N], want[N];
+    for (int k = 0; k < 300; k++) {
+        const int n = 1 + k % N;
+        rb_sparse a;
+        rb_lcp_info info;
+        random_problem(n, M, q);
+        CHECK_STATUS(rb_sparse_from_dense(n, n, M, n, &a), RB_OK);
+        CHECK_STATUS(rb_lcp_lemke(n, M, n, q, NULL, want, NULL), RB_OK);
+        CHECK_STATUS(rb_lcp_newton(&a, q, NULL, z, &info), RB_OK);
+        CHECK_MAX(natural_residual(n, M, q, z), 1e-12 * (1.0 + rb_norm_inf((size_t)n, z)),
+                  "problem %d", k);
+        for (int i = 0; i < n; i++)
+            CHECK_ABS(z[i], want[i], 1e-9 * (1.0 + rb_norm_inf((size_t)n, want)),
+                      "problem %d, z(%d)", k, i + 1);
+        rb_lcp_options warm = rb_lcp_defaults();
+        memcpy(want, z, sizeof want);
+        warm.start = want;
+        CHECK_STATUS(rb_lcp_newton(&a, q, &warm, z, &info), RB_OK);
+        assert_int_equal(info.iters, 1);
+        rb_sparse_free(&a);
+    }
+}
+
+/* M = [1 0 2; 2 1 0; 0 2 1], a P-matrix, q = -(1, 1, 1): exchanging every negative
+ * component changes between two sets for ever. */
+static void cycling_newton_steps_end_by_single_ones(void **state)
+{
+    (void)state;
+    const double M[] = {1.0, 2.0, 0.0, 0.0, 1.0, 2.0, 2.0, 0.0, 1.0};
+    const double q[] = {-1.0, -1.0, -1.0}, start[] = {1.0, 0.0, 0.0};
+    rb_sparse a;
+    rb_lcp_info info;
+    double z[3];
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.start = start;
+    CHECK_STATUS(rb_sparse_from_dense(3, 3, M, 3, &a), RB_OK);
+    CHECK_STATUS(rb_lcp_newton(&a, q, &opt, z, &info), RB_OK);
+    CHECK_MAX(natural_residual(3, M, q, z), 1e-15, "residual");
+    opt.max_iters = 1;
+    CHECK_STATUS(rb_lcp_newton(&a, q, &opt, z, &info), RB_MAXITER);
+    rb_sparse_free(&a);
+}
+
+static void what_it_cannot_solve_is_said(void **state)
+{
+    (void)state;
+    const double M[] = {0.0, 1.0, 1.0, 0.0}, q[] = {-1.0, 1.0};
+    const double bad[] = {NAN, 1.0};
+    rb_sparse a;
+    rb_lcp_info info;
+    double z[2];
+    CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &a), RB_OK);
+    CHECK_STATUS(rb_lcp_newton(&a, q, NULL, z, &info), RB_SINGULAR);
+    assert_non_null(strstr(info.msg.text, "order 1 is singular"));
+    CHECK_STATUS(rb_lcp_newton(&a, bad, NULL, z, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "q(1) = nan"));
+    a.x[0] = INFINITY;
+    CHECK_STATUS(rb_lcp_newton(&a, q, NULL, z, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "M(2, 1) = inf"));
+    rb_sparse_free(&a);
+}
+
+static void short_memory_is_reported(void **state)
+{
+    (void)state;
+    const double M[] = {2.0, 1.0, 1.0, 2.0}, q[] = {-5.0, -6.0};
+    rb_sparse a;
+    CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &a), RB_OK);
+    for (int i = 0;; i++) {
+        double z[2];
+        alloc_fail_after(i);
+        const rb_status s = rb_lcp_newton(&a, q, NULL, z, NULL);
+        const int refused = alloc_failed();
+        alloc_succeed();
+        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+        if (!refused)
+            break;
+    }
+    rb_sparse_free(&a);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(p_matrices_are_solved_as_by_lemke),
+        cmocka_unit_test(cycling_newton_steps_end_by_single_ones),
+        cmocka_unit_test(what_it_cannot_solve_is_said),
+        cmocka_unit_test(short_memory_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
