@@ -1,0 +1,181 @@
+/* Step through the method: matrices, Lemke's pivots, guessed zones. */
+import { card, chart, html, player, show, stairs, stroke, svg, zone_colours } from "./draw.js";
+import { say } from "./words.js";
+
+const parse = (name) => { const m = /^([a-z0-9]+[+-]?)(?:\[(\d+)\])?$/.exec(name); return { kind: m[1], i: Number(m[2] ?? 0) }; };
+
+/* A matrix as shades: blue negative, orange positive, small values lifted by a root. */
+function shaded(words, name, matrix, explain) {
+    const { rows, columns, at } = matrix, canvas = html("canvas", { width: columns, height: rows, tabindex: 0, role: "img", "aria-label": words.matrix_names[name] });
+    const most = Math.max(...at.map(Math.abs)) || 1, image = new ImageData(columns, rows), dark = matchMedia("(prefers-color-scheme: dark)").matches;
+    const zero = dark ? [26, 32, 41] : [255, 254, 251], ends = dark ? [[108, 197, 228], [255, 154, 98]] : [[20, 99, 126], [196, 80, 27]];
+    for (let i = 0; i < rows; i++)
+        for (let j = 0; j < columns; j++) {
+            const v = at[i + rows * j] / most, t = Math.abs(v) ** 0.4, end = ends[v < 0 ? 0 : 1];
+            image.data.set([...zero.map((z, k) => z + (end[k] - z) * t), 255], 4 * (j + columns * i));
+        }
+    canvas.getContext("2d").putImageData(image, 0, 0);
+    const text = html("p", { "aria-live": "polite" }, words.matrix_hint);
+    const place = { i: 0, j: 0 };
+    const tell = () => { text.textContent = explain(place.i, place.j, show(at[place.i + rows * place.j], 3)); };
+    canvas.addEventListener("pointermove", (event) => {
+        const box = canvas.getBoundingClientRect();
+        place.j = Math.max(0, Math.min(columns - 1, Math.floor((event.clientX - box.left) / box.width * columns)));
+        place.i = Math.max(0, Math.min(rows - 1, Math.floor((event.clientY - box.top) / box.height * rows)));
+        tell();
+    });
+    canvas.addEventListener("keydown", (event) => {
+        const step = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] }[event.key];
+        if (!step) return;
+        event.preventDefault();
+        place.i = Math.max(0, Math.min(rows - 1, place.i + step[0]));
+        place.j = Math.max(0, Math.min(columns - 1, place.j + step[1]));
+        tell();
+    });
+    return html("figure", { class: "matrix", "data-matrix": name }, html("figcaption", {}, html("b", {}, words.matrix_names[name]), ` ${rows} × ${columns}`), canvas, text);
+}
+
+function matrices(words, a, n) {
+    const element = (k) => ({ e: Math.floor(k / 2) + 1, d: words.direction[k % 2] });
+    const boundary = (which) => (i, j, value) => say(words[`matrix_${which}`], { i: i + 1, j: j + 1, value, ei: element(i).e, ej: element(j).e, di: element(i).d, dj: element(j).d });
+    const flexibility = (i, j, value) => { const ei = i % (n + 1); return say(words.matrix_F, { i: i + 1, j: j + 1, value, di: i <= n ? words.normal : words.tangent, dj: j < n ? words.pressing : words.rubbing,
+        ei: ei === n ? say(words.upstream, { n: n + 1 }) : ei + 1, ej: j % n + 1 }); };
+    const size = a["lcp.M"].rows, lcp = (i, j, value) => say(words.matrix_M, { i: i + 1, j: j + 1, value, wi: pretty(words, a.names[i]), zj: pretty(words, a.names[size + j]) });
+    return [a.H ? null : html("p", { class: "note" }, words.no_boundary), html("div", { class: "quad" },
+        a.H && shaded(words, "H", a.H, boundary("H")), a.G && shaded(words, "G", a.G, boundary("G")), a.F && shaded(words, "F", a.F, flexibility), shaded(words, "lcp.M", a["lcp.M"], lcp))];
+}
+
+const pretty = (words, name) => { const { kind, i } = parse(name); return kind === "z0" ? "z₀" : words.basis[kind] ? `${words.basis[kind]} ${i}` : `${kind} ${i}`; };
+
+/* "Element 3 is pressed until element 2 touches." */
+export function sentence_of(words, a, k) {
+    if (k === 0) return `${words.pivot_start} ${say(words.sentence, { enter: words.enters.z0, leave: say(words.leaves[parse(a.names[a["pivot.leaving"].at[0]]).kind], parse(a.names[a["pivot.leaving"].at[0]])) })}`;
+    const enters = parse(a.names[a["pivot.entering"].at[k]]), leaves = parse(a.names[a["pivot.leaving"].at[k]]);
+    const same = enters.i === leaves.i && words.same_element[`${enters.kind} ${leaves.kind}`];
+    if (same) return say(same, enters) + ".";
+    return say(words.sentence, { enter: say(words.enters[enters.kind], enters), leave: say(words.leaves[leaves.kind], leaves) });
+}
+
+/* Basic kinds of each element after pivot k: a set of names like "p", "lambda+". */
+function basis_of(a, k, n) {
+    const { rows, at } = a["pivot.basis"], of = Array.from({ length: n }, () => new Set());
+    for (let i = 0; i < rows; i++) {
+        const { kind, i: element } = parse(a.names[at[i + rows * k]]);
+        if (kind in { gap: 1, p: 1, "lambda+": 1, "lambda-": 1, "gamma+": 1, "gamma-": 1 }) of[element - 1].add(kind);
+    }
+    return of;
+}
+const zone_of = (kinds) => !kinds.has("p") ? 0 : kinds.has("lambda+") ? 2 : kinds.has("lambda-") ? 3 : 1;
+
+const strip = (words, zones, label) => html("div", { class: "cells", style: `grid-template-columns:6.5rem repeat(${zones.length},1fr);align-items:center`, role: "img",
+    "aria-label": `${label}: ${zones.map((z) => words.zones_short[z]).join(", ")}` }, html("span", { class: "head", style: "text-align:left" }, label),
+    zones.map((z, i) => html("span", { class: `zone${z}`, title: words.zones[z] }, zones.length > 9 ? words.zones_signs[z] : words.zones_short[z])));
+
+function basis_grid(words, kinds) {
+    const pairs = [["gap", "p"], ["lambda+", "gamma+"], ["lambda-", "gamma-"]];
+    const cells = pairs.flatMap((pair, r) => [html("span", { class: "head", style: "text-align:left" }, words.basis_rows[r]),
+        ...kinds.map((set) => { const basic = pair.filter((kind) => set.has(kind));
+            return html("span", { style: `background:var(--grid)${basic.includes("p") || basic.some((b) => b.startsWith("lambda")) ? ";background:var(--press);color:var(--card)" : ""}` }, basic.map((b) => words.basis[b]).join(" ") || words.neither); })]);
+    const numbers = [html("span", { class: "head" }), ...kinds.map((set, i) => html("span", { class: "head" }, i + 1))];
+    return html("div", { class: "cells", style: `grid-template-columns:6.5rem repeat(${kinds.length},1fr)`, role: "img", "aria-label": words.basis_now }, numbers, cells);
+}
+
+function bars(host, words, { ends, p, q, mu, top, label }) {
+    const width = Math.max(280, Math.min(900, host.clientWidth || 500)), x = [ends[0], ends[p.length]];
+    const plot = chart({ width, height: 230, x, y: [-mu * top * 1.15, top * 1.08], x_label: words.x_axis, y_label: words.mpa, label });
+    const bound = (sign) => svg("path", { d: stairs(ends, [...p].map((v) => sign * mu * v), plot.X, plot.Y), style: stroke("--soft", 1.3, "stroke-dasharray:2 4") });
+    plot.root.append(...[...p].map((v, i) => svg("rect", { x: plot.X(ends[i]) + 1, width: Math.max(1, plot.X(ends[i + 1]) - plot.X(ends[i]) - 2), y: Math.min(plot.Y(v), plot.Y(0)), height: Math.abs(plot.Y(v) - plot.Y(0)), style: "fill:var(--press-fill);stroke:var(--press);stroke-width:1.2" })),
+        bound(1), bound(-1), svg("path", { d: stairs(ends, [...q], plot.X, plot.Y), style: stroke("--rub", 3) }));
+    return plot.root;
+}
+
+function ratio_test(words, a, k) {
+    const size = a["pivot.before"].rows, at = (name, i) => a[name].at[i + size * k], chosen = a["pivot.row"].at[k];
+    const basic = (i) => a.names[k === 0 ? i : a["pivot.basis"].at[i + size * (k - 1)]];
+    let rows = Array.from({ length: size }, (_, i) => ({ i, value: at("pivot.before", i), change: at("pivot.column", i) }));
+    rows = k === 0 ? rows.filter(({ value }) => value < 0).map((row) => ({ ...row, ratio: -row.value })).sort((x, y) => y.ratio - x.ratio)
+        : rows.filter(({ change }) => change < 0).map((row) => ({ ...row, ratio: -row.value / row.change })).sort((x, y) => x.ratio - y.ratio || (x.i === chosen ? -1 : 1));
+    const shown = rows.slice(0, 7);
+    if (!shown.some(({ i }) => i === chosen)) shown.splice(6, 1, rows.find(({ i }) => i === chosen) ?? shown[6]);
+    const head = [words.ratio_variable, words.ratio_value, words.ratio_change, words.ratio_ratio];
+    return [html("p", { class: "note" }, k === 0 ? words.ratio_first : say(words.ratio_note, { entering: pretty(words, a.names[a["pivot.entering"].at[k]]) })),
+        html("table", {}, html("thead", {}, html("tr", {}, head.map((text, c) => html("th", { scope: "col", class: c ? "number" : "" }, text)))),
+            html("tbody", {}, shown.filter(Boolean).map((row) => html("tr", { class: row.i === chosen ? "chosen" : "" }, html("td", {}, pretty(words, basic(row.i)) + (row.i === chosen ? " ←" : "")),
+                [row.value, row.change, row.ratio].map((v) => html("td", { class: "number" }, show(v, 3)))))))];
+}
+
+/* What a guess violates, in words; tolerances of rounding only. */
+export function judge(words, { p, q, gap, shift }, zones, mu) {
+    const most = Math.max(...[...p].map(Math.abs)), tol = 1e-9 * most, wide = 1e-9 * Math.max(...[...gap].map(Math.abs)), far = 1e-9 * Math.max(...[...shift].map(Math.abs));
+    return zones.flatMap((z, k) => {
+        const i = k + 1;
+        if (z === 0) return gap[k] < -wide ? [say(words.guess_overlap, { i, gap: show(-gap[k], 3) })] : [];
+        if (p[k] < -tol) return [say(words.guess_pull, { i, p: show(p[k], 3) })];
+        if (z === 1) return Math.abs(q[k]) > mu * p[k] + tol ? [say(words.guess_friction, { i, q: show(Math.abs(q[k]), 3), bound: show(mu * p[k], 3) })] : [];
+        return (z === 2 ? shift[k] < -far : shift[k] > far) ? [say(words.guess_direction, { i })] : [];
+    });
+}
+
+export function step_view(words, page) {
+    let data = null, zones = [], elements = 8, asked = null, wanted = null;
+    const title = html("h2"), matrix_host = html("div"), sentence = html("p", { class: "sentence", "aria-live": "polite" });
+    const strips = html("div", { class: "stack", style: "gap:.35rem" }), picture = html("figure"), z0 = html("p", { class: "note" }), ratios = html("div");
+    const count = html("input", { type: "range", id: "step-elements", min: 4, max: 16, value: elements, oninput: () => { elements = Number(count.value); page.ask_view(); } });
+    const frames = player(words, { label: words.pivots, see: frame, milliseconds: 1400, describe: (k, n) => say(words.pivot_count, { k: k + 1, n }) });
+    const paint = html("div"), guess_picture = html("figure"), verdict = html("div", { "aria-live": "polite" });
+    const button = (text, act, more = "") => html("button", { type: "button", class: `button ${more}`, onclick: act }, text);
+    const node = html("div", { class: "stack" },
+        html("section", { class: "card" }, title, html("p", {}, words.step_intro), html("div", { class: "row" }, html("label", { for: "step-elements" }, words.step_elements), count)),
+        card(words.matrices, matrix_host),
+        card(words.pivots, frames.node, sentence, html("div", { class: "pair" }, html("div", {}, strips, picture, z0), html("div", {}, html("h2", {}, words.ratio_title), ratios))),
+        card(words.guess_title, html("p", {}, words.guess_note), paint, html("div", { class: "row", style: "margin:.7rem 0" }, button(words.guess_check, check, "main"), button(words.guess_clear, () => repaint(zones.fill(0))), button(words.guess_answer, () => { repaint(solution()); check(); })), verdict, guess_picture));
+
+    function given() {
+        const few = { ...page.given, mesh: "uniform", solver: "lemke", "lcp-form": "pivoted", "contact-elements": String(elements) };
+        if ((few.support ?? "arc") !== "halfplane") few["outer-elements"] ??= "24";
+        const { contact_from: from, contact_to: to } = page.answer?.numbers ?? {};
+        if (to > from) few.zone ??= String(Number((1.35 * Math.max(-from, to)).toPrecision(3)));
+        if (few.formulation === "transient") few.formulation = "steady";
+        return few;
+    }
+    const mu = () => Number(data.values.mu.split(",")[0]), solution = () => [...data.columns.zone];
+    const top = () => Math.max(...data["pivot.p"].at);
+
+    function frame(k) {
+        if (!data) return;
+        const n = data["pivot.p"].rows, kinds = basis_of(data, k, n);
+        sentence.innerHTML = sentence_of(words, data, k).replace(/(\d+|z₀)(?![^<]*>)/g, "<b>$1</b>");
+        strips.replaceChildren(basis_grid(words, kinds), strip(words, kinds.map(zone_of), words.basis_now), strip(words, solution(), words.solution_zones));
+        const part = (name) => data[name].at.subarray(n * k, n * k + n);
+        picture.replaceChildren(bars(picture, words, { ends: data.ends.at, p: part("pivot.p"), q: part("pivot.q"), mu: mu(), top: top(), label: say(words.pivot_alt, { k: k + 1, z0: show(data["pivot.z0"].at[k]) }) }));
+        z0.textContent = say(words.z0, { z0: show(data["pivot.z0"].at[k], 4) }) + (k === frames.count - 1 && data.end ? ` ${data.end}` : "");
+        ratios.replaceChildren(...ratio_test(words, data, k));
+    }
+    function repaint(next) {
+        zones = [...next];
+        const focus = [...paint.querySelectorAll("button")].indexOf(document.activeElement);
+        paint.replaceChildren(html("div", { class: "cells", style: `grid-template-columns:repeat(${zones.length},minmax(0,1fr))` }, zones.map((z, i) => html("button", { type: "button", class: `zone${z}`,
+            "aria-label": say(words.guess_element, { i: i + 1, zone: words.zones[z] }), onclick: () => { zones[i] = (zones[i] + 1) % 4; repaint(zones); } }, i + 1, html("br"), zones.length > 9 ? words.zones_signs[z] : words.zones_short[z]))));
+        if (focus >= 0) paint.querySelectorAll("button")[focus]?.focus();
+        verdict.replaceChildren();
+        guess_picture.replaceChildren();
+    }
+    function check() { asked = [...zones]; page.ask({ kind: "guess", given: wanted, zones: asked }); }
+    function judged(answer) {
+        if (answer.refused) return verdict.replaceChildren(html("p", { class: "bad" }, answer.refused));
+        const part = (name) => answer[`guess.${name}`].at, wrong = judge(words, { p: part("p"), q: part("q"), gap: part("gap"), shift: part("shift") }, asked, mu());
+        verdict.replaceChildren(html("p", { class: wrong.length ? "bad" : "good" }, wrong.length ? say(words.guess_wrong, { n: wrong.length }) : words.guess_right), html("ul", { class: "verdict" }, wrong.map((text) => html("li", {}, text))));
+        guess_picture.replaceChildren(bars(guess_picture, words, { ends: answer.ends.at, p: part("p"), q: part("q"), mu: mu(), top: Math.max(...part("p"), ...[...part("q")].map((v) => Math.abs(v) / Math.max(mu(), 0.05))) || 1, label: words.guess_title }));
+    }
+    return { node, player: frames, wants: () => [{ kind: "pivots", given: wanted = given() }], leave: () => frames.stop(),
+        draw() { if (data) frame(frames.at); },
+        take(answer) {
+            if (answer.kind === "guess") return judged(answer);
+            data = answer;
+            const n = data["pivot.p"].rows;
+            title.textContent = say(words.step_title, { n });
+            matrix_host.replaceChildren(...matrices(words, data, n).filter(Boolean));
+            if (zones.length !== n) repaint(Array(n).fill(0)); else repaint(zones);
+            frames.set(data["pivot.z0"].columns, 0);
+        } };
+}

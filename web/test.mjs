@@ -1,0 +1,207 @@
+/* Tests of the page: node web/test.mjs [build].  The library as WebAssembly answers as the
+ * program does; then the page itself in a headless Chromium. */
+import { execFileSync, spawnSync } from "node:child_process";
+import { existsSync, readFileSync, readdirSync } from "node:fs";
+import { resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { open_page } from "./chromium.mjs";
+import { load_library } from "./library.js";
+import { answer } from "./worker.js";
+
+const build = process.argv[2] ?? "build", program = resolve(`${build}/rollbem`);
+let passed = 0, failed = 0;
+
+async function test(name, body) {
+    const start = performance.now();
+    try { await body(); passed++; console.log(`  ok     ${name} (${Math.round(performance.now() - start)} ms)`); }
+    catch (error) { failed++; console.log(`  FAILED ${name}: ${error.message}`); }
+}
+function check(holds, text) { if (!holds) throw new Error(text); }
+function check_close(got, want, tol, what) {
+    if (!Number.isFinite(want)) return check(!Number.isFinite(got), `${what}: got ${got}, the program has none`);
+    check(Math.abs(got - want) <= tol, `${what}: got ${got}, want ${want}, difference ${Math.abs(got - want)} > ${tol}`);
+}
+
+/* ---- The library ------------------------------------------------------------------- */
+
+const library = await load_library(readFileSync(`${build}/page/rollbem.wasm`));
+const given_of = (ini) => Object.fromEntries(readFileSync(ini, "utf8").split("\n").map((line) => /^([\w-]+)\s*=\s*([^;]*)/.exec(line)).filter(Boolean).map(([, name, text]) => [name, text.trim()]));
+const words_of = (given) => Object.entries(given).flatMap(([name, text]) => library.options.find((o) => o.name === name)?.kind === "flag" ? [`--${name}`] : [`--${name}`, text]);
+const run = (args) => spawnSync(program, args, { encoding: "utf8", env: { ...process.env, OPENBLAS_NUM_THREADS: "1" } });
+
+/* Every number that is no count of work, time or rounding, and p and q of every element. */
+const LEFT_OUT = ["iterations", "residual", "residual_gap", "residual_slip", "residual_friction", "load_error", "support_balance", "slip_violations"];
+function flatten(json) {
+    const all = {};
+    for (const [name, value] of Object.entries(json)) {
+        if (value && typeof value === "object" && !Array.isArray(value)) for (const [inner, v] of Object.entries(flatten(value))) all[inner] ??= v; else all[name] ??= value;
+    }
+    return all;
+}
+function compare(given, tol) {
+    const got = answer(library, { kind: "roll", given }), ran = run(["--json", "--quiet", ...words_of(given)]);
+    check(!got.refused, got.refused);
+    const want = flatten({ ...JSON.parse(ran.stdout), inputs: null });
+    let compared = 0;
+    for (const { name, kind } of library.results.number) {
+        if (kind === "seconds" || LEFT_OUT.includes(name) || !(name in want)) continue;
+        const scale = /load|dissipation/.test(name) ? want.normal_load : /ratio/.test(name) ? 1 : /creepage/.test(name) ? 1e-3
+            : /half_width|stick_|contact_(from|to)/.test(name) ? want.half_width : /shift/.test(name) ? Math.abs(want.approach) : 0;
+        check_close(got.numbers[name], want[name] ?? NaN, tol * Math.max(Math.abs(want[name]), scale), name);
+        compared++;
+    }
+    check(compared > 12, `only ${compared} numbers compared`);
+    for (const name of ["p", "q"])
+        want[`${name}_MPa`].forEach((v, i) => check_close(got.columns[name][i], v, tol * got.numbers.max_pressure, `${name}, row ${i + 1}`));
+}
+
+/* A fitted mesh is fitted until the edges move less than a bound: its ends carry that. */
+const FITTED = 1e-6;
+for (const folder of readdirSync("examples"))
+    for (const file of readdirSync(`examples/${folder}`, { recursive: true }).filter((f) => f.endsWith(".ini"))) {
+        const given = given_of(`examples/${folder}/${file}`), named = ["history", "irregularity", "accuracy", "error"].filter((name) => name in given && given[name] !== "no");
+        if (named.length || /[/.]/.test(given.gap ?? "")) { console.log(`  left   examples/${folder}/${file}: ${named} is not in the page`); continue; }
+        const fitted = given.mesh === "fitted" || (given.formulation === "steady" && !given.mesh && !given.zone);
+        await test(`the program's numbers: examples/${folder}/${file}`, () => compare(given, fitted ? FITTED : 1e-9));
+    }
+const rail = { support: "halfplane", "support-b": "halfplane", similar: "yes", formulation: "steady", radius: "460", young: "210000", poisson: "0.3", mesh: "uniform" };
+for (const more of [{ load: "1000", mu: "0.3", "creep-ratio": "0.5" }, { load: "1000", mu: "0.3", "force-ratio": "-0.9" }, { approach: "0.03", mu: "0.1", creep: "0.0004", zone: "3" },
+    { "half-width": "2", mu: "0.5", "creep-ratio": "-0.7" }, { load: "1000", mu: "0.3", formulation: "static", "force-ratio": "0.5" }, { support: "hub", load: "1000", mu: "0.3", "creep-ratio": "0.3", "contact-elements": "20" },
+    { formulation: "transient", load: "1000", mu: "0.3", "creep-ratio": "0.5", distance: "2", "contact-elements": "24" }])
+    await test(`the program's numbers: ${JSON.stringify(more)}`, () => compare({ ...rail, ...more }, 1e-9));
+
+for (const given of [{ mu: "-1" }, { mu: "x" }, { "contact-elements": "2" }, { support: "wall" }, { load: "1", approach: "1" }, { formulation: "steady" }, { poisson: "0.7" }, { creep: "1e400" },
+    { support: "halfplane", "hub-ratio": "0.4" }, { formulation: "steady", shift: "1" }, { similar: "yes", "young-b": "3" }])
+    await test(`the program's refusal: ${JSON.stringify(given)}`, () => {
+        const ran = run(["--quiet", ...words_of(given)]), got = answer(library, { kind: "solve", given });
+        if (ran.status === 0) return check(!got.refused, `the program solves it, the page says: ${got.refused}`);
+        check(got.refused, "the page solves it");
+        check(ran.stderr.includes(got.refused), `got '${got.refused}', the program says '${ran.stderr.trim()}'`);
+    });
+await test("a size that the page does not take", () => check(/use the program/.test(answer(library, { kind: "solve", given: { "contact-elements": "5000" } }).refused), "it is solved"));
+
+/* ---- The page ---------------------------------------------------------------------- */
+
+const file = resolve(`${build}/rollbem.html`), url = pathToFileURL(file).href;
+await test("one file below 600 kB that names no other", () => {
+    const text = readFileSync(file, "utf8");
+    check(text.length < 600e3, `${text.length} bytes`);
+    check(!/(src|href)="?https?:/.test(text), "it asks for something");
+});
+
+const IDLE = "window.rollbem && rollbem.page.answer && rollbem.queue.idle()";
+async function views(page) {
+    const number = (name) => page.run(`rollbem.page.answer.numbers.${name}`);
+    const settled = async () => { await new Promise((resolve) => setTimeout(resolve, 30)); await page.until(IDLE); };
+    await test("the page solves and shows the program's numbers", async () => {
+        await page.until(IDLE);
+        const given = await page.run("rollbem.page.given"), want = flatten({ ...JSON.parse(run(["--json", "--quiet", ...words_of(given)]).stdout), inputs: null });
+        check_close(await number("tangential_load"), want.tangential_load, 1e-9 * Math.abs(want.tangential_load), "Q");
+        const shown = await page.run("document.querySelector('[data-number=max_pressure]').textContent");
+        check(shown.startsWith(String(Number(want.max_pressure.toPrecision(4)))), `shown: ${shown}`);
+    });
+    await test("the command that the page shows gives the page's numbers", async () => {
+        await page.run("rollbem.open('take')");
+        await settled();
+        const command = await page.run("document.querySelector('[data-take=command]').value");
+        const want = flatten({ ...JSON.parse(run(["--json", "--quiet", ...command.split(" ").slice(1)]).stdout), inputs: null });
+        check_close(await number("tangential_load"), want.tangential_load, 1e-9 * Math.abs(want.tangential_load), "Q");
+        await page.run("rollbem.open('contact')");
+    });
+    for (const preset of ["rail", "stiff", "addi"])
+        await test(`every control moved: ${preset}`, async () => {
+            await page.run(`rollbem.preset('${preset}')`);
+            await settled();
+            check(await page.run("document.getElementById('message').hidden"), await page.run("document.getElementById('message').textContent"));
+            const knobs = await page.run("[...document.querySelectorAll('#controls [data-knob]')].map((k) => k.dataset.knob)");
+            check(knobs.length >= 7, `${knobs.length} sliders`);
+            for (const knob of knobs) {
+                const before = await page.run(`rollbem.page.given['${knob}'] ?? rollbem.page.answer.values['${knob}']`);
+                await page.run(`{ const k = document.querySelector('[data-knob="${knob}"]'); k.value = Number(k.value) - 12 * Number(k.step); k.dispatchEvent(new Event("input")); }`);
+                await settled();
+                const after = await page.run(`rollbem.page.given['${knob}']`);
+                check(after !== before, `${knob} stayed at ${before}`);
+                check(await page.run("document.getElementById('message').hidden"), `${knob} = ${after}: ${await page.run("document.getElementById('message').textContent")}`);
+            }
+        });
+    await test("every choice taken", async () => {
+        await page.run("rollbem.preset('rail')");
+        await settled();
+        const choices = await page.run("[...document.querySelectorAll('#controls input[type=radio]')].map((r) => [r.name, r.value])");
+        for (const [name, value] of choices) {
+            await page.run(`rollbem.preset('rail'); document.querySelector('#controls input[name="${name}"][value="${value}"]')?.click()`);
+            await settled();
+            check(await page.run("document.getElementById('message').hidden"), `${name} ${value}: ${await page.run("document.getElementById('message').textContent")}`);
+        }
+    });
+    await test("the point of the creep curve moved by keys", async () => {
+        await page.run("rollbem.preset('rail')");
+        await settled();
+        const before = await number("force_ratio");
+        await page.run("document.querySelector('.handle').dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowUp', bubbles: true }))");
+        await settled();
+        check_close(await number("force_ratio"), before + 0.02, 6e-4, "Q/(mu P)");
+    });
+    for (const [preset, matrices] of [["rail", 2], ["stiff", 4]])
+        await test(`Lemke stepped to the end, zones guessed: ${preset}`, async () => {
+            await page.run(`rollbem.preset('${preset}'); rollbem.open('step')`);
+            await settled();
+            check(await page.run("document.querySelectorAll('canvas').length") === matrices, "matrices");
+            const count = await page.run("rollbem.views.step.player.count"), click = (text) => page.run(`[...document.querySelectorAll('main button')].find((b) => b.textContent === '${text}').click()`);
+            for (let k = 0; k < count; k++) {
+                const sentence = await page.run("document.querySelector('.sentence').textContent");
+                check(/ until .+\.$|touches\.$/.test(sentence) && !/[{}]|undefined/.test(sentence), `pivot ${k + 1}: ${sentence}`);
+                await click("Next");
+            }
+            check(/the problem is solved/.test(await page.run("document.querySelector('.sentence').textContent")), "the last pivot");
+            const same = await page.run("(([now, want]) => now === want)([...document.querySelectorAll('main .cells[aria-label*=\"zones\"], main .cells[aria-label*=\"basis after this pivot:\"]')].map((s) => s.getAttribute('aria-label').replace(/^.*?:/, '')))");
+            check(same, "the zones of the last basis are those of the solution");
+            await click("Check");
+            await settled();
+            check(await page.run("document.querySelector('.verdict') !== null || document.querySelector('main .bad') !== null"), "no verdict on a wrong guess");
+            await click("Show the answer");
+            await settled();
+            check(await page.run("document.querySelector('main .good') !== null"), `the answer: ${await page.run("document.querySelector('main .verdict')?.textContent")}`);
+        });
+    await test("rolled, and looked below", async () => {
+        await page.run("rollbem.preset('rail'); rollbem.open('roll')");
+        await settled();
+        await page.run("rollbem.views.roll.player.go(1e9)");
+        check(await page.run("rollbem.views.roll.player.at") > 20, "steps");
+        await page.run("rollbem.open('below')");
+        await settled();
+        for (const kind of ["von_mises", "fringes", "max_shear"]) await page.run(`document.querySelector('input[value=${kind}]').click()`);
+        check(await page.run("document.querySelector('main image') !== null"), "no map");
+    });
+    for (const [link, line] of [["#mu=%3Cimg%20src=x%3E", "--mu: expected a number"], ["#nothing=1", "unknown option"], ["#contact-elements=1e9", "--contact-elements"], [`#mu=${"9".repeat(5000)}`, "could not be read"]])
+        await test(`a hostile link says so: ${link.slice(0, 30)}`, async () => {
+            await page.run(`location.hash = ${JSON.stringify(link)}`);
+            await page.until(`document.getElementById('message').textContent.includes(${JSON.stringify(line)})`, 10);
+            check(await page.run("document.querySelectorAll('#message *').length") === 0, "the message holds elements");
+        });
+    await test("every control has a name, every picture a description", async () => {
+        await page.run("rollbem.preset('rail'); rollbem.open('contact')");
+        await settled();
+        const nameless = await page.run("[...document.querySelectorAll('input, button, select, textarea, [role=img], [role=slider]')].filter((e) => !(e.getAttribute('aria-label') || e.labels?.length || e.textContent.trim())).map((e) => e.outerHTML.slice(0, 80))");
+        check(nameless.length === 0, nameless.join(" "));
+    });
+    await test("moves are shown at once (a figure, no bound)", async () => {
+        const times = await page.run(`(async () => { const all = []; for (let k = 0; k < 40; k++) { const start = performance.now(); rollbem.page.change({ ...rollbem.page.given, mu: (0.2 + 0.002 * k).toFixed(3) });
+            while (Number(rollbem.page.answer.values.mu) !== Number(rollbem.page.given.mu) && performance.now() - start < 2000) await new Promise((r) => setTimeout(r)); all.push(performance.now() - start); } return all.sort((a, b) => a - b); })()`);
+        console.log(`         60 elements, 40 moves of mu: median ${times[20].toFixed(1)} ms, worst ${times.at(-1).toFixed(1)} ms`);
+    });
+    await test("no error, no request", () => {
+        check(page.errors.length === 0, page.errors.join("; "));
+        const outside = page.requested.filter((address) => !/^(file|blob|data):/.test(address));
+        check(outside.length === 0, outside.join(" "));
+    });
+}
+
+if (spawnSync("chromium", ["--version"]).status === 0) {
+    const page = await open_page(url);
+    try { await views(page); } finally { await page.close(); }
+} else {
+    console.log("  skipped: the page in a browser (no chromium)");
+}
+console.log(`page: ${passed} passed, ${failed} failed`);
+process.exit(failed ? 1 : 0);

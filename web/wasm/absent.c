@@ -1,0 +1,185 @@
+/* What the page does not hold: transforms for long lines, hierarchical matrices, cone
+ * solvers. The page's ranges stay below the sizes that would need them; asked for all the
+ * same, they refuse. */
+#include "bem/hierarchical.h"
+#include "bem/large.h"
+#include "bem/toeplitz.h"
+#include "rolling/internal.h"
+#include "rolling/reduced.h"
+#include "rollbem/blas.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_spline.h>
+#include <stdlib.h>
+
+static const char refusal[] = "not in the page: use the program";
+
+double *rb_large_alloc(size_t rows, size_t cols)
+{
+    return rb_alloc(rows, cols);
+}
+
+rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
+                                      const rb_bem_surface *body, rb_bem_flexibility *f,
+                                      rb_message *why)
+{
+    (void)body;
+    (void)ends;
+    *f = (rb_bem_flexibility){0};
+    return rb_fail(why, RB_EINVAL, "%d contact elements are %s", n_c, refusal);
+}
+
+int rb_bem_toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
+{
+    (void)a;
+    (void)b;
+    return 0;
+}
+
+rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material material,
+                                 const double *unit, double tolerance,
+                                 rb_hierarchical **h)
+{
+    (void)mesh;
+    (void)material;
+    (void)unit;
+    (void)tolerance;
+    *h = NULL;
+    return RB_EINVAL;
+}
+
+rb_status rb_hierarchical_solve(const rb_hierarchical *h, int columns, double *X)
+{
+    (void)h;
+    (void)columns;
+    (void)X;
+    return RB_EINVAL;
+}
+
+void rb_hierarchical_free(rb_hierarchical *h)
+{
+    (void)h;
+}
+
+rb_status rb_rolling_krylov_create(const rb_rolling_problem *problem,
+                                   struct rb_rolling_krylov **krylov)
+{
+    (void)problem;
+    *krylov = NULL;
+    return RB_EINVAL;
+}
+
+void rb_rolling_krylov_free(struct rb_rolling_krylov *krylov)
+{
+    (void)krylov;
+}
+
+rb_status rb_rolling_reduced_krylov(const rb_rolling_problem *p, const int *zone,
+                                    rb_rolling_reduced *r)
+{
+    (void)p;
+    (void)zone;
+    (void)r;
+    return RB_EINVAL;
+}
+
+rb_status rb_rolling_cone_solve(const rb_rolling_problem *problem, const char *solver,
+                                rb_rolling_state *state, rb_message *why)
+{
+    (void)problem;
+    (void)state;
+    return rb_fail(why, RB_EINVAL, "solver %s is %s", solver, refusal);
+}
+
+/* No file, no profile. */
+rb_status rb_rolling_profile_create(int n, const double *x, const double *gap,
+                                    double noise, rb_rolling_profile **profile,
+                                    rb_message *why)
+{
+    (void)n;
+    (void)x;
+    (void)gap;
+    (void)noise;
+    *profile = NULL;
+    return rb_fail(why, RB_EINVAL, "a gap from a file is %s", refusal);
+}
+
+void rb_rolling_profile_free(rb_rolling_profile *profile)
+{
+    (void)profile;
+}
+
+void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from, double *to)
+{
+    (void)profile;
+    *from = *to = 0.0;
+}
+
+double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x)
+{
+    (void)profile;
+    (void)x;
+    return NAN;
+}
+
+int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x)
+{
+    (void)profile;
+    *x = NULL;
+    return 0;
+}
+
+rb_status rb_rolling_points_check(const char *what, int n, const double *x,
+                                  const double *gap, rb_message *why)
+{
+    (void)n;
+    (void)x;
+    (void)gap;
+    return rb_fail(why, RB_EINVAL, "%s is %s", what, refusal);
+}
+
+/* Irregularities come from files too: the check above has refused them. */
+const gsl_interp_type *gsl_interp_cspline = NULL;
+
+gsl_spline *gsl_spline_alloc(const gsl_interp_type *type, size_t n)
+{
+    (void)type;
+    (void)n;
+    return NULL;
+}
+
+int gsl_spline_init(gsl_spline *spline, const double x[], const double y[], size_t n)
+{
+    (void)spline;
+    (void)x;
+    (void)y;
+    (void)n;
+    return GSL_EINVAL;
+}
+
+double gsl_spline_eval(const gsl_spline *spline, double x, gsl_interp_accel *accel)
+{
+    (void)spline;
+    (void)x;
+    (void)accel;
+    return GSL_NAN;
+}
+
+void gsl_spline_free(gsl_spline *spline)
+{
+    (void)spline;
+}
+
+/* One thread. */
+int rb_blas_threads(int threads)
+{
+    (void)threads;
+    return 1;
+}
+
+const rb_friction_solver *rb_friction_solvers(int *count)
+{
+    *count = 0;
+    return NULL;
+}

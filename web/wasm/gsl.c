@@ -1,0 +1,411 @@
+/* GSL for WebAssembly: the functions that rollbem's core calls, behind GSL's own headers.
+ */
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_interp.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_multimin.h>
+#include <gsl/gsl_roots.h>
+#include <gsl/gsl_sf_expint.h>
+#include <stdlib.h>
+#include <string.h>
+
+double gsl_pow_2(const double x)
+{
+    return x * x;
+}
+
+double gsl_pow_int(double x, int n)
+{
+    double y = 1.0;
+    for (int k = 0; k < abs(n); k++)
+        y *= x;
+    return n < 0 ? 1.0 / y : y;
+}
+
+/* ---- Roots: a bracket, narrowed by secants and halvings (Brent)
+ * ------------------------ */
+
+static const gsl_root_fsolver_type brent = {.name = "brent"};
+const gsl_root_fsolver_type *gsl_root_fsolver_brent = &brent;
+
+/* f at the ends of the bracket. */
+typedef struct {
+    double low, high;
+    int halve; /* the last secant narrowed the bracket by too little */
+} bracket;
+
+gsl_root_fsolver *gsl_root_fsolver_alloc(const gsl_root_fsolver_type *T)
+{
+    gsl_root_fsolver *s = calloc(1, sizeof *s);
+    if (!s || !(s->state = calloc(1, sizeof(bracket)))) {
+        free(s);
+        return NULL;
+    }
+    s->type = T;
+    return s;
+}
+
+void gsl_root_fsolver_free(gsl_root_fsolver *s)
+{
+    if (s)
+        free(s->state);
+    free(s);
+}
+
+int gsl_root_fsolver_set(gsl_root_fsolver *s, gsl_function *f, double low, double high)
+{
+    bracket *b = s->state;
+    s->function = f;
+    s->x_lower = low;
+    s->x_upper = high;
+    s->root = 0.5 * (low + high);
+    *b = (bracket){GSL_FN_EVAL(f, low), GSL_FN_EVAL(f, high), 0};
+    return (b->low > 0.0) == (b->high > 0.0) && b->low != 0.0 && b->high != 0.0
+               ? GSL_EINVAL
+               : GSL_SUCCESS;
+}
+
+int gsl_root_fsolver_iterate(gsl_root_fsolver *s)
+{
+    bracket *b = s->state;
+    const double width = s->x_upper - s->x_lower;
+    double x = s->x_lower - b->low * width / (b->high - b->low);
+    if (b->halve || !(x > s->x_lower && x < s->x_upper))
+        x = s->x_lower + 0.5 * width;
+    const double f = GSL_FN_EVAL(s->function, x);
+    s->root = x;
+    if (f == 0.0) {
+        s->x_lower = s->x_upper = x;
+    } else if ((f > 0.0) == (b->low > 0.0)) {
+        s->x_lower = x;
+        b->low = f;
+    } else {
+        s->x_upper = x;
+        b->high = f;
+    }
+    b->halve = s->x_upper - s->x_lower > 0.5 * width;
+    return GSL_SUCCESS;
+}
+
+double gsl_root_fsolver_x_lower(const gsl_root_fsolver *s)
+{
+    return s->x_lower;
+}
+
+double gsl_root_fsolver_x_upper(const gsl_root_fsolver *s)
+{
+    return s->x_upper;
+}
+
+double gsl_root_fsolver_root(const gsl_root_fsolver *s)
+{
+    return s->root;
+}
+
+/* ---- Vectors
+ * --------------------------------------------------------------------------- */
+
+gsl_vector *gsl_vector_alloc(const size_t n)
+{
+    gsl_vector *v = calloc(1, sizeof *v);
+    if (!v || !(v->data = calloc(n, sizeof *v->data))) {
+        free(v);
+        return NULL;
+    }
+    v->size = n;
+    v->stride = 1;
+    return v;
+}
+
+void gsl_vector_free(gsl_vector *v)
+{
+    if (v)
+        free(v->data);
+    free(v);
+}
+
+double gsl_vector_get(const gsl_vector *v, const size_t i)
+{
+    return v->data[i];
+}
+
+void gsl_vector_set(gsl_vector *v, const size_t i, double x)
+{
+    v->data[i] = x;
+}
+
+void gsl_vector_set_all(gsl_vector *v, double x)
+{
+    for (size_t i = 0; i < v->size; i++)
+        v->data[i] = x;
+}
+
+/* ---- Minima: the simplex of Nelder and Mead, in two dimensions
+ * ------------------------- */
+
+static const gsl_multimin_fminimizer_type simplex2 = {"nmsimplex2", 0,    NULL,
+                                                      NULL,         NULL, NULL};
+const gsl_multimin_fminimizer_type *gsl_multimin_fminimizer_nmsimplex2 = &simplex2;
+
+typedef struct {
+    double x[3][2], f[3];
+    gsl_vector *trial;
+} simplex;
+
+void gsl_multimin_fminimizer_free(gsl_multimin_fminimizer *s)
+{
+    if (!s)
+        return;
+    if (s->state)
+        gsl_vector_free(((simplex *)s->state)->trial);
+    free(s->state);
+    gsl_vector_free(s->x);
+    free(s);
+}
+
+gsl_multimin_fminimizer *
+gsl_multimin_fminimizer_alloc(const gsl_multimin_fminimizer_type *T, size_t n)
+{
+    gsl_multimin_fminimizer *s = calloc(1, sizeof *s);
+    if (!s || n != 2)
+        return free(s), NULL;
+    simplex *m = calloc(1, sizeof *m);
+    s->type = T;
+    s->state = m;
+    s->x = gsl_vector_alloc(2);
+    if (m)
+        m->trial = gsl_vector_alloc(2);
+    if (m && m->trial && s->x)
+        return s;
+    gsl_multimin_fminimizer_free(s);
+    return NULL;
+}
+
+static double value_at(gsl_multimin_fminimizer *s, const double x[2])
+{
+    simplex *m = s->state;
+    m->trial->data[0] = x[0];
+    m->trial->data[1] = x[1];
+    return GSL_MULTIMIN_FN_EVAL(s->f, m->trial);
+}
+
+/* The best corner first; size: mean distance of the corners from their middle. */
+static void order(gsl_multimin_fminimizer *s)
+{
+    simplex *m = s->state;
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2 - i; k++)
+            if (m->f[k] > m->f[k + 1]) {
+                const double f = m->f[k];
+                double x[2];
+                memcpy(x, m->x[k], sizeof x);
+                m->f[k] = m->f[k + 1];
+                memcpy(m->x[k], m->x[k + 1], sizeof x);
+                m->f[k + 1] = f;
+                memcpy(m->x[k + 1], x, sizeof x);
+            }
+    const double cx = (m->x[0][0] + m->x[1][0] + m->x[2][0]) / 3.0,
+                 cy = (m->x[0][1] + m->x[1][1] + m->x[2][1]) / 3.0;
+    s->size = 0.0;
+    for (int k = 0; k < 3; k++)
+        s->size += hypot(m->x[k][0] - cx, m->x[k][1] - cy) / 3.0;
+    s->x->data[0] = m->x[0][0];
+    s->x->data[1] = m->x[0][1];
+    s->fval = m->f[0];
+}
+
+int gsl_multimin_fminimizer_set(gsl_multimin_fminimizer *s, gsl_multimin_function *f,
+                                const gsl_vector *x, const gsl_vector *step)
+{
+    simplex *m = s->state;
+    s->f = f;
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 2; i++)
+            m->x[k][i] = x->data[i] + (k == i + 1 ? step->data[i] : 0.0);
+        m->f[k] = value_at(s, m->x[k]);
+    }
+    order(s);
+    return GSL_SUCCESS;
+}
+
+/* The worst corner moved along its line through the middle of the others. */
+static double move_worst(gsl_multimin_fminimizer *s, double by, double x[2])
+{
+    simplex *m = s->state;
+    for (int i = 0; i < 2; i++) {
+        const double middle = 0.5 * (m->x[0][i] + m->x[1][i]);
+        x[i] = middle + by * (middle - m->x[2][i]);
+    }
+    return value_at(s, x);
+}
+
+static void take(simplex *m, int k, const double x[2], double f)
+{
+    memcpy(m->x[k], x, 2 * sizeof *x);
+    m->f[k] = f;
+}
+
+int gsl_multimin_fminimizer_iterate(gsl_multimin_fminimizer *s)
+{
+    simplex *m = s->state;
+    double x[2], far[2];
+    const double f = move_worst(s, 1.0, x);
+    if (f < m->f[0]) {
+        const double g = move_worst(s, 2.0, far);
+        take(m, 2, g < f ? far : x, g < f ? g : f);
+    } else if (f < m->f[1]) {
+        take(m, 2, x, f);
+    } else {
+        const double g = move_worst(s, f < m->f[2] ? 0.5 : -0.5, far);
+        if (g < fmin(f, m->f[2])) {
+            take(m, 2, far, g);
+        } else {
+            for (int k = 1; k < 3; k++) {
+                for (int i = 0; i < 2; i++)
+                    m->x[k][i] = 0.5 * (m->x[k][i] + m->x[0][i]);
+                m->f[k] = value_at(s, m->x[k]);
+            }
+        }
+    }
+    order(s);
+    return GSL_SUCCESS;
+}
+
+double gsl_multimin_fminimizer_size(const gsl_multimin_fminimizer *s)
+{
+    return s->size;
+}
+
+gsl_vector *gsl_multimin_fminimizer_x(const gsl_multimin_fminimizer *s)
+{
+    return s->x;
+}
+
+double gsl_multimin_fminimizer_minimum(const gsl_multimin_fminimizer *s)
+{
+    return s->fval;
+}
+
+/* ---- Gauss's rule: roots of Legendre's polynomial by Newton
+ * ---------------------------- */
+
+gsl_integration_glfixed_table *gsl_integration_glfixed_table_alloc(size_t n)
+{
+    gsl_integration_glfixed_table *t = calloc(1, sizeof *t);
+    if (!t)
+        return NULL;
+    t->n = n;
+    t->x = calloc(n, sizeof *t->x);
+    t->w = calloc(n, sizeof *t->w);
+    if (!t->x || !t->w) {
+        gsl_integration_glfixed_table_free(t);
+        return NULL;
+    }
+    for (size_t i = 0; i < n; i++) {
+        double x = -cos(M_PI * ((double)i + 0.75) / ((double)n + 0.5)), slope = 1.0;
+        for (int step = 0; step < 8; step++) {
+            double p = 1.0, before = 0.0;
+            for (size_t k = 1; k <= n; k++) {
+                const double next =
+                    ((2.0 * (double)k - 1.0) * x * p - ((double)k - 1.0) * before) /
+                    (double)k;
+                before = p;
+                p = next;
+            }
+            slope = (double)n * (x * p - before) / (x * x - 1.0);
+            x -= p / slope;
+        }
+        t->x[i] = x;
+        t->w[i] = 2.0 / ((1.0 - x * x) * slope * slope);
+    }
+    return t;
+}
+
+void gsl_integration_glfixed_table_free(gsl_integration_glfixed_table *t)
+{
+    if (!t)
+        return;
+    free(t->x);
+    free(t->w);
+    free(t);
+}
+
+int gsl_integration_glfixed_point(double a, double b, size_t i, double *xi, double *wi,
+                                  const gsl_integration_glfixed_table *t)
+{
+    *xi = 0.5 * (a + b) + 0.5 * (b - a) * t->x[i];
+    *wi = 0.5 * (b - a) * t->w[i];
+    return GSL_SUCCESS;
+}
+
+/* ---- Exponential integrals
+ * ------------------------------------------------------------- */
+
+/* sum over k >= 1 of x^k/(k k!). */
+static double power_series(double x)
+{
+    double term = 1.0, sum = 0.0;
+    for (int k = 1; k < 200; k++) {
+        term *= x / k;
+        sum += term / k;
+        if (fabs(term) < 1e-17 * fabs(sum))
+            break;
+    }
+    return sum;
+}
+
+/* exp(x) E1(x), x > 0: the series below 1, Lentz's continued fraction beyond. */
+int gsl_sf_expint_E1_scaled_e(const double x, gsl_sf_result *result)
+{
+    if (x <= 1.0) {
+        result->val = exp(x) * (-M_EULER - log(x) - power_series(-x));
+    } else {
+        double b = x + 1.0, c = 1e300, d = 1.0 / b, h = d;
+        for (int i = 1; i < 2000; i++) {
+            const double a = -(double)i * i;
+            b += 2.0;
+            d = 1.0 / (a * d + b);
+            c = b + a / c;
+            h *= c * d;
+            if (fabs(c * d - 1.0) < 1e-16)
+                break;
+        }
+        result->val = h;
+    }
+    result->err = 4e-16 * fabs(result->val);
+    return GSL_SUCCESS;
+}
+
+/* exp(-x) Ei(x), x > 0: the series below 40, the asymptotic one beyond. */
+int gsl_sf_expint_Ei_scaled_e(const double x, gsl_sf_result *result)
+{
+    if (x < 40.0) {
+        result->val = exp(-x) * (M_EULER + log(x) + power_series(x));
+    } else {
+        double term = 1.0, sum = 1.0;
+        for (int k = 1; k < x && term > 1e-17; k++) {
+            term *= k / x;
+            sum += term;
+        }
+        result->val = sum / x;
+    }
+    result->err = 4e-16 * fabs(result->val);
+    return GSL_SUCCESS;
+}
+
+/* ---- Interpolation: the interval that holds x -----------------------------------------
+ */
+
+size_t gsl_interp_bsearch(const double x_array[], double x, size_t index_lo,
+                          size_t index_hi)
+{
+    while (index_hi > index_lo + 1) {
+        const size_t middle = (index_lo + index_hi) / 2;
+        if (x_array[middle] > x)
+            index_hi = middle;
+        else
+            index_lo = middle;
+    }
+    return index_lo;
+}

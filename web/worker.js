@@ -1,0 +1,89 @@
+/* Solves in the background.  A request: { id, kind, given, ... }; the answer: { id, kind,
+ * ... } or { id, kind, refused: line }. */
+import { load_library } from "./library.js";
+
+const LARGEST = { "contact-elements": 400, "outer-elements": 800, steps: 600, distance: 40, increments: 60 };
+const LEFT_OUT = ["accuracy", "error", "history", "irregularity"];
+
+/* A case of these words, solved; refused where the page cannot. */
+function solve_case(library, given, then) {
+    const work = new library.Case();
+    const refused = (line) => ({ refused: line });
+    try {
+        for (const [name, text] of Object.entries(given)) {
+            if (LEFT_OUT.includes(name)) return refused(`--${name}: not in the page, use the program`);
+            if (work.set(name, text) < 0) return refused(work.message);
+            if (Number(text) > LARGEST[name])
+                return refused(`--${name}: the page goes up to ${LARGEST[name]}, use the program for ${text}`);
+        }
+        if (work.settle() < 0) return refused(work.message);
+        const start = performance.now();
+        if (work.solve() < 0) return refused(work.message);
+        return { ...then(work, library), unsolved: work.message, milliseconds: performance.now() - start };
+    } finally {
+        work.free();
+    }
+}
+
+const arrays = (work, names) => Object.fromEntries(names.map((name) => [name, work.array(name)]));
+
+function all_results(work, library) {
+    const names = [...library.results.number.map((row) => row.name), "carter", "radius", "modulus"];
+    return {
+        numbers: Object.fromEntries(names.map((name) => [name, work.number(name)])),
+        columns: Object.fromEntries(library.results.column.map(({ name }) => [name, work.array(name)?.at])),
+        values: Object.fromEntries(library.options.filter((o) => o.kind !== "group").map(({ name }) => [name, work.value(name)])),
+    };
+}
+
+const steps = (work, library) => {
+    const history = Object.fromEntries(library.results.step.map(({ name }) => [name, work.array(`history.${name}`)?.at]));
+    return { ...all_results(work, library), history, ...arrays(work, ["step.x", "step.p", "step.q", "step.zone"]) };
+};
+
+function pivots(work, library) {
+    const status = work.pivots();
+    if (status < 0) return { refused: work.message };
+    const end = status ? work.message : "";
+    const names = [];
+    for (let k = 0, name; (name = work.variable(k)) !== null; k++) names.push(name);
+    const parts = ["entering", "leaving", "row", "ratio", "z0", "basis", "value", "before", "column", "p", "q"];
+    return { ...all_results(work, library), names, end, ...arrays(work, parts.map((part) => `pivot.${part}`)),
+        ...arrays(work, ["H", "G", "F", "lcp.M", "lcp.q", "ends", "gap0", "mesh.x0", "mesh.y0", "mesh.x1", "mesh.y1"]) };
+}
+
+const answers = {
+    solve: (library, { given }) => solve_case(library, given, all_results),
+    roll: (library, { given }) => solve_case(library, given, steps),
+    pivots: (library, { given }) => solve_case(library, given, pivots),
+    curve: (library, { given, from, to, points }) => solve_case(library, given, (work, { results }) =>
+        work.curve(from, to, points) < 0 ? { refused: work.message }
+            : { points: Object.fromEntries(results.point.map(({ name }) => [name, work.array(`curve.${name}`)?.at])) }),
+    guess: (library, { given, zones }) => solve_case(library, given, (work) => {
+        const status = work.guess(zones);
+        return status !== 0 ? { refused: work.message } : arrays(work, ["guess.p", "guess.q", "guess.gap", "guess.shift", "ends"]);
+    }),
+    stress: (library, { given, nx, ny, depth }) => solve_case(library, given, (work, l) =>
+        work.stress(nx, ny, depth) < 0 ? { refused: work.message }
+            : { ...all_results(work, l), ...arrays(work, ["stress.x", "stress.y", "stress.max_shear", "stress.sxx", "stress.syy",
+                "stress.sxy", "stress.von_mises"]) }),
+};
+
+/* For tests, which have no worker. */
+export const answer = (library, request) => answers[request.kind](library, request);
+
+if (typeof self !== "undefined" && typeof window === "undefined") {
+    let library;
+    self.onmessage = async ({ data }) => {
+        if (data.wasm) {
+            library = await load_library(data.wasm);
+            self.postMessage({ ready: true, options: library.options, results: library.results });
+            return;
+        }
+        try {
+            self.postMessage({ id: data.id, kind: data.kind, ...answer(library, data) });
+        } catch (error) {
+            self.postMessage({ id: data.id, kind: data.kind, refused: String(error.message), broken: true });
+        }
+    };
+}
