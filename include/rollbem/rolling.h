@@ -17,7 +17,14 @@
 
 typedef enum { RB_STATIC, RB_STEADY, RB_TRANSIENT } rb_rolling_formulation;
 typedef enum { RB_GAP_PARABOLA, RB_GAP_EXACT, RB_GAP_TABLE } rb_rolling_gap;
-typedef enum { RB_MESH_UNIFORM, RB_MESH_FITTED } rb_rolling_mesh_kind;
+typedef enum {
+    RB_MESH_UNIFORM,
+    RB_MESH_FITTED,
+    RB_MESH_ALIGNED /* equal elements whose ends meet both edges of the contact */
+} rb_rolling_mesh_kind;
+/* A of steady rolling (theory.md 4.2): the difference to the element upstream, or the
+ * second-order difference of equal elements. */
+typedef enum { RB_SLIP_UPSTREAM, RB_SLIP_SECOND } rb_rolling_slip_operator;
 /* So many equal elements on half-planes are solved by Fourier transforms, without a
  * matrix. */
 enum { RB_ROLLING_LARGE = 1500 };
@@ -113,7 +120,8 @@ typedef struct {
     double zone;          /* half-width of the potential contact [length]; 0: automatic */
     int outer_elements;   /* 0: automatic */
     rb_bem_normals normals;
-    rb_rolling_near_field near_field; /* of wheels */
+    rb_rolling_near_field near_field;       /* of wheels */
+    rb_rolling_slip_operator slip_operator; /* steady; second: equal elements */
 
     rb_rolling_solver solver;
     const char
@@ -195,12 +203,17 @@ typedef struct {
     double *S;                          /* n x 2n; owned, as the arrays below */
     struct rb_rolling_factors *factors; /* LU of earlier solves; owned */
     /* Where F and S are NULL: */
-    rb_bem_flexibility f;             /* its arrays borrowed from the bodies */
-    int upstream;                     /* A = I - S of steady rolling; 0: A = I */
-    double *product;                  /* 2n + 2m, room for one product with f */
-    struct rb_rolling_krylov *krylov; /* preconditioners; owned */
-    double *d_N, *d_T;                /* n [length] */
-    double *e_T;                      /* n: [length] per unit of xi */
+    rb_bem_flexibility f; /* its arrays borrowed from the bodies */
+    int steady;           /* 1: A is a difference along x; 0: A = I */
+    double
+        stencil[4]; /* A of theory.md 4.2: (A w)_i = sum over k of stencil_k w_{i-1+k} */
+    double
+        *outside;    /* 2 x 2n: tangential displacement one element downstream and two
+                        upstream of the contact; NULL where A does not ask for it; owned */
+    double *product; /* 2n + 2m, room for one product with f */
+    struct rb_rolling_krylov *krylov;            /* preconditioners; owned */
+    double *d_N, *d_T;                           /* n [length] */
+    double *e_T;                                 /* n: [length] per unit of xi */
     double *load_N, *load_T, *force_N, *force_T; /* n [length] */
 
     int load_given;  /* 1: P = load, delta is an unknown; 0: delta is given */
@@ -344,6 +357,7 @@ typedef struct {
 
     rb_status status;
     rb_rolling_formulation formulation;
+    rb_rolling_slip_operator slip_operator;
     rb_rolling_solver solver; /* that gave the answer */
     const char *cone_solver;  /* its name, RB_SOLVER_CONE; borrowed from the case */
     int large;             /* 1: products by Fourier transforms, no matrix was formed */

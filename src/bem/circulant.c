@@ -3,14 +3,15 @@
 #include "bem/fourier.h"
 #include "bem/internal.h"
 
+#include <complex.h>
 #include <gsl/gsl_math.h>
 #include <math.h>
 #include <stdlib.h>
 
 struct rb_bem_circulant {
     int n;
-    double *inverse; /* size/2 + 1: 1/(transform of the kernel), over `size` */
-    double *cot;     /* size/2 + 1: cot(theta/2)/2 */
+    double *inverse;          /* size/2 + 1: 1/(transform of the kernel), over `size` */
+    fftw_complex *difference; /* size/2 + 1: that over the symbol of A */
     double *work;
     rb_fourier fourier;
 };
@@ -22,7 +23,7 @@ void rb_bem_circulant_free(rb_bem_circulant *c)
     rb_fourier_free(&c->fourier);
     fftw_free(c->work);
     free(c->inverse);
-    free(c->cot);
+    free(c->difference);
     free(c);
 }
 
@@ -65,12 +66,28 @@ static void set_inverse(double scale, rb_bem_circulant *c)
     for (int k = 1; k <= size / 2; k++) {
         const double theta = 2.0 * M_PI * k / size;
         c->inverse[k] = 1.0 / (scale * log_kernel(theta) * size);
-        c->cot[k] = 0.5 / tan(0.5 * theta);
     }
     c->inverse[0] = 0.25 * c->inverse[1];
 }
 
-rb_status rb_bem_circulant_create(const rb_bem_flexibility *f,
+/* Divided by the symbol of A, sum over k of stencil_k exp(i (k-1) theta), which vanishes
+ * for the mean: there again a number that does no harm. */
+static void set_difference(const double stencil[4], rb_bem_circulant *c)
+{
+    const int size = c->fourier.size;
+
+    c->difference[0][0] = 0.5 * c->inverse[0];
+    for (int k = 1; k <= size / 2; k++) {
+        const double complex e = cexp(I * (2.0 * M_PI * k / size));
+        const double complex symbol =
+            stencil[0] * conj(e) + stencil[1] + stencil[2] * e + stencil[3] * e * e;
+        const double complex x = c->inverse[k] / symbol;
+        c->difference[k][0] = creal(x);
+        c->difference[k][1] = cimag(x);
+    }
+}
+
+rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double stencil[4],
                                   rb_bem_circulant **circulant)
 {
     double scale = 1.0;
@@ -81,14 +98,16 @@ rb_status rb_bem_circulant_create(const rb_bem_flexibility *f,
         const size_t half = (size_t)c->fourier.size / 2 + 1;
         c->n = f->n;
         c->inverse = rb_alloc(half, 1);
-        c->cot = rb_alloc(half, 1);
+        c->difference = calloc(half, sizeof *c->difference);
         c->work = rb_fourier_alloc(&c->fourier);
     }
-    if (!c || !c->inverse || !c->cot || !c->work || kernel_scale(f, &scale) != RB_OK) {
+    if (!c || !c->inverse || !c->difference || !c->work ||
+        kernel_scale(f, &scale) != RB_OK) {
         rb_bem_circulant_free(c);
         return RB_ENOMEM;
     }
     set_inverse(scale, c);
+    set_difference(stencil, c);
     *circulant = c;
     return RB_OK;
 }
@@ -106,16 +125,15 @@ void rb_bem_circulant_apply(const rb_bem_circulant *c, const double *w, double *
         r[i] = c->work[i];
 }
 
-/* 1/(1 - exp(i theta)) = 1/2 + i/2 cot(theta/2) */
-void rb_bem_circulant_apply_upstream(const rb_bem_circulant *c, const double *w,
-                                     double *r)
+void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *w,
+                                       double *r)
 {
     fftw_complex *z = rb_fourier_forward(&c->fourier, c->n, w, c->work);
 
     for (int k = 0; k <= c->fourier.size / 2; k++) {
-        const double a = z[k][0], b = z[k][1];
-        z[k][0] = c->inverse[k] * (0.5 * a - c->cot[k] * b);
-        z[k][1] = c->inverse[k] * (0.5 * b + c->cot[k] * a);
+        const double a = z[k][0], b = z[k][1], *x = c->difference[k];
+        z[k][0] = a * x[0] - b * x[1];
+        z[k][1] = a * x[1] + b * x[0];
     }
     rb_fourier_backward(&c->fourier, c->work);
     for (int i = 0; i < c->n; i++)

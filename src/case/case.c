@@ -479,9 +479,12 @@ static void choose_mesh(rb_case *c)
     rb_rolling_case *rc = &c->settled.rc;
     const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
     if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper &&
-        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE &&
-        rc->contact_elements < RB_ROLLING_LARGE)
-        rc->mesh = RB_MESH_FITTED;
+        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE)
+        rc->mesh =
+            rc->contact_elements < RB_ROLLING_LARGE ? RB_MESH_FITTED : RB_MESH_ALIGNED;
+    if (!rb_case_given(c, "slip-operator") && rc->formulation == RB_STEADY &&
+        rc->mesh == RB_MESH_ALIGNED)
+        rc->slip_operator = RB_SLIP_SECOND;
     if (!rb_case_given(c, "contact-elements") && rc->mesh == RB_MESH_FITTED)
         rc->contact_elements = 100;
 }
@@ -514,7 +517,7 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
                          why);
     if (s == RB_OK && history)
         s = refuse_given(c, "increments", "the history says them row by row", why);
-    if (s == RB_OK && rb_case_has_steps(settled) && settled->rc.mesh == RB_MESH_FITTED)
+    if (s == RB_OK && rb_case_has_steps(settled) && settled->rc.mesh != RB_MESH_UNIFORM)
         s = refuse_given(c, "mesh", "step by step the elements are equal", why);
     if (s == RB_OK && transient && !history && !(settled->rc.distance > 0.0))
         s = rb_fail(why, RB_EINVAL, "transient rolling needs --distance or --history");

@@ -13,8 +13,12 @@ static const rb_choice gaps[] = {
     {"parabola", RB_GAP_PARABOLA}, {"exact", RB_GAP_EXACT}, {NULL, 0}};
 static const rb_choice formulations[] = {
     {"static", RB_STATIC}, {"steady", RB_STEADY}, {"transient", RB_TRANSIENT}, {NULL, 0}};
-static const rb_choice meshes[] = {
-    {"uniform", RB_MESH_UNIFORM}, {"fitted", RB_MESH_FITTED}, {NULL, 0}};
+static const rb_choice meshes[] = {{"uniform", RB_MESH_UNIFORM},
+                                   {"fitted", RB_MESH_FITTED},
+                                   {"aligned", RB_MESH_ALIGNED},
+                                   {NULL, 0}};
+static const rb_choice slip_operators[] = {
+    {"upstream", RB_SLIP_UPSTREAM}, {"second", RB_SLIP_SECOND}, {NULL, 0}};
 static const rb_choice normals[] = {{"obstacle", RB_BEM_NORMALS_OBSTACLE},
                                     {"surface", RB_BEM_NORMALS_SURFACE},
                                     {NULL, 0}};
@@ -175,13 +179,19 @@ const rb_option rb_case_table[] = {
 
     RB_GROUP_LINE("mesh", "Mesh"),
     RB_CHOICE_LINE(
-        "mesh", RC(mesh), meshes, "equal elements, or fitted to the contact edges",
+        "mesh", RC(mesh), meshes,
+        "equal elements, fitted to the contact edges, or equal ones aligned with them",
         .unset = "fitted in steady rolling under a given load, half-width or "
-                 "approach without zone and gap file, below 1500 elements; else "
-                 "uniform"),
-    RB_INTEGER_LINE("contact-elements", RC(contact_elements), RB_FROM(3),
-                    "uniform: in the potential contact; fitted: across the contact",
-                    .unset = "60, fitted 100"),
+                 "approach without zone and gap file, aligned from 1500 elements on; "
+                 "else uniform"),
+    RB_CHOICE_LINE("slip-operator", RC(slip_operator), slip_operators,
+                   "steady, equal elements: difference to the element upstream, or of "
+                   "second order",
+                   .unset = "second on aligned elements, else upstream"),
+    RB_INTEGER_LINE(
+        "contact-elements", RC(contact_elements), RB_FROM(3),
+        "uniform: in the potential contact; fitted, aligned: across the contact",
+        .unset = "60, fitted 100"),
     RB_NUMBER_LINE(
         "zone", RC(zone), "mm", RB_ABOVE(0),
         "half-width of the potential contact; auto: grown until three separated "

@@ -134,3 +134,34 @@ void rb_rolling_ahead_free(rb_rolling_ahead *ahead)
     free(ahead->response);
     memset(ahead, 0, sizeof *ahead);
 }
+
+/* Row `row` of W_T: half-planes at midpoint number i, and what the bodies have over them
+ * at the nearest midpoints of the mesh, continued on a line. */
+static rb_status add_outside(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                             int i, int near, int next, int row, double *W_T)
+{
+    const int n = bodies->f.n, m = bodies->f.m, at[3] = {i, near, next};
+    const double h = bodies->f.h[n / 2], weight[3] = {1.0, -2.0, 1.0};
+    double *plane = rb_alloc(2 * (size_t)n, 1);
+    rb_status s = plane ? RB_OK : RB_ENOMEM;
+
+    for (int k = 0; k < (bodies->F ? 3 : 1) && s == RB_OK; k++) {
+        memset(plane, 0, 2 * (size_t)n * sizeof *plane);
+        s = halfplanes(rc, n, h, 1, at[k] * h, plane);
+        cblas_daxpy(2 * n, weight[k], plane, 1, W_T + row, 2);
+    }
+    if (s == RB_OK && bodies->F) {
+        cblas_daxpy(2 * n, 2.0, bodies->F + m + near, 2 * m, W_T + row, 2);
+        cblas_daxpy(2 * n, -1.0, bodies->F + m + next, 2 * m, W_T + row, 2);
+    }
+    free(plane);
+    return s;
+}
+
+rb_status rb_rolling_displacement_outside(const rb_rolling_case *rc,
+                                          const rb_rolling_bodies *bodies, double *W_T)
+{
+    const int n = bodies->f.n;
+    const rb_status s = add_outside(rc, bodies, -1, 0, 1, 0, W_T);
+    return s == RB_OK ? add_outside(rc, bodies, n + 1, n, n - 1, 1, W_T) : s;
+}

@@ -61,7 +61,7 @@ int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 {
     return mesh->n >= RB_ROLLING_LARGE &&
            (rc->solver == RB_SOLVER_AUTO || rc->solver == RB_SOLVER_NEWTON) &&
-           rc->mesh == RB_MESH_UNIFORM && rc->a.support == RB_BEM_HALFPLANE &&
+           rc->mesh != RB_MESH_FITTED && rc->a.support == RB_BEM_HALFPLANE &&
            (!rc->elastic_b || rc->b.support == RB_BEM_HALFPLANE);
 }
 

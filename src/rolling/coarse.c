@@ -113,7 +113,7 @@ static void halve_problem(const rb_rolling_problem *fine, rb_rolling_problem *ha
 {
     const int n = fine->n, m = half->n;
     const size_t block = (size_t)m * (size_t)m;
-    const shares slip = fine->upstream ? UPSTREAM_MEAN : MEAN;
+    const shares slip = fine->steady ? UPSTREAM_MEAN : MEAN;
 
     halve_matrix(n, MEAN, fine->F, fine->ldf, F);
     halve_matrix(n, MEAN, fine->F + (size_t)n * (size_t)fine->ldf, fine->ldf, F + block);

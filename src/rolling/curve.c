@@ -31,8 +31,8 @@ static void record(const rb_rolling_model *model, rb_rolling_curve *c)
     c->tangential_load[k] = Q;
     c->force_ratio[k] = mu > 0.0 ? Q / (mu * P) : NAN;
     c->stick_ratio[k] = contact > 0.0 ? stick / contact : 0.0;
-    c->dissipation[k] = rb_rolling_dissipated_power(
-        model->rc.formulation, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
+    c->dissipation[k] = rb_rolling_dissipated_power(&model->rc, p->n, state->lambda,
+                                                    state->q, model->bodies.f.h, p->e_T);
     c->residual[k] = state->residual;
     c->half_width = model->half_width;
     c->contact = 0;
@@ -62,10 +62,12 @@ static rb_status follow_contact(rb_rolling_model *model, int fills, double edge[
     rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &from, &to);
     const double moved =
         fmax(fabs(from - edge[0]), fabs(to - edge[1])) / (0.5 * (edge[1] - edge[0]));
-    if (!fills && !(model->rc.mesh == RB_MESH_FITTED && moved > REFIT))
+    if (!fills && !(model->rc.mesh != RB_MESH_UNIFORM && moved > REFIT))
         return RB_OK;
-    const rb_status s =
-        fills ? start_anew(model, why) : rb_rolling_model_refit(model, why);
+    const rb_status s = fills ? start_anew(model, why)
+                        : model->rc.mesh == RB_MESH_ALIGNED
+                            ? rb_rolling_model_realign(model, why)
+                            : rb_rolling_model_refit(model, why);
     if (s == RB_OK)
         rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &edge[0],
                                  &edge[1]);

@@ -84,7 +84,7 @@ static void record(run *r, double distance)
                              &h->contact_to[k]);
     if (rolls)
         h->dissipation[k] = rb_rolling_dissipated_power(
-            RB_TRANSIENT, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
+            &model->rc, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
     for (int i = 0; i < p->n; i++) {
         h->moment[k] += model->bodies.f.x[i] * state->p[i] * model->bodies.f.h[i];
         h->stick[k] += state->zone[i] == RB_ZONE_STICK;

@@ -69,6 +69,10 @@ void rb_rolling_ahead_apply(const rb_rolling_ahead *ahead,
                             const rb_rolling_bodies *bodies, const double *p,
                             const double *q, double *w_T);
 void rb_rolling_ahead_free(rb_rolling_ahead *ahead);
+/* w_T of unit tractions one element downstream of the contact and two upstream of it.
+ * W_T: 2 x 2n, zeroed.  Equal elements.  RB_ENOMEM. */
+rb_status rb_rolling_displacement_outside(const rb_rolling_case *rc,
+                                          const rb_rolling_bodies *bodies, double *W_T);
 
 /* ---- problem.c: what changes from step to step ----------------------------------------
  */
@@ -85,9 +89,10 @@ void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bo
 /* 1 where products with the flexibility replace the dense matrix: half-planes under a
  * long line of equal elements, by Newton. */
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
-/* Row i of A w for w (m values) of theory.md 4.2: w itself, or what a particle gains on
- * its way from the element upstream (towards +x). */
-double rb_rolling_kinematic(int upstream, const double *w, int i);
+/* slip += A w_T for the displacement w_T (n elements and the one upstream) that the
+ * tractions r = (p, q) cause. */
+void rb_rolling_add_slip(const rb_rolling_problem *problem, const double *r,
+                         const double *w_T, double *slip);
 /* gap += F (p, q), slip += S (p, q), in the rows of the problem. */
 void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
                              const double *q, double *gap, double *slip);
@@ -242,6 +247,20 @@ rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
  * is none; RB_NO_CONTACT. */
 rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why);
 
+/* ---- align.c --------------------------------------------------------------------------
+ */
+
+/* A first solution, then equal elements whose ends meet both edges.  RB_EINVAL: no such
+ * elements, as where there are several patches. */
+rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why);
+/* The same from the edges that the model has now. */
+rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why);
+/* The edge beyond the outermost loaded element on that side (-1 left, +1 right) of a
+ * patch of so many equal elements or more. */
+enum { RB_ROLLING_ALIGNED_LEAST = 9 };
+double rb_rolling_aligned_edge(const rb_rolling_mesh *mesh, const double *p, int outer,
+                               int side);
+
 /* ---- fit.c ----------------------------------------------------------------------------
  */
 
@@ -288,9 +307,8 @@ void rb_rolling_classify(const rb_rolling_problem *problem, double tol,
 
 /* Power per unit speed of friction q (n) and slip displacement lambda (n); NAN for
  * static. */
-double rb_rolling_dissipated_power(rb_rolling_formulation formulation, int n,
-                                   const double *lambda, const double *q, const double *h,
-                                   const double *e_T);
+double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
+                                   const double *q, const double *h, const double *e_T);
 
 /* Tractions of the state on A in global x, y: 2 per contact element. */
 void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);

@@ -46,7 +46,7 @@ rb_status rb_rolling_krylov_create(const rb_rolling_problem *p,
     k->line = rb_alloc(n, 1);
     if (!k->work || !k->line)
         return RB_ENOMEM;
-    return rb_bem_circulant_create(&p->f, &k->inverse);
+    return rb_bem_circulant_create(&p->f, p->stencil, &k->inverse);
 }
 
 /* ---- The system  [A B; C 0]: tractions, and delta and xi at its border --------------
@@ -119,14 +119,17 @@ static void multiply(const system_of *s, const double *x, double *y)
     const double delta = r->load ? x[s->inner] : 0.0;
     const double xi = r->force ? x[s->inner + r->load] : 0.0;
 
+    double *slip = p->krylov->line;
+
     scatter(s, x);
     rb_bem_flexibility_apply(&p->f, p->product, w_N);
     for (int k = 0; k < r->contacts; k++)
         *y++ = w_N[r->contact[k]] / p->gap_length - delta;
+    memset(slip, 0, (size_t)p->n * sizeof *slip);
+    rb_rolling_add_slip(p, p->product, w_T, slip);
     for (int k = 0; k < r->sticks; k++) {
         const int i = r->stick[k];
-        *y++ = rb_rolling_kinematic(p->upstream, w_T, i) / p->slip_length +
-               xi * p->e_T[i] / p->e_T[0];
+        *y++ = slip[i] / p->slip_length + xi * p->e_T[i] / p->e_T[0];
     }
     border_rows(s, y);
 }
@@ -136,7 +139,7 @@ static void multiply(const system_of *s, const double *x, double *y)
 
 /* One group of tractions: `count` elements with numbers `at`; what slipping elements owe
  * to the pressure is left out of A~. */
-static void precondition_group(const system_of *s, int upstream, int count, const int *at,
+static void precondition_group(const system_of *s, int steady, int count, const int *at,
                                double length, const double *b, double *x)
 {
     const struct rb_rolling_krylov *krylov = s->p->krylov;
@@ -147,8 +150,8 @@ static void precondition_group(const system_of *s, int upstream, int count, cons
     memset(line, 0, (size_t)s->p->n * sizeof *line);
     for (int k = 0; k < count; k++)
         line[at[k]] = b[k] * length / s->p->stress;
-    if (upstream)
-        rb_bem_circulant_apply_upstream(krylov->inverse, line, line);
+    if (steady)
+        rb_bem_circulant_apply_difference(krylov->inverse, line, line);
     else
         rb_bem_circulant_apply(krylov->inverse, line, line);
     for (int k = 0; k < count; k++)
@@ -162,7 +165,7 @@ static void precondition_tractions(const system_of *s, const double *b, double *
     const int c = r->contacts;
 
     precondition_group(s, 0, c, r->contact, p->gap_length, b, x);
-    precondition_group(s, p->upstream, r->sticks, r->stick, p->slip_length, b + c, x + c);
+    precondition_group(s, p->steady, r->sticks, r->stick, p->slip_length, b + c, x + c);
 }
 
 static void solve_border(const system_of *s, const double *g, double *z)

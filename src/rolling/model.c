@@ -136,6 +136,8 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
     rb_status s = rb_rolling_case_check(rc, why);
     if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
         return rb_rolling_solve_fitted(model, why);
+    if (s == RB_OK && rc->mesh == RB_MESH_ALIGNED)
+        return rb_rolling_solve_aligned(model, why);
     return s == RB_OK ? rb_rolling_solve_zone(model, 0, why) : s;
 }
 
@@ -215,7 +217,7 @@ rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
     *creepage = rolls_freely_at_rest(&model->problem) ? 0.0 : NAN;
     if (*creepage == 0.0)
         return RB_OK;
-    if (model->rc.mesh == RB_MESH_FITTED)
+    if (model->rc.mesh != RB_MESH_UNIFORM)
         return roll_freely_anew(model, creepage, why);
     const rb_status s = model->problem.F ? roll_freely_dense(model, creepage, why)
                                          : roll_freely_large(model, creepage, why);

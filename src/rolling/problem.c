@@ -9,6 +9,7 @@
 void rb_rolling_problem_free(rb_rolling_problem *p)
 {
     free(p->S);
+    free(p->outside);
     free(p->product);
     rb_rolling_krylov_free(p->krylov);
     rb_rolling_factors_free(p->factors);
@@ -44,23 +45,64 @@ static rb_status problem_alloc(int n, int dense, rb_rolling_problem *p)
     return RB_ENOMEM;
 }
 
-/* A w for the tangential displacement w (m values) of theory.md 4.2: w itself, or what a
- * particle gains on its way from the element upstream (towards +x). */
-double rb_rolling_kinematic(int upstream, const double *w, int i)
+/* Row i of A w for the tangential displacement w of the n elements and the one upstream;
+ * outside: of one element downstream and the second one upstream. */
+static double kinematic(const rb_rolling_problem *p, const double *w,
+                        const double outside[2], int i)
 {
-    return upstream ? w[i] - w[i + 1] : w[i];
+    const double *a = p->stencil;
+    if (!p->outside)
+        return p->steady ? w[i] - w[i + 1] : w[i];
+    const double before = i > 0 ? w[i - 1] : outside[0],
+                 second = i + 1 < p->n ? w[i + 2] : outside[1];
+    return a[0] * before + a[1] * w[i] + a[2] * w[i + 1] + a[3] * second;
+}
+
+void rb_rolling_add_slip(const rb_rolling_problem *p, const double *r, const double *w_T,
+                         double *slip)
+{
+    double outside[2] = {0.0, 0.0};
+    for (int j = 0; p->outside && j < 2 * p->n; j++)
+        for (int k = 0; k < 2; k++)
+            outside[k] += p->outside[2 * (size_t)j + (size_t)k] * r[j];
+    for (int i = 0; i < p->n; i++)
+        slip[i] += kinematic(p, w_T, outside, i);
 }
 
 /* S = A [F_TN F_TT] (K2). */
 static void set_kinematic_operator(const rb_rolling_bodies *bodies, rb_rolling_problem *p)
 {
     const int n = p->n, m = n + 1;
+    const double none[2] = {0.0, 0.0};
 
     for (int j = 0; j < 2 * n; j++) {
         const double *w_T = bodies->F + (size_t)j * 2 * (size_t)m + m;
+        const double *outside = p->outside ? p->outside + 2 * (size_t)j : none;
         for (int i = 0; i < n; i++)
-            p->S[i + (size_t)j * n] = rb_rolling_kinematic(p->upstream, w_T, i);
+            p->S[i + (size_t)j * n] = kinematic(p, w_T, outside, i);
     }
+}
+
+/* The member t of the family of second-order differences whose leading edge is not
+ * shifted (theory.md 4.7): ((1-t)/4, (3+3t)/4, -(5+3t)/4, (1+t)/4). */
+static rb_status set_stencil(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                             rb_rolling_problem *p)
+{
+    const double t = 0.0740956;
+
+    p->steady = rc->formulation == RB_STEADY;
+    if (!p->steady || rc->slip_operator == RB_SLIP_UPSTREAM) {
+        p->stencil[1] = 1.0;
+        p->stencil[2] = p->steady ? -1.0 : 0.0;
+        return RB_OK;
+    }
+    p->stencil[0] = (1.0 - t) / 4.0;
+    p->stencil[1] = (3.0 + 3.0 * t) / 4.0;
+    p->stencil[2] = -(5.0 + 3.0 * t) / 4.0;
+    p->stencil[3] = (1.0 + t) / 4.0;
+    p->outside = rb_alloc(2, 2 * (size_t)p->n);
+    return p->outside ? rb_rolling_displacement_outside(rc, bodies, p->outside)
+                      : RB_ENOMEM;
 }
 
 /* d_T and e_T (K2).  Here, in kinematic and in `upstream` lives the formulation. */
@@ -71,7 +113,7 @@ void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bod
     const double *x = bodies->f.x, *w0_T = bodies->f.w0 + m;
 
     for (int i = 0; i < n; i++) {
-        p->d_T[i] = rb_rolling_kinematic(p->upstream, w0_T, i);
+        p->d_T[i] = p->steady ? w0_T[i] - w0_T[i + 1] : w0_T[i];
         if (past)
             p->d_T[i] -= past->w_T[i];
         p->e_T[i] = rc->formulation == RB_STEADY      ? x[i + 1] - x[i]
@@ -173,10 +215,9 @@ void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
         memcpy(r, p, half * sizeof *r);
         memcpy(r + half, q, half * sizeof *r);
         rb_bem_flexibility_apply(&problem->f, r, w);
-        for (int i = 0; i < n; i++) {
+        for (int i = 0; i < n; i++)
             gap[i] += w[i];
-            slip[i] += rb_rolling_kinematic(problem->upstream, w + half + 1, i);
-        }
+        rb_rolling_add_slip(problem, r, w + half + 1, slip);
         return;
     }
     add_product(n, problem->F, problem->ldf, p, gap);
@@ -262,10 +303,12 @@ static void set_scales(const rb_rolling_case *rc, const response *unit,
 static rb_status set_operators(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                                rb_rolling_problem *p, response *unit)
 {
-    p->upstream = rc->formulation == RB_STEADY;
     p->f = bodies->f;
     p->F = bodies->F;
     p->ldf = 2 * bodies->f.m;
+    const rb_status status = set_stencil(rc, bodies, p);
+    if (status != RB_OK)
+        return status;
     if (p->F) {
         set_kinematic_operator(bodies, p);
         dense_response(p, unit);

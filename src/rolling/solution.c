@@ -83,20 +83,22 @@ static int count_violations(const rb_rolling_model *model, const rb_rolling_solu
     return violations;
 }
 
-/* The slip of a steady state lives between midpoints, so it meets the mean of the two
- * tractions (theory.md 6). */
-double rb_rolling_dissipated_power(rb_rolling_formulation formulation, int n,
-                                   const double *lambda, const double *q, const double *h,
-                                   const double *e_T)
+/* The upstream difference of steady rolling is the slip between two midpoints, so it is
+ * paired with the mean of their tractions (theory.md 6); otherwise slip and traction
+ * belong to the same point. */
+double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
+                                   const double *q, const double *h, const double *e_T)
 {
+    const int between =
+        rc->formulation == RB_STEADY && rc->slip_operator == RB_SLIP_UPSTREAM;
     double power = 0.0;
 
-    if (formulation == RB_STATIC)
+    if (rc->formulation == RB_STATIC)
         return NAN;
     for (int i = 0; i < n; i++) {
         const double next = i + 1 < n ? q[i + 1] : 0.0;
-        power -= formulation == RB_STEADY ? lambda[i] * 0.5 * (q[i] + next)
-                                          : lambda[i] / e_T[i] * q[i] * h[i];
+        power -=
+            between ? lambda[i] * 0.5 * (q[i] + next) : lambda[i] / e_T[i] * q[i] * h[i];
     }
     return power;
 }
@@ -268,9 +270,10 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     }
     set_stick_limits(&model->mesh, s);
     s->equal_instead = model->equal_instead;
+    s->slip_operator = model->rc.slip_operator;
     s->slip_violations = count_violations(model, s);
-    s->dissipation = rb_rolling_dissipated_power(s->formulation, s->n, s->shift, s->q,
-                                                 s->h, model->problem.e_T);
+    s->dissipation = rb_rolling_dissipated_power(&model->rc, s->n, s->shift, s->q, s->h,
+                                                 model->problem.e_T);
     return RB_OK;
 }
 

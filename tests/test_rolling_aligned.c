@@ -1,0 +1,209 @@
+/* Equal elements aligned with the contact and the second-order slip operator: Carter's
+ * law, its dissipation, many elements, bodies with memory, what is refused. */
+#include "check.h"
+#include "rollbem/closed_forms.h"
+#include "rollbem/rolling.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+/* nu = 1/2 on a rigid plane is uncoupled, a = 0.05 on R = 50. */
+static rb_rolling_case carter(int n)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.poisson = 0.5;
+    rc.half_width = 0.05;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_ALIGNED;
+    rc.slip_operator = RB_SLIP_SECOND;
+    rc.contact_elements = n;
+    return rc;
+}
+
+static rb_rolling_solution solved(const rb_rolling_case *rc)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    const rb_status status = rb_rolling_solve(rc, &s, &why);
+    if (status != RB_OK)
+        fail_msg("%s", why.text);
+    return s;
+}
+
+/* Errors of physics.md P1.2, within a factor of 1.2; the largest of the three at each n.
+ */
+static void carters_law_has_second_order(void **state)
+{
+    (void)state;
+    static const double ratio[3] = {0.2, 0.5, 0.8};
+    static const double error[3][4] = {{7.5e-5, 1.9e-5, 4.7e-6, 1.2e-6},
+                                       {1.3e-4, 3.2e-5, 8.1e-6, 2.0e-6},
+                                       {2.2e-4, 5.6e-5, 1.4e-5, 3.5e-6}};
+    for (int k = 0; k < 3; k++)
+        for (int j = 0; j < 4; j++) {
+            const int n = 50 << j;
+            rb_rolling_case rc = carter(n);
+            rc.creep_ratio = ratio[k];
+            rb_rolling_solution s = solved(&rc);
+            CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(ratio[k]),
+                      1.2 * error[k][j], "s = %g, n = %d", ratio[k], n);
+            assert_int_equal(s.contact, n);
+            CHECK_REL(s.half_width, 0.05, 1e-4, "half-width");
+            rb_rolling_solution_free(&s);
+        }
+}
+
+/* The first order of the upstream difference on the same elements. */
+static void the_upstream_difference_has_first_order(void **state)
+{
+    (void)state;
+    double error[2];
+    for (int j = 0; j < 2; j++) {
+        rb_rolling_case rc = carter(100 << j);
+        rc.creep_ratio = 0.5;
+        rc.slip_operator = RB_SLIP_UPSTREAM;
+        rb_rolling_solution s = solved(&rc);
+        error[j] = fabs(s.force_ratio + 0.75);
+        rb_rolling_solution_free(&s);
+    }
+    CHECK_REL(error[0], 2.7e-3, 0.05, "n = 100");
+    CHECK_REL(error[0] / error[1], 2.0, 0.05, "order");
+}
+
+static void a_given_force_finds_its_creepage(void **state)
+{
+    (void)state;
+    static const double error[3] = {1.3e-4, 2.7e-5, 1.1e-5};
+    for (int j = 0; j < 3; j++) {
+        rb_rolling_case rc = carter(50 << j);
+        rc.force_ratio = -0.6;
+        rb_rolling_solution s = solved(&rc);
+        CHECK_ABS(s.creep_ratio, 1.0 - sqrt(0.4), 1.2 * error[j], "n = %d", 50 << j);
+        CHECK_ABS(s.force_ratio, -0.6, 1e-12, "the force itself");
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Slip and traction belong to the same point: no mean of two tractions. */
+static void dissipation_balances_the_creepage(void **state)
+{
+    (void)state;
+    static const double error[3] = {1.3e-3, 2.7e-4, 9e-5};
+    for (int j = 0; j < 3; j++) {
+        rb_rolling_case rc = carter(50 << j);
+        rc.creep_ratio = 0.5;
+        rb_rolling_solution s = solved(&rc);
+        double power[400], sum = 0.0;
+        assert_true(s.n <= 400);
+        rb_rolling_friction_power(&s, power);
+        for (int i = 0; i < s.n; i++)
+            sum += power[i] * s.h[i];
+        CHECK_REL(s.dissipation, -s.creepage * s.tangential_load, error[j], "n = %d",
+                  50 << j);
+        CHECK_REL(sum, s.dissipation, 1e-12, "power density, n = %d", 50 << j);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void transforms_reach_seven_digits(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = carter(20000);
+    rc.creep_ratio = 0.5;
+    rb_rolling_solution s = solved(&rc);
+    assert_true(s.large);
+    CHECK_ABS(s.force_ratio, -0.75, 1e-8, "n = 20000");
+    rb_rolling_solution_free(&s);
+}
+
+/* f = 4, V tau = a_g, xi R/(mu a_g) = 0.5, similar bodies: -0.390667 on elements aligned
+ * to the exact edges.  Behind the leading edge the pressure changes within L/(1 + f), a
+ * fifth of a_g, which the estimate of the edge has to resolve. */
+static void bodies_with_memory_converge_too(void **state)
+{
+    (void)state;
+    static const double error[3] = {2e-3, 4e-4, 6e-5};
+    for (int j = 0; j < 3; j++) {
+        rb_rolling_case rc = carter(100 << j);
+        rc.a.memory = (rb_rolling_memory){1, {0.05}, {4.0}};
+        rc.speed = 1.0;
+        rc.creep_ratio = 0.5;
+        rb_rolling_solution s = solved(&rc);
+        CHECK_ABS(s.force_ratio, -0.390667, error[j], "n = %d", 100 << j);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Bentall and Johnson, beta = 0.3, mu = beta/2: xi R/(beta a) = -0.715826. */
+static void dissimilar_bodies_roll_freely(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = carter(100);
+    rc.a.poisson = 2.0 / 7.0; /* (1-2nu)/(2(1-nu)) = 0.3 */
+    rc.mu = 0.15;
+    rc.force = 0.0;
+    rb_rolling_solution s = solved(&rc);
+    CHECK_REL(s.creepage * rc.a.radius / (0.3 * 0.05), -0.715826, 2e-4, "n = 100");
+    rb_rolling_solution_free(&s);
+}
+
+/* Aligned and fitted elements of a wheel tend to the same force, both with second order.
+ */
+static void wheels_take_aligned_elements_too(void **state)
+{
+    (void)state;
+    double ratio[3];
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_case rc = carter(k < 2 ? 100 << k : 200);
+        rc.a.support = RB_BEM_HUB;
+        rc.near_field = RB_NEAR_FIELD_EXACT;
+        rc.creep_ratio = 0.5;
+        if (k == 2) {
+            rc.mesh = RB_MESH_FITTED;
+            rc.slip_operator = RB_SLIP_UPSTREAM;
+        }
+        rb_rolling_solution s = solved(&rc);
+        ratio[k] = s.force_ratio;
+        rb_rolling_solution_free(&s);
+    }
+    CHECK_ABS(ratio[0], ratio[2], 6e-5, "n = 100");
+    CHECK_ABS(ratio[1], ratio[2], 2e-5, "n = 200");
+}
+
+static void what_cannot_be_aligned_is_refused(void **state)
+{
+    (void)state;
+    rb_message why = {""};
+    rb_rolling_case rc = carter(60);
+    rc.zone = 0.1;
+    CHECK_STATUS(rb_rolling_case_check(&rc, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "aligned"));
+    rc = carter(8);
+    CHECK_STATUS(rb_rolling_case_check(&rc, &why), RB_EINVAL);
+    rc = carter(60);
+    rc.formulation = RB_STATIC;
+    CHECK_STATUS(rb_rolling_case_check(&rc, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "steady"));
+    rc = carter(60);
+    rc.mesh = RB_MESH_FITTED;
+    CHECK_STATUS(rb_rolling_case_check(&rc, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "equal elements"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(carters_law_has_second_order),
+        cmocka_unit_test(the_upstream_difference_has_first_order),
+        cmocka_unit_test(a_given_force_finds_its_creepage),
+        cmocka_unit_test(dissipation_balances_the_creepage),
+        cmocka_unit_test(transforms_reach_seven_digits),
+        cmocka_unit_test(bodies_with_memory_converge_too),
+        cmocka_unit_test(dissimilar_bodies_roll_freely),
+        cmocka_unit_test(wheels_take_aligned_elements_too),
+        cmocka_unit_test(what_cannot_be_aligned_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
