@@ -480,8 +480,10 @@ static void choose_mesh(rb_case *c)
     const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
     if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper &&
         rc->zone == 0.0 && rc->gap != RB_GAP_TABLE)
-        rc->mesh =
-            rc->contact_elements < RB_ROLLING_LARGE ? RB_MESH_FITTED : RB_MESH_ALIGNED;
+        rc->mesh = rc->contact_elements < RB_ROLLING_LARGE &&
+                           rc->slip_operator == RB_SLIP_UPSTREAM
+                       ? RB_MESH_FITTED
+                       : RB_MESH_ALIGNED;
     if (!rb_case_given(c, "slip-operator") && rc->formulation == RB_STEADY &&
         rc->mesh == RB_MESH_ALIGNED)
         rc->slip_operator = RB_SLIP_SECOND;

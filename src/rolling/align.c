@@ -37,20 +37,25 @@ double rb_rolling_aligned_edge(const rb_rolling_mesh *mesh, const double *p, int
     return 0.5 * (end[0] + end[1]) + side * h * (root + BIAS);
 }
 
-/* The edges of the only patch; 0 where there are several, or too few elements. */
-static int find_edges(const rb_rolling_model *model, double *from, double *to)
+/* The edges of the only patch.  RB_EINVAL: there are several; *known: 0 where it has too
+ * few elements to tell. */
+static rb_status find_edges(const rb_rolling_model *model, double *from, double *to,
+                            int *known, rb_message *why)
 {
-    rb_rolling_run run, other;
-    const int any =
-        rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, 0, &run);
+    rb_rolling_run run = {.last = -1}, other;
 
-    if (!any || run.last - run.first + 1 < RB_ROLLING_ALIGNED_LEAST ||
-        rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, run.last + 1,
-                              &other))
-        return 0;
+    *known = rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, 0, &run) &&
+             run.last - run.first + 1 >= RB_ROLLING_ALIGNED_LEAST;
+    if (rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, run.last + 1,
+                              &other) &&
+        !rb_rolling_is_convex(&model->rc))
+        return rb_fail(
+            why, RB_EINVAL,
+            "mesh aligned: the contact has several patches, and equal elements "
+            "cannot end at all their edges; use mesh fitted or uniform");
     *from = run.from;
     *to = run.to;
-    return 1;
+    return RB_OK;
 }
 
 /* `across` elements between the edges and some beyond them. */
@@ -61,45 +66,49 @@ static rb_status solve_on(rb_rolling_model *model, int across, double from, doub
     rb_rolling_mesh mesh;
 
     model->rc.contact_elements = across + 2 * BEYOND;
-    const rb_status s = rb_rolling_mesh_uniform(&model->rc, from - BEYOND * h,
-                                                to + BEYOND * h, &mesh, why);
+    rb_status s = rb_rolling_mesh_uniform(&model->rc, from - BEYOND * h, to + BEYOND * h,
+                                          &mesh, why);
+    if (s == RB_OK)
+        s = rb_rolling_model_build(model, &mesh, why);
     model->rc.contact_elements = across;
-    return s == RB_OK ? rb_rolling_model_build(model, &mesh, why) : s;
+    return s;
 }
 
-static rb_status refuse(rb_message *why)
+/* *rest: 0 where the edges did not come to rest. */
+static rb_status align(rb_rolling_model *model, int *rest, rb_message *why)
 {
-    return rb_fail(
-        why, RB_EINVAL,
-        "mesh aligned: the ends of equal elements cannot meet the edges of this "
-        "contact; use mesh fitted or uniform");
+    const int across = model->rc.contact_elements;
+    double from, to, moved = INFINITY;
+    int known;
+    rb_status s = find_edges(model, &from, &to, &known, why);
+
+    for (int round = 0; round < ROUNDS && known && s == RB_OK && moved > AT_REST;
+         round++) {
+        const double left = from, right = to, h = (to - from) / across;
+        s = solve_on(model, across, from, to, why);
+        if (s == RB_OK)
+            s = find_edges(model, &from, &to, &known, why);
+        moved = fmax(fabs(from - left), fabs(to - right)) / h;
+    }
+    *rest = known && moved <= NEAR_REST;
+    return s == RB_ZONE ? RB_OK : s;
 }
 
 rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why)
 {
-    const int across = model->rc.contact_elements;
-    double from, to, moved = INFINITY;
+    int rest = 0;
+    const rb_status s = align(model, &rest, why);
 
-    if (!find_edges(model, &from, &to))
-        return refuse(why);
-    for (int round = 0; round < ROUNDS && moved > AT_REST; round++) {
-        const double left = from, right = to, h = (to - from) / across;
-        const rb_status s = solve_on(model, across, from, to, why);
-        if (s != RB_OK)
-            return s;
-        if (!find_edges(model, &from, &to))
-            return refuse(why);
-        moved = fmax(fabs(from - left), fabs(to - right)) / h;
-    }
-    return moved <= NEAR_REST ? RB_OK : refuse(why);
+    model->equal_instead = !rest;
+    return s != RB_OK || rest ? s : rb_rolling_solve_equal_instead(model, why);
 }
 
 rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why)
 {
     const int across = model->rc.contact_elements;
-    const int few = (int)fmin(fmax(FIRST, across / 2), MOST_FIRST);
 
-    model->rc.contact_elements = few;
+    if (model->rc.zone == 0.0)
+        model->rc.contact_elements = (int)fmin(fmax(FIRST, across / 2), MOST_FIRST);
     const rb_status s = rb_rolling_solve_zone(model, 1, why);
     model->rc.contact_elements = across;
     return s == RB_OK ? rb_rolling_model_realign(model, why) : s;

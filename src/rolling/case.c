@@ -330,9 +330,6 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL, "slip operator second: of steady rolling only");
     if (rc->slip_operator == RB_SLIP_SECOND && rc->mesh == RB_MESH_FITTED)
         return rb_fail(why, RB_EINVAL, "slip operator second: on equal elements only");
-    if (rc->mesh == RB_MESH_ALIGNED && rc->zone > 0.0)
-        return rb_fail(why, RB_EINVAL,
-                       "mesh aligned: the elements follow the contact, not a zone");
     if (rc->mesh == RB_MESH_ALIGNED && rc->contact_elements < 12)
         return rb_fail(why, RB_EINVAL,
                        "mesh aligned: expected 12 contact elements or more, got %d",

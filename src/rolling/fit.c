@@ -238,8 +238,7 @@ static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
     return s == RB_ZONE ? RB_OK : s;
 }
 
-/* As many equal elements across the contact. */
-static rb_status solve_equal_instead(rb_rolling_model *model, rb_message *why)
+rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *why)
 {
     const int wanted = model->rc.contact_elements;
 
@@ -255,7 +254,7 @@ rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
     const rb_status s = fit(model, &rest, why);
 
     model->equal_instead = !rest;
-    return s != RB_OK || rest ? s : solve_equal_instead(model, why);
+    return s != RB_OK || rest ? s : rb_rolling_solve_equal_instead(model, why);
 }
 
 /* A coarse solution to fit to: where the rest of a wheel has many elements, with few of
@@ -285,7 +284,7 @@ rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
         s = rb_rolling_model_refit(model, why);
     if (s == RB_OK && model->rc.outer_elements != outer) {
         model->rc.outer_elements = outer;
-        s = model->equal_instead ? solve_equal_instead(model, why)
+        s = model->equal_instead ? rb_rolling_solve_equal_instead(model, why)
                                  : rb_rolling_model_refit(model, why);
     }
     return s;

@@ -250,8 +250,9 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
 /* ---- align.c --------------------------------------------------------------------------
  */
 
-/* A first solution, then equal elements whose ends meet both edges.  RB_EINVAL: no such
- * elements, as where there are several patches. */
+/* A first solution, then equal elements whose ends meet both edges; where these do not come
+ * to rest, equal ones anywhere, with model->equal_instead saying so.  RB_EINVAL: several
+ * patches. */
 rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why);
 /* The same from the edges that the model has now. */
 rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why);
@@ -269,6 +270,8 @@ double rb_rolling_aligned_edge(const rb_rolling_mesh *mesh, const double *p, int
 rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why);
 /* A fitted mesh, bodies and solution anew for the edges that the model has now. */
 rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why);
+/* As many equal elements across the contact, wherever their ends are. */
+rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *why);
 
 /* ---- mesh.c ---------------------------------------------------------------------------
  */
