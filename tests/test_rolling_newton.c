@@ -56,7 +56,7 @@ static double pair_sum(int n, const double *x, int k)
 static void check_pairs(const rb_rolling_problem *p, const rb_rolling_problem *half,
                         const rb_rolling_state *fine, const rb_rolling_state *coarse)
 {
-    const int n = p->n, m = half->n, inner = p->upstream ? m - 1 : m;
+    const int n = p->n, m = half->n, inner = p->steady ? m - 1 : m;
     double *gap = rb_alloc((size_t)n, 2), *half_gap = rb_alloc((size_t)m, 2);
     double *r = rb_alloc((size_t)n, 2), *w = rb_alloc((size_t)n + 1, 2);
 
@@ -67,14 +67,14 @@ static void check_pairs(const rb_rolling_problem *p, const rb_rolling_problem *h
     rb_bem_flexibility_apply(&p->f, r, w);
     const double *w_T = w + n + 1;
     for (int i = 0; i <= n; i++)
-        w[n + 1 + i] += fine->xi * (p->upstream ? -p->f.x[i] : 1.0);
+        w[n + 1 + i] += fine->xi * (p->steady ? -p->f.x[i] : 1.0);
     for (int k = 0; k < m; k++)
         CHECK_ABS(half_gap[k], pair_mean(n, gap, k), 1e-11 * p->gap_length, "gap %d", k);
     for (int k = 0; k < inner; k++) {
         const double want =
-            p->upstream ? 0.5 * (pair_mean(n + 1, w_T, k) - pair_mean(n, w_T, k + 1))
+            p->steady ? 0.5 * (pair_mean(n + 1, w_T, k) - pair_mean(n, w_T, k + 1))
                         : pair_mean(n, w_T, k);
-        const int alone = p->upstream && n % 2 && k == inner - 1;
+        const int alone = p->steady && n % 2 && k == inner - 1;
         if (!alone)
             CHECK_ABS(half_gap[m + k], want, 1e-11 * p->slip_length, "slip %d", k);
     }
