@@ -487,9 +487,28 @@ static void pictures_are_drawn(void **state)
     assert_true(st.st_size > 20000);
 }
 
+/* Friction that is rounding beside the pressure: every number is one. */
+static void almost_no_friction(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "--support halfplane --half-width 1 --mu 1e-12 --formulation steady --creep-ratio 0.5",
+        "--support halfplane --half-width 1 --mu 1e-12 --force-ratio 0.5",
+        "--support hub --half-width 1 --mu 1e-14 --shift 1e-3"};
+    for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++) {
+        json_t *root = run_json(lines[k]);
+        const json_t *summary = json_object_get(root, "summary");
+        CHECK_MAX(number_in(summary, "residual"), 1e-9, "%s", lines[k]);
+        assert_true(isfinite(number_in(summary, "force_ratio")));
+        assert_true(isfinite(number_in(summary, "max_pressure")));
+        json_decref(root);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(almost_no_friction),
         cmocka_unit_test(bad_arguments_are_refused),
         cmocka_unit_test(bad_points_are_named_by_their_line),
         cmocka_unit_test(curve_follows_carter),

@@ -208,6 +208,25 @@ static void a_closed_output_matters_only_where_it_is_used(void **state)
     clear();
 }
 
+static void the_longest_names_are_taken(void **state)
+{
+    (void)state;
+    clear();
+    assert_int_equal(shell("n() { printf \"$1%.0s\" $(seq $2); }; i=$(n i 251).ini; "
+                           "printf 'load = 100\\n' >$i; \"$R\" $i " CASE
+                           "--output $(n o 255) --plot $(n p 251).svg --fclib $(n f 255) "
+                           "--dump $(n d 255)"),
+                     0);
+    assert_int_equal(files(), 5);
+    assert_int_equal(shell("n() { printf \"$1%.0s\" $(seq $2); }; i=$(n i 251).ini; "
+                           "printf 'bad = 100\\n' >$i; \"$R\" $i"),
+                     65);
+    assert_non_null(strstr(err, ".ini:1: unknown key 'bad'"));
+    assert_int_equal(shell("\"$R\" " CASE "--output $(printf 'o%.0s' $(seq 256))"), 73);
+    assert_non_null(strstr(err, "File name too long"));
+    clear();
+}
+
 static void names_of_any_bytes_are_printed(void **state)
 {
     (void)state;
@@ -289,6 +308,7 @@ int main(void)
         cmocka_unit_test(a_dump_replaces_the_one_before),
         cmocka_unit_test(signals_leave_nothing_behind),
         cmocka_unit_test(a_closed_output_matters_only_where_it_is_used),
+        cmocka_unit_test(the_longest_names_are_taken),
         cmocka_unit_test(names_of_any_bytes_are_printed),
         cmocka_unit_test(files_that_are_no_text_are_named),
         cmocka_unit_test(a_limit_of_memory_is_said),
