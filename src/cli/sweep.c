@@ -296,19 +296,24 @@ static cli_exit add_files(const rb_settled_case *c, uint64_t *hash)
     return CLI_CONTINUE;
 }
 
+static int add_text(const char *text, size_t size, void *hash)
+{
+    *(uint64_t *)hash = add_bytes(*(uint64_t *)hash, text, size);
+    return 0;
+}
+
 /* FNV-1a of every input, the contents of files among them: tells whether a file holds
  * rows of this study. */
 static cli_exit find_fingerprint(study *st)
 {
     json_t *inputs = rb_report_json_inputs(st->base);
-    char *text = inputs ? json_dumps(inputs, JSON_COMPACT) : NULL;
     uint64_t hash = add_bytes(14695981039346656037u, RB_VERSION, sizeof RB_VERSION);
 
+    /* json_dumps loses pieces where its text cannot grow */
+    const int failed = json_dump_callback(inputs, add_text, &hash, JSON_COMPACT) != 0;
     json_decref(inputs);
-    if (!text)
+    if (failed)
         return cli_fail(CLI_INTERNAL, "out of memory");
-    hash = add_bytes(hash, text, strlen(text));
-    free(text);
     for (int k = 0; k < st->columns; k++) {
         const column *c = &st->column[k];
         hash = add_bytes(hash, c->name, strlen(c->name));
