@@ -5,8 +5,8 @@
 #include <string.h>
 
 static const rb_bem_material material = {.shear = 80.0, .poisson = 0.3};
-static const rb_bem_cylinder on_arc = {50.0, RB_BEM_ARC, M_PI / 6.0, 0.0, 0},
-                             on_hub = {50.0, RB_BEM_HUB, 0.0, 0.3, 0};
+static const rb_bem_cylinder on_arc = {50.0, RB_BEM_ARC, M_PI / 6.0, 0.0, 0, 0.0},
+                             on_hub = {50.0, RB_BEM_HUB, 0.0, 0.3, 0, 0.0};
 
 /* n_c equal elements over |x| <= a and one more after them */
 static double *equal_ends(int n_c, double a)
@@ -65,8 +65,12 @@ static void neighbours_differ_by_a_fifth_at_most(void **state)
     (void)state;
     for (double a = 0.5; a > 1e-9; a *= 0.1)
         for (int k = 0; k < 8; k++) {
-            const rb_bem_cylinder cylinder = {1.0, k < 4 ? RB_BEM_ARC : RB_BEM_HUB,
-                                              0.1 + 0.4 * k, 0.15 + 0.2 * (k - 4), 0};
+            const rb_bem_cylinder cylinder = {1.0,
+                                              k < 4 ? RB_BEM_ARC : RB_BEM_HUB,
+                                              0.1 + 0.4 * k,
+                                              0.15 + 0.2 * (k - 4),
+                                              0,
+                                              0.0};
             rb_bem_mesh mesh = mesh_of(&cylinder, 30 + k, a);
             CHECK_STATUS(rb_bem_mesh_check(&mesh, NULL), RB_OK);
             CHECK_MAX(grading(&mesh), 1.2, "a/R = %g, support %d", a, k);
@@ -121,6 +125,31 @@ static void check_mirrored(const rb_bem_mesh *mesh, int j, int k, double R)
     assert_int_equal(mesh->condition[2 * j], mesh->condition[2 * k]);
 }
 
+/* Twice as fine is twice the elements, on the hub too, and half of the largest one
+ * where that is chosen. */
+static void refinement_multiplies_what_is_outside(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        rb_bem_cylinder cylinder = k % 2 ? on_arc : on_hub;
+        double largest[2] = {0.0, 0.0};
+        int outside[2];
+        cylinder.outer_elements = k < 2 ? 0 : 80;
+        for (int finer = 0; finer < 2; finer++) {
+            cylinder.refinement = finer ? 2.0 : 0.0;
+            rb_bem_mesh mesh = mesh_of(&cylinder, 40, 1.0);
+            outside[finer] = mesh.n - 40;
+            for (int j = 0; j < mesh.n; j++)
+                largest[finer] = fmax(largest[finer], hypot(mesh.x1[j] - mesh.x0[j],
+                                                            mesh.y1[j] - mesh.y0[j]));
+            rb_bem_mesh_free(&mesh);
+        }
+        CHECK_REL(outside[1], 2.0 * outside[0], 0.1, "elements, mesh %d", k);
+        if (k < 2)
+            CHECK_REL(largest[1], 0.5 * largest[0], 0.15, "largest one, mesh %d", k);
+    }
+}
+
 static void symmetric_ends_make_a_symmetric_mesh(void **state)
 {
     (void)state;
@@ -170,20 +199,21 @@ static void bad_cylinders_are_refused(void **state)
         const double *ends;
         const char *text;
     } bad[] = {
-        {{50, RB_BEM_ARC, 0.5, 0, 0}, 0, ends, "at least 1"},
-        {{50, RB_BEM_ARC, 0.5, 0, 0}, 2, back, "increasing"},
-        {{0, RB_BEM_ARC, 0.5, 0, 0}, 2, ends, "radius"},
-        {{NAN, RB_BEM_ARC, 0.5, 0, 0}, 2, ends, "radius"},
-        {{50, RB_BEM_ARC, 0, 0, 0}, 2, ends, "arc"},
-        {{50, RB_BEM_ARC, 1.6, 0, 0}, 2, ends, "arc"},
-        {{50, RB_BEM_HUB, 0, 1.0, 0}, 2, ends, "hub ratio"},
-        {{50, RB_BEM_HUB, 0, 0.0, 0}, 2, ends, "hub ratio"},
-        {{50, RB_BEM_HALFPLANE, 0.5, 0.5, 0}, 2, ends, "support"},
-        {{50, RB_BEM_ARC, 0.5, 0, 7}, 2, ends, "outer elements"},
-        {{50, RB_BEM_HUB, 0, 0.6, 8}, 2, ends, "cut the hub"},
-        {{50, RB_BEM_ARC, 0.5, 0, 2000000}, 2, ends, "million"},
-        {{50, RB_BEM_ARC, 0.5, 0, 0}, 2, wide, "radius of 50"},
-        {{50, RB_BEM_ARC, M_PI_2, 0, 0}, 2, most, "clamped arc"},
+        {{50, RB_BEM_ARC, 0.5, 0, 0, 0}, 0, ends, "at least 1"},
+        {{50, RB_BEM_ARC, 0.5, 0, 0, 0}, 2, back, "increasing"},
+        {{0, RB_BEM_ARC, 0.5, 0, 0, 0}, 2, ends, "radius"},
+        {{NAN, RB_BEM_ARC, 0.5, 0, 0, 0}, 2, ends, "radius"},
+        {{50, RB_BEM_ARC, 0, 0, 0, 0}, 2, ends, "arc"},
+        {{50, RB_BEM_ARC, 1.6, 0, 0, 0}, 2, ends, "arc"},
+        {{50, RB_BEM_HUB, 0, 1.0, 0, 0}, 2, ends, "hub ratio"},
+        {{50, RB_BEM_HUB, 0, 0.0, 0, 0}, 2, ends, "hub ratio"},
+        {{50, RB_BEM_HALFPLANE, 0.5, 0.5, 0, 0}, 2, ends, "support"},
+        {{50, RB_BEM_ARC, 0.5, 0, 7, 0}, 2, ends, "outer elements"},
+        {{50, RB_BEM_HUB, 0, 0.6, 8, 0}, 2, ends, "cut the hub"},
+        {{50, RB_BEM_ARC, 0.5, 0, 2000000, 0}, 2, ends, "million"},
+        {{50, RB_BEM_ARC, 0.5, 0, 0, -1.0}, 2, ends, "refinement"},
+        {{50, RB_BEM_ARC, 0.5, 0, 0, 0}, 2, wide, "radius of 50"},
+        {{50, RB_BEM_ARC, M_PI_2, 0, 0, 0}, 2, most, "clamped arc"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_bem_mesh mesh;
@@ -688,6 +718,7 @@ int main(void)
         cmocka_unit_test(neighbours_differ_by_a_fifth_at_most),
         cmocka_unit_test(the_arc_ends_at_element_ends),
         cmocka_unit_test(small_contacts_keep_their_digits),
+        cmocka_unit_test(refinement_multiplies_what_is_outside),
         cmocka_unit_test(symmetric_ends_make_a_symmetric_mesh),
         cmocka_unit_test(outer_elements_are_as_many_as_asked_for),
         cmocka_unit_test(bad_cylinders_are_refused),

@@ -145,7 +145,7 @@ static void the_solution_satisfies_the_equations(void **state)
 {
     (void)state;
     const double ends[] = {-8.0, -5.0, -1.0, 2.0, 4.0, 7.0};
-    const rb_bem_cylinder cylinder = {50.0, RB_BEM_ARC, 0.5, 0.0, 0};
+    const rb_bem_cylinder cylinder = {50.0, RB_BEM_ARC, 0.5, 0.0, 0, 0.0};
     rb_bem_mesh mesh;
     rb_bem_system *system;
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, 4, ends, &mesh, NULL), RB_OK);
@@ -274,7 +274,7 @@ static void failing_memory_is_reported(void **state)
 {
     (void)state;
     const double ends[] = {-0.2, -0.1, 0.1, 0.2};
-    const rb_bem_cylinder cylinder = {1.0, RB_BEM_HUB, 0.0, 0.4, 20};
+    const rb_bem_cylinder cylinder = {1.0, RB_BEM_HUB, 0.0, 0.4, 20, 0.0};
     double H[40000], u[200], t[200];
     for (int count = 0, failed = 1; failed; count++) {
         rb_bem_mesh mesh = {0};

@@ -324,6 +324,9 @@ static void error_bars_of_curves_hold_the_truth(void **state)
         for (int k = 0; k < c.n; k++)
             tally_count(&t, c.force_ratio[k] + carter(c.creep_ratio[k]),
                         e.force_ratio[k]);
+        for (int k = 0; k < c.n; k++)
+            CHECK_ABS(c.stick_ratio[k], 1.0 - c.creep_ratio[k], e.stick_ratio[k],
+                      "stick at s = %g", c.creep_ratio[k]);
         tally_check(&t, fitted ? "fitted" : "uniform");
         rb_rolling_curve_free(&c);
         rb_rolling_curve_free(&e);

@@ -60,6 +60,8 @@ typedef struct {
                                upstream one; one more for an odd number where the mesh
                                is symmetric; 0: chosen so that neighbours differ by at
                                most a fifth */
+    double refinement;      /* so many times the elements outside the contact and on the
+                               hub; 0: 1 */
 } rb_bem_cylinder;
 
 /* R - sqrt(R^2 - x^2) without cancellation (B9): height of a circle above its lowest

@@ -119,6 +119,8 @@ typedef struct {
                            */
     double zone;          /* half-width of the potential contact [length]; 0: automatic */
     int outer_elements;   /* 0: automatic */
+    double outer_refinement; /* so many times the elements of wheels outside the contact;
+                                0: 1 */
     rb_bem_normals normals;
     rb_rolling_near_field near_field;       /* of wheels */
     rb_rolling_slip_operator slip_operator; /* steady; second: equal elements */
@@ -405,13 +407,30 @@ typedef enum {
     RB_RESULT_SECONDS /* a number: time spent on it */
 } rb_rolling_result_kind;
 
+/* What a result with an error bar is made of, and its rounding is measured in. */
+typedef enum {
+    RB_SCALE_NONE,
+    RB_SCALE_ONE,
+    RB_SCALE_LOAD,     /* P */
+    RB_SCALE_FRICTION, /* mu P */
+    RB_SCALE_APPROACH,
+    RB_SCALE_SHIFT,    /* mu a^2/R */
+    RB_SCALE_CREEPAGE, /* mu a/R */
+    RB_SCALE_WIDTH,    /* a */
+    RB_SCALE_ELEMENT,  /* length of an element */
+    RB_SCALE_PRESSURE, /* p0 */
+    RB_SCALE_POWER     /* mu P times the creepage */
+} rb_rolling_error_scale;
+
 /* One result: whatever shows results, studies and error bars are made from these. */
 typedef struct {
     const char *name; /* in JSON */
     const char *unit; /* "mm"; NULL: none */
     rb_rolling_result_kind kind;
-    size_t offset;      /* of the value, or of a column's pointer, in its owner */
-    int error_bar;      /* 1: its discretisation error can be estimated */
+    size_t offset; /* of the value, or of a column's pointer, in its owner */
+    rb_rolling_error_scale
+        error_bar;      /* RB_SCALE_NONE: no discretisation error is estimated
+                         */
     int study;          /* which column of a study it is; 0: none */
     int is_mean;        /* of a rolled step: 1: mean over it, 0: value at its end */
     const char *symbol; /* heads the column instead of the name; NULL: the name */
@@ -576,10 +595,10 @@ typedef struct {
     double *creepage, *creep_ratio, *force_ratio;
     double *tangential_load, *normal_load;
     double *stick_ratio; /* stuck length / length in contact */
+    double stick_step;   /* what one element more or less is to it, at most */
     double *dissipation; /* power per unit speed */
     double *residual;
     double free_creepage, half_width, seconds;
-    int contact; /* elements in contact at the last creepage */
     int iterations;
 } rb_rolling_curve;
 
@@ -658,18 +677,23 @@ void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid);
 /* Estimated discretisation errors. */
 typedef struct {
     rb_rolling_solution scalar; /* of every result that has an error bar, in its place;
-                                   NAN where the result is; no columns */
+                                   NAN where the result is, in the solution or in one of
+                                   the coarser runs, and where there is no estimate; no
+                                   columns */
     rb_rolling_stress_maxima stress; /* of value and place; NAN unless asked */
 } rb_rolling_errors;
 
-/* From the spread over n/2, 0.7 n and n elements; the solution is that of n. */
+/* From the spread over n/2, 0.7 n and n contact elements and from the difference that
+ * half the elements of wheels outside the contact make.  On a positive status the
+ * solution holds what there is; free it in any case. */
 rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, int with_stress,
                                        rb_rolling_solution *solution,
                                        rb_rolling_errors *errors, rb_message *why);
 
-/* Refines until the estimates of P, Q, p0, half-width and creepage are at most `accuracy`
- * relative.  *elements: what it took.  RB_INACCURATE with the best estimate where memory
- * or 6400 elements do not suffice. */
+/* Refines contact and boundary until the estimates of P, Q, p0, half-width and creepage
+ * are at most `accuracy` relative.  *elements: contact elements that it took; 0: none
+ * were solved.  RB_INACCURATE with the best estimate where memory, 6400 contact elements
+ * or 64 times the usual boundary do not suffice. */
 rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accuracy,
                                        rb_rolling_solution *solution,
                                        rb_rolling_errors *errors, int *elements,

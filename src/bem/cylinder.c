@@ -136,6 +136,11 @@ static double downstream_angle(double R, int n_c, const double *ends)
     return first - ratio * (asin(ends[n_c + 1] / R) - last);
 }
 
+static double refinement(const rb_bem_cylinder *cylinder)
+{
+    return cylinder->refinement > 0.0 ? cylinder->refinement : 1.0;
+}
+
 static graded_side lay_out_side(const rb_bem_cylinder *cylinder, double contact,
                                 double from)
 {
@@ -144,8 +149,9 @@ static graded_side lay_out_side(const rb_bem_cylinder *cylinder, double contact,
         has_hub ? (1.0 - cylinder->hub_ratio) / 4.0 : 2.0 * cylinder->arc / 8.0;
     graded_side side = {.from = from, .h0 = from - contact};
 
-    side.cap = fmin(largest_angle, fmax(feature, smallest_feature));
-    side.growth = copysign(automatic_growth, side.cap - side.h0);
+    side.cap =
+        fmin(largest_angle, fmax(feature, smallest_feature)) / refinement(cylinder);
+    side.growth = copysign(automatic_growth / refinement(cylinder), side.cap - side.h0);
     side.clamped = side_length(&side) - (has_hub ? 0.0 : cylinder->arc);
     return side;
 }
@@ -157,11 +163,12 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
         .right = lay_out_side(cylinder, asin(ends[n_c] / R), asin(ends[n_c + 1] / R)),
         .left =
             lay_out_side(cylinder, -asin(ends[0] / R), -downstream_angle(R, n_c, ends))};
-    double finer = 1.0;
+    double finer = refinement(cylinder);
 
     if (cylinder->outer_elements > 0) {
-        finer = cylinder->outer_elements / outer_demand(&layout);
-        fit_growth(&layout, cylinder->outer_elements);
+        const int wanted = (int)round(finer * cylinder->outer_elements);
+        finer *= wanted / outer_demand(&layout);
+        fit_growth(&layout, wanted > 8 ? wanted : 8);
     } else {
         count_elements(&layout.right, 0);
         count_elements(&layout.left, 0);
@@ -190,6 +197,9 @@ static rb_status check_cylinder(const rb_bem_cylinder *c, int n_c, const double 
     if (c->outer_elements < 0 || (c->outer_elements > 0 && c->outer_elements < 8))
         return rb_fail(why, RB_EINVAL, "outer elements = %d: expected at least 8, or 0",
                        c->outer_elements);
+    if (!(c->refinement >= 0.0 && c->refinement <= 1000.0))
+        return rb_fail(why, RB_EINVAL, "refinement = %g: expected 0 ... 1000",
+                       c->refinement);
     if (n_c > 1000000 || c->outer_elements > 1000000)
         return rb_fail(why, RB_EINVAL,
                        "%d contact and %d outer elements: at most a million", n_c,

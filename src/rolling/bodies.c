@@ -81,7 +81,8 @@ static rb_status cylinder_flexibility(const rb_rolling_case *rc,
                                       .support = body->support,
                                       .arc = body->arc * M_PI / 180.0,
                                       .hub_ratio = body->hub_ratio,
-                                      .outer_elements = rc->outer_elements};
+                                      .outer_elements = rc->outer_elements,
+                                      .refinement = rc->outer_refinement};
     rb_bem_mesh boundary = {0};
     rb_status s = rb_bem_mesh_cylinder(&cylinder, mesh->n, mesh->ends, &boundary, why);
 

@@ -124,6 +124,19 @@ double rb_rolling_force_ratio(double mu, double P, double Q)
     return mu > 0.0 && P > 0.0 ? Q / (mu * P) : NAN;
 }
 
+int rb_rolling_has_fine_boundary(const rb_rolling_case *rc)
+{
+    enum { MANY = 600 };
+
+    return rc->outer_refinement > 1.0 || rc->outer_elements > MANY;
+}
+
+void rb_rolling_coarsen_boundary(rb_rolling_case *rc)
+{
+    rc->outer_elements = 0;
+    rc->outer_refinement = 0.0;
+}
+
 /* ---- Checks ------------------------------------------------------------------------ */
 
 static int is_positive(double x)
@@ -340,6 +353,9 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
     if (rc->outer_elements < 0 || rc->outer_elements > 1 << 20)
         return rb_fail(why, RB_EINVAL, "outer elements: expected 0 ... %d, got %d",
                        1 << 20, rc->outer_elements);
+    if (!(rc->outer_refinement >= 0.0 && rc->outer_refinement <= 1000.0))
+        return rb_fail(why, RB_EINVAL, "outer refinement: expected 0 ... 1000, got %g",
+                       rc->outer_refinement);
     if (!(isfinite(rc->zone) && rc->zone >= 0.0))
         return rb_fail(why, RB_EINVAL, "zone: expected a half-width > 0, got %g",
                        rc->zone);

@@ -1,16 +1,94 @@
-/* Discretisation errors from the spread over meshes (theory.md 5.1). */
+/* Discretisation errors from coarser runs (theory.md 5.1). */
 #include "rolling/internal.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ELEMENTS = 6400 };
+/* Where --accuracy gives up: contact elements, and how much finer than usual the boundary
+ * of a wheel is. */
+enum { MOST_ELEMENTS = 6400, MOST_ON_WHEELS = 1600 };
+static const double finest_boundary = 32.0;
 
-/* What one mesh says. */
-typedef struct {
-    rb_rolling_solution solution;
-    rb_rolling_stress_maxima stress;
-} sample;
+/* ---- The coarser runs
+ * ------------------------------------------------------------------
+ */
+
+/* The contact elements, with the steps of a transient, and the elements of the wheels
+ * outside the contact are made coarser in turn: errors of different signs would cancel in
+ * runs that make both coarser together. */
+static const struct {
+    double contact, boundary;
+} part[RB_ERROR_RUNS] = {{0.5, 1.0}, {0.7, 1.0}, {1.0, 0.5}};
+
+int rb_rolling_error_runs(const rb_rolling_case *rc)
+{
+    const int wheels = rc->a.support != RB_BEM_HALFPLANE ||
+                       (rc->elastic_b && rc->b.support != RB_BEM_HALFPLANE);
+    return wheels ? 3 : 2;
+}
+
+rb_rolling_case rb_rolling_error_run(const rb_rolling_case *rc, int k)
+{
+    rb_rolling_case coarser = *rc;
+
+    coarser.contact_elements = (int)(part[k].contact * rc->contact_elements);
+    if (rc->steps > 0)
+        coarser.steps = (int)ceil(part[k].contact * rc->steps);
+    coarser.outer_refinement =
+        part[k].boundary * (rc->outer_refinement > 0.0 ? rc->outer_refinement : 1.0);
+    return coarser;
+}
+
+rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why)
+{
+    if (rc->contact_elements < 12)
+        return rb_fail(why, RB_EINVAL,
+                       "error bars compare with half the elements: expected 12 contact "
+                       "elements or more, got %d",
+                       rc->contact_elements);
+    if (rb_rolling_error_runs(rc) > 2 && rc->outer_elements > 0 &&
+        rc->outer_elements < 16)
+        return rb_fail(why, RB_EINVAL,
+                       "error bars compare with half the elements: expected 16 outer "
+                       "elements or more, got %d",
+                       rc->outer_elements);
+    return RB_OK;
+}
+
+/* ---- From their values to a bar
+ * --------------------------------------------------------
+ */
+
+/* Three times the spread over the contact meshes: three errors where they are of first
+ * order, nine where of second, and less where they jump as the edges pass elements. */
+double rb_rolling_contact_error(const double coarser[], double own)
+{
+    const double most = fmax(own, fmax(coarser[0], coarser[1]));
+    const double least = fmin(own, fmin(coarser[0], coarser[1]));
+
+    return 3.0 * (most - least) + 0.0 * (own + coarser[0] + coarser[1]); /* NAN stays */
+}
+
+/* The boundary outside the contact is smooth and its error of second order: half the
+ * elements differ by three errors, of which this is half as much again. */
+double rb_rolling_boundary_error(int runs, const double coarser[], double own)
+{
+    return runs > 2 ? 1.5 * fabs(own - coarser[2]) : 0.0;
+}
+
+double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage,
+                             double a, double share)
+{
+    const double slip =
+        fabs(creepage) + fabs(rb_rolling_derive(rc).dundurs) * a / rb_rolling_radius(rc);
+
+    return rc->mu * P * slip * pow(share, 1.5);
+}
+
+/* ---- Results of a solution
+ * -------------------------------------------------------------
+ */
 
 enum { STRESS_NUMBERS = sizeof(rb_rolling_stress_maxima) / sizeof(double) };
 
@@ -21,53 +99,148 @@ static double at(const void *base, size_t offset)
     return value;
 }
 
-static double spread(double a, double b, double c)
+static void put(void *base, size_t offset, double value)
 {
-    return fmax(a, fmax(b, c)) - fmin(a, fmin(b, c)) + 0.0 * (a + b + c); /* NAN stays */
+    memcpy((char *)base + offset, &value, sizeof value);
 }
 
-/* Twice the spread held the true error where 200 elements or more stand across the
- * contact, three times below. */
-double rb_rolling_error_of(int contact, double a, double b, double c)
+/* Whether slip turns round over a stick zone of fewer than four elements: no mesh tells
+ * then where in it friction changes its sign. */
+static int has_unresolved_stick(const rb_rolling_solution *s)
 {
-    return (contact >= 200 ? 2.0 : 3.0) * spread(a, b, c);
+    int before = RB_ZONE_SEPARATED, stuck = 0;
+
+    for (int i = 0; i < s->n; i++) {
+        if (s->zone[i] == RB_ZONE_STICK) {
+            stuck++;
+            continue;
+        }
+        if (before > RB_ZONE_STICK && s->zone[i] > RB_ZONE_STICK &&
+            s->zone[i] != before && stuck < 4)
+            return 1;
+        before = s->zone[i];
+        stuck = 0;
+    }
+    return 0;
 }
 
-static void estimate(const sample s[3], int with_stress, rb_rolling_errors *errors)
+/* What no mesh tells apart: rounding, in units of what the scalar is made of; the length
+ * of an element, where it is the place where stick begins; slip over an element; and with
+ * an unresolved stick zone the friction of an element, and the pressure that a jump of
+ * friction brings about between dissimilar bodies. */
+static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                          rb_rolling_error_scale scale)
 {
-    const int contact = s[2].solution.contact;
+    const double rounding = fmax(s->residual, DBL_EPSILON), a = s->hertz_half_width;
+    const double strain = rc->mu * a / rb_rolling_radius(rc);
+    const int unresolved = has_unresolved_stick(s);
+    const int force_given = !isnan(rc->force) || !isnan(rc->force_ratio);
+    const double friction =
+        unresolved && !force_given
+            ? rc->mu * s->max_pressure * rb_rolling_longest_element(s->n, s->zone, s->h)
+            : 0.0;
 
-    errors->scalar = rb_rolling_no_scalars(RB_OK);
+    switch (scale) {
+    case RB_SCALE_ONE:
+        return rounding + (friction > 0.0 ? friction / (rc->mu * s->normal_load) : 0.0);
+    case RB_SCALE_LOAD:
+        return rounding * s->normal_load;
+    case RB_SCALE_FRICTION:
+        return rounding * rc->mu * s->normal_load + friction;
+    case RB_SCALE_APPROACH:
+        return rounding * fabs(s->approach);
+    case RB_SCALE_SHIFT:
+        return rounding * fmax(strain * a, fabs(s->tangential_shift));
+    case RB_SCALE_CREEPAGE:
+        return rounding * fmax(strain, fabs(s->creepage));
+    case RB_SCALE_WIDTH:
+        return rounding * a;
+    case RB_SCALE_PRESSURE:
+        return (rounding +
+                (unresolved ? rc->mu * fabs(rb_rolling_derive(rc).dundurs) : 0.0)) *
+               s->max_pressure;
+    case RB_SCALE_POWER:
+        return rb_rolling_edge_power(rc, s->normal_load, s->creepage, a,
+                                     rb_rolling_longest_element(s->n, s->zone, s->h) /
+                                         (2.0 * s->half_width));
+    case RB_SCALE_ELEMENT:
+    case RB_SCALE_NONE:
+        break;
+    }
+    return rb_rolling_longest_element(s->n, s->zone, s->h);
+}
+
+/* One run: what it says. */
+typedef struct {
+    rb_rolling_solution solution;
+    rb_rolling_stress_maxima stress;
+} sample;
+
+/* The parts of the errors, kept apart because --accuracy refines the larger one. */
+typedef struct {
+    rb_rolling_errors contact, boundary;
+} error_parts;
+
+static void estimate(const rb_rolling_case *rc, const sample run[], const sample *own,
+                     int with_stress, error_parts *e)
+{
+    const int runs = rb_rolling_error_runs(rc);
+    double coarser[RB_ERROR_RUNS];
+
+    e->contact.scalar = e->boundary.scalar = rb_rolling_no_scalars(RB_OK);
     for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
         const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
-        if (!r->error_bar)
+        if (r->error_bar == RB_SCALE_NONE)
             continue;
-        const double e = rb_rolling_error_of(
-            contact, rb_rolling_number(r, &s[0].solution),
-            rb_rolling_number(r, &s[1].solution), rb_rolling_number(r, &s[2].solution));
-        memcpy((char *)&errors->scalar + r->offset, &e, sizeof e);
+        const double value = rb_rolling_number(r, &own->solution);
+        for (int j = 0; j < runs; j++)
+            coarser[j] = rb_rolling_number(r, &run[j].solution);
+        put(&e->contact.scalar, r->offset,
+            rb_rolling_contact_error(coarser, value) +
+                least_error(rc, &own->solution, r->error_bar));
+        put(&e->boundary.scalar, r->offset,
+            rb_rolling_boundary_error(runs, coarser, value));
     }
     for (size_t k = 0; k < STRESS_NUMBERS; k++) {
         const size_t offset = k * sizeof(double);
-        const double e =
-            with_stress
-                ? rb_rolling_error_of(contact, at(&s[0].stress, offset),
-                                      at(&s[1].stress, offset), at(&s[2].stress, offset))
-                : NAN;
-        memcpy((char *)&errors->stress + offset, &e, sizeof e);
+        for (int r = 0; r < runs; r++)
+            coarser[r] = at(&run[r].stress, offset);
+        const double value = with_stress ? at(&own->stress, offset) : NAN;
+        put(&e->contact.stress, offset,
+            rb_rolling_contact_error(coarser, value) +
+                least_error(rc, &own->solution,
+                            k % 3 == 0 ? RB_SCALE_PRESSURE : RB_SCALE_WIDTH));
+        put(&e->boundary.stress, offset, rb_rolling_boundary_error(runs, coarser, value));
     }
 }
 
-rb_rolling_case rb_rolling_error_mesh(const rb_rolling_case *rc, int k)
+static void add_parts(const error_parts *parts, rb_rolling_errors *errors)
 {
-    static const double part[RB_ERROR_MESHES] = {0.5, 0.7, 1.0};
-    rb_rolling_case companion = *rc;
-
-    companion.contact_elements = (int)(part[k] * rc->contact_elements);
-    if (rc->steps > 0)
-        companion.steps = (int)ceil(part[k] * rc->steps);
-    return companion;
+    errors->scalar = rb_rolling_no_scalars(RB_OK);
+    for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
+        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+        if (r->error_bar != RB_SCALE_NONE)
+            put(&errors->scalar, r->offset,
+                rb_rolling_number(r, &parts->contact.scalar) +
+                    rb_rolling_number(r, &parts->boundary.scalar));
+    }
+    for (size_t k = 0; k < STRESS_NUMBERS; k++) {
+        const size_t offset = k * sizeof(double);
+        put(&errors->stress, offset,
+            at(&parts->contact.stress, offset) + at(&parts->boundary.stress, offset));
+    }
 }
+
+static void set_unknown(rb_rolling_errors *errors)
+{
+    errors->scalar = rb_rolling_no_scalars(RB_OK);
+    for (size_t k = 0; k < STRESS_NUMBERS; k++)
+        put(&errors->stress, k * sizeof(double), NAN);
+}
+
+/* ---- One case and its error bars
+ * -------------------------------------------------------
+ */
 
 static rb_status take_sample(const rb_rolling_case *rc, int with_stress, sample *s,
                              rb_message *why)
@@ -80,48 +253,52 @@ static rb_status take_sample(const rb_rolling_case *rc, int with_stress, sample 
     return status;
 }
 
-static void samples_free(sample s[3])
+/* The case, then its coarser runs.  The solution stays where one of these fails. */
+static rb_status solve_parts(const rb_rolling_case *rc, int with_stress,
+                             rb_rolling_solution *solution, error_parts *parts,
+                             rb_message *why)
 {
-    for (int k = 0; k < 3; k++)
-        rb_rolling_solution_free(&s[k].solution);
-}
+    sample own = {0}, run[RB_ERROR_RUNS] = {0};
+    rb_message reason = {""};
+    const int runs = rb_rolling_error_runs(rc);
+    rb_status status = take_sample(rc, with_stress, &own, why);
 
-/* Hands the finest solution to the caller. */
-static void give_finest(sample s[3], rb_rolling_solution *solution)
-{
-    *solution = s[2].solution;
-    memset(&s[2].solution, 0, sizeof s[2].solution);
-}
-
-rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why)
-{
-    if (rc->contact_elements < 12)
-        return rb_fail(why, RB_EINVAL,
-                       "error bars compare with half the elements: expected 12 contact "
-                       "elements or more, got %d",
-                       rc->contact_elements);
-    return RB_OK;
+    *solution = own.solution;
+    if (status != RB_OK)
+        return status;
+    for (int k = 0; k < runs && status == RB_OK; k++) {
+        const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
+        status = take_sample(&coarser, with_stress, &run[k], &reason);
+        if (status != RB_OK)
+            rb_fail(why, status, "error bars: %d contact elements: %.200s",
+                    coarser.contact_elements, reason.text);
+    }
+    if (status == RB_OK)
+        estimate(rc, run, &own, with_stress, parts);
+    for (int k = 0; k < runs; k++)
+        rb_rolling_solution_free(&run[k].solution);
+    return status;
 }
 
 rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, int with_stress,
                                        rb_rolling_solution *solution,
                                        rb_rolling_errors *errors, rb_message *why)
 {
-    sample s[RB_ERROR_MESHES] = {0};
+    error_parts parts;
     rb_status status = rb_rolling_error_check(rc, why);
 
     memset(solution, 0, sizeof *solution);
-    for (int k = 0; k < RB_ERROR_MESHES && status == RB_OK; k++) {
-        const rb_rolling_case companion = rb_rolling_error_mesh(rc, k);
-        status = take_sample(&companion, with_stress, &s[k], why);
-    }
+    set_unknown(errors);
     if (status == RB_OK)
-        estimate(s, with_stress, errors);
-    if (status == RB_OK || s[2].solution.p)
-        give_finest(s, solution);
-    samples_free(s);
+        status = solve_parts(rc, with_stress, solution, &parts, why);
+    if (status == RB_OK)
+        add_parts(&parts, errors);
     return status;
 }
+
+/* ---- To a given accuracy
+ * ---------------------------------------------------------------
+ */
 
 /* Largest of the relative estimates that --accuracy asks for: forces in units of their
  * bound, creepage in units of mu a/R. */
@@ -140,11 +317,28 @@ static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solutio
     return worst;
 }
 
-/* Meshes grow by the square root of 2, so that each new one finds its two coarser
- * companions already solved. */
-static int next_count(int n)
+/* Makes each part that is too large for its share of the accuracy finer, by at most two
+ * because its error may fall faster than its order says.  0: the limit of a part is
+ * reached, or twice that would not do. */
+static int refine(double accuracy, double contact, double boundary, rb_rolling_case *rc)
 {
-    return (int)ceil(n * 1.41421356);
+    const int wheels = rb_rolling_error_runs(rc) > 2;
+    const double most = wheels ? MOST_ON_WHEELS : MOST_ELEMENTS;
+    const double share = wheels ? 0.5 * accuracy : accuracy;
+    const double order = rc->mesh == RB_MESH_FITTED ? 2.0 : 1.0;
+    const double n = rc->contact_elements, outer = fmax(rc->outer_refinement, 1.0);
+    const double n_factor = fmax(1.0, pow(contact / share, 1.0 / order));
+    const double outer_factor = fmax(1.0, sqrt(boundary / share));
+
+    if (n * n_factor > 2.0 * most || outer * outer_factor > 2.0 * finest_boundary)
+        return 0;
+    const double finer = fmin(most / n, fmin(2.0, n_factor > 1.0 ? 1.1 * n_factor : 1.0));
+    rc->contact_elements = (int)(finer * n + 0.5);
+    rc->steps = (int)ceil(finer * rc->steps);
+    rc->outer_refinement =
+        fmin(finest_boundary,
+             outer * fmin(2.0, outer_factor > 1.0 ? 1.1 * outer_factor : 1.0));
+    return rc->contact_elements > n || rc->outer_refinement > outer;
 }
 
 rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accuracy,
@@ -152,35 +346,45 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
                                        rb_rolling_errors *errors, int *elements,
                                        rb_message *why)
 {
-    sample s[3] = {0};
     rb_rolling_case refined = *rc;
-    int n = rc->contact_elements / 2;
+    error_parts parts;
     double worst = INFINITY;
+    int round = 0;
     rb_status status = rb_rolling_error_check(rc, why);
 
     memset(solution, 0, sizeof *solution);
+    set_unknown(errors);
+    *elements = 0;
     if (status == RB_OK && !(accuracy > 0.0 && accuracy < 1.0))
         status =
             rb_fail(why, RB_EINVAL, "accuracy: expected in (0, 1), got %g", accuracy);
-    for (int k = 0; status == RB_OK && n <= MOST_ELEMENTS; k++, n = next_count(n)) {
-        rb_rolling_solution_free(&s[0].solution);
-        memmove(s, s + 1, 2 * sizeof *s);
-        memset(&s[2], 0, sizeof s[2]);
-        refined.contact_elements = n;
-        status = take_sample(&refined, 0, &s[2], why);
-        *elements = n;
-        if (status != RB_OK || k < 2)
-            continue;
-        estimate(s, 0, errors);
-        worst = worst_relative(rc, &s[2].solution, &errors->scalar);
-        if (worst <= accuracy)
+    if (status != RB_OK)
+        return status;
+    do {
+        rb_rolling_solution finer;
+        status = solve_parts(&refined, 0, &finer, &parts, why);
+        if (status != RB_OK && round > 0) {
+            rb_rolling_solution_free(&finer); /* the best one so far stays */
             break;
-    }
-    if (status == RB_OK && !(worst <= accuracy))
-        status = rb_fail(why, RB_INACCURATE,
-                         "accuracy %g not reached with %d elements: estimated error %.2g",
-                         accuracy, *elements, worst);
-    give_finest(s, solution);
-    samples_free(s);
+        }
+        rb_rolling_solution_free(solution);
+        *solution = finer;
+        *elements = status >= 0 ? refined.contact_elements : 0;
+        round++;
+        if (status != RB_OK)
+            return status;
+        add_parts(&parts, errors);
+        worst = worst_relative(rc, solution, &errors->scalar);
+        if (worst <= accuracy)
+            return RB_OK;
+    } while (refine(accuracy, worst_relative(rc, solution, &parts.contact.scalar),
+                    worst_relative(rc, solution, &parts.boundary.scalar), &refined));
+    if (status == RB_OK || status == RB_ENOMEM)
+        status =
+            rb_fail(why, RB_INACCURATE,
+                    "accuracy %g not reached with %d elements: estimated error "
+                    "%.2g%s",
+                    accuracy, *elements, worst,
+                    rc->mesh == RB_MESH_UNIFORM ? "; a fitted mesh needs fewer" : "");
     return status;
 }

@@ -6,8 +6,6 @@
 
 enum {
     FIRST = 30, /* elements at least that the first edges are found with */
-    MANY_OUTER =
-        600, /* boundary elements not worth solving to learn where the contact is */
     ROUNDS = 10,
     MOST_PATCHES = 16
 };
@@ -266,8 +264,8 @@ static rb_status solve_first(rb_rolling_model *model, rb_message *why)
     if (rc.zone == 0.0) {
         model->rc.contact_elements = (int)fmax(FIRST, rc.contact_elements / 2);
         model->rc.near_field = RB_NEAR_FIELD_PLAIN;
-        if (rc.outer_elements > MANY_OUTER)
-            model->rc.outer_elements = 0;
+        if (rb_rolling_has_fine_boundary(&rc))
+            rb_rolling_coarsen_boundary(&model->rc);
     }
     const rb_status s = rb_rolling_solve_zone(model, 1, why);
     model->rc.contact_elements = rc.contact_elements;
@@ -277,13 +275,14 @@ static rb_status solve_first(rb_rolling_model *model, rb_message *why)
 
 rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
 {
-    const int outer = model->rc.outer_elements;
+    const rb_rolling_case rc = model->rc;
     rb_status s = solve_first(model, why);
 
     if (s == RB_OK)
         s = rb_rolling_model_refit(model, why);
-    if (s == RB_OK && model->rc.outer_elements != outer) {
-        model->rc.outer_elements = outer;
+    if (s == RB_OK && rc.zone == 0.0 && rb_rolling_has_fine_boundary(&rc)) {
+        model->rc.outer_elements = rc.outer_elements;
+        model->rc.outer_refinement = rc.outer_refinement;
         s = model->equal_instead ? rb_rolling_solve_equal_instead(model, why)
                                  : rb_rolling_model_refit(model, why);
     }

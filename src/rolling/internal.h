@@ -11,6 +11,10 @@
 double rb_rolling_radius(const rb_rolling_case *rc); /* 1/R = 1/R_A + 1/R_B */
 double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load);
 double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width);
+/* Whether the boundary of wheels outside the contact is finer than is worth solving to
+ * learn where the contact is, and the case with the usual one. */
+int rb_rolling_has_fine_boundary(const rb_rolling_case *rc);
+void rb_rolling_coarsen_boundary(rb_rolling_case *rc);
 /* Q/(mu P); NAN without friction or load. */
 double rb_rolling_force_ratio(double mu, double P, double Q);
 
@@ -137,14 +141,23 @@ double *rb_rolling_program_of_case(const rb_rolling_case *rc,
 /* ---- errors.c -------------------------------------------------------------------------
  */
 
-/* The case on the k-th of the meshes whose spread is the error, the last one its own. */
-enum { RB_ERROR_MESHES = 3 };
-rb_rolling_case rb_rolling_error_mesh(const rb_rolling_case *rc, int k);
+/* The coarser runs whose differences are the error: 2, with wheels 3 = RB_ERROR_RUNS. */
+enum { RB_ERROR_RUNS = 3 };
+int rb_rolling_error_runs(const rb_rolling_case *rc);
+/* The case of the k-th of them. */
+rb_rolling_case rb_rolling_error_run(const rb_rolling_case *rc, int k);
 /* RB_EINVAL where the case has too few elements to be halved. */
 rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why);
-/* Of three values that belong to those meshes; contact: elements in contact on the last.
- */
-double rb_rolling_error_of(int contact, double a, double b, double c);
+/* The two parts of the error of a value, from what the coarser runs have for it: of the
+ * contact's mesh and steps, and of the boundary outside (0 without wheels). */
+double rb_rolling_contact_error(const double coarser[], double own);
+double rb_rolling_boundary_error(int runs, const double coarser[], double own);
+
+/* Power that slip at an edge dissipates over one element, the part `share` of a contact
+ * of half-width a under the load P, and that a mesh may not see: the pressure is like a
+ * square root there, and the slip that of the creepage and of dissimilar bodies. */
+double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage,
+                             double a, double share);
 
 /* ---- matrix_free.c --------------------------------------------------------------------
  */
@@ -319,6 +332,9 @@ void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
 /* Lengths of the elements in contact and of those among them that stick. */
 void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
                              double *stick);
+
+/* The longest element in contact. */
+double rb_rolling_longest_element(int n, const int *zone, const double *h);
 
 /* ---- patches.c ------------------------------------------------------------------------
  */

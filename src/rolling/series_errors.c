@@ -2,56 +2,86 @@
  * solution has (theory.md 5.1). */
 #include "rolling/internal.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Of what was found on the meshes, the last one's in own, over the same points. */
-static void error_columns(const rb_rolling_results *columns, int rows, int contact,
-                          const void *coarse, const void *middle, const void *own,
-                          void *errors)
+/* Of what the coarser runs found and of the series itself, over the same points. */
+static void error_columns(const rb_rolling_results *columns, int rows, int runs,
+                          const void *const run[], const void *own, void *errors)
 {
+    double coarser[RB_ERROR_RUNS];
+
     for (int k = 0; k < columns->n; k++) {
-        const rb_rolling_result *r = &columns->row[k];
-        if (!r->error_bar)
+        const rb_rolling_result *column = &columns->row[k];
+        if (column->error_bar == RB_SCALE_NONE)
             continue;
-        const double *a = rb_rolling_column(r, coarse), *b = rb_rolling_column(r, middle);
-        const double *c = rb_rolling_column(r, own);
-        double *e = rb_rolling_column(r, errors);
+        const double *value = rb_rolling_column(column, own);
+        double *e = rb_rolling_column(column, errors), largest = 0.0;
         for (int i = 0; i < rows; i++)
-            e[i] = rb_rolling_error_of(contact, a[i], b[i], c[i]);
+            largest = fmax(largest, fabs(value[i]));
+        for (int i = 0; i < rows; i++) {
+            for (int r = 0; r < runs; r++)
+                coarser[r] = rb_rolling_column(column, run[r])[i];
+            e[i] = rb_rolling_contact_error(coarser, value[i]) +
+                   rb_rolling_boundary_error(runs, coarser, value[i]) +
+                   DBL_EPSILON * largest;
+        }
     }
 }
 
 /* ---- Curves ------------------------------------------------------------------------ */
+
+static void curve_errors(const rb_rolling_case *rc, int runs,
+                         const rb_rolling_curve run[], const rb_rolling_curve *curve,
+                         rb_rolling_curve *errors)
+{
+    const void *found[RB_ERROR_RUNS];
+    double free_creepage[RB_ERROR_RUNS];
+
+    for (int k = 0; k < runs; k++) {
+        found[k] = &run[k];
+        free_creepage[k] = run[k].free_creepage;
+    }
+    errors->n = curve->n;
+    errors->free_creepage =
+        rb_rolling_contact_error(free_creepage, curve->free_creepage) +
+        rb_rolling_boundary_error(runs, free_creepage, curve->free_creepage) +
+        DBL_EPSILON * rc->mu * curve->half_width / rb_rolling_radius(rc);
+    error_columns(&rb_rolling_curve_columns, curve->n, runs, found, curve, errors);
+    for (int i = 0; i < curve->n; i++) {
+        errors->stick_ratio[i] += curve->stick_step;
+        errors->dissipation[i] +=
+            rb_rolling_edge_power(rc, curve->normal_load[i], curve->creepage[i],
+                                  curve->half_width, curve->stick_step);
+    }
+}
 
 rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, int over_creep,
                                        double from, double to, int points,
                                        rb_rolling_curve *curve, rb_rolling_curve *errors,
                                        rb_message *why)
 {
-    rb_rolling_curve found[RB_ERROR_MESHES] = {0};
+    rb_rolling_curve run[RB_ERROR_RUNS] = {0};
+    const int runs = rb_rolling_error_runs(rc);
     rb_status s = rb_rolling_error_check(rc, why);
 
     memset(curve, 0, sizeof *curve);
     memset(errors, 0, sizeof *errors);
-    for (int k = 0; k < RB_ERROR_MESHES && s == RB_OK; k++) {
-        const rb_rolling_case mesh = rb_rolling_error_mesh(rc, k);
-        s = rb_rolling_curve_solve(&mesh, over_creep, from, to, points, &found[k], why);
+    if (s == RB_OK)
+        s = rb_rolling_curve_solve(rc, over_creep, from, to, points, curve, why);
+    for (int k = 0; k < runs && s == RB_OK; k++) {
+        const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
+        s = rb_rolling_curve_solve(&coarser, over_creep, from, to, points, &run[k], why);
     }
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, points, errors);
-    *curve = found[2];
-    if (s == RB_OK) {
-        errors->n = curve->n;
-        errors->free_creepage =
-            rb_rolling_error_of(curve->contact, found[0].free_creepage,
-                                found[1].free_creepage, curve->free_creepage);
-        error_columns(&rb_rolling_curve_columns, curve->n, curve->contact, &found[0],
-                      &found[1], curve, errors);
+    if (s == RB_OK)
+        curve_errors(rc, runs, run, curve, errors);
+    for (int k = 0; k < runs; k++) {
+        curve->seconds += run[k].seconds;
+        rb_rolling_curve_free(&run[k]);
     }
-    curve->seconds += found[0].seconds + found[1].seconds;
-    for (int k = 0; k < 2; k++)
-        rb_rolling_curve_free(&found[k]);
     return s;
 }
 
@@ -137,18 +167,34 @@ static rb_status widen(const rb_rolling_history *h, double *error)
     return RB_OK;
 }
 
-static rb_status history_errors(const rb_rolling_history *coarse,
-                                const rb_rolling_history *middle,
+/* Slip over less than an element of each rolled step. */
+static void add_edge_power(const rb_rolling_case *rc, const rb_rolling_history *own,
+                           rb_rolling_history *errors)
+{
+    for (int i = steps_at_rest(own); i < own->n; i++) {
+        const int contact = own->stick[i] + own->slipping[i];
+        if (contact > 0)
+            errors->dissipation[i] += rb_rolling_edge_power(
+                rc, own->normal_load[i], own->creepage[i],
+                0.5 * (own->contact_to[i] - own->contact_from[i]), 1.0 / contact);
+    }
+}
+
+static rb_status history_errors(const rb_rolling_case *rc, int runs,
+                                const rb_rolling_history placed[],
                                 const rb_rolling_history *own, rb_rolling_history *errors)
 {
     const rb_rolling_results *columns = &rb_rolling_history_columns;
-    const int last = own->n - 1, contact = own->stick[last] + own->slipping[last];
+    const void *run[RB_ERROR_RUNS];
     rb_status s = rb_rolling_columns_alloc(columns, own->n, errors);
 
     if (s != RB_OK)
         return s;
     errors->n = own->n;
-    error_columns(columns, own->n, contact, coarse, middle, own, errors);
+    for (int k = 0; k < runs; k++)
+        run[k] = &placed[k];
+    error_columns(columns, own->n, runs, run, own, errors);
+    add_edge_power(rc, own, errors);
     for (int k = 0; k < columns->n && s == RB_OK; k++)
         if (columns->row[k].error_bar)
             s = widen(own, rb_rolling_column(&columns->row[k], errors));
@@ -160,8 +206,8 @@ typedef struct {
     void *context;
 } watcher;
 
-static int see_companion(const rb_rolling_model *model, const rb_rolling_history *history,
-                         int step, int steps, void *context)
+static int see_coarser(const rb_rolling_model *model, const rb_rolling_history *history,
+                       int step, int steps, void *context)
 {
     const watcher *w = context;
 
@@ -170,16 +216,16 @@ static int see_companion(const rb_rolling_model *model, const rb_rolling_history
     return w->see ? w->see(NULL, NULL, step, steps, w->context) : 0;
 }
 
-/* The same way on the k-th mesh, at the steps of `own`. */
-static rb_status companion(const rb_rolling_case *rc, const rb_rolling_program *program,
-                           int k, watcher *w, const rb_rolling_history *own,
-                           rb_rolling_history *placed, rb_message *why)
+/* The k-th coarser run of the same way, at the steps of `own`. */
+static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program *program,
+                             int k, watcher *w, const rb_rolling_history *own,
+                             rb_rolling_history *placed, rb_message *why)
 {
-    const rb_rolling_case mesh = rb_rolling_error_mesh(rc, k);
+    const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
     rb_rolling_model model = {0};
     rb_rolling_history history = {0};
     rb_status s =
-        rb_rolling_history_run(&mesh, program, see_companion, w, &model, &history, why);
+        rb_rolling_history_run(&coarser, program, see_coarser, w, &model, &history, why);
 
     if (s == RB_OK)
         s = place_history(&history, own, placed);
@@ -195,7 +241,8 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                                          rb_rolling_history *history,
                                          rb_rolling_history *errors, rb_message *why)
 {
-    rb_rolling_history placed[2] = {0};
+    rb_rolling_history placed[RB_ERROR_RUNS] = {0};
+    const int runs = rb_rolling_error_runs(rc);
     watcher w = {step, context};
     rb_status s = rb_rolling_error_check(rc, why);
 
@@ -204,11 +251,11 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
     memset(errors, 0, sizeof *errors);
     if (s == RB_OK)
         s = rb_rolling_history_run(rc, program, step, context, model, history, why);
-    for (int k = 0; k < 2 && s == RB_OK; k++)
-        s = companion(rc, program, k, &w, history, &placed[k], why);
+    for (int k = 0; k < runs && s == RB_OK; k++)
+        s = run_coarser(rc, program, k, &w, history, &placed[k], why);
     if (s == RB_OK)
-        s = history_errors(&placed[0], &placed[1], history, errors);
-    for (int k = 0; k < 2; k++)
+        s = history_errors(rc, runs, placed, history, errors);
+    for (int k = 0; k < runs; k++)
         rb_rolling_history_free(&placed[k]);
     return s;
 }

@@ -31,6 +31,16 @@ void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *co
     }
 }
 
+double rb_rolling_longest_element(int n, const int *zone, const double *h)
+{
+    double longest = 0.0;
+
+    for (int i = 0; i < n; i++)
+        if (zone[i] != RB_ZONE_SEPARATED)
+            longest = fmax(longest, h[i]);
+    return longest;
+}
+
 static void set_stick_limits(const rb_rolling_mesh *mesh, rb_rolling_solution *s)
 {
     double contact;

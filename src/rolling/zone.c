@@ -8,7 +8,6 @@
 enum {
     ROUNDS = 24,
     SEPARATED_AT_END = 3, /* elements that a chosen potential contact ends with */
-    MANY_OUTER = 600,     /* elements not worth solving to learn where the contact is */
     MOST_EQUAL = 3000     /* with a dense matrix, to resolve patches far apart */
 };
 
@@ -323,11 +322,11 @@ static interval known_zone(const rb_rolling_case *rc)
     rb_rolling_model model = {0};
     interval zone = first_zone(rc);
 
-    if (rc->contact_elements < RB_ROLLING_LARGE && rc->outer_elements < MANY_OUTER)
+    if (rc->contact_elements < RB_ROLLING_LARGE && !rb_rolling_has_fine_boundary(rc))
         return zone;
     if (rc->contact_elements >= RB_ROLLING_LARGE)
         few.contact_elements = rb_rolling_coarse_elements(0);
-    few.outer_elements = 0;
+    rb_rolling_coarsen_boundary(&few);
     few.mesh = RB_MESH_UNIFORM;
     if (rb_rolling_model_create(&few, &model, NULL) == RB_OK)
         zone = (interval){model.mesh.ends[0], model.mesh.ends[model.mesh.n]};

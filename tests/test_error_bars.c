@@ -1,0 +1,508 @@
+/* Do the error bars hold the truth?  Random cases of every class {half-plane, hub, arc} x
+ * {similar, dissimilar} x {uniform, fitted} x {static, steady, transient} against runs
+ * with four times the elements of the contact and of the boundary, and four times the
+ * steps.  The whole study of theory.md 5.1:
+ *
+ *     build/tests/test_error_bars 20
+ *
+ * prints, for so many cases of each class, how many bars held and how wide they were. */
+#include "check.h"
+#include "rollbem/rolling.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+enum { CLASSES = 36, FINER = 4, MOST_BARS = 20000 };
+
+/* ---- Counts ------------------------------------------------------------------------ */
+
+typedef struct {
+    int held, all, unsolved;
+    double width[MOST_BARS]; /* bar / error */
+} count;
+
+/* What the issue of every class is judged by (Q, D, approach, free creepage, p0), and all
+ * other scalars with bars. */
+typedef struct {
+    count main, others;
+} counts;
+
+static void count_bar(count *c, double value, double truth, double bar)
+{
+    const double error = fabs(value - truth);
+
+    if (isnan(error) || error <= 1e-9 * fabs(truth)) /* met exactly: nothing to hold */
+        return;
+    c->held += error <= bar;
+    c->width[c->all++] = bar / error;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(count *c)
+{
+    qsort(c->width, (size_t)c->all, sizeof *c->width, ascending);
+    return c->all > 0 ? c->width[c->all / 2] : NAN;
+}
+
+/* ---- Classes and their cases ---------------------------------------------------------
+ */
+
+typedef struct {
+    rb_bem_support support;
+    int similar;
+    rb_rolling_mesh_kind mesh;
+    rb_rolling_formulation formulation;
+} class;
+
+static class class_of(int k)
+{
+    const rb_bem_support supports[] = {RB_BEM_HALFPLANE, RB_BEM_HUB, RB_BEM_ARC};
+    return (class){supports[k / 12], k / 6 % 2 == 0,
+                   k / 3 % 2 ? RB_MESH_FITTED : RB_MESH_UNIFORM,
+                   (rb_rolling_formulation)(k % 3)};
+}
+
+static double uniform(double a, double b)
+{
+    return a + (b - a) * (rand() / (double)RAND_MAX);
+}
+
+static double logarithmic(double a, double b)
+{
+    return a * pow(b / a, uniform(0.0, 1.0));
+}
+
+/* Wheels, or a wheel on a plane of the same or another material or a rigid one. */
+static void draw_bodies(const class *c, rb_rolling_case *rc)
+{
+    rc->a.support = c->support;
+    rc->a.poisson = uniform(0.0, 0.49);
+    rc->a.hub_ratio = uniform(0.2, 0.9);
+    rc->a.arc = uniform(10.0, 90.0);
+    rc->elastic_b = c->similar || rand() % 2;
+    rc->b = rc->a;
+    if (rand() % 2) {
+        rc->b.radius = INFINITY;
+        rc->b.support = RB_BEM_HALFPLANE;
+    }
+    if (!c->similar) {
+        rc->b.young *= logarithmic(0.4, 5.0);
+        rc->b.poisson = uniform(0.0, 0.49);
+    }
+    if (!rc->elastic_b)
+        rc->b.radius = INFINITY;
+}
+
+/* By load or by the approach of about that load; by motion or by force. */
+static void draw_controls(const class *c, rb_rolling_case *rc)
+{
+    const double R = 1.0 / (1.0 / rc->a.radius + 1.0 / rc->b.radius);
+    const double a = logarithmic(1e-3, 0.1) * R;
+
+    rc->mu = logarithmic(0.05, 0.8);
+    rc->formulation = c->formulation;
+    if (c->formulation != RB_TRANSIENT && rand() % 4 == 0)
+        rc->approach = a * a / (4.0 * R) * (2.0 * log(4.0 * R / a) - 1.0);
+    else
+        rc->half_width = a;
+    if (rand() % 3 == 0)
+        rc->force_ratio = uniform(-0.95, 0.95);
+    else if (c->formulation == RB_STATIC)
+        rc->shift = uniform(-1.0, 1.0) * rc->mu * a * a / R;
+    else
+        rc->creep_ratio = uniform(-1.2, 1.2);
+}
+
+static void draw_mesh(const class *c, rb_rolling_case *rc)
+{
+    rc->mesh = c->mesh;
+    rc->gap = rand() % 2 ? RB_GAP_EXACT : RB_GAP_PARABOLA;
+    rc->contact_elements = 24 + rand() % 37;
+    if (rand() % 4 == 0)
+        rc->outer_elements = 40 + rand() % 160;
+    if (rand() % 3 == 0)
+        rc->near_field = rand() % 2 ? RB_NEAR_FIELD_PLAIN : RB_NEAR_FIELD_EXACT;
+    if (c->formulation == RB_TRANSIENT) {
+        rc->zone = uniform(1.25, 1.6) * rc->half_width;
+        rc->distance = uniform(0.5, 2.0);
+        rc->steps = rand() % 2 ? 0 : 8 + rand() % 20;
+    }
+}
+
+static rb_rolling_case draw(int class_number, int k)
+{
+    const class c = class_of(class_number);
+    rb_rolling_case rc = rb_rolling_case_defaults();
+
+    srand((unsigned)(1000 * k + class_number + 1));
+    draw_bodies(&c, &rc);
+    draw_controls(&c, &rc);
+    draw_mesh(&c, &rc);
+    return rc;
+}
+
+static rb_rolling_case finer(const rb_rolling_case *rc)
+{
+    rb_rolling_case fine = *rc;
+
+    fine.contact_elements *= FINER;
+    fine.steps *= FINER;
+    fine.outer_refinement = FINER;
+    return fine;
+}
+
+/* ---- One case ------------------------------------------------------------------------
+ */
+
+static int is_main(const char *name)
+{
+    static const char *const names[] = {"tangential_load", "dissipation", "approach",
+                                        "free_creepage", "max_pressure"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        if (strcmp(name, names[k]) == 0)
+            return 1;
+    return 0;
+}
+
+static void count_solution(const rb_rolling_case *rc, counts *t)
+{
+    const rb_rolling_case fine = finer(rc);
+    rb_rolling_solution s, truth = {0};
+    rb_rolling_errors e;
+    rb_status status = rb_rolling_solve_with_errors(rc, 0, &s, &e, NULL);
+
+    if (status == RB_OK)
+        status = rb_rolling_solve(&fine, &truth, NULL);
+    t->main.unsolved += status != RB_OK;
+    for (int k = 0; k < rb_rolling_solution_scalars.n && status == RB_OK; k++) {
+        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
+        if (r->error_bar == RB_SCALE_NONE)
+            continue;
+        const double bar = rb_rolling_number(r, &e.scalar);
+        assert_true(bar != 0.0);
+        count_bar(is_main(r->name) ? &t->main : &t->others, rb_rolling_number(r, &s),
+                  rb_rolling_number(r, &truth), bar);
+    }
+    rb_rolling_solution_free(&s);
+    rb_rolling_solution_free(&truth);
+}
+
+/* Of the finer run's steps that make step k. */
+static double mean_over_step(const double *fine, int k)
+{
+    double sum = 0.0;
+
+    for (int j = 0; j < FINER; j++)
+        sum += fine[FINER * k - j];
+    return sum / FINER;
+}
+
+/* At every third step; creepage and power of a step are its means. */
+static void count_history(const rb_rolling_case *rc, counts *t)
+{
+    const rb_rolling_case fine = finer(rc);
+    rb_rolling_model model = {0}, fine_model = {0};
+    rb_rolling_history h = {0}, e = {0}, truth = {0};
+    rb_status status =
+        rb_rolling_history_with_errors(rc, NULL, NULL, NULL, &model, &h, &e, NULL);
+
+    if (status == RB_OK)
+        status =
+            rb_rolling_history_run(&fine, NULL, NULL, NULL, &fine_model, &truth, NULL);
+    t->main.unsolved += status != RB_OK;
+    for (int k = 1; k < h.n && FINER * k < truth.n && status == RB_OK; k += 3) {
+        const int i = FINER * k;
+        count_bar(&t->main, h.tangential_load[k], truth.tangential_load[i],
+                  e.tangential_load[k]);
+        count_bar(&t->main, h.approach[k], truth.approach[i], e.approach[k]);
+        count_bar(&t->main, h.max_pressure[k], truth.max_pressure[i], e.max_pressure[k]);
+        count_bar(&t->main, h.dissipation[k], mean_over_step(truth.dissipation, k),
+                  e.dissipation[k]);
+        count_bar(&t->others, h.normal_load[k], truth.normal_load[i], e.normal_load[k]);
+        count_bar(&t->others, h.creepage[k], mean_over_step(truth.creepage, k),
+                  e.creepage[k]);
+        count_bar(&t->others, h.contact_from[k], truth.contact_from[i],
+                  e.contact_from[k]);
+        count_bar(&t->others, h.contact_to[k], truth.contact_to[i], e.contact_to[k]);
+    }
+    rb_rolling_history_free(&h);
+    rb_rolling_history_free(&e);
+    rb_rolling_history_free(&truth);
+    rb_rolling_model_free(&model);
+    rb_rolling_model_free(&fine_model);
+}
+
+static void count_case(int class_number, int k, counts *t)
+{
+    const rb_rolling_case rc = draw(class_number, k);
+
+    if (rc.formulation == RB_TRANSIENT)
+        count_history(&rc, t);
+    else
+        count_solution(&rc, t);
+}
+
+/* ---- The study -----------------------------------------------------------------------
+ */
+
+static const char *const supports[] = {[RB_BEM_ARC] = "arc", "hub", "halfplane"};
+static const char *const meshes[] = {"uniform", "fitted"};
+static const char *const formulations[] = {"static", "steady", "transient"};
+
+static void print_line(const char *name, counts *t)
+{
+    printf("| %-38s | %4d of %4d | %5.1f %% | %5.1f | %4d of %4d | %5.1f %% | %5.1f | %d "
+           "|\n",
+           name, t->main.held, t->main.all, 100.0 * t->main.held / fmax(1.0, t->main.all),
+           median(&t->main), t->others.held, t->others.all,
+           100.0 * t->others.held / fmax(1.0, t->others.all), median(&t->others),
+           t->main.unsolved);
+    fflush(stdout);
+}
+
+static void add(const count *part, count *all)
+{
+    memcpy(all->width + all->all, part->width, (size_t)part->all * sizeof *part->width);
+    all->held += part->held;
+    all->all += part->all;
+    all->unsolved += part->unsolved;
+}
+
+static counts of_class, of_all;
+
+/* Nonzero where a class falls short. */
+static int study(int cases)
+{
+    int short_of = 0;
+
+    puts("| class | Q, D, approach, free creepage, p0: held | | median bar/error "
+         "| P, creepage, shift, half-width, stick: held | | median bar/error | unsolved "
+         "|");
+    puts("|---|---|---|---|---|---|---|---|");
+    for (int k = 0; k < CLASSES; k++) {
+        const class c = class_of(k);
+        char name[80];
+        memset(&of_class, 0, sizeof of_class);
+        for (int i = 0; i < cases; i++)
+            count_case(k, i, &of_class);
+        snprintf(name, sizeof name, "%s, %s, %s, %s", supports[c.support],
+                 c.similar ? "similar" : "dissimilar", meshes[c.mesh],
+                 formulations[c.formulation]);
+        print_line(name, &of_class);
+        short_of += of_class.main.held < 0.95 * of_class.main.all;
+        add(&of_class.main, &of_all.main);
+        add(&of_class.others, &of_all.others);
+    }
+    print_line("all", &of_all);
+    return short_of;
+}
+
+/* ---- The part of it that is quick
+ * ------------------------------------------------------
+ */
+
+/* Every class of half-planes and some of wheels, all together: too few cases to
+ * judge a class by. */
+static void bars_hold(void **state)
+{
+    (void)state;
+    const int all = getenv("ROLLBEM_TEST_ALL") != NULL;
+    for (int k = 0; k < CLASSES; k++)
+        for (int i = 0; i < (all ? 4 : 2); i++)
+            if (all || k < 12 || (i == 0 && k % 8 == 0))
+                count_case(k, i, &of_all);
+    CHECK_MAX(0.95, (double)of_all.main.held / of_all.main.all, "held %d of %d",
+              of_all.main.held, of_all.main.all);
+    CHECK_MAX(0.95, (double)of_all.others.held / of_all.others.all, "held %d of %d",
+              of_all.others.held, of_all.others.all);
+    CHECK_MAX(median(&of_all.main), 12.0, "median bar/error");
+    CHECK_MAX(of_all.main.unsolved, 2, "unsolved");
+}
+
+/* A rim that bends: its boundary, not its contact, is what is not resolved. */
+static rb_rolling_case thin_rim(void)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a = (rb_rolling_body){.young = 1000.0,
+                             .poisson = 0.5,
+                             .radius = 50.0,
+                             .support = RB_BEM_HUB,
+                             .hub_ratio = 0.9};
+    rc.formulation = RB_STEADY;
+    rc.mu = 0.3;
+    rc.half_width = 2.5;
+    rc.creep_ratio = 0.4;
+    rc.contact_elements = 40;
+    rc.mesh = RB_MESH_FITTED;
+    return rc;
+}
+
+/* 400, 800 and 1600 outer elements, extrapolated.  The usual ones have Q/(mu P) = 0.1246;
+ * the bars used to say 0.1246 +- 0.00002. */
+static const double thin_rim_force_ratio = 0.12864;
+
+static void bars_hold_on_a_thin_rim(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = thin_rim();
+    rb_rolling_solution s;
+    rb_rolling_errors e;
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, NULL), RB_OK);
+    CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
+    CHECK_ABS(s.approach, 0.068824, e.scalar.approach, "approach");
+    CHECK_ABS(s.max_pressure, 36.7829, e.scalar.max_pressure, "p0");
+    CHECK_ABS(s.free_creepage, 0.0070014, e.scalar.free_creepage, "free creepage");
+    CHECK_ABS(s.dissipation, 0.005808, e.scalar.dissipation, "dissipation");
+    CHECK_MAX(e.scalar.force_ratio, 0.03, "not absurdly wide");
+    rb_rolling_solution_free(&s);
+}
+
+/* Pressed and shifted in one step, dissimilar bodies stick in a strip narrower than an
+ * element, over which friction turns round: Q/(mu P) = 0 on all of 12, 17 and 24 elements
+ * and 0.0088 on 600, where the strip has 14. */
+static void a_narrow_stick_zone_widens_the_bars(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s, truth;
+    rb_rolling_errors e;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.poisson = 0.06;
+    rc.mu = 0.19;
+    rc.half_width = 1.34;
+    rc.shift = -2.26e-4;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 24;
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, NULL), RB_OK);
+    rc.contact_elements = 400;
+    CHECK_STATUS(rb_rolling_solve(&rc, &truth, NULL), RB_OK);
+    CHECK_ABS(s.force_ratio, truth.force_ratio, e.scalar.force_ratio, "Q/(mu P)");
+    CHECK_ABS(s.tangential_load, truth.tangential_load, e.scalar.tangential_load, "Q");
+    CHECK_ABS(s.max_pressure, truth.max_pressure, e.scalar.max_pressure, "p0");
+    CHECK_MAX(e.scalar.force_ratio, 0.3, "not absurdly wide");
+    rb_rolling_solution_free(&s);
+    rb_rolling_solution_free(&truth);
+}
+
+/* Half the given outer elements are compared with as well. */
+static void given_outer_elements_have_bars(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = thin_rim();
+    rb_rolling_solution s;
+    rb_rolling_errors e;
+    rc.outer_elements = 100;
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, NULL), RB_OK);
+    CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
+    assert_true(fabs(s.force_ratio - thin_rim_force_ratio) > 0.03);
+    rb_rolling_solution_free(&s);
+    rc.outer_elements = 15;
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, NULL), RB_EINVAL);
+}
+
+/* --accuracy refines what needs it, here the boundary. */
+static void accuracy_is_that_of_the_boundary_too(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = thin_rim();
+    rb_rolling_solution s;
+    rb_rolling_errors e;
+    int elements = 0;
+    rc.contact_elements = 24;
+    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1.5e-2, &s, &e, &elements, NULL),
+                 RB_OK);
+    CHECK_ABS(s.force_ratio, thin_rim_force_ratio, 1.5e-2, "Q/(mu P), %d elements",
+              elements);
+    CHECK_MAX(e.scalar.force_ratio, 1.5e-2, "its bar");
+    rb_rolling_solution_free(&s);
+}
+
+/* What was refused has no solution and no error bars, not what was in them before. */
+static void a_refusal_sets_every_output(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s;
+    rb_rolling_errors e;
+    for (int k = 0; k < 3; k++) {
+        int elements = 77;
+        memset(&s, 1, sizeof s);
+        memset(&e, 1, sizeof e);
+        rc.contact_elements = k == 0 ? 5 : 20;
+        rc.mu = k == 1 ? -1.0 : 0.3;
+        CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, k == 2 ? 2.0 : 1e-3, &s, &e,
+                                                  &elements, NULL),
+                     RB_EINVAL);
+        assert_int_equal(elements, 0);
+        assert_null(s.p);
+        for (int i = 0; i < rb_rolling_solution_scalars.n; i++) {
+            const rb_rolling_result *r = &rb_rolling_solution_scalars.row[i];
+            if (r->error_bar != RB_SCALE_NONE)
+                assert_true(isnan(rb_rolling_number(r, &e.scalar)));
+        }
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Where no mesh that can be solved will do, that is said at once, with the best there is.
+ */
+static void an_accuracy_out_of_reach_is_said_to_be(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = thin_rim();
+    rb_rolling_solution s;
+    rb_rolling_errors e;
+    rb_message why = {""};
+    int elements = 0;
+    rc.mesh = RB_MESH_UNIFORM;
+    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 1e-7, &s, &e, &elements, &why),
+                 RB_INACCURATE);
+    assert_int_equal(elements, 40);
+    CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
+    assert_non_null(strstr(why.text, "not reached"));
+    rb_rolling_solution_free(&s);
+}
+
+/* A coarser run that fails takes nothing from the case that was solved: half the elements
+ * of this narrow zone are all in contact. */
+static void a_failed_coarser_run_leaves_the_solution(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s;
+    rb_rolling_errors e;
+    rb_message why = {""};
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.poisson = 0.5;
+    rc.half_width = 0.1;
+    rc.zone = 1.05 * rc.half_width;
+    rc.contact_elements = 40;
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, &why), RB_ZONE);
+    CHECK_STATUS(s.status, RB_OK);
+    CHECK_REL(s.normal_load, 0.25 * M_PI * 94500.0 / 0.75 * 0.01 / 50.0, 1e-10, "load");
+    assert_true(isnan(e.scalar.max_pressure));
+    assert_non_null(strstr(why.text, "error bars: 20 contact elements: "));
+    rb_rolling_solution_free(&s);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bars_hold),
+        cmocka_unit_test(bars_hold_on_a_thin_rim),
+        cmocka_unit_test(a_narrow_stick_zone_widens_the_bars),
+        cmocka_unit_test(given_outer_elements_have_bars),
+        cmocka_unit_test(accuracy_is_that_of_the_boundary_too),
+        cmocka_unit_test(a_refusal_sets_every_output),
+        cmocka_unit_test(an_accuracy_out_of_reach_is_said_to_be),
+        cmocka_unit_test(a_failed_coarser_run_leaves_the_solution),
+    };
+    if (argc > 1)
+        return study(atoi(argv[1])) > 0;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
