@@ -33,15 +33,10 @@ static void record(const rb_rolling_model *model, rb_rolling_curve *c)
     c->tangential_load[k] = Q;
     c->force_ratio[k] = mu > 0.0 ? Q / (mu * P) : NAN;
     c->stick_ratio[k] = contact > 0.0 ? stick / contact : 0.0;
-<<<<<<< HEAD
-    c->dissipation[k] = rb_rolling_dissipated_power(&model->rc, p->n, state->lambda,
-                                                    state->q, model->bodies.f.h, p->e_T);
-=======
     if (contact > 0.0)
         c->stick_step = fmax(c->stick_step, longest / contact);
-    c->dissipation[k] = rb_rolling_dissipated_power(
-        model->rc.formulation, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
->>>>>>> 5878c63 (rolling: error bars vary everything that is discretised; --accuracy refines what needs it)
+    c->dissipation[k] = rb_rolling_dissipated_power(&model->rc, p->n, state->lambda,
+                                                    state->q, model->bodies.f.h, p->e_T);
     c->residual[k] = state->residual;
     c->half_width = model->half_width;
 }
