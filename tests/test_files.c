@@ -173,7 +173,7 @@ static void signals_leave_nothing_behind(void **state)
 {
     (void)state;
     static const char *const jobs[] = {
-        CASE "--support hub --contact-elements 400 --error --output a.tsv",
+        CASE "--support hub --contact-elements 1200 --error --output a.tsv",
         CASE "--formulation transient --distance 1e5 --creep 1e-3 --output a.tsv",
         "curve " CASE "--points 100000 --output a.tsv",
         "example wall --quiet",
