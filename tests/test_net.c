@@ -81,7 +81,7 @@ static const struct {
     {"normals", "normals", {{NULL, NULL}}},
     {"size",
      NULL,
-     {{"21", "--contact-elements 21"},
+     {{"25", "--contact-elements 25"},
       {"40", "--contact-elements 40"},
       {"hierarchical", "--contact-elements 16 --outer-elements 1700"},
       {"transforms", "--contact-elements 1500"}}},
@@ -486,7 +486,7 @@ static void add_shape(const int *row, char *text, size_t size)
         : is(row, BODY_B, "rigid") ? ""
                                    : " --datum-b 60",
         is(row, BODY_B, "hub") ? " --poisson-b 0.2" : "",
-        is(row, SIZE, "21") && !is(row, SUPPORT, "halfplane") ? " --outer-elements 50"
+        is(row, SIZE, "25") && !is(row, SUPPORT, "halfplane") ? " --outer-elements 50"
                                                               : "");
 }
 
@@ -745,13 +745,20 @@ static int may_fail(const int *row)
            is(row, OUTPUT, "accuracy");
 }
 
+/* Along a curve the contact may outgrow a zone that is given, which then is said. */
+static int outgrows_zone(const int *row, const char *errors)
+{
+    return starts(row, OUTPUT, "curve") && is(row, ZONE, "given") &&
+           strstr(errors, "zone: the contact is not within the potential contact");
+}
+
 static void check_failure(const int *row, int code, const char *errors)
 {
     slurp(errors, err, sizeof err);
     const char *line = strstr(err, "rollbem: ");
     for (const char *next = line; next; next = strstr(next + 1, "\nrollbem: "))
         line = next;
-    if (code != 1 || !may_fail(row))
+    if (code != 1 || !(may_fail(row) || outgrows_zone(row, err)))
         complain("exit code %d: ...%s", code,
                  err + (strlen(err) > 400) * (strlen(err) - 400));
     else if (!line)

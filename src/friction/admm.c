@@ -149,12 +149,7 @@ static rb_status judge(admm *a)
 {
     rb_friction_task *t = a->task;
     memcpy(t->r, a->z, (size_t)t->m * sizeof(double));
-    const double error = rb_friction_task_error(t);
-    if (rb_friction_task_accepts(t, error))
-        return RB_OK;
-    if (!isfinite(error))
-        return RB_SINGULAR;
-    return rb_friction_task_late(t) ? RB_INTERRUPTED : RB_MAXITER;
+    return rb_friction_task_judge(t);
 }
 
 static rb_status go_on_alternating(void *state)

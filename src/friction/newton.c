@@ -160,23 +160,11 @@ static rb_status step(newton *s)
     return st;
 }
 
-/* RB_MAXITER: not there yet. */
-static rb_status judge(newton *s)
-{
-    rb_friction_task *t = s->task;
-    const double error = rb_friction_task_error(t);
-    if (rb_friction_task_accepts(t, error))
-        return RB_OK;
-    if (!isfinite(error))
-        return RB_SINGULAR;
-    return rb_friction_task_late(t) ? RB_INTERRUPTED : RB_MAXITER;
-}
-
 static rb_status go_on_stepping(void *state)
 {
     newton *s = state;
     rb_friction_task *t = s->task;
-    rb_status st = s->begun ? RB_MAXITER : judge(s);
+    rb_status st = s->begun ? RB_MAXITER : rb_friction_task_judge(s->task);
     if (!s->begun && st == RB_MAXITER && isfinite(t->budget) &&
         rb_friction_system_estimate(&s->system, &s->last) == RB_ENOMEM)
         return RB_ENOMEM;
@@ -189,7 +177,7 @@ static rb_status go_on_stepping(void *state)
         st = step(s);
         s->k++;
         if (st == RB_OK)
-            st = judge(s);
+            st = rb_friction_task_judge(s->task);
     }
     return st;
 }

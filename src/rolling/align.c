@@ -90,7 +90,7 @@ static rb_status align(rb_rolling_model *model, int *rest, rb_message *why)
             s = find_edges(model, &from, &to, &known, why);
         moved = fmax(fabs(from - left), fabs(to - right)) / h;
     }
-    *rest = known && moved <= NEAR_REST;
+    *rest = s == RB_OK && known && moved <= NEAR_REST;
     return s == RB_ZONE ? RB_OK : s;
 }
 
