@@ -61,7 +61,7 @@ test-all: ; @ROLLBEM_TEST_ALL=1 $(MAKE) --no-print-directory B=$(B) test
 
 # only the summary line comes last: continuous integration reads it
 check-tests: all $(TESTS) $(B)/tests/checker
-	@B=$(B) tests/run $(TESTS)
+	@B=$(B) tests/run $(TESTS) tests/page
 
 asan:
 	@$(MAKE) --no-print-directory B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined" test
@@ -161,7 +161,7 @@ install: all
 page: ; @scripts/packages --install page && node web/build.mjs $(B)/rollbem.html
 
 page-test: page $(B)/rollbem
-	@node web/test.mjs $(B)
+	@B=$(B) tests/page
 
 clean: ; rm -rf $(B)
 

@@ -1,4 +1,4 @@
-/* Tests of the page: node web/test.mjs [build].  The library as WebAssembly answers as the
+/* Tests of the page: node web/test.mjs [build], with verdicts as tests/run reads them.  The library as WebAssembly answers as the
  * program does; then the page itself in a headless Chromium. */
 import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync } from "node:fs";
@@ -13,8 +13,8 @@ let passed = 0, failed = 0;
 
 async function test(name, body) {
     const start = performance.now();
-    try { await body(); passed++; console.log(`  ok     ${name} (${Math.round(performance.now() - start)} ms)`); }
-    catch (error) { failed++; console.log(`  FAILED ${name}: ${error.message}`); }
+    try { await body(); passed++; console.log(`[       OK ] ${name} (${Math.round(performance.now() - start)} ms)`); }
+    catch (error) { failed++; console.log(`[  FAILED  ] ${name}: ${error.message}`); }
 }
 function check(holds, text) { if (!holds) throw new Error(text); }
 function check_close(got, want, tol, what) {
@@ -201,7 +201,7 @@ if (spawnSync("chromium", ["--version"]).status === 0) {
     const page = await open_page(url);
     try { await views(page); } finally { await page.close(); }
 } else {
-    console.log("  skipped: the page in a browser (no chromium)");
+    console.log("[  SKIPPED ] the page in a browser: no chromium here");
 }
 console.log(`page: ${passed} passed, ${failed} failed`);
 process.exit(failed ? 1 : 0);
