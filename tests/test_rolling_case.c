@@ -119,7 +119,7 @@ static void the_half_width_of_an_approach_inverts_the_compression(void **state)
     rb_rolling_case rc = rb_rolling_case_defaults();
     const double a = 0.01 * rc.a.radius;
     rc.approach = a * a / (4 * rc.a.radius) * (2 * log(4 * rc.a.radius / a) - 1);
-    CHECK_REL(rb_rolling_derive(&rc).half_width, a, 2e-3, "delta = %g", rc.approach);
+    CHECK_REL(rb_rolling_derive(&rc).half_width, a, 1e-14, "delta = %g", rc.approach);
 }
 
 int main(void)

@@ -1,7 +1,6 @@
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
-#include <gsl/gsl_roots.h>
 #include <string.h>
 
 rb_rolling_case rb_rolling_case_defaults(void)
@@ -46,39 +45,26 @@ static double coupling(const rb_rolling_body *body)
     return (1.0 - 2.0 * body->poisson) * (1.0 + body->poisson) / (2.0 * body->young);
 }
 
-/* Half-cylinder compression (theory.md 6) minus the wanted approach; a: half-width. */
-typedef struct {
-    double radius, approach;
-} compression;
-
-static double compression_excess(double a, void *context)
-{
-    const compression *c = context;
-    return a * a / (4.0 * c->radius) * (2.0 * log(4.0 * c->radius / a) - 1.0) -
-           c->approach;
-}
-
-/* The contact is never wider than the overlap, nor than the wheel. */
+/* Solves a^2/(4R) (2 ln(4R/a) - 1) = delta for a, the compression of a half-cylinder
+ * (theory.md 6).  Newton's method starts where the contact is never wider: at the overlap
+ * of the rigid shapes, or at 0.7 R.  It ends at rounding, because the width of the
+ * automatic zone, and with it every result, follows from a. */
 static double half_width_of_approach(double radius, double approach)
 {
-    compression c = {radius, approach};
-    double low = 1e-12 * sqrt(2.0 * radius * approach);
-    double high = fmin(sqrt(2.0 * radius * approach), 0.7 * radius);
-    gsl_function f = {compression_excess, &c};
+    enum { ROUNDS = 60 };
+    double a = fmin(sqrt(2.0 * radius * approach), 0.7 * radius);
 
-    if (compression_excess(high, &c) < 0.0)
-        return high;
-    gsl_root_fsolver *root = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-    if (!root)
-        return high;
-    gsl_root_fsolver_set(root, &f, low, high);
-    for (int k = 0; k < 60 && high - low > 1e-3 * high; k++) {
-        gsl_root_fsolver_iterate(root);
-        low = gsl_root_fsolver_x_lower(root);
-        high = gsl_root_fsolver_x_upper(root);
+    for (int k = 0; k < ROUNDS; k++) {
+        const double l = log(4.0 * radius / a);
+        const double excess = a * a / (4.0 * radius) * (2.0 * l - 1.0) - approach;
+        if (k == 0 && excess < 0.0)
+            return a;
+        const double step = excess / (a / radius * (l - 1.0));
+        a -= step;
+        if (fabs(step) <= 1e-15 * a)
+            break;
     }
-    gsl_root_fsolver_free(root);
-    return high;
+    return a;
 }
 
 static double modulus(const rb_rolling_case *rc)

@@ -5,7 +5,6 @@
 #include <gsl/gsl_interp.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_multimin.h>
-#include <gsl/gsl_roots.h>
 #include <gsl/gsl_sf_expint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,86 +20,6 @@ double gsl_pow_int(double x, int n)
     for (int k = 0; k < abs(n); k++)
         y *= x;
     return n < 0 ? 1.0 / y : y;
-}
-
-/* ---- Roots: a bracket, narrowed by secants and halvings (Brent)
- * ------------------------ */
-
-static const gsl_root_fsolver_type brent = {.name = "brent"};
-const gsl_root_fsolver_type *gsl_root_fsolver_brent = &brent;
-
-/* f at the ends of the bracket. */
-typedef struct {
-    double low, high;
-    int halve; /* the last secant narrowed the bracket by too little */
-} bracket;
-
-gsl_root_fsolver *gsl_root_fsolver_alloc(const gsl_root_fsolver_type *T)
-{
-    gsl_root_fsolver *s = calloc(1, sizeof *s);
-    if (!s || !(s->state = calloc(1, sizeof(bracket)))) {
-        free(s);
-        return NULL;
-    }
-    s->type = T;
-    return s;
-}
-
-void gsl_root_fsolver_free(gsl_root_fsolver *s)
-{
-    if (s)
-        free(s->state);
-    free(s);
-}
-
-int gsl_root_fsolver_set(gsl_root_fsolver *s, gsl_function *f, double low, double high)
-{
-    bracket *b = s->state;
-    s->function = f;
-    s->x_lower = low;
-    s->x_upper = high;
-    s->root = 0.5 * (low + high);
-    *b = (bracket){GSL_FN_EVAL(f, low), GSL_FN_EVAL(f, high), 0};
-    return (b->low > 0.0) == (b->high > 0.0) && b->low != 0.0 && b->high != 0.0
-               ? GSL_EINVAL
-               : GSL_SUCCESS;
-}
-
-int gsl_root_fsolver_iterate(gsl_root_fsolver *s)
-{
-    bracket *b = s->state;
-    const double width = s->x_upper - s->x_lower;
-    double x = s->x_lower - b->low * width / (b->high - b->low);
-    if (b->halve || !(x > s->x_lower && x < s->x_upper))
-        x = s->x_lower + 0.5 * width;
-    const double f = GSL_FN_EVAL(s->function, x);
-    s->root = x;
-    if (f == 0.0) {
-        s->x_lower = s->x_upper = x;
-    } else if ((f > 0.0) == (b->low > 0.0)) {
-        s->x_lower = x;
-        b->low = f;
-    } else {
-        s->x_upper = x;
-        b->high = f;
-    }
-    b->halve = s->x_upper - s->x_lower > 0.5 * width;
-    return GSL_SUCCESS;
-}
-
-double gsl_root_fsolver_x_lower(const gsl_root_fsolver *s)
-{
-    return s->x_lower;
-}
-
-double gsl_root_fsolver_x_upper(const gsl_root_fsolver *s)
-{
-    return s->x_upper;
-}
-
-double gsl_root_fsolver_root(const gsl_root_fsolver *s)
-{
-    return s->root;
 }
 
 /* ---- Vectors
