@@ -59,9 +59,12 @@ test: packages
 # tests with more cases than a minute allows run a part of them unless this variable is set
 test-all: ; @ROLLBEM_TEST_ALL=1 $(MAKE) --no-print-directory B=$(B) test
 
+# the longest programs start first, so that no processor waits for one of them at the end
+LONGEST := $(patsubst %,$(B)/tests/test_%,net fem_examples rolling_wheel files fem_cli faults)
+
 # only the summary line comes last: continuous integration reads it
 check-tests: all $(TESTS) $(B)/tests/checker
-	@B=$(B) tests/run $(TESTS) tests/page
+	@B=$(B) tests/run $(LONGEST) tests/page $(filter-out $(LONGEST),$(TESTS))
 
 asan:
 	@$(MAKE) --no-print-directory B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined" test
@@ -161,7 +164,7 @@ install: all
 page: ; @scripts/packages --install page && node web/build.mjs $(B)/rollbem.html
 
 page-test: page $(B)/rollbem
-	@B=$(B) tests/page
+	@node web/test.mjs $(B)
 
 clean: ; rm -rf $(B)
 
