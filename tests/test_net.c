@@ -490,16 +490,18 @@ static void add_shape(const int *row, char *text, size_t size)
                                                               : "");
 }
 
+static int rows; /* begun so far */
+
 /* The cone solvers take turns; their "auto" and "lemke" are other solvers here. */
-static const char *next_cone_solver(void)
+static const char *cone_solver_of_row(void)
 {
-    static int turn;
     int n;
     const rb_friction_solver *cone = rb_friction_solvers(&n);
-    do
-        turn = (turn + 1) % n;
-    while (strcmp(cone[turn].name, "auto") == 0 || strcmp(cone[turn].name, "lemke") == 0);
-    return cone[turn].name;
+    for (int turn = rows;; turn++) {
+        const char *name = cone[turn % n].name;
+        if (strcmp(name, "auto") != 0 && strcmp(name, "lemke") != 0)
+            return name;
+    }
 }
 
 /* The case; output not included. */
@@ -513,7 +515,7 @@ static void case_arguments(const int *row, char *text, size_t size)
     add_shape(row, text, size);
     if (is(row, SOLVER, "cone"))
         snprintf(text + strlen(text), size - strlen(text), " --solver %s",
-                 next_cone_solver());
+                 cone_solver_of_row());
     if (starts(row, OUTPUT, "curve"))
         snprintf(text + strlen(text), size - strlen(text),
                  is(row, MU, "0") ? " --points 4 --over creep --from 0 --to 4e-3"
@@ -546,7 +548,7 @@ static void case_arguments(const int *row, char *text, size_t size)
 
 enum { CODE_LINE = 64, CODE_FILE = 65 }; /* refused on the command line, in a file */
 
-static int failures, rows, failed_solves;
+static int failures, failed_solves;
 static char line_of_row[2000]; /* the command at hand */
 
 static void complain(const char *format, ...)
@@ -781,7 +783,6 @@ static void check_row(const int *row)
     case_arguments(row, the_case, sizeof the_case);
     snprintf(line_of_row, sizeof line_of_row, "rollbem %s%s %s", command, the_case,
              output);
-    rows++;
     snprintf(arguments, sizeof arguments, "%s%s %s", command, the_case, output);
     const int code = run(program, arguments, "out.table", "table.err");
     if (code != 0) {
@@ -799,6 +800,15 @@ static void check_row(const int *row)
         check_failure(row, again, "json.err");
     else
         check_verdict(row, !command[0] && !is(row, OUTPUT, "json"));
+}
+
+/* The rows are shared out to processes, each with a folder of its own. */
+static int workers, worker;
+
+static void check_row_of_share(const int *row)
+{
+    if (rows++ % workers == worker)
+        check_row(row);
 }
 
 static covering array_of(int strength)
@@ -880,16 +890,51 @@ static void test_every_conflict_is_refused(void **state)
     assert_int_equal(failures, 0);
 }
 
+/* What a worker found, through a pipe. */
+typedef struct {
+    int rows, tuples, unreachable, failures, failed_solves;
+} findings;
+
+static void work(int result)
+{
+    char name[40];
+    covering c = array_of(triples() ? 3 : 2);
+    snprintf(name, sizeof name, "worker-%d", worker);
+    if (mkdir(name, 0777) != 0 || chdir(name) != 0)
+        _exit(1);
+    failures = 0;
+    covering_visit(&c, check_row_of_share);
+    const findings found = {rows, c.tuples, c.unreachable, failures, failed_solves};
+    const int whole = write(result, &found, sizeof found) == (ssize_t)sizeof found;
+    fflush(NULL);
+    _exit(!whole);
+}
+
 static void test_every_combination(void **state)
 {
     (void)state;
-    covering c = array_of(triples() ? 3 : 2);
-    failures = 0;
-    covering_visit(&c, check_row);
+    findings all = {0};
+    int ends[2], status;
+
+    assert_int_equal(pipe(ends), 0);
+    workers = (int)fmin(fmax(1.0, (double)sysconf(_SC_NPROCESSORS_ONLN)), 16.0);
+    for (worker = 0; worker < workers; worker++)
+        if (fork() == 0)
+            work(ends[1]);
+    for (int k = 0; k < workers; k++) {
+        findings found;
+        assert_true(wait(&status) > 0);
+        assert_int_equal(status, 0);
+        assert_int_equal(read(ends[0], &found, sizeof found), sizeof found);
+        all = (findings){found.rows, found.tuples, found.unreachable,
+                         all.failures + found.failures,
+                         all.failed_solves + found.failed_solves};
+    }
     print_message(
         "%d rows cover %d %s; %d contain a conflict; %d rows ended with exit code 1\n",
-        rows, c.tuples, triples() ? "triples" : "pairs", c.unreachable, failed_solves);
-    assert_int_equal(failures, 0);
+        all.rows, all.tuples, triples() ? "triples" : "pairs", all.unreachable,
+        all.failed_solves);
+    assert_int_equal(all.failures, 0);
 }
 
 static int enter(void **state)
