@@ -31,7 +31,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: page page-test all run test test-all check-tests asan bench install help clean packages check-packages study
+.PHONY: course page page-test all run test test-all check-tests asan bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -43,6 +43,7 @@ help:
 	@echo "make study      the friction solvers on published files and on packings: tables, false successes"
 	@echo "make bench      the benchmarks (ratios measured in one run)"
 	@echo "make page       the page for browsers, $(B)/rollbem.html; make page-test tests it"
+	@echo "make course     the pictures of the course, docs/course, in $(B)/course"
 	@echo "make install    to PREFIX=$(PREFIX), below DESTDIR"
 	@echo "make clean      remove $(B)"
 
@@ -159,6 +160,11 @@ install: all
 	ln -sf librollbem.so.0 $(DESTDIR)$(PREFIX)/lib/librollbem.so
 	install -m 644 include/rollbem/*.h $(DESTDIR)$(PREFIX)/include/rollbem
 	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBS@|$(LDLIBS)|' scripts/rollbem.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/rollbem.pc
+
+# the pictures of docs/course
+course: packages
+	@$(MAKE) --no-print-directory B=$(B) $(B)/rollbem
+	ROLLBEM=$(B)/rollbem docs/course/pictures $(B)/course
 
 # the page in a browser: one file with the library as WebAssembly
 page: ; @scripts/packages --install page && node web/build.mjs $(B)/rollbem.html
