@@ -109,6 +109,39 @@ static void numbers_are_the_solution(void **state)
     rb_api_free(a);
 }
 
+/* What is kept from solve to solve changes no bit, and other bodies are never mixed up.
+ */
+static void the_next_case_is_solved_as_the_first_one(void **state)
+{
+    static const char *const next[][2] = {
+        {"mu", "0.4"},      {"creep", "0.05"},  {"mu", "0.2"},
+        {"approach", "20"}, {"young", "60000"}, {"mu", "0.3"},
+        {"zone", "40"},     {"mu", "0.5"},      {"approach", "21"}};
+    const char *words[40];
+    int n = 0;
+    (void)state;
+    for (; wheel[n]; n++)
+        words[n] = wheel[n];
+    rb_api *a = solved(wheel);
+    for (size_t k = 0; k < sizeof next / sizeof *next; k++) {
+        words[n++] = next[k][0];
+        words[n++] = next[k][1];
+        words[n] = NULL;
+        assert_int_equal(rb_api_set(a, next[k][0], next[k][1]), RB_OK);
+        assert_null(rb_api_array(a, "p", &(int){0}, &(int){0}));
+        assert_true(isnan(rb_api_number(a, "normal_load")));
+        assert_int_equal(rb_api_solve(a), RB_OK);
+        rb_api *anew = solved(words);
+        const double *p = array(a, "p", 12, 1), *want = array(anew, "p", 12, 1);
+        for (int i = 0; i < 12; i++)
+            CHECK_ABS(p[i], want[i], 0.0, "p[%d] after %s", i, next[k][0]);
+        CHECK_ABS(rb_api_number(a, "force_ratio"), rb_api_number(anew, "force_ratio"),
+                  0.0, "Q after %s", next[k][0]);
+        rb_api_free(anew);
+    }
+    rb_api_free(a);
+}
+
 /* Before each pivot: the ratios are not negative, the row that leaves has the least of
  * them, and the step is that least ratio. */
 static void pivots_keep_the_ratio_test(void **state)
@@ -226,6 +259,7 @@ int main(void)
         cmocka_unit_test(descriptions_are_complete),
         cmocka_unit_test(refusals_are_those_of_the_case),
         cmocka_unit_test(numbers_are_the_solution),
+        cmocka_unit_test(the_next_case_is_solved_as_the_first_one),
         cmocka_unit_test(pivots_keep_the_ratio_test),
         cmocka_unit_test(matrices_satisfy_their_equations),
         cmocka_unit_test(guesses_are_judged),

@@ -36,28 +36,33 @@ function tell(text) {
     at("message").hidden = !text;
 }
 
-async function start_worker() {
+/* Two of them: one solves the case itself, which never waits for the curve, the steps or the stress
+ * that the other one is at. */
+async function start_workers() {
     const packed = Uint8Array.from(atob(WASM), (c) => c.charCodeAt(0));
     const wasm = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-    const worker = new Worker(URL.createObjectURL(new Blob([WORKER], { type: "text/javascript" })));
-    const ready = new Promise((resolve, reject) => { worker.onmessage = ({ data }) => resolve(data); worker.onerror = (event) => reject(new Error(event.message)); });
-    worker.postMessage({ wasm });
-    return { worker, ...await ready };
+    const script = URL.createObjectURL(new Blob([WORKER], { type: "text/javascript" }));
+    return Promise.all([0, 1].map(() => new Promise((resolve, reject) => {
+        const worker = new Worker(script);
+        worker.onmessage = ({ data }) => resolve({ worker, ...data });
+        worker.onerror = (event) => reject(new Error(event.message));
+        worker.postMessage({ wasm });
+    })));
 }
 
 async function main() {
     at("subtitle").textContent = words.subtitle;
     at("footer").textContent = say(words.footer, { version: VERSION });
     at("main").append(html("p", { class: "note" }, words.loading));
-    let parts;
-    try { parts = await start_worker(); } catch (error) { return tell(say(words.no_wasm, { why: error.message })); }
+    let workers;
+    try { workers = await start_workers(); } catch (error) { return tell(say(words.no_wasm, { why: error.message })); }
 
-    const page = { given: { ...PRESETS.rail }, answer: null, curve: null, options: parts.options, results: parts.results,
-        units: Object.fromEntries(parts.results.number.map((r) => [r.name, r.unit])) };
+    const page = { given: { ...PRESETS.rail }, answer: null, curve: null, options: workers[0].options, results: workers[0].results,
+        units: Object.fromEntries(workers[0].results.number.map((r) => [r.name, r.unit])) };
     let current = "contact", curve_key = null, first = true, panel = null;
     const makers = { contact: contact_view, roll: roll_view, below: below_view, step: step_view, take: take_view }, views = {}, asked = {};
 
-    const queue = requests(parts.worker, (answer, request, newer) => {
+    function take(answer, request, newer) {
         if (answer.refused) { if (!newer) { tell(say(words.refused, { why: answer.refused })); at("main").classList.add("stale"); first_draw(); } if (answer.kind === "guess") { at("main").classList.remove("stale"); tell(""); views.step?.take(answer); } return; }
         at("main").classList.remove("stale");
         if (answer.kind === "solve") {
@@ -71,9 +76,10 @@ async function main() {
             if (current === "step") page.ask_view(); /* its strip is that of the solution */
         } else if (answer.kind === "curve") { page.curve = answer.points; if (current === "contact") views.contact?.draw(); }
         else Object.entries(makers).forEach(([name]) => { if (views[name]?.take && (asked[name] === answer.kind || (name === "step" && answer.kind === "guess"))) views[name].take(answer); });
-    });
+    }
+    const [solving, aside] = workers.map(({ worker }) => requests(worker, take));
+    const queue = { ask: (request) => (request.kind === "solve" ? solving : aside).ask(request), idle: () => solving.idle() && aside.idle() };
     page.ask = queue.ask;
-    page.idle = queue.idle;
 
     function ask_curve() {
         if (formulation_of(page.given) !== "steady") { page.curve = null; curve_key = null; return; }

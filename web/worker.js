@@ -5,23 +5,38 @@ import { load_library } from "./library.js";
 const LARGEST = { "contact-elements": 400, "outer-elements": 800, steps: 600, distance: 40, increments: 60 };
 const LEFT_OUT = ["accuracy", "error", "history", "irregularity"];
 
-/* A case of these words, solved; refused where the page cannot. */
-function solve_case(library, given, then) {
-    const work = new library.Case();
-    const refused = (line) => ({ refused: line });
+/* A case of these words.  Of each kind of request the last case is kept: where only values differ
+ * they are set on it, and the library uses what it can of its matrices again. */
+function case_of(library, kind, given) {
+    const kept = (library.kept ??= new Map()), last = kept.get(kind), names = Object.keys(given);
+    const same = last && names.length === Object.keys(last.given).length && names.every((name) => name in last.given);
+    if (!same) last?.work.free();
+    const work = same ? last.work : new library.Case();
+    kept.set(kind, { work, given });
+    return { work, changed: same ? names.filter((name) => given[name] !== last.given[name]) : names };
+}
+function forget_case(library, kind) {
+    library.kept.get(kind)?.work.free();
+    library.kept.delete(kind);
+}
+
+/* Solved and asked; refused where the page cannot. */
+function solve_case(library, kind, given, then) {
+    for (const [name, text] of Object.entries(given)) {
+        if (LEFT_OUT.includes(name)) return { refused: `--${name}: not in the page, use the program` };
+        if (Number(text) > LARGEST[name]) return { refused: `--${name}: the page goes up to ${LARGEST[name]}, use the program for ${text}` };
+    }
+    const { work, changed } = case_of(library, kind, given), start = performance.now();
     try {
-        for (const [name, text] of Object.entries(given)) {
-            if (LEFT_OUT.includes(name)) return refused(`--${name}: not in the page, use the program`);
-            if (work.set(name, text) < 0) return refused(work.message);
-            if (Number(text) > LARGEST[name])
-                return refused(`--${name}: the page goes up to ${LARGEST[name]}, use the program for ${text}`);
+        if (changed.some((name) => work.set(name, given[name]) < 0) || work.solve() < 0) {
+            const refused = work.message;
+            forget_case(library, kind);
+            return { refused };
         }
-        if (work.settle() < 0) return refused(work.message);
-        const start = performance.now();
-        if (work.solve() < 0) return refused(work.message);
         return { ...then(work, library), unsolved: work.message, milliseconds: performance.now() - start };
-    } finally {
-        work.free();
+    } catch (error) {
+        forget_case(library, kind);
+        throw error;
     }
 }
 
@@ -53,17 +68,17 @@ function pivots(work, library) {
 }
 
 const answers = {
-    solve: (library, { given }) => solve_case(library, given, all_results),
-    roll: (library, { given }) => solve_case(library, given, steps),
-    pivots: (library, { given }) => solve_case(library, given, pivots),
-    curve: (library, { given, from, to, points }) => solve_case(library, given, (work, { results }) =>
+    solve: (library, { kind, given }) => solve_case(library, kind, given, all_results),
+    roll: (library, { kind, given }) => solve_case(library, kind, given, steps),
+    pivots: (library, { kind, given }) => solve_case(library, kind, given, pivots),
+    curve: (library, { kind, given, from, to, points }) => solve_case(library, kind, given, (work, { results }) =>
         work.curve(from, to, points) < 0 ? { refused: work.message }
             : { points: Object.fromEntries(results.point.map(({ name }) => [name, work.array(`curve.${name}`)?.at])) }),
-    guess: (library, { given, zones }) => solve_case(library, given, (work) => {
+    guess: (library, { kind, given, zones }) => solve_case(library, kind, given, (work) => {
         const status = work.guess(zones);
         return status !== 0 ? { refused: work.message } : arrays(work, ["guess.p", "guess.q", "guess.gap", "guess.shift", "ends"]);
     }),
-    stress: (library, { given, nx, ny, depth }) => solve_case(library, given, (work, l) =>
+    stress: (library, { kind, given, nx, ny, depth }) => solve_case(library, kind, given, (work, l) =>
         work.stress(nx, ny, depth) < 0 ? { refused: work.message }
             : { ...all_results(work, l), ...arrays(work, ["stress.x", "stress.y", "stress.max_shear", "stress.sxx", "stress.syy",
                 "stress.sxy", "stress.von_mises"]) }),

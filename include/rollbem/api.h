@@ -23,7 +23,9 @@ rb_api *rb_api_create(void);
 void rb_api_free(rb_api *a);
 
 /* One option by its name and the text of a case file.  A refused text changes nothing.
- * Whatever was solved before is forgotten. */
+ * Whatever was solved before is forgotten; only where all options set since then are
+ * friction, load, approach, shift, creepage or force, the next solve uses its flexibility
+ * again. */
 int rb_api_set(rb_api *a, const char *name, const char *text);
 /* Whether the options agree with each other. */
 int rb_api_settle(rb_api *a);

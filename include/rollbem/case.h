@@ -263,6 +263,10 @@ typedef struct {
  * be NULL.  Free the result in any case. */
 rb_status rb_case_solve(const rb_settled_case *settled, rb_rolling_step *step,
                         void *context, rb_case_result *result, rb_message *why);
+/* The same with the result of a case before it, or {0}, as rb_rolling_model_again takes its
+ * model; steps and error bars begin anew. */
+rb_status rb_case_solve_again(const rb_settled_case *settled, rb_rolling_step *step,
+                              void *context, rb_case_result *result, rb_message *why);
 void rb_case_result_free(rb_case_result *result);
 
 /* ---- Whose fault it is --------------------------------------------------------------

@@ -494,7 +494,8 @@ typedef struct {
     int equal_instead; /* 1: of fitted elements, whose edges did not come to rest */
     double half_width; /* Hertz's, of the load found last: scale of the ratios */
     double seconds_lcp;
-    int iterations; /* of all solves so far */
+    int iterations;  /* of all solves so far */
+    int same_bodies; /* 1: `bodies` are those of `rc` wherever the mesh is `mesh` */
 } rb_rolling_model;
 
 /* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a
@@ -502,6 +503,11 @@ typedef struct {
  * the given zone, the wheel or the table.  model: overwritten; free it in any case. */
 rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
                                   rb_message *why);
+/* The same for a model that solved a case of the same bodies and mesh, differing in friction,
+ * load, approach, shift, creepage or force at most: its flexibility is used again where
+ * equal elements end at the same places.  The result is that of create to the last bit. */
+rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
+                                 rb_message *why);
 void rb_rolling_model_free(rb_rolling_model *model);
 
 /* The model's problem and its tractions as an FCLib file.  RB_EINVAL: too large for a
@@ -732,6 +738,9 @@ double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unkn
  * in any case. */
 rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_rolling_solution *solution, rb_message *why);
+/* The same with a model as rb_rolling_model_again takes it. */
+rb_status rb_rolling_solve_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
+                                       rb_rolling_solution *solution, rb_message *why);
 
 /* ---- Parameter studies ----------------------------------------------------------- */
 

@@ -22,6 +22,7 @@ enum { ARRAYS = 96 };
 struct rb_api {
     rb_case *words;
     rb_case_result result;
+    rb_rolling_model kept; /* of the last case, where only what drives it has changed */
     rb_rolling_curve curve;
     rb_rolling_lcp lcp;
     int pivots; /* seen so far */
@@ -121,8 +122,28 @@ static int ended(rb_api *a, rb_status s)
     return s;
 }
 
-static void forget(rb_api *a)
+/* Options that change neither bodies nor mesh: the flexibility may serve again. */
+static int drives(const char *name)
 {
+    static const char *const driving[] = {"mu",          "load",  "approach",
+                                          "half-width",  "shift", "creep",
+                                          "creep-ratio", "force", "force-ratio"};
+    for (size_t k = 0; k < sizeof driving / sizeof *driving; k++)
+        if (strcmp(name, driving[k]) == 0)
+            return 1;
+    return 0;
+}
+
+/* All results; the model stays aside where its bodies remain those of the case. */
+static void forget(rb_api *a, int same_bodies)
+{
+    if (!same_bodies || a->result.model.mesh.ends) {
+        rb_rolling_model_free(&a->kept);
+        a->kept = a->result.model;
+        memset(&a->result.model, 0, sizeof a->result.model);
+    }
+    if (!same_bodies)
+        rb_rolling_model_free(&a->kept);
     forget_arrays(a, "");
     rb_rolling_curve_free(&a->curve);
     rb_rolling_lcp_free(&a->lcp);
@@ -146,20 +167,20 @@ void rb_api_free(rb_api *a)
 {
     if (!a)
         return;
-    forget(a);
+    forget(a, 0);
     rb_case_free(a->words);
     free(a);
 }
 
 int rb_api_set(rb_api *a, const char *name, const char *text)
 {
-    forget(a);
+    forget(a, drives(name));
     return ended(a, rb_case_set(a->words, name, text, RB_GIVEN_ARGUMENT, &a->why));
 }
 
 int rb_api_settle(rb_api *a)
 {
-    forget(a);
+    forget(a, 1);
     return ended(a, rb_case_settle(a->words, &a->why));
 }
 
@@ -196,8 +217,10 @@ int rb_api_solve(rb_api *a)
 {
     if (rb_api_settle(a) < 0)
         return a->status;
-    rb_status s =
-        rb_case_solve(rb_case_settled(a->words), keep_step, a, &a->result, &a->why);
+    a->result.model = a->kept;
+    memset(&a->kept, 0, sizeof a->kept);
+    const rb_status s =
+        rb_case_solve_again(rb_case_settled(a->words), keep_step, a, &a->result, &a->why);
     return ended(a, s < 0 ? rb_case_blame(a->words, s, &a->why) : s);
 }
 

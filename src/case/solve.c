@@ -28,15 +28,29 @@ rb_status rb_case_solve(const rb_settled_case *c, rb_rolling_step *step, void *c
                         rb_case_result *r, rb_message *why)
 {
     memset(r, 0, sizeof *r);
+    return rb_case_solve_again(c, step, context, r, why);
+}
+
+rb_status rb_case_solve_again(const rb_settled_case *c, rb_rolling_step *step,
+                              void *context, rb_case_result *r, rb_message *why)
+{
+    rb_rolling_model model = r->model;
+
+    memset(&r->model, 0, sizeof r->model);
+    rb_case_result_free(r);
+    memset(r, 0, sizeof *r);
+    if (!rb_case_has_steps(c) && !c->error && !(c->accuracy > 0.0)) {
+        r->model = model;
+        return rb_rolling_solve_model_again(&c->rc, &r->model, &r->solution, why);
+    }
+    rb_rolling_model_free(&model);
     if (rb_case_has_steps(c))
         return solve_steps(c, step, context, r, why);
     r->has_errors = c->error || c->accuracy > 0.0;
     if (c->accuracy > 0.0)
         return rb_rolling_solve_to_accuracy(&c->rc, c->accuracy, &r->solution, &r->errors,
                                             &r->elements, why);
-    if (c->error)
-        return rb_rolling_solve_with_errors(&c->rc, 0, &r->solution, &r->errors, why);
-    return rb_rolling_solve_model(&c->rc, &r->model, &r->solution, why);
+    return rb_rolling_solve_with_errors(&c->rc, 0, &r->solution, &r->errors, why);
 }
 
 void rb_case_result_free(rb_case_result *r)

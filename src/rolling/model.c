@@ -107,16 +107,27 @@ static rb_status start_from_coarse(rb_rolling_model *model, rb_message *why)
     return s < 0 ? s : RB_OK;
 }
 
+static int have_same_ends(const rb_rolling_mesh *x, const rb_rolling_mesh *y)
+{
+    return x->n == y->n &&
+           memcmp(x->ends, y->ends, ((size_t)x->n + 2) * sizeof *x->ends) == 0;
+}
+
 rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
                                  rb_message *why)
 {
+    const int kept = model->same_bodies && have_same_ends(&model->mesh, mesh);
+
     rb_rolling_state_free(&model->state);
     rb_rolling_problem_free(&model->problem);
-    rb_rolling_bodies_free(&model->bodies);
     rb_rolling_mesh_free(&model->mesh);
+    if (!kept)
+        rb_rolling_bodies_free(&model->bodies);
     model->mesh = *mesh;
     memset(mesh, 0, sizeof *mesh);
-    rb_status s = rb_rolling_bodies_create(&model->rc, &model->mesh, &model->bodies, why);
+    rb_status s =
+        kept ? RB_OK
+             : rb_rolling_bodies_create(&model->rc, &model->mesh, &model->bodies, why);
     if (s == RB_OK)
         s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL, 0.0,
                                       &model->problem, why);
@@ -128,17 +139,42 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
     return s == RB_OK ? solve_ratio(model, large, why) : s;
 }
 
-rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
-                                  rb_message *why)
+static rb_status solve_on_its_mesh(const rb_rolling_case *rc, rb_rolling_model *model,
+                                   rb_message *why)
 {
-    memset(model, 0, sizeof *model);
     model->rc = *rc;
-    rb_status s = rb_rolling_case_check(rc, why);
+    const rb_status s = rb_rolling_case_check(rc, why);
     if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
         return rb_rolling_solve_fitted(model, why);
     if (s == RB_OK && rc->mesh == RB_MESH_ALIGNED)
         return rb_rolling_solve_aligned(model, why);
     return s == RB_OK ? rb_rolling_solve_zone(model, 0, why) : s;
+}
+
+rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
+                                  rb_message *why)
+{
+    memset(model, 0, sizeof *model);
+    return solve_on_its_mesh(rc, model, why);
+}
+
+rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
+                                 rb_message *why)
+{
+    rb_rolling_model kept = {.mesh = model->mesh, .bodies = model->bodies};
+    const int equal = rc->mesh == RB_MESH_UNIFORM && model->rc.mesh == RB_MESH_UNIFORM;
+
+    if (!equal || !model->mesh.ends || !model->bodies.f.m) {
+        rb_rolling_model_free(model);
+        return rb_rolling_model_create(rc, model, why);
+    }
+    rb_rolling_state_free(&model->state);
+    rb_rolling_problem_free(&model->problem);
+    *model = kept;
+    model->same_bodies = 1;
+    const rb_status s = solve_on_its_mesh(rc, model, why);
+    model->same_bodies = 0;
+    return s;
 }
 
 /* Similar bodies without a history roll freely at no creepage. */

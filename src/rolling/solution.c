@@ -290,12 +290,23 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
 rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_rolling_solution *solution, rb_message *why)
 {
+    memset(model, 0, sizeof *model);
+    return rb_rolling_solve_model_again(rc, model, solution, why);
+}
+
+rb_status rb_rolling_solve_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
+                                       rb_rolling_solution *solution, rb_message *why)
+{
     const double start = rb_seconds();
     rb_rolling_history history = {0};
-    rb_status s = rb_rolling_has_steps(rc)
-                      ? rb_rolling_history_run(rc, NULL, NULL, NULL, model, &history, why)
-                      : rb_rolling_model_create(rc, model, why);
+    rb_status s;
 
+    if (rb_rolling_has_steps(rc)) {
+        rb_rolling_model_free(model);
+        s = rb_rolling_history_run(rc, NULL, NULL, NULL, model, &history, why);
+    } else {
+        s = rb_rolling_model_again(rc, model, why);
+    }
     rb_rolling_history_free(&history);
     memset(solution, 0, sizeof *solution);
     if (s >= 0 && model->state.p) {
