@@ -135,7 +135,8 @@ static int numbers_of(const char *line, double *value, int room)
     return n;
 }
 
-/* Rows of numbers below lines that begin with # or a name; the names stand in header. */
+/* Rows of numbers among # lines; header: the line of names, the last # line where there is
+ * none. */
 typedef struct {
     int rows, columns;
     double *x; /* row by row */
@@ -148,12 +149,16 @@ static rows rows_from_file(const char *path)
     static char line[20000];
     double value[WIDEST];
     rows r = {0, 0, NULL, ""};
+    int named = 0;
     FILE *file = fopen(path, "r");
     if (!file)
         cannot("read", path);
     while (fgets(line, sizeof line, file)) {
         const char *text = line + strspn(line, "# \t");
         if (line[0] == '#' || numbers_of(text, value, 1) == 0) {
+            if (named)
+                continue;
+            named = line[0] != '#';
             snprintf(r.header, sizeof r.header, "%.*s", (int)strcspn(text, "\n"), text);
             continue;
         }

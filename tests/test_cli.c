@@ -191,7 +191,7 @@ static void output_options_stand_in_the_file_too(void **state)
     assert_int_equal(out[0], '{');
     assert_string_equal(err, "");
     assert_int_equal(rollbem("--json=no case.ini"), 0);
-    assert_int_equal(out[0], '#');
+    assert_int_equal(strncmp(out, "x_mm\t", 5), 0);
 }
 
 /* ---- Results ----------------------------------------------------------------------- */
@@ -329,7 +329,7 @@ static void not_solved_is_1(void **state)
     assert_int_equal(rollbem("--approach 1e-9 --zone 5"), 1);
     assert_non_null(strstr(err, "no contact"));
     assert_null(strstr(err, "nan"));
-    assert_non_null(strstr(out, "# x_mm")); /* what there is, is printed */
+    assert_non_null(strstr(out, "x_mm")); /* what there is, is printed */
     assert_int_equal(rollbem("--approach 25 --zone 5"), 1);
     assert_non_null(strstr(err, "zone"));
     /* a solver that ends without a contact under a load does not widen the zone to nan */
@@ -454,8 +454,8 @@ static void lost_contact_has_no_ratios(void **state)
                 json_is_null(json_array_get(json_object_get(history, "contact_to"), i)));
         }
     assert_true(lost > 3);
-    assert_int_equal(shell("grep -v '^#' steps.tsv | grep -E -e '-nan|inf'"), 1);
-    assert_int_equal(shell("grep -c nan steps.tsv"), 0);
+    assert_int_equal(shell("grep -v '^#' steps.tsv | grep -E -i -e '-nan|inf'"), 1);
+    assert_int_equal(shell("grep -c NaN steps.tsv"), 0);
     json_decref(root);
     /* and where the last state is such a one, people see none either */
     assert_int_equal(rollbem("--support halfplane --similar --gap parabola "
@@ -745,7 +745,7 @@ static void output_is_whole_or_not_there(void **state)
     assert_int_equal(rollbem(QUICK " --quiet"), 0);
     static char table[100000];
     slurp("table.tsv", table, sizeof table);
-    assert_string_equal(strstr(table, "x_mm"), strstr(out, "x_mm"));
+    assert_string_equal(strstr(table, "# x to"), strstr(out, "# x to"));
 
     check_refused(QUICK " --output /nonexistent/table.tsv", 73, "/nonexistent/table.tsv");
     check_refused("--mu abc --output none.tsv", 64, "--mu");

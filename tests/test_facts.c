@@ -318,11 +318,11 @@ static void test_curve(void **state)
 /* The number of case `row` (1: the first) in the column of that name. */
 static double cell(const char *text, int row, const char *name)
 {
-    const char *head = strstr(text, "# case"), *place = strstr(head, name), *line = head;
+    const char *head = text, *place = strstr(head, name), *line = head;
     int column = 0;
     for (const char *p = head; p < place; p++)
         column += *p == '\t';
-    for (int k = 0; k < row; k++)
+    for (int k = 0; k < row; k += *line != '#')
         line = strchr(line, '\n') + 1;
     for (int j = 0; j < column; j++)
         line = strchr(line, '\t') + 1;

@@ -637,7 +637,7 @@ static void check_whole(const char *path)
                  {".pdf", "%PDF-", "%%EOF"},
                  {".vtu", "<?xml", "</VTKFile>"},
                  {".hdf5", "\x89HDF\r\n\x1a\n", ""},
-                 {".tsv", "# ", ""},
+                 {".tsv", "x_mm\t", ""},
                  {".mtx", "%%MatrixMarket", ""}};
     char head[16] = "", tail[32] = "";
     FILE *file = fopen(path, "rb");

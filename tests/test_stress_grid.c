@@ -193,10 +193,11 @@ static void full_disc_is_told(void **state)
     static const rb_rolling_stress_maxima maxima;
     const rb_report_stress stress = {
         .n = 4, .at = at, .maxima = &maxima, .rc = &rc, .s = &solution};
+    static const rb_report_style style = {RB_REPORT_TSV, 0};
     FILE *full = fopen("/dev/full", "w");
     if (!full)
         skip();
-    assert_int_equal(rb_report_stress_table(full, &stress, "x", 0), RB_EWRITE);
+    assert_int_equal(rb_report_stress_table(full, &stress, "x", &style), RB_EWRITE);
     fclose(full);
     full = fopen("/dev/full", "w");
     assert_int_equal(rb_report_vtk(full, RB_REPORT_VTU, &stress), RB_EWRITE);

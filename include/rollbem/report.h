@@ -19,19 +19,61 @@ const char *rb_report_lcp_form(rb_rolling_lcp_form form);
 /* The signs of creepage, slip and zones, one line each; ends with NULL. */
 extern const char *const rb_report_conventions[];
 
+/* ---- Tables of any kind -------------------------------------------------------------
+ */
+
+/* TSV: the names of the columns, # lines, rows.  The names come first because numpy takes
+ * the first line for them even where it is a comment; every other reader skips comments
+ * wherever they are.  CSV: names and rows alone, for spreadsheets, which know no
+ * comments; a cell without a number is empty. */
+typedef enum { RB_REPORT_TSV, RB_REPORT_JSON, RB_REPORT_CSV } rb_report_format;
+
+typedef struct {
+    rb_report_format format; /* of a table; JSON has functions of its own below */
+    int bare;                /* 1: no # lines */
+} rb_report_style;
+
+/* A table that is written cell by cell. */
+typedef struct {
+    FILE *out;
+    rb_report_style style;
+    int cells; /* of the row at hand, so far */
+} rb_report_cells;
+
+/* Writes the names, which stand between blanks; of no names (""), the caller writes them
+ * as cells. */
+rb_report_cells rb_report_cells_begin(FILE *out, const rb_report_style *style,
+                                      const char *names);
+/* Text that holds a separator, a blank, a quotation mark or # stands in quotes. */
+void rb_report_cell_text(rb_report_cells *c, const char *text);
+/* A few words, "-" in the place of blanks, at which numpy would split. */
+void rb_report_cell_words(rb_report_cells *c, const char *words);
+/* 17 digits; NaN, or nothing in CSV, for what is no finite number. */
+void rb_report_cell_number(rb_report_cells *c, double x);
+void rb_report_cell_whole(rb_report_cells *c, int n);
+void rb_report_cells_end_row(rb_report_cells *c);
+/* A # line where the style has them. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void rb_report_comment(const rb_report_cells *c, const char *format, ...);
+/* # lines with version and command. */
+void rb_report_comment_origin(const rb_report_cells *c, const char *command);
+/* RB_EWRITE: see errno. */
+rb_status rb_report_flush(FILE *out);
+
 /* ---- Table ------------------------------------------------------------------------ */
 
-/* Tab-separated, one row per contact element.  Headers: # lines with version, command,
- * conventions, status and residual, the last one naming the columns; bare: the names
- * alone. RB_EWRITE: see errno. */
+/* One row per contact element; # lines with version, command, conventions, status and
+ * residual.  RB_EWRITE: see errno. */
 rb_status rb_report_table(FILE *out, const rb_rolling_solution *s, const char *command,
-                          int bare);
+                          const rb_report_style *style);
 
-/* The steps of a transient or a static history, one row each; headers as above.  errors
- * (NULL: not asked for, here as below): columns of their own, error_*. */
+/* The steps of a transient or a static history, one row each.  errors (NULL: not asked
+ * for, here as below): columns of their own, error_*. */
 rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
                             const rb_rolling_history *errors, const char *command,
-                            int bare);
+                            const rb_report_style *style);
 
 /* ---- JSON ------------------------------------------------------------------------- */
 
@@ -107,7 +149,7 @@ typedef struct {
 
 /* One row per mu and creepage, errors in columns of their own.  RB_EWRITE: see errno. */
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
-                                const char *command, int bare);
+                                const char *command, const rb_report_style *style);
 /* Sets "curve", of the first mu, and "curves", of all, where there are several. */
 void rb_report_json_curves(struct json_t **root, const rb_report_curves *curves);
 /* A few lines for people. */
@@ -135,7 +177,7 @@ typedef struct {
 
 /* One row per point; the maxima stand in the header.  RB_EWRITE: see errno. */
 rb_status rb_report_stress_table(FILE *out, const rb_report_stress *stress,
-                                 const char *command, int bare);
+                                 const char *command, const rb_report_style *style);
 /* Sets "maxima", and "grid" or "points". */
 void rb_report_json_stress(struct json_t **root, const rb_report_stress *stress);
 /* The maxima, with their errors where known. */

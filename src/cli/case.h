@@ -25,7 +25,6 @@ rb_case *cli_case_create(rb_case_purpose purpose);
 cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
                         cli_args *args);
 
-
 /* Prints why the library refused the case; the exit code tells command line from file. */
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why);
 

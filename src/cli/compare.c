@@ -17,8 +17,9 @@ typedef enum { COST_FLOPS, COST_SECONDS, COST_ITERATIONS } cost_kind;
 typedef struct {
     const char *solvers;
     double tol, limit;
-    int measure, max_iters, json;
-    const char *plot, *output;
+    int measure, max_iters;
+    rb_report_style style;
+    const char *plot, *output, *profiles;
 } compare_options;
 
 static const rb_choice measures[] = {{"flops", COST_FLOPS},
@@ -41,20 +42,23 @@ static const rb_option options[] = {
     RB_CHOICE_LINE("measure", PLACE(measure), measures,
                    "cost that the profiles and the picture compare"),
     RB_GROUP_LINE("output", "Output"),
-    RB_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
+    CLI_STYLE_LINES(PLACE(style)),
     RB_TEXT_LINE("plot", PLACE(plot), "FILE",
                  "picture of the profiles (.png, .svg, .pdf)", .unset = "none",
                  .file = RB_FILE_PICTURE),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
-                 "where the tables or JSON go, whole or not at all",
+                 "where the table of the runs or JSON goes, whole or not at all",
                  .unset = "standard output", .file = RB_FILE_WRITTEN),
+    RB_TEXT_LINE("profiles", PLACE(profiles), "FILE",
+                 "where the table of the profiles goes: tau, then rho of each solver",
+                 .unset = "none", .file = RB_FILE_WRITTEN),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0], MOST_SOLVERS = 32, TAUS = 61 };
 
 static const char about[] = "Runs friction solvers on problems from files and compares "
-                            "them: a table of the runs, "
-                            "then\n"
+                            "them: a table of the runs and,\n"
+                            "with --profiles, --plot or --json, "
                             "the share rho_s(tau) of problems that solver s solves at a "
                             "cost of at most tau times "
                             "the\n"
@@ -210,31 +214,48 @@ static const char *status_of(const comparison *c, const run_result *one)
                : rb_friction_status_text(one->status, c->o->tol, &one->info);
 }
 
-static void print_tables(const comparison *c, FILE *out)
+static rb_status print_runs(const comparison *c, FILE *out)
 {
-    fprintf(
-        out,
-        "# rollbem %s\n# %s\n# file\tsolver\tstatus\titerations\tresidual\tfloor\tflops\t"
-        "seconds\tscaled\n",
-        RB_VERSION, cli_command_line());
+    rb_report_cells cells = rb_report_cells_begin(
+        out, &c->o->style,
+        "file solver status iterations residual floor flops seconds scaled");
+    rb_report_comment_origin(&cells, cli_command_line());
     for (int p = 0; p < c->problems; p++)
         for (int s = 0; s < c->solvers; s++) {
             const run_result *one = &c->result[p * c->solvers + s];
-            fprintf(out, "%s\t%s\t%s\t%d\t%.3g\t%.3g\t%.4g\t%.4g\t%.3g\n", c->file[p],
-                    c->solver[s], status_of(c, one), one->info.iters, one->info.residual,
-                    one->info.floor, one->info.flops, one->info.seconds,
-                    one->info.scaled);
+            rb_report_cell_text(&cells, c->file[p]);
+            rb_report_cell_text(&cells, c->solver[s]);
+            rb_report_cell_words(&cells, status_of(c, one));
+            rb_report_cell_whole(&cells, one->info.iters);
+            rb_report_cell_number(&cells, one->info.residual);
+            rb_report_cell_number(&cells, one->info.floor);
+            rb_report_cell_number(&cells, one->info.flops);
+            rb_report_cell_number(&cells, one->info.seconds);
+            rb_report_cell_number(&cells, one->info.scaled);
+            rb_report_cells_end_row(&cells);
         }
-    fprintf(out, "\n\n# profiles over %s, %d problems\n# tau",
-            measures[c->o->measure].name, c->problems);
+    return rb_report_flush(out);
+}
+
+static rb_status print_profiles(FILE *out, const void *context, rb_message *why)
+{
+    const comparison *c = context;
+    rb_report_cells cells = rb_report_cells_begin(out, &c->o->style, "");
+    (void)why;
+    rb_report_cell_text(&cells, "tau");
     for (int s = 0; s < c->solvers; s++)
-        fprintf(out, "\t%s", c->solver[s]);
+        rb_report_cell_text(&cells, c->solver[s]);
+    rb_report_cells_end_row(&cells);
+    rb_report_comment_origin(&cells, cli_command_line());
+    rb_report_comment(&cells, "profiles over %s, %d problems",
+                      measures[c->o->measure].name, c->problems);
     for (int k = 0; k < TAUS; k++) {
-        fprintf(out, "\n%.4g", c->tau[k]);
+        rb_report_cell_number(&cells, c->tau[k]);
         for (int s = 0; s < c->solvers; s++)
-            fprintf(out, "\t%.4g", c->rho[k + s * TAUS]);
+            rb_report_cell_number(&cells, c->rho[k + s * TAUS]);
+        rb_report_cells_end_row(&cells);
     }
-    fprintf(out, "\n");
+    return rb_report_flush(out);
 }
 
 static json_t *json_runs(const comparison *c)
@@ -278,10 +299,7 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
 {
     const comparison *c = context;
     (void)why;
-    if (c->o->json)
-        return write_json(c, out);
-    print_tables(c, out);
-    return RB_OK;
+    return c->o->style.format == RB_REPORT_JSON ? write_json(c, out) : print_runs(c, out);
 }
 
 static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
@@ -319,6 +337,8 @@ static cli_exit compare_files(comparison *c, int n, char **files)
     code = make_profiles(c);
     if (code == CLI_OK)
         code = cli_write_file(c->o->output, write_results, c);
+    if (code == CLI_OK && c->o->profiles)
+        code = cli_write_file(c->o->profiles, print_profiles, c);
     if (code == CLI_OK)
         code = cli_draw_file("plot", c->o->plot, draw, c);
     return code > worst ? code : worst;

@@ -114,9 +114,9 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
 {
     const result *r = context;
     (void)why;
-    return r->o->json
+    return r->o->style.format == RB_REPORT_JSON
                ? print_json(out, r)
-               : rb_report_curve_table(out, &r->curves, cli_command_line(), r->o->bare);
+               : rb_report_curve_table(out, &r->curves, cli_command_line(), &r->o->style);
 }
 
 static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,

@@ -13,7 +13,8 @@
 typedef struct {
     const char *solver, *output, *plot;
     double tol, step;
-    int json, quiet;
+    rb_report_style style;
+    int quiet;
     int layout, nodes;         /* truss */
     int mesh, rigid, problems; /* wall */
 } example_options;
@@ -48,7 +49,7 @@ static const rb_option options[] = {
     RB_FLAG_LINE("rigid", PLACE(rigid), "wall: rigid blocks, the same contact points"),
     RB_INTEGER_LINE("problems", PLACE(problems), RB_FROM_TO(1, 75),
                     "wall: how many problems go to the folder"),
-    RB_FLAG_LINE("json", PLACE(json), "JSON instead of the table"),
+    CLI_STYLE_LINES(PLACE(style)),
     RB_TEXT_LINE("output", PLACE(output), "PATH",
                  "bar, truss: file for the table or JSON; wall: folder for its problems "
                  "(FCLib)",
@@ -100,18 +101,12 @@ static rb_status write_json(FILE *out, const example_options *o, const char *nam
     return rb_report_json_write(out, root);
 }
 
-/* columns: names between blanks, which become tabs */
-static void write_head(FILE *out, const char *columns)
+static rb_report_cells begin_table(FILE *out, const example_options *o,
+                                   const char *columns)
 {
-    fprintf(out, "# rollbem %s\n# %s\n# ", RB_VERSION, cli_command_line());
-    for (const char *c = columns; *c; c++)
-        fputc(*c == ' ' ? '\t' : *c, out);
-    fputc('\n', out);
-}
-
-static rb_status written(FILE *out)
-{
-    return ferror(out) ? RB_EWRITE : RB_OK;
+    const rb_report_cells c = rb_report_cells_begin(out, &o->style, columns);
+    rb_report_comment_origin(&c, cli_command_line());
+    return c;
 }
 
 /* ---- Bar and truss --------------------------------------------------------------------
@@ -119,22 +114,25 @@ static rb_status written(FILE *out)
 
 typedef struct {
     const char *name, *columns;
-    void (*row)(FILE *out, const rb_report_fem_sums *sums);
+    void (*row)(rb_report_cells *c, const rb_report_fem_sums *sums);
     json_t *(*json)(const rb_fem_model *model, const rb_fem_history *history);
     rb_status (*picture)(FILE *out, rb_report_picture_kind kind,
                          const rb_fem_model *model, const rb_fem_history *history,
                          rb_message *why);
 } example;
 
-static void bar_row(FILE *out, const rb_report_fem_sums *sums)
+static void bar_row(rb_report_cells *c, const rb_report_fem_sums *sums)
 {
-    fprintf(out, "%.17g\t%.17g\t%.17g\t%.17g\t", sums->corner[0], sums->corner[1],
-            sums->normal, sums->tangential[0]);
+    rb_report_cell_number(c, sums->corner[0]);
+    rb_report_cell_number(c, sums->corner[1]);
+    rb_report_cell_number(c, sums->normal);
+    rb_report_cell_number(c, sums->tangential[0]);
 }
 
-static void truss_row(FILE *out, const rb_report_fem_sums *sums)
+static void truss_row(rb_report_cells *c, const rb_report_fem_sums *sums)
 {
-    fprintf(out, "%.17g\t%.17g\t", sums->increment, sums->normal);
+    rb_report_cell_number(c, sums->increment);
+    rb_report_cell_number(c, sums->normal);
 }
 
 static const example bar = {
@@ -154,27 +152,31 @@ typedef struct {
     const rb_fem_history *history;
 } example_run;
 
-static rb_status write_table(FILE *out, const example *e, const rb_fem_model *model,
-                             const rb_fem_history *history)
+static rb_status write_table(FILE *out, const example_run *r)
 {
-    write_head(out, e->columns);
-    for (int k = 0; k < history->steps; k++) {
-        const rb_fem_step *s = &history->step[k];
-        const rb_report_fem_sums sums = rb_report_fem_sum(model, s);
-        fprintf(out, "%d\t%d\t%d\t%d\t", k + 1, s->stick, s->slip, s->separated);
-        e->row(out, &sums);
-        fprintf(out, "%d\t%.3g\n", s->iterations, s->residual);
+    rb_report_cells c = begin_table(out, r->o, r->e->columns);
+    for (int k = 0; k < r->history->steps; k++) {
+        const rb_fem_step *s = &r->history->step[k];
+        const rb_report_fem_sums sums = rb_report_fem_sum(r->model, s);
+        rb_report_cell_whole(&c, k + 1);
+        rb_report_cell_whole(&c, s->stick);
+        rb_report_cell_whole(&c, s->slip);
+        rb_report_cell_whole(&c, s->separated);
+        r->e->row(&c, &sums);
+        rb_report_cell_whole(&c, s->iterations);
+        rb_report_cell_number(&c, s->residual);
+        rb_report_cells_end_row(&c);
     }
-    return written(out);
+    return rb_report_flush(out);
 }
 
 static rb_status write_history(FILE *out, const void *context, rb_message *why)
 {
     const example_run *r = context;
     (void)why;
-    return r->o->json
+    return r->o->style.format == RB_REPORT_JSON
                ? write_json(out, r->o, r->e->name, r->e->json(r->model, r->history))
-               : write_table(out, r->e, r->model, r->history);
+               : write_table(out, r);
 }
 
 static rb_status draw_history(FILE *out, rb_report_picture_kind kind, const void *context,
@@ -239,25 +241,35 @@ typedef struct {
 
 static rb_status write_wall_table(FILE *out, const wall_run *run)
 {
-    write_head(out,
-               "time_s compression_N shear_N drift_m stick slip separated iterations "
-               "residual seconds");
+    rb_report_cells c =
+        begin_table(out, run->o,
+                    "time_s compression_N shear_N drift_m stick slip separated "
+                    "iterations residual seconds");
     for (int k = 0; k < run->steps; k++) {
         const rb_fem_wall_step *s = &run->step[k];
-        fprintf(out, "%g\t%g\t%.9g\t%g\t%d\t%d\t%d\t%d\t%.3g\t%.3g\n", s->time,
-                s->compression, s->shear, s->drift, s->stick, s->slip, s->separated,
-                s->iterations, s->residual, s->seconds);
+        rb_report_cell_number(&c, s->time);
+        rb_report_cell_number(&c, s->compression);
+        rb_report_cell_number(&c, s->shear);
+        rb_report_cell_number(&c, s->drift);
+        rb_report_cell_whole(&c, s->stick);
+        rb_report_cell_whole(&c, s->slip);
+        rb_report_cell_whole(&c, s->separated);
+        rb_report_cell_whole(&c, s->iterations);
+        rb_report_cell_number(&c, s->residual);
+        rb_report_cell_number(&c, s->seconds);
+        rb_report_cells_end_row(&c);
     }
-    return written(out);
+    return rb_report_flush(out);
 }
 
 static rb_status write_wall(FILE *out, const void *context, rb_message *why)
 {
     const wall_run *run = context;
     (void)why;
-    return run->o->json ? write_json(out, run->o, "wall",
-                                     rb_report_json_wall(run->steps, run->step))
-                        : write_wall_table(out, run);
+    return run->o->style.format == RB_REPORT_JSON
+               ? write_json(out, run->o, "wall",
+                            rb_report_json_wall(run->steps, run->step))
+               : write_wall_table(out, run);
 }
 
 static rb_status draw_wall(FILE *out, rb_report_picture_kind kind, const void *context,

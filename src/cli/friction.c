@@ -16,15 +16,29 @@
 typedef struct {
     const char *solver;
     double tol, seconds;
-    int max_iters, format, facts, solution, trace, json;
+    int max_iters, kind, format, facts, solution, trace;
+    rb_report_style style;
     const char *output;
 } friction_options;
 
-static const rb_choice formats[] = {{"any", RB_FRICTION_FILE_ANY},
-                                    {"fclib", RB_FRICTION_FILE_FCLIB},
-                                    {"siconos", RB_FRICTION_FILE_SICONOS},
-                                    {"siconos-soclcp", RB_FRICTION_FILE_SICONOS_SOCLCP},
-                                    {NULL, 0}};
+static const rb_choice kinds[] = {{"any", RB_FRICTION_FILE_ANY},
+                                  {"fclib", RB_FRICTION_FILE_FCLIB},
+                                  {"siconos", RB_FRICTION_FILE_SICONOS},
+                                  {"siconos-soclcp", RB_FRICTION_FILE_SICONOS_SOCLCP},
+                                  {NULL, 0}};
+
+/* --format once named the kind of the files; both meanings are taken. */
+enum { KIND = 16 };
+
+static const rb_choice formats[] = {
+    {"tsv", RB_REPORT_TSV},
+    {"csv", RB_REPORT_CSV},
+    {"json", RB_REPORT_JSON},
+    {"any", KIND + RB_FRICTION_FILE_ANY},
+    {"fclib", KIND + RB_FRICTION_FILE_FCLIB},
+    {"siconos", KIND + RB_FRICTION_FILE_SICONOS},
+    {"siconos-soclcp", KIND + RB_FRICTION_FILE_SICONOS_SOCLCP},
+    {NULL, 0}};
 
 #define PLACE(member) offsetof(friction_options, member)
 
@@ -37,17 +51,24 @@ static const rb_option options[] = {
                     .unset = "the solver's own"),
     RB_NUMBER_LINE("seconds", PLACE(seconds), "s", RB_ABOVE(0.0), "time limit per file",
                    .unset = "none"),
-    RB_CHOICE_LINE("format", PLACE(format), formats,
-                   "kind of the files, where their head does not tell"),
+    RB_CHOICE_LINE("kind", PLACE(kind), kinds,
+                   "of the files, where their head does not tell"),
     RB_GROUP_LINE("output", "Output"),
     RB_FLAG_LINE("facts", PLACE(facts),
                  "rank, degree of hyperstaticity, nullity of K, asymmetry"),
-    RB_FLAG_LINE("solution", PLACE(solution), "reactions r and velocities u"),
+    RB_FLAG_LINE("solution", PLACE(solution),
+                 "a row per component of reactions r and velocities u instead of one per "
+                 "file"),
     RB_FLAG_LINE("trace", PLACE(trace),
                  "every iterate measured, as the solvers take turns"),
-    RB_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
+    CLI_JSON_LINE(PLACE(style)),
+    RB_CHOICE_LINE(
+        "format", PLACE(format), formats,
+        "of the results: a table with tabs, with commas, or JSON; or, as --kind, "
+        "of the files"),
+    CLI_HEADER_LINE(PLACE(style)),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
-                 "where the tables or JSON go, whole or not at all",
+                 "where the table or JSON goes, whole or not at all",
                  .unset = "standard output", .file = RB_FILE_WRITTEN),
 };
 
@@ -63,7 +84,8 @@ static const char about[] =
     "cones.";
 
 static const char notes[] =
-    "One line per file: name, solver that gave the answer, status, contacts, dimension, "
+    "One row per file (with --solution a # line): name, solver that gave the answer, "
+    "status, contacts, dimension, "
     "iterations,\n"
     "residual (*Acary* (13), ||r - P_K(r - uhat)|| / ||q||, recomputed from r), floor "
     "(what "
@@ -87,7 +109,7 @@ static const char notes[] =
 
 typedef struct {
     const friction_options *o;
-    FILE *out;
+    rb_report_cells cells;
     json_t *problems; /* JSON only */
     json_t *steps;    /* --trace with --json: of the present file */
 } friction_run;
@@ -99,6 +121,11 @@ typedef struct {
     rb_friction_facts facts;
     double *r, *u; /* m; owned */
 } friction_result;
+
+static int is_json(const friction_options *o)
+{
+    return o->style.format == RB_REPORT_JSON;
+}
 
 /* ---- Output ----------------------------------------------------------------------- */
 
@@ -143,24 +170,65 @@ static void add_problem(friction_run *run, const friction_result *r)
     rb_report_json_append(&run->problems, p);
 }
 
+static const char *columns_of(const friction_options *o)
+{
+    if (o->solution)
+        return "file i r u";
+    return o->facts ? "file solver status contacts dimension iterations residual floor "
+                      "seconds scaled rank hyperstaticity nullity asymmetry indefinite"
+                    : "file solver status contacts dimension iterations residual floor "
+                      "seconds scaled";
+}
+
+static void print_row(const friction_run *run, rb_report_cells *c,
+                      const friction_result *r)
+{
+    rb_report_cell_text(c, r->file);
+    rb_report_cell_text(c, r->info.solver);
+    rb_report_cell_words(c, r->status);
+    rb_report_cell_whole(c, r->contacts);
+    rb_report_cell_whole(c, r->dimension);
+    rb_report_cell_whole(c, r->info.iters);
+    rb_report_cell_number(c, r->info.residual);
+    rb_report_cell_number(c, r->info.floor);
+    rb_report_cell_number(c, r->info.seconds);
+    rb_report_cell_number(c, r->info.scaled);
+    if (run->o->facts) {
+        rb_report_cell_whole(c, r->facts.rank);
+        rb_report_cell_whole(c, r->facts.hyperstaticity);
+        rb_report_cell_whole(c, r->facts.nullity);
+        rb_report_cell_number(c, r->facts.asymmetry);
+        rb_report_cell_whole(c, r->facts.indefinite);
+    }
+    rb_report_cells_end_row(c);
+}
+
+static void print_solution(const friction_run *run, rb_report_cells *c,
+                           const friction_result *r)
+{
+    rb_report_comment(c,
+                      "%s: %s by %s, %d contacts, %d iterations, residual %.3g, %.3g s",
+                      r->file, r->status, r->info.solver, r->contacts, r->info.iters,
+                      r->info.residual, r->info.seconds);
+    if (run->o->facts)
+        rb_report_comment(c, "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
+                          r->facts.rank, r->facts.hyperstaticity, r->facts.nullity,
+                          r->facts.asymmetry, r->facts.indefinite ? ", indefinite" : "");
+    for (int i = 0; i < r->m && r->r; i++) {
+        rb_report_cell_text(c, r->file);
+        rb_report_cell_whole(c, i + 1);
+        rb_report_cell_number(c, r->r[i]);
+        rb_report_cell_number(c, r->u[i]);
+        rb_report_cells_end_row(c);
+    }
+}
+
 static void print_problem(friction_run *run, const friction_result *r)
 {
-    FILE *out = run->out;
-    if (!r->m)
-        return;
-    fprintf(out, "%s\t%s\t%s\t%d\t%d\t%d\t%.17g\t%.3g\t%.3g\t%.17g\n", r->file,
-            r->info.solver, r->status, r->contacts, r->dimension, r->info.iters,
-            r->info.residual, r->info.floor, r->info.seconds, r->info.scaled);
-    if (run->o->facts)
-        fprintf(out, "# rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s\n",
-                r->facts.rank, r->facts.hyperstaticity, r->facts.nullity,
-                r->facts.asymmetry, r->facts.indefinite ? ", indefinite" : "");
-    if (!run->o->solution || !r->r)
-        return;
-    fprintf(out, "\n\n# i\tr\tu\n");
-    for (int i = 0; i < r->m; i++)
-        fprintf(out, "%d\t%.17g\t%.17g\n", i + 1, r->r[i], r->u[i]);
-    fprintf(out, "\n\n");
+    if (r->m && run->o->solution)
+        print_solution(run, &run->cells, r);
+    else if (r->m)
+        print_row(run, &run->cells, r);
 }
 
 /* ---- One file --------------------------------------------------------------------- */
@@ -222,15 +290,15 @@ static cli_exit judge(friction_run *run, friction_result *r, rb_status s)
 static int trace(const rb_friction_progress *at, void *context)
 {
     friction_run *run = context;
-    if (run->o->json)
+    if (is_json(run->o))
         rb_report_json_append(
             &run->steps,
             json_pack("{s:s, s:i, s:o, s:o}", "solver", at->solver, "iterations",
                       at->iters, "flops", rb_report_json_number(at->flops),
                       "scaled_residual", rb_report_json_number(at->error)));
     else
-        fprintf(run->out, "# %s\t%d\t%.4g\t%.3g\n", at->solver, at->iters, at->flops,
-                at->error);
+        rb_report_comment(&run->cells, "%s\t%d\t%.4g\t%.3g", at->solver, at->iters,
+                          at->flops, at->error);
     return 0;
 }
 
@@ -250,8 +318,7 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
 {
     rb_friction_problem p;
     rb_message why;
-    rb_status s =
-        rb_friction_read_as(r->file, (rb_friction_file)run->o->format, &p, &why);
+    rb_status s = rb_friction_read_as(r->file, (rb_friction_file)run->o->kind, &p, &why);
     if (s != RB_OK)
         return unreadable(r, s, &why);
     r->contacts = p.contacts;
@@ -310,12 +377,12 @@ static cli_exit solve_file(friction_run *run, const char *path)
     friction_result r = {
         .file = path,
         .info = {.solver = run->o->solver, .residual = NAN, .scaled = NAN, .floor = NAN}};
-    rb_friction_file kind = (rb_friction_file)run->o->format;
+    rb_friction_file kind = (rb_friction_file)run->o->kind;
     rb_message why;
     rb_status s = RB_OK;
     if (kind == RB_FRICTION_FILE_ANY)
         s = rb_friction_file_kind(path, &kind, &why);
-    run->steps = run->o->json && run->o->trace ? json_array() : NULL;
+    run->steps = is_json(run->o) && run->o->trace ? json_array() : NULL;
     cli_exit code;
     if (s != RB_OK)
         code = unreadable(&r, s, &why);
@@ -323,7 +390,7 @@ static cli_exit solve_file(friction_run *run, const char *path)
         code = solve_cones(run, &r);
     else
         code = solve_friction(run, &r);
-    if (run->o->json)
+    if (is_json(run->o))
         add_problem(run, &r);
     else
         print_problem(run, &r);
@@ -348,19 +415,27 @@ typedef struct {
 static rb_status solve_files(FILE *out, const void *context, rb_message *why)
 {
     const friction_files *all = context;
-    friction_run run = {all->o, out, all->o->json ? json_array() : NULL, NULL};
+    friction_run run = {.o = all->o};
     (void)why;
-    if (!all->o->json)
-        fprintf(out,
-                "# rollbem %s\n# %s\n# "
-                "file\tsolver\tstatus\tcontacts\tdimension\titerations\t"
-                "residual\tfloor\tseconds\tscaled\n",
-                RB_VERSION, cli_command_line());
+    if (is_json(all->o)) {
+        run.problems = json_array();
+    } else {
+        run.cells = rb_report_cells_begin(out, &all->o->style, columns_of(all->o));
+        rb_report_comment_origin(&run.cells, cli_command_line());
+    }
     for (int i = 0; i < all->args->operands; i++) {
         const cli_exit code = solve_file(&run, all->args->operand[i]);
         *all->worst = code > *all->worst ? code : *all->worst;
     }
-    return all->o->json ? cli_write_problems(out, conventions, run.problems) : RB_OK;
+    return is_json(all->o) ? cli_write_problems(out, conventions, run.problems) : RB_OK;
+}
+
+static void settle_format(friction_options *o)
+{
+    if (o->format >= KIND)
+        o->kind = o->format - KIND;
+    else if (o->format != RB_REPORT_TSV)
+        o->style.format = (rb_report_format)o->format;
 }
 
 int cli_friction(int argc, char **argv)
@@ -377,6 +452,7 @@ int cli_friction(int argc, char **argv)
                            {{options, OPTIONS, &o, NULL}},
                            1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
+    settle_format(&o);
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "friction: expected at least one FILE");
     if (code == CLI_CONTINUE)

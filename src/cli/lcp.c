@@ -12,7 +12,8 @@
 
 typedef struct {
     double tol;
-    int solver, max_pivots, rule, trace, solution, json;
+    int solver, max_pivots, rule, trace, solution;
+    rb_report_style style;
     const char *q, *cover, *output;
 } lcp_options;
 
@@ -50,11 +51,12 @@ static const rb_option options[] = {
     RB_CHOICE_LINE("rule", PLACE(rule), rules,
                    "which row leaves when ratios tie; first-index can cycle"),
     RB_GROUP_LINE("output", "Output"),
-    RB_FLAG_LINE("trace", PLACE(trace), "every pivot"),
-    RB_FLAG_LINE("solution", PLACE(solution), "z and w = M z + q"),
-    RB_FLAG_LINE("json", PLACE(json), "JSON instead of tables"),
+    RB_FLAG_LINE("trace", PLACE(trace), "a row per pivot instead of one per file"),
+    RB_FLAG_LINE("solution", PLACE(solution),
+                 "a row per unknown, z and w = M z + q, instead of one per file"),
+    CLI_STYLE_LINES(PLACE(style)),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
-                 "where the tables or JSON go, whole or not at all",
+                 "where the table or JSON goes, whole or not at all",
                  .unset = "standard output", .file = RB_FILE_WRITTEN),
 };
 
@@ -73,9 +75,10 @@ static const char about[] =
     "input.";
 
 static const char notes[] =
-    "One line per file: its name, status, n, pivots, residual max |min(z, w)| recomputed "
+    "One row per file: its name, status, n, pivots, residual max |min(z, w)| recomputed "
     "from z,\n"
-    "seconds; newton counts linear systems. Pivots name the variables w(1) ... w(n), "
+    "seconds; with --trace or --solution these stand in # lines. newton counts linear "
+    "systems. Pivots name the variables w(1) ... w(n), "
     "z(1) ... z(n) and the artificial "
     "z0.\n"
     "After a file that fails the others are still solved.\n"
@@ -87,7 +90,8 @@ static const char notes[] =
 
 typedef struct {
     const lcp_options *o;
-    FILE *out;
+    rb_report_cells cells;
+    const char *file; /* at hand */
     json_t *problems,
         *pivots; /* JSON only, NULL without memory; pivots of the file at hand */
 } lcp_run;
@@ -101,6 +105,11 @@ typedef struct {
     const double *q;       /* borrowed */
     double *cover, *z, *w; /* owned; cover NULL: ones */
 } lcp_result;
+
+static int is_json(const lcp_options *o)
+{
+    return o->style.format == RB_REPORT_JSON;
+}
 
 /* ---- Trace ------------------------------------------------------------------------ */
 
@@ -118,15 +127,22 @@ static void trace(const rb_lcp_pivot *p, void *context)
     char in[24], out[24];
     const char *entering = variable(p->n, p->entering, in);
     const char *leaving = variable(p->n, p->leaving, out);
-    if (run->o->json)
+    if (is_json(run->o))
         rb_report_json_append(&run->pivots,
                               json_pack("{s:s, s:s, s:i, s:o, s:o}", "entering", entering,
                                         "leaving", leaving, "row", p->row + 1, "ratio",
                                         rb_report_json_number(p->ratio), "z0",
                                         rb_report_json_number(p->z0)));
-    else
-        fprintf(run->out, "%d\t%s\t%s\t%d\t%.17g\t%.17g\n", p->pivot + 1, entering,
-                leaving, p->row + 1, p->ratio, p->z0);
+    else {
+        rb_report_cell_text(&run->cells, run->file);
+        rb_report_cell_whole(&run->cells, p->pivot + 1);
+        rb_report_cell_text(&run->cells, entering);
+        rb_report_cell_text(&run->cells, leaving);
+        rb_report_cell_whole(&run->cells, p->row + 1);
+        rb_report_cell_number(&run->cells, p->ratio);
+        rb_report_cell_number(&run->cells, p->z0);
+        rb_report_cells_end_row(&run->cells);
+    }
 }
 
 /* ---- Output ----------------------------------------------------------------------- */
@@ -159,20 +175,31 @@ static void add_problem(lcp_run *run, const lcp_result *r)
     rb_report_json_append(&run->problems, p);
 }
 
+/* The row of a file, or its # line where the rows are pivots or unknowns. */
 static void print_problem(lcp_run *run, const lcp_result *r)
 {
+    rb_report_cells *c = &run->cells;
     if (!r->n)
         return;
-    if (run->o->trace)
-        fprintf(run->out, "\n\n# file\tstatus\tn\tpivots\tresidual\tseconds\n");
-    fprintf(run->out, "%s\t%s\t%d\t%d\t%.17g\t%.3g\n", r->file, r->status, r->n,
-            r->info.iters, r->info.res, r->seconds);
-    if (!run->o->solution || !r->z)
-        return;
-    fprintf(run->out, "\n\n# i\tz\tw\n");
-    for (int i = 0; i < r->n; i++)
-        fprintf(run->out, "%d\t%.17g\t%.17g\n", i + 1, r->z[i], r->w[i]);
-    fprintf(run->out, "\n\n");
+    if (run->o->trace || run->o->solution) {
+        rb_report_comment(c, "%s: %s, n = %d, %d pivots, residual %.3g, %.3g s", r->file,
+                          r->status, r->n, r->info.iters, r->info.res, r->seconds);
+    } else {
+        rb_report_cell_text(c, r->file);
+        rb_report_cell_words(c, r->status);
+        rb_report_cell_whole(c, r->n);
+        rb_report_cell_whole(c, r->info.iters);
+        rb_report_cell_number(c, r->info.res);
+        rb_report_cell_number(c, r->seconds);
+        rb_report_cells_end_row(c);
+    }
+    for (int i = 0; i < r->n && run->o->solution && r->z; i++) {
+        rb_report_cell_text(c, r->file);
+        rb_report_cell_whole(c, i + 1);
+        rb_report_cell_number(c, r->z[i]);
+        rb_report_cell_number(c, r->w[i]);
+        rb_report_cells_end_row(c);
+    }
 }
 
 /* ---- One file --------------------------------------------------------------------- */
@@ -274,8 +301,6 @@ static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
     if (rb_io_matrix_to_sparse(&p->M, &r->M) != RB_OK || !r->z || !r->w)
         return failed(r, RB_ENOMEM, "out of memory");
     r->q = p->q;
-    if (run->o->trace && !run->o->json)
-        fprintf(run->out, "# pivot\tentering\tleaving\trow\tratio\tz0\n");
     return run_solver(run, &p->M, r);
 }
 
@@ -289,7 +314,8 @@ static cli_exit solve_file(lcp_run *run, const char *path)
                     .floor = NAN,
                     .seconds = NAN};
     cli_exit code;
-    run->pivots = run->o->json && run->o->trace ? json_array() : NULL;
+    run->file = path;
+    run->pivots = is_json(run->o) && run->o->trace ? json_array() : NULL;
     rb_status s = rb_io_lcp_read(path, run->o->q, &p, &why);
     if (s == RB_OK && run->o->cover)
         s = rb_io_vector_read(run->o->cover, p.n, "cover", &r.cover, &why);
@@ -297,7 +323,7 @@ static cli_exit solve_file(lcp_run *run, const char *path)
         code = solve_problem(run, &p, &r);
     else
         code = failed(&r, s, why.text);
-    if (run->o->json)
+    if (is_json(run->o))
         add_problem(run, &r);
     else
         print_problem(run, &r);
@@ -312,11 +338,11 @@ static cli_exit solve_file(lcp_run *run, const char *path)
 
 /* ---- Command ---------------------------------------------------------------------- */
 
-static void print_head(const lcp_run *run)
+static const char *columns_of(const lcp_options *o)
 {
-    fprintf(run->out, "# rollbem %s\n# %s\n", RB_VERSION, cli_command_line());
-    if (!run->o->trace)
-        fprintf(run->out, "# file\tstatus\tn\tpivots\tresidual\tseconds\n");
+    return o->trace      ? "file pivot entering leaving row ratio z0"
+           : o->solution ? "file i z w"
+                         : "file status n pivots residual seconds";
 }
 
 static const char conventions[] = "z >= 0, w = M z + q >= 0, z'w = 0";
@@ -330,16 +356,19 @@ typedef struct {
 static rb_status solve_files(FILE *out, const void *context, rb_message *why)
 {
     const lcp_files *all = context;
-    lcp_run run = {
-        .o = all->o, .out = out, .problems = all->o->json ? json_array() : NULL};
+    lcp_run run = {.o = all->o};
     (void)why;
-    if (!all->o->json)
-        print_head(&run);
+    if (is_json(all->o)) {
+        run.problems = json_array();
+    } else {
+        run.cells = rb_report_cells_begin(out, &all->o->style, columns_of(all->o));
+        rb_report_comment_origin(&run.cells, cli_command_line());
+    }
     for (int i = 0; i < all->args->operands; i++) {
         const cli_exit code = solve_file(&run, all->args->operand[i]);
         *all->worst = code > *all->worst ? code : *all->worst;
     }
-    return all->o->json ? cli_write_problems(out, conventions, run.problems) : RB_OK;
+    return is_json(all->o) ? cli_write_problems(out, conventions, run.problems) : RB_OK;
 }
 
 int cli_lcp(int argc, char **argv)
@@ -358,6 +387,9 @@ int cli_lcp(int argc, char **argv)
         code = cli_fail(
             CLI_USAGE,
             "lcp: --trace, --cover and --rule are Lemke's: not with --solver newton");
+    if (code == CLI_CONTINUE && o.trace && o.solution && !is_json(&o))
+        code = cli_fail(CLI_USAGE, "lcp: --trace and --solution are two tables: one of "
+                                   "them, or both with --json");
     if (code == CLI_CONTINUE && o.q && args.operands > 1)
         code = cli_fail(CLI_USAGE, "lcp: --q goes with one FILE, got %d", args.operands);
     if (code == CLI_CONTINUE)

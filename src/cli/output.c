@@ -10,15 +10,18 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const rb_choice headers[] = {{"full", 0}, {"bare", 1}, {NULL, 0}};
+/* --json is a flag in the place of the format: it sets 1. */
+_Static_assert(RB_REPORT_JSON == 1, "--json");
+
+const rb_choice cli_formats[] = {
+    {"tsv", RB_REPORT_TSV}, {"csv", RB_REPORT_CSV}, {"json", RB_REPORT_JSON}, {NULL, 0}};
+const rb_choice cli_headers[] = {{"full", 0}, {"bare", 1}, {NULL, 0}};
 
 #define PLACE(member) offsetof(cli_output, member)
 
 static const rb_option options[] = {
     RB_GROUP_LINE("output", "Output"),
-    RB_FLAG_LINE("json", PLACE(json), "JSON instead of the table"),
-    RB_CHOICE_LINE("header", PLACE(bare), headers,
-                   "of the table: # lines and column names, or the names alone"),
+    CLI_STYLE_LINES(PLACE(style)),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
                  "where the table or JSON goes, whole or not at all",
                  .unset = "standard output", .file = RB_FILE_WRITTEN),

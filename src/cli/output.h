@@ -7,13 +7,28 @@
 
 enum { CLI_OUTPUT_OPTIONS_MAX = 8 };
 
+/* Rows of an option table for a style that stands there. */
+extern const rb_choice cli_formats[], cli_headers[];
+#define CLI_JSON_LINE(style)                                                             \
+    RB_FLAG_LINE("json", style + offsetof(rb_report_style, format),                      \
+                 "JSON instead of the table")
+#define CLI_HEADER_LINE(style)                                                           \
+    RB_CHOICE_LINE("header", style + offsetof(rb_report_style, bare), cli_headers,       \
+                   "of a table with tabs: # lines below the names, or the names alone")
+#define CLI_STYLE_LINES(style)                                                           \
+    CLI_JSON_LINE(style),                                                                \
+        RB_CHOICE_LINE("format", style + offsetof(rb_report_style, format), cli_formats, \
+                       "of the results: a table with tabs, with commas, or JSON"),       \
+        CLI_HEADER_LINE(style)
+
 typedef struct {
-    int json, bare, quiet;
+    rb_report_style style; /* of tables; JSON: the results whole */
+    int quiet;
     const char *output, *plot;
     int given[CLI_OUTPUT_OPTIONS_MAX];
 } cli_output;
 
-/* --json, --header, --output, --plot, --quiet: section [output]. */
+/* --json, --format, --header, --output, --plot, --quiet: section [output]. */
 rb_option_set cli_output_set(cli_output *o);
 
 /* Before the work: refuses what the options of spec name and cannot be written, pictures

@@ -34,28 +34,36 @@ static void show_progress(watch *w, const rb_rolling_history *h, int step, int s
     w->shown = now;
 }
 
+typedef struct {
+    const rb_rolling_solution *solution;
+    const rb_report_style *style;
+} snapshot;
+
 static rb_status write_table(FILE *out, const void *context, rb_message *why)
 {
     (void)why;
-    return rb_report_table(out, context, cli_command_line(), 0);
+    const snapshot *it = context;
+    return rb_report_table(out, it->solution, cli_command_line(), it->style);
 }
 
 /* Owned by the caller; NULL: no memory. */
-static char *name_snapshot(const char *folder, int step)
+static char *name_snapshot(const cli_steps *steps, int step)
 {
     char name[40];
-    snprintf(name, sizeof name, "step_%06d.tsv", step);
-    return rb_io_join(folder, name);
+    snprintf(name, sizeof name, "step_%06d.%s", step,
+             steps->style.format == RB_REPORT_CSV ? "csv" : "tsv");
+    return rb_io_join(steps->snapshots, name);
 }
 
 static rb_status write_snapshot(watch *w, const rb_rolling_model *model, int step)
 {
     rb_rolling_solution solution = {0};
-    char *path = name_snapshot(w->steps->snapshots, step);
+    const snapshot it = {&solution, &w->steps->style};
+    char *path = name_snapshot(w->steps, step);
     rb_status s = path ? rb_rolling_model_solution(model, &solution, w->why)
                        : rb_fail(w->why, RB_ENOMEM, "out of memory");
     if (s == RB_OK)
-        s = cli_write_to(path, write_table, &solution, w->why);
+        s = cli_write_to(path, write_table, &it, w->why);
     w->written = step;
     rb_rolling_solution_free(&solution);
     free(path);
@@ -66,7 +74,7 @@ static rb_status write_snapshot(watch *w, const rb_rolling_model *model, int ste
 static void remove_snapshots(watch *w)
 {
     for (int step = w->steps->every; step <= w->written; step += w->steps->every) {
-        char *path = name_snapshot(w->steps->snapshots, step);
+        char *path = name_snapshot(w->steps, step);
         if (path)
             remove(path);
         free(path);
@@ -104,8 +112,8 @@ rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
                        rb_case_result *r, rb_message *why)
 {
     static const cli_steps silent = {0};
-    rb_message snapshot = {""};
-    watch w = {.steps = steps ? steps : &silent, .start = rb_seconds(), .why = &snapshot};
+    rb_message failure = {""};
+    watch w = {.steps = steps ? steps : &silent, .start = rb_seconds(), .why = &failure};
     memset(r, 0, sizeof *r);
     if (!rb_case_has_steps(c))
         return rb_case_solve(c, NULL, NULL, r, why);
@@ -115,6 +123,6 @@ rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
     if (w.failed == RB_OK)
         return s;
     if (why)
-        *why = snapshot;
+        *why = failure;
     return w.failed;
 }

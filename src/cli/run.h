@@ -3,17 +3,20 @@
 #define ROLLBEM_CLI_RUN_H
 
 #include "rollbem/case.h"
+#include "rollbem/report.h"
 
 /* What a sequence of steps leaves on its way. */
 typedef struct {
     int progress;          /* a line on standard error now and then */
     int terminal;          /* the line stays in its place */
     const char *snapshots; /* folder for traction tables, or NULL */
+    rb_report_style style; /* of the snapshots */
     int every;             /* steps from one to the next; the last step has one too */
 } cli_steps;
 
 /* rb_case_solve, where an interrupt (control-C, SIGTERM, SIGHUP) ends a sequence of steps
- * after the one at hand.  steps NULL: nothing on the way.  Free the result in any case. */
+ * after the one at hand.  steps NULL: nothing on the way.  Free the result in any case.
+ */
 rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
                        rb_case_result *r, rb_message *why);
 

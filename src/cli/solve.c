@@ -37,8 +37,8 @@ static const rb_option options[] = {
                  ".svg or .pdf",
                  .unset = "none", .file = RB_FILE_PICTURE),
     RB_TEXT_LINE("snapshots", PLACE(steps.snapshots), "DIR",
-                 "tractions on the way as step_000001.tsv, ...", .unset = "none",
-                 .file = RB_FILE_FOLDER),
+                 "tractions on the way as step_000001.tsv (or .csv), ...",
+                 .unset = "none", .file = RB_FILE_FOLDER),
     RB_INTEGER_LINE("every", PLACE(steps.every), RB_FROM(1),
                     "steps from one snapshot to the next; the last step has one too"),
     RB_FLAG_LINE("progress", PLACE(steps.progress),
@@ -105,9 +105,9 @@ static rb_status write_table(FILE *out, const void *context, rb_message *why)
 {
     const result *it = context;
     (void)why;
-    if (it->o->json)
+    if (it->o->style.format == RB_REPORT_JSON)
         return write_json(out, it);
-    return rb_report_table(out, &it->r->solution, cli_command_line(), it->o->bare);
+    return rb_report_table(out, &it->r->solution, cli_command_line(), &it->o->style);
 }
 
 static rb_status write_history(FILE *out, const void *context, rb_message *why)
@@ -115,7 +115,7 @@ static rb_status write_history(FILE *out, const void *context, rb_message *why)
     const result *it = context;
     (void)why;
     return rb_report_history(out, &it->r->history, step_errors(it->r), cli_command_line(),
-                             it->o->bare);
+                             &it->o->style);
 }
 
 static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
@@ -253,6 +253,7 @@ int cli_solve(int argc, char **argv)
         code = check_behind(&so, rb_case_settled(c));
     if (code == CLI_CONTINUE && so.trace)
         code = choose_pivots(c);
+    so.steps.style = o.style;
     so.steps.terminal = !o.quiet && isatty(STDERR_FILENO);
     if (code == CLI_CONTINUE)
         code = solve(&so, &o, c);

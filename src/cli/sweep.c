@@ -1,7 +1,9 @@
 /* rollbem sweep: parameter studies over all processors. */
 #include "cli/case.h"
 #include "cli/interrupt.h"
+#include "cli/output.h"
 #include "cli/pool.h"
+#include "rollbem/io.h"
 #include "rollbem/report.h"
 
 #include <errno.h>
@@ -14,12 +16,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { VARIED_MAX = 4, COLUMNS_MAX = 64, NO_MEMORY = -1 };
+enum { VARIED_MAX = 4, COLUMNS_MAX = 64, RESULTS_MAX = 64, NO_MEMORY = -1 };
 
 typedef struct {
     const char *vary[VARIED_MAX], *cases, *output;
+    rb_report_style style;
     int jobs, restart, progress, quiet;
-    int given[16];
+    int given[20];
 } sweep_options;
 
 #define PLACE(member) offsetof(sweep_options, member)
@@ -37,9 +40,11 @@ static const rb_option options[] = {
     RB_TEXT_LINE("cases", PLACE(cases), "FILE",
                  "a case per row; the columns are named like the options",
                  .unset = "none", .file = RB_FILE_READ),
+    CLI_STYLE_LINES(PLACE(style)),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
                  "where the rows go as they come; where it holds the first rows of this "
-                 "study already, the study goes on from there",
+                 "study already, the study goes on from there (a table with tabs; the "
+                 "other formats are written at the end, whole)",
                  .unset = "standard output", .file = RB_FILE_WRITTEN),
     RB_FLAG_LINE("restart", PLACE(restart),
                  "begin again, whatever the output file holds"),
@@ -52,7 +57,7 @@ static const rb_option options[] = {
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
-_Static_assert(OPTIONS <= 16, "given");
+_Static_assert(OPTIONS <= 20, "given");
 
 static const char about[] =
     "Solves many cases that differ in some options, one process per processor, and\n"
@@ -86,8 +91,13 @@ typedef struct {
     int rows[VARIED_MAX + 1]; /* of each factor */
     double *owned[VARIED_MAX];
     rb_io_table table;
+    const rb_rolling_result *result[RESULTS_MAX]; /* columns behind the status */
+    int results;
     uint64_t fingerprint; /* of all inputs */
     FILE *out;
+    int complete;     /* 1: every row has come */
+    json_t *list;     /* of each column's list; with --format json alone */
+    rb_io_writer w;   /* out is its file: CSV and JSON */
     const char *path; /* of the file that keeps the rows; NULL: stdout, a device */
     long whole;       /* its length up to the last row that reached it whole */
     int created;      /* 1: there was no such file */
@@ -101,6 +111,7 @@ static void study_free(study *st)
     for (int k = 0; k < VARIED_MAX; k++)
         free(st->owned[k]);
     rb_io_table_free(&st->table);
+    json_decref(st->list);
     rb_case_free(st->one);
 }
 
@@ -333,31 +344,64 @@ static int is_given(const study *st, const char *name)
     return 0;
 }
 
-enum { HEAD_LINES = 5, COMMAND_LINE = 1 };
-
-static void write_head(const study *st, FILE *out)
+static void choose_results(study *st)
 {
     char heading[RB_ROLLING_HEADING];
     const rb_rolling_result *r;
-    fprintf(out, "# rollbem %s\n# %s\n", RB_VERSION, cli_command_line());
-    fprintf(out, "# study %016" PRIx64 " of %d cases\n", st->fingerprint, st->cases);
-    fputs("# status 0: solved. xi > 0: A's surface slides towards +x, the friction on A "
-          "points to -x, Q < 0\n# case",
-          out);
-    for (int k = 0; k < st->columns; k++)
-        fprintf(out, "\t%s", st->column[k].heading);
-    fputs("\tstatus", out);
     for (int k = 1; (r = rb_rolling_study_column(k)); k++)
-        if (!is_given(st, rb_rolling_heading(r, heading)))
-            fprintf(out, "\t%s", heading);
-    fputc('\n', out);
+        if (!is_given(st, rb_rolling_heading(r, heading)) && st->results < RESULTS_MAX)
+            st->result[st->results++] = r;
 }
 
+/* Columns: the number of the case, what varies, the status, the results. */
+static int column_count(const study *st)
+{
+    return 1 + st->columns + 1 + st->results;
+}
+
+static const char *column_name(const study *st, int j, char room[RB_ROLLING_HEADING])
+{
+    if (j == 0)
+        return "case";
+    if (j <= st->columns)
+        return st->column[j - 1].heading;
+    return j == st->columns + 1
+               ? "status"
+               : rb_rolling_heading(st->result[j - st->columns - 2], room);
+}
+
+/* row NULL: what is known before the case is solved. */
+static double cell_value(const study *st, int j, int k, const rb_rolling_solution *row)
+{
+    if (j == 0)
+        return k + 1;
+    if (j <= st->columns)
+        return value_of(st, &st->column[j - 1], k);
+    return j == st->columns + 1 ? (double)row->status
+                                : rb_rolling_number(st->result[j - st->columns - 2], row);
+}
+
+enum { HEAD_LINES = 5, COMMAND_LINE = 2 };
+
+static void write_head(const study *st, FILE *out)
+{
+    char room[RB_ROLLING_HEADING];
+    rb_report_cells c = rb_report_cells_begin(out, &st->o->style, "");
+    for (int j = 0; j < column_count(st); j++)
+        rb_report_cell_text(&c, column_name(st, j, room));
+    rb_report_cells_end_row(&c);
+    rb_report_comment_origin(&c, cli_command_line());
+    rb_report_comment(&c, "study %016" PRIx64 " of %d cases", st->fingerprint, st->cases);
+    rb_report_comment(&c, "status 0: solved. xi > 0: A's surface slides towards +x, the "
+                          "friction on A points to -x, Q < 0");
+}
+
+/* Its first cells alone, as far as they are known before the case is solved. */
 static void write_inputs(const study *st, int k, FILE *out)
 {
-    fprintf(out, "%d", k + 1);
-    for (int j = 0; j < st->columns; j++)
-        fprintf(out, "\t%.17g", value_of(st, &st->column[j], k));
+    rb_report_cells c = {.out = out, .style = st->o->style};
+    for (int j = 0; j <= st->columns; j++)
+        rb_report_cell_number(&c, cell_value(st, j, k, NULL));
 }
 
 /* A case that was not solved shows in the exit code. */
@@ -372,19 +416,42 @@ static void count_status(study *st, rb_status status)
 static int see_row(int k, const rb_rolling_solution *row, void *context)
 {
     study *st = context;
-    char heading[RB_ROLLING_HEADING];
-    const rb_rolling_result *r;
+    rb_report_cells c = {.out = st->out, .style = st->o->style};
 
-    write_inputs(st, k, st->out);
-    fprintf(st->out, "\t%d", row->status);
-    for (int j = 1; (r = rb_rolling_study_column(j)); j++) {
-        const double x = rb_rolling_number(r, row);
-        if (!is_given(st, rb_rolling_heading(r, heading)))
-            fprintf(st->out, isnan(x) ? "\tnan" : "\t%.17g", x);
+    for (int j = 0; j < column_count(st); j++) {
+        const double x = cell_value(st, j, k, row);
+        if (st->o->style.format == RB_REPORT_JSON)
+            json_array_append_new(json_array_get(st->list, (size_t)j),
+                                  rb_report_json_number(x));
+        else
+            rb_report_cell_number(&c, x);
     }
-    fputc('\n', st->out);
+    if (st->o->style.format != RB_REPORT_JSON)
+        rb_report_cells_end_row(&c);
     count_status(st, row->status);
     return ferror(st->out);
+}
+
+/* The lists that see_row fills. */
+static cli_exit begin_json(study *st)
+{
+    st->list = json_array();
+    for (int j = 0; j < column_count(st); j++)
+        rb_report_json_append(&st->list, json_array());
+    return st->list ? CLI_CONTINUE : cli_fail(CLI_INTERNAL, "out of memory");
+}
+
+static rb_status write_json(study *st)
+{
+    char room[RB_ROLLING_HEADING];
+    json_t *root = rb_report_json_start(cli_command_line()), *table = json_object();
+    for (int j = 0; j < column_count(st); j++) {
+        json_t *list = json_array_get(st->list, (size_t)j);
+        rb_report_json_set(&table, column_name(st, j, room), json_incref(list));
+    }
+    rb_report_json_set(&root, "inputs", rb_report_json_inputs(st->base));
+    rb_report_json_set(&root, "table", table);
+    return rb_report_json_write(st->out, root);
 }
 
 static rb_status make_case(int k, rb_rolling_case *rc, void *context)
@@ -478,10 +545,9 @@ static int next_number(const char **at, double *value)
  * status and as many numbers as there are results. */
 static int is_row(study *st, int k, const char *line, size_t length)
 {
-    char *wanted = NULL, heading[RB_ROLLING_HEADING];
+    char *wanted = NULL;
     size_t size = 0;
     double status = 0.0, value;
-    const rb_rolling_result *r;
     FILE *memory = open_memstream(&wanted, &size);
     if (memory) {
         write_inputs(st, k, memory);
@@ -491,8 +557,8 @@ static int is_row(study *st, int k, const char *line, size_t length)
     const char *at = line + size;
     free(wanted);
     good = good && next_number(&at, &status);
-    for (int j = 1; good && (r = rb_rolling_study_column(j)); j++)
-        good = is_given(st, rb_rolling_heading(r, heading)) || next_number(&at, &value);
+    for (int j = 0; good && j < st->results; j++)
+        good = next_number(&at, &value);
     if (good && *at == '\n')
         count_status(st, (rb_status)status);
     return good && *at == '\n';
@@ -557,12 +623,45 @@ static cli_exit begin_file(study *st)
 
 static cli_exit close_output(study *st, cli_exit code);
 
+/* What cannot be resumed appears at the end, whole. */
+static cli_exit open_whole(study *st)
+{
+    rb_message why;
+    const rb_status s = rb_io_writer_open(st->o->output, &st->w, &why);
+    if (s != RB_OK)
+        return cli_say(s, &why);
+    st->out = st->w.file;
+    if (st->o->style.format == RB_REPORT_JSON)
+        return begin_json(st);
+    write_head(st, st->out);
+    return CLI_CONTINUE;
+}
+
+static cli_exit close_whole(study *st, cli_exit code)
+{
+    rb_message why = {""};
+    rb_status s = RB_OK;
+    if (!st->complete) {
+        rb_io_writer_abandon(&st->w);
+        return code;
+    }
+    if (st->list)
+        s = write_json(st);
+    if (s == RB_OK)
+        s = rb_io_writer_commit(&st->w, &why);
+    else
+        rb_io_writer_abandon(&st->w);
+    return s == RB_OK ? code : cli_say(s, &why);
+}
+
 static cli_exit open_output(study *st)
 {
     struct stat old;
     const char *path = st->o->output;
     const int exists = path && stat(path, &old) == 0;
 
+    if (st->o->style.format != RB_REPORT_TSV || st->o->style.bare)
+        return open_whole(st);
     st->out = stdout;
     if (!path || strcmp(path, "-") == 0 || (exists && !S_ISREG(old.st_mode))) {
         if (exists)
@@ -598,6 +697,8 @@ static void take_back(const study *st)
 
 static cli_exit close_output(study *st, cli_exit code)
 {
+    if (st->w.file)
+        return close_whole(st, code);
     int failed = ferror(st->out) || !flush_rows(st), e = errno;
     if (st->out != stdout && fclose(st->out) != 0 && !failed) {
         failed = 1;
@@ -641,7 +742,8 @@ static cli_exit run(study *st)
         return CLI_OK; /* close_output says it */
     if (s != RB_OK)
         return cli_fail(cli_exit_of(s), "%s%s", why.text,
-                        st->o->output ? "; the same command goes on from there" : "");
+                        st->path ? "; the same command goes on from there" : "");
+    st->complete = 1;
     if (!st->o->quiet)
         fprintf(stderr, "study: %d cases in %.3g s; not solved: %d of %d\n", sweep.count,
                 spent, st->unsolved, st->cases);
@@ -661,6 +763,7 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
         code = read_study(st);
     if (code == CLI_CONTINUE)
         code = check_cases(st);
+    choose_results(st);
     if (code == CLI_CONTINUE)
         code = find_fingerprint(st);
     if (code == CLI_CONTINUE && !cli_pool_is_worker())

@@ -15,31 +15,33 @@ static rb_report_columns columns_of(const rb_rolling_curve *c, int errors)
 }
 
 /* The coefficient of friction stands before the columns of its curve. */
-static void print_curve(FILE *out, const rb_report_curves *curves, int k, int bare)
+static void write_curve(rb_report_cells *c, const rb_report_curves *curves, int k,
+                        const char *command)
 {
-    const rb_rolling_curve *c = &curves->curve[k];
-    const rb_report_columns part[2] = {columns_of(c, 0),
+    const rb_report_columns part[2] = {columns_of(&curves->curve[k], 0),
                                        columns_of(&curves->error[k], 1)};
     const int parts = curves->has_errors ? 2 : 1;
 
     if (k == 0) {
-        fputs(bare ? "mu_1\t" : "# mu_1\t", out);
-        rb_report_print_names(out, parts, part, 1);
+        rb_report_cell_text(c, "mu_1");
+        rb_report_cell_headings(c, parts, part);
+        rb_report_cells_end_row(c);
+        rb_report_comment_head(c, command);
     }
-    for (int i = 0; i < c->n; i++) {
-        fprintf(out, "%.17g\t", curves->mu[k]);
-        rb_report_print_row(out, i, parts, part);
+    for (int i = 0; i < curves->curve[k].n; i++) {
+        rb_report_cell_number(c, curves->mu[k]);
+        rb_report_cell_entries(c, i, parts, part);
+        rb_report_cells_end_row(c);
     }
 }
 
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,
-                                const char *command, int bare)
+                                const char *command, const rb_report_style *style)
 {
-    if (!bare)
-        rb_report_print_head(out, command);
+    rb_report_cells c = rb_report_cells_begin(out, style, "");
     for (int k = 0; k < curves->n; k++)
-        print_curve(out, curves, k, bare);
-    return rb_report_print_end(out);
+        write_curve(&c, curves, k, command);
+    return rb_report_flush(out);
 }
 
 static json_t *json_errors(const rb_rolling_curve *error)

@@ -10,32 +10,23 @@ static rb_report_columns columns_of(const rb_rolling_history *h, int errors)
     return (rb_report_columns){&rb_rolling_history_columns, h, errors};
 }
 
-static void print_meaning(FILE *out, const rb_rolling_history *h)
-{
-    fprintf(out,
-            "# distance in a = %.9g mm, the Hertz half-width of the largest load of the "
-            "history\n"
-            "# creepage and dissipation (friction power per unit speed): "
-            "means over the step, 0 at rest; shift: so far\n"
-            "# moment: int x p dx, > 0: the load acts ahead of x = 0; edges of the "
-            "contact: nan without contact\n",
-            h->half_width);
-}
-
 rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
                             const rb_rolling_history *errors, const char *command,
-                            int bare)
+                            const rb_report_style *style)
 {
     const rb_report_columns part[2] = {columns_of(h, 0), columns_of(errors, 1)};
     const int parts = errors ? 2 : 1;
+    rb_report_cells c = rb_report_begin_columns(out, style, command, parts, part);
 
-    if (!bare) {
-        rb_report_print_head(out, command);
-        print_meaning(out, h);
-    }
-    rb_report_print_names(out, parts, part, bare);
-    rb_report_print_rows(out, h->n, parts, part);
-    return rb_report_print_end(out);
+    rb_report_comment(&c,
+                      "distance in a = %.9g mm, the Hertz half-width of the largest load "
+                      "of the history",
+                      h->half_width);
+    rb_report_comment(&c, "creepage and dissipation (friction power per unit speed): "
+                          "means over the step, 0 at rest; shift: so far");
+    rb_report_comment(&c, "moment: int x p dx, > 0: the load acts ahead of x = 0; edges "
+                          "of the contact: NaN without contact");
+    return rb_report_end_columns(&c, h->n, parts, part);
 }
 
 json_t *rb_report_json_history(const rb_rolling_history *h,

@@ -17,15 +17,20 @@ typedef struct {
     int errors;
 } rb_report_columns;
 
+/* The headings of all parts as one row; # lines with version, command, conventions. */
+rb_report_cells rb_report_begin_columns(FILE *out, const rb_report_style *style,
+                                        const char *command, int parts,
+                                        const rb_report_columns *part);
+/* The headings, and entry i of every column, as cells of the row at hand. */
+void rb_report_cell_headings(rb_report_cells *c, int parts,
+                             const rb_report_columns *part);
+void rb_report_cell_entries(rb_report_cells *c, int i, int parts,
+                            const rb_report_columns *part);
 /* # lines with version, command, conventions. */
-void rb_report_print_head(FILE *out, const char *command);
-/* The headings, on a # line unless bare. */
-void rb_report_print_names(FILE *out, int parts, const rb_report_columns *part, int bare);
-/* Entry i of every column. */
-void rb_report_print_row(FILE *out, int i, int parts, const rb_report_columns *part);
-void rb_report_print_rows(FILE *out, int rows, int parts, const rb_report_columns *part);
-/* Flushes.  RB_EWRITE: see errno. */
-rb_status rb_report_print_end(FILE *out);
+void rb_report_comment_head(const rb_report_cells *c, const char *command);
+/* Rows of entries, to the end of the table.  RB_EWRITE: see errno. */
+rb_status rb_report_end_columns(rb_report_cells *c, int rows, int parts,
+                                const rb_report_columns *part);
 
 /* A list for each column, by its name or, headed, by its heading. */
 void rb_report_json_columns(struct json_t **object, int rows, const rb_report_columns *c,

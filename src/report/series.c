@@ -1,13 +1,11 @@
 /* Tables of columns: what tractions, curves and histories have in common. */
 #include "report/internal.h"
 
-#include <math.h>
-
-void rb_report_print_head(FILE *out, const char *command)
+void rb_report_comment_head(const rb_report_cells *c, const char *command)
 {
-    fprintf(out, "# rollbem %s\n# %s\n", RB_VERSION, command);
+    rb_report_comment_origin(c, command);
     for (const char *const *line = rb_report_conventions; *line; line++)
-        fprintf(out, "# %s\n", *line);
+        rb_report_comment(c, "%s", *line);
 }
 
 /* The k-th column of all parts, and its part; NULL: there are no more. */
@@ -27,45 +25,46 @@ static const rb_rolling_result *column(int k, int parts, const rb_report_columns
     return NULL;
 }
 
-void rb_report_print_names(FILE *out, int parts, const rb_report_columns *part, int bare)
+void rb_report_cell_headings(rb_report_cells *c, int parts, const rb_report_columns *part)
 {
     const rb_report_columns *of;
     const rb_rolling_result *r;
-    char heading[RB_ROLLING_HEADING];
-
-    for (int k = 0; (r = column(k, parts, part, &of)); k++)
-        fprintf(out, "%s%s%s",
-                k > 0  ? "\t"
-                : bare ? ""
-                       : "# ",
-                of->errors ? "error_" : "", rb_rolling_heading(r, heading));
-    fputc('\n', out);
-}
-
-void rb_report_print_row(FILE *out, int i, int parts, const rb_report_columns *part)
-{
-    const rb_report_columns *of;
-    const rb_rolling_result *r;
+    char heading[RB_ROLLING_HEADING], name[RB_ROLLING_HEADING + 8];
 
     for (int k = 0; (r = column(k, parts, part, &of)); k++) {
-        const double x = rb_rolling_entry(r, of->owner, i);
-        if (k > 0)
-            fputc('\t', out);
-        if (isfinite(x))
-            fprintf(out, "%.17g", x);
-        else
-            fputs("nan", out); /* whatever its sign: there is no value */
+        snprintf(name, sizeof name, "%s%s", of->errors ? "error_" : "",
+                 rb_rolling_heading(r, heading));
+        rb_report_cell_text(c, name);
     }
-    fputc('\n', out);
 }
 
-void rb_report_print_rows(FILE *out, int rows, int parts, const rb_report_columns *part)
+rb_report_cells rb_report_begin_columns(FILE *out, const rb_report_style *style,
+                                        const char *command, int parts,
+                                        const rb_report_columns *part)
 {
-    for (int i = 0; i < rows; i++)
-        rb_report_print_row(out, i, parts, part);
+    rb_report_cells c = rb_report_cells_begin(out, style, "");
+    rb_report_cell_headings(&c, parts, part);
+    rb_report_cells_end_row(&c);
+    rb_report_comment_head(&c, command);
+    return c;
 }
 
-rb_status rb_report_print_end(FILE *out)
+void rb_report_cell_entries(rb_report_cells *c, int i, int parts,
+                            const rb_report_columns *part)
 {
-    return fflush(out) == 0 && !ferror(out) ? RB_OK : RB_EWRITE;
+    const rb_report_columns *of;
+    const rb_rolling_result *r;
+
+    for (int k = 0; (r = column(k, parts, part, &of)); k++)
+        rb_report_cell_number(c, rb_rolling_entry(r, of->owner, i));
+}
+
+rb_status rb_report_end_columns(rb_report_cells *c, int rows, int parts,
+                                const rb_report_columns *part)
+{
+    for (int i = 0; i < rows; i++) {
+        rb_report_cell_entries(c, i, parts, part);
+        rb_report_cells_end_row(c);
+    }
+    return rb_report_flush(c->out);
 }

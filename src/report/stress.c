@@ -28,67 +28,62 @@ static const rb_rolling_extremum *extremum(const rb_rolling_stress_maxima *all, 
     return (const rb_rolling_extremum *)((const char *)all + maxima[k].offset);
 }
 
-static void print_quantity(FILE *out, double value, const double *error, const char *unit)
+/* "value +- error" */
+static const char *quantity(double value, const double *error, char text[48])
 {
-    fprintf(out, "%.6g", value);
-    if (error && isfinite(*error))
-        fprintf(out, " +- %.2g", *error);
-    fprintf(out, " %s", unit);
+    const int known = error && isfinite(*error);
+    const int n = snprintf(text, 48, "%.6g", value);
+    if (known)
+        snprintf(text + n, 48 - (size_t)n, " +- %.2g", *error);
+    return text;
 }
 
-static void print_maximum(FILE *out, const rb_report_stress *s, int k)
+static const char *maximum_text(const rb_report_stress *s, int k, char *line, size_t size)
 {
     const rb_rolling_extremum *m = extremum(s->maxima, k);
     const rb_rolling_extremum *e = s->errors ? extremum(s->errors, k) : NULL;
-    fprintf(out, "%-24s ", maxima[k].name);
-    print_quantity(out, m->value, e ? &e->value : NULL, "MPa");
-    fputs(" at x = ", out);
-    print_quantity(out, m->x, e ? &e->x : NULL, "mm, y = ");
-    print_quantity(out, m->y, e ? &e->y : NULL, "mm");
-    fprintf(out, "; %.5g p0\n", m->value / s->s->max_pressure);
+    char value[48], x[48], y[48];
+    snprintf(line, size, "%-24s %s MPa at x = %s mm, y = %s mm; %.5g p0", maxima[k].name,
+             quantity(m->value, e ? &e->value : NULL, value),
+             quantity(m->x, e ? &e->x : NULL, x), quantity(m->y, e ? &e->y : NULL, y),
+             m->value / s->s->max_pressure);
+    return line;
 }
 
 void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
 {
+    char line[400];
     fprintf(out, "stress in A under p0 = %.6g MPa, a = %.5g mm\n", s->s->max_pressure,
             s->s->half_width);
-    for (int k = 0; k < MAXIMA; k++) {
-        fputs("  ", out);
-        print_maximum(out, s, k);
-    }
+    for (int k = 0; k < MAXIMA; k++)
+        fprintf(out, "  %s\n", maximum_text(s, k, line, sizeof line));
 }
 
 /* ---- Table ------------------------------------------------------------------------- */
 
-static void print_headers(FILE *out, const rb_report_stress *s, const char *command)
-{
-    rb_report_print_head(out, command);
-    fputs("# tension positive; y > 0 inside A; the grid follows A's surface\n", out);
-    for (int k = 0; k < MAXIMA; k++) {
-        fputs("# ", out);
-        print_maximum(out, s, k);
-    }
-}
-
 rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s,
-                                 const char *command, int bare)
+                                 const char *command, const rb_report_style *style)
 {
     const rb_rolling_results *columns = &rb_rolling_stress_scalars;
-    char heading[RB_ROLLING_HEADING];
-    if (!bare)
-        print_headers(out, s, command);
+    char heading[RB_ROLLING_HEADING], line[400];
+    rb_report_cells c = rb_report_cells_begin(out, style, "");
+
     for (int j = 0; j < columns->n; j++)
-        fprintf(out, "%s%s",
-                j > 0  ? "\t"
-                : bare ? ""
-                       : "# ",
-                rb_rolling_heading(&columns->row[j], heading));
-    fputc('\n', out);
-    for (int k = 0; k < s->n; k++)
-        for (int j = 0; j < columns->n && rb_report_stress_is_inside(s, k); j++)
-            fprintf(out, "%.17g%c", rb_rolling_number(&columns->row[j], &s->at[k]),
-                    j + 1 < columns->n ? '\t' : '\n');
-    return rb_report_print_end(out);
+        rb_report_cell_text(&c, rb_rolling_heading(&columns->row[j], heading));
+    rb_report_cells_end_row(&c);
+    rb_report_comment_head(&c, command);
+    rb_report_comment(&c,
+                      "tension positive; y > 0 inside A; the grid follows A's surface");
+    for (int k = 0; k < MAXIMA; k++)
+        rb_report_comment(&c, "%s", maximum_text(s, k, line, sizeof line));
+    for (int k = 0; k < s->n; k++) {
+        if (!rb_report_stress_is_inside(s, k))
+            continue;
+        for (int j = 0; j < columns->n; j++)
+            rb_report_cell_number(&c, rb_rolling_number(&columns->row[j], &s->at[k]));
+        rb_report_cells_end_row(&c);
+    }
+    return rb_report_flush(out);
 }
 
 /* ---- JSON -------------------------------------------------------------------------- */

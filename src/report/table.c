@@ -30,26 +30,20 @@ const char *rb_report_lcp_form(rb_rolling_lcp_form form)
     return form == RB_LCP_KWAK ? "kwak" : "pivoted";
 }
 
-static void print_headers(FILE *out, const rb_rolling_solution *s, const char *command)
-{
-    rb_report_print_head(out, command);
-    fprintf(out, "# %s, %s; residual %.3g\n", rb_report_formulation(s->formulation),
-            rb_status_text(s->status), s->residual);
-    for (int k = 0; k < s->patches && s->patches > 1; k++)
-        fprintf(out,
-                "# patch %d: from %.9g to %.9g mm, p0 = %.9g MPa, P = %.9g, Q = %.9g "
-                "N/mm\n",
-                k + 1, s->patch[k].from, s->patch[k].to, s->patch[k].max_pressure,
-                s->patch[k].normal_load, s->patch[k].tangential_load);
-}
-
 rb_status rb_report_table(FILE *out, const rb_rolling_solution *s, const char *command,
-                          int bare)
+                          const rb_report_style *style)
 {
     const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0};
-    if (!bare)
-        print_headers(out, s, command);
-    rb_report_print_names(out, 1, &columns, bare);
-    rb_report_print_rows(out, s->n, 1, &columns);
-    return rb_report_print_end(out);
+    rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
+
+    rb_report_comment(&c, "%s, %s; residual %.3g", rb_report_formulation(s->formulation),
+                      rb_status_text(s->status), s->residual);
+    for (int k = 0; k < s->patches && s->patches > 1; k++)
+        rb_report_comment(&c,
+                          "patch %d: from %.9g to %.9g mm, p0 = %.9g MPa, P = %.9g, Q = "
+                          "%.9g N/mm",
+                          k + 1, s->patch[k].from, s->patch[k].to,
+                          s->patch[k].max_pressure, s->patch[k].normal_load,
+                          s->patch[k].tangential_load);
+    return rb_report_end_columns(&c, s->n, 1, &columns);
 }

@@ -243,5 +243,5 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind, const rb_report_stre
     else if (status == RB_OK)
         status = write_unstructured(out, &v);
     selection_free(&v);
-    return status == RB_OK ? rb_report_print_end(out) : status;
+    return status == RB_OK ? rb_report_flush(out) : status;
 }

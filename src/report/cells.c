@@ -1,0 +1,109 @@
+/* Tables of any kind, cell by cell, in the formats that other programs open. */
+#include "rollbem/report.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int is_csv(const rb_report_cells *c)
+{
+    return c->style.format == RB_REPORT_CSV;
+}
+
+static void begin_cell(rb_report_cells *c)
+{
+    if (c->cells++ > 0)
+        fputc(is_csv(c) ? ',' : '\t', c->out);
+}
+
+/* As RFC 4180 wants it, which readers of tabs take as well. */
+static void write_quoted(FILE *out, const char *text)
+{
+    fputc('"', out);
+    for (; *text; text++) {
+        if (*text == '"')
+            fputc('"', out);
+        fputc(*text, out);
+    }
+    fputc('"', out);
+}
+
+void rb_report_cell_text(rb_report_cells *c, const char *text)
+{
+    const size_t size = 4 * strlen(text) + 1;
+    char *printable = malloc(size);
+    begin_cell(c);
+    if (printable)
+        rb_printable(text, printable, size);
+    if (printable && (strpbrk(printable, " ,\"#") || !*printable))
+        write_quoted(c->out, printable);
+    else
+        fputs(printable ? printable : "?", c->out);
+    free(printable);
+}
+
+void rb_report_cell_words(rb_report_cells *c, const char *words)
+{
+    begin_cell(c);
+    for (; *words; words++)
+        fputc(*words == ' ' ? '-' : *words, c->out);
+}
+
+void rb_report_cell_number(rb_report_cells *c, double x)
+{
+    begin_cell(c);
+    if (isfinite(x))
+        fprintf(c->out, "%.17g", x);
+    else if (!is_csv(c))
+        fputs("NaN", c->out); /* as R spells it; the others take any case */
+}
+
+void rb_report_cell_whole(rb_report_cells *c, int n)
+{
+    begin_cell(c);
+    fprintf(c->out, "%d", n);
+}
+
+void rb_report_cells_end_row(rb_report_cells *c)
+{
+    fputc('\n', c->out);
+    c->cells = 0;
+}
+
+rb_report_cells rb_report_cells_begin(FILE *out, const rb_report_style *style,
+                                      const char *names)
+{
+    rb_report_cells c = {.out = out, .style = *style};
+    for (size_t n; *names; names += n + (names[n] == ' ')) {
+        n = strcspn(names, " ");
+        begin_cell(&c);
+        fprintf(out, "%.*s", (int)n, names);
+    }
+    if (c.cells > 0)
+        rb_report_cells_end_row(&c);
+    return c;
+}
+
+void rb_report_comment(const rb_report_cells *c, const char *format, ...)
+{
+    va_list args;
+    if (c->style.bare || is_csv(c))
+        return;
+    va_start(args, format);
+    fputs("# ", c->out);
+    vfprintf(c->out, format, args);
+    fputc('\n', c->out);
+    va_end(args);
+}
+
+void rb_report_comment_origin(const rb_report_cells *c, const char *command)
+{
+    rb_report_comment(c, "rollbem %s", RB_VERSION);
+    rb_report_comment(c, "%s", command);
+}
+
+rb_status rb_report_flush(FILE *out)
+{
+    return fflush(out) == 0 && !ferror(out) ? RB_OK : RB_EWRITE;
+}
