@@ -236,6 +236,26 @@ static void what_is_no_row_of_the_study_is_refused(void **state)
     check_not_resumed("sed -i '8p' s.tsv", "s.tsv:9: not the row of case 4");
 }
 
+/* The other formats have the same numbers and come whole. */
+static void studies_come_in_three_formats(void **state)
+{
+    (void)state;
+    char head[20000];
+    assert_int_equal(shell("\"$R\" " STUDY "--vary-1 'mu 0.1 0.3' --quiet"), 0);
+    snprintf(head, sizeof head, "%.*s", (int)strcspn(out, "\n"), out);
+    assert_int_equal(shell("\"$R\" " STUDY "--vary-1 'mu 0.1 0.3' --quiet --header bare "
+                           "--output bare.tsv && head -1 bare.tsv && wc -l <bare.tsv"),
+                     0);
+    assert_int_equal(strncmp(out, head, strlen(head)), 0);
+    assert_non_null(strstr(out, "\n3\n"));
+    json_t *root = run_json("sweep " STUDY "--vary-1 'mu 0.1 0.3'");
+    json_t *table = json_object_get(root, "table");
+    CHECK_ABS(entry(table, "mu", 1), 0.3, 0.0, "mu of the second case");
+    CHECK_ABS(entry(table, "case", 1), 2.0, 0.0, "its number");
+    assert_non_null(json_object_get(table, "max_pressure_MPa"));
+    json_decref(root);
+}
+
 static void an_empty_file_is_a_start(void **state)
 {
     (void)state;
@@ -282,7 +302,7 @@ static void two_programs_on_one_file_are_refused(void **state)
         "\"$R\" " STUDY "--contact-elements 200 --jobs 1 --vary-1 'creep-ratio 0:1:4000' "
         "--output both.tsv & p=$!; until [ -s both.tsv ]; do sleep 0.02; done; "
         "\"$R\" " STUDY "--contact-elements 200 --vary-1 'creep-ratio 0:1:4000' --output "
-                        "both.tsv; code=$?; "
+        "both.tsv; code=$?; "
         "\"$R\" " STUDY "--contact-elements 200 --vary-1 'creep-ratio 0:1:4000' "
         "--output both.tsv --restart; again=$?; kill $p; wait $p; "
         "[ $again = 73 ] && exit $code";
@@ -313,6 +333,7 @@ int main(void)
         cmocka_unit_test(an_interrupted_study_goes_on),
         cmocka_unit_test(cases_that_fail_are_rows_and_an_exit_code),
         cmocka_unit_test(what_is_no_row_of_the_study_is_refused),
+        cmocka_unit_test(studies_come_in_three_formats),
         cmocka_unit_test(an_empty_file_is_a_start),
         cmocka_unit_test(a_long_command_line_is_resumed),
         cmocka_unit_test(files_of_the_case_belong_to_the_study),
