@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { LESSONS = 2, EXERCISES = 5, MAX_NUMBERS = 40000, MAX_TEXT = 200000 };
+enum { LESSONS = 4, EXERCISES = 5, MAX_NUMBERS = 40000, MAX_TEXT = 200000 };
 
 static char folder[] = "/tmp/rollbem-course-XXXXXX";
 static glob_t lessons, solutions;
@@ -141,9 +141,10 @@ static int lines_agree(const char *got, const char *wanted)
     }
 }
 
-/* One line of a text, without its end; NULL after the last one. */
+/* The next line of a text that is not empty, without its end; NULL after the last one. */
 static char *next_line(char **text)
 {
+    *text += strspn(*text, "\n");
     if (!**text)
         return NULL;
     char *line = *text;
@@ -159,9 +160,8 @@ static int differs(const char *page, const part *shown, char *got)
     static char wanted[MAX_TEXT];
     snprintf(wanted, sizeof wanted, "%.*s", (int)shown->length, shown->text);
     char *w = wanted, *want, *have = NULL;
-    int any = 0, line = shown->line - 1;
+    int any = 0;
     while ((want = next_line(&w))) {
-        line++;
         if (strcmp(want, "...") == 0) {
             any = 1;
             continue;
@@ -171,14 +171,14 @@ static int differs(const char *page, const part *shown, char *got)
         while (any && have && !lines_agree(have, want));
         any = 0;
         if (!have || !lines_agree(have, want)) {
-            print_error("%s:%d shows '%s', printed is '%s'\n", page, line, want,
+            print_error("%s:%d shows '%s', printed is '%s'\n", page, shown->line, want,
                         have ? have : "nothing");
             return 1;
         }
     }
     have = any ? NULL : next_line(&got);
     if (have)
-        print_error("%s:%d: printed besides: '%s'\n", page, line, have);
+        print_error("%s:%d: printed besides: '%s'\n", page, shown->line, have);
     return have != NULL;
 }
 
