@@ -170,7 +170,7 @@ course: packages
 page: ; @scripts/packages --install page && node web/build.mjs $(B)/rollbem.html
 
 page-test: page $(B)/rollbem
-	@node web/test.mjs $(B)
+	@B=$(B) tests/page
 
 clean: ; rm -rf $(B)
 
