@@ -42,7 +42,8 @@ static void descriptions_are_complete(void **state)
     static const char *const fields[] = {"name",     "section", "kind",     "unit",
                                          "expected", "from",    "to",       "choices",
                                          "word",     "default", "excludes", "help"};
-    static const char *const tables[] = {"number", "column", "step", "point"};
+    static const char *const tables[] = {"number", "column", "step",
+                                         "point",  "patch",  "stress"};
     char text[400];
     int n, k;
     (void)state;
@@ -253,6 +254,125 @@ static void steps_are_kept(void **state)
     rb_api_free(a);
 }
 
+/* Runs for error bars are steps that nobody sees. */
+static void steps_have_error_bars(void **state)
+{
+    static const char *const words[] = {
+        "support",     "halfplane", "similar",  "yes",         "load",
+        "500",         "mu",        "0.3",      "creep-ratio", "0.5",
+        "formulation", "transient", "distance", "0.5",         "contact-elements",
+        "16",          "error",     "yes",      NULL};
+    rb_api *a = solved(words);
+    int n, steps;
+    (void)state;
+    assert_non_null(rb_api_array(a, "step.p", &n, &steps));
+    const double *bar = array(a, "history.error.tangential_load", steps, 1);
+    assert_true(bar[steps - 1] > 0.0);
+    assert_true(rb_api_stress(a, 5, 5, 0.0) == RB_OK);
+    rb_api_free(a);
+}
+
+static void results_of_every_table_are_there(void **state)
+{
+    rb_api *a = rb_api_create_for("solve");
+    (void)state;
+    assert_null(rb_api_create_for("nothing"));
+    assert_string_equal(rb_version(), RB_VERSION);
+    for (const char *const *w = steady; *w; w += 2)
+        assert_int_equal(rb_api_set(a, w[0], w[1]), RB_OK);
+    assert_int_equal(rb_api_set(a, "error", "yes"), RB_OK);
+    assert_null(rb_api_word(a, "formulation"));
+    assert_int_equal(rb_api_solve(a), RB_OK);
+    assert_string_equal(rb_api_word(a, "formulation"), "steady");
+    assert_string_equal(rb_api_word(a, "status"), "solved");
+    assert_non_null(rb_api_word(a, "solver"));
+    assert_true(rb_api_number(a, "error.tangential_load") > 0.0);
+    assert_true(isnan(rb_api_number(a, "error.iterations")));
+    CHECK_REL(array(a, "patch.normal_load", 1, 1)[0], rb_api_number(a, "normal_load"),
+              1e-12, "one patch has it all");
+    assert_non_null(array(a, "friction_power", 60, 1));
+    assert_true(rb_api_stress(a, 5, 5, 0.0) < 0);
+    assert_non_null(strstr(rb_api_message(a), "without error bars"));
+
+    assert_int_equal(rb_api_curve_over(a, "creep", 0.0, 1e-3, 4), RB_OK);
+    CHECK_REL(array(a, "curve.creepage", 4, 1)[3], 1e-3, 1e-15, "over creepages");
+    assert_true(array(a, "curve.error.force_ratio", 4, 1)[1] > 0.0);
+    CHECK_ABS(rb_api_number(a, "curve.free_creepage"), 0.0, 1e-9, "similar bodies");
+    assert_true(rb_api_curve_over(a, "slip", 0.0, 1.0, 3) < 0);
+    rb_api_free(a);
+}
+
+static void stress_is_known_at_points(void **state)
+{
+    rb_api *a = solved(steady);
+    (void)state;
+    assert_int_equal(rb_api_stress(a, 9, 7, 0.0), RB_OK);
+    const double x = array(a, "stress.x", 9, 7)[30], y = array(a, "stress.y", 9, 7)[30],
+                 shear = array(a, "stress.max_shear", 9, 7)[30], xy[] = {x, y};
+    assert_int_equal(rb_api_stress_at(a, 1, xy), RB_OK);
+    CHECK_REL(array(a, "stress.max_shear", 1, 1)[0], shear, 1e-12, "point of the grid");
+    assert_int_equal(rb_api_stress_maxima(a, 0.0), RB_OK);
+    const double *most = array(a, "maxima.max_shear", 3, 1);
+    assert_true(most[0] >= shear);
+    assert_int_equal(rb_api_stress_at(a, 1, most + 1), RB_OK);
+    CHECK_REL(array(a, "stress.max_shear", 1, 1)[0], most[0], 1e-9, "at its place");
+    rb_api_free(a);
+}
+
+static void problems_by_themselves_are_solved(void **state)
+{
+    static const double M[] = {2, 1, 1, 2}, q[] = {-5, -6};
+    static const double W[] = {2, 0, 0, 0, 1, 0, 0, 0, 1}, v[] = {-1, 0.1, 0.4}, mu = 0.3;
+    rb_api *a = rb_api_create();
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(rb_api_lcp(a, 2, M, q, k ? "newton" : "lemke", 0), RB_OK);
+        const double *z = array(a, "lcp.z", 2, 1), *w = array(a, "lcp.w", 2, 1);
+        for (int i = 0; i < 2; i++) {
+            CHECK_REL(w[i] + 1.0, M[i] * z[0] + M[i + 2] * z[1] + q[i] + 1.0, 1e-14, "w");
+            CHECK_ABS(fmin(z[i], w[i]), 0.0, 1e-14, "complementary");
+        }
+    }
+    assert_true(rb_api_lcp(a, 2, M, q, "gauss", 0) < 0);
+    assert_int_equal(rb_api_lcp(a, 2, M, q, "lemke", 1), RB_MAXITER);
+
+    assert_int_equal(rb_api_friction(a, 3, 1, W, v, &mu, "auto", 1e-10, 0), RB_OK);
+    const double *r = array(a, "friction.r", 3, 1), *u = array(a, "friction.u", 3, 1);
+    const double slip = hypot(u[1], u[2]);
+    CHECK_REL(r[0], 0.5, 1e-9, "pressed");
+    for (int i = 1; i < 3; i++) /* friction opposes the slip */
+        CHECK_ABS(r[i], -mu * r[0] * u[i] / slip, 1e-9, "r[%d]", i);
+    assert_true(rb_api_friction(a, 4, 1, W, v, &mu, "auto", 1e-8, 0) < 0);
+    assert_true(rb_api_friction_file(a, "nothing.hdf5", "auto", 1e-8, 0) == RB_ENOENT);
+    rb_api_free(a);
+}
+
+static void a_sweep_is_its_cases(void **state)
+{
+    static const char *const mu[] = {"0.1", "0.2", "0.4"};
+    rb_api *study = rb_api_create_for("sweep"), *one[3];
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        one[k] = rb_api_create_for("sweep");
+        for (const char *const *w = steady; *w; w += 2)
+            assert_int_equal(rb_api_set(one[k], w[0], w[1]), RB_OK);
+        assert_int_equal(rb_api_set(one[k], "mu", mu[k]), RB_OK);
+    }
+    assert_int_equal(rb_api_sweep(study, 3, one, 2), RB_OK);
+    const double *Q = array(study, "sweep.tangential_load", 3, 1);
+    for (int k = 0; k < 3; k++) {
+        assert_int_equal(rb_api_solve(one[k]), RB_OK);
+        CHECK_ABS(Q[k], rb_api_number(one[k], "tangential_load"), 0.0, "case %d", k);
+        CHECK_ABS(array(study, "sweep.status", 3, 1)[k], RB_OK, 0.0, "case %d", k);
+    }
+    assert_int_equal(rb_api_set(one[1], "approach", "1"), RB_OK);
+    assert_true(rb_api_sweep(study, 3, one, 2) < 0);
+    assert_non_null(strstr(rb_api_message(study), "case 2: --approach and --load"));
+    for (int k = 0; k < 3; k++)
+        rb_api_free(one[k]);
+    rb_api_free(study);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -264,6 +384,11 @@ int main(void)
         cmocka_unit_test(matrices_satisfy_their_equations),
         cmocka_unit_test(guesses_are_judged),
         cmocka_unit_test(steps_are_kept),
+        cmocka_unit_test(steps_have_error_bars),
+        cmocka_unit_test(results_of_every_table_are_there),
+        cmocka_unit_test(stress_is_known_at_points),
+        cmocka_unit_test(problems_by_themselves_are_solved),
+        cmocka_unit_test(a_sweep_is_its_cases),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,9 +18,15 @@
 
 typedef struct rb_api rb_api;
 
-/* A case with the default options.  NULL: no memory. */
+/* A case with the default options, to be solved.  NULL: no memory. */
 rb_api *rb_api_create(void);
+/* For the purpose of a command: "solve", "curve", "stress" or "sweep", which differ in
+ * what they refuse and in some defaults.  NULL: another word, or no memory. */
+rb_api *rb_api_create_for(const char *purpose);
 void rb_api_free(rb_api *a);
+
+/* The keys of a case file; what rb_api_set gave before keeps its value. */
+int rb_api_read(rb_api *a, const char *path);
 
 /* One option by its name and the text of a case file.  A refused text changes nothing.
  * Whatever was solved before is forgotten; only where all options set since then are
@@ -31,6 +37,9 @@ int rb_api_set(rb_api *a, const char *name, const char *text);
 int rb_api_settle(rb_api *a);
 /* Settles and solves; of a sequence of steps each one is kept. */
 int rb_api_solve(rb_api *a);
+/* From another thread or a signal handler: what runs ends with RB_INTERRUPTED after the
+ * step, the case of a sweep or the iterate of a friction solver at hand. */
+void rb_api_stop(rb_api *a);
 
 /* Of the last call that gave a status. */
 int rb_api_status(const rb_api *a);
@@ -43,8 +52,8 @@ const char *rb_api_message(const rb_api *a);
  * choice, flag, text), "unit", "expected" (the range in words), "from", "to", "choices"
  * (with blanks between), "word", "default", "excludes" (a bit mask), "help". */
 const char *rb_api_option(int k, const char *field, char *text, int size);
-/* Field of result k of a table ("number", "column", "step" or "point"): "name", "unit",
- * "kind" (number, whole, seconds), "meaning". */
+/* Field of result k of a table ("number", "column", "step", "point", "patch" or
+ * "stress"): "name", "unit", "kind" (number, whole, seconds), "meaning". */
 const char *rb_api_result(const char *table, int k, const char *field, char *text,
                           int size);
 /* Value of an option as settled. */
@@ -53,35 +62,51 @@ const char *rb_api_value(const rb_api *a, const char *name, char *text, int size
 /* ---- Results ------------------------------------------------------------------------
  */
 
-/* A number of the solution by name; or "carter" (1: Carter's law holds), "radius",
- * "modulus", "hertz_load"; NAN: there is none. */
+/* A number of the solution by name, its error bar as "error.NAME"; or "carter" (1:
+ * Carter's law holds), "radius", "modulus", "hertz_load"; "curve.free_creepage",
+ * "curve.half_width", "history.half_width"; "task.iterations", "task.residual",
+ * "task.scaled_residual" of rb_api_lcp and rb_api_friction.  NAN: there is none. */
 double rb_api_number(const rb_api *a, const char *name);
+/* "status", in words; of a solution "formulation", "solver", "lcp-form"; "task.solver".
+ * Static text, or NULL. */
+const char *rb_api_word(const rb_api *a, const char *name);
 
 /* An array by name, rows x columns, column by column; borrowed until the case changes or
  * the array is made anew.  NULL: there is none, or no memory.
  *   p, q, x, zone ...            columns of the solution, an entry per element
- *   history.distance ...         of a sequence, an entry per step
+ *   friction_power               energy that wear takes, an entry per element
+ *   patch.from ...               an entry per patch of the contact
+ *   history.distance ...         of a sequence, an entry per step;
+ *                                history.error.distance ... where errors were asked for
  *   step.p step.q step.zone      elements x steps
  *   step.x                       its midpoints
  *   ends gap0                    of the elements; the gap without load
  *   F                            displacements (w_N, w_T) by tractions (r_N, r_T)
  *   mesh.x0 mesh.y0 mesh.x1 mesh.y1   boundary of a wheel
  *   H G                          its boundary elements' matrices
- *   curve.creepage ...           after rb_api_curve, an entry per point
+ *   curve.creepage ...           after rb_api_curve, an entry per point; curve.error. ...
  *   lcp.M lcp.q                  after rb_api_pivots, M z + q
  *   pivot.entering pivot.leaving pivot.row pivot.ratio pivot.z0   an entry per pivot
- *   pivot.basis pivot.value      rows x pivots: basic variables, and their values, after
- * it pivot.before pivot.column    rows x pivots: the values before it, and how they
- * change with the entering variable pivot.p pivot.q              elements x pivots:
- * tractions after it guess.p guess.q guess.gap guess.shift   after rb_api_guess, an entry
- * per element stress.x stress.y stress.max_shear stress.sxx ...   after rb_api_stress, nx
- * x ny */
+ *   pivot.basis pivot.value      rows x pivots: basic variables, their values after it
+ *   pivot.before pivot.column    rows x pivots: the values before it, and how they change
+ *                                with the entering variable
+ *   pivot.p pivot.q              elements x pivots: tractions after it
+ *   guess.p guess.q guess.gap guess.shift   after rb_api_guess, an entry per element
+ *   stress.x stress.y stress.max_shear ...  after rb_api_stress, nx x ny, or
+ *                                rb_api_stress_at, an entry per point
+ *   maxima.max_shear ...         after rb_api_stress_maxima: value, x, y; also von_mises,
+ *                                orthogonal_shear, tension
+ *   sweep.status sweep.NAME ...  after rb_api_sweep, an entry per case
+ *   lcp.z lcp.w                  after rb_api_lcp
+ *   friction.r friction.u        after rb_api_friction, dimension x contacts */
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns);
 
 /* Each makes the arrays named after it from the case as it was solved. */
 
-/* Steady rolling at so many creepage ratios from ... to. */
+/* Steady rolling at so many creepage ratios from ... to, of a case that is settled. */
 int rb_api_curve(rb_api *a, double from, double to, int points);
+/* The same over "creep-ratio" or "creep", with errors where the case asks for them. */
+int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points);
 /* Lemke's method; variables are numbered w, z, z0 (rollbem/lcp.h). */
 int rb_api_pivots(rb_api *a);
 /* "p[3]", "lambda+[2]", "z0": name of a variable of rb_api_pivots; NULL: there is none.
@@ -93,5 +118,29 @@ int rb_api_guess(rb_api *a, int n, const int *zone);
 /* Stress below the surface of A on nx x ny points, to a depth in length (0: automatic).
  */
 int rb_api_stress(rb_api *a, int nx, int ny, double depth);
+/* At n points x0, y0, x1, y1, ... inside A, y > 0. */
+int rb_api_stress_at(rb_api *a, int n, const double *xy);
+/* The largest stresses and where they are, to a depth in length (0: automatic). */
+int rb_api_stress_maxima(rb_api *a, double depth);
+
+/* ---- Problems by themselves ---------------------------------------------------------
+ * The case of the handle is neither read nor changed. */
+
+/* z >= 0, M z + q >= 0, complementary; M n x n, column by column.  solver: "lemke" or
+ * "newton" (sparse); max_pivots 0: the solver's own limit. */
+int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
+               int max_pivots);
+/* u = W r + q, Coulomb's law, `dimension` (2 or 3) rows per contact, the normal one
+ * first; W column by column, mu an entry per contact.  solver: a name of rollbem
+ * friction. */
+int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W,
+                    const double *q, const double *mu, const char *solver, double tol,
+                    int max_iters);
+/* The same for the problem of a file, FCLib or Siconos. */
+int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol,
+                         int max_iters);
+/* Cases of their own, each settled by the call, solved by so many processes (0: one per
+ * processor).  A case that is refused ends the call before anything is solved. */
+int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers);
 
 #endif

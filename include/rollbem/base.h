@@ -5,6 +5,8 @@
 #include <stddef.h>
 
 #define RB_VERSION "0.1.0"
+/* Of the library that runs, which need not be that of the header. */
+const char *rb_version(void);
 
 /* Negative: the call did not run (misuse, memory, files).
  * Positive: it ran and ended without a full answer; the last iterate is kept. */

@@ -20,6 +20,11 @@ rb_status rb_fail(rb_message *why, rb_status s, const char *format, ...)
     return s;
 }
 
+const char *rb_version(void)
+{
+    return RB_VERSION;
+}
+
 const char *rb_status_text(rb_status s)
 {
     switch (s) {

@@ -1,43 +1,16 @@
 /* A case, its results and the steps of its solution as numbers, text and arrays by name.
  */
-#include "rollbem/api.h"
+#include "case/api.h"
 
-#include "rollbem/case.h"
-
-#include <math.h>
-#include <stddef.h>
+#include <gsl/gsl_errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* An array that was asked for. */
-typedef struct {
-    char name[32];
-    int rows, columns;
-    double *at; /* owned */
-} array;
-
-enum { ARRAYS = 96 };
-
-struct rb_api {
-    rb_case *words;
-    rb_case_result result;
-    rb_rolling_model kept; /* of the last case, where only what drives it has changed */
-    rb_rolling_curve curve;
-    rb_rolling_lcp lcp;
-    int pivots; /* seen so far */
-    double *tableau;
-    int *nonbasis; /* the last pivot's, both owned */
-    rb_status status;
-    rb_message why;
-    array made[ARRAYS];
-    int arrays;
-};
-
 /* ---- Arrays -------------------------------------------------------------------------
  */
 
-static array *find_array(rb_api *a, const char *name)
+case_array *rb_case_find_array(rb_api *a, const char *name)
 {
     for (int k = 0; k < a->arrays; k++)
         if (strcmp(a->made[k].name, name) == 0)
@@ -45,7 +18,7 @@ static array *find_array(rb_api *a, const char *name)
     return NULL;
 }
 
-static void forget_arrays(rb_api *a, const char *beginning)
+void rb_case_forget_arrays(rb_api *a, const char *beginning)
 {
     int kept = 0;
     for (int k = 0; k < a->arrays; k++)
@@ -57,11 +30,11 @@ static void forget_arrays(rb_api *a, const char *beginning)
 }
 
 /* A new array of zeros.  NULL: no memory. */
-static array *make_array(rb_api *a, const char *name, int rows, int columns)
+case_array *rb_case_make_array(rb_api *a, const char *name, int rows, int columns)
 {
-    if (a->arrays == ARRAYS)
+    if (a->arrays == CASE_ARRAYS)
         return NULL;
-    array *made = &a->made[a->arrays];
+    case_array *made = &a->made[a->arrays];
     snprintf(made->name, sizeof made->name, "%s", name);
     made->rows = rows;
     made->columns = columns;
@@ -73,9 +46,10 @@ static array *make_array(rb_api *a, const char *name, int rows, int columns)
     return made;
 }
 
-static array *copy_of(rb_api *a, const char *name, int rows, int columns, const double *x)
+case_array *rb_case_copy_array(rb_api *a, const char *name, int rows, int columns,
+                               const double *x)
 {
-    array *made = x ? make_array(a, name, rows, columns) : NULL;
+    case_array *made = x ? rb_case_make_array(a, name, rows, columns) : NULL;
     if (made)
         memcpy(made->at, x, sizeof(double) * (size_t)rows * (size_t)columns);
     return made;
@@ -84,9 +58,9 @@ static array *copy_of(rb_api *a, const char *name, int rows, int columns, const 
 /* Adds one column to an array that grows step by step. */
 static rb_status add_column(rb_api *a, const char *name, int rows, const double *x)
 {
-    array *to = find_array(a, name);
+    case_array *to = rb_case_find_array(a, name);
     if (!to)
-        return copy_of(a, name, rows, 1, x) ? RB_OK : RB_ENOMEM;
+        return rb_case_copy_array(a, name, rows, 1, x) ? RB_OK : RB_ENOMEM;
     const size_t size = sizeof(double) * (size_t)rows * ((size_t)to->columns + 1);
     double *longer = realloc(to->at, size);
     if (!longer)
@@ -97,29 +71,42 @@ static rb_status add_column(rb_api *a, const char *name, int rows, const double 
     return RB_OK;
 }
 
-static array *table_column(rb_api *a, const rb_rolling_results *table, const void *owner,
-                           int rows, const char *name, const char *column)
+static const rb_rolling_result *find_result(const rb_rolling_results *table,
+                                            const char *name)
 {
-    for (int k = 0; k < table->n && rows > 0; k++)
-        if (strcmp(table->row[k].name, column) == 0) {
-            array *made = make_array(a, name, rows, 1);
-            for (int i = 0; made && i < rows; i++)
-                made->at[i] = rb_rolling_entry(&table->row[k], owner, i);
-            return made;
-        }
+    for (int k = 0; k < table->n; k++)
+        if (strcmp(table->row[k].name, name) == 0)
+            return &table->row[k];
     return NULL;
+}
+
+static case_array *table_column(rb_api *a, const rb_rolling_results *table,
+                                const void *owner, int rows, const char *name,
+                                const char *column)
+{
+    const rb_rolling_result *r = find_result(table, column);
+    case_array *made = r && rows > 0 ? rb_case_make_array(a, name, rows, 1) : NULL;
+    for (int i = 0; made && i < rows; i++)
+        made->at[i] = rb_rolling_entry(r, owner, i);
+    return made;
 }
 
 /* ---- A case -------------------------------------------------------------------------
  */
 
-static int ended(rb_api *a, rb_status s)
+int rb_case_ended(rb_api *a, rb_status s)
 {
     a->status = s;
-    if (s >= 0)
+    if (s == RB_OK || !a->why.text[0])
         snprintf(a->why.text, sizeof a->why.text, "%s",
                  s == RB_OK ? "" : rb_status_text(s));
     return s;
+}
+
+static void begin(rb_api *a)
+{
+    a->why.text[0] = '\0';
+    a->stopped = 0;
 }
 
 /* Options that change neither bodies nor mesh: the flexibility may serve again. */
@@ -144,23 +131,41 @@ static void forget(rb_api *a, int same_bodies)
     }
     if (!same_bodies)
         rb_rolling_model_free(&a->kept);
-    forget_arrays(a, "");
+    rb_case_forget_arrays(a, "");
     rb_rolling_curve_free(&a->curve);
+    rb_rolling_curve_free(&a->curve_errors);
     rb_rolling_lcp_free(&a->lcp);
     rb_case_result_free(&a->result);
-    memset(&a->curve, 0, sizeof a->curve);
     memset(&a->lcp, 0, sizeof a->lcp);
     memset(&a->result, 0, sizeof a->result);
+    begin(a);
 }
 
-rb_api *rb_api_create(void)
+rb_api *rb_api_create_for(const char *purpose)
 {
+    static const struct {
+        const char *name;
+        rb_case_purpose purpose;
+    } known[] = {{"solve", RB_CASE_SINGLE},
+                 {"curve", RB_CASE_CURVE},
+                 {"stress", RB_CASE_STRESS},
+                 {"sweep", RB_CASE_STUDY}};
     rb_api *a = calloc(1, sizeof *a);
-    if (a && !(a->words = rb_case_create(RB_CASE_SINGLE))) {
+
+    gsl_set_error_handler_off(); /* GSL's own one ends the program */
+    for (size_t k = 0; a && k < sizeof known / sizeof *known; k++)
+        if (strcmp(known[k].name, purpose) == 0)
+            a->words = rb_case_create(known[k].purpose);
+    if (a && !a->words) {
         free(a);
         a = NULL;
     }
     return a;
+}
+
+rb_api *rb_api_create(void)
+{
+    return rb_api_create_for("solve");
 }
 
 void rb_api_free(rb_api *a)
@@ -175,13 +180,20 @@ void rb_api_free(rb_api *a)
 int rb_api_set(rb_api *a, const char *name, const char *text)
 {
     forget(a, drives(name));
-    return ended(a, rb_case_set(a->words, name, text, RB_GIVEN_ARGUMENT, &a->why));
+    return rb_case_ended(a,
+                         rb_case_set(a->words, name, text, RB_GIVEN_ARGUMENT, &a->why));
+}
+
+int rb_api_read(rb_api *a, const char *path)
+{
+    forget(a, 0);
+    return rb_case_ended(a, rb_case_read(a->words, path, 0, NULL, &a->why));
 }
 
 int rb_api_settle(rb_api *a)
 {
     forget(a, 1);
-    return ended(a, rb_case_settle(a->words, &a->why));
+    return rb_case_ended(a, rb_case_settle(a->words, &a->why));
 }
 
 static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history,
@@ -190,11 +202,11 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
     (void)history;
     (void)steps;
     rb_api *a = context;
+    if (a->stopped || !model || !model->state.p) /* no model: a run for error bars */
+        return a->stopped;
     const int n = model->mesh.n;
-    if (!model->state.p)
-        return 0;
     if (step == 0) /* a run may begin anew on a wider zone */
-        forget_arrays(a, "step.");
+        rb_case_forget_arrays(a, "step.");
     double *row = rb_alloc((size_t)n, 1);
     rb_status s = row ? RB_OK : RB_ENOMEM;
     for (int i = 0; row && i < n; i++)
@@ -203,7 +215,7 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
         s = add_column(a, "step.zone", n, row);
     for (int i = 0; row && i < n; i++)
         row[i] = 0.5 * (model->mesh.ends[i] + model->mesh.ends[i + 1]);
-    if (s == RB_OK && !find_array(a, "step.x"))
+    if (s == RB_OK && !rb_case_find_array(a, "step.x"))
         s = add_column(a, "step.x", n, row);
     if (s == RB_OK)
         s = add_column(a, "step.p", n, model->state.p);
@@ -221,7 +233,12 @@ int rb_api_solve(rb_api *a)
     memset(&a->kept, 0, sizeof a->kept);
     const rb_status s =
         rb_case_solve_again(rb_case_settled(a->words), keep_step, a, &a->result, &a->why);
-    return ended(a, s < 0 ? rb_case_blame(a->words, s, &a->why) : s);
+    return rb_case_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
+}
+
+void rb_api_stop(rb_api *a)
+{
+    a->stopped = 1;
 }
 
 int rb_api_status(const rb_api *a)
@@ -324,7 +341,9 @@ const char *rb_api_result(const char *table, int k, const char *field, char *tex
     } tables[] = {{"number", &rb_rolling_solution_scalars},
                   {"column", &rb_rolling_solution_columns},
                   {"step", &rb_rolling_history_columns},
-                  {"point", &rb_rolling_curve_columns}};
+                  {"point", &rb_rolling_curve_columns},
+                  {"patch", &rb_rolling_patch_scalars},
+                  {"stress", &rb_rolling_stress_scalars}};
 
     for (size_t t = 0; t < sizeof tables / sizeof *tables; t++) {
         if (strcmp(table, tables[t].name) != 0 || k < 0 || k >= tables[t].rows->n)
@@ -349,10 +368,58 @@ const char *rb_api_value(const rb_api *a, const char *name, char *text, int size
     return written(rb_option_text(o, rb_case_settled(a->words), room), text, size);
 }
 
+/* The name of a choice of a case's option, as case files have it. */
+static const char *choice_named(const char *option, int value)
+{
+    for (const rb_choice *c = rb_case_option(option)->choices; c->name; c++)
+        if (c->value == value)
+            return c->name;
+    return NULL;
+}
+
+const char *rb_api_word(const rb_api *a, const char *name)
+{
+    const rb_rolling_solution *s = &a->result.solution;
+    if (strcmp(name, "status") == 0)
+        return rb_status_text(a->status);
+    if (strcmp(name, "task.solver") == 0)
+        return a->solver;
+    if (s->n == 0)
+        return NULL;
+    if (strcmp(name, "formulation") == 0)
+        return choice_named(name, (int)s->formulation);
+    if (strcmp(name, "lcp-form") == 0)
+        return choice_named(name, (int)s->lcp_form);
+    if (strcmp(name, "solver") == 0)
+        return s->solver == RB_SOLVER_CONE ? s->cone_solver
+                                           : choice_named(name, (int)s->solver);
+    return NULL;
+}
+
+/* Of the last curve, or of the problem that was handed over. */
+static double other_number(const rb_api *a, const char *name)
+{
+    if (strcmp(name, "curve.free_creepage") == 0 && a->curve.n > 0)
+        return a->curve.free_creepage;
+    if (strcmp(name, "curve.half_width") == 0 && a->curve.n > 0)
+        return a->curve.half_width;
+    if (strcmp(name, "history.half_width") == 0 && a->result.history.n > 0)
+        return a->result.history.half_width;
+    if (strcmp(name, "task.iterations") == 0)
+        return a->iterations;
+    if (strcmp(name, "task.residual") == 0)
+        return a->residual;
+    if (strcmp(name, "task.scaled_residual") == 0)
+        return a->scaled_residual;
+    return NAN;
+}
+
+static const char error_[] = "error.";
+
 double rb_api_number(const rb_api *a, const char *name)
 {
     const rb_settled_case *c = rb_case_settled(a->words);
-    const rb_rolling_results *table = &rb_rolling_solution_scalars;
+    const rb_case_result *result = &a->result;
     if (strcmp(name, "carter") == 0)
         return rb_rolling_carter_holds(&c->rc);
     if (strcmp(name, "radius") == 0)
@@ -361,81 +428,126 @@ double rb_api_number(const rb_api *a, const char *name)
         return c->derived.modulus;
     if (strcmp(name, "hertz_load") == 0)
         return c->derived.load;
-    for (int k = 0; k < table->n && a->result.solution.n > 0; k++)
-        if (strcmp(table->row[k].name, name) == 0)
-            return rb_rolling_number(&table->row[k], &a->result.solution);
-    return NAN;
+    const int is_error = strncmp(name, error_, strlen(error_)) == 0;
+    const rb_rolling_result *r = find_result(&rb_rolling_solution_scalars,
+                                             is_error ? name + strlen(error_) : name);
+    if (!r)
+        return other_number(a, name);
+    if (result->solution.n == 0 || (is_error && (!result->has_errors || !r->error_bar)))
+        return NAN;
+    return rb_rolling_number(r, is_error ? &result->errors.scalar : &result->solution);
 }
 
 /* ---- Matrices -----------------------------------------------------------------------
  */
 
-static array *boundary_matrices(rb_api *a, const char *name)
+static case_array *boundary_matrices(rb_api *a, const char *name)
 {
     const rb_bem_mesh *mesh = rb_bem_system_mesh(a->result.model.bodies.system_a);
     const rb_rolling_body *body = &a->result.model.rc.a;
-    array *H = make_array(a, "H", 2 * mesh->n, 2 * mesh->n);
-    array *G = make_array(a, "G", 2 * mesh->n, 2 * mesh->n);
+    case_array *H = rb_case_make_array(a, "H", 2 * mesh->n, 2 * mesh->n);
+    case_array *G = rb_case_make_array(a, "G", 2 * mesh->n, 2 * mesh->n);
     if (!H || !G ||
         rb_bem_assemble(mesh, rb_bem_material_from_young(body->young, body->poisson),
                         H->at, G->at, 2 * mesh->n, &a->why) != RB_OK) {
-        forget_arrays(a, "H");
-        forget_arrays(a, "G");
+        rb_case_forget_arrays(a, "H");
+        rb_case_forget_arrays(a, "G");
         return NULL;
     }
     return strcmp(name, "H") == 0 ? H : G;
 }
 
-static array *boundary_array(rb_api *a, const char *name)
+static case_array *boundary_array(rb_api *a, const char *name)
 {
     const rb_bem_system *system = a->result.model.bodies.system_a;
     if (!system)
         return NULL;
     const rb_bem_mesh *mesh = rb_bem_system_mesh(system);
     if (strcmp(name, "mesh.x0") == 0)
-        return copy_of(a, name, mesh->n, 1, mesh->x0);
+        return rb_case_copy_array(a, name, mesh->n, 1, mesh->x0);
     if (strcmp(name, "mesh.y0") == 0)
-        return copy_of(a, name, mesh->n, 1, mesh->y0);
+        return rb_case_copy_array(a, name, mesh->n, 1, mesh->y0);
     if (strcmp(name, "mesh.x1") == 0)
-        return copy_of(a, name, mesh->n, 1, mesh->x1);
+        return rb_case_copy_array(a, name, mesh->n, 1, mesh->x1);
     if (strcmp(name, "mesh.y1") == 0)
-        return copy_of(a, name, mesh->n, 1, mesh->y1);
+        return rb_case_copy_array(a, name, mesh->n, 1, mesh->y1);
     if (strcmp(name, "H") == 0 || strcmp(name, "G") == 0)
         return boundary_matrices(a, name);
     return NULL;
 }
 
-static array *model_array(rb_api *a, const char *name)
+static case_array *model_array(rb_api *a, const char *name)
 {
     const rb_rolling_model *model = &a->result.model;
     const int n = model->mesh.n, size = a->lcp.size;
     if (strcmp(name, "ends") == 0)
-        return copy_of(a, name, n + 2, 1, model->mesh.ends);
+        return rb_case_copy_array(a, name, n + 2, 1, model->mesh.ends);
     if (strcmp(name, "gap0") == 0)
-        return copy_of(a, name, n, 1, model->mesh.gap);
+        return rb_case_copy_array(a, name, n, 1, model->mesh.gap);
     if (strcmp(name, "F") == 0)
-        return copy_of(a, name, 2 * n + 2, 2 * n, model->bodies.F);
+        return rb_case_copy_array(a, name, 2 * n + 2, 2 * n, model->bodies.F);
     if (strcmp(name, "lcp.M") == 0)
-        return copy_of(a, name, size, size, a->lcp.M);
+        return rb_case_copy_array(a, name, size, size, a->lcp.M);
     if (strcmp(name, "lcp.q") == 0)
-        return copy_of(a, name, size, 1, a->lcp.b);
+        return rb_case_copy_array(a, name, size, 1, a->lcp.b);
     return boundary_array(a, name);
+}
+
+static case_array *patch_array(rb_api *a, const char *name, const char *column)
+{
+    const rb_rolling_solution *s = &a->result.solution;
+    const rb_rolling_result *r = find_result(&rb_rolling_patch_scalars, column);
+    case_array *made =
+        r && s->patches > 0 ? rb_case_make_array(a, name, s->patches, 1) : NULL;
+    for (int k = 0; made && k < s->patches; k++)
+        made->at[k] = rb_rolling_number(r, &s->patch[k]);
+    return made;
+}
+
+static case_array *power_array(rb_api *a, const char *name)
+{
+    const rb_rolling_solution *s = &a->result.solution;
+    case_array *made = s->n > 0 ? rb_case_make_array(a, name, s->n, 1) : NULL;
+    if (made)
+        rb_rolling_friction_power(s, made->at);
+    return made;
+}
+
+/* An entry of the tables whose columns are arrays, by the beginning of its name. */
+static case_array *series_array(rb_api *a, const char *name)
+{
+    const rb_case_result *r = &a->result;
+    const struct {
+        const char *beginning;
+        const rb_rolling_results *table;
+        const void *owner;
+        int rows;
+    } series[] = {
+        {"history.error.", &rb_rolling_history_columns, &r->history_errors,
+         r->history_errors.n},
+        {"history.", &rb_rolling_history_columns, &r->history, r->history.n},
+        {"curve.error.", &rb_rolling_curve_columns, &a->curve_errors, a->curve_errors.n},
+        {"curve.", &rb_rolling_curve_columns, &a->curve, a->curve.n},
+        {"", &rb_rolling_solution_columns, &r->solution, r->solution.n}};
+    for (size_t k = 0; k < sizeof series / sizeof *series; k++) {
+        const size_t n = strlen(series[k].beginning);
+        if (strncmp(name, series[k].beginning, n) == 0)
+            return table_column(a, series[k].table, series[k].owner, series[k].rows, name,
+                                name + n);
+    }
+    return NULL;
 }
 
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 {
-    const rb_case_result *r = &a->result;
-    array *made = find_array(a, name);
-    if (!made && strncmp(name, "history.", 8) == 0)
-        made = table_column(a, &rb_rolling_history_columns, &r->history, r->history.n,
-                            name, name + 8);
-    if (!made && strncmp(name, "curve.", 6) == 0)
-        made = table_column(a, &rb_rolling_curve_columns, &a->curve, a->curve.n, name,
-                            name + 6);
+    case_array *made = rb_case_find_array(a, name);
     if (!made)
-        made = table_column(a, &rb_rolling_solution_columns, &r->solution, r->solution.n,
-                            name, name);
-    if (!made && r->model.mesh.n > 0)
+        made = series_array(a, name);
+    if (!made && strncmp(name, "patch.", 6) == 0)
+        made = patch_array(a, name, name + 6);
+    if (!made && strcmp(name, "friction_power") == 0)
+        made = power_array(a, name);
+    if (!made && a->result.model.mesh.n > 0)
         made = model_array(a, name);
     *rows = made ? made->rows : 0;
     *columns = made ? made->columns : 0;
@@ -445,20 +557,36 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 /* ---- Further questions --------------------------------------------------------------
  */
 
+int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points)
+{
+    const rb_settled_case *c = rb_case_settled(a->words);
+    const int over_creep = strcmp(over, "creep") == 0;
+    begin(a);
+    rb_case_forget_arrays(a, "curve.");
+    rb_rolling_curve_free(&a->curve);
+    rb_rolling_curve_free(&a->curve_errors);
+    rb_status s =
+        !over_creep && strcmp(over, "creep-ratio") != 0
+            ? rb_fail(&a->why, RB_EINVAL,
+                      "--over: expected creep-ratio or creep, got '%.100s'", over)
+        : c->error ? rb_rolling_curve_with_errors(&c->rc, over_creep, from, to, points,
+                                                  &a->curve, &a->curve_errors, &a->why)
+                   : rb_rolling_curve_solve(&c->rc, over_creep, from, to, points,
+                                            &a->curve, &a->why);
+    return rb_case_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
+}
+
 int rb_api_curve(rb_api *a, double from, double to, int points)
 {
-    forget_arrays(a, "curve.");
-    rb_rolling_curve_free(&a->curve);
-    memset(&a->curve, 0, sizeof a->curve);
-    return ended(a, rb_rolling_curve_solve(&rb_case_settled(a->words)->rc, 0, from, to,
-                                           points, &a->curve, &a->why));
+    return rb_api_curve_over(a, "creep-ratio", from, to, points);
 }
 
 static int has_model(rb_api *a)
 {
     if (a->result.model.state.p && a->result.model.bodies.F)
         return 1;
-    ended(a, rb_fail(&a->why, RB_EINVAL, "nothing is solved whose matrices are at hand"));
+    rb_case_ended(
+        a, rb_fail(&a->why, RB_EINVAL, "nothing is solved whose matrices are at hand"));
     return 0;
 }
 
@@ -574,15 +702,16 @@ static rb_status follow_pivots(rb_api *a)
 int rb_api_pivots(rb_api *a)
 {
     const rb_rolling_model *model = &a->result.model;
+    begin(a);
     if (!has_model(a))
         return a->status;
-    forget_arrays(a, "pivot.");
-    forget_arrays(a, "lcp.");
+    rb_case_forget_arrays(a, "pivot.");
+    rb_case_forget_arrays(a, "lcp.");
     rb_rolling_lcp_free(&a->lcp);
     memset(&a->lcp, 0, sizeof a->lcp);
     rb_status s = rb_rolling_lcp_first(&model->problem, &model->rc, &model->state,
                                        &a->lcp, &a->why);
-    return ended(a, s == RB_OK ? follow_pivots(a) : s);
+    return rb_case_ended(a, s == RB_OK ? follow_pivots(a) : s);
 }
 
 const char *rb_api_variable(const rb_api *a, int variable, char *text, int size)
@@ -598,66 +727,107 @@ const char *rb_api_variable(const rb_api *a, int variable, char *text, int size)
 int rb_api_guess(rb_api *a, int n, const int *zone)
 {
     rb_rolling_model *model = &a->result.model;
+    begin(a);
     if (!has_model(a))
         return a->status;
     if (n != model->mesh.n)
-        return ended(
+        return rb_case_ended(
             a, rb_fail(&a->why, RB_EINVAL, "%d zones: expected %d", n, model->mesh.n));
     rb_rolling_state state = {0};
     double *gap = rb_alloc((size_t)n, 1);
     rb_status s = gap ? rb_rolling_state_alloc(n, &state) : RB_ENOMEM;
-    forget_arrays(a, "guess.");
+    rb_case_forget_arrays(a, "guess.");
     if (s == RB_OK) {
         memcpy(state.zone, zone, (size_t)n * sizeof *zone);
         s = rb_rolling_try_zones(&model->problem, &state, gap);
     }
-    if (s == RB_OK &&
-        !(copy_of(a, "guess.p", n, 1, state.p) && copy_of(a, "guess.q", n, 1, state.q) &&
-          copy_of(a, "guess.gap", n, 1, gap) &&
-          copy_of(a, "guess.shift", n, 1, state.lambda)))
+    if (s == RB_OK && !(rb_case_copy_array(a, "guess.p", n, 1, state.p) &&
+                        rb_case_copy_array(a, "guess.q", n, 1, state.q) &&
+                        rb_case_copy_array(a, "guess.gap", n, 1, gap) &&
+                        rb_case_copy_array(a, "guess.shift", n, 1, state.lambda)))
         s = RB_ENOMEM;
     if (s < 0)
         rb_fail(&a->why, s, "%s", rb_status_text(s));
     rb_rolling_state_free(&state);
     free(gap);
-    return ended(a, s);
+    return rb_case_ended(a, s);
 }
 
-static rb_status keep_stress(rb_api *a, const rb_rolling_stress_grid *grid)
+/* ---- Stress ------------------------------------------------------------------------
+ */
+
+static rb_status keep_stress(rb_api *a, int nx, int ny, const rb_rolling_stress *at)
 {
-    static const struct {
-        const char *name;
-        size_t at;
-    } fields[] = {{"stress.x", offsetof(rb_rolling_stress, x)},
-                  {"stress.y", offsetof(rb_rolling_stress, y)},
-                  {"stress.sxx", offsetof(rb_rolling_stress, sxx)},
-                  {"stress.syy", offsetof(rb_rolling_stress, syy)},
-                  {"stress.sxy", offsetof(rb_rolling_stress, sxy)},
-                  {"stress.max_shear", offsetof(rb_rolling_stress, max_shear)},
-                  {"stress.von_mises", offsetof(rb_rolling_stress, von_mises)},
-                  {"stress.hydrostatic", offsetof(rb_rolling_stress, hydrostatic)}};
-    for (size_t k = 0; k < sizeof fields / sizeof *fields; k++) {
-        array *made = make_array(a, fields[k].name, grid->nx, grid->ny);
+    const rb_rolling_results *table = &rb_rolling_stress_scalars;
+    char name[40];
+    for (int k = 0; k < table->n; k++) {
+        snprintf(name, sizeof name, "stress.%s", table->row[k].name);
+        case_array *made = rb_case_make_array(a, name, nx, ny);
         if (!made)
             return rb_fail(&a->why, RB_ENOMEM, "out of memory");
-        for (int i = 0; i < grid->nx * grid->ny; i++)
-            memcpy(&made->at[i], (const char *)&grid->at[i] + fields[k].at,
-                   sizeof(double));
+        for (int i = 0; i < nx * ny; i++)
+            made->at[i] = rb_rolling_number(&table->row[k], &at[i]);
     }
     return RB_OK;
+}
+
+static rb_status begin_stress(rb_api *a, const char *arrays)
+{
+    begin(a);
+    rb_case_forget_arrays(a, arrays);
+    if (!a->result.model.state.p)
+        return rb_fail(&a->why, RB_EINVAL, "%s",
+                       a->result.has_errors
+                           ? "the stress needs a case that is solved without error bars"
+                           : "nothing is solved");
+    return rb_rolling_stress_check(&a->result.model.rc, &a->why);
 }
 
 int rb_api_stress(rb_api *a, int nx, int ny, double depth)
 {
     rb_rolling_stress_grid grid = {0};
-    if (!a->result.model.state.p)
-        return ended(a, rb_fail(&a->why, RB_EINVAL, "nothing is solved"));
-    forget_arrays(a, "stress.");
-    rb_status s = rb_rolling_stress_check(&a->result.model.rc, &a->why);
+    rb_status s = begin_stress(a, "stress.");
     if (s == RB_OK)
         s = rb_rolling_stress_on_grid(&a->result.model, nx, ny, depth, &grid, &a->why);
     if (s == RB_OK)
-        s = keep_stress(a, &grid);
+        s = keep_stress(a, nx, ny, grid.at);
     rb_rolling_stress_grid_free(&grid);
-    return ended(a, s);
+    return rb_case_ended(a, s);
+}
+
+int rb_api_stress_at(rb_api *a, int n, const double *xy)
+{
+    rb_rolling_stress *at = NULL;
+    rb_status s = begin_stress(a, "stress.");
+    if (s == RB_OK && n < 1)
+        s = rb_fail(&a->why, RB_EINVAL, "stress: expected at least one point, got %d", n);
+    if (s == RB_OK && !(at = calloc((size_t)n, sizeof *at)))
+        s = RB_ENOMEM;
+    if (s == RB_OK)
+        s = rb_rolling_stress_at(&a->result.model, n, xy, at, &a->why);
+    if (s == RB_OK)
+        s = keep_stress(a, n, 1, at);
+    free(at);
+    return rb_case_ended(a, s);
+}
+
+int rb_api_stress_maxima(rb_api *a, double depth)
+{
+    rb_rolling_stress_maxima m;
+    const struct {
+        const char *name;
+        const rb_rolling_extremum *at;
+    } kept[] = {{"maxima.max_shear", &m.max_shear},
+                {"maxima.von_mises", &m.von_mises},
+                {"maxima.orthogonal_shear", &m.orthogonal_shear},
+                {"maxima.tension", &m.tension}};
+    rb_status s = begin_stress(a, "maxima.");
+    if (s == RB_OK)
+        s = rb_rolling_stress_maxima_find(&a->result.model, depth, &m, &a->why);
+    for (size_t k = 0; s == RB_OK && k < sizeof kept / sizeof *kept; k++) {
+        const double x[] = {kept[k].at->value, kept[k].at->x, kept[k].at->y};
+        if (!rb_case_copy_array(a, kept[k].name, 3, 1, x))
+            s = RB_ENOMEM;
+    }
+    return rb_case_ended(a, s);
 }

@@ -1,0 +1,21 @@
+"""Rolling contact with friction in two dimensions, by boundary elements.
+
+>>> import rollbem
+>>> s = rollbem.solve(mu=0.3, creep=0.1)
+>>> s.tangential_load, s.p.max(), s.zone
+
+``solve``, ``curve``, ``history``, ``stress`` and ``sweep`` take the options of the program
+(``help(rollbem.solve)`` lists them, ``_`` for ``-``); ``lcp`` and ``friction`` take matrices.
+Units are mm, N/mm (per length of the axis) and MPa; creepage > 0 brakes A, then Q < 0.
+"""
+
+from . import pictures
+from ._case import (Answer, Case, Complementarity, Curve, Extremum, Friction, History, Solution, Stress,
+                    Sweep, curve, friction, history, lcp, solve, stress, sweep)
+from ._library import (OPTIONS, RESULTS, VERSION as __version__, Error, InvalidInput, MissingFile,
+                       OutOfMemory, Unsolved)
+
+__all__ = ["Answer", "Case", "Complementarity", "Curve", "Error", "Extremum", "Friction", "History",
+           "InvalidInput", "MissingFile", "OPTIONS", "OutOfMemory", "RESULTS", "Solution", "Stress",
+           "Sweep", "Unsolved", "curve", "friction", "history", "lcp", "pictures", "solve", "stress",
+           "sweep"]

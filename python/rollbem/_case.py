@@ -1,0 +1,575 @@
+"""Cases, and what comes of them."""
+
+from __future__ import annotations
+
+import inspect
+import itertools
+import os
+import tempfile
+from typing import Any, Iterator, Mapping, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import pictures
+from ._library import (GROUPS, OPTIONS, RESULTS, SOLVED, Handle, InvalidInput, doubles, handles)
+
+Array = NDArray[np.float64]
+Table = Mapping[str, Sequence[float]]
+Value = Union[bool, int, float, str, os.PathLike, Sequence[float], Table]
+
+# ---- Cases --------------------------------------------------------------------------------
+
+
+def _text(value: Value) -> str:
+    """As a case file has it; the shortest digits that read back as the same number."""
+    if isinstance(value, (bool, np.bool_)):
+        return "yes" if value else "no"
+    if isinstance(value, (int, np.integer)):
+        return str(int(value))
+    if isinstance(value, (float, np.floating)):
+        return repr(float(value))
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    return ",".join(repr(float(x)) for x in value)
+
+
+class Case:
+    """A case: options by their names, checked one by one as they are given.
+
+    ``Case(mu=0.3, creep=0.1)``, ``Case("rail.ini", load=800)``.  Names are those of the
+    program with ``_`` for ``-``; what is given here wins over the file.  Options that name a
+    file with a table (``gap``, ``irregularity``, ``history``) take a dictionary of columns as
+    well.  ``case["mu"]`` is a value as the program settles it.
+    """
+
+    def __init__(self, file: Union[str, os.PathLike, None] = None, **options: Optional[Value]) -> None:
+        self.file = file
+        self.options = {name: value for name, value in options.items() if value is not None}
+        self._tables: list = []  # temporary files live as long as the case
+        self._texts = {name: self._as_text(value) for name, value in self.options.items()}
+        self.handle("solve")
+
+    def _as_text(self, value: Value) -> str:
+        return self._write_table(value) if isinstance(value, Mapping) else _text(value)
+
+    def _write_table(self, columns: Table) -> str:
+        file = tempfile.NamedTemporaryFile("w", prefix="rollbem-", suffix=".txt")
+        self._tables.append(file)
+        print("#", *(name.replace("_", "-") for name in columns), file=file)
+        for row in zip(*columns.values()):
+            print(*(repr(float(x)) for x in row), file=file)
+        file.flush()
+        return file.name
+
+    def handle(self, purpose: str, **more: Value) -> Handle:
+        """A new handle of the library with these options."""
+        handle = Handle(purpose)
+        for name, text in {**self._texts, **{k: self._as_text(v) for k, v in more.items()}}.items():
+            handle.set(name, text)
+        if self.file is not None:
+            handle.check(handle.ask("rb_api_read", os.fsencode(self.file)))
+        return handle
+
+    def but(self, **options: Optional[Value]) -> "Case":
+        """The same case with other options; None takes one away."""
+        return Case(self.file, **{**self.options, **options})
+
+    def __getitem__(self, option: str) -> Union[bool, int, float, str]:
+        if option.replace("-", "_") not in OPTIONS:
+            raise KeyError(option)
+        handle = self.handle("solve")
+        handle.check(handle.ask("rb_api_settle"))
+        return _value(option, handle)
+
+    def solve(self) -> "Solution":
+        """See :func:`solve`."""
+        handle = self.handle("solve")
+        return _kept(Solution(self, handle), handle.run("rb_api_solve"))
+
+    def __repr__(self) -> str:
+        words = [repr(os.fspath(self.file))] if self.file is not None else []
+        return f"Case({', '.join(words + [f'{k}={v!r}' for k, v in self.options.items()])})"
+
+
+def _value(option: str, handle: Handle) -> Union[bool, int, float, str]:
+    row = OPTIONS[option.replace("-", "_")]
+    text = handle.value(row.name)
+    try:
+        return {"flag": lambda: text == "yes", "integer": lambda: int(text),
+                "number": lambda: float(text)}.get(row.kind, lambda: text)()
+    except ValueError:  # a word stands for the number, or several numbers
+        return text
+
+
+def _kept(solution: Any, status: int) -> Any:
+    """What ended without a full answer is raised, with what there is."""
+    if status == SOLVED:
+        return solution
+    error = solution._handle.error(status)
+    if status > SOLVED:
+        error.solution = solution
+    raise error
+
+
+def _case(case: Union[Case, str, os.PathLike, None], options: Mapping[str, Any]) -> Case:
+    if isinstance(case, Case):
+        return case.but(**options) if options else case
+    return Case(case, **options)
+
+
+# ---- Results ------------------------------------------------------------------------------
+
+
+class _Named:
+    """Results as attributes by the names of the library's tables."""
+
+    _arrays: dict
+    _numbers: dict
+
+    def __getattr__(self, name: str) -> Any:
+        if not name.startswith("_"):
+            for values in (self._arrays, self._numbers):
+                if name in values:
+                    return values[name]
+        raise AttributeError(f"{type(self).__name__} has no '{name}'")
+
+    def __dir__(self) -> list:
+        return sorted({*super().__dir__(), *self._arrays, *self._numbers})
+
+    def columns(self) -> dict:
+        """All arrays by name, as ``pandas.DataFrame(...)`` takes them."""
+        return dict(self._arrays)
+
+
+class Solution(_Named):
+    """A solved case: numbers and columns of its table as attributes.
+
+    Arrays look into the library's memory and are read-only; they stay valid as long as they
+    are used.  A column hides a number of the same name; ``numbers`` has them all.
+    """
+
+    def __init__(self, case: Case, handle: Handle) -> None:
+        self.case, self._handle = case, handle
+        self._more: dict = {}
+
+    def _all(self, what: str, make: Any) -> Any:
+        if what not in self._more:
+            self._more[what] = make()
+        return self._more[what]
+
+    @property
+    def _arrays(self) -> dict:
+        return self._all("columns", lambda: self._handle.arrays("column"))
+
+    @property
+    def _numbers(self) -> dict:
+        return self._all("numbers", lambda: self._handle.numbers("number"))
+
+    @property
+    def numbers(self) -> dict:
+        """The numbers by name."""
+        return dict(self._numbers)
+
+    @property
+    def errors(self) -> dict:
+        """Error bars by name, of ``error=True`` and ``accuracy``; empty without."""
+        found = self._handle.numbers("number", "error.")
+        return {name: x for name, x in found.items() if x == x}
+
+    @property
+    def status(self) -> str:
+        """ "solved", or how the run ended."""
+        return self._handle.word("status")
+
+    @property
+    def formulation(self) -> Optional[str]:
+        return self._handle.word("formulation")
+
+    @property
+    def solver(self) -> Optional[str]:
+        """The one that gave the answer."""
+        return self._handle.word("solver")
+
+    @property
+    def patches(self) -> dict:
+        """The parts of the contact: columns with an entry per part."""
+        return self._handle.arrays("patch", "patch.")
+
+    @property
+    def friction_power(self) -> Array:
+        """Friction power per area and unit speed, an entry per element (wear)."""
+        return self._handle.array("friction_power")
+
+    @property
+    def history(self) -> Optional["History"]:
+        """The steps of a history; None where there are none."""
+        return History(self) if self._handle.array("history.distance") is not None else None
+
+    def value(self, option: str) -> Union[bool, int, float, str]:
+        """An option as it was settled."""
+        return _value(option, self._handle)
+
+    @property
+    def carter_holds(self) -> bool:
+        """Whether Carter's law holds for this case."""
+        return self._handle.number("carter") == 1.0
+
+    # What the solution is made of:
+
+    @property
+    def ends(self) -> Array:
+        """Ends of the elements and of the one upstream."""
+        return self._handle.array("ends")
+
+    @property
+    def F(self) -> Optional[Array]:
+        """Displacements (w_N, w_T) by tractions (r_N, r_T); None where no matrix was formed."""
+        return self._handle.array("F")
+
+    @property
+    def H(self) -> Optional[Array]:
+        """H u = G t on the boundary of a wheel; None of a half-plane."""
+        return self._handle.array("H")
+
+    @property
+    def G(self) -> Optional[Array]:
+        """See H."""
+        return self._handle.array("G")
+
+    @property
+    def mesh(self) -> Optional[Array]:
+        """Ends (x0, y0, x1, y1) of the boundary elements of a wheel."""
+        ends = [self._handle.array(f"mesh.{end}") for end in ("x0", "y0", "x1", "y1")]
+        return None if ends[0] is None else np.column_stack(ends)
+
+    def lcp(self) -> tuple:
+        """M and q of the complementarity problem that Lemke's method tries first."""
+        self._handle.check(self._handle.run("rb_api_pivots"))
+        return self._handle.array("lcp.M").copy(), self._handle.array("lcp.q").copy()
+
+    def plot(self, figure: Any = None) -> Any:
+        """The picture of the program: tractions, zones, slip.  Returns the figure."""
+        return pictures.tractions(self, figure)
+
+    def __repr__(self) -> str:
+        n = self._numbers
+        return (f"<Solution: {self.formulation}, {self.status}; P = {n['normal_load']:.6g} N/mm, "
+                f"Q = {n['tangential_load']:.6g} N/mm, p0 = {n['max_pressure']:.6g} MPa; "
+                f"{n['stick']} stick, {n['slip']} slip>")
+
+
+class History(_Named):
+    """The steps of a history as arrays with an entry per step.
+
+    ``x`` are the elements' midpoints; ``p``, ``q`` and ``zone`` have a row per step;
+    ``solution`` is the last step's.
+    """
+
+    def __init__(self, solution: Solution) -> None:
+        handle = solution._handle
+        self.solution = solution
+        self._arrays = handle.arrays("step", "history.")
+        self._numbers = {"half_width": handle.number("history.half_width")}
+        self.errors = handle.arrays("step", "history.error.")
+        self.x, self.p, self.q = (handle.array(f"step.{name}") for name in "xpq")
+        self.p, self.q = self.p.T, self.q.T
+        self.zone = handle.array("step.zone").T.astype(int)
+
+    def plot(self, figure: Any = None) -> Any:
+        """Force and stick over the rolled distance.  Returns the figure."""
+        return pictures.history(self, figure)
+
+    def __repr__(self) -> str:
+        return f"<History: {len(self.residual)} steps>"
+
+
+class Curve(_Named):
+    """A creep curve: arrays with an entry per creepage; ``free_creepage``, ``half_width``."""
+
+    def __init__(self, case: Case, handle: Handle, over: str) -> None:
+        self.case, self.over, self._handle = case, over, handle
+        self._arrays = handle.arrays("point", "curve.")
+        self._numbers = {name: handle.number(f"curve.{name}") for name in ("free_creepage", "half_width")}
+        self.errors = handle.arrays("point", "curve.error.")
+        self.mu = _value("mu", handle)
+        self.carter_holds = handle.number("carter") == 1.0
+
+    def plot(self, figure: Any = None) -> Any:
+        """The picture of the program: -Q/(mu P) over the creepage.  Returns the figure."""
+        return pictures.curves([self], figure)
+
+    def __repr__(self) -> str:
+        return f"<Curve: mu = {self.mu}, {len(self.residual)} points>"
+
+
+class Extremum(tuple):
+    """Value and place (x, y) of a largest stress."""
+
+    value, x, y = (property(lambda self, k=k: self[k]) for k in range(3))
+
+
+class Stress(_Named):
+    """Stress in body A: arrays of ny x nx (a row per depth), or with an entry per point.
+
+    Plane strain, tension positive.  ``maxima`` holds value and place of the largest
+    ``max_shear``, ``von_mises``, ``orthogonal_shear`` and ``tension``.
+    """
+
+    def __init__(self, solution: Solution, maxima: dict) -> None:
+        # copied: the next stress of the same solution is made in the same memory
+        found = solution._handle.arrays("stress", "stress.", copied=True)
+        self.solution, self.maxima = solution, maxima
+        self._arrays = {name: array.T for name, array in found.items()}
+        self._numbers = {}
+
+    def plot(self, figure: Any = None, field: str = "max_shear") -> Any:
+        """Contours of a field of a grid.  Returns the figure."""
+        return pictures.contours(self, figure, field)
+
+
+class Sweep(_Named):
+    """A study: an array per result, with an axis per varied option, in the order given.
+
+    ``axes`` holds the values of each; ``status`` is 0 where a case was solved.
+    """
+
+    def __init__(self, axes: Mapping[str, Array], handle: Handle) -> None:
+        shape = tuple(len(values) for values in axes.values())
+        self.axes, self._handle = dict(axes), handle
+        found = {"status": handle.array("sweep.status").astype(int), **handle.arrays("number", "sweep.")}
+        self._arrays = {name: array.reshape(shape) for name, array in found.items()}
+        self._numbers = {}
+
+    def columns(self) -> dict:
+        """A row per case: the varied options, the status and all results."""
+        grid = np.meshgrid(*self.axes.values(), indexing="ij")
+        found = {name: values.ravel() for name, values in zip(self.axes, grid)}
+        return {**{name: array.ravel() for name, array in self._arrays.items()}, **found}
+
+    def __repr__(self) -> str:
+        return f"<Sweep: {' x '.join(f'{len(v)} {k}' for k, v in self.axes.items())} cases>"
+
+
+# ---- Questions ----------------------------------------------------------------------------
+
+
+def solve(case: Union[Case, str, os.PathLike, None] = None, **options: Any) -> Solution:
+    """Solves one case: ``solve(mu=0.3, creep=0.1)``, ``solve("rail.ini", load=800)``.
+
+    Raises :class:`Unsolved`, with what there is as its ``solution``, where the run ends
+    without a full answer.
+    """
+    return _case(case, options).solve()
+
+
+def curve(case: Union[Case, str, os.PathLike, None] = None, start: float = 0.0, stop: float = 1.5,
+          points: int = 61, over: str = "creep-ratio", **options: Any) -> Union[Curve, "list[Curve]"]:
+    """Steady rolling at equally spaced creepage ratios, or over="creep" creepages.
+
+    With several ``mu`` a list of curves.
+    """
+    case = _case(case, options)
+    mu = case.options.get("mu")
+    if mu is not None and np.ndim(mu) == 1:
+        return [curve(case.but(mu=value), start, stop, points, over) for value in mu]
+    handle = case.handle("curve")
+    handle.check(handle.ask("rb_api_settle"))
+    status = handle.run("rb_api_curve_over", over.encode(), start, stop, points)
+    if status < SOLVED:
+        raise handle.error(status)
+    return _kept(Curve(case, handle, over), status)
+
+
+def history(program: Optional[Table] = None, case: Union[Case, str, os.PathLike, None] = None,
+            **options: Any) -> History:
+    """Runs a case along a program, a dictionary of columns, or along its own distance.
+
+    ``history({"distance": [0, 4], "creep": [0, 1e-3]}, load=500, support="halfplane")`` rolls
+    over 4 half-widths; without ``distance`` the rows are increments of a static contact.
+    """
+    if program is not None:
+        options = {**options, "history": program}
+    whole = _case(case, options)
+    if "formulation" not in whole.options and whole.file is None:
+        rolls = program is None or "distance" in program
+        whole = whole.but(formulation="transient" if rolls else "static")
+    try:
+        found = whole.solve().history
+    except Exception as error:  # the finished steps are kept
+        if getattr(error, "solution", None) is not None:
+            error.solution = error.solution.history
+        raise
+    if found is None:
+        raise InvalidInput("history: the case has no steps")
+    return found
+
+
+def stress(case: Union[Solution, Case, str, os.PathLike, None] = None, grid: "tuple[int, int]" = (61, 41),
+           depth: Optional[float] = None, points: Any = None, **options: Any) -> Stress:
+    """Stress below the surface of A, on a grid or at points (n x 2: x, y > 0 inside A).
+
+    ``case`` may be a :class:`Solution`, which is not solved again.
+    """
+    if isinstance(case, Solution) and not options:
+        solution = case
+    else:
+        whole = case.case.but(**options) if isinstance(case, Solution) else _case(case, options)
+        handle = whole.handle("stress")
+        solution = _kept(Solution(whole, handle), handle.run("rb_api_solve"))
+    handle = solution._handle
+    handle.check(handle.run("rb_api_stress_maxima", depth or 0.0))
+    names = ("max_shear", "von_mises", "orthogonal_shear", "tension")
+    maxima = {name: Extremum(handle.array(f"maxima.{name}").tolist()) for name in names}
+    if points is None:
+        handle.check(handle.run("rb_api_stress", *grid, depth or 0.0))
+    else:
+        xy = np.ascontiguousarray(points, dtype=float)
+        if xy.ndim != 2 or xy.shape[1] != 2:
+            raise InvalidInput(f"points: expected an array of n x 2, got {' x '.join(map(str, xy.shape))}")
+        handle.check(handle.run("rb_api_stress_at", len(xy), doubles(xy)))
+    return Stress(solution, maxima)
+
+
+def sweep(case: Union[Case, str, os.PathLike, None] = None, workers: int = 0, **options: Any) -> Sweep:
+    """Solves every combination of the options given as lists or arrays, the last fastest.
+
+    ``sweep(mu=[0.1, 0.3], creep_ratio=np.linspace(0, 1.5, 31), formulation="steady", ...)``.
+    One process per processor, or ``workers``.
+    """
+    base = case if isinstance(case, Case) else Case(case)
+    axes = {name: np.asarray(value, dtype=float) for name, value in options.items()
+            if isinstance(value, (list, range, np.ndarray))}
+    base = base.but(**{name: value for name, value in options.items() if name not in axes})
+    if not axes:
+        raise InvalidInput("sweep: expected at least one option with a list of values")
+    cases = []
+    for values in itertools.product(*axes.values()):
+        cases.append(base.handle("sweep", **dict(zip(axes, values))))
+    study = Handle("sweep")
+    study.check(study.run("rb_api_sweep", len(cases), handles(cases), workers))
+    return Sweep(axes, study)
+
+
+# ---- Problems by themselves ---------------------------------------------------------------
+
+
+class Answer:
+    """What a solver of :func:`lcp` or :func:`friction` gave."""
+
+    def __init__(self, handle: Handle, **arrays: Array) -> None:
+        self._handle = handle
+        self.status = handle.word("status")
+        self.solver = handle.word("task.solver")
+        self.iterations = int(handle.number("task.iterations"))
+        self.residual = handle.number("task.residual")
+        self.__dict__.update(arrays)
+
+    def __repr__(self) -> str:
+        return (f"<{type(self).__name__}: {self.status} by {self.solver}, {self.iterations} iterations, "
+                f"residual {self.residual:.2g}>")
+
+
+class Complementarity(Answer):
+    """``z`` and ``w = M z + q``; ``residual`` is max \\|min(z, w)\\|, from z alone."""
+
+    z: Array
+    w: Array
+
+
+class Friction(Answer):
+    """Reactions ``r`` and velocities ``u``, contacts x dimension, the normal ones first.
+
+    ``scaled_residual`` decides whether the problem is solved.
+    """
+
+    r: Array
+    u: Array
+    scaled_residual: float
+
+
+def _matrix(M: Any, rows: int, name: str) -> Array:
+    M = M.toarray() if hasattr(M, "toarray") else M
+    M = np.asfortranarray(M, dtype=float)
+    if M.shape != (rows, rows):
+        raise InvalidInput(f"{name}: expected a matrix of {rows} x {rows}, got {' x '.join(map(str, M.shape))}")
+    return M
+
+
+def lcp(M: Any, q: Any, solver: str = "lemke", max_pivots: int = 0) -> Complementarity:
+    """Solves z >= 0, w = M z + q >= 0, z'w = 0 by Lemke's method, or "newton" (P-matrices)."""
+    q = np.ascontiguousarray(q, dtype=float).ravel()
+    M = _matrix(M, len(q), "M")
+    handle = Handle("solve")
+    status = handle.run("rb_api_lcp", len(q), doubles(M), doubles(q), solver.encode(), max_pivots)
+    if status < SOLVED:
+        raise handle.error(status)
+    return _kept(Complementarity(handle, z=handle.array("lcp.z"), w=handle.array("lcp.w")), status)
+
+
+def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: str = "auto",
+             tol: float = 1e-8, max_iters: int = 0) -> Friction:
+    """Solves u = W r + q under Coulomb's law; per contact the normal row comes first.
+
+    ``mu`` is a number or one per contact.  ``friction("file.hdf5")`` reads FCLib or Siconos.
+    """
+    handle = Handle("solve")
+    if q is None:
+        status = handle.run("rb_api_friction_file", os.fsencode(W), solver.encode(), tol, max_iters)
+    else:
+        q = np.ascontiguousarray(q, dtype=float).ravel()
+        if len(q) % dimension:
+            raise InvalidInput(f"q: expected a multiple of {dimension} numbers, got {len(q)}")
+        W, contacts = _matrix(W, len(q), "W"), len(q) // dimension
+        mu = np.ascontiguousarray(np.broadcast_to(np.asarray(mu, dtype=float), contacts))
+        status = handle.run("rb_api_friction", dimension, contacts, doubles(W), doubles(q), doubles(mu),
+                            solver.encode(), tol, max_iters)
+    if status < SOLVED:
+        raise handle.error(status)
+    found = Friction(handle, r=handle.array("friction.r").T, u=handle.array("friction.u").T)
+    found.scaled_residual = handle.number("task.scaled_residual")
+    return _kept(found, status)
+
+
+# ---- Documentation from the tables --------------------------------------------------------
+
+
+def _options_text() -> Iterator[str]:
+    section = None
+    for name, option in OPTIONS.items():
+        if option.section != section:
+            section = option.section
+            yield f"\n{GROUPS.get(section, section)}:\n"
+        unit = f" [{option.unit}]" if option.unit not in ("", "-", "FILE") else ""
+        default = f"; default {option.default}" if option.default else ""
+        yield f"{name}: {option.help}{unit} ({option.expected}{default})"
+
+
+def _results_text(table: str) -> Iterator[str]:
+    for name, result in RESULTS[table].items():
+        unit = f" [{result.unit}]" if result.unit not in ("", "1") else ""
+        yield f"{name}: {result.meaning}{unit}"
+
+
+def _document() -> None:
+    """Options and results are described where they are defined: in the library's tables."""
+    options = "\n".join(_options_text())
+    named = {"number": float, "integer": int, "flag": bool}
+    keywords = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None,
+                                  annotation=Optional[named.get(option.kind, str)])
+                for name, option in OPTIONS.items()]
+    for function in (solve, curve, history, stress, sweep, Case):
+        target = function.__init__ if function is Case else function
+        own = [p for p in inspect.signature(target).parameters.values()
+               if p.kind is not inspect.Parameter.VAR_KEYWORD and p.name != "self"]
+        new = [p for p in keywords if p.name not in {o.name for o in own}]
+        function.__signature__ = inspect.Signature(own + new, return_annotation=inspect.signature(
+            target).return_annotation)
+        function.__doc__ = f"{inspect.getdoc(function)}\n\nOptions of a case\n{options}\n"
+    for kind, tables in ((Solution, ("number", "column")), (History, ("step",)), (Curve, ("point",)),
+                         (Stress, ("stress",)), (Sweep, ("number",))):
+        text = "\n".join(line for table in tables for line in _results_text(table))
+        kind.__doc__ = f"{inspect.getdoc(kind)}\n\n{text}\n"
+
+
+_document()

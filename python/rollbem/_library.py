@@ -1,0 +1,277 @@
+"""The C library behind the package: found, checked, declared (include/rollbem/api.h)."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import re
+import threading
+from pathlib import Path
+from typing import Any, Callable, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+_HERE = Path(__file__).resolve().parent
+_CHECKOUT = _HERE.parent.parent
+
+_Handle, _Int, _Double, _Text = ctypes.c_void_p, ctypes.c_int, ctypes.c_double, ctypes.c_char_p
+_Doubles, _Ints = ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_int)
+
+FUNCTIONS = {
+    "rb_version": (_Text,),
+    "rb_api_create_for": (_Handle, _Text),
+    "rb_api_free": (None, _Handle),
+    "rb_api_set": (_Int, _Handle, _Text, _Text),
+    "rb_api_read": (_Int, _Handle, _Text),
+    "rb_api_settle": (_Int, _Handle),
+    "rb_api_solve": (_Int, _Handle),
+    "rb_api_stop": (None, _Handle),
+    "rb_api_message": (_Text, _Handle),
+    "rb_api_option": (_Text, _Int, _Text, _Text, _Int),
+    "rb_api_result": (_Text, _Text, _Int, _Text, _Text, _Int),
+    "rb_api_value": (_Text, _Handle, _Text, _Text, _Int),
+    "rb_api_number": (_Double, _Handle, _Text),
+    "rb_api_word": (_Text, _Handle, _Text),
+    "rb_api_array": (_Handle, _Handle, _Text, _Ints, _Ints),
+    "rb_api_curve_over": (_Int, _Handle, _Text, _Double, _Double, _Int),
+    "rb_api_stress": (_Int, _Handle, _Int, _Int, _Double),
+    "rb_api_stress_at": (_Int, _Handle, _Int, _Doubles),
+    "rb_api_stress_maxima": (_Int, _Handle, _Double),
+    "rb_api_pivots": (_Int, _Handle),
+    "rb_api_variable": (_Text, _Handle, _Int, _Text, _Int),
+    "rb_api_lcp": (_Int, _Handle, _Int, _Doubles, _Doubles, _Text, _Int),
+    "rb_api_friction": (_Int, _Handle, _Int, _Int, _Doubles, _Doubles, _Doubles, _Text, _Double, _Int),
+    "rb_api_friction_file": (_Int, _Handle, _Text, _Text, _Double, _Int),
+    "rb_api_sweep": (_Int, _Handle, _Int, ctypes.POINTER(_Handle), _Int),
+}
+
+
+def _version_of_package() -> str:
+    """What the wheel was built with; of a checkout, what its header says."""
+    try:
+        from ._version import VERSION
+
+        return VERSION
+    except ImportError:
+        header = (_CHECKOUT / "include/rollbem/base.h").read_text()
+        return re.search(r'RB_VERSION "(.*)"', header).group(1)
+
+
+def _load() -> ctypes.CDLL:
+    """ROLLBEM_LIBRARY, the library of the wheel, of the checkout, or of the system."""
+    named = os.environ.get("ROLLBEM_LIBRARY")
+    beside = [_HERE / "librollbem.so", _CHECKOUT / "build/librollbem.so"]
+    found = named or next((str(path) for path in beside if path.exists()), "librollbem.so.0")
+    try:
+        library = ctypes.CDLL(found)
+    except OSError as error:
+        raise ImportError(f"rollbem: the library does not load: {error}; in a checkout, run make first, "
+                          "or name it in ROLLBEM_LIBRARY") from None
+    for name, (result, *arguments) in FUNCTIONS.items():
+        try:
+            function = getattr(library, name)
+        except AttributeError:
+            raise ImportError(f"rollbem: {found} has no {name}: it is older than the package") from None
+        function.restype, function.argtypes = result, arguments
+    has, wants = library.rb_version().decode(), _version_of_package()
+    if has != wants:
+        raise ImportError(f"rollbem: {found} has version {has}, the package has {wants}")
+    return library
+
+
+lib = _load()
+VERSION = lib.rb_version().decode()
+
+# ---- Errors -------------------------------------------------------------------------------
+
+
+class Error(Exception):
+    """A refusal or a failure, in the program's words.
+
+    ``status`` is the library's number for it: negative where nothing ran, positive where a
+    run ended without a full answer.
+    """
+
+    status: int = 0
+
+
+class InvalidInput(Error, ValueError):
+    """An option, a file or an array that does not say what it should."""
+
+
+class MissingFile(Error, FileNotFoundError):
+    """There is no such input file."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class OutOfMemory(Error, MemoryError):
+    """The case needs more memory than there is."""
+
+
+class Unsolved(Error):
+    """A run that ended without a full answer; ``solution`` holds what there is."""
+
+    solution: Any = None
+
+
+_KINDS = {-1: InvalidInput, -2: OutOfMemory, -3: MissingFile, -4: InvalidInput}
+SOLVED = 0
+
+# ---- Tables -------------------------------------------------------------------------------
+
+
+class Option(NamedTuple):
+    """A row of the table of options."""
+
+    name: str
+    section: str
+    kind: str
+    unit: str
+    expected: str
+    default: str
+    choices: str
+    help: str
+
+
+class Result(NamedTuple):
+    """A row of one of the tables of results."""
+
+    name: str
+    unit: str
+    kind: str
+    meaning: str
+
+
+def _rows(row: Any, ask: Callable[..., Optional[bytes]], *first: Any) -> list:
+    room = ctypes.create_string_buffer(4096)
+    rows, k = [], 0
+    while ask(*first, k, b"name", room, len(room)) is not None:
+        fields = (ask(*first, k, field.encode(), room, len(room)).decode() for field in row._fields)
+        rows.append(row(*fields))
+        k += 1
+    return rows
+
+
+def _keyword(name: str) -> str:
+    return name.replace("-", "_")
+
+
+_all_options = _rows(Option, lib.rb_api_option)
+GROUPS = {option.name: option.help for option in _all_options if option.kind == "group"}
+OPTIONS = {_keyword(option.name): option for option in _all_options if option.kind != "group"}
+RESULTS = {table: {result.name: result for result in _rows(Result, lib.rb_api_result, table.encode())}
+           for table in ("number", "column", "step", "point", "patch", "stress")}
+
+# ---- Handles ------------------------------------------------------------------------------
+
+
+class Handle:
+    """An ``rb_api``: freed with the last array that looks into it."""
+
+    def __init__(self, purpose: str) -> None:
+        self.at = lib.rb_api_create_for(purpose.encode())
+        if not self.at:
+            raise OutOfMemory("out of memory")
+
+    def __del__(self) -> None:
+        if getattr(self, "at", None):
+            lib.rb_api_free(self.at)
+
+    @property
+    def message(self) -> str:
+        return lib.rb_api_message(self.at).decode(errors="replace")
+
+    def error(self, status: int) -> Error:
+        error = _KINDS.get(status, Error if status < 0 else Unsolved)(self.message)
+        error.status = status
+        return error
+
+    def check(self, status: int) -> None:
+        if status != SOLVED:
+            raise self.error(status)
+
+    def ask(self, function: str, *arguments: Any) -> int:
+        """Calls a function that is over at once."""
+        return getattr(lib, function)(self.at, *arguments)
+
+    def set(self, option: str, text: str) -> None:
+        name = option.replace("_", "-").encode()
+        self.check(self.ask("rb_api_set", name, text.encode(errors="surrogateescape")))
+
+    def run(self, function: str, *arguments: Any) -> int:
+        """Calls a function that may take long; Control-C ends it.
+
+        Python sees signals between its own instructions only, so that the call runs in a
+        thread of its own while the main thread waits for it.
+        """
+        call = getattr(lib, function)
+        if threading.current_thread() is not threading.main_thread():
+            return call(self.at, *arguments)
+        status: list = []
+        handle = self  # held until the call is over, also where nobody waits for it
+
+        def work() -> None:
+            status.append(call(handle.at, *arguments))
+
+        thread = threading.Thread(target=work, daemon=True)
+        thread.start()
+        try:
+            thread.join()
+        except BaseException:
+            lib.rb_api_stop(self.at)
+            raise
+        return status[0]
+
+    def number(self, name: str) -> float:
+        return lib.rb_api_number(self.at, name.encode())
+
+    def numbers(self, table: str, prefix: str = "") -> dict:
+        """The numbers of a table by name, whole ones as int; NaN where there is none."""
+        values = {name: self.number(prefix + name) for name in RESULTS[table]}
+        return {name: int(x) if RESULTS[table][name].kind == "whole" and x == x else x
+                for name, x in values.items()}
+
+    def word(self, name: str) -> Optional[str]:
+        text = lib.rb_api_word(self.at, name.encode())
+        return text.decode() if text is not None else None
+
+    def value(self, name: str) -> str:
+        room = ctypes.create_string_buffer(4096)
+        return lib.rb_api_value(self.at, name.encode(), room, len(room)).decode()
+
+    def array(self, name: str) -> Optional[NDArray[np.float64]]:
+        """The library's own memory as a read-only array, rows x columns; None: there is none.
+
+        Valid until the handle's case changes or the array is made anew: what lives longer
+        is to be copied.
+        """
+        rows, columns = ctypes.c_int(), ctypes.c_int()
+        at = lib.rb_api_array(self.at, name.encode(), rows, columns)
+        if not at:
+            return None
+        memory = (ctypes.c_double * (rows.value * columns.value)).from_address(at)
+        memory.handle = self
+        array = np.frombuffer(memory, dtype=np.float64).reshape((rows.value, columns.value), order="F")
+        array.flags.writeable = False
+        return array[:, 0] if columns.value == 1 else array
+
+    def arrays(self, table: str, prefix: str = "", copied: bool = False) -> dict:
+        """The arrays of a table by name, whole numbers as int."""
+        found = {}
+        for name, result in RESULTS[table].items():
+            array = self.array(prefix + name)
+            if array is not None:
+                whole = result.kind == "whole"
+                found[name] = array.astype(int) if whole else array.copy() if copied else array
+        return found
+
+
+def doubles(array: NDArray[np.float64]) -> Any:
+    return array.ctypes.data_as(_Doubles)
+
+
+def handles(of: "list[Handle]") -> Any:
+    return (_Handle * len(of))(*(handle.at for handle in of))

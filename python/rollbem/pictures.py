@@ -1,0 +1,144 @@
+"""Pictures in the style of the program's, by matplotlib; each returns its figure."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from typing import TYPE_CHECKING, Any, Sequence
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from ._case import Curve, History, Solution, Stress
+
+PRESSURE, FRICTION, BOUND, SLIP, CARTER = "#1f4e79", "#c0392b", "#7a7a7a", "#6c3483", "#1e8449"
+CURVES = ["#1f4e79", "#c0392b", "#b9770e", "#6c3483", "#117864", "#5d6d7e", "#7b241c", "#2e86c1"]
+ZONES = {0: ("separated", "#f3f3f3"), 1: ("stick", "#d6e6f5"), 2: ("slip", "#fde8cd"), 3: ("slip", "#f8dcdc")}
+STYLE = {"axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": "#444444",
+         "axes.linewidth": 0.7, "lines.linewidth": 1.8, "font.size": 9.5, "legend.frameon": False,
+         "axes.titlesize": 10, "svg.fonttype": "none"}
+
+
+def _figure(figure: Any, rows: int = 1, **keywords: Any) -> Any:
+    """The figure and its axes: a new one, unless the caller has one."""
+    from matplotlib import pyplot
+
+    with pyplot.rc_context(STYLE):
+        figure = figure or pyplot.figure(figsize=(6.4, 4.4), constrained_layout=True)
+        return figure, np.atleast_1d(figure.subplots(rows, 1, **keywords))
+
+
+def _stress_unit(largest: float) -> "tuple[float, str]":
+    return (1000.0, "GPa") if largest >= 1e4 else (1.0, "MPa")
+
+
+def _zones(axes: Any, solution: "Solution", labelled: bool) -> None:
+    left, right = solution.x - solution.h / 2, solution.x + solution.h / 2
+    low, high = axes.get_xlim()
+    for zone, run in groupby(range(len(left)), key=lambda i: solution.zone[i]):
+        run = list(run)
+        name, colour = ZONES[zone]
+        start, stop = max(left[run[0]], low), min(right[run[-1]], high)
+        if stop <= start:
+            continue
+        axes.axvspan(start, stop, color=colour, linewidth=0, zorder=0)
+        if labelled and stop - start > 0.09 * (high - low):
+            axes.text((start + stop) / 2, 0.97, name, transform=axes.get_xaxis_transform(),
+                      ha="center", va="top", color="#555555", fontsize=8)
+
+
+def _limits(solution: "Solution") -> "tuple[float, float]":
+    low, high = solution.x[0] - solution.h[0] / 2, solution.x[-1] + solution.h[-1] / 2
+    if solution.contact:
+        margin = 0.15 * (solution.contact_to - solution.contact_from)
+        low, high = max(low, solution.contact_from - margin), min(high, solution.contact_to + margin)
+    return low, high
+
+
+def tractions(solution: "Solution", figure: Any = None) -> Any:
+    """Pressure, friction between its bounds, zones, and the slip below."""
+    s, mu = solution, solution.value("mu")
+    unit, label = _stress_unit(s.max_pressure)
+    figure, (upper, lower) = _figure(figure, 2, sharex=True, gridspec_kw={"height_ratios": [2, 1]})
+    upper.set_xlim(*_limits(s))
+    _zones(upper, s, labelled=True)
+    _zones(lower, s, labelled=False)
+    for axes in (upper, lower):
+        axes.axhline(0, color="#999999", linewidth=0.6)
+    for sign, text in ((1, "±μp"), (-1, None)):
+        upper.plot(s.x, sign * mu * s.p / unit, "--", color=BOUND, linewidth=0.9, label=text)
+    upper.plot(s.x, s.p / unit, color=PRESSURE, label="pressure p")
+    upper.plot(s.x, s.q / unit, color=FRICTION, label="friction q")
+    below = max(1.2 * min(mu, 1.0) * s.max_pressure, 0.08 * s.max_pressure)
+    upper.set_ylim(-below / unit, (1.14 * s.max_pressure + 0.13 * below) / unit)
+    upper.set_ylabel(f"traction [{label}]")
+    upper.set_title(f"{s.formulation} contact: μ = {mu:g}, P = {s.normal_load:.5g} N/mm, "
+                    f"Q = {s.tangential_load:.5g} N/mm")
+    upper.legend(loc="upper right", bbox_to_anchor=(1.0, 0.93), fontsize=8)
+    lower.plot(s.x, s.slip, color=SLIP)
+    lower.set_ylabel("slip")
+    lower.set_xlabel("x [mm]" + ("" if s.formulation == "static" else "   (rolling towards +x →)"))
+    lower.ticklabel_format(axis="y", scilimits=(-2, 3))
+    return figure
+
+
+def curves(of: "Sequence[Curve]", figure: Any = None) -> Any:
+    """-Q/(mu P) over the creepage ratio; of several mu, -Q/P over the creepage."""
+    figure, (axes,) = _figure(figure)
+    several, over_creep = len(of) > 1, len(of) > 1 or of[0].over == "creep"
+    for curve, colour in zip(of, CURVES * (1 + len(of) // len(CURVES))):
+        scale = curve.mu if several else 1.0
+        x = curve.creepage if over_creep else curve.creep_ratio
+        if "force_ratio" in curve.errors:
+            bar = np.abs(curve.errors["force_ratio"])
+            axes.fill_between(x, scale * (-curve.force_ratio - bar), scale * (-curve.force_ratio + bar),
+                              color=colour, alpha=0.25, linewidth=0, label="error")
+        axes.plot(x, -scale * curve.force_ratio, color=colour, label=f"μ = {curve.mu:g}")
+        if curve.carter_holds:
+            ratio = np.linspace(curve.creep_ratio[0], curve.creep_ratio[-1], 301)
+            share = np.minimum(np.abs(ratio), 1.0)
+            carter = np.sign(ratio) * share * (2.0 - share)
+            axes.plot(np.linspace(x[0], x[-1], 301), scale * carter, "--", color="#111111", linewidth=1.1,
+                      label="law of Carter" if curve is of[0] else None)
+    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.set_xlabel("creepage ξ" if over_creep else "creepage ratio ξR/(μa)")
+    axes.set_ylabel("braking force −Q/P" if several else "braking force −Q/(μP)")
+    axes.set_title(f"Creep curve: P = {of[0].normal_load[-1]:.5g} N/mm, a = {of[0].half_width:.4g} mm")
+    axes.legend(loc="lower right")
+    return figure
+
+
+def history(of: "History", figure: Any = None) -> Any:
+    """Q/(mu P) and the stick over the rolled distance, or over the increments."""
+    figure, (upper, lower) = _figure(figure, 2, sharex=True)
+    rolls = of.distance[-1] > 0
+    x = of.distance if rolls else np.arange(1, len(of.residual) + 1)
+    upper.plot(x, of.force_ratio, color=FRICTION)
+    upper.set_ylabel("Q/(μP)")
+    lower.step(x, of.stick, where="mid", color=PRESSURE, label="stick")
+    lower.step(x, of.slip, where="mid", color=SLIP, label="slip")
+    lower.set_ylabel("elements")
+    lower.set_xlabel("rolled distance / a" if rolls else "increment")
+    lower.legend()
+    return figure
+
+
+def contours(of: "Stress", figure: Any = None, field: str = "max_shear") -> Any:
+    """Contours of a field below the contact, its largest value marked."""
+    values = getattr(of, field)
+    if values.ndim != 2 or 1 in values.shape:
+        raise ValueError("contours need a stress on a grid")
+    unit, label = _stress_unit(np.nanmax(np.abs(values)))
+    figure, (axes,) = _figure(figure)
+    filled = axes.contourf(of.x, of.y, np.ma.masked_invalid(values) / unit, 12, cmap="viridis")
+    lines = axes.contour(of.x, of.y, np.ma.masked_invalid(values) / unit, filled.levels,
+                         colors="white", linewidths=0.4)
+    axes.clabel(lines, fontsize=7)
+    figure.colorbar(filled, ax=axes, label=f"{field.replace('_', ' ')} [{label}]")
+    if field in of.maxima:
+        largest = of.maxima[field]
+        axes.plot(largest.x, largest.y, "+", color="white", markersize=9)
+        axes.set_title(f"largest {field.replace('_', ' ')} {largest.value / unit:.5g} {label} "
+                       f"at ({largest.x:.4g}, {largest.y:.4g}) mm")
+    axes.set(xlabel="x [mm]", ylabel="depth y [mm]", aspect="equal")
+    axes.invert_yaxis()
+    return figure

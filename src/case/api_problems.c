@@ -1,0 +1,208 @@
+/* Problems that a caller hands over whole: complementarity, friction, many cases. */
+#include "case/api.h"
+
+#include "rollbem/friction.h"
+#include "rollbem/lcp.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void begin(rb_api *a, const char *arrays, const char *solver)
+{
+    rb_case_forget_arrays(a, arrays);
+    a->why.text[0] = '\0';
+    a->stopped = 0;
+    a->iterations = 0;
+    a->residual = a->scaled_residual = NAN;
+    a->solver = solver;
+}
+
+/* ---- Complementarity --------------------------------------------------------------- */
+
+static rb_status solve_sparse(int n, const double *M, const double *q,
+                              const rb_lcp_options *options, double *z, rb_lcp_info *info)
+{
+    rb_sparse sparse = {0};
+    rb_status s = rb_sparse_from_dense(n, n, M, n, &sparse);
+    if (s == RB_OK)
+        s = rb_lcp_newton(&sparse, q, options, z, info);
+    rb_sparse_free(&sparse);
+    return s;
+}
+
+int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *solver,
+               int max_pivots)
+{
+    const int newton = strcmp(solver, "newton") == 0;
+    rb_lcp_options options = rb_lcp_defaults();
+    rb_lcp_info info = {0};
+    options.max_iters = max_pivots;
+    begin(a, "lcp.", newton ? "newton" : "lemke");
+    if (!newton && strcmp(solver, "lemke") != 0)
+        return rb_case_ended(a, rb_fail(&a->why, RB_EINVAL,
+                                        "--solver: expected lemke or newton, got '%.60s'",
+                                        solver));
+    if (n < 1)
+        return rb_case_ended(a, rb_fail(&a->why, RB_EINVAL, "lcp: n = %d", n));
+    case_array *z = rb_case_make_array(a, "lcp.z", n, 1);
+    case_array *w = z ? rb_case_make_array(a, "lcp.w", n, 1) : NULL;
+    if (!z || !w)
+        return rb_case_ended(a, RB_ENOMEM);
+    const rb_status s = newton ? solve_sparse(n, M, q, &options, z->at, &info)
+                               : rb_lcp_lemke(n, M, n, q, &options, z->at, &info);
+    if (s >= 0)
+        a->residual = rb_lcp_residual(n, M, n, q, z->at, w->at);
+    a->iterations = info.iters;
+    a->why = info.msg;
+    return rb_case_ended(a, s);
+}
+
+/* ---- Friction ---------------------------------------------------------------------- */
+
+static int goes_on(const rb_friction_progress *at, void *context)
+{
+    const rb_api *a = context;
+    (void)at;
+    return a->stopped;
+}
+
+static rb_status solve_friction(rb_api *a, const rb_friction_problem *p,
+                                const char *solver, double tol, int max_iters)
+{
+    rb_friction_options options = rb_friction_defaults();
+    rb_friction_info info = {0};
+    options.tol = tol;
+    options.max_iters = max_iters;
+    options.progress = goes_on;
+    options.context = a;
+    case_array *r = rb_case_make_array(a, "friction.r", p->dimension, p->contacts);
+    case_array *u =
+        r ? rb_case_make_array(a, "friction.u", p->dimension, p->contacts) : NULL;
+    case_array *mu =
+        u ? rb_case_copy_array(a, "friction.mu", p->contacts, 1, p->mu) : NULL;
+    if (!mu)
+        return RB_ENOMEM;
+    const rb_status s = rb_friction_solve(solver, p, &options, r->at, u->at, NULL, &info);
+    a->solver = info.solver;
+    a->iterations = info.iters;
+    a->residual = info.residual;
+    a->scaled_residual = info.scaled;
+    a->why = info.msg;
+    return s;
+}
+
+int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W,
+                    const double *q, const double *mu, const char *solver, double tol,
+                    int max_iters)
+{
+    begin(a, "friction.", solver);
+    if (dimension < 2 || dimension > 3 || contacts < 1 || contacts > INT_MAX / dimension)
+        return rb_case_ended(
+            a, rb_fail(&a->why, RB_EINVAL,
+                       "friction: %d contacts of dimension %d, expected 2 or 3", contacts,
+                       dimension));
+    const size_t m = (size_t)dimension * (size_t)contacts;
+    rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
+                             .dimension = dimension,
+                             .contacts = contacts,
+                             .W = rb_alloc(m, m),
+                             .q = rb_alloc(m, 1),
+                             .mu = rb_alloc((size_t)contacts, 1)};
+    rb_status s = p.W && p.q && p.mu ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK) {
+        memcpy(p.W, W, sizeof *W * m * m);
+        memcpy(p.q, q, sizeof *q * m);
+        memcpy(p.mu, mu, sizeof *mu * (size_t)contacts);
+        s = rb_friction_problem_check(&p, &a->why);
+    }
+    if (s == RB_OK)
+        s = solve_friction(a, &p, solver, tol, max_iters);
+    rb_friction_problem_free(&p);
+    return rb_case_ended(a, s);
+}
+
+int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol,
+                         int max_iters)
+{
+    rb_friction_problem p = {0};
+    begin(a, "friction.", solver);
+    rb_status s = rb_friction_read(path, &p, &a->why);
+    if (s == RB_OK)
+        s = solve_friction(a, &p, solver, tol, max_iters);
+    rb_friction_problem_free(&p);
+    return rb_case_ended(a, s);
+}
+
+/* ---- Many cases -------------------------------------------------------------------- */
+
+typedef struct {
+    rb_api *a;
+    rb_api *const *cases;
+} study;
+
+static rb_status make_case(int k, rb_rolling_case *rc, void *context)
+{
+    const study *st = context;
+    *rc = rb_case_settled(st->cases[k]->words)->rc;
+    return RB_OK;
+}
+
+static case_array *column_of(rb_api *a, const char *name)
+{
+    char text[40];
+    snprintf(text, sizeof text, "sweep.%s", name);
+    return rb_case_find_array(a, text);
+}
+
+static rb_status make_columns(rb_api *a, int rows)
+{
+    const rb_rolling_results *table = &rb_rolling_solution_scalars;
+    char text[40];
+    case_array *made = rb_case_make_array(a, "sweep.status", rows, 1);
+    for (int j = 0; made && j < table->n; j++) {
+        snprintf(text, sizeof text, "sweep.%s", table->row[j].name);
+        made = rb_case_make_array(a, text, rows, 1);
+    }
+    return made ? RB_OK : RB_ENOMEM;
+}
+
+static int see_row(int k, const rb_rolling_solution *row, void *context)
+{
+    const study *st = context;
+    const rb_rolling_results *table = &rb_rolling_solution_scalars;
+    column_of(st->a, "status")->at[k] = row->status;
+    for (int j = 0; j < table->n; j++)
+        column_of(st->a, table->row[j].name)->at[k] =
+            rb_rolling_number(&table->row[j], row);
+    return 0;
+}
+
+static int tick(int seen, void *context)
+{
+    const study *st = context;
+    (void)seen;
+    return st->a->stopped;
+}
+
+int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
+{
+    study st = {.a = a, .cases = cases};
+    const rb_rolling_sweep sweep = {.count = n,
+                                    .workers = workers,
+                                    .make = make_case,
+                                    .see = see_row,
+                                    .tick = tick,
+                                    .context = &st};
+    rb_status s = RB_OK;
+    begin(a, "sweep.", NULL);
+    for (int k = 0; k < n && s == RB_OK; k++)
+        if ((s = (rb_status)rb_api_settle(cases[k])) != RB_OK)
+            rb_fail(&a->why, s, "case %d: %.580s", k + 1, rb_api_message(cases[k]));
+    if (s == RB_OK && n > 0)
+        s = make_columns(a, n);
+    if (s == RB_OK)
+        s = rb_rolling_sweep_run(&sweep, &a->why);
+    return rb_case_ended(a, s);
+}
