@@ -5,8 +5,6 @@
 #include "rollbem/api.h"
 #include "rollbem/case.h"
 
-#include <signal.h>
-
 /* An array that was asked for. */
 typedef struct {
     char name[40];
@@ -28,7 +26,7 @@ struct rb_api {
     int iterations;
     double residual, scaled_residual;
     const char *solver; /* of the last problem that was handed over; static text */
-    volatile sig_atomic_t stopped;
+    _Atomic int stopped; /* by another thread, or a signal handler */
     rb_status status;
     rb_message why;
     case_array made[CASE_ARRAYS];
