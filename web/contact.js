@@ -46,8 +46,8 @@ export function tractions_picture(host, words, { columns: c, numbers, values }, 
         inner.append(...[forms.p, forms.q].map((f) => svg("path", { d: line(way.map((v) => [X(v), Y(f(v))])), style: stroke("--reference", 1.6, "stroke-dasharray:7 5") })));
     }
     const y_strip = height + 6;
-    [...c.zone].forEach((z, i) => inner.append(svg("rect", { x: X(ends[i]), y: y_strip, width: Math.max(0.5, X(ends[i + 1]) - X(ends[i]) - 0.6), height: strip - 8, rx: 2,
-        style: `fill:var(${zone_colours[z]})` }, svg("title", {}, `${words.zones[z]}, x = ${show(c.x[i])} mm`))));
+    zone_colours.forEach((colour, zone) => inner.append(svg("path", { style: `fill:var(${colour})`, d: [...c.zone.keys()].filter((i) => c.zone[i] === zone)
+        .map((i) => `M${X(ends[i]).toFixed(1)} ${y_strip}h${Math.max(0.5, X(ends[i + 1]) - X(ends[i]) - 0.6).toFixed(1)}v${strip - 8}H${X(ends[i]).toFixed(1)}Z`).join("") })));
     let base = y_strip + strip;
     if (has_slip) {
         const most = Math.max(...slip.map(Math.abs));
@@ -74,8 +74,8 @@ const arrow = (x0, y0, x1, y1, colour, width = 2.5) => {
 };
 
 /* The wheel to scale on the left; on the right the strip, its heights magnified. */
-function scene(host, words, { columns: c, numbers: n, values }, given) {
-    const width = width_of(host), narrow = width < 560, wheel = narrow ? width : Math.min(300, width * 0.34), height = 250;
+function scene(width, words, { columns: c, numbers: n, values }, given) {
+    const narrow = width < 560, wheel = narrow ? width : Math.min(300, width * 0.34), height = 250;
     const R = Number(values.radius), scale = 82 / R, cx = wheel / 2, ground = 212, cy = ground - 82;
     const total = narrow ? 2 * height : height;
     const root = svg("svg", { viewBox: `0 0 ${width} ${total}`, width, height: total, role: "img" });
@@ -115,30 +115,35 @@ function scene(host, words, { columns: c, numbers: n, values }, given) {
         svg("path", { d: line(inside.map((i, k) => [X(c.x[i]), Y(undeformed[k])])), style: stroke("--soft", 1.4, "stroke-dasharray:5 5") }),
         svg("path", { d: lower, style: stroke("--ink", 1.6) }), svg("path", { d: upper, style: stroke("--ink", 2.2) }));
     const between = (i, j) => (b[i] + (b[j] ?? b[i])) / 2;
-    for (const i of inside) if (c.zone[i]) root.append(svg("path", { d: line([[X(ends[i]), Y(between(i, i - 1))], [X(c.x[i]), Y(b[i])], [X(ends[i + 1]), Y(between(i, i + 1))]]), style: stroke(zone_colours[c.zone[i]], 5) }));
+    zone_colours.forEach((colour, zone) => zone && root.append(svg("path", { style: stroke(colour, 5), d: inside.filter((i) => c.zone[i] === zone)
+        .map((i) => line([[X(ends[i]), Y(between(i, i - 1))], [X(c.x[i]), Y(b[i])], [X(ends[i + 1]), Y(between(i, i + 1))]])).join("") })));
     root.append(svg("text", { x: (left + width) / 2, y: from + 242, "text-anchor": "middle", class: "soft" }, say(words.magnified, { factor: show(factor, 2) })),
         svg("text", { x: (left + width) / 2, y: from + 56, "text-anchor": "middle", class: "soft" }, words.surface_a));
     root.setAttribute("aria-label", say(words.scene_alt, { width: show(n.contact_to - n.contact_from), factor: show(factor, 2) }));
     return root;
 }
 
-function number_row(words, { numbers: n }, units) {
-    const entry = (name, value, unit) => html("div", {}, html("dt", {}, words.numbers[name]), html("dd", { "data-number": name }, value, " ", html("small", {}, unit)));
+/* Which options hold which number, so that it can be marked. */
+const HOLDS = { normal_load: ["load"], half_width: ["half-width"], approach: ["approach"], tangential_load: ["force"], force_ratio: ["force-ratio"], creepage: ["creep", "creep-ratio"] };
+
+function number_row(words, { numbers: n }, units, given) {
+    const is_held = (name) => HOLDS[name]?.some((option) => option in given);
+    const entry = (name, value, unit) => html("div", { class: is_held(name) ? "held" : "" }, html("dt", {}, words.numbers[name], is_held(name) && html("span", {}, words.held)), html("dd", { "data-number": name }, value, " ", html("small", {}, unit)));
     return html("dl", { class: "card numbers", style: "margin:0" },
         ...["normal_load", "tangential_load", "force_ratio", "max_pressure", "half_width", "approach", "creepage"].map((name) => entry(name, show(n[name]), units[name] ?? "")),
         entry("stick", n.contact ? `${Math.round(100 * n.stick / n.contact)} %` : "–", ""));
 }
 
 /* The curve and the point of the case on it, which can be dragged. */
-function creep_curve(host, words, page) {
+function creep_curve(width, words, page) {
     const { answer, curve } = page, n = answer.numbers;
     if (formulation_of(page.given) !== "steady") return html("p", { class: "note" }, words.curve_none);
-    const width = width_of(host), height = Math.round(Math.min(430, Math.max(290, width * 1.15)));
+    const height = Math.round(Math.min(430, Math.max(290, width * 1.15)));
     const plot = chart({ width, height, x: [-1.45, 1.45], y: [-1.12, 1.12], x_label: words.curve_x, y_label: words.curve_y, label: words.curve_title, y_ticks: 4 });
     const { root, X, Y } = plot;
     root.removeAttribute("role");
     root.append(svg("path", { d: `M${X(0)} ${plot.top}V${height - plot.bottom}`, style: stroke("--soft", 1) }));
-    if (curve) root.append(svg("path", { d: line([...curve.creep_ratio].map((s, k) => [X(s), Y(curve.force_ratio[k])])), style: stroke("--rub", 3) }));
+    if (curve) root.append(svg("path", { class: page.curve_is_old() ? "old" : "", d: line([...curve.creep_ratio].map((s, k) => [X(s), Y(curve.force_ratio[k])])), style: stroke("--rub", 3) }));
     const at = [Math.max(-1.45, Math.min(1.45, n.creep_ratio)), n.force_ratio];
     if (!at.every(Number.isFinite)) return root;
     const point = svg("circle", { cx: X(at[0]), cy: Y(at[1]), r: 10, class: "handle", tabindex: 0, role: "slider", "aria-label": words.curve_point, "aria-valuemin": -0.99,
@@ -162,6 +167,7 @@ function creep_curve(host, words, page) {
 }
 
 export function contact_view(words, page) {
+    let curve_width = 0;
     const numbers = html("div"), figure = html("figure"), tractions = html("figure"), curve = html("figure"), note = html("p", { class: "note", "aria-live": "polite" });
     const node = html("div", { class: "stack" }, numbers, html("div", { class: "pair" },
         card(words.tractions_title, tractions),
@@ -170,13 +176,17 @@ export function contact_view(words, page) {
     function draw() {
         const a = page.answer;
         if (!a) return;
-        numbers.replaceChildren(number_row(words, a, page.units));
-        tractions.replaceChildren(tractions_picture(tractions, words, a), tractions_legend(words, a.numbers, a.columns.zone));
-        figure.replaceChildren(scene(figure, words, a, page.given));
-        const focused = curve.contains(document.activeElement);
-        curve.replaceChildren(creep_curve(curve, words, page));
-        if (focused) curve.querySelector(".handle")?.focus();
+        const [tractions_width, scene_width] = [tractions, figure].map(width_of); /* before anything changes: each look is a layout */
+        numbers.replaceChildren(number_row(words, a, page.units, page.given));
+        tractions.replaceChildren(tractions_picture(tractions, words, a, { width: tractions_width }), tractions_legend(words, a.numbers, a.columns.zone));
+        figure.replaceChildren(scene(scene_width, words, a, page.given));
+        draw_curve();
         note.textContent = say(words.solved_in, { contact: a.numbers.contact, stick: a.numbers.stick, ms: show(a.milliseconds, 2), residual: show(a.numbers.residual, 2) });
     }
-    return { node, draw, wants: () => [] };
+    function draw_curve() {
+        const focused = curve.contains(document.activeElement);
+        curve.replaceChildren(creep_curve(curve_width ||= width_of(curve), words, page));
+        if (focused) curve.querySelector(".handle")?.focus();
+    }
+    return { node, draw, draw_curve, wants: () => [], resize() { curve_width = 0; draw(); } };
 }

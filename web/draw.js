@@ -7,7 +7,7 @@ function fill(node, attributes, children) {
         if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
         else if (value === true) node.setAttribute(name, "");
         else if (value !== false && value != null) node.setAttribute(name, value);
-    node.append(...children.flat().filter((child) => child != null));
+    node.append(...children.flat().filter((child) => child != null && child !== false));
     return node;
 }
 export const html = (tag, attributes, ...children) => fill(document.createElement(tag), attributes, children);

@@ -9,6 +9,8 @@ import { step_view } from "./step.js";
 import { take_view } from "./take.js";
 import { say, words } from "./words.js";
 
+const CURVE_WAITS = 120; /* ms */
+
 const at = (id) => document.getElementById(id);
 
 /* One request at work; of those that wait only the newest of each kind. */
@@ -59,37 +61,50 @@ async function main() {
 
     const page = { given: { ...PRESETS.rail }, answer: null, curve: null, options: workers[0].options, results: workers[0].results,
         units: Object.fromEntries(workers[0].results.number.map((r) => [r.name, r.unit])) };
-    let current = "contact", curve_key = null, first = true, panel = null;
-    const makers = { contact: contact_view, roll: roll_view, below: below_view, step: step_view, take: take_view }, views = {}, asked = {};
+    let current = "contact", curve_key = null, curve_shown = null, curve_timer = null, first = true, panel = null;
+    const makers = { contact: contact_view, roll: roll_view, below: below_view, step: step_view, take: take_view }, views = {};
 
+    function refuse(answer, request, newer) {
+        if (answer.kind === "guess") views.step.take(answer);
+        else if (answer.kind === "curve") show_curve(null, request.key); /* the case itself may well be solved */
+        else if (!newer) {
+            tell(say(words.refused, { why: answer.refused }));
+            at("main").classList.add("stale");
+            first_draw();
+        }
+    }
+    function show_curve(points, key) {
+        page.curve = points;
+        curve_shown = key;
+        if (current === "contact") views.contact?.draw_curve();
+    }
     function take(answer, request, newer) {
-        if (answer.refused) { if (!newer) { tell(say(words.refused, { why: answer.refused })); at("main").classList.add("stale"); first_draw(); } if (answer.kind === "guess") { at("main").classList.remove("stale"); tell(""); views.step?.take(answer); } return; }
+        if (answer.refused) return refuse(answer, request, newer);
+        if (answer.kind === "curve") return show_curve(answer.points, request.key);
+        if (answer.kind !== "solve") return views[request.view]?.take(answer);
         at("main").classList.remove("stale");
-        if (answer.kind === "solve") {
-            const before = page.answer;
-            page.answer = answer;
-            tell(answer.unsolved ? say(words.unsolved, { why: answer.unsolved }) : "");
-            if (!before) first_draw();
-            ask_curve();
-            views.contact?.draw();
-            if (current === "take") views.take.draw();
-            if (current === "step") page.ask_view(); /* its strip is that of the solution */
-        } else if (answer.kind === "curve") { page.curve = answer.points; if (current === "contact") views.contact?.draw(); }
-        else Object.entries(makers).forEach(([name]) => { if (views[name]?.take && (asked[name] === answer.kind || (name === "step" && answer.kind === "guess"))) views[name].take(answer); });
+        page.answer = answer;
+        tell(answer.unsolved ? say(words.unsolved, { why: answer.unsolved }) : "");
+        first_draw();
+        ask_curve();
+        if (current === "contact" || current === "take") views[current].draw();
+        if (current === "step") page.ask_view(); /* its strip is that of the solution */
     }
     const [solving, aside] = workers.map(({ worker }) => requests(worker, take));
-    const queue = { ask: (request) => (request.kind === "solve" ? solving : aside).ask(request), idle: () => solving.idle() && aside.idle() };
+    const queue = { ask: (request) => (request.kind === "solve" ? solving : aside).ask(request), idle: () => solving.idle() && aside.idle() && (current !== "contact" || curve_key === null || curve_shown === curve_key) };
     page.ask = queue.ask;
 
+    /* The curve follows when the case rests: while a slider moves the processor is the case's. */
     function ask_curve() {
-        if (formulation_of(page.given) !== "steady") { page.curve = null; curve_key = null; return; }
+        if (formulation_of(page.given) !== "steady") { clearTimeout(curve_timer); page.curve = null; curve_key = curve_shown = null; return; }
         const given = hold(page.given, ALL_TANGENTIAL, "creep-ratio", "0.5"), key = JSON.stringify(given);
         if (key === curve_key) return;
         curve_key = key;
-        page.curve = null;
-        queue.ask({ kind: "curve", given, from: -1.4, to: 1.4, points: 29 });
+        clearTimeout(curve_timer);
+        curve_timer = setTimeout(() => queue.ask({ kind: "curve", given, key, from: -1.4, to: 1.4, points: 29 }), page.curve ? CURVE_WAITS : 0);
     }
-    page.ask_view = () => (views[current]?.wants() ?? []).forEach((request) => { asked[current] = request.kind; queue.ask(request); });
+    page.curve_is_old = () => curve_shown !== curve_key;
+    page.ask_view = () => (views[current]?.wants() ?? []).forEach((request) => queue.ask({ ...request, view: current }));
     page.change = (given, redraw) => {
         page.given = given;
         queue.ask({ kind: "solve", given });
@@ -134,8 +149,20 @@ async function main() {
     }
     window.addEventListener("hashchange", follow_link);
     let width = innerWidth;
-    window.addEventListener("resize", () => { if (innerWidth !== width) { width = innerWidth; views[current]?.draw(); } });
-    window.rollbem = { page, views, queue, open, preset: (name) => { page.change({ ...PRESETS[name] }); panel.draw(); } };
+    window.addEventListener("resize", () => { if (innerWidth !== width) { width = innerWidth; (views[current]?.resize ?? views[current]?.draw)?.(); } });
+    /* For its tests: milliseconds from a move to its picture, sorted; each move is a value of its own. */
+    async function time_moves(option, start, count) {
+        const times = [], channel = new MessageChannel(), turn = () => new Promise((resolve) => { channel.port1.onmessage = resolve; channel.port2.postMessage(0); });
+        for (let k = 1; k <= count; k++) {
+            const began = performance.now(), before = page.answer;
+            page.change({ ...page.given, [option]: String(Number((start * (1 + 0.002 * k)).toPrecision(6))) });
+            while (page.answer === before) await turn();
+            document.body.getBoundingClientRect(); /* laid out */
+            times.push(performance.now() - began);
+        }
+        return times.sort((a, b) => a - b);
+    }
+    window.rollbem = { time_moves, page, views, queue, open, preset: (name) => { page.change({ ...PRESETS[name] }); panel.draw(); } };
     follow_link();
     if (location.hash.length > 1 && at("message").textContent) queue.ask({ kind: "solve", given: page.given });
 }

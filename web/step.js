@@ -160,7 +160,7 @@ export function step_view(words, page) {
         verdict.replaceChildren();
         guess_picture.replaceChildren();
     }
-    function check() { asked = [...zones]; page.ask({ kind: "guess", given: wanted, zones: asked }); }
+    function check() { asked = [...zones]; page.ask({ kind: "guess", view: "step", given: wanted, zones: asked }); }
     function judged(answer) {
         if (answer.refused) return verdict.replaceChildren(html("p", { class: "bad" }, answer.refused));
         const part = (name) => answer[`guess.${name}`].at, wrong = judge(words, { p: part("p"), q: part("q"), gap: part("gap"), shift: part("shift") }, asked, mu());

@@ -18,7 +18,7 @@ export const words = {
     supports: { arc: "clamped arc", hub: "rigid hub", halfplane: "half-plane" },
     bodies: { rigid: "rigid ground", similar: "same material" },
     body_label: "Ground", support_label: "Body A held by", formulation_label: "Motion",
-    held: "held: {what}",
+    held: "held",
     all_options: "All options of the library",
     expected: "{help}. Expected: {expected}. Default: {default}.",
     numbers: { normal_load: "P load", tangential_load: "Q friction", force_ratio: "Q/(μP)", max_pressure: "p₀ pressure",
