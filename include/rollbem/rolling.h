@@ -106,6 +106,8 @@ typedef struct {
      * given approach, as in *Addi*; 0 under load control); creep or creep_ratio only
      * enter (12). steady, transient: one of creep, creep_ratio, force, force_ratio. */
     double shift, creep, creep_ratio, force, force_ratio;
+    int free_axle; /* steady: nothing drives the axle, Q = -M/R (theory.md V4); in the place
+                      of these */
 
     rb_rolling_formulation formulation;
     int increments;  /* static, transient: above 1 the bodies are pressed, then loaded
@@ -195,6 +197,7 @@ void rb_rolling_bodies_free(rb_rolling_bodies *bodies);
 /* Gap (K1): y_N = d_N + F (r_N, r_T) - delta >= 0, complementary to r_N.
  * Slip (K2): T_T lambda = d_T + S (r_N, r_T) + xi e_T, S = A [F_TN F_TT].
  * Forces: P = load_N'r_N + load_T'r_T, Q = force_N'r_N + force_T'r_T.
+ * Moment of the load about x = 0: M = moment_N'r_N + moment_T'r_T.
  * xi stands for the creepage (steady, transient) or the rigid shift (static). */
 typedef struct {
     int n;
@@ -217,11 +220,14 @@ typedef struct {
     double *d_N, *d_T;                           /* n [length] */
     double *e_T;                                 /* n: [length] per unit of xi */
     double *load_N, *load_T, *force_N, *force_T; /* n [length] */
+    double *moment_N, *moment_T;                 /* n [length^2] */
 
     int load_given;  /* 1: P = load, delta is an unknown; 0: delta is given */
     int force_given; /* 1: Q = force + force_ratio mu P, xi is an unknown; 0: xi is given
                       */
     double load, delta, force, force_ratio, xi;
+    double axle; /* 1/R where the force is Q = force + force_ratio mu P - axle M, M the
+                    moment of the pressure (free axle, V4); else 0 [1/length] */
 
     int coupled; /* 0: pressure causes no slip and friction no gap (similar half-planes)
                   */
@@ -393,6 +399,10 @@ typedef struct {
                                      lies between [length] */
     int slip_violations;          /* slip that does not oppose the friction */
     double dissipation;           /* power per unit speed [force/length] */
+    double resistance_moment; /* M = int x p dx [force]; NAN in static, as the ratio */
+    double resistance_ratio;  /* M/(P R), the coefficient of rolling resistance */
+    double hysteresis;        /* power per unit speed that the bodies lose [force/length];
+                                 NAN but in steady */
     double seconds_assembly, seconds_factor, seconds_condense, seconds_lcp, seconds_total;
 } rb_rolling_solution;
 
@@ -419,7 +429,10 @@ typedef enum {
     RB_SCALE_WIDTH,    /* a */
     RB_SCALE_ELEMENT,  /* length of an element */
     RB_SCALE_PRESSURE, /* p0 */
-    RB_SCALE_POWER     /* mu P times the creepage */
+    RB_SCALE_POWER,    /* mu P times the creepage */
+    RB_SCALE_MOMENT,   /* P a */
+    RB_SCALE_STRAIN,   /* a/R */
+    RB_SCALE_WORK      /* P a/R */
 } rb_rolling_error_scale;
 
 /* One result: whatever shows results, studies and error bars are made from these. */

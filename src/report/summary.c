@@ -182,7 +182,7 @@ static void note_strain(FILE *out, const rb_rolling_case *rc,
 static void note_full_sliding(FILE *out, const rb_rolling_case *rc,
                               const rb_rolling_solution *s)
 {
-    const int force = !isnan(rc->force) || !isnan(rc->force_ratio);
+    const int force = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
     if (s->formulation == RB_STATIC || !force || s->stick > 0 || rc->mu == 0.0 ||
         s->contact == 0)
         return;

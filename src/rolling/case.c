@@ -19,6 +19,7 @@ rb_rolling_case rb_rolling_case_defaults(void)
     rc.gap = RB_GAP_EXACT;
     rc.mu = 0.3;
     rc.approach = rc.load = rc.half_width = NAN;
+    rc.free_axle = 0;
     rc.shift = rc.creep = rc.creep_ratio = rc.force = rc.force_ratio = NAN;
     rc.formulation = RB_STATIC;
     rc.increments = 1;
@@ -103,6 +104,11 @@ rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
     }
     d.stress = d.modulus * d.half_width / (2.0 * d.radius);
     return d;
+}
+
+int rb_rolling_force_is_given(const rb_rolling_case *rc)
+{
+    return !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
 }
 
 double rb_rolling_force_ratio(double mu, double P, double Q)
@@ -269,6 +275,15 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
     if (rc->formulation != RB_STATIC && count_given(4, all + 1) > 1)
         return rb_fail(why, RB_EINVAL,
                        "creep, creep-ratio, force and force-ratio exclude each other");
+    if (rc->free_axle && count_given(5, all) > 0)
+        return rb_fail(why, RB_EINVAL,
+                       "free axle: it excludes shift, creep, creep-ratio, force and "
+                       "force-ratio");
+    if (rc->free_axle && rc->formulation != RB_STEADY)
+        return rb_fail(why, RB_EINVAL, "free axle: of steady rolling only");
+    if (rc->free_axle && rc->mu == 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "free axle: friction alone turns it, expected mu > 0");
     return check_force(rc, why);
 }
 

@@ -126,12 +126,14 @@ static void halve_problem(const rb_rolling_problem *fine, rb_rolling_problem *ha
     add_pairs(n, fine->load_T, half->load_T);
     add_pairs(n, fine->force_N, half->force_N);
     add_pairs(n, fine->force_T, half->force_T);
+    add_pairs(n, fine->moment_N, half->moment_N);
+    add_pairs(n, fine->moment_T, half->moment_T);
 }
 
 double *rb_rolling_halve(const rb_rolling_problem *fine, rb_rolling_problem *half)
 {
     const size_t m = (size_t)(fine->n + 1) / 2;
-    double *room = rb_alloc(m, 4 * m + 7), *next = room;
+    double *room = rb_alloc(m, 4 * m + 9), *next = room;
 
     if (!room)
         return NULL;
@@ -148,6 +150,8 @@ double *rb_rolling_halve(const rb_rolling_problem *fine, rb_rolling_problem *hal
     half->load_T = next += m;
     half->force_N = next += m;
     half->force_T = next += m;
+    half->moment_N = next += m;
+    half->moment_T = next += m;
     halve_problem(fine, half, room);
     return room;
 }

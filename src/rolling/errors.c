@@ -134,7 +134,7 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
     const double rounding = fmax(s->residual, DBL_EPSILON), a = s->hertz_half_width;
     const double strain = rc->mu * a / rb_rolling_radius(rc);
     const int unresolved = has_unresolved_stick(s);
-    const int force_given = !isnan(rc->force) || !isnan(rc->force_ratio);
+    const int force_given = rb_rolling_force_is_given(rc);
     const double friction =
         unresolved && !force_given
             ? rc->mu * s->max_pressure * rb_rolling_longest_element(s->n, s->zone, s->h)
@@ -163,6 +163,12 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
         return rb_rolling_edge_power(rc, s->normal_load, s->creepage, a,
                                      rb_rolling_longest_element(s->n, s->zone, s->h) /
                                          (2.0 * s->half_width));
+    case RB_SCALE_MOMENT:
+        return rounding * s->normal_load * a;
+    case RB_SCALE_STRAIN:
+        return rounding * a / rb_rolling_radius(rc);
+    case RB_SCALE_WORK:
+        return rounding * s->normal_load * a / rb_rolling_radius(rc);
     case RB_SCALE_ELEMENT:
     case RB_SCALE_NONE:
         break;

@@ -85,8 +85,8 @@ static void record(run *r, double distance)
     if (rolls)
         h->dissipation[k] = rb_rolling_dissipated_power(
             &model->rc, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
+    h->moment[k] = rb_rolling_moment(p, state);
     for (int i = 0; i < p->n; i++) {
-        h->moment[k] += model->bodies.f.x[i] * state->p[i] * model->bodies.f.h[i];
         h->stick[k] += state->zone[i] == RB_ZONE_STICK;
         h->slipping[k] += state->zone[i] > RB_ZONE_STICK;
     }

@@ -16,6 +16,8 @@ double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width);
 int rb_rolling_has_fine_boundary(const rb_rolling_case *rc);
 void rb_rolling_coarsen_boundary(rb_rolling_case *rc);
 /* Q/(mu P); NAN without friction or load. */
+/* Q, a ratio of it or a free axle is given, and no creepage. */
+int rb_rolling_force_is_given(const rb_rolling_case *rc);
 double rb_rolling_force_ratio(double mu, double P, double Q);
 
 /* ---- profile.c ----------------------------------------------------------------------
@@ -229,6 +231,8 @@ rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creep
 /* P and Q of the state. */
 double rb_rolling_model_load(const rb_rolling_model *model);
 double rb_rolling_model_force(const rb_rolling_model *model);
+/* M: moment of the vertical tractions about x = 0. */
+double rb_rolling_moment(const rb_rolling_problem *problem, const rb_rolling_state *state);
 
 /* ---- outside.c ------------------------------------------------------------------------
  */
@@ -325,6 +329,11 @@ void rb_rolling_classify(const rb_rolling_problem *problem, double tol,
  * static. */
 double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
                                    const double *q, const double *h, const double *e_T);
+
+/* Power per unit speed that the bodies lose, - int (p w_N' + q w_T') dx, from pressures,
+ * friction and displacements (theory.md V4): 0 for elastic bodies, NAN but in steady
+ * rolling.  RB_ENOMEM. */
+rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power);
 
 /* Tractions of the state on A in global x, y: 2 per contact element. */
 void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);

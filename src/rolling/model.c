@@ -31,6 +31,12 @@ double rb_rolling_model_force(const rb_rolling_model *model)
            cblas_ddot(p->n, p->force_T, 1, model->state.q, 1);
 }
 
+double rb_rolling_moment(const rb_rolling_problem *p, const rb_rolling_state *state)
+{
+    return cblas_ddot(p->n, p->moment_N, 1, state->p, 1) +
+           cblas_ddot(p->n, p->moment_T, 1, state->q, 1);
+}
+
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why)
 {
     const double start = rb_seconds();
@@ -188,6 +194,7 @@ static rb_rolling_case without_force(const rb_rolling_model *model)
     rb_rolling_case rc = model->rc;
 
     rc.creep = rc.creep_ratio = rc.force = NAN;
+    rc.free_axle = 0;
     rc.force_ratio = 0.0;
     return rc;
 }
@@ -236,7 +243,7 @@ static rb_status roll_freely_dense(rb_rolling_model *model, double *creepage,
     if (s != RB_OK)
         return s;
     problem.force_given = 1;
-    problem.force = problem.force_ratio = 0.0;
+    problem.force = problem.force_ratio = problem.axle = 0.0;
     memcpy(state.zone, model->state.zone, (size_t)problem.n * sizeof(int));
     s = rb_rolling_problem_solve(&problem, &model->rc, 1, &state, why);
     if (s == RB_OK)

@@ -20,13 +20,16 @@ void rb_rolling_problem_free(rb_rolling_problem *p)
     free(p->load_T);
     free(p->force_N);
     free(p->force_T);
+    free(p->moment_N);
+    free(p->moment_T);
     memset(p, 0, sizeof *p);
 }
 
 static rb_status problem_alloc(int n, int dense, rb_rolling_problem *p)
 {
     double **const vectors[] = {&p->d_N,    &p->d_T,     &p->e_T,    &p->load_N,
-                                &p->load_T, &p->force_N, &p->force_T};
+                                &p->load_T, &p->force_N, &p->force_T,
+                                &p->moment_N, &p->moment_T};
     int complete = 1;
 
     memset(p, 0, sizeof *p);
@@ -142,6 +145,8 @@ static void set_weights(const rb_rolling_case *rc, const rb_rolling_bodies *bodi
         p->load_T[i] = h * sine;
         p->force_N[i] = -h * sine;
         p->force_T[i] = h * cosine;
+        p->moment_N[i] = bodies->f.x[i] * p->load_N[i];
+        p->moment_T[i] = bodies->f.x[i] * p->load_T[i];
     }
 }
 
@@ -163,7 +168,10 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_rolling_problem *p)
     p->load = d.load;
     p->delta = d.approach;
     p->force = p->force_ratio = p->xi = 0.0;
-    p->force_given = rc->mu > 0.0 && (!isnan(rc->force) || !isnan(rc->force_ratio));
+    p->force_given = rc->mu > 0.0 && rb_rolling_force_is_given(rc);
+    p->axle = rc->free_axle ? 1.0 / rb_rolling_radius(rc) : 0.0;
+    if (p->axle > 0.0)
+        return;
     if (p->force_given && !isnan(rc->force_ratio))
         p->force_ratio = rc->force_ratio;
     else if (p->force_given && p->load_given)
@@ -182,8 +190,9 @@ void rb_rolling_force_row(const rb_rolling_problem *p, double *control_N,
                           double *control_T)
 {
     for (int i = 0; i < p->n; i++) {
-        control_N[i] = p->force_N[i] - p->force_ratio * p->mu * p->load_N[i];
-        control_T[i] = p->force_T[i] - p->force_ratio * p->mu * p->load_T[i];
+        const double share = p->force_ratio * p->mu;
+        control_N[i] = p->force_N[i] - share * p->load_N[i] + p->axle * p->moment_N[i];
+        control_T[i] = p->force_T[i] - share * p->load_T[i] + p->axle * p->moment_T[i];
     }
 }
 

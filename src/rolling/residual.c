@@ -71,7 +71,8 @@ static double control_violation(const rb_rolling_problem *p,
     if (p->force_given) {
         const double P = weighted_sum(p->n, p->load_N, state->p, p->load_T, state->q);
         const double Q = weighted_sum(p->n, p->force_N, state->p, p->force_T, state->q);
-        const double wanted = p->force + p->force_ratio * p->mu * P;
+        const double wanted = p->force + p->force_ratio * p->mu * P -
+                              p->axle * rb_rolling_moment(p, state);
         worst = fmax(worst, fabs(Q - wanted) / (p->mu * P));
     }
     return worst;

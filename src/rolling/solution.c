@@ -162,6 +162,20 @@ static rb_status support_balance(const rb_rolling_model *model, double load,
     return s;
 }
 
+/* M, its coefficient and where the power goes that neither Q nor M/R leave to friction. */
+static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_solution *s)
+{
+    s->resistance_moment = s->resistance_ratio = s->hysteresis = NAN;
+    if (s->formulation == RB_STATIC)
+        return RB_OK;
+    s->resistance_moment = rb_rolling_moment(&model->problem, &model->state);
+    s->resistance_ratio = s->normal_load > 0.0
+                              ? s->resistance_moment /
+                                    (s->normal_load * rb_rolling_radius(&model->rc))
+                              : NAN;
+    return rb_rolling_hysteresis(model, &s->hysteresis);
+}
+
 static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     const rb_rolling_problem *p = &model->problem;
@@ -269,6 +283,8 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
         set_forces(model, s);
         status = set_table(model, s);
     }
+    if (status == RB_OK)
+        status = set_resistance(model, s);
     if (status == RB_OK)
         status = support_balance(model, s->normal_load, &s->support_balance);
     if (status == RB_OK)

@@ -220,7 +220,7 @@ static rb_status solve_given(rb_rolling_problem *problem, const rb_rolling_case 
 /* Whether the given force is all that friction can carry. */
 static int slides_fully(const rb_rolling_problem *problem)
 {
-    return problem->force_given && problem->force == 0.0 &&
+    return problem->force_given && problem->force == 0.0 && problem->axle == 0.0 &&
            fabs(problem->force_ratio) >= 1.0 - 1e-12;
 }
 
@@ -280,21 +280,28 @@ static rb_status solve_driven(rb_rolling_problem *problem, const rb_rolling_case
 }
 
 /* Whether a given force is more than friction carries under the load that the approach
- * brings: RB_EINVAL.  Full sliding, which has that load, is solved in a state of its own,
+ * brings, or the resistance to rolling more than friction can turn: RB_EINVAL.  Full sliding, which has that load, is solved in a state of its own,
  * because the state that failed is what the caller prints. */
 static rb_status check_capacity(rb_rolling_problem *problem, const rb_rolling_case *rc,
                                 rb_message *why)
 {
     rb_rolling_state sliding;
-    double P = 0.0;
+    double P = 0.0, resistance = 0.0;
     rb_status s = rb_rolling_state_alloc(problem->n, &sliding);
 
     if (s == RB_OK)
         s = solve_sliding(problem, rc, problem->force > 0.0, &sliding, NULL);
-    if (s == RB_OK)
+    if (s == RB_OK) {
         P = cblas_ddot(problem->n, problem->load_N, 1, sliding.p, 1) +
             cblas_ddot(problem->n, problem->load_T, 1, sliding.q, 1);
+        resistance = problem->axle * rb_rolling_moment(problem, &sliding);
+    }
     rb_rolling_state_free(&sliding);
+    if (s == RB_OK && resistance > problem->mu * P)
+        return rb_fail(why, RB_EINVAL,
+                       "free axle: the resistance to rolling M/R = %g is more than "
+                       "friction carries, mu P = %g",
+                       resistance, problem->mu * P);
     if (s == RB_OK && fabs(problem->force) > problem->mu * P)
         return rb_fail(
             why, RB_EINVAL,
@@ -336,7 +343,8 @@ rb_status rb_rolling_problem_solve(rb_rolling_problem *problem, const rb_rolling
                       ? solve_cone(problem, rc, state, why)
                       : solve_driven(problem, rc, warm, state, why);
 
-    if (s > 0 && problem->force_given && problem->force != 0.0) {
+    if (s > 0 && problem->force_given &&
+        (problem->force != 0.0 || problem->axle > 0.0)) {
         const rb_status t = check_capacity(problem, rc, why);
         if (t < 0)
             return t;

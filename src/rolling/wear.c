@@ -1,6 +1,8 @@
 /* Where the dissipated energy goes: what wear laws take. */
 #include "rolling/internal.h"
 
+#include <stdlib.h>
+
 void rb_rolling_friction_power(const rb_rolling_solution *s, double *power)
 {
     for (int i = 0; i < s->n; i++) {
@@ -10,4 +12,43 @@ void rb_rolling_friction_power(const rb_rolling_solution *s, double *power)
         else
             power[i] = s->formulation == RB_STATIC ? NAN : -s->slip[i] * s->q[i];
     }
+}
+
+/* -int p w_N' dx by differences over the neighbours' unequal distances, exact for a
+ * parabola, which the surface in contact is. */
+static double normal_work(int n, const double *x, const double *w, const double *p,
+                          const double *h)
+{
+    double work = 0.0;
+    for (int i = 1; i < n; i++) {
+        const double left = x[i] - x[i - 1], right = x[i + 1] - x[i];
+        const double before = (w[i] - w[i - 1]) / left, after = (w[i + 1] - w[i]) / right;
+        work -= p[i] * h[i] * (right * before + left * after) / (left + right);
+    }
+    return work;
+}
+
+rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
+{
+    const rb_rolling_problem *p = &model->problem;
+    const rb_rolling_state *state = &model->state;
+    const int n = p->n, relaxes = model->rc.a.memory.n > 0 ||
+                                  (model->rc.elastic_b && model->rc.b.memory.n > 0);
+
+    *power = model->rc.formulation == RB_STEADY ? 0.0 : NAN;
+    if (model->rc.formulation != RB_STEADY || !relaxes)
+        return RB_OK;
+    double *w = rb_alloc(4 * (size_t)n + 2, 1), *strain = w + 2 * (n + 1);
+    const rb_status s = w ? rb_rolling_displacement(&model->bodies, state->p, state->q, w)
+                          : RB_ENOMEM;
+    if (s == RB_OK) {
+        /* the surface's own part of the slip is paired with friction as all of it is */
+        for (int i = 0; i < n; i++)
+            strain[i] = state->lambda[i] - state->xi * p->e_T[i];
+        *power = normal_work(n, model->bodies.f.x, w, state->p, model->bodies.f.h) -
+                 rb_rolling_dissipated_power(&model->rc, n, strain, state->q,
+                                             model->bodies.f.h, p->e_T);
+    }
+    free(w);
+    return s;
 }
