@@ -687,6 +687,43 @@ static void check_power(const contact *c, const table *t, const json_t *list)
     expect("dissipation", D, sum, 1e-11 * size + 1e-14 * p0);
 }
 
+/* M, its ratio, and that what creepage and resistance feed is lost in friction and in the
+ * bodies. */
+static void check_resistance(const contact *c, const table *t)
+{
+    const double M = number(c->summary, "resistance_moment");
+    const double lag = number(c->summary, "hysteresis");
+    const double P_ = number(c->summary, "normal_load");
+    double moment = 0.0, size = 0.0;
+    if (c->formulation == STATIC) {
+        if (!isnan(M) || !isnan(lag))
+            violated("resistance_moment", "of static contact is not null");
+        return;
+    }
+    for (int i = 0; i < t->n && !c->surface_normals; i++) {
+        moment += t->column[X][i] * t->column[P][i] * t->column[H][i];
+        size += fabs(t->column[X][i] * t->column[P][i] * t->column[H][i]);
+    }
+    if (!c->surface_normals)
+        expect("resistance_moment", M, moment, 1e-12 * size);
+    expect_same(c, "resistance_ratio", M / (P_ * c->radius), 1e-12);
+    if (c->formulation != STEADY)
+        return;
+    const int relaxes = number(c->inputs, "speed") > 0.0;
+    const double fed = M / c->radius - number(c->summary, "creepage") *
+                                           number(c->summary, "tangential_load");
+    const double lost = number(c->summary, "dissipation") + lag;
+    /* of coarse meshes; the edges of the contact are what is lost */
+    if (relaxes && strcmp(word(c->inputs, "gap"), "parabola") == 0)
+        expect("energy", lost, fed, 0.05 * size / c->radius + 1e-3 * fabs(fed));
+    else if (!relaxes && lag != 0.0)
+        violated("hysteresis", "of elastic bodies is %g", lag);
+    const json_t *axle = json_object_get(c->inputs, "free-axle");
+    if (json_is_true(axle))
+        expect("free axle", number(c->summary, "tangential_load"), -M / c->radius,
+               1e-10 * c->mu * P_);
+}
+
 static void check_errors(const contact *c)
 {
     const char *key;
@@ -898,6 +935,7 @@ static void check_case(const json_t *root, const char *table_path,
     check_kinematics(&c, &t);
     check_flamant(&c, &t);
     check_power(&c, &t, json_object_get(object, "friction_power_MPa"));
+    check_resistance(&c, &t);
     check_errors(&c);
     check_history(&c, json_object_get(root, "history"), controls);
     if (table_path)

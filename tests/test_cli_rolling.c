@@ -17,7 +17,7 @@ static const struct {
 } bad[] = {
     {"curve --from x", 64, "--from: expected a number, got 'x'"},
     {"curve --points 1", 64, "--points: expected a whole number in [2, 1e+06]"},
-    {"curve --over slip", 64, "--over: expected creep-ratio or creep, got 'slip'"},
+    {"curve --over slip", 64, "--over: expected creep-ratio, creep or speed, got 'slip'"},
     {"curve --from 1 --to 1", 64, "--from and --to: expected two different values"},
     {"curve --creep 0.1", 64, "--creep: the curve runs over --from ... --to by itself"},
     {"curve --force 0", 64, "--force: the curve runs over"},

@@ -94,6 +94,7 @@ static const struct {
       {"creep-ratio", ""},
       {"force", ""},
       {"force-ratio", ""},
+      {"free-axle", "--free-axle"},
       {"shift", ""}}},
     {"gap",
      "gap",
@@ -176,6 +177,7 @@ static const char *const options_elsewhere[] = {"similar",
                                                 "base-poisson-b",
                                                 "relaxation-time-b",
                                                 "relaxation-ratio-b",
+                                                "free-axle",
                                                 "gap-smoothing"};
 
 enum { LEVELS = 40 };
@@ -274,6 +276,8 @@ static const conflict conflicts[] = {
     {{"irregularity=flat", "regime=steady"}, "of transient rolling only"},
     {{"irregularity=flat", "regime=increments"}, "of transient rolling only"},
     {{"irregularity=flat", "regime=static-history"}, "of transient rolling only"},
+    {{"tangential=free-axle", "regime!steady"}, "of steady rolling only"},
+    {{"tangential=free-axle", "mu=0"}, "friction alone turns it"},
     {{"mu=0", "tangential=creep-ratio"}, "no meaning at mu = 0"},
     {{"mu=0", "tangential=force-ratio"}, "no meaning at mu = 0"},
     {{"output=history*", "regime=static"}, "for --formulation transient"},
@@ -295,6 +299,10 @@ static const conflict conflicts[] = {
     {{"output=sweep", "regime=transient*"}, "a study"},
     {{"output=sweep", "regime=steps"}, "a study"},
     {{"output=sweep", "regime=static-history"}, "a study"},
+    /* hysteresis is more than so little friction turns: a refusal of its own, whose line
+     * tests/test_rolling_memory.c knows */
+    {{"tangential=free-axle", "mu=1e-3", "surface=relaxing"}, NULL},
+    {{"tangential=free-axle", "mu=1e-3", "surface=b-relaxing"}, NULL},
     /* meant for half-planes and equal elements */
     {{"size=transforms", "support!halfplane"}, NULL},
     {{"size=transforms", "body-b=hub"}, NULL},

@@ -11,7 +11,20 @@ static double moment_of(const rb_rolling_solution *s)
     double M = 0.0;
     for (int i = 0; i < s->n; i++)
         M += s->x[i] * s->p[i] * s->h[i];
+    CHECK_ABS(s->resistance_moment, M, 1e-13 * s->normal_load * s->half_width,
+              "resistance_moment");
     return M;
+}
+
+/* What creepage and resistance feed is lost in friction and in the bodies. */
+static void check_energy(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                         double bound, const char *what)
+{
+    const double R = 1.0 / (1.0 / rc->a.radius + 1.0 / rc->b.radius);
+    const double fed = moment_of(s) / R - s->creepage * s->tangential_load;
+    CHECK_REL(s->dissipation + s->hysteresis, fed, bound, "%s: energy", what);
+    CHECK_REL(s->resistance_ratio, moment_of(s) / (s->normal_load * R), 1e-13, "%s",
+              what);
 }
 
 /* A frictionless cylinder R = 100 with a_g = 1 on a rigid plane, one relaxation time. */
@@ -60,8 +73,95 @@ static void hunters_solution_is_met(void **state)
         CHECK_ABS(s.contact_from, row[3], 1e-3 * a, "row %d: trailing edge", k);
         CHECK_REL(s.max_pressure, row[4] * E / 200.0, 2e-3, "row %d: p_max", k);
         CHECK_ABS(moment_of(&s) / s.normal_load, row[5], 1e-4, "row %d: M/P", k);
+        check_energy(&rc, &s, 1e-3, "Hunter");
         rb_rolling_solution_free(&s);
     }
+}
+
+/* Four times the elements, a sixteenth of the error of M or less, on both meshes that
+ * meet the edges; the rows have seven digits.  Where V tau/(1 + f) is less than an
+ * element of the coarse mesh there is no order yet. */
+static void the_moment_is_of_second_order(void **state)
+{
+    (void)state;
+    static const int row[4] = {1, 2, 3, 5};
+    for (int k = 0; k < 8; k++) {
+        const double *want = rows[row[k / 2]];
+        double error[2];
+        for (int j = 0; j < 2; j++) {
+            rb_rolling_solution s;
+            rb_rolling_case rc = hunter(want[0], want[1], 50 << 2 * j);
+            rc.mesh = k % 2 ? RB_MESH_ALIGNED : RB_MESH_FITTED;
+            CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+            error[j] = fabs(s.resistance_moment / s.normal_load - want[5]);
+            rb_rolling_solution_free(&s);
+        }
+        CHECK_ABS(error[1], 0.0, error[0] / 16.0 + 6e-8, "row %d, mesh %d", row[k / 2],
+                  k % 2);
+    }
+}
+
+/* Nothing drives the axle: Q = -M/R, whichever solver. */
+static void a_free_axle_is_turned_by_friction(void **state)
+{
+    (void)state;
+    double xi[5];
+    for (int k = 0; k < 5; k++) {
+        rb_rolling_solution s;
+        rb_message why = {""};
+        rb_rolling_case rc = hunter(2.0, 0.8, 60);
+        rc.mu = 0.3;
+        rc.creep = NAN;
+        rc.free_axle = 1;
+        if (k < 4) {
+            rc.mesh = RB_MESH_UNIFORM;
+            rc.zone = 2.5;
+            rc.solver = k < 2 ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON;
+            rc.lcp_form = k == 1 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+        }
+        if (k == 3)
+            rc.contact_elements = 1600;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
+        CHECK_ABS(s.tangential_load, -moment_of(&s) / rc.a.radius,
+                  1e-10 * rc.mu * s.normal_load, "solver %d: Q = -M/R", k);
+        if (k > 2)
+            check_energy(&rc, &s, 1e-3, "free axle");
+        assert_true(s.residual < 1e-9);
+        xi[k] = s.creepage;
+        rb_rolling_solution_free(&s);
+    }
+    CHECK_REL(xi[1], xi[0], 1e-9, "Kwak's form");
+    CHECK_REL(xi[2], xi[0], 1e-9, "Newton");
+    CHECK_REL(xi[3], xi[4], 2e-3, "many elements against fitted ones");
+}
+
+/* Over the speed M/(P R) rises from nothing, has one maximum and falls; each point is the
+ * case at that speed. */
+static void resistance_has_a_maximum_over_the_speed(void **state)
+{
+    (void)state;
+    enum { POINTS = 9 };
+    rb_rolling_curve c;
+    rb_message why = {""};
+    rb_rolling_case rc = hunter(1.0, 1.0, 40);
+    int turns = 0;
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, RB_OVER_SPEED, 1e-2, 1e2, POINTS, &c, &why),
+                 RB_OK);
+    assert_int_equal(c.n, POINTS);
+    for (int k = 1; k + 1 < POINTS; k++) {
+        CHECK_REL(c.speed[k] / c.speed[k - 1], sqrt(10.0), 1e-12, "point %d", k);
+        turns += c.resistance_ratio[k] > c.resistance_ratio[k - 1] &&
+                 c.resistance_ratio[k] > c.resistance_ratio[k + 1];
+    }
+    assert_int_equal(turns, 1);
+    CHECK_REL(c.resistance_moment[4], 0.2621595 * c.normal_load[4], 1e-5, "Hunter");
+    CHECK_REL(c.hysteresis[4], c.resistance_moment[4] / rc.a.radius, 1e-3, "energy");
+    rb_rolling_curve_free(&c);
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, RB_OVER_SPEED, 0.0, 1.0, 3, &c, &why),
+                 RB_EINVAL);
+    rc.a.memory.n = 0;
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, RB_OVER_SPEED, 1.0, 2.0, 3, &c, &why),
+                 RB_EINVAL);
 }
 
 /* Slow: Hertz with the rubbery modulus; fast: with the glassy one. */
@@ -285,6 +385,32 @@ static void all_solvers_agree(void **state)
     }
 }
 
+/* What friction cannot turn, and what does not go with it. */
+static void bad_axles_are_refused(void **state)
+{
+    (void)state;
+    static const char *const word[4] = {"more than friction carries",
+                                        "steady rolling only", "expected mu > 0",
+                                        "excludes"};
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_case rc = hunter(2.0, 0.8, 40);
+        rb_rolling_solution s = {0};
+        rb_message why = {""};
+        rc.mu = k == 2 ? 0.0 : k == 0 ? 1e-3 : 0.3;
+        rc.creep = k == 3 ? 0.001 : NAN;
+        rc.free_axle = 1;
+        if (k == 1) {
+            rc.formulation = RB_STATIC;
+            rc.a.memory.n = 0;
+            rc.mesh = RB_MESH_UNIFORM;
+        }
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
+        if (!strstr(why.text, word[k]))
+            fail_msg("'%s' does not say '%s'", why.text, word[k]);
+        rb_rolling_solution_free(&s);
+    }
+}
+
 static void bad_bodies_are_refused(void **state)
 {
     (void)state;
@@ -319,6 +445,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hunters_solution_is_met),
+        cmocka_unit_test(the_moment_is_of_second_order),
+        cmocka_unit_test(a_free_axle_is_turned_by_friction),
+        cmocka_unit_test(resistance_has_a_maximum_over_the_speed),
         cmocka_unit_test(speed_has_its_limits),
         cmocka_unit_test(contacts_figures_are_met),
         cmocka_unit_test(thick_layers_have_their_series),
@@ -326,6 +455,7 @@ int main(void)
         cmocka_unit_test(incompressible_covers_stretch_in_the_nip),
         cmocka_unit_test(a_layer_of_the_same_material_is_none),
         cmocka_unit_test(all_solvers_agree),
+        cmocka_unit_test(bad_axles_are_refused),
         cmocka_unit_test(bad_bodies_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

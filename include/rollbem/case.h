@@ -180,12 +180,18 @@ typedef struct rb_case rb_case;
 typedef enum {
     RB_CASE_SINGLE,
     RB_CASE_CURVE,  /* a creep curve: steady by default, several mu */
+    RB_CASE_SPEEDS, /* a curve over the speed: the same */
     RB_CASE_STRESS, /* the stress below the surface */
     RB_CASE_STUDY   /* the base of a parameter study */
 } rb_case_purpose;
 
+/* What a curve may run over: rb_rolling_variable. */
+extern const rb_choice rb_case_curve_variables[];
+
 /* The defaults, settled already.  NULL: no memory. */
 rb_case *rb_case_create(rb_case_purpose purpose);
+/* Changes a creep curve into one over the speed and back; settle afterwards. */
+void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose);
 /* Borrows files and texts of c, which must live longer.  NULL: no memory. */
 rb_case *rb_case_copy(const rb_case *c);
 void rb_case_free(rb_case *c);

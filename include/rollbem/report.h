@@ -158,7 +158,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves);
  * law dashed; errors as bands. */
 rb_status rb_report_curve_picture(FILE *out, rb_report_picture_kind kind,
                                   const rb_rolling_case *rc,
-                                  const rb_report_curves *curves, int over_creep,
+                                  const rb_report_curves *curves, rb_rolling_variable over,
                                   rb_message *why);
 
 /* ---- Subsurface stress ------------------------------------------------------------- */

@@ -608,7 +608,14 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
 /* ---- Creep curves
  * ---------------------------------------------------------------------- */
 
-/* One entry per creepage; owned. */
+/* What a curve runs over. */
+typedef enum {
+    RB_OVER_CREEP_RATIO,
+    RB_OVER_CREEP,
+    RB_OVER_SPEED /* of bodies that relax */
+} rb_rolling_variable;
+
+/* One entry per creepage or speed; owned. */
 typedef struct {
     int n;
     double *creepage, *creep_ratio, *force_ratio;
@@ -617,18 +624,21 @@ typedef struct {
     double stick_step;   /* what one element more or less is to it, at most */
     double *dissipation; /* power per unit speed */
     double *residual;
+    double *speed; /* [length/s]; 0 where none is given, because no body relaxes */
+    double *resistance_moment, *resistance_ratio, *hysteresis; /* as of a solution */
     double free_creepage, half_width, seconds;
     int iterations;
 } rb_rolling_curve;
 
 void rb_rolling_curve_free(rb_rolling_curve *curve);
 
-/* Steady rolling at `points` equally spaced creepages (over_creep) or creepage ratios
- * from `from` to `to`; the load or approach of rc, its own tangential control is not
- * read.  One mesh, one factorisation, warm starts; a fitted mesh is fitted again where an
- * edge has moved by more than 1 %. */
-rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, int over_creep, double from,
-                                 double to, int points, rb_rolling_curve *curve,
+/* Steady rolling at `points` equally spaced creepages or creepage ratios from `from` to
+ * `to`, under the load or approach of rc, whose own tangential control is not read.  One
+ * mesh, one factorisation, warm starts; a fitted mesh is fitted again where an edge has
+ * moved by more than 1 %.  Over the speed the points are equally spaced in its logarithm,
+ * rc says the tangential control, and every speed has its own mesh and flexibility. */
+rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, rb_rolling_variable over,
+                                 double from, double to, int points, rb_rolling_curve *curve,
                                  rb_message *why);
 
 /* ---- Subsurface stress of body A
@@ -720,7 +730,7 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
 
 /* A curve and its errors: errors->force_ratio[k] and so on belong to the k-th creepage,
  * errors->residual means nothing.  Takes twice as long.  Free both in any case. */
-rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, int over_creep,
+rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, rb_rolling_variable over,
                                        double from, double to, int points,
                                        rb_rolling_curve *curve, rb_rolling_curve *errors,
                                        rb_message *why);

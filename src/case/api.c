@@ -560,19 +560,22 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points)
 {
     const rb_settled_case *c = rb_case_settled(a->words);
-    const int over_creep = strcmp(over, "creep") == 0;
+    const rb_choice *variable = rb_case_curve_variables;
+    while (variable->name && strcmp(variable->name, over) != 0)
+        variable++;
     begin(a);
     rb_case_forget_arrays(a, "curve.");
     rb_rolling_curve_free(&a->curve);
     rb_rolling_curve_free(&a->curve_errors);
+    const rb_rolling_variable value = (rb_rolling_variable)variable->value;
     rb_status s =
-        !over_creep && strcmp(over, "creep-ratio") != 0
+        !variable->name
             ? rb_fail(&a->why, RB_EINVAL,
-                      "--over: expected creep-ratio or creep, got '%.100s'", over)
-        : c->error ? rb_rolling_curve_with_errors(&c->rc, over_creep, from, to, points,
+                      "--over: expected creep-ratio, creep or speed, got '%.100s'", over)
+        : c->error ? rb_rolling_curve_with_errors(&c->rc, value, from, to, points,
                                                   &a->curve, &a->curve_errors, &a->why)
-                   : rb_rolling_curve_solve(&c->rc, over_creep, from, to, points,
-                                            &a->curve, &a->why);
+                   : rb_rolling_curve_solve(&c->rc, value, from, to, points, &a->curve,
+                                            &a->why);
     return rb_case_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
 }
 

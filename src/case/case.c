@@ -15,7 +15,7 @@ static rb_settled_case default_words(rb_case_purpose purpose)
                              .radius_b = INFINITY,
                              .memory_a = {.time = NAN, .ratio = NAN},
                              .memory_b = {.time = NAN, .ratio = NAN}};
-    if (purpose == RB_CASE_CURVE)
+    if (purpose == RB_CASE_CURVE || purpose == RB_CASE_SPEEDS)
         words.rc.formulation = RB_STEADY;
     return words;
 }
@@ -29,6 +29,11 @@ rb_case *rb_case_create(rb_case_purpose purpose)
     c->words = default_words(purpose);
     rb_case_settle(c, NULL);
     return c;
+}
+
+void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose)
+{
+    c->purpose = purpose;
 }
 
 rb_case *rb_case_copy(const rb_case *c)
@@ -536,8 +541,11 @@ static const struct {
     {RB_CASE_CURVE, "creep-ratio", "the curve runs over --from ... --to by itself"},
     {RB_CASE_CURVE, "force", "the curve runs over --from ... --to by itself"},
     {RB_CASE_CURVE, "force-ratio", "the curve runs over --from ... --to by itself"},
+    {RB_CASE_CURVE, "free-axle", "the curve runs over --from ... --to by itself"},
     {RB_CASE_CURVE, "history", "the curve runs over --from ... --to by itself"},
     {RB_CASE_CURVE, "accuracy", "of single cases; a curve has --error"},
+    {RB_CASE_SPEEDS, "speed", "the curve runs over --from ... --to by itself"},
+    {RB_CASE_SPEEDS, "accuracy", "of single cases; a curve has --error"},
     {RB_CASE_STRESS, "accuracy", "stress has error bars, but does not refine"},
     {RB_CASE_STUDY, "error", "studies have no error bars"},
     {RB_CASE_STUDY, "accuracy", "studies have no error bars"},
@@ -547,16 +555,17 @@ static const struct {
 static rb_status check_purpose(const rb_case *c, rb_message *why)
 {
     const rb_rolling_formulation formulation = c->settled.rc.formulation;
+    const int curve = c->purpose == RB_CASE_CURVE || c->purpose == RB_CASE_SPEEDS;
     rb_status s = RB_OK;
     for (size_t k = 0; k < sizeof meaningless / sizeof *meaningless && s == RB_OK; k++)
         if (c->purpose == meaningless[k].purpose)
             s = refuse_given(c, meaningless[k].option, meaningless[k].reason, why);
-    if (s == RB_OK && c->purpose == RB_CASE_CURVE && formulation != RB_STEADY)
+    if (s == RB_OK && curve && formulation != RB_STEADY)
         s = refuse_given(c, "formulation", "a curve is one of steady rolling", why);
     if (s == RB_OK && c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT)
         s = refuse_given(c, "formulation", "a study is one of static or steady cases",
                          why);
-    if (s == RB_OK && c->purpose != RB_CASE_CURVE && c->settled.mus.n > 1)
+    if (s == RB_OK && !curve && c->settled.mus.n > 1)
         s = refuse_given(c, "mu", "expected one number; a curve takes several", why);
     if (s == RB_OK && rb_case_has_steps(&c->settled))
         s = refuse_given(c, "accuracy", "of static and steady cases without steps only",
@@ -590,7 +599,10 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     if (s != RB_OK)
         return s;
     choose_mesh(c);
-    s = rb_rolling_case_check(&c->settled.rc, why);
+    rb_rolling_case checked = c->settled.rc;
+    if (c->purpose == RB_CASE_SPEEDS)
+        checked.speed = 1.0; /* the curve has its own */
+    s = rb_rolling_case_check(&checked, why);
     if (s == RB_OK)
         c->settled.derived = rb_rolling_derive(&c->settled.rc);
     return rb_case_blame(c, s, why);

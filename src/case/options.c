@@ -33,6 +33,11 @@ static const rb_choice solvers[] = {{"auto", RB_SOLVER_AUTO},
 static const rb_choice lcp_forms[] = {
     {"pivoted", RB_LCP_PIVOTED}, {"kwak", RB_LCP_KWAK}, {NULL, 0}};
 
+const rb_choice rb_case_curve_variables[] = {{"creep-ratio", RB_OVER_CREEP_RATIO},
+                                             {"creep", RB_OVER_CREEP},
+                                             {"speed", RB_OVER_SPEED},
+                                             {NULL, 0}};
+
 /* What excludes what. */
 enum {
     ONE_NORMAL = 1,

@@ -21,19 +21,30 @@ static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *
     return cli_fail(cli_exit_of(s), "%s%s", why.text, rb_guess_text(&guess, ""));
 }
 
-cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
-                        cli_args *args)
+cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c,
+                       cli_args *args)
 {
-    rb_message why = {""};
     cli_exit code = cli_parse(spec, argc, argv, args);
     if (code == CLI_CONTINUE && args->operands > 1)
         code = cli_fail(CLI_USAGE, "one case file at a time, got '%s' and '%s'",
                         args->operand[0], args->operand[1]);
     if (code == CLI_CONTINUE && args->operands == 1)
         code = read_case_file(spec, args->operand[0], c);
-    if (code == CLI_CONTINUE)
-        code = cli_say(rb_case_settle(c, &why), &why);
+    return code;
+}
+
+cli_exit cli_case_settle(const cli_spec *spec, rb_case *c, const cli_args *args)
+{
+    rb_message why = {""};
+    const cli_exit code = cli_say(rb_case_settle(c, &why), &why);
     return code == CLI_CONTINUE ? cli_check_files(spec, args) : code;
+}
+
+cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
+                        cli_args *args)
+{
+    const cli_exit code = cli_case_read(spec, argc, argv, c, args);
+    return code == CLI_CONTINUE ? cli_case_settle(spec, c, args) : code;
 }
 
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)

@@ -24,6 +24,10 @@ rb_case *cli_case_create(rb_case_purpose purpose);
  * CLI_CONTINUE or an exit code, its line printed. */
 cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
                         cli_args *args);
+/* The same in two parts: what is given, and what it means. */
+cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c,
+                       cli_args *args);
+cli_exit cli_case_settle(const cli_spec *spec, rb_case *c, const cli_args *args);
 
 /* Prints why the library refused the case; the exit code tells command line from file. */
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why);

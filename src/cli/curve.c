@@ -1,4 +1,5 @@
-/* rollbem curve: the tangential force over the creepage. */
+/* rollbem curve: the tangential force over the creepage, or the resistance to rolling
+ * over the speed. */
 #include "cli/case.h"
 #include "cli/output.h"
 
@@ -8,22 +9,22 @@
 
 typedef struct {
     double from, to;
-    int points, over_creep;
+    int points, over; /* rb_rolling_variable */
     int given[5];
 } range_options;
 
 #define PLACE(member) offsetof(range_options, member)
-
-static const rb_choice variables[] = {{"creep-ratio", 0}, {"creep", 1}, {NULL, 0}};
 
 static const rb_option options[] = {
     RB_GROUP_LINE("curve", "Range of the curve"),
     RB_NUMBER_LINE("from", PLACE(from), "-", RB_ANY, "first value"),
     RB_NUMBER_LINE("to", PLACE(to), "-", RB_ANY, "last value"),
     RB_INTEGER_LINE("points", PLACE(points), RB_FROM_TO(2, 1000000),
-                    "equally spaced, both ends among them"),
-    RB_CHOICE_LINE("over", PLACE(over_creep), variables,
-                   "what is varied: xi R/(mu a), or xi itself"),
+                    "equally spaced (speeds: in their logarithm), both ends among them"),
+    RB_CHOICE_LINE(
+        "over", PLACE(over), rb_case_curve_variables,
+        "what is varied: xi R/(mu a), xi itself, or the speed [mm/s] of bodies "
+        "that relax"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -36,6 +37,8 @@ static const char about[] =
     "takes several values with commas between: a curve each.\n"
     "The picture shows -Q/(mu P), or -Q/P over xi where there are several mu, and\n"
     "Carter's law (similar bodies) beside it.\n"
+    "--over speed shows the resistance to rolling, M/(P R), of bodies that relax;\n"
+    "--creep, --force or --free-axle then drive the wheel as in a single case.\n"
     "\n" CLI_CASE_SIGNS;
 
 static const char notes[] = CLI_CASE_NOTES
@@ -52,12 +55,13 @@ typedef struct {
 } result;
 
 /* The picture shows the force as a part of the friction, mu P. */
-static cli_exit check_picture(const rb_settled_case *c, const cli_output *o)
+static cli_exit check_picture(const rb_settled_case *c, const range_options *r,
+                              const cli_output *o)
 {
     int frictionless = c->rc.mu == 0.0;
     for (int k = 0; k < c->mus.n; k++)
         frictionless |= c->mus.value[k] == 0.0;
-    return o->plot && frictionless
+    return o->plot && frictionless && r->over != RB_OVER_SPEED
                ? cli_fail(CLI_USAGE, "--plot: no curve to draw at mu = 0")
                : CLI_CONTINUE;
 }
@@ -66,10 +70,11 @@ static rb_status solve_curve(const rb_rolling_case *rc, const range_options *r,
                              int with_errors, rb_rolling_curve *curve,
                              rb_rolling_curve *errors, rb_message *why)
 {
-    return with_errors ? rb_rolling_curve_with_errors(rc, r->over_creep, r->from, r->to,
-                                                      r->points, curve, errors, why)
-                       : rb_rolling_curve_solve(rc, r->over_creep, r->from, r->to,
-                                                r->points, curve, why);
+    return with_errors
+               ? rb_rolling_curve_with_errors(rc, (rb_rolling_variable)r->over, r->from,
+                                              r->to, r->points, curve, errors, why)
+               : rb_rolling_curve_solve(rc, (rb_rolling_variable)r->over, r->from, r->to,
+                                        r->points, curve, why);
 }
 
 static rb_status solve_curves(const rb_settled_case *c, const range_options *range,
@@ -103,8 +108,7 @@ static rb_status print_json(FILE *out, const result *r)
     rb_report_json_set(&inputs, "from", json_real(r->range->from));
     rb_report_json_set(&inputs, "to", json_real(r->range->to));
     rb_report_json_set(&inputs, "points", json_integer(r->range->points));
-    rb_report_json_set(&inputs, "over",
-                       json_string(variables[r->range->over_creep].name));
+    rb_report_json_set(&inputs, "over", json_string(rb_case_curve_variables[r->range->over].name));
     rb_report_json_set(&root, "inputs", inputs);
     rb_report_json_curves(&root, &r->curves);
     return rb_report_json_write(out, root);
@@ -123,8 +127,8 @@ static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *contex
                       rb_message *why)
 {
     const result *r = context;
-    return rb_report_curve_picture(out, kind, &r->c->rc, &r->curves, r->range->over_creep,
-                                   why);
+    return rb_report_curve_picture(out, kind, &r->c->rc, &r->curves,
+                                   (rb_rolling_variable)r->range->over, why);
 }
 
 /* ---- Command ---------------------------------------------------------------------- */
@@ -172,11 +176,15 @@ int cli_curve(int argc, char **argv)
         notes,
         {rb_case_options(c), {options, OPTIONS, &range, range.given}, cli_output_set(&o)},
         3};
-    cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
+    cli_exit code = cli_case_read(&spec, argc, argv, c, &args);
+    if (range.over == RB_OVER_SPEED)
+        rb_case_set_purpose(c, RB_CASE_SPEEDS);
+    if (code == CLI_CONTINUE)
+        code = cli_case_settle(&spec, c, &args);
     if (code == CLI_CONTINUE && range.from == range.to)
         code = cli_fail(CLI_USAGE, "--from and --to: expected two different values");
     if (code == CLI_CONTINUE)
-        code = check_picture(rb_case_settled(c), &o);
+        code = check_picture(rb_case_settled(c), &range, &o);
     if (code == CLI_CONTINUE)
         code = solve(c, &range, &o);
     cli_args_free(&args);

@@ -103,17 +103,38 @@ static double largest(int n, const double *x)
     return most;
 }
 
+static int is_over_speed(const rb_rolling_curve *c)
+{
+    return c->n > 1 && c->speed[0] != c->speed[1];
+}
+
+static void print_most_resistance(FILE *out, const rb_rolling_curve *c)
+{
+    int most = 0;
+    for (int i = 1; i < c->n; i++)
+        if (c->resistance_ratio[i] > c->resistance_ratio[most])
+            most = i;
+    fprintf(out, "  largest resistance to rolling M/(P R) = %.5g at %.5g mm/s\n",
+            c->resistance_ratio[most], c->speed[most]);
+}
+
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
 {
     for (int k = 0; k < curves->n; k++) {
         const rb_rolling_curve *c = &curves->curve[k];
-        const int sliding = full_sliding_from(c);
+        const int speeds = is_over_speed(c);
+        const int sliding = speeds ? -1 : full_sliding_from(c);
         fprintf(out, "curve, mu = %g: %d points in %.2g s, residual <= %.2g\n",
                 curves->mu[k], c->n, c->seconds, largest(c->n, c->residual));
         if (isfinite(c->free_creepage))
             fprintf(out, "  free rolling (Q = 0) at xi = %.5g\n",
                     c->free_creepage + 0.0); /* -0 is 0 */
-        if (curves->has_errors)
+        if (speeds)
+            print_most_resistance(out, c);
+        if (curves->has_errors && speeds)
+            fprintf(out, "  error of M/(P R) <= %.1g (estimated from coarser meshes)\n",
+                    largest(c->n, curves->error[k].resistance_ratio));
+        else if (curves->has_errors)
             fprintf(out,
                     "  error of Q/(mu P) <= %.1g, of P <= %.1g N/mm (estimated from "
                     "coarser meshes)\n",
@@ -136,27 +157,31 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
 typedef struct {
     const rb_rolling_case *rc;
     const rb_report_curves *curves;
-    int over_creep; /* x: xi instead of xi R/(mu a) */
-    int over_load;  /* y: -Q/P instead of -Q/(mu P) */
-    int exponent;   /* of the x axis */
+    rb_rolling_variable over; /* x */
+    int over_load;            /* y: -Q/P instead of -Q/(mu P) */
+    int exponent;             /* of the axis of xi, or of M/(P R) */
     double from, to;
 } view;
 
 static double x_of(const view *v, const rb_rolling_curve *c, int i)
 {
-    return v->over_creep ? c->creepage[i] / pow(10.0, v->exponent) : c->creep_ratio[i];
+    return v->over == RB_OVER_SPEED   ? c->speed[i]
+           : v->over == RB_OVER_CREEP ? c->creepage[i] / pow(10.0, v->exponent)
+                                      : c->creep_ratio[i];
 }
 
-static double y_of(const view *v, double force_ratio, double mu)
+static double y_of(const view *v, const rb_rolling_curve *c, int i, double mu)
 {
-    return v->over_load ? -force_ratio * mu : -force_ratio;
+    return v->over == RB_OVER_SPEED ? c->resistance_ratio[i] / pow(10.0, v->exponent)
+           : v->over_load           ? -c->force_ratio[i] * mu
+                                    : -c->force_ratio[i];
 }
 
 /* In units of y; 0 where it was not asked for. */
 static double error_of(const view *v, int k, int i)
 {
     return v->curves->has_errors
-               ? fabs(y_of(v, v->curves->error[k].force_ratio[i], v->curves->mu[k]))
+               ? fabs(y_of(v, &v->curves->error[k], i, v->curves->mu[k]))
                : 0.0;
 }
 
@@ -167,9 +192,14 @@ static void write_data(FILE *out, const view *v)
         fprintf(out, "$curve%d << EOD\n", k);
         for (int i = 0; i < c->n; i++)
             fprintf(out, "%.9g %.9g %.9g\n", x_of(v, c, i),
-                    y_of(v, c->force_ratio[i], v->curves->mu[k]), error_of(v, k, i));
+                    y_of(v, c, i, v->curves->mu[k]), error_of(v, k, i));
         fputs("EOD\n", out);
     }
+}
+
+static int draws_carter(const view *v)
+{
+    return v->over != RB_OVER_SPEED && rb_rolling_carter_holds(v->rc);
 }
 
 /* Carter's law on a finer grid than the curve; ratio and creepage are proportional. */
@@ -184,18 +214,22 @@ static void write_carter(FILE *out, const view *v)
             const double t = (double)i / POINTS;
             const double s = (1.0 - t) * c->creep_ratio[0] + t * c->creep_ratio[last];
             fprintf(out, "%.9g %.9g\n", (1.0 - t) * x_of(v, c, 0) + t * x_of(v, c, last),
-                    y_of(v, rb_closed_carter_force_ratio(s), v->curves->mu[k]));
+                    -rb_closed_carter_force_ratio(s) *
+                        (v->over_load ? v->curves->mu[k] : 1.0));
         }
         fputs("EOD\n", out);
     }
 }
 
-static void choose_x_axis(view *v)
+static void choose_axes(view *v)
 {
     double largest = 0.0;
-    for (int k = 0; k < v->curves->n; k++)
-        for (int i = 0; i < v->curves->curve[k].n; i++)
-            largest = fmax(largest, fabs(v->curves->curve[k].creepage[i]));
+    for (int k = 0; k < v->curves->n; k++) {
+        const rb_rolling_curve *c = &v->curves->curve[k];
+        for (int i = 0; i < c->n; i++)
+            largest = fmax(largest, fabs(v->over == RB_OVER_SPEED ? c->resistance_ratio[i]
+                                                                  : c->creepage[i]));
+    }
     if (largest > 0.0 && largest < 0.1)
         v->exponent = (int)floor(log10(largest));
     v->from = INFINITY;
@@ -207,18 +241,30 @@ static void choose_x_axis(view *v)
         }
 }
 
+/* "creepage ξ  [10^{-3}]" */
+static void write_label(FILE *out, const char *axis, const char *what, int exponent)
+{
+    fprintf(out, exponent ? "set %slabel '%s  [10^{%d}]'\n" : "set %slabel '%s'\n", axis,
+            what, exponent);
+}
+
 static void write_labels(FILE *out, const view *v)
 {
     const rb_rolling_curve *c = &v->curves->curve[0];
     fprintf(out,
-            "set label 1 '{/:Bold Creep curve}   P = %.5g N/mm,  a = %.4g mm' "
+            "set label 1 '{/:Bold %s}   P = %.5g N/mm,  a = %.4g mm' "
             "at screen 0.54, 0.955 center\n",
+            v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
             c->normal_load[c->n - 1], c->half_width);
-    if (v->over_creep && v->exponent)
-        fprintf(out, "set xlabel 'creepage ξ  [10^{%d}]'\n", v->exponent);
-    else
-        fprintf(out, "set xlabel '%s'\n",
-                v->over_creep ? "creepage ξ" : "creepage ratio  ξR/(μa)");
+    if (v->over == RB_OVER_SPEED) {
+        fputs("set logscale x\n", out);
+        write_label(out, "x", "speed  [mm/s]", 0);
+        write_label(out, "y", "resistance to rolling  M/(PR)", v->exponent);
+        return;
+    }
+    const int creep = v->over == RB_OVER_CREEP;
+    write_label(out, "x", creep ? "creepage ξ" : "creepage ratio  ξR/(μa)",
+                creep ? v->exponent : 0);
     fprintf(out, "set ylabel 'braking force  −Q/%s' offset 1,0\n",
             v->over_load ? "P" : "(μP)");
 }
@@ -229,7 +275,8 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
                                           "#117864", "#5d6d7e", "#7b241c", "#2e86c1"};
     const view *v = context;
     write_data(out, v);
-    write_carter(out, v);
+    if (draws_carter(v))
+        write_carter(out, v);
     fputs("set lmargin at screen 0.13\nset rmargin at screen 0.965\n"
           "set bmargin at screen 0.14\nset tmargin at screen 0.92\n"
           "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
@@ -251,7 +298,7 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
                 "%s$curve%d using 1:2 with lines linecolor rgb '%s' linewidth 2.6 title "
                 "'μ = %g'",
                 k > 0 ? ", " : "", k, colours[k % 8], v->curves->mu[k]);
-    for (int k = 0; k < v->curves->n && rb_rolling_carter_holds(v->rc); k++)
+    for (int k = 0; k < v->curves->n && draws_carter(v); k++)
         fprintf(out,
                 ", $carter%d using 1:2 with lines dashtype (8,8) linecolor rgb '#111111' "
                 "linewidth 1.1 %s",
@@ -261,16 +308,16 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
 
 rb_status rb_report_curve_picture(FILE *out, rb_report_picture_kind kind,
                                   const rb_rolling_case *rc,
-                                  const rb_report_curves *curves, int over_creep,
-                                  rb_message *why)
+                                  const rb_report_curves *curves,
+                                  rb_rolling_variable over, rb_message *why)
 {
     view v = {.rc = rc,
               .curves = curves,
-              .over_creep = over_creep || curves->n > 1,
+              .over = over == RB_OVER_CREEP_RATIO && curves->n > 1 ? RB_OVER_CREEP : over,
               .over_load = curves->n > 1};
     for (int k = 0; k < curves->n; k++)
-        if (curves->curve[k].n < 2 || curves->mu[k] == 0.0)
+        if (curves->curve[k].n < 2 || (curves->mu[k] == 0.0 && over != RB_OVER_SPEED))
             return rb_fail(why, RB_EINVAL, "no curve to draw at mu = %g", curves->mu[k]);
-    choose_x_axis(&v);
+    choose_axes(&v);
     return rb_report_draw(out, kind, RB_REPORT_SLIDE, write_script, &v, why);
 }

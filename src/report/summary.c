@@ -110,6 +110,11 @@ static void print_motion(FILE *out, const rb_rolling_solution *s)
     if (!isnan(s->dissipation))
         fprintf(out, "  power     %.5g N/mm dissipated, per unit speed\n",
                 s->dissipation + 0.0);
+    if (s->hysteresis > 0.0)
+        fprintf(out,
+                "  resists   M = %.5g N, M/(P R) = %.5g, hysteresis %.5g N/mm per unit "
+                "speed\n",
+                s->resistance_moment, s->resistance_ratio, s->hysteresis);
 }
 
 static void print_zones(FILE *out, const rb_rolling_solution *s, int width)

@@ -3,9 +3,10 @@
 
 #include "rollbem/closed_forms.h"
 
+#include <gsl/gsl_math.h>
 #include <math.h>
 
-enum { RELATIVE = RB_VERIFY_RELATIVE };
+enum { ABSOLUTE = RB_VERIFY_ABSOLUTE, RELATIVE = RB_VERIFY_RELATIVE };
 
 /* ---- Cattaneo to Carter ------------------------------------------------------------ */
 
@@ -70,8 +71,51 @@ static void dissipation(rb_verify *v)
     rb_rolling_solution_free(&s);
 }
 
+/* ---- Bodies that relax --------------------------------------------------------------
+ */
+
+/* Hunter's solution (V3), a_g = 1: f, V tau, both edges, p_max over the glassy Hertz's,
+ * M/P. */
+static void hunter(rb_verify *v)
+{
+    static const double rows[3][6] = {
+        {1.0, 1.0, 1.3698037, -1.0148946, 0.8318884, 0.2621595},
+        {1.0, 10.0, 1.1283544, -0.8863649, 0.9930890, 0.1334710},
+        {4.0, 1.0, 2.1922928, -1.5023576, 0.5770909, 0.5920417}};
+    for (int k = 0; k < 3; k++) {
+        const double *row = rows[k];
+        rb_rolling_case rc = rb_verify_uncoupled();
+        rb_rolling_solution s;
+        rc.a.radius = 1e4;
+        rc.half_width = 1.0;
+        rc.a.memory = (rb_rolling_memory){1, {row[1]}, {row[0]}};
+        rc.speed = 1.0;
+        rc.mu = 0.0;
+        rc.creep = 0.0;
+        rc.formulation = RB_STEADY;
+        rc.contact_elements = 200;
+        rb_verify_solve(v, &rc, &s);
+        const double P = s.normal_load, p_glassy = 2.0 * P / M_PI;
+        rb_verify_compare(v, s.contact_to, row[2], 1e-3, ABSOLUTE,
+                          "Hunter, f = %g, V tau = %g a: leading edge / a", row[0],
+                          row[1]);
+        rb_verify_compare(v, s.contact_from, row[3], 1e-3, ABSOLUTE,
+                          "Hunter, f = %g, V tau = %g a: trailing edge / a", row[0],
+                          row[1]);
+        rb_verify_compare(v, s.max_pressure / p_glassy, row[4], 2e-3, RELATIVE,
+                          "Hunter, f = %g, V tau = %g a: p_max / p0", row[0], row[1]);
+        rb_verify_compare(v, s.resistance_moment / P, row[5], 1e-4, ABSOLUTE,
+                          "Hunter, f = %g, V tau = %g a: M/(P a)", row[0], row[1]);
+        rb_verify_compare(v, s.hysteresis, s.resistance_moment / rc.a.radius, 1e-3,
+                          RELATIVE, "Hunter, f = %g, V tau = %g a: hysteresis = M/R",
+                          row[0], row[1]);
+        rb_rolling_solution_free(&s);
+    }
+}
+
 void rb_verify_rolling(rb_verify *v)
 {
     dissipation(v);
+    hunter(v);
     cattaneo_to_carter(v);
 }

@@ -1,4 +1,5 @@
-/* Creep curves: one mesh and one factorisation for all creepages (theory.md 4.6). */
+/* Curves over the creepage, with one mesh and one factorisation (theory.md 4.6), and over
+ * the speed of bodies that relax (V4). */
 #include "rolling/internal.h"
 
 #include <cblas.h>
@@ -13,7 +14,7 @@ void rb_rolling_curve_free(rb_rolling_curve *c)
     memset(c, 0, sizeof *c);
 }
 
-static void record(const rb_rolling_model *model, rb_rolling_curve *c)
+static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c)
 {
     const rb_rolling_problem *p = &model->problem;
     const rb_rolling_state *state = &model->state;
@@ -39,6 +40,11 @@ static void record(const rb_rolling_model *model, rb_rolling_curve *c)
                                                     state->q, model->bodies.f.h, p->e_T);
     c->residual[k] = state->residual;
     c->half_width = model->half_width;
+    c->speed[k] = model->rc.speed;
+    c->resistance_moment[k] = rb_rolling_moment(p, state);
+    c->resistance_ratio[k] =
+        c->resistance_moment[k] / (P * rb_rolling_radius(&model->rc));
+    return rb_rolling_hysteresis(model, &c->hysteresis[k]);
 }
 
 /* The whole search for the contact again. */
@@ -75,67 +81,117 @@ static rb_status follow_contact(rb_rolling_model *model, int fills, double edge[
     return s;
 }
 
-static void set_creepage(int over_creep, double value, rb_rolling_case *rc)
+static void set_creepage(rb_rolling_variable over, double value, rb_rolling_case *rc)
 {
-    rc->creep = over_creep ? value : NAN;
-    rc->creep_ratio = over_creep ? NAN : value;
+    rc->creep = over == RB_OVER_CREEP ? value : NAN;
+    rc->creep_ratio = over == RB_OVER_CREEP_RATIO ? value : NAN;
 }
 
-static rb_status all_points(rb_rolling_model *model, int over_creep, double from,
-                            double to, int points, rb_rolling_curve *c, rb_message *why)
-{
-    double edge[2];
-    rb_status s = RB_OK;
+typedef struct {
+    rb_rolling_variable over;
+    double from, to;
+    int points;
+} range;
 
+static double value_at(const range *r, int k)
+{
+    const double t = r->points > 1 ? (double)k / (r->points - 1) : 0.0;
+    return r->over == RB_OVER_SPEED ? r->from * pow(r->to / r->from, t)
+                                    : r->from + t * (r->to - r->from);
+}
+
+static rb_status over_creepages(const rb_rolling_case *rc, const range *r,
+                                rb_rolling_model *model, rb_rolling_curve *c,
+                                rb_message *why)
+{
+    rb_rolling_case steady = *rc;
+    double edge[2];
+
+    steady.shift = steady.force = steady.force_ratio = NAN;
+    steady.free_axle = 0;
+    set_creepage(r->over, r->from, &steady);
+    rb_status s = rb_rolling_model_create(&steady, model, why);
+    if (s != RB_OK)
+        return s;
     rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &edge[0], &edge[1]);
-    for (int k = 0; k < points && s == RB_OK; k++) {
-        const double t = points > 1 ? (double)k / (points - 1) : 0.0;
-        set_creepage(over_creep, from + t * (to - from), &model->rc);
+    for (int k = 0; k < r->points && s == RB_OK; k++) {
+        set_creepage(r->over, value_at(r, k), &model->rc);
         s = rb_rolling_model_control(model, why);
         if (s == RB_OK || s == RB_ZONE)
             s = follow_contact(model, s == RB_ZONE, edge, why);
-        if (s >= 0)
-            record(model, c);
+        if (s >= 0) {
+            const rb_status t = record(model, c);
+            s = t < 0 ? t : s;
+        }
+    }
+    if (s == RB_OK && rc->mu > 0.0)
+        s = rb_rolling_free_creepage_if_any(model, &c->free_creepage, why);
+    return s;
+}
+
+/* The flexibility itself depends on the speed. */
+static rb_status over_speeds(const rb_rolling_case *rc, const range *r,
+                             rb_rolling_model *model, rb_rolling_curve *c,
+                             rb_message *why)
+{
+    rb_rolling_case steady = *rc;
+    rb_status s = RB_OK;
+
+    for (int k = 0; k < r->points && s == RB_OK; k++) {
+        const int iterations = model->iterations;
+        steady.speed = value_at(r, k);
+        rb_rolling_model_free(model);
+        s = rb_rolling_model_create(&steady, model, why);
+        model->iterations += iterations;
+        if (s >= 0 && model->state.p) {
+            const rb_status t = record(model, c);
+            s = t < 0 ? t : s;
+        }
     }
     return s;
 }
 
-static rb_status check_curve(const rb_rolling_case *rc, int over_creep, double from,
-                             double to, int points, rb_message *why)
+static rb_status check_curve(const rb_rolling_case *rc, const range *r, rb_message *why)
 {
-    if (!isfinite(from) || !isfinite(to))
+    if (!isfinite(r->from) || !isfinite(r->to))
         return rb_fail(why, RB_EINVAL, "curve: from %g to %g: expected finite numbers",
-                       from, to);
-    if (points < 1 || points > 1000000)
-        return rb_fail(why, RB_EINVAL, "points: expected 1 ... 1000000, got %d", points);
-    if (!over_creep && rc->mu == 0.0)
+                       r->from, r->to);
+    if (r->points < 1 || r->points > 1000000)
+        return rb_fail(why, RB_EINVAL, "points: expected 1 ... 1000000, got %d",
+                       r->points);
+    if (r->over == RB_OVER_CREEP_RATIO && rc->mu == 0.0)
         return rb_fail(why, RB_EINVAL,
                        "curve: xi R/(mu a) has no meaning at mu = 0; give creepages");
+    if (r->over == RB_OVER_SPEED && !(r->from > 0.0 && r->to > 0.0))
+        return rb_fail(why, RB_EINVAL,
+                       "curve over speed: expected from and to > 0, got %g and %g",
+                       r->from, r->to);
+    if (r->over == RB_OVER_SPEED && !rb_rolling_relaxes(rc))
+        return rb_fail(
+            why, RB_EINVAL,
+            "curve over speed: no body relaxes, so that nothing depends on it; "
+            "add --relaxation-time and --relaxation-ratio");
     return RB_OK;
 }
 
-rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, int over_creep, double from,
-                                 double to, int points, rb_rolling_curve *curve,
-                                 rb_message *why)
+rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, rb_rolling_variable over,
+                                 double from, double to, int points,
+                                 rb_rolling_curve *curve, rb_message *why)
 {
     const double start = rb_seconds();
+    const range r = {over, from, to, points};
     rb_rolling_case steady = *rc;
     rb_rolling_model model = {0};
-    rb_status s = check_curve(rc, over_creep, from, to, points, why);
+    rb_status s = check_curve(rc, &r, why);
 
     memset(curve, 0, sizeof *curve);
     curve->free_creepage = NAN;
     steady.formulation = RB_STEADY;
-    steady.shift = steady.force = steady.force_ratio = NAN;
-    set_creepage(over_creep, from, &steady);
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, points, curve);
     if (s == RB_OK)
-        s = rb_rolling_model_create(&steady, &model, why);
-    if (s == RB_OK)
-        s = all_points(&model, over_creep, from, to, points, curve, why);
-    if (s == RB_OK && rc->mu > 0.0)
-        s = rb_rolling_free_creepage_if_any(&model, &curve->free_creepage, why);
+        s = (over == RB_OVER_SPEED ? over_speeds : over_creepages)(&steady, &r, &model,
+                                                                   curve, why);
     curve->iterations = model.iterations;
     curve->seconds = rb_seconds() - start;
     rb_rolling_model_free(&model);

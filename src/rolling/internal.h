@@ -330,6 +330,8 @@ void rb_rolling_classify(const rb_rolling_problem *problem, double tol,
 double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
                                    const double *q, const double *h, const double *e_T);
 
+/* 1: a body of the case has memory. */
+int rb_rolling_relaxes(const rb_rolling_case *rc);
 /* Power per unit speed that the bodies lose, - int (p w_N' + q w_T') dx, from pressures,
  * friction and displacements (theory.md V4): 0 for elastic bodies, NAN but in steady
  * rolling.  RB_ENOMEM. */

@@ -155,6 +155,13 @@ static const rb_rolling_result points[] = {
           .meaning = "friction power per unit speed"),
     POINT("residual", residual, .unit = "1",
           .meaning = "natural residual of the scaled problem"),
+    POINT("speed", speed, .unit = "mm/s", .meaning = "of rolling, of bodies that relax"),
+    POINT("resistance_moment", resistance_moment, .unit = "N", .error_bar = RB_SCALE_ONE,
+          .meaning = "M = int x p dx"),
+    POINT("resistance_ratio", resistance_ratio, .unit = "1", .error_bar = RB_SCALE_ONE,
+          .meaning = "M/(P R)"),
+    POINT("hysteresis", hysteresis, .unit = "N/mm", .error_bar = RB_SCALE_ONE,
+          .meaning = "power per unit speed that bodies which relax lose"),
 };
 
 static const rb_rolling_result patch[] = {

@@ -57,10 +57,10 @@ static void curve_errors(const rb_rolling_case *rc, int runs,
     }
 }
 
-rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, int over_creep,
-                                       double from, double to, int points,
-                                       rb_rolling_curve *curve, rb_rolling_curve *errors,
-                                       rb_message *why)
+rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
+                                       rb_rolling_variable over, double from, double to,
+                                       int points, rb_rolling_curve *curve,
+                                       rb_rolling_curve *errors, rb_message *why)
 {
     rb_rolling_curve run[RB_ERROR_RUNS] = {0};
     const int runs = rb_rolling_error_runs(rc);
@@ -69,10 +69,10 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, int over_creep
     memset(curve, 0, sizeof *curve);
     memset(errors, 0, sizeof *errors);
     if (s == RB_OK)
-        s = rb_rolling_curve_solve(rc, over_creep, from, to, points, curve, why);
+        s = rb_rolling_curve_solve(rc, over, from, to, points, curve, why);
     for (int k = 0; k < runs && s == RB_OK; k++) {
         const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
-        s = rb_rolling_curve_solve(&coarser, over_creep, from, to, points, &run[k], why);
+        s = rb_rolling_curve_solve(&coarser, over, from, to, points, &run[k], why);
     }
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, points, errors);

@@ -28,19 +28,23 @@ static double normal_work(int n, const double *x, const double *w, const double 
     return work;
 }
 
+int rb_rolling_relaxes(const rb_rolling_case *rc)
+{
+    return rc->a.memory.n > 0 || (rc->elastic_b && rc->b.memory.n > 0);
+}
+
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
 {
     const rb_rolling_problem *p = &model->problem;
     const rb_rolling_state *state = &model->state;
-    const int n = p->n, relaxes = model->rc.a.memory.n > 0 ||
-                                  (model->rc.elastic_b && model->rc.b.memory.n > 0);
+    const int n = p->n;
 
     *power = model->rc.formulation == RB_STEADY ? 0.0 : NAN;
-    if (model->rc.formulation != RB_STEADY || !relaxes)
+    if (model->rc.formulation != RB_STEADY || !rb_rolling_relaxes(&model->rc))
         return RB_OK;
     double *w = rb_alloc(4 * (size_t)n + 2, 1), *strain = w + 2 * (n + 1);
-    const rb_status s = w ? rb_rolling_displacement(&model->bodies, state->p, state->q, w)
-                          : RB_ENOMEM;
+    const rb_status s =
+        w ? rb_rolling_displacement(&model->bodies, state->p, state->q, w) : RB_ENOMEM;
     if (s == RB_OK) {
         /* the surface's own part of the slip is paired with friction as all of it is */
         for (int i = 0; i < n; i++)
