@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { LESSONS = 6, EXERCISES = 5, MAX_NUMBERS = 40000, MAX_TEXT = 200000 };
+enum { LESSONS = 9, EXERCISES = 5, MAX_NUMBERS = 40000, MAX_TEXT = 200000 };
 
 static char folder[] = "/tmp/rollbem-course-XXXXXX";
 static glob_t lessons, solutions;
