@@ -182,6 +182,34 @@ static void pivots_keep_the_ratio_test(void **state)
     rb_api_free(a);
 }
 
+/* The last step of Newton's method has the tractions of the solution, and each one those
+ * of the zones that it assumes. */
+static void newton_ends_in_the_solution(void **state)
+{
+    rb_api *a = solved(wheel);
+    int rows, steps;
+    (void)state;
+    assert_int_equal(rb_api_newton(a), RB_OK);
+    const double *zone = rb_api_array(a, "newton.zone", &rows, &steps);
+    assert_non_null(zone);
+    assert_int_equal(rows, 12);
+    assert_true(steps > 2);
+    const double *p = array(a, "newton.p", 12, steps),
+                 *q = array(a, "newton.q", 12, steps);
+    const double *want_p = array(a, "p", 12, 1), *want_q = array(a, "q", 12, 1);
+    for (int i = 0; i < 12; i++) {
+        const int last = i + 12 * (steps - 1);
+        CHECK_ABS(p[last], want_p[i], 1e-8 * rb_api_number(a, "max_pressure"), "p[%d]",
+                  i);
+        CHECK_ABS(q[last], want_q[i], 1e-8 * rb_api_number(a, "max_pressure"), "q[%d]",
+                  i);
+        for (int k = 0; k < steps; k++)
+            if (zone[i + 12 * k] == 0.0)
+                CHECK_ABS(p[i + 12 * k], 0.0, 0.0, "element %d apart in step %d", i, k);
+    }
+    rb_api_free(a);
+}
+
 static void matrices_satisfy_their_equations(void **state)
 {
     rb_api *a = solved(wheel);
@@ -381,6 +409,7 @@ int main(void)
         cmocka_unit_test(numbers_are_the_solution),
         cmocka_unit_test(the_next_case_is_solved_as_the_first_one),
         cmocka_unit_test(pivots_keep_the_ratio_test),
+        cmocka_unit_test(newton_ends_in_the_solution),
         cmocka_unit_test(matrices_satisfy_their_equations),
         cmocka_unit_test(guesses_are_judged),
         cmocka_unit_test(steps_are_kept),

@@ -1,5 +1,5 @@
 /* Stress below the surface of A: contours and photoelastic fringes. */
-import { card, html, show, ticks, svg } from "./draw.js";
+import { card, html, segments, show, ticks, svg } from "./draw.js";
 import { say } from "./words.js";
 
 const NX = 81, NY = 49, FRINGES = 9;
@@ -14,8 +14,7 @@ function colour(t) {
 export function below_view(words, page) {
     let data = null, kind = "max_shear";
     const picture = html("figure"), note = html("p", { "aria-live": "polite" });
-    const choice = html("div", { class: "segments", role: "radiogroup", "aria-label": words.below_title, style: "max-width:34rem" }, Object.entries(words.below_kinds).map(([value, text]) =>
-        html("label", {}, html("input", { type: "radio", name: "below", value, checked: value === kind, onchange: () => { kind = value; draw(); } }), html("span", {}, text))));
+    const choice = html("div", { style: "max-width:34rem" }, segments("below", words.below_title, Object.entries(words.below_kinds), kind, (value) => { kind = value; draw(); }));
     const node = html("div", { class: "stack" }, card(words.below_title, choice, picture, note));
 
     function draw() {

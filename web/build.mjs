@@ -9,10 +9,10 @@ const CLANG = "clang-14";
 const FLAGS = ["--target=wasm32-wasi", "--sysroot=/usr", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-O3", "-msimd128",
     "-Iweb/wasm/include", "-Iinclude", "-Isrc", "-idirafter", "/usr/include"];
 const EXPORTS = ["create", "free", "set", "settle", "solve", "status", "message", "option", "result", "value", "number",
-    "array", "curve", "pivots", "variable", "guess", "stress"].map((name) => `rb_api_${name}`).concat("malloc", "free");
+    "array", "curve", "pivots", "newton", "variable", "guess", "stress"].map((name) => `rb_api_${name}`).concat("malloc", "free");
 /* Scripts in the order of their use; each is an ES module for tests and editors. */
 const WORKER = ["library.js", "worker.js"];
-const PAGE = ["words.js", "draw.js", "state.js", "controls.js", "contact.js", "roll.js", "below.js", "step.js", "take.js", "main.js"];
+const PAGE = ["words.js", "draw.js", "state.js", "controls.js", "contact.js", "take.js", "roll.js", "below.js", "step.js", "main.js"];
 const LIMIT = 600e3;
 
 function sources() {

@@ -25,7 +25,7 @@ function closed_forms({ hertz_half_width: a, normal_load: P, creep_ratio: s, car
 export function tractions_picture(host, words, { columns: c, numbers, values }, options = {}) {
     const width = options.width ?? width_of(host), ends = edges(c), mu = Number(values.mu.split(",")[0]);
     const x = options.window ?? window_of(numbers, ends);
-    const top = Math.max(...c.p) * 1.12 || 1, low = Math.min(0, ...[...c.p].map((p) => -mu * p)) * 1.15;
+    const most_p = options.top ?? Math.max(...c.p), top = most_p * 1.12 || 1, low = -mu * most_p * 1.15;
     const slip = [...c.slip].map((v, i) => c.zone[i] > 1 && Number.isFinite(v) ? v : 0), has_slip = slip.some((v) => v !== 0);
     const height = Math.round(Math.max(260, Math.min(430, width * 0.46))), strip = 26, below = has_slip ? 84 : 8;
     const plot = chart({ width, height: height + strip + below + 46, x, y: [low, top], y_label: words.mpa, bottom: strip + below + 46,

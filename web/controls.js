@@ -1,5 +1,5 @@
 /* The controls: sliders with exact fields, what is held, and every option of the table. */
-import { html, show } from "./draw.js";
+import { html, segments } from "./draw.js";
 import { ALL_TANGENTIAL, NORMAL, PRESETS, TANGENTIAL, formulation_of, held, hold } from "./state.js";
 import { say } from "./words.js";
 
@@ -32,10 +32,6 @@ export function controls(host, words, options, page) {
         function change(value) { text.value = value; slider.value = up(Number(value)); slider.setAttribute("aria-valuetext", `${value} ${unit}`); set(value); }
         return html("div", { class: "knob" }, html("label", { for: id }, words.names[name]), text,
             html("span", { class: "unit" }, unit === "-" ? "" : unit), slider);
-    }
-    function segments(name, label, entries, chosen, choose) {
-        return html("div", { class: "segments", role: "radiogroup", "aria-label": label }, entries.map(([value, text]) =>
-            html("label", {}, html("input", { type: "radio", name, value, checked: value === chosen, onchange: () => choose(value) }), html("span", {}, text))));
     }
     const group = (title, ...children) => html("fieldset", {}, html("legend", {}, title), ...children);
     const change = (given) => { page.change(given); draw(); };

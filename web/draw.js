@@ -60,6 +60,10 @@ export const legend = (...entries) => html("div", { class: "legend" }, entries.m
 
 export const card = (title, ...children) => html("section", { class: "card" }, html("h2", {}, title), ...children);
 
+/* One of several: entries [[value, text] ...]. */
+export const segments = (name, label, entries, chosen, choose) => html("div", { class: "segments", role: "radiogroup", "aria-label": label }, entries.map(([value, text]) =>
+    html("label", {}, html("input", { type: "radio", name, value, checked: value === chosen, onchange: () => choose(value) }), html("span", {}, text))));
+
 /* Buttons and a slider for something that goes in steps; see(k) shows one. */
 export function player(words, { label, see, describe, milliseconds = 700 }) {
     let at = 0, count = 0, timer = null;

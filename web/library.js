@@ -2,15 +2,73 @@
 
 const NO_SUCH_FILE = 44, BAD_DESCRIPTOR = 8;
 
-/* What the C library asks of a system: a clock; there are no files. */
-function system_calls(module, memory) {
-    const view = () => new DataView(memory().buffer);
+/* What the C library asks of a system: a clock, and the files that the page hands it, by name in
+ * a folder of their own. */
+function system_calls(module, memory, files) {
+    const FOLDER = 3, OPENED = 4, NOT_SUPPORTED = 58, REGULAR = 4, DIRECTORY = 3;
+    const view = () => new DataView(memory().buffer), bytes = () => new Uint8Array(memory().buffer);
+    const text = (at, length) => new TextDecoder().decode(bytes().subarray(at, at + length));
+    const opened = [];
+    const file = (fd) => opened[fd - OPENED];
     const known = {
         clock_time_get: (id, precision, at) => {
             view().setBigUint64(at, BigInt(Math.round(performance.now() * 1e6)), true);
             return 0;
         },
-        path_open: () => NO_SUCH_FILE,
+        fd_prestat_get: (fd, at) => {
+            if (fd !== FOLDER) return BAD_DESCRIPTOR;
+            view().setUint32(at, 0, true);
+            view().setUint32(at + 4, 1, true);
+            return 0;
+        },
+        fd_prestat_dir_name: (fd, at) => {
+            bytes()[at] = "/".charCodeAt(0);
+            return 0;
+        },
+        fd_fdstat_get: (fd, at) => {
+            if (fd !== FOLDER && !file(fd)) return BAD_DESCRIPTOR;
+            view().setUint32(at, fd === FOLDER ? DIRECTORY : REGULAR, true);
+            view().setUint32(at + 4, 0, true);
+            view().setBigUint64(at + 8, 0xffffffffn, true);
+            view().setBigUint64(at + 16, 0xffffffffn, true);
+            return 0;
+        },
+        fd_filestat_get: (fd, at) => {
+            if (!file(fd)) return BAD_DESCRIPTOR;
+            bytes().fill(0, at, at + 64);
+            bytes()[at + 16] = REGULAR;
+            view().setBigUint64(at + 32, BigInt(file(fd).all.length), true);
+            return 0;
+        },
+        path_open: (fd, how, path, length, flags, rights, inherited, more, at) => {
+            const all = files.get(text(path, length));
+            if (!all) return NO_SUCH_FILE;
+            view().setUint32(at, OPENED + opened.push({ all, at: 0 }) - 1, true);
+            return 0;
+        },
+        fd_read: (fd, vectors, count, at) => {
+            const from = file(fd), start = from?.at;
+            if (!from) return BAD_DESCRIPTOR;
+            for (let k = 0; k < count; k++) {
+                const part = from.all.subarray(from.at, from.at + view().getUint32(vectors + 8 * k + 4, true));
+                bytes().set(part, view().getUint32(vectors + 8 * k, true));
+                from.at += part.length;
+            }
+            view().setUint32(at, from.at - start, true);
+            return 0;
+        },
+        fd_seek: (fd, offset, whence, at) => {
+            const from = file(fd);
+            if (!from) return NOT_SUPPORTED;
+            from.at = Number(offset) + [0, from.at, from.all.length][whence];
+            view().setBigUint64(at, BigInt(from.at), true);
+            return 0;
+        },
+        fd_close: (fd) => {
+            delete opened[fd - OPENED];
+            while (opened.length && !opened.at(-1)) opened.pop();
+            return 0;
+        },
         proc_exit: (code) => { throw new Error(`the library ended with ${code}`); },
     };
     const calls = {};
@@ -20,9 +78,9 @@ function system_calls(module, memory) {
 }
 
 export async function load_library(bytes) {
-    const module = await WebAssembly.compile(bytes);
+    const module = await WebAssembly.compile(bytes), files = new Map();
     let c;
-    const instance = await WebAssembly.instantiate(module, system_calls(module, () => c.memory));
+    const instance = await WebAssembly.instantiate(module, system_calls(module, () => c.memory, files));
     c = instance.exports;
     c._initialize?.();
     const room = c.malloc(4096), counts = c.malloc(8);
@@ -51,6 +109,7 @@ export async function load_library(bytes) {
         settle() { return c.rb_api_settle(this.at); }
         solve() { return c.rb_api_solve(this.at); }
         curve(from, to, points) { return c.rb_api_curve(this.at, from, to, points); }
+        newton() { return c.rb_api_newton(this.at); }
         pivots() { return c.rb_api_pivots(this.at); }
         stress(nx, ny, depth) { return c.rb_api_stress(this.at, nx, ny, depth); }
         guess(zones) {
@@ -85,5 +144,5 @@ export async function load_library(bytes) {
     const results = Object.fromEntries(["number", "column", "step", "point"].map((table) => [table,
         rows_of(["name", "unit", "kind", "meaning"],
             (k, field) => with_text([table, field], (t, f) => text_at(c.rb_api_result(t, k, f, room, 4096))))]));
-    return { Case, options, results };
+    return { Case, options, results, files };
 }

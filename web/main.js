@@ -59,9 +59,9 @@ async function main() {
     let workers;
     try { workers = await start_workers(); } catch (error) { return tell(say(words.no_wasm, { why: error.message })); }
 
-    const page = { given: { ...PRESETS.rail }, answer: null, curve: null, options: workers[0].options, results: workers[0].results,
+    const page = { given: { ...PRESETS.rail }, drawn: null, answer: null, curve: null, options: workers[0].options, results: workers[0].results,
         units: Object.fromEntries(workers[0].results.number.map((r) => [r.name, r.unit])) };
-    let current = "contact", curve_key = null, curve_shown = null, curve_timer = null, first = true, panel = null;
+    let current = "contact", curve_key = null, curve_shown = null, curve_timer = null, link_timer = null, first = true, panel = null;
     const makers = { contact: contact_view, roll: roll_view, below: below_view, step: step_view, take: take_view }, views = {};
 
     function refuse(answer, request, newer) {
@@ -110,8 +110,11 @@ async function main() {
         queue.ask({ kind: "solve", given });
         if (current !== "step") page.ask_view();
         if (redraw) panel?.draw();
-        clearTimeout(page.timer);
-        page.timer = setTimeout(() => history.replaceState(null, "", write_link(page.given, current)), 250);
+        page.remember();
+    };
+    page.remember = () => {
+        clearTimeout(link_timer);
+        link_timer = setTimeout(() => history.replaceState(null, "", write_link(page.given, current, page.drawn)), 250);
     };
 
     function open(name) {
@@ -123,7 +126,7 @@ async function main() {
         for (const tab of at("tabs").children) { const on = tab.id === `tab-${name}`; tab.setAttribute("aria-selected", on); tab.tabIndex = on ? 0 : -1; }
         views[name].draw();
         page.ask_view();
-        history.replaceState(null, "", write_link(page.given, current));
+        history.replaceState(null, "", write_link(page.given, current, page.drawn));
     }
     const names = Object.keys(makers);
     at("main").setAttribute("role", "tabpanel");
@@ -142,7 +145,7 @@ async function main() {
         try {
             const link = read_link(location.hash, names);
             if (link?.given) page.given = link.given;
-            if (link) current = link.view;
+            if (link) [current, page.drawn] = [link.view, link.drawn];
         } catch (error) { tell(say(words.link_broken, { why: error.message })); return; }
         queue.ask({ kind: "solve", given: page.given });
         if (!first) { panel.draw(); open(current); }

@@ -33,28 +33,30 @@ function save(name, text, type) {
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
+/* A text to copy, and to save where it has a file name. */
+export function text_card(words, key, text, file, type) {
+    const area = html("textarea", { readonly: true, "aria-label": words[`take_${key}`], "data-take": key, rows: text.split("\n").length > 3 ? 9 : 3, style: text.split("\n").length > 3 ? "" : "min-height:4.5rem" });
+    area.value = text;
+    const copy = html("button", { type: "button", class: "button", onclick: async () => {
+        area.select();
+        try { await navigator.clipboard.writeText(text); } catch { document.execCommand("copy"); }
+        copy.textContent = words.copied;
+        setTimeout(() => { copy.textContent = words.copy; }, 1200);
+    } }, words.copy);
+    return card(words[`take_${key}`], area, html("div", { class: "row", style: "margin-top:.5rem" }, copy,
+        file && html("button", { type: "button", class: "button", onclick: () => save(file, text, type) }, words.download)));
+}
+
 export function take_view(words, page) {
     const node = html("div", { class: "stack" });
-    function text_card(key, text, file, type) {
-        const area = html("textarea", { readonly: true, "aria-label": words[`take_${key}`], "data-take": key, rows: text.split("\n").length > 3 ? 9 : 3, style: text.split("\n").length > 3 ? "" : "min-height:4.5rem" });
-        area.value = text;
-        const copy = html("button", { type: "button", class: "button", onclick: async () => {
-            area.select();
-            try { await navigator.clipboard.writeText(text); } catch { document.execCommand("copy"); }
-            copy.textContent = words.copied;
-            setTimeout(() => { copy.textContent = words.copy; }, 1200);
-        } }, words.copy);
-        return card(words[`take_${key}`], area, html("div", { class: "row", style: "margin-top:.5rem" }, copy,
-            file && html("button", { type: "button", class: "button", onclick: () => save(file, text, type) }, words.download)));
-    }
     function draw() {
         const a = page.answer;
         if (!a) return;
         const picture = picture_of(words, a), figure = html("figure");
         figure.append(tractions_picture(figure, words, a, { width: Math.max(300, Math.min(900, node.clientWidth - 40)), name: "take" }));
-        node.replaceChildren(text_card("command", command_of(page.given, page.options)), text_card("link", location.href.split("#")[0] + write_link(page.given, "contact")),
-            html("div", { class: "pair", style: "grid-template-columns:repeat(auto-fit,minmax(min(100%,270px),1fr))" }, text_card("ini", ini_of(page.given, page.options), "case.ini", "text/plain"),
-                text_card("table", table_of(a.columns, page.results.column), "table.tsv", "text/tab-separated-values"), text_card("json", json_of(a, page.results), "case.json", "application/json")),
+        node.replaceChildren(text_card(words, "command", command_of(page.given, page.options)), text_card(words, "link", location.href.split("#")[0] + write_link(page.given, "contact", page.drawn)),
+            html("div", { class: "pair", style: "grid-template-columns:repeat(auto-fit,minmax(min(100%,270px),1fr))" }, text_card(words, "ini", ini_of(page.given, page.options), "case.ini", "text/plain"),
+                text_card(words, "table", table_of(a.columns, page.results.column), "table.tsv", "text/tab-separated-values"), text_card(words, "json", json_of(a, page.results), "case.json", "application/json")),
             card(words.take_picture, figure, html("div", { class: "row", style: "margin-top:.6rem" }, html("button", { type: "button", class: "button main", onclick: () => save("rollbem.svg", picture, "image/svg+xml") }, words.download_svg))));
     }
     return { node, draw, wants: () => [] };

@@ -1,11 +1,13 @@
 /* Tests of the page: node web/test.mjs [build], with verdicts as tests/run reads them.  The library as WebAssembly answers as the
  * program does; then the page itself in a headless Chromium. */
-import { execFileSync, spawnSync } from "node:child_process";
-import { existsSync, readFileSync, readdirSync } from "node:fs";
-import { resolve } from "node:path";
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { open_page } from "./chromium.mjs";
 import { load_library } from "./library.js";
+import { read_case_file, read_link, table_of_drawn, write_link } from "./state.js";
 import { answer } from "./worker.js";
 
 const build = process.argv[2] ?? "build", program = resolve(`${build}/rollbem`);
@@ -27,7 +29,7 @@ function check_close(got, want, tol, what) {
 const library = await load_library(readFileSync(`${build}/page/rollbem.wasm`));
 const given_of = (ini) => Object.fromEntries(readFileSync(ini, "utf8").split("\n").map((line) => /^([\w-]+)\s*=\s*([^;]*)/.exec(line)).filter(Boolean).map(([, name, text]) => [name, text.trim()]));
 const words_of = (given) => Object.entries(given).flatMap(([name, text]) => library.options.find((o) => o.name === name)?.kind === "flag" ? [`--${name}`] : [`--${name}`, text]);
-const run = (args) => spawnSync(program, args, { encoding: "utf8", env: { ...process.env, OPENBLAS_NUM_THREADS: "1" } });
+const run = (args, cwd) => spawnSync(program, args, { cwd, encoding: "utf8", env: { ...process.env, OPENBLAS_NUM_THREADS: "1" } });
 
 /* Every number that is no count of work, time or rounding, and p and q of every element. */
 const LEFT_OUT = ["iterations", "residual", "residual_gap", "residual_slip", "residual_friction", "load_error", "support_balance", "slip_violations"];
@@ -38,8 +40,11 @@ function flatten(json) {
     }
     return all;
 }
-function compare(given, tol) {
-    const got = answer(library, { kind: "roll", given }), ran = run(["--json", "--quiet", ...words_of(given)]);
+function compare(given, tol, files = {}) {
+    const folder = mkdtempSync(join(tmpdir(), "page-"));
+    for (const [name, text] of Object.entries(files)) writeFileSync(join(folder, name), text);
+    const got = answer(library, { kind: "roll", given, files }), ran = run(["--json", "--quiet", ...words_of(given)], folder);
+    rmSync(folder, { recursive: true });
     check(!got.refused, got.refused);
     const want = flatten({ ...JSON.parse(ran.stdout), inputs: null });
     let compared = 0;
@@ -70,6 +75,27 @@ for (const more of [{ load: "1000", mu: "0.3", "creep-ratio": "0.5" }, { load: "
     { approach: "0.03", mu: "0.1", creep: "0.0004" }, { formulation: "transient", load: "1000", mu: "0.3", "creep-ratio": "0.5", distance: "2", "contact-elements": "24" }])
     await test(`the program's numbers: ${JSON.stringify(more)}`, () => compare({ ...rail, ...more }, 1e-9));
 
+const drawn = [{ what: "load", values: [1000, 1500, 600] }, { what: "force_ratio", values: [0, -0.5, 0.5, 0] }, { what: "creep_ratio", values: [0, 0.8, -0.4] }];
+for (const { what, values } of drawn)
+    await test(`the program's numbers: ${what} drawn by hand`, () => {
+        const { load, ...rest } = { ...rail, load: "1000", mu: "0.3", formulation: "transient", "contact-elements": "24", history: "drawn.tsv" };
+        compare({ ...rest, ...(what === "load" ? { "creep-ratio": "0.5" } : { load }) }, 1e-9, { "drawn.tsv": table_of_drawn({ what, distance: 2, values }) });
+    });
+await test("a file that is not there, and one that is no table", () => {
+    const given = { ...rail, load: "1000", mu: "0.3", formulation: "transient", history: "drawn.tsv" };
+    check(/drawn.tsv/.test(answer(library, { kind: "roll", given }).refused), "no file, no word");
+    check(/drawn.tsv:2/.test(answer(library, { kind: "roll", given, files: { "drawn.tsv": "distance load\n0 <b>\n" } }).refused), "the line is not named");
+});
+await test("links and case files are read as they are written", () => {
+    const state = { given: { mu: "0.3", "creep-ratio": "0.5" }, view: "roll", drawn: { what: "load", distance: 5, values: [1, 2.5] } };
+    check(JSON.stringify(read_link(write_link(state.given, state.view, state.drawn), ["contact", "roll"])) === JSON.stringify({ given: state.given, view: "roll", drawn: state.drawn }), "the link");
+    check(JSON.stringify(read_case_file("[friction]\r\nmu = 0.3 ; a comment\n# another\n\ncreep-ratio: 0.5\n")) === JSON.stringify(state.given), "the file");
+    for (const text of ["", "mu", "mu = 1\nmu = 2", "x".repeat(30000), "\u0000\u0001"]) {
+        let said = "";
+        try { read_case_file(text); } catch (error) { said = error.message; }
+        check(said, `${JSON.stringify(text.slice(0, 20))} is taken for a case`);
+    }
+});
 for (const given of [{ mu: "-1" }, { mu: "x" }, { "contact-elements": "2" }, { support: "wall" }, { load: "1", approach: "1" }, { formulation: "steady" }, { poisson: "0.7" }, { creep: "1e400" },
     { support: "halfplane", "hub-ratio": "0.4" }, { formulation: "steady", shift: "1" }, { similar: "yes", "young-b": "3" }])
     await test(`the program's refusal: ${JSON.stringify(given)}`, () => {
@@ -175,12 +201,22 @@ async function views(page) {
         await settled();
         await page.run("rollbem.views.roll.player.go(1e9)");
         check(await page.run("rollbem.views.roll.player.at") > 20, "steps");
+        await page.run("document.querySelector('input[name=hand][value=force_ratio]').click()");
+        await settled();
+        const drag = await page.run(`(() => { const [svg] = document.querySelectorAll("main figure svg.hand"), box = svg.getBoundingClientRect(), send = (on, type, u, v) => on.dispatchEvent(new PointerEvent(type, { clientX: box.left + u * box.width, clientY: box.top + v * box.height, bubbles: true, cancelable: true }));
+            const before = rollbem.page.drawn.values.join(" "); send(svg, "pointerdown", 0.5, 0.3); send(window, "pointermove", 0.7, 0.2); send(window, "pointermove", 0.98, 0.25); send(window, "pointerup", 0.98, 0.25); return [before, rollbem.page.drawn.values.join(" ")]; })()`);
+        check(drag[0] !== drag[1], "the line stays as it was");
+        await settled();
+        const { at, force } = await page.run("({ at: rollbem.page.drawn.values.at(-1), force: rollbem.views.roll.force() })");
+        check_close(force, at, 1e-9, "the force at the end is the one that was drawn");
+        await page.run("document.querySelector('input[name=hand][value=none]').click()");
+        await settled();
         await page.run("rollbem.open('below')");
         await settled();
         for (const kind of ["von_mises", "fringes", "max_shear"]) await page.run(`document.querySelector('input[value=${kind}]').click()`);
         check(await page.run("document.querySelector('main image') !== null"), "no map");
     });
-    for (const [link, line] of [["#mu=%3Cimg%20src=x%3E", "--mu: expected a number"], ["#nothing=1", "unknown option"], ["#contact-elements=1e9", "--contact-elements"], [`#mu=${"9".repeat(5000)}`, "could not be read"]])
+    for (const [link, line] of [["#mu=%3Cimg%20src=x%3E", "--mu: expected a number"], ["#nothing=1", "unknown option"], ["#contact-elements=1e9", "--contact-elements"], [`#mu=${"9".repeat(5000)}`, "could not be read"], ["#mu=0.3&drawn=load+1+NaN+2", "could not be read"], ["#formulation=transient&history=/etc/passwd", "/etc/passwd"]])
         await test(`a hostile link says so: ${link.slice(0, 30)}`, async () => {
             await page.run(`location.hash = ${JSON.stringify(link)}`);
             await page.until(`document.getElementById('message').textContent.includes(${JSON.stringify(line)})`, 10);

@@ -47,6 +47,9 @@ export const words = {
     roll_note: "The wheel is pressed and loaded at rest, then it rolls. Stick is carried through the strip with the material while fresh material sticks at the leading edge, on the right.",
     roll_distance: "Rolled distance, in half-widths a",
     roll_curve: "Force on the way", roll_x: "distance rolled [a]", roll_step: "step {k} of {n}: {distance} a rolled",
+    hand_title: "Drawn by hand", hand_note: "Draw what happens on the way: pull the line with the pointer, or step its points with the arrow keys.",
+    hand: { none: "nothing", load: "load P", force_ratio: "Q/(μP)", creep_ratio: "creep ratio" }, hand_load: "P [N/mm]",
+    hand_alt: "What happens over the distance rolled", hand_point: "Point {k}, after {distance} half-widths",
     roll_alt: "Tractions at step {k}.",
     play: "Play", pause: "Pause", back: "Back", next: "Next", first: "To the start", last: "To the end",
     below_title: "Stress below the surface of A",
@@ -96,6 +99,7 @@ export const words = {
     guess_right: "All conditions hold. These are the zones.",
     guess_wrong: "{n} conditions fail:",
     take_command: "The command line that does the same", take_ini: "The case as a file", take_table: "The table", take_json: "Numbers as JSON",
+    take_history: "The history that it reads, drawn.tsv",
     take_link: "A link that holds this state", take_picture: "The picture", copy: "Copy", copied: "Copied", download: "Download", download_svg: "Download SVG",
 };
 

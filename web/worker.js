@@ -3,7 +3,7 @@
 import { load_library } from "./library.js";
 
 const LARGEST = { "contact-elements": 400, "outer-elements": 800, steps: 600, distance: 40, increments: 60 };
-const LEFT_OUT = ["accuracy", "error", "history", "irregularity"];
+const LEFT_OUT = ["accuracy", "error", "irregularity"];
 
 /* A case of these words.  Of each kind of request the last case is kept: where only values differ
  * they are set on it, and the library uses what it can of its matrices again. */
@@ -16,16 +16,19 @@ function case_of(library, kind, given) {
     return { work, changed: same ? names.filter((name) => given[name] !== last.given[name]) : names };
 }
 function forget_case(library, kind) {
-    library.kept.get(kind)?.work.free();
-    library.kept.delete(kind);
+    library.kept?.get(kind)?.work.free();
+    library.kept?.delete(kind);
 }
 
-/* Solved and asked; refused where the page cannot. */
-function solve_case(library, kind, given, then) {
+/* Solved and asked; refused where the page cannot.  files: those that the words name, by name. */
+function solve_case(library, kind, given, then, files = {}) {
+    library.files.clear();
+    for (const [name, text] of Object.entries(files)) library.files.set(name, new TextEncoder().encode(text));
     for (const [name, text] of Object.entries(given)) {
         if (LEFT_OUT.includes(name)) return { refused: `--${name}: not in the page, use the program` };
         if (Number(text) > LARGEST[name]) return { refused: `--${name}: the page goes up to ${LARGEST[name]}, use the program for ${text}` };
     }
+    if (library.files.size) forget_case(library, kind); /* a case reads its files once */
     const { work, changed } = case_of(library, kind, given), start = performance.now();
     try {
         if (changed.some((name) => work.set(name, given[name]) < 0) || work.solve() < 0) {
@@ -63,13 +66,14 @@ function pivots(work, library) {
     const names = [];
     for (let k = 0, name; (name = work.variable(k)) !== null; k++) names.push(name);
     const parts = ["entering", "leaving", "row", "ratio", "z0", "basis", "value", "before", "column", "p", "q"];
-    return { ...all_results(work, library), names, end, ...arrays(work, parts.map((part) => `pivot.${part}`)),
+    const newton = work.newton() < 0 ? {} : arrays(work, ["newton.zone", "newton.p", "newton.q"]);
+    return { ...all_results(work, library), names, end, ...newton, ...arrays(work, parts.map((part) => `pivot.${part}`)),
         ...arrays(work, ["H", "G", "F", "lcp.M", "lcp.q", "ends", "gap0", "mesh.x0", "mesh.y0", "mesh.x1", "mesh.y1"]) };
 }
 
 const answers = {
     solve: (library, { kind, given }) => solve_case(library, kind, given, all_results),
-    roll: (library, { kind, given }) => solve_case(library, kind, given, steps),
+    roll: (library, { kind, given, files }) => solve_case(library, kind, given, steps, files),
     pivots: (library, { kind, given }) => solve_case(library, kind, given, pivots),
     curve: (library, { kind, given, from, to, points }) => solve_case(library, kind, given, (work, { results }) =>
         work.curve(from, to, points) < 0 ? { refused: work.message }

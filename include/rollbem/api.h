@@ -91,6 +91,8 @@ const char *rb_api_word(const rb_api *a, const char *name);
  *   pivot.before pivot.column    rows x pivots: the values before it, and how they change
  *                                with the entering variable
  *   pivot.p pivot.q              elements x pivots: tractions after it
+ *   newton.zone newton.p newton.q   after rb_api_newton, elements x steps: the zones that
+ *                                each step assumes, and the tractions that they lead to
  *   guess.p guess.q guess.gap guess.shift   after rb_api_guess, an entry per element
  *   stress.x stress.y stress.max_shear ...  after rb_api_stress, nx x ny, or
  *                                rb_api_stress_at, an entry per point
@@ -110,6 +112,8 @@ int rb_api_curve(rb_api *a, double from, double to, int points);
 int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points);
 /* Lemke's method; variables are numbered w, z, z0 (rollbem/lcp.h). */
 int rb_api_pivots(rb_api *a);
+/* Newton's method from a contact that sticks everywhere. */
+int rb_api_newton(rb_api *a);
 /* "p[3]", "lambda+[2]", "z0": name of a variable of rb_api_pivots; NULL: there is none.
  */
 const char *rb_api_variable(const rb_api *a, int variable, char *text, int size);

@@ -194,6 +194,9 @@ void rb_rolling_bodies_free(rb_rolling_bodies *bodies);
 
 /* ---- The discrete frictional contact problem --------------------------------------- */
 
+struct rb_rolling_state;
+typedef void rb_rolling_newton_trace(const struct rb_rolling_state *state, void *context);
+
 /* Gap (K1): y_N = d_N + F (r_N, r_T) - delta >= 0, complementary to r_N.
  * Slip (K2): T_T lambda = d_T + S (r_N, r_T) + xi e_T, S = A [F_TN F_TT].
  * Forces: P = load_N'r_N + load_T'r_T, Q = force_N'r_N + force_T'r_T.
@@ -234,6 +237,10 @@ typedef struct {
     double stress, gap_length, slip_length; /* scales of r, y_N, lambda (4.4) */
     double rounding; /* of the scaled residual on large contacts: gaps between neighbours
                         are small against the displacement of all; 0 with a dense F */
+    /* Sees each step of Newton's method: the zones of the state and the tractions that
+     * they lead to, before the zones are corrected; NULL: nobody. */
+    rb_rolling_newton_trace *trace;
+    void *trace_context;
 } rb_rolling_problem;
 
 /* The state that a static history or a transient starts from. */
@@ -256,7 +263,7 @@ void rb_rolling_force_row(const rb_rolling_problem *problem, double *control_N,
                           double *control_T);
 
 /* Unknowns of the problem. */
-typedef struct {
+typedef struct rb_rolling_state {
     int n;
     double *p, *q, *lambda; /* r_N, r_T, T_T lambda; owned */
     int *zone;              /* rb_rolling_zone; owned */
@@ -516,9 +523,10 @@ typedef struct {
  * the given zone, the wheel or the table.  model: overwritten; free it in any case. */
 rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
                                   rb_message *why);
-/* The same for a model that solved a case of the same bodies and mesh, differing in friction,
- * load, approach, shift, creepage or force at most: its flexibility is used again where
- * equal elements end at the same places.  The result is that of create to the last bit. */
+/* The same for a model that solved a case of the same bodies and mesh, differing in
+ * friction, load, approach, shift, creepage or force at most: its flexibility is used
+ * again where equal elements end at the same places.  The result is that of create to the
+ * last bit. */
 rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_message *why);
 void rb_rolling_model_free(rb_rolling_model *model);

@@ -717,6 +717,50 @@ int rb_api_pivots(rb_api *a)
     return rb_case_ended(a, s == RB_OK ? follow_pivots(a) : s);
 }
 
+/* A step of Newton's method on the elements of the case; it may begin on half as many. */
+static void keep_newton_step(const rb_rolling_state *state, void *context)
+{
+    rb_api *a = context;
+    const int n = a->result.model.mesh.n;
+    double *zone = rb_alloc((size_t)n, 1);
+
+    if (a->status == RB_OK && state->n == n) {
+        a->status = zone ? RB_OK : RB_ENOMEM;
+        for (int i = 0; zone && i < n; i++)
+            zone[i] = state->zone[i];
+        if (a->status == RB_OK)
+            a->status = add_column(a, "newton.zone", n, zone);
+        if (a->status == RB_OK)
+            a->status = add_column(a, "newton.p", n, state->p);
+        if (a->status == RB_OK)
+            a->status = add_column(a, "newton.q", n, state->q);
+    }
+    free(zone);
+}
+
+int rb_api_newton(rb_api *a)
+{
+    rb_rolling_state state = {0};
+    if (!has_model(a))
+        return a->status;
+    rb_rolling_problem problem = a->result.model.problem; /* arrays stay the model's */
+    rb_rolling_case rc = a->result.model.rc;
+    rc.solver = RB_SOLVER_NEWTON;
+    problem.trace = keep_newton_step;
+    problem.trace_context = a;
+    rb_case_forget_arrays(a, "newton.");
+    a->status = RB_OK;
+    rb_status s = rb_rolling_state_alloc(problem.n, &state);
+    if (s == RB_OK)
+        s = rb_rolling_problem_solve(&problem, &rc, 0, &state, &a->why);
+    else
+        rb_fail(&a->why, s, "out of memory");
+    if (s >= 0 && a->status != RB_OK)
+        s = rb_fail(&a->why, a->status, "out of memory");
+    rb_rolling_state_free(&state);
+    return rb_case_ended(a, s);
+}
+
 const char *rb_api_variable(const rb_api *a, int variable, char *text, int size)
 {
     char name[RB_ROLLING_VARIABLE];

@@ -229,6 +229,8 @@ static rb_status iterate(rb_rolling_problem *p, rb_rolling_unknowns unknowns,
             return s;
         state->iterations++;
         rb_rolling_kinematics(p, state, ws->gap, state->lambda);
+        if (p->trace)
+            p->trace(state, p->trace_context);
         if (correct_zones(p, unknowns, state, ws->gap, ws->zone) == 0)
             return RB_OK;
     }
