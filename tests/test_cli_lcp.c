@@ -66,8 +66,8 @@ static int enter_folder(void **state)
 static int leave_folder(void **state)
 {
     (void)state;
-    const char *names[] = {"good", "ray", "kostreva", "bad", "out", "err", "p", "x"};
-    for (int i = 0; i < 8; i++)
+    const char *names[] = {"good", "ray", "kostreva", "bad", "out", "err", "p", "x", "y"};
+    for (int i = 0; i < 9; i++)
         unlink(names[i]);
     return chdir("/") || rmdir(folder);
 }
@@ -268,6 +268,24 @@ static void a_large_sparse_problem_needs_no_dense_tableau(void **state)
     CHECK_MAX(residual, 1e-15, "residual");
 }
 
+/* Lemke's method itself on 50 x 50 points: a dense tableau would be 50 MB larger. */
+static void lemke_on_a_large_sparse_problem_needs_no_tableau(void **state)
+{
+    (void)state;
+    char line[1500];
+    double residual;
+    const int length = (int)(strlen(program) - strlen("rollbem"));
+    snprintf(line, sizeof line, "'%.*sobstacle' 50 >p && '%.*sobstacle' -q 50 >x", length,
+             program, length, program);
+    assert_int_equal(system(line), 0);
+    assert_int_equal(lcp("--solver lemke --q x p"), 0);
+    assert_int_equal(
+        sscanf(strstr(out, "\np\t"), "\np\tsolved\t2500\t%*d\t%lf", &residual), 1);
+    CHECK_MAX(residual, 1e-15, "residual");
+    assert_int_equal(lcp("--json --solver lemke --q x p"), 0);
+    assert_non_null(strstr(out, "\"lemke\""));
+}
+
 static void the_solver_can_be_chosen(void **state)
 {
     (void)state;
@@ -280,6 +298,110 @@ static void the_solver_can_be_chosen(void **state)
     assert_int_equal(lcp("--solver simplex good"), 64);
     assert_int_equal(lcp("--json --solver newton good"), 0);
     assert_non_null(strstr(out, "newton"));
+}
+
+/* w(1) < 0 at the upper end, w(2) = 0 in between. */
+static void boxes_are_solved(void **state)
+{
+    (void)state;
+    double z[2];
+    put("x", "1 inf # the upper bounds\n");
+    assert_int_equal(lcp("--solution --upper x good"), 0);
+    solution(z);
+    CHECK_REL(z[0], 1.0, 1e-15, "z(1)");
+    CHECK_REL(z[1], 2.5, 1e-15, "z(2)");
+    assert_non_null(strstr(out, "\ngood\t1\t1\t-0.5\n"));
+    assert_int_equal(lcp("--trace --upper x good"), 0);
+    assert_non_null(strstr(out, "\tz0\n"));
+    assert_non_null(strstr(out, "\ngood\t1\tz0\t"));
+    put("y", "-inf 3");
+    assert_int_equal(lcp("--solution --lower y good"), 0);
+    solution(z);
+    CHECK_REL(z[0], 1.0, 1e-15, "z(1)");
+    CHECK_REL(z[1], 3.0, 1e-15, "z(2)");
+    assert_int_equal(lcp("--lower y --upper x good --solver newton"), 64);
+    assert_non_null(strstr(err, "--lower and --upper are Lemke's"));
+    put("y", "-inf inf");
+    put("x", "1 -inf");
+    assert_int_equal(lcp("--lower y --upper x good"), 65);
+    assert_non_null(strstr(err, "good: lcp: box 2 is [inf, -inf]"));
+    put("x", "0 1 2");
+    assert_int_equal(lcp("--upper x good"), 65);
+    assert_non_null(strstr(err, "x:1: upper: expected 2 numbers, got 3"));
+    put("x", "1 nan");
+    assert_int_equal(lcp("--upper x good"), 65);
+    assert_non_null(strstr(err, "expected a number, inf or -inf, got 'nan'"));
+    put("x", "1 inf");
+    assert_int_equal(lcp("--cover x good"), 65);
+}
+
+static int pivots_of(const char *file)
+{
+    char format[40];
+    int pivots = -1;
+    const char *line = strstr(out, file);
+    assert_non_null(line);
+    snprintf(format, sizeof format, "%s\t%%*s\t%%*d\t%%d", file);
+    assert_int_equal(sscanf(line, format, &pivots), 1);
+    return pivots;
+}
+
+static void a_start_saves_the_pivots(void **state)
+{
+    (void)state;
+    put("x", "1.3 2.3");
+    assert_int_equal(lcp("--start x good"), 0);
+    assert_int_equal(pivots_of("\ngood"), 0);
+    assert_int_equal(lcp("--start x --solver newton good"), 0);
+    assert_int_equal(pivots_of("\ngood"), 1);
+    put("x", "0 2.3");
+    assert_int_equal(lcp("--start x good"), 0);
+    assert_int_equal(lcp("--start missing good"), 66);
+}
+
+static void all_solutions_are_listed(void **state)
+{
+    (void)state;
+    put("p", "1 -1 1"); /* w = 1 - z: 0 and 1 */
+    assert_int_equal(lcp("--all p"), 0);
+    assert_non_null(strstr(out, "n = 1, 2 pivots"));
+    assert_non_null(strstr(out, "\np\t1\t1\t0\t1\n"));
+    assert_non_null(strstr(out, "\np\t2\t1\t1\t0\n"));
+    assert_int_equal(lcp("--all ray"), 1);
+    assert_non_null(strstr(err, "no solution in 2 complementary bases"));
+    assert_int_equal(lcp("--all --trace p"), 64);
+    put("p", "1 0 0");
+    assert_int_equal(lcp("--all p"), 0);
+    assert_non_null(strstr(err, "1 of 2 complementary bases have no inverse"));
+    assert_int_equal(lcp("--all --json p"), 0);
+    assert_non_null(strstr(out, "\"solutions\""));
+}
+
+static void games_are_solved(void **state)
+{
+    (void)state;
+    put("p", "2 2 # battle of the sexes\n2 0 0 1\n1 0 0 2\n");
+    assert_int_equal(lcp("--game --solution p"), 0);
+    assert_non_null(strstr(out, "p\t1\t1\t0\np\t2\t0\t2\np\t3\t1\t0\np\t4\t0\t1\n"));
+    assert_int_equal(lcp("--game --solution --label 2 p"), 0);
+    assert_non_null(strstr(out, "p\t1\t0\t1\np\t2\t1\t0\np\t3\t0\t2\np\t4\t1\t0\n"));
+    assert_int_equal(lcp("--game --trace --json p"), 0);
+    assert_non_null(strstr(out, "\"payoffs\""));
+    assert_non_null(strstr(out, "lemke-howson"));
+    assert_int_equal(lcp("--game --all p"), 0);
+    assert_non_null(strstr(out, "\np\t3\t4\t"));
+    assert_null(strstr(out, "\np\t4\t"));
+    assert_int_equal(lcp("--game --label 5 p"), 65);
+    assert_non_null(strstr(err, "label 5: expected 1 to 4"));
+    assert_int_equal(lcp("--game --max-pivots 1 p"), 1);
+    assert_non_null(strstr(err, "no solution after --max-pivots 1"));
+    assert_int_equal(lcp("--label 1 good"), 64);
+    assert_int_equal(lcp("--game --upper x p"), 64);
+    put("p", "2 2  2 0 0 1  1 0 0 2  7");
+    assert_int_equal(lcp("--game p"), 65);
+    assert_non_null(strstr(err, "expected the end of the file after m, n, A and B"));
+    put("p", "2 2  2 0 0 1  1 0 0");
+    assert_int_equal(lcp("--game p"), 65);
 }
 
 static const char *text_of(const json_t *p, const char *key)
@@ -339,7 +461,12 @@ int main(void)
         cmocka_unit_test(a_cover_may_hold_zeros_where_q_is_not_negative),
         cmocka_unit_test(the_cap_is_named),
         cmocka_unit_test(the_solver_can_be_chosen),
+        cmocka_unit_test(boxes_are_solved),
+        cmocka_unit_test(a_start_saves_the_pivots),
+        cmocka_unit_test(all_solutions_are_listed),
+        cmocka_unit_test(games_are_solved),
         cmocka_unit_test(a_large_sparse_problem_needs_no_dense_tableau),
+        cmocka_unit_test(lemke_on_a_large_sparse_problem_needs_no_tableau),
         cmocka_unit_test(json_holds_every_file),
         cmocka_unit_test(the_collection_is_solved),
     };

@@ -136,6 +136,21 @@ rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p,
 rb_status rb_io_vector_read(const char *path, int n, const char *what, double **x,
                             rb_message *why);
 
+/* The same for bounds: inf and -inf are numbers, too. */
+rb_status rb_io_bounds_read(const char *path, int n, const char *what, double **x,
+                            rb_message *why);
+
+/* A bimatrix game: m, n, the m rows of A, the m rows of B.  Behind a # stands a comment.
+ */
+typedef struct {
+    int m, n;
+    double *A, *B; /* m x n column-major: payoffs of the row and of the column player */
+} rb_io_bimatrix;
+
+/* As rb_io_lcp_read. */
+rb_status rb_io_bimatrix_read(const char *path, rb_io_bimatrix *p, rb_message *why);
+void rb_io_bimatrix_free(rb_io_bimatrix *p);
+
 /* u = W r + q, per contact [N, T] or [N, T1, T2]. */
 typedef struct {
     int dimension, contacts;

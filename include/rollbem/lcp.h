@@ -22,7 +22,7 @@ typedef struct {
     double ratio, z0;      /* step length; z0 after the pivot */
     int n;                 /* order of the problem */
     const int *basis;      /* n: basic variable of each row, after the pivot; borrowed */
-    const int *nonbasis;   /* n + 1: variable of each column */
+    const int *nonbasis; /* n + 1: variable of each column; NULL: mixed has no tableau */
     const double *tableau; /* n x (n + 2) column-major after the pivot: basic = last
                               column + columns times nonbasic; borrowed; NULL unless
                               options.trace_tableau */
@@ -35,8 +35,9 @@ typedef struct {
     double tol;          /* relative size below which z0 counts as zero, default 1e-13 */
     const double *cover; /* n: covering vector d >= 0, > 0 where q < 0; NULL: ones;
                             borrowed */
-    const double *start; /* newton, n: z_i is basic at first where this is > 0 (the z of a
-                            similar problem); NULL: where q < 0; borrowed */
+    const double *start; /* newton and mixed, n: z_i is basic at first where this is
+                            between its bounds (the z of a similar problem); NULL: newton
+                            where q < 0, mixed nowhere; borrowed */
     rb_lcp_rule rule;
     rb_lcp_trace *trace; /* NULL: none */
     void *trace_context;
@@ -60,12 +61,61 @@ rb_lcp_options rb_lcp_defaults(void);
 rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
                        const rb_lcp_options *opt, double *z, rb_lcp_info *info);
 
-/* Block principal pivoting for sparse M: Newton's method on min(z, M z + q) = 0 with a rule
- * that ends for every P-matrix.  Of the options max_iters and start count.  RB_OK,
+/* Block principal pivoting for sparse M: Newton's method on min(z, M z + q) = 0 with a
+ * rule that ends for every P-matrix.  Of the options max_iters and start count.  RB_OK,
  * RB_MAXITER, RB_INACCURATE; RB_SINGULAR: a principal submatrix is, so M is no P-matrix;
  * RB_EINVAL: M not square, NaN or infinity; RB_ENOMEM. */
 rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
                         double *z, rb_lcp_info *info);
+
+/* Lemke's method on a sparse LU, for boxes: lower <= z <= upper, and of w = M z + q each
+ * w_i is >= 0 where z_i = lower_i, <= 0 where z_i = upper_i, 0 in between, any number
+ * where lower_i = upper_i.  lower, upper: n, infinite where there is no bound; NULL: 0
+ * and infinity, which is the LCP.  Ties are settled by a generic perturbation, with
+ * RB_LCP_FIRST_INDEX by the row; trace_tableau counts for nothing.  A variable without
+ * any bound is split: the other half of the k-th of them is variable n + k for the trace,
+ * which sees a larger n then.  With opt->start the path begins at the basis of that
+ * point, and once more at the bounds when it does not lead to a solution. Statuses as
+ * rb_lcp_lemke, and RB_SINGULAR: a basis is, to rounding; RB_EINVAL: crossed bounds, too.
+ */
+rb_status rb_lcp_mixed(const rb_sparse *M, const double *q, const double *lower,
+                       const double *upper, const rb_lcp_options *opt, double *z,
+                       rb_lcp_info *info);
+
+/* All solutions that complementary bases give, each once. */
+typedef struct {
+    int n, count;
+    double *z;           /* n x count; owned */
+    int bases, singular; /* tried; of these without inverse: solutions in them alone are
+                            not found */
+} rb_lcp_solutions;
+
+/* lower, upper as for rb_lcp_mixed.  RB_EINVAL: more than 2^22 bases (order 22 without
+ * boxes), crossed bounds; RB_ENOMEM. */
+rb_status rb_lcp_enumerate(int n, const double *M, int ldm, const double *q,
+                           const double *lower, const double *upper,
+                           rb_lcp_solutions *all, rb_message *why);
+void rb_lcp_solutions_free(rb_lcp_solutions *all);
+
+/* An equilibrium of the bimatrix game in which the row player, mixing his m strategies by
+ * x, gets x'A y and the column player x'B y (A, B: m x n, leading dimension ld), by the
+ * method of Lemke and Howson with a lexicographic rule.  label, 0 ... m + n - 1: the
+ * strategy dropped first (rows, then columns); other labels may lead to other equilibria.
+ * Of the options max_iters and trace count; to the trace z_k is the probability, w_k the
+ * regret of strategy k.  x: m, y: n, written.  RB_OK, RB_MAXITER, RB_INACCURATE,
+ * RB_EINVAL, RB_ENOMEM. */
+rb_status rb_lcp_bimatrix(int m, int n, const double *A, const double *B, int ld,
+                          int label, const rb_lcp_options *opt, double *x, double *y,
+                          rb_lcp_info *info);
+/* All equilibria that complementary bases give: n = m + n, z = (x, y).  Otherwise as
+ * rb_lcp_enumerate: m + n is at most 22. */
+rb_status rb_lcp_bimatrix_enumerate(int m, int n, const double *A, const double *B,
+                                    int ld, rb_lcp_solutions *all, rb_message *why);
+/* What each strategy loses against the best reply to the other player's mixture (m + n,
+ * >= 0), the payoffs of the best replies, and max min(probability, regret). */
+double rb_lcp_bimatrix_regret(int m, int n, const double *A, const double *B, int ld,
+                              const double *x, const double *y, double *regret,
+                              double payoff[2]);
 
 /* w = M z + q and max_i |min(z_i, w_i)|; w: n or NULL. */
 double rb_lcp_residual(int n, const double *M, int ldm, const double *q, const double *z,
@@ -73,5 +123,8 @@ double rb_lcp_residual(int n, const double *M, int ldm, const double *q, const d
 /* The same for sparse M; w: n. */
 double rb_lcp_residual_sparse(const rb_sparse *M, const double *q, const double *z,
                               double *w);
+/* The same for boxes: max_i |max(min(z_i - lower_i, w_i), z_i - upper_i)|. */
+double rb_lcp_residual_mixed(const rb_sparse *M, const double *q, const double *lower,
+                             const double *upper, const double *z, double *w);
 
 #endif

@@ -1,4 +1,4 @@
-/* rollbem lcp FILE...: Lemke's method on problems from files. */
+/* rollbem lcp FILE...: complementarity problems and bimatrix games from files. */
 #include "cli/cli.h"
 #include "cli/output.h"
 
@@ -12,9 +12,9 @@
 
 typedef struct {
     double tol;
-    int solver, max_pivots, rule, trace, solution;
+    int game, solver, all, label, max_pivots, rule, trace, solution;
     rb_report_style style;
-    const char *q, *cover, *output;
+    const char *q, *lower, *upper, *cover, *start, *output;
 } lcp_options;
 
 enum { AUTO, LEMKE, NEWTON };
@@ -36,6 +36,14 @@ static const rb_option options[] = {
     RB_TEXT_LINE("q", PLACE(q), "FILE",
                  "q of a Matrix Market file: n numbers, plain or Matrix Market",
                  .file = RB_FILE_READ),
+    RB_TEXT_LINE("lower", PLACE(lower), "FILE",
+                 "lower bounds of z: n numbers, as --q; -inf: none", .unset = "zeros",
+                 .file = RB_FILE_READ),
+    RB_TEXT_LINE("upper", PLACE(upper), "FILE",
+                 "upper bounds of z, where w <= 0: n numbers, as --q; inf: none",
+                 .unset = "none", .file = RB_FILE_READ),
+    RB_FLAG_LINE("game", PLACE(game),
+                 "FILE holds a bimatrix game: m, n, the m rows of A, the m rows of B"),
     RB_GROUP_LINE("solver", "Solver"),
     RB_CHOICE_LINE(
         "solver", PLACE(solver), solvers,
@@ -45,6 +53,14 @@ static const rb_option options[] = {
                    "residual that counts as solved, as a part of max |q|"),
     RB_INTEGER_LINE("max-pivots", PLACE(max_pivots), RB_FROM_TO(1, 1e9),
                     "iteration limit", .unset = "lemke 50 n + 1000, newton 10 n + 100"),
+    RB_TEXT_LINE("start", PLACE(start), "FILE",
+                 "z of a similar problem to start from: n numbers, as --q",
+                 .unset = "the bounds", .file = RB_FILE_READ),
+    RB_FLAG_LINE("all", PLACE(all),
+                 "all solutions, by trying every complementary basis (order 22 at most)"),
+    RB_INTEGER_LINE("label", PLACE(label), RB_FROM_TO(1, 1e9),
+                    "--game: the strategy dropped first, rows then columns",
+                    .unset = "1"),
     RB_TEXT_LINE("cover", PLACE(cover), "FILE",
                  "covering vector d >= 0, d > 0 where q < 0: n numbers, as --q",
                  .unset = "ones", .file = RB_FILE_READ),
@@ -65,28 +81,36 @@ enum { OPTIONS = sizeof options / sizeof options[0] };
 static const char about[] =
     "Solves linear complementarity problems z >= 0, w = M z + q >= 0, z'w = 0 by Lemke's "
     "method\n"
-    "(any matrix, dense) or block principal pivoting (newton: sparse, sure for "
-    "P-matrices).\n"
+    "(any matrix) or block principal pivoting (newton: sparse, sure for P-matrices).\n"
     "FILE: plain text: n, the n rows of M, q (# starts a comment), such as\n"
     "    2\n"
     "    2 1   1 2   -5 -6\n"
     "or the text format of Siconos, or M in Matrix Market with q in --q FILE; - is "
-    "standard "
-    "input.";
+    "standard input.\n"
+    "With --lower and --upper z lies in a box, w >= 0 at its lower end, <= 0 at its "
+    "upper "
+    "one,\n"
+    "0 in between. --game: an equilibrium of a bimatrix game by Lemke and Howson's "
+    "method.";
 
 static const char notes[] =
     "One row per file: its name, status, n, pivots, residual max |min(z, w)| recomputed "
     "from z,\n"
-    "seconds; with --trace or --solution these stand in # lines. newton counts linear "
-    "systems. Pivots name the variables w(1) ... w(n), "
-    "z(1) ... z(n) and the artificial "
-    "z0.\n"
+    "seconds; with --trace, --solution or --all these stand in # lines. newton counts\n"
+    "linear systems, --all bases. Pivots name the variables w(1) ... w(n), z(1) ... z(n) "
+    "and "
+    "the\n"
+    "artificial z0. Of a game z holds the probabilities of the row and then of the "
+    "column\n"
+    "strategies, w what each loses against the best reply.\n"
     "After a file that fails the others are still solved.\n"
-    "Exit codes, the largest of all files: 0 solved; 1 secondary ray, iteration limit or "
-    "residual\n"
-    "above the tolerance; 64 wrong command line; 65 malformed file; 66 no such file; 70 "
-    "internal;\n"
-    "73 cannot write.\n";
+    "Exit codes, the largest of all files: 0 solved; 1 secondary ray, iteration limit, "
+    "no "
+    "solution\n"
+    "or residual above the tolerance; 64 wrong command line; 65 malformed file; 66 no "
+    "such "
+    "file;\n"
+    "70 internal; 73 cannot write.\n";
 
 typedef struct {
     const lcp_options *o;
@@ -100,10 +124,13 @@ typedef struct {
     const char *file, *status, *solver;
     int n; /* 0: not read */
     rb_lcp_info info;
-    double floor, seconds;
-    rb_sparse M;           /* owned */
-    const double *q;       /* borrowed */
-    double *cover, *z, *w; /* owned; cover NULL: ones */
+    double size, floor, seconds;           /* size: the largest constant, for --tol */
+    rb_sparse M;                           /* owned, as the vectors but q */
+    const double *q;                       /* borrowed */
+    double *lower, *upper, *cover, *start; /* n each, or NULL */
+    double *z, *w;                         /* n x solutions */
+    int solutions;                         /* 1 but for --all */
+    double payoff[2];                      /* --game, the first solution */
 } lcp_result;
 
 static int is_json(const lcp_options *o)
@@ -152,6 +179,22 @@ static json_t *vector(int n, const double *x)
     return x ? rb_report_json_numbers(n, x) : json_null();
 }
 
+/* z and w of the only solution, or the list of all. */
+static void add_solutions(const lcp_options *o, const lcp_result *r, json_t **p)
+{
+    if (!o->all) {
+        rb_report_json_set(p, "z", vector(r->n, r->z));
+        rb_report_json_set(p, "w", vector(r->n, r->w));
+        return;
+    }
+    json_t *list = json_array();
+    for (int k = 0; k < r->solutions; k++)
+        rb_report_json_append(&list, json_pack("{s:o, s:o}", "z",
+                                               vector(r->n, r->z + (size_t)k * r->n), "w",
+                                               vector(r->n, r->w + (size_t)k * r->n)));
+    rb_report_json_set(p, "solutions", list);
+}
+
 static void add_problem(lcp_run *run, const lcp_result *r)
 {
     const int known = r->n > 0;
@@ -166,13 +209,31 @@ static void add_problem(lcp_run *run, const lcp_result *r)
     rb_report_json_set(&p, "residual", rb_report_json_number(r->info.res));
     rb_report_json_set(&p, "floor", rb_report_json_number(r->floor));
     rb_report_json_set(&p, "seconds", rb_report_json_number(r->seconds));
-    if (run->o->solution) {
-        rb_report_json_set(&p, "z", vector(r->n, r->z));
-        rb_report_json_set(&p, "w", vector(r->n, r->w));
-    }
+    if (run->o->game)
+        rb_report_json_set(&p, "payoffs",
+                           known ? rb_report_json_numbers(2, r->payoff) : json_null());
+    if (run->o->solution || run->o->all)
+        add_solutions(run->o, r, &p);
     if (run->o->trace)
         rb_report_json_set(&p, "pivots", json_incref(run->pivots));
     rb_report_json_append(&run->problems, p);
+}
+
+/* A row per unknown; --all numbers the solutions. */
+static void print_solutions(lcp_run *run, const lcp_result *r)
+{
+    rb_report_cells *c = &run->cells;
+    for (int k = 0; k < r->solutions; k++)
+        for (int i = 0; i < r->n; i++) {
+            const size_t at = (size_t)k * (size_t)r->n + (size_t)i;
+            rb_report_cell_text(c, r->file);
+            if (run->o->all)
+                rb_report_cell_whole(c, k + 1);
+            rb_report_cell_whole(c, i + 1);
+            rb_report_cell_number(c, r->z[at]);
+            rb_report_cell_number(c, r->w[at]);
+            rb_report_cells_end_row(c);
+        }
 }
 
 /* The row of a file, or its # line where the rows are pivots or unknowns. */
@@ -181,7 +242,7 @@ static void print_problem(lcp_run *run, const lcp_result *r)
     rb_report_cells *c = &run->cells;
     if (!r->n)
         return;
-    if (run->o->trace || run->o->solution) {
+    if (run->o->trace || run->o->solution || run->o->all) {
         rb_report_comment(c, "%s: %s, n = %d, %d pivots, residual %.3g, %.3g s", r->file,
                           r->status, r->n, r->info.iters, r->info.res, r->seconds);
     } else {
@@ -193,16 +254,12 @@ static void print_problem(lcp_run *run, const lcp_result *r)
         rb_report_cell_number(c, r->seconds);
         rb_report_cells_end_row(c);
     }
-    for (int i = 0; i < r->n && run->o->solution && r->z; i++) {
-        rb_report_cell_text(c, r->file);
-        rb_report_cell_whole(c, i + 1);
-        rb_report_cell_number(c, r->z[i]);
-        rb_report_cell_number(c, r->w[i]);
-        rb_report_cells_end_row(c);
-    }
+    if ((run->o->solution || run->o->all) && r->z)
+        print_solutions(run, r);
 }
 
-/* ---- One file --------------------------------------------------------------------- */
+/* ---- A problem -----------------------------------------------------------------------
+ */
 
 /* What rounding of the data allows at least: 1e-14 max (|M| z + |q|). */
 static double rounding_floor(const lcp_result *r)
@@ -223,11 +280,10 @@ static double rounding_floor(const lcp_result *r)
 /* "solved" is what the recomputed residual says, not the method. */
 static cli_exit judge(const lcp_options *o, lcp_result *r, rb_status s)
 {
-    const double size = rb_norm_inf((size_t)r->n, r->q);
     r->status = rb_status_text(s);
     if (s != RB_OK)
         return CLI_UNSOLVED;
-    if (r->info.res <= o->tol * size)
+    if (r->info.res <= o->tol * r->size)
         return CLI_OK;
     r->status =
         r->info.res <= r->floor ? "solved-to-rounding" : rb_status_text(RB_INACCURATE);
@@ -241,14 +297,24 @@ static cli_exit failed(lcp_result *r, rb_status s, const char *text)
     return cli_fail(cli_exit_of(s), "%s", text[0] ? text : rb_status_text(s));
 }
 
-static rb_status run_lemke(lcp_run *run, rb_io_matrix *M, lcp_result *r)
+static rb_lcp_options solver_options(lcp_run *run, const lcp_result *r)
 {
     rb_lcp_options opt = rb_lcp_defaults();
     opt.max_iters = run->o->max_pivots;
     opt.rule = (rb_lcp_rule)run->o->rule;
     opt.cover = r->cover;
+    opt.start = r->start;
     opt.trace = run->o->trace ? trace : NULL;
     opt.trace_context = run;
+    return opt;
+}
+
+/* On a dense tableau, or on a sparse LU what no tableau can do or hold. */
+static rb_status run_lemke(lcp_run *run, rb_io_matrix *M, lcp_result *r)
+{
+    const rb_lcp_options opt = solver_options(run, r);
+    if (r->lower || r->upper || r->start || (!M->dense && M->rows >= LARGE))
+        return rb_lcp_mixed(&r->M, r->q, r->lower, r->upper, &opt, r->z, &r->info);
     if (rb_io_matrix_to_dense(M) != RB_OK)
         return rb_fail(&r->info.msg, RB_ENOMEM,
                        "lcp: no memory for a dense matrix of order %d", r->n);
@@ -257,40 +323,125 @@ static rb_status run_lemke(lcp_run *run, rb_io_matrix *M, lcp_result *r)
 
 static int wants_newton(const lcp_options *o, const rb_io_matrix *M)
 {
-    const int of_lemke = o->trace || o->cover || o->rule != RB_LCP_LEXICOGRAPHIC;
+    const int of_lemke = o->trace || o->cover || o->rule || o->lower || o->upper;
     return o->solver == NEWTON ||
            (o->solver == AUTO && !M->dense && M->rows >= LARGE && !of_lemke);
 }
 
-static cli_exit run_solver(lcp_run *run, rb_io_matrix *M, lcp_result *r)
+static rb_status run_methods(lcp_run *run, rb_io_matrix *M, lcp_result *r)
 {
-    rb_lcp_options opt = rb_lcp_defaults();
-    opt.max_iters = run->o->max_pivots;
-    const double start = rb_seconds();
-    const int newton = wants_newton(run->o, M);
-    rb_status s = RB_OK;
-    if (newton) {
+    const rb_lcp_options opt = solver_options(run, r);
+    if (wants_newton(run->o, M)) {
         r->solver = "newton";
-        s = rb_lcp_newton(&r->M, r->q, &opt, r->z, &r->info);
+        const rb_status s = rb_lcp_newton(&r->M, r->q, &opt, r->z, &r->info);
+        if (s <= 0 || run->o->solver == NEWTON)
+            return s;
     }
-    if (!newton || (s > 0 && run->o->solver == AUTO)) {
-        r->solver = "lemke";
-        s = run_lemke(run, M, r);
-    }
-    r->seconds = rb_seconds() - start;
-    if (s < 0) { /* RB_EINVAL: the numbers are of a file */
-        rb_message why;
-        rb_fail(&why, s, "%s: %s", r->file, r->info.msg.text);
-        return failed(r, s == RB_EINVAL ? RB_EFORMAT : s, why.text);
-    }
-    r->info.res = rb_lcp_residual_sparse(&r->M, r->q, r->z, r->w);
-    r->floor = rounding_floor(r);
-    const cli_exit code = judge(run->o, r, s);
+    r->solver = "lemke";
+    return run_lemke(run, M, r);
+}
+
+/* The numbers are of a file: RB_EINVAL is its fault. */
+static cli_exit invalid(lcp_result *r, rb_status s, const rb_message *msg)
+{
+    rb_message why;
+    rb_fail(&why, s, "%s: %s", r->file, msg->text);
+    return failed(r, s == RB_EINVAL ? RB_EFORMAT : s, why.text);
+}
+
+static cli_exit say_end(const lcp_options *o, lcp_result *r, rb_status s)
+{
+    const cli_exit code = judge(o, r, s);
     if (s == RB_MAXITER)
         cli_fail(code, "%s: no solution after --max-pivots %d", r->file, r->info.iters);
     else if (code != CLI_OK)
         cli_fail(code, "%s: %s", r->file, s == RB_OK ? r->status : r->info.msg.text);
     return code;
+}
+
+static cli_exit run_solver(lcp_run *run, rb_io_matrix *M, lcp_result *r)
+{
+    const double start = rb_seconds();
+    const rb_status s = run_methods(run, M, r);
+    r->seconds = rb_seconds() - start;
+    if (s < 0)
+        return invalid(r, s, &r->info.msg);
+    r->info.res = rb_lcp_residual_mixed(&r->M, r->q, r->lower, r->upper, r->z, r->w);
+    r->floor = rounding_floor(r);
+    return say_end(run->o, r, s);
+}
+
+/* ---- All solutions ------------------------------------------------------------------
+ */
+
+/* What the enumeration has left out, and whether it has found anything. */
+static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_solutions *all)
+{
+    r->info.iters = all->bases;
+    if (all->singular)
+        fprintf(
+            stderr,
+            "rollbem: %s: note: %d of %d complementary bases have no inverse: solutions "
+            "in them alone are not listed\n",
+            r->file, all->singular, all->bases);
+    if (all->count)
+        return say_end(o, r, RB_OK);
+    r->status = "no solution";
+    r->info.res = r->floor = NAN;
+    return cli_fail(CLI_UNSOLVED, "%s: no solution in %d complementary bases", r->file,
+                    all->bases);
+}
+
+/* r->z, the solutions, is taken over from all, and r->w made as large. */
+static rb_status take_all(lcp_result *r, rb_lcp_solutions *all)
+{
+    free(r->z);
+    free(r->w);
+    r->z = all->z;
+    r->w = rb_alloc((size_t)all->n, (size_t)all->count);
+    r->solutions = all->count;
+    r->solver = "enumeration";
+    all->z = NULL;
+    return r->w ? RB_OK : rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
+}
+
+static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
+{
+    rb_lcp_solutions all = {0};
+    const double start = rb_seconds();
+    rb_status s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
+    if (rb_io_matrix_to_dense(M) == RB_OK)
+        s = rb_lcp_enumerate(r->n, M->dense, r->n, r->q, r->lower, r->upper, &all,
+                             &r->info.msg);
+    r->seconds = rb_seconds() - start;
+    if (s == RB_OK)
+        s = take_all(r, &all);
+    if (s != RB_OK)
+        return invalid(r, s, &r->info.msg);
+    r->floor = all.count ? rounding_floor(r) : NAN;
+    r->info.res = 0.0;
+    for (int k = 0; k < all.count; k++) {
+        const double *z = r->z + (size_t)k * (size_t)r->n;
+        double *w = r->w + (size_t)k * (size_t)r->n;
+        const double res = rb_lcp_residual_mixed(&r->M, r->q, r->lower, r->upper, z, w);
+        r->info.res = fmax(r->info.res, res);
+    }
+    return say_all(run->o, r, &all);
+}
+
+/* The vectors of the options, each of n numbers. */
+static rb_status read_vectors(const lcp_options *o, int n, lcp_result *r, rb_message *why)
+{
+    rb_status s = RB_OK;
+    if (o->lower)
+        s = rb_io_bounds_read(o->lower, n, "lower", &r->lower, why);
+    if (s == RB_OK && o->upper)
+        s = rb_io_bounds_read(o->upper, n, "upper", &r->upper, why);
+    if (s == RB_OK && o->cover)
+        s = rb_io_vector_read(o->cover, n, "cover", &r->cover, why);
+    if (s == RB_OK && o->start)
+        s = rb_io_vector_read(o->start, n, "start", &r->start, why);
+    return s;
 }
 
 static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
@@ -301,38 +452,102 @@ static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
     if (rb_io_matrix_to_sparse(&p->M, &r->M) != RB_OK || !r->z || !r->w)
         return failed(r, RB_ENOMEM, "out of memory");
     r->q = p->q;
-    return run_solver(run, &p->M, r);
+    r->size = rb_norm_inf((size_t)p->n, p->q);
+    return run->o->all ? run_all(run, &p->M, r) : run_solver(run, &p->M, r);
 }
 
-static cli_exit solve_file(lcp_run *run, const char *path)
+static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
 {
     rb_io_lcp p;
     rb_message why;
+    rb_status s = rb_io_lcp_read(r->file, run->o->q, &p, &why);
+    if (s == RB_OK)
+        s = read_vectors(run->o, p.n, r, &why);
+    const cli_exit code = s == RB_OK ? solve_problem(run, &p, r) : failed(r, s, why.text);
+    rb_io_lcp_free(&p);
+    return code;
+}
+
+/* ---- Games ----------------------------------------------------------------------------
+ */
+
+/* z = (x, y), w = what each strategy loses, of all solutions; the residual is the worst,
+ * the payoffs are those of the first. */
+static void measure_game(const rb_io_bimatrix *g, lcp_result *r)
+{
+    const size_t entries = (size_t)g->m * (size_t)g->n, n = (size_t)r->n;
+    r->info.res = 0.0;
+    for (int k = r->solutions - 1; k >= 0; k--) {
+        const double *x = r->z + (size_t)k * n;
+        const double res = rb_lcp_bimatrix_regret(
+            g->m, g->n, g->A, g->B, g->m, x, x + g->m, r->w + (size_t)k * n, r->payoff);
+        r->info.res = fmax(r->info.res, res);
+    }
+    r->size = fmax(rb_norm_inf(entries, g->A), rb_norm_inf(entries, g->B));
+    r->floor = 1e-14 * r->size;
+}
+
+static cli_exit run_game(lcp_run *run, const rb_io_bimatrix *g, lcp_result *r)
+{
+    const rb_lcp_options opt = solver_options(run, r);
+    const double start = rb_seconds();
+    rb_lcp_solutions all = {0};
+    rb_status s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
+    r->n = g->m + g->n;
+    r->solver = "lemke-howson";
+    r->z = rb_alloc((size_t)r->n, 1);
+    r->w = rb_alloc((size_t)r->n, 1);
+    if (run->o->all)
+        s = rb_lcp_bimatrix_enumerate(g->m, g->n, g->A, g->B, g->m, &all, &r->info.msg);
+    else if (r->z && r->w)
+        s = rb_lcp_bimatrix(g->m, g->n, g->A, g->B, g->m,
+                            (run->o->label ? run->o->label : 1) - 1, &opt, r->z,
+                            r->z + g->m, &r->info);
+    r->seconds = rb_seconds() - start;
+    if (run->o->all && s == RB_OK)
+        s = take_all(r, &all);
+    if (s < 0)
+        return invalid(r, s, &r->info.msg);
+    measure_game(g, r);
+    return run->o->all ? say_all(run->o, r, &all) : say_end(run->o, r, s);
+}
+
+static cli_exit solve_game(lcp_run *run, lcp_result *r)
+{
+    rb_io_bimatrix g;
+    rb_message why;
+    const rb_status s = rb_io_bimatrix_read(r->file, &g, &why);
+    const cli_exit code = s == RB_OK ? run_game(run, &g, r) : failed(r, s, why.text);
+    rb_io_bimatrix_free(&g);
+    return code;
+}
+
+/* ---- One file -------------------------------------------------------------------------
+ */
+
+static cli_exit solve_file(lcp_run *run, const char *path)
+{
     lcp_result r = {.file = path,
-                    .solver = "lemke",
+                    .solver = run->o->game ? "lemke-howson" : "lemke",
                     .info = {.res = NAN},
                     .floor = NAN,
-                    .seconds = NAN};
-    cli_exit code;
+                    .seconds = NAN,
+                    .solutions = 1};
     run->file = path;
     run->pivots = is_json(run->o) && run->o->trace ? json_array() : NULL;
-    rb_status s = rb_io_lcp_read(path, run->o->q, &p, &why);
-    if (s == RB_OK && run->o->cover)
-        s = rb_io_vector_read(run->o->cover, p.n, "cover", &r.cover, &why);
-    if (s == RB_OK)
-        code = solve_problem(run, &p, &r);
-    else
-        code = failed(&r, s, why.text);
+    const cli_exit code = run->o->game ? solve_game(run, &r) : solve_lcp(run, &r);
     if (is_json(run->o))
         add_problem(run, &r);
     else
         print_problem(run, &r);
     json_decref(run->pivots);
     rb_sparse_free(&r.M);
+    free(r.lower);
+    free(r.upper);
     free(r.cover);
+    free(r.start);
     free(r.z);
     free(r.w);
-    rb_io_lcp_free(&p);
     return code;
 }
 
@@ -341,11 +556,14 @@ static cli_exit solve_file(lcp_run *run, const char *path)
 static const char *columns_of(const lcp_options *o)
 {
     return o->trace      ? "file pivot entering leaving row ratio z0"
+           : o->all      ? "file solution i z w"
            : o->solution ? "file i z w"
                          : "file status n pivots residual seconds";
 }
 
-static const char conventions[] = "z >= 0, w = M z + q >= 0, z'w = 0";
+static const char conventions[] = "z >= 0, w = M z + q >= 0, z'w = 0; boxes: w >= 0 at "
+                                  "the lower end, <= 0 at the upper; "
+                                  "games: z probabilities, w what a strategy loses";
 
 typedef struct {
     const lcp_options *o;
@@ -371,6 +589,37 @@ static rb_status solve_files(FILE *out, const void *context, rb_message *why)
     return is_json(all->o) ? cli_write_problems(out, conventions, run.problems) : RB_OK;
 }
 
+/* Options that ask for what the other method does. */
+static cli_exit check_options(const lcp_options *o)
+{
+    const int path = o->trace || o->cover || o->rule;
+    const int vectors = o->lower || o->upper || o->start || o->cover;
+    if (o->solver == NEWTON && path)
+        return cli_fail(
+            CLI_USAGE,
+            "lcp: --trace, --cover and --rule are Lemke's: not with --solver newton");
+    if (o->solver == NEWTON && (o->lower || o->upper))
+        return cli_fail(CLI_USAGE,
+                        "lcp: --lower and --upper are Lemke's: not with --solver newton");
+    if (o->trace && o->solution && !is_json(o))
+        return cli_fail(CLI_USAGE, "lcp: --trace and --solution are two tables: one of "
+                                   "them, or both with --json");
+    if (o->all && (path || o->start || o->solver || o->max_pivots))
+        return cli_fail(
+            CLI_USAGE,
+            "lcp: --all tries every basis: not with --solver, --start, --cover, "
+            "--rule, --trace or --max-pivots");
+    if (o->game && (vectors || o->q || o->solver || o->rule))
+        return cli_fail(
+            CLI_USAGE, "lcp: --game reads A and B alone: not with --q, --lower, --upper, "
+                       "--start, --cover, --solver or --rule");
+    if (o->label && (!o->game || o->all))
+        return cli_fail(CLI_USAGE,
+                        "lcp: --label is of Lemke and Howson's method: only with --game "
+                        "and without --all");
+    return CLI_CONTINUE;
+}
+
 int cli_lcp(int argc, char **argv)
 {
     lcp_options o = {.tol = 1e-10};
@@ -383,13 +632,8 @@ int cli_lcp(int argc, char **argv)
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "lcp: expected at least one FILE");
-    if (code == CLI_CONTINUE && o.solver == NEWTON && (o.trace || o.cover || o.rule))
-        code = cli_fail(
-            CLI_USAGE,
-            "lcp: --trace, --cover and --rule are Lemke's: not with --solver newton");
-    if (code == CLI_CONTINUE && o.trace && o.solution && !is_json(&o))
-        code = cli_fail(CLI_USAGE, "lcp: --trace and --solution are two tables: one of "
-                                   "them, or both with --json");
+    if (code == CLI_CONTINUE)
+        code = check_options(&o);
     if (code == CLI_CONTINUE && o.q && args.operands > 1)
         code = cli_fail(CLI_USAGE, "lcp: --q goes with one FILE, got %d", args.operands);
     if (code == CLI_CONTINUE)

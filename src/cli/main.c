@@ -22,7 +22,7 @@ static const struct {
     {"stress", cli_stress, "the stress below the surface: table, pictures, ParaView"},
     {"verify", cli_verify,
      "every reference that the program should meet, and how it does"},
-    {"lcp", cli_lcp, "solves linear complementarity problems from files"},
+    {"lcp", cli_lcp, "solves complementarity problems and bimatrix games from files"},
     {"friction", cli_friction, "solves frictional contact problems from files"},
     {"compare", cli_compare, "performance profiles of friction solvers over files"},
     {"example", cli_example, "finite elements: bar, truss, wall"},

@@ -53,12 +53,13 @@ static void read_numbers(io_tokens *t, int n, const char *what, double **x)
     rb_io_tokens_reals(t, (size_t)n, *x, what);
 }
 
-rb_status rb_io_vector_read(const char *path, int n, const char *what, double **x,
-                            rb_message *why)
+static rb_status read_vector(const char *path, int n, const char *what, int infinite,
+                             double **x, rb_message *why)
 {
     io_tokens t;
     *x = NULL;
     rb_io_tokens_open(path, &t, why);
+    t.infinite = infinite;
     if (is_market(&t))
         read_column(&t, n, what, x);
     else if (t.status == RB_OK)
@@ -69,6 +70,18 @@ rb_status rb_io_vector_read(const char *path, int n, const char *what, double **
     }
     rb_io_tokens_close(&t);
     return t.status;
+}
+
+rb_status rb_io_vector_read(const char *path, int n, const char *what, double **x,
+                            rb_message *why)
+{
+    return read_vector(path, n, what, 0, x, why);
+}
+
+rb_status rb_io_bounds_read(const char *path, int n, const char *what, double **x,
+                            rb_message *why)
+{
+    return read_vector(path, n, what, 1, x, why);
 }
 
 /* ---- Problems ---------------------------------------------------------------------- */
@@ -89,21 +102,28 @@ static void read_market(io_tokens *t, const char *q_path, rb_io_lcp *p)
         t->status = rb_io_vector_read(q_path, p->n, "q", &p->q, t->why);
 }
 
+/* A matrix row by row; column-major, NULL after a failure. */
+static double *read_rows(io_tokens *t, int m, int n, const char *name)
+{
+    double *row = rb_io_tokens_alloc(t, (size_t)n, 1, name);
+    double *x = rb_io_tokens_alloc(t, (size_t)m, (size_t)n, name);
+    for (int i = 0; t->status == RB_OK && i < m; i++) {
+        char what[40];
+        snprintf(what, sizeof what, "%s, row %d", name, i + 1);
+        rb_io_tokens_reals(t, (size_t)n, row, what);
+        for (int j = 0; j < n; j++)
+            x[(size_t)i + (size_t)j * (size_t)m] = row[j];
+    }
+    free(row);
+    return x;
+}
+
 /* n, the rows of M, q. */
 static void read_plain(io_tokens *t, rb_io_lcp *p)
 {
     const int n = p->n = rb_io_tokens_int(t, 1, INT_MAX, "n");
-    double *row = rb_io_tokens_alloc(t, (size_t)n, 1, "M");
     p->M.rows = p->M.cols = n;
-    p->M.dense = rb_io_tokens_alloc(t, (size_t)n, (size_t)n, "M");
-    for (int i = 0; t->status == RB_OK && i < n; i++) {
-        char what[40];
-        snprintf(what, sizeof what, "M, row %d", i + 1);
-        rb_io_tokens_reals(t, (size_t)n, row, what);
-        for (int j = 0; j < n; j++)
-            p->M.dense[(size_t)i + (size_t)j * (size_t)n] = row[j];
-    }
-    free(row);
+    p->M.dense = read_rows(t, n, n, "M");
     p->q = rb_io_tokens_alloc(t, (size_t)n, 1, "q");
     rb_io_tokens_reals(t, (size_t)n, p->q, "q");
     if (t->status == RB_OK && rb_io_tokens_more(t))
@@ -167,6 +187,36 @@ rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p,
         read_text(&t, p);
     if (t.status != RB_OK)
         rb_io_lcp_free(p);
+    rb_io_tokens_close(&t);
+    return t.status;
+}
+
+/* ---- Games --------------------------------------------------------------------------
+ */
+
+void rb_io_bimatrix_free(rb_io_bimatrix *p)
+{
+    free(p->A);
+    free(p->B);
+    *p = (rb_io_bimatrix){0};
+}
+
+rb_status rb_io_bimatrix_read(const char *path, rb_io_bimatrix *p, rb_message *why)
+{
+    io_tokens t;
+    *p = (rb_io_bimatrix){0};
+    rb_io_tokens_open(path, &t, why);
+    rb_io_tokens_blank_comments(&t);
+    p->m = rb_io_tokens_int(&t, 1, INT_MAX, "m");
+    p->n = rb_io_tokens_int(&t, 1, INT_MAX, "n");
+    p->A = read_rows(&t, p->m, p->n, "A");
+    p->B = read_rows(&t, p->m, p->n, "B");
+    if (t.status == RB_OK && rb_io_tokens_more(&t))
+        rb_io_tokens_fail(&t,
+                          "expected the end of the file after m, n, A and B (%d by %d)",
+                          p->m, p->n);
+    if (t.status != RB_OK)
+        rb_io_bimatrix_free(p);
     rb_io_tokens_close(&t);
     return t.status;
 }

@@ -101,6 +101,11 @@ int rb_io_tokens_int(io_tokens *t, int low, int high, const char *what)
     return 0;
 }
 
+static int allowed(const io_tokens *t, double value)
+{
+    return isfinite(value) || (t->infinite && isinf(value));
+}
+
 double rb_io_tokens_real(io_tokens *t, const char *what)
 {
     if (t->status != RB_OK)
@@ -108,11 +113,11 @@ double rb_io_tokens_real(io_tokens *t, const char *what)
     const int length = peek(t);
     char *stop;
     const double value = strtod(t->at, &stop);
-    if (length && stop == t->at + length && isfinite(value)) {
+    if (length && stop == t->at + length && allowed(t, value)) {
         t->at = stop;
         return value;
     }
-    expected(t, what, "a finite number", length);
+    expected(t, what, t->infinite ? "a number, inf or -inf" : "a finite number", length);
     return 0.0;
 }
 
@@ -122,7 +127,7 @@ void rb_io_tokens_reals(io_tokens *t, size_t n, double *x, const char *what)
         char *stop;
         skip_space(t);
         x[i] = strtod(t->at, &stop);
-        if (stop > t->at && (stop == t->end || space(*stop)) && isfinite(x[i])) {
+        if (stop > t->at && (stop == t->end || space(*stop)) && allowed(t, x[i])) {
             t->at = stop;
         } else {
             char name[60];

@@ -18,6 +18,7 @@ typedef struct {
     char *text;       /* the whole file and a final zero; owned */
     const char *at, *end;
     int line;
+    int infinite; /* 1: inf and -inf are numbers, too */
     rb_status status;
     rb_message *why;
 } io_tokens;

@@ -281,14 +281,28 @@ static int pivot(lemke *l, int row, int entering)
     return leaving;
 }
 
-static rb_status secondary_ray(lemke *l, int entering)
+rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0)
 {
-    const int n = l->n;
-    l->info->ray_variable = entering;
-    return rb_fail(&l->info->msg, RB_RAY,
+    info->ray_variable = entering;
+    return rb_fail(&info->msg, RB_RAY,
                    "lcp: secondary ray after %d pivots: no row blocks %c(%d); z0 = %g",
-                   l->info->iters, entering < n ? 'w' : 'z', entering % n + 1,
-                   lemke_z0(l));
+                   info->iters, entering < n ? 'w' : 'z', entering % n + 1, z0);
+}
+
+rb_status rb_lcp_fail_limit(rb_lcp_info *info, int max_iters)
+{
+    return rb_fail(&info->msg, RB_MAXITER, "lcp: no solution after max_iters = %d pivots",
+                   max_iters);
+}
+
+rb_status rb_lcp_judge(rb_lcp_info *info, double size)
+{
+    return info->res <= SPOILT * size
+               ? RB_OK
+               : rb_fail(
+                     &info->msg, RB_INACCURATE,
+                     "lcp: rounding has spoilt the solution: residual %g after %d steps",
+                     info->res, info->iters);
 }
 
 /* z0 enters and makes w >= 0; then the complement of what has left enters, until z0
@@ -305,13 +319,11 @@ static rb_status follow_path(lemke *l)
 
     for (;;) {
         if (l->info->iters >= l->opt.max_iters)
-            return rb_fail(&l->info->msg, RB_MAXITER,
-                           "lcp: no solution after max_iters = %d pivots",
-                           l->opt.max_iters);
+            return rb_lcp_fail_limit(l->info, l->opt.max_iters);
         const int entering = rb_lcp_complement(l->n, leaving);
         rb_status s = find_row(l, entering, &row);
         if (s == RB_OK && row < 0)
-            s = secondary_ray(l, entering);
+            s = rb_lcp_fail_ray(l->info, l->n, entering, lemke_z0(l));
         if (s != RB_OK)
             return s;
         leaving = pivot(l, row, entering);
@@ -321,17 +333,6 @@ static rb_status follow_path(lemke *l)
         if (s != RB_OK || lemke_z0(l) <= l->opt.tol * l->start)
             return s;
     }
-}
-
-static rb_status judge(lemke *l)
-{
-    const double size = rb_norm_inf((size_t)l->n, l->data.q);
-    return l->info->res <= SPOILT * size
-               ? RB_OK
-               : rb_fail(
-                     &l->info->msg, RB_INACCURATE,
-                     "lcp: rounding has spoilt the solution: residual %g after %d pivots",
-                     l->info->res, l->info->iters);
 }
 
 /* ---- All together ------------------------------------------------------------------ */
@@ -392,7 +393,7 @@ rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
         rb_lcp_lemke_answer(&l, s == RB_OK, z);
     }
     if (s == RB_OK)
-        s = judge(&l);
+        s = rb_lcp_judge(l.info, rb_norm_inf((size_t)n, q));
     release(&l);
     return s;
 }

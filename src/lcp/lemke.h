@@ -30,6 +30,17 @@ static inline double lemke_z0(const lemke *l)
     return row >= 0 ? l->t.q[row] : 0.0;
 }
 
+/* ---- The ends that the methods share (lemke.c, newton.c) ---- */
+
+/* RB_RAY, RB_MAXITER with their messages. */
+rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0);
+rb_status rb_lcp_fail_limit(rb_lcp_info *info, int max_iters);
+/* RB_INACCURATE where info->res is not below 1e-6 of size, the largest constant. */
+rb_status rb_lcp_judge(rb_lcp_info *info, double size);
+/* RB_EINVAL: M not square, max_iters < 0, tol, NaN or infinity. */
+rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q,
+                              const rb_lcp_options *opt, rb_message *why);
+
 /* ---- accuracy.c: what the rounding errors of the pivots have done ---- */
 
 /* Refreshes the constants when z0 has fallen far or many pivots have passed: one step of

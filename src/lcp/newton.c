@@ -1,7 +1,7 @@
 /* Block principal pivoting (Judice and Pires, Computers and Operations Research 21,
  * 1994): Newton's method on min(z, M z + q) = 0, guarded so that it ends for every
  * P-matrix. */
-#include "rollbem/lcp.h"
+#include "lcp/lemke.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,9 +9,6 @@
 
 /* A component counts as negative below this part of the largest. */
 static const double NEGATIVE = 1e-13;
-
-/* A solution whose residual is above this part of max |q| is spoilt by rounding. */
-static const double SPOILT = 1e-6;
 
 /* Steps that exchange all negative components without there being fewer of them. */
 enum { CHANCES = 10 };
@@ -29,20 +26,11 @@ typedef struct {
 double rb_lcp_residual_sparse(const rb_sparse *M, const double *q, const double *z,
                               double *w)
 {
-    double worst = 0.0;
-    memcpy(w, q, (size_t)M->rows * sizeof *w);
-    rb_sparse_apply(1.0, M, z, 1.0, w);
-    for (int i = 0; i < M->rows; i++) {
-        const double m = fmin(z[i], w[i]);
-        if (isnan(z[i]) || isnan(w[i]))
-            return NAN;
-        worst = fmax(worst, fabs(m));
-    }
-    return worst;
+    return rb_lcp_residual_mixed(M, q, NULL, NULL, z, w);
 }
 
-static rb_status check_input(const rb_sparse *M, const double *q,
-                             const rb_lcp_options *opt, rb_message *why)
+rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q,
+                              const rb_lcp_options *opt, rb_message *why)
 {
     if (M->rows < 1 || M->cols != M->rows)
         return rb_fail(why, RB_EINVAL, "lcp: M is %d by %d: expected a square matrix",
@@ -50,6 +38,9 @@ static rb_status check_input(const rb_sparse *M, const double *q,
     if (opt->max_iters < 0)
         return rb_fail(why, RB_EINVAL, "lcp: max_iters = %d: expected >= 0",
                        opt->max_iters);
+    if (!(opt->tol >= 0.0 && opt->tol < 1.0))
+        return rb_fail(why, RB_EINVAL, "lcp: tol = %g: expected a number in [0, 1)",
+                       opt->tol);
     for (int j = 0; j < M->cols; j++) {
         for (int k = M->p[j]; k < M->p[j + 1]; k++)
             if (!isfinite(M->x[k]))
@@ -191,7 +182,7 @@ rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_option
     const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
     const int n = M->rows;
     *s.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
-    rb_status status = check_input(M, q, &o, &s.info->msg);
+    rb_status status = rb_lcp_check_sparse(M, q, &o, &s.info->msg);
     if (status != RB_OK)
         return status;
     status = allocate(&s);
@@ -204,12 +195,8 @@ rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_option
             z[i] = fmax(z[i], 0.0);
         s.info->res = rb_lcp_residual_sparse(M, q, z, s.w);
     }
-    if (status == RB_OK && !(s.info->res <= SPOILT * rb_norm_inf((size_t)n, q)))
-        status =
-            rb_fail(&s.info->msg, RB_INACCURATE,
-                    "lcp: newton: rounding has spoilt the solution: residual %g after "
-                    "%d steps",
-                    s.info->res, s.info->iters);
+    if (status == RB_OK)
+        status = rb_lcp_judge(s.info, rb_norm_inf((size_t)n, q));
     free(s.w);
     free(s.number);
     rb_sparse_free(&s.A);

@@ -1,0 +1,227 @@
+/* The basis of Lemke's method on sparse matrices: LU and product form of the inverse. */
+#include "lcp/basis.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Exchanges before a new LU at the latest: their rounding errors add up. */
+enum { MOST_EXCHANGES = 200 };
+
+/* ---- Memory ------------------------------------------------------------------------ */
+
+rb_status rb_lcp_basis_create(const rb_sparse *M, lcp_basis *b)
+{
+    const size_t n = (size_t)M->rows, nz = (size_t)M->p[M->cols];
+    *b = (lcp_basis){.n = M->rows, .M = M};
+    b->d = rb_alloc(n, 4);
+    b->variable = rb_alloc_int(5 * n + 1);
+    b->A.p = rb_alloc_int(n + 2);
+    b->A.i = rb_alloc_int(nz + n + 1);
+    b->A.x = rb_alloc(nz + n + 1, 1);
+    b->pivot = rb_alloc_int(MOST_EXCHANGES);
+    b->scale = rb_alloc(MOST_EXCHANGES, 1);
+    b->start = calloc(MOST_EXCHANGES + 1, sizeof *b->start);
+    if (!b->d || !b->variable || !b->A.p || !b->A.i || !b->A.x || !b->pivot ||
+        !b->scale || !b->start) {
+        rb_lcp_basis_free(b);
+        return RB_ENOMEM;
+    }
+    b->g = b->d + n;
+    b->rhs = b->g + n;
+    b->x = b->rhs + n;
+    b->slot = b->variable + n;
+    b->row = b->slot + 2 * n + 1;
+    b->position = b->row + n;
+    for (int i = 0; i < b->n; i++) {
+        b->variable[i] = b->slot[i] = i;
+        b->slot[b->n + i] = b->position[i] = -1;
+    }
+    b->slot[2 * b->n] = -1;
+    return RB_OK;
+}
+
+void rb_lcp_basis_free(lcp_basis *b)
+{
+    rb_sparse_lu_free(b->lu);
+    rb_sparse_free(&b->A);
+    free(b->d);
+    free(b->variable);
+    free(b->pivot);
+    free(b->scale);
+    free(b->start);
+    free(b->index);
+    free(b->value);
+    *b = (lcp_basis){0};
+}
+
+/* ---- LU ---------------------------------------------------------------------------- */
+
+/* Slot i is the place of the pair i; t takes that of the pair without a basic variable.
+ * R, in the same order. */
+static void order_slots(lcp_basis *b)
+{
+    const int n = b->n, t = 2 * n, t_basic = b->slot[t] >= 0;
+    b->A.rows = 0;
+    for (int i = 0; i < n; i++) {
+        const int w = b->slot[i] >= 0, z = b->slot[n + i] >= 0;
+        b->variable[i] = w ? i : z || !t_basic ? n + i : t;
+        b->position[i] = w ? -1 : b->A.rows;
+        if (!w)
+            b->row[b->A.rows++] = i;
+    }
+    for (int i = 0; i < n; i++)
+        b->slot[b->variable[i]] = i;
+    b->A.cols = b->A.rows;
+}
+
+/* A = [M_RF d_R], the column of t in the place of the pair that it stands for. */
+static void gather(lcp_basis *b)
+{
+    rb_sparse *A = &b->A;
+    const rb_sparse *M = b->M;
+    int nz = 0;
+    for (int c = 0; c < A->cols; c++) {
+        const int j = b->row[c];
+        A->p[c] = nz;
+        if (j == b->place_of_t) {
+            for (int r = 0; r < A->rows; r++)
+                if (b->d[b->row[r]] != 0.0) {
+                    A->i[nz] = r;
+                    A->x[nz++] = b->d[b->row[r]];
+                }
+            continue;
+        }
+        for (int k = M->p[j]; k < M->p[j + 1]; k++)
+            if (b->position[M->i[k]] >= 0) {
+                A->i[nz] = b->position[M->i[k]];
+                A->x[nz++] = M->x[k];
+            }
+    }
+    A->p[A->cols] = nz;
+}
+
+rb_status rb_lcp_basis_factor(lcp_basis *b)
+{
+    rb_sparse_lu_free(b->lu);
+    b->lu = NULL;
+    b->exchanges = 0;
+    b->pending = b->work = 0.0;
+    order_slots(b);
+    b->place_of_t = b->slot[2 * b->n];
+    gather(b);
+    if (b->A.rows == 0)
+        return RB_OK;
+    rb_status s = rb_sparse_lu_create(&b->A, &b->lu);
+    if (s == RB_OK)
+        s = rb_sparse_lu_factor(b->lu, &b->A, &b->work);
+    /* ordering and analysis take as long as so many operations per entry */
+    if (s == RB_OK)
+        b->work += 150.0 * rb_sparse_lu_entries(b->lu);
+    return s == RB_EINVAL ? RB_SINGULAR : s;
+}
+
+int rb_lcp_basis_is_long(const lcp_basis *b)
+{
+    return b->exchanges == MOST_EXCHANGES || b->pending > b->work + 1e3;
+}
+
+/* ---- Solving ----------------------------------------------------------------------- */
+
+/* y = B^-1 g with the last LU: A x = -g_R, and w_i = g_i + M_iF z_F + d_i t elsewhere. */
+static rb_status solve_lu(lcp_basis *b, const double *g, int refined, double *y)
+{
+    const rb_sparse *M = b->M;
+    const int m = b->A.rows;
+    for (int k = 0; k < m; k++)
+        b->rhs[k] = -g[b->row[k]];
+    const rb_status s = m == 0    ? RB_OK
+                        : refined ? rb_sparse_lu_solve(b->lu, b->rhs, b->x)
+                                  : rb_sparse_lu_solve_once(b->lu, b->rhs, b->x);
+    if (s != RB_OK)
+        return s;
+    memcpy(y, g, (size_t)b->n * sizeof *y);
+    for (int c = 0; c < m; c++) {
+        const int j = b->row[c];
+        if (j == b->place_of_t)
+            for (int i = 0; i < b->n; i++)
+                y[i] += b->d[i] * b->x[c];
+        else
+            for (int k = M->p[j]; k < M->p[j + 1]; k++)
+                y[M->i[k]] += M->x[k] * b->x[c];
+    }
+    for (int k = 0; k < m; k++)
+        y[b->row[k]] = b->x[k];
+    return RB_OK;
+}
+
+rb_status rb_lcp_basis_solve(lcp_basis *b, const double *g, int refined, double *y)
+{
+    const rb_status s = solve_lu(b, g, refined, y);
+    for (int k = 0; s == RB_OK && k < b->exchanges; k++) {
+        const double x = y[b->pivot[k]] /= b->scale[k];
+        if (x == 0.0)
+            continue;
+        for (size_t e = b->start[k]; e < b->start[k + 1]; e++)
+            y[b->index[e]] -= b->value[e] * x;
+    }
+    b->pending += 2.0 * (double)b->start[b->exchanges];
+    return s;
+}
+
+rb_status rb_lcp_basis_column(lcp_basis *b, int variable, double *y)
+{
+    const int n = b->n;
+    const rb_sparse *M = b->M;
+    memset(b->g, 0, (size_t)n * sizeof *b->g);
+    if (variable < n)
+        b->g[variable] = 1.0;
+    else if (variable == 2 * n)
+        for (int i = 0; i < n; i++)
+            b->g[i] = -b->d[i];
+    else
+        for (int k = M->p[variable - n]; k < M->p[variable - n + 1]; k++)
+            b->g[M->i[k]] = -M->x[k];
+    return rb_lcp_basis_solve(b, b->g, 0, y);
+}
+
+/* ---- Exchanges --------------------------------------------------------------------- */
+
+static rb_status make_room(lcp_basis *b, size_t more)
+{
+    const size_t wanted = b->start[b->exchanges] + more;
+    if (wanted <= b->room)
+        return RB_OK;
+    const size_t room = 2 * wanted;
+    int *index = realloc(b->index, room * sizeof *index);
+    if (index)
+        b->index = index;
+    double *value = realloc(b->value, room * sizeof *value);
+    if (value)
+        b->value = value;
+    if (!index || !value)
+        return RB_ENOMEM;
+    b->room = room;
+    return RB_OK;
+}
+
+rb_status rb_lcp_basis_exchange(lcp_basis *b, int slot, int variable, const double *y)
+{
+    const int k = b->exchanges;
+    if (make_room(b, (size_t)b->n) != RB_OK)
+        return RB_ENOMEM;
+    size_t at = b->start[k];
+    for (int s = 0; s < b->n; s++)
+        if (y[s] != 0.0 && s != slot) {
+            b->index[at] = s;
+            b->value[at++] = y[s];
+        }
+    b->pivot[k] = slot;
+    b->scale[k] = y[slot];
+    b->start[k + 1] = at;
+    b->exchanges = k + 1;
+    b->slot[b->variable[slot]] = -1;
+    b->slot[variable] = slot;
+    b->variable[slot] = variable;
+    return RB_OK;
+}

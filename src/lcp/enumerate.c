@@ -1,0 +1,229 @@
+/* All solutions of a small problem: every complementary basis is tried. */
+#include "rollbem/lcp.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Parts of the largest value: below RIGHT a wrong sign is rounding, below SAME two
+ * solutions are one.  A matrix with a smaller reciprocal condition than SINGULAR has no
+ * inverse. */
+static const double RIGHT = 1e-11, SAME = 1e-9, SINGULAR = 1e-13;
+
+/* Bases that are tried at most. */
+static const double MOST_BASES = 4194304.0;
+
+typedef enum { AT_LOWER, AT_UPPER, BETWEEN } place;
+
+typedef struct {
+    int n, ldm;
+    const double *M, *q, *lower, *upper;
+    place *at;          /* n */
+    double *A, *x;      /* n x n, n: system of the z between their bounds */
+    int *inside, *swap; /* n: those z; pivots */
+    double *z, *w;      /* n */
+    rb_lcp_solutions *all;
+} search;
+
+static double lower_of(const search *s, int i)
+{
+    return s->lower ? s->lower[i] : 0.0;
+}
+
+static double upper_of(const search *s, int i)
+{
+    return s->upper ? s->upper[i] : INFINITY;
+}
+
+static int is_place(const search *s, int i, place at)
+{
+    const double low = lower_of(s, i), high = upper_of(s, i);
+    return at == AT_LOWER   ? isfinite(low)
+           : at == AT_UPPER ? isfinite(high) && high > low
+                            : high > low;
+}
+
+/* The next choice of places, as digits of a number; 0 after the last. */
+static int next_choice(search *s)
+{
+    for (int i = 0; i < s->n; i++) {
+        for (int at = (int)s->at[i] + 1; at <= BETWEEN; at++)
+            if (is_place(s, i, (place)at)) {
+                s->at[i] = (place)at;
+                return 1;
+            }
+        s->at[i] = AT_LOWER;
+        while (!is_place(s, i, s->at[i]))
+            s->at[i]++;
+    }
+    return 0;
+}
+
+/* M z + q, with the z that are between their bounds as they stand. */
+static void product(search *s)
+{
+    memcpy(s->w, s->q, (size_t)s->n * sizeof *s->w);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, s->n, s->n, 1.0, s->M, s->ldm, s->z, 1, 1.0,
+                s->w, 1);
+}
+
+/* z of the basis; 0: its matrix has no inverse. */
+static int basic_point(search *s)
+{
+    int m = 0;
+    for (int i = 0; i < s->n; i++) {
+        s->z[i] = s->at[i] == AT_LOWER   ? lower_of(s, i)
+                  : s->at[i] == AT_UPPER ? upper_of(s, i)
+                                         : 0.0;
+        if (s->at[i] == BETWEEN)
+            s->inside[m++] = i;
+    }
+    if (m == 0)
+        return 1;
+    product(s);
+    for (int c = 0; c < m; c++) {
+        const double *column = s->M + (size_t)s->inside[c] * (size_t)s->ldm;
+        for (int r = 0; r < m; r++)
+            s->A[r + c * m] = column[s->inside[r]];
+        s->x[c] = -s->w[s->inside[c]];
+    }
+    double rcond = 0.0;
+    const double norm = LAPACKE_dlange(LAPACK_COL_MAJOR, '1', m, m, s->A, m);
+    if (LAPACKE_dgetrf(LAPACK_COL_MAJOR, m, m, s->A, m, s->swap) != 0 ||
+        LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', m, s->A, m, norm, &rcond) != 0 ||
+        rcond < SINGULAR)
+        return 0;
+    LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', m, 1, s->A, m, s->swap, s->x, m);
+    for (int c = 0; c < m; c++)
+        s->z[s->inside[c]] = s->x[c];
+    return 1;
+}
+
+/* The signs of w and the bounds of z, which the basis alone does not give. */
+static int is_solution(search *s)
+{
+    const double small_z = RIGHT * rb_norm_inf((size_t)s->n, s->z);
+    product(s);
+    for (int i = 0; i < s->n; i++) {
+        const double low = lower_of(s, i), high = upper_of(s, i);
+        const double *row = s->M + i;
+        double size = fabs(s->q[i]);
+        for (int j = 0; j < s->n; j++)
+            size += fabs(row[(size_t)j * (size_t)s->ldm] * s->z[j]);
+        if (s->z[i] < low - small_z || s->z[i] > high + small_z)
+            return 0;
+        s->z[i] = fmin(fmax(s->z[i], low), high);
+        if (low < high && s->at[i] == AT_LOWER && s->w[i] < -RIGHT * size)
+            return 0;
+        if (s->at[i] == AT_UPPER && s->w[i] > RIGHT * size)
+            return 0;
+    }
+    return 1;
+}
+
+static int is_known(const search *s)
+{
+    const size_t n = (size_t)s->n;
+    const double near = SAME * rb_norm_inf(n, s->z);
+    for (int k = 0; k < s->all->count; k++) {
+        const double *z = s->all->z + (size_t)k * n;
+        double apart = 0.0;
+        for (size_t i = 0; i < n; i++)
+            apart = fmax(apart, fabs(z[i] - s->z[i]));
+        if (apart <= near)
+            return 1;
+    }
+    return 0;
+}
+
+static rb_status keep(search *s)
+{
+    const size_t n = (size_t)s->n, count = (size_t)s->all->count;
+    if (is_known(s))
+        return RB_OK;
+    if ((count & (count - 1)) == 0) { /* full: room for twice as many */
+        double *z = realloc(s->all->z, (count ? 2 * count : 1) * n * sizeof *z);
+        if (!z)
+            return RB_ENOMEM;
+        s->all->z = z;
+    }
+    memcpy(s->all->z + count * n, s->z, n * sizeof *s->z);
+    s->all->count++;
+    return RB_OK;
+}
+
+void rb_lcp_solutions_free(rb_lcp_solutions *all)
+{
+    if (!all)
+        return;
+    free(all->z);
+    *all = (rb_lcp_solutions){0};
+}
+
+static rb_status check(const search *s, rb_message *why)
+{
+    double bases = 1.0;
+    for (int i = 0; i < s->n; i++) {
+        const double low = lower_of(s, i), high = upper_of(s, i);
+        int places = 0;
+        if (!(low <= high) || low == INFINITY || high == -INFINITY)
+            return rb_fail(why, RB_EINVAL,
+                           "lcp: box %d is [%g, %g]: expected lower <= upper, with a "
+                           "number in between",
+                           i + 1, low, high);
+        for (int at = AT_LOWER; at <= BETWEEN; at++)
+            places += is_place(s, i, (place)at);
+        bases *= places;
+    }
+    if (bases > MOST_BASES)
+        return rb_fail(why, RB_EINVAL,
+                       "lcp: all solutions: %.3g complementary bases: expected at most "
+                       "%.3g, that is order 22 without boxes",
+                       bases, MOST_BASES);
+    return RB_OK;
+}
+
+rb_status rb_lcp_enumerate(int n, const double *M, int ldm, const double *q,
+                           const double *lower, const double *upper,
+                           rb_lcp_solutions *all, rb_message *why)
+{
+    search s = {.n = n, .ldm = ldm, .M = M, .q = q, .lower = lower, .upper = upper};
+    *all = (rb_lcp_solutions){.n = n};
+    s.all = all;
+    if (n < 1 || ldm < n)
+        return rb_fail(why, RB_EINVAL, "lcp: n = %d, ldm = %d: expected 1 <= n <= ldm", n,
+                       ldm);
+    rb_status status = check(&s, why);
+    if (status != RB_OK)
+        return status;
+    s.at = calloc((size_t)n, sizeof *s.at);
+    s.A = rb_alloc((size_t)n, (size_t)n + 3);
+    s.inside = rb_alloc_int(2 * (size_t)n);
+    if (!s.at || !s.A || !s.inside)
+        status = RB_ENOMEM;
+    if (status == RB_OK) {
+        s.x = s.A + (size_t)n * (size_t)n;
+        s.z = s.x + n;
+        s.w = s.z + n;
+        s.swap = s.inside + n;
+        for (int i = 0; i < n; i++)
+            while (!is_place(&s, i, s.at[i]))
+                s.at[i]++;
+        do {
+            all->bases++;
+            if (!basic_point(&s))
+                all->singular++;
+            else if (is_solution(&s))
+                status = keep(&s);
+        } while (status == RB_OK && next_choice(&s));
+    }
+    free(s.at);
+    free(s.A);
+    free(s.inside);
+    if (status == RB_OK)
+        return RB_OK;
+    rb_lcp_solutions_free(all);
+    return rb_fail(why, status, "lcp: out of memory for all solutions of order %d", n);
+}

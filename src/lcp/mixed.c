@@ -1,0 +1,656 @@
+/* Lemke's method for boxes on sparse matrices: w = M z + q + t d with z in its box and w
+ * complementary to it, followed from a t that makes it true for a simple basis down to t
+ * = 0 (Cottle, Pang, Stone, sections 4.4 and 4.5; Dirkse and Ferris, Optimization Methods
+ * and Software 5, 1995, for boxes and for starts from a given point). */
+#include "lcp/basis.h"
+#include "lcp/lemke.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* As in lemke.c: parts of the largest entry of a column below which an entry is zero, no
+ * pivot, a pivot only with a new LU; constants that tie. */
+static const double DROP = 1e-13, NOISE = 1e-12, DOUBT = 1e-10, TIE = 1e-12, NEAR = 1e-10;
+
+/* A constant at its bound before a new LU and this near to it afterwards is still there.
+ */
+static const double ZERO = 1e-10;
+
+/* A variable out of its range by this part of the largest of its kind is at its bound. */
+static const double ROUNDING = 1e-13;
+
+/* A path from a given point is given up when t is above this part of its first value. */
+static const double AWAY = 1.0 + 1e-9;
+
+enum { NONE = -1, OPPOSITE = -2 }; /* in place of a slot: no block; the other bound */
+
+typedef struct {
+    int n;
+    const rb_sparse *M;
+    const double *q, *lower, *upper; /* n; no box without a finite end */
+    rb_lcp_options opt;
+    lcp_basis b;
+    int *at_upper;       /* n: the bound of a nonbasic z, and of w's sign with it */
+    double *value;       /* n, by slots: the basic variables */
+    double *generic;     /* n, by slots: their derivatives by the perturbation */
+    double *shift;       /* n: q is q + e shift for a small e, which settles ties */
+    double *y, *g;       /* n: driving column by slots; right-hand side */
+    int *tied, *settled; /* n: slots that tie; 2n + 1: variables exactly at a bound */
+    double first_t;
+    rb_lcp_info *info;
+} mixed;
+
+/* ---- Variables --------------------------------------------------------------------- */
+
+typedef struct {
+    double low, high;
+} range;
+
+static range range_of(const mixed *p, int v)
+{
+    const int n = p->n;
+    if (v == 2 * n)
+        return (range){0.0, INFINITY};
+    if (v >= n)
+        return (range){p->lower[v - n], p->upper[v - n]};
+    if (p->lower[v] == p->upper[v]) /* z is fixed, w any number */
+        return (range){-INFINITY, INFINITY};
+    return p->at_upper[v] ? (range){-INFINITY, 0.0} : (range){0.0, INFINITY};
+}
+
+static double nonbasic_z(const mixed *p, int i)
+{
+    return p->at_upper[i] ? p->upper[i] : p->lower[i];
+}
+
+static double value_of_t(const mixed *p)
+{
+    const int slot = p->b.slot[2 * p->n];
+    return slot >= 0 ? p->value[slot] : 0.0;
+}
+
+/* r = the sum of the basic columns times x. */
+static void combine_columns(const mixed *p, const double *x, double *r)
+{
+    memset(r, 0, (size_t)p->n * sizeof *r);
+    for (int s = 0; s < p->n; s++) {
+        const int v = p->b.variable[s];
+        if (v < p->n)
+            r[v] += x[s];
+        else
+            for (int k = p->M->p[v - p->n]; k < p->M->p[v - p->n + 1]; k++)
+                r[p->M->i[k]] -= p->M->x[k] * x[s];
+    }
+}
+
+/* ---- The basic point from the data --------------------------------------------------
+ */
+
+/* g = q + M z of the nonbasic z. */
+static void right_hand_side(mixed *p)
+{
+    memcpy(p->g, p->q, (size_t)p->n * sizeof *p->g);
+    for (int j = 0; j < p->n; j++) {
+        const double z = p->b.slot[p->n + j] < 0 ? nonbasic_z(p, j) : 0.0;
+        for (int k = p->M->p[j]; z != 0.0 && k < p->M->p[j + 1]; k++)
+            p->g[p->M->i[k]] += p->M->x[k] * z;
+    }
+}
+
+/* A new LU, and the constants from it: what was exactly at a bound stays there, because
+ * rounding in its place would break ties. */
+static rb_status refresh(mixed *p)
+{
+    for (int s = 0; s < p->n; s++) {
+        const range r = range_of(p, p->b.variable[s]);
+        p->settled[p->b.variable[s]] = p->value[s] == r.low || p->value[s] == r.high;
+    }
+    rb_status status = rb_lcp_basis_factor(&p->b);
+    if (status == RB_OK) {
+        right_hand_side(p);
+        status = rb_lcp_basis_solve(&p->b, p->g, 1, p->value);
+    }
+    if (status == RB_OK)
+        status = rb_lcp_basis_solve(&p->b, p->shift, 0, p->generic);
+    if (status != RB_OK)
+        return rb_fail(&p->info->msg, status,
+                       status == RB_SINGULAR
+                           ? "lcp: a basis is singular to rounding after %d pivots"
+                           : "lcp: out of memory for the LU of a basis after %d pivots",
+                       p->info->iters);
+    const double zero = ZERO * rb_norm_inf((size_t)p->n, p->value);
+    for (int s = 0; s < p->n; s++) {
+        const int v = p->b.variable[s];
+        const range r = range_of(p, v);
+        double *x = p->value + s;
+        if (p->settled[v] && fabs(*x - r.low) <= zero)
+            *x = r.low;
+        else if (p->settled[v] && fabs(*x - r.high) <= zero)
+            *x = r.high;
+    }
+    return RB_OK;
+}
+
+/* ---- Where the path begins --------------------------------------------------------- */
+
+/* In [1/2, 3/2), the same in every run. */
+static double next_random(unsigned long long *seed)
+{
+    *seed = *seed * 6364136223846793005ULL + 1442695040888963407ULL;
+    return 0.5 + (double)(*seed >> 11) / 9007199254740992.0;
+}
+
+/* A basic variable that is out of its range by rounding is at its bound: the z of a
+ * solution must be recognised as one. */
+static void forgive_rounding(mixed *p)
+{
+    double most_w = rb_norm_inf((size_t)p->n, p->q), most_z = 0.0;
+    for (int s = 0; s < p->n; s++) {
+        double *most = p->b.variable[s] < p->n ? &most_w : &most_z;
+        *most = fmax(*most, fabs(p->value[s]));
+    }
+    for (int s = 0; s < p->n; s++) {
+        const int v = p->b.variable[s];
+        const range r = range_of(p, v);
+        const double small = ROUNDING * (v < p->n ? most_w : most_z);
+        double *x = p->value + s;
+        if (*x < r.low && *x >= r.low - small)
+            *x = r.low;
+        else if (*x > r.high && *x <= r.high + small)
+            *x = r.high;
+    }
+}
+
+/* All z at a bound; with a start, those between their bounds basic. */
+static rb_status first_basis(mixed *p, const double *start)
+{
+    const int n = p->n;
+    for (int i = 0; i < n; i++) {
+        const double z = start ? start[i] : -INFINITY;
+        const int inside = p->lower[i] < z && z < p->upper[i];
+        p->at_upper[i] = !isfinite(p->lower[i]) || (start && z >= p->upper[i]);
+        p->b.slot[i] = inside ? -1 : i;
+        p->b.slot[n + i] = inside ? i : -1;
+        p->b.variable[i] = inside ? n + i : i;
+    }
+    p->b.slot[2 * n] = -1;
+    memset(p->shift, 0, (size_t)n * sizeof *p->shift);
+    memset(p->value, 0, (size_t)n * sizeof *p->value);
+    const rb_status s = refresh(p);
+    if (s == RB_OK)
+        forgive_rounding(p);
+    return s;
+}
+
+/* 1 where the basic variable is to grow with t, -1 where it is to fall: into its box. */
+static double inwards(const mixed *p, int s)
+{
+    const range r = range_of(p, p->b.variable[s]);
+    return isinf(r.high) || p->value[s] - r.low < r.high - p->value[s] ? 1.0 : -1.0;
+}
+
+static double violation(const mixed *p, int s)
+{
+    const range r = range_of(p, p->b.variable[s]);
+    return fmax(r.low - p->value[s], p->value[s] - r.high);
+}
+
+/* The perturbation: generic, and such that every basic variable moves into its box. */
+static void choose_shift(mixed *p)
+{
+    unsigned long long seed = 20260101;
+    for (int s = 0; s < p->n; s++)
+        p->generic[s] = inwards(p, s) * next_random(&seed);
+    combine_columns(p, p->generic, p->shift);
+}
+
+/* The basic variables are to be value + t times y: for w the covering vector, for z so
+ * much that where t makes all of them feasible z has not passed through its box. */
+static rb_status choose_cover(mixed *p)
+{
+    double worst = 0.0;
+    for (int s = 0; s < p->n; s++) {
+        const int v = p->b.variable[s];
+        const double cover = v < p->n && p->opt.cover ? p->opt.cover[v] : 1.0;
+        p->y[s] = cover;
+        if (violation(p, s) <= 0.0)
+            continue;
+        if (cover == 0.0)
+            return rb_fail(
+                &p->info->msg, RB_EINVAL,
+                "lcp: cover(%d) = 0: expected a number > 0, because w(%d) = %g "
+                "at the start has the wrong sign",
+                v + 1, v + 1, p->value[s]);
+        worst = fmax(worst, violation(p, s) / cover);
+    }
+    for (int s = 0; s < p->n; s++) {
+        const range r = range_of(p, p->b.variable[s]);
+        const double out = fmax(violation(p, s), 0.0);
+        if (p->b.variable[s] >= p->n)
+            p->y[s] =
+                out > 0.0 ? (out + fmin(out, 0.25 * (r.high - r.low))) / worst : 0.0;
+        else if (isinf(r.low) && isinf(r.high))
+            p->y[s] = 0.0;
+        p->y[s] *= inwards(p, s);
+    }
+    combine_columns(p, p->y, p->b.d);
+    return RB_OK;
+}
+
+/* The slot that needs the largest t, and that t; NONE: the basic point is the solution.
+ */
+static int first_slot(const mixed *p, double *t)
+{
+    int best = NONE;
+    *t = 0.0;
+    for (int s = 0; s < p->n; s++) {
+        const double out = violation(p, s);
+        if (out <= 0.0)
+            continue;
+        const double needs = out / fabs(p->y[s]);
+        const int before = p->opt.rule == RB_LCP_LEXICOGRAPHIC && needs == *t &&
+                           p->generic[s] / p->y[s] < p->generic[best] / p->y[best];
+        if (best == NONE || needs > *t || before) {
+            best = s;
+            *t = needs;
+        }
+    }
+    return best;
+}
+
+/* ---- The ratio test ---------------------------------------------------------------- */
+
+/* Where the basic variable of slot s moves at unit speed `delta` and meets its bound. */
+static double distance(const mixed *p, int s, double delta)
+{
+    const range r = range_of(p, p->b.variable[s]);
+    const double far = delta < 0.0 ? p->value[s] - r.low : r.high - p->value[s];
+    return far > 0.0 ? far : 0.0;
+}
+
+/* Of the slots that tie the one that blocks first under the perturbation, t before all.
+ */
+static int settle_tie(const mixed *p, int count, double sign, double own)
+{
+    int best = isfinite(own) ? OPPOSITE : NONE;
+    double least = isfinite(own) ? 0.0 : INFINITY;
+    for (int k = 0; k < count; k++) {
+        const int s = p->tied[k];
+        const double delta = -sign * p->y[s], moves = p->generic[s] / fabs(delta);
+        const double ratio = delta < 0.0 ? moves : -moves;
+        if (p->b.variable[s] == 2 * p->n)
+            return s;
+        if (p->opt.rule == RB_LCP_FIRST_INDEX && best >= 0)
+            continue;
+        if (best == NONE || ratio < least) {
+            best = s;
+            least = ratio;
+        }
+    }
+    return best;
+}
+
+/* The slot that blocks the entering variable when it moves by sign * step; OPPOSITE: its
+ * own other bound; NONE. */
+static int blocking_slot(mixed *p, int entering, double sign, double *step, int *count)
+{
+    const range own = range_of(p, entering);
+    const double most_y = rb_norm_inf((size_t)p->n, p->y);
+    const double most_value = rb_norm_inf((size_t)p->n, p->value);
+    double least = own.high - own.low;
+    *count = 0;
+    for (int s = 0; s < p->n; s++) {
+        if (fabs(p->y[s]) <= NOISE * most_y)
+            continue;
+        const double ratio = distance(p, s, -sign * p->y[s]) / fabs(p->y[s]);
+        least = ratio < least ? ratio : least;
+    }
+    if (isinf(least))
+        return NONE;
+    const double zero = TIE * (most_value + least * most_y);
+    const double most =
+        least + NEAR * fmax(least, most_y > 0.0 ? most_value / most_y : 0.0);
+    for (int s = 0; s < p->n; s++) {
+        const double size = fabs(p->y[s]);
+        if (size <= NOISE * most_y)
+            continue;
+        const double far = distance(p, s, -sign * p->y[s]);
+        if (far <= most * size && far - least * size <= zero)
+            p->tied[(*count)++] = s;
+    }
+    *step = least;
+    return settle_tie(p, *count, sign, own.high - own.low <= most ? least : INFINITY);
+}
+
+/* p->y = the column of the entering variable, without what is zero but for rounding. */
+static rb_status driving_column(mixed *p, int entering)
+{
+    const rb_status s = rb_lcp_basis_column(&p->b, entering, p->y);
+    const double noise = DROP * rb_norm_inf((size_t)p->n, p->y);
+    for (int k = 0; k < p->n; k++)
+        if (fabs(p->y[k]) <= noise)
+            p->y[k] = 0.0;
+    return s;
+}
+
+/* The slot that blocks.  A pivot near rounding and the absence of one are believed only
+ * with a new LU. */
+static rb_status find_slot(mixed *p, int entering, double sign, int *slot, double *step,
+                           int *count)
+{
+    for (;;) {
+        rb_status s = driving_column(p, entering);
+        if (s != RB_OK)
+            return rb_fail(&p->info->msg, s, "lcp: no column after %d pivots",
+                           p->info->iters);
+        *slot = blocking_slot(p, entering, sign, step, count);
+        const int sure =
+            *slot == OPPOSITE ||
+            (*slot >= 0 && fabs(p->y[*slot]) > DOUBT * rb_norm_inf((size_t)p->n, p->y));
+        if (sure || p->b.exchanges == 0)
+            return RB_OK;
+        s = refresh(p);
+        if (s != RB_OK)
+            return s;
+    }
+}
+
+/* ---- The path ---------------------------------------------------------------------- */
+
+static void tell_trace(const mixed *p, int entering, int leaving, int slot, double step)
+{
+    const rb_lcp_pivot seen = {.pivot = p->info->iters,
+                               .entering = entering,
+                               .leaving = leaving,
+                               .row = slot >= 0 ? slot : p->b.n,
+                               .ratio = step,
+                               .z0 = value_of_t(p),
+                               .n = p->n,
+                               .basis = p->b.variable};
+    if (p->opt.trace)
+        p->opt.trace(&seen, p->opt.trace_context);
+}
+
+/* The entering variable moves by sign * step: the basic ones with it, those that tie to
+ * their bounds exactly.  It then replaces the variable of the slot, or is at its other
+ * bound. */
+static rb_status move(mixed *p, int entering, double sign, double step, int slot,
+                      int count)
+{
+    const range own = range_of(p, entering);
+    const double from = sign > 0.0 ? own.low : own.high;
+    for (int s = 0; s < p->n; s++)
+        p->value[s] -= sign * step * p->y[s];
+    for (int k = 0; k < count; k++) {
+        const int s = p->tied[k];
+        const range r = range_of(p, p->b.variable[s]);
+        p->value[s] = -sign * p->y[s] < 0.0 ? r.low : r.high;
+    }
+    if (slot == OPPOSITE) {
+        tell_trace(p, entering, entering, slot, step);
+        p->at_upper[entering - p->n] = sign > 0.0;
+        return RB_OK;
+    }
+    const int leaving = p->b.variable[slot];
+    const double change = p->generic[slot] / p->y[slot];
+    if (leaving >= p->n && leaving < 2 * p->n)
+        p->at_upper[leaving - p->n] = -sign * p->y[slot] > 0.0;
+    for (int s = 0; s < p->n; s++)
+        p->generic[s] -= change * p->y[s];
+    p->generic[slot] = change;
+    p->value[slot] = from + sign * step;
+    if (rb_lcp_basis_exchange(&p->b, slot, entering, p->y) != RB_OK)
+        return rb_fail(&p->info->msg, RB_ENOMEM, "lcp: out of memory after %d pivots",
+                       p->info->iters);
+    tell_trace(p, entering, leaving, slot, step);
+    return RB_OK;
+}
+
+/* t enters at the value that makes all basic variables feasible. */
+static rb_status enter_t(mixed *p, int slot, int *leaving)
+{
+    const double t = p->first_t;
+    const int v = p->b.variable[slot], grows = p->y[slot] > 0.0;
+    for (int s = 0; s < p->n; s++)
+        p->y[s] = -p->y[s];
+    const rb_status status = move(p, 2 * p->n, 1.0, t, slot, 0);
+    if (v >= p->n) /* it comes from outside its box, unlike in the ratio test */
+        p->at_upper[v - p->n] = !grows;
+    p->info->iters++;
+    *leaving = v;
+    return status;
+}
+
+/* From the first basis to t = 0: after w(i) z(i) enters, after z(i) w(i), with the sign
+ * that belongs to the bound.  RB_RAY with ray_variable < 0: the path has gone away from t
+ * = 0 beyond its beginning. */
+static rb_status follow_path(mixed *p)
+{
+    const int n = p->n;
+    int leaving = NONE, slot = first_slot(p, &p->first_t), count;
+    double step = 0.0;
+    rb_status s = slot == NONE ? RB_OK : enter_t(p, slot, &leaving);
+    while (s == RB_OK && slot != NONE) {
+        if (p->info->iters >= p->opt.max_iters)
+            return rb_lcp_fail_limit(p->info, p->opt.max_iters);
+        const int entering = rb_lcp_complement(n, leaving);
+        const double sign = p->at_upper[entering % n] ? -1.0 : 1.0;
+        if (rb_lcp_basis_is_long(&p->b))
+            s = refresh(p);
+        if (s == RB_OK)
+            s = find_slot(p, entering, sign, &slot, &step, &count);
+        if (s == RB_OK && slot == NONE)
+            s = rb_lcp_fail_ray(p->info, n, entering, value_of_t(p));
+        if (s != RB_OK)
+            return s;
+        leaving = slot == OPPOSITE ? entering : p->b.variable[slot];
+        s = move(p, entering, sign, step, slot, count);
+        p->info->iters++;
+        if (leaving == 2 * n || value_of_t(p) <= p->opt.tol * p->first_t)
+            return s == RB_OK ? refresh(p) : s;
+        if (p->opt.start && value_of_t(p) > AWAY * p->first_t)
+            return RB_RAY;
+    }
+    return s;
+}
+
+static rb_status solve_from(mixed *p, const double *start)
+{
+    rb_status s = first_basis(p, start);
+    if (s == RB_OK)
+        choose_shift(p);
+    if (s == RB_OK)
+        s = choose_cover(p);
+    return s == RB_OK ? follow_path(p) : s;
+}
+
+/* ---- The problem without free variables ---------------------------------------------
+ */
+
+/* A free z(i) is the difference of two that are not negative: its own and one more, whose
+ * w is minus w(i).  Then all z can start at a bound, whatever M is. */
+typedef struct {
+    int n, *of;  /* order; n - rows of M: the i that each more belongs to; owned */
+    rb_sparse M; /* owned when there are any */
+    double *q, *lower, *upper, *start; /* n each; q owns all */
+} split;
+
+static void split_free(split *f)
+{
+    rb_sparse_free(&f->M);
+    free(f->of);
+    free(f->q);
+}
+
+/* [M, -M_:F; -M_F:, M_FF] */
+static rb_status split_matrix(const rb_sparse *M, const int *number, split *f)
+{
+    const int n = M->rows;
+    rb_triplets t = {0};
+    rb_status s = rb_triplets_reserve(&t, 4 * (size_t)M->p[n] + 1);
+    for (int j = 0; s == RB_OK && j < n; j++)
+        for (int k = M->p[j]; k < M->p[j + 1]; k++)
+            for (int more = 0; more < 4; more++) {
+                const int i = M->i[k], row = more & 1 ? number[i] : i;
+                const int col = more & 2 ? number[j] : j;
+                if (row < 0 || col < 0)
+                    continue;
+                t.row[t.nz] = row;
+                t.col[t.nz] = col;
+                t.x[t.nz++] = more == 1 || more == 2 ? -M->x[k] : M->x[k];
+            }
+    if (s == RB_OK)
+        s = rb_sparse_from_triplets(f->n, f->n, t.nz, t.row, t.col, t.x, &f->M);
+    rb_triplets_free(&t);
+    return s;
+}
+
+static rb_status split_create(const rb_sparse *M, const double *q, const double *lower,
+                              const double *upper, const double *start, split *f)
+{
+    const int n = M->rows;
+    *f = (split){.n = n, .of = rb_alloc_int((size_t)n), .q = rb_alloc((size_t)n, 8)};
+    int *number = rb_alloc_int((size_t)n);
+    rb_status s = f->of && f->q && number ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK) {
+        f->lower = f->q + 2 * n;
+        f->upper = f->lower + 2 * n;
+        f->start = start ? f->upper + 2 * n : NULL;
+    }
+    for (int i = 0; s == RB_OK && i < n; i++) {
+        const double low = lower ? lower[i] : 0.0, high = upper ? upper[i] : INFINITY;
+        const int free_one = isinf(low) && isinf(high);
+        f->q[i] = q[i];
+        f->lower[i] = free_one ? 0.0 : low;
+        f->upper[i] = high;
+        number[i] = free_one ? f->n : -1;
+        if (start)
+            f->start[i] = start[i];
+        if (!free_one)
+            continue;
+        f->q[f->n] = -q[i];
+        f->upper[f->n] = INFINITY;
+        if (start)
+            f->start[f->n] = -start[i];
+        f->of[f->n++ - n] = i;
+    }
+    if (s == RB_OK && f->n > n)
+        s = split_matrix(M, number, f);
+    free(number);
+    return s;
+}
+
+/* ---- All together ------------------------------------------------------------------ */
+
+static rb_status check_input(const rb_sparse *M, const double *q, const double *lower,
+                             const double *upper, const rb_lcp_options *opt,
+                             rb_message *why)
+{
+    rb_status s = rb_lcp_check_sparse(M, q, opt, why);
+    for (int i = 0; s == RB_OK && i < M->rows; i++) {
+        const double low = lower ? lower[i] : 0.0, high = upper ? upper[i] : INFINITY;
+        const double cover = opt->cover ? opt->cover[i] : 1.0;
+        const double start = opt->start ? opt->start[i] : 0.0;
+        if (!(low <= high) || low == INFINITY || high == -INFINITY)
+            s = rb_fail(why, RB_EINVAL,
+                        "lcp: box %d is [%g, %g]: expected lower <= upper, with a number "
+                        "in between",
+                        i + 1, low, high);
+        else if (!(isfinite(cover) && cover >= 0.0))
+            s = rb_fail(why, RB_EINVAL, "lcp: cover(%d) = %g: expected a number >= 0",
+                        i + 1, cover);
+        else if (!isfinite(start))
+            s = rb_fail(why, RB_EINVAL, "lcp: start(%d) = %g: expected a finite number",
+                        i + 1, start);
+    }
+    return s;
+}
+
+static rb_status create(const split *f, const rb_sparse *M, mixed *p)
+{
+    const size_t n = (size_t)f->n;
+    p->n = f->n;
+    p->M = M;
+    p->q = f->q;
+    p->lower = f->lower;
+    p->upper = f->upper;
+    p->value = rb_alloc(n, 5);
+    p->at_upper = rb_alloc_int(4 * n + 1);
+    const rb_status s = rb_lcp_basis_create(M, &p->b);
+    if (s != RB_OK || !p->value || !p->at_upper)
+        return rb_fail(&p->info->msg, RB_ENOMEM, "lcp: out of memory for order %d", f->n);
+    p->generic = p->value + n;
+    p->shift = p->generic + n;
+    p->y = p->shift + n;
+    p->g = p->y + n;
+    p->tied = p->at_upper + n;
+    p->settled = p->tied + n;
+    if (!p->opt.max_iters)
+        p->opt.max_iters = 50 * f->n + 1000;
+    return RB_OK;
+}
+
+/* z from the basic point, the halves of free ones together. */
+static void answer(const mixed *p, const split *f, int n, double *z)
+{
+    for (int i = 0; i < p->n; i++) {
+        const int slot = p->b.slot[p->n + i];
+        double x = slot >= 0 ? p->value[slot] : nonbasic_z(p, i);
+        x = fmin(fmax(x, p->lower[i]), p->upper[i]);
+        if (i < n)
+            z[i] = x;
+        else
+            z[f->of[i - n]] -= x;
+    }
+}
+
+double rb_lcp_residual_mixed(const rb_sparse *M, const double *q, const double *lower,
+                             const double *upper, const double *z, double *w)
+{
+    double worst = 0.0;
+    memcpy(w, q, (size_t)M->rows * sizeof *w);
+    rb_sparse_apply(1.0, M, z, 1.0, w);
+    for (int i = 0; i < M->rows; i++) {
+        const double low = z[i] - (lower ? lower[i] : 0.0);
+        const double high = z[i] - (upper ? upper[i] : INFINITY);
+        if (isnan(z[i]) || isnan(w[i]))
+            return NAN;
+        worst = fmax(worst, fabs(fmax(fmin(low, w[i]), high)));
+    }
+    return worst;
+}
+
+rb_status rb_lcp_mixed(const rb_sparse *M, const double *q, const double *lower,
+                       const double *upper, const rb_lcp_options *opt, double *z,
+                       rb_lcp_info *info)
+{
+    rb_lcp_info unread;
+    mixed p = {.info = info ? info : &unread, .opt = opt ? *opt : rb_lcp_defaults()};
+    split f = {0};
+    *p.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
+    rb_status s = check_input(M, q, lower, upper, &p.opt, &p.info->msg);
+    if (s != RB_OK)
+        return s;
+    s = split_create(M, q, lower, upper, p.opt.start, &f);
+    s = s == RB_OK ? create(&f, f.n > M->rows ? &f.M : M, &p)
+                   : rb_fail(&p.info->msg, s, "lcp: out of memory for order %d", M->rows);
+    if (s == RB_OK) {
+        if (f.start)
+            s = solve_from(&p, f.start);
+        if (!f.start || s == RB_RAY || s == RB_SINGULAR) {
+            p.opt.start = NULL;
+            s = solve_from(&p, NULL);
+        }
+        answer(&p, &f, M->rows, z);
+        p.info->res = rb_lcp_residual_mixed(M, q, lower, upper, z, p.g);
+        if (s == RB_OK)
+            s = rb_lcp_judge(p.info, fmax(rb_norm_inf((size_t)M->rows, q),
+                                          rb_norm_inf((size_t)M->rows, p.g)));
+    }
+    rb_lcp_basis_free(&p.b);
+    free(p.value);
+    free(p.at_upper);
+    split_free(&f);
+    return s;
+}

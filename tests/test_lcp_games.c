@@ -1,0 +1,274 @@
+/* Bimatrix games by Lemke and Howson's method, and all solutions of small problems. */
+#include "check.h"
+
+#include "rollbem/lcp.h"
+
+#include <string.h>
+
+static unsigned long long state_of_random = 77;
+
+static double uniform(void)
+{
+    state_of_random = state_of_random * 6364136223846793005ULL + 1442695040888963407ULL;
+    return (double)(state_of_random >> 11) / 4503599627370496.0 - 1.0;
+}
+
+enum { N = 40, LD = N + 3 };
+
+static double A[LD * N], B[LD * N];
+
+/* What the better player could gain by another strategy, from the definition; also
+ * refuses what are no probabilities. */
+static double gain(int m, int n, const double *x, const double *y)
+{
+    double sum_x = 0.0, sum_y = 0.0, got_a = 0.0, got_b = 0.0, best_a = -INFINITY,
+           best_b = -INFINITY;
+    for (int i = 0; i < m; i++) {
+        double row = 0.0;
+        assert_true(x[i] >= 0.0);
+        sum_x += x[i];
+        for (int j = 0; j < n; j++) {
+            row += A[i + j * LD] * y[j];
+            got_b += x[i] * B[i + j * LD] * y[j];
+        }
+        got_a += x[i] * row;
+        best_a = fmax(best_a, row);
+    }
+    for (int j = 0; j < n; j++) {
+        double column = 0.0;
+        assert_true(y[j] >= 0.0);
+        sum_y += y[j];
+        for (int i = 0; i < m; i++)
+            column += B[i + j * LD] * x[i];
+        best_b = fmax(best_b, column);
+    }
+    CHECK_ABS(sum_x, 1.0, 1e-14, "row player");
+    CHECK_ABS(sum_y, 1.0, 1e-14, "column player");
+    return fmax(best_a - got_a, best_b - got_b);
+}
+
+static void random_game(int m, int n, int integers)
+{
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < m; i++) {
+            A[i + j * LD] = integers ? floor(2.0 * uniform()) : uniform();
+            B[i + j * LD] = integers ? floor(2.0 * uniform()) : 10.0 + 100.0 * uniform();
+        }
+}
+
+static void random_games_are_solved(void **state)
+{
+    (void)state;
+    double x[N], y[N];
+    rb_lcp_info info;
+    for (int k = 0; k < 60; k++) {
+        const int m = 1 + (7 * k) % N, n = 1 + (11 * k) % N;
+        random_game(m, n, 0);
+        CHECK_STATUS(rb_lcp_bimatrix(m, n, A, B, LD, k % (m + n), NULL, x, y, &info),
+                     RB_OK);
+        CHECK_MAX(gain(m, n, x, y), 1e-10, "game %d", k);
+        CHECK_MAX(info.res, 1e-11, "game %d", k);
+    }
+}
+
+/* Payoffs of few values tie everywhere: degenerate games. */
+static void games_of_small_integers_do_not_cycle(void **state)
+{
+    (void)state;
+    double x[N], y[N];
+    rb_lcp_info info;
+    for (int k = 0; k < 400; k++) {
+        const int m = 1 + k % 13, n = 1 + k % 11;
+        random_game(m, n, 1);
+        CHECK_STATUS(rb_lcp_bimatrix(m, n, A, B, LD, k % (m + n), NULL, x, y, &info),
+                     RB_OK);
+        CHECK_MAX(gain(m, n, x, y), 1e-12, "game %d", k);
+    }
+}
+
+/* Battle of the sexes: two pure equilibria and a mixed one, (2/3, 1/3) and (1/3, 2/3). */
+static void battle_of_the_sexes(void)
+{
+    memset(A, 0, sizeof A);
+    memset(B, 0, sizeof B);
+    A[0] = B[1 + LD] = 2.0;
+    B[0] = A[1 + LD] = 1.0;
+}
+
+static void all_equilibria_of_a_game(void **state)
+{
+    (void)state;
+    rb_lcp_solutions all;
+    rb_message why;
+    int mixed = 0;
+    battle_of_the_sexes();
+    CHECK_STATUS(rb_lcp_bimatrix_enumerate(2, 2, A, B, LD, &all, &why), RB_OK);
+    assert_int_equal(all.count, 3);
+    assert_int_equal(all.bases, 16);
+    for (int k = 0; k < 3; k++) {
+        const double *z = all.z + 4 * k;
+        CHECK_MAX(gain(2, 2, z, z + 2), 1e-15, "equilibrium %d", k);
+        if (z[0] > 0.01 && z[0] < 0.99) {
+            mixed++;
+            CHECK_REL(z[0], 2.0 / 3.0, 1e-15, "x");
+            CHECK_REL(z[2], 1.0 / 3.0, 1e-15, "y");
+        }
+    }
+    assert_int_equal(mixed, 1);
+    rb_lcp_solutions_free(&all);
+}
+
+/* A nondegenerate game has an odd number of equilibria, and every label leads to one of
+ * them. */
+static void every_label_leads_to_an_equilibrium(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 30; k++) {
+        const int m = 2 + k % 3, n = 2 + k % 4;
+        rb_lcp_solutions all;
+        double z[N];
+        random_game(m, n, 0);
+        CHECK_STATUS(rb_lcp_bimatrix_enumerate(m, n, A, B, LD, &all, NULL), RB_OK);
+        assert_int_equal(all.count % 2, 1);
+        for (int label = 0; label < m + n; label++) {
+            int found = 0;
+            CHECK_STATUS(rb_lcp_bimatrix(m, n, A, B, LD, label, NULL, z, z + m, NULL),
+                         RB_OK);
+            for (int s = 0; s < all.count; s++) {
+                double apart = 0.0;
+                for (int i = 0; i < m + n; i++)
+                    apart = fmax(apart, fabs(z[i] - all.z[i + s * (m + n)]));
+                found |= apart < 1e-9;
+            }
+            assert_true(found);
+        }
+        rb_lcp_solutions_free(&all);
+    }
+}
+
+/* ---- All solutions of a problem ---------------------------------------------------- */
+
+/* M = -1, q = 1: z = 0 and z = 1; with a box [0, 3] z = 3 is another, since w(3) < 0. */
+static void one_variable_by_hand(void **state)
+{
+    (void)state;
+    const double M[] = {-1.0}, q[] = {1.0}, high[] = {3.0}, low[] = {0.0};
+    rb_lcp_solutions all;
+    CHECK_STATUS(rb_lcp_enumerate(1, M, 1, q, NULL, NULL, &all, NULL), RB_OK);
+    assert_int_equal(all.count, 2);
+    assert_int_equal(all.bases, 2);
+    assert_int_equal(all.singular, 0);
+    CHECK_ABS(all.z[0] + all.z[1], 1.0, 1e-15, "z");
+    rb_lcp_solutions_free(&all);
+    CHECK_STATUS(rb_lcp_enumerate(1, M, 1, q, low, high, &all, NULL), RB_OK);
+    assert_int_equal(all.count, 3);
+    CHECK_ABS(all.z[0] + all.z[1] + all.z[2], 4.0, 1e-15, "z");
+    rb_lcp_solutions_free(&all);
+}
+
+/* A P-matrix has one solution, which several bases give when it is degenerate; M = 0 with
+ * q = 0 leaves z free, which is a basis without inverse. */
+static void solutions_are_listed_once(void **state)
+{
+    (void)state;
+    const double M[] = {2.0, 1.0, 1.0, 2.0}, zero[] = {0.0, 0.0};
+    rb_lcp_solutions all;
+    CHECK_STATUS(rb_lcp_enumerate(2, M, 2, zero, NULL, NULL, &all, NULL), RB_OK);
+    assert_int_equal(all.count, 1);
+    CHECK_ABS(all.z[0] + all.z[1], 0.0, 0.0, "z");
+    rb_lcp_solutions_free(&all);
+    CHECK_STATUS(rb_lcp_enumerate(1, zero, 1, zero, NULL, NULL, &all, NULL), RB_OK);
+    assert_int_equal(all.count, 1);
+    assert_int_equal(all.singular, 1);
+    rb_lcp_solutions_free(&all);
+}
+
+/* Lemke's answers are among them. */
+static void what_lemke_finds_is_listed(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 100; k++) {
+        const int n = 1 + k % 7;
+        double M[49], q[7], z[7];
+        rb_lcp_solutions all;
+        int found = 0;
+        for (int i = 0; i < n * n; i++)
+            M[i] = uniform();
+        for (int i = 0; i < n; i++)
+            q[i] = uniform();
+        if (rb_lcp_lemke(n, M, n, q, NULL, z, NULL) != RB_OK)
+            continue;
+        CHECK_STATUS(rb_lcp_enumerate(n, M, n, q, NULL, NULL, &all, NULL), RB_OK);
+        for (int s = 0; s < all.count; s++) {
+            double apart = 0.0;
+            for (int i = 0; i < n; i++)
+                apart = fmax(apart, fabs(z[i] - all.z[i + s * n]));
+            found |= apart < 1e-8 * (1.0 + rb_norm_inf((size_t)n, z));
+        }
+        assert_true(found);
+        rb_lcp_solutions_free(&all);
+    }
+}
+
+/* ---- Bad input --------------------------------------------------------------------- */
+
+static void bad_input_is_named(void **state)
+{
+    (void)state;
+    double x[N], y[N];
+    rb_lcp_info info;
+    rb_lcp_solutions all;
+    rb_message why;
+    const double low[] = {1.0, 0.0}, high[] = {0.0, 1.0};
+    static const double big[23 * 23];
+    battle_of_the_sexes();
+    CHECK_STATUS(rb_lcp_bimatrix(0, 2, A, B, LD, 0, NULL, x, y, &info), RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix(2, 2, A, B, 1, 0, NULL, x, y, &info), RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix(2, 2, A, B, LD, 4, NULL, x, y, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "label 5: expected 1 to 4"));
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.max_iters = 1;
+    CHECK_STATUS(rb_lcp_bimatrix(2, 2, A, B, LD, 0, &opt, x, y, &info), RB_MAXITER);
+    B[1] = NAN;
+    CHECK_STATUS(rb_lcp_bimatrix(2, 2, A, B, LD, 0, NULL, x, y, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "B(2, 1)"));
+    CHECK_STATUS(rb_lcp_enumerate(2, A, LD, low, low, high, &all, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "box 1 is [1, 0]"));
+    CHECK_STATUS(rb_lcp_enumerate(23, big, 23, big, NULL, NULL, &all, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "order 22"));
+}
+
+static void short_memory_is_reported(void **state)
+{
+    (void)state;
+    battle_of_the_sexes();
+    for (int i = 0;; i++) {
+        double x[2], y[2];
+        rb_lcp_solutions all;
+        alloc_fail_after(i);
+        const rb_status s = rb_lcp_bimatrix(2, 2, A, B, LD, 0, NULL, x, y, NULL);
+        const rb_status t = rb_lcp_bimatrix_enumerate(2, 2, A, B, LD, &all, NULL);
+        const int refused = alloc_failed();
+        alloc_succeed();
+        assert_true(refused == (s == RB_ENOMEM || t == RB_ENOMEM));
+        rb_lcp_solutions_free(&all);
+        if (!refused)
+            break;
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_games_are_solved),
+        cmocka_unit_test(games_of_small_integers_do_not_cycle),
+        cmocka_unit_test(all_equilibria_of_a_game),
+        cmocka_unit_test(every_label_leads_to_an_equilibrium),
+        cmocka_unit_test(one_variable_by_hand),
+        cmocka_unit_test(solutions_are_listed_once),
+        cmocka_unit_test(what_lemke_finds_is_listed),
+        cmocka_unit_test(bad_input_is_named),
+        cmocka_unit_test(short_memory_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,490 @@
+/* Lemke's method for boxes on sparse matrices: against enumeration, against the dense
+ * tableau, with free variables, from a given point, on large problems and on bad input.
+ */
+#include "check.h"
+
+#include "rollbem/lcp.h"
+
+#include <string.h>
+
+static unsigned long long state_of_random = 4;
+
+/* Uniform in [-1, 1). */
+static double uniform(void)
+{
+    state_of_random = state_of_random * 6364136223846793005ULL + 1442695040888963407ULL;
+    return (double)(state_of_random >> 11) / 4503599627370496.0 - 1.0;
+}
+
+enum { N = 60 };
+
+typedef struct {
+    int n;
+    double M[N * N], q[N], lower[N], upper[N];
+} problem;
+
+/* max |z - mid(lower, z - w, upper)|, written out independently of the library. */
+static double natural_residual(const problem *p, const double *z)
+{
+    double worst = 0.0;
+    for (int i = 0; i < p->n; i++) {
+        double x = z[i] - p->q[i];
+        for (int j = 0; j < p->n; j++)
+            x -= p->M[i + j * p->n] * z[j];
+        x = x < p->lower[i] ? p->lower[i] : x > p->upper[i] ? p->upper[i] : x;
+        const double r = fabs(z[i] - x);
+        if (!(r <= worst))
+            worst = r;
+    }
+    return worst;
+}
+
+static rb_status solve(const problem *p, const rb_lcp_options *opt, double *z,
+                       rb_lcp_info *info)
+{
+    rb_sparse M;
+    CHECK_STATUS(rb_sparse_from_dense(p->n, p->n, p->M, p->n, &M), RB_OK);
+    const rb_status s = rb_lcp_mixed(&M, p->q, p->lower, p->upper, opt, z, info);
+    rb_sparse_free(&M);
+    return s;
+}
+
+static void no_boxes(problem *p)
+{
+    for (int i = 0; i < p->n; i++) {
+        p->lower[i] = 0.0;
+        p->upper[i] = INFINITY;
+    }
+}
+
+/* Every pair has a positive part, a third of the entries is not zero. */
+static void positive_definite(int n, problem *p)
+{
+    p->n = n;
+    memset(p->M, 0, sizeof p->M);
+    for (int i = 0; i < n; i++) {
+        p->q[i] = 2.0 * uniform();
+        p->M[i + i * n] = 1.0 + fabs(uniform());
+        for (int j = 0; j < i; j++) {
+            const double skew = uniform() > 0.3 ? 2.0 * uniform() : 0.0;
+            p->M[i + j * n] = skew;
+            p->M[j + i * n] = -skew;
+        }
+    }
+    no_boxes(p);
+}
+
+/* Boxes of all kinds: finite, open on one side, fixed, free. */
+static void random_boxes(problem *p, int kinds)
+{
+    for (int i = 0; i < p->n; i++) {
+        const int kind = (int)((uniform() + 1.0) / 2.0 * kinds);
+        p->lower[i] = kind == 2 || kind == 4 ? -INFINITY : uniform();
+        p->upper[i] = kind == 0   ? p->lower[i] + 1.0 + uniform()
+                      : kind == 2 ? uniform()
+                      : kind == 3 ? p->lower[i]
+                                  : INFINITY;
+    }
+}
+
+static void without_boxes_it_is_the_lcp(void **state)
+{
+    (void)state;
+    static problem p;
+    double z[N], want[N];
+    rb_lcp_info info;
+    for (int k = 0; k < 300; k++) {
+        positive_definite(1 + k % N, &p);
+        CHECK_STATUS(rb_lcp_lemke(p.n, p.M, p.n, p.q, NULL, want, NULL), RB_OK);
+        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        const double size = 1.0 + rb_norm_inf((size_t)p.n, want);
+        CHECK_MAX(natural_residual(&p, z), 1e-12 * size, "problem %d", k);
+        CHECK_MAX(info.res, 1e-12 * size, "problem %d", k);
+        for (int i = 0; i < p.n; i++)
+            CHECK_ABS(z[i], want[i], 1e-9 * size, "problem %d, z(%d)", k, i + 1);
+    }
+}
+
+static void boxes_of_all_kinds_are_solved(void **state)
+{
+    (void)state;
+    static problem p;
+    double z[N];
+    rb_lcp_info info;
+    for (int k = 0; k < 600; k++) {
+        positive_definite(1 + k % N, &p);
+        random_boxes(&p, 5);
+        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        CHECK_MAX(natural_residual(&p, z), 1e-11 * (1.0 + rb_norm_inf((size_t)p.n, z)),
+                  "problem %d", k);
+        for (int i = 0; i < p.n; i++)
+            assert_true(p.lower[i] <= z[i] && z[i] <= p.upper[i]);
+    }
+}
+
+/* ---- Enumeration ------------------------------------------------------------------- */
+
+/* x = A^-1 b by Gauss-Jordan elimination, 0 when A is singular. */
+static int eliminate(int n, double *A, double *b)
+{
+    for (int c = 0; c < n; c++) {
+        int r = c;
+        for (int i = c + 1; i < n; i++)
+            if (fabs(A[i + c * n]) > fabs(A[r + c * n]))
+                r = i;
+        if (fabs(A[r + c * n]) < 1e-10)
+            return 0;
+        for (int j = 0; j < n; j++) {
+            const double x = A[r + j * n];
+            A[r + j * n] = A[c + j * n];
+            A[c + j * n] = x;
+        }
+        const double x = b[r];
+        b[r] = b[c];
+        b[c] = x;
+        for (int i = 0; i < n; i++) {
+            const double factor = i == c ? 0.0 : A[i + c * n] / A[c + c * n];
+            for (int j = c; factor != 0.0 && j < n; j++)
+                A[i + j * n] -= factor * A[c + j * n];
+            b[i] -= factor * b[c];
+        }
+    }
+    for (int c = 0; c < n; c++)
+        b[c] /= A[c + c * n];
+    return 1;
+}
+
+/* Each z(i) at its lower bound, at its upper one or in between (digits of `choice` to the
+ * base 3); 1 when there is such a point. */
+static int point_of_choice(const problem *p, int choice, double *z)
+{
+    enum { MOST = 6 };
+    double A[MOST * MOST] = {0};
+    const int n = p->n;
+    for (int i = 0, c = choice; i < n; i++, c /= 3) {
+        z[i] = c % 3 == 0 ? p->lower[i] : c % 3 == 1 ? p->upper[i] : -p->q[i];
+        for (int j = 0; j < n; j++)
+            A[i + j * n] = c % 3 == 2 ? p->M[i + j * n] : i == j;
+        if (!isfinite(z[i]))
+            return 0;
+    }
+    return eliminate(n, A, z);
+}
+
+/* Whether z is among the solutions that some choice gives, and how many there are. */
+static int is_enumerated(const problem *p, const double *z, int *solutions)
+{
+    int choices = 1, found = 0;
+    *solutions = 0;
+    for (int i = 0; i < p->n; i++)
+        choices *= 3;
+    for (int c = 0; c < choices; c++) {
+        double x[N], apart = 0.0;
+        if (!point_of_choice(p, c, x) || natural_residual(p, x) > 1e-9)
+            continue;
+        for (int i = 0; i < p->n; i++)
+            apart = fmax(apart, fabs(x[i] - z[i]));
+        found |= apart < 1e-7;
+        ++*solutions;
+    }
+    return found;
+}
+
+/* A compact box always holds a solution, whatever M is, and the path finds one. */
+static void finite_boxes_are_solved_for_every_matrix(void **state)
+{
+    (void)state;
+    static problem p;
+    double z[N];
+    rb_lcp_info info;
+    int several = 0;
+    for (int k = 0; k < 300; k++) {
+        int solutions;
+        p.n = 1 + k % 6;
+        for (int i = 0; i < p.n * p.n; i++)
+            p.M[i] = uniform();
+        for (int i = 0; i < p.n; i++)
+            p.q[i] = uniform();
+        random_boxes(&p, 1);
+        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        CHECK_MAX(natural_residual(&p, z), 1e-11 * (1.0 + rb_norm_inf((size_t)p.n, z)),
+                  "problem %d", k);
+        assert_true(is_enumerated(&p, z, &solutions));
+        several += solutions > 1;
+    }
+    assert_true(several > 20);
+}
+
+static void open_boxes_have_the_enumerated_solution(void **state)
+{
+    (void)state;
+    static problem p;
+    double z[N];
+    rb_lcp_info info;
+    for (int k = 0; k < 300; k++) {
+        int solutions;
+        positive_definite(1 + k % 6, &p);
+        random_boxes(&p, 5);
+        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        assert_true(is_enumerated(&p, z, &solutions));
+    }
+}
+
+/* ---- Ties -------------------------------------------------------------------------- */
+
+/* Small integers tie at nearly every pivot; the box keeps every problem solvable. */
+static void integers_full_of_ties_do_not_cycle(void **state)
+{
+    (void)state;
+    static problem p;
+    double z[N];
+    rb_lcp_info info;
+    for (int k = 0; k < 500; k++) {
+        p.n = 2 + k % 20;
+        for (int i = 0; i < p.n * p.n; i++)
+            p.M[i] = floor(1.5 * uniform() + 0.5);
+        for (int i = 0; i < p.n; i++) {
+            p.q[i] = -(uniform() > 0.0);
+            p.lower[i] = 0.0;
+            p.upper[i] = 1.0 + (uniform() > 0.0);
+        }
+        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        CHECK_MAX(natural_residual(&p, z), 1e-11, "problem %d", k);
+    }
+}
+
+/* Kostreva's example, on which the first index cycles until a new LU orders the slots anew. */
+static void the_rule_decides_whether_kostreva_cycles(void **state)
+{
+    (void)state;
+    static problem p = {3, {1, 0, 2, 2, 1, 0, 0, 2, 1}, {-1, -1, -1}, {0}, {0}};
+    double z[3];
+    rb_lcp_info info;
+    no_boxes(&p);
+    CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+    for (int i = 0; i < 3; i++)
+        CHECK_REL(z[i], 1.0 / 3.0, 1e-15, "z(%d)", i + 1);
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.max_iters = 20;
+    CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+    opt.rule = RB_LCP_FIRST_INDEX;
+    CHECK_STATUS(solve(&p, &opt, z, &info), RB_MAXITER);
+}
+
+/* ---- Free variables ---------------------------------------------------------------- */
+
+/* min 1/2 x'Qx + c'x, A x = b, x >= 0 with free multipliers; Q = 0: a linear program,
+ * whose matrix has no principal submatrix to start from. */
+static void programs_with_equations_are_solved(void **state)
+{
+    (void)state;
+    static problem p;
+    double z[N];
+    rb_lcp_info info;
+    for (int k = 0; k < 200; k++) {
+        const int m = 1 + k % 7, n = 2 * m + 3, linear = k % 2;
+        p.n = n + m;
+        memset(p.M, 0, sizeof p.M);
+        no_boxes(&p);
+        for (int j = 0; j < n; j++) {
+            p.M[j + j * p.n] = !linear;
+            p.q[j] = linear ? 1.0 + uniform() : uniform();
+        }
+        for (int i = 0; i < m; i++) {
+            p.q[n + i] = 0.0;
+            p.lower[n + i] = -INFINITY;
+            for (int j = 0; j < n; j++) {
+                const double a = uniform(),
+                             x = j % 2 ? 0.0 : 1.0; /* A x = b has x >= 0 */
+                p.M[n + i + j * p.n] = a;
+                p.M[j + (n + i) * p.n] = -a;
+                p.q[n + i] -= a * x;
+            }
+        }
+        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        CHECK_MAX(natural_residual(&p, z), 1e-11 * (1.0 + rb_norm_inf((size_t)p.n, z)),
+                  "program %d", k);
+    }
+}
+
+/* ---- From a given point ------------------------------------------------------------ */
+
+static void a_solution_is_recognised_and_a_neighbour_is_near(void **state)
+{
+    (void)state;
+    static problem p;
+    double z[N], from[N];
+    rb_lcp_info info;
+    int cold = 0, warm = 0;
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.start = from;
+    for (int k = 0; k < 200; k++) {
+        positive_definite(2 + k % (N - 1), &p);
+        random_boxes(&p, 5);
+        CHECK_STATUS(solve(&p, NULL, from, &info), RB_OK);
+        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        assert_int_equal(info.iters, 0);
+        for (int i = 0; i < p.n; i++)
+            p.q[i] += 0.05 * uniform();
+        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        cold += info.iters;
+        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        CHECK_MAX(natural_residual(&p, z), 1e-11 * (1.0 + rb_norm_inf((size_t)p.n, z)),
+                  "problem %d", k);
+        warm += info.iters;
+    }
+    CHECK_MAX(warm, 0.2 * cold, "pivots");
+}
+
+/* M = [0 -1; 1 0]: the submatrix of z(1) alone is singular. */
+static void a_start_without_basis_begins_at_the_bounds(void **state)
+{
+    (void)state;
+    static problem p = {2, {0, 1, -1, 0}, {1, -1}, {0}, {0}};
+    const double from[] = {1.0, 0.0};
+    double z[2];
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.start = from;
+    no_boxes(&p);
+    CHECK_STATUS(solve(&p, &opt, z, NULL), RB_OK);
+    CHECK_MAX(natural_residual(&p, z), 1e-15, "residual");
+}
+
+/* ---- Large ------------------------------------------------------------------------- */
+
+/* The obstacle problem on m x m points, M: minus the five-point Laplacian. */
+static void obstacle(int m, rb_sparse *M, double *q)
+{
+    rb_triplets t = {0};
+    const double h = 1.0 / (m + 1);
+    CHECK_STATUS(rb_triplets_reserve(&t, 5 * (size_t)(m * m)), RB_OK);
+    for (int k = 0; k < m * m; k++) {
+        const int i = k % m, j = k / m;
+        const int next[5] = {k, i > 0 ? k - 1 : -1, i + 1 < m ? k + 1 : -1,
+                             j > 0 ? k - m : -1, j + 1 < m ? k + m : -1};
+        q[k] = h * h;
+        for (int s = 0; s < 5; s++) {
+            if (next[s] < 0)
+                q[k] -= 0.02;
+            else {
+                t.row[t.nz] = k;
+                t.col[t.nz] = next[s];
+                t.x[t.nz++] = s ? -1.0 : 4.0;
+            }
+        }
+    }
+    CHECK_STATUS(rb_sparse_from_triplets(m * m, m * m, t.nz, t.row, t.col, t.x, M),
+                 RB_OK);
+    rb_triplets_free(&t);
+}
+
+static void a_large_obstacle_is_solved_as_by_newton(void **state)
+{
+    (void)state;
+    enum { SIDE = 40 };
+    static double q[SIDE * SIDE], z[SIDE * SIDE], want[SIDE * SIDE];
+    rb_sparse M;
+    rb_lcp_info info;
+    obstacle(SIDE, &M, q);
+    CHECK_STATUS(rb_lcp_newton(&M, q, NULL, want, &info), RB_OK);
+    CHECK_STATUS(rb_lcp_mixed(&M, q, NULL, NULL, NULL, z, &info), RB_OK);
+    assert_true(info.iters < SIDE * SIDE);
+    CHECK_MAX(info.res, 1e-15, "residual");
+    for (int i = 0; i < SIDE * SIDE; i++)
+        CHECK_ABS(z[i], want[i], 1e-14, "z(%d)", i + 1);
+    rb_sparse_free(&M);
+}
+
+/* ---- Ends and bad input ------------------------------------------------------------ */
+
+static void a_ray_names_its_variable(void **state)
+{
+    (void)state;
+    static problem p = {1, {-1}, {-1}, {0}, {0}};
+    double z[1];
+    rb_lcp_info info;
+    no_boxes(&p);
+    CHECK_STATUS(solve(&p, NULL, z, &info), RB_RAY);
+    assert_int_equal(info.ray_variable, 1);
+    assert_non_null(strstr(info.msg.text, "z(1)"));
+    p.upper[0] = 3.0; /* the box stops it */
+    CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+    CHECK_REL(z[0], 3.0, 1e-15, "z(1)");
+}
+
+static void bad_input_is_named(void **state)
+{
+    (void)state;
+    static problem p;
+    double z[N];
+    const double bad[] = {NAN, 0.0}, none[] = {0.0, 0.0};
+    rb_lcp_info info;
+    rb_lcp_options opt = rb_lcp_defaults();
+    positive_definite(2, &p);
+    p.q[0] = -1.0;
+    p.lower[1] = 2.0;
+    p.upper[1] = 1.0;
+    CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "box 2 is [2, 1]"));
+    p.lower[1] = INFINITY;
+    p.upper[1] = INFINITY;
+    CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
+    no_boxes(&p);
+    p.upper[0] = NAN;
+    CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
+    no_boxes(&p);
+    opt.start = bad;
+    CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "start(1) = nan"));
+    opt.start = NULL;
+    opt.cover = bad;
+    CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "cover(1) = nan"));
+    opt.cover = none;
+    CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "cover(1) = 0"));
+    p.M[0] = NAN;
+    CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "M(1, 1) = nan"));
+}
+
+static void short_memory_is_reported(void **state)
+{
+    (void)state;
+    static problem p;
+    positive_definite(6, &p);
+    p.lower[2] = -INFINITY;
+    rb_sparse M;
+    CHECK_STATUS(rb_sparse_from_dense(p.n, p.n, p.M, p.n, &M), RB_OK);
+    for (int i = 0;; i++) {
+        double z[N];
+        alloc_fail_after(i);
+        const rb_status s = rb_lcp_mixed(&M, p.q, p.lower, p.upper, NULL, z, NULL);
+        const int refused = alloc_failed();
+        alloc_succeed();
+        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+        if (!refused)
+            break;
+    }
+    rb_sparse_free(&M);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(without_boxes_it_is_the_lcp),
+        cmocka_unit_test(boxes_of_all_kinds_are_solved),
+        cmocka_unit_test(finite_boxes_are_solved_for_every_matrix),
+        cmocka_unit_test(open_boxes_have_the_enumerated_solution),
+        cmocka_unit_test(integers_full_of_ties_do_not_cycle),
+        cmocka_unit_test(the_rule_decides_whether_kostreva_cycles),
+        cmocka_unit_test(programs_with_equations_are_solved),
+        cmocka_unit_test(a_solution_is_recognised_and_a_neighbour_is_near),
+        cmocka_unit_test(a_start_without_basis_begins_at_the_bounds),
+        cmocka_unit_test(a_large_obstacle_is_solved_as_by_newton),
+        cmocka_unit_test(a_ray_names_its_variable),
+        cmocka_unit_test(bad_input_is_named),
+        cmocka_unit_test(short_memory_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
