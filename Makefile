@@ -31,7 +31,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: course page page-test all run test test-all check-tests asan bench install help clean packages check-packages study
+.PHONY: course page page-test python-test all run test test-all check-tests asan bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -43,6 +43,7 @@ help:
 	@echo "make study      the friction solvers on published files and on packings: tables, false successes"
 	@echo "make bench      the benchmarks (ratios measured in one run)"
 	@echo "make page       the page for browsers, $(B)/rollbem.html; make page-test tests it"
+	@echo "make python-test   tests of the Python package, python/"
 	@echo "make course     the pictures of the course, docs/course, in $(B)/course"
 	@echo "make install    to PREFIX=$(PREFIX), below DESTDIR"
 	@echo "make clean      remove $(B)"
@@ -65,7 +66,7 @@ LONGEST := $(patsubst %,$(B)/tests/test_%,net fem_examples rolling_wheel files f
 
 # only the summary line comes last: continuous integration reads it
 check-tests: all $(TESTS) $(B)/tests/checker
-	@B=$(B) tests/run $(LONGEST) tests/page $(filter-out $(LONGEST),$(TESTS))
+	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave $(filter-out $(LONGEST),$(TESTS))
 
 asan:
 	@$(MAKE) --no-print-directory B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined" test
@@ -168,6 +169,9 @@ course: packages
 
 # the page in a browser: one file with the library as WebAssembly
 page: ; @scripts/packages --install page && node web/build.mjs $(B)/rollbem.html
+
+# with what the tests of the package need
+python-test: ; @scripts/packages --install python && $(MAKE) --no-print-directory B=$(B) all && B=$(B) tests/run tests/python
 
 page-test: page $(B)/rollbem
 	@B=$(B) tests/page

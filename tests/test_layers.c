@@ -16,7 +16,7 @@ static const struct {
     {"friction", " base blas sparse io io_fclib lcp friction "},
     {"fem", " base blas sparse friction fem "},
     {"rolling", " base blas sparse bem lcp io io_fclib friction rolling closed_forms "},
-    {"case", " base io lcp friction rolling case api "},
+    {"case", " base blas sparse io lcp friction rolling case api "},
     {"report",
      " base blas sparse bem lcp io friction fem rolling closed_forms case report "
      "report_fem "},

@@ -9,7 +9,7 @@
 Units are mm, N/mm (per length of the axis) and MPa; creepage > 0 brakes A, then Q < 0.
 """
 
-from . import pictures
+from . import _library, pictures  # _library first: see _kernels
 from ._case import (Answer, Case, Complementarity, Curve, Extremum, Friction, History, Solution, Stress,
                     Sweep, curve, friction, history, lcp, solve, stress, sweep)
 from ._library import (OPTIONS, RESULTS, VERSION as __version__, Error, InvalidInput, MissingFile,

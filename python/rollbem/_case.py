@@ -56,7 +56,7 @@ class Case:
     def _write_table(self, columns: Table) -> str:
         file = tempfile.NamedTemporaryFile("w", prefix="rollbem-", suffix=".txt")
         self._tables.append(file)
-        print("#", *(name.replace("_", "-") for name in columns), file=file)
+        print("#", *columns, file=file)
         for row in zip(*columns.values()):
             print(*(repr(float(x)) for x in row), file=file)
         file.flush()
@@ -272,9 +272,9 @@ class History(_Named):
         self._arrays = handle.arrays("step", "history.")
         self._numbers = {"half_width": handle.number("history.half_width")}
         self.errors = handle.arrays("step", "history.error.")
-        self.x, self.p, self.q = (handle.array(f"step.{name}") for name in "xpq")
-        self.p, self.q = self.p.T, self.q.T
-        self.zone = handle.array("step.zone").T.astype(int)
+        self.x = handle.array("step.x")
+        self.p, self.q, zone = (np.atleast_2d(handle.array(f"step.{name}").T) for name in ("p", "q", "zone"))
+        self.zone = zone.astype(int)
 
     def plot(self, figure: Any = None) -> Any:
         """Force and stick over the rolled distance.  Returns the figure."""
@@ -526,7 +526,8 @@ def friction(W: Any, q: Any = None, mu: Any = None, dimension: int = 3, solver: 
                             solver.encode(), tol, max_iters)
     if status < SOLVED:
         raise handle.error(status)
-    found = Friction(handle, r=handle.array("friction.r").T, u=handle.array("friction.u").T)
+    found = Friction(handle, r=np.atleast_2d(handle.array("friction.r").T),
+                     u=np.atleast_2d(handle.array("friction.u").T))
     found.scaled_residual = handle.number("task.scaled_residual")
     return _kept(found, status)
 

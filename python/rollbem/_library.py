@@ -9,11 +9,23 @@ import threading
 from pathlib import Path
 from typing import Any, Callable, NamedTuple, Optional
 
-import numpy as np
-from numpy.typing import NDArray
+from . import _kernels
 
 _HERE = Path(__file__).resolve().parent
 _CHECKOUT = _HERE.parent.parent
+
+
+def _find() -> str:
+    """ROLLBEM_LIBRARY, the library of the wheel, of the checkout, or of the system."""
+    beside = [_HERE / "librollbem.so", _CHECKOUT / "build/librollbem.so"]
+    return os.environ.get("ROLLBEM_LIBRARY") or next(
+        (str(path) for path in beside if path.exists()), "librollbem.so.0")
+
+
+_kernels.choose(_find())  # before NumPy, which may load the same OpenBLAS
+
+import numpy as np  # noqa: E402
+from numpy.typing import NDArray  # noqa: E402
 
 _Handle, _Int, _Double, _Text = ctypes.c_void_p, ctypes.c_int, ctypes.c_double, ctypes.c_char_p
 _Doubles, _Ints = ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_int)
@@ -59,10 +71,8 @@ def _version_of_package() -> str:
 
 
 def _load() -> ctypes.CDLL:
-    """ROLLBEM_LIBRARY, the library of the wheel, of the checkout, or of the system."""
-    named = os.environ.get("ROLLBEM_LIBRARY")
-    beside = [_HERE / "librollbem.so", _CHECKOUT / "build/librollbem.so"]
-    found = named or next((str(path) for path in beside if path.exists()), "librollbem.so.0")
+    """The library with its functions declared, of the version that the package is made for."""
+    found = _find()
     try:
         library = ctypes.CDLL(found)
     except OSError as error:

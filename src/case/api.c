@@ -2,6 +2,8 @@
  */
 #include "case/api.h"
 
+#include "rollbem/blas.h"
+
 #include <gsl/gsl_errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -101,6 +103,23 @@ int rb_case_ended(rb_api *a, rb_status s)
         snprintf(a->why.text, sizeof a->why.text, "%s",
                  s == RB_OK ? "" : rb_status_text(s));
     return s;
+}
+
+/* Threads of BLAS cost small problems more than they bring, as in the program; whoever
+ * else uses BLAS in this process has his own again when the last call is over. */
+static _Atomic int calls;
+static int threads_outside;
+
+void rb_case_call_begins(void)
+{
+    if (calls++ == 0 && !getenv("OPENBLAS_NUM_THREADS"))
+        threads_outside = rb_blas_threads(1);
+}
+
+void rb_case_call_ends(void)
+{
+    if (--calls == 0 && threads_outside > 0)
+        rb_blas_threads(threads_outside);
 }
 
 static void begin(rb_api *a)
@@ -231,8 +250,10 @@ int rb_api_solve(rb_api *a)
         return a->status;
     a->result.model = a->kept;
     memset(&a->kept, 0, sizeof a->kept);
+    rb_case_call_begins();
     const rb_status s =
         rb_case_solve_again(rb_case_settled(a->words), keep_step, a, &a->result, &a->why);
+    rb_case_call_ends();
     return rb_case_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
 }
 
@@ -568,6 +589,7 @@ int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int p
     rb_rolling_curve_free(&a->curve);
     rb_rolling_curve_free(&a->curve_errors);
     const rb_rolling_variable value = (rb_rolling_variable)variable->value;
+    rb_case_call_begins();
     rb_status s =
         !variable->name
             ? rb_fail(&a->why, RB_EINVAL,
@@ -576,6 +598,7 @@ int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int p
                                                   &a->curve, &a->curve_errors, &a->why)
                    : rb_rolling_curve_solve(&c->rc, value, from, to, points, &a->curve,
                                             &a->why);
+    rb_case_call_ends();
     return rb_case_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
 }
 
@@ -834,8 +857,10 @@ int rb_api_stress(rb_api *a, int nx, int ny, double depth)
 {
     rb_rolling_stress_grid grid = {0};
     rb_status s = begin_stress(a, "stress.");
+    rb_case_call_begins();
     if (s == RB_OK)
         s = rb_rolling_stress_on_grid(&a->result.model, nx, ny, depth, &grid, &a->why);
+    rb_case_call_ends();
     if (s == RB_OK)
         s = keep_stress(a, nx, ny, grid.at);
     rb_rolling_stress_grid_free(&grid);
@@ -850,8 +875,10 @@ int rb_api_stress_at(rb_api *a, int n, const double *xy)
         s = rb_fail(&a->why, RB_EINVAL, "stress: expected at least one point, got %d", n);
     if (s == RB_OK && !(at = calloc((size_t)n, sizeof *at)))
         s = RB_ENOMEM;
+    rb_case_call_begins();
     if (s == RB_OK)
         s = rb_rolling_stress_at(&a->result.model, n, xy, at, &a->why);
+    rb_case_call_ends();
     if (s == RB_OK)
         s = keep_stress(a, n, 1, at);
     free(at);
@@ -869,8 +896,10 @@ int rb_api_stress_maxima(rb_api *a, double depth)
                 {"maxima.orthogonal_shear", &m.orthogonal_shear},
                 {"maxima.tension", &m.tension}};
     rb_status s = begin_stress(a, "maxima.");
+    rb_case_call_begins();
     if (s == RB_OK)
         s = rb_rolling_stress_maxima_find(&a->result.model, depth, &m, &a->why);
+    rb_case_call_ends();
     for (size_t k = 0; s == RB_OK && k < sizeof kept / sizeof *kept; k++) {
         const double x[] = {kept[k].at->value, kept[k].at->x, kept[k].at->y};
         if (!rb_case_copy_array(a, kept[k].name, 3, 1, x))

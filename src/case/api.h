@@ -25,7 +25,7 @@ struct rb_api {
     int *nonbasis; /* the last pivot's, both owned */
     int iterations;
     double residual, scaled_residual;
-    const char *solver; /* of the last problem that was handed over; static text */
+    const char *solver;  /* of the last problem that was handed over; static text */
     _Atomic int stopped; /* by another thread, or a signal handler */
     rb_status status;
     rb_message why;
@@ -43,5 +43,9 @@ case_array *rb_case_copy_array(rb_api *a, const char *name, int rows, int column
 void rb_case_forget_arrays(rb_api *a, const char *beginning);
 /* Keeps the status of a call, with a line that says it where the call has left none. */
 int rb_case_ended(rb_api *a, rb_status s);
+
+/* Around what may use BLAS. */
+void rb_case_call_begins(void);
+void rb_case_call_ends(void);
 
 #endif

@@ -21,14 +21,20 @@ static void begin(rb_api *a, const char *arrays, const char *solver)
 
 /* ---- Complementarity --------------------------------------------------------------- */
 
-static rb_status solve_sparse(int n, const double *M, const double *q,
-                              const rb_lcp_options *options, double *z, rb_lcp_info *info)
+static rb_status solve_lcp(rb_api *a, int newton, const rb_sparse *M, const double *dense,
+                           const double *q, const rb_lcp_options *options, double *z,
+                           double *w)
 {
-    rb_sparse sparse = {0};
-    rb_status s = rb_sparse_from_dense(n, n, M, n, &sparse);
-    if (s == RB_OK)
-        s = rb_lcp_newton(&sparse, q, options, z, info);
-    rb_sparse_free(&sparse);
+    const int n = M->rows;
+    rb_lcp_info info = {0};
+    rb_case_call_begins();
+    const rb_status s = newton ? rb_lcp_newton(M, q, options, z, &info)
+                               : rb_lcp_lemke(n, dense, n, q, options, z, &info);
+    if (s >= 0)
+        a->residual = rb_lcp_residual_sparse(M, q, z, w);
+    rb_case_call_ends();
+    a->iterations = info.iters;
+    a->why = info.msg;
     return s;
 }
 
@@ -37,7 +43,7 @@ int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *s
 {
     const int newton = strcmp(solver, "newton") == 0;
     rb_lcp_options options = rb_lcp_defaults();
-    rb_lcp_info info = {0};
+    rb_sparse sparse = {0};
     options.max_iters = max_pivots;
     begin(a, "lcp.", newton ? "newton" : "lemke");
     if (!newton && strcmp(solver, "lemke") != 0)
@@ -48,14 +54,10 @@ int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *s
         return rb_case_ended(a, rb_fail(&a->why, RB_EINVAL, "lcp: n = %d", n));
     case_array *z = rb_case_make_array(a, "lcp.z", n, 1);
     case_array *w = z ? rb_case_make_array(a, "lcp.w", n, 1) : NULL;
-    if (!z || !w)
-        return rb_case_ended(a, RB_ENOMEM);
-    const rb_status s = newton ? solve_sparse(n, M, q, &options, z->at, &info)
-                               : rb_lcp_lemke(n, M, n, q, &options, z->at, &info);
-    if (s >= 0)
-        a->residual = rb_lcp_residual(n, M, n, q, z->at, w->at);
-    a->iterations = info.iters;
-    a->why = info.msg;
+    rb_status s = w ? rb_sparse_from_dense(n, n, M, n, &sparse) : RB_ENOMEM;
+    if (s == RB_OK)
+        s = solve_lcp(a, newton, &sparse, M, q, &options, z->at, w->at);
+    rb_sparse_free(&sparse);
     return rb_case_ended(a, s);
 }
 
@@ -84,7 +86,9 @@ static rb_status solve_friction(rb_api *a, const rb_friction_problem *p,
         u ? rb_case_copy_array(a, "friction.mu", p->contacts, 1, p->mu) : NULL;
     if (!mu)
         return RB_ENOMEM;
+    rb_case_call_begins();
     const rb_status s = rb_friction_solve(solver, p, &options, r->at, u->at, NULL, &info);
+    rb_case_call_ends();
     a->solver = info.solver;
     a->iterations = info.iters;
     a->residual = info.residual;
@@ -186,6 +190,14 @@ static int tick(int seen, void *context)
     return st->a->stopped;
 }
 
+static rb_status run_study(const rb_rolling_sweep *sweep, rb_message *why)
+{
+    rb_case_call_begins();
+    const rb_status s = rb_rolling_sweep_run(sweep, why);
+    rb_case_call_ends();
+    return s;
+}
+
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
 {
     study st = {.a = a, .cases = cases};
@@ -203,6 +215,6 @@ int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
     if (s == RB_OK && n > 0)
         s = make_columns(a, n);
     if (s == RB_OK)
-        s = rb_rolling_sweep_run(&sweep, &a->why);
+        s = run_study(&sweep, &a->why);
     return rb_case_ended(a, s);
 }

@@ -1,0 +1,146 @@
+"""What is Python's own: memory, interruption, documentation, pictures, examples."""
+
+import ctypes
+import gc
+import json
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import rollbem
+from rollbem import _library
+
+ROLLED = dict(support="halfplane", similar=True, formulation="steady", load=500.0, creep_ratio=0.5)
+
+
+def test_every_function_is_declared_as_in_the_header():
+    header = re.sub(r"/\*.*?\*/", "", (ROOT / "include/rollbem/api.h").read_text(), flags=re.S)
+    arguments = dict(re.findall(r"\b(rb_api_\w+)\((.*?)\);", header, flags=re.S))
+    for name, (_, *types) in _library.FUNCTIONS.items():
+        if name != "rb_version":
+            assert len(types) == arguments[name].count(",") + 1, name
+
+
+def test_arrays_look_into_the_library():
+    solution = rollbem.solve(**ROLLED)
+    p, x = solution.p, solution.x
+    rows, columns = ctypes.c_int(), ctypes.c_int()
+    at = _library.lib.rb_api_array(solution._handle.at, b"p", rows, columns)
+    assert p.ctypes.data == at and p.base is not None
+    with pytest.raises(ValueError):
+        p[0] = 1.0
+    kept = p.copy()
+    del solution
+    gc.collect()
+    rollbem.solve(**ROLLED)  # memory that were free would be used again
+    assert np.array_equal(p, kept) and len(x) == len(p)
+
+
+def test_matrices_of_the_solution():
+    s = rollbem.solve(creep=0.1, contact_elements=12, outer_elements=24)
+    n = len(s.x)
+    w = s.F @ np.concatenate([s.p, s.q])
+    assert s.F.shape == (2 * n + 2, 2 * n)
+    assert np.allclose(w[:n] - s.approach + s._handle.array("gap0"), s.gap, atol=1e-9)
+    assert abs(s.H[:, ::2].sum(axis=1)).max() < 1e-9  # rigid motion
+    M, q = s.lcp()
+    assert M.shape == (36, 36) and len(q) == 36
+    assert s.mesh.shape == (len(s.H) // 2, 4)
+
+
+def test_cases_are_settled_and_varied(tmp_path):
+    case = rollbem.Case(mu=0.2, **ROLLED)
+    assert case["mu"] == 0.2 and case["mesh"] == "fitted" and case["similar"] is True
+    assert case.but(mu=0.4)["mu"] == 0.4 and case["mu"] == 0.2
+    assert case.but(mu=None)["mu"] == 0.3
+    file = tmp_path / "case.ini"
+    file.write_text("[friction]\nmu = 0.17\n[normal]\nload = 800\n")
+    assert rollbem.Case(file)["mu"] == 0.17 and rollbem.Case(file, mu=0.5)["mu"] == 0.5
+    file.write_text("[friction]\nmue = 0.17\n")
+    with pytest.raises(rollbem.InvalidInput, match="case.ini:2: unknown key 'mue'"):
+        rollbem.Case(file)
+    assert "mu=0.2" in repr(case)
+
+
+def test_tables_are_given_as_columns():
+    x = np.linspace(-2, 2, 81)
+    s = rollbem.solve(gap={"x": x, "gap": x**2 / 100}, **ROLLED)
+    want = rollbem.solve(gap="parabola", mesh="uniform", **ROLLED)
+    assert s.status == "solved" and abs(s.max_pressure / want.max_pressure - 1) < 2e-3
+
+
+@pytest.mark.parametrize("call", [
+    "rollbem.solve(support='halfplane', similar=True, formulation='transient', load=500., creep_ratio=.5,"
+    " distance=2000., contact_elements=100, mesh='uniform')",
+    "rollbem.solve(contact_elements=1400, outer_elements=3000, solver='lemke', creep=.1)",
+    "rollbem.sweep(mu=[.1 + k/1e5 for k in range(9000)], contact_elements=60)"])
+def test_long_runs_end_by_control_c(call):
+    program = f"import rollbem\nprint('begun', flush=True)\ntry:\n {call}\nexcept KeyboardInterrupt:\n print('ended')"
+    child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True,
+                             env={**__import__("os").environ, "PYTHONPATH": str(ROOT / "python")})
+    assert child.stdout.readline() == "begun\n"
+    time.sleep(0.7)
+    child.send_signal(signal.SIGINT)
+    start = time.time()
+    try:
+        out, _ = child.communicate(timeout=20)
+    finally:
+        child.kill()
+    assert out == "ended\n" and time.time() - start < 5
+
+
+def test_documentation_comes_from_the_tables():
+    for function in (rollbem.solve, rollbem.curve, rollbem.sweep, rollbem.stress, rollbem.Case):
+        for name, option in rollbem.OPTIONS.items():
+            assert f"{name}: {option.help}" in function.__doc__
+    assert "max_pressure: p0 [MPa]" in rollbem.Solution.__doc__
+    assert rollbem.solve.__signature__.parameters["mu"].annotation == __import__("typing").Optional[float]
+    assert {"p", "max_pressure", "plot"} <= set(dir(rollbem.solve(**ROLLED)))
+    with pytest.raises(AttributeError, match="has no 'pressure'"):
+        rollbem.solve(**ROLLED).pressure
+
+
+def test_versions_must_agree(tmp_path):
+    stub = tmp_path / "stub.c"
+    names = [name for name in _library.FUNCTIONS if name != "rb_version"]
+    stub.write_text('const char *rb_version(void) { return "0.0.1"; }\n' +
+                    "".join(f"void {name}(void) {{}}\n" for name in names))
+    library = tmp_path / "librollbem.so"
+    try:
+        subprocess.run(["cc", "-shared", "-fPIC", "-o", library, stub], check=True)
+    except FileNotFoundError:
+        pytest.skip("no compiler here")
+    for path, words in ((library, "has version 0.0.1, the package has"), (tmp_path / "none", "does not load")):
+        got = subprocess.run([sys.executable, "-c", "import rollbem"], capture_output=True, text=True, env={
+            **__import__("os").environ, "ROLLBEM_LIBRARY": str(path), "PYTHONPATH": str(ROOT / "python")})
+        assert words in got.stderr.splitlines()[-1]
+
+
+def test_pictures(tmp_path):
+    pytest.importorskip("matplotlib")
+    base = {k: v for k, v in ROLLED.items() if k not in ("formulation", "creep_ratio")}
+    drawn = [rollbem.solve(**ROLLED), rollbem.solve(creep=0.1), rollbem.curve(points=5, **base),
+             rollbem.history({"distance": [0, 1], "creep_ratio": [0.3, 0.3]}, contact_elements=20, **base),
+             rollbem.stress(grid=(15, 11), **ROLLED)]
+    for k, result in enumerate(drawn):
+        result.plot().savefig(tmp_path / f"{k}.png")
+        assert (tmp_path / f"{k}.png").stat().st_size > 10000
+    rollbem.pictures.curves(rollbem.curve(points=5, mu=[0.1, 0.3], **base))
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "python/examples").glob("*.ipynb")), ids=lambda path: path.stem)
+def test_notebooks_run(path, monkeypatch):
+    pytest.importorskip("matplotlib")
+    monkeypatch.chdir(path.parent)
+    cells = json.loads(path.read_text())["cells"]
+    names = {}
+    for k, cell in enumerate(cells):
+        if cell["cell_type"] == "code":
+            assert not cell["outputs"], "notebooks are kept without outputs"
+            exec(compile("".join(cell["source"]), f"{path.name}, cell {k}", "exec"), names)

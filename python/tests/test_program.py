@@ -1,0 +1,169 @@
+"""The package answers as the program does, bit for bit."""
+
+import math
+
+import numpy as np
+import pytest
+from conftest import run, run_json
+
+import rollbem
+
+STEADY = dict(support="halfplane", similar=True, formulation="steady", load=500.0, mu=0.3)
+CASES = {
+    "paper": dict(mu=0.3, creep=0.1),
+    "carter": dict(STEADY, creep_ratio=0.4),
+    "force": dict(STEADY, force_ratio=-0.6, mesh="uniform"),
+    "hub": dict(support="hub", load=1e5, mu=0.2, creep_ratio=-0.5, formulation="steady", contact_elements=24),
+    "two bodies": dict(similar=True, radius_b=80.0, load=300.0, shift=0.002, contact_elements=30),
+    "error bars": dict(STEADY, creep_ratio=0.4, contact_elements=40, error=True),
+    "one row of elements each": dict(STEADY, creep_ratio=1.0, solver="newton", contact_elements=81),
+}
+
+
+UNITS = sorted({r.unit for table in rollbem.RESULTS.values() for r in table.values() if r.unit})
+
+
+def same(ours, theirs):
+    """Equal to the last bit; what is NaN here is null there."""
+    ours = np.ravel(ours)
+    theirs = np.array([math.nan if x is None else x for x in np.ravel(theirs)], dtype=float)
+    return np.array_equal(ours, theirs, equal_nan=True)
+
+
+def check(ours, theirs):
+    """The names on both sides are the same, and so are the numbers."""
+    compared = 0
+    for name, values in ours.items():
+        headings = [name] + [f"{name}_{unit}" for unit in UNITS]
+        heading = next((h for h in headings if h in theirs), None)
+        if heading is None:
+            continue
+        assert same(values, theirs[heading]), name
+        compared += 1
+    assert compared > 3
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_solutions(name):
+    want, s = run_json(**CASES[name]), rollbem.solve(**CASES[name])
+    check(s.numbers, want["summary"])
+    check(s.columns(), want["table"])
+    assert (s.status, s.formulation) == (want["summary"]["status"], want["summary"]["formulation"])
+    if CASES[name].get("error"):
+        bars = {k: e for k, e in want["summary"]["errors"].items() if e is not None}
+        check(s.errors, bars)
+        assert not set(s.errors) - set(bars)
+
+
+@pytest.mark.parametrize("over, error", [("creep-ratio", False), ("creep", False), ("creep-ratio", True)])
+def test_curves(over, error):
+    options = dict(support="halfplane", poisson=0.5, half_width=0.05, error=error)
+    stop = 1e-3 if over == "creep" else 1.2
+    want = run_json("curve", "--from", 0, "--to", stop, "--points", 9, "--over", over, **options)
+    got = rollbem.curve(stop=stop, points=9, over=over, **options)
+    check(got.columns(), want["curve"])
+    assert bool(got.errors) == error
+
+
+def test_several_curves():
+    options = dict(support="halfplane", half_width=0.05, mu=[0.1, 0.4])
+    for got, mu in zip(rollbem.curve(points=5, **options), options["mu"]):
+        want = run_json("curve", "--points", 5, **{**options, "mu": mu})
+        check(got.columns(), want["curve"])
+        assert got.mu == mu
+
+
+def test_histories(tmp_path):
+    program = {"distance": [0, 1.5], "creep_ratio": [0.2, 0.7]}
+    options = dict(support="halfplane", similar=True, load=500.0, contact_elements=30)
+    file = tmp_path / "program.txt"
+    file.write_text("# distance creep_ratio\n0 0.2\n1.5 0.7\n")
+    want = run_json(formulation="transient", history=file, **options)
+    got = rollbem.history(program, **options)
+    check(got.columns(), want["history"])
+    check(got.solution.columns(), want["table"])
+    assert same(got.p[-1], got.solution.p) and got.zone.shape == got.q.shape
+    rest = rollbem.history({"shift": [0, 1e-4, 0]}, **options)
+    assert len(rest.residual) == 3 and rest.solution.formulation == "static"
+
+
+def test_stress(tmp_path):
+    want = run_json("stress", "--grid", "9x7", **CASES["carter"])
+    got = rollbem.stress(grid=(9, 7), **CASES["carter"])
+    check(got.columns(), want["grid"])
+    assert got.sxx.shape == (7, 9) and (np.diff(got.y, axis=0) > 0).all()
+    for name, largest in got.maxima.items():
+        assert tuple(want["maxima"][name][key] for key in ("value", "x", "y")) == largest
+    points = np.array([[0.0, 0.1], [0.2, 0.3]])
+    np.savetxt(tmp_path / "points", points)
+    want = run_json("stress", "--points", tmp_path / "points", **CASES["carter"])
+    at = rollbem.stress(got.solution, points=points)
+    check(at.columns(), want["points"] if "points" in want else want["grid"])
+
+
+def test_sweeps():
+    base = {k: v for k, v in STEADY.items() if k not in ("mu", "load")}
+    out = run("sweep", "--vary-1", "mu 0.1 0.3", "--vary-2", "creep-ratio 0:1.5:4", load=500.0, **base).stdout
+    lines = [line.lstrip("# ").split("\t") for line in out.splitlines() if "\t" in line]
+    want = dict(zip(lines[0], np.array(lines[1:], dtype=float).T))
+    got = rollbem.sweep(mu=[0.1, 0.3], creep_ratio=np.linspace(0, 1.5, 4), load=500.0, **base)
+    check(got.columns(), want)
+    assert got.force_ratio.shape == (2, 4) and (got.status == 0).all()
+
+
+def solved_by_program(command, file, *options):
+    return run_json(command, "--solution", *options, file)["problems"][0]
+
+
+def test_complementarity_problems(tmp_path):
+    M, q = np.array([[2, -1, 0], [-1, 2, -1], [0, -1, 2.0]]), [-1, 0.3, -2]
+    file = tmp_path / "problem.txt"
+    file.write_text("3\n2 -1 0  -1 2 -1  0 -1 2\n-1 0.3 -2\n")
+    for solver in ("lemke", "newton"):
+        want, got = solved_by_program("lcp", file, "--solver", solver), rollbem.lcp(M, q, solver=solver)
+        assert same(got.z, want["z"]) and same(got.w, want["w"]) and got.residual == want["residual"]
+        assert np.allclose(M @ got.z + q, got.w, atol=1e-14) and np.minimum(got.z, got.w).min() > -1e-14
+    with pytest.raises(rollbem.Unsolved) as caught:  # no solution: 0 z - 1 >= 0
+        rollbem.lcp([[0.0]], [-1.0])
+    assert caught.value.solution.z.shape == (1,)
+    with pytest.raises(rollbem.InvalidInput, match="M: expected a matrix of 2 x 2, got 3 x 3"):
+        rollbem.lcp(M, [1, 2])
+
+
+def test_friction_problems(tmp_path):
+    W = np.array([[2, 0.3, 0], [0.3, 1.5, 0.1], [0, 0.1, 1.2]])
+    q, mu = np.array([-1, 0.4, -0.3]), 0.3
+    file = tmp_path / "problem.dat"
+    numbers = " ".join(map(str, [*W.T.ravel(), *q, mu]))
+    file.write_text(f"3 1\n0 3 3\n3 3\n{numbers}\n")
+    got = rollbem.friction(W, q, mu)
+    r, u = got.r[0], got.u[0]
+    assert np.allclose(W @ r + q, u, atol=1e-12) and abs(u[0]) < 1e-7
+    assert np.allclose(r[1:], -mu * r[0] * u[1:] / np.hypot(*u[1:]), atol=1e-7)
+    for answer in (got, rollbem.friction(file)):
+        want = solved_by_program("friction", file)
+        assert same(answer.r, want["r"]) and same(answer.u, want["u"])
+        assert answer.scaled_residual == want["scaled_residual"] and answer.solver == want["solver"]
+    with pytest.raises(rollbem.MissingFile):
+        rollbem.friction(tmp_path / "none.hdf5")
+
+
+@pytest.mark.parametrize("options", [dict(mu=-1), dict(nu=1), dict(load=5, approach=1), dict(poisson=0.7),
+                                     dict(support="wall"), dict(gap="/no/such/file"), dict(creep="abc"),
+                                     dict(formulation="steady", shift=1)])
+def test_refusals_have_the_words_of_the_program(options):
+    message = run(**options).stderr.splitlines()[0]
+    with pytest.raises(rollbem.Error) as caught:
+        rollbem.solve(**options)
+    spoken = message.replace("rollbem: ", "").replace("--nu", "'nu'")
+    assert str(caught.value).split(" (")[0].split("'")[0] in spoken
+    kind = FileNotFoundError if "gap" in options else ValueError
+    assert isinstance(caught.value, kind)
+
+
+def test_runs_without_a_full_answer_keep_what_there_is():
+    want = run_json(zone=1.0)
+    with pytest.raises(rollbem.Unsolved) as caught:
+        rollbem.solve(zone=1.0)
+    check(caught.value.solution.columns(), want["table"])
+    assert caught.value.solution.status == want["summary"]["status"]
