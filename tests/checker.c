@@ -470,6 +470,51 @@ static void check_ratios(const contact *c)
         violated("ratios", "of a case without friction are not null");
 }
 
+/* ---- Heat ----------------------------------------------------------------------------
+ */
+
+static double input(const contact *c, const char *key, double otherwise)
+{
+    const double x = number(c->inputs, key);
+    return isnan(x) ? otherwise : x;
+}
+
+/* Equally warm in contact, warmest within it, no heat far upstream. */
+static void check_heat(const contact *c, const table *t, const json_t *object)
+{
+    const json_t *a = json_object_get(object, "temperature_K");
+    const json_t *b = json_object_get(object, "temperature_b_K");
+    const double conductivity = number(c->inputs, "conductivity");
+    const double most = number(c->summary, "max_temperature");
+    if ((conductivity > 0.0) != (a != NULL) || (a != NULL) != (b != NULL))
+        violated("temperature", "columns do not follow --conductivity");
+    if (!a || !b || violations)
+        return;
+    const double T_a = number(c->inputs, "temperature");
+    const double T_b = input(c, "temperature-b", T_a);
+    const double rise = fabs(most - fmin(T_a, T_b)) + fabs(T_a - T_b);
+    double warmest = -INFINITY;
+    for (int i = 0; i < t->n; i++) {
+        const double one = json_number_value(json_array_get(a, (size_t)i));
+        const double other = json_number_value(json_array_get(b, (size_t)i));
+        if (!(fmin(one, other) >= fmin(T_a, T_b) - 1e-6 * rise - 1e-12))
+            violated("temperature", "element %d is colder than both bodies: %g", i + 1,
+                     fmin(one, other));
+        if (t->column[ZONE][i] == SEPARATED)
+            continue;
+        warmest = fmax(warmest, one);
+        if (fabs(one - other) > 1e-9 * (rise + fabs(T_a)))
+            violated("temperature", "element %d: %g and %g in contact", i + 1, one,
+                     other);
+    }
+    if (!(most >= warmest - 1e-12 * fabs(warmest) && most <= warmest + 0.2 * rise))
+        violated("max_temperature", "%g, the largest in contact is %g", most, warmest);
+    const double diffusivity = conductivity / number(c->inputs, "heat-capacity");
+    const double peclet =
+        number(c->inputs, "speed") * number(c->summary, "half_width") / (2 * diffusivity);
+    expect_same(c, "peclet", peclet, 1e-9 * peclet);
+}
+
 /* ---- What was asked for ---------------------------------------------------------------
  */
 
@@ -934,6 +979,7 @@ static void check_case(const json_t *root, const char *table_path,
     check_tangential_control(&c, controls);
     check_kinematics(&c, &t);
     check_flamant(&c, &t);
+    check_heat(&c, &t, object);
     check_power(&c, &t, json_object_get(object, "friction_power_MPa"));
     check_resistance(&c, &t);
     check_errors(&c);

@@ -32,6 +32,7 @@ enum {
     IRREGULARITY,
     MU,
     SHAPE,
+    HEAT,
     SOLVER,
     FORM,
     OUTPUT,
@@ -104,6 +105,12 @@ static const struct {
      NULL,
      {{"0", "--mu 0"}, {"1e-3", "--mu 1e-3"}, {"0.3", "--mu 0.3"}, {"3", "--mu 3"}}},
     {"shape", NULL, {{"default", ""}, {"other", ""}}},
+    {"heat",
+     NULL,
+     {{"none", ""},
+      {"alike", "--conductivity 50 --heat-capacity 3.5 --speed 3000"},
+      {"unlike", "--conductivity 50 --heat-capacity 3.5 --temperature 300 --speed 3000 "
+                 "--conductivity-b 20 --heat-capacity-b 2 --temperature-b 280"}}},
     {"solver", "solver", {{"cone", ""}}}, /* one after the other */
     {"form", "lcp-form", {{NULL, NULL}}},
     {"output",
@@ -178,7 +185,13 @@ static const char *const options_elsewhere[] = {"similar",
                                                 "relaxation-time-b",
                                                 "relaxation-ratio-b",
                                                 "free-axle",
-                                                "gap-smoothing"};
+                                                "gap-smoothing",
+                                                "conductivity",
+                                                "heat-capacity",
+                                                "temperature",
+                                                "conductivity-b",
+                                                "heat-capacity-b",
+                                                "temperature-b"};
 
 enum { LEVELS = 40 };
 static level levels[FACTORS][LEVELS];
@@ -278,6 +291,17 @@ static const conflict conflicts[] = {
     {{"irregularity=flat", "regime=static-history"}, "of transient rolling only"},
     {{"tangential=free-axle", "regime!steady"}, "of steady rolling only"},
     {{"tangential=free-axle", "mu=0"}, "friction alone turns it"},
+    {{"heat!none", "surface=relaxing"}, NULL}, /* two speeds */
+    {{"heat!none", "surface=b-relaxing"}, NULL},
+    {{"heat!none", "surface=layer"}, "of homogeneous elastic bodies"},
+    {{"heat!none", "surface=on-elastic"}, "of homogeneous elastic bodies"},
+    {{"heat!none", "surface=b-layer"}, "of homogeneous elastic bodies"},
+    {{"heat!none", "regime=static"}, "friction heats bodies that roll"},
+    {{"heat!none", "regime=increments"}, "friction heats bodies that roll"},
+    {{"heat!none", "regime=static-history"}, "friction heats bodies that roll"},
+    {{"heat=unlike", "regime=transient*"}, "both bodies start equally warm"},
+    {{"heat=unlike", "regime=steps"}, "both bodies start equally warm"},
+    {{"heat!none", "output=stress*"}, "stress has no temperatures"},
     {{"mu=0", "tangential=creep-ratio"}, "no meaning at mu = 0"},
     {{"mu=0", "tangential=force-ratio"}, "no meaning at mu = 0"},
     {{"output=history*", "regime=static"}, "for --formulation transient"},

@@ -237,6 +237,7 @@ typedef struct {
     double gap_smoothing;       /* standard deviation of its noise [length] */
     int similar;                /* B is of A's material */
     double young_b, poisson_b, radius_b;
+    double conductivity_b, heat_capacity_b, temperature_b;
     rb_case_memory memory_a, memory_b;
     rb_numbers mus;                /* more than one: for curves */
     const char *irregularity_file; /* or NULL */

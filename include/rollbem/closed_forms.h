@@ -30,6 +30,12 @@ double rb_closed_carter_creep_ratio(double force_ratio);
 double rb_closed_carter_traction(double mu, double max_pressure, double half_width,
                                  double s, double x);
 
+/* Highest rise of the surfaces under the heat H0 sqrt(1 - x^2/a^2) per area and time at a
+ * high Peclet number, 2.1883067 H0 sqrt(a)/((e1 + e2) sqrt(pi V)), at x = -0.65223 a;
+ * effusivity: e1 + e2, e = sqrt(conductivity heat capacity). */
+double rb_closed_flash_temperature(double heat, double half_width, double speed,
+                                   double effusivity);
+
 /* ---- Tangential load without rolling (Cattaneo, Mindlin) --------------------------- */
 
 /* c/a = sqrt(1 - |Q|/(mu P)): half-width of the centred stick strip. */

@@ -52,6 +52,14 @@ typedef struct {
     double ratio[RB_ROLLING_TERMS]; /* f_k >= 0 */
 } rb_rolling_memory;
 
+/* How a body conducts the heat of friction (T1).  Units: with N, mm, s the conductivity
+ * is N/(s K) = W/(m K) and the heat capacity MPa/K = MJ/(m^3 K). */
+typedef struct {
+    double conductivity;  /* [force/(time temperature)]; 0: no heat enters this body */
+    double heat_capacity; /* density times specific heat [stress/temperature] */
+    double temperature;   /* far from the contact */
+} rb_rolling_heat;
+
 typedef struct {
     double young, poisson; /* [stress], [-]; the glassy modulus of a body with memory */
     double radius;         /* [length]; INFINITY: a plane (body B only) */
@@ -88,6 +96,9 @@ typedef struct {
     rb_rolling_body a, b;
     int elastic_b; /* 0: B is a rigid plane and b is not read */
 
+    rb_rolling_heat heat_a, heat_b; /* temperatures where A's conductivity is > 0; B's
+                                       counts also where B is rigid */
+
     rb_rolling_gap gap;
     const rb_rolling_profile *profile; /* RB_GAP_TABLE; borrowed */
     /* What a surface has too little (> 0) or too much (< 0) of where it is irregular,
@@ -112,7 +123,7 @@ typedef struct {
     rb_rolling_formulation formulation;
     int increments;  /* static, transient: above 1 the bodies are pressed, then loaded
                         tangentially, in so many increments each (theory.md 5.3) */
-    double speed;    /* of rolling [length/s]; > 0 where a body has memory */
+    double speed;    /* of rolling [length/s]; > 0 where a body has memory or conducts */
     double distance; /* transient: rolled distance / Hertz half-width */
     int steps;       /* transient */
 
@@ -366,6 +377,7 @@ typedef struct {
     double *shift;   /* T_T lambda [length]; 0 in stick */
     double *slip;    /* relative slip velocity [-]: (12) in static, shift/distance else */
     int *zone;       /* rb_rolling_zone */
+    double *temperature, *temperature_b; /* of the surfaces; NULL where not asked for */
 
     int patches;
     rb_rolling_patch *patch; /* in the order of increasing x; owned */
@@ -410,6 +422,9 @@ typedef struct {
     double resistance_ratio;  /* M/(P R), the coefficient of rolling resistance */
     double hysteresis;        /* power per unit speed that the bodies lose [force/length];
                                  NAN but in steady */
+    double max_temperature;       /* in contact; NAN where not asked for, as below */
+    double max_temperature_at;    /* [length] */
+    double peclet;                /* V a/(2 diffusivity of A), a the half-width */
     double seconds_assembly, seconds_factor, seconds_condense, seconds_lcp, seconds_total;
 } rb_rolling_solution;
 
@@ -439,8 +454,13 @@ typedef enum {
     RB_SCALE_POWER,    /* mu P times the creepage */
     RB_SCALE_MOMENT,   /* P a */
     RB_SCALE_STRAIN,   /* a/R */
-    RB_SCALE_WORK      /* P a/R */
+    RB_SCALE_WORK,     /* P a/R */
+    RB_SCALE_HEAT      /* rise of the temperature */
 } rb_rolling_error_scale;
+
+/* Which cases have a result at all.  Of the others a number is NAN, a column NULL, and
+ * reports leave both out. */
+typedef enum { RB_FOR_ALL, RB_FOR_HEAT } rb_rolling_condition;
 
 /* One result: whatever shows results, studies and error bars are made from these. */
 typedef struct {
@@ -449,10 +469,11 @@ typedef struct {
     rb_rolling_result_kind kind;
     size_t offset; /* of the value, or of a column's pointer, in its owner */
     rb_rolling_error_scale
-        error_bar;      /* RB_SCALE_NONE: no discretisation error is estimated
-                         */
-    int study;          /* which column of a study it is; 0: none */
-    int is_mean;        /* of a rolled step: 1: mean over it, 0: value at its end */
+        error_bar; /* RB_SCALE_NONE: no discretisation error is estimated
+                    */
+    int study;     /* which column of a study it is; 0: none */
+    int is_mean;   /* of a rolled step: 1: mean over it, 0: value at its end */
+    rb_rolling_condition condition;
     const char *symbol; /* heads the column instead of the name; NULL: the name */
     const char *meaning;
 } rb_rolling_result;
@@ -472,6 +493,10 @@ extern const rb_rolling_results rb_rolling_history_columns, rb_rolling_curve_col
 /* Of rb_rolling_stress, at a point. */
 extern const rb_rolling_results rb_rolling_stress_scalars;
 
+/* 1 where the case has that result. */
+int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc);
+/* 1 where the owner has that column. */
+int rb_rolling_has_column(const rb_rolling_result *r, const void *owner);
 /* The number, or entry i of the column, whatever its kind; owner: the struct that the
  * table belongs to. */
 double rb_rolling_number(const rb_rolling_result *r, const void *owner);
@@ -488,6 +513,12 @@ const rb_rolling_result *rb_rolling_study_column(int k);
  * dissipation: the energy that a wear law takes.  In steady rolling the slip lives
  * between midpoints and counts half for either element (theory.md 6).  NAN in static. */
 void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
+
+/* Rise of the temperature at a point of the surface, from a unit heat per area and time
+ * that enters the body between the distances from < to upstream of it (T1), at any Peclet
+ * number; conductivity > 0. */
+double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from,
+                                double to);
 
 /* ---- The same problem for the cone solvers
  * --------------------------------------------- */
@@ -514,8 +545,9 @@ typedef struct {
     int equal_instead; /* 1: of fitted elements, whose edges did not come to rest */
     double half_width; /* Hertz's, of the load found last: scale of the ratios */
     double seconds_lcp;
-    int iterations;  /* of all solves so far */
-    int same_bodies; /* 1: `bodies` are those of `rc` wherever the mesh is `mesh` */
+    int iterations;      /* of all solves so far */
+    int same_bodies;     /* 1: `bodies` are those of `rc` wherever the mesh is `mesh` */
+    double *temperature; /* n: of both surfaces after a rolled step; NULL: not known */
 } rb_rolling_model;
 
 /* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a
@@ -583,12 +615,13 @@ typedef struct {
     double *residual;
     double *max_pressure;              /* p0 [stress]; 0 without contact */
     double *contact_from, *contact_to; /* edges [length]; NAN without contact */
-    double *dissipation;   /* power per unit speed [force/length]; 0 at rest */
-    double *moment;        /* int x p dx [force]; > 0: the load leads */
-    int *stick, *slipping; /* elements */
-    double half_width;     /* that distances count in [length] */
-    double step;           /* c [length]; 0 in a static history */
-    int steady_from;       /* first step of the steady state that the end is in, or -1 */
+    double *dissipation;     /* power per unit speed [force/length]; 0 at rest */
+    double *moment;          /* int x p dx [force]; > 0: the load leads */
+    int *stick, *slipping;   /* elements */
+    double *max_temperature; /* at the end of the step; NULL where not asked for */
+    double half_width;       /* that distances count in [length] */
+    double step;             /* c [length]; 0 in a static history */
+    int steady_from; /* first step of the steady state that the end is in, or -1 */
 } rb_rolling_history;
 
 void rb_rolling_history_free(rb_rolling_history *history);
@@ -634,6 +667,7 @@ typedef struct {
     double *residual;
     double *speed; /* [length/s]; 0 where none is given, because no body relaxes */
     double *resistance_moment, *resistance_ratio, *hysteresis; /* as of a solution */
+    double *max_temperature; /* NULL where not asked for */
     double free_creepage, half_width, seconds;
     int iterations;
 } rb_rolling_curve;

@@ -87,7 +87,8 @@ static case_array *table_column(rb_api *a, const rb_rolling_results *table,
                                 const char *column)
 {
     const rb_rolling_result *r = find_result(table, column);
-    case_array *made = r && rows > 0 ? rb_case_make_array(a, name, rows, 1) : NULL;
+    const int is_there = r && rows > 0 && rb_rolling_has_column(r, owner);
+    case_array *made = is_there ? rb_case_make_array(a, name, rows, 1) : NULL;
     for (int i = 0; made && i < rows; i++)
         made->at[i] = rb_rolling_entry(r, owner, i);
     return made;

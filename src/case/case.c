@@ -13,6 +13,9 @@ static rb_settled_case default_words(rb_case_purpose purpose)
                              .young_b = NAN,
                              .poisson_b = NAN,
                              .radius_b = INFINITY,
+                             .conductivity_b = NAN,
+                             .heat_capacity_b = NAN,
+                             .temperature_b = NAN,
                              .memory_a = {.time = NAN, .ratio = NAN},
                              .memory_b = {.time = NAN, .ratio = NAN}};
     if (purpose == RB_CASE_CURVE || purpose == RB_CASE_SPEEDS)
@@ -337,10 +340,32 @@ static rb_status settle_bodies(rb_case *c, rb_message *why)
                                   "a base has its layer on it, see "
                                   "--layer-thickness",
                                   why);
+    return status;
+}
+
+/* B conducts like A where nothing is said. */
+static rb_status settle_heat(rb_case *c, rb_message *why)
+{
+    static const char *const of_heat[] = {"heat-capacity", "temperature",
+                                          "conductivity-b", "heat-capacity-b",
+                                          "temperature-b"};
+    rb_settled_case *s = &c->settled;
+    const rb_rolling_heat *a = &s->rc.heat_a;
+    rb_status status = RB_OK;
+
+    s->rc.heat_b = (rb_rolling_heat){
+        isnan(s->conductivity_b) ? a->conductivity : s->conductivity_b,
+        isnan(s->heat_capacity_b) ? a->heat_capacity : s->heat_capacity_b,
+        isnan(s->temperature_b) ? a->temperature : s->temperature_b};
+    if (a->conductivity > 0.0)
+        return RB_OK;
+    for (size_t k = 0; k < sizeof of_heat / sizeof *of_heat && status == RB_OK; k++)
+        status =
+            refuse_given(c, of_heat[k], "for temperatures only, see --conductivity", why);
     if (status == RB_OK && s->rc.a.memory.n + s->rc.b.memory.n == 0)
         status = refuse_given(c, "speed",
-                              "for bodies that relax only, see "
-                              "--relaxation-time",
+                              "for bodies that relax and for temperatures only, see "
+                              "--relaxation-time and --conductivity",
                               why);
     return status;
 }
@@ -546,6 +571,7 @@ static const struct {
     {RB_CASE_CURVE, "accuracy", "of single cases; a curve has --error"},
     {RB_CASE_SPEEDS, "speed", "the curve runs over --from ... --to by itself"},
     {RB_CASE_SPEEDS, "accuracy", "of single cases; a curve has --error"},
+    {RB_CASE_STRESS, "conductivity", "stress has no temperatures"},
     {RB_CASE_STRESS, "accuracy", "stress has error bars, but does not refine"},
     {RB_CASE_STUDY, "error", "studies have no error bars"},
     {RB_CASE_STUDY, "accuracy", "studies have no error bars"},
@@ -588,6 +614,8 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
         s = check_support(c, body, why);
     if (s == RB_OK)
         s = settle_bodies(c, why);
+    if (s == RB_OK)
+        s = settle_heat(c, why);
     if (s == RB_OK)
         s = check_formulation(c, why);
     if (s == RB_OK)

@@ -81,7 +81,8 @@ const rb_option rb_case_table[] = {
                    "as many f, each glassy over rubbery modulus less 1",
                    .unset = "elastic", .list = PLACE(memory_a.ratios)),
     RB_NUMBER_LINE("speed", RC(speed), "mm/s", RB_ABOVE(0),
-                   "of rolling, for bodies that relax", .unset = "not given"),
+                   "of rolling, for bodies that relax and for temperatures",
+                   .unset = "not given"),
 
     RB_GROUP_LINE("body-b", "Body B: a rigid plane unless an option makes it elastic"),
     RB_FLAG_LINE("similar", PLACE(similar), "elastic, of the same material as A",
@@ -135,6 +136,23 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("mu", RC(mu), "-", RB_FROM(0),
                    "Coulomb's coefficient; curve: several with commas between",
                    .list = PLACE(mus)),
+
+    RB_GROUP_LINE("heat", "Heat of friction: flash temperature of steady and transient "
+                          "rolling"),
+    RB_NUMBER_LINE("conductivity", RC(heat_a.conductivity), "W/(m K)", RB_ABOVE(0),
+                   "of A; temperatures are computed where it is given, see --speed",
+                   .word = "none", .word_value = 0.0),
+    RB_NUMBER_LINE("heat-capacity", RC(heat_a.heat_capacity), "MJ/(m3 K)", RB_ABOVE(0),
+                   "of A: density times specific heat", .word = "none",
+                   .word_value = 0.0),
+    RB_NUMBER_LINE("temperature", RC(heat_a.temperature), "K", RB_ANY,
+                   "of A far from the contact; 0: results are rises"),
+    RB_NUMBER_LINE("conductivity-b", PLACE(conductivity_b), "W/(m K)", RB_FROM(0),
+                   "of B, rigid or elastic; 0: no heat enters B", .unset = "A's"),
+    RB_NUMBER_LINE("heat-capacity-b", PLACE(heat_capacity_b), "MJ/(m3 K)", RB_ABOVE(0),
+                   "of B", .unset = "A's"),
+    RB_NUMBER_LINE("temperature-b", PLACE(temperature_b), "K", RB_ANY,
+                   "of B far from the contact", .unset = "A's"),
 
     RB_GROUP_LINE("normal", "Normal direction: one of"),
     RB_NUMBER_LINE("approach", RC(approach), "mm", RB_ABOVE(0),
@@ -209,7 +227,8 @@ const rb_option rb_case_table[] = {
                     "on the circle outside the contact, one more if that makes the mesh "
                     "symmetric; 0: graded, neighbours differ by a fifth at most"),
     RB_CHOICE_LINE(
-        "normals", RC(normals), normals,
+        "normals",
+        RC(normals), normals,
         "contact frame: the obstacle's, or the polygon's own as in Addi et al."),
     RB_CHOICE_LINE(
         "near-field", RC(near_field), near_fields,

@@ -344,12 +344,15 @@ static int is_given(const study *st, const char *name)
     return 0;
 }
 
+/* Those that the cases have and no option names. */
 static void choose_results(study *st)
 {
+    const rb_rolling_case *one = &rb_case_settled(st->one)->rc;
     char heading[RB_ROLLING_HEADING];
     const rb_rolling_result *r;
     for (int k = 1; (r = rb_rolling_study_column(k)); k++)
-        if (!is_given(st, rb_rolling_heading(r, heading)) && st->results < RESULTS_MAX)
+        if (rb_rolling_has_result(r, one) &&
+            !is_given(st, rb_rolling_heading(r, heading)) && st->results < RESULTS_MAX)
             st->result[st->results++] = r;
 }
 

@@ -59,9 +59,11 @@ static void print_errors(FILE *out, const rb_rolling_history *h,
           out);
     for (int j = 0; j < rb_rolling_history_columns.n; j++) {
         const rb_rolling_result *r = &rb_rolling_history_columns.row[j];
+        if (!r->error_bar || !rb_rolling_has_column(r, h))
+            continue;
         const double value = rb_rolling_entry(r, h, last);
         const double error = rb_rolling_entry(r, errors, last);
-        if (r->error_bar && !isnan(value) && !isnan(error))
+        if (!isnan(value) && !isnan(error))
             fprintf(out, "    %-16s %.8g +- %.1g\n", r->name, value + 0.0, error);
     }
 }

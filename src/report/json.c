@@ -80,9 +80,10 @@ static void set_results(json_t **object, const rb_rolling_results *table,
 {
     for (int k = 0; k < table->n; k++) {
         const rb_rolling_result *r = &table->row[k];
-        if ((r->kind == RB_RESULT_SECONDS) == seconds)
-            rb_report_json_set(object, r->name,
-                               json_value(r, rb_rolling_number(r, owner)));
+        const double value = rb_rolling_number(r, owner);
+        if ((r->kind == RB_RESULT_SECONDS) == seconds &&
+            (r->condition == RB_FOR_ALL || !isnan(value)))
+            rb_report_json_set(object, r->name, json_value(r, value));
     }
 }
 
@@ -150,7 +151,7 @@ void rb_report_json_columns(json_t **object, int rows, const rb_report_columns *
     char heading[RB_ROLLING_HEADING];
     for (int j = 0; j < c->columns->n; j++) {
         const rb_rolling_result *r = &c->columns->row[j];
-        if (!c->errors || r->error_bar)
+        if ((!c->errors || r->error_bar) && rb_rolling_has_column(r, c->owner))
             rb_report_json_set(object, headed ? rb_rolling_heading(r, heading) : r->name,
                                entries(r, c->owner, rows));
     }

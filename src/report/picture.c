@@ -18,8 +18,38 @@ typedef struct {
     double slip_unit; /* power of 1000 */
     int slip_exponent;
     double slip_from, slip_to; /* in slip units */
+    double cool, warm;         /* temperature axis */
     int carter;                /* 1: draw Carter's curve */
 } view;
+
+/* Where the panels lie on the screen: tractions, slip, temperature. */
+typedef struct {
+    double top, bottom;
+} panel;
+
+enum { TRACTIONS, SLIP, TEMPERATURE };
+
+static panel panel_of(const view *v, int which)
+{
+    static const panel two[] = {{0.83, 0.40}, {0.36, 0.115}};
+    static const panel three[] = {{0.83, 0.48}, {0.45, 0.305}, {0.275, 0.115}};
+    return v->s->temperature ? three[which] : two[which];
+}
+
+/* Opens a panel; the lowest one carries the numbers of the x axis. */
+static void open_panel(FILE *out, const view *v, int which, int lowest)
+{
+    const panel at = panel_of(v, which);
+    fprintf(out,
+            "set tmargin at screen %g\nset bmargin at screen %g\nset format x '%s'\n",
+            at.top, at.bottom, lowest ? "%g" : "");
+}
+
+static double middle_of(const view *v, int which)
+{
+    const panel at = panel_of(v, which);
+    return 0.5 * (at.top + at.bottom);
+}
 
 static void choose_x_axis(view *v)
 {
@@ -61,6 +91,19 @@ static void choose_slip_axis(view *v)
     v->slip_to = (most + margin) / v->slip_unit;
 }
 
+static void choose_temperature_axis(view *v)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (int i = 0; i < v->s->n && v->s->temperature; i++)
+        if (is_shown(v, i)) {
+            least = fmin(least, fmin(v->s->temperature[i], v->s->temperature_b[i]));
+            most = fmax(most, fmax(v->s->temperature[i], v->s->temperature_b[i]));
+        }
+    const double margin = most > least ? 0.12 * (most - least) : 1.0;
+    v->cool = least - margin;
+    v->warm = most + margin;
+}
+
 static void choose_stress_unit(view *v)
 {
     const int large = v->s->max_pressure >= 1e4;
@@ -73,6 +116,7 @@ static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s)
     view v = {.rc = rc, .s = s};
     choose_x_axis(&v);
     choose_slip_axis(&v);
+    choose_temperature_axis(&v);
     choose_stress_unit(&v);
     v.carter =
         rb_rolling_carter_holds(rc) && isfinite(s->creep_ratio) && s->normal_load > 0.0;
@@ -86,9 +130,11 @@ static void write_data(FILE *out, const view *v)
     const rb_rolling_solution *s = v->s;
     fputs("$data << EOD\n", out);
     for (int i = 0; i < s->n; i++)
-        fprintf(out, "%.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->unit,
+        fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->unit,
                 s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
-                v->rc->mu * s->p[i] / v->stress_unit, s->slip[i] / v->slip_unit);
+                v->rc->mu * s->p[i] / v->stress_unit, s->slip[i] / v->slip_unit,
+                s->temperature ? s->temperature[i] : 0.0,
+                s->temperature ? s->temperature_b[i] : 0.0);
     fputs("EOD\n", out);
 }
 
@@ -223,10 +269,9 @@ enum { STEPS_UP_TO = 16 };
 static void write_tractions(FILE *out, const view *v, const char *key_font)
 {
     write_stress_range(out, v);
-    fputs("set tmargin at screen 0.83\nset bmargin at screen 0.40\nset format x ''\n",
-          out);
-    fprintf(out, "set label 3 'traction  [%s]' at screen 0.028, 0.615 center rotate\n",
-            v->stress_label);
+    open_panel(out, v, TRACTIONS, 0);
+    fprintf(out, "set label 3 'traction  [%s]' at screen 0.028, %g center rotate\n",
+            v->stress_label, middle_of(v, TRACTIONS));
     fprintf(
         out,
         "set key at screen 0.53, 0.87 center horizontal maxrows 1 samplen 2.2 width 0 "
@@ -260,24 +305,46 @@ double rb_report_round_step(double step)
     return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
 }
 
-static void write_slip(FILE *out, const view *v)
+static void write_x_label(FILE *out, const view *v)
 {
-    fputs("unset label\nunset key\nunset object\n"
-          "set tmargin at screen 0.36\nset bmargin at screen 0.115\nset format x '%g'\n",
-          out);
-    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->slip_from, v->slip_to,
-            rb_report_round_step((v->slip_to - v->slip_from) / 4.0));
     fprintf(out, "set xlabel '%s%s' offset 0,0.3\n", v->x_label,
             v->s->formulation == RB_STATIC ? "" : "      (rolling towards +x →)");
+}
+
+static void write_slip(FILE *out, const view *v)
+{
+    const int lowest = !v->s->temperature;
+    fputs("unset label\nunset key\nunset object\n", out);
+    open_panel(out, v, SLIP, lowest);
+    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->slip_from, v->slip_to,
+            rb_report_round_step((v->slip_to - v->slip_from) / 4.0));
+    if (lowest)
+        write_x_label(out, v);
     fputs("set label 3 'slip", out);
     if (v->slip_exponent)
         fprintf(out, "  [10^{%d}]", v->slip_exponent);
-    fputs("' at screen 0.028, 0.2375 center rotate\n", out);
+    fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, SLIP));
     write_zones(out, v, 0);
     fprintf(out,
             "plot 0 with lines linecolor rgb '#999999' linewidth 0.6, "
             "$data using 1:5 with %s linecolor rgb '#6c3483' linewidth 1.8\n",
             v->s->n <= STEPS_UP_TO ? "linespoints pointtype 7" : "lines");
+}
+
+static void write_temperature(FILE *out, const view *v)
+{
+    fputs("unset label\nunset object\n", out);
+    open_panel(out, v, TEMPERATURE, 1);
+    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->cool, v->warm,
+            rb_report_round_step((v->warm - v->cool) / 3.0));
+    write_x_label(out, v);
+    fprintf(out, "set label 3 'T  [K]' at screen 0.028, %g center rotate\n",
+            middle_of(v, TEMPERATURE));
+    write_zones(out, v, 0);
+    fputs("plot $data using 1:7 with lines dashtype (6,4) linecolor rgb '#7a7a7a' "
+          "linewidth 1.2, $data using 1:6 with lines linecolor rgb '#b9770e' linewidth "
+          "1.8\n",
+          out);
 }
 
 static void write_script(FILE *out, rb_report_picture_kind kind, const void *context)
@@ -293,6 +360,8 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
     write_title(out, v);
     write_tractions(out, v, rb_report_key_font(kind));
     write_slip(out, v);
+    if (v->s->temperature)
+        write_temperature(out, v);
     fputs("unset multiplot\n", out);
 }
 

@@ -15,7 +15,8 @@ static const rb_rolling_result *column(int k, int parts, const rb_report_columns
     for (int p = 0; p < parts; p++)
         for (int j = 0; j < part[p].columns->n; j++) {
             const rb_rolling_result *r = &part[p].columns->row[j];
-            if (part[p].errors && !r->error_bar)
+            if ((part[p].errors && !r->error_bar) ||
+                !rb_rolling_has_column(r, part[p].owner))
                 continue;
             if (k-- == 0) {
                 *of = &part[p];

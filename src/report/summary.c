@@ -117,6 +117,13 @@ static void print_motion(FILE *out, const rb_rolling_solution *s)
                 s->resistance_moment, s->resistance_ratio, s->hysteresis);
 }
 
+static void print_heat(FILE *out, const rb_rolling_solution *s)
+{
+    if (!isnan(s->max_temperature))
+        fprintf(out, "  heat      %.5g K at x = %.4g mm at most, Peclet number %.3g\n",
+                s->max_temperature, s->max_temperature_at, s->peclet);
+}
+
 static void print_zones(FILE *out, const rb_rolling_solution *s, int width)
 {
     enum { LONGEST = 200 };
@@ -160,6 +167,7 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
     fprintf(out, ", residual %.2g\n", s->residual);
     print_forces(out, s);
     print_motion(out, s);
+    print_heat(out, s);
     print_zones(out, s, width);
     print_machine(out, s);
 }

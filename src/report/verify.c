@@ -35,6 +35,7 @@ void rb_verify_solve(rb_verify *v, const rb_rolling_case *rc, rb_rolling_solutio
     if (status != RB_OK) {
         s->normal_load = s->force_ratio = s->max_pressure = s->half_width = NAN;
         s->approach = s->creepage = s->stick_from = s->stick_to = s->dissipation = NAN;
+        s->max_temperature = NAN;
     }
 }
 
@@ -74,5 +75,6 @@ int rb_report_verify(rb_report_each_check *each, void *context)
     rb_verify_contact(&v);
     rb_verify_rolling(&v);
     rb_verify_accuracy(&v);
+    rb_verify_interface(&v);
     return v.failed;
 }

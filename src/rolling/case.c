@@ -209,6 +209,53 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+/* Friction heats what rolls; steps follow it where both bodies start equally warm. */
+static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
+{
+    enum { MOST = 100000, MOST_UNLIKE = 4000 };
+    const rb_rolling_heat *a = &rc->heat_a, *b = &rc->heat_b;
+
+    if (!(a->conductivity >= 0.0 && isfinite(a->conductivity)))
+        return rb_fail(why, RB_EINVAL, "conductivity: expected >= 0, got %g",
+                       a->conductivity);
+    if (a->conductivity == 0.0)
+        return RB_OK;
+    if (!(b->conductivity >= 0.0 && isfinite(b->conductivity)))
+        return rb_fail(why, RB_EINVAL, "conductivity of body B: expected >= 0, got %g",
+                       b->conductivity);
+    if (!is_positive(a->heat_capacity) ||
+        (b->conductivity > 0.0 && !is_positive(b->heat_capacity)))
+        return rb_fail(why, RB_EINVAL,
+                       "conductivity: needs the heat capacity, add --heat-capacity");
+    if (!isfinite(a->temperature) || !isfinite(b->temperature))
+        return rb_fail(why, RB_EINVAL, "temperature: expected finite numbers");
+    if (rc->formulation == RB_STATIC)
+        return rb_fail(why, RB_EINVAL,
+                       "conductivity: friction heats bodies that roll, add --formulation "
+                       "steady or transient");
+    if (!is_positive(rc->speed))
+        return rb_fail(why, RB_EINVAL,
+                       "conductivity: needs the speed of rolling, add --speed");
+    if (rc->a.memory.n + rc->a.layer > 0.0 ||
+        (rc->elastic_b && rc->b.memory.n + rc->b.layer > 0.0))
+        return rb_fail(why, RB_EINVAL,
+                       "conductivity: of homogeneous elastic bodies; a layer conducts "
+                       "otherwise than its base, and a body that relaxes heats inside");
+    if (rc->formulation == RB_TRANSIENT && a->temperature != b->temperature)
+        return rb_fail(why, RB_EINVAL,
+                       "temperature-b: step by step both bodies start equally warm");
+    const int unlike = b->conductivity > 0.0 && (a->conductivity != b->conductivity ||
+                                                 a->heat_capacity != b->heat_capacity ||
+                                                 a->temperature != b->temperature);
+    const int most = unlike ? MOST_UNLIKE : MOST;
+    if (rc->contact_elements > most)
+        return rb_fail(why, RB_EINVAL,
+                       "conductivity: expected at most %d contact elements%s, got %d",
+                       most, unlike ? " of bodies that conduct differently" : "",
+                       rc->contact_elements);
+    return RB_OK;
+}
+
 static int count_given(int n, const double *value)
 {
     int given = 0;
@@ -409,6 +456,8 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
         s = check_body(&rc->b, " of body B", 1, why);
     if (s == RB_OK)
         s = check_memory(rc, why);
+    if (s == RB_OK)
+        s = check_heat(rc, why);
     if (s == RB_OK && !(isfinite(rc->mu) && rc->mu >= 0.0))
         s = rb_fail(why, RB_EINVAL, "mu: expected >= 0, got %g", rc->mu);
     if (s == RB_OK)

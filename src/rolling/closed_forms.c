@@ -101,3 +101,9 @@ rb_closed_bentall_johnson rb_closed_bentall_johnson_stick(double beta,
     b.mid_pressure = modulus * b.half_width / (2.0 * radius * sqrt(1.0 - beta * beta));
     return b;
 }
+
+double rb_closed_flash_temperature(double heat, double half_width, double speed,
+                                   double effusivity)
+{
+    return 2.1883067 * heat * sqrt(half_width) / (effusivity * sqrt(M_PI * speed));
+}

@@ -14,7 +14,20 @@ void rb_rolling_curve_free(rb_rolling_curve *c)
     memset(c, 0, sizeof *c);
 }
 
-static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c)
+static rb_status record_heat(const rb_rolling_model *model, double *max_temperature,
+                             rb_message *why)
+{
+    rb_rolling_solution s;
+    const rb_status status = rb_rolling_model_solution(model, &s, why);
+
+    if (status == RB_OK)
+        *max_temperature = s.max_temperature;
+    rb_rolling_solution_free(&s);
+    return status;
+}
+
+static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
+                        rb_message *why)
 {
     const rb_rolling_problem *p = &model->problem;
     const rb_rolling_state *state = &model->state;
@@ -44,7 +57,10 @@ static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c)
     c->resistance_moment[k] = rb_rolling_moment(p, state);
     c->resistance_ratio[k] =
         c->resistance_moment[k] / (P * rb_rolling_radius(&model->rc));
-    return rb_rolling_hysteresis(model, &c->hysteresis[k]);
+    const rb_status s = rb_rolling_hysteresis(model, &c->hysteresis[k]);
+    return s == RB_OK && c->max_temperature
+               ? record_heat(model, &c->max_temperature[k], why)
+               : s;
 }
 
 /* The whole search for the contact again. */
@@ -120,7 +136,7 @@ static rb_status over_creepages(const rb_rolling_case *rc, const range *r,
         if (s == RB_OK || s == RB_ZONE)
             s = follow_contact(model, s == RB_ZONE, edge, why);
         if (s >= 0) {
-            const rb_status t = record(model, c);
+            const rb_status t = record(model, c, why);
             s = t < 0 ? t : s;
         }
     }
@@ -144,7 +160,7 @@ static rb_status over_speeds(const rb_rolling_case *rc, const range *r,
         s = rb_rolling_model_create(&steady, model, why);
         model->iterations += iterations;
         if (s >= 0 && model->state.p) {
-            const rb_status t = record(model, c);
+            const rb_status t = record(model, c, why);
             s = t < 0 ? t : s;
         }
     }
@@ -188,7 +204,7 @@ rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, rb_rolling_variable 
     curve->free_creepage = NAN;
     steady.formulation = RB_STEADY;
     if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, points, curve);
+        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, &steady, points, curve);
     if (s == RB_OK)
         s = (over == RB_OVER_SPEED ? over_speeds : over_creepages)(&steady, &r, &model,
                                                                    curve, why);

@@ -169,6 +169,9 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
         return rounding * a / rb_rolling_radius(rc);
     case RB_SCALE_WORK:
         return rounding * s->normal_load * a / rb_rolling_radius(rc);
+    case RB_SCALE_HEAT:
+        return rounding * fabs(s->max_temperature -
+                               fmin(rc->heat_a.temperature, rc->heat_b.temperature));
     case RB_SCALE_ELEMENT:
     case RB_SCALE_NONE:
         break;

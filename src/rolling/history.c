@@ -28,6 +28,7 @@ typedef struct {
     double *w_T;  /* n: tangential displacement that the next step starts from */
     double *q;    /* n: friction before the step */
     rb_rolling_ahead ahead; /* for steps of another length than an element's */
+    rb_rolling_heat_track heat;
 } run;
 
 static double element_length(const run *r)
@@ -86,6 +87,11 @@ static void record(run *r, double distance)
         h->dissipation[k] = rb_rolling_dissipated_power(
             &model->rc, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
     h->moment[k] = rb_rolling_moment(p, state);
+    if (h->max_temperature) {
+        double at;
+        rb_rolling_warmest(p->n, model->bodies.f.x, state->zone, model->temperature,
+                           &h->max_temperature[k], &at);
+    }
     for (int i = 0; i < p->n; i++) {
         h->stick[k] += state->zone[i] == RB_ZONE_STICK;
         h->slipping[k] += state->zone[i] > RB_ZONE_STICK;
@@ -175,6 +181,9 @@ static rb_status rolled_step(run *r, double from, double to, rb_message *why)
     s = judge(r, rb_rolling_model_control(model, &reason), &reason, why);
     if (s == RB_OK)
         watch_steadiness(r, c);
+    if (s >= 0 && r->history->max_temperature)
+        rb_rolling_heat_track_step(&model->rc, model->state.q, model->state.lambda,
+                                   &r->heat, model->temperature);
     if (s >= 0)
         record(r, to);
     return s;
@@ -219,6 +228,7 @@ static rb_status widest_contact(const run *r, double zone, rb_message *why)
 
     widest.formulation = RB_STATIC;
     widest.increments = 0;
+    widest.heat_a.conductivity = 0.0; /* nothing slides yet */
     widest.zone = zone;
     widest.load = largest(program->load, program->n, widest.load);
     widest.approach = largest(program->approach, program->n, widest.approach);
@@ -252,6 +262,22 @@ static rb_status plan_steps(run *r, double *step, rb_message *why)
     return RB_OK;
 }
 
+/* Both surfaces begin with the temperature of their bodies. */
+static rb_status prepare_heat(run *r, double step, rb_message *why)
+{
+    const int n = r->model->mesh.n;
+
+    if (!rb_rolling_has_heat(r->rc))
+        return RB_OK;
+    r->model->temperature = rb_alloc((size_t)n, 1);
+    if (!r->model->temperature)
+        return RB_ENOMEM;
+    for (int i = 0; i < n; i++)
+        r->model->temperature[i] = r->rc->heat_a.temperature;
+    return rb_rolling_heat_track_create(r->rc, n, element_length(r), step,
+                                        r->model->half_width, &r->heat, why);
+}
+
 static rb_status prepare(run *r, double zone, rb_message *why)
 {
     double step = 0.0;
@@ -266,7 +292,10 @@ static rb_status prepare(run *r, double zone, rb_message *why)
         return RB_ENOMEM;
     s = plan_steps(r, &step, why);
     if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->steps, r->history);
+        s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, r->steps,
+                                     r->history);
+    if (s == RB_OK)
+        s = prepare_heat(r, step, why);
     r->history->half_width = r->model->half_width;
     r->history->step = step;
     r->history->steady_from = -1;
@@ -279,6 +308,7 @@ static void run_free(run *r)
     free(r->q);
     r->w_T = r->q = NULL;
     rb_rolling_ahead_free(&r->ahead);
+    rb_rolling_heat_track_free(&r->heat);
 }
 
 /* Loads that move and surfaces that are irregular may widen the contact beyond that of

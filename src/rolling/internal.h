@@ -103,6 +103,40 @@ void rb_rolling_add_slip(const rb_rolling_problem *problem, const double *r,
 void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
                              const double *q, double *gap, double *slip);
 
+/* ---- heat.c ---------------------------------------------------------------------------
+ */
+
+/* 1 where the case asks for temperatures. */
+int rb_rolling_has_heat(const rb_rolling_case *rc);
+/* V a/(2 diffusivity); INFINITY where no heat enters the body. */
+double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_width);
+/* Temperatures of both surfaces (n each) under the friction power per unit speed (n) of
+ * a steady solution with tractions, slip and zones. */
+rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc,
+                                        const rb_rolling_solution *s, const double *power,
+                                        double *t_a, double *t_b, rb_message *why);
+/* Highest temperature in contact and its place; NAN without contact. */
+void rb_rolling_warmest(int n, const double *x, const int *zone, const double *t,
+                        double *value, double *at);
+
+/* The heat of the steps that particles still in the mesh have met. */
+typedef struct {
+    int n, rows, newest, known; /* rows: steps kept, a ring of which `known` are filled */
+    double h, step;             /* lengths of an element and of a step */
+    double *heat;               /* rows x n [stress * length / time]; owned */
+} rb_rolling_heat_track;
+
+/* RB_EINVAL: the Peclet number is too small for heat that goes along the depth only. */
+rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, int n, double h,
+                                       double step, double half_width,
+                                       rb_rolling_heat_track *track, rb_message *why);
+/* Adds a rolled step of friction q and slip displacement lambda; temperature: n, of both
+ * surfaces at its end. */
+void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
+                                const double *lambda, rb_rolling_heat_track *track,
+                                double *temperature);
+void rb_rolling_heat_track_free(rb_rolling_heat_track *track);
+
 /* ---- results.c
  * -------------------------------------------------------------------------
  */
@@ -112,10 +146,10 @@ void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
 rb_rolling_solution rb_rolling_no_scalars(rb_status status);
 rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *s);
 
-/* Zeros for every column of the table; what there is on RB_ENOMEM is freed as if it were
- * complete. */
-rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, int rows,
-                                   void *owner);
+/* Zeros for every column of the table that the case has; the owner's others stay NULL.
+ * What there is on RB_ENOMEM is freed as if it were complete. */
+rb_status rb_rolling_columns_alloc(const rb_rolling_results *table,
+                                   const rb_rolling_case *rc, int rows, void *owner);
 void rb_rolling_columns_free(const rb_rolling_results *table, void *owner);
 /* A column of numbers. */
 double *rb_rolling_column(const rb_rolling_result *r, const void *owner);
@@ -267,9 +301,9 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
 /* ---- align.c --------------------------------------------------------------------------
  */
 
-/* A first solution, then equal elements whose ends meet both edges; where these do not come
- * to rest, equal ones anywhere, with model->equal_instead saying so.  RB_EINVAL: several
- * patches. */
+/* A first solution, then equal elements whose ends meet both edges; where these do not
+ * come to rest, equal ones anywhere, with model->equal_instead saying so.  RB_EINVAL:
+ * several patches. */
 rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why);
 /* The same from the edges that the model has now. */
 rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why);

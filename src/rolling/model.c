@@ -14,6 +14,7 @@ void rb_rolling_model_free(rb_rolling_model *model)
     rb_rolling_problem_free(&model->problem);
     rb_rolling_bodies_free(&model->bodies);
     rb_rolling_mesh_free(&model->mesh);
+    free(model->temperature);
     memset(model, 0, sizeof *model);
 }
 

@@ -78,6 +78,14 @@ static const rb_rolling_result scalars[] = {
     RESULT("hysteresis", hysteresis, .unit = "N/mm", .error_bar = RB_SCALE_WORK,
            .study = 18,
            .meaning = "power per unit speed that bodies which relax lose; steady"),
+    RESULT("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_HEAT,
+           .study = 19, .condition = RB_FOR_HEAT,
+           .meaning = "highest temperature of the surfaces in contact"),
+    RESULT("max_temperature_at", max_temperature_at, .unit = "mm",
+           .error_bar = RB_SCALE_ELEMENT, .study = 20, .condition = RB_FOR_HEAT,
+           .meaning = "its place"),
+    RESULT("peclet", peclet, .study = 21, .condition = RB_FOR_HEAT,
+           .meaning = "V a/(2 diffusivity of A), a the half-width"),
     RESULT("datum", datum, .unit = "mm",
            .meaning = "depth of zero displacement in A; half-planes"),
     RESULT("boundary_elements", boundary_elements, .kind = RB_RESULT_WHOLE,
@@ -105,6 +113,10 @@ static const rb_rolling_result columns[] = {
     RESULT("slip", slip, .unit = "1", .meaning = "relative slip velocity"),
     RESULT("zone", zone, .kind = RB_RESULT_WHOLE,
            .meaning = "0 separated, 1 stick, 2 slip with q = -mu p, 3 with q = +mu p"),
+    RESULT("temperature", temperature, .unit = "K", .condition = RB_FOR_HEAT,
+           .meaning = "of A's surface"),
+    RESULT("temperature_b", temperature_b, .unit = "K", .condition = RB_FOR_HEAT,
+           .meaning = "of B's surface; in contact A's"),
 };
 
 /* New ones at the end: scripts count columns. */
@@ -138,6 +150,9 @@ static const rb_rolling_result steps[] = {
          .is_mean = 1, .meaning = "friction power per unit speed; 0 at rest"),
     STEP("moment", moment, .unit = "N", .error_bar = RB_SCALE_ONE,
          .meaning = "int x p dx; > 0: the load acts ahead of x = 0"),
+    STEP("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_ONE,
+         .condition = RB_FOR_HEAT,
+         .meaning = "highest temperature of the surfaces in contact"),
 };
 
 static const rb_rolling_result points[] = {
@@ -162,6 +177,9 @@ static const rb_rolling_result points[] = {
           .meaning = "M/(P R)"),
     POINT("hysteresis", hysteresis, .unit = "N/mm", .error_bar = RB_SCALE_ONE,
           .meaning = "power per unit speed that bodies which relax lose"),
+    POINT("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_ONE,
+          .condition = RB_FOR_HEAT,
+          .meaning = "highest temperature of the surfaces in contact"),
 };
 
 static const rb_rolling_result patch[] = {
@@ -223,6 +241,16 @@ static void *column_of(const rb_rolling_result *r, const void *owner)
     return column;
 }
 
+int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc)
+{
+    return r->condition == RB_FOR_ALL || rb_rolling_has_heat(rc);
+}
+
+int rb_rolling_has_column(const rb_rolling_result *r, const void *owner)
+{
+    return column_of(r, owner) != NULL;
+}
+
 double *rb_rolling_column(const rb_rolling_result *r, const void *owner)
 {
     return column_of(r, owner);
@@ -275,11 +303,14 @@ rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *from)
     return s;
 }
 
-rb_status rb_rolling_columns_alloc(const rb_rolling_results *table, int rows, void *owner)
+rb_status rb_rolling_columns_alloc(const rb_rolling_results *table,
+                                   const rb_rolling_case *rc, int rows, void *owner)
 {
     rb_status s = RB_OK;
     for (int k = 0; k < table->n; k++) {
         const rb_rolling_result *r = &table->row[k];
+        if (!rb_rolling_has_result(r, rc))
+            continue;
         void *column = r->kind == RB_RESULT_WHOLE ? (void *)rb_alloc_int((size_t)rows)
                                                   : rb_alloc((size_t)rows, 1);
         memcpy(place(r, owner), &column, sizeof column);

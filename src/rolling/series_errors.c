@@ -14,7 +14,7 @@ static void error_columns(const rb_rolling_results *columns, int rows, int runs,
 
     for (int k = 0; k < columns->n; k++) {
         const rb_rolling_result *column = &columns->row[k];
-        if (column->error_bar == RB_SCALE_NONE)
+        if (column->error_bar == RB_SCALE_NONE || !rb_rolling_has_column(column, own))
             continue;
         const double *value = rb_rolling_column(column, own);
         double *e = rb_rolling_column(column, errors), largest = 0.0;
@@ -75,7 +75,7 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
         s = rb_rolling_curve_solve(&coarser, over, from, to, points, &run[k], why);
     }
     if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, points, errors);
+        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, rc, points, errors);
     if (s == RB_OK)
         curve_errors(rc, runs, run, curve, errors);
     for (int k = 0; k < runs; k++) {
@@ -135,15 +135,15 @@ static void place_column(const rb_rolling_history *from, const double *column,
 }
 
 /* What of the history has error bars, at the steps of another one. */
-static rb_status place_history(const rb_rolling_history *from,
+static rb_status place_history(const rb_rolling_case *rc, const rb_rolling_history *from,
                                const rb_rolling_history *to, rb_rolling_history *out)
 {
     const rb_rolling_results *columns = &rb_rolling_history_columns;
-    const rb_status s = rb_rolling_columns_alloc(columns, to->n, out);
+    const rb_status s = rb_rolling_columns_alloc(columns, rc, to->n, out);
 
     for (int k = 0; k < columns->n && s == RB_OK; k++) {
         const rb_rolling_result *r = &columns->row[k];
-        if (r->error_bar)
+        if (r->error_bar && rb_rolling_has_column(r, from))
             place_column(from, rb_rolling_column(r, from), r->is_mean, to,
                          rb_rolling_column(r, out));
     }
@@ -186,7 +186,7 @@ static rb_status history_errors(const rb_rolling_case *rc, int runs,
 {
     const rb_rolling_results *columns = &rb_rolling_history_columns;
     const void *run[RB_ERROR_RUNS];
-    rb_status s = rb_rolling_columns_alloc(columns, own->n, errors);
+    rb_status s = rb_rolling_columns_alloc(columns, rc, own->n, errors);
 
     if (s != RB_OK)
         return s;
@@ -196,7 +196,7 @@ static rb_status history_errors(const rb_rolling_case *rc, int runs,
     error_columns(columns, own->n, runs, run, own, errors);
     add_edge_power(rc, own, errors);
     for (int k = 0; k < columns->n && s == RB_OK; k++)
-        if (columns->row[k].error_bar)
+        if (columns->row[k].error_bar && rb_rolling_has_column(&columns->row[k], errors))
             s = widen(own, rb_rolling_column(&columns->row[k], errors));
     return s;
 }
@@ -228,7 +228,7 @@ static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program
         rb_rolling_history_run(&coarser, program, see_coarser, w, &model, &history, why);
 
     if (s == RB_OK)
-        s = place_history(&history, own, placed);
+        s = place_history(rc, &history, own, placed);
     rb_rolling_model_free(&model);
     rb_rolling_history_free(&history);
     return s;

@@ -11,11 +11,11 @@ void rb_rolling_solution_free(rb_rolling_solution *s)
     memset(s, 0, sizeof *s);
 }
 
-static rb_status solution_alloc(int n, rb_rolling_solution *s)
+static rb_status solution_alloc(const rb_rolling_case *rc, int n, rb_rolling_solution *s)
 {
     memset(s, 0, sizeof *s);
     s->n = n;
-    return rb_rolling_columns_alloc(&rb_rolling_solution_columns, n, s);
+    return rb_rolling_columns_alloc(&rb_rolling_solution_columns, rc, n, s);
 }
 
 /* ---- Scalars of the traction distribution ---------------------------------------------
@@ -267,10 +267,40 @@ static rb_status set_proof(const rb_rolling_model *model, rb_rolling_solution *s
     return status;
 }
 
+/* Steady rolling heats by the solution at hand; of a transient the steps have followed
+ * the heat. */
+static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solution *s,
+                                 rb_message *why)
+{
+    const rb_rolling_case *rc = &model->rc;
+    const size_t size = (size_t)s->n * sizeof(double);
+    rb_status status = RB_OK;
+
+    s->max_temperature = s->max_temperature_at = s->peclet = NAN;
+    if (!s->temperature)
+        return RB_OK;
+    if (rc->formulation == RB_STEADY) {
+        double *power = rb_alloc((size_t)s->n, 1);
+        if (power)
+            rb_rolling_friction_power(s, power);
+        status = power ? rb_rolling_steady_temperature(rc, s, power, s->temperature,
+                                                       s->temperature_b, why)
+                       : RB_ENOMEM;
+        free(power);
+    } else if (model->temperature) {
+        memcpy(s->temperature, model->temperature, size);
+        memcpy(s->temperature_b, model->temperature, size);
+    }
+    rb_rolling_warmest(s->n, s->x, s->zone, s->temperature, &s->max_temperature,
+                       &s->max_temperature_at);
+    s->peclet = rb_rolling_peclet(&rc->heat_a, rc->speed, s->half_width);
+    return status;
+}
+
 rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_solution *s,
                                     rb_message *why)
 {
-    rb_status status = solution_alloc(model->mesh.n, s);
+    rb_status status = solution_alloc(&model->rc, model->mesh.n, s);
 
     if (status == RB_OK) {
         s->formulation = model->rc.formulation;
@@ -300,7 +330,10 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     s->slip_violations = count_violations(model, s);
     s->dissipation = rb_rolling_dissipated_power(&model->rc, s->n, s->shift, s->q, s->h,
                                                  model->problem.e_T);
-    return RB_OK;
+    status = set_temperature(model, s, why);
+    if (status != RB_OK)
+        rb_rolling_solution_free(s);
+    return status;
 }
 
 rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,

@@ -1,0 +1,297 @@
+/* Flash temperature: friction heats the surfaces on their way through the contact
+ * (theory.md 4.8). */
+#include "rolling/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_sf_bessel.h>
+#include <lapacke.h>
+#include <stdlib.h>
+#include <string.h>
+
+int rb_rolling_has_heat(const rb_rolling_case *rc)
+{
+    return rc->heat_a.conductivity > 0.0;
+}
+
+static double diffusivity(const rb_rolling_heat *body)
+{
+    return body->conductivity / body->heat_capacity;
+}
+
+double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_width)
+{
+    return body->conductivity > 0.0 ? speed * half_width / (2.0 * diffusivity(body))
+                                    : INFINITY;
+}
+
+/* ---- One body (T1) ------------------------------------------------------------------
+ */
+
+/* G(z) = z exp(z) [K0|z| + sgn(z) K1|z|] - 1, the integral of exp(t) K0|t| from 0. */
+static double moving_source(double z)
+{
+    const double r = fabs(z);
+
+    if (r == 0.0)
+        return 0.0;
+    if (z > 0.0)
+        return r * (gsl_sf_bessel_K0_scaled(r) + gsl_sf_bessel_K1_scaled(r)) - 1.0;
+    return r > 400.0 ? -1.0
+                     : r * exp(-2.0 * r) *
+                               (gsl_sf_bessel_K1_scaled(r) - gsl_sf_bessel_K0_scaled(r)) -
+                           1.0;
+}
+
+double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from,
+                                double to)
+{
+    const double P = speed / (2.0 * diffusivity(body));
+
+    return (moving_source(P * to) - moving_source(P * from)) /
+           (M_PI * body->conductivity * P);
+}
+
+/* The surfaces of one body: rise at the midpoints from heat in the elements. */
+typedef struct {
+    const rb_rolling_heat *body;
+    double speed;
+    int n;
+    const double *x, *h;
+    int equal;      /* 1: equal elements */
+    double *source; /* equal: G at distances (k + 1/2) h, k = -n ... n - 1, from its
+                       middle on; owned */
+} conductor;
+
+static rb_status conductor_create(const rb_rolling_case *rc, const rb_rolling_heat *body,
+                                  const rb_rolling_solution *s, conductor *c)
+{
+    const double P = rc->speed / (2.0 * diffusivity(body));
+    const int n = s->n;
+
+    *c = (conductor){body, rc->speed, n, s->x, s->h, rc->mesh != RB_MESH_FITTED, NULL};
+    for (int i = 1; i < n; i++)
+        c->equal = c->equal && fabs(s->h[i] - s->h[0]) <= 1e-9 * s->h[0];
+    if (!c->equal)
+        return RB_OK;
+    c->source = rb_alloc(2 * (size_t)n, 1);
+    for (int k = -n; c->source && k < n; k++)
+        c->source[n + k] = moving_source(P * s->h[0] * (k + 0.5));
+    return c->source ? RB_OK : RB_ENOMEM;
+}
+
+/* row_j: rise at midpoint i of a unit heat per area and time in element j. */
+static void conductor_row(const conductor *c, int i, double *row)
+{
+    const double P = c->speed / (2.0 * diffusivity(c->body));
+    const double unit = 1.0 / (M_PI * c->body->conductivity * P);
+
+    for (int j = 0; j < c->n; j++) {
+        const double *g = c->equal ? &c->source[c->n + j - i - 1] : NULL;
+        const double left = c->x[j] - 0.5 * c->h[j] - c->x[i];
+        row[j] = g ? unit * (g[1] - g[0])
+                   : rb_rolling_heat_response(c->body, c->speed, left, left + c->h[j]);
+    }
+}
+
+/* ---- Both bodies ---------------------------------------------------------------------
+ */
+
+static int is_contact(const rb_rolling_solution *s, int i)
+{
+    return s->zone[i] != RB_ZONE_SEPARATED;
+}
+
+/* In contact both surfaces are equally warm: (K_A + K_B) H_A = K_B H + T_B - T_A gives
+ * the part H_A of the heat H that enters A. */
+static rb_status share_heat(const conductor *a, const conductor *b,
+                            const rb_rolling_solution *s, const double *heat,
+                            double *heat_a)
+{
+    const int n = s->n, m = s->contact;
+    const double difference = b->body->temperature - a->body->temperature;
+    double *M = rb_alloc((size_t)m, (size_t)m), *rhs = rb_alloc((size_t)m, 1);
+    double *row_a = rb_alloc((size_t)n, 1), *row_b = rb_alloc((size_t)n, 1);
+    lapack_int *pivots = malloc(sizeof *pivots * ((size_t)m + 1));
+    rb_status status = M && rhs && row_a && row_b && pivots ? RB_OK : RB_ENOMEM;
+
+    for (int i = 0, k = 0; i < n && status == RB_OK; i++) {
+        if (!is_contact(s, i))
+            continue;
+        conductor_row(a, i, row_a);
+        conductor_row(b, i, row_b);
+        rhs[k] = difference;
+        for (int j = 0, l = 0; j < n; j++) {
+            if (!is_contact(s, j))
+                continue;
+            M[(size_t)l++ * (size_t)m + (size_t)k] = row_a[j] + row_b[j];
+            rhs[k] += row_b[j] * heat[j];
+        }
+        k++;
+    }
+    if (status == RB_OK && m > 0 &&
+        LAPACKE_dgesv_work(LAPACK_COL_MAJOR, m, 1, M, m, pivots, rhs, m) != 0)
+        status = RB_SINGULAR;
+    for (int i = 0, k = 0; i < n && status == RB_OK; i++)
+        heat_a[i] = is_contact(s, i) ? rhs[k++] : 0.0;
+    free(M);
+    free(rhs);
+    free(row_a);
+    free(row_b);
+    free(pivots);
+    return status;
+}
+
+/* T = T_0 + K H. */
+static rb_status warm(const conductor *c, const double *heat, double *temperature)
+{
+    double *row = rb_alloc((size_t)c->n, 1);
+
+    for (int i = 0; row && i < c->n; i++) {
+        conductor_row(c, i, row);
+        temperature[i] = c->body->temperature;
+        for (int j = 0; j < c->n; j++)
+            temperature[i] += row[j] * heat[j];
+    }
+    free(row);
+    return row ? RB_OK : RB_ENOMEM;
+}
+
+static int is_alike(const rb_rolling_heat *a, const rb_rolling_heat *b)
+{
+    return a->conductivity == b->conductivity && a->heat_capacity == b->heat_capacity &&
+           a->temperature == b->temperature;
+}
+
+rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc,
+                                        const rb_rolling_solution *s, const double *power,
+                                        double *t_a, double *t_b, rb_message *why)
+{
+    const int n = s->n, b_conducts = rc->heat_b.conductivity > 0.0;
+    double *heat = rb_alloc((size_t)n, 2), *heat_a = heat ? heat + n : NULL;
+    conductor a = {0}, b = {0};
+    rb_status status = heat ? conductor_create(rc, &rc->heat_a, s, &a) : RB_ENOMEM;
+
+    if (status == RB_OK && b_conducts)
+        status = conductor_create(rc, &rc->heat_b, s, &b);
+    for (int i = 0; i < n && status == RB_OK; i++)
+        heat[i] = power[i] * rc->speed;
+    if (status == RB_OK && b_conducts && !is_alike(&rc->heat_a, &rc->heat_b))
+        status = share_heat(&a, &b, s, heat, heat_a);
+    else
+        for (int i = 0; i < n && status == RB_OK; i++)
+            heat_a[i] = b_conducts ? 0.5 * heat[i] : heat[i];
+    if (status == RB_OK)
+        status = warm(&a, heat_a, t_a);
+    for (int i = 0; i < n && status == RB_OK; i++) {
+        heat[i] -= heat_a[i];
+        t_b[i] = is_contact(s, i) ? t_a[i] : rc->heat_b.temperature;
+    }
+    if (status == RB_OK && b_conducts)
+        status = warm(&b, heat, t_b);
+    free(heat);
+    free(a.source);
+    free(b.source);
+    return status == RB_OK
+               ? RB_OK
+               : rb_fail(why, status, "temperature: %s", rb_status_text(status));
+}
+
+/* The parabola through the warmest element in contact and its neighbours there. */
+void rb_rolling_warmest(int n, const double *x, const int *zone, const double *t,
+                        double *value, double *at)
+{
+    int k = -1;
+
+    *value = *at = NAN;
+    for (int i = 0; i < n; i++)
+        if (zone[i] != RB_ZONE_SEPARATED && (k < 0 || t[i] > t[k]))
+            k = i;
+    if (k < 0)
+        return;
+    *value = t[k];
+    *at = x[k];
+    if (k == 0 || k == n - 1 || zone[k - 1] == RB_ZONE_SEPARATED ||
+        zone[k + 1] == RB_ZONE_SEPARATED)
+        return;
+    const double dl = x[k - 1] - x[k], dr = x[k + 1] - x[k];
+    const double fl = (t[k - 1] - t[k]) / dl, fr = (t[k + 1] - t[k]) / dr;
+    const double curvature = (fr - fl) / (dr - dl), slope = fl - curvature * dl;
+    if (!(curvature < 0.0))
+        return;
+    *value -= gsl_pow_2(slope) / (4.0 * curvature);
+    *at -= slope / (2.0 * curvature);
+}
+
+/* ---- Rolling in time ------------------------------------------------------------------
+ */
+
+/* So much smaller than a Peclet number of 10 the heat that spreads along the surface
+ * would count by more than 1e-3. */
+static const double LEAST_PECLET = 10.0;
+
+rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, int n, double h,
+                                       double step, double half_width,
+                                       rb_rolling_heat_track *track, rb_message *why)
+{
+    const double peclet = fmin(rb_rolling_peclet(&rc->heat_a, rc->speed, half_width),
+                               rb_rolling_peclet(&rc->heat_b, rc->speed, half_width));
+
+    *track = (rb_rolling_heat_track){.n = n, .h = h, .step = step};
+    if (peclet < LEAST_PECLET)
+        return rb_fail(why, RB_EINVAL,
+                       "temperature: step by step heat goes along the depth only, which "
+                       "wants V a/(2 diffusivity) >= %g, got %.3g",
+                       LEAST_PECLET, peclet);
+    const double rows = step > 0.0 ? ceil(n * h / step) + 1.0 : 1.0;
+    const rb_status s =
+        rb_memory_check(sizeof(double) * rows * n, "temperature: the heat of steps", why);
+    if (s != RB_OK)
+        return s;
+    track->rows = (int)rows;
+    track->heat = rb_alloc((size_t)track->rows, (size_t)n);
+    return track->heat ? RB_OK : RB_ENOMEM;
+}
+
+void rb_rolling_heat_track_free(rb_rolling_heat_track *track)
+{
+    free(track->heat);
+    *track = (rb_rolling_heat_track){.n = 0};
+}
+
+/* Heat of `back` steps ago at a place between midpoints. */
+static double heat_at(const rb_rolling_heat_track *t, int back, double place)
+{
+    const int row = (t->newest - back + t->rows) % t->rows;
+    const double *heat = t->heat + (size_t)row * (size_t)t->n;
+    const int j = (int)floor(place);
+    const double part = place - j;
+    const double left = j >= 0 && j < t->n ? heat[j] : 0.0;
+    const double right = j + 1 >= 0 && j + 1 < t->n ? heat[j + 1] : 0.0;
+
+    return part > 1e-9 ? (1.0 - part) * left + part * right : left;
+}
+
+/* (T3) A particle at x was at x + k c when the k-th step back ended. */
+void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
+                                const double *lambda, rb_rolling_heat_track *t,
+                                double *temperature)
+{
+    const double effusivity = sqrt(rc->heat_a.conductivity * rc->heat_a.heat_capacity) +
+                              sqrt(rc->heat_b.conductivity * rc->heat_b.heat_capacity);
+    const double unit = 2.0 * sqrt(t->step / (M_PI * rc->speed)) / effusivity;
+
+    t->newest = (t->newest + 1) % t->rows;
+    t->known = t->known < t->rows ? t->known + 1 : t->rows;
+    for (int i = 0; i < t->n; i++)
+        t->heat[(size_t)t->newest * (size_t)t->n + (size_t)i] =
+            -q[i] * lambda[i] * rc->speed / t->step;
+    for (int i = 0; i < t->n; i++) {
+        temperature[i] = rc->heat_a.temperature;
+        for (int k = 0; k < t->known; k++) {
+            const double place = i + k * t->step / t->h;
+            if (place >= t->n)
+                break;
+            temperature[i] += unit * (sqrt(k + 1.0) - sqrt(k)) * heat_at(t, k, place);
+        }
+    }
+}

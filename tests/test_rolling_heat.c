@@ -1,0 +1,366 @@
+/* Flash temperature: the moving strip against quadrature, the closed form of an elliptic
+ * source, two bodies, low and high speed, steps against the steady state, refusals. */
+#include "check.h"
+#include "rollbem/closed_forms.h"
+#include "rollbem/rolling.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_sf_bessel.h>
+#include <string.h>
+
+/* ---- The strip ------------------------------------------------------------------------
+ */
+
+typedef struct {
+    double P, conductivity;
+} source;
+
+/* Carslaw and Jaeger: a line of heat on the surface that a body passes. */
+static double line_source(double t, void *context)
+{
+    const source *s = context;
+    const double z = fabs(s->P * t);
+    return exp(s->P * t - z) * gsl_sf_bessel_K0_scaled(z) / (M_PI * s->conductivity);
+}
+
+static double quadrature(const source *s, double from, double to)
+{
+    gsl_integration_workspace *w = gsl_integration_workspace_alloc(1000);
+    gsl_function f = {line_source, (void *)s};
+    const double ends[3] = {from, fmin(fmax(0.0, from), to), to};
+    double sum = 0.0, part, error;
+
+    for (int k = 0; k < 2; k++)
+        if (ends[k + 1] > ends[k]) {
+            gsl_integration_qags(&f, ends[k], ends[k + 1], 0.0, 1e-12, 1000, w, &part,
+                                 &error);
+            sum += part;
+        }
+    gsl_integration_workspace_free(w);
+    return sum;
+}
+
+static void strip_meets_quadrature(void **state)
+{
+    (void)state;
+    static const double ends[][2] = {{-0.5, 0.5}, {0.5, 1.5},  {-1.5, -0.5}, {7.5, 8.5},
+                                     {-9, -8},    {0.0, 0.01}, {-3.0, 5.0}};
+    static const double P[] = {0.02, 0.3, 1.0, 8.0, 40.0};
+
+    for (size_t k = 0; k < sizeof P / sizeof *P; k++)
+        for (size_t j = 0; j < sizeof ends / sizeof *ends; j++) {
+            const rb_rolling_heat steel = {50.0, 3.5, 0.0};
+            const source s = {P[k], 50.0};
+            const double speed = 2.0 * P[k] * 50.0 / 3.5;
+            const double want = quadrature(&s, ends[j][0], ends[j][1]);
+            const double got =
+                rb_rolling_heat_response(&steel, speed, ends[j][0], ends[j][1]);
+            /* far upstream both are rounding against the response of the strip itself */
+            const double own = rb_rolling_heat_response(&steel, speed, -0.5, 0.5);
+            CHECK_ABS(got, want, 1e-10 * fabs(want) + 1e-13 * own, "P = %g, %g ... %g",
+                      P[k], ends[j][0], ends[j][1]);
+        }
+}
+
+/* ---- An elliptic source ---------------------------------------------------------------
+ */
+
+/* Similar bodies that slide so fast that the strain does not count: H = mu p xi V. */
+static rb_rolling_case sliding(double peclet, int n)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.poisson = 0.3;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.half_width = 5e-3;
+    rc.mu = 1e-3;
+    rc.creep = 0.1;
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_ALIGNED;
+    rc.slip_operator = RB_SLIP_SECOND;
+    rc.contact_elements = n;
+    rc.heat_a = rc.heat_b = (rb_rolling_heat){50.0, 3.5, 0.0};
+    rc.speed = peclet * 2.0 * 50.0 / 3.5 / rc.half_width;
+    return rc;
+}
+
+static rb_rolling_solution solved(const rb_rolling_case *rc)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_solve(rc, &s, &why), RB_OK);
+    return s;
+}
+
+static double closed_maximum(const rb_rolling_case *rc, const rb_rolling_solution *s)
+{
+    const double p0 = rb_closed_hertz_max_pressure(s->normal_load, rc->half_width);
+    return rb_closed_flash_temperature(
+        rc->mu * p0 * fabs(rc->creep) * rc->speed, rc->half_width, rc->speed,
+        sqrt(rc->heat_a.conductivity * rc->heat_a.heat_capacity) +
+            sqrt(rc->heat_b.conductivity * rc->heat_b.heat_capacity));
+}
+
+/* The elements alone, under the heat of Hertz's pressure at their midpoints. */
+static void element_sum_meets_the_closed_form(void **state)
+{
+    (void)state;
+    static const int n[] = {50, 100, 200};
+    static const double bound[] = {2.7e-4, 8e-5, 3.5e-5};
+    const rb_rolling_heat body = {50.0, 3.5, 0.0};
+    const double speed = 1e6 * 2.0 * 50.0 / 3.5;
+
+    for (int k = 0; k < 3; k++) {
+        const double h = 2.0 / n[k];
+        double warmest = 0.0;
+        for (int i = 0; i < n[k]; i++) {
+            double rise = 0.0;
+            for (int j = 0; j < n[k]; j++) {
+                const double x = (j + 0.5) * h - 1.0, from = (j - i - 0.5) * h;
+                rise += sqrt(1.0 - x * x) *
+                        rb_rolling_heat_response(&body, speed, from, from + h);
+            }
+            warmest = fmax(warmest, rise);
+        }
+        CHECK_REL(warmest, rb_closed_flash_temperature(1.0, 1.0, speed, sqrt(50.0 * 3.5)),
+                  bound[k], "n = %d", n[k]);
+    }
+}
+
+static void elliptic_source_meets_its_closed_form(void **state)
+{
+    (void)state;
+    static const int n[] = {50, 100, 200, 400};
+    static const double bound[] = {5e-4, 1.8e-4, 6.3e-5, 2.2e-5};
+
+    for (int k = 0; k < 4; k++) {
+        const rb_rolling_case rc = sliding(1e6, n[k]);
+        rb_rolling_solution s = solved(&rc);
+        CHECK_REL(s.max_temperature, closed_maximum(&rc, &s), bound[k], "n = %d", n[k]);
+        CHECK_ABS(s.max_temperature_at / rc.half_width, -0.65223, 40.0 / gsl_pow_2(n[k]),
+                  "n = %d: its place", n[k]);
+        CHECK_REL(s.peclet, 1e6, 1e-3, "Peclet number");
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Heat that spreads along the surface counts by 6 % at Pe = 1 and less than 1e-3 from 10
+ * on. */
+static void high_peclet_number_is_a_limit(void **state)
+{
+    (void)state;
+    static const double peclet[] = {100.0, 10.0, 1.0}, bound[] = {3e-5, 1e-3, 0.08};
+
+    for (int k = 0; k < 3; k++) {
+        const rb_rolling_case rc = sliding(peclet[k], 200);
+        rb_rolling_solution s = solved(&rc);
+        CHECK_REL(s.max_temperature, closed_maximum(&rc, &s), bound[k], "Pe = %g",
+                  peclet[k]);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* All meshes give the same, to their order. */
+static void meshes_agree(void **state)
+{
+    (void)state;
+    static const rb_rolling_mesh_kind mesh[] = {RB_MESH_UNIFORM, RB_MESH_FITTED};
+
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = sliding(5e3, 200);
+        rc.mesh = mesh[k];
+        rc.slip_operator = RB_SLIP_UPSTREAM;
+        rb_rolling_solution s = solved(&rc);
+        double power = 0.0, column[1000];
+        CHECK_REL(s.max_temperature, closed_maximum(&rc, &s), 3e-3, "mesh %d", mesh[k]);
+        assert_true(s.n < 1000);
+        rb_rolling_friction_power(&s, column);
+        for (int i = 0; i < s.n; i++)
+            power += column[i] * s.h[i];
+        CHECK_REL(power, s.dissipation, 1e-12, "mesh %d: all power is heat", mesh[k]);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* ---- Two bodies -----------------------------------------------------------------------
+ */
+
+static void surfaces_in_contact_are_equally_warm(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = sliding(2000.0, 100);
+    rc.heat_b = (rb_rolling_heat){200.0, 2.4, 0.0};
+    rb_rolling_solution s = solved(&rc);
+    double rise = 0.0;
+    for (int i = 0; i < s.n; i++) {
+        rise = fmax(rise, s.temperature[i]);
+        if (s.zone[i] != RB_ZONE_SEPARATED)
+            CHECK_ABS(s.temperature[i], s.temperature_b[i], 1e-11 * s.max_temperature,
+                      "element %d", i);
+    }
+    CHECK_REL(s.max_temperature, closed_maximum(&rc, &s), 1e-3, "shares e/(e1 + e2)");
+    rb_rolling_solution_free(&s);
+    rc.heat_b.conductivity = 0.0; /* all of it goes into A */
+    s = solved(&rc);
+    CHECK_REL(s.max_temperature, closed_maximum(&rc, &s), 1e-3, "B insulates");
+    rb_rolling_solution_free(&s);
+}
+
+/* Without friction: T_m in contact, and behind it each body cools to its own. */
+static void conduction_between_bodies(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = sliding(1e4, 200);
+    rc.mu = 0.0;
+    rc.creep = 0.0;
+    rc.heat_a.temperature = 100.0;
+    rc.heat_b = (rb_rolling_heat){20.0, 2.0, 20.0};
+    rb_rolling_solution s = solved(&rc);
+    const double e1 = sqrt(50.0 * 3.5), e2 = sqrt(20.0 * 2.0), a = s.half_width;
+    const double middle = (e1 * 100.0 + e2 * 20.0) / (e1 + e2);
+    for (int i = 0; i < s.n; i++) {
+        const double x = s.x[i];
+        if (fabs(x) < 0.9 * a)
+            CHECK_ABS(s.temperature[i], middle, 0.05, "x/a = %g", x / a);
+        if (x > 1.02 * a)
+            CHECK_ABS(s.temperature[i], 100.0, 1e-6, "before the contact");
+        if (x < -1.02 * a) {
+            const double part = 2.0 / M_PI * asin(sqrt(2.0 * a / (a - x)));
+            CHECK_ABS(s.temperature[i], 100.0 + (middle - 100.0) * part, 0.6,
+                      "A behind, x/a = %g", x / a);
+            CHECK_ABS(s.temperature_b[i], 20.0 + (middle - 20.0) * part, 0.6,
+                      "B behind, x/a = %g", x / a);
+        }
+    }
+    rb_rolling_solution_free(&s);
+}
+
+/* ---- Steps ----------------------------------------------------------------------------
+ */
+
+static void steps_tend_to_the_steady_state(void **state)
+{
+    (void)state;
+    static const int steps[] = {0, 300};
+    rb_rolling_case rc = sliding(1e4, 120);
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.slip_operator = RB_SLIP_UPSTREAM;
+    rb_rolling_solution steady = solved(&rc);
+    rc.formulation = RB_TRANSIENT;
+    rc.distance = 3.0;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_history h;
+        rb_rolling_model model;
+        rb_message why = {""};
+        rc.steps = steps[k];
+        CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, NULL, &model, &h, &why),
+                     RB_OK);
+        CHECK_REL(h.max_temperature[h.n - 1], steady.max_temperature, 1e-2, "%d steps",
+                  h.n);
+        /* it rises along the way; the peak between elements is known to 1e-5 */
+        for (int i = 1; i < h.n; i++)
+            assert_true(h.max_temperature[i] >= h.max_temperature[i - 1] * (1.0 - 1e-5));
+        CHECK_ABS(h.max_temperature[0], 0.0, 0.0, "at rest nothing is warm");
+        rb_rolling_history_free(&h);
+        rb_rolling_model_free(&model);
+    }
+    rb_rolling_solution_free(&steady);
+}
+
+static void curve_has_the_temperature_of_its_cases(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = sliding(500.0, 60);
+    rb_rolling_curve curve;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, 1, 0.05, 0.1, 2, &curve, &why), RB_OK);
+    rb_rolling_solution s = solved(&rc);
+    CHECK_REL(curve.max_temperature[1], s.max_temperature, 1e-9, "last point");
+    rb_rolling_curve_free(&curve);
+    rb_rolling_solution_free(&s);
+}
+
+/* ---- Without, and refused -------------------------------------------------------------
+ */
+
+static void other_cases_have_no_temperature(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = sliding(500.0, 60);
+    rc.heat_a.conductivity = 0.0;
+    rb_rolling_solution s = solved(&rc);
+    assert_null(s.temperature);
+    assert_null(s.temperature_b);
+    assert_true(isnan(s.max_temperature) && isnan(s.peclet));
+    rb_rolling_solution_free(&s);
+}
+
+static void meaningless_cases_are_refused(void **state)
+{
+    (void)state;
+    const rb_rolling_case good = sliding(500.0, 60);
+    rb_rolling_case bad[7];
+    for (int k = 0; k < 7; k++)
+        bad[k] = good;
+    bad[0].speed = 0.0;
+    bad[1].heat_a.heat_capacity = 0.0;
+    bad[2].formulation = RB_STATIC;
+    bad[2].slip_operator = RB_SLIP_UPSTREAM;
+    bad[3].a.layer = 1.0;
+    bad[4].heat_b.conductivity = -1.0;
+    bad[5].heat_b.temperature = NAN;
+    bad[6].contact_elements = 5000;
+    bad[6].heat_b.conductivity = 40.0;
+    static const char *const said[] = {"--speed",     "heat capacity", "bodies that roll",
+                                       "homogeneous", "body B",        "finite",
+                                       "4000"};
+    for (int k = 0; k < 7; k++) {
+        rb_message why = {""};
+        CHECK_STATUS(rb_rolling_case_check(&bad[k], &why), RB_EINVAL);
+        if (!strstr(why.text, said[k]))
+            print_error("case %d: %s\n", k, why.text);
+        assert_non_null(strstr(why.text, said[k]));
+    }
+}
+
+/* Step by step heat goes along the depth only: a slow case is refused, not approximated.
+ */
+static void slow_steps_are_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = sliding(5.0, 60);
+    rb_rolling_solution s;
+    rb_message why = {""};
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.slip_operator = RB_SLIP_UPSTREAM;
+    rc.formulation = RB_TRANSIENT;
+    rc.distance = 1.0;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "diffusivity"));
+    rb_rolling_solution_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(strip_meets_quadrature),
+        cmocka_unit_test(element_sum_meets_the_closed_form),
+        cmocka_unit_test(elliptic_source_meets_its_closed_form),
+        cmocka_unit_test(high_peclet_number_is_a_limit),
+        cmocka_unit_test(meshes_agree),
+        cmocka_unit_test(surfaces_in_contact_are_equally_warm),
+        cmocka_unit_test(conduction_between_bodies),
+        cmocka_unit_test(steps_tend_to_the_steady_state),
+        cmocka_unit_test(curve_has_the_temperature_of_its_cases),
+        cmocka_unit_test(other_cases_have_no_temperature),
+        cmocka_unit_test(meaningless_cases_are_refused),
+        cmocka_unit_test(slow_steps_are_refused),
+    };
+    gsl_set_error_handler_off();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
