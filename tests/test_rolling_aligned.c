@@ -190,9 +190,38 @@ static void what_cannot_be_aligned_is_refused(void **state)
     assert_non_null(strstr(why.text, "equal elements"));
 }
 
+/* Where the edges do not come to rest, the pressure at them is no square root; the edge
+ * that is told still lies before the midpoint of the first open element. */
+static void edge_lies_before_the_first_open_midpoint(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s;
+    rb_message why = {""};
+    rc.a.support = RB_BEM_HUB;
+    rc.mesh = RB_MESH_ALIGNED;
+    rc.normals = RB_BEM_NORMALS_SURFACE;
+    rc.near_field = RB_NEAR_FIELD_PLAIN;
+    rc.contact_elements = 25;
+    rc.zone = 2.0;
+    rc.mu = 3.0;
+    rc.approach = 0.04;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
+    assert_true(s.equal_instead);
+    for (int i = 1; i + 1 < s.n; i++) {
+        const int open = s.zone[i] == RB_ZONE_SEPARATED;
+        if (open && s.zone[i + 1] != RB_ZONE_SEPARATED)
+            CHECK_MAX(s.x[i], s.contact_from + 1e-9 * s.h[i], "left edge");
+        if (open && s.zone[i - 1] != RB_ZONE_SEPARATED)
+            CHECK_MAX(s.contact_to, s.x[i] + 1e-9 * s.h[i], "right edge");
+    }
+    rb_rolling_solution_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(edge_lies_before_the_first_open_midpoint),
         cmocka_unit_test(carters_law_has_second_order),
         cmocka_unit_test(the_upstream_difference_has_first_order),
         cmocka_unit_test(a_given_force_finds_its_creepage),

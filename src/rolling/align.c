@@ -34,7 +34,12 @@ double rb_rolling_aligned_edge(const rb_rolling_mesh *mesh, const double *p, int
     const double *end = mesh->ends + third, h = end[1] - end[0];
     const double root = root_beyond(p[third], p[third - side], p[third - 2 * side]);
 
-    return 0.5 * (end[0] + end[1]) + side * h * (root + BIAS);
+    const double x = 0.5 * (end[0] + end[1]) + side * h * (root + BIAS);
+    const int open = outer + side;
+    if (open < 0 || open >= mesh->n)
+        return x;
+    const double farthest = 0.5 * (mesh->ends[open] + mesh->ends[open + 1]);
+    return side > 0 ? fmin(x, farthest) : fmax(x, farthest);
 }
 
 /* The edges of the only patch.  RB_EINVAL: there are several; *known: 0 where it has too
