@@ -766,9 +766,10 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
         code = read_study(st);
     if (code == CLI_CONTINUE)
         code = check_cases(st);
-    choose_results(st);
-    if (code == CLI_CONTINUE)
+    if (code == CLI_CONTINUE) {
+        choose_results(st);
         code = find_fingerprint(st);
+    }
     if (code == CLI_CONTINUE && !cli_pool_is_worker())
         code = open_output(st);
     return code;

@@ -177,6 +177,7 @@ rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *mo
     }
     rb_rolling_state_free(&model->state);
     rb_rolling_problem_free(&model->problem);
+    free(model->temperature);
     *model = kept;
     model->same_bodies = 1;
     const rb_status s = solve_on_its_mesh(rc, model, why);
