@@ -248,7 +248,7 @@ static void studies_come_in_three_formats(void **state)
                      0);
     assert_int_equal(strncmp(out, head, strlen(head)), 0);
     assert_non_null(strstr(out, "\n3\n"));
-    json_t *root = run_json("sweep " STUDY "--vary-1 'mu 0.1 0.3'");
+    json_t *root = run_json(STUDY "--vary-1 'mu 0.1 0.3'");
     json_t *table = json_object_get(root, "table");
     CHECK_ABS(entry(table, "mu", 1), 0.3, 0.0, "mu of the second case");
     CHECK_ABS(entry(table, "case", 1), 2.0, 0.0, "its number");

@@ -117,8 +117,8 @@ typedef struct {
      * given approach, as in *Addi*; 0 under load control); creep or creep_ratio only
      * enter (12). steady, transient: one of creep, creep_ratio, force, force_ratio. */
     double shift, creep, creep_ratio, force, force_ratio;
-    int free_axle; /* steady: nothing drives the axle, Q = -M/R (theory.md V4); in the place
-                      of these */
+    int free_axle; /* steady: nothing drives the axle, Q = -M/R (theory.md V4); in the
+                      place of these */
 
     rb_rolling_formulation formulation;
     int increments;  /* static, transient: above 1 the bodies are pressed, then loaded
@@ -422,9 +422,9 @@ typedef struct {
     double resistance_ratio;  /* M/(P R), the coefficient of rolling resistance */
     double hysteresis;        /* power per unit speed that the bodies lose [force/length];
                                  NAN but in steady */
-    double max_temperature;       /* in contact; NAN where not asked for, as below */
-    double max_temperature_at;    /* [length] */
-    double peclet;                /* V a/(2 diffusivity of A), a the half-width */
+    double max_temperature;   /* in contact; NAN where not asked for, as below */
+    double max_temperature_at; /* [length] */
+    double peclet;             /* V a/(2 diffusivity of A), a the half-width */
     double seconds_assembly, seconds_factor, seconds_condense, seconds_lcp, seconds_total;
 } rb_rolling_solution;
 
@@ -680,8 +680,8 @@ void rb_rolling_curve_free(rb_rolling_curve *curve);
  * moved by more than 1 %.  Over the speed the points are equally spaced in its logarithm,
  * rc says the tangential control, and every speed has its own mesh and flexibility. */
 rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, rb_rolling_variable over,
-                                 double from, double to, int points, rb_rolling_curve *curve,
-                                 rb_message *why);
+                                 double from, double to, int points,
+                                 rb_rolling_curve *curve, rb_message *why);
 
 /* ---- Subsurface stress of body A
  * -------------------------------------------------------- */
@@ -772,10 +772,10 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
 
 /* A curve and its errors: errors->force_ratio[k] and so on belong to the k-th creepage,
  * errors->residual means nothing.  Takes twice as long.  Free both in any case. */
-rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc, rb_rolling_variable over,
-                                       double from, double to, int points,
-                                       rb_rolling_curve *curve, rb_rolling_curve *errors,
-                                       rb_message *why);
+rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
+                                       rb_rolling_variable over, double from, double to,
+                                       int points, rb_rolling_curve *curve,
+                                       rb_rolling_curve *errors, rb_message *why);
 
 /* A history and its errors: errors->tangential_load[k] and so on belong to the k-th step,
  * errors->residual means nothing.  The coarser runs have longer steps, so that the errors

@@ -182,11 +182,11 @@ static rb_status check_curve(const rb_rolling_case *rc, const range *r, rb_messa
         return rb_fail(why, RB_EINVAL,
                        "curve over speed: expected from and to > 0, got %g and %g",
                        r->from, r->to);
-    if (r->over == RB_OVER_SPEED && !rb_rolling_relaxes(rc))
+    if (r->over == RB_OVER_SPEED && !rb_rolling_relaxes(rc) && !rb_rolling_has_heat(rc))
         return rb_fail(
             why, RB_EINVAL,
             "curve over speed: no body relaxes, so that nothing depends on it; "
-            "add --relaxation-time and --relaxation-ratio");
+            "add --relaxation-time and --relaxation-ratio, or --conductivity");
     return RB_OK;
 }
 
