@@ -102,7 +102,7 @@ $(B)/packings: examples/packings/packings.c
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) -o $@ $< -lm
-$(B)/tests/test_friction_portfolio: | $(B)/packings
+$(B)/tests/test_friction_portfolio $(B)/tests/test_course: | $(B)/packings
 
 # the generator of the obstacle problem, for the tests
 $(B)/obstacle: examples/lcp/obstacle.c

@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { LESSONS = 9, EXERCISES = 5, MAX_NUMBERS = 40000, MAX_TEXT = 200000 };
+enum { LESSONS = 10, EXERCISES = 5, MAX_NUMBERS = 40000, MAX_TEXT = 200000 };
 
 static char folder[] = "/tmp/rollbem-course-XXXXXX";
 static glob_t lessons, solutions;
@@ -114,7 +114,8 @@ static const char *number_at(const char *text, const char *s, double *value, dou
 }
 
 /* Whether one line is like another: words equal, numbers within a unit of the last digit
- * that the page shows; what is below 1e-9 is rounding. */
+ * that the page shows; what is below 1e-9 is rounding, and rounding decides ties, so that
+ * counts of iterations from 50 on may differ by three in a hundred. */
 static int lines_agree(const char *got, const char *wanted)
 {
     const char *g = got, *w = wanted;
@@ -128,7 +129,10 @@ static int lines_agree(const char *got, const char *wanted)
                    *end_w = number_at(wanted, w, &y, &unit);
         if (end_g && end_w) {
             const int rounding = fabs(x) < 1e-9 && fabs(y) < 1e-9;
-            if (!rounding && !(fabs(x - y) <= 1.0001 * unit))
+            const double slack = unit > 0.0        ? 1.0001 * unit
+                                 : fabs(y) >= 50.0 ? 0.03 * fabs(y)
+                                                   : 0.0;
+            if (!rounding && !(fabs(x - y) <= slack))
                 return 0;
             g = end_g;
             w = end_w;
@@ -420,6 +424,7 @@ static void links_and_pictures_are_there(void **state)
         check_links(solutions.gl_pathv[k]);
     }
     check_links("docs/course/README.md");
+    check_links("docs/course/lecturers.md");
     check_links("docs/glossary.md");
 }
 
