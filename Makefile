@@ -156,6 +156,8 @@ install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include/rollbem
 	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
 	install -m 644 $(B)/librollbem.a $(DESTDIR)$(PREFIX)/lib
+	@# for rollbem page, where it has been built
+	if [ -f $(B)/rollbem.html ]; then install -d $(DESTDIR)$(PREFIX)/share/rollbem && install -m 644 $(B)/rollbem.html $(DESTDIR)$(PREFIX)/share/rollbem; fi
 	install -m 755 $(B)/librollbem.so $(DESTDIR)$(PREFIX)/lib/librollbem.so.$(VERSION)
 	ln -sf librollbem.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/librollbem.so.0
 	ln -sf librollbem.so.0 $(DESTDIR)$(PREFIX)/lib/librollbem.so

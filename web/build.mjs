@@ -12,7 +12,7 @@ const EXPORTS = ["create", "free", "set", "settle", "solve", "status", "message"
     "array", "curve", "pivots", "newton", "variable", "guess", "stress"].map((name) => `rb_api_${name}`).concat("malloc", "free");
 /* Scripts in the order of their use; each is an ES module for tests and editors. */
 const WORKER = ["library.js", "worker.js"];
-const PAGE = ["words.js", "draw.js", "state.js", "controls.js", "contact.js", "take.js", "roll.js", "below.js", "step.js", "main.js"];
+const PAGE = ["words.js", "draw.js", "state.js", "controls.js", "contact.js", "take.js", "roll.js", "below.js", "matrices.js", "step.js", "main.js"];
 const LIMIT = 600e3;
 
 function sources() {

@@ -73,8 +73,9 @@ export function controls(host, words, options, page) {
             : focus.id ? `#${focus.id}` : focus.name ? `[name="${focus.name}"]:checked` : null);
         const preset = html("select", { "aria-label": words.start, onchange: () => { if (PRESETS[preset.value]) change({ ...PRESETS[preset.value] }); } },
             html("option", { value: "" }, `${words.start} …`), ...Object.keys(PRESETS).map((name) => html("option", { value: name }, words.presets[name])));
+        const file = html("input", { type: "file", accept: ".ini,text/plain", hidden: true, "aria-label": words.open_file, onchange: () => { if (file.files[0]) page.open_file(file.files[0]); } });
         host.replaceChildren(
-            preset,
+            preset, file, html("button", { type: "button", class: "button open", onclick: () => file.click() }, words.open_file),
             group(words.groups.problem, segments("formulation", words.groups.problem, Object.entries(words.formulations), moving, move)),
             held_group(words.groups.normal, "normal", NORMAL, NORMAL, "approach"),
             held_group(words.groups.tangential, "tangential", TANGENTIAL[moving], ALL_TANGENTIAL, TANGENTIAL[moving][moving === "static" ? 2 : 0]),

@@ -1,6 +1,6 @@
 /* The page: worker, requests of which the newest wins, tabs, link. */
 import { html } from "./draw.js";
-import { PRESETS, formulation_of, hold, ALL_TANGENTIAL, read_link, write_link } from "./state.js";
+import { PRESETS, formulation_of, hold, ALL_TANGENTIAL, read_case_file, read_link, write_link } from "./state.js";
 import { controls } from "./controls.js";
 import { contact_view } from "./contact.js";
 import { roll_view } from "./roll.js";
@@ -59,7 +59,7 @@ async function main() {
     let workers;
     try { workers = await start_workers(); } catch (error) { return tell(say(words.no_wasm, { why: error.message })); }
 
-    const page = { given: { ...PRESETS.rail }, drawn: null, answer: null, curve: null, options: workers[0].options, results: workers[0].results,
+    const page = { given: JSON.parse(at("carried").textContent) ?? { ...PRESETS.rail }, drawn: null, answer: null, curve: null, options: workers[0].options, results: workers[0].results,
         units: Object.fromEntries(workers[0].results.number.map((r) => [r.name, r.unit])) };
     let current = "contact", curve_key = null, curve_shown = null, curve_timer = null, link_timer = null, first = true, panel = null;
     const makers = { contact: contact_view, roll: roll_view, below: below_view, step: step_view, take: take_view }, views = {};
@@ -150,6 +150,14 @@ async function main() {
         queue.ask({ kind: "solve", given: page.given });
         if (!first) { panel.draw(); open(current); }
     }
+    page.open_file = async (file) => {
+        try {
+            page.change(read_case_file(await file.text()));
+            panel.draw();
+        } catch (error) { tell(say(words.file_broken, { file: file.name, why: error.message })); }
+    };
+    window.addEventListener("dragover", (event) => event.preventDefault());
+    window.addEventListener("drop", (event) => { event.preventDefault(); if (event.dataTransfer.files[0]) page.open_file(event.dataTransfer.files[0]); });
     window.addEventListener("hashchange", follow_link);
     let width = innerWidth;
     window.addEventListener("resize", () => { if (innerWidth !== width) { width = innerWidth; (views[current]?.resize ?? views[current]?.draw)?.(); } });

@@ -1,51 +1,7 @@
-/* Step through the method: matrices, Lemke's pivots, guessed zones. */
+/* Step through the method: matrices, Lemke's pivots, Newton's zones, guessed zones. */
 import { card, chart, html, player, show, stairs, stroke, svg, zone_colours } from "./draw.js";
+import { matrices, parse, pretty } from "./matrices.js";
 import { say } from "./words.js";
-
-const parse = (name) => { const m = /^([a-z0-9]+[+-]?)(?:\[(\d+)\])?$/.exec(name); return { kind: m[1], i: Number(m[2] ?? 0) }; };
-
-/* A matrix as shades: blue negative, orange positive, small values lifted by a root. */
-function shaded(words, name, matrix, explain) {
-    const { rows, columns, at } = matrix, canvas = html("canvas", { width: columns, height: rows, tabindex: 0, role: "img", "aria-label": words.matrix_names[name] });
-    const most = Math.max(...at.map(Math.abs)) || 1, image = new ImageData(columns, rows), dark = matchMedia("(prefers-color-scheme: dark)").matches;
-    const zero = dark ? [26, 32, 41] : [255, 254, 251], ends = dark ? [[108, 197, 228], [255, 154, 98]] : [[20, 99, 126], [196, 80, 27]];
-    for (let i = 0; i < rows; i++)
-        for (let j = 0; j < columns; j++) {
-            const v = at[i + rows * j] / most, t = Math.abs(v) ** 0.4, end = ends[v < 0 ? 0 : 1];
-            image.data.set([...zero.map((z, k) => z + (end[k] - z) * t), 255], 4 * (j + columns * i));
-        }
-    canvas.getContext("2d").putImageData(image, 0, 0);
-    const text = html("p", { "aria-live": "polite" }, words.matrix_hint);
-    const place = { i: 0, j: 0 };
-    const tell = () => { text.textContent = explain(place.i, place.j, show(at[place.i + rows * place.j], 3)); };
-    canvas.addEventListener("pointermove", (event) => {
-        const box = canvas.getBoundingClientRect();
-        place.j = Math.max(0, Math.min(columns - 1, Math.floor((event.clientX - box.left) / box.width * columns)));
-        place.i = Math.max(0, Math.min(rows - 1, Math.floor((event.clientY - box.top) / box.height * rows)));
-        tell();
-    });
-    canvas.addEventListener("keydown", (event) => {
-        const step = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] }[event.key];
-        if (!step) return;
-        event.preventDefault();
-        place.i = Math.max(0, Math.min(rows - 1, place.i + step[0]));
-        place.j = Math.max(0, Math.min(columns - 1, place.j + step[1]));
-        tell();
-    });
-    return html("figure", { class: "matrix", "data-matrix": name }, html("figcaption", {}, html("b", {}, words.matrix_names[name]), ` ${rows} × ${columns}`), canvas, text);
-}
-
-function matrices(words, a, n) {
-    const element = (k) => ({ e: Math.floor(k / 2) + 1, d: words.direction[k % 2] });
-    const boundary = (which) => (i, j, value) => say(words[`matrix_${which}`], { i: i + 1, j: j + 1, value, ei: element(i).e, ej: element(j).e, di: element(i).d, dj: element(j).d });
-    const flexibility = (i, j, value) => { const ei = i % (n + 1); return say(words.matrix_F, { i: i + 1, j: j + 1, value, di: i <= n ? words.normal : words.tangent, dj: j < n ? words.pressing : words.rubbing,
-        ei: ei === n ? say(words.upstream, { n: n + 1 }) : ei + 1, ej: j % n + 1 }); };
-    const size = a["lcp.M"].rows, lcp = (i, j, value) => say(words.matrix_M, { i: i + 1, j: j + 1, value, wi: pretty(words, a.names[i]), zj: pretty(words, a.names[size + j]) });
-    return [a.H ? null : html("p", { class: "note" }, words.no_boundary), html("div", { class: "quad" },
-        a.H && shaded(words, "H", a.H, boundary("H")), a.G && shaded(words, "G", a.G, boundary("G")), a.F && shaded(words, "F", a.F, flexibility), shaded(words, "lcp.M", a["lcp.M"], lcp))];
-}
-
-const pretty = (words, name) => { const { kind, i } = parse(name); return kind === "z0" ? "z₀" : words.basis[kind] ? `${words.basis[kind]} ${i}` : `${kind} ${i}`; };
 
 /* "Element 3 is pressed until element 2 touches." */
 export function sentence_of(words, a, k) {
@@ -78,6 +34,21 @@ function basis_grid(words, kinds) {
             return html("span", { style: `background:var(--grid)${basic.includes("p") || basic.some((b) => b.startsWith("lambda")) ? ";background:var(--press);color:var(--card)" : ""}` }, basic.map((b) => words.basis[b]).join(" ") || words.neither); })]);
     const numbers = [html("span", { class: "head" }), ...kinds.map((set, i) => html("span", { class: "head" }, i + 1))];
     return html("div", { class: "cells", style: `grid-template-columns:6.5rem repeat(${kinds.length},1fr)`, role: "img", "aria-label": words.basis_now }, numbers, cells);
+}
+
+/* The zones that each step of Newton's method assumes; those that differ from the step before are marked. */
+function newton_strips(words, a) {
+    const zone = a["newton.zone"];
+    if (!zone) return [];
+    const n = zone.rows, of = (k) => [...zone.at.subarray(n * k, n * k + n)];
+    const all = Array.from({ length: zone.columns }, (_, k) => of(k)), changed = (k) => k === 0 || all[k].some((z, i) => z !== all[k - 1][i]);
+    return [html("h3", {}, words.newton_title), html("p", { class: "note" }, say(words.newton_note, { n: zone.columns, pivots: a["pivot.z0"].columns })),
+        ...all.flatMap((zones, k) => {
+            if (!changed(k)) return []; /* pressure and friction in turn: these zones hold */
+            const row = strip(words, zones, say(words.newton_step, { k: k + 1 }));
+            if (k > 0) zones.forEach((z, i) => z !== all[k - 1][i] && row.children[i + 1].classList.add("changed"));
+            return [row];
+        })];
 }
 
 function bars(host, words, { ends, p, q, mu, top, label }) {
@@ -119,7 +90,7 @@ export function judge(words, { p, q, gap, shift }, zones, mu) {
 export function step_view(words, page) {
     let data = null, zones = [], elements = 8, asked = null, wanted = null;
     const title = html("h2"), matrix_host = html("div"), sentence = html("p", { class: "sentence", "aria-live": "polite" });
-    const strips = html("div", { class: "stack", style: "gap:.35rem" }), picture = html("figure"), z0 = html("p", { class: "note" }), ratios = html("div");
+    const strips = html("div", { class: "stack", style: "gap:.35rem" }), picture = html("figure"), z0 = html("p", { class: "note" }), ratios = html("div"), newton = html("div", { class: "stack", style: "gap:.35rem" });
     const count = html("input", { type: "range", id: "step-elements", min: 4, max: 16, value: elements, oninput: () => { elements = Number(count.value); page.ask_view(); } });
     const frames = player(words, { label: words.pivots, see: frame, milliseconds: 1400, describe: (k, n) => say(words.pivot_count, { k: k + 1, n }) });
     const paint = html("div"), guess_picture = html("figure"), verdict = html("div", { "aria-live": "polite" });
@@ -127,7 +98,7 @@ export function step_view(words, page) {
     const node = html("div", { class: "stack" },
         html("section", { class: "card" }, title, html("p", {}, words.step_intro), html("div", { class: "row" }, html("label", { for: "step-elements" }, words.step_elements), count)),
         card(words.matrices, matrix_host),
-        card(words.pivots, frames.node, sentence, html("div", { class: "pair" }, html("div", {}, strips, picture, z0), html("div", {}, html("h2", {}, words.ratio_title), ratios))),
+        card(words.pivots, frames.node, sentence, html("div", { class: "pair" }, html("div", {}, strips, picture, z0), html("div", {}, html("h3", {}, words.ratio_title), ratios)), newton),
         card(words.guess_title, html("p", {}, words.guess_note), paint, html("div", { class: "row", style: "margin:.7rem 0" }, button(words.guess_check, check, "main"), button(words.guess_clear, () => repaint(zones.fill(0))), button(words.guess_answer, () => { repaint(solution()); check(); })), verdict, guess_picture));
 
     function given() {
@@ -167,14 +138,15 @@ export function step_view(words, page) {
         verdict.replaceChildren(html("p", { class: wrong.length ? "bad" : "good" }, wrong.length ? say(words.guess_wrong, { n: wrong.length }) : words.guess_right), html("ul", { class: "verdict" }, wrong.map((text) => html("li", {}, text))));
         guess_picture.replaceChildren(bars(guess_picture, words, { ends: answer.ends.at, p: part("p"), q: part("q"), mu: mu(), top: Math.max(...part("p"), ...[...part("q")].map((v) => Math.abs(v) / Math.max(mu(), 0.05))) || 1, label: words.guess_title }));
     }
-    return { node, player: frames, wants: () => [{ kind: "pivots", given: wanted = given() }], leave: () => frames.stop(),
+    return { node, player: frames, wants: () => [{ kind: "pivots", given: wanted = given() }], leave: () => frames.stop(), data: () => data,
         draw() { if (data) frame(frames.at); },
         take(answer) {
             if (answer.kind === "guess") return judged(answer);
             data = answer;
             const n = data["pivot.p"].rows;
             title.textContent = say(words.step_title, { n });
-            matrix_host.replaceChildren(...matrices(words, data, n).filter(Boolean));
+            matrix_host.replaceChildren(...matrices(words, data, n));
+            newton.replaceChildren(...newton_strips(words, data));
             if (zones.length !== n) repaint(Array(n).fill(0)); else repaint(zones);
             frames.set(data["pivot.z0"].columns, 0);
         } };

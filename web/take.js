@@ -11,13 +11,17 @@ export const ini_of = (given, options) => options.filter((o) => o.kind === "grou
     return rows.length ? `[${group.name}]\n${rows.map((o) => `${o.name} = ${given[o.name]}`).join("\n")}\n` : "";
 }).filter(Boolean).join("\n");
 
-export const table_of = (columns, results) => [results.map((r) => r.unit ? `${r.name}_${r.unit}` : r.name).join("\t"),
+const column_name = (r) => r.unit ? `${r.name}_${r.unit}` : r.name;
+export const table_of = (columns, results) => [results.map(column_name).join("\t"),
     ...[...columns.x].map((x, i) => results.map((r) => columns[r.name][i]).join("\t"))].join("\n") + "\n";
 
-export function json_of(answer, results) {
-    const number = (x) => Number.isFinite(x) ? x : null;
-    return JSON.stringify({ inputs: answer.values, ...Object.fromEntries(results.number.filter((r) => r.kind !== "seconds").map((r) => [r.name, number(answer.numbers[r.name])])),
-        elements: Object.fromEntries(results.column.map((r) => [r.name, [...answer.columns[r.name]].map(number)])) }, null, 1);
+/* As the program's --json has them: inputs, summary and table. */
+export function json_of(answer, given, options, results) {
+    const number = (x) => Number.isFinite(x) ? x : null, kind = Object.fromEntries(options.map((o) => [o.name, o.kind]));
+    const inputs = Object.fromEntries(Object.entries(given).map(([name, text]) => [name, (kind[name] === "number" || kind[name] === "integer") && Number.isFinite(Number(text)) ? Number(text) : text]));
+    return JSON.stringify({ schema: "rollbem/1", version: VERSION, inputs,
+        summary: Object.fromEntries(results.number.filter((r) => r.kind !== "seconds").map((r) => [r.name, number(answer.numbers[r.name])])),
+        table: Object.fromEntries(results.column.map((r) => [column_name(r), [...answer.columns[r.name]].map(number)])) }, null, 1);
 }
 
 function picture_of(words, answer) {
@@ -35,7 +39,7 @@ function save(name, text, type) {
 
 /* A text to copy, and to save where it has a file name. */
 export function text_card(words, key, text, file, type) {
-    const area = html("textarea", { readonly: true, "aria-label": words[`take_${key}`], "data-take": key, rows: text.split("\n").length > 3 ? 9 : 3, style: text.split("\n").length > 3 ? "" : "min-height:4.5rem" });
+    const area = html("textarea", { readonly: true, "aria-label": words[`take_${key}`], "data-take": key, wrap: text.includes("\t") ? "off" : "soft", rows: text.split("\n").length > 3 ? 9 : 3, style: text.split("\n").length > 3 ? "" : "min-height:4.5rem" });
     area.value = text;
     const copy = html("button", { type: "button", class: "button", onclick: async () => {
         area.select();
@@ -56,7 +60,7 @@ export function take_view(words, page) {
         figure.append(tractions_picture(figure, words, a, { width: Math.max(300, Math.min(900, node.clientWidth - 40)), name: "take" }));
         node.replaceChildren(text_card(words, "command", command_of(page.given, page.options)), text_card(words, "link", location.href.split("#")[0] + write_link(page.given, "contact", page.drawn)),
             html("div", { class: "pair", style: "grid-template-columns:repeat(auto-fit,minmax(min(100%,270px),1fr))" }, text_card(words, "ini", ini_of(page.given, page.options), "case.ini", "text/plain"),
-                text_card(words, "table", table_of(a.columns, page.results.column), "table.tsv", "text/tab-separated-values"), text_card(words, "json", json_of(a, page.results), "case.json", "application/json")),
+                text_card(words, "table", table_of(a.columns, page.results.column), "table.tsv", "text/tab-separated-values"), text_card(words, "json", json_of(a, page.given, page.options, page.results), "case.json", "application/json")),
             card(words.take_picture, figure, html("div", { class: "row", style: "margin-top:.6rem" }, html("button", { type: "button", class: "button main", onclick: () => save("rollbem.svg", picture, "image/svg+xml") }, words.download_svg))));
     }
     return { node, draw, wants: () => [] };

@@ -48,9 +48,9 @@ function compare(given, tol, files = {}) {
     check(!got.refused, got.refused);
     const want = flatten({ ...JSON.parse(ran.stdout), inputs: null });
     let compared = 0;
-    for (const { name, kind } of library.results.number) {
+    for (const { name, kind, unit } of library.results.number) {
         if (kind === "seconds" || LEFT_OUT.includes(name) || !(name in want)) continue;
-        const scale = /load|dissipation/.test(name) ? want.normal_load : /ratio/.test(name) ? 1 : /creepage/.test(name) ? 1e-3
+        const scale = unit === "N" ? want.normal_load * want.half_width : unit === "N/mm" ? want.normal_load : /ratio/.test(name) ? 1 : /creepage/.test(name) ? 1e-3
             : /half_width|stick_|contact_(from|to)/.test(name) ? want.half_width : /shift/.test(name) ? Math.abs(want.approach) : 0;
         check_close(got.numbers[name], want[name] ?? NaN, tol * Math.max(Math.abs(want[name]), scale), name);
         compared++;
@@ -175,7 +175,7 @@ async function views(page) {
         await settled();
         check_close(await number("force_ratio"), before + 0.02, 6e-4, "Q/(mu P)");
     });
-    for (const [preset, matrices] of [["rail", 2], ["stiff", 4]])
+    for (const [preset, matrices] of [["rail", 2], ["stiff", 6]])
         await test(`Lemke stepped to the end, zones guessed: ${preset}`, async () => {
             await page.run(`rollbem.preset('${preset}'); rollbem.open('step')`);
             await settled();
@@ -189,6 +189,10 @@ async function views(page) {
             check(/the problem is solved/.test(await page.run("document.querySelector('.sentence').textContent")), "the last pivot");
             const same = await page.run("(([now, want]) => now === want)([...document.querySelectorAll('main .cells[aria-label*=\"zones\"], main .cells[aria-label*=\"basis after this pivot:\"]')].map((s) => s.getAttribute('aria-label').replace(/^.*?:/, '')))");
             check(same, "the zones of the last basis are those of the solution");
+            const newton = await page.run("(([zones, want]) => [zones.slice(-want.length).join(' '), want.join(' ')])([[...rollbem.views.step.data()['newton.zone'].at], [...rollbem.views.step.data().columns.zone]])");
+            check(newton[0] === newton[1], `Newton's last zones are ${newton[0]}, those of the solution ${newton[1]}`);
+            const told = await page.run("[...document.querySelectorAll('main canvas')].map((c) => { const box = c.getBoundingClientRect(); c.dispatchEvent(new PointerEvent('pointermove', { clientX: box.left + 0.3 * box.width, clientY: box.top + 0.6 * box.height, bubbles: true })); return c.closest('figure').querySelector('p').textContent; })");
+            for (const text of told) check(/\] = /.test(text) && !/[{}]|undefined|NaN/.test(text), `a block is explained as: ${text}`);
             await click("Check");
             await settled();
             check(await page.run("document.querySelector('.verdict') !== null || document.querySelector('main .bad') !== null"), "no verdict on a wrong guess");
@@ -215,6 +219,29 @@ async function views(page) {
         await settled();
         for (const kind of ["von_mises", "fringes", "max_shear"]) await page.run(`document.querySelector('input[value=${kind}]').click()`);
         check(await page.run("document.querySelector('main image') !== null"), "no map");
+    });
+    await test("a page that rollbem page made opens with its case", async () => {
+        const folder = mkdtempSync(join(tmpdir(), "page-")), made = join(folder, "made.html");
+        const ran = run(["page", "examples/rail/case.ini", "--mu", "0.2", "--page", file, "--output", made]);
+        check(ran.status === 0, ran.stderr);
+        const other = await open_page(pathToFileURL(made).href);
+        try {
+            await other.until(IDLE);
+            const want = flatten({ ...JSON.parse(run(["--json", "--quiet", "examples/rail/case.ini", "--mu", "0.2"]).stdout), inputs: null });
+            check_close(await other.run("rollbem.page.answer.numbers.tangential_load"), want.tangential_load, FITTED * want.normal_load, "Q");
+        } finally { await other.close(); rmSync(folder, { recursive: true }); }
+    });
+    await test("a case file opened, and files that are none", async () => {
+        await page.run("rollbem.open('contact')");
+        await page.run(`rollbem.page.open_file(new File([${JSON.stringify("[friction]\nmu = 0.17 ; of a file\n[load]\nload = 300\n[body-a]\nsupport = halfplane\n")}], "case.ini"))`);
+        await settled();
+        await same_as_the_program();
+        check(await page.run("rollbem.page.answer.values.mu") === "0.17", "mu is not the file's");
+        for (const [text, line] of [["<script>alert(1)</script>", "expected name = value"], ["x".repeat(50000), "more than"], ["mu = <img src=x onerror=alert(1)>", "--mu: expected a number"], ["colour = red", "unknown option"]]) {
+            await page.run(`rollbem.page.open_file(new File([${JSON.stringify(text)}], "case.ini"))`);
+            await page.until(`document.getElementById('message').textContent.includes(${JSON.stringify(line)})`, 10);
+            check(await page.run("document.querySelectorAll('#message *').length") === 0, "the message holds elements");
+        }
     });
     for (const [link, line] of [["#mu=%3Cimg%20src=x%3E", "--mu: expected a number"], ["#nothing=1", "unknown option"], ["#contact-elements=1e9", "--contact-elements"], [`#mu=${"9".repeat(5000)}`, "could not be read"], ["#mu=0.3&drawn=load+1+NaN+2", "could not be read"], ["#formulation=transient&history=/etc/passwd", "/etc/passwd"]])
         await test(`a hostile link says so: ${link.slice(0, 30)}`, async () => {

@@ -25,6 +25,7 @@ int cli_lcp(int argc, char **argv);
 int cli_friction(int argc, char **argv);
 int cli_compare(int argc, char **argv);
 int cli_example(int argc, char **argv);
+int cli_page(int argc, char **argv);
 int cli_help(int argc, char **argv);
 
 /* Calls the command of that name; its exit code, or CLI_USAGE when there is none. */

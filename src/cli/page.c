@@ -1,0 +1,173 @@
+/* rollbem page: the page for browsers, with a case that it opens with. */
+#include "cli/case.h"
+#include "cli/output.h"
+#include "rollbem/io.h"
+
+#include <jansson.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct {
+    const char *page, *output;
+    int given[3];
+} page_options;
+
+#define PLACE(member) offsetof(page_options, member)
+
+static const rb_option options[] = {
+    RB_GROUP_LINE("output", "Output"),
+    RB_TEXT_LINE("page", PLACE(page), "FILE", "the page as `make page` builds it",
+                 .unset =
+                     "the one beside the program, or in share/rollbem beside its folder",
+                 .file = RB_FILE_READ),
+    RB_TEXT_LINE("output", PLACE(output), "FILE", "where it goes, whole or not at all",
+                 .unset = "standard output", .file = RB_FILE_WRITTEN),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+_Static_assert(OPTIONS == 3, "given");
+
+static const char about[] =
+    "Writes the page for browsers, one HTML file that opens without a network, so\n"
+    "that it opens with this case.\n\n" CLI_CASE_SIGNS;
+
+static const char notes[] =
+    CLI_CASE_NOTES "Example: rollbem page --mu 0.3 --creep 0.1 --output lecture.html\n";
+
+/* ---- The page as it is built --------------------------------------------------------
+ */
+
+/* Where the case goes: what web/page.html holds, and what stands for no case. */
+static const char marker[] = "<script type=\"application/json\" id=\"carried\">",
+                  no_case[] = "null";
+
+/* Beside the program as it is built, or where `make install` puts it; 0: not found. */
+static int find_page(char *path, size_t size)
+{
+    static const char *const places[] = {"rollbem.html", "../share/rollbem/rollbem.html"};
+    char program[3000];
+    const ssize_t n = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (n <= 0)
+        return 0;
+    program[n] = '\0';
+    *strrchr(program, '/') = '\0';
+    for (size_t k = 0; k < sizeof places / sizeof *places; k++) {
+        snprintf(path, size, "%s/%s", program, places[k]);
+        if (access(path, R_OK) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* The page's text, owned by the caller, and where the case goes in it. */
+static cli_exit read_page(const char *given, char **text, char **place)
+{
+    char found[3200];
+    size_t size;
+    rb_message why = {""};
+    if (!given && !find_page(found, sizeof found))
+        return cli_fail(CLI_NOINPUT,
+                        "page: rollbem.html is neither beside the program nor in "
+                        "share/rollbem; `make page` builds it, --page FILE "
+                        "names it");
+    const char *path = given ? given : found;
+    const rb_status s = rb_io_read_text(path, text, &size, &why);
+    if (s != RB_OK)
+        return cli_say(s, &why);
+    char *at = strstr(*text, marker);
+    if (!at || strncmp(at + strlen(marker), no_case, strlen(no_case)) != 0)
+        return cli_fail(CLI_DATA, "%s: expected the page of `make page`", path);
+    *place = at + strlen(marker);
+    return CLI_CONTINUE;
+}
+
+/* ---- The case ------------------------------------------------------------------------
+ */
+
+/* The options that are given, name by name, as text of a case file. */
+static json_t *given_options(rb_case *c)
+{
+    const rb_option_set set = rb_case_options(c);
+    json_t *all = json_object();
+    char room[64];
+    for (int k = 0; k < set.n; k++)
+        if (set.options[k].kind != RB_OPTION_GROUP &&
+            rb_case_given(c, set.options[k].name))
+            rb_report_json_set(
+                &all, set.options[k].name,
+                json_string(rb_option_text(&set.options[k], set.target, room)));
+    return all;
+}
+
+/* A page opens without any other file. */
+static cli_exit refuse_files(rb_case *c)
+{
+    const rb_option_set set = rb_case_options(c);
+    for (int k = 0; k < set.n; k++)
+        if (rb_option_path(&set.options[k], set.target))
+            return cli_fail(CLI_USAGE,
+                            "--%s: names a file, which a page cannot take along",
+                            set.options[k].name);
+    return CLI_CONTINUE;
+}
+
+typedef struct {
+    const char *text, *place; /* of the page */
+    const char *carried;      /* JSON */
+} filled_page;
+
+static rb_status write_page(FILE *out, const void *context, rb_message *why)
+{
+    const filled_page *p = context;
+    (void)why;
+    fwrite(p->text, 1, (size_t)(p->place - p->text), out);
+    for (const char *c = p->carried; *c; c++)
+        if (*c == '<') /* no text may end the element that holds it */
+            fputs("\\u003c", out);
+        else
+            putc(*c, out);
+    fputs(p->place + strlen(no_case), out);
+    return ferror(out) ? RB_EWRITE : RB_OK;
+}
+
+static cli_exit fill_page(rb_case *c, const page_options *o)
+{
+    char *text = NULL, *place = NULL;
+    cli_exit code = read_page(o->page, &text, &place);
+    if (code == CLI_CONTINUE) {
+        json_t *all = given_options(c);
+        char *carried = all ? json_dumps(all, JSON_COMPACT) : NULL;
+        const filled_page p = {text, place, carried};
+        code = carried ? cli_write_file(o->output, write_page, &p)
+                       : cli_fail(CLI_INTERNAL, "out of memory");
+        free(carried);
+        json_decref(all);
+    }
+    free(text);
+    return code;
+}
+
+int cli_page(int argc, char **argv)
+{
+    page_options o = {0};
+    cli_args args = {0};
+    rb_case *c = cli_case_create(RB_CASE_SINGLE);
+    if (!c)
+        return CLI_INTERNAL;
+    const cli_spec spec = {"rollbem page [OPTION...] [CASE.ini]",
+                           about,
+                           notes,
+                           {rb_case_options(c), {options, OPTIONS, &o, o.given}},
+                           2};
+    cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
+    if (code == CLI_CONTINUE)
+        code = refuse_files(c);
+    if (code == CLI_CONTINUE)
+        code = fill_page(c, &o);
+    cli_args_free(&args);
+    rb_case_free(c);
+    return code;
+}

@@ -1,0 +1,72 @@
+/* rollbem page: the page that it finds, the case that it carries, and its refusals. */
+#include "cli_run.h"
+
+static const char page[] = "<p>before</p><script type=\"application/json\" "
+                           "id=\"carried\">null</script><p>after</p>\n";
+
+static void the_page_carries_the_case(void **state)
+{
+    (void)state;
+    write_file("page.html", page);
+    write_file("case.ini", "[friction]\nmu = 0.25\n[body-a]\nsupport = halfplane\n");
+    assert_int_equal(
+        rollbem("page case.ini --page page.html --load 500 --output made.html"), 0);
+    assert_string_equal(out, "");
+    slurp("made.html", out, sizeof out);
+    char *from = strstr(out, "id=\"carried\">");
+    char *to = strstr(out, "</script>");
+    assert_memory_equal(out, "<p>before</p>", 13);
+    assert_string_equal(to, "</script><p>after</p>\n");
+    *to = '\0';
+    json_t *all = json_loads(from + 13, 0, NULL);
+    assert_non_null(all);
+    assert_int_equal(json_object_size(all), 3);
+    assert_string_equal(json_string_value(json_object_get(all, "mu")), "0.25");
+    assert_string_equal(json_string_value(json_object_get(all, "load")), "500");
+    assert_string_equal(json_string_value(json_object_get(all, "support")), "halfplane");
+    json_decref(all);
+
+    assert_int_equal(rollbem("page --page page.html"), 0);
+    assert_non_null(strstr(out, "id=\"carried\">{}</script>"));
+}
+
+/* Neither beside the program nor where make install puts it; then there. */
+static void an_installed_program_finds_its_page(void **state)
+{
+    (void)state;
+    write_file("page.html", page);
+    assert_int_equal(shell("mkdir -p tree/bin && cp \"$R\" tree/bin/rollbem"), 0);
+    assert_int_equal(shell("tree/bin/rollbem page --mu 0.2"), 66);
+    assert_string_equal(out, "");
+    assert_non_null(strstr(err, "share/rollbem"));
+    assert_ptr_equal(strchr(err, '\n'), err + strlen(err) - 1);
+    assert_int_equal(shell("mkdir -p tree/share/rollbem && cp page.html "
+                           "tree/share/rollbem/rollbem.html"),
+                     0);
+    assert_int_equal(shell("tree/bin/rollbem page --mu 0.2"), 0);
+    assert_non_null(strstr(out, "{\"mu\":\"0.2"));
+}
+
+static void what_no_page_can_be_made_of_is_refused(void **state)
+{
+    (void)state;
+    write_file("page.html", page);
+    write_file("other.html", "<p>nothing</p>");
+    write_file("gap.tsv", "-1 0.1\n0 0\n1 0.1\n");
+    check_refused("page --page none.html", 66, "none.html");
+    check_refused("page --page other.html", 65, "other.html: expected the page");
+    check_refused("page --page page.html --mu -1", 64, "--mu");
+    check_refused("page --page page.html --gap gap.tsv", 64, "--gap: names a file");
+    check_refused("page --page page.html --output page.html", 64, "written over");
+    check_refused("page --page page.html --output no/folder.html", 73, "no/folder.html");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_page_carries_the_case),
+        cmocka_unit_test(an_installed_program_finds_its_page),
+        cmocka_unit_test(what_no_page_can_be_made_of_is_refused),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
