@@ -115,6 +115,41 @@ static void cones_and_forced_formats(void **state)
     check_refused("friction --output x --format fclib slides", 65, "not an HDF5 file");
 }
 
+/* Siconos' text form of M v = H r + q, u = H' v + b.  In the plane one mass of 2 that
+ * falls on the ground and sticks, with as many degrees of freedom as rows, which a local
+ * problem has as well; in space one of four coordinates that slides. */
+static void global_problems_are_read_as_text(void **state)
+{
+    (void)state;
+    write_file("plane", "2 1 0 2 2 2 2 2 0 0 2\n0 2 2 2 2 1 0 0 1\n-4 1\n0 0\n0.5\n");
+    assert_int_equal(rollbem("friction --solution plane"), 0);
+    double r[3], u[3];
+    const char *at = strstr(out, "\nplane\t");
+    for (int k = 0; k < 2; k++, at = strstr(at + 1, "\nplane\t")) {
+        assert_non_null(at);
+        assert_int_equal(sscanf(at, "\nplane\t%*d\t%lf\t%lf", r + k, u + k), 2);
+    }
+    CHECK_ABS(r[0], 4.0, 1e-7, "r_N");
+    CHECK_ABS(r[1], -1.0, 1e-7, "r_T");
+    CHECK_ABS(u[0], 0.0, 1e-7, "u_N");
+    CHECK_ABS(u[1], 0.0, 1e-7, "u_T");
+    write_file("space",
+               "3 1 0 4 4 4 4\n2 0 0 0 0 3 0 0 0 0 4 0 0 0 0 5\n"
+               "0 4 3 4 3\n1 0 0 0 0 0 1 0 0 0 0 1\n-9.81 0 3 0\n0 0.5 0\n0.4\n");
+    assert_int_equal(rollbem("friction --kind siconos-global --solution space"), 0);
+    at = strstr(out, "\nspace\t");
+    for (int k = 0; k < 3; k++, at = strstr(at + 1, "\nspace\t")) {
+        assert_non_null(at);
+        assert_int_equal(sscanf(at, "\nspace\t%*d\t%lf\t%lf", r + k, u + k), 2);
+    }
+    CHECK_ABS(r[0], 9.81, 1e-7, "r_N");
+    CHECK_ABS(r[1], -0.4 * 9.81, 1e-7, "r_T1");
+    CHECK_ABS(u[1], 0.5 + (3.0 - 0.4 * 9.81) / 4.0, 1e-7, "u_T1");
+    write_file("space", "3 1 0 4 4 4 4\n2 0 0 0 0 3 0 0 0 0 4 0 0 0 0 5\n0 3 3 4 3\n");
+    check_refused("friction --output x space", 65,
+                  "rows of the matrix: expected 4, got '3'");
+}
+
 static void the_command_line_is_checked(void **state)
 {
     (void)state;
@@ -155,6 +190,7 @@ int main(void)
         cmocka_unit_test(bad_files_get_a_line_each_and_the_others_run),
         cmocka_unit_test(what_is_not_solved_says_so),
         cmocka_unit_test(cones_and_forced_formats),
+        cmocka_unit_test(global_problems_are_read_as_text),
         cmocka_unit_test(the_command_line_is_checked),
         cmocka_unit_test(profiles_are_printed),
     };

@@ -408,6 +408,33 @@ static void profiles_count_as_dolan_and_more_do(void **state)
         CHECK_ABS(rho[k], want[k], 1e-15, "rho[%d]", k);
 }
 
+/* The table of docs/friction.md says of every solver what the program says. */
+static void the_documentation_lists_every_solver(void **state)
+{
+    (void)state;
+    static char text[200000];
+    int count;
+    const rb_friction_solver *all = rb_friction_solvers(&count);
+    FILE *doc = fopen("docs/friction.md", "r");
+    if (!doc)
+        skip(); /* not run from the project's folder */
+    text[fread(text, 1, sizeof text - 1, doc)] = '\0';
+    fclose(doc);
+    const char *at = strstr(text, "| name | family | method |");
+    assert_non_null(at);
+    for (int k = 0; k < count; k++) {
+        char line[300];
+        snprintf(line, sizeof line, "\n| `%s` | %s | %s%s |\n", all[k].name,
+                 all[k].method, all[k].summary,
+                 all[k].needs & RB_FRICTION_ONLY_2D ? " (2D)" : "");
+        at = strstr(at, line);
+        if (!at)
+            fail_msg("docs/friction.md has no line, in its place, '%s'", line + 1);
+        at += strlen(line) - 1;
+    }
+    assert_int_not_equal(at[1], '|');
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -425,6 +452,7 @@ int main(void)
         cmocka_unit_test(the_soclcp_file_is_solved),
         cmocka_unit_test(other_text_files_are_refused),
         cmocka_unit_test(profiles_count_as_dolan_and_more_do),
+        cmocka_unit_test(the_documentation_lists_every_solver),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -162,6 +162,46 @@ static rb_status read_soclcp(void)
     return s;
 }
 
+/* One contact in space on three of four degrees of freedom, as Siconos writes it. */
+static const char GLOBAL[] =
+    "3\n1\n2\n4\n4\n1\nCSparse Version 3.2.0\ntriplet: 4-by-4, nzmax: 4 nnz: 4\n"
+    " 0 0 : 2\n 1 1 : 3\n 2 2 : 4\n 3 3 : 5\n"
+    "0\n4\n3\n4\t3\n 1 0 0 0\n 0 0 1 0\n 0 0 0 1\n"
+    "-9.81 0 3 0\n0 0.5 0\n0.4\n";
+
+static void global_friction_problems(void **state)
+{
+    (void)state;
+    rb_io_friction_global g;
+    rb_io_siconos_kind kind;
+    rb_sparse H;
+    put(GLOBAL);
+    CHECK_STATUS(rb_io_siconos_guess(path, &kind, NULL), RB_OK);
+    assert_int_equal(kind, RB_IO_SICONOS_FRICTION_GLOBAL);
+    CHECK_STATUS(rb_io_siconos_read_friction_global(path, &g, NULL), RB_OK);
+    assert_int_equal(g.M.rows, 4);
+    assert_int_equal(g.H.cols, 3);
+    CHECK_ABS(g.f[0], -9.81, 0.0, "f");
+    CHECK_ABS(g.w[1], 0.5, 0.0, "w");
+    CHECK_ABS(g.mu[0], 0.4, 0.0, "mu");
+    CHECK_STATUS(rb_io_matrix_to_sparse(&g.H, &H), RB_OK);
+    const int row[] = {0, 2, 3};
+    for (int j = 0; j < 3; j++) {
+        assert_int_equal(H.p[j], j);
+        assert_int_equal(H.i[j], row[j]);
+    }
+    rb_sparse_free(&H);
+    rb_io_friction_global_free(&g);
+}
+
+static rb_status read_global(void)
+{
+    rb_io_friction_global g;
+    const rb_status s = rb_io_siconos_read_friction_global(path, &g, &why);
+    rb_io_friction_global_free(&g);
+    return s;
+}
+
 static rb_status read_market(void)
 {
     rb_io_matrix m;
@@ -194,6 +234,11 @@ static void what_is_wrong_is_named_with_its_line(void **state)
     check_refused(read_lcp, "-3", "got '-3'");
     check_refused(read_lcp, "99999999999999999999", "got '99999999999999999999'");
     check_refused(read_lcp, "2.5", "got '2.5'");
+    check_refused(read_global, "2 1 0 3 4",
+                  ":1: columns of the matrix: expected 3, got '4'");
+    check_refused(read_global, "2 1 0 1 1 1 1 5\n0 1 3", ":2: columns of the matrix");
+    check_refused(read_global, "2 1 0 1 1 1 1 5\n0 1 2 1 2 1 0\n3\n0 0",
+                  ":4: mu: expected 1");
     check_refused(read_lcp, "2\n\n7",
                   ":3: storage of the matrix: expected an integer from 0 to 2");
     check_refused(read_lcp, "2 0 2 3", "columns of the matrix: expected 2, got '3'");
@@ -452,6 +497,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_FILE(every_storage_gives_the_same_lcp),
         WITH_FILE(friction_and_cones),
+        WITH_FILE(global_friction_problems),
         WITH_FILE(what_is_wrong_is_named_with_its_line),
         WITH_FILE(blocks_and_columns_must_fit),
         WITH_FILE(absurd_sizes_are_refused),

@@ -63,14 +63,15 @@ rb_status rb_friction_examine(const rb_friction_problem *problem, int with_rank,
  */
 
 typedef enum {
-    RB_FRICTION_FILE_ANY,           /* told by the head of the file */
-    RB_FRICTION_FILE_FCLIB,         /* HDF5 */
-    RB_FRICTION_FILE_SICONOS,       /* text: d, n_c, W, q, mu */
-    RB_FRICTION_FILE_SICONOS_SOCLCP /* text: n, n_c, M, q, cones, slopes */
+    RB_FRICTION_FILE_ANY,     /* told by the head of the file */
+    RB_FRICTION_FILE_FCLIB,   /* HDF5 */
+    RB_FRICTION_FILE_SICONOS, /* text: d, n_c, W, q, mu; or, where only that fits to
+                                 the end of the file, as SICONOS_GLOBAL */
+    RB_FRICTION_FILE_SICONOS_SOCLCP, /* text: n, n_c, M, q, cones, slopes */
+    RB_FRICTION_FILE_SICONOS_GLOBAL  /* text: d, n_c, M, H, q, b, mu */
 } rb_friction_file;
 
-/* What the head of a file tells (FCLIB, SICONOS, SICONOS_SOCLCP).  RB_ENOENT; RB_EFORMAT:
- * none of them. */
+/* What the head of a file tells.  RB_ENOENT; RB_EFORMAT: none of them. */
 rb_status rb_friction_file_kind(const char *path, rb_friction_file *kind,
                                 rb_message *why);
 

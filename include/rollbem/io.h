@@ -106,11 +106,14 @@ rb_status rb_io_matrix_market_read(const char *path, rb_io_matrix *m, rb_message
 typedef enum {
     RB_IO_SICONOS_LCP,
     RB_IO_SICONOS_FRICTION,
-    RB_IO_SICONOS_SOCLCP
+    RB_IO_SICONOS_SOCLCP,
+    RB_IO_SICONOS_FRICTION_GLOBAL
 } rb_io_siconos_kind;
 
 /* The kind, from the sizes at the head.  A single contact of d rows looks like a single
- * cone of d rows: it is taken for friction. */
+ * cone of d rows: it is taken for friction.  A global friction problem with as many
+ * degrees of freedom as rows of contacts is taken for a local one, with d of them for
+ * cones. */
 rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind,
                               rb_message *why);
 
@@ -162,6 +165,17 @@ typedef struct {
 rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p,
                                       rb_message *why);
 void rb_io_friction_free(rb_io_friction *p);
+
+/* M v = H r + f, u = H' v + w; the file calls f q and w b. */
+typedef struct {
+    int dimension, contacts;
+    rb_io_matrix M, H; /* n x n; n x dimension * contacts */
+    double *f, *w, *mu;
+} rb_io_friction_global;
+
+rb_status rb_io_siconos_read_friction_global(const char *path, rb_io_friction_global *p,
+                                             rb_message *why);
+void rb_io_friction_global_free(rb_io_friction_global *p);
 
 /* Cone k: rows start[k] ... start[k + 1] - 1, slope tau[k]. */
 typedef struct {

@@ -24,6 +24,7 @@ typedef struct {
 static const rb_choice kinds[] = {{"any", RB_FRICTION_FILE_ANY},
                                   {"fclib", RB_FRICTION_FILE_FCLIB},
                                   {"siconos", RB_FRICTION_FILE_SICONOS},
+                                  {"siconos-global", RB_FRICTION_FILE_SICONOS_GLOBAL},
                                   {"siconos-soclcp", RB_FRICTION_FILE_SICONOS_SOCLCP},
                                   {NULL, 0}};
 

@@ -91,6 +91,43 @@ static rb_status read_siconos(const char *path, rb_friction_problem *problem,
     return s;
 }
 
+/* Takes over the vectors of the file. */
+static rb_status adopt_global(rb_io_friction_global *file, rb_friction_problem *p)
+{
+    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
+                               .dimension = file->dimension,
+                               .contacts = file->contacts,
+                               .mu = file->mu,
+                               .dofs = file->M.rows,
+                               .f = file->f,
+                               .w = file->w};
+    file->mu = file->f = file->w = NULL;
+    const rb_status s = rb_io_matrix_to_sparse(&file->M, &p->K);
+    return s == RB_OK ? rb_io_matrix_to_sparse(&file->H, &p->H) : s;
+}
+
+static rb_status read_global(const char *path, rb_friction_problem *problem,
+                             rb_message *why)
+{
+    rb_io_friction_global file = {0};
+    rb_status s = rb_io_siconos_read_friction_global(path, &file, why);
+    if (s == RB_OK && (s = adopt_global(&file, problem)) != RB_OK)
+        rb_fail(why, s, "%s: out of memory", path);
+    rb_io_friction_global_free(&file);
+    return s;
+}
+
+/* With as many degrees of freedom as rows of contacts the head fits both forms: the local
+ * one is tried first, and its message counts where neither fits. */
+static rb_status read_text(const char *path, rb_friction_problem *problem,
+                           rb_message *why)
+{
+    rb_status s = read_siconos(path, problem, why);
+    if (s == RB_EFORMAT && read_global(path, problem, NULL) == RB_OK)
+        s = RB_OK;
+    return s;
+}
+
 rb_status rb_friction_file_kind(const char *path, rb_friction_file *kind, rb_message *why)
 {
     rb_io_siconos_kind text;
@@ -102,8 +139,9 @@ rb_status rb_friction_file_kind(const char *path, rb_friction_file *kind, rb_mes
     if (s == RB_OK && text == RB_IO_SICONOS_LCP)
         return rb_fail(why, RB_EFORMAT,
                        "%s: a linear complementarity problem: see 'rollbem lcp'", path);
-    *kind = text == RB_IO_SICONOS_SOCLCP ? RB_FRICTION_FILE_SICONOS_SOCLCP
-                                         : RB_FRICTION_FILE_SICONOS;
+    *kind = text == RB_IO_SICONOS_SOCLCP            ? RB_FRICTION_FILE_SICONOS_SOCLCP
+            : text == RB_IO_SICONOS_FRICTION_GLOBAL ? RB_FRICTION_FILE_SICONOS_GLOBAL
+                                                    : RB_FRICTION_FILE_SICONOS;
     return s;
 }
 
@@ -118,8 +156,9 @@ rb_status rb_friction_read_as(const char *path, rb_friction_file kind,
     if (s == RB_OK && kind == RB_FRICTION_FILE_SICONOS_SOCLCP)
         s = rb_fail(why, RB_EFORMAT, "%s: a problem on cones, not one of friction", path);
     if (s == RB_OK)
-        s = kind == RB_FRICTION_FILE_FCLIB ? read_fclib(path, problem, why)
-                                           : read_siconos(path, problem, why);
+        s = kind == RB_FRICTION_FILE_FCLIB            ? read_fclib(path, problem, why)
+            : kind == RB_FRICTION_FILE_SICONOS_GLOBAL ? read_global(path, problem, why)
+                                                      : read_text(path, problem, why);
     if (s == RB_OK)
         s = rb_friction_problem_check(problem, &detail);
     if (s == RB_EINVAL)

@@ -165,7 +165,7 @@ static void read_text(io_tokens *t, rb_io_lcp *p)
         rb_io_tokens_rewind(t);
     } else if (kind >= 0 && !plain) {
         rb_io_tokens_fail(t, "a %s of Siconos, expected an LCP",
-                          kind == RB_IO_SICONOS_FRICTION ? "friction problem" : "SOCLCP");
+                          kind == RB_IO_SICONOS_SOCLCP ? "SOCLCP" : "friction problem");
         return;
     }
     read_plain(t, p);

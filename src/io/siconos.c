@@ -175,12 +175,14 @@ static void read_sparse(io_tokens *t, rb_io_matrix *m)
         read_columns(t, nz, m);
 }
 
-/* A square matrix of n rows. */
-static void read_matrix(io_tokens *t, int n, rb_io_matrix *m)
+/* A matrix of that size; rows 0: as many as the file says. */
+static void read_matrix(io_tokens *t, int rows, int cols, rb_io_matrix *m)
 {
     const int storage = rb_io_tokens_int(t, DENSE, SPARSE, "storage of the matrix");
-    m->rows = rb_io_tokens_int(t, n, n, "rows of the matrix");
-    m->cols = rb_io_tokens_int(t, n, n, "columns of the matrix");
+    m->rows =
+        rb_io_tokens_int(t, rows ? rows : 1, rows ? rows : INT_MAX, "rows of the matrix");
+    cols = cols ? cols : m->rows;
+    m->cols = rb_io_tokens_int(t, cols, cols, "columns of the matrix");
     if (!ok(t))
         return;
     if (storage == DENSE)
@@ -212,7 +214,7 @@ void rb_io_read_siconos_lcp(io_tokens *t, rb_io_lcp *p)
 {
     *p = (rb_io_lcp){0};
     p->n = rb_io_tokens_int(t, 1, INT_MAX, "n");
-    read_matrix(t, p->n, &p->M);
+    read_matrix(t, p->n, p->n, &p->M);
     p->q = read_vector(t, p->n, "q");
     if (!ok(t))
         rb_io_lcp_free(p);
@@ -253,12 +255,44 @@ rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p,
     p->dimension = rb_io_tokens_int(&t, 2, 3, "dimension");
     p->contacts = rb_io_tokens_int(&t, 1, INT_MAX / 3, "number of contacts");
     const int m = p->dimension * p->contacts;
-    read_matrix(&t, m, &p->W);
+    read_matrix(&t, m, m, &p->W);
     p->q = read_vector(&t, m, "q");
     p->mu = read_vector(&t, p->contacts, "mu");
     expect_end(&t);
     if (!ok(&t))
         rb_io_friction_free(p);
+    rb_io_tokens_close(&t);
+    return t.status;
+}
+
+void rb_io_friction_global_free(rb_io_friction_global *p)
+{
+    rb_io_matrix_free(&p->M);
+    rb_io_matrix_free(&p->H);
+    free(p->f);
+    free(p->w);
+    free(p->mu);
+    *p = (rb_io_friction_global){0};
+}
+
+rb_status rb_io_siconos_read_friction_global(const char *path, rb_io_friction_global *p,
+                                             rb_message *why)
+{
+    io_tokens t;
+    *p = (rb_io_friction_global){0};
+    rb_io_tokens_open(path, &t, why);
+    p->dimension = rb_io_tokens_int(&t, 2, 3, "dimension");
+    p->contacts = rb_io_tokens_int(&t, 1, INT_MAX / 3, "number of contacts");
+    const int m = p->dimension * p->contacts;
+    read_matrix(&t, 0, 0, &p->M);
+    if (ok(&t))
+        read_matrix(&t, p->M.rows, m, &p->H);
+    p->f = read_vector(&t, p->M.rows, "q");
+    p->w = read_vector(&t, m, "b");
+    p->mu = read_vector(&t, p->contacts, "mu");
+    expect_end(&t);
+    if (!ok(&t))
+        rb_io_friction_global_free(p);
     rb_io_tokens_close(&t);
     return t.status;
 }
@@ -279,7 +313,7 @@ rb_status rb_io_siconos_read_soclcp(const char *path, rb_io_soclcp *p, rb_messag
     rb_io_tokens_open(path, &t, why);
     p->n = rb_io_tokens_int(&t, 1, INT_MAX, "n");
     p->cones = rb_io_tokens_int(&t, 1, p->n, "number of cones");
-    read_matrix(&t, p->n, &p->M);
+    read_matrix(&t, p->n, p->n, &p->M);
     p->q = read_vector(&t, p->n, "q");
     if (ok(&t)) /* then n numbers have been read, and n + 1 is an int */
         p->start = read_increasing(&t, p->cones + 1, 0, 1, p->n, "start of the cones");
@@ -295,7 +329,7 @@ rb_status rb_io_siconos_read_soclcp(const char *path, rb_io_soclcp *p, rb_messag
  */
 
 /* LCP: n, storage, n, n.  Friction: d, contacts, storage, m, m with m = d contacts.
- * SOCLCP: n, cones, storage, n, n. */
+ * SOCLCP: n, cones, storage, n, n.  Global friction: d, contacts, storage, n, n. */
 int rb_io_siconos_kind_at(io_tokens *t)
 {
     int head[5];
@@ -309,7 +343,11 @@ int rb_io_siconos_kind_at(io_tokens *t)
     if (matrix && (head[0] == 2 || head[0] == 3) &&
         head[3] == (long long)head[0] * head[1])
         return RB_IO_SICONOS_FRICTION;
-    return matrix && head[3] == head[0] ? RB_IO_SICONOS_SOCLCP : -1;
+    if (matrix && head[3] == head[0])
+        return RB_IO_SICONOS_SOCLCP;
+    return matrix && (head[0] == 2 || head[0] == 3) && head[3] > 0
+               ? RB_IO_SICONOS_FRICTION_GLOBAL
+               : -1;
 }
 
 rb_status rb_io_siconos_guess(const char *path, rb_io_siconos_kind *kind, rb_message *why)
