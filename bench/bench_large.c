@@ -125,8 +125,8 @@ static void solve_both(int n)
     rb_rolling_case dense = rc;
     rb_rolling_model model;
     rb_rolling_bodies bodies;
-    rb_rolling_problem problem;
-    rb_rolling_state state;
+    rb_contact_problem problem;
+    rb_contact_state state;
 
     double start = rb_seconds();
     if (rb_rolling_model_create(&rc, &model, NULL) != RB_OK)
@@ -137,7 +137,7 @@ static void solve_both(int n)
     if (rb_rolling_bodies_create(&dense, &model.mesh, &bodies, NULL) != RB_OK ||
         rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, 0.0, &problem,
                                   NULL) != RB_OK ||
-        rb_rolling_state_alloc(n, &state) != RB_OK)
+        rb_contact_state_alloc(n, &state) != RB_OK)
         stop("no memory");
     dense.solver = RB_SOLVER_NEWTON;
     if (rb_rolling_problem_solve(&problem, &dense, 0, &state, NULL) != RB_OK)
@@ -150,8 +150,8 @@ static void solve_both(int n)
     printf("one solution, n = %d: matrix %.3g s, transforms %.3g s: %.0f times faster; "
            "largest difference of q/p0 %.1e\n",
            n, slow, fast, slow / fast, difference);
-    rb_rolling_state_free(&state);
-    rb_rolling_problem_free(&problem);
+    rb_contact_state_free(&state);
+    rb_contact_problem_free(&problem);
     rb_rolling_bodies_free(&bodies);
     rb_rolling_model_free(&model);
 }

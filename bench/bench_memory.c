@@ -42,7 +42,7 @@ static rb_rolling_case halfplanes(int n)
     return rc;
 }
 
-static rb_rolling_case lemke(int n, rb_rolling_lcp_form form)
+static rb_rolling_case lemke(int n, rb_contact_lcp_form form)
 {
     rb_rolling_case rc = halfplanes(n);
     rc.solver = RB_SOLVER_LEMKE;

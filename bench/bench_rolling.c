@@ -74,15 +74,15 @@ static void stages(void)
 }
 
 /* Seconds of the complementarity problem alone, by one solver on one model. */
-static double solve_seconds(rb_rolling_model *model, rb_rolling_solver solver,
+static double solve_seconds(rb_rolling_model *model, rb_contact_solver solver,
                             int runs)
 {
     rb_rolling_case rc = model->rc;
-    rb_rolling_state state;
+    rb_contact_state state;
     double best = INFINITY;
 
     rc.solver = solver;
-    if (rb_rolling_state_alloc(model->mesh.n, &state) != RB_OK)
+    if (rb_contact_state_alloc(model->mesh.n, &state) != RB_OK)
         return NAN;
     for (int k = 0; k < runs; k++) {
         const double start = rb_seconds();
@@ -90,7 +90,7 @@ static double solve_seconds(rb_rolling_model *model, rb_rolling_solver solver,
             best = NAN;
         best = fmin(best, rb_seconds() - start);
     }
-    rb_rolling_state_free(&state);
+    rb_contact_state_free(&state);
     return best;
 }
 

@@ -48,12 +48,12 @@ static void compare_with_matrix(const rb_rolling_case *rc)
     rb_rolling_model model = solved(rc);
     rb_rolling_case dense = *rc;
     rb_rolling_bodies bodies;
-    rb_rolling_problem problem;
-    rb_rolling_state state;
+    rb_contact_problem problem;
+    rb_contact_state state;
     rb_message why;
 
     assert_null(model.bodies.F);
-    assert_null(model.problem.S);
+    assert_null(rb_contact_operator_matrix(model.problem.op).F);
     dense.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
     CHECK_STATUS(rb_rolling_bodies_create(&dense, &model.mesh, &bodies, &why), RB_OK);
     assert_non_null(bodies.F);
@@ -62,8 +62,9 @@ static void compare_with_matrix(const rb_rolling_case *rc)
                  RB_OK);
     CHECK_REL(model.problem.gap_length, problem.gap_length, 1e-12, "scale of gaps");
     CHECK_REL(model.problem.slip_length, problem.slip_length, 1e-3, "scale of slips");
-    assert_int_equal(model.problem.coupled, problem.coupled);
-    CHECK_STATUS(rb_rolling_state_alloc(model.mesh.n, &state), RB_OK);
+    assert_int_equal(rb_contact_operator_response(model.problem.op).coupled,
+                     rb_contact_operator_response(problem.op).coupled);
+    CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &state), RB_OK);
     dense.solver = RB_SOLVER_NEWTON;
     memcpy(state.zone, model.state.zone, (size_t)state.n * sizeof(int));
     CHECK_STATUS(rb_rolling_problem_solve(&problem, &dense, 1, &state, &why), RB_OK);
@@ -74,8 +75,8 @@ static void compare_with_matrix(const rb_rolling_case *rc)
     }
     CHECK_REL(model.state.delta, state.delta, 1e-11, "delta");
     CHECK_REL(model.state.xi, state.xi, 1e-9, "xi");
-    rb_rolling_state_free(&state);
-    rb_rolling_problem_free(&problem);
+    rb_contact_state_free(&state);
+    rb_contact_problem_free(&problem);
     rb_rolling_bodies_free(&bodies);
     rb_rolling_model_free(&model);
 }
@@ -257,6 +258,23 @@ static void steps_hardly_grow(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* What needs a matrix says so: the LCP and the cones. */
+static void without_a_matrix_some_refuse(void **state)
+{
+    const rb_rolling_case rc = steady(SIMILAR, 1500);
+    rb_rolling_model model = solved(&rc);
+    rb_contact_lcp lcp;
+    rb_contact_cone cone;
+    rb_message why = {""};
+
+    (void)state;
+    CHECK_STATUS(rb_rolling_model_lcp(&model, &lcp, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "1500 contact elements are too many"));
+    CHECK_STATUS(rb_contact_cone_create(&model.problem, 0.0, 0.0, &cone, &why),
+                 RB_EINVAL);
+    rb_rolling_model_free(&model);
+}
+
 static void failing_allocations(void **state)
 {
     (void)state;
@@ -289,6 +307,7 @@ int main(void)
         cmocka_unit_test(bentall_johnson),
         cmocka_unit_test(frictionless_and_sliding),
         cmocka_unit_test(steps_hardly_grow),
+        cmocka_unit_test(without_a_matrix_some_refuse),
         cmocka_unit_test(failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

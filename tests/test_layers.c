@@ -13,12 +13,14 @@ static const struct {
     {"lcp", " base blas lcp "},
     {"bem", " base blas sparse bem "},
     {"io", " base sparse io io_fclib "},
-    {"friction", " base blas sparse io io_fclib lcp friction "},
+    {"contact", " base lcp contact "},
+    {"friction", " base blas sparse io io_fclib lcp contact friction "},
     {"fem", " base blas sparse friction fem "},
-    {"rolling", " base blas sparse bem lcp io io_fclib friction rolling closed_forms "},
-    {"case", " base blas sparse io lcp friction rolling case api "},
+    {"rolling", " base blas bem lcp contact rolling closed_forms "},
+    {"case", " base io contact rolling case "},
+    {"api", " base blas sparse io lcp contact friction rolling case api "},
     {"report",
-     " base blas sparse bem lcp io friction fem rolling closed_forms case report "
+     " base blas sparse bem lcp contact io friction fem rolling closed_forms case report "
      "report_fem "},
 };
 

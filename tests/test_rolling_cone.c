@@ -1,6 +1,10 @@
 /* The rolling problems through the cone solvers of src/friction: a third opinion. */
 #include "check.h"
-#include "rolling/internal.h"
+#include "contact/internal.h"
+#include "rollbem/friction.h"
+#include "rollbem/rolling.h"
+
+#include <string.h>
 
 /* Steady rolling of dissimilar bodies: W is not symmetric. */
 static rb_rolling_case dissimilar_rolling(void)
@@ -24,12 +28,14 @@ static void cone_solvers_agree_with_lemke(void **state)
     rb_rolling_model model;
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-        rb_rolling_state cone;
+        rb_contact_state cone;
         rb_message why = {""};
-        CHECK_STATUS(rb_rolling_state_alloc(model.mesh.n, &cone), RB_OK);
+        CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &cone), RB_OK);
         cone.delta = model.state.delta;
         cone.xi = model.state.xi;
-        if (rb_rolling_cone_solve(&model.problem, names[k], &cone, &why) != RB_OK)
+        const rb_contact_options by = {.cone_solvers = rb_friction_cone_solvers(),
+                                       .cone_solver = names[k]};
+        if (rb_contact_cone_solve(&model.problem, &by, &cone, &why) != RB_OK)
             fail_msg("%s: %s", names[k], why.text);
         for (int i = 0; i < cone.n; i++) {
             CHECK_ABS(cone.p[i], model.state.p[i], 1e-8 * model.problem.stress,
@@ -37,7 +43,7 @@ static void cone_solvers_agree_with_lemke(void **state)
             CHECK_ABS(cone.q[i], model.state.q[i], 1e-8 * model.problem.stress,
                       "%s: q %d", names[k], i);
         }
-        rb_rolling_state_free(&cone);
+        rb_contact_state_free(&cone);
     }
     rb_rolling_model_free(&model);
 }
@@ -50,6 +56,12 @@ static void a_case_may_name_a_cone_solver(void **state)
     CHECK_STATUS(rb_rolling_solve(&rc, &lemke, NULL), RB_OK);
     rc.solver = RB_SOLVER_CONE;
     rb_message why = {""};
+    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_EINVAL);
+    rc.cone_solver = "nsn-ac"; /* nobody has handed it in */
+    CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "nsn-ac"));
+    rc.cone_solvers = rb_friction_cone_solvers();
+    rc.cone_solver = "no-such";
     CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_EINVAL);
     rc.cone_solver = "nsn-ac";
     CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_OK);

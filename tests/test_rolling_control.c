@@ -50,12 +50,12 @@ static void lemke_and_newton_agree_on_500_cases(void **state)
     for (int k = 0; k < 500; k++) {
         rb_rolling_case rc = random_case(1e-4, 1.0);
         rb_rolling_model model;
-        rb_rolling_state newton;
+        rb_contact_state newton;
         rb_message why = {""};
         rc.solver = RB_SOLVER_LEMKE;
         if (rb_rolling_model_create(&rc, &model, &why) != RB_OK)
             fail_msg("case %d: %s", k, why.text);
-        CHECK_STATUS(rb_rolling_state_alloc(model.mesh.n, &newton), RB_OK);
+        CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &newton), RB_OK);
         rc.solver = RB_SOLVER_NEWTON;
         CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &newton, NULL),
                      RB_OK);
@@ -65,7 +65,7 @@ static void lemke_and_newton_agree_on_500_cases(void **state)
             CHECK_ABS(newton.q[i], model.state.q[i], 1e-8 * model.problem.stress,
                       "q, case %d element %d", k, i);
         }
-        rb_rolling_state_free(&newton);
+        rb_contact_state_free(&newton);
         rb_rolling_model_free(&model);
     }
 }

@@ -35,8 +35,8 @@ static double weighted(int n, const double *a, const double *x, const double *b,
 }
 
 /* Rows of a given load and a given force. */
-static void check_controls(const rb_rolling_problem *p, const rb_rolling_lcp *lcp,
-                           const rb_rolling_state *s, const double *w)
+static void check_controls(const rb_contact_problem *p, const rb_contact_lcp *lcp,
+                           const rb_contact_state *s, const double *w)
 {
     const int n = p->n, force = 3 * n + p->load_given;
     const double P = weighted(n, p->load_N, s->p, p->load_T, s->q);
@@ -50,17 +50,17 @@ static void check_controls(const rb_rolling_problem *p, const rb_rolling_lcp *lc
                   1e-10 * P, "force");
 }
 
-static void check_rows(const rb_rolling_problem *p, const rb_rolling_lcp *lcp,
+static void check_rows(const rb_contact_problem *p, const rb_contact_lcp *lcp,
                        const double *z, const double *w)
 {
     const int n = p->n;
     const double o = lcp->mirrored ? -1.0 : 1.0;
     double *gap = rb_alloc((size_t)n, 2), *slip = gap + n;
-    rb_rolling_state s;
+    rb_contact_state s;
 
-    CHECK_STATUS(rb_rolling_state_alloc(n, &s), RB_OK);
-    rb_rolling_lcp_recover(p, lcp, z, &s);
-    rb_rolling_kinematics(p, &s, gap, slip);
+    CHECK_STATUS(rb_contact_state_alloc(n, &s), RB_OK);
+    rb_contact_lcp_recover(p, lcp, z, &s);
+    rb_contact_kinematics(p, &s, gap, slip);
     for (int i = 0; i < n; i++) {
         const double plus = p->mu * s.p[i] + s.q[i], minus = p->mu * s.p[i] - s.q[i];
         CHECK_ABS(w[i] * lcp->w_scale[i], gap[i], 1e-9 * p->gap_length, "gap %d", i);
@@ -82,15 +82,15 @@ static void check_rows(const rb_rolling_problem *p, const rb_rolling_lcp *lcp,
         }
     }
     check_controls(p, lcp, &s, w);
-    rb_rolling_state_free(&s);
+    rb_contact_state_free(&s);
     free(gap);
 }
 
-static void check_form(const rb_rolling_model *model, rb_rolling_lcp_form form,
+static void check_form(const rb_rolling_model *model, rb_contact_lcp_form form,
                        int mirrored)
 {
-    rb_rolling_lcp lcp;
-    CHECK_STATUS(rb_rolling_lcp_create(&model->problem, form, mirrored,
+    rb_contact_lcp lcp;
+    CHECK_STATUS(rb_contact_lcp_create(&model->problem, form, mirrored,
                                        mirrored ? 1e-3 : -1e-3, &lcp, NULL),
                  RB_OK);
     double *z = rb_alloc((size_t)lcp.size, 2), *w = z + lcp.size;
@@ -99,7 +99,7 @@ static void check_form(const rb_rolling_model *model, rb_rolling_lcp_form form,
     rb_lcp_residual(lcp.size, lcp.M, lcp.size, lcp.b, z, w);
     check_rows(&model->problem, &lcp, z, w);
     free(z);
-    rb_rolling_lcp_free(&lcp);
+    rb_contact_lcp_free(&lcp);
 }
 
 static void every_row_is_its_equation(void **state)

@@ -222,8 +222,8 @@ static void contacts_figures_are_met(void **state)
         const rb_rolling_case rc = two_cylinders(want[k].tau);
         rb_rolling_mesh mesh;
         rb_rolling_bodies bodies;
-        rb_rolling_problem problem;
-        rb_rolling_state s;
+        rb_contact_problem problem;
+        rb_contact_state s;
         CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -8.0, 7.84, &mesh, NULL), RB_OK);
         rb_rolling_mesh_free(&mesh);
         rb_rolling_case grid = rc;
@@ -233,7 +233,7 @@ static void contacts_figures_are_met(void **state)
         CHECK_STATUS(
             rb_rolling_problem_create(&grid, &mesh, &bodies, NULL, 0.0, &problem, NULL),
             RB_OK);
-        CHECK_STATUS(rb_rolling_state_alloc(99, &s), RB_OK);
+        CHECK_STATUS(rb_contact_state_alloc(99, &s), RB_OK);
         CHECK_STATUS(rb_rolling_problem_solve(&problem, &grid, 0, &s, NULL), RB_OK);
         int contact = 0, stick = 0;
         double power = 0.0, p_max = 0.0;
@@ -249,8 +249,8 @@ static void contacts_figures_are_met(void **state)
         CHECK_REL(power * grid.speed, want[k].power, 1e-3, "tau %g: power", want[k].tau);
         assert_int_equal(contact, want[k].contact);
         assert_int_equal(stick, want[k].stick);
-        rb_rolling_state_free(&s);
-        rb_rolling_problem_free(&problem);
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&problem);
         rb_rolling_bodies_free(&bodies);
         rb_rolling_mesh_free(&mesh);
     }

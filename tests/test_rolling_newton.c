@@ -1,7 +1,8 @@
 /* Newton with a matrix: the problem on pairs of elements, the cold start from it, and the
  * answers beside Lemke's. */
 #include "check.h"
-#include "rolling/reduced.h"
+#include "contact/dense.h"
+#include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>
@@ -53,28 +54,29 @@ static double pair_sum(int n, const double *x, int k)
 
 /* What the fine problem answers to the tractions of the pairs: mean gaps, and slips that
  * are differences of mean displacements upstream, or mean ones. */
-static void check_pairs(const rb_rolling_problem *p, const rb_rolling_problem *half,
-                        const rb_rolling_state *fine, const rb_rolling_state *coarse)
+static void check_pairs(const rb_rolling_model *model, const rb_contact_problem *half,
+                        const rb_contact_state *fine, const rb_contact_state *coarse)
 {
-    const int n = p->n, m = half->n, inner = p->steady ? m - 1 : m;
+    const rb_contact_problem *p = &model->problem;
+    const int n = p->n, m = half->n, inner = p->differences ? m - 1 : m;
     double *gap = rb_alloc((size_t)n, 2), *half_gap = rb_alloc((size_t)m, 2);
     double *r = rb_alloc((size_t)n, 2), *w = rb_alloc((size_t)n + 1, 2);
 
-    rb_rolling_kinematics(p, fine, gap, gap + n);
-    rb_rolling_kinematics(half, coarse, half_gap, half_gap + m);
+    rb_contact_kinematics(p, fine, gap, gap + n);
+    rb_contact_kinematics(half, coarse, half_gap, half_gap + m);
     memcpy(r, fine->p, (size_t)n * sizeof *r);
     memcpy(r + n, fine->q, (size_t)n * sizeof *r);
-    rb_bem_flexibility_apply(&p->f, r, w);
+    rb_bem_flexibility_apply(&model->bodies.f, r, w);
     const double *w_T = w + n + 1;
     for (int i = 0; i <= n; i++)
-        w[n + 1 + i] += fine->xi * (p->steady ? -p->f.x[i] : 1.0);
+        w[n + 1 + i] += fine->xi * (p->differences ? -model->bodies.f.x[i] : 1.0);
     for (int k = 0; k < m; k++)
         CHECK_ABS(half_gap[k], pair_mean(n, gap, k), 1e-11 * p->gap_length, "gap %d", k);
     for (int k = 0; k < inner; k++) {
         const double want =
-            p->steady ? 0.5 * (pair_mean(n + 1, w_T, k) - pair_mean(n, w_T, k + 1))
-                        : pair_mean(n, w_T, k);
-        const int alone = p->steady && n % 2 && k == inner - 1;
+            p->differences ? 0.5 * (pair_mean(n + 1, w_T, k) - pair_mean(n, w_T, k + 1))
+                           : pair_mean(n, w_T, k);
+        const int alone = p->differences && n % 2 && k == inner - 1;
         if (!alone)
             CHECK_ABS(half_gap[m + k], want, 1e-11 * p->slip_length, "slip %d", k);
     }
@@ -86,15 +88,14 @@ static void check_pairs(const rb_rolling_problem *p, const rb_rolling_problem *h
 
 static void check_half(const rb_rolling_model *model)
 {
-    const rb_rolling_problem *p = &model->problem;
-    rb_rolling_problem half;
-    rb_rolling_state fine, coarse;
-    double *room = rb_rolling_halve(p, &half);
+    const rb_contact_problem *p = &model->problem;
+    rb_contact_problem half;
+    rb_contact_state fine, coarse;
 
-    assert_non_null(room);
+    CHECK_STATUS(rb_contact_halve(p, &half), RB_OK);
     assert_int_equal(half.n, (p->n + 1) / 2);
-    CHECK_STATUS(rb_rolling_state_alloc(p->n, &fine), RB_OK);
-    CHECK_STATUS(rb_rolling_state_alloc(half.n, &coarse), RB_OK);
+    CHECK_STATUS(rb_contact_state_alloc(p->n, &fine), RB_OK);
+    CHECK_STATUS(rb_contact_state_alloc(half.n, &coarse), RB_OK);
     for (int k = 0; k < half.n; k++) {
         coarse.p[k] = p->stress * rand() / RAND_MAX;
         coarse.q[k] = 0.2 * p->stress * rand() / RAND_MAX;
@@ -104,12 +105,12 @@ static void check_half(const rb_rolling_model *model)
     }
     coarse.delta = 3.0;
     coarse.xi = 7e-4;
-    rb_rolling_start_from_half(&coarse, &fine);
+    rb_contact_start_from_half(&coarse, &fine);
     assert_int_equal(fine.zone[p->n - 1], coarse.zone[half.n - 1]);
-    check_pairs(p, &half, &fine, &coarse);
-    rb_rolling_state_free(&fine);
-    rb_rolling_state_free(&coarse);
-    free(room);
+    check_pairs(model, &half, &fine, &coarse);
+    rb_contact_state_free(&fine);
+    rb_contact_state_free(&coarse);
+    rb_contact_problem_free(&half);
 }
 
 static void pairs_answer_as_their_elements_do(void **state)
@@ -135,13 +136,13 @@ static void pairs_answer_as_their_elements_do(void **state)
 /* Newton alone from nothing, and Lemke. */
 static void check_beside_lemke(rb_rolling_model *model)
 {
-    rb_rolling_problem *p = &model->problem;
+    rb_contact_problem *p = &model->problem;
     rb_rolling_case rc = model->rc;
-    rb_rolling_state newton, lemke;
+    rb_contact_state newton, lemke;
 
-    CHECK_STATUS(rb_rolling_state_alloc(p->n, &newton), RB_OK);
-    CHECK_STATUS(rb_rolling_state_alloc(p->n, &lemke), RB_OK);
-    CHECK_STATUS(rb_rolling_newton(p, 0, &newton), RB_OK);
+    CHECK_STATUS(rb_contact_state_alloc(p->n, &newton), RB_OK);
+    CHECK_STATUS(rb_contact_state_alloc(p->n, &lemke), RB_OK);
+    CHECK_STATUS(rb_contact_newton(p, 0, &newton), RB_OK);
     rc.solver = RB_SOLVER_LEMKE;
     CHECK_STATUS(rb_rolling_problem_solve(p, &rc, 0, &lemke, NULL), RB_OK);
     assert_int_equal(lemke.solver, RB_SOLVER_LEMKE);
@@ -151,8 +152,8 @@ static void check_beside_lemke(rb_rolling_model *model)
     }
     CHECK_REL(newton.delta, lemke.delta, 1e-10, "delta");
     CHECK_ABS(newton.xi, lemke.xi, 1e-10 * p->slip_length / p->e_T[0], "xi");
-    rb_rolling_state_free(&newton);
-    rb_rolling_state_free(&lemke);
+    rb_contact_state_free(&newton);
+    rb_contact_state_free(&lemke);
 }
 
 /* mu = 0.1, where an undamped Newton without the coarse start has cycled; all controls.
@@ -182,18 +183,18 @@ static void steps_grow_by_levels(void **state)
     (void)state;
     for (int similar = 0; similar < 2; similar++) {
         rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
-        rb_rolling_state cold;
+        rb_contact_state cold;
         int few = 0;
         if (similar)
             rc.b.young = rc.a.young;
         for (int doubled = 0; doubled < 3; doubled++, rc.contact_elements *= 2) {
             rb_rolling_model model = solved(&rc);
-            CHECK_STATUS(rb_rolling_state_alloc(model.mesh.n, &cold), RB_OK);
-            CHECK_STATUS(rb_rolling_newton(&model.problem, 0, &cold), RB_OK);
+            CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &cold), RB_OK);
+            CHECK_STATUS(rb_contact_newton(&model.problem, 0, &cold), RB_OK);
             if (doubled == 0)
                 few = cold.iterations;
             CHECK_MAX(cold.iterations, few + 6 * doubled, "level %d", doubled);
-            rb_rolling_state_free(&cold);
+            rb_contact_state_free(&cold);
             rb_rolling_model_free(&model);
         }
     }
@@ -204,18 +205,18 @@ static void steps_grow_by_levels(void **state)
 
 /* The reduced problem of the zones by a kept LU or by a new one; returns the changes that
  * it was solved over. */
-static int direct(rb_rolling_problem *p, rb_rolling_unknowns unknowns, rb_rolling_lu lu,
-                  rb_rolling_state *s, rb_rolling_reduced *r)
+static int direct(rb_contact_problem *p, rb_contact_unknowns unknowns, rb_contact_lu lu,
+                  rb_contact_state *s, rb_contact_reduced *r)
 {
-    CHECK_STATUS(rb_rolling_reduced_alloc(p, unknowns, s, r), RB_OK);
-    rb_rolling_reduced_clear(p, r, s);
-    rb_rolling_reduced_right_side(p, s, r);
-    CHECK_STATUS(rb_rolling_reduced_direct(p, s->zone, lu, r), RB_OK);
+    CHECK_STATUS(rb_contact_reduced_alloc(p, unknowns, s, r), RB_OK);
+    rb_contact_reduced_clear(p, r, s);
+    rb_contact_reduced_right_side(p, s, r);
+    CHECK_STATUS(rb_contact_reduced_direct(p, s->zone, lu, r), RB_OK);
     return r->changes;
 }
 
 /* A few elements anywhere go into any zone; at least one sticks. */
-static void disturb(int count, rb_rolling_state *s)
+static void disturb(int count, rb_contact_state *s)
 {
     for (int k = 0; k < count; k++)
         s->zone[rand() % s->n] = rand() % 4;
@@ -223,15 +224,15 @@ static void disturb(int count, rb_rolling_state *s)
 }
 
 /* Returns the changes that the kept LU was used over. */
-static int check_kept(rb_rolling_problem *p, rb_rolling_unknowns unknowns,
-                      rb_rolling_state *s)
+static int check_kept(rb_contact_problem *p, rb_contact_unknowns unknowns,
+                      rb_contact_state *s)
 {
-    rb_rolling_reduced kept, fresh;
+    rb_contact_reduced kept, fresh;
 
     direct(p, unknowns, RB_LU_NEW, s, &fresh);
-    rb_rolling_reduced_free(&fresh);
+    rb_contact_reduced_free(&fresh);
     disturb(3, s);
-    rb_rolling_problem changed = *p; /* the same matrices under other controls */
+    rb_contact_problem changed = *p; /* the same matrices under other controls */
     changed.force_given = rand() % 2;
     changed.load_given = rand() % 2;
     changed.delta = 0.1;
@@ -242,8 +243,8 @@ static int check_kept(rb_rolling_problem *p, rb_rolling_unknowns unknowns,
     for (int i = 0; i < fresh.size; i++)
         CHECK_ABS(kept.x[i], fresh.x[i], 1e-9 * scale, "unknown %d of %d, %d changes", i,
                   fresh.size, changes);
-    rb_rolling_reduced_free(&kept);
-    rb_rolling_reduced_free(&fresh);
+    rb_contact_reduced_free(&kept);
+    rb_contact_reduced_free(&fresh);
     return changes;
 }
 
@@ -251,19 +252,19 @@ static void a_kept_lu_serves_other_zones(void **state)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
     rb_rolling_model model = solved(&rc);
-    rb_rolling_state s;
+    rb_contact_state s;
     int changes = 0;
 
     (void)state;
     srand(5);
-    CHECK_STATUS(rb_rolling_state_alloc(model.mesh.n, &s), RB_OK);
+    CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &s), RB_OK);
     for (int k = 0; k < 60; k++) {
         memcpy(s.zone, model.state.zone, (size_t)s.n * sizeof(int));
         disturb(3, &s);
-        changes += check_kept(&model.problem, (rb_rolling_unknowns)(1 + k % 3), &s);
+        changes += check_kept(&model.problem, (rb_contact_unknowns)(1 + k % 3), &s);
     }
     assert_true(changes > 60);
-    rb_rolling_state_free(&s);
+    rb_contact_state_free(&s);
     rb_rolling_model_free(&model);
 }
 
@@ -272,25 +273,25 @@ static void a_kept_lu_gives_way_to_a_new_one(void **state)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
     rb_rolling_model model = solved(&rc);
-    rb_rolling_problem *p = &model.problem;
-    rb_rolling_reduced r;
-    rb_rolling_state s;
+    rb_contact_problem *p = &model.problem;
+    rb_contact_reduced r;
+    rb_contact_state s;
 
     (void)state;
-    CHECK_STATUS(rb_rolling_state_alloc(p->n, &s), RB_OK);
+    CHECK_STATUS(rb_contact_state_alloc(p->n, &s), RB_OK);
     p->load_given = 0;
     p->delta = 0.1;
     assert_int_equal(direct(p, RB_BOTH, RB_LU_KEPT, &s, &r), 0);
-    rb_rolling_reduced_free(&r);
+    rb_contact_reduced_free(&r);
     for (int i = 0; i < p->n; i++)
         s.zone[i] = RB_ZONE_STICK;
     assert_int_equal(direct(p, RB_BOTH, RB_LU_KEPT, &s, &r), 0);
-    rb_rolling_reduced_free(&r);
+    rb_contact_reduced_free(&r);
     for (int i = 0; i < p->n; i++)
         s.zone[i] = i % 2 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_STICK;
     assert_int_equal(direct(p, RB_BOTH, RB_LU_KEPT, &s, &r), 0);
-    rb_rolling_reduced_free(&r);
-    rb_rolling_state_free(&s);
+    rb_contact_reduced_free(&r);
+    rb_contact_state_free(&s);
     rb_rolling_model_free(&model);
 }
 
@@ -298,12 +299,12 @@ static void a_kept_lu_gives_way_to_a_new_one(void **state)
  */
 
 /* How the approach grows with the load where the zones stay. */
-static double compliance(rb_rolling_problem problem, rb_rolling_state *s)
+static double compliance(rb_contact_problem problem, rb_contact_state *s)
 {
-    CHECK_STATUS(rb_rolling_solve_zones(&problem, RB_BOTH, s), RB_OK);
+    CHECK_STATUS(rb_contact_solve_zones(&problem, RB_BOTH, s), RB_OK);
     const double delta = s->delta, load = problem.load;
     problem.load *= 2.0;
-    CHECK_STATUS(rb_rolling_solve_zones(&problem, RB_BOTH, s), RB_OK);
+    CHECK_STATUS(rb_contact_solve_zones(&problem, RB_BOTH, s), RB_OK);
     return (s->delta - delta) / load;
 }
 
@@ -315,11 +316,11 @@ static void a_given_load_does_not_feel_the_datum(void **state)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
     rb_rolling_model usual = solved(&rc), critical;
-    rb_rolling_problem *p;
-    rb_rolling_state s;
+    rb_contact_problem *p;
+    rb_contact_state s;
 
     (void)state;
-    CHECK_STATUS(rb_rolling_state_alloc(usual.mesh.n, &s), RB_OK);
+    CHECK_STATUS(rb_contact_state_alloc(usual.mesh.n, &s), RB_OK);
     memcpy(s.zone, usual.state.zone, (size_t)s.n * sizeof(int));
     const double soft = compliance(usual.problem, &s);
     rc.a.datum = rb_rolling_datum(&rc, &rc.a) *
@@ -329,15 +330,14 @@ static void a_given_load_does_not_feel_the_datum(void **state)
     p = &critical.problem;
     assert_int_equal(p->n, s.n);
     CHECK_ABS(critical.mesh.ends[p->n], usual.mesh.ends[p->n], 0.0, "zone");
-    rb_rolling_factors_free(p->factors); /* a new LU, of just these zones */
-    CHECK_STATUS(rb_rolling_factors_create(&p->factors), RB_OK);
+    p->op->kind->forget(p->op); /* a new LU, of just these zones */
     CHECK_ABS(compliance(*p, &s), 0.0, 1e-9 * soft, "compliance");
-    CHECK_STATUS(rb_rolling_solve_zones(p, RB_BOTH, &s), RB_OK);
+    CHECK_STATUS(rb_contact_solve_zones(p, RB_BOTH, &s), RB_OK);
     for (int i = 0; i < p->n; i++) {
         CHECK_ABS(s.p[i], usual.state.p[i], 1e-9 * p->stress, "pressure %d", i);
         CHECK_ABS(s.q[i], usual.state.q[i], 1e-9 * p->stress, "friction %d", i);
     }
-    rb_rolling_state_free(&s);
+    rb_contact_state_free(&s);
     rb_rolling_model_free(&usual);
     rb_rolling_model_free(&critical);
 }
@@ -352,14 +352,14 @@ static void failing_allocations(void **state)
 
     (void)state;
     for (int k = 0, refused = 1; refused; k += 1 + k / 10) {
-        rb_rolling_state cold;
-        CHECK_STATUS(rb_rolling_state_alloc(model.mesh.n, &cold), RB_OK);
+        rb_contact_state cold;
+        CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &cold), RB_OK);
         alloc_fail_after(k);
-        const rb_status s = rb_rolling_newton(&model.problem, 0, &cold);
+        const rb_status s = rb_contact_newton(&model.problem, 0, &cold);
         refused = alloc_failed();
         alloc_succeed();
         CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
-        rb_rolling_state_free(&cold);
+        rb_contact_state_free(&cold);
     }
     rb_rolling_model_free(&model);
 }

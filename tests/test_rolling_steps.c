@@ -155,7 +155,7 @@ static rb_rolling_case spence(int elements)
  * on either side counts by the place where |q| and mu p cross. */
 static double stick_part(const rb_rolling_model *model)
 {
-    const rb_rolling_state *state = &model->state;
+    const rb_contact_state *state = &model->state;
     double stick = 0.0, contact = 0.0;
 
     for (int i = 0; i < state->n; i++) {
@@ -204,7 +204,7 @@ static double stick_under_a_flat_punch(int elements)
     CHECK_STATUS(rb_rolling_problem_create(&rc, &mesh, &model.bodies, NULL, 0.0,
                                            &model.problem, NULL),
                  RB_OK);
-    CHECK_STATUS(rb_rolling_state_alloc(mesh.n, &model.state), RB_OK);
+    CHECK_STATUS(rb_contact_state_alloc(mesh.n, &model.state), RB_OK);
     CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, NULL),
                  RB_OK);
     const double part = stick_part(&model);

@@ -192,6 +192,9 @@ extern const rb_choice rb_case_curve_variables[];
 rb_case *rb_case_create(rb_case_purpose purpose);
 /* Changes a creep curve into one over the speed and back; settle afterwards. */
 void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose);
+/* Solvers that the option `solver` may name beside those of contact.h; borrowed.  Without
+ * this there are none. */
+void rb_case_use_cone_solvers(rb_case *c, const rb_contact_cone_solvers *solvers);
 /* Borrows files and texts of c, which must live longer.  NULL: no memory. */
 rb_case *rb_case_copy(const rb_case *c);
 void rb_case_free(rb_case *c);

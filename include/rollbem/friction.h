@@ -4,6 +4,7 @@
 #define ROLLBEM_FRICTION_H
 
 #include "rollbem/base.h"
+#include "rollbem/contact.h"
 #include "rollbem/sparse.h"
 
 /* ---- The problem ------------------------------------------------------------------- */
@@ -169,6 +170,11 @@ rb_friction_options rb_friction_defaults(void);
 rb_status rb_friction_solve(const char *solver, const rb_friction_problem *problem,
                             const rb_friction_options *opt, double *r, double *u,
                             double *v, rb_friction_info *info);
+
+/* The solvers for rolling contact (rb_rolling_case, rb_case_use_cone_solvers). */
+const rb_contact_cone_solvers *rb_friction_cone_solvers(void);
+/* A contact problem as one of these; borrows the arrays of the cone. */
+rb_friction_problem rb_friction_of_cone(const rb_contact_cone *cone);
 
 /* ---- One structure, many loads ------------------------------------------------------
  */

@@ -14,7 +14,7 @@ struct json_t; /* jansson's */
 
 const char *rb_report_formulation(rb_rolling_formulation formulation);
 const char *rb_report_solver(const rb_rolling_solution *s);
-const char *rb_report_lcp_form(rb_rolling_lcp_form form);
+const char *rb_report_lcp_form(rb_contact_lcp_form form);
 
 /* The signs of creepage, slip and zones, one line each; ends with NULL. */
 extern const char *const rb_report_conventions[];
@@ -146,6 +146,11 @@ typedef struct {
     int has_errors;
     rb_rolling_curve error[RB_REPORT_CURVES]; /* with has_errors */
 } rb_report_curves;
+
+/* The model's problem at its approach and creepage and its tractions as an FCLib file.
+ * RB_EINVAL: too large for a dense W; RB_EWRITE. */
+rb_status rb_report_fclib(const char *path, const rb_rolling_model *model,
+                          rb_message *why);
 
 /* One row per mu and creepage, errors in columns of their own.  RB_EWRITE: see errno. */
 rb_status rb_report_curve_table(FILE *out, const rb_report_curves *curves,

@@ -10,8 +10,7 @@
 
 #include "rollbem/base.h"
 #include "rollbem/bem.h"
-#include "rollbem/friction.h"
-#include "rollbem/lcp.h"
+#include "rollbem/contact.h"
 
 /* ---- Case ------------------------------------------------------------------------ */
 
@@ -28,13 +27,6 @@ typedef enum { RB_SLIP_UPSTREAM, RB_SLIP_SECOND } rb_rolling_slip_operator;
 /* So many equal elements on half-planes are solved by Fourier transforms, without a
  * matrix. */
 enum { RB_ROLLING_LARGE = 1500 };
-typedef enum {
-    RB_SOLVER_AUTO,
-    RB_SOLVER_LEMKE,
-    RB_SOLVER_NEWTON,
-    RB_SOLVER_CONE /* the one of src/friction that the case names */
-} rb_rolling_solver;
-typedef enum { RB_LCP_PIVOTED, RB_LCP_KWAK } rb_rolling_lcp_form;
 /* Close to a load a wheel answers by its boundary elements alone, as in *Addi*, or by the
  * exact strip on the half-plane with the boundary elements solving for the rest (B10). */
 typedef enum {
@@ -138,10 +130,12 @@ typedef struct {
     rb_rolling_near_field near_field;       /* of wheels */
     rb_rolling_slip_operator slip_operator; /* steady; second: equal elements */
 
-    rb_rolling_solver solver;
-    const char
-        *cone_solver; /* RB_SOLVER_CONE: a name of rb_friction_solvers(); borrowed */
-    rb_rolling_lcp_form lcp_form;
+    rb_contact_solver solver;
+    /* RB_SOLVER_CONE: one of the cone solvers that the caller hands in, by name;
+     * borrowed, such as rb_friction_cone_solvers(). */
+    const rb_contact_cone_solvers *cone_solvers;
+    const char *cone_solver;
+    rb_contact_lcp_form lcp_form;
     double tol; /* of the scaled natural residual; on large contacts not below rounding */
 
     rb_lcp_trace *trace; /* sees every pivot of Lemke, with trace_context; NULL: nobody */
@@ -203,56 +197,8 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
                                    rb_rolling_bodies *bodies, rb_message *why);
 void rb_rolling_bodies_free(rb_rolling_bodies *bodies);
 
-/* ---- The discrete frictional contact problem --------------------------------------- */
-
-struct rb_rolling_state;
-typedef void rb_rolling_newton_trace(const struct rb_rolling_state *state, void *context);
-
-/* Gap (K1): y_N = d_N + F (r_N, r_T) - delta >= 0, complementary to r_N.
- * Slip (K2): T_T lambda = d_T + S (r_N, r_T) + xi e_T, S = A [F_TN F_TT].
- * Forces: P = load_N'r_N + load_T'r_T, Q = force_N'r_N + force_T'r_T.
- * Moment of the load about x = 0: M = moment_N'r_N + moment_T'r_T.
- * xi stands for the creepage (steady, transient) or the rigid shift (static). */
-typedef struct {
-    int n;
-    double mu;
-    const double
-        *F; /* gap rows 0 .. n-1, 2n columns, ld = ldf; borrowed from the bodies */
-    int ldf;
-    double *S;                          /* n x 2n; owned, as the arrays below */
-    struct rb_rolling_factors *factors; /* LU of earlier solves; owned */
-    /* Where F and S are NULL: */
-    rb_bem_flexibility f; /* its arrays borrowed from the bodies */
-    int steady;           /* 1: A is a difference along x; 0: A = I */
-    double
-        stencil[4]; /* A of theory.md 4.2: (A w)_i = sum over k of stencil_k w_{i-1+k} */
-    double
-        *outside;    /* 2 x 2n: tangential displacement one element downstream and two
-                        upstream of the contact; NULL where A does not ask for it; owned */
-    double *product; /* 2n + 2m, room for one product with f */
-    struct rb_rolling_krylov *krylov;            /* preconditioners; owned */
-    double *d_N, *d_T;                           /* n [length] */
-    double *e_T;                                 /* n: [length] per unit of xi */
-    double *load_N, *load_T, *force_N, *force_T; /* n [length] */
-    double *moment_N, *moment_T;                 /* n [length^2] */
-
-    int load_given;  /* 1: P = load, delta is an unknown; 0: delta is given */
-    int force_given; /* 1: Q = force + force_ratio mu P, xi is an unknown; 0: xi is given
-                      */
-    double load, delta, force, force_ratio, xi;
-    double axle; /* 1/R where the force is Q = force + force_ratio mu P - axle M, M the
-                    moment of the pressure (free axle, V4); else 0 [1/length] */
-
-    int coupled; /* 0: pressure causes no slip and friction no gap (similar half-planes)
-                  */
-    double stress, gap_length, slip_length; /* scales of r, y_N, lambda (4.4) */
-    double rounding; /* of the scaled residual on large contacts: gaps between neighbours
-                        are small against the displacement of all; 0 with a dense F */
-    /* Sees each step of Newton's method: the zones of the state and the tractions that
-     * they lead to, before the zones are corrected; NULL: nobody. */
-    rb_rolling_newton_trace *trace;
-    void *trace_context;
-} rb_rolling_problem;
+/* ---- The formulation as a contact problem (contact.h) -------------------------------
+ */
 
 /* The state that a static history or a transient starts from. */
 typedef struct {
@@ -266,99 +212,13 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
                                     const rb_rolling_mesh *mesh,
                                     const rb_rolling_bodies *bodies,
                                     const rb_rolling_past *past, double step,
-                                    rb_rolling_problem *problem, rb_message *why);
-void rb_rolling_problem_free(rb_rolling_problem *problem);
+                                    rb_contact_problem *problem, rb_message *why);
 
-/* Row of the given force: control_N'r_N + control_T'r_T = force, n each. */
-void rb_rolling_force_row(const rb_rolling_problem *problem, double *control_N,
-                          double *control_T);
-
-/* Unknowns of the problem. */
-typedef struct rb_rolling_state {
-    int n;
-    double *p, *q, *lambda; /* r_N, r_T, T_T lambda; owned */
-    int *zone;              /* rb_rolling_zone; owned */
-    double delta, xi;
-    rb_status status;
-    rb_rolling_solver solver;
-    rb_rolling_lcp_form lcp_form;
-    int mirrored; /* of the LCP that was solved */
-    double xi0;
-    int iterations;
-    double residual;
-} rb_rolling_state;
-
-rb_status rb_rolling_state_alloc(int n, rb_rolling_state *state);
-void rb_rolling_state_free(rb_rolling_state *state);
-
-/* ---- The LCP (K4, K5, K6) -----------------------------------------------------------
- */
-
-/* M z + b complementary to z, scaled: physical z_j = z_scale_j z_j.  Size 3n, plus one
- * row for a given load and one for a given force (K6). */
-typedef struct {
-    int size;
-    double *M, *b;             /* size x size column-major, size; owned */
-    double *z_scale, *w_scale; /* size; owned */
-    rb_rolling_lcp_form form;
-    int mirrored; /* pivoted form: unknowns (gamma-, lambda+) instead of (gamma+, lambda-)
-                   */
-    double delta0, xi0;            /* where the bordered unknowns start */
-    double *B_inverse;             /* Kwak's form: (A F_TT)^-1, n x n; owned */
-    double *control_N, *control_T; /* n: row of the given force; owned */
-} rb_rolling_lcp;
-
-rb_status rb_rolling_lcp_create(const rb_rolling_problem *problem,
-                                rb_rolling_lcp_form form, int mirrored, double xi0,
-                                rb_rolling_lcp *lcp, rb_message *why);
-void rb_rolling_lcp_free(rb_rolling_lcp *lcp);
-/* The LCP that gave the state, where Lemke's method did; for any other state, or NULL,
- * the one that Lemke tries first. */
-rb_status rb_rolling_lcp_first(const rb_rolling_problem *problem,
-                               const rb_rolling_case *rc, const rb_rolling_state *state,
-                               rb_rolling_lcp *lcp, rb_message *why);
-/* p, q, delta, xi from z; lambda and zones are recomputed from the problem. */
-void rb_rolling_lcp_recover(const rb_rolling_problem *problem, const rb_rolling_lcp *lcp,
-                            const double *z, rb_rolling_state *state);
-
-/* Name of one of its variables, numbered w, z, z0 (lcp.h), on n contact elements: "p[3]",
- * "lambda+[2]"; behind the 3n of the contact stand the given load and the given force:
- * "motion[1]", "force[1]".  Returns name. */
-enum { RB_ROLLING_VARIABLE = 32 };
-const char *rb_rolling_lcp_variable(const rb_rolling_lcp *lcp, int n, int variable,
-                                    char name[RB_ROLLING_VARIABLE]);
-
-/* Largest violations of (K1)-(K3) and of the given load and force, recomputed from p, q,
- * delta and xi alone. */
-typedef struct {
-    double scaled;    /* natural residual of the scaled problem (4.4) */
-    double gap, slip; /* [length] */
-    double friction;  /* [stress] */
-} rb_rolling_violation;
-
-rb_status rb_rolling_residual(const rb_rolling_problem *problem,
-                              const rb_rolling_state *state,
-                              rb_rolling_violation *violation);
-
-/* Solves the problem by the solver of the case, and by the other one where that fails
- * (state->solver says which one did it).  warm: the zones of the state are a start. */
-rb_status rb_rolling_problem_solve(rb_rolling_problem *problem, const rb_rolling_case *rc,
-                                   int warm, rb_rolling_state *state, rb_message *why);
-
-/* The linear problem of the zones that the state names, right or wrong: p, q, lambda,
- * delta and xi of the state, and the gap (n), which tell what a wrong guess violates.
- * RB_SINGULAR, RB_ENOMEM. */
-rb_status rb_rolling_try_zones(rb_rolling_problem *problem, rb_rolling_state *state,
-                               double *gap);
+/* Solves it by the solver of the case.  warm: the zones of the state are a start. */
+rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc,
+                                   int warm, rb_contact_state *state, rb_message *why);
 
 /* ---- Solution -------------------------------------------------------------------- */
-
-typedef enum {
-    RB_ZONE_SEPARATED = 0,
-    RB_ZONE_STICK = 1,
-    RB_ZONE_SLIP_NEGATIVE = 2, /* r_T = -mu r_N: A's surface slides towards +x */
-    RB_ZONE_SLIP_POSITIVE = 3  /* r_T = +mu r_N */
-} rb_rolling_zone;
 
 /* A part of the contact with separated elements on either side. */
 typedef struct {
@@ -376,7 +236,7 @@ typedef struct {
     double *un, *ut; /* w_N, w_T of A (of A and B together where both are elastic) */
     double *shift;   /* T_T lambda [length]; 0 in stick */
     double *slip;    /* relative slip velocity [-]: (12) in static, shift/distance else */
-    int *zone;       /* rb_rolling_zone */
+    int *zone;       /* rb_contact_zone */
     double *temperature, *temperature_b; /* of the surfaces; NULL where not asked for */
 
     int patches;
@@ -385,12 +245,12 @@ typedef struct {
     rb_status status;
     rb_rolling_formulation formulation;
     rb_rolling_slip_operator slip_operator;
-    rb_rolling_solver solver; /* that gave the answer */
+    rb_contact_solver solver; /* that gave the answer */
     const char *cone_solver;  /* its name, RB_SOLVER_CONE; borrowed from the case */
     int large;             /* 1: products by Fourier transforms, no matrix was formed */
     int boundary_elements; /* of both bodies; 0: half-planes have none */
     int hierarchical;      /* 1: a boundary's matrix was a hierarchical one */
-    rb_rolling_lcp_form lcp_form;
+    rb_contact_lcp_form lcp_form;
     int iterations;  /* pivots or Newton steps, of all solves */
     double residual; /* natural residual of the scaled problem, recomputed from p, q,
                         shift */
@@ -520,17 +380,6 @@ void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
 double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from,
                                 double to);
 
-/* ---- The same problem for the cone solvers
- * --------------------------------------------- */
-
-/* u = W r + q with r in units of problem->stress, u_N of gap_length, u_T of slip_length;
- * delta and xi given.  cone: free with rb_friction_problem_free. */
-rb_status rb_rolling_cone_problem(const rb_rolling_problem *problem, double delta,
-                                  double xi, rb_friction_problem *cone, rb_message *why);
-/* p and q of the state, for its delta and xi, by the cone solver of that name. */
-rb_status rb_rolling_cone_solve(const rb_rolling_problem *problem, const char *solver,
-                                rb_rolling_state *state, rb_message *why);
-
 /* ---- A case at work ------------------------------------------------------------------
  */
 
@@ -539,8 +388,8 @@ typedef struct {
     rb_rolling_case rc; /* borrows the profile */
     rb_rolling_mesh mesh;
     rb_rolling_bodies bodies;
-    rb_rolling_problem problem;
-    rb_rolling_state state;
+    rb_contact_problem problem;
+    rb_contact_state state;
     double shift;      /* rigid shift before the state's own, in a history [length] */
     int equal_instead; /* 1: of fitted elements, whose edges did not come to rest */
     double half_width; /* Hertz's, of the load found last: scale of the ratios */
@@ -563,10 +412,9 @@ rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *mo
                                  rb_message *why);
 void rb_rolling_model_free(rb_rolling_model *model);
 
-/* The model's problem and its tractions as an FCLib file.  RB_EINVAL: too large for a
- * dense W; RB_EWRITE. */
-rb_status rb_rolling_cone_write(const char *path, const rb_rolling_model *model,
-                                rb_message *why);
+/* The LCP that gave the model's state, or the one that Lemke's method tries first. */
+rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp,
+                               rb_message *why);
 
 /* The creepage at which Q = 0 (steady, mu > 0), on the model's mesh.  The model's
  * solution stays; what it keeps for further solves changes. */

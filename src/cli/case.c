@@ -1,10 +1,13 @@
 #include "cli/case.h"
 #include "cli/output.h"
+#include "rollbem/friction.h"
 
 rb_case *cli_case_create(rb_case_purpose purpose)
 {
     rb_case *c = rb_case_create(purpose);
-    if (!c)
+    if (c)
+        rb_case_use_cone_solvers(c, rb_friction_cone_solvers());
+    else
         cli_fail(CLI_INTERNAL, "out of memory");
     return c;
 }

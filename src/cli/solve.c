@@ -137,7 +137,7 @@ static cli_exit show_behind(const solve_options *so, const rb_rolling_model *mod
     rb_message why = {""};
     cli_exit code = CLI_CONTINUE;
     if (so->fclib)
-        code = cli_say_of("fclib", rb_rolling_cone_write(so->fclib, model, &why), &why);
+        code = cli_say_of("fclib", rb_report_fclib(so->fclib, model, &why), &why);
     if (so->dump && code == CLI_CONTINUE)
         code = cli_say_of("dump", rb_report_dump(so->dump, model, &why), &why);
     if (so->trace && code == CLI_CONTINUE)

@@ -168,9 +168,9 @@ static rb_status dump_toeplitz(const target *t, const rb_bem_flexibility *f)
 
 static rb_status dump_lcp(const target *t, const rb_rolling_model *model)
 {
-    rb_rolling_lcp lcp;
+    rb_contact_lcp lcp;
     rb_status s =
-        rb_rolling_lcp_first(&model->problem, &model->rc, &model->state, &lcp, t->why);
+        rb_rolling_model_lcp(model, &lcp, t->why);
     if (s != RB_OK)
         return s;
     const int n = lcp.size;
@@ -181,7 +181,7 @@ static rb_status dump_lcp(const target *t, const rb_rolling_model *model)
         s = write_matrix(t, "z_scale", n, 1, lcp.z_scale, n, "physical z = z_scale z");
     if (s == RB_OK)
         s = write_matrix(t, "w_scale", n, 1, lcp.w_scale, n, "physical w = w_scale w");
-    rb_rolling_lcp_free(&lcp);
+    rb_contact_lcp_free(&lcp);
     return s;
 }
 

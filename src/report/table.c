@@ -25,7 +25,7 @@ const char *rb_report_solver(const rb_rolling_solution *s)
     return s->solver == RB_SOLVER_CONE ? s->cone_solver : names[s->solver];
 }
 
-const char *rb_report_lcp_form(rb_rolling_lcp_form form)
+const char *rb_report_lcp_form(rb_contact_lcp_form form)
 {
     return form == RB_LCP_KWAK ? "kwak" : "pivoted";
 }

@@ -10,7 +10,7 @@
 typedef struct {
     FILE *out;
     const char *folder; /* NULL: no tableaux */
-    const rb_rolling_lcp *lcp;
+    const rb_contact_lcp *lcp;
     int n; /* contact elements */
     rb_status status;
     rb_message *why;
@@ -55,10 +55,10 @@ static void write_tableau(trace *t, const rb_lcp_pivot *p)
 static void write_variables(FILE *file, const trace *t, const char *what,
                             const int *variable, int n)
 {
-    char name[RB_ROLLING_VARIABLE];
+    char name[RB_CONTACT_VARIABLE];
     fprintf(file, "%s", what);
     for (int i = 0; i < n; i++) {
-        rb_rolling_lcp_variable(t->lcp, t->n, variable[i], name);
+        rb_contact_lcp_variable(t->lcp, t->n, variable[i], name);
         fprintf(file, " %s", name);
     }
     fputc('\n', file);
@@ -82,9 +82,9 @@ static void write_basis(trace *t, const rb_lcp_pivot *p)
 static void each_pivot(const rb_lcp_pivot *p, void *context)
 {
     trace *t = context;
-    char entering[RB_ROLLING_VARIABLE], leaving[RB_ROLLING_VARIABLE];
-    rb_rolling_lcp_variable(t->lcp, t->n, p->entering, entering);
-    rb_rolling_lcp_variable(t->lcp, t->n, p->leaving, leaving);
+    char entering[RB_CONTACT_VARIABLE], leaving[RB_CONTACT_VARIABLE];
+    rb_contact_lcp_variable(t->lcp, t->n, p->entering, entering);
+    rb_contact_lcp_variable(t->lcp, t->n, p->leaving, leaving);
     fprintf(t->out,
             "pivot %4d  row %4d  %-12s enters  %-12s leaves  step %-12.5g z0 %.5g\n",
             p->pivot + 1, p->row + 1, entering, leaving, p->ratio, p->z0);
@@ -94,7 +94,7 @@ static void each_pivot(const rb_lcp_pivot *p, void *context)
         write_basis(t, p);
 }
 
-static rb_status follow(trace *t, const rb_rolling_lcp *lcp)
+static rb_status follow(trace *t, const rb_contact_lcp *lcp)
 {
     rb_lcp_options options = rb_lcp_defaults();
     rb_lcp_info info;
@@ -118,9 +118,9 @@ static rb_status follow(trace *t, const rb_rolling_lcp *lcp)
 rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model *model,
                           rb_message *why)
 {
-    rb_rolling_lcp lcp;
-    const rb_rolling_state *state = &model->state;
-    rb_status s = rb_rolling_lcp_first(&model->problem, &model->rc, state, &lcp, why);
+    rb_contact_lcp lcp;
+    const rb_contact_state *state = &model->state;
+    rb_status s = rb_rolling_model_lcp(model, &lcp, why);
     if (s != RB_OK)
         return s;
     if (state->solver != RB_SOLVER_LEMKE)
@@ -130,6 +130,6 @@ rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model 
     s = follow(&t, &lcp);
     if (s != RB_OK && folder)
         rb_report_remove_tableaux(folder);
-    rb_rolling_lcp_free(&lcp);
+    rb_contact_lcp_free(&lcp);
     return s;
 }

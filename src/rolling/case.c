@@ -374,17 +374,6 @@ static rb_status check_increments(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
-static int is_cone_solver(const char *name)
-{
-    int count = 0;
-    const rb_friction_solver *solver = rb_friction_solvers(&count);
-
-    for (int k = 0; name && k < count; k++)
-        if (strcmp(solver[k].name, name) == 0)
-            return 1;
-    return 0;
-}
-
 static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->slip_operator == RB_SLIP_SECOND && rc->formulation != RB_STEADY)
@@ -415,7 +404,8 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
                        "normals surface: a half-plane has the obstacle's");
     if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->elastic_b)
         return rb_fail(why, RB_EINVAL, "normals surface: with a rigid plane only");
-    if (rc->solver == RB_SOLVER_CONE && !is_cone_solver(rc->cone_solver))
+    if (rc->solver == RB_SOLVER_CONE && !(rc->cone_solvers && rc->cone_solver &&
+                                          rc->cone_solvers->knows(rc->cone_solver)))
         return rb_fail(
             why, RB_EINVAL,
             "solver: expected auto, lemke, newton or a cone solver, got '%.60s'",

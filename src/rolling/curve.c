@@ -29,8 +29,8 @@ static rb_status record_heat(const rb_rolling_model *model, double *max_temperat
 static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
                         rb_message *why)
 {
-    const rb_rolling_problem *p = &model->problem;
-    const rb_rolling_state *state = &model->state;
+    const rb_contact_problem *p = &model->problem;
+    const rb_contact_state *state = &model->state;
     const double P = rb_rolling_model_load(model), Q = rb_rolling_model_force(model);
     const double mu = p->mu;
     const int k = c->n++;
@@ -54,7 +54,7 @@ static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
     c->residual[k] = state->residual;
     c->half_width = model->half_width;
     c->speed[k] = model->rc.speed;
-    c->resistance_moment[k] = rb_rolling_moment(p, state);
+    c->resistance_moment[k] = rb_contact_moment(p, state);
     c->resistance_ratio[k] =
         c->resistance_moment[k] / (P * rb_rolling_radius(&model->rc));
     const rb_status s = rb_rolling_hysteresis(model, &c->hysteresis[k]);

@@ -188,7 +188,7 @@ static double refine_all(const patches *found, brackets *known, patches *fitted)
 static rb_status solve_on(rb_rolling_model *model, const patches *now, rb_message *why)
 {
     rb_rolling_mesh mesh, old_mesh = model->mesh;
-    rb_rolling_state old = model->state;
+    rb_contact_state old = model->state;
     const int was_enclosed = old.status == RB_OK;
     rb_status s = rb_rolling_mesh_spans(&model->rc, now->count, now->span, &mesh, why);
 
@@ -202,7 +202,7 @@ static rb_status solve_on(rb_rolling_model *model, const patches *now, rb_messag
         s = rb_rolling_model_resolve(model, 1, why);
     }
     rb_rolling_mesh_free(&old_mesh);
-    rb_rolling_state_free(&old);
+    rb_contact_state_free(&old);
     return s;
 }
 

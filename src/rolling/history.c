@@ -40,7 +40,7 @@ static double element_length(const run *r)
  * that a step of length c brings to them. */
 static rb_status remember(run *r, double c)
 {
-    const rb_rolling_state *state = &r->model->state;
+    const rb_contact_state *state = &r->model->state;
     const rb_rolling_bodies *bodies = &r->model->bodies;
     const int n = state->n, m = n + 1;
     const int element = fabs(c - element_length(r)) <= 1e-9 * element_length(r);
@@ -66,8 +66,8 @@ static void record(run *r, double distance)
 {
     rb_rolling_history *h = r->history;
     const rb_rolling_model *model = r->model;
-    const rb_rolling_problem *p = &model->problem;
-    const rb_rolling_state *state = &model->state;
+    const rb_contact_problem *p = &model->problem;
+    const rb_contact_state *state = &model->state;
     const int k = h->n++, rolls = model->rc.formulation == RB_TRANSIENT;
 
     h->distance[k] = distance;
@@ -86,7 +86,7 @@ static void record(run *r, double distance)
     if (rolls)
         h->dissipation[k] = rb_rolling_dissipated_power(
             &model->rc, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
-    h->moment[k] = rb_rolling_moment(p, state);
+    h->moment[k] = rb_contact_moment(p, state);
     if (h->max_temperature) {
         double at;
         rb_rolling_warmest(p->n, model->bodies.f.x, state->zone, model->temperature,
@@ -101,8 +101,8 @@ static void record(run *r, double distance)
 /* Follows how long the friction has not changed. */
 static void watch_steadiness(run *r, double c)
 {
-    const rb_rolling_state *state = &r->model->state;
-    const rb_rolling_problem *p = &r->model->problem;
+    const rb_contact_state *state = &r->model->state;
+    const rb_contact_problem *p = &r->model->problem;
     const double bound = p->mu * p->stress * STEADY_RATE * c / r->history->half_width;
     int moves = 0;
 
@@ -128,7 +128,7 @@ static rb_status static_step(run *r, int row, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     rb_rolling_case *rest = &model->rc;
-    rb_rolling_problem *p = &model->problem;
+    rb_contact_problem *p = &model->problem;
     const rb_rolling_past past = {r->w_T};
     const int first = r->history->n == 0;
     rb_message reason = {""};

@@ -15,9 +15,9 @@ double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width);
  * learn where the contact is, and the case with the usual one. */
 int rb_rolling_has_fine_boundary(const rb_rolling_case *rc);
 void rb_rolling_coarsen_boundary(rb_rolling_case *rc);
-/* Q/(mu P); NAN without friction or load. */
 /* Q, a ratio of it or a free axle is given, and no creepage. */
 int rb_rolling_force_is_given(const rb_rolling_case *rc);
+/* Q/(mu P); NAN without friction or load. */
 double rb_rolling_force_ratio(double mu, double P, double Q);
 
 /* ---- profile.c ----------------------------------------------------------------------
@@ -80,28 +80,21 @@ void rb_rolling_ahead_free(rb_rolling_ahead *ahead);
 rb_status rb_rolling_displacement_outside(const rb_rolling_case *rc,
                                           const rb_rolling_bodies *bodies, double *W_T);
 
-/* ---- problem.c: what changes from step to step ----------------------------------------
+/* ---- formulation.c: what changes from step to step ------------------------------------
  */
 
 void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                         const rb_rolling_past *past, double step, rb_rolling_problem *p);
-void rb_rolling_set_control(const rb_rolling_case *rc, rb_rolling_problem *p);
+                         const rb_rolling_past *past, double step, rb_contact_problem *p);
+void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p);
 /* The given rigid shift or its default: a tenth of the approach, 0 under load control. */
 double rb_rolling_wanted_shift(const rb_rolling_case *rc);
 /* d_N, from the gaps of the mesh. */
 void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bodies,
-                        rb_rolling_problem *p);
+                        rb_contact_problem *p);
 
 /* 1 where products with the flexibility replace the dense matrix: half-planes under a
  * long line of equal elements, by Newton. */
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
-/* slip += A w_T for the displacement w_T (n elements and the one upstream) that the
- * tractions r = (p, q) cause. */
-void rb_rolling_add_slip(const rb_rolling_problem *problem, const double *r,
-                         const double *w_T, double *slip);
-/* gap += F (p, q), slip += S (p, q), in the rows of the problem. */
-void rb_rolling_add_products(const rb_rolling_problem *problem, const double *p,
-                             const double *q, double *gap, double *slip);
 
 /* ---- heat.c ---------------------------------------------------------------------------
  */
@@ -195,23 +188,6 @@ double rb_rolling_boundary_error(int runs, const double coarser[], double own);
 double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage,
                              double a, double share);
 
-/* ---- matrix_free.c --------------------------------------------------------------------
- */
-
-/* What the solves without a matrix keep: preconditioners, from the problem's f. */
-rb_status rb_rolling_krylov_create(const rb_rolling_problem *problem,
-                                   struct rb_rolling_krylov **krylov);
-void rb_rolling_krylov_free(struct rb_rolling_krylov *krylov);
-
-/* ---- factors.c ------------------------------------------------------------------------
- */
-
-/* What the solves with a matrix keep: the LU of earlier zones, one for each of
- * rb_rolling_unknowns; empty at first and when cleared.  NULL is skipped. */
-rb_status rb_rolling_factors_create(struct rb_rolling_factors **factors);
-void rb_rolling_factors_clear(struct rb_rolling_factors *factors);
-void rb_rolling_factors_free(struct rb_rolling_factors *factors);
-
 /* ---- coarse.c -------------------------------------------------------------------------
  */
 
@@ -219,31 +195,8 @@ void rb_rolling_factors_free(struct rb_rolling_factors *factors);
 int rb_rolling_coarse_elements(int n);
 /* Tractions, zones, delta and xi from a solution on fewer elements over the same line. */
 void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                           const rb_rolling_state *coarse,
-                           const rb_rolling_mesh *fine_mesh, rb_rolling_state *fine);
-
-/* A dense problem with its elements in pairs: a pair has one traction, the mean gap and
- * slip and the sum of the forces.  half: arrays in the room that is returned, for free();
- * NULL: no memory.  Its factors are NULL. */
-double *rb_rolling_halve(const rb_rolling_problem *fine, rb_rolling_problem *half);
-/* Every element takes over what its pair has. */
-void rb_rolling_start_from_half(const rb_rolling_state *half, rb_rolling_state *state);
-
-/* ---- newton.c ------------------------------------------------------------------------
- */
-
-/* Which unknowns a solve moves: (r_N, delta), (r_T, xi) or both. */
-typedef enum { RB_NORMAL = 1, RB_TANGENTIAL = 2, RB_BOTH = 3 } rb_rolling_unknowns;
-
-/* One exact solve with the zones of the state held fixed.  RB_SINGULAR: p and q have lost
- * their values. */
-rb_status rb_rolling_solve_zones(rb_rolling_problem *problem,
-                                 rb_rolling_unknowns unknowns, rb_rolling_state *state);
-
-/* Newton, from the zones of the state (warm) or by alternating normal and tangential
- * problems first.  RB_MAXITER where it cycles, RB_SINGULAR. */
-rb_status rb_rolling_newton(rb_rolling_problem *problem, int warm,
-                            rb_rolling_state *state);
+                           const rb_contact_state *coarse,
+                           const rb_rolling_mesh *fine_mesh, rb_contact_state *fine);
 
 /* ---- model.c -------------------------------------------------------------------------
  */
@@ -265,8 +218,6 @@ rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creep
 /* P and Q of the state. */
 double rb_rolling_model_load(const rb_rolling_model *model);
 double rb_rolling_model_force(const rb_rolling_model *model);
-/* M: moment of the vertical tractions about x = 0. */
-double rb_rolling_moment(const rb_rolling_problem *problem, const rb_rolling_state *state);
 
 /* ---- outside.c ------------------------------------------------------------------------
  */
@@ -282,7 +233,7 @@ typedef struct {
 /* Looks along the whole table; other gaps are convex, so that nothing can touch beyond
  * the contact (theory.md 5.1).  RB_ENOMEM. */
 rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
-                                  const rb_rolling_state *state,
+                                  const rb_contact_state *state,
                                   rb_rolling_overlap *overlap);
 
 /* ---- zone.c ---------------------------------------------------------------------------
@@ -292,7 +243,7 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
  * reach further, or the bodies overlap where no element sees it.  state: of the model's
  * problem. */
 rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
-                                    const rb_rolling_state *state, rb_message *why);
+                                    const rb_contact_state *state, rb_message *why);
 /* Solves on equal elements in the given potential contact, or in one that holds the
  * contact.  coarse: elements may be too long for separate patches.  RB_ZONE where there
  * is none; RB_NO_CONTACT. */
@@ -346,16 +297,6 @@ rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int count,
                                 const rb_rolling_span *span, rb_rolling_mesh *mesh,
                                 rb_message *why);
 
-/* ---- residual.c ----------------------------------------------------------------------
- */
-
-/* gap (n) and lambda (n) of p, q, delta, xi. */
-void rb_rolling_kinematics(const rb_rolling_problem *problem,
-                           const rb_rolling_state *state, double *gap, double *lambda);
-/* Zones from p, q and lambda; entries below tol times the scales count as zero. */
-void rb_rolling_classify(const rb_rolling_problem *problem, double tol,
-                         rb_rolling_state *state);
-
 /* ---- solution.c -----------------------------------------------------------------------
  */
 
@@ -393,10 +334,10 @@ typedef struct {
 
 /* The next patch from element `at` on; 0 where there is none. */
 int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                          const rb_rolling_state *state, int at, rb_rolling_run *run);
+                          const rb_contact_state *state, int at, rb_rolling_run *run);
 /* The outer edges of all patches; NAN without contact. */
 void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                              const rb_rolling_state *state, double *from, double *to);
+                              const rb_contact_state *state, double *from, double *to);
 /* p0: the largest peak of all patches; 0 without contact. */
 double rb_rolling_peak_pressure(const rb_rolling_model *model);
 /* The patches of a solution and what is taken from all of them.  RB_ENOMEM. */

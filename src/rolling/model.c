@@ -10,8 +10,8 @@ enum { RATIO_ROUNDS = 40 };
 
 void rb_rolling_model_free(rb_rolling_model *model)
 {
-    rb_rolling_state_free(&model->state);
-    rb_rolling_problem_free(&model->problem);
+    rb_contact_state_free(&model->state);
+    rb_contact_problem_free(&model->problem);
     rb_rolling_bodies_free(&model->bodies);
     rb_rolling_mesh_free(&model->mesh);
     free(model->temperature);
@@ -20,22 +20,16 @@ void rb_rolling_model_free(rb_rolling_model *model)
 
 double rb_rolling_model_load(const rb_rolling_model *model)
 {
-    const rb_rolling_problem *p = &model->problem;
+    const rb_contact_problem *p = &model->problem;
     return cblas_ddot(p->n, p->load_N, 1, model->state.p, 1) +
            cblas_ddot(p->n, p->load_T, 1, model->state.q, 1);
 }
 
 double rb_rolling_model_force(const rb_rolling_model *model)
 {
-    const rb_rolling_problem *p = &model->problem;
+    const rb_contact_problem *p = &model->problem;
     return cblas_ddot(p->n, p->force_N, 1, model->state.p, 1) +
            cblas_ddot(p->n, p->force_T, 1, model->state.q, 1);
-}
-
-double rb_rolling_moment(const rb_rolling_problem *p, const rb_rolling_state *state)
-{
-    return cblas_ddot(p->n, p->moment_N, 1, state->p, 1) +
-           cblas_ddot(p->n, p->moment_T, 1, state->q, 1);
 }
 
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why)
@@ -125,8 +119,8 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
 {
     const int kept = model->same_bodies && have_same_ends(&model->mesh, mesh);
 
-    rb_rolling_state_free(&model->state);
-    rb_rolling_problem_free(&model->problem);
+    rb_contact_state_free(&model->state);
+    rb_contact_problem_free(&model->problem);
     rb_rolling_mesh_free(&model->mesh);
     if (!kept)
         rb_rolling_bodies_free(&model->bodies);
@@ -139,7 +133,7 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
         s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL, 0.0,
                                       &model->problem, why);
     if (s == RB_OK)
-        s = rb_rolling_state_alloc(model->mesh.n, &model->state);
+        s = rb_contact_state_alloc(model->mesh.n, &model->state);
     const int large = !model->bodies.F;
     if (s == RB_OK && large)
         s = start_from_coarse(model, why);
@@ -175,8 +169,8 @@ rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *mo
         rb_rolling_model_free(model);
         return rb_rolling_model_create(rc, model, why);
     }
-    rb_rolling_state_free(&model->state);
-    rb_rolling_problem_free(&model->problem);
+    rb_contact_state_free(&model->state);
+    rb_contact_problem_free(&model->problem);
     free(model->temperature);
     *model = kept;
     model->same_bodies = 1;
@@ -186,9 +180,10 @@ rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *mo
 }
 
 /* Similar bodies without a history roll freely at no creepage. */
-static int rolls_freely_at_rest(const rb_rolling_problem *problem)
+static int rolls_freely_at_rest(const rb_contact_problem *problem)
 {
-    return !problem->coupled && rb_norm_inf((size_t)problem->n, problem->d_T) == 0.0;
+    return !rb_contact_operator_response(problem->op).coupled &&
+           rb_norm_inf((size_t)problem->n, problem->d_T) == 0.0;
 }
 
 static rb_rolling_case without_force(const rb_rolling_model *model)
@@ -238,9 +233,9 @@ static rb_status roll_freely_large(const rb_rolling_model *model, double *creepa
 static rb_status roll_freely_dense(rb_rolling_model *model, double *creepage,
                                    rb_message *why)
 {
-    rb_rolling_problem problem = model->problem; /* arrays stay the model's */
-    rb_rolling_state state;
-    rb_status s = rb_rolling_state_alloc(problem.n, &state);
+    rb_contact_problem problem = model->problem; /* arrays stay the model's */
+    rb_contact_state state;
+    rb_status s = rb_contact_state_alloc(problem.n, &state);
 
     if (s != RB_OK)
         return s;
@@ -252,7 +247,7 @@ static rb_status roll_freely_dense(rb_rolling_model *model, double *creepage,
         s = rb_rolling_check_enclosed(model, &state, why);
     if (s == RB_OK)
         *creepage = state.xi;
-    rb_rolling_state_free(&state);
+    rb_contact_state_free(&state);
     return s;
 }
 
@@ -264,8 +259,8 @@ rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
         return RB_OK;
     if (model->rc.mesh != RB_MESH_UNIFORM)
         return roll_freely_anew(model, creepage, why);
-    const rb_status s = model->problem.F ? roll_freely_dense(model, creepage, why)
-                                         : roll_freely_large(model, creepage, why);
+    const rb_status s = model->bodies.F ? roll_freely_dense(model, creepage, why)
+                                        : roll_freely_large(model, creepage, why);
     return s == RB_ZONE && model->rc.zone == 0.0 ? roll_freely_anew(model, creepage, why)
                                                  : s;
 }

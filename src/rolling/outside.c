@@ -26,7 +26,7 @@ typedef struct {
     double *ends, *p, *q; /* owned: ends holds them all */
 } strips;
 
-static rb_status gather_strips(const rb_rolling_mesh *mesh, const rb_rolling_state *state,
+static rb_status gather_strips(const rb_rolling_mesh *mesh, const rb_contact_state *state,
                                strips *s)
 {
     const int group = (mesh->n + MOST_STRIPS - 1) / MOST_STRIPS;
@@ -129,7 +129,7 @@ static rb_status add_wheel(const rb_bem_system *system, double radius, const dou
 }
 
 /* w += w_N of one body.  coupling: -1 for body B, which is mirrored. */
-static rb_status add_body(const rb_rolling_model *model, const rb_rolling_state *state,
+static rb_status add_body(const rb_rolling_model *model, const rb_contact_state *state,
                           const rb_rolling_body *body, const rb_bem_system *system,
                           double coupling, const strips *s, int places, const double *x,
                           double *w)
@@ -150,7 +150,7 @@ static rb_status add_body(const rb_rolling_model *model, const rb_rolling_state 
 }
 
 /* w += w_N of both bodies. */
-static rb_status add_bodies(const rb_rolling_model *model, const rb_rolling_state *state,
+static rb_status add_bodies(const rb_rolling_model *model, const rb_contact_state *state,
                             const strips *s, int places, const double *x, double *w)
 {
     const rb_rolling_case *rc = &model->rc;
@@ -166,7 +166,7 @@ static rb_status add_bodies(const rb_rolling_model *model, const rb_rolling_stat
  * nowhere less than at that length from either end.  A bound for wheels is not needed:
  * all their places cost one solve. */
 static rb_status least_displacement(const rb_rolling_model *model,
-                                    const rb_rolling_state *state, const strips *s,
+                                    const rb_contact_state *state, const strips *s,
                                     double from, double to, double *least)
 {
     const double x[2] = {2.0 * from - to, 2.0 * to - from};
@@ -185,7 +185,7 @@ static rb_status least_displacement(const rb_rolling_model *model,
  * the flexibility is known, from which the boundary elements of a wheel differ a little:
  * the difference is taken off all along. */
 static rb_status displacement(const rb_rolling_model *model,
-                              const rb_rolling_state *state, const strips *s, int places,
+                              const rb_contact_state *state, const strips *s, int places,
                               const double *x, double *w)
 {
     const int n = model->mesh.n, left = places - 2, right = places - 1;
@@ -230,14 +230,14 @@ static double shortest(const rb_rolling_mesh *mesh)
     return h;
 }
 
-static int is_loaded(const rb_rolling_state *state, int i)
+static int is_loaded(const rb_contact_state *state, int i)
 {
     return i >= 0 && i < state->n && state->zone[i] != RB_ZONE_SEPARATED;
 }
 
 /* 1 beyond the mesh and in open elements much longer than the shortest, which see the gap
  * at their midpoints only. */
-static int is_unseen(const rb_rolling_mesh *mesh, const rb_rolling_state *state, double h,
+static int is_unseen(const rb_rolling_mesh *mesh, const rb_contact_state *state, double h,
                      double x)
 {
     const int i = element_at(mesh, x);
@@ -255,7 +255,7 @@ static size_t most_places(int rows)
 
 /* Appends the rows of a table and places between them, thinned out where they are very
  * many; returns how many places there are now. */
-static int add_places(const rb_rolling_model *model, const rb_rolling_state *state,
+static int add_places(const rb_rolling_model *model, const rb_contact_state *state,
                       int rows, const double *row, double passed, double *x, int n)
 {
     const double h = shortest(&model->mesh);
@@ -296,7 +296,7 @@ static tables tables_of(const rb_rolling_case *rc)
 
 /* Places of both tables in order, and the undeformed gap there. */
 static rb_status unseen_places(const rb_rolling_model *model,
-                               const rb_rolling_state *state, int *places, double *x,
+                               const rb_contact_state *state, int *places, double *x,
                                double *gap)
 {
     const rb_rolling_case *rc = &model->rc;
@@ -340,7 +340,7 @@ static void add_place(const double *x, int places, int i, rb_rolling_overlap *o)
 }
 
 /* Of undeformed gaps: the one at the edge of Hertz's contact under the state's load. */
-static double hertz_edge_gap(const rb_rolling_model *model, const rb_rolling_state *state)
+static double hertz_edge_gap(const rb_rolling_model *model, const rb_contact_state *state)
 {
     const double P = cblas_ddot(state->n, model->problem.load_N, 1, state->p, 1);
 
@@ -348,7 +348,7 @@ static double hertz_edge_gap(const rb_rolling_model *model, const rb_rolling_sta
 }
 
 /* The same in the room for x, w and gap. */
-static rb_status look(const rb_rolling_model *model, const rb_rolling_state *state,
+static rb_status look(const rb_rolling_model *model, const rb_contact_state *state,
                       const strips *s, size_t room, double *x, rb_rolling_overlap *o)
 {
     const rb_rolling_mesh *mesh = &model->mesh;
@@ -375,7 +375,7 @@ static rb_status look(const rb_rolling_model *model, const rb_rolling_state *sta
 }
 
 rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
-                                  const rb_rolling_state *state, rb_rolling_overlap *o)
+                                  const rb_contact_state *state, rb_rolling_overlap *o)
 {
     const rb_rolling_case *rc = &model->rc;
     strips s = {0};

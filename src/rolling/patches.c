@@ -16,7 +16,7 @@ static double midpoint(const rb_rolling_mesh *mesh, int i)
  * right), p falls there like the distance to the power 1/2 + side atan(beta q/p)/pi;
  * without friction, without coupling and in stick like a square root.  i, j: elements
  * near the edge, a slip zone that is shorter than they are does not count. */
-static double edge_exponent(double beta, const rb_rolling_state *state, int i, int j,
+static double edge_exponent(double beta, const rb_contact_state *state, int i, int j,
                             int side)
 {
     const int slides =
@@ -42,7 +42,7 @@ static double zero_of(const rb_rolling_mesh *mesh, const double *p, int i, int j
  * open element.  *bounded: set where this interval is all that is known, because p does
  * not fall or the power law misses the interval by more than its length. */
 static double edge(double beta, const rb_rolling_mesh *mesh,
-                   const rb_rolling_state *state, int outer, int side, int length,
+                   const rb_contact_state *state, int outer, int side, int length,
                    int *bounded)
 {
     const int open = outer + side;
@@ -69,7 +69,7 @@ static double edge(double beta, const rb_rolling_mesh *mesh,
 }
 
 int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                          const rb_rolling_state *state, int at, rb_rolling_run *run)
+                          const rb_contact_state *state, int at, rb_rolling_run *run)
 {
     const double beta = rb_rolling_derive(rc).dundurs;
 
@@ -93,7 +93,7 @@ int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh
 }
 
 void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                              const rb_rolling_state *state, double *from, double *to)
+                              const rb_contact_state *state, double *from, double *to)
 {
     rb_rolling_run run = {.last = -1};
 
@@ -136,8 +136,8 @@ static void set_peak(const rb_rolling_mesh *mesh, const double *p,
 
 static rb_rolling_patch patch_of(const rb_rolling_model *model, const rb_rolling_run *run)
 {
-    const rb_rolling_problem *problem = &model->problem;
-    const rb_rolling_state *state = &model->state;
+    const rb_contact_problem *problem = &model->problem;
+    const rb_contact_state *state = &model->state;
     rb_rolling_patch patch = {.from = run->from, .to = run->to};
 
     for (int i = run->first; i <= run->last; i++) {

@@ -168,7 +168,7 @@ static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_soluti
     s->resistance_moment = s->resistance_ratio = s->hysteresis = NAN;
     if (s->formulation == RB_STATIC)
         return RB_OK;
-    s->resistance_moment = rb_rolling_moment(&model->problem, &model->state);
+    s->resistance_moment = rb_contact_moment(&model->problem, &model->state);
     s->resistance_ratio = s->normal_load > 0.0
                               ? s->resistance_moment /
                                     (s->normal_load * rb_rolling_radius(&model->rc))
@@ -178,7 +178,7 @@ static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_soluti
 
 static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
 {
-    const rb_rolling_problem *p = &model->problem;
+    const rb_contact_problem *p = &model->problem;
     const double R = rb_rolling_radius(&model->rc), mu = model->rc.mu;
 
     s->normal_load = rb_rolling_model_load(model);
@@ -210,7 +210,7 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
 static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     const int n = s->n, m = n + 1;
-    const rb_rolling_state *state = &model->state;
+    const rb_contact_state *state = &model->state;
     double *w = rb_alloc(2 * (size_t)m, 1);
     rb_status status = w ? RB_OK : RB_ENOMEM;
 
@@ -226,7 +226,7 @@ static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s
     memcpy(s->q, state->q, (size_t)n * sizeof(double));
     memcpy(s->shift, state->lambda, (size_t)n * sizeof(double));
     memcpy(s->zone, state->zone, (size_t)n * sizeof(int));
-    rb_rolling_kinematics(&model->problem, state, s->gap, s->slip);
+    rb_contact_kinematics(&model->problem, state, s->gap, s->slip);
     memcpy(s->un, w, (size_t)n * sizeof(double));
     memcpy(s->ut, w + m, (size_t)n * sizeof(double));
     set_slip(model, w + m, s);
@@ -244,14 +244,14 @@ static void add_boundary(const rb_bem_system *system, rb_rolling_solution *s)
 
 static rb_status set_proof(const rb_rolling_model *model, rb_rolling_solution *s)
 {
-    const rb_rolling_state *state = &model->state;
-    rb_rolling_violation violation = {0};
-    const rb_status status = rb_rolling_residual(&model->problem, state, &violation);
+    const rb_contact_state *state = &model->state;
+    rb_contact_violation violation = {0};
+    const rb_status status = rb_contact_residual(&model->problem, state, &violation);
 
     s->status = state->status;
     s->solver = state->solver;
     s->cone_solver = model->rc.cone_solver;
-    s->large = !model->problem.F;
+    s->large = !model->bodies.F;
     add_boundary(model->bodies.system_a, s);
     add_boundary(model->bodies.system_b, s);
     s->lcp_form = state->lcp_form;

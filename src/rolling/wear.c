@@ -35,8 +35,8 @@ int rb_rolling_relaxes(const rb_rolling_case *rc)
 
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
 {
-    const rb_rolling_problem *p = &model->problem;
-    const rb_rolling_state *state = &model->state;
+    const rb_contact_problem *p = &model->problem;
+    const rb_contact_state *state = &model->state;
     const int n = p->n;
 
     *power = model->rc.formulation == RB_STEADY ? 0.0 : NAN;

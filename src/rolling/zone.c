@@ -50,12 +50,12 @@ static interval within(interval zone, interval limit)
 /* ---- Where the elements end ---------------------------------------------------------
  */
 
-static int is_loaded(const rb_rolling_state *state, int i)
+static int is_loaded(const rb_contact_state *state, int i)
 {
     return state->zone[i] != RB_ZONE_SEPARATED;
 }
 
-static rb_status check_end(const rb_rolling_model *model, const rb_rolling_state *state,
+static rb_status check_end(const rb_rolling_model *model, const rb_contact_state *state,
                            int right, rb_message *why)
 {
     const int n = model->mesh.n;
@@ -81,7 +81,7 @@ static rb_status check_end(const rb_rolling_model *model, const rb_rolling_state
 }
 
 rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
-                                    const rb_rolling_state *state, rb_message *why)
+                                    const rb_contact_state *state, rb_message *why)
 {
     rb_rolling_overlap overlap;
     rb_status s = check_end(model, state, 0, why);
@@ -99,7 +99,7 @@ rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
 }
 
 /* Elements without contact at either end; n of them if there is no contact. */
-static void separated_at_ends(const rb_rolling_state *state, int *left, int *right)
+static void separated_at_ends(const rb_contact_state *state, int *left, int *right)
 {
     *left = *right = 0;
     while (*left < state->n && !is_loaded(state, *left))

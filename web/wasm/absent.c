@@ -1,11 +1,11 @@
 /* What the page does not hold: transforms for long lines, hierarchical matrices, cone
  * solvers. The page's ranges stay below the sizes that would need them; asked for all the
  * same, they refuse. */
+#include "api/internal.h"
 #include "bem/hierarchical.h"
 #include "bem/large.h"
 #include "bem/toeplitz.h"
 #include "rolling/internal.h"
-#include "rolling/reduced.h"
 #include "rollbem/blas.h"
 
 #include <gsl/gsl_errno.h>
@@ -62,34 +62,42 @@ void rb_hierarchical_free(rb_hierarchical *h)
     (void)h;
 }
 
-rb_status rb_rolling_krylov_create(const rb_rolling_problem *problem,
-                                   struct rb_rolling_krylov **krylov)
+rb_status rb_contact_operator_products(int n, const rb_contact_products *products,
+                                       rb_contact_operator **op)
 {
-    (void)problem;
-    *krylov = NULL;
+    (void)n;
+    products->free(products->context);
+    *op = NULL;
     return RB_EINVAL;
 }
 
-void rb_rolling_krylov_free(struct rb_rolling_krylov *krylov)
+rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double stencil[4],
+                                  rb_bem_circulant **circulant)
 {
-    (void)krylov;
+    (void)f;
+    (void)stencil;
+    *circulant = NULL;
+    return RB_EINVAL;
 }
 
-rb_status rb_rolling_reduced_krylov(const rb_rolling_problem *p, const int *zone,
-                                    rb_rolling_reduced *r)
+void rb_bem_circulant_apply(const rb_bem_circulant *c, const double *w, double *r)
 {
-    (void)p;
-    (void)zone;
+    (void)c;
+    (void)w;
     (void)r;
-    return RB_EINVAL;
 }
 
-rb_status rb_rolling_cone_solve(const rb_rolling_problem *problem, const char *solver,
-                                rb_rolling_state *state, rb_message *why)
+void rb_bem_circulant_apply_difference(const rb_bem_circulant *c, const double *w,
+                                       double *r)
 {
-    (void)problem;
-    (void)state;
-    return rb_fail(why, RB_EINVAL, "solver %s is %s", solver, refusal);
+    (void)c;
+    (void)w;
+    (void)r;
+}
+
+void rb_bem_circulant_free(rb_bem_circulant *circulant)
+{
+    (void)circulant;
 }
 
 /* No file, no profile. */
@@ -178,8 +186,7 @@ int rb_blas_threads(int threads)
     return 1;
 }
 
-const rb_friction_solver *rb_friction_solvers(int *count)
+const rb_contact_cone_solvers *rb_api_cone_solvers(void)
 {
-    *count = 0;
     return NULL;
 }

@@ -1,6 +1,6 @@
 /* The LCP of the contact problem: Kwak's form (K4), its principal pivot (K5), and the
  * rows and columns that a given load and a given force add to either (K6). */
-#include "rolling/internal.h"
+#include "contact/internal.h"
 
 #include <cblas.h>
 #include <lapacke.h>
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void rb_rolling_lcp_free(rb_rolling_lcp *lcp)
+void rb_contact_lcp_free(rb_contact_lcp *lcp)
 {
     free(lcp->M);
     free(lcp->b);
@@ -21,18 +21,18 @@ void rb_rolling_lcp_free(rb_rolling_lcp *lcp)
 }
 
 /* Columns of the two bordered unknowns, delta' and xi', behind the 3n of the contact. */
-static int delta_column(const rb_rolling_problem *p)
+static int delta_column(const rb_contact_problem *p)
 {
     return 3 * p->n;
 }
 
-static int xi_column(const rb_rolling_problem *p)
+static int xi_column(const rb_contact_problem *p)
 {
     return 3 * p->n + p->load_given;
 }
 
-static rb_status lcp_alloc(const rb_rolling_problem *p, rb_rolling_lcp_form form,
-                           rb_rolling_lcp *lcp)
+static rb_status lcp_alloc(const rb_contact_problem *p, rb_contact_lcp_form form,
+                           rb_contact_lcp *lcp)
 {
     memset(lcp, 0, sizeof *lcp);
     lcp->form = form;
@@ -48,10 +48,10 @@ static rb_status lcp_alloc(const rb_rolling_problem *p, rb_rolling_lcp_form form
         lcp->B_inverse = rb_alloc(n, n);
     if (lcp->M && lcp->b && lcp->z_scale && lcp->w_scale && lcp->control_N &&
         lcp->control_T && (form != RB_LCP_KWAK || lcp->B_inverse)) {
-        rb_rolling_force_row(p, lcp->control_N, lcp->control_T);
+        rb_contact_force_row(p, lcp->control_N, lcp->control_T);
         return RB_OK;
     }
-    rb_rolling_lcp_free(lcp);
+    rb_contact_lcp_free(lcp);
     return RB_ENOMEM;
 }
 
@@ -69,19 +69,19 @@ static void add_diagonal(int n, double value, double *M, int ldm)
 }
 
 /* +1 in its own direction of sliding, -1 mirrored. */
-static double orientation(const rb_rolling_lcp *lcp)
+static double orientation(const rb_contact_lcp *lcp)
 {
     return lcp->mirrored ? -1.0 : 1.0;
 }
 
 /* xi = xi0 + s xi', s = -sgn xi0: from full sliding back towards the given force. */
-static double xi_direction(const rb_rolling_lcp *lcp)
+static double xi_direction(const rb_contact_lcp *lcp)
 {
     return lcp->xi0 > 0.0 ? -1.0 : 1.0;
 }
 
 /* d_T + xi e_T with xi = xi0 where it is an unknown. */
-static double slip_offset(const rb_rolling_problem *p, const rb_rolling_lcp *lcp, int i)
+static double slip_offset(const rb_contact_problem *p, const rb_contact_lcp *lcp, int i)
 {
     return p->d_T[i] + (p->force_given ? lcp->xi0 : p->xi) * p->e_T[i];
 }
@@ -90,17 +90,18 @@ static double slip_offset(const rb_rolling_problem *p, const rb_rolling_lcp *lcp
 
 /* z = (r_N, gamma, nu), w = (y_N, l, mu r_N - o r_T), o the orientation:
  * gamma = mu r_N + o r_T, l - nu = o T_T lambda. */
-static void pivoted_form(const rb_rolling_problem *p, rb_rolling_lcp *lcp)
+static void pivoted_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
 {
     const int n = p->n, ld = lcp->size;
     const double o = orientation(lcp), mu = p->mu;
-    const double *F_NN = p->F, *F_NT = p->F + (size_t)n * p->ldf;
-    const double *S_N = p->S, *S_T = p->S + (size_t)n * n;
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    const double *F_NN = K.F, *F_NT = K.F + (size_t)n * K.ldf;
+    const double *S_N = K.S, *S_T = K.S + (size_t)n * n;
     double *r_N = lcp->M, *gamma = lcp->M + (size_t)n * ld, *nu = gamma + (size_t)n * ld;
 
-    add_block(n, 1.0, F_NN, p->ldf, r_N, ld);
-    add_block(n, -o * mu, F_NT, p->ldf, r_N, ld);
-    add_block(n, o, F_NT, p->ldf, gamma, ld);
+    add_block(n, 1.0, F_NN, K.ldf, r_N, ld);
+    add_block(n, -o * mu, F_NT, K.ldf, r_N, ld);
+    add_block(n, o, F_NT, K.ldf, gamma, ld);
     add_block(n, o, S_N, n, r_N + n, ld);
     add_block(n, -mu, S_T, n, r_N + n, ld);
     add_block(n, 1.0, S_T, n, gamma + n, ld);
@@ -117,7 +118,7 @@ static void pivoted_form(const rb_rolling_problem *p, rb_rolling_lcp *lcp)
 }
 
 /* Row `row` = sign (a_N'r_N + a_T'r_T - value) in the unknowns of (K5). */
-static void pivoted_force_row(const rb_rolling_problem *p, rb_rolling_lcp *lcp, int row,
+static void pivoted_force_row(const rb_contact_problem *p, rb_contact_lcp *lcp, int row,
                               double sign, const double *a_N, const double *a_T,
                               double value)
 {
@@ -159,8 +160,8 @@ typedef struct {
     double *rest; /* n: r_0 */
 } traction;
 
-static rb_status tangential_traction(const rb_rolling_problem *p,
-                                     const rb_rolling_lcp *lcp, traction *R)
+static rb_status tangential_traction(const rb_contact_problem *p,
+                                     const rb_contact_lcp *lcp, traction *R)
 {
     const int n = p->n;
     const size_t length = (size_t)n;
@@ -175,8 +176,8 @@ static rb_status tangential_traction(const rb_rolling_problem *p,
     for (int i = 0; i < n; i++)
         d[i] = slip_offset(p, lcp, i);
     cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, Bi, n, d, 1, 0.0, R->rest, 1);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, -1.0, Bi, n, p->S, n,
-                0.0, R->N, n);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, -1.0, Bi, n,
+                rb_contact_operator_matrix(p->op).S, n, 0.0, R->N, n);
     if (p->force_given)
         cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -xi_direction(lcp), Bi, n, p->e_T,
                     1, 0.0, R->xi, 1);
@@ -184,24 +185,25 @@ static rb_status tangential_traction(const rb_rolling_problem *p,
 }
 
 /* y_N = d_N + F_NN r_N + F_NT r_T (K1). */
-static void kwak_gap_rows(const rb_rolling_problem *p, const traction *R,
-                          rb_rolling_lcp *lcp)
+static void kwak_gap_rows(const rb_contact_problem *p, const traction *R,
+                          rb_contact_lcp *lcp)
 {
     const int n = p->n, ld = lcp->size;
-    const double *F_NT = p->F + (size_t)n * p->ldf;
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    const double *F_NT = K.F + (size_t)n * K.ldf;
     double *lambda = lcp->M + (size_t)lambda_column(n, 0, 0) * ld;
 
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, 1.0, F_NT, p->ldf,
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, 1.0, F_NT, K.ldf,
                 R->N, n, 0.0, lcp->M, ld);
-    add_block(n, 1.0, p->F, p->ldf, lcp->M, ld);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, 1.0, F_NT, p->ldf,
+    add_block(n, 1.0, K.F, K.ldf, lcp->M, ld);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, 1.0, F_NT, K.ldf,
                 lcp->B_inverse, n, 0.0, lambda, 2 * ld);
     add_block(n, -1.0, lambda, 2 * ld, lambda + ld, 2 * ld);
     if (p->force_given)
-        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_NT, p->ldf, R->xi, 1, 0.0,
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_NT, K.ldf, R->xi, 1, 0.0,
                     lcp->M + (size_t)xi_column(p) * ld, 1);
     cblas_dcopy(n, p->d_N, 1, lcp->b, 1);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_NT, p->ldf, R->rest, 1, 1.0,
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_NT, K.ldf, R->rest, 1, 1.0,
                 lcp->b, 1);
 }
 
@@ -215,8 +217,8 @@ static void set_friction(int n, double sign, const double *x, double *column)
 }
 
 /* gamma+- = mu r_N +- r_T (K3). */
-static void kwak_friction_rows(const rb_rolling_problem *p, const traction *R,
-                               rb_rolling_lcp *lcp)
+static void kwak_friction_rows(const rb_contact_problem *p, const traction *R,
+                               rb_contact_lcp *lcp)
 {
     const int n = p->n;
     const size_t length = (size_t)n, ld = (size_t)lcp->size;
@@ -237,8 +239,8 @@ static void kwak_friction_rows(const rb_rolling_problem *p, const traction *R,
 }
 
 /* Row `row` = sign (a_N'r_N + a_T'r_T - value). */
-static void kwak_force_row(const rb_rolling_problem *p, const traction *R,
-                           rb_rolling_lcp *lcp, int row, double sign, const double *a_N,
+static void kwak_force_row(const rb_contact_problem *p, const traction *R,
+                           rb_contact_lcp *lcp, int row, double sign, const double *a_N,
                            const double *a_T, double value)
 {
     const int n = p->n, ld = lcp->size;
@@ -254,12 +256,13 @@ static void kwak_force_row(const rb_rolling_problem *p, const traction *R,
     lcp->b[row] = sign * (cblas_ddot(n, a_T, 1, R->rest, 1) - value);
 }
 
-static rb_status kwak_form(const rb_rolling_problem *p, rb_rolling_lcp *lcp)
+static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
 {
     const int n = p->n;
     traction R = {0};
 
-    memcpy(lcp->B_inverse, p->S + (size_t)n * n, (size_t)n * n * sizeof(double));
+    memcpy(lcp->B_inverse, rb_contact_operator_matrix(p->op).S + (size_t)n * n,
+           (size_t)n * n * sizeof(double));
     rb_status s = invert(n, lcp->B_inverse);
     if (s == RB_OK)
         s = tangential_traction(p, lcp, &R);
@@ -281,7 +284,7 @@ static rb_status kwak_form(const rb_rolling_problem *p, rb_rolling_lcp *lcp)
 
 /* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts
  * below the first touch, also for a half-plane whose datum is close to the surface. */
-static void set_approach(const rb_rolling_problem *p, rb_rolling_lcp *lcp)
+static void set_approach(const rb_contact_problem *p, rb_contact_lcp *lcp)
 {
     double lowest = p->d_N[0];
 
@@ -302,7 +305,7 @@ static void fill(int n, double value, double *x)
 }
 
 /* Dimensionless unknowns: stress, mu stress and two lengths (4.4). */
-static void set_lcp_scales(const rb_rolling_problem *p, rb_rolling_lcp *lcp)
+static void set_lcp_scales(const rb_contact_problem *p, rb_contact_lcp *lcp)
 {
     const int n = p->n, pivoted = lcp->form == RB_LCP_PIVOTED;
     const double bound = p->mu > 0.0 ? p->mu * p->stress : p->stress;
@@ -325,7 +328,7 @@ static void set_lcp_scales(const rb_rolling_problem *p, rb_rolling_lcp *lcp)
     }
 }
 
-static void apply_scales(rb_rolling_lcp *lcp)
+static void apply_scales(rb_contact_lcp *lcp)
 {
     for (int j = 0; j < lcp->size; j++)
         for (int i = 0; i < lcp->size; i++)
@@ -334,12 +337,15 @@ static void apply_scales(rb_rolling_lcp *lcp)
         lcp->b[i] /= lcp->w_scale[i];
 }
 
-rb_status rb_rolling_lcp_create(const rb_rolling_problem *problem,
-                                rb_rolling_lcp_form form, int mirrored, double xi0,
-                                rb_rolling_lcp *lcp, rb_message *why)
+rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
+                                rb_contact_lcp_form form, int mirrored, double xi0,
+                                rb_contact_lcp *lcp, rb_message *why)
 {
+    memset(lcp, 0, sizeof *lcp);
+    if (!rb_contact_operator_matrix(problem->op).F)
+        return rb_fail(why, RB_EINVAL, "%d contact elements are too many for an LCP",
+                       problem->n);
     rb_status s = lcp_alloc(problem, form, lcp);
-
     if (s == RB_OK) {
         lcp->mirrored = form == RB_LCP_PIVOTED && mirrored;
         lcp->xi0 = xi0;
@@ -356,7 +362,7 @@ rb_status rb_rolling_lcp_create(const rb_rolling_problem *problem,
         }
     }
     if (s != RB_OK) {
-        rb_rolling_lcp_free(lcp);
+        rb_contact_lcp_free(lcp);
         return rb_fail(why, s, "LCP of %d contact elements: %s", problem->n,
                        rb_status_text(s));
     }
@@ -367,8 +373,8 @@ rb_status rb_rolling_lcp_create(const rb_rolling_problem *problem,
 }
 
 /* r_T of (K4): B^-1 (T_T lambda - S_N r_N - d_T - xi e_T). */
-static void kwak_recover_traction(const rb_rolling_problem *p, const rb_rolling_lcp *lcp,
-                                  const double *z, rb_rolling_state *state)
+static void kwak_recover_traction(const rb_contact_problem *p, const rb_contact_lcp *lcp,
+                                  const double *z, rb_contact_state *state)
 {
     const int n = p->n;
     double *slip = state->lambda; /* scratch until the caller recomputes it */
@@ -377,14 +383,14 @@ static void kwak_recover_traction(const rb_rolling_problem *p, const rb_rolling_
         slip[i] =
             p->slip_length * (z[lambda_column(n, i, 0)] - z[lambda_column(n, i, 1)]) -
             p->d_T[i] - state->xi * p->e_T[i];
-    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, p->S, n, state->p, 1, 1.0, slip,
-                1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0,
+                rb_contact_operator_matrix(p->op).S, n, state->p, 1, 1.0, slip, 1);
     cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, lcp->B_inverse, n, slip, 1, 0.0,
                 state->q, 1);
 }
 
-void rb_rolling_lcp_recover(const rb_rolling_problem *p, const rb_rolling_lcp *lcp,
-                            const double *z, rb_rolling_state *state)
+void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *lcp,
+                            const double *z, rb_contact_state *state)
 {
     const int n = p->n;
 
@@ -409,7 +415,7 @@ void rb_rolling_lcp_recover(const rb_rolling_problem *p, const rb_rolling_lcp *l
 /* ---- Names ------------------------------------------------------------------------- */
 
 /* Blocks of n (pivoted form) after r_N; w then z.  Mirrored, the signs change places. */
-static const char *pivoted_name(const rb_rolling_lcp *lcp, int is_z, int block)
+static const char *pivoted_name(const rb_contact_lcp *lcp, int is_z, int block)
 {
     static const char *const names[2][2][2] = {
         {{"lambda+", "gamma-"}, {"gamma+", "lambda-"}},
@@ -417,32 +423,32 @@ static const char *pivoted_name(const rb_rolling_lcp *lcp, int is_z, int block)
     return names[lcp->mirrored][is_z][block];
 }
 
-static void contact_name(const rb_rolling_lcp *lcp, int n, int is_z, int k,
-                         char name[RB_ROLLING_VARIABLE])
+static void contact_name(const rb_contact_lcp *lcp, int n, int is_z, int k,
+                         char name[RB_CONTACT_VARIABLE])
 {
     if (k < n) {
-        snprintf(name, RB_ROLLING_VARIABLE, "%s[%d]", is_z ? "p" : "gap", k + 1);
+        snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", is_z ? "p" : "gap", k + 1);
     } else if (lcp->form == RB_LCP_KWAK) {
         const int i = (k - n) / 2, minus = (k - n) % 2;
-        snprintf(name, RB_ROLLING_VARIABLE, "%s%c[%d]", is_z ? "lambda" : "gamma",
+        snprintf(name, RB_CONTACT_VARIABLE, "%s%c[%d]", is_z ? "lambda" : "gamma",
                  minus ? '-' : '+', i + 1);
     } else {
         const int block = (k - n) / n;
-        snprintf(name, RB_ROLLING_VARIABLE, "%s[%d]", pivoted_name(lcp, is_z, block),
+        snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", pivoted_name(lcp, is_z, block),
                  (k - n) % n + 1);
     }
 }
 
-const char *rb_rolling_lcp_variable(const rb_rolling_lcp *lcp, int n, int variable,
-                                    char name[RB_ROLLING_VARIABLE])
+const char *rb_contact_lcp_variable(const rb_contact_lcp *lcp, int n, int variable,
+                                    char name[RB_CONTACT_VARIABLE])
 {
     const int size = lcp->size, is_z = variable >= size, k = variable - is_z * size;
     if (variable == 2 * size)
-        snprintf(name, RB_ROLLING_VARIABLE, "z0");
+        snprintf(name, RB_CONTACT_VARIABLE, "z0");
     else if (k < 3 * n)
         contact_name(lcp, n, is_z, k, name);
     else
-        snprintf(name, RB_ROLLING_VARIABLE, "%s[%d]", is_z ? "motion" : "force",
+        snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", is_z ? "motion" : "force",
                  k - 3 * n + 1);
     return name;
 }

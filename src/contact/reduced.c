@@ -1,17 +1,17 @@
-#include "rolling/reduced.h"
+#include "contact/internal.h"
 
 #include <cblas.h>
 #include <stdlib.h>
 #include <string.h>
 
-double rb_rolling_slope(int zone)
+double rb_contact_slope(int zone)
 {
     return zone == RB_ZONE_SLIP_NEGATIVE   ? -1.0
            : zone == RB_ZONE_SLIP_POSITIVE ? 1.0
                                            : 0.0;
 }
 
-void rb_rolling_reduced_free(rb_rolling_reduced *r)
+void rb_contact_reduced_free(rb_contact_reduced *r)
 {
     free(r->contact);
     free(r->stick);
@@ -23,8 +23,8 @@ void rb_rolling_reduced_free(rb_rolling_reduced *r)
     free(r->x);
 }
 
-static void set_start(const rb_rolling_problem *p, const rb_rolling_state *state,
-                      rb_rolling_reduced *r)
+static void set_start(const rb_contact_problem *p, const rb_contact_state *state,
+                      rb_contact_reduced *r)
 {
     int k = 0;
 
@@ -38,9 +38,9 @@ static void set_start(const rb_rolling_problem *p, const rb_rolling_state *state
         r->start[k] = state->xi * p->e_T[0] / p->slip_length;
 }
 
-rb_status rb_rolling_reduced_alloc(const rb_rolling_problem *p,
-                                   rb_rolling_unknowns unknowns,
-                                   const rb_rolling_state *state, rb_rolling_reduced *r)
+rb_status rb_contact_reduced_alloc(const rb_contact_problem *p,
+                                   rb_contact_unknowns unknowns,
+                                   const rb_contact_state *state, rb_contact_reduced *r)
 {
     const int *zone = state->zone;
     const size_t n = (size_t)p->n;
@@ -71,24 +71,24 @@ rb_status rb_rolling_reduced_alloc(const rb_rolling_problem *p,
     if (!r->start || !r->x)
         return RB_ENOMEM;
     set_start(p, state, r);
-    rb_rolling_force_row(p, r->control_N, r->control_T);
+    rb_contact_force_row(p, r->control_N, r->control_T);
     return RB_OK;
 }
 
-double rb_rolling_reduced_mu(const rb_rolling_problem *p, const rb_rolling_reduced *r)
+double rb_contact_reduced_mu(const rb_contact_problem *p, const rb_contact_reduced *r)
 {
     return r->unknowns == RB_BOTH ? p->mu : 0.0;
 }
 
-void rb_rolling_reduced_clear(const rb_rolling_problem *p, const rb_rolling_reduced *r,
-                              rb_rolling_state *state)
+void rb_contact_reduced_clear(const rb_contact_problem *p, const rb_contact_reduced *r,
+                              rb_contact_state *state)
 {
     for (int i = 0; i < p->n; i++) {
         const int zone = state->zone[i];
         if ((r->unknowns & RB_NORMAL) || zone == RB_ZONE_SEPARATED)
             state->p[i] = 0.0;
         if ((r->unknowns & RB_TANGENTIAL) || zone == RB_ZONE_SEPARATED)
-            state->q[i] = rb_rolling_slope(zone) * p->mu * state->p[i];
+            state->q[i] = rb_contact_slope(zone) * p->mu * state->p[i];
     }
     if (r->unknowns & RB_NORMAL)
         state->delta = p->load_given ? 0.0 : p->delta;
@@ -96,12 +96,12 @@ void rb_rolling_reduced_clear(const rb_rolling_problem *p, const rb_rolling_redu
         state->xi = p->force_given ? 0.0 : p->xi;
 }
 
-void rb_rolling_reduced_right_side(const rb_rolling_problem *p,
-                                   const rb_rolling_state *state, rb_rolling_reduced *r)
+void rb_contact_reduced_right_side(const rb_contact_problem *p,
+                                   const rb_contact_state *state, rb_contact_reduced *r)
 {
     int row = 0;
 
-    rb_rolling_kinematics(p, state, r->gap, r->lambda);
+    rb_contact_kinematics(p, state, r->gap, r->lambda);
     for (int k = 0; k < r->contacts; k++)
         r->x[row++] = -r->gap[r->contact[k]] / p->gap_length;
     for (int k = 0; k < r->sticks; k++)
@@ -116,16 +116,20 @@ void rb_rolling_reduced_right_side(const rb_rolling_problem *p,
                     r->force_scale;
 }
 
-void rb_rolling_reduced_add(const rb_rolling_problem *p, const rb_rolling_reduced *r,
-                            rb_rolling_state *state)
+rb_status rb_contact_reduced_add(const rb_contact_problem *p, const rb_contact_reduced *r,
+                                 rb_contact_state *state)
 {
     int row = 0;
+
+    for (int i = 0; i < r->size; i++)
+        if (!isfinite(r->x[i]))
+            return RB_SINGULAR;
 
     for (int k = 0; k < r->contacts; k++) {
         const int i = r->contact[k];
         state->p[i] += p->stress * r->x[row++];
         if (r->unknowns == RB_BOTH && state->zone[i] != RB_ZONE_STICK)
-            state->q[i] = rb_rolling_slope(state->zone[i]) * p->mu * state->p[i];
+            state->q[i] = rb_contact_slope(state->zone[i]) * p->mu * state->p[i];
     }
     for (int k = 0; k < r->sticks; k++)
         state->q[r->stick[k]] += p->stress * r->x[row++];
@@ -133,4 +137,5 @@ void rb_rolling_reduced_add(const rb_rolling_problem *p, const rb_rolling_reduce
         state->delta += p->gap_length * r->x[row++];
     if (r->force)
         state->xi += p->slip_length / p->e_T[0] * r->x[row];
+    return RB_OK;
 }

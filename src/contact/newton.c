@@ -1,7 +1,7 @@
 /* Active sets: with every element's zone known the contact problem is linear.  Newton's
  * method for the piecewise linear problem is to solve, to correct the zones and to solve
  * again; the same solve polishes what Lemke found. */
-#include "rolling/reduced.h"
+#include "contact/internal.h"
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -10,94 +10,32 @@
 enum { MAX_STEPS = 60, STAGGERED_ROUNDS = 3 };
 /* From so many elements on a cold start solves for pairs of them first. */
 enum { HALVED = 100 };
-/* Solves with one LU before it is given up, and the relative correction that is the last
- * one. */
-enum { PASSES = 3 };
-static const double SMALL = 1e-6;
-/* Of the tractions before delta and xi take part: three digits cancel. */
-static const double MOST_GROWTH = 1e3;
 
-static int is_finite(int n, const double *x)
+rb_status rb_contact_solve_zones(rb_contact_problem *problem,
+                                 rb_contact_unknowns unknowns, rb_contact_state *state)
 {
-    for (int i = 0; i < n; i++)
-        if (!isfinite(x[i]))
-            return 0;
-    return 1;
-}
-
-/* Solves, and where a kept LU served or digits were lost, solves again for what the
- * equations still lack, until a correction is small.  *settled: 0 where none was. */
-static rb_status solve_direct(rb_rolling_problem *p, rb_rolling_lu lu,
-                              rb_rolling_state *state, rb_rolling_reduced *r,
-                              int *settled)
-{
-    double size = 0.0;
-
-    *settled = 0;
-    rb_rolling_reduced_clear(p, r, state);
-    for (int pass = 0; pass < PASSES && !*settled; pass++) {
-        rb_rolling_reduced_right_side(p, state, r);
-        const rb_status s = rb_rolling_reduced_direct(p, state->zone, lu, r);
-        if (s != RB_OK || !is_finite(r->size, r->x))
-            return s < 0 ? s : RB_SINGULAR;
-        rb_rolling_reduced_add(p, r, state);
-        const double change = rb_norm_inf((size_t)r->size, r->x);
-        *settled = (r->changes == 0 && r->growth < MOST_GROWTH) ||
-                   (pass > 0 && change <= SMALL * size);
-        size = fmax(size, change);
-    }
-    return RB_OK;
-}
-
-static rb_status solve_dense(rb_rolling_problem *p, rb_rolling_state *state,
-                             rb_rolling_reduced *r)
-{
-    rb_status s = RB_OK;
-    int settled = 0;
-
-    for (int lu = RB_LU_KEPT; lu < RB_LU_KINDS && s >= 0 && !settled; lu++)
-        s = solve_direct(p, (rb_rolling_lu)lu, state, r, &settled);
-    return s;
-}
-
-static rb_status solve_products(rb_rolling_problem *p, rb_rolling_state *state,
-                                rb_rolling_reduced *r)
-{
-    rb_rolling_reduced_clear(p, r, state);
-    rb_rolling_reduced_right_side(p, state, r);
-    const rb_status s = rb_rolling_reduced_krylov(p, state->zone, r);
-    if (s != RB_OK || !is_finite(r->size, r->x))
-        return s < 0 ? s : RB_SINGULAR;
-    rb_rolling_reduced_add(p, r, state);
-    return RB_OK;
-}
-
-rb_status rb_rolling_solve_zones(rb_rolling_problem *problem,
-                                 rb_rolling_unknowns unknowns, rb_rolling_state *state)
-{
-    rb_rolling_reduced r;
-    rb_status s = rb_rolling_reduced_alloc(problem, unknowns, state, &r);
+    rb_contact_reduced r;
+    rb_status s = rb_contact_reduced_alloc(problem, unknowns, state, &r);
 
     if (s == RB_OK)
-        s = problem->F ? solve_dense(problem, state, &r)
-                       : solve_products(problem, state, &r);
-    rb_rolling_reduced_free(&r);
+        s = problem->op->kind->solve(problem, state, &r);
+    rb_contact_reduced_free(&r);
     return s;
 }
 
-rb_status rb_rolling_try_zones(rb_rolling_problem *problem, rb_rolling_state *state,
+rb_status rb_contact_try_zones(rb_contact_problem *problem, rb_contact_state *state,
                                double *gap)
 {
-    const rb_status s = rb_rolling_solve_zones(problem, RB_BOTH, state);
+    const rb_status s = rb_contact_solve_zones(problem, RB_BOTH, state);
     if (s == RB_OK)
-        rb_rolling_kinematics(problem, state, gap, state->lambda);
+        rb_contact_kinematics(problem, state, gap, state->lambda);
     return s;
 }
 
 /* ---- Newton ------------------------------------------------------------------------ */
 
-static int corrected_zone(const rb_rolling_problem *p, rb_rolling_unknowns unknowns,
-                          const rb_rolling_state *state, const double *gap, int i)
+static int corrected_zone(const rb_contact_problem *p, rb_contact_unknowns unknowns,
+                          const rb_contact_state *state, const double *gap, int i)
 {
     const double limit = p->mu * state->p[i], q = state->q[i], slip = state->lambda[i];
     const int zone = state->zone[i];
@@ -117,7 +55,7 @@ static int corrected_zone(const rb_rolling_problem *p, rb_rolling_unknowns unkno
                            : zone;
     if (p->mu == 0.0)
         return slip >= 0.0 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_SLIP_POSITIVE;
-    return rb_rolling_slope(zone) * slip > 0.0 ? RB_ZONE_STICK : zone;
+    return rb_contact_slope(zone) * slip > 0.0 ? RB_ZONE_STICK : zone;
 }
 
 static int stick_count(int n, const int *zone)
@@ -129,7 +67,7 @@ static int stick_count(int n, const int *zone)
 }
 
 /* Of several stuck elements that all want to slide, the one that wants it least. */
-static int least_excess(const rb_rolling_problem *p, const rb_rolling_state *state)
+static int least_excess(const rb_contact_problem *p, const rb_contact_state *state)
 {
     int held = -1;
     double least = INFINITY;
@@ -146,7 +84,7 @@ static int least_excess(const rb_rolling_problem *p, const rb_rolling_state *sta
 
 /* A single stuck element that must carry too much friction of sign o: the creepage has to
  * move until the next element that slides against o comes to rest. */
-static int next_to_rest(const rb_rolling_problem *p, const rb_rolling_state *state,
+static int next_to_rest(const rb_contact_problem *p, const rb_contact_state *state,
                         int stuck)
 {
     const double o = state->q[stuck] > 0.0 ? 1.0 : -1.0;
@@ -154,7 +92,7 @@ static int next_to_rest(const rb_rolling_problem *p, const rb_rolling_state *sta
     double least = INFINITY;
 
     for (int i = 0; i < p->n; i++)
-        if (state->p[i] > 0.0 && rb_rolling_slope(state->zone[i]) * o < 0.0 &&
+        if (state->p[i] > 0.0 && rb_contact_slope(state->zone[i]) * o < 0.0 &&
             fabs(state->lambda[i] / p->e_T[i]) < least) {
             least = fabs(state->lambda[i] / p->e_T[i]);
             held = i;
@@ -163,7 +101,7 @@ static int next_to_rest(const rb_rolling_problem *p, const rb_rolling_state *sta
 }
 
 /* A given force fixes xi only while something sticks. */
-static void hold_one(const rb_rolling_problem *p, const rb_rolling_state *state,
+static void hold_one(const rb_contact_problem *p, const rb_contact_state *state,
                      int *zone)
 {
     if (stick_count(p->n, zone) > 0)
@@ -176,8 +114,8 @@ static void hold_one(const rb_rolling_problem *p, const rb_rolling_state *state,
 }
 
 /* New zones into state; returns how many changed. */
-static int correct_zones(const rb_rolling_problem *p, rb_rolling_unknowns unknowns,
-                         rb_rolling_state *state, const double *gap, int *zone)
+static int correct_zones(const rb_contact_problem *p, rb_contact_unknowns unknowns,
+                         rb_contact_state *state, const double *gap, int *zone)
 {
     int changes = 0;
 
@@ -215,8 +153,8 @@ typedef struct {
 
 /* Solves and corrects until the zones stay: RB_OK; RB_MAXITER when a set of zones comes
  * back, which ends every cycle. */
-static rb_status iterate(rb_rolling_problem *p, rb_rolling_unknowns unknowns,
-                         workspace *ws, rb_rolling_state *state)
+static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns,
+                         workspace *ws, rb_contact_state *state)
 {
     uint64_t seen[MAX_STEPS];
 
@@ -224,11 +162,11 @@ static rb_status iterate(rb_rolling_problem *p, rb_rolling_unknowns unknowns,
         seen[step] = fingerprint(p->n, state->zone);
         if (seen_before(step, seen, seen[step]))
             return RB_MAXITER;
-        const rb_status s = rb_rolling_solve_zones(p, unknowns, state);
+        const rb_status s = rb_contact_solve_zones(p, unknowns, state);
         if (s != RB_OK)
             return s;
         state->iterations++;
-        rb_rolling_kinematics(p, state, ws->gap, state->lambda);
+        rb_contact_kinematics(p, state, ws->gap, state->lambda);
         if (p->trace)
             p->trace(state, p->trace_context);
         if (correct_zones(p, unknowns, state, ws->gap, ws->zone) == 0)
@@ -238,7 +176,7 @@ static rb_status iterate(rb_rolling_problem *p, rb_rolling_unknowns unknowns,
 }
 
 /* Everything in frictionless contact, to begin with. */
-static void cold_start(const rb_rolling_problem *p, rb_rolling_state *state)
+static void cold_start(const rb_contact_problem *p, rb_contact_state *state)
 {
     memset(state->p, 0, (size_t)p->n * sizeof(double));
     memset(state->q, 0, (size_t)p->n * sizeof(double));
@@ -250,8 +188,8 @@ static void cold_start(const rb_rolling_problem *p, rb_rolling_state *state)
 
 /* Normal problem with the friction held, tangential problem with the pressure held, in
  * turn: exact after one round where the two are not coupled. */
-static rb_status alternate(rb_rolling_problem *p, int rounds, workspace *ws,
-                           rb_rolling_state *state)
+static rb_status alternate(rb_contact_problem *p, int rounds, workspace *ws,
+                           rb_contact_state *state)
 {
     rb_status s = RB_OK;
 
@@ -264,55 +202,61 @@ static rb_status alternate(rb_rolling_problem *p, int rounds, workspace *ws,
 }
 
 /* From the zones of the state. */
-static rb_status from_zones(rb_rolling_problem *p, workspace *ws, rb_rolling_state *state)
+static rb_status from_zones(rb_contact_problem *p, workspace *ws, rb_contact_state *state)
 {
-    return p->coupled ? iterate(p, RB_BOTH, ws, state) : alternate(p, 1, ws, state);
+    return p->op->response.coupled ? iterate(p, RB_BOTH, ws, state)
+                                   : alternate(p, 1, ws, state);
+}
+
+static void forget(const rb_contact_problem *p)
+{
+    if (p->op->kind->forget)
+        p->op->kind->forget(p->op);
 }
 
 /* An LU of all tractions and those of one group each never take memory together: no later
  * solve would use both (memory.c). */
-static rb_status from_nothing(rb_rolling_problem *p, workspace *ws,
-                              rb_rolling_state *state)
+static rb_status from_nothing(rb_contact_problem *p, workspace *ws,
+                              rb_contact_state *state)
 {
     cold_start(p, state);
-    rb_rolling_factors_clear(p->factors);
-    const rb_status s = alternate(p, p->coupled ? STAGGERED_ROUNDS : 1, ws, state);
-    if (s < 0 || !p->coupled)
+    forget(p);
+    const rb_status s =
+        alternate(p, p->op->response.coupled ? STAGGERED_ROUNDS : 1, ws, state);
+    if (s < 0 || !p->op->response.coupled)
         return s;
-    rb_rolling_factors_clear(p->factors);
+    forget(p);
     return iterate(p, RB_BOTH, ws, state);
 }
 
 /* Zones and tractions of the same problem on half as many elements; its steps count. */
-static rb_status start_from_half(const rb_rolling_problem *p, rb_rolling_state *state)
+static rb_status start_from_half(const rb_contact_problem *p, rb_contact_state *state)
 {
-    rb_rolling_problem half;
-    rb_rolling_state coarse = {0};
-    double *room = rb_rolling_halve(p, &half);
-    rb_status s = room ? rb_rolling_state_alloc(half.n, &coarse) : RB_ENOMEM;
+    rb_contact_problem half;
+    rb_contact_state coarse = {0};
+    rb_status s = rb_contact_halve(p, &half);
 
+    if (s != RB_OK)
+        return s;
+    s = rb_contact_state_alloc(half.n, &coarse);
     if (s == RB_OK)
-        s = rb_rolling_factors_create(&half.factors);
+        s = rb_contact_newton(&half, 0, &coarse);
     if (s == RB_OK)
-        s = rb_rolling_newton(&half, 0, &coarse);
-    if (s == RB_OK)
-        rb_rolling_start_from_half(&coarse, state);
+        rb_contact_start_from_half(&coarse, state);
     state->iterations += coarse.iterations;
-    rb_rolling_state_free(&coarse);
-    if (room)
-        rb_rolling_factors_free(half.factors);
-    free(room);
+    rb_contact_state_free(&coarse);
+    rb_contact_problem_free(&half);
     return s;
 }
 
-static rb_status from_half(rb_rolling_problem *p, workspace *ws, rb_rolling_state *state)
+static rb_status from_half(rb_contact_problem *p, workspace *ws, rb_contact_state *state)
 {
     const rb_status s = start_from_half(p, state);
     return s == RB_OK ? from_zones(p, ws, state) : s;
 }
 
-rb_status rb_rolling_newton(rb_rolling_problem *problem, int warm,
-                            rb_rolling_state *state)
+rb_status rb_contact_newton(rb_contact_problem *problem, int warm,
+                            rb_contact_state *state)
 {
     workspace ws = {rb_alloc((size_t)problem->n, 1), rb_alloc_int((size_t)problem->n)};
     rb_status s = ws.gap && ws.zone ? RB_OK : RB_ENOMEM;
@@ -320,8 +264,7 @@ rb_status rb_rolling_newton(rb_rolling_problem *problem, int warm,
     if (s == RB_OK && warm)
         s = from_zones(problem, &ws, state);
     else if (s == RB_OK) {
-        s = problem->F && problem->n >= HALVED ? from_half(problem, &ws, state)
-                                               : RB_MAXITER;
+        s = problem->n >= HALVED ? from_half(problem, &ws, state) : RB_MAXITER;
         if (s > 0)
             s = from_nothing(problem, &ws, state);
     }

@@ -1,6 +1,6 @@
 /* A case, its results and the steps of its solution as numbers, text and arrays by name.
  */
-#include "case/api.h"
+#include "api/internal.h"
 
 #include "rollbem/blas.h"
 
@@ -12,7 +12,7 @@
 /* ---- Arrays -------------------------------------------------------------------------
  */
 
-case_array *rb_case_find_array(rb_api *a, const char *name)
+api_array *rb_api_find_array(rb_api *a, const char *name)
 {
     for (int k = 0; k < a->arrays; k++)
         if (strcmp(a->made[k].name, name) == 0)
@@ -20,7 +20,7 @@ case_array *rb_case_find_array(rb_api *a, const char *name)
     return NULL;
 }
 
-void rb_case_forget_arrays(rb_api *a, const char *beginning)
+void rb_api_forget_arrays(rb_api *a, const char *beginning)
 {
     int kept = 0;
     for (int k = 0; k < a->arrays; k++)
@@ -32,11 +32,11 @@ void rb_case_forget_arrays(rb_api *a, const char *beginning)
 }
 
 /* A new array of zeros.  NULL: no memory. */
-case_array *rb_case_make_array(rb_api *a, const char *name, int rows, int columns)
+api_array *rb_api_make_array(rb_api *a, const char *name, int rows, int columns)
 {
-    if (a->arrays == CASE_ARRAYS)
+    if (a->arrays == API_ARRAYS)
         return NULL;
-    case_array *made = &a->made[a->arrays];
+    api_array *made = &a->made[a->arrays];
     snprintf(made->name, sizeof made->name, "%s", name);
     made->rows = rows;
     made->columns = columns;
@@ -48,10 +48,10 @@ case_array *rb_case_make_array(rb_api *a, const char *name, int rows, int column
     return made;
 }
 
-case_array *rb_case_copy_array(rb_api *a, const char *name, int rows, int columns,
-                               const double *x)
+api_array *rb_api_copy_array(rb_api *a, const char *name, int rows, int columns,
+                             const double *x)
 {
-    case_array *made = x ? rb_case_make_array(a, name, rows, columns) : NULL;
+    api_array *made = x ? rb_api_make_array(a, name, rows, columns) : NULL;
     if (made)
         memcpy(made->at, x, sizeof(double) * (size_t)rows * (size_t)columns);
     return made;
@@ -60,9 +60,9 @@ case_array *rb_case_copy_array(rb_api *a, const char *name, int rows, int column
 /* Adds one column to an array that grows step by step. */
 static rb_status add_column(rb_api *a, const char *name, int rows, const double *x)
 {
-    case_array *to = rb_case_find_array(a, name);
+    api_array *to = rb_api_find_array(a, name);
     if (!to)
-        return rb_case_copy_array(a, name, rows, 1, x) ? RB_OK : RB_ENOMEM;
+        return rb_api_copy_array(a, name, rows, 1, x) ? RB_OK : RB_ENOMEM;
     const size_t size = sizeof(double) * (size_t)rows * ((size_t)to->columns + 1);
     double *longer = realloc(to->at, size);
     if (!longer)
@@ -82,13 +82,13 @@ static const rb_rolling_result *find_result(const rb_rolling_results *table,
     return NULL;
 }
 
-static case_array *table_column(rb_api *a, const rb_rolling_results *table,
-                                const void *owner, int rows, const char *name,
-                                const char *column)
+static api_array *table_column(rb_api *a, const rb_rolling_results *table,
+                               const void *owner, int rows, const char *name,
+                               const char *column)
 {
     const rb_rolling_result *r = find_result(table, column);
     const int is_there = r && rows > 0 && rb_rolling_has_column(r, owner);
-    case_array *made = is_there ? rb_case_make_array(a, name, rows, 1) : NULL;
+    api_array *made = is_there ? rb_api_make_array(a, name, rows, 1) : NULL;
     for (int i = 0; made && i < rows; i++)
         made->at[i] = rb_rolling_entry(r, owner, i);
     return made;
@@ -97,7 +97,7 @@ static case_array *table_column(rb_api *a, const rb_rolling_results *table,
 /* ---- A case -------------------------------------------------------------------------
  */
 
-int rb_case_ended(rb_api *a, rb_status s)
+int rb_api_ended(rb_api *a, rb_status s)
 {
     a->status = s;
     if (s == RB_OK || !a->why.text[0])
@@ -111,13 +111,13 @@ int rb_case_ended(rb_api *a, rb_status s)
 static _Atomic int calls;
 static int threads_outside;
 
-void rb_case_call_begins(void)
+void rb_api_call_begins(void)
 {
     if (calls++ == 0 && !getenv("OPENBLAS_NUM_THREADS"))
         threads_outside = rb_blas_threads(1);
 }
 
-void rb_case_call_ends(void)
+void rb_api_call_ends(void)
 {
     if (--calls == 0 && threads_outside > 0)
         rb_blas_threads(threads_outside);
@@ -151,10 +151,10 @@ static void forget(rb_api *a, int same_bodies)
     }
     if (!same_bodies)
         rb_rolling_model_free(&a->kept);
-    rb_case_forget_arrays(a, "");
+    rb_api_forget_arrays(a, "");
     rb_rolling_curve_free(&a->curve);
     rb_rolling_curve_free(&a->curve_errors);
-    rb_rolling_lcp_free(&a->lcp);
+    rb_contact_lcp_free(&a->lcp);
     rb_case_result_free(&a->result);
     memset(&a->lcp, 0, sizeof a->lcp);
     memset(&a->result, 0, sizeof a->result);
@@ -180,6 +180,8 @@ rb_api *rb_api_create_for(const char *purpose)
         free(a);
         a = NULL;
     }
+    if (a)
+        rb_case_use_cone_solvers(a->words, rb_api_cone_solvers());
     return a;
 }
 
@@ -200,20 +202,19 @@ void rb_api_free(rb_api *a)
 int rb_api_set(rb_api *a, const char *name, const char *text)
 {
     forget(a, drives(name));
-    return rb_case_ended(a,
-                         rb_case_set(a->words, name, text, RB_GIVEN_ARGUMENT, &a->why));
+    return rb_api_ended(a, rb_case_set(a->words, name, text, RB_GIVEN_ARGUMENT, &a->why));
 }
 
 int rb_api_read(rb_api *a, const char *path)
 {
     forget(a, 0);
-    return rb_case_ended(a, rb_case_read(a->words, path, 0, NULL, &a->why));
+    return rb_api_ended(a, rb_case_read(a->words, path, 0, NULL, &a->why));
 }
 
 int rb_api_settle(rb_api *a)
 {
     forget(a, 1);
-    return rb_case_ended(a, rb_case_settle(a->words, &a->why));
+    return rb_api_ended(a, rb_case_settle(a->words, &a->why));
 }
 
 static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history,
@@ -226,7 +227,7 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
         return a->stopped;
     const int n = model->mesh.n;
     if (step == 0) /* a run may begin anew on a wider zone */
-        rb_case_forget_arrays(a, "step.");
+        rb_api_forget_arrays(a, "step.");
     double *row = rb_alloc((size_t)n, 1);
     rb_status s = row ? RB_OK : RB_ENOMEM;
     for (int i = 0; row && i < n; i++)
@@ -235,7 +236,7 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
         s = add_column(a, "step.zone", n, row);
     for (int i = 0; row && i < n; i++)
         row[i] = 0.5 * (model->mesh.ends[i] + model->mesh.ends[i + 1]);
-    if (s == RB_OK && !rb_case_find_array(a, "step.x"))
+    if (s == RB_OK && !rb_api_find_array(a, "step.x"))
         s = add_column(a, "step.x", n, row);
     if (s == RB_OK)
         s = add_column(a, "step.p", n, model->state.p);
@@ -251,11 +252,11 @@ int rb_api_solve(rb_api *a)
         return a->status;
     a->result.model = a->kept;
     memset(&a->kept, 0, sizeof a->kept);
-    rb_case_call_begins();
+    rb_api_call_begins();
     const rb_status s =
         rb_case_solve_again(rb_case_settled(a->words), keep_step, a, &a->result, &a->why);
-    rb_case_call_ends();
-    return rb_case_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
+    rb_api_call_ends();
+    return rb_api_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
 }
 
 void rb_api_stop(rb_api *a)
@@ -463,80 +464,80 @@ double rb_api_number(const rb_api *a, const char *name)
 /* ---- Matrices -----------------------------------------------------------------------
  */
 
-static case_array *boundary_matrices(rb_api *a, const char *name)
+static api_array *boundary_matrices(rb_api *a, const char *name)
 {
     const rb_bem_mesh *mesh = rb_bem_system_mesh(a->result.model.bodies.system_a);
     const rb_rolling_body *body = &a->result.model.rc.a;
-    case_array *H = rb_case_make_array(a, "H", 2 * mesh->n, 2 * mesh->n);
-    case_array *G = rb_case_make_array(a, "G", 2 * mesh->n, 2 * mesh->n);
+    api_array *H = rb_api_make_array(a, "H", 2 * mesh->n, 2 * mesh->n);
+    api_array *G = rb_api_make_array(a, "G", 2 * mesh->n, 2 * mesh->n);
     if (!H || !G ||
         rb_bem_assemble(mesh, rb_bem_material_from_young(body->young, body->poisson),
                         H->at, G->at, 2 * mesh->n, &a->why) != RB_OK) {
-        rb_case_forget_arrays(a, "H");
-        rb_case_forget_arrays(a, "G");
+        rb_api_forget_arrays(a, "H");
+        rb_api_forget_arrays(a, "G");
         return NULL;
     }
     return strcmp(name, "H") == 0 ? H : G;
 }
 
-static case_array *boundary_array(rb_api *a, const char *name)
+static api_array *boundary_array(rb_api *a, const char *name)
 {
     const rb_bem_system *system = a->result.model.bodies.system_a;
     if (!system)
         return NULL;
     const rb_bem_mesh *mesh = rb_bem_system_mesh(system);
     if (strcmp(name, "mesh.x0") == 0)
-        return rb_case_copy_array(a, name, mesh->n, 1, mesh->x0);
+        return rb_api_copy_array(a, name, mesh->n, 1, mesh->x0);
     if (strcmp(name, "mesh.y0") == 0)
-        return rb_case_copy_array(a, name, mesh->n, 1, mesh->y0);
+        return rb_api_copy_array(a, name, mesh->n, 1, mesh->y0);
     if (strcmp(name, "mesh.x1") == 0)
-        return rb_case_copy_array(a, name, mesh->n, 1, mesh->x1);
+        return rb_api_copy_array(a, name, mesh->n, 1, mesh->x1);
     if (strcmp(name, "mesh.y1") == 0)
-        return rb_case_copy_array(a, name, mesh->n, 1, mesh->y1);
+        return rb_api_copy_array(a, name, mesh->n, 1, mesh->y1);
     if (strcmp(name, "H") == 0 || strcmp(name, "G") == 0)
         return boundary_matrices(a, name);
     return NULL;
 }
 
-static case_array *model_array(rb_api *a, const char *name)
+static api_array *model_array(rb_api *a, const char *name)
 {
     const rb_rolling_model *model = &a->result.model;
     const int n = model->mesh.n, size = a->lcp.size;
     if (strcmp(name, "ends") == 0)
-        return rb_case_copy_array(a, name, n + 2, 1, model->mesh.ends);
+        return rb_api_copy_array(a, name, n + 2, 1, model->mesh.ends);
     if (strcmp(name, "gap0") == 0)
-        return rb_case_copy_array(a, name, n, 1, model->mesh.gap);
+        return rb_api_copy_array(a, name, n, 1, model->mesh.gap);
     if (strcmp(name, "F") == 0)
-        return rb_case_copy_array(a, name, 2 * n + 2, 2 * n, model->bodies.F);
+        return rb_api_copy_array(a, name, 2 * n + 2, 2 * n, model->bodies.F);
     if (strcmp(name, "lcp.M") == 0)
-        return rb_case_copy_array(a, name, size, size, a->lcp.M);
+        return rb_api_copy_array(a, name, size, size, a->lcp.M);
     if (strcmp(name, "lcp.q") == 0)
-        return rb_case_copy_array(a, name, size, 1, a->lcp.b);
+        return rb_api_copy_array(a, name, size, 1, a->lcp.b);
     return boundary_array(a, name);
 }
 
-static case_array *patch_array(rb_api *a, const char *name, const char *column)
+static api_array *patch_array(rb_api *a, const char *name, const char *column)
 {
     const rb_rolling_solution *s = &a->result.solution;
     const rb_rolling_result *r = find_result(&rb_rolling_patch_scalars, column);
-    case_array *made =
-        r && s->patches > 0 ? rb_case_make_array(a, name, s->patches, 1) : NULL;
+    api_array *made =
+        r && s->patches > 0 ? rb_api_make_array(a, name, s->patches, 1) : NULL;
     for (int k = 0; made && k < s->patches; k++)
         made->at[k] = rb_rolling_number(r, &s->patch[k]);
     return made;
 }
 
-static case_array *power_array(rb_api *a, const char *name)
+static api_array *power_array(rb_api *a, const char *name)
 {
     const rb_rolling_solution *s = &a->result.solution;
-    case_array *made = s->n > 0 ? rb_case_make_array(a, name, s->n, 1) : NULL;
+    api_array *made = s->n > 0 ? rb_api_make_array(a, name, s->n, 1) : NULL;
     if (made)
         rb_rolling_friction_power(s, made->at);
     return made;
 }
 
 /* An entry of the tables whose columns are arrays, by the beginning of its name. */
-static case_array *series_array(rb_api *a, const char *name)
+static api_array *series_array(rb_api *a, const char *name)
 {
     const rb_case_result *r = &a->result;
     const struct {
@@ -562,7 +563,7 @@ static case_array *series_array(rb_api *a, const char *name)
 
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 {
-    case_array *made = rb_case_find_array(a, name);
+    api_array *made = rb_api_find_array(a, name);
     if (!made)
         made = series_array(a, name);
     if (!made && strncmp(name, "patch.", 6) == 0)
@@ -586,21 +587,21 @@ int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int p
     while (variable->name && strcmp(variable->name, over) != 0)
         variable++;
     begin(a);
-    rb_case_forget_arrays(a, "curve.");
+    rb_api_forget_arrays(a, "curve.");
     rb_rolling_curve_free(&a->curve);
     rb_rolling_curve_free(&a->curve_errors);
     const rb_rolling_variable value = (rb_rolling_variable)variable->value;
-    rb_case_call_begins();
+    rb_api_call_begins();
     rb_status s =
         !variable->name
             ? rb_fail(&a->why, RB_EINVAL,
                       "--over: expected creep-ratio, creep or speed, got '%.100s'", over)
-        : c->error ? rb_rolling_curve_with_errors(&c->rc, value, from, to, points,
-                                                  &a->curve, &a->curve_errors, &a->why)
-                   : rb_rolling_curve_solve(&c->rc, value, from, to, points, &a->curve,
-                                            &a->why);
-    rb_case_call_ends();
-    return rb_case_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
+        : c->error
+            ? rb_rolling_curve_with_errors(&c->rc, value, from, to, points, &a->curve,
+                                           &a->curve_errors, &a->why)
+            : rb_rolling_curve_solve(&c->rc, value, from, to, points, &a->curve, &a->why);
+    rb_api_call_ends();
+    return rb_api_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
 }
 
 int rb_api_curve(rb_api *a, double from, double to, int points)
@@ -612,7 +613,7 @@ static int has_model(rb_api *a)
 {
     if (a->result.model.state.p && a->result.model.bodies.F)
         return 1;
-    rb_case_ended(
+    rb_api_ended(
         a, rb_fail(&a->why, RB_EINVAL, "nothing is solved whose matrices are at hand"));
     return 0;
 }
@@ -639,20 +640,20 @@ static rb_status keep_tractions(rb_api *a, const rb_lcp_pivot *p, const double *
 {
     const int n = a->result.model.mesh.n;
     double *z = rb_alloc((size_t)p->n, 1);
-    rb_rolling_state state = {0};
-    rb_status s = z ? rb_rolling_state_alloc(n, &state) : RB_ENOMEM;
+    rb_contact_state state = {0};
+    rb_status s = z ? rb_contact_state_alloc(n, &state) : RB_ENOMEM;
     for (int i = 0; z && i < p->n; i++)
         z[i] = 0.0;
     for (int i = 0; s == RB_OK && i < p->n; i++)
         if (p->basis[i] >= p->n && p->basis[i] < 2 * p->n)
             z[p->basis[i] - p->n] = value[i];
     if (s == RB_OK) {
-        rb_rolling_lcp_recover(&a->result.model.problem, &a->lcp, z, &state);
+        rb_contact_lcp_recover(&a->result.model.problem, &a->lcp, z, &state);
         s = add_column(a, "pivot.p", n, state.p);
     }
     if (s == RB_OK)
         s = add_column(a, "pivot.q", n, state.q);
-    rb_rolling_state_free(&state);
+    rb_contact_state_free(&state);
     free(z);
     return s;
 }
@@ -732,17 +733,16 @@ int rb_api_pivots(rb_api *a)
     begin(a);
     if (!has_model(a))
         return a->status;
-    rb_case_forget_arrays(a, "pivot.");
-    rb_case_forget_arrays(a, "lcp.");
-    rb_rolling_lcp_free(&a->lcp);
+    rb_api_forget_arrays(a, "pivot.");
+    rb_api_forget_arrays(a, "lcp.");
+    rb_contact_lcp_free(&a->lcp);
     memset(&a->lcp, 0, sizeof a->lcp);
-    rb_status s = rb_rolling_lcp_first(&model->problem, &model->rc, &model->state,
-                                       &a->lcp, &a->why);
-    return rb_case_ended(a, s == RB_OK ? follow_pivots(a) : s);
+    rb_status s = rb_rolling_model_lcp(model, &a->lcp, &a->why);
+    return rb_api_ended(a, s == RB_OK ? follow_pivots(a) : s);
 }
 
 /* A step of Newton's method on the elements of the case; it may begin on half as many. */
-static void keep_newton_step(const rb_rolling_state *state, void *context)
+static void keep_newton_step(const rb_contact_state *state, void *context)
 {
     rb_api *a = context;
     const int n = a->result.model.mesh.n;
@@ -764,34 +764,34 @@ static void keep_newton_step(const rb_rolling_state *state, void *context)
 
 int rb_api_newton(rb_api *a)
 {
-    rb_rolling_state state = {0};
+    rb_contact_state state = {0};
     if (!has_model(a))
         return a->status;
-    rb_rolling_problem problem = a->result.model.problem; /* arrays stay the model's */
+    rb_contact_problem problem = a->result.model.problem; /* arrays stay the model's */
     rb_rolling_case rc = a->result.model.rc;
     rc.solver = RB_SOLVER_NEWTON;
     problem.trace = keep_newton_step;
     problem.trace_context = a;
-    rb_case_forget_arrays(a, "newton.");
+    rb_api_forget_arrays(a, "newton.");
     a->status = RB_OK;
-    rb_status s = rb_rolling_state_alloc(problem.n, &state);
+    rb_status s = rb_contact_state_alloc(problem.n, &state);
     if (s == RB_OK)
         s = rb_rolling_problem_solve(&problem, &rc, 0, &state, &a->why);
     else
         rb_fail(&a->why, s, "out of memory");
     if (s >= 0 && a->status != RB_OK)
         s = rb_fail(&a->why, a->status, "out of memory");
-    rb_rolling_state_free(&state);
-    return rb_case_ended(a, s);
+    rb_contact_state_free(&state);
+    return rb_api_ended(a, s);
 }
 
 const char *rb_api_variable(const rb_api *a, int variable, char *text, int size)
 {
-    char name[RB_ROLLING_VARIABLE];
+    char name[RB_CONTACT_VARIABLE];
     if (variable < 0 || variable > 2 * a->lcp.size || a->lcp.size == 0)
         return NULL;
     return written(
-        rb_rolling_lcp_variable(&a->lcp, a->result.model.mesh.n, variable, name), text,
+        rb_contact_lcp_variable(&a->lcp, a->result.model.mesh.n, variable, name), text,
         size);
 }
 
@@ -802,26 +802,26 @@ int rb_api_guess(rb_api *a, int n, const int *zone)
     if (!has_model(a))
         return a->status;
     if (n != model->mesh.n)
-        return rb_case_ended(
+        return rb_api_ended(
             a, rb_fail(&a->why, RB_EINVAL, "%d zones: expected %d", n, model->mesh.n));
-    rb_rolling_state state = {0};
+    rb_contact_state state = {0};
     double *gap = rb_alloc((size_t)n, 1);
-    rb_status s = gap ? rb_rolling_state_alloc(n, &state) : RB_ENOMEM;
-    rb_case_forget_arrays(a, "guess.");
+    rb_status s = gap ? rb_contact_state_alloc(n, &state) : RB_ENOMEM;
+    rb_api_forget_arrays(a, "guess.");
     if (s == RB_OK) {
         memcpy(state.zone, zone, (size_t)n * sizeof *zone);
-        s = rb_rolling_try_zones(&model->problem, &state, gap);
+        s = rb_contact_try_zones(&model->problem, &state, gap);
     }
-    if (s == RB_OK && !(rb_case_copy_array(a, "guess.p", n, 1, state.p) &&
-                        rb_case_copy_array(a, "guess.q", n, 1, state.q) &&
-                        rb_case_copy_array(a, "guess.gap", n, 1, gap) &&
-                        rb_case_copy_array(a, "guess.shift", n, 1, state.lambda)))
+    if (s == RB_OK && !(rb_api_copy_array(a, "guess.p", n, 1, state.p) &&
+                        rb_api_copy_array(a, "guess.q", n, 1, state.q) &&
+                        rb_api_copy_array(a, "guess.gap", n, 1, gap) &&
+                        rb_api_copy_array(a, "guess.shift", n, 1, state.lambda)))
         s = RB_ENOMEM;
     if (s < 0)
         rb_fail(&a->why, s, "%s", rb_status_text(s));
-    rb_rolling_state_free(&state);
+    rb_contact_state_free(&state);
     free(gap);
-    return rb_case_ended(a, s);
+    return rb_api_ended(a, s);
 }
 
 /* ---- Stress ------------------------------------------------------------------------
@@ -833,7 +833,7 @@ static rb_status keep_stress(rb_api *a, int nx, int ny, const rb_rolling_stress 
     char name[40];
     for (int k = 0; k < table->n; k++) {
         snprintf(name, sizeof name, "stress.%s", table->row[k].name);
-        case_array *made = rb_case_make_array(a, name, nx, ny);
+        api_array *made = rb_api_make_array(a, name, nx, ny);
         if (!made)
             return rb_fail(&a->why, RB_ENOMEM, "out of memory");
         for (int i = 0; i < nx * ny; i++)
@@ -845,7 +845,7 @@ static rb_status keep_stress(rb_api *a, int nx, int ny, const rb_rolling_stress 
 static rb_status begin_stress(rb_api *a, const char *arrays)
 {
     begin(a);
-    rb_case_forget_arrays(a, arrays);
+    rb_api_forget_arrays(a, arrays);
     if (!a->result.model.state.p)
         return rb_fail(&a->why, RB_EINVAL, "%s",
                        a->result.has_errors
@@ -858,14 +858,14 @@ int rb_api_stress(rb_api *a, int nx, int ny, double depth)
 {
     rb_rolling_stress_grid grid = {0};
     rb_status s = begin_stress(a, "stress.");
-    rb_case_call_begins();
+    rb_api_call_begins();
     if (s == RB_OK)
         s = rb_rolling_stress_on_grid(&a->result.model, nx, ny, depth, &grid, &a->why);
-    rb_case_call_ends();
+    rb_api_call_ends();
     if (s == RB_OK)
         s = keep_stress(a, nx, ny, grid.at);
     rb_rolling_stress_grid_free(&grid);
-    return rb_case_ended(a, s);
+    return rb_api_ended(a, s);
 }
 
 int rb_api_stress_at(rb_api *a, int n, const double *xy)
@@ -876,14 +876,14 @@ int rb_api_stress_at(rb_api *a, int n, const double *xy)
         s = rb_fail(&a->why, RB_EINVAL, "stress: expected at least one point, got %d", n);
     if (s == RB_OK && !(at = calloc((size_t)n, sizeof *at)))
         s = RB_ENOMEM;
-    rb_case_call_begins();
+    rb_api_call_begins();
     if (s == RB_OK)
         s = rb_rolling_stress_at(&a->result.model, n, xy, at, &a->why);
-    rb_case_call_ends();
+    rb_api_call_ends();
     if (s == RB_OK)
         s = keep_stress(a, n, 1, at);
     free(at);
-    return rb_case_ended(a, s);
+    return rb_api_ended(a, s);
 }
 
 int rb_api_stress_maxima(rb_api *a, double depth)
@@ -897,14 +897,14 @@ int rb_api_stress_maxima(rb_api *a, double depth)
                 {"maxima.orthogonal_shear", &m.orthogonal_shear},
                 {"maxima.tension", &m.tension}};
     rb_status s = begin_stress(a, "maxima.");
-    rb_case_call_begins();
+    rb_api_call_begins();
     if (s == RB_OK)
         s = rb_rolling_stress_maxima_find(&a->result.model, depth, &m, &a->why);
-    rb_case_call_ends();
+    rb_api_call_ends();
     for (size_t k = 0; s == RB_OK && k < sizeof kept / sizeof *kept; k++) {
         const double x[] = {kept[k].at->value, kept[k].at->x, kept[k].at->y};
-        if (!rb_case_copy_array(a, kept[k].name, 3, 1, x))
+        if (!rb_api_copy_array(a, kept[k].name, 3, 1, x))
             s = RB_ENOMEM;
     }
-    return rb_case_ended(a, s);
+    return rb_api_ended(a, s);
 }

@@ -2,7 +2,7 @@
  * to solve.  What has changed since then, and delta and xi, stand at its border:
  *     [A V; W T] (x, y) = (f, g),  (T - W A^-1 V) y = g - W A^-1 f,
  * so that a Newton step costs some products instead of an LU. */
-#include "rolling/reduced.h"
+#include "contact/dense.h"
 
 #include <cblas.h>
 #include <float.h>
@@ -18,7 +18,7 @@ typedef struct {
 } traction;
 
 /* The LU for the zones of an earlier solve: unknowns (and their equations, gap or slip at
- * the same element) in the order of rb_rolling_reduced. */
+ * the same element) in the order of rb_contact_reduced. */
 typedef struct {
     int contacts, size, room;
     traction *unknown;
@@ -27,7 +27,7 @@ typedef struct {
 } kept_lu;
 
 /* One for each of RB_NORMAL, RB_TANGENTIAL, RB_BOTH. */
-struct rb_rolling_factors {
+struct rb_contact_factors {
     kept_lu kept[3];
 };
 
@@ -52,7 +52,7 @@ typedef struct {
     int count, changes; /* borders; those that stand for zones */
 } plan;
 
-void rb_rolling_factors_clear(struct rb_rolling_factors *factors)
+void rb_contact_factors_clear(rb_contact_factors *factors)
 {
     for (int k = 0; factors && k < 3; k++) {
         free(factors->kept[k].unknown);
@@ -62,13 +62,13 @@ void rb_rolling_factors_clear(struct rb_rolling_factors *factors)
     }
 }
 
-void rb_rolling_factors_free(struct rb_rolling_factors *factors)
+void rb_contact_factors_free(rb_contact_factors *factors)
 {
-    rb_rolling_factors_clear(factors);
+    rb_contact_factors_clear(factors);
     free(factors);
 }
 
-rb_status rb_rolling_factors_create(struct rb_rolling_factors **factors)
+rb_status rb_contact_factors_create(rb_contact_factors **factors)
 {
     *factors = calloc(1, sizeof **factors);
     return *factors ? RB_OK : RB_ENOMEM;
@@ -77,25 +77,26 @@ rb_status rb_rolling_factors_create(struct rb_rolling_factors **factors)
 /* ---- Entries, scaled to numbers of order one ------------------------------------------
  */
 
-static double gap_of(const rb_rolling_problem *p, int i, traction t)
+static double gap_of(const rb_contact_problem *p, int i, traction t)
 {
-    const double *F = p->F + i + (size_t)t.at * (size_t)p->ldf;
+    const rb_contact_matrix *K = &p->op->matrix;
+    const double *F = K->F + i + (size_t)t.at * (size_t)K->ldf;
     const double N = t.N != 0.0 ? t.N * F[0] : 0.0;
-    const double T = t.T != 0.0 ? t.T * F[(size_t)p->n * (size_t)p->ldf] : 0.0;
+    const double T = t.T != 0.0 ? t.T * F[(size_t)p->n * (size_t)K->ldf] : 0.0;
     return (N + T) * (p->stress / p->gap_length);
 }
 
-static double slip_of(const rb_rolling_problem *p, int i, traction t)
+static double slip_of(const rb_contact_problem *p, int i, traction t)
 {
     const size_t n = (size_t)p->n;
-    const double *S = p->S + i + (size_t)t.at * n;
+    const double *S = p->op->matrix.S + i + (size_t)t.at * n;
     const double N = t.N != 0.0 ? t.N * S[0] : 0.0;
     const double T = t.T != 0.0 ? t.T * S[n * n] : 0.0;
     return (N + T) * (p->stress / p->slip_length);
 }
 
 /* Answer of a border's equation to tractions. */
-static double border_row(const rb_rolling_problem *p, const rb_rolling_reduced *r,
+static double border_row(const rb_contact_problem *p, const rb_contact_reduced *r,
                          const border *b, traction t)
 {
     switch (b->kind) {
@@ -114,7 +115,7 @@ static double border_row(const rb_rolling_problem *p, const rb_rolling_reduced *
 }
 
 /* Answer of A's equations to a border's unknown. */
-static void border_column(const rb_rolling_problem *p, const kept_lu *k, const border *b,
+static void border_column(const rb_contact_problem *p, const kept_lu *k, const border *b,
                           double *column)
 {
     const int is_traction =
@@ -133,7 +134,7 @@ static void border_column(const rb_rolling_problem *p, const kept_lu *k, const b
 }
 
 /* Answer of one border's equation to another one's unknown, or to its own. */
-static double corner(const rb_rolling_problem *p, const rb_rolling_reduced *r,
+static double corner(const rb_contact_problem *p, const rb_contact_reduced *r,
                      const border *row, const border *column)
 {
     switch (column->kind) {
@@ -161,7 +162,7 @@ static void plan_free(plan *pl)
 }
 
 /* All arrays at their largest: every kept unknown lapsed, every present one new. */
-static rb_status plan_alloc(const rb_rolling_reduced *r, int kept, plan *pl)
+static rb_status plan_alloc(const rb_contact_reduced *r, int kept, plan *pl)
 {
     const size_t size = (size_t)r->size + 1;
 
@@ -172,14 +173,14 @@ static rb_status plan_alloc(const rb_rolling_reduced *r, int kept, plan *pl)
 }
 
 /* Where both groups are unknown, friction of a slipping element follows its pressure. */
-static void present_unknowns(const rb_rolling_problem *p, const int *zone,
-                             const rb_rolling_reduced *r, traction *unknown)
+static void present_unknowns(const rb_contact_problem *p, const int *zone,
+                             const rb_contact_reduced *r, traction *unknown)
 {
-    const double mu = rb_rolling_reduced_mu(p, r);
+    const double mu = rb_contact_reduced_mu(p, r);
 
     for (int k = 0; k < r->contacts; k++) {
         const int i = r->contact[k];
-        *unknown++ = (traction){i, 1.0, rb_rolling_slope(zone[i]) * mu};
+        *unknown++ = (traction){i, 1.0, rb_contact_slope(zone[i]) * mu};
     }
     for (int k = 0; k < r->sticks; k++)
         *unknown++ = (traction){r->stick[k], 0.0, 1.0};
@@ -213,8 +214,8 @@ static void compare(const kept_lu *k, int from, int to, int now, int end, plan *
     }
 }
 
-static void make_plan(const rb_rolling_problem *p, const int *zone,
-                      const rb_rolling_reduced *r, const kept_lu *k, plan *pl)
+static void make_plan(const rb_contact_problem *p, const int *zone,
+                      const rb_contact_reduced *r, const kept_lu *k, plan *pl)
 {
     const int tractions = r->contacts + r->sticks;
 
@@ -247,7 +248,7 @@ static rb_status make_room(int size, kept_lu *k)
     return k->room ? RB_OK : RB_ENOMEM;
 }
 
-static rb_status factor(const rb_rolling_problem *p, const rb_rolling_reduced *r,
+static rb_status factor(const rb_contact_problem *p, const rb_contact_reduced *r,
                         const traction *unknown, kept_lu *k)
 {
     const int size = r->contacts + r->sticks;
@@ -279,7 +280,7 @@ typedef struct {
     double *V, *f, *W, *T, *g;
 } bordered;
 
-static void fill_border(const rb_rolling_problem *p, const rb_rolling_reduced *r,
+static void fill_border(const rb_contact_problem *p, const rb_contact_reduced *r,
                         const kept_lu *k, const plan *pl, const bordered *m)
 {
     const int n = k->size, count = pl->count;
@@ -326,8 +327,8 @@ static rb_status eliminate(const kept_lu *k, int count, const bordered *m, doubl
     return fault == 0 ? RB_OK : RB_SINGULAR;
 }
 
-static rb_status solve_bordered(const rb_rolling_problem *p, const kept_lu *k,
-                                const plan *pl, rb_rolling_reduced *r)
+static rb_status solve_bordered(const rb_contact_problem *p, const kept_lu *k,
+                                const plan *pl, rb_contact_reduced *r)
 {
     const size_t n = (size_t)k->size, count = (size_t)pl->count;
     double *room = rb_alloc(n + count, 2 * count + 1);
@@ -356,11 +357,12 @@ static int is_near(const plan *pl, const kept_lu *k)
     return (double)pl->changes * pl->changes <= 2.0 * k->size;
 }
 
-rb_status rb_rolling_reduced_direct(rb_rolling_problem *p, const int *zone,
-                                    rb_rolling_lu lu, rb_rolling_reduced *r)
+rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone,
+                                    rb_contact_lu lu, rb_contact_reduced *r)
 {
     kept_lu none = {0}; /* all unknowns are borders then */
-    kept_lu *k = lu == RB_LU_WHOLE ? &none : &p->factors->kept[r->unknowns - 1];
+    rb_contact_factors *factors = ((const rb_contact_dense *)p->op)->factors;
+    kept_lu *k = lu == RB_LU_WHOLE ? &none : &factors->kept[r->unknowns - 1];
     plan pl = {0};
     rb_status s = plan_alloc(r, k->size, &pl);
 

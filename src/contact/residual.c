@@ -1,10 +1,10 @@
-#include "rolling/internal.h"
+#include "contact/internal.h"
 
 #include <cblas.h>
 #include <stdlib.h>
 #include <string.h>
 
-rb_status rb_rolling_state_alloc(int n, rb_rolling_state *state)
+rb_status rb_contact_state_alloc(int n, rb_contact_state *state)
 {
     memset(state, 0, sizeof *state);
     state->n = n;
@@ -14,11 +14,11 @@ rb_status rb_rolling_state_alloc(int n, rb_rolling_state *state)
     state->zone = rb_alloc_int((size_t)n);
     if (state->p && state->q && state->lambda && state->zone)
         return RB_OK;
-    rb_rolling_state_free(state);
+    rb_contact_state_free(state);
     return RB_ENOMEM;
 }
 
-void rb_rolling_state_free(rb_rolling_state *state)
+void rb_contact_state_free(rb_contact_state *state)
 {
     free(state->p);
     free(state->q);
@@ -27,14 +27,14 @@ void rb_rolling_state_free(rb_rolling_state *state)
     memset(state, 0, sizeof *state);
 }
 
-void rb_rolling_kinematics(const rb_rolling_problem *problem,
-                           const rb_rolling_state *state, double *gap, double *lambda)
+void rb_contact_kinematics(const rb_contact_problem *problem,
+                           const rb_contact_state *state, double *gap, double *lambda)
 {
     for (int i = 0; i < problem->n; i++) {
         gap[i] = problem->d_N[i] - state->delta;
         lambda[i] = problem->d_T[i] + state->xi * problem->e_T[i];
     }
-    rb_rolling_add_products(problem, state->p, state->q, gap, lambda);
+    rb_contact_operator_add(problem->op, state->p, state->q, gap, lambda);
 }
 
 /* Coulomb's law in natural form: min(lambda+, gamma+) and min(lambda-, gamma-), with
@@ -47,7 +47,7 @@ static double friction_violation(double lambda, double gamma_plus, double gamma_
 }
 
 /* Scale of the friction bound mu p; without friction that of p. */
-static double friction_scale(const rb_rolling_problem *problem)
+static double friction_scale(const rb_contact_problem *problem)
 {
     return problem->mu > 0.0 ? problem->mu * problem->stress : problem->stress;
 }
@@ -59,8 +59,8 @@ static double weighted_sum(int n, const double *a, const double *x, const double
 }
 
 /* Given load and force, relative to themselves. */
-static double control_violation(const rb_rolling_problem *p,
-                                const rb_rolling_state *state)
+static double control_violation(const rb_contact_problem *p,
+                                const rb_contact_state *state)
 {
     double worst = 0.0;
 
@@ -71,16 +71,16 @@ static double control_violation(const rb_rolling_problem *p,
     if (p->force_given) {
         const double P = weighted_sum(p->n, p->load_N, state->p, p->load_T, state->q);
         const double Q = weighted_sum(p->n, p->force_N, state->p, p->force_T, state->q);
-        const double wanted = p->force + p->force_ratio * p->mu * P -
-                              p->axle * rb_rolling_moment(p, state);
+        const double wanted =
+            p->force + p->force_ratio * p->mu * P - p->axle * rb_contact_moment(p, state);
         worst = fmax(worst, fabs(Q - wanted) / (p->mu * P));
     }
     return worst;
 }
 
 /* The four values of one element, each kept where it is the largest so far. */
-static void add_element(const rb_rolling_problem *problem, const rb_rolling_state *state,
-                        double gap, double lambda, int i, rb_rolling_violation *v)
+static void add_element(const rb_contact_problem *problem, const rb_contact_state *state,
+                        double gap, double lambda, int i, rb_contact_violation *v)
 {
     const double tangential = friction_scale(problem), limit = problem->mu * state->p[i];
     const double gamma_plus = limit + state->q[i], gamma_minus = limit - state->q[i];
@@ -97,8 +97,8 @@ static void add_element(const rb_rolling_problem *problem, const rb_rolling_stat
         v->scaled = INFINITY;
 }
 
-rb_status rb_rolling_residual(const rb_rolling_problem *problem,
-                              const rb_rolling_state *state, rb_rolling_violation *v)
+rb_status rb_contact_residual(const rb_contact_problem *problem,
+                              const rb_contact_state *state, rb_contact_violation *v)
 {
     const int n = problem->n;
     double *gap = rb_alloc((size_t)n, 2);
@@ -106,7 +106,7 @@ rb_status rb_rolling_residual(const rb_rolling_problem *problem,
     if (!gap)
         return RB_ENOMEM;
     memset(v, 0, sizeof *v);
-    rb_rolling_kinematics(problem, state, gap, gap + n);
+    rb_contact_kinematics(problem, state, gap, gap + n);
     v->scaled = control_violation(problem, state);
     for (int i = 0; i < n; i++)
         add_element(problem, state, gap[i], gap[n + i], i, v);
@@ -116,7 +116,7 @@ rb_status rb_rolling_residual(const rb_rolling_problem *problem,
     return RB_OK;
 }
 
-static rb_rolling_zone zone_of(double p, double lambda, double gamma_plus,
+static rb_contact_zone zone_of(double p, double lambda, double gamma_plus,
                                double gamma_minus, int frictionless)
 {
     if (!(p > 0.0))
@@ -130,8 +130,8 @@ static rb_rolling_zone zone_of(double p, double lambda, double gamma_plus,
     return RB_ZONE_STICK;
 }
 
-void rb_rolling_classify(const rb_rolling_problem *problem, double tol,
-                         rb_rolling_state *state)
+void rb_contact_classify(const rb_contact_problem *problem, double tol,
+                         rb_contact_state *state)
 {
     const double tangential = friction_scale(problem);
 

@@ -1,7 +1,7 @@
-/* The reduced problem without a matrix: GMRES on products of the flexibility.  On equal
- * elements the inverse of an endless line preconditions it: about ten products for any
- * number of elements. */
-#include "rolling/reduced.h"
+/* The operator as products alone: zones are solved by GMRES.  On equal elements the
+ * inverse of an endless line preconditions it: about ten products for any number of
+ * elements. */
+#include "contact/internal.h"
 
 #include <cblas.h>
 #include <float.h>
@@ -13,48 +13,70 @@ enum { BASIS = 100, CYCLES = 6, BORDERS = 2 };
 /* 2-norm of the scaled residual at which a solve ends. */
 static const double TOLERANCE = 2e-11;
 
-/* Kept from solve to solve: fresh memory costs more than the arithmetic. */
-struct rb_rolling_krylov {
-    rb_bem_circulant *inverse;
+/* With what is kept from solve to solve: fresh memory costs more than the arithmetic. */
+typedef struct {
+    rb_contact_operator base;
+    rb_contact_products by;
+    double *r, *gap, *slip;   /* one product: 2n, n, n; owned, as the rest */
     double *basis[BASIS + 1]; /* 2n + 2 each, on demand */
     double *work;             /* 2n + 2 */
-    double *line;             /* n */
-};
+} products;
 
-void rb_rolling_krylov_free(struct rb_rolling_krylov *k)
+static products *of(const rb_contact_problem *p)
 {
-    if (!k)
-        return;
-    rb_bem_circulant_free(k->inverse);
+    return (products *)p->op;
+}
+
+static void products_free(rb_contact_operator *op)
+{
+    products *k = (products *)op;
+
+    k->by.free(k->by.context);
     for (int j = 0; j <= BASIS; j++)
         free(k->basis[j]);
     free(k->work);
-    free(k->line);
+    free(k->r);
     free(k);
 }
 
-rb_status rb_rolling_krylov_create(const rb_rolling_problem *p,
-                                   struct rb_rolling_krylov **krylov)
+static void products_add(rb_contact_operator *op, const double *p, const double *q,
+                         double *gap, double *slip)
 {
-    const size_t n = (size_t)p->n;
-    struct rb_rolling_krylov *k = calloc(1, sizeof *k);
+    const products *k = (const products *)op;
+    const int n = op->n;
 
-    *krylov = k;
-    if (!k)
-        return RB_ENOMEM;
-    k->work = rb_alloc(2 * n + 2, 1);
-    k->line = rb_alloc(n, 1);
-    if (!k->work || !k->line)
-        return RB_ENOMEM;
-    return rb_bem_circulant_create(&p->f, p->stencil, &k->inverse);
+    memcpy(k->r, p, (size_t)n * sizeof *p);
+    memcpy(k->r + n, q, (size_t)n * sizeof *q);
+    k->by.apply(k->by.context, k->r, k->gap, k->slip);
+    cblas_daxpy(n, 1.0, k->gap, 1, gap, 1);
+    cblas_daxpy(n, 1.0, k->slip, 1, slip, 1);
+}
+
+/* On equal elements the middle one stands for all. */
+static void set_response(products *k)
+{
+    const int n = k->base.n, j = n / 2;
+    rb_contact_response *unit = &k->base.response;
+
+    memset(k->r, 0, 2 * (size_t)n * sizeof *k->r);
+    k->r[j] = 1.0;
+    k->by.apply(k->by.context, k->r, k->gap, k->slip);
+    unit->gap = fabs(k->gap[j]);
+    unit->coupled_slip = cblas_dasum(n, k->slip, 1);
+    unit->coupled = unit->coupled_slip != 0.0;
+    unit->reach = cblas_dasum(n, k->gap, 1) / unit->gap;
+    k->r[j] = 0.0;
+    k->r[n + j] = 1.0;
+    k->by.apply(k->by.context, k->r, k->gap, k->slip);
+    unit->slip = fabs(k->slip[j]);
 }
 
 /* ---- The system  [A B; C 0]: tractions, and delta and xi at its border --------------
  */
 
 typedef struct {
-    const rb_rolling_problem *p;
-    const rb_rolling_reduced *r;
+    const rb_contact_problem *p;
+    const rb_contact_reduced *r;
     const int *zone;
     int inner;                       /* tractions; the border comes after them */
     int borders;                     /* 0, 1 or 2 */
@@ -62,19 +84,19 @@ typedef struct {
     double schur[BORDERS * BORDERS]; /* -C P^-1 B */
 } system_of;
 
-/* Tractions of the unknowns into the problem's room for products. */
+/* Tractions of the unknowns into the room for products. */
 static void scatter(const system_of *s, const double *x)
 {
-    const rb_rolling_problem *p = s->p;
-    const rb_rolling_reduced *r = s->r;
-    const double mu = rb_rolling_reduced_mu(p, r);
-    double *r_N = p->product, *r_T = r_N + p->n;
+    const rb_contact_problem *p = s->p;
+    const rb_contact_reduced *r = s->r;
+    const double mu = rb_contact_reduced_mu(p, r);
+    double *r_N = of(p)->r, *r_T = r_N + p->n;
 
     memset(r_N, 0, 2 * (size_t)p->n * sizeof *r_N);
     for (int k = 0; k < r->contacts; k++) {
         const int i = r->contact[k];
         r_N[i] = p->stress * x[k];
-        r_T[i] = rb_rolling_slope(s->zone[i]) * mu * r_N[i];
+        r_T[i] = rb_contact_slope(s->zone[i]) * mu * r_N[i];
     }
     for (int k = 0; k < r->sticks; k++)
         r_T[r->stick[k]] = p->stress * x[r->contacts + k];
@@ -83,9 +105,9 @@ static void scatter(const system_of *s, const double *x)
 /* C x for the tractions that were scattered last. */
 static void border_rows(const system_of *s, double *y)
 {
-    const rb_rolling_problem *p = s->p;
-    const rb_rolling_reduced *r = s->r;
-    const double *r_N = p->product, *r_T = r_N + p->n;
+    const rb_contact_problem *p = s->p;
+    const rb_contact_reduced *r = s->r;
+    const double *r_N = of(p)->r, *r_T = r_N + p->n;
 
     if (r->load)
         *y++ = (cblas_ddot(p->n, p->load_N, 1, r_N, 1) +
@@ -100,7 +122,7 @@ static void border_rows(const system_of *s, double *y)
 /* Column k of B: delta opens no gap, xi makes slip. */
 static void border_column(const system_of *s, int k, double *column)
 {
-    const rb_rolling_reduced *r = s->r;
+    const rb_contact_reduced *r = s->r;
 
     memset(column, 0, (size_t)r->size * sizeof *column);
     if (k == 0 && r->load)
@@ -113,23 +135,19 @@ static void border_column(const system_of *s, int k, double *column)
 
 static void multiply(const system_of *s, const double *x, double *y)
 {
-    const rb_rolling_problem *p = s->p;
-    const rb_rolling_reduced *r = s->r;
-    double *w_N = p->product + 2 * (size_t)p->n, *w_T = w_N + p->n + 1;
+    const rb_contact_problem *p = s->p;
+    const rb_contact_reduced *r = s->r;
+    const products *k = of(p);
     const double delta = r->load ? x[s->inner] : 0.0;
     const double xi = r->force ? x[s->inner + r->load] : 0.0;
 
-    double *slip = p->krylov->line;
-
     scatter(s, x);
-    rb_bem_flexibility_apply(&p->f, p->product, w_N);
-    for (int k = 0; k < r->contacts; k++)
-        *y++ = w_N[r->contact[k]] / p->gap_length - delta;
-    memset(slip, 0, (size_t)p->n * sizeof *slip);
-    rb_rolling_add_slip(p, p->product, w_T, slip);
-    for (int k = 0; k < r->sticks; k++) {
-        const int i = r->stick[k];
-        *y++ = slip[i] / p->slip_length + xi * p->e_T[i] / p->e_T[0];
+    k->by.apply(k->by.context, k->r, k->gap, k->slip);
+    for (int c = 0; c < r->contacts; c++)
+        *y++ = k->gap[r->contact[c]] / p->gap_length - delta;
+    for (int c = 0; c < r->sticks; c++) {
+        const int i = r->stick[c];
+        *y++ = k->slip[i] / p->slip_length + xi * p->e_T[i] / p->e_T[0];
     }
     border_rows(s, y);
 }
@@ -139,33 +157,30 @@ static void multiply(const system_of *s, const double *x, double *y)
 
 /* One group of tractions: `count` elements with numbers `at`; what slipping elements owe
  * to the pressure is left out of A~. */
-static void precondition_group(const system_of *s, int steady, int count, const int *at,
-                               double length, const double *b, double *x)
+static void precondition_group(const system_of *s, int tangential, int count,
+                               const int *at, double length, const double *b, double *x)
 {
-    const struct rb_rolling_krylov *krylov = s->p->krylov;
-    double *line = krylov->line;
+    const products *op = of(s->p);
+    double *line = op->slip;
 
     if (count == 0)
         return;
     memset(line, 0, (size_t)s->p->n * sizeof *line);
     for (int k = 0; k < count; k++)
         line[at[k]] = b[k] * length / s->p->stress;
-    if (steady)
-        rb_bem_circulant_apply_difference(krylov->inverse, line, line);
-    else
-        rb_bem_circulant_apply(krylov->inverse, line, line);
+    op->by.precondition(op->by.context, tangential, line);
     for (int k = 0; k < count; k++)
         x[k] = line[at[k]];
 }
 
 static void precondition_tractions(const system_of *s, const double *b, double *x)
 {
-    const rb_rolling_problem *p = s->p;
-    const rb_rolling_reduced *r = s->r;
+    const rb_contact_problem *p = s->p;
+    const rb_contact_reduced *r = s->r;
     const int c = r->contacts;
 
     precondition_group(s, 0, c, r->contact, p->gap_length, b, x);
-    precondition_group(s, p->steady, r->sticks, r->stick, p->slip_length, b + c, x + c);
+    precondition_group(s, 1, r->sticks, r->stick, p->slip_length, b + c, x + c);
 }
 
 static void solve_border(const system_of *s, const double *g, double *z)
@@ -205,10 +220,10 @@ static void system_free(system_of *s)
         free(s->image[l]);
 }
 
-static rb_status system_make(const rb_rolling_problem *p, const int *zone,
-                             const rb_rolling_reduced *r, system_of *s)
+static rb_status system_make(const rb_contact_problem *p, const int *zone,
+                             const rb_contact_reduced *r, system_of *s)
 {
-    double *column = p->krylov->work;
+    double *column = of(p)->work;
 
     *s = (system_of){.p = p,
                      .r = r,
@@ -238,9 +253,9 @@ typedef struct {
     double g[BASIS + 1];
 } least_squares;
 
-static double *basis_vector(const rb_rolling_problem *p, int j)
+static double *basis_vector(const rb_contact_problem *p, int j)
 {
-    double **v = &p->krylov->basis[j];
+    double **v = &of(p)->basis[j];
     if (!*v)
         *v = malloc((2 * (size_t)p->n + 2) * sizeof **v);
     return *v;
@@ -248,9 +263,9 @@ static double *basis_vector(const rb_rolling_problem *p, int j)
 
 /* Column j: orthogonalised, its length in the last row; 0 where the space is exhausted.
  */
-static int orthogonalise(const rb_rolling_problem *p, int size, int j, double *column)
+static int orthogonalise(const rb_contact_problem *p, int size, int j, double *column)
 {
-    double *const *v = p->krylov->basis, *last = v[j + 1];
+    double *const *v = of(p)->basis, *last = v[j + 1];
 
     for (int i = 0; i <= j; i++) {
         column[i] = cblas_ddot(size, last, 1, v[i], 1);
@@ -285,7 +300,7 @@ static double rotate(least_squares *q, int j)
 /* x += P^-1 V y after `count` steps; the vector behind the basis is room. */
 static void add_correction(const system_of *s, least_squares *q, int count, double *x)
 {
-    const struct rb_rolling_krylov *k = s->p->krylov;
+    const products *k = of(s->p);
     double *sum = k->basis[count];
 
     for (int i = count - 1; i >= 0; i--) {
@@ -318,7 +333,7 @@ static double begin_cycle(const system_of *s, const double *b, const double *x, 
 static rb_status cycle(const system_of *s, const double *b, double tolerance,
                        least_squares *q, double *x, double *residual)
 {
-    const rb_rolling_problem *p = s->p;
+    const rb_contact_problem *p = s->p;
     double *v = basis_vector(p, 0);
     int count = 0;
 
@@ -329,8 +344,8 @@ static rb_status cycle(const system_of *s, const double *b, double tolerance,
         double *next = basis_vector(p, count + 1);
         if (!next)
             return RB_ENOMEM;
-        precondition(s, p->krylov->basis[count], p->krylov->work);
-        multiply(s, p->krylov->work, next);
+        precondition(s, of(p)->basis[count], of(p)->work);
+        multiply(s, of(p)->work, next);
         const int goes_on = orthogonalise(p, s->r->size, count, q->H[count]);
         rest = goes_on ? rotate(q, count) : (rotate(q, count), 0.0);
     }
@@ -358,19 +373,52 @@ static rb_status gmres(const system_of *s, const double *b, double *x)
     return status;
 }
 
-rb_status rb_rolling_reduced_krylov(const rb_rolling_problem *p, const int *zone,
-                                    rb_rolling_reduced *r)
+static rb_status products_solve(const rb_contact_problem *p, rb_contact_state *state,
+                                rb_contact_reduced *r)
 {
-    system_of s;
-    rb_status status = RB_OK;
+    system_of system = {0};
+    rb_status s = RB_OK;
 
-    if (r->size == 0)
-        return RB_OK;
-    status = system_make(p, zone, r, &s);
-    if (status == RB_OK)
-        status = gmres(&s, r->x, r->start);
-    if (status == RB_OK)
-        memcpy(r->x, r->start, (size_t)r->size * sizeof *r->x);
-    system_free(&s);
-    return status;
+    rb_contact_reduced_clear(p, r, state);
+    rb_contact_reduced_right_side(p, state, r);
+    if (r->size > 0) {
+        s = system_make(p, state->zone, r, &system);
+        if (s == RB_OK)
+            s = gmres(&system, r->x, r->start);
+        if (s == RB_OK)
+            memcpy(r->x, r->start, (size_t)r->size * sizeof *r->x);
+        system_free(&system);
+    }
+    return s == RB_OK ? rb_contact_reduced_add(p, r, state) : s;
+}
+
+/* ---- The kind
+ * ---------------------------------------------------------------------------
+ */
+
+rb_status rb_contact_operator_products(int n, const rb_contact_products *by,
+                                       rb_contact_operator **op)
+{
+    static const rb_contact_kind kind = {
+        .add = products_add, .solve = products_solve, .free = products_free};
+    products *k = calloc(1, sizeof *k);
+
+    *op = NULL;
+    if (!k) {
+        by->free(by->context);
+        return RB_ENOMEM;
+    }
+    k->base = (rb_contact_operator){.kind = &kind, .n = n};
+    k->by = *by;
+    k->r = rb_alloc((size_t)n, 4);
+    k->work = rb_alloc(2 * (size_t)n + 2, 1);
+    if (!k->r || !k->work) {
+        products_free(&k->base);
+        return RB_ENOMEM;
+    }
+    k->gap = k->r + 2 * (size_t)n;
+    k->slip = k->gap + n;
+    set_response(k);
+    *op = &k->base;
+    return RB_OK;
 }

@@ -1,5 +1,5 @@
 /* Problems that a caller hands over whole: complementarity, friction, many cases. */
-#include "case/api.h"
+#include "api/internal.h"
 
 #include "rollbem/friction.h"
 #include "rollbem/lcp.h"
@@ -9,9 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+const rb_contact_cone_solvers *rb_api_cone_solvers(void)
+{
+    return rb_friction_cone_solvers();
+}
+
 static void begin(rb_api *a, const char *arrays, const char *solver)
 {
-    rb_case_forget_arrays(a, arrays);
+    rb_api_forget_arrays(a, arrays);
     a->why.text[0] = '\0';
     a->stopped = 0;
     a->iterations = 0;
@@ -27,12 +32,12 @@ static rb_status solve_lcp(rb_api *a, int newton, const rb_sparse *M, const doub
 {
     const int n = M->rows;
     rb_lcp_info info = {0};
-    rb_case_call_begins();
+    rb_api_call_begins();
     const rb_status s = newton ? rb_lcp_newton(M, q, options, z, &info)
                                : rb_lcp_lemke(n, dense, n, q, options, z, &info);
     if (s >= 0)
         a->residual = rb_lcp_residual_sparse(M, q, z, w);
-    rb_case_call_ends();
+    rb_api_call_ends();
     a->iterations = info.iters;
     a->why = info.msg;
     return s;
@@ -47,18 +52,18 @@ int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *s
     options.max_iters = max_pivots;
     begin(a, "lcp.", newton ? "newton" : "lemke");
     if (!newton && strcmp(solver, "lemke") != 0)
-        return rb_case_ended(a, rb_fail(&a->why, RB_EINVAL,
-                                        "--solver: expected lemke or newton, got '%.60s'",
-                                        solver));
+        return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
+                                       "--solver: expected lemke or newton, got '%.60s'",
+                                       solver));
     if (n < 1)
-        return rb_case_ended(a, rb_fail(&a->why, RB_EINVAL, "lcp: n = %d", n));
-    case_array *z = rb_case_make_array(a, "lcp.z", n, 1);
-    case_array *w = z ? rb_case_make_array(a, "lcp.w", n, 1) : NULL;
+        return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL, "lcp: n = %d", n));
+    api_array *z = rb_api_make_array(a, "lcp.z", n, 1);
+    api_array *w = z ? rb_api_make_array(a, "lcp.w", n, 1) : NULL;
     rb_status s = w ? rb_sparse_from_dense(n, n, M, n, &sparse) : RB_ENOMEM;
     if (s == RB_OK)
         s = solve_lcp(a, newton, &sparse, M, q, &options, z->at, w->at);
     rb_sparse_free(&sparse);
-    return rb_case_ended(a, s);
+    return rb_api_ended(a, s);
 }
 
 /* ---- Friction ---------------------------------------------------------------------- */
@@ -79,16 +84,15 @@ static rb_status solve_friction(rb_api *a, const rb_friction_problem *p,
     options.max_iters = max_iters;
     options.progress = goes_on;
     options.context = a;
-    case_array *r = rb_case_make_array(a, "friction.r", p->dimension, p->contacts);
-    case_array *u =
-        r ? rb_case_make_array(a, "friction.u", p->dimension, p->contacts) : NULL;
-    case_array *mu =
-        u ? rb_case_copy_array(a, "friction.mu", p->contacts, 1, p->mu) : NULL;
+    api_array *r = rb_api_make_array(a, "friction.r", p->dimension, p->contacts);
+    api_array *u =
+        r ? rb_api_make_array(a, "friction.u", p->dimension, p->contacts) : NULL;
+    api_array *mu = u ? rb_api_copy_array(a, "friction.mu", p->contacts, 1, p->mu) : NULL;
     if (!mu)
         return RB_ENOMEM;
-    rb_case_call_begins();
+    rb_api_call_begins();
     const rb_status s = rb_friction_solve(solver, p, &options, r->at, u->at, NULL, &info);
-    rb_case_call_ends();
+    rb_api_call_ends();
     a->solver = info.solver;
     a->iterations = info.iters;
     a->residual = info.residual;
@@ -103,7 +107,7 @@ int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W,
 {
     begin(a, "friction.", solver);
     if (dimension < 2 || dimension > 3 || contacts < 1 || contacts > INT_MAX / dimension)
-        return rb_case_ended(
+        return rb_api_ended(
             a, rb_fail(&a->why, RB_EINVAL,
                        "friction: %d contacts of dimension %d, expected 2 or 3", contacts,
                        dimension));
@@ -124,7 +128,7 @@ int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W,
     if (s == RB_OK)
         s = solve_friction(a, &p, solver, tol, max_iters);
     rb_friction_problem_free(&p);
-    return rb_case_ended(a, s);
+    return rb_api_ended(a, s);
 }
 
 int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol,
@@ -136,7 +140,7 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
     if (s == RB_OK)
         s = solve_friction(a, &p, solver, tol, max_iters);
     rb_friction_problem_free(&p);
-    return rb_case_ended(a, s);
+    return rb_api_ended(a, s);
 }
 
 /* ---- Many cases -------------------------------------------------------------------- */
@@ -153,21 +157,21 @@ static rb_status make_case(int k, rb_rolling_case *rc, void *context)
     return RB_OK;
 }
 
-static case_array *column_of(rb_api *a, const char *name)
+static api_array *column_of(rb_api *a, const char *name)
 {
     char text[40];
     snprintf(text, sizeof text, "sweep.%s", name);
-    return rb_case_find_array(a, text);
+    return rb_api_find_array(a, text);
 }
 
 static rb_status make_columns(rb_api *a, int rows)
 {
     const rb_rolling_results *table = &rb_rolling_solution_scalars;
     char text[40];
-    case_array *made = rb_case_make_array(a, "sweep.status", rows, 1);
+    api_array *made = rb_api_make_array(a, "sweep.status", rows, 1);
     for (int j = 0; made && j < table->n; j++) {
         snprintf(text, sizeof text, "sweep.%s", table->row[j].name);
-        made = rb_case_make_array(a, text, rows, 1);
+        made = rb_api_make_array(a, text, rows, 1);
     }
     return made ? RB_OK : RB_ENOMEM;
 }
@@ -192,9 +196,9 @@ static int tick(int seen, void *context)
 
 static rb_status run_study(const rb_rolling_sweep *sweep, rb_message *why)
 {
-    rb_case_call_begins();
+    rb_api_call_begins();
     const rb_status s = rb_rolling_sweep_run(sweep, why);
-    rb_case_call_ends();
+    rb_api_call_ends();
     return s;
 }
 
@@ -216,5 +220,5 @@ int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
         s = make_columns(a, n);
     if (s == RB_OK)
         s = run_study(&sweep, &a->why);
-    return rb_case_ended(a, s);
+    return rb_api_ended(a, s);
 }

@@ -1,6 +1,6 @@
 /* The handle of rollbem/api.h, and its arrays. */
-#ifndef CASE_API_H
-#define CASE_API_H
+#ifndef ROLLBEM_API_INTERNAL_H
+#define ROLLBEM_API_INTERNAL_H
 
 #include "rollbem/api.h"
 #include "rollbem/case.h"
@@ -10,16 +10,16 @@ typedef struct {
     char name[40];
     int rows, columns;
     double *at; /* owned */
-} case_array;
+} api_array;
 
-enum { CASE_ARRAYS = 160 };
+enum { API_ARRAYS = 160 };
 
 struct rb_api {
     rb_case *words;
     rb_case_result result;
     rb_rolling_model kept; /* of the last case, where only what drives it has changed */
     rb_rolling_curve curve, curve_errors; /* curve_errors.n = 0: not asked for */
-    rb_rolling_lcp lcp;
+    rb_contact_lcp lcp;
     int pivots; /* seen so far */
     double *tableau;
     int *nonbasis; /* the last pivot's, both owned */
@@ -29,23 +29,25 @@ struct rb_api {
     _Atomic int stopped; /* by another thread, or a signal handler */
     rb_status status;
     rb_message why;
-    case_array made[CASE_ARRAYS];
+    api_array made[API_ARRAYS];
     int arrays;
 };
 
 /* NULL: nobody has made one of that name. */
-case_array *rb_case_find_array(rb_api *a, const char *name);
+api_array *rb_api_find_array(rb_api *a, const char *name);
 /* A new array of zeros.  NULL: no memory. */
-case_array *rb_case_make_array(rb_api *a, const char *name, int rows, int columns);
+api_array *rb_api_make_array(rb_api *a, const char *name, int rows, int columns);
 /* NULL also where x is. */
-case_array *rb_case_copy_array(rb_api *a, const char *name, int rows, int columns,
-                               const double *x);
-void rb_case_forget_arrays(rb_api *a, const char *beginning);
+api_array *rb_api_copy_array(rb_api *a, const char *name, int rows, int columns,
+                             const double *x);
+void rb_api_forget_arrays(rb_api *a, const char *beginning);
+/* problems.c: the solvers that the option `solver` may name. */
+const rb_contact_cone_solvers *rb_api_cone_solvers(void);
 /* Keeps the status of a call, with a line that says it where the call has left none. */
-int rb_case_ended(rb_api *a, rb_status s);
+int rb_api_ended(rb_api *a, rb_status s);
 
 /* Around what may use BLAS. */
-void rb_case_call_begins(void);
-void rb_case_call_ends(void);
+void rb_api_call_begins(void);
+void rb_api_call_ends(void);
 
 #endif

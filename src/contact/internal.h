@@ -1,0 +1,120 @@
+/* What the files of this folder share: the two kinds of operators, and the linear problem
+ * that is left when every element's zone is known. */
+#ifndef ROLLBEM_CONTACT_INTERNAL_H
+#define ROLLBEM_CONTACT_INTERNAL_H
+
+#include "rollbem/contact.h"
+
+#include <math.h>
+
+/* ---- reduced.c -----------------------------------------------------------------------
+ */
+
+/* Which unknowns a solve moves: (r_N, delta), (r_T, xi) or both. */
+typedef enum { RB_NORMAL = 1, RB_TANGENTIAL = 2, RB_BOTH = 3 } rb_contact_unknowns;
+
+/* Unknowns: r_N of the elements in contact and delta, r_T of those in stick and xi; or
+ * one of these two groups alone, the other held fixed.  Their order: contacts, sticks,
+ * delta (given load), xi (given force); rows alike: gaps, slips, load, force; all scaled
+ * to numbers of order one. */
+typedef struct {
+    rb_contact_unknowns unknowns;
+    int contacts, sticks, load, force, size;
+    int *contact, *stick;          /* element numbers */
+    double *control_N, *control_T; /* n: row of the given force */
+    double force_scale;            /* of that row */
+    double *gap, *lambda;          /* n: with the unknowns at zero */
+    double *start;                 /* size: the unknowns as the state had them */
+    double *x;                     /* size: right-hand side, then solution */
+    int changes;                   /* of unknowns since the LU that solved it */
+    double growth;                 /* of tractions without borders over those with */
+} rb_contact_reduced;
+
+rb_status rb_contact_reduced_alloc(const rb_contact_problem *problem,
+                                   rb_contact_unknowns unknowns,
+                                   const rb_contact_state *state, rb_contact_reduced *r);
+void rb_contact_reduced_free(rb_contact_reduced *r);
+
+/* r_T = slope mu r_N of a zone; 0 in stick, where r_T is an unknown of its own. */
+double rb_contact_slope(int zone);
+/* Friction of slipping elements that follows an unknown pressure: mu, or 0 where the
+ * pressure is not moved together with it. */
+double rb_contact_reduced_mu(const rb_contact_problem *problem,
+                             const rb_contact_reduced *r);
+
+/* Sets the unknowns of the state to zero and the friction of slipping elements to its
+ * bound. */
+void rb_contact_reduced_clear(const rb_contact_problem *problem,
+                              const rb_contact_reduced *r, rb_contact_state *state);
+/* r->x: what the equations lack with the unknowns as the state has them. */
+void rb_contact_reduced_right_side(const rb_contact_problem *problem,
+                                   const rb_contact_state *state, rb_contact_reduced *r);
+/* Adds r->x to the unknowns of the state.  RB_SINGULAR where it is not finite. */
+rb_status rb_contact_reduced_add(const rb_contact_problem *problem,
+                                 const rb_contact_reduced *r, rb_contact_state *state);
+
+/* ---- operator.c: what every kind has
+ * ---------------------------------------------------
+ */
+
+typedef struct {
+    void (*add)(rb_contact_operator *op, const double *p, const double *q, double *gap,
+                double *slip);
+    /* Solves the reduced problem for the zones of the state.  RB_SINGULAR, RB_ENOMEM. */
+    rb_status (*solve)(const rb_contact_problem *problem, rb_contact_state *state,
+                       rb_contact_reduced *r);
+    /* What earlier solves have left for later ones; NULL: nothing. */
+    void (*forget)(rb_contact_operator *op);
+    /* The operator of the elements in pairs; NULL: pairs do not start a solve. */
+    rb_status (*halve)(const rb_contact_operator *op, int differences,
+                       rb_contact_operator **half);
+    void (*free)(rb_contact_operator *op);
+} rb_contact_kind;
+
+/* Each kind's own struct begins with it. */
+struct rb_contact_operator {
+    const rb_contact_kind *kind;
+    int n;
+    rb_contact_matrix matrix;
+    rb_contact_response response;
+};
+
+/* ---- pairs.c -------------------------------------------------------------------------
+ */
+
+/* The problem with its elements in pairs, forces added; for rb_contact_problem_free.
+ * RB_MAXITER: of products there is none; RB_ENOMEM. */
+rb_status rb_contact_halve(const rb_contact_problem *fine, rb_contact_problem *half);
+/* Every element takes over what its pair has. */
+void rb_contact_start_from_half(const rb_contact_state *half, rb_contact_state *state);
+
+/* ---- cone.c --------------------------------------------------------------------------
+ */
+
+/* p and q for the state's delta and xi, by the caller's cone solver.  RB_EINVAL: it is
+ * not known. */
+rb_status rb_contact_cone_solve(const rb_contact_problem *problem,
+                                const rb_contact_options *options,
+                                rb_contact_state *state, rb_message *why);
+
+/* ---- residual.c ----------------------------------------------------------------------
+ */
+
+/* Zones from p, q and lambda; entries below tol times the scales count as zero. */
+void rb_contact_classify(const rb_contact_problem *problem, double tol,
+                         rb_contact_state *state);
+
+/* ---- newton.c ------------------------------------------------------------------------
+ */
+
+/* One exact solve with the zones of the state held fixed.  RB_SINGULAR: p and q have lost
+ * their values. */
+rb_status rb_contact_solve_zones(rb_contact_problem *problem,
+                                 rb_contact_unknowns unknowns, rb_contact_state *state);
+
+/* Newton, from the zones of the state (warm) or by alternating normal and tangential
+ * problems first.  RB_MAXITER where it cycles, RB_SINGULAR. */
+rb_status rb_contact_newton(rb_contact_problem *problem, int warm,
+                            rb_contact_state *state);
+
+#endif

@@ -1,0 +1,56 @@
+#include "contact/internal.h"
+
+#include <cblas.h>
+#include <stdlib.h>
+#include <string.h>
+
+void rb_contact_problem_free(rb_contact_problem *p)
+{
+    rb_contact_operator_free(p->op);
+    free(p->d_N);
+    free(p->d_T);
+    free(p->e_T);
+    free(p->load_N);
+    free(p->load_T);
+    free(p->force_N);
+    free(p->force_T);
+    free(p->moment_N);
+    free(p->moment_T);
+    memset(p, 0, sizeof *p);
+}
+
+rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *p)
+{
+    double **const vectors[] = {&p->d_N,     &p->d_T,      &p->e_T,
+                                &p->load_N,  &p->load_T,   &p->force_N,
+                                &p->force_T, &p->moment_N, &p->moment_T};
+    int complete = 1;
+
+    memset(p, 0, sizeof *p);
+    p->op = op;
+    p->n = op->n;
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++) {
+        *vectors[k] = rb_alloc((size_t)p->n, 1);
+        complete = complete && *vectors[k];
+    }
+    if (complete)
+        return RB_OK;
+    rb_contact_problem_free(p);
+    return RB_ENOMEM;
+}
+
+void rb_contact_force_row(const rb_contact_problem *p, double *control_N,
+                          double *control_T)
+{
+    for (int i = 0; i < p->n; i++) {
+        const double share = p->force_ratio * p->mu;
+        control_N[i] = p->force_N[i] - share * p->load_N[i] + p->axle * p->moment_N[i];
+        control_T[i] = p->force_T[i] - share * p->load_T[i] + p->axle * p->moment_T[i];
+    }
+}
+
+double rb_contact_moment(const rb_contact_problem *p, const rb_contact_state *state)
+{
+    return cblas_ddot(p->n, p->moment_N, 1, state->p, 1) +
+           cblas_ddot(p->n, p->moment_T, 1, state->q, 1);
+}

@@ -1,0 +1,374 @@
+/* The order of attempts: Lemke's three, Newton, and who comes first. */
+#include "contact/internal.h"
+
+#include <cblas.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The largest contact that `auto` gives to Lemke. */
+enum { LEMKE_UP_TO = 120 };
+
+static rb_status measure(const rb_contact_problem *problem, rb_contact_state *state)
+{
+    rb_contact_violation violation;
+    const rb_status s = rb_contact_residual(problem, state, &violation);
+
+    if (s == RB_OK)
+        state->residual = violation.scaled;
+    return s;
+}
+
+/* One solve with the zones of the state, kept when that makes it better. */
+static rb_status polish(rb_contact_problem *problem, rb_contact_state *state)
+{
+    const size_t bytes = (size_t)problem->n * sizeof(double);
+    rb_contact_state trial;
+    rb_status s = rb_contact_state_alloc(problem->n, &trial);
+
+    if (s != RB_OK)
+        return s;
+    memcpy(trial.zone, state->zone, (size_t)problem->n * sizeof(int));
+    s = rb_contact_solve_zones(problem, RB_BOTH, &trial);
+    if (s == RB_OK)
+        s = measure(problem, &trial);
+    if (s == RB_OK && trial.residual < state->residual) {
+        memcpy(state->p, trial.p, bytes);
+        memcpy(state->q, trial.q, bytes);
+        state->delta = trial.delta;
+        state->xi = trial.xi;
+        state->residual = trial.residual;
+    }
+    rb_contact_state_free(&trial);
+    return s == RB_SINGULAR ? RB_OK : s;
+}
+
+/* lambda, zones and residual of p, q, delta, xi.  exact: they solve the equations of
+ * their zones already, as Newton's do. */
+static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_state *state)
+{
+    double *gap = rb_alloc((size_t)problem->n, 1);
+    rb_status s = gap ? measure(problem, state) : RB_ENOMEM;
+
+    if (s == RB_OK) {
+        rb_contact_kinematics(problem, state, gap, state->lambda);
+        rb_contact_classify(problem, 1e-12, state);
+    }
+    if (s == RB_OK && !exact) {
+        s = polish(problem, state);
+        rb_contact_kinematics(problem, state, gap, state->lambda);
+    }
+    for (int i = 0; i < problem->n && s == RB_OK; i++)
+        if (state->zone[i] == RB_ZONE_STICK)
+            state->lambda[i] = 0.0;
+    free(gap);
+    return s;
+}
+
+typedef struct {
+    rb_contact_lcp_form form;
+    int mirrored;
+    double xi0;
+} attempt;
+
+enum { ATTEMPTS = 3 };
+
+static rb_status try_lemke(rb_contact_problem *problem, const rb_contact_options *options,
+                           const attempt *at, rb_contact_state *state, rb_message *why)
+{
+    rb_lcp_options pivoting = rb_lcp_defaults();
+    rb_contact_lcp lcp = {0};
+    rb_lcp_info info = {0};
+    rb_status s =
+        rb_contact_lcp_create(problem, at->form, at->mirrored, at->xi0, &lcp, why);
+    double *z = s == RB_OK ? rb_alloc((size_t)lcp.size, 1) : NULL;
+
+    if (s == RB_OK && !z)
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        pivoting.trace = options->trace;
+        pivoting.trace_context = options->trace_context;
+        pivoting.trace_tableau = options->trace_tableau;
+        s = rb_lcp_lemke(lcp.size, lcp.M, lcp.size, lcp.b, &pivoting, z, &info);
+        state->iterations += info.iters;
+        if (s < 0)
+            rb_fail(why, s, "%s", info.msg.text);
+    }
+    if (s >= 0) {
+        rb_contact_lcp_recover(problem, &lcp, z, state);
+        state->solver = RB_SOLVER_LEMKE;
+        state->mirrored = at->mirrored;
+        state->xi0 = at->xi0;
+        const rb_status t = complete(problem, 0, state);
+        s = t < 0 ? t : s;
+    }
+    free(z);
+    rb_contact_lcp_free(&lcp);
+    return s;
+}
+
+/* Direction in which A's surface slides, of the given creepage or against the force. */
+static int slides_backwards(const rb_contact_problem *problem)
+{
+    if (problem->force_given)
+        return problem->force + problem->force_ratio > 0.0;
+    double sum = 0.0;
+    for (int i = 0; i < problem->n; i++)
+        sum += problem->d_T[i] + problem->xi * problem->e_T[i];
+    return sum < 0.0;
+}
+
+/* Pivoted form in its own orientation, mirrored, then Kwak's (theory.md K5); Kwak's form
+ * alone where the case asks for it.  Returns the number of the first one to try. */
+static int plan_attempts(const rb_contact_problem *problem,
+                         const rb_contact_options *options, attempt at[ATTEMPTS])
+{
+    const int backwards = slides_backwards(problem);
+    const double xi0 = (backwards ? -1.0 : 1.0) * options->sliding;
+
+    at[0] = (attempt){RB_LCP_PIVOTED, backwards, xi0};
+    at[1] = (attempt){RB_LCP_PIVOTED, !backwards, xi0};
+    at[2] = (attempt){RB_LCP_KWAK, 0, xi0};
+    return options->lcp_form == RB_LCP_KWAK ? 2 : 0;
+}
+
+static rb_status solve_lemke(rb_contact_problem *problem,
+                             const rb_contact_options *options, rb_contact_state *state,
+                             rb_message *why)
+{
+    attempt at[ATTEMPTS];
+    rb_status s = RB_RAY;
+
+    for (int k = plan_attempts(problem, options, at); k < ATTEMPTS; k++) {
+        s = try_lemke(problem, options, &at[k], state, why);
+        if (s < 0 || (s == RB_OK && state->residual <= options->tol))
+            return s;
+    }
+    return s;
+}
+
+rb_status rb_contact_lcp_first(const rb_contact_problem *problem,
+                               const rb_contact_options *options,
+                               const rb_contact_state *state, rb_contact_lcp *lcp,
+                               rb_message *why)
+{
+    attempt at[ATTEMPTS];
+    const int first = plan_attempts(problem, options, at);
+
+    if (state && state->solver == RB_SOLVER_LEMKE)
+        return rb_contact_lcp_create(problem, state->lcp_form, state->mirrored,
+                                     state->xi0, lcp, why);
+    return rb_contact_lcp_create(problem, at[first].form, at[first].mirrored,
+                                 at[first].xi0, lcp, why);
+}
+
+static int is_solved(rb_status s, const rb_contact_problem *problem,
+                     const rb_contact_options *options, const rb_contact_state *state)
+{
+    return s == RB_OK && state->residual <= fmax(options->tol, problem->rounding);
+}
+
+/* On large contacts an element whose traction is rounding may come and go: a cycle that
+ * ends in a solution is one. */
+static rb_status solve_newton(rb_contact_problem *problem,
+                              const rb_contact_options *options, int warm,
+                              rb_contact_state *state)
+{
+    rb_status s = rb_contact_newton(problem, warm, state);
+
+    if (s >= 0) {
+        state->solver = RB_SOLVER_NEWTON;
+        const rb_status t = complete(problem, 1, state);
+        s = t < 0 ? t : s;
+    }
+    if (s == RB_MAXITER && problem->rounding > 0.0 &&
+        is_solved(RB_OK, problem, options, state))
+        s = RB_OK;
+    return s;
+}
+
+/* The order of solvers: the wanted one first; where it ends without a solution, the other
+ * one.  A warm start is Newton's: it costs a few steps where Lemke would begin anew. */
+typedef enum { LEMKE, NEWTON_WARM, NEWTON_COLD } method;
+enum { METHODS = 3 };
+
+static int fallback_order(const rb_contact_problem *problem,
+                          const rb_contact_options *options, int warm,
+                          method order[METHODS])
+{
+    const int has_matrix = rb_contact_operator_matrix(problem->op).F != NULL;
+    const int newton_first =
+        !has_matrix || options->solver == RB_SOLVER_NEWTON ||
+        (options->solver == RB_SOLVER_AUTO && (warm || problem->n > LEMKE_UP_TO));
+    int count = 0;
+
+    if (newton_first && warm)
+        order[count++] = NEWTON_WARM;
+    else if (!newton_first)
+        order[count++] = LEMKE;
+    order[count++] = NEWTON_COLD;
+    if (has_matrix)
+        order[count++] = LEMKE;
+    return count;
+}
+
+static rb_status solve_given(rb_contact_problem *problem,
+                             const rb_contact_options *options, int warm,
+                             rb_contact_state *state, rb_message *why)
+{
+    method order[METHODS];
+    const int count = fallback_order(problem, options, warm, order);
+    rb_status s = RB_RAY;
+
+    for (int k = 0; k < count && s >= 0; k++) {
+        s = order[k] == LEMKE
+                ? solve_lemke(problem, options, state, why)
+                : solve_newton(problem, options, order[k] == NEWTON_WARM, state);
+        if (is_solved(s, problem, options, state))
+            break;
+    }
+    return s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
+}
+
+/* ---- Full sliding
+ * ---------------------------------------------------------------------- */
+
+/* Whether the given force is all that friction can carry. */
+static int slides_fully(const rb_contact_problem *problem)
+{
+    return problem->force_given && problem->force == 0.0 && problem->axle == 0.0 &&
+           fabs(problem->force_ratio) >= 1.0 - 1e-12;
+}
+
+/* Creepage by which the slowest element still slides; 0 where something sticks. */
+static double slowest_slip(const rb_contact_problem *problem,
+                           const rb_contact_state *state)
+{
+    double slowest = INFINITY;
+
+    for (int i = 0; i < problem->n; i++) {
+        if (state->zone[i] == RB_ZONE_SEPARATED)
+            continue;
+        if (state->zone[i] == RB_ZONE_STICK)
+            return 0.0;
+        slowest = fmin(slowest, fabs(state->lambda[i] / problem->e_T[i]));
+    }
+    return slowest;
+}
+
+/* Every creepage beyond a least one will do: finds one by doubling, then the least, which
+ * has the same tractions. */
+static rb_status solve_sliding(rb_contact_problem *problem,
+                               const rb_contact_options *options, int backwards,
+                               rb_contact_state *state, rb_message *why)
+{
+    const double sign = backwards ? -1.0 : 1.0;
+    rb_contact_problem given = *problem; /* arrays stay the problem's */
+    rb_status s = RB_OK;
+
+    given.force_given = 0;
+    given.xi = sign * options->sliding;
+    for (int k = 0; k < 40 && s == RB_OK; k++, given.xi *= 2.0) {
+        s = solve_given(&given, options, 0, state, why);
+        const double spare = slowest_slip(&given, state);
+        if (s == RB_OK && spare > 0.0 && sign * given.xi > 0.0) {
+            state->xi -= sign * spare;
+            for (int i = 0; i < problem->n; i++)
+                state->lambda[i] -= sign * spare * problem->e_T[i];
+            return RB_OK;
+        }
+    }
+    return s == RB_OK ? RB_MAXITER : s;
+}
+
+/* Where elements are tilted P has a part of the friction and Q one of the pressure: full
+ * sliding is not the force that was given then. */
+static rb_status solve_driven(rb_contact_problem *problem,
+                              const rb_contact_options *options, int warm,
+                              rb_contact_state *state, rb_message *why)
+{
+    if (!slides_fully(problem))
+        return solve_given(problem, options, warm, state, why);
+    rb_status s = solve_sliding(problem, options, problem->force_ratio > 0.0, state, why);
+    if (s == RB_OK)
+        s = measure(problem, state);
+    if (s == RB_OK && !is_solved(s, problem, options, state))
+        s = solve_given(problem, options, 0, state, why);
+    return s;
+}
+
+/* Whether a given force is more than friction carries under the load that the approach
+ * brings, or the resistance to rolling more than friction can turn: RB_EINVAL.  Full
+ * sliding, which has that load, is solved in a state of its own, because the state that
+ * failed is what the caller prints. */
+static rb_status check_capacity(rb_contact_problem *problem,
+                                const rb_contact_options *options, rb_message *why)
+{
+    rb_contact_state sliding;
+    double P = 0.0, resistance = 0.0;
+    rb_status s = rb_contact_state_alloc(problem->n, &sliding);
+
+    if (s == RB_OK)
+        s = solve_sliding(problem, options, problem->force > 0.0, &sliding, NULL);
+    if (s == RB_OK) {
+        P = cblas_ddot(problem->n, problem->load_N, 1, sliding.p, 1) +
+            cblas_ddot(problem->n, problem->load_T, 1, sliding.q, 1);
+        resistance = problem->axle * rb_contact_moment(problem, &sliding);
+    }
+    rb_contact_state_free(&sliding);
+    if (s == RB_OK && resistance > problem->mu * P)
+        return rb_fail(why, RB_EINVAL,
+                       "free axle: the resistance to rolling M/R = %g is more than "
+                       "friction carries, mu P = %g",
+                       resistance, problem->mu * P);
+    if (s == RB_OK && fabs(problem->force) > problem->mu * P)
+        return rb_fail(
+            why, RB_EINVAL,
+            "force Q = %g: friction carries at most mu P = %g at this approach",
+            problem->force, problem->mu * P);
+    return s < 0 ? s : RB_OK;
+}
+
+/* The cone solvers know neither a given load nor a given force: delta and xi of such a
+ * case are those that our own solvers find. */
+static rb_status solve_cone(rb_contact_problem *problem,
+                            const rb_contact_options *options, rb_contact_state *state,
+                            rb_message *why)
+{
+    rb_status s = RB_OK;
+
+    state->delta = problem->delta;
+    state->xi = problem->xi;
+    if (problem->load_given || problem->force_given)
+        s = solve_driven(problem, options, 0, state, why);
+    if (s == RB_OK)
+        s = rb_contact_cone_solve(problem, options, state, why);
+    if (s < 0)
+        return s;
+    const rb_status t = complete(problem, 0, state);
+    state->solver = RB_SOLVER_CONE;
+    if (t < 0)
+        return t;
+    /* the case's residual decides, whatever the cone solver thinks of its own */
+    if (is_solved(RB_OK, problem, options, state))
+        return RB_OK;
+    return s == RB_OK ? RB_INACCURATE : s;
+}
+
+rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options *options,
+                           int warm, rb_contact_state *state, rb_message *why)
+{
+    state->iterations = 0;
+    rb_status s = options->solver == RB_SOLVER_CONE
+                      ? solve_cone(problem, options, state, why)
+                      : solve_driven(problem, options, warm, state, why);
+
+    if (s > 0 && problem->force_given && (problem->force != 0.0 || problem->axle > 0.0)) {
+        const rb_status t = check_capacity(problem, options, why);
+        if (t < 0)
+            return t;
+    }
+    if (s > 0)
+        rb_fail(why, s, "%s; scaled residual %.3g", rb_status_text(s), state->residual);
+    state->status = s;
+    return s;
+}

@@ -1,0 +1,45 @@
+/* The solvers of this folder for the contact problems of rollbem/contact.h. */
+#include "rollbem/contact.h"
+#include "rollbem/friction.h"
+
+#include <stdlib.h>
+
+rb_friction_problem rb_friction_of_cone(const rb_contact_cone *cone)
+{
+    return (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
+                                 .dimension = 2,
+                                 .contacts = cone->n,
+                                 .mu = cone->mu,
+                                 .W = cone->W,
+                                 .q = cone->q};
+}
+
+static int knows(const char *name)
+{
+    return rb_friction_solver_named(name) != NULL;
+}
+
+static rb_status solve(const char *name, const rb_contact_cone *cone, double tol,
+                       double *r, int *iterations, rb_message *why)
+{
+    const rb_friction_problem problem = rb_friction_of_cone(cone);
+    rb_friction_options options = rb_friction_defaults();
+    rb_friction_info info;
+    double *u = rb_alloc(2 * (size_t)cone->n, 1);
+
+    if (!u)
+        return RB_ENOMEM;
+    options.tol = tol;
+    const rb_status s = rb_friction_solve(name, &problem, &options, r, u, NULL, &info);
+    if (s != RB_OK)
+        rb_fail(why, s, "%s: %.240s", name, info.msg.text);
+    *iterations += info.iters;
+    free(u);
+    return s;
+}
+
+const rb_contact_cone_solvers *rb_friction_cone_solvers(void)
+{
+    static const rb_contact_cone_solvers solvers = {knows, solve};
+    return &solvers;
+}

@@ -1,0 +1,310 @@
+/* The formulation of a case as a contact problem (theory.md 4.2): the kinematic operator
+ * A, what moves the surfaces, what is given.  The solvers do not know which it is. */
+#include "rolling/internal.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- The kinematic operator A
+ * ----------------------------------------------------------
+ */
+
+/* (A w)_i = sum over k of stencil_k w_{i-1+k}, w the tangential displacement of the n
+ * elements and of one downstream and two upstream of them. */
+typedef struct {
+    int n, differences; /* 0: A = I */
+    double stencil[4];
+    double *outside; /* 2 x 2n: displacement one element downstream and two upstream; NULL
+                        where A does not ask for it; owned */
+} kinematic;
+
+/* The member t of the family of second-order differences whose leading edge is not
+ * shifted (theory.md 4.7): ((1-t)/4, (3+3t)/4, -(5+3t)/4, (1+t)/4). */
+static rb_status set_kinematic(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                               kinematic *A)
+{
+    const double t = 0.0740956;
+
+    *A = (kinematic){.n = bodies->f.n, .differences = rc->formulation == RB_STEADY};
+    if (!A->differences || rc->slip_operator == RB_SLIP_UPSTREAM) {
+        A->stencil[1] = 1.0;
+        A->stencil[2] = A->differences ? -1.0 : 0.0;
+        return RB_OK;
+    }
+    A->stencil[0] = (1.0 - t) / 4.0;
+    A->stencil[1] = (3.0 + 3.0 * t) / 4.0;
+    A->stencil[2] = -(5.0 + 3.0 * t) / 4.0;
+    A->stencil[3] = (1.0 + t) / 4.0;
+    A->outside = rb_alloc(2, 2 * (size_t)A->n);
+    return A->outside ? rb_rolling_displacement_outside(rc, bodies, A->outside)
+                      : RB_ENOMEM;
+}
+
+/* Row i of A w for the displacement w of the n elements and the one upstream; outside: of
+ * one element downstream and the second one upstream. */
+static double row_of(const kinematic *A, const double *w, const double outside[2], int i)
+{
+    const double *a = A->stencil;
+    if (!A->outside)
+        return A->differences ? w[i] - w[i + 1] : w[i];
+    const double before = i > 0 ? w[i - 1] : outside[0],
+                 second = i + 1 < A->n ? w[i + 2] : outside[1];
+    return a[0] * before + a[1] * w[i] + a[2] * w[i + 1] + a[3] * second;
+}
+
+/* ---- Its two operators
+ * -----------------------------------------------------------------
+ */
+
+/* S = A [F_TN F_TT] (K2). */
+static rb_status dense_operator(const rb_rolling_bodies *bodies, const kinematic *A,
+                                rb_contact_operator **op)
+{
+    const int n = A->n, m = n + 1;
+    const double none[2] = {0.0, 0.0};
+    double *S = rb_alloc((size_t)n, 2 * (size_t)n);
+
+    if (!S)
+        return RB_ENOMEM;
+    for (int j = 0; j < 2 * n; j++) {
+        const double *w_T = bodies->F + (size_t)j * 2 * (size_t)m + m;
+        const double *outside = A->outside ? A->outside + 2 * (size_t)j : none;
+        for (int i = 0; i < n; i++)
+            S[i + (size_t)j * n] = row_of(A, w_T, outside, i);
+    }
+    return rb_contact_operator_dense(n, bodies->F, 2 * m, S, op);
+}
+
+/* Products by Fourier transforms. */
+typedef struct {
+    rb_bem_flexibility f; /* its arrays borrowed from the bodies */
+    kinematic A;          /* owned, as the rest */
+    rb_bem_circulant *inverse;
+    double *w; /* 2m: displacements of one product */
+} transforms;
+
+static void transforms_free(void *context)
+{
+    transforms *t = context;
+
+    rb_bem_circulant_free(t->inverse);
+    free(t->A.outside);
+    free(t->w);
+    free(t);
+}
+
+static void transforms_apply(void *context, const double *r, double *gap, double *slip)
+{
+    const transforms *t = context;
+    const int n = t->A.n;
+    double outside[2] = {0.0, 0.0};
+
+    rb_bem_flexibility_apply(&t->f, r, t->w);
+    memcpy(gap, t->w, (size_t)n * sizeof *gap);
+    for (int j = 0; t->A.outside && j < 2 * n; j++)
+        for (int k = 0; k < 2; k++)
+            outside[k] += t->A.outside[2 * (size_t)j + (size_t)k] * r[j];
+    for (int i = 0; i < n; i++)
+        slip[i] = row_of(&t->A, t->w + n + 1, outside, i);
+}
+
+static void transforms_precondition(void *context, int tangential, double *line)
+{
+    const transforms *t = context;
+
+    if (tangential && t->A.differences)
+        rb_bem_circulant_apply_difference(t->inverse, line, line);
+    else
+        rb_bem_circulant_apply(t->inverse, line, line);
+}
+
+/* A: taken over, also on failure. */
+static rb_status transform_operator(const rb_rolling_bodies *bodies, kinematic *A,
+                                    rb_contact_operator **op)
+{
+    transforms *t = calloc(1, sizeof *t);
+
+    if (!t)
+        return RB_ENOMEM;
+    t->f = bodies->f;
+    t->A = *A;
+    A->outside = NULL;
+    t->w = rb_alloc(2 * (size_t)bodies->f.m, 1);
+    const rb_status s =
+        t->w ? rb_bem_circulant_create(&t->f, t->A.stencil, &t->inverse) : RB_ENOMEM;
+    if (s != RB_OK) {
+        transforms_free(t);
+        return s;
+    }
+    const rb_contact_products by = {transforms_apply, transforms_precondition,
+                                    transforms_free, t};
+    return rb_contact_operator_products(A->n, &by, op);
+}
+
+/* ---- What moves the surfaces
+ * ------------------------------------------------------------
+ */
+
+/* d_T and e_T (K2). */
+void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                         const rb_rolling_past *past, double step, rb_contact_problem *p)
+{
+    const int n = p->n, m = n + 1;
+    const double *x = bodies->f.x, *w0_T = bodies->f.w0 + m;
+
+    for (int i = 0; i < n; i++) {
+        p->d_T[i] = p->differences ? w0_T[i] - w0_T[i + 1] : w0_T[i];
+        if (past)
+            p->d_T[i] -= past->w_T[i];
+        p->e_T[i] = rc->formulation == RB_STEADY      ? x[i + 1] - x[i]
+                    : rc->formulation == RB_TRANSIENT ? step
+                                                      : 1.0;
+    }
+}
+
+void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bodies,
+                        rb_contact_problem *p)
+{
+    for (int i = 0; i < p->n; i++)
+        p->d_N[i] = mesh->gap[i] + bodies->f.w0[i];
+}
+
+/* Vertical and horizontal force of unit tractions along n and t. */
+static void set_weights(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                        rb_contact_problem *p)
+{
+    for (int i = 0; i < p->n; i++) {
+        const double h = bodies->f.h[i];
+        const double sine =
+            rc->normals == RB_BEM_NORMALS_SURFACE ? bodies->f.x[i] / rc->a.radius : 0.0;
+        const double cosine = sqrt(1.0 - sine * sine);
+        p->load_N[i] = h * cosine;
+        p->load_T[i] = h * sine;
+        p->force_N[i] = -h * sine;
+        p->force_T[i] = h * cosine;
+        p->moment_N[i] = bodies->f.x[i] * p->load_N[i];
+        p->moment_T[i] = bodies->f.x[i] * p->load_T[i];
+    }
+}
+
+double rb_rolling_wanted_shift(const rb_rolling_case *rc)
+{
+    if (!isnan(rc->shift))
+        return rc->shift;
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    return isnan(d.load) ? 0.1 * d.approach : 0.0;
+}
+
+/* Given values of theory.md 4.6.  The creepage ratio refers to the Hertz half-width of
+ * the load: under approach control an estimate, which model.c corrects after a solve. */
+void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p)
+{
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+
+    p->load_given = !isnan(d.load);
+    p->load = d.load;
+    p->delta = d.approach;
+    p->force = p->force_ratio = p->xi = 0.0;
+    p->force_given = rc->mu > 0.0 && rb_rolling_force_is_given(rc);
+    p->axle = rc->free_axle ? 1.0 / rb_rolling_radius(rc) : 0.0;
+    if (p->axle > 0.0)
+        return;
+    if (p->force_given && !isnan(rc->force_ratio))
+        p->force_ratio = rc->force_ratio;
+    else if (p->force_given && p->load_given)
+        p->force_ratio = rc->force / (rc->mu * d.load);
+    else if (p->force_given)
+        p->force = rc->force;
+    else if (rc->formulation == RB_STATIC)
+        p->xi = rb_rolling_wanted_shift(rc);
+    else if (!isnan(rc->creep_ratio))
+        p->xi = rc->creep_ratio * rc->mu * d.half_width / d.radius;
+    else
+        p->xi = isnan(rc->creep) ? 0.0 : rc->creep;
+}
+
+/* Stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become about 1;
+ * where mu is small, the slip of dissimilar bodies comes from the pressure. */
+static void set_scales(const rb_rolling_case *rc, rb_contact_problem *p)
+{
+    const rb_contact_response unit = rb_contact_operator_response(p->op);
+    const double friction = (p->mu > 0.0 ? p->mu : 1.0) * unit.slip;
+
+    p->stress = rb_rolling_derive(rc).stress;
+    p->gap_length = p->stress * unit.gap;
+    p->slip_length = p->stress * fmax(friction, unit.coupled_slip);
+    p->rounding = 64.0 * DBL_EPSILON * unit.reach;
+}
+
+rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
+                                    const rb_rolling_mesh *mesh,
+                                    const rb_rolling_bodies *bodies,
+                                    const rb_rolling_past *past, double step,
+                                    rb_contact_problem *p, rb_message *why)
+{
+    kinematic A;
+    rb_contact_operator *op = NULL;
+    rb_status s = set_kinematic(rc, bodies, &A);
+
+    memset(p, 0, sizeof *p);
+    if (s == RB_OK)
+        s = bodies->F ? dense_operator(bodies, &A, &op)
+                      : transform_operator(bodies, &A, &op);
+    free(A.outside);
+    if (s == RB_OK)
+        s = rb_contact_problem_alloc(op, p);
+    if (s != RB_OK)
+        return rb_fail(why, s, "out of memory for a contact problem of %d elements",
+                       mesh->n);
+    p->mu = rc->mu;
+    p->differences = A.differences;
+    rb_rolling_set_gap(mesh, bodies, p);
+    rb_rolling_set_past(rc, bodies, past, step, p);
+    set_weights(rc, bodies, p);
+    rb_rolling_set_control(rc, p);
+    set_scales(rc, p);
+    return RB_OK;
+}
+
+/* ---- How it is solved
+ * -------------------------------------------------------------------
+ */
+
+/* A creepage that makes everything slide, to start a search for a given force from. */
+static double sliding_creepage(const rb_rolling_case *rc, const rb_contact_problem *p)
+{
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    const double a = d.half_width, beta = fabs(d.dundurs);
+    const double ratio = (rc->mu + 2.0 * beta * (1.0 + rc->mu * rc->mu)) * a / d.radius;
+
+    return rc->formulation == RB_STEADY ? 2.0 * ratio : 4.0 * ratio * a / p->e_T[0];
+}
+
+static rb_contact_options options_of(const rb_rolling_case *rc,
+                                     const rb_contact_problem *p)
+{
+    return (rb_contact_options){.solver = rc->solver,
+                                .cone_solvers = rc->cone_solvers,
+                                .cone_solver = rc->cone_solver,
+                                .lcp_form = rc->lcp_form,
+                                .tol = rc->tol,
+                                .sliding = sliding_creepage(rc, p),
+                                .trace = rc->trace,
+                                .trace_context = rc->trace_context,
+                                .trace_tableau = rc->trace_tableau};
+}
+
+rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc,
+                                   int warm, rb_contact_state *state, rb_message *why)
+{
+    const rb_contact_options options = options_of(rc, problem);
+    return rb_contact_solve(problem, &options, warm, state, why);
+}
+
+rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp,
+                               rb_message *why)
+{
+    const rb_contact_options options = options_of(&model->rc, &model->problem);
+    return rb_contact_lcp_first(&model->problem, &options, &model->state, lcp, why);
+}
