@@ -301,7 +301,7 @@ static int is_figure(const char *text, const char *s, const char *end)
     }
     if (s > text && s[-1] == '(' && digits == 4 && !point)
         return 0;
-    if (s - text > 8 && strncmp(s - 8, "section ", 8) == 0)
+    if (s - text > 8 && strncmp(s - 8, "section", 7) == 0)
         return 0;
     return digits >= (point ? 2 : 3);
 }
