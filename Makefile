@@ -1,6 +1,7 @@
 # rollbem: make help
 
 PREFIX ?= /usr/local
+LIBDIR ?= $(PREFIX)/lib
 B ?= build
 CC ?= cc
 CFLAGS ?= -O3 -g
@@ -31,7 +32,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: course page page-test python-test all run test test-all check-tests asan bench install help clean packages check-packages study
+.PHONY: course page page-test python-test install-python all run test test-all check-tests asan bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -66,7 +67,7 @@ LONGEST := $(patsubst %,$(B)/tests/test_%,net fem_examples rolling_wheel files f
 
 # only the summary line comes last: continuous integration reads it
 check-tests: all $(TESTS) $(B)/tests/checker
-	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave $(filter-out $(LONGEST),$(TESTS))
+	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave tests/install $(filter-out $(LONGEST),$(TESTS))
 
 asan:
 	@$(MAKE) --no-print-directory B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined" test
@@ -153,16 +154,26 @@ $(B)/bench/%: bench/%.c $(B)/librollbem.a
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -MMD -MP -MF $@.d -o $@ $< $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)
 
 install: all
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include/rollbem
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(LIBDIR) $(DESTDIR)$(PREFIX)/include/rollbem
 	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
-	install -m 644 $(B)/librollbem.a $(DESTDIR)$(PREFIX)/lib
+	install -m 644 $(B)/librollbem.a $(DESTDIR)$(LIBDIR)
 	@# for rollbem page, where it has been built
 	if [ -f $(B)/rollbem.html ]; then install -d $(DESTDIR)$(PREFIX)/share/rollbem && install -m 644 $(B)/rollbem.html $(DESTDIR)$(PREFIX)/share/rollbem; fi
-	install -m 755 $(B)/librollbem.so $(DESTDIR)$(PREFIX)/lib/librollbem.so.$(VERSION)
-	ln -sf librollbem.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/librollbem.so.0
-	ln -sf librollbem.so.0 $(DESTDIR)$(PREFIX)/lib/librollbem.so
+	install -m 644 $(B)/librollbem.so $(DESTDIR)$(LIBDIR)/librollbem.so.$(VERSION)
+	ln -sf librollbem.so.$(VERSION) $(DESTDIR)$(LIBDIR)/librollbem.so.0
+	ln -sf librollbem.so.0 $(DESTDIR)$(LIBDIR)/librollbem.so
 	install -m 644 include/rollbem/*.h $(DESTDIR)$(PREFIX)/include/rollbem
-	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBS@|$(LDLIBS)|' scripts/rollbem.pc.in > $(DESTDIR)$(PREFIX)/lib/pkgconfig/rollbem.pc
+	@for i in rollbem.pc:pkgconfig rollbemConfig.cmake:cmake/rollbem rollbemConfigVersion.cmake:cmake/rollbem; do \
+	    to=$(LIBDIR)/$${i#*:}; up=$$(realpath -m --relative-to=$$to $(PREFIX)); install -d $(DESTDIR)$$to; \
+	    sed -e "s|@UP@|$$up|" -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBS@|$(LDLIBS)|' scripts/$${i%%:*}.in > $(DESTDIR)$$to/$${i%%:*} || exit 1; done
+	@B=$(B) scripts/install-shared $(DESTDIR)$(PREFIX)/share
+
+# the package for Python beside the library of the system; pip and wheels: python/README.md
+PYTHONDIR ?= $(PREFIX)/lib/python3/dist-packages
+install-python:
+	install -d $(DESTDIR)$(PYTHONDIR)/rollbem
+	install -m 644 python/rollbem/*.py python/rollbem/py.typed $(DESTDIR)$(PYTHONDIR)/rollbem
+	echo 'VERSION = "$(VERSION)"' > $(DESTDIR)$(PYTHONDIR)/rollbem/_version.py
 
 # the pictures of docs/course
 course: packages

@@ -16,6 +16,10 @@
 #ifndef ROLLBEM_API_H
 #define ROLLBEM_API_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct rb_api rb_api;
 
 /* A case with the default options, to be solved.  NULL: no memory. */
@@ -147,5 +151,9 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
 /* Cases of their own, each settled by the call, solved by so many processes (0: one per
  * processor).  A case that is refused ends the call before anything is solved. */
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

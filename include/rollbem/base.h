@@ -4,6 +4,10 @@
 
 #include <stddef.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 #define RB_VERSION "0.1.0"
 /* Of the library that runs, which need not be that of the header. */
 const char *rb_version(void);
@@ -74,5 +78,9 @@ double rb_seconds(void);
 
 /* max |x_i| over n; NaN if any entry is NaN. */
 double rb_norm_inf(size_t n, const double *x);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

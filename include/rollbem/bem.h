@@ -6,6 +6,10 @@
 
 #include "rollbem/base.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* ---- Elasticity ------------------------------------------------------------------ */
 
 /* Isotropic plane strain. */
@@ -276,5 +280,9 @@ rb_status rb_bem_halfplane_stress_linear(int n, const double *nodes, const doubl
  * (u_r, u_t), columns (p_r, p_t). */
 rb_status rb_bem_disc_response(double radius, rb_bem_material material, double h,
                                double angle, double response[4]);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -3,6 +3,10 @@
 #ifndef ROLLBEM_BLAS_H
 #define ROLLBEM_BLAS_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* "SkylakeX", "Haswell", ...: what is in use. */
 const char *rb_blas_core(void);
 
@@ -20,5 +24,9 @@ int rb_blas_threads(int threads);
  * waits for it for ever.  1: there is room for all; where it has one thread only, OpenMP is
  * reduced to one too if need be. */
 int rb_blas_has_room(void);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

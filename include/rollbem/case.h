@@ -21,6 +21,10 @@
 #include <math.h>
 #include <stddef.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* ---- Options --------------------------------------------------------------------- */
 
 typedef enum {
@@ -287,5 +291,9 @@ int rb_case_given(const rb_case *c, const char *name);
 /* Turns a refusal s of rollbem/rolling.h into one of this case: the file and the line
  * where they are to blame.  Returns the status that says which. */
 rb_status rb_case_blame(const rb_case *c, rb_status s, rb_message *why);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -5,6 +5,10 @@
 #ifndef ROLLBEM_CLOSED_FORMS_H
 #define ROLLBEM_CLOSED_FORMS_H
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* ---- Hertz ------------------------------------------------------------------------ */
 
 /* a of P = pi E* a^2/(4R) [length]. */
@@ -59,5 +63,9 @@ typedef struct {
 rb_closed_bentall_johnson rb_closed_bentall_johnson_stick(double beta,
                                                           double hertz_half_width,
                                                           double radius, double modulus);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

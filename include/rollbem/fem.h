@@ -9,6 +9,10 @@
 #include "rollbem/friction.h"
 #include "rollbem/sparse.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* ---- Elements -------------------------------------------------------------------- */
 
 typedef struct {
@@ -255,5 +259,9 @@ rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step,
  * (iterations, then time), the easiest first.  RB_EINVAL: count < 1 or more than were
  * solved. */
 rb_status rb_fem_wall_select(const rb_fem_wall *wall, int count, int *step);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

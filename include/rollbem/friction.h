@@ -7,6 +7,10 @@
 #include "rollbem/contact.h"
 #include "rollbem/sparse.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* ---- The problem ------------------------------------------------------------------- */
 
 /* Per contact [N, T] (d = 2) or [N, T1, T2] (d = 3), N first: m = d n_c.
@@ -244,5 +248,9 @@ double rb_friction_soclcp_error(const rb_friction_soclcp_problem *problem,
  */
 const char *rb_friction_status_text(rb_status s, double tol,
                                     const rb_friction_info *info);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

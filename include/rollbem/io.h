@@ -8,6 +8,10 @@
 
 #include <stdio.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* ---- Output written whole or not at all ------------------------------------------- */
 
 /* Everything goes to a file beside the target that has no name; commit names it.  So
@@ -188,5 +192,9 @@ typedef struct {
 
 rb_status rb_io_siconos_read_soclcp(const char *path, rb_io_soclcp *p, rb_message *why);
 void rb_io_soclcp_free(rb_io_soclcp *p);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

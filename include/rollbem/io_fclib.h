@@ -7,6 +7,10 @@
 #include "rollbem/base.h"
 #include "rollbem/sparse.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* local:  u = W r + q.   global:  M v = H r + f,  u = H' v + w.
  * [N, T] or [N, T1, T2] per contact. */
 typedef struct {
@@ -37,5 +41,9 @@ rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *w
 rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem,
                             rb_io_fclib_layout layout, const char *title,
                             const char *description, rb_message *why);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -7,6 +7,10 @@
 #include "rollbem/base.h"
 #include "rollbem/sparse.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Which row leaves when several ratios tie. */
 typedef enum {
     RB_LCP_LEXICOGRAPHIC, /* cannot cycle */
@@ -126,5 +130,9 @@ double rb_lcp_residual_sparse(const rb_sparse *M, const double *q, const double 
 /* The same for boxes: max_i |max(min(z_i - lower_i, w_i), z_i - upper_i)|. */
 double rb_lcp_residual_mixed(const rb_sparse *M, const double *q, const double *lower,
                              const double *upper, const double *z, double *w);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -8,6 +8,10 @@
 
 #include <stdio.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 struct json_t; /* jansson's */
 
 /* ---- Names ------------------------------------------------------------------------ */
@@ -271,5 +275,9 @@ typedef void rb_report_each_check(const rb_report_check *check, void *context);
 /* Every closed-form and published reference (theory.md 6), one call of each per value.
  * The number of those that do not hold. */
 int rb_report_verify(rb_report_each_check *each, void *context);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -5,6 +5,10 @@
 #include "rollbem/fem.h"
 #include "rollbem/report.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* ---- Pictures: FILE gets the whole picture; statuses of rb_report_gnuplot ------------
  */
 
@@ -42,5 +46,9 @@ typedef struct {
 } rb_report_fem_sums;
 
 rb_report_fem_sums rb_report_fem_sum(const rb_fem_model *model, const rb_fem_step *step);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

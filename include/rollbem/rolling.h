@@ -12,6 +12,10 @@
 #include "rollbem/bem.h"
 #include "rollbem/contact.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* ---- Case ------------------------------------------------------------------------ */
 
 typedef enum { RB_STATIC, RB_STEADY, RB_TRANSIENT } rb_rolling_formulation;
@@ -692,5 +696,9 @@ rb_status rb_rolling_pool_start(const rb_rolling_sweep *sweep, rb_rolling_pool *
 /* rb_rolling_sweep_run by any pool, which is stopped in any case. */
 rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_pool *pool,
                               rb_message *why);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

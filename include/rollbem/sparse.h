@@ -5,6 +5,10 @@
 
 #include "rollbem/base.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 typedef struct {
     int rows, cols;
     int *p;    /* cols + 1 column pointers; owned */
@@ -83,5 +87,9 @@ rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_spa
                                         rb_sparse *w);
 double rb_sparse_cholesky_flops(const rb_sparse_cholesky *factor);
 void rb_sparse_cholesky_free(rb_sparse_cholesky *factor);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

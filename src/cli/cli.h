@@ -28,6 +28,11 @@ int cli_example(int argc, char **argv);
 int cli_page(int argc, char **argv);
 int cli_help(int argc, char **argv);
 
+/* Of command k = 0, 1, ...; NULL: there are no more. */
+const char *cli_command_name(int k);
+/* The line of a command in the list; "" is the one without a name. */
+const char *cli_command_help(const char *name);
+
 /* Calls the command of that name; its exit code, or CLI_USAGE when there is none. */
 int cli_run(const char *name, int argc, char **argv);
 
@@ -93,6 +98,11 @@ typedef struct {
  * --version are answered here, an error has been printed.  Free args in any case. */
 cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args);
 void cli_args_free(cli_args *args);
+
+/* How the value of an option is shown: " X", " arc|hub"; "" of a flag. */
+void cli_option_metavar(const rb_option *o, char *text, size_t size);
+/* The help line with unit, range and default. */
+void cli_option_text(const rb_option *o, const void *target, char *text, size_t size);
 
 /* --help and --usage of a command, on stdout. */
 void cli_print_help(const cli_spec *spec);

@@ -6,7 +6,7 @@
 
 enum { NAME_COLUMN = 28, WIDTH = 88 };
 
-static void metavar(const rb_option *o, char *text, size_t size)
+void cli_option_metavar(const rb_option *o, char *text, size_t size)
 {
     size_t used = 0;
     switch (o->kind) {
@@ -52,8 +52,7 @@ static void print_wrapped(const char *text, int column, int indent)
     putchar('\n');
 }
 
-/* What stands behind the help line: unit, range, default. */
-static void describe(const rb_option *o, const void *target, char *text, size_t size)
+void cli_option_text(const rb_option *o, const void *target, char *text, size_t size)
 {
     char room[64], expected[200];
     const int numeric = o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER;
@@ -74,8 +73,8 @@ static void describe(const rb_option *o, const void *target, char *text, size_t 
 static void print_option(const rb_option *o, const void *target)
 {
     char values[120], text[600];
-    metavar(o, values, sizeof values);
-    describe(o, target, text, sizeof text);
+    cli_option_metavar(o, values, sizeof values);
+    cli_option_text(o, target, text, sizeof text);
     const int n = printf("  --%s%s", o->name, values);
     if (n + 1 >= NAME_COLUMN)
         printf("\n%*s", NAME_COLUMN, "");
@@ -98,7 +97,9 @@ void cli_print_help(const cli_spec *spec)
     puts("\nCommon\n"
          "  --help                    this text\n"
          "  --usage                   the options on a few lines\n"
-         "  --version");
+         "  --version\n"
+         "  --describe=man|markdown   this text as a manual page or for a page\n"
+         "  --completion=bash|zsh|fish  the completion of a shell");
     if (spec->notes)
         printf("\n%s", spec->notes);
 }
@@ -113,7 +114,7 @@ void cli_print_usage(const cli_spec *spec)
             const rb_option *o = &spec->sets[s].options[i];
             if (o->kind == RB_OPTION_GROUP)
                 continue;
-            metavar(o, values, sizeof values);
+            cli_option_metavar(o, values, sizeof values);
             const int n = (int)(strlen(o->name) + strlen(values)) + 5;
             if (at > 0 && at + n > WIDTH) {
                 putchar('\n');

@@ -39,6 +39,19 @@ const char *cli_command_line(void)
     return command_line ? command_line : "rollbem";
 }
 
+const char *cli_command_name(int k)
+{
+    return k < COMMANDS ? commands[k].name : NULL;
+}
+
+const char *cli_command_help(const char *name)
+{
+    for (int i = 0; i < COMMANDS; i++)
+        if (strcmp(name, commands[i].name) == 0)
+            return commands[i].help;
+    return "solves one case of rolling contact with friction, prints its table";
+}
+
 void cli_guess_command(rb_guess *guess)
 {
     for (int i = 0; i < COMMANDS; i++)

@@ -1,5 +1,6 @@
 /* Options from the command line, by the tables of a cli_spec. */
 #include "cli/cli.h"
+#include "cli/describe.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -60,6 +61,27 @@ static cli_exit parse_option(const cli_spec *spec, int *i, int argc, char **argv
     return cli_fail(CLI_USAGE, "%s", why.text);
 }
 
+/* What stands behind `option` in the argument; NULL: it is another one. */
+static const char *value_behind(const char *option, const char *argument)
+{
+    const size_t n = strlen(option);
+    return strncmp(argument, option, n) == 0 ? argument + n : NULL;
+}
+
+/* --describe=FORM and --completion=SHELL, for the building of packages. */
+static cli_exit answer_builder(const cli_spec *spec, const char *argument)
+{
+    const char *form = value_behind("--describe=", argument);
+    const char *shell = value_behind("--completion=", argument);
+    if (form && !cli_describe(spec, form))
+        return cli_fail(CLI_USAGE, "--describe: expected man or markdown, got '%s'",
+                        form);
+    if (shell && !cli_complete(shell))
+        return cli_fail(CLI_USAGE, "--completion: expected bash, zsh or fish, got '%s'",
+                        shell);
+    return form || shell ? CLI_OK : CLI_CONTINUE;
+}
+
 static cli_exit answer_common(const cli_spec *spec, const char *argument)
 {
     if (strcmp(argument, "--help") == 0)
@@ -69,7 +91,7 @@ static cli_exit answer_common(const cli_spec *spec, const char *argument)
     else if (strcmp(argument, "--version") == 0)
         puts("rollbem " RB_VERSION);
     else
-        return CLI_CONTINUE;
+        return answer_builder(spec, argument);
     return CLI_OK;
 }
 

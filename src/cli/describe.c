@@ -1,0 +1,385 @@
+/* Descriptions of the commands for other programs, made from the option tables: manual
+ * pages, completions of three shells, pages of the reference. */
+#include "cli/describe.h"
+
+#include <string.h>
+
+/* "curve" of "rollbem curve [OPTION...]"; "" for the command without a name. */
+static const char *command_of(const cli_spec *spec, char room[24])
+{
+    if (sscanf(spec->synopsis, "rollbem %23[a-z]", room) != 1)
+        room[0] = '\0';
+    return room;
+}
+
+static int is_option(const rb_option *o)
+{
+    return o->kind != RB_OPTION_GROUP;
+}
+
+static int takes_file(const rb_option *o)
+{
+    return o->file != RB_FILE_NONE || (o->kind == RB_OPTION_CHOICE && o->path);
+}
+
+/* Characters of `special` with `before` in front of them. */
+static void print_escaped(const char *text, const char *special, const char *before)
+{
+    for (; *text; text++) {
+        if (strchr(special, *text))
+            fputs(before, stdout);
+        putchar(*text == '\n' ? ' ' : *text);
+    }
+}
+
+/* In single quotes, which a shell leaves as they are. */
+static void print_quoted(const char *text)
+{
+    for (; *text; text++)
+        fputs(*text == '\'' ? "'\\''" : (char[2]){*text, 0}, stdout);
+}
+
+static void print_choices(const rb_option *o)
+{
+    for (const rb_choice *c = o->choices; c && c->name; c++)
+        printf("%s%s", c == o->choices ? "" : " ", c->name);
+}
+
+/* ---- Manual pages -------------------------------------------------------------------
+ */
+
+/* Text for troff: a line that begins with blanks is an example and stays as it is. */
+static void print_troff(const char *text)
+{
+    int example = 0;
+    while (*text) {
+        const size_t n = strcspn(text, "\n");
+        const int indented = *text == ' ';
+        if (n == 0)
+            fputs(".PP\n", stdout);
+        if (indented != example)
+            puts(indented ? ".PP\n.nf" : ".fi\n.PP");
+        example = indented;
+        if (n > 0 && (*text == '.' || *text == '\''))
+            fputs("\\&", stdout);
+        for (size_t k = 0; k < n; k++)
+            fputs(text[k] == '\\'  ? "\\e"
+                  : text[k] == '-' ? "\\-"
+                                   : (char[2]){text[k], 0},
+                  stdout);
+        if (n > 0)
+            putchar('\n');
+        text += n + (text[n] == '\n');
+    }
+    if (example)
+        puts(".fi");
+}
+
+static void print_upper(const char *text)
+{
+    for (; *text; text++)
+        putchar(*text >= 'a' && *text <= 'z' ? *text - 'a' + 'A' : *text);
+}
+
+static void print_man_option(const rb_option *o, const void *target)
+{
+    char values[120], text[600];
+    cli_option_metavar(o, values, sizeof values);
+    cli_option_text(o, target, text, sizeof text);
+    fputs(".TP\n\\fB\\-\\-", stdout);
+    print_escaped(o->name, "-", "\\");
+    fputs("\\fR\\fI", stdout);
+    print_escaped(values, "-", "\\");
+    puts("\\fR");
+    print_troff(text);
+}
+
+static void print_man(const cli_spec *spec)
+{
+    char command[24];
+    const char *dash = *command_of(spec, command) ? "-" : "";
+    fputs(".TH ROLLBEM", stdout);
+    fputs(dash, stdout);
+    print_upper(command);
+    printf(" 1 \"\" \"rollbem %s\"\n.SH NAME\nrollbem%s%s \\- ", RB_VERSION, dash,
+           command);
+    print_troff(cli_command_help(command));
+    puts(".SH SYNOPSIS");
+    print_troff(spec->synopsis);
+    puts(".SH DESCRIPTION");
+    print_troff(spec->about);
+    for (int s = 0; s < spec->set_n; s++)
+        for (int i = 0; i < spec->sets[s].n; i++) {
+            const rb_option *o = &spec->sets[s].options[i];
+            if (is_option(o)) {
+                print_man_option(o, spec->sets[s].target);
+                continue;
+            }
+            fputs(".SH OPTIONS: ", stdout);
+            print_upper(o->help);
+            printf("\nIn case files: section \\fB[%s]\\fR.\n", o->name);
+        }
+    if (spec->notes) {
+        puts(".SH NOTES");
+        print_troff(spec->notes);
+    }
+    printf(".SH SEE ALSO\n%s", *command ? ".BR rollbem (1)\n" : "");
+    for (int k = 0; !*command && cli_command_name(k); k++)
+        printf(".BR rollbem\\-%s (1)%s\n", cli_command_name(k),
+               cli_command_name(k + 1) ? "," : "");
+}
+
+/* ---- Pages of the reference ----------------------------------------------------------
+ */
+
+static void print_code_block(const char *text)
+{
+    printf("\n```text\n%s%s```\n", text, text[strlen(text) - 1] == '\n' ? "" : "\n");
+}
+
+static void print_markdown(const cli_spec *spec)
+{
+    char command[24], values[120], text[600];
+    command_of(spec, command);
+    printf("# rollbem%s%s\n\n%s\n", *command ? " " : "", command,
+           cli_command_help(command));
+    print_code_block(spec->synopsis);
+    print_code_block(spec->about);
+    for (int s = 0; s < spec->set_n; s++)
+        for (int i = 0; i < spec->sets[s].n; i++) {
+            const rb_option *o = &spec->sets[s].options[i];
+            if (!is_option(o)) {
+                printf("\n## %s `[%s]`\n\n| option | meaning |\n|---|---|\n", o->help,
+                       o->name);
+                continue;
+            }
+            cli_option_metavar(o, values, sizeof values);
+            cli_option_text(o, spec->sets[s].target, text, sizeof text);
+            printf("| `--%s", o->name);
+            print_escaped(values, "|", "\\");
+            fputs("` | ", stdout);
+            print_escaped(text, "|*_<", "\\");
+            puts(" |");
+        }
+    if (spec->notes)
+        print_code_block(spec->notes);
+}
+
+/* ---- Completions ---------------------------------------------------------------------
+ */
+
+static void each_option(const cli_spec *spec,
+                        void (*print)(const rb_option *o, const char *command))
+{
+    char command[24];
+    command_of(spec, command);
+    for (int s = 0; s < spec->set_n; s++)
+        for (int i = 0; i < spec->sets[s].n; i++)
+            if (is_option(&spec->sets[s].options[i]))
+                print(&spec->sets[s].options[i], command);
+}
+
+static void bash_value(const rb_option *o, const char *command)
+{
+    (void)command;
+    if (o->kind == RB_OPTION_FLAG)
+        return;
+    printf("        --%s) values=\"", o->name);
+    print_choices(o);
+    printf("\" kind=%s ;;\n", takes_file(o) ? "file" : "word");
+}
+
+static void bash_name(const rb_option *o, const char *command)
+{
+    (void)command;
+    printf(" --%s", o->name);
+}
+
+static void bash_command(const cli_spec *spec)
+{
+    char command[24];
+    printf("    %s)\n        case $previous in\n",
+           *command_of(spec, command) ? command : "*");
+    each_option(spec, bash_value);
+    fputs("        esac\n        options=\"", stdout);
+    each_option(spec, bash_name);
+    puts("\"\n        ;;");
+}
+
+static void zsh_option(const rb_option *o, const char *command)
+{
+    (void)command;
+    printf("            '--%s%s[", o->name, o->kind == RB_OPTION_FLAG ? "" : "=");
+    for (const char *c = o->help; *c; c++)
+        fputs(*c == '\''            ? "'\\''"
+              : strchr("[]:\\", *c) ? (char[3]){'\\', *c, 0}
+                                    : (char[2]){*c, 0},
+              stdout);
+    fputs("]", stdout);
+    if (o->kind != RB_OPTION_FLAG) {
+        fputs(takes_file(o) ? ":file:_files"
+              : o->choices  ? ":value:("
+                            : ":value:",
+              stdout);
+        if (!takes_file(o) && o->choices) {
+            print_choices(o);
+            putchar(')');
+        }
+    }
+    puts("' \\");
+}
+
+static void zsh_command(const cli_spec *spec)
+{
+    char command[24];
+    printf("    %s)\n        _arguments \\\n",
+           *command_of(spec, command) ? command : "*");
+    each_option(spec, zsh_option);
+    puts("            '--help[this text]' '--usage[the options on a few lines]' "
+         "'--version' '*:file:_files'\n        ;;");
+}
+
+static void fish_option(const rb_option *o, const char *command)
+{
+    if (*command)
+        printf("complete -c rollbem -n '__fish_seen_subcommand_from %s'", command);
+    else
+        fputs("complete -c rollbem -n __rollbem_solves", stdout);
+    printf(" -l %s", o->name);
+    if (o->kind != RB_OPTION_FLAG) {
+        fputs(takes_file(o) ? " -r" : " -x", stdout);
+        if (o->choices) {
+            fputs(" -a '", stdout);
+            print_choices(o);
+            putchar('\'');
+        }
+    }
+    fputs(" -d '", stdout);
+    print_quoted(o->help);
+    puts("'");
+}
+
+static void fish_command(const cli_spec *spec)
+{
+    each_option(spec, fish_option);
+}
+
+static const struct {
+    const char *name;
+    void (*print)(const cli_spec *spec);
+} forms[] = {{"man", print_man},
+             {"markdown", print_markdown},
+             {"bash", bash_command},
+             {"zsh", zsh_command},
+             {"fish", fish_command}};
+
+enum { FORMS = sizeof forms / sizeof *forms };
+
+int cli_describe(const cli_spec *spec, const char *form)
+{
+    for (int k = 0; k < FORMS; k++)
+        if (strcmp(forms[k].name, form) == 0) {
+            forms[k].print(spec);
+            return 1;
+        }
+    return 0;
+}
+
+/* ---- A whole completion --------------------------------------------------------------
+ */
+
+/* What every command says of itself; the one without a name last, or first. */
+static void describe_all(const char *form, int nameless_first)
+{
+    char describe[40];
+    char *words[] = {"", describe, NULL};
+    snprintf(describe, sizeof describe, "--describe=%s", form);
+    if (nameless_first)
+        cli_solve(2, words);
+    for (int k = 0; cli_command_name(k); k++)
+        if (strcmp(cli_command_name(k), "help") != 0)
+            cli_run(cli_command_name(k), 2, words);
+    if (!nameless_first)
+        cli_solve(2, words);
+}
+
+static void print_commands(const char *between)
+{
+    for (int k = 0; cli_command_name(k); k++)
+        printf("%s%s", k ? between : "", cli_command_name(k));
+}
+
+static void bash_completion(void)
+{
+    fputs("# rollbem for bash: source this file, or keep it in bash-completion's folder\n"
+          "_rollbem() {\n"
+          "    local current=${COMP_WORDS[COMP_CWORD]} "
+          "previous=${COMP_WORDS[COMP_CWORD-1]}\n"
+          "    local command=${COMP_WORDS[1]} options= values= kind=\n"
+          "    # bash takes --name=value apart\n"
+          "    [ \"$current\" = = ] && current=\n"
+          "    [ \"$previous\" = = ] && previous=${COMP_WORDS[COMP_CWORD-2]}\n"
+          "    case $command in\n",
+          stdout);
+    describe_all("bash", 0);
+    fputs("    esac\n"
+          "    options=\"$options --help --usage --version\"\n"
+          "    [ \"$COMP_CWORD\" -eq 1 ] && options=\"$options ",
+          stdout);
+    print_commands(" ");
+    fputs("\"\n"
+          "    if [ -n \"$kind\" ]; then\n"
+          "        COMPREPLY=($(compgen -W \"$values\" -- \"$current\"))\n"
+          "        [ \"$kind\" = file ] && COMPREPLY+=($(compgen -f -- \"$current\"))\n"
+          "    elif [[ $current == -* || $COMP_CWORD -eq 1 ]]; then\n"
+          "        COMPREPLY=($(compgen -W \"$options\" -- \"$current\"))\n"
+          "    fi\n"
+          "}\n"
+          "complete -o default -F _rollbem rollbem\n",
+          stdout);
+}
+
+static void zsh_completion(void)
+{
+    fputs("#compdef rollbem\n"
+          "_rollbem() {\n"
+          "    local command=$words[2]\n"
+          "    if (( CURRENT == 2 )); then\n"
+          "        compadd -- ",
+          stdout);
+    print_commands(" ");
+    fputs("\n    fi\n    case $command in\n", stdout);
+    describe_all("zsh", 0);
+    fputs("    esac\n}\n_rollbem \"$@\"\n", stdout);
+}
+
+static void fish_completion(void)
+{
+    fputs("# rollbem for fish\nfunction __rollbem_solves\n"
+          "    not __fish_seen_subcommand_from ",
+          stdout);
+    print_commands(" ");
+    puts("\nend");
+    for (int k = 0; cli_command_name(k); k++) {
+        printf("complete -c rollbem -n __fish_use_subcommand -a %s -d '",
+               cli_command_name(k));
+        print_quoted(cli_command_help(cli_command_name(k)));
+        puts("'");
+    }
+    describe_all("fish", 1);
+}
+
+int cli_complete(const char *shell)
+{
+    static const struct {
+        const char *name;
+        void (*print)(void);
+    } shells[] = {
+        {"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}};
+    for (size_t k = 0; k < sizeof shells / sizeof *shells; k++)
+        if (strcmp(shells[k].name, shell) == 0) {
+            shells[k].print();
+            return 1;
+        }
+    return 0;
+}
