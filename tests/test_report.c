@@ -471,6 +471,59 @@ static void columns_without_memory(void **state)
     unlink(name);
 }
 
+/* ---- Citations -------------------------------------------------------------------- */
+
+/* docs/theory.md 9 with single blanks. */
+static const char *literature(void)
+{
+    static char text[20000];
+    FILE *file = fopen("docs/theory.md", "r");
+    assert_non_null(file);
+    char *all = content(file), *from = strstr(all, "## 9 Literature"), *to = text;
+    fclose(file);
+    assert_non_null(from);
+    for (; *from && to < text + sizeof text - 1; from++)
+        if (!strchr(" \n", *from) || (to > text && to[-1] != ' '))
+            *to++ = *from == '\n' ? ' ' : *from;
+    return text;
+}
+
+static void papers_are_those_of_the_theory(void **state)
+{
+    static const struct {
+        rb_rolling_formulation formulation;
+        rb_bem_support support;
+        const char *cited, *not_cited;
+    } runs[] = {{RB_STATIC, RB_BEM_ARC, "[1] K. Addi", "F. W. Carter"},
+                {RB_STEADY, RB_BEM_HALFPLANE, "[10] R. H. Bentall", "C. A. Brebbia"}};
+    char known[700];
+    (void)state;
+    for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
+        rb_rolling_case rc = rb_rolling_case_defaults();
+        rc.formulation = runs[k].formulation;
+        rc.a.support = runs[k].support;
+        FILE *file = tmpfile();
+        rb_report_citations(file, &rc, NULL);
+        const char *text = content(file);
+        assert_non_null(strstr(text, runs[k].cited));
+        assert_null(strstr(text, runs[k].not_cited));
+        int number, n, papers = 0;
+        rewind(file);
+        char line[700];
+        while (fgets(line, sizeof line, file)) {
+            line[strcspn(line, "\n")] = '\0';
+            if (sscanf(line, "[%d] %n", &number, &n) != 1)
+                continue;
+            snprintf(known, sizeof known, " %d. %s", number, line + n);
+            papers++;
+            if (!strstr(literature(), known))
+                fail_msg("docs/theory.md 9 has not:%s", known);
+        }
+        assert_true(papers >= 3);
+        fclose(file);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -494,6 +547,7 @@ int main(void)
         cmocka_unit_test(columns_are_read),
         cmocka_unit_test(bad_columns_are_named),
         cmocka_unit_test(columns_without_memory),
+        cmocka_unit_test(papers_are_those_of_the_theory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

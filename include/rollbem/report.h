@@ -122,6 +122,10 @@ void rb_report_history_summary(FILE *out, const rb_rolling_history *h,
  * with a creepage, an arc support that rolls, slip that does not oppose the friction. */
 void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s);
 
+/* The papers that a run rests on; s NULL: its solver is not known. */
+void rb_report_citations(FILE *out, const rb_rolling_case *rc,
+                         const rb_rolling_solution *s);
+
 /* ---- Pictures --------------------------------------------------------------------- */
 
 typedef enum { RB_REPORT_PNG, RB_REPORT_SVG, RB_REPORT_PDF } rb_report_picture_kind;

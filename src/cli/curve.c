@@ -138,6 +138,11 @@ static cli_exit show(const result *r)
     cli_exit code = cli_write_file(r->o->output, print, r);
     if (code == CLI_OK && !r->o->quiet)
         rb_report_curve_summary(stderr, &r->curves);
+    if (code == CLI_OK && r->o->cite) {
+        rb_rolling_case steady = r->c->rc;
+        steady.formulation = RB_STEADY;
+        rb_report_citations(stderr, &steady, NULL);
+    }
     if (code == CLI_OK)
         code = cli_draw_file("plot", r->o->plot, draw, r);
     return code;

@@ -28,6 +28,8 @@ static const rb_option options[] = {
     RB_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
                  .unset = "none", .file = RB_FILE_PICTURE),
     RB_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),
+    RB_FLAG_LINE("cite", PLACE(cite),
+                 "the papers that the run rests on, on standard error"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };

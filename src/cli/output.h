@@ -5,7 +5,7 @@
 #include "cli/cli.h"
 #include "rollbem/report.h"
 
-enum { CLI_OUTPUT_OPTIONS_MAX = 8 };
+enum { CLI_OUTPUT_OPTIONS_MAX = 9 };
 
 /* Rows of an option table for a style that stands there. */
 extern const rb_choice cli_formats[], cli_headers[];
@@ -23,7 +23,7 @@ extern const rb_choice cli_formats[], cli_headers[];
 
 typedef struct {
     rb_report_style style; /* of tables; JSON: the results whole */
-    int quiet;
+    int quiet, cite;
     const char *output, *plot;
     int given[CLI_OUTPUT_OPTIONS_MAX];
 } cli_output;

@@ -167,6 +167,8 @@ static cli_exit print_result(const result *it)
         code = cli_write_file(so->history_table, write_history, it);
     if (code == CLI_OK && !o->quiet)
         tell_people(it);
+    if (code == CLI_OK && o->cite)
+        rb_report_citations(stderr, &it->c->rc, &it->r->solution);
     if (code == CLI_OK)
         code = cli_draw_file("plot", o->plot, draw, it);
     if (code == CLI_OK && it->r->history.n > 0)

@@ -259,6 +259,8 @@ static cli_exit show(const result *r)
         rb_report_stress_summary(stderr, &r->table);
         rb_report_notes(stderr, &r->c->rc, &r->run.solution);
     }
+    if (code == CLI_OK && r->o->cite)
+        rb_report_citations(stderr, &r->c->rc, &r->run.solution);
     if (code == CLI_OK && r->options->vtk)
         code = cli_write_file(r->options->vtk, print_vtk, r);
     if (code == CLI_OK)
