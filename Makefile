@@ -32,7 +32,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: course page page-test python-test install-python all run test test-all check-tests asan bench install help clean packages check-packages study
+.PHONY: dist deb course page page-test python-test install-python all run test test-all check-tests asan bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -46,6 +46,8 @@ help:
 	@echo "make page       the page for browsers, $(B)/rollbem.html; make page-test tests it"
 	@echo "make python-test   tests of the Python package, python/"
 	@echo "make course     the pictures of the course, docs/course, in $(B)/course"
+	@echo "make dist       the sources of the last commit, $(B)/rollbem-$(VERSION).tar.gz"
+	@echo "make deb        Debian packages, $(B)/deb"
 	@echo "make install    to PREFIX=$(PREFIX), below DESTDIR"
 	@echo "make clean      remove $(B)"
 
@@ -174,6 +176,20 @@ install-python:
 	install -d $(DESTDIR)$(PYTHONDIR)/rollbem
 	install -m 644 python/rollbem/*.py python/rollbem/py.typed $(DESTDIR)$(PYTHONDIR)/rollbem
 	echo 'VERSION = "$(VERSION)"' > $(DESTDIR)$(PYTHONDIR)/rollbem/_version.py
+
+# what a release is made of, from the last commit; the same bytes whenever and wherever
+DIST = $(B)/rollbem-$(VERSION).tar.gz
+dist:
+	@mkdir -p $(B)
+	git archive --prefix=rollbem-$(VERSION)/ HEAD | gzip -n9 > $(DIST)
+	@echo "  DIST $(DIST)"
+
+# Debian packages in $(B)/deb, from what make dist packs
+deb: dist
+	@scripts/packages --install deb
+	rm -rf $(B)/deb && mkdir $(B)/deb && tar -xzf $(DIST) -C $(B)/deb
+	cd $(B)/deb/rollbem-$(VERSION) && dpkg-buildpackage -us -uc -b >&2
+	@ls $(B)/deb/*.deb
 
 # the pictures of docs/course
 course: packages

@@ -99,6 +99,8 @@ struct json_t *rb_report_json_summary(const rb_rolling_solution *s);
 /* Every value that the settled case uses, defaults included. */
 struct json_t *rb_report_json_inputs(const rb_case *c);
 struct json_t *rb_report_json_table(const rb_rolling_solution *s);
+/* The JSON Schema of all this, rollbem/1. */
+struct json_t *rb_report_json_schema(void);
 struct json_t *rb_report_json_errors(const rb_rolling_errors *errors);
 struct json_t *rb_report_json_history(const rb_rolling_history *h,
                                       const rb_rolling_history *errors);

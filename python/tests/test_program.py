@@ -1,5 +1,6 @@
 """The package answers as the program does, bit for bit."""
 
+import json
 import math
 
 import numpy as np
@@ -167,3 +168,29 @@ def test_runs_without_a_full_answer_keep_what_there_is():
         rollbem.solve(zone=1.0)
     check(caught.value.solution.columns(), want["table"])
     assert caught.value.solution.status == want["summary"]["status"]
+
+
+@pytest.fixture(scope="module")
+def schema():
+    validator = pytest.importorskip("jsonschema")
+    found = json.loads(run("--describe=schema").stdout)
+    validator.Draft202012Validator.check_schema(found)
+    return lambda result: validator.validate(result, found, cls=validator.Draft202012Validator)
+
+
+@pytest.mark.parametrize("words", [
+    (), ("--error", "--contact-elements", 20), ("curve", "--points", 4, "--mu", "0.1,0.3", "--half-width", 1),
+    ("curve", "--points", 4, "--error"), ("stress", "--grid", "3x4"), ("example", "bar"),
+    ("--formulation", "transient", "--distance", 1, "--creep", 0.1, "--contact-elements", 20),
+    ("--zone", 1), ("lcp", "examples/lcp/two.txt", "--solution")])
+def test_json_keeps_its_schema(schema, words, in_root):
+    result = run_json(*words)
+    schema(result)
+    broken = json.loads(json.dumps(result))
+    broken["schema"] = "rollbem/0"
+    with pytest.raises(Exception, match="rollbem/1"):
+        schema(broken)
+    if "summary" in result:
+        del (broken := result)["summary"]["max_pressure"]
+        with pytest.raises(Exception, match="max_pressure"):
+            schema(broken)

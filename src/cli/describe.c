@@ -2,6 +2,8 @@
  * pages, completions of three shells, pages of the reference. */
 #include "cli/describe.h"
 
+#include "rollbem/report.h"
+
 #include <string.h>
 
 /* "curve" of "rollbem curve [OPTION...]"; "" for the command without a name. */
@@ -264,14 +266,20 @@ static void fish_command(const cli_spec *spec)
     each_option(spec, fish_option);
 }
 
+/* ---- The schema of --json --------------------------------------------------------- */
+
+static void print_schema(const cli_spec *spec)
+{
+    (void)spec;
+    rb_report_json_write(stdout, rb_report_json_schema());
+}
+
 static const struct {
     const char *name;
     void (*print)(const cli_spec *spec);
-} forms[] = {{"man", print_man},
-             {"markdown", print_markdown},
-             {"bash", bash_command},
-             {"zsh", zsh_command},
-             {"fish", fish_command}};
+} forms[] = {{"man", print_man},           {"schema", print_schema},
+             {"markdown", print_markdown}, {"bash", bash_command},
+             {"zsh", zsh_command},         {"fish", fish_command}};
 
 enum { FORMS = sizeof forms / sizeof *forms };
 

@@ -98,7 +98,8 @@ void cli_print_help(const cli_spec *spec)
          "  --help                    this text\n"
          "  --usage                   the options on a few lines\n"
          "  --version\n"
-         "  --describe=man|markdown   this text as a manual page or for a page\n"
+         "  --describe=man|markdown   this text as a manual page or for a page;\n"
+         "                            =schema: the JSON Schema of --json\n"
          "  --completion=bash|zsh|fish  the completion of a shell");
     if (spec->notes)
         printf("\n%s", spec->notes);
