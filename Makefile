@@ -69,7 +69,7 @@ LONGEST := $(patsubst %,$(B)/tests/test_%,net fem_examples rolling_wheel files f
 
 # only the summary line comes last: continuous integration reads it
 check-tests: all $(TESTS) $(B)/tests/checker
-	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave tests/install $(filter-out $(LONGEST),$(TESTS))
+	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave tests/install tests/release $(filter-out $(LONGEST),$(TESTS))
 
 asan:
 	@$(MAKE) --no-print-directory B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined" test
