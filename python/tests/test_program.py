@@ -175,7 +175,11 @@ def schema():
     validator = pytest.importorskip("jsonschema")
     found = json.loads(run("--describe=schema").stdout)
     validator.Draft202012Validator.check_schema(found)
-    return lambda result: validator.validate(result, found, cls=validator.Draft202012Validator)
+
+    def complaints(result):
+        return [error.message for error in validator.Draft202012Validator(found).iter_errors(result)]
+
+    return complaints
 
 
 @pytest.mark.parametrize("words", [
@@ -185,12 +189,9 @@ def schema():
     ("--zone", 1), ("lcp", "examples/lcp/two.txt", "--solution")])
 def test_json_keeps_its_schema(schema, words, in_root):
     result = run_json(*words)
-    schema(result)
-    broken = json.loads(json.dumps(result))
-    broken["schema"] = "rollbem/0"
-    with pytest.raises(Exception, match="rollbem/1"):
-        schema(broken)
+    assert schema(result) == []
+    result["schema"] = "rollbem/0"
+    assert "'rollbem/1' was expected" in schema(result)
     if "summary" in result:
-        del (broken := result)["summary"]["max_pressure"]
-        with pytest.raises(Exception, match="max_pressure"):
-            schema(broken)
+        del result["summary"]["max_pressure"]
+        assert "'max_pressure' is a required property" in schema(result)

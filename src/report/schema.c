@@ -56,11 +56,13 @@ static json_t *results(const rb_rolling_results *table, int seconds)
     return properties;
 }
 
+/* Of those that every case has. */
 static json_t *names(const rb_rolling_results *table)
 {
     json_t *list = json_array();
     for (int k = 0; k < table->n; k++)
-        if (table->row[k].kind != RB_RESULT_SECONDS)
+        if (table->row[k].kind != RB_RESULT_SECONDS &&
+            table->row[k].condition == RB_FOR_ALL)
             rb_report_json_append(&list, json_string(table->row[k].name));
     return list;
 }
