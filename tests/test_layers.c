@@ -9,19 +9,19 @@
 static const struct {
     const char *folder, *headers;
 } layers[] = {
-    {"base", " base blas sparse "},
+    {"base", " base blas sparse units "},
     {"lcp", " base blas lcp "},
     {"bem", " base blas sparse bem "},
-    {"io", " base sparse io io_fclib "},
+    {"io", " base sparse io io_fclib io_contact "},
     {"contact", " base lcp contact "},
     {"friction", " base blas sparse io io_fclib lcp contact friction "},
     {"fem", " base blas sparse friction fem "},
     {"rolling", " base blas bem lcp contact rolling closed_forms "},
     {"case", " base io contact rolling case "},
     {"api", " base blas sparse io lcp contact friction rolling case api "},
-    {"report",
-     " base blas sparse bem lcp contact io friction fem rolling closed_forms case report "
-     "report_fem "},
+    {"report", " base blas sparse units bem lcp contact io friction fem rolling "
+               "closed_forms case report "
+               "report_fem "},
 };
 
 /* The name between the quotes of an #include "FOLDER/NAME.h", split in two. */

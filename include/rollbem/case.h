@@ -17,6 +17,7 @@
 
 #include "rollbem/base.h"
 #include "rollbem/rolling.h"
+#include "rollbem/units.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -148,6 +149,7 @@ typedef struct {
     int n;
     void *target;
     int *given; /* n: who gave the value, see below; NULL where nobody asks */
+    int *plain; /* n: 1 where it is a number that came without a unit; NULL likewise */
 } rb_option_set;
 
 /* Who gave a value: nobody (0), line k > 0 of the case file, an argument that wins over
@@ -159,10 +161,19 @@ enum { RB_GIVEN_ARGUMENT = -1, RB_GIVEN_NUMBER = -2 };
 const rb_option_set *rb_option_find(int n, const rb_option_set *sets, const char *name,
                                     size_t length, int *index, rb_guess *guess);
 
-/* One value, strictly.  what: how messages call it ("--mu", "case.ini:3: mu").  Text is
- * borrowed.  RB_EINVAL: "what: expected ..., got '...'". */
+/* One value, strictly; a number may have a unit, a plain one stays as it is.  what: how
+ * messages call it ("--mu", "case.ini:3: mu").  Text is borrowed.  RB_EINVAL: "what:
+ * expected ..., got '...'". */
 rb_status rb_option_read(const rb_option *option, void *target, const char *what,
                          const char *text, rb_message *why);
+
+/* The same for option k of the set, with its marks in given and plain. */
+rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *what,
+                           const char *text, rb_message *why);
+
+/* Plain numbers of the set that were given are in that system; those of target (like the
+ * set's) become mm, N, MPa. */
+void rb_option_store(const rb_option_set *set, rb_units system, void *target);
 
 /* "a number >= 0", "lemke, newton or auto": what the option wants.  Returns text. */
 const char *rb_option_expected(const rb_option *option, char *text, size_t size);
@@ -252,6 +263,8 @@ typedef struct {
     rb_rolling_program program;    /* its history; n = 0: none */
     int error;                     /* 1: estimate discretisation errors */
     double accuracy;               /* refine until they are below this; 0: no */
+    rb_units units; /* of plain numbers that were given, and of what is shown; the values
+                       here are in mm, N, MPa */
 } rb_settled_case;
 
 /* Borrowed, valid until c changes. */
@@ -277,10 +290,12 @@ typedef struct {
  * be NULL.  Free the result in any case. */
 rb_status rb_case_solve(const rb_settled_case *settled, rb_rolling_step *step,
                         void *context, rb_case_result *result, rb_message *why);
-/* The same with the result of a case before it, or {0}, as rb_rolling_model_again takes its
- * model; steps and error bars begin anew. */
+/* The same with the result of a case before it, or {0}, as rb_rolling_model_again takes
+ * its model; steps and error bars begin anew. */
 rb_status rb_case_solve_again(const rb_settled_case *settled, rb_rolling_step *step,
                               void *context, rb_case_result *result, rb_message *why);
+/* From mm, N, MPa to the units of the case, for those who show it; the model stays. */
+void rb_case_result_convert(rb_case_result *result, rb_units units);
 void rb_case_result_free(rb_case_result *result);
 
 /* ---- Whose fault it is --------------------------------------------------------------

@@ -90,6 +90,8 @@ void rb_report_json_append(struct json_t **list, struct json_t *value);
 
 /* {"schema", "version", "command", "conventions"}: how every result starts. */
 struct json_t *rb_report_json_start(const char *command);
+/* {"system": "si", "length": "m", ...}. */
+struct json_t *rb_report_json_units(rb_units units);
 /* Text of any bytes (rb_printable). */
 struct json_t *rb_report_json_text(const char *text);
 /* A number; null for NaN and infinities. */

@@ -17,5 +17,6 @@
 #include "rollbem/report_fem.h"
 #include "rollbem/rolling.h"
 #include "rollbem/sparse.h"
+#include "rollbem/units.h"
 
 #endif

@@ -11,6 +11,7 @@
 #include "rollbem/base.h"
 #include "rollbem/bem.h"
 #include "rollbem/contact.h"
+#include "rollbem/units.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -246,6 +247,7 @@ typedef struct {
     int patches;
     rb_rolling_patch *patch; /* in the order of increasing x; owned */
 
+    rb_units units; /* of all values here */
     rb_status status;
     rb_rolling_formulation formulation;
     rb_rolling_slip_operator slip_operator;
@@ -368,8 +370,9 @@ double rb_rolling_entry(const rb_rolling_result *r, const void *owner, int i);
 
 /* The name with its unit, as columns are headed: "max_pressure_MPa".  Returns heading. */
 enum { RB_ROLLING_HEADING = 40 };
-const char *rb_rolling_heading(const rb_rolling_result *r,
+const char *rb_rolling_heading(const rb_rolling_result *r, rb_units units,
                                char heading[RB_ROLLING_HEADING]);
+
 /* Column k = 1, 2, ... of a study; NULL: there are no more. */
 const rb_rolling_result *rb_rolling_study_column(int k);
 
@@ -474,6 +477,7 @@ typedef struct {
     double half_width;       /* that distances count in [length] */
     double step;             /* c [length]; 0 in a static history */
     int steady_from; /* first step of the steady state that the end is in, or -1 */
+    rb_units units; /* of all values here */
 } rb_rolling_history;
 
 void rb_rolling_history_free(rb_rolling_history *history);
@@ -522,7 +526,13 @@ typedef struct {
     double *max_temperature; /* NULL where not asked for */
     double free_creepage, half_width, seconds;
     int iterations;
+    rb_units units; /* of all values here */
 } rb_rolling_curve;
+
+/* From mm, N, MPa to other units, once; the struct says which it has. */
+void rb_rolling_solution_convert(rb_rolling_solution *s, rb_units units);
+void rb_rolling_history_convert(rb_rolling_history *h, rb_units units);
+void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units);
 
 void rb_rolling_curve_free(rb_rolling_curve *curve);
 
@@ -569,6 +579,10 @@ typedef struct {
     rb_rolling_extremum orthogonal_shear; /* largest |sxy| below the surface */
     rb_rolling_extremum tension;          /* largest principal stress */
 } rb_rolling_stress_maxima;
+
+/* From mm, N, MPa to other units. */
+void rb_rolling_stress_convert(int n, rb_rolling_stress *at,
+                               rb_rolling_stress_maxima *maxima, rb_units units);
 
 /* Over the width of the contact and a half-width beyond, to the given depth (0: 2.5
  * half-widths). */

@@ -120,7 +120,7 @@ const rb_option_set *rb_option_find(int n, const rb_option_set *sets, const char
 
 rb_option_set rb_case_options(rb_case *c)
 {
-    return (rb_option_set){rb_case_table, rb_case_table_n, &c->words, c->given};
+    return (rb_option_set){rb_case_table, rb_case_table_n, &c->words, c->given, c->plain};
 }
 
 const rb_option *rb_case_describe(int *n)
@@ -151,7 +151,7 @@ static const rb_option *find(const char *name, rb_message *why)
 {
     int i;
     rb_guess guess = {.word = name};
-    const rb_option_set set = {rb_case_table, rb_case_table_n, NULL, NULL};
+    const rb_option_set set = {.options = rb_case_table, .n = rb_case_table_n};
     if (rb_option_find(1, &set, name, strlen(name), &i, &guess))
         return &rb_case_table[i];
     rb_fail(why, RB_EINVAL, "unknown option '%s'%s", name, rb_guess_text(&guess, ""));
@@ -162,12 +162,11 @@ static rb_status set(rb_case *c, const rb_option *o, const char *text, int by,
                      rb_message *why)
 {
     char what[400];
+    const int k = (int)(o - rb_case_table);
+    const rb_option_set all = rb_case_options(c);
     rb_option_source(o, by, c->path, what, sizeof what);
-    const rb_status s = rb_option_read(o, &c->words, what, text, why);
-    if (s != RB_OK)
-        return by > 0 ? RB_EFORMAT : s;
-    c->given[o - rb_case_table] = by;
-    return RB_OK;
+    const rb_status s = rb_option_assign(&all, k, by, what, text, why);
+    return s != RB_OK && by > 0 ? RB_EFORMAT : s;
 }
 
 rb_status rb_case_set(rb_case *c, const char *name, const char *text, int by,
@@ -378,21 +377,35 @@ static rb_status settle_heat(rb_case *c, rb_message *why)
 /* ---- Files that the case names ------------------------------------------------------
  */
 
-static int is_read(const case_table *t, const char *path)
+static int is_read(const case_table *t, const char *path, rb_units units)
 {
-    return t->path && strcmp(t->path, path) == 0;
+    return t->path && strcmp(t->path, path) == 0 && t->units == units;
 }
 
-/* columns: how many there must be; 0: any number of them. */
-static rb_status read_table(case_table *t, const char *path, int columns, rb_message *why)
+/* Lengths, unless a column's name ends with its unit. */
+static void convert_column(rb_io_table *t, int j, const char *unit, rb_units units)
 {
-    if (is_read(t, path))
+    const char *name;
+    double *x = t->x + (size_t)j * (size_t)t->rows;
+    const size_t n = t->name ? rb_unit_of_column(t->name[j], unit, &name) : 0;
+    for (int i = 0; i < t->rows; i++)
+        x[i] = n > 0 ? rb_unit_of(name, unit, x[i]) : rb_unit_stored(units, unit, x[i]);
+    if (n > 0)
+        t->name[j][n] = '\0';
+}
+
+/* x and gap [mm]. */
+static rb_status read_profile_table(case_table *t, const char *path, rb_units units,
+                                    rb_message *why)
+{
+    if (is_read(t, path, units))
         return RB_OK;
     free_table(t);
-    const rb_status s = columns > 0
-                            ? rb_io_table_read_columns(path, columns, &t->table, why)
-                            : rb_io_table_read(path, &t->table, why);
+    const rb_status s = rb_io_table_read_columns(path, 2, &t->table, why);
     t->path = s == RB_OK ? path : NULL;
+    t->units = units;
+    for (int j = 0; j < 2 && s == RB_OK; j++)
+        convert_column(&t->table, j, "mm", units);
     return s;
 }
 
@@ -403,9 +416,9 @@ static rb_status read_profile(rb_case *c, rb_message *why)
     const double noise = settled->gap_smoothing;
     if (settled->rc.gap != RB_GAP_TABLE)
         return refuse_given(c, "gap-smoothing", "of a gap from a file only", why);
-    if (!is_read(&c->gap, settled->gap_file) || c->profile.noise != noise)
+    if (!is_read(&c->gap, settled->gap_file, settled->units) || c->profile.noise != noise)
         free_profile(&c->profile);
-    rb_status s = read_table(&c->gap, settled->gap_file, 2, why);
+    rb_status s = read_profile_table(&c->gap, settled->gap_file, settled->units, why);
     if (s == RB_OK && !c->profile.curve) {
         c->profile = (case_profile){.noise = noise};
         s = rb_rolling_profile_create(t->rows, t->x, t->x + t->rows, noise,
@@ -422,7 +435,8 @@ static rb_status read_irregularity(rb_case *c, rb_message *why)
     const rb_io_table *t = &c->irregularity.table;
     if (!settled->irregularity_file)
         return RB_OK;
-    const rb_status s = read_table(&c->irregularity, settled->irregularity_file, 2, why);
+    const rb_status s = read_profile_table(&c->irregularity, settled->irregularity_file,
+                                           settled->units, why);
     if (s != RB_OK)
         return s;
     settled->rc.irregularity_n = t->rows;
@@ -463,10 +477,16 @@ static rb_status set_program(const rb_io_table *t, const char *path,
 static const rb_option *replaced_option(const char *column)
 {
     char name[32];
-    snprintf(name, sizeof name, "%s", column);
-    for (char *c = name; *c; c++)
-        *c = *c == '_' ? '-' : *c;
-    return strcmp(name, "distance") == 0 ? NULL : rb_case_option(name);
+    const rb_option *option = NULL;
+    for (size_t n = strlen(column); n > 0 && !option; n--) {
+        if (column[n] != '\0' && column[n] != '_') /* perhaps its unit stands behind */
+            continue;
+        snprintf(name, sizeof name, "%.*s", (int)n, column);
+        for (char *c = name; *c; c++)
+            *c = *c == '_' ? '-' : *c;
+        option = rb_case_option(name);
+    }
+    return option && strcmp(option->name, "distance") != 0 ? option : NULL;
 }
 
 /* A column stands in the place of an option: as between two options the command line wins
@@ -489,6 +509,26 @@ static rb_status settle_columns(rb_case *c, rb_message *why)
     return s;
 }
 
+/* Columns named like options, in the units of those or in their own: load_kN/m. */
+static rb_status read_program_table(case_table *t, const char *path, rb_units units,
+                                    rb_message *why)
+{
+    if (is_read(t, path, units))
+        return RB_OK;
+    free_table(t);
+    rb_status s = rb_io_table_read(path, &t->table, why);
+    if (s == RB_OK && !t->table.name)
+        s = rb_fail(why, RB_EFORMAT, "%s: expected a line that names the columns", path);
+    t->path = s == RB_OK ? path : NULL;
+    t->units = units;
+    for (int j = 0; j < t->table.columns && s == RB_OK; j++) {
+        const rb_option *option = replaced_option(t->table.name[j]);
+        if (option)
+            convert_column(&t->table, j, option->unit, units);
+    }
+    return s;
+}
+
 /* Before the words are used: the table may replace some of them. */
 static rb_status read_history(rb_case *c, rb_message *why)
 {
@@ -496,9 +536,7 @@ static rb_status read_history(rb_case *c, rb_message *why)
     const char *path = c->words.history_file;
     if (!path || c->words.rc.formulation == RB_STEADY) /* check_formulation refuses it */
         return RB_OK;
-    rb_status s = read_table(&c->history, path, 0, why);
-    if (s == RB_OK && !t->name)
-        s = rb_fail(why, RB_EFORMAT, "%s: expected a line that names the columns", path);
+    rb_status s = read_program_table(&c->history, path, c->words.units, why);
     if (s == RB_OK)
         s = set_program(t, path, &c->words.program, why);
     return s == RB_OK ? settle_columns(c, why) : s;
@@ -613,6 +651,7 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     if (s == RB_OK)
         s = read_history(c, why);
     c->settled = c->words;
+    rb_option_store(&set, c->words.units, &c->settled);
     if (s == RB_OK)
         s = settle_body_b(c, why);
     for (int body = 0; body < 2 && s == RB_OK; body++)

@@ -82,10 +82,8 @@ static rb_status set_value(const ini_state *st, const rb_option_set *set, int i,
     if (!kept)
         return rb_fail(st->why, RB_ENOMEM, "out of memory");
     snprintf(what, sizeof what, "%s:%d: %s", st->path, st->line, o->name);
-    if (set->given)
-        set->given[i] = st->line;
-    return rb_option_read(o, set->target, what, kept, st->why) == RB_OK ? RB_OK
-                                                                        : RB_EFORMAT;
+    return rb_option_assign(set, i, st->line, what, kept, st->why) == RB_OK ? RB_OK
+                                                                            : RB_EFORMAT;
 }
 
 static rb_status set_key(const ini_state *st, const char *section, const char *name,

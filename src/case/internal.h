@@ -11,6 +11,7 @@ enum { RB_CASE_OPTIONS_MAX = 96 };
 typedef struct {
     rb_io_table table;
     const char *path; /* that it was read from; NULL: not yet */
+    rb_units units;   /* that it was read in */
     int borrowed;     /* 1: it belongs to the case that this one is a copy of */
 } case_table;
 
@@ -25,7 +26,7 @@ struct rb_case {
     rb_case_purpose purpose;
     rb_settled_case words, settled; /* as given; as used */
     char path[320];                 /* case file, "" without */
-    int given[RB_CASE_OPTIONS_MAX];
+    int given[RB_CASE_OPTIONS_MAX], plain[RB_CASE_OPTIONS_MAX];
     case_table gap, irregularity, history;
     case_profile profile;
     char **text; /* copies of values; owned */

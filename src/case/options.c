@@ -38,6 +38,9 @@ const rb_choice rb_case_curve_variables[] = {{"creep-ratio", RB_OVER_CREEP_RATIO
                                              {"speed", RB_OVER_SPEED},
                                              {NULL, 0}};
 
+static const rb_choice systems[] = {
+    {"mm", RB_UNITS_MM}, {"si", RB_UNITS_SI}, {"inch", RB_UNITS_INCH}, {NULL, 0}};
+
 /* What excludes what. */
 enum {
     ONE_NORMAL = 1,
@@ -234,6 +237,11 @@ const rb_option rb_case_table[] = {
         "near-field", RC(near_field), near_fields,
         "of a load on a wheel: plain boundary elements, or the exact strip and "
         "elements for the rest; auto: exact on fitted meshes"),
+
+    RB_GROUP_LINE("units", "Units: 210GPa, 100kN/m, 18in, 0.1% always say their own"),
+    RB_CHOICE_LINE("units", PLACE(units), systems,
+                   "of numbers without a unit, in files too, and of the results: mm, N, "
+                   "MPa; m, N, Pa; inch, lbf, psi"),
 
     RB_GROUP_LINE("solver", "Solver"),
     RB_CHOICE_LINE("solver", RC(solver), solvers,

@@ -53,6 +53,14 @@ rb_status rb_case_solve_again(const rb_settled_case *c, rb_rolling_step *step,
     return rb_rolling_solve_with_errors(&c->rc, 0, &r->solution, &r->errors, why);
 }
 
+void rb_case_result_convert(rb_case_result *r, rb_units units)
+{
+    rb_rolling_solution_convert(&r->solution, units);
+    rb_rolling_solution_convert(&r->errors.scalar, units);
+    rb_rolling_history_convert(&r->history, units);
+    rb_rolling_history_convert(&r->history_errors, units);
+}
+
 void rb_case_result_free(rb_case_result *r)
 {
     rb_rolling_solution_free(&r->solution);

@@ -84,18 +84,27 @@ const char *rb_option_expected(const rb_option *o, char *text, size_t size)
     return text;
 }
 
-static int set_number(const rb_option *o, double *place, const char *value)
+/* What is read, and what comes of it. */
+typedef struct {
+    int plain;      /* 1: a number came without a unit */
+    rb_message why; /* what is wrong with a unit; "" otherwise */
+} reading;
+
+static int set_number(const rb_option *o, double *place, const char *value, reading *r)
 {
     double v;
+    int plain = 0;
     if (o->word && strcmp(value, o->word) == 0)
         v = o->word_value;
-    else if (!rb_option_number(value, &v) || !in_range(v, &o->range))
+    else if (rb_unit_read(value, o->unit, &v, &plain, &r->why) != RB_OK ||
+             !in_range(v, &o->range))
         return 0;
+    r->plain |= plain;
     *place = v;
     return 1;
 }
 
-static int set_list(const rb_option *o, char *target, const char *value)
+static int set_list(const rb_option *o, char *target, const char *value, reading *r)
 {
     rb_numbers list = {0};
     char word[64];
@@ -105,7 +114,7 @@ static int set_list(const rb_option *o, char *target, const char *value)
             return 0;
         memcpy(word, value, n);
         word[n] = '\0';
-        if (!set_number(o, &list.value[list.n++], word))
+        if (!set_number(o, &list.value[list.n++], word, r))
             return 0;
         if (value[n] == '\0') {
             *(rb_numbers *)(target + o->list) = list;
@@ -148,12 +157,12 @@ static int set_flag(int *place, const char *value)
     return yes || no;
 }
 
-static int set_any(const rb_option *o, char *target, const char *value)
+static int set_any(const rb_option *o, char *target, const char *value, reading *r)
 {
     void *place = target + o->offset;
     switch (o->kind) {
     case RB_OPTION_NUMBER:
-        return o->list ? set_list(o, target, value) : set_number(o, place, value);
+        return o->list ? set_list(o, target, value, r) : set_number(o, place, value, r);
     case RB_OPTION_INTEGER:
         return set_integer(o, place, value);
     case RB_OPTION_CHOICE:
@@ -169,14 +178,45 @@ static int set_any(const rb_option *o, char *target, const char *value)
     return 0;
 }
 
+static rb_status read_value(const rb_option *option, void *target, const char *what,
+                            const char *text, reading *r, rb_message *why)
+{
+    char expected[200];
+    if (set_any(option, target, text, r))
+        return RB_OK;
+    if (r->why.text[0])
+        return rb_fail(why, RB_EINVAL, "%.300s: expected %s", what, r->why.text);
+    return rb_fail(why, RB_EINVAL, "%s: expected %s, got '%s'", what,
+                   rb_option_expected(option, expected, sizeof expected), text);
+}
+
 rb_status rb_option_read(const rb_option *option, void *target, const char *what,
                          const char *text, rb_message *why)
 {
-    char expected[200];
-    if (set_any(option, target, text))
-        return RB_OK;
-    return rb_fail(why, RB_EINVAL, "%s: expected %s, got '%s'", what,
-                   rb_option_expected(option, expected, sizeof expected), text);
+    reading r = {0, {""}};
+    return read_value(option, target, what, text, &r, why);
+}
+
+rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *what,
+                           const char *text, rb_message *why)
+{
+    reading r = {0, {""}};
+    const rb_status s = read_value(&set->options[k], set->target, what, text, &r, why);
+    if (s == RB_OK && set->given)
+        set->given[k] = by;
+    if (s == RB_OK && set->plain)
+        set->plain[k] = r.plain;
+    return s;
+}
+
+void rb_option_store(const rb_option_set *set, rb_units system, void *target)
+{
+    for (int k = 0; k < set->n; k++) {
+        const rb_option *o = &set->options[k];
+        double *place = (double *)(void *)((char *)target + o->offset);
+        if (o->kind == RB_OPTION_NUMBER && set->given[k] && set->plain[k])
+            *place = rb_unit_stored(system, o->unit, *place);
+    }
 }
 
 static const char *choice_name(const rb_option *o, const char *target)

@@ -352,7 +352,7 @@ int cli_compare(int argc, char **argv)
     const cli_spec spec = {"rollbem compare [OPTION...] FILE...",
                            about,
                            notes,
-                           {{options, OPTIONS, &o, NULL}},
+                           {{options, OPTIONS, &o, NULL, NULL}},
                            1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands < 1)

@@ -21,10 +21,9 @@ static const rb_option options[] = {
     RB_NUMBER_LINE("to", PLACE(to), "-", RB_ANY, "last value"),
     RB_INTEGER_LINE("points", PLACE(points), RB_FROM_TO(2, 1000000),
                     "equally spaced (speeds: in their logarithm), both ends among them"),
-    RB_CHOICE_LINE(
-        "over", PLACE(over), rb_case_curve_variables,
-        "what is varied: xi R/(mu a), xi itself, or the speed [mm/s] of bodies "
-        "that relax"),
+    RB_CHOICE_LINE("over", PLACE(over), rb_case_curve_variables,
+                   "what is varied: xi R/(mu a), xi itself, or the speed of bodies "
+                   "that relax"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -108,7 +107,9 @@ static rb_status print_json(FILE *out, const result *r)
     rb_report_json_set(&inputs, "from", json_real(r->range->from));
     rb_report_json_set(&inputs, "to", json_real(r->range->to));
     rb_report_json_set(&inputs, "points", json_integer(r->range->points));
-    rb_report_json_set(&inputs, "over", json_string(rb_case_curve_variables[r->range->over].name));
+    rb_report_json_set(&inputs, "over",
+                       json_string(rb_case_curve_variables[r->range->over].name));
+    rb_report_json_set(&root, "units", rb_report_json_units(r->c->units));
     rb_report_json_set(&root, "inputs", inputs);
     rb_report_json_curves(&root, &r->curves);
     return rb_report_json_write(out, root);
@@ -153,9 +154,18 @@ static cli_exit solve(const rb_case *words, const range_options *range,
 {
     const rb_settled_case *c = rb_case_settled(words);
     result r = {.words = words, .c = c, .range = range, .o = o};
+    range_options stored = *range;
     rb_message why = {""};
     cli_exit code = CLI_OK;
-    const rb_status s = solve_curves(c, range, &r.curves, &why);
+    if (range->over == RB_OVER_SPEED) {
+        stored.from = rb_unit_stored(c->units, "mm/s", range->from);
+        stored.to = rb_unit_stored(c->units, "mm/s", range->to);
+    }
+    const rb_status s = solve_curves(c, &stored, &r.curves, &why);
+    for (int k = 0; k < RB_REPORT_CURVES; k++) {
+        rb_rolling_curve_convert(&r.curves.curve[k], c->units);
+        rb_rolling_curve_convert(&r.curves.error[k], c->units);
+    }
     if (s >= 0 && r.curves.n > 0 && r.curves.curve[0].n > 0)
         code = show(&r);
     if (code == CLI_OK && s != RB_OK)
@@ -175,12 +185,13 @@ int cli_curve(int argc, char **argv)
     rb_case *c = cli_case_create(RB_CASE_CURVE);
     if (!c)
         return CLI_INTERNAL;
-    const cli_spec spec = {
-        "rollbem curve [OPTION...] [CASE.ini]",
-        about,
-        notes,
-        {rb_case_options(c), {options, OPTIONS, &range, range.given}, cli_output_set(&o)},
-        3};
+    const cli_spec spec = {"rollbem curve [OPTION...] [CASE.ini]",
+                           about,
+                           notes,
+                           {rb_case_options(c),
+                            {options, OPTIONS, &range, range.given, NULL},
+                            cli_output_set(&o)},
+                           3};
     cli_exit code = cli_case_read(&spec, argc, argv, c, &args);
     if (range.over == RB_OVER_SPEED)
         rb_case_set_purpose(c, RB_CASE_SPEEDS);

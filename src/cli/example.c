@@ -436,7 +436,7 @@ int cli_example(int argc, char **argv)
     const cli_spec spec = {"rollbem example [OPTION...] bar|truss|wall",
                            about,
                            NULL,
-                           {{options, OPTIONS, &o, NULL}},
+                           {{options, OPTIONS, &o, NULL, NULL}},
                            1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE)

@@ -450,7 +450,7 @@ int cli_friction(int argc, char **argv)
     const cli_spec spec = {"rollbem friction [OPTION...] FILE...",
                            about,
                            text,
-                           {{options, OPTIONS, &o, NULL}},
+                           {{options, OPTIONS, &o, NULL, NULL}},
                            1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     settle_format(&o);

@@ -627,7 +627,7 @@ int cli_lcp(int argc, char **argv)
     const cli_spec spec = {"rollbem lcp [OPTION...] FILE...",
                            about,
                            notes,
-                           {{options, OPTIONS, &o, NULL}},
+                           {{options, OPTIONS, &o, NULL, NULL}},
                            1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands < 1)

@@ -39,7 +39,7 @@ _Static_assert((int)OPTIONS <= (int)CLI_OUTPUT_OPTIONS_MAX,
 
 rb_option_set cli_output_set(cli_output *o)
 {
-    return (rb_option_set){options, OPTIONS, o, o->given};
+    return (rb_option_set){options, OPTIONS, o, o->given, NULL};
 }
 
 /* ---- Files that options name ----------------------------------------------------------

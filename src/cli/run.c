@@ -10,6 +10,7 @@
 
 typedef struct {
     const cli_steps *steps;
+    rb_units units;
     double start, shown; /* when the run began, when the last line was printed [s] */
     int written;         /* the last step that has a snapshot, counted from 1 */
     rb_status failed;    /* of a snapshot */
@@ -26,9 +27,10 @@ static void show_progress(watch *w, const rb_rolling_history *h, int step, int s
     if (now - w->shown < pause && !last)
         return;
     fprintf(stderr,
-            "%sstep %d of %d: distance %.4g a, xi = %.4g, Q = %.4g N/mm, %.0f s left%s",
+            "%sstep %d of %d: distance %.4g a, xi = %.4g, Q = %.4g %s, %.0f s left%s",
             w->steps->terminal ? "\r" : "", step + 1, steps, h->distance[step],
-            h->creepage[step], h->tangential_load[step],
+            h->creepage[step], rb_unit_shown(w->units, "N/mm", h->tangential_load[step]),
+            rb_unit_name(w->units, "N/mm"),
             (now - w->start) / (step + 1) * (steps - step - 1),
             w->steps->terminal && !last ? "\033[K" : "\n");
     w->shown = now;
@@ -62,6 +64,7 @@ static rb_status write_snapshot(watch *w, const rb_rolling_model *model, int ste
     char *path = name_snapshot(w->steps, step);
     rb_status s = path ? rb_rolling_model_solution(model, &solution, w->why)
                        : rb_fail(w->why, RB_ENOMEM, "out of memory");
+    rb_rolling_solution_convert(&solution, w->units);
     if (s == RB_OK)
         s = cli_write_to(path, write_table, &it, w->why);
     w->written = step;
@@ -113,7 +116,10 @@ rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
 {
     static const cli_steps silent = {0};
     rb_message failure = {""};
-    watch w = {.steps = steps ? steps : &silent, .start = rb_seconds(), .why = &failure};
+    watch w = {.steps = steps ? steps : &silent,
+               .units = c->units,
+               .start = rb_seconds(),
+               .why = &failure};
     memset(r, 0, sizeof *r);
     if (!rb_case_has_steps(c))
         return rb_case_solve(c, NULL, NULL, r, why);

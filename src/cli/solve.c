@@ -92,6 +92,7 @@ static rb_status write_json(FILE *out, const result *it)
     json_t *summary = rb_report_json_summary(&it->r->solution);
     if (it->r->has_errors)
         rb_report_json_set(&summary, "errors", rb_report_json_errors(&it->r->errors));
+    rb_report_json_set(&root, "units", rb_report_json_units(it->c->units));
     rb_report_json_set(&root, "inputs", rb_report_json_inputs(it->words));
     rb_report_json_set(&root, "summary", summary);
     rb_report_json_set(&root, "table", rb_report_json_table(&it->r->solution));
@@ -185,6 +186,7 @@ static cli_exit solve(const solve_options *so, const cli_output *o, const rb_cas
     rb_message why = {""};
     const rb_status status = cli_run_case(c, &so->steps, &r, &why);
     const result it = {words, c, so, o, &r};
+    rb_case_result_convert(&r, c->units);
     cli_exit code = CLI_OK;
     if (status >= 0 && r.solution.n > 0)
         code = print_result(&it);
@@ -246,7 +248,7 @@ int cli_solve(int argc, char **argv)
         "rollbem [OPTION...] [CASE.ini]",
         about,
         notes,
-        {rb_case_options(c), cli_output_set(&o), {options, OPTIONS, &so, given}},
+        {rb_case_options(c), cli_output_set(&o), {options, OPTIONS, &so, given, NULL}},
         3};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     if (code == CLI_CONTINUE)

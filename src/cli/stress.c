@@ -11,7 +11,7 @@
 typedef struct {
     const char *grid, *points, *vtk, *fringes;
     double depth, fringe;
-    int given[7];
+    int given[7], plain[7];
 } stress_options;
 
 #define PLACE(member) offsetof(stress_options, member)
@@ -82,7 +82,7 @@ static cli_exit read_grid(const stress_options *o, places *p)
     return CLI_CONTINUE;
 }
 
-static cli_exit read_points(const stress_options *o, places *p)
+static cli_exit read_points(const stress_options *o, rb_units units, places *p)
 {
     if (!o->points)
         return CLI_CONTINUE;
@@ -95,8 +95,8 @@ static cli_exit read_points(const stress_options *o, places *p)
     if (!p->xy)
         return cli_fail(CLI_INTERNAL, "out of memory");
     for (int k = 0; k < n; k++) {
-        p->xy[2 * k] = p->points.x[k];
-        p->xy[2 * k + 1] = p->points.x[k + n];
+        p->xy[2 * k] = rb_unit_stored(units, "mm", p->points.x[k]);
+        p->xy[2 * k + 1] = rb_unit_stored(units, "mm", p->points.x[k + n]);
     }
     return CLI_CONTINUE;
 }
@@ -149,9 +149,10 @@ static rb_status stress_at_points(result *r, rb_message *why)
         s = rb_rolling_inside(&r->run.model, n, p->xy, inside);
     for (int k = 0; k < n && s == RB_OK; k++)
         if (!inside[k])
-            s = rb_fail(
-                why, RB_EFORMAT, "%.200s:%d: the point (%g, %g) lies outside body A",
-                r->options->points, p->points.line[k], p->xy[2 * k], p->xy[2 * k + 1]);
+            s = rb_fail(why, RB_EFORMAT,
+                        "%.200s:%d: the point (%g, %g) lies outside body A",
+                        r->options->points, p->points.line[k], p->points.x[k],
+                        p->points.x[k + n]);
     if (s == RB_OK)
         s = rb_rolling_stress_at(&r->run.model, n, p->xy, r->at, why);
     free(inside);
@@ -184,6 +185,17 @@ static rb_status run_case(result *r, rb_message *why)
     return s;
 }
 
+static void convert(result *r, rb_units units)
+{
+    rb_rolling_stress_maxima none = r->maxima;
+    rb_case_result_convert(&r->run, units);
+    rb_rolling_solution_convert(&r->errors.scalar, units);
+    rb_rolling_stress_convert(0, NULL, &r->errors.stress, units);
+    rb_rolling_stress_convert(r->at ? r->where->points.rows : 0, r->at, &none, units);
+    rb_rolling_stress_convert(r->grid.nx * r->grid.ny, r->grid.at, &r->maxima, units);
+    rb_rolling_stress_convert(r->fine.nx * r->fine.ny, r->fine.at, &none, units);
+}
+
 static rb_status find_stress(result *r, rb_message *why)
 {
     const places *p = r->where;
@@ -199,6 +211,7 @@ static rb_status find_stress(result *r, rb_message *why)
     else if (s == RB_OK && r->o->plot)
         s = rb_rolling_stress_on_grid(model, CONTOURS_X, CONTOURS_Y, p->depth, &r->fine,
                                       why);
+    convert(r, r->c->units);
     r->table = of_grid(r, &r->grid);
     r->picture = of_grid(r, &r->fine);
     if (p->points.rows > 0) {
@@ -214,6 +227,7 @@ static rb_status find_stress(result *r, rb_message *why)
 static rb_status print_json(FILE *out, const result *r)
 {
     json_t *root = rb_report_json_start(cli_command_line());
+    rb_report_json_set(&root, "units", rb_report_json_units(r->c->units));
     rb_report_json_set(&root, "inputs", rb_report_json_inputs(r->words));
     rb_report_json_set(&root, "summary", rb_report_json_summary(&r->run.solution));
     rb_report_json_stress(&root, &r->table);
@@ -248,7 +262,8 @@ static rb_status draw_fringes(FILE *out, rb_report_picture_kind kind, const void
                               rb_message *why)
 {
     const result *r = context;
-    return rb_report_fringes(out, kind, &r->picture, r->options->fringe, why);
+    return rb_report_fringes(out, kind, &r->picture,
+                             rb_unit_shown(r->c->units, "MPa", r->options->fringe), why);
 }
 
 static cli_exit show(const result *r)
@@ -306,7 +321,8 @@ static cli_exit check(const rb_case *c, const stress_options *so, places *where)
         code = check_vtk(so, rb_case_settled(c));
     if (code == CLI_CONTINUE)
         code = read_grid(so, where);
-    return code == CLI_CONTINUE ? read_points(so, where) : code;
+    return code == CLI_CONTINUE ? read_points(so, rb_case_settled(c)->units, where)
+                                : code;
 }
 
 int cli_stress(int argc, char **argv)
@@ -318,15 +334,18 @@ int cli_stress(int argc, char **argv)
     rb_case *c = cli_case_create(RB_CASE_STRESS);
     if (!c)
         return CLI_INTERNAL;
-    const cli_spec spec = {
-        "rollbem stress [OPTION...] [CASE.ini]",
-        about,
-        notes,
-        {rb_case_options(c), {options, OPTIONS, &so, so.given}, cli_output_set(&o)},
-        3};
+    const cli_spec spec = {"rollbem stress [OPTION...] [CASE.ini]",
+                           about,
+                           notes,
+                           {rb_case_options(c),
+                            {options, OPTIONS, &so, so.given, so.plain},
+                            cli_output_set(&o)},
+                           3};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
-    if (code == CLI_CONTINUE)
+    if (code == CLI_CONTINUE) {
+        rb_option_store(&spec.sets[1], rb_case_settled(c)->units, &so);
         code = check(c, &so, &where);
+    }
     if (code == CLI_CONTINUE)
         code = solve(c, &so, &where, &o);
     rb_io_table_free(&where.points);

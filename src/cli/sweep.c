@@ -349,10 +349,12 @@ static void choose_results(study *st)
 {
     const rb_rolling_case *one = &rb_case_settled(st->one)->rc;
     char heading[RB_ROLLING_HEADING];
+    const rb_units units = rb_case_settled(st->base)->units;
     const rb_rolling_result *r;
     for (int k = 1; (r = rb_rolling_study_column(k)); k++)
         if (rb_rolling_has_result(r, one) &&
-            !is_given(st, rb_rolling_heading(r, heading)) && st->results < RESULTS_MAX)
+            !is_given(st, rb_rolling_heading(r, units, heading)) &&
+            st->results < RESULTS_MAX)
             st->result[st->results++] = r;
 }
 
@@ -370,7 +372,8 @@ static const char *column_name(const study *st, int j, char room[RB_ROLLING_HEAD
         return st->column[j - 1].heading;
     return j == st->columns + 1
                ? "status"
-               : rb_rolling_heading(st->result[j - st->columns - 2], room);
+               : rb_rolling_heading(st->result[j - st->columns - 2],
+                                    rb_case_settled(st->base)->units, room);
 }
 
 /* row NULL: what is known before the case is solved. */
@@ -420,9 +423,11 @@ static int see_row(int k, const rb_rolling_solution *row, void *context)
 {
     study *st = context;
     rb_report_cells c = {.out = st->out, .style = st->o->style};
+    rb_rolling_solution shown = *row;
 
+    rb_rolling_solution_convert(&shown, rb_case_settled(st->base)->units);
     for (int j = 0; j < column_count(st); j++) {
-        const double x = cell_value(st, j, k, row);
+        const double x = cell_value(st, j, k, &shown);
         if (st->o->style.format == RB_REPORT_JSON)
             json_array_append_new(json_array_get(st->list, (size_t)j),
                                   rb_report_json_number(x));
@@ -452,6 +457,8 @@ static rb_status write_json(study *st)
         json_t *list = json_array_get(st->list, (size_t)j);
         rb_report_json_set(&table, column_name(st, j, room), json_incref(list));
     }
+    rb_report_json_set(&root, "units",
+                       rb_report_json_units(rb_case_settled(st->base)->units));
     rb_report_json_set(&root, "inputs", rb_report_json_inputs(st->base));
     rb_report_json_set(&root, "table", table);
     return rb_report_json_write(st->out, root);
@@ -801,7 +808,7 @@ int cli_sweep(int argc, char **argv)
     const cli_spec spec = {"rollbem sweep [OPTION...] [STUDY.ini]",
                            about,
                            notes,
-                           {rb_case_options(c), {options, OPTIONS, &o, o.given}},
+                           {rb_case_options(c), {options, OPTIONS, &o, o.given, NULL}},
                            2};
     cli_exit code = cli_pool_begin(argc, argv);
     if (code != CLI_CONTINUE) {

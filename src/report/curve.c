@@ -11,7 +11,7 @@
 
 static rb_report_columns columns_of(const rb_rolling_curve *c, int errors)
 {
-    return (rb_report_columns){&rb_rolling_curve_columns, c, errors};
+    return (rb_report_columns){&rb_rolling_curve_columns, c, errors, c->units};
 }
 
 /* The coefficient of friction stands before the columns of its curve. */
@@ -114,8 +114,8 @@ static void print_most_resistance(FILE *out, const rb_rolling_curve *c)
     for (int i = 1; i < c->n; i++)
         if (c->resistance_ratio[i] > c->resistance_ratio[most])
             most = i;
-    fprintf(out, "  largest resistance to rolling M/(P R) = %.5g at %.5g mm/s\n",
-            c->resistance_ratio[most], c->speed[most]);
+    fprintf(out, "  largest resistance to rolling M/(P R) = %.5g at %.5g %s\n",
+            c->resistance_ratio[most], c->speed[most], rb_unit_name(c->units, "mm/s"));
 }
 
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
@@ -136,10 +136,11 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                     largest(c->n, curves->error[k].resistance_ratio));
         else if (curves->has_errors)
             fprintf(out,
-                    "  error of Q/(mu P) <= %.1g, of P <= %.1g N/mm (estimated from "
+                    "  error of Q/(mu P) <= %.1g, of P <= %.1g %s (estimated from "
                     "coarser meshes)\n",
                     largest(c->n, curves->error[k].force_ratio),
-                    largest(c->n, curves->error[k].normal_load));
+                    largest(c->n, curves->error[k].normal_load),
+                    rb_unit_name(c->units, "N/mm"));
         if (sliding > 0 && curves->mu[k] > 0.0)
             fprintf(
                 out,
@@ -252,13 +253,16 @@ static void write_labels(FILE *out, const view *v)
 {
     const rb_rolling_curve *c = &v->curves->curve[0];
     fprintf(out,
-            "set label 1 '{/:Bold %s}   P = %.5g N/mm,  a = %.4g mm' "
+            "set label 1 '{/:Bold %s}   P = %.5g %s,  a = %.4g %s' "
             "at screen 0.54, 0.955 center\n",
             v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
-            c->normal_load[c->n - 1], c->half_width);
+            c->normal_load[c->n - 1], rb_unit_name(c->units, "N/mm"), c->half_width,
+            rb_unit_name(c->units, "mm"));
     if (v->over == RB_OVER_SPEED) {
         fputs("set logscale x\n", out);
-        write_label(out, "x", "speed  [mm/s]", 0);
+        char label[32];
+        snprintf(label, sizeof label, "speed  [%s]", rb_unit_name(c->units, "mm/s"));
+        write_label(out, "x", label, 0);
         write_label(out, "y", "resistance to rolling  M/(PR)", v->exponent);
         return;
     }

@@ -7,7 +7,8 @@
 
 static rb_report_columns columns_of(const rb_rolling_history *h, int errors)
 {
-    return (rb_report_columns){&rb_rolling_history_columns, h, errors};
+    return (rb_report_columns){&rb_rolling_history_columns, h, errors,
+                               h ? h->units : RB_UNITS_MM};
 }
 
 rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
@@ -19,9 +20,9 @@ rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
     rb_report_cells c = rb_report_begin_columns(out, style, command, parts, part);
 
     rb_report_comment(&c,
-                      "distance in a = %.9g mm, the Hertz half-width of the largest load "
+                      "distance in a = %.9g %s, the Hertz half-width of the largest load "
                       "of the history",
-                      h->half_width);
+                      h->half_width, rb_unit_name(h->units, "mm"));
     rb_report_comment(&c, "creepage and dissipation (friction power per unit speed): "
                           "means over the step, 0 at rest; shift: so far");
     rb_report_comment(&c, "moment: int x p dx, > 0: the load acts ahead of x = 0; edges "
@@ -74,8 +75,9 @@ void rb_report_history_summary(FILE *out, const rb_rolling_history *h,
     const int last = h->n - 1;
     fprintf(out, "  history   %d steps", h->n);
     if (h->step > 0.0)
-        fprintf(out, " of %.5g mm, rolled %.5g a (a = %.5g mm)", h->step,
-                h->distance[last], h->half_width);
+        fprintf(out, " of %.5g %s, rolled %.5g a (a = %.5g %s)", h->step,
+                rb_unit_name(h->units, "mm"), h->distance[last], h->half_width,
+                rb_unit_name(h->units, "mm"));
     if (h->steady_from >= 0)
         fprintf(out, "; steady from step %d, %.4g a, on", h->steady_from + 1,
                 h->distance[h->steady_from]);

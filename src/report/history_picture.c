@@ -104,6 +104,8 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
 {
     const view *v = context;
     const int last = v->h->n - 1, points = v->h->n <= 40;
+    const char *load = rb_unit_name(v->h->units, "N/mm");
+    const char *mm = rb_unit_name(v->h->units, "mm");
     char label[80];
     (void)kind;
     write_data(out, v);
@@ -114,16 +116,16 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
           out);
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
     fprintf(out,
-            "set label 1 '{/:Bold %s}   %d steps,  at the end P = %.5g N/mm,  Q = %.5g "
-            "N/mm' at screen 0.54, 0.955 center\n",
+            "set label 1 '{/:Bold %s}   %d steps,  at the end P = %.5g %s,  Q = %.5g "
+            "%s' at screen 0.54, 0.955 center\n",
             v->rolls ? "Transient rolling" : "Static history", v->h->n,
-            v->h->normal_load[last],
-            rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]));
+            v->h->normal_load[last], load,
+            rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]), load);
     if (v->exponent)
-        snprintf(label, sizeof label, "%s  [10^{%d}%s]", v->rolls ? "ξ" : "shift",
-                 v->exponent, v->rolls ? "" : " mm");
+        snprintf(label, sizeof label, "%s  [10^{%d}%s%s]", v->rolls ? "ξ" : "shift",
+                 v->exponent, v->rolls ? "" : " ", v->rolls ? "" : mm);
     else
-        snprintf(label, sizeof label, "%s", v->rolls ? "ξ" : "shift  [mm]");
+        snprintf(label, sizeof label, v->rolls ? "ξ" : "shift  [%s]", mm);
     write_range(out, v, motion, INFINITY, -INFINITY);
     write_panel(out, 0, label, 2, v->errors ? 5 : 0, "#6c3483", points);
     fputs("unset label 1\n", out);

@@ -4,7 +4,7 @@
 
 #include <jansson.h>
 
-static json_t *input(const rb_option *o, const void *values)
+static json_t *input(const rb_option *o, const void *values, rb_units units)
 {
     char room[64];
     const char *place = (const char *)values + o->offset;
@@ -14,8 +14,9 @@ static json_t *input(const rb_option *o, const void *values)
         const rb_numbers *list = (const void *)((const char *)values + o->list);
         if (o->list && list->n > 1)
             return rb_report_json_numbers(list->n, list->value);
-        return o->word && v == o->word_value ? json_string(o->word)
-                                             : rb_report_json_number(v);
+        return o->word && v == o->word_value
+                   ? json_string(o->word)
+                   : rb_report_json_number(rb_unit_shown(units, o->unit, v));
     }
     case RB_OPTION_INTEGER:
         return json_integer(*(const int *)(const void *)place);
@@ -30,9 +31,10 @@ json_t *rb_report_json_inputs(const rb_case *c)
 {
     int n;
     const rb_option *o = rb_case_describe(&n);
+    const rb_settled_case *settled = rb_case_settled(c);
     json_t *inputs = json_object();
     for (int i = 0; i < n; i++)
         if (o[i].kind != RB_OPTION_GROUP)
-            rb_report_json_set(&inputs, o[i].name, input(&o[i], rb_case_settled(c)));
+            rb_report_json_set(&inputs, o[i].name, input(&o[i], settled, settled->units));
     return inputs;
 }

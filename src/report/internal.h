@@ -15,6 +15,7 @@ typedef struct {
     const rb_rolling_results *columns;
     const void *owner;
     int errors;
+    rb_units units;
 } rb_report_columns;
 
 /* The headings of all parts as one row; # lines with version, command, conventions. */
@@ -50,6 +51,14 @@ void rb_report_remove_tableaux(const char *folder);
 
 /* The font of a key that would otherwise be larger. */
 const char *rb_report_key_font(rb_report_picture_kind kind);
+/* A unit of an axis: values divided by `size` are in units of `name`. */
+typedef struct {
+    double size;
+    const char *name;
+} rb_report_unit;
+
+/* One whose numbers are neither long nor tiny up to `largest`; unit: "MPa" or "mm". */
+rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double largest);
 /* The next of 1, 2, 5 times a power of ten. */
 double rb_report_round_step(double step);
 

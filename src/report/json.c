@@ -66,6 +66,24 @@ json_t *rb_report_json_start(const char *command)
     return root;
 }
 
+json_t *rb_report_json_units(rb_units units)
+{
+    static const struct {
+        const char *quantity, *unit;
+    } all[] = {{"length", "mm"},
+               {"stress", "MPa"},
+               {"load", "N/mm"},
+               {"moment", "N"},
+               {"speed", "mm/s"}};
+    static const char *const systems[] = {"mm", "si", "inch"};
+    json_t *object = json_object();
+    rb_report_json_set(&object, "system", json_string(systems[units]));
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        rb_report_json_set(&object, all[k].quantity,
+                           json_string(rb_unit_name(units, all[k].unit)));
+    return object;
+}
+
 /* ---- Summary ---------------------------------------------------------------------- */
 
 static json_t *json_value(const rb_rolling_result *r, double x)
@@ -152,18 +170,21 @@ void rb_report_json_columns(json_t **object, int rows, const rb_report_columns *
     for (int j = 0; j < c->columns->n; j++) {
         const rb_rolling_result *r = &c->columns->row[j];
         if ((!c->errors || r->error_bar) && rb_rolling_has_column(r, c->owner))
-            rb_report_json_set(object, headed ? rb_rolling_heading(r, heading) : r->name,
-                               entries(r, c->owner, rows));
+            rb_report_json_set(
+                object, headed ? rb_rolling_heading(r, c->units, heading) : r->name,
+                entries(r, c->owner, rows));
     }
 }
 
 json_t *rb_report_json_table(const rb_rolling_solution *s)
 {
-    const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0};
+    const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0, s->units};
     json_t *table = json_object();
+    char power[40];
+    snprintf(power, sizeof power, "friction_power_%s", rb_unit_name(s->units, "MPa"));
     rb_report_json_columns(&table, s->n, &columns, 1);
     if (s->formulation != RB_STATIC)
-        rb_report_json_set(&table, "friction_power_MPa", friction_power(s));
+        rb_report_json_set(&table, power, friction_power(s));
     return table;
 }
 

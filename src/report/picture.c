@@ -11,7 +11,7 @@ typedef struct {
     const rb_rolling_case *rc;
     const rb_rolling_solution *s;
     double unit; /* length of one unit of the x axis */
-    const char *x_label;
+    char x_label[16];
     double stress_unit;
     const char *stress_label;
     double from, to;  /* x axis, in its units */
@@ -55,9 +55,13 @@ static void choose_x_axis(view *v)
 {
     const rb_rolling_solution *s = v->s;
     const double a = s->half_width;
-    const int ratio = a > 0.0 && (a < 0.01 || a > 1e5);
-    v->unit = ratio ? a : 1.0;
-    v->x_label = ratio ? "x / a" : "x [mm]";
+    const rb_report_unit unit = rb_report_axis_unit(s->units, "mm", a);
+    const int ratio = a > 0.0 && (a / unit.size < 0.01 || a / unit.size > 1e5);
+    v->unit = ratio ? a : unit.size;
+    if (ratio)
+        snprintf(v->x_label, sizeof v->x_label, "x / a");
+    else
+        snprintf(v->x_label, sizeof v->x_label, "x [%s]", unit.name);
     double from = s->x[0] - s->h[0] / 2, to = s->x[s->n - 1] + s->h[s->n - 1] / 2;
     if (s->contact > 0) {
         const double margin = 0.15 * (s->contact_to - s->contact_from);
@@ -106,9 +110,10 @@ static void choose_temperature_axis(view *v)
 
 static void choose_stress_unit(view *v)
 {
-    const int large = v->s->max_pressure >= 1e4;
-    v->stress_unit = large ? 1000.0 : 1.0;
-    v->stress_label = large ? "GPa" : "MPa";
+    const rb_report_unit unit =
+        rb_report_axis_unit(v->s->units, "MPa", v->s->max_pressure);
+    v->stress_unit = unit.size;
+    v->stress_label = unit.name;
 }
 
 static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s)
@@ -224,7 +229,9 @@ static void write_results(FILE *out, const view *v)
         fputs("no contact", out);
         return;
     }
-    fprintf(out, "a = %.4g mm,  p_0 = %.5g MPa", s->half_width, s->max_pressure);
+    const rb_report_unit length = rb_report_axis_unit(s->units, "mm", s->half_width);
+    fprintf(out, "a = %.4g %s,  p_0 = %.5g %s", s->half_width / length.size, length.name,
+            s->max_pressure / v->stress_unit, v->stress_label);
     if (!isnan(s->creepage) && moves)
         fprintf(out, ",  ξ = %.4g", s->creepage);
     if (!isnan(s->creep_ratio) && moves)
@@ -238,9 +245,10 @@ static void write_title(FILE *out, const view *v)
     static const char *const kinds[] = {"Static contact", "Steady rolling",
                                         "Transient rolling"};
     const rb_rolling_solution *s = v->s;
-    fprintf(out, "set label 1 '{/:Bold %s}   μ = %g,  P = %.5g N/mm,  Q = %.5g N/mm",
-            kinds[s->formulation], v->rc->mu, s->normal_load,
-            rb_report_tidy(s->tangential_load, s->normal_load));
+    const char *load = rb_unit_name(s->units, "N/mm");
+    fprintf(out, "set label 1 '{/:Bold %s}   μ = %g,  P = %.5g %s,  Q = %.5g %s",
+            kinds[s->formulation], v->rc->mu, s->normal_load, load,
+            rb_report_tidy(s->tangential_load, s->normal_load), load);
     fputs("' at screen 0.53, 0.965 center\nset label 2 '{/*0.95 ", out);
     write_results(out, v);
     fputs("}' at screen 0.53, 0.925 center textcolor rgb '#444444'\n", out);
@@ -296,6 +304,28 @@ static void write_tractions(FILE *out, const view *v, const char *key_font)
               "linewidth 1.4 title 'Carter'",
               out);
     fputs("\n", out);
+}
+
+rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double largest)
+{
+    /* from the largest down to the system's own, which is 1 */
+    static const struct {
+        rb_units units;
+        const char *of;
+        double from; /* used from this value on */
+        rb_report_unit unit;
+    } all[] = {{RB_UNITS_MM, "MPa", 1e4, {1e3, "GPa"}},
+               {RB_UNITS_SI, "MPa", 1e10, {1e9, "GPa"}},
+               {RB_UNITS_SI, "MPa", 1e6, {1e6, "MPa"}},
+               {RB_UNITS_SI, "MPa", 1e4, {1e3, "kPa"}},
+               {RB_UNITS_INCH, "MPa", 1e4, {1e3, "ksi"}}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        if (all[k].units == units && strcmp(all[k].of, unit) == 0 &&
+            largest >= all[k].from)
+            return all[k].unit;
+    if (units == RB_UNITS_SI && strcmp(unit, "mm") == 0 && largest < 0.1)
+        return (rb_report_unit){1e-3, "mm"};
+    return (rb_report_unit){1.0, rb_unit_name(units, unit)};
 }
 
 double rb_report_round_step(double step)

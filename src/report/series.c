@@ -34,7 +34,7 @@ void rb_report_cell_headings(rb_report_cells *c, int parts, const rb_report_colu
 
     for (int k = 0; (r = column(k, parts, part, &of)); k++) {
         snprintf(name, sizeof name, "%s%s", of->errors ? "error_" : "",
-                 rb_rolling_heading(r, heading));
+                 rb_rolling_heading(r, of->units, heading));
         rb_report_cell_text(c, name);
     }
 }

@@ -43,18 +43,20 @@ static const char *maximum_text(const rb_report_stress *s, int k, char *line, si
     const rb_rolling_extremum *m = extremum(s->maxima, k);
     const rb_rolling_extremum *e = s->errors ? extremum(s->errors, k) : NULL;
     char value[48], x[48], y[48];
-    snprintf(line, size, "%-24s %s MPa at x = %s mm, y = %s mm; %.5g p0", maxima[k].name,
+    snprintf(line, size, "%-24s %s %s at x = %s %s, y = %s %s; %.5g p0", maxima[k].name,
              quantity(m->value, e ? &e->value : NULL, value),
-             quantity(m->x, e ? &e->x : NULL, x), quantity(m->y, e ? &e->y : NULL, y),
-             m->value / s->s->max_pressure);
+             rb_unit_name(s->s->units, "MPa"), quantity(m->x, e ? &e->x : NULL, x),
+             rb_unit_name(s->s->units, "mm"), quantity(m->y, e ? &e->y : NULL, y),
+             rb_unit_name(s->s->units, "mm"), m->value / s->s->max_pressure);
     return line;
 }
 
 void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
 {
     char line[400];
-    fprintf(out, "stress in A under p0 = %.6g MPa, a = %.5g mm\n", s->s->max_pressure,
-            s->s->half_width);
+    fprintf(out, "stress in A under p0 = %.6g %s, a = %.5g %s\n", s->s->max_pressure,
+            rb_unit_name(s->s->units, "MPa"), s->s->half_width,
+            rb_unit_name(s->s->units, "mm"));
     for (int k = 0; k < MAXIMA; k++)
         fprintf(out, "  %s\n", maximum_text(s, k, line, sizeof line));
 }
@@ -69,7 +71,8 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s,
     rb_report_cells c = rb_report_cells_begin(out, style, "");
 
     for (int j = 0; j < columns->n; j++)
-        rb_report_cell_text(&c, rb_rolling_heading(&columns->row[j], heading));
+        rb_report_cell_text(&c,
+                            rb_rolling_heading(&columns->row[j], s->s->units, heading));
     rb_report_cells_end_row(&c);
     rb_report_comment_head(&c, command);
     rb_report_comment(&c,
@@ -124,7 +127,7 @@ void rb_report_json_stress(json_t **root, const rb_report_stress *s)
         for (int k = 0; k < s->n; k++)
             rb_report_json_append(&list,
                                   rb_report_json_number(rb_rolling_number(r, &s->at[k])));
-        rb_report_json_set(&points, rb_rolling_heading(r, heading), list);
+        rb_report_json_set(&points, rb_rolling_heading(r, s->s->units, heading), list);
     }
     rb_report_json_set(root, s->nx > 0 ? "grid" : "points", points);
 }

@@ -6,7 +6,7 @@
 typedef struct {
     const rb_report_stress *s;
     double unit; /* length of one unit of the axes */
-    const char *length_label;
+    char length_label[16];
     double stress_unit;
     const char *stress_label;
     double from, to, depth; /* in units */
@@ -16,12 +16,18 @@ typedef struct {
 static view make_view(const rb_report_stress *s)
 {
     const double a = s->s->half_width;
-    const int ratio = a < 0.01 || a > 1e5, large = s->s->max_pressure >= 1e4;
+    const rb_report_unit length = rb_report_axis_unit(s->s->units, "mm", a);
+    const rb_report_unit stress =
+        rb_report_axis_unit(s->s->units, "MPa", s->s->max_pressure);
+    const int ratio = a / length.size < 0.01 || a / length.size > 1e5;
     view v = {.s = s,
-              .unit = ratio ? a : 1.0,
-              .length_label = ratio ? "/ a" : "[mm]",
-              .stress_unit = large ? 1000.0 : 1.0,
-              .stress_label = large ? "GPa" : "MPa"};
+              .unit = ratio ? a : length.size,
+              .stress_unit = stress.size,
+              .stress_label = stress.name};
+    if (ratio)
+        snprintf(v.length_label, sizeof v.length_label, "/ a");
+    else
+        snprintf(v.length_label, sizeof v.length_label, "[%s]", length.name);
     v.from = s->at[0].x / v.unit;
     v.to = s->at[s->nx - 1].x / v.unit;
     v.depth = 0.0;
@@ -89,8 +95,10 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
 {
     static const char *const kinds[] = {"static", "steady rolling", "transient rolling"};
     const rb_rolling_solution *s = v->s->s;
-    fprintf(out, "set label 1 '{/:Bold %s}   %s,  μ = %g,  p_0 = %.5g MPa,  a = %.4g mm",
-            title, kinds[s->formulation], v->s->rc->mu, s->max_pressure, s->half_width);
+    const rb_report_unit length = rb_report_axis_unit(s->units, "mm", s->half_width);
+    fprintf(out, "set label 1 '{/:Bold %s}   %s,  μ = %g,  p_0 = %.5g %s,  a = %.4g %s",
+            title, kinds[s->formulation], v->s->rc->mu, s->max_pressure / v->stress_unit,
+            v->stress_label, s->half_width / length.size, length.name);
     if (isfinite(s->force_ratio))
         fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0) + 0.0);
     fprintf(out,
@@ -191,9 +199,9 @@ static void write_fringes(FILE *out, rb_report_picture_kind kind, const void *co
     write_axes(out, v);
     write_subtitle(out, v, "Isochromatics", 0.965);
     fprintf(out,
-            "set label 2 'dark where σ_1 − σ_2 is a multiple of %.4g MPa' at screen 0.5, "
+            "set label 2 'dark where σ_1 − σ_2 is a multiple of %.4g %s' at screen 0.5, "
             "0.925 center textcolor rgb '#444444'\n",
-            v->fringe);
+            v->fringe / v->stress_unit, v->stress_label);
     fputs("splot $grid using 1:2:(sin(pi*$5)**2) with pm3d\n", out);
 }
 

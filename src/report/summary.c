@@ -75,26 +75,31 @@ double rb_report_tidy(double x, double size)
 
 static void print_forces(FILE *out, const rb_rolling_solution *s)
 {
-    fprintf(out, "  load      P = %.6g N/mm, Q = %.6g N/mm", s->normal_load,
-            rb_report_tidy(s->tangential_load, s->normal_load));
+    const char *load = rb_unit_name(s->units, "N/mm"), *mm = rb_unit_name(s->units, "mm"),
+               *stress = rb_unit_name(s->units, "MPa");
+    fprintf(out, "  load      P = %.6g %s, Q = %.6g %s", s->normal_load, load,
+            rb_report_tidy(s->tangential_load, s->normal_load), load);
     if (!isnan(s->force_ratio))
         fprintf(out, ", Q/(mu P) = %.5g", rb_report_tidy(s->force_ratio, 1.0));
     fputc('\n', out);
     if (s->contact > 0)
-        fprintf(out, "  contact   %.5g ... %.5g mm, p0 = %.6g MPa, approach %.5g mm\n",
-                s->contact_from, s->contact_to, s->max_pressure, s->approach);
+        fprintf(out, "  contact   %.5g ... %.5g %s, p0 = %.6g %s, approach %.5g %s\n",
+                s->contact_from, s->contact_to, mm, s->max_pressure, stress, s->approach,
+                mm);
     for (int k = 0; k < s->patches && s->patches > 1; k++)
-        fprintf(out, "  patch %-3d %.5g ... %.5g mm, p0 = %.6g MPa, P = %.6g N/mm\n",
-                k + 1, s->patch[k].from, s->patch[k].to, s->patch[k].max_pressure,
-                s->patch[k].normal_load);
+        fprintf(out, "  patch %-3d %.5g ... %.5g %s, p0 = %.6g %s, P = %.6g %s\n", k + 1,
+                s->patch[k].from, s->patch[k].to, mm, s->patch[k].max_pressure, stress,
+                s->patch[k].normal_load, load);
 }
 
 static void print_motion(FILE *out, const rb_rolling_solution *s)
 {
+    const char *load = rb_unit_name(s->units, "N/mm");
     const int moves =
         !isnan(s->creepage) && (s->formulation != RB_STATIC || s->creepage != 0.0);
     if (s->formulation == RB_STATIC && !isnan(s->tangential_shift))
-        fprintf(out, "  shift     %.6g mm\n", s->tangential_shift);
+        fprintf(out, "  shift     %.6g %s\n", s->tangential_shift,
+                rb_unit_name(s->units, "mm"));
     if (!moves)
         return;
     fprintf(out, "  creepage  xi = %.6g", s->creepage);
@@ -108,20 +113,22 @@ static void print_motion(FILE *out, const rb_rolling_solution *s)
     }
     fputc('\n', out);
     if (!isnan(s->dissipation))
-        fprintf(out, "  power     %.5g N/mm dissipated, per unit speed\n",
-                s->dissipation + 0.0);
+        fprintf(out, "  power     %.5g %s dissipated, per unit speed\n",
+                s->dissipation + 0.0, load);
     if (s->hysteresis > 0.0)
         fprintf(out,
-                "  resists   M = %.5g N, M/(P R) = %.5g, hysteresis %.5g N/mm per unit "
+                "  resists   M = %.5g %s, M/(P R) = %.5g, hysteresis %.5g %s per unit "
                 "speed\n",
-                s->resistance_moment, s->resistance_ratio, s->hysteresis);
+                s->resistance_moment, rb_unit_name(s->units, "N"), s->resistance_ratio,
+                s->hysteresis, load);
 }
 
 static void print_heat(FILE *out, const rb_rolling_solution *s)
 {
     if (!isnan(s->max_temperature))
-        fprintf(out, "  heat      %.5g K at x = %.4g mm at most, Peclet number %.3g\n",
-                s->max_temperature, s->max_temperature_at, s->peclet);
+        fprintf(out, "  heat      %.5g K at x = %.4g %s at most, Peclet number %.3g\n",
+                s->max_temperature, s->max_temperature_at, rb_unit_name(s->units, "mm"),
+                s->peclet);
 }
 
 static void print_zones(FILE *out, const rb_rolling_solution *s, int width)
@@ -133,9 +140,10 @@ static void print_zones(FILE *out, const rb_rolling_solution *s, int width)
             s->slipping, s->n - s->contact);
     if (s->stick > 0) {
         const double between = s->stick_to - s->stick_from;
-        fprintf(out, "; stick %.5g ... %.5g mm", s->stick_from, s->stick_to);
+        const char *mm = rb_unit_name(s->units, "mm");
+        fprintf(out, "; stick %.5g ... %.5g %s", s->stick_from, s->stick_to, mm);
         if (s->stick_length < (1.0 - 1e-9) * between)
-            fprintf(out, ", %.5g of these %.5g mm", s->stick_length, between);
+            fprintf(out, ", %.5g of these %.5g %s", s->stick_length, between, mm);
     }
     rb_report_strip(s, room < 8 ? 8 : room, strip);
     fprintf(out, "\n            %s\n", strip);
@@ -183,7 +191,8 @@ static void note_strain(FILE *out, const rb_rolling_case *rc,
     double widest = s->patches > 1 ? 0.0 : s->half_width;
     for (int k = 0; k < s->patches && s->patches > 1; k++)
         widest = fmax(widest, 0.5 * (s->patch[k].to - s->patch[k].from));
-    const double approach = s->approach / rc->a.radius, width = widest / rc->a.radius;
+    const double radius = rb_unit_shown(s->units, "mm", rc->a.radius);
+    const double approach = s->approach / radius, width = widest / radius;
     if (approach > stretched_approach || width > stretched_width)
         fprintf(out,
                 "rollbem: note: approach/R = %.2g, a/R = %.2g: linear elasticity is "

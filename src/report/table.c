@@ -9,7 +9,7 @@ const char *const rb_report_conventions[] = {
     "p >= 0: pressure; q: friction on A, positive towards +x; loads per unit length",
     "creepage xi > 0: A's surface slides towards +x over the ground (braked wheel), Q < "
     "0",
-    "slip_1 > 0: A's surface slides towards +x; shift_mm likewise",
+    "slip_1 > 0: A's surface slides towards +x; shift likewise",
     "zone: 0 separated, 1 stick, 2 slip with q = -mu p, 3 slip with q = +mu p",
     NULL};
 
@@ -33,17 +33,18 @@ const char *rb_report_lcp_form(rb_contact_lcp_form form)
 rb_status rb_report_table(FILE *out, const rb_rolling_solution *s, const char *command,
                           const rb_report_style *style)
 {
-    const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0};
+    const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0, s->units};
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
 
     rb_report_comment(&c, "%s, %s; residual %.3g", rb_report_formulation(s->formulation),
                       rb_status_text(s->status), s->residual);
     for (int k = 0; k < s->patches && s->patches > 1; k++)
         rb_report_comment(&c,
-                          "patch %d: from %.9g to %.9g mm, p0 = %.9g MPa, P = %.9g, Q = "
-                          "%.9g N/mm",
+                          "patch %d: from %.9g to %.9g %s, p0 = %.9g %s, P = %.9g, Q = "
+                          "%.9g %s",
                           k + 1, s->patch[k].from, s->patch[k].to,
-                          s->patch[k].max_pressure, s->patch[k].normal_load,
-                          s->patch[k].tangential_load);
+                          rb_unit_name(s->units, "mm"), s->patch[k].max_pressure,
+                          rb_unit_name(s->units, "MPa"), s->patch[k].normal_load,
+                          s->patch[k].tangential_load, rb_unit_name(s->units, "N/mm"));
     return rb_report_end_columns(&c, s->n, 1, &columns);
 }

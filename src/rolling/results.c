@@ -263,11 +263,11 @@ double rb_rolling_entry(const rb_rolling_result *r, const void *owner, int i)
                                       : ((const double *)column)[i];
 }
 
-const char *rb_rolling_heading(const rb_rolling_result *r,
+const char *rb_rolling_heading(const rb_rolling_result *r, rb_units units,
                                char heading[RB_ROLLING_HEADING])
 {
     snprintf(heading, RB_ROLLING_HEADING, "%s%s%s", r->symbol ? r->symbol : r->name,
-             r->unit ? "_" : "", r->unit ? r->unit : "");
+             r->unit ? "_" : "", r->unit ? rb_unit_name(units, r->unit) : "");
     return heading;
 }
 
@@ -277,6 +277,74 @@ const rb_rolling_result *rb_rolling_study_column(int k)
         if (scalars[i].study == k)
             return &scalars[i];
     return NULL;
+}
+
+/* ---- Units ------------------------------------------------------------------------- */
+
+/* What the table has no row for stands in no unit, or is named by the caller. */
+static void convert_scalars(const rb_rolling_results *t, void *owner, rb_units units)
+{
+    for (int k = 0; k < t->n; k++) {
+        const rb_rolling_result *r = &t->row[k];
+        double *x = place(r, owner);
+        if (r->unit && r->kind == RB_RESULT_NUMBER)
+            *x = rb_unit_shown(units, r->unit, *x);
+    }
+}
+
+static void convert_columns(const rb_rolling_results *t, int rows, void *owner,
+                            rb_units units)
+{
+    for (int k = 0; k < t->n; k++) {
+        const rb_rolling_result *r = &t->row[k];
+        double *x = column_of(r, owner);
+        for (int i = 0; i < rows && x && r->unit && r->kind == RB_RESULT_NUMBER; i++)
+            x[i] = rb_unit_shown(units, r->unit, x[i]);
+    }
+}
+
+void rb_rolling_solution_convert(rb_rolling_solution *s, rb_units units)
+{
+    s->units = units;
+    if (units == RB_UNITS_MM)
+        return;
+    convert_scalars(&rb_rolling_solution_scalars, s, units);
+    convert_columns(&rb_rolling_solution_columns, s->n, s, units);
+    for (int k = 0; k < s->patches; k++)
+        convert_scalars(&rb_rolling_patch_scalars, &s->patch[k], units);
+}
+
+void rb_rolling_history_convert(rb_rolling_history *h, rb_units units)
+{
+    h->units = units;
+    if (units == RB_UNITS_MM)
+        return;
+    convert_columns(&rb_rolling_history_columns, h->n, h, units);
+    h->half_width = rb_unit_shown(units, "mm", h->half_width);
+    h->step = rb_unit_shown(units, "mm", h->step);
+}
+
+void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units)
+{
+    c->units = units;
+    if (units == RB_UNITS_MM)
+        return;
+    convert_columns(&rb_rolling_curve_columns, c->n, c, units);
+    c->half_width = rb_unit_shown(units, "mm", c->half_width);
+}
+
+void rb_rolling_stress_convert(int n, rb_rolling_stress *at,
+                               rb_rolling_stress_maxima *maxima, rb_units units)
+{
+    rb_rolling_extremum *const of[] = {&maxima->max_shear, &maxima->von_mises,
+                                       &maxima->orthogonal_shear, &maxima->tension};
+    for (int k = 0; k < n && units != RB_UNITS_MM; k++)
+        convert_scalars(&rb_rolling_stress_scalars, &at[k], units);
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+        of[k]->value = rb_unit_shown(units, "MPa", of[k]->value);
+        of[k]->x = rb_unit_shown(units, "mm", of[k]->x);
+        of[k]->y = rb_unit_shown(units, "mm", of[k]->y);
+    }
 }
 
 /* ---- Owners ------------------------------------------------------------------------ */

@@ -1,0 +1,245 @@
+/* Units: the table against the definitions, and every command in every system: the same
+ * numbers, converted. */
+#include "cli_run.h"
+#include "rollbem/case.h"
+#include "rollbem/io.h"
+#include "rollbem/units.h"
+
+/* ---- The table --------------------------------------------------------------------- */
+
+static double read_unit(const char *text, const char *unit)
+{
+    double value = NAN;
+    int plain = 1;
+    rb_message why;
+    assert_int_equal(rb_unit_read(text, unit, &value, &plain, &why), RB_OK);
+    assert_int_equal(plain, 0);
+    return value;
+}
+
+static void units_are_as_defined(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *unit;
+        double wanted;
+    } all[] = {{"210GPa", "MPa", 210000.0},
+               {"2.1e11 Pa", "MPa", 210000.0},
+               {"0.0465m", "mm", 46.5},
+               {"18in", "mm", 457.2},
+               {"1ft", "mm", 304.8},
+               {"3mil", "mm", 0.0762},
+               {"100kN/m", "N/mm", 100.0},
+               {"1lbf/in", "N/mm", 0.17512683524647636},
+               {"1ksi", "MPa", 6.894757293168361},
+               {"1lbf", "N", 4.4482216152605},
+               {"36km/h", "mm/s", 10000.0},
+               {"60mph", "mm/s", 26822.4},
+               {"5ms", "s", 0.005},
+               {"0.1%", "-", 0.001},
+               {"3.14159265358979323846rad", "degrees", 180.0}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        CHECK_REL(read_unit(all[k].text, all[k].unit), all[k].wanted, 1e-15, "%s",
+                  all[k].text);
+}
+
+/* The point moves: no digit is lost where a unit is a power of ten of another. */
+static void powers_of_ten_are_exact(void **state)
+{
+    (void)state;
+    char text[40];
+    for (int k = 1; k < 2000; k++) {
+        const double mm = k * 0.0137;
+        snprintf(text, sizeof text, "%.15g", mm);
+        const double typed = strtod(text, NULL);
+        snprintf(text, sizeof text, "%.15ge-3m", typed);
+        CHECK_ABS(read_unit(text, "mm"), typed, 0.0, "%s", text);
+        CHECK_ABS(
+            rb_unit_stored(RB_UNITS_SI, "mm", rb_unit_shown(RB_UNITS_SI, "mm", typed)),
+            typed, 0.0, "there and back");
+        const double x = rb_unit_shown(RB_UNITS_INCH, "MPa", mm);
+        CHECK_REL(rb_unit_stored(RB_UNITS_INCH, "MPa", x), mm, 1e-15, "psi and back");
+    }
+    assert_true(isnan(rb_unit_shown(RB_UNITS_SI, "mm", NAN)));
+    CHECK_ABS(rb_unit_shown(RB_UNITS_SI, "degrees", 30.0), 30.0, 0.0, "degrees");
+}
+
+/* ---- Results ----------------------------------------------------------------------- */
+
+/* The unit that a column of a table in mm, N, MPa ends with; "": none that is converted.
+ */
+static const char *unit_of(const char *column)
+{
+    static const char *const units[] = {"mm", "MPa", "N/mm", "N", "mm/s"};
+    const char *end = strrchr(column, '_');
+    for (size_t k = 0; end && k < sizeof units / sizeof *units; k++)
+        if (strcmp(end + 1, units[k]) == 0)
+            return units[k];
+    return "";
+}
+
+/* Every column of b is that of a in the other system, name and numbers. */
+static void compare_tables(const char *a_path, const char *b_path, rb_units system)
+{
+    rb_io_table a, b;
+    rb_message why = {""};
+    if (rb_io_table_read(a_path, &a, &why) != RB_OK ||
+        rb_io_table_read(b_path, &b, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    assert_int_equal(a.columns, b.columns);
+    assert_int_equal(a.rows, b.rows);
+    int converted = 0;
+    for (int j = 0; j < a.columns; j++) {
+        const char *unit = unit_of(a.name[j]);
+        const size_t stem = strlen(a.name[j]) - strlen(unit);
+        assert_int_equal(strncmp(a.name[j], b.name[j], stem), 0);
+        assert_string_equal(b.name[j] + stem, rb_unit_name(system, unit));
+        for (int i = 0; i < a.rows; i++) {
+            const double x = a.x[i + j * a.rows], y = b.x[i + j * b.rows];
+            const double wanted = rb_unit_shown(system, unit, x);
+            CHECK_ABS(y, wanted, 0.0, "%s, row %d", a.name[j], i + 1);
+        }
+        converted += *unit != '\0';
+    }
+    assert_true(converted > 0);
+    rb_io_table_free(&a);
+    rb_io_table_free(&b);
+}
+
+static void every_command_converts_the_same_numbers(void **state)
+{
+    (void)state;
+    /* $L ...: lengths, stresses and loads, once as plain numbers of each system */
+    static const struct {
+        const char *command, *table;
+    } all[] = {
+        {"$R --radius $R1 --young $E1 --approach $A1 --contact-elements 24", "out"},
+        {"$R --radius $R1 --young $E1 --load $P1 --support halfplane --similar "
+         "--formulation "
+         "steady --creep-ratio .4 --zone $Z1 --mesh uniform",
+         "out"},
+        {"$R --radius $R1 --young $E1 --load $P1 --support halfplane --similar "
+         "--formulation "
+         "transient --creep-ratio .4 --distance 1 --contact-elements 30 --error "
+         "--history-table h.tsv && cat h.tsv",
+         "out"},
+        {"$R curve --radius $R1 --young $E1 --load $P1 --support halfplane --similar "
+         "--points 3",
+         "out"},
+        {"$R stress --radius $R1 --young $E1 --load $P1 --support halfplane --similar "
+         "--depth "
+         "$Z1 --grid 4x3",
+         "out"},
+        {"$R sweep --radius $R1 --young $E1 --support halfplane --similar --load $P1 "
+         "--vary-1 "
+         "'mu .1 .3'",
+         "out"}};
+    static const char *const values[] = {"R1=46.5; E1=205000; A1=2.5; P1=712; Z1=1.25",
+                                         "R1=0.0465; E1=205e9; A1=0.0025; P1=712e3; "
+                                         "Z1=0.00125"};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char line[800];
+        for (int u = 0; u < 2; u++) {
+            const char *quiet = strstr(all[k].command, "&&");
+            const int n = quiet ? (int)(quiet - all[k].command) : 800;
+            snprintf(line, sizeof line, "%s; %.*s --quiet --units %s > t%d %s%s",
+                     values[u], n, all[k].command, u ? "si" : "mm", u,
+                     quiet ? "&& cp h.tsv t" : "", quiet ? (u ? "1" : "0") : "");
+            assert_int_equal(shell(line), 0);
+            assert_int_equal(shell("sed -i s/NaN/0/g t?"), 0);
+        }
+        compare_tables("t0", "t1", RB_UNITS_SI);
+    }
+}
+
+/* A value's own unit: the same case to the last digit. */
+static void values_say_their_own_units(void **state)
+{
+    (void)state;
+    const char *same = "--support halfplane --similar --formulation steady --quiet "
+                       "--header=bare";
+    char line[600];
+    snprintf(line, sizeof line,
+             "\"$R\" %s --radius 457.2 --young 210000 --load 100 --creep 0.001 >a && "
+             "\"$R\" %s --radius 18in --young 210GPa --load 100kN/m --creep 0.1%% >b && "
+             "cmp a b && printf '[body-a]\\nradius = 18 in\\nyoung = 210 GPa\\n"
+             "[normal]\\nload = 100 kN/m\\n[tangential]\\ncreep = 0.1 %%%%\\n' >c.ini && "
+             "\"$R\" %s c.ini >c && cmp a c",
+             same, same, same);
+    assert_int_equal(shell(line), 0);
+}
+
+static void files_take_units(void **state)
+{
+    (void)state;
+    write_file("a.txt", "shift load\n0 100\n0.001 120\n");
+    write_file("b.txt", "shift_um load_kN/m\n0 100\n1 120\n");
+    write_file("c.txt", "shift load\n0 100e3\n1e-6 120e3\n");
+    write_file("gap.txt", "x gap\n-1 .01\n-.5 .0025\n0 0\n.5 .0025\n1 .01\n");
+    write_file("gap2.txt", "x_mm gap_um\n-1 10\n-.5 2.5\n0 0\n.5 2.5\n1 10\n");
+    write_file("points.txt", "0 0.0005\n");
+    assert_int_equal(
+        shell(
+            "S='--support halfplane --similar --quiet --header=bare'; "
+            "\"$R\" $S --history a.txt >a && \"$R\" $S --history b.txt >b && cmp a b && "
+            "\"$R\" $S --units si --history c.txt --json >c && "
+            "\"$R\" $S --gap gap.txt --load 10 >d && "
+            "\"$R\" $S --gap gap2.txt --load 10 >e && cmp d e"),
+        0);
+    json_t *root = json_load_file("c", 0, NULL);
+    assert_string_equal(
+        json_string_value(json_object_get(json_object_get(root, "units"), "length")),
+        "m");
+    CHECK_REL(number_in(json_object_get(root, "summary"), "normal_load"), 120e3, 1e-9,
+              "load in N/m");
+    CHECK_REL(number_in(json_object_get(root, "inputs"), "radius"), 0.05, 1e-15,
+              "radius");
+    json_decref(root);
+    root = run_json("stress --support halfplane --similar --load 500kN/m --units si "
+                    "--points points.txt");
+    CHECK_REL(entry(json_object_get(root, "points"), "y_m", 0), 0.0005, 1e-15, "y");
+    CHECK_ABS(entry(json_object_get(root, "points"), "max_shear_Pa", 0), 1.1e8, 0.2e8,
+              "a shear in Pa");
+    json_decref(root);
+}
+
+static void what_people_see_says_the_units(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("--support halfplane --similar --load 100kN/m --units inch"),
+                     0);
+    assert_non_null(strstr(err, " lbf/in, Q = "));
+    assert_non_null(strstr(err, " psi, approach "));
+    assert_null(strstr(err, " mm"));
+    assert_int_equal(shell("! grep -E 'MPa|mm' out"), 0);
+    assert_int_equal(
+        rollbem("--support halfplane --similar --load 100kN/m --units si --quiet "
+                "--plot p.svg"),
+        0);
+    assert_int_equal(shell("grep -q 'N/m' p.svg && ! grep -q 'N/mm' p.svg"), 0);
+}
+
+static void wrong_units_are_named(void **state)
+{
+    (void)state;
+    check_refused("--young 210GPA", 64, "did you mean 'GPa'?");
+    check_refused("--young 5mm", 64, "expected a number in one of MPa, Pa,");
+    check_refused("--mu 3mm", 64, "a number without a unit");
+    check_refused("--units cgs", 64, "mm, si or inch");
+    write_file("u.ini", "radius = 5 lightyears\n");
+    check_refused("u.ini", 65, "u.ini:1: radius: expected a number in one of mm,");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(units_are_as_defined),
+        cmocka_unit_test(powers_of_ten_are_exact),
+        cmocka_unit_test(every_command_converts_the_same_numbers),
+        cmocka_unit_test(values_say_their_own_units),
+        cmocka_unit_test(files_take_units),
+        cmocka_unit_test(what_people_see_says_the_units),
+        cmocka_unit_test(wrong_units_are_named),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
