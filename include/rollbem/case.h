@@ -16,6 +16,7 @@
 #define ROLLBEM_CASE_H
 
 #include "rollbem/base.h"
+#include "rollbem/io_contact.h"
 #include "rollbem/rolling.h"
 #include "rollbem/units.h"
 
@@ -297,6 +298,21 @@ rb_status rb_case_solve_again(const rb_settled_case *settled, rb_rolling_step *s
 /* From mm, N, MPa to the units of the case, for those who show it; the model stays. */
 void rb_case_result_convert(rb_case_result *result, rb_units units);
 void rb_case_result_free(rb_case_result *result);
+
+/* ---- Cases of CONTACT (docs/contact.md) ---------------------------------------------
+ */
+
+/* A two-dimensional case of CONTACT.  Its x is centre + sign x, its CKSI and FX are sign
+ * times creepage and Q: sign < 0 where it rolls towards -x (CHI = 180 degrees). */
+typedef struct {
+    rb_rolling_case rc;
+    double from, to; /* ends of its line of elements, for rb_rolling_solve_between */
+    double centre, sign;
+    int runs;           /* 0: it is none of those that can be run, left_out says why */
+    char left_out[400]; /* what CONTACT does in it that is not done here; "" */
+} rb_case_contact;
+
+void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c);
 
 /* ---- Whose fault it is --------------------------------------------------------------
  */

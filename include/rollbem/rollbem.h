@@ -11,6 +11,7 @@
 #include "rollbem/fem.h"
 #include "rollbem/friction.h"
 #include "rollbem/io.h"
+#include "rollbem/io_contact.h"
 #include "rollbem/io_fclib.h"
 #include "rollbem/lcp.h"
 #include "rollbem/report.h"

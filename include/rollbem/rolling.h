@@ -608,6 +608,12 @@ rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int n
                                     rb_message *why);
 void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid);
 
+/* A case on equal elements between from and to, wherever its contact lies between them;
+ * mesh, zone and the elements of the case are not read but for their count.  The solution
+ * is overwritten; free it in any case. */
+rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, double to,
+                                   rb_rolling_solution *solution, rb_message *why);
+
 /* ---- Error bars (theory.md 5.1)
  * ----------------------------------------------------------- */
 

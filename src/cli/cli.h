@@ -26,6 +26,7 @@ int cli_friction(int argc, char **argv);
 int cli_compare(int argc, char **argv);
 int cli_example(int argc, char **argv);
 int cli_page(int argc, char **argv);
+int cli_contact(int argc, char **argv);
 int cli_help(int argc, char **argv);
 
 /* Of command k = 0, 1, ...; NULL: there are no more. */

@@ -160,7 +160,7 @@ int cli_page(int argc, char **argv)
     const cli_spec spec = {"rollbem page [OPTION...] [CASE.ini]",
                            about,
                            notes,
-                           {rb_case_options(c), {options, OPTIONS, &o, o.given}},
+                           {rb_case_options(c), {options, OPTIONS, &o, o.given, NULL}},
                            2};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     if (code == CLI_CONTINUE)

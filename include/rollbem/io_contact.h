@@ -1,0 +1,42 @@
+/* Input files of CONTACT (module 3): numbers and names, what they mean to a case is in
+ * rollbem/case.h.  A case keeps what it does not read from the one before it, as there.
+ */
+#ifndef ROLLBEM_IO_CONTACT_H
+#define ROLLBEM_IO_CONTACT_H
+
+#include "rollbem/base.h"
+
+/* The control digits by their letters; those that decide nothing here are not kept. */
+typedef struct {
+    int P, B, T, N, F, S;
+    int L, D, C, M, Z, E;
+    int H, G, X;
+} rb_io_contact_digits;
+
+typedef struct {
+    int line;   /* of MODULE */
+    int module; /* the rest is read of module 3 alone */
+    rb_io_contact_digits digit;
+    double normal;               /* FN [N], N = 1; PEN [mm], N = 0 */
+    double tangential, side;     /* CKSI or FX, CETA or FY */
+    double spin;                 /* CPHI */
+    int law;                     /* L of the last case that had its own */
+    double fstat, fkin;          /* of the slip laws L >= 2: at rest, and at large slip */
+    double chi;                  /* degrees */
+    double dq, velocity;         /* DQ [mm], VELOC [mm/s] */
+    double poisson[2], shear[2]; /* POISS, GG [MPa] */
+    double ratio[2], time[2];    /* FG, TC [s]; M = 1 */
+    int potential;               /* IPOTCN */
+    int mx, my;
+    double from, dx, dy;   /* x where the first element begins, DX, DY [mm] */
+    int base, plan;        /* IBASE, IPLAN */
+    double b[6];           /* IBASE = 1 */
+    double centre, radius; /* XM, RX1; IBASE = 2 */
+} rb_io_contact_case;
+
+/* All cases up to module 0 or the end.  Owned by the caller (free); RB_ENOENT, RB_EFORMAT
+ * with file and line, RB_ENOMEM. */
+rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **cases,
+                             rb_message *why);
+
+#endif

@@ -1,0 +1,150 @@
+/* What a case of CONTACT means here.  Signs: docs/contact.md. */
+#include "rollbem/case.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Adds a clause to what is left out. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void
+leave_out(rb_case_contact *c, const char *format, ...)
+{
+    const size_t used = strlen(c->left_out), room = sizeof c->left_out - used;
+    va_list args;
+    va_start(args, format);
+    if (used > 0 && room > 2)
+        strcpy(c->left_out + used, "; ");
+    if (room > 3)
+        vsnprintf(c->left_out + strlen(c->left_out),
+                  sizeof c->left_out - strlen(c->left_out), format, args);
+    va_end(args);
+}
+
+/* 1: what makes the case another one, so that it is not run. */
+static int is_outside(rb_case_contact *c, const rb_io_contact_case *in)
+{
+    const rb_io_contact_digits *d = &in->digit;
+    if (in->module != 3)
+        leave_out(c, "module %d (module 3 alone is read)", in->module);
+    else if (in->potential < 0)
+        leave_out(c, "Hertzian input (IPOTCN = %d)", in->potential);
+    else if (in->my > 1)
+        leave_out(c, "three dimensions (MY = %d rows of elements)", in->my);
+    else if (in->base != 1 && in->base != 2)
+        leave_out(c, "IBASE = %d (1 and 2 are read)", in->base);
+    else if (in->base == 1 && !(in->b[0] > 0.0))
+        leave_out(c, "a gap without curvature (B1 = %g)", in->b[0]);
+    else if (d->T == 2)
+        leave_out(c, "transient rolling that goes on from the case before (T = 2)");
+    else if (d->T == 1 && d->P == 0)
+        leave_out(c, "a shift that goes on from the case before (P = 0)");
+    else if (d->B != 0)
+        leave_out(c, "approximate pressure (B = %d)", d->B);
+    else
+        return 0;
+    return 1;
+}
+
+/* What CONTACT has in a case that is run, and this program has not. */
+static void list_left_out(rb_case_contact *c, const rb_io_contact_case *in)
+{
+    static const char *const materials[] = {"", "",
+                                            "the flexibility of the simplified theory",
+                                            "that of Fastsim", "the third body"};
+    const rb_io_contact_digits *d = &in->digit;
+    if (in->fstat != in->fkin && d->T > 0)
+        leave_out(c,
+                  "friction that falls with the slip (L = %d): mu = %g, its value at "
+                  "rest",
+                  in->law, in->fstat);
+    if (d->M > 1)
+        leave_out(c, "%s (M = %d)", d->M < 5 ? materials[d->M] : "the material", d->M);
+    if (d->T > 0 && (in->side != 0.0 || in->spin != 0.0))
+        leave_out(c, "CETA, FY and CPHI");
+    if (d->T == 3 && fabs(in->dq / in->dx - 1.0) > 0.01)
+        leave_out(c, "the step DQ = %g: slip is that over an element, DX = %g", in->dq,
+                  in->dx);
+    if (in->plan > 1)
+        leave_out(c, "the planform (IPLAN = %d)", in->plan);
+    if (d->H > 0)
+        leave_out(c, "temperatures (H = %d)", d->H);
+    if (d->E > 1)
+        leave_out(c, "the rigid slip per element (E = %d)", d->E);
+}
+
+static rb_rolling_body body_of(const rb_io_contact_case *in, int k)
+{
+    rb_rolling_body body = {.young = 2.0 * in->shear[k] * (1.0 + in->poisson[k]),
+                            .poisson = in->poisson[k],
+                            .radius = INFINITY,
+                            .support = RB_BEM_HALFPLANE,
+                            .datum = in->dy};
+    if (in->digit.M != 1 || in->ratio[k] == 0.0)
+        return body;
+    if (in->time[k] > 0.0)
+        body.memory = (rb_rolling_memory){1, {in->time[k]}, {in->ratio[k]}};
+    else
+        body.young /= 1.0 + in->ratio[k]; /* it relaxes at once */
+    return body;
+}
+
+/* Parabola or circle; where its lowest point is. */
+static double set_gap(const rb_io_contact_case *in, rb_rolling_case *rc)
+{
+    rc->gap = in->base == 2 ? RB_GAP_EXACT : RB_GAP_PARABOLA;
+    rc->a.radius = in->base == 2 ? in->radius : 0.5 / in->b[0];
+    return in->base == 2 ? in->centre : -0.5 * in->b[3] / in->b[0];
+}
+
+/* T = 1: CKSI is a distance; F > 0: FX is a part of FSTAT FN. */
+static void set_loading(const rb_io_contact_case *in, double sign, rb_rolling_case *rc)
+{
+    const double tangential = sign * in->tangential;
+    rc->mu = in->digit.T == 0 ? 0.0 : in->fstat;
+    rc->formulation = in->digit.T == 3 ? RB_STEADY : RB_STATIC;
+    if (in->digit.N == 1)
+        rc->load = in->normal / in->dy;
+    else
+        rc->approach = in->normal;
+    if (in->digit.T == 0)
+        rc->shift = 0.0;
+    else if (in->digit.F > 0)
+        rc->force_ratio = tangential;
+    else if (in->digit.T == 3)
+        rc->creep = tangential;
+    else
+        rc->shift = tangential;
+}
+
+void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
+{
+    memset(c, 0, sizeof *c);
+    c->rc = rb_rolling_case_defaults();
+    if (is_outside(c, in))
+        return;
+    list_left_out(c, in);
+    c->runs = 1;
+    c->sign = fabs(fmod(in->chi, 360.0)) > 90.0 && in->digit.T >= 2 ? -1.0 : 1.0;
+    c->rc.a = body_of(in, 0);
+    c->rc.b = body_of(in, 1);
+    c->rc.elastic_b = 1;
+    c->centre = set_gap(in, &c->rc);
+    set_loading(in, c->sign, &c->rc);
+    if (c->rc.a.memory.n + c->rc.b.memory.n > 0)
+        c->rc.speed = in->velocity;
+    c->rc.mesh = RB_MESH_UNIFORM;
+    c->rc.slip_operator = RB_SLIP_UPSTREAM;
+    c->rc.contact_elements = in->mx;
+    c->from = c->sign * (in->from - c->centre);
+    c->to = c->sign * (in->from + in->mx * in->dx - c->centre);
+    if (c->sign < 0.0) {
+        const double from = c->from;
+        c->from = c->to;
+        c->to = from;
+    }
+    c->rc.zone = 0.5 * (c->to - c->from);
+}

@@ -1,0 +1,259 @@
+/* rollbem contact FILE.inp: the two-dimensional cases of an input file of CONTACT. */
+#include "cli/cli.h"
+#include "cli/output.h"
+#include "rollbem/case.h"
+
+#include <jansson.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    rb_report_style style;
+    int tractions, quiet;
+    const char *output;
+} contact_options;
+
+#define PLACE(member) offsetof(contact_options, member)
+
+static const rb_option options[] = {
+    RB_GROUP_LINE("output", "Output"),
+    RB_FLAG_LINE("tractions", PLACE(tractions),
+                 "a row per element of every case instead of one per case"),
+    CLI_STYLE_LINES(PLACE(style)),
+    RB_TEXT_LINE("output", PLACE(output), "FILE",
+                 "where the table or JSON goes, whole or not at all",
+                 .unset = "standard output", .file = RB_FILE_WRITTEN),
+    RB_FLAG_LINE("quiet", PLACE(quiet), "no lines on what is left out"),
+};
+
+enum { OPTIONS = sizeof options / sizeof options[0] };
+
+static const char about[] =
+    "Runs the cases of an input file of CONTACT (module 3) that are two-dimensional:\n"
+    "one row of elements, MY = 1, a parabola or a circle as gap, Coulomb friction,\n"
+    "elastic or viscoelastic half-spaces; pressed, shifted or rolling steadily. The\n"
+    "elements are those of the file. A line for each case says what is left out.\n"
+    "docs/contact.md has the names and signs of both programs.";
+
+static const char notes[] =
+    "Columns in CONTACT's names, signs and units (N over the width DY, MPa, mm), then P, "
+    "Q\n"
+    "[N/mm] and the residual. FX_REL is FX/(FSTAT FN); FRIC_POWER is that of CONTACT, < "
+    "0.\n"
+    "Exit codes: 0 all cases that could be run are solved; 1 none could, or one was not\n"
+    "solved; 65 malformed file; 66 no such file.\n";
+
+typedef struct {
+    const rb_io_contact_case *in;
+    rb_case_contact c;
+    rb_rolling_solution s; /* n = 0: not run */
+    rb_status status;
+    rb_message why;
+} contact_run;
+
+typedef struct {
+    const contact_options *o;
+    const char *path;
+    int n;
+    contact_run *run;
+} contact_runs;
+
+/* ---- Results in CONTACT's words -----------------------------------------------------
+ */
+
+enum { COLUMNS = 17 };
+static const char columns[] = "case status FN FX FX_REL CKSI PEN PMAX FRIC_POWER NPOT "
+                              "NCON NADH NSLIP P_N/mm Q_N/mm "
+                              "line residual";
+static const char element_columns[] = "case X H PN PX S zone";
+
+/* As CONTACT counts it [N m/s], < 0: each element's friction times its own slip. */
+static double friction_power(const contact_run *r)
+{
+    double power = 0.0;
+    for (int i = 0; i < r->s.n; i++)
+        power -= fabs(r->s.q[i] * r->s.shift[i]);
+    return r->in->digit.T == 3 ? power * r->in->dy * r->in->velocity * 1e-3 : NAN;
+}
+
+/* What stands in the columns behind the status. */
+static void values_of(const contact_run *r, double x[COLUMNS - 2])
+{
+    const rb_rolling_solution *s = &r->s;
+    const rb_io_contact_case *in = r->in;
+    const double sign = r->c.sign, width = in->dy;
+    const double all[COLUMNS - 2] = {
+        s->normal_load * width,
+        sign * s->tangential_load * width,
+        sign * s->force_ratio,
+        sign * (in->digit.T == 3 ? s->creepage : s->tangential_shift),
+        s->approach,
+        s->max_pressure,
+        friction_power(r),
+        s->n,
+        s->contact,
+        s->stick,
+        s->slipping,
+        s->normal_load,
+        s->tangential_load,
+        in->line,
+        s->residual};
+    for (int k = 0; k < COLUMNS - 2; k++)
+        x[k] = s->n > 0 ? all[k] + 0.0 : NAN;
+}
+
+static const char *status_of(const contact_run *r)
+{
+    return r->c.runs ? rb_status_text(r->status) : "not run";
+}
+
+static void print_elements(rb_report_cells *cells, int k, const contact_run *r)
+{
+    const rb_rolling_solution *s = &r->s;
+    for (int j = 0; j < s->n; j++) {
+        const int i = r->c.sign < 0.0 ? s->n - 1 - j : j;
+        rb_report_cell_whole(cells, k + 1);
+        rb_report_cell_number(cells, r->c.centre + r->c.sign * s->x[i]);
+        rb_report_cell_number(cells, s->gap[i]);
+        rb_report_cell_number(cells, s->p[i]);
+        rb_report_cell_number(cells, r->c.sign * s->q[i] + 0.0);
+        rb_report_cell_number(cells, r->c.sign * s->slip[i] + 0.0);
+        rb_report_cell_whole(cells, s->zone[i]);
+        rb_report_cells_end_row(cells);
+    }
+}
+
+static rb_status print_table(FILE *out, const contact_runs *all)
+{
+    rb_report_cells cells = rb_report_cells_begin(
+        out, &all->o->style, all->o->tractions ? element_columns : columns);
+    rb_report_comment_origin(&cells, cli_command_line());
+    for (int k = 0; k < all->n; k++)
+        if (all->run[k].c.left_out[0])
+            rb_report_comment(&cells, "case %d leaves out %s", k + 1,
+                              all->run[k].c.left_out);
+    for (int k = 0; k < all->n; k++) {
+        double x[COLUMNS - 2];
+        if (all->o->tractions) {
+            print_elements(&cells, k, &all->run[k]);
+            continue;
+        }
+        values_of(&all->run[k], x);
+        rb_report_cell_whole(&cells, k + 1);
+        rb_report_cell_words(&cells, status_of(&all->run[k]));
+        for (int j = 0; j < COLUMNS - 2; j++)
+            rb_report_cell_number(&cells, x[j]);
+        rb_report_cells_end_row(&cells);
+    }
+    return rb_report_flush(out);
+}
+
+static json_t *json_case(const contact_runs *all, int k)
+{
+    const contact_run *r = &all->run[k];
+    json_t *one = json_object();
+    double x[COLUMNS - 2];
+    char name[20];
+    const char *at = columns;
+    values_of(r, x);
+    rb_report_json_set(&one, "case", json_integer(k + 1));
+    rb_report_json_set(&one, "status", json_string(status_of(r)));
+    rb_report_json_set(&one, "left_out", json_string(r->c.left_out));
+    for (int j = 0; j < COLUMNS; j++) {
+        const size_t n = strcspn(at, " ");
+        snprintf(name, sizeof name, "%.*s", (int)n, at);
+        at += n + (at[n] == ' ');
+        if (j >= 2)
+            rb_report_json_set(&one, name, rb_report_json_number(x[j - 2]));
+    }
+    if (all->o->tractions && r->s.n > 0)
+        rb_report_json_set(&one, "table", rb_report_json_table(&r->s));
+    return one;
+}
+
+static rb_status print(FILE *out, const void *context, rb_message *why)
+{
+    const contact_runs *all = context;
+    (void)why;
+    if (all->o->style.format != RB_REPORT_JSON)
+        return print_table(out, all);
+    json_t *root = rb_report_json_start(cli_command_line()), *cases = json_array();
+    for (int k = 0; k < all->n; k++)
+        rb_report_json_append(&cases, json_case(all, k));
+    rb_report_json_set(&root, "file", rb_report_json_text(all->path));
+    rb_report_json_set(&root, "cases", cases);
+    return rb_report_json_write(out, root);
+}
+
+/* ---- Command ------------------------------------------------------------------------
+ */
+
+static cli_exit run_case(const contact_runs *all, int k)
+{
+    contact_run *r = &all->run[k];
+    rb_case_from_contact(r->in, &r->c);
+    if (r->c.left_out[0] && !all->o->quiet)
+        cli_fail(CLI_OK, "%s:%d: case %d%s: leaves out %s", all->path, r->in->line, k + 1,
+                 r->c.runs ? "" : " is not run", r->c.left_out);
+    if (!r->c.runs)
+        return CLI_OK;
+    r->status = rb_rolling_solve_between(&r->c.rc, r->c.from, r->c.to, &r->s, &r->why);
+    if (r->status == RB_OK)
+        return CLI_OK;
+    const cli_exit code = r->status == RB_EINVAL ? CLI_DATA : cli_exit_of(r->status);
+    return cli_fail(code, "%s:%d: case %d: %s", all->path, r->in->line, k + 1,
+                    r->why.text[0] ? r->why.text : rb_status_text(r->status));
+}
+
+static cli_exit run_all(contact_runs *all, const rb_io_contact_case *cases)
+{
+    cli_exit worst = CLI_OK;
+    int ran = 0;
+    all->run = calloc((size_t)all->n, sizeof *all->run);
+    if (!all->run)
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    for (int k = 0; k < all->n; k++) {
+        all->run[k].in = &cases[k];
+        const cli_exit code = run_case(all, k);
+        worst = code > worst ? code : worst;
+        ran += all->run[k].c.runs;
+    }
+    const cli_exit code = cli_write_file(all->o->output, print, all);
+    if (code != CLI_OK)
+        worst = code;
+    else if (ran == 0)
+        worst = cli_fail(CLI_UNSOLVED, "%s: no case that could be run", all->path);
+    for (int k = 0; k < all->n; k++)
+        rb_rolling_solution_free(&all->run[k].s);
+    free(all->run);
+    return worst;
+}
+
+int cli_contact(int argc, char **argv)
+{
+    contact_options o = {0};
+    cli_args args = {0};
+    const cli_spec spec = {"rollbem contact [OPTION...] FILE.inp",
+                           about,
+                           notes,
+                           {{options, OPTIONS, &o, NULL, NULL}},
+                           1};
+    cli_exit code = cli_parse(&spec, argc, argv, &args);
+    if (code == CLI_CONTINUE && args.operands != 1)
+        code = cli_fail(CLI_USAGE, "contact: expected one FILE.inp, got %d files",
+                        args.operands);
+    if (code == CLI_CONTINUE)
+        code = cli_check_files(&spec, &args);
+    if (code == CLI_CONTINUE) {
+        contact_runs all = {.o = &o, .path = args.operand[0]};
+        rb_io_contact_case *cases = NULL;
+        rb_message why;
+        code = cli_say(rb_io_contact_read(all.path, &all.n, &cases, &why), &why);
+        if (code == CLI_CONTINUE)
+            code = run_all(&all, cases);
+        free(cases);
+    }
+    cli_args_free(&args);
+    return code;
+}

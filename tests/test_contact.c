@@ -1,0 +1,245 @@
+/* Input files of CONTACT: our own in every way of writing them, the same cases by the
+ * program's own options, and CONTACT's examples below ROLLBEM_DATA. */
+#include "cli_run.h"
+
+#include <stdlib.h>
+
+/* Steel on steel, R = 300, P = 250 N/mm over a width of 100; the digits, the line of
+ * forces, the angle of rolling, grid and gap are filled in. */
+static const char frame[] = "%% our own\n"
+                            " 3 MODULE\n"
+                            "  20%d1%d0   P-B-T-N-F-S\n"
+                            "  022020   L-D-C-M-Z-E\n"
+                            " 0000331   H-G-I-A-O-W-R\n"
+                            "   100   100    30      1     1e-6   MAXGS ...\n"
+                            "  25000. %s 0. 0.   FN, CKSI, CETA, CPHI\n"
+                            "   0.25  0.25   FSTAT, FKIN\n"
+                            "%s"
+                            "   0.3   0.3   82000.  82000.   POISS 1,2, GG 1,2\n"
+                            "%s"
+                            "   1   1   IBASE, IPLAN\n"
+                            "   %s\n"
+                            " 0 MODULE\n";
+#define ROLLS " 0.0  0.05 1000.\n"
+#define BACK " 180d  0.05 1000.\n"
+#define GRID " 1\n 60 1 -1.5 -50. 0.05 100.\n"
+#define GAP "0.00166666666666666667 0. 0. 0. 0. 0."
+
+static json_t *run_file(const char *options, int t, int f, const char *force,
+                        const char *angle, const char *grid, const char *gap)
+{
+    char text[2000], line[200];
+    snprintf(text, sizeof text, frame, t, f, force, angle, grid, gap);
+    write_file("own.inp", text);
+    snprintf(line, sizeof line, "contact own.inp %s", options);
+    json_t *root = run_json(line);
+    json_t *one = json_incref(json_array_get(json_object_get(root, "cases"), 0));
+    json_decref(root);
+    assert_string_equal(json_string_value(json_object_get(one, "status")), "solved");
+    return one;
+}
+
+/* The same case by options of our own. */
+static void a_case_is_the_one_of_our_options(void **state)
+{
+    (void)state;
+    static const struct {
+        int t, f;
+        const char *force, *ours;
+    } all[] = {{3, 0, "-0.0004", "--formulation steady --creep -0.0004"},
+               {3, 1, "0.6", "--formulation steady --force-ratio 0.6"},
+               {1, 1, "-0.7", "--formulation static --force-ratio -0.7"},
+               {1, 0, "-0.0004", "--formulation static --shift -0.0004"}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char line[400];
+        json_t *got = run_file("", all[k].t, all[k].f, all[k].force,
+                               all[k].t == 3 ? ROLLS : "", GRID, GAP);
+        snprintf(
+            line, sizeof line,
+            "--support halfplane --similar --radius 300 --young 213200 --poisson 0.3 "
+            "--gap parabola --load 250 --mu 0.25 --mesh uniform --zone 1.5 "
+            "--contact-elements 60 --datum 100 --datum-b 100 %s",
+            all[k].ours);
+        json_t *wanted = run_json(line), *s = json_object_get(wanted, "summary");
+        CHECK_REL(number_in(got, "FX_REL"), number_in(s, "force_ratio"), 1e-9, "%s",
+                  line);
+        CHECK_REL(number_in(got, "PEN"), number_in(s, "approach"), 1e-9, "%s", line);
+        CHECK_REL(number_in(got, "PMAX"), number_in(s, "max_pressure"), 1e-9, "%s", line);
+        CHECK_REL(number_in(got, "FX"), 100.0 * number_in(s, "tangential_load"), 1e-9,
+                  "FX is Q DY: %s", line);
+        CHECK_ABS(number_in(got, "NADH"), number_in(s, "stick"), 0.0, "%s", line);
+        json_decref(wanted);
+        json_decref(got);
+    }
+}
+
+/* Rolling towards -x is the mirror image. */
+static void rolling_back_turns_the_signs(void **state)
+{
+    (void)state;
+    json_t *there = run_file("", 3, 0, "-0.0004", ROLLS, GRID, GAP);
+    json_t *back = run_file("", 3, 0, "0.0004", BACK, GRID, GAP);
+    CHECK_REL(number_in(back, "FX"), -number_in(there, "FX"), 1e-12, "FX");
+    CHECK_REL(number_in(back, "CKSI"), -number_in(there, "CKSI"), 1e-12, "CKSI");
+    assert_true(number_in(there, "FX") > 0.0);
+    json_decref(there);
+    json_decref(back);
+}
+
+/* The four ways of telling a grid, and a gap whose lowest point is elsewhere. */
+static void grids_and_gaps_are_those_of_the_file(void **state)
+{
+    (void)state;
+    static const char *const grids[] = {" 2\n 60 1 -1.5 -50. 1.5 50.\n",
+                                        " 3\n 60 1 -1.475 0. 0.05 100.\n"};
+    json_t *wanted = run_file("", 3, 0, "-0.0004", ROLLS, GRID, GAP);
+    for (int k = 0; k < 2; k++) {
+        json_t *got = run_file("", 3, 0, "-0.0004", ROLLS, grids[k], GAP);
+        CHECK_REL(number_in(got, "FX"), number_in(wanted, "FX"), 1e-9, "grid %d", k);
+        json_decref(got);
+    }
+    /* (x - 1)^2/(2R) = B1 x^2 - 2 B1 x + const */
+    json_t *moved =
+        run_file("", 3, 0, "-0.0004", ROLLS, " 1\n 60 1 -0.5 -50. 0.05 100.\n",
+                 "0.00166666666666666667 0. 0. -0.0033333333333333333 0. 0.");
+    CHECK_REL(number_in(moved, "FX"), number_in(wanted, "FX"), 1e-9, "moved by 1");
+    json_decref(moved);
+    json_decref(wanted);
+}
+
+static void two_cases(const char *second)
+{
+    char text[3000];
+    const int n = snprintf(text, sizeof text, frame, 3, 0, "-0.0004", ROLLS, GRID, GAP);
+    snprintf(text + n - 10, sizeof text - (size_t)n + 10, "\n%s\n 0 MODULE\n", second);
+    write_file("two.inp", text);
+}
+
+static void cases_go_on_from_the_one_before(void **state)
+{
+    (void)state;
+    two_cases(" 3 MODULE\n 203110\n 100000\n 0101331\n 25000. 0.6 0. 0.\n");
+    assert_int_equal(rollbem("contact two.inp --json"), 0);
+    json_t *root = json_loads(out, 0, NULL);
+    json_t *second = json_array_get(json_object_get(root, "cases"), 1);
+    CHECK_REL(number_in(second, "FX_REL"), 0.6, 1e-9, "FX of the second case");
+    CHECK_ABS(number_in(second, "NPOT"), 60.0, 0.0, "the grid of the first");
+    json_decref(root);
+}
+
+static void what_is_left_out_is_named(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *second, *wanted;
+    } all[] = {{" 1 MODULE\n 1 2 3\n", "case 2 is not run: leaves out module 1"},
+               {" 3 MODULE\n 203100\n 120000\n 0101331\n 25000. -.0004 0. 0.\n 1\n"
+                " 20 20 -1. -1. .1 .1\n",
+                "three dimensions (MY = 20"},
+               {" 3 MODULE\n 002100\n 100000\n 0101331\n 25000. -.0004 0. 0.\n",
+                "goes on from the case before (T = 2)"},
+               {" 3 MODULE\n 203100\n 400000\n 0101331\n 25000. -.0004 0. 0.\n .2 .1 "
+                "100. 0. 0.\n"
+                " 0. 1.\n",
+                "friction that falls with the slip (L = 4): mu = 0.3"},
+               {" 3 MODULE\n 203100\n 100000\n 0101331\n 25000. -.0004 .1 0.\n", "CETA"},
+               {" 3 MODULE\n 203100\n 120000\n 0101331\n 25000. -.0004 0. 0.\n -3\n"
+                " 20 1 1. 1. 1.2\n",
+                "Hertzian input"}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        two_cases(all[k].second);
+        assert_int_equal(rollbem("contact two.inp"), 0);
+        if (!strstr(err, all[k].wanted))
+            fail_msg("'%s' is not in: %s", all[k].wanted, err);
+        assert_non_null(strstr(err, "two.inp:16: case 2"));
+        assert_non_null(strstr(out, "# case 2 leaves out"));
+    }
+}
+
+static void bad_files_are_refused(void **state)
+{
+    (void)state;
+    write_file("bad.inp", " 3 MODULE\n 203100\n 022020\n 0000331\n 1 2\n");
+    check_refused("contact bad.inp", 65, "bad.inp:5: expected MAXGS, MAXIN");
+    write_file("bad.inp", "mu = 0.3\n");
+    check_refused("contact bad.inp", 65, "not an input file of CONTACT");
+    write_file("bad.inp", " 3 MODULE\n 203100\n");
+    check_refused("contact bad.inp", 65, "the digits L-D-C-M-Z-E, got 'the end of");
+    check_refused("contact none.inp", 66, "none.inp");
+    check_refused("contact", 64, "FILE.inp");
+}
+
+/* ---- CONTACT's examples --------------------------------------------------------------
+ */
+
+static const char *data(const char *name)
+{
+    static char path[600];
+    const char *folder_of_data = getenv("ROLLBEM_DATA");
+    if (!folder_of_data)
+        skip();
+    snprintf(path, sizeof path, "%s/contact/%s", folder_of_data, name);
+    if (access(path, R_OK) != 0)
+        skip();
+    return path;
+}
+
+/* Figures of carter2d.ref_out. */
+static void carters_example_is_met(void **state)
+{
+    (void)state;
+    char line[700];
+    snprintf(line, sizeof line, "contact %s", data("carter2d.inp"));
+    json_t *root = run_json(line);
+    json_t *one = json_array_get(json_object_get(root, "cases"), 0);
+    CHECK_REL(number_in(one, "FN"), 35780.0, 1e-9, "FN");
+    CHECK_ABS(number_in(one, "FX"), 6955.0, 0.5, "FX");
+    CHECK_ABS(number_in(one, "FX_REL"), 0.6480, 0.5e-4, "FX/FSTAT/FN");
+    CHECK_ABS(number_in(one, "PEN"), 6.492e-3, 0.5e-6, "approach");
+    CHECK_ABS(number_in(one, "PMAX"), 113.9, 0.05, "PMAX");
+    CHECK_ABS(number_in(one, "FRIC_POWER"), -47.62, 0.005, "frictional power");
+    CHECK_ABS(number_in(one, "NCON"), 50.0, 0.0, "elements in contact");
+    CHECK_ABS(number_in(one, "NADH"), 30.0, 0.0, "in adhesion");
+    CHECK_ABS(number_in(one, "NSLIP"), 20.0, 0.0, "in slip");
+    json_decref(root);
+}
+
+static void other_examples_are_run_or_named(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        int code, cases;
+        const char *wanted;
+    } all[] = {{"cattaneo.inp", 1, 2, "three dimensions (MY = 19"},
+               {"veldep_fric.inp", 0, 0, "friction that falls"},
+               {"carter_plast.inp", 0, 12, "third body"}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char line[700];
+        snprintf(line, sizeof line, "contact %s --json", data(all[k].name));
+        assert_int_equal(rollbem(line), all[k].code);
+        assert_non_null(strstr(err, all[k].wanted));
+        json_t *root = json_loads(out, 0, NULL);
+        const size_t cases = json_array_size(json_object_get(root, "cases"));
+        if (all[k].cases)
+            assert_int_equal(cases, all[k].cases);
+        else
+            assert_true(cases > 40);
+        json_decref(root);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_case_is_the_one_of_our_options),
+        cmocka_unit_test(rolling_back_turns_the_signs),
+        cmocka_unit_test(grids_and_gaps_are_those_of_the_file),
+        cmocka_unit_test(cases_go_on_from_the_one_before),
+        cmocka_unit_test(what_is_left_out_is_named),
+        cmocka_unit_test(bad_files_are_refused),
+        cmocka_unit_test(carters_example_is_met),
+        cmocka_unit_test(other_examples_are_run_or_named),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
