@@ -122,7 +122,7 @@ $(B)/src/bem/column.o $(B)/bench/bench_bem: private STD += -ffp-contract=fast
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
-	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -fPIC -MMD -MP -c -o $@ $<
+	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -fPIC -fvisibility=hidden -MMD -MP -c -o $@ $<
 
 # tests of failing allocations count the library's own calls: --wrap sees the static library
 WRAP = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc
@@ -131,7 +131,20 @@ $(B)/tests/%: tests/%.c tests/check.h tests/failing_alloc.c $(B)/librollbem.a
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $(filter tests/%.c,$^) $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
 
+# the core by itself, with the libraries that it needs and no others
+CORE := $(foreach folder,base lcp bem contact rolling case,$(B)/src/$(folder)/%) $(B)/src/io/table.o $(B)/src/io/text.o $(B)/src/io/tokens.o
+CORE_LIBS = $(filter-out -lgslcblas,$(shell pkg-config --libs openblas lapacke gsl fftw3)) -lfftw3_threads -lm $(OPENMP)
+$(B)/librollbem-core.a: $(filter $(CORE),$(LIB_OBJ))
+	@rm -f $@
+	@echo "  AR  $@"
+	$(Q)$(AR) rcs $@ $^
+$(B)/tests/test_core: tests/test_core.c tests/check.h $(B)/librollbem-core.a
+	@mkdir -p $(@D)
+	@echo "  CC  $<"
+	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< $(B)/librollbem-core.a $(LDFLAGS) $(CORE_LIBS) -lcmocka
+
 # the program under failing system calls, and under failing allocations
+$(B)/tests/test_symbols: | $(B)/librollbem.so
 $(B)/tests/test_faults: tests/fault_call.c $(B)/tests/fault_malloc.so
 $(B)/tests/fault_malloc.so: tests/fault_malloc.c
 	@mkdir -p $(@D)

@@ -16,9 +16,9 @@
 #ifndef ROLLBEM_API_H
 #define ROLLBEM_API_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "rollbem/base.h"
+
+RB_PUBLIC_BEGIN
 
 typedef struct rb_api rb_api;
 
@@ -152,8 +152,6 @@ int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double
  * processor).  A case that is refused ends the call before anything is solved. */
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

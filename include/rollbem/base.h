@@ -4,9 +4,24 @@
 
 #include <stddef.h>
 
+/* Around the declarations of every public header: for C++ too, and the only names that
+ * the shared library exports. */
 #ifdef __cplusplus
-extern "C" {
+#define RB_EXTERN_C_BEGIN extern "C" {
+#define RB_EXTERN_C_END }
+#else
+#define RB_EXTERN_C_BEGIN
+#define RB_EXTERN_C_END
 #endif
+#ifdef __GNUC__
+#define RB_PUBLIC_BEGIN RB_EXTERN_C_BEGIN _Pragma("GCC visibility push(default)")
+#define RB_PUBLIC_END _Pragma("GCC visibility pop") RB_EXTERN_C_END
+#else
+#define RB_PUBLIC_BEGIN RB_EXTERN_C_BEGIN
+#define RB_PUBLIC_END RB_EXTERN_C_END
+#endif
+
+RB_PUBLIC_BEGIN
 
 #define RB_VERSION "0.1.0"
 /* Of the library that runs, which need not be that of the header. */
@@ -79,8 +94,6 @@ double rb_seconds(void);
 /* max |x_i| over n; NaN if any entry is NaN. */
 double rb_norm_inf(size_t n, const double *x);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

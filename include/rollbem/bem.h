@@ -6,9 +6,7 @@
 
 #include "rollbem/base.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RB_PUBLIC_BEGIN
 
 /* ---- Elasticity ------------------------------------------------------------------ */
 
@@ -281,8 +279,6 @@ rb_status rb_bem_halfplane_stress_linear(int n, const double *nodes, const doubl
 rb_status rb_bem_disc_response(double radius, rb_bem_material material, double h,
                                double angle, double response[4]);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

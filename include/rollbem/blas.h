@@ -3,9 +3,9 @@
 #ifndef ROLLBEM_BLAS_H
 #define ROLLBEM_BLAS_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "rollbem/base.h"
+
+RB_PUBLIC_BEGIN
 
 /* "SkylakeX", "Haswell", ...: what is in use. */
 const char *rb_blas_core(void);
@@ -25,8 +25,6 @@ int rb_blas_threads(int threads);
  * reduced to one too if need be. */
 int rb_blas_has_room(void);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

@@ -23,9 +23,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RB_PUBLIC_BEGIN
 
 /* ---- Options --------------------------------------------------------------------- */
 
@@ -323,8 +321,6 @@ int rb_case_given(const rb_case *c, const char *name);
  * where they are to blame.  Returns the status that says which. */
 rb_status rb_case_blame(const rb_case *c, rb_status s, rb_message *why);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

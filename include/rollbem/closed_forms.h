@@ -5,9 +5,9 @@
 #ifndef ROLLBEM_CLOSED_FORMS_H
 #define ROLLBEM_CLOSED_FORMS_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "rollbem/base.h"
+
+RB_PUBLIC_BEGIN
 
 /* ---- Hertz ------------------------------------------------------------------------ */
 
@@ -64,8 +64,6 @@ rb_closed_bentall_johnson rb_closed_bentall_johnson_stick(double beta,
                                                           double hertz_half_width,
                                                           double radius, double modulus);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

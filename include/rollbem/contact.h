@@ -9,6 +9,8 @@
 #include "rollbem/base.h"
 #include "rollbem/lcp.h"
 
+RB_PUBLIC_BEGIN
+
 /* ---- The operator: what tractions do -------------------------------------------------
  */
 
@@ -251,5 +253,7 @@ rb_status rb_contact_lcp_first(const rb_contact_problem *problem,
  * RB_SINGULAR, RB_ENOMEM. */
 rb_status rb_contact_try_zones(rb_contact_problem *problem, rb_contact_state *state,
                                double *gap);
+
+RB_PUBLIC_END
 
 #endif

@@ -9,9 +9,7 @@
 #include "rollbem/friction.h"
 #include "rollbem/sparse.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RB_PUBLIC_BEGIN
 
 /* ---- Elements -------------------------------------------------------------------- */
 
@@ -260,8 +258,6 @@ rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step,
  * solved. */
 rb_status rb_fem_wall_select(const rb_fem_wall *wall, int count, int *step);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

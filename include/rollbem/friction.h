@@ -7,9 +7,7 @@
 #include "rollbem/contact.h"
 #include "rollbem/sparse.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RB_PUBLIC_BEGIN
 
 /* ---- The problem ------------------------------------------------------------------- */
 
@@ -249,8 +247,6 @@ double rb_friction_soclcp_error(const rb_friction_soclcp_problem *problem,
 const char *rb_friction_status_text(rb_status s, double tol,
                                     const rb_friction_info *info);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

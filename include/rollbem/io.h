@@ -8,9 +8,7 @@
 
 #include <stdio.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RB_PUBLIC_BEGIN
 
 /* ---- Output written whole or not at all ------------------------------------------- */
 
@@ -193,8 +191,6 @@ typedef struct {
 rb_status rb_io_siconos_read_soclcp(const char *path, rb_io_soclcp *p, rb_message *why);
 void rb_io_soclcp_free(rb_io_soclcp *p);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

@@ -7,9 +7,7 @@
 #include "rollbem/base.h"
 #include "rollbem/sparse.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RB_PUBLIC_BEGIN
 
 /* local:  u = W r + q.   global:  M v = H r + f,  u = H' v + w.
  * [N, T] or [N, T1, T2] per contact. */
@@ -42,8 +40,6 @@ rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem,
                             rb_io_fclib_layout layout, const char *title,
                             const char *description, rb_message *why);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

@@ -7,9 +7,7 @@
 #include "rollbem/base.h"
 #include "rollbem/sparse.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RB_PUBLIC_BEGIN
 
 /* Which row leaves when several ratios tie. */
 typedef enum {
@@ -131,8 +129,6 @@ double rb_lcp_residual_sparse(const rb_sparse *M, const double *q, const double 
 double rb_lcp_residual_mixed(const rb_sparse *M, const double *q, const double *lower,
                              const double *upper, const double *z, double *w);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

@@ -8,9 +8,7 @@
 
 #include <stdio.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RB_PUBLIC_BEGIN
 
 struct json_t; /* jansson's */
 
@@ -284,8 +282,6 @@ typedef void rb_report_each_check(const rb_report_check *check, void *context);
  * The number of those that do not hold. */
 int rb_report_verify(rb_report_each_check *each, void *context);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

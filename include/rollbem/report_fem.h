@@ -5,9 +5,7 @@
 #include "rollbem/fem.h"
 #include "rollbem/report.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RB_PUBLIC_BEGIN
 
 /* ---- Pictures: FILE gets the whole picture; statuses of rb_report_gnuplot ------------
  */
@@ -47,8 +45,6 @@ typedef struct {
 
 rb_report_fem_sums rb_report_fem_sum(const rb_fem_model *model, const rb_fem_step *step);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

@@ -20,4 +20,8 @@
 #include "rollbem/sparse.h"
 #include "rollbem/units.h"
 
+RB_PUBLIC_BEGIN
+
+RB_PUBLIC_END
+
 #endif

@@ -17,6 +17,8 @@
 extern "C" {
 #endif
 
+RB_PUBLIC_BEGIN
+
 /* ---- Case ------------------------------------------------------------------------ */
 
 typedef enum { RB_STATIC, RB_STEADY, RB_TRANSIENT } rb_rolling_formulation;
@@ -717,8 +719,6 @@ rb_status rb_rolling_pool_start(const rb_rolling_sweep *sweep, rb_rolling_pool *
 rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_pool *pool,
                               rb_message *why);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

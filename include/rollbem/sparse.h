@@ -5,9 +5,7 @@
 
 #include "rollbem/base.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+RB_PUBLIC_BEGIN
 
 typedef struct {
     int rows, cols;
@@ -88,8 +86,6 @@ rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_spa
 double rb_sparse_cholesky_flops(const rb_sparse_cholesky *factor);
 void rb_sparse_cholesky_free(rb_sparse_cholesky *factor);
 
-#ifdef __cplusplus
-}
-#endif
+RB_PUBLIC_END
 
 #endif

@@ -1,0 +1,59 @@
+/* The core: base, lcp, bem, contact, rolling, case and the plain tables of io, in an
+ * archive of their own, solve a case without cone solvers, HDF5 and SuiteSparse (see the
+ * Makefile, which links this program to nothing else). */
+#include "check.h"
+#include "rollbem/case.h"
+
+#include <string.h>
+
+static rb_status solve(const char *const *words, rb_case_result *r, rb_message *why)
+{
+    rb_case *c = rb_case_create(RB_CASE_SINGLE);
+    rb_status s = RB_OK;
+
+    for (; *words && s == RB_OK; words += 2)
+        s = rb_case_set(c, words[0], words[1], 0, why);
+    if (s == RB_OK)
+        s = rb_case_settle(c, why);
+    if (s == RB_OK)
+        s = rb_case_solve(rb_case_settled(c), NULL, NULL, r, why);
+    rb_case_free(c);
+    return s;
+}
+
+static void the_core_solves_a_case(void **state)
+{
+    static const char *const carter[] = {"support",     "halfplane", "similar", "yes",
+                                         "formulation", "steady",    "load",    "300",
+                                         "creep-ratio", "0.5",       NULL};
+    static const char *const wheel[] = {"contact-elements", "12", NULL};
+    rb_case_result r = {0};
+    rb_message why = {""};
+
+    (void)state;
+    CHECK_STATUS(solve(carter, &r, &why), RB_OK);
+    CHECK_ABS(r.solution.force_ratio, -0.75, 2e-3, "Carter: s (2 - s)");
+    rb_case_result_free(&r);
+    CHECK_STATUS(solve(wheel, &r, &why), RB_OK);
+    CHECK_MAX(r.solution.residual, 1e-10, "residual");
+    rb_case_result_free(&r);
+}
+
+static void cone_solvers_are_not_at_hand(void **state)
+{
+    static const char *const cone[] = {"solver", "nsn-ac", NULL};
+    rb_case_result r = {0};
+    rb_message why = {""};
+
+    (void)state;
+    CHECK_STATUS(solve(cone, &r, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "nsn-ac"));
+    rb_case_result_free(&r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_core_solves_a_case),
+                                       cmocka_unit_test(cone_solvers_are_not_at_hand)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,169 @@
+/* The public interface: what the headers declare is what the shared library exports, and
+ * the headers serve C++ too.  Run from the project's root. */
+#include "check.h"
+
+#include <ctype.h>
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MOST = 2000, WORD = 80 };
+
+typedef struct {
+    int n;
+    char name[MOST][WORD];
+} names;
+
+static int has(const names *all, const char *name)
+{
+    for (int k = 0; k < all->n; k++)
+        if (strcmp(all->name[k], name) == 0)
+            return 1;
+    return 0;
+}
+
+static void add(names *all, const char *name)
+{
+    if (has(all, name))
+        return;
+    assert_true(all->n < MOST);
+    snprintf(all->name[all->n++], WORD, "%s", name);
+}
+
+/* The text of a header without comments. */
+static char *header_text(const char *path)
+{
+    static char text[200000];
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    const size_t size = fread(text, 1, sizeof text - 1, file);
+    fclose(file);
+    text[size] = '\0';
+    for (char *open = strstr(text, "/*"); open; open = strstr(open, "/*")) {
+        char *close = strstr(open, "*/");
+        assert_non_null(close);
+        memset(open, ' ', (size_t)(close + 2 - open));
+    }
+    return text;
+}
+
+/* Every function rb_...( and every variable behind extern. */
+static void add_declared(const char *path, names *all)
+{
+    const char *text = header_text(path);
+    char word[WORD];
+
+    for (const char *at = strstr(text, "rb_"); at; at = strstr(at + 1, "rb_")) {
+        size_t length = 0;
+        if (at > text && (isalnum((unsigned char)at[-1]) || at[-1] == '_'))
+            continue;
+        while (isalnum((unsigned char)at[length]) || at[length] == '_')
+            length++;
+        snprintf(word, sizeof word, "%.*s", (int)length, at);
+        const char *line = at;
+        while (line > text && line[-1] != ';' && line[-1] != '}' && line[-1] != '{')
+            line--;
+        while (isspace((unsigned char)*line))
+            line++;
+        const int is_type = strncmp(line, "typedef", 7) == 0;
+        const int is_extern = strncmp(line, "extern", 6) == 0 &&
+                              strchr(";,[", at[length + strspn(at + length, " ")]);
+        if (!is_type && (at[length] == '(' || is_extern))
+            add(all, word);
+    }
+}
+
+static void declared(names *all)
+{
+    DIR *folder = opendir("include/rollbem");
+    char path[300];
+
+    assert_non_null(folder);
+    for (const struct dirent *e = readdir(folder); e; e = readdir(folder)) {
+        const char *dot = strrchr(e->d_name, '.');
+        snprintf(path, sizeof path, "include/rollbem/%.200s", e->d_name);
+        if (dot && strcmp(dot, ".h") == 0)
+            add_declared(path, all);
+    }
+    closedir(folder);
+}
+
+static const char *build_folder(void)
+{
+    const char *B = getenv("B");
+    return B ? B : "build";
+}
+
+static void exported(names *all)
+{
+    char command[300], line[400], name[WORD], kind;
+
+    snprintf(command, sizeof command, "nm -D --defined-only %s/librollbem.so",
+             build_folder());
+    FILE *nm = popen(command, "r");
+    assert_non_null(nm);
+    while (fgets(line, sizeof line, nm))
+        if (sscanf(line, "%*x %c %79s", &kind, name) == 2 &&
+            name[0] != '.') /* OpenMP's */
+            add(all, name);
+    assert_int_equal(pclose(nm), 0);
+}
+
+static void exports_are_the_headers(void **state)
+{
+    static names in_headers, in_library;
+    int strange = 0;
+
+    (void)state;
+    declared(&in_headers);
+    exported(&in_library);
+    assert_true(in_headers.n > 100);
+    for (int k = 0; k < in_library.n; k++)
+        if (!has(&in_headers, in_library.name[k])) {
+            print_error("%s is exported and in no header\n", in_library.name[k]);
+            strange++;
+        }
+    for (int k = 0; k < in_headers.n; k++)
+        if (!has(&in_library, in_headers.name[k])) {
+            print_error("%s is declared and not exported\n", in_headers.name[k]);
+            strange++;
+        }
+    assert_int_equal(strange, 0);
+}
+
+/* A C++ program with every header, linked to the shared library, solves a case. */
+static void headers_serve_cxx(void **state)
+{
+    char command[900];
+
+    (void)state;
+    if (system("g++ --version >/dev/null 2>&1") != 0)
+        skip();
+    snprintf(
+        command, sizeof command,
+        "{ ls include/rollbem | sed 's|.*|#include <rollbem/&>|'; cat <<'END'\n"
+        "int main()\n"
+        "{\n"
+        "    rb_api *a = rb_api_create();\n"
+        "    const int ok = rb_api_set(a, \"contact-elements\", \"12\") == RB_OK &&\n"
+        "                   rb_api_solve(a) == RB_OK && rb_version() != nullptr;\n"
+        "    rb_api_free(a);\n"
+        "    return ok ? 0 : 1;\n"
+        "}\n"
+        "END\n"
+        "} > %s/tests/cxx.cpp && g++ -std=c++11 -Wall -Wextra -Wpedantic -Werror "
+        "-Iinclude -o %s/tests/cxx %s/tests/cxx.cpp %s/librollbem.so && "
+        "ln -sf ../librollbem.so %s/tests/librollbem.so.0 && "
+        "LD_LIBRARY_PATH=%s/tests %s/tests/cxx",
+        build_folder(), build_folder(), build_folder(), build_folder(), build_folder(),
+        build_folder(), build_folder());
+    assert_int_equal(system(command), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(exports_are_the_headers),
+                                       cmocka_unit_test(headers_serve_cxx)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
