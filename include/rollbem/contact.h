@@ -77,17 +77,19 @@ typedef void rb_contact_newton_trace(const struct rb_contact_state *state, void 
 typedef struct {
     int n;
     rb_contact_operator *op; /* owned, as the arrays; copies of the struct share them */
-    double mu;
+    double *bound; /* n: |r_T| <= bound r_N of an element; what a friction law gives */
+    double mu;     /* the scale of friction; no bound is larger */
     double *d_N, *d_T;                           /* n [length] */
     double *e_T;                                 /* n: [length] per unit of xi */
     double *load_N, *load_T, *force_N, *force_T; /* n [length] */
     double *moment_N, *moment_T;                 /* n [length^2] */
 
     int load_given;  /* 1: P = load, delta is an unknown; 0: delta is given */
-    int force_given; /* 1: Q = force + force_ratio mu P, xi is an unknown; 0: xi is given
+    int force_given; /* 1: Q = force + force_ratio times the friction that is carried at
+                        most (mu P for one coefficient), xi is an unknown; 0: xi is given
                       */
     double load, delta, force, force_ratio, xi;
-    double axle; /* 1/R where the force is Q = force + force_ratio mu P - axle M (free
+    double axle; /* 1/R where the force is that less axle M (free
                     axle, V4); else 0 [1/length] */
 
     int differences; /* 1: slips are differences along the elements; 0: displacements */
@@ -104,6 +106,10 @@ typedef struct {
  * RB_ENOMEM. */
 rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *problem);
 void rb_contact_problem_free(rb_contact_problem *problem);
+
+/* One coefficient of friction for all elements (bound NULL), or one for each: n values,
+ * 0 ... mu, copied. */
+void rb_contact_set_friction(rb_contact_problem *problem, double mu, const double *bound);
 
 /* Row of the given force: control_N'r_N + control_T'r_T = force, n each. */
 void rb_contact_force_row(const rb_contact_problem *problem, double *control_N,
@@ -161,6 +167,9 @@ rb_status rb_contact_residual(const rb_contact_problem *problem,
                               const rb_contact_state *state,
                               rb_contact_violation *violation);
 
+/* The most friction that the pressures of the state carry: mu P for one coefficient. */
+double rb_contact_capacity(const rb_contact_problem *problem,
+                           const rb_contact_state *state);
 /* M of the state. */
 double rb_contact_moment(const rb_contact_problem *problem,
                          const rb_contact_state *state);

@@ -13,10 +13,6 @@
 #include "rollbem/contact.h"
 #include "rollbem/units.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 RB_PUBLIC_BEGIN
 
 /* ---- Case ------------------------------------------------------------------------ */
@@ -89,6 +85,14 @@ void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from,
 /* At any x; straight on beyond the ends, where no contact is accepted. */
 double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x);
 
+/* A coefficient of friction that depends on the place x in the contact [length]: linear
+ * between n points, x increasing, constant beyond them.  Borrowed. */
+typedef struct {
+    int n; /* 0: none */
+    const double *x, *mu;
+} rb_rolling_friction_table;
+double rb_rolling_friction_at(const rb_rolling_friction_table *table, double x);
+
 /* Every input of one case.  Quantities of which "one of" is asked are NAN when not given.
  * rb_rolling_case_defaults() is the example of *Addi* (theory.md 7). */
 typedef struct {
@@ -109,6 +113,8 @@ typedef struct {
     double passed;                                   /* [length]; histories set it */
 
     double mu;
+    rb_rolling_friction_table friction; /* in the place of one mu, which then is the
+                                           largest value of the table */
 
     double approach, load, half_width; /* one of; all NAN: approach = R/2 */
 

@@ -39,7 +39,7 @@ rb_status rb_contact_cone_create(const rb_contact_problem *p, double delta, doub
         }
     }
     for (size_t i = 0; i < n; i++) {
-        cone->mu[i] = p->mu;
+        cone->mu[i] = p->bound[i];
         cone->q[2 * i] = (p->d_N[i] - delta) / p->gap_length;
         cone->q[2 * i + 1] = (p->d_T[i] + xi * p->e_T[i]) / p->slip_length;
     }

@@ -176,11 +176,9 @@ static rb_status plan_alloc(const rb_contact_reduced *r, int kept, plan *pl)
 static void present_unknowns(const rb_contact_problem *p, const int *zone,
                              const rb_contact_reduced *r, traction *unknown)
 {
-    const double mu = rb_contact_reduced_mu(p, r);
-
     for (int k = 0; k < r->contacts; k++) {
         const int i = r->contact[k];
-        *unknown++ = (traction){i, 1.0, rb_contact_slope(zone[i]) * mu};
+        *unknown++ = (traction){i, 1.0, rb_contact_reduced_friction(p, r, zone, i)};
     }
     for (int k = 0; k < r->sticks; k++)
         *unknown++ = (traction){r->stick[k], 0.0, 1.0};

@@ -35,12 +35,12 @@ rb_status rb_contact_reduced_alloc(const rb_contact_problem *problem,
                                    const rb_contact_state *state, rb_contact_reduced *r);
 void rb_contact_reduced_free(rb_contact_reduced *r);
 
-/* r_T = slope mu r_N of a zone; 0 in stick, where r_T is an unknown of its own. */
+/* r_T = slope bound r_N of a zone; 0 in stick, where r_T is an unknown of its own. */
 double rb_contact_slope(int zone);
-/* Friction of slipping elements that follows an unknown pressure: mu, or 0 where the
- * pressure is not moved together with it. */
-double rb_contact_reduced_mu(const rb_contact_problem *problem,
-                             const rb_contact_reduced *r);
+/* r_T of an element per unit of its unknown pressure: its bound in the direction that its
+ * zone says, or 0 where the pressure is not moved together with it. */
+double rb_contact_reduced_friction(const rb_contact_problem *problem,
+                                   const rb_contact_reduced *r, const int *zone, int i);
 
 /* Sets the unknowns of the state to zero and the friction of slipping elements to its
  * bound. */

@@ -62,6 +62,15 @@ static void add_block(int n, double factor, const double *block, int ldb, double
         cblas_daxpy(n, factor, block + (size_t)j * ldb, 1, M + (size_t)j * ldm, 1);
 }
 
+/* The same with column j times bound_j. */
+static void add_bounded(int n, double factor, const double *bound, const double *block,
+                        int ldb, double *M, int ldm)
+{
+    for (int j = 0; j < n; j++)
+        cblas_daxpy(n, factor * bound[j], block + (size_t)j * ldb, 1, M + (size_t)j * ldm,
+                    1);
+}
+
 static void add_diagonal(int n, double value, double *M, int ldm)
 {
     for (int i = 0; i < n; i++)
@@ -93,20 +102,21 @@ static double slip_offset(const rb_contact_problem *p, const rb_contact_lcp *lcp
 static void pivoted_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
 {
     const int n = p->n, ld = lcp->size;
-    const double o = orientation(lcp), mu = p->mu;
+    const double o = orientation(lcp);
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
     const double *F_NN = K.F, *F_NT = K.F + (size_t)n * K.ldf;
     const double *S_N = K.S, *S_T = K.S + (size_t)n * n;
     double *r_N = lcp->M, *gamma = lcp->M + (size_t)n * ld, *nu = gamma + (size_t)n * ld;
 
     add_block(n, 1.0, F_NN, K.ldf, r_N, ld);
-    add_block(n, -o * mu, F_NT, K.ldf, r_N, ld);
+    add_bounded(n, -o, p->bound, F_NT, K.ldf, r_N, ld);
     add_block(n, o, F_NT, K.ldf, gamma, ld);
     add_block(n, o, S_N, n, r_N + n, ld);
-    add_block(n, -mu, S_T, n, r_N + n, ld);
+    add_bounded(n, -1.0, p->bound, S_T, n, r_N + n, ld);
     add_block(n, 1.0, S_T, n, gamma + n, ld);
     add_diagonal(n, 1.0, nu + n, ld);
-    add_diagonal(n, 2.0 * mu, r_N + 2 * n, ld);
+    for (int i = 0; i < n; i++)
+        r_N[2 * n + i + (size_t)i * ld] += 2.0 * p->bound[i];
     add_diagonal(n, -1.0, gamma + 2 * n, ld);
     for (int i = 0; i < n; i++) {
         lcp->b[i] = p->d_N[i];
@@ -125,7 +135,7 @@ static void pivoted_force_row(const rb_contact_problem *p, rb_contact_lcp *lcp, 
     const double o = orientation(lcp);
 
     for (int j = 0; j < p->n; j++) {
-        lcp->M[row + (size_t)j * lcp->size] = sign * (a_N[j] - o * p->mu * a_T[j]);
+        lcp->M[row + (size_t)j * lcp->size] = sign * (a_N[j] - o * p->bound[j] * a_T[j]);
         lcp->M[row + (size_t)(p->n + j) * lcp->size] = sign * o * a_T[j];
     }
     lcp->b[row] = -sign * value;
@@ -228,7 +238,7 @@ static void kwak_friction_rows(const rb_contact_problem *p, const traction *R,
         double *column = lcp->M + (size_t)j * ld;
         set_friction(n, 1.0, R->N + (size_t)j * length, column);
         for (int sign = 0; sign < 2; sign++) {
-            column[lambda_column(n, j, sign)] += p->mu;
+            column[lambda_column(n, j, sign)] += p->bound[j];
             set_friction(n, sign ? -1.0 : 1.0, Bi,
                          lcp->M + (size_t)lambda_column(n, j, sign) * ld);
         }
@@ -407,8 +417,8 @@ void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *l
         kwak_recover_traction(p, lcp, z, state);
     else
         for (int i = 0; i < n; i++)
-            state->q[i] =
-                orientation(lcp) * (lcp->z_scale[n + i] * z[n + i] - p->mu * state->p[i]);
+            state->q[i] = orientation(lcp) *
+                          (lcp->z_scale[n + i] * z[n + i] - p->bound[i] * state->p[i]);
     state->lcp_form = lcp->form;
 }
 

@@ -37,7 +37,8 @@ rb_status rb_contact_try_zones(rb_contact_problem *problem, rb_contact_state *st
 static int corrected_zone(const rb_contact_problem *p, rb_contact_unknowns unknowns,
                           const rb_contact_state *state, const double *gap, int i)
 {
-    const double limit = p->mu * state->p[i], q = state->q[i], slip = state->lambda[i];
+    const double limit = p->bound[i] * state->p[i], q = state->q[i],
+                 slip = state->lambda[i];
     const int zone = state->zone[i];
 
     if ((unknowns & RB_NORMAL) && zone != RB_ZONE_SEPARATED && state->p[i] < 0.0)
@@ -53,7 +54,7 @@ static int corrected_zone(const rb_contact_problem *p, rb_contact_unknowns unkno
         return q < -limit  ? RB_ZONE_SLIP_NEGATIVE
                : q > limit ? RB_ZONE_SLIP_POSITIVE
                            : zone;
-    if (p->mu == 0.0)
+    if (p->bound[i] == 0.0)
         return slip >= 0.0 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_SLIP_POSITIVE;
     return rb_contact_slope(zone) * slip > 0.0 ? RB_ZONE_STICK : zone;
 }
@@ -73,7 +74,7 @@ static int least_excess(const rb_contact_problem *p, const rb_contact_state *sta
     double least = INFINITY;
 
     for (int i = 0; i < p->n; i++) {
-        const double excess = fabs(state->q[i]) - p->mu * state->p[i];
+        const double excess = fabs(state->q[i]) - p->bound[i] * state->p[i];
         if (state->zone[i] == RB_ZONE_STICK && state->p[i] > 0.0 && excess < least) {
             least = excess;
             held = i;

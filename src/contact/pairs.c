@@ -82,6 +82,7 @@ rb_status rb_contact_halve(const rb_contact_problem *fine, rb_contact_problem *h
         s = rb_contact_problem_alloc(op, &pairs);
     if (s != RB_OK)
         return s;
+    add_means(n, MEAN, fine->bound, pairs.bound);
     add_means(n, MEAN, fine->d_N, pairs.d_N);
     add_means(n, slip, fine->d_T, pairs.d_T);
     add_means(n, slip, fine->e_T, pairs.e_T);
@@ -95,6 +96,7 @@ rb_status rb_contact_halve(const rb_contact_problem *fine, rb_contact_problem *h
     *half = *fine;
     half->n = pairs.n;
     half->op = pairs.op;
+    half->bound = pairs.bound;
     half->d_N = pairs.d_N;
     half->d_T = pairs.d_T;
     half->e_T = pairs.e_T;

@@ -7,6 +7,7 @@
 void rb_contact_problem_free(rb_contact_problem *p)
 {
     rb_contact_operator_free(p->op);
+    free(p->bound);
     free(p->d_N);
     free(p->d_T);
     free(p->e_T);
@@ -21,9 +22,9 @@ void rb_contact_problem_free(rb_contact_problem *p)
 
 rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *p)
 {
-    double **const vectors[] = {&p->d_N,     &p->d_T,      &p->e_T,
-                                &p->load_N,  &p->load_T,   &p->force_N,
-                                &p->force_T, &p->moment_N, &p->moment_T};
+    double **const vectors[] = {&p->bound,    &p->d_N,     &p->d_T,     &p->e_T,
+                                &p->load_N,   &p->load_T,  &p->force_N, &p->force_T,
+                                &p->moment_N, &p->moment_T};
     int complete = 1;
 
     memset(p, 0, sizeof *p);
@@ -39,11 +40,32 @@ rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *
     return RB_ENOMEM;
 }
 
+void rb_contact_set_friction(rb_contact_problem *p, double mu, const double *bound)
+{
+    p->mu = mu;
+    for (int i = 0; i < p->n; i++)
+        p->bound[i] = bound ? bound[i] : mu;
+}
+
+/* From mu P what elements with a smaller bound carry less: exactly mu P where there are
+ * none. */
+double rb_contact_capacity(const rb_contact_problem *p, const rb_contact_state *state)
+{
+    const double P = cblas_ddot(p->n, p->load_N, 1, state->p, 1) +
+                     cblas_ddot(p->n, p->load_T, 1, state->q, 1);
+    double less = 0.0;
+
+    for (int i = 0; i < p->n; i++)
+        less += (p->mu - p->bound[i]) *
+                (p->load_N[i] * state->p[i] + p->load_T[i] * state->q[i]);
+    return p->mu * P - less;
+}
+
 void rb_contact_force_row(const rb_contact_problem *p, double *control_N,
                           double *control_T)
 {
     for (int i = 0; i < p->n; i++) {
-        const double share = p->force_ratio * p->mu;
+        const double share = p->force_ratio * p->bound[i];
         control_N[i] = p->force_N[i] - share * p->load_N[i] + p->axle * p->moment_N[i];
         control_T[i] = p->force_T[i] - share * p->load_T[i] + p->axle * p->moment_T[i];
     }

@@ -89,14 +89,13 @@ static void scatter(const system_of *s, const double *x)
 {
     const rb_contact_problem *p = s->p;
     const rb_contact_reduced *r = s->r;
-    const double mu = rb_contact_reduced_mu(p, r);
     double *r_N = of(p)->r, *r_T = r_N + p->n;
 
     memset(r_N, 0, 2 * (size_t)p->n * sizeof *r_N);
     for (int k = 0; k < r->contacts; k++) {
         const int i = r->contact[k];
         r_N[i] = p->stress * x[k];
-        r_T[i] = rb_contact_slope(s->zone[i]) * mu * r_N[i];
+        r_T[i] = rb_contact_reduced_friction(p, r, s->zone, i) * r_N[i];
     }
     for (int k = 0; k < r->sticks; k++)
         r_T[r->stick[k]] = p->stress * x[r->contacts + k];

@@ -75,9 +75,10 @@ rb_status rb_contact_reduced_alloc(const rb_contact_problem *p,
     return RB_OK;
 }
 
-double rb_contact_reduced_mu(const rb_contact_problem *p, const rb_contact_reduced *r)
+double rb_contact_reduced_friction(const rb_contact_problem *p,
+                                   const rb_contact_reduced *r, const int *zone, int i)
 {
-    return r->unknowns == RB_BOTH ? p->mu : 0.0;
+    return rb_contact_slope(zone[i]) * (r->unknowns == RB_BOTH ? p->bound[i] : 0.0);
 }
 
 void rb_contact_reduced_clear(const rb_contact_problem *p, const rb_contact_reduced *r,
@@ -88,7 +89,7 @@ void rb_contact_reduced_clear(const rb_contact_problem *p, const rb_contact_redu
         if ((r->unknowns & RB_NORMAL) || zone == RB_ZONE_SEPARATED)
             state->p[i] = 0.0;
         if ((r->unknowns & RB_TANGENTIAL) || zone == RB_ZONE_SEPARATED)
-            state->q[i] = rb_contact_slope(zone) * p->mu * state->p[i];
+            state->q[i] = rb_contact_slope(zone) * p->bound[i] * state->p[i];
     }
     if (r->unknowns & RB_NORMAL)
         state->delta = p->load_given ? 0.0 : p->delta;
@@ -129,7 +130,7 @@ rb_status rb_contact_reduced_add(const rb_contact_problem *p, const rb_contact_r
         const int i = r->contact[k];
         state->p[i] += p->stress * r->x[row++];
         if (r->unknowns == RB_BOTH && state->zone[i] != RB_ZONE_STICK)
-            state->q[i] = rb_contact_slope(state->zone[i]) * p->mu * state->p[i];
+            state->q[i] = rb_contact_slope(state->zone[i]) * p->bound[i] * state->p[i];
     }
     for (int k = 0; k < r->sticks; k++)
         state->q[r->stick[k]] += p->stress * r->x[row++];

@@ -71,9 +71,11 @@ static double control_violation(const rb_contact_problem *p,
     if (p->force_given) {
         const double P = weighted_sum(p->n, p->load_N, state->p, p->load_T, state->q);
         const double Q = weighted_sum(p->n, p->force_N, state->p, p->force_T, state->q);
-        const double wanted =
-            p->force + p->force_ratio * p->mu * P - p->axle * rb_contact_moment(p, state);
-        worst = fmax(worst, fabs(Q - wanted) / (p->mu * P));
+        const double most = rb_contact_capacity(p, state), less = p->mu * P - most;
+        const double wanted = p->force + p->force_ratio * p->mu * P -
+                              p->force_ratio * less -
+                              p->axle * rb_contact_moment(p, state);
+        worst = fmax(worst, fabs(Q - wanted) / most);
     }
     return worst;
 }
@@ -82,7 +84,8 @@ static double control_violation(const rb_contact_problem *p,
 static void add_element(const rb_contact_problem *problem, const rb_contact_state *state,
                         double gap, double lambda, int i, rb_contact_violation *v)
 {
-    const double tangential = friction_scale(problem), limit = problem->mu * state->p[i];
+    const double tangential = friction_scale(problem),
+                 limit = problem->bound[i] * state->p[i];
     const double gamma_plus = limit + state->q[i], gamma_minus = limit - state->q[i];
     const double contact =
         fabs(fmin(gap / problem->gap_length, state->p[i] / problem->stress));
@@ -136,10 +139,10 @@ void rb_contact_classify(const rb_contact_problem *problem, double tol,
     const double tangential = friction_scale(problem);
 
     for (int i = 0; i < problem->n; i++) {
-        const double limit = problem->mu * state->p[i];
-        state->zone[i] = zone_of(state->p[i] / problem->stress - tol,
-                                 state->lambda[i] / problem->slip_length,
-                                 (limit + state->q[i]) / tangential,
-                                 (limit - state->q[i]) / tangential, problem->mu == 0.0);
+        const double limit = problem->bound[i] * state->p[i];
+        state->zone[i] = zone_of(
+            state->p[i] / problem->stress - tol, state->lambda[i] / problem->slip_length,
+            (limit + state->q[i]) / tangential, (limit - state->q[i]) / tangential,
+            problem->bound[i] == 0.0);
     }
 }

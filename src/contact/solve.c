@@ -1,7 +1,6 @@
 /* The order of attempts: Lemke's three, Newton, and who comes first. */
 #include "contact/internal.h"
 
-#include <cblas.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -304,27 +303,26 @@ static rb_status check_capacity(rb_contact_problem *problem,
                                 const rb_contact_options *options, rb_message *why)
 {
     rb_contact_state sliding;
-    double P = 0.0, resistance = 0.0;
+    double most = 0.0, resistance = 0.0;
     rb_status s = rb_contact_state_alloc(problem->n, &sliding);
 
     if (s == RB_OK)
         s = solve_sliding(problem, options, problem->force > 0.0, &sliding, NULL);
     if (s == RB_OK) {
-        P = cblas_ddot(problem->n, problem->load_N, 1, sliding.p, 1) +
-            cblas_ddot(problem->n, problem->load_T, 1, sliding.q, 1);
+        most = rb_contact_capacity(problem, &sliding);
         resistance = problem->axle * rb_contact_moment(problem, &sliding);
     }
     rb_contact_state_free(&sliding);
-    if (s == RB_OK && resistance > problem->mu * P)
+    if (s == RB_OK && resistance > most)
         return rb_fail(why, RB_EINVAL,
                        "free axle: the resistance to rolling M/R = %g is more than "
                        "friction carries, mu P = %g",
-                       resistance, problem->mu * P);
-    if (s == RB_OK && fabs(problem->force) > problem->mu * P)
+                       resistance, most);
+    if (s == RB_OK && fabs(problem->force) > most)
         return rb_fail(
             why, RB_EINVAL,
             "force Q = %g: friction carries at most mu P = %g at this approach",
-            problem->force, problem->mu * P);
+            problem->force, most);
     return s < 0 ? s : RB_OK;
 }
 

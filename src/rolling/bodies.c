@@ -126,7 +126,7 @@ int rb_rolling_carter_holds(const rb_rolling_case *rc)
 {
     const int flat = rc->a.support == RB_BEM_HALFPLANE &&
                      (!rc->elastic_b || rc->b.support == RB_BEM_HALFPLANE);
-    return rc->formulation == RB_STEADY && rc->mu > 0.0 && flat &&
+    return rc->formulation == RB_STEADY && rc->mu > 0.0 && rc->friction.n == 0 && flat &&
            rc->gap != RB_GAP_TABLE && rb_rolling_is_homogeneous(rc) &&
            fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
 }
@@ -165,7 +165,8 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
     if (s != RB_OK)
         rb_rolling_bodies_free(bodies);
     return s == RB_ENOMEM
-               ? rb_fail(why, s, "out of memory for the flexibility of %d elements", mesh->n)
+               ? rb_fail(why, s, "out of memory for the flexibility of %d elements",
+                         mesh->n)
                : s;
 }
 

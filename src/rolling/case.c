@@ -111,9 +111,19 @@ int rb_rolling_force_is_given(const rb_rolling_case *rc)
     return !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
 }
 
-double rb_rolling_force_ratio(double mu, double P, double Q)
+double rb_rolling_friction_at(const rb_rolling_friction_table *table, double x)
 {
-    return mu > 0.0 && P > 0.0 ? Q / (mu * P) : NAN;
+    const int last = table->n - 1;
+    int k = 0;
+
+    if (x <= table->x[0])
+        return table->mu[0];
+    if (x >= table->x[last])
+        return table->mu[last];
+    while (x > table->x[k + 1])
+        k++;
+    const double share = (x - table->x[k]) / (table->x[k + 1] - table->x[k]);
+    return table->mu[k] + share * (table->mu[k + 1] - table->mu[k]);
 }
 
 int rb_rolling_has_fine_boundary(const rb_rolling_case *rc)
@@ -334,6 +344,32 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
     return check_force(rc, why);
 }
 
+static rb_status check_friction(const rb_rolling_case *rc, rb_message *why)
+{
+    const rb_rolling_friction_table *t = &rc->friction;
+    double largest = 0.0;
+
+    if (!(isfinite(rc->mu) && rc->mu >= 0.0))
+        return rb_fail(why, RB_EINVAL, "mu: expected >= 0, got %g", rc->mu);
+    for (int k = 0; k < t->n; k++) {
+        if (!isfinite(t->x[k]) || (k > 0 && !(t->x[k] > t->x[k - 1])))
+            return rb_fail(why, RB_EINVAL,
+                           "friction table: row %d: expected x to increase, got %g",
+                           k + 1, t->x[k]);
+        if (!(isfinite(t->mu[k]) && t->mu[k] >= 0.0))
+            return rb_fail(why, RB_EINVAL,
+                           "friction table: row %d: expected mu >= 0, got %g", k + 1,
+                           t->mu[k]);
+        largest = fmax(largest, t->mu[k]);
+    }
+    return t->n > 0 && largest != rc->mu
+               ? rb_fail(
+                     why, RB_EINVAL,
+                     "mu: expected the largest value of the friction table, %g, got %g",
+                     largest, rc->mu)
+               : RB_OK;
+}
+
 static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
 {
     return rc->gap == RB_GAP_TABLE && !rc->profile
@@ -448,8 +484,8 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
         s = check_memory(rc, why);
     if (s == RB_OK)
         s = check_heat(rc, why);
-    if (s == RB_OK && !(isfinite(rc->mu) && rc->mu >= 0.0))
-        s = rb_fail(why, RB_EINVAL, "mu: expected >= 0, got %g", rc->mu);
+    if (s == RB_OK)
+        s = check_friction(rc, why);
     if (s == RB_OK)
         s = check_normal(rc, why);
     if (s == RB_OK)

@@ -45,7 +45,7 @@ static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
                  : NAN;
     c->normal_load[k] = P;
     c->tangential_load[k] = Q;
-    c->force_ratio[k] = mu > 0.0 ? Q / (mu * P) : NAN;
+    c->force_ratio[k] = rb_rolling_force_ratio(model);
     c->stick_ratio[k] = contact > 0.0 ? stick / contact : 0.0;
     if (contact > 0.0)
         c->stick_step = fmax(c->stick_step, longest / contact);

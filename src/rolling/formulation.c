@@ -212,7 +212,7 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p)
         return;
     if (p->force_given && !isnan(rc->force_ratio))
         p->force_ratio = rc->force_ratio;
-    else if (p->force_given && p->load_given)
+    else if (p->force_given && p->load_given && rc->friction.n == 0)
         p->force_ratio = rc->force / (rc->mu * d.load);
     else if (p->force_given)
         p->force = rc->force;
@@ -222,6 +222,15 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p)
         p->xi = rc->creep_ratio * rc->mu * d.half_width / d.radius;
     else
         p->xi = isnan(rc->creep) ? 0.0 : rc->creep;
+}
+
+/* The friction law: the bound of every element from its place. */
+static void set_bounds(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                       rb_contact_problem *p)
+{
+    rb_contact_set_friction(p, rc->mu, NULL);
+    for (int i = 0; i < p->n && rc->friction.n > 0; i++)
+        p->bound[i] = rb_rolling_friction_at(&rc->friction, bodies->f.x[i]);
 }
 
 /* Stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become about 1;
@@ -257,7 +266,7 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
     if (s != RB_OK)
         return rb_fail(why, s, "out of memory for a contact problem of %d elements",
                        mesh->n);
-    p->mu = rc->mu;
+    set_bounds(rc, bodies, p);
     p->differences = A.differences;
     rb_rolling_set_gap(mesh, bodies, p);
     rb_rolling_set_past(rc, bodies, past, step, p);

@@ -77,8 +77,7 @@ static void record(run *r, double distance)
     h->approach[k] = state->delta;
     h->normal_load[k] = rb_rolling_model_load(model);
     h->tangential_load[k] = rb_rolling_model_force(model);
-    h->force_ratio[k] =
-        rb_rolling_force_ratio(p->mu, h->normal_load[k], h->tangential_load[k]);
+    h->force_ratio[k] = rb_rolling_force_ratio(model);
     h->residual[k] = state->residual;
     h->max_pressure[k] = rb_rolling_peak_pressure(model);
     rb_rolling_contact_edges(&model->rc, &model->mesh, state, &h->contact_from[k],

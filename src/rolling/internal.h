@@ -17,8 +17,8 @@ int rb_rolling_has_fine_boundary(const rb_rolling_case *rc);
 void rb_rolling_coarsen_boundary(rb_rolling_case *rc);
 /* Q, a ratio of it or a free axle is given, and no creepage. */
 int rb_rolling_force_is_given(const rb_rolling_case *rc);
-/* Q/(mu P); NAN without friction or load. */
-double rb_rolling_force_ratio(double mu, double P, double Q);
+/* Q over the most that friction carries, mu P; NAN without friction or load. */
+double rb_rolling_force_ratio(const rb_rolling_model *model);
 
 /* ---- profile.c ----------------------------------------------------------------------
  */

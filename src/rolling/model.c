@@ -32,6 +32,12 @@ double rb_rolling_model_force(const rb_rolling_model *model)
            cblas_ddot(p->n, p->force_T, 1, model->state.q, 1);
 }
 
+double rb_rolling_force_ratio(const rb_rolling_model *model)
+{
+    const double most = rb_contact_capacity(&model->problem, &model->state);
+    return most > 0.0 ? rb_rolling_model_force(model) / most : NAN;
+}
+
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why)
 {
     const double start = rb_seconds();

@@ -162,17 +162,18 @@ static rb_status support_balance(const rb_rolling_model *model, double load,
     return s;
 }
 
-/* M, its coefficient and where the power goes that neither Q nor M/R leave to friction. */
+/* M, its coefficient and where the power goes that neither Q nor M/R leave to friction.
+ */
 static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     s->resistance_moment = s->resistance_ratio = s->hysteresis = NAN;
     if (s->formulation == RB_STATIC)
         return RB_OK;
     s->resistance_moment = rb_contact_moment(&model->problem, &model->state);
-    s->resistance_ratio = s->normal_load > 0.0
-                              ? s->resistance_moment /
-                                    (s->normal_load * rb_rolling_radius(&model->rc))
-                              : NAN;
+    s->resistance_ratio =
+        s->normal_load > 0.0
+            ? s->resistance_moment / (s->normal_load * rb_rolling_radius(&model->rc))
+            : NAN;
     return rb_rolling_hysteresis(model, &s->hysteresis);
 }
 
@@ -198,7 +199,7 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
         s->tangential_shift = NAN;
         s->creepage = model->state.xi;
     }
-    s->force_ratio = rb_rolling_force_ratio(mu, s->normal_load, s->tangential_load);
+    s->force_ratio = rb_rolling_force_ratio(model);
     s->creep_ratio = mu > 0.0 && s->hertz_half_width > 0.0
                          ? s->creepage * R / (mu * s->hertz_half_width)
                          : NAN;
