@@ -6,6 +6,8 @@
 
 #include "rollbem/base.h"
 
+RB_PUBLIC_BEGIN
+
 /* The control digits by their letters; those that decide nothing here are not kept. */
 typedef struct {
     int P, B, T, N, F, S;
@@ -38,5 +40,7 @@ typedef struct {
  * with file and line, RB_ENOMEM. */
 rb_status rb_io_contact_read(const char *path, int *n, rb_io_contact_case **cases,
                              rb_message *why);
+
+RB_PUBLIC_END
 
 #endif

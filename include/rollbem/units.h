@@ -5,6 +5,8 @@
 
 #include "rollbem/base.h"
 
+RB_PUBLIC_BEGIN
+
 typedef enum {
     RB_UNITS_MM,  /* mm, N, MPa */
     RB_UNITS_SI,  /* m, N, Pa */
@@ -31,5 +33,7 @@ rb_status rb_unit_read(const char *text, const char *unit, double *value, int *p
 size_t rb_unit_of_column(const char *column, const char *unit, const char **name);
 /* A number in that unit of the table, in mm, N, MPa. */
 double rb_unit_of(const char *name, const char *unit, double x);
+
+RB_PUBLIC_END
 
 #endif
