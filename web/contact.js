@@ -1,9 +1,8 @@
 /* See and touch: the wheel, the strip, the tractions, slip and zones, the creep curve. */
-import { card, chart, html, legend, line, show, stairs, stroke, svg, ticks, zone_colours } from "./draw.js";
+import { card, chart, html, legend, line, show, stairs, stroke, svg, ticks, width_of, zone_colours } from "./draw.js";
 import { ALL_TANGENTIAL, formulation_of, hold } from "./state.js";
 import { say } from "./words.js";
 
-const width_of = (host) => Math.max(300, Math.min(1100, host.clientWidth || 700));
 const edges = (c) => [...c.x].map((x, i) => x - c.h[i] / 2).concat(c.x.at(-1) + c.h.at(-1) / 2);
 
 /* The window on x: the contact and a bit beside it. */
@@ -27,7 +26,7 @@ export function tractions_picture(host, words, { columns: c, numbers, values }, 
     const x = options.window ?? window_of(numbers, ends);
     const most_p = options.top ?? Math.max(...c.p), top = most_p * 1.12 || 1, low = -mu * most_p * 1.15;
     const slip = [...c.slip].map((v, i) => c.zone[i] > 1 && Number.isFinite(v) ? v : 0), has_slip = slip.some((v) => v !== 0);
-    const height = Math.round(Math.max(260, Math.min(430, width * 0.46))), strip = 26, below = has_slip ? 84 : 8;
+    const height = Math.round(Math.max(innerHeight < 1000 && width < 560 ? 190 : 260, Math.min(430, width * 0.46))), strip = 26, below = has_slip ? 84 : 8;
     const plot = chart({ width, height: height + strip + below + 46, x, y: [low, top], y_label: words.mpa, bottom: strip + below + 46,
         label: say(words.tractions_alt, { p0: show(Math.max(...c.p)), qmin: show(Math.min(...c.q)), qmax: show(Math.max(...c.q)) }) });
     const { root, X, Y } = plot;
@@ -64,8 +63,8 @@ export function tractions_picture(host, words, { columns: c, numbers, values }, 
     return root;
 }
 
-export const tractions_legend = (words, numbers, zones) => legend(["--press", words.pressure], ["--rub", words.friction], ["--soft", words.bound],
-    ...(numbers.carter === 1 ? [["--reference", words.hertz]] : []), ...[0, 1, 2, 3].filter((z) => [...zones].includes(z)).map((z) => [zone_colours[z], words.zones[z]]));
+export const tractions_legend = (words, numbers, zones) => legend(["--press", words.pressure], ["--rub", words.friction], ["--soft", words.bound, "dotted"],
+    ...(numbers.carter === 1 ? [["--reference", words.hertz, "dashed"]] : []), ...[0, 1, 2, 3].filter((z) => [...zones].includes(z)).map((z) => [zone_colours[z], words.zones[z]]));
 
 const arrow = (x0, y0, x1, y1, colour, width = 2.5) => {
     const long = Math.hypot(x1 - x0, y1 - y0), ux = (x1 - x0) / long, uy = (y1 - y0) / long, h = 9;
@@ -93,7 +92,7 @@ function scene(width, words, { columns: c, numbers: n, values }, given) {
     root.append(arrow(cx, cy - 46, cx, cy + 8, "--ink"), svg("text", { x: cx + 9, y: cy - 24, class: "big" }, "P"));
     if (n.tangential_load) {
         const way = Math.sign(n.tangential_load);
-        root.append(arrow(cx - 14 * way, ground - 14, cx + 30 * way, ground - 14, "--rub"), svg("text", { x: cx + 36 * way, y: ground - 10, class: "big", "text-anchor": way > 0 ? "start" : "end" }, "Q"));
+        root.append(arrow(cx - 14 * way, ground - 14, cx + 30 * way, ground - 14, "--rub"), svg("text", { x: cx + 52 * way, y: ground - 10, class: "big", "text-anchor": way > 0 ? "start" : "end" }, "Q"));
     }
     if (rolls) root.append(arrow(cx - 34, 22, cx + 34, 22, "--soft"));
     root.append(svg("text", { x: cx, y: 14, "text-anchor": "middle", class: "soft" }, rolls ? words.rolls : words.at_rest),
@@ -168,11 +167,10 @@ function creep_curve(width, words, page) {
 
 export function contact_view(words, page) {
     let curve_width = 0;
-    const numbers = html("div"), figure = html("figure"), tractions = html("figure"), curve = html("figure"), note = html("p", { class: "note", "aria-live": "polite" });
-    const node = html("div", { class: "stack" }, numbers, html("div", { class: "pair" },
-        card(words.tractions_title, tractions),
-        html("div", { class: "stack" }, card(words.curve_title, curve, html("p", { class: "note" }, words.curve_note)))),
-        card(words.scene_title, figure), note);
+    const numbers = html("div"), figure = html("figure"), tractions = html("figure"), curve = html("figure"), note = html("p", { class: "note", "aria-live": "polite", style: "margin:0" });
+    const node = html("div", { class: "stack contact" }, numbers, html("div", { class: "pair" }, html("section", { class: "card tractions" }, html("h2", {}, words.tractions_title), tractions),
+        html("div", { class: "stack" }, card(words.curve_title, curve, html("p", { class: "note" }, words.curve_note)), html("div", { class: "card" }, note))),
+        card(words.scene_title, figure));
     function draw() {
         const a = page.answer;
         if (!a) return;

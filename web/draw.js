@@ -55,8 +55,12 @@ export function chart({ width, height, x, y, x_label, y_label, label, left = 58,
 export const stroke = (colour, width = 2, more = "") => `fill:none;stroke:var(${colour});stroke-width:${width};stroke-linejoin:round;${more}`;
 export const zone_colours = ["--apart", "--stick", "--slip", "--slip-other"];
 
-export const legend = (...entries) => html("div", { class: "legend" }, entries.map(([colour, text]) =>
-    html("span", {}, html("i", { style: `background:var(${colour})` }), text)));
+/* Entries [colour, text, how]: filled, or how = "dotted" or "dashed" as the line is. */
+export const legend = (...entries) => html("div", { class: "legend" }, entries.map(([colour, text, how]) =>
+    html("span", {}, html("i", { style: how ? `height:0;border-top:2px ${how} var(${colour});border-radius:0;vertical-align:4px` : `background:var(${colour})` }), text)));
+
+/* The width that a picture gets on the page. */
+export const width_of = (host) => Math.max(280, Math.min(1600, host.clientWidth || 700));
 
 export const card = (title, ...children) => html("section", { class: "card" }, html("h2", {}, title), ...children);
 

@@ -15,6 +15,12 @@ function system_calls(module, memory, files) {
             view().setBigUint64(at, BigInt(Math.round(performance.now() * 1e6)), true);
             return 0;
         },
+        environ_sizes_get: (count, size) => {
+            view().setUint32(count, 0, true);
+            view().setUint32(size, 0, true);
+            return 0;
+        },
+        environ_get: () => 0,
         fd_prestat_get: (fd, at) => {
             if (fd !== FOLDER) return BAD_DESCRIPTOR;
             view().setUint32(at, 0, true);

@@ -122,6 +122,7 @@ async function main() {
         current = name;
         views[name] ??= makers[name](words, page);
         at("main").replaceChildren(views[name].node);
+        at("main").dataset.view = name;
         at("main").setAttribute("aria-labelledby", `tab-${name}`);
         for (const tab of at("tabs").children) { const on = tab.id === `tab-${name}`; tab.setAttribute("aria-selected", on); tab.tabIndex = on ? 0 : -1; }
         views[name].draw();
@@ -129,10 +130,10 @@ async function main() {
         history.replaceState(null, "", write_link(page.given, current, page.drawn));
     }
     const names = Object.keys(makers);
-    at("main").setAttribute("role", "tabpanel");
     at("tabs").setAttribute("aria-label", words.subtitle);
     at("tabs").append(...names.map((name, k) => html("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": "main", onclick: () => open(name),
         onkeydown: (event) => { const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key]; if (step) { const next = at(`tab-${names[(k + step + names.length) % names.length]}`); next.click(); next.focus(); } } }, words.tabs[name])));
+    at("controls").setAttribute("aria-label", words.controls);
     at("controls").addEventListener("submit", (event) => event.preventDefault());
 
     function first_draw() {

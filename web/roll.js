@@ -1,6 +1,6 @@
 /* From rest to steady rolling, as an animation of the transient; load, force or creepage drawn by
  * hand over the way. */
-import { card, chart, html, line, player, segments, show, stroke, svg } from "./draw.js";
+import { card, chart, html, line, player, segments, show, stroke, svg, width_of } from "./draw.js";
 import { tractions_legend, tractions_picture } from "./contact.js";
 import { ALL_TANGENTIAL, DRAWN, TANGENTIAL, held, hold, table_of_drawn } from "./state.js";
 import { command_of, text_card } from "./take.js";
@@ -60,7 +60,7 @@ export function roll_view(words, page) {
         draw_same();
         if (!page.drawn) return hand.replaceChildren();
         const { values } = page.drawn, last = values.length - 1, [low, high] = span(), focus = [...hand.querySelectorAll("circle")].indexOf(document.activeElement);
-        const width = Math.max(280, Math.min(1100, hand.clientWidth)), height = 210, x = [0, page.drawn.distance], y = page.drawn.what === "load" ? [0, high] : [low * 1.1, high * 1.1];
+        const width = width_of(hand), height = 210, x = [0, page.drawn.distance], y = page.drawn.what === "load" ? [0, high] : [low * 1.1, high * 1.1];
         const plot = chart({ width, height, x, y, x_label: words.roll_x, y_label: unit(), label: words.hand_alt, y_ticks: 4 });
         plot.root.removeAttribute("role");
         plot.root.setAttribute("class", "hand");
@@ -104,7 +104,7 @@ export function roll_view(words, page) {
             { name: "roll", forms: false, top: Math.max(...data["step.p"].at), window: [ends[0] - half, ends.at(-1) + half] }));
         legend_row.replaceChildren(tractions_legend(words, { carter: 0 }, data["step.zone"].at));
         picture.firstChild.setAttribute("aria-label", say(words.roll_alt, { k: k + 1 }));
-        const { distance: d, force_ratio: f } = data.history, width = Math.max(280, Math.min(1100, way.clientWidth)), low = Math.min(0, ...f), high = Math.max(0, ...f);
+        const { distance: d, force_ratio: f } = data.history, width = width_of(way), low = Math.min(0, ...f), high = Math.max(0, ...f);
         const plot = chart({ width, height: 210, x: [0, d.at(-1) || 1], y: [low * 1.1, high * 1.1 || 0.1], x_label: words.roll_x, y_label: words.curve_y, label: words.roll_curve, y_ticks: 4 });
         plot.root.append(svg("path", { d: line([...d].map((v, i) => [plot.X(v), plot.Y(f[i])])), style: stroke("--rub", 3) }),
             svg("circle", { cx: plot.X(d[k]), cy: plot.Y(f[k]), r: 7, style: "fill:var(--slip);stroke:var(--card);stroke-width:2" }));

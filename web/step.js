@@ -1,5 +1,5 @@
 /* Step through the method: matrices, Lemke's pivots, Newton's zones, guessed zones. */
-import { card, chart, html, player, show, stairs, stroke, svg, zone_colours } from "./draw.js";
+import { card, chart, html, player, show, stairs, stroke, svg, width_of, zone_colours } from "./draw.js";
 import { matrices, parse, pretty } from "./matrices.js";
 import { say } from "./words.js";
 
@@ -23,9 +23,12 @@ function basis_of(a, k, n) {
 }
 const zone_of = (kinds) => !kinds.has("p") ? 0 : kinds.has("lambda+") ? 2 : kinds.has("lambda-") ? 3 : 1;
 
+/* In words where there is room. */
+const zone_word = (words, z, n) => n > 9 || innerWidth < 640 ? words.zones_signs[z] : words.zones_short[z];
+
 const strip = (words, zones, label) => html("div", { class: "cells", style: `grid-template-columns:6.5rem repeat(${zones.length},1fr);align-items:center`, role: "img",
     "aria-label": `${label}: ${zones.map((z) => words.zones_short[z]).join(", ")}` }, html("span", { class: "head", style: "text-align:left" }, label),
-    zones.map((z, i) => html("span", { class: `zone${z}`, title: words.zones[z] }, zones.length > 9 ? words.zones_signs[z] : words.zones_short[z])));
+    zones.map((z, i) => html("span", { class: `zone${z}`, title: words.zones[z] }, zone_word(words, z, zones.length))));
 
 function basis_grid(words, kinds) {
     const pairs = [["gap", "p"], ["lambda+", "gamma+"], ["lambda-", "gamma-"]];
@@ -52,7 +55,7 @@ function newton_strips(words, a) {
 }
 
 function bars(host, words, { ends, p, q, mu, top, label }) {
-    const width = Math.max(280, Math.min(900, host.clientWidth || 500)), x = [ends[0], ends[p.length]];
+    const width = width_of(host), x = [ends[0], ends[p.length]];
     const plot = chart({ width, height: 230, x, y: [-mu * top * 1.15, top * 1.08], x_label: words.x_axis, y_label: words.mpa, label });
     const bound = (sign) => svg("path", { d: stairs(ends, [...p].map((v) => sign * mu * v), plot.X, plot.Y), style: stroke("--soft", 1.3, "stroke-dasharray:2 4") });
     plot.root.append(...[...p].map((v, i) => svg("rect", { x: plot.X(ends[i]) + 1, width: Math.max(1, plot.X(ends[i + 1]) - plot.X(ends[i]) - 2), y: Math.min(plot.Y(v), plot.Y(0)), height: Math.abs(plot.Y(v) - plot.Y(0)), style: "fill:var(--press-fill);stroke:var(--press);stroke-width:1.2" })),
@@ -126,7 +129,7 @@ export function step_view(words, page) {
         zones = [...next];
         const focus = [...paint.querySelectorAll("button")].indexOf(document.activeElement);
         paint.replaceChildren(html("div", { class: "cells", style: `grid-template-columns:repeat(${zones.length},minmax(0,1fr))` }, zones.map((z, i) => html("button", { type: "button", class: `zone${z}`,
-            "aria-label": say(words.guess_element, { i: i + 1, zone: words.zones[z] }), onclick: () => { zones[i] = (zones[i] + 1) % 4; repaint(zones); } }, i + 1, html("br"), zones.length > 9 ? words.zones_signs[z] : words.zones_short[z]))));
+            "aria-label": say(words.guess_element, { i: i + 1, zone: words.zones[z] }), onclick: () => { zones[i] = (zones[i] + 1) % 4; repaint(zones); } }, i + 1, html("br"), zone_word(words, z, zones.length)))));
         if (focus >= 0) paint.querySelectorAll("button")[focus]?.focus();
         verdict.replaceChildren();
         guess_picture.replaceChildren();

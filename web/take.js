@@ -56,11 +56,12 @@ export function take_view(words, page) {
     function draw() {
         const a = page.answer;
         if (!a) return;
+        const columns = page.results.column.filter((r) => a.columns[r.name]); /* some belong to some cases */
         const picture = picture_of(words, a), figure = html("figure");
         figure.append(tractions_picture(figure, words, a, { width: Math.max(300, Math.min(900, node.clientWidth - 40)), name: "take" }));
         node.replaceChildren(text_card(words, "command", command_of(page.given, page.options)), text_card(words, "link", location.href.split("#")[0] + write_link(page.given, "contact", page.drawn)),
             html("div", { class: "pair", style: "grid-template-columns:repeat(auto-fit,minmax(min(100%,270px),1fr))" }, text_card(words, "ini", ini_of(page.given, page.options), "case.ini", "text/plain"),
-                text_card(words, "table", table_of(a.columns, page.results.column), "table.tsv", "text/tab-separated-values"), text_card(words, "json", json_of(a, page.given, page.options, page.results), "case.json", "application/json")),
+                text_card(words, "table", table_of(a.columns, columns), "table.tsv", "text/tab-separated-values"), text_card(words, "json", json_of(a, page.given, page.options, { ...page.results, column: columns }), "case.json", "application/json")),
             card(words.take_picture, figure, html("div", { class: "row", style: "margin-top:.6rem" }, html("button", { type: "button", class: "button main", onclick: () => save("rollbem.svg", picture, "image/svg+xml") }, words.download_svg))));
     }
     return { node, draw, wants: () => [] };

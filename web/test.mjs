@@ -1,7 +1,7 @@
 /* Tests of the page: node web/test.mjs [build], with verdicts as tests/run reads them.  The library as WebAssembly answers as the
  * program does; then the page itself in a headless Chromium. */
 import { spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -114,6 +114,16 @@ await test("one file below 600 kB that names no other", () => {
     check(text.length < 600e3, `${text.length} bytes`);
     check(!/(src|href)="?https?:/.test(text), "it asks for something");
 });
+
+/* axe-core finds contrasts that are too weak, missing names and broken roles.  It comes from the npm
+ * registry as web/package-lock.json names it, into the build folder; null: it cannot be had. */
+function axe_source() {
+    const folder = `${build}/page/npm`, source = `${folder}/node_modules/axe-core/axe.min.js`;
+    mkdirSync(folder, { recursive: true });
+    for (const file of ["package.json", "package-lock.json"]) copyFileSync(`web/${file}`, `${folder}/${file}`);
+    if (!existsSync(source)) spawnSync("npm", ["ci", "--ignore-scripts", "--no-audit", "--no-fund", "--fetch-retries=0", "--fetch-timeout=20000"], { cwd: folder, timeout: 60e3 });
+    return existsSync(source) ? readFileSync(source, "utf8") : null;
+}
 
 const IDLE = "window.rollbem && rollbem.page.answer && rollbem.queue.idle()";
 async function views(page) {
@@ -255,6 +265,23 @@ async function views(page) {
         const nameless = await page.run("[...document.querySelectorAll('input, button, select, textarea, [role=img], [role=slider]')].filter((e) => !(e.getAttribute('aria-label') || e.labels?.length || e.textContent.trim())).map((e) => e.outerHTML.slice(0, 80))");
         check(nameless.length === 0, nameless.join(" "));
     });
+    const axe = axe_source();
+    if (axe) {
+        await page.run(`${axe};0`);
+        for (const mode of ["light", "dark"])
+            await test(`no finding of axe-core in any view, ${mode}`, async () => {
+                await page.size(1280, 900, mode === "dark");
+                await page.run("rollbem.preset('stiff')");
+                for (const view of ["contact", "roll", "below", "step", "take"]) {
+                    await page.run(`rollbem.open("${view}"); document.querySelector('input[name=hand][value=load]')?.click()`);
+                    await settled();
+                    const found = await page.run("axe.run(document).then((r) => r.violations.flatMap((v) => v.nodes.map((n) => `${v.id}: ${n.html.slice(0, 100)}`)))");
+                    check(found.length === 0, `${view}: ${found.join("; ")}`);
+                }
+                await page.run("document.querySelector('input[name=hand][value=none]')?.click(); rollbem.open('contact')");
+            });
+        await page.size(1280, 900);
+    } else console.log("[  SKIPPED ] accessibility: axe-core cannot be had from npm here");
     /* Young's modulus makes all anew; friction leaves the flexibility where the zone is given. */
     const moves = process.env.ROLLBEM_TEST_ALL ? 200 : 20;
     for (const [what, preset, more, option, from] of [["60 elements cold, half-planes", "rail", { "contact-elements": "60" }, "young", 150000], ["60 elements cold, wheel", "stiff", { "contact-elements": "60" }, "young", 10],
