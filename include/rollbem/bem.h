@@ -58,6 +58,8 @@ typedef struct {
     rb_bem_support support; /* RB_BEM_ARC or RB_BEM_HUB */
     double arc;             /* half-angle of the clamped arc [rad], in (0, pi/2] */
     double hub_ratio;       /* in (0, 1) */
+    double cover;           /* RB_BEM_HUB: thickness of a cover [length]; the mesh is the
+                               cover's, held where it is bonded to its core; 0: none */
     int outer_elements;     /* so many on the outer circle outside the contact, with the
                                upstream one; one more for an odd number where the mesh
                                is symmetric; 0: chosen so that neighbours differ by at
@@ -76,6 +78,11 @@ double rb_bem_circle_height(double radius, double x);
  * absurd. */
 rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
                                const double *ends, rb_bem_mesh *mesh, rb_message *why);
+
+/* The core of a covered cylinder, a ring between the inner contour of its cover's mesh, run
+ * backwards, and a rigid hub of hub_ratio R (B11).  RB_EINVAL: the hub reaches the cover. */
+rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *cover,
+                           rb_bem_mesh *core, rb_message *why);
 
 /* ---- Influence (B1-B3) ----------------------------------------------------------- */
 
@@ -112,6 +119,13 @@ enum { RB_BEM_HIERARCHICAL = 1500 };
  * motions remain; the message says so), bad material or mesh; RB_SINGULAR; RB_ENOMEM. */
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                rb_bem_system **system, rb_message *why);
+/* A cover bonded to an elastic core (B11): its inner contour, the last elements of the mesh,
+ * moves as the core answers to the tractions there.  The matrix is dense at any size.
+ * RB_EINVAL also where the two do not fit together, or the cover is incompressible. */
+rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material material,
+                                      const rb_bem_mesh *core,
+                                      rb_bem_material core_material,
+                                      rb_bem_system **system, rb_message *why);
 void rb_bem_system_free(rb_bem_system *system);
 const rb_bem_mesh *rb_bem_system_mesh(const rb_bem_system *system);
 /* Reciprocal condition (1-norm, estimated) of the scaled matrix A; NAN where it is

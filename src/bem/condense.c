@@ -40,7 +40,37 @@ static rb_status solve_contact(const rb_bem_system *s, double *X)
 typedef struct {
     const rb_bem_system *s;
     rb_strip *strip; /* one per contact element */
+    double *bonded;  /* 2 bond->n x 2 contact_n: what the loads leave on a bonded contour;
+                        NULL without one */
 } particular;
+
+/* The displacement of one load's strip. */
+typedef struct {
+    const rb_bem_mesh *mesh;
+    int element;
+    double unit;
+    double complex load;
+} strip_load;
+
+static double complex strip_field(rb_bem_material material, double complex z,
+                                  const void *context)
+{
+    const strip_load *l = context;
+    const rb_strip strip = rb_strip_on(l->mesh, l->element, material, l->unit);
+    return rb_strip_under(rb_strip_displacement(&strip, z), l->load);
+}
+
+static rb_status left_over_on_bond(const rb_bem_system *s, double unit, double *bonded)
+{
+    rb_status status = RB_OK;
+    for (int k = 0; k < 2 * s->mesh.contact_n && status == RB_OK; k++) {
+        const strip_load load = {&s->mesh, s->mesh.contact_first + k / 2, unit,
+                                 k % 2 ? I : 1.0};
+        status = rb_bond_left_over(s->bond, &s->mesh, s->material, strip_field, &load,
+                                   bonded + (size_t)k * 2 * (size_t)s->bond->n);
+    }
+    return status;
+}
 
 /* Boundary values of element k against the strip on contact element c: u_x, u_y (where
  * the displacement is given) or t_x, t_y, under its load along x and along y. */
@@ -52,6 +82,15 @@ static void left_over(const particular *p, int k, int c, double value[2][2])
     const int held_y = mesh->condition[2 * k + 1] == RB_BEM_DISPLACEMENT;
     rb_strip_answer u = {0.0, 0.0}, t = {0.0, 0.0};
 
+    if (p->bonded && k >= p->s->bond->first) {
+        const size_t rows = 2 * (size_t)p->s->bond->n;
+        const double *own =
+            p->bonded + 2 * (size_t)c * rows + 2 * (size_t)(k - p->s->bond->first);
+        for (int direction = 0; direction < 2; direction++)
+            for (int d = 0; d < 2; d++)
+                value[direction][d] = own[(size_t)direction * rows + (size_t)d];
+        return;
+    }
     if (held_x || held_y)
         u = rb_strip_displacement(&p->strip[c], z);
     if (!(held_x && held_y) && k != mesh->contact_first + c)
@@ -138,10 +177,13 @@ static rb_status particular_make(const rb_bem_system *s, particular *p)
     const rb_bem_mesh *mesh = &s->mesh;
     const double unit = rb_bem_mesh_size(mesh);
 
-    *p = (particular){s, calloc((size_t)mesh->contact_n, sizeof *p->strip)};
+    *p = (particular){s, calloc((size_t)mesh->contact_n, sizeof *p->strip), NULL};
     for (int c = 0; c < mesh->contact_n && p->strip; c++)
         p->strip[c] = rb_strip_on(mesh, mesh->contact_first + c, s->material, unit);
-    return p->strip ? RB_OK : RB_ENOMEM;
+    if (!p->strip || !s->bond)
+        return p->strip ? RB_OK : RB_ENOMEM;
+    p->bonded = rb_alloc(2 * (size_t)s->bond->n, 2 * (size_t)mesh->contact_n);
+    return p->bonded ? left_over_on_bond(s, unit, p->bonded) : RB_ENOMEM;
 }
 
 static rb_status subtracted_loads(const particular *p, double *X)
@@ -259,6 +301,7 @@ static rb_status contact_displacements(const rb_bem_system *s, int subtract, dou
     if (status == RB_OK)
         status = solve_loads(s, subtract ? &p : NULL, *X);
     free(p.strip);
+    free(p.bonded);
     return status;
 }
 

@@ -79,9 +79,18 @@ static double end_angle(const graded_side *side, int k)
     return k == side->free_n + side->arc_n ? M_PI : side->from + s;
 }
 
+/* The inner contour of a cover: equal elements under the contact, from angle low to high,
+ * and graded sides. */
+typedef struct {
+    double low, high;
+    int middle_n;
+    graded_side right, left;
+} interface_layout;
+
 typedef struct {
     graded_side right, left;
     int hub_n;
+    interface_layout interface; /* of a cover, hub_n elements */
 } outer_layout;
 
 /* With the two elements beside the contact. */
@@ -145,8 +154,10 @@ static graded_side lay_out_side(const rb_bem_cylinder *cylinder, double contact,
                                 double from)
 {
     const int has_hub = cylinder->support == RB_BEM_HUB;
-    const double feature =
-        has_hub ? (1.0 - cylinder->hub_ratio) / 4.0 : 2.0 * cylinder->arc / 8.0;
+    /* what happens in a cover has died down some thicknesses beside the contact */
+    const double feature = cylinder->cover > 0.0 ? largest_angle
+                           : has_hub             ? (1.0 - cylinder->hub_ratio) / 4.0
+                                                 : 2.0 * cylinder->arc / 8.0;
     graded_side side = {.from = from, .h0 = from - contact};
 
     side.cap =
@@ -154,6 +165,36 @@ static graded_side lay_out_side(const rb_bem_cylinder *cylinder, double contact,
     side.growth = copysign(automatic_growth / refinement(cylinder), side.cap - side.h0);
     side.clamped = side_length(&side) - (has_hub ? 0.0 : cylinder->arc);
     return side;
+}
+
+static graded_side interface_side(const rb_bem_cylinder *cylinder, double from, double h)
+{
+    graded_side side = {.from = from,
+                        .h0 = h,
+                        .cap = largest_angle / refinement(cylinder),
+                        .clamped = M_PI - from};
+    side.growth = copysign(automatic_growth / refinement(cylinder), side.cap - h);
+    count_elements(&side, 0);
+    return side;
+}
+
+/* Five elements to the thickness of the cover under the contact. */
+static interface_layout lay_out_interface(const rb_bem_cylinder *cylinder, int n_c,
+                                          const double *ends)
+{
+    const double R = cylinder->radius;
+    const double left = asin(ends[0] / R), right = asin(ends[n_c] / R);
+    const double size =
+        fmin(0.2 * cylinder->cover / (R - cylinder->cover), largest_angle) /
+        refinement(cylinder);
+    const double half = fmax(0.5 * (right - left), size), centre = 0.5 * (left + right);
+    interface_layout in = {.low = centre - half,
+                           .high = centre + half,
+                           .middle_n = (int)ceil(2.0 * half / size)};
+    const double h = 2.0 * half / in.middle_n;
+    in.right = interface_side(cylinder, in.high, h);
+    in.left = interface_side(cylinder, -in.low, h);
+    return in;
 }
 
 static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const double *ends)
@@ -173,8 +214,13 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
         count_elements(&layout.right, 0);
         count_elements(&layout.left, 0);
     }
-    if (cylinder->support == RB_BEM_HUB)
+    if (cylinder->cover > 0.0) {
+        layout.interface = lay_out_interface(cylinder, n_c, ends);
+        layout.hub_n = layout.interface.middle_n + layout.interface.right.free_n +
+                       layout.interface.left.free_n;
+    } else if (cylinder->support == RB_BEM_HUB) {
         layout.hub_n = hub_elements(cylinder, finer);
+    }
     return layout;
 }
 
@@ -194,6 +240,12 @@ static rb_status check_cylinder(const rb_bem_cylinder *c, int n_c, const double 
     if (c->support == RB_BEM_HUB && !(c->hub_ratio > 0.0 && c->hub_ratio < 1.0))
         return rb_fail(why, RB_EINVAL, "hub ratio = %g: expected in (0, 1)",
                        c->hub_ratio);
+    if (c->cover != 0.0 &&
+        !(c->support == RB_BEM_HUB && c->cover > 0.0 && c->cover < c->radius))
+        return rb_fail(why, RB_EINVAL,
+                       "cover of thickness %g: expected > 0 and less than the radius %g, "
+                       "on a hub",
+                       c->cover, c->radius);
     if (c->outer_elements < 0 || (c->outer_elements > 0 && c->outer_elements < 8))
         return rb_fail(why, RB_EINVAL, "outer elements = %d: expected at least 8, or 0",
                        c->outer_elements);
@@ -282,25 +334,49 @@ static void place_outer(const rb_bem_cylinder *cylinder, int n_c, const double *
     }
 }
 
+/* Angle of end k of the inner contour, from that of end 0 to 2 pi less. */
+static double inner_angle(const outer_layout *layout, int k)
+{
+    const interface_layout *in = &layout->interface;
+    const int left = in->middle_n + in->left.free_n;
+
+    if (in->middle_n == 0)
+        return -2.0 * M_PI * k / layout->hub_n;
+    if (k <= in->middle_n)
+        return in->high + (in->low - in->high) * k / in->middle_n;
+    if (k <= left)
+        return -end_angle(&in->left, k - in->middle_n);
+    return end_angle(&in->right, layout->hub_n - k) - 2.0 * M_PI;
+}
+
 /* Clockwise: the body lies outside. */
-static void place_hub(const rb_bem_cylinder *cylinder, int first, int n,
+static void place_hub(double R, double r, const outer_layout *layout, int first,
                       rb_bem_mesh *mesh)
 {
-    const double R = cylinder->radius, r = cylinder->hub_ratio * R;
-    point start = {0.0, R - r}, from = start;
-    for (int k = 0; k < n; k++) {
-        const double angle = 2.0 * M_PI * (k + 1) / n;
-        const point to = k + 1 < n ? (point){-r * sin(angle), R - r * cos(angle)} : start;
+    const double begin = inner_angle(layout, 0);
+    const point start = {r * sin(begin), R - r * cos(begin)};
+    point from = start;
+    for (int k = 0; k < layout->hub_n; k++) {
+        const double angle = inner_angle(layout, k + 1);
+        const point to =
+            k + 1 < layout->hub_n ? (point){r * sin(angle), R - r * cos(angle)} : start;
         place(mesh, first + k, from, to, RB_BEM_DISPLACEMENT);
         from = to;
     }
+}
+
+/* Radius of the rigid core, or of the core under a cover. */
+static double inner_radius(const rb_bem_cylinder *cylinder)
+{
+    return cylinder->cover > 0.0 ? cylinder->radius - cylinder->cover
+                                 : cylinder->hub_ratio * cylinder->radius;
 }
 
 /* Few elements are long chords, which must not cut the core. */
 static rb_status check_chords(const rb_bem_cylinder *cylinder, int outer,
                               const rb_bem_mesh *mesh, rb_message *why)
 {
-    const double R = cylinder->radius, core = cylinder->hub_ratio * R;
+    const double R = cylinder->radius, core = inner_radius(cylinder);
     for (int j = 0; cylinder->support == RB_BEM_HUB && j < outer; j++)
         if (hypot(0.5 * (mesh->x0[j] + mesh->x1[j]),
                   0.5 * (mesh->y0[j] + mesh->y1[j]) - R) <= core)
@@ -327,7 +403,45 @@ rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
                        outer + layout.hub_n);
     mesh->contact_n = n_c;
     place_outer(cylinder, n_c, ends, &layout, mesh);
-    place_hub(cylinder, outer, layout.hub_n, mesh);
+    place_hub(cylinder->radius, inner_radius(cylinder), &layout, outer, mesh);
     s = check_chords(cylinder, outer, mesh, why);
     return s == RB_OK ? rb_bem_mesh_check(mesh, why) : s;
+}
+
+static int is_held(const rb_bem_mesh *mesh, int j)
+{
+    return mesh->condition[2 * j] == RB_BEM_DISPLACEMENT;
+}
+
+rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *cover,
+                           rb_bem_mesh *core, rb_message *why)
+{
+    const double R = cylinder->radius, hub = cylinder->hub_ratio * R,
+                 outside = inner_radius(cylinder);
+    outer_layout layout = {.hub_n = 0};
+    int n = 0;
+
+    *core = (rb_bem_mesh){0};
+    while (n < cover->n && is_held(cover, cover->n - 1 - n))
+        n++;
+    if (!(hub < 0.98 * outside))
+        return rb_fail(
+            why, RB_EINVAL,
+            "hub of radius %g: expected less than 0.98 of the radius %g of the "
+            "core under the cover",
+            hub, outside);
+    const double size =
+        fmin(largest_angle, fmin(M_PI / 18.0, 0.5 * (outside / hub - 1.0)));
+    layout.hub_n =
+        (int)fmin(fmax(16.0, ceil(refinement(cylinder) * 2.0 * M_PI / size)), 20000.0);
+    rb_status s = rb_bem_mesh_alloc(n + layout.hub_n, core);
+    if (s != RB_OK)
+        return rb_fail(why, s, "core: out of memory for %d elements", n + layout.hub_n);
+    for (int i = 0; i < n; i++) {
+        const int j = cover->n - 1 - i;
+        place(core, i, (point){cover->x1[j], cover->y1[j]},
+              (point){cover->x0[j], cover->y0[j]}, RB_BEM_TRACTION);
+    }
+    place_hub(R, hub, &layout, n, core);
+    return rb_bem_mesh_check(core, why);
 }

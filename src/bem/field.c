@@ -126,6 +126,20 @@ static void left_over(const rb_bem_field *f, const double *t_contact, int j,
     }
 }
 
+static double complex strips_field(rb_bem_material material, double complex z,
+                                   const void *context)
+{
+    const rb_bem_field *f = context;
+    double complex u = 0.0;
+    for (int k = 0; k < f->pieces; k++) {
+        rb_strip strip = f->piece[k].strip;
+        strip.shear = material.shear;
+        strip.kappa = 3.0 - 4.0 * material.poisson;
+        u += rb_strip_under(rb_strip_displacement(&strip, z), f->piece[k].traction);
+    }
+    return u;
+}
+
 rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_contact,
                               rb_bem_field **field, rb_message *why)
 {
@@ -148,7 +162,12 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
         make_pieces(f, t_contact);
         for (int j = 0; j < system->mesh.n; j++)
             left_over(f, t_contact, j, value + 2 * j);
-        s = rb_bem_system_solve_values(system, value, f->u, f->t);
+        s = system->bond
+                ? rb_bond_left_over(system->bond, &system->mesh, system->material,
+                                    strips_field, f, value + 2 * system->bond->first)
+                : RB_OK;
+        if (s == RB_OK)
+            s = rb_bem_system_solve_values(system, value, f->u, f->t);
     }
     free(value);
     if (s == RB_OK)

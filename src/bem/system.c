@@ -48,6 +48,7 @@ void rb_bem_system_free(rb_bem_system *system)
     rb_bem_mesh_free(&system->mesh);
     free(system->A);
     rb_hierarchical_free(system->h);
+    rb_bond_free(system->bond);
     free(system->b);
     free(system->Gc);
     free(system->unit);
@@ -166,6 +167,32 @@ static rb_status fix_pressures(rb_bem_system *s)
     return status;
 }
 
+/* On a bonded contour u = -C t: the columns of its tractions, -G so far, are -(G + H C).
+ */
+static rb_status add_bond(rb_bem_system *s, const rb_assembly *assembly)
+{
+    const rb_bond *bond = s->bond;
+    const size_t rows = (size_t)s->dofs, columns = 2 * (size_t)bond->n;
+    double *H = rb_alloc(rows, columns), *C = rb_alloc(columns, columns);
+
+    if (H && C) {
+        for (int i = 0; i < bond->n; i++) {
+            double *x = H + 2 * (size_t)i * rows;
+            rb_assembly_columns(assembly, bond->first + i, 1.0,
+                                (double *const[4]){x, x + rows, NULL, NULL});
+        }
+        for (size_t k = 0; k < columns * columns; k++)
+            C[k] = bond->C[k] * s->unit[(size_t)bond->first + k / columns / 2];
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, s->dofs, 2 * bond->n,
+                    2 * bond->n, -1.0, H, s->dofs, C, 2 * bond->n, 1.0,
+                    column_of(s, 2 * bond->first), s->ld);
+    }
+    const rb_status status = H && C ? RB_OK : RB_ENOMEM;
+    free(C);
+    free(H);
+    return status;
+}
+
 static rb_status assemble(rb_bem_system *s)
 {
     const rb_bem_mesh *mesh = &s->mesh;
@@ -180,7 +207,9 @@ static rb_status assemble(rb_bem_system *s)
 #pragma omp parallel for schedule(static) if (pairs > rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++)
         assemble_element(s, &assembly, j);
-    status = add_given(s, &assembly, s->mesh.value, s->b);
+    status = s->bond ? add_bond(s, &assembly) : RB_OK;
+    if (status == RB_OK)
+        status = add_given(s, &assembly, s->mesh.value, s->b);
     rb_assembly_end(&assembly);
     if (status == RB_OK && s->A)
         status = fix_pressures(s);
@@ -254,10 +283,10 @@ static rb_status check_memory(const rb_bem_mesh *mesh, int dense, rb_message *wh
     return rb_memory_check(bytes_of(mesh, dense), what, why);
 }
 
-rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material,
-                                  int dense, rb_bem_system **system, rb_message *why)
+/* Takes over the bond; NULL: none. */
+static rb_status create(const rb_bem_mesh *mesh, rb_bem_material material, int dense,
+                        rb_bond *bond, rb_bem_system **system, rb_message *why)
 {
-    *system = NULL;
     rb_status status = rb_bem_mesh_check(mesh, why);
     if (status == RB_OK)
         status = rb_bem_material_check(material, why);
@@ -265,12 +294,18 @@ rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material mater
         status = rb_bem_support_check(mesh, why);
     if (status == RB_OK)
         status = check_memory(mesh, dense, why);
-    if (status != RB_OK)
+    if (status != RB_OK) {
+        rb_bond_free(bond);
         return status;
+    }
     const double start = rb_seconds();
     rb_bem_system *s = system_alloc(mesh, dense);
-    if (s)
+    if (s) {
         s->material = material;
+        s->bond = bond;
+    } else {
+        rb_bond_free(bond);
+    }
     status = s ? assemble(s) : RB_ENOMEM;
     if (status == RB_OK) {
         const double assembled = rb_seconds();
@@ -286,6 +321,34 @@ rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material mater
     else
         rb_bem_system_free(s);
     return status;
+}
+
+rb_status rb_bem_system_create_as(const rb_bem_mesh *mesh, rb_bem_material material,
+                                  int dense, rb_bem_system **system, rb_message *why)
+{
+    *system = NULL;
+    return create(mesh, material, dense, NULL, system, why);
+}
+
+/* An incompressible cover does not tell how its core is pressed all around. */
+rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material material,
+                                      const rb_bem_mesh *core,
+                                      rb_bem_material core_material,
+                                      rb_bem_system **system, rb_message *why)
+{
+    rb_bond *bond = NULL;
+    *system = NULL;
+    rb_status s = rb_bem_mesh_check(cover, why);
+    if (s == RB_OK && rb_is_incompressible(material))
+        s = rb_fail(
+            why, RB_EINVAL,
+            "cover on an elastic core: expected Poisson's ratio below 1/2, got %g",
+            material.poisson);
+    if (s == RB_OK)
+        s = rb_bem_material_check(core_material, why);
+    if (s == RB_OK)
+        s = rb_bond_create(cover, core, core_material, &bond, why);
+    return s == RB_OK ? create(cover, material, 1, bond, system, why) : s;
 }
 
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
@@ -304,6 +367,11 @@ static void distribute(const rb_bem_system *s, const double *x, const double *va
         const int held = s->mesh.condition[dof] == RB_BEM_DISPLACEMENT;
         u[dof] = held ? value[dof] : unknown;
         t[dof] = held ? s->unit[dof / 2] * unknown : value[dof];
+    }
+    if (s->bond) {
+        const int from = 2 * s->bond->first, n = 2 * s->bond->n;
+        cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0, s->bond->C, n, t + from, 1,
+                    1.0, u + from, 1);
     }
 }
 

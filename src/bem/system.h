@@ -2,6 +2,7 @@
 #ifndef ROLLBEM_BEM_SYSTEM_H
 #define ROLLBEM_BEM_SYSTEM_H
 
+#include "bem/bond.h"
 #include "bem/hierarchical.h"
 #include "rollbem/bem.h"
 
@@ -22,9 +23,10 @@ struct rb_bem_system {
     int offset; /* the dof that comes first */
     double *A;  /* LU, 2n x 2n; NULL where a hierarchical one stands instead: */
     rb_hierarchical *h;
-    double *b;    /* of the given values, 2n */
-    double *Gc;   /* columns of the contact tractions, 2n x 2 contact_n */
-    double *unit; /* of each element's tractions, n [stress] */
+    rb_bond *bond; /* to an elastic core; NULL: none */
+    double *b;     /* of the given values, 2n */
+    double *Gc;    /* columns of the contact tractions, 2n x 2 contact_n */
+    double *unit;  /* of each element's tractions, n [stress] */
     lapack_int *pivot;
     double rcond, seconds_assembly, seconds_factor;
 };

@@ -329,21 +329,52 @@ static rb_status check_support(const rb_case *c, int body, rb_message *why)
     return s;
 }
 
+/* What an option is of: it has no effect without the other one. */
+static rb_status check_coats(const rb_case *c, rb_message *why)
+{
+    const rb_rolling_body *const bodies[2] = {&c->settled.rc.a, &c->settled.rc.b};
+    rb_status status = RB_OK;
+    for (int b = 0; b < 2 && status == RB_OK; b++) {
+        const rb_rolling_body *body = bodies[b];
+        const int layer = body->layer > 0.0, cover = body->cover > 0.0;
+        const struct {
+            int without;
+            const char *name[2], *reason;
+        } parts[] = {
+            {!layer,
+             {"base-young", "base-young-b"},
+             "a base has its layer on it, see --layer-thickness"},
+            {!layer,
+             {"base-poisson", "base-poisson-b"},
+             "a base has its layer on it, see --layer-thickness"},
+            {layer && body->base_young == 0.0,
+             {"datum", "datum-b"},
+             "on a rigid base the displacement is absolute"},
+            {!cover,
+             {"core-young", "core-young-b"},
+             "a core has its cover on it, see --cover-thickness"},
+            {!cover,
+             {"core-poisson", "core-poisson-b"},
+             "a core has its cover on it, see --cover-thickness"},
+            {cover && body->core_young == 0.0,
+             {"hub-ratio", "hub-ratio-b"},
+             "all below the cover is rigid without --core-young"},
+        };
+        for (size_t k = 0; k < sizeof parts / sizeof *parts && status == RB_OK; k++)
+            if (parts[k].without)
+                status = refuse_given(c, parts[k].name[b], parts[k].reason, why);
+    }
+    return status;
+}
+
 static rb_status settle_bodies(rb_case *c, rb_message *why)
 {
     rb_settled_case *s = &c->settled;
-    const int layer[2] = {s->rc.a.layer > 0.0, s->rc.b.layer > 0.0};
-    static const char *const base[2][2] = {{"base-young", "base-poisson"},
-                                           {"base-young-b", "base-poisson-b"}};
     rb_status status = settle_memory(&s->memory_a, "", &s->rc.a.memory, why);
     if (status == RB_OK)
         status = settle_memory(&s->memory_b, "-b", &s->rc.b.memory, why);
-    for (int b = 0; b < 2; b++)
-        for (int k = 0; k < 2 && status == RB_OK && !layer[b]; k++)
-            status = refuse_given(c, base[b][k],
-                                  "a base has its layer on it, see "
-                                  "--layer-thickness",
-                                  why);
+    if (status == RB_OK)
+        status = check_coats(c, why);
     return status;
 }
 

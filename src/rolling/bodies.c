@@ -65,10 +65,39 @@ int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
            (!rc->elastic_b || rc->b.support == RB_BEM_HALFPLANE);
 }
 
-static int wants_exact_field(const rb_rolling_case *rc)
+/* Of a cover as well: its stretch under the load is what one wants to know. */
+static int wants_exact_field(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
-    return rc->near_field == RB_NEAR_FIELD_AUTO ? rc->mesh == RB_MESH_FITTED
-                                                : rc->near_field == RB_NEAR_FIELD_EXACT;
+    return rc->near_field == RB_NEAR_FIELD_AUTO
+               ? rc->mesh == RB_MESH_FITTED || body->cover > 0.0
+               : rc->near_field == RB_NEAR_FIELD_EXACT;
+}
+
+/* The boundary elements of a wheel, of its cover alone where the core is rigid, of both
+ * where it is elastic. */
+static rb_status cylinder_system(const rb_rolling_body *body,
+                                 const rb_bem_cylinder *cylinder,
+                                 const rb_rolling_mesh *mesh, rb_bem_system **system,
+                                 rb_message *why)
+{
+    const rb_bem_material material =
+        rb_bem_material_from_young(body->young, body->poisson);
+    rb_bem_mesh boundary = {0}, core = {0};
+    rb_status s = rb_bem_mesh_cylinder(cylinder, mesh->n, mesh->ends, &boundary, why);
+
+    if (s == RB_OK && body->cover > 0.0 && body->core_young > 0.0) {
+        s = rb_bem_mesh_core(cylinder, &boundary, &core, why);
+        if (s == RB_OK)
+            s = rb_bem_system_create_bonded(
+                &boundary, material, &core,
+                rb_bem_material_from_young(body->core_young, body->core_poisson), system,
+                why);
+    } else if (s == RB_OK) {
+        s = rb_bem_system_create(&boundary, material, system, why);
+    }
+    rb_bem_mesh_free(&core);
+    rb_bem_mesh_free(&boundary);
+    return s;
 }
 
 static rb_status cylinder_flexibility(const rb_rolling_case *rc,
@@ -81,26 +110,21 @@ static rb_status cylinder_flexibility(const rb_rolling_case *rc,
                                       .support = body->support,
                                       .arc = body->arc * M_PI / 180.0,
                                       .hub_ratio = body->hub_ratio,
+                                      .cover = body->cover,
                                       .outer_elements = rc->outer_elements,
                                       .refinement = rc->outer_refinement};
-    rb_bem_mesh boundary = {0};
-    rb_status s = rb_bem_mesh_cylinder(&cylinder, mesh->n, mesh->ends, &boundary, why);
+    rb_status s = cylinder_system(body, &cylinder, mesh, system, why);
 
-    if (s == RB_OK)
-        s = rb_bem_system_create(&boundary,
-                                 rb_bem_material_from_young(body->young, body->poisson),
-                                 system, why);
     if (s == RB_OK) {
         double assembly, factor;
         rb_bem_system_seconds(*system, &assembly, &factor);
         bodies->seconds_assembly += assembly;
         bodies->seconds_factor += factor;
         const double start = rb_seconds();
-        s = (wants_exact_field(rc) ? rb_bem_condense_subtracted
-                                   : rb_bem_condense)(*system, rc->normals, f, why);
+        s = (wants_exact_field(rc, body) ? rb_bem_condense_subtracted
+                                         : rb_bem_condense)(*system, rc->normals, f, why);
         bodies->seconds_condense += rb_seconds() - start;
     }
-    rb_bem_mesh_free(&boundary);
     return s;
 }
 

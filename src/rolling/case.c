@@ -14,6 +14,7 @@ rb_rolling_case rb_rolling_case_defaults(void)
     rb_rolling_case rc = {.a = body, .b = body};
 
     rc.a.base_poisson = rc.b.base_poisson = body.poisson;
+    rc.a.core_poisson = rc.b.core_poisson = body.poisson;
     rc.b.radius = INFINITY;
     rc.b.support = RB_BEM_HALFPLANE;
     rc.gap = RB_GAP_EXACT;
@@ -184,6 +185,28 @@ static rb_status check_body(const rb_rolling_body *b, const char *which,
         return rb_fail(why, RB_EINVAL,
                        "Poisson's ratio of the base%s: expected in (-1, 0.5], got %g",
                        which, b->base_poisson);
+    if (b->cover != 0.0 && b->support != RB_BEM_HUB)
+        return rb_fail(why, RB_EINVAL,
+                       "cover thickness%s: its core holds the wheel, add --support%s hub",
+                       which, which[0] ? "-b" : "");
+    if (!(isfinite(b->cover) && b->cover >= 0.0 && b->cover < b->radius))
+        return rb_fail(
+            why, RB_EINVAL,
+            "cover thickness%s: expected > 0 and less than the radius %g, got %g", which,
+            b->radius, b->cover);
+    if (!(isfinite(b->core_young) && b->core_young >= 0.0))
+        return rb_fail(why, RB_EINVAL,
+                       "Young's modulus of the core%s: expected > 0, got %g", which,
+                       b->core_young);
+    if (b->core_young > 0.0 && !(b->core_poisson > -1.0 && b->core_poisson <= 0.5))
+        return rb_fail(why, RB_EINVAL,
+                       "Poisson's ratio of the core%s: expected in (-1, 0.5], got %g",
+                       which, b->core_poisson);
+    if (b->cover > 0.0 && b->core_young > 0.0 && b->poisson > 0.499)
+        return rb_fail(why, RB_EINVAL,
+                       "Poisson's ratio%s: a cover on an elastic core has to be "
+                       "compressible, expected 0.499 at most, got %g",
+                       which, b->poisson);
     if (b->support == RB_BEM_HALFPLANE && !(isfinite(b->datum) && b->datum >= 0.0))
         return rb_fail(why, RB_EINVAL, "datum%s: expected a depth >= 0, got %g", which,
                        b->datum);

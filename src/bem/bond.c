@@ -1,0 +1,157 @@
+#include "bem/bond.h"
+
+#include "bem/assemble.h"
+#include "bem/internal.h"
+#include "bem/system.h"
+
+#include <cblas.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void rb_bond_free(rb_bond *bond)
+{
+    if (!bond)
+        return;
+    rb_bem_mesh_free(&bond->core);
+    free(bond->C);
+    free(bond);
+}
+
+/* Element of the core's mesh that is element i of the interface in the cover's order. */
+static int in_core(const rb_bond *bond, int i)
+{
+    return i < bond->n ? bond->n - 1 - i : i;
+}
+
+/* Where the cover's own inner contour is the core's outer one, run backwards. */
+static rb_status check_interface(const rb_bem_mesh *cover, const rb_bond *bond,
+                                 rb_message *why)
+{
+    const double tolerance = 1e-9 * rb_bem_mesh_size(cover);
+
+    for (int i = 0; i < bond->n; i++) {
+        const int j = bond->first + i, k = in_core(bond, i);
+        const double apart =
+            hypot(cover->x0[j] - bond->core.x1[k], cover->y0[j] - bond->core.y1[k]);
+        if (!(apart <= tolerance))
+            return rb_fail(why, RB_EINVAL,
+                           "bond: element %d of the cover is not element %d of the core",
+                           j, k);
+    }
+    return RB_OK;
+}
+
+/* Columns of the core's right-hand sides: G of the interface, -H of the hub. */
+static rb_status load_columns(const rb_bond *bond, double *X)
+{
+    const size_t rows = 2 * (size_t)bond->core.n;
+    rb_assembly assembly;
+    const rb_status s = rb_assembly_begin(&bond->core, bond->material, &assembly);
+
+    if (s != RB_OK)
+        return s;
+    for (int j = 0; j < bond->core.n; j++) {
+        double *x = X + 2 * (size_t)j * rows, *y = x + rows;
+        const int hub = j >= bond->n;
+        rb_assembly_columns(&assembly, j, 1.0,
+                            (double *const[4]){hub ? x : NULL, hub ? y : NULL,
+                                               hub ? NULL : x, hub ? NULL : y});
+        for (size_t i = 0; hub && i < 2 * rows; i++)
+            x[i] = -x[i];
+    }
+    rb_assembly_end(&assembly);
+    return RB_OK;
+}
+
+/* The rows of the interface in the cover's order; the cover's traction is the opposite of
+ * the core's, so that a positive C answers it with -C t. */
+static void take_interface(rb_bond *bond, const double *X)
+{
+    const size_t rows = 2 * (size_t)bond->core.n, kept = 2 * (size_t)bond->n;
+
+    for (int j = 0; j < bond->core.n; j++)
+        for (int b = 0; b < 2; b++) {
+            const double *from = X + (size_t)(2 * in_core(bond, j) + b) * rows;
+            double *to = bond->C + (size_t)(2 * j + b) * kept;
+            for (int i = 0; i < bond->n; i++)
+                for (int a = 0; a < 2; a++)
+                    to[2 * i + a] = from[2 * in_core(bond, i) + a];
+        }
+}
+
+/* One solve with a right-hand side for every dof of the core's boundary. */
+static rb_status condense_core(rb_bond *bond, rb_message *why)
+{
+    const size_t rows = 2 * (size_t)bond->core.n;
+    rb_bem_system *system;
+    rb_status s = rb_bem_system_create_as(&bond->core, bond->material, 1, &system, why);
+
+    if (s != RB_OK)
+        return s;
+    double *X = rb_alloc(rows, rows);
+    s = X ? load_columns(bond, X) : RB_ENOMEM;
+    if (s == RB_OK)
+        s = rb_bem_system_solve_columns(system, (int)rows, X);
+    if (s == RB_OK)
+        take_interface(bond, X);
+    free(X);
+    rb_bem_system_free(system);
+    return s;
+}
+
+rb_status rb_bond_create(const rb_bem_mesh *cover, const rb_bem_mesh *core,
+                         rb_bem_material material, rb_bond **bond, rb_message *why)
+{
+    rb_bond *b = calloc(1, sizeof *b);
+    int hub_n = 0;
+
+    *bond = NULL;
+    for (int j = 0; j < core->n; j++)
+        hub_n += core->condition[2 * j] == RB_BEM_DISPLACEMENT;
+    rb_status s = b ? rb_bem_mesh_copy(core, &b->core) : RB_ENOMEM;
+    if (s == RB_OK) {
+        b->n = core->n - hub_n;
+        b->hub_n = hub_n;
+        b->first = cover->n - b->n;
+        b->material = material;
+        b->C = rb_alloc(2 * (size_t)b->n, 2 * (size_t)core->n);
+        b->W = b->C ? b->C + 4 * (size_t)b->n * (size_t)b->n : NULL;
+        s = b->C ? check_interface(cover, b, why) : RB_ENOMEM;
+    }
+    if (s == RB_OK)
+        s = condense_core(b, why);
+    if (s == RB_OK)
+        *bond = b;
+    else
+        rb_bond_free(b);
+    return s;
+}
+
+/* value = u of the strips in the core - in the cover, - W u of the strips on the hub. */
+rb_status rb_bond_left_over(const rb_bond *bond, const rb_bem_mesh *cover,
+                            rb_bem_material material, rb_bond_field *field,
+                            const void *context, double *value)
+{
+    double *hub = rb_alloc(2 * (size_t)bond->hub_n, 1);
+
+    if (!hub)
+        return RB_ENOMEM;
+    for (int k = 0; k < bond->hub_n; k++) {
+        const double complex u =
+            field(bond->material, rb_strip_midpoint(&bond->core, bond->n + k), context);
+        hub[2 * k] = creal(u);
+        hub[2 * k + 1] = cimag(u);
+    }
+    for (int i = 0; i < bond->n; i++) {
+        const double complex z = rb_strip_midpoint(cover, bond->first + i);
+        const double complex u =
+            field(bond->material, z, context) - field(material, z, context);
+        value[2 * i] = creal(u);
+        value[2 * i + 1] = cimag(u);
+    }
+    cblas_dgemv(CblasColMajor, CblasNoTrans, 2 * bond->n, 2 * bond->hub_n, -1.0, bond->W,
+                2 * bond->n, hub, 1, 1.0, value, 1);
+    free(hub);
+    return RB_OK;
+}
