@@ -178,14 +178,14 @@ static graded_side interface_side(const rb_bem_cylinder *cylinder, double from, 
     return side;
 }
 
-/* Five elements to the thickness of the cover under the contact. */
+/* Ten elements to the thickness of the cover under the contact. */
 static interface_layout lay_out_interface(const rb_bem_cylinder *cylinder, int n_c,
                                           const double *ends)
 {
     const double R = cylinder->radius;
     const double left = asin(ends[0] / R), right = asin(ends[n_c] / R);
     const double size =
-        fmin(0.2 * cylinder->cover / (R - cylinder->cover), largest_angle) /
+        fmin(0.1 * cylinder->cover / (R - cylinder->cover), largest_angle) /
         refinement(cylinder);
     const double half = fmax(0.5 * (right - left), size), centre = 0.5 * (left + right);
     interface_layout in = {.low = centre - half,

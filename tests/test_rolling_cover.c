@@ -1,0 +1,307 @@
+/* Wheels with covers: boundary elements of two bonded regions (B11) against a homogeneous
+ * wheel, a rigid core and the layer on a half-plane. */
+#include "check.h"
+#include "rollbem/rolling.h"
+
+#include <gsl/gsl_math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- The flexibility ----------------------------------------------------------------
+ */
+
+enum { N = 20, M = N + 1 };
+
+/* F of N equal elements over +-half on a wheel of R = 100 with a hub of 30; cover 0:
+ * homogeneous; core.shear 0: rigid below the cover.  Owned by the caller. */
+static double *flexibility(double cover, rb_bem_material core, double half, double fine)
+{
+    const rb_bem_material rubber = {.shear = 3.0, .poisson = 0.3};
+    const rb_bem_cylinder cylinder = {.radius = 100.0,
+                                      .support = RB_BEM_HUB,
+                                      .hub_ratio = 0.3,
+                                      .cover = cover,
+                                      .refinement = fine};
+    rb_bem_mesh mesh, inner = {0};
+    rb_bem_system *system = NULL;
+    rb_bem_flexibility f;
+    rb_message why = {""};
+    double ends[N + 2];
+    double *F = malloc(sizeof(double) * 4 * M * N);
+
+    for (int i = 0; i < N + 2; i++)
+        ends[i] = half * (2.0 * i / N - 1.0);
+    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, &why), RB_OK);
+    if (cover > 0.0 && core.shear > 0.0) {
+        CHECK_STATUS(rb_bem_mesh_core(&cylinder, &mesh, &inner, &why), RB_OK);
+        CHECK_STATUS(
+            rb_bem_system_create_bonded(&mesh, rubber, &inner, core, &system, &why),
+            RB_OK);
+    } else {
+        CHECK_STATUS(rb_bem_system_create(&mesh, rubber, &system, &why), RB_OK);
+    }
+    CHECK_STATUS(rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &f, &why),
+                 RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * M), RB_OK);
+    rb_bem_flexibility_free(&f);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&inner);
+    rb_bem_mesh_free(&mesh);
+    return F;
+}
+
+/* Largest difference of F_NN (block 0) or F_TT (block 1) over its largest entry; shape:
+ * of the columns less their means, which a rigid motion changes. */
+static double difference(const double *A, const double *B, int block, int shape)
+{
+    double largest = 0.0, worst = 0.0;
+    for (int j = 0; j < N; j++) {
+        const double *a = A + (size_t)(j + block * N) * 2 * M + block * M,
+                     *b = B + (size_t)(j + block * N) * 2 * M + block * M;
+        double mean = 0.0;
+        for (int i = 0; i < M && shape; i++)
+            mean += (a[i] - b[i]) / M;
+        for (int i = 0; i < M; i++) {
+            largest = fmax(largest, fabs(b[i]));
+            worst = fmax(worst, fabs(a[i] - b[i] - mean));
+        }
+    }
+    return worst / largest;
+}
+
+/* Cover and core of one material are the wheel without a seam, but for a rigid motion,
+ * which the boundary elements know to first order. */
+static void one_material_has_no_seam(void **state)
+{
+    (void)state;
+    const rb_bem_material same = {.shear = 3.0, .poisson = 0.3};
+    for (int fine = 1; fine <= 2; fine++) {
+        double *A = flexibility(5.0, same, 0.5, fine),
+               *B = flexibility(0.0, same, 0.5, fine);
+        for (int block = 0; block < 2; block++) {
+            CHECK_ABS(difference(A, B, block, 1), 0.0, 1e-6 / fine, "block %d", block);
+            CHECK_ABS(difference(A, B, block, 0), 0.0, 1e-2 / fine, "block %d", block);
+        }
+        free(A);
+        free(B);
+    }
+}
+
+static void a_stiff_core_is_a_rigid_one(void **state)
+{
+    (void)state;
+    const rb_bem_material rigid = {.shear = 0.0, .poisson = 0.3};
+    double *B = flexibility(5.0, rigid, 5.0, 1.0), before = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const rb_bem_material stiff = {.shear = 3e4 * pow(10.0, k), .poisson = 0.3};
+        double *A = flexibility(5.0, stiff, 5.0, 1.0);
+        const double d = difference(A, B, 0, 0) + difference(A, B, 1, 0);
+        CHECK_ABS(d, 0.0, 1e-2 * pow(10.0, -k), "core of %g", stiff.shear);
+        if (k > 0)
+            CHECK_REL(before / d, 10.0, 1e-2, "a tenth of the compliance");
+        before = d;
+        free(A);
+    }
+    free(B);
+}
+
+static void what_does_not_fit_is_refused(void **state)
+{
+    (void)state;
+    const double ends[] = {-1.0, 0.0, 1.0, 2.0};
+    rb_bem_cylinder c = {
+        .radius = 100.0, .support = RB_BEM_HUB, .hub_ratio = 0.3, .cover = 5.0};
+    const rb_bem_material soft = {3.0, 0.3}, jelly = {3.0, 0.5};
+    rb_bem_mesh mesh, core, other, none;
+    rb_bem_system *system;
+    rb_message why = {""};
+    CHECK_STATUS(rb_bem_mesh_cylinder(&c, 2, ends, &mesh, &why), RB_OK);
+    CHECK_STATUS(rb_bem_mesh_core(&c, &mesh, &core, &why), RB_OK);
+    CHECK_STATUS(rb_bem_system_create_bonded(&mesh, jelly, &core, soft, &system, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, "below 1/2"));
+    c.cover = 6.0;
+    CHECK_STATUS(rb_bem_mesh_cylinder(&c, 2, ends, &other, &why), RB_OK);
+    CHECK_STATUS(rb_bem_system_create_bonded(&other, soft, &core, soft, &system, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, "bond"));
+    c.hub_ratio = 0.94;
+    CHECK_STATUS(rb_bem_mesh_core(&c, &other, &none, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "hub of radius"));
+    c.cover = 100.0;
+    CHECK_STATUS(rb_bem_mesh_cylinder(&c, 2, ends, &none, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "cover"));
+    rb_bem_mesh_free(&mesh);
+    rb_bem_mesh_free(&core);
+    rb_bem_mesh_free(&other);
+}
+
+/* ---- Cases --------------------------------------------------------------------------
+ */
+
+/* A roll of R = 100 with a soft cover of thickness d on a rigid plane, a_Hertz = d. */
+static rb_rolling_case roll(double d, double nu, double core_young)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.radius = 100.0;
+    rc.a.young = 10.0;
+    rc.a.poisson = nu;
+    rc.a.support = RB_BEM_HUB;
+    rc.a.hub_ratio = 0.2;
+    rc.a.cover = d;
+    rc.a.core_young = core_young;
+    rc.a.core_poisson = 0.3;
+    rc.half_width = d;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.formulation = RB_STEADY;
+    rc.force_ratio = -0.5;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 60;
+    return rc;
+}
+
+/* The layer on the half-plane of the core. */
+static rb_rolling_case flat(rb_rolling_case rc)
+{
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.layer = rc.a.cover;
+    rc.a.cover = 0.0;
+    rc.a.base_young = rc.a.core_young;
+    rc.a.base_poisson = rc.a.core_poisson;
+    return rc;
+}
+
+static void solved(const rb_rolling_case *rc, rb_rolling_solution *s)
+{
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_solve(rc, s, &why), RB_OK);
+    assert_true(s->residual < 1e-9);
+}
+
+/* Deviations fall like d/R: halving it halves them; p0 and the width agree better. */
+static void a_thin_cover_is_the_layer(void **state)
+{
+    (void)state;
+    static const struct {
+        double nu, core;
+    } kind[3] = {{0.45, 0.0}, {0.45, 210000.0}, {0.3, 30.0}};
+    for (int k = 0; k < 3; k++) {
+        double before[2] = {0.0, 0.0};
+        for (int j = 0; j < 3; j++) {
+            const double ratio = 0.1 / (1 << j);
+            const rb_rolling_case wheel = roll(100.0 * ratio, kind[k].nu, kind[k].core),
+                                  layer = flat(wheel);
+            rb_rolling_solution w, l;
+            solved(&wheel, &w);
+            solved(&layer, &l);
+            const double deviation[2] = {(w.creepage - l.creepage) / ratio,
+                                         (w.free_creepage - l.free_creepage) / ratio};
+            for (int i = 0; i < 2; i++) {
+                CHECK_ABS(deviation[i], 0.0, 0.52 * ratio, "kind %d, d/R = %g", k, ratio);
+                if (j > 0)
+                    CHECK_ABS(before[i] / deviation[i], 2.0, 0.2,
+                              "kind %d, d/R = %g: first order", k, ratio);
+                before[i] = deviation[i];
+            }
+            CHECK_REL(w.max_pressure, l.max_pressure, 0.05 * ratio, "kind %d: p0", k);
+            CHECK_REL(w.half_width, l.half_width, 0.05 * ratio, "kind %d: width", k);
+            rb_rolling_solution_free(&w);
+            rb_rolling_solution_free(&l);
+        }
+    }
+}
+
+/* The covered roll below is the covered roll above with everything mirrored; the elements of
+ * A's polygon weigh the tractions, which differ by (a/R)^2. */
+static void either_body_may_be_covered(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = roll(10.0, 0.4, 1000.0);
+    rb_rolling_solution s[2];
+    rc.half_width = 1.0;
+    rc.elastic_b = 1;
+    rc.b.radius = 150.0;
+    rc.b.support = RB_BEM_HUB;
+    rc.b.young = 5000.0;
+    rc.b.poisson = 0.3;
+    rc.b.hub_ratio = 0.5;
+    solved(&rc, &s[0]);
+    const rb_rolling_body a = rc.a;
+    rc.a = rc.b;
+    rc.b = a;
+    rc.force_ratio = 0.5;
+    solved(&rc, &s[1]);
+    CHECK_REL(s[1].max_pressure, s[0].max_pressure, 1e-5, "p0");
+    CHECK_REL(s[1].half_width, s[0].half_width, 1e-5, "half-width");
+    CHECK_REL(s[1].creepage, -s[0].creepage, 1e-4, "creepage");
+    for (int k = 0; k < 2; k++)
+        rb_rolling_solution_free(&s[k]);
+}
+
+/* What holds the cover carries the load, and below it lies the stress of a wheel without
+ * a seam where both are of one material. */
+static void the_bond_carries_the_load(void **state)
+{
+    (void)state;
+    static const double xy[] = {0.0, 1.0, 0.4, 2.0, -1.0, 0.5, 0.2, 4.0, 1.5, 3.0};
+    enum { POINTS = 5 };
+    rb_rolling_stress at[2][POINTS];
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = roll(k ? 0.0 : 5.0, 0.3, k ? 0.0 : 10.0);
+        rb_rolling_model model;
+        rb_rolling_solution s;
+        rb_message why = {""};
+        rc.half_width = 2.0;
+        rc.outer_refinement = 2.0;
+        CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, &why), RB_OK);
+        CHECK_ABS(s.support_balance, 0.0, 2e-3, "balance");
+        CHECK_STATUS(rb_rolling_stress_at(&model, POINTS, xy, at[k], &why), RB_OK);
+        const double core[] = {0.0, 50.0};
+        rb_rolling_stress none;
+        if (!k)
+            CHECK_STATUS(rb_rolling_stress_at(&model, 1, core, &none, &why), RB_EINVAL);
+        for (int i = 0; k && i < POINTS; i++) {
+            CHECK_ABS(at[0][i].syy, at[1][i].syy, 1e-3 * s.max_pressure, "syy %d", i);
+            CHECK_ABS(at[0][i].sxx, at[1][i].sxx, 2e-3 * s.max_pressure, "sxx %d", i);
+            CHECK_ABS(at[0][i].sxy, at[1][i].sxy, 1e-3 * s.max_pressure, "sxy %d", i);
+        }
+        rb_rolling_solution_free(&s);
+        rb_rolling_model_free(&model);
+    }
+}
+
+static void bad_covers_are_refused(void **state)
+{
+    (void)state;
+    static const char *const word[5] = {"add --support hub", "less than the radius",
+                                        "compressible", "core", "hub of radius"};
+    for (int k = 0; k < 5; k++) {
+        rb_rolling_case rc =
+            roll(k == 1 ? 100.0 : 5.0, k == 2 ? 0.4995 : 0.4, k == 3 ? -1.0 : 1000.0);
+        rb_rolling_solution s = {0};
+        rb_message why = {""};
+        rc.half_width = 1.0;
+        if (k == 0)
+            rc.a.support = RB_BEM_ARC;
+        if (k == 4)
+            rc.a.hub_ratio = 0.95;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
+        if (!strstr(why.text, word[k]))
+            fail_msg("'%s' does not say '%s'", why.text, word[k]);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_material_has_no_seam),
+        cmocka_unit_test(a_stiff_core_is_a_rigid_one),
+        cmocka_unit_test(what_does_not_fit_is_refused),
+        cmocka_unit_test(a_thin_cover_is_the_layer),
+        cmocka_unit_test(either_body_may_be_covered),
+        cmocka_unit_test(the_bond_carries_the_load),
+        cmocka_unit_test(bad_covers_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
