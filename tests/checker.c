@@ -135,8 +135,8 @@ static int numbers_of(const char *line, double *value, int room)
     return n;
 }
 
-/* Rows of numbers among # lines; header: the line of names, the last # line where there is
- * none. */
+/* Rows of numbers among # lines; header: the line of names, the last # line where there
+ * is none. */
 typedef struct {
     int rows, columns;
     double *x; /* row by row */
@@ -732,6 +732,14 @@ static void check_power(const contact *c, const table *t, const json_t *list)
     expect("dissipation", D, sum, 1e-11 * size + 1e-14 * p0);
 }
 
+static int has_memory(const json_t *inputs, const char *suffix)
+{
+    char key[40];
+    snprintf(key, sizeof key, "relaxation-time%s", suffix);
+    const json_t *time = json_object_get(inputs, key);
+    return json_is_number(time) || json_is_array(time);
+}
+
 /* M, its ratio, and that what creepage and resistance feed is lost in friction and in the
  * bodies. */
 static void check_resistance(const contact *c, const table *t)
@@ -754,7 +762,7 @@ static void check_resistance(const contact *c, const table *t)
     expect_same(c, "resistance_ratio", M / (P_ * c->radius), 1e-12);
     if (c->formulation != STEADY)
         return;
-    const int relaxes = number(c->inputs, "speed") > 0.0;
+    const int relaxes = has_memory(c->inputs, "") || has_memory(c->inputs, "-b");
     const double fed = M / c->radius - number(c->summary, "creepage") *
                                            number(c->summary, "tangential_load");
     const double lost = number(c->summary, "dissipation") + lag;

@@ -189,6 +189,14 @@ static void commands_of_the_cookbook_run(void **state)
     assert_int_equal(run("test -s %s/fringes.png", folder), 0);
 }
 
+static void commands_of_the_rolls_run(void **state)
+{
+    (void)state;
+    assert_true(run_commands_of("docs/rolls.md") >= 8);
+    assert_int_equal(run("test -s %s/nip.png", folder), 0);
+    assert_int_equal(run("test -s %s/resistance.png", folder), 0);
+}
+
 static int make_folder(void **state)
 {
     (void)state;
@@ -208,6 +216,7 @@ int main(void)
         cmocka_unit_test(figures_of_the_paper_are_drawn),
         cmocka_unit_test(commands_of_the_readme_run),
         cmocka_unit_test(commands_of_the_cookbook_run),
+        cmocka_unit_test(commands_of_the_rolls_run),
         cmocka_unit_test(by_hand_is_computed_again_by_octave),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

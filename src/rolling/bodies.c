@@ -49,7 +49,7 @@ rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
 
 static int body_is_homogeneous(const rb_rolling_body *body)
 {
-    return body->layer == 0.0 && body->memory.n == 0;
+    return body->layer == 0.0 && body->cover == 0.0 && body->memory.n == 0;
 }
 
 int rb_rolling_is_homogeneous(const rb_rolling_case *rc)

@@ -269,11 +269,11 @@ static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
     if (!is_positive(rc->speed))
         return rb_fail(why, RB_EINVAL,
                        "conductivity: needs the speed of rolling, add --speed");
-    if (rc->a.memory.n + rc->a.layer > 0.0 ||
-        (rc->elastic_b && rc->b.memory.n + rc->b.layer > 0.0))
-        return rb_fail(why, RB_EINVAL,
-                       "conductivity: of homogeneous elastic bodies; a layer conducts "
-                       "otherwise than its base, and a body that relaxes heats inside");
+    if (!rb_rolling_is_homogeneous(rc))
+        return rb_fail(
+            why, RB_EINVAL,
+            "conductivity: of homogeneous elastic bodies; a layer or cover conducts "
+            "otherwise than what it is on, and a body that relaxes heats inside");
     if (rc->formulation == RB_TRANSIENT && a->temperature != b->temperature)
         return rb_fail(why, RB_EINVAL,
                        "temperature-b: step by step both bodies start equally warm");
