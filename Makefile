@@ -32,7 +32,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: dist deb course page page-test python-test install-python all run test test-all check-tests asan bench install help clean packages check-packages study
+.PHONY: dist deb site course page page-test python-test install-python all run test test-all check-tests asan bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -46,6 +46,7 @@ help:
 	@echo "make page       the page for browsers, $(B)/rollbem.html; make page-test tests it"
 	@echo "make python-test   tests of the Python package, python/"
 	@echo "make course     the pictures of the course, docs/course, in $(B)/course"
+	@echo "make site       the documentation as a site, $(B)/site/index.html"
 	@echo "make dist       the sources of the last commit, $(B)/rollbem-$(VERSION).tar.gz"
 	@echo "make deb        Debian packages, $(B)/deb"
 	@echo "make install    to PREFIX=$(PREFIX), below DESTDIR"
@@ -69,7 +70,7 @@ LONGEST := $(patsubst %,$(B)/tests/test_%,net fem_examples rolling_wheel files f
 
 # only the summary line comes last: continuous integration reads it
 check-tests: all $(TESTS) $(B)/tests/checker
-	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave tests/install tests/release $(filter-out $(LONGEST),$(TESTS))
+	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave tests/install tests/release tests/site $(filter-out $(LONGEST),$(TESTS))
 
 asan:
 	@$(MAKE) --no-print-directory B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined" test
@@ -208,6 +209,10 @@ deb: dist
 course: packages
 	@$(MAKE) --no-print-directory B=$(B) $(B)/rollbem
 	ROLLBEM=$(B)/rollbem docs/course/pictures $(B)/course
+
+# the documentation as a site
+site:
+	@scripts/packages --install site && $(MAKE) --no-print-directory B=$(B) all && scripts/site $(B)
 
 # the page in a browser: one file with the library as WebAssembly
 page: ; @scripts/packages --install page && node web/build.mjs $(B)/rollbem.html

@@ -167,6 +167,32 @@ static void print_markdown(const cli_spec *spec)
         print_code_block(spec->notes);
 }
 
+/* Every table of results. */
+static void print_results(const cli_spec *spec)
+{
+    static const struct {
+        const char *title;
+        const rb_rolling_results *rows;
+    } tables[] = {{"Numbers of a solution", &rb_rolling_solution_scalars},
+                  {"Columns of the table of tractions", &rb_rolling_solution_columns},
+                  {"Patches of a contact", &rb_rolling_patch_scalars},
+                  {"Steps of a history", &rb_rolling_history_columns},
+                  {"Points of a creep curve", &rb_rolling_curve_columns},
+                  {"Stress at a point", &rb_rolling_stress_scalars}};
+    (void)spec;
+    puts("# Results\n\nBy the names that JSON, tables, studies and the package for Python "
+         "use.");
+    for (size_t t = 0; t < sizeof tables / sizeof *tables; t++) {
+        printf("\n## %s\n\n| name | unit | meaning |\n|---|---|---|\n", tables[t].title);
+        for (int k = 0; k < tables[t].rows->n; k++) {
+            const rb_rolling_result *r = &tables[t].rows->row[k];
+            printf("| `%s` | %s | ", r->name, r->unit ? r->unit : "");
+            print_escaped(r->meaning, "|*_<", "\\");
+            puts(" |");
+        }
+    }
+}
+
 /* ---- Completions ---------------------------------------------------------------------
  */
 
@@ -278,6 +304,7 @@ static const struct {
     const char *name;
     void (*print)(const cli_spec *spec);
 } forms[] = {{"man", print_man},           {"schema", print_schema},
+             {"results", print_results},
              {"markdown", print_markdown}, {"bash", bash_command},
              {"zsh", zsh_command},         {"fish", fish_command}};
 
