@@ -32,7 +32,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: dist deb site course page page-test python-test install-python all run test test-all check-tests asan bench install help clean packages check-packages study
+.PHONY: journeys dist deb site course page page-test python-test install-python all run test test-all check-tests asan bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -46,6 +46,7 @@ help:
 	@echo "make page       the page for browsers, $(B)/rollbem.html; make page-test tests it"
 	@echo "make python-test   tests of the Python package, python/"
 	@echo "make course     the pictures of the course, docs/course, in $(B)/course"
+	@echo "make journeys   what a student, a programmer, a contributor do on their first day"
 	@echo "make site       the documentation as a site, $(B)/site/index.html"
 	@echo "make dist       the sources of the last commit, $(B)/rollbem-$(VERSION).tar.gz"
 	@echo "make deb        Debian packages, $(B)/deb"
@@ -216,6 +217,10 @@ site:
 
 # the page in a browser: one file with the library as WebAssembly
 page: ; @scripts/packages --install page && node web/build.mjs $(B)/rollbem.html
+
+# what people of several kinds do on their first day; pictures stay in $(B)/journeys
+journeys: all
+	@B=$(B) tests/run $(wildcard tests/journeys/*)
 
 # with what the tests of the package need
 python-test: ; @scripts/packages --install python && $(MAKE) --no-print-directory B=$(B) all && B=$(B) tests/run tests/python

@@ -157,9 +157,7 @@ static void print_markdown(const cli_spec *spec)
             }
             cli_option_metavar(o, values, sizeof values);
             cli_option_text(o, spec->sets[s].target, text, sizeof text);
-            printf("| `--%s", o->name);
-            print_escaped(values, "|", "\\");
-            fputs("` | ", stdout);
+            printf("| `--%s%s` | ", o->name, values);
             print_escaped(text, "|*_<", "\\");
             puts(" |");
         }
