@@ -66,7 +66,9 @@ const char *rb_api_value(const rb_api *a, const char *name, char *text, int size
 /* ---- Results ------------------------------------------------------------------------
  */
 
-/* A number of the solution by name, its error bar as "error.NAME"; or "carter" (1:
+/* In mm, N and MPa, whatever units the options are given in.
+ *
+ * A number of the solution by name, its error bar as "error.NAME"; or "carter" (1:
  * Carter's law holds), "radius", "modulus", "hertz_load"; "curve.free_creepage",
  * "curve.half_width", "history.half_width"; "task.iterations", "task.residual",
  * "task.scaled_residual" of rb_api_lcp and rb_api_friction.  NAN: there is none. */

@@ -3,11 +3,13 @@
 import ctypes
 import gc
 import json
+import os
 import re
 import signal
 import subprocess
 import sys
 import time
+from typing import Optional
 
 import numpy as np
 import pytest
@@ -82,8 +84,11 @@ def test_tables_are_given_as_columns():
     "rollbem.sweep(mu=[.1 + k/1e5 for k in range(9000)], contact_elements=60)"])
 def test_long_runs_end_by_control_c(call):
     program = f"import rollbem\nprint('begun', flush=True)\ntry:\n {call}\nexcept KeyboardInterrupt:\n print('ended')"
-    child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True,
-                             env={**__import__("os").environ, "PYTHONPATH": str(ROOT / "python")})
+    child = subprocess.Popen(
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, text=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT / "python")},
+        # a job in the background of a shell ignores SIGINT, and so would its children
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     assert child.stdout.readline() == "begun\n"
     time.sleep(0.7)
     child.send_signal(signal.SIGINT)
@@ -100,7 +105,7 @@ def test_documentation_comes_from_the_tables():
         for name, option in rollbem.OPTIONS.items():
             assert f"{name}: {option.help}" in function.__doc__
     assert "max_pressure: p0 [MPa]" in rollbem.Solution.__doc__
-    assert rollbem.solve.__signature__.parameters["mu"].annotation == __import__("typing").Optional[float]
+    assert rollbem.solve.__signature__.parameters["mu"].annotation == Optional[float]
     assert {"p", "max_pressure", "plot"} <= set(dir(rollbem.solve(**ROLLED)))
     with pytest.raises(AttributeError, match="has no 'pressure'"):
         rollbem.solve(**ROLLED).pressure
@@ -118,7 +123,7 @@ def test_versions_must_agree(tmp_path):
         pytest.skip("no compiler here")
     for path, words in ((library, "has version 0.0.1, the package has"), (tmp_path / "none", "does not load")):
         got = subprocess.run([sys.executable, "-c", "import rollbem"], capture_output=True, text=True, env={
-            **__import__("os").environ, "ROLLBEM_LIBRARY": str(path), "PYTHONPATH": str(ROOT / "python")})
+            **os.environ, "ROLLBEM_LIBRARY": str(path), "PYTHONPATH": str(ROOT / "python")})
         assert words in got.stderr.splitlines()[-1]
 
 
