@@ -121,6 +121,13 @@ $(B)/src/mpi/%.o: CPPFLAGS += $(subst -I,-isystem ,$(shell pkg-config --cflags $
 # fused multiply-adds where the instruction set has them: -std=c11 takes them off
 $(B)/src/bem/column.o $(B)/bench/bench_bem: private STD += -ffp-contract=fast
 
+# the case files of the examples, for --example
+$(B)/examples.inc: $(wildcard examples/*/case.ini)
+	@mkdir -p $(@D)
+	$(Q)for f in $^; do echo "{\"$$(basename $$(dirname $$f))\","; sed 's/\\/\\\\/g; s/"/\\"/g; s/.*/"&\\n"/' $$f; echo "},"; done > $@
+$(B)/src/cli/examples.o: $(B)/examples.inc
+$(B)/src/cli/examples.o: CPPFLAGS += -I$(B)
+
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "  CC  $<"

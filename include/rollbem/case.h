@@ -235,6 +235,10 @@ rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_mess
 rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set *also,
                        rb_message *why);
 
+/* The same from the text of a case file; name: what messages call it. */
+rb_status rb_case_read_text(rb_case *c, const char *name, const char *text,
+                            rb_message *why);
+
 /* What the words mean together: contradictions are refused, body B, the mesh and the
  * files of gap and history are settled, the result is checked.  Again after every
  * further change. */

@@ -66,10 +66,14 @@ rb_status rb_report_flush(FILE *out);
 
 /* ---- Table ------------------------------------------------------------------------ */
 
-/* One row per contact element; # lines with version, command, conventions, status and
- * residual.  RB_EWRITE: see errno. */
-rb_status rb_report_table(FILE *out, const rb_rolling_solution *s, const char *command,
+/* One row per contact element; # lines with version, command, conventions, status,
+ * residual, and the notes of rc (NULL: none).  RB_EWRITE: see errno. */
+rb_status rb_report_table(FILE *out, const rb_rolling_case *rc,
+                          const rb_rolling_solution *s, const char *command,
                           const rb_report_style *style);
+/* For a terminal of so many columns: x, p, q, slip and zone of the contact, aligned, in
+ * the fewest digits that read back equal, at most about twenty rows. */
+rb_status rb_report_brief_table(FILE *out, const rb_rolling_solution *s, int width);
 
 /* The steps of a transient or a static history, one row each.  errors (NULL: not asked
  * for, here as below): columns of their own, error_*. */
@@ -120,8 +124,19 @@ void rb_report_errors(FILE *out, const rb_rolling_solution *s,
                       const rb_rolling_errors *e);
 void rb_report_history_summary(FILE *out, const rb_rolling_history *h,
                                const rb_rolling_history *errors);
-/* One line each where a result must be read with care: linear theory stretched, `static`
- * with a creepage, an arc support that rolls, slip that does not oppose the friction. */
+/* A line each where a result must be read with care: linear elasticity far exceeded,
+ * `static` with a creepage, steady rolling without one, full sliding, an arc support that
+ * rolls, slip that does not oppose the friction.  They stand in # lines of the table and
+ * in JSON as well. */
+enum { RB_REPORT_NOTES = 8 };
+typedef struct {
+    int n;
+    char text[RB_REPORT_NOTES][200];
+} rb_report_note_list;
+rb_report_note_list rb_report_find_notes(const rb_rolling_case *rc,
+                                         const rb_rolling_solution *s);
+struct json_t *rb_report_json_notes(const rb_rolling_case *rc,
+                                    const rb_rolling_solution *s);
 void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s);
 
 /* The papers that a run rests on; s NULL: its solver is not known. */
@@ -173,8 +188,8 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves);
  * law dashed; errors as bands. */
 rb_status rb_report_curve_picture(FILE *out, rb_report_picture_kind kind,
                                   const rb_rolling_case *rc,
-                                  const rb_report_curves *curves, rb_rolling_variable over,
-                                  rb_message *why);
+                                  const rb_report_curves *curves,
+                                  rb_rolling_variable over, rb_message *why);
 
 /* ---- Subsurface stress ------------------------------------------------------------- */
 

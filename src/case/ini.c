@@ -12,7 +12,6 @@ typedef struct {
     int n;
     const rb_option_set *sets; /* the case's own, and those of the command */
     const char *path;
-    char *text;
     const char *at; /* in it: the next line */
     int line;
     rb_status status; /* of the first error */
@@ -82,6 +81,10 @@ static rb_status set_value(const ini_state *st, const rb_option_set *set, int i,
     if (!kept)
         return rb_fail(st->why, RB_ENOMEM, "out of memory");
     snprintf(what, sizeof what, "%s:%d: %s", st->path, st->line, o->name);
+    if (strstr(value, " #"))
+        return rb_fail(st->why, RB_EFORMAT,
+                       "%s: behind a value a comment begins with ';', got '%.60s'", what,
+                       value);
     return rb_option_assign(set, i, st->line, what, kept, st->why) == RB_OK ? RB_OK
                                                                             : RB_EFORMAT;
 }
@@ -118,13 +121,9 @@ static int handle_key(void *context, const char *section, const char *name,
     return st->status == RB_OK;
 }
 
-static rb_status read_keys(ini_state *st)
+static rb_status read_keys(ini_state *st, const char *text)
 {
-    size_t size;
-    st->status = rb_io_read_text(st->path, &st->text, &size, st->why);
-    if (st->status != RB_OK)
-        return st->status;
-    st->at = st->text;
+    st->at = text;
     const int bad_line = ini_parse_stream(read_line, st, handle_key, st);
     if (st->status == RB_OK && bad_line < 0)
         st->status = rb_fail(st->why, RB_ENOMEM, "%s: out of memory", st->path);
@@ -132,12 +131,11 @@ static rb_status read_keys(ini_state *st)
         st->status =
             rb_fail(st->why, RB_EFORMAT, "%s:%d: expected [section] or key = value",
                     st->path, bad_line);
-    free(st->text);
     return st->status;
 }
 
-rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set *also,
-                       rb_message *why)
+static rb_status read_text(rb_case *c, const char *path, const char *text, int n,
+                           const rb_option_set *also, rb_message *why)
 {
     rb_option_set *sets = calloc((size_t)n + 1, sizeof *sets);
     ini_state st = {.c = c, .n = n + 1, .sets = sets, .path = path, .why = why};
@@ -147,7 +145,26 @@ rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set 
     if (n > 0)
         memcpy(sets + 1, also, sizeof *sets * (size_t)n);
     snprintf(c->path, sizeof c->path, "%s", path);
-    const rb_status s = read_keys(&st);
+    const rb_status s = read_keys(&st, text);
     free(sets);
     return s;
+}
+
+rb_status rb_case_read(rb_case *c, const char *path, int n, const rb_option_set *also,
+                       rb_message *why)
+{
+    char *text;
+    size_t size;
+    rb_status s = rb_io_read_text(path, &text, &size, why);
+    if (s != RB_OK)
+        return s;
+    s = read_text(c, path, text, n, also, why);
+    free(text);
+    return s;
+}
+
+rb_status rb_case_read_text(rb_case *c, const char *name, const char *text,
+                            rb_message *why)
+{
+    return read_text(c, name, text, 0, NULL, why);
 }

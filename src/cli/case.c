@@ -1,5 +1,7 @@
 #include "cli/case.h"
 #include "cli/output.h"
+
+#include <string.h>
 #include "rollbem/friction.h"
 
 rb_case *cli_case_create(rb_case_purpose purpose)
@@ -17,7 +19,19 @@ static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *
 {
     rb_message why;
     rb_guess guess = {.word = path};
-    const rb_status s = rb_case_read(c, path, spec->set_n - 1, spec->sets + 1, &why);
+    double number;
+    int plain;
+    if (rb_unit_read(path, "-", &number, &plain, &why) == RB_OK)
+        return cli_fail(
+            CLI_USAGE,
+            "%s: a number stands where a case file is expected; several values "
+            "of an option have commas between, as --mu 0.1,0.2",
+            path);
+    if (strcmp(path, "solve") == 0 || strcmp(path, "run") == 0)
+        return cli_fail(CLI_USAGE,
+                        "there is no command '%s': rollbem [OPTION...] [CASE.ini] solves",
+                        path);
+    const rb_status s = rb_case_read(c, path, spec->set_n - 2, spec->sets + 1, &why);
     if (s != RB_ENOENT)
         return cli_say(s, &why);
     cli_guess_command(&guess);
@@ -28,12 +42,15 @@ cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c,
                        cli_args *args)
 {
     cli_exit code = cli_parse(spec, argc, argv, args);
+    if (code == CLI_CONTINUE && args->operands > 1 &&
+        (strcmp(args->operand[0], "solve") == 0 || strcmp(args->operand[0], "run") == 0))
+        code = read_case_file(spec, args->operand[0], c);
     if (code == CLI_CONTINUE && args->operands > 1)
         code = cli_fail(CLI_USAGE, "one case file at a time, got '%s' and '%s'",
                         args->operand[0], args->operand[1]);
     if (code == CLI_CONTINUE && args->operands == 1)
         code = read_case_file(spec, args->operand[0], c);
-    return code;
+    return code == CLI_CONTINUE ? cli_example_read(c, args) : code;
 }
 
 cli_exit cli_case_settle(const cli_spec *spec, rb_case *c, const cli_args *args)

@@ -29,6 +29,10 @@ cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c,
                        cli_args *args);
 cli_exit cli_case_settle(const cli_spec *spec, rb_case *c, const cli_args *args);
 
+/* --example NAME, the last set of every spec of a case, and what it asks for. */
+rb_option_set cli_example_set(void);
+cli_exit cli_example_read(rb_case *c, const cli_args *args);
+
 /* Prints why the library refused the case; the exit code tells command line from file. */
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why);
 

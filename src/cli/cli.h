@@ -27,6 +27,7 @@ int cli_compare(int argc, char **argv);
 int cli_example(int argc, char **argv);
 int cli_page(int argc, char **argv);
 int cli_contact(int argc, char **argv);
+int cli_examples(int argc, char **argv);
 int cli_help(int argc, char **argv);
 
 /* Of command k = 0, 1, ...; NULL: there are no more. */
@@ -78,7 +79,7 @@ const char *cli_kept_failure(void);
 
 /* ---- Options (rollbem/case.h) ----------------------------------------------------- */
 
-#define CLI_MAX_SETS 3
+#define CLI_MAX_SETS 4
 
 typedef struct {
     const char *synopsis; /* "rollbem lcp [OPTION...] FILE..." */

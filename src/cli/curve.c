@@ -190,8 +190,9 @@ int cli_curve(int argc, char **argv)
                            notes,
                            {rb_case_options(c),
                             {options, OPTIONS, &range, range.given, NULL},
-                            cli_output_set(&o)},
-                           3};
+                            cli_output_set(&o),
+                            cli_example_set()},
+                           4};
     cli_exit code = cli_case_read(&spec, argc, argv, c, &args);
     if (range.over == RB_OVER_SPEED)
         rb_case_set_purpose(c, RB_CASE_SPEEDS);

@@ -42,6 +42,17 @@ rb_option_set cli_output_set(cli_output *o)
     return (rb_option_set){options, OPTIONS, o, o->given, NULL};
 }
 
+/* Whoever asks for a form of the table gets it. */
+void cli_output_settle(cli_output *o)
+{
+    int asked = 0;
+    for (int i = 0; i < OPTIONS; i++)
+        asked |= o->given[i] && (strcmp(options[i].name, "format") == 0 ||
+                                 strcmp(options[i].name, "header") == 0);
+    o->brief =
+        !asked && !o->output && o->style.format == RB_REPORT_TSV && isatty(STDOUT_FILENO);
+}
+
 /* ---- Files that options name ----------------------------------------------------------
  */
 

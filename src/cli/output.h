@@ -24,12 +24,16 @@ extern const rb_choice cli_formats[], cli_headers[];
 typedef struct {
     rb_report_style style; /* of tables; JSON: the results whole */
     int quiet, cite;
+    int brief; /* 1: a person reads standard output: a short table */
     const char *output, *plot;
     int given[CLI_OUTPUT_OPTIONS_MAX];
 } cli_output;
 
 /* --json, --format, --header, --output, --plot, --quiet: section [output]. */
 rb_option_set cli_output_set(cli_output *o);
+
+/* Whether a table goes to a terminal. */
+void cli_output_settle(cli_output *o);
 
 /* Before the work: refuses what the options of spec name and cannot be written, pictures
  * of an unknown kind, and files that would be written over while they are inputs or

@@ -7,8 +7,55 @@
 
 /* ---- Command line ---------------------------------------------------------------- */
 
+/* What others call our options. */
+static const char *other_name(const char *name, size_t length)
+{
+    static const char *const names[][2] = {{"E", "young"},
+                                           {"nu", "poisson"},
+                                           {"R", "radius"},
+                                           {"r", "radius"},
+                                           {"P", "load"},
+                                           {"N", "load"},
+                                           {"Q", "force"},
+                                           {"xi", "creep"},
+                                           {"creepage", "creep"},
+                                           {"slip", "creep"},
+                                           {"friction", "mu"},
+                                           {"cof", "mu"},
+                                           {"modulus", "young"},
+                                           {"thickness", "layer-thickness"},
+                                           {"elements", "contact-elements"},
+                                           {"n", "contact-elements"},
+                                           {"velocity", "speed"},
+                                           {"v", "speed"},
+                                           {"vary", "vary-1"},
+                                           {"out", "output"},
+                                           {"o", "output"},
+                                           {"file", "output"},
+                                           {"picture", "plot"},
+                                           {"tolerance", "tol"},
+                                           {"delta", "approach"},
+                                           {"case", "example"},
+                                           {"a", "half-width"},
+                                           {"rolling", "formulation"},
+                                           {"steady", "formulation steady"},
+                                           {"static", "formulation static"},
+                                           {"transient", "formulation transient"},
+                                           {"halfplane", "support halfplane"},
+                                           {"csv", "format csv"},
+                                           {"si", "units si"}};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        if (strlen(names[k][0]) == length && strncmp(names[k][0], name, length) == 0)
+            return names[k][1];
+    return NULL;
+}
+
 static cli_exit unknown_option(const char *name, size_t length, rb_guess *guess)
 {
+    const char *other = other_name(name, length);
+    if (other)
+        return cli_fail(CLI_USAGE, "unknown option '--%.*s' (did you mean '--%s'?)",
+                        (int)length, name, other);
     static const char *const common[] = {"help", "usage", "version"};
     for (int i = 0; i < 3; i++)
         rb_guess_try(guess, common[i]);
@@ -105,9 +152,17 @@ static cli_exit parse_argument(const cli_spec *spec, int *i, int argc, char **ar
         *operands_only = 1;
         return CLI_CONTINUE;
     }
-    if (argument[1] != '-')
-        return cli_fail(CLI_USAGE, "unknown option '%s' (options start with --)",
-                        argument);
+    if (strcmp(argument, "-h") == 0) {
+        cli_print_help(spec);
+        return CLI_OK;
+    }
+    if (argument[1] != '-') {
+        const size_t n = strcspn(argument + 1, "=");
+        const char *other = other_name(argument + 1, n);
+        return cli_fail(
+            CLI_USAGE, "unknown option '%s' (options start with --, as --%.*s)", argument,
+            other ? (int)strlen(other) : (int)n, other ? other : argument + 1);
+    }
     const cli_exit code = answer_common(spec, argument);
     return code == CLI_CONTINUE ? parse_option(spec, i, argc, argv) : code;
 }

@@ -37,6 +37,7 @@ static void show_progress(watch *w, const rb_rolling_history *h, int step, int s
 }
 
 typedef struct {
+    const rb_rolling_case *rc;
     const rb_rolling_solution *solution;
     const rb_report_style *style;
 } snapshot;
@@ -45,7 +46,7 @@ static rb_status write_table(FILE *out, const void *context, rb_message *why)
 {
     (void)why;
     const snapshot *it = context;
-    return rb_report_table(out, it->solution, cli_command_line(), it->style);
+    return rb_report_table(out, it->rc, it->solution, cli_command_line(), it->style);
 }
 
 /* Owned by the caller; NULL: no memory. */
@@ -60,7 +61,7 @@ static char *name_snapshot(const cli_steps *steps, int step)
 static rb_status write_snapshot(watch *w, const rb_rolling_model *model, int step)
 {
     rb_rolling_solution solution = {0};
-    const snapshot it = {&solution, &w->steps->style};
+    const snapshot it = {&model->rc, &solution, &w->steps->style};
     char *path = name_snapshot(w->steps, step);
     rb_status s = path ? rb_rolling_model_solution(model, &solution, w->why)
                        : rb_fail(w->why, RB_ENOMEM, "out of memory");

@@ -92,6 +92,8 @@ static rb_status write_json(FILE *out, const result *it)
     json_t *summary = rb_report_json_summary(&it->r->solution);
     if (it->r->has_errors)
         rb_report_json_set(&summary, "errors", rb_report_json_errors(&it->r->errors));
+    rb_report_json_set(&root, "notes",
+                       rb_report_json_notes(&it->c->rc, &it->r->solution));
     rb_report_json_set(&root, "units", rb_report_json_units(it->c->units));
     rb_report_json_set(&root, "inputs", rb_report_json_inputs(it->words));
     rb_report_json_set(&root, "summary", summary);
@@ -108,7 +110,10 @@ static rb_status write_table(FILE *out, const void *context, rb_message *why)
     (void)why;
     if (it->o->style.format == RB_REPORT_JSON)
         return write_json(out, it);
-    return rb_report_table(out, &it->r->solution, cli_command_line(), &it->o->style);
+    return it->o->brief
+               ? rb_report_brief_table(out, &it->r->solution, cli_terminal_width())
+               : rb_report_table(out, &it->c->rc, &it->r->solution, cli_command_line(),
+                                 &it->o->style);
 }
 
 static rb_status write_history(FILE *out, const void *context, rb_message *why)
@@ -148,12 +153,12 @@ static cli_exit show_behind(const solve_options *so, const rb_rolling_model *mod
 
 static void tell_people(const result *it)
 {
+    rb_report_notes(stderr, &it->c->rc, &it->r->solution);
     rb_report_summary(stderr, &it->r->solution, cli_terminal_width());
     if (it->r->has_errors)
         rb_report_errors(stderr, &it->r->solution, &it->r->errors);
     if (it->r->history.n > 0)
         rb_report_history_summary(stderr, &it->r->history, step_errors(it->r));
-    rb_report_notes(stderr, &it->c->rc, &it->r->solution);
 }
 
 static cli_exit print_result(const result *it)
@@ -162,11 +167,13 @@ static cli_exit print_result(const result *it)
     const cli_output *o = it->o;
     /* first what may yet refuse: then there is no table either */
     cli_exit code = show_behind(so, &it->r->model);
+    if (code == CLI_OK && o->brief && !o->quiet)
+        tell_people(it);
     if (code == CLI_OK)
         code = cli_write_file(o->output, write_table, it);
     if (code == CLI_OK && so->history_table && it->r->history.n > 0)
         code = cli_write_file(so->history_table, write_history, it);
-    if (code == CLI_OK && !o->quiet)
+    if (code == CLI_OK && !o->brief && !o->quiet)
         tell_people(it);
     if (code == CLI_OK && o->cite)
         rb_report_citations(stderr, &it->c->rc, &it->r->solution);
@@ -244,12 +251,14 @@ int cli_solve(int argc, char **argv)
     rb_case *c = cli_case_create(RB_CASE_SINGLE);
     if (!c)
         return CLI_INTERNAL;
-    const cli_spec spec = {
-        "rollbem [OPTION...] [CASE.ini]",
-        about,
-        notes,
-        {rb_case_options(c), cli_output_set(&o), {options, OPTIONS, &so, given, NULL}},
-        3};
+    const cli_spec spec = {"rollbem [OPTION...] [CASE.ini]",
+                           about,
+                           notes,
+                           {rb_case_options(c),
+                            cli_output_set(&o),
+                            {options, OPTIONS, &so, given, NULL},
+                            cli_example_set()},
+                           4};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     if (code == CLI_CONTINUE)
         code = check_steps(given, rb_case_settled(c));
@@ -258,6 +267,7 @@ int cli_solve(int argc, char **argv)
     if (code == CLI_CONTINUE && so.trace)
         code = choose_pivots(c);
     so.steps.style = o.style;
+    cli_output_settle(&o);
     so.steps.terminal = !o.quiet && isatty(STDERR_FILENO);
     if (code == CLI_CONTINUE)
         code = solve(&so, &o, c);

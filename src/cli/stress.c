@@ -227,6 +227,7 @@ static rb_status find_stress(result *r, rb_message *why)
 static rb_status print_json(FILE *out, const result *r)
 {
     json_t *root = rb_report_json_start(cli_command_line());
+    rb_report_json_set(&root, "notes", rb_report_json_notes(&r->c->rc, &r->run.solution));
     rb_report_json_set(&root, "units", rb_report_json_units(r->c->units));
     rb_report_json_set(&root, "inputs", rb_report_json_inputs(r->words));
     rb_report_json_set(&root, "summary", rb_report_json_summary(&r->run.solution));
@@ -270,9 +271,9 @@ static cli_exit show(const result *r)
 {
     cli_exit code = cli_write_file(r->o->output, print, r);
     if (code == CLI_OK && !r->o->quiet) {
+        rb_report_notes(stderr, &r->c->rc, &r->run.solution);
         rb_report_summary(stderr, &r->run.solution, cli_terminal_width());
         rb_report_stress_summary(stderr, &r->table);
-        rb_report_notes(stderr, &r->c->rc, &r->run.solution);
     }
     if (code == CLI_OK && r->o->cite)
         rb_report_citations(stderr, &r->c->rc, &r->run.solution);
@@ -339,8 +340,9 @@ int cli_stress(int argc, char **argv)
                            notes,
                            {rb_case_options(c),
                             {options, OPTIONS, &so, so.given, so.plain},
-                            cli_output_set(&o)},
-                           3};
+                            cli_output_set(&o),
+                            cli_example_set()},
+                           4};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     if (code == CLI_CONTINUE) {
         rb_option_store(&spec.sets[1], rb_case_settled(c)->units, &so);

@@ -805,11 +805,12 @@ int cli_sweep(int argc, char **argv)
     study st = {.base = c, .o = &o};
     if (!c)
         return CLI_INTERNAL;
-    const cli_spec spec = {"rollbem sweep [OPTION...] [STUDY.ini]",
-                           about,
-                           notes,
-                           {rb_case_options(c), {options, OPTIONS, &o, o.given, NULL}},
-                           2};
+    const cli_spec spec = {
+        "rollbem sweep [OPTION...] [STUDY.ini]",
+        about,
+        notes,
+        {rb_case_options(c), {options, OPTIONS, &o, o.given, NULL}, cli_example_set()},
+        3};
     cli_exit code = cli_pool_begin(argc, argv);
     if (code != CLI_CONTINUE) {
         rb_case_free(c);

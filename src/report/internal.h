@@ -29,6 +29,9 @@ void rb_report_cell_entries(rb_report_cells *c, int i, int parts,
                             const rb_report_columns *part);
 /* # lines with version, command, conventions. */
 void rb_report_comment_head(const rb_report_cells *c, const char *command);
+/* # lines with what must be known to read the numbers. */
+void rb_report_comment_notes(const rb_report_cells *c, const rb_rolling_case *rc,
+                             const rb_rolling_solution *s);
 /* Rows of entries, to the end of the table.  RB_EWRITE: see errno. */
 rb_status rb_report_end_columns(rb_report_cells *c, int rows, int parts,
                                 const rb_report_columns *part);

@@ -75,6 +75,7 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s,
                             rb_rolling_heading(&columns->row[j], s->s->units, heading));
     rb_report_cells_end_row(&c);
     rb_report_comment_head(&c, command);
+    rb_report_comment_notes(&c, s->rc, s->s);
     rb_report_comment(&c,
                       "tension positive; y > 0 inside A; the grid follows A's surface");
     for (int k = 0; k < MAXIMA; k++)
