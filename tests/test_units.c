@@ -203,6 +203,36 @@ static void files_take_units(void **state)
     json_decref(root);
 }
 
+/* The numbers of a case file keep their meaning, whatever is asked for. */
+static void case_files_have_their_own_units(void **state)
+{
+    (void)state;
+    static const char body[] = "radius = %s\nyoung = %s\nsupport = halfplane\n"
+                               "load = %s\n[units]\nunits = %s\n";
+    char text[300];
+    snprintf(text, sizeof text, body, "46.5", "205000", "712", "mm");
+    write_file("mm.ini", text);
+    snprintf(text, sizeof text, body, "0.0465", "205e9", "712e3", "si");
+    write_file("si.ini", text);
+    assert_int_equal(
+        shell(
+            "for f in mm si; do for u in mm si inch; do \"$R\" $f.ini --units $u --quiet "
+            "--header=bare >$f.$u || exit 1; done; \"$R\" $f.ini --quiet --header=bare "
+            ">$f.own; done; cmp mm.mm si.mm && cmp mm.si si.si && cmp mm.inch si.inch && "
+            "cmp mm.own mm.mm && cmp si.own si.si && grep -q x_in mm.inch"),
+        0);
+    assert_int_equal(
+        shell("\"$R\" mm.ini --units si --approach 1e-5 --header=bare --quiet "
+              ">a; \"$R\" mm.ini --approach 0.01 --units mm --header=bare "
+              "--quiet >b; head -2 a | tail -1 | cut -f10; "
+              "test $(wc -l <a) = $(wc -l <b)"),
+        0);
+    json_t *root = run_json("--example rail --creep-ratio 0.4 --units inch");
+    CHECK_REL(number_in(json_object_get(root, "inputs"), "radius"), 460.0 / 25.4, 1e-12,
+              "the wheel stays one of 460 mm");
+    json_decref(root);
+}
+
 static void what_people_see_says_the_units(void **state)
 {
     (void)state;
@@ -238,6 +268,7 @@ int main(void)
         cmocka_unit_test(every_command_converts_the_same_numbers),
         cmocka_unit_test(values_say_their_own_units),
         cmocka_unit_test(files_take_units),
+        cmocka_unit_test(case_files_have_their_own_units),
         cmocka_unit_test(what_people_see_says_the_units),
         cmocka_unit_test(wrong_units_are_named),
     };

@@ -170,9 +170,10 @@ rb_status rb_option_read(const rb_option *option, void *target, const char *what
 rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *what,
                            const char *text, rb_message *why);
 
-/* Plain numbers of the set that were given are in that system; those of target (like the
- * set's) become mm, N, MPa. */
-void rb_option_store(const rb_option_set *set, rb_units system, void *target);
+/* Plain numbers of the set that were given are in that system, those of a case file in the
+ * file's; those of target (like the set's) become mm, N, MPa. */
+void rb_option_store(const rb_option_set *set, rb_units system, rb_units file_system,
+                     void *target);
 
 /* "a number >= 0", "lemke, newton or auto": what the option wants.  Returns text. */
 const char *rb_option_expected(const rb_option *option, char *text, size_t size);
@@ -266,12 +267,14 @@ typedef struct {
     rb_rolling_program program;    /* its history; n = 0: none */
     int error;                     /* 1: estimate discretisation errors */
     double accuracy;               /* refine until they are below this; 0: no */
-    rb_units units; /* of plain numbers that were given, and of what is shown; the values
-                       here are in mm, N, MPa */
+    rb_units units; /* of plain numbers, but for those of a case file, which says its own,
+                       and of what is shown; the values here are in mm, N, MPa */
 } rb_settled_case;
 
 /* Borrowed, valid until c changes. */
 const rb_settled_case *rb_case_settled(const rb_case *c);
+/* The system of the plain numbers in the case file. */
+rb_units rb_case_file_units(const rb_case *c);
 /* 1: transient rolling, a static history or increments. */
 int rb_case_has_steps(const rb_settled_case *settled);
 

@@ -413,6 +413,12 @@ static int is_read(const case_table *t, const char *path, rb_units units)
     return t->path && strcmp(t->path, path) == 0 && t->units == units;
 }
 
+/* Of the numbers in the file that an option names. */
+static rb_units units_of_file(const rb_case *c, const char *option)
+{
+    return rb_case_given(c, option) > 0 ? c->file_units : c->words.units;
+}
+
 /* Lengths, unless a column's name ends with its unit. */
 static void convert_column(rb_io_table *t, int j, const char *unit, rb_units units)
 {
@@ -447,9 +453,11 @@ static rb_status read_profile(rb_case *c, rb_message *why)
     const double noise = settled->gap_smoothing;
     if (settled->rc.gap != RB_GAP_TABLE)
         return refuse_given(c, "gap-smoothing", "of a gap from a file only", why);
-    if (!is_read(&c->gap, settled->gap_file, settled->units) || c->profile.noise != noise)
+    if (!is_read(&c->gap, settled->gap_file, units_of_file(c, "gap")) ||
+        c->profile.noise != noise)
         free_profile(&c->profile);
-    rb_status s = read_profile_table(&c->gap, settled->gap_file, settled->units, why);
+    rb_status s =
+        read_profile_table(&c->gap, settled->gap_file, units_of_file(c, "gap"), why);
     if (s == RB_OK && !c->profile.curve) {
         c->profile = (case_profile){.noise = noise};
         s = rb_rolling_profile_create(t->rows, t->x, t->x + t->rows, noise,
@@ -467,7 +475,7 @@ static rb_status read_irregularity(rb_case *c, rb_message *why)
     if (!settled->irregularity_file)
         return RB_OK;
     const rb_status s = read_profile_table(&c->irregularity, settled->irregularity_file,
-                                           settled->units, why);
+                                           units_of_file(c, "irregularity"), why);
     if (s != RB_OK)
         return s;
     settled->rc.irregularity_n = t->rows;
@@ -567,7 +575,7 @@ static rb_status read_history(rb_case *c, rb_message *why)
     const char *path = c->words.history_file;
     if (!path || c->words.rc.formulation == RB_STEADY) /* check_formulation refuses it */
         return RB_OK;
-    rb_status s = read_program_table(&c->history, path, c->words.units, why);
+    rb_status s = read_program_table(&c->history, path, units_of_file(c, "history"), why);
     if (s == RB_OK)
         s = set_program(t, path, &c->words.program, why);
     return s == RB_OK ? settle_columns(c, why) : s;
@@ -682,7 +690,7 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     if (s == RB_OK)
         s = read_history(c, why);
     c->settled = c->words;
-    rb_option_store(&set, c->words.units, &c->settled);
+    rb_option_store(&set, c->words.units, c->file_units, &c->settled);
     if (s == RB_OK)
         s = settle_body_b(c, why);
     for (int body = 0; body < 2 && s == RB_OK; body++)
@@ -709,6 +717,11 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     if (s == RB_OK)
         c->settled.derived = rb_rolling_derive(&c->settled.rc);
     return rb_case_blame(c, s, why);
+}
+
+rb_units rb_case_file_units(const rb_case *c)
+{
+    return c->file_units;
 }
 
 const rb_settled_case *rb_case_settled(const rb_case *c)

@@ -26,6 +26,7 @@ struct rb_case {
     rb_case_purpose purpose;
     rb_settled_case words, settled; /* as given; as used */
     char path[320];                 /* case file, "" without */
+    rb_units file_units;            /* of the plain numbers in that file */
     int given[RB_CASE_OPTIONS_MAX], plain[RB_CASE_OPTIONS_MAX];
     case_table gap, irregularity, history;
     case_profile profile;

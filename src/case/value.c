@@ -209,13 +209,15 @@ rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *
     return s;
 }
 
-void rb_option_store(const rb_option_set *set, rb_units system, void *target)
+void rb_option_store(const rb_option_set *set, rb_units system, rb_units file_system,
+                     void *target)
 {
     for (int k = 0; k < set->n; k++) {
         const rb_option *o = &set->options[k];
         double *place = (double *)(void *)((char *)target + o->offset);
         if (o->kind == RB_OPTION_NUMBER && set->given[k] && set->plain[k])
-            *place = rb_unit_stored(system, o->unit, *place);
+            *place =
+                rb_unit_stored(set->given[k] > 0 ? file_system : system, o->unit, *place);
     }
 }
 

@@ -345,7 +345,8 @@ int cli_stress(int argc, char **argv)
                            4};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     if (code == CLI_CONTINUE) {
-        rb_option_store(&spec.sets[1], rb_case_settled(c)->units, &so);
+        rb_option_store(&spec.sets[1], rb_case_settled(c)->units, rb_case_file_units(c),
+                        &so);
         code = check(c, &so, &where);
     }
     if (code == CLI_CONTINUE)

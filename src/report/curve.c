@@ -295,8 +295,8 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
     for (int k = 0; k < v->curves->n && v->curves->has_errors; k++)
         fprintf(out,
                 "$curve%d using 1:($2-$3):($2+$3) with filledcurves linecolor rgb '%s' "
-                "fillstyle transparent solid 0.25 noborder notitle, ",
-                k, colours[k % 8]);
+                "fillstyle transparent solid 0.25 noborder %s, ",
+                k, colours[k % 8], k == 0 ? "title 'estimated error'" : "notitle");
     for (int k = 0; k < v->curves->n; k++)
         fprintf(out,
                 "%s$curve%d using 1:2 with lines linecolor rgb '%s' linewidth 2.6 title "

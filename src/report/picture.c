@@ -185,7 +185,7 @@ static const char *zone_colour(int zone)
 
 static const char *zone_name(int zone)
 {
-    static const char *const names[] = {"separated", "stick", "slip", "slip"};
+    static const char *const names[] = {"separated", "stick", "slip →", "← slip"};
     return names[zone];
 }
 
@@ -350,7 +350,10 @@ static void write_slip(FILE *out, const view *v)
             rb_report_round_step((v->slip_to - v->slip_from) / 4.0));
     if (lowest)
         write_x_label(out, v);
-    fputs("set label 3 'slip", out);
+    /* in a static case (12) is a velocity that the elements in stick have as well */
+    fputs(v->s->formulation == RB_STATIC ? "set label 3 'velocity (12)"
+                                         : "set label 3 'slip",
+          out);
     if (v->slip_exponent)
         fprintf(out, "  [10^{%d}]", v->slip_exponent);
     fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, SLIP));
