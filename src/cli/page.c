@@ -157,11 +157,12 @@ int cli_page(int argc, char **argv)
     rb_case *c = cli_case_create(RB_CASE_SINGLE);
     if (!c)
         return CLI_INTERNAL;
-    const cli_spec spec = {"rollbem page [OPTION...] [CASE.ini]",
-                           about,
-                           notes,
-                           {rb_case_options(c), {options, OPTIONS, &o, o.given, NULL}},
-                           2};
+    const cli_spec spec = {
+        "rollbem page [OPTION...] [CASE.ini]",
+        about,
+        notes,
+        {rb_case_options(c), {options, OPTIONS, &o, o.given, NULL}, cli_example_set()},
+        3};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     if (code == CLI_CONTINUE)
         code = refuse_files(c);

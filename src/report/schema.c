@@ -143,6 +143,9 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "version", typed("string", "of the program"));
     rb_report_json_set(&of, "command", typed("string", "the command line"));
     rb_report_json_set(&of, "conventions", typed("string", "signs and zones"));
+    rb_report_json_set(&of, "notes",
+                       list_of(typed("string", NULL), "what changes how it is read"));
+    rb_report_json_set(&of, "units", typed("object", "of the numbers, by quantity"));
     rb_report_json_set(&of, "inputs", inputs());
     rb_report_json_set(&of, "summary", summary());
     rb_report_json_set(
@@ -164,6 +167,7 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(
         &of, "problems",
         list_of(typed("object", NULL), "of lcp and friction, one per file"));
+    rb_report_json_set(&of, "cases", list_of(typed("object", NULL), "of contact"));
     rb_report_json_set(&of, "steps", list_of(typed("object", NULL), "of example"));
 
     json_t *schema = object_of(of, heads(), "What rollbem prints with --json");
