@@ -256,6 +256,20 @@ static void studies_come_in_three_formats(void **state)
     json_decref(root);
 }
 
+static void any_result_is_a_column_by_its_name(void **state)
+{
+    (void)state;
+    json_t *root = run_json(STUDY "--similar --vary-1 'creep-ratio 0.2 0.6' --results "
+                                  "stick_length,contact_to,normal_load");
+    json_t *table = json_object_get(root, "table");
+    const double a = entry(table, "half_width_mm", 1);
+    CHECK_REL(entry(table, "contact_to_mm", 1), a, 1e-4, "edge of the contact");
+    CHECK_REL(entry(table, "stick_length_mm", 1), 2.0 * a * (1.0 - 0.6), 0.05, "Carter");
+    json_decref(root);
+    check_refused(STUDY "--vary-1 'mu .1 .2' --results stick_lenght", 64,
+                  "no result 'stick_lenght' (did you mean 'stick_length'?)");
+}
+
 static void an_empty_file_is_a_start(void **state)
 {
     (void)state;
@@ -334,6 +348,7 @@ int main(void)
         cmocka_unit_test(cases_that_fail_are_rows_and_an_exit_code),
         cmocka_unit_test(what_is_no_row_of_the_study_is_refused),
         cmocka_unit_test(studies_come_in_three_formats),
+        cmocka_unit_test(any_result_is_a_column_by_its_name),
         cmocka_unit_test(an_empty_file_is_a_start),
         cmocka_unit_test(a_long_command_line_is_resumed),
         cmocka_unit_test(files_of_the_case_belong_to_the_study),

@@ -19,7 +19,7 @@
 enum { VARIED_MAX = 4, COLUMNS_MAX = 64, RESULTS_MAX = 64, NO_MEMORY = -1 };
 
 typedef struct {
-    const char *vary[VARIED_MAX], *cases, *output;
+    const char *vary[VARIED_MAX], *cases, *output, *results;
     rb_report_style style;
     int jobs, restart, progress, quiet;
     int given[20];
@@ -40,6 +40,10 @@ static const rb_option options[] = {
     RB_TEXT_LINE("cases", PLACE(cases), "FILE",
                  "a case per row; the columns are named like the options",
                  .unset = "none", .file = RB_FILE_READ),
+    RB_TEXT_LINE("results", PLACE(results), "A,B,...",
+                 "further results, by their names in JSON's `summary`: stick_length, "
+                 "contact_from, residual_slip, ...",
+                 .unset = "none"),
     CLI_STYLE_LINES(PLACE(style)),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
                  "where the rows go as they come; where it holds the first rows of this "
@@ -344,18 +348,50 @@ static int is_given(const study *st, const char *name)
     return 0;
 }
 
-/* Those that the cases have and no option names. */
-static void choose_results(study *st)
+static int is_chosen(const study *st, const rb_rolling_result *r)
 {
-    const rb_rolling_case *one = &rb_case_settled(st->one)->rc;
+    for (int k = 0; k < st->results; k++)
+        if (st->result[k] == r)
+            return 1;
+    return 0;
+}
+
+/* The next of --results, whose name ends at *at. */
+static cli_exit choose_by_name(study *st, const char **at)
+{
+    char name[40];
+    rb_guess guess = {.word = name};
+    const rb_rolling_results *all = &rb_rolling_solution_scalars;
+    const size_t n = strcspn(*at, ",");
+    snprintf(name, sizeof name, "%.*s", (int)(n < 39 ? n : 39), *at);
+    *at += n + ((*at)[n] == ',');
+    for (int k = 0; k < all->n; k++) {
+        rb_guess_try(&guess, all->row[k].name);
+        if (strcmp(all->row[k].name, name) != 0)
+            continue;
+        if (!is_chosen(st, &all->row[k]) && st->results < RESULTS_MAX)
+            st->result[st->results++] = &all->row[k];
+        return CLI_CONTINUE;
+    }
+    return cli_fail(CLI_USAGE, "--results: no result '%s'%s", name,
+                    rb_guess_text(&guess, ""));
+}
+
+/* Those that the cases have and no option names, then those of --results. */
+static cli_exit choose_results(study *st)
+{
+    const rb_settled_case *one = rb_case_settled(st->one);
     char heading[RB_ROLLING_HEADING];
-    const rb_units units = rb_case_settled(st->base)->units;
     const rb_rolling_result *r;
+    cli_exit code = CLI_CONTINUE;
     for (int k = 1; (r = rb_rolling_study_column(k)); k++)
-        if (rb_rolling_has_result(r, one) &&
-            !is_given(st, rb_rolling_heading(r, units, heading)) &&
+        if (rb_rolling_has_result(r, &one->rc) &&
+            !is_given(st, rb_rolling_heading(r, one->units, heading)) &&
             st->results < RESULTS_MAX)
             st->result[st->results++] = r;
+    for (const char *at = st->o->results; at && *at && code == CLI_CONTINUE;)
+        code = choose_by_name(st, &at);
+    return code;
 }
 
 /* Columns: the number of the case, what varies, the status, the results. */
@@ -773,10 +809,10 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
         code = read_study(st);
     if (code == CLI_CONTINUE)
         code = check_cases(st);
-    if (code == CLI_CONTINUE) {
-        choose_results(st);
+    if (code == CLI_CONTINUE)
+        code = choose_results(st);
+    if (code == CLI_CONTINUE)
         code = find_fingerprint(st);
-    }
     if (code == CLI_CONTINUE && !cli_pool_is_worker())
         code = open_output(st);
     return code;
