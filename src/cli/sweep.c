@@ -99,6 +99,7 @@ typedef struct {
     int results;
     uint64_t fingerprint; /* of all inputs */
     FILE *out;
+    int lost;         /* 1: no memory for a number of JSON */
     int complete;     /* 1: every row has come */
     json_t *list;     /* of each column's list; with --format json alone */
     rb_io_writer w;   /* out is its file: CSV and JSON */
@@ -465,8 +466,8 @@ static int see_row(int k, const rb_rolling_solution *row, void *context)
     for (int j = 0; j < column_count(st); j++) {
         const double x = cell_value(st, j, k, &shown);
         if (st->o->style.format == RB_REPORT_JSON)
-            json_array_append_new(json_array_get(st->list, (size_t)j),
-                                  rb_report_json_number(x));
+            st->lost |= json_array_append_new(json_array_get(st->list, (size_t)j),
+                                              rb_report_json_number(x)) != 0;
         else
             rb_report_cell_number(&c, x);
     }
@@ -687,9 +688,9 @@ static cli_exit close_whole(study *st, cli_exit code)
 {
     rb_message why = {""};
     rb_status s = RB_OK;
-    if (!st->complete) {
+    if (!st->complete || st->lost) {
         rb_io_writer_abandon(&st->w);
-        return code;
+        return st->lost ? cli_fail(CLI_INTERNAL, "out of memory") : code;
     }
     if (st->list)
         s = write_json(st);

@@ -33,13 +33,13 @@ void rb_report_cell_text(rb_report_cells *c, const char *text)
 {
     const size_t size = 4 * strlen(text) + 1;
     char *printable = malloc(size);
+    /* without memory the text stands as it is */
+    const char *shown = printable ? rb_printable(text, printable, size) : text;
     begin_cell(c);
-    if (printable)
-        rb_printable(text, printable, size);
-    if (printable && (strpbrk(printable, " ,\"#") || !*printable))
-        write_quoted(c->out, printable);
+    if (strpbrk(shown, " ,\"#\t\n") || !*shown)
+        write_quoted(c->out, shown);
     else
-        fputs(printable ? printable : "?", c->out);
+        fputs(shown, c->out);
     free(printable);
 }
 
