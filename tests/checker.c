@@ -3,12 +3,11 @@
  * of contact and friction, and on half-planes also the displacements again, by Flamant's
  * integrals in long double.
  *
- *     checker [--table FILE] [--summary FILE] [--controls FILE] [--steps DIR] RESULT.json
+ *     checker [--table FILE] [--summary FILE] [--controls FILE] RESULT.json
  *
  * RESULT.json: of the same command with --json.  --table: its traction table; --summary:
- * its standard error; --controls: the table given to --history; --steps: the folder given
- * to --snapshots (every step).  One line for each law that is violated; exit 1 when there
- * is one, 2 when a file cannot be read. */
+ * its standard error; --controls: the table given to --history.  One line for each law that
+ * is violated; exit 1 when there is one, 2 when a file cannot be read. */
 #include <jansson.h>
 #include <math.h>
 #include <stdarg.h>

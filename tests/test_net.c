@@ -363,9 +363,6 @@ static const conflict conflicts[] = {
     {{"size=transforms", "output=trace"}, NULL},
     {{"size=transforms", "output=dump*"}, NULL},
     {{"size=transforms", "output=accuracy"}, NULL},
-    /* open: two runs of the same words differ in the last digits, table against JSON */
-    {{"surface=relaxing", "output=accuracy"}, NULL},
-    {{"surface=b-relaxing", "output=accuracy"}, NULL},
     {{"size=transforms", "output=error", "regime=transient*"}, NULL},
     {{"size=transforms", "surface!plain", "regime!steady"}, NULL},
     {{"size=transforms", "surface!plain", "mesh=aligned"}, NULL},

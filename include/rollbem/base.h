@@ -94,6 +94,10 @@ double rb_seconds(void);
 /* max |x_i| over n; NaN if any entry is NaN. */
 double rb_norm_inf(size_t n, const double *x);
 
+/* sum |x_i| over n entries, stride apart.  cblas_dasum is not used: with AVX-512 its last
+ * digits depend on the address of x, so that two runs would differ. */
+double rb_norm_1(size_t n, const double *x, size_t stride);
+
 RB_PUBLIC_END
 
 #endif

@@ -195,8 +195,8 @@ typedef struct {
 /* Equal elements between from and to. */
 rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, double from, double to,
                                   rb_rolling_mesh *mesh, rb_message *why);
-/* Elements fitted to the contact edges [from, to]: ends at -cos(theta) between them, six
- * more outside each edge that grow by 1.5 (theory.md 5.1). */
+/* Elements fitted to the contact edges [from, to]: ends at -cos(theta) between them, and
+ * growing ones outside each edge (theory.md 5.1). */
 rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, double from, double to,
                                  rb_rolling_mesh *mesh, rb_message *why);
 void rb_rolling_mesh_free(rb_rolling_mesh *mesh);

@@ -150,3 +150,11 @@ double rb_norm_inf(size_t n, const double *x)
     }
     return norm;
 }
+
+double rb_norm_1(size_t n, const double *x, size_t stride)
+{
+    double norm = 0.0;
+    for (size_t i = 0; i < n; i++)
+        norm += fabs(x[i * stride]);
+    return norm;
+}

@@ -81,7 +81,8 @@ static rb_contact_response response(int n, const rb_contact_matrix *K)
 
     return (rb_contact_response){.gap = mean_diagonal(n, K->F, ldf),
                                  .slip = mean_diagonal(n, K->S + length * length, length),
-                                 .coupled_slip = cblas_dasum(n, K->S + length / 2, n),
+                                 .coupled_slip =
+                                     rb_norm_1((size_t)n, K->S + length / 2, (size_t)n),
                                  .coupled = any_nonzero(n, K->S, n) ||
                                             any_nonzero(n, K->F + length * ldf, K->ldf)};
 }

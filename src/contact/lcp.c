@@ -330,11 +330,12 @@ static void set_lcp_scales(const rb_contact_problem *p, rb_contact_lcp *lcp)
     }
     if (p->load_given) {
         lcp->z_scale[delta_column(p)] = p->gap_length;
-        lcp->w_scale[delta_column(p)] = p->stress * cblas_dasum(n, p->load_N, 1);
+        lcp->w_scale[delta_column(p)] = p->stress * rb_norm_1((size_t)n, p->load_N, 1);
     }
     if (p->force_given) {
-        lcp->z_scale[xi_column(p)] = p->slip_length / (cblas_dasum(n, p->e_T, 1) / n);
-        lcp->w_scale[xi_column(p)] = bound * cblas_dasum(n, p->force_T, 1);
+        lcp->z_scale[xi_column(p)] =
+            p->slip_length / (rb_norm_1((size_t)n, p->e_T, 1) / n);
+        lcp->w_scale[xi_column(p)] = bound * rb_norm_1((size_t)n, p->force_T, 1);
     }
 }
 

@@ -62,9 +62,9 @@ static void set_response(products *k)
     k->r[j] = 1.0;
     k->by.apply(k->by.context, k->r, k->gap, k->slip);
     unit->gap = fabs(k->gap[j]);
-    unit->coupled_slip = cblas_dasum(n, k->slip, 1);
+    unit->coupled_slip = rb_norm_1((size_t)n, k->slip, 1);
     unit->coupled = unit->coupled_slip != 0.0;
-    unit->reach = cblas_dasum(n, k->gap, 1) / unit->gap;
+    unit->reach = rb_norm_1((size_t)n, k->gap, 1) / unit->gap;
     k->r[j] = 0.0;
     k->r[n + j] = 1.0;
     k->by.apply(k->by.context, k->r, k->gap, k->slip);

@@ -272,8 +272,8 @@ static void normalise(int m, int n, rb_lcp_solutions *all)
 {
     for (int k = 0; k < all->count; k++) {
         double *x = all->z + (size_t)k * (size_t)(m + n), *y = x + m;
-        cblas_dscal(m, 1.0 / cblas_dasum(m, x, 1), x, 1);
-        cblas_dscal(n, 1.0 / cblas_dasum(n, y, 1), y, 1);
+        cblas_dscal(m, 1.0 / rb_norm_1((size_t)m, x, 1), x, 1);
+        cblas_dscal(n, 1.0 / rb_norm_1((size_t)n, y, 1), y, 1);
     }
 }
 
