@@ -1,7 +1,8 @@
-/* A coefficient of friction that depends on the place: the bound of every element. */
+/* What lies between the bodies: a coefficient of friction that depends on the place, and
+ * an interface that yields. */
 #include "check.h"
 #include "rollbem/friction.h"
-#include "rollbem/rolling.h"
+#include "rolling/internal.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -57,6 +58,13 @@ static void check_laws(const rb_rolling_model *model)
             assert_true(s->q[i] * slip[i] <= 1e-9 * p->slip_length * p->stress);
     }
     free(gap);
+}
+
+static void check_residual(const rb_rolling_model *model)
+{
+    rb_contact_violation violation;
+    CHECK_STATUS(rb_contact_residual(&model->problem, &model->state, &violation), RB_OK);
+    CHECK_MAX(violation.scaled, 1e-9, "residual");
 }
 
 /* Lemke on both forms, Newton, a cone solver; every formulation and mesh. */
@@ -154,6 +162,111 @@ static void an_even_table_is_one_coefficient(void **state)
     rb_rolling_model_free(&one);
 }
 
+/* ---- A yielding interface
+ * ---------------------------------------------------------------
+ */
+
+/* Its own displacement, and nothing else, is what F r has more. */
+static void an_interface_yields_by_itself(void **state)
+{
+    (void)state;
+    for (int large = 0; large < 2; large++) {
+        rb_rolling_case rc = steady();
+        rb_rolling_mesh mesh;
+        rb_rolling_bodies with, without;
+        rc.contact_elements = large ? 1501 : 31;
+        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -1.3, 1.3, &mesh, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &without, NULL), RB_OK);
+        rc.interlayer_normal = 2e-5;
+        rc.interlayer_tangential = 3e-5;
+        CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &with, NULL), RB_OK);
+        const int n = mesh.n, m = n + 1;
+        double *r = rb_alloc(2 * (size_t)n, 1), *w = rb_alloc(2 * (size_t)m, 2);
+        for (int i = 0; i < 2 * n; i++)
+            r[i] = 100.0 * rand() / RAND_MAX;
+        rb_bem_flexibility_apply(&with.f, r, w);
+        rb_bem_flexibility_apply(&without.f, r, w + 2 * m);
+        for (int i = 0; i < m; i++) {
+            CHECK_ABS(w[i] - w[2 * m + i], i < n ? 2e-5 * r[i] : 0.0, 1e-12, "N %d", i);
+            CHECK_ABS(w[m + i] - w[3 * m + i], i < n ? 3e-5 * r[n + i] : 0.0, 1e-12,
+                      "T %d", i);
+        }
+        free(r);
+        free(w);
+        rb_rolling_bodies_free(&with);
+        rb_rolling_bodies_free(&without);
+        rb_rolling_mesh_free(&mesh);
+    }
+}
+
+/* What a step of 1.3 elements brings, with a matrix and by transforms. */
+static void an_interface_moves_with_the_steps(void **state)
+{
+    double *w[2];
+    const int n = 1501;
+    double *p = rb_alloc((size_t)n, 2), *q = p + n;
+
+    (void)state;
+    for (int i = 0; i < n - 1; i++)
+        q[i] = 100.0 * rand() / RAND_MAX;
+    for (int large = 0; large < 2; large++) {
+        rb_rolling_case rc = steady();
+        rb_rolling_mesh mesh;
+        rb_rolling_bodies bodies;
+        rb_rolling_ahead ahead;
+        rc.formulation = RB_TRANSIENT;
+        rc.contact_elements = n;
+        rc.solver = large ? RB_SOLVER_NEWTON : RB_SOLVER_LEMKE;
+        rc.interlayer_tangential = 1e-2;
+        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -1.3, 1.3, &mesh, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, NULL), RB_OK);
+        assert_int_equal(bodies.F == NULL, large);
+        CHECK_STATUS(rb_rolling_ahead_create(&rc, &bodies, 1.3 * 2.6 / n, &ahead), RB_OK);
+        w[large] = rb_alloc((size_t)n, 1);
+        rb_rolling_ahead_apply(&ahead, &bodies, p, q, w[large]);
+        rb_rolling_ahead_free(&ahead);
+        rb_rolling_bodies_free(&bodies);
+        rb_rolling_mesh_free(&mesh);
+    }
+    for (int i = 0; i < n; i++)
+        CHECK_ABS(w[0][i], w[1][i], 1e-9, "element %d", i);
+    free(w[0]);
+    free(w[1]);
+    free(p);
+}
+
+/* Steady rolling over an interface much softer than the bodies: bristles, whose friction
+ * grows by xi / c per length from the leading edge on until it meets the bound. */
+static void a_soft_interface_is_a_brush(void **state)
+{
+    (void)state;
+    const double c = 1e-2;
+    for (int large = 0; large < 2; large++) {
+        rb_rolling_case rc = steady();
+        rc.friction.n = 0;
+        rc.interlayer_tangential = c;
+        rc.creep_ratio = NAN;
+        rc.creep = 0.4;
+        rc.contact_elements = large ? 1501 : 201;
+        rc.mesh = RB_MESH_UNIFORM;
+        rb_rolling_model model = solved(&rc);
+        check_residual(&model);
+        const double slope = rc.creep / c, scale = model.problem.stress;
+        double lead = 0.0;
+        for (int i = 0; i < model.mesh.n; i++)
+            if (model.state.p[i] > 0.0)
+                lead = model.mesh.ends[i + 1];
+        for (int i = 0; i < model.mesh.n; i++) {
+            const double x = 0.5 * (model.mesh.ends[i] + model.mesh.ends[i + 1]);
+            const double most = rc.mu * model.state.p[i];
+            const double want = -fmin(most, slope * fmax(0.0, lead - x));
+            CHECK_ABS(model.state.q[i], want, 0.03 * rc.mu * scale, "large %d, q at %g",
+                      large, x);
+        }
+        rb_rolling_model_free(&model);
+    }
+}
+
 static void bad_tables_are_refused(void **state)
 {
     static const double back[] = {0.0, 0.0}, negative[] = {0.4, -0.1};
@@ -174,13 +287,22 @@ static void bad_tables_are_refused(void **state)
         if (!strstr(why.text, bad[k].says))
             fail_msg("%s", why.text);
     }
+    rb_rolling_case rc = steady();
+    rb_message why = {""};
+    rc.interlayer_tangential = -1.0;
+    CHECK_STATUS(rb_rolling_case_check(&rc, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "tangential compliance >= 0"));
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(each_element_has_its_bound),
-                                       cmocka_unit_test(large_contacts_and_steps_too),
-                                       cmocka_unit_test(an_even_table_is_one_coefficient),
-                                       cmocka_unit_test(bad_tables_are_refused)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_element_has_its_bound),
+        cmocka_unit_test(large_contacts_and_steps_too),
+        cmocka_unit_test(an_even_table_is_one_coefficient),
+        cmocka_unit_test(an_interface_yields_by_itself),
+        cmocka_unit_test(an_interface_moves_with_the_steps),
+        cmocka_unit_test(a_soft_interface_is_a_brush),
+        cmocka_unit_test(bad_tables_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

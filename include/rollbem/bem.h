@@ -152,9 +152,11 @@ typedef enum { RB_BEM_NORMALS_OBSTACLE, RB_BEM_NORMALS_SURFACE } rb_bem_normals;
 typedef struct rb_bem_flexibility rb_bem_flexibility;
 struct rb_bem_flexibility {
     int n, m;
-    double *x;  /* m midpoints [length]; owned */
-    double *h;  /* m element lengths; owned */
-    double *w0; /* 2m [length]; owned */
+    double *x;          /* m midpoints [length]; owned */
+    double *h;          /* m element lengths; owned */
+    double *w0;         /* 2m [length]; owned */
+    double *compliance; /* 2n [length/stress]: of an interface on the elements, normal,
+                           then tangential; NULL where there is none or F has it; owned */
     void (*apply)(const rb_bem_flexibility *f, const double *r, double *w); /* w = F r */
     rb_status (*matrix)(const rb_bem_flexibility *f, double *F, int ldf);   /* 2m x 2n */
     void (*free_data)(void *data);
@@ -226,6 +228,13 @@ rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n,
  * left empty), also on failure.  RB_EINVAL: their points differ. */
 rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
                                   rb_bem_flexibility *f, rb_message *why);
+
+/* Adds an interface that yields under each element by its own traction alone: its normal
+ * and tangential compliance on the diagonal of F_NN and F_TT [length/stress], n values
+ * each,
+ * >= 0.  After bodies are paired.  RB_EINVAL, RB_ENOMEM. */
+rb_status rb_bem_flexibility_add_compliance(rb_bem_flexibility *f, const double *normal,
+                                            const double *tangential);
 
 void rb_bem_flexibility_apply(const rb_bem_flexibility *f, const double *r, double *w);
 /* F: 2m x 2n column-major, ldf >= 2m. */

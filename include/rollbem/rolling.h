@@ -116,6 +116,10 @@ typedef struct {
     const double *irregularity_x, *irregularity_gap; /* [length]; borrowed */
     double passed;                                   /* [length]; histories set it */
 
+    /* Compliance of an interface between the surfaces, which yields under each point by
+     * the traction there alone [length/stress]; 0: none. */
+    double interlayer_normal, interlayer_tangential;
+
     double mu;
     rb_rolling_friction_table friction; /* in the place of one mu, which then is the
                                            largest value of the table */
@@ -489,7 +493,7 @@ typedef struct {
     double half_width;       /* that distances count in [length] */
     double step;             /* c [length]; 0 in a static history */
     int steady_from; /* first step of the steady state that the end is in, or -1 */
-    rb_units units; /* of all values here */
+    rb_units units;  /* of all values here */
 } rb_rolling_history;
 
 void rb_rolling_history_free(rb_rolling_history *history);

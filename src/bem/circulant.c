@@ -51,28 +51,34 @@ static rb_status kernel_scale(const rb_bem_flexibility *f, double *scale)
     if (s == RB_OK) {
         r[j] = 1.0;
         rb_bem_flexibility_apply(f, r, w);
-        *scale = (w[j] - w[j + 1]) / (t0 - t1);
+        const double own = f->compliance ? f->compliance[j] : 0.0;
+        *scale = (w[j] - own - w[j + 1]) / (t0 - t1);
     }
     free(r);
     free(w);
     return s;
 }
 
+/* One over the transform of the body and of the interface on it, mode k > 0. */
+static double inverse_of(double scale, double interface, int k, int size)
+{
+    return 1.0 / ((scale * log_kernel(2.0 * M_PI * k / size) + interface) * size);
+}
+
 /* The mean, which the datum of the body decides, gets a number that does no harm. */
-static void set_inverse(double scale, rb_bem_circulant *c)
+static void set_inverse(double scale, double interface, rb_bem_circulant *c)
 {
     const int size = c->fourier.size;
 
-    for (int k = 1; k <= size / 2; k++) {
-        const double theta = 2.0 * M_PI * k / size;
-        c->inverse[k] = 1.0 / (scale * log_kernel(theta) * size);
-    }
+    for (int k = 1; k <= size / 2; k++)
+        c->inverse[k] = inverse_of(scale, interface, k, size);
     c->inverse[0] = 0.25 * c->inverse[1];
 }
 
 /* Divided by the symbol of A, sum over k of stencil_k exp(i (k-1) theta), which vanishes
  * for the mean: there again a number that does no harm. */
-static void set_difference(const double stencil[4], rb_bem_circulant *c)
+static void set_difference(const double stencil[4], double scale, double interface,
+                           rb_bem_circulant *c)
 {
     const int size = c->fourier.size;
 
@@ -81,7 +87,7 @@ static void set_difference(const double stencil[4], rb_bem_circulant *c)
         const double complex e = cexp(I * (2.0 * M_PI * k / size));
         const double complex symbol =
             stencil[0] * conj(e) + stencil[1] + stencil[2] * e + stencil[3] * e * e;
-        const double complex x = c->inverse[k] / symbol;
+        const double complex x = inverse_of(scale, interface, k, size) / symbol;
         c->difference[k][0] = creal(x);
         c->difference[k][1] = cimag(x);
     }
@@ -106,8 +112,9 @@ rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double sten
         rb_bem_circulant_free(c);
         return RB_ENOMEM;
     }
-    set_inverse(scale, c);
-    set_difference(stencil, c);
+    const double *own = f->compliance;
+    set_inverse(scale, own ? own[f->n / 2] : 0.0, c);
+    set_difference(stencil, scale, own ? own[f->n + f->n / 2] : 0.0, c);
     *circulant = c;
     return RB_OK;
 }

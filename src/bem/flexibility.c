@@ -11,13 +11,30 @@
 void rb_bem_flexibility_apply(const rb_bem_flexibility *f, const double *r, double *w)
 {
     f->apply(f, r, w);
+    for (int i = 0; f->compliance && i < f->n; i++) {
+        w[i] += f->compliance[i] * r[i];
+        w[f->m + i] += f->compliance[f->n + i] * r[f->n + i];
+    }
+}
+
+/* The diagonals of F_NN and F_TT. */
+static void add_diagonals(const rb_bem_flexibility *f, const double *normal,
+                          const double *tangential, double *F, int ldf)
+{
+    for (int i = 0; i < f->n; i++) {
+        F[i + (size_t)i * (size_t)ldf] += normal[i];
+        F[f->m + i + (size_t)(f->n + i) * (size_t)ldf] += tangential[i];
+    }
 }
 
 rb_status rb_bem_flexibility_matrix(const rb_bem_flexibility *f, double *F, int ldf)
 {
     if (!F || ldf < 2 * f->m)
         return RB_EINVAL;
-    return f->matrix(f, F, ldf);
+    const rb_status s = f->matrix(f, F, ldf);
+    if (s == RB_OK && f->compliance)
+        add_diagonals(f, f->compliance, f->compliance + f->n, F, ldf);
+    return s;
 }
 
 void rb_bem_flexibility_free(rb_bem_flexibility *f)
@@ -29,6 +46,7 @@ void rb_bem_flexibility_free(rb_bem_flexibility *f)
     free(f->x);
     free(f->h);
     free(f->w0);
+    free(f->compliance);
     memset(f, 0, sizeof *f);
 }
 
@@ -79,6 +97,24 @@ rb_status rb_bem_flexibility_dense(int n, rb_bem_flexibility *f, double **F)
 const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f)
 {
     return f->apply == dense_apply ? f->data : NULL;
+}
+
+rb_status rb_bem_flexibility_add_compliance(rb_bem_flexibility *f, const double *normal,
+                                            const double *tangential)
+{
+    for (int i = 0; i < f->n; i++)
+        if (!(normal[i] >= 0.0) || !(tangential[i] >= 0.0) || isinf(normal[i]) ||
+            isinf(tangential[i]))
+            return RB_EINVAL;
+    if (f->apply == dense_apply) {
+        add_diagonals(f, normal, tangential, f->data, 2 * f->m);
+        return RB_OK;
+    }
+    if (!f->compliance && !(f->compliance = rb_alloc(2 * (size_t)f->n, 1)))
+        return RB_ENOMEM;
+    cblas_daxpy(f->n, 1.0, normal, 1, f->compliance, 1);
+    cblas_daxpy(f->n, 1.0, tangential, 1, f->compliance + f->n, 1);
+    return RB_OK;
 }
 
 /* ---- Two bodies (4.5) ---------------------------------------------------------------

@@ -150,7 +150,8 @@ int rb_rolling_carter_holds(const rb_rolling_case *rc)
 {
     const int flat = rc->a.support == RB_BEM_HALFPLANE &&
                      (!rc->elastic_b || rc->b.support == RB_BEM_HALFPLANE);
-    return rc->formulation == RB_STEADY && rc->mu > 0.0 && rc->friction.n == 0 && flat &&
+    return rc->formulation == RB_STEADY && rc->mu > 0.0 && rc->friction.n == 0 &&
+           rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 && flat &&
            rc->gap != RB_GAP_TABLE && rb_rolling_is_homogeneous(rc) &&
            fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
 }
@@ -163,6 +164,23 @@ static rb_status check_memory(const rb_rolling_case *rc, const rb_rolling_mesh *
 
     snprintf(what, sizeof what, "a contact of %d elements", mesh->n);
     return rb_memory_check(rb_rolling_bytes(rc, mesh->n, 0, 2 * mesh->n), what, why);
+}
+
+static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f)
+{
+    const int n = f->n;
+
+    if (rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0)
+        return RB_OK;
+    double *own = rb_alloc((size_t)n, 2);
+    for (int i = 0; own && i < n; i++) {
+        own[i] = rc->interlayer_normal;
+        own[n + i] = rc->interlayer_tangential;
+    }
+    const rb_status s =
+        own ? rb_bem_flexibility_add_compliance(f, own, own + n) : RB_ENOMEM;
+    free(own);
+    return s;
 }
 
 rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
@@ -182,6 +200,8 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
         bodies->f = a;
         memset(&a, 0, sizeof a);
     }
+    if (s == RB_OK)
+        s = add_interlayer(rc, &bodies->f);
     if (s == RB_OK)
         bodies->F = rb_bem_flexibility_stored(&bodies->f);
     rb_bem_flexibility_free(&a);

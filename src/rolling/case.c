@@ -393,6 +393,17 @@ static rb_status check_friction(const rb_rolling_case *rc, rb_message *why)
                : RB_OK;
 }
 
+static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
+{
+    const double value[] = {rc->interlayer_normal, rc->interlayer_tangential};
+    for (int k = 0; k < 2; k++)
+        if (!(isfinite(value[k]) && value[k] >= 0.0))
+            return rb_fail(why, RB_EINVAL,
+                           "interlayer: expected a %s compliance >= 0, got %g",
+                           k ? "tangential" : "normal", value[k]);
+    return RB_OK;
+}
+
 static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
 {
     return rc->gap == RB_GAP_TABLE && !rc->profile
@@ -509,6 +520,8 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
         s = check_heat(rc, why);
     if (s == RB_OK)
         s = check_friction(rc, why);
+    if (s == RB_OK)
+        s = check_interlayer(rc, why);
     if (s == RB_OK)
         s = check_normal(rc, why);
     if (s == RB_OK)
