@@ -32,7 +32,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: journeys dist deb site course page page-test python-test install-python all run test test-all check-tests asan bench install help clean packages check-packages study
+.PHONY: journeys dist deb site course page page-test python-test install-python all run test test-all check-tests asan asan-short short-tests check-format bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -41,6 +41,8 @@ help:
 	@echo "make test       install missing packages, build, run all tests"
 	@echo "make test-all   the same without leaving out any case of the long tests"
 	@echo "make asan       the tests under the address and undefined-behaviour sanitizers"
+	@echo "make asan-short some of them"
+	@echo "make check-format  names sources that clang-format would change"
 	@echo "make study      the friction solvers on published files and on packings: tables, false successes"
 	@echo "make bench      the benchmarks (ratios measured in one run)"
 	@echo "make page       the page for browsers, $(B)/rollbem.html; make page-test tests it"
@@ -73,8 +75,20 @@ LONGEST := $(patsubst %,$(B)/tests/test_%,net fem_examples rolling_wheel files f
 check-tests: all $(TESTS) $(B)/tests/checker
 	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave tests/install tests/release tests/site $(filter-out $(LONGEST),$(TESTS))
 
+SANITIZED = B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined"
 asan:
-	@$(MAKE) --no-print-directory B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined" test
+	@$(MAKE) --no-print-directory $(SANITIZED) test
+
+# what touches most of the library's memory in a minute or two
+SHORT = base lcp io_table case api rolling_lcp rolling_newton rolling_control rolling_cone rolling_friction threads
+short-tests: $(SHORT:%=$(B)/tests/test_%)
+	@B=$(B) tests/run $^
+asan-short:
+	@$(MAKE) --no-print-directory $(SANITIZED) short-tests
+
+# every source as .clang-format has it
+check-format:
+	@! clang-format --dry-run $$(git ls-files '*.c' '*.h') 2>&1 | grep clang-format-violations | cut -d: -f1 | sort -u | sed 's/^/clang-format -i /' | grep .
 
 # friction solvers on published files and on packings of our own
 study: packages

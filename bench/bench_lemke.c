@@ -41,8 +41,8 @@ static double *need(size_t rows, size_t cols)
     return x;
 }
 
-/* Of this thread: neither other work on the machine counts nor threads that OpenBLAS keeps
- * waiting, which spin for the first tenth of a second. */
+/* Of this thread: neither other work on the machine counts nor threads that OpenBLAS
+ * keeps waiting, which spin for the first tenth of a second. */
 static double cpu_seconds(void)
 {
     struct timespec t;
@@ -186,7 +186,8 @@ static double power_of_two(double x)
     return x > 0.0 ? exp2(-round(0.5 * log2(x))) : 1.0;
 }
 
-/* Unit diagonal to a factor of two where there is one, without rounding (theory.md 4.4). */
+/* Unit diagonal to a factor of two where there is one, without rounding (theory.md 4.4).
+ */
 static void scale(problem *p)
 {
     const size_t n = (size_t)p->n;

@@ -1,5 +1,6 @@
-/* What the program does when it starts: OpenBLAS' best kernels for this processor, which it
- * reads from the environment while it is loaded, hence the second start; one thread. */
+/* What the program does when it starts: OpenBLAS' best kernels for this processor, which
+ * it reads from the environment while it is loaded, hence the second start; one thread.
+ */
 #ifndef ROLLBEM_BENCH_FAST_BLAS_H
 #define ROLLBEM_BENCH_FAST_BLAS_H
 

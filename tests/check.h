@@ -13,16 +13,17 @@
 #include <cmocka.h>
 
 /* |got - want| <= tol; the rest is a printf format naming the case. */
-#define CHECK_ABS(got, want, tol, ...)                                                        \
+#define CHECK_ABS(got, want, tol, ...)                                                   \
     check_close_(got, want, tol, __FILE__, __LINE__, __VA_ARGS__)
 /* |got - want| <= tol |want| */
-#define CHECK_REL(got, want, tol, ...)                                                        \
+#define CHECK_REL(got, want, tol, ...)                                                   \
     check_close_(got, want, (tol)*fabs(want), __FILE__, __LINE__, __VA_ARGS__)
 /* got <= bound */
 #define CHECK_MAX(got, bound, ...) check_max_(got, bound, __FILE__, __LINE__, __VA_ARGS__)
 #define CHECK_STATUS(got, want) assert_int_equal(got, want)
 
-static inline void check_fail_(const char *file, int line, const char *format, va_list args)
+static inline void check_fail_(const char *file, int line, const char *format,
+                               va_list args)
 {
     char text[400];
     vsnprintf(text, sizeof text, format, args);

@@ -6,8 +6,8 @@
  *     checker [--table FILE] [--summary FILE] [--controls FILE] RESULT.json
  *
  * RESULT.json: of the same command with --json.  --table: its traction table; --summary:
- * its standard error; --controls: the table given to --history.  One line for each law that
- * is violated; exit 1 when there is one, 2 when a file cannot be read. */
+ * its standard error; --controls: the table given to --history.  One line for each law
+ * that is violated; exit 1 when there is one, 2 when a file cannot be read. */
 #include <jansson.h>
 #include <math.h>
 #include <stdarg.h>

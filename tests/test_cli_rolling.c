@@ -492,7 +492,8 @@ static void almost_no_friction(void **state)
 {
     (void)state;
     static const char *const lines[] = {
-        "--support halfplane --half-width 1 --mu 1e-12 --formulation steady --creep-ratio 0.5",
+        "--support halfplane --half-width 1 --mu 1e-12 --formulation steady "
+        "--creep-ratio 0.5",
         "--support halfplane --half-width 1 --mu 1e-12 --force-ratio 0.5",
         "--support hub --half-width 1 --mu 1e-14 --shift 1e-3"};
     for (size_t k = 0; k < sizeof lines / sizeof lines[0]; k++) {

@@ -253,7 +253,8 @@ static void integers_full_of_ties_do_not_cycle(void **state)
     }
 }
 
-/* Kostreva's example, on which the first index cycles until a new LU orders the slots anew. */
+/* Kostreva's example, on which the first index cycles until a new LU orders the slots
+ * anew. */
 static void the_rule_decides_whether_kostreva_cycles(void **state)
 {
     (void)state;

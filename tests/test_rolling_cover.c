@@ -211,8 +211,8 @@ static void a_thin_cover_is_the_layer(void **state)
     }
 }
 
-/* The covered roll below is the covered roll above with everything mirrored; the elements of
- * A's polygon weigh the tractions, which differ by (a/R)^2. */
+/* The covered roll below is the covered roll above with everything mirrored; the elements
+ * of A's polygon weigh the tractions, which differ by (a/R)^2. */
 static void either_body_may_be_covered(void **state)
 {
     (void)state;

@@ -145,8 +145,8 @@ static void a_quarter_ahead_is_a_midpoint_of_halves(void **state)
     for (int j = 0; j < 2 * n; j++)
         for (int i = 0; i < n; i++) {
             const double *a = F + (size_t)(4 * j * m) + m + 2 * i + 1, *b = a + 2 * m;
-            CHECK_ABS(ahead.W_T[i + j * n], *a + *b, 5e-3 * size, "%d, column %d of %d", i, j,
-                      2 * n);
+            CHECK_ABS(ahead.W_T[i + j * n], *a + *b, 5e-3 * size, "%d, column %d of %d",
+                      i, j, 2 * n);
         }
     rb_rolling_ahead_free(&ahead);
     rb_rolling_model_free(&coarse);

@@ -359,7 +359,8 @@ static void check_names(const rb_rolling_results *table)
     for (int k = 0; k < table->n; k++) {
         const rb_rolling_result *r = &table->row[k];
         assert_true(r->name && *r->name && r->meaning && *r->meaning);
-        assert_true(strlen(rb_rolling_heading(r, RB_UNITS_MM, heading)) + 1 < RB_ROLLING_HEADING);
+        assert_true(strlen(rb_rolling_heading(r, RB_UNITS_MM, heading)) + 1 <
+                    RB_ROLLING_HEADING);
         for (int i = 0; i < k; i++)
             assert_string_not_equal(table->row[i].name, r->name);
     }

@@ -113,8 +113,8 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 
 /* Steady rolling at so many creepage ratios from ... to, of a case that is settled. */
 int rb_api_curve(rb_api *a, double from, double to, int points);
-/* The same over "creep-ratio", "creep" or (bodies that relax) "speed", with errors where the
- * case asks for them. */
+/* The same over "creep-ratio", "creep" or (bodies that relax) "speed", with errors where
+ * the case asks for them. */
 int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points);
 /* Lemke's method; variables are numbered w, z, z0 (rollbem/lcp.h). */
 int rb_api_pivots(rb_api *a);

@@ -79,8 +79,9 @@ double rb_bem_circle_height(double radius, double x);
 rb_status rb_bem_mesh_cylinder(const rb_bem_cylinder *cylinder, int n_c,
                                const double *ends, rb_bem_mesh *mesh, rb_message *why);
 
-/* The core of a covered cylinder, a ring between the inner contour of its cover's mesh, run
- * backwards, and a rigid hub of hub_ratio R (B11).  RB_EINVAL: the hub reaches the cover. */
+/* The core of a covered cylinder, a ring between the inner contour of its cover's mesh,
+ * run backwards, and a rigid hub of hub_ratio R (B11).  RB_EINVAL: the hub reaches the
+ * cover. */
 rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *cover,
                            rb_bem_mesh *core, rb_message *why);
 
@@ -119,9 +120,10 @@ enum { RB_BEM_HIERARCHICAL = 1500 };
  * motions remain; the message says so), bad material or mesh; RB_SINGULAR; RB_ENOMEM. */
 rb_status rb_bem_system_create(const rb_bem_mesh *mesh, rb_bem_material material,
                                rb_bem_system **system, rb_message *why);
-/* A cover bonded to an elastic core (B11): its inner contour, the last elements of the mesh,
- * moves as the core answers to the tractions there.  The matrix is dense at any size.
- * RB_EINVAL also where the two do not fit together, or the cover is incompressible. */
+/* A cover bonded to an elastic core (B11): its inner contour, the last elements of the
+ * mesh, moves as the core answers to the tractions there.  The matrix is dense at any
+ * size. RB_EINVAL also where the two do not fit together, or the cover is incompressible.
+ */
 rb_status rb_bem_system_create_bonded(const rb_bem_mesh *cover, rb_bem_material material,
                                       const rb_bem_mesh *core,
                                       rb_bem_material core_material,

@@ -21,8 +21,8 @@ const char *rb_blas_better_core(void);
 int rb_blas_threads(int threads);
 
 /* Under a limit of address space (ulimit -v) a thread of OpenBLAS that gets no buffer
- * waits for it for ever.  1: there is room for all; where it has one thread only, OpenMP is
- * reduced to one too if need be. */
+ * waits for it for ever.  1: there is room for all; where it has one thread only, OpenMP
+ * is reduced to one too if need be. */
 int rb_blas_has_room(void);
 
 RB_PUBLIC_END

@@ -170,8 +170,8 @@ rb_status rb_option_read(const rb_option *option, void *target, const char *what
 rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *what,
                            const char *text, rb_message *why);
 
-/* Plain numbers of the set that were given are in that system, those of a case file in the
- * file's; those of target (like the set's) become mm, N, MPa. */
+/* Plain numbers of the set that were given are in that system, those of a case file in
+ * the file's; those of target (like the set's) become mm, N, MPa. */
 void rb_option_store(const rb_option_set *set, rb_units system, rb_units file_system,
                      void *target);
 

@@ -65,10 +65,10 @@ typedef struct {
     double layer;     /* half-plane: thickness of a layer of this material, bonded to a
                          base [length]; 0: no layer */
     double base_young, base_poisson; /* of that base; young 0: rigid */
-    double cover; /* hub: thickness of a cover of this material, bonded to a core [length];
-                     0: none */
-    double core_young, core_poisson; /* of that core, a ring on the hub; young 0: rigid, all
-                                        below the cover */
+    double cover; /* hub: thickness of a cover of this material, bonded to a core
+                     [length]; 0: none */
+    double core_young, core_poisson; /* of that core, a ring on the hub; young 0: rigid,
+                                        all below the cover */
     rb_rolling_memory memory;        /* half-plane, steady rolling */
 } rb_rolling_body;
 

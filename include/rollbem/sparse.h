@@ -21,7 +21,8 @@ rb_status rb_sparse_from_triplets(int rows, int cols, int nz, const int *row,
 /* From a column-major dense matrix, lda >= rows; exact zeros are left out. */
 rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda,
                                rb_sparse *a);
-/* Triplets in the making: make room for some more before appending them.  Zeroed: none. */
+/* Triplets in the making: make room for some more before appending them.  Zeroed: none.
+ */
 typedef struct {
     int nz, room;
     int *row, *col; /* room; owned */

@@ -250,7 +250,8 @@ rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
     if (!pair) {
         rb_bem_flexibility_free(a);
         rb_bem_flexibility_free(b);
-        return s == RB_OK ? rb_fail(why, RB_ENOMEM, "bodies in contact: out of memory") : s;
+        return s == RB_OK ? rb_fail(why, RB_ENOMEM, "bodies in contact: out of memory")
+                          : s;
     }
     *pair = (body_pair){.a = *a, .b = *b};
     memset(a, 0, sizeof *a);
@@ -260,7 +261,8 @@ rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
         pair->w = rb_alloc(2 * m, 1);
         s = pair->r && pair->w ? join(pair, f) : RB_ENOMEM;
         if (s != RB_OK)
-            rb_fail(why, s, "bodies in contact: out of memory for %d elements", pair->a.n);
+            rb_fail(why, s, "bodies in contact: out of memory for %d elements",
+                    pair->a.n);
     }
     f->free_data = pair_free;
     f->data = pair;

@@ -353,7 +353,8 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
     if (s == RB_OK)
         return s;
     rb_bem_flexibility_free(f);
-    return rb_fail(why, RB_ENOMEM, "half-plane: out of memory for %d contact elements", n_c);
+    return rb_fail(why, RB_ENOMEM, "half-plane: out of memory for %d contact elements",
+                   n_c);
 }
 
 int rb_bem_toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)

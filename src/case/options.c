@@ -79,9 +79,10 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("cover-thickness", RC(a.cover), "mm", RB_ABOVE(0),
                    "hub: thickness of a cover of this material, bonded to the core",
                    .word = "none", .word_value = 0.0),
-    RB_NUMBER_LINE("core-young", RC(a.core_young), "MPa", RB_ABOVE(0),
-                   "Young's modulus of the core, a ring between the cover and a rigid hub",
-                   .word = "rigid", .word_value = 0.0),
+    RB_NUMBER_LINE(
+        "core-young", RC(a.core_young), "MPa", RB_ABOVE(0),
+        "Young's modulus of the core, a ring between the cover and a rigid hub",
+        .word = "rigid", .word_value = 0.0),
     RB_NUMBER_LINE("core-poisson", RC(a.core_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
                    "Poisson's ratio of an elastic core"),
     RB_NUMBER_LINE("relaxation-time", PLACE(memory_a.time), "s", RB_ABOVE(0),

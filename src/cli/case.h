@@ -9,7 +9,7 @@
     "Signs: x to the right, y up; A is above and rolls towards +x, so the leading\n"     \
     "edge is at +x. Creepage xi = (V_A - V_B)/|V| > 0: A's surface slides towards +x\n"  \
     "over the ground (a braked wheel) and the friction q on A points to -x, Q < 0.\n"    \
-    "Pressure p >= 0. Loads per unit length. Units: mm, N, MPa, unless --units says\n"    \
+    "Pressure p >= 0. Loads per unit length. Units: mm, N, MPa, unless --units says\n"   \
     "others or a value its own (--young 210GPa); columns name theirs."
 
 #define CLI_CASE_NOTES                                                                   \

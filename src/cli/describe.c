@@ -178,8 +178,9 @@ static void print_results(const cli_spec *spec)
                   {"Points of a creep curve", &rb_rolling_curve_columns},
                   {"Stress at a point", &rb_rolling_stress_scalars}};
     (void)spec;
-    puts("# Results\n\nBy the names that JSON, tables, studies and the package for Python "
-         "use.");
+    puts(
+        "# Results\n\nBy the names that JSON, tables, studies and the package for Python "
+        "use.");
     for (size_t t = 0; t < sizeof tables / sizeof *tables; t++) {
         printf("\n## %s\n\n| name | unit | meaning |\n|---|---|---|\n", tables[t].title);
         for (int k = 0; k < tables[t].rows->n; k++) {
@@ -301,10 +302,10 @@ static void print_schema(const cli_spec *spec)
 static const struct {
     const char *name;
     void (*print)(const cli_spec *spec);
-} forms[] = {{"man", print_man},           {"schema", print_schema},
-             {"results", print_results},
-             {"markdown", print_markdown}, {"bash", bash_command},
-             {"zsh", zsh_command},         {"fish", fish_command}};
+} forms[] = {{"man", print_man},         {"schema", print_schema},
+             {"results", print_results}, {"markdown", print_markdown},
+             {"bash", bash_command},     {"zsh", zsh_command},
+             {"fish", fish_command}};
 
 enum { FORMS = sizeof forms / sizeof *forms };
 

@@ -119,7 +119,8 @@ static cli_exit answer_builder(const cli_spec *spec, const char *argument)
     const char *form = value_behind("--describe=", argument);
     const char *shell = value_behind("--completion=", argument);
     if (form && !cli_describe(spec, form))
-        return cli_fail(CLI_USAGE, "--describe: expected man, markdown, results or schema, got '%s'",
+        return cli_fail(CLI_USAGE,
+                        "--describe: expected man, markdown, results or schema, got '%s'",
                         form);
     if (shell && !cli_complete(shell))
         return cli_fail(CLI_USAGE, "--completion: expected bash, zsh or fish, got '%s'",

@@ -169,8 +169,7 @@ static rb_status dump_toeplitz(const target *t, const rb_bem_flexibility *f)
 static rb_status dump_lcp(const target *t, const rb_rolling_model *model)
 {
     rb_contact_lcp lcp;
-    rb_status s =
-        rb_rolling_model_lcp(model, &lcp, t->why);
+    rb_status s = rb_rolling_model_lcp(model, &lcp, t->why);
     if (s != RB_OK)
         return s;
     const int n = lcp.size;

@@ -185,8 +185,9 @@ rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const doubl
     if (s == RB_OK)
         s = stress_of_field(&f, n, xy, stress, why);
     field_free(&f);
-    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the stress at %d points", n)
-                          : s;
+    return s == RB_ENOMEM
+               ? rb_fail(why, s, "out of memory for the stress at %d points", n)
+               : s;
 }
 
 /* ---- Maxima

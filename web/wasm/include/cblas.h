@@ -1,4 +1,5 @@
-/* The part of CBLAS that rollbem's core calls, for WebAssembly: see blas.c.  Column-major. */
+/* The part of CBLAS that rollbem's core calls, for WebAssembly: see blas.c. Column-major.
+ */
 #ifndef ROLLBEM_WASM_CBLAS_H
 #define ROLLBEM_WASM_CBLAS_H
 
@@ -20,10 +21,9 @@ void cblas_dcopy(int n, const double *x, int incx, double *y, int incy);
 void cblas_dgemv(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE trans, int m, int n,
                  double alpha, const double *A, int lda, const double *x, int incx,
                  double beta, double *y, int incy);
-void cblas_dgemm(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE ta,
-                 enum CBLAS_TRANSPOSE tb, int m, int n, int k, double alpha,
-                 const double *A, int lda, const double *B, int ldb, double beta,
-                 double *C, int ldc);
+void cblas_dgemm(enum CBLAS_ORDER order, enum CBLAS_TRANSPOSE ta, enum CBLAS_TRANSPOSE tb,
+                 int m, int n, int k, double alpha, const double *A, int lda,
+                 const double *B, int ldb, double beta, double *C, int ldc);
 void cblas_dtrsv(enum CBLAS_ORDER order, enum CBLAS_UPLO uplo, enum CBLAS_TRANSPOSE trans,
                  enum CBLAS_DIAG diag, int n, const double *A, int lda, double *x,
                  int incx);
