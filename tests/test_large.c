@@ -166,6 +166,24 @@ static void residual_is_true(void **state)
     }
 }
 
+/* Newton's steps from nothing go round in circles here: the friction coefficient is
+ * reached by way of smaller ones. */
+static void much_friction_is_reached_step_by_step(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
+    rb_rolling_solution s;
+
+    rc.mu = 2.0;
+    rc.creep_ratio = 0.5;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    assert_int_equal(s.large, 1);
+    assert_true(s.stick > 100);
+    CHECK_MAX(s.residual, 1e-10, "residual");
+    check_rows(&rc, &s);
+    rb_rolling_solution_free(&s);
+}
+
 /* ---- Closed forms ---------------------------------------------------------------------
  */
 
@@ -302,6 +320,7 @@ int main(void)
         cmocka_unit_test(equals_the_matrix_in_steady_rolling),
         cmocka_unit_test(equals_the_matrix_in_static_contact),
         cmocka_unit_test(residual_is_true),
+        cmocka_unit_test(much_friction_is_reached_step_by_step),
         cmocka_unit_test(carter),
         cmocka_unit_test(cattaneo),
         cmocka_unit_test(bentall_johnson),

@@ -796,10 +796,8 @@ static void check_verdict(const int *row, int table)
 /* Cone solvers may fail, but say so; what there is, is printed. */
 static int may_fail(const int *row)
 {
-    /* nor does Newton's method without a matrix, which has no other to fall back on, and
-     * an accuracy may be out of reach */
-    return is(row, SOLVER, "cone") || is(row, SIZE, "transforms") ||
-           is(row, OUTPUT, "accuracy");
+    /* and an accuracy may be out of reach */
+    return is(row, SOLVER, "cone") || is(row, OUTPUT, "accuracy");
 }
 
 /* Along a curve the contact may outgrow a zone that is given, which then is said. */

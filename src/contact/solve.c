@@ -1,11 +1,16 @@
 /* The order of attempts: Lemke's three, Newton, and who comes first. */
 #include "contact/internal.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* The largest contact that `auto` gives to Lemke. */
 enum { LEMKE_UP_TO = 120 };
+/* On the way to all of the friction: where it begins at the earliest, and the least step,
+ * as shares of it. */
+enum { MOST_HALVINGS = 6 };
+static const double LEAST_STEP = 1e-4;
 
 static rb_status measure(const rb_contact_problem *problem, rb_contact_state *state)
 {
@@ -185,6 +190,106 @@ static rb_status solve_newton(rb_contact_problem *problem,
     return s;
 }
 
+/* ---- Without a matrix: by way of less friction ----------------------------------------
+ */
+
+/* The problem's friction, of which a share acts; a share of 1 gives it back. */
+typedef struct {
+    double mu, share, *bound; /* n; owned */
+} friction;
+
+static void take_share(const friction *of, double share, rb_contact_problem *problem)
+{
+    problem->mu = share * of->mu;
+    for (int i = 0; i < problem->n; i++)
+        problem->bound[i] = share * of->bound[i];
+}
+
+/* What a warm start needs. */
+static void copy_start(int n, const rb_contact_state *from, rb_contact_state *to)
+{
+    const size_t count = (size_t)n;
+
+    memcpy(to->zone, from->zone, count * sizeof(int));
+    memcpy(to->p, from->p, count * sizeof(double));
+    memcpy(to->q, from->q, count * sizeof(double));
+    to->delta = from->delta;
+    to->xi = from->xi;
+}
+
+/* A first share, a half or less, for which Newton's steps end without a start. */
+static rb_status start_by_friction(rb_contact_problem *problem,
+                                   const rb_contact_options *options, friction *of,
+                                   rb_contact_state *state)
+{
+    rb_status s = RB_MAXITER;
+
+    for (int k = 0; k < MOST_HALVINGS && s > 0; k++) {
+        take_share(of, of->share *= 0.5, problem);
+        s = solve_newton(problem, options, 0, state);
+        if (s == RB_OK && !is_solved(s, problem, options, state))
+            s = RB_INACCURATE;
+    }
+    return s;
+}
+
+/* Newton's steps that go round in circles end from the zones of a problem with nearly the
+ * same friction.  From a small share the zones are followed to all of it, in steps that
+ * are halved where Newton fails and doubled where three in a row succeed. */
+static rb_status follow_friction(rb_contact_problem *problem,
+                                 const rb_contact_options *options, friction *of,
+                                 rb_contact_state *good, rb_contact_state *state)
+{
+    double step = of->share;
+    int row = 0;
+    rb_status s = RB_OK;
+
+    copy_start(problem->n, state, good);
+    while (s == RB_OK && of->share < 1.0 && step > LEAST_STEP) {
+        const double next = fmin(1.0, of->share + step);
+        take_share(of, next, problem);
+        s = solve_newton(problem, options, 1, state);
+        if (is_solved(s, problem, options, state)) {
+            of->share = next;
+            step *= ++row % 3 ? 1.0 : 2.0;
+            copy_start(problem->n, state, good);
+        } else if (s >= 0) {
+            step *= 0.5;
+            row = 0;
+            s = RB_OK;
+            copy_start(problem->n, good, state);
+        }
+    }
+    return s == RB_OK && of->share < 1.0 ? RB_MAXITER : s;
+}
+
+static rb_status solve_by_friction(rb_contact_problem *problem,
+                                   const rb_contact_options *options,
+                                   rb_contact_state *state)
+{
+    const size_t n = (size_t)problem->n;
+    friction of = {problem->mu, 1.0, rb_alloc(n, 1)};
+    rb_contact_state good;
+    rb_status s = rb_contact_state_alloc(problem->n, &good);
+
+    if (s == RB_OK && !of.bound)
+        s = RB_ENOMEM;
+    if (s == RB_OK) {
+        memcpy(of.bound, problem->bound, n * sizeof *of.bound);
+        s = start_by_friction(problem, options, &of, state);
+        if (s == RB_OK)
+            s = follow_friction(problem, options, &of, &good, state);
+        problem->mu = of.mu;
+        memcpy(problem->bound, of.bound, n * sizeof *of.bound);
+    }
+    rb_contact_state_free(&good);
+    free(of.bound);
+    return s;
+}
+
+/* ---- The order of attempts ------------------------------------------------------------
+ */
+
 /* The order of solvers: the wanted one first; where it ends without a solution, the other
  * one.  A warm start is Newton's: it costs a few steps where Lemke would begin anew. */
 typedef enum { LEMKE, NEWTON_WARM, NEWTON_COLD } method;
@@ -225,6 +330,9 @@ static rb_status solve_given(rb_contact_problem *problem,
         if (is_solved(s, problem, options, state))
             break;
     }
+    if (s >= 0 && !is_solved(s, problem, options, state) &&
+        !rb_contact_operator_matrix(problem->op).F && problem->mu > 0.0)
+        s = solve_by_friction(problem, options, state);
     return s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
 }
 
