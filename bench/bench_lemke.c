@@ -369,9 +369,10 @@ static void compare(int nc, int runs)
     const double pivoted = without_inverse(nc, runs),
                  theirs = siconos(&p, &pivots, &residual);
     line("Siconos lcp_lexicolemke", theirs, pivots, per_pivot);
-    printf("  Siconos / rollbem, whole solve: %.1f, with the pivoted form %.1f; its "
-           "residual %.1e\n",
-           theirs / ours, theirs / pivoted, residual);
+    printf("  whole solve: rollbem %.4g s, its pivoted form %.4g s, Siconos %.4g s: %.1f "
+           "and "
+           "%.1f times as long; residual of Siconos %.1e\n",
+           ours, pivoted, theirs, theirs / ours, theirs / pivoted, residual);
 #else
     without_inverse(nc, runs);
     printf("  (libsiconos-numerics-dev was not found at build time)\n");

@@ -97,6 +97,10 @@ static void what_is_not_solved_says_so(void **state)
     (void)state;
     assert_int_equal(rollbem("friction no slides"), 1);
     assert_non_null(strstr(err, "rollbem: no: "));
+    assert_non_null(strstr(err, "rollbem: no: note: no solution exists"));
+    assert_non_null(strstr(out, "\tinfeasible\t"));
+    assert_int_equal(rollbem("friction --max-iters 1 --solver fixed-point slides"), 1);
+    assert_null(strstr(err, "no solution exists"));
     assert_non_null(strstr(out, "slides\t"));
     assert_int_equal(rollbem("friction --facts odd zero"), 0);
     assert_non_null(strstr(err, "not symmetric"));

@@ -178,6 +178,15 @@ const rb_contact_cone_solvers *rb_friction_cone_solvers(void);
 /* A contact problem as one of these; borrows the arrays of the cone. */
 rb_friction_problem rb_friction_of_cone(const rb_contact_cone *cone);
 
+/* A proof that a problem in local form has no solution: y (contacts, written) >= 0 with
+ * y'q_N < 0 and -W_N'y in K* (W_N: the rows of the normal velocities), so that no r in K
+ * leaves all u_N >= 0.  Rounding leaves -W_N'y a little outside K*; *least: what sum W_NN
+ * r_N of every solution is at least therefore (the mean of
+ * all compliances in place of W_NN where that vanishes).  INFINITY: there is none; 0: y
+ * proves nothing. RB_EINVAL: global form; RB_ENOMEM. */
+rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y,
+                                 double *least);
+
 /* ---- One structure, many loads ------------------------------------------------------
  */
 

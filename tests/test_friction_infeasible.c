@@ -1,0 +1,179 @@
+/* Proofs that a friction problem has no solution: each is checked from W and q alone. */
+#include "check.h"
+#include "rollbem/friction.h"
+
+#include <string.h>
+
+enum { MOST = 90 };
+
+static double W[MOST * MOST], q[MOST], mu[MOST];
+
+static unsigned long long state_of_random = 3;
+
+static double uniform(void)
+{
+    state_of_random = state_of_random * 6364136223846793005ULL + 1442695040888963407ULL;
+    return (double)(state_of_random >> 11) / 4503599627370496.0 - 1.0;
+}
+
+static rb_friction_problem problem(int d, int contacts)
+{
+    return (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
+                                 .dimension = d,
+                                 .contacts = contacts,
+                                 .mu = mu,
+                                 .W = W,
+                                 .q = q};
+}
+
+/* What y proves, from the definition: 0 <= y'(W r + q)_N <= y'q_N + miss sum W_NN r_N. */
+static double proof(const rb_friction_problem *p, const double *y)
+{
+    const int d = p->dimension, m = d * p->contacts;
+    double load = 0.0, miss = 0.0;
+    for (int c = 0; c < p->contacts; c++) {
+        double h[3] = {0}, t = 0.0;
+        assert_true(y[c] >= 0.0);
+        load += y[c] * q[c * d];
+        for (int a = 0; a < d; a++)
+            for (int e = 0; e < p->contacts; e++)
+                h[a] -= y[e] * W[e * d + (c * d + a) * m];
+        for (int a = 1; a < d; a++)
+            t = hypot(t, h[a]);
+        const double own = W[(c * d) * (m + 1)];
+        miss = fmax(miss, (mu[c] * t - h[0]) / (own > 1e-12 ? own : 1.0));
+    }
+    return load >= 0.0 ? 0.0 : miss > 0.0 ? -load / miss : INFINITY;
+}
+
+static double given(const rb_friction_problem *p)
+{
+    double sum = 0.0;
+    for (int i = 0; i < p->dimension * p->contacts; i++)
+        sum += fabs(q[i]);
+    return sum;
+}
+
+static void check_infeasible(const rb_friction_problem *p, const char *what)
+{
+    double y[MOST], least;
+    CHECK_STATUS(rb_friction_infeasible(p, y, &least), RB_OK);
+    CHECK_MAX(1e8 * given(p), least, "%s", what);
+    CHECK_MAX(1e8 * given(p), proof(p, y), "%s", what);
+}
+
+/* Nothing gives way at a contact that closes. */
+static void nothing_can_push(void **state)
+{
+    (void)state;
+    memset(W, 0, sizeof W);
+    q[0] = -2.0, q[1] = 3.0, mu[0] = 0.5;
+    const rb_friction_problem p = problem(2, 1);
+    check_infeasible(&p, "W = 0");
+}
+
+/* A free body of mass 1 between two walls that close: their normals are opposite. */
+static void two_walls_close(void **state)
+{
+    (void)state;
+    for (int d = 2; d <= 3; d++) {
+        const int m = 2 * d;
+        memset(W, 0, sizeof W);
+        for (int a = 0; a < d; a++) {
+            W[a * (m + 1)] = W[(d + a) * (m + 1)] = 1.0;
+            W[a + (d + a) * m] = W[d + a + a * m] = a ? 1.0 : -1.0;
+        }
+        for (int k = 0; k < m; k++)
+            q[k] = 0.3 * k;
+        q[0] = -1.0, q[d] = -0.5, mu[0] = mu[1] = 0.7;
+        const rb_friction_problem p = problem(d, 2);
+        check_infeasible(&p, "walls");
+        q[0] = 0.6; /* one of them opens faster */
+        double y[2], least;
+        CHECK_STATUS(rb_friction_infeasible(&p, y, &least), RB_OK);
+        CHECK_MAX(least, 1e8 * given(&p), "no proof where there is a solution");
+    }
+}
+
+/* W = G G' with G' y_N = 0 for a given y >= 0, and y'q_N < 0; without the latter every
+ * such problem has a solution, as W is then positive on what q asks for. */
+static void planted_proofs_are_found(void **state)
+{
+    (void)state;
+    static double G[MOST * MOST];
+    for (int k = 0; k < 40; k++) {
+        const int d = 2 + k % 2, nc = 2 + k % 12, m = d * nc, n = m - 1;
+        double plan[MOST] = {0}, size = 0.0, load = 0.0;
+        for (int c = 0; c < nc; c++) {
+            plan[c * d] = fmax(0.0, uniform() + 0.5);
+            size += plan[c * d] * plan[c * d];
+            mu[c] = 0.5 + 0.5 * uniform();
+        }
+        if (size == 0.0)
+            continue;
+        for (int j = 0; j < n; j++) {
+            double along = 0.0;
+            for (int i = 0; i < m; i++)
+                along += (G[i + j * m] = uniform()) * plan[i];
+            for (int i = 0; i < m; i++)
+                G[i + j * m] -= along / size * plan[i];
+        }
+        for (int i = 0; i < m; i++) {
+            q[i] = uniform();
+            load += q[i] * plan[i];
+            for (int j = 0; j < m; j++) {
+                W[i + j * m] = 0.0;
+                for (int l = 0; l < n; l++)
+                    W[i + j * m] += G[i + l * m] * G[j + l * m];
+            }
+        }
+        const rb_friction_problem p = problem(d, nc);
+        for (int i = 0; i < m; i++)
+            q[i] -= (load + 1.0) / size * plan[i];
+        check_infeasible(&p, "planted");
+        for (int i = 0; i < m; i++)
+            q[i] += 2.0 / size * plan[i];
+        double y[MOST], least;
+        CHECK_STATUS(rb_friction_infeasible(&p, y, &least), RB_OK);
+        CHECK_MAX(least, 1e8 * given(&p), "problem %d has a solution", k);
+    }
+}
+
+static void global_problems_are_condensed_first(void **state)
+{
+    (void)state;
+    double y[1], least;
+    rb_friction_problem p = problem(2, 1);
+    p.form = RB_FRICTION_GLOBAL;
+    CHECK_STATUS(rb_friction_infeasible(&p, y, &least), RB_EINVAL);
+}
+
+static void short_memory_is_reported(void **state)
+{
+    (void)state;
+    memset(W, 0, sizeof W);
+    q[0] = -2.0, q[1] = 3.0, mu[0] = 0.5;
+    const rb_friction_problem p = problem(2, 1);
+    for (int i = 0;; i++) {
+        double y[1], least;
+        alloc_fail_after(i);
+        const rb_status s = rb_friction_infeasible(&p, y, &least);
+        const int refused = alloc_failed();
+        alloc_succeed();
+        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+        if (!refused)
+            break;
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nothing_can_push),
+        cmocka_unit_test(two_walls_close),
+        cmocka_unit_test(planted_proofs_are_found),
+        cmocka_unit_test(global_problems_are_condensed_first),
+        cmocka_unit_test(short_memory_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
