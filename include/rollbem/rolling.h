@@ -618,6 +618,19 @@ typedef struct {
     int *inside;           /* nx x ny; owned */
 } rb_rolling_stress_grid;
 
+/* Shakedown of A, a half-plane that is rolled over again and again (theory.md S1): the yield
+ * stress in shear k that it needs to end elastic, where, and the residual stress along x
+ * that rolling leaves there. */
+typedef struct {
+    double shear_yield; /* k [stress]; p0/k is 4 under Hertz's pressure without friction */
+    double x, y;
+    double residual; /* [stress] */
+} rb_rolling_shakedown;
+
+/* RB_EINVAL: a wheel, a layer, a body that relaxes; RB_NO_CONTACT, RB_ENOMEM. */
+rb_status rb_rolling_shakedown_find(const rb_rolling_model *model,
+                                    rb_rolling_shakedown *shakedown, rb_message *why);
+
 /* Over the same width and depth as the maxima; nx, ny >= 2.  grid: overwritten. */
 rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny,
                                     double depth, rb_rolling_stress_grid *grid,

@@ -141,8 +141,43 @@ static void below_sliding(rb_verify *v)
                       "full sliding: its side");
 }
 
+/* Johnson's shakedown map (S1): k/p0 without friction, and at full sliding with friction
+ * on A towards +x, by McEwen's stresses on a grid of 1e-3 a; from mu = 0.367 on the
+ * surface, 1/mu. */
+static void shakedown(rb_verify *v)
+{
+    static const double mu[] = {0.0, 0.1, 0.2, 0.3, 0.5},
+                        wanted[] = {4.0, 3.564233, 3.202365, 2.899578, 2.0};
+    for (int k = 0; k < 5; k++) {
+        rb_rolling_model model = {0};
+        rb_rolling_solution s = {0};
+        rb_rolling_shakedown limit = {0};
+        rb_message why = {""};
+        rb_rolling_case rc = rb_verify_uncoupled();
+        rc.a.poisson = 0.3;
+        rc.b = rc.a;
+        rc.b.radius = INFINITY;
+        rc.elastic_b = 1;
+        rc.mu = mu[k];
+        rc.formulation = RB_STEADY;
+        rc.creep = -1.0;
+        rb_status status = rb_rolling_solve_model(&rc, &model, &s, &why);
+        if (status == RB_OK)
+            status = rb_rolling_shakedown_find(&model, &limit, &why);
+        rb_verify_note(v, status, &why);
+        rb_verify_compare(
+            v,
+            rb_closed_hertz_max_pressure(s.normal_load, s.hertz_half_width) /
+                limit.shear_yield,
+            wanted[k], 0.01, RELATIVE, "shakedown: p0/k at full sliding, mu = %g", mu[k]);
+        rb_rolling_solution_free(&s);
+        rb_rolling_model_free(&model);
+    }
+}
+
 void rb_verify_bodies(rb_verify *v)
 {
+    shakedown(v);
     ring(v);
     below_hertz(v);
     below_sliding(v);

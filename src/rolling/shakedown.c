@@ -1,0 +1,118 @@
+/* Shakedown of a body that is rolled over again and again (theory.md S1), from the
+ * elastic stress below the contact. */
+#include "rolling/internal.h"
+
+#include <stdlib.h>
+
+enum { ACROSS = 161, DEPTHS = 40, HALVINGS = 40 };
+
+/* Places of one depth, from a half-width before the contact to one behind it. */
+typedef struct {
+    const rb_rolling_model *model;
+    double from, to;
+    double xy[2 * ACROSS];
+    rb_rolling_stress at[ACROSS];
+} row;
+
+/* What Tresca's body needs with the residual stress 2 c: the largest radius of the
+ * circles of Mohr. */
+static double needed_with(const row *r, double c, double *x)
+{
+    double most = 0.0;
+    for (int i = 0; i < ACROSS; i++) {
+        const rb_rolling_stress *s = &r->at[i];
+        const double radius = hypot(0.5 * (s->sxx - s->syy) + c, s->sxy);
+        if (radius > most) {
+            most = radius;
+            *x = s->x;
+        }
+    }
+    return most;
+}
+
+/* Golden section of a convex function. */
+static double best_residual(const row *r, double low, double high)
+{
+    const double part = 0.5 * (sqrt(5.0) - 1.0);
+    double x;
+    for (int k = 0; k < 2 * HALVINGS; k++) {
+        const double a = high - part * (high - low), b = low + part * (high - low);
+        if (needed_with(r, a, &x) <= needed_with(r, b, &x))
+            high = b;
+        else
+            low = a;
+    }
+    return 0.5 * (low + high);
+}
+
+/* The yield stress in shear that the depth y needs. */
+static rb_status needed_at(row *r, double y, rb_rolling_shakedown *k)
+{
+    double largest = 0.0;
+    for (int i = 0; i < ACROSS; i++) {
+        r->xy[2 * i] = r->from + (r->to - r->from) * i / (ACROSS - 1);
+        r->xy[2 * i + 1] = y;
+    }
+    const rb_status s = rb_rolling_stress_at(r->model, ACROSS, r->xy, r->at, NULL);
+    for (int i = 0; i < ACROSS && s == RB_OK; i++)
+        largest = fmax(largest, 0.5 * fabs(r->at[i].sxx - r->at[i].syy));
+    k->y = y;
+    k->residual = s == RB_OK ? 2.0 * best_residual(r, -largest, largest) : 0.0;
+    k->shear_yield = s == RB_OK ? needed_with(r, 0.5 * k->residual, &k->x) : 0.0;
+    return s;
+}
+
+/* Between the depths beside the best one of a list, again by golden section. */
+static rb_status search_depth(row *r, double low, double high, rb_rolling_shakedown *best)
+{
+    const double part = 0.5 * (sqrt(5.0) - 1.0);
+    rb_status s = RB_OK;
+    for (int k = 0; k < HALVINGS / 2 && s == RB_OK; k++) {
+        rb_rolling_shakedown a, b;
+        s = needed_at(r, high - part * (high - low), &a);
+        if (s == RB_OK)
+            s = needed_at(r, low + part * (high - low), &b);
+        if (s != RB_OK)
+            break;
+        if (a.shear_yield >= b.shear_yield)
+            high = b.y;
+        else
+            low = a.y;
+        const rb_rolling_shakedown *here = a.shear_yield >= b.shear_yield ? &a : &b;
+        if (here->shear_yield > best->shear_yield)
+            *best = *here;
+    }
+    return s;
+}
+
+rb_status rb_rolling_shakedown_find(const rb_rolling_model *model,
+                                    rb_rolling_shakedown *shakedown, rb_message *why)
+{
+    const rb_rolling_shakedown none = {0};
+    row *r = calloc(1, sizeof *r);
+    double from, to;
+
+    *shakedown = none;
+    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &from, &to);
+    rb_status s = !r ? RB_ENOMEM : rb_rolling_stress_check(&model->rc, why);
+    if (s == RB_OK && model->rc.a.support != RB_BEM_HALFPLANE)
+        s = rb_fail(why, RB_EINVAL,
+                    "shakedown: of a half-plane, whose every place sees the same");
+    if (s == RB_OK && !(from < to))
+        s = rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
+    if (s == RB_OK) {
+        const double a = 0.5 * (to - from), step = 2.0 * a / DEPTHS;
+        *r = (row){.model = model, .from = from - a, .to = to + a};
+        for (int k = 0; k <= DEPTHS && s == RB_OK; k++) {
+            rb_rolling_shakedown here;
+            s = needed_at(r, k * step, &here);
+            if (s == RB_OK && here.shear_yield > shakedown->shear_yield)
+                *shakedown = here;
+        }
+        if (s == RB_OK)
+            s = search_depth(r, fmax(0.0, shakedown->y - step), shakedown->y + step,
+                             shakedown);
+    }
+    free(r);
+    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the shakedown limit") : s;
+}

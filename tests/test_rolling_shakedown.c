@@ -1,0 +1,121 @@
+/* Shakedown of a half-plane that is rolled over (S1), against McEwen's closed stress
+ * below Hertz's pressure with friction (Johnson, Contact Mechanics, 4.2 and 7.1). */
+#include "check.h"
+#include "rollbem/rolling.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { N = 1201 };
+
+/* (sxx - szz)/2 and sxz at depth z, a = p0 = 1, friction mu p towards +x. */
+static void stress_below(double mu, double x, double z, double *half, double *shear)
+{
+    const double A = 1.0 - x * x + z * z, B = sqrt(A * A + 4.0 * x * x * z * z);
+    const double m2 = fmax(0.5 * (B + A), 0.0), n2 = fmax(0.5 * (B - A), 0.0);
+    const double m = sqrt(m2), n = copysign(sqrt(n2), x), d = fmax(m2 + n2, 1e-12);
+    const double sxx = -(m * (1.0 + (z * z + n2) / d) - 2.0 * z),
+                 szz = -m * (1.0 - (z * z + n2) / d), sxz = -n * (m2 - z * z) / d;
+    const double sxx_q = n * (2.0 - (z * z - m2) / d) - 2.0 * x;
+
+    *half = 0.5 * (sxx + mu * sxx_q - szz - mu * sxz);
+    *shear = sxz + mu * sxx;
+}
+
+/* Smallest radius about the axis that holds the path at this depth: by scanning centres.
+ */
+static double needed_at(double mu, double z)
+{
+    static double s[N], t[N];
+    double least = INFINITY;
+    for (int i = 0; i < N; i++)
+        stress_below(mu, -2.0 + 4.0 * i / (N - 1), z, &s[i], &t[i]);
+    for (int k = -400; k <= 400; k++) {
+        double most = 0.0;
+        for (int i = 0; i < N; i++)
+            most = fmax(most, hypot(s[i] + 0.001 * k, t[i]));
+        least = fmin(least, most);
+    }
+    return least;
+}
+
+static rb_rolling_case sliding(double mu)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.poisson = 0.3;
+    rc.a.radius = 1e4;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.half_width = 1.0;
+    rc.mu = mu;
+    rc.formulation = RB_STEADY;
+    rc.creep = -1.0;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 60;
+    return rc;
+}
+
+static rb_status limit_of(const rb_rolling_case *rc, rb_rolling_shakedown *limit,
+                          double *p0, rb_message *why)
+{
+    rb_rolling_model model;
+    rb_rolling_solution s;
+    rb_status status = rb_rolling_solve_model(rc, &model, &s, why);
+    *p0 = 2.0 * s.normal_load / (acos(-1.0) * s.hertz_half_width);
+    if (status == RB_OK)
+        status = rb_rolling_shakedown_find(&model, limit, why);
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+    return status;
+}
+
+static void johnsons_map_is_met(void **state)
+{
+    (void)state;
+    for (int k = 0; k <= 5; k++) {
+        const double mu = 0.1 * k;
+        const rb_rolling_case rc = sliding(mu);
+        rb_rolling_shakedown limit;
+        rb_message why = {""};
+        double p0, want = 0.0;
+        CHECK_STATUS(limit_of(&rc, &limit, &p0, &why), RB_OK);
+        for (int j = 0; j <= 60; j++)
+            want = fmax(want, needed_at(mu, 0.01 * j));
+        CHECK_REL(limit.shear_yield / p0, want, 3e-3, "mu = %g", mu);
+        if (k == 0) {
+            CHECK_REL(p0 / limit.shear_yield, 4.0, 1e-3, "free rolling");
+            CHECK_ABS(limit.y, 0.5, 0.02, "its depth");
+        }
+        if (k >= 4)
+            CHECK_ABS(limit.y, 0.0, 0.02, "mu = %g: at the surface", mu);
+    }
+}
+
+static void what_is_no_half_plane_is_refused(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = sliding(0.1);
+        rb_rolling_shakedown limit;
+        rb_message why = {""};
+        double p0;
+        if (k)
+            rc.a.support = RB_BEM_HUB;
+        else
+            rc.a.layer = 2.0;
+        CHECK_STATUS(limit_of(&rc, &limit, &p0, &why), RB_EINVAL);
+        assert_non_null(strstr(why.text, k ? "half-plane" : "layer"));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(johnsons_map_is_met),
+        cmocka_unit_test(what_is_no_half_plane_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
