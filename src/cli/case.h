@@ -10,7 +10,15 @@
     "edge is at +x. Creepage xi = (V_A - V_B)/|V| > 0: A's surface slides towards +x\n"  \
     "over the ground (a braked wheel) and the friction q on A points to -x, Q < 0.\n"    \
     "Pressure p >= 0. Loads per unit length. Units: mm, N, MPa, unless --units says\n"   \
-    "others or a value its own (--young 210GPa); columns name theirs."
+    "others or a value its own (--young 210GPa); columns name theirs.\n"                 \
+    "\n"                                                                                 \
+    "    y, n                   .---.         P, approach: A moves down\n"               \
+    "     |                   /       \\\n"                                              \
+    "     |                  |    A    |  -->  rolls towards +x\n"                       \
+    "     +--- x, t           \\       /\n"                                              \
+    "                           '-^-'         p >= 0 pushes A up\n"                      \
+    "    ==============================================================\n"               \
+    "     B                      -->          q > 0, Q > 0: friction on A"
 
 #define CLI_CASE_NOTES                                                                   \
     "A case file holds the same names as keys, in the sections named in brackets or\n"   \
