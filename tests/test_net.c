@@ -30,6 +30,7 @@ enum {
     TANGENTIAL,
     GAP,
     IRREGULARITY,
+    WORN,
     MU,
     SHAPE,
     HEAT,
@@ -104,6 +105,7 @@ static const struct {
      "gap",
      {{"file", "--gap gap.txt"}, {"smoothed", "--gap gap.txt --gap-smoothing 1e-5"}}},
     {"irregularity", NULL, {{"none", ""}, {"flat", "--irregularity flat.txt"}}},
+    {"worn", NULL, {{"none", ""}, {"scar", "--worn worn.txt"}}},
     {"mu",
      NULL,
      {{"0", "--mu 0"}, {"1e-3", "--mu 1e-3"}, {"0.3", "--mu 0.3"}, {"3", "--mu 3"}}},
@@ -201,7 +203,8 @@ static const char *const options_elsewhere[] = {"units", /* tests/test_units.c *
                                                 "temperature",
                                                 "conductivity-b",
                                                 "heat-capacity-b",
-                                                "temperature-b"};
+                                                "temperature-b",
+                                                "worn"};
 
 enum { LEVELS = 40 };
 static level levels[FACTORS][LEVELS];
@@ -720,7 +723,7 @@ static int is_known(const char *name, const int *row)
 {
     static const char *const ours[] = {
         "json",     "json.err",     "out.table", "table.err",  "verdict", "verdict.err",
-        "flat.txt", "controls.txt", "gap.txt",   "points.txt", "again",   "again.err"};
+        "flat.txt", "worn.txt", "controls.txt", "gap.txt",   "points.txt", "again",   "again.err"};
     for (size_t k = 0; k < sizeof ours / sizeof ours[0]; k++)
         if (strcmp(name, ours[k]) == 0)
             return 1;
@@ -767,6 +770,7 @@ static void empty_folder(void)
 {
     assert_int_equal(system("rm -rf ./*"), 0);
     write_gap();
+    write_file("worn.txt", "-0.9 0\n-0.3 2e-4\n0.2 3e-4\n0.8 0\n");
     write_file("flat.txt", "0.8 0\n1 4e-5\n1.2 1e-4\n1.4 4e-5\n1.6 0\n");
     write_file("points.txt", "0 0.5\n0.3 0.8\n-1 1.2\n");
 }

@@ -197,6 +197,7 @@ typedef enum {
     RB_CASE_CURVE,  /* a creep curve: steady by default, several mu */
     RB_CASE_SPEEDS, /* a curve over the speed: the same */
     RB_CASE_STRESS, /* the stress below the surface */
+    RB_CASE_WEAR,   /* what sliding, fretting or rolling takes off */
     RB_CASE_STUDY   /* the base of a parameter study */
 } rb_case_purpose;
 
@@ -263,6 +264,7 @@ typedef struct {
     rb_case_memory memory_a, memory_b;
     rb_numbers mus;                /* more than one: for curves */
     const char *irregularity_file; /* or NULL */
+    const char *worn_file;         /* or NULL */
     const char *history_file;      /* or NULL */
     rb_rolling_program program;    /* its history; n = 0: none */
     int error;                     /* 1: estimate discretisation errors */

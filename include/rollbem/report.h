@@ -159,6 +159,37 @@ rb_status rb_report_picture(FILE *out, rb_report_picture_kind kind,
                             const rb_rolling_case *rc, const rb_rolling_solution *s,
                             rb_message *why);
 
+/* ---- Wear -----------------------------------------------------------------------------
+ */
+
+enum { RB_REPORT_WEAR_PROFILES = 6 };
+
+/* Pressure and worn depth after a step. */
+typedef struct {
+    int n;
+    double way;
+    double *x, *p, *depth; /* owned: x holds them all */
+} rb_report_wear_profile;
+
+/* A run and what its picture shows of the steps on the way. */
+typedef struct {
+    const rb_rolling_wear_history *history; /* borrowed */
+    int slides, rolls;
+    int profiles;
+    rb_report_wear_profile profile[RB_REPORT_WEAR_PROFILES];
+} rb_report_wear;
+
+rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w, const char *command,
+                               const rb_report_style *style);
+struct json_t *rb_report_json_wear(const rb_report_wear *w);
+void rb_report_wear_summary(FILE *out, const rb_report_wear *w);
+/* Keeps the step for the picture where it is one of those shown.  RB_ENOMEM. */
+rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
+                              const rb_rolling_wear_history *h, int step, int steps);
+rb_status rb_report_wear_picture(FILE *out, rb_report_picture_kind kind,
+                                 const rb_report_wear *w, rb_message *why);
+void rb_report_wear_free(rb_report_wear *w);
+
 /* ---- Creep curves ------------------------------------------------------------------ */
 
 enum { RB_REPORT_CURVES = 16 };

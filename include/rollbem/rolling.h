@@ -115,6 +115,10 @@ typedef struct {
     int irregularity_n;
     const double *irregularity_x, *irregularity_gap; /* [length]; borrowed */
     double passed;                                   /* [length]; histories set it */
+    /* What is worn off the surfaces in the contact frame, added to the gap: linear
+     * between n points with x increasing, nothing beyond them. */
+    int worn_n;
+    const double *worn_x, *worn_depth; /* [length]; borrowed */
 
     /* Compliance of an interface between the surfaces, which yields under each point by
      * the traction there alone [length/stress]; 0: none. */
@@ -259,6 +263,7 @@ typedef struct {
     double *slip;    /* relative slip velocity [-]: (12) in static, shift/distance else */
     int *zone;       /* rb_contact_zone */
     double *temperature, *temperature_b; /* of the surfaces; NULL where not asked for */
+    double *worn;                        /* depth [length]; NULL where nothing is worn */
 
     int patches;
     rb_rolling_patch *patch; /* in the order of increasing x; owned */
@@ -342,7 +347,7 @@ typedef enum {
 
 /* Which cases have a result at all.  Of the others a number is NAN, a column NULL, and
  * reports leave both out. */
-typedef enum { RB_FOR_ALL, RB_FOR_HEAT } rb_rolling_condition;
+typedef enum { RB_FOR_ALL, RB_FOR_HEAT, RB_FOR_WORN } rb_rolling_condition;
 
 /* One result: whatever shows results, studies and error bars are made from these. */
 typedef struct {
@@ -372,6 +377,8 @@ extern const rb_rolling_results rb_rolling_patch_scalars;
 /* Columns of rb_rolling_history, an entry per step, and of rb_rolling_curve, an entry per
  * creepage. */
 extern const rb_rolling_results rb_rolling_history_columns, rb_rolling_curve_columns;
+/* Of rb_rolling_wear_history, an entry per step. */
+extern const rb_rolling_results rb_rolling_wear_columns;
 /* Of rb_rolling_stress, at a point. */
 extern const rb_rolling_results rb_rolling_stress_scalars;
 
@@ -517,6 +524,58 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
                                  const rb_rolling_program *program, rb_rolling_step *step,
                                  void *context, rb_rolling_model *model,
                                  rb_rolling_history *history, rb_message *why);
+
+/* ---- Wear -----------------------------------------------------------------------------
+ */
+
+typedef enum {
+    RB_WEAR_ARCHARD,    /* depth = K int p |ds| */
+    RB_WEAR_DISSIPATION /* depth = K int |q| |ds| */
+} rb_rolling_wear_law;
+
+/* What wears A: sliding over B towards +x (static, `slides`); fretting between the
+ * case's own shift or force and its opposite (static); or steady rolling, where a round
+ * wheel stays round and its radius shrinks. */
+typedef struct {
+    rb_rolling_wear_law law;
+    double coefficient; /* K [1/stress] */
+    int slides;
+    double way;     /* slid in all [length]; or cycles, or turns */
+    int steps;      /* equal parts of it, each implicit and stable however long it is */
+    int increments; /* fretting: of a quarter of a cycle */
+} rb_rolling_wear;
+
+/* One entry per step, the first before anything is worn; owned. */
+typedef struct {
+    int n;
+    double *way;       /* slid so far [length]; or cycles, or turns */
+    double *worn;      /* volume per unit width [length^2] */
+    double *max_depth; /* [length] */
+    double *radius;    /* of A [length] */
+    double *work;      /* of friction: per slid or rolled length [force/length], or of a
+                          cycle [force] */
+    double *approach, *normal_load, *max_pressure, *contact_from, *contact_to;
+    double *residual; /* of the contact under the worn gap */
+    double radius_before;
+} rb_rolling_wear_history;
+
+void rb_rolling_wear_history_free(rb_rolling_wear_history *history);
+
+/* Sees the solution after each step (0: before the first one); a value other than 0 ends
+ * the run. */
+typedef int rb_rolling_wear_step(const rb_rolling_solution *solution,
+                                 const rb_rolling_wear_history *history, int step,
+                                 int steps, void *context);
+
+/* On equal elements that stay where they are; on half-planes more of them are added where
+ * the scar outgrows an automatic zone.  last: the solution after the last finished step,
+ * with what is worn off as a column.  history and last: overwritten, hold what there is
+ * also on RB_INTERRUPTED and other positive ends; free them in any case.  RB_EINVAL: what
+ * wears nothing. */
+rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *wear,
+                              rb_rolling_wear_step *see, void *context,
+                              rb_rolling_wear_history *history, rb_rolling_solution *last,
+                              rb_message *why);
 
 /* ---- Creep curves
  * ---------------------------------------------------------------------- */

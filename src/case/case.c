@@ -51,6 +51,7 @@ rb_case *rb_case_copy(const rb_case *c)
         return NULL;
     *copy = *c;
     copy->gap.borrowed = copy->irregularity.borrowed = copy->history.borrowed = 1;
+    copy->worn.borrowed = 1;
     copy->profile.borrowed = 1;
     copy->text = NULL;
     copy->texts = 0;
@@ -78,6 +79,7 @@ void rb_case_free(rb_case *c)
     free_profile(&c->profile);
     free_table(&c->gap);
     free_table(&c->irregularity);
+    free_table(&c->worn);
     free_table(&c->history);
     for (int i = 0; i < c->texts; i++)
         free(c->text[i]);
@@ -250,6 +252,8 @@ rb_status rb_case_blame(const rb_case *c, rb_status s, rb_message *why)
         blamed = blame_row(&c->gap, "gap", why);
     if (blamed == RB_OK)
         blamed = blame_row(&c->irregularity, "irregularity", why);
+    if (blamed == RB_OK)
+        blamed = blame_row(&c->worn, "worn", why);
     if (blamed != RB_OK || !all_from_file(c))
         return blamed != RB_OK ? blamed : s;
     const rb_message said = *why;
@@ -484,6 +488,21 @@ static rb_status read_irregularity(rb_case *c, rb_message *why)
     return RB_OK;
 }
 
+static rb_status read_worn(rb_case *c, rb_message *why)
+{
+    rb_settled_case *settled = &c->settled;
+    const rb_io_table *t = &c->worn.table;
+    if (!settled->worn_file)
+        return RB_OK;
+    const rb_status s = read_table(&c->worn, settled->worn_file, 2, why);
+    if (s != RB_OK)
+        return s;
+    settled->rc.worn_n = t->rows;
+    settled->rc.worn_x = t->x;
+    settled->rc.worn_depth = t->x + t->rows;
+    return RB_OK;
+}
+
 /* Index of a column in rb_rolling_program_columns; -1: none has that name. */
 static int program_column(const char *name, rb_guess *guess)
 {
@@ -591,7 +610,7 @@ static void choose_mesh(rb_case *c)
     rb_rolling_case *rc = &c->settled.rc;
     const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
     if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper &&
-        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE)
+        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->settled.worn_file)
         rc->mesh = rc->contact_elements < RB_ROLLING_LARGE &&
                            rc->slip_operator == RB_SLIP_UPSTREAM
                        ? RB_MESH_FITTED
@@ -655,6 +674,11 @@ static const struct {
     {RB_CASE_SPEEDS, "accuracy", "of single cases; a curve has --error"},
     {RB_CASE_STRESS, "conductivity", "stress has no temperatures"},
     {RB_CASE_STRESS, "accuracy", "stress has error bars, but does not refine"},
+    {RB_CASE_WEAR, "error", "wear has no error bars"},
+    {RB_CASE_WEAR, "accuracy", "wear does not refine"},
+    {RB_CASE_WEAR, "history", "the cycles have their own"},
+    {RB_CASE_WEAR, "increments", "the cycles have their own, --quarter"},
+    {RB_CASE_WEAR, "conductivity", "wear has no temperatures"},
     {RB_CASE_STUDY, "error", "studies have no error bars"},
     {RB_CASE_STUDY, "accuracy", "studies have no error bars"},
     {RB_CASE_STUDY, "history", "a study has none"},
@@ -705,6 +729,8 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
         s = read_profile(c, why);
     if (s == RB_OK)
         s = read_irregularity(c, why);
+    if (s == RB_OK)
+        s = read_worn(c, why);
     if (s == RB_OK)
         s = check_purpose(c, why);
     if (s != RB_OK)

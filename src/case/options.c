@@ -151,6 +151,11 @@ const rb_option rb_case_table[] = {
         "rides with the surface, towards -x",
         .unset = "none", .file = RB_FILE_READ),
 
+    RB_TEXT_LINE("worn", PLACE(worn_file), "FILE",
+                 "rows x, depth [mm] of what is worn off in the contact frame, added to "
+                 "the gap (rollbem wear --profile writes it)",
+                 .unset = "none", .file = RB_FILE_READ),
+
     RB_GROUP_LINE("friction", "Friction"),
     RB_NUMBER_LINE("mu", RC(mu), "-", RB_FROM(0),
                    "Coulomb's coefficient; curve: several with commas between",

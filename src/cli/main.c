@@ -20,6 +20,7 @@ static const struct {
     {"sweep", cli_sweep,
      "parameter studies over all processors and, under mpirun, machines"},
     {"stress", cli_stress, "the stress below the surface: table, pictures, ParaView"},
+    {"wear", cli_wear, "what sliding, fretting or rolling takes off"},
     {"verify", cli_verify,
      "every reference that the program should meet, and how it does"},
     {"lcp", cli_lcp, "solves complementarity problems and bimatrix games from files"},

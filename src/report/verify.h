@@ -36,7 +36,7 @@ rb_rolling_case rb_verify_aluminium_on_steel(double mu);
 void rb_verify_contact(rb_verify *v); /* Hertz, Carter, Cattaneo, Bentall-Johnson */
 void rb_verify_bodies(rb_verify *v);  /* the elastic body alone, and below the contact */
 void rb_verify_rolling(rb_verify *v); /* transients, dissipation */
-void rb_verify_interface(rb_verify *v); /* heat */
+void rb_verify_interface(rb_verify *v); /* heat, wear */
 void rb_verify_accuracy(
     rb_verify *v); /* how near fitted elements come, by their number */
 

@@ -1,4 +1,4 @@
-/* What happens between the bodies: heat. */
+/* What happens between the bodies: heat, wear. */
 #include "report/verify.h"
 
 #include "rollbem/closed_forms.h"
@@ -31,8 +31,37 @@ static void flash_temperature(rb_verify *v, int elements, double bound)
     rb_rolling_solution_free(&s);
 }
 
+/* A cylinder that slides until it has lost 400 times the gap at the edge of Hertz's
+ * contact: V = K P S, and p = P/(2b) with V = 2 b^3/(3R). */
+static void wear(rb_verify *v, int steps)
+{
+    static rb_message why;
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_wear_history h;
+    rb_rolling_solution last;
+    const double R = rc.a.radius, a = rc.half_width;
+    const double P = rb_closed_hertz_load(a, R, rb_rolling_derive(&rc).modulus);
+    rb_rolling_wear w = {.slides = 1, .coefficient = 1e-9, .steps = steps};
+    w.way = 200.0 * a * a / R / (w.coefficient * rb_closed_hertz_max_pressure(P, a));
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.contact_elements = 60;
+    why.text[0] = '\0';
+    const rb_status s = rb_rolling_wear_run(&rc, &w, NULL, NULL, &h, &last, &why);
+    rb_verify_note(v, s, &why);
+    const double volume = w.coefficient * P * w.way;
+    rb_verify_compare(v, s == RB_OK ? h.worn[h.n - 1] : NAN, volume, 1e-12, RELATIVE,
+                      "wear of a cylinder, %d steps: volume K P S", steps);
+    rb_verify_compare(v, s == RB_OK ? last.half_width : NAN, cbrt(1.5 * R * volume), 0.03,
+                      RELATIVE, "wear of a cylinder, %d steps: uniform pressure, b",
+                      steps);
+    rb_rolling_wear_history_free(&h);
+    rb_rolling_solution_free(&last);
+}
+
 void rb_verify_interface(rb_verify *v)
 {
     flash_temperature(v, 50, 5e-4);
     flash_temperature(v, 200, 6.3e-5);
+    wear(v, 1);
+    wear(v, 20);
 }

@@ -432,6 +432,16 @@ static rb_status check_irregularity(const rb_rolling_case *rc, rb_message *why)
     return s;
 }
 
+static rb_status check_worn(const rb_rolling_case *rc, rb_message *why)
+{
+    for (int i = 0; i < rc->worn_n; i++)
+        if (!isfinite(rc->worn_x[i]) || !isfinite(rc->worn_depth[i]) ||
+            (i > 0 && !(rc->worn_x[i] > rc->worn_x[i - 1])))
+            return rb_fail(why, RB_EINVAL,
+                           "worn: row %d: expected finite numbers, x increasing", i + 1);
+    return RB_OK;
+}
+
 static rb_status check_increments(const rb_rolling_case *rc, rb_message *why)
 {
     if (rc->increments < 0 || rc->increments > 1000000)
@@ -530,6 +540,8 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
         s = check_gap(rc, why);
     if (s == RB_OK)
         s = check_irregularity(rc, why);
+    if (s == RB_OK)
+        s = check_worn(rc, why);
     if (s == RB_OK)
         s = check_increments(rc, why);
     if (s == RB_OK)

@@ -278,7 +278,9 @@ rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *wh
 /* ---- mesh.c ---------------------------------------------------------------------------
  */
 
-/* The undeformed gap of the profile at x. */
+/* What is worn off at x. */
+double rb_rolling_worn_depth(const rb_rolling_case *rc, double x);
+/* The undeformed gap of the profile at x, with what is worn off. */
 double rb_rolling_initial_gap(const rb_rolling_case *rc, double x);
 /* The same at n places, with the irregularity that has come there.  RB_ENOMEM. */
 rb_status rb_rolling_gap_along(const rb_rolling_case *rc, int n, const double *x,

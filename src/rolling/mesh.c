@@ -19,7 +19,20 @@ void rb_rolling_mesh_free(rb_rolling_mesh *mesh)
     memset(mesh, 0, sizeof *mesh);
 }
 
-double rb_rolling_initial_gap(const rb_rolling_case *rc, double x)
+double rb_rolling_worn_depth(const rb_rolling_case *rc, double x)
+{
+    const int n = rc->worn_n;
+    const double *row = rc->worn_x;
+
+    if (n == 0 || x < row[0] || x > row[n - 1])
+        return 0.0;
+    const int i = (int)gsl_interp_bsearch(row, x, 0, (size_t)n - 1);
+    const double t = i + 1 < n ? (x - row[i]) / (row[i + 1] - row[i]) : 0.0;
+    return t > 0.0 ? (1.0 - t) * rc->worn_depth[i] + t * rc->worn_depth[i + 1]
+                   : rc->worn_depth[i];
+}
+
+static double round_gap(const rb_rolling_case *rc, double x)
 {
     switch (rc->gap) {
     case RB_GAP_TABLE:
@@ -31,6 +44,11 @@ double rb_rolling_initial_gap(const rb_rolling_case *rc, double x)
         break;
     }
     return x * x / (2.0 * rb_rolling_radius(rc));
+}
+
+double rb_rolling_initial_gap(const rb_rolling_case *rc, double x)
+{
+    return round_gap(rc, x) + rb_rolling_worn_depth(rc, x);
 }
 
 static rb_status mesh_alloc(int n, rb_rolling_mesh *mesh)
@@ -75,7 +93,7 @@ rb_status rb_rolling_gap_along(const rb_rolling_case *rc, int n, const double *x
 
 int rb_rolling_is_convex(const rb_rolling_case *rc)
 {
-    return rc->gap != RB_GAP_TABLE && rc->irregularity_n == 0;
+    return rc->gap != RB_GAP_TABLE && rc->irregularity_n == 0 && rc->worn_n == 0;
 }
 
 rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh)

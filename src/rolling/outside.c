@@ -279,22 +279,22 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The rows of the profile and of the irregularity. */
+/* The rows of the profile, of the irregularity and of what is worn. */
 typedef struct {
-    int profile, irregularity;
+    int profile, irregularity, worn;
     const double *profile_x;
 } tables;
 
 static tables tables_of(const rb_rolling_case *rc)
 {
-    tables t = {.irregularity = rc->irregularity_n};
+    tables t = {.irregularity = rc->irregularity_n, .worn = rc->worn_n};
 
     if (rc->gap == RB_GAP_TABLE)
         t.profile = rb_rolling_profile_rows(rc->profile, &t.profile_x);
     return t;
 }
 
-/* Places of both tables in order, and the undeformed gap there. */
+/* Places of all tables in order, and the undeformed gap there. */
 static rb_status unseen_places(const rb_rolling_model *model,
                                const rb_contact_state *state, int *places, double *x,
                                double *gap)
@@ -308,6 +308,8 @@ static rb_status unseen_places(const rb_rolling_model *model,
     if (t.irregularity > 0)
         *places = add_places(model, state, t.irregularity, rc->irregularity_x, rc->passed,
                              x, *places);
+    if (t.worn > 1)
+        *places = add_places(model, state, t.worn, rc->worn_x, 0.0, x, *places);
     qsort(x, (size_t)*places, sizeof *x, by_value);
     return rb_rolling_gap_along(rc, *places, x, gap);
 }

@@ -13,6 +13,7 @@
 #define PATCH(name, member, ...) OF(rb_rolling_patch, name, member, __VA_ARGS__)
 #define STEP(name, member, ...) OF(rb_rolling_history, name, member, __VA_ARGS__)
 #define STRESS(name, member, ...) OF(rb_rolling_stress, name, member, __VA_ARGS__)
+#define WEAR(name, member, ...) OF(rb_rolling_wear_history, name, member, __VA_ARGS__)
 #define POINT(name, member, ...) OF(rb_rolling_curve, name, member, __VA_ARGS__)
 
 static const rb_rolling_result scalars[] = {
@@ -117,6 +118,8 @@ static const rb_rolling_result columns[] = {
            .meaning = "of A's surface"),
     RESULT("temperature_b", temperature_b, .unit = "K", .condition = RB_FOR_HEAT,
            .meaning = "of B's surface; in contact A's"),
+    RESULT("worn", worn, .unit = "mm", .condition = RB_FOR_WORN,
+           .meaning = "depth that is worn off"),
 };
 
 /* New ones at the end: scripts count columns. */
@@ -182,6 +185,21 @@ static const rb_rolling_result points[] = {
           .meaning = "highest temperature of the surfaces in contact"),
 };
 
+static const rb_rolling_result wears[] = {
+    WEAR("way", way, .meaning = "slid so far [mm]; cycles or turns so far"),
+    WEAR("worn", worn, .unit = "mm2", .meaning = "worn volume per mm of width"),
+    WEAR("max_depth", max_depth, .unit = "mm", .meaning = "largest worn depth"),
+    WEAR("radius", radius, .unit = "mm", .meaning = "of A"),
+    WEAR("work", work,
+         .meaning = "of friction, per slid or rolled mm [N/mm] or cycle [N]"),
+    WEAR("approach", approach, .unit = "mm", .meaning = "delta"),
+    WEAR("normal_load", normal_load, .unit = "N/mm", .meaning = "P"),
+    WEAR("max_pressure", max_pressure, .unit = "MPa", .meaning = "p0"),
+    WEAR("contact_from", contact_from, .unit = "mm", .meaning = "trailing edge"),
+    WEAR("contact_to", contact_to, .unit = "mm", .meaning = "leading edge"),
+    WEAR("residual", residual, .meaning = "natural residual under the worn gap"),
+};
+
 static const rb_rolling_result patch[] = {
     PATCH("from", from, .unit = "mm", .meaning = "trailing edge"),
     PATCH("to", to, .unit = "mm", .meaning = "leading edge"),
@@ -219,6 +237,7 @@ const rb_rolling_results rb_rolling_solution_columns = TABLE(columns);
 const rb_rolling_results rb_rolling_patch_scalars = TABLE(patch);
 const rb_rolling_results rb_rolling_history_columns = TABLE(steps);
 const rb_rolling_results rb_rolling_curve_columns = TABLE(points);
+const rb_rolling_results rb_rolling_wear_columns = TABLE(wears);
 const rb_rolling_results rb_rolling_stress_scalars = TABLE(stresses);
 
 /* ---- Values ------------------------------------------------------------------------ */
@@ -243,7 +262,15 @@ static void *column_of(const rb_rolling_result *r, const void *owner)
 
 int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc)
 {
-    return r->condition == RB_FOR_ALL || rb_rolling_has_heat(rc);
+    switch (r->condition) {
+    case RB_FOR_HEAT:
+        return rb_rolling_has_heat(rc);
+    case RB_FOR_WORN:
+        return rc->worn_n > 0;
+    case RB_FOR_ALL:
+        break;
+    }
+    return 1;
 }
 
 int rb_rolling_has_column(const rb_rolling_result *r, const void *owner)

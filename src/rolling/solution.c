@@ -230,6 +230,8 @@ static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s
     rb_contact_kinematics(&model->problem, state, s->gap, s->slip);
     memcpy(s->un, w, (size_t)n * sizeof(double));
     memcpy(s->ut, w + m, (size_t)n * sizeof(double));
+    for (int i = 0; i < n && s->worn; i++)
+        s->worn[i] = rb_rolling_worn_depth(&model->rc, s->x[i]);
     set_slip(model, w + m, s);
     free(w);
     return RB_OK;

@@ -1,0 +1,418 @@
+/* Wear: a loop around contact problems, each of which takes off what it wears itself
+ * (theory.md 4.9). */
+#include "rolling/internal.h"
+
+#include <gsl/gsl_math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void rb_rolling_wear_history_free(rb_rolling_wear_history *h)
+{
+    rb_rolling_columns_free(&rb_rolling_wear_columns, h);
+    memset(h, 0, sizeof *h);
+}
+
+/* ---- What is at work ------------------------------------------------------------------
+ */
+
+typedef struct {
+    const rb_rolling_wear *wear;
+    rb_rolling_case rc;     /* on the mesh at hand, with what is worn off so far */
+    rb_rolling_model model; /* mesh, bodies and the contact after the last step */
+    int n;
+    double *x, *depth;  /* n: midpoints, and what is worn off there [length] */
+    double *compliance; /* n: depth that a step wears per pressure [length/stress] */
+    double *path;       /* n: way that the surfaces slide in a cycle [length] */
+    double *F;          /* flexibility with the compliance on its diagonal */
+    double work;        /* of friction in a cycle [force] */
+    rb_rolling_wear_history *history;
+    rb_rolling_solution *last;
+    rb_rolling_wear_step *see;
+    void *context;
+} run;
+
+static void run_free(run *r)
+{
+    rb_rolling_model_free(&r->model);
+    free(r->x);
+    free(r->depth);
+    free(r->compliance);
+    free(r->path);
+    free(r->F);
+}
+
+/* Arrays for the mesh of the model. */
+static rb_status take_mesh(run *r)
+{
+    const size_t n = (size_t)r->model.mesh.n, m = n + 1;
+    double **const arrays[] = {&r->x, &r->depth, &r->compliance, &r->path};
+    int complete = 1;
+
+    r->n = (int)n;
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
+        *arrays[k] = rb_alloc(n, 1);
+        complete = complete && *arrays[k];
+    }
+    r->F = rb_alloc(2 * m, 2 * n);
+    if (!complete || !r->F)
+        return RB_ENOMEM;
+    memcpy(r->x, r->model.bodies.f.x, n * sizeof *r->x);
+    for (size_t i = 0; i < n; i++)
+        r->depth[i] = rb_rolling_worn_depth(&r->rc, r->x[i]);
+    return RB_OK;
+}
+
+static void wear_on_mesh(run *r)
+{
+    r->rc.worn_n = r->n;
+    r->rc.worn_x = r->x;
+    r->rc.worn_depth = r->depth;
+}
+
+/* The contact at rest, on equal elements that stay: those of an automatic zone, with
+ * x = 0 in their middle, as a given one has. */
+static rb_status press(run *r, rb_message *why)
+{
+    rb_rolling_case at_rest = r->rc;
+    const rb_rolling_mesh *mesh = &r->model.mesh;
+
+    at_rest.formulation = RB_STATIC;
+    at_rest.increments = 1;
+    at_rest.shift = at_rest.force = at_rest.force_ratio = NAN;
+    at_rest.creep = at_rest.creep_ratio = NAN;
+    if (r->wear->slides && at_rest.mu > 0.0)
+        at_rest.force_ratio = -1.0; /* A slides towards +x */
+    else
+        at_rest.shift = 0.0;
+    rb_status s = rb_rolling_model_create(&at_rest, &r->model, why);
+    if (s == RB_OK && at_rest.zone == 0.0) {
+        at_rest.zone = fmax(-mesh->ends[0], mesh->ends[mesh->n]);
+        at_rest.contact_elements = mesh->n;
+        rb_rolling_model_free(&r->model);
+        s = rb_rolling_model_create(&at_rest, &r->model, why);
+    }
+    r->rc.zone = at_rest.zone;
+    r->rc.contact_elements = mesh->n;
+    return s == RB_OK ? take_mesh(r) : s;
+}
+
+/* As many more elements of the same length on either side; what is worn stays where it
+ * is. */
+static rb_status widen(run *r, rb_message *why)
+{
+    const int n = r->n, more = n / 4 + 2;
+    run wider = *r;
+
+    if (r->model.bodies.system_a || r->model.bodies.system_b)
+        return rb_fail(why, RB_ZONE,
+                       "the contact outgrows the zone; give a wider one, --zone, because "
+                       "on wheels the elements would move");
+    wider.rc.contact_elements = n + 2 * more;
+    wider.rc.zone = r->rc.zone * (n + 2 * more) / n;
+    memset(&wider.model, 0, sizeof wider.model);
+    wider.x = wider.depth = wider.compliance = wider.path = wider.F = NULL;
+    rb_status s = press(&wider, why);
+    for (int i = 0; i < n && s == RB_OK; i++)
+        wider.depth[i + more] = r->depth[i];
+    run_free(r);
+    *r = wider;
+    wear_on_mesh(r);
+    return s;
+}
+
+/* ---- One implicit step
+ * ----------------------------------------------------------------- */
+
+static rb_status pose(run *r, const double *F, rb_message *why)
+{
+    rb_rolling_model *model = &r->model;
+    const double *own = model->bodies.F;
+
+    rb_rolling_problem_free(&model->problem);
+    model->rc.worn_n = r->n;
+    model->rc.worn_x = r->x;
+    model->rc.worn_depth = r->depth;
+    rb_status s = rb_rolling_mesh_set_gap(&model->rc, &model->mesh);
+    model->bodies.F = F;
+    if (s == RB_OK)
+        s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL, 0.0,
+                                      &model->problem, why);
+    model->bodies.F = own;
+    return s;
+}
+
+/* (W1) y = g + k ds p - delta + F_NN p: the pressure wears its own step off, so that the
+ * worn gap and the pressure belong together at its end, however long it is. */
+static rb_status wear_off(run *r, rb_message *why)
+{
+    const size_t m = (size_t)r->n + 1, n = (size_t)r->n;
+    const double *F = r->model.bodies.F;
+
+    memcpy(r->F, F, 4 * m * n * sizeof *F);
+    for (size_t i = 0; i < n; i++)
+        r->F[i + 2 * m * i] += r->compliance[i];
+    rb_status s = pose(r, r->F, why);
+    if (s == RB_OK)
+        s = rb_rolling_model_resolve(&r->model, 1, why);
+    if (s != RB_OK)
+        return s;
+    for (size_t i = 0; i < n; i++)
+        r->depth[i] += r->compliance[i] * r->model.state.p[i];
+    return pose(r, F, why);
+}
+
+/* ---- Sliding, fretting, rolling
+ * ---------------------------------------------------------- */
+
+/* Depth per pressure and slid length. */
+static double archard(const run *r)
+{
+    return r->wear->law == RB_WEAR_ARCHARD ? r->wear->coefficient
+                                           : r->wear->coefficient * r->rc.mu;
+}
+
+static rb_status slide(run *r, double way, rb_message *why)
+{
+    for (int i = 0; i < r->n; i++)
+        r->compliance[i] = archard(r) * way;
+    return wear_off(r, why);
+}
+
+/* Adds the slip of an increment of the cycle that counts, the second one. */
+static int see_increment(const rb_rolling_model *model, const rb_rolling_history *h,
+                         int step, int steps, void *context)
+{
+    run *r = context;
+    const int quarter = r->wear->increments;
+
+    (void)h;
+    (void)steps;
+    for (int i = 0; i < r->n && step >= quarter && model->state.n == r->n; i++) {
+        const double slip = fabs(model->state.lambda[i]);
+        r->path[i] += slip;
+        r->work += slip * fabs(model->state.q[i]) * model->bodies.f.h[i];
+    }
+    return 0;
+}
+
+/* Loading, and one closed cycle to the other side and back, in static increments. */
+static double *cycle_program(const run *r, rb_rolling_program *program)
+{
+    const int quarter = r->wear->increments, rows = 5 * quarter;
+    const rb_rolling_case *rc = &r->rc;
+    double *column = rb_alloc((size_t)rows, 1);
+    const double last = !isnan(rc->force)         ? rc->force
+                        : !isnan(rc->force_ratio) ? rc->force_ratio
+                                                  : rb_rolling_wanted_shift(rc);
+
+    *program = (rb_rolling_program){.n = rows};
+    *(!isnan(rc->force)         ? &program->force
+      : !isnan(rc->force_ratio) ? &program->force_ratio
+                                : &program->shift) = column;
+    for (int k = 0; k < rows && column; k++) {
+        const double t = (k + 1.0) / quarter; /* quarters of a cycle */
+        column[k] = last * (t <= 1.0 ? t : t <= 3.0 ? 2.0 - t : t - 4.0);
+    }
+    return column;
+}
+
+static rb_status fret(run *r, double cycles, rb_message *why)
+{
+    rb_rolling_program program;
+    rb_rolling_history history = {0};
+    rb_rolling_model model = {0};
+    double *column = cycle_program(r, &program);
+
+    r->work = 0.0;
+    memset(r->path, 0, (size_t)r->n * sizeof *r->path);
+    rb_status s = column ? rb_rolling_history_run(&r->rc, &program, see_increment, r,
+                                                  &model, &history, why)
+                         : RB_ENOMEM;
+    rb_rolling_model_free(&model);
+    rb_rolling_history_free(&history);
+    free(column);
+    for (int i = 0; i < r->n; i++)
+        r->compliance[i] = archard(r) * cycles * r->path[i];
+    return s == RB_OK ? wear_off(r, why) : s;
+}
+
+/* Depth per turn: every point of the circumference passes the contact once. */
+static double depth_of_turn(const run *r)
+{
+    const rb_rolling_model *model = &r->model;
+    double depth = 0.0;
+
+    for (int i = 0; i < model->state.n && r->wear->law == RB_WEAR_ARCHARD; i++)
+        depth += model->state.p[i] * fabs(model->state.lambda[i]);
+    if (r->wear->law == RB_WEAR_DISSIPATION)
+        depth = rb_rolling_dissipated_power(&model->rc, model->state.n,
+                                            model->state.lambda, model->state.q,
+                                            model->bodies.f.h, model->problem.e_T);
+    return r->wear->coefficient * depth;
+}
+
+/* (W3) A round wheel stays round: R = R_before - turns dz(R). */
+static rb_status roll(run *r, double turns, rb_message *why)
+{
+    enum { ROUNDS = 30 };
+    const double before = r->rc.a.radius;
+    rb_status s = RB_OK;
+
+    for (int k = 0; k < ROUNDS && s == RB_OK; k++) {
+        rb_rolling_model_free(&r->model);
+        s = rb_rolling_model_create(&r->rc, &r->model, why);
+        if (s != RB_OK)
+            break;
+        const double radius = before - turns * depth_of_turn(r), moved = r->rc.a.radius;
+        if (!(radius > 0.5 * before))
+            return rb_fail(why, RB_EINVAL,
+                           "wear: a step takes %g of the radius %g; take more steps",
+                           before - radius, before);
+        r->rc.a.radius = radius;
+        if (fabs(radius - moved) <= 1e-14 * before)
+            break;
+    }
+    r->work = rb_rolling_dissipated_power(&r->model.rc, r->model.state.n,
+                                          r->model.state.lambda, r->model.state.q,
+                                          r->model.bodies.f.h, r->model.problem.e_T);
+    return s;
+}
+
+/* ---- Records
+ * --------------------------------------------------------------------------- */
+
+static rb_status record(run *r, double way, rb_message *why)
+{
+    rb_rolling_wear_history *h = r->history;
+    const int k = h->n, rolls = r->rc.formulation == RB_STEADY;
+    rb_rolling_solution s;
+    rb_status status = rb_rolling_model_solution(&r->model, &s, why);
+
+    if (status != RB_OK)
+        return status;
+    h->way[k] = way;
+    h->radius[k] = r->rc.a.radius;
+    h->max_depth[k] = rolls ? h->radius_before - r->rc.a.radius : 0.0;
+    h->worn[k] =
+        rolls ? M_PI * (gsl_pow_2(h->radius_before) - gsl_pow_2(h->radius[k])) : 0.0;
+    for (int i = 0; i < r->n && !rolls; i++) {
+        h->worn[k] += r->depth[i] * s.h[i];
+        h->max_depth[k] = fmax(h->max_depth[k], r->depth[i]);
+    }
+    h->work[k] = r->wear->slides ? fabs(s.tangential_load) : r->work;
+    h->approach[k] = s.approach;
+    h->normal_load[k] = s.normal_load;
+    h->max_pressure[k] = s.max_pressure;
+    h->contact_from[k] = s.contact_from;
+    h->contact_to[k] = s.contact_to;
+    h->residual[k] = s.residual;
+    h->n++;
+    rb_rolling_solution_free(r->last);
+    *r->last = s;
+    return r->see && r->see(r->last, h, k, r->wear->steps, r->context)
+               ? rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k,
+                         r->wear->steps)
+               : RB_OK;
+}
+
+static rb_status one_step(run *r, double part, rb_message *why)
+{
+    enum { WIDER = 12 };
+    rb_message reason = {""};
+    rb_status s;
+
+    if (r->rc.formulation == RB_STEADY)
+        return roll(r, part, why);
+    for (int k = 0; k < WIDER; k++) {
+        reason.text[0] = '\0';
+        s = r->wear->slides ? slide(r, part, &reason) : fret(r, part, &reason);
+        if (s != RB_ZONE)
+            break;
+        s = widen(r, &reason);
+        if (s != RB_OK)
+            break;
+    }
+    return s == RB_OK ? s
+                      : rb_fail(why, s, "%.300s",
+                                reason.text[0] ? reason.text : rb_status_text(s));
+}
+
+static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
+                       rb_message *why)
+{
+    const int rolls = rc->formulation == RB_STEADY;
+
+    if (rc->formulation == RB_TRANSIENT)
+        return rb_fail(
+            why, RB_EINVAL,
+            "wear: of sliding, of fretting cycles (static) and of rolled turns "
+            "(steady), not of a transient");
+    if (!(wear->coefficient > 0.0) || isinf(wear->coefficient))
+        return rb_fail(why, RB_EINVAL, "wear coefficient: expected > 0, got %g",
+                       wear->coefficient);
+    if (!(wear->way > 0.0) || isinf(wear->way))
+        return rb_fail(why, RB_EINVAL, "wear: expected a way or cycles > 0, got %g",
+                       wear->way);
+    if (wear->steps < 1 || wear->steps > 1000000)
+        return rb_fail(why, RB_EINVAL, "wear steps: expected 1 ... 1000000, got %d",
+                       wear->steps);
+    if (!rolls && !wear->slides && wear->increments < 1)
+        return rb_fail(why, RB_EINVAL, "wear increments: expected >= 1, got %d",
+                       wear->increments);
+    if (rc->mu == 0.0 && (wear->law == RB_WEAR_DISSIPATION || !wear->slides))
+        return rb_fail(why, RB_EINVAL, "wear: at mu = 0 friction dissipates nothing");
+    if (!rolls &&
+        (rc->mesh != RB_MESH_UNIFORM || rc->contact_elements >= RB_ROLLING_LARGE))
+        return rb_fail(
+            why, RB_EINVAL,
+            "wear: the worn gap lives on equal elements (--mesh uniform), fewer "
+            "than %d",
+            RB_ROLLING_LARGE);
+    if (rolls && wear->slides)
+        return rb_fail(why, RB_EINVAL,
+                       "wear: a wheel that rolls does not slide; steady or "
+                       "a way, not both");
+    if (rc->a.memory.n + rc->a.layer > 0.0 && rolls)
+        return rb_fail(why, RB_EINVAL, "wear: a wheel with a layer does not stay one");
+    return rb_rolling_case_check(rc, why);
+}
+
+rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *wear,
+                              rb_rolling_wear_step *see, void *context,
+                              rb_rolling_wear_history *history, rb_rolling_solution *last,
+                              rb_message *why)
+{
+    run r = {.wear = wear,
+             .rc = *rc,
+             .history = history,
+             .last = last,
+             .see = see,
+             .context = context};
+    const double part = wear->way / wear->steps;
+
+    memset(history, 0, sizeof *history);
+    memset(last, 0, sizeof *last);
+    r.rc.load = rb_rolling_derive(rc).load; /* a given half-width means this load */
+    r.rc.half_width = NAN;
+    rb_status s = check(rc, wear, why);
+    if (s == RB_OK)
+        s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, wear->steps + 1,
+                                     history);
+    history->radius_before = rc->a.radius;
+    if (s == RB_OK)
+        s = rc->formulation == RB_STEADY ? rb_rolling_model_create(rc, &r.model, why)
+                                         : press(&r, why);
+    if (s == RB_OK && rc->formulation != RB_STEADY) {
+        wear_on_mesh(&r);
+        s = pose(&r, r.model.bodies.F, why);
+    }
+    if (s == RB_OK)
+        s = record(&r, 0.0, why);
+    for (int k = 1; k <= wear->steps && s == RB_OK; k++) {
+        s = one_step(&r, part, why);
+        if (s == RB_OK)
+            s = record(&r, k == wear->steps ? wear->way : k * part, why);
+    }
+    run_free(&r);
+    return s;
+}

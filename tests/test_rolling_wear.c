@@ -1,0 +1,291 @@
+/* Wear: volume, implicit steps of any length, the uniform pressure that a cylinder and a
+ * punch wear to, fretting with a zone that sticks, turns of a wheel, going on. */
+#include "check.h"
+#include "rollbem/closed_forms.h"
+#include "rollbem/rolling.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+/* Similar half-planes, a = 1. */
+static rb_rolling_case cylinder(int elements, double zone)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.young = 200000.0;
+    rc.a.poisson = 0.3;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.load = rb_rolling_derive(&rc).modulus * M_PI / (4.0 * rc.a.radius);
+    rc.zone = zone;
+    rc.contact_elements = elements;
+    return rc;
+}
+
+/* Sliding until K S p0 is so many times the gap a^2/(2R) at the edge. */
+static rb_rolling_wear sliding(const rb_rolling_case *rc, double units, int steps)
+{
+    const double p0 = rb_closed_hertz_max_pressure(rc->load, 1.0);
+    return (rb_rolling_wear){.law = RB_WEAR_ARCHARD,
+                             .slides = 1,
+                             .coefficient = 1e-9,
+                             .way = units / (2.0 * rc->a.radius) / (1e-9 * p0),
+                             .steps = steps};
+}
+
+typedef struct {
+    rb_rolling_wear_history h;
+    rb_rolling_solution last;
+} worn;
+
+static worn run(const rb_rolling_case *rc, const rb_rolling_wear *wear)
+{
+    worn w;
+    rb_message why = {""};
+    const rb_status s = rb_rolling_wear_run(rc, wear, NULL, NULL, &w.h, &w.last, &why);
+    if (s != RB_OK)
+        print_error("%s\n", why.text);
+    CHECK_STATUS(s, RB_OK);
+    return w;
+}
+
+static void worn_free(worn *w)
+{
+    rb_rolling_wear_history_free(&w->h);
+    rb_rolling_solution_free(&w->last);
+}
+
+static double half_width(const worn *w)
+{
+    return 0.5 * (w->h.contact_to[w->h.n - 1] - w->h.contact_from[w->h.n - 1]);
+}
+
+/* Largest second difference of the pressure inside the contact, but for its edges. */
+static double roughness(const rb_rolling_solution *s)
+{
+    double most = 0.0;
+    for (int i = 3; i + 3 < s->n; i++)
+        if (s->p[i - 3] > 0.0 && s->p[i + 3] > 0.0)
+            most = fmax(most, fabs(s->p[i - 1] - 2.0 * s->p[i] + s->p[i + 1]));
+    return most;
+}
+
+/* The worn volume is K P S to rounding, in any number of steps, and each step is stable:
+ * 1.56 a is the half-width after two units (1.62 in one step). */
+static void sliding_wears_its_volume(void **state)
+{
+    (void)state;
+    static const int steps[] = {100, 10, 1};
+    static const double width[] = {1.56, 1.56, 1.62};
+    const rb_rolling_case rc = cylinder(200, 6.0);
+
+    for (int k = 0; k < 3; k++) {
+        const rb_rolling_wear wear = sliding(&rc, 2.0, steps[k]);
+        worn w = run(&rc, &wear);
+        double volume = 0.0;
+        for (int i = 0; i < w.last.n; i++)
+            volume += w.last.worn[i] * w.last.h[i];
+        CHECK_REL(volume, wear.coefficient * rc.load * wear.way, 1e-12, "%d steps",
+                  steps[k]);
+        CHECK_REL(w.h.worn[w.h.n - 1], volume, 1e-12, "%d steps: recorded", steps[k]);
+        CHECK_ABS(half_width(&w), width[k], 0.035,
+                  "%d steps: half-width, to half an element", steps[k]);
+        CHECK_MAX(roughness(&w.last), 0.02 * w.h.max_pressure[0], "%d steps: saw teeth",
+                  steps[k]);
+        CHECK_MAX(w.h.residual[w.h.n - 1], 1e-10, "%d steps: residual of the worn gap",
+                  steps[k]);
+        worn_free(&w);
+    }
+}
+
+/* Late: p = P/(2b) and V = 2 b^3/(3R), from any number of steps. */
+static void cylinder_wears_to_uniform_pressure(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = cylinder(160, 0.0); /* the zone grows with the scar */
+    const rb_rolling_wear wear = sliding(&rc, 400.0, 40);
+    worn w = run(&rc, &wear);
+    const int last = w.h.n - 1;
+    const double b = half_width(&w);
+
+    CHECK_ABS(b, 7.78, 0.3, "half-width of (3 R V/2)^(1/3)");
+    CHECK_REL(w.h.worn[last], 2.0 * gsl_pow_3(b) / (3.0 * rc.a.radius), 0.02, "volume");
+    CHECK_REL(w.h.worn[last], wear.coefficient * rc.load * wear.way, 1e-12,
+              "volume, on wider meshes too");
+    for (int i = 0; i < w.last.n; i++)
+        if (fabs(w.last.x[i]) < 0.8 * b)
+            CHECK_REL(w.last.p[i], rc.load / (2.0 * b), 0.05, "p at x = %g", w.last.x[i]);
+    worn_free(&w);
+}
+
+/* A flat punch with rounded corners: from 1/sqrt at its edges to P/(2c). */
+static void punch_wears_to_uniform_pressure(void **state)
+{
+    (void)state;
+    enum { ROWS = 401 };
+    double x[ROWS], gap[ROWS];
+    rb_rolling_profile *profile;
+    rb_message why = {""};
+    rb_rolling_case rc = cylinder(150, 1.5);
+    for (int k = 0; k < ROWS; k++) {
+        x[k] = 2.0 * (2.0 * k / (ROWS - 1) - 1.0);
+        const double beyond = fmax(0.0, fabs(x[k]) - 1.0);
+        gap[k] = 5.0 * beyond * beyond;
+    }
+    CHECK_STATUS(rb_rolling_profile_create(ROWS, x, gap, 0.0, &profile, &why), RB_OK);
+    rc.gap = RB_GAP_TABLE;
+    rc.profile = profile;
+    const rb_rolling_wear wear = sliding(&rc, 50.0, 30);
+    worn w = run(&rc, &wear);
+    double mean = 0.0, off = 0.0, n = 0.0;
+    for (int i = 0; i < w.last.n; i++)
+        if (fabs(w.last.x[i]) < 0.9) {
+            mean += w.last.p[i];
+            n++;
+        }
+    mean /= n;
+    for (int i = 0; i < w.last.n; i++)
+        if (fabs(w.last.x[i]) < 0.9)
+            off = fmax(off, fabs(w.last.p[i] / mean - 1.0));
+    CHECK_MAX(off, 0.02, "p/mean - 1");
+    CHECK_REL(mean, rc.load / (2.0 * half_width(&w)), 0.05, "P/(2c)");
+    CHECK_REL(w.h.worn[w.h.n - 1], wear.coefficient * rc.load * wear.way, 1e-12,
+              "volume");
+    worn_free(&w);
+    rb_rolling_profile_free(profile);
+}
+
+/* Partial slip: nothing wears where it sticks, and the law of dissipation takes the
+ * friction work of the cycle. */
+static void fretting_spares_what_sticks(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = cylinder(120, 1.5);
+    rc.force_ratio = 0.75; /* c = a/2 */
+    const rb_rolling_wear wear = {.law = RB_WEAR_DISSIPATION,
+                                  .coefficient = 1e-8,
+                                  .way = 100.0,
+                                  .steps = 2,
+                                  .increments = 8};
+    worn w = run(&rc, &wear);
+    double slip = 0.0;
+    for (int i = 0; i < w.last.n; i++) {
+        if (fabs(w.last.x[i]) < 0.45)
+            CHECK_ABS(w.last.worn[i], 0.0, 0.0, "x = %g sticks", w.last.x[i]);
+        slip = fmax(slip, w.last.worn[i]);
+        CHECK_REL(w.last.worn[i], w.last.worn[w.last.n - 1 - i], 1e-6, "symmetric");
+    }
+    assert_true(slip > 0.0);
+    /* of a step that is short enough the volume is K times the work */
+    const double work = w.h.work[1] * 50.0;
+    CHECK_REL(w.h.worn[1], wear.coefficient * work, 0.02, "K times the work");
+    worn_free(&w);
+}
+
+/* Far beyond the elastic displacement a cycle is four strokes long. */
+static void gross_slip_wears_four_strokes(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = cylinder(100, 2.0);
+    const double p0 = rb_closed_hertz_max_pressure(rc.load, 1.0);
+    rc.shift = 50.0;
+    const rb_rolling_wear wear = {.law = RB_WEAR_ARCHARD,
+                                  .coefficient = 1e-10,
+                                  .way = 10.0,
+                                  .steps = 1,
+                                  .increments = 4};
+    worn w = run(&rc, &wear);
+    CHECK_REL(w.h.max_depth[1], 1e-10 * p0 * 10.0 * 4.0 * 50.0, 0.02, "depth");
+    worn_free(&w);
+}
+
+/* A round wheel stays round: dz = K D per turn. */
+static void wheel_loses_its_radius(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = cylinder(60, 0.0);
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_FITTED;
+    rc.creep_ratio = 0.5;
+    const rb_rolling_wear wear = {
+        .law = RB_WEAR_DISSIPATION, .coefficient = 1e-7, .way = 1000.0, .steps = 4};
+    worn w = run(&rc, &wear);
+    const int last = w.h.n - 1;
+    for (int k = 1; k <= last; k++) { /* implicit: with the work at its end */
+        CHECK_REL(w.h.radius[k - 1] - w.h.radius[k], 250.0 * 1e-7 * w.h.work[k], 1e-9,
+                  "step %d", k);
+        assert_true(w.h.radius[k] < w.h.radius[k - 1]);
+    }
+    CHECK_REL(w.h.worn[last],
+              M_PI * (gsl_pow_2(rc.a.radius) - gsl_pow_2(w.h.radius[last])), 1e-12,
+              "volume");
+    worn_free(&w);
+}
+
+/* Ten steps, or five and then five more from the profile they left. */
+static void wear_goes_on(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = cylinder(160, 5.0);
+    const rb_rolling_wear ten = sliding(&rc, 2.0, 10), five = sliding(&rc, 1.0, 5);
+    worn all = run(&rc, &ten), first = run(&rc, &five);
+    rc.worn_n = first.last.n;
+    rc.worn_x = first.last.x;
+    rc.worn_depth = first.last.worn;
+    worn second = run(&rc, &five);
+    for (int i = 0; i < all.last.n; i++) {
+        CHECK_ABS(second.last.worn[i], all.last.worn[i], 1e-12 * all.h.max_depth[10],
+                  "depth of element %d", i);
+        CHECK_ABS(second.last.p[i], all.last.p[i], 1e-9 * all.h.max_pressure[10],
+                  "pressure of element %d", i);
+    }
+    worn_free(&all);
+    worn_free(&first);
+    worn_free(&second);
+}
+
+static void meaningless_wear_is_refused(void **state)
+{
+    (void)state;
+    const rb_rolling_case good = cylinder(60, 0.0);
+    rb_rolling_case bad[4] = {good, good, good, good};
+    rb_rolling_wear wear[4];
+    static const char *const said[] = {"transient", "coefficient", "dissipates nothing",
+                                       "equal elements"};
+    for (int k = 0; k < 4; k++)
+        wear[k] = sliding(&good, 1.0, 2);
+    bad[0].formulation = RB_TRANSIENT;
+    bad[0].distance = 1.0;
+    wear[1].coefficient = 0.0;
+    bad[2].mu = 0.0;
+    wear[2].law = RB_WEAR_DISSIPATION;
+    bad[3].mesh = RB_MESH_FITTED;
+    for (int k = 0; k < 4; k++) {
+        worn w;
+        rb_message why = {""};
+        CHECK_STATUS(
+            rb_rolling_wear_run(&bad[k], &wear[k], NULL, NULL, &w.h, &w.last, &why),
+            RB_EINVAL);
+        if (!strstr(why.text, said[k]))
+            print_error("case %d: %s\n", k, why.text);
+        assert_non_null(strstr(why.text, said[k]));
+        worn_free(&w);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sliding_wears_its_volume),
+        cmocka_unit_test(cylinder_wears_to_uniform_pressure),
+        cmocka_unit_test(punch_wears_to_uniform_pressure),
+        cmocka_unit_test(fretting_spares_what_sticks),
+        cmocka_unit_test(gross_slip_wears_four_strokes),
+        cmocka_unit_test(wheel_loses_its_radius),
+        cmocka_unit_test(wear_goes_on),
+        cmocka_unit_test(meaningless_wear_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
