@@ -118,8 +118,8 @@ static void write_panel(FILE *out, const rb_report_wear *w, int column)
     for (int k = 0; k < w->profiles; k++)
         fprintf(out,
                 "%s$profile%d using 1:%d with lines linecolor rgb '%s' linewidth 1.8 "
-                "title '%.4g %s'",
-                k > 0 ? ", " : "", k, column, colours[k], w->profile[k].way, unit_of(w));
+                "title '%.4g'",
+                k > 0 ? ", " : "", k, column, colours[k], w->profile[k].way);
     fputc('\n', out);
 }
 
@@ -136,19 +136,25 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
           "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
           "set grid linecolor rgb '#dddddd' linewidth 0.6\nset format x ''\n",
           out);
-    fprintf(out, "set xrange [%.9g:%.9g]\nset key right top samplen 1.5 font '%s'\n",
-            from - 0.1 * (to - from), to + 0.1 * (to - from), rb_report_key_font(kind));
+    fprintf(out,
+            "set xrange [%.9g:%.9g]\nset key at screen 0.965, 0.91 right horizontal "
+            "maxrows 1 samplen 1.5 font '%s'\nset label 2 '%s:' at screen 0.14, 0.897 "
+            "left\n",
+            from - 0.1 * (to - from), to + 0.1 * (to - from), rb_report_key_font(kind),
+            unit_of(w));
     fprintf(out,
             "set label 1 '{/:Bold Wear}   P = %.5g N/mm,  %.4g mm^3/mm worn after %.4g "
             "%s' at screen 0.54, 0.955 center\n",
             h->normal_load[last], h->worn[last], h->way[last], unit_of(w));
-    fputs("set tmargin at screen 0.91\nset bmargin at screen 0.54\n"
-          "set yrange [0:*]\nset ylabel 'pressure  [MPa]' offset 1,0\n",
+    fputs("set tmargin at screen 0.87\nset bmargin at screen 0.54\n"
+          "set yrange [0:*]\nset label 3 'pressure  [MPa]' at screen 0.03, 0.705 center "
+          "rotate\n",
           out);
     write_panel(out, w, 2);
-    fputs("unset label 1\nunset key\nset tmargin at screen 0.50\nset bmargin at screen "
+    fputs("unset label\nunset key\nset tmargin at screen 0.50\nset bmargin at screen "
           "0.13\nset format x '%g'\nset yrange [*:*]\nset offsets 0,0,0,graph 0.05\n"
-          "set ylabel 'worn off  [µm]' offset 1,0\nset xlabel 'x [mm]' offset 0,0.3\n",
+          "set label 3 'worn off  [µm]' at screen 0.03, 0.315 center rotate\nset xlabel "
+          "'x [mm]' offset 0,0.3\n",
           out);
     write_panel(out, w, 3);
     fputs("unset multiplot\n", out);

@@ -386,7 +386,8 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
     if (rb_rolling_is_convex(rc) || model->mesh.n < 2)
         return RB_OK;
     const tables t = tables_of(rc);
-    const size_t room = most_places(t.profile) + most_places(t.irregularity) + 2;
+    const size_t room =
+        most_places(t.profile) + most_places(t.irregularity) + most_places(t.worn) + 2;
     double *x = rb_alloc(room, 3);
     rb_status status = x ? gather_strips(&model->mesh, state, &s) : RB_ENOMEM;
     if (status == RB_OK)
