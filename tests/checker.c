@@ -74,7 +74,7 @@ typedef struct {
 } body;
 
 typedef struct {
-    const json_t *inputs, *summary;
+    const json_t *inputs, *summary, *worn; /* worn: depth per element, or NULL */
     body a, b;
     double mu, modulus, radius; /* E*, combined R */
     int surface_normals;
@@ -608,7 +608,8 @@ static void check_kinematics(const contact *c, const table *t)
     const double rounding = 1e-13 * (largest(t->n, un) + largest(t->n, ut) + delta);
     const double length = tolerance(c) * length_scale(c, t) + rounding;
     for (int i = 0; i < t->n; i++) {
-        const double g0 = initial_gap(c, x[i]);
+        const double worn = json_number_value(json_array_get(c->worn, (size_t)i));
+        const double g0 = initial_gap(c, x[i]) + worn;
         if (!isnan(g0) && !c->surface_normals)
             expect("gap = g0 + un - approach", t->column[GAP][i], g0 + un[i] - delta,
                    length);
@@ -971,10 +972,13 @@ static void check_stress(const json_t *inputs, const json_t *at)
 static void check_case(const json_t *root, const char *table_path,
                        const char *summary_path, const rows *controls)
 {
-    const contact c = contact_of(root);
+    contact c = contact_of(root);
     const json_t *object = json_object_get(root, "table");
     const char *status = word(c.summary, "status");
     table t = table_from_json(object);
+    c.worn = json_object_get(object, "worn_mm");
+    if (!c.worn != !word(c.inputs, "worn")[0])
+        violated("worn", "the column does not follow --worn");
     if (strcmp(status, "solved") != 0)
         violated("status", "'%s' with exit code 0", status);
     check_elements(&t);

@@ -130,7 +130,7 @@ static const struct {
       {"trace", "--trace"},
       {"dump-trace", "--dump out --trace"},
       {"fclib", "--fclib out.hdf5"},
-      {"history-table", "--history-table out.tsv"},
+      {"history-table", "--history-table out.history"},
       {"history-plot", "--history-plot out.svg"},
       {"snapshots", "--snapshots out --every 2 --progress"},
       {"error", "--error"},
@@ -696,6 +696,7 @@ static void check_whole(const char *path)
                  {".vtu", "<?xml", "</VTKFile>"},
                  {".hdf5", "\x89HDF\r\n\x1a\n", ""},
                  {".tsv", "", ""}, /* the checker reads it */
+                 {"out.history", "distance_a\t", ""},
                  {".mtx", "%%MatrixMarket", ""}};
     char head[16] = "", tail[32] = "";
     FILE *file = fopen(path, "rb");
