@@ -600,6 +600,14 @@ static double initial_gap(const contact *c, double x)
 /* The member of the second-order differences that theory.md 4.7 takes. */
 static const double EDGE = 0.0740956;
 
+/* A third body's own part of the slip has t = 1 (theory.md 4.10): what that adds. */
+static double local_slip(const contact *c, const table *t, int i)
+{
+    const double *q = t->column[Q], s = 1.0 - EDGE;
+    return number(c->inputs, "interlayer-tangential") * 0.25 * s *
+           (-q[i - 1] + 3.0 * q[i] - 3.0 * q[i + 1] + q[i + 2]);
+}
+
 /* Gap and slip from the printed displacements. */
 static void check_kinematics(const contact *c, const table *t)
 {
@@ -637,7 +645,7 @@ static void check_kinematics(const contact *c, const table *t)
                        xi * dx + (1.0 - EDGE) / 4.0 * ut[i - 1] +
                            (3.0 + 3.0 * EDGE) / 4.0 * ut[i] -
                            (5.0 + 3.0 * EDGE) / 4.0 * ut[i + 1] +
-                           (1.0 + EDGE) / 4.0 * ut[i + 2],
+                           (1.0 + EDGE) / 4.0 * ut[i + 2] + local_slip(c, t, i),
                        3.0 * length + 1e-12 * fabs(xi) * dx);
             expect("slip_1 = shift/dx", t->column[SLIP][i], t->column[SHIFT][i] / dx,
                    length / dx);
@@ -702,6 +710,8 @@ static void check_flamant(const contact *c, const table *t)
     for (int i = 0; i < t->n; i++) {
         long double un, ut;
         flamant(c, t, t->column[X][i], &un, &ut);
+        un += number(c->inputs, "interlayer-normal") * t->column[P][i];
+        ut += number(c->inputs, "interlayer-tangential") * t->column[Q][i];
         expect("un by Flamant", t->column[UN][i], (double)un, 1e-11 * size);
         expect("ut by Flamant", t->column[UT][i], (double)ut, 1e-11 * size);
     }

@@ -31,6 +31,7 @@ enum {
     GAP,
     IRREGULARITY,
     WORN,
+    INTERLAYER,
     MU,
     SHAPE,
     HEAT,
@@ -106,6 +107,11 @@ static const struct {
      {{"file", "--gap gap.txt"}, {"smoothed", "--gap gap.txt --gap-smoothing 1e-5"}}},
     {"irregularity", NULL, {{"none", ""}, {"flat", "--irregularity flat.txt"}}},
     {"worn", NULL, {{"none", ""}, {"scar", "--worn worn.txt"}}},
+    {"interlayer",
+     NULL,
+     {{"none", ""},
+      {"tangential", "--interlayer-tangential 4e-6"},
+      {"both", "--interlayer-normal 2e-6 --interlayer-tangential 1e-6"}}},
     {"mu",
      NULL,
      {{"0", "--mu 0"}, {"1e-3", "--mu 1e-3"}, {"0.3", "--mu 0.3"}, {"3", "--mu 3"}}},
@@ -204,7 +210,9 @@ static const char *const options_elsewhere[] = {"units", /* tests/test_units.c *
                                                 "conductivity-b",
                                                 "heat-capacity-b",
                                                 "temperature-b",
-                                                "worn"};
+                                                "worn",
+                                                "interlayer-normal",
+                                                "interlayer-tangential"};
 
 enum { LEVELS = 40 };
 static level levels[FACTORS][LEVELS];
@@ -370,6 +378,8 @@ static const conflict conflicts[] = {
     {{"size=transforms", "surface!plain", "regime!steady"}, NULL},
     {{"size=transforms", "surface!plain", "mesh=aligned"}, NULL},
     {{"size=transforms", "output=stress-fringes"}, NULL},
+    /* a matrix of so many elements takes long */
+    {{"size=transforms", "interlayer!none"}, NULL},
     /* without a wheel there is no boundary */
     {{"size=hierarchical", "support=halfplane"}, NULL},
     {{"size=hierarchical", "output=dump*"}, NULL},
@@ -723,8 +733,9 @@ static void check_whole(const char *path)
 static int is_known(const char *name, const int *row)
 {
     static const char *const ours[] = {
-        "json",     "json.err",     "out.table", "table.err",  "verdict", "verdict.err",
-        "flat.txt", "worn.txt", "controls.txt", "gap.txt",   "points.txt", "again",   "again.err"};
+        "json",        "json.err", "out.table", "table.err",    "verdict",
+        "verdict.err", "flat.txt", "worn.txt",  "controls.txt", "gap.txt",
+        "points.txt",  "again",    "again.err"};
     for (size_t k = 0; k < sizeof ours / sizeof ours[0]; k++)
         if (strcmp(name, ours[k]) == 0)
             return 1;

@@ -161,6 +161,13 @@ const rb_option rb_case_table[] = {
                    "Coulomb's coefficient; curve: several with commas between",
                    .list = PLACE(mus)),
 
+    RB_GROUP_LINE("interlayer", "Third body between the surfaces, elastic"),
+    RB_NUMBER_LINE("interlayer-normal", RC(interlayer_normal), "mm/MPa", RB_FROM(0),
+                   "displacement along the normal per pressure"),
+    RB_NUMBER_LINE("interlayer-tangential", RC(interlayer_tangential), "mm/MPa",
+                   RB_FROM(0),
+                   "along the tangent per friction: thickness over shear modulus"),
+
     RB_GROUP_LINE("heat", "Heat of friction: flash temperature of steady and transient "
                           "rolling"),
     RB_NUMBER_LINE("conductivity", RC(heat_a.conductivity), "W/(m K)", RB_ABOVE(0),

@@ -1,4 +1,4 @@
-/* What happens between the bodies: heat, wear. */
+/* What happens between the bodies: a third body, heat, wear. */
 #include "report/verify.h"
 
 #include "rollbem/closed_forms.h"
@@ -58,8 +58,34 @@ static void wear(rb_verify *v, int steps)
     rb_rolling_solution_free(&last);
 }
 
+/* Bodies so stiff that the third body alone gives way. */
+static void brushes(rb_verify *v, int elements, double bound)
+{
+    const double s = 0.5;
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_solution it;
+    rc.a.young = 1e13;
+    rc.interlayer_normal = 1e-6;
+    rc.interlayer_tangential = 2e-6;
+    rc.half_width = NAN; /* P = 2 a^3/(3 R L_N), a = 1 */
+    rc.load = 2.0 / (3.0 * rc.a.radius * rc.interlayer_normal);
+    rc.creep =
+        s * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_ALIGNED;
+    rc.slip_operator = RB_SLIP_SECOND;
+    rc.contact_elements = elements;
+    rb_verify_solve(v, &rc, &it);
+    rb_verify_compare(v, it.force_ratio, -(1.0 - (1.0 - s) * (1.0 - s) * (1.0 - s)),
+                      bound, RB_VERIFY_ABSOLUTE, "brushes, %d elements: Q/(mu P)",
+                      elements);
+    rb_rolling_solution_free(&it);
+}
+
 void rb_verify_interface(rb_verify *v)
 {
+    brushes(v, 50, 3e-4);
+    brushes(v, 200, 1.9e-5);
     flash_temperature(v, 50, 5e-4);
     flash_temperature(v, 200, 6.3e-5);
     wear(v, 1);

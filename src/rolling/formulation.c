@@ -57,8 +57,25 @@ static double row_of(const kinematic *A, const double *w, const double outside[2
  * -----------------------------------------------------------------
  */
 
+/* The local part of F_TT takes another member of the family: t = 1, whose leading edge is
+ * not shifted there (theory.md 4.10). */
+static void add_local_operator(const kinematic *A, double compliance, double *S)
+{
+    static const double backward[4] = {0.0, 1.5, -2.0, 0.5};
+    const int n = A->n;
+
+    for (int i = 0; i < n && A->outside; i++)
+        for (int k = 0; k < 4; k++) {
+            const int j = i - 1 + k;
+            if (j >= 0 && j < n)
+                S[i + (size_t)(n + j) * (size_t)n] +=
+                    compliance * (backward[k] - A->stencil[k]);
+        }
+}
+
 /* S = A [F_TN F_TT] (K2). */
-static rb_status dense_operator(const rb_rolling_bodies *bodies, const kinematic *A,
+static rb_status dense_operator(const rb_rolling_case *rc,
+                                const rb_rolling_bodies *bodies, const kinematic *A,
                                 rb_contact_operator **op)
 {
     const int n = A->n, m = n + 1;
@@ -73,6 +90,7 @@ static rb_status dense_operator(const rb_rolling_bodies *bodies, const kinematic
         for (int i = 0; i < n; i++)
             S[i + (size_t)j * n] = row_of(A, w_T, outside, i);
     }
+    add_local_operator(A, rc->interlayer_tangential, S);
     return rb_contact_operator_dense(n, bodies->F, 2 * m, S, op);
 }
 
@@ -258,7 +276,7 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
 
     memset(p, 0, sizeof *p);
     if (s == RB_OK)
-        s = bodies->F ? dense_operator(bodies, &A, &op)
+        s = bodies->F ? dense_operator(rc, bodies, &A, &op)
                       : transform_operator(bodies, &A, &op);
     free(A.outside);
     if (s == RB_OK)

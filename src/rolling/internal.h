@@ -43,6 +43,8 @@ rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
 /* 1 where all bodies are homogeneous and elastic: then Hertz's half-width means what it
  * says. */
 int rb_rolling_is_homogeneous(const rb_rolling_case *rc);
+/* 1 where a third body lies between the surfaces. */
+int rb_rolling_has_interlayer(const rb_rolling_case *rc);
 
 /* w = w0 + F (p, q), 2m values, m = n + 1.  RB_ENOMEM. */
 rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
@@ -261,8 +263,8 @@ rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why);
 /* The edge beyond the outermost loaded element on that side (-1 left, +1 right) of a
  * patch of so many equal elements or more. */
 enum { RB_ROLLING_ALIGNED_LEAST = 9 };
-double rb_rolling_aligned_edge(const rb_rolling_mesh *mesh, const double *p, int outer,
-                               int side);
+double rb_rolling_aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                               const double *p, int outer, int side);
 
 /* ---- fit.c ----------------------------------------------------------------------------
  */

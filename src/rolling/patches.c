@@ -83,8 +83,8 @@ int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh
     run->last = at - 1;
     const int length = at - run->first;
     if (rc->mesh == RB_MESH_ALIGNED && length >= RB_ROLLING_ALIGNED_LEAST) {
-        run->from = rb_rolling_aligned_edge(mesh, state->p, run->first, -1);
-        run->to = rb_rolling_aligned_edge(mesh, state->p, run->last, 1);
+        run->from = rb_rolling_aligned_edge(rc, mesh, state->p, run->first, -1);
+        run->to = rb_rolling_aligned_edge(rc, mesh, state->p, run->last, 1);
         return 1;
     }
     run->from = edge(beta, mesh, state, run->first, -1, length, &run->bounded);

@@ -128,7 +128,7 @@ static rb_status pose(run *r, const double *F, rb_message *why)
     rb_rolling_model *model = &r->model;
     const double *own = model->bodies.F;
 
-    rb_rolling_problem_free(&model->problem);
+    rb_contact_problem_free(&model->problem);
     model->rc.worn_n = r->n;
     model->rc.worn_x = r->x;
     model->rc.worn_depth = r->depth;

@@ -208,9 +208,20 @@ static interval near_gap(const rb_rolling_case *rc, double a, interval limit)
                   limit);
 }
 
+/* Hertz's half-width, or what a soft third body alone would have: P = 2 a^3/(3 R L_N). */
+static double first_half_width(const rb_rolling_case *rc)
+{
+    const rb_rolling_derived d = rb_rolling_derive(rc);
+    const double soft = isnan(d.load)
+                            ? sqrt(2.0 * d.radius * d.approach)
+                            : cbrt(1.5 * d.radius * rc->interlayer_normal * d.load);
+
+    return rc->interlayer_normal > 0.0 ? fmax(d.half_width, soft) : d.half_width;
+}
+
 static interval first_zone(const rb_rolling_case *rc)
 {
-    const double a = rb_rolling_derive(rc).half_width;
+    const double a = first_half_width(rc);
     const interval limit = extent(rc);
     interval zone = {-a, a};
 

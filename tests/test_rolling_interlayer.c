@@ -1,0 +1,184 @@
+/* An elastic third body: the brush law between rigid bodies, half-planes with a
+ * tangential layer, and that meshes, formulations and solvers agree on it. */
+#include "check.h"
+#include "rollbem/rolling.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+static rb_rolling_solution solved(const rb_rolling_case *rc)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    const rb_status status = rb_rolling_solve(rc, &s, &why);
+    if (status != RB_OK)
+        print_error("%s\n", why.text);
+    CHECK_STATUS(status, RB_OK);
+    return s;
+}
+
+/* Bodies so stiff that the layer alone gives way: P = 2 a^3/(3 R L_N) with a = 1. */
+static rb_rolling_case brushes(int n, double s)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.young = 1e13;
+    rc.a.poisson = 0.5;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.interlayer_normal = 1e-6;
+    rc.interlayer_tangential = 2e-6;
+    rc.load = 2.0 / (3.0 * rc.a.radius * rc.interlayer_normal);
+    rc.creep =
+        s * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_ALIGNED;
+    rc.slip_operator = RB_SLIP_SECOND;
+    rc.contact_elements = n;
+    return rc;
+}
+
+/* |Q|/(mu P) = 1 - (1 - s)^3, s = xi R L_N/(mu L_T a). */
+static void brushes_meet_their_law(void **state)
+{
+    (void)state;
+    static const double s[] = {0.2, 0.5, 0.8};
+    static const int n[] = {50, 100, 200};
+    static const double bound[] = {3e-4, 2.7e-4, 9e-4}; /* with 50 elements */
+
+    for (int j = 0; j < 3; j++)
+        for (int k = 0; k < 3; k++) {
+            const double coarse = n[0] / (double)n[j];
+            /* above s = 3/4 the element at the leading edge slips, whatever its length */
+            const double finer = s[k] > 0.75 ? pow(coarse, 0.7) : gsl_pow_2(coarse);
+            const rb_rolling_case rc = brushes(n[j], s[k]);
+            rb_rolling_solution it = solved(&rc);
+            CHECK_ABS(it.force_ratio, -(1.0 - gsl_pow_3(1.0 - s[k])), bound[k] * finer,
+                      "n = %d, s = %g", n[j], s[k]);
+            CHECK_ABS(it.half_width, 1.0, 1e-4 * gsl_pow_2(coarse), "n = %d: half-width",
+                      n[j]);
+            CHECK_ABS(it.stick_from, -1.0 + 2.0 * s[k], 2.0 / n[j] + 1e-3,
+                      "n = %d, s = %g: start of stick", n[j], s[k]);
+            CHECK_MAX(it.residual, 1e-10, "residual");
+            rb_rolling_solution_free(&it);
+        }
+}
+
+/* Half-planes with a tangential layer: slope of the creep curve over Carter's,
+ * Lam = L_T E* / a. */
+static rb_rolling_case layered(double lam, int n, double ratio)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.young = 200000.0;
+    rc.a.poisson = 0.3;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.half_width = 0.05;
+    rc.interlayer_tangential = lam * rc.half_width / rb_rolling_derive(&rc).modulus;
+    rc.creep_ratio = ratio;
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_ALIGNED;
+    rc.slip_operator = RB_SLIP_SECOND;
+    rc.contact_elements = n;
+    return rc;
+}
+
+static void layer_lowers_the_slope(void **state)
+{
+    (void)state;
+    static const double lam[] = {0.01, 0.1, 0.3, 1.0, 3.0, 10.0};
+    static const double slope[] = {0.9875, 0.9116, 0.7937, 0.5538, 0.2970, 0.11289};
+
+    for (int k = 0; k < 6; k++) {
+        const rb_rolling_case rc = layered(lam[k], 100, 1e-3);
+        rb_rolling_solution s = solved(&rc);
+        CHECK_REL(-s.force_ratio / 2e-3, slope[k], 1e-3, "Lam = %g", lam[k]);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void layer_moves_the_whole_curve(void **state)
+{
+    (void)state;
+    static const double s[] = {0.5, 1.0, 2.0}, ratio[] = {0.4890, 0.7849, 0.9713};
+
+    for (int k = 0; k < 3; k++) {
+        const rb_rolling_case rc = layered(1.0, 200, s[k]);
+        rb_rolling_solution it = solved(&rc);
+        CHECK_ABS(-it.force_ratio, ratio[k], 1e-4, "s = %g", s[k]);
+        rb_rolling_solution_free(&it);
+    }
+}
+
+/* Fitted and equal elements, a transient that has become steady, both solvers. */
+static void formulations_agree(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = layered(1.0, 100, 0.5);
+    rc.interlayer_normal = 0.5 * rc.interlayer_tangential;
+    rb_rolling_solution aligned = solved(&rc);
+    rc.slip_operator = RB_SLIP_UPSTREAM;
+    rc.mesh = RB_MESH_FITTED;
+    rb_rolling_solution fitted = solved(&rc);
+    rc.solver = RB_SOLVER_LEMKE;
+    rb_rolling_solution lemke = solved(&rc);
+    CHECK_REL(fitted.force_ratio, aligned.force_ratio, 2e-3, "fitted");
+    CHECK_REL(fitted.max_pressure, aligned.max_pressure, 1e-3, "fitted: p0");
+    CHECK_REL(lemke.force_ratio, fitted.force_ratio, 1e-9, "Lemke");
+    rc.solver = RB_SOLVER_NEWTON;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.creep_ratio = NAN;
+    rc.force_ratio = fitted.force_ratio;
+    rb_rolling_solution uniform = solved(&rc);
+    rc.formulation = RB_TRANSIENT;
+    rc.distance = 4.0;
+    rb_rolling_solution rolled = solved(&rc);
+    CHECK_REL(uniform.creep_ratio, fitted.creep_ratio, 3e-2, "equal elements");
+    CHECK_REL(rolled.creep_ratio, uniform.creep_ratio, 5e-3, "a transient's end");
+    rb_rolling_solution_free(&aligned);
+    rb_rolling_solution_free(&fitted);
+    rb_rolling_solution_free(&lemke);
+    rb_rolling_solution_free(&uniform);
+    rb_rolling_solution_free(&rolled);
+}
+
+/* The load is carried by half-planes and layer in series: a soft layer widens the
+ * contact. */
+static void normal_compliance_widens_the_contact(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = layered(0.0, 100, 0.5);
+    double before = 0.0;
+    for (int k = 0; k < 4; k++) {
+        rc.interlayer_normal = k * 0.5 * rc.half_width / rb_rolling_derive(&rc).modulus;
+        rb_rolling_solution s = solved(&rc);
+        assert_true(s.half_width > before);
+        before = s.half_width;
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void negative_compliance_is_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = layered(1.0, 60, 0.5);
+    rb_message why = {""};
+    rc.interlayer_normal = -1e-9;
+    CHECK_STATUS(rb_rolling_case_check(&rc, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "interlayer normal"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(brushes_meet_their_law),
+        cmocka_unit_test(layer_lowers_the_slope),
+        cmocka_unit_test(layer_moves_the_whole_curve),
+        cmocka_unit_test(formulations_agree),
+        cmocka_unit_test(normal_compliance_widens_the_contact),
+        cmocka_unit_test(negative_compliance_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
