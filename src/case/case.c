@@ -494,7 +494,8 @@ static rb_status read_worn(rb_case *c, rb_message *why)
     const rb_io_table *t = &c->worn.table;
     if (!settled->worn_file)
         return RB_OK;
-    const rb_status s = read_table(&c->worn, settled->worn_file, 2, why);
+    const rb_status s =
+        read_profile_table(&c->worn, settled->worn_file, settled->units, why);
     if (s != RB_OK)
         return s;
     settled->rc.worn_n = t->rows;

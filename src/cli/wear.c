@@ -13,7 +13,7 @@ typedef struct {
     int law, steps, increments, every;
     double coefficient, slide, cycles;
     const char *snapshots, *profile;
-    int given[10];
+    int given[10], plain[10];
 } wear_options;
 
 #define PLACE(member) offsetof(wear_options, member)
@@ -201,6 +201,8 @@ static cli_exit show(const result *r)
 static cli_exit check(const wear_options *w, const rb_settled_case *c)
 {
     const int rolls = c->rc.formulation == RB_STEADY;
+    if (c->units != RB_UNITS_MM)
+        return cli_fail(CLI_USAGE, "--units: wear speaks of mm, N and MPa only");
     if (isnan(w->coefficient))
         return cli_fail(CLI_USAGE, "wear needs --wear-coefficient");
     if (!isnan(w->slide) && !isnan(w->cycles))
@@ -242,12 +244,13 @@ int cli_wear(int argc, char **argv)
     rb_case *c = cli_case_create(RB_CASE_WEAR);
     if (!c)
         return CLI_INTERNAL;
-    const cli_spec spec = {
-        "rollbem wear [OPTION...] [CASE.ini]",
-        about,
-        notes,
-        {rb_case_options(c), {options, OPTIONS, &w, w.given}, cli_output_set(&o)},
-        3};
+    const cli_spec spec = {"rollbem wear [OPTION...] [CASE.ini]",
+                           about,
+                           notes,
+                           {rb_case_options(c),
+                            {options, OPTIONS, &w, w.given, w.plain},
+                            cli_output_set(&o)},
+                           3};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
     if (code == CLI_CONTINUE)
         code = check(&w, rb_case_settled(c));

@@ -8,7 +8,7 @@
 
 static rb_report_columns columns_of(const rb_rolling_wear_history *h)
 {
-    return (rb_report_columns){&rb_rolling_wear_columns, h, 0};
+    return (rb_report_columns){&rb_rolling_wear_columns, h, 0, RB_UNITS_MM};
 }
 
 static const char *unit_of(const rb_report_wear *w)
