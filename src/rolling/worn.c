@@ -361,6 +361,10 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
                        wear->increments);
     if (rc->mu == 0.0 && (wear->law == RB_WEAR_DISSIPATION || !wear->slides))
         return rb_fail(why, RB_EINVAL, "wear: at mu = 0 friction dissipates nothing");
+    if (rc->friction.n > 0 && wear->law == RB_WEAR_DISSIPATION)
+        return rb_fail(why, RB_EINVAL,
+                       "wear: the law of dissipation takes one coefficient of friction, "
+                       "not a table");
     if (!rolls &&
         (rc->mesh != RB_MESH_UNIFORM || rc->contact_elements >= RB_ROLLING_LARGE))
         return rb_fail(
