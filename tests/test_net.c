@@ -832,7 +832,7 @@ static void check_failure(const int *row, int code, const char *errors)
     if (code != 1 || !(may_fail(row) || outgrows_zone(row, err)))
         complain("exit code %d: ...%s", code,
                  err + (strlen(err) > 400) * (strlen(err) - 400));
-    else if (!line)
+    else if (!line && !strstr(err, "; not solved: ")) /* a study counts them */
         complain("exit code 1 without a reason: %s", err);
     failed_solves++;
 }
