@@ -103,10 +103,6 @@ typedef struct {
     rb_rolling_body a, b;
     int elastic_b; /* 0: B is a rigid plane and b is not read */
 
-    /* Third body between the surfaces, elastic: displacement per unit traction
-     * [length/stress]. */
-    double interlayer_normal, interlayer_tangential;
-
     rb_rolling_heat heat_a, heat_b; /* temperatures where A's conductivity is > 0; B's
                                        counts also where B is rigid */
 

@@ -86,7 +86,7 @@ static rb_status write_snapshot(FILE *out, const void *context, rb_message *why)
 {
     const result *r = context;
     (void)why;
-    return rb_report_table(out, r->shown, cli_command_line(), &r->o->style);
+    return rb_report_table(out, NULL, r->shown, cli_command_line(), &r->o->style);
 }
 
 static rb_status save_snapshot(result *r, const rb_rolling_solution *s, int step)

@@ -57,14 +57,12 @@ int rb_rolling_is_homogeneous(const rb_rolling_case *rc)
     return body_is_homogeneous(&rc->a) && (!rc->elastic_b || body_is_homogeneous(&rc->b));
 }
 
-int rb_rolling_has_interlayer(const rb_rolling_case *rc)
-{
-    return rc->interlayer_normal > 0.0 || rc->interlayer_tangential > 0.0;
-}
-
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 {
-    return mesh->n >= RB_ROLLING_LARGE && !rb_rolling_has_interlayer(rc) &&
+    /* products know one operator for bodies and third body */
+    const int two_operators =
+        rc->slip_operator == RB_SLIP_SECOND && rc->interlayer_tangential > 0.0;
+    return mesh->n >= RB_ROLLING_LARGE && !two_operators &&
            (rc->solver == RB_SOLVER_AUTO || rc->solver == RB_SOLVER_NEWTON) &&
            rc->mesh != RB_MESH_FITTED && rc->a.support == RB_BEM_HALFPLANE &&
            (!rc->elastic_b || rc->b.support == RB_BEM_HALFPLANE);
@@ -157,8 +155,7 @@ int rb_rolling_carter_holds(const rb_rolling_case *rc)
                      (!rc->elastic_b || rc->b.support == RB_BEM_HALFPLANE);
     return rc->formulation == RB_STEADY && rc->mu > 0.0 && rc->friction.n == 0 &&
            rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 && flat &&
-           rc->gap != RB_GAP_TABLE && rb_rolling_is_homogeneous(rc) &&
-           !rb_rolling_has_interlayer(rc) && rc->worn_n == 0 &&
+           rc->gap != RB_GAP_TABLE && rb_rolling_is_homogeneous(rc) && rc->worn_n == 0 &&
            fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
 }
 
@@ -189,22 +186,6 @@ static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f
     return s;
 }
 
-/* The third body answers every element alike. */
-static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f)
-{
-    double *normal = rb_alloc((size_t)f->n, 2), *tangential = normal + f->n;
-    rb_status s = normal ? RB_OK : RB_ENOMEM;
-
-    for (int i = 0; i < f->n && s == RB_OK; i++) {
-        normal[i] = rc->interlayer_normal;
-        tangential[i] = rc->interlayer_tangential;
-    }
-    if (s == RB_OK)
-        s = rb_bem_flexibility_add_compliance(f, normal, tangential);
-    free(normal);
-    return s;
-}
-
 rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                    rb_rolling_bodies *bodies, rb_message *why)
 {
@@ -222,8 +203,6 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
         bodies->f = a;
         memset(&a, 0, sizeof a);
     }
-    if (s == RB_OK && rb_rolling_has_interlayer(rc))
-        s = add_interlayer(rc, &bodies->f);
     if (s == RB_OK)
         s = add_interlayer(rc, &bodies->f);
     if (s == RB_OK)

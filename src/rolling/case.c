@@ -432,18 +432,6 @@ static rb_status check_irregularity(const rb_rolling_case *rc, rb_message *why)
     return s;
 }
 
-static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
-{
-    const double compliance[] = {rc->interlayer_normal, rc->interlayer_tangential};
-    static const char *const name[] = {"normal", "tangential"};
-
-    for (int k = 0; k < 2; k++)
-        if (!(compliance[k] >= 0.0) || isinf(compliance[k]))
-            return rb_fail(why, RB_EINVAL, "interlayer %s: expected >= 0, got %g",
-                           name[k], compliance[k]);
-    return RB_OK;
-}
-
 static rb_status check_worn(const rb_rolling_case *rc, rb_message *why)
 {
     for (int i = 0; i < rc->worn_n; i++)
@@ -552,8 +540,6 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
         s = check_gap(rc, why);
     if (s == RB_OK)
         s = check_irregularity(rc, why);
-    if (s == RB_OK)
-        s = check_interlayer(rc, why);
     if (s == RB_OK)
         s = check_worn(rc, why);
     if (s == RB_OK)

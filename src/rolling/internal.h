@@ -43,8 +43,6 @@ rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
 /* 1 where all bodies are homogeneous and elastic: then Hertz's half-width means what it
  * says. */
 int rb_rolling_is_homogeneous(const rb_rolling_case *rc);
-/* 1 where a third body lies between the surfaces. */
-int rb_rolling_has_interlayer(const rb_rolling_case *rc);
 
 /* w = w0 + F (p, q), 2m values, m = n + 1.  RB_ENOMEM. */
 rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
