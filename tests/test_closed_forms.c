@@ -123,9 +123,19 @@ static void half_cylinder_approach(void **state)
               "P = pi E* a^2/4R");
 }
 
+/* Johnson: 4 k without traction, 1/friction where the surface decides; McEwen's stress. */
+static void shakedown_limit(void **state)
+{
+    (void)state;
+    CHECK_REL(rb_closed_shakedown_limit(0.0), 4.0, 1e-6, "free rolling");
+    CHECK_REL(rb_closed_shakedown_limit(0.2), 3.20236, 1e-5, "below the surface");
+    CHECK_REL(rb_closed_shakedown_limit(0.5), 2.0, 1e-9, "at the surface");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shakedown_limit),
         cmocka_unit_test(hertz_pressure_carries_the_load),
         cmocka_unit_test(carter_traction_sums_to_s_2_minus_s),
         cmocka_unit_test(carter_sticks_at_the_leading_edge),

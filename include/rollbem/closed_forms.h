@@ -40,6 +40,10 @@ double rb_closed_carter_traction(double mu, double max_pressure, double half_wid
 double rb_closed_flash_temperature(double heat, double half_width, double speed,
                                    double effusivity);
 
+/* Elastic shakedown limit p0/k of a line contact that slides fully with Q = friction P
+ * (Johnson): 1/max|sxy| below the surface, at most 1/friction. */
+double rb_closed_shakedown_limit(double friction);
+
 /* ---- Tangential load without rolling (Cattaneo, Mindlin) --------------------------- */
 
 /* c/a = sqrt(1 - |Q|/(mu P)): half-width of the centred stick strip. */

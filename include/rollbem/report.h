@@ -232,6 +232,8 @@ typedef struct {
     const int *inside;           /* n; NULL: all */
     const rb_rolling_stress_maxima *maxima;
     const rb_rolling_stress_maxima *errors; /* NULL: not asked for */
+    const rb_rolling_shakedown *shakedown;  /* NULL: not asked for */
+    double yield_shear;                     /* k of A [stress]; NAN: not given */
     const rb_rolling_case *rc;
     const rb_rolling_solution *s;
 } rb_report_stress;
@@ -246,6 +248,9 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *stress);
 /* Contours of maximum shear and of von Mises over a grid. */
 rb_status rb_report_stress_picture(FILE *out, rb_report_picture_kind kind,
                                    const rb_report_stress *stress, rb_message *why);
+/* Shakedown map: p0/k over Q/P, Johnson's curves and the case's own point. */
+rb_status rb_report_shakedown_map(FILE *out, rb_report_picture_kind kind,
+                                  const rb_report_stress *stress, rb_message *why);
 /* Photoelastic fringes: dark where sigma_1 - sigma_2 is a multiple of fringe [stress]; 0:
  * about ten of them. */
 rb_status rb_report_fringes(FILE *out, rb_report_picture_kind kind,

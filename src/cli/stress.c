@@ -9,9 +9,9 @@
 #include <string.h>
 
 typedef struct {
-    const char *grid, *points, *vtk, *fringes;
-    double depth, fringe;
-    int given[7], plain[7];
+    const char *grid, *points, *vtk, *fringes, *map;
+    double depth, fringe, yield_shear;
+    int shakedown, given[10], plain[10];
 } stress_options;
 
 #define PLACE(member) offsetof(stress_options, member)
@@ -36,11 +36,21 @@ static const rb_option options[] = {
                    "difference of the principal stresses from one fringe to the next; "
                    "auto: about ten fringes",
                    .word = "auto", .word_value = 0.0),
+    RB_FLAG_LINE(
+        "shakedown", PLACE(shakedown),
+        "largest p0 under which residual stresses keep A elastic, where the contact "
+        "passes again and again (Melan, Tresca)"),
+    RB_NUMBER_LINE("yield-shear", PLACE(yield_shear), "MPa", RB_ABOVE(0),
+                   "yield stress k of A in shear: where the case stands",
+                   .unset = "not given"),
+    RB_TEXT_LINE("shakedown-map", PLACE(map), "FILE",
+                 "picture of p0/k over Q/P with the case: .png, .svg or .pdf",
+                 .unset = "none", .file = RB_FILE_PICTURE),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
-_Static_assert(OPTIONS == 7, "given");
+_Static_assert(OPTIONS == 10, "given");
 
 /* Pictures are finer than tables, and fringes finer than contours. */
 enum { CONTOURS_X = 161, CONTOURS_Y = 101, FRINGES_X = 241, FRINGES_Y = 151 };
@@ -123,6 +133,7 @@ typedef struct {
     const places *where;
     rb_case_result run;
     rb_rolling_stress_maxima maxima;
+    rb_rolling_shakedown shakedown;
     rb_rolling_errors errors;          /* with --error */
     rb_rolling_stress_grid grid, fine; /* fine: of the pictures */
     rb_rolling_stress *at;             /* of the points */
@@ -159,17 +170,25 @@ static rb_status stress_at_points(result *r, rb_message *why)
     return s;
 }
 
+static int wants_shakedown(const stress_options *o)
+{
+    return o->shakedown || o->map || !isnan(o->yield_shear);
+}
+
 static rb_report_stress of_grid(const result *r, const rb_rolling_stress_grid *grid)
 {
-    return (rb_report_stress){.nx = grid->nx,
-                              .ny = grid->ny,
-                              .n = grid->nx * grid->ny,
-                              .at = grid->at,
-                              .inside = grid->inside,
-                              .maxima = &r->maxima,
-                              .errors = r->c->error ? &r->errors.stress : NULL,
-                              .rc = &r->c->rc,
-                              .s = &r->run.solution};
+    return (rb_report_stress){
+        .nx = grid->nx,
+        .ny = grid->ny,
+        .n = grid->nx * grid->ny,
+        .at = grid->at,
+        .inside = grid->inside,
+        .maxima = &r->maxima,
+        .errors = r->c->error ? &r->errors.stress : NULL,
+        .shakedown = wants_shakedown(r->options) ? &r->shakedown : NULL,
+        .yield_shear = rb_unit_shown(r->c->units, "MPa", r->options->yield_shear),
+        .rc = &r->c->rc,
+        .s = &r->run.solution};
 }
 
 /* The model belongs to a plain solution; its error bars are estimated beside it. */
@@ -201,6 +220,8 @@ static rb_status find_stress(result *r, rb_message *why)
     const places *p = r->where;
     const rb_rolling_model *model = &r->run.model;
     rb_status s = rb_rolling_stress_maxima_find(model, p->depth, &r->maxima, why);
+    if (s == RB_OK && wants_shakedown(r->options))
+        s = rb_rolling_shakedown_find(model, &r->shakedown, why);
     if (s == RB_OK && p->points.rows > 0)
         s = stress_at_points(r, why);
     else if (s == RB_OK)
@@ -212,6 +233,11 @@ static rb_status find_stress(result *r, rb_message *why)
         s = rb_rolling_stress_on_grid(model, CONTOURS_X, CONTOURS_Y, p->depth, &r->fine,
                                       why);
     convert(r, r->c->units);
+    r->shakedown.x = rb_unit_shown(r->c->units, "mm", r->shakedown.x);
+    r->shakedown.y = rb_unit_shown(r->c->units, "mm", r->shakedown.y);
+    r->shakedown.residual = rb_unit_shown(r->c->units, "MPa", r->shakedown.residual);
+    r->shakedown.shear_yield =
+        rb_unit_shown(r->c->units, "MPa", r->shakedown.shear_yield);
     r->table = of_grid(r, &r->grid);
     r->picture = of_grid(r, &r->fine);
     if (p->points.rows > 0) {
@@ -267,6 +293,13 @@ static rb_status draw_fringes(FILE *out, rb_report_picture_kind kind, const void
                              rb_unit_shown(r->c->units, "MPa", r->options->fringe), why);
 }
 
+static rb_status draw_map(FILE *out, rb_report_picture_kind kind, const void *context,
+                          rb_message *why)
+{
+    const result *r = context;
+    return rb_report_shakedown_map(out, kind, &r->table, why);
+}
+
 static cli_exit show(const result *r)
 {
     cli_exit code = cli_write_file(r->o->output, print, r);
@@ -283,6 +316,8 @@ static cli_exit show(const result *r)
         code = cli_draw_file("plot", r->o->plot, draw, r);
     if (code == CLI_OK)
         code = cli_draw_file("fringes", r->options->fringes, draw_fringes, r);
+    if (code == CLI_OK)
+        code = cli_draw_file("shakedown-map", r->options->map, draw_map, r);
     return code;
 }
 
@@ -329,7 +364,7 @@ static cli_exit check(const rb_case *c, const stress_options *so, places *where)
 int cli_stress(int argc, char **argv)
 {
     cli_output o = {0};
-    stress_options so = {0};
+    stress_options so = {.yield_shear = NAN};
     places where = {0};
     cli_args args = {0};
     rb_case *c = cli_case_create(RB_CASE_STRESS);

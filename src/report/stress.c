@@ -51,6 +51,22 @@ static const char *maximum_text(const rb_report_stress *s, int k, char *line, si
     return line;
 }
 
+/* The largest p0 that shakes down, and where the case stands against it. */
+static const char *shakedown_text(const rb_report_stress *s, char *line, size_t size)
+{
+    const rb_rolling_shakedown *d = s->shakedown;
+    const double limit = s->s->max_pressure / d->shear_yield;
+    const double own = s->s->max_pressure / s->yield_shear;
+    const int n =
+        snprintf(line, size, "%-24s p0 <= %.5g k, decided at x = %.4g %s, y = %.4g %s",
+                 "shakedown", limit, d->x, rb_unit_name(s->s->units, "mm"), d->y,
+                 rb_unit_name(s->s->units, "mm"));
+    if (isfinite(own))
+        snprintf(line + n, size - (size_t)n, "; here p0 = %.5g k: %s", own,
+                 own <= limit ? "shakes down" : "does not shake down");
+    return line;
+}
+
 void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
 {
     char line[400];
@@ -59,6 +75,8 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
             rb_unit_name(s->s->units, "mm"));
     for (int k = 0; k < MAXIMA; k++)
         fprintf(out, "  %s\n", maximum_text(s, k, line, sizeof line));
+    if (s->shakedown)
+        fprintf(out, "  %s\n", shakedown_text(s, line, sizeof line));
 }
 
 /* ---- Table ------------------------------------------------------------------------- */
@@ -80,6 +98,8 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s,
                       "tension positive; y > 0 inside A; the grid follows A's surface");
     for (int k = 0; k < MAXIMA; k++)
         rb_report_comment(&c, "%s", maximum_text(s, k, line, sizeof line));
+    if (s->shakedown)
+        rb_report_comment(&c, "%s", shakedown_text(s, line, sizeof line));
     for (int k = 0; k < s->n; k++) {
         if (!rb_report_stress_is_inside(s, k))
             continue;
@@ -113,10 +133,26 @@ static json_t *json_maxima(const rb_report_stress *s)
     return all;
 }
 
+static json_t *json_shakedown(const rb_report_stress *s)
+{
+    const rb_rolling_shakedown *d = s->shakedown;
+    json_t *object = json_object();
+    rb_report_json_set(&object, "limit",
+                       rb_report_json_number(s->s->max_pressure / d->shear_yield));
+    rb_report_json_set(&object, "shear_yield", rb_report_json_number(d->shear_yield));
+    rb_report_json_set(&object, "x", rb_report_json_number(d->x));
+    rb_report_json_set(&object, "y", rb_report_json_number(d->y));
+    rb_report_json_set(&object, "residual", rb_report_json_number(d->residual));
+    rb_report_json_set(&object, "yield_shear", rb_report_json_number(s->yield_shear));
+    return object;
+}
+
 void rb_report_json_stress(json_t **root, const rb_report_stress *s)
 {
     json_t *points = json_object();
     rb_report_json_set(root, "maxima", json_maxima(s));
+    if (s->shakedown)
+        rb_report_json_set(root, "shakedown", json_shakedown(s));
     if (s->nx > 0) {
         rb_report_json_set(&points, "nx", json_integer(s->nx));
         rb_report_json_set(&points, "ny", json_integer(s->ny));

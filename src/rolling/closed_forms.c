@@ -107,3 +107,40 @@ double rb_closed_flash_temperature(double heat, double half_width, double speed,
 {
     return 2.1883067 * heat * sqrt(half_width) / (effusivity * sqrt(M_PI * speed));
 }
+
+/* McEwen: sxy/p0 under Hertz's pressure and q = friction p, a = 1. */
+static double shear_below(double friction, double x, double y)
+{
+    const double c = 1.0 - x * x + y * y, d = sqrt(c * c + 4.0 * x * x * y * y);
+    const double m = sqrt(0.5 * (d + c)), n = copysign(sqrt(fmax(0.0, 0.5 * (d - c))), x);
+    const double r = m * m + n * n;
+
+    return -n * (m * m - y * y) / r -
+           friction * (m * (1.0 + (y * y + n * n) / r) - 2.0 * y);
+}
+
+double rb_closed_shakedown_limit(double friction)
+{
+    enum { POINTS = 400 };
+    double most = fabs(friction), x = 0.0, y = 0.0, step = 0.01;
+
+    for (int i = -POINTS; i <= POINTS; i++)
+        for (int j = 1; j <= POINTS; j++)
+            if (fabs(shear_below(friction, 2.0 * i / POINTS, 2.0 * j / POINTS)) > most) {
+                x = 2.0 * i / POINTS;
+                y = 2.0 * j / POINTS;
+                most = fabs(shear_below(friction, x, y));
+            }
+    for (; y > 0.0 && step > 1e-9; step *= 0.5)
+        for (int k = 0; k < 8; k++) {
+            static const double way[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
+                                             {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+            const double u = x + step * way[k][0], v = fmax(0.0, y + step * way[k][1]);
+            if (fabs(shear_below(friction, u, v)) > most) {
+                most = fabs(shear_below(friction, u, v));
+                x = u;
+                y = v;
+            }
+        }
+    return 1.0 / most;
+}
