@@ -81,7 +81,7 @@ asan:
 
 # what touches most of the library's memory in a minute or two
 SHORT = base lcp io_table case api rolling_lcp rolling_newton rolling_control rolling_cone rolling_friction threads
-short-tests: $(SHORT:%=$(B)/tests/test_%)
+short-tests: $(SHORT:%=$(B)/tests/test_%) | $(PROGRAMS)
 	@B=$(B) tests/run $^
 asan-short:
 	@$(MAKE) --no-print-directory $(SANITIZED) short-tests
