@@ -123,7 +123,8 @@ static void half_cylinder_approach(void **state)
               "P = pi E* a^2/4R");
 }
 
-/* Johnson: 4 k without traction, 1/friction where the surface decides; McEwen's stress. */
+/* Johnson: 4 k without traction, 1/friction where the surface decides; McEwen's stress.
+ */
 static void shakedown_limit(void **state)
 {
     (void)state;

@@ -677,11 +677,12 @@ typedef struct {
     int *inside;           /* nx x ny; owned */
 } rb_rolling_stress_grid;
 
-/* Shakedown of A, a half-plane that is rolled over again and again (theory.md S1): the yield
- * stress in shear k that it needs to end elastic, where, and the residual stress along x
- * that rolling leaves there. */
+/* Shakedown of A, a half-plane that is rolled over again and again (theory.md S1): the
+ * yield stress in shear k that it needs to end elastic, where, and the residual stress
+ * along x that rolling leaves there. */
 typedef struct {
-    double shear_yield; /* k [stress]; p0/k is 4 under Hertz's pressure without friction */
+    double
+        shear_yield; /* k [stress]; p0/k is 4 under Hertz's pressure without friction */
     double x, y;
     double residual; /* [stress] */
 } rb_rolling_shakedown;

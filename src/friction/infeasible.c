@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Steps of the search at most, operations at most, and the relative change at which it has
- * ended. */
+/* Steps of the search at most, operations at most, and the relative change at which it
+ * has ended. */
 enum { STEPS = 5000 };
 static const double OPERATIONS = 2e9, SMALL = 1e-15;
 
