@@ -361,7 +361,10 @@ static double lu_alone(int order)
 
 static rb_bem_mesh wheel(int elements, int n_c)
 {
-    const rb_bem_cylinder cylinder = {1.0, RB_BEM_ARC, 0.5, 0.0, elements - n_c - 1, 0.0};
+    const rb_bem_cylinder cylinder = {.radius = 1.0,
+                                      .support = RB_BEM_ARC,
+                                      .arc = 0.5,
+                                      .outer_elements = elements - n_c - 1};
     double *ends = rb_alloc((size_t)n_c + 2, 1);
     rb_bem_mesh mesh;
     for (int i = 0; i < n_c + 2; i++)

@@ -5,8 +5,11 @@
 #include <string.h>
 
 static const rb_bem_material material = {.shear = 80.0, .poisson = 0.3};
-static const rb_bem_cylinder on_arc = {50.0, RB_BEM_ARC, M_PI / 6.0, 0.0, 0, 0.0},
-                             on_hub = {50.0, RB_BEM_HUB, 0.0, 0.3, 0, 0.0};
+static const rb_bem_cylinder on_arc = {.radius = 50.0,
+                                       .support = RB_BEM_ARC,
+                                       .arc = M_PI / 6.0},
+                             on_hub = {
+                                 .radius = 50.0, .support = RB_BEM_HUB, .hub_ratio = 0.3};
 
 /* n_c equal elements over |x| <= a and one more after them */
 static double *equal_ends(int n_c, double a)
@@ -65,12 +68,10 @@ static void neighbours_differ_by_a_fifth_at_most(void **state)
     (void)state;
     for (double a = 0.5; a > 1e-9; a *= 0.1)
         for (int k = 0; k < 8; k++) {
-            const rb_bem_cylinder cylinder = {1.0,
-                                              k < 4 ? RB_BEM_ARC : RB_BEM_HUB,
-                                              0.1 + 0.4 * k,
-                                              0.15 + 0.2 * (k - 4),
-                                              0,
-                                              0.0};
+            const rb_bem_cylinder cylinder = {.radius = 1.0,
+                                              .support = k < 4 ? RB_BEM_ARC : RB_BEM_HUB,
+                                              .arc = 0.1 + 0.4 * k,
+                                              .hub_ratio = 0.15 + 0.2 * (k - 4)};
             rb_bem_mesh mesh = mesh_of(&cylinder, 30 + k, a);
             CHECK_STATUS(rb_bem_mesh_check(&mesh, NULL), RB_OK);
             CHECK_MAX(grading(&mesh), 1.2, "a/R = %g, support %d", a, k);
@@ -199,21 +200,21 @@ static void bad_cylinders_are_refused(void **state)
         const double *ends;
         const char *text;
     } bad[] = {
-        {{50, RB_BEM_ARC, 0.5, 0, 0, 0}, 0, ends, "at least 1"},
-        {{50, RB_BEM_ARC, 0.5, 0, 0, 0}, 2, back, "increasing"},
-        {{0, RB_BEM_ARC, 0.5, 0, 0, 0}, 2, ends, "radius"},
-        {{NAN, RB_BEM_ARC, 0.5, 0, 0, 0}, 2, ends, "radius"},
-        {{50, RB_BEM_ARC, 0, 0, 0, 0}, 2, ends, "arc"},
-        {{50, RB_BEM_ARC, 1.6, 0, 0, 0}, 2, ends, "arc"},
-        {{50, RB_BEM_HUB, 0, 1.0, 0, 0}, 2, ends, "hub ratio"},
-        {{50, RB_BEM_HUB, 0, 0.0, 0, 0}, 2, ends, "hub ratio"},
-        {{50, RB_BEM_HALFPLANE, 0.5, 0.5, 0, 0}, 2, ends, "support"},
-        {{50, RB_BEM_ARC, 0.5, 0, 7, 0}, 2, ends, "outer elements"},
-        {{50, RB_BEM_HUB, 0, 0.6, 8, 0}, 2, ends, "cut the hub"},
-        {{50, RB_BEM_ARC, 0.5, 0, 2000000, 0}, 2, ends, "million"},
-        {{50, RB_BEM_ARC, 0.5, 0, 0, -1.0}, 2, ends, "refinement"},
-        {{50, RB_BEM_ARC, 0.5, 0, 0, 0}, 2, wide, "radius of 50"},
-        {{50, RB_BEM_ARC, M_PI_2, 0, 0, 0}, 2, most, "clamped arc"},
+        {{50, RB_BEM_ARC, 0.5, 0, 0, 0, 0}, 0, ends, "at least 1"},
+        {{50, RB_BEM_ARC, 0.5, 0, 0, 0, 0}, 2, back, "increasing"},
+        {{0, RB_BEM_ARC, 0.5, 0, 0, 0, 0}, 2, ends, "radius"},
+        {{NAN, RB_BEM_ARC, 0.5, 0, 0, 0, 0}, 2, ends, "radius"},
+        {{50, RB_BEM_ARC, 0, 0, 0, 0, 0}, 2, ends, "arc"},
+        {{50, RB_BEM_ARC, 1.6, 0, 0, 0, 0}, 2, ends, "arc"},
+        {{50, RB_BEM_HUB, 0, 1.0, 0, 0, 0}, 2, ends, "hub ratio"},
+        {{50, RB_BEM_HUB, 0, 0.0, 0, 0, 0}, 2, ends, "hub ratio"},
+        {{50, RB_BEM_HALFPLANE, 0.5, 0.5, 0, 0, 0}, 2, ends, "support"},
+        {{50, RB_BEM_ARC, 0.5, 0, 0, 7, 0}, 2, ends, "outer elements"},
+        {{50, RB_BEM_HUB, 0, 0.6, 0, 8, 0}, 2, ends, "cut the hub"},
+        {{50, RB_BEM_ARC, 0.5, 0, 0, 2000000, 0}, 2, ends, "million"},
+        {{50, RB_BEM_ARC, 0.5, 0, 0, 0, -1.0}, 2, ends, "refinement"},
+        {{50, RB_BEM_ARC, 0.5, 0, 0, 0, 0}, 2, wide, "radius of 50"},
+        {{50, RB_BEM_ARC, M_PI_2, 0, 0, 0, 0}, 2, most, "clamped arc"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_bem_mesh mesh;

@@ -145,7 +145,7 @@ static void the_solution_satisfies_the_equations(void **state)
 {
     (void)state;
     const double ends[] = {-8.0, -5.0, -1.0, 2.0, 4.0, 7.0};
-    const rb_bem_cylinder cylinder = {50.0, RB_BEM_ARC, 0.5, 0.0, 0, 0.0};
+    const rb_bem_cylinder cylinder = {.radius = 50.0, .support = RB_BEM_ARC, .arc = 0.5};
     rb_bem_mesh mesh;
     rb_bem_system *system;
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, 4, ends, &mesh, NULL), RB_OK);
