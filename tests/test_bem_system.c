@@ -274,7 +274,8 @@ static void failing_memory_is_reported(void **state)
 {
     (void)state;
     const double ends[] = {-0.2, -0.1, 0.1, 0.2};
-    const rb_bem_cylinder cylinder = {1.0, RB_BEM_HUB, 0.0, 0.4, 20, 0.0};
+    const rb_bem_cylinder cylinder = {
+        .radius = 1.0, .support = RB_BEM_HUB, .hub_ratio = 0.4, .outer_elements = 20};
     double H[40000], u[200], t[200];
     for (int count = 0, failed = 1; failed; count++) {
         rb_bem_mesh mesh = {0};
