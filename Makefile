@@ -18,6 +18,15 @@ LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS) 2>/dev/null)
 CPPFLAGS += $(OPENMP) -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 # rollbem-mpi, for studies over machines: where Open MPI's headers are; make MPI= goes without
 MPI := $(shell pkg-config --exists ompi-c 2>/dev/null && echo ompi-c)
+# Hardening: fortified calls of the C library, stack protectors, addresses that change with every
+# run, relocations read-only before main.  Sanitizers check more, and fortified calls hide from
+# them; the C library fortifies optimised code only.
+works = $(shell echo 'int main(void) { return 0; }' | $(CC) $(CFLAGS) -Werror $(1) -include stdio.h -x c -o /dev/null - 2>/dev/null && echo '$(1)')
+ifeq ($(findstring -fsanitize,$(CFLAGS)),)
+HARDEN := $(call works,-fstack-protector-strong) $(call works,-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
+HARDEN_SO := $(call works,-z relro -z now)
+HARDEN_LD := $(HARDEN_SO) $(call works,-fPIE -pie)
+endif
 # make V=1 shows the whole commands
 Q := $(if $(filter 1,$(V)),,@)
 VERSION := $(shell sed -n 's/.*RB_VERSION "\(.*\)"/\1/p' include/rollbem/base.h)
@@ -106,15 +115,15 @@ $(B)/librollbem.a: $(LIB_OBJ)
 
 $(B)/librollbem.so: $(LIB_OBJ)
 	@echo "  LD  $@"
-	$(Q)$(CC) $(CFLAGS) -shared -Wl,-soname,librollbem.so.0 -o $@ $^ $(LDFLAGS) $(LDLIBS)
+	$(Q)$(CC) $(CFLAGS) $(HARDEN_SO) -shared -Wl,-soname,librollbem.so.0 -o $@ $^ $(LDFLAGS) $(LDLIBS)
 
 $(B)/rollbem: $(CLI_OBJ) $(B)/librollbem.a
 	@echo "  LD  $@"
-	$(Q)$(CC) $(CFLAGS) -o $@ $(CLI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)
+	$(Q)$(CC) $(CFLAGS) $(HARDEN_LD) -o $@ $(CLI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)
 
 $(B)/rollbem-mpi: $(MPI_OBJ) $(B)/librollbem.a
 	@echo "  LD  $@"
-	$(Q)$(CC) $(CFLAGS) -o $@ $(MPI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS) $(shell pkg-config --libs $(MPI))
+	$(Q)$(CC) $(CFLAGS) $(HARDEN_LD) -o $@ $(MPI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS) $(shell pkg-config --libs $(MPI))
 
 # the generator of the friction problems of examples/packings, for the tests and the study
 $(B)/packings: examples/packings/packings.c
@@ -145,7 +154,7 @@ $(B)/src/cli/examples.o: CPPFLAGS += -I$(B)
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
-	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -fPIC -fvisibility=hidden -MMD -MP -c -o $@ $<
+	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) $(HARDEN) -fPIC -fvisibility=hidden -MMD -MP -c -o $@ $<
 
 # tests of failing allocations count the library's own calls: --wrap sees the static library
 WRAP = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc
@@ -167,7 +176,7 @@ $(B)/tests/test_core: tests/test_core.c tests/check.h $(B)/librollbem-core.a
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< $(B)/librollbem-core.a $(LDFLAGS) $(CORE_LIBS) -lcmocka
 
 # the program under failing system calls, and under failing allocations
-$(B)/tests/test_symbols: | $(B)/librollbem.so
+$(B)/tests/test_symbols $(B)/tests/test_hardening: | $(B)/librollbem.so
 $(B)/tests/test_faults: tests/fault_call.c $(B)/tests/fault_malloc.so
 $(B)/tests/fault_malloc.so: tests/fault_malloc.c
 	@mkdir -p $(@D)

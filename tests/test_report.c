@@ -6,6 +6,7 @@
 #include "rollbem/report.h"
 
 #include <jansson.h>
+#include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -383,6 +384,24 @@ static void gnuplot_has_a_time_limit(void **state)
     fclose(out);
 }
 
+/* A descriptor that a caller has open, and would hand on to every child. */
+static void gnuplot_inherits_no_descriptor(void **state)
+{
+    (void)state;
+    FILE *out = tmpfile();
+    rb_message why = {""};
+    const int foreign = fcntl(fileno(out), F_DUPFD, 200);
+    assert_true(foreign >= 200);
+    CHECK_STATUS(draw_by("for fd in /proc/self/fd/2??; do\n"
+                         "    if [ -e $fd ]; then echo inherited $fd >&2; exit 1; fi\n"
+                         "done\n"
+                         "printf '<?xml <svg> more </svg>'",
+                         20.0, RB_REPORT_SVG, out, &why),
+                 RB_OK);
+    close(foreign);
+    fclose(out);
+}
+
 /* A start-up file that would end every picture. */
 static void start_up_files_are_off(void **state)
 {
@@ -544,6 +563,7 @@ int main(void)
         cmocka_unit_test(missing_gnuplot_is_named),
         cmocka_unit_test(a_part_of_a_picture_is_none),
         cmocka_unit_test(gnuplot_has_a_time_limit),
+        cmocka_unit_test(gnuplot_inherits_no_descriptor),
         cmocka_unit_test(start_up_files_are_off),
         cmocka_unit_test(columns_are_read),
         cmocka_unit_test(bad_columns_are_named),

@@ -32,6 +32,19 @@ static rb_status no_temporary(rb_message *why)
                : rb_fail(why, RB_EWRITE, "temporary file: %s", strerror(errno));
 }
 
+/* Whatever else is open, by the caller of the library too, is none of gnuplot's business.
+ */
+static int close_others(posix_spawn_file_actions_t *actions)
+{
+    enum { MOST = 4096 }; /* a limit of a thousand million is not unheard of */
+    const long limit = sysconf(_SC_OPEN_MAX);
+    int e = 0;
+    for (int fd = 3; !e && fd < MOST && (limit < 0 || fd < limit); fd++)
+        if (fcntl(fd, F_GETFD) >= 0)
+            e = posix_spawn_file_actions_addclose(actions, fd);
+    return e;
+}
+
 /* -d: without the start-up files of the machine and of the user. */
 static int spawn(FILE *script, FILE *picture, FILE *errors, pid_t *pid)
 {
@@ -45,6 +58,8 @@ static int spawn(FILE *script, FILE *picture, FILE *errors, pid_t *pid)
         e = posix_spawn_file_actions_adddup2(&actions, fileno(picture), 1);
     if (!e)
         e = posix_spawn_file_actions_adddup2(&actions, fileno(errors), 2);
+    if (!e)
+        e = close_others(&actions);
     if (!e)
         e = posix_spawnp(pid, argv[0], &actions, NULL, argv, environ);
     posix_spawn_file_actions_destroy(&actions);

@@ -1,0 +1,54 @@
+/* The program and the shared library as the Makefile hardens them: what the linker wrote
+ * into them says so. */
+#include "cli_run.h"
+
+static void check_lines_of(const char *readelf, const char *part)
+{
+    char line[800];
+    snprintf(line, sizeof line, "readelf %s", readelf);
+    assert_int_equal(shell(line), 0);
+    if (!strstr(out, part))
+        print_error("readelf %s: no '%s'\n", readelf, part);
+    assert_non_null(strstr(out, part));
+}
+
+static void skip_where_nothing_is_hardened(void)
+{
+#if defined(__SANITIZE_ADDRESS__)
+    print_message("skipped: sanitizers replace the hardening\n");
+    skip();
+#endif
+    if (shell("readelf --version") == 0)
+        return;
+    print_message("skipped: readelf is not installed\n");
+    skip();
+}
+
+static void the_program_is_hardened(void **state)
+{
+    (void)state;
+    skip_where_nothing_is_hardened();
+    check_lines_of("-hW \"$R\"", "DYN");
+    check_lines_of("-lW \"$R\"", "GNU_RELRO");
+    check_lines_of("-dW \"$R\"", "BIND_NOW");
+    check_lines_of("-dW \"$R\"", "PIE");
+    check_lines_of("--dyn-syms -W \"$R\"", "__stack_chk_fail");
+    check_lines_of("--dyn-syms -W \"$R\"", "printf_chk");
+}
+
+static void the_library_is_hardened(void **state)
+{
+    (void)state;
+    skip_where_nothing_is_hardened();
+    check_lines_of("-lW \"${R%/*}/librollbem.so\"", "GNU_RELRO");
+    check_lines_of("-dW \"${R%/*}/librollbem.so\"", "BIND_NOW");
+    check_lines_of("--dyn-syms -W \"${R%/*}/librollbem.so\"", "__stack_chk_fail");
+    check_lines_of("--dyn-syms -W \"${R%/*}/librollbem.so\"", "printf_chk");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_program_is_hardened),
+                                       cmocka_unit_test(the_library_is_hardened)};
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
