@@ -35,6 +35,9 @@ static void units_are_as_defined(void **state)
                {"1lbf", "N", 4.4482216152605},
                {"36km/h", "mm/s", 10000.0},
                {"60mph", "mm/s", 26822.4},
+               {"2um/MPa", "mm/MPa", 0.002},
+               {"3e-15m/Pa", "mm/MPa", 3e-6},
+               {"1e-9in/psi", "mm/MPa", 3.6839585383473144e-06},
                {"5ms", "s", 0.005},
                {"0.1%", "-", 0.001},
                {"3.14159265358979323846rad", "degrees", 180.0}};
@@ -70,7 +73,7 @@ static void powers_of_ten_are_exact(void **state)
  */
 static const char *unit_of(const char *column)
 {
-    static const char *const units[] = {"mm", "MPa", "N/mm", "N", "mm/s"};
+    static const char *const units[] = {"mm", "MPa", "N/mm", "N", "mm/s", "mm/MPa"};
     const char *end = strrchr(column, '_');
     for (size_t k = 0; end && k < sizeof units / sizeof *units; k++)
         if (strcmp(end + 1, units[k]) == 0)
@@ -109,11 +112,16 @@ static void compare_tables(const char *a_path, const char *b_path, rb_units syst
 static void every_command_converts_the_same_numbers(void **state)
 {
     (void)state;
-    /* $L ...: lengths, stresses and loads, once as plain numbers of each system */
+    /* $R1 ...: lengths, stresses, loads and a compliance, once as plain numbers of each
+     * system */
     static const struct {
         const char *command, *table;
     } all[] = {
         {"$R --radius $R1 --young $E1 --approach $A1 --contact-elements 24", "out"},
+        {"$R --radius $R1 --young $E1 --load $P1 --support halfplane --similar "
+         "--formulation "
+         "steady --creep-ratio .4 --interlayer-normal $C1 --interlayer-tangential $C1",
+         "out"},
         {"$R --radius $R1 --young $E1 --load $P1 --support halfplane --similar "
          "--formulation "
          "steady --creep-ratio .4 --zone $Z1 --mesh uniform",
@@ -134,9 +142,10 @@ static void every_command_converts_the_same_numbers(void **state)
          "--vary-1 "
          "'mu .1 .3'",
          "out"}};
-    static const char *const values[] = {"R1=46.5; E1=205000; A1=2.5; P1=712; Z1=1.25",
-                                         "R1=0.0465; E1=205e9; A1=0.0025; P1=712e3; "
-                                         "Z1=0.00125"};
+    static const char *const values[] = {
+        "R1=46.5; E1=205000; A1=2.5; P1=712; Z1=1.25; C1=2e-6",
+        "R1=0.0465; E1=205e9; A1=0.0025; P1=712e3; "
+        "Z1=0.00125; C1=2e-15"};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char line[800];
         for (int u = 0; u < 2; u++) {
@@ -258,6 +267,12 @@ static void wrong_units_are_named(void **state)
     check_refused("--units cgs", 64, "mm, si or inch");
     write_file("u.ini", "radius = 5 lightyears\n");
     check_refused("u.ini", 65, "u.ini:1: radius: expected a number in one of mm,");
+    /* a refusal in mm says so to one who speaks of metres */
+    check_refused("--units si --support hub --radius 0.05 --cover-thickness 0.06", 64,
+                  "less than the radius, 50 mm, got 60 mm");
+    check_refused("--units si --support halfplane --load 1e5 --formulation steady "
+                  "--force 9e4",
+                  64, "force Q = 90 N/mm: friction carries at most mu P = 30 N/mm");
 }
 
 int main(void)

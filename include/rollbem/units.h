@@ -13,8 +13,9 @@ typedef enum {
     RB_UNITS_INCH /* in, lbf, psi */
 } rb_units;
 
-/* unit: as options and results name it ("mm", "MPa", "N/mm", "N", "mm/s").  What has no
- * other unit in any system ("-", "1", "s", "degrees", "elements") stays as it is. */
+/* unit: as options and results name it ("mm", "MPa", "N/mm", "N", "mm/s", "mm/MPa"). What
+ * has no other unit in any system ("-", "1", "s", "degrees", "elements") stays as it is.
+ */
 
 /* What stands in its place: "Pa" for "MPa" in SI. */
 const char *rb_unit_name(rb_units system, const char *unit);

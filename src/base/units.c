@@ -53,6 +53,10 @@ static const unit_row table[] = {
     {"in/s", "mm/s", 0, INCH},
     {"ft/s", "mm/s", 0, 12.0 * INCH},
     {"mph", "mm/s", 0, 447.04},
+    {"mm/MPa", "mm/MPa", 0, 1.0},
+    {"um/MPa", "mm/MPa", -3, 1.0},
+    {"m/Pa", "mm/MPa", 9, 1.0},
+    {"in/psi", "mm/MPa", 0, INCH *INCH *INCH / POUND},
     {"s", "s", 0, 1.0},
     {"ms", "s", -3, 1.0},
     {"us", "s", -6, 1.0},
@@ -69,11 +73,10 @@ enum { ROWS = sizeof table / sizeof table[0] };
 /* The units of a system, by what they stand for. */
 static const struct {
     const char *kind, *name[3];
-} systems[] = {{"mm", {"mm", "m", "in"}},
-               {"MPa", {"MPa", "Pa", "psi"}},
-               {"N/mm", {"N/mm", "N/m", "lbf/in"}},
-               {"N", {"N", "N", "lbf"}},
-               {"mm/s", {"mm/s", "m/s", "in/s"}}};
+} systems[] = {
+    {"mm", {"mm", "m", "in"}},           {"MPa", {"MPa", "Pa", "psi"}},
+    {"N/mm", {"N/mm", "N/m", "lbf/in"}}, {"N", {"N", "N", "lbf"}},
+    {"mm/s", {"mm/s", "m/s", "in/s"}},   {"mm/MPa", {"mm/MPa", "m/Pa", "in/psi"}}};
 
 enum { KINDS = sizeof systems / sizeof systems[0] };
 

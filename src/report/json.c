@@ -70,11 +70,8 @@ json_t *rb_report_json_units(rb_units units)
 {
     static const struct {
         const char *quantity, *unit;
-    } all[] = {{"length", "mm"},
-               {"stress", "MPa"},
-               {"load", "N/mm"},
-               {"moment", "N"},
-               {"speed", "mm/s"}};
+    } all[] = {{"length", "mm"}, {"stress", "MPa"}, {"load", "N/mm"},
+               {"moment", "N"},  {"speed", "mm/s"}, {"compliance", "mm/MPa"}};
     static const char *const systems[] = {"mm", "si", "inch"};
     json_t *object = json_object();
     rb_report_json_set(&object, "system", json_string(systems[units]));

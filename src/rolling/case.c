@@ -192,8 +192,8 @@ static rb_status check_body(const rb_rolling_body *b, const char *which,
     if (!(isfinite(b->cover) && b->cover >= 0.0 && b->cover < b->radius))
         return rb_fail(
             why, RB_EINVAL,
-            "cover thickness%s: expected > 0 and less than the radius %g, got %g", which,
-            b->radius, b->cover);
+            "cover thickness%s: expected > 0 and less than the radius, %g mm, got %g mm",
+            which, b->radius, b->cover);
     if (!(isfinite(b->core_young) && b->core_young >= 0.0))
         return rb_fail(why, RB_EINVAL,
                        "Young's modulus of the core%s: expected > 0, got %g", which,
@@ -325,7 +325,8 @@ static rb_status check_force(const rb_rolling_case *rc, rb_message *why)
                        rc->force_ratio);
     const double P = rb_rolling_derive(rc).load;
     if (!isnan(rc->force) && !isnan(P) && fabs(rc->force) > rc->mu * P * (1.0 + 1e-12))
-        return rb_fail(why, RB_EINVAL, "force Q = %g: friction carries at most mu P = %g",
+        return rb_fail(why, RB_EINVAL,
+                       "force Q = %g N/mm: friction carries at most mu P = %g N/mm",
                        rc->force, rc->mu * P);
     return RB_OK;
 }
@@ -477,8 +478,8 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL, "zone: expected a half-width > 0, got %g",
                        rc->zone);
     if (rc->zone >= rc->a.radius || rc->zone >= rc->b.radius)
-        return rb_fail(why, RB_EINVAL, "zone: %g is wider than the radius %g", rc->zone,
-                       fmin(rc->a.radius, rc->b.radius));
+        return rb_fail(why, RB_EINVAL, "zone: %g mm is wider than the radius, %g mm",
+                       rc->zone, fmin(rc->a.radius, rc->b.radius));
     if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->a.support == RB_BEM_HALFPLANE)
         return rb_fail(why, RB_EINVAL,
                        "normals surface: a half-plane has the obstacle's");

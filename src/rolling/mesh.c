@@ -143,12 +143,13 @@ static rb_status check_extent(const rb_rolling_case *rc, double from, double to,
     const double radius = lower_half(rc);
 
     if (!(from < to))
-        return rb_fail(why, RB_EINVAL, "potential contact from %g to %g is empty", from,
-                       to);
+        return rb_fail(why, RB_EINVAL, "potential contact from %g to %g mm is empty",
+                       from, to);
     if (fmax(fabs(from), fabs(to)) >= radius)
-        return rb_fail(why, RB_EINVAL,
-                       "potential contact from %g to %g is wider than the radius %g",
-                       from, to, radius);
+        return rb_fail(
+            why, RB_EINVAL,
+            "potential contact from %g to %g mm is wider than the radius, %g mm", from,
+            to, radius);
     return RB_OK;
 }
 
@@ -184,10 +185,11 @@ rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, double from, double
     if (s != RB_OK)
         return s;
     /* an arc beyond the quarter circle turns back */
-    return rb_fail(why, RB_EINVAL,
-                   "potential contact from %g to %g: no room for the element before it "
-                   "within the radius %g; take more elements",
-                   from, to, rc->a.radius);
+    return rb_fail(
+        why, RB_EINVAL,
+        "potential contact from %g to %g mm: no room for the element before it "
+        "within the radius, %g mm; take more elements",
+        from, to, rc->a.radius);
 }
 
 /* ---- Fitted elements ------------------------------------------------------------------

@@ -36,7 +36,7 @@ static rb_status check_lowest(int n, const double *gap, rb_message *why)
         if (gap[i] < gap[end])
             return RB_OK;
     return rb_fail(why, RB_EINVAL,
-                   "gap: row %d: the smallest gap, %g, stands at an end of the table, "
+                   "gap: row %d: the smallest gap, %g mm, stands at an end of the table, "
                    "which has to enclose the contact; gaps count positive where the "
                    "bodies are apart",
                    end + 1, gap[end]);

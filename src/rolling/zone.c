@@ -67,17 +67,19 @@ static rb_status check_end(const rb_rolling_model *model, const rb_contact_state
     if (!is_loaded(state, right ? n - 1 : 0))
         return RB_OK;
     if (no_room && model->rc.gap == RB_GAP_TABLE)
-        return rb_fail(why, RB_ZONE,
-                       "the contact reaches x = %g, and the gap table or the wheel has x "
-                       "from %g to %g only",
-                       x, limit.from, limit.to);
+        return rb_fail(
+            why, RB_ZONE,
+            "the contact reaches x = %g mm, and the gap table or the wheel has x "
+            "from %g to %g mm only",
+            x, limit.from, limit.to);
     if (no_room)
         return rb_fail(why, RB_ZONE,
-                       "the contact does not end within %g of the lowest point", fabs(x));
-    return rb_fail(
-        why, RB_ZONE,
-        "the contact reaches the end of the potential contact at x = %g; widen the zone",
-        x);
+                       "the contact does not end within %g mm of the lowest point",
+                       fabs(x));
+    return rb_fail(why, RB_ZONE,
+                   "the contact reaches the end of the potential contact at x = %g mm; "
+                   "widen the zone",
+                   x);
 }
 
 rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
@@ -92,7 +94,7 @@ rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
         s = rb_rolling_find_overlap(model, state, &overlap);
     if (s == RB_OK && overlap.count > 0)
         s = rb_fail(why, RB_ZONE,
-                    "the bodies overlap from x = %g to %g, outside the potential "
+                    "the bodies overlap from x = %g to %g mm, outside the potential "
                     "contact; widen the zone",
                     overlap.from[0], overlap.to[0]);
     return s;
@@ -322,7 +324,7 @@ static rb_status solve_automatic(rb_rolling_model *model, interval zone, int coa
     }
     return rb_fail(why, RB_ZONE,
                    "no potential contact holds the contact and fits it: the last one "
-                   "tried reaches from %g to %g",
+                   "tried reaches from %g to %g mm",
                    zone.from, zone.to);
 }
 
@@ -367,7 +369,7 @@ static rb_status solve_given(rb_rolling_model *model, rb_message *why)
     rb_rolling_model_free(&wider);
     return rb_fail(why, RB_ZONE,
                    "zone: the contact is not within the potential contact of half-width "
-                   "%g; widen it to %.4g or leave it out",
+                   "%g mm; widen it to %.4g mm or leave it out",
                    zone, wanted);
 }
 
