@@ -47,6 +47,12 @@ static const struct {
     {"--formulation transient --distance 1 --creep 0 --history-plot a.bmp", 64,
      "--history-plot: expected a name ending in .png"},
     {"stress --points nowhere", 66, "nowhere: No such file"},
+    {"--plot a.svg --plot-size 86mm", 64, "--plot-size: expected own, 85mm, 170mm"},
+    {"curve --plot-size 85mm", 64, "--plot-size: there is no picture"},
+    {"--plot-script a.gp", 64, "--plot-script: expected one picture"},
+    {"stress --plot a.svg --fringes b.svg --plot-script a.gp", 64, "got 2"},
+    {"--plot a.svg --plot-script a.svg", 64, "both would write 'a.svg'"},
+    {"stress --plot a.svg --plot-size 85mm", 64, "expected 170mm or slide"},
 };
 
 static void bad_arguments_are_refused(void **state)
@@ -487,6 +493,55 @@ static void pictures_are_drawn(void **state)
     assert_true(st.st_size > 20000);
 }
 
+/* Each command in each size: width and height as asked for, at 96 pixels an inch.  What
+ * the script draws is the picture. */
+static void pictures_in_sizes(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line, *option;
+        int narrow; /* 1: fits a column */
+        int height; /* at 170mm */
+    } pictures[] = {
+        {"--approach 0.5 --contact-elements 20", "plot", 1, 481},
+        {"--approach 0.5 --contact-elements 20 --increments 2", "history-plot", 1, 481},
+        {"curve " SIMILAR "--points 9 --contact-elements 20", "plot", 1, 481},
+        {"stress " SIMILAR "--contact-elements 20", "plot", 0, 267},
+        {"stress " SIMILAR "--contact-elements 20", "fringes", 1, 481},
+        {"stress " SIMILAR "--contact-elements 20 --shakedown", "shakedown-map", 1, 481},
+        {"wear " SIMILAR "--gap parabola --slide 1e5 --wear-coefficient 1e-10 "
+         "--wear-steps 2 --contact-elements 20",
+         "plot", 1, 481}};
+    for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++) {
+        const struct {
+            const char *name;
+            int width, height;
+        } sizes[] = {
+            {"170mm", 642, pictures[k].height}, {"slide", 1280, 720}, {"85mm", 321, 321}};
+        for (int i = 0; i < 2 + pictures[k].narrow; i++) {
+            char line[400], want[60];
+            snprintf(line, sizeof line,
+                     "%s --quiet --output out.tsv --%s sized.svg --plot-size %s "
+                     "--plot-script sized.gp",
+                     pictures[k].line, pictures[k].option, sizes[i].name);
+            assert_int_equal(rollbem(line), 0);
+            slurp("sized.svg", out, sizeof out);
+            snprintf(want, sizeof want, "width=\"%d\" height=\"%d\"", sizes[i].width,
+                     sizes[i].height);
+            if (!strstr(out, want))
+                print_error("%s: not %s\n", line, want);
+            assert_non_null(strstr(out, want));
+            assert_int_equal(shell("gnuplot -d sized.gp | cmp - sized.svg"), 0);
+        }
+    }
+    assert_int_equal(
+        shell("PATH=/nonexistent \"$R\" --approach 0.5 --contact-elements 20 "
+              "--quiet --plot none.svg --plot-script alone.gp"),
+        70);
+    slurp("alone.gp", out, sizeof out);
+    assert_non_null(strstr(out, "$data << EOD"));
+}
+
 /* Friction that is rounding beside the pressure: every number is one. */
 static void almost_no_friction(void **state)
 {
@@ -527,6 +582,7 @@ int main(void)
         cmocka_unit_test(full_sliding_says_that_creepage_is_open),
         cmocka_unit_test(fitted_is_the_default_for_steady),
         cmocka_unit_test(pictures_are_drawn),
+        cmocka_unit_test(pictures_in_sizes),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -275,7 +275,9 @@ static void pictures_of_three_kinds(void **state)
         rb_message why = {""};
         FILE *file = tmpfile();
         assert_int_equal(rb_report_picture_kind_of(names[k], &kind, &why), RB_OK);
-        assert_int_equal(rb_report_picture(file, kind, &rc, &s, &why), RB_OK);
+        assert_int_equal(
+            rb_report_picture(file, (rb_report_canvas){.kind = kind}, &rc, &s, &why),
+            RB_OK);
         assert_int_equal(strncmp(content(file), starts[k], strlen(starts[k])), 0);
         fclose(file);
     }
@@ -417,7 +419,8 @@ static void start_up_files_are_off(void **state)
     const rb_rolling_solution s = carter();
     const rb_rolling_case rc = rb_rolling_case_defaults();
     rb_message why = {""};
-    const rb_status status = rb_report_picture(out, RB_REPORT_SVG, &rc, &s, &why);
+    const rb_status status =
+        rb_report_picture(out, (rb_report_canvas){.kind = RB_REPORT_SVG}, &rc, &s, &why);
     setenv("HOME", home, 1);
     unlink(name);
     rmdir(folder);

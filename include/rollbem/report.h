@@ -147,6 +147,21 @@ void rb_report_citations(FILE *out, const rb_rolling_case *rc,
 
 typedef enum { RB_REPORT_PNG, RB_REPORT_SVG, RB_REPORT_PDF } rb_report_picture_kind;
 
+/* A column and the page of a paper, with letters of 6 and 7 points; a slide, 16:9. */
+typedef enum {
+    RB_REPORT_OWN_SIZE,
+    RB_REPORT_85MM,
+    RB_REPORT_170MM,
+    RB_REPORT_SLIDE
+} rb_report_picture_size;
+
+/* What a picture is drawn on. */
+typedef struct {
+    rb_report_picture_kind kind;
+    rb_report_picture_size size;
+    int script; /* 1: what gnuplot would read, with the data, instead of the picture */
+} rb_report_canvas;
+
 /* All pictures are made by gnuplot and written whole or not at all.  RB_EHELPER: it is
  * missing or refuses; RB_EWRITE; RB_ENOMEM. */
 
@@ -155,9 +170,8 @@ rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *ki
                                     rb_message *why);
 
 /* Tractions, friction bounds, zones and slip along the contact. */
-rb_status rb_report_picture(FILE *out, rb_report_picture_kind kind,
-                            const rb_rolling_case *rc, const rb_rolling_solution *s,
-                            rb_message *why);
+rb_status rb_report_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
+                            const rb_rolling_solution *s, rb_message *why);
 
 /* ---- Wear -----------------------------------------------------------------------------
  */
@@ -186,7 +200,7 @@ void rb_report_wear_summary(FILE *out, const rb_report_wear *w);
 /* Keeps the step for the picture where it is one of those shown.  RB_ENOMEM. */
 rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
                               const rb_rolling_wear_history *h, int step, int steps);
-rb_status rb_report_wear_picture(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_wear_picture(FILE *out, rb_report_canvas canvas,
                                  const rb_report_wear *w, rb_message *why);
 void rb_report_wear_free(rb_report_wear *w);
 
@@ -217,7 +231,7 @@ void rb_report_json_curves(struct json_t **root, const rb_report_curves *curves)
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves);
 /* Braking force -Q/(mu P) over xi R/(mu a) or xi; of several mu -Q/P over xi.  Carter's
  * law dashed; errors as bands. */
-rb_status rb_report_curve_picture(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas,
                                   const rb_rolling_case *rc,
                                   const rb_report_curves *curves,
                                   rb_rolling_variable over, rb_message *why);
@@ -246,14 +260,14 @@ void rb_report_json_stress(struct json_t **root, const rb_report_stress *stress)
 /* The maxima, with their errors where known. */
 void rb_report_stress_summary(FILE *out, const rb_report_stress *stress);
 /* Contours of maximum shear and of von Mises over a grid. */
-rb_status rb_report_stress_picture(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_stress_picture(FILE *out, rb_report_canvas canvas,
                                    const rb_report_stress *stress, rb_message *why);
 /* Shakedown map: p0/k over Q/P, Johnson's curves and the case's own point. */
-rb_status rb_report_shakedown_map(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_shakedown_map(FILE *out, rb_report_canvas canvas,
                                   const rb_report_stress *stress, rb_message *why);
 /* Photoelastic fringes: dark where sigma_1 - sigma_2 is a multiple of fringe [stress]; 0:
  * about ten of them. */
-rb_status rb_report_fringes(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_fringes(FILE *out, rb_report_canvas canvas,
                             const rb_report_stress *stress, double fringe,
                             rb_message *why);
 
@@ -278,7 +292,7 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind,
 
 /* Creepage or shift, force and stick over the rolled distance, or over the increments of
  * a static history; errors as bands. */
-rb_status rb_report_history_picture(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
                                     const rb_rolling_history *history,
                                     const rb_rolling_history *errors, rb_message *why);
 
@@ -295,7 +309,7 @@ typedef struct {
     const double *rho;   /* n x solvers, column-major */
 } rb_report_profiles;
 
-rb_status rb_report_profiles_picture(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_profiles_picture(FILE *out, rb_report_canvas canvas,
                                      const rb_report_profiles *profiles, rb_message *why);
 
 /* ---- Behind the solution ------------------------------------------------------------

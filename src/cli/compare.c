@@ -302,7 +302,7 @@ static rb_status write_results(FILE *out, const void *context, rb_message *why)
     return c->o->style.format == RB_REPORT_JSON ? write_json(c, out) : print_runs(c, out);
 }
 
-static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
                       rb_message *why)
 {
     const comparison *c = context;
@@ -313,7 +313,7 @@ static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *contex
                                          .measure = measures[c->o->measure].name,
                                          .tau = c->tau,
                                          .rho = c->rho};
-    return rb_report_profiles_picture(out, kind, &profiles, why);
+    return rb_report_profiles_picture(out, canvas, &profiles, why);
 }
 
 /* ---- Command --------------------------------------------------------------------------
@@ -340,7 +340,7 @@ static cli_exit compare_files(comparison *c, int n, char **files)
     if (code == CLI_OK && c->o->profiles)
         code = cli_write_file(c->o->profiles, print_profiles, c);
     if (code == CLI_OK)
-        code = cli_draw_file("plot", c->o->plot, draw, c);
+        code = cli_draw_file(&(cli_pictures){0}, "plot", c->o->plot, draw, c);
     return code > worst ? code : worst;
 }
 

@@ -124,11 +124,11 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
                : rb_report_curve_table(out, &r->curves, cli_command_line(), &r->o->style);
 }
 
-static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
                       rb_message *why)
 {
     const result *r = context;
-    return rb_report_curve_picture(out, kind, &r->c->rc, &r->curves,
+    return rb_report_curve_picture(out, canvas, &r->c->rc, &r->curves,
                                    (rb_rolling_variable)r->range->over, why);
 }
 
@@ -145,7 +145,7 @@ static cli_exit show(const result *r)
         rb_report_citations(stderr, &steady, NULL);
     }
     if (code == CLI_OK)
-        code = cli_draw_file("plot", r->o->plot, draw, r);
+        code = cli_draw_file(&r->o->pictures, "plot", r->o->plot, draw, r);
     return code;
 }
 

@@ -116,9 +116,8 @@ typedef struct {
     const char *name, *columns;
     void (*row)(rb_report_cells *c, const rb_report_fem_sums *sums);
     json_t *(*json)(const rb_fem_model *model, const rb_fem_history *history);
-    rb_status (*picture)(FILE *out, rb_report_picture_kind kind,
-                         const rb_fem_model *model, const rb_fem_history *history,
-                         rb_message *why);
+    rb_status (*picture)(FILE *out, rb_report_canvas canvas, const rb_fem_model *model,
+                         const rb_fem_history *history, rb_message *why);
 } example;
 
 static void bar_row(rb_report_cells *c, const rb_report_fem_sums *sums)
@@ -179,11 +178,11 @@ static rb_status write_history(FILE *out, const void *context, rb_message *why)
                : write_table(out, r);
 }
 
-static rb_status draw_history(FILE *out, rb_report_picture_kind kind, const void *context,
+static rb_status draw_history(FILE *out, rb_report_canvas canvas, const void *context,
                               rb_message *why)
 {
     const example_run *r = context;
-    return r->e->picture(out, kind, r->model, r->history, why);
+    return r->e->picture(out, canvas, r->model, r->history, why);
 }
 
 static cli_exit run_history(const example_options *o, const example *e,
@@ -197,7 +196,7 @@ static cli_exit run_history(const example_options *o, const example *e,
     if (s >= RB_OK)
         code = cli_write_file(o->output, write_history, &r);
     if (s >= RB_OK && code == CLI_OK)
-        code = cli_draw_file("plot", o->plot, draw_history, &r);
+        code = cli_draw_file(&(cli_pictures){0}, "plot", o->plot, draw_history, &r);
     if (s != RB_OK && code == CLI_OK)
         code = cli_say(s, &why);
     rb_fem_history_free(&history);
@@ -272,11 +271,11 @@ static rb_status write_wall(FILE *out, const void *context, rb_message *why)
                : write_wall_table(out, run);
 }
 
-static rb_status draw_wall(FILE *out, rb_report_picture_kind kind, const void *context,
+static rb_status draw_wall(FILE *out, rb_report_canvas canvas, const void *context,
                            rb_message *why)
 {
     const wall_run *run = context;
-    return rb_report_picture_wall(out, kind, run->wall, run->steps, run->step, why);
+    return rb_report_picture_wall(out, canvas, run->wall, run->steps, run->step, why);
 }
 
 static rb_status write_problem(const wall_run *run, int rank, int step, rb_message *why)
@@ -349,7 +348,7 @@ static cli_exit finish_wall(const wall_run *run)
     const example_options *o = run->o;
     cli_exit code = cli_write_file(NULL, write_wall, run);
     if (code == CLI_OK)
-        code = cli_draw_file("plot", o->plot, draw_wall, run);
+        code = cli_draw_file(&(cli_pictures){0}, "plot", o->plot, draw_wall, run);
     if (code == CLI_OK && o->output)
         code = write_problems(run);
     return code;

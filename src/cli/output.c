@@ -17,6 +17,12 @@ const rb_choice cli_formats[] = {
     {"tsv", RB_REPORT_TSV}, {"csv", RB_REPORT_CSV}, {"json", RB_REPORT_JSON}, {NULL, 0}};
 const rb_choice cli_headers[] = {{"full", 0}, {"bare", 1}, {NULL, 0}};
 
+static const rb_choice picture_sizes[] = {{"own", RB_REPORT_OWN_SIZE},
+                                          {"85mm", RB_REPORT_85MM},
+                                          {"170mm", RB_REPORT_170MM},
+                                          {"slide", RB_REPORT_SLIDE},
+                                          {NULL, 0}};
+
 #define PLACE(member) offsetof(cli_output, member)
 
 static const rb_option options[] = {
@@ -27,6 +33,11 @@ static const rb_option options[] = {
                  .unset = "standard output", .file = RB_FILE_WRITTEN),
     RB_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
                  .unset = "none", .file = RB_FILE_PICTURE),
+    RB_CHOICE_LINE("plot-size", PLACE(pictures.size), picture_sizes,
+                   "of the pictures: a column or the page of a paper, or a slide"),
+    RB_TEXT_LINE("plot-script", PLACE(pictures.script), "FILE",
+                 "the picture's gnuplot script with its data too, for changes by hand",
+                 .unset = "none", .file = RB_FILE_WRITTEN),
     RB_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),
     RB_FLAG_LINE("cite", PLACE(cite),
                  "the papers that the run rests on, on standard error"),
@@ -121,11 +132,36 @@ static cli_exit check_path(const rb_option *o, const char *path)
                    &why);
 }
 
+/* A size needs a picture, and a script belongs to one alone. */
+static cli_exit check_pictures(const cli_spec *spec)
+{
+    int pictures = 0, size = 0, script = 0;
+    for (int k = 0; k < spec->set_n; k++)
+        for (int i = 0; i < spec->sets[k].n; i++) {
+            const rb_option_set *set = &spec->sets[k];
+            const rb_option *o = &set->options[i];
+            pictures += o->file == RB_FILE_PICTURE && rb_option_path(o, set->target);
+            if (set->options == options && strcmp(o->name, "plot-size") == 0)
+                size = set->given[i];
+            if (set->options == options && strcmp(o->name, "plot-script") == 0)
+                script = set->given[i];
+        }
+    if (size && pictures == 0)
+        return cli_fail(size > 0 ? CLI_DATA : CLI_USAGE,
+                        "--plot-size: there is no picture; --plot FILE asks for one");
+    if (script && pictures != 1)
+        return cli_fail(script > 0 ? CLI_DATA : CLI_USAGE,
+                        "--plot-script: expected one picture (such as --plot FILE), "
+                        "got %d",
+                        pictures);
+    return CLI_CONTINUE;
+}
+
 cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
 {
     const rb_option *o;
     const char *path;
-    cli_exit code = CLI_CONTINUE;
+    cli_exit code = check_pictures(spec);
     int set = 0, i = 0;
     while (code == CLI_CONTINUE && (path = next_path(spec, &set, &i, &o)) != NULL) {
         if (is_output(o) && strcmp(path, "-") != 0)
@@ -165,7 +201,7 @@ cli_exit cli_write_file(const char *path, cli_write *write, const void *context)
 
 typedef struct {
     const char *option;
-    rb_report_picture_kind kind;
+    rb_report_canvas canvas;
     cli_draw *draw;
     const void *context;
 } drawing;
@@ -174,22 +210,34 @@ static rb_status draw_picture(FILE *out, const void *context, rb_message *why)
 {
     const drawing *d = context;
     rb_message reason = {""};
-    const rb_status s = d->draw(out, d->kind, d->context, &reason);
+    if (d->canvas.script)
+        fprintf(out, "# %s\n# gnuplot -d writes the picture to standard output.\n",
+                cli_command_line());
+    const rb_status s = d->draw(out, d->canvas, d->context, &reason);
     if (s == RB_OK || (s == RB_EWRITE && ferror(out)))
         return s;
     return rb_fail(why, s, "--%s: %s", d->option,
                    reason.text[0] ? reason.text : rb_status_text(s));
 }
 
-cli_exit cli_draw_file(const char *option, const char *path, cli_draw *draw,
-                       const void *context)
+cli_exit cli_draw_file(const cli_pictures *pictures, const char *option, const char *path,
+                       cli_draw *draw, const void *context)
 {
     drawing d = {.option = option, .draw = draw, .context = context};
     rb_message why;
     if (!path)
         return CLI_OK;
-    const rb_status s = rb_report_picture_kind_of(path, &d.kind, &why);
-    return s == RB_OK ? cli_write_file(path, draw_picture, &d) : cli_say(s, &why);
+    d.canvas.size = (rb_report_picture_size)pictures->size;
+    const rb_status s = rb_report_picture_kind_of(path, &d.canvas.kind, &why);
+    if (s != RB_OK)
+        return cli_say(s, &why);
+    drawing script = d;
+    script.canvas.script = 1;
+    /* first the script, which does not need gnuplot */
+    const cli_exit code = pictures->script
+                              ? cli_write_file(pictures->script, draw_picture, &script)
+                              : CLI_OK;
+    return code == CLI_OK ? cli_write_file(path, draw_picture, &d) : code;
 }
 
 rb_status cli_write_problems(FILE *out, const char *conventions, json_t *problems)

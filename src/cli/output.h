@@ -5,7 +5,7 @@
 #include "cli/cli.h"
 #include "rollbem/report.h"
 
-enum { CLI_OUTPUT_OPTIONS_MAX = 9 };
+enum { CLI_OUTPUT_OPTIONS_MAX = 10 };
 
 /* Rows of an option table for a style that stands there. */
 extern const rb_choice cli_formats[], cli_headers[];
@@ -21,15 +21,22 @@ extern const rb_choice cli_formats[], cli_headers[];
                        "of the results: a table with tabs, with commas, or JSON"),       \
         CLI_HEADER_LINE(style)
 
+/* How pictures are drawn. */
+typedef struct {
+    int size;           /* rb_report_picture_size */
+    const char *script; /* where gnuplot's script goes too; NULL: nowhere */
+} cli_pictures;
+
 typedef struct {
     rb_report_style style; /* of tables; JSON: the results whole */
     int quiet, cite;
     int brief; /* 1: a person reads standard output: a short table */
     const char *output, *plot;
+    cli_pictures pictures;
     int given[CLI_OUTPUT_OPTIONS_MAX];
 } cli_output;
 
-/* --json, --format, --header, --output, --plot, --quiet: section [output]. */
+/* Section [output]: form of the results, --output, --plot and how, --quiet, --cite. */
 rb_option_set cli_output_set(cli_output *o);
 
 /* Whether a table goes to a terminal. */
@@ -37,13 +44,13 @@ void cli_output_settle(cli_output *o);
 
 /* Before the work: refuses what the options of spec name and cannot be written, pictures
  * of an unknown kind, and files that would be written over while they are inputs or
- * another option's output. */
+ * another option's output; sizes and scripts of pictures that are not asked for. */
 cli_exit cli_check_files(const cli_spec *spec, const cli_args *args);
 
 /* Writes what context is.  RB_EWRITE: errno says why where out has failed, otherwise the
  * message, which is empty before. */
 typedef rb_status cli_write(FILE *out, const void *context, rb_message *why);
-typedef rb_status cli_draw(FILE *out, rb_report_picture_kind kind, const void *context,
+typedef rb_status cli_draw(FILE *out, rb_report_canvas canvas, const void *context,
                            rb_message *why);
 
 /* Opens, writes and commits; path NULL: standard output. */
@@ -52,8 +59,8 @@ rb_status cli_write_to(const char *path, cli_write *write, const void *context,
 /* The same, its failure printed. */
 cli_exit cli_write_file(const char *path, cli_write *write, const void *context);
 /* The same for a picture, that --option asked for; path NULL: nothing to draw. */
-cli_exit cli_draw_file(const char *option, const char *path, cli_draw *draw,
-                       const void *context);
+cli_exit cli_draw_file(const cli_pictures *pictures, const char *option, const char *path,
+                       cli_draw *draw, const void *context);
 
 /* The results of a command that runs over problems from files, as JSON; problems is taken
  * over. */

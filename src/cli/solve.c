@@ -124,18 +124,19 @@ static rb_status write_history(FILE *out, const void *context, rb_message *why)
                              &it->o->style);
 }
 
-static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
                       rb_message *why)
 {
     const result *it = context;
-    return rb_report_picture(out, kind, &it->c->rc, &it->r->solution, why);
+    return rb_report_picture(out, canvas, &it->c->rc, &it->r->solution, why);
 }
 
-static rb_status draw_history(FILE *out, rb_report_picture_kind kind, const void *context,
+static rb_status draw_history(FILE *out, rb_report_canvas canvas, const void *context,
                               rb_message *why)
 {
     const result *it = context;
-    return rb_report_history_picture(out, kind, &it->r->history, step_errors(it->r), why);
+    return rb_report_history_picture(out, canvas, &it->r->history, step_errors(it->r),
+                                     why);
 }
 
 static cli_exit show_behind(const solve_options *so, const rb_rolling_model *model)
@@ -178,9 +179,10 @@ static cli_exit print_result(const result *it)
     if (code == CLI_OK && o->cite)
         rb_report_citations(stderr, &it->c->rc, &it->r->solution);
     if (code == CLI_OK)
-        code = cli_draw_file("plot", o->plot, draw, it);
+        code = cli_draw_file(&o->pictures, "plot", o->plot, draw, it);
     if (code == CLI_OK && it->r->history.n > 0)
-        code = cli_draw_file("history-plot", so->history_plot, draw_history, it);
+        code = cli_draw_file(&o->pictures, "history-plot", so->history_plot, draw_history,
+                             it);
     return code;
 }
 

@@ -278,26 +278,26 @@ static rb_status print_vtk(FILE *out, const void *context, rb_message *why)
     return s == RB_OK ? rb_report_vtk(out, kind, &r->table) : s;
 }
 
-static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
                       rb_message *why)
 {
     const result *r = context;
-    return rb_report_stress_picture(out, kind, &r->picture, why);
+    return rb_report_stress_picture(out, canvas, &r->picture, why);
 }
 
-static rb_status draw_fringes(FILE *out, rb_report_picture_kind kind, const void *context,
+static rb_status draw_fringes(FILE *out, rb_report_canvas canvas, const void *context,
                               rb_message *why)
 {
     const result *r = context;
-    return rb_report_fringes(out, kind, &r->picture,
+    return rb_report_fringes(out, canvas, &r->picture,
                              rb_unit_shown(r->c->units, "MPa", r->options->fringe), why);
 }
 
-static rb_status draw_map(FILE *out, rb_report_picture_kind kind, const void *context,
+static rb_status draw_map(FILE *out, rb_report_canvas canvas, const void *context,
                           rb_message *why)
 {
     const result *r = context;
-    return rb_report_shakedown_map(out, kind, &r->table, why);
+    return rb_report_shakedown_map(out, canvas, &r->table, why);
 }
 
 static cli_exit show(const result *r)
@@ -313,11 +313,13 @@ static cli_exit show(const result *r)
     if (code == CLI_OK && r->options->vtk)
         code = cli_write_file(r->options->vtk, print_vtk, r);
     if (code == CLI_OK)
-        code = cli_draw_file("plot", r->o->plot, draw, r);
+        code = cli_draw_file(&r->o->pictures, "plot", r->o->plot, draw, r);
     if (code == CLI_OK)
-        code = cli_draw_file("fringes", r->options->fringes, draw_fringes, r);
+        code = cli_draw_file(&r->o->pictures, "fringes", r->options->fringes,
+                             draw_fringes, r);
     if (code == CLI_OK)
-        code = cli_draw_file("shakedown-map", r->options->map, draw_map, r);
+        code =
+            cli_draw_file(&r->o->pictures, "shakedown-map", r->options->map, draw_map, r);
     return code;
 }
 
@@ -350,9 +352,13 @@ static cli_exit check_known(const rb_case *c)
     return s == RB_OK ? CLI_CONTINUE : cli_case_refused(c, s, &why);
 }
 
-static cli_exit check(const rb_case *c, const stress_options *so, places *where)
+static cli_exit check(const rb_case *c, const stress_options *so, const cli_output *o,
+                      places *where)
 {
     cli_exit code = check_known(c);
+    if (code == CLI_CONTINUE && o->plot && o->pictures.size == RB_REPORT_85MM)
+        code = cli_fail(CLI_USAGE, "--plot-size: contours are two panels side by side, "
+                                   "wider than 85mm; expected 170mm or slide");
     if (code == CLI_CONTINUE)
         code = check_vtk(so, rb_case_settled(c));
     if (code == CLI_CONTINUE)
@@ -382,7 +388,7 @@ int cli_stress(int argc, char **argv)
     if (code == CLI_CONTINUE) {
         rb_option_store(&spec.sets[1], rb_case_settled(c)->units, rb_case_file_units(c),
                         &so);
-        code = check(c, &so, &where);
+        code = check(c, &so, &o, &where);
     }
     if (code == CLI_CONTINUE)
         code = solve(c, &so, &where, &o);

@@ -177,11 +177,11 @@ static rb_status print_profile(FILE *out, const void *context, rb_message *why)
     return rb_report_flush(out);
 }
 
-static rb_status draw(FILE *out, rb_report_picture_kind kind, const void *context,
+static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
                       rb_message *why)
 {
     const result *r = context;
-    return rb_report_wear_picture(out, kind, &r->report, why);
+    return rb_report_wear_picture(out, canvas, &r->report, why);
 }
 
 static cli_exit show(const result *r)
@@ -192,7 +192,7 @@ static cli_exit show(const result *r)
     if (code == CLI_OK && !r->o->quiet)
         rb_report_wear_summary(stderr, &r->report);
     if (code == CLI_OK)
-        code = cli_draw_file("plot", r->o->plot, draw, r);
+        code = cli_draw_file(&r->o->pictures, "plot", r->o->plot, draw, r);
     return code;
 }
 

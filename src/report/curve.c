@@ -249,15 +249,16 @@ static void write_label(FILE *out, const char *axis, const char *what, int expon
             what, exponent);
 }
 
-static void write_labels(FILE *out, const view *v)
+static void write_labels(FILE *out, const view *v, int titled)
 {
     const rb_rolling_curve *c = &v->curves->curve[0];
-    fprintf(out,
-            "set label 1 '{/:Bold %s}   P = %.5g %s,  a = %.4g %s' "
-            "at screen 0.54, 0.955 center\n",
-            v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
-            c->normal_load[c->n - 1], rb_unit_name(c->units, "N/mm"), c->half_width,
-            rb_unit_name(c->units, "mm"));
+    if (titled)
+        fprintf(out,
+                "set label 1 '{/:Bold %s}   P = %.5g %s,  a = %.4g %s' "
+                "at screen 0.54, 0.955 center\n",
+                v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
+                c->normal_load[c->n - 1], rb_unit_name(c->units, "N/mm"), c->half_width,
+                rb_unit_name(c->units, "mm"));
     if (v->over == RB_OVER_SPEED) {
         fputs("set logscale x\n", out);
         char label[32];
@@ -273,24 +274,27 @@ static void write_labels(FILE *out, const view *v)
             v->over_load ? "P" : "(μP)");
 }
 
-static void write_script(FILE *out, rb_report_picture_kind kind, const void *context)
+static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
     static const char *const colours[] = {"#1f4e79", "#c0392b", "#b9770e", "#6c3483",
                                           "#117864", "#5d6d7e", "#7b241c", "#2e86c1"};
     const view *v = context;
+    const rb_report_place place = rb_report_place_of(canvas);
     write_data(out, v);
     if (draws_carter(v))
         write_carter(out, v);
-    fputs("set lmargin at screen 0.13\nset rmargin at screen 0.965\n"
-          "set bmargin at screen 0.14\nset tmargin at screen 0.92\n"
-          "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
-          "set grid linecolor rgb '#dddddd' linewidth 0.6\nset offsets 0,0,graph 0.05,0\n"
-          "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
-          out);
-    fprintf(out, "set key right bottom samplen 2.2 font '%s'\n",
-            rb_report_key_font(kind));
+    fprintf(
+        out,
+        "set lmargin at screen %g\nset rmargin at screen 0.965\n"
+        "set bmargin at screen %g\nset tmargin at screen %g\n"
+        "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
+        "set grid linecolor rgb '#dddddd' linewidth 0.6\nset offsets 0,0,graph 0.05,0\n"
+        "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
+        0.13 + place.right, 0.14 + place.up, 0.92 + place.up);
+    fprintf(out, "set key right bottom samplen 2.2 font ',%.3g'\n",
+            rb_report_key_font(canvas));
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
-    write_labels(out, v);
+    write_labels(out, v, place.titled);
     fputs("plot ", out);
     for (int k = 0; k < v->curves->n && v->curves->has_errors; k++)
         fprintf(out,
@@ -310,7 +314,7 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
     fputs("\n", out);
 }
 
-rb_status rb_report_curve_picture(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas,
                                   const rb_rolling_case *rc,
                                   const rb_report_curves *curves,
                                   rb_rolling_variable over, rb_message *why)
@@ -323,5 +327,5 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_picture_kind kind,
         if (curves->curve[k].n < 2 || (curves->mu[k] == 0.0 && over != RB_OVER_SPEED))
             return rb_fail(why, RB_EINVAL, "no curve to draw at mu = %g", curves->mu[k]);
     choose_axes(&v);
-    return rb_report_draw(out, kind, RB_REPORT_SLIDE, write_script, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
 }

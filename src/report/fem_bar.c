@@ -92,10 +92,10 @@ static void write_zones(FILE *out, const bar_view *v)
     }
 }
 
-static void write_script(FILE *out, rb_report_picture_kind kind, const void *view)
+static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 {
     const bar_view *v = view;
-    (void)kind;
+    (void)canvas;
     rb_report_fem_axes(out);
     write_mesh(out, v);
     write_reactions(out, v);
@@ -133,12 +133,12 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *vie
         out);
 }
 
-rb_status rb_report_picture_bar(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_picture_bar(FILE *out, rb_report_canvas canvas,
                                 const rb_fem_model *model, const rb_fem_history *history,
                                 rb_message *why)
 {
     if (history->steps < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
     const bar_view v = make_view(model, history);
-    return rb_report_draw(out, kind, RB_REPORT_SCREEN, write_script, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_SCREEN, write_script, &v, why);
 }

@@ -107,12 +107,12 @@ typedef struct {
     const char *layout;
 } truss_view;
 
-static void write_script(FILE *out, rb_report_picture_kind kind, const void *view)
+static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 {
     const truss_view *v = view;
     const quarter *q = &v->q;
     const rb_fem_history *history = v->history;
-    (void)kind;
+    (void)canvas;
     rb_report_fem_axes(out);
     fprintf(out,
             "set multiplot\nset label 1 '{/:Bold Truss on an obstacle: increments of the "
@@ -129,7 +129,7 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *vie
     fputs("unset multiplot\n", out);
 }
 
-rb_status rb_report_picture_truss(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_picture_truss(FILE *out, rb_report_canvas canvas,
                                   const rb_fem_model *model,
                                   const rb_fem_history *history, rb_message *why)
 {
@@ -139,5 +139,5 @@ rb_status rb_report_picture_truss(FILE *out, rb_report_picture_kind kind,
     const truss_view v = {make_quarter(model), history,
                           upper < model->structure.contacts ? "upper nodes inside"
                                                             : "upper nodes overhanging"};
-    return rb_report_draw(out, kind, RB_REPORT_SCREEN, write_script, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_SCREEN, write_script, &v, why);
 }

@@ -146,10 +146,10 @@ typedef struct {
     const rb_fem_wall_step *step;
 } wall_view;
 
-static void write_script(FILE *out, rb_report_picture_kind kind, const void *view)
+static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 {
     const wall_view *v = view;
-    (void)kind;
+    (void)canvas;
     rb_report_fem_axes(out);
     write_front(out, &v->f);
     write_steps(out, v->steps, v->step);
@@ -157,7 +157,7 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *vie
     write_curves(out);
 }
 
-rb_status rb_report_picture_wall(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas,
                                  const rb_fem_wall *wall, int steps,
                                  const rb_fem_wall_step *step, rb_message *why)
 {
@@ -166,7 +166,7 @@ rb_status rb_report_picture_wall(FILE *out, rb_report_picture_kind kind,
         return rb_fail(why, RB_EINVAL, "nothing to draw");
     const rb_status s =
         open_front(wall, &v.f) == RB_OK
-            ? rb_report_draw(out, kind, RB_REPORT_SCREEN, write_script, &v, why)
+            ? rb_report_draw(out, canvas, RB_REPORT_SCREEN, write_script, &v, why)
             : rb_fail(why, RB_ENOMEM, "out of memory");
     free(v.f.u);
     return s;

@@ -201,47 +201,99 @@ rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *ki
                    "expected a name ending in .png, .svg or .pdf, got '%s'", path);
 }
 
-/* Sizes that suit a slide.  The key needs its font named: svg would take a larger one. */
+enum { SHAPES = 4 };
+
+/* Each shape in its own size: width and height in `unit`, of which an inch has so many.
+ * The key needs its font named: svg would take a larger one. */
 static const struct {
-    const char *terminal, *size[4];
-    int font[4];
-    double line[4];
-    const char *key_font;
+    const char *terminal, *unit;
+    double inch, width[SHAPES], height[SHAPES], font[SHAPES], line[SHAPES], key_font;
 } looks[] = {{"pngcairo",
-              {"1600,1200", "1800,750", "1920,1080", "900,600"},
+              "",
+              300,
+              {1600, 1800, 1920, 900},
+              {1200, 750, 1080, 600},
               {24, 20, 24, 14},
               {2.2, 2.2, 2.0, 1.0},
-              ",24"},
+              24},
              {"svg",
-              {"1000,750", "1200,500", "1280,720", "900,600"},
+              "",
+              96,
+              {1000, 1200, 1280, 900},
+              {750, 500, 720, 600},
               {18, 14, 18, 14},
               {1.5, 1.5, 1.4, 1.0},
-              ",15"},
+              15},
              {"pdfcairo",
-              {"10in,7.5in", "12in,5in", "13.33in,7.5in", "18cm,12cm"},
+              "in",
+              1,
+              {10, 12, 13.33, 7.087},
+              {7.5, 5, 7.5, 4.724},
               {21, 19, 20, 12},
               {1.6, 1.6, 1.5, 1.0},
-              ",21"}};
+              21}};
 
-const char *rb_report_key_font(rb_report_picture_kind kind)
+/* Sizes that are asked for: width, 0: that of a screen; letters are so much larger, as a
+ * part of the width, than in the shape's own size; width over height, 0: the shape's. */
+static const struct {
+    double inches, letters, ratio;
+} sizes[] = {[RB_REPORT_85MM] = {85 / 25.4, 1.65, 1.0},
+             [RB_REPORT_170MM] = {170 / 25.4, 1.0, 0.0},
+             [RB_REPORT_SLIDE] = {0.0, 0.95, 16.0 / 9.0}};
+
+typedef struct {
+    double width, height, letters; /* letters: against those of the shape's own size */
+} extent;
+
+static extent extent_of(rb_report_canvas canvas, rb_report_shape shape)
 {
-    return looks[kind].key_font;
+    const double width = looks[canvas.kind].width[shape];
+    const double height = looks[canvas.kind].height[shape];
+    if (canvas.size == RB_REPORT_OWN_SIZE)
+        return (extent){width, height, 1.0};
+    const double inches = sizes[canvas.size].inches;
+    const double wanted = inches > 0.0 ? inches * looks[canvas.kind].inch
+                                       : looks[canvas.kind].width[RB_REPORT_SCREEN];
+    const double ratio = sizes[canvas.size].ratio;
+    return (extent){wanted, ratio > 0.0 ? wanted / ratio : wanted * height / width,
+                    sizes[canvas.size].letters * wanted / width};
 }
 
-rb_status rb_report_draw(FILE *out, rb_report_picture_kind kind, rb_report_shape shape,
+double rb_report_key_font(rb_report_canvas canvas)
+{
+    return looks[canvas.kind].key_font * extent_of(canvas, RB_REPORT_FOUR_THIRDS).letters;
+}
+
+double rb_report_width_over_height(rb_report_canvas canvas, rb_report_shape shape)
+{
+    const extent e = extent_of(canvas, shape);
+    return e.width / e.height;
+}
+
+rb_report_place rb_report_place_of(rb_report_canvas canvas)
+{
+    return canvas.size == RB_REPORT_85MM ? (rb_report_place){0, 0.065, 0.045}
+                                         : (rb_report_place){1, 0.0, 0.0};
+}
+
+rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape shape,
                          rb_report_script *script, const void *view, rb_message *why)
 {
     enum { SECONDS = 120 }; /* the largest picture takes one or two */
-    FILE *file = temporary();
+    const extent e = extent_of(canvas, shape);
+    const int k = canvas.kind;
+    FILE *file = canvas.script ? out : temporary();
     if (!file)
         return no_temporary(why);
     fprintf(file,
-            "set encoding utf8\nset terminal %s size %s font 'DejaVu Sans,%d' "
-            "linewidth %g background '#ffffff' enhanced\n",
-            looks[kind].terminal, looks[kind].size[shape], looks[kind].font[shape],
-            looks[kind].line[shape]);
-    script(file, kind, view);
-    const rb_status s = rb_report_gnuplot(file, kind, SECONDS, out, why);
+            "set encoding utf8\nset terminal %s size %.4g%s,%.4g%s font 'DejaVu "
+            "Sans,%.3g' linewidth %.3g background '#ffffff' enhanced\n",
+            looks[k].terminal, e.width, looks[k].unit, e.height, looks[k].unit,
+            looks[k].font[shape] * e.letters, looks[k].line[shape] * e.letters);
+    script(file, canvas, view);
+    if (canvas.script)
+        return rb_report_flush(out);
+    const rb_status s = rb_report_gnuplot(file, canvas.kind, SECONDS, out, why);
     fclose(file);
     return s;
 }

@@ -9,6 +9,7 @@ typedef struct {
     int exponent; /* of the creepage or shift */
     double power; /* 10^exponent */
     double from, to;
+    rb_report_place place;
 } view;
 
 /* What a panel shows of step i of the history or of its errors. */
@@ -36,9 +37,15 @@ static double place(const view *v, int i)
     return v->rolls ? v->h->distance[i] : i + 1;
 }
 
-static view make_view(const rb_rolling_history *h, const rb_rolling_history *errors)
+static view make_view(const rb_rolling_history *h, const rb_rolling_history *errors,
+                      rb_report_canvas canvas)
 {
-    view v = {.h = h, .errors = errors, .rolls = h->step > 0.0, .power = 1.0, .to = 1.0};
+    view v = {.h = h,
+              .errors = errors,
+              .rolls = h->step > 0.0,
+              .power = 1.0,
+              .to = 1.0,
+              .place = rb_report_place_of(canvas)};
     double largest = 0.0;
     for (int i = 0; i < h->n; i++)
         largest = is_shown(&v, i) ? fmax(largest, fabs(motion(&v, h, i))) : largest;
@@ -66,14 +73,15 @@ static void write_data(FILE *out, const view *v)
 }
 
 /* Panel k of three, from above; error: column of half the width of a band, or 0. */
-static void write_panel(FILE *out, int k, const char *label, int column, int error,
-                        const char *colour, int points)
+static void write_panel(FILE *out, const view *v, int k, const char *label, int column,
+                        int error, const char *colour, int points)
 {
-    static const double top[] = {0.91, 0.64, 0.37}, height = 0.235;
+    static const double tops[] = {0.91, 0.64, 0.37}, height = 0.235;
+    const double top = tops[k] + v->place.up;
     fprintf(out,
             "set tmargin at screen %g\nset bmargin at screen %g\n"
             "set label 2 '%s' at screen 0.03, %g center rotate\nplot ",
-            top[k], top[k] - height, label, top[k] - height / 2);
+            top, top - height, label, top - height / 2);
     if (error)
         fprintf(out,
                 "$data using 1:($%d-$%d):($%d+$%d) with filledcurves linecolor rgb '%s' "
@@ -100,51 +108,54 @@ static void write_range(FILE *out, const view *v, quantity *of, double least, do
             most + 0.08 * height, rb_report_round_step(height / 5.0));
 }
 
-static void write_script(FILE *out, rb_report_picture_kind kind, const void *context)
+static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
+    (void)canvas;
     const int last = v->h->n - 1, points = v->h->n <= 40;
     const char *load = rb_unit_name(v->h->units, "N/mm");
     const char *mm = rb_unit_name(v->h->units, "mm");
     char label[80];
-    (void)kind;
     write_data(out, v);
-    fputs("set multiplot\nset lmargin at screen 0.14\nset rmargin at screen 0.965\n"
-          "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
-          "set grid linecolor rgb '#dddddd' linewidth 0.6\nunset key\n"
-          "set format x ''\n",
-          out);
-    fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
     fprintf(out,
-            "set label 1 '{/:Bold %s}   %d steps,  at the end P = %.5g %s,  Q = %.5g "
-            "%s' at screen 0.54, 0.955 center\n",
-            v->rolls ? "Transient rolling" : "Static history", v->h->n,
-            v->h->normal_load[last], load,
-            rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]), load);
+            "set multiplot\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
+            "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
+            "set grid linecolor rgb '#dddddd' linewidth 0.6\nunset key\n"
+            "set format x ''\n",
+            0.14 + v->place.right);
+    fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
+    if (v->place.titled)
+        fprintf(out,
+                "set label 1 '{/:Bold %s}   %d steps,  at the end P = %.5g %s,  Q = %.5g "
+                "%s' at screen 0.54, 0.955 center\n",
+                v->rolls ? "Transient rolling" : "Static history", v->h->n,
+                v->h->normal_load[last], load,
+                rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]),
+                load);
     if (v->exponent)
         snprintf(label, sizeof label, "%s  [10^{%d}%s%s]", v->rolls ? "ξ" : "shift",
                  v->exponent, v->rolls ? "" : " ", v->rolls ? "" : mm);
     else
         snprintf(label, sizeof label, v->rolls ? "ξ" : "shift  [%s]", mm);
     write_range(out, v, motion, INFINITY, -INFINITY);
-    write_panel(out, 0, label, 2, v->errors ? 5 : 0, "#6c3483", points);
+    write_panel(out, v, 0, label, 2, v->errors ? 5 : 0, "#6c3483", points);
     fputs("unset label 1\n", out);
     write_range(out, v, force, 0.0, 0.0); /* a force is seen against none */
-    write_panel(out, 1, "Q/(μP)", 3, v->errors ? 6 : 0, "#c0392b", points);
+    write_panel(out, v, 1, "Q/(μP)", 3, v->errors ? 6 : 0, "#c0392b", points);
     fprintf(out,
             "set format x '%%g'\nset xlabel '%s' offset 0,0.3\nset yrange [0:1]\nset "
             "ytics 0.2\n",
             v->rolls ? "rolled distance / a" : "increment");
-    write_panel(out, 2, "stick / contact", 4, 0, "#1f4e79", points);
+    write_panel(out, v, 2, "stick / contact", 4, 0, "#1f4e79", points);
     fputs("unset multiplot\n", out);
 }
 
-rb_status rb_report_history_picture(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
                                     const rb_rolling_history *history,
                                     const rb_rolling_history *errors, rb_message *why)
 {
     if (history->n < 1)
         return rb_fail(why, RB_EINVAL, "no steps to draw");
-    const view v = make_view(history, errors);
-    return rb_report_draw(out, kind, RB_REPORT_SLIDE, write_script, &v, why);
+    const view v = make_view(history, errors, canvas);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
 }

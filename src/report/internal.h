@@ -52,8 +52,16 @@ void rb_report_remove_tableaux(const char *folder);
 
 /* ---- Pictures ---------------------------------------------------------------------- */
 
-/* The font of a key that would otherwise be larger. */
-const char *rb_report_key_font(rb_report_picture_kind kind);
+/* The size of the font of a key, which would otherwise be larger. */
+double rb_report_key_font(rb_report_canvas canvas);
+/* Where panels lie that start at `left` and need no more than a title above them.  A
+ * column of print has no room for a title, which is its caption's: the panels are raised,
+ * and begin farther to the right, because the letters are larger. */
+typedef struct {
+    int titled;
+    double right, up; /* in parts of the canvas */
+} rb_report_place;
+rb_report_place rb_report_place_of(rb_report_canvas canvas);
 /* A unit of an axis: values divided by `size` are in units of `name`. */
 typedef struct {
     double size;
@@ -66,7 +74,7 @@ rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double larg
 double rb_report_round_step(double step);
 
 typedef enum {
-    RB_REPORT_SLIDE,  /* 4:3 */
+    RB_REPORT_FOUR_THIRDS,
     RB_REPORT_WIDE,   /* 12:5 */
     RB_REPORT_SCREEN, /* 16:9 */
     RB_REPORT_CHART   /* 3:2, smaller */
@@ -78,10 +86,12 @@ typedef enum {
 rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double seconds,
                             FILE *out, rb_message *why);
 
-/* A picture from what `script` writes behind the settings of its kind and shape. */
-typedef void rb_report_script(FILE *script, rb_report_picture_kind kind,
-                              const void *view);
-rb_status rb_report_draw(FILE *out, rb_report_picture_kind kind, rb_report_shape shape,
+double rb_report_width_over_height(rb_report_canvas canvas, rb_report_shape shape);
+
+/* A picture from what `script` writes behind the settings of its canvas and shape; or
+ * that script itself. */
+typedef void rb_report_script(FILE *script, rb_report_canvas canvas, const void *view);
+rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape shape,
                          rb_report_script *script, const void *view, rb_message *why);
 
 #endif

@@ -20,6 +20,7 @@ typedef struct {
     double slip_from, slip_to; /* in slip units */
     double cool, warm;         /* temperature axis */
     int carter;                /* 1: draw Carter's curve */
+    rb_report_place place;
 } view;
 
 /* Where the panels lie on the screen: tractions, slip, temperature. */
@@ -33,7 +34,8 @@ static panel panel_of(const view *v, int which)
 {
     static const panel two[] = {{0.83, 0.40}, {0.36, 0.115}};
     static const panel three[] = {{0.83, 0.48}, {0.45, 0.305}, {0.275, 0.115}};
-    return v->s->temperature ? three[which] : two[which];
+    const panel at = v->s->temperature ? three[which] : two[which];
+    return (panel){at.top + v->place.up, at.bottom + v->place.up};
 }
 
 /* Opens a panel; the lowest one carries the numbers of the x axis. */
@@ -116,9 +118,10 @@ static void choose_stress_unit(view *v)
     v->stress_label = unit.name;
 }
 
-static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s)
+static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s,
+                      rb_report_canvas canvas)
 {
-    view v = {.rc = rc, .s = s};
+    view v = {.rc = rc, .s = s, .place = rb_report_place_of(canvas)};
     choose_x_axis(&v);
     choose_slip_axis(&v);
     choose_temperature_axis(&v);
@@ -274,17 +277,16 @@ static void write_stress_range(FILE *out, const view *v)
 
 enum { STEPS_UP_TO = 16 };
 
-static void write_tractions(FILE *out, const view *v, const char *key_font)
+static void write_tractions(FILE *out, const view *v, double key_font)
 {
     write_stress_range(out, v);
     open_panel(out, v, TRACTIONS, 0);
     fprintf(out, "set label 3 'traction  [%s]' at screen 0.028, %g center rotate\n",
             v->stress_label, middle_of(v, TRACTIONS));
-    fprintf(
-        out,
-        "set key at screen 0.53, 0.87 center horizontal maxrows 1 samplen 2.2 width 0 "
-        "font '%s'\n",
-        key_font);
+    fprintf(out,
+            "set key at screen 0.53, %g center horizontal maxrows 1 samplen %g width 0 "
+            "font ',%.3g'\n",
+            0.87 + v->place.up, v->place.titled ? 2.2 : 1.2, key_font);
     write_zones(out, v, 1);
     /* few elements: what each of them carries; many: a curve */
     const char *style = v->s->n <= STEPS_UP_TO ? "histeps" : "lines";
@@ -380,30 +382,31 @@ static void write_temperature(FILE *out, const view *v)
           out);
 }
 
-static void write_script(FILE *out, rb_report_picture_kind kind, const void *context)
+static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
     write_data(out, v);
     if (v->carter)
         write_carter(out, v);
-    fputs("set multiplot\nset lmargin at screen 0.12\nset rmargin at screen 0.965\n"
-          "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n",
-          out);
+    fprintf(out,
+            "set multiplot\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
+            "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n",
+            0.12 + v->place.right);
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
-    write_title(out, v);
-    write_tractions(out, v, rb_report_key_font(kind));
+    if (v->place.titled)
+        write_title(out, v);
+    write_tractions(out, v, rb_report_key_font(canvas));
     write_slip(out, v);
     if (v->s->temperature)
         write_temperature(out, v);
     fputs("unset multiplot\n", out);
 }
 
-rb_status rb_report_picture(FILE *out, rb_report_picture_kind kind,
-                            const rb_rolling_case *rc, const rb_rolling_solution *s,
-                            rb_message *why)
+rb_status rb_report_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
+                            const rb_rolling_solution *s, rb_message *why)
 {
     if (s->n < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
-    const view v = make_view(rc, s);
-    return rb_report_draw(out, kind, RB_REPORT_SLIDE, write_script, &v, why);
+    const view v = make_view(rc, s, canvas);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
 }

@@ -1,10 +1,10 @@
 /* Performance profiles (Dolan and More), drawn. */
 #include "report/internal.h"
 
-static void write_script(FILE *out, rb_report_picture_kind kind, const void *view)
+static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 {
     const rb_report_profiles *p = view;
-    (void)kind;
+    (void)canvas;
     fprintf(out,
             "set logscale x\nset xrange [1:1000]\nset yrange [0:1.05]\n"
             "set xlabel 'tau: %s over the least of all solvers'\n"
@@ -24,8 +24,8 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *vie
     fputc('\n', out);
 }
 
-rb_status rb_report_profiles_picture(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_profiles_picture(FILE *out, rb_report_canvas canvas,
                                      const rb_report_profiles *profiles, rb_message *why)
 {
-    return rb_report_draw(out, kind, RB_REPORT_CHART, write_script, profiles, why);
+    return rb_report_draw(out, canvas, RB_REPORT_CHART, write_script, profiles, why);
 }

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-static void write_script(FILE *out, rb_report_picture_kind kind, const void *context)
+static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
     enum { POINTS = 60 };
     const rb_report_stress *s = context;
@@ -21,19 +21,24 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
     fprintf(out, "EOD\n$case << EOD\n%.9g %.9g\nEOD\n", traction, limit);
     if (isfinite(own))
         fprintf(out, "$own << EOD\n%.9g %.9g\nEOD\n", traction, own);
-    fputs(
-        "set lmargin at screen 0.12\nset rmargin at screen 0.965\nset bmargin at screen "
+    const rb_report_place place = rb_report_place_of(canvas);
+    fprintf(
+        out,
+        "set lmargin at screen %g\nset rmargin at screen 0.965\nset bmargin at screen "
         "0.14\nset tmargin at screen 0.92\nset tics out nomirror\nset border 3 linecolor "
         "rgb '#444444' linewidth 0.7\nset grid linecolor rgb '#dddddd' linewidth 0.6\n"
         "set xlabel 'traction  |Q|/P'\nset ylabel 'p_0 / k' offset 1,0\n",
-        out);
+        0.12 + place.right);
     fprintf(out, "set xrange [0:%.9g]\nset yrange [0:%.9g]\n", most,
             fmax(5.0, isfinite(own) ? 1.1 * own : 0.0));
-    fprintf(out,
+    if (place.titled)
+        fprintf(
+            out,
             "set label 1 '{/:Bold Shakedown}   p_0 = %.5g %s,  p_0 ≤ %.4g k shakes down' "
-            "at screen 0.54, 0.955 center\nset key right top samplen 2 font '%s'\n",
-            s->s->max_pressure, rb_unit_name(s->s->units, "MPa"), limit,
-            rb_report_key_font(kind));
+            "at screen 0.54, 0.955 center\n",
+            s->s->max_pressure, rb_unit_name(s->s->units, "MPa"), limit);
+    fprintf(out, "set key right top samplen 2 font ',%.3g'\n",
+            rb_report_key_font(canvas));
     fputs("plot $limit using 1:2 with lines linecolor rgb '#1f4e79' linewidth 2.4 title "
           "'limit, full sliding (Johnson)', $case using 1:2 with points pointtype 7 "
           "pointsize 1.6 linecolor rgb '#c0392b' title 'limit of this case'",
@@ -46,10 +51,10 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
     fputs("\n", out);
 }
 
-rb_status rb_report_shakedown_map(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_shakedown_map(FILE *out, rb_report_canvas canvas,
                                   const rb_report_stress *s, rb_message *why)
 {
     if (!s->shakedown || !(s->s->normal_load > 0.0))
         return rb_fail(why, RB_EINVAL, "no contact to draw");
-    return rb_report_draw(out, kind, RB_REPORT_SLIDE, write_script, s, why);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, s, why);
 }

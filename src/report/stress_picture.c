@@ -11,6 +11,7 @@ typedef struct {
     const char *stress_label;
     double from, to, depth; /* in units */
     double fringe;          /* [stress] */
+    double shape;           /* of the canvas: width over height */
 } view;
 
 static view make_view(const rb_report_stress *s)
@@ -114,8 +115,7 @@ static const double panel_width = 0.345, panel_middle = 0.48;
 
 static double panel_height(const view *v)
 {
-    const double shape = 2.4; /* of the canvas: width over height */
-    return fmin(0.60, panel_width * shape * v->depth / (v->to - v->from));
+    return fmin(0.60, panel_width * v->shape * v->depth / (v->to - v->from));
 }
 
 static void write_panel(FILE *out, const view *v, const char *name, int column,
@@ -143,10 +143,10 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
             column, column);
 }
 
-static void write_contours(FILE *out, rb_report_picture_kind kind, const void *context)
+static void write_contours(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
-    (void)kind;
+    (void)canvas;
     write_grid(out, v);
     write_axes(out, v);
     fputs("set contour base\nset cntrlabel onecolor\nset cntrparam levels auto 10\n",
@@ -174,30 +174,34 @@ static rb_status check_grid(const rb_report_stress *s, rb_message *why)
                : rb_fail(why, RB_EINVAL, "a picture of the stress needs a grid");
 }
 
-rb_status rb_report_stress_picture(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_stress_picture(FILE *out, rb_report_canvas canvas,
                                    const rb_report_stress *s, rb_message *why)
 {
     if (check_grid(s, why) != RB_OK)
         return RB_EINVAL;
-    const view v = make_view(s);
-    return rb_report_draw(out, kind, RB_REPORT_WIDE, write_contours, &v, why);
+    view v = make_view(s);
+    v.shape = rb_report_width_over_height(canvas, RB_REPORT_WIDE);
+    return rb_report_draw(out, canvas, RB_REPORT_WIDE, write_contours, &v, why);
 }
 
 /* ---- Fringes -------------------------------------------------------------------------
  */
 
 /* Between crossed polarisers light passes as sin^2 of pi times the order. */
-static void write_fringes(FILE *out, rb_report_picture_kind kind, const void *context)
+static void write_fringes(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
-    (void)kind;
+    const rb_report_place place = rb_report_place_of(canvas);
     write_grid(out, v);
-    fputs("set palette gray\nset cbrange [0:1]\nunset colorbox\n"
-          "set lmargin at screen 0.11\nset rmargin at screen 0.97\n"
-          "set bmargin at screen 0.13\nset tmargin at screen 0.88\n",
-          out);
+    fprintf(out,
+            "set palette gray\nset cbrange [0:1]\nunset colorbox\n"
+            "set lmargin at screen %g\nset rmargin at screen 0.97\n"
+            "set bmargin at screen 0.17\nset tmargin at screen 0.88\n",
+            0.11 + place.right);
     write_axes(out, v);
     write_subtitle(out, v, "Isochromatics", 0.965);
+    if (!place.titled)
+        fputs("unset label 1\n", out);
     fprintf(out,
             "set label 2 'dark where σ_1 − σ_2 is a multiple of %.4g %s' at screen 0.5, "
             "0.925 center textcolor rgb '#444444'\n",
@@ -212,12 +216,12 @@ static double choose_fringe(const rb_report_stress *s)
     return rb_report_round_step(2.0 * s->maxima->max_shear.value / ORDERS);
 }
 
-rb_status rb_report_fringes(FILE *out, rb_report_picture_kind kind,
-                            const rb_report_stress *s, double fringe, rb_message *why)
+rb_status rb_report_fringes(FILE *out, rb_report_canvas canvas, const rb_report_stress *s,
+                            double fringe, rb_message *why)
 {
     if (check_grid(s, why) != RB_OK)
         return RB_EINVAL;
     view v = make_view(s);
     v.fringe = fringe > 0.0 ? fringe : choose_fringe(s);
-    return rb_report_draw(out, kind, RB_REPORT_SLIDE, write_fringes, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_fringes, &v, why);
 }

@@ -123,26 +123,30 @@ static void write_panel(FILE *out, const rb_report_wear *w, int column)
     fputc('\n', out);
 }
 
-static void write_script(FILE *out, rb_report_picture_kind kind, const void *context)
+static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const rb_report_wear *w = context;
+    const rb_report_place place = rb_report_place_of(canvas);
     const rb_rolling_wear_history *h = w->history;
     const int last = h->n - 1;
     const double from = fmin(h->contact_from[0], h->contact_from[last]);
     const double to = fmax(h->contact_to[0], h->contact_to[last]);
 
     write_data(out, w);
-    fputs("set multiplot\nset lmargin at screen 0.14\nset rmargin at screen 0.965\n"
-          "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
-          "set grid linecolor rgb '#dddddd' linewidth 0.6\nset format x ''\n",
-          out);
     fprintf(out,
-            "set xrange [%.9g:%.9g]\nset key at screen 0.965, 0.91 right horizontal "
-            "maxrows 1 samplen 1.5 font '%s'\nset label 2 '%s:' at screen 0.14, 0.897 "
+            "set multiplot\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
+            "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
+            "set grid linecolor rgb '#dddddd' linewidth 0.6\nset format x ''\n",
+            0.14 + place.right);
+    fprintf(out,
+            "set xrange [%.9g:%.9g]\nset key at screen 0.965, %g right horizontal "
+            "maxrows 1 samplen 1.5 font ',%.3g'\nset label 2 '%s:' at screen %g, %g "
             "left\n",
-            from - 0.1 * (to - from), to + 0.1 * (to - from), rb_report_key_font(kind),
-            unit_of(w));
-    fprintf(out,
+            from - 0.1 * (to - from), to + 0.1 * (to - from), 0.91 + 1.6 * place.up,
+            rb_report_key_font(canvas), unit_of(w), 0.14 - place.right, 0.897 + place.up);
+    if (place.titled)
+        fprintf(
+            out,
             "set label 1 '{/:Bold Wear}   P = %.5g N/mm,  %.4g mm^3/mm worn after %.4g "
             "%s' at screen 0.54, 0.955 center\n",
             h->normal_load[last], h->worn[last], h->way[last], unit_of(w));
@@ -160,10 +164,10 @@ static void write_script(FILE *out, rb_report_picture_kind kind, const void *con
     fputs("unset multiplot\n", out);
 }
 
-rb_status rb_report_wear_picture(FILE *out, rb_report_picture_kind kind,
+rb_status rb_report_wear_picture(FILE *out, rb_report_canvas canvas,
                                  const rb_report_wear *w, rb_message *why)
 {
     if (w->profiles < 1)
         return rb_fail(why, RB_EINVAL, "nothing to draw");
-    return rb_report_draw(out, kind, RB_REPORT_SLIDE, write_script, w, why);
+    return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, w, why);
 }
