@@ -176,6 +176,28 @@ static void grid_times_table(void **state)
 }
 
 /* The whole file at once, and cut off in the middle of a row and gone on with. */
+/* What stands only beside an option that varies is not refused for its absence. */
+static void options_may_need_the_one_that_varies(void **state)
+{
+    (void)state;
+    static const char *const all[] = {
+        "--support hub --core-young 70000 --vary-1 'cover-thickness 5 10'",
+        "--poisson-b .2 --vary-1 'young-b 1e5 2e5'",
+        "--base-young 1e5 --base-poisson .2 --vary-1 'layer-thickness 5 10'",
+        "--similar --heat-capacity 3.8 --speed 1000 --vary-1 'conductivity 10 50'",
+        "--similar --relaxation-time .1 --relaxation-ratio 1 --vary-1 'speed 1 10'"};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char line[400];
+        snprintf(line, sizeof line, STUDY "--contact-elements 20 --header bare %s",
+                 all[k]);
+        if (rollbem(line) != 0)
+            fail_msg("%s: %s", all[k], err);
+        assert_int_equal(shell("test $(wc -l <out) = 3"), 0);
+    }
+    check_refused(STUDY "--heat-capacity 3.8 --vary-1 'mu .1 .2'", 64,
+                  "for temperatures only, see --conductivity");
+}
+
 static void an_interrupted_study_goes_on(void **state)
 {
     (void)state;
@@ -344,6 +366,7 @@ int main(void)
         cmocka_unit_test(stops_when_told),
         cmocka_unit_test(bad_studies_are_refused),
         cmocka_unit_test(grid_times_table),
+        cmocka_unit_test(options_may_need_the_one_that_varies),
         cmocka_unit_test(an_interrupted_study_goes_on),
         cmocka_unit_test(cases_that_fail_are_rows_and_an_exit_code),
         cmocka_unit_test(what_is_no_row_of_the_study_is_refused),

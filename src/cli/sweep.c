@@ -255,16 +255,22 @@ static double value_of(const study *st, const column *c, int number)
     return c->value[number % st->rows[c->factor]];
 }
 
+static cli_exit set_values(const study *st, rb_case *c, int number)
+{
+    rb_message why;
+    for (int k = 0; k < st->columns; k++)
+        if (rb_case_set_number(c, st->column[k].name,
+                               value_of(st, &st->column[k], number), &why) != RB_OK)
+            return cli_fail(CLI_DATA, "case %d: %s", number + 1, why.text);
+    return CLI_CONTINUE;
+}
+
 /* Sets st->one to that case. */
 static cli_exit make_one(study *st, int number)
 {
     rb_message why;
-    for (int k = 0; k < st->columns; k++)
-        if (rb_case_set_number(st->one, st->column[k].name,
-                               value_of(st, &st->column[k], number), &why) != RB_OK)
-            return cli_fail(CLI_DATA, "case %d: %s", number + 1, why.text);
-    const rb_status s = rb_case_settle(st->one, &why);
-    return cli_say(s, &why);
+    const cli_exit code = set_values(st, st->one, number);
+    return code == CLI_CONTINUE ? cli_say(rb_case_settle(st->one, &why), &why) : code;
 }
 
 /* What is refused is refused before anything is solved. */
@@ -804,10 +810,15 @@ static cli_exit run(study *st)
 static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
                         cli_args *args, study *st)
 {
-    cli_exit code = cli_case_parse(spec, argc, argv, c, args);
+    cli_exit code = cli_case_read(spec, argc, argv, c, args);
 
     if (code == CLI_CONTINUE)
         code = read_study(st);
+    /* with values, because other options may stand only beside one that varies */
+    if (code == CLI_CONTINUE)
+        code = set_values(st, c, 0);
+    if (code == CLI_CONTINUE)
+        code = cli_case_settle(spec, c, args);
     if (code == CLI_CONTINUE)
         code = check_cases(st);
     if (code == CLI_CONTINUE)
