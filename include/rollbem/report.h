@@ -329,24 +329,6 @@ rb_status rb_report_dump(const char *folder, const rb_rolling_model *model,
 rb_status rb_report_trace(FILE *out, const char *folder, const rb_rolling_model *model,
                           rb_message *why);
 
-/* ---- References ------------------------------------------------------------------- */
-
-/* One reference value against the program's. */
-typedef struct {
-    char what[80];
-    double wanted, got;
-    double error, bound; /* |got - wanted|, over |wanted| where relative */
-    int relative;
-    int holds;
-    const char *why; /* of a solution that failed; NULL otherwise */
-} rb_report_check;
-
-typedef void rb_report_each_check(const rb_report_check *check, void *context);
-
-/* Every closed-form and published reference (theory.md 6), one call of each per value.
- * The number of those that do not hold. */
-int rb_report_verify(rb_report_each_check *each, void *context);
-
 RB_PUBLIC_END
 
 #endif

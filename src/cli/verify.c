@@ -1,9 +1,9 @@
 /* rollbem verify: references, wanted and got. */
 #include "cli/cli.h"
 
-#include "rollbem/report.h"
+#include "rollbem/verify.h"
 
-static void print_check(const rb_report_check *c, void *context)
+static void print_check(const rb_verify_check *c, void *context)
 {
     int *count = context;
     ++*count;
@@ -29,7 +29,7 @@ int cli_verify(int argc, char **argv)
         code = cli_fail(CLI_USAGE, "verify: unexpected '%s'", args.operand[0]);
     if (code == CLI_CONTINUE) {
         int count = 0;
-        const int failed = rb_report_verify(print_check, &count);
+        const int failed = rb_verify_run(print_check, &count);
         printf("%d of %d references hold\n", count - failed, count);
         code = failed ? CLI_UNSOLVED : CLI_OK;
     }

@@ -1,5 +1,5 @@
 /* The elastic body alone, and the stress below a contact. */
-#include "report/verify.h"
+#include "verify/internal.h"
 
 #include "rollbem/closed_forms.h"
 

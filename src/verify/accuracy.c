@@ -1,6 +1,6 @@
 /* How near elements fitted to the contact come to the closed forms, and pairs of cases
  * that must give the same. */
-#include "report/verify.h"
+#include "verify/internal.h"
 
 #include "rollbem/closed_forms.h"
 

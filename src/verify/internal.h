@@ -1,11 +1,12 @@
 /* What the references of `verify` share. */
-#ifndef ROLLBEM_REPORT_VERIFY_H
-#define ROLLBEM_REPORT_VERIFY_H
+#ifndef ROLLBEM_VERIFY_INTERNAL_H
+#define ROLLBEM_VERIFY_INTERNAL_H
 
-#include "rollbem/report.h"
+#include "rollbem/rolling.h"
+#include "rollbem/verify.h"
 
 typedef struct {
-    rb_report_each_check *each;
+    rb_verify_each_check *each;
     void *context;
     int failed;
     const char *why; /* of the solution at hand; NULL: it is one */
@@ -37,7 +38,7 @@ void rb_verify_contact(rb_verify *v); /* Hertz, Carter, Cattaneo, Bentall-Johnso
 void rb_verify_bodies(rb_verify *v);  /* the elastic body alone, and below the contact */
 void rb_verify_rolling(rb_verify *v); /* transients, dissipation */
 void rb_verify_interface(rb_verify *v); /* heat, wear */
-void rb_verify_accuracy(
-    rb_verify *v); /* how near fitted elements come, by their number */
+/* How near fitted elements come, by their number. */
+void rb_verify_accuracy(rb_verify *v);
 
 #endif

@@ -1,5 +1,5 @@
 /* Rolling in time, and what it costs. */
-#include "report/verify.h"
+#include "verify/internal.h"
 
 #include "rollbem/closed_forms.h"
 

@@ -1,13 +1,14 @@
 /* `verify`: every reference against what the program computes. */
-#include "report/verify.h"
+#include "verify/internal.h"
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 
 void rb_verify_compare(rb_verify *v, double got, double wanted, double bound,
                        int relative, const char *what, ...)
 {
-    rb_report_check c = {
+    rb_verify_check c = {
         .wanted = wanted, .got = got, .bound = bound, .relative = relative};
     va_list args;
     va_start(args, what);
@@ -68,7 +69,7 @@ rb_rolling_case rb_verify_aluminium_on_steel(double mu)
     return rc;
 }
 
-int rb_report_verify(rb_report_each_check *each, void *context)
+int rb_verify_run(rb_verify_each_check *each, void *context)
 {
     rb_verify v = {.each = each, .context = context};
     rb_verify_bodies(&v);

@@ -1,5 +1,5 @@
 /* What happens between the bodies: a third body, heat, wear. */
-#include "report/verify.h"
+#include "verify/internal.h"
 
 #include "rollbem/closed_forms.h"
 

@@ -1,5 +1,5 @@
 /* Closed forms of contact on half-planes. */
-#include "report/verify.h"
+#include "verify/internal.h"
 
 #include "rollbem/closed_forms.h"
 
