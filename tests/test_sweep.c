@@ -192,7 +192,7 @@ static void options_may_need_the_one_that_varies(void **state)
                  all[k]);
         if (rollbem(line) != 0)
             fail_msg("%s: %s", all[k], err);
-        assert_int_equal(shell("test $(wc -l <out) = 3"), 0);
+        assert_non_null(strstr(out, "\n2\t"));
     }
     check_refused(STUDY "--heat-capacity 3.8 --vary-1 'mu .1 .2'", 64,
                   "for temperatures only, see --conductivity");
