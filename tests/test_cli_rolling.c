@@ -542,6 +542,40 @@ static void pictures_in_sizes(void **state)
     assert_non_null(strstr(out, "$data << EOD"));
 }
 
+/* What a reader needs who has the picture alone. */
+static void pictures_name_the_case(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line, *option, *text;
+    } pictures[] = {
+        {"--approach 0.5", "plot", "A: arc, R = 50 mm, E = 94.5 GPa;  B rigid"},
+        {"--approach 0.5e-3 --units si", "plot", "A: arc, R = 0.05 m, E = 94.5 GPa"},
+        {"--support hub --young-b 2e5 --poisson-b 0.3 --support-b halfplane "
+         "--approach 0.5",
+         "plot", "A: hub, R = 50 mm, E = 94.5 GPa;  B: half-plane, E = 200 GPa"},
+        {"curve " SIMILAR "--points 5", "plot", "A: half-plane, R = 50 mm, E"},
+        {"curve " SIMILAR "--points 5 --mu 0.1,0.3", "plot",
+         "dashtype (9,4) linewidth 2.6 title 'μ = 0.3'"},
+        {"stress " SIMILAR, "plot", "A: half-plane, R = 50 mm, E"},
+        {"stress " SIMILAR, "plot", "with labels boxed"},
+        {"stress " SIMILAR, "fringes", "A: half-plane, R = 50 mm, E"},
+        {SIMILAR "--increments 2 --force-ratio 0.5", "history-plot", "A: half-plane, R"},
+        {SIMILAR "--increments 2 --force-ratio 0.5 --error", "history-plot",
+         "title 'estimated error'"}};
+    for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++) {
+        char line[400];
+        snprintf(line, sizeof line,
+                 "%s --contact-elements 20 --quiet --output out.tsv --%s named.svg "
+                 "--plot-script named.gp",
+                 pictures[k].line, pictures[k].option);
+        assert_int_equal(rollbem(line), 0);
+        snprintf(line, sizeof line, "grep -F \"%s\" named.gp", pictures[k].text);
+        if (shell(line) != 0)
+            fail_msg("--%s: no %s", pictures[k].option, pictures[k].text);
+    }
+}
+
 /* Friction that is rounding beside the pressure: every number is one. */
 static void almost_no_friction(void **state)
 {
@@ -583,6 +617,7 @@ int main(void)
         cmocka_unit_test(fitted_is_the_default_for_steady),
         cmocka_unit_test(pictures_are_drawn),
         cmocka_unit_test(pictures_in_sizes),
+        cmocka_unit_test(pictures_name_the_case),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

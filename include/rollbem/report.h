@@ -293,6 +293,7 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind,
 /* Creepage or shift, force and stick over the rolled distance, or over the increments of
  * a static history; errors as bands. */
 rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
+                                    const rb_rolling_case *rc,
                                     const rb_rolling_history *history,
                                     const rb_rolling_history *errors, rb_message *why);
 

@@ -135,8 +135,8 @@ static rb_status draw_history(FILE *out, rb_report_canvas canvas, const void *co
                               rb_message *why)
 {
     const result *it = context;
-    return rb_report_history_picture(out, canvas, &it->r->history, step_errors(it->r),
-                                     why);
+    return rb_report_history_picture(out, canvas, &it->c->rc, &it->r->history,
+                                     step_errors(it->r), why);
 }
 
 static cli_exit show_behind(const solve_options *so, const rb_rolling_model *model)

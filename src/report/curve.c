@@ -252,13 +252,15 @@ static void write_label(FILE *out, const char *axis, const char *what, int expon
 static void write_labels(FILE *out, const view *v, int titled)
 {
     const rb_rolling_curve *c = &v->curves->curve[0];
-    if (titled)
+    if (titled) {
         fprintf(out,
                 "set label 1 '{/:Bold %s}   P = %.5g %s,  a = %.4g %s' "
-                "at screen 0.54, 0.955 center\n",
+                "at screen 0.54, 0.972 center\n",
                 v->over == RB_OVER_SPEED ? "Rolling resistance" : "Creep curve",
                 c->normal_load[c->n - 1], rb_unit_name(c->units, "N/mm"), c->half_width,
                 rb_unit_name(c->units, "mm"));
+        rb_report_label_bodies(out, v->rc, c->units, 0.54, 0.935);
+    }
     if (v->over == RB_OVER_SPEED) {
         fputs("set logscale x\n", out);
         char label[32];
@@ -290,7 +292,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
         "set grid linecolor rgb '#dddddd' linewidth 0.6\nset offsets 0,0,graph 0.05,0\n"
         "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
-        0.13 + place.right, 0.14 + place.up, 0.92 + place.up);
+        0.13 + place.right, 0.14 + place.up, 0.9 + place.up);
     fprintf(out, "set key right bottom samplen 2.2 font ',%.3g'\n",
             rb_report_key_font(canvas));
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
@@ -303,9 +305,10 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                 k, colours[k % 8], k == 0 ? "title 'estimated error'" : "notitle");
     for (int k = 0; k < v->curves->n; k++)
         fprintf(out,
-                "%s$curve%d using 1:2 with lines linecolor rgb '%s' linewidth 2.6 title "
-                "'μ = %g'",
-                k > 0 ? ", " : "", k, colours[k % 8], v->curves->mu[k]);
+                "%s$curve%d using 1:2 with lines linecolor rgb '%s' dashtype %s "
+                "linewidth 2.6 title 'μ = %g'",
+                k > 0 ? ", " : "", k, colours[k % 8], rb_report_dashes(k),
+                v->curves->mu[k]);
     for (int k = 0; k < v->curves->n && draws_carter(v); k++)
         fprintf(out,
                 ", $carter%d using 1:2 with lines dashtype (8,8) linecolor rgb '#111111' "

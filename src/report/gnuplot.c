@@ -239,7 +239,7 @@ static const struct {
     double inches, letters, ratio;
 } sizes[] = {[RB_REPORT_85MM] = {85 / 25.4, 1.65, 1.0},
              [RB_REPORT_170MM] = {170 / 25.4, 1.0, 0.0},
-             [RB_REPORT_SLIDE] = {0.0, 0.95, 16.0 / 9.0}};
+             [RB_REPORT_SLIDE] = {0.0, 0.85, 16.0 / 9.0}};
 
 typedef struct {
     double width, height, letters; /* letters: against those of the shape's own size */
@@ -262,6 +262,13 @@ static extent extent_of(rb_report_canvas canvas, rb_report_shape shape)
 double rb_report_key_font(rb_report_canvas canvas)
 {
     return looks[canvas.kind].key_font * extent_of(canvas, RB_REPORT_FOUR_THIRDS).letters;
+}
+
+const char *rb_report_dashes(int k)
+{
+    static const char *const types[] = {"solid",     "(9,4)",  "(3,3)",
+                                        "(9,3,3,3)", "(14,3)", "(6,2,2,2,2,2)"};
+    return types[k % 6];
 }
 
 double rb_report_width_over_height(rb_report_canvas canvas, rb_report_shape shape)

@@ -4,6 +4,7 @@
 #include <math.h>
 
 typedef struct {
+    const rb_rolling_case *rc;
     const rb_rolling_history *h, *errors; /* errors: NULL or as many steps */
     int rolls;    /* 1: over the rolled distance, 0: over the increments */
     int exponent; /* of the creepage or shift */
@@ -76,7 +77,7 @@ static void write_data(FILE *out, const view *v)
 static void write_panel(FILE *out, const view *v, int k, const char *label, int column,
                         int error, const char *colour, int points)
 {
-    static const double tops[] = {0.91, 0.64, 0.37}, height = 0.235;
+    static const double tops[] = {0.9, 0.634, 0.368}, height = 0.235;
     const double top = tops[k] + v->place.up;
     fprintf(out,
             "set tmargin at screen %g\nset bmargin at screen %g\n"
@@ -85,11 +86,11 @@ static void write_panel(FILE *out, const view *v, int k, const char *label, int 
     if (error)
         fprintf(out,
                 "$data using 1:($%d-$%d):($%d+$%d) with filledcurves linecolor rgb '%s' "
-                "fillstyle transparent solid 0.25 noborder, ",
+                "fillstyle transparent solid 0.25 noborder title 'estimated error', ",
                 column, error, column, error, colour);
     fprintf(out,
             "$data using 1:%d with %s linecolor rgb '%s' linewidth 1.8 pointtype 7 "
-            "pointsize 0.8\n",
+            "pointsize 0.8 notitle\n",
             column, points ? "linespoints" : "lines", colour);
 }
 
@@ -111,7 +112,6 @@ static void write_range(FILE *out, const view *v, quantity *of, double least, do
 static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
-    (void)canvas;
     const int last = v->h->n - 1, points = v->h->n <= 40;
     const char *load = rb_unit_name(v->h->units, "N/mm");
     const char *mm = rb_unit_name(v->h->units, "mm");
@@ -120,18 +120,20 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     fprintf(out,
             "set multiplot\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
             "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
-            "set grid linecolor rgb '#dddddd' linewidth 0.6\nunset key\n"
-            "set format x ''\n",
-            0.14 + v->place.right);
+            "set grid linecolor rgb '#dddddd' linewidth 0.6\nset format x ''\n"
+            "set key at screen 0.965, %g right samplen 2.2 font ',%.3g'\n",
+            0.14 + v->place.right, 0.924 + v->place.up, rb_report_key_font(canvas));
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
     if (v->place.titled)
         fprintf(out,
                 "set label 1 '{/:Bold %s}   %d steps,  at the end P = %.5g %s,  Q = %.5g "
-                "%s' at screen 0.54, 0.955 center\n",
+                "%s' at screen 0.54, 0.978 center\n",
                 v->rolls ? "Transient rolling" : "Static history", v->h->n,
                 v->h->normal_load[last], load,
                 rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]),
                 load);
+    if (v->place.titled)
+        rb_report_label_bodies(out, v->rc, v->h->units, 0.54, 0.944);
     if (v->exponent)
         snprintf(label, sizeof label, "%s  [10^{%d}%s%s]", v->rolls ? "ξ" : "shift",
                  v->exponent, v->rolls ? "" : " ", v->rolls ? "" : mm);
@@ -139,7 +141,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         snprintf(label, sizeof label, v->rolls ? "ξ" : "shift  [%s]", mm);
     write_range(out, v, motion, INFINITY, -INFINITY);
     write_panel(out, v, 0, label, 2, v->errors ? 5 : 0, "#6c3483", points);
-    fputs("unset label 1\n", out);
+    fputs("unset label 1\nunset label 9\nunset key\n", out);
     write_range(out, v, force, 0.0, 0.0); /* a force is seen against none */
     write_panel(out, v, 1, "Q/(μP)", 3, v->errors ? 6 : 0, "#c0392b", points);
     fprintf(out,
@@ -151,11 +153,13 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
 }
 
 rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
+                                    const rb_rolling_case *rc,
                                     const rb_rolling_history *history,
                                     const rb_rolling_history *errors, rb_message *why)
 {
     if (history->n < 1)
         return rb_fail(why, RB_EINVAL, "no steps to draw");
-    const view v = make_view(history, errors, canvas);
+    view v = make_view(history, errors, canvas);
+    v.rc = rc;
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
 }

@@ -62,6 +62,11 @@ typedef struct {
     double right, up; /* in parts of the canvas */
 } rb_report_place;
 rb_report_place rb_report_place_of(rb_report_canvas canvas);
+/* The label of the picture that names the bodies, centred at screen x, y. */
+void rb_report_label_bodies(FILE *script, const rb_rolling_case *rc, rb_units units,
+                            double x, double y);
+/* The dash type of curve k of several, which print in grey tells apart. */
+const char *rb_report_dashes(int k);
 /* A unit of an axis: values divided by `size` are in units of `name`. */
 typedef struct {
     double size;

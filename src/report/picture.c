@@ -252,9 +252,10 @@ static void write_title(FILE *out, const view *v)
     fprintf(out, "set label 1 '{/:Bold %s}   μ = %g,  P = %.5g %s,  Q = %.5g %s",
             kinds[s->formulation], v->rc->mu, s->normal_load, load,
             rb_report_tidy(s->tangential_load, s->normal_load), load);
-    fputs("' at screen 0.53, 0.965 center\nset label 2 '{/*0.95 ", out);
+    fputs("' at screen 0.53, 0.977 center\nset label 2 '{/*0.95 ", out);
     write_results(out, v);
-    fputs("}' at screen 0.53, 0.925 center textcolor rgb '#444444'\n", out);
+    fputs("}' at screen 0.53, 0.909 center textcolor rgb '#444444'\n", out);
+    rb_report_label_bodies(out, v->rc, s->units, 0.53, 0.943);
 }
 
 /* Room for p, q and the bounds; at mu > 1 the bounds may leave it. */
@@ -286,7 +287,7 @@ static void write_tractions(FILE *out, const view *v, double key_font)
     fprintf(out,
             "set key at screen 0.53, %g center horizontal maxrows 1 samplen %g width 0 "
             "font ',%.3g'\n",
-            0.87 + v->place.up, v->place.titled ? 2.2 : 1.2, key_font);
+            0.866 + v->place.up, v->place.titled ? 2.2 : 1.2, key_font);
     write_zones(out, v, 1);
     /* few elements: what each of them carries; many: a curve */
     const char *style = v->s->n <= STEPS_UP_TO ? "histeps" : "lines";
@@ -298,7 +299,7 @@ static void write_tractions(FILE *out, const view *v, double key_font)
             "linewidth 0.9 notitle, "
             "$data using 1:2 with %s linecolor rgb '#1f4e79' linewidth 1.8 "
             "title 'pressure p', "
-            "$data using 1:3 with %s linecolor rgb '#c0392b' linewidth 1.8 "
+            "$data using 1:3 with %s linecolor rgb '#c0392b' linewidth 3 "
             "title 'friction q'",
             style, style, style, style);
     if (v->carter)
@@ -328,6 +329,32 @@ rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double larg
     if (units == RB_UNITS_SI && strcmp(unit, "mm") == 0 && largest < 0.1)
         return (rb_report_unit){1e-3, "mm"};
     return (rb_report_unit){1.0, rb_unit_name(units, unit)};
+}
+
+static void write_body(FILE *out, const rb_rolling_body *b, rb_units units)
+{
+    static const char *const supports[] = {
+        [RB_BEM_ARC] = "arc", [RB_BEM_HUB] = "hub", [RB_BEM_HALFPLANE] = "half-plane"};
+    const double young = rb_unit_shown(units, "MPa", b->young);
+    const rb_report_unit unit = rb_report_axis_unit(units, "MPa", young);
+    fputs(supports[b->support], out);
+    if (isfinite(b->radius))
+        fprintf(out, ", R = %.5g %s", rb_unit_shown(units, "mm", b->radius),
+                rb_unit_name(units, "mm"));
+    fprintf(out, ", E = %.4g %s", young / unit.size, unit.name);
+}
+
+void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units,
+                            double x, double y)
+{
+    fputs("set label 9 '{/*0.95 A: ", out);
+    write_body(out, &rc->a, units);
+    if (rc->elastic_b) {
+        fputs(";  B: ", out);
+        write_body(out, &rc->b, units);
+    } else
+        fputs(";  B rigid", out);
+    fprintf(out, "}' at screen %g, %g center textcolor rgb '#444444'\n", x, y);
 }
 
 double rb_report_round_step(double step)

@@ -71,9 +71,10 @@ static void write_contact(FILE *out, const view *v)
             continue;
         fprintf(out,
                 "set arrow from %.9g, graph -0.018 to %.9g, graph -0.018 nohead "
-                "linewidth 4 linecolor rgb '%s' front\n",
+                "linewidth %d linecolor rgb '%s' front\n",
                 (s->x[first] - s->h[first] / 2) / v->unit,
-                (s->x[i - 1] + s->h[i - 1] / 2) / v->unit, colours[s->zone[first]]);
+                (s->x[i - 1] + s->h[i - 1] / 2) / v->unit,
+                s->zone[first] == RB_ZONE_STICK ? 2 : 6, colours[s->zone[first]]);
     }
 }
 
@@ -92,7 +93,9 @@ static void write_axes(FILE *out, const view *v)
     write_contact(out, v);
 }
 
-static void write_subtitle(FILE *out, const view *v, const char *title, double y)
+/* line: from one line of the title to the next. */
+static void write_subtitle(FILE *out, const view *v, const char *title, double y,
+                           double line)
 {
     static const char *const kinds[] = {"static", "steady rolling", "transient rolling"};
     const rb_rolling_solution *s = v->s->s;
@@ -102,16 +105,18 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
             v->stress_label, s->half_width / length.size, length.name);
     if (isfinite(s->force_ratio))
         fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0) + 0.0);
-    fprintf(out,
-            "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: blue stick, orange "
-            "and red slip}' at screen 0.5, 0.025 center textcolor rgb '#444444'\n",
-            y);
+    fprintf(
+        out,
+        "' at screen 0.5, %g center\nset label 4 '{/*0.8 contact: thin blue stick, thick "
+        "orange and red slip}' at screen 0.5, 0.025 center textcolor rgb '#444444'\n",
+        y);
+    rb_report_label_bodies(out, v->s->rc, s->units, 0.5, y - line);
 }
 
 /* ---- Contours ------------------------------------------------------------------------
  */
 
-static const double panel_width = 0.345, panel_middle = 0.48;
+static const double panel_width = 0.335, panel_middle = 0.48;
 
 static double panel_height(const view *v)
 {
@@ -139,18 +144,20 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
         m->value / v->stress_unit, m->x / v->unit, m->y / v->unit);
     fprintf(out,
             "splot $grid using 1:2:%d with pm3d nocontour, $grid using 1:2:%d with lines "
-            "nosurface linecolor rgb '#ffffff' linewidth 0.6\n",
-            column, column);
+            "nosurface linecolor rgb '#ffffff' linewidth 0.6, $grid using 1:2:%d with "
+            "labels boxed nosurface\n",
+            column, column, column);
 }
 
 static void write_contours(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
-    (void)canvas;
     write_grid(out, v);
     write_axes(out, v);
-    fputs("set contour base\nset cntrlabel onecolor\nset cntrparam levels auto 10\n",
-          out);
+    fprintf(out,
+            "set contour base\nset cntrlabel onecolor start 30 interval -1 font ',%.3g'\n"
+            "set cntrparam levels auto 10\n",
+            0.6 * rb_report_key_font(canvas));
     fputs("set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', "
           "0.45 '#277f8e', 0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')\n"
           "set multiplot\n",
@@ -160,10 +167,10 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
             "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
             rb_report_round_step((v->to - v->from) / 5.0));
     write_subtitle(out, v, "Stress below the surface of A",
-                   panel_middle + panel_height(v) / 2 + 0.14);
+                   panel_middle + panel_height(v) / 2 + 0.18, 0.06);
     write_panel(out, v, "maximum shear", 3, &v->s->maxima->max_shear, 0.085);
-    fputs("unset label 1\nunset label 4\nunset ylabel\n", out);
-    write_panel(out, v, "von Mises", 4, &v->s->maxima->von_mises, 0.57);
+    fputs("unset label 1\nunset label 4\nunset label 9\nunset ylabel\n", out);
+    write_panel(out, v, "von Mises", 4, &v->s->maxima->von_mises, 0.565);
     fputs("unset multiplot\n", out);
 }
 
@@ -196,15 +203,15 @@ static void write_fringes(FILE *out, rb_report_canvas canvas, const void *contex
     fprintf(out,
             "set palette gray\nset cbrange [0:1]\nunset colorbox\n"
             "set lmargin at screen %g\nset rmargin at screen 0.97\n"
-            "set bmargin at screen 0.17\nset tmargin at screen 0.88\n",
+            "set bmargin at screen 0.17\nset tmargin at screen 0.87\n",
             0.11 + place.right);
     write_axes(out, v);
-    write_subtitle(out, v, "Isochromatics", 0.965);
+    write_subtitle(out, v, "Isochromatics", 0.975, 0.036);
     if (!place.titled)
-        fputs("unset label 1\n", out);
+        fputs("unset label 1\nunset label 9\n", out);
     fprintf(out,
             "set label 2 'dark where σ_1 − σ_2 is a multiple of %.4g %s' at screen 0.5, "
-            "0.925 center textcolor rgb '#444444'\n",
+            "0.9 center textcolor rgb '#444444'\n",
             v->fringe / v->stress_unit, v->stress_label);
     fputs("splot $grid using 1:2:(sin(pi*$5)**2) with pm3d\n", out);
 }

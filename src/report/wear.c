@@ -117,9 +117,10 @@ static void write_panel(FILE *out, const rb_report_wear *w, int column)
     fputs("plot ", out);
     for (int k = 0; k < w->profiles; k++)
         fprintf(out,
-                "%s$profile%d using 1:%d with lines linecolor rgb '%s' linewidth 1.8 "
-                "title '%.4g'",
-                k > 0 ? ", " : "", k, column, colours[k], w->profile[k].way);
+                "%s$profile%d using 1:%d with lines linecolor rgb '%s' dashtype %s "
+                "linewidth 1.8 title '%.4g'",
+                k > 0 ? ", " : "", k, column, colours[k], rb_report_dashes(k),
+                w->profile[k].way);
     fputc('\n', out);
 }
 
