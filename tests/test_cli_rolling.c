@@ -69,7 +69,7 @@ static void bad_points_are_named_by_their_line(void **state)
         {"0 1\n0 1 2\n", "points:2: expected 2 numbers, got 3"},
         {"0\n", "points:1: expected 2 numbers, got 1"},
         {"0 1\nsome text\n", "points:2: expected a number, got 'some'"},
-        {"# x y\n0 1\n\n0 -1\n", "points:4: the point (0, -1) lies outside body A"}};
+        {"# x y\n0 1\n\n0 -1\n", "points:4: the point (0, -1) mm lies outside body A"}};
     for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
         write_file("points", texts[k][0]);
         check_refused("stress " SIMILAR "--points points", 65, texts[k][1]);

@@ -187,6 +187,12 @@ static void files_take_units(void **state)
     write_file("gap.txt", "x gap\n-1 .01\n-.5 .0025\n0 0\n.5 .0025\n1 .01\n");
     write_file("gap2.txt", "x_mm gap_um\n-1 10\n-.5 2.5\n0 0\n.5 2.5\n1 10\n");
     write_file("points.txt", "0 0.0005\n");
+    write_file("points2.txt", "x_mm y_um\n0 500\n");
+    write_file("worn.txt", "-1 0\n-.5 .001\n0 .002\n.5 .001\n1 0\n");
+    write_file("worn.ini", "load = 100\nworn = worn.txt\nsupport = halfplane\n");
+    write_file("points.ini", "load = 100\nsupport = halfplane\n[stress]\n"
+                             "points = points3.txt\n");
+    write_file("points3.txt", "0 0.5\n");
     assert_int_equal(
         shell(
             "S='--support halfplane --similar --quiet --header=bare'; "
@@ -194,6 +200,20 @@ static void files_take_units(void **state)
             "\"$R\" $S --units si --history c.txt --json >c && "
             "\"$R\" $S --gap gap.txt --load 10 >d && "
             "\"$R\" $S --gap gap2.txt --load 10 >e && cmp d e"),
+        0);
+    /* tables of points and of worn depths too; those that a case file names are in its
+     * units, whatever is shown */
+    assert_int_equal(
+        shell("S='--support halfplane --load 100 --quiet --header=bare'; "
+              "\"$R\" stress $S --points points3.txt >p && "
+              "\"$R\" stress $S --points points2.txt >q && cmp p q && "
+              "\"$R\" stress points.ini --units si --quiet --header=bare >r && "
+              "\"$R\" stress points.ini --units si --points points2.txt --quiet "
+              "--header=bare >s && cmp r s && grep -q '0.0005' r && "
+              "\"$R\" worn.ini --quiet --header=bare >t && "
+              "\"$R\" worn.ini --units si --quiet --header=bare >u && "
+              "test $(tail -n +2 t | cut -f10 | tr -d '\\n') = "
+              "$(tail -n +2 u | cut -f10 | tr -d '\\n')"),
         0);
     json_t *root = json_load_file("c", 0, NULL);
     assert_string_equal(

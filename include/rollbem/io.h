@@ -5,6 +5,7 @@
 
 #include "rollbem/base.h"
 #include "rollbem/sparse.h"
+#include "rollbem/units.h"
 
 #include <stdio.h>
 
@@ -65,6 +66,9 @@ rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t
                                    rb_message *why);
 /* rows numbers; NULL when there is no such column. */
 const double *rb_io_table_column(const rb_io_table *t, const char *name);
+/* Column j, a quantity of that unit (rollbem/units.h), to mm, N, MPa: from the unit that
+ * its name ends with, which is cut off, else from those of the system. */
+void rb_io_table_convert(rb_io_table *t, int j, const char *unit, rb_units system);
 void rb_io_table_free(rb_io_table *t);
 
 /* Its numbers alone.  x: *rows values of the first column, then of the

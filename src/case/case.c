@@ -423,18 +423,6 @@ static rb_units units_of_file(const rb_case *c, const char *option)
     return rb_case_given(c, option) > 0 ? c->file_units : c->words.units;
 }
 
-/* Lengths, unless a column's name ends with its unit. */
-static void convert_column(rb_io_table *t, int j, const char *unit, rb_units units)
-{
-    const char *name;
-    double *x = t->x + (size_t)j * (size_t)t->rows;
-    const size_t n = t->name ? rb_unit_of_column(t->name[j], unit, &name) : 0;
-    for (int i = 0; i < t->rows; i++)
-        x[i] = n > 0 ? rb_unit_of(name, unit, x[i]) : rb_unit_stored(units, unit, x[i]);
-    if (n > 0)
-        t->name[j][n] = '\0';
-}
-
 /* x and gap [mm]. */
 static rb_status read_profile_table(case_table *t, const char *path, rb_units units,
                                     rb_message *why)
@@ -446,7 +434,7 @@ static rb_status read_profile_table(case_table *t, const char *path, rb_units un
     t->path = s == RB_OK ? path : NULL;
     t->units = units;
     for (int j = 0; j < 2 && s == RB_OK; j++)
-        convert_column(&t->table, j, "mm", units);
+        rb_io_table_convert(&t->table, j, "mm", units);
     return s;
 }
 
@@ -495,7 +483,7 @@ static rb_status read_worn(rb_case *c, rb_message *why)
     if (!settled->worn_file)
         return RB_OK;
     const rb_status s =
-        read_profile_table(&c->worn, settled->worn_file, settled->units, why);
+        read_profile_table(&c->worn, settled->worn_file, units_of_file(c, "worn"), why);
     if (s != RB_OK)
         return s;
     settled->rc.worn_n = t->rows;
@@ -583,7 +571,7 @@ static rb_status read_program_table(case_table *t, const char *path, rb_units un
     for (int j = 0; j < t->table.columns && s == RB_OK; j++) {
         const rb_option *option = replaced_option(t->table.name[j]);
         if (option)
-            convert_column(&t->table, j, option->unit, units);
+            rb_io_table_convert(&t->table, j, option->unit, units);
     }
     return s;
 }

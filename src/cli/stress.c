@@ -104,9 +104,11 @@ static cli_exit read_points(const stress_options *o, rb_units units, places *p)
     p->xy = rb_alloc((size_t)n, 2);
     if (!p->xy)
         return cli_fail(CLI_INTERNAL, "out of memory");
+    for (int j = 0; j < 2; j++)
+        rb_io_table_convert(&p->points, j, "mm", units);
     for (int k = 0; k < n; k++) {
-        p->xy[2 * k] = rb_unit_stored(units, "mm", p->points.x[k]);
-        p->xy[2 * k + 1] = rb_unit_stored(units, "mm", p->points.x[k + n]);
+        p->xy[2 * k] = p->points.x[k];
+        p->xy[2 * k + 1] = p->points.x[k + n];
     }
     return CLI_CONTINUE;
 }
@@ -161,7 +163,7 @@ static rb_status stress_at_points(result *r, rb_message *why)
     for (int k = 0; k < n && s == RB_OK; k++)
         if (!inside[k])
             s = rb_fail(why, RB_EFORMAT,
-                        "%.200s:%d: the point (%g, %g) lies outside body A",
+                        "%.200s:%d: the point (%g, %g) mm lies outside body A",
                         r->options->points, p->points.line[k], p->points.x[k],
                         p->points.x[k + n]);
     if (s == RB_OK)
@@ -352,6 +354,14 @@ static cli_exit check_known(const rb_case *c)
     return s == RB_OK ? CLI_CONTINUE : cli_case_refused(c, s, &why);
 }
 
+static int is_from_file(const stress_options *so, const char *name)
+{
+    for (int k = 0; k < OPTIONS; k++)
+        if (strcmp(options[k].name, name) == 0)
+            return so->given[k] > 0;
+    return 0;
+}
+
 static cli_exit check(const rb_case *c, const stress_options *so, const cli_output *o,
                       places *where)
 {
@@ -363,8 +373,9 @@ static cli_exit check(const rb_case *c, const stress_options *so, const cli_outp
         code = check_vtk(so, rb_case_settled(c));
     if (code == CLI_CONTINUE)
         code = read_grid(so, where);
-    return code == CLI_CONTINUE ? read_points(so, rb_case_settled(c)->units, where)
-                                : code;
+    const rb_units units =
+        is_from_file(so, "points") ? rb_case_file_units(c) : rb_case_settled(c)->units;
+    return code == CLI_CONTINUE ? read_points(so, units, where) : code;
 }
 
 int cli_stress(int argc, char **argv)

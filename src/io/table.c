@@ -16,6 +16,17 @@ typedef struct {
     rb_message *why;
 } reading;
 
+void rb_io_table_convert(rb_io_table *t, int j, const char *unit, rb_units system)
+{
+    const char *name;
+    double *x = t->x + (size_t)j * (size_t)t->rows;
+    const size_t n = t->name ? rb_unit_of_column(t->name[j], unit, &name) : 0;
+    for (int i = 0; i < t->rows; i++)
+        x[i] = n > 0 ? rb_unit_of(name, unit, x[i]) : rb_unit_stored(system, unit, x[i]);
+    if (n > 0)
+        t->name[j][n] = '\0';
+}
+
 void rb_io_table_free(rb_io_table *t)
 {
     for (int j = 0; t->name && j < t->columns; j++)
