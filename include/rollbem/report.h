@@ -108,6 +108,20 @@ struct json_t *rb_report_json_schema(void);
 struct json_t *rb_report_json_errors(const rb_rolling_errors *errors);
 struct json_t *rb_report_json_history(const rb_rolling_history *h,
                                       const rb_rolling_history *errors);
+
+/* What checking a result found. */
+typedef struct {
+    int violations, numbers; /* numbers: compared with what they should be */
+    double residual;         /* of the printed state */
+} rb_report_certificate;
+
+/* Checks the JSON of a static or steady case without solving: rebuilds its problem from
+ * its inputs in `words`, a case of defaults, and computes again what it prints from its
+ * pressures, friction, approach and creepage.  A line on out for each violation.
+ * RB_EFORMAT: a kind of result that cannot be checked; RB_ENOMEM. */
+rb_status rb_report_certify(FILE *out, const char *name, const struct json_t *root,
+                            rb_case *words, rb_report_certificate *found,
+                            rb_message *why);
 /* Writes with a final newline and takes json over.  RB_ENOMEM: it is NULL; RB_EWRITE. */
 rb_status rb_report_json_write(FILE *out, struct json_t *json);
 

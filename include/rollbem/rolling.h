@@ -207,6 +207,11 @@ rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, double from, double
  * growing ones outside each edge (theory.md 5.1). */
 rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, double from, double to,
                                  rb_rolling_mesh *mesh, rb_message *why);
+/* The mesh that the n elements of a result were on, x its midpoints and h its lengths:
+ * equal elements from the outer ends alone, fitted ones from each of them. */
+rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc, int are_equal, int n,
+                                    const double *x, const double *h,
+                                    rb_rolling_mesh *mesh, rb_message *why);
 void rb_rolling_mesh_free(rb_rolling_mesh *mesh);
 
 /* The bodies of a case on a contact mesh.  The factored systems stay for later solves. */

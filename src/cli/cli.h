@@ -22,6 +22,7 @@ int cli_wear(int argc, char **argv);
 int cli_sweep(int argc, char **argv);
 int cli_stress(int argc, char **argv);
 int cli_verify(int argc, char **argv);
+int cli_check(int argc, char **argv);
 int cli_lcp(int argc, char **argv);
 int cli_friction(int argc, char **argv);
 int cli_compare(int argc, char **argv);

@@ -23,6 +23,8 @@ static const struct {
     {"wear", cli_wear, "what sliding, fretting or rolling takes off"},
     {"verify", cli_verify,
      "every reference that the program should meet, and how it does"},
+    {"check", cli_check,
+     "checks a result in JSON without solving: valid, or what is wrong"},
     {"lcp", cli_lcp, "solves complementarity problems and bimatrix games from files"},
     {"friction", cli_friction, "solves frictional contact problems from files"},
     {"compare", cli_compare, "performance profiles of friction solvers over files"},

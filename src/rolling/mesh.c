@@ -267,6 +267,14 @@ static double edge_step(const rb_rolling_span *span, int across)
     return (span->to - span->from) * gsl_pow_2(sin(0.5 * M_PI / across));
 }
 
+/* The end of the element upstream of n fitted ones. */
+static void put_upstream(const rb_rolling_case *rc, int n, double *ends)
+{
+    const double step = GROWTH * (ends[n] - ends[n - 1]);
+
+    ends[n + 1] = ends[n] + fmin(step, 0.5 * (lower_half(rc) - ends[n]));
+}
+
 /* All ends, the one behind the upstream element included, from end[0] on; returns the
  * number of contact elements. */
 static int put_ends(const rb_rolling_case *rc, int count, const rb_rolling_span *span,
@@ -294,8 +302,7 @@ static int put_ends(const rb_rolling_case *rc, int count, const rb_rolling_span 
     for (int k = 0; k < right; k++)
         *++end = last->to + distance[k];
     const int n = (int)(end - ends);
-    step = GROWTH * (ends[n] - ends[n - 1]);
-    *++end = ends[n] + fmin(step, 0.5 * (lower_half(rc) - ends[n]));
+    put_upstream(rc, n, ends);
     return n;
 }
 
@@ -325,4 +332,44 @@ rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, double from, double 
     const rb_rolling_span span = {.from = from, .to = to};
 
     return rb_rolling_mesh_spans(rc, 1, &span, mesh, why);
+}
+
+/* ---- The mesh of a result
+ * --------------------------------------------------------------
+ */
+
+/* Half of an element's extent along x: on a wheel elements are chords of its circle. */
+static double half_extent(const rb_rolling_case *rc, double x, double h)
+{
+    if (rc->a.support == RB_BEM_HALFPLANE)
+        return 0.5 * h;
+    const double apothem = sqrt(gsl_pow_2(rc->a.radius) - gsl_pow_2(0.5 * h));
+    return 0.5 * h * sqrt(1.0 - gsl_pow_2(x / apothem));
+}
+
+rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc, int are_equal, int n,
+                                    const double *x, const double *h,
+                                    rb_rolling_mesh *mesh, rb_message *why)
+{
+    const double from = x[0] - half_extent(rc, x[0], h[0]);
+    const double to = x[n - 1] + half_extent(rc, x[n - 1], h[n - 1]);
+    rb_rolling_case equal = *rc;
+
+    memset(mesh, 0, sizeof *mesh);
+    equal.contact_elements = n;
+    if (are_equal)
+        return rb_rolling_mesh_uniform(&equal, from, to, mesh, why);
+    rb_status s = check_extent(rc, from, to, why);
+    if (s == RB_OK)
+        s = mesh_alloc(n, mesh);
+    if (s != RB_OK)
+        return s;
+    mesh->ends[0] = from;
+    for (int i = 0; i < n; i++)
+        mesh->ends[i + 1] = x[i] + half_extent(rc, x[i], h[i]);
+    put_upstream(rc, n, mesh->ends);
+    s = rb_rolling_mesh_set_gap(rc, mesh);
+    if (s != RB_OK)
+        rb_rolling_mesh_free(mesh);
+    return s;
 }

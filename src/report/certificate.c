@@ -1,0 +1,567 @@
+/* A certificate of a result: the problem is built again from the inputs that the result
+ * prints, on the elements of its table, and everything else that it prints is computed
+ * again from its pressures, friction, approach and creepage.  Nothing is solved. */
+#include "report/internal.h"
+
+#include "rollbem/case.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double CONTROLS = 1e-9; /* a given value against the one that was met */
+
+typedef struct {
+    FILE *out;
+    const char *name; /* of the file */
+    rb_report_certificate *found;
+    const json_t *summary, *table;
+    rb_rolling_model model;
+    rb_rolling_solution again; /* computed from the state */
+    double tol;                /* of the scaled residual */
+} certificate;
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void
+violated(certificate *c, const char *format, ...)
+{
+    va_list args;
+    c->found->violations++;
+    fprintf(c->out, "%s: violated: ", c->name);
+    va_start(args, format);
+    vfprintf(c->out, format, args);
+    va_end(args);
+    fputc('\n', c->out);
+}
+
+/* NAN is equal to NAN alone. */
+static void expect(certificate *c, const char *what, int element, double printed,
+                   double want, double allowed)
+{
+    char place[40] = "";
+    c->found->numbers++;
+    if (fabs(printed - want) <= allowed || (isnan(printed) && isnan(want)))
+        return;
+    if (element > 0)
+        snprintf(place, sizeof place, " of element %d", element);
+    violated(c, "%s%s: printed %.17g, recomputed %.17g (difference %.2g, allowed %.2g)",
+             what, place, printed, want, printed - want, allowed);
+}
+
+static double number_of(const json_t *value)
+{
+    return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+static double member(const json_t *object, const char *key)
+{
+    return number_of(json_object_get(object, key));
+}
+
+/* ---- What can be checked --------------------------------------------------------------
+ */
+
+static rb_status refuse(const char *name, const char *what, rb_message *why)
+{
+    return rb_fail(why, RB_EFORMAT, "%s: cannot be checked: %s", name, what);
+}
+
+static const char *word(const json_t *object, const char *key)
+{
+    const char *text = json_string_value(json_object_get(object, key));
+    return text ? text : "";
+}
+
+/* Steady and static results of `rollbem` itself, in mm, N, MPa. */
+static rb_status check_kind(const char *name, const json_t *root, rb_message *why)
+{
+    static const char *const known[] = {"schema",      "version", "command",
+                                        "conventions", "notes",   "units",
+                                        "inputs",      "summary", "table"};
+    const json_t *inputs = json_object_get(root, "inputs");
+    const json_t *summary = json_object_get(root, "summary");
+    const char *key;
+    json_t *value;
+
+    if (strcmp(word(root, "schema"), "rollbem/1") != 0)
+        return refuse(name, "not a result of schema rollbem/1", why);
+    json_object_foreach((json_t *)root, key, value)
+    {
+        size_t k = 0;
+        while (k < sizeof known / sizeof *known && strcmp(key, known[k]) != 0)
+            k++;
+        if (k == sizeof known / sizeof *known)
+            return rb_fail(
+                why, RB_EFORMAT,
+                "%s: cannot be checked: results with '%s' (only static and steady "
+                "cases without steps and error bars can)",
+                name, key);
+    }
+    if (!json_is_object(inputs) || !json_is_object(summary) ||
+        !json_is_object(json_object_get(root, "table")))
+        return refuse(name, "inputs, summary or table is missing", why);
+    if (strcmp(word(inputs, "formulation"), "transient") == 0 ||
+        word(inputs, "history")[0] || member(inputs, "increments") > 1.0)
+        return refuse(name, "its last state depends on the steps before it", why);
+    if (json_is_true(json_object_get(inputs, "error")) ||
+        json_object_get(summary, "errors") ||
+        json_is_number(json_object_get(inputs, "accuracy")))
+        return refuse(name, "error bars take solutions on other meshes", why);
+    if (strcmp(word(inputs, "units"), "mm") != 0 ||
+        strcmp(word(json_object_get(root, "units"), "system"), "mm") != 0)
+        return refuse(name, "units other than mm, N, MPa", why);
+    if (strcmp(word(summary, "status"), "solved") != 0)
+        return refuse(name, "it says itself that it is not solved", why);
+    return RB_OK;
+}
+
+/* ---- The case again
+ * --------------------------------------------------------------------
+ */
+
+/* A value as an option takes it: a word, a number, numbers with commas. */
+static void option_text(const json_t *value, char *text, size_t size)
+{
+    if (json_is_string(value))
+        snprintf(text, size, "%s", json_string_value(value));
+    else if (json_is_boolean(value))
+        snprintf(text, size, json_is_true(value) ? "yes" : "no");
+    else if (json_is_integer(value))
+        snprintf(text, size, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
+    else if (json_is_real(value))
+        snprintf(text, size, "%.17g", json_real_value(value));
+    else
+        text[0] = '\0';
+    for (size_t k = 0; json_is_array(value) && k < json_array_size(value); k++) {
+        const size_t n = strlen(text);
+        snprintf(text + n, size - n, "%s%.17g", k ? "," : "",
+                 number_of(json_array_get(value, k)));
+    }
+}
+
+/* Material of B that --similar copies from A. */
+static int is_copied(const json_t *inputs, const char *key)
+{
+    return json_is_true(json_object_get(inputs, "similar")) &&
+           (strcmp(key, "young-b") == 0 || strcmp(key, "poisson-b") == 0);
+}
+
+/* Sets what differs from the defaults, and sees that the same inputs come out. */
+static rb_status rebuild_case(const char *name, const json_t *inputs, rb_case *words,
+                              rb_message *why)
+{
+    json_t *defaults = rb_report_json_inputs(words), *again = NULL, *value;
+    rb_status s = defaults ? RB_OK : RB_ENOMEM;
+    const char *key;
+    char text[4200];
+    rb_message reason = {""};
+
+    json_object_foreach((json_t *)inputs, key, value)
+    {
+        if (s != RB_OK || json_is_null(value) || is_copied(inputs, key) ||
+            json_equal(value, json_object_get(defaults, key)))
+            continue;
+        option_text(value, text, sizeof text);
+        s = rb_case_set(words, key, text, RB_GIVEN_ARGUMENT, &reason);
+    }
+    if (s == RB_OK)
+        s = rb_case_settle(words, &reason);
+    if (s != RB_OK)
+        rb_fail(why, RB_EFORMAT, "%s: cannot be checked: inputs: %s", name, reason.text);
+    else if (!(again = rb_report_json_inputs(words)))
+        s = RB_ENOMEM;
+    json_object_foreach(again, key, value)
+    {
+        if (s == RB_OK && !json_equal(value, json_object_get(inputs, key)))
+            s = rb_fail(why, RB_EFORMAT,
+                        "%s: cannot be checked: '%s' of inputs cannot be built again",
+                        name, key);
+    }
+    if (s == RB_OK && json_object_size(again) != json_object_size(inputs))
+        s = rb_fail(why, RB_EFORMAT, "%s: cannot be checked: inputs have other names",
+                    name);
+    json_decref(defaults);
+    json_decref(again);
+    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory")
+           : s == RB_OK   ? s
+                          : RB_EFORMAT;
+}
+
+/* ---- The model again
+ * -------------------------------------------------------------------
+ */
+
+static rb_status read_column(const char *name, const json_t *table, const char *heading,
+                             int n, double *x, rb_message *why)
+{
+    const json_t *list = json_object_get(table, heading);
+    if ((int)json_array_size(list) != n)
+        return rb_fail(why, RB_EFORMAT, "%s: table: expected %d numbers in %s", name, n,
+                       heading);
+    for (int i = 0; i < n; i++) {
+        x[i] = number_of(json_array_get(list, (size_t)i));
+        if (!isfinite(x[i]))
+            return rb_fail(why, RB_EFORMAT, "%s: table: %s of element %d is no number",
+                           name, heading, i + 1);
+    }
+    return RB_OK;
+}
+
+/* Bodies and contact problem on the elements of the table. */
+static rb_status rebuild_problem(certificate *c, const rb_settled_case *settled, int n,
+                                 rb_message *why)
+{
+    rb_rolling_model *m = &c->model;
+    double *xh = rb_alloc((size_t)n, 2);
+    rb_status s = xh ? RB_OK : RB_ENOMEM;
+
+    m->rc = settled->rc;
+    m->equal_instead = strcmp(word(c->summary, "mesh"), "uniform") == 0;
+    const int are_equal = m->equal_instead || m->rc.mesh != RB_MESH_FITTED;
+    if (s == RB_OK)
+        s = read_column(c->name, c->table, "x_mm", n, xh, why);
+    if (s == RB_OK)
+        s = read_column(c->name, c->table, "h_mm", n, xh + n, why);
+    for (int i = 0; i < n && s == RB_OK; i++)
+        if (!(xh[n + i] > 0.0) || (i > 0 && !(xh[i] > xh[i - 1])))
+            s = rb_fail(why, RB_EFORMAT, "%s: table: element %d is out of order", c->name,
+                        i + 1);
+    if (s == RB_OK)
+        s = rb_rolling_mesh_of_result(&m->rc, are_equal, n, xh, xh + n, &m->mesh, why);
+    if (s == RB_OK)
+        s = rb_rolling_bodies_create(&m->rc, &m->mesh, &m->bodies, why);
+    if (s == RB_OK)
+        s = rb_rolling_problem_create(&m->rc, &m->mesh, &m->bodies, NULL, 0.0,
+                                      &m->problem, why);
+    free(xh);
+    return s;
+}
+
+/* The printed unknowns. */
+static rb_status read_state(certificate *c, rb_message *why)
+{
+    rb_rolling_model *m = &c->model;
+    const int n = m->mesh.n, is_static = m->rc.formulation == RB_STATIC;
+    rb_status s = rb_contact_state_alloc(n, &m->state);
+
+    if (s == RB_OK)
+        s = read_column(c->name, c->table, "p_MPa", n, m->state.p, why);
+    if (s == RB_OK)
+        s = read_column(c->name, c->table, "q_MPa", n, m->state.q, why);
+    /* zones pass through the same reader: whole numbers 0 ... 3 */
+    if (s == RB_OK)
+        s = read_column(c->name, c->table, "zone", n, m->state.lambda, why);
+    for (int i = 0; i < n && s == RB_OK; i++) {
+        const double zone = m->state.lambda[i];
+        if (zone != 0.0 && zone != 1.0 && zone != 2.0 && zone != 3.0)
+            s = rb_fail(why, RB_EFORMAT, "%s: table: zone of element %d is %g", c->name,
+                        i + 1, zone);
+        else
+            m->state.zone[i] = (int)zone;
+    }
+    if (s == RB_OK)
+        s = read_column(c->name, c->table, "shift_mm", n, m->state.lambda, why);
+    m->state.delta = member(c->summary, "approach");
+    m->state.xi = member(c->summary, is_static ? "tangential_shift" : "creepage");
+    if (s == RB_OK && !(isfinite(m->state.delta) && isfinite(m->state.xi)))
+        s = rb_fail(why, RB_EFORMAT, "%s: summary: no approach, shift or creepage",
+                    c->name);
+    return s;
+}
+
+/* ---- Sums
+ * ------------------------------------------------------------------------------
+ */
+
+/* Neumaier's sum of products that fma splits without error. */
+typedef struct {
+    double sum, lost;
+} compensated;
+
+static void add(compensated *s, double x)
+{
+    const double t = s->sum + x;
+    s->lost += fabs(s->sum) >= fabs(x) ? (s->sum - t) + x : (x - t) + s->sum;
+    s->sum = t;
+}
+
+static void add_product(compensated *s, double a, double b)
+{
+    const double product = a * b;
+    add(s, product);
+    s->lost += fma(a, b, -product);
+}
+
+static double weighted(int n, const double *a, const double *p, const double *b,
+                       const double *q)
+{
+    compensated s = {0.0, 0.0};
+    for (int i = 0; i < n; i++) {
+        add_product(&s, a[i], p[i]);
+        add_product(&s, b[i], q[i]);
+    }
+    return s.sum + s.lost;
+}
+
+/* Load and force, and what was given of them. */
+static void check_forces(certificate *c)
+{
+    const rb_contact_problem *p = &c->model.problem;
+    const rb_contact_state *x = &c->model.state;
+    const double P = weighted(p->n, p->load_N, x->p, p->load_T, x->q);
+    const double Q = weighted(p->n, p->force_N, x->p, p->force_T, x->q);
+    const rb_rolling_derived d = rb_rolling_derive(&c->model.rc);
+
+    expect(c, "normal_load", 0, member(c->summary, "normal_load"), P, 1e-13 * fabs(P));
+    expect(c, "tangential_load", 0, member(c->summary, "tangential_load"), Q,
+           1e-13 * fabs(P));
+    c->model.half_width =
+        P > 0.0 ? sqrt(4.0 * P * d.radius / (acos(-1.0) * d.modulus)) : 0.0;
+    if (p->load_given)
+        expect(c, "the given load", 0, P, p->load, CONTROLS * p->load);
+    else
+        expect(c, "the given approach", 0, x->delta, p->delta, CONTROLS * fabs(p->delta));
+}
+
+/* ---- Laws, element by element
+ * ----------------------------------------------------------
+ */
+
+/* What is given of creepage, shift, force: the residual has the force. */
+static void check_control(certificate *c)
+{
+    const rb_contact_problem *p = &c->model.problem;
+    const rb_rolling_case *rc = &c->model.rc;
+    if (p->force_given || p->axle > 0.0)
+        return;
+    if (rc->formulation != RB_STATIC && !isnan(rc->creep_ratio))
+        expect(c, "the given creep_ratio", 0, c->again.creep_ratio, rc->creep_ratio,
+               CONTROLS * fabs(rc->creep_ratio));
+    else
+        expect(c, "the given shift or creepage", 0, c->model.state.xi, p->xi,
+               CONTROLS * fabs(p->xi));
+}
+
+static void check_zone(certificate *c, int i, double slack)
+{
+    const rb_contact_problem *problem = &c->model.problem;
+    const rb_contact_state *x = &c->model.state;
+    const double p = x->p[i], q = x->q[i], bound = problem->bound[i] * p;
+    const double slip = x->lambda[i], length = slack * problem->slip_length;
+    const double stress = slack * fmax(problem->mu, 1e-3) * problem->stress;
+    const int zone = x->zone[i];
+
+    if (p < 0.0)
+        violated(c, "pressure of element %d: %.3g < 0", i + 1, p);
+    if ((p > 0.0) != (zone != RB_ZONE_SEPARATED))
+        violated(c, "zone of element %d: %d at a pressure of %.3g", i + 1, zone, p);
+    if (fabs(q) > bound + stress)
+        violated(c,
+                 "Coulomb's bound of element %d: |q| exceeds mu p by %.3g (allowed %.2g)",
+                 i + 1, fabs(q) - bound, stress);
+    if (zone == RB_ZONE_STICK && fabs(slip) > length)
+        violated(c, "stick of element %d: it slips by %.3g (allowed %.2g)", i + 1,
+                 fabs(slip), length);
+    if (zone == RB_ZONE_SLIP_NEGATIVE && (fabs(q + bound) > stress || slip < -length))
+        violated(c, "slip of element %d: q + mu p = %.3g, shift %.3g", i + 1, q + bound,
+                 slip);
+    if (zone == RB_ZONE_SLIP_POSITIVE && (fabs(q - bound) > stress || slip > length))
+        violated(c, "slip of element %d: q - mu p = %.3g, shift %.3g", i + 1, q - bound,
+                 slip);
+}
+
+static rb_status check_laws(certificate *c)
+{
+    const rb_contact_problem *p = &c->model.problem;
+    const rb_contact_state *x = &c->model.state;
+    const int n = p->n;
+    double *gap = rb_alloc((size_t)n, 2);
+    rb_contact_violation v;
+
+    if (!gap)
+        return RB_ENOMEM;
+    rb_contact_kinematics(p, x, gap, gap + n);
+    for (int i = 0; i < n; i++) {
+        const json_t *printed =
+            json_array_get(json_object_get(c->table, "gap_mm"), (size_t)i);
+        const double length = c->tol * p->gap_length;
+        expect(c, "gap_mm", i + 1, number_of(printed), gap[i], length);
+        expect(c, "shift_mm", i + 1, x->zone[i] ? x->lambda[i] : gap[n + i], gap[n + i],
+               c->tol * p->slip_length);
+        if (x->p[i] > 0.0 ? fabs(gap[i]) > length : gap[i] < -length)
+            violated(c, "gap of element %d: %.3g at a pressure of %.3g (allowed %.2g)",
+                     i + 1, gap[i], x->p[i], length);
+        check_zone(c, i, c->tol);
+    }
+    if (x->p[0] > 0.0 || x->p[n - 1] > 0.0)
+        violated(c, "the contact reaches an end of the table");
+    free(gap);
+    const rb_status s = rb_contact_residual(p, x, &v);
+    if (s == RB_OK && !(v.scaled <= c->tol))
+        violated(c, "residual: %.3g (allowed %.2g)", v.scaled, c->tol);
+    c->found->residual = v.scaled;
+    return s;
+}
+
+/* ---- Everything else that is printed
+ * ---------------------------------------------------
+ */
+
+/* How exactly a result comes out again beside its own nine digits, by its unit. */
+static double rounding_of(const certificate *c, const char *key)
+{
+    const rb_rolling_results *all = &rb_rolling_solution_scalars;
+    const rb_rolling_solution *s = &c->again;
+    const double P = s->normal_load;
+
+    if (strncmp(key, "residual_", 9) == 0)
+        return c->tol * (strcmp(key, "residual_friction") == 0 ? c->model.problem.stress
+                         : strcmp(key, "residual_gap") == 0
+                             ? c->model.problem.gap_length
+                             : c->model.problem.slip_length);
+    for (int k = 0; k < all->n; k++) {
+        const char *unit = all->row[k].unit;
+        if (strcmp(all->row[k].name, key) != 0 || !unit)
+            continue;
+        return strcmp(unit, "mm") == 0     ? 1e-12 * s->half_width
+               : strcmp(unit, "N/mm") == 0 ? 1e-13 * P
+               : strcmp(unit, "N") == 0    ? 1e-12 * P * s->half_width
+               : strcmp(unit, "MPa") == 0  ? 1e-12 * s->max_pressure
+                                           : 0.0;
+    }
+    return 1e-10;
+}
+
+static double largest(const json_t *list)
+{
+    double most = 0.0;
+    for (size_t i = 0; i < json_array_size(list); i++)
+        most = fmax(most, fabs(number_of(json_array_get(list, i))));
+    return most;
+}
+
+static void compare_table(certificate *c, const json_t *again)
+{
+    const char *key;
+    json_t *list;
+    json_object_foreach((json_t *)again, key, list)
+    {
+        const json_t *printed = json_object_get(c->table, key);
+        if (strcmp(key, "gap_mm") == 0 || strcmp(key, "p_MPa") == 0 ||
+            strcmp(key, "q_MPa") == 0)
+            continue; /* the laws have these */
+        if (json_array_size(printed) != json_array_size(list))
+            violated(c, "%s: %zu numbers, expected %zu", key, json_array_size(printed),
+                     json_array_size(list));
+        const double most = largest(list);
+        for (size_t i = 0; i < json_array_size(list); i++) {
+            const double want = number_of(json_array_get(list, i));
+            expect(c, key, (int)i + 1, number_of(json_array_get(printed, i)), want,
+                   1e-9 * fabs(want) + 1e-11 * most);
+        }
+    }
+    if (json_object_size(c->table) != json_object_size(again))
+        violated(c, "table: %zu columns, expected %zu", json_object_size(c->table),
+                 json_object_size(again));
+}
+
+/* How the answer was found, which nothing but solving again would tell. */
+static int is_of_the_way(const char *key)
+{
+    static const char *const keys[] = {"iterations",   "solver",    "lcp_form",
+                                       "seconds",      "integrals", "openblas",
+                                       "free_creepage"};
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
+        if (strcmp(key, keys[k]) == 0)
+            return 1;
+    return 0;
+}
+
+static void compare_objects(certificate *c, const char *name, const json_t *printed,
+                            const json_t *again)
+{
+    const char *key;
+    json_t *want;
+    json_object_foreach((json_t *)again, key, want)
+    {
+        const json_t *value = json_object_get(printed, key);
+        if (is_of_the_way(key))
+            continue;
+        if (json_is_array(want) && json_array_size(want) == json_array_size(value)) {
+            for (size_t i = 0; i < json_array_size(want); i++)
+                compare_objects(c, key, json_array_get(value, i),
+                                json_array_get(want, i));
+            continue;
+        }
+        if (json_is_number(want) || json_is_null(want)) {
+            const double x = number_of(want);
+            if (!value || (json_is_null(want) && !json_is_null(value)))
+                violated(c, "%s: %s is missing, or should be null", name, key);
+            else
+                expect(
+                    c, key, 0, number_of(value), x,
+                    (json_is_integer(want) ? 0.0 : 1e-9 * fabs(x) + rounding_of(c, key)));
+        } else if (!json_equal(value, want)) {
+            violated(c, "%s: %s is not what it should be", name, key);
+        }
+    }
+    json_object_foreach((json_t *)printed, key, want)
+    {
+        if (!json_object_get(again, key))
+            violated(c, "%s: %s is no result of this case", name, key);
+    }
+}
+
+static rb_status compare_results(certificate *c, rb_message *why)
+{
+    const rb_status s = rb_rolling_model_solution(&c->model, &c->again, why);
+    if (s != RB_OK)
+        return s;
+    json_t *summary = rb_report_json_summary(&c->again);
+    json_t *table = rb_report_json_table(&c->again);
+    if (summary && table) {
+        compare_objects(c, "summary", c->summary, summary);
+        compare_table(c, table);
+        check_control(c);
+    }
+    const rb_status t = summary && table ? RB_OK : RB_ENOMEM;
+    json_decref(summary);
+    json_decref(table);
+    return t;
+}
+
+rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
+                            rb_case *words, rb_report_certificate *found, rb_message *why)
+{
+    certificate c = {.out = out,
+                     .name = name,
+                     .found = found,
+                     .summary = json_object_get(root, "summary"),
+                     .table = json_object_get(root, "table")};
+    const int n = (int)json_array_size(json_object_get(c.table, "x_mm"));
+
+    memset(found, 0, sizeof *found);
+    rb_status s = check_kind(name, root, why);
+    if (s == RB_OK && n < 3)
+        s = refuse(name, "its table has no elements", why);
+    if (s == RB_OK)
+        s = rebuild_case(name, json_object_get(root, "inputs"), words, why);
+    if (s == RB_OK)
+        s = rebuild_problem(&c, rb_case_settled(words), n, why);
+    if (s == RB_OK)
+        s = read_state(&c, why);
+    if (s == RB_OK) {
+        c.tol = 10.0 * fmax(c.model.rc.tol, c.model.problem.rounding);
+        check_forces(&c);
+        s = check_laws(&c);
+    }
+    if (s == RB_OK)
+        s = compare_results(&c, why);
+    rb_rolling_solution_free(&c.again);
+    rb_rolling_model_free(&c.model);
+    return s == RB_ENOMEM ? rb_fail(why, s, "%s: out of memory", name) : s;
+}
