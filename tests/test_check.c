@@ -1,0 +1,220 @@
+/* Results verified without the solver: valid ones of every kind are, any number that is
+ * changed is found, what cannot be checked is refused. */
+#include "cli_run.h"
+#include "rollbem/report.h"
+
+#define SMALL " --contact-elements 16 --mu 0.3 "
+#define STEADY " --formulation steady "
+
+static const char *const cases[] = {
+    SMALL "--creep 0.1",
+    SMALL "--support halfplane --load 100 --force-ratio 0.5",
+    SMALL
+    "--support halfplane --poisson 0.3 --load 100 --creep-ratio 0.4 --mesh fitted" STEADY,
+    SMALL
+    "--support hub --load 1000 --force-ratio 0.4 --mesh fitted --normals surface" STEADY,
+    SMALL "--support halfplane --load 100 --creep 1e-4 --slip-operator second" STEADY,
+    SMALL
+    "--support arc --approach 0.01 --creep-ratio 0.4 --young-b 210000 --poisson-b 0.3 "
+    "--radius-b 80 --gap parabola" STEADY,
+};
+
+enum { CASES = sizeof cases / sizeof cases[0] };
+
+static rb_status certify(const json_t *root, rb_report_certificate *found,
+                         rb_message *why)
+{
+    FILE *lines = tmpfile();
+    rb_case *words = rb_case_create(RB_CASE_SINGLE);
+    assert_non_null(lines);
+    assert_non_null(words);
+    const rb_status s = rb_report_certify(lines, "result", root, words, found, why);
+    rb_case_free(words);
+    fclose(lines);
+    return s;
+}
+
+static void results_are_valid(void **state)
+{
+    (void)state;
+    static const char *const more[] = {
+        "--support halfplane --load 100 --mu 0 --formulation steady --creep 1e-3",
+        "--support halfplane --half-width 0.05 --similar",
+        "--support hub --load 100 --similar --support-b hub --radius-b 30 --mu 0.1",
+        "--support halfplane --load 100 --layer-thickness 1 --mu 0.2" STEADY
+        "--creep 1e-4",
+        "--support halfplane --load 100 --relaxation-time 0.01,0.1 --relaxation-ratio "
+        "1,2 "
+        "--speed 10 --mu 0.2 --free-axle" STEADY,
+        "--support halfplane --load 100 --mu 0.3 --creep-ratio 0.4 --contact-elements "
+        "1600" STEADY,
+        "--support halfplane --load 100 --interlayer-normal 1e-6 --mesh aligned --mu 0.3 "
+        "--creep-ratio 0.4" STEADY,
+        "--support halfplane --load 100 --speed 1000 --conductivity 50 --heat-capacity "
+        "3.6 "
+        "--mu 0.3 --creep-ratio 0.4" STEADY,
+        "--example paper",
+        "--example hertz",
+        "--example carter",
+        "--example two-bodies",
+    };
+    for (size_t k = 0; k < CASES + sizeof more / sizeof *more; k++) {
+        char line[600];
+        const char *given = k < CASES ? cases[k] : more[k - CASES];
+        snprintf(line, sizeof line,
+                 "\"$R\" %s --json --quiet --output r.json && \"$R\" check r.json",
+                 given);
+        if (shell(line) != 0)
+            print_error("%s\n%s%s", given, out, err);
+        assert_non_null(strstr(out, "r.json: valid: "));
+        assert_string_equal(err, "");
+    }
+}
+
+/* What no check can tell without solving. */
+static int is_left_out(const char *key)
+{
+    return strcmp(key, "iterations") == 0 || strcmp(key, "free_creepage") == 0;
+}
+
+/* One part in a million; what is zero but for rounding becomes 1e-3. */
+static double changed(double x)
+{
+    return fabs(x) > 1e-9 ? x * (1.0 + 1e-6) : x + 1e-3;
+}
+
+static int missed;
+
+static void expect_found(const json_t *root, const char *given, const char *key, int i)
+{
+    rb_report_certificate found;
+    rb_message why = {""};
+    if (certify(root, &found, &why) == RB_OK && found.violations == 0) {
+        print_error("%s: a change of %s[%d] was not found\n", given, key, i);
+        missed++;
+    }
+}
+
+static void every_changed_number_is_found(void **state)
+{
+    (void)state;
+    int changes = 0;
+    missed = 0;
+    for (int k = 0; k < CASES; k++) {
+        json_t *root = run_json(cases[k]), *value;
+        json_t *summary = json_object_get(root, "summary");
+        json_t *table = json_object_get(root, "table");
+        const char *key;
+        rb_report_certificate found;
+        rb_message why = {""};
+        CHECK_STATUS(certify(root, &found, &why), RB_OK);
+        assert_int_equal(found.violations, 0);
+        json_t *names = json_copy(summary);
+        json_object_foreach(names, key, value)
+        {
+            if (!json_is_number(value) || is_left_out(key))
+                continue;
+            json_object_set_new(summary, key,
+                                json_is_integer(value)
+                                    ? json_integer(json_integer_value(value) + 1)
+                                    : json_real(changed(json_real_value(value))));
+            expect_found(root, cases[k], key, 0);
+            json_object_set(summary, key, value);
+            changes++;
+        }
+        json_decref(names);
+        json_object_foreach(table, key, value)
+        {
+            for (size_t i = 0; i < json_array_size(value); i++) {
+                json_t *old = json_incref(json_array_get(value, i));
+                json_array_set_new(value, i,
+                                   json_is_integer(old)
+                                       ? json_integer((json_integer_value(old) + 1) % 4)
+                                       : json_real(changed(json_real_value(old))));
+                expect_found(root, cases[k], key, (int)i);
+                json_array_set_new(value, i, old);
+                changes++;
+            }
+        }
+        json_decref(root);
+    }
+    assert_true(changes > 1000);
+    assert_int_equal(missed, 0);
+}
+
+/* A given value that the result does not meet. */
+static void inputs_belong_to_the_result(void **state)
+{
+    (void)state;
+    static const struct {
+        int which;
+        const char *key;
+    } inputs[] = {{0, "mu"},          {0, "young"}, {0, "radius"},      {0, "creep"},
+                  {1, "force-ratio"}, {1, "load"},  {2, "creep-ratio"}, {2, "poisson"},
+                  {3, "hub-ratio"},   {4, "creep"}, {5, "approach"},    {5, "radius-b"}};
+    for (size_t k = 0; k < sizeof inputs / sizeof *inputs; k++) {
+        json_t *root = run_json(cases[inputs[k].which]);
+        json_t *all = json_object_get(root, "inputs");
+        const double x = json_number_value(json_object_get(all, inputs[k].key));
+        json_object_set_new(all, inputs[k].key, json_real(x * (1.0 + 1e-5)));
+        missed = 0;
+        expect_found(root, cases[inputs[k].which], inputs[k].key, 0);
+        assert_int_equal(missed, 0);
+        json_decref(root);
+    }
+}
+
+static void check_says(const char *make, int code, const char *part)
+{
+    char line[900];
+    snprintf(line, sizeof line, "{ %s ; } >r.json 2>/dev/null; \"$R\" check r.json",
+             make);
+    const int got = shell(line);
+    const char *text = code == 1 ? out : err;
+    if (got != code || !strstr(text, part))
+        print_error("%s: exit %d\n%s%s", make, got, out, err);
+    assert_int_equal(got, code);
+    assert_non_null(strstr(text, part));
+    assert_null(strstr(out, "r.json: valid"));
+}
+
+static void what_cannot_be_checked_is_refused(void **state)
+{
+    (void)state;
+    static const char half[] = "\"$R\" --support halfplane --load 100 --mu 0.3 --json ";
+    char line[500];
+    const struct {
+        const char *options, *part;
+    } kinds[] = {{"--formulation transient --creep 1e-3 --distance 0.1", "'history'"},
+                 {"--increments 3 --shift 1e-4", "'history'"},
+                 {"--formulation steady --creep 1e-3 --error", "error bars"},
+                 {"--formulation steady --creep 1e-3 --units si", "units other than mm"}};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        snprintf(line, sizeof line, "%s%s", half, kinds[k].options);
+        check_says(line, 65, kinds[k].part);
+    }
+    check_says(
+        "\"$R\" curve --support halfplane --load 100 --mu 0.3 --from 0 --to 1 --points 3 "
+        "--json",
+        65, "cannot be checked");
+    check_says("\"$R\" --approach 1e-9 --zone 5 --json", 65, "cannot be checked");
+    check_says("echo '[]'", 65, "expected the JSON of a result");
+    check_says("echo '{'", 65, "expected the JSON of a result");
+    check_says("echo '{}'", 65, "not a result of schema");
+    snprintf(line, sizeof line, "%s | sed 's/\"mu\": 0.29*8*/\"mu\": \"x/'", half);
+    check_says(line, 65, "r.json");
+    snprintf(line, sizeof line, "%s | sed '/\"approach\": [0-9]/s/: ./: 9/'", half);
+    check_says(line, 1, "violated: gap");
+    assert_int_equal(rollbem("check none.json"), 66);
+    assert_int_equal(rollbem("check"), 64);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(results_are_valid),
+        cmocka_unit_test(every_changed_number_is_found),
+        cmocka_unit_test(inputs_belong_to_the_result),
+        cmocka_unit_test(what_cannot_be_checked_is_refused)};
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
