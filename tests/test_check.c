@@ -40,6 +40,12 @@ static void results_are_valid(void **state)
     static const char *const more[] = {
         "--support halfplane --load 100 --mu 0 --formulation steady --creep 1e-3",
         "--support halfplane --half-width 0.05 --similar",
+        "--support halfplane --load 100 --mesh uniform --creep 1e-3" STEADY,
+        "--support arc --load 100 --mesh fitted --contact-elements 60 --creep "
+        "1e-3" STEADY,
+        "--support hub --contact-elements 60 --mu 0.05 --poisson 0 --mesh aligned --tol "
+        "1e-8 "
+        "--approach 0.01 --shift 1e-4 --similar --radius-b 60 --support-b hub",
         "--support hub --load 100 --similar --support-b hub --radius-b 30 --mu 0.1",
         "--support halfplane --load 100 --layer-thickness 1 --mu 0.2" STEADY
         "--creep 1e-4",

@@ -160,45 +160,58 @@ static int is_copied(const json_t *inputs, const char *key)
            (strcmp(key, "young-b") == 0 || strcmp(key, "poisson-b") == 0);
 }
 
-/* Sets what differs from the defaults, and sees that the same inputs come out. */
-static rb_status rebuild_case(const char *name, const json_t *inputs, rb_case *words,
-                              rb_message *why)
+/* Sets what differs from `now`. */
+static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *words,
+                            rb_message *why)
 {
-    json_t *defaults = rb_report_json_inputs(words), *again = NULL, *value;
-    rb_status s = defaults ? RB_OK : RB_ENOMEM;
+    rb_status s = RB_OK;
     const char *key;
+    json_t *value;
     char text[4200];
-    rb_message reason = {""};
 
     json_object_foreach((json_t *)inputs, key, value)
     {
         if (s != RB_OK || json_is_null(value) || is_copied(inputs, key) ||
-            json_equal(value, json_object_get(defaults, key)))
+            json_equal(value, json_object_get(now, key)))
             continue;
         option_text(value, text, sizeof text);
-        s = rb_case_set(words, key, text, RB_GIVEN_ARGUMENT, &reason);
+        s = rb_case_set(words, key, text, RB_GIVEN_ARGUMENT, why);
     }
-    if (s == RB_OK)
-        s = rb_case_settle(words, &reason);
+    return s == RB_OK ? rb_case_settle(words, why) : s;
+}
+
+/* Sees that the same inputs come out.  What follows from others, such as the mesh of
+ * steady rolling, is given as well where it is another one: hence the second round. */
+static rb_status rebuild_case(const char *name, const json_t *inputs, rb_case *words,
+                              rb_message *why)
+{
+    json_t *now = rb_report_json_inputs(words), *value;
+    rb_status s = now ? RB_OK : RB_ENOMEM;
+    const char *key;
+    rb_message reason = {""};
+
+    for (int round = 0; round < 2 && s == RB_OK && !json_equal(now, inputs); round++) {
+        s = set_inputs(inputs, now, words, &reason);
+        json_decref(now);
+        now = rb_report_json_inputs(words);
+        if (s == RB_OK && !now)
+            s = RB_ENOMEM;
+    }
     if (s != RB_OK)
-        rb_fail(why, RB_EFORMAT, "%s: cannot be checked: inputs: %s", name, reason.text);
-    else if (!(again = rb_report_json_inputs(words)))
-        s = RB_ENOMEM;
-    json_object_foreach(again, key, value)
+        s = rb_fail(why, s == RB_ENOMEM ? s : RB_EFORMAT,
+                    "%s: cannot be checked: inputs: %s", name, reason.text);
+    json_object_foreach(now, key, value)
     {
         if (s == RB_OK && !json_equal(value, json_object_get(inputs, key)))
             s = rb_fail(why, RB_EFORMAT,
                         "%s: cannot be checked: '%s' of inputs cannot be built again",
                         name, key);
     }
-    if (s == RB_OK && json_object_size(again) != json_object_size(inputs))
+    if (s == RB_OK && !json_equal(now, inputs))
         s = rb_fail(why, RB_EFORMAT, "%s: cannot be checked: inputs have other names",
                     name);
-    json_decref(defaults);
-    json_decref(again);
-    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory")
-           : s == RB_OK   ? s
-                          : RB_EFORMAT;
+    json_decref(now);
+    return s;
 }
 
 /* ---- The model again
@@ -478,10 +491,12 @@ static void compare_table(certificate *c, const json_t *again)
             violated(c, "%s: %zu numbers, expected %zu", key, json_array_size(printed),
                      json_array_size(list));
         const double most = largest(list);
+        const int is_slip = strcmp(key, "slip_1") == 0; /* in static a difference of ut */
         for (size_t i = 0; i < json_array_size(list); i++) {
             const double want = number_of(json_array_get(list, i));
             expect(c, key, (int)i + 1, number_of(json_array_get(printed, i)), want,
-                   1e-9 * fabs(want) + 1e-11 * most);
+                   1e-9 * fabs(want) + 1e-11 * most +
+                       (is_slip ? c->displacement / c->again.h[i] : 0.0));
         }
     }
     if (json_object_size(c->table) != json_object_size(again))
