@@ -90,11 +90,14 @@ export function judge(words, { p, q, gap, shift }, zones, mu) {
     });
 }
 
+/* How many elements are few enough that each can be looked at, and how many where the case has more. */
+const FEWEST = 4, MOST = 16, USUAL = 8;
+
 export function step_view(words, page) {
-    let data = null, zones = [], elements = 8, asked = null, wanted = null;
+    let data = null, zones = [], elements = USUAL, of_case = null, asked = null, wanted = null;
     const title = html("h2"), matrix_host = html("div"), sentence = html("p", { class: "sentence", "aria-live": "polite" });
     const strips = html("div", { class: "stack", style: "gap:.35rem" }), picture = html("figure"), z0 = html("p", { class: "note" }), ratios = html("div"), newton = html("div", { class: "stack", style: "gap:.35rem" });
-    const count = html("input", { type: "range", id: "step-elements", min: 4, max: 16, value: elements, oninput: () => { elements = Number(count.value); page.ask_view(); } });
+    const count = html("input", { type: "range", id: "step-elements", min: FEWEST, max: MOST, value: elements, oninput: () => { elements = Number(count.value); page.ask_view(); } });
     const frames = player(words, { label: words.pivots, see: frame, milliseconds: 1400, describe: (k, n) => say(words.pivot_count, { k: k + 1, n }) });
     const paint = html("div"), guess_picture = html("figure"), verdict = html("div", { "aria-live": "polite" });
     const button = (text, act, more = "") => html("button", { type: "button", class: `button ${more}`, onclick: act }, text);
@@ -104,7 +107,15 @@ export function step_view(words, page) {
         card(words.pivots, frames.node, sentence, html("div", { class: "pair" }, html("div", {}, strips, picture, z0), html("div", {}, html("h3", {}, words.ratio_title), ratios)), newton),
         card(words.guess_title, html("p", {}, words.guess_note), paint, html("div", { class: "row", style: "margin:.7rem 0" }, button(words.guess_check, check, "main"), button(words.guess_clear, () => repaint(zones.fill(0))), button(words.guess_answer, () => { repaint(solution()); check(); })), verdict, guess_picture));
 
+    /* The case's own number of elements whenever that is a new one and few enough; else the slider's. */
+    function follow_case() {
+        if (page.given["contact-elements"] === of_case) return;
+        of_case = page.given["contact-elements"];
+        const n = Number(of_case);
+        if (Number.isInteger(n) && n >= FEWEST && n <= MOST) count.value = elements = n;
+    }
     function given() {
+        follow_case();
         const few = { ...page.given, mesh: "uniform", solver: "lemke", "lcp-form": "pivoted", "contact-elements": String(elements) };
         if ((few.support ?? "arc") !== "halfplane") few["outer-elements"] ??= "24";
         const { contact_from: from, contact_to: to } = page.answer?.numbers ?? {};

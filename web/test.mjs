@@ -210,6 +210,16 @@ async function views(page) {
             await settled();
             check(await page.run("document.querySelector('main .good') !== null"), `the answer: ${await page.run("document.querySelector('main .verdict')?.textContent")}`);
         });
+    await test("Step through takes the elements of the case where they are few, else those of its slider", async () => {
+        const link = (n) => page.run(`location.hash = "#support=halfplane&load=100&mu=0.3&contact-elements=${n}&view=step"`);
+        const slide = (n) => page.run(`{ const s = document.getElementById('step-elements'); s.value = ${n}; s.dispatchEvent(new Event("input")); }`);
+        for (const [what, move, want] of [["a link of 11", () => link(11), 11], ["its slider", () => slide(6), 6], ["a link of 60", () => link(60), 6], ["a link of 4", () => link(4), 4]]) {
+            await move();
+            await settled();
+            const got = await page.run("[rollbem.views.step.data()['pivot.p'].rows, Number(document.getElementById('step-elements').value)].join()");
+            check(got === `${want},${want}`, `${what}: elements, slider are ${got}`);
+        }
+    });
     await test("rolled, and looked below", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('roll')");
         await settled();
