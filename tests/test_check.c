@@ -204,6 +204,8 @@ static void what_cannot_be_checked_is_refused(void **state)
         "--json",
         65, "cannot be checked");
     check_says("\"$R\" --approach 1e-9 --zone 5 --json", 65, "cannot be checked");
+    snprintf(line, sizeof line, "%s | sed 's/\"gap_mm\": \\[/& 0,/'", half);
+    check_says(line, 1, "gap_mm");
     check_says("echo '[]'", 65, "expected the JSON of a result");
     check_says("echo '{'", 65, "expected the JSON of a result");
     check_says("echo '{}'", 65, "not a result of schema");

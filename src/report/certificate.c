@@ -484,12 +484,12 @@ static void compare_table(certificate *c, const json_t *again)
     json_object_foreach((json_t *)again, key, list)
     {
         const json_t *printed = json_object_get(c->table, key);
-        if (strcmp(key, "gap_mm") == 0 || strcmp(key, "p_MPa") == 0 ||
-            strcmp(key, "q_MPa") == 0)
-            continue; /* the laws have these */
         if (json_array_size(printed) != json_array_size(list))
             violated(c, "%s: %zu numbers, expected %zu", key, json_array_size(printed),
                      json_array_size(list));
+        if (strcmp(key, "gap_mm") == 0 || strcmp(key, "p_MPa") == 0 ||
+            strcmp(key, "q_MPa") == 0)
+            continue; /* the laws have these */
         const double most = largest(list);
         const int is_slip = strcmp(key, "slip_1") == 0; /* in static a difference of ut */
         for (size_t i = 0; i < json_array_size(list); i++) {
