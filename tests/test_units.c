@@ -188,7 +188,7 @@ static void files_take_units(void **state)
     write_file("gap2.txt", "x_mm gap_um\n-1 10\n-.5 2.5\n0 0\n.5 2.5\n1 10\n");
     write_file("points.txt", "0 0.0005\n");
     write_file("points2.txt", "x_mm y_um\n0 500\n");
-    write_file("worn.txt", "-1 0\n-.5 .001\n0 .002\n.5 .001\n1 0\n");
+    write_file("worn.txt", "-.2 0\n-.1 .0008\n0 .001\n.1 .0008\n.2 0\n");
     write_file("worn.ini", "load = 100\nworn = worn.txt\nsupport = halfplane\n");
     write_file("points.ini", "load = 100\nsupport = halfplane\n[stress]\n"
                              "points = points3.txt\n");
@@ -209,11 +209,7 @@ static void files_take_units(void **state)
               "\"$R\" stress $S --points points2.txt >q && cmp p q && "
               "\"$R\" stress points.ini --units si --quiet --header=bare >r && "
               "\"$R\" stress points.ini --units si --points points2.txt --quiet "
-              "--header=bare >s && cmp r s && grep -q '0.0005' r && "
-              "\"$R\" worn.ini --quiet --header=bare >t && "
-              "\"$R\" worn.ini --units si --quiet --header=bare >u && "
-              "test $(tail -n +2 t | cut -f10 | tr -d '\\n') = "
-              "$(tail -n +2 u | cut -f10 | tr -d '\\n')"),
+              "--header=bare >s && cmp r s && grep -q '0.0005' r"),
         0);
     json_t *root = json_load_file("c", 0, NULL);
     assert_string_equal(
@@ -230,6 +226,13 @@ static void files_take_units(void **state)
     CHECK_ABS(entry(json_object_get(root, "points"), "max_shear_Pa", 0), 1.1e8, 0.2e8,
               "a shear in Pa");
     json_decref(root);
+    double p0[2];
+    for (int j = 0; j < 2; j++) {
+        root = run_json(j ? "worn.ini --units si" : "worn.ini");
+        p0[j] = number_in(json_object_get(root, "summary"), "max_pressure");
+        json_decref(root);
+    }
+    CHECK_REL(p0[1], 1e6 * p0[0], 1e-9, "p0 over the same worn depths");
 }
 
 /* The numbers of a case file keep their meaning, whatever is asked for. */
