@@ -26,7 +26,7 @@ export function ticks(from, to, about) {
     const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw * 0.999) ?? raw;
     const all = [];
     for (let x = Math.ceil(from / step - 1e-9) * step; x <= to + 1e-9 * step; x += step) all.push(Math.abs(x) < step * 1e-9 ? 0 : x);
-    return all;
+    return all.length > 1 || about > 20 ? all : ticks(from, to, 2 * about); /* one number alone is no scale */
 }
 
 export const line = (points) => points.filter(([x, y]) => Number.isFinite(x) && Number.isFinite(y))

@@ -147,7 +147,7 @@ export function step_view(words, page) {
     }
     function check() { asked = [...zones]; page.ask({ kind: "guess", view: "step", given: wanted, zones: asked }); }
     function judged(answer) {
-        if (answer.refused) return verdict.replaceChildren(html("p", { class: "bad" }, answer.refused));
+        if (answer.refused) return verdict.replaceChildren(html("p", { class: "bad" }, say(words.guess_refused, { why: answer.refused })));
         const part = (name) => answer[`guess.${name}`].at, wrong = judge(words, { p: part("p"), q: part("q"), gap: part("gap"), shift: part("shift") }, asked, mu());
         verdict.replaceChildren(html("p", { class: wrong.length ? "bad" : "good" }, wrong.length ? say(words.guess_wrong, { n: wrong.length }) : words.guess_right), html("ul", { class: "verdict" }, wrong.map((text) => html("li", {}, text))));
         guess_picture.replaceChildren(bars(guess_picture, words, { ends: answer.ends.at, p: part("p"), q: part("q"), mu: mu(), top: Math.max(...part("p"), ...[...part("q")].map((v) => Math.abs(v) / Math.max(mu(), 0.05))) || 1, label: words.guess_title }));

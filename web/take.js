@@ -57,7 +57,7 @@ export function take_view(words, page) {
         const a = page.answer;
         if (!a) return;
         const columns = page.results.column.filter((r) => a.columns[r.name]); /* some belong to some cases */
-        const picture = picture_of(words, a), figure = html("figure");
+        const picture = picture_of(words, a), figure = html("figure", { style: "max-width:900px" });
         figure.append(tractions_picture(figure, words, a, { width: Math.max(300, Math.min(900, node.clientWidth - 40)), name: "take" }));
         node.replaceChildren(text_card(words, "command", command_of(page.given, page.options)), text_card(words, "link", location.href.split("#")[0] + write_link(page.given, "contact", page.drawn)),
             html("div", { class: "pair", style: "grid-template-columns:repeat(auto-fit,minmax(min(100%,270px),1fr))" }, text_card(words, "ini", ini_of(page.given, page.options), "case.ini", "text/plain"),

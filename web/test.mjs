@@ -6,6 +6,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { open_page } from "./chromium.mjs";
+import { ticks } from "./draw.js";
 import { load_library } from "./library.js";
 import { read_case_file, read_link, table_of_drawn, write_link } from "./state.js";
 import { answer } from "./worker.js";
@@ -95,6 +96,11 @@ await test("links and case files are read as they are written", () => {
         try { read_case_file(text); } catch (error) { said = error.message; }
         check(said, `${JSON.stringify(text.slice(0, 20))} is taken for a case`);
     }
+});
+await test("every axis has two numbers at least", () => {
+    for (let width = 0.1; width < 100; width *= 1.07)
+        for (const [from, to] of [[0, width], [-width / 2, width / 2], [-width / 3, width]])
+            for (const about of [3, 4, 5]) check(ticks(from, to, about).length >= 2, `${from} to ${to}: ${ticks(from, to, about)}`);
 });
 for (const given of [{ mu: "-1" }, { mu: "x" }, { "contact-elements": "2" }, { support: "wall" }, { load: "1", approach: "1" }, { formulation: "steady" }, { poisson: "0.7" }, { creep: "1e400" },
     { support: "halfplane", "hub-ratio": "0.4" }, { formulation: "steady", shift: "1" }, { similar: "yes", "young-b": "3" }])
@@ -206,6 +212,8 @@ async function views(page) {
             await click("Check");
             await settled();
             check(await page.run("document.querySelector('.verdict') !== null || document.querySelector('main .bad') !== null"), "no verdict on a wrong guess");
+            const why = await page.run("document.querySelector('main .bad')?.textContent ?? ''");
+            check(!/singular/.test(why) || /a given load needs elements that touch/.test(why), `the verdict: ${why}`);
             await click("Show the answer");
             await settled();
             check(await page.run("document.querySelector('main .good') !== null"), `the answer: ${await page.run("document.querySelector('main .verdict')?.textContent")}`);
@@ -269,6 +277,17 @@ async function views(page) {
             await page.until(`document.getElementById('message').textContent.includes(${JSON.stringify(line)})`, 10);
             check(await page.run("document.querySelectorAll('#message *').length") === 0, "the message holds elements");
         });
+    await test("every view fits the width of a phone", async () => {
+        await page.size(390, 844, false, true);
+        for (const view of ["contact", "roll", "below", "step", "take"]) {
+            await page.run(`rollbem.open('${view}')`);
+            await settled();
+            const right = await page.run("[document.documentElement.scrollWidth, ...[...document.querySelectorAll('#tabs button, main section')].map((e) => e.getBoundingClientRect().right)]");
+            check(Math.max(...right) <= 390, `${view}: ${right.map(Math.round)}`);
+        }
+        await page.size(1280, 900);
+        await page.run("rollbem.open('contact')");
+    });
     await test("every control has a name, every picture a description", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('contact')");
         await settled();

@@ -121,6 +121,7 @@ export const words = {
     guess_friction: "Element {i} sticks with |q| = {q} MPa, more than μp = {bound} MPa: it would slip.",
     guess_direction: "Element {i} slips with the friction instead of against it: it would stick or slip the other way.",
     guess_right: "All conditions hold. These are the zones.",
+    guess_refused: "These zones have no solution ({why}): a given load needs elements that touch, a given force elements that stick.",
     guess_wrong: "{n} conditions fail:",
     take_command: "The command line that does the same", take_ini: "The case as a file", take_table: "The table", take_json: "Numbers as JSON",
     take_history: "The history that it reads, drawn.tsv",
