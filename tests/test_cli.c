@@ -81,7 +81,7 @@ static const struct {
     {"--load 1e300", 64, "load: expected a size of 1e-100 to 1e+100"},
     {"--trace --solver newton", 64, "--trace: only --solver lemke pivots"},
     {"--support hub --contact-elements 3 --zone 47.5 --approach 1", 64,
-     "no room for the element before it within the radius 50"},
+     "no room for the element before it within the radius, 50 mm"},
 };
 
 static void bad_arguments_are_refused(void **state)
