@@ -23,6 +23,12 @@ function sources() {
         .filter((file) => !without.has(file)).concat(of("web/wasm"));
 }
 
+/* The sketch of docs/ as a picture of its own, which the page's styles leave as it is; its title describes it. */
+function picture(file) {
+    const svg = readFileSync(file, "utf8"), title = /<title[^>]*>([^"<]*)<\/title>/.exec(svg)[1];
+    return `<img alt="${title}" src="data:image/svg+xml;base64,${Buffer.from(svg).toString("base64")}">`;
+}
+
 function newest(folder) {
     return Math.max(...readdirSync(folder, { withFileTypes: true }).map((entry) =>
         entry.isDirectory() ? newest(`${folder}/${entry.name}`) : statSync(`${folder}/${entry.name}`).mtimeMs));
@@ -65,6 +71,7 @@ if (!process.argv.includes("--wasm")) {
         WASM: gzipSync(readFileSync(wasm), { level: 9 }).toString("base64"),
         WORKER: JSON.stringify(joined(WORKER)).replaceAll("</", "<\\/"),
         SCRIPT: joined(PAGE).replaceAll("</script", "<\\/script"),
+        SIGNS: picture("docs/signs.svg"),
         VERSION: version,
     };
     const page = readFileSync("web/page.html", "utf8").replace(/@([A-Z]+)@/g, (all, name) => parts[name] ?? all);

@@ -76,6 +76,7 @@ export function controls(host, words, options, page) {
         const file = html("input", { type: "file", accept: ".ini,text/plain", hidden: true, "aria-label": words.open_file, onchange: () => { if (file.files[0]) page.open_file(file.files[0]); } });
         host.replaceChildren(
             preset, file, html("button", { type: "button", class: "button open", onclick: () => file.click() }, words.open_file),
+            html("button", { type: "button", class: "button open", "aria-haspopup": "dialog", onclick: () => document.getElementById("signs").showModal() }, words.signs),
             group(words.groups.problem, segments("formulation", words.groups.problem, Object.entries(words.formulations), moving, move)),
             held_group(words.groups.normal, "normal", NORMAL, NORMAL, "approach"),
             held_group(words.groups.tangential, "tangential", TANGENTIAL[moving], ALL_TANGENTIAL, TANGENTIAL[moving][moving === "static" ? 2 : 0]),

@@ -117,9 +117,19 @@ async function main() {
         link_timer = setTimeout(() => history.replaceState(null, "", write_link(page.given, current, page.drawn)), 250);
     };
 
+    /* On phones a view stands above the controls, but for the first one, which has them between its
+     * pictures: so they also come after it for the keyboard. */
+    const phone = matchMedia("(max-width: 800px)");
+    function order_controls() {
+        const after = phone.matches && current !== "contact";
+        if (after !== (at("main").nextElementSibling === at("controls"))) at("main")[after ? "after" : "before"](at("controls"));
+    }
+    phone.addEventListener("change", order_controls);
+
     function open(name) {
         views[current]?.leave?.();
         current = name;
+        order_controls();
         views[name] ??= makers[name](words, page);
         at("main").replaceChildren(views[name].node);
         at("main").dataset.view = name;
@@ -134,6 +144,8 @@ async function main() {
     at("tabs").append(...names.map((name, k) => html("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": "main", onclick: () => open(name),
         onkeydown: (event) => { const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key]; if (step) { const next = at(`tab-${names[(k + step + names.length) % names.length]}`); next.click(); next.focus(); } } }, words.tabs[name])));
     at("controls").setAttribute("aria-label", words.controls);
+    at("signs").setAttribute("aria-label", words.signs);
+    at("signs").append(html("button", { type: "button", class: "button", onclick: () => at("signs").close() }, words.close));
     at("controls").addEventListener("submit", (event) => event.preventDefault());
 
     function first_draw() {

@@ -288,6 +288,27 @@ async function views(page) {
         await page.size(1280, 900);
         await page.run("rollbem.open('contact')");
     });
+    await test("the keyboard goes from top to bottom, on a phone and on a screen", async () => {
+        for (const [width, mobile] of [[390, true], [1280, false]]) {
+            await page.size(width, 844, false, mobile);
+            for (const view of ["contact", "roll", "below", "step", "take"]) {
+                await page.run(`rollbem.open('${view}'); scrollTo(0, 0)`);
+                await settled();
+                const tops = await page.run("[at('controls'), ...document.querySelectorAll('#main button, #main input, #main textarea, #main .handle')].map((e) => [e.compareDocumentPosition(at('controls')) & Node.DOCUMENT_POSITION_FOLLOWING, e.getBoundingClientRect().top]).slice(0)");
+                const [[, panel], ...rest] = tops;
+                for (const [before, top] of rest) check(width > 800 ? !before : Boolean(before) === top < panel, `${width} px, ${view}: at ${top}, the controls at ${panel}, before them for the keyboard: ${Boolean(before)}`);
+            }
+        }
+        await page.size(1280, 900);
+        await page.run("rollbem.open('contact')");
+    });
+    await test("the sketch of the signs is shown, and closed again", async () => {
+        const click = (where, text) => page.run(`[...document.querySelectorAll('${where} button')].find((b) => b.textContent === '${text}').click()`);
+        await click("#controls", "Signs: what is positive");
+        check(await page.run("at('signs').open && at('signs').querySelector('img').naturalWidth > 0 && at('signs').querySelector('img').clientWidth >= 600"), "no sketch, or one too small to read");
+        await click("#signs", "Close");
+        check(await page.run("!at('signs').open"), "it stays");
+    });
     await test("every control has a name, every picture a description", async () => {
         await page.run("rollbem.preset('rail'); rollbem.open('contact')");
         await settled();

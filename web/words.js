@@ -8,6 +8,7 @@ export const words = {
     link_broken: "The link could not be read: {why}",
     file_broken: "{file} could not be read: {why}",
     controls: "The case",
+    signs: "Signs: what is positive", close: "Close",
     open_file: "Open a case file …",
     refused: "Not solved: {why}",
     unsolved: "The method ended early: {why}",
