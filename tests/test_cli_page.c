@@ -2,7 +2,10 @@
 #include "cli_run.h"
 
 static const char page[] = "<p>before</p><script type=\"application/json\" "
-                           "id=\"carried\">null</script><p>after</p>\n";
+                           "id=\"carried\">null</script><p>after</p>"
+                           "<script type=\"application/json\" id=\"limits\">"
+                           "{\"left_out\":[\"accuracy\",\"error\"],"
+                           "\"largest\":{\"contact-elements\":400}}</script>\n";
 
 static void the_page_carries_the_case(void **state)
 {
@@ -16,7 +19,7 @@ static void the_page_carries_the_case(void **state)
     char *from = strstr(out, "id=\"carried\">");
     char *to = strstr(out, "</script>");
     assert_memory_equal(out, "<p>before</p>", 13);
-    assert_string_equal(to, "</script><p>after</p>\n");
+    assert_string_equal(to, strstr(page, "</script><p>after</p>"));
     *to = '\0';
     json_t *all = json_loads(from + 13, 0, NULL);
     assert_non_null(all);
@@ -57,6 +60,13 @@ static void what_no_page_can_be_made_of_is_refused(void **state)
     check_refused("page --page other.html", 65, "other.html: expected the page");
     check_refused("page --page page.html --mu -1", 64, "--mu");
     check_refused("page --page page.html --gap gap.tsv", 64, "--gap: names a file");
+    check_refused("page --page page.html --error", 64, "--error: not in the page");
+    check_refused("page --page page.html --accuracy 1e-3", 64,
+                  "--accuracy: not in the page");
+    check_refused("page --page page.html --contact-elements 401", 64,
+                  "--contact-elements: the page goes up to 400, use the program for 401");
+    assert_int_equal(
+        rollbem("page --page page.html --contact-elements 400 --output at.html"), 0);
     check_refused("page --page page.html --output page.html", 64, "written over");
     check_refused("page --page page.html --output no/folder.html", 73, "no/folder.html");
 }

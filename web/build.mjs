@@ -4,6 +4,7 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
 import { dirname } from "node:path";
 import { gzipSync } from "node:zlib";
+import { LARGEST, LEFT_OUT } from "./worker.js";
 
 const CLANG = "clang-14";
 const FLAGS = ["--target=wasm32-wasi", "--sysroot=/usr", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-O3", "-msimd128",
@@ -72,6 +73,7 @@ if (!process.argv.includes("--wasm")) {
         WORKER: JSON.stringify(joined(WORKER)).replaceAll("</", "<\\/"),
         SCRIPT: joined(PAGE).replaceAll("</script", "<\\/script"),
         SIGNS: picture("docs/signs.svg"),
+        LIMITS: JSON.stringify({ left_out: LEFT_OUT, largest: LARGEST }),
         VERSION: version,
     };
     const page = readFileSync("web/page.html", "utf8").replace(/@([A-Z]+)@/g, (all, name) => parts[name] ?? all);

@@ -259,6 +259,13 @@ async function views(page) {
             check_close(await other.run("rollbem.page.answer.numbers.tangential_load"), want.tangential_load, FITTED * want.normal_load, "Q");
         } finally { await other.close(); rmSync(folder, { recursive: true }); }
     });
+    await test("rollbem page refuses what the page itself cannot show", () => {
+        for (const more of [{ error: "yes" }, { accuracy: "1e-3" }, { "contact-elements": "401" }]) {
+            const given = { support: "halfplane", load: "100", ...more }, ran = run(["page", ...words_of(given), "--page", file]);
+            const { refused } = answer(library, { kind: "solve", given });
+            check(ran.status === 64 && ran.stdout === "" && ran.stderr.trim() === `rollbem: ${refused}`, `got '${ran.stderr}', the page says '${refused}'`);
+        }
+    });
     await test("a case file opened, and files that are none", async () => {
         await page.run("rollbem.open('contact')");
         await page.run(`rollbem.page.open_file(new File([${JSON.stringify("[friction]\nmu = 0.17 ; of a file\n[load]\nload = 300\n[body-a]\nsupport = halfplane\n")}], "case.ini"))`);

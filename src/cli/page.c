@@ -43,6 +43,8 @@ static const char notes[] =
 /* Where the case goes: what web/page.html holds, and what stands for no case. */
 static const char marker[] = "<script type=\"application/json\" id=\"carried\">",
                   no_case[] = "null";
+/* And where the page says what it does not take. */
+static const char limits_marker[] = "<script type=\"application/json\" id=\"limits\">";
 
 /* Beside the program as it is built, or where `make install` puts it; 0: not found. */
 static int find_page(char *path, size_t size)
@@ -62,8 +64,19 @@ static int find_page(char *path, size_t size)
     return 0;
 }
 
-/* The page's text, owned by the caller, and where the case goes in it. */
-static cli_exit read_page(const char *given, char **text, char **place)
+typedef struct {
+    char *text, *place; /* the page, and where the case goes in it */
+    json_t *limits;     /* what it does not take */
+} built_page;
+
+static void free_page(built_page *p)
+{
+    free(p->text);
+    json_decref(p->limits);
+}
+
+/* The caller frees it, also after a refusal. */
+static cli_exit read_page(const char *given, built_page *p)
 {
     char found[3200];
     size_t size;
@@ -74,13 +87,16 @@ static cli_exit read_page(const char *given, char **text, char **place)
                         "share/rollbem; `make page` builds it, --page FILE "
                         "names it");
     const char *path = given ? given : found;
-    const rb_status s = rb_io_read_text(path, text, &size, &why);
+    const rb_status s = rb_io_read_text(path, &p->text, &size, &why);
     if (s != RB_OK)
         return cli_say(s, &why);
-    char *at = strstr(*text, marker);
-    if (!at || strncmp(at + strlen(marker), no_case, strlen(no_case)) != 0)
+    char *at = strstr(p->text, marker), *limits = strstr(p->text, limits_marker);
+    if (limits)
+        p->limits =
+            json_loads(limits + strlen(limits_marker), JSON_DISABLE_EOF_CHECK, NULL);
+    if (!at || strncmp(at + strlen(marker), no_case, strlen(no_case)) != 0 || !p->limits)
         return cli_fail(CLI_DATA, "%s: expected the page of `make page`", path);
-    *place = at + strlen(marker);
+    p->place = at + strlen(marker);
     return CLI_CONTINUE;
 }
 
@@ -114,6 +130,33 @@ static cli_exit refuse_files(rb_case *c)
     return CLI_CONTINUE;
 }
 
+/* A page that would open with a refusal is not written. */
+static cli_exit refuse_beyond(rb_case *c, const json_t *limits)
+{
+    const json_t *left_out = json_object_get(limits, "left_out");
+    const json_t *largest = json_object_get(limits, "largest");
+    const rb_option_set set = rb_case_options(c);
+    char room[64];
+    for (int k = 0; k < set.n; k++) {
+        const char *name = set.options[k].name;
+        if (set.options[k].kind == RB_OPTION_GROUP || !rb_case_given(c, name))
+            continue;
+        for (size_t i = 0; i < json_array_size(left_out); i++) {
+            const char *other = json_string_value(json_array_get(left_out, i));
+            if (other && strcmp(other, name) == 0)
+                return cli_fail(CLI_USAGE, "--%s: not in the page, use the program",
+                                name);
+        }
+        const json_t *most = json_object_get(largest, name);
+        const char *text = rb_option_text(&set.options[k], set.target, room);
+        if (most && strtod(text, NULL) > json_number_value(most))
+            return cli_fail(CLI_USAGE,
+                            "--%s: the page goes up to %g, use the program for %s", name,
+                            json_number_value(most), text);
+    }
+    return CLI_CONTINUE;
+}
+
 typedef struct {
     const char *text, *place; /* of the page */
     const char *carried;      /* JSON */
@@ -135,18 +178,20 @@ static rb_status write_page(FILE *out, const void *context, rb_message *why)
 
 static cli_exit fill_page(rb_case *c, const page_options *o)
 {
-    char *text = NULL, *place = NULL;
-    cli_exit code = read_page(o->page, &text, &place);
+    built_page page = {0};
+    cli_exit code = read_page(o->page, &page);
+    if (code == CLI_CONTINUE)
+        code = refuse_beyond(c, page.limits);
     if (code == CLI_CONTINUE) {
         json_t *all = given_options(c);
         char *carried = all ? json_dumps(all, JSON_COMPACT) : NULL;
-        const filled_page p = {text, place, carried};
+        const filled_page p = {page.text, page.place, carried};
         code = carried ? cli_write_file(o->output, write_page, &p)
                        : cli_fail(CLI_INTERNAL, "out of memory");
         free(carried);
         json_decref(all);
     }
-    free(text);
+    free_page(&page);
     return code;
 }
 
