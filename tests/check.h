@@ -97,4 +97,16 @@ static inline const char *outside_data(const char *name)
     return path;
 }
 
+/* 1 under the address sanitizer, which reserves terabytes and replaces malloc. */
+#if defined(__SANITIZE_ADDRESS__)
+#define SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
+#ifndef SANITIZED
+#define SANITIZED 0
+#endif
+
 #endif

@@ -13,14 +13,6 @@ extern char **environ;
 
 static char preload[700]; /* what lets allocations fail */
 
-#if defined(__SANITIZE_ADDRESS__)
-#define SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define SANITIZED 1
-#endif
-#endif
-
 /* Words apart by blanks, behind the program's name. */
 typedef struct {
     const char *name, *arguments;
@@ -362,7 +354,7 @@ static int allocations(const job *j)
 static void fail_allocations(const char *variable, int samples)
 {
     int tried = 0;
-#ifdef SANITIZED
+#if SANITIZED
     skip();
 #endif
     if (access(preload, R_OK) != 0)

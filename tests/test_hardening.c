@@ -14,7 +14,7 @@ static void check_lines_of(const char *readelf, const char *part)
 
 static void skip_where_nothing_is_hardened(void)
 {
-#if defined(__SANITIZE_ADDRESS__)
+#if SANITIZED
     print_message("skipped: sanitizers replace the hardening\n");
     skip();
 #endif

@@ -208,7 +208,7 @@ static void cholesky_solves_condenses_and_refuses(void **state)
 static void a_sparse_congruence_takes_little_memory(void **state)
 {
     (void)state;
-#if defined(__SANITIZE_ADDRESS__)
+#if SANITIZED
     skip(); /* it takes address space of its own */
 #elif defined(__linux__)
     enum { N = 6000 };

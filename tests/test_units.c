@@ -236,6 +236,40 @@ static void files_take_units(void **state)
 }
 
 /* The numbers of a case file keep their meaning, whatever is asked for. */
+/* Numbers of a command's own options, which a case file gives, are in the file's units.
+ */
+static void studies_and_curves_of_files_have_the_units_of_the_file(void **state)
+{
+    (void)state;
+    write_file("study.ini", "units = inch\nsupport = halfplane\n[sweep]\n"
+                            "vary-1 = load 1000 2000\n");
+    write_file("loads.txt", "load\n1000\n2000\n");
+    write_file("cases.ini", "units = inch\nsupport = halfplane\n[sweep]\n"
+                            "cases = loads.txt\n");
+    write_file("speeds.ini", "units = inch\nsupport = halfplane\nload = 100\n"
+                             "relaxation-time = 0.01\nrelaxation-ratio = 1\n[curve]\n"
+                             "over = speed\nfrom = 1\nto = 10\npoints = 2\n");
+    assert_int_equal(shell("for f in study cases; do \"$R\" sweep $f.ini --units mm "
+                           "--quiet --header=bare; done"),
+                     0);
+    const char *line = out;
+    for (int k = 0; k < 2; k++) {
+        double load, status, P;
+        line = strstr(line, "\n1\t");
+        assert_non_null(line);
+        assert_int_equal(sscanf(line, " 1 %lf %lf %lf", &load, &status, &P), 3);
+        /* 1000 lbf/in */
+        CHECK_REL(load, 1000.0 * 4.4482216152605 / 25.4, 1e-14, "load varied");
+        CHECK_REL(P, load, 1e-9, "load solved");
+        line++;
+    }
+    assert_int_equal(
+        shell("for u in mm inch; do \"$R\" curve speeds.ini --units $u --free-axle "
+              "--quiet --header=bare | cut -f3,4; done | sort -u | wc -l"),
+        0);
+    assert_int_equal(atoi(out), 3); /* names, two points */
+}
+
 static void case_files_have_their_own_units(void **state)
 {
     (void)state;
@@ -306,6 +340,7 @@ int main(void)
         cmocka_unit_test(every_command_converts_the_same_numbers),
         cmocka_unit_test(values_say_their_own_units),
         cmocka_unit_test(files_take_units),
+        cmocka_unit_test(studies_and_curves_of_files_have_the_units_of_the_file),
         cmocka_unit_test(case_files_have_their_own_units),
         cmocka_unit_test(what_people_see_says_the_units),
         cmocka_unit_test(wrong_units_are_named),

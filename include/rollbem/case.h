@@ -275,6 +275,8 @@ typedef struct {
 
 /* Borrowed, valid until c changes. */
 const rb_settled_case *rb_case_settled(const rb_case *c);
+/* The system of the plain numbers that arguments give, and of what is shown. */
+rb_units rb_case_units(const rb_case *c);
 /* The system of the plain numbers in the case file. */
 rb_units rb_case_file_units(const rb_case *c);
 /* 1: transient rolling, a static history or increments. */

@@ -734,6 +734,11 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     return rb_case_blame(c, s, why);
 }
 
+rb_units rb_case_units(const rb_case *c)
+{
+    return c->words.units;
+}
+
 rb_units rb_case_file_units(const rb_case *c)
 {
     return c->file_units;

@@ -71,3 +71,12 @@ cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)
 {
     return cli_say(rb_case_blame(c, s, why), why);
 }
+
+rb_units cli_units_of(const rb_case *c, const rb_option *options, int n, const int *given,
+                      const char *name)
+{
+    for (int k = 0; k < n; k++)
+        if (strcmp(options[k].name, name) == 0 && given[k] > 0)
+            return rb_case_file_units(c);
+    return rb_case_units(c);
+}

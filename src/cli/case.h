@@ -37,6 +37,11 @@ cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c,
                        cli_args *args);
 cli_exit cli_case_settle(const cli_spec *spec, rb_case *c, const cli_args *args);
 
+/* The system of the plain numbers of a command's own option: the case file's where the
+ * file gave it.  given: as in its set. */
+rb_units cli_units_of(const rb_case *c, const rb_option *options, int n, const int *given,
+                      const char *name);
+
 /* --example NAME, the last set of every spec of a case, and what it asks for. */
 rb_option_set cli_example_set(void);
 cli_exit cli_example_read(rb_case *c, const cli_args *args);

@@ -158,8 +158,11 @@ static cli_exit solve(const rb_case *words, const range_options *range,
     rb_message why = {""};
     cli_exit code = CLI_OK;
     if (range->over == RB_OVER_SPEED) {
-        stored.from = rb_unit_stored(c->units, "mm/s", range->from);
-        stored.to = rb_unit_stored(c->units, "mm/s", range->to);
+        stored.from =
+            rb_unit_stored(cli_units_of(words, options, OPTIONS, range->given, "from"),
+                           "mm/s", range->from);
+        stored.to = rb_unit_stored(
+            cli_units_of(words, options, OPTIONS, range->given, "to"), "mm/s", range->to);
     }
     const rb_status s = solve_curves(c, &stored, &r.curves, &why);
     for (int k = 0; k < RB_REPORT_CURVES; k++) {

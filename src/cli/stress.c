@@ -354,14 +354,6 @@ static cli_exit check_known(const rb_case *c)
     return s == RB_OK ? CLI_CONTINUE : cli_case_refused(c, s, &why);
 }
 
-static int is_from_file(const stress_options *so, const char *name)
-{
-    for (int k = 0; k < OPTIONS; k++)
-        if (strcmp(options[k].name, name) == 0)
-            return so->given[k] > 0;
-    return 0;
-}
-
 static cli_exit check(const rb_case *c, const stress_options *so, const cli_output *o,
                       places *where)
 {
@@ -373,8 +365,7 @@ static cli_exit check(const rb_case *c, const stress_options *so, const cli_outp
         code = check_vtk(so, rb_case_settled(c));
     if (code == CLI_CONTINUE)
         code = read_grid(so, where);
-    const rb_units units =
-        is_from_file(so, "points") ? rb_case_file_units(c) : rb_case_settled(c)->units;
+    const rb_units units = cli_units_of(c, options, OPTIONS, so->given, "points");
     return code == CLI_CONTINUE ? read_points(so, units, where) : code;
 }
 

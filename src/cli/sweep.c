@@ -193,6 +193,18 @@ static int read_values(char *text, double **value)
     return *value ? n : NO_MEMORY;
 }
 
+/* Values that the case file gives are in its units; the case takes them, and the study
+ * shows them, in those of the arguments. */
+static void convert(const study *st, const char *source, const char *name, int rows,
+                    double *value)
+{
+    const rb_option *o = rb_case_option(name);
+    const rb_units from = cli_units_of(st->base, options, OPTIONS, st->o->given, source),
+                   to = rb_case_units(st->base);
+    for (int k = 0; o && from != to && k < rows; k++)
+        value[k] = rb_unit_shown(to, o->unit, rb_unit_stored(from, o->unit, value[k]));
+}
+
 static cli_exit add_varied(study *st, int k)
 {
     char source[24], name[64];
@@ -213,6 +225,8 @@ static cli_exit add_varied(study *st, int k)
             "%s: expected an option and numbers, or first:last:count, got '%s'", source,
             st->o->vary[k]);
     cli_exit code = add_column(st, source, name, st->owned[k]);
+    if (code == CLI_CONTINUE)
+        convert(st, source + 2, st->column[st->columns - 1].name, rows, st->owned[k]);
     return code == CLI_CONTINUE ? add_factor(st, source, rows) : code;
 }
 
@@ -227,9 +241,12 @@ static cli_exit add_table(study *st)
         return cli_say(s, &why);
     if (!st->table.name)
         return cli_fail(CLI_DATA, "%s: expected a line that names the columns", path);
-    for (int j = 0; j < st->table.columns && code == CLI_CONTINUE; j++)
-        code = add_column(st, path, st->table.name[j],
-                          st->table.x + (size_t)j * (size_t)st->table.rows);
+    for (int j = 0; j < st->table.columns && code == CLI_CONTINUE; j++) {
+        double *value = st->table.x + (size_t)j * (size_t)st->table.rows;
+        code = add_column(st, path, st->table.name[j], value);
+        if (code == CLI_CONTINUE)
+            convert(st, "cases", st->column[st->columns - 1].name, st->table.rows, value);
+    }
     return code == CLI_CONTINUE ? add_factor(st, path, st->table.rows) : code;
 }
 
