@@ -102,6 +102,20 @@ static void the_moment_is_of_second_order(void **state)
     }
 }
 
+/* Lemke in both forms, Newton with a matrix and without on equal elements; 4: the fitted
+ * mesh and the solver of the case. */
+static void choose_solver(int k, rb_rolling_case *rc)
+{
+    if (k == 4)
+        return;
+    rc->mesh = RB_MESH_UNIFORM;
+    rc->zone = 2.5;
+    rc->solver = k < 2 ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON;
+    rc->lcp_form = k == 1 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+    if (k == 3)
+        rc->contact_elements = 1600;
+}
+
 /* Nothing drives the axle: Q = -M/R, whichever solver. */
 static void a_free_axle_is_turned_by_friction(void **state)
 {
@@ -114,14 +128,7 @@ static void a_free_axle_is_turned_by_friction(void **state)
         rc.mu = 0.3;
         rc.creep = NAN;
         rc.free_axle = 1;
-        if (k < 4) {
-            rc.mesh = RB_MESH_UNIFORM;
-            rc.zone = 2.5;
-            rc.solver = k < 2 ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON;
-            rc.lcp_form = k == 1 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
-        }
-        if (k == 3)
-            rc.contact_elements = 1600;
+        choose_solver(k, &rc);
         CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
         CHECK_ABS(s.tangential_load, -moment_of(&s) / rc.a.radius,
                   1e-10 * rc.mu * s.normal_load, "solver %d: Q = -M/R", k);
@@ -365,14 +372,7 @@ static void all_solvers_agree(void **state)
             rc.mu = 0.3;
             rc.creep = NAN;
             rc.creep_ratio = 0.7;
-            if (k < 4) {
-                rc.mesh = RB_MESH_UNIFORM;
-                rc.zone = 2.5;
-                rc.solver = k < 2 ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON;
-                rc.lcp_form = k == 1 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
-            }
-            if (k == 3)
-                rc.contact_elements = 1600;
+            choose_solver(k, &rc);
             CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
             assert_int_equal(s.large, k == 3);
             Q[k] = s.tangential_load;
