@@ -140,6 +140,15 @@ static void exports_are_the_headers(void **state)
     assert_int_equal(strange, 0);
 }
 
+static void one_header_has_them_all(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        system("cd include && for h in rollbem/*.h; do [ $h = rollbem/rollbem.h ] || "
+               "grep -q \"include \\\"$h\\\"\" rollbem/rollbem.h || exit 1; done"),
+        0);
+}
+
 /* A C++ program with every header, linked to the shared library, solves a case. */
 static void headers_serve_cxx(void **state)
 {
@@ -173,6 +182,7 @@ static void headers_serve_cxx(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(exports_are_the_headers),
+                                       cmocka_unit_test(one_header_has_them_all),
                                        cmocka_unit_test(headers_serve_cxx)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

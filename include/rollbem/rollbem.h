@@ -8,6 +8,7 @@
 #include "rollbem/blas.h"
 #include "rollbem/case.h"
 #include "rollbem/closed_forms.h"
+#include "rollbem/contact.h"
 #include "rollbem/fem.h"
 #include "rollbem/friction.h"
 #include "rollbem/io.h"
@@ -19,9 +20,6 @@
 #include "rollbem/rolling.h"
 #include "rollbem/sparse.h"
 #include "rollbem/units.h"
-
-RB_PUBLIC_BEGIN
-
-RB_PUBLIC_END
+#include "rollbem/verify.h"
 
 #endif
