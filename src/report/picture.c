@@ -14,12 +14,11 @@ typedef struct {
     char x_label[16];
     double stress_unit;
     const char *stress_label;
-    double from, to;  /* x axis, in its units */
-    double slip_unit; /* power of 1000 */
-    int slip_exponent;
-    double slip_from, slip_to; /* in slip units */
-    double cool, warm;         /* temperature axis */
-    int carter;                /* 1: draw Carter's curve */
+    double from, to;                  /* x axis, in its units */
+    int slip_exponent, heat_exponent; /* of ten: units of the axes */
+    double slip_from, slip_to;        /* in slip units */
+    double cool, warm;                /* temperature axis, likewise */
+    int carter;                       /* 1: draw Carter's curve */
     rb_report_place place;
 } view;
 
@@ -80,6 +79,21 @@ static int is_shown(const view *v, int i)
     return x >= v->from && x <= v->to;
 }
 
+/* Small numbers are shown in a power of ten, which the title names: their labels would
+ * run into it. */
+static int exponent_of(double largest)
+{
+    return largest > 0.0 && largest < 0.1 ? (int)floor(log10(largest)) : 0;
+}
+
+static void write_exponent(FILE *out, int exponent, const char *unit)
+{
+    if (exponent)
+        fprintf(out, "  [10^{%d}%s%s]", exponent, *unit ? " " : "", unit);
+    else if (*unit)
+        fprintf(out, "  [%s]", unit);
+}
+
 static void choose_slip_axis(view *v)
 {
     double least = 0.0, most = 0.0;
@@ -88,13 +102,11 @@ static void choose_slip_axis(view *v)
             least = fmin(least, v->s->slip[i]);
             most = fmax(most, v->s->slip[i]);
         }
-    const double largest = fmax(most, -least);
-    if (largest > 0.0 && largest < 0.1)
-        v->slip_exponent = (int)floor(log10(largest));
-    v->slip_unit = pow(10.0, v->slip_exponent);
-    const double margin = most > least ? 0.12 * (most - least) : v->slip_unit;
-    v->slip_from = (least - margin) / v->slip_unit;
-    v->slip_to = (most + margin) / v->slip_unit;
+    v->slip_exponent = exponent_of(fmax(most, -least));
+    const double unit = pow(10.0, v->slip_exponent);
+    const double margin = most > least ? 0.12 * (most - least) : unit;
+    v->slip_from = (least - margin) / unit;
+    v->slip_to = (most + margin) / unit;
 }
 
 static void choose_temperature_axis(view *v)
@@ -105,9 +117,11 @@ static void choose_temperature_axis(view *v)
             least = fmin(least, fmin(v->s->temperature[i], v->s->temperature_b[i]));
             most = fmax(most, fmax(v->s->temperature[i], v->s->temperature_b[i]));
         }
-    const double margin = most > least ? 0.12 * (most - least) : 1.0;
-    v->cool = least - margin;
-    v->warm = most + margin;
+    v->heat_exponent = exponent_of(fmax(most, -least));
+    const double unit = pow(10.0, v->heat_exponent);
+    const double margin = most > least ? 0.12 * (most - least) : unit;
+    v->cool = (least - margin) / unit;
+    v->warm = (most + margin) / unit;
 }
 
 static void choose_stress_unit(view *v)
@@ -136,13 +150,14 @@ static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s,
 static void write_data(FILE *out, const view *v)
 {
     const rb_rolling_solution *s = v->s;
+    const double slip = pow(10.0, v->slip_exponent), heat = pow(10.0, v->heat_exponent);
     fputs("$data << EOD\n", out);
     for (int i = 0; i < s->n; i++)
         fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->unit,
                 s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
-                v->rc->mu * s->p[i] / v->stress_unit, s->slip[i] / v->slip_unit,
-                s->temperature ? s->temperature[i] : 0.0,
-                s->temperature ? s->temperature_b[i] : 0.0);
+                v->rc->mu * s->p[i] / v->stress_unit, s->slip[i] / slip,
+                s->temperature ? s->temperature[i] / heat : 0.0,
+                s->temperature ? s->temperature_b[i] / heat : 0.0);
     fputs("EOD\n", out);
 }
 
@@ -383,8 +398,7 @@ static void write_slip(FILE *out, const view *v)
     fputs(v->s->formulation == RB_STATIC ? "set label 3 'velocity (12)"
                                          : "set label 3 'slip",
           out);
-    if (v->slip_exponent)
-        fprintf(out, "  [10^{%d}]", v->slip_exponent);
+    write_exponent(out, v->slip_exponent, "");
     fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, SLIP));
     write_zones(out, v, 0);
     fprintf(out,
@@ -400,8 +414,9 @@ static void write_temperature(FILE *out, const view *v)
     fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->cool, v->warm,
             rb_report_round_step((v->warm - v->cool) / 3.0));
     write_x_label(out, v);
-    fprintf(out, "set label 3 'T  [K]' at screen 0.028, %g center rotate\n",
-            middle_of(v, TEMPERATURE));
+    fputs("set label 3 'T", out);
+    write_exponent(out, v->heat_exponent, "K");
+    fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, TEMPERATURE));
     write_zones(out, v, 0);
     fputs("plot $data using 1:7 with lines dashtype (6,4) linecolor rgb '#7a7a7a' "
           "linewidth 1.2, $data using 1:6 with lines linecolor rgb '#b9770e' linewidth "
