@@ -49,6 +49,7 @@ typedef struct {
     const char *path;
     hid_t file;
     rb_message *why;
+    int *unknown; /* 1: HDF5 could not tell whether something is there */
 } reader;
 
 /* Every link on the way to name is there (H5Lexists wants them one by one). */
@@ -60,7 +61,10 @@ static int exists(const reader *in, const char *name)
         if (name[k] != '/' && name[k] != '\0')
             continue;
         snprintf(part, sizeof part, "%.*s", (int)k, name);
-        if (H5Lexists(in->file, part, H5P_DEFAULT) <= 0)
+        const htri_t there = H5Lexists(in->file, part, H5P_DEFAULT);
+        if (there < 0)
+            *in->unknown = 1;
+        if (there <= 0)
             return 0;
     }
     return 1;
@@ -394,14 +398,15 @@ static void put_sparse(FILE *out, const rb_sparse *a)
 static rb_status read_in_child(FILE *out, const void *path, rb_message *why)
 {
     rb_io_fclib p = {0};
-    int no_memory = 0;
+    int no_memory = 0, unknown = 0;
     if (H5Eset_auto2(H5E_DEFAULT, note_error, &no_memory) < 0) /* its first call */
         no_memory = 1;
-    const reader in = {path, H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), why};
-    const rb_status s =
-        in.file < 0
-            ? rb_fail(why, RB_EFORMAT, "%s: HDF5 cannot open it (truncated?)", in.path)
-            : read_file(&in, &p);
+    const reader in = {path, H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), why, &unknown};
+    rb_status s = in.file < 0 ? rb_fail(why, RB_EFORMAT,
+                                        "%s: HDF5 cannot open it (truncated?)", in.path)
+                              : read_file(&in, &p);
+    if (s == RB_OK && unknown)
+        s = rb_fail(why, RB_EFORMAT, "%s: HDF5 cannot search it (truncated?)", in.path);
     void *probe = malloc(1 << 16); /* it may not even have had room for its errors */
     if (no_memory || s == RB_ENOMEM || !probe)
         return rb_fail(why, RB_ENOMEM, "%s: out of memory", in.path);
@@ -488,6 +493,10 @@ rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *w
     if (!rb_io_is_hdf5(path))
         return rb_fail(why, RB_EFORMAT, "%s: not an HDF5 file", path);
     rb_status s = rb_io_in_child(path, read_in_child, path, &bytes, &size, why);
+    /* HDF5 also calls a file bad after some allocations that fail; a file that is bad, it
+     * refuses again */
+    if (s == RB_EFORMAT)
+        s = rb_io_in_child(path, read_in_child, path, &bytes, &size, why);
     if (s == RB_OK && (s = take_problem(bytes, problem)) != RB_OK) {
         rb_io_fclib_free(problem);
         rb_fail(why, s, "%s: out of memory", path);
