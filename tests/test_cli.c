@@ -800,6 +800,28 @@ static void pictures_are_written_or_not_there(void **state)
 
 /* ---- The run ----------------------------------------------------------------------- */
 
+/* What goes for one command that solves a case goes for all. */
+static void commands_on_a_case_offer_the_same(void **state)
+{
+    (void)state;
+    static const char *const commands[] = {"", "stress --grid 5x4",
+                                           "wear --cycles 1 --wear-coefficient 1e-10",
+                                           "curve --points 3"};
+    for (size_t k = 0; k < sizeof commands / sizeof *commands; k++) {
+        char line[300];
+        snprintf(line, sizeof line,
+                 "%s --example rail --contact-elements 12 --mesh uniform --cite",
+                 commands[k]);
+        json_t *root = run_json(line);
+        assert_true(json_is_object(json_object_get(root, "units")));
+        assert_true(json_is_object(json_object_get(root, "inputs")));
+        assert_int_equal(json_is_array(json_object_get(root, "notes")),
+                         strncmp(commands[k], "curve", 5) != 0);
+        assert_non_null(strstr(err, "This run rests on"));
+        json_decref(root);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -838,6 +860,7 @@ int main(void)
         cmocka_unit_test(output_is_whole_or_not_there),
         cmocka_unit_test(full_device_is_73),
         cmocka_unit_test(closed_pipe_is_73),
+        cmocka_unit_test(commands_on_a_case_offer_the_same),
         cmocka_unit_test(pictures_are_written_or_not_there),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

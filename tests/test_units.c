@@ -38,6 +38,8 @@ static void units_are_as_defined(void **state)
                {"2um/MPa", "mm/MPa", 0.002},
                {"3e-15m/Pa", "mm/MPa", 3e-6},
                {"1e-9in/psi", "mm/MPa", 3.6839585383473144e-06},
+               {"1e-16 1/Pa", "1/MPa", 1e-10},
+               {"1 1/psi", "1/MPa", 145.03773773020923},
                {"5ms", "s", 0.005},
                {"0.1%", "-", 0.001},
                {"3.14159265358979323846rad", "degrees", 180.0}};
@@ -268,6 +270,13 @@ static void studies_and_curves_of_files_have_the_units_of_the_file(void **state)
               "--quiet --header=bare | cut -f3,4; done | sort -u | wc -l"),
         0);
     assert_int_equal(atoi(out), 3); /* names, two points */
+    write_file("wear.ini", "units = si\nsupport = halfplane\nload = 1e5\n[wear]\n"
+                           "slide = 1000\nwear-coefficient = 1e-16\nwear-steps = 2\n");
+    assert_int_equal(
+        shell("W='--units mm --quiet --header=bare'; \"$R\" wear wear.ini $W >a && "
+              "\"$R\" wear --support halfplane --load 100 --slide 1e6 --wear-steps 2 "
+              "--wear-coefficient 1e-10 $W >b && cmp a b"),
+        0);
 }
 
 static void case_files_have_their_own_units(void **state)

@@ -57,6 +57,9 @@ static const unit_row table[] = {
     {"um/MPa", "mm/MPa", -3, 1.0},
     {"m/Pa", "mm/MPa", 9, 1.0},
     {"in/psi", "mm/MPa", 0, INCH *INCH *INCH / POUND},
+    {"1/MPa", "1/MPa", 0, 1.0},
+    {"1/Pa", "1/MPa", 6, 1.0},
+    {"1/psi", "1/MPa", 0, INCH *INCH / POUND},
     {"s", "s", 0, 1.0},
     {"ms", "s", -3, 1.0},
     {"us", "s", -6, 1.0},
@@ -73,10 +76,13 @@ enum { ROWS = sizeof table / sizeof table[0] };
 /* The units of a system, by what they stand for. */
 static const struct {
     const char *kind, *name[3];
-} systems[] = {
-    {"mm", {"mm", "m", "in"}},           {"MPa", {"MPa", "Pa", "psi"}},
-    {"N/mm", {"N/mm", "N/m", "lbf/in"}}, {"N", {"N", "N", "lbf"}},
-    {"mm/s", {"mm/s", "m/s", "in/s"}},   {"mm/MPa", {"mm/MPa", "m/Pa", "in/psi"}}};
+} systems[] = {{"mm", {"mm", "m", "in"}},
+               {"MPa", {"MPa", "Pa", "psi"}},
+               {"N/mm", {"N/mm", "N/m", "lbf/in"}},
+               {"N", {"N", "N", "lbf"}},
+               {"mm/s", {"mm/s", "m/s", "in/s"}},
+               {"mm/MPa", {"mm/MPa", "m/Pa", "in/psi"}},
+               {"1/MPa", {"1/MPa", "1/Pa", "1/psi"}}};
 
 enum { KINDS = sizeof systems / sizeof systems[0] };
 

@@ -1,8 +1,9 @@
 #include "cli/case.h"
 #include "cli/output.h"
-
-#include <string.h>
 #include "rollbem/friction.h"
+
+#include <jansson.h>
+#include <string.h>
 
 rb_case *cli_case_create(rb_case_purpose purpose)
 {
@@ -79,4 +80,15 @@ rb_units cli_units_of(const rb_case *c, const rb_option *options, int n, const i
         if (strcmp(options[k].name, name) == 0 && given[k] > 0)
             return rb_case_file_units(c);
     return rb_case_units(c);
+}
+
+json_t *cli_case_json(const rb_case *c, const rb_rolling_solution *s, json_t *inputs)
+{
+    const rb_settled_case *settled = rb_case_settled(c);
+    json_t *root = rb_report_json_start(cli_command_line());
+    if (s)
+        rb_report_json_set(&root, "notes", rb_report_json_notes(&settled->rc, s));
+    rb_report_json_set(&root, "units", rb_report_json_units(settled->units));
+    rb_report_json_set(&root, "inputs", inputs);
+    return root;
 }

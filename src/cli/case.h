@@ -42,6 +42,11 @@ cli_exit cli_case_settle(const cli_spec *spec, rb_case *c, const cli_args *args)
 rb_units cli_units_of(const rb_case *c, const rb_option *options, int n, const int *given,
                       const char *name);
 
+/* The start of JSON on a case: notes on the solution (s NULL: none), units, inputs, which
+ * are taken over. */
+struct json_t *cli_case_json(const rb_case *c, const rb_rolling_solution *s,
+                             struct json_t *inputs);
+
 /* --example NAME, the last set of every spec of a case, and what it asks for. */
 rb_option_set cli_example_set(void);
 cli_exit cli_example_read(rb_case *c, const cli_args *args);

@@ -102,15 +102,13 @@ static rb_status solve_curves(const rb_settled_case *c, const range_options *ran
 
 static rb_status print_json(FILE *out, const result *r)
 {
-    json_t *root = rb_report_json_start(cli_command_line());
     json_t *inputs = rb_report_json_inputs(r->words);
     rb_report_json_set(&inputs, "from", json_real(r->range->from));
     rb_report_json_set(&inputs, "to", json_real(r->range->to));
     rb_report_json_set(&inputs, "points", json_integer(r->range->points));
     rb_report_json_set(&inputs, "over",
                        json_string(rb_case_curve_variables[r->range->over].name));
-    rb_report_json_set(&root, "units", rb_report_json_units(r->c->units));
-    rb_report_json_set(&root, "inputs", inputs);
+    json_t *root = cli_case_json(r->words, NULL, inputs);
     rb_report_json_curves(&root, &r->curves);
     return rb_report_json_write(out, root);
 }

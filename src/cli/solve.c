@@ -88,14 +88,11 @@ static const rb_rolling_history *step_errors(const rb_case_result *r)
 
 static rb_status write_json(FILE *out, const result *it)
 {
-    json_t *root = rb_report_json_start(cli_command_line());
+    json_t *root =
+        cli_case_json(it->words, &it->r->solution, rb_report_json_inputs(it->words));
     json_t *summary = rb_report_json_summary(&it->r->solution);
     if (it->r->has_errors)
         rb_report_json_set(&summary, "errors", rb_report_json_errors(&it->r->errors));
-    rb_report_json_set(&root, "notes",
-                       rb_report_json_notes(&it->c->rc, &it->r->solution));
-    rb_report_json_set(&root, "units", rb_report_json_units(it->c->units));
-    rb_report_json_set(&root, "inputs", rb_report_json_inputs(it->words));
     rb_report_json_set(&root, "summary", summary);
     rb_report_json_set(&root, "table", rb_report_json_table(&it->r->solution));
     if (it->r->history.n > 0)

@@ -254,10 +254,8 @@ static rb_status find_stress(result *r, rb_message *why)
 
 static rb_status print_json(FILE *out, const result *r)
 {
-    json_t *root = rb_report_json_start(cli_command_line());
-    rb_report_json_set(&root, "notes", rb_report_json_notes(&r->c->rc, &r->run.solution));
-    rb_report_json_set(&root, "units", rb_report_json_units(r->c->units));
-    rb_report_json_set(&root, "inputs", rb_report_json_inputs(r->words));
+    json_t *root =
+        cli_case_json(r->words, &r->run.solution, rb_report_json_inputs(r->words));
     rb_report_json_set(&root, "summary", rb_report_json_summary(&r->run.solution));
     rb_report_json_stress(&root, &r->table);
     return rb_report_json_write(out, root);

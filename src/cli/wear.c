@@ -143,7 +143,6 @@ static rb_status run(result *r, const rb_settled_case *c, rb_message *why)
 static rb_status print_json(FILE *out, const result *r)
 {
     const wear_options *w = r->options;
-    json_t *root = rb_report_json_start(cli_command_line());
     json_t *inputs = rb_report_json_inputs(r->words);
     rb_report_json_set(&inputs, "wear-law", json_string(laws[w->law].name));
     rb_report_json_set(&inputs, "wear-coefficient", json_real(w->coefficient));
@@ -151,7 +150,7 @@ static rb_status print_json(FILE *out, const result *r)
     rb_report_json_set(&inputs, "cycles", rb_report_json_number(w->cycles));
     rb_report_json_set(&inputs, "wear-steps", json_integer(w->steps));
     rb_report_json_set(&inputs, "quarter", json_integer(w->increments));
-    rb_report_json_set(&root, "inputs", inputs);
+    json_t *root = cli_case_json(r->words, &r->last, inputs);
     rb_report_json_set(&root, "wear", rb_report_json_wear(&r->report));
     rb_report_json_set(&root, "summary", rb_report_json_summary(&r->last));
     rb_report_json_set(&root, "table", rb_report_json_table(&r->last));
@@ -171,7 +170,7 @@ static rb_status print_profile(FILE *out, const void *context, rb_message *why)
 {
     const rb_rolling_solution *s = &((const result *)context)->last;
     (void)why;
-    fprintf(out, "# x_mm\tdepth_mm\n# %s\n", cli_command_line());
+    fprintf(out, "x_mm\tdepth_mm\n# %s\n", cli_command_line());
     for (int i = 0; i < s->n; i++)
         fprintf(out, "%.17g\t%.17g\n", s->x[i], s->worn[i]);
     return rb_report_flush(out);
@@ -189,8 +188,13 @@ static cli_exit show(const result *r)
     cli_exit code = cli_write_file(r->o->output, print, r);
     if (code == CLI_OK && r->options->profile)
         code = cli_write_file(r->options->profile, print_profile, r);
-    if (code == CLI_OK && !r->o->quiet)
+    const rb_rolling_case *rc = &rb_case_settled(r->words)->rc;
+    if (code == CLI_OK && !r->o->quiet) {
+        rb_report_notes(stderr, rc, &r->last);
         rb_report_wear_summary(stderr, &r->report);
+    }
+    if (code == CLI_OK && r->o->cite)
+        rb_report_citations(stderr, rc, &r->last);
     if (code == CLI_OK)
         code = cli_draw_file(&r->o->pictures, "plot", r->o->plot, draw, r);
     return code;
@@ -249,11 +253,15 @@ int cli_wear(int argc, char **argv)
                            notes,
                            {rb_case_options(c),
                             {options, OPTIONS, &w, w.given, w.plain},
-                            cli_output_set(&o)},
-                           3};
+                            cli_output_set(&o),
+                            cli_example_set()},
+                           4};
     cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
-    if (code == CLI_CONTINUE)
+    if (code == CLI_CONTINUE) {
+        rb_option_store(&spec.sets[1], rb_case_settled(c)->units, rb_case_file_units(c),
+                        &w);
         code = check(&w, rb_case_settled(c));
+    }
     if (code == CLI_CONTINUE)
         code = solve(c, &w, &o);
     cli_args_free(&args);
