@@ -246,15 +246,21 @@ static void expect_end(io_tokens *t)
         rb_io_tokens_fail(t, "expected the end of the file after the last number");
 }
 
+/* The first line of every friction problem.  Returns the number of contact equations. */
+static int read_sizes(io_tokens *t, int *dimension, int *contacts)
+{
+    *dimension = rb_io_tokens_int(t, 2, 3, "dimension");
+    *contacts = rb_io_tokens_int(t, 1, INT_MAX / 3, "number of contacts");
+    return *dimension * *contacts;
+}
+
 rb_status rb_io_siconos_read_friction(const char *path, rb_io_friction *p,
                                       rb_message *why)
 {
     io_tokens t;
     *p = (rb_io_friction){0};
     rb_io_tokens_open(path, &t, why);
-    p->dimension = rb_io_tokens_int(&t, 2, 3, "dimension");
-    p->contacts = rb_io_tokens_int(&t, 1, INT_MAX / 3, "number of contacts");
-    const int m = p->dimension * p->contacts;
+    const int m = read_sizes(&t, &p->dimension, &p->contacts);
     read_matrix(&t, m, m, &p->W);
     p->q = read_vector(&t, m, "q");
     p->mu = read_vector(&t, p->contacts, "mu");
@@ -281,9 +287,7 @@ rb_status rb_io_siconos_read_friction_global(const char *path, rb_io_friction_gl
     io_tokens t;
     *p = (rb_io_friction_global){0};
     rb_io_tokens_open(path, &t, why);
-    p->dimension = rb_io_tokens_int(&t, 2, 3, "dimension");
-    p->contacts = rb_io_tokens_int(&t, 1, INT_MAX / 3, "number of contacts");
-    const int m = p->dimension * p->contacts;
+    const int m = read_sizes(&t, &p->dimension, &p->contacts);
     read_matrix(&t, 0, 0, &p->M);
     if (ok(&t))
         read_matrix(&t, p->M.rows, m, &p->H);

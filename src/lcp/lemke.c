@@ -1,6 +1,5 @@
 /* Lemke's method with a lexicographic rule (Cottle, Pang, Stone, algorithm 4.4.5): from
- * the check of the input to the first pivot, the ratio test, the path of complementary
- * pivots and its end. */
+ * the first pivot to the ratio test, the path of complementary pivots and its end. */
 #include "lcp/lemke.h"
 
 #include <cblas.h>
@@ -21,60 +20,6 @@ static const double SPOILT = 1e-6;
 rb_lcp_options rb_lcp_defaults(void)
 {
     return (rb_lcp_options){.tol = 1e-13, .rule = RB_LCP_LEXICOGRAPHIC};
-}
-
-/* ---- Input ----------------------------------------------------------------------- */
-
-/* The sum of absolute values tells at once that a column is finite. */
-static rb_status check_column(int n, int j, const double *x, rb_message *why)
-{
-    if (isfinite(cblas_dasum(n, x, 1)))
-        return RB_OK;
-    for (int i = 0; i < n; i++)
-        if (!isfinite(x[i]))
-            return rb_fail(why, RB_EINVAL,
-                           "lcp: M(%d, %d) = %g: expected a finite number", i + 1, j + 1,
-                           x[i]);
-    return RB_OK;
-}
-
-static rb_status check_numbers(int n, const double *M, int ldm, const double *q,
-                               const double *cover, rb_message *why)
-{
-    for (int j = 0; j < n; j++)
-        if (check_column(n, j, M + (size_t)j * (size_t)ldm, why) != RB_OK)
-            return RB_EINVAL;
-    for (int i = 0; i < n; i++) {
-        if (!isfinite(q[i]))
-            return rb_fail(why, RB_EINVAL, "lcp: q(%d) = %g: expected a finite number",
-                           i + 1, q[i]);
-        if (cover && !(isfinite(cover[i]) && cover[i] >= 0.0))
-            return rb_fail(why, RB_EINVAL, "lcp: cover(%d) = %g: expected a number >= 0",
-                           i + 1, cover[i]);
-        if (cover && cover[i] == 0.0 && q[i] < 0.0)
-            return rb_fail(
-                why, RB_EINVAL,
-                "lcp: cover(%d) = 0: expected a number > 0, because q(%d) = %g "
-                "is negative",
-                i + 1, i + 1, q[i]);
-    }
-    return RB_OK;
-}
-
-static rb_status check_input(int n, const double *M, int ldm, const double *q,
-                             const rb_lcp_options *opt, rb_message *why)
-{
-    if (n < 1)
-        return rb_fail(why, RB_EINVAL, "lcp: n = %d: expected at least 1", n);
-    if (ldm < n)
-        return rb_fail(why, RB_EINVAL, "lcp: ldm = %d: expected at least n = %d", ldm, n);
-    if (opt->max_iters < 0)
-        return rb_fail(why, RB_EINVAL, "lcp: max_iters = %d: expected >= 0",
-                       opt->max_iters);
-    if (!(opt->tol >= 0.0 && opt->tol < 1.0))
-        return rb_fail(why, RB_EINVAL, "lcp: tol = %g: expected a number in [0, 1)",
-                       opt->tol);
-    return check_numbers(n, M, ldm, q, opt->cover, why);
 }
 
 /* ---- The ratio test: which row leaves ---------------------------------------------- */
@@ -381,7 +326,7 @@ rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
     *l.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
     l.opt = opt ? *opt : rb_lcp_defaults();
     l.data = (lcp_data){n, M, q, l.opt.cover, ldm};
-    rb_status s = check_input(n, M, ldm, q, &l.opt, &l.info->msg);
+    rb_status s = rb_lcp_check_dense(n, M, ldm, q, &l.opt, &l.info->msg);
     if (s != RB_OK)
         return s;
     if (!l.opt.max_iters)

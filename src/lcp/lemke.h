@@ -37,7 +37,12 @@ rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0);
 rb_status rb_lcp_fail_limit(rb_lcp_info *info, int max_iters);
 /* RB_INACCURATE where info->res is not below 1e-6 of size, the largest constant. */
 rb_status rb_lcp_judge(rb_lcp_info *info, double size);
-/* RB_EINVAL: M not square, max_iters < 0, tol, NaN or infinity. */
+
+/* ---- check.c: RB_EINVAL for M that is not square, max_iters < 0, tol, NaN, infinity
+ * ---- */
+
+rb_status rb_lcp_check_dense(int n, const double *M, int ldm, const double *q,
+                             const rb_lcp_options *opt, rb_message *why);
 rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q,
                               const rb_lcp_options *opt, rb_message *why);
 

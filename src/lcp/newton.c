@@ -29,31 +29,6 @@ double rb_lcp_residual_sparse(const rb_sparse *M, const double *q, const double 
     return rb_lcp_residual_mixed(M, q, NULL, NULL, z, w);
 }
 
-rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q,
-                              const rb_lcp_options *opt, rb_message *why)
-{
-    if (M->rows < 1 || M->cols != M->rows)
-        return rb_fail(why, RB_EINVAL, "lcp: M is %d by %d: expected a square matrix",
-                       M->rows, M->cols);
-    if (opt->max_iters < 0)
-        return rb_fail(why, RB_EINVAL, "lcp: max_iters = %d: expected >= 0",
-                       opt->max_iters);
-    if (!(opt->tol >= 0.0 && opt->tol < 1.0))
-        return rb_fail(why, RB_EINVAL, "lcp: tol = %g: expected a number in [0, 1)",
-                       opt->tol);
-    for (int j = 0; j < M->cols; j++) {
-        for (int k = M->p[j]; k < M->p[j + 1]; k++)
-            if (!isfinite(M->x[k]))
-                return rb_fail(why, RB_EINVAL,
-                               "lcp: M(%d, %d) = %g: expected a finite number",
-                               M->i[k] + 1, j + 1, M->x[k]);
-        if (!isfinite(q[j]))
-            return rb_fail(why, RB_EINVAL, "lcp: q(%d) = %g: expected a finite number",
-                           j + 1, q[j]);
-    }
-    return RB_OK;
-}
-
 /* A = M_FF for the basic z, F. */
 static void basic_part(newton *s)
 {

@@ -7,6 +7,12 @@
 #include <string.h>
 
 /* What the axes show. */
+/* A y axis in units of a power of ten. */
+typedef struct {
+    int exponent;
+    double unit, from, to;
+} axis;
+
 typedef struct {
     const rb_rolling_case *rc;
     const rb_rolling_solution *s;
@@ -14,11 +20,9 @@ typedef struct {
     char x_label[16];
     double stress_unit;
     const char *stress_label;
-    double from, to;                  /* x axis, in its units */
-    int slip_exponent, heat_exponent; /* of ten: units of the axes */
-    double slip_from, slip_to;        /* in slip units */
-    double cool, warm;                /* temperature axis, likewise */
-    int carter;                       /* 1: draw Carter's curve */
+    double from, to; /* x axis, in its units */
+    axis slip, heat;
+    int carter; /* 1: draw Carter's curve */
     rb_report_place place;
 } view;
 
@@ -81,9 +85,16 @@ static int is_shown(const view *v, int i)
 
 /* Small numbers are shown in a power of ten, which the title names: their labels would
  * run into it. */
-static int exponent_of(double largest)
+static axis axis_between(double least, double most)
 {
-    return largest > 0.0 && largest < 0.1 ? (int)floor(log10(largest)) : 0;
+    const double largest = fmax(most, -least);
+    axis y = {.exponent =
+                  largest > 0.0 && largest < 0.1 ? (int)floor(log10(largest)) : 0};
+    y.unit = pow(10.0, y.exponent);
+    const double margin = most > least ? 0.12 * (most - least) : y.unit;
+    y.from = (least - margin) / y.unit;
+    y.to = (most + margin) / y.unit;
+    return y;
 }
 
 static void write_exponent(FILE *out, int exponent, const char *unit)
@@ -102,11 +113,7 @@ static void choose_slip_axis(view *v)
             least = fmin(least, v->s->slip[i]);
             most = fmax(most, v->s->slip[i]);
         }
-    v->slip_exponent = exponent_of(fmax(most, -least));
-    const double unit = pow(10.0, v->slip_exponent);
-    const double margin = most > least ? 0.12 * (most - least) : unit;
-    v->slip_from = (least - margin) / unit;
-    v->slip_to = (most + margin) / unit;
+    v->slip = axis_between(least, most);
 }
 
 static void choose_temperature_axis(view *v)
@@ -117,11 +124,7 @@ static void choose_temperature_axis(view *v)
             least = fmin(least, fmin(v->s->temperature[i], v->s->temperature_b[i]));
             most = fmax(most, fmax(v->s->temperature[i], v->s->temperature_b[i]));
         }
-    v->heat_exponent = exponent_of(fmax(most, -least));
-    const double unit = pow(10.0, v->heat_exponent);
-    const double margin = most > least ? 0.12 * (most - least) : unit;
-    v->cool = (least - margin) / unit;
-    v->warm = (most + margin) / unit;
+    v->heat = axis_between(least, most);
 }
 
 static void choose_stress_unit(view *v)
@@ -150,14 +153,13 @@ static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s,
 static void write_data(FILE *out, const view *v)
 {
     const rb_rolling_solution *s = v->s;
-    const double slip = pow(10.0, v->slip_exponent), heat = pow(10.0, v->heat_exponent);
     fputs("$data << EOD\n", out);
     for (int i = 0; i < s->n; i++)
         fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->unit,
                 s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
-                v->rc->mu * s->p[i] / v->stress_unit, s->slip[i] / slip,
-                s->temperature ? s->temperature[i] / heat : 0.0,
-                s->temperature ? s->temperature_b[i] / heat : 0.0);
+                v->rc->mu * s->p[i] / v->stress_unit, s->slip[i] / v->slip.unit,
+                s->temperature ? s->temperature[i] / v->heat.unit : 0.0,
+                s->temperature ? s->temperature_b[i] / v->heat.unit : 0.0);
     fputs("EOD\n", out);
 }
 
@@ -390,15 +392,15 @@ static void write_slip(FILE *out, const view *v)
     const int lowest = !v->s->temperature;
     fputs("unset label\nunset key\nunset object\n", out);
     open_panel(out, v, SLIP, lowest);
-    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->slip_from, v->slip_to,
-            rb_report_round_step((v->slip_to - v->slip_from) / 4.0));
+    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->slip.from, v->slip.to,
+            rb_report_round_step((v->slip.to - v->slip.from) / 4.0));
     if (lowest)
         write_x_label(out, v);
     /* in a static case (12) is a velocity that the elements in stick have as well */
     fputs(v->s->formulation == RB_STATIC ? "set label 3 'velocity (12)"
                                          : "set label 3 'slip",
           out);
-    write_exponent(out, v->slip_exponent, "");
+    write_exponent(out, v->slip.exponent, "");
     fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, SLIP));
     write_zones(out, v, 0);
     fprintf(out,
@@ -411,11 +413,11 @@ static void write_temperature(FILE *out, const view *v)
 {
     fputs("unset label\nunset object\n", out);
     open_panel(out, v, TEMPERATURE, 1);
-    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->cool, v->warm,
-            rb_report_round_step((v->warm - v->cool) / 3.0));
+    fprintf(out, "set yrange [%.9g:%.9g]\nset ytics %.9g\n", v->heat.from, v->heat.to,
+            rb_report_round_step((v->heat.to - v->heat.from) / 3.0));
     write_x_label(out, v);
     fputs("set label 3 'T", out);
-    write_exponent(out, v->heat_exponent, "K");
+    write_exponent(out, v->heat.exponent, "K");
     fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, TEMPERATURE));
     write_zones(out, v, 0);
     fputs("plot $data using 1:7 with lines dashtype (6,4) linecolor rgb '#7a7a7a' "

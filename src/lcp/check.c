@@ -1,0 +1,85 @@
+/* What is refused before anything is solved. */
+#include "lcp/lemke.h"
+
+#include <cblas.h>
+#include <math.h>
+
+static rb_status check_options(const rb_lcp_options *opt, rb_message *why)
+{
+    if (opt->max_iters < 0)
+        return rb_fail(why, RB_EINVAL, "lcp: max_iters = %d: expected >= 0",
+                       opt->max_iters);
+    if (!(opt->tol >= 0.0 && opt->tol < 1.0))
+        return rb_fail(why, RB_EINVAL, "lcp: tol = %g: expected a number in [0, 1)",
+                       opt->tol);
+    return RB_OK;
+}
+
+static rb_status check_q(int n, const double *q, rb_message *why)
+{
+    for (int i = 0; i < n; i++)
+        if (!isfinite(q[i]))
+            return rb_fail(why, RB_EINVAL, "lcp: q(%d) = %g: expected a finite number",
+                           i + 1, q[i]);
+    return RB_OK;
+}
+
+/* The sum of absolute values tells at once that a column is finite. */
+static rb_status check_column(int n, int j, const double *x, rb_message *why)
+{
+    if (isfinite(cblas_dasum(n, x, 1)))
+        return RB_OK;
+    for (int i = 0; i < n; i++)
+        if (!isfinite(x[i]))
+            return rb_fail(why, RB_EINVAL,
+                           "lcp: M(%d, %d) = %g: expected a finite number", i + 1, j + 1,
+                           x[i]);
+    return RB_OK;
+}
+
+static rb_status check_cover(int n, const double *q, const double *cover, rb_message *why)
+{
+    for (int i = 0; i < n && cover; i++) {
+        if (!(isfinite(cover[i]) && cover[i] >= 0.0))
+            return rb_fail(why, RB_EINVAL, "lcp: cover(%d) = %g: expected a number >= 0",
+                           i + 1, cover[i]);
+        if (cover[i] == 0.0 && q[i] < 0.0)
+            return rb_fail(
+                why, RB_EINVAL,
+                "lcp: cover(%d) = 0: expected a number > 0, because q(%d) = %g "
+                "is negative",
+                i + 1, i + 1, q[i]);
+    }
+    return RB_OK;
+}
+
+rb_status rb_lcp_check_dense(int n, const double *M, int ldm, const double *q,
+                             const rb_lcp_options *opt, rb_message *why)
+{
+    if (n < 1)
+        return rb_fail(why, RB_EINVAL, "lcp: n = %d: expected at least 1", n);
+    if (ldm < n)
+        return rb_fail(why, RB_EINVAL, "lcp: ldm = %d: expected at least n = %d", ldm, n);
+    rb_status s = check_options(opt, why);
+    for (int j = 0; j < n && s == RB_OK; j++)
+        s = check_column(n, j, M + (size_t)j * (size_t)ldm, why);
+    if (s == RB_OK)
+        s = check_q(n, q, why);
+    return s == RB_OK ? check_cover(n, q, opt->cover, why) : s;
+}
+
+rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q,
+                              const rb_lcp_options *opt, rb_message *why)
+{
+    if (M->rows < 1 || M->cols != M->rows)
+        return rb_fail(why, RB_EINVAL, "lcp: M is %d by %d: expected a square matrix",
+                       M->rows, M->cols);
+    const rb_status s = check_options(opt, why);
+    for (int j = 0; j < M->cols && s == RB_OK; j++)
+        for (int k = M->p[j]; k < M->p[j + 1]; k++)
+            if (!isfinite(M->x[k]))
+                return rb_fail(why, RB_EINVAL,
+                               "lcp: M(%d, %d) = %g: expected a finite number",
+                               M->i[k] + 1, j + 1, M->x[k]);
+    return s == RB_OK ? check_q(M->cols, q, why) : s;
+}
