@@ -278,21 +278,17 @@ static void write_labels(FILE *out, const view *v, int titled)
 
 static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
-    static const char *const colours[] = {"#1f4e79", "#c0392b", "#b9770e", "#6c3483",
-                                          "#117864", "#5d6d7e", "#7b241c", "#2e86c1"};
     const view *v = context;
     const rb_report_place place = rb_report_place_of(canvas);
     write_data(out, v);
     if (draws_carter(v))
         write_carter(out, v);
-    fprintf(
-        out,
-        "set lmargin at screen %g\nset rmargin at screen 0.965\n"
-        "set bmargin at screen %g\nset tmargin at screen %g\n"
-        "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
-        "set grid linecolor rgb '#dddddd' linewidth 0.6\nset offsets 0,0,graph 0.05,0\n"
-        "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
-        0.13 + place.right, 0.14 + place.up, 0.9 + place.up);
+    fprintf(out,
+            "set lmargin at screen %g\nset rmargin at screen 0.965\n"
+            "set bmargin at screen %g\nset tmargin at screen %g\n" RB_REPORT_GRID
+            "set offsets 0,0,graph 0.05,0\n"
+            "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
+            0.13 + place.right, 0.14 + place.up, 0.9 + place.up);
     fprintf(out, "set key right bottom samplen 2.2 font ',%.3g'\n",
             rb_report_key_font(canvas));
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
@@ -302,12 +298,12 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         fprintf(out,
                 "$curve%d using 1:($2-$3):($2+$3) with filledcurves linecolor rgb '%s' "
                 "fillstyle transparent solid 0.25 noborder %s, ",
-                k, colours[k % 8], k == 0 ? "title 'estimated error'" : "notitle");
+                k, rb_report_colour(k), k == 0 ? "title 'estimated error'" : "notitle");
     for (int k = 0; k < v->curves->n; k++)
         fprintf(out,
                 "%s$curve%d using 1:2 with lines linecolor rgb '%s' dashtype %s "
                 "linewidth 2.6 title 'μ = %g'",
-                k > 0 ? ", " : "", k, colours[k % 8], rb_report_dashes(k),
+                k > 0 ? ", " : "", k, rb_report_colour(k), rb_report_dashes(k),
                 v->curves->mu[k]);
     for (int k = 0; k < v->curves->n && draws_carter(v); k++)
         fprintf(out,

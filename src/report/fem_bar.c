@@ -96,7 +96,6 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 {
     const bar_view *v = view;
     (void)canvas;
-    rb_report_fem_axes(out);
     write_mesh(out, v);
     write_reactions(out, v);
     fprintf(

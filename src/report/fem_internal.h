@@ -5,8 +5,6 @@
 #include "report/internal.h"
 #include "rollbem/report_fem.h"
 
-/* Axes of these pictures: the first lines of their scripts. */
-void rb_report_fem_axes(FILE *script);
 /* 1, 2 or 5 times a power of ten, at most x. */
 double rb_report_fem_round(double x);
 

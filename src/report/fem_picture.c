@@ -2,12 +2,6 @@
 
 #include <math.h>
 
-void rb_report_fem_axes(FILE *script)
-{
-    fputs("set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n",
-          script);
-}
-
 double rb_report_fem_round(double x)
 {
     const double ten = pow(10.0, floor(log10(x))), lead = x / ten * (1.0 + 1e-12);

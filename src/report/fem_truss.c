@@ -113,7 +113,6 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     const quarter *q = &v->q;
     const rb_fem_history *history = v->history;
     (void)canvas;
-    rb_report_fem_axes(out);
     fprintf(out,
             "set multiplot\nset label 1 '{/:Bold Truss on an obstacle: increments of the "
             "contact nodes} (Kanno, example 3.1; %s)' at screen 0.5, 0.955 center\n",

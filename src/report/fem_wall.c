@@ -150,7 +150,6 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 {
     const wall_view *v = view;
     (void)canvas;
-    rb_report_fem_axes(out);
     write_front(out, &v->f);
     write_steps(out, v->steps, v->step);
     write_wall(out, &v->f, &v->step[v->steps - 1]);

@@ -201,7 +201,7 @@ rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *ki
                    "expected a name ending in .png, .svg or .pdf, got '%s'", path);
 }
 
-enum { SHAPES = 4 };
+enum { SHAPES = 3 };
 
 /* Each shape in its own size: width and height in `unit`, of which an inch has so many.
  * The key needs its font named: svg would take a larger one. */
@@ -211,26 +211,26 @@ static const struct {
 } looks[] = {{"pngcairo",
               "",
               300,
-              {1600, 1800, 1920, 900},
-              {1200, 750, 1080, 600},
-              {24, 20, 24, 14},
-              {2.2, 2.2, 2.0, 1.0},
+              {1600, 1800, 1920},
+              {1200, 750, 1080},
+              {24, 20, 24},
+              {2.2, 2.2, 2.0},
               24},
              {"svg",
               "",
               96,
-              {1000, 1200, 1280, 900},
-              {750, 500, 720, 600},
-              {18, 14, 18, 14},
-              {1.5, 1.5, 1.4, 1.0},
+              {1000, 1200, 1280},
+              {750, 500, 720},
+              {18, 14, 18},
+              {1.5, 1.5, 1.4},
               15},
              {"pdfcairo",
               "in",
               1,
-              {10, 12, 13.33, 7.087},
-              {7.5, 5, 7.5, 4.724},
-              {21, 19, 20, 12},
-              {1.6, 1.6, 1.5, 1.0},
+              {10, 12, 13.33},
+              {7.5, 5, 7.5},
+              {21, 19, 20},
+              {1.6, 1.6, 1.5},
               21}};
 
 /* Sizes that are asked for: width, 0: that of a screen; letters are so much larger, as a
@@ -264,6 +264,13 @@ double rb_report_key_font(rb_report_canvas canvas)
     return looks[canvas.kind].key_font * extent_of(canvas, RB_REPORT_FOUR_THIRDS).letters;
 }
 
+const char *rb_report_colour(int k)
+{
+    static const char *const colours[] = {"#1f4e79", "#c0392b", "#b9770e", "#6c3483",
+                                          "#117864", "#5d6d7e", "#7b241c", "#2e86c1"};
+    return colours[k % 8];
+}
+
 const char *rb_report_dashes(int k)
 {
     static const char *const types[] = {"solid",     "(9,4)",  "(3,3)",
@@ -294,7 +301,8 @@ rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape sha
         return no_temporary(why);
     fprintf(file,
             "set encoding utf8\nset terminal %s size %.4g%s,%.4g%s font 'DejaVu "
-            "Sans,%.3g' linewidth %.3g background '#ffffff' enhanced\n",
+            "Sans,%.3g' linewidth %.3g background '#ffffff' enhanced\nset tics out "
+            "nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n",
             looks[k].terminal, e.width, looks[k].unit, e.height, looks[k].unit,
             looks[k].font[shape] * e.letters, looks[k].line[shape] * e.letters);
     script(file, canvas, view);

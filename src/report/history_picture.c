@@ -118,9 +118,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     char label[80];
     write_data(out, v);
     fprintf(out,
-            "set multiplot\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
-            "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
-            "set grid linecolor rgb '#dddddd' linewidth 0.6\nset format x ''\n"
+            "set multiplot\nset lmargin at screen %g\nset rmargin at screen "
+            "0.965\n" RB_REPORT_GRID "set format x ''\n"
             "set key at screen 0.965, %g right samplen 2.2 font ',%.3g'\n",
             0.14 + v->place.right, 0.924 + v->place.up, rb_report_key_font(canvas));
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);

@@ -65,6 +65,10 @@ rb_report_place rb_report_place_of(rb_report_canvas canvas);
 /* The label of the picture that names the bodies, centred at screen x, y. */
 void rb_report_label_bodies(FILE *script, const rb_rolling_case *rc, rb_units units,
                             double x, double y);
+/* Thin lines at the tics, for charts that are read off. */
+#define RB_REPORT_GRID "set grid linecolor rgb '#dddddd' linewidth 0.6\n"
+/* The colour of curve k of several, as gnuplot's rgb. */
+const char *rb_report_colour(int k);
 /* The dash type of curve k of several, which print in grey tells apart. */
 const char *rb_report_dashes(int k);
 /* A unit of an axis: values divided by `size` are in units of `name`. */
@@ -80,9 +84,8 @@ double rb_report_round_step(double step);
 
 typedef enum {
     RB_REPORT_FOUR_THIRDS,
-    RB_REPORT_WIDE,   /* 12:5 */
-    RB_REPORT_SCREEN, /* 16:9 */
-    RB_REPORT_CHART   /* 3:2, smaller */
+    RB_REPORT_WIDE,  /* 12:5 */
+    RB_REPORT_SCREEN /* 16:9 */
 } rb_report_shape;
 
 /* Runs gnuplot on a script, which names no file: data blocks only.  out gets the whole
@@ -93,8 +96,8 @@ rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double se
 
 double rb_report_width_over_height(rb_report_canvas canvas, rb_report_shape shape);
 
-/* A picture from what `script` writes behind the settings of its canvas and shape; or
- * that script itself. */
+/* A picture from what `script` writes behind the settings of its canvas, shape and axes;
+ * or that script itself. */
 typedef void rb_report_script(FILE *script, rb_report_canvas canvas, const void *view);
 rb_status rb_report_draw(FILE *out, rb_report_canvas canvas, rb_report_shape shape,
                          rb_report_script *script, const void *view, rb_message *why);

@@ -432,9 +432,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     write_data(out, v);
     if (v->carter)
         write_carter(out, v);
-    fprintf(out,
-            "set multiplot\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
-            "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n",
+    fprintf(out, "set multiplot\nset lmargin at screen %g\nset rmargin at screen 0.965\n",
             0.12 + v->place.right);
     fprintf(out, "set xrange [%.9g:%.9g]\n", v->from, v->to);
     if (v->place.titled)

@@ -25,8 +25,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     fprintf(
         out,
         "set lmargin at screen %g\nset rmargin at screen 0.965\nset bmargin at screen "
-        "0.14\nset tmargin at screen 0.92\nset tics out nomirror\nset border 3 linecolor "
-        "rgb '#444444' linewidth 0.7\nset grid linecolor rgb '#dddddd' linewidth 0.6\n"
+        "0.14\nset tmargin at screen 0.92\n" RB_REPORT_GRID
         "set xlabel 'traction  |Q|/P'\nset ylabel 'p_0 / k' offset 1,0\n",
         0.12 + place.right);
     fprintf(out, "set xrange [0:%.9g]\nset yrange [0:%.9g]\n", most,

@@ -80,8 +80,7 @@ static void write_contact(FILE *out, const view *v)
 
 static void write_axes(FILE *out, const view *v)
 {
-    fputs("set view map\nset size ratio -1\nset tics out nomirror scale 0.6\n"
-          "set border 3 linecolor rgb '#444444' linewidth 0.7\nunset key\n"
+    fputs("set view map\nset size ratio -1\nset tics scale 0.6\nunset key\n"
           "set pm3d map corners2color mean\n",
           out);
     fprintf(out, "set xrange [%.9g:%.9g]\nset yrange [0:%.9g]\n", v->from, v->to,
@@ -123,6 +122,12 @@ static double panel_height(const view *v)
     return fmin(0.60, panel_width * v->shape * v->depth / (v->to - v->from));
 }
 
+/* As many labels as the height of a panel takes without one touching the next. */
+static double labels_in(double height)
+{
+    return fmax(2.0, 12.0 * height);
+}
+
 static void write_panel(FILE *out, const view *v, const char *name, int column,
                         const rb_rolling_extremum *m, double left)
 {
@@ -133,8 +138,9 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
             "set bmargin at screen %g\nset tmargin at screen %g\n",
             left, left + width, bottom, top);
     fprintf(out,
-            "set colorbox user origin %g, %g size 0.013, %g\n"
+            "set cbtics %.9g\nset colorbox user origin %g, %g size 0.013, %g\n"
             "set label 2 '%s  [%s]' at screen %g, %g center\n",
+            rb_report_round_step(m->value / v->stress_unit / labels_in(height)),
             left + width + 0.012, bottom, height, name, v->stress_label, left + width / 2,
             top + 0.05);
     fprintf(
@@ -156,8 +162,9 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
     write_axes(out, v);
     fprintf(out,
             "set contour base\nset cntrlabel onecolor start 30 interval -1 font ',%.3g'\n"
-            "set cntrparam levels auto 10\n",
-            0.6 * rb_report_key_font(canvas));
+            "set cntrparam levels auto %.0f\n",
+            0.6 * rb_report_key_font(canvas),
+            fmin(10.0, 2.0 * labels_in(panel_height(v))));
     fputs("set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', "
           "0.45 '#277f8e', 0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')\n"
           "set multiplot\n",

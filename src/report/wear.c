@@ -112,14 +112,12 @@ static void write_data(FILE *out, const rb_report_wear *w)
 
 static void write_panel(FILE *out, const rb_report_wear *w, int column)
 {
-    static const char *const colours[RB_REPORT_WEAR_PROFILES] = {
-        "#1f4e79", "#2e86c1", "#117864", "#b9770e", "#c0392b", "#6c3483"};
     fputs("plot ", out);
     for (int k = 0; k < w->profiles; k++)
         fprintf(out,
                 "%s$profile%d using 1:%d with lines linecolor rgb '%s' dashtype %s "
                 "linewidth 1.8 title '%.4g'",
-                k > 0 ? ", " : "", k, column, colours[k], rb_report_dashes(k),
+                k > 0 ? ", " : "", k, column, rb_report_colour(k), rb_report_dashes(k),
                 w->profile[k].way);
     fputc('\n', out);
 }
@@ -135,9 +133,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
 
     write_data(out, w);
     fprintf(out,
-            "set multiplot\nset lmargin at screen %g\nset rmargin at screen 0.965\n"
-            "set tics out nomirror\nset border 3 linecolor rgb '#444444' linewidth 0.7\n"
-            "set grid linecolor rgb '#dddddd' linewidth 0.6\nset format x ''\n",
+            "set multiplot\nset lmargin at screen %g\nset rmargin at screen "
+            "0.965\n" RB_REPORT_GRID "set format x ''\n",
             0.14 + place.right);
     fprintf(out,
             "set xrange [%.9g:%.9g]\nset key at screen 0.965, %g right horizontal "
