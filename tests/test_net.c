@@ -864,13 +864,18 @@ static void check_row(const int *row)
     check_files(".", row);
     if (is(row, OUTPUT, "sweep"))
         return;
+    if (is(row, OUTPUT, "json")) {
+        assert_int_equal(rename("out.table", "json"), 0);
+        check_verdict(row, 0);
+        return;
+    }
     snprintf(arguments, sizeof arguments, "%s%s %s --json --quiet", command, the_case,
              behind);
     const int again = run(program, arguments, "json", "json.err");
     if (again != 0)
         check_failure(row, again, "json.err");
     else
-        check_verdict(row, !command[0] && !is(row, OUTPUT, "json"));
+        check_verdict(row, !command[0]);
 }
 
 /* The rows are shared out to processes, each with a folder of its own. */

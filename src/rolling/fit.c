@@ -264,9 +264,9 @@ static rb_status solve_first(rb_rolling_model *model, rb_message *why)
     if (rc.zone == 0.0) {
         model->rc.contact_elements = (int)fmax(FIRST, rc.contact_elements / 2);
         model->rc.near_field = RB_NEAR_FIELD_PLAIN;
-        if (rb_rolling_has_fine_boundary(&rc))
-            rb_rolling_coarsen_boundary(&model->rc);
     }
+    if (rb_rolling_has_fine_boundary(&rc))
+        rb_rolling_coarsen_boundary(&model->rc);
     const rb_status s = rb_rolling_solve_zone(model, 1, why);
     model->rc.contact_elements = rc.contact_elements;
     model->rc.near_field = rc.near_field;
@@ -280,7 +280,7 @@ rb_status rb_rolling_solve_fitted(rb_rolling_model *model, rb_message *why)
 
     if (s == RB_OK)
         s = rb_rolling_model_refit(model, why);
-    if (s == RB_OK && rc.zone == 0.0 && rb_rolling_has_fine_boundary(&rc)) {
+    if (s == RB_OK && rb_rolling_has_fine_boundary(&rc)) {
         model->rc.outer_elements = rc.outer_elements;
         model->rc.outer_refinement = rc.outer_refinement;
         s = model->equal_instead ? rb_rolling_solve_equal_instead(model, why)
