@@ -41,7 +41,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: journeys dist deb site course page page-test python-test install-python all run test test-all check-tests asan asan-short short-tests check-format bench install help clean packages check-packages study
+.PHONY: journeys dist deb site course page page-test python-test install-python all run test test-all check-tests asan asan-short short-tests fuzz check-format bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -51,6 +51,7 @@ help:
 	@echo "make test-all   the same without leaving out any case of the long tests"
 	@echo "make asan       the tests under the address and undefined-behaviour sanitizers"
 	@echo "make asan-short some of them"
+	@echo "make fuzz       libFuzzer on every target of fuzz/, FUZZ_TIME=60 seconds each (wants clang)"
 	@echo "make check-format  names sources that clang-format would change"
 	@echo "make study      the friction solvers on published files and on packings: tables, false successes"
 	@echo "make bench      the benchmarks (ratios measured in one run)"
@@ -87,6 +88,14 @@ check-tests: all $(TESTS) $(B)/tests/checker
 SANITIZED = B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined"
 asan:
 	@$(MAKE) --no-print-directory $(SANITIZED) test
+
+# every target of fuzz/ in turn, or FUZZ_TARGET, for FUZZ_TIME seconds each; wants clang
+FUZZ_TIME ?= 60
+FUZZ_CFLAGS = -O1 -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
+fuzz:
+	@$(MAKE) --no-print-directory B=$(B)/fuzzing CC="$(FUZZ_CC)" CFLAGS="$(FUZZ_CFLAGS)" $(B)/fuzzing/fuzzer
+	@fuzz/run $(B)/fuzzing $(FUZZ_TIME) $(FUZZ_TARGET)
+FUZZ_CC ?= clang
 
 # what touches most of the library's memory in a minute or two
 SHORT = base lcp io_table case api rolling_lcp rolling_newton rolling_control rolling_cone rolling_friction threads
@@ -189,6 +198,21 @@ $(B)/tests/checker: tests/checker.c
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -o $@ $< $(LDFLAGS) -ljansson -lm
 
+# fuzz targets: replayed by a test, and given to libFuzzer by make fuzz; they call the commands
+# too, whose main is renamed
+FUZZ_OBJ = $(patsubst %.c,$(B)/%.o,$(filter-out fuzz/libfuzzer.c,$(wildcard fuzz/*.c))) $(B)/fuzz/main.o $(filter-out %/cli/main.o,$(CLI_OBJ))
+$(B)/fuzz/main.o: src/cli/main.c
+	@mkdir -p $(@D)
+	@echo "  CC  $@"
+	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Dmain=rollbem_main -fPIC -MMD -MP -c -o $@ $<
+$(B)/tests/test_fuzz: tests/test_fuzz.c $(FUZZ_OBJ) $(B)/librollbem.a
+	@mkdir -p $(@D)
+	@echo "  CC  $<"
+	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -I. -Itests -MMD -MP -MF $@.d -o $@ $< $(FUZZ_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS) -lcmocka
+$(B)/fuzzer: $(FUZZ_OBJ) $(B)/fuzz/libfuzzer.o $(B)/librollbem.a
+	@echo "  LD  $@"
+	$(Q)$(CC) $(CFLAGS) -fsanitize=fuzzer -o $@ $^ $(LDFLAGS) $(LDLIBS)
+
 # compared with where it is installed, never needed
 ifneq ($(wildcard /usr/include/siconos/SiconosConfig.h),)
 $(B)/bench/bench_lemke $(B)/bench/bench_friction: CPPFLAGS += -DHAVE_SICONOS -isystem /usr/include/siconos -isystem /usr/include/siconos/numerics
@@ -260,4 +284,4 @@ page-test: page $(B)/rollbem
 
 clean: ; rm -rf $(B)
 
--include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(MPI_OBJ:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)
+-include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(MPI_OBJ:.o=.d) $(FUZZ_OBJ:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)

@@ -165,6 +165,12 @@ static void bad_files_are_refused(void **state)
     check_refused("contact bad.inp", 65, "not an input file of CONTACT");
     write_file("bad.inp", " 3 MODULE\n 203100\n");
     check_refused("contact bad.inp", 65, "the digits L-D-C-M-Z-E, got 'the end of");
+    write_file("bad.inp",
+               " 3 MODULE\n 203100\n 022020\n 0000331\n 1 2 3 4 5\n 25000. -0.0004 "
+               "0. 0.\n 0.25 0.25\n 0. 0.05 1000.\n 0.3 0.3 82000. 82000.\n 1\n "
+               "1.6e12 1 0. 0. 1. 1.\n");
+    check_refused("contact bad.inp", 65,
+                  "bad.inp:11: MX: expected whole numbers, got 1.6e+12");
     check_refused("contact none.inp", 66, "none.inp");
     check_refused("contact", 64, "FILE.inp");
 }

@@ -220,6 +220,80 @@ static void sizes_and_indices_are_checked(void **state)
     rb_io_fclib_free(&back);
 }
 
+/* Opens the file for a change of one array, which is deleted. */
+static hid_t without(const char *name)
+{
+    fresh_local();
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    assert_true(H5Ldelete(file, name, H5P_DEFAULT) >= 0);
+    return file;
+}
+
+static void put_set(hid_t file, const char *name, hsize_t size, hid_t properties)
+{
+    const hid_t space = H5Screate_simple(1, &size, NULL);
+    const hid_t set = H5Dcreate2(file, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
+                                 properties, H5P_DEFAULT);
+    assert_true(set >= 0);
+    H5Dclose(set);
+    H5Sclose(space);
+    H5Pclose(properties);
+    H5Fclose(file);
+}
+
+/* What would open a second file is refused, whether that file is there or not. */
+static void nothing_is_read_of_another_file(void **state)
+{
+    static const char q[] = "/fclib_local/vectors/q";
+    (void)state;
+    hid_t file = without(q);
+    assert_true(
+        H5Lcreate_external("/etc/passwd", "/x", file, q, H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    H5Fclose(file);
+    refused("has links");
+    file = without("/fclib_local/W/i");
+    assert_true(H5Lcreate_soft("/fclib_local/W/p", file, "/fclib_local/W/i", H5P_DEFAULT,
+                               H5P_DEFAULT) >= 0);
+    H5Fclose(file);
+    refused("has links");
+    file = without("/fclib_local");
+    assert_true(H5Lcreate_external(path, "/fclib_local", file, "/fclib_local",
+                                   H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    H5Fclose(file);
+    refused("has links");
+    hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_external(properties, "/etc/passwd", 0, 48);
+    put_set(without(q), q, 6, properties);
+    refused("kept in another file");
+    const hsize_t six = 6;
+    const hid_t space = H5Screate_simple(1, &six, NULL);
+    properties = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_virtual(properties, space, "/etc/passwd", "/x", space);
+    H5Sclose(space);
+    put_set(without(q), q, 6, properties);
+    refused("kept in another file");
+}
+
+/* Small files that claim many entries: arrays that were never written, and a matrix of
+ * many columns with few entries. */
+static void memory_is_bounded_by_the_size_of_the_file(void **state)
+{
+    static const char q[] = "/fclib_local/vectors/q";
+    const hsize_t chunk = 1 << 16;
+    (void)state;
+    put_set(without(q), q, 1 << 29, H5Pcreate(H5P_DATASET_CREATE));
+    refused("has 4.29497e+09 bytes: a file of this size holds at most");
+    hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(properties, 1, &chunk);
+    put_set(without(q), q, 1 << 29, properties);
+    refused("has 4.29497e+09 bytes: a file of this size holds at most");
+    fresh_local();
+    set_int("/fclib_local/W/nz", 1);
+    set_int("/fclib_local/W/m", 1 << 27);
+    set_int("/fclib_local/W/n", 1 << 27);
+    refused("134217728 x 134217728");
+}
+
 static void other_files_are_refused(void **state)
 {
     (void)state;
@@ -329,6 +403,8 @@ int main(void)
         cmocka_unit_test(what_is_written_is_read_in_every_layout),
         cmocka_unit_test(one_triangle_of_m_is_completed),
         cmocka_unit_test(sizes_and_indices_are_checked),
+        cmocka_unit_test(nothing_is_read_of_another_file),
+        cmocka_unit_test(memory_is_bounded_by_the_size_of_the_file),
         cmocka_unit_test(other_files_are_refused),
         cmocka_unit_test(problems_go_through_files),
         cmocka_unit_test(failing_allocations_are_reported),

@@ -219,7 +219,7 @@ static void bad_input_is_named(void **state)
     rb_lcp_info info;
     rb_lcp_solutions all;
     rb_message why;
-    const double low[] = {1.0, 0.0}, high[] = {0.0, 1.0};
+    const double low[] = {1.0, 0.0}, high[] = {0.0, 1.0}, zero[] = {0.0, 0.0};
     static const double big[23 * 23];
     battle_of_the_sexes();
     CHECK_STATUS(rb_lcp_bimatrix(0, 2, A, B, LD, 0, NULL, x, y, &info), RB_EINVAL);
@@ -236,6 +236,19 @@ static void bad_input_is_named(void **state)
     assert_non_null(strstr(why.text, "box 1 is [1, 0]"));
     CHECK_STATUS(rb_lcp_enumerate(23, big, 23, big, NULL, NULL, &all, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "order 22"));
+    CHECK_STATUS(rb_lcp_enumerate(2, B, LD, zero, NULL, NULL, &all, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "M(2, 1) = nan"));
+}
+
+/* z = 1e600 would solve, which is no number. */
+static void points_beyond_the_largest_number_are_no_solutions(void **state)
+{
+    (void)state;
+    const double M[] = {1e-300}, q[] = {-1e300};
+    rb_lcp_solutions all;
+    CHECK_STATUS(rb_lcp_enumerate(1, M, 1, q, NULL, NULL, &all, NULL), RB_OK);
+    assert_int_equal(all.count, 0);
+    rb_lcp_solutions_free(&all);
 }
 
 static void short_memory_is_reported(void **state)
@@ -269,6 +282,7 @@ int main(void)
         cmocka_unit_test(what_lemke_finds_is_listed),
         cmocka_unit_test(bad_input_is_named),
         cmocka_unit_test(short_memory_is_reported),
+        cmocka_unit_test(points_beyond_the_largest_number_are_no_solutions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

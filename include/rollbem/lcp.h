@@ -93,7 +93,7 @@ typedef struct {
 } rb_lcp_solutions;
 
 /* lower, upper as for rb_lcp_mixed.  RB_EINVAL: more than 2^22 bases (order 22 without
- * boxes), crossed bounds; RB_ENOMEM. */
+ * boxes), crossed bounds, NaN or infinity in M or q; RB_ENOMEM. */
 rb_status rb_lcp_enumerate(int n, const double *M, int ldm, const double *q,
                            const double *lower, const double *upper,
                            rb_lcp_solutions *all, rb_message *why);

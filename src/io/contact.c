@@ -66,6 +66,18 @@ static void read_numbers(reading *r, int n, double *x, const char *names, int *d
     }
 }
 
+/* x as the whole number that the names are. */
+static int whole(reading *r, double x, const char *names)
+{
+    if (fabs(x) <= 1e9 && x == floor(x))
+        return (int)x;
+    if (r->status == RB_OK)
+        r->status =
+            rb_fail(r->why, RB_EFORMAT, "%s:%d: %s: expected whole numbers, got %g",
+                    r->path, r->line, names, x);
+    return 0;
+}
+
 /* The last n of the control digits, the rest of x is 0. */
 static void read_digits(reading *r, int n, int *x, const char *names)
 {
@@ -168,12 +180,14 @@ static void read_grid(reading *r, rb_io_contact_case *c)
     if (c->digit.D < 2)
         return;
     read_numbers(r, 1, x, "IPOTCN", NULL);
-    c->potential = (int)x[0];
+    c->potential = whole(r, x[0], "IPOTCN");
     read_numbers(r, c->potential > 0 ? 6 : 5, x, "MX, MY and the grid", NULL);
+    if (r->status == RB_OK) {
+        c->mx = whole(r, x[0], "MX");
+        c->my = whole(r, x[1], "MY");
+    }
     if (r->status != RB_OK)
         return;
-    c->mx = (int)x[0];
-    c->my = (int)x[1];
     c->from = x[2];
     if (c->potential == 1 || c->potential == 3) {
         c->dx = x[4];
@@ -185,7 +199,8 @@ static void read_grid(reading *r, rb_io_contact_case *c)
     }
     if (c->potential >= 3)
         c->from -= c->dx / 2;
-    if (c->potential > 0 && (c->mx < 1 || c->my < 1 || !(c->dx > 0.0)))
+    if (c->potential > 0 &&
+        (c->mx < 1 || c->my < 1 || !(c->dx > 0.0) || !isfinite(c->from)))
         fail(r, "MX, MY >= 1 and DX > 0", "another grid");
 }
 
@@ -195,8 +210,8 @@ static void read_gap(reading *r, rb_io_contact_case *c)
     if (c->digit.Z < 2 || c->potential < 0)
         return;
     read_numbers(r, 2, x, "IBASE, IPLAN", NULL);
-    c->base = (int)x[0];
-    c->plan = (int)x[1];
+    c->base = whole(r, x[0], "IBASE");
+    c->plan = whole(r, x[1], "IPLAN");
     if (c->base == 1)
         read_numbers(r, 6, c->b, "B1, ..., B6", NULL);
     if (c->base == 2) {

@@ -7,9 +7,11 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 void rb_io_fclib_free(rb_io_fclib *problem)
@@ -45,17 +47,25 @@ int rb_io_is_hdf5(const char *path)
 /* ---- Reading -------------------------------------------------------------------------
  */
 
+/* Deflate makes at most so many bytes of one, and no array has more than that allows: the
+ * memory for a file is bounded by its size. */
+static const double EXPANSION = 1032.0;
+
 typedef struct {
     const char *path;
     hid_t file;
+    double most; /* bytes of an array, entries of a matrix's side */
     rb_message *why;
     int *unknown; /* 1: HDF5 could not tell whether something is there */
+    int *linked;  /* 1: something is there by a link that could lead to another file */
 } reader;
 
-/* Every link on the way to name is there (H5Lexists wants them one by one). */
+/* Every link on the way to name is there (H5Lexists wants them one by one), and each of
+ * them is of this file: external links open others, and so can symbolic ones. */
 static int exists(const reader *in, const char *name)
 {
     char part[160];
+    H5L_info_t link;
     const size_t length = strlen(name);
     for (size_t k = 1; k <= length; k++) {
         if (name[k] != '/' && name[k] != '\0')
@@ -66,8 +76,36 @@ static int exists(const reader *in, const char *name)
             *in->unknown = 1;
         if (there <= 0)
             return 0;
+        if (H5Lget_info(in->file, part, &link, H5P_DEFAULT) < 0)
+            *in->unknown = 1;
+        else if (link.type != H5L_TYPE_HARD)
+            *in->linked = 1;
+        if (*in->unknown || *in->linked)
+            return 0;
     }
     return 1;
+}
+
+/* An array lies in this file, which is large enough for it. */
+static rb_status check_storage(const reader *in, const char *name, hid_t set,
+                               double points)
+{
+    const hid_t layout = H5Dget_create_plist(set), type = H5Dget_type(set);
+    const int outside = layout < 0 || H5Pget_layout(layout) == H5D_VIRTUAL ||
+                        H5Pget_external_count(layout) != 0;
+    const double bytes = points * (type < 0 ? 0.0 : (double)H5Tget_size(type));
+    if (layout >= 0)
+        H5Pclose(layout);
+    if (type >= 0)
+        H5Tclose(type);
+    if (outside)
+        return rb_fail(in->why, RB_EFORMAT, "%s: %s is kept in another file", in->path,
+                       name);
+    if (bytes > in->most)
+        return rb_fail(in->why, RB_EFORMAT,
+                       "%s: %s has %g bytes: a file of this size holds at most %g",
+                       in->path, name, bytes, in->most);
+    return RB_OK;
 }
 
 static rb_status open_array(const reader *in, const char *name, hid_t *set, int *n)
@@ -80,10 +118,13 @@ static rb_status open_array(const reader *in, const char *name, hid_t *set, int 
     if (space >= 0)
         H5Sclose(space);
     *n = (int)points;
-    if (points >= 0 && points < 1 << 30)
-        return RB_OK;
-    H5Dclose(*set);
-    return rb_fail(in->why, RB_EFORMAT, "%s: %s: unreadable size", in->path, name);
+    const rb_status s =
+        points >= 0 && points < 1 << 30
+            ? check_storage(in, name, *set, (double)points)
+            : rb_fail(in->why, RB_EFORMAT, "%s: %s: unreadable size", in->path, name);
+    if (s != RB_OK)
+        H5Dclose(*set);
+    return s;
 }
 
 /* The whole array, its length in n; type: what to convert to. */
@@ -215,7 +256,7 @@ static rb_status read_matrix(const reader *in, const char *group, rb_sparse *a)
         s = read_int(in, group, "nz", &nz);
     if (s != RB_OK)
         return s;
-    if (m < 1 || n < 1 || m > 1 << 28 || n > 1 << 28 || nz < -2)
+    if (m < 1 || n < 1 || fmax(m, n) > fmin(in->most, 1 << 28) || nz < -2)
         return rb_fail(in->why, RB_EFORMAT, "%s: %s is %d x %d with nz = %d", in->path,
                        group, m, n, nz);
     return assemble(in, group, m, n, nz, a);
@@ -398,15 +439,25 @@ static void put_sparse(FILE *out, const rb_sparse *a)
 static rb_status read_in_child(FILE *out, const void *path, rb_message *why)
 {
     rb_io_fclib p = {0};
-    int no_memory = 0, unknown = 0;
+    int no_memory = 0, unknown = 0, linked = 0;
+    struct stat file;
+    const double size = stat(path, &file) == 0 ? (double)file.st_size : 0.0;
+    H5PLset_loading_state(0); /* filters are its own, none is loaded */
     if (H5Eset_auto2(H5E_DEFAULT, note_error, &no_memory) < 0) /* its first call */
         no_memory = 1;
-    const reader in = {path, H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), why, &unknown};
+    const reader in = {path,
+                       H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT),
+                       EXPANSION * size,
+                       why,
+                       &unknown,
+                       &linked};
     rb_status s = in.file < 0 ? rb_fail(why, RB_EFORMAT,
                                         "%s: HDF5 cannot open it (truncated?)", in.path)
                               : read_file(&in, &p);
     if (s == RB_OK && unknown)
         s = rb_fail(why, RB_EFORMAT, "%s: HDF5 cannot search it (truncated?)", in.path);
+    if (linked)
+        s = rb_fail(why, RB_EFORMAT, "%s: has links, which are not followed", in.path);
     void *probe = malloc(1 << 16); /* it may not even have had room for its errors */
     if (no_memory || s == RB_ENOMEM || !probe)
         return rb_fail(why, RB_ENOMEM, "%s: out of memory", in.path);

@@ -1,5 +1,5 @@
 /* All solutions of a small problem: every complementary basis is tried. */
-#include "rollbem/lcp.h"
+#include "lcp/lemke.h"
 
 #include <cblas.h>
 #include <lapacke.h>
@@ -106,6 +106,10 @@ static int is_solution(search *s)
 {
     const double small_z = RIGHT * rb_norm_inf((size_t)s->n, s->z);
     product(s);
+    /* entries near the largest double can give a point that is no numbers */
+    if (!isfinite(rb_norm_inf((size_t)s->n, s->z)) ||
+        !isfinite(rb_norm_inf((size_t)s->n, s->w)))
+        return 0;
     for (int i = 0; i < s->n; i++) {
         const double low = lower_of(s, i), high = upper_of(s, i);
         const double *row = s->M + i;
@@ -192,10 +196,10 @@ rb_status rb_lcp_enumerate(int n, const double *M, int ldm, const double *q,
     search s = {.n = n, .ldm = ldm, .M = M, .q = q, .lower = lower, .upper = upper};
     *all = (rb_lcp_solutions){.n = n};
     s.all = all;
-    if (n < 1 || ldm < n)
-        return rb_fail(why, RB_EINVAL, "lcp: n = %d, ldm = %d: expected 1 <= n <= ldm", n,
-                       ldm);
-    rb_status status = check(&s, why);
+    const rb_lcp_options plain = rb_lcp_defaults();
+    rb_status status = rb_lcp_check_dense(n, M, ldm, q, &plain, why);
+    if (status == RB_OK)
+        status = check(&s, why);
     if (status != RB_OK)
         return status;
     s.at = calloc((size_t)n, sizeof *s.at);

@@ -1,0 +1,113 @@
+/* What a case reads: its file, and the tables of gap, history and of any columns. */
+#include "fuzz.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static rb_case *new_case(rb_case_purpose purpose)
+{
+    rb_case *c = rb_case_create(purpose);
+    fuzz_require(c != NULL, "there is memory");
+    rb_case_use_cone_solvers(c, rb_friction_cone_solvers());
+    return c;
+}
+
+/* What is settled are finite numbers, but for those that say that there is none. */
+static void require_settled(const rb_case *c)
+{
+    const rb_settled_case *settled = rb_case_settled(c);
+    fuzz_require(settled->rc.mu >= 0.0 && isfinite(settled->rc.mu), "0 <= mu < infinity");
+    fuzz_require(settled->rc.contact_elements > 0, "there are elements");
+    fuzz_require(isfinite(settled->derived.modulus), "E* is a number");
+}
+
+static void settle(rb_case *c)
+{
+    rb_message why = {""};
+    const rb_status s = rb_case_settle(c, &why);
+    fuzz_require_reason(s, &why);
+    if (s == RB_OK)
+        require_settled(c);
+}
+
+void fuzz_ini(const uint8_t *data, size_t size)
+{
+    static const rb_case_purpose purposes[] = {RB_CASE_SINGLE, RB_CASE_CURVE,
+                                               RB_CASE_WEAR};
+    char *text = fuzz_text(data, size);
+    for (int k = 0; k < 3; k++) {
+        rb_case *c = new_case(purposes[k]);
+        rb_message why = {""};
+        const rb_status s = rb_case_read_text(c, "case.ini", text, &why);
+        fuzz_require_reason(s, &why);
+        if (s == RB_OK)
+            settle(c);
+        rb_case_free(c);
+    }
+    free(text);
+}
+
+static void settle_with_file(const char *const (*option)[2], int n, const uint8_t *data,
+                             size_t size)
+{
+    rb_case *c = new_case(RB_CASE_SINGLE);
+    rb_message why = {""};
+    fuzz_write("table", data, size);
+    for (int k = 0; k < n; k++)
+        fuzz_require(
+            rb_case_set(c, option[k][0], option[k][1], RB_GIVEN_ARGUMENT, &why) == RB_OK,
+            "the options of the target are options");
+    settle(c);
+    rb_case_free(c);
+}
+
+void fuzz_gap(const uint8_t *data, size_t size)
+{
+    static const char *const options[][2] = {
+        {"support", "halfplane"},   {"load", "100"},
+        {"contact-elements", "12"}, {"zone", "1"},
+        {"gap-smoothing", "1e-5"},  {"gap", "table"}};
+    settle_with_file(options, 6, data, size);
+    settle_with_file(options + 5, 1, data, size);
+    static const char *const others[][2] = {{"irregularity", "table"}};
+    settle_with_file(others, 1, data, size);
+    static const char *const worn[][2] = {{"worn", "table"}};
+    settle_with_file(worn, 1, data, size);
+}
+
+void fuzz_history(const uint8_t *data, size_t size)
+{
+    static const char *const rolling[][2] = {
+        {"formulation", "transient"}, {"support", "halfplane"}, {"history", "table"}};
+    static const char *const in_place[][2] = {{"formulation", "static"},
+                                              {"history", "table"}};
+    settle_with_file(rolling, 3, data, size);
+    settle_with_file(in_place, 2, data, size);
+}
+
+void fuzz_table(const uint8_t *data, size_t size)
+{
+    rb_io_table t;
+    rb_message why = {""};
+    fuzz_write("table", data, size);
+    rb_status s = rb_io_table_read("table", &t, &why);
+    fuzz_require_reason(s, &why);
+    if (s == RB_OK) {
+        fuzz_require(t.rows > 0 && t.columns > 0, "a table has rows and columns");
+        for (int k = 0; k < t.rows * t.columns; k++)
+            fuzz_require(isfinite(t.x[k]), "the numbers of a table are finite");
+        for (int j = 0; t.name && j < t.columns; j++)
+            fuzz_require(rb_io_table_column(&t, t.name[j]) ==
+                             t.x + (size_t)j * (size_t)t.rows,
+                         "a column is found by its name");
+        for (int j = 0; j < t.columns; j++)
+            rb_io_table_convert(&t, j, "mm", RB_UNITS_SI);
+    }
+    rb_io_table_free(&t);
+    for (int columns = 1; columns <= 3; columns++) {
+        rb_message why_not = {""};
+        s = rb_io_table_read_columns("table", columns, &t, &why_not);
+        fuzz_require_reason(s, &why_not);
+        rb_io_table_free(&t);
+    }
+}

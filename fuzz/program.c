@@ -1,0 +1,141 @@
+/* What the program reads beyond the library: its command line, the rows of a study and
+ * the file that a study goes on from.  src/cli is linked, with its main renamed. */
+#include "cli/case.h"
+#include "cli/cli.h"
+#include "fuzz.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { WORDS_MAX = 40 };
+
+/* Results go to a file that nobody reads. */
+static void be_quiet(void)
+{
+    static int quiet;
+    if (!quiet && !freopen("/dev/null", "w", stdout))
+        abort();
+    quiet = 1;
+    cli_keep_failures();
+}
+
+static int known(int code)
+{
+    static const int codes[] = {CLI_CONTINUE, CLI_OK,      CLI_UNSOLVED, CLI_USAGE,
+                                CLI_DATA,     CLI_NOINPUT, CLI_INTERNAL, CLI_CANTWRITE};
+    for (size_t k = 0; k < sizeof codes / sizeof codes[0]; k++)
+        if (code == codes[k])
+            return 1;
+    return 0;
+}
+
+/* A word per line: the command line up to where the case would be solved. */
+void fuzz_options(const uint8_t *data, size_t size)
+{
+    char *text = fuzz_text(data, size), *argv[WORDS_MAX + 1] = {"rollbem"};
+    int argc = 1;
+    be_quiet();
+    for (char *word = strtok(text, "\n"); word && argc < WORDS_MAX;
+         word = strtok(NULL, "\n"))
+        argv[argc++] = word;
+    rb_case *c = cli_case_create(RB_CASE_SINGLE);
+    fuzz_require(c != NULL, "there is memory");
+    const cli_spec spec = {
+        "rollbem", "", NULL, {rb_case_options(c), cli_example_set()}, 2};
+    cli_args args = {0};
+    fuzz_require(known(cli_case_parse(&spec, argc, argv, c, &args)),
+                 "an exit code is a documented one");
+    cli_args_free(&args);
+    rb_case_free(c);
+    free(text);
+}
+
+static int sweep(const char *option, const char *value)
+{
+    char *argv[] = {"sweep",
+                    "--support",
+                    "halfplane",
+                    "--load",
+                    "100",
+                    "--similar",
+                    "--jobs",
+                    "1",
+                    "--contact-elements",
+                    "8",
+                    "--quiet",
+                    "--output",
+                    "rows.tsv",
+                    (char *)option,
+                    (char *)value,
+                    NULL};
+    be_quiet();
+    const int code = cli_run("sweep", 15, argv);
+    fuzz_require(code == CLI_OK || code == CLI_UNSOLVED || cli_kept_failure()[0],
+                 "a refusal says why");
+    return code;
+}
+
+/* The table of cases: refused whole, or a row for each of its rows. */
+void fuzz_study(const uint8_t *data, size_t size)
+{
+    /* many rows would only take long */
+    size_t lines = 0;
+    for (size_t k = 0; k < size; k++)
+        lines += data[k] == '\n';
+    if (lines > 8)
+        return;
+    fuzz_write("cases", data, size);
+    remove("rows.tsv");
+    const int code = sweep("--cases", "cases");
+    fuzz_require(known(code), "an exit code is a documented one");
+    FILE *rows = fopen("rows.tsv", "r");
+    fuzz_require(rows || code >= CLI_USAGE, "a study that runs has rows");
+    if (rows)
+        fclose(rows);
+}
+
+static size_t lines_of(const char *text)
+{
+    size_t n = 0;
+    for (; *text; text++)
+        n += *text == '\n';
+    return n;
+}
+
+static const char VARIED[] = "creep-ratio 0.2 0.4 0.6";
+
+/* Two bytes say how much of a study's rows is kept, the others stand behind it: the study
+ * goes on and ends with all its rows, or refuses the file and leaves it as it is. */
+void fuzz_resume(const uint8_t *data, size_t size)
+{
+    static char *reference;
+    static size_t whole;
+    fuzz_bytes b = {data, data + size};
+    if (!reference) {
+        remove("rows.tsv");
+        fuzz_require(sweep("--vary-1", VARIED) == CLI_OK, "the study is solved");
+        reference = fuzz_read("rows.tsv", &whole);
+    }
+    size_t kept = (size_t)(fuzz_byte(&b) + 256 * fuzz_byte(&b)) % (whole + 1);
+    const size_t more = (size_t)(b.end - b.at), n = kept + more;
+    char *before = calloc(n + 1, 1);
+    fuzz_require(before != NULL, "there is memory");
+    memcpy(before, reference, kept);
+    if (more > 0)
+        memcpy(before + kept, b.at, more);
+    fuzz_write("rows.tsv", before, n);
+    const int code = sweep("--vary-1", VARIED);
+    size_t now;
+    char *after = fuzz_read("rows.tsv", &now);
+    if (code == CLI_CANTWRITE)
+        fuzz_require(now == n && memcmp(before, after, n) == 0,
+                     "a file that is refused stays as it is");
+    else
+        fuzz_require(known(code) && lines_of(after) == lines_of(reference),
+                     "a study that goes on ends with all rows");
+    if (code == CLI_OK && more == 0)
+        fuzz_require(now == whole && memcmp(reference, after, now) == 0,
+                     "a study that was cut ends as if it had not been");
+    free(after);
+    free(before);
+}
