@@ -123,9 +123,8 @@ static void auto_on_the_packings_it_lost_on(void **state)
     }
 }
 
-/* Redundant bricks: sweeps need 13 566, Newton fails, ADMM takes 130 iterations.  A wall
- * of boxes on which Lemke's path ends in a ray: its neighbours lead to the solution. */
-static void splitting_and_neighbours_solve_redundant_contacts(void **state)
+/* Redundant bricks: sweeps need 13 566, Newton fails, ADMM takes 130 iterations. */
+static void splitting_solves_redundant_contacts(void **state)
 {
     (void)state;
     rb_friction_problem p;
@@ -140,10 +139,47 @@ static void splitting_and_neighbours_solve_redundant_contacts(void **state)
     CHECK_MAX(info.flops, 3.0 * best, "auto");
     free(r);
     rb_friction_problem_free(&p);
-    packing("boxes 100 0.1 4", &p);
-    r = rb_alloc((size_t)(2 * p.contacts), 1);
-    CHECK_STATUS(run("lemke", &p, r, &info), RB_OK);
-    CHECK_MAX(violation(&p, r), 1e-7, "Lemke");
+}
+
+/* Lemke's method on stacks and heaps with redundant contacts: the form of order 3 n_c
+ * ended on a ray, after 10 n + 1000 pivots or with a residual of 0.6 on those of mu = 2.
+ * The answer of a pivoting method is right to rounding. */
+static void lemke_solves_redundant_contacts(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *packing;
+        int pivots; /* n_c times this at most */
+    } cases[] = {{"boxes 12 2 2", 4},    {"boxes 30 2 3", 4},   {"boxes 60 2 3", 4},
+                 {"boxes 100 2 4", 4},   {"boxes 60 0.5 4", 4}, {"boxes 100 0.1 4", 4},
+                 {"boxes 100 0 4", 4},   {"discs 25 2 2", 40},  {"discs 60 2 3", 10},
+                 {"discs 120 0.8 4", 10}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        rb_friction_problem p;
+        rb_friction_info info;
+        packing(cases[k].packing, &p);
+        double *r = rb_alloc((size_t)(2 * p.contacts), 1);
+        CHECK_STATUS(run("lemke", &p, r, &info), RB_OK);
+        CHECK_MAX(violation(&p, r), 1e-11, "%s", cases[k].packing);
+        CHECK_MAX(info.iters, cases[k].pivots * p.contacts, "%s: pivots",
+                  cases[k].packing);
+        free(r);
+        rb_friction_problem_free(&p);
+    }
+}
+
+static void lemke_ends_in_time(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_friction_info info;
+    packing("boxes 100 2 4", &p);
+    double *r = rb_alloc((size_t)(2 * p.contacts), 2);
+    rb_friction_options opt = rb_friction_defaults();
+    opt.seconds = 1e-3;
+    CHECK_STATUS(rb_friction_solve("lemke", &p, &opt, r, r + 2 * p.contacts, NULL, &info),
+                 RB_INTERRUPTED);
+    CHECK_MAX(info.seconds, 0.1, "a pivot takes no longer");
     free(r);
     rb_friction_problem_free(&p);
 }
@@ -265,7 +301,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(auto_loses_little_to_its_members),
         cmocka_unit_test(auto_on_the_packings_it_lost_on),
-        cmocka_unit_test(splitting_and_neighbours_solve_redundant_contacts),
+        cmocka_unit_test(splitting_solves_redundant_contacts),
+        cmocka_unit_test(lemke_solves_redundant_contacts),
+        cmocka_unit_test(lemke_ends_in_time),
         cmocka_unit_test(auto_repeats_itself),
         cmocka_unit_test(pauses_change_nothing),
         cmocka_unit_test(the_caller_hears_and_may_stop),

@@ -34,6 +34,7 @@ typedef void rb_lcp_trace(const rb_lcp_pivot *pivot, void *context);
 
 typedef struct {
     int max_iters;       /* 0: 50 n + 1000 pivots; newton: 10 n + 100 steps */
+    double seconds;      /* time limit, but not of newton; 0: none */
     double tol;          /* relative size below which z0 counts as zero, default 1e-13 */
     const double *cover; /* n: covering vector d >= 0, > 0 where q < 0; NULL: ones;
                             borrowed */
@@ -57,8 +58,9 @@ rb_lcp_options rb_lcp_defaults(void);
 
 /* Lemke's method.  M: n x n, column-major, ldm >= n; q: n; z: n, written (the last
  * basic point when not solved).  opt NULL: defaults.
- * RB_OK, RB_RAY, RB_MAXITER; RB_INACCURATE: rounding has spoilt the solution, residual
- * above 1e-6 max |q|; RB_EINVAL: n < 1, ldm < n, NaN or infinity, no cover; RB_ENOMEM.
+ * RB_OK, RB_RAY, RB_MAXITER, RB_INTERRUPTED (time limit); RB_INACCURATE: rounding has
+ * spoilt the solution, residual above 1e-6 max |q|; RB_EINVAL: n < 1, ldm < n, NaN or
+ * infinity, no cover; RB_ENOMEM.
  */
 rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
                        const rb_lcp_options *opt, double *z, rb_lcp_info *info);
@@ -103,8 +105,8 @@ void rb_lcp_solutions_free(rb_lcp_solutions *all);
  * x, gets x'A y and the column player x'B y (A, B: m x n, leading dimension ld), by the
  * method of Lemke and Howson with a lexicographic rule.  label, 0 ... m + n - 1: the
  * strategy dropped first (rows, then columns); other labels may lead to other equilibria.
- * Of the options max_iters and trace count; to the trace z_k is the probability, w_k the
- * regret of strategy k.  x: m, y: n, written.  RB_OK, RB_MAXITER, RB_INACCURATE,
+ * Of the options max_iters, seconds and trace count; to the trace z_k is the probability,
+ * w_k the regret of strategy k.  x: m, y: n, written.  RB_OK, RB_MAXITER, RB_INACCURATE,
  * RB_EINVAL, RB_ENOMEM. */
 rb_status rb_lcp_bimatrix(int m, int n, const double *A, const double *B, int ld,
                           int label, const rb_lcp_options *opt, double *x, double *y,

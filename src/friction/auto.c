@@ -142,13 +142,14 @@ static int fits(rb_friction_task *task, const rb_friction_solver *solver)
     return task->measure->spring == 0.0 && rb_friction_task_condense(task) == RB_OK;
 }
 
-/* Operations of a method that cannot pause, roughly: pivots on a tableau of order 3 n_c,
- * or twenty factorisations. */
+/* Operations of a method that cannot pause, roughly: as many pivots as unknowns, on a
+ * tableau of order 3 n_c where there is no W, or twenty factorisations. */
 static double cost_of(const rb_friction_task *task, const rb_friction_solver *solver)
 {
     const double m = task->m, tableau = 3.0 * task->contacts, order = m + task->n;
     if (solver->needs & RB_FRICTION_ONLY_2D)
-        return 5.0 * tableau * tableau * tableau;
+        return task->shared->local ? rb_friction_lemke_pairs_flops(task, 2.0 * m)
+                                   : 5.0 * tableau * tableau * tableau;
     return 20.0 * order * fmin(order * order, 1e4);
 }
 

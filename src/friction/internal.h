@@ -307,6 +307,11 @@ extern const rb_friction_method rb_friction_sweeps, rb_friction_newton, rb_frict
     rb_friction_projections, rb_friction_hybrid, rb_friction_smoothing_method,
     rb_friction_lemke_method, rb_friction_auto_method;
 
+/* Lemke's method for plane problems whose W is there, on a sparse LU (lemke_pairs.c);
+ * and the operations of so many of its pivots. */
+rb_status rb_friction_lemke_pairs(rb_friction_task *task);
+double rb_friction_lemke_pairs_flops(const rb_friction_task *task, double pivots);
+
 /* Runs a method on the prepared task, all at once; `limit` iterations at most. */
 rb_status rb_friction_run(rb_friction_task *task, const rb_friction_method *method,
                           int variant, int limit);

@@ -1,4 +1,5 @@
-/* Plane problems as linear complementarity problems of size 3 n_c, for Lemke's method.
+/* Plane problems as linear complementarity problems, for Lemke's method: of order 4 n_c
+ * on a sparse LU (lemke_pairs.c), or of order 3 n_c on a dense tableau.
  *
  * Coulomb's law with u_T = u+ - u-, s+ = mu r_N + r_T, s- = mu r_N - r_T:
  *     u_N, r_N | u+, s+ | u-, s-  >= 0, complementary in pairs,   s+ + s- = 2 mu r_N,
@@ -8,7 +9,9 @@
  *     force basis         z = (r_N, s+, u-), w = (u_N, u+, s-): no inverse; needs E = 1
  *     displacement basis  z = (u_N, u+, s-), w = (r_N, s+, u-), as *Kanno*'s bar needs it
  *     stiffness basis     z = (u_N, u+, u-), w = (r_N, s+, s-), where even T is loose
- * Each may be mirrored (T -> -T), which exchanges + and -. */
+ * The force basis takes the fewest pivots where W is regular.  Where contacts are
+ * redundant its paths are long or end on a ray, and those of order 4 n_c do not. Each may
+ * be mirrored (T -> -T), which exchanges + and -. */
 #include "friction/internal.h"
 #include "rollbem/lcp.h"
 
@@ -17,7 +20,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-typedef enum { FORCE, DISPLACEMENT, STIFFNESS } basis_kind;
+typedef enum { FORCE, PAIRS, DISPLACEMENT, STIFFNESS } basis_kind; /* PAIRS: 4 n_c */
 
 typedef struct {
     basis_kind kind;
@@ -28,7 +31,8 @@ typedef struct {
 } attempt;
 
 static const attempt attempts[] = {
-    {FORCE, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
+    {FORCE, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC}, /* dense W only */
+    {PAIRS, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
     {FORCE, 1, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
     /* on ties r_N leaves first: it has the lowest numbers */
     {DISPLACEMENT, 0, {1.0, 1.0, 1.0}, RB_LCP_FIRST_INDEX},
@@ -257,6 +261,8 @@ static void unfold(lemke *s, const attempt *a)
 
 /* Pivots of one attempt: solvable problems take n to 3 n. */
 #define MOST_PIVOTS(n) (10 * (n) + 1000)
+/* Of the first one, which is followed by a form that is safe. */
+#define MOST_AT_FIRST(n) (3 * (n) + 100)
 
 static rb_status run_attempt(lemke *s, const attempt *a)
 {
@@ -273,7 +279,9 @@ static rb_status run_attempt(lemke *s, const attempt *a)
         choose_cover(s, a);
         opt.cover = s->cover;
         opt.rule = a->rule;
-        opt.max_iters = left < MOST_PIVOTS(s->n) ? left : MOST_PIVOTS(s->n);
+        const int most = a == attempts ? MOST_AT_FIRST(s->n) : MOST_PIVOTS(s->n);
+        opt.max_iters = left < most ? left : most;
+        opt.seconds = t->deadline > 0.0 ? fmax(t->deadline - rb_seconds(), 1e-9) : 0.0;
         st = rb_lcp_lemke(s->n, s->M, s->n, s->b, &opt, s->z, &info);
         t->info->iters += info.iters;
         t->info->flops += 2.0 * s->n * (double)s->n * info.iters;
@@ -290,38 +298,6 @@ static rb_status run_attempt(lemke *s, const attempt *a)
     return st;
 }
 
-/* Where contacts are redundant W is singular, and the path runs through thousands of
- * degenerate pivots or into a ray.  The proximal point method solves a few neighbours
- * instead, whose W is positive definite:
- *     u = (W + delta) r_{k+1} + q - delta r_k,   delta in units of W's mean diagonal. */
-#define DELTA 1e-3
-#define NEIGHBOURS 30
-
-static rb_status run_neighbours(lemke *s)
-{
-    static const attempt forces = {FORCE, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC};
-    const rb_friction_task *t = s->task;
-    const size_t m = (size_t)t->m;
-    double *q = rb_alloc(m, 1);
-    rb_status st = q ? RB_INACCURATE : RB_ENOMEM;
-    for (size_t i = 0; q && i < m; i++) {
-        q[i] = s->q[i];
-        s->W[i * (m + 1)] += DELTA;
-        t->r[i] = t->opt.r0 ? t->opt.r0[i] : 0.0;
-    }
-    for (int k = 0; k < NEIGHBOURS && st == RB_INACCURATE; k++) {
-        for (size_t i = 0; i < m; i++)
-            s->q[i] = q[i] - DELTA * t->r[i];
-        st = rb_friction_task_late(t) ? RB_INTERRUPTED : run_attempt(s, &forces);
-    }
-    for (size_t i = 0; q && i < m; i++) {
-        s->q[i] = q[i];
-        s->W[i * (m + 1)] -= DELTA;
-    }
-    free(q);
-    return st;
-}
-
 static rb_status load(lemke *s)
 {
     rb_status st = RB_OK;
@@ -334,24 +310,42 @@ static rb_status load(lemke *s)
     return st;
 }
 
+/* W is sparse, and its tableau would not be. */
+static int is_sparse(const rb_friction_problem *w)
+{
+    const double m = w->dimension * w->contacts;
+    return w->form == RB_FRICTION_LOCAL_SPARSE && w->Ws.p[w->Ws.cols] < 0.25 * m * m;
+}
+
+static rb_status try(lemke *s, const attempt *a)
+{
+    rb_friction_task *t = s->task;
+    const rb_friction_problem *w = t->shared->local;
+    if (a->kind == PAIRS)
+        return w ? rb_friction_lemke_pairs(t) : RB_SINGULAR;
+    if (a == attempts && (!w || is_sparse(w)))
+        return RB_SINGULAR;
+    rb_status st = RB_OK;
+    if (!s->M) { /* no dense attempt was made yet */
+        st = lemke_alloc(t, s);
+        if (st == RB_OK)
+            st = load(s);
+    }
+    return st == RB_OK ? run_attempt(s, a) : st;
+}
+
 static rb_status run_lemke(rb_friction_task *task, int variant)
 {
     (void)variant;
-    lemke s;
+    lemke s = {.task = task};
+    rb_status first = RB_OK, st = RB_MAXITER;
     if (task->d != 2)
         return RB_EINVAL;
-    rb_status first = RB_OK, st = lemke_alloc(task, &s);
-    if (st == RB_OK)
-        st = load(&s);
-    for (size_t k = 0; st >= 0 && k < sizeof attempts / sizeof *attempts; k++) {
-        st = run_attempt(&s, &attempts[k]);
-        if (st > 0 && k == 0 && !s.E)
-            st = run_neighbours(&s);
-        if (st <= 0)
-            break;
+    for (size_t k = 0; st > 0 && k < sizeof attempts / sizeof *attempts; k++) {
+        st = try(&s, &attempts[k]);
         if (first == RB_OK || first == RB_SINGULAR)
             first = st; /* what went wrong first is what is told */
-        if (rb_friction_task_late(task))
+        if (st > 0 && rb_friction_task_late(task))
             first = st = RB_INTERRUPTED;
         if (st == RB_INTERRUPTED)
             break;

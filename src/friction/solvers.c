@@ -46,8 +46,7 @@ static const rb_friction_solver solvers[] = {
      0},
     {"soclcp-smoothing", "smoothing", "and regularisation on Kanno's cones", 0,
      &rb_friction_smoothing_method, 0},
-    {"lemke", "pivots", "Lemke's on an LCP of size 3 n_c", FLAT,
-     &rb_friction_lemke_method, 0},
+    {"lemke", "pivots", "Lemke's method on an LCP", FLAT, &rb_friction_lemke_method, 0},
 };
 
 const rb_friction_solver *rb_friction_solvers(int *count)

@@ -164,9 +164,11 @@ static rb_status follow_path(int m, int labels, int dropped, tableau *of_x, tabl
 {
     tableau *t = dropped < m ? of_x : of_y;
     int entering = dropped, leaving = -1;
+    const double start = rb_seconds();
     while (leaving != dropped) {
-        if (info->iters >= opt->max_iters)
-            return rb_lcp_fail_limit(info, opt->max_iters);
+        const rb_status s = rb_lcp_check_limits(info, opt, start);
+        if (s != RB_OK)
+            return s;
         const int row = blocking_row(t, entering, tied);
         if (row < 0)
             return rb_fail(&info->msg, RB_INACCURATE,

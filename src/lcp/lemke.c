@@ -234,10 +234,16 @@ rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0)
                    info->iters, entering < n ? 'w' : 'z', entering % n + 1, z0);
 }
 
-rb_status rb_lcp_fail_limit(rb_lcp_info *info, int max_iters)
+rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, double start)
 {
-    return rb_fail(&info->msg, RB_MAXITER, "lcp: no solution after max_iters = %d pivots",
-                   max_iters);
+    if (info->iters >= opt->max_iters)
+        return rb_fail(&info->msg, RB_MAXITER,
+                       "lcp: no solution after max_iters = %d pivots", opt->max_iters);
+    if (opt->seconds > 0.0 && rb_seconds() - start > opt->seconds)
+        return rb_fail(&info->msg, RB_INTERRUPTED,
+                       "lcp: no solution after %d pivots in %g s", info->iters,
+                       opt->seconds);
+    return RB_OK;
 }
 
 rb_status rb_lcp_judge(rb_lcp_info *info, double size)
@@ -263,10 +269,10 @@ static rb_status follow_path(lemke *l)
     l->start = l->refreshed = lemke_z0(l);
 
     for (;;) {
-        if (l->info->iters >= l->opt.max_iters)
-            return rb_lcp_fail_limit(l->info, l->opt.max_iters);
         const int entering = rb_lcp_complement(l->n, leaving);
-        rb_status s = find_row(l, entering, &row);
+        rb_status s = rb_lcp_check_limits(l->info, &l->opt, l->began);
+        if (s == RB_OK)
+            s = find_row(l, entering, &row);
         if (s == RB_OK && row < 0)
             s = rb_lcp_fail_ray(l->info, l->n, entering, lemke_z0(l));
         if (s != RB_OK)
@@ -322,7 +328,7 @@ rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
                        const rb_lcp_options *opt, double *z, rb_lcp_info *info)
 {
     rb_lcp_info unread;
-    lemke l = {.n = n, .info = info ? info : &unread};
+    lemke l = {.n = n, .began = rb_seconds(), .info = info ? info : &unread};
     *l.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
     l.opt = opt ? *opt : rb_lcp_defaults();
     l.data = (lcp_data){n, M, q, l.opt.cover, ldm};

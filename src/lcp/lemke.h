@@ -17,6 +17,7 @@ typedef struct {
     double *weight;          /* n + 1: of the columns */
     int *tied;               /* n: rows that tie; scratch */
     double *image;           /* n x (n + 2): the whole tableau for the trace, or NULL */
+    double began;            /* on rb_seconds() */
     double start, refreshed; /* z0 after the first pivot, at the last refresh */
     int checked, rebuilt;    /* pivots at the last refresh, at the last rebuild */
     double largest;          /* max |M| */
@@ -32,9 +33,11 @@ static inline double lemke_z0(const lemke *l)
 
 /* ---- The ends that the methods share (lemke.c, newton.c) ---- */
 
-/* RB_RAY, RB_MAXITER with their messages. */
+/* RB_RAY with its message. */
 rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0);
-rb_status rb_lcp_fail_limit(rb_lcp_info *info, int max_iters);
+/* RB_OK: the path may go on.  RB_MAXITER, RB_INTERRUPTED with their messages; start: on
+ * rb_seconds(). */
+rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, double start);
 /* RB_INACCURATE where info->res is not below 1e-6 of size, the largest constant. */
 rb_status rb_lcp_judge(rb_lcp_info *info, double size);
 

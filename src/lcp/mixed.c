@@ -31,13 +31,13 @@ typedef struct {
     const double *q, *lower, *upper; /* n; no box without a finite end */
     rb_lcp_options opt;
     lcp_basis b;
-    int *at_upper;       /* n: the bound of a nonbasic z, and of w's sign with it */
-    double *value;       /* n, by slots: the basic variables */
-    double *generic;     /* n, by slots: their derivatives by the perturbation */
-    double *shift;       /* n: q is q + e shift for a small e, which settles ties */
-    double *y, *g;       /* n: driving column by slots; right-hand side */
-    int *tied, *settled; /* n: slots that tie; 2n + 1: variables exactly at a bound */
-    double first_t;
+    int *at_upper;         /* n: the bound of a nonbasic z, and of w's sign with it */
+    double *value;         /* n, by slots: the basic variables */
+    double *generic;       /* n, by slots: their derivatives by the perturbation */
+    double *shift;         /* n: q is q + e shift for a small e, which settles ties */
+    double *y, *g;         /* n: driving column by slots; right-hand side */
+    int *tied, *settled;   /* n: slots that tie; 2n + 1: variables exactly at a bound */
+    double first_t, began; /* began: on rb_seconds() */
     rb_lcp_info *info;
 } mixed;
 
@@ -432,11 +432,10 @@ static rb_status follow_path(mixed *p)
     double step = 0.0;
     rb_status s = slot == NONE ? RB_OK : enter_t(p, slot, &leaving);
     while (s == RB_OK && slot != NONE) {
-        if (p->info->iters >= p->opt.max_iters)
-            return rb_lcp_fail_limit(p->info, p->opt.max_iters);
         const int entering = rb_lcp_complement(n, leaving);
         const double sign = p->at_upper[entering % n] ? -1.0 : 1.0;
-        if (rb_lcp_basis_is_long(&p->b))
+        s = rb_lcp_check_limits(p->info, &p->opt, p->began);
+        if (s == RB_OK && rb_lcp_basis_is_long(&p->b))
             s = refresh(p);
         if (s == RB_OK)
             s = find_slot(p, entering, sign, &slot, &step, &count);
@@ -626,7 +625,9 @@ rb_status rb_lcp_mixed(const rb_sparse *M, const double *q, const double *lower,
                        rb_lcp_info *info)
 {
     rb_lcp_info unread;
-    mixed p = {.info = info ? info : &unread, .opt = opt ? *opt : rb_lcp_defaults()};
+    mixed p = {.began = rb_seconds(),
+               .info = info ? info : &unread,
+               .opt = opt ? *opt : rb_lcp_defaults()};
     split f = {0};
     *p.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
     rb_status s = check_input(M, q, lower, upper, &p.opt, &p.info->msg);
