@@ -292,6 +292,209 @@ static void any_result_is_a_column_by_its_name(void **state)
                   "no result 'stick_lenght' (did you mean 'stick_length'?)");
 }
 
+/* Quantities with units are values of the study in its own system. */
+static void values_may_have_units(void **state)
+{
+    (void)state;
+    json_t *root =
+        run_json(STUDY "--similar --contact-elements 20 --vary-1 'load 100kN/m "
+                       "200 0.3MN/m' --vary-2 'young 100GPa:0.2e6:2'");
+    json_t *table = json_object_get(root, "table");
+    for (size_t k = 0; k < 6; k++) {
+        CHECK_ABS(entry(table, "load", k), 100.0 * (double)(1 + k / 2), 1e-12, "load");
+        CHECK_ABS(entry(table, "young", k), k % 2 ? 2e5 : 1e5, 1e-9, "E");
+    }
+    json_decref(root);
+    write_file("si.ini", "units = si\nsimilar = yes\nsupport = halfplane\n[sweep]\n"
+                         "vary-1 = load 1e5 200N/mm\n");
+    root = run_json("sweep si.ini --contact-elements 20");
+    table = json_object_get(root, "table");
+    CHECK_ABS(entry(table, "load", 0), 1e5, 1e-9, "plain numbers of the file");
+    CHECK_ABS(entry(table, "load", 1), 2e5, 1e-9, "with a unit");
+    json_decref(root);
+    check_refused(STUDY "--vary-1 'load 100kN 200'", 64,
+                  "--vary-1: load: expected a number in one of N/mm");
+    check_refused(STUDY "--vary-1 'contact-elements 20mm'", 64,
+                  "--vary-1: expected an option and numbers");
+}
+
+/* ---- Pictures -------------------------------------------------------------------------
+ */
+
+#define GRID                                                                             \
+    STUDY "--similar --contact-elements 20 --vary-1 'load 100 400 900' "                 \
+          "--vary-2 'creep-ratio 0 0.5 0.9 1.2' "
+
+/* The numbers of a block of gnuplot's script, three a row or two; how many rows. */
+static int read_block(const char *script, const char *name, int columns, double at[][3])
+{
+    static char text[100000];
+    char head[40];
+    int rows = 0;
+    slurp(script, text, sizeof text);
+    snprintf(head, sizeof head, "$%s << EOD\n", name);
+    char *line = strstr(text, head);
+    assert_non_null(line);
+    line = strchr(line, '\n') + 1;
+    for (char *end; strncmp(line, "EOD", 3) != 0; line = end + 1) {
+        end = strchr(line, '\n');
+        *end = '\0';
+        rows += sscanf(line, "%lf %lf %lf", &at[rows][0], &at[rows][1], &at[rows][2]) ==
+                columns;
+    }
+    return rows;
+}
+
+static int begins_like_a_picture(const char *name, const char *begin)
+{
+    char text[40000];
+    slurp(name, text, sizeof text);
+    return strncmp(text, begin, strlen(begin)) == 0;
+}
+
+/* The map has the numbers of the table, every x in the rows of every y. */
+static void a_map_shows_the_table(void **state)
+{
+    (void)state;
+    rb_io_table t;
+    double at[20][3];
+    assert_int_equal(rollbem(GRID "--show dissipation --map m.svg --plot-script m.gp "
+                                  "--output m.tsv"),
+                     0);
+    assert_true(begins_like_a_picture("m.svg", "<?xml"));
+    CHECK_STATUS(rb_io_table_read("m.tsv", &t, NULL), RB_OK);
+    const double *load = rb_io_table_column(&t, "load"),
+                 *ratio = rb_io_table_column(&t, "creep_ratio"),
+                 *power = rb_io_table_column(&t, "dissipation_Nmm");
+    if (!power)
+        power = rb_io_table_column(&t, "dissipation_N/mm");
+    assert_true(load && ratio && power);
+    assert_int_equal(read_block("m.gp", "map", 3, at), 12);
+    double largest = 0.0;
+    for (int i = 0; i < 12; i++)
+        largest = fmax(largest, power[i]);
+    const double unit =
+        largest < 0.1 ? pow(10.0, floor(log10(largest))) : 1.0; /* of the scale */
+    for (int i = 0; i < 12; i++) {
+        CHECK_REL(at[i][0], ratio[i], 1e-8, "x of %d", i);
+        CHECK_REL(at[i][1], load[i], 1e-8, "y of %d", i);
+        CHECK_ABS(at[i][2] * unit, power[i], 1e-8 * largest, "dissipation of %d", i);
+    }
+    rb_io_table_free(&t);
+}
+
+/* A table of cases is a grid in whatever order its rows come. */
+static void a_table_of_cases_may_be_a_grid(void **state)
+{
+    (void)state;
+    double at[20][3];
+    write_file("grid",
+               "load creep-ratio\n400 .5\n100 .9\n100 .5\n400 .2\n100 .2\n400 .9\n");
+    assert_int_equal(rollbem(STUDY
+                             "--similar --contact-elements 20 --cases grid --map "
+                             "g.png --over load --family creep-ratio --plot-script g.gp"),
+                     0);
+    assert_true(begins_like_a_picture("g.png", "\x89PNG"));
+    assert_int_equal(read_block("g.gp", "map", 3, at), 6);
+    for (int i = 0; i < 6; i++) {
+        static const double ratio[] = {0.2, 0.5, 0.9};
+        CHECK_ABS(at[i][0], i % 2 ? 400.0 : 100.0, 0.0, "x");
+        CHECK_ABS(at[i][1], ratio[i / 2], 0.0, "y");
+    }
+    write_file("holes", "load creep-ratio\n400 .5\n100 .9\n100 .5\n400 .2\n");
+    check_refused(STUDY "--cases holes --map g.png", 64,
+                  "--map: a map needs a case for every pair of creep-ratio and load");
+}
+
+/* A curve for each value of the family; the option that varies fastest lies along x. */
+static void curves_are_those_of_the_family(void **state)
+{
+    (void)state;
+    double at[20][3];
+    assert_int_equal(rollbem(GRID "--plot c.png --plot-script c.gp"), 0);
+    assert_true(begins_like_a_picture("c.png", "\x89PNG"));
+    assert_int_equal(read_block("c.gp", "curve2", 2, at), 4);
+    CHECK_REL(at[1][1], -0.75, 0.02, "Carter at half the creepage");
+    CHECK_REL(at[3][1], -1.0, 1e-6, "full sliding");
+    assert_int_equal(rollbem(GRID "--plot c.png --over load --show max_pressure "
+                                  "--plot-script c.gp"),
+                     0);
+    assert_int_equal(read_block("c.gp", "curve3", 2, at), 3);
+    CHECK_REL(at[2][1] / at[0][1], 3.0, 1e-2, "Hertz: p0 goes as the root of the load");
+    assert_int_equal(rollbem(STUDY "--vary-1 'load 100:1e4:5:log' --plot c.pdf "
+                                   "--plot-script c.gp --show stick_length"),
+                     0);
+    slurp("c.gp", out, sizeof out);
+    assert_non_null(strstr(out, "set logscale x"));
+    assert_non_null(strstr(out, "unset key"));
+}
+
+/* A study that goes on, and one that is finished, draw what is in the file. */
+static void a_resumed_study_draws_all_its_rows(void **state)
+{
+    (void)state;
+    static char whole[40000], again[40000];
+    static const char study[] = GRID "--plot r.png --plot-script r.gp --output r.tsv";
+    for (int cut = 0; cut < 3; cut++) {
+        assert_int_equal(rollbem(study), 0);
+        slurp("r.gp", cut ? again : whole, sizeof again);
+        if (cut)
+            assert_string_equal(strstr(again, "$curve"), strstr(whole, "$curve"));
+        if (cut == 0)
+            assert_int_equal(shell("head -n 9 r.tsv >cut && mv cut r.tsv"), 0);
+    }
+}
+
+/* Cases without a solution leave a hole; the exit code tells of them. */
+static void unsolved_cases_leave_holes(void **state)
+{
+    (void)state;
+    double at[20][3];
+    assert_int_equal(rollbem(STUDY "--zone 1 --vary-1 'load 100 200 1e5' --plot h.png "
+                                   "--show max_pressure --plot-script h.gp"),
+                     1);
+    assert_int_equal(read_block("h.gp", "curve0", 2, at), 3);
+    assert_true(isfinite(at[0][1]) && isfinite(at[1][1]));
+    check_refused("sweep --support halfplane --mu 0 --load 5 --vary-1 'radius 10 20' "
+                  "--header bare --output n.tsv --quiet --plot h.png",
+                  64, "--plot: no case has a force_ratio");
+}
+
+static void what_cannot_be_drawn_is_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *arguments;
+        const char *part;
+    } all[] = {
+        {"--over mu", "--over: there is no picture; --plot FILE or --map FILE asks"},
+        {"--plot a.png --over mu", "--over: expected an option that varies, got 'mu'"},
+        {"--plot a.png --over laod", "got 'laod' (did you mean 'load'?)"},
+        {"--plot a.png --over load --family load", "--family: expected another option"},
+        {"--plot a.png --show force_ration", "no result 'force_ration' (did you mean"},
+        {"--plot a.png --show creep_ratio", "--show: creep_ratio varies"},
+        {"--map a.png --vary-3 'mu .1 .2' ",
+         "--map: cases 1 and 9 have the same mu and creep-ratio: more options vary"},
+        {"--plot a.gif", "--plot: expected a name ending in .png, .svg or .pdf"},
+        {"--plot-size 85mm", "--plot-size: there is no picture"},
+        {"--plot a.png --map b.png --plot-script c.gp",
+         "--plot-script: expected one picture"},
+        {"--plot a.png --map a.png", "both would write 'a.png'"}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char line[600];
+        snprintf(line, sizeof line, GRID "%s", all[k].arguments);
+        check_refused(line, 64, all[k].part);
+    }
+    check_refused(STUDY "--vary-1 'mu .1 .2' --map a.png", 64,
+                  "--map: a map needs two options");
+    check_refused(STUDY "--vary-1 'mu .1 .1' --plot a.png", 64,
+                  "--plot: no option varies");
+    check_refused(STUDY "--vary-1 'load 1:99:20' --vary-2 'mu .1 .2' --plot a.png "
+                        "--family load",
+                  64, "--plot: 20 values of load: at most 16 curves");
+    check_refused(STUDY "--cases one --plot a.png", 66, "one: No such file");
+}
+
 static void an_empty_file_is_a_start(void **state)
 {
     (void)state;
@@ -372,6 +575,13 @@ int main(void)
         cmocka_unit_test(what_is_no_row_of_the_study_is_refused),
         cmocka_unit_test(studies_come_in_three_formats),
         cmocka_unit_test(any_result_is_a_column_by_its_name),
+        cmocka_unit_test(values_may_have_units),
+        cmocka_unit_test(a_map_shows_the_table),
+        cmocka_unit_test(a_table_of_cases_may_be_a_grid),
+        cmocka_unit_test(curves_are_those_of_the_family),
+        cmocka_unit_test(a_resumed_study_draws_all_its_rows),
+        cmocka_unit_test(unsolved_cases_leave_holes),
+        cmocka_unit_test(what_cannot_be_drawn_is_refused),
         cmocka_unit_test(an_empty_file_is_a_start),
         cmocka_unit_test(a_long_command_line_is_resumed),
         cmocka_unit_test(files_of_the_case_belong_to_the_study),

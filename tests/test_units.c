@@ -237,7 +237,6 @@ static void files_take_units(void **state)
     CHECK_REL(p0[1], 1e6 * p0[0], 1e-9, "p0 over the same worn depths");
 }
 
-/* The numbers of a case file keep their meaning, whatever is asked for. */
 /* Numbers of a command's own options, which a case file gives, are in the file's units.
  */
 static void studies_and_curves_of_files_have_the_units_of_the_file(void **state)
@@ -277,6 +276,34 @@ static void studies_and_curves_of_files_have_the_units_of_the_file(void **state)
               "\"$R\" wear --support halfplane --load 100 --slide 1e6 --wear-steps 2 "
               "--wear-coefficient 1e-10 $W >b && cmp a b"),
         0);
+}
+
+/* --from and --to are values of what --over names. */
+static void ends_of_a_curve_may_have_units(void **state)
+{
+    (void)state;
+#define RELAXES                                                                          \
+    "curve --similar --support halfplane --load 100 --contact-elements 20 "              \
+    "--relaxation-time .1 --relaxation-ratio 1 --points 2 --over speed "
+    json_t *root = run_json(RELAXES "--from 10mm/s --to 3.6km/h");
+    json_t *curve = json_object_get(root, "curve");
+    CHECK_REL(entry(curve, "speed", 0), 10.0, 1e-12, "10mm/s");
+    CHECK_REL(entry(curve, "speed", 1), 1000.0, 1e-12, "3.6km/h");
+    json_decref(root);
+    root = run_json(RELAXES "--units si --from 1000mm/s --to 2");
+    curve = json_object_get(root, "curve");
+    CHECK_REL(entry(curve, "speed", 0), 1.0, 1e-12, "1000mm/s in m/s");
+    CHECK_REL(entry(curve, "speed", 1), 2.0, 1e-12, "2 m/s");
+    CHECK_REL(number_in(json_object_get(root, "inputs"), "from"), 1.0, 1e-12, "input");
+    json_decref(root);
+    root = run_json("curve --similar --support halfplane --load 100 --points 2 --from 5% "
+                    "--to 0.5 --contact-elements 20");
+    CHECK_REL(entry(json_object_get(root, "curve"), "creep_ratio", 0), 0.05, 1e-9, "5%");
+    json_decref(root);
+    check_refused("curve --from 1mm/s", 64, "--from: expected a number without a unit");
+    check_refused("curve --to x", 64, "--to: expected a number, got 'x'");
+    write_file("ends.ini", "support = halfplane\n[curve]\nfrom = a\n");
+    check_refused("curve ends.ini", 65, "ends.ini:3: from: expected a number, got 'a'");
 }
 
 static void case_files_have_their_own_units(void **state)
@@ -350,6 +377,7 @@ int main(void)
         cmocka_unit_test(values_say_their_own_units),
         cmocka_unit_test(files_take_units),
         cmocka_unit_test(studies_and_curves_of_files_have_the_units_of_the_file),
+        cmocka_unit_test(ends_of_a_curve_may_have_units),
         cmocka_unit_test(case_files_have_their_own_units),
         cmocka_unit_test(what_people_see_says_the_units),
         cmocka_unit_test(wrong_units_are_named),

@@ -311,6 +311,31 @@ rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
                                     const rb_rolling_history *history,
                                     const rb_rolling_history *errors, rb_message *why);
 
+/* ---- Parameter studies --------------------------------------------------------------
+ */
+
+/* A column of a study's table. */
+typedef struct {
+    const char *name, *unit; /* unit: as it is shown; "": none */
+    const double *value;     /* of every case; NAN: not solved; NULL: there is none */
+} rb_report_quantity;
+
+typedef struct {
+    int n;                     /* cases, at least one */
+    rb_report_quantity x, y;   /* what varies; y: a curve for each, y of a map */
+    rb_report_quantity shown;  /* the result */
+    const rb_rolling_case *rc; /* whose bodies all cases have; NULL: they differ */
+    rb_units units;
+} rb_report_study;
+
+/* Before the work, without the values of the result.  RB_EINVAL: two cases at one place,
+ * more than RB_REPORT_CURVES curves or one of a single point; map: not every x has every
+ * y. */
+rb_status rb_report_study_check(const rb_report_study *study, int map, rb_message *why);
+/* Curves of the result over x, one for each y; or a map of it over x and y. */
+rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas,
+                                  const rb_report_study *study, int map, rb_message *why);
+
 /* ---- Performance profiles -----------------------------------------------------------
  */
 

@@ -7,18 +7,26 @@
 #include <stddef.h>
 #include <string.h>
 
+/* --from and --to are texts because what they are values of is known from --over alone.
+ */
 typedef struct {
-    double from, to;
-    int points, over; /* rb_rolling_variable */
+    const char *end[2]; /* NULL: the default */
+    double from, to;    /* creepages, or speeds [mm/s] */
+    int points, over;   /* rb_rolling_variable */
     int given[5];
 } range_options;
+
+enum { FROM = 1, TO = 2 }; /* places in the table */
+
+static const double default_end[] = {0.0, 1.5};
 
 #define PLACE(member) offsetof(range_options, member)
 
 static const rb_option options[] = {
     RB_GROUP_LINE("curve", "Range of the curve"),
-    RB_NUMBER_LINE("from", PLACE(from), "-", RB_ANY, "first value"),
-    RB_NUMBER_LINE("to", PLACE(to), "-", RB_ANY, "last value"),
+    RB_TEXT_LINE("from", PLACE(end[0]), "X",
+                 "first value; a speed [mm/s] may have a unit", .unset = "0"),
+    RB_TEXT_LINE("to", PLACE(end[1]), "X", "last value", .unset = "1.5"),
     RB_INTEGER_LINE("points", PLACE(points), RB_FROM_TO(2, 1000000),
                     "equally spaced (speeds: in their logarithm), both ends among them"),
     RB_CHOICE_LINE("over", PLACE(over), rb_case_curve_variables,
@@ -42,6 +50,47 @@ static const char about[] =
 
 static const char notes[] = CLI_CASE_NOTES
     "Example: rollbem curve --similar --support halfplane --load 500 --plot curve.png\n";
+
+/* ---- The range --------------------------------------------------------------------- */
+
+static const char *unit_of(const range_options *r)
+{
+    return r->over == RB_OVER_SPEED ? "mm/s" : "-";
+}
+
+/* One end, as it is stored; place: FROM or TO. */
+static cli_exit read_end(const rb_case *words, const cli_args *args, range_options *r,
+                         int place, double *end)
+{
+    const char *text = r->end[place - FROM], *name = options[place].name;
+    const rb_option number = {
+        .name = name, .kind = RB_OPTION_NUMBER, .unit = unit_of(r), .range = RB_ANY};
+    int plain = 0, *given = &r->given[place];
+    const rb_option_set set = {&number, 1, end, given, &plain};
+    char what[300];
+    rb_message why;
+    *end = default_end[place - FROM];
+    if (!text)
+        return CLI_CONTINUE;
+    if (*given > 0)
+        snprintf(what, sizeof what, "%.200s:%d: %s", args->operand[0], *given, name);
+    else
+        snprintf(what, sizeof what, "--%s", name);
+    if (rb_option_assign(&set, 0, *given, what, text, &why) != RB_OK)
+        return cli_fail(*given > 0 ? CLI_DATA : CLI_USAGE, "%s", why.text);
+    rb_option_store(&set, rb_case_units(words), rb_case_file_units(words), end);
+    return CLI_CONTINUE;
+}
+
+static cli_exit read_range(const rb_case *words, const cli_args *args, range_options *r)
+{
+    cli_exit code = read_end(words, args, r, FROM, &r->from);
+    if (code == CLI_CONTINUE)
+        code = read_end(words, args, r, TO, &r->to);
+    return code == CLI_CONTINUE && r->from == r->to
+               ? cli_fail(CLI_USAGE, "--from and --to: expected two different values")
+               : code;
+}
 
 /* ---- Solve ------------------------------------------------------------------------ */
 
@@ -103,8 +152,11 @@ static rb_status solve_curves(const rb_settled_case *c, const range_options *ran
 static rb_status print_json(FILE *out, const result *r)
 {
     json_t *inputs = rb_report_json_inputs(r->words);
-    rb_report_json_set(&inputs, "from", json_real(r->range->from));
-    rb_report_json_set(&inputs, "to", json_real(r->range->to));
+    const char *unit = unit_of(r->range);
+    rb_report_json_set(&inputs, "from",
+                       json_real(rb_unit_shown(r->c->units, unit, r->range->from)));
+    rb_report_json_set(&inputs, "to",
+                       json_real(rb_unit_shown(r->c->units, unit, r->range->to)));
     rb_report_json_set(&inputs, "points", json_integer(r->range->points));
     rb_report_json_set(&inputs, "over",
                        json_string(rb_case_curve_variables[r->range->over].name));
@@ -152,17 +204,9 @@ static cli_exit solve(const rb_case *words, const range_options *range,
 {
     const rb_settled_case *c = rb_case_settled(words);
     result r = {.words = words, .c = c, .range = range, .o = o};
-    range_options stored = *range;
     rb_message why = {""};
     cli_exit code = CLI_OK;
-    if (range->over == RB_OVER_SPEED) {
-        stored.from =
-            rb_unit_stored(cli_units_of(words, options, OPTIONS, range->given, "from"),
-                           "mm/s", range->from);
-        stored.to = rb_unit_stored(
-            cli_units_of(words, options, OPTIONS, range->given, "to"), "mm/s", range->to);
-    }
-    const rb_status s = solve_curves(c, &stored, &r.curves, &why);
+    const rb_status s = solve_curves(c, range, &r.curves, &why);
     for (int k = 0; k < RB_REPORT_CURVES; k++) {
         rb_rolling_curve_convert(&r.curves.curve[k], c->units);
         rb_rolling_curve_convert(&r.curves.error[k], c->units);
@@ -181,7 +225,7 @@ static cli_exit solve(const rb_case *words, const range_options *range,
 int cli_curve(int argc, char **argv)
 {
     cli_output o = {0};
-    range_options range = {.from = 0.0, .to = 1.5, .points = 61};
+    range_options range = {.points = 61};
     cli_args args = {0};
     rb_case *c = cli_case_create(RB_CASE_CURVE);
     if (!c)
@@ -199,8 +243,8 @@ int cli_curve(int argc, char **argv)
         rb_case_set_purpose(c, RB_CASE_SPEEDS);
     if (code == CLI_CONTINUE)
         code = cli_case_settle(&spec, c, &args);
-    if (code == CLI_CONTINUE && range.from == range.to)
-        code = cli_fail(CLI_USAGE, "--from and --to: expected two different values");
+    if (code == CLI_CONTINUE)
+        code = read_range(c, &args, &range);
     if (code == CLI_CONTINUE)
         code = check_picture(rb_case_settled(c), &range, &o);
     if (code == CLI_CONTINUE)

@@ -17,11 +17,11 @@ const rb_choice cli_formats[] = {
     {"tsv", RB_REPORT_TSV}, {"csv", RB_REPORT_CSV}, {"json", RB_REPORT_JSON}, {NULL, 0}};
 const rb_choice cli_headers[] = {{"full", 0}, {"bare", 1}, {NULL, 0}};
 
-static const rb_choice picture_sizes[] = {{"own", RB_REPORT_OWN_SIZE},
-                                          {"85mm", RB_REPORT_85MM},
-                                          {"170mm", RB_REPORT_170MM},
-                                          {"slide", RB_REPORT_SLIDE},
-                                          {NULL, 0}};
+const rb_choice cli_picture_sizes[] = {{"own", RB_REPORT_OWN_SIZE},
+                                       {"85mm", RB_REPORT_85MM},
+                                       {"170mm", RB_REPORT_170MM},
+                                       {"slide", RB_REPORT_SLIDE},
+                                       {NULL, 0}};
 
 #define PLACE(member) offsetof(cli_output, member)
 
@@ -33,11 +33,7 @@ static const rb_option options[] = {
                  .unset = "standard output", .file = RB_FILE_WRITTEN),
     RB_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
                  .unset = "none", .file = RB_FILE_PICTURE),
-    RB_CHOICE_LINE("plot-size", PLACE(pictures.size), picture_sizes,
-                   "of the pictures: a column or the page of a paper, or a slide"),
-    RB_TEXT_LINE("plot-script", PLACE(pictures.script), "FILE",
-                 "the picture's gnuplot script with its data too, for changes by hand",
-                 .unset = "none", .file = RB_FILE_WRITTEN),
+    CLI_PICTURE_LINES(PLACE(pictures)),
     RB_FLAG_LINE("quiet", PLACE(quiet), "no summary and no notes on standard error"),
     RB_FLAG_LINE("cite", PLACE(cite),
                  "the papers that the run rests on, on standard error"),
@@ -141,9 +137,9 @@ static cli_exit check_pictures(const cli_spec *spec)
             const rb_option_set *set = &spec->sets[k];
             const rb_option *o = &set->options[i];
             pictures += o->file == RB_FILE_PICTURE && rb_option_path(o, set->target);
-            if (set->options == options && strcmp(o->name, "plot-size") == 0)
+            if (strcmp(o->name, "plot-size") == 0)
                 size = set->given[i];
-            if (set->options == options && strcmp(o->name, "plot-script") == 0)
+            if (strcmp(o->name, "plot-script") == 0)
                 script = set->given[i];
         }
     if (size && pictures == 0)

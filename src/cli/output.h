@@ -27,6 +27,16 @@ typedef struct {
     const char *script; /* where gnuplot's script goes too; NULL: nowhere */
 } cli_pictures;
 
+extern const rb_choice cli_picture_sizes[];
+#define CLI_PICTURE_LINES(pictures)                                                      \
+    RB_CHOICE_LINE("plot-size", pictures + offsetof(cli_pictures, size),                 \
+                   cli_picture_sizes,                                                    \
+                   "of the pictures: a column or the page of a paper, or a slide"),      \
+        RB_TEXT_LINE("plot-script", pictures + offsetof(cli_pictures, script), "FILE",   \
+                     "the picture's gnuplot script with its data too, for changes by "   \
+                     "hand",                                                             \
+                     .unset = "none", .file = RB_FILE_WRITTEN)
+
 typedef struct {
     rb_report_style style; /* of tables; JSON: the results whole */
     int quiet, cite;

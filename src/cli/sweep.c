@@ -1,14 +1,12 @@
 /* rollbem sweep: parameter studies over all processors. */
 #include "cli/case.h"
 #include "cli/interrupt.h"
-#include "cli/output.h"
 #include "cli/pool.h"
-#include "rollbem/io.h"
+#include "cli/study.h"
 #include "rollbem/report.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <inttypes.h>
 #include <jansson.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -16,16 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { VARIED_MAX = 4, COLUMNS_MAX = 64, RESULTS_MAX = 64, NO_MEMORY = -1 };
-
-typedef struct {
-    const char *vary[VARIED_MAX], *cases, *output, *results;
-    rb_report_style style;
-    int jobs, restart, progress, quiet;
-    int given[20];
-} sweep_options;
-
-#define PLACE(member) offsetof(sweep_options, member)
+#define PLACE(member) offsetof(study_options, member)
 
 static const rb_option options[] = {
     RB_GROUP_LINE("sweep", "Study"),
@@ -44,6 +33,20 @@ static const rb_option options[] = {
                  "further results, by their names in JSON's `summary`: stick_length, "
                  "contact_from, residual_slip, ...",
                  .unset = "none"),
+    RB_TEXT_LINE("plot", PLACE(plot), "FILE",
+                 "picture of a result over an option that varies: .png, .svg or .pdf",
+                 .unset = "none", .file = RB_FILE_PICTURE),
+    RB_TEXT_LINE("map", PLACE(map), "FILE",
+                 "picture of a result over two options of which every pair is a case",
+                 .unset = "none", .file = RB_FILE_PICTURE),
+    RB_TEXT_LINE("show", PLACE(show), "RESULT", "the result of the pictures, by its name",
+                 .unset = "force_ratio"),
+    RB_TEXT_LINE("over", PLACE(over), "OPTION", "the option along x of the pictures",
+                 .unset = "the one that varies fastest"),
+    RB_TEXT_LINE("family", PLACE(family), "OPTION",
+                 "--plot: a curve for each value of this one; --map: y",
+                 .unset = "another one that varies"),
+    CLI_PICTURE_LINES(PLACE(pictures)),
     CLI_STYLE_LINES(PLACE(style)),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
                  "where the rows go as they come; where it holds the first rows of this "
@@ -61,7 +64,7 @@ static const rb_option options[] = {
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
-_Static_assert(OPTIONS <= 20, "given");
+_Static_assert(OPTIONS <= 30, "given");
 
 static const char about[] =
     "Solves many cases that differ in some options, one process per processor, and\n"
@@ -74,233 +77,18 @@ static const char about[] =
 static const char notes[] = CLI_CASE_NOTES
     "Columns: case, the varied options, status (0 solved), then results.\n"
     "Example: rollbem sweep --similar --support halfplane --formulation steady \\\n"
-    "           --load 500 --vary-1 'mu 0.1 0.3' --vary-2 'creep-ratio 0:1.5:31'\n";
-
-/* ---- What varies ----------------------------------------------------------------------
- */
-
-/* Columns of one factor vary together: one option of a --vary, or those of the cases. */
-typedef struct {
-    char name[40], heading[40]; /* creep-ratio, creep_ratio */
-    int factor;
-    const double *value; /* one per row of the factor */
-} column;
-
-typedef struct {
-    const rb_case *base;
-    rb_case *one; /* the case at hand: a copy of base with its own numbers */
-    const sweep_options *o;
-    column column[COLUMNS_MAX];
-    int columns, factors, cases;
-    int rows[VARIED_MAX + 1]; /* of each factor */
-    double *owned[VARIED_MAX];
-    rb_io_table table;
-    const rb_rolling_result *result[RESULTS_MAX]; /* columns behind the status */
-    int results;
-    uint64_t fingerprint; /* of all inputs */
-    FILE *out;
-    int lost;         /* 1: no memory for a number of JSON */
-    int complete;     /* 1: every row has come */
-    json_t *list;     /* of each column's list; with --format json alone */
-    rb_io_writer w;   /* out is its file: CSV and JSON */
-    const char *path; /* of the file that keeps the rows; NULL: stdout, a device */
-    long whole;       /* its length up to the last row that reached it whole */
-    int created;      /* 1: there was no such file */
-    int worst;        /* exit code so far */
-    int unsolved, no_memory, first;
-    double start, shown;
-} study;
+    "           --load 500 --vary-1 'mu 0.1 0.3' --vary-2 'creep-ratio 0:1.5:31'\n"
+    "         rollbem sweep examples/rail/case.ini --vary-1 'load 2000:20000:10' \\\n"
+    "           --vary-2 'creep 0:0.008:21' --map force.png\n";
 
 static void study_free(study *st)
 {
     for (int k = 0; k < VARIED_MAX; k++)
         free(st->owned[k]);
     rb_io_table_free(&st->table);
+    free(st->drawn);
     json_decref(st->list);
     rb_case_free(st->one);
-}
-
-static cli_exit add_column(study *st, const char *source, const char *name,
-                           const double *value)
-{
-    column *c = &st->column[st->columns];
-    if (st->columns == COLUMNS_MAX || strlen(name) >= sizeof c->name)
-        return cli_fail(CLI_DATA, "%s: '%.60s' is no option of a case", source, name);
-    for (size_t k = 0; k <= strlen(name); k++) {
-        c->name[k] = name[k] == '_' ? '-' : name[k];
-        c->heading[k] = name[k] == '-' ? '_' : name[k];
-    }
-    for (int k = 0; k < st->columns; k++)
-        if (strcmp(st->column[k].name, c->name) == 0)
-            return cli_fail(CLI_DATA, "%s: '%s' varies already", source, c->name);
-    c->factor = st->factors;
-    c->value = value;
-    st->columns++;
-    const rb_option *o = rb_case_option(c->name);
-    return o && (o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER)
-               ? CLI_CONTINUE
-               : cli_fail(CLI_DATA, "%s: '%s' is no option of a case that takes a number",
-                          source, c->name);
-}
-
-static cli_exit add_factor(study *st, const char *source, int rows)
-{
-    const double cases = (double)st->cases * rows;
-    if (cases > 1e8)
-        return cli_fail(CLI_DATA, "%s: %g cases, expected at most 1e8", source, cases);
-    st->rows[st->factors++] = rows;
-    st->cases = (int)cases;
-    return CLI_CONTINUE;
-}
-
-/* "from:to:count" or "from:to:count:log"; 0 where the word is something else. */
-static int read_range(const char *word, double **value)
-{
-    double from, to, count;
-    char a[64], b[64], n[64], kind[8] = "";
-    const int parts = sscanf(word, "%63[^:]:%63[^:]:%63[^:]:%7s", a, b, n, kind);
-    const int logarithmic = parts == 4 && strcmp(kind, "log") == 0;
-
-    if (parts < 3 || (parts == 4 && !logarithmic) || !rb_option_number(a, &from) ||
-        !rb_option_number(b, &to) || !rb_option_number(n, &count) || count < 2 ||
-        count > 1e7 || count != floor(count) ||
-        (logarithmic && !(from > 0.0 && to > 0.0)))
-        return 0;
-    *value = rb_alloc((size_t)count, 1);
-    for (int k = 0; *value && k < count; k++) {
-        const double t = k / (count - 1.0);
-        (*value)[k] = logarithmic ? from * pow(to / from, t) : from + (to - from) * t;
-    }
-    if (*value)
-        (*value)[(int)count - 1] = to;
-    return *value ? (int)count : NO_MEMORY;
-}
-
-/* How many numbers the text has; 0: it is none of the forms; NO_MEMORY. */
-static int read_values(char *text, double **value)
-{
-    int n = 0;
-    const size_t most = strlen(text) + 1;
-    char *rest, *word = strtok_r(text, " \t,", &rest);
-    if (!word)
-        return 0;
-    if (strchr(word, ':'))
-        return strtok_r(NULL, " \t,", &rest) ? 0 : read_range(word, value);
-    *value = rb_alloc(most, 1);
-    for (; *value && word; word = strtok_r(NULL, " \t,", &rest))
-        if (!rb_option_number(word, &(*value)[n++]))
-            return 0;
-    return *value ? n : NO_MEMORY;
-}
-
-/* Values that the case file gives are in its units; the case takes them, and the study
- * shows them, in those of the arguments. */
-static void convert(const study *st, const char *source, const char *name, int rows,
-                    double *value)
-{
-    const rb_option *o = rb_case_option(name);
-    const rb_units from = cli_units_of(st->base, options, OPTIONS, st->o->given, source),
-                   to = rb_case_units(st->base);
-    for (int k = 0; o && from != to && k < rows; k++)
-        value[k] = rb_unit_shown(to, o->unit, rb_unit_stored(from, o->unit, value[k]));
-}
-
-static cli_exit add_varied(study *st, int k)
-{
-    char source[24], name[64];
-    int at = 0;
-
-    snprintf(source, sizeof source, "--vary-%d", k + 1);
-    char *text = strdup(st->o->vary[k]);
-    const int named = text && sscanf(text, "%63s%n", name, &at) == 1;
-    const int rows = !text   ? NO_MEMORY
-                     : named ? read_values(text + at, &st->owned[k])
-                             : 0;
-    free(text);
-    if (rows == NO_MEMORY)
-        return cli_fail(CLI_INTERNAL, "%s: out of memory", source);
-    if (rows == 0)
-        return cli_fail(
-            CLI_USAGE,
-            "%s: expected an option and numbers, or first:last:count, got '%s'", source,
-            st->o->vary[k]);
-    cli_exit code = add_column(st, source, name, st->owned[k]);
-    if (code == CLI_CONTINUE)
-        convert(st, source + 2, st->column[st->columns - 1].name, rows, st->owned[k]);
-    return code == CLI_CONTINUE ? add_factor(st, source, rows) : code;
-}
-
-static cli_exit add_table(study *st)
-{
-    const char *path = st->o->cases;
-    rb_message why;
-    const rb_status s = rb_io_table_read(path, &st->table, &why);
-    cli_exit code = CLI_CONTINUE;
-
-    if (s != RB_OK)
-        return cli_say(s, &why);
-    if (!st->table.name)
-        return cli_fail(CLI_DATA, "%s: expected a line that names the columns", path);
-    for (int j = 0; j < st->table.columns && code == CLI_CONTINUE; j++) {
-        double *value = st->table.x + (size_t)j * (size_t)st->table.rows;
-        code = add_column(st, path, st->table.name[j], value);
-        if (code == CLI_CONTINUE)
-            convert(st, "cases", st->column[st->columns - 1].name, st->table.rows, value);
-    }
-    return code == CLI_CONTINUE ? add_factor(st, path, st->table.rows) : code;
-}
-
-static cli_exit read_study(study *st)
-{
-    cli_exit code = CLI_CONTINUE;
-
-    st->cases = 1;
-    if (st->o->cases)
-        code = add_table(st);
-    for (int k = 0; k < VARIED_MAX && code == CLI_CONTINUE; k++)
-        if (st->o->vary[k])
-            code = add_varied(st, k);
-    if (code == CLI_CONTINUE && st->factors == 0)
-        code = cli_fail(CLI_USAGE, "a study needs --vary-1 or --cases");
-    return code;
-}
-
-static double value_of(const study *st, const column *c, int number)
-{
-    for (int f = st->factors - 1; f > c->factor; f--)
-        number /= st->rows[f];
-    return c->value[number % st->rows[c->factor]];
-}
-
-static cli_exit set_values(const study *st, rb_case *c, int number)
-{
-    rb_message why;
-    for (int k = 0; k < st->columns; k++)
-        if (rb_case_set_number(c, st->column[k].name,
-                               value_of(st, &st->column[k], number), &why) != RB_OK)
-            return cli_fail(CLI_DATA, "case %d: %s", number + 1, why.text);
-    return CLI_CONTINUE;
-}
-
-/* Sets st->one to that case. */
-static cli_exit make_one(study *st, int number)
-{
-    rb_message why;
-    const cli_exit code = set_values(st, st->one, number);
-    return code == CLI_CONTINUE ? cli_say(rb_case_settle(st->one, &why), &why) : code;
-}
-
-/* What is refused is refused before anything is solved. */
-static cli_exit check_cases(study *st)
-{
-    cli_exit code = CLI_CONTINUE;
-
-    st->one = rb_case_copy(st->base);
-    if (!st->one)
-        return cli_fail(CLI_INTERNAL, "out of memory");
-    for (int k = 0; k < st->cases && code == CLI_CONTINUE; k++)
-        code = make_one(st, k);
-    return code;
 }
 
 /* ---- Rows -----------------------------------------------------------------------------
@@ -354,7 +142,7 @@ static cli_exit find_fingerprint(study *st)
     if (failed)
         return cli_fail(CLI_INTERNAL, "out of memory");
     for (int k = 0; k < st->columns; k++) {
-        const column *c = &st->column[k];
+        const study_column *c = &st->column[k];
         hash = add_bytes(hash, c->name, strlen(c->name));
         hash = add_bytes(hash, c->value, (size_t)st->rows[c->factor] * sizeof(double));
     }
@@ -380,15 +168,10 @@ static int is_chosen(const study *st, const rb_rolling_result *r)
     return 0;
 }
 
-/* The next of --results, whose name ends at *at. */
-static cli_exit choose_by_name(study *st, const char **at)
+static cli_exit choose_by_name(study *st, const char *option, const char *name)
 {
-    char name[40];
     rb_guess guess = {.word = name};
     const rb_rolling_results *all = &rb_rolling_solution_scalars;
-    const size_t n = strcspn(*at, ",");
-    snprintf(name, sizeof name, "%.*s", (int)(n < 39 ? n : 39), *at);
-    *at += n + ((*at)[n] == ',');
     for (int k = 0; k < all->n; k++) {
         rb_guess_try(&guess, all->row[k].name);
         if (strcmp(all->row[k].name, name) != 0)
@@ -397,8 +180,18 @@ static cli_exit choose_by_name(study *st, const char **at)
             st->result[st->results++] = &all->row[k];
         return CLI_CONTINUE;
     }
-    return cli_fail(CLI_USAGE, "--results: no result '%s'%s", name,
+    return cli_fail(CLI_USAGE, "--%s: no result '%s'%s", option, name,
                     rb_guess_text(&guess, ""));
+}
+
+/* The next of --results, whose name ends at *at. */
+static cli_exit choose_next(study *st, const char **at)
+{
+    char name[40];
+    const size_t n = strcspn(*at, ",");
+    snprintf(name, sizeof name, "%.*s", (int)(n < 39 ? n : 39), *at);
+    *at += n + ((*at)[n] == ',');
+    return choose_by_name(st, "results", name);
 }
 
 /* Those that the cases have and no option names, then those of --results. */
@@ -414,7 +207,12 @@ static cli_exit choose_results(study *st)
             st->results < RESULTS_MAX)
             st->result[st->results++] = r;
     for (const char *at = st->o->results; at && *at && code == CLI_CONTINUE;)
-        code = choose_by_name(st, &at);
+        code = choose_next(st, &at);
+    if (code == CLI_CONTINUE && cli_study_has_pictures(st))
+        code = is_given(st, cli_study_shown(st))
+                   ? cli_fail(CLI_USAGE, "--show: %s varies; expected a result",
+                              cli_study_shown(st))
+                   : choose_by_name(st, "show", cli_study_shown(st));
     return code;
 }
 
@@ -442,10 +240,13 @@ static double cell_value(const study *st, int j, int k, const rb_rolling_solutio
     if (j == 0)
         return k + 1;
     if (j <= st->columns)
-        return value_of(st, &st->column[j - 1], k);
+        return cli_study_value(st, &st->column[j - 1], k);
     return j == st->columns + 1 ? (double)row->status
                                 : rb_rolling_number(st->result[j - st->columns - 2], row);
 }
+
+/* ---- The table ------------------------------------------------------------------------
+ */
 
 enum { HEAD_LINES = 5, COMMAND_LINE = 2 };
 
@@ -488,6 +289,8 @@ static int see_row(int k, const rb_rolling_solution *row, void *context)
     rb_rolling_solution_convert(&shown, rb_case_settled(st->base)->units);
     for (int j = 0; j < column_count(st); j++) {
         const double x = cell_value(st, j, k, &shown);
+        if (st->drawn && j == st->drawn_column)
+            st->drawn[k] = x;
         if (st->o->style.format == RB_REPORT_JSON)
             st->lost |= json_array_append_new(json_array_get(st->list, (size_t)j),
                                               rb_report_json_number(x)) != 0;
@@ -527,7 +330,7 @@ static rb_status write_json(study *st)
 static rb_status make_case(int k, rb_rolling_case *rc, void *context)
 {
     study *st = context;
-    if (make_one(st, k) != CLI_CONTINUE)
+    if (cli_study_make_one(st, k) != CLI_CONTINUE)
         return RB_EINVAL;
     *rc = rb_case_settled(st->one)->rc;
     return RB_OK;
@@ -627,8 +430,11 @@ static int is_row(study *st, int k, const char *line, size_t length)
     const char *at = line + size;
     free(wanted);
     good = good && next_number(&at, &status);
-    for (int j = 0; good && j < st->results; j++)
+    for (int j = st->columns + 2; good && j < column_count(st); j++) {
         good = next_number(&at, &value);
+        if (good && st->drawn && j == st->drawn_column)
+            st->drawn[k] = value;
+    }
     if (good && *at == '\n')
         count_status(st, (rb_status)status);
     return good && *at == '\n';
@@ -830,16 +636,18 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
     cli_exit code = cli_case_read(spec, argc, argv, c, args);
 
     if (code == CLI_CONTINUE)
-        code = read_study(st);
+        code = cli_study_read(st);
     /* with values, because other options may stand only beside one that varies */
     if (code == CLI_CONTINUE)
-        code = set_values(st, c, 0);
+        code = cli_study_set_values(st, c, 0);
     if (code == CLI_CONTINUE)
         code = cli_case_settle(spec, c, args);
     if (code == CLI_CONTINUE)
-        code = check_cases(st);
+        code = cli_study_check(st);
     if (code == CLI_CONTINUE)
         code = choose_results(st);
+    if (code == CLI_CONTINUE)
+        code = cli_study_prepare_pictures(st);
     if (code == CLI_CONTINUE)
         code = find_fingerprint(st);
     if (code == CLI_CONTINUE && !cli_pool_is_worker())
@@ -859,15 +667,17 @@ static cli_exit solve(study *st, cli_exit code)
     }
     if (code == CLI_CONTINUE)
         code = run(st);
-    return st->out ? close_output(st, code) : code;
+    if (st->out)
+        code = close_output(st, code);
+    return st->complete ? cli_study_draw(st, code) : code;
 }
 
 int cli_sweep(int argc, char **argv)
 {
-    sweep_options o = {0};
+    study_options o = {0};
     cli_args args = {0};
     rb_case *c = cli_case_create(RB_CASE_STUDY);
-    study st = {.base = c, .o = &o};
+    study st = {.base = c, .o = &o, .over = -1, .family = -1};
     if (!c)
         return CLI_INTERNAL;
     const cli_spec spec = {
@@ -876,6 +686,7 @@ int cli_sweep(int argc, char **argv)
         notes,
         {rb_case_options(c), {options, OPTIONS, &o, o.given, NULL}, cli_example_set()},
         3};
+    st.own = &spec.sets[1];
     cli_exit code = cli_pool_begin(argc, argv);
     if (code != CLI_CONTINUE) {
         rb_case_free(c);

@@ -81,6 +81,12 @@ typedef struct {
 rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double largest);
 /* The next of 1, 2, 5 times a power of ten. */
 double rb_report_round_step(double step);
+/* As many labels as that part of the canvas takes without one touching the next. */
+double rb_report_labels_in(double height);
+/* Colours of a field, from least to most, which are grey from dark to light in print. */
+#define RB_REPORT_PALETTE                                                                \
+    "set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', 0.45 '#277f8e', "  \
+    "0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')\n"
 
 typedef enum {
     RB_REPORT_FOUR_THIRDS,

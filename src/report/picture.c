@@ -381,6 +381,11 @@ double rb_report_round_step(double step)
     return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
 }
 
+double rb_report_labels_in(double height)
+{
+    return fmax(2.0, 12.0 * height);
+}
+
 static void write_x_label(FILE *out, const view *v)
 {
     fprintf(out, "set xlabel '%s%s' offset 0,0.3\n", v->x_label,

@@ -122,12 +122,6 @@ static double panel_height(const view *v)
     return fmin(0.60, panel_width * v->shape * v->depth / (v->to - v->from));
 }
 
-/* As many labels as the height of a panel takes without one touching the next. */
-static double labels_in(double height)
-{
-    return fmax(2.0, 12.0 * height);
-}
-
 static void write_panel(FILE *out, const view *v, const char *name, int column,
                         const rb_rolling_extremum *m, double left)
 {
@@ -140,7 +134,7 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
     fprintf(out,
             "set cbtics %.9g\nset colorbox user origin %g, %g size 0.013, %g\n"
             "set label 2 '%s  [%s]' at screen %g, %g center\n",
-            rb_report_round_step(m->value / v->stress_unit / labels_in(height)),
+            rb_report_round_step(m->value / v->stress_unit / rb_report_labels_in(height)),
             left + width + 0.012, bottom, height, name, v->stress_label, left + width / 2,
             top + 0.05);
     fprintf(
@@ -164,11 +158,8 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
             "set contour base\nset cntrlabel onecolor start 30 interval -1 font ',%.3g'\n"
             "set cntrparam levels auto %.0f\n",
             0.6 * rb_report_key_font(canvas),
-            fmin(10.0, 2.0 * labels_in(panel_height(v))));
-    fputs("set palette defined (0 '#440154', 0.15 '#46327e', 0.3 '#365c8d', "
-          "0.45 '#277f8e', 0.6 '#1fa187', 0.75 '#4ac16d', 0.9 '#a0da39', 1 '#fde725')\n"
-          "set multiplot\n",
-          out);
+            fmin(10.0, 2.0 * rb_report_labels_in(panel_height(v))));
+    fputs(RB_REPORT_PALETTE "set multiplot\n", out);
     fprintf(out,
             "set xtics %.9g\n"
             "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",

@@ -1,0 +1,79 @@
+/* A parameter study: what varies in it (study_vary.c), its table (sweep.c) and its
+ * pictures (study_picture.c). */
+#ifndef ROLLBEM_CLI_STUDY_H
+#define ROLLBEM_CLI_STUDY_H
+
+#include "cli/output.h"
+#include "rollbem/case.h"
+#include "rollbem/io.h"
+
+#include <inttypes.h>
+
+enum { VARIED_MAX = 4, COLUMNS_MAX = 64, RESULTS_MAX = 64 };
+
+typedef struct {
+    const char *vary[VARIED_MAX], *cases, *output, *results;
+    const char *plot, *map, *over, *family, *show;
+    cli_pictures pictures;
+    rb_report_style style;
+    int jobs, restart, progress, quiet;
+    int given[30];
+} study_options;
+
+/* Columns of one factor vary together: one option of a --vary, or those of the cases. */
+typedef struct {
+    char name[40], heading[40]; /* creep-ratio, creep_ratio */
+    int factor;
+    const double *value; /* one per row of the factor */
+} study_column;
+
+typedef struct {
+    const rb_case *base;
+    rb_case *one; /* the case at hand: a copy of base with its own numbers */
+    const study_options *o;
+    const rb_option_set *own; /* the options of a study, whose values are in o */
+    study_column column[COLUMNS_MAX];
+    int columns, factors, cases;
+    int rows[VARIED_MAX + 1]; /* of each factor */
+    double *owned[VARIED_MAX];
+    rb_io_table table;
+    const rb_rolling_result *result[RESULTS_MAX]; /* columns behind the status */
+    int results;
+    int over, family; /* columns of the pictures; -1: none */
+    int drawn_column;
+    double *drawn;        /* of every case: what the pictures show; NULL: no picture */
+    uint64_t fingerprint; /* of all inputs */
+    FILE *out;
+    int lost;            /* 1: no memory for a number of JSON */
+    int complete;        /* 1: every row has come */
+    struct json_t *list; /* of each column's list; with --format json alone */
+    rb_io_writer w;      /* out is its file: CSV and JSON */
+    const char *path;    /* of the file that keeps the rows; NULL: stdout, a device */
+    long whole;          /* its length up to the last row that reached it whole */
+    int created;         /* 1: there was no such file */
+    int worst;           /* exit code so far */
+    int unsolved, no_memory, first;
+    double start, shown;
+} study;
+
+/* What varies: reads --cases and --vary-1 ...; 0 columns are refused. */
+cli_exit cli_study_read(study *st);
+/* Of case k = 0, 1, ... */
+double cli_study_value(const study *st, const study_column *c, int k);
+/* The values of case k in c; settle afterwards. */
+cli_exit cli_study_set_values(const study *st, rb_case *c, int k);
+/* Sets st->one to that case. */
+cli_exit cli_study_make_one(study *st, int k);
+/* Refuses what any of the cases would be refused for, before anything is solved. */
+cli_exit cli_study_check(study *st);
+
+/* 1: --plot or --map. */
+int cli_study_has_pictures(const study *st);
+/* The name of the result that they show. */
+const char *cli_study_shown(const study *st);
+/* Refuses, before anything is solved, what cannot be drawn. */
+cli_exit cli_study_prepare_pictures(study *st);
+/* Behind the table, whose exit code is `code`. */
+cli_exit cli_study_draw(const study *st, cli_exit code);
+
+#endif

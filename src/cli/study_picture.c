@@ -1,0 +1,172 @@
+/* Pictures of a study: a result over one option that varies, or over two. */
+#include "cli/case.h"
+#include "cli/study.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+int cli_study_has_pictures(const study *st)
+{
+    return st->o->plot || st->o->map;
+}
+
+const char *cli_study_shown(const study *st)
+{
+    return st->o->show ? st->o->show : "force_ratio";
+}
+
+static int varies(const study *st, const study_column *c)
+{
+    const double *value = c->value;
+    for (int k = 1; k < st->rows[c->factor]; k++)
+        if (value[k] != value[0])
+            return 1;
+    return 0;
+}
+
+/* The column of the option that --over or --family names; NULL: the last one that varies,
+ * other than `but`, or -1. */
+static cli_exit choose_axis(const study *st, const char *option, const char *name,
+                            int but, int *found)
+{
+    rb_guess guess = {.word = name};
+    for (*found = st->columns - 1; *found >= 0; --*found) {
+        const study_column *c = &st->column[*found];
+        if (name)
+            rb_guess_try(&guess, c->name);
+        if (*found != but && (name ? strcmp(c->name, name) == 0 : varies(st, c)))
+            break;
+    }
+    return *found >= 0 || !name
+               ? CLI_CONTINUE
+               : cli_fail(CLI_USAGE, "--%s: expected %s option that varies, got '%s'%s",
+                          option, but < 0 ? "an" : "another", name,
+                          rb_guess_text(&guess, ""));
+}
+
+static rb_report_quantity axis_of(const study *st, int k, double *value)
+{
+    if (k < 0)
+        return (rb_report_quantity){0};
+    const study_column *c = &st->column[k];
+    const char *unit =
+        rb_unit_name(rb_case_settled(st->base)->units, rb_case_option(c->name)->unit);
+    for (int i = 0; i < st->cases; i++)
+        value[i] = cli_study_value(st, c, i);
+    return (rb_report_quantity){c->name, strcmp(unit, "-") == 0 ? "" : unit, value};
+}
+
+/* Whether an option of the bodies varies. */
+static int bodies_vary(const study *st)
+{
+    for (int k = 0; k < st->columns; k++)
+        if (strncmp(rb_case_section(rb_case_option(st->column[k].name)), "body-", 5) == 0)
+            return 1;
+    return 0;
+}
+
+typedef rb_status see_picture(const rb_report_study *picture, const void *context,
+                              rb_message *why);
+
+/* Calls `see` with the picture of the study. */
+static rb_status with_picture(const study *st, see_picture *see, const void *context,
+                              rb_message *why)
+{
+    const rb_settled_case *c = rb_case_settled(st->base);
+    const rb_rolling_result *shown = st->result[st->drawn_column - st->columns - 2];
+    double *value = rb_alloc((size_t)st->cases, 2);
+    if (!value)
+        return rb_fail(why, RB_ENOMEM, "out of memory");
+    const rb_report_study picture = {
+        .n = st->cases,
+        .x = axis_of(st, st->over, value),
+        .y = axis_of(st, st->family, value + st->cases),
+        .shown = {shown->name, shown->unit ? rb_unit_name(c->units, shown->unit) : "",
+                  st->drawn},
+        .rc = bodies_vary(st) ? NULL : &c->rc,
+        .units = c->units};
+    const rb_status s = see(&picture, context, why);
+    free(value);
+    return s;
+}
+
+static rb_status check_picture(const rb_report_study *picture, const void *context,
+                               rb_message *why)
+{
+    return rb_report_study_check(picture, *(const int *)context, why);
+}
+
+static cli_exit check_kind(const study *st, const char *option, int map)
+{
+    rb_message why;
+    const rb_status s = with_picture(st, check_picture, &map, &why);
+    return s == RB_OK ? CLI_CONTINUE : cli_say_of(option, s, &why);
+}
+
+cli_exit cli_study_prepare_pictures(study *st)
+{
+    const study_options *o = st->o;
+    if (!cli_study_has_pictures(st))
+        return o->show || o->over || o->family
+                   ? cli_fail(CLI_USAGE,
+                              "--%s: there is no picture; --plot FILE or --map FILE asks "
+                              "for one",
+                              o->show   ? "show"
+                              : o->over ? "over"
+                                        : "family")
+                   : CLI_CONTINUE;
+    for (int j = 0; j < st->results; j++)
+        if (strcmp(st->result[j]->name, cli_study_shown(st)) == 0)
+            st->drawn_column = st->columns + 2 + j;
+    cli_exit code = choose_axis(st, "over", o->over, -1, &st->over);
+    if (code == CLI_CONTINUE && st->over < 0)
+        code = cli_fail(CLI_USAGE, "--%s: no option varies", o->plot ? "plot" : "map");
+    if (code == CLI_CONTINUE)
+        code = choose_axis(st, "family", o->family, st->over, &st->family);
+    if (code == CLI_CONTINUE && o->plot)
+        code = check_kind(st, "plot", 0);
+    if (code == CLI_CONTINUE && o->map)
+        code = check_kind(st, "map", 1);
+    st->drawn = code == CLI_CONTINUE ? rb_alloc((size_t)st->cases, 1) : NULL;
+    return code == CLI_CONTINUE && !st->drawn ? cli_fail(CLI_INTERNAL, "out of memory")
+                                              : code;
+}
+
+typedef struct {
+    FILE *out;
+    rb_report_canvas canvas;
+    int map;
+} sheet;
+
+static rb_status draw_on(const rb_report_study *picture, const void *context,
+                         rb_message *why)
+{
+    const sheet *on = context;
+    return rb_report_study_picture(on->out, on->canvas, picture, on->map, why);
+}
+
+static rb_status draw_curves(FILE *out, rb_report_canvas canvas, const void *context,
+                             rb_message *why)
+{
+    const sheet on = {out, canvas, 0};
+    return with_picture(context, draw_on, &on, why);
+}
+
+static rb_status draw_map(FILE *out, rb_report_canvas canvas, const void *context,
+                          rb_message *why)
+{
+    const sheet on = {out, canvas, 1};
+    return with_picture(context, draw_on, &on, why);
+}
+
+/* Cases that were not solved leave holes. */
+cli_exit cli_study_draw(const study *st, cli_exit code)
+{
+    const study_options *o = st->o;
+    cli_exit drawn = code == CLI_CANTWRITE
+                         ? code
+                         : cli_draw_file(&o->pictures, "plot", o->plot, draw_curves, st);
+    if (drawn == CLI_OK)
+        drawn = cli_draw_file(&o->pictures, "map", o->map, draw_map, st);
+    return drawn > code ? drawn : code;
+}

@@ -1,0 +1,234 @@
+/* What varies in a study: options of numbers from the command line or the case file, and
+ * from a table of cases. */
+#include "cli/case.h"
+#include "cli/study.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NO_MEMORY = -1 };
+
+/* Columns that vary together: one of --vary, or those of --cases. */
+static cli_exit add_column(study *st, const char *source, const char *name,
+                           const double *value)
+{
+    study_column *c = &st->column[st->columns];
+    if (st->columns == COLUMNS_MAX || strlen(name) >= sizeof c->name)
+        return cli_fail(CLI_DATA, "%s: '%.60s' is no option of a case", source, name);
+    for (size_t k = 0; k <= strlen(name); k++) {
+        c->name[k] = name[k] == '_' ? '-' : name[k];
+        c->heading[k] = name[k] == '-' ? '_' : name[k];
+    }
+    for (int k = 0; k < st->columns; k++)
+        if (strcmp(st->column[k].name, c->name) == 0)
+            return cli_fail(CLI_DATA, "%s: '%s' varies already", source, c->name);
+    c->factor = st->factors;
+    c->value = value;
+    st->columns++;
+    const rb_option *o = rb_case_option(c->name);
+    return o && (o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER)
+               ? CLI_CONTINUE
+               : cli_fail(CLI_DATA, "%s: '%s' is no option of a case that takes a number",
+                          source, c->name);
+}
+
+static cli_exit add_factor(study *st, const char *source, int rows)
+{
+    const double cases = (double)st->cases * rows;
+    if (cases > 1e8)
+        return cli_fail(CLI_DATA, "%s: %g cases, expected at most 1e8", source, cases);
+    st->rows[st->factors++] = rows;
+    st->cases = (int)cases;
+    return CLI_CONTINUE;
+}
+
+/* Values of one option as they are typed: where they stand and what is wrong with them.
+ */
+typedef struct {
+    const char *source; /* vary-1, cases */
+    const rb_option *option;
+    rb_units from, to; /* of plain numbers; of the study, which shows the values */
+    rb_message why;    /* of a unit; "" otherwise */
+} typed;
+
+static typed typed_of(const study *st, const char *source, const char *name)
+{
+    return (typed){.source = source,
+                   .option = rb_case_option(name),
+                   .from = cli_units_of(st->base, st->own->options, st->own->n,
+                                        st->own->given, source),
+                   .to = rb_case_units(st->base)};
+}
+
+/* Plain numbers of the case file are in its units; the case takes all values, and the
+ * study shows them, in those of the arguments. */
+static double converted(const typed *t, double value)
+{
+    const char *unit = t->option->unit;
+    return t->from == t->to
+               ? value
+               : rb_unit_shown(t->to, unit, rb_unit_stored(t->from, unit, value));
+}
+
+/* 1: it is one; a unit may stand behind it. */
+static int read_value(typed *t, const char *word, double *value)
+{
+    int plain;
+    if (t->option->kind == RB_OPTION_INTEGER)
+        return rb_option_number(word, value);
+    if (rb_unit_read(word, t->option->unit, value, &plain, &t->why) != RB_OK)
+        return 0;
+    *value = plain ? converted(t, *value) : rb_unit_shown(t->to, t->option->unit, *value);
+    return 1;
+}
+
+/* "from:to:count" or "from:to:count:log"; 0 where the word is something else. */
+static int read_range(typed *t, const char *word, double **value)
+{
+    double from, to, count;
+    char a[64], b[64], n[64], kind[8] = "";
+    const int parts = sscanf(word, "%63[^:]:%63[^:]:%63[^:]:%7s", a, b, n, kind);
+    const int logarithmic = parts == 4 && strcmp(kind, "log") == 0;
+
+    if (parts < 3 || (parts == 4 && !logarithmic) || !read_value(t, a, &from) ||
+        !read_value(t, b, &to) || !rb_option_number(n, &count) || count < 2 ||
+        count > 1e7 || count != floor(count) ||
+        (logarithmic && !(from > 0.0 && to > 0.0)))
+        return 0;
+    *value = rb_alloc((size_t)count, 1);
+    for (int k = 0; *value && k < count; k++) {
+        const double part = k / (count - 1.0);
+        (*value)[k] =
+            logarithmic ? from * pow(to / from, part) : from + (to - from) * part;
+    }
+    if (*value)
+        (*value)[(int)count - 1] = to;
+    return *value ? (int)count : NO_MEMORY;
+}
+
+/* How many numbers the text has; 0: it is none of the forms; NO_MEMORY. */
+static int read_values(typed *t, char *text, double **value)
+{
+    int n = 0;
+    const size_t most = strlen(text) + 1;
+    char *rest, *word = strtok_r(text, " \t,", &rest);
+    if (!word)
+        return 0;
+    if (strchr(word, ':'))
+        return strtok_r(NULL, " \t,", &rest) ? 0 : read_range(t, word, value);
+    *value = rb_alloc(most, 1);
+    for (; *value && word; word = strtok_r(NULL, " \t,", &rest))
+        if (!read_value(t, word, &(*value)[n++]))
+            return 0;
+    return *value ? n : NO_MEMORY;
+}
+
+/* The values behind the name of the column that has just been added. */
+static cli_exit read_varied(study *st, int k, const char *source, const char *text)
+{
+    study_column *c = &st->column[st->columns - 1];
+    typed t = typed_of(st, source + 2, c->name);
+    char *copy = strdup(text);
+    const int rows = copy ? read_values(&t, copy, &st->owned[k]) : NO_MEMORY;
+    free(copy);
+    if (rows == NO_MEMORY)
+        return cli_fail(CLI_INTERNAL, "%s: out of memory", source);
+    if (rows == 0 && t.why.text[0])
+        return cli_fail(CLI_USAGE, "%s: %s: expected %s", source, c->name, t.why.text);
+    if (rows == 0)
+        return cli_fail(
+            CLI_USAGE,
+            "%s: expected an option and numbers, or first:last:count, got '%s'", source,
+            st->o->vary[k]);
+    c->value = st->owned[k];
+    return add_factor(st, source, rows);
+}
+
+static cli_exit add_varied(study *st, int k)
+{
+    char source[24], name[64];
+    int at = 0;
+
+    snprintf(source, sizeof source, "--vary-%d", k + 1);
+    if (sscanf(st->o->vary[k], "%63s%n", name, &at) != 1)
+        return cli_fail(CLI_USAGE, "%s: expected an option and numbers, got '%s'", source,
+                        st->o->vary[k]);
+    const cli_exit code = add_column(st, source, name, NULL);
+    return code == CLI_CONTINUE ? read_varied(st, k, source, st->o->vary[k] + at) : code;
+}
+
+static cli_exit add_table(study *st)
+{
+    const char *path = st->o->cases;
+    rb_message why;
+    const rb_status s = rb_io_table_read(path, &st->table, &why);
+    cli_exit code = CLI_CONTINUE;
+
+    if (s != RB_OK)
+        return cli_say(s, &why);
+    if (!st->table.name)
+        return cli_fail(CLI_DATA, "%s: expected a line that names the columns", path);
+    for (int j = 0; j < st->table.columns && code == CLI_CONTINUE; j++) {
+        double *value = st->table.x + (size_t)j * (size_t)st->table.rows;
+        code = add_column(st, path, st->table.name[j], value);
+        const typed t = typed_of(st, "cases", st->column[st->columns - 1].name);
+        for (int k = 0; k < st->table.rows && code == CLI_CONTINUE; k++)
+            value[k] = converted(&t, value[k]);
+    }
+    return code == CLI_CONTINUE ? add_factor(st, path, st->table.rows) : code;
+}
+
+cli_exit cli_study_read(study *st)
+{
+    cli_exit code = CLI_CONTINUE;
+
+    st->cases = 1;
+    if (st->o->cases)
+        code = add_table(st);
+    for (int k = 0; k < VARIED_MAX && code == CLI_CONTINUE; k++)
+        if (st->o->vary[k])
+            code = add_varied(st, k);
+    if (code == CLI_CONTINUE && st->factors == 0)
+        code = cli_fail(CLI_USAGE, "a study needs --vary-1 or --cases");
+    return code;
+}
+
+double cli_study_value(const study *st, const study_column *c, int number)
+{
+    for (int f = st->factors - 1; f > c->factor; f--)
+        number /= st->rows[f];
+    return c->value[number % st->rows[c->factor]];
+}
+
+cli_exit cli_study_set_values(const study *st, rb_case *c, int number)
+{
+    rb_message why;
+    for (int k = 0; k < st->columns; k++)
+        if (rb_case_set_number(c, st->column[k].name,
+                               cli_study_value(st, &st->column[k], number),
+                               &why) != RB_OK)
+            return cli_fail(CLI_DATA, "case %d: %s", number + 1, why.text);
+    return CLI_CONTINUE;
+}
+
+/* Sets st->one to that case. */
+cli_exit cli_study_make_one(study *st, int number)
+{
+    rb_message why;
+    const cli_exit code = cli_study_set_values(st, st->one, number);
+    return code == CLI_CONTINUE ? cli_say(rb_case_settle(st->one, &why), &why) : code;
+}
+
+/* What is refused is refused before anything is solved. */
+cli_exit cli_study_check(study *st)
+{
+    cli_exit code = CLI_CONTINUE;
+
+    st->one = rb_case_copy(st->base);
+    if (!st->one)
+        return cli_fail(CLI_INTERNAL, "out of memory");
+    for (int k = 0; k < st->cases && code == CLI_CONTINUE; k++)
+        code = cli_study_make_one(st, k);
+    return code;
+}

@@ -1,0 +1,361 @@
+/* Pictures of a parameter study: curves of one result over one of the options that vary,
+ * and a map of it over two of them. */
+#include "report/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- The cases in order ---------------------------------------------------------------
+ */
+
+typedef struct {
+    double x, y, value;
+    int k; /* number of the case, from 0 */
+} spot;
+
+/* Cases of one y, a curve or a row of the map, stand together, x ascending. */
+static int compare(const void *a, const void *b)
+{
+    const spot *p = a, *q = b;
+    if (p->y != q->y)
+        return p->y < q->y ? -1 : 1;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    return p->k - q->k;
+}
+
+static spot *sort_cases(const rb_report_study *s)
+{
+    spot *at = calloc((size_t)s->n + 1, sizeof *at);
+    for (int k = 0; at && k < s->n; k++)
+        at[k] = (spot){s->x.value[k], s->y.value ? s->y.value[k] : 0.0,
+                       s->shown.value ? s->shown.value[k] : NAN, k};
+    if (at)
+        qsort(at, (size_t)s->n, sizeof *at, compare);
+    return at;
+}
+
+/* How many cases from `first` on have the same y. */
+static int length_of_group(const rb_report_study *s, const spot *at, int first)
+{
+    int n = 1;
+    while (first + n < s->n && at[first + n].y == at[first].y)
+        n++;
+    return n;
+}
+
+static int count_groups(const rb_report_study *s, const spot *at)
+{
+    int groups = 0;
+    for (int i = 0; i < s->n; i += length_of_group(s, at, i))
+        groups++;
+    return groups;
+}
+
+/* ---- What can be drawn ----------------------------------------------------------------
+ */
+
+/* A place has one case, or the picture would need a third direction. */
+static rb_status check_places(const rb_report_study *s, const spot *at, rb_message *why)
+{
+    for (int i = 1; i < s->n; i++)
+        if (at[i].x == at[i - 1].x && at[i].y == at[i - 1].y)
+            return rb_fail(why, RB_EINVAL,
+                           "cases %d and %d have the same %s%s%s: more options vary than "
+                           "the picture shows",
+                           at[i - 1].k + 1, at[i].k + 1, s->x.name,
+                           s->y.value ? " and " : "", s->y.value ? s->y.name : "");
+    return RB_OK;
+}
+
+static rb_status check_curves(const rb_report_study *s, const spot *at, rb_message *why)
+{
+    const int groups = count_groups(s, at);
+    if (groups > RB_REPORT_CURVES)
+        return rb_fail(why, RB_EINVAL, "%d values of %s: at most %d curves are drawn",
+                       groups, s->y.name, RB_REPORT_CURVES);
+    for (int i = 0; i < s->n; i += length_of_group(s, at, i))
+        if (length_of_group(s, at, i) < 2)
+            return s->y.value ? rb_fail(why, RB_EINVAL,
+                                        "a curve needs two values of %s; %s = %g has one",
+                                        s->x.name, s->y.name, at[i].y)
+                              : rb_fail(why, RB_EINVAL, "a curve needs two values of %s",
+                                        s->x.name);
+    return RB_OK;
+}
+
+/* Every row of the map has the x of the first row. */
+static rb_status check_map(const rb_report_study *s, const spot *at, rb_message *why)
+{
+    const int n = s->n > 0 ? length_of_group(s, at, 0) : 0;
+    if (!s->y.value || n < 2 || n == s->n)
+        return rb_fail(why, RB_EINVAL, "a map needs two options with two values or more");
+    for (int i = n; i < s->n; i += n)
+        for (int j = 0; j < n; j++)
+            if (length_of_group(s, at, i) != n || at[i + j].x != at[j].x)
+                return rb_fail(why, RB_EINVAL,
+                               "a map needs a case for every pair of %s and %s; those "
+                               "with %s = %g are others than those with %s = %g",
+                               s->x.name, s->y.name, s->y.name, at[i].y, s->y.name,
+                               at[0].y);
+    return RB_OK;
+}
+
+rb_status rb_report_study_check(const rb_report_study *s, int map, rb_message *why)
+{
+    spot *at = sort_cases(s);
+    if (!at)
+        return rb_fail(why, RB_ENOMEM, "out of memory for %d cases", s->n);
+    rb_status status = check_places(s, at, why);
+    if (status == RB_OK)
+        status = map ? check_map(s, at, why) : check_curves(s, at, why);
+    free(at);
+    return status;
+}
+
+/* ---- Axes -----------------------------------------------------------------------------
+ */
+
+/* Values are shown in a power of ten where their numbers would be long. */
+typedef struct {
+    double from, to, unit;
+    int exponent, logarithmic;
+} axis;
+
+typedef struct {
+    const rb_report_study *study;
+    const spot *at;
+    int row; /* of a map: cases of one y */
+    axis x, y, shown;
+} view;
+
+static int compare_numbers(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* Values that stand equally in their logarithm, as first:last:count:log gives them, over
+ * a decade or more. */
+static int is_logarithmic(int n, const double *value)
+{
+    double *x = rb_alloc((size_t)n, 1);
+    int k = 0;
+    if (!x)
+        return 0;
+    memcpy(x, value, (size_t)n * sizeof *x);
+    qsort(x, (size_t)n, sizeof *x, compare_numbers);
+    for (int i = 0; i < n; i++)
+        if (i == 0 || x[i] != x[k - 1])
+            x[k++] = x[i];
+    int logarithmic = k > 2 && x[0] > 0.0 && x[k - 1] >= 10.0 * x[0];
+    for (int i = 2; i < k && logarithmic; i++)
+        logarithmic = fabs(log(x[i] / x[i - 1]) / log(x[1] / x[0]) - 1.0) < 1e-6;
+    free(x);
+    return logarithmic;
+}
+
+static axis axis_of(int n, const rb_report_quantity *q, int may_be_logarithmic)
+{
+    axis a = {INFINITY, -INFINITY, 1.0, 0, 0};
+    for (int k = 0; k < n && q->value; k++) {
+        a.from = fmin(a.from, q->value[k]); /* fmin and fmax pass over NAN */
+        a.to = fmax(a.to, q->value[k]);
+    }
+    const double largest = fmax(fabs(a.from), fabs(a.to));
+    a.logarithmic = may_be_logarithmic && q->value && is_logarithmic(n, q->value);
+    if (!a.logarithmic && isfinite(largest) && largest > 0.0 &&
+        (largest < 0.1 || largest >= 1e5))
+        a.exponent = (int)floor(log10(largest));
+    a.unit = pow(10.0, a.exponent);
+    a.from /= a.unit;
+    a.to /= a.unit;
+    return a;
+}
+
+/* gnuplot would lower what follows an underscore. */
+static const char *plain(const char *name, char room[64])
+{
+    snprintf(room, 64, "%s", name);
+    for (char *c = room; *c; c++)
+        if (*c == '_' || *c == '-')
+            *c = ' ';
+    return room;
+}
+
+/* "max pressure  [10^{9} Pa]" */
+static void write_label(FILE *out, const char *label, const rb_report_quantity *q,
+                        const axis *a)
+{
+    char name[64];
+    fprintf(out, "set %s '%s", label, plain(q->name, name));
+    if (a->exponent || q->unit[0])
+        fputs("  [", out);
+    if (a->exponent)
+        fprintf(out, "10^{%d}%s", a->exponent, q->unit[0] ? " " : "");
+    fprintf(out, "%s%s'\n", q->unit, a->exponent || q->unit[0] ? "]" : "");
+}
+
+static void write_axis(FILE *out, char letter, const rb_report_quantity *q, const axis *a,
+                       int labels)
+{
+    char label[] = "xlabel";
+    label[0] = letter;
+    write_label(out, label, q, a);
+    fprintf(out, "set %crange [%.9g:%.9g]\n", letter, a->from, a->to);
+    if (a->logarithmic)
+        fprintf(out, "set logscale %c\n", letter);
+    else
+        fprintf(out, "set %ctics %.9g\n", letter,
+                rb_report_round_step((a->to - a->from) / labels));
+}
+
+/* As many numbers below the picture as a column and a page of print take. */
+static int labels_below(rb_report_place place)
+{
+    return place.titled ? 8 : 4;
+}
+
+static void write_title(FILE *out, const view *v, rb_report_place place)
+{
+    const rb_report_study *s = v->study;
+    char shown[64];
+    if (!place.titled)
+        return;
+    fprintf(out, "set label 1 '{/:Bold %s}   %d cases' at screen 0.5, 0.972 center\n",
+            plain(s->shown.name, shown), s->n);
+    if (s->rc)
+        rb_report_label_bodies(out, s->rc, s->units, 0.5, 0.935);
+}
+
+/* ---- Curves ---------------------------------------------------------------------------
+ */
+
+enum { POINTS_UP_TO = 24 }; /* values of a curve that are marked one by one */
+
+static void write_curves(FILE *out, rb_report_canvas canvas, const void *context)
+{
+    const view *v = context;
+    const rb_report_study *s = v->study;
+    const rb_report_place place = rb_report_place_of(canvas);
+    char name[64];
+    int curves = 0;
+    for (int i = 0; i < s->n; curves++) {
+        fprintf(out, "$curve%d << EOD\n", curves);
+        for (const int end = i + length_of_group(s, v->at, i); i < end; i++)
+            fprintf(out, "%.9g %.9g\n", v->at[i].x / v->x.unit,
+                    v->at[i].value / v->shown.unit);
+        fputs("EOD\n", out);
+    }
+    fprintf(out,
+            "set bmargin at screen %g\nset tmargin at screen %g\n" RB_REPORT_GRID
+            "set offsets 0,0,graph 0.05,graph %g\n"
+            "set zeroaxis linecolor rgb '#999999' linewidth 0.6\n",
+            0.14 + place.up, 0.9 + place.up, v->shown.from < 0.0 ? 0.05 : 0.0);
+    write_title(out, v, place);
+    write_axis(out, 'x', &s->x, &v->x, labels_below(place));
+    write_label(out, "ylabel", &s->shown, &v->shown);
+    if (s->y.value)
+        fprintf(out,
+                "set key outside right center samplen 2 font ',%.3g' title '%s%s%s'\n",
+                0.9 * rb_report_key_font(canvas), plain(s->y.name, name),
+                s->y.unit[0] ? "  " : "", s->y.unit);
+    else
+        fputs("unset key\n", out);
+    for (int k = 0, i = 0; k < curves; i += length_of_group(s, v->at, i), k++)
+        fprintf(out,
+                "%s$curve%d using 1:2 with %s linecolor rgb '%s' dashtype %s "
+                "pointtype 7 pointsize 0.7 linewidth 2.2 title '%g'",
+                k ? ", " : "plot ", k,
+                length_of_group(s, v->at, i) > POINTS_UP_TO ? "lines" : "linespoints",
+                rb_report_colour(k), rb_report_dashes(k), v->at[i].y);
+    fputc('\n', out);
+}
+
+/* ---- Map ------------------------------------------------------------------------------
+ */
+
+/* Colours between the values of the cases, where these are few. */
+static int steps_between(int values)
+{
+    enum { FINE = 80 };
+    return values > FINE ? 1 : (FINE + values - 1) / values;
+}
+
+/* Contours at the numbers of the scale, but for its ends. */
+static void write_scale(FILE *out, rb_report_canvas canvas, const view *v, double height)
+{
+    const double least = v->shown.from, most = v->shown.to;
+    const double step =
+        rb_report_round_step((most - least) / rb_report_labels_in(height));
+    const double first = step * (floor(least / step + 1e-6) + 1.0);
+    fprintf(out,
+            "set cbrange [%.9g:%.9g]\nset cbtics %.9g\nset contour base\n"
+            "set cntrlabel onecolor start 5 interval -1 font ',%.3g'\n"
+            "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
+            "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
+            least, most, step, 0.7 * rb_report_key_font(canvas), first, step,
+            most - 1e-6 * (most - least));
+}
+
+static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
+{
+    const view *v = context;
+    const rb_report_study *s = v->study;
+    const rb_report_place place = rb_report_place_of(canvas);
+    const double bottom = 0.14 + place.up, height = 0.76, left = 0.13 + place.right;
+    const double width = 0.67 - 2.0 * place.right;
+    fputs("$map << EOD\n", out);
+    for (int i = 0; i < s->n; i++)
+        fprintf(out, "%.9g %.9g %.9g\n%s", v->at[i].x / v->x.unit, v->at[i].y / v->y.unit,
+                v->at[i].value / v->shown.unit, i % v->row == v->row - 1 ? "\n" : "");
+    fprintf(out,
+            "EOD\nset view map\nset pm3d map corners2color mean interpolate %d,%d\n"
+            "unset key\nset lmargin at screen %g\nset rmargin at screen %g\n"
+            "set bmargin at screen %g\nset tmargin at screen %g\n" RB_REPORT_PALETTE,
+            steps_between(v->row), steps_between(s->n / v->row), left, left + width,
+            bottom, bottom + height);
+    write_title(out, v, place);
+    write_axis(out, 'x', &s->x, &v->x, labels_below(place));
+    write_axis(out, 'y', &s->y, &v->y, 8);
+    fprintf(out, "set colorbox user origin %g, %g size 0.022, %g\n", left + width + 0.02,
+            bottom, height);
+    char label[96];
+    snprintf(label, sizeof label, "label 2 at screen 0.968, %g center rotate",
+             bottom + height / 2.0);
+    write_label(out, label, &s->shown, &v->shown);
+    const int contours = v->shown.to > v->shown.from;
+    if (contours)
+        write_scale(out, canvas, v, height);
+    fprintf(out, "splot $map using 1:2:3 with pm3d nocontour%s\n",
+            contours ? ", $map using 1:2:3 with lines nosurface linecolor rgb '#ffffff' "
+                       "linewidth 0.8, $map using 1:2:3 with labels boxed nosurface"
+                     : "");
+}
+
+/* ---- Draw -----------------------------------------------------------------------------
+ */
+
+rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas,
+                                  const rb_report_study *s, int map, rb_message *why)
+{
+    rb_status status = rb_report_study_check(s, map, why);
+    spot *at = status == RB_OK ? sort_cases(s) : NULL;
+    if (status != RB_OK)
+        return status;
+    if (!at)
+        return rb_fail(why, RB_ENOMEM, "out of memory for %d cases", s->n);
+    const view v = {.study = s,
+                    .at = at,
+                    .row = length_of_group(s, at, 0),
+                    .x = axis_of(s->n, &s->x, 1),
+                    .y = axis_of(s->n, &s->y, 1),
+                    .shown = axis_of(s->n, &s->shown, 0)};
+    status = v.shown.from <= v.shown.to
+                 ? rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS,
+                                  map ? write_map : write_curves, &v, why)
+                 : rb_fail(why, RB_EINVAL, "no case has a %s", s->shown.name);
+    free(at);
+    return status;
+}
