@@ -250,11 +250,13 @@ static void meaningless_wear_is_refused(void **state)
 {
     (void)state;
     const rb_rolling_case good = cylinder(60, 0.0);
-    rb_rolling_case bad[4] = {good, good, good, good};
-    rb_rolling_wear wear[4];
-    static const char *const said[] = {"transient", "coefficient", "dissipates nothing",
-                                       "equal elements"};
-    for (int k = 0; k < 4; k++)
+    enum { BAD = 6 };
+    rb_rolling_case bad[BAD] = {good, good, good, good, good, good};
+    rb_rolling_wear wear[BAD];
+    static const char *const said[] = {"transient",          "coefficient",
+                                       "dissipates nothing", "equal elements",
+                                       "one elastic",        "one elastic"};
+    for (int k = 0; k < BAD; k++)
         wear[k] = sliding(&good, 1.0, 2);
     bad[0].formulation = RB_TRANSIENT;
     bad[0].distance = 1.0;
@@ -262,7 +264,15 @@ static void meaningless_wear_is_refused(void **state)
     bad[2].mu = 0.0;
     wear[2].law = RB_WEAR_DISSIPATION;
     bad[3].mesh = RB_MESH_FITTED;
-    for (int k = 0; k < 4; k++) {
+    for (int k = 4; k < BAD; k++) { /* a radius that shrinks means no layer or cover */
+        bad[k].formulation = RB_STEADY;
+        bad[k].creep = 1e-3;
+        wear[k].slides = 0;
+    }
+    bad[4].a.layer = 1.0;
+    bad[5].a.support = RB_BEM_HUB;
+    bad[5].a.cover = 1.0;
+    for (int k = 0; k < BAD; k++) {
         worn w;
         rb_message why = {""};
         CHECK_STATUS(

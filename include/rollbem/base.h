@@ -51,6 +51,12 @@ typedef struct {
     char text[640];
 } rb_message;
 
+/* A word and what it stands for, of an option with a list of them. */
+typedef struct {
+    const char *name;
+    int value;
+} rb_choice;
+
 /* Writes the formatted line into why (if any) and returns s, so that a refusal is
  * one statement: return rb_fail(why, RB_EINVAL, "mu = %g: expected >= 0", mu); */
 #if defined(__GNUC__)

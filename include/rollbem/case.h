@@ -37,11 +37,6 @@ typedef enum {
 } rb_option_kind;
 
 typedef struct {
-    const char *name;
-    int value;
-} rb_choice;
-
-typedef struct {
     double from, to;
     int from_open, to_open; /* 1: the end itself is not allowed */
 } rb_range;

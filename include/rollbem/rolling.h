@@ -72,6 +72,31 @@ typedef struct {
     rb_rolling_memory memory;        /* half-plane, steady rolling */
 } rb_rolling_body;
 
+/* What a body can do, and what is so of it. */
+typedef enum {
+    RB_BODY_FLAT = 1,       /* its surface is a plane, otherwise a circle */
+    RB_BODY_BOUNDARY = 2,   /* has elements outside the contact too */
+    RB_BODY_TRANSFORMS = 4, /* answers by distance alone: equal elements need no matrix */
+    RB_BODY_HOMOGENEOUS = 8, /* of one elastic material: Hertz's half-width means what it
+                                says, and heat spreads alike everywhere */
+    RB_BODY_ELASTIC = 16,    /* loses no energy */
+    RB_BODY_STRESS = 32,     /* the stress inside is known */
+    RB_BODY_TURNS = 64       /* answers alike at every angle of its turn */
+} rb_rolling_ability;
+
+/* An option that means nothing to other bodies; body B's has "-b" behind its name. */
+typedef struct {
+    const char *option;                              /* NULL ends the list */
+    int (*has_meaning)(const rb_rolling_body *body); /* NULL: where the row holds */
+    const char *reason; /* of refusing it elsewhere; NULL: it is "of the support ..." */
+} rb_rolling_parameter;
+
+/* The words of the option `support`; a NULL name ends them. */
+extern const rb_choice rb_rolling_supports[];
+
+/* 1: the body can all of `abilities`, a sum of them. */
+int rb_rolling_body_can(const rb_rolling_body *body, int abilities);
+
 /* A measured gap g_0(x) [length]: n points, x increasing, as a cubic spline, whose
  * curvature, which the pressure follows, is continuous.  noise: 0: the spline goes
  * through the points; > 0: the standard deviation of their noise [length], and the spline
@@ -170,6 +195,9 @@ typedef struct {
 
 rb_rolling_case rb_rolling_case_defaults(void);
 
+/* 1: A, and B where it is elastic, can all of `abilities`. */
+int rb_rolling_can(const rb_rolling_case *rc, int abilities);
+
 /* 1 where Carter's law holds: steady rolling of similar homogeneous half-planes, no table
  * as gap. */
 int rb_rolling_carter_holds(const rb_rolling_case *rc);
@@ -226,6 +254,45 @@ typedef struct {
 rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                    rb_rolling_bodies *bodies, rb_message *why);
 void rb_rolling_bodies_free(rb_rolling_bodies *bodies);
+
+/* The flexibility of one body. */
+typedef struct {
+    rb_bem_flexibility f;  /* owned */
+    rb_bem_system *system; /* NULL without boundary elements; owned */
+    double seconds_assembly, seconds_factor, seconds_condense;
+} rb_rolling_body_flexibility;
+
+/* A row of the table of bodies: whoever asks what a body is asks its rows.  A body has
+ * the row of its support and one for each addition to it (layer, cover, memory); it can
+ * what all its rows can. */
+typedef struct {
+    const char *name; /* in pictures */
+    rb_bem_support support;
+    int (*holds)(const rb_rolling_body *body); /* 1: the body has this
+                                                  addition; NULL: the row of a support */
+    int can;                                   /* a sum of rb_rolling_ability */
+    const rb_rolling_parameter *parameters;
+    /* Ranges of the parameters; of an addition for every body, with or without it.
+     * which: "", or " of body B". */
+    rb_status (*check)(const rb_rolling_body *body, const char *which, rb_message *why);
+
+    /* Of the support only: */
+    rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_body *body,
+                             const rb_rolling_mesh *mesh,
+                             rb_rolling_body_flexibility *made, rb_message *why);
+    /* The half-plane or layer that answers like the body close to a load. */
+    rb_bem_surface (*surface)(const rb_rolling_case *rc, const rb_rolling_body *body,
+                              double length[RB_ROLLING_TERMS]);
+    /* Depth of zero displacement; NULL: there is none. */
+    double (*datum)(const rb_rolling_case *rc, const rb_rolling_body *body);
+} rb_rolling_body_kind;
+
+/* All rows; NULL ends them. */
+extern const rb_rolling_body_kind *const rb_rolling_body_kinds[];
+/* 1: it is a row of this body. */
+int rb_rolling_body_is(const rb_rolling_body *body, const rb_rolling_body_kind *kind);
+/* The row of the body's support. */
+const rb_rolling_body_kind *rb_rolling_kind_of(const rb_rolling_body *body);
 
 /* ---- The formulation as a contact problem (contact.h) -------------------------------
  */

@@ -310,65 +310,40 @@ static rb_status settle_memory(const rb_case_memory *typed, const char *which,
     return RB_OK;
 }
 
-/* An option of one support has no effect on the others.  In a file it may stand beside a
- * support that the command line replaces. */
-static rb_status check_support(const rb_case *c, int body, rb_message *why)
+/* An option of one support or addition has no effect on other bodies.  In a file it may
+ * stand beside a support that the command line replaces. */
+static rb_status check_parameter(const rb_case *c, int is_b,
+                                 const rb_rolling_body_kind *kind,
+                                 const rb_rolling_parameter *parameter, rb_message *why)
 {
-    static const struct {
-        const char *name[2], *reason;
-        rb_bem_support support;
-    } own[] = {{{"arc", "arc-b"}, "of the support arc only", RB_BEM_ARC},
-               {{"hub-ratio", "hub-ratio-b"}, "of the support hub only", RB_BEM_HUB},
-               {{"datum", "datum-b"}, "of the support halfplane only", RB_BEM_HALFPLANE}};
-    const rb_rolling_case *rc = &c->settled.rc;
-    const rb_bem_support support = body ? rc->b.support : rc->a.support;
-    const int by = rb_case_given(c, body ? "support-b" : "support");
-    rb_status s = RB_OK;
-    for (int k = 0; k < 3 && s == RB_OK; k++) {
-        const char *name = own[k].name[body];
-        const int replaced = rb_case_given(c, name) > 0 && by == RB_GIVEN_ARGUMENT;
-        if (own[k].support != support && !replaced)
-            s = refuse_given(c, name, own[k].reason, why);
-    }
-    return s;
+    const rb_rolling_body *body = is_b ? &c->settled.rc.b : &c->settled.rc.a;
+    const int support_by = rb_case_given(c, is_b ? "support-b" : "support");
+    char name[40], reason[80];
+    const char *word = NULL;
+
+    snprintf(name, sizeof name, "%s%s", parameter->option, is_b ? "-b" : "");
+    if (parameter->has_meaning ? parameter->has_meaning(body)
+                               : rb_rolling_body_is(body, kind))
+        return RB_OK;
+    if (parameter->reason)
+        return refuse_given(c, name, parameter->reason, why);
+    for (const rb_choice *support = rb_rolling_supports; support->name; support++)
+        if (support->value == (int)kind->support)
+            word = support->name;
+    snprintf(reason, sizeof reason, "of the support %s only", word);
+    return rb_case_given(c, name) > 0 && support_by == RB_GIVEN_ARGUMENT
+               ? RB_OK
+               : refuse_given(c, name, reason, why);
 }
 
-/* What an option is of: it has no effect without the other one. */
-static rb_status check_coats(const rb_case *c, rb_message *why)
+static rb_status check_parameters(const rb_case *c, int is_b, rb_message *why)
 {
-    const rb_rolling_body *const bodies[2] = {&c->settled.rc.a, &c->settled.rc.b};
-    rb_status status = RB_OK;
-    for (int b = 0; b < 2 && status == RB_OK; b++) {
-        const rb_rolling_body *body = bodies[b];
-        const int layer = body->layer > 0.0, cover = body->cover > 0.0;
-        const struct {
-            int without;
-            const char *name[2], *reason;
-        } parts[] = {
-            {!layer,
-             {"base-young", "base-young-b"},
-             "a base has its layer on it, see --layer-thickness"},
-            {!layer,
-             {"base-poisson", "base-poisson-b"},
-             "a base has its layer on it, see --layer-thickness"},
-            {layer && body->base_young == 0.0,
-             {"datum", "datum-b"},
-             "on a rigid base the displacement is absolute"},
-            {!cover,
-             {"core-young", "core-young-b"},
-             "a core has its cover on it, see --cover-thickness"},
-            {!cover,
-             {"core-poisson", "core-poisson-b"},
-             "a core has its cover on it, see --cover-thickness"},
-            {cover && body->core_young == 0.0,
-             {"hub-ratio", "hub-ratio-b"},
-             "all below the cover is rigid without --core-young"},
-        };
-        for (size_t k = 0; k < sizeof parts / sizeof *parts && status == RB_OK; k++)
-            if (parts[k].without)
-                status = refuse_given(c, parts[k].name[b], parts[k].reason, why);
-    }
-    return status;
+    rb_status s = RB_OK;
+    for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds; *kind; kind++)
+        for (const rb_rolling_parameter *p = (*kind)->parameters; p->option && s == RB_OK;
+             p++)
+            s = check_parameter(c, is_b, *kind, p, why);
+    return s;
 }
 
 static rb_status settle_bodies(rb_case *c, rb_message *why)
@@ -377,8 +352,8 @@ static rb_status settle_bodies(rb_case *c, rb_message *why)
     rb_status status = settle_memory(&s->memory_a, "", &s->rc.a.memory, why);
     if (status == RB_OK)
         status = settle_memory(&s->memory_b, "-b", &s->rc.b.memory, why);
-    if (status == RB_OK)
-        status = check_coats(c, why);
+    for (int body = 0; body < 2 && status == RB_OK; body++)
+        status = check_parameters(c, body, why);
     return status;
 }
 
@@ -401,7 +376,7 @@ static rb_status settle_heat(rb_case *c, rb_message *why)
     for (size_t k = 0; k < sizeof of_heat / sizeof *of_heat && status == RB_OK; k++)
         status =
             refuse_given(c, of_heat[k], "for temperatures only, see --conductivity", why);
-    if (status == RB_OK && s->rc.a.memory.n + s->rc.b.memory.n == 0)
+    if (status == RB_OK && rb_rolling_can(&s->rc, RB_BODY_ELASTIC))
         status = refuse_given(c, "speed",
                               "for bodies that relax and for temperatures only, see "
                               "--relaxation-time and --conductivity",
@@ -706,8 +681,6 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     rb_option_store(&set, c->words.units, c->file_units, &c->settled);
     if (s == RB_OK)
         s = settle_body_b(c, why);
-    for (int body = 0; body < 2 && s == RB_OK; body++)
-        s = check_support(c, body, why);
     if (s == RB_OK)
         s = settle_bodies(c, why);
     if (s == RB_OK)

@@ -134,7 +134,7 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
     c->rc.elastic_b = 1;
     c->centre = set_gap(in, &c->rc);
     set_loading(in, c->sign, &c->rc);
-    if (c->rc.a.memory.n + c->rc.b.memory.n > 0)
+    if (!rb_rolling_can(&c->rc, RB_BODY_ELASTIC))
         c->rc.speed = in->velocity;
     c->rc.mesh = RB_MESH_UNIFORM;
     c->rc.slip_operator = RB_SLIP_UPSTREAM;

@@ -7,8 +7,6 @@
 #define PLACE(member) offsetof(rb_settled_case, member)
 #define RC(member) offsetof(rb_settled_case, rc.member)
 
-static const rb_choice supports[] = {
-    {"arc", RB_BEM_ARC}, {"hub", RB_BEM_HUB}, {"halfplane", RB_BEM_HALFPLANE}, {NULL, 0}};
 static const rb_choice gaps[] = {
     {"parabola", RB_GAP_PARABOLA}, {"exact", RB_GAP_EXACT}, {NULL, 0}};
 static const rb_choice formulations[] = {
@@ -56,7 +54,7 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("young", RC(a.young), "MPa", RB_ABOVE(0), "Young's modulus E"),
     RB_NUMBER_LINE("poisson", RC(a.poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
                    "Poisson's ratio nu"),
-    RB_CHOICE_LINE("support", RC(a.support), supports,
+    RB_CHOICE_LINE("support", RC(a.support), rb_rolling_supports,
                    "how it is held: clamped arc at the top, rigid core, or a half-plane "
                    "instead of the cylinder's boundary"),
     RB_NUMBER_LINE("arc", RC(a.arc), "degrees", RB_ABOVE_UPTO(0, 90),
@@ -107,7 +105,8 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("radius-b", PLACE(radius_b), "mm", RB_ABOVE(0),
                    "radius of an elastic B, or plane", .word = "plane",
                    .word_value = INFINITY),
-    RB_CHOICE_LINE("support-b", RC(b.support), supports, "how an elastic B is held"),
+    RB_CHOICE_LINE("support-b", RC(b.support), rb_rolling_supports,
+                   "how an elastic B is held"),
     RB_NUMBER_LINE("arc-b", RC(b.arc), "degrees", RB_ABOVE_UPTO(0, 90),
                    "half-angle of its clamped arc"),
     RB_NUMBER_LINE("hub-ratio-b", RC(b.hub_ratio), "-", RB_BETWEEN(0, 1),

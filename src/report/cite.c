@@ -17,8 +17,8 @@ enum {
 static int kind_of(const rb_rolling_case *rc, const rb_rolling_solution *s)
 {
     const int is_static = rc->formulation == RB_STATIC;
-    const int plane_a = rc->a.support == RB_BEM_HALFPLANE;
-    const int plane_b = rc->b.support == RB_BEM_HALFPLANE;
+    const int plane_a = rb_rolling_body_can(&rc->a, RB_BODY_FLAT);
+    const int plane_b = rb_rolling_body_can(&rc->b, RB_BODY_FLAT);
     int kind = ALWAYS;
     kind |= is_static ? STATIC : ROLLS;
     if (!is_static)

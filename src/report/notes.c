@@ -100,7 +100,7 @@ rb_report_note_list rb_report_find_notes(const rb_rolling_case *rc,
     note_motion(&list, rc);
     note_units(&list, rc, s);
     note_full_sliding(&list, rc, s);
-    if (rc->formulation != RB_STATIC && rc->a.support == RB_BEM_ARC)
+    if (rc->formulation != RB_STATIC && !rb_rolling_body_can(&rc->a, RB_BODY_TURNS))
         add(&list, "on an arc support rolling differs at every angle of the wheel; hub "
                    "and halfplane do not");
     note_mesh(&list, s);

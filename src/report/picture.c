@@ -350,11 +350,9 @@ rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double larg
 
 static void write_body(FILE *out, const rb_rolling_body *b, rb_units units)
 {
-    static const char *const supports[] = {
-        [RB_BEM_ARC] = "arc", [RB_BEM_HUB] = "hub", [RB_BEM_HALFPLANE] = "half-plane"};
     const double young = rb_unit_shown(units, "MPa", b->young);
     const rb_report_unit unit = rb_report_axis_unit(units, "MPa", young);
-    fputs(supports[b->support], out);
+    fputs(rb_rolling_kind_of(b)->name, out);
     if (isfinite(b->radius))
         fprintf(out, ", R = %.5g %s", rb_unit_shown(units, "mm", b->radius),
                 rb_unit_name(units, "mm"));

@@ -147,72 +147,6 @@ static int is_positive(double x)
     return isfinite(x) && x > 0.0;
 }
 
-static rb_status check_body(const rb_rolling_body *b, const char *which,
-                            int plane_allowed, rb_message *why)
-{
-    const int plane = plane_allowed && b->radius == INFINITY;
-
-    if (!is_positive(b->young))
-        return rb_fail(why, RB_EINVAL, "Young's modulus%s: expected > 0, got %g", which,
-                       b->young);
-    if (!(b->poisson > -1.0 && b->poisson <= 0.5))
-        return rb_fail(why, RB_EINVAL, "Poisson's ratio%s: expected in (-1, 0.5], got %g",
-                       which, b->poisson);
-    if (!plane && !is_positive(b->radius))
-        return rb_fail(why, RB_EINVAL, "radius%s: expected > 0, got %g", which,
-                       b->radius);
-    if (plane && b->support != RB_BEM_HALFPLANE)
-        return rb_fail(why, RB_EINVAL,
-                       "support%s: a plane has the support halfplane only", which);
-    if (b->support == RB_BEM_ARC && !(b->arc > 0.0 && b->arc <= 90.0))
-        return rb_fail(why, RB_EINVAL, "arc%s: expected in (0, 90] degrees, got %g",
-                       which, b->arc);
-    if (b->support == RB_BEM_HUB && !(b->hub_ratio > 0.0 && b->hub_ratio < 1.0))
-        return rb_fail(why, RB_EINVAL, "hub ratio%s: expected in (0, 1), got %g", which,
-                       b->hub_ratio);
-    if (b->support != RB_BEM_HALFPLANE && (b->layer > 0.0 || b->memory.n > 0))
-        return rb_fail(why, RB_EINVAL,
-                       "%s%s: for the support halfplane only, got a wheel",
-                       b->layer > 0.0 ? "layer thickness" : "relaxation", which);
-    if (!(isfinite(b->layer) && b->layer >= 0.0))
-        return rb_fail(why, RB_EINVAL, "layer thickness%s: expected > 0, got %g", which,
-                       b->layer);
-    if (!(isfinite(b->base_young) && b->base_young >= 0.0))
-        return rb_fail(why, RB_EINVAL,
-                       "Young's modulus of the base%s: expected > 0, got %g", which,
-                       b->base_young);
-    if (b->base_young > 0.0 && !(b->base_poisson > -1.0 && b->base_poisson <= 0.5))
-        return rb_fail(why, RB_EINVAL,
-                       "Poisson's ratio of the base%s: expected in (-1, 0.5], got %g",
-                       which, b->base_poisson);
-    if (b->cover != 0.0 && b->support != RB_BEM_HUB)
-        return rb_fail(why, RB_EINVAL,
-                       "cover thickness%s: its core holds the wheel, add --support%s hub",
-                       which, which[0] ? "-b" : "");
-    if (!(isfinite(b->cover) && b->cover >= 0.0 && b->cover < b->radius))
-        return rb_fail(
-            why, RB_EINVAL,
-            "cover thickness%s: expected > 0 and less than the radius, %g mm, got %g mm",
-            which, b->radius, b->cover);
-    if (!(isfinite(b->core_young) && b->core_young >= 0.0))
-        return rb_fail(why, RB_EINVAL,
-                       "Young's modulus of the core%s: expected > 0, got %g", which,
-                       b->core_young);
-    if (b->core_young > 0.0 && !(b->core_poisson > -1.0 && b->core_poisson <= 0.5))
-        return rb_fail(why, RB_EINVAL,
-                       "Poisson's ratio of the core%s: expected in (-1, 0.5], got %g",
-                       which, b->core_poisson);
-    if (b->cover > 0.0 && b->core_young > 0.0 && b->poisson > 0.499)
-        return rb_fail(why, RB_EINVAL,
-                       "Poisson's ratio%s: a cover on an elastic core has to be "
-                       "compressible, expected 0.499 at most, got %g",
-                       which, b->poisson);
-    if (b->support == RB_BEM_HALFPLANE && !(isfinite(b->datum) && b->datum >= 0.0))
-        return rb_fail(why, RB_EINVAL, "datum%s: expected a depth >= 0, got %g", which,
-                       b->datum);
-    return RB_OK;
-}
-
 /* Memory averages over what a particle has passed: in steady rolling, at a speed. */
 static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
 {
@@ -269,7 +203,7 @@ static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
     if (!is_positive(rc->speed))
         return rb_fail(why, RB_EINVAL,
                        "conductivity: needs the speed of rolling, add --speed");
-    if (!rb_rolling_is_homogeneous(rc))
+    if (!rb_rolling_can(rc, RB_BODY_HOMOGENEOUS))
         return rb_fail(
             why, RB_EINVAL,
             "conductivity: of homogeneous elastic bodies; a layer or cover conducts "
@@ -480,7 +414,8 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
     if (rc->zone >= rc->a.radius || rc->zone >= rc->b.radius)
         return rb_fail(why, RB_EINVAL, "zone: %g mm is wider than the radius, %g mm",
                        rc->zone, fmin(rc->a.radius, rc->b.radius));
-    if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->a.support == RB_BEM_HALFPLANE)
+    if (rc->normals == RB_BEM_NORMALS_SURFACE &&
+        rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
         return rb_fail(why, RB_EINVAL,
                        "normals surface: a half-plane has the obstacle's");
     if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->elastic_b)
@@ -521,10 +456,10 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
 
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
 {
-    rb_status s = check_body(&rc->a, "", 0, why);
+    rb_status s = rb_rolling_body_check(&rc->a, "", 0, why);
 
     if (s == RB_OK && rc->elastic_b)
-        s = check_body(&rc->b, " of body B", 1, why);
+        s = rb_rolling_body_check(&rc->b, " of body B", 1, why);
     if (s == RB_OK)
         s = check_memory(rc, why);
     if (s == RB_OK)

@@ -23,9 +23,9 @@ static const struct {
 
 int rb_rolling_error_runs(const rb_rolling_case *rc)
 {
-    const int wheels = rc->a.support != RB_BEM_HALFPLANE ||
-                       (rc->elastic_b && rc->b.support != RB_BEM_HALFPLANE);
-    return wheels ? 3 : 2;
+    const int boundary = rb_rolling_body_can(&rc->a, RB_BODY_BOUNDARY) ||
+                         (rc->elastic_b && rb_rolling_body_can(&rc->b, RB_BODY_BOUNDARY));
+    return boundary ? 3 : 2;
 }
 
 rb_rolling_case rb_rolling_error_run(const rb_rolling_case *rc, int k)

@@ -29,20 +29,38 @@ int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x)
 rb_status rb_rolling_points_check(const char *what, int n, const double *x,
                                   const double *gap, rb_message *why);
 
-/* ---- bodies.c ------------------------------------------------------------------------
+/* ---- body_wheel.c, body_halfplane.c: rows of the table in body.c ----------------------
  */
+
+extern const rb_rolling_body_kind rb_rolling_arc, rb_rolling_hub, rb_rolling_cover;
+extern const rb_rolling_body_kind rb_rolling_halfplane, rb_rolling_layer,
+    rb_rolling_relaxation;
+rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
+                                            const rb_rolling_body *body,
+                                            double length[RB_ROLLING_TERMS]);
+
+/* ---- body.c
+ * ----------------------------------------------------------------------------
+ */
+
+/* RB_EINVAL: what no body can be.  which: "", or " of body B". */
+rb_status rb_rolling_body_check(const rb_rolling_body *body, const char *which,
+                                int plane_allowed, rb_message *why);
+/* E >= 0, 0 where it is rigid, and nu of what is below a layer or cover. */
+rb_status rb_rolling_check_base(const char *what, double young, double poisson,
+                                const char *which, rb_message *why);
 
 /* The given datum of a half-plane, or 2R/e, R of the body or of A where it is a plane;
  * NAN where nothing is measured from one: wheels, and layers on a rigid base. */
 double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body);
-/* A half-plane of the case, with its layer and memory.  length: room for the memory's
- * lengths, which the surface borrows like the body's ratios. */
+/* The half-plane or layer that answers like the body close to a load.  length: room for
+ * the lengths of its memory, which the surface borrows like the body's ratios. */
 rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
                                      const rb_rolling_body *body,
                                      double length[RB_ROLLING_TERMS]);
-/* 1 where all bodies are homogeneous and elastic: then Hertz's half-width means what it
- * says. */
-int rb_rolling_is_homogeneous(const rb_rolling_case *rc);
+
+/* ---- bodies.c ------------------------------------------------------------------------
+ */
 
 /* w = w0 + F (p, q), 2m values, m = n + 1.  RB_ENOMEM. */
 rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,

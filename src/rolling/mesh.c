@@ -117,11 +117,9 @@ rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *me
  */
 static double lower_half(const rb_rolling_case *rc)
 {
-    const int wheels = rc->a.support != RB_BEM_HALFPLANE ||
-                       (rc->elastic_b && rc->b.support != RB_BEM_HALFPLANE);
-
-    return rc->gap == RB_GAP_TABLE && !wheels ? INFINITY
-                                              : fmin(rc->a.radius, rc->b.radius);
+    return rc->gap == RB_GAP_TABLE && rb_rolling_can(rc, RB_BODY_FLAT)
+               ? INFINITY
+               : fmin(rc->a.radius, rc->b.radius);
 }
 
 void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to)
@@ -158,7 +156,7 @@ static rb_status check_extent(const rb_rolling_case *rc, double from, double to,
 static void equal_ends(const rb_rolling_case *rc, double from, double to, int n,
                        double *ends)
 {
-    const double R = rc->a.support == RB_BEM_HALFPLANE ? INFINITY : rc->a.radius;
+    const double R = rb_rolling_body_can(&rc->a, RB_BODY_FLAT) ? INFINITY : rc->a.radius;
     const double s0 = isinf(R) ? from : R * asin(from / R);
     const double s1 = isinf(R) ? to : R * asin(to / R);
 
@@ -341,7 +339,7 @@ rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, double from, double 
 /* Half of an element's extent along x: on a wheel elements are chords of its circle. */
 static double half_extent(const rb_rolling_case *rc, double x, double h)
 {
-    if (rc->a.support == RB_BEM_HALFPLANE)
+    if (rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
         return 0.5 * h;
     const double apothem = sqrt(gsl_pow_2(rc->a.radius) - gsl_pow_2(0.5 * h));
     return 0.5 * h * sqrt(1.0 - gsl_pow_2(x / apothem));

@@ -173,8 +173,7 @@ static rb_status least_displacement(const rb_rolling_model *model,
     double w[2] = {0.0, 0.0};
 
     *least = -INFINITY;
-    if (model->bodies.system_a || model->bodies.system_b ||
-        !rb_rolling_is_homogeneous(&model->rc))
+    if (!rb_rolling_can(&model->rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS))
         return RB_OK;
     const rb_status status = add_bodies(model, state, s, 2, x, w);
     *least = fmin(w[0], w[1]);

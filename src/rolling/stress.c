@@ -11,8 +11,9 @@ enum { GRID_X = 64, GRID_Y = 40, SEARCH_STEPS = 200 };
 
 double rb_rolling_surface(const rb_rolling_case *rc, double x)
 {
-    return rc->a.support == RB_BEM_HALFPLANE ? 0.0
-                                             : rb_bem_circle_height(rc->a.radius, x);
+    return rb_rolling_body_can(&rc->a, RB_BODY_FLAT)
+               ? 0.0
+               : rb_bem_circle_height(rc->a.radius, x);
 }
 
 /* ---- The field of a solved model ------------------------------------------------------
@@ -30,7 +31,7 @@ static void field_free(field *f)
 
 rb_status rb_rolling_stress_check(const rb_rolling_case *rc, rb_message *why)
 {
-    return rc->a.layer == 0.0 && rc->a.memory.n == 0
+    return rb_rolling_body_can(&rc->a, RB_BODY_STRESS)
                ? RB_OK
                : rb_fail(
                      why, RB_EINVAL,
@@ -310,7 +311,8 @@ static search box_under(const rb_rolling_model *model, double from, double to,
                   .to = to + a,
                   .depth = depth > 0.0 ? depth : 2.5 * a};
 
-    if (model->bodies.system_a) { /* a wheel: stay below its own equator */
+    if (!rb_rolling_body_can(&model->rc.a,
+                             RB_BODY_FLAT)) { /* stay below its own equator */
         const double widest = 0.9 * model->rc.a.radius;
         box.from = fmax(box.from, -widest);
         box.to = fmin(box.to, widest);
@@ -345,7 +347,7 @@ static int encloses(const rb_bem_mesh *mesh, double x, double y)
 rb_status rb_rolling_inside(const rb_rolling_model *model, int n, const double *xy,
                             int *inside)
 {
-    if (!model->bodies.system_a) {
+    if (rb_rolling_body_can(&model->rc.a, RB_BODY_FLAT)) {
         for (int k = 0; k < n; k++)
             inside[k] = xy[2 * k + 1] >= 0.0;
         return RB_OK;

@@ -30,7 +30,7 @@ static double normal_work(int n, const double *x, const double *w, const double 
 
 int rb_rolling_relaxes(const rb_rolling_case *rc)
 {
-    return rc->a.memory.n > 0 || (rc->elastic_b && rc->b.memory.n > 0);
+    return !rb_rolling_can(rc, RB_BODY_ELASTIC);
 }
 
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)

@@ -376,8 +376,10 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
         return rb_fail(why, RB_EINVAL,
                        "wear: a wheel that rolls does not slide; steady or "
                        "a way, not both");
-    if (rc->a.memory.n + rc->a.layer > 0.0 && rolls)
-        return rb_fail(why, RB_EINVAL, "wear: a wheel with a layer does not stay one");
+    if (rolls && !rb_rolling_body_can(&rc->a, RB_BODY_HOMOGENEOUS))
+        return rb_fail(why, RB_EINVAL,
+                       "wear: a rolling wheel of one elastic material only, got a layer, "
+                       "a cover or relaxation");
     return rb_rolling_case_check(rc, why);
 }
 

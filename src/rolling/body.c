@@ -1,0 +1,96 @@
+/* The table of bodies, and what every body is asked. */
+#include "rolling/internal.h"
+
+const rb_choice rb_rolling_supports[] = {
+    {"arc", RB_BEM_ARC}, {"hub", RB_BEM_HUB}, {"halfplane", RB_BEM_HALFPLANE}, {NULL, 0}};
+
+const rb_rolling_body_kind *const rb_rolling_body_kinds[] = {&rb_rolling_arc,
+                                                             &rb_rolling_hub,
+                                                             &rb_rolling_halfplane,
+                                                             &rb_rolling_layer,
+                                                             &rb_rolling_relaxation,
+                                                             &rb_rolling_cover,
+                                                             NULL};
+
+int rb_rolling_body_is(const rb_rolling_body *body, const rb_rolling_body_kind *kind)
+{
+    return kind->holds ? kind->holds(body) : kind->support == body->support;
+}
+
+const rb_rolling_body_kind *rb_rolling_kind_of(const rb_rolling_body *body)
+{
+    const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds;
+    while (*kind && ((*kind)->holds || (*kind)->support != body->support))
+        kind++;
+    return *kind;
+}
+
+int rb_rolling_body_can(const rb_rolling_body *body, int abilities)
+{
+    int can = abilities;
+    for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds; *kind; kind++)
+        if (rb_rolling_body_is(body, *kind))
+            can &= (*kind)->can;
+    return can == abilities;
+}
+
+int rb_rolling_can(const rb_rolling_case *rc, int abilities)
+{
+    return rb_rolling_body_can(&rc->a, abilities) &&
+           (!rc->elastic_b || rb_rolling_body_can(&rc->b, abilities));
+}
+
+double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
+    return kind->datum ? kind->datum(rc, body) : NAN;
+}
+
+rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
+                                     const rb_rolling_body *body,
+                                     double length[RB_ROLLING_TERMS])
+{
+    return rb_rolling_kind_of(body)->surface(rc, body, length);
+}
+
+rb_status rb_rolling_body_check(const rb_rolling_body *b, const char *which,
+                                int plane_allowed, rb_message *why)
+{
+    const int plane = plane_allowed && b->radius == INFINITY;
+    rb_status s = RB_OK;
+
+    if (!(isfinite(b->young) && b->young > 0.0))
+        return rb_fail(why, RB_EINVAL, "Young's modulus%s: expected > 0, got %g", which,
+                       b->young);
+    if (!(b->poisson > -1.0 && b->poisson <= 0.5))
+        return rb_fail(why, RB_EINVAL, "Poisson's ratio%s: expected in (-1, 0.5], got %g",
+                       which, b->poisson);
+    if (!plane && !(isfinite(b->radius) && b->radius > 0.0))
+        return rb_fail(why, RB_EINVAL, "radius%s: expected > 0, got %g", which,
+                       b->radius);
+    if (!rb_rolling_kind_of(b))
+        return rb_fail(why, RB_EINVAL, "support%s: there is no number %d", which,
+                       (int)b->support);
+    if (plane && !(rb_rolling_kind_of(b)->can & RB_BODY_FLAT))
+        return rb_fail(why, RB_EINVAL,
+                       "support%s: a plane has the support halfplane only", which);
+    for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds;
+         *kind && s == RB_OK; kind++)
+        if ((*kind)->holds || (*kind)->support == b->support)
+            s = (*kind)->check(b, which, why);
+    return s;
+}
+
+rb_status rb_rolling_check_base(const char *what, double young, double poisson,
+                                const char *which, rb_message *why)
+{
+    if (!(isfinite(young) && young >= 0.0))
+        return rb_fail(why, RB_EINVAL,
+                       "Young's modulus of the %s%s: expected > 0, got %g", what, which,
+                       young);
+    if (young > 0.0 && !(poisson > -1.0 && poisson <= 0.5))
+        return rb_fail(why, RB_EINVAL,
+                       "Poisson's ratio of the %s%s: expected in (-1, 0.5], got %g", what,
+                       which, poisson);
+    return RB_OK;
+}

@@ -1,0 +1,156 @@
+/* Half-planes, which answer alike at every place: of one material, with a layer of it on
+ * a base, and with fading memory. */
+#include "rolling/internal.h"
+
+#include <gsl/gsl_math.h>
+
+static double depth_of_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    const double radius = isfinite(body->radius) ? body->radius : rc->a.radius;
+    return body->datum > 0.0 ? body->datum : 2.0 * radius / M_E;
+}
+
+rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
+                                            const rb_rolling_body *body,
+                                            double length[RB_ROLLING_TERMS])
+{
+    for (int k = 0; k < body->memory.n; k++)
+        length[k] = rc->speed * body->memory.time[k];
+    const int elastic_base = body->layer > 0.0 && body->base_young > 0.0;
+    return (rb_bem_surface){
+        .material = rb_bem_material_from_young(body->young, body->poisson),
+        .datum = depth_of_datum(rc, body),
+        .terms = body->memory.n,
+        .ratio = body->memory.ratio,
+        .length = length,
+        .thickness = body->layer,
+        .elastic_base = elastic_base,
+        .base = elastic_base
+                    ? rb_bem_material_from_young(body->base_young, body->base_poisson)
+                    : (rb_bem_material){0}};
+}
+
+static rb_status halfplane_flexibility(const rb_rolling_case *rc,
+                                       const rb_rolling_body *body,
+                                       const rb_rolling_mesh *mesh,
+                                       rb_rolling_body_flexibility *made, rb_message *why)
+{
+    double length[RB_ROLLING_TERMS];
+    const double start = rb_seconds();
+    const rb_bem_surface surface = rb_rolling_halfplane_surface(rc, body, length);
+    const rb_status s =
+        rb_rolling_is_large(rc, mesh)
+            ? rb_bem_flexibility_toeplitz(mesh->n, mesh->ends, &surface, &made->f, why)
+            : rb_bem_flexibility_surface(mesh->n, mesh->ends, &surface, &made->f, why);
+    made->seconds_condense = rb_seconds() - start;
+    return s;
+}
+
+enum { HALFPLANE = RB_BODY_FLAT | RB_BODY_TRANSFORMS | RB_BODY_TURNS };
+
+/* ---- Of one material ----------------------------------------------------------------
+ */
+
+static int on_rigid_base(const rb_rolling_body *body)
+{
+    return body->layer > 0.0 && body->base_young == 0.0;
+}
+
+static int not_on_rigid_base(const rb_rolling_body *body)
+{
+    return !on_rigid_base(body);
+}
+
+static double datum(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    return on_rigid_base(body) ? NAN : depth_of_datum(rc, body);
+}
+
+static rb_status check_halfplane(const rb_rolling_body *b, const char *which,
+                                 rb_message *why)
+{
+    return isfinite(b->datum) && b->datum >= 0.0
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL, "datum%s: expected a depth >= 0, got %g", which,
+                         b->datum);
+}
+
+static const rb_rolling_parameter halfplane_parameters[] = {
+    {.option = "datum"},
+    {"datum", not_on_rigid_base, "on a rigid base the displacement is absolute"},
+    {NULL}};
+
+const rb_rolling_body_kind rb_rolling_halfplane = {
+    .name = "half-plane",
+    .support = RB_BEM_HALFPLANE,
+    .can = HALFPLANE | RB_BODY_HOMOGENEOUS | RB_BODY_ELASTIC | RB_BODY_STRESS,
+    .parameters = halfplane_parameters,
+    .check = check_halfplane,
+    .flexibility = halfplane_flexibility,
+    .surface = rb_rolling_halfplane_surface,
+    .datum = datum};
+
+/* ---- With a layer --------------------------------------------------------------------
+ */
+
+static int has_layer(const rb_rolling_body *body)
+{
+    return body->layer > 0.0;
+}
+
+static rb_status check_no_wheel(const rb_rolling_body *b, const char *what,
+                                const char *which, rb_message *why)
+{
+    return b->support == RB_BEM_HALFPLANE
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL,
+                         "%s%s: for the support halfplane only, got a wheel", what,
+                         which);
+}
+
+static rb_status check_layer(const rb_rolling_body *b, const char *which, rb_message *why)
+{
+    if (!(isfinite(b->layer) && b->layer >= 0.0))
+        return rb_fail(why, RB_EINVAL, "layer thickness%s: expected > 0, got %g", which,
+                       b->layer);
+    const rb_status s =
+        has_layer(b) ? check_no_wheel(b, "layer thickness", which, why) : RB_OK;
+    return s == RB_OK
+               ? rb_rolling_check_base("base", b->base_young, b->base_poisson, which, why)
+               : s;
+}
+
+static const rb_rolling_parameter layer_parameters[] = {
+    {"base-young", has_layer, "a base has its layer on it, see --layer-thickness"},
+    {"base-poisson", has_layer, "a base has its layer on it, see --layer-thickness"},
+    {NULL}};
+
+const rb_rolling_body_kind rb_rolling_layer = {.name = "layer",
+                                               .support = RB_BEM_HALFPLANE,
+                                               .holds = has_layer,
+                                               .can = HALFPLANE | RB_BODY_ELASTIC,
+                                               .parameters = layer_parameters,
+                                               .check = check_layer};
+
+/* ---- With memory ---------------------------------------------------------------------
+ */
+
+static int has_memory(const rb_rolling_body *body)
+{
+    return body->memory.n > 0;
+}
+
+static rb_status check_relaxation(const rb_rolling_body *b, const char *which,
+                                  rb_message *why)
+{
+    return has_memory(b) ? check_no_wheel(b, "relaxation", which, why) : RB_OK;
+}
+
+static const rb_rolling_parameter relaxation_parameters[] = {{NULL}};
+
+const rb_rolling_body_kind rb_rolling_relaxation = {.name = "relaxation",
+                                                    .support = RB_BEM_HALFPLANE,
+                                                    .holds = has_memory,
+                                                    .can = HALFPLANE,
+                                                    .parameters = relaxation_parameters,
+                                                    .check = check_relaxation};

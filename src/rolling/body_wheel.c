@@ -1,0 +1,156 @@
+/* Wheels, whose boundary has elements all around: on a clamped arc, on a rigid hub, and
+ * with a cover on a core. */
+#include "rolling/internal.h"
+
+#include <gsl/gsl_math.h>
+
+/* Of a cover as well: its stretch under the load is what one wants to know. */
+static int wants_exact_field(const rb_rolling_case *rc, const rb_rolling_body *body)
+{
+    return rc->near_field == RB_NEAR_FIELD_AUTO
+               ? rc->mesh == RB_MESH_FITTED || body->cover > 0.0
+               : rc->near_field == RB_NEAR_FIELD_EXACT;
+}
+
+/* The boundary elements of a wheel, of its cover alone where the core is rigid, of both
+ * where it is elastic. */
+static rb_status wheel_system(const rb_rolling_body *body,
+                              const rb_bem_cylinder *cylinder,
+                              const rb_rolling_mesh *mesh, rb_bem_system **system,
+                              rb_message *why)
+{
+    const rb_bem_material material =
+        rb_bem_material_from_young(body->young, body->poisson);
+    rb_bem_mesh boundary = {0}, core = {0};
+    rb_status s = rb_bem_mesh_cylinder(cylinder, mesh->n, mesh->ends, &boundary, why);
+
+    if (s == RB_OK && body->cover > 0.0 && body->core_young > 0.0) {
+        s = rb_bem_mesh_core(cylinder, &boundary, &core, why);
+        if (s == RB_OK)
+            s = rb_bem_system_create_bonded(
+                &boundary, material, &core,
+                rb_bem_material_from_young(body->core_young, body->core_poisson), system,
+                why);
+    } else if (s == RB_OK) {
+        s = rb_bem_system_create(&boundary, material, system, why);
+    }
+    rb_bem_mesh_free(&core);
+    rb_bem_mesh_free(&boundary);
+    return s;
+}
+
+static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_body *body,
+                                   const rb_rolling_mesh *mesh,
+                                   rb_rolling_body_flexibility *made, rb_message *why)
+{
+    const rb_bem_cylinder cylinder = {.radius = body->radius,
+                                      .support = body->support,
+                                      .arc = body->arc * M_PI / 180.0,
+                                      .hub_ratio = body->hub_ratio,
+                                      .cover = body->cover,
+                                      .outer_elements = rc->outer_elements,
+                                      .refinement = rc->outer_refinement};
+    rb_status s = wheel_system(body, &cylinder, mesh, &made->system, why);
+
+    if (s == RB_OK) {
+        rb_bem_system_seconds(made->system, &made->seconds_assembly,
+                              &made->seconds_factor);
+        const double start = rb_seconds();
+        s = (wants_exact_field(rc, body) ? rb_bem_condense_subtracted : rb_bem_condense)(
+            made->system, rc->normals, &made->f, why);
+        made->seconds_condense = rb_seconds() - start;
+    }
+    return s;
+}
+
+enum { WHEEL = RB_BODY_BOUNDARY | RB_BODY_ELASTIC | RB_BODY_STRESS };
+
+/* ---- A clamped arc ------------------------------------------------------------------
+ */
+
+static rb_status check_arc(const rb_rolling_body *b, const char *which, rb_message *why)
+{
+    return b->arc > 0.0 && b->arc <= 90.0
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL, "arc%s: expected in (0, 90] degrees, got %g",
+                         which, b->arc);
+}
+
+static const rb_rolling_parameter arc_parameters[] = {{.option = "arc"}, {NULL}};
+
+const rb_rolling_body_kind rb_rolling_arc = {.name = "arc",
+                                             .support = RB_BEM_ARC,
+                                             .can = WHEEL | RB_BODY_HOMOGENEOUS,
+                                             .parameters = arc_parameters,
+                                             .check = check_arc,
+                                             .flexibility = wheel_flexibility,
+                                             .surface = rb_rolling_halfplane_surface};
+
+/* ---- A rigid hub --------------------------------------------------------------------
+ */
+
+static rb_status check_hub(const rb_rolling_body *b, const char *which, rb_message *why)
+{
+    return b->hub_ratio > 0.0 && b->hub_ratio < 1.0
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL, "hub ratio%s: expected in (0, 1), got %g", which,
+                         b->hub_ratio);
+}
+
+static int shows_its_hub(const rb_rolling_body *body)
+{
+    return body->cover == 0.0 || body->core_young > 0.0;
+}
+
+static const rb_rolling_parameter hub_parameters[] = {
+    {.option = "hub-ratio"},
+    {"hub-ratio", shows_its_hub, "all below the cover is rigid without --core-young"},
+    {NULL}};
+
+const rb_rolling_body_kind rb_rolling_hub = {.name = "hub",
+                                             .support = RB_BEM_HUB,
+                                             .can = WHEEL | RB_BODY_HOMOGENEOUS |
+                                                    RB_BODY_TURNS,
+                                             .parameters = hub_parameters,
+                                             .check = check_hub,
+                                             .flexibility = wheel_flexibility,
+                                             .surface = rb_rolling_halfplane_surface};
+
+/* ---- A cover on a core ---------------------------------------------------------------
+ */
+
+static int has_cover(const rb_rolling_body *body)
+{
+    return body->cover > 0.0;
+}
+
+static rb_status check_cover(const rb_rolling_body *b, const char *which, rb_message *why)
+{
+    if (b->cover != 0.0 && b->support != RB_BEM_HUB)
+        return rb_fail(why, RB_EINVAL,
+                       "cover thickness%s: its core holds the wheel, add --support%s hub",
+                       which, which[0] ? "-b" : "");
+    if (!(isfinite(b->cover) && b->cover >= 0.0 && b->cover < b->radius))
+        return rb_fail(
+            why, RB_EINVAL,
+            "cover thickness%s: expected > 0 and less than the radius, %g mm, got %g mm",
+            which, b->radius, b->cover);
+    if (b->cover > 0.0 && b->core_young > 0.0 && b->poisson > 0.499)
+        return rb_fail(why, RB_EINVAL,
+                       "Poisson's ratio%s: a cover on an elastic core has to be "
+                       "compressible, expected 0.499 at most, got %g",
+                       which, b->poisson);
+    return rb_rolling_check_base("core", b->core_young, b->core_poisson, which, why);
+}
+
+static const rb_rolling_parameter cover_parameters[] = {
+    {"core-young", has_cover, "a core has its cover on it, see --cover-thickness"},
+    {"core-poisson", has_cover, "a core has its cover on it, see --cover-thickness"},
+    {NULL}};
+
+const rb_rolling_body_kind rb_rolling_cover = {.name = "cover",
+                                               .support = RB_BEM_HUB,
+                                               .holds = has_cover,
+                                               .can = WHEEL | RB_BODY_TURNS,
+                                               .parameters = cover_parameters,
+                                               .check = check_cover};
