@@ -41,7 +41,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: journeys dist deb site course page page-test python-test install-python all run test test-all check-tests asan asan-short short-tests fuzz check-format bench install help clean packages check-packages study
+.PHONY: journeys dist deb site course page page-test python-test install-python all run test test-all check-tests asan asan-short short-tests fuzz mutants coverage check-format bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -52,6 +52,8 @@ help:
 	@echo "make asan       the tests under the address and undefined-behaviour sanitizers"
 	@echo "make asan-short some of them"
 	@echo "make fuzz       libFuzzer on every target of fuzz/, FUZZ_TIME=60 seconds each (wants clang)"
+	@echo "make mutants    do the tests notice MUTANTS=300 changes of the source? score and survivors"
+	@echo "make coverage   lines and branches of src/ that the tests go through, and what is left"
 	@echo "make check-format  names sources that clang-format would change"
 	@echo "make study      the friction solvers on published files and on packings: tables, false successes"
 	@echo "make bench      the benchmarks (ratios measured in one run)"
@@ -96,6 +98,18 @@ fuzz:
 	@$(MAKE) --no-print-directory B=$(B)/fuzzing CC="$(FUZZ_CC)" CFLAGS="$(FUZZ_CFLAGS)" $(B)/fuzzing/fuzzer
 	@fuzz/run $(B)/fuzzing $(FUZZ_TIME) $(FUZZ_TARGET)
 FUZZ_CC ?= clang
+
+# do the tests notice changes of the source?  MUTANTS_ARGS: --folder rolling --seed 2 ...
+MUTANTS ?= 300
+mutants: packages ; @scripts/mutants $(B) --mutants $(MUTANTS) --jobs $(shell nproc) $(MUTANTS_ARGS)
+
+COVERED ?= check-tests
+# lines and branches that the tests go through, per folder; what is left in $(B)/coverage/coverage.txt
+coverage: packages
+	@mkdir -p $(B)/coverage
+	@$(CC) -O1 -fPIC -c -o $(B)/coverage/exit.o tests/coverage.c
+	-@$(MAKE) --no-print-directory B=$(B)/coverage CFLAGS="-O0 -g --coverage -fprofile-abs-path -fprofile-update=atomic" LDFLAGS="$(CURDIR)/$(B)/coverage/exit.o -Wl,--wrap=_exit" $(COVERED)
+	@scripts/coverage $(B)/coverage
 
 # what touches most of the library's memory in a minute or two
 SHORT = base lcp io_table case api rolling_lcp rolling_newton rolling_control rolling_cone rolling_friction threads

@@ -1,6 +1,7 @@
 /* Solvers on any finite numbers: what they call solved, is solved. */
 #include "fuzz.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +23,8 @@ static double residual(int n, const double *M, const double *q, const double *z)
     return worst;
 }
 
-/* RB_INACCURATE begins above 1e-6 max |q| (rollbem/lcp.h). */
+/* RB_INACCURATE begins above 1e-6 max |q| (rollbem/lcp.h).  Below DBL_MIN numbers have
+ * fewer digits. */
 static void require_solved(const char *what, int n, const double *M, const double *q,
                            const double *z)
 {
@@ -31,7 +33,7 @@ static void require_solved(const char *what, int n, const double *M, const doubl
         fuzz_require(isfinite(z[i]), "a solution is finite");
         size = fmax(size, fabs(q[i]));
     }
-    fuzz_require(residual(n, M, q, z) <= 1.001e-6 * size, what);
+    fuzz_require(residual(n, M, q, z) <= 1.001e-6 * size + DBL_MIN, what);
 }
 
 /* Enumerated solutions are not judged by max |q| but by the terms of each sum. */
@@ -45,7 +47,8 @@ static void require_listed(int n, const double *M, const double *q, const double
         size = fmax(size, fmax(terms, fabs(z[i])));
     }
     fuzz_require(isfinite(size), "an enumerated solution is finite");
-    fuzz_require(residual(n, M, q, z) <= 1e-9 * size, "an enumerated solution solves");
+    fuzz_require(residual(n, M, q, z) <= 1e-9 * size + DBL_MIN,
+                 "an enumerated solution solves");
 }
 
 static void require_same(const double *got, const double *kept, size_t n)

@@ -2,6 +2,7 @@
  * r = P_K(r - rho uhat(r)) and extragradient (Korpelevich, Khobotov). */
 #include "friction/internal.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,7 +76,8 @@ static double distance(int n, const double *x, const double *y)
 }
 
 /* One step from r, uhat; ||r_{k+1} - r_k|| / ||r_{k+1}||.  rho shrinks until the step
- * passes, and grows where it passed easily. */
+ * passes, and grows where it passed easily.  Below the normal numbers it shrinks no more:
+ * a problem with velocities beyond 1e300 has no step that passes. */
 static double advance(projector *s)
 {
     rb_friction_task *t = s->task;
@@ -85,7 +87,7 @@ static double advance(projector *s)
         uhat_at(s, s->p, s->up);
         step = distance(t->m, s->p, t->r);
         ratio = step > 0.0 ? s->rho * distance(t->m, s->up, s->uhat) / step : 0.0;
-        if (!(ratio > RB_FRICTION_UPK_MOST))
+        if (!(ratio > RB_FRICTION_UPK_MOST) || s->rho < DBL_MIN)
             break;
         s->rho *= RB_FRICTION_UPK_SHRINK;
     }
