@@ -208,9 +208,6 @@ static void sizes_and_indices_are_checked(void **state)
     fresh_local();
     overwrite("/fclib_local/vectors/mu", H5T_NATIVE_DOUBLE, 1, few);
     refused("expected 2");
-    fresh_local();
-    overwrite("/fclib_local/V", H5T_NATIVE_DOUBLE, 1, few);
-    refused("bilateral");
     /* nzmax beyond what is stored does not matter */
     fresh_local();
     set_int("/fclib_local/W/nzmax", 900);
@@ -218,6 +215,63 @@ static void sizes_and_indices_are_checked(void **state)
     CHECK_STATUS(rb_io_fclib_read(path, &back, NULL), RB_OK);
     assert_int_equal(back.W.p[6], 8);
     rb_io_fclib_free(&back);
+}
+
+/* u = W r + V l + q, V' r + R l + s = 0 with one constraint */
+static void fresh_constrained(void)
+{
+    rb_io_fclib p;
+    const int at[] = {0, 3}, zero[] = {0, 0};
+    const double x[] = {2.0, -1.0};
+    small_local(&p);
+    p.constraints = 1;
+    p.s = rb_alloc(1, 1);
+    p.s[0] = 0.5;
+    CHECK_STATUS(rb_sparse_from_triplets(6, 1, 2, at, zero, x, &p.V), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(1, 1, 1, zero, zero, x, &p.R), RB_OK);
+    CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSC, "", "", NULL), RB_OK);
+    rb_io_fclib_free(&p);
+}
+
+static void drop(const char *name)
+{
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    assert_true(H5Ldelete(file, name, H5P_DEFAULT) >= 0);
+    H5Fclose(file);
+}
+
+static void constraints_are_whole_or_refused(void **state)
+{
+    (void)state;
+    rb_io_fclib p;
+    const double few[] = {1.0};
+    fresh_constrained();
+    CHECK_STATUS(rb_io_fclib_read(path, &p, NULL), RB_OK);
+    assert_int_equal(p.constraints, 1);
+    CHECK_ABS(p.V.x[1], -1.0, 0.0, "V");
+    CHECK_ABS(p.R.x[0], 2.0, 0.0, "R");
+    CHECK_ABS(p.s[0], 0.5, 0.0, "s");
+    rb_io_fclib_free(&p);
+    drop("/fclib_local/R");
+    refused("no /fclib_local/R/m");
+    fresh_constrained();
+    drop("/fclib_local/V");
+    refused("no /fclib_local/V/m");
+    fresh_constrained();
+    drop("/fclib_local/vectors/s");
+    refused("no /fclib_local/vectors/s");
+    fresh_constrained();
+    set_int("/fclib_local/V/m", 7);
+    refused("/fclib_local/V is 7 x 1, expected 6 x 1");
+    fresh_constrained();
+    set_int("/fclib_local/R/m", 2);
+    refused("/fclib_local/R is 2 x 1, expected 1 x 1");
+    rb_io_fclib g;
+    small_global(&g);
+    CHECK_STATUS(rb_io_fclib_write(path, &g, RB_IO_FCLIB_CSR, "", "", NULL), RB_OK);
+    rb_io_fclib_free(&g);
+    overwrite("/fclib_global/vectors/b", H5T_NATIVE_DOUBLE, 1, few);
+    refused("no /fclib_global/G/m");
 }
 
 /* Opens the file for a change of one array, which is deleted. */
@@ -403,6 +457,7 @@ int main(void)
         cmocka_unit_test(what_is_written_is_read_in_every_layout),
         cmocka_unit_test(one_triangle_of_m_is_completed),
         cmocka_unit_test(sizes_and_indices_are_checked),
+        cmocka_unit_test(constraints_are_whole_or_refused),
         cmocka_unit_test(nothing_is_read_of_another_file),
         cmocka_unit_test(memory_is_bounded_by_the_size_of_the_file),
         cmocka_unit_test(other_files_are_refused),

@@ -82,6 +82,41 @@ static void products_agree_with_the_dense_matrix(void **state)
     rb_sparse_free(&a);
 }
 
+static void products_of_matrices_agree_with_dense_ones(void **state)
+{
+    (void)state;
+    enum { M = 23, N = 17, L = 29 };
+    double left[M * N], right[N * L], got[M * L] = {0.0};
+    rb_sparse a, b, c;
+    random_pair(M, N, 0.2, &a, left);
+    random_pair(N, L, 0.3, &b, right);
+    CHECK_STATUS(rb_sparse_multiply(&a, &b, &c), RB_OK);
+    assert_int_equal(c.rows, M);
+    assert_int_equal(c.cols, L);
+    for (int j = 0; j < L; j++)
+        for (int k = c.p[j]; k < c.p[j + 1]; k++) {
+            assert_true(k == c.p[j] || c.i[k] > c.i[k - 1]);
+            got[c.i[k] + j * M] = c.x[k];
+        }
+    for (int j = 0; j < L; j++)
+        for (int i = 0; i < M; i++) {
+            double want = 0.0;
+            for (int k = 0; k < N; k++)
+                want += left[i + k * M] * right[k + j * N];
+            CHECK_ABS(got[i + j * M], want, 1e-14, "entry %d, %d", i, j);
+        }
+    rb_sparse_free(&c);
+    CHECK_STATUS(rb_sparse_multiply(&b, &a, &c), RB_EINVAL);
+    assert_null(c.p);
+    for (int fail = 0; fail < 4; fail++) {
+        alloc_fail_after(fail);
+        CHECK_STATUS(rb_sparse_multiply(&a, &b, &c), RB_ENOMEM);
+        alloc_succeed();
+    }
+    rb_sparse_free(&a);
+    rb_sparse_free(&b);
+}
+
 static void places_outside_are_refused(void **state)
 {
     (void)state;
@@ -291,6 +326,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(products_agree_with_the_dense_matrix),
+        cmocka_unit_test(products_of_matrices_agree_with_dense_ones),
         cmocka_unit_test(places_outside_are_refused),
         cmocka_unit_test(ranks_are_seen),
         cmocka_unit_test(lu_solves_and_names_singular_matrices),

@@ -48,6 +48,19 @@ rb_status rb_friction_problem_check(const rb_friction_problem *problem, rb_messa
 rb_status rb_friction_condense(const rb_friction_problem *global,
                                rb_friction_problem *local, rb_message *why);
 
+/* Bilateral constraints, eliminated: the problem becomes one without them, of the same r
+ * and u.  Global: K v = H r + G l + f, u = H' v + w, G' v + b = 0 (G: n x c, b: c); of v
+ * n - rank(G) motions are left.  Local: u = W r + V l + q, V' r + R l + s = 0 (V: m x c,
+ * R: c x c, s: c); W becomes sparse.  Redundant constraints drop out.  RB_EINVAL, with
+ * the reason in why and the problem as it was: sizes that differ, NaN or infinity,
+ * constraints that contradict each other, or that leave no motion or more than l
+ * undetermined. */
+rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
+                                const double *b, rb_message *why);
+rb_status rb_friction_eliminate_local(rb_friction_problem *local, const rb_sparse *V,
+                                      const rb_sparse *R, const double *s,
+                                      rb_message *why);
+
 /* What is worth knowing of a problem before solving it. */
 typedef struct {
     int rank;           /* of H (global) or W (local) */

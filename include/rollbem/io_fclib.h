@@ -13,14 +13,19 @@
 RB_PUBLIC_BEGIN
 
 /* local:  u = W r + q.   global:  M v = H r + f,  u = H' v + w.
- * [N, T] or [N, T1, T2] per contact. */
+ * [N, T] or [N, T1, T2] per contact.  With bilateral constraints of forces l:
+ * local:  u = W r + V l + q,  V' r + R l + s = 0.   global:  M v = H r + G l + f,
+ * G' v + b = 0. */
 typedef struct {
     int global;   /* 0: W, q;  1: M, H, f, w */
     int spacedim; /* 2 or 3 */
     int contacts;
-    rb_sparse W; /* all owned */
+    int constraints; /* 0: none; else the columns of G, or of V and R */
+    rb_sparse W;     /* all owned */
     rb_sparse M, H;
+    rb_sparse G, V, R;
     double *q, *f, *w, *mu;
+    double *b, *s;     /* constraints, or NULL */
     double *r, *u, *v; /* what the file holds as solution, or NULL: check it before use */
 } rb_io_fclib;
 
@@ -32,9 +37,9 @@ void rb_io_fclib_free(rb_io_fclib *problem);
 /* 1: the file begins like HDF5. */
 int rb_io_is_hdf5(const char *path);
 
-/* An M of which only one triangle is stored is completed.  RB_ENOENT; RB_EFORMAT, with
- * the place in why: not HDF5, truncated, no FCLib problem in it, sizes that disagree,
- * indices out of range, rolling friction (spacedim 5), bilateral constraints. */
+/* An M or R of which only one triangle is stored is completed.  RB_ENOENT; RB_EFORMAT,
+ * with the place in why: not HDF5, truncated, no FCLib problem in it, sizes that
+ * disagree, indices out of range, rolling friction (spacedim 5). */
 rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *why);
 
 /* title and description may be NULL.  The file appears whole or not at all (io.h).

@@ -43,6 +43,9 @@ void rb_sparse_apply(double alpha, const rb_sparse *a, const double *x, double b
 void rb_sparse_apply_transposed(double alpha, const rb_sparse *a, const double *x,
                                 double beta, double *y);
 
+/* C = A B.  RB_EINVAL: A has not as many columns as B rows; RB_ENOMEM. */
+rb_status rb_sparse_multiply(const rb_sparse *a, const rb_sparse *b, rb_sparse *c);
+
 /* part[i]: number, from 0, of the connected component of the graph of A + A' that i
  * belongs to.  A square. */
 rb_status rb_sparse_components(const rb_sparse *a, int *count, int *part);

@@ -164,6 +164,52 @@ rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda,
     return RB_OK;
 }
 
+/* Column j of the product: sum, over the entries of B's column, of columns of A; touched:
+ * its rows, each once, marked by seen = j + 1. */
+static int multiply_column(const rb_sparse *a, const rb_sparse *b, int j, double *sum,
+                           int *seen, int *touched)
+{
+    int count = 0;
+    for (int l = b->p[j]; l < b->p[j + 1]; l++)
+        for (int k = a->p[b->i[l]]; k < a->p[b->i[l] + 1]; k++) {
+            const int i = a->i[k];
+            if (seen[i] != j + 1) {
+                seen[i] = j + 1;
+                sum[i] = 0.0;
+                touched[count++] = i;
+            }
+            sum[i] += a->x[k] * b->x[l];
+        }
+    return count;
+}
+
+rb_status rb_sparse_multiply(const rb_sparse *a, const rb_sparse *b, rb_sparse *c)
+{
+    *c = (rb_sparse){0};
+    if (a->cols != b->rows)
+        return RB_EINVAL;
+    rb_triplets t = {0};
+    double *sum = rb_alloc((size_t)a->rows, 1);
+    int *seen = rb_alloc_int(2 * (size_t)a->rows);
+    rb_status s = sum && seen ? RB_OK : RB_ENOMEM;
+    for (int j = 0; s == RB_OK && j < b->cols; j++) {
+        int *touched = seen + a->rows;
+        const int count = multiply_column(a, b, j, sum, seen, touched);
+        s = rb_triplets_reserve(&t, (size_t)count);
+        for (int k = 0; s == RB_OK && k < count; k++, t.nz++) {
+            t.row[t.nz] = touched[k];
+            t.col[t.nz] = j;
+            t.x[t.nz] = sum[touched[k]];
+        }
+    }
+    if (s == RB_OK)
+        s = rb_sparse_from_triplets(a->rows, b->cols, t.nz, t.row, t.col, t.x, c);
+    rb_triplets_free(&t);
+    free(seen);
+    free(sum);
+    return s;
+}
+
 rb_status rb_sparse_copy(const rb_sparse *a, rb_sparse *b)
 {
     const int nz = a->p[a->cols];

@@ -17,7 +17,7 @@ static rb_status copy_vector(size_t n, const double *from, double **to)
     return RB_OK;
 }
 
-/* Takes over the arrays of the file. */
+/* Moves what a problem without constraints has of the file. */
 static void adopt_fclib(rb_io_fclib *file, rb_friction_problem *p)
 {
     *p = (rb_friction_problem){.form = file->global ? RB_FRICTION_GLOBAL
@@ -32,20 +32,27 @@ static void adopt_fclib(rb_io_fclib *file, rb_friction_problem *p)
                                .H = file->H,
                                .f = file->f,
                                .w = file->w};
-    free(file->r);
-    free(file->u);
-    free(file->v);
-    *file = (rb_io_fclib){0};
+    file->W = file->M = file->H = (rb_sparse){0};
+    file->mu = file->q = file->f = file->w = NULL;
 }
 
 static rb_status read_fclib(const char *path, rb_friction_problem *problem,
                             rb_message *why)
 {
     rb_io_fclib file;
-    const rb_status s = rb_io_fclib_read(path, &file, why);
-    if (s == RB_OK)
-        adopt_fclib(&file, problem);
-    return s;
+    rb_message detail = {""};
+    rb_status s = rb_io_fclib_read(path, &file, why);
+    if (s != RB_OK)
+        return s;
+    adopt_fclib(&file, problem);
+    if (file.constraints)
+        s = file.global
+                ? rb_friction_eliminate(problem, &file.G, file.b, &detail)
+                : rb_friction_eliminate_local(problem, &file.V, &file.R, file.s, &detail);
+    rb_io_fclib_free(&file);
+    if (s == RB_EINVAL)
+        return rb_fail(why, RB_EFORMAT, "%s: %s", path, detail.text);
+    return s == RB_ENOMEM ? rb_fail(why, s, "%s: out of memory", path) : s;
 }
 
 /* Below this share of entries a dense W is kept sparse. */

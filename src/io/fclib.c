@@ -21,6 +21,11 @@ void rb_io_fclib_free(rb_io_fclib *problem)
     rb_sparse_free(&problem->W);
     rb_sparse_free(&problem->M);
     rb_sparse_free(&problem->H);
+    rb_sparse_free(&problem->G);
+    rb_sparse_free(&problem->V);
+    rb_sparse_free(&problem->R);
+    free(problem->b);
+    free(problem->s);
     free(problem->q);
     free(problem->f);
     free(problem->w);
@@ -296,20 +301,6 @@ static rb_status complete_symmetric(rb_sparse *a)
     return s;
 }
 
-static rb_status refuse_extras(const reader *in, const char *root,
-                               const char *const *names)
-{
-    char full[160];
-    for (; *names; names++) {
-        snprintf(full, sizeof full, "%s/%s", root, *names);
-        if (exists(in, full))
-            return rb_fail(in->why, RB_EFORMAT,
-                           "%s: %s: bilateral constraints are not supported", in->path,
-                           full);
-    }
-    return RB_OK;
-}
-
 static rb_status read_common(const reader *in, const char *root, int rows, rb_io_fclib *p)
 {
     char vectors[60];
@@ -327,12 +318,39 @@ static rb_status read_common(const reader *in, const char *root, int rows, rb_io
     return read_doubles(in, vectors, "mu", p->contacts, &p->mu);
 }
 
+/* A matrix of constraints, if any part of them is there: a column for each. */
+static rb_status read_columns(const reader *in, const char *group, int rows, int *count,
+                              rb_sparse *a)
+{
+    const rb_status s = read_matrix(in, group, a);
+    if (s == RB_OK && (a->rows != rows || (*count && a->cols != *count)))
+        return rb_fail(in->why, RB_EFORMAT, "%s: %s is %d x %d, expected %d x %d",
+                       in->path, group, a->rows, a->cols, rows,
+                       *count ? *count : a->cols);
+    if (s == RB_OK)
+        *count = a->cols;
+    return s;
+}
+
+/* u = W r + V l + q, V' r + R l + s = 0 */
+static rb_status read_local_constraints(const reader *in, rb_io_fclib *p)
+{
+    if (!exists(in, "/fclib_local/V") && !exists(in, "/fclib_local/R") &&
+        !exists(in, "/fclib_local/vectors/s"))
+        return RB_OK;
+    rb_status s = read_columns(in, "/fclib_local/V", p->W.rows, &p->constraints, &p->V);
+    if (s == RB_OK)
+        s = read_columns(in, "/fclib_local/R", p->constraints, &p->constraints, &p->R);
+    if (s == RB_OK)
+        s = complete_symmetric(&p->R);
+    return s == RB_OK
+               ? read_doubles(in, "/fclib_local/vectors", "s", p->constraints, &p->s)
+               : s;
+}
+
 static rb_status read_local(const reader *in, rb_io_fclib *p)
 {
-    static const char *const extras[] = {"V", "R", "vectors/s", NULL};
-    rb_status s = refuse_extras(in, "/fclib_local", extras);
-    if (s == RB_OK)
-        s = read_matrix(in, "/fclib_local/W", &p->W);
+    rb_status s = read_matrix(in, "/fclib_local/W", &p->W);
     if (s == RB_OK && p->W.rows != p->W.cols)
         s = rb_fail(in->why, RB_EFORMAT, "%s: W is %d x %d", in->path, p->W.rows,
                     p->W.cols);
@@ -340,16 +358,25 @@ static rb_status read_local(const reader *in, rb_io_fclib *p)
         s = read_common(in, "/fclib_local", p->W.rows, p);
     if (s == RB_OK)
         s = read_doubles(in, "/fclib_local/vectors", "q", p->W.rows, &p->q);
-    return s;
+    return s == RB_OK ? read_local_constraints(in, p) : s;
+}
+
+/* M v = H r + G l + f, G' v + b = 0 */
+static rb_status read_global_constraints(const reader *in, rb_io_fclib *p)
+{
+    if (!exists(in, "/fclib_global/G") && !exists(in, "/fclib_global/vectors/b"))
+        return RB_OK;
+    const rb_status s =
+        read_columns(in, "/fclib_global/G", p->M.rows, &p->constraints, &p->G);
+    return s == RB_OK
+               ? read_doubles(in, "/fclib_global/vectors", "b", p->constraints, &p->b)
+               : s;
 }
 
 static rb_status read_global(const reader *in, rb_io_fclib *p)
 {
-    static const char *const extras[] = {"G", "vectors/b", NULL};
     p->global = 1;
-    rb_status s = refuse_extras(in, "/fclib_global", extras);
-    if (s == RB_OK)
-        s = read_matrix(in, "/fclib_global/M", &p->M);
+    rb_status s = read_matrix(in, "/fclib_global/M", &p->M);
     if (s == RB_OK)
         s = complete_symmetric(&p->M);
     if (s == RB_OK)
@@ -363,7 +390,7 @@ static rb_status read_global(const reader *in, rb_io_fclib *p)
         s = read_doubles(in, "/fclib_global/vectors", "f", p->M.rows, &p->f);
     if (s == RB_OK)
         s = read_doubles(in, "/fclib_global/vectors", "w", p->H.cols, &p->w);
-    return s;
+    return s == RB_OK ? read_global_constraints(in, p) : s;
 }
 
 /* What is there under /solution and long enough. */
@@ -469,6 +496,11 @@ static rb_status read_in_child(FILE *out, const void *path, rb_message *why)
     put_sparse(out, &p.W);
     put_sparse(out, &p.M);
     put_sparse(out, &p.H);
+    put_sparse(out, &p.G);
+    put_sparse(out, &p.V);
+    put_sparse(out, &p.R);
+    put_array(out, p.b, sizeof *p.b, p.constraints);
+    put_array(out, p.s, sizeof *p.s, p.constraints);
     put_array(out, p.q, sizeof *p.q, m);
     put_array(out, p.f, sizeof *p.f, p.M.rows);
     put_array(out, p.w, sizeof *p.w, m);
@@ -519,11 +551,18 @@ static rb_status take_problem(const char *bytes, rb_io_fclib *p)
     bytes_in in = {.at = bytes};
     rb_io_fclib sizes;
     take(&in, &sizes, sizeof sizes);
-    *p = (rb_io_fclib){
-        .global = sizes.global, .spacedim = sizes.spacedim, .contacts = sizes.contacts};
+    *p = (rb_io_fclib){.global = sizes.global,
+                       .spacedim = sizes.spacedim,
+                       .contacts = sizes.contacts,
+                       .constraints = sizes.constraints};
     take_sparse(&in, &p->W);
     take_sparse(&in, &p->M);
     take_sparse(&in, &p->H);
+    take_sparse(&in, &p->G);
+    take_sparse(&in, &p->V);
+    take_sparse(&in, &p->R);
+    p->b = take_array(&in, sizeof *p->b);
+    p->s = take_array(&in, sizeof *p->s);
     p->q = take_array(&in, sizeof *p->q);
     p->f = take_array(&in, sizeof *p->f);
     p->w = take_array(&in, sizeof *p->w);
@@ -658,6 +697,9 @@ static int write_vectors(hid_t root, const rb_io_fclib *p)
               write_array(group, "w", H5T_NATIVE_DOUBLE, m, p->w);
     else if (!bad)
         bad = write_array(group, "q", H5T_NATIVE_DOUBLE, m, p->q);
+    if (!bad && p->constraints)
+        bad = write_array(group, p->global ? "b" : "s", H5T_NATIVE_DOUBLE, p->constraints,
+                          p->global ? p->b : p->s);
     if (group >= 0)
         H5Gclose(group);
     return bad;
@@ -703,6 +745,10 @@ static int write_file(hid_t file, const rb_io_fclib *p, rb_io_fclib_layout layou
               write_matrix(root, "H", &p->H, layout);
     else if (!bad)
         bad = write_matrix(root, "W", &p->W, layout);
+    if (!bad && p->constraints)
+        bad = p->global ? write_matrix(root, "G", &p->G, layout)
+                        : write_matrix(root, "V", &p->V, layout) ||
+                              write_matrix(root, "R", &p->R, layout);
     if (root >= 0)
         H5Gclose(root);
     return bad || write_solution(file, p);
