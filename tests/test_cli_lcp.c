@@ -364,11 +364,13 @@ static void all_solutions_are_listed(void **state)
     (void)state;
     put("p", "1 -1 1"); /* w = 1 - z: 0 and 1 */
     assert_int_equal(lcp("--all p"), 0);
-    assert_non_null(strstr(out, "n = 1, 2 pivots"));
+    assert_non_null(strstr(out, "n = 1, 2 bases"));
     assert_non_null(strstr(out, "\np\t1\t1\t0\t1\n"));
     assert_non_null(strstr(out, "\np\t2\t1\t1\t0\n"));
     assert_int_equal(lcp("--all ray"), 1);
     assert_non_null(strstr(err, "no solution in 2 complementary bases"));
+    assert_non_null(strstr(out, "# ray: no solution, n = 1, 2 bases, "));
+    assert_null(strstr(out, "nan"));
     assert_int_equal(lcp("--all --trace p"), 64);
     put("p", "1 0 0");
     assert_int_equal(lcp("--all p"), 0);
@@ -391,8 +393,8 @@ static void games_are_solved(void **state)
     assert_int_equal(lcp("--game --all p"), 0);
     assert_non_null(strstr(out, "\np\t3\t4\t"));
     assert_null(strstr(out, "\np\t4\t"));
-    assert_int_equal(lcp("--game --label 5 p"), 65);
-    assert_non_null(strstr(err, "label 5: expected 1 to 4"));
+    assert_int_equal(lcp("--game --label 5 p"), 64);
+    assert_non_null(strstr(err, "--label: expected one of the 4 strategies of p, got 5"));
     assert_int_equal(lcp("--game --max-pivots 1 p"), 1);
     assert_non_null(strstr(err, "no solution after --max-pivots 1"));
     assert_int_equal(lcp("--label 1 good"), 64);

@@ -243,8 +243,12 @@ static void print_problem(lcp_run *run, const lcp_result *r)
     if (!r->n)
         return;
     if (run->o->trace || run->o->solution || run->o->all) {
-        rb_report_comment(c, "%s: %s, n = %d, %d pivots, residual %.3g, %.3g s", r->file,
-                          r->status, r->n, r->info.iters, r->info.res, r->seconds);
+        char residual[40] = ""; /* without a solution there is none */
+        if (isfinite(r->info.res))
+            snprintf(residual, sizeof residual, ", residual %.3g", r->info.res);
+        rb_report_comment(c, "%s: %s, n = %d, %d %s%s, %.3g s", r->file, r->status, r->n,
+                          r->info.iters, run->o->all ? "bases" : "pivots", residual,
+                          r->seconds);
     } else {
         rb_report_cell_text(c, r->file);
         rb_report_cell_words(c, r->status);
@@ -516,7 +520,11 @@ static cli_exit solve_game(lcp_run *run, lcp_result *r)
 {
     rb_io_bimatrix g;
     rb_message why;
-    const rb_status s = rb_io_bimatrix_read(r->file, &g, &why);
+    rb_status s = rb_io_bimatrix_read(r->file, &g, &why);
+    if (s == RB_OK && run->o->label > g.m + g.n)
+        s = rb_fail(&why, RB_EINVAL,
+                    "--label: expected one of the %d strategies of %.200s, got %d",
+                    g.m + g.n, r->file, run->o->label);
     const cli_exit code = s == RB_OK ? run_game(run, &g, r) : failed(r, s, why.text);
     rb_io_bimatrix_free(&g);
     return code;
