@@ -511,7 +511,15 @@ static void pictures_in_sizes(void **state)
         {"stress " SIMILAR "--contact-elements 20 --shakedown", "shakedown-map", 1, 481},
         {"wear " SIMILAR "--gap parabola --slide 1e5 --wear-coefficient 1e-10 "
          "--wear-steps 2 --contact-elements 20",
-         "plot", 1, 481}};
+         "plot", 1, 481},
+        {"sweep --restart " SIMILAR "--contact-elements 20 --vary-1 'mu .1 .2' "
+         "--vary-2 'radius 9 20'",
+         "plot", 1, 481},
+        {"sweep --restart " SIMILAR "--contact-elements 20 --vary-1 'mu .1 .2' "
+         "--vary-2 'radius 9 20' --show max_pressure",
+         "map", 1, 481},
+        {"example truss --nodes 4", "plot", 0, 361},
+        {"example bar", "plot", 0, 361}};
     for (size_t k = 0; k < sizeof pictures / sizeof *pictures; k++) {
         const struct {
             const char *name;
@@ -576,6 +584,71 @@ static void pictures_name_the_case(void **state)
     }
 }
 
+/* The last x of a block of gnuplot's script. */
+static double last_x_of(const char *script, const char *name)
+{
+    static char text[200000];
+    char head[40];
+    slurp(script, text, sizeof text);
+    snprintf(head, sizeof head, "$%s << EOD\n", name);
+    const char *at = strstr(text, head);
+    assert_non_null(at);
+    const char *line = strchr(at, '\n') + 1, *next = line;
+    for (; strncmp(next, "EOD", 3) != 0; next = strchr(next, '\n') + 1)
+        line = next;
+    return strtod(line, NULL);
+}
+
+/* Over equal ratios, curves of several mu end at different creepages; those of the
+ * picture do not, and the table has the ratios that were asked for. */
+static void curves_of_a_picture_share_their_range(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("curve " SIMILAR "--mu 0.1,0.4 --points 7 --quiet "
+                             "--contact-elements 20 --plot c.svg --plot-script c.gp "
+                             "--header bare --output c.tsv"),
+                     0);
+    CHECK_REL(last_x_of("c.gp", "curve0"), last_x_of("c.gp", "curve1"), 1e-8, "ends");
+    assert_int_equal(shell("cut -f3 c.tsv | grep -c '^1.5'"), 0);
+    assert_int_equal(atoi(out), 2);
+}
+
+/* The value of the largest stress stands in the title of its panel, where it covers no
+ * label of a contour. */
+static void the_largest_stress_covers_no_contour(void **state)
+{
+    (void)state;
+    json_t *root = run_json("stress " SIMILAR "--contact-elements 20 --plot s.svg "
+                            "--plot-script s.gp");
+    const json_t *maxima = json_object_get(root, "maxima");
+    char title[80];
+    snprintf(title, sizeof title, "maximum shear  [MPa],  at +: %.4g'",
+             number_in(json_object_get(maxima, "max_shear"), "value"));
+    slurp("s.gp", out, sizeof out);
+    assert_non_null(strstr(out, title));
+    assert_non_null(strstr(out, "set label 3 '' at first"));
+    json_decref(root);
+}
+
+static void a_truss_is_drawn_with_its_bars(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("example truss --nodes 4 --output t.tsv --plot t.svg "
+                             "--plot-script t.gp"),
+                     0);
+    assert_int_equal(shell("awk '/^.bars/ { b = 1; next } /^EOD/ { b = 0 } b && NF' t.gp "
+                           "| wc -l"),
+                     0);
+    /* a quarter of 4 x 4 nodes below and 3 x 3 above: 4 bars of the lower grid, 4 of the
+     * upper one, whose nodes stand on the axes too, and 9 between the layers */
+    assert_int_equal(atoi(out), 2 * (4 + 4 + 9));
+    assert_int_equal(shell("grep -c 'plot $bars' t.gp"), 0);
+    assert_int_equal(atoi(out), 7); /* six increments and their sum */
+    assert_int_equal(shell("grep -c 'plot $before.*after' t.gp"), 0);
+    check_refused("example truss --plot t.svg --plot-size 85mm", 64,
+                  "--plot-size: the pictures of the examples have panels");
+}
+
 /* Friction that is rounding beside the pressure: every number is one. */
 static void almost_no_friction(void **state)
 {
@@ -617,6 +690,9 @@ int main(void)
         cmocka_unit_test(fitted_is_the_default_for_steady),
         cmocka_unit_test(pictures_are_drawn),
         cmocka_unit_test(pictures_in_sizes),
+        cmocka_unit_test(curves_of_a_picture_share_their_range),
+        cmocka_unit_test(the_largest_stress_covers_no_contour),
+        cmocka_unit_test(a_truss_is_drawn_with_its_bars),
         cmocka_unit_test(pictures_name_the_case),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

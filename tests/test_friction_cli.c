@@ -180,10 +180,13 @@ static void profiles_are_printed(void **state)
     CHECK_ABS(entry(profiles, "nsn-ac", last), 2.0 / 3.0, 1e-12, "two of three");
     json_decref(root);
     assert_int_equal(rollbem("compare --solvers auto slides nowhere --plot p.svg "
-                             "--profiles p.tsv"),
+                             "--profiles p.tsv --plot-size 85mm --plot-script p.gp"),
                      66);
     assert_int_equal(shell("grep -q '^# profiles over flops, 1 problems' p.tsv"), 0);
-    assert_int_equal(shell("grep -q '<svg' p.svg"), 0);
+    assert_int_equal(
+        shell("grep -q 'width=.321. height=.321.' p.svg && gnuplot -d p.gp | "
+              "cmp - p.svg"),
+        0);
 }
 
 int main(void)

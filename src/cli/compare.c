@@ -20,6 +20,8 @@ typedef struct {
     int measure, max_iters;
     rb_report_style style;
     const char *plot, *output, *profiles;
+    cli_pictures pictures;
+    int given[20];
 } compare_options;
 
 static const rb_choice measures[] = {{"flops", COST_FLOPS},
@@ -46,6 +48,7 @@ static const rb_option options[] = {
     RB_TEXT_LINE("plot", PLACE(plot), "FILE",
                  "picture of the profiles (.png, .svg, .pdf)", .unset = "none",
                  .file = RB_FILE_PICTURE),
+    CLI_PICTURE_LINES(PLACE(pictures)),
     RB_TEXT_LINE("output", PLACE(output), "FILE",
                  "where the table of the runs or JSON goes, whole or not at all",
                  .unset = "standard output", .file = RB_FILE_WRITTEN),
@@ -55,6 +58,8 @@ static const rb_option options[] = {
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0], MOST_SOLVERS = 32, TAUS = 61 };
+
+_Static_assert(OPTIONS <= 20, "given");
 
 static const char about[] = "Runs friction solvers on problems from files and compares "
                             "them: a table of the runs and,\n"
@@ -340,7 +345,7 @@ static cli_exit compare_files(comparison *c, int n, char **files)
     if (code == CLI_OK && c->o->profiles)
         code = cli_write_file(c->o->profiles, print_profiles, c);
     if (code == CLI_OK)
-        code = cli_draw_file(&(cli_pictures){0}, "plot", c->o->plot, draw, c);
+        code = cli_draw_file(&c->o->pictures, "plot", c->o->plot, draw, c);
     return code > worst ? code : worst;
 }
 
@@ -352,7 +357,7 @@ int cli_compare(int argc, char **argv)
     const cli_spec spec = {"rollbem compare [OPTION...] FILE...",
                            about,
                            notes,
-                           {{options, OPTIONS, &o, NULL, NULL}},
+                           {{options, OPTIONS, &o, o.given, NULL}},
                            1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands < 1)

@@ -4,6 +4,7 @@
 #include "cli/output.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -100,6 +101,7 @@ typedef struct {
     const range_options *range;
     const cli_output *o;
     rb_report_curves curves;
+    rb_report_curves drawn; /* as many where the picture has its own */
 } result;
 
 /* The picture shows the force as a part of the friction, mu P. */
@@ -147,6 +149,40 @@ static rb_status solve_curves(const rb_settled_case *c, const range_options *ran
     return s;
 }
 
+/* Equal ratios are different creepages where mu differs, and the curves of a picture over
+ * xi would end one after another: it has its own, over all the creepages that occur. */
+static rb_status solve_drawn(result *r, rb_message *why)
+{
+    range_options common = *r->range;
+    if (!r->o->plot || common.over != RB_OVER_CREEP_RATIO || r->curves.n < 2)
+        return RB_OK;
+    common.over = RB_OVER_CREEP;
+    common.from = INFINITY;
+    common.to = -INFINITY;
+    for (int k = 0; k < r->curves.n; k++) {
+        const rb_rolling_curve *c = &r->curves.curve[k];
+        common.from = fmin(common.from, fmin(c->creepage[0], c->creepage[c->n - 1]));
+        common.to = fmax(common.to, fmax(c->creepage[0], c->creepage[c->n - 1]));
+    }
+    return solve_curves(r->c, &common, &r->drawn, why);
+}
+
+static void convert(rb_report_curves *curves, rb_units units)
+{
+    for (int k = 0; k < RB_REPORT_CURVES; k++) {
+        rb_rolling_curve_convert(&curves->curve[k], units);
+        rb_rolling_curve_convert(&curves->error[k], units);
+    }
+}
+
+static void free_curves(rb_report_curves *curves)
+{
+    for (int k = 0; k < RB_REPORT_CURVES; k++) {
+        rb_rolling_curve_free(&curves->curve[k]);
+        rb_rolling_curve_free(&curves->error[k]);
+    }
+}
+
 /* ---- Print ------------------------------------------------------------------------ */
 
 static rb_status print_json(FILE *out, const result *r)
@@ -178,7 +214,8 @@ static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
                       rb_message *why)
 {
     const result *r = context;
-    return rb_report_curve_picture(out, canvas, &r->c->rc, &r->curves,
+    return rb_report_curve_picture(out, canvas, &r->c->rc,
+                                   r->drawn.n == r->curves.n ? &r->drawn : &r->curves,
                                    (rb_rolling_variable)r->range->over, why);
 }
 
@@ -206,19 +243,17 @@ static cli_exit solve(const rb_case *words, const range_options *range,
     result r = {.words = words, .c = c, .range = range, .o = o};
     rb_message why = {""};
     cli_exit code = CLI_OK;
-    const rb_status s = solve_curves(c, range, &r.curves, &why);
-    for (int k = 0; k < RB_REPORT_CURVES; k++) {
-        rb_rolling_curve_convert(&r.curves.curve[k], c->units);
-        rb_rolling_curve_convert(&r.curves.error[k], c->units);
-    }
+    rb_status s = solve_curves(c, range, &r.curves, &why);
+    if (s == RB_OK)
+        s = solve_drawn(&r, &why);
+    convert(&r.curves, c->units);
+    convert(&r.drawn, c->units);
     if (s >= 0 && r.curves.n > 0 && r.curves.curve[0].n > 0)
         code = show(&r);
     if (code == CLI_OK && s != RB_OK)
         code = cli_case_refused(words, s, &why);
-    for (int k = 0; k < RB_NUMBERS_MAX; k++) {
-        rb_rolling_curve_free(&r.curves.curve[k]);
-        rb_rolling_curve_free(&r.curves.error[k]);
-    }
+    free_curves(&r.curves);
+    free_curves(&r.drawn);
     return code;
 }
 

@@ -17,6 +17,8 @@ typedef struct {
     int quiet;
     int layout, nodes;         /* truss */
     int mesh, rigid, problems; /* wall */
+    cli_pictures pictures;
+    int given[20];
 } example_options;
 
 static const rb_choice layouts[] = {{"upper-inside", RB_FEM_UPPER_INSIDE},
@@ -56,10 +58,13 @@ static const rb_option options[] = {
                  .unset = "none"),
     RB_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
                  .unset = "none", .file = RB_FILE_PICTURE),
+    CLI_PICTURE_LINES(PLACE(pictures)),
     RB_FLAG_LINE("quiet", PLACE(quiet), "wall: no line per step on standard error"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
+
+_Static_assert(OPTIONS <= 20, "given");
 
 static const char about[] =
     "Solves a finite-element example and prints one row per increment.\n"
@@ -196,7 +201,7 @@ static cli_exit run_history(const example_options *o, const example *e,
     if (s >= RB_OK)
         code = cli_write_file(o->output, write_history, &r);
     if (s >= RB_OK && code == CLI_OK)
-        code = cli_draw_file(&(cli_pictures){0}, "plot", o->plot, draw_history, &r);
+        code = cli_draw_file(&o->pictures, "plot", o->plot, draw_history, &r);
     if (s != RB_OK && code == CLI_OK)
         code = cli_say(s, &why);
     rb_fem_history_free(&history);
@@ -348,7 +353,7 @@ static cli_exit finish_wall(const wall_run *run)
     const example_options *o = run->o;
     cli_exit code = cli_write_file(NULL, write_wall, run);
     if (code == CLI_OK)
-        code = cli_draw_file(&(cli_pictures){0}, "plot", o->plot, draw_wall, run);
+        code = cli_draw_file(&o->pictures, "plot", o->plot, draw_wall, run);
     if (code == CLI_OK && o->output)
         code = write_problems(run);
     return code;
@@ -403,6 +408,11 @@ static cli_exit check(const example_options *o, const cli_args *args)
         if (s != RB_OK)
             return cli_say(s, &why);
     }
+    if (o->pictures.size == RB_REPORT_85MM)
+        return cli_fail(CLI_USAGE,
+                        "--plot-size: the pictures of the examples have panels "
+                        "side by side, wider than 85mm; expected 170mm or "
+                        "slide");
     const rb_friction_solver *solver;
     return o->solver ? cli_friction_solver("solver", o->solver, &solver) : CLI_CONTINUE;
 }
@@ -435,7 +445,7 @@ int cli_example(int argc, char **argv)
     const cli_spec spec = {"rollbem example [OPTION...] bar|truss|wall",
                            about,
                            NULL,
-                           {{options, OPTIONS, &o, NULL, NULL}},
+                           {{options, OPTIONS, &o, o.given, NULL}},
                            1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE)

@@ -4,15 +4,20 @@
 static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 {
     const rb_report_profiles *p = view;
+    const rb_report_place place = rb_report_place_of(canvas);
+    if (place.titled)
+        fprintf(out,
+                "set label 1 '{/:Bold Performance profiles}   %d problem%s' at screen "
+                "0.5, 0.955 center\n",
+                p->problems, p->problems == 1 ? "" : "s");
     fprintf(out,
             RB_REPORT_GRID
             "set logscale x\nset xrange [1:1000]\nset yrange [0:1.05]\n"
-            "set label 1 '{/:Bold Performance profiles}   %d problems' at screen 0.5, "
-            "0.955 center\nset tmargin at screen 0.9\n"
+            "set tmargin at screen %g\n"
             "set xlabel 'τ: %s over the least of all solvers'\n"
             "set ylabel 'share of problems solved' offset 1,0\n"
             "set key outside right samplen 2 font ',%.3g'\n$profiles << EOD\n",
-            p->problems, p->measure, 0.8 * rb_report_key_font(canvas));
+            0.9 + place.up, p->measure, 0.8 * rb_report_key_font(canvas));
     for (int k = 0; k < p->n; k++) {
         fprintf(out, "%.4g", p->tau[k]);
         for (int s = 0; s < p->solvers; s++)

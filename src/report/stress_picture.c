@@ -131,17 +131,17 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
             "set lmargin at screen %g\nset rmargin at screen %g\n"
             "set bmargin at screen %g\nset tmargin at screen %g\n",
             left, left + width, bottom, top);
+    /* the value of the maximum stands in the title, where it covers no contour's */
     fprintf(out,
             "set cbtics %.9g\nset colorbox user origin %g, %g size 0.013, %g\n"
-            "set label 2 '%s  [%s]' at screen %g, %g center\n",
+            "set label 2 '%s  [%s],  at +: %.4g' at screen %g, %g center\n"
+            "set label 3 '' at first %.9g, %.9g point pointtype 1 pointsize 1.6 "
+            "linewidth 1.6 "
+            "linecolor rgb '#111111' front\n",
             rb_report_round_step(m->value / v->stress_unit / rb_report_labels_in(height)),
-            left + width + 0.012, bottom, height, name, v->stress_label, left + width / 2,
-            top + 0.05);
-    fprintf(
-        out,
-        "set label 3 '%.4g' at first %.9g, %.9g boxed point pointtype 1 pointsize 1.2 "
-        "linecolor rgb '#111111' offset 0.8,0.9 textcolor rgb '#111111' front\n",
-        m->value / v->stress_unit, m->x / v->unit, m->y / v->unit);
+            left + width + 0.012, bottom, height, name, v->stress_label,
+            m->value / v->stress_unit, left + width / 2, top + 0.05, m->x / v->unit,
+            m->y / v->unit);
     fprintf(out,
             "splot $grid using 1:2:%d with pm3d nocontour, $grid using 1:2:%d with lines "
             "nosurface linecolor rgb '#ffffff' linewidth 0.6, $grid using 1:2:%d with "
@@ -155,7 +155,7 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
     write_grid(out, v);
     write_axes(out, v);
     fprintf(out,
-            "set contour base\nset cntrlabel onecolor start 30 interval -1 font ',%.3g'\n"
+            "set contour base\nset cntrlabel onecolor start 45 interval -1 font ',%.3g'\n"
             "set cntrparam levels auto %.0f\n",
             0.6 * rb_report_key_font(canvas),
             fmin(10.0, 2.0 * rb_report_labels_in(panel_height(v))));
