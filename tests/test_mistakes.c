@@ -117,6 +117,16 @@ static void doubtful_values_are_noted(void **state)
     }
 }
 
+/* A creepage that the program found is not what somebody typed. */
+static void found_creepage_is_not_doubted(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("--formulation steady --support hub --mu 1e-3 --free-axle "
+                             "--approach 0.04 --contact-elements 40"),
+                     0);
+    assert_null(strstr(err, "is the creepage meant"));
+}
+
 static void examples_are_at_hand(void **state)
 {
     (void)state;
@@ -161,6 +171,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(forty_mistakes_get_a_line_that_helps),
         cmocka_unit_test(doubtful_values_are_noted),
+        cmocka_unit_test(found_creepage_is_not_doubted),
         cmocka_unit_test(examples_are_at_hand),
         cmocka_unit_test(terminals_get_a_short_table),
     };

@@ -56,12 +56,12 @@ static void note_motion(rb_report_note_list *list, const rb_rolling_case *rc)
             "at creepage 0");
 }
 
-/* Values that look as if they were meant in other units. */
+/* Given values that look as if they were meant in other units. */
 static void note_units(rb_report_note_list *list, const rb_rolling_case *rc,
                        const rb_rolling_solution *s)
 {
     const int arcs = rc->a.support == RB_BEM_ARC;
-    if (rc->formulation == RB_STEADY && fabs(s->creep_ratio) > 20.0)
+    if (rc->formulation == RB_STEADY && !isnan(rc->creep) && fabs(s->creep_ratio) > 20.0)
         add(list,
             "xi R/(mu a) = %.3g: full sliding far beyond 1; is the creepage meant in "
             "%%, --creep %g%%?",
