@@ -112,6 +112,13 @@ static void pairs_of_any_kind_agree(void **state)
         assert_ptr_equal(rb_bem_flexibility_stored(&f), k == 0 ? first : NULL);
         CHECK_STATUS(rb_bem_flexibility_matrix(&f, F[k], 2 * m), RB_OK);
         rb_bem_flexibility_apply(&f, r, w[k]);
+        double stored[2 * m];
+        CHECK_STATUS(rb_bem_flexibility_store(&f), RB_OK);
+        assert_non_null(rb_bem_flexibility_stored(&f));
+        assert_memory_equal(rb_bem_flexibility_stored(&f), F[k], sizeof F[k]);
+        rb_bem_flexibility_apply(&f, r, stored);
+        for (int i = 0; i < 2 * m; i++)
+            CHECK_ABS(stored[i], w[k][i], 1e-13 * largest(2 * m, w[k]), "pair %d", k);
         rb_bem_flexibility_free(&f);
         for (int i = 0; i < 4 * m * n; i++)
             CHECK_ABS(F[k][i], F[0][i], 1e-13 * largest(4 * m * n, F[0]), "pair %d", k);

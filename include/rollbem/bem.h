@@ -243,6 +243,8 @@ void rb_bem_flexibility_apply(const rb_bem_flexibility *f, const double *r, doub
 rb_status rb_bem_flexibility_matrix(const rb_bem_flexibility *f, double *F, int ldf);
 /* The dense matrix behind f, ld = 2m, borrowed; NULL where there is none. */
 const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f);
+/* Puts a dense matrix behind f, whatever has been there.  RB_ENOMEM leaves f as it is. */
+rb_status rb_bem_flexibility_store(rb_bem_flexibility *f);
 void rb_bem_flexibility_free(rb_bem_flexibility *f);
 
 /* Approximate inverses for iterative solvers, on a line of equal elements: of F_NN or

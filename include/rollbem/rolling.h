@@ -273,7 +273,7 @@ typedef struct {
     int can;                                   /* a sum of rb_rolling_ability */
     const rb_rolling_parameter *parameters;
     /* Ranges of the parameters; of an addition for every body, with or without it.
-     * which: "", or " of body B". */
+     * which: "", or " of body B".  NULL: nothing to check. */
     rb_status (*check)(const rb_rolling_body *body, const char *which, rb_message *why);
 
     /* Of the support only: */

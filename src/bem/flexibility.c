@@ -99,6 +99,28 @@ const double *rb_bem_flexibility_stored(const rb_bem_flexibility *f)
     return f->apply == dense_apply ? f->data : NULL;
 }
 
+rb_status rb_bem_flexibility_store(rb_bem_flexibility *f)
+{
+    rb_bem_flexibility dense;
+    double *F;
+
+    if (f->apply == dense_apply)
+        return RB_OK;
+    rb_status s = rb_bem_flexibility_dense(f->n, &dense, &F);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_matrix(f, F, 2 * f->m);
+    if (s != RB_OK) {
+        rb_bem_flexibility_free(&dense);
+        return s;
+    }
+    memcpy(dense.x, f->x, (size_t)f->m * sizeof *f->x);
+    memcpy(dense.h, f->h, (size_t)f->m * sizeof *f->h);
+    memcpy(dense.w0, f->w0, 2 * (size_t)f->m * sizeof *f->w0);
+    rb_bem_flexibility_free(f);
+    *f = dense;
+    return RB_OK;
+}
+
 rb_status rb_bem_flexibility_add_compliance(rb_bem_flexibility *f, const double *normal,
                                             const double *tangential)
 {

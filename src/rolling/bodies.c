@@ -82,6 +82,8 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
     bodies->seconds_assembly = a.seconds_assembly + b.seconds_assembly;
     bodies->seconds_factor = a.seconds_factor + b.seconds_factor;
     bodies->seconds_condense = a.seconds_condense + b.seconds_condense;
+    if (s == RB_OK && !rb_rolling_is_large(rc, mesh))
+        s = rb_bem_flexibility_store(&bodies->f);
     if (s == RB_OK)
         s = add_interlayer(rc, &bodies->f);
     if (s == RB_OK)

@@ -76,7 +76,7 @@ rb_status rb_rolling_body_check(const rb_rolling_body *b, const char *which,
                        "support%s: a plane has the support halfplane only", which);
     for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds;
          *kind && s == RB_OK; kind++)
-        if ((*kind)->holds || (*kind)->support == b->support)
+        if ((*kind)->check && ((*kind)->holds || (*kind)->support == b->support))
             s = (*kind)->check(b, which, why);
     return s;
 }
