@@ -41,7 +41,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: journeys dist deb site course page page-test python-test install-python all run test test-all check-tests asan asan-short short-tests fuzz mutants coverage check-format bench install help clean packages check-packages study
+.PHONY: journeys dist deb site course page page-test python-test install-python all run test test-all check-tests asan asan-short short-tests fuzz mutants coverage hostile analyse check-format bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -54,6 +54,8 @@ help:
 	@echo "make fuzz       libFuzzer on every target of fuzz/, FUZZ_TIME=60 seconds each (wants clang)"
 	@echo "make mutants    do the tests notice MUTANTS=300 changes of the source? score and survivors"
 	@echo "make coverage   lines and branches of src/ that the tests go through, and what is left"
+	@echo "make hostile    N=20000 cases at the ends of what is accepted, judged independently"
+	@echo "make analyse    gcc -fanalyzer and -Wconversion, clang-tidy, cppcheck on src/"
 	@echo "make check-format  names sources that clang-format would change"
 	@echo "make study      the friction solvers on published files and on packings: tables, false successes"
 	@echo "make bench      the benchmarks (ratios measured in one run)"
@@ -219,13 +221,23 @@ $(B)/fuzz/main.o: src/cli/main.c
 	@mkdir -p $(@D)
 	@echo "  CC  $@"
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Dmain=rollbem_main -fPIC -MMD -MP -c -o $@ $<
-$(B)/tests/test_fuzz: tests/test_fuzz.c $(FUZZ_OBJ) $(B)/librollbem.a
+$(B)/tests/test_fuzz $(B)/tests/test_message: $(B)/tests/%: tests/%.c tests/check.h $(FUZZ_OBJ) $(B)/librollbem.a
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -I. -Itests -MMD -MP -MF $@.d -o $@ $< $(FUZZ_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS) -lcmocka
 $(B)/fuzzer: $(FUZZ_OBJ) $(B)/fuzz/libfuzzer.o $(B)/librollbem.a
 	@echo "  LD  $@"
 	$(Q)$(CC) $(CFLAGS) -fsanitize=fuzzer -o $@ $^ $(LDFLAGS) $(LDLIBS)
+
+# N=20000 cases at the ends of what is accepted, by the program, judged by tests/checker.c
+N ?= 20000
+hostile: packages
+	@$(MAKE) --no-print-directory B=$(B) all $(B)/tests/test_hostile $(B)/tests/checker
+	@HOSTILE=$(N) B=$(B) OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 OMP_WAIT_POLICY=passive $(B)/tests/test_hostile
+
+# static analysis of src/
+analyse: all
+	@scripts/analyse $(B)
 
 # compared with where it is installed, never needed
 ifneq ($(wildcard /usr/include/siconos/SiconosConfig.h),)

@@ -50,6 +50,29 @@ static void the_answer_can_be_checked(void **state)
     json_decref(root);
 }
 
+/* File, solver, status: what does not depend on the clock. */
+static void compare_writes_its_file(void **state)
+{
+    (void)state;
+    const char *const command = "compare --solvers nsn-ac,lemke slides zero";
+    char line[200];
+    snprintf(line, sizeof line, "%s --output runs.tsv", command);
+    assert_int_equal(rollbem(line), 0);
+    assert_string_equal(out, "");
+    snprintf(line, sizeof line, "\"$R\" %s >printed", command);
+    assert_int_equal(shell(line), 0);
+    assert_int_equal(
+        shell("for f in printed runs.tsv; do grep -v '^#' $f | cut -f 1-3 >$f.part; "
+              "done; cmp printed.part runs.tsv.part && grep -c . printed.part"),
+        0);
+    assert_string_equal(out, "5\n");
+    assert_int_equal(rollbem("compare --solvers nsn-ac slides --output runs.json --json"),
+                     0);
+    json_t *root = json_load_file("runs.json", 0, NULL);
+    assert_non_null(root);
+    json_decref(root);
+}
+
 static void every_solver_is_there_by_name(void **state)
 {
     (void)state;
@@ -200,6 +223,7 @@ int main(void)
         cmocka_unit_test(global_problems_are_read_as_text),
         cmocka_unit_test(the_command_line_is_checked),
         cmocka_unit_test(profiles_are_printed),
+        cmocka_unit_test(compare_writes_its_file),
     };
     return cmocka_run_group_tests(tests, set_up, leave_folder);
 }

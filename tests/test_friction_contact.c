@@ -94,6 +94,30 @@ static void elimination_agrees_with_newton(void **state)
     }
 }
 
+/* A block need not be symmetric: stick and sliding to either side, and Newton's steps. */
+static void newton_obeys_coulomb_with_unsymmetric_blocks(void **state)
+{
+    (void)state;
+    unsigned seed = 11;
+    int states[3] = {0, 0, 0};
+    for (int k = 0; k < 1200; k++) {
+        const int d = 2 + k % 2;
+        double W[9], q[3], r[3] = {0.0, 0.0, 0.0}, u[3];
+        rb_friction_contact c;
+        positive_definite(d, 0.15, &seed, W);
+        rb_friction_contact_init(d, 0.4, W, &c);
+        for (int a = 0; a < d; a++)
+            q[a] = a ? 2.0 * uniform(&seed) : -0.2 - fabs(uniform(&seed));
+        const double rho[] = {1.0 / W[0], 1.0 / W[d + 1]};
+        assert_true(rb_friction_contact_newton(&c, rho, q, r) > 0);
+        velocity(d, W, q, r, u);
+        CHECK_MAX(violation(d, 0.4, r, u), 1e-9, "contact %d, d = %d", k, d);
+        const double rt = d == 2 ? r[1] : hypot(r[1], r[2]);
+        states[fabs(rt) < 0.4 * r[0] * (1.0 - 1e-9) ? 0 : rt < 0.0 ? 1 : 2]++;
+    }
+    assert_true(states[0] > 100 && states[1] > 100 && states[2] > 100);
+}
+
 static void a_singular_block_is_left_to_newton(void **state)
 {
     (void)state;
@@ -364,6 +388,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_contact_obeys_coulomb),
         cmocka_unit_test(elimination_agrees_with_newton),
+        cmocka_unit_test(newton_obeys_coulomb_with_unsymmetric_blocks),
         cmocka_unit_test(a_singular_block_is_left_to_newton),
         cmocka_unit_test(blocks_multiply_as_the_matrix_does),
         cmocka_unit_test(a_newton_step_solves_its_system),
