@@ -271,9 +271,10 @@ static void conclude(tally *t)
            median(t->best_n, t->best));
 }
 
-int main(void)
+/* An argument: only files whose names have it in them. */
+int main(int argc, char **argv)
 {
-    const char *root = getenv("ROLLBEM_DATA");
+    const char *root = getenv("ROLLBEM_DATA"), *part = argc > 1 ? argv[1] : "";
     if (!root) {
         printf("bench_friction: ROLLBEM_DATA is not set\n");
         return 0;
@@ -286,6 +287,8 @@ int main(void)
             char path[1024];
             rb_friction_problem p;
             rb_message why;
+            if (!strstr(files[k], part))
+                continue;
             snprintf(path, sizeof path, "%s/%s", root, files[k]);
             if (load(path, &p, &why) != RB_OK) {
                 printf("%s\n", why.text);

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The problem that `packings ARGUMENTS` prints, W sparse. */
+/* The problem that `packings ARGUMENTS` prints; W, if there is one, sparse. */
 static void packing(const char *arguments, rb_friction_problem *p)
 {
     const char *build = getenv("B") ? getenv("B") : "build";
@@ -24,6 +24,8 @@ static void packing(const char *arguments, rb_friction_problem *p)
         print_error("%s\n", why.text);
     CHECK_STATUS(s, RB_OK);
     const int m = p->dimension * p->contacts;
+    if (p->form == RB_FRICTION_GLOBAL)
+        return;
     if (p->form == RB_FRICTION_LOCAL_DENSE)
         CHECK_STATUS(rb_sparse_from_dense(m, m, p->W, m, &p->Ws), RB_OK);
     p->form = RB_FRICTION_LOCAL_SPARSE;
@@ -120,6 +122,53 @@ static void auto_on_the_packings_it_lost_on(void **state)
         CHECK_MAX(fast.iters, plain.iters, "%s: acceleration", files[k]);
         free(r);
         rb_friction_problem_free(&p);
+    }
+}
+
+/* W and q that the generator prints, and those condensed from its mass and H; condensing
+ * takes less time than solving. */
+static void global_packings_condense_to_the_local_ones(void **state)
+{
+    (void)state;
+    static const char *const packings[] = {"boxes 30 0.5 3", "discs 60 0.5 3",
+                                           "bricks 20 0.6 3", "spheres 360 0.7 9"};
+    for (size_t k = 0; k < sizeof packings / sizeof *packings; k++) {
+        rb_friction_problem local, global, p = {0};
+        rb_friction_info info;
+        rb_message why;
+        char arguments[80];
+        double condense = INFINITY, solve = INFINITY;
+        snprintf(arguments, sizeof arguments, "%s global 5", packings[k]);
+        packing(packings[k], &local);
+        packing(arguments, &global);
+        const size_t m = (size_t)(local.dimension * local.contacts);
+        double *r = rb_alloc(m, 1);
+        for (int again = 0; again < 3; again++) {
+            const double start = rb_seconds();
+            rb_friction_problem_free(&p);
+            CHECK_STATUS(rb_friction_condense(&global, &p, &why), RB_OK);
+            condense = fmin(condense, rb_seconds() - start);
+            CHECK_STATUS(run("auto", &p, r, &info), RB_OK);
+            solve = fmin(solve, info.seconds);
+        }
+        assert_int_equal(p.Ws.cols, m);
+        for (int j = 0; j < (int)m; j++) {
+            int l = local.Ws.p[j];
+            for (int i = p.Ws.p[j]; i < p.Ws.p[j + 1]; i++) {
+                assert_true(i == p.Ws.p[j] || p.Ws.i[i] > p.Ws.i[i - 1]);
+                while (l < local.Ws.p[j + 1] && local.Ws.i[l] < p.Ws.i[i])
+                    CHECK_ABS(local.Ws.x[l++], 0.0, 1e-15, "left out of column %d", j);
+                const int there = l < local.Ws.p[j + 1] && local.Ws.i[l] == p.Ws.i[i];
+                CHECK_ABS(p.Ws.x[i], there ? local.Ws.x[l++] : 0.0, 1e-14, "W(%d, %d)",
+                          p.Ws.i[i], j);
+            }
+            CHECK_ABS(p.q[j], local.q[j], 1e-14, "q[%d]", j);
+        }
+        CHECK_MAX(condense, solve, "%s: seconds", packings[k]);
+        free(r);
+        rb_friction_problem_free(&p);
+        rb_friction_problem_free(&global);
+        rb_friction_problem_free(&local);
     }
 }
 
@@ -301,6 +350,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(auto_loses_little_to_its_members),
         cmocka_unit_test(auto_on_the_packings_it_lost_on),
+        cmocka_unit_test(global_packings_condense_to_the_local_ones),
         cmocka_unit_test(splitting_solves_redundant_contacts),
         cmocka_unit_test(lemke_solves_redundant_contacts),
         cmocka_unit_test(lemke_ends_in_time),

@@ -1,5 +1,5 @@
-/* packings KIND BODIES MU SEED: a frictional contact problem of one time step of a pile
- * of rigid bodies, in Siconos' text form on standard output.
+/* packings KIND BODIES MU SEED [global [LOOSE]]: a frictional contact problem of one time
+ * step of a pile of rigid bodies, in Siconos' text form on standard output.
  *
  * KIND: boxes    brick wall in the plane, running bond
  *       discs    triangular lattice of discs in a trough, one in ten taken out
@@ -8,6 +8,7 @@
  * All have more contact equations than motions.  The bodies start from rest with small
  * random velocities, under gravity that is tilted by a few degrees:
  *     W = H' M^-1 H,  q = H' (v + h g),  per contact [N, T] or [N, T1, T2].
+ * global: M, H and f = M (v + h g) in place of W and q; LOOSE more bodies touch nothing.
  * The same arguments give the same file.  Random numbers: a linear congruence, so that it
  * does not depend on the C library. */
 #include <math.h>
@@ -15,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { GROUND = -1, MOST_BODIES = 4000, MOST_CONTACTS = 40000 };
+enum { GROUND = -1, MOST_BODIES = 8000, MOST_CONTACTS = 40000 };
 
 typedef struct {
     double x[3], mass, inertia; /* of a sphere or a cube: isotropic */
@@ -252,6 +253,12 @@ static void block_of(const pile *p, int i, int j, double block[3][3])
             block[a][b] = i < j ? x[a][b] : i > j ? x[b][a] : 0.5 * (x[a][b] + x[b][a]);
 }
 
+static void print_head(int rows, int cols, int nz)
+{
+    printf("2\n%d\n%d\n1\n(packings)\ntriplet: %d-by-%d, nzmax: %d nnz: %d\n", rows, cols,
+           rows, cols, nz, nz);
+}
+
 static void print_matrix(const pile *p)
 {
     const int d = p->d, m = d * p->contacts;
@@ -259,8 +266,7 @@ static void print_matrix(const pile *p)
     for (int i = 0; i < p->contacts; i++)
         for (int j = 0; j < p->contacts; j++)
             nz += shares(&p->contact[i], &p->contact[j]) ? d * d : 0;
-    printf("%d\n%d\n2\n%d\n%d\n1\n(packings)\ntriplet: %d-by-%d, nzmax: %d nnz: %d\n", d,
-           p->contacts, m, m, m, m, nz, nz);
+    print_head(m, m, nz);
     for (int i = 0; i < p->contacts; i++)
         for (int j = 0; j < p->contacts; j++) {
             double block[3][3];
@@ -273,10 +279,9 @@ static void print_matrix(const pile *p)
         }
 }
 
-/* q = H' (v + h g) */
-static void print_velocities(pile *p)
+/* v + h g: 3 velocities and 3 rates of turn of every body; off the plane 0 */
+static void velocities(pile *p, double (*v)[6])
 {
-    static double v[MOST_BODIES][6];
     const double tilt = 0.1 * uniform(p), turn = p->d == 3 ? 3.14 * uniform(p) : 0.0;
     const double g[3] = {sin(tilt) * cos(turn), -cos(tilt), sin(tilt) * sin(turn)};
     for (int b = 0; b < p->bodies; b++)
@@ -284,6 +289,11 @@ static void print_velocities(pile *p)
             const int off_plane = p->d == 2 && l > 1 && l < 5;
             v[b][l] = (l < 3 ? g[l] : 0.0) + (off_plane ? 0.0 : 0.1 * uniform(p));
         }
+}
+
+/* q = H' (v + h g) */
+static void print_velocities(const pile *p, double (*v)[6])
+{
     for (int i = 0; i < p->contacts; i++) {
         const contact *c = &p->contact[i];
         double t[3][3], h[6];
@@ -303,6 +313,54 @@ static void print_velocities(pile *p)
     }
 }
 
+/* ---- The global form ------------------------------------------------------------------
+ */
+
+/* The motions of a body that there are: all six, or two and the turn in the plane. */
+static int motions(const pile *p, int l[6])
+{
+    static const int of[2][6] = {{0, 1, 5}, {0, 1, 2, 3, 4, 5}};
+    memcpy(l, of[p->d == 3], sizeof of[0]);
+    return p->d == 3 ? 6 : 3;
+}
+
+static double mass_of(const pile *p, int b, int l)
+{
+    return l < 3 ? p->body[b].mass : p->body[b].inertia;
+}
+
+/* M, H, f = M (v + h g), b = 0 */
+static void print_global(const pile *p, double (*v)[6])
+{
+    int l[6];
+    const int each = motions(p, l), n = each * p->bodies, m = p->d * p->contacts;
+    int nz = 0;
+    print_head(n, n, n);
+    for (int i = 0; i < n; i++)
+        printf("%d %d : %.17g\n", i, i, mass_of(p, i / each, l[i % each]));
+    for (int i = 0; i < p->contacts; i++)
+        nz += p->d * each * (p->contact[i].a == GROUND ? 1 : 2);
+    print_head(n, m, nz);
+    for (int i = 0; i < p->contacts; i++) {
+        const contact *c = &p->contact[i];
+        double t[3][3], h[6];
+        frame(c, t);
+        for (int a = 0; a < p->d; a++)
+            for (int k = 0; k < 2; k++) {
+                const int b = k ? c->b : c->a;
+                if (b == GROUND)
+                    continue;
+                row_of(p, c, b, t[a], h);
+                for (int j = 0; j < each; j++)
+                    printf("%d %d : %.17g\n", b * each + j, i * p->d + a, h[l[j]]);
+            }
+    }
+    for (int i = 0; i < n; i++)
+        printf("%.17g\n", mass_of(p, i / each, l[i % each]) * v[i / each][l[i % each]]);
+    for (int i = 0; i < m; i++)
+        printf("0\n");
+}
+
 int main(int argc, char **argv)
 {
     static const struct {
@@ -313,8 +371,12 @@ int main(int argc, char **argv)
                  {"discs", 2, discs},
                  {"bricks", 3, wall},
                  {"spheres", 3, spheres}};
-    if (argc != 5)
-        fail("expected KIND BODIES MU SEED, KIND boxes, discs, bricks or spheres");
+    static double v[MOST_BODIES][6];
+    const int global = argc > 5 && !strcmp(argv[5], "global");
+    if (argc < 5 || argc > 6 + global || (argc > 5 && !global))
+        fail(
+            "expected KIND BODIES MU SEED [global [LOOSE]], KIND boxes, discs, bricks or "
+            "spheres");
     const int bodies = atoi(argv[2]);
     const double mu = atof(argv[3]);
     if (bodies < 1 || !(mu >= 0.0))
@@ -327,8 +389,16 @@ int main(int argc, char **argv)
         }
     if (!world.contacts)
         fail("KIND is boxes, discs, bricks or spheres");
-    print_matrix(&world);
-    print_velocities(&world);
+    for (int k = argc > 6 ? atoi(argv[6]) : 0; k > 0; k--)
+        add_body(&world, 0.0, 1e3 + k, 0.0, 1.0, 1.0);
+    velocities(&world, v);
+    printf("%d\n%d\n", world.d, world.contacts);
+    if (global) {
+        print_global(&world, v);
+    } else {
+        print_matrix(&world);
+        print_velocities(&world, v);
+    }
     for (int i = 0; i < world.contacts; i++)
         printf("%.17g\n", mu);
     return 0;

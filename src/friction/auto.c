@@ -230,8 +230,8 @@ static rb_status take_turn(const portfolio *p, member *a, double allowance, int 
             break;
         if (s == RB_OK)
             s = go_on(p, a, allowance, turn, &paused);
-        if (s == RB_OK && rb_friction_prove(&a->task))
-            return RB_OK;
+        if (s == RB_OK && rb_friction_task_judge(&a->task) == RB_OK)
+            return RB_OK; /* what it ends with is proved by the caller */
         if (s == RB_ENOMEM || s == RB_INTERRUPTED)
             return s;
         if (!paused)

@@ -1,11 +1,14 @@
-/* K v = H r + f, u = H' v + w  ->  u = W r + q, one body (connected part of K) after the
- * other: W = sum of H_b' K_b^-1 H_b over the bodies.  The bodies of a diagonal or
- * block-diagonal mass are small and are inverted densely; large ones go to CHOLMOD. */
+/* K v = H r + f, u = H' v + w  ->  u = W r + q, body (connected part of K) by body:
+ * W = sum of H_b' K_b^-1 H_b over the bodies.  The bodies of a diagonal or block-diagonal
+ * mass are small: K_b = L L', and W gets Y_b' Y_b with Y_b = L^-1 H_b.  Large ones go to
+ * CHOLMOD.  W is then made column by column from the few bodies that a column touches. */
 #include "friction/internal.h"
 
 #include <lapacke.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct {
     const rb_friction_problem *p;
@@ -16,9 +19,8 @@ typedef struct {
     int *column;               /* columns of H that touch a body, body by body */
     int *dofs_of, *columns_of; /* bodies + 1: where they start */
     double *f, *v;             /* n: of the present body */
-    rb_triplets W;             /* so far */
-    double *y;                 /* of the present small body */
-    size_t y_room;
+    double **Y;                /* bodies: Y_b of a small one by rows, or NULL */
+    rb_sparse *W;              /* bodies: H_b' K_b^-1 H_b of a large one */
     double flops;
 } condenser;
 
@@ -55,30 +57,16 @@ static rb_status part_of(const condenser *c, const rb_sparse *a, int body, int c
     return s;
 }
 
-static rb_status append(condenser *c, const int *column, const rb_sparse *w)
-{
-    rb_triplets *W = &c->W;
-    if (rb_triplets_reserve(W, (size_t)w->p[w->cols]) != RB_OK)
-        return RB_ENOMEM;
-    for (int j = 0; j < w->cols; j++)
-        for (int k = w->p[j]; k < w->p[j + 1]; k++) {
-            W->row[W->nz] = column[w->i[k]];
-            W->col[W->nz] = column[j];
-            W->x[W->nz++] = w->x[k];
-        }
-    return RB_OK;
-}
-
 /* ---- A large body
  * ---------------------------------------------------------------------- */
 
-/* q += H_b' K_b^-1 f_b and W += H_b' K_b^-1 H_b */
-static rb_status add_large(condenser *c, int body, double *q)
+/* q += H_b' K_b^-1 f_b, and W_b with its rows numbered as those of W */
+static rb_status condense_large(condenser *c, int body, double *q)
 {
     const int n = c->dofs_of[body + 1] - c->dofs_of[body];
     const int cols = c->columns_of[body + 1] - c->columns_of[body];
     const int *dof = c->dof + c->dofs_of[body], *column = c->column + c->columns_of[body];
-    rb_sparse k = {0}, h = {0}, w = {0};
+    rb_sparse k = {0}, h = {0}, *w = &c->W[body];
     rb_sparse_cholesky *factor = NULL;
     rb_status s = part_of(c, &c->p->K, body, n, dof, n, &k);
     if (s == RB_OK)
@@ -93,13 +81,12 @@ static rb_status add_large(condenser *c, int body, double *q)
         for (int l = h.p[j]; l < h.p[j + 1]; l++)
             q[column[j]] += h.x[l] * c->v[h.i[l]];
     if (s == RB_OK)
-        s = rb_sparse_cholesky_congruence(factor, &h, &w);
-    if (s == RB_OK) {
+        s = rb_sparse_cholesky_congruence(factor, &h, w);
+    for (int l = 0; s == RB_OK && l < w->p[cols]; l++)
+        w->i[l] = column[w->i[l]];
+    if (s == RB_OK)
         c->flops += rb_sparse_cholesky_flops(factor);
-        s = append(c, column, &w);
-    }
     rb_sparse_cholesky_free(factor);
-    rb_sparse_free(&w);
     rb_sparse_free(&h);
     rb_sparse_free(&k);
     return s;
@@ -119,11 +106,14 @@ static rb_status factor_small(const condenser *c, int body, int n, double *k,
 {
     const int *dof = c->dof + c->dofs_of[body];
     const rb_sparse *a = &c->p->K;
+    int diagonal = 1;
     for (int i = 0; i < n * n; i++)
         k[i] = 0.0;
     for (int j = 0; j < n; j++)
-        for (int l = a->p[dof[j]]; l < a->p[dof[j] + 1]; l++)
+        for (int l = a->p[dof[j]]; l < a->p[dof[j] + 1]; l++) {
             k[c->number[a->i[l]] + j * n] = a->x[l];
+            diagonal &= a->i[l] == dof[j];
+        }
     for (int j = 0; j < n; j++) {
         if (!(k[j + j * n] > 0.0))
             return RB_SINGULAR;
@@ -132,7 +122,9 @@ static rb_status factor_small(const condenser *c, int body, int n, double *k,
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++)
             k[i + j * n] *= scale[i] * scale[j];
-    if (n > 1 && LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', n, k, n) != 0)
+    for (int j = 0; diagonal && j < n; j++)
+        k[j + j * n] = 1.0;
+    if (!diagonal && LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', n, k, n) != 0)
         return RB_SINGULAR;
     for (int j = 0; j < n; j++)
         if (k[j + j * n] < LEAST_PIVOT)
@@ -151,54 +143,32 @@ static void forward(int n, const double *k, const double *scale, double *x)
     }
 }
 
-/* Zeros; the memory stays for the next body. */
-static double *room_for(condenser *c, size_t size)
-{
-    if (size > c->y_room) {
-        free(c->y);
-        c->y = malloc(2 * size * sizeof *c->y);
-        c->y_room = c->y ? 2 * size : 0;
-    }
-    for (size_t k = 0; c->y && k < size; k++)
-        c->y[k] = 0.0;
-    return c->y;
-}
-
-/* The same as add_large, by Y = L^-1 S H_b: W += Y' Y, which is symmetric as it stands.
- */
-static rb_status add_small(condenser *c, int body, double *q)
+/* The same by Y_b = L^-1 S H_b. */
+static rb_status condense_small(condenser *c, int body, double *q)
 {
     const int n = c->dofs_of[body + 1] - c->dofs_of[body];
     const int cols = c->columns_of[body + 1] - c->columns_of[body];
     const int *dof = c->dof + c->dofs_of[body], *column = c->column + c->columns_of[body];
     const rb_sparse *h = &c->p->H;
-    rb_triplets *W = &c->W;
     double k[MOST_DOFS * MOST_DOFS], scale[MOST_DOFS], f[MOST_DOFS];
     const rb_status s = factor_small(c, body, n, k, scale);
     if (s != RB_OK || cols == 0)
         return s;
-    double *y = room_for(c, (size_t)n * (size_t)cols);
-    if (!y || rb_triplets_reserve(W, (size_t)cols * (size_t)cols) != RB_OK)
+    c->Y[body] = rb_alloc((size_t)n, (size_t)cols);
+    if (!c->Y[body])
         return RB_ENOMEM;
     for (int i = 0; i < n; i++)
         f[i] = c->p->f[dof[i]];
     forward(n, k, scale, f);
     for (int j = 0; j < cols; j++) {
-        double *yj = y + (size_t)j * (size_t)n;
+        double y[MOST_DOFS] = {0.0};
         for (int l = h->p[column[j]]; l < h->p[column[j] + 1]; l++)
             if (c->body[h->i[l]] == body)
-                yj[c->number[h->i[l]]] = h->x[l];
-        forward(n, k, scale, yj);
-        for (int i = 0; i < n; i++)
-            q[column[j]] += yj[i] * f[i];
-        for (int i = 0; i <= j; i++) {
-            const double *yi = y + (size_t)i * (size_t)n;
-            double sum = 0.0;
-            for (int l = 0; l < n; l++)
-                sum += yi[l] * yj[l];
-            W->row[W->nz] = column[i], W->col[W->nz] = column[j], W->x[W->nz++] = sum;
-            if (i < j)
-                W->row[W->nz] = column[j], W->col[W->nz] = column[i], W->x[W->nz++] = sum;
+                y[c->number[h->i[l]]] = h->x[l];
+        forward(n, k, scale, y);
+        for (int i = 0; i < n; i++) {
+            q[column[j]] += y[i] * f[i];
+            c->Y[body][j + i * cols] = y[i];
         }
     }
     c->flops += (double)n * cols * (n + cols) + (double)n * n * n / 3.0;
@@ -259,14 +229,202 @@ static rb_status list_columns(condenser *c)
     return s;
 }
 
-static rb_status add_bodies(condenser *c, double *q)
+/* Of a diagonal mass every degree of freedom is a body.  Those of one rigid body follow
+ * each other and touch the same columns: they become one, block-diagonal. */
+static rb_status join_bodies(condenser *c)
 {
-    rb_status s = list_dofs(c);
+    int *joined = rb_alloc_int(2 * (size_t)c->bodies), *dofs = joined + c->bodies;
+    if (!joined)
+        return RB_ENOMEM;
+    for (int i = 0; i < c->p->dofs; i++)
+        dofs[c->body[i]]++;
+    int count = 0, size = 0; /* of the joined one that grows */
+    for (int b = 0; b < c->bodies; b++) {
+        const int *from = c->columns_of + b, n = from[1] - from[0];
+        const int same = b > 0 && n > 0 && n == from[0] - from[-1] &&
+                         size + dofs[b] <= MOST_DOFS &&
+                         !memcmp(c->column + from[0], c->column + from[-1],
+                                 (size_t)n * sizeof *c->column);
+        size = same ? size + dofs[b] : dofs[b];
+        count += !same;
+        joined[b] = count - 1;
+    }
+    for (int i = 0; i < c->p->dofs; i++)
+        c->body[i] = joined[c->body[i]];
+    c->bodies = count;
+    free(joined);
+    return RB_OK;
+}
+
+static rb_status list_bodies(condenser *c)
+{
+    rb_status s = list_columns(c);
+    if (s == RB_OK)
+        s = join_bodies(c);
+    free(c->column);
+    free(c->columns_of);
+    c->column = c->columns_of = NULL;
     if (s == RB_OK)
         s = list_columns(c);
+    return s == RB_OK ? list_dofs(c) : s;
+}
+
+static rb_status condense_bodies(condenser *c, double *q)
+{
+    rb_status s = list_bodies(c);
+    const size_t bodies = c->bodies > 0 ? (size_t)c->bodies : 1;
+    c->Y = calloc(bodies, sizeof *c->Y);
+    c->W = calloc(bodies, sizeof *c->W);
+    if (s == RB_OK && !(c->Y && c->W))
+        s = RB_ENOMEM;
     for (int body = 0; s == RB_OK && body < c->bodies; body++)
-        s = c->dofs_of[body + 1] - c->dofs_of[body] <= MOST_DOFS ? add_small(c, body, q)
-                                                                 : add_large(c, body, q);
+        s = c->dofs_of[body + 1] - c->dofs_of[body] <= MOST_DOFS
+                ? condense_small(c, body, q)
+                : condense_large(c, body, q);
+    return s;
+}
+
+/* ---- W column by column
+ * ----------------------------------------------------------------- */
+
+/* The bodies that a column touches, by increasing number, and its place among the columns
+ * of each. */
+typedef struct {
+    int *start;        /* m + 1; owns the others */
+    int *body, *place; /* start[m] */
+} touches;
+
+static rb_status list_touches(const condenser *c, int m, touches *t)
+{
+    const int count = c->columns_of[c->bodies];
+    t->start = rb_alloc_int((size_t)m + 2 + 2 * (size_t)count);
+    if (!t->start)
+        return RB_ENOMEM;
+    t->body = t->start + m + 2;
+    t->place = t->body + count;
+    int *next = t->start + 1; /* as in list_dofs */
+    for (int k = 0; k < count; k++)
+        next[c->column[k] + 1]++;
+    for (int j = 0; j < m; j++)
+        next[j + 1] += next[j];
+    for (int b = 0; b < c->bodies; b++)
+        for (int k = c->columns_of[b]; k < c->columns_of[b + 1]; k++) {
+            const int at = next[c->column[k]]++;
+            t->body[at] = b;
+            t->place[at] = k - c->columns_of[b];
+        }
+    return RB_OK;
+}
+
+/* The rows of W that a body adds to its column `place`; their number. */
+static int rows_of(const condenser *c, int body, int place, const int **row)
+{
+    const rb_sparse *w = &c->W[body];
+    *row = w->p ? w->i + w->p[place] : c->column + c->columns_of[body];
+    return w->p ? w->p[place + 1] - w->p[place]
+                : c->columns_of[body + 1] - c->columns_of[body];
+}
+
+/* x += W_b's column, x as long as W's columns; sum: scratch, as long.  Y_b' Y_b is
+ * symmetric as it stands. */
+static void add_column(const condenser *c, int body, int place, double *sum, double *x)
+{
+    const int *row, count = rows_of(c, body, place, &row);
+    const int n = c->dofs_of[body + 1] - c->dofs_of[body];
+    const rb_sparse *w = &c->W[body];
+    if (w->p) {
+        for (int k = 0; k < count; k++)
+            x[row[k]] += w->x[w->p[place] + k];
+        return;
+    }
+    memset(sum, 0, (size_t)count * sizeof *sum);
+    for (int l = 0; l < n; l++) {
+        const double *y = c->Y[body] + (size_t)l * (size_t)count, factor = y[place];
+        for (int i = 0; i < count; i++)
+            sum[i] += factor * y[i];
+    }
+    for (int i = 0; i < count; i++)
+        x[row[i]] += sum[i];
+}
+
+/* c = a and b, which increase, without what is twice; its length.  The loop has no
+ * branches because which one is less follows no pattern. */
+static int unite(int na, const int *a, int nb, const int *b, int *c)
+{
+    int i = 0, j = 0, n = 0;
+    while (i < na && j < nb) {
+        const int x = a[i], y = b[j];
+        c[n++] = x < y ? x : y;
+        i += x <= y;
+        j += y <= x;
+    }
+    memcpy(c + n, a + i, (size_t)(na - i) * sizeof *c);
+    n += na - i;
+    memcpy(c + n, b + j, (size_t)(nb - j) * sizeof *c);
+    return n + nb - j;
+}
+
+/* Room for what all bodies add, which is more than W has where two bodies meet twice. */
+static rb_status room_for_W(const condenser *c, const touches *t, int m, rb_sparse *W)
+{
+    size_t most = 0;
+    const int *row;
+    for (int k = 0; k < t->start[m]; k++)
+        most += (size_t)rows_of(c, t->body[k], t->place[k], &row);
+    if (most > INT_MAX)
+        return RB_ENOMEM;
+    *W = (rb_sparse){.rows = m,
+                     .cols = m,
+                     .p = rb_alloc_int((size_t)m + 1),
+                     .i = rb_alloc_int(most),
+                     .x = rb_alloc(most, 1)};
+    return W->p && W->i && W->x ? RB_OK : RB_ENOMEM;
+}
+
+/* The rows of column j, increasing, into row; other: scratch.  The columns of one contact
+ * touch the same bodies. */
+static int list_rows(const condenser *c, const touches *t, int j, const rb_sparse *W,
+                     int *other, int *row)
+{
+    const int first = t->start[j], bodies = t->start[j + 1] - first;
+    int count = 0;
+    if (j > 0 && first - t->start[j - 1] == bodies && !c->W[t->body[first]].p &&
+        !memcmp(t->body + first, t->body + t->start[j - 1],
+                (size_t)bodies * sizeof(int))) {
+        count = W->p[j] - W->p[j - 1];
+        memcpy(row, row - count, (size_t)count * sizeof *row);
+        return count;
+    }
+    for (int k = first; k < t->start[j + 1]; k++) {
+        const int *more, n = rows_of(c, t->body[k], t->place[k], &more);
+        memcpy(other, row, (size_t)count * sizeof *row);
+        count = unite(count, other, n, more, row);
+    }
+    return count;
+}
+
+static rb_status assemble(const condenser *c, int m, rb_sparse *W)
+{
+    touches t = {0};
+    double *x = rb_alloc((size_t)m, 2);
+    int *other = rb_alloc_int((size_t)m);
+    rb_status s = x && other ? list_touches(c, m, &t) : RB_ENOMEM;
+    if (s == RB_OK)
+        s = room_for_W(c, &t, m, W);
+    for (int j = 0; s == RB_OK && j < m; j++) {
+        int *row = W->i + W->p[j];
+        const int count = list_rows(c, &t, j, W, other, row);
+        for (int k = t.start[j]; k < t.start[j + 1]; k++)
+            add_column(c, t.body[k], t.place[k], x + m, x);
+        for (int k = 0; k < count; k++) {
+            W->x[W->p[j] + k] = x[row[k]];
+            x[row[k]] = 0.0;
+        }
+        W->p[j + 1] = W->p[j] + count;
+    }
+    free(t.start);
+    free(other);
+    free(x);
     return s;
 }
 
@@ -295,14 +453,19 @@ static rb_status condense(condenser *c, rb_friction_problem *local)
     if (s == RB_OK)
         s = rb_sparse_components(&c->p->K, &c->bodies, c->body);
     if (s == RB_OK)
-        s = add_bodies(c, local->q);
+        s = condense_bodies(c, local->q);
     if (s == RB_OK)
-        s = rb_sparse_from_triplets((int)m, (int)m, c->W.nz, c->W.row, c->W.col, c->W.x,
-                                    &local->Ws);
-    rb_triplets_free(&c->W);
+        s = assemble(c, (int)m, &local->Ws);
+    for (int b = 0; b < c->bodies; b++) {
+        if (c->Y)
+            free(c->Y[b]);
+        if (c->W)
+            rb_sparse_free(&c->W[b]);
+    }
+    free(c->W);
+    free(c->Y);
     free(c->v);
     free(c->f);
-    free(c->y);
     free(c->columns_of);
     free(c->column);
     free(c->dofs_of);

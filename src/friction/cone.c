@@ -76,14 +76,16 @@ double rb_friction_natural_norm(int d, int contacts, const double *mu, const dou
     for (int c = 0; c < contacts; c++) {
         const double *rc = r + c * d, *uc = u + c * d, k = rho ? rho[2 * c] : 1.0;
         double z[3], p[3];
+        if (rc[0] == 0.0 && rc[1] == 0.0 && rc[d - 1] == 0.0 && uc[0] >= 0.0)
+            continue; /* open: F = 0 */
         for (int a = 0; a < d; a++)
             z[a] = rc[a] - k * uc[a];
         z[0] -= k * mu[c] * rb_friction_tangential(d, uc);
         rb_friction_project(d, mu[c], z, p);
-        for (int a = 0; a < d; a++) {
-            const double x = (rc[a] - p[a]) / k;
-            sum += x * x;
-        }
+        double square = 0.0;
+        for (int a = 0; a < d; a++)
+            square += (rc[a] - p[a]) * (rc[a] - p[a]);
+        sum += square / (k * k);
     }
     return sqrt(sum);
 }
