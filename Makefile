@@ -57,7 +57,8 @@ help:
 	@echo "make hostile    N=20000 cases at the ends of what is accepted, judged independently"
 	@echo "make analyse    gcc -fanalyzer and -Wconversion, clang-tidy, cppcheck on src/"
 	@echo "make check-format  names sources that clang-format would change"
-	@echo "make study      the friction solvers on published files and on packings: tables, false successes"
+	@echo "make study      the friction solvers on published files and on packings: tables, false successes;"
+	@echo "                PARTS=\"packings portfolio\": some of them, scripts/friction-study says which"
 	@echo "make bench      the benchmarks (ratios measured in one run)"
 	@echo "make page       the page for browsers, $(B)/rollbem.html; make page-test tests it"
 	@echo "make python-test   tests of the Python package, python/"
@@ -126,8 +127,8 @@ check-format:
 
 # friction solvers on published files and on packings of our own
 study: packages
-	@$(MAKE) --no-print-directory B=$(B) all $(B)/packings
-	@B=$(B) scripts/friction-study
+	@$(MAKE) --no-print-directory B=$(B) all $(B)/packings $(B)/bench/bench_portfolio $(B)/bench/bench_condense $(B)/bench/bench_friction
+	@B=$(B) scripts/friction-study $(PARTS)
 
 bench: packages
 	@$(MAKE) --no-print-directory B=$(B) all $(BENCHES)
@@ -155,7 +156,7 @@ $(B)/packings: examples/packings/packings.c
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) -o $@ $< -lm
-$(B)/tests/test_friction_portfolio $(B)/tests/test_course $(B)/bench/bench_condense: | $(B)/packings
+$(B)/tests/test_friction_portfolio $(B)/tests/test_course $(B)/bench/bench_condense $(B)/bench/bench_portfolio: | $(B)/packings
 
 # the generator of the obstacle problem, for the tests
 $(B)/obstacle: examples/lcp/obstacle.c

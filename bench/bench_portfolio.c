@@ -1,0 +1,161 @@
+/* What `auto` costs beside the best single solver of each problem, in floating-point
+ * operations: at most 3 times as many, and 1.1 where its first member succeeds at once.
+ *
+ *     bench_portfolio [FILE...]
+ *
+ * Without files: the packings of examples/packings/thirty.txt, to be found from the
+ * working directory, and the friction files below ROLLBEM_DATA.  A solver that has used
+ * as many operations as `auto` did is stopped: it is not the best. */
+#include "fast_blas.h"
+#include "rollbem/friction.h"
+
+#include <glob.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define LIST "examples/packings/thirty.txt"
+#define SECONDS 60.0 /* of one solver on one problem */
+
+typedef struct {
+    int problems, solved, beyond, first, first_beyond;
+    double worst, worst_first;
+} tally;
+
+static int beyond(const rb_friction_progress *at, void *most)
+{
+    return at->flops > *(const double *)most;
+}
+
+/* Operations of the best single solver on the problem, at most `most`; its name. */
+static double best_of(const rb_friction_problem *p, double most, double *r,
+                      const char **name)
+{
+    const size_t m = (size_t)(p->dimension * p->contacts);
+    int count;
+    const rb_friction_solver *all = rb_friction_solvers(&count);
+    rb_friction_options opt = rb_friction_defaults();
+    opt.seconds = SECONDS;
+    opt.progress = beyond;
+    *name = "auto";
+    for (int k = 1; k < count; k++) {
+        rb_friction_info info;
+        opt.context = &most;
+        if (rb_friction_solve(all[k].name, p, &opt, r, r + m, NULL, &info) != RB_OK ||
+            info.flops >= most)
+            continue;
+        most = info.flops;
+        *name = all[k].name;
+    }
+    return most;
+}
+
+/* The first member as auto runs it, alone. */
+static double first_member(const rb_friction_problem *p, double *r)
+{
+    const size_t m = (size_t)(p->dimension * p->contacts);
+    rb_friction_options opt = rb_friction_defaults();
+    rb_friction_info info;
+    opt.max_iters = p->form == RB_FRICTION_GLOBAL ? 40 : 100;
+    const rb_status s =
+        rb_friction_solve(p->form == RB_FRICTION_GLOBAL ? "nsn-ac" : "nsgs-aa", p, &opt,
+                          r, r + m, NULL, &info);
+    return s == RB_OK ? info.flops : INFINITY;
+}
+
+static void measure(const char *name, const rb_friction_problem *p, tally *t)
+{
+    const size_t m = (size_t)(p->dimension * p->contacts);
+    double *r = rb_alloc(m, 2);
+    rb_friction_options opt = rb_friction_defaults();
+    rb_friction_info info;
+    const char *best;
+    opt.seconds = SECONDS;
+    const rb_status s = rb_friction_solve("auto", p, &opt, r, r + m, NULL, &info);
+    const double flops = info.flops, least = best_of(p, flops, r, &best);
+    const double first = first_member(p, r), ratio = flops / least;
+    t->problems++;
+    t->solved += s == RB_OK;
+    t->beyond += ratio > 3.0;
+    t->worst = fmax(t->worst, ratio);
+    printf("%-40.40s %8d %7.2f s %10.3g %-16s %6.2f", name, p->contacts, info.seconds,
+           flops, best, ratio);
+    if (isfinite(first)) {
+        t->first++;
+        t->first_beyond += flops > 1.1 * first;
+        t->worst_first = fmax(t->worst_first, flops / first);
+        printf(" %6.2f", flops / first);
+    }
+    printf("%s\n", s == RB_OK ? "" : "  (not solved)");
+    fflush(stdout);
+    free(r);
+}
+
+static void measure_file(const char *path, const char *name, tally *t)
+{
+    rb_friction_problem p;
+    rb_message why = {""};
+    if (rb_friction_read(path, &p, &why) != RB_OK) {
+        printf("%s\n", why.text);
+        return;
+    }
+    measure(name, &p, t);
+    rb_friction_problem_free(&p);
+}
+
+static void measure_packings(tally *t)
+{
+    const char *build = getenv("B") ? getenv("B") : "build";
+    char line[80], path[] = "/tmp/rollbem-portfolio-XXXXXX", command[400];
+    FILE *list = fopen(LIST, "r");
+    const int file = mkstemp(path);
+    if (!list || file < 0)
+        printf("%s: not found from here\n", LIST);
+    while (list && file >= 0 && fgets(line, sizeof line, list)) {
+        line[strcspn(line, "\n")] = '\0';
+        snprintf(command, sizeof command, "%s/packings %s >%s", build, line, path);
+        if (system(command) == 0)
+            measure_file(path, line, t);
+    }
+    if (list)
+        fclose(list);
+    if (file >= 0) {
+        close(file);
+        unlink(path);
+    }
+}
+
+static void measure_published(const char *root, tally *t)
+{
+    static const char *const patterns[] = {"siconos/fc2d/*.dat", "siconos/fc3d/*.dat",
+                                           "fclib/*.hdf5"};
+    for (int k = 0; root && k < 3; k++) {
+        char pattern[1024];
+        glob_t found;
+        snprintf(pattern, sizeof pattern, "%s/%s", root, patterns[k]);
+        if (glob(pattern, 0, NULL, &found) != 0)
+            continue;
+        for (size_t i = 0; i < found.gl_pathc; i++)
+            measure_file(found.gl_pathv[i], strrchr(found.gl_pathv[i], '/') + 1, t);
+        globfree(&found);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    fast_blas(argv);
+    tally t = {0};
+    printf("%-40s %8s %9s %10s %-16s %6s %6s\n", "problem", "contacts", "auto", "flops",
+           "best solver", "ratio", "first");
+    for (int k = 1; k < argc; k++)
+        measure_file(argv[k], argv[k], &t);
+    if (argc == 1) {
+        measure_packings(&t);
+        measure_published(getenv("ROLLBEM_DATA"), &t);
+    }
+    printf(
+        "%d problems, %d solved; auto / best solver at most %.2f, above 3 on %d; auto / "
+        "first member at most %.2f, above 1.1 on %d of %d\n",
+        t.problems, t.solved, t.worst, t.beyond, t.worst_first, t.first_beyond, t.first);
+    return 0;
+}
