@@ -74,14 +74,13 @@ typedef struct {
 
 /* What a body can do, and what is so of it. */
 typedef enum {
-    RB_BODY_FLAT = 1,       /* its surface is a plane, otherwise a circle */
-    RB_BODY_BOUNDARY = 2,   /* has elements outside the contact too */
-    RB_BODY_TRANSFORMS = 4, /* answers by distance alone: equal elements need no matrix */
-    RB_BODY_HOMOGENEOUS = 8, /* of one elastic material: Hertz's half-width means what it
+    RB_BODY_FLAT = 1,        /* its surface is a plane, otherwise a circle */
+    RB_BODY_BOUNDARY = 2,    /* has elements outside the contact too */
+    RB_BODY_HOMOGENEOUS = 4, /* of one elastic material: Hertz's half-width means what it
                                 says, and heat spreads alike everywhere */
-    RB_BODY_ELASTIC = 16,    /* loses no energy */
-    RB_BODY_STRESS = 32,     /* the stress inside is known */
-    RB_BODY_TURNS = 64       /* answers alike at every angle of its turn */
+    RB_BODY_ELASTIC = 8,     /* loses no energy */
+    RB_BODY_STRESS = 16,     /* the stress inside is known */
+    RB_BODY_TURNS = 32       /* answers alike at every angle of its turn */
 } rb_rolling_ability;
 
 /* An option that means nothing to other bodies; body B's has "-b" behind its name. */
@@ -280,6 +279,11 @@ typedef struct {
     rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_body *body,
                              const rb_rolling_mesh *mesh,
                              rb_rolling_body_flexibility *made, rb_message *why);
+    /* The same on equal elements by Fourier transforms, without a matrix; NULL: it
+     * depends on more than the distance. */
+    rb_status (*transforms)(const rb_rolling_case *rc, const rb_rolling_body *body,
+                            const rb_rolling_mesh *mesh,
+                            rb_rolling_body_flexibility *made, rb_message *why);
     /* The half-plane or layer that answers like the body close to a load. */
     rb_bem_surface (*surface)(const rb_rolling_case *rc, const rb_rolling_body *body,
                               double length[RB_ROLLING_TERMS]);

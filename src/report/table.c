@@ -1,36 +1,8 @@
-/* The traction table, and the names that all formats share. */
+/* The traction table. */
 #include "report/internal.h"
 
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-const char *const rb_report_conventions[] = {
-    "x to the right, y up; A is the upper body and rolls towards +x: the leading edge is "
-    "at +x",
-    "p >= 0: pressure; q: friction on A, positive towards +x; loads per unit length",
-    "creepage xi > 0: A's surface slides towards +x over the ground (braked wheel), Q < "
-    "0",
-    "slip_1 > 0: A's surface slides towards +x; shift likewise",
-    "zone: 0 separated, 1 stick, 2 slip with q = -mu p, 3 slip with q = +mu p",
-    NULL};
-
-const char *rb_report_formulation(rb_rolling_formulation formulation)
-{
-    static const char *const names[] = {"static", "steady", "transient"};
-    return names[formulation];
-}
-
-const char *rb_report_solver(const rb_rolling_solution *s)
-{
-    static const char *const names[] = {"auto", "lemke", "newton"};
-    return s->solver == RB_SOLVER_CONE ? s->cone_solver : names[s->solver];
-}
-
-const char *rb_report_lcp_form(rb_contact_lcp_form form)
-{
-    return form == RB_LCP_KWAK ? "kwak" : "pivoted";
-}
 
 rb_status rb_report_table(FILE *out, const rb_rolling_case *rc,
                           const rb_rolling_solution *s, const char *command,

@@ -14,25 +14,6 @@ void rb_rolling_bodies_free(rb_rolling_bodies *bodies)
     memset(bodies, 0, sizeof *bodies);
 }
 
-int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
-{
-    /* products know one operator for bodies and third body */
-    const int two_operators =
-        rc->slip_operator == RB_SLIP_SECOND && rc->interlayer_tangential > 0.0;
-    return mesh->n >= RB_ROLLING_LARGE && !two_operators &&
-           (rc->solver == RB_SOLVER_AUTO || rc->solver == RB_SOLVER_NEWTON) &&
-           rc->mesh != RB_MESH_FITTED && rb_rolling_can(rc, RB_BODY_TRANSFORMS);
-}
-
-int rb_rolling_carter_holds(const rb_rolling_case *rc)
-{
-    return rc->formulation == RB_STEADY && rc->mu > 0.0 && rc->friction.n == 0 &&
-           rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 &&
-           rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) &&
-           rc->gap != RB_GAP_TABLE && rc->worn_n == 0 &&
-           fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
-}
-
 /* Without the boundaries of wheels, which rb_bem_system_create looks at. */
 static rb_status check_memory(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                               rb_message *why)
@@ -60,6 +41,15 @@ static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f
     return s;
 }
 
+static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_body *body,
+                                  const rb_rolling_mesh *mesh,
+                                  rb_rolling_body_flexibility *made, rb_message *why)
+{
+    const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
+    return (rb_rolling_is_large(rc, mesh) ? kind->transforms
+                                          : kind->flexibility)(rc, body, mesh, made, why);
+}
+
 rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                    rb_rolling_bodies *bodies, rb_message *why)
 {
@@ -68,9 +58,9 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
     rb_status s = check_memory(rc, mesh, why);
 
     if (s == RB_OK)
-        s = rb_rolling_kind_of(&rc->a)->flexibility(rc, &rc->a, mesh, &a, why);
+        s = body_flexibility(rc, &rc->a, mesh, &a, why);
     if (s == RB_OK && rc->elastic_b) {
-        s = rb_rolling_kind_of(&rc->b)->flexibility(rc, &rc->b, mesh, &b, why);
+        s = body_flexibility(rc, &rc->b, mesh, &b, why);
         if (s == RB_OK)
             s = rb_bem_flexibility_pair(&a.f, &b.f, &bodies->f, why);
     } else if (s == RB_OK) {

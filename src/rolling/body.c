@@ -80,17 +80,3 @@ rb_status rb_rolling_body_check(const rb_rolling_body *b, const char *which,
             s = (*kind)->check(b, which, why);
     return s;
 }
-
-rb_status rb_rolling_check_base(const char *what, double young, double poisson,
-                                const char *which, rb_message *why)
-{
-    if (!(isfinite(young) && young >= 0.0))
-        return rb_fail(why, RB_EINVAL,
-                       "Young's modulus of the %s%s: expected > 0, got %g", what, which,
-                       young);
-    if (young > 0.0 && !(poisson > -1.0 && poisson <= 0.5))
-        return rb_fail(why, RB_EINVAL,
-                       "Poisson's ratio of the %s%s: expected in (-1, 0.5], got %g", what,
-                       which, poisson);
-    return RB_OK;
-}

@@ -30,23 +30,52 @@ rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
                     : (rb_bem_material){0}};
 }
 
+typedef rb_status maker(int n, const double *ends, const rb_bem_surface *surface,
+                        rb_bem_flexibility *f, rb_message *why);
+
+static rb_status make(maker *how, const rb_rolling_case *rc, const rb_rolling_body *body,
+                      const rb_rolling_mesh *mesh, rb_rolling_body_flexibility *made,
+                      rb_message *why)
+{
+    double length[RB_ROLLING_TERMS];
+    const double start = rb_seconds();
+    const rb_bem_surface surface = rb_rolling_halfplane_surface(rc, body, length);
+    const rb_status s = how(mesh->n, mesh->ends, &surface, &made->f, why);
+    made->seconds_condense = rb_seconds() - start;
+    return s;
+}
+
 static rb_status halfplane_flexibility(const rb_rolling_case *rc,
                                        const rb_rolling_body *body,
                                        const rb_rolling_mesh *mesh,
                                        rb_rolling_body_flexibility *made, rb_message *why)
 {
-    double length[RB_ROLLING_TERMS];
-    const double start = rb_seconds();
-    const rb_bem_surface surface = rb_rolling_halfplane_surface(rc, body, length);
-    const rb_status s =
-        rb_rolling_is_large(rc, mesh)
-            ? rb_bem_flexibility_toeplitz(mesh->n, mesh->ends, &surface, &made->f, why)
-            : rb_bem_flexibility_surface(mesh->n, mesh->ends, &surface, &made->f, why);
-    made->seconds_condense = rb_seconds() - start;
-    return s;
+    return make(rb_bem_flexibility_surface, rc, body, mesh, made, why);
 }
 
-enum { HALFPLANE = RB_BODY_FLAT | RB_BODY_TRANSFORMS | RB_BODY_TURNS };
+static rb_status halfplane_transforms(const rb_rolling_case *rc,
+                                      const rb_rolling_body *body,
+                                      const rb_rolling_mesh *mesh,
+                                      rb_rolling_body_flexibility *made, rb_message *why)
+{
+    return make(rb_bem_flexibility_toeplitz, rc, body, mesh, made, why);
+}
+
+rb_status rb_rolling_check_base(const char *what, double young, double poisson,
+                                const char *which, rb_message *why)
+{
+    if (!(isfinite(young) && young >= 0.0))
+        return rb_fail(why, RB_EINVAL,
+                       "Young's modulus of the %s%s: expected > 0, got %g", what, which,
+                       young);
+    if (young > 0.0 && !(poisson > -1.0 && poisson <= 0.5))
+        return rb_fail(why, RB_EINVAL,
+                       "Poisson's ratio of the %s%s: expected in (-1, 0.5], got %g", what,
+                       which, poisson);
+    return RB_OK;
+}
+
+enum { HALFPLANE = RB_BODY_FLAT | RB_BODY_TURNS };
 
 /* ---- Of one material ----------------------------------------------------------------
  */
@@ -87,6 +116,7 @@ const rb_rolling_body_kind rb_rolling_halfplane = {
     .parameters = halfplane_parameters,
     .check = check_halfplane,
     .flexibility = halfplane_flexibility,
+    .transforms = halfplane_transforms,
     .surface = rb_rolling_halfplane_surface,
     .datum = datum};
 

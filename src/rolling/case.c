@@ -127,6 +127,26 @@ double rb_rolling_friction_at(const rb_rolling_friction_table *table, double x)
     return table->mu[k] + share * (table->mu[k + 1] - table->mu[k]);
 }
 
+int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
+{
+    /* products know one operator for bodies and third body */
+    const int two_operators =
+        rc->slip_operator == RB_SLIP_SECOND && rc->interlayer_tangential > 0.0;
+    return mesh->n >= RB_ROLLING_LARGE && !two_operators &&
+           (rc->solver == RB_SOLVER_AUTO || rc->solver == RB_SOLVER_NEWTON) &&
+           rc->mesh != RB_MESH_FITTED && rb_rolling_kind_of(&rc->a)->transforms &&
+           (!rc->elastic_b || rb_rolling_kind_of(&rc->b)->transforms);
+}
+
+int rb_rolling_carter_holds(const rb_rolling_case *rc)
+{
+    return rc->formulation == RB_STEADY && rc->mu > 0.0 && rc->friction.n == 0 &&
+           rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 &&
+           rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) &&
+           rc->gap != RB_GAP_TABLE && rc->worn_n == 0 &&
+           fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
+}
+
 int rb_rolling_has_fine_boundary(const rb_rolling_case *rc)
 {
     enum { MANY = 600 };

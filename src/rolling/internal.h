@@ -20,6 +20,10 @@ int rb_rolling_force_is_given(const rb_rolling_case *rc);
 /* Q over the most that friction carries, mu P; NAN without friction or load. */
 double rb_rolling_force_ratio(const rb_rolling_model *model);
 
+/* 1 where products with the flexibility replace the dense matrix: half-planes under a
+ * long line of equal elements, by Newton. */
+int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
+
 /* ---- profile.c ----------------------------------------------------------------------
  */
 
@@ -38,6 +42,9 @@ extern const rb_rolling_body_kind rb_rolling_halfplane, rb_rolling_layer,
 rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
                                             const rb_rolling_body *body,
                                             double length[RB_ROLLING_TERMS]);
+/* E >= 0, 0 where it is rigid, and nu of what is below a layer or cover. */
+rb_status rb_rolling_check_base(const char *what, double young, double poisson,
+                                const char *which, rb_message *why);
 
 /* ---- body.c
  * ----------------------------------------------------------------------------
@@ -46,9 +53,6 @@ rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
 /* RB_EINVAL: what no body can be.  which: "", or " of body B". */
 rb_status rb_rolling_body_check(const rb_rolling_body *body, const char *which,
                                 int plane_allowed, rb_message *why);
-/* E >= 0, 0 where it is rigid, and nu of what is below a layer or cover. */
-rb_status rb_rolling_check_base(const char *what, double young, double poisson,
-                                const char *which, rb_message *why);
 
 /* The given datum of a half-plane, or 2R/e, R of the body or of A where it is a plane;
  * NAN where nothing is measured from one: wheels, and layers on a rigid base. */
@@ -109,10 +113,6 @@ double rb_rolling_wanted_shift(const rb_rolling_case *rc);
 /* d_N, from the gaps of the mesh. */
 void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bodies,
                         rb_contact_problem *p);
-
-/* 1 where products with the flexibility replace the dense matrix: half-planes under a
- * long line of equal elements, by Newton. */
-int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
 
 /* ---- heat.c ---------------------------------------------------------------------------
  */
@@ -320,6 +320,19 @@ rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int count,
 /* ---- solution.c -----------------------------------------------------------------------
  */
 
+/* Tractions of the state on A in global x, y: 2 per contact element. */
+void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
+
+/* Lengths of the elements in contact and of those among them that stick. */
+void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
+                             double *stick);
+
+/* The longest element in contact. */
+double rb_rolling_longest_element(int n, const int *zone, const double *h);
+
+/* ---- power.c --------------------------------------------------------------------------
+ */
+
 /* Power per unit speed of friction q (n) and slip displacement lambda (n); NAN for
  * static. */
 double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
@@ -331,16 +344,6 @@ int rb_rolling_relaxes(const rb_rolling_case *rc);
  * friction and displacements (theory.md V4): 0 for elastic bodies, NAN but in steady
  * rolling.  RB_ENOMEM. */
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power);
-
-/* Tractions of the state on A in global x, y: 2 per contact element. */
-void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
-
-/* Lengths of the elements in contact and of those among them that stick. */
-void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
-                             double *stick);
-
-/* The longest element in contact. */
-double rb_rolling_longest_element(int n, const int *zone, const double *h);
 
 /* ---- patches.c ------------------------------------------------------------------------
  */

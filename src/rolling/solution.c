@@ -93,26 +93,6 @@ static int count_violations(const rb_rolling_model *model, const rb_rolling_solu
     return violations;
 }
 
-/* The upstream difference of steady rolling is the slip between two midpoints, so it is
- * paired with the mean of their tractions (theory.md 6); otherwise slip and traction
- * belong to the same point. */
-double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
-                                   const double *q, const double *h, const double *e_T)
-{
-    const int between =
-        rc->formulation == RB_STEADY && rc->slip_operator == RB_SLIP_UPSTREAM;
-    double power = 0.0;
-
-    if (rc->formulation == RB_STATIC)
-        return NAN;
-    for (int i = 0; i < n; i++) {
-        const double next = i + 1 < n ? q[i + 1] : 0.0;
-        power -=
-            between ? lambda[i] * 0.5 * (q[i] + next) : lambda[i] / e_T[i] * q[i] * h[i];
-    }
-    return power;
-}
-
 /* ---- Forces
  * ----------------------------------------------------------------------------- */
 
@@ -337,49 +317,4 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     if (status != RB_OK)
         rb_rolling_solution_free(s);
     return status;
-}
-
-rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
-                                 rb_rolling_solution *solution, rb_message *why)
-{
-    memset(model, 0, sizeof *model);
-    return rb_rolling_solve_model_again(rc, model, solution, why);
-}
-
-rb_status rb_rolling_solve_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
-                                       rb_rolling_solution *solution, rb_message *why)
-{
-    const double start = rb_seconds();
-    rb_rolling_history history = {0};
-    rb_status s;
-
-    if (rb_rolling_has_steps(rc)) {
-        rb_rolling_model_free(model);
-        s = rb_rolling_history_run(rc, NULL, NULL, NULL, model, &history, why);
-    } else {
-        s = rb_rolling_model_again(rc, model, why);
-    }
-    rb_rolling_history_free(&history);
-    memset(solution, 0, sizeof *solution);
-    if (s >= 0 && model->state.p) {
-        const rb_status t = rb_rolling_model_solution(model, solution, why);
-        if (t != RB_OK)
-            s = t;
-    }
-    if (s == RB_OK && rc->formulation == RB_STEADY && rc->mu > 0.0)
-        s = rb_rolling_free_creepage_if_any(model, &solution->free_creepage, why);
-    if (s >= 0)
-        solution->status = s;
-    solution->seconds_total = rb_seconds() - start;
-    return s;
-}
-
-rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solution,
-                           rb_message *why)
-{
-    rb_rolling_model model;
-    const rb_status s = rb_rolling_solve_model(rc, &model, solution, why);
-
-    rb_rolling_model_free(&model);
-    return s;
 }

@@ -10,6 +10,7 @@ typedef struct {
     void *context;
     int failed;
     const char *why; /* of the solution at hand; NULL: it is one */
+    rb_message said; /* what `why` points to */
 } rb_verify;
 
 enum { RB_VERIFY_ABSOLUTE, RB_VERIFY_RELATIVE };

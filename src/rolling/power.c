@@ -1,4 +1,4 @@
-/* Where the dissipated energy goes: what wear laws take. */
+/* The power that friction dissipates and that bodies lose. */
 #include "rolling/internal.h"
 
 #include <stdlib.h>
@@ -12,6 +12,26 @@ void rb_rolling_friction_power(const rb_rolling_solution *s, double *power)
         else
             power[i] = s->formulation == RB_STATIC ? NAN : -s->slip[i] * s->q[i];
     }
+}
+
+/* The upstream difference of steady rolling is the slip between two midpoints, so it is
+ * paired with the mean of their tractions (theory.md 6); otherwise slip and traction
+ * belong to the same point. */
+double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
+                                   const double *q, const double *h, const double *e_T)
+{
+    const int between =
+        rc->formulation == RB_STEADY && rc->slip_operator == RB_SLIP_UPSTREAM;
+    double power = 0.0;
+
+    if (rc->formulation == RB_STATIC)
+        return NAN;
+    for (int i = 0; i < n; i++) {
+        const double next = i + 1 < n ? q[i + 1] : 0.0;
+        power -=
+            between ? lambda[i] * 0.5 * (q[i] + next) : lambda[i] / e_T[i] * q[i] * h[i];
+    }
+    return power;
 }
 
 /* -int p w_N' dx by differences over the neighbours' unequal distances, exact for a

@@ -1,0 +1,70 @@
+/* What every reference of `verify` does: compare, solve, begin with a common case. */
+#include "verify/internal.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+void rb_verify_compare(rb_verify *v, double got, double wanted, double bound,
+                       int relative, const char *what, ...)
+{
+    rb_verify_check c = {
+        .wanted = wanted, .got = got, .bound = bound, .relative = relative};
+    va_list args;
+    va_start(args, what);
+    vsnprintf(c.what, sizeof c.what, what, args);
+    va_end(args);
+    c.error = fabs(got - wanted) / (relative ? fabs(wanted) : 1.0);
+    c.holds = c.error <= bound; /* false for NaN */
+    c.why = v->why;
+    v->failed += !c.holds;
+    v->each(&c, v->context);
+}
+
+void rb_verify_note(rb_verify *v, rb_status s, const rb_message *why)
+{
+    v->said = *why;
+    v->why = s == RB_OK ? NULL : why->text[0] ? v->said.text : rb_status_text(s);
+}
+
+void rb_verify_solve(rb_verify *v, const rb_rolling_case *rc, rb_rolling_solution *s)
+{
+    *s = (rb_rolling_solution){0};
+    rb_message why = {""};
+    const rb_status status = rb_rolling_solve(rc, s, &why);
+    rb_verify_note(v, status, &why);
+    if (status != RB_OK) {
+        s->normal_load = s->force_ratio = s->max_pressure = s->half_width = NAN;
+        s->approach = s->creepage = s->stick_from = s->stick_to = s->dissipation = NAN;
+        s->max_temperature = NAN;
+    }
+}
+
+rb_rolling_case rb_verify_uncoupled(void)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.poisson = 0.5;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.half_width = rc.a.radius * 1e-4;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 100;
+    return rc;
+}
+
+/* Aluminium on steel rolling freely, R_A = R_B = 50, a = 0.1. */
+rb_rolling_case rb_verify_aluminium_on_steel(double mu)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.young = 2.0 * 23000.0 * 1.31;
+    rc.a.poisson = 0.31;
+    rc.b = rc.a;
+    rc.b.young = 2.0 * 82000.0 * 1.28;
+    rc.b.poisson = 0.28;
+    rc.elastic_b = 1;
+    rc.half_width = 0.1;
+    rc.mu = mu;
+    rc.formulation = RB_STEADY;
+    rc.force = 0.0;
+    return rc;
+}
