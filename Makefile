@@ -41,7 +41,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: journeys dist deb site course page page-test python-test install-python all run test test-all check-tests asan asan-short short-tests fuzz mutants coverage hostile analyse check-format bench install help clean packages check-packages study
+.PHONY: journeys dist deb site course page page-test python-test install-python all run test test-all check-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -55,6 +55,8 @@ help:
 	@echo "make mutants    do the tests notice MUTANTS=300 changes of the source? score and survivors"
 	@echo "make coverage   lines and branches of src/ that the tests go through, and what is left"
 	@echo "make hostile    N=20000 cases at the ends of what is accepted, judged independently"
+	@echo "make endurance  KILLS=1000 kills of a study; memory over CASES=100000 and SOLVES=10000 cases"
+	@echo "make platforms  the tests with other compilers, BLAS, threads; PLATFORMS=... some of them"
 	@echo "make analyse    gcc -fanalyzer and -Wconversion, clang-tidy, cppcheck on src/"
 	@echo "make check-format  names sources that clang-format would change"
 	@echo "make study      the friction solvers on published files and on packings: tables, false successes;"
@@ -235,6 +237,17 @@ N ?= 20000
 hostile: packages
 	@$(MAKE) --no-print-directory B=$(B) all $(B)/tests/test_hostile $(B)/tests/checker
 	@HOSTILE=$(N) B=$(B) OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 OMP_WAIT_POLICY=passive $(B)/tests/test_hostile
+
+# kills of studies, memory over many cases
+KILLS ?= 1000
+CASES ?= 100000
+SOLVES ?= 10000
+endurance: packages
+	@$(MAKE) --no-print-directory B=$(B) all $(B)/tests/endurance
+	@scripts/endurance $(B) --kills $(KILLS) --cases $(CASES) --solves $(SOLVES)
+
+# compilers, optimisation, BLAS, threads: the list in docs/reliability.md
+platforms: packages ; @scripts/platforms $(B) $(PLATFORMS)
 
 # static analysis of src/
 analyse: all
