@@ -72,11 +72,60 @@ static void a_case_may_name_a_cone_solver(void **state)
     rb_rolling_solution_free(&lemke);
 }
 
+static const rb_contact_state *known; /* of the case at hand */
+static double known_stress;
+
+static int knows_any(const char *name)
+{
+    return name[0] != '\0';
+}
+
+/* The solution, with rounding where there is no contact. */
+static rb_status solve_roughly(const char *name, const rb_contact_cone *cone, double tol,
+                               double *r, int *iterations, rb_message *why)
+{
+    (void)name, (void)tol, (void)iterations, (void)why;
+    for (int i = 0; i < cone->n; i++) {
+        const int open = known->zone[i] == RB_ZONE_SEPARATED;
+        r[2 * i] = open ? (i % 2 ? 1e-18 : -1e-18) : known->p[i] / known_stress;
+        r[2 * i + 1] = open ? 1e-19 : known->q[i] / known_stress;
+    }
+    return RB_OK;
+}
+
+static void separated_elements_carry_nothing(void **state)
+{
+    (void)state;
+    static const rb_contact_cone_solvers rough = {knows_any, solve_roughly};
+    rb_rolling_case rc = dissimilar_rolling();
+    rb_rolling_model model;
+    rb_rolling_solution s;
+    int separated = 0;
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    known = &model.state;
+    known_stress = model.problem.stress;
+    rc.solver = RB_SOLVER_CONE;
+    rc.cone_solvers = &rough;
+    rc.cone_solver = "rough";
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    CHECK_MAX(s.residual, 1e-10, "residual");
+    for (int i = 0; i < s.n; i++)
+        if (s.zone[i] == RB_ZONE_SEPARATED) {
+            separated++;
+            if (s.p[i] != 0.0 || s.q[i] != 0.0)
+                fail_msg("element %d is open with p = %g, q = %g", i, s.p[i], s.q[i]);
+        }
+    assert_true(separated > 0);
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cone_solvers_agree_with_lemke),
         cmocka_unit_test(a_case_may_name_a_cone_solver),
+        cmocka_unit_test(separated_elements_carry_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

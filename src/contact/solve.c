@@ -11,6 +11,8 @@ enum { LEMKE_UP_TO = 120 };
  * as shares of it. */
 enum { MOST_HALVINGS = 6 };
 static const double LEAST_STEP = 1e-4;
+/* Below this part of the stress scale a traction is rounding. */
+static const double ROUNDING = 1e-12;
 
 static rb_status measure(const rb_contact_problem *problem, rb_contact_state *state)
 {
@@ -46,16 +48,30 @@ static rb_status polish(rb_contact_problem *problem, rb_contact_state *state)
     return s == RB_SINGULAR ? RB_OK : s;
 }
 
+/* A cone solver leaves rounding where its elements are separated: no traction there.
+ * What is more than rounding stays, and the residual tells it. */
+static void clear_rounding(const rb_contact_problem *problem, rb_contact_state *state)
+{
+    const double most = ROUNDING * problem->stress;
+
+    for (int i = 0; i < problem->n; i++)
+        if (state->zone[i] == RB_ZONE_SEPARATED && fabs(state->p[i]) <= most &&
+            fabs(state->q[i]) <= most)
+            state->p[i] = state->q[i] = 0.0;
+}
+
 /* lambda, zones and residual of p, q, delta, xi.  exact: they solve the equations of
  * their zones already, as Newton's do. */
 static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_state *state)
 {
     double *gap = rb_alloc((size_t)problem->n, 1);
-    rb_status s = gap ? measure(problem, state) : RB_ENOMEM;
+    rb_status s = gap ? RB_OK : RB_ENOMEM;
 
     if (s == RB_OK) {
         rb_contact_kinematics(problem, state, gap, state->lambda);
-        rb_contact_classify(problem, 1e-12, state);
+        rb_contact_classify(problem, ROUNDING, state);
+        clear_rounding(problem, state);
+        s = measure(problem, state);
     }
     if (s == RB_OK && !exact) {
         s = polish(problem, state);
