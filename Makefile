@@ -65,7 +65,7 @@ help:
 	@echo "make page       the page for browsers, $(B)/rollbem.html; make page-test tests it"
 	@echo "make python-test   tests of the Python package, python/"
 	@echo "make course     the pictures of the course, docs/course, in $(B)/course"
-	@echo "make journeys   what a student, a programmer, a contributor do on their first day"
+	@echo "make journeys   what people of eight kinds do on their first day"
 	@echo "make site       the documentation as a site, $(B)/site/index.html"
 	@echo "make dist       the sources of the last commit, $(B)/rollbem-$(VERSION).tar.gz"
 	@echo "make deb        Debian packages, $(B)/deb"
@@ -90,7 +90,7 @@ LONGEST := $(patsubst %,$(B)/tests/test_%,net fem_examples rolling_wheel files f
 
 # only the summary line comes last: continuous integration reads it
 check-tests: all $(TESTS) $(B)/tests/checker
-	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave tests/install tests/release tests/site $(filter-out $(LONGEST),$(TESTS))
+	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave tests/install tests/release tests/site $(wildcard tests/journeys/*) $(filter-out $(LONGEST),$(TESTS))
 
 SANITIZED = B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined"
 asan:

@@ -22,6 +22,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     if (isfinite(own))
         fprintf(out, "$own << EOD\n%.9g %.9g\nEOD\n", traction, own);
     const rb_report_place place = rb_report_place_of(canvas);
+    const rb_report_unit stress =
+        rb_report_axis_unit(s->s->units, "MPa", s->s->max_pressure);
     fprintf(
         out,
         "set lmargin at screen %g\nset rmargin at screen 0.965\nset bmargin at screen "
@@ -35,7 +37,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             out,
             "set label 1 '{/:Bold Shakedown}   p_0 = %.5g %s,  p_0 ≤ %.4g k shakes down' "
             "at screen 0.54, 0.955 center\n",
-            s->s->max_pressure, rb_unit_name(s->s->units, "MPa"), limit);
+            s->s->max_pressure / stress.size, stress.name, limit);
     fprintf(out, "set key right top samplen 2 font ',%.3g'\n",
             rb_report_key_font(canvas));
     fputs("plot $limit using 1:2 with lines linecolor rgb '#1f4e79' linewidth 2.4 title "

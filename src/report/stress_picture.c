@@ -154,11 +154,13 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
     const view *v = context;
     write_grid(out, v);
     write_axes(out, v);
-    fprintf(out,
-            "set contour base\nset cntrlabel onecolor start 45 interval -1 font ',%.3g'\n"
-            "set cntrparam levels auto %.0f\n",
-            0.6 * rb_report_key_font(canvas),
-            fmin(10.0, 2.0 * rb_report_labels_in(panel_height(v))));
+    fprintf(
+        out,
+        "set contour base\nset cntrlabel onecolor format '%%g' start 45 interval -1 font "
+        "',%.3g'\n"
+        "set cntrparam levels auto %.0f\n",
+        0.6 * rb_report_key_font(canvas),
+        fmin(10.0, 2.0 * rb_report_labels_in(panel_height(v))));
     fputs(RB_REPORT_PALETTE "set multiplot\n", out);
     fprintf(out,
             "set xtics %.9g\n"

@@ -257,10 +257,11 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
     write_axis(out, 'x', &s->x, &v->x, labels_below(place));
     write_label(out, "ylabel", &s->shown, &v->shown);
     if (s->y.value)
-        fprintf(out,
-                "set key outside right center samplen 2 font ',%.3g' title '%s%s%s'\n",
-                0.9 * rb_report_key_font(canvas), plain(s->y.name, name),
-                s->y.unit[0] ? "  " : "", s->y.unit);
+        fprintf(
+            out,
+            "set key outside right center samplen 2 font ',%.3g' title \"%s%s%s%s\"\n",
+            0.9 * rb_report_key_font(canvas), plain(s->y.name, name),
+            s->y.unit[0] ? "\\n[" : "", s->y.unit, s->y.unit[0] ? "]" : "");
     else
         fputs("unset key\n", out);
     for (int k = 0, i = 0; k < curves; i += length_of_group(s, v->at, i), k++)
@@ -283,6 +284,14 @@ static int steps_between(int values)
     return values > FINE ? 1 : (FINE + values - 1) / values;
 }
 
+/* A contour has about as many points as it crosses lines of cases; its label stands near
+ * the middle. */
+static int label_at(const view *v)
+{
+    const int lines = v->row + v->study->n / v->row;
+    return lines < 12 ? 3 : lines / 4;
+}
+
 /* Contours at the numbers of the scale, but for its ends. */
 static void write_scale(FILE *out, rb_report_canvas canvas, const view *v, double height)
 {
@@ -292,10 +301,10 @@ static void write_scale(FILE *out, rb_report_canvas canvas, const view *v, doubl
     const double first = step * (floor(least / step + 1e-6) + 1.0);
     fprintf(out,
             "set cbrange [%.9g:%.9g]\nset cbtics %.9g\nset contour base\n"
-            "set cntrlabel onecolor start 5 interval -1 font ',%.3g'\n"
+            "set cntrlabel onecolor format '%%g' start %d interval -1 font ',%.3g'\n"
             "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
             "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
-            least, most, step, 0.7 * rb_report_key_font(canvas), first, step,
+            least, most, step, label_at(v), 0.7 * rb_report_key_font(canvas), first, step,
             most - 1e-6 * (most - least));
 }
 
