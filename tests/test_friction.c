@@ -25,7 +25,7 @@ static double measure_again(int d, int nc, const double *mu, const double *r,
         for (int a = 1; a < d; a++)
             z[a] = rc[a] - uc[a], t += z[a] * z[a];
         t = sqrt(t);
-        if (t <= m * z[0]) {
+        if (z[0] >= 0.0 && t <= m * z[0]) {
             memcpy(p, z, sizeof p);
         } else if (z[0] > -m * t) {
             /* foot of the perpendicular on the ray (1, m z_T/t) */
@@ -462,6 +462,39 @@ static void bad_problems_are_refused(void **state)
     rb_friction_problem_free(NULL);
 }
 
+/* Without friction K is a half-line.  A contact that pulls with just the force that
+ * closes it, u = 0, is no solution, though the point (-1, 0) has ||z_T|| <= 0 z_N in
+ * floating point: 0 <= -0. */
+static void a_frictionless_contact_does_not_pull(void **state)
+{
+    (void)state;
+    for (int d = 2; d <= 3; d++) {
+        double W[9] = {0.0}, q[3] = {1.0}, mu[1] = {0.0}, pulls[3] = {-1.0}, error, r[3],
+               u[3];
+        for (int a = 0; a < d; a++)
+            W[a * (d + 1)] = 1.0;
+        const rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
+                                       .dimension = d,
+                                       .contacts = 1,
+                                       .mu = mu,
+                                       .W = W,
+                                       .q = q};
+        CHECK_STATUS(rb_friction_error(&p, pulls, NULL, NULL, &error, NULL), RB_OK);
+        CHECK_ABS(error, 1.0, 1e-15, "it pulls");
+        rb_friction_options opt = rb_friction_defaults();
+        opt.r0 = pulls;
+        int count;
+        const rb_friction_solver *all = rb_friction_solvers(&count);
+        for (int k = 0; k < count; k++) {
+            if (d == 3 && (all[k].needs & RB_FRICTION_ONLY_2D))
+                continue;
+            CHECK_STATUS(rb_friction_solve(all[k].name, &p, &opt, r, u, NULL, NULL),
+                         RB_OK);
+            CHECK_ABS(r[0], 0.0, 1e-7, "%s", all[k].name);
+        }
+    }
+}
+
 static void success_is_never_claimed_above_the_tolerance(void **state)
 {
     (void)state;
@@ -535,6 +568,7 @@ int main(void)
         cmocka_unit_test(facts_are_reported),
         cmocka_unit_test(zero_q_has_the_trivial_solution),
         cmocka_unit_test(bad_problems_are_refused),
+        cmocka_unit_test(a_frictionless_contact_does_not_pull),
         cmocka_unit_test(success_is_never_claimed_above_the_tolerance),
         cmocka_unit_test(failing_allocations_are_reported),
     };

@@ -156,7 +156,7 @@ static long double miss(int d, long double mu, long double w, const double *r,
     const long double along = (z[0] + mu * zt) / (1.0L + mu * mu);
     for (int a = 0; a < d; a++) {
         long double p = z[a];
-        if (zt > mu * z[0])
+        if (z[0] < 0.0L || zt > mu * z[0])
             p = along <= 0.0L ? 0.0L : a == 0 ? along : mu * along * z[a] / zt;
         sum += sqr(r[a] - p);
     }

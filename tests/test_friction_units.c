@@ -78,7 +78,7 @@ static double measure_again(const rb_friction_problem *p, const double *r)
         }
         t = sqrt(t);
         const double along = (z[0] + mu * t) / (1.0 + mu * mu);
-        const int inside = t <= mu * z[0], apex = !inside && along <= 0.0;
+        const int inside = z[0] >= 0.0 && t <= mu * z[0], apex = !inside && along <= 0.0;
         for (int a = 0; a < d; a++) {
             const double face = a ? along * mu * z[a] / t : along;
             const double e = r[c * d + a] - (inside ? z[a] : apex ? 0.0 : face);

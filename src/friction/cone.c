@@ -33,7 +33,7 @@ double rb_friction_tangential(int d, const double *x)
 void rb_friction_project(int d, double mu, const double *z, double *p)
 {
     const double zn = z[0], t = rb_friction_tangential(d, z);
-    if (t <= mu * zn) { /* inside K */
+    if (zn >= 0.0 && t <= mu * zn) { /* inside K; mu = 0: 0 <= -0 is true */
         for (int a = 0; a < d; a++)
             p[a] = z[a];
         return;
@@ -49,7 +49,7 @@ void rb_friction_project(int d, double mu, const double *z, double *p)
 void rb_friction_project_derivative(int d, double mu, const double *z, double *D)
 {
     const double zn = z[0], t = rb_friction_tangential(d, z);
-    const int inside = t <= mu * zn;
+    const int inside = zn >= 0.0 && t <= mu * zn;
     for (int k = 0; k < d * d; k++)
         D[k] = 0.0;
     if (inside)
