@@ -48,7 +48,7 @@ help:
 	@echo "make            build $(B)/rollbem and the libraries (installs nothing)"
 	@echo "make run        install missing packages, build, solve and print the main example"
 	@echo "make test       install missing packages, build, run all tests"
-	@echo "make test-all   the same without leaving out any case of the long tests"
+	@echo "make test-all   the same without leaving out any case of the long tests, then the campaigns of docs/reliability.md"
 	@echo "make asan       the tests under the address and undefined-behaviour sanitizers"
 	@echo "make asan-short some of them"
 	@echo "make fuzz       libFuzzer on every target of fuzz/, FUZZ_TIME=60 seconds each (wants clang)"
@@ -82,8 +82,15 @@ run: packages
 test: packages
 	@$(MAKE) --no-print-directory B=$(B) check-tests
 
-# tests with more cases than a minute allows run a part of them unless this variable is set
-test-all: ; @ROLLBEM_TEST_ALL=1 $(MAKE) --no-print-directory B=$(B) test
+# tests with more cases than a minute allows run a part of them unless this variable is set; then
+# the campaigns of docs/reliability.md in sizes that fit into an hour
+test-all:
+	@ROLLBEM_TEST_ALL=1 $(MAKE) --no-print-directory B=$(B) test
+	@$(MAKE) --no-print-directory B=$(B) hostile N=2000
+	@$(MAKE) --no-print-directory B=$(B) endurance KILLS=100 CASES=5000 SOLVES=2000
+	@$(MAKE) --no-print-directory B=$(B) platforms PLATFORMS="clang two-threads reference-blas"
+	@if command -v $(FUZZ_CC) >/dev/null; then $(MAKE) --no-print-directory B=$(B) fuzz FUZZ_TIME=20; else echo "fuzz: no $(FUZZ_CC)"; fi
+	@$(MAKE) --no-print-directory B=$(B) analyse
 
 # the longest programs start first, so that no processor waits for one of them at the end
 LONGEST := $(patsubst %,$(B)/tests/test_%,net fem_examples rolling_wheel files fem_cli faults)
@@ -114,6 +121,7 @@ coverage: packages
 	@mkdir -p $(B)/coverage
 	@$(CC) -O1 -fPIC -c -o $(B)/coverage/exit.o tests/coverage.c
 	-@$(MAKE) --no-print-directory B=$(B)/coverage CFLAGS="-O0 -g --coverage -fprofile-abs-path -fprofile-update=atomic" LDFLAGS="$(CURDIR)/$(B)/coverage/exit.o -Wl,--wrap=_exit" $(COVERED)
+	@rm -f a--.gcno # of the probes of this file
 	@scripts/coverage $(B)/coverage
 
 # what touches most of the library's memory in a minute or two
