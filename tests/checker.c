@@ -76,7 +76,9 @@ typedef struct {
 typedef struct {
     const json_t *inputs, *summary, *worn; /* worn: depth per element, or NULL */
     body a, b;
-    double mu, modulus, radius; /* E*, combined R */
+    double mu, modulus, radius; /* largest coefficient of friction, E*, combined R */
+    double *mu_of;              /* of every element, by the friction law */
+    int moves;                  /* 1: the law depends on the state */
     int surface_normals;
     enum { STATIC, STEADY, TRANSIENT } formulation;
     int steps; /* 1: a static history or a transient */
@@ -240,6 +242,80 @@ static void settle_datum(body *b, double radius)
         b->datum = 2.0 * (isinf(b->radius) ? radius : b->radius) / exp(1.0);
 }
 
+/* ---- Friction laws -------------------------------------------------------------------
+ */
+
+/* Number k of an option that takes several; 0: there are not so many. */
+static double listed(const json_t *inputs, const char *key, size_t k)
+{
+    const json_t *value = json_object_get(inputs, key);
+    if (json_is_array(value))
+        value = json_array_get(value, k);
+    else if (k > 0)
+        return 0.0;
+    return json_is_number(value) ? json_number_value(value) : 0.0;
+}
+
+static int is_law(const json_t *inputs, const char *name)
+{
+    return strcmp(word(inputs, "friction-law"), name) == 0;
+}
+
+static int is_table_law(const json_t *inputs)
+{
+    return !is_law(inputs, "constant") && !is_law(inputs, "exponential") &&
+           !is_law(inputs, "rational") && !is_law(inputs, "linear");
+}
+
+/* mu at x, by straight lines between the rows of the file. */
+static double mu_of_table(const json_t *inputs, double x)
+{
+    static rows file;
+    if (!file.rows)
+        file = rows_from_file(word(inputs, "friction-law"));
+    const double *row = file.x, *last = file.x + 2 * (file.rows - 1);
+    if (x <= row[0])
+        return row[1];
+    if (x >= last[0])
+        return last[1];
+    while (x > row[2])
+        row += 2;
+    return row[1] + (row[3] - row[1]) * (x - row[0]) / (row[2] - row[0]);
+}
+
+static double largest_mu(const json_t *inputs, double mu)
+{
+    if (is_table_law(inputs)) {
+        const rows file = rows_from_file(word(inputs, "friction-law"));
+        mu = 0.0;
+        for (int k = 0; k < file.rows; k++)
+            mu = fmax(mu, file.x[2 * k + 1]);
+        free(file.x);
+    }
+    for (size_t k = 0; k < 2; k++)
+        mu += fmax(0.0, listed(inputs, "mu-fall", k));
+    return mu + fmax(0.0, listed(inputs, "mu-heat", 0));
+}
+
+/* mu where A slides at v [mm/s] and the surface has the temperature T. */
+static double mu_by_law(const json_t *inputs, double x, double v, double T)
+{
+    double mu = is_table_law(inputs) ? mu_of_table(inputs, x) : number(inputs, "mu");
+    for (size_t k = 0; k < 2; k++) {
+        const double m = listed(inputs, "mu-fall", k);
+        const double s = m != 0.0 ? v / listed(inputs, "slip-scale", k) : 0.0;
+        mu += m * (is_law(inputs, "exponential") ? pow(2.0, -s)
+                   : is_law(inputs, "linear")    ? fmax(0.0, 1.0 - s / 2.0)
+                   : k == 0                      ? 1.0 / (1.0 + s)
+                                                 : 1.0 / (1.0 + s * s));
+    }
+    if (listed(inputs, "mu-heat", 0) != 0.0)
+        mu += listed(inputs, "mu-heat", 0) *
+              fmin(1.0, fmax(0.0, (T - listed(inputs, "mu-heat", 1)) /
+                                      listed(inputs, "mu-heat", 2)));
+    return mu;
+}
+
 static contact contact_of(const json_t *root)
 {
     contact c = {.inputs = json_object_get(root, "inputs"),
@@ -249,7 +325,7 @@ static contact contact_of(const json_t *root)
     c.b = body_of(c.inputs, "-b");
     settle_datum(&c.a, c.a.radius);
     settle_datum(&c.b, c.a.radius);
-    c.mu = number(c.inputs, "mu");
+    c.mu = largest_mu(c.inputs, number(c.inputs, "mu"));
     double compliance = (1.0 - c.a.poisson * c.a.poisson) / c.a.young;
     if (c.b.young > 0.0)
         compliance += (1.0 - c.b.poisson * c.b.poisson) / c.b.young;
@@ -327,6 +403,43 @@ static void check_contact(const contact *c, const table *t)
         violated("ends", "the contact reaches an end of the potential contact");
 }
 
+/* The coefficients by the law, from the printed slip and temperatures; with memory of a
+ * transient only their range is known. */
+static void check_law(contact *c, const table *t, const json_t *object)
+{
+    const json_t *printed = json_object_get(object, "mu_1");
+    const json_t *warmth = json_object_get(object, "temperature_K");
+    const double T0 = number(c->inputs, "temperature"), V = number(c->inputs, "speed");
+    const double d = listed(c->inputs, "memory", 0), s0 = listed(c->inputs, "memory", 1);
+    const int heats = listed(c->inputs, "mu-heat", 0) != 0.0;
+    const int is_one = is_law(c->inputs, "constant") && !heats;
+    c->moves = c->formulation != STATIC && (heats || listed(c->inputs, "mu-fall", 0));
+    c->mu_of = doubles((size_t)t->n);
+    if ((printed != NULL) == is_one)
+        violated("friction law", "the column mu_1 does not follow --friction-law");
+    for (int i = t->n - 1; i >= 0; i--) {
+        const double x = t->column[X][i];
+        const int open = c->formulation == STATIC || t->column[ZONE][i] == SEPARATED;
+        const double v = open ? 0.0 : V * fabs(t->column[SLIP][i]);
+        const double T = open ? T0 : json_number_value(json_array_get(warmth, (size_t)i));
+        double mu = mu_by_law(c->inputs, x, v, T);
+        c->mu_of[i] = is_one ? mu : json_number_value(json_array_get(printed, (size_t)i));
+        if (c->mu_of[i] < 0.0 || c->mu_of[i] > c->mu * (1.0 + 1e-12))
+            violated("friction law", "element %d: mu = %g", i + 1, c->mu_of[i]);
+        if (d > 0.0 && c->moves && c->formulation == TRANSIENT)
+            continue;
+        if (d > 0.0 && c->moves && !open) {
+            const double next = i + 1 < t->n ? t->column[X][i + 1] - x : t->column[H][i];
+            const double slid = fmax(v, s0 > 0.0 ? s0 : 1.0) * next / V;
+            mu += (c->mu_of[i + 1 < t->n ? i + 1 : i] - mu) * exp(-slid / d);
+        }
+        /* proven is the friction that it makes */
+        const double part = t->column[P][i] / largest(t->n, t->column[P]);
+        expect("friction law", c->mu_of[i], mu,
+               1e-8 * c->mu + (part > 0.0 ? tolerance(c) * c->mu / part : 0.0));
+    }
+}
+
 /* Coulomb: |q| <= mu p, stick without slip, slip against the friction. */
 static void check_friction(const contact *c, const table *t)
 {
@@ -335,7 +448,7 @@ static void check_friction(const contact *c, const table *t)
     const double eps = tolerance(c), length = eps * length_scale(c, t);
     const double stress = eps * fmax(c->mu, 1e-3) * largest(t->n, p);
     for (int i = 0; i < t->n; i++) {
-        const double bound = c->mu * p[i];
+        const double bound = c->mu_of[i] * p[i];
         if (fabs(q[i]) > bound + stress)
             violated("Coulomb", "element %d: |q| = %.17g, mu p = %.17g", i + 1,
                      fabs(q[i]), bound);
@@ -452,7 +565,8 @@ static void check_sums(const contact *c, const table *t)
     check_edges(c, t, &s);
 }
 
-static void check_ratios(const contact *c)
+/* The force ratio is that to mu P, of elements that differ at rest to all they carry. */
+static void check_ratios(const contact *c, const table *t)
 {
     const double P_ = number(c->summary, "normal_load");
     const double Q_ = number(c->summary, "tangential_load");
@@ -460,7 +574,12 @@ static void check_ratios(const contact *c)
     expect_same(c, "hertz_half_width", a, 1e-9 * a);
     if (c->mu > 0.0) {
         const double ratio = number(c->summary, "creepage") * c->radius / (c->mu * a);
-        expect_same(c, "force_ratio", Q_ / (c->mu * P_), 1e-12);
+        double most = c->moves ? c->mu * P_ : 0.0;
+        for (int i = 0; i < t->n && !c->moves; i++)
+            most += c->mu_of[i] * t->column[P][i] * t->column[H][i];
+        if (!c->surface_normals || is_law(c->inputs, "constant"))
+            expect_same(c, "force_ratio", Q_ / (c->surface_normals ? c->mu * P_ : most),
+                        1e-12);
         expect_same(c, "creep_ratio", ratio, 1e-9 * fabs(ratio));
         if (fabs(Q_) > c->mu * P_ * (1.0 + 1e-9) && !c->surface_normals)
             violated("Coulomb", "|Q| = %g, mu P = %g", fabs(Q_), c->mu * P_);
@@ -926,9 +1045,9 @@ static double entry(const json_t *object, const char *key, size_t i)
 }
 
 /* With surface normals Q holds a part of the pressure. */
-static void check_curve(const json_t *curve, int surface_normals)
+static void check_curve(const json_t *inputs, const json_t *curve, int surface_normals)
 {
-    const double mu = number(curve, "mu");
+    const double mu = largest_mu(inputs, number(curve, "mu"));
     for (size_t i = 0; i < json_array_size(json_object_get(curve, "creepage")); i++) {
         const double P_ = entry(curve, "normal_load", i),
                      Q_ = entry(curve, "tangential_load", i);
@@ -938,7 +1057,7 @@ static void check_curve(const json_t *curve, int surface_normals)
         if (!(P_ > 0.0) ||
             (fabs(Q_) > (mu * (1.0 + 1e-9) + 1e-12) * P_ && !surface_normals))
             violated("curve", "point %zu: P = %g, Q = %g, mu = %g", i + 1, P_, Q_, mu);
-        if (mu > 0.0)
+        if (mu > 0.0 && !is_table_law(inputs))
             expect("curve, force_ratio", ratio, Q_ / (mu * P_), 1e-12);
         if (!(stick >= 0.0 && stick <= 1.0))
             violated("curve", "point %zu: stick_ratio = %g", i + 1, stick);
@@ -995,9 +1114,10 @@ static void check_case(const json_t *root, const char *table_path,
         violated("status", "'%s' with exit code 0", status);
     check_elements(&t);
     check_contact(&c, &t);
+    check_law(&c, &t, object);
     check_friction(&c, &t);
     check_sums(&c, &t);
-    check_ratios(&c);
+    check_ratios(&c, &t);
     check_normal_control(&c, controls);
     check_tangential_control(&c, controls);
     check_kinematics(&c, &t);
@@ -1012,6 +1132,7 @@ static void check_case(const json_t *root, const char *table_path,
     if (summary_path)
         check_summary(&c, summary_path);
     table_free(&t);
+    free(c.mu_of);
 }
 
 int main(int argc, char **argv)
@@ -1044,7 +1165,7 @@ int main(int argc, char **argv)
     const json_t *inputs = json_object_get(root, "inputs");
     const json_t *curve = json_object_get(root, "curve");
     if (curve)
-        check_curve(curve, strcmp(word(inputs, "normals"), "surface") == 0);
+        check_curve(inputs, curve, strcmp(word(inputs, "normals"), "surface") == 0);
     if (json_object_get(root, "grid"))
         check_stress(inputs, json_object_get(root, "grid"));
     if (json_object_get(root, "points"))

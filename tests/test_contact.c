@@ -138,10 +138,8 @@ static void what_is_left_out_is_named(void **state)
                 "three dimensions (MY = 20"},
                {" 3 MODULE\n 002100\n 100000\n 0101331\n 25000. -.0004 0. 0.\n",
                 "goes on from the case before (T = 2)"},
-               {" 3 MODULE\n 203100\n 400000\n 0101331\n 25000. -.0004 0. 0.\n .2 .1 "
-                "100. 0. 0.\n"
-                " 0. 1.\n",
-                "friction that falls with the slip (L = 4): mu = 0.3"},
+               {" 3 MODULE\n 203100\n 000000\n 0101331\n 25000. -.0004 0. 0.\n .3 .2\n",
+                "another friction law (L = 0): mu = 0.3"},
                {" 3 MODULE\n 203100\n 100000\n 0101331\n 25000. -.0004 .1 0.\n", "CETA"},
                {" 3 MODULE\n 203100\n 120000\n 0101331\n 25000. -.0004 0. 0.\n -3\n"
                 " 20 1 1. 1. 1.2\n",
@@ -210,6 +208,27 @@ static void carters_example_is_met(void **state)
     json_decref(root);
 }
 
+/* Friction that falls with the slip: the steady case, FX 1.109E+05, FX/FSTAT/FN 0.5941,
+ * power -4849, 45 in adhesion, 36 in slip. */
+static void falling_friction_is_met(void **state)
+{
+    (void)state;
+    char line[700];
+    snprintf(line, sizeof line, "contact %s --json --quiet", data("veldep_fric.inp"));
+    assert_int_equal(rollbem(line), 0);
+    json_t *root = json_loads(out, 0, NULL);
+    for (size_t k = 0; k <= 2; k += 2) {
+        json_t *one = json_array_get(json_object_get(root, "cases"), k);
+        CHECK_REL(number_in(one, "FX"), 1.109e5, 5e-4, "FX, case %zu", k + 1);
+        CHECK_ABS(number_in(one, "FX_REL"), 0.5941, 5e-4, "FX/FSTAT/FN");
+        CHECK_REL(number_in(one, "FRIC_POWER"), -4849.0, 5e-4, "frictional power");
+        CHECK_ABS(number_in(one, "NADH"), 45.0, 0.0, "in adhesion");
+        CHECK_ABS(number_in(one, "NSLIP"), 36.0, 0.0, "in slip");
+        CHECK_MAX(number_in(one, "residual"), 1e-10, "residual");
+    }
+    json_decref(root);
+}
+
 static void other_examples_are_run_or_named(void **state)
 {
     (void)state;
@@ -218,7 +237,7 @@ static void other_examples_are_run_or_named(void **state)
         int code, cases;
         const char *wanted;
     } all[] = {{"cattaneo.inp", 1, 2, "three dimensions (MY = 19"},
-               {"veldep_fric.inp", 0, 0, "friction that falls"},
+               {"veldep_fric.inp", 0, 0, "goes on from the case before"},
                {"carter_plast.inp", 0, 12, "third body"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char line[700];
@@ -245,6 +264,7 @@ int main(void)
         cmocka_unit_test(what_is_left_out_is_named),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(carters_example_is_met),
+        cmocka_unit_test(falling_friction_is_met),
         cmocka_unit_test(other_examples_are_run_or_named),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

@@ -33,6 +33,7 @@ enum {
     WORN,
     INTERLAYER,
     MU,
+    LAW,
     SHAPE,
     HEAT,
     SOLVER,
@@ -112,9 +113,21 @@ static const struct {
      {{"none", ""},
       {"tangential", "--interlayer-tangential 4e-6"},
       {"both", "--interlayer-normal 2e-6 --interlayer-tangential 1e-6"}}},
-    {"mu",
+    {"mu", NULL, {{"0", "--mu 0"}, {"1e-3", "--mu 1e-3"}, {"0.3", ""}, {"3", "--mu 3"}}},
+    {"law",
      NULL,
-     {{"0", "--mu 0"}, {"1e-3", "--mu 1e-3"}, {"0.3", "--mu 0.3"}, {"3", "--mu 3"}}},
+     {{"constant", ""},
+      {"file", "--friction-law mu.txt"},
+      {"exponential",
+       "--friction-law exponential --mu-fall 0.1,0.05 --slip-scale 40,4 --speed 3000"},
+      {"rational",
+       "--friction-law rational --mu-fall 0.1,0.05 --slip-scale 20,5 --speed 3000"},
+      {"linear", "--friction-law linear --mu-fall 0.1 --slip-scale 50 --speed 3000"},
+      {"memory", "--friction-law exponential --mu-fall 0.1 --slip-scale 20 --speed 3000 "
+                 "--memory 0.01,2"},
+      {"heat", "--mu-heat 0.05,0,100"},
+      {"both", "--friction-law linear --mu-fall 0.1 --slip-scale 50 --mu-heat "
+               "-0.0005,300,100 --memory 0.01"}}},
     {"shape", NULL, {{"default", ""}, {"other", ""}}},
     {"heat",
      NULL,
@@ -169,6 +182,11 @@ static const char *const options_elsewhere[] = {"units", /* tests/test_units.c *
                                                 "force",
                                                 "force-ratio",
                                                 "mu",
+                                                "friction-law",
+                                                "mu-fall",
+                                                "slip-scale",
+                                                "memory",
+                                                "mu-heat",
                                                 "poisson",
                                                 "arc",
                                                 "hub-ratio",
@@ -320,6 +338,21 @@ static const conflict conflicts[] = {
     {{"surface=on-elastic", "output=stress*"}, "below a layer or a body that relaxes"},
     {{"surface=relaxing", "output=stress*"}, "below a layer or a body that relaxes"},
     {{"output=curve-plot", "mu=0"}, "no curve to draw at mu = 0"},
+    {{"law=file", "mu=3"}, "the table of --friction-law has the coefficients"},
+    {{"law=heat", "heat=none", "regime=steady"}, "needs temperatures"},
+    {{"law=heat", "heat=none", "regime=transient*"}, "needs temperatures"},
+    {{"law=heat", "heat=none", "regime=steps"}, "needs temperatures"},
+    {{"law=both", "heat=none", "regime=steady"}, "needs the speed of rolling"},
+    {{"law=both", "heat=none", "regime=transient*"}, "needs the speed of rolling"},
+    {{"law=both", "heat=none", "regime=steps"}, "needs the speed of rolling"},
+    /* what falls is more than so little friction */
+    {{"law!constant", "mu=0"}, NULL},
+    {{"law!constant", "mu=1e-3"}, NULL},
+    {{"law!constant", "surface=relaxing"}, NULL}, /* two speeds */
+    {{"law!constant", "surface=b-relaxing"}, NULL},
+    /* a search for the force and an iteration for each creepage */
+    {{"law!constant", "size=transforms", "tangential!creep"}, NULL},
+    {{"law!constant", "solver=cone"}, NULL},
     {{"irregularity=flat", "regime=static"}, "of transient rolling only"},
     {{"irregularity=flat", "regime=steady"}, "of transient rolling only"},
     {{"irregularity=flat", "regime=increments"}, "of transient rolling only"},
@@ -735,9 +768,9 @@ static void check_whole(const char *path)
 static int is_known(const char *name, const int *row)
 {
     static const char *const ours[] = {
-        "json",        "json.err", "out.table", "table.err",    "verdict",
-        "verdict.err", "flat.txt", "worn.txt",  "controls.txt", "gap.txt",
-        "points.txt",  "again",    "again.err"};
+        "json",        "json.err",   "out.table", "table.err",    "verdict",
+        "verdict.err", "flat.txt",   "worn.txt",  "controls.txt", "gap.txt",
+        "mu.txt",      "points.txt", "again",     "again.err"};
     for (size_t k = 0; k < sizeof ours / sizeof ours[0]; k++)
         if (strcmp(name, ours[k]) == 0)
             return 1;
@@ -786,6 +819,7 @@ static void empty_folder(void)
     write_gap();
     write_file("worn.txt", "-0.9 0\n-0.3 2e-4\n0.2 3e-4\n0.8 0\n");
     write_file("flat.txt", "0.8 0\n1 4e-5\n1.2 1e-4\n1.4 4e-5\n1.6 0\n");
+    write_file("mu.txt", "-0.8 0.3\n-0.3 0.2\n0.1 0.25\n0.9 0.15\n");
     write_file("points.txt", "0 0.5\n0.3 0.8\n-1 1.2\n");
 }
 

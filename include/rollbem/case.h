@@ -247,6 +247,12 @@ typedef struct {
     rb_numbers times, ratios;
 } rb_case_memory;
 
+/* Parameters of friction laws as they are typed: the first number, and all of them. */
+typedef struct {
+    double fall, slip_scale, memory, heat;
+    rb_numbers falls, slip_scales, memories, heats;
+} rb_case_law;
+
 /* The values of a case, as settled. */
 typedef struct {
     rb_rolling_case rc;
@@ -257,7 +263,9 @@ typedef struct {
     double young_b, poisson_b, radius_b;
     double conductivity_b, heat_capacity_b, temperature_b;
     rb_case_memory memory_a, memory_b;
-    rb_numbers mus;                /* more than one: for curves */
+    rb_numbers mus;            /* more than one: for curves */
+    const char *friction_file; /* table of the friction law, or NULL */
+    rb_case_law law;
     const char *irregularity_file; /* or NULL */
     const char *worn_file;         /* or NULL */
     const char *history_file;      /* or NULL */

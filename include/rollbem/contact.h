@@ -108,7 +108,7 @@ rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *
 void rb_contact_problem_free(rb_contact_problem *problem);
 
 /* One coefficient of friction for all elements (bound NULL), or one for each: n values,
- * 0 ... mu, copied. */
+ * 0 ... mu, copied.  Also between solves: warm starts stay good. */
 void rb_contact_set_friction(rb_contact_problem *problem, double mu, const double *bound);
 
 /* Row of the given force: control_N'r_N + control_T'r_T = force, n each. */

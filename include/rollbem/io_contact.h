@@ -19,16 +19,18 @@ typedef struct {
     int line;   /* of MODULE */
     int module; /* the rest is read of module 3 alone */
     rb_io_contact_digits digit;
-    double normal;               /* FN [N], N = 1; PEN [mm], N = 0 */
-    double tangential, side;     /* CKSI or FX, CETA or FY */
-    double spin;                 /* CPHI */
-    int law;                     /* L of the last case that had its own */
-    double fstat, fkin;          /* of the slip laws L >= 2: at rest, and at large slip */
-    double chi;                  /* degrees */
-    double dq, velocity;         /* DQ [mm], VELOC [mm/s] */
-    double poisson[2], shear[2]; /* POISS, GG [MPa] */
-    double ratio[2], time[2];    /* FG, TC [s]; M = 1 */
-    int potential;               /* IPOTCN */
+    double normal;           /* FN [N], N = 1; PEN [mm], N = 0 */
+    double tangential, side; /* CKSI or FX, CETA or FY */
+    double spin;             /* CPHI */
+    int law;                 /* L of the last case that had its own */
+    double fstat, fkin;      /* of the slip laws L >= 2: at rest, and at large slip */
+    double fall[2], slip_scale[2]; /* of L = 2, 3, 4: FLIN1, SABSH1 and so on [mm/s] */
+    double memory, memory_slip;    /* MEMDST [mm], MEM_S0 [mm/s] */
+    double chi;                    /* degrees */
+    double dq, velocity;           /* DQ [mm], VELOC [mm/s] */
+    double poisson[2], shear[2];   /* POISS, GG [MPa] */
+    double ratio[2], time[2];      /* FG, TC [s]; M = 1 */
+    int potential;                 /* IPOTCN */
     int mx, my;
     double from, dx, dy;   /* x where the first element begins, DX, DY [mm] */
     int base, plan;        /* IBASE, IPLAN */

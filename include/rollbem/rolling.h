@@ -113,13 +113,46 @@ void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from,
 /* At any x; straight on beyond the ends, where no contact is accepted. */
 double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x);
 
-/* A coefficient of friction that depends on the place x in the contact [length]: linear
- * between n points, x increasing, constant beyond them.  Borrowed. */
+/* ---- Friction laws (theory.md 4.11) -------------------------------------------------
+ * A law gives the coefficient of an element from its state: place x, slip velocity v,
+ * temperature.  A row: its name, and one line about it.  Its function stands in
+ * src/rolling/law.c; option, help, JSON and messages are made from the row.  mu: the
+ * coefficient of the case, m and s: its falls and slip scales. */
+#define RB_ROLLING_FRICTION_LAWS(LAW)                                                    \
+    LAW(constant, "mu everywhere")                                                       \
+    LAW(exponential, "mu + sum m 2^(-v/s) at the slip velocity v")                       \
+    LAW(rational, "mu + m1/(1 + v/s1) + m2/(1 + (v/s2)^2)")                              \
+    LAW(linear, "mu + sum m max(0, 1 - v/(2s))")
+
+#define RB_FRICTION_LAW_NAME(name, help) RB_FRICTION_##name,
+typedef enum {
+    RB_ROLLING_FRICTION_LAWS(RB_FRICTION_LAW_NAME)
+        RB_FRICTION_table, /* of mu over x, which has no word: a file names it */
+    RB_FRICTION_LAWS
+} rb_rolling_friction_law;
+#undef RB_FRICTION_LAW_NAME
+
+/* mu over x [length]: linear between n points, x increasing, constant beyond them.
+ * Borrowed. */
 typedef struct {
     int n; /* 0: none */
     const double *x, *mu;
 } rb_rolling_friction_table;
 double rb_rolling_friction_at(const rb_rolling_friction_table *table, double x);
+
+typedef struct {
+    rb_rolling_friction_law law;
+    rb_rolling_friction_table table; /* RB_FRICTION_table; the case's mu is not read */
+    double fall[2], slip_scale[2];   /* m >= -mu [-], s > 0 [length/s]; m = 0: no term */
+    /* Memory over the slid distance d: dmu/dt = -(max(v, s0)/d)(mu - mu(v)). */
+    double memory, memory_slip; /* d [length], 0: none; s0 > 0 [length/s] */
+    /* Added: heat times the part of heat_range, 0 to 1, that the surface is warmer than
+     * heat_from. */
+    double heat, heat_from, heat_range; /* [-], 0: none; two temperatures */
+    /* Where the first coefficients of the iteration are not those at rest; a law that
+     * falls steeply has several solutions (kappa > 1), and finds the one nearby. */
+    const rb_rolling_friction_table *start; /* or NULL; borrowed */
+} rb_rolling_friction;
 
 /* Every input of one case.  Quantities of which "one of" is asked are NAN when not given.
  * rb_rolling_case_defaults() is the example of *Addi* (theory.md 7). */
@@ -148,9 +181,8 @@ typedef struct {
      * the traction there alone [length/stress]; 0: none. */
     double interlayer_normal, interlayer_tangential;
 
-    double mu;
-    rb_rolling_friction_table friction; /* in the place of one mu, which then is the
-                                           largest value of the table */
+    double mu; /* Coulomb's coefficient; of laws that fall, what they fall to */
+    rb_rolling_friction friction;
 
     double approach, load, half_width; /* one of; all NAN: approach = R/2 */
 
@@ -164,7 +196,8 @@ typedef struct {
     rb_rolling_formulation formulation;
     int increments;  /* static, transient: above 1 the bodies are pressed, then loaded
                         tangentially, in so many increments each (theory.md 5.3) */
-    double speed;    /* of rolling [length/s]; > 0 where a body has memory or conducts */
+    double speed;    /* of rolling [length/s]; > 0 where a body has memory or conducts, or
+                        where friction depends on the slip velocity */
     double distance; /* transient: rolled distance / Hertz half-width */
     int steps;       /* transient */
 
@@ -194,6 +227,12 @@ typedef struct {
 
 rb_rolling_case rb_rolling_case_defaults(void);
 
+/* The largest coefficient that the friction law has: the scale of Q/(mu P) and of
+ * xi R/(mu a). */
+double rb_rolling_largest_mu(const rb_rolling_case *rc);
+/* 1 where the coefficients depend on the state, so that they are iterated: in rolling,
+ * where the law depends on the slip velocity or on the temperature. */
+int rb_rolling_law_moves(const rb_rolling_case *rc);
 /* 1: A, and B where it is elastic, can all of `abilities`. */
 int rb_rolling_can(const rb_rolling_case *rc, int abilities);
 
@@ -340,6 +379,7 @@ typedef struct {
     int *zone;       /* rb_contact_zone */
     double *temperature, *temperature_b; /* of the surfaces; NULL where not asked for */
     double *worn;                        /* depth [length]; NULL where nothing is worn */
+    double *mu;                          /* of the friction law; NULL: one for all */
 
     int patches;
     rb_rolling_patch *patch; /* in the order of increasing x; owned */
@@ -388,6 +428,8 @@ typedef struct {
     double max_temperature;   /* in contact; NAN where not asked for, as below */
     double max_temperature_at; /* [length] */
     double peclet;             /* V a/(2 diffusivity of A), a the half-width */
+    double kappa;              /* of a friction law that depends on the state (F3); above
+                                  1 there may be several solutions; else NAN */
     double seconds_assembly, seconds_factor, seconds_condense, seconds_lcp, seconds_total;
 } rb_rolling_solution;
 
@@ -423,7 +465,13 @@ typedef enum {
 
 /* Which cases have a result at all.  Of the others a number is NAN, a column NULL, and
  * reports leave both out. */
-typedef enum { RB_FOR_ALL, RB_FOR_HEAT, RB_FOR_WORN } rb_rolling_condition;
+typedef enum {
+    RB_FOR_ALL,
+    RB_FOR_HEAT,
+    RB_FOR_WORN,
+    RB_FOR_LAW,       /* coefficients of friction that differ */
+    RB_FOR_MOVING_LAW /* and depend on the state */
+} rb_rolling_condition;
 
 /* One result: whatever shows results, studies and error bars are made from these. */
 typedef struct {
@@ -503,6 +551,10 @@ typedef struct {
     int iterations;      /* of all solves so far */
     int same_bodies;     /* 1: `bodies` are those of `rc` wherever the mesh is `mesh` */
     double *temperature; /* n: of both surfaces after a rolled step; NULL: not known */
+    /* Of a rolled step under a law that depends on the state, borrowed from the history:
+     */
+    const double *mu_before;            /* n: of the particles before it; NULL: at rest */
+    struct rb_rolling_heat_track *heat; /* NULL: none */
 } rb_rolling_model;
 
 /* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a
@@ -521,6 +573,11 @@ void rb_rolling_model_free(rb_rolling_model *model);
 /* The LCP that gave the model's state, or the one that Lemke's method tries first. */
 rb_status rb_rolling_model_lcp(const rb_rolling_model *model, rb_contact_lcp *lcp,
                                rb_message *why);
+
+/* Gives the model's problem the coefficients of friction that its state has by the law,
+ * and, where it is given, the force that is wanted of it: with them the residual proves
+ * the state.  RB_ENOMEM. */
+rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why);
 
 /* The creepage at which Q = 0 (steady, mu > 0), on the model's mesh.  The model's
  * solution stays; what it keeps for further solves changes. */

@@ -17,7 +17,8 @@ static rb_settled_case default_words(rb_case_purpose purpose)
                              .heat_capacity_b = NAN,
                              .temperature_b = NAN,
                              .memory_a = {.time = NAN, .ratio = NAN},
-                             .memory_b = {.time = NAN, .ratio = NAN}};
+                             .memory_b = {.time = NAN, .ratio = NAN},
+                             .law = {NAN, NAN, NAN, NAN, {0}, {0}, {0}, {0}}};
     if (purpose == RB_CASE_CURVE || purpose == RB_CASE_SPEEDS)
         words.rc.formulation = RB_STEADY;
     return words;
@@ -51,7 +52,7 @@ rb_case *rb_case_copy(const rb_case *c)
         return NULL;
     *copy = *c;
     copy->gap.borrowed = copy->irregularity.borrowed = copy->history.borrowed = 1;
-    copy->worn.borrowed = 1;
+    copy->worn.borrowed = copy->friction.borrowed = 1;
     copy->profile.borrowed = 1;
     copy->text = NULL;
     copy->texts = 0;
@@ -80,6 +81,7 @@ void rb_case_free(rb_case *c)
     free_table(&c->gap);
     free_table(&c->irregularity);
     free_table(&c->worn);
+    free_table(&c->friction);
     free_table(&c->history);
     for (int i = 0; i < c->texts; i++)
         free(c->text[i]);
@@ -254,6 +256,8 @@ rb_status rb_case_blame(const rb_case *c, rb_status s, rb_message *why)
         blamed = blame_row(&c->irregularity, "irregularity", why);
     if (blamed == RB_OK)
         blamed = blame_row(&c->worn, "worn", why);
+    if (blamed == RB_OK)
+        blamed = blame_row(&c->friction, "friction table", why);
     if (blamed != RB_OK || !all_from_file(c))
         return blamed != RB_OK ? blamed : s;
     const rb_message said = *why;
@@ -376,12 +380,71 @@ static rb_status settle_heat(rb_case *c, rb_message *why)
     for (size_t k = 0; k < sizeof of_heat / sizeof *of_heat && status == RB_OK; k++)
         status =
             refuse_given(c, of_heat[k], "for temperatures only, see --conductivity", why);
-    if (status == RB_OK && rb_rolling_can(&s->rc, RB_BODY_ELASTIC))
+    if (status == RB_OK && rb_rolling_can(&s->rc, RB_BODY_ELASTIC) && s->law.falls.n == 0)
         status = refuse_given(c, "speed",
-                              "for bodies that relax and for temperatures only, see "
-                              "--relaxation-time and --conductivity",
+                              "for bodies that relax, for temperatures and friction that "
+                              "falls only, see --relaxation-time, --conductivity and "
+                              "--mu-fall",
                               why);
     return status;
+}
+
+/* ---- Friction laws -----------------------------------------------------------------
+ */
+
+/* As many numbers as the option takes. */
+static rb_status count_numbers(const rb_case *c, const char *name, const rb_numbers *list,
+                               int least, int most, rb_message *why)
+{
+    char reason[80];
+    if (!rb_case_given(c, name) || (list->n >= least && list->n <= most))
+        return RB_OK;
+    snprintf(reason, sizeof reason, "expected %d%s numbers, got %d", least,
+             most > least ? " or more" : "", list->n);
+    return refuse_given(c, name, reason, why);
+}
+
+static rb_status settle_law(rb_case *c, rb_message *why)
+{
+    const rb_case_law *typed = &c->settled.law;
+    rb_rolling_friction *f = &c->settled.rc.friction;
+    const int falls = f->law != RB_FRICTION_constant && f->law != RB_FRICTION_table;
+    rb_status s = count_numbers(c, "mu-fall", &typed->falls, 1, 2, why);
+
+    if (s == RB_OK && falls && typed->falls.n != typed->slip_scales.n)
+        s = rb_fail(
+            why, RB_EINVAL,
+            "--mu-fall and --slip-scale: expected as many of one as of the other, "
+            "got %d and %d",
+            typed->falls.n, typed->slip_scales.n);
+    if (s == RB_OK && falls && typed->falls.n == 0)
+        s = refuse_given(c, "friction-law", "needs --mu-fall and --slip-scale", why);
+    for (int k = 0; k < 2 && s == RB_OK && !falls; k++)
+        s = refuse_given(c, k ? "slip-scale" : "mu-fall",
+                         "of friction laws that fall, see --friction-law", why);
+    if (s == RB_OK)
+        s = count_numbers(c, "memory", &typed->memories, 1, 2, why);
+    if (s == RB_OK)
+        s = count_numbers(c, "mu-heat", &typed->heats, 3, 3, why);
+    if (s == RB_OK && !falls && typed->heats.n == 0)
+        s = refuse_given(c, "memory",
+                         "of friction that changes, see --mu-fall and --mu-heat", why);
+    for (int k = 0; k < 2 && s == RB_OK; k++) {
+        f->fall[k] = k < typed->falls.n ? typed->falls.value[k] : 0.0;
+        f->slip_scale[k] = k < typed->slip_scales.n ? typed->slip_scales.value[k] : 0.0;
+    }
+    if (s != RB_OK)
+        return s;
+    if (typed->memories.n > 0) {
+        f->memory = typed->memory;
+        f->memory_slip = typed->memories.n > 1 ? typed->memories.value[1] : 1.0;
+    }
+    if (typed->heats.n == 3) {
+        f->heat = typed->heat;
+        f->heat_from = typed->heats.value[1];
+        f->heat_range = typed->heats.value[2];
+    }
+    return RB_OK;
 }
 
 /* ---- Files that the case names ------------------------------------------------------
@@ -465,6 +528,31 @@ static rb_status read_worn(rb_case *c, rb_message *why)
     settled->rc.worn_x = t->x;
     settled->rc.worn_depth = t->x + t->rows;
     return RB_OK;
+}
+
+/* x and mu. */
+static rb_status read_friction(rb_case *c, rb_message *why)
+{
+    rb_settled_case *settled = &c->settled;
+    const rb_io_table *t = &c->friction.table;
+    const rb_units units = units_of_file(c, "friction-law");
+    if (settled->rc.friction.law != RB_FRICTION_table)
+        return RB_OK;
+    if (!settled->friction_file)
+        return refuse_given(c, "friction-law", "expected the file of the table", why);
+    if (!is_read(&c->friction, settled->friction_file, units)) {
+        free_table(&c->friction);
+        const rb_status s =
+            rb_io_table_read_columns(settled->friction_file, 2, &c->friction.table, why);
+        if (s != RB_OK)
+            return s;
+        c->friction.path = settled->friction_file;
+        c->friction.units = units;
+        rb_io_table_convert(&c->friction.table, 0, "mm", units);
+    }
+    settled->rc.friction.table =
+        (rb_rolling_friction_table){t->rows, t->x, t->x + t->rows};
+    return refuse_given(c, "mu", "the table of --friction-law has the coefficients", why);
 }
 
 /* Index of a column in rb_rolling_program_columns; -1: none has that name. */
@@ -684,6 +772,8 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     if (s == RB_OK)
         s = settle_bodies(c, why);
     if (s == RB_OK)
+        s = settle_law(c, why);
+    if (s == RB_OK)
         s = settle_heat(c, why);
     if (s == RB_OK)
         s = check_formulation(c, why);
@@ -693,6 +783,8 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
         s = read_irregularity(c, why);
     if (s == RB_OK)
         s = read_worn(c, why);
+    if (s == RB_OK)
+        s = read_friction(c, why);
     if (s == RB_OK)
         s = check_purpose(c, why);
     if (s != RB_OK)

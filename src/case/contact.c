@@ -49,6 +49,12 @@ static int is_outside(rb_case_contact *c, const rb_io_contact_case *in)
     return 1;
 }
 
+/* The friction laws L = 2, 3, 4. */
+static int falls(const rb_io_contact_case *in)
+{
+    return in->law >= 2 && in->law <= 4;
+}
+
 /* What CONTACT has in a case that is run, and this program has not. */
 static void list_left_out(rb_case_contact *c, const rb_io_contact_case *in)
 {
@@ -56,11 +62,9 @@ static void list_left_out(rb_case_contact *c, const rb_io_contact_case *in)
                                             "the flexibility of the simplified theory",
                                             "that of Fastsim", "the third body"};
     const rb_io_contact_digits *d = &in->digit;
-    if (in->fstat != in->fkin && d->T > 0)
-        leave_out(c,
-                  "friction that falls with the slip (L = %d): mu = %g, its value at "
-                  "rest",
-                  in->law, in->fstat);
+    if (in->fstat != in->fkin && d->T > 0 && !falls(in))
+        leave_out(c, "another friction law (L = %d): mu = %g, its value at rest", in->law,
+                  in->fstat);
     if (d->M > 1)
         leave_out(c, "%s (M = %d)", d->M < 5 ? materials[d->M] : "the material", d->M);
     if (d->T > 0 && (in->side != 0.0 || in->spin != 0.0))
@@ -100,11 +104,28 @@ static double set_gap(const rb_io_contact_case *in, rb_rolling_case *rc)
     return in->base == 2 ? in->centre : -0.5 * in->b[3] / in->b[0];
 }
 
+static void set_friction(const rb_io_contact_case *in, rb_rolling_case *rc)
+{
+    static const rb_rolling_friction_law laws[] = {
+        RB_FRICTION_linear, RB_FRICTION_rational, RB_FRICTION_exponential};
+
+    rc->mu = in->digit.T == 0 ? 0.0 : in->fstat;
+    if (in->digit.T == 0 || !falls(in))
+        return;
+    rc->mu = in->fkin;
+    rc->speed = in->velocity;
+    rc->friction =
+        (rb_rolling_friction){.law = laws[in->law - 2],
+                              .fall = {in->fall[0], in->fall[1]},
+                              .slip_scale = {in->slip_scale[0], in->slip_scale[1]},
+                              .memory = in->memory,
+                              .memory_slip = in->memory > 0.0 ? in->memory_slip : 0.0};
+}
+
 /* T = 1: CKSI is a distance; F > 0: FX is a part of FSTAT FN. */
 static void set_loading(const rb_io_contact_case *in, double sign, rb_rolling_case *rc)
 {
     const double tangential = sign * in->tangential;
-    rc->mu = in->digit.T == 0 ? 0.0 : in->fstat;
     rc->formulation = in->digit.T == 3 ? RB_STEADY : RB_STATIC;
     if (in->digit.N == 1)
         rc->load = in->normal / in->dy;
@@ -133,6 +154,7 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
     c->rc.b = body_of(in, 1);
     c->rc.elastic_b = 1;
     c->centre = set_gap(in, &c->rc);
+    set_friction(in, &c->rc);
     set_loading(in, c->sign, &c->rc);
     if (!rb_rolling_can(&c->rc, RB_BODY_ELASTIC))
         c->rc.speed = in->velocity;

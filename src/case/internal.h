@@ -5,7 +5,7 @@
 #include "rollbem/case.h"
 #include "rollbem/io.h"
 
-enum { RB_CASE_OPTIONS_MAX = 96 };
+enum { RB_CASE_OPTIONS_MAX = 128 };
 
 /* A table read from a file that an option names. */
 typedef struct {
@@ -28,7 +28,7 @@ struct rb_case {
     char path[320];                 /* case file, "" without */
     rb_units file_units;            /* of the plain numbers in that file */
     int given[RB_CASE_OPTIONS_MAX], plain[RB_CASE_OPTIONS_MAX];
-    case_table gap, irregularity, worn, history;
+    case_table gap, irregularity, worn, friction, history;
     case_profile profile;
     char **text; /* copies of values; owned */
     int texts;

@@ -31,6 +31,10 @@ static const rb_choice solvers[] = {{"auto", RB_SOLVER_AUTO},
 static const rb_choice lcp_forms[] = {
     {"pivoted", RB_LCP_PIVOTED}, {"kwak", RB_LCP_KWAK}, {NULL, 0}};
 
+#define CHOICE_OF_LAW(name, help) {#name, RB_FRICTION_##name},
+static const rb_choice laws[] = {RB_ROLLING_FRICTION_LAWS(CHOICE_OF_LAW){NULL, 0}};
+#define HELP_OF_LAW(name, help) #name ": " help "; "
+
 const rb_choice rb_case_curve_variables[] = {{"creep-ratio", RB_OVER_CREEP_RATIO},
                                              {"creep", RB_OVER_CREEP},
                                              {"speed", RB_OVER_SPEED},
@@ -90,9 +94,10 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("relaxation-ratio", PLACE(memory_a.ratio), "-", RB_FROM(0),
                    "as many f, each glassy over rubbery modulus less 1",
                    .unset = "elastic", .list = PLACE(memory_a.ratios)),
-    RB_NUMBER_LINE("speed", RC(speed), "mm/s", RB_ABOVE(0),
-                   "of rolling, for bodies that relax and for temperatures",
-                   .unset = "not given"),
+    RB_NUMBER_LINE(
+        "speed", RC(speed), "mm/s", RB_ABOVE(0),
+        "of rolling, for bodies that relax, temperatures and friction that falls",
+        .unset = "not given"),
 
     RB_GROUP_LINE("body-b", "Body B: a rigid plane unless an option makes it elastic"),
     RB_FLAG_LINE("similar", PLACE(similar), "elastic, of the same material as A",
@@ -159,6 +164,26 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("mu", RC(mu), "-", RB_FROM(0),
                    "Coulomb's coefficient; curve: several with commas between",
                    .list = PLACE(mus)),
+    RB_CHOICE_LINE(
+        "friction-law", RC(friction.law), laws,
+        RB_ROLLING_FRICTION_LAWS(HELP_OF_LAW) "or a file of rows x [mm], mu: linear "
+                                              "between them, constant beyond",
+        .path = PLACE(friction_file), .path_value = RB_FRICTION_table,
+        .path_name = "FILE", .file = RB_FILE_READ),
+    RB_NUMBER_LINE("mu-fall", PLACE(law.fall), "-", RB_ANY,
+                   "m1[,m2]: what falls off with the slip velocity", .unset = "none",
+                   .list = PLACE(law.falls)),
+    RB_NUMBER_LINE("slip-scale", PLACE(law.slip_scale), "mm/s", RB_ABOVE(0),
+                   "s1[,s2]: slip velocities at which it falls off", .unset = "none",
+                   .list = PLACE(law.slip_scales)),
+    RB_NUMBER_LINE("memory", PLACE(law.memory), "mm", RB_ABOVE(0),
+                   "d[,s0]: friction follows the law over a slid distance d; at rest as "
+                   "if sliding by s0 (1 mm/s)",
+                   .unset = "none", .list = PLACE(law.memories)),
+    RB_NUMBER_LINE("mu-heat", PLACE(law.heat), "-", RB_ANY,
+                   "dmu,Tref,dT: adds dmu times the part of dT, 0 to 1, that the surface "
+                   "is warmer than Tref [K]; see --conductivity",
+                   .unset = "none", .list = PLACE(law.heats)),
 
     RB_GROUP_LINE("interlayer", "Third body between the surfaces, elastic"),
     RB_NUMBER_LINE("interlayer-normal", RC(interlayer_normal), "mm/MPa", RB_FROM(0),

@@ -108,14 +108,24 @@ static int set_list(const rb_option *o, char *target, const char *value, reading
 {
     rb_numbers list = {0};
     char word[64];
+    int plain = 0;
     for (size_t n; list.n < RB_NUMBERS_MAX; value += n + 1) {
         n = strcspn(value, ",");
         if (n >= sizeof word)
             return 0;
         memcpy(word, value, n);
         word[n] = '\0';
-        if (!set_number(o, &list.value[list.n++], word, r))
+        reading one = {0, {""}};
+        if (!set_number(o, &list.value[list.n++], word, &one)) {
+            r->why = one.why;
             return 0;
+        }
+        plain += one.plain;
+        if (value[n] == '\0' && plain > 0 && plain < list.n) {
+            rb_fail(&r->why, RB_EINVAL, "a unit for each number or for none");
+            return 0;
+        }
+        r->plain = plain > 0;
         if (value[n] == '\0') {
             *(rb_numbers *)(target + o->list) = list;
             *(double *)(target + o->offset) = list.value[0];
@@ -215,9 +225,13 @@ void rb_option_store(const rb_option_set *set, rb_units system, rb_units file_sy
     for (int k = 0; k < set->n; k++) {
         const rb_option *o = &set->options[k];
         double *place = (double *)(void *)((char *)target + o->offset);
-        if (o->kind == RB_OPTION_NUMBER && set->given[k] && set->plain[k])
-            *place =
-                rb_unit_stored(set->given[k] > 0 ? file_system : system, o->unit, *place);
+        rb_numbers *list = (rb_numbers *)(void *)((char *)target + o->list);
+        const rb_units units = set->given[k] > 0 ? file_system : system;
+        if (o->kind != RB_OPTION_NUMBER || !set->given[k] || !set->plain[k])
+            continue;
+        *place = rb_unit_stored(units, o->unit, *place);
+        for (int i = 0; o->list && i < list->n; i++)
+            list->value[i] = rb_unit_stored(units, o->unit, list->value[i]);
     }
 }
 

@@ -134,10 +134,16 @@ static void read_friction(reading *r, rb_io_contact_case *c)
         c->fstat = x[0];
         c->fkin = x[1];
     } else if (c->digit.L > 1) {
-        read_numbers(r, 4, x, "the coefficients of the friction law", NULL);
+        read_numbers(r, 5, x, "the coefficients of the friction law", NULL);
         c->fkin = x[0];
         c->fstat = c->digit.L <= 4 ? x[0] + x[1] + x[3] : x[0];
+        for (int k = 0; k < 2; k++) {
+            c->fall[k] = x[1 + 2 * k];
+            c->slip_scale[k] = x[2 + 2 * k];
+        }
         read_numbers(r, 2, x, "MEMDST, MEM_S0", NULL);
+        c->memory = x[0];
+        c->memory_slip = x[1];
     }
 }
 

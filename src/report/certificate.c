@@ -589,6 +589,8 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
         s = rebuild_problem(&c, rb_case_settled(words), n, why);
     if (s == RB_OK)
         s = read_state(&c, why);
+    if (s == RB_OK)
+        s = rb_rolling_model_friction(&c.model, why);
     if (s == RB_OK) {
         set_tolerances(&c);
         check_forces(&c);

@@ -12,8 +12,12 @@ static json_t *input(const rb_option *o, const void *values, rb_units units)
     case RB_OPTION_NUMBER: {
         const double v = *(const double *)(const void *)place;
         const rb_numbers *list = (const void *)((const char *)values + o->list);
-        if (o->list && list->n > 1)
-            return rb_report_json_numbers(list->n, list->value);
+        if (o->list && list->n > 1) {
+            rb_numbers shown = *list;
+            for (int i = 0; i < list->n; i++)
+                shown.value[i] = rb_unit_shown(units, o->unit, list->value[i]);
+            return rb_report_json_numbers(shown.n, shown.value);
+        }
         return o->word && v == o->word_value
                    ? json_string(o->word)
                    : rb_report_json_number(rb_unit_shown(units, o->unit, v));

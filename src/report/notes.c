@@ -86,8 +86,8 @@ static void note_full_sliding(rb_report_note_list *list, const rb_rolling_case *
                               const rb_rolling_solution *s)
 {
     const int force = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
-    if (s->formulation != RB_STATIC && force && s->stick == 0 && rc->mu > 0.0 &&
-        s->contact > 0)
+    if (s->formulation != RB_STATIC && force && s->stick == 0 &&
+        rb_rolling_largest_mu(rc) > 0.0 && s->contact > 0 && !rb_rolling_law_moves(rc))
         add(list, "full sliding: the creepage is not unique; every larger one gives the "
                   "same force");
 }
@@ -100,11 +100,17 @@ rb_report_note_list rb_report_find_notes(const rb_rolling_case *rc,
     note_motion(&list, rc);
     note_units(&list, rc, s);
     note_full_sliding(&list, rc, s);
+    if (s->kappa > 1.0)
+        add(&list,
+            "friction falls so steeply, kappa = %.3g > 1, that there may be other "
+            "solutions: which one is found depends on the start",
+            s->kappa);
     if (rc->formulation != RB_STATIC && !rb_rolling_body_can(&rc->a, RB_BODY_TURNS))
         add(&list, "on an arc support rolling differs at every angle of the wheel; hub "
                    "and halfplane do not");
     note_mesh(&list, s);
-    if (rc->formulation == RB_STATIC && rc->mu > 0.0 && s->slip_violations > 0)
+    if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 &&
+        s->slip_violations > 0)
         add(&list, "at %d points the slip of (12) does not oppose the friction",
             s->slip_violations);
     return list;

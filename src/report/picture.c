@@ -157,7 +157,8 @@ static void write_data(FILE *out, const view *v)
     for (int i = 0; i < s->n; i++)
         fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->unit,
                 s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
-                v->rc->mu * s->p[i] / v->stress_unit, s->slip[i] / v->slip.unit,
+                (s->mu ? s->mu[i] : v->rc->mu) * s->p[i] / v->stress_unit,
+                s->slip[i] / v->slip.unit,
                 s->temperature ? s->temperature[i] / v->heat.unit : 0.0,
                 s->temperature ? s->temperature_b[i] / v->heat.unit : 0.0);
     fputs("EOD\n", out);
@@ -266,9 +267,10 @@ static void write_title(FILE *out, const view *v)
                                         "Transient rolling"};
     const rb_rolling_solution *s = v->s;
     const char *load = rb_unit_name(s->units, "N/mm");
-    fprintf(out, "set label 1 '{/:Bold %s}   μ = %g,  P = %.5g %s,  Q = %.5g %s",
-            kinds[s->formulation], v->rc->mu, s->normal_load, load,
-            rb_report_tidy(s->tangential_load, s->normal_load), load);
+    fprintf(out, "set label 1 '{/:Bold %s}   μ %s %g,  P = %.5g %s,  Q = %.5g %s",
+            kinds[s->formulation], s->mu ? "≤" : "=", rb_rolling_largest_mu(v->rc),
+            s->normal_load, load, rb_report_tidy(s->tangential_load, s->normal_load),
+            load);
     fputs("' at screen 0.53, 0.977 center\nset label 2 '{/*0.95 ", out);
     write_results(out, v);
     fputs("}' at screen 0.53, 0.909 center textcolor rgb '#444444'\n", out);
@@ -285,7 +287,7 @@ static void write_stress_range(FILE *out, const view *v)
         q = fmax(q, fabs(s->q[i]));
     }
     const double scale = p > 0.0 ? p : v->stress_unit;
-    const double bound = fmax(q, fmin(v->rc->mu, 1.0) * p);
+    const double bound = fmax(q, fmin(rb_rolling_largest_mu(v->rc), 1.0) * p);
     const double below = fmax(1.2 * bound, 0.08 * scale);
     /* a ninth of the height is left to the names of the zones */
     const double above = (fmax(scale, bound) + below / 9.0) * 9.0 / 8.0;

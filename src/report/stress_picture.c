@@ -99,8 +99,9 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
     static const char *const kinds[] = {"static", "steady rolling", "transient rolling"};
     const rb_rolling_solution *s = v->s->s;
     const rb_report_unit length = rb_report_axis_unit(s->units, "mm", s->half_width);
-    fprintf(out, "set label 1 '{/:Bold %s}   %s,  μ = %g,  p_0 = %.5g %s,  a = %.4g %s",
-            title, kinds[s->formulation], v->s->rc->mu, s->max_pressure / v->stress_unit,
+    fprintf(out, "set label 1 '{/:Bold %s}   %s,  μ %s %g,  p_0 = %.5g %s,  a = %.4g %s",
+            title, kinds[s->formulation], s->mu ? "≤" : "=",
+            rb_rolling_largest_mu(v->s->rc), s->max_pressure / v->stress_unit,
             v->stress_label, s->half_width / length.size, length.name);
     if (isfinite(s->force_ratio))
         fprintf(out, ",  Q/(μP) = %.4g", rb_report_tidy(s->force_ratio, 1.0) + 0.0);

@@ -112,21 +112,6 @@ int rb_rolling_force_is_given(const rb_rolling_case *rc)
     return !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
 }
 
-double rb_rolling_friction_at(const rb_rolling_friction_table *table, double x)
-{
-    const int last = table->n - 1;
-    int k = 0;
-
-    if (x <= table->x[0])
-        return table->mu[0];
-    if (x >= table->x[last])
-        return table->mu[last];
-    while (x > table->x[k + 1])
-        k++;
-    const double share = (x - table->x[k]) / (table->x[k + 1] - table->x[k]);
-    return table->mu[k] + share * (table->mu[k + 1] - table->mu[k]);
-}
-
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 {
     /* products know one operator for bodies and third body */
@@ -140,7 +125,8 @@ int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 
 int rb_rolling_carter_holds(const rb_rolling_case *rc)
 {
-    return rc->formulation == RB_STEADY && rc->mu > 0.0 && rc->friction.n == 0 &&
+    return rc->formulation == RB_STEADY && rc->mu > 0.0 &&
+           rc->friction.law == RB_FRICTION_constant && !rb_rolling_law_moves(rc) &&
            rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 &&
            rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) &&
            rc->gap != RB_GAP_TABLE && rc->worn_n == 0 &&
@@ -273,15 +259,16 @@ static rb_status check_force(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "force ratio Q/(mu P) = %g: friction carries at most 1",
                        rc->force_ratio);
-    if (!isnan(rc->force_ratio) && rc->mu == 0.0 && rc->force_ratio != 0.0)
+    if (!isnan(rc->force_ratio) && rb_rolling_largest_mu(rc) == 0.0 &&
+        rc->force_ratio != 0.0)
         return rb_fail(why, RB_EINVAL,
                        "force ratio %g: Q/(mu P) has no meaning at mu = 0",
                        rc->force_ratio);
-    const double P = rb_rolling_derive(rc).load;
-    if (!isnan(rc->force) && !isnan(P) && fabs(rc->force) > rc->mu * P * (1.0 + 1e-12))
+    const double P = rb_rolling_derive(rc).load, mu = rb_rolling_largest_mu(rc);
+    if (!isnan(rc->force) && !isnan(P) && fabs(rc->force) > mu * P * (1.0 + 1e-12))
         return rb_fail(why, RB_EINVAL,
                        "force Q = %g N/mm: friction carries at most mu P = %g N/mm",
-                       rc->force, rc->mu * P);
+                       rc->force, mu * P);
     return RB_OK;
 }
 
@@ -298,7 +285,7 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
             return rb_fail(why, RB_EINVAL, "%s: expected a finite number", name[i]);
     if (!isnan(rc->creep) && !isnan(rc->creep_ratio))
         return rb_fail(why, RB_EINVAL, "creep and creep-ratio exclude each other");
-    if (rc->mu == 0.0 && !isnan(rc->creep_ratio))
+    if (rb_rolling_largest_mu(rc) == 0.0 && !isnan(rc->creep_ratio))
         return rb_fail(why, RB_EINVAL,
                        "creep-ratio: xi R/(mu a) has no meaning at mu = 0");
     if (rc->formulation == RB_STATIC && count_given(3, load) > 1)
@@ -316,36 +303,10 @@ static rb_status check_tangential(const rb_rolling_case *rc, rb_message *why)
                        "force-ratio");
     if (rc->free_axle && rc->formulation != RB_STEADY)
         return rb_fail(why, RB_EINVAL, "free axle: of steady rolling only");
-    if (rc->free_axle && rc->mu == 0.0)
+    if (rc->free_axle && rb_rolling_largest_mu(rc) == 0.0)
         return rb_fail(why, RB_EINVAL,
                        "free axle: friction alone turns it, expected mu > 0");
     return check_force(rc, why);
-}
-
-static rb_status check_friction(const rb_rolling_case *rc, rb_message *why)
-{
-    const rb_rolling_friction_table *t = &rc->friction;
-    double largest = 0.0;
-
-    if (!(isfinite(rc->mu) && rc->mu >= 0.0))
-        return rb_fail(why, RB_EINVAL, "mu: expected >= 0, got %g", rc->mu);
-    for (int k = 0; k < t->n; k++) {
-        if (!isfinite(t->x[k]) || (k > 0 && !(t->x[k] > t->x[k - 1])))
-            return rb_fail(why, RB_EINVAL,
-                           "friction table: row %d: expected x to increase, got %g",
-                           k + 1, t->x[k]);
-        if (!(isfinite(t->mu[k]) && t->mu[k] >= 0.0))
-            return rb_fail(why, RB_EINVAL,
-                           "friction table: row %d: expected mu >= 0, got %g", k + 1,
-                           t->mu[k]);
-        largest = fmax(largest, t->mu[k]);
-    }
-    return t->n > 0 && largest != rc->mu
-               ? rb_fail(
-                     why, RB_EINVAL,
-                     "mu: expected the largest value of the friction table, %g, got %g",
-                     largest, rc->mu)
-               : RB_OK;
 }
 
 static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
@@ -485,7 +446,7 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
     if (s == RB_OK)
         s = check_heat(rc, why);
     if (s == RB_OK)
-        s = check_friction(rc, why);
+        s = rb_rolling_law_check(rc, why);
     if (s == RB_OK)
         s = check_interlayer(rc, why);
     if (s == RB_OK)

@@ -140,7 +140,7 @@ static rb_status over_creepages(const rb_rolling_case *rc, const range *r,
             s = t < 0 ? t : s;
         }
     }
-    if (s == RB_OK && rc->mu > 0.0)
+    if (s == RB_OK && rb_rolling_largest_mu(rc) > 0.0)
         s = rb_rolling_free_creepage_if_any(model, &c->free_creepage, why);
     return s;
 }
@@ -175,7 +175,7 @@ static rb_status check_curve(const rb_rolling_case *rc, const range *r, rb_messa
     if (r->points < 1 || r->points > 1000000)
         return rb_fail(why, RB_EINVAL, "points: expected 1 ... 1000000, got %d",
                        r->points);
-    if (r->over == RB_OVER_CREEP_RATIO && rc->mu == 0.0)
+    if (r->over == RB_OVER_CREEP_RATIO && rb_rolling_largest_mu(rc) == 0.0)
         return rb_fail(why, RB_EINVAL,
                        "curve: xi R/(mu a) has no meaning at mu = 0; give creepages");
     if (r->over == RB_OVER_SPEED && !(r->from > 0.0 && r->to > 0.0))

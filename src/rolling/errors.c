@@ -83,7 +83,7 @@ double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepag
     const double slip =
         fabs(creepage) + fabs(rb_rolling_derive(rc).dundurs) * a / rb_rolling_radius(rc);
 
-    return rc->mu * P * slip * pow(share, 1.5);
+    return rb_rolling_largest_mu(rc) * P * slip * pow(share, 1.5);
 }
 
 /* ---- Results of a solution
@@ -132,21 +132,23 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
                           rb_rolling_error_scale scale)
 {
     const double rounding = fmax(s->residual, DBL_EPSILON), a = s->hertz_half_width;
-    const double strain = rc->mu * a / rb_rolling_radius(rc);
+    const double strain = rb_rolling_largest_mu(rc) * a / rb_rolling_radius(rc);
     const int unresolved = has_unresolved_stick(s);
     const int force_given = rb_rolling_force_is_given(rc);
-    const double friction =
-        unresolved && !force_given
-            ? rc->mu * s->max_pressure * rb_rolling_longest_element(s->n, s->zone, s->h)
-            : 0.0;
+    const double friction = unresolved && !force_given
+                                ? rb_rolling_largest_mu(rc) * s->max_pressure *
+                                      rb_rolling_longest_element(s->n, s->zone, s->h)
+                                : 0.0;
 
     switch (scale) {
     case RB_SCALE_ONE:
-        return rounding + (friction > 0.0 ? friction / (rc->mu * s->normal_load) : 0.0);
+        return rounding + (friction > 0.0
+                               ? friction / (rb_rolling_largest_mu(rc) * s->normal_load)
+                               : 0.0);
     case RB_SCALE_LOAD:
         return rounding * s->normal_load;
     case RB_SCALE_FRICTION:
-        return rounding * rc->mu * s->normal_load + friction;
+        return rounding * rb_rolling_largest_mu(rc) * s->normal_load + friction;
     case RB_SCALE_APPROACH:
         return rounding * fabs(s->approach);
     case RB_SCALE_SHIFT:
@@ -156,8 +158,9 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
     case RB_SCALE_WIDTH:
         return rounding * a;
     case RB_SCALE_PRESSURE:
-        return (rounding +
-                (unresolved ? rc->mu * fabs(rb_rolling_derive(rc).dundurs) : 0.0)) *
+        return (rounding + (unresolved ? rb_rolling_largest_mu(rc) *
+                                             fabs(rb_rolling_derive(rc).dundurs)
+                                       : 0.0)) *
                s->max_pressure;
     case RB_SCALE_POWER:
         return rb_rolling_edge_power(rc, s->normal_load, s->creepage, a,
@@ -318,11 +321,11 @@ static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solutio
         fmax(e->normal_load / s->normal_load, e->max_pressure / s->max_pressure);
 
     worst = fmax(worst, e->half_width / s->half_width);
-    if (rc->mu > 0.0)
+    if (rb_rolling_largest_mu(rc) > 0.0)
         worst = fmax(worst, e->force_ratio);
-    if (rc->mu > 0.0 && rc->formulation != RB_STATIC)
+    if (rb_rolling_largest_mu(rc) > 0.0 && rc->formulation != RB_STATIC)
         worst = fmax(worst, e->creepage * rb_rolling_radius(rc) /
-                                (rc->mu * s->hertz_half_width));
+                                (rb_rolling_largest_mu(rc) * s->hertz_half_width));
     return worst;
 }
 

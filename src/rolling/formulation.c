@@ -2,6 +2,7 @@
  * A, what moves the surfaces, what is given.  The solvers do not know which it is. */
 #include "rolling/internal.h"
 
+#include <cblas.h>
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -224,31 +225,22 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p)
     p->load = d.load;
     p->delta = d.approach;
     p->force = p->force_ratio = p->xi = 0.0;
-    p->force_given = rc->mu > 0.0 && rb_rolling_force_is_given(rc);
+    p->force_given = p->mu > 0.0 && rb_rolling_force_is_given(rc);
     p->axle = rc->free_axle ? 1.0 / rb_rolling_radius(rc) : 0.0;
     if (p->axle > 0.0)
         return;
     if (p->force_given && !isnan(rc->force_ratio))
         p->force_ratio = rc->force_ratio;
-    else if (p->force_given && p->load_given && rc->friction.n == 0)
-        p->force_ratio = rc->force / (rc->mu * d.load);
+    else if (p->force_given && p->load_given && rc->friction.law == RB_FRICTION_constant)
+        p->force_ratio = rc->force / (p->mu * d.load);
     else if (p->force_given)
         p->force = rc->force;
     else if (rc->formulation == RB_STATIC)
         p->xi = rb_rolling_wanted_shift(rc);
     else if (!isnan(rc->creep_ratio))
-        p->xi = rc->creep_ratio * rc->mu * d.half_width / d.radius;
+        p->xi = rc->creep_ratio * p->mu * d.half_width / d.radius;
     else
         p->xi = isnan(rc->creep) ? 0.0 : rc->creep;
-}
-
-/* The friction law: the bound of every element from its place. */
-static void set_bounds(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                       rb_contact_problem *p)
-{
-    rb_contact_set_friction(p, rc->mu, NULL);
-    for (int i = 0; i < p->n && rc->friction.n > 0; i++)
-        p->bound[i] = rb_rolling_friction_at(&rc->friction, bodies->f.x[i]);
 }
 
 /* Stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become about 1;
@@ -284,7 +276,7 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
     if (s != RB_OK)
         return rb_fail(why, s, "out of memory for a contact problem of %d elements",
                        mesh->n);
-    set_bounds(rc, bodies, p);
+    rb_rolling_start_bounds(rc, bodies, p);
     p->differences = A.differences;
     rb_rolling_set_gap(mesh, bodies, p);
     rb_rolling_set_past(rc, bodies, past, step, p);
@@ -294,16 +286,42 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
     return RB_OK;
 }
 
+/* ---- What a state carries
+ * --------------------------------------------------------------
+ */
+
+double rb_rolling_model_load(const rb_rolling_model *model)
+{
+    const rb_contact_problem *p = &model->problem;
+    return cblas_ddot(p->n, p->load_N, 1, model->state.p, 1) +
+           cblas_ddot(p->n, p->load_T, 1, model->state.q, 1);
+}
+
+double rb_rolling_model_force(const rb_rolling_model *model)
+{
+    const rb_contact_problem *p = &model->problem;
+    return cblas_ddot(p->n, p->force_N, 1, model->state.p, 1) +
+           cblas_ddot(p->n, p->force_T, 1, model->state.q, 1);
+}
+
+double rb_rolling_force_ratio(const rb_rolling_model *model)
+{
+    const double most = rb_rolling_law_moves(&model->rc)
+                            ? model->problem.mu * rb_rolling_model_load(model)
+                            : rb_contact_capacity(&model->problem, &model->state);
+    return most > 0.0 ? rb_rolling_model_force(model) / most : NAN;
+}
+
 /* ---- How it is solved
  * -------------------------------------------------------------------
  */
 
-/* A creepage that makes everything slide, to start a search for a given force from. */
-static double sliding_creepage(const rb_rolling_case *rc, const rb_contact_problem *p)
+double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_problem *p)
 {
     const rb_rolling_derived d = rb_rolling_derive(rc);
     const double a = d.half_width, beta = fabs(d.dundurs);
-    const double ratio = (rc->mu + 2.0 * beta * (1.0 + rc->mu * rc->mu)) * a / d.radius;
+    const double mu = p->mu;
+    const double ratio = (mu + 2.0 * beta * (1.0 + mu * mu)) * a / d.radius;
 
     return rc->formulation == RB_STEADY ? 2.0 * ratio : 4.0 * ratio * a / p->e_T[0];
 }
@@ -316,7 +334,7 @@ static rb_contact_options options_of(const rb_rolling_case *rc,
                                 .cone_solver = rc->cone_solver,
                                 .lcp_form = rc->lcp_form,
                                 .tol = rc->tol,
-                                .sliding = sliding_creepage(rc, p),
+                                .sliding = rb_rolling_sliding_creepage(rc, p),
                                 .trace = rc->trace,
                                 .trace_context = rc->trace_context,
                                 .trace_tableau = rc->trace_tableau};

@@ -271,6 +271,12 @@ static double heat_at(const rb_rolling_heat_track *t, int back, double place)
     return part > 1e-9 ? (1.0 - part) * left + part * right : left;
 }
 
+void rb_rolling_heat_track_advance(rb_rolling_heat_track *t)
+{
+    t->newest = (t->newest + 1) % t->rows;
+    t->known = t->known < t->rows ? t->known + 1 : t->rows;
+}
+
 /* (T3) A particle at x was at x + k c when the k-th step back ended. */
 void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
                                 const double *lambda, rb_rolling_heat_track *t,
@@ -280,8 +286,6 @@ void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
                               sqrt(rc->heat_b.conductivity * rc->heat_b.heat_capacity);
     const double unit = 2.0 * sqrt(t->step / (M_PI * rc->speed)) / effusivity;
 
-    t->newest = (t->newest + 1) % t->rows;
-    t->known = t->known < t->rows ? t->known + 1 : t->rows;
     for (int i = 0; i < t->n; i++)
         t->heat[(size_t)t->newest * (size_t)t->n + (size_t)i] =
             -q[i] * lambda[i] * rc->speed / t->step;

@@ -27,6 +27,8 @@ typedef struct {
     double shift; /* rigid shift so far [length] */
     double *w_T;  /* n: tangential displacement that the next step starts from */
     double *q;    /* n: friction before the step */
+    double *mu;   /* n: coefficients of the particles before the step; NULL where the law
+                     does not depend on the state */
     rb_rolling_ahead ahead; /* for steps of another length than an element's */
     rb_rolling_heat_track heat;
 } run;
@@ -34,6 +36,18 @@ typedef struct {
 static double element_length(const run *r)
 {
     return r->model->bodies.f.h[r->model->mesh.n / 2];
+}
+
+/* Coefficients at the former places of the particles that a step of length c brings. */
+static void remember_friction(run *r, double c)
+{
+    const rb_contact_problem *p = &r->model->problem;
+    const double *x = r->model->bodies.f.x;
+    const rb_rolling_friction_table now = {p->n, x, p->bound};
+
+    for (int i = 0; i < p->n && r->mu; i++)
+        r->mu[i] = rb_rolling_friction_at(&now, x[i] + c);
+    r->model->mu_before = r->mu;
 }
 
 /* w_T of the present tractions at the same places (c = 0), or where the particles are
@@ -176,6 +190,11 @@ static rb_status rolled_step(run *r, double from, double to, rb_message *why)
         s = move_gap(model, to * r->history->half_width);
     if (s != RB_OK)
         return s;
+    remember_friction(r, c);
+    if (from == 0.0 && model->rc.friction.start)
+        rb_rolling_start_bounds(&model->rc, &model->bodies, &model->problem);
+    if (r->history->max_temperature)
+        rb_rolling_heat_track_advance(&r->heat);
     rb_rolling_set_past(&model->rc, &model->bodies, &past, c, &model->problem);
     s = judge(r, rb_rolling_model_control(model, &reason), &reason, why);
     if (s == RB_OK)
@@ -273,6 +292,7 @@ static rb_status prepare_heat(run *r, double step, rb_message *why)
         return RB_ENOMEM;
     for (int i = 0; i < n; i++)
         r->model->temperature[i] = r->rc->heat_a.temperature;
+    r->model->heat = &r->heat;
     return rb_rolling_heat_track_create(r->rc, n, element_length(r), step,
                                         r->model->half_width, &r->heat, why);
 }
@@ -287,7 +307,9 @@ static rb_status prepare(run *r, double zone, rb_message *why)
     r->shift = 0.0;
     r->w_T = rb_alloc((size_t)r->model->mesh.n, 1);
     r->q = rb_alloc((size_t)r->model->mesh.n, 1);
-    if (!r->w_T || !r->q)
+    const int moves = rb_rolling_law_moves(r->rc);
+    r->mu = moves ? rb_alloc((size_t)r->model->mesh.n, 1) : NULL;
+    if (!r->w_T || !r->q || (moves && !r->mu))
         return RB_ENOMEM;
     s = plan_steps(r, &step, why);
     if (s == RB_OK)
@@ -305,7 +327,10 @@ static void run_free(run *r)
 {
     free(r->w_T);
     free(r->q);
-    r->w_T = r->q = NULL;
+    free(r->mu);
+    r->w_T = r->q = r->mu = NULL;
+    r->model->mu_before = NULL; /* both were the run's */
+    r->model->heat = NULL;
     rb_rolling_ahead_free(&r->ahead);
     rb_rolling_heat_track_free(&r->heat);
 }

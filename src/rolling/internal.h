@@ -114,6 +114,37 @@ double rb_rolling_wanted_shift(const rb_rolling_case *rc);
 void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bodies,
                         rb_contact_problem *p);
 
+/* P and Q of the state. */
+double rb_rolling_model_load(const rb_rolling_model *model);
+double rb_rolling_model_force(const rb_rolling_model *model);
+
+/* ---- law.c, law_iteration.c: friction laws
+ * ---------------------------------------------
+ */
+
+rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why);
+/* 1 where the law depends on the slip velocity. */
+int rb_rolling_law_slides(const rb_rolling_friction *f);
+double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v,
+                         double temperature);
+/* Where nothing slides and nothing has become warm. */
+double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x);
+/* Largest -dmu/dv, or a little more where two terms fall at different velocities. */
+double rb_rolling_law_steepest(const rb_rolling_case *rc);
+/* Bounds of the elements before anything is solved: those at rest, or the given start. */
+void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                             rb_contact_problem *p);
+/* kappa of the state (theory.md 4.11): above 1 an element by itself, or a step, may have
+ * several states.  RB_ENOMEM. */
+rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa);
+/* Solves the model's problem: in one go where the law does not depend on the state, and
+ * by iteration where it does.  iterations: added to. */
+rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why);
+
+/* A creepage that makes everything slide, to start a search for a given force from. */
+double rb_rolling_sliding_creepage(const rb_rolling_case *rc,
+                                   const rb_contact_problem *p);
+
 /* ---- heat.c ---------------------------------------------------------------------------
  */
 
@@ -131,7 +162,7 @@ void rb_rolling_warmest(int n, const double *x, const int *zone, const double *t
                         double *value, double *at);
 
 /* The heat of the steps that particles still in the mesh have met. */
-typedef struct {
+typedef struct rb_rolling_heat_track {
     int n, rows, newest, known; /* rows: steps kept, a ring of which `known` are filled */
     double h, step;             /* lengths of an element and of a step */
     double *heat;               /* rows x n [stress * length / time]; owned */
@@ -141,7 +172,9 @@ typedef struct {
 rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, int n, double h,
                                        double step, double half_width,
                                        rb_rolling_heat_track *track, rb_message *why);
-/* Adds a rolled step of friction q and slip displacement lambda; temperature: n, of both
+/* Makes room for the heat of another rolled step. */
+void rb_rolling_heat_track_advance(rb_rolling_heat_track *track);
+/* The newest step has friction q and slip displacement lambda; temperature: n, of both
  * surfaces at its end. */
 void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
                                 const double *lambda, rb_rolling_heat_track *track,
@@ -233,9 +266,6 @@ rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
  * case that was solved stays solved.  RB_ENOMEM. */
 rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
                                           rb_message *why);
-/* P and Q of the state. */
-double rb_rolling_model_load(const rb_rolling_model *model);
-double rb_rolling_model_force(const rb_rolling_model *model);
 
 /* ---- outside.c ------------------------------------------------------------------------
  */

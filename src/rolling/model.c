@@ -2,7 +2,6 @@
  * free creepage. */
 #include "rolling/internal.h"
 
-#include <cblas.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,34 +17,12 @@ void rb_rolling_model_free(rb_rolling_model *model)
     memset(model, 0, sizeof *model);
 }
 
-double rb_rolling_model_load(const rb_rolling_model *model)
-{
-    const rb_contact_problem *p = &model->problem;
-    return cblas_ddot(p->n, p->load_N, 1, model->state.p, 1) +
-           cblas_ddot(p->n, p->load_T, 1, model->state.q, 1);
-}
-
-double rb_rolling_model_force(const rb_rolling_model *model)
-{
-    const rb_contact_problem *p = &model->problem;
-    return cblas_ddot(p->n, p->force_N, 1, model->state.p, 1) +
-           cblas_ddot(p->n, p->force_T, 1, model->state.q, 1);
-}
-
-double rb_rolling_force_ratio(const rb_rolling_model *model)
-{
-    const double most = rb_contact_capacity(&model->problem, &model->state);
-    return most > 0.0 ? rb_rolling_model_force(model) / most : NAN;
-}
-
 rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message *why)
 {
     const double start = rb_seconds();
-    rb_status s =
-        rb_rolling_problem_solve(&model->problem, &model->rc, warm, &model->state, why);
+    rb_status s = rb_rolling_law_solve(model, warm, why);
 
     model->seconds_lcp += rb_seconds() - start;
-    model->iterations += model->state.iterations;
     if (s >= 0)
         model->half_width = rb_rolling_hertz_half_width(
             &model->rc, fmax(0.0, rb_rolling_model_load(model)));
@@ -67,8 +44,8 @@ static rb_status solve_ratio(rb_rolling_model *model, int warm, rb_message *why)
         model->problem.load_given)
         return s;
     for (int k = 0; s == RB_OK; k++) {
-        const double xi =
-            rc->creep_ratio * rc->mu * model->half_width / rb_rolling_radius(rc);
+        const double xi = rc->creep_ratio * model->problem.mu * model->half_width /
+                          rb_rolling_radius(rc);
         const double excess = model->problem.xi - xi;
         missing = fabs(excess / xi);
         if (!(missing > 1e-13) || k == RATIO_ROUNDS)
@@ -263,7 +240,7 @@ rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
     *creepage = rolls_freely_at_rest(&model->problem) ? 0.0 : NAN;
     if (*creepage == 0.0)
         return RB_OK;
-    if (model->rc.mesh != RB_MESH_UNIFORM)
+    if (model->rc.mesh != RB_MESH_UNIFORM || rb_rolling_law_moves(&model->rc))
         return roll_freely_anew(model, creepage, why);
     const rb_status s = model->bodies.F ? roll_freely_dense(model, creepage, why)
                                         : roll_freely_large(model, creepage, why);

@@ -87,6 +87,9 @@ static const rb_rolling_result scalars[] = {
            .meaning = "its place"),
     RESULT("peclet", peclet, .study = 21, .condition = RB_FOR_HEAT,
            .meaning = "V a/(2 diffusivity of A), a the half-width"),
+    RESULT("kappa", kappa, .study = 22, .condition = RB_FOR_MOVING_LAW,
+           .meaning = "uniqueness of friction that falls: above 1 there may be several "
+                      "solutions"),
     RESULT("datum", datum, .unit = "mm",
            .meaning = "depth of zero displacement in A; half-planes"),
     RESULT("boundary_elements", boundary_elements, .kind = RB_RESULT_WHOLE,
@@ -120,6 +123,8 @@ static const rb_rolling_result columns[] = {
            .meaning = "of B's surface; in contact A's"),
     RESULT("worn", worn, .unit = "mm", .condition = RB_FOR_WORN,
            .meaning = "depth that is worn off"),
+    RESULT("mu", mu, .unit = "1", .condition = RB_FOR_LAW,
+           .meaning = "coefficient of friction by the law"),
 };
 
 /* New ones at the end: scripts count columns. */
@@ -267,6 +272,10 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc)
         return rb_rolling_has_heat(rc);
     case RB_FOR_WORN:
         return rc->worn_n > 0;
+    case RB_FOR_LAW:
+        return rc->friction.law != RB_FRICTION_constant || rc->friction.heat != 0.0;
+    case RB_FOR_MOVING_LAW:
+        return rb_rolling_law_moves(rc);
     case RB_FOR_ALL:
         break;
     }

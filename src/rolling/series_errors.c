@@ -47,7 +47,8 @@ static void curve_errors(const rb_rolling_case *rc, int runs,
     errors->free_creepage =
         rb_rolling_contact_error(free_creepage, curve->free_creepage) +
         rb_rolling_boundary_error(runs, free_creepage, curve->free_creepage) +
-        DBL_EPSILON * rc->mu * curve->half_width / rb_rolling_radius(rc);
+        DBL_EPSILON * rb_rolling_largest_mu(rc) * curve->half_width /
+            rb_rolling_radius(rc);
     error_columns(&rb_rolling_curve_columns, curve->n, runs, found, curve, errors);
     for (int i = 0; i < curve->n; i++) {
         errors->stick_ratio[i] += curve->stick_step;

@@ -160,7 +160,7 @@ static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_soluti
 static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     const rb_contact_problem *p = &model->problem;
-    const double R = rb_rolling_radius(&model->rc), mu = model->rc.mu;
+    const double R = rb_rolling_radius(&model->rc), mu = model->problem.mu;
 
     s->normal_load = rb_rolling_model_load(model);
     s->tangential_load = rb_rolling_model_force(model);
@@ -212,6 +212,8 @@ static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s
     memcpy(s->ut, w + m, (size_t)n * sizeof(double));
     for (int i = 0; i < n && s->worn; i++)
         s->worn[i] = rb_rolling_worn_depth(&model->rc, s->x[i]);
+    if (s->mu)
+        memcpy(s->mu, model->problem.bound, (size_t)n * sizeof(double));
     set_slip(model, w + m, s);
     free(w);
     return RB_OK;
@@ -310,10 +312,14 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     set_stick_limits(&model->mesh, s);
     s->equal_instead = model->equal_instead;
     s->slip_operator = model->rc.slip_operator;
+    s->kappa = NAN;
+    if (rb_rolling_law_moves(&model->rc))
+        status = rb_rolling_law_kappa(model, &s->kappa);
     s->slip_violations = count_violations(model, s);
     s->dissipation = rb_rolling_dissipated_power(&model->rc, s->n, s->shift, s->q, s->h,
                                                  model->problem.e_T);
-    status = set_temperature(model, s, why);
+    if (status == RB_OK)
+        status = set_temperature(model, s, why);
     if (status != RB_OK)
         rb_rolling_solution_free(s);
     return status;

@@ -30,7 +30,7 @@ rb_status rb_rolling_solve_model_again(const rb_rolling_case *rc, rb_rolling_mod
         if (t != RB_OK)
             s = t;
     }
-    if (s == RB_OK && rc->formulation == RB_STEADY && rc->mu > 0.0)
+    if (s == RB_OK && rc->formulation == RB_STEADY && rb_rolling_largest_mu(rc) > 0.0)
         s = rb_rolling_free_creepage_if_any(model, &solution->free_creepage, why);
     if (s >= 0)
         solution->status = s;

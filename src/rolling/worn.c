@@ -359,12 +359,14 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
     if (!rolls && !wear->slides && wear->increments < 1)
         return rb_fail(why, RB_EINVAL, "wear increments: expected >= 1, got %d",
                        wear->increments);
-    if (rc->mu == 0.0 && (wear->law == RB_WEAR_DISSIPATION || !wear->slides))
+    if (rb_rolling_largest_mu(rc) == 0.0 &&
+        (wear->law == RB_WEAR_DISSIPATION || !wear->slides))
         return rb_fail(why, RB_EINVAL, "wear: at mu = 0 friction dissipates nothing");
-    if (rc->friction.n > 0 && wear->law == RB_WEAR_DISSIPATION)
+    if (rc->friction.law != RB_FRICTION_constant && !rolls &&
+        wear->law == RB_WEAR_DISSIPATION)
         return rb_fail(why, RB_EINVAL,
                        "wear: the law of dissipation takes one coefficient of friction, "
-                       "not a table");
+                       "not a friction law");
     if (!rolls &&
         (rc->mesh != RB_MESH_UNIFORM || rc->contact_elements >= RB_ROLLING_LARGE))
         return rb_fail(

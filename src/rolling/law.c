@@ -1,0 +1,236 @@
+/* Friction laws (theory.md 4.11): the coefficient of an element from its state. */
+#include "rolling/internal.h"
+
+/* ---- The laws --------------------------------------------------------------------- */
+
+static double constant_mu(const rb_rolling_case *rc, double x, double v)
+{
+    (void)x;
+    (void)v;
+    return rc->mu;
+}
+
+static double table_mu(const rb_rolling_case *rc, double x, double v)
+{
+    (void)v;
+    return rb_rolling_friction_at(&rc->friction.table, x);
+}
+
+/* v in units of the slip scale of term k; without a fall the scale means nothing. */
+static double scaled(const rb_rolling_friction *f, int k, double v)
+{
+    return f->fall[k] != 0.0 ? v / f->slip_scale[k] : 0.0;
+}
+
+static double exponential_mu(const rb_rolling_case *rc, double x, double v)
+{
+    const rb_rolling_friction *f = &rc->friction;
+    (void)x;
+    return rc->mu + f->fall[0] * exp2(-scaled(f, 0, v)) +
+           f->fall[1] * exp2(-scaled(f, 1, v));
+}
+
+static double rational_mu(const rb_rolling_case *rc, double x, double v)
+{
+    const rb_rolling_friction *f = &rc->friction;
+    const double first = scaled(f, 0, v), second = scaled(f, 1, v);
+    (void)x;
+    return rc->mu + f->fall[0] / (1.0 + first) + f->fall[1] / (1.0 + second * second);
+}
+
+static double linear_mu(const rb_rolling_case *rc, double x, double v)
+{
+    const rb_rolling_friction *f = &rc->friction;
+    (void)x;
+    return rc->mu + f->fall[0] * fmax(0.0, 1.0 - 0.5 * scaled(f, 0, v)) +
+           f->fall[1] * fmax(0.0, 1.0 - 0.5 * scaled(f, 1, v));
+}
+
+/* steepest: largest -dmu/dv of either term with fall and slip scale 1; 0: the law does
+ * not depend on the slip velocity. */
+static const struct {
+    double (*mu)(const rb_rolling_case *rc, double x, double v);
+    double steepest[2];
+} laws[RB_FRICTION_LAWS] = {
+    [RB_FRICTION_constant] = {constant_mu, {0.0, 0.0}},
+    [RB_FRICTION_exponential] = {exponential_mu,
+                                 {0.6931471805599453, 0.6931471805599453}},
+    [RB_FRICTION_rational] = {rational_mu,
+                              {1.0, 0.6495190528383290}}, /* 1, 3 sqrt(3)/8 */
+    [RB_FRICTION_linear] = {linear_mu, {0.5, 0.5}},
+    [RB_FRICTION_table] = {table_mu, {0.0, 0.0}}};
+
+#define NAME_OF_LAW(name, help) #name,
+static const char *const names[] = {RB_ROLLING_FRICTION_LAWS(NAME_OF_LAW) "table"};
+
+double rb_rolling_friction_at(const rb_rolling_friction_table *table, double x)
+{
+    const int last = table->n - 1;
+    int k = 0;
+
+    if (x <= table->x[0])
+        return table->mu[0];
+    if (x >= table->x[last])
+        return table->mu[last];
+    while (x > table->x[k + 1])
+        k++;
+    const double share = (x - table->x[k]) / (table->x[k + 1] - table->x[k]);
+    return table->mu[k] + share * (table->mu[k + 1] - table->mu[k]);
+}
+
+/* ---- What is known of a law beforehand ----------------------------------------------
+ */
+
+int rb_rolling_law_slides(const rb_rolling_friction *f)
+{
+    return laws[f->law].steepest[0] > 0.0 && (f->fall[0] != 0.0 || f->fall[1] != 0.0);
+}
+
+int rb_rolling_law_moves(const rb_rolling_case *rc)
+{
+    return rc->formulation != RB_STATIC &&
+           (rb_rolling_law_slides(&rc->friction) || rc->friction.heat != 0.0);
+}
+
+/* The end of the coefficients' range on that side: 1 the largest, -1 the least. */
+static double end_of_range(const rb_rolling_case *rc, double side)
+{
+    const rb_rolling_friction *f = &rc->friction;
+    double most = side * rc->mu;
+
+    for (int k = 0; k < f->table.n && f->law == RB_FRICTION_table; k++)
+        most = k == 0 ? side * f->table.mu[0] : fmax(most, side * f->table.mu[k]);
+    for (int k = 0; k < 2 && rb_rolling_law_slides(f); k++)
+        most += fmax(0.0, side * f->fall[k]);
+    return side * (most + fmax(0.0, side * f->heat));
+}
+
+double rb_rolling_largest_mu(const rb_rolling_case *rc)
+{
+    return end_of_range(rc, 1.0);
+}
+
+static rb_status check_table(const rb_rolling_friction_table *t, rb_message *why)
+{
+    if (t->n < 1)
+        return rb_fail(why, RB_EINVAL, "friction table: expected a row or more");
+    for (int k = 0; k < t->n; k++) {
+        if (!isfinite(t->x[k]) || (k > 0 && !(t->x[k] > t->x[k - 1])))
+            return rb_fail(why, RB_EINVAL,
+                           "friction table: row %d: expected x to increase, got %g",
+                           k + 1, t->x[k]);
+        if (!(isfinite(t->mu[k]) && t->mu[k] >= 0.0))
+            return rb_fail(why, RB_EINVAL,
+                           "friction table: row %d: expected mu >= 0, got %g", k + 1,
+                           t->mu[k]);
+    }
+    return RB_OK;
+}
+
+static rb_status check_slip(const rb_rolling_case *rc, rb_message *why)
+{
+    const rb_rolling_friction *f = &rc->friction;
+
+    for (int k = 0; k < 2; k++)
+        if (!isfinite(f->fall[k]) || (f->fall[k] != 0.0 && !(isfinite(f->slip_scale[k]) &&
+                                                             f->slip_scale[k] > 0.0)))
+            return rb_fail(
+                why, RB_EINVAL,
+                "friction law %s: expected a slip scale > 0 for each fall, got "
+                "%g for %g",
+                names[f->law], f->slip_scale[k], f->fall[k]);
+    if (rc->formulation != RB_STATIC && !(isfinite(rc->speed) && rc->speed > 0.0))
+        return rb_fail(why, RB_EINVAL,
+                       "friction law %s: needs the speed of rolling, add --speed",
+                       names[f->law]);
+    return RB_OK;
+}
+
+static rb_status check_heat(const rb_rolling_case *rc, rb_message *why)
+{
+    const rb_rolling_friction *f = &rc->friction;
+
+    if (f->heat == 0.0)
+        return RB_OK;
+    if (!isfinite(f->heat) || !isfinite(f->heat_from) ||
+        !(isfinite(f->heat_range) && f->heat_range > 0.0))
+        return rb_fail(why, RB_EINVAL,
+                       "friction and heat: expected a change, a temperature and a range "
+                       "> 0, got %g, %g, %g",
+                       f->heat, f->heat_from, f->heat_range);
+    return rc->formulation != RB_STATIC && !rb_rolling_has_heat(rc)
+               ? rb_fail(why, RB_EINVAL,
+                         "friction and heat: needs temperatures, add --conductivity")
+               : RB_OK;
+}
+
+rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
+{
+    const rb_rolling_friction *f = &rc->friction;
+    rb_status s = RB_OK;
+
+    if (!(isfinite(rc->mu) && rc->mu >= 0.0))
+        return rb_fail(why, RB_EINVAL, "mu: expected >= 0, got %g", rc->mu);
+    if (f->law == RB_FRICTION_table)
+        s = check_table(&f->table, why);
+    if (s == RB_OK && rb_rolling_law_slides(f))
+        s = check_slip(rc, why);
+    if (s == RB_OK)
+        s = check_heat(rc, why);
+    if (s == RB_OK && !(f->memory >= 0.0 && isfinite(f->memory) &&
+                        (f->memory == 0.0 || f->memory_slip > 0.0)))
+        s = rb_fail(why, RB_EINVAL,
+                    "friction memory: expected a distance >= 0 and a velocity > 0, got "
+                    "%g, %g",
+                    f->memory, f->memory_slip);
+    if (s == RB_OK && end_of_range(rc, -1.0) < 0.0)
+        s = rb_fail(why, RB_EINVAL,
+                    "friction law %s: expected mu >= 0 everywhere, got %g at least",
+                    names[f->law], end_of_range(rc, -1.0));
+    return s;
+}
+
+/* ---- The coefficients of a state ------------------------------------------------------
+ */
+
+static double heat_part(const rb_rolling_friction *f, double temperature)
+{
+    return f->heat != 0.0
+               ? f->heat *
+                     fmin(1.0, fmax(0.0, (temperature - f->heat_from) / f->heat_range))
+               : 0.0;
+}
+
+double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v,
+                         double temperature)
+{
+    return laws[rc->friction.law].mu(rc, x, v) + heat_part(&rc->friction, temperature);
+}
+
+double rb_rolling_law_at_rest(const rb_rolling_case *rc, double x)
+{
+    return rb_rolling_law_mu(rc, x, 0.0, rc->heat_a.temperature);
+}
+
+double rb_rolling_law_steepest(const rb_rolling_case *rc)
+{
+    const rb_rolling_friction *f = &rc->friction;
+    double steepest = 0.0;
+
+    for (int k = 0; k < 2; k++)
+        if (f->fall[k] > 0.0)
+            steepest += f->fall[k] * laws[f->law].steepest[k] / f->slip_scale[k];
+    return steepest;
+}
+
+void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                             rb_contact_problem *p)
+{
+    const rb_rolling_friction_table *start =
+        rc->formulation == RB_STATIC ? NULL : rc->friction.start;
+
+    for (int i = 0; i < p->n; i++)
+        p->bound[i] = start ? rb_rolling_friction_at(start, bodies->f.x[i])
+                            : rb_rolling_law_at_rest(rc, bodies->f.x[i]);
+    rb_contact_set_friction(p, rb_rolling_largest_mu(rc), p->bound);
+}

@@ -1,0 +1,421 @@
+/* States whose coefficients of friction depend on them (theory.md 4.11): the contact
+ * problem with the coefficients of the state before, until they do not change. */
+#include "rolling/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- The coefficients of a state -----------------------------------------------------
+ */
+
+/* Of the surfaces of a solved state. */
+static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message *why)
+{
+    const rb_rolling_case *rc = &model->rc;
+    const rb_contact_state *state = &model->state;
+    const int n = state->n;
+    rb_rolling_solution view = {.n = n,
+                                .x = model->bodies.f.x,
+                                .h = model->bodies.f.h,
+                                .q = state->q,
+                                .shift = state->lambda,
+                                .zone = state->zone,
+                                .formulation = rc->formulation,
+                                .slip_operator = rc->slip_operator};
+
+    if (rc->formulation == RB_TRANSIENT) {
+        rb_rolling_heat_track_step(rc, state->q, state->lambda, model->heat, t);
+        return RB_OK;
+    }
+    double *room = rb_alloc((size_t)n, 3), *power = room, *t_b = room + n;
+    if (!room)
+        return rb_fail(why, RB_ENOMEM, "out of memory for %d temperatures", n);
+    view.slip = room + 2 * n;
+    for (int i = 0; i < n; i++) {
+        view.contact += state->zone[i] != RB_ZONE_SEPARATED;
+        view.slip[i] = state->lambda[i] / model->problem.e_T[i];
+    }
+    rb_rolling_friction_power(&view, power);
+    const rb_status s = rb_rolling_steady_temperature(rc, &view, power, t, t_b, why);
+    free(room);
+    return s;
+}
+
+/* From the leading edge on, in the order in which particles pass (F2): each one forgets
+ * its coefficient over the distance that it slides. */
+static void set_coefficients(const rb_rolling_model *model, const double *temperature,
+                             double *mu)
+{
+    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_friction *f = &rc->friction;
+    const rb_contact_state *state = &model->state;
+    const double *x = model->bodies.f.x, *e_T = model->problem.e_T;
+
+    for (int i = state->n - 1; i >= 0; i--) {
+        const double at_rest = rb_rolling_law_at_rest(rc, x[i]);
+        const double v = fabs(state->lambda[i]) / e_T[i] * rc->speed;
+        if (state->zone[i] == RB_ZONE_SEPARATED) {
+            mu[i] = at_rest;
+            continue;
+        }
+        mu[i] = rb_rolling_law_mu(rc, x[i], v,
+                                  temperature ? temperature[i] : rc->heat_a.temperature);
+        if (f->memory == 0.0)
+            continue;
+        const double before = rc->formulation == RB_STEADY
+                                  ? (i + 1 < state->n ? mu[i + 1] : at_rest)
+                                  : (model->mu_before ? model->mu_before[i] : at_rest);
+        const double slid = fmax(v, f->memory_slip) * e_T[i] / rc->speed;
+        mu[i] += (before - mu[i]) * exp(-slid / f->memory);
+    }
+}
+
+static rb_status coefficients_of(rb_rolling_model *model, double *mu, rb_message *why)
+{
+    const int n = model->state.n, is_warm = model->rc.friction.heat != 0.0;
+    double *temperature = is_warm ? rb_alloc((size_t)n, 1) : NULL;
+    rb_status s = is_warm && !temperature ? RB_ENOMEM : RB_OK;
+
+    if (s == RB_OK && is_warm)
+        s = temperatures_of(model, temperature, why);
+    if (s == RB_OK)
+        set_coefficients(model, temperature, mu);
+    free(temperature);
+    return s;
+}
+
+/* ---- The force ------------------------------------------------------------------------
+ */
+
+static void set_force(rb_rolling_model *model)
+{
+    const rb_rolling_case *rc = &model->rc;
+    rb_contact_problem *p = &model->problem;
+
+    if (!p->force_given || p->axle > 0.0)
+        return;
+    if (!isnan(rc->force_ratio))
+        p->force = rc->force_ratio * p->mu * rb_rolling_model_load(model);
+    else
+        p->force = rc->force;
+    p->force_ratio = 0.0;
+}
+
+rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why)
+{
+    rb_contact_problem *p = &model->problem;
+    double *mu = rb_alloc((size_t)p->n, 1);
+    rb_status s = mu ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK && rb_rolling_law_moves(&model->rc)) {
+        s = coefficients_of(model, mu, why);
+        set_force(model);
+        if (s == RB_OK)
+            rb_contact_set_friction(p, p->mu, mu);
+    }
+    free(mu);
+    return s;
+}
+
+/* ---- The iteration at a given creepage
+ * -------------------------------------------------
+ */
+
+/* The natural residual that coefficients in the place of the problem's would leave. */
+static double change_of(const rb_contact_problem *p, const rb_contact_state *state,
+                        const double *mu)
+{
+    double most = 0.0;
+
+    for (int i = 0; i < p->n; i++)
+        most = fmax(most, fabs(mu[i] - p->bound[i]) * state->p[i] / (p->mu * p->stress));
+    return most;
+}
+
+/* The step of a round.  Steps that grow and go on in the same direction leave one
+ * solution for another (a jump); where they turn back and do not become less, half as
+ * much of them is taken each time. */
+typedef struct {
+    double part, least;
+    int waiting;
+    double *step; /* n: of the round before */
+} relaxation;
+
+static void relax(relaxation *r, const rb_contact_problem *p, double change, double *mu)
+{
+    enum { PATIENCE = 4 };
+    double turns = 0.0;
+
+    for (int i = 0; i < p->n; i++)
+        turns += (mu[i] - p->bound[i]) * r->step[i];
+    r->waiting += turns < 0.0 && !(change < 0.95 * r->least);
+    r->least = fmin(r->least, change);
+    if (r->waiting == PATIENCE) {
+        r->part = fmax(0.5 * r->part, 1.0 / 256.0);
+        r->waiting = 0;
+        r->least = change;
+    }
+    for (int i = 0; i < p->n; i++) {
+        r->step[i] = mu[i] - p->bound[i];
+        mu[i] = p->bound[i] + r->part * r->step[i];
+    }
+}
+
+static rb_status measure(rb_rolling_model *model, rb_message *why)
+{
+    const double allowed = fmax(model->rc.tol, model->problem.rounding);
+    rb_contact_violation violation;
+    const rb_status s = rb_contact_residual(&model->problem, &model->state, &violation);
+
+    if (s != RB_OK)
+        return s;
+    model->state.residual = violation.scaled;
+    return violation.scaled <= allowed
+               ? RB_OK
+               : rb_fail(why, RB_INACCURATE,
+                         "friction law: the scaled residual with the coefficients of the "
+                         "state is %.3g",
+                         violation.scaled);
+}
+
+/* From the bounds that the problem has: (F1) v -> mu -> contact problem -> v. */
+static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
+{
+    enum { ROUNDS = 1000 };
+    rb_contact_problem *p = &model->problem;
+    rb_contact_state *state = &model->state;
+    const double enough = fmax(0.1 * model->rc.tol, fmax(p->rounding, 1e-14));
+    double change = INFINITY, *mu = rb_alloc((size_t)p->n, 2);
+    relaxation r = {1.0, INFINITY, 0, mu ? mu + p->n : NULL};
+    rb_status s = mu ? RB_OK : RB_ENOMEM;
+
+    for (int k = 0; k < ROUNDS && s == RB_OK && change > enough; k++) {
+        s = rb_rolling_problem_solve(p, &model->rc, warm || k > 0, state, why);
+        model->iterations += state->iterations;
+        if (s == RB_OK)
+            s = coefficients_of(model, mu, why);
+        if (s != RB_OK)
+            break;
+        change = change_of(p, state, mu);
+        if (change > enough)
+            relax(&r, p, change, mu);
+        rb_contact_set_friction(p, p->mu, mu);
+    }
+    free(mu);
+    if (s == RB_OK && change > enough)
+        s = rb_fail(
+            why, RB_MAXITER,
+            "friction law: after %d rounds the coefficients still change, by %.2g "
+            "of the largest",
+            ROUNDS, change);
+    return s == RB_OK ? measure(model, why) : s;
+}
+
+/* ---- A given force
+ * ---------------------------------------------------------------------
+ */
+
+/* Q at a creepage that goes away from 0, in the direction in which it is wanted. */
+typedef struct {
+    rb_rolling_model *model;
+    double *start; /* n: bounds that every solve begins with, so that Q is a function */
+    double side, unit;
+    rb_message *why;
+} search;
+
+/* What is wanted and not reached yet at creepage side x; < 0: too much. */
+static rb_status lack(search *s, double x, double *f)
+{
+    rb_rolling_model *model = s->model;
+    rb_contact_problem *p = &model->problem;
+
+    p->force_given = 0;
+    p->xi = s->side * x;
+    rb_contact_set_friction(p, p->mu, s->start);
+    const rb_status status = iterate(model, 1, s->why);
+    p->force_given = 1;
+    set_force(model);
+    *f = s->side * (rb_rolling_model_force(model) - p->force +
+                    p->axle * rb_contact_moment(p, &model->state));
+    return status;
+}
+
+/* Between x[0] and x[2] the lack is least near x[1]: golden sections until it is none, or
+ * as little as there is. */
+static rb_status find_least(search *s, double x[3], double f[3])
+{
+    static const double GOLDEN = 0.381966011250105;
+    rb_status status = RB_OK;
+
+    while (status == RB_OK && f[1] > 0.0 && x[2] - x[0] > 1e-6 * x[2]) {
+        const int right = x[2] - x[1] > x[1] - x[0];
+        const double next = x[1] + GOLDEN * (right ? x[2] - x[1] : x[0] - x[1]);
+        double g;
+        status = lack(s, next, &g);
+        const int better = g < f[1], end = right == better ? 0 : 2;
+        x[end] = better ? x[1] : next;
+        f[end] = better ? f[1] : g;
+        if (better) {
+            x[1] = next;
+            f[1] = g;
+        }
+    }
+    return status;
+}
+
+/* Goes on until the force is reached, x[0] and x[1] on either side of it, or does not
+ * grow any more. */
+static rb_status go_on(search *s, double x[3], double f[3])
+{
+    const double far = 1e6 * s->unit;
+    double step = s->unit / 32.0;
+    rb_status status = RB_OK;
+
+    x[1] = x[0];
+    f[1] = f[0];
+    while (status == RB_OK && f[1] > 0.0 && x[1] < far) {
+        x[2] = x[1] + step;
+        step *= 2.0;
+        status = lack(s, x[2], &f[2]);
+        if (status == RB_OK && f[2] >= f[1])
+            return find_least(s, x, f);
+        x[0] = x[1];
+        f[0] = f[1];
+        x[1] = x[2];
+        f[1] = f[2];
+    }
+    return status;
+}
+
+/* Regula falsi (Illinois) between x[0], where the force is lacking, and x[1]. */
+static rb_status find_force(search *s, double x[2], double f[2], double small)
+{
+    enum { ROUNDS = 200 };
+    rb_status status = RB_OK;
+    int kept = -1;
+
+    for (int k = 0; k < ROUNDS && status == RB_OK; k++) {
+        const double middle = 0.5 * (x[0] + x[1]);
+        double next = x[0] + (x[1] - x[0]) * f[0] / (f[0] - f[1]), g;
+        if (!(next > x[0] && next < x[1]) || k % 8 == 7)
+            next = middle;
+        status = lack(s, next, &g);
+        if (status != RB_OK || fabs(g) <= small)
+            return status;
+        if (!(middle > x[0] && middle < x[1]))
+            break;
+        const int end = g > 0.0 ? 0 : 1;
+        x[end] = next;
+        f[end] = g;
+        if (kept == 1 - end)
+            f[1 - end] *= 0.5;
+        kept = 1 - end;
+    }
+    return status != RB_OK
+               ? status
+               : rb_fail(s->why, RB_MAXITER,
+                         "friction law: at creepage %g the force jumps over the one that "
+                         "is wanted",
+                         s->side * x[1]);
+}
+
+/* From creepage 0 along the branch on which the force grows with the creepage (F4). */
+static rb_status solve_force(rb_rolling_model *model, rb_message *why)
+{
+    rb_contact_problem *p = &model->problem;
+    search by = {model, rb_alloc((size_t)p->n, 1), 1.0, 0.0, why};
+    double x[3] = {0.0}, f[3] = {0.0};
+    rb_status s = by.start ? RB_OK : RB_ENOMEM;
+
+    by.unit = rb_rolling_sliding_creepage(&model->rc, p);
+    if (s == RB_OK) {
+        memcpy(by.start, p->bound, (size_t)p->n * sizeof *by.start);
+        s = lack(&by, 0.0, &f[0]);
+    }
+    const double small =
+        0.1 * fmax(model->rc.tol, p->rounding) * rb_contact_capacity(p, &model->state);
+    if (s == RB_OK && fabs(f[0]) > small) {
+        by.side = f[0] > 0.0 ? 1.0 : -1.0;
+        f[0] = fabs(f[0]);
+        s = go_on(&by, x, f);
+        if (s == RB_OK && f[1] > 0.0)
+            s = rb_fail(
+                why, RB_EINVAL,
+                "force Q = %g N/mm: with this friction law the largest is %g N/mm, "
+                "at creepage %g",
+                p->force, p->force + by.side * f[1], by.side * x[1]);
+        else if (s == RB_OK)
+            s = find_force(&by, x, f, small);
+    }
+    free(by.start);
+    return s == RB_OK ? measure(model, why) : s;
+}
+
+rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why)
+{
+    rb_status s;
+
+    if (!rb_rolling_law_moves(&model->rc)) {
+        s = rb_rolling_problem_solve(&model->problem, &model->rc, warm, &model->state,
+                                     why);
+        model->iterations += model->state.iterations;
+        return s;
+    }
+    s = model->problem.force_given ? solve_force(model, why) : iterate(model, warm, why);
+    return model->state.status = s;
+}
+
+/* ---- Uniqueness
+ * ------------------------------------------------------------------------
+ */
+
+/* The largest eigenvalue of B diag(pressure), B the slips of unit friction, which is
+ * nearly symmetric: the power method.  room: 4n, of zeros. */
+static double largest_answer(const rb_contact_problem *p, const double *pressure,
+                             double *room)
+{
+    enum { ROUNDS = 40 };
+    const size_t n = (size_t)p->n;
+    double *none = room, *q = room + n, *gap = q + n, *slip = gap + n, norm = 0.0;
+
+    for (size_t i = 0; i < n; i++)
+        slip[i] = pressure[i] > 0.0;
+    for (int k = 0; k < ROUNDS; k++) {
+        const double size = rb_norm_inf(n, slip);
+        for (size_t i = 0; i < n; i++) {
+            q[i] = size > 0.0 && pressure[i] > 0.0 ? pressure[i] * slip[i] / size : 0.0;
+            gap[i] = slip[i] = 0.0;
+        }
+        rb_contact_operator_add(p->op, none, q, gap, slip);
+        for (size_t i = 0; i < n; i++)
+            slip[i] = pressure[i] > 0.0 ? slip[i] : 0.0;
+        norm = rb_norm_inf(n, slip);
+    }
+    return norm;
+}
+
+/* (F3) In steady rolling an element has neighbours that differ: what counts is its own
+ * slip per traction.  In a step all elements may answer together. */
+rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa)
+{
+    const rb_contact_problem *p = &model->problem;
+    const double *pressure = model->state.p;
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    const double slope = model->rc.speed * rb_rolling_law_steepest(&model->rc);
+    const size_t n = (size_t)p->n;
+    double largest = 0.0, *room = rb_alloc(n, 4);
+
+    *kappa = NAN;
+    if (!room)
+        return RB_ENOMEM;
+    for (size_t i = 0; i < n && model->rc.formulation == RB_STEADY; i++) {
+        const double own =
+            K.F ? K.S[i + (n + i) * n] : rb_contact_operator_response(p->op).slip;
+        largest = fmax(largest, pressure[i] * own / p->e_T[i]);
+    }
+    if (model->rc.formulation == RB_TRANSIENT)
+        largest = largest_answer(p, pressure, room) / p->e_T[0];
+    *kappa = slope * largest;
+    free(room);
+    return RB_OK;
+}

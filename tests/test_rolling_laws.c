@@ -1,0 +1,489 @@
+/* Friction laws (theory.md 4.11): coefficients that depend on slip velocity, memory and
+ * temperature, proven by formulas of their own and by Coulomb's law with them. */
+#include "check.h"
+#include "rolling/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Wheel and rail of veldep_fric.inp (CONTACT): 92 elements there, 81 in contact. */
+static rb_rolling_case rail(double slip_scale)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a = (rb_rolling_body){.young = 2.0 * 82000.0 * 1.28,
+                             .poisson = 0.28,
+                             .radius = 460.0,
+                             .support = RB_BEM_HALFPLANE};
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.load = 3111.08;
+    rc.formulation = RB_STEADY;
+    rc.creep = 0.0009999;
+    rc.speed = 45000.0;
+    rc.contact_elements = 93;
+    rc.zone = 4.65;
+    rc.mu = 0.18;
+    rc.friction = (rb_rolling_friction){.law = RB_FRICTION_exponential,
+                                        .fall = {0.12, 0.0},
+                                        .slip_scale = {slip_scale, slip_scale}};
+    return rc;
+}
+
+static rb_rolling_model solved(const rb_rolling_case *rc)
+{
+    rb_rolling_model model;
+    rb_message why = {""};
+    const rb_status s = rb_rolling_model_create(rc, &model, &why);
+    if (s != RB_OK)
+        print_error("%s\n", why.text);
+    CHECK_STATUS(s, RB_OK);
+    return model;
+}
+
+static double ratio_of(const rb_rolling_case *rc)
+{
+    rb_rolling_model model = solved(rc);
+    const double ratio = rb_rolling_force_ratio(&model);
+    rb_rolling_model_free(&model);
+    return ratio;
+}
+
+/* ---- Laws ------------------------------------------------------------------------- */
+
+static double by_formula(const rb_rolling_case *rc, double v)
+{
+    const double *m = rc->friction.fall, *s = rc->friction.slip_scale;
+    switch (rc->friction.law) {
+    case RB_FRICTION_exponential:
+        return rc->mu + m[0] * exp(-log(2.0) * v / s[0]) +
+               m[1] * exp(-log(2.0) * v / s[1]);
+    case RB_FRICTION_rational:
+        return rc->mu + m[0] * s[0] / (s[0] + v) +
+               m[1] * s[1] * s[1] / (s[1] * s[1] + v * v);
+    default:
+        return rc->mu + (v < 2.0 * s[0] ? m[0] - 0.5 * m[0] * v / s[0] : 0.0) +
+               (v < 2.0 * s[1] ? m[1] - 0.5 * m[1] * v / s[1] : 0.0);
+    }
+}
+
+/* (K1) to (K3) with the coefficients that the slip of each element gives, upstream to
+ * downstream with memory; `before`: of the particles before a step. */
+static void check_state(const rb_rolling_model *model, const double *before,
+                        const char *what)
+{
+    const rb_contact_problem *p = &model->problem;
+    const rb_contact_state *s = &model->state;
+    const rb_rolling_friction *f = &model->rc.friction;
+    const double V = model->rc.speed, rest = by_formula(&model->rc, 0.0);
+    double *gap = rb_alloc((size_t)p->n, 2), *slip = gap + p->n, mu = rest;
+
+    assert_non_null(gap);
+    rb_contact_kinematics(p, s, gap, slip);
+    for (int i = p->n - 1; i >= 0; i--) {
+        const double v =
+            s->zone[i] == RB_ZONE_STICK ? 0.0 : fabs(slip[i]) / p->e_T[i] * V;
+        const double now = by_formula(&model->rc, v), small = 1e-9 * p->stress;
+        const double upstream = before ? before[i] : mu;
+        mu = s->p[i] == 0.0 ? rest : now;
+        if (f->memory > 0.0 && s->p[i] > 0.0)
+            mu += (upstream - now) *
+                  exp(-fmax(v, f->memory_slip) * p->e_T[i] / V / f->memory);
+        CHECK_ABS((p->bound[i] - mu) * (s->p[i] > 0.0 ? s->p[i] / p->stress : 1.0), 0.0,
+                  1e-10, "%s: mu of element %d", what, i);
+        CHECK_ABS(fmin(gap[i] / p->gap_length, s->p[i] / p->stress), 0.0, 1e-9,
+                  "%s: contact %d", what, i);
+        assert_true(fabs(s->q[i]) <= mu * s->p[i] + small);
+        if (fabs(s->q[i]) < mu * s->p[i] - small)
+            CHECK_ABS(slip[i], 0.0, 1e-9 * p->slip_length, "%s: stick %d", what, i);
+        else
+            assert_true(s->q[i] * slip[i] <= 1e-9 * p->slip_length * p->stress);
+    }
+    free(gap);
+}
+
+/* Every law, with and without memory, on every mesh, by matrices and by transforms. */
+static void coefficients_follow_from_the_slip(void **state)
+{
+    (void)state;
+    static const rb_rolling_friction_law laws[] = {
+        RB_FRICTION_exponential, RB_FRICTION_rational, RB_FRICTION_linear};
+    for (int k = 0; k < 3; k++)
+        for (int mesh = 0; mesh < 4; mesh++)
+            for (int memory = 0; memory < 2; memory++) {
+                char what[80];
+                rb_rolling_case rc = rail(100.0);
+                rc.friction.law = laws[k];
+                rc.friction.fall[1] = 0.05;
+                rc.friction.slip_scale[1] = 60.0;
+                rc.friction.memory = memory ? 0.002 : 0.0;
+                rc.friction.memory_slip = memory ? 1.0 : 0.0;
+                rc.zone = mesh == 0 ? 4.65 : 0.0;
+                rc.mesh = mesh == 1   ? RB_MESH_FITTED
+                          : mesh == 2 ? RB_MESH_ALIGNED
+                                      : RB_MESH_UNIFORM;
+                rc.slip_operator = mesh == 2 ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
+                rc.contact_elements = mesh == 3 ? 1501 : 60;
+                if (mesh == 3 && (k > 0 || memory))
+                    continue;
+                rb_rolling_model model = solved(&rc);
+                snprintf(what, sizeof what, "law %d, mesh %d, memory %d", k, mesh,
+                         memory);
+                check_state(&model, NULL, what);
+                rb_rolling_model_free(&model);
+            }
+}
+
+/* A law is a scale of its own: all terms at no slip. */
+static void ratios_refer_to_the_largest_coefficient(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rail(100.0);
+    rb_rolling_solution s;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    CHECK_REL(s.force_ratio, s.tangential_load / (0.3 * s.normal_load), 1e-12, "ratio");
+    CHECK_REL(s.creep_ratio, rc.creep * 460.0 / (0.3 * s.hertz_half_width), 1e-12,
+              "creep ratio");
+    CHECK_REL(s.mu[s.n - 1], 0.3, 1e-14, "mu at rest");
+    const double slope = 0.12 * log(2.0) / 100.0;
+    CHECK_REL(s.kappa, 45000.0 * slope * 495.0 * 1.0491 / 113889.0, 5e-3, "kappa");
+    rb_rolling_solution_free(&s);
+}
+
+/* ---- Figures of theory.md 4.11 ------------------------------------------------------
+ */
+
+/* CONTACT: 0.5941, 45 in adhesion, 36 in slip. */
+static void the_rail_case_is_met(void **state)
+{
+    (void)state;
+    static const double memory[] = {0.0, 0.0005, 0.001, 0.003, 0.01},
+                        want[] = {0.59433, 0.59814, 0.60199, 0.61158, 0.61996};
+    for (int k = 0; k < 5; k++) {
+        rb_rolling_case rc = rail(100.0);
+        rb_rolling_solution s;
+        rc.friction.memory = memory[k];
+        rc.friction.memory_slip = 1.0;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        CHECK_ABS(-s.force_ratio, want[k], 1e-5, "memory %g", memory[k]);
+        CHECK_MAX(s.residual, 1e-10, "memory %g", memory[k]);
+        if (k == 0) {
+            CHECK_ABS(-s.force_ratio, 0.5941, 5e-4, "CONTACT");
+            assert_int_equal(s.stick, 45);
+            assert_int_equal(s.slipping, 36);
+        }
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* From coefficients at rest and from those of fast sliding. */
+static void steep_laws_have_two_solutions(void **state)
+{
+    (void)state;
+    static const double kinetic = 0.18, place = 0.0;
+    static const rb_rolling_friction_table sliding = {1, &place, &kinetic};
+    static const double scale[] = {100.0, 50.0, 20.0, 15.5, 10.0, 5.0, 2.0};
+    for (int k = 0; k < 7; k++) {
+        rb_rolling_case rc = rail(scale[k]);
+        rb_rolling_model rest = solved(&rc);
+        double kappa;
+        rc.friction.start = &sliding;
+        rb_rolling_model fast = solved(&rc);
+        check_state(&rest, NULL, "from rest");
+        check_state(&fast, NULL, "from sliding");
+        CHECK_STATUS(rb_rolling_law_kappa(&rest, &kappa), RB_OK);
+        CHECK_REL(kappa, 17.073 / scale[k], 1e-3, "kappa");
+        const double difference =
+            fabs(rb_rolling_force_ratio(&rest) - rb_rolling_force_ratio(&fast));
+        if (kappa < 1.12)
+            CHECK_MAX(difference, 1e-9, "kappa = %g", kappa);
+        else
+            assert_true(difference > 1e-4);
+        rb_rolling_model_free(&rest);
+        rb_rolling_model_free(&fast);
+    }
+}
+
+/* ---- A given force ------------------------------------------------------------------
+ */
+
+static void a_force_is_met_on_the_rising_branch(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 5; k++) {
+        rb_rolling_case rc = rail(100.0);
+        rb_rolling_solution s;
+        rc.creep = NAN;
+        rc.force_ratio = k < 2 ? -0.7 : NAN;
+        rc.force = k == 2 ? 600.0 : k == 3 ? -750.0 : NAN;
+        rc.free_axle = k == 4;
+        if (k == 1) { /* P is not known beforehand */
+            rc.load = NAN;
+            rc.approach = 0.09;
+        }
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        CHECK_MAX(s.residual, 1e-10, "case %d", k);
+        if (k < 2)
+            CHECK_ABS(s.force_ratio, -0.7, 1e-9, "ratio, case %d", k);
+        if (k == 2 || k == 3)
+            CHECK_REL(s.tangential_load, rc.force, 1e-9, "force, case %d", k);
+        if (k == 4)
+            CHECK_ABS(s.tangential_load, -s.resistance_moment / 460.0, 1e-7, "axle");
+        assert_true(s.creepage * s.tangential_load <= 0.0);
+        assert_true(fabs(s.creepage) < 0.0021); /* where the force is the largest */
+        rc.force = rc.force_ratio = NAN;
+        rc.free_axle = 0;
+        rc.creep = s.creepage;
+        CHECK_ABS(ratio_of(&rc), s.force_ratio, 1e-8, "the same by its creepage, %d", k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void the_largest_force_is_told(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rail(100.0);
+    rb_message why = {""};
+    rb_rolling_model model;
+    double force, at;
+    rc.creep = NAN;
+    rc.force = -800.0;
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, &why), RB_EINVAL);
+    rb_rolling_model_free(&model);
+    const char *largest = strstr(why.text, "the largest is ");
+    assert_non_null(largest);
+    assert_int_equal(
+        sscanf(largest, "the largest is %lf N/mm, at creepage %lf", &force, &at), 2);
+    CHECK_REL(force, -754.453, 1e-5, "largest force");
+    rc.force = NAN;
+    for (int k = -1; k <= 1; k++) {
+        rc.creep = at * (1.0 + 0.05 * k);
+        const double Q = ratio_of(&rc) * 0.3 * 3111.08;
+        if (k == 0)
+            CHECK_REL(Q, force, 1e-5, "at that creepage");
+        else
+            assert_true(fabs(Q) < fabs(force));
+    }
+}
+
+/* ---- Steps ------------------------------------------------------------------------- */
+
+typedef struct {
+    double *before;
+    int n;
+} steps_seen;
+
+static int see_step(const rb_rolling_model *model, const rb_rolling_history *h, int step,
+                    int steps, void *context)
+{
+    steps_seen *seen = context;
+    const int n = model->mesh.n;
+    (void)steps;
+    if (model->rc.formulation == RB_TRANSIENT)
+        check_state(model, seen->before, "step");
+    assert_true(step < 200 && n <= seen->n);
+    const double *mu = model->problem.bound, way = h->step / model->bodies.f.h[0];
+    assert_true(way > 0.5 && way <= 1.0 + 1e-9); /* of an element, towards the next */
+    for (int i = 0; i < n; i++)
+        seen->before[i] = mu[i] + way * ((i + 1 < n ? mu[i + 1] : 0.3) - mu[i]);
+    return 0;
+}
+
+/* Every step by the formula; with memory it becomes steady rolling. */
+static void steps_remember_their_friction(void **state)
+{
+    (void)state;
+    for (int memory = 0; memory < 2; memory++) {
+        rb_rolling_case rc = rail(100.0);
+        rb_message why = {""};
+        rb_rolling_model model;
+        rb_rolling_history history;
+        double room[200];
+        steps_seen seen = {room, 200};
+        rc.contact_elements = 47;
+        rc.friction.memory = memory ? 0.003 : 0.0;
+        rc.friction.memory_slip = 1.0;
+        const double steady = ratio_of(&rc);
+        rc.formulation = RB_TRANSIENT;
+        rc.distance = 6.0;
+        rc.a.datum = rc.b.datum = 10.0; /* stiff, so that it is steady soon */
+        CHECK_STATUS(
+            rb_rolling_history_run(&rc, NULL, see_step, &seen, &model, &history, &why),
+            RB_OK);
+        if (memory) /* without it the steps jump between solutions */
+            CHECK_ABS(history.force_ratio[history.n - 1], steady, 2e-3, "steady at last");
+        rb_rolling_model_free(&model);
+        rb_rolling_history_free(&history);
+    }
+}
+
+/* One step of an element's length at 0.1 % creepage from the steady state of 0.09999 %
+ * (case 2 and 3 of veldep_fric.inp): from below CONTACT has 0.5977, 77 stick, 4 slip. */
+static void a_step_has_two_starts(void **state)
+{
+    (void)state;
+    static const double kinetic = 0.18, place = 0.0;
+    static const rb_rolling_friction_table sliding = {1, &place, &kinetic};
+    double ratio[2];
+    for (int start = 0; start < 2; start++) {
+        rb_rolling_case rc = rail(100.0);
+        rb_rolling_model model = solved(&rc);
+        const int n = model.mesh.n, m = n + 1;
+        double *w = rb_alloc(2 * (size_t)m, 1), *before = rb_alloc((size_t)n, 1);
+        rb_message why = {""};
+        assert_true(w && before);
+        CHECK_STATUS(
+            rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
+            RB_OK);
+        const rb_rolling_past past = {w + m + 1};
+        memcpy(before, model.problem.bound, (size_t)n * sizeof *before);
+        rb_contact_problem_free(&model.problem);
+        model.rc.formulation = RB_TRANSIENT;
+        model.rc.creep = 0.001;
+        model.rc.friction.start = start ? &sliding : NULL;
+        model.mu_before = before;
+        CHECK_STATUS(rb_rolling_problem_create(&model.rc, &model.mesh, &model.bodies,
+                                               &past, 0.1, &model.problem, &why),
+                     RB_OK);
+        const rb_status s = rb_rolling_model_resolve(&model, 1, &why);
+        if (s != RB_OK)
+            print_error("%s\n", why.text);
+        CHECK_STATUS(s, RB_OK);
+        check_state(&model, before, start ? "from above" : "from below");
+        ratio[start] = -rb_rolling_force_ratio(&model);
+        int stick = 0;
+        for (int i = 0; i < n; i++)
+            stick += model.state.zone[i] == RB_ZONE_STICK;
+        if (start == 0) {
+            CHECK_ABS(ratio[0], 0.5977, 5e-4, "CONTACT");
+            assert_int_equal(stick, 77);
+        }
+        free(w);
+        free(before);
+        rb_rolling_model_free(&model);
+    }
+    assert_true(ratio[0] - ratio[1] > 1e-3);
+}
+
+/* ---- Heat -------------------------------------------------------------------------- */
+
+static rb_rolling_case warm(double creep_ratio)
+{
+    rb_rolling_case rc = rail(100.0);
+    const rb_rolling_heat steel = {50.0, 3.5, 20.0};
+    rc.load = rc.creep = NAN;
+    rc.half_width = 6.0;
+    rc.zone = 0.0;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 60;
+    rc.creep_ratio = creep_ratio;
+    rc.heat_a = rc.heat_b = steel;
+    rc.mu = 0.3;
+    rc.friction = (rb_rolling_friction){.law = RB_FRICTION_constant,
+                                        .heat = -0.18,
+                                        .heat_from = 20.0,
+                                        .heat_range = 400.0};
+    return rc;
+}
+
+/* Coefficients by the printed temperatures, and the residual with them. */
+static void warm_surfaces_have_another_friction(void **state)
+{
+    (void)state;
+    static const double ratio[] = {0.5, 2.0, 8.0};
+    for (int k = 0; k < 6; k++) {
+        rb_rolling_case rc = warm(ratio[k % 3]);
+        rb_rolling_solution s;
+        rb_message why = {""};
+        if (k >= 3)
+            rc.friction.heat = 0.2;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
+        CHECK_MAX(s.residual, 1e-10, "case %d", k);
+        assert_true(s.max_temperature > 25.0);
+        for (int i = 0; i < s.n; i++) {
+            const double part = (s.temperature[i] - 20.0) / 400.0;
+            const double mu = 0.3 + rc.friction.heat *
+                                        (s.p[i] > 0.0 ? fmin(fmax(part, 0.0), 1.0) : 0.0);
+            CHECK_ABS(s.mu[i], mu, 1e-9, "case %d, element %d", k, i);
+        }
+        if (k % 3 == 2) /* full sliding */
+            assert_true(k < 3 ? s.force_ratio > -0.95 : s.force_ratio < -0.6);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Far along the way the steps are as warm as steady rolling. */
+static void steps_become_warm(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = warm(2.0);
+    rb_rolling_solution s;
+    rc.mesh = RB_MESH_UNIFORM;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    const double steady = s.force_ratio;
+    rb_rolling_solution_free(&s);
+    rc.formulation = RB_TRANSIENT;
+    rc.distance = 4.0;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
+    CHECK_ABS(s.force_ratio, steady, 2e-3, "transient");
+    for (int i = 0; i < s.n; i++) {
+        const double part = (s.temperature[i] - 20.0) / 400.0;
+        const double mu = 0.3 - 0.18 * (s.p[i] > 0.0 ? fmin(fmax(part, 0.0), 1.0) : 0.0);
+        CHECK_ABS(s.mu[i], mu, 1e-9, "element %d", i);
+    }
+    rb_rolling_solution_free(&s);
+}
+
+/* ---- Refusals -----------------------------------------------------------------------
+ */
+
+static void refused(const rb_rolling_case *rc, const char *says)
+{
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_case_check(rc, &why), RB_EINVAL);
+    if (!strstr(why.text, says))
+        fail_msg("'%s' does not say '%s'", why.text, says);
+}
+
+static void bad_laws_are_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rail(100.0);
+    rc.friction.fall[0] = -0.2;
+    refused(&rc, "expected mu >= 0 everywhere, got -0.02");
+    rc = rail(-1.0);
+    refused(&rc, "a slip scale > 0 for each fall");
+    rc = rail(100.0);
+    rc.speed = 0.0;
+    refused(&rc, "needs the speed of rolling");
+    rc = rail(100.0);
+    rc.friction.memory = 1.0;
+    refused(&rc, "a distance >= 0 and a velocity > 0");
+    rc = warm(1.0);
+    rc.friction.heat = -0.31;
+    refused(&rc, "expected mu >= 0 everywhere, got -0.01");
+    rc = warm(1.0);
+    rc.friction.heat_range = 0.0;
+    refused(&rc, "a range > 0");
+    rc = warm(1.0);
+    rc.heat_a.conductivity = 0.0;
+    refused(&rc, "needs temperatures");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coefficients_follow_from_the_slip),
+        cmocka_unit_test(ratios_refer_to_the_largest_coefficient),
+        cmocka_unit_test(the_rail_case_is_met),
+        cmocka_unit_test(steep_laws_have_two_solutions),
+        cmocka_unit_test(a_force_is_met_on_the_rising_branch),
+        cmocka_unit_test(the_largest_force_is_told),
+        cmocka_unit_test(steps_remember_their_friction),
+        cmocka_unit_test(a_step_has_two_starts),
+        cmocka_unit_test(warm_surfaces_have_another_friction),
+        cmocka_unit_test(steps_become_warm),
+        cmocka_unit_test(bad_laws_are_refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
