@@ -266,7 +266,7 @@ static void a_purpose_refuses_what_means_nothing_to_it(void **state)
         {RB_CASE_CURVE, "load=500 formulation=static", "one of steady rolling"},
         {RB_CASE_CURVE, "load=500 accuracy=0.1", "a curve has --error"},
         {RB_CASE_STRESS, "load=500 accuracy=0.1", "does not refine"},
-        {RB_CASE_STUDY, "load=500 error=yes", "studies have no error bars"},
+        {RB_CASE_STUDY, "load=500 accuracy=0.01", "a study has --error"},
         {RB_CASE_STUDY, "load=500 formulation=transient distance=1",
          "--formulation: a study is one of static or steady cases"},
     };

@@ -32,11 +32,11 @@ static rb_status make(int k, rb_rolling_case *rc, void *context)
     return RB_OK;
 }
 
-static int see(int k, const rb_rolling_solution *row, void *context)
+static int see(int k, const rb_rolling_row *row, void *context)
 {
     record *r = context;
     assert_int_equal(k, r->first + r->seen); /* in order */
-    r->row[r->seen++] = *row;
+    r->row[r->seen++] = row->solution;
     return r->seen == r->stop_at;
 }
 
@@ -131,7 +131,14 @@ static const struct {
     {"--vary-1 'mu 0.1 -1'", 65, "case 2: mu: expected a number >= 0"},
     {"--vary-1 'mu 0.1' --vary-2 'mu 0.2'", 65, "'mu' varies already"},
     {"--vary-1 'half-width 1'", 64, "exclude each other"},
-    {"--vary-1 'mu 0.1' --error", 64, "--error: studies have no error bars"},
+    {"--vary-1 'mu 0.1' --accuracy 1e-3", 64, "--accuracy: a study has --error"},
+    {"--vary-1 'mu 0.1' --results error_approach", 64, "'error_approach' needs --error"},
+    {"--vary-1 'mu 0.1' --error --results error_peclet", 64, "peclet has no error bar"},
+    {"--vary-1 'mu 0.1' --error --results error_approch", 64,
+     "(did you mean 'error_approach'?)"},
+    {"--vary-1 'mu 0.1' --layer-thickness 1 --base-young 1e5 --base-poisson .3 "
+     "--results von_mises",
+     64, "inside a homogeneous elastic body only"},
     {"--cases nowhere", 66, "nowhere: No such file"},
     {"--vary-1 'mu 0:1:10000000' --vary-2 'load 1:2:10000000'", 65, "at most 1e8"},
     {"--vary-1 'mu 0.1' --output /no/such/file", 73,
@@ -495,6 +502,46 @@ static void what_cannot_be_drawn_is_refused(void **state)
     check_refused(STUDY "--cases one --plot a.png", 66, "one: No such file");
 }
 
+/* The same numbers as those of a single case: its largest stresses and its error bars. */
+static void rows_have_stresses_and_error_bars(void **state)
+{
+    (void)state;
+#define SLIDING                                                                          \
+    "--support halfplane --similar --mu 0.3 --formulation steady "                       \
+    "--creep-ratio 0.5 --contact-elements 40 --error "
+    json_t *root = run_json("sweep " SLIDING "--vary-1 'load 100 400' --units si "
+                            "--results max_shear,max_shear_y,tension");
+    const json_t *table = json_object_get(root, "table");
+    json_t *one = run_json("stress " SLIDING "--load 400 --units si");
+    const json_t *shear = json_object_get(json_object_get(one, "maxima"), "max_shear"),
+                 *bar = json_object_get(shear, "errors");
+    CHECK_REL(entry(table, "max_shear_Pa", 1), number_in(shear, "value"), 1e-12, "shear");
+    CHECK_REL(entry(table, "max_shear_y_m", 1), number_in(shear, "y"), 1e-12, "depth");
+    CHECK_REL(entry(table, "error_max_shear_Pa", 1), number_in(bar, "value"), 1e-12,
+              "error bar of the shear");
+    json_decref(one);
+    one = run_json(SLIDING "--load 400 --units si");
+    const json_t *errors = json_object_get(json_object_get(one, "summary"), "errors");
+    CHECK_REL(entry(table, "error_half_width_m", 1), number_in(errors, "half_width"),
+              1e-12, "error bar of the half-width");
+    CHECK_REL(entry(table, "error_force_ratio", 1), number_in(errors, "force_ratio"),
+              1e-12, "error bar of the force");
+    CHECK_REL(entry(table, "max_shear_Pa", 1) / entry(table, "max_shear_Pa", 0), 2.0,
+              1e-6, "stress goes as the root of the load");
+    json_decref(one);
+    json_decref(root);
+    double at[20][3];
+    assert_int_equal(rollbem("sweep " SLIDING "--vary-1 'load 100 400 900' --plot e.svg "
+                             "--show error_max_shear --plot-script e.gp --output e.tsv"),
+                     0);
+    assert_int_equal(read_block("e.gp", "curve0", 2, at), 3);
+    assert_true(at[0][1] > 0.0 && at[2][1] > at[0][1]);
+    assert_int_equal(rollbem("sweep " SLIDING "--vary-1 'load 100 400 900' --plot e.svg "
+                             "--show error_max_shear --plot-script e.gp --output e.tsv"),
+                     0);
+    assert_non_null(strstr(err, "e.tsv holds 3 of 3 cases"));
+}
+
 static void an_empty_file_is_a_start(void **state)
 {
     (void)state;
@@ -582,6 +629,7 @@ int main(void)
         cmocka_unit_test(a_resumed_study_draws_all_its_rows),
         cmocka_unit_test(unsolved_cases_leave_holes),
         cmocka_unit_test(what_cannot_be_drawn_is_refused),
+        cmocka_unit_test(rows_have_stresses_and_error_bars),
         cmocka_unit_test(an_empty_file_is_a_start),
         cmocka_unit_test(a_long_command_line_is_resumed),
         cmocka_unit_test(files_of_the_case_belong_to_the_study),

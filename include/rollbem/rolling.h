@@ -503,8 +503,9 @@ extern const rb_rolling_results rb_rolling_patch_scalars;
 extern const rb_rolling_results rb_rolling_history_columns, rb_rolling_curve_columns;
 /* Of rb_rolling_wear_history, an entry per step. */
 extern const rb_rolling_results rb_rolling_wear_columns;
-/* Of rb_rolling_stress, at a point. */
-extern const rb_rolling_results rb_rolling_stress_scalars;
+/* Of rb_rolling_stress, at a point, and of rb_rolling_stress_maxima: of each largest
+ * value three rows, itself and its place. */
+extern const rb_rolling_results rb_rolling_stress_scalars, rb_rolling_maxima_scalars;
 
 /* 1 where the case has that result. */
 int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc);
@@ -903,16 +904,28 @@ rb_status rb_rolling_solve_model_again(const rb_rolling_case *rc, rb_rolling_mod
 
 /* ---- Parameter studies ----------------------------------------------------------- */
 
+/* What a study keeps of a case: numbers, NAN where there is none, and no columns. */
+typedef struct {
+    rb_rolling_solution solution;    /* with the status of the case */
+    rb_rolling_errors errors;        /* NAN but with RB_ROW_ERRORS */
+    rb_rolling_stress_maxima stress; /* NAN but with RB_ROW_STRESS */
+} rb_rolling_row;
+
+enum { RB_ROW_ERRORS = 1, RB_ROW_STRESS = 2 }; /* bits */
+
+/* From mm, N, MPa to other units. */
+void rb_rolling_row_convert(rb_rolling_row *row, rb_units units);
+
 /* Cases first ... first + count - 1, by processes of this machine (0: as many as it has
  * processors), one thread each.  make runs in them, see and tick in the caller: see gets
  * the rows in order, tick comes every few milliseconds with the number seen; a value
  * other than 0 ends the run.  A process that dies is replaced and its case tried once
- * more; where it dies of it again, the case is left with RB_ENOMEM.  Rows are solutions
- * without columns; numbers are NAN where there is none. */
+ * more; where it dies of it again, the case is left with RB_ENOMEM. */
 typedef struct {
     int first, count, workers;
+    unsigned also; /* what rows have besides the solution: bits of RB_ROW_... */
     rb_status (*make)(int k, rb_rolling_case *rc, void *context);
-    int (*see)(int k, const rb_rolling_solution *row, void *context);
+    int (*see)(int k, const rb_rolling_row *row, void *context);
     int (*tick)(int seen, void *context); /* or NULL */
     void *context;
 } rb_rolling_sweep;
@@ -927,7 +940,7 @@ typedef struct rb_rolling_pool {
     /* 1: the row of case *k; 0: none came within so many milliseconds; a negative
      * status: the pool cannot go on. */
     int (*collect)(struct rb_rolling_pool *pool, int milliseconds, int *k,
-                   rb_rolling_solution *row);
+                   rb_rolling_row *row);
     void (*stop)(struct rb_rolling_pool *pool); /* at once; its memory goes as well */
 } rb_rolling_pool;
 

@@ -176,14 +176,14 @@ static rb_status make_columns(rb_api *a, int rows)
     return made ? RB_OK : RB_ENOMEM;
 }
 
-static int see_row(int k, const rb_rolling_solution *row, void *context)
+static int see_row(int k, const rb_rolling_row *row, void *context)
 {
     const study *st = context;
     const rb_rolling_results *table = &rb_rolling_solution_scalars;
-    column_of(st->a, "status")->at[k] = row->status;
+    column_of(st->a, "status")->at[k] = row->solution.status;
     for (int j = 0; j < table->n; j++)
         column_of(st->a, table->row[j].name)->at[k] =
-            rb_rolling_number(&table->row[j], row);
+            rb_rolling_number(&table->row[j], &row->solution);
     return 0;
 }
 
@@ -216,6 +216,11 @@ int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
     for (int k = 0; k < n && s == RB_OK; k++)
         if ((s = (rb_status)rb_api_settle(cases[k])) != RB_OK)
             rb_fail(&a->why, s, "case %d: %.580s", k + 1, rb_api_message(cases[k]));
+        else if (rb_case_settled(cases[k]->words)->error)
+            s = rb_fail(&a->why, RB_EINVAL,
+                        "case %d: error: these studies have no error bars; rollbem sweep "
+                        "has",
+                        k + 1);
     if (s == RB_OK && n > 0)
         s = make_columns(a, n);
     if (s == RB_OK)

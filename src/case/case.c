@@ -731,8 +731,7 @@ static const struct {
     {RB_CASE_WEAR, "history", "the cycles have their own"},
     {RB_CASE_WEAR, "increments", "the cycles have their own, --quarter"},
     {RB_CASE_WEAR, "conductivity", "wear has no temperatures"},
-    {RB_CASE_STUDY, "error", "studies have no error bars"},
-    {RB_CASE_STUDY, "accuracy", "studies have no error bars"},
+    {RB_CASE_STUDY, "accuracy", "a study has --error, but does not refine"},
     {RB_CASE_STUDY, "history", "a study has none"},
 };
 

@@ -9,7 +9,8 @@
 
 #include <inttypes.h>
 
-enum { VARIED_MAX = 4, COLUMNS_MAX = 64, RESULTS_MAX = 64 };
+enum { VARIED_MAX = 4, COLUMNS_MAX = 64, RESULTS_MAX = 128 };
+enum { STUDY_HEADING = RB_ROLLING_HEADING + 8 };
 
 typedef struct {
     const char *vary[VARIED_MAX], *cases, *output, *results;
@@ -27,6 +28,13 @@ typedef struct {
     const double *value; /* one per row of the factor */
 } study_column;
 
+/* A column behind the status: a number of the solution or of the largest stresses, or its
+ * error bar. */
+typedef struct {
+    const rb_rolling_result *r;
+    int of_stress, is_error;
+} study_result;
+
 typedef struct {
     const rb_case *base;
     rb_case *one; /* the case at hand: a copy of base with its own numbers */
@@ -37,7 +45,7 @@ typedef struct {
     int rows[VARIED_MAX + 1]; /* of each factor */
     double *owned[VARIED_MAX];
     rb_io_table table;
-    const rb_rolling_result *result[RESULTS_MAX]; /* columns behind the status */
+    study_result result[RESULTS_MAX];
     int results;
     int over, family; /* columns of the pictures; -1: none */
     int drawn_column;

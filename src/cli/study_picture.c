@@ -65,6 +65,14 @@ static int bodies_vary(const study *st)
     return 0;
 }
 
+/* "error_max_pressure" of an error bar. */
+static const char *name_of(const study_result *result, char room[STUDY_HEADING])
+{
+    snprintf(room, STUDY_HEADING, "%s%s", result->is_error ? "error_" : "",
+             result->r->name);
+    return room;
+}
+
 typedef rb_status see_picture(const rb_report_study *picture, const void *context,
                               rb_message *why);
 
@@ -73,7 +81,8 @@ static rb_status with_picture(const study *st, see_picture *see, const void *con
                               rb_message *why)
 {
     const rb_settled_case *c = rb_case_settled(st->base);
-    const rb_rolling_result *shown = st->result[st->drawn_column - st->columns - 2];
+    const study_result *shown = &st->result[st->drawn_column - st->columns - 2];
+    char name[STUDY_HEADING];
     double *value = rb_alloc((size_t)st->cases, 2);
     if (!value)
         return rb_fail(why, RB_ENOMEM, "out of memory");
@@ -81,7 +90,8 @@ static rb_status with_picture(const study *st, see_picture *see, const void *con
         .n = st->cases,
         .x = axis_of(st, st->over, value),
         .y = axis_of(st, st->family, value + st->cases),
-        .shown = {shown->name, shown->unit ? rb_unit_name(c->units, shown->unit) : "",
+        .shown = {name_of(shown, name),
+                  shown->r->unit ? rb_unit_name(c->units, shown->r->unit) : "",
                   st->drawn},
         .rc = bodies_vary(st) ? NULL : &c->rc,
         .units = c->units};
@@ -106,6 +116,7 @@ static cli_exit check_kind(const study *st, const char *option, int map)
 cli_exit cli_study_prepare_pictures(study *st)
 {
     const study_options *o = st->o;
+    char name[STUDY_HEADING];
     if (!cli_study_has_pictures(st))
         return o->show || o->over || o->family
                    ? cli_fail(CLI_USAGE,
@@ -116,7 +127,7 @@ cli_exit cli_study_prepare_pictures(study *st)
                                         : "family")
                    : CLI_CONTINUE;
     for (int j = 0; j < st->results; j++)
-        if (strcmp(st->result[j]->name, cli_study_shown(st)) == 0)
+        if (strcmp(name_of(&st->result[j], name), cli_study_shown(st)) == 0)
             st->drawn_column = st->columns + 2 + j;
     cli_exit code = choose_axis(st, "over", o->over, -1, &st->over);
     if (code == CLI_CONTINUE && st->over < 0)

@@ -30,8 +30,8 @@ static const rb_option options[] = {
                  "a case per row; the columns are named like the options",
                  .unset = "none", .file = RB_FILE_READ),
     RB_TEXT_LINE("results", PLACE(results), "A,B,...",
-                 "further results, by their names in JSON's `summary`: stick_length, "
-                 "contact_from, residual_slip, ...",
+                 "further results, by their names in JSON's `summary` or `maxima`: "
+                 "stick_length, contact_from, max_shear, von_mises, max_shear_y, ...",
                  .unset = "none"),
     RB_TEXT_LINE("plot", PLACE(plot), "FILE",
                  "picture of a result over an option that varies: .png, .svg or .pdf",
@@ -75,7 +75,9 @@ static const char about[] =
     "\n" CLI_CASE_SIGNS;
 
 static const char notes[] = CLI_CASE_NOTES
-    "Columns: case, the varied options, status (0 solved), then results.\n"
+    "Columns: case, the varied options, status (0 solved), then results and, with "
+    "--error,\n"
+    "their error bars.\n"
     "Example: rollbem sweep --similar --support halfplane --formulation steady \\\n"
     "           --load 500 --vary-1 'mu 0.1 0.3' --vary-2 'creep-ratio 0:1.5:31'\n"
     "         rollbem sweep examples/rail/case.ini --vary-1 'load 2000:20000:10' \\\n"
@@ -160,41 +162,79 @@ static int is_given(const study *st, const char *name)
     return 0;
 }
 
-static int is_chosen(const study *st, const rb_rolling_result *r)
+static void choose(study *st, study_result wanted)
 {
     for (int k = 0; k < st->results; k++)
-        if (st->result[k] == r)
-            return 1;
-    return 0;
+        if (st->result[k].r == wanted.r && st->result[k].is_error == wanted.is_error)
+            return;
+    if (st->results < RESULTS_MAX)
+        st->result[st->results++] = wanted;
 }
 
+/* "error_max_pressure" is the error bar of max_pressure, which comes along. */
 static cli_exit choose_by_name(study *st, const char *option, const char *name)
 {
-    rb_guess guess = {.word = name};
-    const rb_rolling_results *all = &rb_rolling_solution_scalars;
-    for (int k = 0; k < all->n; k++) {
-        rb_guess_try(&guess, all->row[k].name);
-        if (strcmp(all->row[k].name, name) != 0)
-            continue;
-        if (!is_chosen(st, &all->row[k]) && st->results < RESULTS_MAX)
-            st->result[st->results++] = &all->row[k];
-        return CLI_CONTINUE;
-    }
+    const int bar = strncmp(name, "error_", 6) == 0;
+    const char *own = bar ? name + 6 : name;
+    rb_guess guess = {.word = own};
+    const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars,
+                                          &rb_rolling_maxima_scalars};
+    if (bar && !rb_case_settled(st->base)->error)
+        return cli_fail(CLI_USAGE, "--%s: '%s' needs --error", option, name);
+    for (int t = 0; t < 2; t++)
+        for (int k = 0; k < tables[t]->n; k++) {
+            const rb_rolling_result *r = &tables[t]->row[k];
+            rb_guess_try(&guess, r->name);
+            if (strcmp(r->name, own) != 0)
+                continue;
+            choose(st, (study_result){r, t == 1, 0});
+            return bar && !r->error_bar
+                       ? cli_fail(CLI_USAGE, "--%s: %s has no error bar", option, own)
+                       : CLI_CONTINUE;
+        }
     return cli_fail(CLI_USAGE, "--%s: no result '%s'%s", option, name,
-                    rb_guess_text(&guess, ""));
+                    rb_guess_text(&guess, bar ? "error_" : ""));
 }
 
 /* The next of --results, whose name ends at *at. */
 static cli_exit choose_next(study *st, const char **at)
 {
-    char name[40];
-    const size_t n = strcspn(*at, ",");
-    snprintf(name, sizeof name, "%.*s", (int)(n < 39 ? n : 39), *at);
+    char name[STUDY_HEADING];
+    const size_t n = strcspn(*at, ","), most = sizeof name - 1;
+    snprintf(name, sizeof name, "%.*s", (int)(n < most ? n : most), *at);
     *at += n + ((*at)[n] == ',');
     return choose_by_name(st, "results", name);
 }
 
-/* Those that the cases have and no option names, then those of --results. */
+static cli_exit choose_shown(study *st)
+{
+    const char *shown = cli_study_shown(st);
+    return is_given(st, shown)
+               ? cli_fail(CLI_USAGE, "--show: %s varies; expected a result", shown)
+               : choose_by_name(st, "show", shown);
+}
+
+static void choose_error_bars(study *st)
+{
+    const int n = st->results;
+    for (int k = 0; k < n; k++)
+        if (st->result[k].r->error_bar)
+            choose(st, (study_result){st->result[k].r, st->result[k].of_stress, 1});
+}
+
+/* Stress below a layer is not known; what else is wrong is known with the first case. */
+static cli_exit check_stress(const study *st)
+{
+    rb_message why;
+    const rb_status s = rb_rolling_stress_check(&rb_case_settled(st->one)->rc, &why);
+    for (int k = 0; k < st->results; k++)
+        if (st->result[k].of_stress && s != RB_OK)
+            return cli_case_refused(st->one, s, &why);
+    return CLI_CONTINUE;
+}
+
+/* Those that the cases have and no option names, then those of --results and --show, then
+ * the error bars of all. */
 static cli_exit choose_results(study *st)
 {
     const rb_settled_case *one = rb_case_settled(st->one);
@@ -203,17 +243,15 @@ static cli_exit choose_results(study *st)
     cli_exit code = CLI_CONTINUE;
     for (int k = 1; (r = rb_rolling_study_column(k)); k++)
         if (rb_rolling_has_result(r, &one->rc) &&
-            !is_given(st, rb_rolling_heading(r, one->units, heading)) &&
-            st->results < RESULTS_MAX)
-            st->result[st->results++] = r;
+            !is_given(st, rb_rolling_heading(r, one->units, heading)))
+            choose(st, (study_result){r, 0, 0});
     for (const char *at = st->o->results; at && *at && code == CLI_CONTINUE;)
         code = choose_next(st, &at);
     if (code == CLI_CONTINUE && cli_study_has_pictures(st))
-        code = is_given(st, cli_study_shown(st))
-                   ? cli_fail(CLI_USAGE, "--show: %s varies; expected a result",
-                              cli_study_shown(st))
-                   : choose_by_name(st, "show", cli_study_shown(st));
-    return code;
+        code = choose_shown(st);
+    if (code == CLI_CONTINUE && one->error)
+        choose_error_bars(st);
+    return code == CLI_CONTINUE ? check_stress(st) : code;
 }
 
 /* Columns: the number of the case, what varies, the status, the results. */
@@ -222,37 +260,44 @@ static int column_count(const study *st)
     return 1 + st->columns + 1 + st->results;
 }
 
-static const char *column_name(const study *st, int j, char room[RB_ROLLING_HEADING])
+static const char *column_name(const study *st, int j, char room[STUDY_HEADING])
 {
+    char heading[RB_ROLLING_HEADING];
     if (j == 0)
         return "case";
     if (j <= st->columns)
         return st->column[j - 1].heading;
-    return j == st->columns + 1
-               ? "status"
-               : rb_rolling_heading(st->result[j - st->columns - 2],
-                                    rb_case_settled(st->base)->units, room);
+    if (j == st->columns + 1)
+        return "status";
+    const study_result *result = &st->result[j - st->columns - 2];
+    snprintf(room, STUDY_HEADING, "%s%s", result->is_error ? "error_" : "",
+             rb_rolling_heading(result->r, rb_case_settled(st->base)->units, heading));
+    return room;
 }
 
 /* row NULL: what is known before the case is solved. */
-static double cell_value(const study *st, int j, int k, const rb_rolling_solution *row)
+static double cell_value(const study *st, int j, int k, const rb_rolling_row *row)
 {
     if (j == 0)
         return k + 1;
     if (j <= st->columns)
         return cli_study_value(st, &st->column[j - 1], k);
-    return j == st->columns + 1 ? (double)row->status
-                                : rb_rolling_number(st->result[j - st->columns - 2], row);
+    if (j == st->columns + 1)
+        return (double)row->solution.status;
+    const study_result *result = &st->result[j - st->columns - 2];
+    const void *owner = result->of_stress  ? result->is_error
+                                                 ? (const void *)&row->errors.stress
+                                                 : (const void *)&row->stress
+                        : result->is_error ? (const void *)&row->errors.scalar
+                                           : (const void *)&row->solution;
+    return rb_rolling_number(result->r, owner);
 }
-
-/* ---- The table ------------------------------------------------------------------------
- */
 
 enum { HEAD_LINES = 5, COMMAND_LINE = 2 };
 
 static void write_head(const study *st, FILE *out)
 {
-    char room[RB_ROLLING_HEADING];
+    char room[STUDY_HEADING];
     rb_report_cells c = rb_report_cells_begin(out, &st->o->style, "");
     for (int j = 0; j < column_count(st); j++)
         rb_report_cell_text(&c, column_name(st, j, room));
@@ -280,13 +325,13 @@ static void count_status(study *st, rb_status status)
     st->worst = code > st->worst ? code : st->worst;
 }
 
-static int see_row(int k, const rb_rolling_solution *row, void *context)
+static int see_row(int k, const rb_rolling_row *row, void *context)
 {
     study *st = context;
     rb_report_cells c = {.out = st->out, .style = st->o->style};
-    rb_rolling_solution shown = *row;
+    rb_rolling_row shown = *row;
 
-    rb_rolling_solution_convert(&shown, rb_case_settled(st->base)->units);
+    rb_rolling_row_convert(&shown, rb_case_settled(st->base)->units);
     for (int j = 0; j < column_count(st); j++) {
         const double x = cell_value(st, j, k, &shown);
         if (st->drawn && j == st->drawn_column)
@@ -299,7 +344,7 @@ static int see_row(int k, const rb_rolling_solution *row, void *context)
     }
     if (st->o->style.format != RB_REPORT_JSON)
         rb_report_cells_end_row(&c);
-    count_status(st, row->status);
+    count_status(st, row->solution.status);
     return ferror(st->out);
 }
 
@@ -314,7 +359,7 @@ static cli_exit begin_json(study *st)
 
 static rb_status write_json(study *st)
 {
-    char room[RB_ROLLING_HEADING];
+    char room[STUDY_HEADING];
     json_t *root = rb_report_json_start(cli_command_line()), *table = json_object();
     for (int j = 0; j < column_count(st); j++) {
         json_t *list = json_array_get(st->list, (size_t)j);
@@ -594,7 +639,12 @@ static cli_exit close_output(study *st, cli_exit code)
 
 static rb_rolling_sweep sweep_of(study *st)
 {
+    unsigned also = rb_case_settled(st->base)->error ? RB_ROW_ERRORS : 0;
+    for (int k = 0; k < st->results; k++)
+        if (st->result[k].of_stress)
+            also |= RB_ROW_STRESS;
     return (rb_rolling_sweep){.first = st->first,
+                              .also = also,
                               .count = st->cases - st->first,
                               .workers = st->o->jobs,
                               .make = make_case,

@@ -16,7 +16,7 @@ enum { STOP = -1 };
 
 typedef struct {
     int k;
-    rb_rolling_solution row;
+    rb_rolling_row row;
 } message;
 
 static int active, rank, size, stopped;
@@ -148,8 +148,7 @@ static rb_status submit(rb_rolling_pool *pool, int k)
     return RB_OK;
 }
 
-static int collect(rb_rolling_pool *pool, int milliseconds, int *k,
-                   rb_rolling_solution *row)
+static int collect(rb_rolling_pool *pool, int milliseconds, int *k, rb_rolling_row *row)
 {
     ranks *all = ranks_of(pool);
     MPI_Status from;

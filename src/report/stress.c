@@ -11,21 +11,18 @@ int rb_report_stress_is_inside(const rb_report_stress *s, int k)
 
 /* ---- Maxima ------------------------------------------------------------------------ */
 
-static const struct {
-    const char *key, *name;
-    size_t offset; /* in rb_rolling_stress_maxima */
-} maxima[] = {
-    {"max_shear", "maximum shear", offsetof(rb_rolling_stress_maxima, max_shear)},
-    {"von_mises", "von Mises", offsetof(rb_rolling_stress_maxima, von_mises)},
-    {"orthogonal_shear", "orthogonal shear |sxy|",
-     offsetof(rb_rolling_stress_maxima, orthogonal_shear)},
-    {"tension", "largest principal stress", offsetof(rb_rolling_stress_maxima, tension)}};
-
-enum { MAXIMA = sizeof maxima / sizeof maxima[0] };
-
-static const rb_rolling_extremum *extremum(const rb_rolling_stress_maxima *all, int k)
+/* The k-th of the largest values, in the first of its three rows; NULL: no more. */
+static const rb_rolling_result *maximum(int k)
 {
-    return (const rb_rolling_extremum *)((const char *)all + maxima[k].offset);
+    return 3 * k < rb_rolling_maxima_scalars.n ? &rb_rolling_maxima_scalars.row[3 * k]
+                                               : NULL;
+}
+
+static rb_rolling_extremum extremum(const rb_rolling_stress_maxima *all, int k)
+{
+    const rb_rolling_result *r = maximum(k);
+    return (rb_rolling_extremum){rb_rolling_number(r, all), rb_rolling_number(r + 1, all),
+                                 rb_rolling_number(r + 2, all)};
 }
 
 /* "value +- error" */
@@ -40,11 +37,12 @@ static const char *quantity(double value, const double *error, char text[48])
 
 static const char *maximum_text(const rb_report_stress *s, int k, char *line, size_t size)
 {
-    const rb_rolling_extremum *m = extremum(s->maxima, k);
-    const rb_rolling_extremum *e = s->errors ? extremum(s->errors, k) : NULL;
+    const rb_rolling_extremum of = extremum(s->maxima, k), *m = &of;
+    const rb_rolling_extremum bar = s->errors ? extremum(s->errors, k) : of;
+    const rb_rolling_extremum *e = s->errors ? &bar : NULL;
     char value[48], x[48], y[48];
-    snprintf(line, size, "%-24s %s %s at x = %s %s, y = %s %s; %.5g p0", maxima[k].name,
-             quantity(m->value, e ? &e->value : NULL, value),
+    snprintf(line, size, "%-24s %s %s at x = %s %s, y = %s %s; %.5g p0",
+             maximum(k)->meaning, quantity(m->value, e ? &e->value : NULL, value),
              rb_unit_name(s->s->units, "MPa"), quantity(m->x, e ? &e->x : NULL, x),
              rb_unit_name(s->s->units, "mm"), quantity(m->y, e ? &e->y : NULL, y),
              rb_unit_name(s->s->units, "mm"), m->value / s->s->max_pressure);
@@ -73,7 +71,7 @@ void rb_report_stress_summary(FILE *out, const rb_report_stress *s)
     fprintf(out, "stress in A under p0 = %.6g %s, a = %.5g %s\n", s->s->max_pressure,
             rb_unit_name(s->s->units, "MPa"), s->s->half_width,
             rb_unit_name(s->s->units, "mm"));
-    for (int k = 0; k < MAXIMA; k++)
+    for (int k = 0; maximum(k); k++)
         fprintf(out, "  %s\n", maximum_text(s, k, line, sizeof line));
     if (s->shakedown)
         fprintf(out, "  %s\n", shakedown_text(s, line, sizeof line));
@@ -96,7 +94,7 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s,
     rb_report_comment_notes(&c, s->rc, s->s);
     rb_report_comment(&c,
                       "tension positive; y > 0 inside A; the grid follows A's surface");
-    for (int k = 0; k < MAXIMA; k++)
+    for (int k = 0; maximum(k); k++)
         rb_report_comment(&c, "%s", maximum_text(s, k, line, sizeof line));
     if (s->shakedown)
         rb_report_comment(&c, "%s", shakedown_text(s, line, sizeof line));
@@ -112,23 +110,23 @@ rb_status rb_report_stress_table(FILE *out, const rb_report_stress *s,
 
 /* ---- JSON -------------------------------------------------------------------------- */
 
-static json_t *json_extremum(const rb_rolling_extremum *m)
+static json_t *json_extremum(rb_rolling_extremum m)
 {
     json_t *object = json_object();
-    rb_report_json_set(&object, "value", rb_report_json_number(m->value));
-    rb_report_json_set(&object, "x", rb_report_json_number(m->x));
-    rb_report_json_set(&object, "y", rb_report_json_number(m->y));
+    rb_report_json_set(&object, "value", rb_report_json_number(m.value));
+    rb_report_json_set(&object, "x", rb_report_json_number(m.x));
+    rb_report_json_set(&object, "y", rb_report_json_number(m.y));
     return object;
 }
 
 static json_t *json_maxima(const rb_report_stress *s)
 {
     json_t *all = json_object();
-    for (int k = 0; k < MAXIMA; k++) {
+    for (int k = 0; maximum(k); k++) {
         json_t *one = json_extremum(extremum(s->maxima, k));
         if (s->errors)
             rb_report_json_set(&one, "errors", json_extremum(extremum(s->errors, k)));
-        rb_report_json_set(&all, maxima[k].key, one);
+        rb_report_json_set(&all, maximum(k)->name, one);
     }
     return all;
 }

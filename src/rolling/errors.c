@@ -243,13 +243,6 @@ static void add_parts(const error_parts *parts, rb_rolling_errors *errors)
     }
 }
 
-static void set_unknown(rb_rolling_errors *errors)
-{
-    errors->scalar = rb_rolling_no_scalars(RB_OK);
-    for (size_t k = 0; k < STRESS_NUMBERS; k++)
-        put(&errors->stress, k * sizeof(double), NAN);
-}
-
 /* ---- One case and its error bars
  * -------------------------------------------------------
  */
@@ -300,7 +293,7 @@ rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, int with_stres
     rb_status status = rb_rolling_error_check(rc, why);
 
     memset(solution, 0, sizeof *solution);
-    set_unknown(errors);
+    *errors = rb_rolling_no_row(RB_OK).errors;
     if (status == RB_OK)
         status = solve_parts(rc, with_stress, solution, &parts, why);
     if (status == RB_OK)
@@ -365,7 +358,7 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
     rb_status status = rb_rolling_error_check(rc, why);
 
     memset(solution, 0, sizeof *solution);
-    set_unknown(errors);
+    *errors = rb_rolling_no_row(RB_OK).errors;
     *elements = 0;
     if (status == RB_OK && !(accuracy > 0.0 && accuracy < 1.0))
         status =

@@ -188,6 +188,8 @@ void rb_rolling_heat_track_free(rb_rolling_heat_track *track);
 /* A solution without columns: of numbers that are not there (NAN), or those of another.
  */
 rb_rolling_solution rb_rolling_no_scalars(rb_status status);
+/* The same of a row: NAN throughout. */
+rb_rolling_row rb_rolling_no_row(rb_status status);
 rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *s);
 
 /* Zeros for every column of the table that the case has; the owner's others stay NULL.

@@ -38,18 +38,38 @@ static processes *processes_of(rb_rolling_pool *pool)
 /* ---- One worker -----------------------------------------------------------------------
  */
 
-static void solve_case(const rb_rolling_sweep *sweep, int k, rb_rolling_solution *row)
+/* What a row has besides the solution. */
+static rb_status measure(unsigned also, const rb_rolling_case *rc,
+                         const rb_rolling_model *model, rb_rolling_row *row)
+{
+    const int with_stress = (also & RB_ROW_STRESS) != 0;
+    rb_status s = RB_OK;
+
+    if (with_stress)
+        s = rb_rolling_stress_maxima_find(model, 0.0, &row->stress, NULL);
+    if (s == RB_OK && also & RB_ROW_ERRORS) {
+        rb_rolling_solution again;
+        s = rb_rolling_solve_with_errors(rc, with_stress, &again, &row->errors, NULL);
+        rb_rolling_solution_free(&again);
+    }
+    return s;
+}
+
+static void solve_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row *row)
 {
     rb_rolling_case rc;
+    rb_rolling_model model = {0};
     rb_rolling_solution solution = {0};
     rb_status s = sweep->make(k, &rc, sweep->context);
 
+    *row = rb_rolling_no_row(s);
     if (s == RB_OK)
-        s = rb_rolling_solve(&rc, &solution, NULL);
-    *row = s >= 0 && solution.p ? rb_rolling_scalars_of(&solution)
-                                : rb_rolling_no_scalars(s);
-    row->status = s;
+        s = rb_rolling_solve_model(&rc, &model, &solution, NULL);
+    if (s >= 0 && solution.p)
+        row->solution = rb_rolling_scalars_of(&solution);
+    row->solution.status = s == RB_OK ? measure(sweep->also, &rc, &model, row) : s;
     rb_rolling_solution_free(&solution);
+    rb_rolling_model_free(&model);
 }
 
 /* 1: the whole of it; 0: the other end is gone. */
@@ -70,7 +90,7 @@ static int send_all(int to, const void *data, size_t size)
 
 static void run_worker(const rb_rolling_sweep *sweep, int parent)
 {
-    rb_rolling_solution row;
+    rb_rolling_row row;
     int k;
 
 #ifdef _OPENMP
@@ -154,7 +174,7 @@ static rb_status submit(rb_rolling_pool *pool, int k)
 
 /* Another worker takes the place of one that died, and its case; where that is its second
  * death, the case is given up. */
-static int replace_worker(processes *p, worker *w, int *k, rb_rolling_solution *row)
+static int replace_worker(processes *p, worker *w, int *k, rb_rolling_row *row)
 {
     const int lost = w->k, again = w->again;
     end_worker(w);
@@ -169,12 +189,12 @@ static int replace_worker(processes *p, worker *w, int *k, rb_rolling_solution *
         return 0;
     }
     *k = lost;
-    *row = rb_rolling_no_scalars(RB_ENOMEM);
+    *row = rb_rolling_no_row(RB_ENOMEM);
     return 1;
 }
 
 /* The row of a worker that has something to say, or has died. */
-static int collect_from(processes *p, worker *w, int *k, rb_rolling_solution *row)
+static int collect_from(processes *p, worker *w, int *k, rb_rolling_row *row)
 {
     if (!receive_all(w->socket, row, sizeof *row))
         return replace_worker(p, w, k, row);
@@ -183,8 +203,7 @@ static int collect_from(processes *p, worker *w, int *k, rb_rolling_solution *ro
     return 1;
 }
 
-static int collect(rb_rolling_pool *pool, int milliseconds, int *k,
-                   rb_rolling_solution *row)
+static int collect(rb_rolling_pool *pool, int milliseconds, int *k, rb_rolling_row *row)
 {
     processes *p = processes_of(pool);
     struct pollfd line[WORKERS_MAX];

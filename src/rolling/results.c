@@ -233,6 +233,21 @@ static const rb_rolling_result stresses[] = {
     STRESS("hydrostatic", hydrostatic, .unit = "MPa", .meaning = "a third of the trace"),
 };
 
+#define LARGEST(name, member, words)                                                     \
+    OF(rb_rolling_stress_maxima, name, member.value, .unit = "MPa",                      \
+       .error_bar = RB_SCALE_PRESSURE, .meaning = words),                                \
+        OF(rb_rolling_stress_maxima, name "_x", member.x, .unit = "mm",                  \
+           .error_bar = RB_SCALE_WIDTH, .meaning = "its place along the surface"),       \
+        OF(rb_rolling_stress_maxima, name "_y", member.y, .unit = "mm",                  \
+           .error_bar = RB_SCALE_WIDTH, .meaning = "its depth")
+
+static const rb_rolling_result maxima[] = {
+    LARGEST("max_shear", max_shear, "maximum shear"),
+    LARGEST("von_mises", von_mises, "von Mises"),
+    LARGEST("orthogonal_shear", orthogonal_shear, "orthogonal shear |sxy|"),
+    LARGEST("tension", tension, "largest principal stress"),
+};
+
 #define TABLE(rows)                                                                      \
     {                                                                                    \
         sizeof(rows) / sizeof *(rows), rows                                              \
@@ -244,6 +259,7 @@ const rb_rolling_results rb_rolling_history_columns = TABLE(steps);
 const rb_rolling_results rb_rolling_curve_columns = TABLE(points);
 const rb_rolling_results rb_rolling_wear_columns = TABLE(wears);
 const rb_rolling_results rb_rolling_stress_scalars = TABLE(stresses);
+const rb_rolling_results rb_rolling_maxima_scalars = TABLE(maxima);
 
 /* ---- Values ------------------------------------------------------------------------ */
 
@@ -370,17 +386,19 @@ void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units)
 }
 
 void rb_rolling_stress_convert(int n, rb_rolling_stress *at,
-                               rb_rolling_stress_maxima *maxima, rb_units units)
+                               rb_rolling_stress_maxima *largest, rb_units units)
 {
-    rb_rolling_extremum *const of[] = {&maxima->max_shear, &maxima->von_mises,
-                                       &maxima->orthogonal_shear, &maxima->tension};
     for (int k = 0; k < n && units != RB_UNITS_MM; k++)
         convert_scalars(&rb_rolling_stress_scalars, &at[k], units);
-    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
-        of[k]->value = rb_unit_shown(units, "MPa", of[k]->value);
-        of[k]->x = rb_unit_shown(units, "mm", of[k]->x);
-        of[k]->y = rb_unit_shown(units, "mm", of[k]->y);
-    }
+    convert_scalars(&rb_rolling_maxima_scalars, largest, units);
+}
+
+void rb_rolling_row_convert(rb_rolling_row *row, rb_units units)
+{
+    rb_rolling_solution_convert(&row->solution, units);
+    rb_rolling_solution_convert(&row->errors.scalar, units);
+    rb_rolling_stress_convert(0, NULL, &row->errors.stress, units);
+    rb_rolling_stress_convert(0, NULL, &row->stress, units);
 }
 
 /* ---- Owners ------------------------------------------------------------------------ */
@@ -392,6 +410,16 @@ rb_rolling_solution rb_rolling_no_scalars(rb_status status)
         if (scalars[i].kind != RB_RESULT_WHOLE)
             *(double *)place(&scalars[i], &s) = NAN;
     return s;
+}
+
+rb_rolling_row rb_rolling_no_row(rb_status status)
+{
+    rb_rolling_row row = {.solution = rb_rolling_no_scalars(status),
+                          .errors.scalar = rb_rolling_no_scalars(RB_OK)};
+    for (int i = 0; i < rb_rolling_maxima_scalars.n; i++)
+        *(double *)place(&maxima[i], &row.stress) =
+            *(double *)place(&maxima[i], &row.errors.stress) = NAN;
+    return row;
 }
 
 rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *from)

@@ -12,8 +12,8 @@ typedef struct {
     rb_rolling_pool *pool;
     int given, seen; /* cases handed out, rows seen; given - seen <= window */
     int window;
-    rb_rolling_solution *row; /* window: row of the k-th case at k modulo window */
-    char *came;               /* window */
+    rb_rolling_row *row; /* window: row of the k-th case at k modulo window */
+    char *came;          /* window */
 } run;
 
 static rb_status submit_cases(run *r)
@@ -31,7 +31,7 @@ static rb_status submit_cases(run *r)
 
 static rb_status collect(run *r)
 {
-    rb_rolling_solution row;
+    rb_rolling_row row;
     int k;
     const int came = r->pool->collect(r->pool, 5, &k, &row);
 
