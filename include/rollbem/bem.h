@@ -161,8 +161,11 @@ struct rb_bem_flexibility {
                            then tangential; NULL where there is none or F has it; owned */
     void (*apply)(const rb_bem_flexibility *f, const double *r, double *w); /* w = F r */
     rb_status (*matrix)(const rb_bem_flexibility *f, double *F, int ldf);   /* 2m x 2n */
+    /* Adds b, the mirror image, to a (but w0) where both are of this kind; 0: they are
+     * not.  NULL: no two of this kind become one. */
+    int (*add_mirrored)(rb_bem_flexibility *a, const rb_bem_flexibility *b);
     void (*free_data)(void *data);
-    void *data; /* owned, of the kind that the three functions know */
+    void *data; /* owned, of the kind that these functions know */
 };
 
 /* Condenses a cylinder's system to its contact: one solve with 2n right-hand sides. */

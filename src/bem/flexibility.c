@@ -1,7 +1,6 @@
 /* Flexibilities of the contact (B5): the interface, the dense matrix, the pair of bodies.
  */
 #include "bem/internal.h"
-#include "bem/toeplitz.h"
 
 #include <cblas.h>
 #include <math.h>
@@ -79,6 +78,27 @@ static rb_status dense_matrix(const rb_bem_flexibility *f, double *F, int ldf)
     return RB_OK;
 }
 
+/* Columns of B, mirrored, onto those of A, 2m x 2n each. */
+static void add_mirrored_columns(int n, int m, const double *B, double *A, int lda)
+{
+    const size_t rows = 2 * (size_t)m;
+
+    for (int j = 0; j < 2 * n; j++) {
+        const double sign = j < n ? 1.0 : -1.0, *b = B + (size_t)j * rows;
+        double *a = A + (size_t)j * (size_t)lda;
+        cblas_daxpy(m, sign, b, 1, a, 1);
+        cblas_daxpy(m, -sign, b + m, 1, a + m, 1);
+    }
+}
+
+static int dense_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
+{
+    if (b->apply != dense_apply)
+        return 0;
+    add_mirrored_columns(a->n, a->m, b->data, a->data, 2 * a->m);
+    return 1;
+}
+
 rb_status rb_bem_flexibility_dense(int n, rb_bem_flexibility *f, double **F)
 {
     rb_status s = rb_bem_flexibility_points(n, f);
@@ -88,6 +108,7 @@ rb_status rb_bem_flexibility_dense(int n, rb_bem_flexibility *f, double **F)
     }
     f->apply = dense_apply;
     f->matrix = dense_matrix;
+    f->add_mirrored = dense_add;
     f->free_data = free;
     if (s != RB_OK)
         rb_bem_flexibility_free(f);
@@ -144,7 +165,7 @@ rb_status rb_bem_flexibility_add_compliance(rb_bem_flexibility *f, const double 
 
 /* B's own frame is the mirror image: its tangential tractions and displacements are those
  * of the pair with the sign changed, which changes the sign of its coupling blocks.
- * Two operators of one kind become one (add_to_a); others stay side by side.
+ * Two operators of one kind become one; others stay side by side.
  * r, w: room for one product, so that such a pair serves one thread at a time. */
 typedef struct {
     rb_bem_flexibility a, b;
@@ -174,19 +195,6 @@ static void add_mirrored(int m, const double *w, double *sum)
     for (int i = 0; i < m; i++) {
         sum[i] += w[i];
         sum[m + i] -= w[m + i];
-    }
-}
-
-/* Columns of B, mirrored, onto those of A, 2m x 2n each. */
-static void add_mirrored_columns(int n, int m, const double *B, double *A, int lda)
-{
-    const size_t rows = 2 * (size_t)m;
-
-    for (int j = 0; j < 2 * n; j++) {
-        const double sign = j < n ? 1.0 : -1.0, *b = B + (size_t)j * rows;
-        double *a = A + (size_t)j * (size_t)lda;
-        cblas_daxpy(m, sign, b, 1, a, 1);
-        cblas_daxpy(m, -sign, b + m, 1, a + m, 1);
     }
 }
 
@@ -244,17 +252,6 @@ static rb_status join(const body_pair *pair, rb_bem_flexibility *f)
     return RB_OK;
 }
 
-/* 1: a is the pair now. */
-static int add_to_a(rb_bem_flexibility *a, const rb_bem_flexibility *b)
-{
-    if (a->apply == dense_apply && b->apply == dense_apply)
-        add_mirrored_columns(a->n, a->m, b->data, a->data, 2 * a->m);
-    else if (!rb_bem_toeplitz_add(a, b))
-        return 0;
-    add_mirrored(a->m, b->w0, a->w0);
-    return 1;
-}
-
 rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
                                   rb_bem_flexibility *f, rb_message *why)
 {
@@ -262,7 +259,8 @@ rb_status rb_bem_flexibility_pair(rb_bem_flexibility *a, rb_bem_flexibility *b,
     const size_t n = (size_t)a->n, m = (size_t)a->m;
 
     memset(f, 0, sizeof *f);
-    if (s == RB_OK && add_to_a(a, b)) {
+    if (s == RB_OK && a->add_mirrored && a->add_mirrored(a, b)) {
+        add_mirrored(a->m, b->w0, a->w0);
         *f = *a;
         memset(a, 0, sizeof *a);
         rb_bem_flexibility_free(b);

@@ -1,7 +1,6 @@
 /* Flexibilities that depend on the distance between two elements alone: the half-plane
  * (B6) on equal elements, the disc on equal arcs.  They are Toeplitz, and a product takes
  * Fourier transforms, n log n work and memory of a few n. */
-#include "bem/toeplitz.h"
 #include "bem/fourier.h"
 #include "bem/internal.h"
 
@@ -291,7 +290,8 @@ static rb_status set_response(toeplitz *o, double h, const rb_bem_surface *body)
     return s;
 }
 
-int rb_bem_ends_equal(int n_c, const double *ends)
+/* 1 where all n_c + 1 elements are of one length, to rounding. */
+static int are_equal(int n_c, const double *ends)
 {
     const double h = (ends[n_c + 1] - ends[0]) / (n_c + 1);
     const double rounding = 8.0 * DBL_EPSILON * fmax(fabs(ends[0]), fabs(ends[n_c + 1]));
@@ -309,7 +309,7 @@ static rb_status check(int n_c, const double *ends, const rb_bem_surface *body,
 
     if (s == RB_OK)
         s = rb_bem_ends_check(n_c, ends, why);
-    if (s == RB_OK && !rb_bem_ends_equal(n_c, ends))
+    if (s == RB_OK && !are_equal(n_c, ends))
         s = rb_fail(why, RB_EINVAL,
                     "half-plane by Fourier transforms: %d elements of "
                     "different lengths, expected equal ones",
@@ -318,6 +318,24 @@ static rb_status check(int n_c, const double *ends, const rb_bem_surface *body,
         s = rb_fail(why, RB_EINVAL, "contact elements: %d, expected at most %d", n_c,
                     1 << 28);
     return s;
+}
+
+static int toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
+{
+    if (b->apply != toeplitz_apply || a->n != b->n)
+        return 0;
+    toeplitz *o = a->data;
+    const toeplitz *other = b->data;
+    if (!o->flat || !other->flat || (o->alike && !other->alike))
+        return 0;
+    for (int k = 0; k <= 2 * o->n; k++) {
+        o->t[N][k] += other->t[N][k];
+        if (!o->alike)
+            o->t[T][k] += other->t[T][k];
+        o->s[k] -= other->s[k];
+    }
+    set_transforms(o);
+    return 1;
 }
 
 /* An operator without kernels at the midpoints of the ends. */
@@ -330,6 +348,7 @@ static toeplitz *start(int n_c, const double *ends, int alike, rb_bem_flexibilit
     f->data = o;
     f->apply = toeplitz_apply;
     f->matrix = toeplitz_matrix;
+    f->add_mirrored = toeplitz_add;
     f->free_data = toeplitz_free;
     for (int i = 0; i < f->m; i++) {
         f->x[i] = 0.5 * (ends[i] + ends[i + 1]);
@@ -355,24 +374,6 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
     rb_bem_flexibility_free(f);
     return rb_fail(why, RB_ENOMEM, "half-plane: out of memory for %d contact elements",
                    n_c);
-}
-
-int rb_bem_toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
-{
-    if (a->apply != toeplitz_apply || b->apply != toeplitz_apply || a->n != b->n)
-        return 0;
-    toeplitz *o = a->data;
-    const toeplitz *other = b->data;
-    if (!o->flat || !other->flat || (o->alike && !other->alike))
-        return 0;
-    for (int k = 0; k <= 2 * o->n; k++) {
-        o->t[N][k] += other->t[N][k];
-        if (!o->alike)
-            o->t[T][k] += other->t[T][k];
-        o->s[k] -= other->s[k];
-    }
-    set_transforms(o);
-    return 1;
 }
 
 /* ---- Disc ----------------------------------------------------------------------------

@@ -32,9 +32,20 @@ int cli_contact(int argc, char **argv);
 int cli_examples(int argc, char **argv);
 int cli_help(int argc, char **argv);
 
+typedef struct {
+    const char *name; /* "": the command without a name, the last row */
+    int (*run)(int argc, char **argv);
+    const char *help; /* its line in the list */
+} cli_command;
+
+/* Keeps the table and the command line; 0: no memory. */
+int cli_begin(const cli_command *table, int argc, char **argv);
+void cli_end(void);
+
 /* Of command k = 0, 1, ...; NULL: there are no more. */
 const char *cli_command_name(int k);
-/* The line of a command in the list; "" is the one without a name. */
+/* The line of a command in the list; "" is the one without a name; NULL: there is none.
+ */
 const char *cli_command_help(const char *name);
 
 /* Calls the command of that name; its exit code, or CLI_USAGE when there is none. */

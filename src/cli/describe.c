@@ -329,12 +329,12 @@ static void describe_all(const char *form, int nameless_first)
     char *words[] = {"", describe, NULL};
     snprintf(describe, sizeof describe, "--describe=%s", form);
     if (nameless_first)
-        cli_solve(2, words);
+        cli_run("", 2, words);
     for (int k = 0; cli_command_name(k); k++)
         if (strcmp(cli_command_name(k), "help") != 0)
             cli_run(cli_command_name(k), 2, words);
     if (!nameless_first)
-        cli_solve(2, words);
+        cli_run("", 2, words);
 }
 
 static void print_commands(const char *between)

@@ -11,11 +11,7 @@
 
 #include <gsl/gsl_errno.h>
 
-static const struct {
-    const char *name;
-    int (*run)(int argc, char **argv);
-    const char *help;
-} commands[] = {
+static const cli_command commands[] = {
     {"curve", cli_curve, "creep curve: the tangential force over the creepage"},
     {"sweep", cli_sweep,
      "parameter studies over all processors and, under mpirun, machines"},
@@ -33,119 +29,8 @@ static const struct {
     {"example", cli_example, "finite elements: bar, truss, wall"},
     {"page", cli_page, "the page for browsers, with a case that it opens with"},
     {"help", cli_help, "this list, or the options of one command"},
+    {"", cli_solve, "solves one case of rolling contact with friction, prints its table"},
 };
-
-enum { COMMANDS = sizeof commands / sizeof commands[0] };
-
-static char *command_line;
-
-const char *cli_command_line(void)
-{
-    return command_line ? command_line : "rollbem";
-}
-
-const char *cli_command_name(int k)
-{
-    return k < COMMANDS ? commands[k].name : NULL;
-}
-
-const char *cli_command_help(const char *name)
-{
-    for (int i = 0; i < COMMANDS; i++)
-        if (strcmp(name, commands[i].name) == 0)
-            return commands[i].help;
-    return "solves one case of rolling contact with friction, prints its table";
-}
-
-void cli_guess_command(rb_guess *guess)
-{
-    for (int i = 0; i < COMMANDS; i++)
-        rb_guess_try(guess, commands[i].name);
-}
-
-int cli_run(const char *name, int argc, char **argv)
-{
-    rb_guess guess = {.word = name};
-    for (int i = 0; i < COMMANDS; i++)
-        if (strcmp(name, commands[i].name) == 0)
-            return commands[i].run(argc, argv);
-    cli_guess_command(&guess);
-    return cli_fail(CLI_USAGE, "unknown command '%s'%s", name, rb_guess_text(&guess, ""));
-}
-
-static int is_command(const char *name)
-{
-    for (int i = 0; i < COMMANDS; i++)
-        if (strcmp(name, commands[i].name) == 0)
-            return 1;
-    return 0;
-}
-
-int cli_help(int argc, char **argv)
-{
-    if (argc > 1 && argv[1][0] != '-') {
-        char *args[] = {argv[1], "--help", NULL};
-        return cli_run(argv[1], 2, args);
-    }
-    puts("rollbem [OPTION...] [CASE.ini]   solve one case of rolling contact, print its "
-         "table");
-    for (int i = 0; i < COMMANDS; i++)
-        printf("rollbem %-24s %s\n", commands[i].name, commands[i].help);
-    puts("\n`rollbem --help` lists the options of a case, `rollbem help COMMAND` those "
-         "of a "
-         "command.");
-    return CLI_OK;
-}
-
-/* Room for every character quoted ('\''), a pair of quotes and a space each; then 4 bytes
- * for each of them in print. */
-static size_t quoted_size(int argc, char **argv)
-{
-    size_t size = sizeof "rollbem";
-    for (int i = 1; i < argc; i++)
-        size += 4 * strlen(argv[i]) + 3;
-    return size;
-}
-
-static char *append_quoted(char *to, const char *word)
-{
-    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                        "-_=+.,:/@%^";
-    const size_t n = strlen(word);
-    if (n > 0 && strspn(word, plain) == n) {
-        memcpy(to, word, n);
-        return to + n;
-    }
-    *to++ = '\'';
-    for (const char *c = word; *c; c++) {
-        if (*c == '\'') {
-            memcpy(to, "'\\'", 3);
-            to += 3;
-        }
-        *to++ = *c;
-    }
-    *to++ = '\'';
-    return to;
-}
-
-static char *quote(int argc, char **argv)
-{
-    char *line = malloc(quoted_size(argc, argv));
-    if (!line)
-        return NULL;
-    memcpy(line, "rollbem", 7);
-    char *to = line + 7;
-    for (int i = 1; i < argc; i++) {
-        *to++ = ' ';
-        to = append_quoted(to, argv[i]);
-    }
-    *to = '\0';
-    char *printable = malloc(4 * strlen(line) + 1);
-    if (printable)
-        rb_printable(line, printable, 4 * strlen(line) + 1);
-    free(line);
-    return printable;
-}
 
 /* A full disc or a closed pipe shows here at the latest.  Where standard output was
  * closed from the beginning and nothing went there, nothing is lost. */
@@ -208,16 +93,15 @@ int main(int argc, char **argv)
     gsl_set_error_handler_off();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe becomes a write error, */
     signal(SIGXFSZ, SIG_IGN); /* and so does a limit of file sizes */
-    command_line = quote(argc, argv);
     int code;
-    if (!command_line)
+    if (!cli_begin(commands, argc, argv))
         code = cli_fail(CLI_INTERNAL, "out of memory");
-    else if (argc > 1 && is_command(argv[1]))
+    else if (argc > 1 && argv[1][0] && cli_command_help(argv[1]))
         code = cli_run(argv[1], argc - 1, argv + 1);
     else
-        code = cli_solve(argc, argv);
+        code = cli_run("", argc, argv);
     code = close_output(code);
-    free(command_line);
+    cli_end();
     came_to_the_end = 1;
     return code;
 }

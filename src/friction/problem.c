@@ -192,3 +192,8 @@ rb_status rb_friction_examine(const rb_friction_problem *problem, int with_rank,
         facts->hyperstaticity = m - facts->rank;
     return s;
 }
+
+rb_friction_options rb_friction_defaults(void)
+{
+    return (rb_friction_options){.tol = 1e-8};
+}

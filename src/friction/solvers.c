@@ -65,11 +65,6 @@ const rb_friction_solver *rb_friction_solver_named(const char *name)
     return NULL;
 }
 
-rb_friction_options rb_friction_defaults(void)
-{
-    return (rb_friction_options){.tol = 1e-8};
-}
-
 const char *rb_friction_status_text(rb_status s, double tol, const rb_friction_info *info)
 {
     if (s == RB_OK && info && info->scaled > tol)

@@ -264,6 +264,11 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
 /* The same on the present mesh under the controls that model->rc has now, from the
  * present zones. */
 rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
+
+/* ---- create.c
+ * --------------------------------------------------------------------------
+ */
+
 /* The free creepage as one result among others: where it is not found it is NAN, and the
  * case that was solved stays solved.  RB_ENOMEM. */
 rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
@@ -286,14 +291,14 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
                                   const rb_contact_state *state,
                                   rb_rolling_overlap *overlap);
 
-/* ---- zone.c ---------------------------------------------------------------------------
- */
-
 /* RB_ZONE: an element in contact stands at an end of the mesh, so that the contact may
  * reach further, or the bodies overlap where no element sees it.  state: of the model's
  * problem. */
 rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
                                     const rb_contact_state *state, rb_message *why);
+/* ---- zone.c ---------------------------------------------------------------------------
+ */
+
 /* Solves on equal elements in the given potential contact, or in one that holds the
  * contact.  coarse: elements may be too long for separate patches.  RB_ZONE where there
  * is none; RB_NO_CONTACT. */
@@ -308,12 +313,6 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
 rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why);
 /* The same from the edges that the model has now. */
 rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why);
-/* The edge beyond the outermost loaded element on that side (-1 left, +1 right) of a
- * patch of so many equal elements or more. */
-enum { RB_ROLLING_ALIGNED_LEAST = 9 };
-double rb_rolling_aligned_edge(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                               const double *p, int outer, int side);
-
 /* ---- fit.c ----------------------------------------------------------------------------
  */
 
@@ -386,6 +385,9 @@ typedef struct {
     double from, to;
     int bounded; /* 1: an edge is known to the elements beside it only */
 } rb_rolling_run;
+
+/* A patch of so many equal elements has edges that the pressure tells (theory.md 4.7). */
+enum { RB_ROLLING_ALIGNED_LEAST = 9 };
 
 /* The next patch from element `at` on; 0 where there is none. */
 int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,

@@ -55,51 +55,6 @@ static int is_loaded(const rb_contact_state *state, int i)
     return state->zone[i] != RB_ZONE_SEPARATED;
 }
 
-static rb_status check_end(const rb_rolling_model *model, const rb_contact_state *state,
-                           int right, rb_message *why)
-{
-    const int n = model->mesh.n;
-    const interval limit = extent(&model->rc);
-    const double x = model->mesh.ends[right ? n : 0];
-    const double rounding = 1e-9 * width(limit);
-    const int no_room = right ? x >= limit.to - rounding : x <= limit.from + rounding;
-
-    if (!is_loaded(state, right ? n - 1 : 0))
-        return RB_OK;
-    if (no_room && model->rc.gap == RB_GAP_TABLE)
-        return rb_fail(
-            why, RB_ZONE,
-            "the contact reaches x = %g mm, and the gap table or the wheel has x "
-            "from %g to %g mm only",
-            x, limit.from, limit.to);
-    if (no_room)
-        return rb_fail(why, RB_ZONE,
-                       "the contact does not end within %g mm of the lowest point",
-                       fabs(x));
-    return rb_fail(why, RB_ZONE,
-                   "the contact reaches the end of the potential contact at x = %g mm; "
-                   "widen the zone",
-                   x);
-}
-
-rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
-                                    const rb_contact_state *state, rb_message *why)
-{
-    rb_rolling_overlap overlap;
-    rb_status s = check_end(model, state, 0, why);
-
-    if (s == RB_OK)
-        s = check_end(model, state, 1, why);
-    if (s == RB_OK)
-        s = rb_rolling_find_overlap(model, state, &overlap);
-    if (s == RB_OK && overlap.count > 0)
-        s = rb_fail(why, RB_ZONE,
-                    "the bodies overlap from x = %g to %g mm, outside the potential "
-                    "contact; widen the zone",
-                    overlap.from[0], overlap.to[0]);
-    return s;
-}
-
 /* Elements without contact at either end; n of them if there is no contact. */
 static void separated_at_ends(const rb_contact_state *state, int *left, int *right)
 {
@@ -341,7 +296,8 @@ static interval known_zone(const rb_rolling_case *rc)
         few.contact_elements = rb_rolling_coarse_elements(0);
     rb_rolling_coarsen_boundary(&few);
     few.mesh = RB_MESH_UNIFORM;
-    if (rb_rolling_model_create(&few, &model, NULL) == RB_OK)
+    model.rc = few;
+    if (rb_rolling_solve_zone(&model, 0, NULL) == RB_OK)
         zone = (interval){model.mesh.ends[0], model.mesh.ends[model.mesh.n]};
     rb_rolling_model_free(&model);
     return zone;
@@ -360,11 +316,10 @@ static rb_status solve_given(rb_rolling_model *model, rb_message *why)
 
     if (s != RB_ZONE)
         return s;
-    rb_rolling_case free_zone = model->rc;
-    rb_rolling_model wider = {0};
+    rb_rolling_model wider = {.rc = model->rc};
     double wanted = 1.3 * zone;
-    free_zone.zone = 0.0;
-    if (rb_rolling_model_create(&free_zone, &wider, NULL) == RB_OK)
+    wider.rc.zone = 0.0;
+    if (rb_rolling_solve_zone(&wider, 0, NULL) == RB_OK)
         wanted = fmax(fabs(wider.mesh.ends[0]), wider.mesh.ends[wider.mesh.n]);
     rb_rolling_model_free(&wider);
     return rb_fail(why, RB_ZONE,

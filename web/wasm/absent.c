@@ -4,7 +4,6 @@
 #include "api/internal.h"
 #include "bem/hierarchical.h"
 #include "bem/large.h"
-#include "bem/toeplitz.h"
 #include "rolling/internal.h"
 #include "rollbem/blas.h"
 
@@ -28,13 +27,6 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
     (void)ends;
     *f = (rb_bem_flexibility){0};
     return rb_fail(why, RB_EINVAL, "%d contact elements are %s", n_c, refusal);
-}
-
-int rb_bem_toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
-{
-    (void)a;
-    (void)b;
-    return 0;
 }
 
 rb_status rb_hierarchical_create(const rb_bem_mesh *mesh, rb_bem_material material,

@@ -1,0 +1,128 @@
+/* The commands by name, and the command line.  The table is that of main.c, which knows
+ * all commands; what is here knows none of them. */
+#include "cli/cli.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const cli_command *commands;
+static char *command_line;
+
+/* Room for every character quoted ('\''), a pair of quotes and a space each; then 4 bytes
+ * for each of them in print. */
+static size_t quoted_size(int argc, char **argv)
+{
+    size_t size = sizeof "rollbem";
+    for (int i = 1; i < argc; i++)
+        size += 4 * strlen(argv[i]) + 3;
+    return size;
+}
+
+static char *append_quoted(char *to, const char *word)
+{
+    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                        "-_=+.,:/@%^";
+    const size_t n = strlen(word);
+    if (n > 0 && strspn(word, plain) == n) {
+        memcpy(to, word, n);
+        return to + n;
+    }
+    *to++ = '\'';
+    for (const char *c = word; *c; c++) {
+        if (*c == '\'') {
+            memcpy(to, "'\\'", 3);
+            to += 3;
+        }
+        *to++ = *c;
+    }
+    *to++ = '\'';
+    return to;
+}
+
+static char *quote(int argc, char **argv)
+{
+    char *line = malloc(quoted_size(argc, argv));
+    if (!line)
+        return NULL;
+    memcpy(line, "rollbem", 7);
+    char *to = line + 7;
+    for (int i = 1; i < argc; i++) {
+        *to++ = ' ';
+        to = append_quoted(to, argv[i]);
+    }
+    *to = '\0';
+    char *printable = malloc(4 * strlen(line) + 1);
+    if (printable)
+        rb_printable(line, printable, 4 * strlen(line) + 1);
+    free(line);
+    return printable;
+}
+
+int cli_begin(const cli_command *table, int argc, char **argv)
+{
+    commands = table;
+    command_line = quote(argc, argv);
+    return command_line != NULL;
+}
+
+void cli_end(void)
+{
+    free(command_line);
+    command_line = NULL;
+}
+
+const char *cli_command_line(void)
+{
+    return command_line ? command_line : "rollbem";
+}
+
+static const cli_command *find(const char *name)
+{
+    const cli_command *c = commands;
+    while (c->name[0] && strcmp(c->name, name) != 0)
+        c++;
+    return strcmp(c->name, name) == 0 ? c : NULL;
+}
+
+const char *cli_command_name(int k)
+{
+    return commands[k].name[0] ? commands[k].name : NULL;
+}
+
+const char *cli_command_help(const char *name)
+{
+    const cli_command *c = find(name);
+    return c ? c->help : NULL;
+}
+
+void cli_guess_command(rb_guess *guess)
+{
+    for (const cli_command *c = commands; c->name[0]; c++)
+        rb_guess_try(guess, c->name);
+}
+
+int cli_run(const char *name, int argc, char **argv)
+{
+    rb_guess guess = {.word = name};
+    const cli_command *c = find(name);
+    if (c)
+        return c->run(argc, argv);
+    cli_guess_command(&guess);
+    return cli_fail(CLI_USAGE, "unknown command '%s'%s", name, rb_guess_text(&guess, ""));
+}
+
+int cli_help(int argc, char **argv)
+{
+    if (argc > 1 && argv[1][0] != '-') {
+        char *args[] = {argv[1], "--help", NULL};
+        return cli_run(argv[1], 2, args);
+    }
+    puts("rollbem [OPTION...] [CASE.ini]   solve one case of rolling contact, print its "
+         "table");
+    for (const cli_command *c = commands; c->name[0]; c++)
+        printf("rollbem %-24s %s\n", c->name, c->help);
+    puts("\n`rollbem --help` lists the options of a case, `rollbem help COMMAND` those "
+         "of a "
+         "command.");
+    return CLI_OK;
+}

@@ -1,0 +1,142 @@
+/* From a case to its solved contact problem, on the mesh that it asks for, and the
+ * creepage at which it rolls freely. */
+#include "rolling/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static rb_status solve_on_its_mesh(const rb_rolling_case *rc, rb_rolling_model *model,
+                                   rb_message *why)
+{
+    model->rc = *rc;
+    const rb_status s = rb_rolling_case_check(rc, why);
+    if (s == RB_OK && rc->mesh == RB_MESH_FITTED)
+        return rb_rolling_solve_fitted(model, why);
+    if (s == RB_OK && rc->mesh == RB_MESH_ALIGNED)
+        return rb_rolling_solve_aligned(model, why);
+    return s == RB_OK ? rb_rolling_solve_zone(model, 0, why) : s;
+}
+
+rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *model,
+                                  rb_message *why)
+{
+    memset(model, 0, sizeof *model);
+    return solve_on_its_mesh(rc, model, why);
+}
+
+rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
+                                 rb_message *why)
+{
+    rb_rolling_model kept = {.mesh = model->mesh, .bodies = model->bodies};
+    const int equal = rc->mesh == RB_MESH_UNIFORM && model->rc.mesh == RB_MESH_UNIFORM;
+
+    if (!equal || !model->mesh.ends || !model->bodies.f.m) {
+        rb_rolling_model_free(model);
+        return rb_rolling_model_create(rc, model, why);
+    }
+    rb_contact_state_free(&model->state);
+    rb_contact_problem_free(&model->problem);
+    free(model->temperature);
+    *model = kept;
+    model->same_bodies = 1;
+    const rb_status s = solve_on_its_mesh(rc, model, why);
+    model->same_bodies = 0;
+    return s;
+}
+
+/* Similar bodies without a history roll freely at no creepage. */
+static int rolls_freely_at_rest(const rb_contact_problem *problem)
+{
+    return !rb_contact_operator_response(problem->op).coupled &&
+           rb_norm_inf((size_t)problem->n, problem->d_T) == 0.0;
+}
+
+static rb_rolling_case without_force(const rb_rolling_model *model)
+{
+    rb_rolling_case rc = model->rc;
+
+    rc.creep = rc.creep_ratio = rc.force = NAN;
+    rc.free_axle = 0;
+    rc.force_ratio = 0.0;
+    return rc;
+}
+
+/* On a mesh of its own: a fitted one belongs to the contact that rolls freely. */
+static rb_status roll_freely_anew(const rb_rolling_model *model, double *creepage,
+                                  rb_message *why)
+{
+    const rb_rolling_case rc = without_force(model);
+    rb_rolling_model freely;
+    const rb_status s = rb_rolling_model_create(&rc, &freely, why);
+
+    if (s == RB_OK)
+        *creepage = freely.state.xi;
+    rb_rolling_model_free(&freely);
+    return s;
+}
+
+/* On the same equal elements without a matrix: starts on fewer of them. */
+static rb_status roll_freely_large(const rb_rolling_model *model, double *creepage,
+                                   rb_message *why)
+{
+    const double *ends = model->mesh.ends;
+    rb_rolling_model freely = {.rc = without_force(model)};
+    rb_rolling_mesh mesh;
+
+    freely.rc.contact_elements = model->mesh.n;
+    rb_status s =
+        rb_rolling_mesh_uniform(&freely.rc, ends[0], ends[model->mesh.n], &mesh, why);
+    if (s == RB_OK)
+        s = rb_rolling_model_build(&freely, &mesh, why);
+    if (s == RB_OK)
+        *creepage = freely.state.xi;
+    rb_rolling_model_free(&freely);
+    return s;
+}
+
+/* On the same elements with the model's matrix, from its zones. */
+static rb_status roll_freely_dense(rb_rolling_model *model, double *creepage,
+                                   rb_message *why)
+{
+    rb_contact_problem problem = model->problem; /* arrays stay the model's */
+    rb_contact_state state;
+    rb_status s = rb_contact_state_alloc(problem.n, &state);
+
+    if (s != RB_OK)
+        return s;
+    problem.force_given = 1;
+    problem.force = problem.force_ratio = problem.axle = 0.0;
+    memcpy(state.zone, model->state.zone, (size_t)problem.n * sizeof(int));
+    s = rb_rolling_problem_solve(&problem, &model->rc, 1, &state, why);
+    if (s == RB_OK)
+        s = rb_rolling_check_enclosed(model, &state, why);
+    if (s == RB_OK)
+        *creepage = state.xi;
+    rb_contact_state_free(&state);
+    return s;
+}
+
+rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
+                                   rb_message *why)
+{
+    *creepage = rolls_freely_at_rest(&model->problem) ? 0.0 : NAN;
+    if (*creepage == 0.0)
+        return RB_OK;
+    if (model->rc.mesh != RB_MESH_UNIFORM || rb_rolling_law_moves(&model->rc))
+        return roll_freely_anew(model, creepage, why);
+    const rb_status s = model->bodies.F ? roll_freely_dense(model, creepage, why)
+                                        : roll_freely_large(model, creepage, why);
+    return s == RB_ZONE && model->rc.zone == 0.0 ? roll_freely_anew(model, creepage, why)
+                                                 : s;
+}
+
+rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
+                                          rb_message *why)
+{
+    rb_message reason = {""};
+    const rb_status s = rb_rolling_free_creepage(model, creepage, &reason);
+
+    if (s != RB_OK)
+        *creepage = NAN;
+    return s == RB_ENOMEM ? rb_fail(why, s, "%s", reason.text) : RB_OK;
+}
