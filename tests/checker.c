@@ -625,7 +625,9 @@ static void check_heat(const contact *c, const table *t, const json_t *object)
             violated("temperature", "element %d: %g and %g in contact", i + 1, one,
                      other);
     }
-    if (!(most >= warmest - 1e-12 * fabs(warmest) && most <= warmest + 0.2 * rise))
+    /* 1e-12 K: the rounding of a contact that sticks, as above */
+    if (!(most >= warmest - 1e-12 * fabs(warmest) &&
+          most <= warmest + 0.2 * rise + 1e-12))
         violated("max_temperature", "%g, the largest in contact is %g", most, warmest);
     const double diffusivity = conductivity / number(c->inputs, "heat-capacity");
     const double peclet =
