@@ -67,12 +67,12 @@ static const struct {
      {{"plain", ""},
       {"layer", "--layer-thickness 2"},
       {"on-elastic", "--layer-thickness 2 --base-young 20000 --base-poisson 0.2"},
-      {"relaxing", "--relaxation-time 0.01,0.1 --relaxation-ratio 1,0.5 --speed 100"},
+      {"relaxing", "--relaxation-time 0.01,0.1 --relaxation-ratio 1,0.5"},
       {"cover", "--cover-thickness 4"},
       {"cover-elastic", "--cover-thickness 4 --core-young 200000"},
       {"b-layer", "--layer-thickness-b 2"},
       {"b-cover", "--cover-thickness-b 4 --core-young-b 200000"},
-      {"b-relaxing", "--relaxation-time-b 0.01 --relaxation-ratio-b 1 --speed 100"}}},
+      {"b-relaxing", "--relaxation-time-b 0.01 --relaxation-ratio-b 1"}}},
     {"regime",
      NULL,
      {{"static", "--formulation static"},
@@ -213,6 +213,7 @@ static const char *const options_elsewhere[] = {"units", /* tests/test_units.c *
                                                 "base-young",
                                                 "base-poisson",
                                                 "relaxation-time",
+                                                "time-step",
                                                 "relaxation-ratio",
                                                 "speed",
                                                 "layer-thickness-b",
@@ -314,14 +315,31 @@ static const conflict conflicts[] = {
     {{"slip=second", "mesh=fitted"}, "on equal elements only"},
     {{"surface=layer", "support!halfplane"}, "for the support halfplane only"},
     {{"surface=on-elastic", "support!halfplane"}, "for the support halfplane only"},
-    {{"surface=relaxing", "support!halfplane"}, "for the support halfplane only"},
-    {{"surface=relaxing", "regime!steady"}, "bodies that relax roll steadily"},
-    {{"surface=b-relaxing", "regime!steady"}, "bodies that relax roll steadily"},
+    {{"surface=relaxing", "support!halfplane", "regime!static-history"},
+     "for the support halfplane only"},
+    {{"surface=relaxing", "regime=static"}, "needs --history"},
+    {{"surface=relaxing", "regime=increments"}, "needs --history"},
+    {{"surface=relaxing", "regime=steps"}, "by one element in each step"},
+    {{"surface=b-relaxing", "regime=static"}, "needs --history"},
+    {{"surface=b-relaxing", "regime=increments"}, "needs --history"},
+    {{"surface=b-relaxing", "regime=steps"}, "by one element in each step"},
+    {{"surface=relaxing", "regime!steady", "gap=file"}, "got a table of the gap"},
+    {{"surface=relaxing", "regime!steady", "gap=smoothed"}, "got a table of the gap"},
+    {{"surface=b-relaxing", "regime!steady", "gap=file"}, "got a table of the gap"},
+    {{"surface=b-relaxing", "regime!steady", "gap=smoothed"}, "got a table of the gap"},
+    {{"surface=relaxing", "regime!steady", "worn=scar"}, "got a table of the gap"},
+    {{"surface=b-relaxing", "regime!steady", "worn=scar"}, "got a table of the gap"},
+    {{"surface=relaxing", "irregularity=flat"}, "got a table of the gap"},
+    {{"surface=b-relaxing", "irregularity=flat"}, "got a table of the gap"},
+    {{"surface=relaxing", "regime=static-history", "output=error"}, "has none"},
+    {{"surface=b-relaxing", "regime=static-history", "output=error"}, "has none"},
     {{"surface=b*", "body-b=rigid"}, "body B is rigid"},
     {{"surface=b-layer", "body-b=hub"}, "for the support halfplane only"},
     {{"surface=b-layer", "body-b=arc"}, "for the support halfplane only"},
-    {{"surface=b-relaxing", "body-b=hub"}, "for the support halfplane only"},
-    {{"surface=b-relaxing", "body-b=arc"}, "for the support halfplane only"},
+    {{"surface=b-relaxing", "body-b=hub", "regime!static-history"},
+     "for the support halfplane only"},
+    {{"surface=b-relaxing", "body-b=arc", "regime!static-history"},
+     "for the support halfplane only"},
     {{"surface=b-cover", "body-b=similar"}, "its core holds the wheel"},
     {{"surface=b-cover", "body-b=dissimilar"}, "its core holds the wheel"},
     {{"surface=b-cover", "body-b=cylinder"}, "its core holds the wheel"},
@@ -516,6 +534,11 @@ static int has_history(const int *row)
     return starts(row, REGIME, "static-") || starts(row, REGIME, "transient-");
 }
 
+static int relaxes(const int *row)
+{
+    return is(row, SURFACE, "relaxing") || is(row, SURFACE, "b-relaxing");
+}
+
 /* Values that grow from a third to all of the last one. */
 static void write_controls(const int *row)
 {
@@ -523,10 +546,12 @@ static void write_controls(const int *row)
     struct {
         const char *name;
         double last;
-    } column[3];
+    } column[4];
     int n = 0;
     if (rolls)
         column[n].name = "distance", column[n++].last = 0.0;
+    else if (relaxes(row))
+        column[n].name = "time", column[n++].last = 0.0;
     if (is(row, NORMAL, "load"))
         column[n].name = "load", column[n++].last = 800.0;
     if (is(row, NORMAL, "approach"))
@@ -549,7 +574,9 @@ static void write_controls(const int *row)
     for (int k = 1; k <= 3; k++)
         for (int j = 0; j < n; j++)
             fprintf(file, "%g%s",
-                    j == 0 && rolls ? 0.2 * (k - 1) : column[j].last * k / 3,
+                    j == 0 && rolls          ? 0.2 * (k - 1)
+                    : j == 0 && relaxes(row) ? 0.02 * (k - 1)
+                                             : column[j].last * k / 3,
                     j + 1 < n ? " " : "\n");
     assert_int_equal(fclose(file), 0);
 }
@@ -616,6 +643,9 @@ static void case_arguments(const int *row, char *text, size_t size)
             snprintf(text + strlen(text), size - strlen(text), " %s",
                      levels[f][row[f]].arguments);
     add_shape(row, text, size);
+    if (relaxes(row))
+        snprintf(text + strlen(text), size - strlen(text), " %s",
+                 is(row, REGIME, "static-history") ? "--time-step 0.008" : "--speed 100");
     if (is(row, SOLVER, "cone"))
         snprintf(text + strlen(text), size - strlen(text), " --solver %s",
                  cone_solver_of_row());

@@ -69,7 +69,7 @@ typedef struct {
                      [length]; 0: none */
     double core_young, core_poisson; /* of that core, a ring on the hub; young 0: rigid,
                                         all below the cover */
-    rb_rolling_memory memory;        /* half-plane, steady rolling */
+    rb_rolling_memory memory;        /* rolling: of a half-plane */
 } rb_rolling_body;
 
 /* What a body can do, and what is so of it. */
@@ -194,12 +194,14 @@ typedef struct {
                       place of these */
 
     rb_rolling_formulation formulation;
-    int increments;  /* static, transient: above 1 the bodies are pressed, then loaded
-                        tangentially, in so many increments each (theory.md 5.3) */
-    double speed;    /* of rolling [length/s]; > 0 where a body has memory or conducts, or
-                        where friction depends on the slip velocity */
-    double distance; /* transient: rolled distance / Hertz half-width */
-    int steps;       /* transient */
+    int increments;   /* static, transient: above 1 the bodies are pressed, then loaded
+                         tangentially, in so many increments each (theory.md 5.3) */
+    double speed;     /* of rolling [length/s]; > 0 where a body that rolls has memory or
+                         conducts, or where friction depends on the slip velocity */
+    double time_step; /* static program of bodies that relax: the longest step between two
+                         of its rows [s]; 0: a step for each row */
+    double distance;  /* transient: rolled distance / Hertz half-width */
+    int steps;        /* transient */
 
     rb_rolling_mesh_kind mesh;
     int contact_elements; /* uniform: in the potential contact; fitted: across the contact
@@ -239,6 +241,8 @@ int rb_rolling_can(const rb_rolling_case *rc, int abilities);
 /* 1 where Carter's law holds: steady rolling of similar homogeneous half-planes, no table
  * as gap. */
 int rb_rolling_carter_holds(const rb_rolling_case *rc);
+/* 1: a body of the case has memory. */
+int rb_rolling_relaxes(const rb_rolling_case *rc);
 
 /* Ranges and contradictions.  RB_EINVAL with one line in why. */
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why);
@@ -469,8 +473,9 @@ typedef enum {
     RB_FOR_ALL,
     RB_FOR_HEAT,
     RB_FOR_WORN,
-    RB_FOR_LAW,       /* coefficients of friction that differ */
-    RB_FOR_MOVING_LAW /* and depend on the state */
+    RB_FOR_LAW,        /* coefficients of friction that differ */
+    RB_FOR_MOVING_LAW, /* and depend on the state */
+    RB_FOR_MEMORY
 } rb_rolling_condition;
 
 /* One result: whatever shows results, studies and error bars are made from these. */
@@ -597,10 +602,13 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model,
  * distance: transient rolling; rows at distance 0 are static increments, the others are
  * rolled to, with load, approach and force linear in between and the creepage of each
  * step its mean. Distances do not decrease and count in half-widths: Hertz's of the
- * largest load of the program (of the load that its largest approach brings, at rest). */
+ * largest load of the program (of the load that its largest approach brings, at rest).
+ * Static contact of bodies that relax needs the time [s] of each row, from 0 on, which
+ * does not decrease: between two rows everything is linear in time, two rows at the same
+ * time are a jump. */
 typedef struct {
     int n;
-    const double *distance;
+    const double *distance, *time;
     const double *load, *approach;                                   /* at most one */
     const double *shift, *creep, *creep_ratio, *force, *force_ratio; /* at most one */
 } rb_rolling_program;                                                /* all borrowed */
@@ -609,11 +617,12 @@ typedef struct {
 typedef struct {
     const char *name;
     size_t column; /* offset of its pointer in rb_rolling_program */
-    size_t value;  /* offset in rb_rolling_case of what it replaces; distance: SIZE_MAX */
+    size_t value;  /* offset in rb_rolling_case of what it replaces; distance and time:
+                      SIZE_MAX */
     int is_mean;   /* 1: a rolled step has the mean over its length, 0: the end's value */
 } rb_rolling_program_column;
 
-enum { RB_ROLLING_PROGRAM_COLUMNS = 8 };
+enum { RB_ROLLING_PROGRAM_COLUMNS = 9 };
 extern const rb_rolling_program_column
     rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS];
 
@@ -631,6 +640,8 @@ typedef struct {
     double *moment;          /* int x p dx [force]; > 0: the load leads */
     int *stick, *slipping;   /* elements */
     double *max_temperature; /* at the end of the step; NULL where not asked for */
+    double *time;            /* at the end of the step [s]; NULL where no body relaxes */
+    double *lost_work;       /* that relaxation has taken so far [force]; NULL likewise */
     double half_width;       /* that distances count in [length] */
     double step;             /* c [length]; 0 in a static history */
     int steady_from; /* first step of the steady state that the end is in, or -1 */

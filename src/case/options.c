@@ -88,8 +88,9 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("core-poisson", RC(a.core_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
                    "Poisson's ratio of an elastic core"),
     RB_NUMBER_LINE("relaxation-time", PLACE(memory_a.time), "s", RB_ABOVE(0),
-                   "halfplane, steady: times tau of the creep compliance 1 + sum f (1 - "
-                   "exp(-t/tau)); E is then the glassy modulus",
+                   "times tau of the creep compliance 1 + sum f (1 - exp(-t/tau)), E the "
+                   "glassy modulus; what rolls is a halfplane, static contact has a "
+                   "history in time",
                    .unset = "elastic", .list = PLACE(memory_a.times)),
     RB_NUMBER_LINE("relaxation-ratio", PLACE(memory_a.ratio), "-", RB_FROM(0),
                    "as many f, each glassy over rubbery modulus less 1",
@@ -134,9 +135,8 @@ const rb_option rb_case_table[] = {
                    "Young's modulus of that core", .word = "rigid", .word_value = 0.0),
     RB_NUMBER_LINE("core-poisson-b", RC(b.core_poisson), "-", RB_ABOVE_UPTO(-1, 0.5),
                    "Poisson's ratio of an elastic core"),
-    RB_NUMBER_LINE("relaxation-time-b", PLACE(memory_b.time), "s", RB_ABOVE(0),
-                   "halfplane, steady: as of A", .unset = "elastic",
-                   .list = PLACE(memory_b.times)),
+    RB_NUMBER_LINE("relaxation-time-b", PLACE(memory_b.time), "s", RB_ABOVE(0), "as of A",
+                   .unset = "elastic", .list = PLACE(memory_b.times)),
     RB_NUMBER_LINE("relaxation-ratio-b", PLACE(memory_b.ratio), "-", RB_FROM(0),
                    "as of A", .unset = "elastic", .list = PLACE(memory_b.ratios)),
 
@@ -251,12 +251,19 @@ const rb_option rb_case_table[] = {
     RB_INTEGER_LINE("steps", RC(steps), RB_FROM(0),
                     "transient: steps of equal length; 0: so many that none is longer "
                     "than an element"),
-    RB_TEXT_LINE("history", PLACE(history_file), "FILE",
-                 "table of controls with named columns: distance (transient, in Hertz "
-                 "half-widths of the largest load), load or approach, shift, creep, "
-                 "creep_ratio, force or force_ratio; a column replaces the case's own "
-                 "value",
-                 .unset = "none", .file = RB_FILE_READ),
+    RB_TEXT_LINE(
+        "history", PLACE(history_file), "FILE",
+        "table of controls with named columns: distance (transient, in Hertz "
+        "half-widths of the largest load), time [s] (static, bodies that relax), "
+        "load or approach, shift, creep, "
+        "creep_ratio, force or force_ratio; a column replaces the case's own "
+        "value",
+        .unset = "none", .file = RB_FILE_READ),
+
+    RB_NUMBER_LINE("time-step", RC(time_step), "s", RB_ABOVE(0),
+                   "static, bodies that relax: longest step between two rows of the "
+                   "history; rows: one step for each row",
+                   .word = "rows", .word_value = 0.0),
 
     RB_GROUP_LINE("mesh", "Mesh"),
     RB_CHOICE_LINE(

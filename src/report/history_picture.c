@@ -1,4 +1,5 @@
-/* Picture of a history: creepage or shift, force, stick over the way. */
+/* Picture of a history: creepage or shift, force, stick over the way or the increments;
+ * half-width, load and approach over the time of static contact. */
 #include "report/internal.h"
 
 #include <math.h>
@@ -6,7 +7,8 @@
 typedef struct {
     const rb_rolling_case *rc;
     const rb_rolling_history *h, *errors; /* errors: NULL or as many steps */
-    int rolls;    /* 1: over the rolled distance, 0: over the increments */
+    int rolls;    /* 1: over the rolled distance, 0: over the increments or the time */
+    int in_time;  /* 1: over the time */
     int exponent; /* of the creepage or shift */
     double power; /* 10^exponent */
     double from, to;
@@ -27,6 +29,25 @@ static double force(const view *v, const rb_rolling_history *h, int i)
     return h->force_ratio[i];
 }
 
+static double half_width(const view *v, const rb_rolling_history *h, int i)
+{
+    (void)v;
+    const double width = h->contact_to[i] - h->contact_from[i];
+    return isnan(width) ? 0.0 : 0.5 * width;
+}
+
+static double load(const view *v, const rb_rolling_history *h, int i)
+{
+    (void)v;
+    return h->normal_load[i];
+}
+
+static double approach(const view *v, const rb_rolling_history *h, int i)
+{
+    (void)v;
+    return h->approach[i];
+}
+
 /* Steps at rest have no creepage. */
 static int is_shown(const view *v, int i)
 {
@@ -35,7 +56,7 @@ static int is_shown(const view *v, int i)
 
 static double place(const view *v, int i)
 {
-    return v->rolls ? v->h->distance[i] : i + 1;
+    return v->rolls ? v->h->distance[i] : v->in_time ? v->h->time[i] : i + 1;
 }
 
 static view make_view(const rb_rolling_history *h, const rb_rolling_history *errors,
@@ -44,6 +65,7 @@ static view make_view(const rb_rolling_history *h, const rb_rolling_history *err
     view v = {.h = h,
               .errors = errors,
               .rolls = h->step > 0.0,
+              .in_time = h->step == 0.0 && h->time,
               .power = 1.0,
               .to = 1.0,
               .place = rb_report_place_of(canvas)};
@@ -53,8 +75,10 @@ static view make_view(const rb_rolling_history *h, const rb_rolling_history *err
     if (largest > 0.0 && largest < 0.1)
         v.exponent = (int)floor(log10(largest));
     v.power = pow(10.0, v.exponent);
-    v.from = v.rolls ? 0.0 : 1.0;
-    v.to = fmax(v.from + 1e-6, place(&v, h->n - 1));
+    v.from = v.rolls || v.in_time ? 0.0 : 1.0;
+    v.to = place(&v, h->n - 1);
+    if (!(v.to > v.from)) /* a single step */
+        v.to = v.from + 1e-6;
     return v;
 }
 
@@ -63,7 +87,10 @@ static void write_data(FILE *out, const view *v)
     fputs("$data << EOD\n", out);
     for (int i = 0; i < v->h->n; i++) {
         const int contact = v->h->stick[i] + v->h->slipping[i];
-        if (is_shown(v, i))
+        if (v->in_time)
+            fprintf(out, "%.9g %.9g %.9g %.9g\n", place(v, i), half_width(v, v->h, i),
+                    load(v, v->h, i), approach(v, v->h, i));
+        else if (is_shown(v, i))
             fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g\n", place(v, i),
                     motion(v, v->h, i), force(v, v->h, i),
                     contact ? (double)v->h->stick[i] / contact : 0,
@@ -109,13 +136,54 @@ static void write_range(FILE *out, const view *v, quantity *of, double least, do
             most + 0.08 * height, rb_report_round_step(height / 5.0));
 }
 
+static void write_last_axis(FILE *out, const char *label)
+{
+    fprintf(out, "set format x '%%g'\nset xlabel '%s' offset 0,0.3\n", label);
+}
+
+static void write_way(FILE *out, const view *v, int points)
+{
+    const char *mm = rb_unit_name(v->h->units, "mm");
+    char label[80];
+
+    if (v->exponent)
+        snprintf(label, sizeof label, "%s  [10^{%d}%s%s]", v->rolls ? "ξ" : "shift",
+                 v->exponent, v->rolls ? "" : " ", v->rolls ? "" : mm);
+    else
+        snprintf(label, sizeof label, v->rolls ? "ξ" : "shift  [%s]", mm);
+    write_range(out, v, motion, INFINITY, -INFINITY);
+    write_panel(out, v, 0, label, 2, v->errors ? 5 : 0, "#6c3483", points);
+    fputs("unset label 1\nunset label 9\nunset key\n", out);
+    write_range(out, v, force, 0.0, 0.0); /* a force is seen against none */
+    write_panel(out, v, 1, "Q/(μP)", 3, v->errors ? 6 : 0, "#c0392b", points);
+    write_last_axis(out, v->rolls ? "rolled distance / a" : "increment");
+    fputs("set yrange [0:1]\nset ytics 0.2\n", out);
+    write_panel(out, v, 2, "stick / contact", 4, 0, "#1f4e79", points);
+}
+
+static void write_time(FILE *out, const view *v, int points)
+{
+    static quantity *const shown[] = {half_width, load, approach};
+    static const char *const label[] = {"half-width  [%s]", "P  [%s]", "approach  [%s]"},
+                             *const unit[] = {"mm", "N/mm", "mm"},
+                             *const colour[] = {"#1f4e79", "#c0392b", "#6c3483"};
+
+    for (int k = 0; k < 3; k++) {
+        char text[80];
+        snprintf(text, sizeof text, label[k], rb_unit_name(v->h->units, unit[k]));
+        if (k == 2)
+            write_last_axis(out, "time  [s]");
+        write_range(out, v, shown[k], 0.0, 0.0);
+        write_panel(out, v, k, text, 2 + k, 0, colour[k], points);
+        fputs("unset label 1\nunset label 9\nunset key\n", out);
+    }
+}
+
 static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
     const int last = v->h->n - 1, points = v->h->n <= 40;
-    const char *load = rb_unit_name(v->h->units, "N/mm");
-    const char *mm = rb_unit_name(v->h->units, "mm");
-    char label[80];
+    const char *unit = rb_unit_name(v->h->units, "N/mm");
     write_data(out, v);
     fprintf(out,
             "set multiplot\nset lmargin at screen %g\nset rmargin at screen "
@@ -127,27 +195,15 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
         fprintf(out,
                 "set label 1 '{/:Bold %s}   %d steps,  at the end P = %.5g %s,  Q = %.5g "
                 "%s' at screen 0.54, 0.978 center\n",
-                v->rolls ? "Transient rolling" : "Static history", v->h->n,
-                v->h->normal_load[last], load,
+                v->rolls     ? "Transient rolling"
+                : v->in_time ? "Static contact in time"
+                             : "Static history",
+                v->h->n, v->h->normal_load[last], unit,
                 rb_report_tidy(v->h->tangential_load[last], v->h->normal_load[last]),
-                load);
+                unit);
     if (v->place.titled)
         rb_report_label_bodies(out, v->rc, v->h->units, 0.54, 0.944);
-    if (v->exponent)
-        snprintf(label, sizeof label, "%s  [10^{%d}%s%s]", v->rolls ? "ξ" : "shift",
-                 v->exponent, v->rolls ? "" : " ", v->rolls ? "" : mm);
-    else
-        snprintf(label, sizeof label, v->rolls ? "ξ" : "shift  [%s]", mm);
-    write_range(out, v, motion, INFINITY, -INFINITY);
-    write_panel(out, v, 0, label, 2, v->errors ? 5 : 0, "#6c3483", points);
-    fputs("unset label 1\nunset label 9\nunset key\n", out);
-    write_range(out, v, force, 0.0, 0.0); /* a force is seen against none */
-    write_panel(out, v, 1, "Q/(μP)", 3, v->errors ? 6 : 0, "#c0392b", points);
-    fprintf(out,
-            "set format x '%%g'\nset xlabel '%s' offset 0,0.3\nset yrange [0:1]\nset "
-            "ytics 0.2\n",
-            v->rolls ? "rolled distance / a" : "increment");
-    write_panel(out, v, 2, "stick / contact", 4, 0, "#1f4e79", points);
+    (v->in_time ? write_time : write_way)(out, v, points);
     fputs("unset multiplot\n", out);
 }
 

@@ -57,6 +57,11 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
     rb_rolling_body_flexibility a = {0}, b = {0};
     rb_status s = check_memory(rc, mesh, why);
 
+    if (s == RB_OK && rb_rolling_relaxes(rc) && rc->formulation != RB_STEADY)
+        s = rb_fail(
+            why, RB_EINVAL,
+            "relaxation: bodies that relax and do not roll steadily need a history "
+            "of steps in time");
     if (s == RB_OK)
         s = body_flexibility(rc, &rc->a, mesh, &a, why);
     if (s == RB_OK && rc->elastic_b) {

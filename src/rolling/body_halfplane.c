@@ -128,26 +128,16 @@ static int has_layer(const rb_rolling_body *body)
     return body->layer > 0.0;
 }
 
-static rb_status check_no_wheel(const rb_rolling_body *b, const char *what,
-                                const char *which, rb_message *why)
-{
-    return b->support == RB_BEM_HALFPLANE
-               ? RB_OK
-               : rb_fail(why, RB_EINVAL,
-                         "%s%s: for the support halfplane only, got a wheel", what,
-                         which);
-}
-
 static rb_status check_layer(const rb_rolling_body *b, const char *which, rb_message *why)
 {
     if (!(isfinite(b->layer) && b->layer >= 0.0))
         return rb_fail(why, RB_EINVAL, "layer thickness%s: expected > 0, got %g", which,
                        b->layer);
-    const rb_status s =
-        has_layer(b) ? check_no_wheel(b, "layer thickness", which, why) : RB_OK;
-    return s == RB_OK
-               ? rb_rolling_check_base("base", b->base_young, b->base_poisson, which, why)
-               : s;
+    if (has_layer(b) && b->support != RB_BEM_HALFPLANE)
+        return rb_fail(why, RB_EINVAL,
+                       "layer thickness%s: for the support halfplane only, got a wheel",
+                       which);
+    return rb_rolling_check_base("base", b->base_young, b->base_poisson, which, why);
 }
 
 static const rb_rolling_parameter layer_parameters[] = {
@@ -170,17 +160,10 @@ static int has_memory(const rb_rolling_body *body)
     return body->memory.n > 0;
 }
 
-static rb_status check_relaxation(const rb_rolling_body *b, const char *which,
-                                  rb_message *why)
-{
-    return has_memory(b) ? check_no_wheel(b, "relaxation", which, why) : RB_OK;
-}
-
 static const rb_rolling_parameter relaxation_parameters[] = {{NULL}};
 
 const rb_rolling_body_kind rb_rolling_relaxation = {.name = "relaxation",
                                                     .support = RB_BEM_HALFPLANE,
                                                     .holds = has_memory,
-                                                    .can = HALFPLANE,
-                                                    .parameters = relaxation_parameters,
-                                                    .check = check_relaxation};
+                                                    .can = HALFPLANE | RB_BODY_BOUNDARY,
+                                                    .parameters = relaxation_parameters};

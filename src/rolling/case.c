@@ -153,7 +153,27 @@ static int is_positive(double x)
     return isfinite(x) && x > 0.0;
 }
 
-/* Memory averages over what a particle has passed: in steady rolling, at a speed. */
+/* Steady rolling averages over what a particle has passed, along a line.  Step by step a
+ * body has one compliance, so that nothing may be under it that does not relax. */
+static rb_status check_relaxing_body(const rb_rolling_case *rc,
+                                     const rb_rolling_body *body, rb_message *why)
+{
+    const int steps = rc->formulation != RB_STEADY;
+
+    if (body->memory.n == 0)
+        return RB_OK;
+    if (rc->formulation != RB_STATIC && !rb_rolling_body_can(body, RB_BODY_FLAT))
+        return rb_fail(why, RB_EINVAL,
+                       "relaxation: of what rolls for the support halfplane only, got a "
+                       "wheel");
+    if (steps && ((body->layer > 0.0 && body->base_young > 0.0) ||
+                  (body->cover > 0.0 && body->core_young > 0.0)))
+        return rb_fail(why, RB_EINVAL,
+                       "relaxation: step by step the base or core of a body that relaxes "
+                       "is rigid, got an elastic one");
+    return RB_OK;
+}
+
 static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
 {
     const rb_rolling_memory *const memory[2] = {&rc->a.memory, &rc->b.memory};
@@ -172,13 +192,25 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
                     memory[b]->time[k], memory[b]->ratio[k]);
         terms += memory[b]->n;
     }
-    if (terms > 0 && rc->formulation != RB_STEADY)
-        return rb_fail(why, RB_EINVAL,
-                       "relaxation: bodies that relax roll steadily here, add "
-                       "--formulation steady");
-    if (terms > 0 && !is_positive(rc->speed))
+    rb_status s = check_relaxing_body(rc, &rc->a, why);
+    if (s == RB_OK && rc->elastic_b)
+        s = check_relaxing_body(rc, &rc->b, why);
+    if (s != RB_OK || terms == 0)
+        return s;
+    if (rc->formulation != RB_STATIC && !is_positive(rc->speed))
         return rb_fail(why, RB_EINVAL,
                        "relaxation: needs the speed of rolling, add --speed");
+    if (rc->formulation == RB_TRANSIENT && rc->steps > 0)
+        return rb_fail(why, RB_EINVAL,
+                       "steps: bodies that relax roll by one element in each step, which "
+                       "--contact-elements says");
+    if (rc->formulation != RB_STEADY &&
+        (rc->gap == RB_GAP_TABLE || rc->irregularity_n > 0 || rc->worn_n > 0))
+        return rb_fail(why, RB_EINVAL,
+                       "relaxation: step by step under a parabola or circle only, got a "
+                       "table of the gap");
+    if (!(isfinite(rc->time_step) && rc->time_step >= 0.0))
+        return rb_fail(why, RB_EINVAL, "time step: expected > 0, got %g", rc->time_step);
     return RB_OK;
 }
 

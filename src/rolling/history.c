@@ -31,6 +31,9 @@ typedef struct {
                      does not depend on the state */
     rb_rolling_ahead ahead; /* for steps of another length than an element's */
     rb_rolling_heat_track heat;
+    rb_rolling_memory_track past; /* of bodies that relax */
+    double interval; /* [s] that the bodies at hand are those of; -1: of none */
+    int row, part;   /* of the program: steps towards this row that are done */
 } run;
 
 static double element_length(const run *r)
@@ -76,6 +79,59 @@ static rb_status remember(run *r, double c)
     return s;
 }
 
+/* Of the program at rest, so far; 0 where it has no times. */
+static double time_of(const run *r)
+{
+    const double *t = r->program->time;
+    const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
+
+    return !t || r->row + r->part == 0 ? 0.0
+           : r->part == 0              ? t[r->row - 1]
+           : r->part == parts
+               ? t[r->row]
+               : t[r->row - 1] + (t[r->row] - t[r->row - 1]) * r->part / parts;
+}
+
+/* [s], of a step that rolls by c. */
+static double interval_of(const run *r, double c)
+{
+    return rb_rolling_relaxes(r->rc) ? c / r->rc->speed : 0.0;
+}
+
+/* Bodies that relax are others in every step: elastic ones of that interval, displaced
+ * by what came before. */
+static rb_status relax(run *r, double interval, int rolls, rb_message *why)
+{
+    rb_rolling_model *model = r->model;
+    rb_status s = RB_OK;
+
+    if (!rb_rolling_relaxes(r->rc))
+        return RB_OK;
+    if (!(fabs(interval - r->interval) <= 1e-9 * interval)) {
+        const rb_rolling_case step = rb_rolling_memory_case(r->rc, interval);
+        rb_contact_problem_free(&model->problem);
+        rb_rolling_bodies_free(&model->bodies);
+        s = rb_rolling_bodies_create(&step, &model->mesh, &model->bodies, why);
+        if (s == RB_OK)
+            s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL,
+                                          0.0, &model->problem, why);
+        r->interval = interval;
+    }
+    if (s != RB_OK)
+        return s;
+    rb_rolling_memory_track_begin(&r->past, interval, rolls, model->bodies.f.w0);
+    rb_rolling_set_gap(&model->mesh, &model->bodies, &model->problem);
+    return RB_OK;
+}
+
+static void relaxed(run *r, double interval)
+{
+    const rb_contact_state *state = &r->model->state;
+
+    if (rb_rolling_relaxes(r->rc))
+        rb_rolling_memory_track_end(&r->past, interval, state->p, state->q);
+}
+
 static void record(run *r, double distance)
 {
     rb_rolling_history *h = r->history;
@@ -104,6 +160,11 @@ static void record(run *r, double distance)
         double at;
         rb_rolling_warmest(p->n, model->bodies.f.x, state->zone, model->temperature,
                            &h->max_temperature[k], &at);
+    }
+    if (h->time) {
+        const rb_rolling_program *program = r->program;
+        h->time[k] = program->time ? time_of(r) : distance * h->half_width / r->rc->speed;
+        h->lost_work[k] = r->past.lost;
     }
     for (int i = 0; i < p->n; i++) {
         h->stick[k] += state->zone[i] == RB_ZONE_STICK;
@@ -136,32 +197,46 @@ static rb_status judge(const run *r, rb_status s, rb_message *reason, rb_message
     return s;
 }
 
-/* A step at rest: the rigid shift moves the contact, or the given force does. */
-static rb_status static_step(run *r, int row, rb_message *why)
+/* A step at rest towards a row of the program: the rigid shift moves the contact, or the
+ * given force does. */
+static rb_status static_step(run *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     rb_rolling_case *rest = &model->rc;
     rb_contact_problem *p = &model->problem;
     const rb_rolling_past past = {r->w_T};
     const int first = r->history->n == 0;
+    const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
+    const double before = time_of(r);
     rb_message reason = {""};
     rb_status s = first ? RB_OK : remember(r, 0.0);
 
     if (s != RB_OK)
         return s;
-    *rest = rb_rolling_program_row(r->program, r->rc, row);
+    r->part++;
+    const double interval = time_of(r) - before;
+    *rest = rb_rolling_program_row(r->program, r->rc, r->row, r->part, parts);
     if (rest->formulation == RB_TRANSIENT && isnan(rest->force) &&
         isnan(rest->force_ratio))
         rest->force_ratio = 0.0; /* driven by its creepage as soon as it rolls */
     rest->formulation = RB_STATIC;
     model->shift = r->shift;
+    s = relax(r, interval, 0, why);
+    if (s != RB_OK)
+        return s;
     rb_rolling_set_past(rest, &model->bodies, first ? NULL : &past, 0.0, p);
     rb_rolling_set_control(rest, p);
     p->xi -= p->force_given ? 0.0 : r->shift;
     s = judge(r, rb_rolling_model_resolve(model, 0, &reason), &reason, why);
     r->shift += model->state.xi;
-    if (s >= 0)
+    if (s >= 0) {
+        relaxed(r, interval);
         record(r, 0.0);
+    }
+    if (r->part == parts) {
+        r->row++;
+        r->part = 0;
+    }
     return s;
 }
 
@@ -187,6 +262,8 @@ static rb_status rolled_step(run *r, double from, double to, rb_message *why)
 
     model->rc = rb_rolling_program_step(r->program, r->rc, from, to);
     if (s == RB_OK)
+        s = relax(r, interval_of(r, c), 1, why);
+    if (s == RB_OK)
         s = move_gap(model, to * r->history->half_width);
     if (s != RB_OK)
         return s;
@@ -202,21 +279,33 @@ static rb_status rolled_step(run *r, double from, double to, rb_message *why)
     if (s >= 0 && r->history->max_temperature)
         rb_rolling_heat_track_step(&model->rc, model->state.q, model->state.lambda,
                                    &r->heat, model->temperature);
-    if (s >= 0)
+    if (s >= 0) {
+        relaxed(r, interval_of(r, c));
         record(r, to);
+    }
     return s;
+}
+
+static int steps_at_rest(const run *r)
+{
+    const int rows = rb_rolling_program_at_rest(r->program);
+    int steps = 0;
+
+    for (int row = 0; row < rows; row++)
+        steps += rb_rolling_program_parts(r->program, r->rc, row);
+    return steps;
 }
 
 static rb_status all_steps(run *r, rb_rolling_step *see, void *context, rb_message *why)
 {
-    const int at_rest = rb_rolling_program_at_rest(r->program), n = r->program->n;
+    const int at_rest = steps_at_rest(r), n = r->program->n;
     const double c = r->history->step / r->history->half_width;
     rb_status s = RB_OK;
 
     for (int k = 0; k < r->steps && s == RB_OK; k++) {
         const int rolled = k - at_rest, last = k + 1 == r->steps;
         s = rolled < 0
-                ? static_step(r, k, why)
+                ? static_step(r, why)
                 : rolled_step(r, rolled * c,
                               last ? r->program->distance[n - 1] : (rolled + 1) * c, why);
         if (s == RB_OK && see && see(r->model, r->history, k, r->steps, context))
@@ -242,7 +331,7 @@ static double largest(const double *column, int n, double own)
 static rb_status widest_contact(const run *r, double zone, rb_message *why)
 {
     const rb_rolling_program *program = r->program;
-    rb_rolling_case widest = *r->rc;
+    rb_rolling_case widest = rb_rolling_memory_case(r->rc, INFINITY);
 
     widest.formulation = RB_STATIC;
     widest.increments = 0;
@@ -255,17 +344,28 @@ static rb_status widest_contact(const run *r, double zone, rb_message *why)
     return rb_rolling_model_create(&widest, r->model, why);
 }
 
+/* The unit of distances: Hertz's half-width of the largest load, of bodies that relax
+ * with the glassy modulus. */
+static double half_width(const run *r)
+{
+    const rb_rolling_model *widest = r->model;
+
+    return rb_rolling_relaxes(r->rc) && widest->problem.load_given
+               ? rb_rolling_hertz_half_width(r->rc, widest->problem.load)
+               : widest->half_width;
+}
+
 /* Step length and number.  Where the case does not say, a step is one element, or as
  * little less as brings the last one to the last row: a single short step would find a
  * creepage that is mostly error. */
 static rb_status plan_steps(run *r, double *step, rb_message *why)
 {
     const int at_rest = rb_rolling_program_at_rest(r->program), n = r->program->n;
-    const double unit = r->model->half_width;
+    const double unit = r->history->half_width;
     const double way = at_rest < n ? r->program->distance[n - 1] * unit : 0.0;
     const double elements = way / element_length(r);
 
-    r->steps = at_rest;
+    r->steps = steps_at_rest(r);
     *step = 0.0;
     if (way == 0.0)
         return RB_OK;
@@ -297,6 +397,53 @@ static rb_status prepare_heat(run *r, double step, rb_message *why)
                                         r->model->half_width, &r->heat, why);
 }
 
+/* Elements as long as a step, so that the past moves from one to the next. */
+static rb_status match_elements(run *r, double step, rb_message *why)
+{
+    rb_rolling_model *model = r->model;
+    const double from = model->mesh.ends[0], to = model->mesh.ends[model->mesh.n];
+    const double middle = 0.5 * (from + to);
+    rb_rolling_case equal = *r->rc;
+    rb_rolling_mesh mesh;
+
+    equal.contact_elements = (int)ceil((to - from) / step * (1.0 - 1e-9));
+    const double half = 0.5 * equal.contact_elements * step;
+    rb_status s =
+        rb_rolling_mesh_uniform(&equal, middle - half, middle + half, &mesh, why);
+    if (s != RB_OK)
+        return s;
+    rb_rolling_mesh_free(&model->mesh);
+    model->mesh = mesh;
+    rb_contact_state_free(&model->state);
+    return rb_contact_state_alloc(mesh.n, &model->state);
+}
+
+/* Bodies that relax come without a past.  Behind the mesh it counts for as long as its
+ * slowest term remembers, or for all the way. */
+static rb_status prepare_relaxation(run *r, double step, rb_message *why)
+{
+    enum { FORGOTTEN = 36 }; /* exp(-36) is below rounding */
+    const rb_rolling_case *rc = r->rc;
+    double slowest = 0.0;
+    rb_status s = RB_OK;
+
+    r->interval = -1.0;
+    r->row = r->part = 0;
+    if (!rb_rolling_relaxes(rc))
+        return RB_OK;
+    if (step > 0.0)
+        s = match_elements(r, step, why);
+    for (int k = 0; k < rc->a.memory.n; k++)
+        slowest = fmax(slowest, rc->a.memory.time[k]);
+    for (int k = 0; k < rc->b.memory.n && rc->elastic_b; k++)
+        slowest = fmax(slowest, rc->b.memory.time[k]);
+    const double tail =
+        step > 0.0 ? fmin(r->steps, FORGOTTEN * slowest * rc->speed / step) : 0.0;
+    return s == RB_OK ? rb_rolling_memory_track_create(rc, &r->model->mesh,
+                                                       (int)ceil(tail), &r->past, why)
+                      : s;
+}
+
 static rb_status prepare(run *r, double zone, rb_message *why)
 {
     double step = 0.0;
@@ -305,19 +452,22 @@ static rb_status prepare(run *r, double zone, rb_message *why)
     if (s != RB_OK)
         return s;
     r->shift = 0.0;
+    r->history->half_width = half_width(r);
+    s = plan_steps(r, &step, why);
+    if (s == RB_OK)
+        s = prepare_relaxation(r, step, why);
+    if (s != RB_OK)
+        return s;
     r->w_T = rb_alloc((size_t)r->model->mesh.n, 1);
     r->q = rb_alloc((size_t)r->model->mesh.n, 1);
     const int moves = rb_rolling_law_moves(r->rc);
     r->mu = moves ? rb_alloc((size_t)r->model->mesh.n, 1) : NULL;
-    if (!r->w_T || !r->q || (moves && !r->mu))
-        return RB_ENOMEM;
-    s = plan_steps(r, &step, why);
+    s = r->w_T && r->q && (r->mu || !moves) ? RB_OK : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, r->steps,
                                      r->history);
     if (s == RB_OK)
         s = prepare_heat(r, step, why);
-    r->history->half_width = r->model->half_width;
     r->history->step = step;
     r->history->steady_from = -1;
     return s;
@@ -333,6 +483,7 @@ static void run_free(run *r)
     r->model->heat = NULL;
     rb_rolling_ahead_free(&r->ahead);
     rb_rolling_heat_track_free(&r->heat);
+    rb_rolling_memory_track_free(&r->past);
 }
 
 /* Loads that move and surfaces that are irregular may widen the contact beyond that of

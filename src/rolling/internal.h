@@ -181,6 +181,42 @@ void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
                                 double *temperature);
 void rb_rolling_heat_track_free(rb_rolling_heat_track *track);
 
+/* ---- relax.c --------------------------------------------------------------------------
+ */
+
+/* A body that relaxes, and the filtered tractions of each of its terms (V6). */
+typedef struct {
+    const rb_rolling_memory *memory; /* borrowed from the case */
+    double sign;                     /* 1: body A, -1: B, whose tangent is mirrored */
+    rb_bem_flexibility f;            /* of the glassy body under all elements; owned */
+    double *past;                    /* terms x 2 all; owned */
+} rb_rolling_relaxing;
+
+/* The past of both bodies: of the n elements of the mesh, and of `tail` elements behind
+ * them, where the material is that has rolled out of the mesh. */
+typedef struct {
+    int n, tail, all, bodies;
+    rb_rolling_relaxing body[2];
+    double *traction; /* 2 all: on A at the end of the last step; owned */
+    double *room;     /* owned */
+    double lost;      /* work that the bodies have lost so far [force] */
+} rb_rolling_memory_track;
+
+/* What the bodies are in a step of so many seconds: elastic ones.  INFINITY: rubbery. */
+rb_rolling_case rb_rolling_memory_case(const rb_rolling_case *rc, double step);
+/* Bodies at rest without a past.  tail > 0: equal elements. */
+rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc,
+                                         const rb_rolling_mesh *mesh, int tail,
+                                         rb_rolling_memory_track *r, rb_message *why);
+/* Before a step is solved: the displacement w0 (2m) that its bodies bring along.  rolls:
+ * 1: the material moves by one element towards -x. */
+void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int rolls,
+                                   double *w0);
+/* After it, with the tractions on A that were found. */
+void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const double *p,
+                                 const double *q);
+void rb_rolling_memory_track_free(rb_rolling_memory_track *r);
+
 /* ---- results.c
  * -------------------------------------------------------------------------
  */
@@ -205,9 +241,13 @@ double *rb_rolling_column(const rb_rolling_result *r, const void *owner);
 
 /* Rows at rest that the program begins with. */
 int rb_rolling_program_at_rest(const rb_rolling_program *program);
-/* The case of row r, at rest. */
+/* Steps at rest from the row before to row r. */
+int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling_case *rc,
+                             int r);
+/* The case of row r at rest, or part/parts of the way there from the row before. */
 rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program,
-                                       const rb_rolling_case *rc, int r);
+                                       const rb_rolling_case *rc, int r, int part,
+                                       int parts);
 /* The case of a step rolled from one distance to another. */
 rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
                                         const rb_rolling_case *rc, double from,
@@ -369,8 +409,6 @@ double rb_rolling_longest_element(int n, const int *zone, const double *h);
 double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
                                    const double *q, const double *h, const double *e_T);
 
-/* 1: a body of the case has memory. */
-int rb_rolling_relaxes(const rb_rolling_case *rc);
 /* Power per unit speed that the bodies lose, - int (p w_N' + q w_T') dx, from pressures,
  * friction and displacements (theory.md V4): 0 for elastic bodies, NAN but in steady
  * rolling.  RB_ENOMEM. */

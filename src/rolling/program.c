@@ -14,6 +14,7 @@
 
 const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS] = {
     {"distance", offsetof(rb_rolling_program, distance), SIZE_MAX, 0},
+    {"time", offsetof(rb_rolling_program, time), SIZE_MAX, 0},
     COLUMN(load, 0),
     COLUMN(approach, 0),
     COLUMN(shift, 0),
@@ -33,6 +34,8 @@ static const double *column_of(const rb_rolling_program *program, int c)
 
 static void replace(rb_rolling_case *rc, int c, double value)
 {
+    if (rb_rolling_program_columns[c].value == SIZE_MAX)
+        return;
     memcpy((char *)rc + rb_rolling_program_columns[c].value, &value, sizeof value);
 }
 
@@ -46,14 +49,30 @@ int rb_rolling_program_at_rest(const rb_rolling_program *program)
     return rows;
 }
 
+int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling_case *rc,
+                             int r)
+{
+    if (!program->time || r == 0 || !(rc->time_step > 0.0))
+        return 1;
+    const double steps = (program->time[r] - program->time[r - 1]) / rc->time_step;
+    return (int)fmin(fmax(ceil(steps * (1.0 - 1e-9)), 1.0), 1e7);
+}
+
+static double value_of_part(const double *column, int r, int part, int parts)
+{
+    return part == parts ? column[r]
+                         : column[r - 1] + (column[r] - column[r - 1]) * part / parts;
+}
+
 rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program,
-                                       const rb_rolling_case *rc, int r)
+                                       const rb_rolling_case *rc, int r, int part,
+                                       int parts)
 {
     rb_rolling_case at = *rc;
 
-    for (int c = 1; c < RB_ROLLING_PROGRAM_COLUMNS; c++)
+    for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++)
         if (column_of(program, c))
-            replace(&at, c, column_of(program, c)[r]);
+            replace(&at, c, value_of_part(column_of(program, c), r, part, parts));
     return at;
 }
 
@@ -102,7 +121,7 @@ rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
 {
     rb_rolling_case at = *rc;
 
-    for (int c = 1; c < RB_ROLLING_PROGRAM_COLUMNS; c++) {
+    for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++) {
         const double *column = column_of(program, c);
         if (column)
             replace(&at, c,
@@ -138,9 +157,40 @@ static rb_status check_distances(const rb_rolling_program *program, rb_message *
     return RB_OK;
 }
 
-static rb_status check_columns(const rb_rolling_program *program,
-                               rb_rolling_formulation formulation, rb_message *why)
+static rb_status check_times(const rb_rolling_program *program, const rb_rolling_case *rc,
+                             rb_message *why)
 {
+    const double *t = program->time;
+    double steps = 0.0;
+
+    if (!t)
+        return rb_fail(
+            why, RB_EINVAL,
+            "history: static contact of bodies that relax needs a column time");
+    if (t[0] != 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "history: row 1: expected time 0, when the bodies are pressed "
+                       "together, got %g",
+                       t[0]);
+    for (int r = 1; r < program->n; r++) {
+        if (t[r] < t[r - 1])
+            return rb_fail(why, RB_EINVAL,
+                           "history: row %d: time %g is before that of the row before",
+                           r + 1, t[r]);
+        steps += rb_rolling_program_parts(program, rc, r);
+    }
+    return steps <= 1e7
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL,
+                         "time step: %g s makes %.3g steps; expected at most 1e7",
+                         rc->time_step, steps);
+}
+
+static rb_status check_columns(const rb_rolling_program *program,
+                               const rb_rolling_case *rc, rb_message *why)
+{
+    const rb_rolling_formulation formulation = rc->formulation;
+
     if (program->n < 1)
         return rb_fail(why, RB_EINVAL, "history: expected 1 row or more");
     if (formulation == RB_STEADY)
@@ -152,22 +202,33 @@ static rb_status check_columns(const rb_rolling_program *program,
         return rb_fail(why, RB_EINVAL,
                        "history: a column distance is one of transient rolling; static "
                        "contact does not roll");
+    if (program->time && formulation == RB_TRANSIENT)
+        return rb_fail(
+            why, RB_EINVAL,
+            "history: a column time is one of static contact; what rolls has a "
+            "distance and a speed");
+    if (program->time && !rb_rolling_relaxes(rc))
+        return rb_fail(why, RB_EINVAL,
+                       "history: a column time is of bodies that relax, see "
+                       "--relaxation-time");
     for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++)
         for (int r = 0; column_of(program, c) && r < program->n; r++)
             if (!isfinite(column_of(program, c)[r]))
                 return rb_fail(why, RB_EINVAL, "history: row %d: %s is not a number",
                                r + 1, rb_rolling_program_columns[c].name);
+    if (formulation == RB_STATIC && rb_rolling_relaxes(rc))
+        return check_times(program, rc, why);
     return program->distance ? check_distances(program, why) : RB_OK;
 }
 
 rb_status rb_rolling_program_check(const rb_rolling_program *program,
                                    const rb_rolling_case *rc, rb_message *why)
 {
-    rb_status s = check_columns(program, rc->formulation, why);
+    rb_status s = check_columns(program, rc, why);
     rb_message reason = {""};
 
     for (int r = 0; r < program->n && s == RB_OK; r++) {
-        const rb_rolling_case at = rb_rolling_program_row(program, rc, r);
+        const rb_rolling_case at = rb_rolling_program_row(program, rc, r, 1, 1);
         s = rb_rolling_case_check(&at, &reason);
         if (s != RB_OK)
             rb_fail(why, s, "history: row %d: %.200s", r + 1, reason.text);

@@ -161,6 +161,11 @@ static const rb_rolling_result steps[] = {
     STEP("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_ONE,
          .condition = RB_FOR_HEAT,
          .meaning = "highest temperature of the surfaces in contact"),
+    STEP("time", time, .unit = "s", .condition = RB_FOR_MEMORY,
+         .meaning = "at the end of the step, of bodies that relax"),
+    STEP("lost_work", lost_work, .unit = "N", .error_bar = RB_SCALE_ONE,
+         .condition = RB_FOR_MEMORY,
+         .meaning = "work that bodies which relax have lost so far"),
 };
 
 static const rb_rolling_result points[] = {
@@ -292,6 +297,8 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc)
         return rc->friction.law != RB_FRICTION_constant || rc->friction.heat != 0.0;
     case RB_FOR_MOVING_LAW:
         return rb_rolling_law_moves(rc);
+    case RB_FOR_MEMORY:
+        return rb_rolling_relaxes(rc);
     case RB_FOR_ALL:
         break;
     }

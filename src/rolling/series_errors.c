@@ -250,6 +250,10 @@ rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
     memset(model, 0, sizeof *model);
     memset(history, 0, sizeof *history);
     memset(errors, 0, sizeof *errors);
+    if (s == RB_OK && program && program->time)
+        s = rb_fail(why, RB_EINVAL,
+                    "error bars: a history in time has none; compare with half the time "
+                    "step and twice the contact elements");
     if (s == RB_OK)
         s = rb_rolling_history_run(rc, program, step, context, model, history, why);
     for (int k = 0; k < runs && s == RB_OK; k++)

@@ -1,0 +1,266 @@
+/* Bodies that relax, step by step (theory.md V5, V6).  In a step each of them is an
+ * elastic body, softer than the glassy one, which brings along a displacement from its
+ * past.  What is kept of the past are tractions, because those of an element that has
+ * left the contact move with the material, while displacements reach everywhere. */
+#include "rolling/internal.h"
+
+#include <cblas.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- One term over one step (V6) ------------------------------------------------------
+ */
+
+/* The filtered traction of a particle after a step in which its traction was linear in
+ * time: kept * filtered + before * (traction before) + after * (traction after). */
+typedef struct {
+    double kept, before, after;
+} filter;
+
+static filter filter_of(double time, double step)
+{
+    const double r = step / time;
+    filter f = {.kept = exp(-r)};
+
+    if (r < 1e-2) { /* the closed forms would lose digits */
+        f.before = r * (1.0 / 2.0 - r * (1.0 / 3.0 - r * (1.0 / 8.0 - r / 30.0)));
+        f.after = r * (1.0 / 2.0 - r * (1.0 / 6.0 - r * (1.0 / 24.0 - r / 120.0)));
+    } else {
+        f.before = -expm1(-r) / r - f.kept;
+        f.after = 1.0 + expm1(-r) / r;
+    }
+    return f;
+}
+
+/* The dashpot of a term loses in a step (1/tau) int e F e dt, where e, the traction less
+ * the filtered one, is e_0 exp(-t/tau) + d b(t) for a change d of the traction: factors
+ * of e_0 F e_0, 2 e_0 F d and d F d (V7). */
+static void loss_factors(double time, double step, double factor[3])
+{
+    const double r = step / time, faded = -expm1(-r), twice = -expm1(-2.0 * r);
+
+    factor[0] = 0.5 * twice;
+    if (r < 1e-2) {
+        factor[1] = r * (0.5 - r * (0.5 - r * 7.0 / 24.0));
+        factor[2] = r * (1.0 / 3.0 - r * (1.0 / 4.0 - r * (7.0 / 60.0 - r / 24.0)));
+    } else {
+        factor[1] = 0.5 * faded * faded / r;
+        factor[2] = (r - 2.0 * faded + 0.5 * twice) / (r * r);
+    }
+}
+
+/* Compliance of a step over the glassy one. */
+static double softening(const rb_rolling_memory *memory, double step)
+{
+    double sum = 1.0;
+
+    for (int k = 0; k < memory->n; k++)
+        sum += memory->ratio[k] *
+               (isinf(step) ? 1.0 : filter_of(memory->time[k], step).after);
+    return sum;
+}
+
+static void soften(rb_rolling_body *body, double step)
+{
+    body->young /= softening(&body->memory, step);
+    body->memory.n = 0;
+}
+
+rb_rolling_case rb_rolling_memory_case(const rb_rolling_case *rc, double step)
+{
+    rb_rolling_case elastic = *rc;
+
+    soften(&elastic.a, step);
+    soften(&elastic.b, step);
+    return elastic;
+}
+
+/* ---- The past -------------------------------------------------------------------------
+ */
+
+void rb_rolling_memory_track_free(rb_rolling_memory_track *r)
+{
+    for (int b = 0; b < 2; b++) {
+        rb_bem_flexibility_free(&r->body[b].f);
+        free(r->body[b].past);
+    }
+    free(r->traction);
+    free(r->room);
+    memset(r, 0, sizeof *r);
+}
+
+/* The mesh with so many more elements behind it, where particles are that have left it.
+ */
+static rb_status extend(const rb_rolling_mesh *mesh, int tail, rb_rolling_mesh *longer)
+{
+    const double h = mesh->ends[1] - mesh->ends[0];
+
+    *longer = (rb_rolling_mesh){.n = mesh->n + tail,
+                                .ends = rb_alloc((size_t)(mesh->n + tail) + 2, 1)};
+    if (!longer->ends)
+        return RB_ENOMEM;
+    for (int i = 0; i < tail; i++)
+        longer->ends[i] = mesh->ends[0] - (tail - i) * h;
+    memcpy(longer->ends + tail, mesh->ends, ((size_t)mesh->n + 2) * sizeof(double));
+    return RB_OK;
+}
+
+/* Alone, in its own frame.  By transforms where it can, because there may be many
+ * elements behind the mesh. */
+static rb_status glassy_flexibility(const rb_rolling_case *rc,
+                                    const rb_rolling_body *body,
+                                    const rb_rolling_mesh *mesh, rb_bem_flexibility *f,
+                                    rb_message *why)
+{
+    rb_rolling_body glassy = *body;
+    rb_rolling_body_flexibility made = {0};
+
+    glassy.memory.n = 0;
+    if (rb_rolling_body_can(&glassy, RB_BODY_TRANSFORMS)) {
+        const rb_bem_surface surface = rb_rolling_surface_of(rc, &glassy, NULL);
+        return rb_bem_flexibility_toeplitz(mesh->n, mesh->ends, &surface, f, why);
+    }
+    const rb_status s =
+        rb_rolling_kind_of(&glassy)->flexibility(rc, &glassy, mesh, &made, why);
+    rb_bem_system_free(made.system);
+    *f = made.f;
+    return s;
+}
+
+static rb_status add_body(const rb_rolling_case *rc, const rb_rolling_body *body,
+                          double sign, const rb_rolling_mesh *mesh,
+                          rb_rolling_memory_track *r, rb_message *why)
+{
+    rb_rolling_relaxing *own = &r->body[r->bodies];
+
+    if (body->memory.n == 0)
+        return RB_OK;
+    *own = (rb_rolling_relaxing){.memory = &body->memory, .sign = sign};
+    own->past = rb_alloc(2 * (size_t)r->all, (size_t)body->memory.n);
+    r->bodies++;
+    return own->past ? glassy_flexibility(rc, body, mesh, &own->f, why) : RB_ENOMEM;
+}
+
+rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc,
+                                         const rb_rolling_mesh *mesh, int tail,
+                                         rb_rolling_memory_track *r, rb_message *why)
+{
+    rb_rolling_mesh longer = {0};
+    rb_status s = extend(mesh, tail, &longer);
+
+    *r = (rb_rolling_memory_track){.n = mesh->n, .tail = tail, .all = mesh->n + tail};
+    r->traction = rb_alloc(2 * (size_t)r->all, 1);
+    r->room = rb_alloc(2 * (size_t)r->all + 2, 4);
+    if (s == RB_OK && !(r->traction && r->room))
+        s = RB_ENOMEM;
+    if (s == RB_OK)
+        s = add_body(rc, &rc->a, 1.0, &longer, r, why);
+    if (s == RB_OK && rc->elastic_b)
+        s = add_body(rc, &rc->b, -1.0, &longer, r, why);
+    rb_rolling_mesh_free(&longer);
+    return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the past of %d elements",
+                                    mesh->n + tail)
+                          : s;
+}
+
+/* Values of both directions move by one element towards -x; nothing comes from +x. */
+static void move(int n, double *values)
+{
+    memmove(values, values + 1, (2 * (size_t)n - 1) * sizeof *values);
+    values[n - 1] = values[2 * n - 1] = 0.0;
+}
+
+/* Tractions on a body in its own frame: B is mirrored, its tangent points towards -x. */
+static void turn(const rb_rolling_relaxing *body, int n, const double *on_a, double *own)
+{
+    memcpy(own, on_a, (size_t)n * sizeof *own);
+    for (int i = n; i < 2 * n; i++)
+        own[i] = body->sign * on_a[i];
+}
+
+void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int rolls,
+                                   double *w0)
+{
+    const int all = r->all, m = r->n + 1;
+    double *own = r->room, *sum = own + 2 * all + 2, *w = sum + 2 * all + 2;
+
+    if (rolls)
+        move(all, r->traction);
+    memset(w0, 0, 2 * (size_t)m * sizeof *w0);
+    for (int b = 0; b < r->bodies; b++) {
+        const rb_rolling_relaxing *body = &r->body[b];
+        turn(body, all, r->traction, own);
+        memset(sum, 0, 2 * (size_t)all * sizeof *sum);
+        for (int k = 0; k < body->memory->n; k++) {
+            const filter f = filter_of(body->memory->time[k], step);
+            double *past = body->past + 2 * (size_t)k * (size_t)all;
+            if (rolls)
+                move(all, past);
+            cblas_daxpy(2 * all, body->memory->ratio[k] * f.kept, past, 1, sum, 1);
+            cblas_daxpy(2 * all, body->memory->ratio[k] * f.before, own, 1, sum, 1);
+        }
+        rb_bem_flexibility_apply(&body->f, sum, w);
+        cblas_daxpy(m, 1.0, w + r->tail, 1, w0, 1);
+        cblas_daxpy(m, body->sign, w + all + 1 + r->tail, 1, w0 + m, 1);
+    }
+}
+
+/* x F y, the work of tractions x on the displacements of tractions y; w = F y. */
+static double work(const rb_rolling_relaxing *body, const double *x, const double *w)
+{
+    const int n = body->f.n, m = body->f.m;
+    double sum = 0.0;
+
+    for (int i = 0; i < n; i++)
+        sum += body->f.h[i] * (x[i] * w[i] + x[n + i] * w[m + i]);
+    return sum;
+}
+
+/* One body from tractions `before` to `after`, both in its frame; e, w: room. */
+static double advance(const rb_rolling_relaxing *body, double step, int all,
+                      const double *before, double *after, double *e, double *w)
+{
+    const size_t size = 2 * (size_t)all;
+    double lost = 0.0, of_change = 0.0, factor[3];
+
+    for (int k = 0; k < body->memory->n && step > 0.0; k++) {
+        const double time = body->memory->time[k], ratio = body->memory->ratio[k];
+        const filter f = filter_of(time, step);
+        double *past = body->past + (size_t)k * size;
+        for (size_t i = 0; i < size; i++) {
+            e[i] = before[i] - past[i];
+            past[i] = f.kept * past[i] + f.before * before[i] + f.after * after[i];
+        }
+        loss_factors(time, step, factor);
+        rb_bem_flexibility_apply(&body->f, e, w);
+        lost +=
+            ratio * (factor[0] * work(body, e, w) +
+                     2.0 * factor[1] * (work(body, after, w) - work(body, before, w)));
+        of_change += ratio * factor[2];
+    }
+    for (size_t i = 0; i < size; i++)
+        e[i] = after[i] - before[i];
+    rb_bem_flexibility_apply(&body->f, e, w);
+    return lost + of_change * work(body, e, w);
+}
+
+void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const double *p,
+                                 const double *q)
+{
+    const int n = r->n, all = r->all;
+    const size_t room = 2 * (size_t)all + 2;
+    double *before = r->room, *after = before + room, *e = after + room, *w = e + room;
+
+    for (int b = 0; b < r->bodies; b++) {
+        turn(&r->body[b], all, r->traction, before);
+        memset(after, 0, room * sizeof *after);
+        for (int i = 0; i < n; i++) {
+            after[r->tail + i] = p[i];
+            after[all + r->tail + i] = r->body[b].sign * q[i];
+        }
+        r->lost += advance(&r->body[b], step, all, before, after, e, w);
+    }
+    memset(r->traction, 0, 2 * (size_t)all * sizeof *r->traction);
+    memcpy(r->traction + r->tail, p, (size_t)n * sizeof *p);
+    memcpy(r->traction + all + r->tail, q, (size_t)n * sizeof *q);
+}
