@@ -704,13 +704,11 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
     if (s == RB_OK && !(relaxes && settled->rc.formulation == RB_STATIC))
         s = refuse_given(c, "time-step", "of static contact of bodies that relax only",
                          why);
-    if (s == RB_OK && relaxes && settled->rc.formulation == RB_STATIC) {
-        s = refuse_given(c, "speed", "static contact does not roll", why);
-        if (s == RB_OK && !history)
-            s = rb_fail(why, RB_EINVAL,
-                        "static contact of bodies that relax needs --history, a table "
-                        "with a column time");
-    }
+    if (s == RB_OK && relaxes && settled->rc.formulation == RB_STATIC)
+        s = history ? refuse_given(c, "speed", "static contact does not roll", why)
+                    : rb_fail(why, RB_EINVAL,
+                              "static contact of bodies that relax needs --history, a "
+                              "table with a column time");
     if (s == RB_OK && history)
         s = refuse_given(c, "increments", "the history says them row by row", why);
     if (s == RB_OK && rb_case_has_steps(settled) && settled->rc.mesh != RB_MESH_UNIFORM)

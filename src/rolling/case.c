@@ -162,7 +162,8 @@ static rb_status check_relaxing_body(const rb_rolling_case *rc,
 
     if (body->memory.n == 0)
         return RB_OK;
-    if (rc->formulation != RB_STATIC && !rb_rolling_body_can(body, RB_BODY_FLAT))
+    if ((rc->formulation == RB_STEADY && !rb_rolling_body_can(body, RB_BODY_FLAT)) ||
+        (rc->formulation == RB_TRANSIENT && !rb_rolling_can(rc, RB_BODY_FLAT)))
         return rb_fail(why, RB_EINVAL,
                        "relaxation: of what rolls for the support halfplane only, got a "
                        "wheel");
@@ -192,6 +193,10 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
                     memory[b]->time[k], memory[b]->ratio[k]);
         terms += memory[b]->n;
     }
+    if (terms > 0 && rc->formulation == RB_TRANSIENT && rc->steps > 0)
+        return rb_fail(why, RB_EINVAL,
+                       "steps: bodies that relax roll by one element in each step, which "
+                       "--contact-elements says");
     rb_status s = check_relaxing_body(rc, &rc->a, why);
     if (s == RB_OK && rc->elastic_b)
         s = check_relaxing_body(rc, &rc->b, why);
@@ -200,10 +205,6 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
     if (rc->formulation != RB_STATIC && !is_positive(rc->speed))
         return rb_fail(why, RB_EINVAL,
                        "relaxation: needs the speed of rolling, add --speed");
-    if (rc->formulation == RB_TRANSIENT && rc->steps > 0)
-        return rb_fail(why, RB_EINVAL,
-                       "steps: bodies that relax roll by one element in each step, which "
-                       "--contact-elements says");
     if (rc->formulation != RB_STEADY &&
         (rc->gap == RB_GAP_TABLE || rc->irregularity_n > 0 || rc->worn_n > 0))
         return rb_fail(why, RB_EINVAL,

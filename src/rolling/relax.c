@@ -105,9 +105,9 @@ static rb_status extend(const rb_rolling_mesh *mesh, int tail, rb_rolling_mesh *
     return RB_OK;
 }
 
-/* Alone, in its own frame.  By transforms where it can, because there may be many
+/* Alone, in its own frame.  Of what rolls by transforms, because there may be many
  * elements behind the mesh. */
-static rb_status glassy_flexibility(const rb_rolling_case *rc,
+static rb_status glassy_flexibility(const rb_rolling_case *rc, int rolls,
                                     const rb_rolling_body *body,
                                     const rb_rolling_mesh *mesh, rb_bem_flexibility *f,
                                     rb_message *why)
@@ -116,7 +116,7 @@ static rb_status glassy_flexibility(const rb_rolling_case *rc,
     rb_rolling_body_flexibility made = {0};
 
     glassy.memory.n = 0;
-    if (rb_rolling_body_can(&glassy, RB_BODY_TRANSFORMS)) {
+    if (rolls) {
         const rb_bem_surface surface = rb_rolling_surface_of(rc, &glassy, NULL);
         return rb_bem_flexibility_toeplitz(mesh->n, mesh->ends, &surface, f, why);
     }
@@ -138,7 +138,8 @@ static rb_status add_body(const rb_rolling_case *rc, const rb_rolling_body *body
     *own = (rb_rolling_relaxing){.memory = &body->memory, .sign = sign};
     own->past = rb_alloc(2 * (size_t)r->all, (size_t)body->memory.n);
     r->bodies++;
-    return own->past ? glassy_flexibility(rc, body, mesh, &own->f, why) : RB_ENOMEM;
+    return own->past ? glassy_flexibility(rc, r->tail > 0, body, mesh, &own->f, why)
+                     : RB_ENOMEM;
 }
 
 rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc,
