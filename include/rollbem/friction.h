@@ -24,17 +24,18 @@ typedef enum {
 
 typedef struct {
     rb_friction_form form;
-    int dimension; /* d: 2 or 3 */
-    int contacts;  /* n_c */
-    double *mu;    /* n_c, >= 0; owned, as all arrays here */
-    double *W;     /* LOCAL_DENSE: m x m column-major */
-    rb_sparse Ws;  /* LOCAL_SPARSE: m x m */
-    double *q;     /* local: m */
-    int dofs;      /* GLOBAL: n */
-    rb_sparse K;   /* n x n, both triangles */
-    rb_sparse H;   /* n x m */
-    double *f;     /* n */
-    double *w;     /* m */
+    int dimension;   /* d: 2 or 3 */
+    int contacts;    /* n_c */
+    double *mu;      /* n_c, >= 0; owned, as all arrays here */
+    double *W;       /* LOCAL_DENSE: m x m column-major */
+    rb_sparse Ws;    /* LOCAL_SPARSE: m x m */
+    double *q;       /* local: m */
+    int dofs;        /* GLOBAL: n */
+    rb_sparse K;     /* n x n, both triangles */
+    rb_sparse H;     /* n x m */
+    double *f;       /* n */
+    double *w;       /* m */
+    double *lengths; /* NULL, or n_c / 2: of rb_friction_split_rolling */
 } rb_friction_problem;
 
 void rb_friction_problem_free(rb_friction_problem *problem);
@@ -60,6 +61,18 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
 rb_status rb_friction_eliminate_local(rb_friction_problem *local, const rb_sparse *V,
                                       const rb_sparse *R, const double *s,
                                       rb_message *why);
+
+/* Rolling friction, global form, dimension 5: [N, T1, T2, M1, M2] per contact,
+ * ||r_T|| <= mu r_N and ||m|| <= mu_r r_N, slip against r_T and the relative rate of turn
+ * against m.  The problem becomes one of 2 n_c contacts in three dimensions and n + n_c
+ * motions (src/friction/rolling.c says how), which every solver takes.  mu_r: n_c,
+ * [length]. RB_EINVAL: what rb_friction_problem_check refuses, mu_r < 0; RB_ENOMEM. */
+rb_status rb_friction_split_rolling(rb_friction_problem *problem, const double *mu_r,
+                                    rb_message *why);
+/* r and u (3 contacts) of such a problem as forces and velocities, five per rolling
+ * contact, written; they may be r and u themselves. */
+void rb_friction_unite_rolling(const rb_friction_problem *problem, const double *r,
+                               const double *u, double *force, double *velocity);
 
 /* What is worth knowing of a problem before solving it. */
 typedef struct {
@@ -99,7 +112,8 @@ rb_status rb_friction_read(const char *path, rb_friction_problem *problem,
 rb_status rb_friction_read_as(const char *path, rb_friction_file kind,
                               rb_friction_problem *problem, rb_message *why);
 
-/* As FCLib (HDF5); r, u, v: a solution to go with it, or NULL.  RB_EWRITE. */
+/* As FCLib (HDF5); r, u, v: a solution to go with it, or NULL.  RB_EWRITE;
+ * RB_EINVAL: rolling friction. */
 rb_status rb_friction_write(const char *path, const rb_friction_problem *problem,
                             const double *r, const double *u, const double *v,
                             const char *title, rb_message *why);

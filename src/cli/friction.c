@@ -349,6 +349,15 @@ static rb_friction_options solver_options(friction_run *run)
     return opt;
 }
 
+/* Rolling contacts are solved as two contacts each and told as one of five entries. */
+static void unite_rolling(const rb_friction_problem *p, friction_result *r)
+{
+    rb_friction_unite_rolling(p, r->r, r->u, r->r, r->u);
+    r->contacts = p->contacts / 2;
+    r->dimension = 5;
+    r->m = r->dimension * r->contacts;
+}
+
 static cli_exit solve_friction(friction_run *run, friction_result *r)
 {
     rb_friction_problem p;
@@ -369,6 +378,8 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
         code = judge(run, r, s);
         if (code == CLI_UNSOLVED && is_infeasible(&p, r->file))
             r->status = "infeasible";
+        if (p.lengths)
+            unite_rolling(&p, r);
     }
     rb_friction_problem_free(&p);
     return code;

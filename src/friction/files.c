@@ -45,7 +45,11 @@ static rb_status read_fclib(const char *path, rb_friction_problem *problem,
     if (s != RB_OK)
         return s;
     adopt_fclib(&file, problem);
-    if (file.constraints)
+    if (file.rolling)
+        s = rb_friction_split_rolling(problem, file.mu_r, &detail);
+    if (s == RB_OK && file.rolling)
+        file.G.rows = problem->dofs; /* constraints do not hold the motions added */
+    if (s == RB_OK && file.constraints)
         s = file.global
                 ? rb_friction_eliminate(problem, &file.G, file.b, &detail)
                 : rb_friction_eliminate_local(problem, &file.V, &file.R, file.s, &detail);
@@ -280,6 +284,8 @@ rb_status rb_friction_write(const char *path, const rb_friction_problem *p,
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
     rb_io_fclib file;
+    if (p->lengths)
+        return rb_fail(why, RB_EINVAL, "%s: rolling friction cannot be written", path);
     rb_status s = describe(p, &file);
     if (s == RB_OK && r)
         s = copy_vector(m, r, &file.r);

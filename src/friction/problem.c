@@ -16,6 +16,7 @@ void rb_friction_problem_free(rb_friction_problem *problem)
     rb_sparse_free(&problem->H);
     free(problem->f);
     free(problem->w);
+    free(problem->lengths);
     *problem = (rb_friction_problem){0};
 }
 

@@ -30,6 +30,7 @@ void rb_io_fclib_free(rb_io_fclib *problem)
     free(problem->f);
     free(problem->w);
     free(problem->mu);
+    free(problem->mu_r);
     free(problem->r);
     free(problem->u);
     free(problem->v);
@@ -307,15 +308,18 @@ static rb_status read_common(const reader *in, const char *root, int rows, rb_io
     rb_status s = read_int(in, root, "spacedim", &p->spacedim);
     if (s != RB_OK)
         return s;
-    if (p->spacedim != 2 && p->spacedim != 3)
-        return rb_fail(in->why, RB_EFORMAT, "%s: spacedim is %d, expected 2 or 3",
-                       in->path, p->spacedim);
+    if (p->rolling ? p->spacedim != 5 : p->spacedim != 2 && p->spacedim != 3)
+        return rb_fail(in->why, RB_EFORMAT, "%s: spacedim is %d, expected %s", in->path,
+                       p->spacedim, p->rolling ? "5" : "2 or 3");
     if (rows % p->spacedim)
         return rb_fail(in->why, RB_EFORMAT, "%s: %d contact rows are no multiple of %d",
                        in->path, rows, p->spacedim);
     p->contacts = rows / p->spacedim;
     snprintf(vectors, sizeof vectors, "%s/vectors", root);
-    return read_doubles(in, vectors, "mu", p->contacts, &p->mu);
+    s = read_doubles(in, vectors, "mu", p->contacts, &p->mu);
+    return s == RB_OK && p->rolling
+               ? read_doubles(in, vectors, "mu_r", p->contacts, &p->mu_r)
+               : s;
 }
 
 /* A matrix of constraints, if any part of them is there: a column for each. */
@@ -361,35 +365,48 @@ static rb_status read_local(const reader *in, rb_io_fclib *p)
     return s == RB_OK ? read_local_constraints(in, p) : s;
 }
 
+static const char *root_of(const rb_io_fclib *p)
+{
+    return p->rolling  ? "fclib_global_rolling"
+           : p->global ? "fclib_global"
+                       : "fclib_local";
+}
+
 /* M v = H r + G l + f, G' v + b = 0 */
 static rb_status read_global_constraints(const reader *in, rb_io_fclib *p)
 {
-    if (!exists(in, "/fclib_global/G") && !exists(in, "/fclib_global/vectors/b"))
+    char matrix[60], vectors[60], b[60];
+    snprintf(matrix, sizeof matrix, "/%s/G", root_of(p));
+    snprintf(vectors, sizeof vectors, "/%s/vectors", root_of(p));
+    snprintf(b, sizeof b, "/%s/vectors/b", root_of(p));
+    if (!exists(in, matrix) && !exists(in, b))
         return RB_OK;
-    const rb_status s =
-        read_columns(in, "/fclib_global/G", p->M.rows, &p->constraints, &p->G);
-    return s == RB_OK
-               ? read_doubles(in, "/fclib_global/vectors", "b", p->constraints, &p->b)
-               : s;
+    const rb_status s = read_columns(in, matrix, p->M.rows, &p->constraints, &p->G);
+    return s == RB_OK ? read_doubles(in, vectors, "b", p->constraints, &p->b) : s;
 }
 
 static rb_status read_global(const reader *in, rb_io_fclib *p)
 {
+    char root[40], M[60], H[60], vectors[60];
     p->global = 1;
-    rb_status s = read_matrix(in, "/fclib_global/M", &p->M);
+    snprintf(root, sizeof root, "/%s", root_of(p));
+    snprintf(M, sizeof M, "/%s/M", root_of(p));
+    snprintf(H, sizeof H, "/%s/H", root_of(p));
+    snprintf(vectors, sizeof vectors, "/%s/vectors", root_of(p));
+    rb_status s = read_matrix(in, M, &p->M);
     if (s == RB_OK)
         s = complete_symmetric(&p->M);
     if (s == RB_OK)
-        s = read_matrix(in, "/fclib_global/H", &p->H);
+        s = read_matrix(in, H, &p->H);
     if (s == RB_OK && (p->M.rows != p->M.cols || p->M.rows != p->H.rows))
         s = rb_fail(in->why, RB_EFORMAT, "%s: M is %d x %d and H is %d x %d", in->path,
                     p->M.rows, p->M.cols, p->H.rows, p->H.cols);
     if (s == RB_OK)
-        s = read_common(in, "/fclib_global", p->H.cols, p);
+        s = read_common(in, root, p->H.cols, p);
     if (s == RB_OK)
-        s = read_doubles(in, "/fclib_global/vectors", "f", p->M.rows, &p->f);
+        s = read_doubles(in, vectors, "f", p->M.rows, &p->f);
     if (s == RB_OK)
-        s = read_doubles(in, "/fclib_global/vectors", "w", p->H.cols, &p->w);
+        s = read_doubles(in, vectors, "w", p->H.cols, &p->w);
     return s == RB_OK ? read_global_constraints(in, p) : s;
 }
 
@@ -410,12 +427,15 @@ static rb_status read_solution(const reader *in, rb_io_fclib *p)
 static rb_status read_file(const reader *in, rb_io_fclib *p)
 {
     rb_status s;
-    if (exists(in, "/fclib_global_rolling") || exists(in, "/fclib_local_rolling"))
-        return rb_fail(in->why, RB_EFORMAT, "%s: rolling friction is not supported",
+    if (exists(in, "/fclib_local_rolling"))
+        return rb_fail(in->why, RB_EFORMAT,
+                       "%s: rolling friction in the local form is not supported, only in "
+                       "the global one",
                        in->path);
-    if (exists(in, "/fclib_local"))
+    p->rolling = exists(in, "/fclib_global_rolling");
+    if (!p->rolling && exists(in, "/fclib_local"))
         s = read_local(in, p);
-    else if (exists(in, "/fclib_global"))
+    else if (p->rolling || exists(in, "/fclib_global"))
         s = read_global(in, p);
     else
         return rb_fail(in->why, RB_EFORMAT, "%s: HDF5, but holds no FCLib problem",
@@ -505,6 +525,7 @@ static rb_status read_in_child(FILE *out, const void *path, rb_message *why)
     put_array(out, p.f, sizeof *p.f, p.M.rows);
     put_array(out, p.w, sizeof *p.w, m);
     put_array(out, p.mu, sizeof *p.mu, p.contacts);
+    put_array(out, p.mu_r, sizeof *p.mu_r, p.contacts);
     put_array(out, p.r, sizeof *p.r, m);
     put_array(out, p.u, sizeof *p.u, m);
     put_array(out, p.v, sizeof *p.v, p.M.rows);
@@ -552,6 +573,7 @@ static rb_status take_problem(const char *bytes, rb_io_fclib *p)
     rb_io_fclib sizes;
     take(&in, &sizes, sizeof sizes);
     *p = (rb_io_fclib){.global = sizes.global,
+                       .rolling = sizes.rolling,
                        .spacedim = sizes.spacedim,
                        .contacts = sizes.contacts,
                        .constraints = sizes.constraints};
@@ -567,6 +589,7 @@ static rb_status take_problem(const char *bytes, rb_io_fclib *p)
     p->f = take_array(&in, sizeof *p->f);
     p->w = take_array(&in, sizeof *p->w);
     p->mu = take_array(&in, sizeof *p->mu);
+    p->mu_r = take_array(&in, sizeof *p->mu_r);
     p->r = take_array(&in, sizeof *p->r);
     p->u = take_array(&in, sizeof *p->u);
     p->v = take_array(&in, sizeof *p->v);
@@ -697,6 +720,8 @@ static int write_vectors(hid_t root, const rb_io_fclib *p)
               write_array(group, "w", H5T_NATIVE_DOUBLE, m, p->w);
     else if (!bad)
         bad = write_array(group, "q", H5T_NATIVE_DOUBLE, m, p->q);
+    if (!bad && p->rolling)
+        bad = write_array(group, "mu_r", H5T_NATIVE_DOUBLE, p->contacts, p->mu_r);
     if (!bad && p->constraints)
         bad = write_array(group, p->global ? "b" : "s", H5T_NATIVE_DOUBLE, p->constraints,
                           p->global ? p->b : p->s);
@@ -736,8 +761,8 @@ static int write_solution(hid_t file, const rb_io_fclib *p)
 static int write_file(hid_t file, const rb_io_fclib *p, rb_io_fclib_layout layout,
                       const char *title, const char *description)
 {
-    const hid_t root = H5Gcreate2(file, p->global ? "fclib_global" : "fclib_local",
-                                  H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t root =
+        H5Gcreate2(file, root_of(p), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     int bad = root < 0 || write_int(root, "spacedim", p->spacedim) ||
               write_info(root, title, description) || write_vectors(root, p);
     if (!bad && p->global)
