@@ -204,6 +204,67 @@ static void steep_laws_have_two_solutions(void **state)
     }
 }
 
+/* Rising and falling creepage: each point is a solution; they agree where friction falls
+ * gently, and are two branches where it does not. */
+static void curves_have_two_branches(void **state)
+{
+    (void)state;
+    enum { POINTS = 16 };
+    static const double scale[] = {100.0, 50.0, 20.0, 10.0, 5.0, 2.0};
+    for (int k = 0; k < 12; k++) {
+        rb_rolling_case rc = rail(scale[k % 6]);
+        rb_rolling_curve c;
+        rb_message why = {""};
+        double widest = 0.0;
+        if (k >= 6) {
+            rc.zone = 0.0;
+            rc.mesh = RB_MESH_FITTED;
+            rc.contact_elements = 60;
+        }
+        rc.creep = NAN;
+        CHECK_STATUS(
+            rb_rolling_curve_solve(&rc, RB_OVER_CREEP, 0.0, 0.003, POINTS, &c, &why),
+            RB_OK);
+        assert_int_equal(c.n, 2 * POINTS);
+        assert_int_equal(c.rising, POINTS);
+        for (int i = 0; i < c.n; i++) {
+            CHECK_MAX(c.residual[i], 1e-10, "point %d", i);
+            assert_int_equal(c.branch[i], i < POINTS ? 1 : 2);
+            CHECK_ABS(c.creepage[i], c.creepage[c.n - 1 - i], 1e-15, "creepage %d", i);
+            widest = fmax(widest, fabs(c.force_ratio[i] - c.force_ratio[c.n - 1 - i]));
+        }
+        if (c.kappa[0] < 0.9)
+            CHECK_MAX(widest, 1e-8, "kappa = %g", c.kappa[0]);
+        else
+            assert_true(widest > 3e-4);
+        rb_rolling_curve_free(&c);
+    }
+}
+
+/* The contact of dissimilar bodies moves with the creepage: meshes are fitted again, and
+ * the branch goes on from the coefficients before. */
+static void branches_outlive_their_mesh(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rail(2.0);
+    rb_rolling_curve c;
+    rb_message why = {""};
+    double widest = 0.0;
+    rc.elastic_b = 0;
+    rc.zone = 0.0;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 60;
+    rc.creep = NAN;
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, RB_OVER_CREEP, -0.003, 0.003, 13, &c, &why),
+                 RB_OK);
+    for (int i = 0; i < c.n; i++) {
+        CHECK_MAX(c.residual[i], 1e-10, "point %d", i);
+        widest = fmax(widest, fabs(c.force_ratio[i] - c.force_ratio[c.n - 1 - i]));
+    }
+    assert_true(widest > 3e-3 && widest < 0.05);
+    rb_rolling_curve_free(&c);
+}
+
 /* ---- A given force ------------------------------------------------------------------
  */
 
@@ -478,6 +539,8 @@ int main(void)
         cmocka_unit_test(ratios_refer_to_the_largest_coefficient),
         cmocka_unit_test(the_rail_case_is_met),
         cmocka_unit_test(steep_laws_have_two_solutions),
+        cmocka_unit_test(curves_have_two_branches),
+        cmocka_unit_test(branches_outlive_their_mesh),
         cmocka_unit_test(a_force_is_met_on_the_rising_branch),
         cmocka_unit_test(the_largest_force_is_told),
         cmocka_unit_test(steps_remember_their_friction),

@@ -744,6 +744,10 @@ typedef struct {
     double *speed; /* [length/s]; 0 where none is given, because no body relaxes */
     double *resistance_moment, *resistance_ratio, *hysteresis; /* as of a solution */
     double *max_temperature; /* NULL where not asked for */
+    int *branch;             /* 1: on the way from `from` to `to`, 2: on the way back;
+                                NULL where friction does not depend on the state */
+    double *kappa;           /* as of a solution; NULL likewise */
+    int rising;              /* points of the way there, before those of the way back */
     double free_creepage, half_width, seconds;
     int iterations;
     rb_units units; /* of all values here */
@@ -756,7 +760,9 @@ void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units);
 
 void rb_rolling_curve_free(rb_rolling_curve *curve);
 
-/* Steady rolling at `points` equally spaced creepages or creepage ratios from `from` to
+/* A friction law that depends on the state is followed to the last creepage and back to
+ * the first one, each point from the one before it: 2 * points entries.
+ * Steady rolling at `points` equally spaced creepages or creepage ratios from `from` to
  * `to`, under the load or approach of rc, whose own tangential control is not read.  One
  * mesh, one factorisation, warm starts; a fitted mesh is fitted again where an edge has
  * moved by more than 1 %.  Over the speed the points are equally spaced in its logarithm,

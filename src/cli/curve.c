@@ -45,6 +45,9 @@ static const char about[] =
     "takes several values with commas between: a curve each.\n"
     "The picture shows -Q/(mu P), or -Q/P over xi where there are several mu, and\n"
     "Carter's law (similar bodies) beside it.\n"
+    "Where friction depends on the slip or the temperature the creepage goes back "
+    "again:\n"
+    "the column branch, and a second line in the picture.\n"
     "--over speed shows the resistance to rolling, M/(P R), of bodies that relax;\n"
     "--creep, --force or --free-axle then drive the wheel as in a single case.\n"
     "\n" CLI_CASE_SIGNS;
@@ -108,9 +111,12 @@ typedef struct {
 static cli_exit check_picture(const rb_settled_case *c, const range_options *r,
                               const cli_output *o)
 {
-    int frictionless = c->rc.mu == 0.0;
-    for (int k = 0; k < c->mus.n; k++)
-        frictionless |= c->mus.value[k] == 0.0;
+    rb_rolling_case rc = c->rc;
+    int frictionless = rb_rolling_largest_mu(&rc) == 0.0;
+    for (int k = 0; k < c->mus.n; k++) {
+        rc.mu = c->mus.value[k];
+        frictionless |= rb_rolling_largest_mu(&rc) == 0.0;
+    }
     return o->plot && frictionless && r->over != RB_OVER_SPEED
                ? cli_fail(CLI_USAGE, "--plot: no curve to draw at mu = 0")
                : CLI_CONTINUE;
@@ -161,8 +167,8 @@ static rb_status solve_drawn(result *r, rb_message *why)
     common.to = -INFINITY;
     for (int k = 0; k < r->curves.n; k++) {
         const rb_rolling_curve *c = &r->curves.curve[k];
-        common.from = fmin(common.from, fmin(c->creepage[0], c->creepage[c->n - 1]));
-        common.to = fmax(common.to, fmax(c->creepage[0], c->creepage[c->n - 1]));
+        common.from = fmin(common.from, fmin(c->creepage[0], c->creepage[c->rising - 1]));
+        common.to = fmax(common.to, fmax(c->creepage[0], c->creepage[c->rising - 1]));
     }
     return solve_curves(r->c, &common, &r->drawn, why);
 }

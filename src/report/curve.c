@@ -89,10 +89,11 @@ void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
 /* The first of the points at the end of the curve at which nothing sticks, or -1. */
 static int full_sliding_from(const rb_rolling_curve *c)
 {
-    int k = c->n;
+    const int last = c->n < c->rising ? c->n : c->rising;
+    int k = last;
     while (k > 0 && c->stick_ratio[k - 1] == 0.0)
         k--;
-    return k < c->n ? k : -1;
+    return k < last ? k : -1;
 }
 
 static double largest(int n, const double *x)
@@ -106,6 +107,26 @@ static double largest(int n, const double *x)
 static int is_over_speed(const rb_rolling_curve *c)
 {
     return c->n > 1 && c->speed[0] != c->speed[1];
+}
+
+/* How far apart rising and falling creepage are. */
+static void print_hysteresis(FILE *out, const rb_rolling_curve *c)
+{
+    int most = 0;
+    double widest = 0.0;
+    for (int i = 0; i < c->rising && c->n == 2 * c->rising; i++) {
+        const double width = fabs(c->force_ratio[i] - c->force_ratio[c->n - 1 - i]);
+        if (width > widest) {
+            widest = width;
+            most = i;
+        }
+    }
+    if (c->n == 2 * c->rising)
+        fprintf(
+            out,
+            "  there and back Q/(mu P) differs by %.2g at most, at xi = %.5g; kappa = "
+            "%.3g\n",
+            widest, c->creepage[most], largest(c->n, c->kappa));
 }
 
 static void print_most_resistance(FILE *out, const rb_rolling_curve *c)
@@ -131,6 +152,8 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                     c->free_creepage + 0.0); /* -0 is 0 */
         if (speeds)
             print_most_resistance(out, c);
+        else if (c->branch)
+            print_hysteresis(out, c);
         if (curves->has_errors && speeds)
             fprintf(out, "  error of M/(P R) <= %.1g (estimated from coarser meshes)\n",
                     largest(c->n, curves->error[k].resistance_ratio));
@@ -164,6 +187,14 @@ typedef struct {
     double from, to;
 } view;
 
+/* The coefficient that Q/(mu P) refers to. */
+static double scale_of(const view *v, int k)
+{
+    rb_rolling_case rc = *v->rc;
+    rc.mu = v->curves->mu[k];
+    return rb_rolling_largest_mu(&rc);
+}
+
 static double x_of(const view *v, const rb_rolling_curve *c, int i)
 {
     return v->over == RB_OVER_SPEED   ? c->speed[i]
@@ -181,9 +212,8 @@ static double y_of(const view *v, const rb_rolling_curve *c, int i, double mu)
 /* In units of y; 0 where it was not asked for. */
 static double error_of(const view *v, int k, int i)
 {
-    return v->curves->has_errors
-               ? fabs(y_of(v, &v->curves->error[k], i, v->curves->mu[k]))
-               : 0.0;
+    return v->curves->has_errors ? fabs(y_of(v, &v->curves->error[k], i, scale_of(v, k)))
+                                 : 0.0;
 }
 
 static void write_data(FILE *out, const view *v)
@@ -192,8 +222,8 @@ static void write_data(FILE *out, const view *v)
         const rb_rolling_curve *c = &v->curves->curve[k];
         fprintf(out, "$curve%d << EOD\n", k);
         for (int i = 0; i < c->n; i++)
-            fprintf(out, "%.9g %.9g %.9g\n", x_of(v, c, i),
-                    y_of(v, c, i, v->curves->mu[k]), error_of(v, k, i));
+            fprintf(out, "%.9g %.9g %.9g\n", x_of(v, c, i), y_of(v, c, i, scale_of(v, k)),
+                    error_of(v, k, i));
         fputs("EOD\n", out);
     }
 }
@@ -301,10 +331,20 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                 k, rb_report_colour(k), k == 0 ? "title 'estimated error'" : "notitle");
     for (int k = 0; k < v->curves->n; k++)
         fprintf(out,
-                "%s$curve%d using 1:2 with lines linecolor rgb '%s' dashtype %s "
-                "linewidth 2.6 title 'μ = %g'",
-                k > 0 ? ", " : "", k, rb_report_colour(k), rb_report_dashes(k),
-                v->curves->mu[k]);
+                "%s$curve%d using 1:2 every ::0::%d with lines linecolor rgb '%s' "
+                "dashtype %s "
+                "linewidth 2.6 title 'μ %s %g'",
+                k > 0 ? ", " : "", k, v->curves->curve[k].rising - 1, rb_report_colour(k),
+                rb_report_dashes(k), v->curves->curve[k].branch ? "≤" : "=",
+                scale_of(v, k));
+    for (int k = 0; k < v->curves->n && v->over != RB_OVER_SPEED; k++)
+        if (v->curves->curve[k].branch)
+            fprintf(
+                out,
+                ", $curve%d using 1:2 every ::%d with lines linecolor rgb '%s' dashtype "
+                "(2,3) linewidth 2.2 %s",
+                k, v->curves->curve[k].rising, rb_report_colour(v->curves->n + k),
+                k == 0 ? "title 'on the way back'" : "notitle");
     for (int k = 0; k < v->curves->n && draws_carter(v); k++)
         fprintf(out,
                 ", $carter%d using 1:2 with lines dashtype (8,8) linecolor rgb '#111111' "
@@ -323,7 +363,7 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas,
               .over = over == RB_OVER_CREEP_RATIO && curves->n > 1 ? RB_OVER_CREEP : over,
               .over_load = curves->n > 1};
     for (int k = 0; k < curves->n; k++)
-        if (curves->curve[k].n < 2 || (curves->mu[k] == 0.0 && over != RB_OVER_SPEED))
+        if (curves->curve[k].n < 2 || (scale_of(&v, k) == 0.0 && over != RB_OVER_SPEED))
             return rb_fail(why, RB_EINVAL, "no curve to draw at mu = %g", curves->mu[k]);
     choose_axes(&v);
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);

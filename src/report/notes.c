@@ -9,6 +9,9 @@
 /* Strains are of the order of approach/R and a/R: linear elasticity is stretched, and
  * does not hold at all. */
 static const double stretched_approach = 0.02, stretched_width = 0.1;
+/* An element by itself has other states from kappa = 1 on, several together a little
+ * earlier (theory.md F3). */
+static const double not_unique = 0.95;
 static const double broken_approach = 0.1, broken_width = 0.3;
 
 #if defined(__GNUC__)
@@ -100,10 +103,10 @@ rb_report_note_list rb_report_find_notes(const rb_rolling_case *rc,
     note_motion(&list, rc);
     note_units(&list, rc, s);
     note_full_sliding(&list, rc, s);
-    if (s->kappa > 1.0)
+    if (s->kappa > not_unique)
         add(&list,
-            "friction falls so steeply, kappa = %.3g > 1, that there may be other "
-            "solutions: which one is found depends on the start",
+            "friction falls so steeply, kappa = %.3g, that there may be other solutions: "
+            "which one is found depends on the start",
             s->kappa);
     if (rc->formulation != RB_STATIC && !rb_rolling_body_can(&rc->a, RB_BODY_TURNS))
         add(&list, "on an arc support rolling differs at every angle of the wheel; hub "

@@ -3,6 +3,7 @@
 #include "rolling/internal.h"
 
 #include <cblas.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Shift of a contact edge, in half-widths, beyond which a fitted mesh is fitted again. */
@@ -54,6 +55,12 @@ static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
     c->residual[k] = state->residual;
     c->half_width = model->half_width;
     c->speed[k] = model->rc.speed;
+    if (c->branch) {
+        c->branch[k] = k < c->rising ? 1 : 2;
+        const rb_status s = rb_rolling_law_kappa(model, &c->kappa[k]);
+        if (s != RB_OK)
+            return s;
+    }
     c->resistance_moment[k] = rb_contact_moment(p, state);
     c->resistance_ratio[k] =
         c->resistance_moment[k] / (P * rb_rolling_radius(&model->rc));
@@ -116,6 +123,28 @@ static double value_at(const range *r, int k)
                                     : r->from + t * (r->to - r->from);
 }
 
+/* The coefficients of the last point, from which a solve on another mesh starts. */
+typedef struct {
+    rb_rolling_friction_table table;
+    double *room;
+} branch_start;
+
+static rb_status remember_branch(rb_rolling_model *model, branch_start *start)
+{
+    const size_t n = (size_t)model->mesh.n;
+    double *room = rb_alloc(n, 2);
+
+    if (!room)
+        return RB_ENOMEM;
+    memcpy(room, model->bodies.f.x, n * sizeof *room);
+    memcpy(room + n, model->problem.bound, n * sizeof *room);
+    free(start->room);
+    start->room = room;
+    start->table = (rb_rolling_friction_table){model->mesh.n, room, room + n};
+    model->rc.friction.start = &start->table;
+    return RB_OK;
+}
+
 static rb_status over_creepages(const rb_rolling_case *rc, const range *r,
                                 rb_rolling_model *model, rb_rolling_curve *c,
                                 rb_message *why)
@@ -130,9 +159,14 @@ static rb_status over_creepages(const rb_rolling_case *rc, const range *r,
     if (s != RB_OK)
         return s;
     rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &edge[0], &edge[1]);
-    for (int k = 0; k < r->points && s == RB_OK; k++) {
-        set_creepage(r->over, value_at(r, k), &model->rc);
+    const int moves = rb_rolling_law_moves(&steady), points = r->points;
+    branch_start start = {.room = NULL};
+    for (int k = 0; k < (moves ? 2 * points : points) && s == RB_OK; k++) {
+        set_creepage(r->over, value_at(r, k < points ? k : 2 * points - 1 - k),
+                     &model->rc);
         s = rb_rolling_model_control(model, why);
+        if (moves && s >= 0 && remember_branch(model, &start) != RB_OK)
+            s = RB_ENOMEM;
         if (s == RB_OK || s == RB_ZONE)
             s = follow_contact(model, s == RB_ZONE, edge, why);
         if (s >= 0) {
@@ -140,6 +174,8 @@ static rb_status over_creepages(const rb_rolling_case *rc, const range *r,
             s = t < 0 ? t : s;
         }
     }
+    model->rc.friction.start = rc->friction.start;
+    free(start.room);
     if (s == RB_OK && rb_rolling_largest_mu(rc) > 0.0)
         s = rb_rolling_free_creepage_if_any(model, &c->free_creepage, why);
     return s;
@@ -203,8 +239,11 @@ rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, rb_rolling_variable 
     memset(curve, 0, sizeof *curve);
     curve->free_creepage = NAN;
     steady.formulation = RB_STEADY;
+    const int returns = over != RB_OVER_SPEED && rb_rolling_law_moves(&steady);
     if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, &steady, points, curve);
+        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, &steady,
+                                     returns ? 2 * points : points, curve);
+    curve->rising = points;
     if (s == RB_OK)
         s = (over == RB_OVER_SPEED ? over_speeds : over_creepages)(&steady, &r, &model,
                                                                    curve, why);

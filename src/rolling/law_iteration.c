@@ -133,26 +133,34 @@ static double change_of(const rb_contact_problem *p, const rb_contact_state *sta
 }
 
 /* The step of a round.  Steps that grow and go on in the same direction leave one
- * solution for another (a jump); where they turn back and do not become less, half as
- * much of them is taken each time. */
+ * solution for another (a jump), which takes some rounds.  Where they turn back and do
+ * not become less, or go round for long, half as much of them is taken, and twice as much
+ * where they have become less for long. */
 typedef struct {
-    double part, least;
-    int waiting;
-    double *step; /* n: of the round before */
+    double part, least, before;
+    int turned, waited, fell; /* rounds */
+    double *step;             /* n: of the round before */
 } relaxation;
 
 static void relax(relaxation *r, const rb_contact_problem *p, double change, double *mu)
 {
-    enum { PATIENCE = 4 };
+    enum { TURNS = 4, WAITED = 40, FELL = 20 };
+    const int less = change < 0.95 * r->least;
     double turns = 0.0;
 
     for (int i = 0; i < p->n; i++)
         turns += (mu[i] - p->bound[i]) * r->step[i];
-    r->waiting += turns < 0.0 && !(change < 0.95 * r->least);
+    r->turned += turns < 0.0 && !less;
+    r->waited = less ? 0 : r->waited + 1;
+    r->fell = change < r->before ? r->fell + 1 : 0;
     r->least = fmin(r->least, change);
-    if (r->waiting == PATIENCE) {
+    r->before = change;
+    if (r->fell == FELL) {
+        r->part = fmin(2.0 * r->part, 1.0);
+        r->fell = r->waited = 0;
+    } else if (r->turned == TURNS || r->waited == WAITED) {
         r->part = fmax(0.5 * r->part, 1.0 / 256.0);
-        r->waiting = 0;
+        r->turned = r->waited = 0;
         r->least = change;
     }
     for (int i = 0; i < p->n; i++) {
@@ -181,14 +189,15 @@ static rb_status measure(rb_rolling_model *model, rb_message *why)
 /* From the bounds that the problem has: (F1) v -> mu -> contact problem -> v. */
 static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
 {
-    enum { ROUNDS = 1000 };
+    enum { ROUNDS = 2000 };
     rb_contact_problem *p = &model->problem;
     rb_contact_state *state = &model->state;
     const double enough = fmax(0.1 * model->rc.tol, fmax(p->rounding, 1e-14));
     double change = INFINITY, *mu = rb_alloc((size_t)p->n, 2);
-    relaxation r = {1.0, INFINITY, 0, mu ? mu + p->n : NULL};
+    relaxation r = {.part = 1.0, .least = INFINITY, .before = INFINITY};
     rb_status s = mu ? RB_OK : RB_ENOMEM;
 
+    r.step = mu ? mu + p->n : NULL;
     for (int k = 0; k < ROUNDS && s == RB_OK && change > enough; k++) {
         s = rb_rolling_problem_solve(p, &model->rc, warm || k > 0, state, why);
         model->iterations += state->iterations;

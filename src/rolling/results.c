@@ -193,6 +193,11 @@ static const rb_rolling_result points[] = {
     POINT("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_ONE,
           .condition = RB_FOR_HEAT,
           .meaning = "highest temperature of the surfaces in contact"),
+    POINT("branch", branch, .kind = RB_RESULT_WHOLE, .condition = RB_FOR_MOVING_LAW,
+          .meaning = "1: on the way from --from to --to, 2: on the way back"),
+    POINT("kappa", kappa, .unit = "1", .condition = RB_FOR_MOVING_LAW,
+          .meaning =
+              "uniqueness of friction that falls: above 1 the branches may differ"),
 };
 
 static const rb_rolling_result wears[] = {

@@ -76,7 +76,7 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
         s = rb_rolling_curve_solve(&coarser, over, from, to, points, &run[k], why);
     }
     if (s == RB_OK)
-        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, rc, points, errors);
+        s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, rc, curve->n, errors);
     if (s == RB_OK)
         curve_errors(rc, runs, run, curve, errors);
     for (int k = 0; k < runs; k++) {
