@@ -28,10 +28,10 @@ static int beyond(const rb_friction_progress *at, void *most)
     return at->flops > *(const double *)most;
 }
 
-/* These two are no stage of auto. */
+/* Hybrids and fixed points are no stages of auto. */
 static int is_part(const rb_friction_solver *s)
 {
-    return strcmp(s->name, "nsn-ac-hybrid") != 0 && strcmp(s->name, "fixed-point") != 0;
+    return !strstr(s->name, "hybrid") && strcmp(s->name, "fixed-point") != 0;
 }
 
 typedef struct {

@@ -76,11 +76,25 @@ static void compare_writes_its_file(void **state)
 static void every_solver_is_there_by_name(void **state)
 {
     (void)state;
-    static const char *const names[] = {
-        "auto",          "nsn-ac",           "nsn-jm",     "nsn-nm",     "nsn-fb",
-        "nsn-ac-nls",    "nsn-jm-nls",       "nsn-nm-nls", "nsn-fb-nls", "nsn-ac-hybrid",
-        "nsgs-ac",       "nsgs-aa",          "nsgs-fp",    "admm",       "fixed-point",
-        "extragradient", "soclcp-smoothing", "lemke"};
+    static const char *const names[] = {"auto",
+                                        "nsn-ac",
+                                        "nsn-jm",
+                                        "nsn-nm",
+                                        "nsn-fb",
+                                        "nsn-ac-nls",
+                                        "nsn-jm-nls",
+                                        "nsn-nm-nls",
+                                        "nsn-fb-nls",
+                                        "nsn-ac-hybrid",
+                                        "nsn-ac-hybrid-100",
+                                        "nsgs-ac",
+                                        "nsgs-aa",
+                                        "nsgs-fp",
+                                        "admm",
+                                        "fixed-point",
+                                        "extragradient",
+                                        "soclcp-smoothing",
+                                        "lemke"};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         char line[100];
         snprintf(line, sizeof line, "friction --solver %s slides zero", names[k]);

@@ -56,13 +56,13 @@ static rb_status many_sweeps(rb_friction_task *task, double *rough)
 
 static rb_status run_hybrid(rb_friction_task *task, int variant)
 {
-    (void)variant;
     const size_t bytes = (size_t)task->m * sizeof(double);
     double *start = rb_alloc((size_t)task->m, 1);
     if (!start)
         return RB_ENOMEM;
     memcpy(start, task->r, bytes);
-    rb_status st = few_sweeps(task, start);
+    const int as_printed = variant & RB_FRICTION_HUNDRED_SWEEPS;
+    rb_status st = as_printed ? RB_MAXITER : few_sweeps(task, start);
     if (goes_on(st)) {
         memcpy(task->r, start, bytes);
         st = many_sweeps(task, start);

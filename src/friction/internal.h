@@ -303,6 +303,8 @@ typedef enum {
     RB_FRICTION_EXTRAGRADIENT
 } rb_friction_projection_variant;
 
+typedef enum { RB_FRICTION_HUNDRED_SWEEPS = 1 } rb_friction_hybrid_variant;
+
 extern const rb_friction_method rb_friction_sweeps, rb_friction_newton, rb_friction_admm,
     rb_friction_projections, rb_friction_hybrid, rb_friction_smoothing_method,
     rb_friction_lemke_method, rb_friction_auto_method;

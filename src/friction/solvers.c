@@ -32,6 +32,8 @@ static const rb_friction_solver solvers[] = {
     {"nsn-ac-hybrid", "sweeps, Newton",
      "7 sweeps, then nsn-ac-nls; if need be 100, then nsn-ac", WANTS_W,
      &rb_friction_hybrid, 0},
+    {"nsn-ac-hybrid-100", "sweeps, Newton", "100 sweeps, then nsn-ac-nls, as printed",
+     WANTS_W, &rb_friction_hybrid, RB_FRICTION_HUNDRED_SWEEPS},
     {"nsgs-ac", "sweeps", "Gauss-Seidel, each contact solved exactly", WANTS_W,
      &rb_friction_sweeps, 0},
     {"nsgs-aa", "sweeps", "the same with Anderson's acceleration", WANTS_W,
