@@ -54,6 +54,21 @@ static void check_bar(const char *name, double got, double want, double size)
     CHECK_ABS(got, want, 1e-9 * want + 1e-8 * size, "bar of %s", name);
 }
 
+/* Slip over a part of an element at an edge: mu P (|xi| + |beta| a/R) share^1.5. */
+static double edge_power(const rb_rolling_case *rc, double P, double creepage, double a,
+                         double share)
+{
+    const double beta = fabs(rb_rolling_derive(rc).dundurs);
+    return rc->mu * P * (fabs(creepage) + beta * a / rc->a.radius) * pow(share, 1.5);
+}
+
+/* Given values have bars as well: rounding, which is not zero. */
+static void check_rounding(const char *name, double bar, double size)
+{
+    CHECK_MAX(bar, 1e-7 * size, "bar of %s", name);
+    CHECK_MAX(1e-17 * size, bar, "bar of %s is zero", name);
+}
+
 static void bars_of_a_solution(rb_bem_support support)
 {
     static const char *const names[] = {"tangential_load", "approach", "max_pressure",
@@ -63,6 +78,7 @@ static void bars_of_a_solution(rb_bem_support support)
     rb_rolling_errors errors;
     rb_message why = {""};
     CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &own, &errors, &why), RB_OK);
+    assert_true(isnan(errors.stress.max_shear.value) && isnan(errors.stress.tension.y));
     for (int k = 0; k < 3; k++) {
         const rb_rolling_case coarser = coarser_case(&rc, k);
         CHECK_STATUS(rb_rolling_solve(&coarser, &run[k], &why), RB_OK);
@@ -84,6 +100,18 @@ static void bars_of_a_solution(rb_bem_support support)
         }
     }
     assert_int_equal(seen, sizeof names / sizeof names[0]);
+    check_rounding("normal_load", errors.scalar.normal_load, own.normal_load);
+    if (support == RB_BEM_HALFPLANE) {
+        double longest = 0.0;
+        for (int i = 0; i < own.n; i++)
+            longest = fmax(longest, own.zone[i] == RB_ZONE_SEPARATED ? 0.0 : own.h[i]);
+        const double D[] = {run[0].dissipation, run[1].dissipation, own.dissipation};
+        check_bar("dissipation", errors.scalar.dissipation,
+                  wanted_bar(D, 0, 0.0) + edge_power(&rc, own.normal_load, own.creepage,
+                                                     own.hertz_half_width,
+                                                     longest / (2.0 * own.half_width)),
+                  own.dissipation);
+    }
     for (int k = 0; k < 3; k++)
         rb_rolling_solution_free(&run[k]);
     rb_rolling_solution_free(&own);
@@ -94,6 +122,21 @@ static void a_solution_s_bars_are_of_its_coarser_runs(void **state)
     (void)state;
     bars_of_a_solution(RB_BEM_HALFPLANE);
     bars_of_a_solution(RB_BEM_HUB);
+}
+
+static void stresses_have_bars_where_they_are_asked_for(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
+    rb_rolling_solution own;
+    rb_rolling_errors errors;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 1, &own, &errors, &why), RB_OK);
+    assert_true(errors.stress.max_shear.value > 1e-9 * own.max_pressure);
+    CHECK_MAX(errors.stress.max_shear.value, 0.1 * own.max_pressure, "bar of max_shear");
+    assert_true(errors.stress.von_mises.y > 0.0);
+    CHECK_MAX(errors.stress.von_mises.y, own.half_width, "bar of its depth");
+    rb_rolling_solution_free(&own);
 }
 
 static void a_curve_s_bars_are_of_its_coarser_curves(void **state)
@@ -117,6 +160,18 @@ static void a_curve_s_bars_are_of_its_coarser_curves(void **state)
                             own.tangential_load[i]};
         check_bar("tangential_load", errors.tangential_load[i], wanted_bar(Q, 0, 0.0),
                   fabs(Q[2]));
+        const double stick[] = {run[0].stick_ratio[i], run[1].stick_ratio[i],
+                                own.stick_ratio[i]};
+        check_bar("stick_ratio", errors.stick_ratio[i],
+                  wanted_bar(stick, 0, 0.0) + own.stick_step, 1.0);
+        const double D[] = {run[0].dissipation[i], run[1].dissipation[i],
+                            own.dissipation[i]};
+        check_bar("dissipation", errors.dissipation[i],
+                  wanted_bar(D, 0, 0.0) + edge_power(&rc, own.normal_load[i],
+                                                     own.creepage[i], own.half_width,
+                                                     own.stick_step),
+                  own.dissipation[i]);
+        check_rounding("normal_load", errors.normal_load[i], own.normal_load[i]);
     }
     const double free_creepage[] = {run[0].free_creepage, run[1].free_creepage,
                                     own.free_creepage};
@@ -138,16 +193,43 @@ static double at_distance(const rb_rolling_history *h, const double *column, dou
                            (h->distance[k + 1] - h->distance[k]);
 }
 
+/* A mean over a step belongs to its middle; the step at rest has none. */
+static double mean_at(const rb_rolling_history *h, const double *column, double x)
+{
+    double middle[2];
+    int k = 1;
+    for (;; k++) {
+        for (int j = 0; j < 2; j++)
+            middle[j] = 0.5 * (h->distance[k + j - 1] + h->distance[k + j]);
+        if (k + 2 >= h->n || middle[1] >= x)
+            break;
+    }
+    return column[k] +
+           (column[k + 1] - column[k]) * (x - middle[0]) / (middle[1] - middle[0]);
+}
+
+/* The largest of bar[1] ... bar[steps] at i and beside it. */
+static double with_neighbours(const double *bar, int i, int steps)
+{
+    double most = bar[i];
+    for (int k = i > 1 ? i - 1 : 1; k <= i + 1 && k <= steps; k++)
+        most = fmax(most, bar[k]);
+    return most;
+}
+
 /* Of each rolled step the largest of its own bar and its neighbours'. */
-static void a_history_s_bars_are_of_its_coarser_histories(void **state)
+static void bars_of_a_history(int force_is_given)
 {
     enum { STEPS = 10 };
-    (void)state;
     rb_rolling_case rc = plain_case(RB_BEM_HALFPLANE);
     rc.formulation = RB_TRANSIENT;
     rc.zone = 1.5 * rc.half_width;
     rc.distance = 0.8;
     rc.steps = STEPS;
+    if (force_is_given) {
+        rc.creep_ratio = NAN;
+        rc.force_ratio = 0.5;
+    }
     rb_rolling_model model, others[2];
     rb_rolling_history own, errors, run[2];
     rb_message why = {""};
@@ -159,23 +241,33 @@ static void a_history_s_bars_are_of_its_coarser_histories(void **state)
         CHECK_STATUS(
             rb_rolling_history_run(&coarser, NULL, NULL, NULL, &others[k], &run[k], &why),
             RB_OK);
-        assert_int_equal(run[k].distance[0] == 0.0, 1);
     }
-    double bar[STEPS + 1] = {0.0};
+    double force[STEPS + 1] = {0.0}, creepage[STEPS + 1] = {0.0},
+                         power[STEPS + 1] = {0.0};
     assert_int_equal(own.n, STEPS + 1);
     for (int i = 1; i <= STEPS; i++) {
-        const double x = own.distance[i];
-        const double Q[] = {at_distance(&run[0], run[0].tangential_load, x),
-                            at_distance(&run[1], run[1].tangential_load, x),
-                            own.tangential_load[i]};
-        bar[i] = wanted_bar(Q, 0, 0.0);
+        const double x = own.distance[i], middle = 0.5 * (own.distance[i - 1] + x);
+        double Q[3] = {0.0, 0.0, own.tangential_load[i]};
+        double xi[3] = {0.0, 0.0, own.creepage[i]}, D[3] = {0.0, 0.0, own.dissipation[i]};
+        for (int k = 0; k < 2; k++) {
+            Q[k] = at_distance(&run[k], run[k].tangential_load, x);
+            xi[k] = mean_at(&run[k], run[k].creepage, middle);
+            D[k] = mean_at(&run[k], run[k].dissipation, middle);
+        }
+        force[i] = wanted_bar(Q, 0, 0.0);
+        creepage[i] = wanted_bar(xi, 0, 0.0);
+        power[i] = wanted_bar(D, 0, 0.0) +
+                   edge_power(&rc, own.normal_load[i], own.creepage[i],
+                              0.5 * (own.contact_to[i] - own.contact_from[i]),
+                              1.0 / (own.stick[i] + own.slipping[i]));
     }
     for (int i = 1; i <= STEPS; i++) {
-        double want = bar[i];
-        for (int k = i > 1 ? i - 1 : 1; k <= i + 1 && k <= STEPS; k++)
-            want = fmax(want, bar[k]);
-        check_bar("tangential_load", errors.tangential_load[i], want,
-                  fabs(own.tangential_load[STEPS]));
+        check_bar("tangential_load", errors.tangential_load[i],
+                  with_neighbours(force, i, STEPS), fabs(own.tangential_load[STEPS]));
+        check_bar("creepage", errors.creepage[i], with_neighbours(creepage, i, STEPS),
+                  fabs(own.creepage[STEPS]));
+        check_bar("dissipation", errors.dissipation[i], with_neighbours(power, i, STEPS),
+                  own.dissipation[STEPS]);
     }
     for (int k = 0; k < 2; k++) {
         rb_rolling_history_free(&run[k]);
@@ -186,10 +278,18 @@ static void a_history_s_bars_are_of_its_coarser_histories(void **state)
     rb_rolling_model_free(&model);
 }
 
+static void a_history_s_bars_are_of_its_coarser_histories(void **state)
+{
+    (void)state;
+    bars_of_a_history(0);
+    bars_of_a_history(1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_solution_s_bars_are_of_its_coarser_runs),
+        cmocka_unit_test(stresses_have_bars_where_they_are_asked_for),
         cmocka_unit_test(a_curve_s_bars_are_of_its_coarser_curves),
         cmocka_unit_test(a_history_s_bars_are_of_its_coarser_histories),
     };
