@@ -115,7 +115,8 @@ static double curve(const rb_rolling_case *rc)
     rb_rolling_curve c;
     rb_message why;
 
-    if (rb_rolling_curve_solve(rc, 0, 0.1, 1.2, 4, &c, &why) != RB_OK)
+    if (rb_rolling_curve_solve(rc, &(rb_rolling_range){0, 0.1, 1.2, 4}, &c, &why) !=
+        RB_OK)
         stop(why.text);
     rb_rolling_curve_free(&c);
     return rb_rolling_bytes(rc, rc->contact_elements, 0, 2 * rc->contact_elements);
@@ -139,9 +140,10 @@ static rb_status make_case(int k, rb_rolling_case *rc, void *context)
     return RB_OK;
 }
 
-static int see_row(int k, const rb_rolling_solution *row, void *context)
+static int see_row(int k, const rb_rolling_row *found, void *context)
 {
     study *st = context;
+    const rb_rolling_solution *row = &found->solution;
     (void)k;
     if (st->rc && row->status != RB_OK)
         stop("a case of the study is not solved");

@@ -244,7 +244,9 @@ static void a_failed_free_creepage_leaves_the_case_solved(void **state)
         CHECK_STATUS(s.status, RB_OK);
         unknown += isnan(s.free_creepage);
         rb_rolling_solution_free(&s);
-        CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.4, 0.4, 1, &c, NULL), RB_OK);
+        CHECK_STATUS(
+            rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.4, 0.4, 1}, &c, NULL),
+            RB_OK);
         rb_rolling_curve_free(&c);
     }
     assert_true(unknown > 0);

@@ -138,7 +138,8 @@ static void large_contacts_and_steps_too(void **state)
     rb_rolling_curve curve;
     rc = steady();
     CHECK_STATUS(
-        rb_rolling_curve_solve(&rc, RB_OVER_CREEP_RATIO, 0.5, 3.0, 6, &curve, NULL),
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP_RATIO, 0.5, 3.0, 6},
+                               &curve, NULL),
         RB_OK);
     CHECK_ABS(curve.force_ratio[5], -1.0, 1e-9, "full sliding");
     rb_rolling_curve_free(&curve);

@@ -278,7 +278,9 @@ static void curve_has_the_temperature_of_its_cases(void **state)
     rb_rolling_case rc = sliding(500.0, 60);
     rb_rolling_curve curve;
     rb_message why = {""};
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, 1, 0.05, 0.1, 2, &curve, &why), RB_OK);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, 0.05, 0.1, 2}, &curve, &why),
+        RB_OK);
     rb_rolling_solution s = solved(&rc);
     CHECK_REL(curve.max_temperature[1], s.max_temperature, 1e-9, "last point");
     rb_rolling_curve_free(&curve);

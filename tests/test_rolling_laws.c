@@ -223,7 +223,8 @@ static void curves_have_two_branches(void **state)
         }
         rc.creep = NAN;
         CHECK_STATUS(
-            rb_rolling_curve_solve(&rc, RB_OVER_CREEP, 0.0, 0.003, POINTS, &c, &why),
+            rb_rolling_curve_solve(
+                &rc, &(rb_rolling_range){RB_OVER_CREEP, 0.0, 0.003, POINTS}, &c, &why),
             RB_OK);
         assert_int_equal(c.n, 2 * POINTS);
         assert_int_equal(c.rising, POINTS);
@@ -255,8 +256,10 @@ static void branches_outlive_their_mesh(void **state)
     rc.mesh = RB_MESH_FITTED;
     rc.contact_elements = 60;
     rc.creep = NAN;
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, RB_OVER_CREEP, -0.003, 0.003, 13, &c, &why),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_CREEP, -0.003, 0.003, 13},
+                               &c, &why),
+        RB_OK);
     for (int i = 0; i < c.n; i++) {
         CHECK_MAX(c.residual[i], 1e-10, "point %d", i);
         widest = fmax(widest, fabs(c.force_ratio[i] - c.force_ratio[c.n - 1 - i]));

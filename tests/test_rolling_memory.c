@@ -153,8 +153,10 @@ static void resistance_has_a_maximum_over_the_speed(void **state)
     rb_message why = {""};
     rb_rolling_case rc = hunter(1.0, 1.0, 40);
     int turns = 0;
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, RB_OVER_SPEED, 1e-2, 1e2, POINTS, &c, &why),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){RB_OVER_SPEED, 1e-2, 1e2, POINTS},
+                               &c, &why),
+        RB_OK);
     assert_int_equal(c.n, POINTS);
     for (int k = 1; k + 1 < POINTS; k++) {
         CHECK_REL(c.speed[k] / c.speed[k - 1], sqrt(10.0), 1e-12, "point %d", k);
@@ -165,10 +167,12 @@ static void resistance_has_a_maximum_over_the_speed(void **state)
     CHECK_REL(c.resistance_moment[4], 0.2621595 * c.normal_load[4], 1e-5, "Hunter");
     CHECK_REL(c.hysteresis[4], c.resistance_moment[4] / rc.a.radius, 1e-3, "energy");
     rb_rolling_curve_free(&c);
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, RB_OVER_SPEED, 0.0, 1.0, 3, &c, &why),
+    CHECK_STATUS(rb_rolling_curve_solve(
+                     &rc, &(rb_rolling_range){RB_OVER_SPEED, 0.0, 1.0, 3}, &c, &why),
                  RB_EINVAL);
     rc.a.memory.n = 0;
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, RB_OVER_SPEED, 1.0, 2.0, 3, &c, &why),
+    CHECK_STATUS(rb_rolling_curve_solve(
+                     &rc, &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3}, &c, &why),
                  RB_EINVAL);
 }
 

@@ -27,7 +27,9 @@ static void a_creep_curve_is_carters(void **state)
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_curve c;
     rc.contact_elements = 100;
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, -1.2, 1.2, 49, &c, NULL), RB_OK);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, -1.2, 1.2, 49}, &c, NULL),
+        RB_OK);
     assert_int_equal(c.n, 49);
     for (int k = 0; k < c.n; k++) {
         const double s = c.creep_ratio[k];
@@ -50,7 +52,9 @@ static void the_stick_ratio_is_one_of_lengths(void **state)
     rb_rolling_curve c;
     rb_rolling_solution s;
     rc.contact_elements = 100;
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.1, 0.1, 1, &c, NULL), RB_OK);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.1, 0.1, 1}, &c, NULL),
+        RB_OK);
     CHECK_ABS(c.stick_ratio[0], 0.9, 0.01, "s = 0.1");
     rb_rolling_curve_free(&c);
     rc.formulation = RB_STEADY;
@@ -72,7 +76,9 @@ static void a_curve_agrees_with_single_solves(void **state)
     rb_rolling_curve c;
     rc.mesh = RB_MESH_UNIFORM;
     rc.zone = 1.6 * rc.half_width;
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, 1, -2e-4, 2e-4, 9, &c, NULL), RB_OK);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){1, -2e-4, 2e-4, 9}, &c, NULL),
+        RB_OK);
     for (int k = 0; k < c.n; k++) {
         rb_rolling_solution s;
         rc.formulation = RB_STEADY;
@@ -91,10 +97,16 @@ static void bad_curves_are_refused(void **state)
     (void)state;
     rb_rolling_case rc = wheel_on_plane(0.5);
     rb_rolling_curve c;
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.0, NAN, 5, &c, NULL), RB_EINVAL);
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.0, 1.0, 0, &c, NULL), RB_EINVAL);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, NAN, 5}, &c, NULL),
+        RB_EINVAL);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 1.0, 0}, &c, NULL),
+        RB_EINVAL);
     rc.mu = 0.0;
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.0, 1.0, 5, &c, NULL), RB_EINVAL);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 1.0, 5}, &c, NULL),
+        RB_EINVAL);
 }
 
 /* ---- Stress
@@ -318,7 +330,8 @@ static void error_bars_of_curves_hold_the_truth(void **state)
         tally t = {.wide = fitted ? 20.0 : 10.0};
         rc.mesh = fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         rc.contact_elements = 80;
-        CHECK_STATUS(rb_rolling_curve_with_errors(&rc, 0, 0.03, 0.97, 100, &c, &e, NULL),
+        CHECK_STATUS(rb_rolling_curve_with_errors(
+                         &rc, &(rb_rolling_range){0, 0.03, 0.97, 100}, &c, &e, NULL),
                      RB_OK);
         assert_int_equal(e.n, 100);
         for (int k = 0; k < c.n; k++)
@@ -407,8 +420,8 @@ static void every_failed_allocation_is_reported(void **state)
     for (int count = 0; refused; count++) {
         rb_rolling_curve c, e;
         alloc_fail_after(count);
-        const rb_status s =
-            rb_rolling_curve_with_errors(&rc, 0, 0.1, 0.5, 3, &c, &e, NULL);
+        const rb_status s = rb_rolling_curve_with_errors(
+            &rc, &(rb_rolling_range){0, 0.1, 0.5, 3}, &c, &e, NULL);
         refused = alloc_failed();
         alloc_succeed();
         if (refused && s == RB_OK)

@@ -416,7 +416,9 @@ static void a_curve_and_a_history_find_the_end_of_their_mesh(void **state)
     rb_message why = {""};
     rc.half_width = 1.0;
     rc.zone = 1.2; /* sliding moves the contact beyond it */
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.0, 3.0, 7, &curve, &why), RB_ZONE);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7}, &curve, &why),
+        RB_ZONE);
     rb_rolling_curve_free(&curve);
     rc.formulation = RB_TRANSIENT;
     rc.creep_ratio = 3.0;
@@ -427,7 +429,9 @@ static void a_curve_and_a_history_find_the_end_of_their_mesh(void **state)
     rb_rolling_history_free(&history);
     rb_rolling_model_free(&model);
     rc.zone = 0.0;
-    CHECK_STATUS(rb_rolling_curve_solve(&rc, 0, 0.0, 3.0, 7, &curve, &why), RB_OK);
+    CHECK_STATUS(
+        rb_rolling_curve_solve(&rc, &(rb_rolling_range){0, 0.0, 3.0, 7}, &curve, &why),
+        RB_OK);
     rb_rolling_curve_free(&curve);
 }
 

@@ -732,6 +732,12 @@ typedef enum {
     RB_OVER_SPEED /* of bodies that relax */
 } rb_rolling_variable;
 
+typedef struct {
+    rb_rolling_variable over;
+    double from, to;
+    int points;
+} rb_rolling_range;
+
 /* One entry per creepage or speed; owned. */
 typedef struct {
     int n;
@@ -767,8 +773,7 @@ void rb_rolling_curve_free(rb_rolling_curve *curve);
  * mesh, one factorisation, warm starts; a fitted mesh is fitted again where an edge has
  * moved by more than 1 %.  Over the speed the points are equally spaced in its logarithm,
  * rc says the tangential control, and every speed has its own mesh and flexibility. */
-rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, rb_rolling_variable over,
-                                 double from, double to, int points,
+rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_range *range,
                                  rb_rolling_curve *curve, rb_message *why);
 
 /* ---- Subsurface stress of body A
@@ -885,9 +890,9 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
 /* A curve and its errors: errors->force_ratio[k] and so on belong to the k-th creepage,
  * errors->residual means nothing.  Takes twice as long.  Free both in any case. */
 rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
-                                       rb_rolling_variable over, double from, double to,
-                                       int points, rb_rolling_curve *curve,
-                                       rb_rolling_curve *errors, rb_message *why);
+                                       const rb_rolling_range *range,
+                                       rb_rolling_curve *curve, rb_rolling_curve *errors,
+                                       rb_message *why);
 
 /* A history and its errors: errors->tangential_load[k] and so on belong to the k-th step,
  * errors->residual means nothing.  The coarser runs have longer steps, so that the errors

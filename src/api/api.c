@@ -590,16 +590,16 @@ int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int p
     rb_api_forget_arrays(a, "curve.");
     rb_rolling_curve_free(&a->curve);
     rb_rolling_curve_free(&a->curve_errors);
-    const rb_rolling_variable value = (rb_rolling_variable)variable->value;
+    const rb_rolling_range range = {(rb_rolling_variable)variable->value, from, to,
+                                    points};
     rb_api_call_begins();
     rb_status s =
         !variable->name
             ? rb_fail(&a->why, RB_EINVAL,
                       "--over: expected creep-ratio, creep or speed, got '%.100s'", over)
-        : c->error
-            ? rb_rolling_curve_with_errors(&c->rc, value, from, to, points, &a->curve,
-                                           &a->curve_errors, &a->why)
-            : rb_rolling_curve_solve(&c->rc, value, from, to, points, &a->curve, &a->why);
+        : c->error ? rb_rolling_curve_with_errors(&c->rc, &range, &a->curve,
+                                                  &a->curve_errors, &a->why)
+                   : rb_rolling_curve_solve(&c->rc, &range, &a->curve, &a->why);
     rb_api_call_ends();
     return rb_api_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
 }

@@ -126,11 +126,10 @@ static rb_status solve_curve(const rb_rolling_case *rc, const range_options *r,
                              int with_errors, rb_rolling_curve *curve,
                              rb_rolling_curve *errors, rb_message *why)
 {
-    return with_errors
-               ? rb_rolling_curve_with_errors(rc, (rb_rolling_variable)r->over, r->from,
-                                              r->to, r->points, curve, errors, why)
-               : rb_rolling_curve_solve(rc, (rb_rolling_variable)r->over, r->from, r->to,
-                                        r->points, curve, why);
+    const rb_rolling_range range = {(rb_rolling_variable)r->over, r->from, r->to,
+                                    r->points};
+    return with_errors ? rb_rolling_curve_with_errors(rc, &range, curve, errors, why)
+                       : rb_rolling_curve_solve(rc, &range, curve, why);
 }
 
 static rb_status solve_curves(const rb_settled_case *c, const range_options *range,

@@ -6,45 +6,52 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* T rows of the half-plane with a body's elasticity under n elements of length h, at
- * `points` places s along the surface, the first element's midpoint at 0.  sum: points x
- * 2n, added to; coupling: -1 for body B, which is mirrored. */
+/* n elements of length h, the first one's midpoint at 0, seen from places s. */
+typedef struct {
+    int n;
+    double h;
+    int places;
+    double *s;
+} line;
+
+/* T rows of the half-plane with a body's elasticity.  sum: places x 2n, added to;
+ * coupling: -1 for body B, which is mirrored. */
 static rb_status add_halfplane(const rb_rolling_case *rc, const rb_rolling_body *body,
-                               double coupling, int n, double h, int points,
-                               const double *s, double *sum)
+                               double coupling, const line *of, double *sum)
 {
-    const size_t rows = (size_t)points, columns = 2 * (size_t)n;
+    const int n = of->n;
+    const size_t rows = (size_t)of->places, columns = 2 * (size_t)n;
     double length[RB_ROLLING_TERMS];
     const rb_bem_surface surface = rb_rolling_surface_of(rc, body, length);
     double *ends = rb_alloc((size_t)n + 1, 1), *W = rb_alloc(2 * rows, columns);
     rb_status status = ends && W ? RB_OK : RB_ENOMEM;
 
     for (int i = 0; i <= n && status == RB_OK; i++)
-        ends[i] = (i - 0.5) * h;
+        ends[i] = (i - 0.5) * of->h;
     if (status == RB_OK)
-        status = rb_bem_surface_displacement(&surface, n, ends, points, s, W);
+        status = rb_bem_surface_displacement(&surface, n, ends, of->places, of->s, W);
     for (size_t j = 0; j < columns && status == RB_OK; j++)
-        cblas_daxpy(points, j < (size_t)n ? coupling : 1.0, W + rows + j * 2 * rows, 1,
-                    sum + j * rows, 1);
+        cblas_daxpy(of->places, j < (size_t)n ? coupling : 1.0, W + rows + j * 2 * rows,
+                    1, sum + j * rows, 1);
     free(ends);
     free(W);
     return status;
 }
 
-/* Of all elastic bodies; sum: overwritten. */
-static rb_status halfplanes(const rb_rolling_case *rc, int n, double h, int points,
+/* Of all elastic bodies, at places from `first` on, h apart; sum: overwritten. */
+static rb_status halfplanes(const rb_rolling_case *rc, int n, double h, int places,
                             double first, double *sum)
 {
-    double *s = rb_alloc((size_t)points, 1);
-    rb_status status = s ? RB_OK : RB_ENOMEM;
+    const line of = {n, h, places, rb_alloc((size_t)places, 1)};
+    rb_status status = of.s ? RB_OK : RB_ENOMEM;
 
-    for (int i = 0; i < points && status == RB_OK; i++)
-        s[i] = first + i * h;
+    for (int i = 0; i < places && status == RB_OK; i++)
+        of.s[i] = first + i * h;
     if (status == RB_OK)
-        status = add_halfplane(rc, &rc->a, 1.0, n, h, points, s, sum);
+        status = add_halfplane(rc, &rc->a, 1.0, &of, sum);
     if (status == RB_OK && rc->elastic_b)
-        status = add_halfplane(rc, &rc->b, -1.0, n, h, points, s, sum);
-    free(s);
+        status = add_halfplane(rc, &rc->b, -1.0, &of, sum);
+    free(of.s);
     return status;
 }
 
@@ -154,24 +161,26 @@ void rb_rolling_ahead_free(rb_rolling_ahead *ahead)
     memset(ahead, 0, sizeof *ahead);
 }
 
-/* Row `row` of W_T: half-planes at midpoint number i, and what the bodies have over them
- * at the nearest midpoints of the mesh, continued on a line. */
+/* One row of W_T, upstream of the contact where `upstream` is 1: half-planes at a
+ * midpoint beyond the mesh, and what the bodies have over them at the nearest midpoints
+ * of the mesh, continued on a line. */
 static rb_status add_outside(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                             int i, int near, int next, int row, double *W_T)
+                             int upstream, double *W_T)
 {
-    const int n = bodies->f.n, m = bodies->f.m, at[3] = {i, near, next};
+    const int n = bodies->f.n, m = bodies->f.m, near = upstream ? n : 0,
+              next = upstream ? n - 1 : 1, at[3] = {upstream ? n + 1 : -1, near, next};
     const double h = bodies->f.h[n / 2], weight[3] = {1.0, -2.0, 1.0};
-    double *plane = rb_alloc(2 * (size_t)n, 1);
+    double *plane = rb_alloc(2 * (size_t)n, 1), *row = W_T + upstream;
     rb_status s = plane ? RB_OK : RB_ENOMEM;
 
     for (int k = 0; k < (bodies->F ? 3 : 1) && s == RB_OK; k++) {
         memset(plane, 0, 2 * (size_t)n * sizeof *plane);
         s = halfplanes(rc, n, h, 1, at[k] * h, plane);
-        cblas_daxpy(2 * n, weight[k], plane, 1, W_T + row, 2);
+        cblas_daxpy(2 * n, weight[k], plane, 1, row, 2);
     }
     if (s == RB_OK && bodies->F) {
-        cblas_daxpy(2 * n, 2.0, bodies->F + m + near, 2 * m, W_T + row, 2);
-        cblas_daxpy(2 * n, -1.0, bodies->F + m + next, 2 * m, W_T + row, 2);
+        cblas_daxpy(2 * n, 2.0, bodies->F + m + near, 2 * m, row, 2);
+        cblas_daxpy(2 * n, -1.0, bodies->F + m + next, 2 * m, row, 2);
     }
     free(plane);
     return s;
@@ -180,7 +189,6 @@ static rb_status add_outside(const rb_rolling_case *rc, const rb_rolling_bodies 
 rb_status rb_rolling_displacement_outside(const rb_rolling_case *rc,
                                           const rb_rolling_bodies *bodies, double *W_T)
 {
-    const int n = bodies->f.n;
-    const rb_status s = add_outside(rc, bodies, -1, 0, 1, 0, W_T);
-    return s == RB_OK ? add_outside(rc, bodies, n + 1, n, n - 1, 1, W_T) : s;
+    const rb_status s = add_outside(rc, bodies, 0, W_T);
+    return s == RB_OK ? add_outside(rc, bodies, 1, W_T) : s;
 }

@@ -110,13 +110,7 @@ static void set_creepage(rb_rolling_variable over, double value, rb_rolling_case
     rc->creep_ratio = over == RB_OVER_CREEP_RATIO ? value : NAN;
 }
 
-typedef struct {
-    rb_rolling_variable over;
-    double from, to;
-    int points;
-} range;
-
-static double value_at(const range *r, int k)
+static double value_at(const rb_rolling_range *r, int k)
 {
     const double t = r->points > 1 ? (double)k / (r->points - 1) : 0.0;
     return r->over == RB_OVER_SPEED ? r->from * pow(r->to / r->from, t)
@@ -145,7 +139,7 @@ static rb_status remember_branch(rb_rolling_model *model, branch_start *start)
     return RB_OK;
 }
 
-static rb_status over_creepages(const rb_rolling_case *rc, const range *r,
+static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_range *r,
                                 rb_rolling_model *model, rb_rolling_curve *c,
                                 rb_message *why)
 {
@@ -182,7 +176,7 @@ static rb_status over_creepages(const rb_rolling_case *rc, const range *r,
 }
 
 /* The flexibility itself depends on the speed. */
-static rb_status over_speeds(const rb_rolling_case *rc, const range *r,
+static rb_status over_speeds(const rb_rolling_case *rc, const rb_rolling_range *r,
                              rb_rolling_model *model, rb_rolling_curve *c,
                              rb_message *why)
 {
@@ -203,7 +197,8 @@ static rb_status over_speeds(const rb_rolling_case *rc, const range *r,
     return s;
 }
 
-static rb_status check_curve(const rb_rolling_case *rc, const range *r, rb_message *why)
+static rb_status check_curve(const rb_rolling_case *rc, const rb_rolling_range *r,
+                             rb_message *why)
 {
     if (!isfinite(r->from) || !isfinite(r->to))
         return rb_fail(why, RB_EINVAL, "curve: from %g to %g: expected finite numbers",
@@ -226,27 +221,25 @@ static rb_status check_curve(const rb_rolling_case *rc, const range *r, rb_messa
     return RB_OK;
 }
 
-rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, rb_rolling_variable over,
-                                 double from, double to, int points,
+rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_range *range,
                                  rb_rolling_curve *curve, rb_message *why)
 {
     const double start = rb_seconds();
-    const range r = {over, from, to, points};
     rb_rolling_case steady = *rc;
     rb_rolling_model model = {0};
-    rb_status s = check_curve(rc, &r, why);
+    rb_status s = check_curve(rc, range, why);
 
     memset(curve, 0, sizeof *curve);
     curve->free_creepage = NAN;
     steady.formulation = RB_STEADY;
-    const int returns = over != RB_OVER_SPEED && rb_rolling_law_moves(&steady);
+    const int returns = range->over != RB_OVER_SPEED && rb_rolling_law_moves(&steady);
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, &steady,
-                                     returns ? 2 * points : points, curve);
-    curve->rising = points;
+                                     returns ? 2 * range->points : range->points, curve);
+    curve->rising = range->points;
     if (s == RB_OK)
-        s = (over == RB_OVER_SPEED ? over_speeds : over_creepages)(&steady, &r, &model,
-                                                                   curve, why);
+        s = (range->over == RB_OVER_SPEED ? over_speeds : over_creepages)(
+            &steady, range, &model, curve, why);
     curve->iterations = model.iterations;
     curve->seconds = rb_seconds() - start;
     rb_rolling_model_free(&model);

@@ -229,26 +229,27 @@ void rb_rolling_warmest(int n, const double *x, const int *zone, const double *t
  * would count by more than 1e-3. */
 static const double LEAST_PECLET = 10.0;
 
-rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, int n, double h,
-                                       double step, double half_width,
+rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, double half_width,
                                        rb_rolling_heat_track *track, rb_message *why)
 {
     const double peclet = fmin(rb_rolling_peclet(&rc->heat_a, rc->speed, half_width),
                                rb_rolling_peclet(&rc->heat_b, rc->speed, half_width));
 
-    *track = (rb_rolling_heat_track){.n = n, .h = h, .step = step};
+    track->heat = NULL;
+    track->rows = track->newest = track->known = 0;
     if (peclet < LEAST_PECLET)
         return rb_fail(why, RB_EINVAL,
                        "temperature: step by step heat goes along the depth only, which "
                        "wants V a/(2 diffusivity) >= %g, got %.3g",
                        LEAST_PECLET, peclet);
-    const double rows = step > 0.0 ? ceil(n * h / step) + 1.0 : 1.0;
-    const rb_status s =
-        rb_memory_check(sizeof(double) * rows * n, "temperature: the heat of steps", why);
+    const double rows =
+        track->step > 0.0 ? ceil(track->n * track->h / track->step) + 1.0 : 1.0;
+    const rb_status s = rb_memory_check(sizeof(double) * rows * track->n,
+                                        "temperature: the heat of steps", why);
     if (s != RB_OK)
         return s;
     track->rows = (int)rows;
-    track->heat = rb_alloc((size_t)track->rows, (size_t)n);
+    track->heat = rb_alloc((size_t)track->rows, (size_t)track->n);
     return track->heat ? RB_OK : RB_ENOMEM;
 }
 

@@ -393,8 +393,8 @@ static rb_status prepare_heat(run *r, double step, rb_message *why)
     for (int i = 0; i < n; i++)
         r->model->temperature[i] = r->rc->heat_a.temperature;
     r->model->heat = &r->heat;
-    return rb_rolling_heat_track_create(r->rc, n, element_length(r), step,
-                                        r->model->half_width, &r->heat, why);
+    r->heat = (rb_rolling_heat_track){.n = n, .h = element_length(r), .step = step};
+    return rb_rolling_heat_track_create(r->rc, r->model->half_width, &r->heat, why);
 }
 
 /* Elements as long as a step, so that the past moves from one to the next. */

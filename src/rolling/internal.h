@@ -168,9 +168,9 @@ typedef struct rb_rolling_heat_track {
     double *heat;               /* rows x n [stress * length / time]; owned */
 } rb_rolling_heat_track;
 
-/* RB_EINVAL: the Peclet number is too small for heat that goes along the depth only. */
-rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, int n, double h,
-                                       double step, double half_width,
+/* Of track->n elements of length h and steps.  RB_EINVAL: the Peclet number is too small
+ * for heat that goes along the depth only. */
+rb_status rb_rolling_heat_track_create(const rb_rolling_case *rc, double half_width,
                                        rb_rolling_heat_track *track, rb_message *why);
 /* Makes room for the heat of another rolled step. */
 void rb_rolling_heat_track_advance(rb_rolling_heat_track *track);

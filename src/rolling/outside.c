@@ -26,6 +26,13 @@ typedef struct {
     double *ends, *p, *q; /* owned: ends holds them all */
 } strips;
 
+/* Where a displacement w_N is added. */
+typedef struct {
+    int n;
+    const double *x;
+    double *w;
+} targets;
+
 static rb_status gather_strips(const rb_rolling_mesh *mesh, const rb_contact_state *state,
                                strips *s)
 {
@@ -52,25 +59,26 @@ static rb_status gather_strips(const rb_rolling_mesh *mesh, const rb_contact_sta
     return RB_OK;
 }
 
-/* w += w_N of a half-plane at the places x. */
+/* Of a half-plane. */
 static rb_status add_halfplane(const rb_rolling_case *rc, const rb_rolling_body *body,
-                               double coupling, const strips *s, int places,
-                               const double *x, double *w)
+                               double coupling, const strips *s, const targets *at)
 {
     double length[RB_ROLLING_TERMS];
     const rb_bem_surface surface = rb_rolling_surface_of(rc, body, length);
     double *W = rb_alloc(2 * BLOCK, 2 * (size_t)s->n);
     rb_status status = W ? RB_OK : RB_ENOMEM;
 
-    for (int first = 0; first < places && status == RB_OK; first += BLOCK) {
-        const int m = places - first < BLOCK ? places - first : BLOCK;
-        status = rb_bem_surface_displacement(&surface, s->n, s->ends, m, x + first, W);
+    for (int first = 0; first < at->n && status == RB_OK; first += BLOCK) {
+        const int m = at->n - first < BLOCK ? at->n - first : BLOCK;
+        status =
+            rb_bem_surface_displacement(&surface, s->n, s->ends, m, at->x + first, W);
         if (status != RB_OK)
             break;
         cblas_dgemv(CblasColMajor, CblasNoTrans, m, s->n, 1.0, W, 2 * m, s->p, 1, 1.0,
-                    w + first, 1);
+                    at->w + first, 1);
         cblas_dgemv(CblasColMajor, CblasNoTrans, m, s->n, coupling,
-                    W + 2 * (size_t)m * (size_t)s->n, 2 * m, s->q, 1, 1.0, w + first, 1);
+                    W + 2 * (size_t)m * (size_t)s->n, 2 * m, s->q, 1, 1.0, at->w + first,
+                    1);
     }
     free(W);
     return status;
@@ -86,23 +94,23 @@ static int by_x(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* w += values at x of the line through n points. */
-static void add_line(int n, const point *at, int places, const double *x, double *w)
+/* Values of the line through n points. */
+static void add_line(int n, const point *at, const targets *to)
 {
-    for (int i = 0; i < places; i++) {
+    for (int i = 0; i < to->n; i++) {
         int k = 0;
         for (int end = n - 1; end - k > 1;) {
             const int middle = (k + end) / 2;
-            *(at[middle].x <= x[i] ? &k : &end) = middle;
+            *(at[middle].x <= to->x[i] ? &k : &end) = middle;
         }
-        const double t = (x[i] - at[k].x) / (at[k + 1].x - at[k].x);
-        w[i] += at[k].u + t * (at[k + 1].u - at[k].u);
+        const double t = (to->x[i] - at[k].x) / (at[k + 1].x - at[k].x);
+        to->w[i] += at[k].u + t * (at[k + 1].u - at[k].u);
     }
 }
 
-/* w += vertical displacement of the lower half of a wheel under contact tractions t_c. */
+/* Of the lower half of a wheel under contact tractions t_c. */
 static rb_status add_wheel(const rb_bem_system *system, double radius, const double *t_c,
-                           int places, const double *x, double *w)
+                           const targets *to)
 {
     const rb_bem_mesh *mesh = rb_bem_system_mesh(system);
     const size_t n = (size_t)mesh->n;
@@ -121,22 +129,24 @@ static rb_status add_wheel(const rb_bem_system *system, double radius, const dou
     }
     if (lower > 1) {
         qsort(at, (size_t)lower, sizeof *at, by_x);
-        add_line(lower, at, places, x, w);
+        add_line(lower, at, to);
     }
     free(at);
     free(u);
     return s;
 }
 
-/* w += w_N of one body.  coupling: -1 for body B, which is mirrored. */
+/* Of one body; B is mirrored. */
 static rb_status add_body(const rb_rolling_model *model, const rb_contact_state *state,
-                          const rb_rolling_body *body, const rb_bem_system *system,
-                          double coupling, const strips *s, int places, const double *x,
-                          double *w)
+                          int is_b, const strips *s, const targets *to)
 {
-    if (!system)
-        return add_halfplane(&model->rc, body, coupling, s, places, x, w);
+    const rb_rolling_body *body = is_b ? &model->rc.b : &model->rc.a;
+    const rb_bem_system *system = is_b ? model->bodies.system_b : model->bodies.system_a;
+    const double coupling = is_b ? -1.0 : 1.0;
     const int n = model->mesh.n;
+
+    if (!system)
+        return add_halfplane(&model->rc, body, coupling, s, to);
     double *t_c = rb_alloc(2 * (size_t)n, 1);
     if (!t_c)
         return RB_ENOMEM;
@@ -144,21 +154,17 @@ static rb_status add_body(const rb_rolling_model *model, const rb_contact_state 
         t_c[2 * i] = coupling * state->q[i];
         t_c[2 * i + 1] = state->p[i];
     }
-    const rb_status status = add_wheel(system, body->radius, t_c, places, x, w);
+    const rb_status status = add_wheel(system, body->radius, t_c, to);
     free(t_c);
     return status;
 }
 
-/* w += w_N of both bodies. */
 static rb_status add_bodies(const rb_rolling_model *model, const rb_contact_state *state,
-                            const strips *s, int places, const double *x, double *w)
+                            const strips *s, const targets *to)
 {
-    const rb_rolling_case *rc = &model->rc;
-    const rb_rolling_bodies *b = &model->bodies;
-    rb_status status = add_body(model, state, &rc->a, b->system_a, 1.0, s, places, x, w);
-
-    if (status == RB_OK && rc->elastic_b)
-        status = add_body(model, state, &rc->b, b->system_b, -1.0, s, places, x, w);
+    rb_status status = RB_OK;
+    for (int b = 0; b < 1 + model->rc.elastic_b && status == RB_OK; b++)
+        status = add_body(model, state, b, s, to);
     return status;
 }
 
@@ -175,7 +181,7 @@ static rb_status least_displacement(const rb_rolling_model *model,
     *least = -INFINITY;
     if (!rb_rolling_can(&model->rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS))
         return RB_OK;
-    const rb_status status = add_bodies(model, state, s, 2, x, w);
+    const rb_status status = add_bodies(model, state, s, &(targets){2, x, w});
     *least = fmin(w[0], w[1]);
     return status;
 }
@@ -184,18 +190,20 @@ static rb_status least_displacement(const rb_rolling_model *model,
  * the flexibility is known, from which the boundary elements of a wheel differ a little:
  * the difference is taken off all along. */
 static rb_status displacement(const rb_rolling_model *model,
-                              const rb_contact_state *state, const strips *s, int places,
-                              const double *x, double *w)
+                              const rb_contact_state *state, const strips *s,
+                              const targets *to)
 {
-    const int n = model->mesh.n, left = places - 2, right = places - 1;
+    const int n = model->mesh.n, left = to->n - 2, right = to->n - 1;
+    const double *x = to->x;
+    double *w = to->w;
     double *own = rb_alloc(2 * (size_t)n + 2, 1);
-    rb_status status = own ? add_bodies(model, state, s, places, x, w) : RB_ENOMEM;
+    rb_status status = own ? add_bodies(model, state, s, to) : RB_ENOMEM;
 
     if (status == RB_OK)
         status = rb_rolling_displacement(&model->bodies, state->p, state->q, own);
     if (status == RB_OK) {
         const double off[2] = {own[0] - w[left], own[n - 1] - w[right]};
-        for (int i = 0; i < places; i++) {
+        for (int i = 0; i < to->n; i++) {
             const double t = (x[i] - x[left]) / (x[right] - x[left]);
             w[i] += off[0] + fmin(1.0, fmax(0.0, t)) * (off[1] - off[0]);
         }
@@ -252,20 +260,27 @@ static size_t most_places(int rows)
     return (size_t)fmin(BETWEEN * (double)rows, MOST_PLACES) + BETWEEN;
 }
 
+/* A table that moves: its rows stood at x before it has passed so far. */
+typedef struct {
+    int rows;
+    const double *x;
+    double passed;
+} table;
+
 /* Appends the rows of a table and places between them, thinned out where they are very
  * many; returns how many places there are now. */
 static int add_places(const rb_rolling_model *model, const rb_contact_state *state,
-                      int rows, const double *row, double passed, double *x, int n)
+                      const table *t, double *x, int n)
 {
     const double h = shortest(&model->mesh);
-    const int all = BETWEEN * (rows - 1), stride = 1 + all / MOST_PLACES;
+    const int all = BETWEEN * (t->rows - 1), stride = 1 + all / MOST_PLACES;
     double from, to;
 
     rb_rolling_extent(&model->rc, &from, &to);
     for (int k = 0; k <= all; k += stride) {
-        const int r = k < all ? k / BETWEEN : rows - 2;
-        const double t = (double)(k - BETWEEN * r) / BETWEEN;
-        const double place = row[r] + t * (row[r + 1] - row[r]) - passed;
+        const int r = k < all ? k / BETWEEN : t->rows - 2;
+        const double share = (double)(k - BETWEEN * r) / BETWEEN;
+        const double place = t->x[r] + share * (t->x[r + 1] - t->x[r]) - t->passed;
         if (place >= from && place <= to && is_unseen(&model->mesh, state, h, place))
             x[n++] = place;
     }
@@ -303,12 +318,13 @@ static rb_status unseen_places(const rb_rolling_model *model,
 
     *places = 0;
     if (t.profile > 0)
-        *places = add_places(model, state, t.profile, t.profile_x, 0.0, x, 0);
+        *places = add_places(model, state, &(table){t.profile, t.profile_x, 0.0}, x, 0);
     if (t.irregularity > 0)
-        *places = add_places(model, state, t.irregularity, rc->irregularity_x, rc->passed,
-                             x, *places);
+        *places = add_places(model, state,
+                             &(table){t.irregularity, rc->irregularity_x, rc->passed}, x,
+                             *places);
     if (t.worn > 1)
-        *places = add_places(model, state, t.worn, rc->worn_x, 0.0, x, *places);
+        *places = add_places(model, state, &(table){t.worn, rc->worn_x, 0.0}, x, *places);
     qsort(x, (size_t)*places, sizeof *x, by_value);
     return rb_rolling_gap_along(rc, *places, x, gap);
 }
@@ -368,7 +384,7 @@ static rb_status look(const rb_rolling_model *model, const rb_contact_state *sta
     x[places] = model->bodies.f.x[0];
     x[places + 1] = model->bodies.f.x[mesh->n - 1];
     if (places > 0)
-        status = displacement(model, state, s, places + 2, x, w);
+        status = displacement(model, state, s, &(targets){places + 2, x, w});
     for (int i = 0; i < places && status == RB_OK; i++)
         if (gap[i] - state->delta + w[i] < -tolerance)
             add_place(x, places, i, o);

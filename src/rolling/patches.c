@@ -39,32 +39,31 @@ static double zero_of(const rb_rolling_mesh *mesh, const double *p, int i, int j
  * only partly in contact, so the power law goes through the next two, or where it is
  * steep through the two behind its neighbour, which then is disturbed too.  Contact is
  * decided at midpoints: the edge lies between those of the last loaded and of the first
- * open element.  *bounded: set where this interval is all that is known, because p does
- * not fall or the power law misses the interval by more than its length. */
+ * open element.  run->bounded: set where this interval is all that is known, because p
+ * does not fall or the power law misses the interval by more than its length. */
 static double edge(double beta, const rb_rolling_mesh *mesh,
-                   const rb_contact_state *state, int outer, int side, int length,
-                   int *bounded)
+                   const rb_contact_state *state, int side, rb_rolling_run *run)
 {
-    const int open = outer + side;
+    const int outer = side > 0 ? run->last : run->first, open = outer + side;
     const double end = mesh->ends[side > 0 ? outer + 1 : outer];
     const double nearest = midpoint(mesh, outer);
     const double farthest = open >= 0 && open < mesh->n ? midpoint(mesh, open) : end;
     int j = outer - side;
 
-    if (length < 5) {
-        *bounded = 1;
+    if (run->last - run->first + 1 < 5) {
+        run->bounded = 1;
         return end;
     }
     const double exponent = edge_exponent(beta, state, j - side, j, side);
     if (exponent < STEEP)
         j -= side;
     if (!(state->p[j] < state->p[j - side])) {
-        *bounded = 1;
+        run->bounded = 1;
         return end;
     }
     const double x = zero_of(mesh, state->p, j - side, j, exponent);
     const double off = fmax(side * (nearest - x), side * (x - farthest));
-    *bounded |= off > fabs(farthest - nearest);
+    run->bounded |= off > fabs(farthest - nearest);
     return side > 0 ? fmin(fmax(x, nearest), farthest) : fmax(fmin(x, nearest), farthest);
 }
 
@@ -130,8 +129,8 @@ int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh
         run->to = aligned_edge(rc, mesh, state->p, run->last, 1);
         return 1;
     }
-    run->from = edge(beta, mesh, state, run->first, -1, length, &run->bounded);
-    run->to = edge(beta, mesh, state, run->last, 1, length, &run->bounded);
+    run->from = edge(beta, mesh, state, -1, run);
+    run->to = edge(beta, mesh, state, 1, run);
     return 1;
 }
 

@@ -59,9 +59,9 @@ static void curve_errors(const rb_rolling_case *rc, int runs,
 }
 
 rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
-                                       rb_rolling_variable over, double from, double to,
-                                       int points, rb_rolling_curve *curve,
-                                       rb_rolling_curve *errors, rb_message *why)
+                                       const rb_rolling_range *range,
+                                       rb_rolling_curve *curve, rb_rolling_curve *errors,
+                                       rb_message *why)
 {
     rb_rolling_curve run[RB_ERROR_RUNS] = {0};
     const int runs = rb_rolling_error_runs(rc);
@@ -70,10 +70,10 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
     memset(curve, 0, sizeof *curve);
     memset(errors, 0, sizeof *errors);
     if (s == RB_OK)
-        s = rb_rolling_curve_solve(rc, over, from, to, points, curve, why);
+        s = rb_rolling_curve_solve(rc, range, curve, why);
     for (int k = 0; k < runs && s == RB_OK; k++) {
         const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
-        s = rb_rolling_curve_solve(&coarser, over, from, to, points, &run[k], why);
+        s = rb_rolling_curve_solve(&coarser, range, &run[k], why);
     }
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, rc, curve->n, errors);

@@ -416,12 +416,11 @@ static rb_status fill_grid(const rb_rolling_model *model, const search *box, int
     return s;
 }
 
-static rb_status make_grid(const rb_rolling_model *model, const search *box, int nx,
-                           int ny, int power, rb_rolling_stress_grid *grid,
-                           rb_message *why)
+/* Of grid->nx x grid->ny points. */
+static rb_status make_grid(const rb_rolling_model *model, const search *box, int power,
+                           rb_rolling_stress_grid *grid, rb_message *why)
 {
-    grid->nx = nx;
-    grid->ny = ny;
+    const int nx = grid->nx, ny = grid->ny;
     grid->at = calloc((size_t)nx * (size_t)ny, sizeof *grid->at);
     grid->inside = rb_alloc_int((size_t)nx * (size_t)ny);
     const rb_status s =
@@ -447,7 +446,8 @@ rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int n
     if (!(from < to))
         return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
     const search box = box_under(model, from, to, depth);
-    return make_grid(model, &box, nx, ny, 1, grid, why);
+    *grid = (rb_rolling_stress_grid){.nx = nx, .ny = ny};
+    return make_grid(model, &box, 1, grid, why);
 }
 
 /* ---- All maxima -----------------------------------------------------------------------
@@ -484,11 +484,11 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
     *maxima = (rb_rolling_stress_maxima){none, none, none, none};
     while (s == RB_OK && rb_rolling_next_patch(&model->rc, &model->mesh, &model->state,
                                                run.last + 1, &run)) {
-        rb_rolling_stress_grid grid = {0};
+        rb_rolling_stress_grid grid = {.nx = GRID_X, .ny = GRID_Y};
         search box = box_under(model, run.from, run.to, depth);
         box.f = &f;
         /* finer where the stress changes faster */
-        s = make_grid(model, &box, GRID_X, GRID_Y, 2, &grid, why);
+        s = make_grid(model, &box, 2, &grid, why);
         if (s == RB_OK)
             s = add_maxima(&box, &grid, maxima);
         rb_rolling_stress_grid_free(&grid);
