@@ -97,7 +97,7 @@ LONGEST := $(patsubst %,$(B)/tests/test_%,net fem_examples rolling_wheel files f
 
 # only the summary line comes last: continuous integration reads it
 check-tests: all $(TESTS) $(B)/tests/checker
-	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave tests/install tests/release tests/site $(wildcard tests/journeys/*) $(filter-out $(LONGEST),$(TESTS))
+	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave tests/install tests/release tests/site tests/figures $(wildcard tests/journeys/*) $(filter-out $(LONGEST),$(TESTS))
 
 SANITIZED = B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined"
 asan:
