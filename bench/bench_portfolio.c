@@ -47,7 +47,7 @@ static void find_best(const rb_friction_problem *p, const rb_friction_info *of_a
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
     rb_friction_options opt = rb_friction_defaults();
-    opt.seconds = 3.0 * of_auto->seconds + 0.1;
+    opt.seconds = fmax(10.0, 2.0 * of_auto->seconds);
     opt.progress = beyond;
     *part = *any = (champion){of_auto->flops, "auto"};
     for (int k = 1; k < count; k++) {

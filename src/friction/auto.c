@@ -230,8 +230,8 @@ static rb_status take_turn(const portfolio *p, member *a, double allowance, int 
             break;
         if (s == RB_OK)
             s = go_on(p, a, allowance, turn, &paused);
-        if (s == RB_OK && rb_friction_task_judge(&a->task) == RB_OK)
-            return RB_OK; /* what it ends with is proved by the caller */
+        if (s == RB_OK && rb_friction_prove(&a->task))
+            return RB_OK;
         if (s == RB_ENOMEM || s == RB_INTERRUPTED)
             return s;
         if (!paused)
@@ -275,9 +275,16 @@ static rb_status run_auto(rb_friction_task *task, int variant)
         task->info->flops += p.member[k].info.flops;
     }
     if (s == RB_OK) {
+        rb_friction_info *info = task->info;
+        const rb_friction_info *proof = &winner->info;
         memcpy(task->r, winner->task.r, (size_t)task->m * sizeof(double));
+        memcpy(task->u, winner->task.u, (size_t)task->m * sizeof(double));
         memcpy(task->v, winner->task.v, (size_t)task->n * sizeof(double));
-        task->info->solver = winner->info.solver;
+        info->solver = proof->solver;
+        info->residual = proof->residual;
+        info->scaled = proof->scaled;
+        info->floor = proof->floor;
+        task->proved = 1;
     }
     portfolio_free(&p);
     return s;

@@ -146,6 +146,7 @@ typedef struct {
     int d, contacts, m, n; /* n: 0 for the local form */
     double deadline;       /* on rb_seconds(); 0: none */
     double budget;         /* of info->flops, where a method pauses; INFINITY: never */
+    int proved;            /* rb_friction_prove has accepted r */
     double *r, *u;         /* m: the iterate; start on entry */
     double *v;             /* n */
 } rb_friction_task;

@@ -112,7 +112,7 @@ static rb_status run_and_prove(rb_friction_task *task, const rb_friction_solver 
         return s;
     load_start(task);
     s = rb_friction_run(task, solver->run, solver->variant, 0);
-    if (s < 0)
+    if (s < 0 || task->proved) /* the portfolio proves what its members end with */
         return s;
     if (s != RB_OK)
         rb_friction_task_recall(task);

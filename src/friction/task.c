@@ -129,7 +129,8 @@ int rb_friction_prove(rb_friction_task *task)
                               &info->residual);
     info->floor = rb_friction_measure_floor(task->measure, task->r, task->v);
     count_measure(task);
-    return rb_friction_task_accepts(task, info->scaled);
+    task->proved = rb_friction_task_accepts(task, info->scaled);
+    return task->proved;
 }
 
 /* ---- Limits
