@@ -608,6 +608,9 @@ static void check_heat(const contact *c, const table *t, const json_t *object)
         violated("temperature", "columns do not follow --conductivity");
     if (!a || !b || violations)
         return;
+    /* All sticks: what there is comes from the slip beside the edges, of either sign. */
+    if (!(number(c->summary, "dissipation") > 0.0))
+        return;
     const double T_a = number(c->inputs, "temperature");
     const double T_b = input(c, "temperature-b", T_a);
     const double rise = fabs(most - fmin(T_a, T_b)) + fabs(T_a - T_b);

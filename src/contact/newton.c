@@ -46,7 +46,7 @@ static int corrected_zone(const rb_contact_problem *p, rb_contact_unknowns unkno
     if (zone == RB_ZONE_SEPARATED) {
         if (!(unknowns & RB_NORMAL) || gap[i] >= 0.0)
             return zone;
-        return slip >= 0.0 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_SLIP_POSITIVE;
+        return rb_contact_sliding_zone(slip);
     }
     if (!(unknowns & RB_TANGENTIAL))
         return zone;
@@ -55,7 +55,7 @@ static int corrected_zone(const rb_contact_problem *p, rb_contact_unknowns unkno
                : q > limit ? RB_ZONE_SLIP_POSITIVE
                            : zone;
     if (p->bound[i] == 0.0)
-        return slip >= 0.0 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_SLIP_POSITIVE;
+        return rb_contact_sliding_zone(slip);
     return rb_contact_slope(zone) * slip > 0.0 ? RB_ZONE_STICK : zone;
 }
 

@@ -125,7 +125,7 @@ static rb_contact_zone zone_of(double p, double lambda, double gamma_plus,
     if (!(p > 0.0))
         return RB_ZONE_SEPARATED;
     if (frictionless)
-        return lambda >= 0.0 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_SLIP_POSITIVE;
+        return rb_contact_sliding_zone(lambda);
     if (lambda > gamma_plus)
         return RB_ZONE_SLIP_NEGATIVE;
     if (-lambda > gamma_minus)

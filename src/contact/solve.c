@@ -80,6 +80,8 @@ static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_sta
     for (int i = 0; i < problem->n && s == RB_OK; i++)
         if (state->zone[i] == RB_ZONE_STICK)
             state->lambda[i] = 0.0;
+        else if (state->zone[i] != RB_ZONE_SEPARATED && problem->bound[i] == 0.0)
+            state->zone[i] = rb_contact_sliding_zone(state->lambda[i]);
     free(gap);
     return s;
 }
