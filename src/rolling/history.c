@@ -496,6 +496,8 @@ static rb_status run_on_zone(run *r, double zone, rb_rolling_step *see, void *co
 
     if (s == RB_OK) {
         s = all_steps(r, see, context, why);
+        if (s == RB_OK)
+            s = rb_rolling_check_resolved(r->model, why);
         if (s == RB_ZONE && r->rc->zone == 0.0) {
             const rb_rolling_mesh *mesh = &r->model->mesh;
             const double now = fmax(-mesh->ends[0], mesh->ends[mesh->n]);

@@ -22,6 +22,8 @@ rb_status rb_rolling_solve_model_again(const rb_rolling_case *rc, rb_rolling_mod
         s = rb_rolling_history_run(rc, NULL, NULL, NULL, model, &history, why);
     } else {
         s = rb_rolling_model_again(rc, model, why);
+        if (s == RB_OK)
+            s = rb_rolling_check_resolved(model, why);
     }
     rb_rolling_history_free(&history);
     memset(solution, 0, sizeof *solution);

@@ -55,6 +55,31 @@ static int is_loaded(const rb_contact_state *state, int i)
     return state->zone[i] != RB_ZONE_SEPARATED;
 }
 
+/* A layer or cover that is nearly incompressible carries by waves as short as it is
+ * thick: longer elements make the load of nu = 1/2 wrong by 2 % and more.  Others are
+ * mattresses when they are thin, which any element resolves (theory.md L4). */
+rb_status rb_rolling_check_resolved(const rb_rolling_model *model, rb_message *why)
+{
+    static const double nearly_incompressible = 0.49;
+    const rb_rolling_case *rc = &model->rc;
+    const rb_rolling_body *const bodies[2] = {&rc->a, &rc->b};
+
+    for (int b = 0; b < 1 + rc->elastic_b && model->state.zone; b++) {
+        const double thickness = fmax(bodies[b]->layer, bodies[b]->cover);
+        const double h = rb_rolling_longest_element(model->mesh.n, model->state.zone,
+                                                    model->bodies.f.h);
+        if (thickness > 0.0 && bodies[b]->poisson > nearly_incompressible &&
+            h > thickness * (1.0 + 1e-9))
+            return rb_fail(why, RB_EINVAL,
+                           "%s thickness: with nu = %g the elements, %.3g mm, may not be "
+                           "longer than the thickness, %g mm; take %.0f contact elements "
+                           "or more, twice as many with error bars",
+                           bodies[b]->layer > 0.0 ? "layer" : "cover", bodies[b]->poisson,
+                           h, thickness, ceil(rc->contact_elements * h / thickness));
+    }
+    return RB_OK;
+}
+
 /* Elements without contact at either end; n of them if there is no contact. */
 static void separated_at_ends(const rb_contact_state *state, int *left, int *right)
 {
