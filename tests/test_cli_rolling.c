@@ -668,6 +668,76 @@ static void almost_no_friction(void **state)
     }
 }
 
+#define RAIL                                                                             \
+    "--support halfplane --similar --radius 460 --young 209920 --poisson 0.28 --gap "    \
+    "exact --load 3111.08 --mu 0.18 --formulation steady --contact-elements 60 "
+#define FALLS "--friction-law exponential --mu-fall 0.12 --slip-scale 10 --speed 45000 "
+
+/* What is wrong with a friction law, in one line each. */
+static void bad_friction_laws_are_refused(void **state)
+{
+    (void)state;
+    write_file("back.txt", "0 0.3\n0 0.2\n");
+    write_file("less.txt", "0 0.3\n1 -0.2\n");
+    write_file("mu.txt", "-1 0.3\n1 0.2\n");
+    check_refused(RAIL "--mu-fall 0.1", 64, "--mu-fall: of friction laws that fall");
+    check_refused(RAIL "--friction-law linear", 64, "needs --mu-fall and --slip-scale");
+    check_refused(RAIL FALLS "--slip-scale 1,2", 64, "as many of one as of the other");
+    check_refused(RAIL FALLS "--mu-fall -0.2", 64, "expected mu >= 0 everywhere");
+    check_refused(RAIL "--friction-law linear --mu-fall 0.1 --slip-scale 9", 64,
+                  "add --speed");
+    check_refused(RAIL "--memory 1", 64, "--memory: of friction that changes");
+    check_refused(RAIL "--mu-heat 0.1,20", 64, "--mu-heat: expected 3 numbers, got 2");
+    check_refused(RAIL "--mu-heat 0.1,20,300", 64, "add --conductivity");
+    check_refused(RAIL FALLS "--slip-scale 5mm/s,6", 64, "a unit for each number");
+    check_refused("--friction-law none.txt", 66, "none.txt");
+    check_refused("--friction-law back.txt", 65, "back.txt:2: expected x to increase");
+    check_refused("--friction-law less.txt", 65, "less.txt:2: expected mu >= 0");
+    check_refused("--friction-law mu.txt --mu 0.3", 64, "--mu: the table");
+    check_refused(RAIL FALLS "--force -840", 64, "the largest is -5");
+    check_refused(RAIL FALLS "--force -100 --all-solutions", 64, "a given creepage");
+    check_refused(RAIL "--all-solutions", 64, "friction that depends on");
+}
+
+/* Units of every number of a list, a file's own certificate, several solutions. */
+static void friction_laws_by_words(void **state)
+{
+    (void)state;
+    json_t *mm = run_json(RAIL FALLS "--creep 0.001 --memory 0.001,2 --mu-fall 0.1,0.02 "
+                                     "--slip-scale 100,50");
+    json_t *si =
+        run_json("--support halfplane --similar --radius 0.46 --young 209920e6 "
+                 "--poisson 0.28 --gap exact --load 3111080 --mu 0.18 "
+                 "--formulation steady --contact-elements 60 --friction-law "
+                 "exponential --mu-fall 0.1,0.02 --slip-scale 0.1,0.05 --speed 45 "
+                 "--memory 1e-6,2e-3 --creep 0.001 --units si");
+    CHECK_REL(number_in(json_object_get(mm, "summary"), "force_ratio"),
+              number_in(json_object_get(si, "summary"), "force_ratio"), 1e-9, "units");
+    const json_t *scales = json_object_get(json_object_get(si, "inputs"), "slip-scale");
+    CHECK_REL(json_number_value(json_array_get(scales, 1)), 0.05, 1e-12, "shown");
+    json_decref(mm);
+    json_decref(si);
+
+    assert_int_equal(rollbem(RAIL FALLS "--creep 0.001 --json --quiet --output r.json"),
+                     0);
+    assert_int_equal(rollbem("check r.json"), 0);
+    assert_non_null(strstr(out, "r.json: valid: "));
+
+    assert_int_equal(rollbem(RAIL FALLS
+                             "--mesh uniform --zone 4.65 --contact-elements 93 "
+                             "--creep 0.0009999 --all-solutions --json"),
+                     0);
+    assert_non_null(strstr(err, "2 solutions that differ from 82 starts"));
+    json_t *several = json_loads(out, 0, NULL);
+    json_t *list = json_object_get(several, "solutions");
+    assert_int_equal(json_array_size(list), 2);
+    for (size_t k = 0; k < 2; k++) {
+        const json_t *s = json_object_get(json_array_get(list, k), "summary");
+        CHECK_MAX(number_in(s, "residual"), 1e-10, "solution %zu", k);
+    }
+    json_decref(several);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -694,6 +764,8 @@ int main(void)
         cmocka_unit_test(the_largest_stress_covers_no_contour),
         cmocka_unit_test(a_truss_is_drawn_with_its_bars),
         cmocka_unit_test(pictures_name_the_case),
+        cmocka_unit_test(bad_friction_laws_are_refused),
+        cmocka_unit_test(friction_laws_by_words),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -268,6 +268,53 @@ static void branches_outlive_their_mesh(void **state)
     rb_rolling_curve_free(&c);
 }
 
+/* All solutions of the rail case; each is one by the formula. */
+static void all_solutions_are_found(void **state)
+{
+    (void)state;
+    static const struct {
+        double scale;
+        int n;
+        double ratio[3];
+    } all[] = {{100.0, 1, {0.594329}},
+               {15.5, 1, {0.537422}},
+               {10.0, 2, {0.530975, 0.530624}},
+               {5.0, 3, {0.527508, 0.526808, 0.526376}}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        rb_rolling_case rc = rail(all[k].scale);
+        rb_rolling_model model = solved(&rc);
+        rb_rolling_solutions found;
+        rb_message why = {""};
+        CHECK_STATUS(rb_rolling_find_solutions(&model, &found, &why), RB_OK);
+        assert_int_equal(found.n, all[k].n);
+        assert_int_equal(found.failed, 0);
+        for (int i = 0; i < found.n; i++) {
+            const rb_rolling_solution *s = &found.solution[i];
+            CHECK_ABS(-s->force_ratio, all[k].ratio[i], 1e-6, "solution %d", i);
+            CHECK_MAX(s->residual, 1e-10, "solution %d", i);
+            memcpy(model.state.p, s->p, (size_t)s->n * sizeof(double));
+            memcpy(model.state.q, s->q, (size_t)s->n * sizeof(double));
+            memcpy(model.state.lambda, s->shift, (size_t)s->n * sizeof(double));
+            memcpy(model.state.zone, s->zone, (size_t)s->n * sizeof(int));
+            model.state.delta = s->approach;
+            memcpy(model.problem.bound, s->mu, (size_t)s->n * sizeof(double));
+            check_state(&model, NULL, "one of all");
+        }
+        rb_rolling_solutions_free(&found);
+        rb_rolling_model_free(&model);
+    }
+    rb_rolling_case rc = rail(10.0);
+    rb_rolling_solutions none;
+    rb_message why = {""};
+    rc.creep = NAN;
+    rc.force_ratio = -0.2;
+    rb_rolling_model model = solved(&rc);
+    CHECK_STATUS(rb_rolling_find_solutions(&model, &none, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "at a given creepage"));
+    rb_rolling_solutions_free(&none);
+    rb_rolling_model_free(&model);
+}
+
 /* ---- A given force ------------------------------------------------------------------
  */
 
@@ -544,6 +591,7 @@ int main(void)
         cmocka_unit_test(steep_laws_have_two_solutions),
         cmocka_unit_test(curves_have_two_branches),
         cmocka_unit_test(branches_outlive_their_mesh),
+        cmocka_unit_test(all_solutions_are_found),
         cmocka_unit_test(a_force_is_met_on_the_rising_branch),
         cmocka_unit_test(the_largest_force_is_told),
         cmocka_unit_test(steps_remember_their_friction),

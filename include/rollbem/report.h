@@ -103,6 +103,9 @@ struct json_t *rb_report_json_summary(const rb_rolling_solution *s);
 /* Every value that the settled case uses, defaults included. */
 struct json_t *rb_report_json_inputs(const rb_case *c);
 struct json_t *rb_report_json_table(const rb_rolling_solution *s);
+/* An object with summary and table for each; and a line for each, for people. */
+struct json_t *rb_report_json_solutions(const rb_rolling_solutions *all);
+void rb_report_solutions(FILE *out, const rb_rolling_solutions *all);
 /* The JSON Schema of all this, rollbem/1. */
 struct json_t *rb_report_json_schema(void);
 struct json_t *rb_report_json_errors(const rb_rolling_errors *errors);

@@ -594,6 +594,23 @@ rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
 rb_status rb_rolling_model_solution(const rb_rolling_model *model,
                                     rb_rolling_solution *solution, rb_message *why);
 
+/* Solutions of one steady case, the largest force first. */
+typedef struct {
+    int n;
+    rb_rolling_solution *solution; /* each proven by its own residual; owned */
+    int starts, failed;            /* that were tried, and that did not come to rest */
+} rb_rolling_solutions;
+
+/* Solutions that differ, of a solved steady model with a given creepage under a friction
+ * law that depends on the state: its own, and those that the iteration finds on the
+ * model's mesh from slip behind as many places as elements are in contact, at most 200
+ * (theory.md F5).  What it does not come
+ * to rest at is not found.  The model has the last state then.  RB_EINVAL: other cases.
+ * all: overwritten; free it in any case. */
+rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solutions *all,
+                                    rb_message *why);
+void rb_rolling_solutions_free(rb_rolling_solutions *all);
+
 /* ---- Histories: static increments and transient rolling -------------------------------
  */
 

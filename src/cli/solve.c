@@ -4,12 +4,13 @@
 #include "cli/run.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 #include <unistd.h>
 
 typedef struct {
-    int trace;
+    int trace, all_solutions;
     const char *dump, *fclib, *history_table, *history_plot;
     cli_steps steps;
 } solve_options;
@@ -27,6 +28,11 @@ static const rb_option options[] = {
                  .unset = "none", .file = RB_FILE_WRITTEN),
     RB_FLAG_LINE("trace", PLACE(trace),
                  "every pivot of Lemke's method, on standard error"),
+    RB_FLAG_LINE(
+        "all-solutions", PLACE(all_solutions),
+        "steady, friction that depends on the slip or the temperature: solutions "
+        "that differ, each with its residual, on standard error and as solutions "
+        "in JSON"),
 
     RB_GROUP_LINE("output", "Steps of a transient or of a static history"),
     RB_TEXT_LINE("history-table", PLACE(history_table), "FILE",
@@ -76,6 +82,7 @@ typedef struct {
     const solve_options *options;
     const cli_output *o;
     const rb_case_result *r;
+    const rb_rolling_solutions *all; /* n = 0: not asked for */
 } result;
 
 /* ---- Output ----------------------------------------------------------------------- */
@@ -98,6 +105,8 @@ static rb_status write_json(FILE *out, const result *it)
     if (it->r->history.n > 0)
         rb_report_json_set(&root, "history",
                            rb_report_json_history(&it->r->history, step_errors(it->r)));
+    if (it->all->n > 0)
+        rb_report_json_set(&root, "solutions", rb_report_json_solutions(it->all));
     return rb_report_json_write(out, root);
 }
 
@@ -155,6 +164,8 @@ static void tell_people(const result *it)
     rb_report_summary(stderr, &it->r->solution, cli_terminal_width());
     if (it->r->has_errors)
         rb_report_errors(stderr, &it->r->solution, &it->r->errors);
+    if (it->all->n > 0)
+        rb_report_solutions(stderr, it->all);
     if (it->r->history.n > 0)
         rb_report_history_summary(stderr, &it->r->history, step_errors(it->r));
 }
@@ -190,14 +201,20 @@ static cli_exit solve(const solve_options *so, const cli_output *o, const rb_cas
     const rb_settled_case *c = rb_case_settled(words);
     rb_case_result r;
     rb_message why = {""};
-    const rb_status status = cli_run_case(c, &so->steps, &r, &why);
-    const result it = {words, c, so, o, &r};
+    rb_rolling_solutions all = {0};
+    rb_status status = cli_run_case(c, &so->steps, &r, &why);
+    const result it = {words, c, so, o, &r, &all};
+    if (status == RB_OK && so->all_solutions)
+        status = rb_rolling_find_solutions(&r.model, &all, &why);
     rb_case_result_convert(&r, c->units);
+    for (int k = 0; k < all.n; k++)
+        rb_rolling_solution_convert(&all.solution[k], c->units);
     cli_exit code = CLI_OK;
     if (status >= 0 && r.solution.n > 0)
         code = print_result(&it);
     if (code == CLI_OK && status != RB_OK)
         code = cli_case_refused(words, status, &why);
+    rb_rolling_solutions_free(&all);
     rb_case_result_free(&r);
     return code;
 }
@@ -224,6 +241,18 @@ static cli_exit check_behind(const solve_options *so, const rb_settled_case *c)
     if ((so->dump || so->trace || so->fclib) && !model_kept)
         return cli_fail(CLI_USAGE,
                         "--dump, --fclib and --trace: not together with error bars");
+    if (so->all_solutions &&
+        (c->rc.formulation != RB_STEADY || !model_kept || !rb_rolling_law_moves(&c->rc)))
+        return cli_fail(CLI_USAGE,
+                        "--all-solutions: of steady rolling without error bars, with "
+                        "friction that depends on the slip or the temperature");
+    if (so->all_solutions && (so->dump || so->trace || so->fclib))
+        return cli_fail(CLI_USAGE, "--all-solutions: not together with --dump, --fclib, "
+                                   "--trace, which show one of them");
+    if (so->all_solutions &&
+        (!isnan(c->rc.force) || !isnan(c->rc.force_ratio) || c->rc.free_axle))
+        return cli_fail(CLI_USAGE,
+                        "--all-solutions: at a given creepage, not under a given force");
     if (so->trace && c->rc.solver != RB_SOLVER_AUTO && c->rc.solver != RB_SOLVER_LEMKE)
         return cli_fail(CLI_USAGE, "--trace: only --solver lemke pivots");
     return CLI_CONTINUE;

@@ -151,6 +151,9 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(
         &of, "table",
         columns(&rb_rolling_solution_columns, 1, "an entry per contact element"));
+    rb_report_json_set(
+        &of, "solutions",
+        list_of(typed("object", NULL), "summary and table of each, of --all-solutions"));
     rb_report_json_set(&of, "history",
                        columns(&rb_rolling_history_columns, 0, "an entry per step"));
     json_t *curve = columns(&rb_rolling_curve_columns, 0, "an entry per creepage");
