@@ -225,13 +225,8 @@ $(B)/tests/checker: tests/checker.c
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -o $@ $< $(LDFLAGS) -ljansson -lm
 
-# fuzz targets: replayed by a test, and given to libFuzzer by make fuzz; they call the commands
-# too, whose main is renamed
-FUZZ_OBJ = $(patsubst %.c,$(B)/%.o,$(filter-out fuzz/libfuzzer.c,$(wildcard fuzz/*.c))) $(B)/fuzz/main.o $(filter-out %/cli/main.o,$(CLI_OBJ))
-$(B)/fuzz/main.o: src/cli/main.c
-	@mkdir -p $(@D)
-	@echo "  CC  $@"
-	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Dmain=rollbem_main -fPIC -MMD -MP -c -o $@ $<
+# fuzz targets: replayed by a test, and given to libFuzzer by make fuzz; they call commands too
+FUZZ_OBJ = $(patsubst %.c,$(B)/%.o,$(filter-out fuzz/libfuzzer.c,$(wildcard fuzz/*.c))) $(filter-out %/cli/main.o,$(CLI_OBJ))
 $(B)/tests/test_fuzz $(B)/tests/test_message: $(B)/tests/%: tests/%.c tests/check.h $(FUZZ_OBJ) $(B)/librollbem.a
 	@mkdir -p $(@D)
 	@echo "  CC  $<"

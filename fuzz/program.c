@@ -1,5 +1,5 @@
 /* What the program reads beyond the library: its command line, the rows of a study and
- * the file that a study goes on from.  src/cli is linked, with its main renamed. */
+ * the file that a study goes on from.  src/cli is linked, but for main. */
 #include "cli/case.h"
 #include "cli/cli.h"
 #include "fuzz.h"
@@ -9,13 +9,16 @@
 
 enum { WORDS_MAX = 40 };
 
-/* Results go to a file that nobody reads. */
-static void be_quiet(void)
+/* As main does, but results go to a file that nobody reads and failures are kept. */
+static void begin(void)
 {
-    static int quiet;
-    if (!quiet && !freopen("/dev/null", "w", stdout))
-        abort();
-    quiet = 1;
+    static const cli_command commands[] = {{"sweep", cli_sweep, ""}, {"", cli_solve, ""}};
+    static char *argv[] = {"rollbem", NULL};
+    static int begun;
+    if (!begun)
+        fuzz_require(freopen("/dev/null", "w", stdout) && cli_begin(commands, 1, argv),
+                     "the program begins");
+    begun = 1;
     cli_keep_failures();
 }
 
@@ -34,7 +37,7 @@ void fuzz_options(const uint8_t *data, size_t size)
 {
     char *text = fuzz_text(data, size), *argv[WORDS_MAX + 1] = {"rollbem"};
     int argc = 1;
-    be_quiet();
+    begin();
     for (char *word = strtok(text, "\n"); word && argc < WORDS_MAX;
          word = strtok(NULL, "\n"))
         argv[argc++] = word;
@@ -69,8 +72,8 @@ static int sweep(const char *option, const char *value)
                     (char *)option,
                     (char *)value,
                     NULL};
-    be_quiet();
-    const int code = cli_run("sweep", 15, argv);
+    begin();
+    const int code = cli_sweep(15, argv);
     fuzz_require(code == CLI_OK || code == CLI_UNSOLVED || cli_kept_failure()[0],
                  "a refusal says why");
     return code;

@@ -470,6 +470,21 @@ static void short_memory_is_reported(void **state)
     rb_sparse_free(&M);
 }
 
+/* -1.1e-4 z1 - 1e-8 z2 = 23.75 has no z >= 0; the other row is 300 decades larger and
+ * once hid that by its own w. */
+static void a_large_row_hides_no_wrong_one(void **state)
+{
+    (void)state;
+    const int row[] = {0, 1, 0, 1}, col[] = {0, 0, 1, 1};
+    const double x[] = {-1.12e-4, 1e300, -1e-8, 1e154}, q[] = {-23.75, -24.5};
+    double z[2];
+    rb_sparse M;
+    rb_lcp_info info;
+    CHECK_STATUS(rb_sparse_from_triplets(2, 2, 4, row, col, x, &M), RB_OK);
+    assert_int_not_equal(rb_lcp_mixed(&M, q, NULL, NULL, NULL, z, &info), RB_OK);
+    rb_sparse_free(&M);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -486,6 +501,7 @@ int main(void)
         cmocka_unit_test(a_ray_names_its_variable),
         cmocka_unit_test(bad_input_is_named),
         cmocka_unit_test(short_memory_is_reported),
+        cmocka_unit_test(a_large_row_hides_no_wrong_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -620,6 +620,28 @@ double rb_lcp_residual_mixed(const rb_sparse *M, const double *q, const double *
     return worst;
 }
 
+/* max |M z + q| where every z is at its lower bound, or at its upper ones, or 0 where it
+ * has none: the q of the problem moved there, which rounding is judged by as that of an
+ * LCP is.  w of the answer is no such measure: a large row of M would hide a wrong small
+ * one. z, w: scratch. */
+static double size_of_problem(const rb_sparse *M, const double *q, const double *lower,
+                              const double *upper, double *z, double *w)
+{
+    const size_t n = (size_t)M->rows;
+    double size = rb_norm_inf(n, q);
+    for (int at_upper = 0; at_upper < 2 && (lower || upper); at_upper++) {
+        for (size_t i = 0; i < n; i++) {
+            const double low = lower ? lower[i] : 0.0, high = upper ? upper[i] : INFINITY;
+            const double first = at_upper ? high : low, second = at_upper ? low : high;
+            z[i] = isfinite(first) ? first : isfinite(second) ? second : 0.0;
+        }
+        memcpy(w, q, n * sizeof *w);
+        rb_sparse_apply(1.0, M, z, 1.0, w);
+        size = fmax(size, rb_norm_inf(n, w));
+    }
+    return size;
+}
+
 rb_status rb_lcp_mixed(const rb_sparse *M, const double *q, const double *lower,
                        const double *upper, const rb_lcp_options *opt, double *z,
                        rb_lcp_info *info)
@@ -646,8 +668,7 @@ rb_status rb_lcp_mixed(const rb_sparse *M, const double *q, const double *lower,
         answer(&p, &f, M->rows, z);
         p.info->res = rb_lcp_residual_mixed(M, q, lower, upper, z, p.g);
         if (s == RB_OK)
-            s = rb_lcp_judge(p.info, fmax(rb_norm_inf((size_t)M->rows, q),
-                                          rb_norm_inf((size_t)M->rows, p.g)));
+            s = rb_lcp_judge(p.info, size_of_problem(M, q, lower, upper, p.y, p.g));
     }
     rb_lcp_basis_free(&p.b);
     free(p.value);
