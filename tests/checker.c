@@ -60,7 +60,7 @@ enum { X, H, GAP, P, Q, UN, UT, SHIFT, SLIP, ZONE, COLUMNS };
 static const char *const column_names[COLUMNS] = {"x_mm",   "h_mm",  "gap_mm", "p_MPa",
                                                   "q_MPa",  "un_mm", "ut_mm",  "shift_mm",
                                                   "slip_1", "zone"};
-enum { SEPARATED, STICK, SLIP_NEGATIVE, SLIP_POSITIVE };
+enum { SEPARATED, STICK, SLIP_NEGATIVE, SLIP_POSITIVE, YIELD_NEGATIVE, YIELD_POSITIVE };
 
 typedef struct {
     int n;
@@ -74,7 +74,8 @@ typedef struct {
 } body;
 
 typedef struct {
-    const json_t *inputs, *summary, *worn; /* worn: depth per element, or NULL */
+    const json_t *inputs, *summary;
+    const json_t *worn, *plastic; /* per element, or NULL */
     body a, b;
     double mu, modulus, radius; /* largest coefficient of friction, E*, combined R */
     double *mu_of;              /* of every element, by the friction law */
@@ -467,6 +468,65 @@ static void check_friction(const contact *c, const table *t)
             violated("slip_1", "element %d: %g against a shift of %g", i + 1, slip[i],
                      shift[i]);
     }
+}
+
+/* What the interface has yielded at element i, and the part of this step in it: steady, u
+ * follows the material by the difference of the local slip (theory.md 4.10). */
+static double yielded_at(const contact *c, int n, int i)
+{
+    return i < n ? json_number_value(json_array_get(c->plastic, (size_t)i)) : 0.0;
+}
+
+static double plastic_slip(const contact *c, int n, int i)
+{
+    const char *of = word(c->inputs, "slip-operator");
+    const double u = yielded_at(c, n, i), next = yielded_at(c, n, i + 1);
+    if (c->formulation == STATIC)
+        return u;
+    return strcmp(of, "second") == 0
+               ? 1.5 * u - 2.0 * next + 0.5 * yielded_at(c, n, i + 2)
+               : u - next;
+}
+
+/* The interface yields at its yield stress, hardened or softened by what has yielded, and
+ * slip takes what is left of the shift. */
+static void check_yield(const contact *c, const table *t)
+{
+    const double *q = t->column[Q], *shift = t->column[SHIFT], *zone = t->column[ZONE];
+    const double tau = number(c->inputs, "yield-stress"),
+                 k = number(c->inputs, "hardening");
+    const double eps = tolerance(c), length = 10.0 * eps * length_scale(c, t);
+    const double stress =
+        eps * fmax(c->mu, 1e-3) * largest(t->n, t->column[P]) + fabs(k) * length;
+    int yields = 0;
+    if (!c->plastic != isnan(tau))
+        violated("plastic_mm", "the column does not follow --yield-stress");
+    for (int i = 0; i < t->n && c->plastic; i++) {
+        const double yield = fmax(tau + k * yielded_at(c, t->n, i), 0.0);
+        const double plastic = c->steps ? NAN : plastic_slip(c, t->n, i);
+        const int slips = zone[i] == SLIP_NEGATIVE || zone[i] == SLIP_POSITIVE;
+        yields += zone[i] >= YIELD_NEGATIVE;
+        if (fabs(q[i]) > yield + stress)
+            violated("yield stress", "element %d: |q| = %.17g, bound %.17g", i + 1,
+                     fabs(q[i]), yield);
+        if (zone[i] >= YIELD_NEGATIVE &&
+            (fabs(fabs(q[i]) - yield) > stress ||
+             (zone[i] == YIELD_NEGATIVE ? -shift[i] : shift[i]) > length))
+            violated("yield", "element %d, zone %g: q = %g, bound %g, shift %g", i + 1,
+                     zone[i], q[i], yield, shift[i]);
+        if (zone[i] != SEPARATED &&
+            (plastic < -length || plastic > fabs(shift[i]) + length))
+            violated("plastic slip", "element %d: %g of a shift of %g", i + 1, plastic,
+                     shift[i]);
+        if (!slips && zone[i] != SEPARATED && fabs(plastic - fabs(shift[i])) > length)
+            violated("plastic slip", "element %d does not slip: %g of a shift of %g",
+                     i + 1, plastic, shift[i]);
+        if (plastic > length && fabs(fabs(q[i]) - yield) > stress)
+            violated("plastic slip", "element %d: %g below the yield stress", i + 1,
+                     plastic);
+    }
+    if (c->plastic)
+        expect("yield", number(c->summary, "yield"), yields, 0.0);
 }
 
 /* ---- Sums and counts ------------------------------------------------------------------
@@ -1113,6 +1173,7 @@ static void check_case(const json_t *root, const char *table_path,
     const char *status = word(c.summary, "status");
     table t = table_from_json(object);
     c.worn = json_object_get(object, "worn_mm");
+    c.plastic = json_object_get(object, "plastic_mm");
     if (!c.worn != !word(c.inputs, "worn")[0])
         violated("worn", "the column does not follow --worn");
     if (strcmp(status, "solved") != 0)
@@ -1121,6 +1182,7 @@ static void check_case(const json_t *root, const char *table_path,
     check_contact(&c, &t);
     check_law(&c, &t, object);
     check_friction(&c, &t);
+    check_yield(&c, &t);
     check_sums(&c, &t);
     check_ratios(&c, &t);
     check_normal_control(&c, controls);

@@ -112,7 +112,9 @@ static const struct {
      NULL,
      {{"none", ""},
       {"tangential", "--interlayer-tangential 4e-6"},
-      {"both", "--interlayer-normal 2e-6 --interlayer-tangential 1e-6"}}},
+      {"both", "--interlayer-normal 2e-6 --interlayer-tangential 1e-6"},
+      {"hardening", "--interlayer-tangential 1e-6 --yield-stress 40 --hardening 1e5"},
+      {"softening", "--yield-stress 200 --hardening -2000"}}},
     {"mu", NULL, {{"0", "--mu 0"}, {"1e-3", "--mu 1e-3"}, {"0.3", ""}, {"3", "--mu 3"}}},
     {"law",
      NULL,
@@ -231,7 +233,9 @@ static const char *const options_elsewhere[] = {"units", /* tests/test_units.c *
                                                 "temperature-b",
                                                 "worn",
                                                 "interlayer-normal",
-                                                "interlayer-tangential"};
+                                                "interlayer-tangential",
+                                                "yield-stress",
+                                                "hardening"};
 
 enum { LEVELS = 40 };
 static level levels[FACTORS][LEVELS];
@@ -432,6 +436,26 @@ static const conflict conflicts[] = {
     {{"output=curve*", "regime!steady"}, "a curve is one of steady rolling"},
     {{"output=curve*", "tangential!none"}, "the curve runs over --from"},
     {{"size=transforms", "output=fclib"}, "dense"},
+    {{"interlayer=hardening", "law=exponential"}, "not with a law that follows"},
+    {{"interlayer=hardening", "law=rational"}, "not with a law that follows"},
+    {{"interlayer=hardening", "law=linear"}, "not with a law that follows"},
+    {{"interlayer=hardening", "law=memory"}, "not with a law that follows"},
+    {{"interlayer=hardening", "law=heat"}, "not with a law that follows"},
+    {{"interlayer=hardening", "law=both"}, "not with a law that follows"},
+    {{"interlayer=softening", "law=exponential"}, "not with a law that follows"},
+    {{"interlayer=softening", "law=rational"}, "not with a law that follows"},
+    {{"interlayer=softening", "law=linear"}, "not with a law that follows"},
+    {{"interlayer=softening", "law=memory"}, "not with a law that follows"},
+    {{"interlayer=softening", "law=heat"}, "not with a law that follows"},
+    {{"interlayer=softening", "law=both"}, "not with a law that follows"},
+    {{"interlayer=hardening", "solver=cone"}, "knows Coulomb's law alone"},
+    {{"interlayer=softening", "solver=cone"}, "knows Coulomb's law alone"},
+    {{"interlayer=hardening", "output=fclib"}, "Coulomb's cones alone"},
+    {{"interlayer=softening", "output=fclib"}, "Coulomb's cones alone"},
+    /* more than the layer carries, or not the only answer */
+    {{"interlayer=softening", "tangential=force*"}, NULL},
+    /* a minute of meshes, on each of which other elements yield first */
+    {{"interlayer=softening", "output=accuracy"}, NULL},
     {{"output=sweep", "regime=transient*"}, "a study"},
     {{"output=sweep", "regime=steps"}, "a study"},
     {{"output=sweep", "regime=static-history"}, "a study"},

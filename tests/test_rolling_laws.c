@@ -446,7 +446,7 @@ static void a_step_has_two_starts(void **state)
         CHECK_STATUS(
             rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
             RB_OK);
-        const rb_rolling_past past = {w + m + 1};
+        const rb_rolling_past past = {.w_T = w + m + 1};
         memcpy(before, model.problem.bound, (size_t)n * sizeof *before);
         rb_contact_problem_free(&model.problem);
         model.rc.formulation = RB_TRANSIENT;

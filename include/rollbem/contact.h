@@ -92,6 +92,15 @@ typedef struct {
     double axle; /* 1/R where the force is that less axle M (free
                     axle, V4); else 0 [1/length] */
 
+    /* A layer between the surfaces yields (Y1): |r_T| <= yield + hardening u of an
+     * element, and never less than 0, u_i = recall[0] u_i+1 + recall[1] u_i+2 + own
+     * |plastic_i| what it has yielded in this problem; plastic is a part of the slip
+     * T_T lambda. */
+    double *yield;    /* n [stress]: the bound while u = 0; owned; NULL: no such layer */
+    double hardening; /* [stress/length]; < 0: softening */
+    double recall[2], own; /* 1, 0, 1 where u follows the material upstream by first
+                              order, 4/3, -1/3, 2/3 by second; 0, 0, 1: it stays */
+
     int differences; /* 1: slips are differences along the elements; 0: displacements */
     double stress, gap_length, slip_length; /* scales of r, y_N, lambda (4.4) */
     double rounding; /* of the scaled residual of products: gaps between neighbours are
@@ -111,6 +120,16 @@ void rb_contact_problem_free(rb_contact_problem *problem);
  * 0 ... mu, copied.  Also between solves: warm starts stay good. */
 void rb_contact_set_friction(rb_contact_problem *problem, double mu, const double *bound);
 
+/* A layer that yields at the same stress everywhere; the caller sets recall and own.
+ * RB_ENOMEM. */
+rb_status rb_contact_set_yield(rb_contact_problem *problem, double stress,
+                               double hardening);
+/* u (n) of the plastic slips (n). */
+void rb_contact_yielded(const rb_contact_problem *problem, const double *plastic,
+                        double *u);
+/* The yield stress of element i that has yielded by u; INFINITY without a layer. */
+double rb_contact_yield_stress(const rb_contact_problem *problem, int i, double u);
+
 /* Row of the given force: control_N'r_N + control_T'r_T = force, n each. */
 void rb_contact_force_row(const rb_contact_problem *problem, double *control_N,
                           double *control_T);
@@ -121,8 +140,10 @@ void rb_contact_force_row(const rb_contact_problem *problem, double *control_N,
 typedef enum {
     RB_ZONE_SEPARATED = 0,
     RB_ZONE_STICK = 1,
-    RB_ZONE_SLIP_NEGATIVE = 2, /* r_T = -mu r_N: A's surface slides towards +x */
-    RB_ZONE_SLIP_POSITIVE = 3  /* r_T = +mu r_N */
+    RB_ZONE_SLIP_NEGATIVE = 2,  /* r_T = -mu r_N: A's surface slides towards +x */
+    RB_ZONE_SLIP_POSITIVE = 3,  /* r_T = +mu r_N */
+    RB_ZONE_YIELD_NEGATIVE = 4, /* r_T = -(yield + hardening u): the layer yields */
+    RB_ZONE_YIELD_POSITIVE = 5  /* r_T = +(yield + hardening u) */
 } rb_contact_zone;
 
 typedef enum {
@@ -137,6 +158,7 @@ typedef enum { RB_LCP_PIVOTED, RB_LCP_KWAK } rb_contact_lcp_form;
 typedef struct rb_contact_state {
     int n;
     double *p, *q, *lambda; /* r_N, r_T, T_T lambda; owned */
+    double *plastic;        /* the part of lambda by which a layer yields; owned */
     int *zone;              /* rb_contact_zone; owned */
     double delta, xi;
     rb_status status;
@@ -177,13 +199,14 @@ double rb_contact_moment(const rb_contact_problem *problem,
 /* ---- The LCP (K4, K5, K6) -------------------------------------------------------------
  */
 
-/* M z + b complementary to z, scaled: physical z_j = z_scale_j z_j.  Size 3n, plus one
- * row for a given load and one for a given force (K6). */
+/* M z + b complementary to z, scaled: physical z_j = z_scale_j z_j.  Size 3n, or 5n where
+ * a layer yields (Y1), plus one row for a given load and one for a given force (K6). */
 typedef struct {
     int size;
     double *M, *b;             /* size x size column-major, size; owned */
     double *z_scale, *w_scale; /* size; owned */
     rb_contact_lcp_form form;
+    int yields; /* 1: plastic slips and what is left of the yield stress behind the 3n */
     int mirrored; /* pivoted form: unknowns (gamma-, lambda+) instead of (gamma+, lambda-)
                    */
     double delta0, xi0;            /* where the bordered unknowns start */
@@ -201,8 +224,8 @@ void rb_contact_lcp_recover(const rb_contact_problem *problem, const rb_contact_
                             const double *z, rb_contact_state *state);
 
 /* Name of one of its variables, numbered w, z, z0 (lcp.h), on n contact elements: "p[3]",
- * "lambda+[2]"; behind the 3n of the contact stand the given load and the given force:
- * "motion[1]", "force[1]".  Returns name. */
+ * "lambda+[2]", "plastic+[2]"; behind those of the contact stand the given load and the
+ * given force: "motion[1]", "force[1]".  Returns name. */
 enum { RB_CONTACT_VARIABLE = 32 };
 const char *rb_contact_lcp_variable(const rb_contact_lcp *lcp, int n, int variable,
                                     char name[RB_CONTACT_VARIABLE]);

@@ -30,6 +30,8 @@ typedef struct {
     double dq, velocity;           /* DQ [mm], VELOC [mm/s] */
     double poisson[2], shear[2];   /* POISS, GG [MPa] */
     double ratio[2], time[2];      /* FG, TC [s]; M = 1 */
+    double layer_shear, layer;     /* GG3 [MPa], LAYTHK [mm]; M = 4, as the next two */
+    double yield, hardening;       /* TAU_C0 [MPa], K_TAU [MPa/mm] */
     int potential;                 /* IPOTCN */
     int mx, my;
     double from, dx, dy;   /* x where the first element begins, DX, DY [mm] */

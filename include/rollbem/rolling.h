@@ -180,6 +180,9 @@ typedef struct {
     /* Compliance of an interface between the surfaces, which yields under each point by
      * the traction there alone [length/stress]; 0: none. */
     double interlayer_normal, interlayer_tangential;
+    /* The friction by which that interface yields [stress], 0: it does not, and what this
+     * grows per plastic slip [stress/length]; < 0: it softens. */
+    double yield_stress, hardening;
 
     double mu; /* Coulomb's coefficient; of laws that fall, what they fall to */
     rb_rolling_friction friction;
@@ -348,6 +351,7 @@ const rb_rolling_body_kind *rb_rolling_kind_of(const rb_rolling_body *body);
 typedef struct {
     const double
         *w_T; /* transient: at the former places x + c; static: at the same place */
+    const double *yielded; /* there, by an interface that yields; NULL: nothing */
 } rb_rolling_past;
 
 /* Builds (A, d_T) for the formulation of the case; the solvers do not know which it is.
@@ -381,6 +385,8 @@ typedef struct {
     double *shift;   /* T_T lambda [length]; 0 in stick */
     double *slip;    /* relative slip velocity [-]: (12) in static, shift/distance else */
     int *zone;       /* rb_contact_zone */
+    double *plastic; /* what the interface has yielded, of either direction [length]; NULL
+                        where it does not */
     double *temperature, *temperature_b; /* of the surfaces; NULL where not asked for */
     double *worn;                        /* depth [length]; NULL where nothing is worn */
     double *mu;                          /* of the friction law; NULL: one for all */
@@ -419,17 +425,18 @@ typedef struct {
                           the elements beside it bound */
     int equal_instead; /* 1: of fitted elements, whose edges did not come to rest */
     double max_pressure;          /* p0 [stress] */
-    int contact, stick, slipping; /* elements */
-    double stick_from, stick_to;  /* outermost ends of stuck elements; NAN without */
-    double stick_length;          /* of all of them, less than from ... to where slip
-                                     lies between [length] */
-    int slip_violations;          /* slip that does not oppose the friction */
-    double dissipation;           /* power per unit speed [force/length] */
-    double resistance_moment; /* M = int x p dx [force]; NAN in static, as the ratio */
-    double resistance_ratio;  /* M/(P R), the coefficient of rolling resistance */
-    double hysteresis;        /* power per unit speed that the bodies lose [force/length];
-                                 NAN but in steady */
-    double max_temperature;   /* in contact; NAN where not asked for, as below */
+    int contact, stick, slipping; /* elements; slipping: or yielding */
+    int yielding; /* those whose interface yields; -1: it has no yield stress */
+    double stick_from, stick_to; /* outermost ends of stuck elements; NAN without */
+    double stick_length;         /* of all of them, less than from ... to where slip
+                                    lies between [length] */
+    int slip_violations;         /* slip that does not oppose the friction */
+    double dissipation;          /* power per unit speed [force/length] */
+    double resistance_moment;    /* M = int x p dx [force]; NAN in static, as the ratio */
+    double resistance_ratio;     /* M/(P R), the coefficient of rolling resistance */
+    double hysteresis;      /* power per unit speed that the bodies lose [force/length];
+                               NAN but in steady */
+    double max_temperature; /* in contact; NAN where not asked for, as below */
     double max_temperature_at; /* [length] */
     double peclet;             /* V a/(2 diffusivity of A), a the half-width */
     double kappa;              /* of a friction law that depends on the state (F3); above
@@ -475,7 +482,8 @@ typedef enum {
     RB_FOR_WORN,
     RB_FOR_LAW,        /* coefficients of friction that differ */
     RB_FOR_MOVING_LAW, /* and depend on the state */
-    RB_FOR_MEMORY
+    RB_FOR_MEMORY,
+    RB_FOR_YIELD
 } rb_rolling_condition;
 
 /* One result: whatever shows results, studies and error bars are made from these. */
@@ -561,6 +569,8 @@ typedef struct {
      */
     const double *mu_before;            /* n: of the particles before it; NULL: at rest */
     struct rb_rolling_heat_track *heat; /* NULL: none */
+    double *yielded; /* n: what the interface had yielded before the last step where
+                        this found it [length]; NULL: nothing */
 } rb_rolling_model;
 
 /* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a

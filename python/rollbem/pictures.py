@@ -12,7 +12,8 @@ if TYPE_CHECKING:
 
 PRESSURE, FRICTION, BOUND, SLIP, CARTER = "#1f4e79", "#c0392b", "#7a7a7a", "#6c3483", "#1e8449"
 CURVES = ["#1f4e79", "#c0392b", "#b9770e", "#6c3483", "#117864", "#5d6d7e", "#7b241c", "#2e86c1"]
-ZONES = {0: ("separated", "#f3f3f3"), 1: ("stick", "#d6e6f5"), 2: ("slip", "#fde8cd"), 3: ("slip", "#f8dcdc")}
+ZONES = {0: ("separated", "#f3f3f3"), 1: ("stick", "#d6e6f5"), 2: ("slip", "#fde8cd"), 3: ("slip", "#f8dcdc"),
+         4: ("yield", "#e9efc9"), 5: ("yield", "#dfe3d2")}
 STYLE = {"axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": "#444444",
          "axes.linewidth": 0.7, "lines.linewidth": 1.8, "font.size": 9.5, "legend.frameon": False,
          "axes.titlesize": 10, "svg.fonttype": "none"}

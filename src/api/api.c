@@ -804,6 +804,10 @@ int rb_api_guess(rb_api *a, int n, const int *zone)
     if (n != model->mesh.n)
         return rb_api_ended(
             a, rb_fail(&a->why, RB_EINVAL, "%d zones: expected %d", n, model->mesh.n));
+    if (model->problem.yield)
+        return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL,
+                                       "zones do not say what an interface has yielded "
+                                       "(--yield-stress)"));
     rb_contact_state state = {0};
     double *gap = rb_alloc((size_t)n, 1);
     rb_status s = gap ? rb_contact_state_alloc(n, &state) : RB_ENOMEM;

@@ -57,6 +57,14 @@ static const unit_row table[] = {
     {"um/MPa", "mm/MPa", -3, 1.0},
     {"m/Pa", "mm/MPa", 9, 1.0},
     {"in/psi", "mm/MPa", 0, INCH *INCH *INCH / POUND},
+    {"MPa/mm", "MPa/mm", 0, 1.0},
+    {"N/mm3", "MPa/mm", 0, 1.0},
+    {"N/mm^3", "MPa/mm", 0, 1.0},
+    {"MPa/um", "MPa/mm", 3, 1.0},
+    {"GPa/mm", "MPa/mm", 3, 1.0},
+    {"Pa/m", "MPa/mm", -9, 1.0},
+    {"GPa/m", "MPa/mm", 0, 1.0},
+    {"psi/in", "MPa/mm", 0, POUND / (INCH * INCH * INCH)},
     {"1/MPa", "1/MPa", 0, 1.0},
     {"1/Pa", "1/MPa", 6, 1.0},
     {"1/psi", "1/MPa", 0, INCH *INCH / POUND},
@@ -82,6 +90,7 @@ static const struct {
                {"N", {"N", "N", "lbf"}},
                {"mm/s", {"mm/s", "m/s", "in/s"}},
                {"mm/MPa", {"mm/MPa", "m/Pa", "in/psi"}},
+               {"MPa/mm", {"MPa/mm", "Pa/m", "psi/in"}},
                {"1/MPa", {"1/MPa", "1/Pa", "1/psi"}}};
 
 enum { KINDS = sizeof systems / sizeof systems[0] };

@@ -58,15 +58,14 @@ static int falls(const rb_io_contact_case *in)
 /* What CONTACT has in a case that is run, and this program has not. */
 static void list_left_out(rb_case_contact *c, const rb_io_contact_case *in)
 {
-    static const char *const materials[] = {"", "",
-                                            "the flexibility of the simplified theory",
-                                            "that of Fastsim", "the third body"};
+    static const char *const materials[] = {
+        "", "", "the flexibility of the simplified theory", "that of Fastsim"};
     const rb_io_contact_digits *d = &in->digit;
     if (in->fstat != in->fkin && d->T > 0 && !falls(in))
         leave_out(c, "another friction law (L = %d): mu = %g, its value at rest", in->law,
                   in->fstat);
-    if (d->M > 1)
-        leave_out(c, "%s (M = %d)", d->M < 5 ? materials[d->M] : "the material", d->M);
+    if (d->M > 1 && d->M != 4)
+        leave_out(c, "%s (M = %d)", d->M < 4 ? materials[d->M] : "the material", d->M);
     if (d->T > 0 && (in->side != 0.0 || in->spin != 0.0))
         leave_out(c, "CETA, FY and CPHI");
     if (d->T == 3 && fabs(in->dq / in->dx - 1.0) > 0.01)
@@ -141,6 +140,17 @@ static void set_loading(const rb_io_contact_case *in, double sign, rb_rolling_ca
         rc->shift = tangential;
 }
 
+/* M = 4: a layer that gives way by LAYTHK/GG3 and, where TAU_C0 is not 0, yields. */
+static void set_layer(const rb_io_contact_case *in, rb_rolling_case *rc)
+{
+    if (in->digit.M != 4)
+        return;
+    if (in->layer != 0.0)
+        rc->interlayer_tangential = in->layer / in->layer_shear;
+    rc->yield_stress = in->yield;
+    rc->hardening = in->yield > 0.0 ? in->hardening : 0.0;
+}
+
 void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
 {
     memset(c, 0, sizeof *c);
@@ -156,6 +166,7 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
     c->centre = set_gap(in, &c->rc);
     set_friction(in, &c->rc);
     set_loading(in, c->sign, &c->rc);
+    set_layer(in, &c->rc);
     if (!rb_rolling_can(&c->rc, RB_BODY_ELASTIC))
         c->rc.speed = in->velocity;
     c->rc.mesh = RB_MESH_UNIFORM;

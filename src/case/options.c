@@ -185,12 +185,17 @@ const rb_option rb_case_table[] = {
                    "is warmer than Tref [K]; see --conductivity",
                    .unset = "none", .list = PLACE(law.heats)),
 
-    RB_GROUP_LINE("interlayer", "Third body between the surfaces, elastic"),
+    RB_GROUP_LINE("interlayer", "Third body between the surfaces, elastic or plastic"),
     RB_NUMBER_LINE("interlayer-normal", RC(interlayer_normal), "mm/MPa", RB_FROM(0),
                    "displacement along the normal per pressure"),
     RB_NUMBER_LINE("interlayer-tangential", RC(interlayer_tangential), "mm/MPa",
                    RB_FROM(0),
                    "along the tangent per friction: thickness over shear modulus"),
+    RB_NUMBER_LINE("yield-stress", RC(yield_stress), "MPa", RB_ABOVE(0),
+                   "friction by which it yields, a second bound beside mu p",
+                   .word = "none", .word_value = 0.0),
+    RB_NUMBER_LINE("hardening", RC(hardening), "MPa/mm", RB_ANY,
+                   "what its yield stress grows per plastic slip; < 0: it softens"),
 
     RB_GROUP_LINE("heat", "Heat of friction: flash temperature of steady and transient "
                           "rolling"),

@@ -32,8 +32,9 @@ enum { OPTIONS = sizeof options / sizeof options[0] };
 static const char about[] =
     "Runs the cases of an input file of CONTACT (module 3) that are two-dimensional:\n"
     "one row of elements, MY = 1, a parabola or a circle as gap, Coulomb friction,\n"
-    "elastic or viscoelastic half-spaces; pressed, shifted or rolling steadily. The\n"
-    "elements are those of the file. A line for each case says what is left out.\n"
+    "elastic or viscoelastic half-spaces, with a third body that may yield; pressed,\n"
+    "shifted or rolling steadily. The elements are those of the file. A line for each\n"
+    "case says what is left out.\n"
     "docs/contact.md has the names and signs of both programs.";
 
 static const char notes[] =
@@ -41,6 +42,7 @@ static const char notes[] =
     "Q\n"
     "[N/mm] and the residual. FX_REL is FX/(FSTAT FN); FRIC_POWER is that of CONTACT, < "
     "0.\n"
+    "NPLAST elements yield, NSLIP others slip; UPL is what the third body has yielded.\n"
     "Exit codes: 0 all cases that could be run are solved; 1 none could, or one was not\n"
     "solved; 65 malformed file; 66 no such file.\n";
 
@@ -62,18 +64,22 @@ typedef struct {
 /* ---- Results in CONTACT's words -----------------------------------------------------
  */
 
-enum { COLUMNS = 17 };
+enum { COLUMNS = 18 };
 static const char columns[] = "case status FN FX FX_REL CKSI PEN PMAX FRIC_POWER NPOT "
                               "NCON NADH NSLIP P_N/mm Q_N/mm "
-                              "line residual";
-static const char element_columns[] = "case X H PN PX S zone";
+                              "line residual NPLAST";
+static const char element_columns[] = "case X H PN PX S zone UPL";
 
-/* As CONTACT counts it [N m/s], < 0: each element's friction times its own slip. */
+/* As CONTACT counts it [N m/s], < 0: each element's friction times its own slip, without
+ * what the third body takes by yielding. */
 static double friction_power(const contact_run *r)
 {
+    const double *u = r->s.plastic;
     double power = 0.0;
-    for (int i = 0; i < r->s.n; i++)
-        power -= fabs(r->s.q[i] * r->s.shift[i]);
+    for (int i = 0; i < r->s.n; i++) {
+        const double yields = u ? u[i] - (i + 1 < r->s.n ? u[i + 1] : 0.0) : 0.0;
+        power -= fabs(r->s.q[i]) * (fabs(r->s.shift[i]) - yields);
+    }
     return r->in->digit.T == 3 ? power * r->in->dy * r->in->velocity * 1e-3 : NAN;
 }
 
@@ -94,11 +100,12 @@ static void values_of(const contact_run *r, double x[COLUMNS - 2])
         s->n,
         s->contact,
         s->stick,
-        s->slipping,
+        s->slipping - (s->yielding > 0 ? s->yielding : 0),
         s->normal_load,
         s->tangential_load,
         in->line,
-        s->residual};
+        s->residual,
+        s->yielding > 0 ? s->yielding : 0};
     for (int k = 0; k < COLUMNS - 2; k++)
         x[k] = s->n > 0 ? all[k] + 0.0 : NAN;
 }
@@ -120,6 +127,7 @@ static void print_elements(rb_report_cells *cells, int k, const contact_run *r)
         rb_report_cell_number(cells, r->c.sign * s->q[i] + 0.0);
         rb_report_cell_number(cells, r->c.sign * s->slip[i] + 0.0);
         rb_report_cell_whole(cells, s->zone[i]);
+        rb_report_cell_number(cells, s->plastic ? s->plastic[i] : 0.0);
         rb_report_cells_end_row(cells);
     }
 }

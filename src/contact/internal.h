@@ -119,4 +119,18 @@ rb_status rb_contact_solve_zones(rb_contact_problem *problem,
 rb_status rb_contact_newton(rb_contact_problem *problem, int warm,
                             rb_contact_state *state);
 
+/* ---- yield.c -------------------------------------------------------------------------
+ */
+
+/* 1: friction of the state, which knows no layer, is above the yield stress. */
+int rb_contact_yields(const rb_contact_problem *problem, const rb_contact_state *state);
+/* Newton for a problem with a layer that yields, from the zones of the state: at once,
+ * or, where it is the solution without the layer, following the yield stress down from
+ * one that nothing reaches.  RB_MAXITER, RB_SINGULAR, RB_ENOMEM. */
+rb_status rb_contact_yield_newton(rb_contact_problem *problem, int follows,
+                                  rb_contact_state *state);
+/* One exact solve with the laws that the state obeys; its zones. */
+rb_status rb_contact_yield_polish(const rb_contact_problem *problem,
+                                  rb_contact_state *state);
+
 #endif

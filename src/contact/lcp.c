@@ -20,15 +20,16 @@ void rb_contact_lcp_free(rb_contact_lcp *lcp)
     memset(lcp, 0, sizeof *lcp);
 }
 
-/* Columns of the two bordered unknowns, delta' and xi', behind the 3n of the contact. */
+/* Columns of the two bordered unknowns, delta' and xi', behind those of the contact: 3n,
+ * or 5n where a layer yields. */
 static int delta_column(const rb_contact_problem *p)
 {
-    return 3 * p->n;
+    return (p->yield ? 5 : 3) * p->n;
 }
 
 static int xi_column(const rb_contact_problem *p)
 {
-    return 3 * p->n + p->load_given;
+    return delta_column(p) + p->load_given;
 }
 
 static rb_status lcp_alloc(const rb_contact_problem *p, rb_contact_lcp_form form,
@@ -36,7 +37,8 @@ static rb_status lcp_alloc(const rb_contact_problem *p, rb_contact_lcp_form form
 {
     memset(lcp, 0, sizeof *lcp);
     lcp->form = form;
-    lcp->size = 3 * p->n + p->load_given + p->force_given;
+    lcp->yields = p->yield != NULL;
+    lcp->size = delta_column(p) + p->load_given + p->force_given;
     const size_t size = (size_t)lcp->size, n = (size_t)p->n;
     lcp->M = rb_alloc(size, size);
     lcp->b = rb_alloc(size, 1);
@@ -290,6 +292,79 @@ static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
     return s;
 }
 
+/* ---- A layer that yields (Y1) ---------------------------------------------------------
+ */
+
+/* Plastic slips s+ and s- (z), against sigma+- = yield + hardening u +- r_T (w), stand
+ * behind the 3n: block by block in the pivoted form, by pairs in Kwak's. */
+static int yield_index(const rb_contact_problem *p, const rb_contact_lcp *lcp, int i,
+                       int sign)
+{
+    const int n = p->n;
+    return lcp->form == RB_LCP_KWAK ? 2 * n + lambda_column(n, i, sign)
+                                    : (3 + sign) * n + i;
+}
+
+/* yield + hardening u, u from the unit plastic slips of each element j. */
+static void add_yield_stress(const rb_contact_problem *p, rb_contact_lcp *lcp)
+{
+    for (int j = 0; j < p->n; j++) {
+        double u = p->own, next = 0.0;
+        for (int i = j; i >= 0 && u != 0.0; i--) {
+            for (int k = 0; k < 4; k++)
+                lcp->M[yield_index(p, lcp, i, k % 2) +
+                       (size_t)yield_index(p, lcp, j, k / 2) * (size_t)lcp->size] +=
+                    p->hardening * u;
+            const double before = p->recall[0] * u + p->recall[1] * next;
+            next = u;
+            u = before;
+        }
+        for (int sign = 0; sign < 2; sign++)
+            lcp->b[yield_index(p, lcp, j, sign)] += p->yield[j];
+    }
+}
+
+/* s+ and s- take their parts of o T_T lambda; o r_T = gamma - mu r_N. */
+static void pivoted_yield(const rb_contact_problem *p, rb_contact_lcp *lcp)
+{
+    const size_t n = (size_t)p->n, ld = (size_t)lcp->size;
+
+    for (size_t i = 0; i < n; i++)
+        for (int sign = 0; sign < 2; sign++) {
+            const double o = sign ? -1.0 : 1.0;
+            const size_t k = (size_t)yield_index(p, lcp, (int)i, sign);
+            lcp->M[n + i + k * ld] = -o;
+            lcp->M[k + (n + i) * ld] = o;
+            lcp->M[k + i * ld] = -o * p->bound[i];
+        }
+}
+
+/* The columns of s+- are those of lambda+-, the rows of sigma+- those of gamma+- but for
+ * mu r_N. */
+static void kwak_yield(const rb_contact_problem *p, rb_contact_lcp *lcp)
+{
+    const int n = p->n, size = lcp->size;
+    double *lambda = lcp->M + (size_t)n * (size_t)size;
+
+    memcpy(lambda + 2 * (size_t)n * (size_t)size, lambda,
+           2 * (size_t)n * (size_t)size * sizeof *lambda);
+    for (int j = 0; j < size; j++) {
+        double *column = lcp->M + (size_t)j * (size_t)size;
+        memcpy(column + 3 * n, column + n, 2 * (size_t)n * sizeof *column);
+        for (int sign = 0; sign < 2 && j < n; sign++)
+            column[yield_index(p, lcp, j, sign)] -= p->bound[j];
+    }
+    memcpy(lcp->b + 3 * n, lcp->b + n, 2 * (size_t)n * sizeof *lcp->b);
+}
+
+static void add_yield(const rb_contact_problem *p, rb_contact_lcp *lcp)
+{
+    if (!p->yield)
+        return;
+    (lcp->form == RB_LCP_KWAK ? kwak_yield : pivoted_yield)(p, lcp);
+    add_yield_stress(p, lcp);
+}
+
 /* ---- Both -------------------------------------------------------------------------- */
 
 /* The approach enters every gap; where it is unknown, delta = delta0 + delta' starts
@@ -328,6 +403,11 @@ static void set_lcp_scales(const rb_contact_problem *p, rb_contact_lcp *lcp)
         fill(n, bound, lcp->z_scale + n);
         fill(n, p->slip_length, lcp->w_scale + n);
     }
+    for (int i = 0; i < n && p->yield; i++)
+        for (int sign = 0; sign < 2; sign++) {
+            lcp->z_scale[yield_index(p, lcp, i, sign)] = p->slip_length;
+            lcp->w_scale[yield_index(p, lcp, i, sign)] = bound;
+        }
     if (p->load_given) {
         lcp->z_scale[delta_column(p)] = p->gap_length;
         lcp->w_scale[delta_column(p)] = p->stress * rb_norm_1((size_t)n, p->load_N, 1);
@@ -372,6 +452,8 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
                                   lcp->control_N, lcp->control_T, problem->force);
         }
     }
+    if (s == RB_OK)
+        add_yield(problem, lcp);
     if (s != RB_OK) {
         rb_contact_lcp_free(lcp);
         return rb_fail(why, s, "LCP of %d contact elements: %s", problem->n,
@@ -392,8 +474,8 @@ static void kwak_recover_traction(const rb_contact_problem *p, const rb_contact_
 
     for (int i = 0; i < n; i++)
         slip[i] =
-            p->slip_length * (z[lambda_column(n, i, 0)] - z[lambda_column(n, i, 1)]) -
-            p->d_T[i] - state->xi * p->e_T[i];
+            p->slip_length * (z[lambda_column(n, i, 0)] - z[lambda_column(n, i, 1)]) +
+            state->plastic[i] - p->d_T[i] - state->xi * p->e_T[i];
     cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, -1.0,
                 rb_contact_operator_matrix(p->op).S, n, state->p, 1, 1.0, slip, 1);
     cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, lcp->B_inverse, n, slip, 1, 0.0,
@@ -412,8 +494,13 @@ void rb_contact_lcp_recover(const rb_contact_problem *p, const rb_contact_lcp *l
     if (p->force_given)
         state->xi =
             lcp->xi0 + xi_direction(lcp) * lcp->z_scale[xi_column(p)] * z[xi_column(p)];
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n; i++) {
         state->p[i] = lcp->z_scale[i] * z[i];
+        state->plastic[i] =
+            p->yield ? orientation(lcp) * p->slip_length *
+                           (z[yield_index(p, lcp, i, 0)] - z[yield_index(p, lcp, i, 1)])
+                     : 0.0;
+    }
     if (lcp->form == RB_LCP_KWAK)
         kwak_recover_traction(p, lcp, z, state);
     else
@@ -439,6 +526,11 @@ static void contact_name(const rb_contact_lcp *lcp, int n, int is_z, int k,
 {
     if (k < n) {
         snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", is_z ? "p" : "gap", k + 1);
+    } else if (k >= 3 * n) {
+        const int kwak = lcp->form == RB_LCP_KWAK, place = k - 3 * n;
+        const int minus = kwak ? place % 2 : place / n != lcp->mirrored;
+        snprintf(name, RB_CONTACT_VARIABLE, "%s%c[%d]", is_z ? "plastic" : "yield",
+                 minus ? '-' : '+', (kwak ? place / 2 : place % n) + 1);
     } else if (lcp->form == RB_LCP_KWAK) {
         const int i = (k - n) / 2, minus = (k - n) % 2;
         snprintf(name, RB_CONTACT_VARIABLE, "%s%c[%d]", is_z ? "lambda" : "gamma",
@@ -454,12 +546,13 @@ const char *rb_contact_lcp_variable(const rb_contact_lcp *lcp, int n, int variab
                                     char name[RB_CONTACT_VARIABLE])
 {
     const int size = lcp->size, is_z = variable >= size, k = variable - is_z * size;
+    const int contact = (lcp->yields ? 5 : 3) * n;
     if (variable == 2 * size)
         snprintf(name, RB_CONTACT_VARIABLE, "z0");
-    else if (k < 3 * n)
+    else if (k < contact)
         contact_name(lcp, n, is_z, k, name);
     else
         snprintf(name, RB_CONTACT_VARIABLE, "%s[%d]", is_z ? "motion" : "force",
-                 k - 3 * n + 1);
+                 k - contact + 1);
     return name;
 }

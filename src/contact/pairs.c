@@ -94,6 +94,7 @@ rb_status rb_contact_halve(const rb_contact_problem *fine, rb_contact_problem *h
     add_pairs(n, fine->moment_T, pairs.moment_T);
     /* controls and scales are those of the fine problem */
     *half = *fine;
+    half->yield = NULL; /* elastic problems alone start from pairs */
     half->n = pairs.n;
     half->op = pairs.op;
     half->bound = pairs.bound;

@@ -17,6 +17,7 @@ void rb_contact_problem_free(rb_contact_problem *p)
     free(p->force_T);
     free(p->moment_N);
     free(p->moment_T);
+    free(p->yield);
     memset(p, 0, sizeof *p);
 }
 
@@ -78,4 +79,32 @@ double rb_contact_moment(const rb_contact_problem *p, const rb_contact_state *st
 {
     return cblas_ddot(p->n, p->moment_N, 1, state->p, 1) +
            cblas_ddot(p->n, p->moment_T, 1, state->q, 1);
+}
+
+rb_status rb_contact_set_yield(rb_contact_problem *p, double stress, double hardening)
+{
+    if (!p->yield)
+        p->yield = rb_alloc((size_t)p->n, 1);
+    if (!p->yield)
+        return RB_ENOMEM;
+    for (int i = 0; i < p->n; i++)
+        p->yield[i] = stress;
+    p->hardening = hardening;
+    return RB_OK;
+}
+
+void rb_contact_yielded(const rb_contact_problem *p, const double *plastic, double *u)
+{
+    double next = 0.0, second = 0.0;
+
+    for (int i = p->n - 1; i >= 0; i--) {
+        u[i] = p->recall[0] * next + p->recall[1] * second + p->own * fabs(plastic[i]);
+        second = next;
+        next = u[i];
+    }
+}
+
+double rb_contact_yield_stress(const rb_contact_problem *p, int i, double u)
+{
+    return p->yield ? fmax(p->yield[i] + p->hardening * u, 0.0) : INFINITY;
 }

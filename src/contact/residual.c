@@ -11,8 +11,9 @@ rb_status rb_contact_state_alloc(int n, rb_contact_state *state)
     state->p = rb_alloc((size_t)n, 1);
     state->q = rb_alloc((size_t)n, 1);
     state->lambda = rb_alloc((size_t)n, 1);
+    state->plastic = rb_alloc((size_t)n, 1);
     state->zone = rb_alloc_int((size_t)n);
-    if (state->p && state->q && state->lambda && state->zone)
+    if (state->p && state->q && state->lambda && state->plastic && state->zone)
         return RB_OK;
     rb_contact_state_free(state);
     return RB_ENOMEM;
@@ -23,6 +24,7 @@ void rb_contact_state_free(rb_contact_state *state)
     free(state->p);
     free(state->q);
     free(state->lambda);
+    free(state->plastic);
     free(state->zone);
     memset(state, 0, sizeof *state);
 }
@@ -38,7 +40,8 @@ void rb_contact_kinematics(const rb_contact_problem *problem,
 }
 
 /* Coulomb's law in natural form: min(lambda+, gamma+) and min(lambda-, gamma-), with
- * gamma+- = mu p +- q (K3); the larger, for scaled arguments. */
+ * gamma+- = mu p +- q (K3); the larger, for scaled arguments.  A layer yields by the same
+ * law with its plastic slip and its yield stress (Y1). */
 static double friction_violation(double lambda, double gamma_plus, double gamma_minus)
 {
     const double plus = fmin(fmax(lambda, 0.0), gamma_plus);
@@ -82,16 +85,25 @@ static double control_violation(const rb_contact_problem *p,
 
 /* The four values of one element, each kept where it is the largest so far. */
 static void add_element(const rb_contact_problem *problem, const rb_contact_state *state,
-                        double gap, double lambda, int i, rb_contact_violation *v)
+                        double gap, double lambda, double yielded, int i,
+                        rb_contact_violation *v)
 {
-    const double tangential = friction_scale(problem),
+    const double tangential = friction_scale(problem), length = problem->slip_length,
                  limit = problem->bound[i] * state->p[i];
     const double gamma_plus = limit + state->q[i], gamma_minus = limit - state->q[i];
     const double contact =
         fabs(fmin(gap / problem->gap_length, state->p[i] / problem->stress));
-    const double coulomb = friction_violation(
-        lambda / problem->slip_length, gamma_plus / tangential, gamma_minus / tangential);
+    double coulomb =
+        friction_violation((lambda - state->plastic[i]) / length, gamma_plus / tangential,
+                           gamma_minus / tangential);
 
+    if (problem->yield) {
+        const double yield = rb_contact_yield_stress(problem, i, yielded);
+        coulomb = fmax(coulomb, friction_violation(state->plastic[i] / length,
+                                                   (yield + state->q[i]) / tangential,
+                                                   (yield - state->q[i]) / tangential));
+        v->friction = fmax(v->friction, fabs(state->q[i]) - yield);
+    }
     v->scaled = fmax(v->scaled, fmax(contact, coulomb));
     v->gap = fmax(v->gap, contact * problem->gap_length);
     v->slip = fmax(v->slip, coulomb * problem->slip_length);
@@ -104,15 +116,16 @@ rb_status rb_contact_residual(const rb_contact_problem *problem,
                               const rb_contact_state *state, rb_contact_violation *v)
 {
     const int n = problem->n;
-    double *gap = rb_alloc((size_t)n, 2);
+    double *gap = rb_alloc((size_t)n, 3), *yielded = gap + 2 * n;
 
     if (!gap)
         return RB_ENOMEM;
     memset(v, 0, sizeof *v);
     rb_contact_kinematics(problem, state, gap, gap + n);
+    rb_contact_yielded(problem, state->plastic, yielded);
     v->scaled = control_violation(problem, state);
     for (int i = 0; i < n; i++)
-        add_element(problem, state, gap[i], gap[n + i], i, v);
+        add_element(problem, state, gap[i], gap[n + i], yielded[i], i, v);
     if (!isfinite(state->delta) || !isfinite(state->xi))
         v->scaled = INFINITY;
     free(gap);
@@ -133,16 +146,35 @@ static rb_contact_zone zone_of(double p, double lambda, double gamma_plus,
     return RB_ZONE_STICK;
 }
 
+/* What neither slips nor is separated may yield, by more than its stress lacks. */
+static rb_contact_zone yielding_zone(const rb_contact_problem *problem, double plastic,
+                                     double q, double yield)
+{
+    const double lacks = (yield - fabs(q)) / friction_scale(problem);
+
+    if (!(fabs(plastic) / problem->slip_length > fmax(lacks, 0.0)))
+        return RB_ZONE_STICK;
+    return plastic > 0.0 ? RB_ZONE_YIELD_NEGATIVE : RB_ZONE_YIELD_POSITIVE;
+}
+
 void rb_contact_classify(const rb_contact_problem *problem, double tol,
                          rb_contact_state *state)
 {
-    const double tangential = friction_scale(problem);
+    const double tangential = friction_scale(problem), length = problem->slip_length;
+    double next = 0.0, second = 0.0;
 
-    for (int i = 0; i < problem->n; i++) {
-        const double limit = problem->bound[i] * state->p[i];
-        state->zone[i] = zone_of(
-            state->p[i] / problem->stress - tol, state->lambda[i] / problem->slip_length,
-            (limit + state->q[i]) / tangential, (limit - state->q[i]) / tangential,
-            problem->bound[i] == 0.0);
+    for (int i = problem->n - 1; i >= 0; i--) {
+        const double limit = problem->bound[i] * state->p[i], q = state->q[i];
+        const double u = problem->recall[0] * next + problem->recall[1] * second +
+                         problem->own * fabs(state->plastic[i]);
+        state->zone[i] = zone_of(state->p[i] / problem->stress - tol,
+                                 (state->lambda[i] - state->plastic[i]) / length,
+                                 (limit + q) / tangential, (limit - q) / tangential,
+                                 problem->bound[i] == 0.0);
+        if (problem->yield && state->zone[i] == RB_ZONE_STICK)
+            state->zone[i] = yielding_zone(problem, state->plastic[i], q,
+                                           rb_contact_yield_stress(problem, i, u));
+        second = next;
+        next = u;
     }
 }

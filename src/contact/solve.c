@@ -1,6 +1,7 @@
 /* The order of attempts: Lemke's three, Newton, and who comes first. */
 #include "contact/internal.h"
 
+#include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,12 +35,21 @@ static rb_status polish(rb_contact_problem *problem, rb_contact_state *state)
     if (s != RB_OK)
         return s;
     memcpy(trial.zone, state->zone, (size_t)problem->n * sizeof(int));
-    s = rb_contact_solve_zones(problem, RB_BOTH, &trial);
+    if (problem->yield) {
+        memcpy(trial.p, state->p, bytes);
+        memcpy(trial.q, state->q, bytes);
+        memcpy(trial.lambda, state->lambda, bytes);
+        memcpy(trial.plastic, state->plastic, bytes);
+        s = rb_contact_yield_polish(problem, &trial);
+    } else {
+        s = rb_contact_solve_zones(problem, RB_BOTH, &trial);
+    }
     if (s == RB_OK)
         s = measure(problem, &trial);
     if (s == RB_OK && trial.residual < state->residual) {
         memcpy(state->p, trial.p, bytes);
         memcpy(state->q, trial.q, bytes);
+        memcpy(state->plastic, trial.plastic, bytes);
         state->delta = trial.delta;
         state->xi = trial.xi;
         state->residual = trial.residual;
@@ -77,11 +87,14 @@ static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_sta
         s = polish(problem, state);
         rb_contact_kinematics(problem, state, gap, state->lambda);
     }
-    for (int i = 0; i < problem->n && s == RB_OK; i++)
+    for (int i = 0; i < problem->n && s == RB_OK; i++) {
         if (state->zone[i] == RB_ZONE_STICK)
             state->lambda[i] = 0.0;
         else if (state->zone[i] != RB_ZONE_SEPARATED && problem->bound[i] == 0.0)
             state->zone[i] = rb_contact_sliding_zone(state->lambda[i]);
+        if (state->zone[i] <= RB_ZONE_STICK)
+            state->plastic[i] = 0.0;
+    }
     free(gap);
     return s;
 }
@@ -333,9 +346,9 @@ static int fallback_order(const rb_contact_problem *problem,
     return count;
 }
 
-static rb_status solve_given(rb_contact_problem *problem,
-                             const rb_contact_options *options, int warm,
-                             rb_contact_state *state, rb_message *why)
+static rb_status solve_coulomb(rb_contact_problem *problem,
+                               const rb_contact_options *options, int warm,
+                               rb_contact_state *state, rb_message *why)
 {
     method order[METHODS];
     const int count = fallback_order(problem, options, warm, order);
@@ -352,6 +365,83 @@ static rb_status solve_given(rb_contact_problem *problem,
         !rb_contact_operator_matrix(problem->op).F && problem->mu > 0.0)
         s = solve_by_friction(problem, options, state);
     return s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
+}
+
+/* ---- A layer that yields --------------------------------------------------------------
+ */
+
+static rb_status solve_yield_newton(rb_contact_problem *problem,
+                                    const rb_contact_options *options, int follows,
+                                    rb_contact_state *state)
+{
+    rb_status s = rb_contact_yield_newton(problem, follows, state);
+
+    if (s >= 0) {
+        state->solver = RB_SOLVER_NEWTON;
+        const rb_status t = complete(problem, 1, state);
+        s = t < 0 ? t : s;
+    }
+    return s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
+}
+
+/* Where the friction of the surfaces without the layer stays below its yield stress, that
+ * is the solution; else the start, at once or step by step. */
+static rb_status solve_from_coulomb(rb_contact_problem *problem,
+                                    const rb_contact_options *options, int follows,
+                                    rb_contact_state *state, rb_message *why)
+{
+    double *const yield = problem->yield;
+
+    memset(state->plastic, 0, (size_t)problem->n * sizeof *state->plastic);
+    problem->yield = NULL;
+    const rb_status s = solve_coulomb(problem, options, 0, state, why);
+    problem->yield = yield;
+    if (s < 0 || (s == RB_OK && !rb_contact_yields(problem, state)))
+        return s;
+    return s > 0 && follows ? s : solve_yield_newton(problem, options, follows, state);
+}
+
+static rb_status check_capacity(rb_contact_problem *problem,
+                                const rb_contact_options *options, rb_message *why);
+
+/* Newton's method in a few steps nearly always; a force that cannot be carried is found
+ * before the long ways. */
+static rb_status solve_yielding(rb_contact_problem *problem,
+                                const rb_contact_options *options, int warm,
+                                rb_contact_state *state, rb_message *why)
+{
+    const int lemke = options->solver == RB_SOLVER_LEMKE;
+    rb_status s = RB_MAXITER;
+
+    if (!rb_contact_operator_matrix(problem->op).F)
+        return rb_fail(why, RB_EINVAL,
+                       "%d contact elements are too many for a layer that yields",
+                       problem->n);
+    if (lemke) {
+        s = solve_lemke(problem, options, state, why);
+        s = s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
+    } else if (warm) {
+        s = solve_yield_newton(problem, options, 0, state);
+    }
+    if (s > 0)
+        s = solve_from_coulomb(problem, options, 0, state, why);
+    if (s > 0 && problem->force_given) {
+        const rb_status t = check_capacity(problem, options, why);
+        s = t < 0 ? t : s;
+    }
+    if (s > 0)
+        s = solve_from_coulomb(problem, options, 1, state, why);
+    if (s > 0 && !lemke && problem->n <= LEMKE_UP_TO)
+        s = solve_lemke(problem, options, state, why);
+    return s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
+}
+
+static rb_status solve_given(rb_contact_problem *problem,
+                             const rb_contact_options *options, int warm,
+                             rb_contact_state *state, rb_message *why)
+{
+    return problem->yield ? solve_yielding(problem, options, warm, state, why)
+                          : solve_coulomb(problem, options, warm, state, why);
 }
 
 /* ---- Full sliding
@@ -396,6 +486,8 @@ static rb_status solve_sliding(rb_contact_problem *problem,
         s = solve_given(&given, options, 0, state, why);
         const double spare = slowest_slip(&given, state);
         if (s == RB_OK && spare > 0.0 && sign * given.xi > 0.0) {
+            if (problem->yield) /* less slip yields less */
+                return RB_OK;
             state->xi -= sign * spare;
             for (int i = 0; i < problem->n; i++)
                 state->lambda[i] -= sign * spare * problem->e_T[i];
@@ -421,6 +513,44 @@ static rb_status solve_driven(rb_contact_problem *problem,
     return s;
 }
 
+static double force_of(const rb_contact_problem *p, const rb_contact_state *state)
+{
+    return cblas_ddot(p->n, p->force_N, 1, state->p, 1) +
+           cblas_ddot(p->n, p->force_T, 1, state->q, 1);
+}
+
+/* Whether a given force is more than a layer that yields carries: RB_EINVAL.  The most is
+ * that of full sliding, or, where the layer softens, the largest along the creep curve:
+ * beyond it more slip carries less. */
+static rb_status check_layer(rb_contact_problem *problem,
+                             const rb_contact_options *options, rb_contact_state *state,
+                             rb_message *why)
+{
+    enum { POINTS = 40 };
+    const int backwards = problem->force + problem->force_ratio > 0.0;
+    rb_contact_problem given = *problem; /* arrays stay the problem's */
+    double most = 0.0;
+    rb_status s = RB_OK;
+
+    given.force_given = 0;
+    if (problem->hardening < 0.0)
+        for (int k = 1; k <= POINTS && s == RB_OK; k++) {
+            given.xi = (backwards ? -1.0 : 1.0) * options->sliding * k / POINTS;
+            s = solve_given(&given, options, k > 1, state, NULL);
+            most = fmax(most, fabs(force_of(problem, state)));
+        }
+    else
+        s = solve_sliding(problem, options, backwards, state, NULL);
+    most = fmax(most, fabs(force_of(problem, state)));
+    const double Q =
+        problem->force + problem->force_ratio * rb_contact_capacity(problem, state);
+    return s != RB_OK || fabs(Q) <= most
+               ? s
+               : rb_fail(why, RB_EINVAL,
+                         "force Q = %g: the interface yields, and carries at most %g", Q,
+                         most);
+}
+
 /* Whether a given force is more than friction carries under the load that the approach
  * brings, or the resistance to rolling more than friction can turn: RB_EINVAL.  Full
  * sliding, which has that load, is solved in a state of its own, because the state that
@@ -432,6 +562,11 @@ static rb_status check_capacity(rb_contact_problem *problem,
     double most = 0.0, resistance = 0.0;
     rb_status s = rb_contact_state_alloc(problem->n, &sliding);
 
+    if (s == RB_OK && problem->yield && problem->axle == 0.0) {
+        s = check_layer(problem, options, &sliding, why);
+        rb_contact_state_free(&sliding);
+        return s < 0 ? s : RB_OK;
+    }
     if (s == RB_OK)
         s = solve_sliding(problem, options, problem->force > 0.0, &sliding, NULL);
     if (s == RB_OK) {

@@ -167,6 +167,11 @@ static void read_material(reading *r, rb_io_contact_case *c)
     if (c->digit.M == 1) {
         memcpy(c->ratio, x, sizeof c->ratio);
         memcpy(c->time, x + 2, sizeof c->time);
+    } else if (c->digit.M == 4) {
+        c->layer_shear = x[0];
+        c->layer = x[1];
+        c->yield = x[2];
+        c->hardening = x[3];
     }
 }
 

@@ -264,6 +264,26 @@ static rb_status rebuild_problem(certificate *c, const rb_settled_case *settled,
     return s;
 }
 
+/* Plastic slips from what has yielded, u, against the friction, or against the slip where
+ * the interface has softened to nothing. */
+static rb_status read_plastic(certificate *c, rb_message *why)
+{
+    const rb_contact_problem *p = &c->model.problem;
+    rb_contact_state *state = &c->model.state;
+    const rb_status s =
+        read_column(c->name, c->table, "plastic_mm", p->n, state->plastic, why);
+    double *u = state->plastic;
+
+    for (int i = 0; i < p->n && s == RB_OK; i++) {
+        const double next = i + 1 < p->n ? u[i + 1] : 0.0,
+                     second = i + 2 < p->n ? u[i + 2] : 0.0;
+        const double own = (u[i] - p->recall[0] * next - p->recall[1] * second) / p->own;
+        const double with = state->q[i] != 0.0 ? -state->q[i] : state->lambda[i];
+        u[i] = with < 0.0 ? -own : own;
+    }
+    return s;
+}
+
 /* The printed unknowns. */
 static rb_status read_state(certificate *c, rb_message *why)
 {
@@ -279,7 +299,8 @@ static rb_status read_state(certificate *c, rb_message *why)
         s = read_column(c->name, c->table, "zone", n, m->state.lambda, why);
     for (int i = 0; i < n && s == RB_OK; i++) {
         const double zone = m->state.lambda[i];
-        if (zone != 0.0 && zone != 1.0 && zone != 2.0 && zone != 3.0)
+        if (!(zone >= 0.0 && zone <= (m->problem.yield ? 5.0 : 3.0)) ||
+            zone != floor(zone))
             s = rb_fail(why, RB_EFORMAT, "%s: table: zone of element %d is %g", c->name,
                         i + 1, zone);
         else
@@ -287,6 +308,8 @@ static rb_status read_state(certificate *c, rb_message *why)
     }
     if (s == RB_OK)
         s = read_column(c->name, c->table, "shift_mm", n, m->state.lambda, why);
+    if (s == RB_OK && m->problem.yield)
+        s = read_plastic(c, why);
     m->state.delta = member(c->summary, "approach");
     m->state.xi = member(c->summary, is_static ? "tangential_shift" : "creepage");
     if (s == RB_OK && !(isfinite(m->state.delta) && isfinite(m->state.xi)))
@@ -368,7 +391,7 @@ static void check_control(certificate *c)
                CONTROLS * fabs(p->xi));
 }
 
-static void check_zone(certificate *c, int i, double slack)
+static void check_zone(certificate *c, int i, double slack, double yield)
 {
     const rb_contact_problem *problem = &c->model.problem;
     const rb_contact_state *x = &c->model.state;
@@ -394,6 +417,12 @@ static void check_zone(certificate *c, int i, double slack)
     if (zone == RB_ZONE_SLIP_POSITIVE && (fabs(q - bound) > stress || slip > length))
         violated(c, "slip of element %d: q - mu p = %.3g, shift %.3g", i + 1, q - bound,
                  slip);
+    if (zone > RB_ZONE_SLIP_POSITIVE && fabs(fabs(q) - yield) > stress)
+        violated(c, "yield of element %d: |q| is off its yield stress by %.3g", i + 1,
+                 fabs(q) - yield);
+    if (fabs(q) > yield + stress)
+        violated(c, "yield stress of element %d: |q| exceeds it by %.3g (allowed %.2g)",
+                 i + 1, fabs(q) - yield, stress);
 }
 
 /* The residual that the result prints is believed where it is below what was asked for.
@@ -419,12 +448,13 @@ static rb_status check_laws(certificate *c)
     const rb_contact_problem *p = &c->model.problem;
     const rb_contact_state *x = &c->model.state;
     const int n = p->n;
-    double *gap = rb_alloc((size_t)n, 2);
+    double *gap = rb_alloc((size_t)n, 3), *yielded = gap + 2 * n;
     rb_contact_violation v;
 
     if (!gap)
         return RB_ENOMEM;
     rb_contact_kinematics(p, x, gap, gap + n);
+    rb_contact_yielded(p, x->plastic, yielded);
     for (int i = 0; i < n; i++) {
         const json_t *printed =
             json_array_get(json_object_get(c->table, "gap_mm"), (size_t)i);
@@ -436,7 +466,7 @@ static rb_status check_laws(certificate *c)
         if (x->p[i] > 0.0 ? fabs(gap[i]) > length : gap[i] < -length)
             violated(c, "gap of element %d: %.3g at a pressure of %.3g (allowed %.2g)",
                      i + 1, gap[i], x->p[i], length);
-        check_zone(c, i, c->tol);
+        check_zone(c, i, c->tol, rb_contact_yield_stress(p, i, yielded[i]));
     }
     if (x->p[0] > 0.0 || x->p[n - 1] > 0.0)
         violated(c, "the contact reaches an end of the table");

@@ -9,6 +9,10 @@ rb_status rb_report_fclib(const char *path, const rb_rolling_model *model,
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;
     rb_contact_cone cone;
+    if (p->yield)
+        return rb_fail(why, RB_EINVAL,
+                       "an FCLib file has Coulomb's cones alone, no interface that "
+                       "yields (--yield-stress)");
     rb_status s = rb_contact_cone_create(p, state->delta, state->xi, &cone, why);
 
     if (s != RB_OK)

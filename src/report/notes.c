@@ -74,6 +74,13 @@ static void note_units(rb_report_note_list *list, const rb_rolling_case *rc,
             rc->a.arc);
 }
 
+static void note_yield(rb_report_note_list *list, const rb_rolling_solution *s)
+{
+    if (s->yielding > 0)
+        add(list, "zone 4, 5: the interface yields, with q < 0, q > 0; shift is slip and "
+                  "yielding together, plastic what has yielded");
+}
+
 static void note_mesh(rb_report_note_list *list, const rb_rolling_solution *s)
 {
     if (s->equal_instead)
@@ -111,6 +118,7 @@ rb_report_note_list rb_report_find_notes(const rb_rolling_case *rc,
     if (rc->formulation != RB_STATIC && !rb_rolling_body_can(&rc->a, RB_BODY_TURNS))
         add(&list, "on an arc support rolling differs at every angle of the wheel; hub "
                    "and halfplane do not");
+    note_yield(&list, s);
     note_mesh(&list, s);
     if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 &&
         s->slip_violations > 0)

@@ -150,6 +150,18 @@ static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s,
 
 /* ---- Data ------------------------------------------------------------------------- */
 
+/* What friction may be at element i: mu p, or the yield stress of the interface. */
+static double bound_of(const view *v, int i)
+{
+    const rb_rolling_solution *s = v->s;
+    const double limit = (s->mu ? s->mu[i] : v->rc->mu) * s->p[i];
+    if (!s->plastic)
+        return limit;
+    const double u = rb_unit_stored(s->units, "mm", s->plastic[i]);
+    const double yield = fmax(v->rc->yield_stress + v->rc->hardening * u, 0.0);
+    return fmin(limit, rb_unit_shown(s->units, "MPa", yield));
+}
+
 static void write_data(FILE *out, const view *v)
 {
     const rb_rolling_solution *s = v->s;
@@ -157,8 +169,7 @@ static void write_data(FILE *out, const view *v)
     for (int i = 0; i < s->n; i++)
         fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->unit,
                 s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
-                (s->mu ? s->mu[i] : v->rc->mu) * s->p[i] / v->stress_unit,
-                s->slip[i] / v->slip.unit,
+                bound_of(v, i) / v->stress_unit, s->slip[i] / v->slip.unit,
                 s->temperature ? s->temperature[i] / v->heat.unit : 0.0,
                 s->temperature ? s->temperature_b[i] / v->heat.unit : 0.0);
     fputs("EOD\n", out);
@@ -200,13 +211,15 @@ static stretch next_stretch(const view *v, int *i)
 
 static const char *zone_colour(int zone)
 {
-    static const char *const colours[] = {"#f3f3f3", "#d6e6f5", "#fde8cd", "#f8dcdc"};
+    static const char *const colours[] = {"#f3f3f3", "#d6e6f5", "#fde8cd",
+                                          "#f8dcdc", "#e9efc9", "#dfe3d2"};
     return colours[zone];
 }
 
 static const char *zone_name(int zone)
 {
-    static const char *const names[] = {"separated", "stick", "slip →", "← slip"};
+    static const char *const names[] = {"separated", "stick",   "slip →",
+                                        "← slip",    "yield →", "← yield"};
     return names[zone];
 }
 
@@ -313,14 +326,14 @@ static void write_tractions(FILE *out, const view *v, double key_font)
     fprintf(out,
             "plot 0 with lines linecolor rgb '#999999' linewidth 0.6 notitle, "
             "$data using 1:4 with %s dashtype (6,4) linecolor rgb '#7a7a7a' "
-            "linewidth 0.9 title '±μp', "
+            "linewidth 0.9 title '%s', "
             "$data using 1:(-$4) with %s dashtype (6,4) linecolor rgb '#7a7a7a' "
             "linewidth 0.9 notitle, "
             "$data using 1:2 with %s linecolor rgb '#1f4e79' linewidth 1.8 "
             "title 'pressure p', "
             "$data using 1:3 with %s linecolor rgb '#c0392b' linewidth 3 "
             "title 'friction q'",
-            style, style, style, style);
+            style, v->s->plastic ? "bounds" : "±μp", style, style, style);
     if (v->carter)
         fputs(", $carter using 1:2 with lines dashtype (10,5) linecolor rgb '#1e8449' "
               "linewidth 1.4 title 'Carter'",

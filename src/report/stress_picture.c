@@ -61,7 +61,8 @@ static void write_grid(FILE *out, const view *v)
 /* Where A touches: one line for each zone, drawn below the surface. */
 static void write_contact(FILE *out, const view *v)
 {
-    static const char *const colours[] = {"", "#1f4e79", "#d35400", "#c0392b"};
+    static const char *const colours[] = {"",        "#1f4e79", "#d35400",
+                                          "#c0392b", "#7d8b1f", "#5d6b3f"};
     const rb_rolling_solution *s = v->s->s;
     for (int i = 0; i < s->n;) {
         const int first = i;

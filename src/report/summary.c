@@ -11,7 +11,8 @@ enum { MARGIN = 3 }; /* separated elements shown beside the contact */
 
 static char zone_mark(int zone)
 {
-    return zone == RB_ZONE_SEPARATED ? 'o' : zone == RB_ZONE_STICK ? '*' : 'S';
+    static const char mark[] = "o*SS||";
+    return mark[zone];
 }
 
 static int is_contact(const rb_rolling_solution *s, int i)
@@ -39,11 +40,11 @@ static void shown_range(const rb_rolling_solution *s, int *first, int *last)
 /* The commonest mark among elements from .. to - 1. */
 static char majority(const rb_rolling_solution *s, int from, int to)
 {
-    static const char marks[] = "oS*";
-    int count[3] = {0}, best = 0;
+    static const char marks[] = "oS|*";
+    int count[4] = {0}, best = 0;
     for (int i = from; i < to; i++)
         count[strchr(marks, zone_mark(s->zone[i])) - marks]++;
-    for (int k = 1; k < 3; k++)
+    for (int k = 1; k < 4; k++)
         if (count[k] >= count[best])
             best = k;
     return marks[best];
@@ -136,8 +137,10 @@ static void print_zones(FILE *out, const rb_rolling_solution *s, int width)
     enum { LONGEST = 200 };
     char strip[LONGEST + 1];
     const int room = width - 13 < LONGEST ? width - 13 : LONGEST;
-    fprintf(out, "  elements  %d: %d stick, %d slip, %d separated", s->n, s->stick,
-            s->slipping, s->n - s->contact);
+    fprintf(out, "  elements  %d: %d stick, %d slip, ", s->n, s->stick, s->slipping);
+    if (s->yielding >= 0)
+        fprintf(out, "%d of them yield, ", s->yielding);
+    fprintf(out, "%d separated", s->n - s->contact);
     if (s->stick > 0) {
         const double between = s->stick_to - s->stick_from;
         const char *mm = rb_unit_name(s->units, "mm");

@@ -117,7 +117,7 @@ int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
     /* products know one operator for bodies and third body */
     const int two_operators =
         rc->slip_operator == RB_SLIP_SECOND && rc->interlayer_tangential > 0.0;
-    return mesh->n >= RB_ROLLING_LARGE && !two_operators &&
+    return mesh->n >= RB_ROLLING_LARGE && !two_operators && rc->yield_stress == 0.0 &&
            (rc->solver == RB_SOLVER_AUTO || rc->solver == RB_SOLVER_NEWTON) &&
            rc->mesh != RB_MESH_FITTED && rb_rolling_kind_of(&rc->a)->transforms &&
            (!rc->elastic_b || rb_rolling_kind_of(&rc->b)->transforms);
@@ -128,6 +128,7 @@ int rb_rolling_carter_holds(const rb_rolling_case *rc)
     return rc->formulation == RB_STEADY && rc->mu > 0.0 &&
            rc->friction.law == RB_FRICTION_constant && !rb_rolling_law_moves(rc) &&
            rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 &&
+           rc->yield_stress == 0.0 &&
            rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) &&
            rc->gap != RB_GAP_TABLE && rc->worn_n == 0 &&
            fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
@@ -350,6 +351,24 @@ static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
             return rb_fail(why, RB_EINVAL,
                            "interlayer: expected a %s compliance >= 0, got %g",
                            k ? "tangential" : "normal", value[k]);
+    if (!(isfinite(rc->yield_stress) && rc->yield_stress >= 0.0))
+        return rb_fail(why, RB_EINVAL, "yield stress: expected > 0, got %g",
+                       rc->yield_stress);
+    if (!isfinite(rc->hardening))
+        return rb_fail(why, RB_EINVAL, "hardening: expected a finite number, got %g",
+                       rc->hardening);
+    if (rc->hardening != 0.0 && rc->yield_stress == 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "hardening: of an interface that yields, add --yield-stress");
+    if (rc->yield_stress > 0.0 && rb_rolling_law_moves(rc))
+        return rb_fail(why, RB_EINVAL,
+                       "yield stress: with one coefficient of friction or a table over "
+                       "x, not with a law that follows slip or heat");
+    if (rc->yield_stress > 0.0 && rc->solver == RB_SOLVER_CONE)
+        return rb_fail(why, RB_EINVAL,
+                       "solver %s: knows Coulomb's law alone, expected lemke, newton or "
+                       "auto with --yield-stress",
+                       rc->cone_solver);
     return RB_OK;
 }
 

@@ -37,6 +37,7 @@ rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *mo
     rb_contact_state_free(&model->state);
     rb_contact_problem_free(&model->problem);
     free(model->temperature);
+    free(model->yielded);
     *model = kept;
     model->same_bodies = 1;
     const rb_status s = solve_on_its_mesh(rc, model, why);

@@ -165,7 +165,7 @@ static rb_status transform_operator(const rb_rolling_bodies *bodies, kinematic *
  * ------------------------------------------------------------
  */
 
-/* d_T and e_T (K2). */
+/* d_T and e_T (K2), and the yield stress of what has yielded before (Y1). */
 void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                          const rb_rolling_past *past, double step, rb_contact_problem *p)
 {
@@ -176,6 +176,10 @@ void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bod
         p->d_T[i] = p->differences ? w0_T[i] - w0_T[i + 1] : w0_T[i];
         if (past)
             p->d_T[i] -= past->w_T[i];
+        if (p->yield)
+            p->yield[i] =
+                rc->yield_stress +
+                rc->hardening * (past && past->yielded ? past->yielded[i] : 0.0);
         p->e_T[i] = rc->formulation == RB_STEADY      ? x[i + 1] - x[i]
                     : rc->formulation == RB_TRANSIENT ? step
                                                       : 1.0;
@@ -243,6 +247,41 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p)
         p->xi = isnan(rc->creep) ? 0.0 : rc->creep;
 }
 
+/* How far the interface has yielded where the material comes from (Y1): steadily rolled
+ * u follows the slip by the difference that the local part of F_TT has (theory.md 4.10);
+ * in a step it begins with what the past has left. */
+static rb_status set_yield(const rb_rolling_case *rc, rb_contact_problem *p)
+{
+    const int rolls = rc->formulation == RB_STEADY,
+              second = rolls && rc->slip_operator == RB_SLIP_SECOND;
+
+    if (rc->yield_stress == 0.0)
+        return RB_OK;
+    p->recall[0] = second ? 4.0 / 3.0 : rolls ? 1.0 : 0.0;
+    p->recall[1] = second ? -1.0 / 3.0 : 0.0;
+    p->own = second ? 2.0 / 3.0 : 1.0;
+    return rb_contact_set_yield(p, rc->yield_stress, rc->hardening);
+}
+
+/* A layer that softens has one answer to a slip only where its stress falls by less than
+ * the friction that the slip sets free. */
+static rb_status check_softening(const rb_rolling_case *rc, const rb_contact_problem *p,
+                                 rb_message *why)
+{
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    double most = 0.0;
+
+    for (int i = 0; K.S && i < p->n; i++)
+        most = fmax(most, K.S[i + (size_t)(p->n + i) * (size_t)p->n]);
+    const double least = 1.0 / (p->own * most);
+    return !p->yield || rc->hardening > -least
+               ? RB_OK
+               : rb_fail(why, RB_EINVAL,
+                         "hardening: softening by %g MPa/mm has no unique solution, "
+                         "expected less than %g MPa/mm on this mesh",
+                         -rc->hardening, least);
+}
+
 /* Stress by Hertz, lengths so that the diagonals of F_NN and of A F_TT become about 1;
  * where mu is small, the slip of dissimilar bodies comes from the pressure. */
 static void set_scales(const rb_rolling_case *rc, rb_contact_problem *p)
@@ -273,6 +312,8 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
     free(A.outside);
     if (s == RB_OK)
         s = rb_contact_problem_alloc(op, p);
+    if (s == RB_OK)
+        s = set_yield(rc, p);
     if (s != RB_OK)
         return rb_fail(why, s, "out of memory for a contact problem of %d elements",
                        mesh->n);
@@ -283,7 +324,7 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
     set_weights(rc, bodies, p);
     rb_rolling_set_control(rc, p);
     set_scales(rc, p);
-    return RB_OK;
+    return check_softening(rc, p, why);
 }
 
 /* ---- What a state carries
@@ -310,6 +351,13 @@ double rb_rolling_force_ratio(const rb_rolling_model *model)
                             ? model->problem.mu * rb_rolling_model_load(model)
                             : rb_contact_capacity(&model->problem, &model->state);
     return most > 0.0 ? rb_rolling_model_force(model) / most : NAN;
+}
+
+void rb_rolling_yielded(const rb_rolling_model *model, double *yielded)
+{
+    rb_contact_yielded(&model->problem, model->state.plastic, yielded);
+    for (int i = 0; i < model->mesh.n && model->yielded; i++)
+        yielded[i] += model->yielded[i];
 }
 
 /* ---- How it is solved

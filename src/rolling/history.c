@@ -29,6 +29,7 @@ typedef struct {
     double *q;    /* n: friction before the step */
     double *mu;   /* n: coefficients of the particles before the step; NULL where the law
                      does not depend on the state */
+    double *yielded;        /* n: what the interface has yielded, room for `remember` */
     rb_rolling_ahead ahead; /* for steps of another length than an element's */
     rb_rolling_heat_track heat;
     rb_rolling_memory_track past; /* of bodies that relax */
@@ -53,6 +54,27 @@ static void remember_friction(run *r, double c)
     r->model->mu_before = r->mu;
 }
 
+/* What the interface has yielded where the particles come from that a step of length c
+ * brings to the elements: linear between midpoints; nothing beyond the last one, where
+ * it is new. */
+static void remember_yielded(run *r, double c)
+{
+    const double *x = r->model->bodies.f.x;
+    const int n = r->model->mesh.n;
+
+    if (!r->model->yielded)
+        return;
+    rb_rolling_yielded(r->model, r->yielded);
+    r->yielded[n] = 0.0;
+    for (int i = 0, j = 0; i < n; i++) {
+        while (j < n && x[j + 1] <= x[i] + c)
+            j++;
+        const double share = j < n ? (x[i] + c - x[j]) / (x[j + 1] - x[j]) : 0.0;
+        r->model->yielded[i] =
+            j < n ? (1.0 - share) * r->yielded[j] + share * r->yielded[j + 1] : 0.0;
+    }
+}
+
 /* w_T of the present tractions at the same places (c = 0), or where the particles are
  * that a step of length c brings to them. */
 static rb_status remember(run *r, double c)
@@ -64,6 +86,7 @@ static rb_status remember(run *r, double c)
     rb_status s = RB_OK;
 
     memcpy(r->q, state->q, (size_t)n * sizeof(double));
+    remember_yielded(r, element ? element_length(r) : c);
     if (c > 0.0 && !element) {
         if (r->ahead.step == 0.0)
             s = rb_rolling_ahead_create(r->rc, bodies, c, &r->ahead);
@@ -204,7 +227,7 @@ static rb_status static_step(run *r, rb_message *why)
     rb_rolling_model *model = r->model;
     rb_rolling_case *rest = &model->rc;
     rb_contact_problem *p = &model->problem;
-    const rb_rolling_past past = {r->w_T};
+    const rb_rolling_past past = {r->w_T, model->yielded};
     const int first = r->history->n == 0;
     const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
     const double before = time_of(r);
@@ -255,7 +278,7 @@ static rb_status move_gap(rb_rolling_model *model, double way)
 static rb_status rolled_step(run *r, double from, double to, rb_message *why)
 {
     rb_rolling_model *model = r->model;
-    const rb_rolling_past past = {r->w_T};
+    const rb_rolling_past past = {r->w_T, model->yielded};
     const double c = r->history->step;
     rb_message reason = {""};
     rb_status s = remember(r, c);
@@ -462,7 +485,13 @@ static rb_status prepare(run *r, double zone, rb_message *why)
     r->q = rb_alloc((size_t)r->model->mesh.n, 1);
     const int moves = rb_rolling_law_moves(r->rc);
     r->mu = moves ? rb_alloc((size_t)r->model->mesh.n, 1) : NULL;
-    s = r->w_T && r->q && (r->mu || !moves) ? RB_OK : RB_ENOMEM;
+    const int yields = r->rc->yield_stress > 0.0;
+    r->yielded = yields ? rb_alloc((size_t)r->model->mesh.n + 1, 1) : NULL;
+    r->model->yielded = yields ? rb_alloc((size_t)r->model->mesh.n, 1) : NULL;
+    s = r->w_T && r->q && (r->mu || !moves) &&
+                (!yields || (r->yielded && r->model->yielded))
+            ? RB_OK
+            : RB_ENOMEM;
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_history_columns, r->rc, r->steps,
                                      r->history);
@@ -478,7 +507,8 @@ static void run_free(run *r)
     free(r->w_T);
     free(r->q);
     free(r->mu);
-    r->w_T = r->q = r->mu = NULL;
+    free(r->yielded);
+    r->w_T = r->q = r->mu = r->yielded = NULL;
     r->model->mu_before = NULL; /* both were the run's */
     r->model->heat = NULL;
     rb_rolling_ahead_free(&r->ahead);

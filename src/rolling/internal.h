@@ -117,6 +117,8 @@ void rb_rolling_set_gap(const rb_rolling_mesh *mesh, const rb_rolling_bodies *bo
 /* P and Q of the state. */
 double rb_rolling_model_load(const rb_rolling_model *model);
 double rb_rolling_model_force(const rb_rolling_model *model);
+/* What the interface has yielded so far at the elements (n). */
+void rb_rolling_yielded(const rb_rolling_model *model, double *yielded);
 
 /* ---- law.c, law_iteration.c: friction laws
  * ---------------------------------------------

@@ -13,6 +13,7 @@ void rb_rolling_model_free(rb_rolling_model *model)
     rb_rolling_bodies_free(&model->bodies);
     rb_rolling_mesh_free(&model->mesh);
     free(model->temperature);
+    free(model->yielded);
     memset(model, 0, sizeof *model);
 }
 

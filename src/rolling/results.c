@@ -61,6 +61,9 @@ static const rb_rolling_result scalars[] = {
            .meaning = "elements that stick"),
     RESULT("slip", slipping, .kind = RB_RESULT_WHOLE, .study = 12,
            .meaning = "elements that slip"),
+    RESULT("yield", yielding, .kind = RB_RESULT_WHOLE, .study = 22,
+           .condition = RB_FOR_YIELD,
+           .meaning = "elements whose interface yields, part of those that slip"),
     RESULT("stick_from", stick_from, .unit = "mm", .error_bar = RB_SCALE_ELEMENT,
            .meaning = "first end of the elements that stick"),
     RESULT("stick_to", stick_to, .unit = "mm", .error_bar = RB_SCALE_ELEMENT,
@@ -116,7 +119,9 @@ static const rb_rolling_result columns[] = {
     RESULT("shift", shift, .unit = "mm", .meaning = "slip displacement; 0 in stick"),
     RESULT("slip", slip, .unit = "1", .meaning = "relative slip velocity"),
     RESULT("zone", zone, .kind = RB_RESULT_WHOLE,
-           .meaning = "0 separated, 1 stick, 2 slip with q = -mu p, 3 with q = +mu p"),
+           .meaning =
+               "0 separated, 1 stick, 2 slip with q = -mu p, 3 with q = +mu p; 4, 5 "
+               "the interface yields, q < 0, q > 0"),
     RESULT("temperature", temperature, .unit = "K", .condition = RB_FOR_HEAT,
            .meaning = "of A's surface"),
     RESULT("temperature_b", temperature_b, .unit = "K", .condition = RB_FOR_HEAT,
@@ -125,6 +130,8 @@ static const rb_rolling_result columns[] = {
            .meaning = "depth that is worn off"),
     RESULT("mu", mu, .unit = "1", .condition = RB_FOR_LAW,
            .meaning = "coefficient of friction by the law"),
+    RESULT("plastic", plastic, .unit = "mm", .condition = RB_FOR_YIELD,
+           .meaning = "what the interface has yielded, of either direction"),
 };
 
 /* New ones at the end: scripts count columns. */
@@ -278,10 +285,14 @@ static void *place(const rb_rolling_result *r, const void *owner)
     return (char *)owner + r->offset;
 }
 
+/* Counts that the case has not are -1. */
 double rb_rolling_number(const rb_rolling_result *r, const void *owner)
 {
     const void *at = place(r, owner);
-    return r->kind == RB_RESULT_WHOLE ? *(const int *)at : *(const double *)at;
+    if (r->kind != RB_RESULT_WHOLE)
+        return *(const double *)at;
+    const int count = *(const int *)at;
+    return count < 0 ? NAN : count;
 }
 
 static void *column_of(const rb_rolling_result *r, const void *owner)
@@ -304,6 +315,8 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc)
         return rb_rolling_law_moves(rc);
     case RB_FOR_MEMORY:
         return rb_rolling_relaxes(rc);
+    case RB_FOR_YIELD:
+        return rc->yield_stress > 0.0;
     case RB_FOR_ALL:
         break;
     }

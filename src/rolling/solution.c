@@ -45,11 +45,13 @@ static void set_stick_limits(const rb_rolling_mesh *mesh, rb_rolling_solution *s
 {
     double contact;
 
+    s->yielding = s->plastic ? 0 : -1;
     rb_rolling_zone_lengths(s->n, s->zone, s->h, &contact, &s->stick_length);
     s->stick_from = s->stick_to = NAN;
     for (int i = 0; i < s->n; i++) {
         s->contact += s->zone[i] != RB_ZONE_SEPARATED;
         s->slipping += s->zone[i] > RB_ZONE_STICK;
+        s->yielding += s->zone[i] > RB_ZONE_SLIP_POSITIVE;
         if (s->zone[i] != RB_ZONE_STICK)
             continue;
         s->stick++;
@@ -85,10 +87,12 @@ static int count_violations(const rb_rolling_model *model, const rb_rolling_solu
 
     for (int i = 0; i < s->n; i++) {
         const double slip = fabs(s->slip[i]) > small ? s->slip[i] : 0.0;
-        violations += s->zone[i] == RB_ZONE_STICK           ? slip != 0.0
-                      : s->zone[i] == RB_ZONE_SLIP_NEGATIVE ? slip < 0.0
-                      : s->zone[i] == RB_ZONE_SLIP_POSITIVE ? slip > 0.0
-                                                            : 0;
+        const int zone = s->zone[i];
+        violations +=
+            zone == RB_ZONE_STICK ? slip != 0.0
+            : zone == RB_ZONE_SLIP_NEGATIVE || zone == RB_ZONE_YIELD_NEGATIVE ? slip < 0.0
+            : zone == RB_ZONE_SLIP_POSITIVE || zone == RB_ZONE_YIELD_POSITIVE ? slip > 0.0
+                                                                              : 0;
     }
     return violations;
 }
@@ -214,6 +218,8 @@ static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s
         s->worn[i] = rb_rolling_worn_depth(&model->rc, s->x[i]);
     if (s->mu)
         memcpy(s->mu, model->problem.bound, (size_t)n * sizeof(double));
+    if (s->plastic)
+        rb_rolling_yielded(model, s->plastic);
     set_slip(model, w + m, s);
     free(w);
     return RB_OK;

@@ -382,6 +382,10 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
         return rb_fail(why, RB_EINVAL,
                        "wear: a rolling wheel of one elastic material only, got a layer, "
                        "a cover or relaxation");
+    if (rc->yield_stress > 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "wear: surfaces that wear touch, an interface that yields keeps "
+                       "them apart: not with --yield-stress");
     return rb_rolling_case_check(rc, why);
 }
 

@@ -112,11 +112,75 @@ static void falling_friction(rb_verify *v)
     rb_rolling_solution_free(&s);
 }
 
+/* Brushes that yield: q grows by xi/L_T per length from the leading edge to the yield
+ * stress, by xi/(L_T + 1/k) to mu p, and is mu p then (theory.md Y2). */
+static void yielding_brushes(rb_verify *v, int elements, double bound)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_solution it;
+    rc.a.young = 1e13;
+    rc.interlayer_normal = 1e-6;
+    rc.interlayer_tangential = 2e-6;
+    rc.half_width = NAN;
+    rc.load = 2.0 / (3.0 * rc.a.radius * rc.interlayer_normal); /* a = 1 */
+    const double most = rc.mu / (2.0 * rc.a.radius * rc.interlayer_normal);
+    const double elastic = 0.8 * most;
+    rc.creep = elastic * rc.interlayer_tangential;
+    rc.yield_stress = 0.3 * most;
+    rc.hardening = 1.0 / rc.interlayer_tangential;
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_ALIGNED;
+    rc.slip_operator = RB_SLIP_SECOND;
+    rc.contact_elements = elements;
+    rb_verify_solve(v, &rc, &it);
+    /* in units of most, s from the leading edge: 0.8 s up to 3/8, then 0.15 + 0.4 s up
+     * to where it meets 2 s - s^2 */
+    const double s1 = 0.375, s2 = 0.8 + sqrt(0.49);
+    const double Q = 0.4 * s1 * s1 + 0.15 * (s2 - s1) + 0.2 * (s2 * s2 - s1 * s1) +
+                     4.0 / 3.0 - s2 * s2 + s2 * s2 * s2 / 3.0;
+    rb_verify_compare(v, it.force_ratio, -0.75 * Q, bound, RB_VERIFY_ABSOLUTE,
+                      "yielding brushes, %d elements: Q/(mu P)", elements);
+    rb_rolling_solution_free(&it);
+}
+
+/* CONTACT, testbank/examples_plast/carter_plast, DX = 0.04. */
+static void yielding_half_planes(rb_verify *v, double hardening, double want)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution it;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.young = 209920.0;
+    rc.a.poisson = 0.28;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.a.radius = 500.0;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.mu = 0.5;
+    rc.load = 178.9;
+    rc.creep = -4e-4;
+    rc.yield_stress = 35.0;
+    rc.hardening = hardening;
+    rc.formulation = RB_STEADY;
+    rc.contact_elements = 55;
+    rc.zone = 1.1;
+    rb_verify_solve(v, &rc, &it);
+    rb_verify_compare(v, it.force_ratio, want, 1e-4, RB_VERIFY_ABSOLUTE,
+                      "yielding interface, hardening %g: Q/(mu P) of CONTACT", hardening);
+    rb_rolling_solution_free(&it);
+}
+
 void rb_verify_interface(rb_verify *v)
 {
     falling_friction(v);
     brushes(v, 50, 3e-4);
     brushes(v, 200, 1.9e-5);
+    yielding_brushes(v, 50, 8e-4);
+    yielding_brushes(v, 200, 5e-5);
+    yielding_half_planes(v, 4018000.0, 0.6478);
+    yielding_half_planes(v, 123000.0, 0.6340);
+    yielding_half_planes(v, 0.0, 0.5896);
+    yielding_half_planes(v, -20500.0, 0.5457);
     flash_temperature(v, 50, 5e-4);
     flash_temperature(v, 200, 6.3e-5);
     wear(v, 1);

@@ -1,0 +1,533 @@
+/* An interface that yields: CONTACT's cases, steady and rolled from a shift, a brush law
+ * in closed form, the limits of a large and of a small yield stress, the law recomputed
+ * from the printed columns alone, both solvers, histories, and what is refused. */
+#include "check.h"
+#include "rollbem/rolling.h"
+
+#include <gsl/gsl_math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static rb_rolling_solution solved(const rb_rolling_case *rc)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    const rb_status status = rb_rolling_solve(rc, &s, &why);
+    if (status != RB_OK)
+        print_error("%s\n", why.text);
+    CHECK_STATUS(status, RB_OK);
+    CHECK_MAX(s.residual, 1e-10, "residual");
+    return s;
+}
+
+/* The bodies of CONTACT's examples_plast: two of steel, R = 500, P = 178.9.  A row of its
+ * elements, 2B = 200 wide, is displaced along x by friction as a line is whose datum is
+ * 2B exp(nu/(1-nu)): Cerruti's solution integrated over the width. */
+static rb_rolling_case plastic_example(double hardening)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.young = 2.0 * 82000.0 * 1.28;
+    rc.a.poisson = 0.28;
+    rc.a.datum = 200.0 * exp(0.28 / 0.72);
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.a.radius = 500.0;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.mu = 0.5;
+    rc.load = 178.9;
+    rc.creep = -0.0004;
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.slip_operator = RB_SLIP_UPSTREAM;
+    rc.yield_stress = 35.0;
+    rc.hardening = hardening;
+    return rc;
+}
+
+/* FX/(FSTAT FN) and the elements that stick, slip and yield, as CONTACT prints them for
+ * testbank/examples_plast/carter_plast; its solver stops at 1e-5. */
+static const struct {
+    double hardening, h;
+    int n;
+    double ratio;
+    int stick, slip, yield;
+} carter_plast[] = {
+    {4018000.0, 0.08, 30, 0.6562, 12, 11, 3},  {123000.0, 0.08, 30, 0.6420, 11, 8, 7},
+    {0.0, 0.08, 30, 0.5959, 9, 4, 13},         {-20500.0, 0.08, 30, 0.5509, 8, 3, 15},
+    {4018000.0, 0.04, 55, 0.6478, 25, 21, 5},  {123000.0, 0.04, 55, 0.6340, 22, 15, 14},
+    {0.0, 0.04, 55, 0.5896, 19, 7, 25},        {-20500.0, 0.04, 55, 0.5457, 17, 4, 30},
+    {4018000.0, 0.02, 105, 0.6436, 52, 41, 8}, {123000.0, 0.02, 105, 0.6299, 46, 29, 26},
+    {0.0, 0.02, 105, 0.5864, 39, 12, 50},      {-20500.0, 0.02, 105, 0.5430, 34, 5, 62},
+};
+
+static void contact_program_is_met(void **state)
+{
+    (void)state;
+    static const rb_contact_solver by[] = {RB_SOLVER_NEWTON, RB_SOLVER_LEMKE};
+
+    for (size_t k = 0; k < sizeof carter_plast / sizeof *carter_plast; k++)
+        for (int j = 0; j < 2 && (j == 0 || carter_plast[k].n < 60); j++) {
+            rb_rolling_case rc = plastic_example(carter_plast[k].hardening);
+            rc.contact_elements = carter_plast[k].n;
+            rc.zone = 0.5 * carter_plast[k].n * carter_plast[k].h;
+            rc.solver = by[j];
+            rb_rolling_solution s = solved(&rc);
+            CHECK_ABS(s.force_ratio, carter_plast[k].ratio, 1e-4, "case %zu", k + 1);
+            assert_int_equal(s.solver, by[j]);
+            assert_int_equal(s.stick, carter_plast[k].stick);
+            assert_int_equal(s.slipping - s.yielding, carter_plast[k].slip);
+            assert_int_equal(s.yielding, carter_plast[k].yield);
+            rb_rolling_solution_free(&s);
+        }
+}
+
+static void count_zones(const rb_contact_state *state, int *stick, int *slip, int *yield)
+{
+    *stick = *slip = *yield = 0;
+    for (int i = 0; i < state->n; i++) {
+        *stick += state->zone[i] == RB_ZONE_STICK;
+        *slip += state->zone[i] == RB_ZONE_SLIP_NEGATIVE ||
+                 state->zone[i] == RB_ZONE_SLIP_POSITIVE;
+        *yield += state->zone[i] >= RB_ZONE_YIELD_NEGATIVE;
+    }
+}
+
+/* Of testbank/examples_plast/catt2d_plast: a shift with FX = 0.6 FSTAT FN, then steps of
+ * one element with the creepage -0.0004; what has yielded rides with the material. */
+static void rolling_from_a_shift_is_met(void **state)
+{
+    (void)state;
+    static const struct {
+        double ratio;
+        int stick, slip, yield;
+    } want[] = {{0.6, 14, 8, 4},    {0.6051, 17, 4, 5}, {0.6100, 16, 4, 6},
+                {0.6146, 14, 4, 8}, {0.6189, 13, 4, 9}, {0.6230, 12, 4, 10}};
+    rb_rolling_case rc = plastic_example(123000.0);
+    rb_rolling_mesh mesh;
+    rb_rolling_bodies bodies;
+    rb_contact_state x;
+    rb_message why = {""};
+    enum { N = 30 };
+    double r[2 * N], w[2 * (N + 1)], w_T[N], yielded[N + 1] = {0}, own[N];
+
+    rc.contact_elements = N;
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -1.2, 1.2, &mesh, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, &why), RB_OK);
+    CHECK_STATUS(rb_contact_state_alloc(N, &x), RB_OK);
+    for (int step = 0; step < 6; step++) {
+        const rb_rolling_past past = {w_T, yielded};
+        rb_contact_problem p;
+        int stick, slip, yield;
+        rc.formulation = step ? RB_TRANSIENT : RB_STATIC;
+        rc.creep = step ? -0.0004 : NAN;
+        rc.force_ratio = step ? NAN : 0.6;
+        CHECK_STATUS(rb_rolling_problem_create(&rc, &mesh, &bodies, step ? &past : NULL,
+                                               0.08, &p, &why),
+                     RB_OK);
+        CHECK_STATUS(rb_rolling_problem_solve(&p, &rc, step > 0, &x, &why), RB_OK);
+        double Q = 0.0;
+        for (int i = 0; i < N; i++)
+            Q += 0.08 * x.q[i];
+        count_zones(&x, &stick, &slip, &yield);
+        CHECK_ABS(Q / (0.5 * 178.9), want[step].ratio, 1e-4, "step %d", step);
+        assert_int_equal(stick, want[step].stick);
+        assert_int_equal(slip, want[step].slip);
+        assert_int_equal(yield, want[step].yield);
+        memcpy(r, x.p, sizeof x.p[0] * N);
+        memcpy(r + N, x.q, sizeof x.q[0] * N);
+        rb_bem_flexibility_apply(&bodies.f, r, w);
+        memcpy(w_T, w + N + 2, sizeof w_T);
+        rb_contact_yielded(&p, x.plastic, own);
+        for (int i = 0; i < N; i++)
+            yielded[i] = i + 1 < N ? yielded[i + 1] + own[i + 1] : 0.0;
+        rb_contact_problem_free(&p);
+    }
+    rb_contact_state_free(&x);
+    rb_rolling_bodies_free(&bodies);
+    rb_rolling_mesh_free(&mesh);
+}
+
+/* Rigid bodies between which the layer alone gives way: from the leading edge q grows by
+ * xi/L_T per length to the yield stress, by xi/(L_T + 1/k) to mu p, and is mu p then. */
+static double brush_force(const rb_rolling_case *rc, double a)
+{
+    const double L = rc->interlayer_tangential, xi = fabs(rc->creep),
+                 most = rc->mu / (2.0 * rc->a.radius * rc->interlayer_normal);
+    const double elastic = xi / L, plastic = xi / (L + 1.0 / rc->hardening);
+    const double s1 = rc->yield_stress / elastic;
+    /* most (2 a s - s^2) = yield + plastic (s - s1) */
+    const double b = 2.0 * a * most - plastic, c = rc->yield_stress - plastic * s1;
+    const double s2 = (b + sqrt(b * b - 4.0 * most * c)) / (2.0 * most), end = 2.0 * a;
+    const double slides =
+        most * (a * (end * end - s2 * s2) - (gsl_pow_3(end) - gsl_pow_3(s2)) / 3.0);
+
+    return 0.5 * elastic * s1 * s1 + c * (s2 - s1) + 0.5 * plastic * (s2 * s2 - s1 * s1) +
+           slides;
+}
+
+static void brushes_converge_to_second_order(void **state)
+{
+    (void)state;
+    static const double hardening[] = {2e4, 4e5, 2e6};
+    static const int n[] = {50, 100, 200};
+
+    for (int k = 0; k < 3; k++) {
+        double error[3];
+        for (int j = 0; j < 3; j++) {
+            rb_rolling_case rc = rb_rolling_case_defaults();
+            rc.a.support = RB_BEM_HALFPLANE;
+            rc.a.young = 1e13;
+            rc.a.poisson = 0.5;
+            rc.gap = RB_GAP_PARABOLA;
+            rc.interlayer_normal = 1e-6;
+            rc.interlayer_tangential = 2e-6;
+            rc.load = 2.0 / (3.0 * rc.a.radius * rc.interlayer_normal);
+            rc.creep = 0.4 * rc.mu * rc.interlayer_tangential /
+                       (rc.a.radius * rc.interlayer_normal);
+            rc.yield_stress = 900.0;
+            rc.hardening = hardening[k];
+            rc.formulation = RB_STEADY;
+            rc.mesh = RB_MESH_ALIGNED;
+            rc.slip_operator = RB_SLIP_SECOND;
+            rc.contact_elements = n[j];
+            rb_rolling_solution s = solved(&rc);
+            assert_true(s.stick > 0 && s.yielding > 0 && s.slipping > s.yielding);
+            const double want = brush_force(&rc, s.half_width);
+            error[j] = fabs(-s.tangential_load - want) / (rc.mu * rc.load);
+            CHECK_MAX(error[j], 1.3e-3 * gsl_pow_2(50.0 / n[j]), "k = %g, n = %d",
+                      hardening[k], n[j]);
+            rb_rolling_solution_free(&s);
+        }
+    }
+}
+
+/* ---- The law, from the printed columns ------------------------------------------------
+ */
+
+/* Slip of element i by the displacements of A and B together, where these are known. */
+static double slip_of(const rb_rolling_case *rc, const rb_rolling_solution *s, int i)
+{
+    if (rc->formulation == RB_STATIC)
+        return s->tangential_shift + s->ut[i];
+    if (rc->slip_operator == RB_SLIP_UPSTREAM)
+        return s->creepage * (s->x[i + 1] - s->x[i]) + s->ut[i] - s->ut[i + 1];
+    const double t = 0.0740956;
+    return s->creepage * (s->x[i + 1] - s->x[i]) + (1.0 - t) / 4.0 * s->ut[i - 1] +
+           (3.0 + 3.0 * t) / 4.0 * s->ut[i] - (5.0 + 3.0 * t) / 4.0 * s->ut[i + 1] +
+           (1.0 + t) / 4.0 * s->ut[i + 2];
+}
+
+/* What of it the layer takes. */
+static double plastic_of(const rb_rolling_case *rc, const rb_rolling_solution *s, int i)
+{
+    const double *u = s->plastic;
+    return rc->formulation == RB_STATIC ? u[i]
+           : rc->slip_operator == RB_SLIP_UPSTREAM
+               ? u[i] - u[i + 1]
+               : 1.5 * u[i] - 2.0 * u[i + 1] + 0.5 * u[i + 2];
+}
+
+/* Natural residuals of both bounds, in units of p0 and of the largest slip. */
+static double law_violation(const rb_rolling_case *rc, const rb_rolling_solution *s)
+{
+    double stress = rc->mu * s->max_pressure, length = 0.0, worst = 0.0;
+
+    for (int i = 0; i < s->n; i++)
+        length = fmax(length, fabs(s->shift[i]));
+    for (int i = 1; i < s->n - 2 && length > 0.0; i++) {
+        const double q = fabs(s->q[i]),
+                     tau = rc->yield_stress + rc->hardening * s->plastic[i];
+        /* a layer that has softened to nothing carries no friction */
+        const double with = s->q[i] == 0.0 ? -s->shift[i] : s->q[i],
+                     against = with > 0.0 ? -1.0 : 1.0;
+        const double slip = against * slip_of(rc, s, i), plastic = plastic_of(rc, s, i);
+        if (s->zone[i] == RB_ZONE_SEPARATED)
+            continue;
+        CHECK_ABS(slip, against * s->shift[i], 1e-6 * length, "slip of element %d", i);
+        worst =
+            fmax(worst,
+                 fabs(fmin((rc->mu * s->p[i] - q) / stress, (slip - plastic) / length)));
+        worst = fmax(worst, fabs(fmin((fmax(tau, 0.0) - q) / stress, plastic / length)));
+    }
+    return worst;
+}
+
+static int draw(unsigned *seed, int n)
+{
+    *seed = *seed * 1103515245u + 12345u;
+    return (int)(*seed >> 16) % n;
+}
+
+/* Bodies, controls, meshes, layers by a fixed seed; Lemke's and Newton's answers are the
+ * same one. */
+static void law_holds_by_the_columns(void **state)
+{
+    (void)state;
+    unsigned seed = 5;
+    int yielding = 0, both_bounds = 0;
+    for (int k = 0; k < 40; k++) {
+        rb_rolling_case rc = rb_rolling_case_defaults();
+        const double E[] = {2e5, 7e4, 5e3};
+        rc.a.radius = 100.0;
+        rc.a.support = draw(&seed, 5) ? RB_BEM_HALFPLANE : RB_BEM_HUB;
+        rc.a.young = 2e5;
+        rc.a.poisson = 0.3;
+        rc.elastic_b = draw(&seed, 3) > 0;
+        rc.b.young = E[draw(&seed, 3)];
+        rc.b.poisson = 0.3;
+        rc.mu = draw(&seed, 2) ? 0.3 : 0.8;
+        rc.load = 200.0;
+        rc.formulation = draw(&seed, 4) ? RB_STEADY : RB_STATIC;
+        if (rc.formulation == RB_STATIC)
+            rc.shift = (draw(&seed, 2) ? 1.0 : -1.0) * 1e-4 * (1 + draw(&seed, 20));
+        else
+            rc.creep_ratio = (draw(&seed, 2) ? 0.1 : -0.1) * (1 + draw(&seed, 20));
+        rc.mesh = rc.formulation == RB_STATIC ? RB_MESH_UNIFORM
+                                              : (rb_rolling_mesh_kind)draw(&seed, 3);
+        rc.slip_operator = rc.mesh == RB_MESH_ALIGNED ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
+        rc.contact_elements = 30;
+        rc.yield_stress =
+            rc.mu * rb_rolling_derive(&rc).stress * (0.05 + 0.1 * draw(&seed, 10));
+        const rb_rolling_derived d = rb_rolling_derive(&rc);
+        const double of[] = {0.0, 0.01, 0.3, 10.0, 1000.0, -0.01, -0.05};
+        rc.hardening = of[draw(&seed, 7)] * d.modulus / d.half_width;
+        rc.solver = RB_SOLVER_NEWTON;
+        rb_rolling_solution newton = solved(&rc), lemke;
+        CHECK_MAX(law_violation(&rc, &newton), 1e-7, "case %d", k);
+        yielding += newton.yielding > 0;
+        for (int i = 1; i < newton.n - 2; i++)
+            both_bounds += newton.zone[i] == RB_ZONE_SLIP_NEGATIVE &&
+                           plastic_of(&rc, &newton, i) > 1e-3 * fabs(newton.shift[i]);
+        rc.solver = RB_SOLVER_LEMKE;
+        rc.lcp_form = draw(&seed, 2) ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+        if (rc.hardening >= 0.0) {
+            lemke = solved(&rc);
+            CHECK_ABS(lemke.tangential_load, newton.tangential_load, 1e-9 * rc.load,
+                      "case %d", k);
+            assert_int_equal(lemke.yielding, newton.yielding);
+            rb_rolling_solution_free(&lemke);
+        }
+        rb_rolling_solution_free(&newton);
+    }
+    assert_true(yielding > 20 && both_bounds > 10);
+}
+
+/* A yield stress that nothing reaches leaves every bit as it is without. */
+static void large_yield_stress_is_elastic(void **state)
+{
+    (void)state;
+    const rb_rolling_formulation of[] = {RB_STATIC, RB_STEADY, RB_TRANSIENT};
+
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_case rc = plastic_example(0.0);
+        rc.yield_stress = 0.0;
+        rc.interlayer_tangential = 1e-6;
+        rc.formulation = of[k];
+        rc.mesh = k == 1 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        rc.shift = k == 0 ? 1e-3 : NAN;
+        rc.creep = k == 0 ? NAN : rc.creep;
+        rc.distance = k == 2 ? 1.0 : 0.0;
+        rb_rolling_solution elastic = solved(&rc);
+        rc.yield_stress = 1e4;
+        rc.hardening = 1e5;
+        rb_rolling_solution layer = solved(&rc);
+        assert_int_equal(layer.yielding, 0);
+        for (int i = 0; i < elastic.n; i++) {
+            CHECK_ABS(layer.q[i], elastic.q[i],
+                      k < 2 ? 0.0 : 1e-12 * elastic.max_pressure,
+                      "formulation %d, q of element %d", k, i);
+            assert_true(layer.plastic[i] == 0.0);
+        }
+        rb_rolling_solution_free(&layer);
+        rb_rolling_solution_free(&elastic);
+    }
+}
+
+/* Without hardening the layer is the bound min(mu p, yield); below every mu p it is the
+ * only one, and a tenth of it in full sliding is that times the width of the contact. */
+static void small_yield_stress_is_a_bound(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plastic_example(0.0);
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 60;
+    rc.creep = -0.01;
+    rc.yield_stress = 0.5;
+    rb_rolling_solution s = solved(&rc);
+    for (int i = 0; i < s.n; i++)
+        CHECK_ABS(s.q[i], fmin(rc.mu * s.p[i], rc.yield_stress), 1e-9, "element %d", i);
+    CHECK_REL(s.tangential_load, 2.0 * s.half_width * rc.yield_stress, 1e-3, "Q");
+    rb_rolling_solution_free(&s);
+}
+
+/* ---- Histories ------------------------------------------------------------------------
+ */
+
+typedef struct {
+    double *before; /* n: yielded after the step before */
+    int n, steps, yields;
+} seen;
+
+/* Bound and growth of what has yielded, step by step. */
+static int see_step(const rb_rolling_model *m, const rb_rolling_history *h, int step,
+                    int steps, void *context)
+{
+    seen *c = context;
+    const rb_contact_problem *p = &m->problem;
+    (void)h;
+    (void)step;
+    (void)steps;
+    if (!c->before) {
+        c->n = p->n;
+        c->before = calloc((size_t)p->n, sizeof *c->before);
+    }
+    rb_rolling_solution s;
+    rb_message why;
+    CHECK_STATUS(rb_rolling_model_solution(m, &s, &why), RB_OK);
+    for (int i = 0; i < p->n; i++) {
+        const double tau = m->rc.yield_stress + m->rc.hardening * s.plastic[i];
+        const double own = s.plastic[i] - c->before[i];
+        CHECK_MAX(fabs(s.q[i]) - fmin(tau, m->rc.mu * s.p[i]), 1e-9 * s.max_pressure,
+                  "step %d, element %d", step, i);
+        CHECK_MAX(-own, 1e-15, "step %d, element %d", step, i);
+        if (own > 1e-9) {
+            CHECK_ABS(fabs(s.q[i]), tau, 1e-9 * s.max_pressure, "step %d, element %d",
+                      step, i);
+            assert_true(s.q[i] * s.shift[i] < 0.0);
+            c->yields++;
+        }
+        c->before[i] = s.plastic[i];
+    }
+    c->steps++;
+    rb_rolling_solution_free(&s);
+    return 0;
+}
+
+/* To and fro: what has yielded grows in both directions. */
+static void shift_to_and_fro_hardens(void **state)
+{
+    (void)state;
+    static const double shift[] = {1e-3, 2e-3, 3e-3, 1e-3, -1e-3, -3e-3, 0.0, 3e-3};
+    rb_rolling_case rc = plastic_example(5000.0);
+    rb_rolling_program program = {.n = 8, .shift = shift};
+    rb_rolling_model model;
+    rb_rolling_history history;
+    rb_message why = {""};
+    seen c = {0};
+
+    rc.formulation = RB_STATIC;
+    rc.creep = NAN;
+    rc.contact_elements = 40;
+    CHECK_STATUS(
+        rb_rolling_history_run(&rc, &program, see_step, &c, &model, &history, &why),
+        RB_OK);
+    assert_int_equal(c.steps, 8);
+    assert_true(c.yields > 40);
+    rb_rolling_history_free(&history);
+    rb_rolling_model_free(&model);
+    free(c.before);
+}
+
+/* What has yielded leaves the contact with the material. */
+static void a_transient_becomes_steady(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plastic_example(123000.0);
+    rc.contact_elements = 60;
+    rc.zone = 1.25;
+    rc.creep = NAN;
+    rc.force_ratio = 0.6;
+    rb_rolling_solution steady = solved(&rc);
+    rc.formulation = RB_TRANSIENT;
+    rc.distance = 5.0;
+    rb_rolling_solution end = solved(&rc);
+    CHECK_REL(end.creepage, steady.creepage, 5e-3, "xi");
+    assert_true(abs(end.yielding - steady.yielding) <= 1);
+    double most = 0.0, most_steady = 0.0;
+    for (int i = 0; i < end.n; i++)
+        most = fmax(most, end.plastic[i]);
+    for (int i = 0; i < steady.n; i++)
+        most_steady = fmax(most_steady, steady.plastic[i]);
+    CHECK_REL(most, most_steady, 5e-2, "the most that has yielded");
+    rb_rolling_solution_free(&end);
+    rb_rolling_solution_free(&steady);
+}
+
+/* ---- A given force, and what is refused -----------------------------------------------
+ */
+
+static void forces_find_their_creepage(void **state)
+{
+    (void)state;
+    static const double hardening[] = {0.0, 123000.0, 4018000.0, -20500.0};
+
+    for (int k = 0; k < 4; k++)
+        for (int j = 0; j < 2; j++) {
+            rb_rolling_case rc = plastic_example(hardening[k]);
+            rc.contact_elements = 60;
+            rc.zone = 1.25;
+            rc.creep = NAN;
+            rc.force_ratio = j ? 0.5 : 0.2;
+            rb_rolling_solution s = solved(&rc);
+            CHECK_ABS(s.force_ratio, rc.force_ratio, 1e-10, "k = %g", hardening[k]);
+            rc.creep = s.creepage;
+            rc.force_ratio = NAN;
+            rb_rolling_solution again = solved(&rc);
+            CHECK_ABS(again.force_ratio, s.force_ratio, 1e-10, "k = %g", hardening[k]);
+            rb_rolling_solution_free(&again);
+            rb_rolling_solution_free(&s);
+        }
+}
+
+static void refused(rb_rolling_case rc, const char *words)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
+    if (!strstr(why.text, words))
+        fail_msg("'%s' does not say '%s'", why.text, words);
+    rb_rolling_solution_free(&s);
+}
+
+static void bad_layers_are_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plastic_example(0.0);
+    rc.yield_stress = -1.0;
+    refused(rc, "yield stress: expected > 0, got -1");
+    rc = plastic_example(NAN);
+    refused(rc, "hardening: expected a finite number");
+    rc = plastic_example(100.0);
+    rc.yield_stress = 0.0;
+    refused(rc, "--yield-stress");
+    rc = plastic_example(-1e8);
+    refused(rc, "softening by 1e+08 MPa/mm has no unique solution");
+    rc = plastic_example(0.0);
+    rc.contact_elements = 30;
+    rc.zone = 1.25;
+    rc.creep = NAN;
+    rc.force = 80.0;
+    refused(rc, "force Q = 80");
+    rc.hardening = -20500.0;
+    rc.force = -55.0;
+    refused(rc, "force Q = -55");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(contact_program_is_met),
+        cmocka_unit_test(rolling_from_a_shift_is_met),
+        cmocka_unit_test(brushes_converge_to_second_order),
+        cmocka_unit_test(law_holds_by_the_columns),
+        cmocka_unit_test(large_yield_stress_is_elastic),
+        cmocka_unit_test(small_yield_stress_is_a_bound),
+        cmocka_unit_test(shift_to_and_fro_hardens),
+        cmocka_unit_test(a_transient_becomes_steady),
+        cmocka_unit_test(forces_find_their_creepage),
+        cmocka_unit_test(bad_layers_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
