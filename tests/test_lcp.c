@@ -352,6 +352,8 @@ static void check_tableau(const rb_lcp_pivot *seen, const watched *p)
     }
 }
 
+enum { ATTEMPT = 3 };
+
 static void watch(const rb_lcp_pivot *seen, void *context)
 {
     watched *p = context;
@@ -361,6 +363,13 @@ static void watch(const rb_lcp_pivot *seen, void *context)
     assert_true(seen->ratio >= -1e-12 && seen->z0 >= 0.0);
     p->pivots[p->count][0] = seen->entering;
     p->pivots[p->count++][1] = seen->leaving;
+    assert_int_equal(seen->attempt, ATTEMPT);
+    for (int i = 0; i < p->n; i++)
+        if (seen->basis[i] == 2 * p->n)
+            CHECK_ABS(seen->value[i], seen->z0, 1e-12 * (1.0 + seen->z0), "z0");
+    if (seen->tableau)
+        assert_memory_equal(seen->value, seen->tableau + p->n * (p->n + 1),
+                            (size_t)p->n * sizeof *seen->value);
     if (seen->tableau)
         check_tableau(seen, p);
 }
@@ -383,6 +392,7 @@ static void the_trace_sees_every_pivot(void **state)
     p_ = p_full_ = (watched){.n = n, .ldm = ldm, .M = M_, .q = q_, .cover = cover};
     opt.cover = cover;
     opt.trace = watch;
+    opt.attempt = ATTEMPT;
     opt.trace_context = &p_;
     CHECK_STATUS(rb_lcp_lemke(n, M_, ldm, q_, &opt, z_, &info), RB_OK);
     assert_int_equal(info.iters, p_.count);
@@ -392,6 +402,7 @@ static void the_trace_sees_every_pivot(void **state)
     CHECK_STATUS(rb_lcp_lemke(n, M_, ldm, q_, &opt, z_, &info), RB_OK);
     assert_int_equal(p_full_.count, p_.count);
     assert_memory_equal(p_full_.pivots, p_.pivots, sizeof p_.pivots);
+    CHECK_STATUS(rb_lcp_lemke(n, M_, ldm, q_, NULL, z_, NULL), RB_OK); /* no info */
 }
 
 static void the_iteration_limit_keeps_the_last_point(void **state)

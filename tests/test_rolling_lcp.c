@@ -127,11 +127,36 @@ static void lemke_needs_its_first_attempt_only(void **state)
     }
 }
 
+static void keep_attempt(const rb_lcp_pivot *pivot, void *context)
+{
+    *(int *)context = pivot->attempt;
+}
+
+/* The trace says which form of the problem a pivot belongs to. */
+static void pivots_tell_their_attempt(void **state)
+{
+    (void)state;
+    for (int kwak = 0; kwak < 2; kwak++) {
+        rb_rolling_model model = dissimilar_model(0, 0), again;
+        rb_rolling_case rc = model.rc;
+        int attempt = -1;
+        rc.solver = RB_SOLVER_LEMKE;
+        rc.lcp_form = kwak ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+        rc.trace = keep_attempt;
+        rc.trace_context = &attempt;
+        CHECK_STATUS(rb_rolling_model_create(&rc, &again, NULL), RB_OK);
+        assert_int_equal(attempt, kwak ? 2 : 0);
+        rb_rolling_model_free(&again);
+        rb_rolling_model_free(&model);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_row_is_its_equation),
         cmocka_unit_test(lemke_needs_its_first_attempt_only),
+        cmocka_unit_test(pivots_tell_their_attempt),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

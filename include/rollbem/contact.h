@@ -263,7 +263,9 @@ typedef struct {
     rb_contact_lcp_form lcp_form; /* the first one that Lemke tries */
     double tol;     /* of the scaled natural residual; not below the problem's rounding */
     double sliding; /* > 0: an |xi| that makes everything slide, to start searches from */
-    rb_lcp_trace *trace; /* sees every pivot of Lemke, with trace_context; NULL: nobody */
+    /* sees every pivot of Lemke, with trace_context; pivot->attempt is 0 in the pivoted
+     * form, 1 in its mirror image, 2 in Kwak's; NULL: nobody */
+    rb_lcp_trace *trace;
     void *trace_context;
     int trace_tableau; /* 1: with the whole tableau */
 } rb_contact_options;

@@ -22,11 +22,14 @@ typedef struct {
     int entering, leaving; /* variable numbers */
     int row;               /* row of the pivot in the tableau */
     double ratio, z0;      /* step length; z0 after the pivot */
+    int attempt;           /* options.attempt */
     int n;                 /* order of the problem */
-    const int *basis;      /* n: basic variable of each row, after the pivot; borrowed */
+    const int *basis;      /* n: basic variable of each row, after the pivot; borrowed,
+                              as all here; NULL of bimatrix games */
+    const double *value;   /* n: the value of each of them */
     const int *nonbasis; /* n + 1: variable of each column; NULL: mixed has no tableau */
     const double *tableau; /* n x (n + 2) column-major after the pivot: basic = last
-                              column + columns times nonbasic; borrowed; NULL unless
+                              column + columns times nonbasic; NULL unless
                               options.trace_tableau */
 } rb_lcp_pivot;
 
@@ -44,9 +47,11 @@ typedef struct {
     rb_lcp_rule rule;
     rb_lcp_trace *trace; /* NULL: none */
     void *trace_context;
+    int attempt;       /* handed to trace: which of the caller's problems this is */
     int trace_tableau; /* 1: hand the whole tableau to trace (slow) */
 } rb_lcp_options;
 
+/* Whoever hands one out takes NULL as well. */
 typedef struct {
     int iters;        /* pivots; newton: linear systems */
     double res;       /* max |min(z, Mz + q)|, recomputed from z alone */

@@ -100,6 +100,7 @@ static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_sta
 }
 
 typedef struct {
+    int number;
     rb_contact_lcp_form form;
     int mirrored;
     double xi0;
@@ -123,6 +124,7 @@ static rb_status try_lemke(rb_contact_problem *problem, const rb_contact_options
         pivoting.trace = options->trace;
         pivoting.trace_context = options->trace_context;
         pivoting.trace_tableau = options->trace_tableau;
+        pivoting.attempt = at->number;
         s = rb_lcp_lemke(lcp.size, lcp.M, lcp.size, lcp.b, &pivoting, z, &info);
         state->iterations += info.iters;
         if (s < 0)
@@ -160,9 +162,9 @@ static int plan_attempts(const rb_contact_problem *problem,
     const int backwards = slides_backwards(problem);
     const double xi0 = (backwards ? -1.0 : 1.0) * options->sliding;
 
-    at[0] = (attempt){RB_LCP_PIVOTED, backwards, xi0};
-    at[1] = (attempt){RB_LCP_PIVOTED, !backwards, xi0};
-    at[2] = (attempt){RB_LCP_KWAK, 0, xi0};
+    at[0] = (attempt){0, RB_LCP_PIVOTED, backwards, xi0};
+    at[1] = (attempt){1, RB_LCP_PIVOTED, !backwards, xi0};
+    at[2] = (attempt){2, RB_LCP_KWAK, 0, xi0};
     return options->lcp_form == RB_LCP_KWAK ? 2 : 0;
 }
 

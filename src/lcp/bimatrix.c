@@ -152,6 +152,7 @@ static void tell_trace(const rb_lcp_options *opt, const rb_lcp_info *info, int l
                                .leaving = leaving,
                                .row = row,
                                .ratio = ratio,
+                               .attempt = opt->attempt,
                                .n = labels};
     if (opt->trace)
         opt->trace(&seen, opt->trace_context);

@@ -220,8 +220,10 @@ static int pivot(lemke *l, int row, int entering)
                                      .row = row,
                                      .ratio = t->q[row],
                                      .z0 = lemke_z0(l),
+                                     .attempt = l->opt.attempt,
                                      .n = l->n,
                                      .basis = t->basis,
+                                     .value = t->q,
                                      .nonbasis = t->nonbasis});
     return leaving;
 }

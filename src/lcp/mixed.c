@@ -366,8 +366,10 @@ static void tell_trace(const mixed *p, int entering, int leaving, int slot, doub
                                .row = slot >= 0 ? slot : p->b.n,
                                .ratio = step,
                                .z0 = value_of_t(p),
+                               .attempt = p->opt.attempt,
                                .n = p->n,
-                               .basis = p->b.variable};
+                               .basis = p->b.variable,
+                               .value = p->value};
     if (p->opt.trace)
         p->opt.trace(&seen, p->opt.trace_context);
 }

@@ -40,6 +40,11 @@ int rb_rolling_can(const rb_rolling_case *rc, int abilities)
            (!rc->elastic_b || rb_rolling_body_can(&rc->b, abilities));
 }
 
+int rb_rolling_relaxes(const rb_rolling_case *rc)
+{
+    return !rb_rolling_can(rc, RB_BODY_ELASTIC);
+}
+
 double rb_rolling_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
     const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);

@@ -48,11 +48,6 @@ static double normal_work(int n, const double *x, const double *w, const double 
     return work;
 }
 
-int rb_rolling_relaxes(const rb_rolling_case *rc)
-{
-    return !rb_rolling_can(rc, RB_BODY_ELASTIC);
-}
-
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
 {
     const rb_contact_problem *p = &model->problem;
