@@ -1,9 +1,12 @@
 /* The layers of docs/architecture.md: a folder of src/ includes public headers of folders
- * below it and its own private ones.  Run from the project's root. */
+ * below it and its own private ones, and its files call each other in no circle.  Run
+ * from the project's root. */
 #include "check.h"
 
 #include <dirent.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* A folder and the public headers (without rollbem/ and .h) that it may include. */
 static const struct {
@@ -75,8 +78,101 @@ static void folders_look_down_only(void **state)
     }
 }
 
+/* ---- Calls between files --------------------------------------------------------------
+ */
+
+enum { FILES = 400, SYMBOLS = 10000, WORD = 120 };
+
+static struct {
+    int files, symbols;
+    char file[FILES][WORD], symbol[SYMBOLS][WORD];
+    int owner[SYMBOLS];       /* the file that defines it */
+    char calls[FILES][FILES]; /* directly, then by way of others */
+} all;
+
+/* Its number; -1: an object whose source is gone. */
+static int file_number(const char *object)
+{
+    char source[WORD];
+    const char *at = strstr(object, "src/");
+    if (!at || strstr(at, "src/mpi/"))
+        return -1;
+    snprintf(source, sizeof source, "%.*sc", (int)strlen(at) - 1, at);
+    for (int k = all.files - 1; k >= 0; k--)
+        if (strcmp(all.file[k], source) == 0)
+            return k;
+    if (access(source, R_OK) != 0)
+        return -1;
+    assert_true(all.files < FILES);
+    strcpy(all.file[all.files], source);
+    return all.files++;
+}
+
+static int owner_of(const char *symbol)
+{
+    for (int k = 0; k < all.symbols; k++)
+        if (strcmp(all.symbol[k], symbol) == 0)
+            return all.owner[k];
+    return -1;
+}
+
+/* Each symbol that an object defines (first round) or wants (second round). */
+static void read_symbols(int round)
+{
+    char command[200], line[600], object[WORD], symbol[WORD], kind;
+    const char *build = getenv("B");
+    snprintf(command, sizeof command, "nm -A -P %s/src/*/*.o", build ? build : "build");
+    FILE *nm = popen(command, "r");
+    assert_non_null(nm);
+    while (fgets(line, sizeof line, nm)) {
+        if (sscanf(line, "%119[^:]: %119s %c", object, symbol, &kind) != 3)
+            continue;
+        const int file = file_number(object), wants = kind == 'U';
+        if (file < 0 || wants != round || (!wants && !strchr("TDRBV", kind)))
+            continue;
+        if (!wants) {
+            assert_true(all.symbols < SYMBOLS);
+            strcpy(all.symbol[all.symbols], symbol);
+            all.owner[all.symbols++] = file;
+        } else if (owner_of(symbol) >= 0) {
+            all.calls[file][owner_of(symbol)] = 1;
+        }
+    }
+    assert_int_equal(pclose(nm), 0);
+}
+
+static void close_calls(void)
+{
+    for (int k = 0; k < all.files; k++)
+        for (int i = 0; i < all.files; i++)
+            for (int j = 0; all.calls[i][k] && j < all.files; j++)
+                all.calls[i][j] |= all.calls[k][j];
+}
+
+/* A file and its helper may call each other; more than two in a circle may not. */
+static void files_call_each_other_in_no_circle(void **state)
+{
+    (void)state;
+    int longest = 0;
+    read_symbols(0);
+    read_symbols(1);
+    assert_true(all.files > 100 && all.symbols > 500);
+    close_calls();
+    for (int i = 0; i < all.files; i++) {
+        int others = 0;
+        for (int j = 0; j < all.files; j++)
+            others += j != i && all.calls[i][j] && all.calls[j][i];
+        if (others > 1)
+            print_error("%s: in a circle of %d files\n", all.file[i], others + 1);
+        longest = others > longest ? others : longest;
+    }
+    assert_true(longest <= 1);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(folders_look_down_only)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(folders_look_down_only),
+        cmocka_unit_test(files_call_each_other_in_no_circle)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,11 +11,6 @@ double rb_contact_slope(int zone)
                                            : 0.0;
 }
 
-rb_contact_zone rb_contact_sliding_zone(double lambda)
-{
-    return lambda >= 0.0 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_SLIP_POSITIVE;
-}
-
 void rb_contact_reduced_free(rb_contact_reduced *r)
 {
     free(r->contact);

@@ -4,6 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+rb_contact_zone rb_contact_sliding_zone(double lambda)
+{
+    return lambda >= 0.0 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_SLIP_POSITIVE;
+}
+
 rb_status rb_contact_state_alloc(int n, rb_contact_state *state)
 {
     memset(state, 0, sizeof *state);
