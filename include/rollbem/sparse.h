@@ -88,6 +88,8 @@ rb_status rb_sparse_cholesky_solve(rb_sparse_cholesky *factor, const double *b,
 rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_sparse *h,
                                         rb_sparse *w);
 double rb_sparse_cholesky_flops(const rb_sparse_cholesky *factor);
+/* Stored in the factor. */
+double rb_sparse_cholesky_entries(const rb_sparse_cholesky *factor);
 void rb_sparse_cholesky_free(rb_sparse_cholesky *factor);
 
 RB_PUBLIC_END

@@ -390,6 +390,11 @@ double rb_sparse_cholesky_flops(const rb_sparse_cholesky *factor)
     return factor->flops;
 }
 
+double rb_sparse_cholesky_entries(const rb_sparse_cholesky *factor)
+{
+    return factor->l ? factor->c.lnz : factor->n;
+}
+
 void rb_sparse_cholesky_free(rb_sparse_cholesky *factor)
 {
     if (!factor)

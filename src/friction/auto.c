@@ -61,8 +61,9 @@ typedef struct {
 
 enum { MEMBERS = 4 };
 
-/* Some sweeps are cheap where W is there and solve most problems.  The global form would
- * have to be condensed for them. */
+/* Some sweeps are cheap where W is there and solve most problems.  The global form has to
+ * be condensed for them, which costs little for rigid bodies and for few contacts on a
+ * large structure. */
 static const plan local_plan[MEMBERS] = {{sweeps, 1.0, 100},
                                          {newton_after_sweeps, 0.7, 0},
                                          {alternating, 1.0, 0},
@@ -89,10 +90,33 @@ typedef struct {
     double *memory; /* r, u, v of the members */
 } portfolio;
 
+/* Condensing takes no more operations than this many factorisations of K, of which a step
+ * of Newton on the global form takes several, or so many per entry of the problem. */
+#define CHEAP_FACTORS 3.0
+#define CHEAP_ENTRY 30.0
+
+static rb_status choose_plan(const rb_friction_task *task, const plan **plans)
+{
+    const rb_friction_problem *g = task->problem;
+    double flops;
+    *plans = task->n ? global_plan : local_plan;
+    if (!task->n || task->measure->spring > 0.0)
+        return RB_OK;
+    const double factor = rb_sparse_cholesky_flops(task->measure->factor);
+    const rb_status s = rb_friction_condense_estimate(g, task->measure->factor, &flops);
+    if (s == RB_OK && flops <= CHEAP_FACTORS * factor +
+                                   CHEAP_ENTRY * (g->K.p[g->dofs] + g->H.p[task->m]))
+        *plans = local_plan;
+    return s;
+}
+
 static rb_status portfolio_init(rb_friction_task *task, portfolio *p)
 {
     const size_t m = (size_t)task->m, n = (size_t)task->n;
-    const plan *plans = task->n ? global_plan : local_plan;
+    const plan *plans;
+    const rb_status s = choose_plan(task, &plans);
+    if (s != RB_OK)
+        return s;
     *p = (portfolio){.task = task, .memory = rb_alloc(2 * m + n, MEMBERS)};
     if (!p->memory)
         return RB_ENOMEM;

@@ -498,3 +498,30 @@ rb_status rb_friction_condense(const rb_friction_problem *global,
     double flops = 0.0;
     return rb_friction_condense_counted(global, local, &flops, why);
 }
+
+/* Per column of H one solve with the part of the factor that belongs to each body it
+ * touches, and the products with the columns there. */
+rb_status rb_friction_condense_estimate(const rb_friction_problem *global,
+                                        const rb_sparse_cholesky *factor, double *flops)
+{
+    const rb_sparse *h = &global->H;
+    const size_t n = (size_t)global->dofs;
+    const double each = rb_sparse_cholesky_entries(factor) / global->dofs;
+    int *body = rb_alloc_int(n), *size = rb_alloc_int(n), *last = rb_alloc_int(n), bodies;
+    rb_status s = body && size && last ? rb_sparse_components(&global->K, &bodies, body)
+                                       : RB_ENOMEM;
+    *flops = rb_sparse_cholesky_flops(factor);
+    for (size_t i = 0; s == RB_OK && i < n; i++)
+        size[body[i]]++;
+    for (int j = 0; s == RB_OK && j < h->cols; j++)
+        for (int k = h->p[j]; k < h->p[j + 1]; k++) {
+            const int b = body[h->i[k]];
+            if (last[b] != j + 1)
+                *flops += 4.0 * each * size[b];
+            last[b] = j + 1;
+        }
+    free(last);
+    free(size);
+    free(body);
+    return s;
+}

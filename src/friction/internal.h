@@ -155,6 +155,9 @@ typedef struct {
 rb_status rb_friction_condense_counted(const rb_friction_problem *global,
                                        rb_friction_problem *local, double *flops,
                                        rb_message *why);
+/* Operations of condensing a global problem whose K has this factor, about. */
+rb_status rb_friction_condense_estimate(const rb_friction_problem *global,
+                                        const rb_sparse_cholesky *factor, double *flops);
 /* W of the task's problem: condensed at first use.  RB_SINGULAR: there is none. */
 rb_status rb_friction_task_condense(rb_friction_task *task);
 /* The blocks of the task's W; borrowed by all who work with them. */
