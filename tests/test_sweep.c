@@ -299,6 +299,16 @@ static void any_result_is_a_column_by_its_name(void **state)
                   "no result 'stick_lenght' (did you mean 'stick_length'?)");
 }
 
+static void studies_name_their_papers(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem(STUDY "--similar --contact-elements 20 --vary-1 'mu .1 .2' "
+                                   "--cite"),
+                     0);
+    assert_non_null(strstr(err, "Carter"));
+    assert_null(strstr(out, "Carter"));
+}
+
 /* Quantities with units are values of the study in its own system. */
 static void values_may_have_units(void **state)
 {
@@ -622,6 +632,7 @@ int main(void)
         cmocka_unit_test(what_is_no_row_of_the_study_is_refused),
         cmocka_unit_test(studies_come_in_three_formats),
         cmocka_unit_test(any_result_is_a_column_by_its_name),
+        cmocka_unit_test(studies_name_their_papers),
         cmocka_unit_test(values_may_have_units),
         cmocka_unit_test(a_map_shows_the_table),
         cmocka_unit_test(a_table_of_cases_may_be_a_grid),

@@ -17,7 +17,7 @@ typedef struct {
     const char *plot, *map, *over, *family, *show;
     cli_pictures pictures;
     rb_report_style style;
-    int jobs, restart, progress, quiet;
+    int jobs, restart, progress, quiet, cite;
     int given[30];
 } study_options;
 

@@ -60,6 +60,8 @@ static const rb_option options[] = {
     RB_FLAG_LINE("progress", PLACE(progress),
                  "time left on standard error also where that is no terminal"),
     RB_FLAG_LINE("quiet", PLACE(quiet), "no summary on standard error"),
+    RB_FLAG_LINE("cite", PLACE(cite),
+                 "the papers that the study rests on, on standard error"),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
@@ -673,6 +675,8 @@ static cli_exit run(study *st)
     if (!st->o->quiet)
         fprintf(stderr, "study: %d cases in %.3g s; not solved: %d of %d\n", sweep.count,
                 spent, st->unsolved, st->cases);
+    if (st->o->cite)
+        rb_report_citations(stderr, &rb_case_settled(st->base)->rc, NULL);
     if (st->no_memory > 0)
         cli_fail(CLI_INTERNAL, "out of memory in %d cases: their status is %d",
                  st->no_memory, RB_ENOMEM);
