@@ -113,9 +113,39 @@ static void hunter(rb_verify *v)
     }
 }
 
+/* Held approach: all tractions follow the relaxation modulus, [1 + f exp(-(1+f) t/tau)]
+ * over 1 + f. */
+static void relaxation(rb_verify *v)
+{
+    enum { STEPS = 60 };
+    static const double time[2] = {0.0, 0.6}, approach[2] = {0.01, 0.01}, f = 3.0;
+    const rb_rolling_program program = {.n = 2, .time = time, .approach = approach};
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_model model = {0};
+    rb_rolling_history h = {0};
+    rb_message why = {""};
+    rc.half_width = rc.load = NAN;
+    rc.mu = 0.0;
+    rc.formulation = RB_STATIC;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.a.memory = (rb_rolling_memory){1, {1.0}, {f}};
+    rc.time_step = time[1] / STEPS;
+    const rb_status s =
+        rb_rolling_history_run(&rc, &program, NULL, NULL, &model, &h, &why);
+    rb_verify_note(v, s, &why);
+    for (int k = STEPS / 3; k <= STEPS && s == RB_OK; k += STEPS / 3)
+        rb_verify_compare(v, h.normal_load[k] / h.normal_load[0],
+                          (1.0 + f * exp(-(1.0 + f) * h.time[k])) / (1.0 + f), 1e-4,
+                          ABSOLUTE, "held approach, f = 3: P(t)/P(0) at t = %g tau",
+                          h.time[k]);
+    rb_rolling_history_free(&h);
+    rb_rolling_model_free(&model);
+}
+
 void rb_verify_rolling(rb_verify *v)
 {
     dissipation(v);
     hunter(v);
+    relaxation(v);
     cattaneo_to_carter(v);
 }
