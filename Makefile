@@ -21,7 +21,7 @@ MPI := $(shell pkg-config --exists ompi-c 2>/dev/null && echo ompi-c)
 # Hardening: fortified calls of the C library, stack protectors, addresses that change with every
 # run, relocations read-only before main.  Sanitizers check more, and fortified calls hide from
 # them; the C library fortifies optimised code only.
-works = $(shell echo 'int main(void) { return 0; }' | $(CC) $(CFLAGS) -Werror $(1) -include stdio.h -x c -o /dev/null - 2>/dev/null && echo '$(1)')
+works = $(shell echo 'int main(void) { return 0; }' | $(CC) $(filter-out --coverage,$(CFLAGS)) -Werror $(1) -include stdio.h -x c -o /dev/null - 2>/dev/null && echo '$(1)')
 ifeq ($(findstring -fsanitize,$(CFLAGS)),)
 HARDEN := $(call works,-fstack-protector-strong) $(call works,-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
 HARDEN_SO := $(call works,-z relro -z now)
@@ -121,7 +121,6 @@ coverage: packages
 	@mkdir -p $(B)/coverage
 	@$(CC) -O1 -fPIC -c -o $(B)/coverage/exit.o tests/coverage.c
 	-@$(MAKE) --no-print-directory B=$(B)/coverage CFLAGS="-O0 -g --coverage -fprofile-abs-path -fprofile-update=atomic" LDFLAGS="$(CURDIR)/$(B)/coverage/exit.o -Wl,--wrap=_exit" $(COVERED)
-	@rm -f a--.gcno # of the probes of this file
 	@scripts/coverage $(B)/coverage
 
 # what touches most of the library's memory in a minute or two
