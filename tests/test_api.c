@@ -398,7 +398,8 @@ static void a_sweep_is_its_cases(void **state)
     assert_non_null(strstr(rb_api_message(study), "case 2: --approach and --load"));
     assert_int_equal(rb_api_set(one[0], "error", "yes"), RB_OK);
     assert_true(rb_api_sweep(study, 3, one, 2) < 0);
-    assert_non_null(strstr(rb_api_message(study), "case 1: error: these studies have no"));
+    assert_non_null(
+        strstr(rb_api_message(study), "case 1: error: these studies have no"));
     for (int k = 0; k < 3; k++)
         rb_api_free(one[k]);
     rb_api_free(study);
