@@ -262,6 +262,7 @@ typedef struct {
     const char *cone_solver;      /* its name */
     rb_contact_lcp_form lcp_form; /* the first one that Lemke tries */
     double tol;     /* of the scaled natural residual; not below the problem's rounding */
+    const char *force_unit; /* behind the forces in refusals; NULL: any consistent one */
     double sliding; /* > 0: an |xi| that makes everything slide, to start searches from */
     /* sees every pivot of Lemke, with trace_context; pivot->attempt is 0 in the pivoted
      * form, 1 in its mirror image, 2 in Kwak's; NULL: nobody */

@@ -529,6 +529,7 @@ static rb_status check_layer(rb_contact_problem *problem,
                              rb_message *why)
 {
     enum { POINTS = 40 };
+    const char *unit = options->force_unit ? options->force_unit : "";
     const int backwards = problem->force + problem->force_ratio > 0.0;
     rb_contact_problem given = *problem; /* arrays stay the problem's */
     double most = 0.0;
@@ -549,8 +550,8 @@ static rb_status check_layer(rb_contact_problem *problem,
     return s != RB_OK || fabs(Q) <= most
                ? s
                : rb_fail(why, RB_EINVAL,
-                         "force Q = %g: the interface yields, and carries at most %g", Q,
-                         most);
+                         "force Q = %g%s: the interface yields, and carries at most %g%s",
+                         Q, unit, most, unit);
 }
 
 /* Whether a given force is more than friction carries under the load that the approach
@@ -560,6 +561,7 @@ static rb_status check_layer(rb_contact_problem *problem,
 static rb_status check_capacity(rb_contact_problem *problem,
                                 const rb_contact_options *options, rb_message *why)
 {
+    const char *unit = options->force_unit ? options->force_unit : "";
     rb_contact_state sliding;
     double most = 0.0, resistance = 0.0;
     rb_status s = rb_contact_state_alloc(problem->n, &sliding);
@@ -578,14 +580,14 @@ static rb_status check_capacity(rb_contact_problem *problem,
     rb_contact_state_free(&sliding);
     if (s == RB_OK && resistance > most)
         return rb_fail(why, RB_EINVAL,
-                       "free axle: the resistance to rolling M/R = %g is more than "
-                       "friction carries, mu P = %g",
-                       resistance, most);
+                       "free axle: the resistance to rolling M/R = %g%s is more than "
+                       "friction carries, mu P = %g%s",
+                       resistance, unit, most, unit);
     if (s == RB_OK && fabs(problem->force) > most)
         return rb_fail(
             why, RB_EINVAL,
-            "force Q = %g: friction carries at most mu P = %g at this approach",
-            problem->force, most);
+            "force Q = %g%s: friction carries at most mu P = %g%s at this approach",
+            problem->force, unit, most, unit);
     return s < 0 ? s : RB_OK;
 }
 

@@ -360,7 +360,8 @@ static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
     if (rc->hardening != 0.0 && rc->yield_stress == 0.0)
         return rb_fail(why, RB_EINVAL,
                        "hardening: of an interface that yields, add --yield-stress");
-    if (rc->yield_stress > 0.0 && rb_rolling_law_moves(rc))
+    if (rc->yield_stress > 0.0 &&
+        (rb_rolling_law_slides(&rc->friction) || rc->friction.heat != 0.0))
         return rb_fail(why, RB_EINVAL,
                        "yield stress: with one coefficient of friction or a table over "
                        "x, not with a law that follows slip or heat");
