@@ -195,7 +195,7 @@ static void a_held_load_creeps(void **state)
         const int n = 60 << j;
         rb_rolling_history h;
         rb_rolling_case rc = relaxing(n);
-        rc.time_step = 0.1;
+        rc.time_step = 0.05;
         const double element = run(&rc, &program, &h);
         for (int k = 0; k < h.n; k++) {
             const double want = held_width(modulus(&rc), 100.0, h.time[k]);
