@@ -546,6 +546,27 @@ static void steps_become_warm(void **state)
     rb_rolling_solution_free(&s);
 }
 
+/* Pressed and loaded at rest nothing is warm: the force is the given one, and not that of
+ * the largest coefficient. */
+static void heat_changes_no_force_at_rest(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = warm(NAN);
+        rb_rolling_solution s;
+        rc.formulation = RB_STATIC;
+        rc.mesh = RB_MESH_UNIFORM;
+        rc.heat_a.conductivity = rc.heat_b.conductivity = 0.0;
+        rc.friction.heat = 0.2;
+        rc.force = k == 0 ? 500.0 : NAN;
+        rc.force_ratio = k == 0 ? NAN : 0.4;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        CHECK_REL(s.tangential_load, k == 0 ? 500.0 : 0.4 * 0.3 * s.normal_load, 1e-9,
+                  "force, case %d", k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
 /* ---- Refusals -----------------------------------------------------------------------
  */
 
@@ -598,6 +619,7 @@ int main(void)
         cmocka_unit_test(a_step_has_two_starts),
         cmocka_unit_test(warm_surfaces_have_another_friction),
         cmocka_unit_test(steps_become_warm),
+        cmocka_unit_test(heat_changes_no_force_at_rest),
         cmocka_unit_test(bad_laws_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

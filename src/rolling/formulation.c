@@ -235,7 +235,8 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p)
         return;
     if (p->force_given && !isnan(rc->force_ratio))
         p->force_ratio = rc->force_ratio;
-    else if (p->force_given && p->load_given && rc->friction.law == RB_FRICTION_constant)
+    else if (p->force_given && p->load_given &&
+             rc->friction.law == RB_FRICTION_constant && rc->friction.heat == 0.0)
         p->force_ratio = rc->force / (p->mu * d.load);
     else if (p->force_given)
         p->force = rc->force;
