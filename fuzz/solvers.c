@@ -8,15 +8,18 @@
 
 enum { ORDER_MAX = 7, CONTACTS_MAX = 3 };
 
-/* max |min(z_i, (M z + q)_i)|, without the library; INFINITY where it is no number. */
+/* max |min(z_i, (M z + q)_i)| beyond the rounding of the terms of its row, without the
+ * library; INFINITY where it is no number. */
 static double residual(int n, const double *M, const double *q, const double *z)
 {
     double worst = 0.0;
     for (int i = 0; i < n; i++) {
-        long double w = q[i];
-        for (int j = 0; j < n; j++)
+        long double w = q[i], terms = fabsl(w);
+        for (int j = 0; j < n; j++) {
             w += (long double)M[i + j * n] * z[j];
-        const double r = fabs((double)fminl(z[i], w));
+            terms += fabsl((long double)M[i + j * n] * z[j]);
+        }
+        const double r = fabs((double)fminl(z[i], w)) - 1e-14 * (double)terms;
         if (!(r <= worst))
             worst = isfinite(r) ? r : INFINITY;
     }
