@@ -19,7 +19,7 @@ static double residual(int n, const double *M, const double *q, const double *z)
             w += (long double)M[i + j * n] * z[j];
             terms += fabsl((long double)M[i + j * n] * z[j]);
         }
-        const double r = fabs((double)fminl(z[i], w)) - 1e-14 * (double)terms;
+        const double r = (double)(fabsl(fminl(z[i], w)) - 1e-14 * terms);
         if (!(r <= worst))
             worst = isfinite(r) ? r : INFINITY;
     }
@@ -42,14 +42,14 @@ static void require_solved(const char *what, int n, const double *M, const doubl
 /* Enumerated solutions are not judged by max |q| but by the terms of each sum. */
 static void require_listed(int n, const double *M, const double *q, const double *z)
 {
-    double size = 0.0;
+    long double size = 0.0;
     for (int i = 0; i < n; i++) {
-        double terms = fabs(q[i]);
+        long double terms = fabsl(q[i]);
         for (int j = 0; j < n; j++)
-            terms += fabs(M[i + j * n] * z[j]);
-        size = fmax(size, fmax(terms, fabs(z[i])));
+            terms += fabsl((long double)M[i + j * n] * z[j]);
+        fuzz_require(isfinite(z[i]), "an enumerated solution is finite");
+        size = fmaxl(size, fmaxl(terms, fabsl(z[i])));
     }
-    fuzz_require(isfinite(size), "an enumerated solution is finite");
     fuzz_require(residual(n, M, q, z) <= 1e-9 * size + DBL_MIN,
                  "an enumerated solution solves");
 }
