@@ -90,7 +90,7 @@ static const rb_rolling_result scalars[] = {
            .meaning = "its place"),
     RESULT("peclet", peclet, .study = 21, .condition = RB_FOR_HEAT,
            .meaning = "V a/(2 diffusivity of A), a the half-width"),
-    RESULT("kappa", kappa, .study = 22, .condition = RB_FOR_MOVING_LAW,
+    RESULT("kappa", kappa, .study = 23, .condition = RB_FOR_MOVING_LAW,
            .meaning = "uniqueness of friction that falls: above 1 there may be several "
                       "solutions"),
     RESULT("datum", datum, .unit = "mm",
