@@ -261,7 +261,7 @@ typedef struct {
         *cone_solvers;            /* RB_SOLVER_CONE; borrowed, as the next */
     const char *cone_solver;      /* its name */
     rb_contact_lcp_form lcp_form; /* the first one that Lemke tries */
-    double tol;     /* of the scaled natural residual; not below the problem's rounding */
+    double tol; /* of the scaled natural residual; not below the problem's rounding */
     const char *force_unit; /* behind the forces in refusals; NULL: any consistent one */
     double sliding; /* > 0: an |xi| that makes everything slide, to start searches from */
     /* sees every pivot of Lemke, with trace_context; pivot->attempt is 0 in the pivoted

@@ -107,7 +107,7 @@ static rb_status check_halfplane(const rb_rolling_body *b, const char *which,
 static const rb_rolling_parameter halfplane_parameters[] = {
     {.option = "datum"},
     {"datum", not_on_rigid_base, "on a rigid base the displacement is absolute"},
-    {NULL}};
+    {.option = NULL}};
 
 const rb_rolling_body_kind rb_rolling_halfplane = {
     .name = "half-plane",
@@ -143,7 +143,7 @@ static rb_status check_layer(const rb_rolling_body *b, const char *which, rb_mes
 static const rb_rolling_parameter layer_parameters[] = {
     {"base-young", has_layer, "a base has its layer on it, see --layer-thickness"},
     {"base-poisson", has_layer, "a base has its layer on it, see --layer-thickness"},
-    {NULL}};
+    {.option = NULL}};
 
 const rb_rolling_body_kind rb_rolling_layer = {.name = "layer",
                                                .support = RB_BEM_HALFPLANE,
@@ -160,7 +160,7 @@ static int has_memory(const rb_rolling_body *body)
     return body->memory.n > 0;
 }
 
-static const rb_rolling_parameter relaxation_parameters[] = {{NULL}};
+static const rb_rolling_parameter relaxation_parameters[] = {{.option = NULL}};
 
 const rb_rolling_body_kind rb_rolling_relaxation = {.name = "relaxation",
                                                     .support = RB_BEM_HALFPLANE,

@@ -76,7 +76,8 @@ static rb_status check_arc(const rb_rolling_body *b, const char *which, rb_messa
                          which, b->arc);
 }
 
-static const rb_rolling_parameter arc_parameters[] = {{.option = "arc"}, {NULL}};
+static const rb_rolling_parameter arc_parameters[] = {{.option = "arc"},
+                                                      {.option = NULL}};
 
 const rb_rolling_body_kind rb_rolling_arc = {.name = "arc",
                                              .support = RB_BEM_ARC,
@@ -105,7 +106,7 @@ static int shows_its_hub(const rb_rolling_body *body)
 static const rb_rolling_parameter hub_parameters[] = {
     {.option = "hub-ratio"},
     {"hub-ratio", shows_its_hub, "all below the cover is rigid without --core-young"},
-    {NULL}};
+    {.option = NULL}};
 
 const rb_rolling_body_kind rb_rolling_hub = {.name = "hub",
                                              .support = RB_BEM_HUB,
@@ -146,7 +147,7 @@ static rb_status check_cover(const rb_rolling_body *b, const char *which, rb_mes
 static const rb_rolling_parameter cover_parameters[] = {
     {"core-young", has_cover, "a core has its cover on it, see --cover-thickness"},
     {"core-poisson", has_cover, "a core has its cover on it, see --cover-thickness"},
-    {NULL}};
+    {.option = NULL}};
 
 const rb_rolling_body_kind rb_rolling_cover = {.name = "cover",
                                                .support = RB_BEM_HUB,
