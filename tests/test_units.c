@@ -75,7 +75,8 @@ static void powers_of_ten_are_exact(void **state)
  */
 static const char *unit_of(const char *column)
 {
-    static const char *const units[] = {"mm", "MPa", "N/mm", "N", "mm/s", "mm/MPa"};
+    static const char *const units[] = {"mm", "mm2",  "MPa",   "N/mm",
+                                        "N",  "mm/s", "mm/MPa"};
     const char *end = strrchr(column, '_');
     for (size_t k = 0; end && k < sizeof units / sizeof *units; k++)
         if (strcmp(end + 1, units[k]) == 0)
@@ -143,11 +144,15 @@ static void every_command_converts_the_same_numbers(void **state)
         {"$R sweep --radius $R1 --young $E1 --support halfplane --similar --load $P1 "
          "--vary-1 "
          "'mu .1 .3'",
+         "out"},
+        {"$R wear --radius $R1 --young $E1 --support halfplane --similar --load $P1 "
+         "--shift "
+         "$D1 --cycles 1e5 --wear-coefficient $K1 --wear-steps 2 --contact-elements 30",
          "out"}};
     static const char *const values[] = {
-        "R1=46.5; E1=205000; A1=2.5; P1=712; Z1=1.25; C1=2e-6",
+        "R1=46.5; E1=205000; A1=2.5; P1=712; Z1=1.25; C1=2e-6; D1=0.002; K1=1e-9",
         "R1=0.0465; E1=205e9; A1=0.0025; P1=712e3; "
-        "Z1=0.00125; C1=2e-15"};
+        "Z1=0.00125; C1=2e-15; D1=2e-6; K1=1e-15"};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char line[800];
         for (int u = 0; u < 2; u++) {
@@ -279,6 +284,65 @@ static void studies_and_curves_of_files_have_the_units_of_the_file(void **state)
 }
 
 /* --from and --to are values of what --over names. */
+/* The way slid and the work per way have no unit in their columns' names; what is worn
+ * off goes on in any system; every snapshot and picture is in that of the run. */
+static void wear_speaks_every_system(void **state)
+{
+    (void)state;
+    static const rb_units system[] = {RB_UNITS_SI, RB_UNITS_INCH};
+    static const char *const name[] = {"si", "inch"};
+    json_t *mm = run_json("wear --similar --support halfplane --gap parabola --load "
+                          "200N/mm --slide 1e6mm --wear-coefficient 1e-10 --wear-steps 2 "
+                          "--contact-elements 40 --profile mm.txt");
+    for (int k = 0; k < 2; k++) {
+        char line[600];
+        snprintf(line, sizeof line,
+                 "wear --similar --support halfplane --gap parabola --load 200N/mm "
+                 "--slide 1e6mm --wear-coefficient '1e-10 1/MPa' --wear-steps 2 "
+                 "--contact-elements 40 --units %s --profile p%d.txt --snapshots s%d "
+                 "--plot w%d.png",
+                 name[k], k, k, k);
+        json_t *other = run_json(line);
+        const char *const column[][2] = {
+            {"way", "mm"}, {"worn", "mm2"}, {"work", "N/mm"}, {"max_pressure", "MPa"}};
+        for (int j = 0; j < 4; j++)
+            for (size_t i = 0; i < 3; i++) {
+                const json_t *a =
+                    json_object_get(json_object_get(mm, "wear"), column[j][0]);
+                const json_t *b =
+                    json_object_get(json_object_get(other, "wear"), column[j][0]);
+                CHECK_ABS(json_number_value(json_array_get(b, i)),
+                          rb_unit_shown(system[k], column[j][1],
+                                        json_number_value(json_array_get(a, i))),
+                          0.0, "%s in %s", column[j][0], name[k]);
+            }
+        json_t *inputs = json_object_get(other, "inputs");
+        CHECK_REL(number_in(inputs, "slide"), rb_unit_shown(system[k], "mm", 1e6), 1e-15,
+                  "slide");
+        CHECK_REL(number_in(inputs, "wear-coefficient"),
+                  rb_unit_shown(system[k], "1/MPa", 1e-10), 1e-15, "K");
+        json_decref(other);
+        /* the same scar from either file */
+        snprintf(line, sizeof line,
+                 "test -s w%d.png && head -1 s%d/step_000002.tsv | "
+                 "grep -q p_%s",
+                 k, k, rb_unit_name(system[k], "MPa"));
+        assert_int_equal(shell(line), 0);
+        double p0[2];
+        for (int m = 0; m < 2; m++) {
+            snprintf(line, sizeof line,
+                     "--similar --support halfplane --gap parabola "
+                     "--load 200 --contact-elements 40 --worn %s%c.txt",
+                     m ? "p" : "m", m ? '0' + k : 'm');
+            json_t *worn = run_json(line);
+            p0[m] = number_in(json_object_get(worn, "summary"), "max_pressure");
+            json_decref(worn);
+        }
+        CHECK_REL(p0[1], p0[0], 1e-9, "p0 under the scar, %s", name[k]);
+    }
+    json_decref(mm);
+}
+
 static void ends_of_a_curve_may_have_units(void **state)
 {
     (void)state;
@@ -386,6 +450,7 @@ int main(void)
         cmocka_unit_test(values_say_their_own_units),
         cmocka_unit_test(files_take_units),
         cmocka_unit_test(studies_and_curves_of_files_have_the_units_of_the_file),
+        cmocka_unit_test(wear_speaks_every_system),
         cmocka_unit_test(ends_of_a_curve_may_have_units),
         cmocka_unit_test(case_files_have_their_own_units),
         cmocka_unit_test(what_people_see_says_the_units),

@@ -205,7 +205,6 @@ typedef struct {
 /* A run and what its picture shows of the steps on the way. */
 typedef struct {
     const rb_rolling_wear_history *history; /* borrowed */
-    int slides, rolls;
     int profiles;
     rb_report_wear_profile profile[RB_REPORT_WEAR_PROFILES];
 } rb_report_wear;
@@ -214,7 +213,8 @@ rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w, const char *c
                                const rb_report_style *style);
 struct json_t *rb_report_json_wear(const rb_report_wear *w);
 void rb_report_wear_summary(FILE *out, const rb_report_wear *w);
-/* Keeps the step for the picture where it is one of those shown.  RB_ENOMEM. */
+/* Keeps the step for the picture where it is one of those shown.  s: in the units of the
+ * picture; h: in mm, N, MPa.  RB_ENOMEM. */
 rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
                               const rb_rolling_wear_history *h, int step, int steps);
 rb_status rb_report_wear_picture(FILE *out, rb_report_canvas canvas,

@@ -729,13 +729,17 @@ typedef struct {
     double *approach, *normal_load, *max_pressure, *contact_from, *contact_to;
     double *residual; /* of the contact under the worn gap */
     double radius_before;
+    int slides, rolls; /* 0, 0: it frets */
+    rb_units units;    /* of all values here */
 } rb_rolling_wear_history;
 
 void rb_rolling_wear_history_free(rb_rolling_wear_history *history);
+/* From mm, N, MPa to other units, once. */
+void rb_rolling_wear_history_convert(rb_rolling_wear_history *history, rb_units units);
 
-/* Sees the solution after each step (0: before the first one); a value other than 0 ends
- * the run. */
-typedef int rb_rolling_wear_step(const rb_rolling_solution *solution,
+/* Sees the solution after each step (0: before the first one), which it may convert; a
+ * value other than 0 ends the run. */
+typedef int rb_rolling_wear_step(rb_rolling_solution *solution,
                                  const rb_rolling_wear_history *history, int step,
                                  int steps, void *context);
 

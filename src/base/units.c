@@ -28,6 +28,9 @@ static const unit_row table[] = {
     {"inch", "mm", 0, INCH},
     {"ft", "mm", 0, 12.0 * INCH},
     {"mil", "mm", -3, INCH},
+    {"mm2", "mm2", 0, 1.0},
+    {"m2", "mm2", 6, 1.0},
+    {"in2", "mm2", 0, INCH *INCH},
     {"MPa", "MPa", 0, 1.0},
     {"Pa", "MPa", -6, 1.0},
     {"kPa", "MPa", -3, 1.0},
@@ -85,6 +88,7 @@ enum { ROWS = sizeof table / sizeof table[0] };
 static const struct {
     const char *kind, *name[3];
 } systems[] = {{"mm", {"mm", "m", "in"}},
+               {"mm2", {"mm2", "m2", "in2"}},
                {"MPa", {"MPa", "Pa", "psi"}},
                {"N/mm", {"N/mm", "N/m", "lbf/in"}},
                {"N", {"N", "N", "lbf"}},

@@ -45,7 +45,7 @@ static const rb_option options[] = {
     RB_INTEGER_LINE("every", PLACE(every), RB_FROM(1),
                     "steps from one snapshot to the next; the last step has one too"),
     RB_TEXT_LINE("profile", PLACE(profile), "FILE",
-                 "what is worn off at the end, rows x, depth [mm]: for --worn, also of "
+                 "what is worn off at the end, rows x, depth: for --worn, also of "
                  "a run that goes on from there",
                  .unset = "none", .file = RB_FILE_WRITTEN),
 };
@@ -102,10 +102,11 @@ static rb_status save_snapshot(result *r, const rb_rolling_solution *s, int step
     return status;
 }
 
-static int after_step(const rb_rolling_solution *s, const rb_rolling_wear_history *h,
-                      int step, int steps, void *context)
+static int after_step(rb_rolling_solution *s, const rb_rolling_wear_history *h, int step,
+                      int steps, void *context)
 {
     result *r = context;
+    rb_rolling_solution_convert(s, rb_case_units(r->words));
     const int due = step % r->options->every == 0 || step == steps;
     if (r->options->snapshots && due)
         r->failed = save_snapshot(r, s, step);
@@ -123,8 +124,6 @@ static rb_status run(result *r, const rb_settled_case *c, rb_message *why)
                                   .way = isnan(w->slide) ? w->cycles : w->slide,
                                   .steps = w->steps,
                                   .increments = w->increments};
-    r->report.slides = wear.slides;
-    r->report.rolls = c->rc.formulation == RB_STEADY;
     r->report.history = &r->history;
     rb_status s = w->snapshots ? rb_io_make_folder(w->snapshots, why) : RB_OK;
     if (s != RB_OK)
@@ -132,6 +131,7 @@ static rb_status run(result *r, const rb_settled_case *c, rb_message *why)
     cli_interrupts_catch();
     s = rb_rolling_wear_run(&c->rc, &wear, after_step, r, &r->history, &r->last, why);
     cli_interrupts_leave();
+    rb_rolling_wear_history_convert(&r->history, rb_case_units(r->words));
     if (r->failed == RB_OK)
         return s;
     *why = r->why;
@@ -143,10 +143,13 @@ static rb_status run(result *r, const rb_settled_case *c, rb_message *why)
 static rb_status print_json(FILE *out, const result *r)
 {
     const wear_options *w = r->options;
+    const rb_units units = rb_case_units(r->words);
     json_t *inputs = rb_report_json_inputs(r->words);
     rb_report_json_set(&inputs, "wear-law", json_string(laws[w->law].name));
-    rb_report_json_set(&inputs, "wear-coefficient", json_real(w->coefficient));
-    rb_report_json_set(&inputs, "slide", rb_report_json_number(w->slide));
+    rb_report_json_set(&inputs, "wear-coefficient",
+                       json_real(rb_unit_shown(units, "1/MPa", w->coefficient)));
+    rb_report_json_set(&inputs, "slide",
+                       rb_report_json_number(rb_unit_shown(units, "mm", w->slide)));
     rb_report_json_set(&inputs, "cycles", rb_report_json_number(w->cycles));
     rb_report_json_set(&inputs, "wear-steps", json_integer(w->steps));
     rb_report_json_set(&inputs, "quarter", json_integer(w->increments));
@@ -170,7 +173,8 @@ static rb_status print_profile(FILE *out, const void *context, rb_message *why)
 {
     const rb_rolling_solution *s = &((const result *)context)->last;
     (void)why;
-    fprintf(out, "x_mm\tdepth_mm\n# %s\n", cli_command_line());
+    const char *mm = rb_unit_name(s->units, "mm");
+    fprintf(out, "x_%s\tdepth_%s\n# %s\n", mm, mm, cli_command_line());
     for (int i = 0; i < s->n; i++)
         fprintf(out, "%.17g\t%.17g\n", s->x[i], s->worn[i]);
     return rb_report_flush(out);
@@ -205,8 +209,6 @@ static cli_exit show(const result *r)
 static cli_exit check(const wear_options *w, const rb_settled_case *c)
 {
     const int rolls = c->rc.formulation == RB_STEADY;
-    if (c->units != RB_UNITS_MM)
-        return cli_fail(CLI_USAGE, "--units: wear speaks of mm, N and MPa only");
     if (isnan(w->coefficient))
         return cli_fail(CLI_USAGE, "wear needs --wear-coefficient");
     if (!isnan(w->slide) && !isnan(w->cycles))

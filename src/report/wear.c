@@ -8,25 +8,36 @@
 
 static rb_report_columns columns_of(const rb_rolling_wear_history *h)
 {
-    return (rb_report_columns){&rb_rolling_wear_columns, h, 0, RB_UNITS_MM};
+    return (rb_report_columns){&rb_rolling_wear_columns, h, 0, h->units};
 }
 
-static const char *unit_of(const rb_report_wear *w)
+/* What the way counts.  Returns text. */
+static const char *way_of(const rb_rolling_wear_history *h, char text[20])
 {
-    return w->slides ? "mm slid" : w->rolls ? "turns" : "cycles";
+    snprintf(text, 20, "%s%s", h->slides ? rb_unit_name(h->units, "mm") : "",
+             h->slides  ? " slid"
+             : h->rolls ? "turns"
+                        : "cycles");
+    return text;
 }
 
 rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w, const char *command,
                                const rb_report_style *style)
 {
-    const rb_report_columns columns = columns_of(w->history);
+    const rb_rolling_wear_history *h = w->history;
+    const rb_report_columns columns = columns_of(h);
+    const char *mm = rb_unit_name(h->units, "mm");
+    char way[20];
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
 
-    rb_report_comment(&c, "way: %s; work: of friction per %s", unit_of(w),
-                      w->slides  ? "mm slid"
-                      : w->rolls ? "rolled mm"
-                                 : "cycle");
-    return rb_report_end_columns(&c, w->history->n, 1, &columns);
+    rb_report_comment(&c, "way: %s; work: of friction per %s%s", way_of(h, way),
+                      h->slides  ? mm
+                      : h->rolls ? "rolled "
+                                 : "cycle",
+                      h->slides  ? " slid"
+                      : h->rolls ? mm
+                                 : "");
+    return rb_report_end_columns(&c, h->n, 1, &columns);
 }
 
 json_t *rb_report_json_wear(const rb_report_wear *w)
@@ -42,15 +53,17 @@ void rb_report_wear_summary(FILE *out, const rb_report_wear *w)
 {
     const rb_rolling_wear_history *h = w->history;
     const int last = h->n - 1;
+    const char *mm = rb_unit_name(h->units, "mm"), *MPa = rb_unit_name(h->units, "MPa");
+    char way[20];
 
-    fprintf(out, "wear: %d steps, %.5g %s\n", last, h->way[last], unit_of(w));
-    fprintf(out, "  worn      %.6g mm3 per mm of width, at most %.5g mm deep\n",
-            h->worn[last], h->max_depth[last]);
-    fprintf(out, "  contact   %.5g ... %.5g mm, before %.5g ... %.5g mm\n",
-            h->contact_from[last], h->contact_to[last], h->contact_from[0],
-            h->contact_to[0]);
-    fprintf(out, "  p0        %.6g MPa, before %.6g MPa; residual %.2g\n",
-            h->max_pressure[last], h->max_pressure[0], h->residual[last]);
+    fprintf(out, "wear: %d steps, %.5g %s\n", last, h->way[last], way_of(h, way));
+    fprintf(out, "  worn      %.6g %s3 per %s of width, at most %.5g %s deep\n",
+            h->worn[last], mm, mm, h->max_depth[last], mm);
+    fprintf(out, "  contact   %.5g ... %.5g %s, before %.5g ... %.5g %s\n",
+            h->contact_from[last], h->contact_to[last], mm, h->contact_from[0],
+            h->contact_to[0], mm);
+    fprintf(out, "  p0        %.6g %s, before %.6g %s; residual %.2g\n",
+            h->max_pressure[last], MPa, h->max_pressure[0], MPa, h->residual[last]);
 }
 
 /* ---- What a picture keeps
@@ -92,20 +105,34 @@ rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
 
     if ((step > 0 && part == before) || w->profiles == RB_REPORT_WEAR_PROFILES)
         return RB_OK;
-    return keep_profile(s, h->max_depth[step], h->way[step], &w->profile[w->profiles++]);
+    const double way =
+        h->slides ? rb_unit_shown(s->units, "mm", h->way[step]) : h->way[step];
+    return keep_profile(s, rb_unit_shown(s->units, "mm", h->max_depth[step]), way,
+                        &w->profile[w->profiles++]);
 }
 
 /* ---- Picture
  * ---------------------------------------------------------------------------
  */
 
-static void write_data(FILE *out, const rb_report_wear *w)
+/* Depths are shown in a small unit. */
+static rb_report_unit depth_unit(rb_units units)
+{
+    static const rb_report_unit all[] = {[RB_UNITS_MM] = {1e-3, "µm"},
+                                         [RB_UNITS_SI] = {1e-6, "µm"},
+                                         [RB_UNITS_INCH] = {1e-3, "mil"}};
+    return all[units];
+}
+
+static void write_data(FILE *out, const rb_report_wear *w, double length, double stress,
+                       double depth)
 {
     for (int k = 0; k < w->profiles; k++) {
         const rb_report_wear_profile *p = &w->profile[k];
         fprintf(out, "$profile%d << EOD\n", k);
         for (int i = 0; i < p->n; i++)
-            fprintf(out, "%.9g %.9g %.9g\n", p->x[i], p->p[i], -1e3 * p->depth[i]);
+            fprintf(out, "%.9g %.9g %.9g\n", p->x[i] / length, p->p[i] / stress,
+                    -p->depth[i] / depth);
         fputs("EOD\n", out);
     }
 }
@@ -116,7 +143,7 @@ static void write_panel(FILE *out, const rb_report_wear *w, int column)
     for (int k = 0; k < w->profiles; k++)
         fprintf(out,
                 "%s$profile%d using 1:%d with lines linecolor rgb '%s' dashtype %s "
-                "linewidth 1.8 title '%.4g'",
+                "linewidth 1.8 title '%.5g'",
                 k > 0 ? ", " : "", k, column, rb_report_colour(k), rb_report_dashes(k),
                 w->profile[k].way);
     fputc('\n', out);
@@ -128,10 +155,18 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     const rb_report_place place = rb_report_place_of(canvas);
     const rb_rolling_wear_history *h = w->history;
     const int last = h->n - 1;
-    const double from = fmin(h->contact_from[0], h->contact_from[last]);
-    const double to = fmax(h->contact_to[0], h->contact_to[last]);
+    const double half = 0.5 * (h->contact_to[last] - h->contact_from[last]);
+    const rb_report_unit length = rb_report_axis_unit(h->units, "mm", half);
+    const rb_report_unit stress =
+        rb_report_axis_unit(h->units, "MPa", fmax(h->max_pressure[0], 0.0));
+    const rb_report_unit depth = depth_unit(h->units);
+    const double from = fmin(h->contact_from[0], h->contact_from[last]) / length.size;
+    const double to = fmax(h->contact_to[0], h->contact_to[last]) / length.size;
+    const char *mm = rb_unit_name(h->units, "mm");
+    char way[20];
 
-    write_data(out, w);
+    way_of(h, way);
+    write_data(out, w, length.size, stress.size, depth.size);
     fprintf(out,
             "set multiplot\nset lmargin at screen %g\nset rmargin at screen "
             "0.965\n" RB_REPORT_GRID "set format x ''\n",
@@ -141,23 +176,25 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             "maxrows 1 samplen 1.5 font ',%.3g'\nset label 2 '%s:' at screen %g, %g "
             "left\n",
             from - 0.1 * (to - from), to + 0.1 * (to - from), 0.91 + 1.6 * place.up,
-            rb_report_key_font(canvas), unit_of(w), 0.14 - place.right, 0.897 + place.up);
+            rb_report_key_font(canvas), way, 0.14 - place.right, 0.897 + place.up);
     if (place.titled)
-        fprintf(
-            out,
-            "set label 1 '{/:Bold Wear}   P = %.5g N/mm,  %.4g mm^3/mm worn after %.4g "
-            "%s' at screen 0.54, 0.955 center\n",
-            h->normal_load[last], h->worn[last], h->way[last], unit_of(w));
-    fputs("set tmargin at screen 0.87\nset bmargin at screen 0.54\n"
-          "set yrange [0:*]\nset label 3 'pressure  [MPa]' at screen 0.03, 0.705 center "
-          "rotate\n",
-          out);
+        fprintf(out,
+                "set label 1 '{/:Bold Wear}   P = %.5g %s,  %.4g %s^3/%s worn after %.5g "
+                "%s' at screen 0.54, 0.955 center\n",
+                h->normal_load[last], rb_unit_name(h->units, "N/mm"), h->worn[last], mm,
+                mm, h->way[last], way);
+    fprintf(out,
+            "set tmargin at screen 0.87\nset bmargin at screen 0.54\n"
+            "set yrange [0:*]\nset label 3 'pressure  [%s]' at screen 0.03, 0.705 center "
+            "rotate\n",
+            stress.name);
     write_panel(out, w, 2);
-    fputs("unset label\nunset key\nset tmargin at screen 0.50\nset bmargin at screen "
-          "0.13\nset format x '%g'\nset yrange [*:*]\nset offsets 0,0,0,graph 0.05\n"
-          "set label 3 'worn off  [µm]' at screen 0.03, 0.315 center rotate\nset xlabel "
-          "'x [mm]' offset 0,0.3\n",
-          out);
+    fprintf(out,
+            "unset label\nunset key\nset tmargin at screen 0.50\nset bmargin at screen "
+            "0.13\nset format x '%%g'\nset yrange [*:*]\nset offsets 0,0,0,graph 0.05\n"
+            "set label 3 'worn off  [%s]' at screen 0.03, 0.315 center rotate\n"
+            "set xlabel 'x [%s]' offset 0,0.3\n",
+            depth.name, length.name);
     write_panel(out, w, 3);
     fputs("unset multiplot\n", out);
 }

@@ -401,6 +401,22 @@ void rb_rolling_history_convert(rb_rolling_history *h, rb_units units)
     h->step = rb_unit_shown(units, "mm", h->step);
 }
 
+void rb_rolling_wear_history_convert(rb_rolling_wear_history *h, rb_units units)
+{
+    const char *work = h->slides || h->rolls ? "N/mm" : "N";
+
+    h->units = units;
+    if (units == RB_UNITS_MM)
+        return;
+    convert_columns(&rb_rolling_wear_columns, h->n, h, units);
+    for (int k = 0; k < h->n; k++) {
+        h->work[k] = rb_unit_shown(units, work, h->work[k]);
+        if (h->slides)
+            h->way[k] = rb_unit_shown(units, "mm", h->way[k]);
+    }
+    h->radius_before = rb_unit_shown(units, "mm", h->radius_before);
+}
+
 void rb_rolling_curve_convert(rb_rolling_curve *c, rb_units units)
 {
     c->units = units;

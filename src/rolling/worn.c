@@ -284,7 +284,7 @@ static rb_status roll(run *r, double turns, rb_message *why)
 static rb_status record(run *r, double way, rb_message *why)
 {
     rb_rolling_wear_history *h = r->history;
-    const int k = h->n, rolls = r->rc.formulation == RB_STEADY;
+    const int k = h->n, rolls = h->rolls;
     rb_rolling_solution s;
     rb_status status = rb_rolling_model_solution(&r->model, &s, why);
 
@@ -411,6 +411,8 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
         s = rb_rolling_columns_alloc(&rb_rolling_wear_columns, rc, wear->steps + 1,
                                      history);
     history->radius_before = rc->a.radius;
+    history->slides = wear->slides;
+    history->rolls = rc->formulation == RB_STEADY;
     if (s == RB_OK)
         s = rc->formulation == RB_STEADY ? rb_rolling_model_create(rc, &r.model, why)
                                          : press(&r, why);
