@@ -569,6 +569,7 @@ static void one_static_solve_is_refused(void **state)
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "history"));
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, &why), RB_EINVAL);
+    rb_rolling_model_free(&model);
     CHECK_STATUS(rb_rolling_solve_between(&rc, -5.0, 5.0, &s, &why), RB_EINVAL);
     rc.increments = 3;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
