@@ -3,28 +3,11 @@
 #include "check.h"
 #include "rollbem/friction.h"
 #include "rollbem/io_fclib.h"
+#include "scratch.h"
 
 #include <hdf5.h>
 #include <string.h>
 #include <unistd.h>
-
-static char path[64];
-
-static int make_path(void **state)
-{
-    (void)state;
-    snprintf(path, sizeof path, "/tmp/rollbem-fclib-XXXXXX");
-    const int fd = mkstemp(path);
-    if (fd >= 0)
-        close(fd);
-    return fd < 0;
-}
-
-static int remove_path(void **state)
-{
-    (void)state;
-    return remove(path);
-}
 
 /* Unsymmetric, with an empty column and an entry per layout that tells rows from columns.
  */

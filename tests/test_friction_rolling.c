@@ -4,6 +4,7 @@
 #include "check.h"
 #include "rollbem/friction.h"
 #include "rollbem/io_fclib.h"
+#include "scratch.h"
 
 #include <string.h>
 #include <unistd.h>
@@ -129,8 +130,6 @@ static double violation(const row_of_balls *s, const double *r)
     }
     return worst;
 }
-
-static char path[] = "/tmp/rollbem-rolling-XXXXXX";
 
 /* Through a file, solved, as five entries per contact. */
 static rb_status solve_row(const row_of_balls *s, double unit, const char *solver,
@@ -329,21 +328,6 @@ static void bad_problems_are_refused(void **state)
         rb_friction_problem_free(&p);
         rb_io_fclib_free(&file);
     }
-}
-
-static int make_path(void **state)
-{
-    (void)state;
-    const int fd = mkstemp(path);
-    if (fd >= 0)
-        close(fd);
-    return fd < 0;
-}
-
-static int remove_path(void **state)
-{
-    (void)state;
-    return remove(path);
 }
 
 int main(void)

@@ -2,26 +2,11 @@
 #define _XOPEN_SOURCE 700
 #include "check.h"
 #include "rollbem/io.h"
+#include "scratch.h"
 
 #include <dirent.h>
 #include <string.h>
 #include <unistd.h>
-
-static char path[64] = "";
-
-static int make_path(void **state)
-{
-    (void)state;
-    strcpy(path, "/tmp/rollbem_test_XXXXXX");
-    const int fd = mkstemp(path);
-    return fd < 0 || close(fd);
-}
-
-static int remove_path(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
 
 static void put_bytes(const char *text, size_t n)
 {

@@ -1,6 +1,5 @@
 /* Large contacts on half-planes: no matrix, the same answers. */
-#include "check.h"
-#include "rollbem/rolling.h"
+#include "solved.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>
@@ -28,24 +27,13 @@ static rb_rolling_case steady(pairing pair, int elements)
     return rc;
 }
 
-static rb_rolling_model solved(const rb_rolling_case *rc)
-{
-    rb_rolling_model model;
-    rb_message why = {{0}};
-    const rb_status s = rb_rolling_model_create(rc, &model, &why);
-    if (s != RB_OK)
-        print_error("%s\n", why.text);
-    CHECK_STATUS(s, RB_OK);
-    return model;
-}
-
 /* ---- Against the dense path ----------------------------------------------------------
  */
 
 /* The model's problem once more, with the matrix. */
 static void compare_with_matrix(const rb_rolling_case *rc)
 {
-    rb_rolling_model model = solved(rc);
+    rb_rolling_model model = solved_model(rc);
     rb_rolling_case dense = *rc;
     rb_rolling_bodies bodies;
     rb_contact_problem problem;
@@ -267,11 +255,11 @@ static void steps_hardly_grow(void **state)
 {
     (void)state;
     rb_rolling_case rc = steady(SIMILAR, 2000);
-    rb_rolling_model model = solved(&rc);
+    rb_rolling_model model = solved_model(&rc);
     const int few = model.iterations;
     rb_rolling_model_free(&model);
     rc.contact_elements = 128000;
-    model = solved(&rc);
+    model = solved_model(&rc);
     CHECK_MAX(model.iterations, few + 24, "steps at 2000: %d", few);
     rb_rolling_model_free(&model);
 }
@@ -280,7 +268,7 @@ static void steps_hardly_grow(void **state)
 static void without_a_matrix_some_refuse(void **state)
 {
     const rb_rolling_case rc = steady(SIMILAR, 1500);
-    rb_rolling_model model = solved(&rc);
+    rb_rolling_model model = solved_model(&rc);
     rb_contact_lcp lcp;
     rb_contact_cone cone;
     rb_message why = {""};

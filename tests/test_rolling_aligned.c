@@ -1,8 +1,7 @@
 /* Equal elements aligned with the contact and the second-order slip operator: Carter's
  * law, its dissipation, many elements, bodies with memory, what is refused. */
-#include "check.h"
 #include "rollbem/closed_forms.h"
-#include "rollbem/rolling.h"
+#include "solved.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>
@@ -20,16 +19,6 @@ static rb_rolling_case carter(int n)
     rc.slip_operator = RB_SLIP_SECOND;
     rc.contact_elements = n;
     return rc;
-}
-
-static rb_rolling_solution solved(const rb_rolling_case *rc)
-{
-    rb_rolling_solution s;
-    rb_message why = {""};
-    const rb_status status = rb_rolling_solve(rc, &s, &why);
-    if (status != RB_OK)
-        fail_msg("%s", why.text);
-    return s;
 }
 
 /* Errors of physics.md P1.2, within a factor of 1.2; the largest of the three at each n.

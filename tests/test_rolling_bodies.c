@@ -1,17 +1,8 @@
 /* Two elastic bodies (4.5), each with its own support. */
-#include "check.h"
 #include "rolling/internal.h"
+#include "solved.h"
 
 #include <string.h>
-
-static rb_rolling_solution solved(const rb_rolling_case *rc)
-{
-    rb_rolling_solution s;
-    rb_message why = {""};
-    if (rb_rolling_solve(rc, &s, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    return s;
-}
 
 static rb_rolling_case steady_wheel(rb_bem_support support, double poisson)
 {

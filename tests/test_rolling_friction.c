@@ -1,8 +1,8 @@
 /* What lies between the bodies: a coefficient of friction that depends on the place, and
  * an interface that yields. */
-#include "check.h"
 #include "rollbem/friction.h"
 #include "rolling/internal.h"
+#include "solved.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -24,17 +24,6 @@ static rb_rolling_case steady(void)
     rc.mu = 0.4;
     rc.friction = (rb_rolling_friction){.law = RB_FRICTION_table, .table = sand};
     return rc;
-}
-
-static rb_rolling_model solved(const rb_rolling_case *rc)
-{
-    rb_rolling_model model;
-    rb_message why = {""};
-    const rb_status s = rb_rolling_model_create(rc, &model, &why);
-    if (s != RB_OK)
-        print_error("%s\n", why.text);
-    CHECK_STATUS(s, RB_OK);
-    return model;
 }
 
 /* (K1) to (K3) of every element with the friction of its own place, from F itself. */
@@ -90,7 +79,7 @@ static void each_element_has_its_bound(void **state)
         }
         if (k == 7)
             rc.force_ratio = 1.0;
-        rb_rolling_model model = solved(&rc);
+        rb_rolling_model model = solved_model(&rc);
         check_laws(&model);
         const double Q = rb_contact_capacity(&model.problem, &model.state);
         rb_rolling_solution s;
@@ -120,7 +109,7 @@ static void large_contacts_and_steps_too(void **state)
     (void)state;
     rb_rolling_case rc = steady();
     rc.contact_elements = 1501;
-    rb_rolling_model model = solved(&rc);
+    rb_rolling_model model = solved_model(&rc);
     assert_null(rb_contact_operator_matrix(model.problem.op).F);
     check_laws(&model);
     rb_rolling_model_free(&model);
@@ -152,9 +141,9 @@ static void an_even_table_is_one_coefficient(void **state)
     (void)state;
     rb_rolling_case rc = steady();
     rc.friction.table = (rb_rolling_friction_table){2, places, even};
-    rb_rolling_model table = solved(&rc);
+    rb_rolling_model table = solved_model(&rc);
     rc.friction.law = RB_FRICTION_constant;
-    rb_rolling_model one = solved(&rc);
+    rb_rolling_model one = solved_model(&rc);
     for (int i = 0; i < one.mesh.n; i++) {
         CHECK_ABS(table.state.p[i], one.state.p[i], 0.0, "p %d", i);
         CHECK_ABS(table.state.q[i], one.state.q[i], 0.0, "q %d", i);
@@ -250,7 +239,7 @@ static void a_soft_interface_is_a_brush(void **state)
         rc.creep = 0.4;
         rc.contact_elements = large ? 1501 : 201;
         rc.mesh = RB_MESH_UNIFORM;
-        rb_rolling_model model = solved(&rc);
+        rb_rolling_model model = solved_model(&rc);
         check_residual(&model);
         const double slope = rc.creep / c, scale = model.problem.stress;
         double lead = 0.0;

@@ -1,7 +1,7 @@
 /* Hertz, Carter, Bentall-Johnson, Cattaneo-Mindlin on the half-plane: no error but that
  * of the contact mesh. */
-#include "check.h"
 #include "rolling/internal.h"
+#include "solved.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>
@@ -24,15 +24,6 @@ static void align(rb_rolling_case *rc, int across, double offset)
 {
     rc->contact_elements = across + 10;
     rc->zone = rc->half_width * (across + 10) / (across + 2.0 * offset);
-}
-
-static rb_rolling_solution solved(const rb_rolling_case *rc)
-{
-    rb_rolling_solution s;
-    rb_message why = {""};
-    if (rb_rolling_solve(rc, &s, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    return s;
 }
 
 /* Coulomb's law, complementarity and the force, from the printed table alone. */

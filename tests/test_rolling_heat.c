@@ -1,8 +1,7 @@
 /* Flash temperature: the moving strip against quadrature, the closed form of an elliptic
  * source, two bodies, low and high speed, steps against the steady state, refusals. */
-#include "check.h"
 #include "rollbem/closed_forms.h"
-#include "rollbem/rolling.h"
+#include "solved.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
@@ -87,14 +86,6 @@ static rb_rolling_case sliding(double peclet, int n)
     rc.heat_a = rc.heat_b = (rb_rolling_heat){50.0, 3.5, 0.0};
     rc.speed = peclet * 2.0 * 50.0 / 3.5 / rc.half_width;
     return rc;
-}
-
-static rb_rolling_solution solved(const rb_rolling_case *rc)
-{
-    rb_rolling_solution s;
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_solve(rc, &s, &why), RB_OK);
-    return s;
 }
 
 static double closed_maximum(const rb_rolling_case *rc, const rb_rolling_solution *s)

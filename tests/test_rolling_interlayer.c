@@ -1,21 +1,9 @@
 /* An elastic third body: the brush law between rigid bodies, half-planes with a
  * tangential layer, and that meshes, formulations and solvers agree on it. */
-#include "check.h"
-#include "rollbem/rolling.h"
+#include "solved.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>
-
-static rb_rolling_solution solved(const rb_rolling_case *rc)
-{
-    rb_rolling_solution s;
-    rb_message why = {""};
-    const rb_status status = rb_rolling_solve(rc, &s, &why);
-    if (status != RB_OK)
-        print_error("%s\n", why.text);
-    CHECK_STATUS(status, RB_OK);
-    return s;
-}
 
 /* Bodies so stiff that the layer alone gives way: P = 2 a^3/(3 R L_N) with a = 1. */
 static rb_rolling_case brushes(int n, double s)

@@ -1,7 +1,7 @@
 /* Friction laws (theory.md 4.11): coefficients that depend on slip velocity, memory and
  * temperature, proven by formulas of their own and by Coulomb's law with them. */
-#include "check.h"
 #include "rolling/internal.h"
+#include "solved.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -30,20 +30,9 @@ static rb_rolling_case rail(double slip_scale)
     return rc;
 }
 
-static rb_rolling_model solved(const rb_rolling_case *rc)
-{
-    rb_rolling_model model;
-    rb_message why = {""};
-    const rb_status s = rb_rolling_model_create(rc, &model, &why);
-    if (s != RB_OK)
-        print_error("%s\n", why.text);
-    CHECK_STATUS(s, RB_OK);
-    return model;
-}
-
 static double ratio_of(const rb_rolling_case *rc)
 {
-    rb_rolling_model model = solved(rc);
+    rb_rolling_model model = solved_model(rc);
     const double ratio = rb_rolling_force_ratio(&model);
     rb_rolling_model_free(&model);
     return ratio;
@@ -126,7 +115,7 @@ static void coefficients_follow_from_the_slip(void **state)
                 rc.contact_elements = mesh == 3 ? 1501 : 60;
                 if (mesh == 3 && (k > 0 || memory))
                     continue;
-                rb_rolling_model model = solved(&rc);
+                rb_rolling_model model = solved_model(&rc);
                 snprintf(what, sizeof what, "law %d, mesh %d, memory %d", k, mesh,
                          memory);
                 check_state(&model, NULL, what);
@@ -185,10 +174,10 @@ static void steep_laws_have_two_solutions(void **state)
     static const double scale[] = {100.0, 50.0, 20.0, 15.5, 10.0, 5.0, 2.0};
     for (int k = 0; k < 7; k++) {
         rb_rolling_case rc = rail(scale[k]);
-        rb_rolling_model rest = solved(&rc);
+        rb_rolling_model rest = solved_model(&rc);
         double kappa;
         rc.friction.start = &sliding;
-        rb_rolling_model fast = solved(&rc);
+        rb_rolling_model fast = solved_model(&rc);
         check_state(&rest, NULL, "from rest");
         check_state(&fast, NULL, "from sliding");
         CHECK_STATUS(rb_rolling_law_kappa(&rest, &kappa), RB_OK);
@@ -282,7 +271,7 @@ static void all_solutions_are_found(void **state)
                {5.0, 3, {0.527508, 0.526808, 0.526376}}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         rb_rolling_case rc = rail(all[k].scale);
-        rb_rolling_model model = solved(&rc);
+        rb_rolling_model model = solved_model(&rc);
         rb_rolling_solutions found;
         rb_message why = {""};
         CHECK_STATUS(rb_rolling_find_solutions(&model, &found, &why), RB_OK);
@@ -308,7 +297,7 @@ static void all_solutions_are_found(void **state)
     rb_message why = {""};
     rc.creep = NAN;
     rc.force_ratio = -0.2;
-    rb_rolling_model model = solved(&rc);
+    rb_rolling_model model = solved_model(&rc);
     CHECK_STATUS(rb_rolling_find_solutions(&model, &none, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "at a given creepage"));
     rb_rolling_solutions_free(&none);
@@ -438,7 +427,7 @@ static void a_step_has_two_starts(void **state)
     double ratio[2];
     for (int start = 0; start < 2; start++) {
         rb_rolling_case rc = rail(100.0);
-        rb_rolling_model model = solved(&rc);
+        rb_rolling_model model = solved_model(&rc);
         const int n = model.mesh.n, m = n + 1;
         double *w = rb_alloc(2 * (size_t)m, 1), *before = rb_alloc((size_t)n, 1);
         rb_message why = {""};

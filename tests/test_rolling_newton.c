@@ -1,8 +1,8 @@
 /* Newton with a matrix: the problem on pairs of elements, the cold start from it, and the
  * answers beside Lemke's. */
-#include "check.h"
 #include "contact/dense.h"
 #include "rolling/internal.h"
+#include "solved.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>
@@ -27,16 +27,6 @@ static rb_rolling_case steady(rb_bem_support support, int elements)
     rc.creep_ratio = 0.4;
     rc.contact_elements = elements;
     return rc;
-}
-
-static rb_rolling_model solved(const rb_rolling_case *rc)
-{
-    rb_rolling_model model;
-    rb_message why = {{0}};
-
-    if (rb_rolling_model_create(rc, &model, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    return model;
 }
 
 /* ---- Elements in pairs --------------------------------------------------------------
@@ -124,7 +114,7 @@ static void pairs_answer_as_their_elements_do(void **state)
             rc.creep_ratio = NAN;
             rc.shift = 0.01;
         }
-        rb_rolling_model model = solved(&rc);
+        rb_rolling_model model = solved_model(&rc);
         check_half(&model);
         rb_rolling_model_free(&model);
     }
@@ -171,7 +161,7 @@ static void cold_starts_end_where_lemke_does(void **state)
         }
         if (k == 3)
             rc.mesh = RB_MESH_FITTED;
-        rb_rolling_model model = solved(&rc);
+        rb_rolling_model model = solved_model(&rc);
         check_beside_lemke(&model);
         rb_rolling_model_free(&model);
     }
@@ -188,7 +178,7 @@ static void steps_grow_by_levels(void **state)
         if (similar)
             rc.b.young = rc.a.young;
         for (int doubled = 0; doubled < 3; doubled++, rc.contact_elements *= 2) {
-            rb_rolling_model model = solved(&rc);
+            rb_rolling_model model = solved_model(&rc);
             CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &cold), RB_OK);
             CHECK_STATUS(rb_contact_newton(&model.problem, 0, &cold), RB_OK);
             if (doubled == 0)
@@ -251,7 +241,7 @@ static int check_kept(rb_contact_problem *p, rb_contact_unknowns unknowns,
 static void a_kept_lu_serves_other_zones(void **state)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
-    rb_rolling_model model = solved(&rc);
+    rb_rolling_model model = solved_model(&rc);
     rb_contact_state s;
     int changes = 0;
 
@@ -272,7 +262,7 @@ static void a_kept_lu_serves_other_zones(void **state)
 static void a_kept_lu_gives_way_to_a_new_one(void **state)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
-    rb_rolling_model model = solved(&rc);
+    rb_rolling_model model = solved_model(&rc);
     rb_contact_problem *p = &model.problem;
     rb_contact_reduced r;
     rb_contact_state s;
@@ -315,7 +305,7 @@ static double compliance(rb_contact_problem problem, rb_contact_state *s)
 static void a_given_load_does_not_feel_the_datum(void **state)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
-    rb_rolling_model usual = solved(&rc), critical;
+    rb_rolling_model usual = solved_model(&rc), critical;
     rb_contact_problem *p;
     rb_contact_state s;
 
@@ -326,7 +316,7 @@ static void a_given_load_does_not_feel_the_datum(void **state)
     rc.a.datum = rb_rolling_datum(&rc, &rc.a) *
                  exp(-0.5 * M_PI * rb_rolling_derive(&rc).modulus * soft);
     rc.b.datum = rc.a.datum;
-    critical = solved(&rc);
+    critical = solved_model(&rc);
     p = &critical.problem;
     assert_int_equal(p->n, s.n);
     CHECK_ABS(critical.mesh.ends[p->n], usual.mesh.ends[p->n], 0.0, "zone");
@@ -348,7 +338,7 @@ static void a_given_load_does_not_feel_the_datum(void **state)
 static void failing_allocations(void **state)
 {
     rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 120);
-    rb_rolling_model model = solved(&rc);
+    rb_rolling_model model = solved_model(&rc);
 
     (void)state;
     for (int k = 0, refused = 1; refused; k += 1 + k / 10) {

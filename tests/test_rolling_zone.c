@@ -1,6 +1,6 @@
 /* The potential contact, the edges of the contact and elements fitted to them. */
-#include "check.h"
 #include "rolling/internal.h"
+#include "solved.h"
 
 #include <gsl/gsl_math.h>
 
@@ -23,15 +23,6 @@ static rb_rolling_case halfplane(double poisson, double mu, int elements)
     rc.formulation = RB_STEADY;
     rc.contact_elements = elements;
     return rc;
-}
-
-static rb_rolling_solution solved(const rb_rolling_case *rc)
-{
-    rb_rolling_solution s;
-    rb_message why = {""};
-    if (rb_rolling_solve(rc, &s, &why) != RB_OK)
-        fail_msg("%s", why.text);
-    return s;
 }
 
 /* What every solution owes, whatever its mesh: separated elements at both ends, and edges

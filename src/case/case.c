@@ -461,9 +461,9 @@ static rb_units units_of_file(const rb_case *c, const char *option)
     return rb_case_given(c, option) > 0 ? c->file_units : c->words.units;
 }
 
-/* x and gap [mm]. */
-static rb_status read_profile_table(case_table *t, const char *path, rb_units units,
-                                    rb_message *why)
+/* Two columns, of which the first `lengths` are in mm. */
+static rb_status read_profile_table(case_table *t, const char *path, int lengths,
+                                    rb_units units, rb_message *why)
 {
     if (is_read(t, path, units))
         return RB_OK;
@@ -471,7 +471,7 @@ static rb_status read_profile_table(case_table *t, const char *path, rb_units un
     const rb_status s = rb_io_table_read_columns(path, 2, &t->table, why);
     t->path = s == RB_OK ? path : NULL;
     t->units = units;
-    for (int j = 0; j < 2 && s == RB_OK; j++)
+    for (int j = 0; j < lengths && s == RB_OK; j++)
         rb_io_table_convert(&t->table, j, "mm", units);
     return s;
 }
@@ -487,7 +487,7 @@ static rb_status read_profile(rb_case *c, rb_message *why)
         c->profile.noise != noise)
         free_profile(&c->profile);
     rb_status s =
-        read_profile_table(&c->gap, settled->gap_file, units_of_file(c, "gap"), why);
+        read_profile_table(&c->gap, settled->gap_file, 2, units_of_file(c, "gap"), why);
     if (s == RB_OK && !c->profile.curve) {
         c->profile = (case_profile){.noise = noise};
         s = rb_rolling_profile_create(t->rows, t->x, t->x + t->rows, noise,
@@ -505,7 +505,7 @@ static rb_status read_irregularity(rb_case *c, rb_message *why)
     if (!settled->irregularity_file)
         return RB_OK;
     const rb_status s = read_profile_table(&c->irregularity, settled->irregularity_file,
-                                           units_of_file(c, "irregularity"), why);
+                                           2, units_of_file(c, "irregularity"), why);
     if (s != RB_OK)
         return s;
     settled->rc.irregularity_n = t->rows;
@@ -520,8 +520,8 @@ static rb_status read_worn(rb_case *c, rb_message *why)
     const rb_io_table *t = &c->worn.table;
     if (!settled->worn_file)
         return RB_OK;
-    const rb_status s =
-        read_profile_table(&c->worn, settled->worn_file, units_of_file(c, "worn"), why);
+    const rb_status s = read_profile_table(&c->worn, settled->worn_file, 2,
+                                           units_of_file(c, "worn"), why);
     if (s != RB_OK)
         return s;
     settled->rc.worn_n = t->rows;
@@ -540,16 +540,10 @@ static rb_status read_friction(rb_case *c, rb_message *why)
         return RB_OK;
     if (!settled->friction_file)
         return refuse_given(c, "friction-law", "expected the file of the table", why);
-    if (!is_read(&c->friction, settled->friction_file, units)) {
-        free_table(&c->friction);
-        const rb_status s =
-            rb_io_table_read_columns(settled->friction_file, 2, &c->friction.table, why);
-        if (s != RB_OK)
-            return s;
-        c->friction.path = settled->friction_file;
-        c->friction.units = units;
-        rb_io_table_convert(&c->friction.table, 0, "mm", units);
-    }
+    const rb_status s =
+        read_profile_table(&c->friction, settled->friction_file, 1, units, why);
+    if (s != RB_OK)
+        return s;
     settled->rc.friction.table =
         (rb_rolling_friction_table){t->rows, t->x, t->x + t->rows};
     return refuse_given(c, "mu", "the table of --friction-law has the coefficients", why);

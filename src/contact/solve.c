@@ -204,6 +204,17 @@ static int is_solved(rb_status s, const rb_contact_problem *problem,
     return s == RB_OK && state->residual <= fmax(options->tol, problem->rounding);
 }
 
+/* What Newton has ended with, as s says, made a state. */
+static rb_status complete_newton(rb_contact_problem *problem, rb_status s,
+                                 rb_contact_state *state)
+{
+    if (s < 0)
+        return s;
+    state->solver = RB_SOLVER_NEWTON;
+    const rb_status t = complete(problem, 1, state);
+    return t < 0 ? t : s;
+}
+
 /* On large contacts an element whose traction is rounding may come and go: a cycle that
  * ends in a solution is one. */
 static rb_status solve_newton(rb_contact_problem *problem,
@@ -212,11 +223,7 @@ static rb_status solve_newton(rb_contact_problem *problem,
 {
     rb_status s = rb_contact_newton(problem, warm, state);
 
-    if (s >= 0) {
-        state->solver = RB_SOLVER_NEWTON;
-        const rb_status t = complete(problem, 1, state);
-        s = t < 0 ? t : s;
-    }
+    s = complete_newton(problem, s, state);
     if (s == RB_MAXITER && problem->rounding > 0.0 &&
         is_solved(RB_OK, problem, options, state))
         s = RB_OK;
@@ -378,11 +385,7 @@ static rb_status solve_yield_newton(rb_contact_problem *problem,
 {
     rb_status s = rb_contact_yield_newton(problem, follows, state);
 
-    if (s >= 0) {
-        state->solver = RB_SOLVER_NEWTON;
-        const rb_status t = complete(problem, 1, state);
-        s = t < 0 ? t : s;
-    }
+    s = complete_newton(problem, s, state);
     return s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
 }
 

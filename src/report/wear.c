@@ -11,33 +11,35 @@ static rb_report_columns columns_of(const rb_rolling_wear_history *h)
     return (rb_report_columns){&rb_rolling_wear_columns, h, 0, h->units};
 }
 
-/* What the way counts.  Returns text. */
-static const char *way_of(const rb_rolling_wear_history *h, char text[20])
+/* What the way counts, and what the work of friction is per. */
+typedef struct {
+    char way[20], work[20];
+} wear_words;
+
+static wear_words words_of(const rb_rolling_wear_history *h)
 {
-    snprintf(text, 20, "%s%s", h->slides ? rb_unit_name(h->units, "mm") : "",
-             h->slides  ? " slid"
-             : h->rolls ? "turns"
-                        : "cycles");
-    return text;
+    const char *mm = rb_unit_name(h->units, "mm");
+    wear_words words = {"cycles", "cycle"};
+
+    if (h->slides) {
+        snprintf(words.way, sizeof words.way, "%s slid", mm);
+        memcpy(words.work, words.way, sizeof words.work);
+    } else if (h->rolls) {
+        snprintf(words.way, sizeof words.way, "turns");
+        snprintf(words.work, sizeof words.work, "rolled %s", mm);
+    }
+    return words;
 }
 
 rb_status rb_report_wear_table(FILE *out, const rb_report_wear *w, const char *command,
                                const rb_report_style *style)
 {
-    const rb_rolling_wear_history *h = w->history;
-    const rb_report_columns columns = columns_of(h);
-    const char *mm = rb_unit_name(h->units, "mm");
-    char way[20];
+    const rb_report_columns columns = columns_of(w->history);
+    const wear_words words = words_of(w->history);
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
 
-    rb_report_comment(&c, "way: %s; work: of friction per %s%s", way_of(h, way),
-                      h->slides  ? mm
-                      : h->rolls ? "rolled "
-                                 : "cycle",
-                      h->slides  ? " slid"
-                      : h->rolls ? mm
-                                 : "");
-    return rb_report_end_columns(&c, h->n, 1, &columns);
+    rb_report_comment(&c, "way: %s; work: of friction per %s", words.way, words.work);
+    return rb_report_end_columns(&c, w->history->n, 1, &columns);
 }
 
 json_t *rb_report_json_wear(const rb_report_wear *w)
@@ -54,9 +56,8 @@ void rb_report_wear_summary(FILE *out, const rb_report_wear *w)
     const rb_rolling_wear_history *h = w->history;
     const int last = h->n - 1;
     const char *mm = rb_unit_name(h->units, "mm"), *MPa = rb_unit_name(h->units, "MPa");
-    char way[20];
 
-    fprintf(out, "wear: %d steps, %.5g %s\n", last, h->way[last], way_of(h, way));
+    fprintf(out, "wear: %d steps, %.5g %s\n", last, h->way[last], words_of(h).way);
     fprintf(out, "  worn      %.6g %s3 per %s of width, at most %.5g %s deep\n",
             h->worn[last], mm, mm, h->max_depth[last], mm);
     fprintf(out, "  contact   %.5g ... %.5g %s, before %.5g ... %.5g %s\n",
@@ -163,9 +164,8 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     const double from = fmin(h->contact_from[0], h->contact_from[last]) / length.size;
     const double to = fmax(h->contact_to[0], h->contact_to[last]) / length.size;
     const char *mm = rb_unit_name(h->units, "mm");
-    char way[20];
+    const wear_words words = words_of(h);
 
-    way_of(h, way);
     write_data(out, w, length.size, stress.size, depth.size);
     fprintf(out,
             "set multiplot\nset lmargin at screen %g\nset rmargin at screen "
@@ -176,13 +176,13 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
             "maxrows 1 samplen 1.5 font ',%.3g'\nset label 2 '%s:' at screen %g, %g "
             "left\n",
             from - 0.1 * (to - from), to + 0.1 * (to - from), 0.91 + 1.6 * place.up,
-            rb_report_key_font(canvas), way, 0.14 - place.right, 0.897 + place.up);
+            rb_report_key_font(canvas), words.way, 0.14 - place.right, 0.897 + place.up);
     if (place.titled)
         fprintf(out,
                 "set label 1 '{/:Bold Wear}   P = %.5g %s,  %.4g %s^3/%s worn after %.5g "
                 "%s' at screen 0.54, 0.955 center\n",
                 h->normal_load[last], rb_unit_name(h->units, "N/mm"), h->worn[last], mm,
-                mm, h->way[last], way);
+                mm, h->way[last], words.way);
     fprintf(out,
             "set tmargin at screen 0.87\nset bmargin at screen 0.54\n"
             "set yrange [0:*]\nset label 3 'pressure  [%s]' at screen 0.03, 0.705 center "

@@ -1,0 +1,27 @@
+/* Rolling cases that must be solved; the reason where one is not. */
+#ifndef SOLVED_H
+#define SOLVED_H
+
+#include "check.h"
+#include "rollbem/rolling.h"
+
+/* To be freed by the caller, as the next. */
+static inline rb_rolling_solution solved(const rb_rolling_case *rc)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    if (rb_rolling_solve(rc, &s, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return s;
+}
+
+static inline rb_rolling_model solved_model(const rb_rolling_case *rc)
+{
+    rb_rolling_model model;
+    rb_message why = {""};
+    if (rb_rolling_model_create(rc, &model, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return model;
+}
+
+#endif
