@@ -193,10 +193,11 @@ $(B)/%.o: %.c
 
 # tests of failing allocations count the library's own calls: --wrap sees the static library
 WRAP = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc
-$(B)/tests/%: tests/%.c tests/check.h tests/failing_alloc.c $(B)/librollbem.a
+TEST_OBJ = $(B)/tests/failing_alloc.o $(B)/tests/fault_call.o
+$(B)/tests/%: tests/%.c tests/check.h $(B)/tests/failing_alloc.o $(B)/librollbem.a
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
-	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $(filter tests/%.c,$^) $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
+	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< $(filter %.o,$^) $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
 
 # the core by itself, with the libraries that it needs and no others
 CORE := $(foreach folder,base lcp bem contact rolling case,$(B)/src/$(folder)/%) $(B)/src/io/table.o $(B)/src/io/text.o $(B)/src/io/tokens.o
@@ -212,7 +213,7 @@ $(B)/tests/test_core: tests/test_core.c tests/check.h $(B)/librollbem-core.a
 
 # the program under failing system calls, and under failing allocations
 $(B)/tests/test_symbols $(B)/tests/test_hardening: | $(B)/librollbem.so
-$(B)/tests/test_faults: tests/fault_call.c $(B)/tests/fault_malloc.so
+$(B)/tests/test_faults: $(B)/tests/fault_call.o $(B)/tests/fault_malloc.so
 $(B)/tests/fault_malloc.so: tests/fault_malloc.c
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
@@ -326,4 +327,4 @@ page-test: page $(B)/rollbem
 
 clean: ; rm -rf $(B)
 
--include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(MPI_OBJ:.o=.d) $(FUZZ_OBJ:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)
+-include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(MPI_OBJ:.o=.d) $(FUZZ_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)
