@@ -194,6 +194,7 @@ $(B)/%.o: %.c
 # tests of failing allocations count the library's own calls: --wrap sees the static library
 WRAP = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc
 TEST_OBJ = $(B)/tests/failing_alloc.o $(B)/tests/fault_call.o
+.SECONDARY: $(TEST_OBJ)
 $(B)/tests/%: tests/%.c tests/check.h $(B)/tests/failing_alloc.o $(B)/librollbem.a
 	@mkdir -p $(@D)
 	@echo "  CC  $<"

@@ -192,7 +192,9 @@ rb_status rb_contact_residual(const rb_contact_problem *problem,
 /* The most friction that the pressures of the state carry: mu P for one coefficient. */
 double rb_contact_capacity(const rb_contact_problem *problem,
                            const rb_contact_state *state);
-/* M of the state. */
+/* P, Q and M of the state. */
+double rb_contact_load(const rb_contact_problem *problem, const rb_contact_state *state);
+double rb_contact_force(const rb_contact_problem *problem, const rb_contact_state *state);
 double rb_contact_moment(const rb_contact_problem *problem,
                          const rb_contact_state *state);
 

@@ -37,8 +37,6 @@ void rb_contact_reduced_free(rb_contact_reduced *r);
 
 /* r_T = slope bound r_N of a zone; 0 in stick, where r_T is an unknown of its own. */
 double rb_contact_slope(int zone);
-/* Of an element in contact that slides by lambda. */
-rb_contact_zone rb_contact_sliding_zone(double lambda);
 /* r_T of an element per unit of its unknown pressure: its bound in the direction that its
  * zone says, or 0 where the pressure is not moved together with it. */
 double rb_contact_reduced_friction(const rb_contact_problem *problem,
@@ -102,6 +100,8 @@ rb_status rb_contact_cone_solve(const rb_contact_problem *problem,
 /* ---- residual.c ----------------------------------------------------------------------
  */
 
+/* Of an element in contact that slides by lambda. */
+rb_contact_zone rb_contact_sliding_zone(double lambda);
 /* Zones from p, q and lambda; entries below tol times the scales count as zero. */
 void rb_contact_classify(const rb_contact_problem *problem, double tol,
                          rb_contact_state *state);

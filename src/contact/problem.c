@@ -51,12 +51,33 @@ void rb_contact_set_friction(rb_contact_problem *p, double mu, const double *bou
         p->op->kind->forget(p->op);
 }
 
+static double weighted(const rb_contact_state *state, const double *a_N,
+                       const double *a_T)
+{
+    return cblas_ddot(state->n, a_N, 1, state->p, 1) +
+           cblas_ddot(state->n, a_T, 1, state->q, 1);
+}
+
+double rb_contact_load(const rb_contact_problem *p, const rb_contact_state *state)
+{
+    return weighted(state, p->load_N, p->load_T);
+}
+
+double rb_contact_force(const rb_contact_problem *p, const rb_contact_state *state)
+{
+    return weighted(state, p->force_N, p->force_T);
+}
+
+double rb_contact_moment(const rb_contact_problem *p, const rb_contact_state *state)
+{
+    return weighted(state, p->moment_N, p->moment_T);
+}
+
 /* From mu P what elements with a smaller bound carry less: exactly mu P where there are
  * none. */
 double rb_contact_capacity(const rb_contact_problem *p, const rb_contact_state *state)
 {
-    const double P = cblas_ddot(p->n, p->load_N, 1, state->p, 1) +
-                     cblas_ddot(p->n, p->load_T, 1, state->q, 1);
+    const double P = rb_contact_load(p, state);
     double less = 0.0;
 
     for (int i = 0; i < p->n; i++)
@@ -73,12 +94,6 @@ void rb_contact_force_row(const rb_contact_problem *p, double *control_N,
         control_N[i] = p->force_N[i] - share * p->load_N[i] + p->axle * p->moment_N[i];
         control_T[i] = p->force_T[i] - share * p->load_T[i] + p->axle * p->moment_T[i];
     }
-}
-
-double rb_contact_moment(const rb_contact_problem *p, const rb_contact_state *state)
-{
-    return cblas_ddot(p->n, p->moment_N, 1, state->p, 1) +
-           cblas_ddot(p->n, p->moment_T, 1, state->q, 1);
 }
 
 rb_status rb_contact_set_yield(rb_contact_problem *p, double stress, double hardening)

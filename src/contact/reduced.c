@@ -108,9 +108,7 @@ void rb_contact_reduced_right_side(const rb_contact_problem *p,
     for (int k = 0; k < r->sticks; k++)
         r->x[row++] = -r->lambda[r->stick[k]] / p->slip_length;
     if (r->load)
-        r->x[row++] = 1.0 - (cblas_ddot(p->n, p->load_N, 1, state->p, 1) +
-                             cblas_ddot(p->n, p->load_T, 1, state->q, 1)) /
-                                p->load;
+        r->x[row++] = 1.0 - rb_contact_load(p, state) / p->load;
     if (r->force)
         r->x[row] = (p->force - cblas_ddot(p->n, r->control_N, 1, state->p, 1) -
                      cblas_ddot(p->n, r->control_T, 1, state->q, 1)) /

@@ -1,6 +1,5 @@
 #include "contact/internal.h"
 
-#include <cblas.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -60,30 +59,19 @@ static double friction_scale(const rb_contact_problem *problem)
     return problem->mu > 0.0 ? problem->mu * problem->stress : problem->stress;
 }
 
-static double weighted_sum(int n, const double *a, const double *x, const double *b,
-                           const double *y)
-{
-    return cblas_ddot(n, a, 1, x, 1) + cblas_ddot(n, b, 1, y, 1);
-}
-
 /* Given load and force, relative to themselves. */
 static double control_violation(const rb_contact_problem *p,
                                 const rb_contact_state *state)
 {
     double worst = 0.0;
 
-    if (p->load_given) {
-        const double P = weighted_sum(p->n, p->load_N, state->p, p->load_T, state->q);
-        worst = fabs(P - p->load) / p->load;
-    }
+    if (p->load_given)
+        worst = fabs(rb_contact_load(p, state) - p->load) / p->load;
     if (p->force_given) {
-        const double P = weighted_sum(p->n, p->load_N, state->p, p->load_T, state->q);
-        const double Q = weighted_sum(p->n, p->force_N, state->p, p->force_T, state->q);
-        const double most = rb_contact_capacity(p, state), less = p->mu * P - most;
-        const double wanted = p->force + p->force_ratio * p->mu * P -
-                              p->force_ratio * less -
-                              p->axle * rb_contact_moment(p, state);
-        worst = fmax(worst, fabs(Q - wanted) / most);
+        const double most = rb_contact_capacity(p, state);
+        const double wanted =
+            p->force + p->force_ratio * most - p->axle * rb_contact_moment(p, state);
+        worst = fmax(worst, fabs(rb_contact_force(p, state) - wanted) / most);
     }
     return worst;
 }

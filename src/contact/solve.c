@@ -1,7 +1,6 @@
 /* The order of attempts: Lemke's three, Newton, and who comes first. */
 #include "contact/internal.h"
 
-#include <cblas.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -518,12 +517,6 @@ static rb_status solve_driven(rb_contact_problem *problem,
     return s;
 }
 
-static double force_of(const rb_contact_problem *p, const rb_contact_state *state)
-{
-    return cblas_ddot(p->n, p->force_N, 1, state->p, 1) +
-           cblas_ddot(p->n, p->force_T, 1, state->q, 1);
-}
-
 /* Whether a given force is more than a layer that yields carries: RB_EINVAL.  The most is
  * that of full sliding, or, where the layer softens, the largest along the creep curve:
  * beyond it more slip carries less. */
@@ -543,11 +536,11 @@ static rb_status check_layer(rb_contact_problem *problem,
         for (int k = 1; k <= POINTS && s == RB_OK; k++) {
             given.xi = (backwards ? -1.0 : 1.0) * options->sliding * k / POINTS;
             s = solve_given(&given, options, k > 1, state, NULL);
-            most = fmax(most, fabs(force_of(problem, state)));
+            most = fmax(most, fabs(rb_contact_force(problem, state)));
         }
     else
         s = solve_sliding(problem, options, backwards, state, NULL);
-    most = fmax(most, fabs(force_of(problem, state)));
+    most = fmax(most, fabs(rb_contact_force(problem, state)));
     const double Q =
         problem->force + problem->force_ratio * rb_contact_capacity(problem, state);
     return s != RB_OK || fabs(Q) <= most

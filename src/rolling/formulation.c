@@ -2,7 +2,6 @@
  * A, what moves the surfaces, what is given.  The solvers do not know which it is. */
 #include "rolling/internal.h"
 
-#include <cblas.h>
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
@@ -334,16 +333,12 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
 
 double rb_rolling_model_load(const rb_rolling_model *model)
 {
-    const rb_contact_problem *p = &model->problem;
-    return cblas_ddot(p->n, p->load_N, 1, model->state.p, 1) +
-           cblas_ddot(p->n, p->load_T, 1, model->state.q, 1);
+    return rb_contact_load(&model->problem, &model->state);
 }
 
 double rb_rolling_model_force(const rb_rolling_model *model)
 {
-    const rb_contact_problem *p = &model->problem;
-    return cblas_ddot(p->n, p->force_N, 1, model->state.p, 1) +
-           cblas_ddot(p->n, p->force_T, 1, model->state.q, 1);
+    return rb_contact_force(&model->problem, &model->state);
 }
 
 double rb_rolling_force_ratio(const rb_rolling_model *model)

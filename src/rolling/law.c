@@ -1,6 +1,8 @@
 /* Friction laws (theory.md 4.11): the coefficient of an element from its state. */
 #include "rolling/internal.h"
 
+#include <gsl/gsl_interp.h>
+
 /* ---- The laws --------------------------------------------------------------------- */
 
 static double constant_mu(const rb_rolling_case *rc, double x, double v)
@@ -66,14 +68,12 @@ static const char *const names[] = {RB_ROLLING_FRICTION_LAWS(NAME_OF_LAW) "table
 double rb_rolling_friction_at(const rb_rolling_friction_table *table, double x)
 {
     const int last = table->n - 1;
-    int k = 0;
 
     if (x <= table->x[0])
         return table->mu[0];
     if (x >= table->x[last])
         return table->mu[last];
-    while (x > table->x[k + 1])
-        k++;
+    const size_t k = gsl_interp_bsearch(table->x, x, 0, (size_t)last);
     const double share = (x - table->x[k]) / (table->x[k + 1] - table->x[k]);
     return table->mu[k] + share * (table->mu[k + 1] - table->mu[k]);
 }
