@@ -40,8 +40,9 @@ static void the_closed_form_is_the_series(void **state)
         for (int j = 0; j < 4; j++)
             for (int k = 0; k < 2; k++) {
                 double response[4];
-                CHECK_STATUS(
-                    rb_bem_disc_response(2.0, material, h[i], angle[j], response), RB_OK);
+                CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){2.0, material}, h[i],
+                                                  angle[j], response),
+                             RB_OK);
                 const double complex want = series(h[i], angle[j], k ? I : 1.0);
                 const double scale = 2.0 * h[i] / material.shear;
                 CHECK_ABS(response[2 * k], creal(want), 1e-11 * scale, "u_r %g %g %d",
@@ -60,9 +61,12 @@ static void arcs_add_up_at_any_width(void **state)
         for (double place = 0.25; place < 2.0 / h && place < 1e4; place *= 7.0) {
             double whole[4], left[4], right[4];
             const double b = place * h;
-            CHECK_STATUS(rb_bem_disc_response(1.0, material, h, b, whole), RB_OK);
-            rb_bem_disc_response(1.0, material, 0.5 * h, b - 0.25 * h, left);
-            rb_bem_disc_response(1.0, material, 0.5 * h, b + 0.25 * h, right);
+            CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){1.0, material}, h, b, whole),
+                         RB_OK);
+            rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 0.5 * h, b - 0.25 * h,
+                                 left);
+            rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 0.5 * h, b + 0.25 * h,
+                                 right);
             for (int k = 0; k < 4; k++)
                 CHECK_ABS(left[k] + right[k], whole[k], 1e-13 * rb_norm_inf(4, whole),
                           "entry %d, h = %g, %g widths away", k, h, place);
@@ -81,8 +85,10 @@ static double element_error(int n, double alpha)
     for (int j = 0; j < n; j++) {
         const double angle = atan2(midpoint_y(&mesh, j), midpoint_x(&mesh, j));
         double top[4], bottom[4];
-        rb_bem_disc_response(1.0, material, 2 * alpha, angle - M_PI_2, top);
-        rb_bem_disc_response(1.0, material, 2 * alpha, angle + M_PI_2, bottom);
+        rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 2 * alpha, angle - M_PI_2,
+                             top);
+        rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 2 * alpha, angle + M_PI_2,
+                             bottom);
         const double r = -(top[0] + bottom[0]), s = -(top[1] + bottom[1]);
         error += pow(u[2 * j] - r * cos(angle) + s * sin(angle), 2) +
                  pow(u[2 * j + 1] - r * sin(angle) - s * cos(angle), 2);
@@ -110,12 +116,16 @@ static void bad_input_is_refused(void **state)
 {
     (void)state;
     double response[4];
-    CHECK_STATUS(rb_bem_disc_response(0.0, material, 0.1, 0.0, response), RB_EINVAL);
-    CHECK_STATUS(rb_bem_disc_response(1.0, material, 0.0, 0.0, response), RB_EINVAL);
-    CHECK_STATUS(rb_bem_disc_response(1.0, material, 7.0, 0.0, response), RB_EINVAL);
-    CHECK_STATUS(rb_bem_disc_response(1.0, material, 0.1, NAN, response), RB_EINVAL);
+    CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){0.0, material}, 0.1, 0.0, response),
+                 RB_EINVAL);
+    CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 0.0, 0.0, response),
+                 RB_EINVAL);
+    CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 7.0, 0.0, response),
+                 RB_EINVAL);
+    CHECK_STATUS(rb_bem_disc_response(&(rb_bem_disc){1.0, material}, 0.1, NAN, response),
+                 RB_EINVAL);
     CHECK_STATUS(
-        rb_bem_disc_response(1.0, (rb_bem_material){1.0, 0.6}, 0.1, 0.0, response),
+        rb_bem_disc_response(&(rb_bem_disc){1.0, {1.0, 0.6}}, 0.1, 0.0, response),
         RB_EINVAL);
 }
 

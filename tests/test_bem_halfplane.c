@@ -29,7 +29,10 @@ static load hertz(double ratio)
 static void stress_at(const load *l, double x, double y, double s[3])
 {
     const double xy[2] = {x, y};
-    CHECK_STATUS(rb_bem_halfplane_stress(n_strips, l->ends, l->p, l->q, 1, xy, s), RB_OK);
+    CHECK_STATUS(
+        rb_bem_halfplane_stress(&(rb_bem_edge_load){n_strips, l->ends, l->p, l->q},
+                                (rb_bem_points){1, xy}, s),
+        RB_OK);
 }
 
 static double max_shear(const double s[3])
@@ -160,15 +163,29 @@ static void bad_input_and_short_memory(void **state)
     const double ends[] = {0, 1, 2}, back[] = {0, 1, 1}, one[] = {1, 1}, xy[] = {0.5, 1},
                  above[] = {0.5, -1}, nan[] = {0.5, NAN};
     double s[3];
-    CHECK_STATUS(rb_bem_halfplane_stress(0, ends, one, one, 1, xy, s), RB_EINVAL);
-    CHECK_STATUS(rb_bem_halfplane_stress(2, back, one, one, 1, xy, s), RB_EINVAL);
-    CHECK_STATUS(rb_bem_halfplane_stress(2, ends, one, one, -1, xy, s), RB_EINVAL);
-    CHECK_STATUS(rb_bem_halfplane_stress(2, ends, one, one, 1, above, s), RB_EINVAL);
-    CHECK_STATUS(rb_bem_halfplane_stress(2, ends, one, one, 1, nan, s), RB_EINVAL);
+    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){0, ends, one, one},
+                                         (rb_bem_points){1, xy}, s),
+                 RB_EINVAL);
+    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){2, back, one, one},
+                                         (rb_bem_points){1, xy}, s),
+                 RB_EINVAL);
+    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one},
+                                         (rb_bem_points){-1, xy}, s),
+                 RB_EINVAL);
+    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one},
+                                         (rb_bem_points){1, above}, s),
+                 RB_EINVAL);
+    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one},
+                                         (rb_bem_points){1, nan}, s),
+                 RB_EINVAL);
     alloc_fail_after(0);
-    CHECK_STATUS(rb_bem_halfplane_stress(2, ends, one, one, 1, xy, s), RB_ENOMEM);
+    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one},
+                                         (rb_bem_points){1, xy}, s),
+                 RB_ENOMEM);
     alloc_succeed();
-    CHECK_STATUS(rb_bem_halfplane_stress(2, ends, one, one, 0, xy, s), RB_OK);
+    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){2, ends, one, one},
+                                         (rb_bem_points){0, xy}, s),
+                 RB_OK);
 }
 
 int main(void)

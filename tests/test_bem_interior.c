@@ -56,7 +56,8 @@ static errors error_at_depth(int n, double depth)
             const double xy[2] = {midpoint_x(&mesh, j) + 0.3 * place * dx - depth * dy,
                                   midpoint_y(&mesh, j) + 0.3 * place * dy + depth * dx};
             double got_u[2], got[3], want_u[2], want[3];
-            CHECK_STATUS(rb_bem_interior(&mesh, material, u, t, 1, xy, got_u, got, NULL),
+            CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
+                                         (rb_bem_points){1, xy}, got_u, got, NULL),
                          RB_OK);
             known_field(xy[0], xy[1], want_u, want);
             for (int c = 0; c < 2; c++)
@@ -111,7 +112,9 @@ static void rigid_motions_have_no_stress(void **state)
     }
     for (int k = 0; k < 30; k++) {
         const double r = k * 1.9 / 29, xy[2] = {r * cos(3.0 * k), r * sin(3.0 * k)};
-        CHECK_STATUS(rb_bem_interior(&mesh, material, u, t, 1, xy, got, s, NULL), RB_OK);
+        CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
+                                     (rb_bem_points){1, xy}, got, s, NULL),
+                     RB_OK);
         CHECK_ABS(got[0], 0.3 - 0.1 * xy[1], 5e-4, "ux %d", k);
         CHECK_ABS(got[1], -0.2 + 0.1 * xy[0], 5e-4, "uy %d", k);
         CHECK_ABS(rb_norm_inf(3, s), 0.0, material.shear * 0.1 * 0.03, "stress %d", k);
@@ -132,9 +135,9 @@ static errors compression_error(int n, double alpha)
     double *u = rb_alloc(2 * (size_t)n, 1), *t = rb_alloc(2 * (size_t)n, 1), s[3], at[2];
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
     CHECK_STATUS(rb_bem_system_solve(system, NULL, u, t), RB_OK);
-    CHECK_STATUS(
-        rb_bem_interior(&mesh, material, u, t, 1, (const double[]){0, 0}, at, s, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
+                                 (rb_bem_points){1, (const double[]){0, 0}}, at, s, NULL),
+                 RB_OK);
     CHECK_ABS(hypot(at[0], at[1]), 0.0, 1e-12, "the centre stays");
     CHECK_ABS(s[2], 0.0, 1e-12, "no shear at the centre");
     const double sxx = 2 / M_PI * (sin(2 * alpha) - alpha),
@@ -178,7 +181,8 @@ static void the_field_is_in_equilibrium(void **state)
                          h = 1e-4 * hypot(dx, dy);
             const double xy[8] = {x + h, y, x - h, y, x, y + h, x, y - h};
             double s[12];
-            CHECK_STATUS(rb_bem_interior(&mesh, material, u, t, 4, xy, NULL, s, NULL),
+            CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
+                                         (rb_bem_points){4, xy}, NULL, s, NULL),
                          RB_OK);
             CHECK_ABS((s[0] - s[3] + s[8] - s[11]) / (2 * h), 0.0, 1e-4, "x, %d, %g", j,
                       depth);
@@ -200,20 +204,25 @@ static void bad_input_is_refused(void **state)
     rb_message why;
     const double outside[] = {0.5, 0.5, 1.5, 0.0, 0.7, 0.0}, hole[] = {0.1, 0.1},
                  nan[] = {NAN, 0.0};
-    CHECK_STATUS(rb_bem_interior(&mesh, material, u, t, 3, outside, NULL, s, &why),
+    CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
+                                 (rb_bem_points){3, outside}, NULL, s, &why),
                  RB_EINVAL);
     assert_non_null(strstr(why.text, "point 1 at (1.5, 0) lies outside"));
-    CHECK_STATUS(rb_bem_interior(&mesh, material, u, t, 1, hole, NULL, s, NULL),
+    CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
+                                 (rb_bem_points){1, hole}, NULL, s, NULL),
                  RB_EINVAL);
-    CHECK_STATUS(rb_bem_interior(&mesh, material, u, t, 1, nan, NULL, s, NULL),
+    CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
+                                 (rb_bem_points){1, nan}, NULL, s, NULL),
                  RB_EINVAL);
-    CHECK_STATUS(rb_bem_interior(&mesh, material, u, t, -1, hole, NULL, s, NULL),
+    CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
+                                 (rb_bem_points){-1, hole}, NULL, s, NULL),
                  RB_EINVAL);
-    CHECK_STATUS(
-        rb_bem_interior(&mesh, (rb_bem_material){0, 0.3}, u, t, 0, hole, NULL, s, NULL),
-        RB_EINVAL);
+    CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, {0, 0.3}, u, t},
+                                 (rb_bem_points){0, hole}, NULL, s, NULL),
+                 RB_EINVAL);
     mesh.x1[3] += 0.1;
-    CHECK_STATUS(rb_bem_interior(&mesh, material, u, t, 0, hole, NULL, s, NULL),
+    CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
+                                 (rb_bem_points){0, hole}, NULL, s, NULL),
                  RB_EINVAL);
     rb_bem_mesh_free(&mesh);
 }
@@ -227,8 +236,8 @@ static void failing_memory_is_reported(void **state)
     const double xy[] = {0.7, 0.0};
     for (int count = 0, failed = 1; failed; count++) {
         alloc_fail_after(count);
-        const rb_status got =
-            rb_bem_interior(&mesh, material, u, t, 1, xy, NULL, s, NULL);
+        const rb_status got = rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
+                                              (rb_bem_points){1, xy}, NULL, s, NULL);
         failed = alloc_failed();
         alloc_succeed();
         CHECK_STATUS(got, failed ? RB_ENOMEM : RB_OK);

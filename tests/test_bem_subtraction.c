@@ -48,7 +48,9 @@ static void its_tractions_are_those_of_the_stress(void **state)
     double sigma[12];
     rb_bem_mesh mesh;
     const rb_strip strip = flat_strip(&mesh);
-    CHECK_STATUS(rb_bem_halfplane_stress(1, ends, &p, &q, 4, xy, sigma), RB_OK);
+    CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){1, ends, &p, &q},
+                                         (rb_bem_points){4, xy}, sigma),
+                 RB_OK);
     for (int k = 0; k < 4; k++)
         for (int turn = 0; turn < 4; turn++) {
             const double nx = cos(0.3 + turn), ny = sin(0.3 + turn), *s = sigma + 3 * k;
@@ -92,7 +94,9 @@ static void linear_strips_make_a_tent(void **state)
                    right = rb_strip_between(0.1, 0.5, steel, 1.0);
     const double complex top = q[1] + p[1] * I;
     double want[18], a[3], b[3];
-    CHECK_STATUS(rb_bem_halfplane_stress_linear(3, nodes, p, q, 6, xy, want), RB_OK);
+    CHECK_STATUS(rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){3, nodes, p, q},
+                                                (rb_bem_points){6, xy}, want),
+                 RB_OK);
     for (int k = 0; k < 6; k++) {
         const double complex z = xy[2 * k] + xy[2 * k + 1] * I;
         rb_strip_linear_stress(&left, z, 0.5 * top, top / 0.4, a);

@@ -251,19 +251,19 @@ static void check_identity(const rb_bem_mesh *mesh, const double *u, const doubl
         const double px = 0.5 * (mesh->x0[i] + mesh->x1[i]),
                      py = 0.5 * (mesh->y0[i] + mesh->y1[i]);
         for (int j = 0; j < mesh->n; j++) {
-            double H[4], G[4];
-            rb_bem_element_integrals(mesh->x0[j], mesh->y0[j], mesh->x1[j], mesh->y1[j],
-                                     px, py, i == j, steel, H, G);
+            const rb_bem_segment element = {mesh->x0[j], mesh->y0[j], mesh->x1[j],
+                                            mesh->y1[j]};
+            rb_bem_blocks b = rb_bem_element_integrals(element, px, py, i == j, steel);
             /* logarithms over the size of the mesh, as everywhere */
             const double length =
                 hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
             const double more = length * (3.0 - 4.0 * steel.poisson) * log_size /
                                 (8.0 * M_PI * steel.shear * (1.0 - steel.poisson));
-            G[0] += more;
-            G[3] += more;
+            b.G[0] += more;
+            b.G[3] += more;
             for (int k = 0; k < 2; k++)
-                sum[k] += H[k] * u[2 * j] + H[2 + k] * u[2 * j + 1] - G[k] * t[2 * j] -
-                          G[2 + k] * t[2 * j + 1];
+                sum[k] += b.H[k] * u[2 * j] + b.H[2 + k] * u[2 * j + 1] -
+                          b.G[k] * t[2 * j] - b.G[2 + k] * t[2 * j + 1];
         }
         CHECK_ABS(sum[0], 0.0, 1e-6 * scale, "x of point %d", i);
         CHECK_ABS(sum[1], 0.0, 1e-6 * scale, "y of point %d", i);

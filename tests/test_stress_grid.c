@@ -83,9 +83,12 @@ static void linear_tractions_are_the_limit_of_strips(void **state)
         ps[i] = x < 0.25 ? (x + 1.0) / 1.25 : (1.0 - x) / 0.75;
         qs[i] = -0.3 * ps[i];
     }
-    assert_int_equal(rb_bem_halfplane_stress_linear(3, nodes, p, q, 4, xy, linear),
+    assert_int_equal(rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){3, nodes, p, q},
+                                                    (rb_bem_points){4, xy}, linear),
                      RB_OK);
-    assert_int_equal(rb_bem_halfplane_stress(STRIPS, ends, ps, qs, 4, xy, strips), RB_OK);
+    assert_int_equal(rb_bem_halfplane_stress(&(rb_bem_edge_load){STRIPS, ends, ps, qs},
+                                             (rb_bem_points){4, xy}, strips),
+                     RB_OK);
     for (int c = 0; c < 12; c++)
         CHECK_ABS(linear[c], strips[c], 1e-6, "component %d", c);
 }
@@ -102,7 +105,9 @@ static void sliding_pulls_at_the_edge(void **state)
         q[j] = -0.3 * p[j];
         xy[2 * j] = x[j];
     }
-    assert_int_equal(rb_bem_halfplane_stress_linear(N, x, p, q, N, xy, s), RB_OK);
+    assert_int_equal(rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){N, x, p, q},
+                                                    (rb_bem_points){N, xy}, s),
+                     RB_OK);
     for (int j = 0; j < N; j++) {
         CHECK_ABS(s[3 * j], -p[j] + 0.6 * x[j], 5e-3, "sxx at %g", x[j]);
         CHECK_ABS(s[3 * j + 1], -p[j], 1e-10, "syy at %g", x[j]);
@@ -116,15 +121,21 @@ static void bad_linear_tractions_are_refused(void **state)
     const double nodes[] = {0.0, 1.0}, back[] = {1.0, 0.0}, none[] = {0.0, 0.0},
                  above[] = {0.0, -1.0}, xy[] = {0.0, 1.0};
     double s[3];
-    assert_int_equal(rb_bem_halfplane_stress_linear(1, nodes, none, none, 1, xy, s),
-                     RB_EINVAL);
-    assert_int_equal(rb_bem_halfplane_stress_linear(2, back, none, none, 1, xy, s),
-                     RB_EINVAL);
-    assert_int_equal(rb_bem_halfplane_stress_linear(2, nodes, none, none, 1, above, s),
-                     RB_EINVAL);
+    assert_int_equal(
+        rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){1, nodes, none, none},
+                                       (rb_bem_points){1, xy}, s),
+        RB_EINVAL);
+    assert_int_equal(
+        rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){2, back, none, none},
+                                       (rb_bem_points){1, xy}, s),
+        RB_EINVAL);
+    assert_int_equal(
+        rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){2, nodes, none, none},
+                                       (rb_bem_points){1, above}, s),
+        RB_EINVAL);
     alloc_fail_after(0);
-    const rb_status status =
-        rb_bem_halfplane_stress_linear(2, nodes, none, none, 1, xy, s);
+    const rb_status status = rb_bem_halfplane_stress_linear(
+        &(rb_bem_edge_load){2, nodes, none, none}, (rb_bem_points){1, xy}, s);
     alloc_succeed();
     assert_int_equal(status, RB_ENOMEM);
 }

@@ -204,7 +204,8 @@ static rb_bem_flexibility disc(int n, double radius, double from, double to,
     double *ends = equal_arcs(n, radius, from, to);
     rb_bem_flexibility f;
     rb_message why;
-    CHECK_STATUS(rb_bem_flexibility_disc(n, ends, radius, steel, normals, &f, &why),
+    CHECK_STATUS(rb_bem_flexibility_disc(n, ends, &(rb_bem_disc){radius, steel}, normals,
+                                         &f, &why),
                  RB_OK);
     free(ends);
     return f;
@@ -253,7 +254,9 @@ static void the_disc_is_the_reference_but_for_a_translation(void **state)
     double first[2] = {0.0, 0.0};
     for (int i = 0; i < m; i++) {
         double u[4], angle = -1.1 + (i + 0.5) * h - 0.5 * M_PI;
-        CHECK_STATUS(rb_bem_disc_response(radius, steel, h, (i - j) * h, u), RB_OK);
+        CHECK_STATUS(
+            rb_bem_disc_response(&(rb_bem_disc){radius, steel}, h, (i - j) * h, u),
+            RB_OK);
         const double dr = -w[i] - (0.6 * u[0] + 1.3 * u[2]);
         const double dt = w[m + i] - (0.6 * u[1] + 1.3 * u[3]);
         const double dx = dr * cos(angle) - dt * sin(angle),
@@ -300,18 +303,18 @@ static void bad_discs_are_refused(void **state)
     const double equal[] = {-1.5, -0.5, 0.5, 1.5};
     rb_bem_flexibility f;
     rb_message why;
-    CHECK_STATUS(
-        rb_bem_flexibility_disc(2, equal, 2.0, steel, RB_BEM_NORMALS_SURFACE, &f, &why),
-        RB_EINVAL);
+    CHECK_STATUS(rb_bem_flexibility_disc(2, equal, &(rb_bem_disc){2.0, steel},
+                                         RB_BEM_NORMALS_SURFACE, &f, &why),
+                 RB_EINVAL);
     assert_non_null(strstr(why.text, "arc"));
-    CHECK_STATUS(
-        rb_bem_flexibility_disc(2, equal, 1.5, steel, RB_BEM_NORMALS_SURFACE, &f, &why),
-        RB_EINVAL);
+    CHECK_STATUS(rb_bem_flexibility_disc(2, equal, &(rb_bem_disc){1.5, steel},
+                                         RB_BEM_NORMALS_SURFACE, &f, &why),
+                 RB_EINVAL);
     assert_non_null(strstr(why.text, "wider"));
     double *ends = equal_arcs(6, 3.0, -0.5, 0.5);
     for (int k = 0, refused = 1; refused; k++) {
         alloc_fail_after(k);
-        const rb_status s = rb_bem_flexibility_disc(6, ends, 3.0, steel,
+        const rb_status s = rb_bem_flexibility_disc(6, ends, &(rb_bem_disc){3.0, steel},
                                                     RB_BEM_NORMALS_OBSTACLE, &f, &why);
         refused = alloc_failed();
         alloc_succeed();

@@ -87,12 +87,21 @@ rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *c
 
 /* ---- Influence (B1-B3) ----------------------------------------------------------- */
 
-/* Integrals over one straight element seen from (px, py): H and G blocks 2 x 2,
- * column-major: row = unit load direction at p, column = component on the element.
- * self: p is the element's own midpoint; then H holds the free term 1/2. */
-void rb_bem_element_integrals(double x0, double y0, double x1, double y1, double px,
-                              double py, int self, rb_bem_material material, double H[4],
-                              double G[4]);
+/* A straight element from (x0, y0) to (x1, y1). */
+typedef struct {
+    double x0, y0, x1, y1;
+} rb_bem_segment;
+
+/* Blocks 2 x 2, column-major: row = unit load direction at p, column = component on the
+ * element. */
+typedef struct {
+    double H[4], G[4];
+} rb_bem_blocks;
+
+/* Integrals over one element seen from p = (px, py).  self: p is the element's own
+ * midpoint; then H holds the free term 1/2. */
+rb_bem_blocks rb_bem_element_integrals(rb_bem_segment element, double px, double py,
+                                       int self, rb_bem_material material);
 
 /* H u = G t (B1).  2n x 2n, column-major, ld >= 2n; dofs x0, y0, x1, y1, ...  G may be
  * NULL.  H [-], G [length/stress].  G's logarithm is that of r over the diagonal of the
@@ -212,15 +221,21 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
                                       const rb_bem_surface *body, rb_bem_flexibility *f,
                                       rb_message *why);
 
+/* A whole disc, held at its centre. */
+typedef struct {
+    double radius;
+    rb_bem_material material;
+} rb_bem_disc;
+
 /* The disc in closed form, without elements elsewhere on its boundary: equal arcs at the
  * lowest point, ends as in rb_bem_mesh_cylinder.  Its load is carried by a force and a
  * moment at the centre; displacements are those relative to the centre, less the
  * translation that a point force makes infinite there, and without mean rotation.
  * Toeplitz in the frames of the surface.  RB_EINVAL: as above, and arcs of different
  * lengths. */
-rb_status rb_bem_flexibility_disc(int n_c, const double *ends, double radius,
-                                  rb_bem_material material, rb_bem_normals normals,
-                                  rb_bem_flexibility *f, rb_message *why);
+rb_status rb_bem_flexibility_disc(int n_c, const double *ends, const rb_bem_disc *disc,
+                                  rb_bem_normals normals, rb_bem_flexibility *f,
+                                  rb_message *why);
 
 /* The body seen at any points x of its surface: w = W r, W: 2 points x 2n column-major,
  * rows (w_N, w_T); ends: n + 1.  RB_EINVAL: sizes, body; RB_ENOMEM. */
@@ -264,13 +279,24 @@ void rb_bem_circulant_free(rb_bem_circulant *circulant);
 
 /* ---- Interior (B8) ---------------------------------------------------------------- */
 
+/* Points at which a field is asked for. */
+typedef struct {
+    int n;
+    const double *xy; /* x0, y0, x1, y1, ...; borrowed */
+} rb_bem_points;
+
+/* A body with all values on its boundary; borrowed. */
+typedef struct {
+    const rb_bem_mesh *mesh;
+    rb_bem_material material;
+    const double *u, *t; /* 2n each, of rb_bem_system_solve */
+} rb_bem_boundary;
+
 /* Displacement (2 per point) and stress (sxx, syy, sxy per point) at points inside the
- * body from boundary values u and t (2n each, of rb_bem_system_solve).  Either output may
- * be NULL.  Constant u jumps at element ends; here u is linear between midpoints, so that
- * stress stays accurate close to the boundary.  Points on the surface itself use the
- * tractions, the tangential strain and Hooke's law. */
-rb_status rb_bem_interior(const rb_bem_mesh *mesh, rb_bem_material material,
-                          const double *u, const double *t, int points, const double *xy,
+ * body.  Either output may be NULL.  Constant u jumps at element ends; here u is linear
+ * between midpoints, so that stress stays accurate close to the boundary.  Points on the
+ * surface itself use the tractions, the tangential strain and Hooke's law. */
+rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points,
                           double *displacement, double *stress, rb_message *why);
 
 /* The same stress of a body under contact tractions, accurate right up to the loaded
@@ -280,23 +306,27 @@ rb_status rb_bem_interior(const rb_bem_mesh *mesh, rb_bem_material material,
 typedef struct rb_bem_field rb_bem_field;
 rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_contact,
                               rb_bem_field **field, rb_message *why);
-rb_status rb_bem_field_stress(const rb_bem_field *field, int points, const double *xy,
+rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points,
                               double *stress, rb_message *why);
 void rb_bem_field_free(rb_bem_field *field);
 
-/* Stress in a half-plane y >= 0 loaded on y = 0 by n constant strips [ends[i], ends[i+1]]
- * of tractions p (along +y, into the body: pressure) and q (along +x).  stress: 3 per
+/* Tractions on the edge y = 0 of a half-plane y >= 0; borrowed. */
+typedef struct {
+    int n;
+    const double *x;     /* ends of n strips (n + 1), or n nodes; increasing */
+    const double *p, *q; /* n: along +y, into the body (pressure), and along +x */
+} rb_bem_edge_load;
+
+/* Stress below tractions that are constant on n strips [x[i], x[i+1]].  stress: 3 per
  * point (sxx, syy, sxy); on y = 0 the limit from inside. */
-rb_status rb_bem_halfplane_stress(int n, const double *ends, const double *p,
-                                  const double *q, int points, const double *xy,
+rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points points,
                                   double *stress);
 
 /* The same below tractions that are linear between n nodes and zero at the first and the
  * last: sxx is finite everywhere.  For points within some widths of the load: digits go
  * with the distance over that of the nodes. */
-rb_status rb_bem_halfplane_stress_linear(int n, const double *nodes, const double *p,
-                                         const double *q, int points, const double *xy,
-                                         double *stress);
+rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load,
+                                         rb_bem_points points, double *stress);
 
 /* ---- A reference ---------------------------------------------------------------------
  */
@@ -306,8 +336,8 @@ rb_status rb_bem_halfplane_stress_linear(int n, const double *nodes, const doubl
  * uniform tractions (p_r, p_t); up to a rigid motion; the resultant is balanced by a
  * force and a couple at the centre.  response [length/stress]: 2 x 2 column-major, rows
  * (u_r, u_t), columns (p_r, p_t). */
-rb_status rb_bem_disc_response(double radius, rb_bem_material material, double h,
-                               double angle, double response[4]);
+rb_status rb_bem_disc_response(const rb_bem_disc *disc, double h, double angle,
+                               double response[4]);
 
 RB_PUBLIC_END
 

@@ -210,22 +210,29 @@ RB_INLINE void put_G_block(const rb_constants *k, double a, const rb_seen_block 
     }
 }
 
+/* An element that is integrated over, and whether G is wanted beside H. */
+typedef struct {
+    const rb_constants *k;
+    const rb_element *e;
+    int with_G;
+} source;
+
 /* In short loops, whose steps are independent: in one long one each result would wait for
  * the last, and the processor does not look far enough ahead to fill the time. */
-RB_INLINE void integrate_block(const rb_constants *k, const rb_element *e,
-                               const double *x, const double *y, int terms, int self,
-                               int with_G, rb_buffer buffer)
+RB_INLINE void integrate_block(const source *s, const double *x, const double *y,
+                               int terms, int self, rb_buffer buffer)
 {
+    const double a = s->e->a;
     rb_seen_block b;
-    see_block(e, x, y, &b);
-    if (with_G)
+    see_block(s->e, x, y, &b);
+    if (s->with_G)
         split_log_block(&b);
-    turn_far_block(e->a, terms, with_G, &b);
+    turn_far_block(a, terms, s->with_G, &b);
     if (terms == rb_far.terms)
-        mend_near_block(e->a, self, with_G, &b);
-    put_H_block(k, &b, buffer);
-    if (with_G)
-        put_G_block(k, e->a, &b, buffer);
+        mend_near_block(a, self, s->with_G, &b);
+    put_H_block(s->k, &b, buffer);
+    if (s->with_G)
+        put_G_block(s->k, a, &b, buffer);
 }
 
 /* All points of the block, which lie in its circle, are beyond that many half-lengths. */
@@ -236,18 +243,18 @@ RB_INLINE int all_beyond(double reach, const rb_element *e, const double circle[
     return dx * dx + dy * dy > 1.000001 * (r * r);
 }
 
-/* Points i ... i + BLOCK - 1. */
-RB_INLINE void fill_block(const rb_constants *k, const rb_element *e, int self,
-                          const rb_points *points, int i, int with_G, rb_buffer buffer)
+/* Points i ... i + BLOCK - 1, of which `self` is the element's own. */
+RB_INLINE void fill_block(const source *s, const rb_points *points, int i, int self,
+                          rb_buffer buffer)
 {
     const double *x = points->x + i, *y = points->y + i,
                  *circle = points->circle + 3 * (i / BLOCK);
-    if (all_beyond(rb_farthest.reach, e, circle))
-        integrate_block(k, e, x, y, rb_farthest.terms, -1, with_G, buffer);
-    else if (all_beyond(rb_farther.reach, e, circle))
-        integrate_block(k, e, x, y, rb_farther.terms, -1, with_G, buffer);
+    if (all_beyond(rb_farthest.reach, s->e, circle))
+        integrate_block(s, x, y, rb_farthest.terms, -1, buffer);
+    else if (all_beyond(rb_farther.reach, s->e, circle))
+        integrate_block(s, x, y, rb_farther.terms, -1, buffer);
     else
-        integrate_block(k, e, x, y, rb_far.terms, self - i, with_G, buffer);
+        integrate_block(s, x, y, rb_far.terms, self - i, buffer);
 }
 
 RB_INLINE void fill(const rb_constants *k, const rb_element *e, int self,
@@ -258,9 +265,9 @@ RB_INLINE void fill(const rb_constants *k, const rb_element *e, int self,
         rb_buffer buffer;
         const int count = points->n - i < BLOCK ? points->n - i : BLOCK;
         if (with_G)
-            fill_block(k, e, self, points, i, 1, buffer);
+            fill_block(&(source){k, e, 1}, points, i, self, buffer);
         else
-            fill_block(k, e, self, points, i, 0, buffer);
+            fill_block(&(source){k, e, 0}, points, i, self, buffer);
         if (count == BLOCK)
             send(buffer, BLOCK, i, out, line);
         else

@@ -58,14 +58,15 @@ static void integrate_logs(double b, double h, cplx *first, cplx *second)
     }
 }
 
-rb_status rb_bem_disc_response(double radius, rb_bem_material material, double h,
-                               double angle, double response[4])
+rb_status rb_bem_disc_response(const rb_bem_disc *disc, double h, double angle,
+                               double response[4])
 {
-    if (!(radius > 0.0 && h > 0.0 && h < 2.0 * M_PI) || !isfinite(angle) ||
+    const rb_bem_material material = disc->material;
+    if (!(disc->radius > 0.0 && h > 0.0 && h < 2.0 * M_PI) || !isfinite(angle) ||
         rb_bem_material_check(material, NULL) != RB_OK)
         return RB_EINVAL;
     const double b = remainder(angle, 2.0 * M_PI), kap = 3.0 - 4.0 * material.poisson;
-    const double scale = radius / (4.0 * M_PI * material.shear);
+    const double scale = disc->radius / (4.0 * M_PI * material.shear);
     cplx first, second;
     integrate_logs(b, h, &first, &second);
     const cplx direct = -kap * first - kap * h - second,

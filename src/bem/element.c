@@ -1,26 +1,21 @@
 /* The integrals over one element seen from one point (B3). */
 #include "bem/kernels.h"
 
-void rb_bem_element_integrals(double x0, double y0, double x1, double y1, double px,
-                              double py, int self, rb_bem_material material, double H[4],
-                              double G[4])
+rb_bem_blocks rb_bem_element_integrals(rb_bem_segment element, double px, double py,
+                                       int self, rb_bem_material material)
 {
-    const rb_element e = rb_element_make(x0, y0, x1, y1, 1.0);
+    const rb_element e =
+        rb_element_make(element.x0, element.y0, element.x1, element.y1, 1.0);
     const rb_constants k = rb_constants_make(&e, material);
-    rb_influence out;
+    rb_influence v;
 
     if (self) {
-        rb_integrate_self(&k, e.a, &out);
+        rb_integrate_self(&k, e.a, &v);
     } else {
-        const rb_seen v = rb_look(&e, px, py);
-        rb_integrate_H(&k, &v, &out);
-        rb_integrate_G(&k, e.a, &v, &out);
+        const rb_seen seen = rb_look(&e, px, py);
+        rb_integrate_H(&k, &seen, &v);
+        rb_integrate_G(&k, e.a, &seen, &v);
     }
-    H[0] = out.Hxx;
-    H[1] = out.Hyx;
-    H[2] = out.Hxy;
-    H[3] = out.Hyy;
-    G[0] = out.Gxx;
-    G[1] = G[2] = out.Gxy;
-    G[3] = out.Gyy;
+    return (rb_bem_blocks){.H = {v.Hxx, v.Hyx, v.Hxy, v.Hyy},
+                           .G = {v.Gxx, v.Gxy, v.Gxy, v.Gyy}};
 }

@@ -177,14 +177,14 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
     return s;
 }
 
-rb_status rb_bem_field_stress(const rb_bem_field *field, int points, const double *xy,
+rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points,
                               double *stress, rb_message *why)
 {
     const rb_bem_system *system = field->system;
-    const rb_status s = rb_bem_interior(&system->mesh, system->material, field->u,
-                                        field->t, points, xy, NULL, stress, why);
+    const rb_bem_boundary rest = {&system->mesh, system->material, field->u, field->t};
+    const rb_status s = rb_bem_interior(&rest, points, NULL, stress, why);
 
-    for (int k = 0; k < points && s == RB_OK; k++)
-        add_strips(field, xy[2 * k] + xy[2 * k + 1] * I, stress + 3 * k);
+    for (int k = 0; k < points.n && s == RB_OK; k++)
+        add_strips(field, points.xy[2 * k] + points.xy[2 * k + 1] * I, stress + 3 * k);
     return s;
 }

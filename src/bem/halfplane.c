@@ -34,28 +34,36 @@ static void add_strip(const rb_element *strip, double p, double q, double x, dou
     stress[2] += (-p * d2P - q * (v.Th - dQ)) / M_PI;
 }
 
-rb_status rb_bem_halfplane_stress(int n, const double *ends, const double *p,
-                                  const double *q, int points, const double *xy,
+int rb_bem_edge_load_is_valid(const rb_bem_edge_load *load, int xs, rb_bem_points points)
+{
+    if (load->n < 1 || points.n < 0)
+        return 0;
+    for (int i = 0; i + 1 < xs; i++)
+        if (!(load->x[i] < load->x[i + 1]))
+            return 0;
+    for (int k = 0; k < points.n; k++)
+        if (!(points.xy[2 * k + 1] >= 0.0))
+            return 0;
+    return 1;
+}
+
+rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points points,
                                   double *stress)
 {
-    if (n < 1 || points < 0)
+    const int n = load->n;
+    if (!rb_bem_edge_load_is_valid(load, n + 1, points))
         return RB_EINVAL;
-    for (int i = 0; i < n; i++)
-        if (!(ends[i] < ends[i + 1]))
-            return RB_EINVAL;
-    for (int k = 0; k < points; k++)
-        if (!(xy[2 * k + 1] >= 0.0))
-            return RB_EINVAL;
     rb_element *strip = malloc((size_t)n * sizeof *strip);
     if (!strip)
         return RB_ENOMEM;
     for (int i = 0; i < n; i++)
-        strip[i] = rb_element_make(ends[i], 0.0, ends[i + 1], 0.0, 1.0);
-#pragma omp parallel for schedule(static) if ((double)points * n > rb_pairs_for_threads)
-    for (int k = 0; k < points; k++) {
+        strip[i] = rb_element_make(load->x[i], 0.0, load->x[i + 1], 0.0, 1.0);
+#pragma omp parallel for schedule(static) if ((double)points.n * n > rb_pairs_for_threads)
+    for (int k = 0; k < points.n; k++) {
         double sum[3] = {0.0, 0.0, 0.0};
         for (int i = 0; i < n; i++)
-            add_strip(&strip[i], p[i], q[i], xy[2 * k], xy[2 * k + 1], sum);
+            add_strip(&strip[i], load->p[i], load->q[i], points.xy[2 * k],
+                      points.xy[2 * k + 1], sum);
         for (int c = 0; c < 3; c++)
             stress[3 * k + c] = sum[c];
     }

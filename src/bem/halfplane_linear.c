@@ -1,7 +1,7 @@
 /* Stress in a half-plane below tractions that are linear between nodes: no jump of q, so
  * sxx stays finite on the surface. */
 #include "bem/complex.h"
-#include "rollbem/bem.h"
+#include "bem/internal.h"
 
 #include <complex.h>
 #include <math.h>
@@ -37,18 +37,13 @@ static void stress_at(int n, const double *t, const cplx *k, double x, double y,
     stress[2] = -cimag(normal);
 }
 
-rb_status rb_bem_halfplane_stress_linear(int n, const double *nodes, const double *p,
-                                         const double *q, int points, const double *xy,
-                                         double *stress)
+rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load,
+                                         rb_bem_points points, double *stress)
 {
-    if (n < 2 || points < 0)
+    const int n = load->n;
+    const double *nodes = load->x, *p = load->p, *q = load->q;
+    if (n < 2 || !rb_bem_edge_load_is_valid(load, n, points))
         return RB_EINVAL;
-    for (int j = 0; j + 1 < n; j++)
-        if (!(nodes[j] < nodes[j + 1]))
-            return RB_EINVAL;
-    for (int i = 0; i < points; i++)
-        if (!(xy[2 * i + 1] >= 0.0))
-            return RB_EINVAL;
     cplx *k = malloc((size_t)n * sizeof *k);
     if (!k)
         return RB_ENOMEM;
@@ -60,9 +55,9 @@ rb_status rb_bem_halfplane_stress_linear(int n, const double *nodes, const doubl
         k[j] = before - after;
         before = after;
     }
-#pragma omp parallel for schedule(static) if ((double)points * n > 1e5)
-    for (int i = 0; i < points; i++)
-        stress_at(n, nodes, k, xy[2 * i], xy[2 * i + 1], stress + 3 * i);
+#pragma omp parallel for schedule(static) if ((double)points.n * n > 1e5)
+    for (int i = 0; i < points.n; i++)
+        stress_at(n, nodes, k, points.xy[2 * i], points.xy[2 * i + 1], stress + 3 * i);
     free(k);
     return RB_OK;
 }

@@ -54,8 +54,8 @@ static rb_status make_leaf(const rb_hierarchical *h, int level, int k,
         c->e.row[i] = c->e.column[i] = 2 * first + i;
     rb_status s = rb_mixed_rows_make(&h->matrix, c->e.m, c->e.row, NULL, 0, &rows);
     if (s == RB_OK)
-        s = rb_mixed_block(&h->matrix, &rows, c->e.m, c->e.column, c->D, 1,
-                           (size_t)c->e.m);
+        s = rb_mixed_block(&h->matrix, &rows, c->e.m, c->e.column,
+                           (rb_matrix_view){c->D, 1, (size_t)c->e.m});
     rb_mixed_rows_free(&rows);
     return s;
 }
@@ -68,7 +68,8 @@ static rb_status between(const rb_hierarchical *h, const rb_hierarchical_cluster
     rb_status s = rb_mixed_rows_make(&h->matrix, a->e.kept, a->e.row, NULL, 0, &rows);
 
     if (s == RB_OK)
-        s = rb_mixed_block(&h->matrix, &rows, b->e.kept, b->e.column, D, 1, (size_t)ld);
+        s = rb_mixed_block(&h->matrix, &rows, b->e.kept, b->e.column,
+                           (rb_matrix_view){D, 1, (size_t)ld});
     rb_mixed_rows_free(&rows);
     return s;
 }

@@ -68,8 +68,8 @@ static rb_status see_columns(const rb_hierarchical *h, const rb_hierarchical_clu
     if (status == RB_OK)
         status = rb_skeleton_alloc(rows.rows, c->e.m, s);
     if (status == RB_OK)
-        status = rb_mixed_block(&h->matrix, &rows, c->e.m, c->e.column, s->K, 1,
-                                (size_t)s->ld);
+        status = rb_mixed_block(&h->matrix, &rows, c->e.m, c->e.column,
+                                (rb_matrix_view){s->K, 1, (size_t)s->ld});
     rb_mixed_rows_free(&rows);
     return status;
 }
@@ -85,11 +85,11 @@ static rb_status see_rows(const rb_hierarchical *h, const rb_hierarchical_cluste
     if (status == RB_OK)
         status = rb_skeleton_alloc(near->columns + 2 * h->points, c->e.m, s);
     if (status == RB_OK)
-        status = rb_mixed_block(&h->matrix, &rows, near->columns, near->column, s->K,
-                                (size_t)s->ld, 1);
+        status = rb_mixed_block(&h->matrix, &rows, near->columns, near->column,
+                                (rb_matrix_view){s->K, (size_t)s->ld, 1});
     if (status == RB_OK)
-        status = rb_mixed_far(&h->matrix, &rows, reach, h->points, s->K + near->columns,
-                              (size_t)s->ld, 1);
+        status = rb_mixed_far(&h->matrix, &rows, reach, h->points,
+                              (rb_matrix_view){s->K + near->columns, (size_t)s->ld, 1});
     rb_mixed_rows_free(&rows);
     return status;
 }

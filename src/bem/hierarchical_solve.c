@@ -96,7 +96,8 @@ static rb_status sample_residual(const rb_hierarchical *h, int rows, const int *
         const int rest = 2 * h->matrix.n - first, count = rest < CHUNK ? rest : CHUNK;
         for (int c = 0; c < count; c++)
             column[c] = first + c;
-        s = rb_mixed_block(&h->matrix, &of_A, count, column, A, 1, (size_t)rows);
+        s = rb_mixed_block(&h->matrix, &of_A, count, column,
+                           (rb_matrix_view){A, 1, (size_t)rows});
         if (s == RB_OK)
             cblas_dgemv(CblasColMajor, CblasNoTrans, rows, count, -1.0, A, rows,
                         x + first, 1, 1.0, r, 1);

@@ -91,17 +91,17 @@ static void interior_free(rb_interior *in)
     free(in->previous);
 }
 
-static rb_status interior_make(const rb_bem_mesh *mesh, rb_bem_material material,
-                               const double *u, const double *t, rb_interior *in)
+static rb_status interior_make(const rb_bem_boundary *body, rb_interior *in)
 {
+    const rb_bem_mesh *mesh = body->mesh;
     const size_t n = (size_t)mesh->n;
     *in = (rb_interior){.mesh = mesh,
-                        .u = u,
-                        .t = t,
+                        .u = body->u,
+                        .t = body->t,
                         .n = 2 * mesh->n,
-                        .shear = material.shear,
-                        .nu = material.poisson,
-                        .kap = 3.0 - 4.0 * material.poisson};
+                        .shear = body->material.shear,
+                        .nu = body->material.poisson,
+                        .kap = 3.0 - 4.0 * body->material.poisson};
     in->piece = malloc(2 * n * sizeof *in->piece);
     in->next = rb_alloc_int(n);
     in->previous = rb_alloc_int(n);
@@ -233,15 +233,15 @@ static void evaluate_surface(const rb_interior *in, int j, double s, double *dis
 }
 
 /* The first point outside the body, or `points`. */
-static int evaluate(const rb_interior *in, int points, const double *xy,
-                    double *displacement, double *stress)
+static int evaluate(const rb_interior *in, rb_bem_points points, double *displacement,
+                    double *stress)
 {
-    int outside = points;
+    int outside = points.n;
 #pragma omp parallel for schedule(static)                                                \
     reduction(min                                                                        \
-              : outside) if ((double)points * in->n > rb_pairs_for_threads)
-    for (int k = 0; k < points; k++) {
-        const double x = xy[2 * k], y = xy[2 * k + 1];
+              : outside) if ((double)points.n * in->n > rb_pairs_for_threads)
+    for (int k = 0; k < points.n; k++) {
+        const double x = points.xy[2 * k], y = points.xy[2 * k + 1];
         double *u = displacement ? displacement + 2 * k : NULL,
                *sigma = stress ? stress + 3 * k : NULL, s;
         const int j = element_at(in, x, y, &s);
@@ -253,25 +253,24 @@ static int evaluate(const rb_interior *in, int points, const double *xy,
     return outside;
 }
 
-rb_status rb_bem_interior(const rb_bem_mesh *mesh, rb_bem_material material,
-                          const double *u, const double *t, int points, const double *xy,
+rb_status rb_bem_interior(const rb_bem_boundary *body, rb_bem_points points,
                           double *displacement, double *stress, rb_message *why)
 {
     rb_interior in;
-    rb_status s = rb_bem_mesh_check(mesh, why);
+    rb_status s = rb_bem_mesh_check(body->mesh, why);
     if (s == RB_OK)
-        s = rb_bem_material_check(material, why);
-    if (s == RB_OK && points < 0)
-        s = rb_fail(why, RB_EINVAL, "interior points: %d", points);
+        s = rb_bem_material_check(body->material, why);
+    if (s == RB_OK && points.n < 0)
+        s = rb_fail(why, RB_EINVAL, "interior points: %d", points.n);
     if (s != RB_OK)
         return s;
-    s = interior_make(mesh, material, u, t, &in);
+    s = interior_make(body, &in);
     if (s != RB_OK)
-        return rb_fail(why, s, "interior: out of memory for %d elements", mesh->n);
-    const int outside = evaluate(&in, points, xy, displacement, stress);
-    if (outside < points)
+        return rb_fail(why, s, "interior: out of memory for %d elements", body->mesh->n);
+    const int outside = evaluate(&in, points, displacement, stress);
+    if (outside < points.n)
         s = rb_fail(why, RB_EINVAL, "point %d at (%g, %g) lies outside the body", outside,
-                    xy[2 * outside], xy[2 * outside + 1]);
+                    points.xy[2 * outside], points.xy[2 * outside + 1]);
     interior_free(&in);
     return s;
 }

@@ -26,6 +26,9 @@ void rb_bem_mesh_next(const rb_bem_mesh *mesh, int *next);
  * the free ones are named. */
 rb_status rb_bem_support_check(const rb_bem_mesh *mesh, rb_message *why);
 
+/* Points at y >= 0 under a load whose xs abscissae increase. */
+int rb_bem_edge_load_is_valid(const rb_bem_edge_load *load, int xs, rb_bem_points points);
+
 /* A flexibility with x, h, w0 zeroed and nothing behind it. */
 rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f);
 

@@ -37,11 +37,18 @@ static double complex creep(const rb_bem_surface *body, double k)
 
 /* Stress function f = p cosh + s sinh + C eta sinh + D (eta cosh - sinh), eta = k y, of
  * the layer 0 <= eta <= al: the surface carries p and s already, C and D follow from the
- * bond to the base, whose compliance over 1/(2 G) is rho (0: rigid).  All hyperbolic
- * functions are multiplied by 2 exp(-al). */
-static void bond(double al, double nu, double complex rho, double beta, double p,
-                 double s, double complex *C, double complex *D)
+ * bond to the base.  All hyperbolic functions are multiplied by 2 exp(-al). */
+typedef struct {
+    double al, nu;
+    double complex rho; /* compliance of the base over 1/(2 G) (0: rigid) */
+    double beta;
+} bonded_layer;
+
+static void bond(const bonded_layer *layer, double p, double s, double complex *C,
+                 double complex *D)
 {
+    const double al = layer->al, nu = layer->nu, beta = layer->beta;
+    const double complex rho = layer->rho;
     const double decay = exp(-2.0 * al), c = 1.0 + decay, h = -expm1(-2.0 * al);
     const double f[4] = {c, h, al * h, al * c - h}, f1[4] = {h, c, h + al * c, al * h},
                  f2[4] = {c, h, 2.0 * c + al * h, h + al * c},
@@ -62,16 +69,16 @@ static void bond(double al, double nu, double complex rho, double beta, double p
 static transfer transfer_at(const rb_bem_surface *body, double al, double complex softer)
 {
     const double nu = body->material.poisson;
-    double complex rho = 0.0, C[2], D[2];
-    double beta = 0.0;
+    bonded_layer layer = {.al = al, .nu = nu};
+    double complex C[2], D[2];
 
     if (body->elastic_base) {
         const double nu_2 = body->base.poisson;
-        rho = 2.0 * (1.0 - nu_2) * body->material.shear / body->base.shear / softer;
-        beta = (1.0 - 2.0 * nu_2) / (2.0 * (1.0 - nu_2));
+        layer.rho = 2.0 * (1.0 - nu_2) * body->material.shear / body->base.shear / softer;
+        layer.beta = (1.0 - 2.0 * nu_2) / (2.0 * (1.0 - nu_2));
     }
-    bond(al, nu, rho, beta, 1.0, 0.0, &C[0], &D[0]);
-    bond(al, nu, rho, beta, 0.0, 1.0, &C[1], &D[1]);
+    bond(&layer, 1.0, 0.0, &C[0], &D[0]);
+    bond(&layer, 0.0, 1.0, &C[1], &D[1]);
     return (transfer){.N = D[0], .T = -C[1], .C = -C[0] - 0.5 / (1.0 - nu)};
 }
 
@@ -129,9 +136,13 @@ static double *make_panels(const rb_bem_surface *body, double reach, int *count)
  * (points x 2 nodes), D: those of the strips with the transfer functions (2 nodes x n).
  */
 typedef struct {
-    int points, n, nodes;
+    const rb_bem_surface *body;
+    int points, n;          /* of points and strips; */
+    const double *x, *ends; /* all borrowed */
+    int nodes;
     double *P, *N, *T, *C; /* P: points x 2 nodes; the others 2 nodes x n */
-    double *constant;      /* n: what long waves add everywhere */
+    double M0;             /* what the longest waves add over the half-plane, and */
+    double *constant;      /* n: that of each strip everywhere */
 } waves;
 
 static void waves_free(waves *w)
@@ -141,11 +152,14 @@ static void waves_free(waves *w)
     free(w->constant);
 }
 
-static rb_status waves_alloc(int points, int n, waves *w)
+/* w: with body, points and strips. */
+static rb_status waves_start(waves *w)
 {
-    const size_t room = 2 * GAUSS * CHUNK, columns = (size_t)n;
-    *w = (waves){.points = points, .n = n};
-    w->P = rb_alloc((size_t)points, room);
+    const size_t room = 2 * GAUSS * CHUNK, columns = (size_t)w->n;
+    w->M0 = 1.0 - base_compliance(w->body);
+    for (int k = 0; k < w->body->terms; k++)
+        w->M0 += w->body->ratio[k];
+    w->P = rb_alloc((size_t)w->points, room);
     w->N = rb_alloc(room, 3 * columns);
     w->constant = rb_alloc(columns, 1);
     if (!w->P || !w->N || !w->constant) {
@@ -159,12 +173,11 @@ static rb_status waves_alloc(int points, int n, waves *w)
 
 /* Node k of the rule, at al with this weight: Re[Z exp(i k (x - s))] and, for the
  * coupling, Im[Z exp(i k (x - s))]. */
-static void set_node(const rb_bem_surface *body, double al, double weight, double M0,
-                     const double *x, const double *ends, int k, waves *w)
+static void set_node(waves *w, int k, double al, double weight)
 {
     const size_t room = 2 * GAUSS * CHUNK, even = 2 * (size_t)k, odd = even + 1;
-    const double wave = al / body->thickness;
-    const transfer Z = remainder_at(body, al);
+    const double *x = w->x, *ends = w->ends, wave = al / w->body->thickness;
+    const transfer Z = remainder_at(w->body, al);
 
     for (size_t i = 0; i < (size_t)w->points; i++) {
         w->P[i + even * (size_t)w->points] = cos(wave * x[i]);
@@ -180,7 +193,7 @@ static void set_node(const rb_bem_surface *body, double al, double weight, doubl
         w->T[odd + j * room] = a * (creal(Z.T) * s_s - cimag(Z.T) * c_s);
         w->C[even + j * room] = a * (-creal(Z.C) * s_s + cimag(Z.C) * c_s);
         w->C[odd + j * room] = a * (creal(Z.C) * c_s + cimag(Z.C) * s_s);
-        w->constant[j] += weight / al * h * M0 * exp(-al);
+        w->constant[j] += weight / al * h * w->M0 * exp(-al);
     }
 }
 
@@ -204,21 +217,22 @@ static void add_products(waves *w, double scale, double *W)
     w->nodes = 0;
 }
 
-static double reach_of(int points, const double *x, int n, const double *ends)
+static double reach_of(const waves *w)
 {
-    double low = ends[0], high = ends[n];
-    for (int i = 0; i < points; i++) {
-        low = fmin(low, x[i]);
-        high = fmax(high, x[i]);
+    double low = w->ends[0], high = w->ends[w->n];
+    for (int i = 0; i < w->points; i++) {
+        low = fmin(low, w->x[i]);
+        high = fmax(high, w->x[i]);
     }
     return high - low;
 }
 
 /* Long waves move the whole surface: as (L3) has it, and by the datum of an elastic base.
  */
-static void add_constants(const rb_bem_surface *body, const waves *w, const double *ends,
-                          double scale, double *W)
+static void add_constants(const waves *w, double scale, double *W)
 {
+    const rb_bem_surface *body = w->body;
+    const double *ends = w->ends;
     const size_t points = (size_t)w->points, n = (size_t)w->n;
     const double base = base_compliance(body);
     const double datum = base > 0.0 ? base * log(body->datum / body->thickness) : 0.0;
@@ -234,26 +248,22 @@ static void add_constants(const rb_bem_surface *body, const waves *w, const doub
 }
 
 /* All panels, one node after the other. */
-static void integrate(const rb_bem_surface *body,
-                      const gsl_integration_glfixed_table *rule, int panels,
-                      const double *end, const double *x, const double *ends, waves *w,
-                      double *W)
+static void integrate(waves *w, const gsl_integration_glfixed_table *rule, int panels,
+                      const double *end, double *W)
 {
-    const double scale = (1.0 - body->material.poisson) / (M_PI * body->material.shear);
-    double M0 = 1.0 - base_compliance(body);
+    const rb_bem_material m = w->body->material;
+    const double scale = (1.0 - m.poisson) / (M_PI * m.shear);
 
-    for (int k = 0; k < body->terms; k++)
-        M0 += body->ratio[k];
     for (int k = 0; k < panels; k++) {
         for (size_t g = 0; g < GAUSS; g++) {
             double al, weight;
             gsl_integration_glfixed_point(end[k], end[k + 1], g, &al, &weight, rule);
-            set_node(body, al, weight, M0, x, ends, w->nodes++, w);
+            set_node(w, w->nodes++, al, weight);
         }
         if (w->nodes == GAUSS * CHUNK || k + 1 == panels)
             add_products(w, scale, W);
     }
-    add_constants(body, w, ends, scale, W);
+    add_constants(w, scale, W);
 }
 
 rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points,
@@ -261,13 +271,13 @@ rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points,
                                      double *W)
 {
     int panels = 0;
-    waves w;
+    waves w = {.body = body, .points = points, .n = n, .x = x, .ends = ends};
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(GAUSS);
-    double *end = make_panels(body, reach_of(points, x, n, ends), &panels);
-    const rb_status s = rule && end ? waves_alloc(points, n, &w) : RB_ENOMEM;
+    double *end = make_panels(body, reach_of(&w), &panels);
+    const rb_status s = rule && end ? waves_start(&w) : RB_ENOMEM;
 
     if (s == RB_OK) {
-        integrate(body, rule, panels, end, x, ends, &w, W);
+        integrate(&w, rule, panels, end, W);
         waves_free(&w);
     }
     free(end);

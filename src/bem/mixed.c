@@ -172,8 +172,7 @@ static int point_on(const rb_mixed_rows *r, int j)
 }
 
 rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
-                         const int *column, double *out, size_t row_step,
-                         size_t column_step)
+                         const int *column, rb_matrix_view out)
 {
     const size_t rows = 2 * (size_t)r->points.n;
     rb_column_fn *fill = rb_column_variant_get(0)->fill;
@@ -191,9 +190,9 @@ rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
         }
         fill(&a->constants[j], &a->element[j], point_on(r, j), &r->points, part);
         for (; c < end; c++) {
-            double *to = out + (size_t)c * column_step;
-            scatter(r, buffer + (size_t)(column[c] % 2) * rows, to, row_step);
-            add_term(a, r, column[c], to, row_step);
+            double *to = out.x + (size_t)c * out.column_step;
+            scatter(r, buffer + (size_t)(column[c] % 2) * rows, to, out.row_step);
+            add_term(a, r, column[c], to, out.row_step);
         }
     }
     free(buffer);
@@ -201,7 +200,7 @@ rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
 }
 
 rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circle,
-                       int points, double *out, size_t row_step, size_t column_step)
+                       int points, rb_matrix_view out)
 {
     const size_t rows = 2 * (size_t)r->points.n;
     double *buffer = rb_alloc(rows, 2);
@@ -217,8 +216,8 @@ rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circ
         rb_column_variant_get(0)->fill(&k, &e, -1, &r->points,
                                        (double *[4]){NULL, NULL, buffer, buffer + rows});
         for (int d = 0; d < 2; d++)
-            scatter(r, buffer + (size_t)d * rows, out + (size_t)(2 * q + d) * column_step,
-                    row_step);
+            scatter(r, buffer + (size_t)d * rows,
+                    out.x + (size_t)(2 * q + d) * out.column_step, out.row_step);
     }
     free(buffer);
     return RB_OK;

@@ -39,14 +39,19 @@ rb_status rb_mixed_rows_make(const rb_mixed *a, int rows, const int *row,
                              const rb_circle *circle, int points, rb_mixed_rows *r);
 void rb_mixed_rows_free(rb_mixed_rows *r);
 
-/* out[i row_step + j column_step] = A(row i, column[j]). */
+/* Entry (i, j) of a matrix at x[i row_step + j column_step]. */
+typedef struct {
+    double *x;
+    size_t row_step, column_step;
+} rb_matrix_view;
+
+/* out(i, j) = A(row i, column[j]). */
 rb_status rb_mixed_block(const rb_mixed *a, const rb_mixed_rows *r, int columns,
-                         const int *column, double *out, size_t row_step,
-                         size_t column_step);
+                         const int *column, rb_matrix_view out);
 
 /* The same for loads along x and y on each of `points` parts of the circle; of order one.
  */
 rb_status rb_mixed_far(const rb_mixed *a, const rb_mixed_rows *r, rb_circle circle,
-                       int points, double *out, size_t row_step, size_t column_step);
+                       int points, rb_matrix_view out);
 
 #endif

@@ -94,11 +94,18 @@ static strip_kernel kernel_of(const rb_bem_surface *body)
     return k;
 }
 
-/* Row i of m points, strip j of n: the four entries of the 2m x 2n matrix F. */
-static void set_entries(const strip_kernel *k, double X, double b, size_t i, size_t m,
-                        size_t j, size_t n, double *F)
+/* 2m x 2n, column-major: displacements of m points under n strips. */
+typedef struct {
+    size_t m, n;
+    double *F;
+} response;
+
+/* Point i, strip j: four entries. */
+static void set_entries(const strip_kernel *k, double X, double b, const response *to,
+                        size_t i, size_t j)
 {
-    double *N = F + j * 2 * m, *T = F + (j + n) * 2 * m;
+    const size_t m = to->m;
+    double *N = to->F + j * 2 * m, *T = to->F + (j + to->n) * 2 * m;
     double log_memory = 0.0, sign_memory = 0.0;
     if (k->body->terms > 0)
         rb_bem_memory_integrals(k->body, -X, b, &log_memory, &sign_memory);
@@ -117,11 +124,11 @@ rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n,
     if (rb_bem_surface_check(body, NULL) != RB_OK || n < 1 || points < 1)
         return RB_EINVAL;
     const strip_kernel kernel = kernel_of(body);
-    for (size_t j = 0; j < (size_t)n; j++)
-        for (size_t i = 0; i < (size_t)points; i++)
+    const response to = {(size_t)points, (size_t)n, W};
+    for (size_t j = 0; j < to.n; j++)
+        for (size_t i = 0; i < to.m; i++)
             set_entries(&kernel, 0.5 * ((ends[j] - x[i]) + (ends[j + 1] - x[i])),
-                        0.5 * (ends[j + 1] - ends[j]), i, (size_t)points, j, (size_t)n,
-                        W);
+                        0.5 * (ends[j + 1] - ends[j]), &to, i, j);
     return body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, points, x, n, ends, W)
                                  : RB_OK;
 }
@@ -131,14 +138,14 @@ static rb_status fill(int n, const double *ends, const rb_bem_surface *body,
                       const double *x, double *F)
 {
     const strip_kernel kernel = kernel_of(body);
-    const size_t m = (size_t)n + 1;
+    const response to = {(size_t)n + 1, (size_t)n, F};
 
-    for (size_t j = 0; j < (size_t)n; j++)
-        for (size_t i = 0; i < m; i++)
+    for (size_t j = 0; j < to.n; j++)
+        for (size_t i = 0; i < to.m; i++)
             set_entries(&kernel,
                         0.5 * ((ends[j] - ends[i]) + (ends[j + 1] - ends[i + 1])),
-                        0.5 * (ends[j + 1] - ends[j]), i, m, j, (size_t)n, F);
-    return body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, (int)m, x, n, ends, F)
+                        0.5 * (ends[j + 1] - ends[j]), &to, i, j);
+    return body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, n + 1, x, n, ends, F)
                                  : RB_OK;
 }
 

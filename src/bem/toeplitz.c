@@ -379,10 +379,11 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
 /* ---- Disc ----------------------------------------------------------------------------
  */
 
-static rb_status check_disc(int n_c, const double *ends, double radius,
-                            rb_bem_material material, rb_message *why)
+static rb_status check_disc(int n_c, const double *ends, const rb_bem_disc *disc,
+                            rb_message *why)
 {
-    rb_status s = rb_bem_material_check(material, why);
+    const double radius = disc->radius;
+    rb_status s = rb_bem_material_check(disc->material, why);
 
     if (s == RB_OK)
         s = rb_bem_ends_check(n_c, ends, why);
@@ -427,14 +428,14 @@ static rb_status set_frames(toeplitz *o, double first, double h, double radius,
  * translation -conj(P) exp(2 i alpha) of theory.md's letters is added to it:
  * displacements are then measured from where the load is held, and the flexibility is
  * symmetric. */
-static rb_status set_disc(toeplitz *o, double h, double radius, rb_bem_material material)
+static rb_status set_disc(toeplitz *o, double h, const rb_bem_disc *disc)
 {
-    const double scale = radius / (4.0 * M_PI * material.shear);
+    const double scale = disc->radius / (4.0 * M_PI * disc->material.shear);
 
     for (int k = 0; k <= o->n; k++) {
         double u[4];
         const int up = o->n + k, down = o->n - k;
-        const rb_status s = rb_bem_disc_response(radius, material, h, k * h, u);
+        const rb_status s = rb_bem_disc_response(disc, h, k * h, u);
         if (s != RB_OK)
             return s;
         const double shift = scale * 2.0 * sin(0.5 * h) * cos(k * h);
@@ -447,12 +448,13 @@ static rb_status set_disc(toeplitz *o, double h, double radius, rb_bem_material 
     return RB_OK;
 }
 
-rb_status rb_bem_flexibility_disc(int n_c, const double *ends, double radius,
-                                  rb_bem_material material, rb_bem_normals normals,
-                                  rb_bem_flexibility *f, rb_message *why)
+rb_status rb_bem_flexibility_disc(int n_c, const double *ends, const rb_bem_disc *disc,
+                                  rb_bem_normals normals, rb_bem_flexibility *f,
+                                  rb_message *why)
 {
+    const double radius = disc->radius;
     *f = (rb_bem_flexibility){0};
-    rb_status s = check_disc(n_c, ends, radius, material, why);
+    rb_status s = check_disc(n_c, ends, disc, why);
     if (s != RB_OK)
         return s;
     const double first = asin(ends[0] / radius);
@@ -460,7 +462,7 @@ rb_status rb_bem_flexibility_disc(int n_c, const double *ends, double radius,
     toeplitz *o = start(n_c, ends, 0, f);
     s = o ? set_frames(o, first, h, radius, normals, f) : RB_ENOMEM;
     if (s == RB_OK)
-        s = set_disc(o, h, radius, material);
+        s = set_disc(o, h, disc);
     if (s == RB_OK)
         return s;
     rb_bem_flexibility_free(f);

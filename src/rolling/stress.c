@@ -98,8 +98,9 @@ static rb_status near_halfplane(const rb_rolling_model *model, int n, const doub
         nodes[i + 1] = 0.5 * (model->mesh.ends[i] + model->mesh.ends[i + 1]);
     memcpy(p + 1, model->state.p, m * sizeof(double));
     memcpy(q + 1, model->state.q, m * sizeof(double));
+    const rb_bem_edge_load load = {(int)m + 2, nodes, p, q};
     const rb_status s =
-        rb_bem_halfplane_stress_linear((int)m + 2, nodes, p, q, n, xy, sigma);
+        rb_bem_halfplane_stress_linear(&load, (rb_bem_points){n, xy}, sigma);
     free(nodes);
     return s;
 }
@@ -110,11 +111,12 @@ static rb_status halfplane_stress(const rb_rolling_model *model, int n, const do
 {
     const double *ends = model->mesh.ends;
     const double width = ends[model->mesh.n] - ends[0], far = 20.0 * width;
+    const rb_bem_edge_load load = {model->mesh.n, ends, model->state.p, model->state.q};
     rb_status s = near_halfplane(model, n, xy, sigma);
     for (int k = 0; k < n && s == RB_OK; k++)
         if (hypot(xy[2 * k] - ends[0], xy[2 * k + 1]) > far)
-            s = rb_bem_halfplane_stress(model->mesh.n, ends, model->state.p,
-                                        model->state.q, 1, xy + 2 * k, sigma + 3 * k);
+            s = rb_bem_halfplane_stress(&load, (rb_bem_points){1, xy + 2 * k},
+                                        sigma + 3 * k);
     return s;
 }
 
@@ -138,7 +140,8 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
     const rb_bem_mesh *mesh = rb_bem_system_mesh(model->bodies.system_a);
     memcpy(moved, xy, 2 * (size_t)n * sizeof(double));
     lift_onto_polygon(mesh, n, moved);
-    const rb_status s = rb_bem_field_stress(f->wheel, n, moved, sigma, why);
+    const rb_status s =
+        rb_bem_field_stress(f->wheel, (rb_bem_points){n, moved}, sigma, why);
     free(moved);
     return s;
 }
