@@ -377,7 +377,9 @@ static void market_gives_back_the_same_numbers(void **state)
     (void)state;
     const double x[] = {0.1 + 0.2, -0.0, 1e-300, NAN, 2.0, M_PI, 1e300, NAN};
     rb_io_matrix m;
-    CHECK_STATUS(rb_io_matrix_market_write(path, 3, 2, x, 4, "a comment", &why), RB_OK);
+    CHECK_STATUS(
+        rb_io_matrix_market_write(path, (rb_io_dense){3, 2, x, 4}, "a comment", &why),
+        RB_OK);
     CHECK_STATUS(rb_io_matrix_market_read(path, &m, &why), RB_OK);
     assert_int_equal(m.rows, 3);
     assert_int_equal(m.cols, 2);
@@ -433,9 +435,11 @@ static void market_refusals(void **state)
                   "room for 2");
     check_refused(read_market, "%%matrixmarket matrix array real general\n1 1\n5\n6\n",
                   "end of the file");
-    CHECK_STATUS(rb_io_matrix_market_write(path, 3, 1, x, 2, NULL, &why), RB_EINVAL);
-    CHECK_STATUS(rb_io_matrix_market_write("/nowhere/m", 2, 1, x, 2, NULL, &why),
-                 RB_EWRITE);
+    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){3, 1, x, 2}, NULL, &why),
+                 RB_EINVAL);
+    CHECK_STATUS(
+        rb_io_matrix_market_write("/nowhere/m", (rb_io_dense){2, 1, x, 2}, NULL, &why),
+        RB_EWRITE);
 }
 
 /* ---- The public collection -----------------------------------------------------------

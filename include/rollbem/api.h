@@ -143,7 +143,7 @@ int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *s
                int max_pivots);
 /* u = W r + q, Coulomb's law, `dimension` (2 or 3) rows per contact, the normal one
  * first; W column by column, mu an entry per contact.  solver: a name of rollbem
- * friction. */
+ * friction.  Nine plain parameters: no struct has to be laid out in another language. */
 int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W,
                     const double *q, const double *mu, const char *solver, double tol,
                     int max_iters);

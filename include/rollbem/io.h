@@ -93,11 +93,17 @@ rb_status rb_io_matrix_to_dense(rb_io_matrix *m);
 /* A copy in compressed columns; zeros of a dense matrix are left out.  RB_ENOMEM. */
 rb_status rb_io_matrix_to_sparse(const rb_io_matrix *m, rb_sparse *a);
 
+/* A dense matrix of somebody else: column-major, ld >= rows. */
+typedef struct {
+    int rows, cols;
+    const double *x;
+    int ld;
+} rb_io_dense;
+
 /* Matrix Market, "array real general": 17 digits, so that reading gives the same numbers.
- * x: rows x cols column-major, ld >= rows; comment (NULL: none): one line.
- * RB_EINVAL, RB_EWRITE, RB_ENOMEM. */
-rb_status rb_io_matrix_market_write(const char *path, int rows, int cols, const double *x,
-                                    int ld, const char *comment, rb_message *why);
+ * comment (NULL: none): one line.  RB_EINVAL, RB_EWRITE, RB_ENOMEM. */
+rb_status rb_io_matrix_market_write(const char *path, rb_io_dense m, const char *comment,
+                                    rb_message *why);
 /* "array" or "coordinate", "real" or "integer", "general" or "symmetric" (both triangles
  * are in m).  RB_ENOENT, RB_EFORMAT, RB_ENOMEM. */
 rb_status rb_io_matrix_market_read(const char *path, rb_io_matrix *m, rb_message *why);

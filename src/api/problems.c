@@ -26,17 +26,23 @@ static void begin(rb_api *a, const char *arrays, const char *solver)
 
 /* ---- Complementarity --------------------------------------------------------------- */
 
-static rb_status solve_lcp(rb_api *a, int newton, const rb_sparse *M, const double *dense,
-                           const double *q, const rb_lcp_options *options, double *z,
-                           double *w)
+/* w = M z + q with M twice, as the one and the other solver takes it. */
+typedef struct {
+    rb_sparse M;
+    const double *dense, *q;
+    double *z, *w;
+} lcp;
+
+static rb_status solve_lcp(rb_api *a, int newton, const lcp *p,
+                           const rb_lcp_options *options)
 {
-    const int n = M->rows;
+    const int n = p->M.rows;
     rb_lcp_info info = {0};
     rb_api_call_begins();
-    const rb_status s = newton ? rb_lcp_newton(M, q, options, z, &info)
-                               : rb_lcp_lemke(n, dense, n, q, options, z, &info);
+    const rb_status s = newton ? rb_lcp_newton(&p->M, p->q, options, p->z, &info)
+                               : rb_lcp_lemke(n, p->dense, n, p->q, options, p->z, &info);
     if (s >= 0)
-        a->residual = rb_lcp_residual_sparse(M, q, z, w);
+        a->residual = rb_lcp_residual_sparse(&p->M, p->q, p->z, p->w);
     rb_api_call_ends();
     a->iterations = info.iters;
     a->why = info.msg;
@@ -48,7 +54,6 @@ int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *s
 {
     const int newton = strcmp(solver, "newton") == 0;
     rb_lcp_options options = rb_lcp_defaults();
-    rb_sparse sparse = {0};
     options.max_iters = max_pivots;
     begin(a, "lcp.", newton ? "newton" : "lemke");
     if (!newton && strcmp(solver, "lemke") != 0)
@@ -59,10 +64,13 @@ int rb_api_lcp(rb_api *a, int n, const double *M, const double *q, const char *s
         return rb_api_ended(a, rb_fail(&a->why, RB_EINVAL, "lcp: n = %d", n));
     api_array *z = rb_api_make_array(a, "lcp.z", n, 1);
     api_array *w = z ? rb_api_make_array(a, "lcp.w", n, 1) : NULL;
-    rb_status s = w ? rb_sparse_from_dense(n, n, M, n, &sparse) : RB_ENOMEM;
+    if (!w)
+        return rb_api_ended(a, RB_ENOMEM);
+    lcp p = {.dense = M, .q = q, .z = z->at, .w = w->at};
+    rb_status s = rb_sparse_from_dense(n, n, M, n, &p.M);
     if (s == RB_OK)
-        s = solve_lcp(a, newton, &sparse, M, q, &options, z->at, w->at);
-    rb_sparse_free(&sparse);
+        s = solve_lcp(a, newton, &p, &options);
+    rb_sparse_free(&p.M);
     return rb_api_ended(a, s);
 }
 

@@ -598,6 +598,8 @@ static const rb_option *replaced_option(const char *column)
 static rb_status settle_columns(rb_case *c, rb_message *why)
 {
     const rb_settled_case defaults = default_words(c->purpose);
+    const rb_option_precedence how = {&defaults, rb_case_alike(c->words.rc.formulation),
+                                      c->path};
     const rb_option_set set = rb_case_options(c);
     const rb_io_table *t = &c->history.table;
     rb_status s = RB_OK;
@@ -606,9 +608,8 @@ static rb_status settle_columns(rb_case *c, rb_message *why)
         const rb_option *option = replaced_option(t->name[j]);
         snprintf(reason, sizeof reason, "the history has a column %s", t->name[j]);
         if (option)
-            s = rb_option_settle_against(
-                &set, option, rb_case_given(c, "history"), &defaults,
-                rb_case_alike(c->words.rc.formulation), c->path, reason, why);
+            s = rb_option_settle_against(&set, &how, option, rb_case_given(c, "history"),
+                                         reason, why);
     }
     return s;
 }
@@ -762,9 +763,10 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
 rb_status rb_case_settle(rb_case *c, rb_message *why)
 {
     const rb_settled_case defaults = default_words(c->purpose);
+    const rb_option_precedence how = {&defaults, rb_case_alike(c->words.rc.formulation),
+                                      c->path};
     const rb_option_set set = rb_case_options(c);
-    rb_status s = rb_option_settle(&set, &defaults,
-                                   rb_case_alike(c->words.rc.formulation), c->path, why);
+    rb_status s = rb_option_settle(&set, &how, why);
     if (s == RB_OK)
         s = read_history(c, why);
     c->settled = c->words;

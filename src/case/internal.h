@@ -48,16 +48,23 @@ const char *rb_case_keep(rb_case *c, const char *text);
 const char *rb_option_source(const rb_option *option, int given, const char *path,
                              char *room, size_t size);
 
+/* How options that exclude each other are settled. */
+typedef struct {
+    const void *defaults; /* a struct like the set's target: what is taken back becomes */
+    unsigned alike;       /* bits of `excludes` that count as one */
+    const char *path;     /* of the case file, for messages */
+} rb_option_precedence;
+
 /* Two given options that share a bit of `excludes` are refused, naming both, unless one
  * is an argument and one comes from the file: then the argument wins and the other
- * returns to its value in defaults (a struct like the set's target).  Bits in `alike`
- * count as one bit. */
-rb_status rb_option_settle(const rb_option_set *set, const void *defaults, unsigned alike,
-                           const char *path, rb_message *why);
+ * returns to its default. */
+rb_status rb_option_settle(const rb_option_set *set, const rb_option_precedence *how,
+                           rb_message *why);
 /* The options that exclude `option` give way to its value from elsewhere, which somebody
  * gave (by, as in `given`); refused with the reason where settling would refuse both. */
-rb_status rb_option_settle_against(const rb_option_set *set, const rb_option *option,
-                                   int by, const void *defaults, unsigned alike,
-                                   const char *path, const char *reason, rb_message *why);
+rb_status rb_option_settle_against(const rb_option_set *set,
+                                   const rb_option_precedence *how,
+                                   const rb_option *option, int by, const char *reason,
+                                   rb_message *why);
 
 #endif

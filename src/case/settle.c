@@ -48,53 +48,55 @@ static int is_argument_over_file(int by, int other)
 }
 
 /* i and j are both given and exclude each other. */
-static rb_status settle_pair(const rb_option_set *set, int i, int j, const void *defaults,
-                             const char *path, rb_message *why)
+static rb_status settle_pair(const rb_option_set *set, const rb_option_precedence *how,
+                             int i, int j, rb_message *why)
 {
     char first[400], second[400];
     const int by_i = set->given[i], by_j = set->given[j];
     if (is_argument_over_file(by_i, by_j) || is_argument_over_file(by_j, by_i)) {
-        take_back(set, by_i > 0 ? i : j, defaults);
+        take_back(set, by_i > 0 ? i : j, how->defaults);
         return RB_OK;
     }
     const rb_option *a = &set->options[i], *b = &set->options[j];
     return rb_fail(why, by_i > 0 && by_j > 0 ? RB_EFORMAT : RB_EINVAL,
                    "%s and %s exclude each other",
-                   rb_option_source(a, by_i, path, first, sizeof first),
-                   rb_option_source(b, by_j, path, second, sizeof second));
+                   rb_option_source(a, by_i, how->path, first, sizeof first),
+                   rb_option_source(b, by_j, how->path, second, sizeof second));
 }
 
-rb_status rb_option_settle(const rb_option_set *set, const void *defaults, unsigned alike,
-                           const char *path, rb_message *why)
+rb_status rb_option_settle(const rb_option_set *set, const rb_option_precedence *how,
+                           rb_message *why)
 {
     for (int i = 0; i < set->n; i++)
         for (int j = i + 1; j < set->n && set->given[i]; j++) {
-            if (!set->given[j] || !exclude_each_other(set->options[i].excludes,
-                                                      set->options[j].excludes, alike))
+            if (!set->given[j] ||
+                !exclude_each_other(set->options[i].excludes, set->options[j].excludes,
+                                    how->alike))
                 continue;
-            const rb_status s = settle_pair(set, i, j, defaults, path, why);
+            const rb_status s = settle_pair(set, how, i, j, why);
             if (s != RB_OK)
                 return s;
         }
     return RB_OK;
 }
 
-rb_status rb_option_settle_against(const rb_option_set *set, const rb_option *option,
-                                   int by, const void *defaults, unsigned alike,
-                                   const char *path, const char *reason, rb_message *why)
+rb_status rb_option_settle_against(const rb_option_set *set,
+                                   const rb_option_precedence *how,
+                                   const rb_option *option, int by, const char *reason,
+                                   rb_message *why)
 {
     char room[400];
     for (int i = 0; i < set->n; i++) {
         const int given = set->given[i];
         if (!given ||
-            !exclude_each_other(option->excludes, set->options[i].excludes, alike))
+            !exclude_each_other(option->excludes, set->options[i].excludes, how->alike))
             continue;
         if (!is_argument_over_file(by, given))
             return rb_fail(
                 why, given > 0 ? RB_EFORMAT : RB_EINVAL, "%s: %s",
-                rb_option_source(&set->options[i], given, path, room, sizeof room),
+                rb_option_source(&set->options[i], given, how->path, room, sizeof room),
                 reason);
-        take_back(set, i, defaults);
+        take_back(set, i, how->defaults);
     }
     return RB_OK;
 }

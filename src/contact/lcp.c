@@ -57,19 +57,24 @@ static rb_status lcp_alloc(const rb_contact_problem *p, rb_contact_lcp_form form
     return RB_ENOMEM;
 }
 
-static void add_block(int n, double factor, const double *block, int ldb, double *M,
-                      int ldm)
+/* n x n, column-major. */
+typedef struct {
+    const double *x;
+    int ld;
+} operand;
+
+static void add_block(int n, double factor, operand A, double *M, int ldm)
 {
     for (int j = 0; j < n; j++)
-        cblas_daxpy(n, factor, block + (size_t)j * ldb, 1, M + (size_t)j * ldm, 1);
+        cblas_daxpy(n, factor, A.x + (size_t)j * A.ld, 1, M + (size_t)j * ldm, 1);
 }
 
 /* The same with column j times bound_j. */
-static void add_bounded(int n, double factor, const double *bound, const double *block,
-                        int ldb, double *M, int ldm)
+static void add_bounded(int n, double factor, const double *bound, operand A, double *M,
+                        int ldm)
 {
     for (int j = 0; j < n; j++)
-        cblas_daxpy(n, factor * bound[j], block + (size_t)j * ldb, 1, M + (size_t)j * ldm,
+        cblas_daxpy(n, factor * bound[j], A.x + (size_t)j * A.ld, 1, M + (size_t)j * ldm,
                     1);
 }
 
@@ -97,7 +102,38 @@ static double slip_offset(const rb_contact_problem *p, const rb_contact_lcp *lcp
     return p->d_T[i] + (p->force_given ? lcp->xi0 : p->xi) * p->e_T[i];
 }
 
+/* An equation of the border (K6): sign (a_N'r_N + a_T'r_T - value) = 0. */
+typedef struct {
+    int row;
+    double sign;
+    const double *a_N, *a_T;
+    double value;
+} border_row;
+
+static border_row load_row(const rb_contact_problem *p)
+{
+    return (border_row){delta_column(p), 1.0, p->load_N, p->load_T, p->load};
+}
+
+static border_row force_row(const rb_contact_problem *p, const rb_contact_lcp *lcp)
+{
+    return (border_row){xi_column(p), -xi_direction(lcp), lcp->control_N, lcp->control_T,
+                        p->force};
+}
+
 /* ---- Pivoted form (K5) ------------------------------------------------------------- */
+
+static void pivoted_border(const rb_contact_problem *p, border_row e, rb_contact_lcp *lcp)
+{
+    const double o = orientation(lcp);
+
+    for (int j = 0; j < p->n; j++) {
+        lcp->M[e.row + (size_t)j * lcp->size] =
+            e.sign * (e.a_N[j] - o * p->bound[j] * e.a_T[j]);
+        lcp->M[e.row + (size_t)(p->n + j) * lcp->size] = e.sign * o * e.a_T[j];
+    }
+    lcp->b[e.row] = -e.sign * e.value;
+}
 
 /* z = (r_N, gamma, nu), w = (y_N, l, mu r_N - o r_T), o the orientation:
  * gamma = mu r_N + o r_T, l - nu = o T_T lambda. */
@@ -106,16 +142,16 @@ static void pivoted_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
     const int n = p->n, ld = lcp->size;
     const double o = orientation(lcp);
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
-    const double *F_NN = K.F, *F_NT = K.F + (size_t)n * K.ldf;
-    const double *S_N = K.S, *S_T = K.S + (size_t)n * n;
+    const operand F_NN = {K.F, K.ldf}, F_NT = {K.F + (size_t)n * K.ldf, K.ldf},
+                  S_N = {K.S, n}, S_T = {K.S + (size_t)n * n, n};
     double *r_N = lcp->M, *gamma = lcp->M + (size_t)n * ld, *nu = gamma + (size_t)n * ld;
 
-    add_block(n, 1.0, F_NN, K.ldf, r_N, ld);
-    add_bounded(n, -o, p->bound, F_NT, K.ldf, r_N, ld);
-    add_block(n, o, F_NT, K.ldf, gamma, ld);
-    add_block(n, o, S_N, n, r_N + n, ld);
-    add_bounded(n, -1.0, p->bound, S_T, n, r_N + n, ld);
-    add_block(n, 1.0, S_T, n, gamma + n, ld);
+    add_block(n, 1.0, F_NN, r_N, ld);
+    add_bounded(n, -o, p->bound, F_NT, r_N, ld);
+    add_block(n, o, F_NT, gamma, ld);
+    add_block(n, o, S_N, r_N + n, ld);
+    add_bounded(n, -1.0, p->bound, S_T, r_N + n, ld);
+    add_block(n, 1.0, S_T, gamma + n, ld);
     add_diagonal(n, 1.0, nu + n, ld);
     for (int i = 0; i < n; i++)
         r_N[2 * n + i + (size_t)i * ld] += 2.0 * p->bound[i];
@@ -127,20 +163,10 @@ static void pivoted_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
     if (p->force_given)
         cblas_daxpy(n, o * xi_direction(lcp), p->e_T, 1,
                     lcp->M + (size_t)xi_column(p) * ld + n, 1);
-}
-
-/* Row `row` = sign (a_N'r_N + a_T'r_T - value) in the unknowns of (K5). */
-static void pivoted_force_row(const rb_contact_problem *p, rb_contact_lcp *lcp, int row,
-                              double sign, const double *a_N, const double *a_T,
-                              double value)
-{
-    const double o = orientation(lcp);
-
-    for (int j = 0; j < p->n; j++) {
-        lcp->M[row + (size_t)j * lcp->size] = sign * (a_N[j] - o * p->bound[j] * a_T[j]);
-        lcp->M[row + (size_t)(p->n + j) * lcp->size] = sign * o * a_T[j];
-    }
-    lcp->b[row] = -sign * value;
+    if (p->load_given)
+        pivoted_border(p, load_row(p), lcp);
+    if (p->force_given)
+        pivoted_border(p, force_row(p, lcp), lcp);
 }
 
 /* ---- Kwak's form (K4) ---------------------------------------------------------------
@@ -207,10 +233,10 @@ static void kwak_gap_rows(const rb_contact_problem *p, const traction *R,
 
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, 1.0, F_NT, K.ldf,
                 R->N, n, 0.0, lcp->M, ld);
-    add_block(n, 1.0, K.F, K.ldf, lcp->M, ld);
+    add_block(n, 1.0, (operand){K.F, K.ldf}, lcp->M, ld);
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, 1.0, F_NT, K.ldf,
                 lcp->B_inverse, n, 0.0, lambda, 2 * ld);
-    add_block(n, -1.0, lambda, 2 * ld, lambda + ld, 2 * ld);
+    add_block(n, -1.0, (operand){lambda, 2 * ld}, lambda + ld, 2 * ld);
     if (p->force_given)
         cblas_dgemv(CblasColMajor, CblasNoTrans, n, n, 1.0, F_NT, K.ldf, R->xi, 1, 0.0,
                     lcp->M + (size_t)xi_column(p) * ld, 1);
@@ -250,22 +276,20 @@ static void kwak_friction_rows(const rb_contact_problem *p, const traction *R,
     set_friction(n, 1.0, R->rest, lcp->b);
 }
 
-/* Row `row` = sign (a_N'r_N + a_T'r_T - value). */
-static void kwak_force_row(const rb_contact_problem *p, const traction *R,
-                           rb_contact_lcp *lcp, int row, double sign, const double *a_N,
-                           const double *a_T, double value)
+static void kwak_border(const rb_contact_problem *p, const traction *R, border_row e,
+                        rb_contact_lcp *lcp)
 {
     const int n = p->n, ld = lcp->size;
-    double *r_N = lcp->M + row, *lambda = r_N + (size_t)lambda_column(n, 0, 0) * ld;
+    double *r_N = lcp->M + e.row, *lambda = r_N + (size_t)lambda_column(n, 0, 0) * ld;
 
-    cblas_dgemv(CblasColMajor, CblasTrans, n, n, sign, R->N, n, a_T, 1, 0.0, r_N, ld);
-    cblas_daxpy(n, sign, a_N, 1, r_N, ld);
-    cblas_dgemv(CblasColMajor, CblasTrans, n, n, sign, lcp->B_inverse, n, a_T, 1, 0.0,
+    cblas_dgemv(CblasColMajor, CblasTrans, n, n, e.sign, R->N, n, e.a_T, 1, 0.0, r_N, ld);
+    cblas_daxpy(n, e.sign, e.a_N, 1, r_N, ld);
+    cblas_dgemv(CblasColMajor, CblasTrans, n, n, e.sign, lcp->B_inverse, n, e.a_T, 1, 0.0,
                 lambda, 2 * ld);
     cblas_daxpy(n, -1.0, lambda, 2 * ld, lambda + ld, 2 * ld);
     if (p->force_given)
-        r_N[(size_t)xi_column(p) * ld] = sign * cblas_ddot(n, a_T, 1, R->xi, 1);
-    lcp->b[row] = sign * (cblas_ddot(n, a_T, 1, R->rest, 1) - value);
+        r_N[(size_t)xi_column(p) * ld] = e.sign * cblas_ddot(n, e.a_T, 1, R->xi, 1);
+    lcp->b[e.row] = e.sign * (cblas_ddot(n, e.a_T, 1, R->rest, 1) - e.value);
 }
 
 static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
@@ -282,11 +306,9 @@ static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
         kwak_gap_rows(p, &R, lcp);
         kwak_friction_rows(p, &R, lcp);
         if (p->load_given)
-            kwak_force_row(p, &R, lcp, delta_column(p), 1.0, p->load_N, p->load_T,
-                           p->load);
+            kwak_border(p, &R, load_row(p), lcp);
         if (p->force_given)
-            kwak_force_row(p, &R, lcp, xi_column(p), -xi_direction(lcp), lcp->control_N,
-                           lcp->control_T, p->force);
+            kwak_border(p, &R, force_row(p, lcp), lcp);
     }
     free(R.N);
     return s;
@@ -440,17 +462,10 @@ rb_status rb_contact_lcp_create(const rb_contact_problem *problem,
     if (s == RB_OK) {
         lcp->mirrored = form == RB_LCP_PIVOTED && mirrored;
         lcp->xi0 = xi0;
-        if (form == RB_LCP_KWAK) {
+        if (form == RB_LCP_KWAK)
             s = kwak_form(problem, lcp);
-        } else {
+        else
             pivoted_form(problem, lcp);
-            if (problem->load_given)
-                pivoted_force_row(problem, lcp, delta_column(problem), 1.0,
-                                  problem->load_N, problem->load_T, problem->load);
-            if (problem->force_given)
-                pivoted_force_row(problem, lcp, xi_column(problem), -xi_direction(lcp),
-                                  lcp->control_N, lcp->control_T, problem->force);
-        }
     }
     if (s == RB_OK)
         add_yield(problem, lcp);

@@ -154,32 +154,39 @@ static void multiply(const system_of *s, const double *x, double *y)
 /* ---- The preconditioner  P = [A~ B; C 0] --------------------------------------------
  */
 
-/* One group of tractions: `count` elements with numbers `at`; what slipping elements owe
- * to the pressure is left out of A~. */
-static void precondition_group(const system_of *s, int tangential, int count,
-                               const int *at, double length, const double *b, double *x)
+/* The unknown tractions in one direction; the equations are in units of `length`. */
+typedef struct {
+    int tangential, count;
+    const int *at; /* count: their elements */
+    double length;
+} group;
+
+/* What slipping elements owe to the pressure is left out of A~. */
+static void precondition_group(const system_of *s, const group *g, const double *b,
+                               double *x)
 {
     const products *op = of(s->p);
     double *line = op->slip;
 
-    if (count == 0)
+    if (g->count == 0)
         return;
     memset(line, 0, (size_t)s->p->n * sizeof *line);
-    for (int k = 0; k < count; k++)
-        line[at[k]] = b[k] * length / s->p->stress;
-    op->by.precondition(op->by.context, tangential, line);
-    for (int k = 0; k < count; k++)
-        x[k] = line[at[k]];
+    for (int k = 0; k < g->count; k++)
+        line[g->at[k]] = b[k] * g->length / s->p->stress;
+    op->by.precondition(op->by.context, g->tangential, line);
+    for (int k = 0; k < g->count; k++)
+        x[k] = line[g->at[k]];
 }
 
 static void precondition_tractions(const system_of *s, const double *b, double *x)
 {
     const rb_contact_problem *p = s->p;
     const rb_contact_reduced *r = s->r;
-    const int c = r->contacts;
+    const group pressure = {0, r->contacts, r->contact, p->gap_length},
+                friction = {1, r->sticks, r->stick, p->slip_length};
 
-    precondition_group(s, 0, c, r->contact, p->gap_length, b, x);
-    precondition_group(s, 1, r->sticks, r->stick, p->slip_length, b + c, x + c);
+    precondition_group(s, &pressure, b, x);
+    precondition_group(s, &friction, b + r->contacts, x + r->contacts);
 }
 
 static void solve_border(const system_of *s, const double *g, double *z)

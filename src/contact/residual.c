@@ -76,22 +76,26 @@ static double control_violation(const rb_contact_problem *p,
     return worst;
 }
 
+/* How the elements have moved; n each. */
+typedef struct {
+    double *gap, *lambda, *yielded;
+} motion;
+
 /* The four values of one element, each kept where it is the largest so far. */
 static void add_element(const rb_contact_problem *problem, const rb_contact_state *state,
-                        double gap, double lambda, double yielded, int i,
-                        rb_contact_violation *v)
+                        const motion *m, int i, rb_contact_violation *v)
 {
     const double tangential = friction_scale(problem), length = problem->slip_length,
                  limit = problem->bound[i] * state->p[i];
     const double gamma_plus = limit + state->q[i], gamma_minus = limit - state->q[i];
     const double contact =
-        fabs(fmin(gap / problem->gap_length, state->p[i] / problem->stress));
+        fabs(fmin(m->gap[i] / problem->gap_length, state->p[i] / problem->stress));
     double coulomb =
-        friction_violation((lambda - state->plastic[i]) / length, gamma_plus / tangential,
-                           gamma_minus / tangential);
+        friction_violation((m->lambda[i] - state->plastic[i]) / length,
+                           gamma_plus / tangential, gamma_minus / tangential);
 
     if (problem->yield) {
-        const double yield = rb_contact_yield_stress(problem, i, yielded);
+        const double yield = rb_contact_yield_stress(problem, i, m->yielded[i]);
         coulomb = fmax(coulomb, friction_violation(state->plastic[i] / length,
                                                    (yield + state->q[i]) / tangential,
                                                    (yield - state->q[i]) / tangential));
@@ -109,16 +113,17 @@ rb_status rb_contact_residual(const rb_contact_problem *problem,
                               const rb_contact_state *state, rb_contact_violation *v)
 {
     const int n = problem->n;
-    double *gap = rb_alloc((size_t)n, 3), *yielded = gap + 2 * n;
+    double *gap = rb_alloc((size_t)n, 3);
 
     if (!gap)
         return RB_ENOMEM;
+    const motion m = {gap, gap + n, gap + 2 * n};
     memset(v, 0, sizeof *v);
-    rb_contact_kinematics(problem, state, gap, gap + n);
-    rb_contact_yielded(problem, state->plastic, yielded);
+    rb_contact_kinematics(problem, state, m.gap, m.lambda);
+    rb_contact_yielded(problem, state->plastic, m.yielded);
     v->scaled = control_violation(problem, state);
     for (int i = 0; i < n; i++)
-        add_element(problem, state, gap[i], gap[n + i], yielded[i], i, v);
+        add_element(problem, state, &m, i, v);
     if (!isfinite(state->delta) || !isfinite(state->xi))
         v->scaled = INFINITY;
     free(gap);

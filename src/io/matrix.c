@@ -70,13 +70,13 @@ rb_status rb_io_matrix_to_sparse(const rb_io_matrix *m, rb_sparse *a)
 
 static const char BANNER[] = "%%MatrixMarket matrix array real general";
 
-rb_status rb_io_matrix_market_write(const char *path, int rows, int cols, const double *x,
-                                    int ld, const char *comment, rb_message *why)
+rb_status rb_io_matrix_market_write(const char *path, rb_io_dense m, const char *comment,
+                                    rb_message *why)
 {
-    if (rows < 0 || cols < 0 || ld < rows)
+    if (m.rows < 0 || m.cols < 0 || m.ld < m.rows)
         return rb_fail(why, RB_EINVAL,
-                       "%s: a matrix of %d by %d with leading dimension %d", path, rows,
-                       cols, ld);
+                       "%s: a matrix of %d by %d with leading dimension %d", path, m.rows,
+                       m.cols, m.ld);
     rb_io_writer w;
     const rb_status s = rb_io_writer_open(path, &w, why);
     if (s != RB_OK)
@@ -84,10 +84,10 @@ rb_status rb_io_matrix_market_write(const char *path, int rows, int cols, const 
     fprintf(w.file, "%s\n", BANNER);
     if (comment)
         fprintf(w.file, "%% %s\n", comment);
-    fprintf(w.file, "%d %d\n", rows, cols);
-    for (int j = 0; j < cols; j++)
-        for (int i = 0; i < rows; i++)
-            fprintf(w.file, "%.17g\n", x[(size_t)i + (size_t)j * (size_t)ld]);
+    fprintf(w.file, "%d %d\n", m.rows, m.cols);
+    for (int j = 0; j < m.cols; j++)
+        for (int i = 0; i < m.rows; i++)
+            fprintf(w.file, "%.17g\n", m.x[(size_t)i + (size_t)j * (size_t)m.ld]);
     return rb_io_writer_commit(&w, why);
 }
 

@@ -30,8 +30,8 @@ static char *path_of(const char *folder, const char *name)
     return rb_io_join(folder, file);
 }
 
-static rb_status write_matrix(const target *t, const char *name, int rows, int cols,
-                              const double *x, int ld, const char *comment)
+static rb_status write_matrix(const target *t, const char *name, rb_io_dense m,
+                              const char *comment)
 {
     int known = 0;
     for (int k = 0; k < NAMES; k++)
@@ -39,9 +39,8 @@ static rb_status write_matrix(const target *t, const char *name, int rows, int c
     if (!known)
         return rb_fail(t->why, RB_EINVAL, "dump: '%s' is missing among the names", name);
     char *path = path_of(t->folder, name);
-    const rb_status s =
-        path ? rb_io_matrix_market_write(path, rows, cols, x, ld, comment, t->why)
-             : rb_fail(t->why, RB_ENOMEM, "out of memory");
+    const rb_status s = path ? rb_io_matrix_market_write(path, m, comment, t->why)
+                             : rb_fail(t->why, RB_ENOMEM, "out of memory");
     free(path);
     return s;
 }
@@ -70,8 +69,8 @@ static rb_status dump_contact(const target *t, const rb_rolling_mesh *mesh)
         x[i + n] = mesh->ends[i + 1];
         x[i + 2 * n] = mesh->gap[i];
     }
-    const rb_status s =
-        write_matrix(t, "contact", n, 3, x, n, "contact elements: from, to, initial gap");
+    const rb_status s = write_matrix(t, "contact", (rb_io_dense){n, 3, x, n},
+                                     "contact elements: from, to, initial gap");
     free(x);
     return s;
 }
@@ -91,7 +90,7 @@ static rb_status dump_mesh(const target *t, const char *name, const rb_bem_mesh 
         x[i + 5 * n] = mesh->condition[2 * i + 1];
     }
     const rb_status s = write_matrix(
-        t, name, mesh->n, 6, x, mesh->n,
+        t, name, (rb_io_dense){mesh->n, 6, x, mesh->n},
         "boundary elements: x0 y0 x1 y1, condition in x and y (0 traction, 1 "
         "displacement, 2 contact)");
     free(x);
@@ -111,10 +110,12 @@ static rb_status dump_influence(const target *t, const char *suffix,
         s = rb_bem_assemble(mesh, material, H, G, n, t->why);
     snprintf(name, sizeof name, "H%s", suffix);
     if (s == RB_OK)
-        s = write_matrix(t, name, n, n, H, n, "H u = G t; rows x0, y0, x1, y1, ...");
+        s = write_matrix(t, name, (rb_io_dense){n, n, H, n},
+                         "H u = G t; rows x0, y0, x1, y1, ...");
     name[0] = 'G';
     if (s == RB_OK)
-        s = write_matrix(t, name, n, n, G, n, "H u = G t; rows x0, y0, x1, y1, ...");
+        s = write_matrix(t, name, (rb_io_dense){n, n, G, n},
+                         "H u = G t; rows x0, y0, x1, y1, ...");
     free(H);
     free(G);
     return s;
@@ -138,7 +139,7 @@ static rb_status dump_body(const target *t, const char *suffix,
 static rb_status dump_dense(const target *t, const rb_rolling_model *model)
 {
     const int n = model->mesh.n, m = n + 1;
-    return write_matrix(t, "F", 2 * m, 2 * n, model->bodies.F, 2 * m,
+    return write_matrix(t, "F", (rb_io_dense){2 * m, 2 * n, model->bodies.F, 2 * m},
                         "w = F r: w_N then w_T, each at the contact elements and the one "
                         "upstream; r_N then r_T");
 }
@@ -156,7 +157,7 @@ static rb_status dump_toeplitz(const target *t, const rb_bem_flexibility *f)
         r[column[k]] = 0.0;
     }
     if (s == RB_OK)
-        s = write_matrix(t, "F_columns", 2 * m, 4, w, 2 * m,
+        s = write_matrix(t, "F_columns", (rb_io_dense){2 * m, 4, w, 2 * m},
                          "columns 1, n, n + 1 and 2n of F, w = F r: its four blocks are "
                          "Toeplitz matrices");
     free(w);
@@ -173,13 +174,16 @@ static rb_status dump_lcp(const target *t, const rb_rolling_model *model)
     if (s != RB_OK)
         return s;
     const int n = lcp.size;
-    s = write_matrix(t, "M", n, n, lcp.M, n, "scaled LCP: w = M z + b");
+    s = write_matrix(t, "M", (rb_io_dense){n, n, lcp.M, n}, "scaled LCP: w = M z + b");
     if (s == RB_OK)
-        s = write_matrix(t, "b", n, 1, lcp.b, n, "scaled LCP: w = M z + b");
+        s = write_matrix(t, "b", (rb_io_dense){n, 1, lcp.b, n},
+                         "scaled LCP: w = M z + b");
     if (s == RB_OK)
-        s = write_matrix(t, "z_scale", n, 1, lcp.z_scale, n, "physical z = z_scale z");
+        s = write_matrix(t, "z_scale", (rb_io_dense){n, 1, lcp.z_scale, n},
+                         "physical z = z_scale z");
     if (s == RB_OK)
-        s = write_matrix(t, "w_scale", n, 1, lcp.w_scale, n, "physical w = w_scale w");
+        s = write_matrix(t, "w_scale", (rb_io_dense){n, 1, lcp.w_scale, n},
+                         "physical w = w_scale w");
     rb_contact_lcp_free(&lcp);
     return s;
 }

@@ -9,6 +9,7 @@ typedef struct {
     const rb_rolling_history *h, *errors; /* errors: NULL or as many steps */
     int rolls;    /* 1: over the rolled distance, 0: over the increments or the time */
     int in_time;  /* 1: over the time */
+    int points;   /* 1: few enough steps to mark each */
     int exponent; /* of the creepage or shift */
     double power; /* 10^exponent */
     double from, to;
@@ -66,6 +67,7 @@ static view make_view(const rb_rolling_history *h, const rb_rolling_history *err
               .errors = errors,
               .rolls = h->step > 0.0,
               .in_time = h->step == 0.0 && h->time,
+              .points = h->n <= 40,
               .power = 1.0,
               .to = 1.0,
               .place = rb_report_place_of(canvas)};
@@ -100,25 +102,30 @@ static void write_data(FILE *out, const view *v)
     fputs("EOD\n", out);
 }
 
-/* Panel k of three, from above; error: column of half the width of a band, or 0. */
-static void write_panel(FILE *out, const view *v, int k, const char *label, int column,
-                        int error, const char *colour, int points)
+/* One of three, k from above. */
+typedef struct {
+    int k;
+    const char *label, *colour;
+    int column, error; /* error: column of half the width of a band, or 0 */
+} panel;
+
+static void write_panel(FILE *out, const view *v, const panel *p)
 {
     static const double tops[] = {0.9, 0.634, 0.368}, height = 0.235;
-    const double top = tops[k] + v->place.up;
+    const double top = tops[p->k] + v->place.up;
     fprintf(out,
             "set tmargin at screen %g\nset bmargin at screen %g\n"
             "set label 2 '%s' at screen 0.03, %g center rotate\nplot ",
-            top, top - height, label, top - height / 2);
-    if (error)
+            top, top - height, p->label, top - height / 2);
+    if (p->error)
         fprintf(out,
                 "$data using 1:($%d-$%d):($%d+$%d) with filledcurves linecolor rgb '%s' "
                 "fillstyle transparent solid 0.25 noborder title 'estimated error', ",
-                column, error, column, error, colour);
+                p->column, p->error, p->column, p->error, p->colour);
     fprintf(out,
             "$data using 1:%d with %s linecolor rgb '%s' linewidth 1.8 pointtype 7 "
             "pointsize 0.8 notitle\n",
-            column, points ? "linespoints" : "lines", colour);
+            p->column, v->points ? "linespoints" : "lines", p->colour);
 }
 
 /* A range and tics for the values with their errors, and for what else must be seen. */
@@ -141,7 +148,7 @@ static void write_last_axis(FILE *out, const char *label)
     fprintf(out, "set format x '%%g'\nset xlabel '%s' offset 0,0.3\n", label);
 }
 
-static void write_way(FILE *out, const view *v, int points)
+static void write_way(FILE *out, const view *v)
 {
     const char *mm = rb_unit_name(v->h->units, "mm");
     char label[80];
@@ -152,16 +159,16 @@ static void write_way(FILE *out, const view *v, int points)
     else
         snprintf(label, sizeof label, v->rolls ? "ξ" : "shift  [%s]", mm);
     write_range(out, v, motion, INFINITY, -INFINITY);
-    write_panel(out, v, 0, label, 2, v->errors ? 5 : 0, "#6c3483", points);
+    write_panel(out, v, &(panel){0, label, "#6c3483", 2, v->errors ? 5 : 0});
     fputs("unset label 1\nunset label 9\nunset key\n", out);
     write_range(out, v, force, 0.0, 0.0); /* a force is seen against none */
-    write_panel(out, v, 1, "Q/(μP)", 3, v->errors ? 6 : 0, "#c0392b", points);
+    write_panel(out, v, &(panel){1, "Q/(μP)", "#c0392b", 3, v->errors ? 6 : 0});
     write_last_axis(out, v->rolls ? "rolled distance / a" : "increment");
     fputs("set yrange [0:1]\nset ytics 0.2\n", out);
-    write_panel(out, v, 2, "stick / contact", 4, 0, "#1f4e79", points);
+    write_panel(out, v, &(panel){2, "stick / contact", "#1f4e79", 4, 0});
 }
 
-static void write_time(FILE *out, const view *v, int points)
+static void write_time(FILE *out, const view *v)
 {
     static quantity *const shown[] = {half_width, load, approach};
     static const char *const label[] = {"half-width  [%s]", "P  [%s]", "approach  [%s]"},
@@ -174,7 +181,7 @@ static void write_time(FILE *out, const view *v, int points)
         if (k == 2)
             write_last_axis(out, "time  [s]");
         write_range(out, v, shown[k], 0.0, 0.0);
-        write_panel(out, v, k, text, 2 + k, 0, colour[k], points);
+        write_panel(out, v, &(panel){k, text, colour[k], 2 + k, 0});
         fputs("unset label 1\nunset label 9\nunset key\n", out);
     }
 }
@@ -182,7 +189,7 @@ static void write_time(FILE *out, const view *v, int points)
 static void write_script(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
-    const int last = v->h->n - 1, points = v->h->n <= 40;
+    const int last = v->h->n - 1;
     const char *unit = rb_unit_name(v->h->units, "N/mm");
     write_data(out, v);
     fprintf(out,
@@ -203,7 +210,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
                 unit);
     if (v->place.titled)
         rb_report_label_bodies(out, v->rc, v->h->units, 0.54, 0.944);
-    (v->in_time ? write_time : write_way)(out, v, points);
+    (v->in_time ? write_time : write_way)(out, v);
     fputs("unset multiplot\n", out);
 }
 

@@ -44,7 +44,7 @@ static void write_tableau(trace *t, const rb_lcp_pivot *p)
 {
     char *path = path_of(t->folder, tableau_name, p->pivot + 1);
     t->status = path ? rb_io_matrix_market_write(
-                           path, p->n, p->n + 2, p->tableau, p->n,
+                           path, (rb_io_dense){p->n, p->n + 2, p->tableau, p->n},
                            "basic = last column + columns times nonbasic; their names: "
                            "basis_*.txt",
                            t->why)

@@ -6,8 +6,6 @@
 
 #include <math.h>
 
-enum { ABSOLUTE = RB_VERIFY_ABSOLUTE, RELATIVE = RB_VERIFY_RELATIVE };
-
 /* ---- Carter -------------------------------------------------------------------------
  */
 
@@ -27,8 +25,8 @@ static void carter_at(rb_verify *v, int elements, double bound)
         largest = error <= largest ? largest : error; /* keeps NaN */
         rb_rolling_solution_free(&s);
     }
-    rb_verify_compare(v, largest, 0.0, bound, ABSOLUTE,
-                      "Carter, %d elements: largest error of Q/(mu P)", elements);
+    rb_verify_absolute(v, largest, 0.0, bound,
+                       "Carter, %d elements: largest error of Q/(mu P)", elements);
 }
 
 /* The creepage of a given force, Q/(mu P) = 0.1 ... 0.99. */
@@ -49,10 +47,9 @@ static void carter_by_force(rb_verify *v)
         off = fmax(off, fabs(s.force_ratio / ratio + 1.0));
         rb_rolling_solution_free(&s);
     }
-    rb_verify_compare(v, off, 0.0, 1e-10, ABSOLUTE,
-                      "Carter by force: Q as asked, relative");
-    rb_verify_compare(v, largest, 0.0, 2e-4, ABSOLUTE,
-                      "Carter by force, 200 elements: creepage, relative");
+    rb_verify_absolute(v, off, 0.0, 1e-10, "Carter by force: Q as asked, relative");
+    rb_verify_absolute(v, largest, 0.0, 2e-4,
+                       "Carter by force, 200 elements: creepage, relative");
 }
 
 /* Two similar cylinders roll as one of nu = 1/2 on a rigid plane. */
@@ -67,8 +64,8 @@ static void similar_pair(rb_verify *v)
     rc.b = rc.a;
     rc.elastic_b = 1;
     rb_verify_solve(v, &rc, &two);
-    rb_verify_compare(v, two.force_ratio, one.force_ratio, 1e-9, RELATIVE,
-                      "similar cylinders as nu = 1/2 on a rigid plane");
+    rb_verify_relative(v, two.force_ratio, one.force_ratio, 1e-9,
+                       "similar cylinders as nu = 1/2 on a rigid plane");
     rb_rolling_solution_free(&one);
     rb_rolling_solution_free(&two);
 }
@@ -90,8 +87,8 @@ static void cattaneo_traction(rb_verify *v)
         sum += (s.q[i] - q) * (s.q[i] - q) * s.h[i];
         length += s.h[i];
     }
-    rb_verify_compare(v, sqrt(sum / length) / (rc.mu * p0), 0.0, 2e-3, ABSOLUTE,
-                      "Cattaneo-Mindlin, 200 elements: rms of q / (mu p0)");
+    rb_verify_absolute(v, sqrt(sum / length) / (rc.mu * p0), 0.0, 2e-3,
+                       "Cattaneo-Mindlin, 200 elements: rms of q / (mu p0)");
     rb_rolling_solution_free(&s);
 }
 
@@ -104,8 +101,8 @@ static void bentall_johnson_at(rb_verify *v, double mu, double wanted, double bo
     rb_rolling_solution s;
     rc.contact_elements = 200;
     rb_verify_solve(v, &rc, &s);
-    rb_verify_compare(v, s.creepage, wanted, bound, RELATIVE,
-                      "Bentall-Johnson, mu = %g, 200 elements: creepage", mu);
+    rb_verify_relative(v, s.creepage, wanted, bound,
+                       "Bentall-Johnson, mu = %g, 200 elements: creepage", mu);
     rb_rolling_solution_free(&s);
 }
 
@@ -121,8 +118,8 @@ static void dissimilar_dissipation(rb_verify *v)
     rb_verify_solve(v, &rc, &s);
     for (int i = 0; i < s.n; i++)
         moment += s.x[i] * s.p[i] * s.h[i];
-    rb_verify_compare(v, s.dissipation, -s.creepage * s.tangential_load + moment / 25.0,
-                      1e-3, RELATIVE, "dissipated power of dissimilar bodies");
+    rb_verify_relative(v, s.dissipation, -s.creepage * s.tangential_load + moment / 25.0,
+                       1e-3, "dissipated power of dissimilar bodies");
     rb_rolling_solution_free(&s);
 }
 

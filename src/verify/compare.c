@@ -5,20 +5,34 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-void rb_verify_compare(rb_verify *v, double got, double wanted, double bound,
-                       int relative, const char *what, ...)
+static void hand_on(rb_verify *v, rb_verify_check *c, const char *what, va_list args)
 {
-    rb_verify_check c = {
-        .wanted = wanted, .got = got, .bound = bound, .relative = relative};
+    vsnprintf(c->what, sizeof c->what, what, args);
+    c->error = fabs(c->got - c->wanted) / (c->relative ? fabs(c->wanted) : 1.0);
+    c->holds = c->error <= c->bound; /* false for NaN */
+    c->why = v->why;
+    v->failed += !c->holds;
+    v->each(c, v->context);
+}
+
+void rb_verify_absolute(rb_verify *v, double got, double wanted, double bound,
+                        const char *what, ...)
+{
+    rb_verify_check c = {.wanted = wanted, .got = got, .bound = bound};
     va_list args;
     va_start(args, what);
-    vsnprintf(c.what, sizeof c.what, what, args);
+    hand_on(v, &c, what, args);
     va_end(args);
-    c.error = fabs(got - wanted) / (relative ? fabs(wanted) : 1.0);
-    c.holds = c.error <= bound; /* false for NaN */
-    c.why = v->why;
-    v->failed += !c.holds;
-    v->each(&c, v->context);
+}
+
+void rb_verify_relative(rb_verify *v, double got, double wanted, double bound,
+                        const char *what, ...)
+{
+    rb_verify_check c = {.wanted = wanted, .got = got, .bound = bound, .relative = 1};
+    va_list args;
+    va_start(args, what);
+    hand_on(v, &c, what, args);
+    va_end(args);
 }
 
 void rb_verify_note(rb_verify *v, rb_status s, const rb_message *why)

@@ -5,8 +5,6 @@
 
 #include <math.h>
 
-enum { ABSOLUTE = RB_VERIFY_ABSOLUTE, RELATIVE = RB_VERIFY_RELATIVE };
-
 static rb_rolling_case rolling_at(double s)
 {
     rb_rolling_case rc = rb_verify_uncoupled();
@@ -58,16 +56,14 @@ static void hertz(rb_verify *v, rb_rolling_mesh_kind mesh, int elements, const c
     const double P = rb_closed_hertz_load(a, rc.a.radius, modulus);
     const curve c = {.p0 = rb_closed_hertz_max_pressure(P, a), .a = a};
     rb_verify_solve(v, &rc, &s);
-    rb_verify_compare(v, s.normal_load, P, 1e-9, RELATIVE, "Hertz, %s: load", name);
-    rb_verify_compare(v, s.max_pressure / c.p0, 1.0, bound[0], ABSOLUTE, "Hertz, %s: p0",
-                      name);
-    rb_verify_compare(v, s.half_width / a, 1.0, bound[1], ABSOLUTE,
-                      "Hertz, %s: half-width", name);
-    rb_verify_compare(v, rms_error(&s, s.p, c.p0, hertz_at, &c), 0.0, bound[2], ABSOLUTE,
-                      "Hertz, %s: rms of p / p0", name);
-    rb_verify_compare(
+    rb_verify_relative(v, s.normal_load, P, 1e-9, "Hertz, %s: load", name);
+    rb_verify_absolute(v, s.max_pressure / c.p0, 1.0, bound[0], "Hertz, %s: p0", name);
+    rb_verify_absolute(v, s.half_width / a, 1.0, bound[1], "Hertz, %s: half-width", name);
+    rb_verify_absolute(v, rms_error(&s, s.p, c.p0, hertz_at, &c), 0.0, bound[2],
+                       "Hertz, %s: rms of p / p0", name);
+    rb_verify_absolute(
         v, s.approach / rb_closed_half_cylinder_approach(P, rc.a.radius, modulus, a), 1.0,
-        bound[3], ABSOLUTE, "half-cylinder compression, %s", name);
+        bound[3], "half-cylinder compression, %s", name);
     rb_rolling_solution_free(&s);
 }
 
@@ -80,13 +76,13 @@ static void carter(rb_verify *v, double ratio)
     rb_verify_solve(v, &rc, &s);
     const double a = rc.half_width, P = s.normal_load;
     const curve c = {rc.mu, rb_closed_hertz_max_pressure(P, a), a, ratio};
-    rb_verify_compare(v, s.force_ratio, rb_closed_carter_force_ratio(ratio), 5e-4,
-                      ABSOLUTE, "Carter, s = %g: Q/(mu P)", ratio);
+    rb_verify_absolute(v, s.force_ratio, rb_closed_carter_force_ratio(ratio), 5e-4,
+                       "Carter, s = %g: Q/(mu P)", ratio);
     if (fabs(ratio) < 1.0)
-        rb_verify_compare(v, s.stick_from / a, 1.0 - 2.0 * (1.0 - fabs(ratio)), 0.04,
-                          ABSOLUTE, "Carter, s = %g: start of stick / a", ratio);
-    rb_verify_compare(v, rms_error(&s, s.q, rc.mu * c.p0, carter_at, &c), 0.0, 1e-2,
-                      ABSOLUTE, "Carter, s = %g: rms of q / (mu p0)", ratio);
+        rb_verify_absolute(v, s.stick_from / a, 1.0 - 2.0 * (1.0 - fabs(ratio)), 0.04,
+                           "Carter, s = %g: start of stick / a", ratio);
+    rb_verify_absolute(v, rms_error(&s, s.q, rc.mu * c.p0, carter_at, &c), 0.0, 1e-2,
+                       "Carter, s = %g: rms of q / (mu p0)", ratio);
     rb_rolling_solution_free(&s);
 }
 
@@ -103,8 +99,8 @@ static void carter_on(rb_verify *v, rb_bem_support support, const char *name)
     rc.mesh = RB_MESH_UNIFORM;
     rc.contact_elements = 100;
     rb_verify_solve(v, &rc, &s);
-    rb_verify_compare(v, s.force_ratio, rb_closed_carter_force_ratio(0.4), 0.02, ABSOLUTE,
-                      "Carter on a cylinder held by its %s", name);
+    rb_verify_absolute(v, s.force_ratio, rb_closed_carter_force_ratio(0.4), 0.02,
+                       "Carter on a cylinder held by its %s", name);
     rb_rolling_solution_free(&s);
 }
 
@@ -120,8 +116,8 @@ static void two_forms(rb_verify *v)
     double difference = s.n == t.n ? 0.0 : NAN;
     for (int i = 0; i < s.n && s.n == t.n; i++)
         difference = fmax(difference, fabs(s.q[i] - t.q[i]) + fabs(s.p[i] - t.p[i]));
-    rb_verify_compare(v, difference / s.max_pressure, 0.0, 1e-9, ABSOLUTE,
-                      "LCP of Kwak against the pivoted form: tractions / p0");
+    rb_verify_absolute(v, difference / s.max_pressure, 0.0, 1e-9,
+                       "LCP of Kwak against the pivoted form: tractions / p0");
     rb_rolling_solution_free(&s);
     rb_rolling_solution_free(&t);
 }
@@ -132,11 +128,11 @@ static void cattaneo(rb_verify *v, double ratio)
     rb_rolling_solution s;
     rc.force_ratio = ratio;
     rb_verify_solve(v, &rc, &s);
-    rb_verify_compare(v, s.force_ratio, ratio, 1e-9, RELATIVE,
-                      "Cattaneo-Mindlin: Q/(mu P) as asked");
-    rb_verify_compare(v, (s.stick_to - s.stick_from) / (2.0 * rc.half_width),
-                      rb_closed_cattaneo_stick(ratio), 0.02, ABSOLUTE,
-                      "Cattaneo-Mindlin, Q = %g mu P: stick half-width / a", ratio);
+    rb_verify_relative(v, s.force_ratio, ratio, 1e-9,
+                       "Cattaneo-Mindlin: Q/(mu P) as asked");
+    rb_verify_absolute(v, (s.stick_to - s.stick_from) / (2.0 * rc.half_width),
+                       rb_closed_cattaneo_stick(ratio), 0.02,
+                       "Cattaneo-Mindlin, Q = %g mu P: stick half-width / a", ratio);
     rb_rolling_solution_free(&s);
 }
 
@@ -150,15 +146,15 @@ static void bentall_johnson(rb_verify *v)
     rb_rolling_case rc = rb_verify_aluminium_on_steel(20.0);
     rb_rolling_solution s;
     rb_verify_solve(v, &rc, &s);
-    rb_verify_compare(v, s.creepage, -rough.creepage, 1e-3, RELATIVE,
-                      "Bentall-Johnson, mu = 20: creepage of mu -> inf");
-    rb_verify_compare(v, s.half_width, rough.half_width, 1e-3, RELATIVE,
-                      "Bentall-Johnson, mu = 20: half-width of mu -> inf");
+    rb_verify_relative(v, s.creepage, -rough.creepage, 1e-3,
+                       "Bentall-Johnson, mu = 20: creepage of mu -> inf");
+    rb_verify_relative(v, s.half_width, rough.half_width, 1e-3,
+                       "Bentall-Johnson, mu = 20: half-width of mu -> inf");
     rb_rolling_solution_free(&s);
     rc = rb_verify_aluminium_on_steel(1e-4);
     rb_verify_solve(v, &rc, &s);
-    rb_verify_compare(v, s.creepage, -rb_closed_bentall_johnson_slip(beta, a, R), 2e-3,
-                      RELATIVE, "Bentall-Johnson, mu = 1e-4: creepage of mu -> 0");
+    rb_verify_relative(v, s.creepage, -rb_closed_bentall_johnson_slip(beta, a, R), 2e-3,
+                       "Bentall-Johnson, mu = 1e-4: creepage of mu -> 0");
     rb_rolling_solution_free(&s);
 }
 

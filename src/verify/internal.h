@@ -13,14 +13,18 @@ typedef struct {
     rb_message said; /* what `why` points to */
 } rb_verify;
 
-enum { RB_VERIFY_ABSOLUTE, RB_VERIFY_RELATIVE };
-
-/* Hands on one line; what: printf format. */
+/* Hands on one line, whose bound is of the difference or of that over `wanted`; what:
+ * printf format. */
 #if defined(__GNUC__)
-__attribute__((format(printf, 6, 7)))
+__attribute__((format(printf, 5, 6)))
 #endif
-void rb_verify_compare(rb_verify *v, double got, double wanted, double bound, int relative,
-                       const char *what, ...);
+void rb_verify_absolute(rb_verify *v, double got, double wanted, double bound,
+                        const char *what, ...);
+#if defined(__GNUC__)
+__attribute__((format(printf, 5, 6)))
+#endif
+void rb_verify_relative(rb_verify *v, double got, double wanted, double bound,
+                        const char *what, ...);
 
 /* Keeps the reason of a failure for the next lines. */
 void rb_verify_note(rb_verify *v, rb_status s, const rb_message *why);

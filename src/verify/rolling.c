@@ -6,8 +6,6 @@
 #include <gsl/gsl_math.h>
 #include <math.h>
 
-enum { ABSOLUTE = RB_VERIFY_ABSOLUTE, RELATIVE = RB_VERIFY_RELATIVE };
-
 /* ---- Cattaneo to Carter ------------------------------------------------------------ */
 
 /* Creepage in the middle of the step that ends nearest to the distance. */
@@ -50,8 +48,8 @@ static void cattaneo_to_carter(rb_verify *v)
     const rb_status s = rb_rolling_history_run(&rc, NULL, NULL, NULL, &model, &h, &why);
     rb_verify_note(v, s, &why);
     for (int k = 0; k < 10; k++)
-        rb_verify_compare(v, creepage_at(&h, distance[k]), wanted[k], 0.01, RELATIVE,
-                          "Cattaneo to Carter: creepage after %g a", distance[k]);
+        rb_verify_relative(v, creepage_at(&h, distance[k]), wanted[k], 0.01,
+                           "Cattaneo to Carter: creepage after %g a", distance[k]);
     rb_rolling_history_free(&h);
     rb_rolling_model_free(&model);
 }
@@ -66,8 +64,8 @@ static void dissipation(rb_verify *v)
     rc.formulation = RB_STEADY;
     rc.creep_ratio = 0.4;
     rb_verify_solve(v, &rc, &s);
-    rb_verify_compare(v, s.dissipation, -s.creepage * s.tangential_load, 1e-3, RELATIVE,
-                      "dissipated power: D = -xi Q");
+    rb_verify_relative(v, s.dissipation, -s.creepage * s.tangential_load, 1e-3,
+                       "dissipated power: D = -xi Q");
     rb_rolling_solution_free(&s);
 }
 
@@ -96,19 +94,19 @@ static void hunter(rb_verify *v)
         rc.contact_elements = 200;
         rb_verify_solve(v, &rc, &s);
         const double P = s.normal_load, p_glassy = 2.0 * P / M_PI;
-        rb_verify_compare(v, s.contact_to, row[2], 1e-3, ABSOLUTE,
-                          "Hunter, f = %g, V tau = %g a: leading edge / a", row[0],
-                          row[1]);
-        rb_verify_compare(v, s.contact_from, row[3], 1e-3, ABSOLUTE,
-                          "Hunter, f = %g, V tau = %g a: trailing edge / a", row[0],
-                          row[1]);
-        rb_verify_compare(v, s.max_pressure / p_glassy, row[4], 2e-3, RELATIVE,
-                          "Hunter, f = %g, V tau = %g a: p_max / p0", row[0], row[1]);
-        rb_verify_compare(v, s.resistance_moment / P, row[5], 1e-4, ABSOLUTE,
-                          "Hunter, f = %g, V tau = %g a: M/(P a)", row[0], row[1]);
-        rb_verify_compare(v, s.hysteresis, s.resistance_moment / rc.a.radius, 1e-3,
-                          RELATIVE, "Hunter, f = %g, V tau = %g a: hysteresis = M/R",
-                          row[0], row[1]);
+        rb_verify_absolute(v, s.contact_to, row[2], 1e-3,
+                           "Hunter, f = %g, V tau = %g a: leading edge / a", row[0],
+                           row[1]);
+        rb_verify_absolute(v, s.contact_from, row[3], 1e-3,
+                           "Hunter, f = %g, V tau = %g a: trailing edge / a", row[0],
+                           row[1]);
+        rb_verify_relative(v, s.max_pressure / p_glassy, row[4], 2e-3,
+                           "Hunter, f = %g, V tau = %g a: p_max / p0", row[0], row[1]);
+        rb_verify_absolute(v, s.resistance_moment / P, row[5], 1e-4,
+                           "Hunter, f = %g, V tau = %g a: M/(P a)", row[0], row[1]);
+        rb_verify_relative(v, s.hysteresis, s.resistance_moment / rc.a.radius, 1e-3,
+                           "Hunter, f = %g, V tau = %g a: hysteresis = M/R", row[0],
+                           row[1]);
         rb_rolling_solution_free(&s);
     }
 }
@@ -134,10 +132,9 @@ static void relaxation(rb_verify *v)
         rb_rolling_history_run(&rc, &program, NULL, NULL, &model, &h, &why);
     rb_verify_note(v, s, &why);
     for (int k = STEPS / 3; k <= STEPS && s == RB_OK; k += STEPS / 3)
-        rb_verify_compare(v, h.normal_load[k] / h.normal_load[0],
-                          (1.0 + f * exp(-(1.0 + f) * h.time[k])) / (1.0 + f), 1e-4,
-                          ABSOLUTE, "held approach, f = 3: P(t)/P(0) at t = %g tau",
-                          h.time[k]);
+        rb_verify_absolute(v, h.normal_load[k] / h.normal_load[0],
+                           (1.0 + f * exp(-(1.0 + f) * h.time[k])) / (1.0 + f), 1e-4,
+                           "held approach, f = 3: P(t)/P(0) at t = %g tau", h.time[k]);
     rb_rolling_history_free(&h);
     rb_rolling_model_free(&model);
 }
