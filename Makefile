@@ -105,7 +105,7 @@ asan:
 
 # every target of fuzz/ in turn, or FUZZ_TARGET, for FUZZ_TIME seconds each; wants clang
 FUZZ_TIME ?= 60
-FUZZ_CFLAGS = -O1 -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
+FUZZ_CFLAGS = -O2 -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fsanitize-coverage-ignorelist=fuzz/untraced
 fuzz:
 	@$(MAKE) --no-print-directory B=$(B)/fuzzing CC="$(FUZZ_CC)" CFLAGS="$(FUZZ_CFLAGS)" $(B)/fuzzing/fuzzer
 	@fuzz/run $(B)/fuzzing $(FUZZ_TIME) $(FUZZ_TARGET)
@@ -226,15 +226,17 @@ $(B)/tests/checker: tests/checker.c
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -o $@ $< $(LDFLAGS) -ljansson -lm
 
-# fuzz targets: replayed by a test, and given to libFuzzer by make fuzz; they call commands too
+# fuzz targets: replayed by a test, and given to libFuzzer by make fuzz; they call commands too,
+# and files that are only read are kept in memory
+FUZZ_WRAP = -Wl,--wrap=fopen
 FUZZ_OBJ = $(patsubst %.c,$(B)/%.o,$(filter-out fuzz/libfuzzer.c,$(wildcard fuzz/*.c))) $(filter-out %/cli/main.o,$(CLI_OBJ))
 $(B)/tests/test_fuzz $(B)/tests/test_message: $(B)/tests/%: tests/%.c tests/check.h $(FUZZ_OBJ) $(B)/librollbem.a
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
-	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -I. -Itests -MMD -MP -MF $@.d -o $@ $< $(FUZZ_OBJ) $(B)/librollbem.a $(LDFLAGS) $(LDLIBS) -lcmocka
+	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -I. -Itests -MMD -MP -MF $@.d -o $@ $< $(FUZZ_OBJ) $(B)/librollbem.a $(LDFLAGS) $(FUZZ_WRAP) $(LDLIBS) -lcmocka
 $(B)/fuzzer: $(FUZZ_OBJ) $(B)/fuzz/libfuzzer.o $(B)/librollbem.a
 	@echo "  LD  $@"
-	$(Q)$(CC) $(CFLAGS) -fsanitize=fuzzer -o $@ $^ $(LDFLAGS) $(LDLIBS)
+	$(Q)$(CC) $(CFLAGS) -fsanitize=fuzzer -o $@ $^ $(LDFLAGS) $(FUZZ_WRAP) $(LDLIBS)
 
 # N=20000 cases at the ends of what is accepted, by the program, judged by tests/checker.c
 N ?= 20000

@@ -4,9 +4,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-static rb_case *new_case(rb_case_purpose purpose)
+/* A copy of a case that is made once, since to make one settles all its options. */
+static rb_case *new_case(void)
 {
-    rb_case *c = rb_case_create(purpose);
+    static rb_case *untouched;
+    if (!untouched)
+        untouched = rb_case_create(RB_CASE_SINGLE);
+    rb_case *c = untouched ? rb_case_copy(untouched) : NULL;
     fuzz_require(c != NULL, "there is memory");
     rb_case_use_cone_solvers(c, rb_friction_cone_solvers());
     return c;
@@ -35,24 +39,24 @@ void fuzz_ini(const uint8_t *data, size_t size)
     static const rb_case_purpose purposes[] = {RB_CASE_SINGLE, RB_CASE_CURVE,
                                                RB_CASE_WEAR};
     char *text = fuzz_text(data, size);
-    for (int k = 0; k < 3; k++) {
-        rb_case *c = new_case(purposes[k]);
-        rb_message why = {""};
-        const rb_status s = rb_case_read_text(c, "case.ini", text, &why);
-        fuzz_require_reason(s, &why);
-        if (s == RB_OK)
-            settle(c);
-        rb_case_free(c);
+    rb_case *c = new_case();
+    rb_message why = {""};
+    const rb_status s = rb_case_read_text(c, "case.ini", text, &why);
+    fuzz_require_reason(s, &why);
+    for (int k = 0; s == RB_OK && k < 3; k++) {
+        rb_case_set_purpose(c, purposes[k]);
+        settle(c);
     }
+    rb_case_free(c);
     free(text);
 }
 
 static void settle_with_file(const char *const (*option)[2], int n, const uint8_t *data,
                              size_t size)
 {
-    rb_case *c = new_case(RB_CASE_SINGLE);
+    rb_case *c = new_case();
     rb_message why = {""};
-    fuzz_write("table", data, size);
+    fuzz_keep("table", data, size);
     for (int k = 0; k < n; k++)
         fuzz_require(
             rb_case_set(c, option[k][0], option[k][1], RB_GIVEN_ARGUMENT, &why) == RB_OK,
@@ -89,7 +93,7 @@ void fuzz_table(const uint8_t *data, size_t size)
 {
     rb_io_table t;
     rb_message why = {""};
-    fuzz_write("table", data, size);
+    fuzz_keep("table", data, size);
     rb_status s = rb_io_table_read("table", &t, &why);
     fuzz_require_reason(s, &why);
     if (s == RB_OK) {

@@ -62,6 +62,32 @@ void fuzz_write(const char *name, const void *data, size_t size)
     fuzz_require(written, "the working folder has room");
 }
 
+/* The name and the bytes that fuzz_keep was given last. */
+static struct {
+    const char *name;
+    const void *data;
+    size_t size;
+} kept;
+
+void fuzz_keep(const char *name, const void *data, size_t size)
+{
+    kept.name = name;
+    kept.data = data;
+    kept.size = size;
+}
+
+/* The linker puts __wrap_fopen in the place of fopen (FUZZ_WRAP of the Makefile). */
+FILE *__real_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode);
+
+FILE *__wrap_fopen(const char *path, const char *mode)
+{
+    if (!kept.name || mode[0] != 'r' || strcmp(path, kept.name) != 0)
+        return __real_fopen(path, mode);
+    /* a stream that is read from does not write to its memory */
+    return fmemopen((void *)(uintptr_t)kept.data, kept.size, "r");
+}
+
 char *fuzz_read(const char *name, size_t *size)
 {
     FILE *file = fopen(name, "rb");

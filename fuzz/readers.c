@@ -44,7 +44,7 @@ void fuzz_siconos(const uint8_t *data, size_t size)
 {
     rb_io_lcp lcp;
     rb_message why = {""};
-    fuzz_write(file, data, size);
+    fuzz_keep(file, data, size);
     const rb_status s = rb_io_siconos_read_lcp(file, &lcp, &why);
     fuzz_require_reason(s, &why);
     if (s == RB_OK) {
@@ -69,7 +69,7 @@ void fuzz_matrix_market(const uint8_t *data, size_t size)
 {
     rb_io_matrix m;
     rb_message why = {""};
-    fuzz_write(file, data, size);
+    fuzz_keep(file, data, size);
     const rb_status s = rb_io_matrix_market_read(file, &m, &why);
     fuzz_require_reason(s, &why);
     if (s == RB_OK) {
@@ -86,7 +86,7 @@ void fuzz_lcp_text(const uint8_t *data, size_t size)
     rb_io_bimatrix game;
     double *x = NULL;
     rb_message why = {""}, of_game = {""}, of_bounds = {""}, of_both = {""};
-    fuzz_write(file, data, size);
+    fuzz_keep(file, data, size);
     rb_status s = rb_io_lcp_read(file, NULL, &p, &why);
     fuzz_require_reason(s, &why);
     if (s == RB_OK) {
@@ -121,7 +121,7 @@ void fuzz_contact(const uint8_t *data, size_t size)
     rb_io_contact_case *cases = NULL;
     int n = 0;
     rb_message why = {""};
-    fuzz_write(file, data, size);
+    fuzz_keep(file, data, size);
     const rb_status s = rb_io_contact_read(file, &n, &cases, &why);
     fuzz_require_reason(s, &why);
     for (int k = 0; s == RB_OK && k < n; k++) {

@@ -182,7 +182,7 @@ static void make_case(int k)
 enum { SOLVED, REFUSED, UNSOLVED, WRONG, ENDS };
 static const char *const ends[ENDS] = {"right", "refused", "not solved", "wrong"};
 
-enum { REASONS = 60, SECONDS_MAX = 60 };
+enum { REASONS = 60, SECONDS_AIM = 5, SECONDS_MAX = 60 };
 static struct {
     char text[200];
     int count;
@@ -241,6 +241,8 @@ static int run_case(int k, double *seconds)
              last = more)
             ;
         count_reason("not solved", last ? last + 9 : err);
+        if (getenv("HOSTILE"))
+            print_message("case %d is not solved:%s\n", k, line);
         return last ? UNSOLVED : WRONG;
     }
     if (code == 128 + SIGKILL) {
@@ -273,6 +275,8 @@ static void hostile_cases_are_right_or_say_why_not(void **state_of_test)
     (void)state_of_test;
     for (int k = from; k < from + n; k++) {
         count[run_case(k, &seconds)]++;
+        if (seconds > SECONDS_AIM && getenv("HOSTILE"))
+            print_message("case %d takes %.1f s:%s\n", k, seconds, line);
         if (seconds > most) {
             most = seconds;
             slowest = k;

@@ -2,6 +2,7 @@
 #include "rollbem/base.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static int min2(int a, int b)
@@ -34,6 +35,10 @@ static int edit_distance(const char *a, const char *b)
 
 void rb_guess_try(rb_guess *guess, const char *candidate)
 {
+    /* every letter more or less is an edit */
+    const int at_least = abs((int)strlen(guess->word) - (int)strlen(candidate));
+    if (guess->best && at_least >= guess->distance)
+        return;
     const int distance = edit_distance(guess->word, candidate);
     if (guess->best && distance >= guess->distance)
         return;

@@ -111,14 +111,16 @@ const rb_option_set *rb_option_find(int n, const rb_option_set *sets, const char
     for (int k = 0; k < n; k++)
         for (int i = 0; i < sets[k].n; i++) {
             const rb_option *o = &sets[k].options[i];
-            if (o->kind == RB_OPTION_GROUP) /* headings share names with options */
-                continue;
-            if (strlen(o->name) == length && strncmp(o->name, name, length) == 0) {
+            if (o->kind != RB_OPTION_GROUP && /* headings share names with options */
+                strncmp(o->name, name, length) == 0 && !o->name[length]) {
                 *index = i;
                 return &sets[k];
             }
-            rb_guess_try(guess, o->name);
         }
+    for (int k = 0; k < n; k++)
+        for (int i = 0; i < sets[k].n; i++)
+            if (sets[k].options[i].kind != RB_OPTION_GROUP)
+                rb_guess_try(guess, sets[k].options[i].name);
     return NULL;
 }
 
@@ -135,8 +137,10 @@ const rb_option *rb_case_describe(int *n)
 
 const rb_option *rb_case_option(const char *name)
 {
+    /* asked thousands of times per case: most names differ in their first letter */
     for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++)
-        if (o->kind != RB_OPTION_GROUP && strcmp(o->name, name) == 0)
+        if (o->name[0] == name[0] && o->kind != RB_OPTION_GROUP &&
+            strcmp(o->name, name) == 0)
             return o;
     return NULL;
 }

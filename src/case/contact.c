@@ -180,4 +180,9 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
         c->to = from;
     }
     c->rc.zone = 0.5 * (c->to - c->from);
+    if (!(c->from < c->to)) { /* far away, elements are less than the numbers' digits */
+        leave_out(c, "a potential contact at %g without width beside %g", in->from,
+                  c->centre);
+        c->runs = 0;
+    }
 }

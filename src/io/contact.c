@@ -192,6 +192,11 @@ static void read_grid(reading *r, rb_io_contact_case *c)
         return;
     read_numbers(r, 1, x, "IPOTCN", NULL);
     c->potential = whole(r, x[0], "IPOTCN");
+    if (c->potential == 0 || c->potential > 4) {
+        char got[16];
+        snprintf(got, sizeof got, "%d", c->potential);
+        fail(r, "IPOTCN from 1 to 4, or negative", got);
+    }
     read_numbers(r, c->potential > 0 ? 6 : 5, x, "MX, MY and the grid", NULL);
     if (r->status == RB_OK) {
         c->mx = whole(r, x[0], "MX");
@@ -211,7 +216,8 @@ static void read_grid(reading *r, rb_io_contact_case *c)
     if (c->potential >= 3)
         c->from -= c->dx / 2;
     if (c->potential > 0 &&
-        (c->mx < 1 || c->my < 1 || !(c->dx > 0.0) || !isfinite(c->from)))
+        (c->mx < 1 || c->my < 1 || !isfinite(c->from) ||
+         !(c->from + c->mx * c->dx > c->from)))
         fail(r, "MX, MY >= 1 and DX > 0", "another grid");
 }
 

@@ -14,7 +14,7 @@ char *rb_io_read_all(FILE *file, size_t *size)
     *size = 0;
     do {
         if (*size + 1 >= room) {
-            room = room ? 2 * room : 1 << 16;
+            room = room ? 2 * room : 1 << 12;
             char *larger = realloc(text, room);
             if (!larger) {
                 free(text);
