@@ -135,8 +135,8 @@ static void solve_both(int n)
     dense.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
     start = rb_seconds();
     if (rb_rolling_bodies_create(&dense, &model.mesh, &bodies, NULL) != RB_OK ||
-        rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, 0.0, &problem,
-                                  NULL) != RB_OK ||
+        rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, &problem, NULL) !=
+            RB_OK ||
         rb_contact_state_alloc(n, &state) != RB_OK)
         stop("no memory");
     dense.solver = RB_SOLVER_NEWTON;

@@ -207,31 +207,31 @@ static void count_history(const rb_rolling_case *rc, counts *t)
 {
     const rb_rolling_case fine = finer(rc);
     rb_rolling_model model = {0}, fine_model = {0};
-    rb_rolling_history h = {0}, e = {0}, truth = {0};
-    rb_status status =
-        rb_rolling_history_with_errors(rc, NULL, NULL, NULL, &model, &h, &e, NULL);
+    rb_rolling_history h = {0}, truth = {0};
+    rb_status status = rb_rolling_history_with_errors(rc, NULL, NULL, &model, &h, NULL);
 
     if (status == RB_OK)
-        status =
-            rb_rolling_history_run(&fine, NULL, NULL, NULL, &fine_model, &truth, NULL);
+        status = rb_rolling_history_run(&fine, NULL, NULL, &fine_model, &truth, NULL);
     t->main.unsolved += status != RB_OK;
     for (int k = 1; k < h.n && FINER * k < truth.n && status == RB_OK; k += 3) {
         const int i = FINER * k;
         count_bar(&t->main, h.tangential_load[k], truth.tangential_load[i],
-                  e.tangential_load[k]);
-        count_bar(&t->main, h.approach[k], truth.approach[i], e.approach[k]);
-        count_bar(&t->main, h.max_pressure[k], truth.max_pressure[i], e.max_pressure[k]);
+                  h.errors->tangential_load[k]);
+        count_bar(&t->main, h.approach[k], truth.approach[i], h.errors->approach[k]);
+        count_bar(&t->main, h.max_pressure[k], truth.max_pressure[i],
+                  h.errors->max_pressure[k]);
         count_bar(&t->main, h.dissipation[k], mean_over_step(truth.dissipation, k),
-                  e.dissipation[k]);
-        count_bar(&t->others, h.normal_load[k], truth.normal_load[i], e.normal_load[k]);
+                  h.errors->dissipation[k]);
+        count_bar(&t->others, h.normal_load[k], truth.normal_load[i],
+                  h.errors->normal_load[k]);
         count_bar(&t->others, h.creepage[k], mean_over_step(truth.creepage, k),
-                  e.creepage[k]);
+                  h.errors->creepage[k]);
         count_bar(&t->others, h.contact_from[k], truth.contact_from[i],
-                  e.contact_from[k]);
-        count_bar(&t->others, h.contact_to[k], truth.contact_to[i], e.contact_to[k]);
+                  h.errors->contact_from[k]);
+        count_bar(&t->others, h.contact_to[k], truth.contact_to[i],
+                  h.errors->contact_to[k]);
     }
     rb_rolling_history_free(&h);
-    rb_rolling_history_free(&e);
     rb_rolling_history_free(&truth);
     rb_rolling_model_free(&model);
     rb_rolling_model_free(&fine_model);

@@ -228,15 +228,14 @@ static void bars_of_a_history(int force_is_given)
         rc.force_ratio = 0.5;
     }
     rb_rolling_model model, others[2];
-    rb_rolling_history own, errors, run[2];
+    rb_rolling_history own, run[2];
     rb_message why = {""};
-    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, NULL, &model, &own,
-                                                &errors, &why),
+    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &own, &why),
                  RB_OK);
     for (int k = 0; k < 2; k++) {
         const rb_rolling_case coarser = coarser_case(&rc, k);
         CHECK_STATUS(
-            rb_rolling_history_run(&coarser, NULL, NULL, NULL, &others[k], &run[k], &why),
+            rb_rolling_history_run(&coarser, NULL, NULL, &others[k], &run[k], &why),
             RB_OK);
     }
     double force[STEPS + 1] = {0.0}, creepage[STEPS + 1] = {0.0},
@@ -259,18 +258,17 @@ static void bars_of_a_history(int force_is_given)
                               1.0 / (own.stick[i] + own.slipping[i]));
     }
     for (int i = 1; i <= STEPS; i++) {
-        check_bar("tangential_load", errors.tangential_load[i],
+        check_bar("tangential_load", own.errors->tangential_load[i],
                   with_neighbours(force, i, STEPS), fabs(own.tangential_load[STEPS]));
-        check_bar("creepage", errors.creepage[i], with_neighbours(creepage, i, STEPS),
-                  fabs(own.creepage[STEPS]));
-        check_bar("dissipation", errors.dissipation[i], with_neighbours(power, i, STEPS),
-                  own.dissipation[STEPS]);
+        check_bar("creepage", own.errors->creepage[i],
+                  with_neighbours(creepage, i, STEPS), fabs(own.creepage[STEPS]));
+        check_bar("dissipation", own.errors->dissipation[i],
+                  with_neighbours(power, i, STEPS), own.dissipation[STEPS]);
     }
     for (int k = 0; k < 2; k++) {
         rb_rolling_history_free(&run[k]);
         rb_rolling_model_free(&others[k]);
     }
-    rb_rolling_history_free(&errors);
     rb_rolling_history_free(&own);
     rb_rolling_model_free(&model);
 }

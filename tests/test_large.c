@@ -45,9 +45,9 @@ static void compare_with_matrix(const rb_rolling_case *rc)
     dense.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
     CHECK_STATUS(rb_rolling_bodies_create(&dense, &model.mesh, &bodies, &why), RB_OK);
     assert_non_null(bodies.F);
-    CHECK_STATUS(rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, 0.0,
-                                           &problem, &why),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, &problem, &why),
+        RB_OK);
     CHECK_REL(model.problem.gap_length, problem.gap_length, 1e-12, "scale of gaps");
     CHECK_REL(model.problem.slip_length, problem.slip_length, 1e-3, "scale of slips");
     assert_int_equal(rb_contact_operator_response(model.problem.op).coupled,

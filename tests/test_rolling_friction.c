@@ -118,8 +118,7 @@ static void large_contacts_and_steps_too(void **state)
     rc = steady();
     rc.formulation = RB_TRANSIENT;
     rc.distance = 1.0;
-    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, NULL, &model, &history, NULL),
-                 RB_OK);
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, NULL), RB_OK);
     check_laws(&model);
     rb_rolling_history_free(&history);
     rb_rolling_model_free(&model);

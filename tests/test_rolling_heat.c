@@ -249,8 +249,7 @@ static void steps_tend_to_the_steady_state(void **state)
         rb_rolling_model model;
         rb_message why = {""};
         rc.steps = steps[k];
-        CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, NULL, &model, &h, &why),
-                     RB_OK);
+        CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why), RB_OK);
         CHECK_REL(h.max_temperature[h.n - 1], steady.max_temperature, 1e-2, "%d steps",
                   h.n);
         /* it rises along the way; the peak between elements is known to 1e-5 */

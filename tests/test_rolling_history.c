@@ -27,7 +27,7 @@ static void run(const rb_rolling_case *rc, const rb_rolling_program *program,
                 rb_rolling_model *model, rb_rolling_history *history)
 {
     rb_message why = {""};
-    if (rb_rolling_history_run(rc, program, NULL, NULL, model, history, &why) != RB_OK)
+    if (rb_rolling_history_run(rc, program, NULL, model, history, &why) != RB_OK)
         fail_msg("%s", why.text);
 }
 
@@ -310,9 +310,8 @@ static void bad_programs_name_the_row(void **state)
         rb_rolling_history h;
         rb_message why = {""};
         rc.formulation = bad[k].formulation;
-        CHECK_STATUS(
-            rb_rolling_history_run(&rc, &bad[k].program, NULL, NULL, &model, &h, &why),
-            RB_EINVAL);
+        CHECK_STATUS(rb_rolling_history_run(&rc, &bad[k].program, NULL, &model, &h, &why),
+                     RB_EINVAL);
         if (!strstr(why.text, bad[k].word))
             fail_msg("'%s' does not say '%s'", why.text, bad[k].word);
         release(&model, &h);
@@ -339,7 +338,9 @@ static void an_interrupted_run_keeps_its_steps(void **state)
     rc.formulation = RB_TRANSIENT;
     rc.creep = 1e-4;
     rc.distance = 2.0;
-    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, stop_at_five, &seen, &model, &h, &why),
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL,
+                                        &(rb_rolling_observer){stop_at_five, &seen},
+                                        &model, &h, &why),
                  RB_INTERRUPTED);
     assert_int_equal(seen, 5);
     assert_int_equal(h.n, 5);
@@ -354,30 +355,28 @@ static void count_history(double creep, double force_ratio, double zone, tally *
 {
     rb_rolling_case rc = steel_wheel(60), finer = steel_wheel(240);
     rb_rolling_model model;
-    rb_rolling_history h, e, truth;
+    rb_rolling_history h, truth;
     rc.zone = finer.zone = zone * rb_rolling_hertz_half_width(&rc, rc.load);
     finer.contact_elements = 4 * rc.contact_elements;
     rc.formulation = finer.formulation = RB_TRANSIENT;
     rc.creep = finer.creep = creep;
     rc.force_ratio = finer.force_ratio = force_ratio;
     rc.distance = finer.distance = 2.0;
-    CHECK_STATUS(
-        rb_rolling_history_with_errors(&rc, NULL, NULL, NULL, &model, &h, &e, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, NULL),
+                 RB_OK);
     rb_rolling_model_free(&model);
-    assert_int_equal(e.n, h.n);
+    assert_int_equal(h.errors->n, h.n);
     finer.steps = 4 * (h.n - 1);
     run(&finer, NULL, &model, &truth);
     for (int k = 1; k < h.n && 4 * k < truth.n; k++) {
         const double *xi = truth.creepage + 4 * k - 3;
         tally_count(of_force, h.force_ratio[k] - truth.force_ratio[4 * k],
-                    e.force_ratio[k]);
+                    h.errors->force_ratio[k]);
         tally_count(of_creepage,
                     1e4 * (h.creepage[k] - 0.25 * (xi[0] + xi[1] + xi[2] + xi[3])),
-                    1e4 * e.creepage[k]);
+                    1e4 * h.errors->creepage[k]);
     }
     rb_rolling_history_free(&truth);
-    rb_rolling_history_free(&e);
     release(&model, &h);
 }
 
@@ -403,22 +402,20 @@ static void error_bars_hold_mindlin(void **state)
     const rb_rolling_program program = {.n = 5, .force_ratio = force};
     rb_rolling_case rc = steel_wheel(60), finer = steel_wheel(240);
     rb_rolling_model model;
-    rb_rolling_history h, e, truth;
+    rb_rolling_history h, truth;
     rc.zone = finer.zone = 1.17 * rb_rolling_hertz_half_width(&rc, rc.load);
     run(&finer, &program, &model, &truth);
     rb_rolling_model_free(&model);
-    CHECK_STATUS(
-        rb_rolling_history_with_errors(&rc, &program, NULL, NULL, &model, &h, &e, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_history_with_errors(&rc, &program, NULL, &model, &h, NULL),
+                 RB_OK);
     for (int k = 0; k < 5; k++) {
         const double unit = rc.mu * model.half_width * model.half_width / rc.a.radius;
-        CHECK_MAX(fabs(h.shift[k] - truth.shift[k]) / unit, e.shift[k] / unit, "row %d",
-                  k + 1);
-        CHECK_MAX(e.shift[k] / unit, 0.02, "of a shift of 1");
-        CHECK_MAX(e.force_ratio[k], 1e-12, "a given force has no error");
+        CHECK_MAX(fabs(h.shift[k] - truth.shift[k]) / unit, h.errors->shift[k] / unit,
+                  "row %d", k + 1);
+        CHECK_MAX(h.errors->shift[k] / unit, 0.02, "of a shift of 1");
+        CHECK_MAX(h.errors->force_ratio[k], 1e-12, "a given force has no error");
     }
     rb_rolling_history_free(&truth);
-    rb_rolling_history_free(&e);
     release(&model, &h);
 }
 
@@ -437,16 +434,16 @@ static void companions_can_be_interrupted(void **state)
     (void)state;
     rb_rolling_case rc = steel_wheel(20);
     rb_rolling_model model;
-    rb_rolling_history h, e;
+    rb_rolling_history h;
     rc.formulation = RB_TRANSIENT;
     rc.creep = 1e-4;
     rc.distance = 1.0;
-    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, stop_in_companion, NULL,
-                                                &model, &h, &e, NULL),
-                 RB_INTERRUPTED);
+    CHECK_STATUS(
+        rb_rolling_history_with_errors(
+            &rc, NULL, &(rb_rolling_observer){stop_in_companion, NULL}, &model, &h, NULL),
+        RB_INTERRUPTED);
     assert_int_equal(h.n, 11); /* the run itself is complete */
-    assert_int_equal(e.n, 0);
-    rb_rolling_history_free(&e);
+    assert_null(h.errors);
     release(&model, &h);
 }
 
@@ -461,15 +458,14 @@ static void every_failed_allocation_is_reported(void **state)
     rc.steps = 2;
     for (int count = 0; refused; count++) {
         rb_rolling_model model;
-        rb_rolling_history h, e;
+        rb_rolling_history h;
         alloc_fail_after(count);
         const rb_status s =
-            rb_rolling_history_with_errors(&rc, NULL, NULL, NULL, &model, &h, &e, NULL);
+            rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, NULL);
         refused = alloc_failed();
         alloc_succeed();
         if (refused && s == RB_OK)
             fail_msg("allocation %d failed unnoticed", count);
-        rb_rolling_history_free(&e);
         release(&model, &h);
     }
 }

@@ -407,9 +407,10 @@ static void steps_remember_their_friction(void **state)
         rc.formulation = RB_TRANSIENT;
         rc.distance = 6.0;
         rc.a.datum = rc.b.datum = 10.0; /* stiff, so that it is steady soon */
-        CHECK_STATUS(
-            rb_rolling_history_run(&rc, NULL, see_step, &seen, &model, &history, &why),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_history_run(&rc, NULL,
+                                            &(rb_rolling_observer){see_step, &seen},
+                                            &model, &history, &why),
+                     RB_OK);
         if (memory) /* without it the steps jump between solutions */
             CHECK_ABS(history.force_ratio[history.n - 1], steady, 2e-3, "steady at last");
         rb_rolling_model_free(&model);
@@ -435,7 +436,7 @@ static void a_step_has_two_starts(void **state)
         CHECK_STATUS(
             rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
             RB_OK);
-        const rb_rolling_past past = {.w_T = w + m + 1};
+        const rb_rolling_past past = {.w_T = w + m + 1, .step = 0.1};
         memcpy(before, model.problem.bound, (size_t)n * sizeof *before);
         rb_contact_problem_free(&model.problem);
         model.rc.formulation = RB_TRANSIENT;
@@ -443,7 +444,7 @@ static void a_step_has_two_starts(void **state)
         model.rc.friction.start = start ? &sliding : NULL;
         model.mu_before = before;
         CHECK_STATUS(rb_rolling_problem_create(&model.rc, &model.mesh, &model.bodies,
-                                               &past, 0.1, &model.problem, &why),
+                                               &past, &model.problem, &why),
                      RB_OK);
         const rb_status s = rb_rolling_model_resolve(&model, 1, &why);
         if (s != RB_OK)

@@ -247,7 +247,7 @@ static void contacts_figures_are_met(void **state)
         CHECK_STATUS(rb_rolling_mesh_uniform(&grid, -8.0, 7.84, &mesh, NULL), RB_OK);
         CHECK_STATUS(rb_rolling_bodies_create(&grid, &mesh, &bodies, NULL), RB_OK);
         CHECK_STATUS(
-            rb_rolling_problem_create(&grid, &mesh, &bodies, NULL, 0.0, &problem, NULL),
+            rb_rolling_problem_create(&grid, &mesh, &bodies, NULL, &problem, NULL),
             RB_OK);
         CHECK_STATUS(rb_contact_state_alloc(99, &s), RB_OK);
         CHECK_STATUS(rb_rolling_problem_solve(&problem, &grid, 0, &s, NULL), RB_OK);

@@ -55,7 +55,7 @@ static double run(const rb_rolling_case *rc, const rb_rolling_program *program,
 {
     rb_rolling_model model;
     rb_message why = {""};
-    if (rb_rolling_history_run(rc, program, NULL, NULL, &model, h, &why) != RB_OK)
+    if (rb_rolling_history_run(rc, program, NULL, &model, h, &why) != RB_OK)
         fail_msg("%s", why.text);
     for (int k = 0; k < h->n; k++)
         CHECK_MAX(h->residual[k], 1e-9, "step %d", k);
@@ -359,9 +359,8 @@ static void bodies_may_change_places(void **state)
     rc.b.young = 3000.0;
     rc.b.poisson = 0.4;
     for (int k = 0; k < 2; k++) {
-        CHECK_STATUS(
-            rb_rolling_history_run(&rc, &program, NULL, NULL, &model[k], &h[k], NULL),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model[k], &h[k], NULL),
+                     RB_OK);
         const rb_rolling_body a = rc.a;
         rc.a = rc.b;
         rc.b = a;
@@ -415,7 +414,7 @@ static void rolling_becomes_steady(void **state)
             rb_rolling_solution s;
             rb_message why = {""};
             *(control ? &rc.force_ratio : &rc.creep_ratio) = control ? -0.4 : 0.5;
-            if (rb_rolling_history_run(&rc, NULL, NULL, NULL, &model, &h, &why) != RB_OK)
+            if (rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why) != RB_OK)
                 fail_msg("%s", why.text);
             for (int k = 0; k < h.n; k++)
                 CHECK_MAX(h.residual[k], 1e-9, "step %d", k);
@@ -548,7 +547,7 @@ static void bad_programs_are_refused(void **state)
         }
         if (bad[k].hub)
             rc.a.support = RB_BEM_HUB;
-        CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, NULL, &model, &h, &why),
+        CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
                      RB_EINVAL);
         if (!strstr(why.text, bad[k].word))
             fail_msg("'%s' does not say '%s'", why.text, bad[k].word);
@@ -595,7 +594,7 @@ static void every_failing_allocation_is_noticed(void **state)
             rb_rolling_history h;
             alloc_fail_after(count);
             const rb_status s = rb_rolling_history_run(&rc, rolls ? NULL : &program, NULL,
-                                                       NULL, &model, &h, NULL);
+                                                       &model, &h, NULL);
             refused = alloc_failed();
             alloc_succeed();
             if (refused && s == RB_OK)

@@ -31,7 +31,7 @@ static void run(const rb_rolling_case *rc, const rb_rolling_program *program,
                 rb_rolling_model *model, rb_rolling_history *h)
 {
     rb_message why = {""};
-    if (rb_rolling_history_run(rc, program, NULL, NULL, model, h, &why) != RB_OK)
+    if (rb_rolling_history_run(rc, program, NULL, model, h, &why) != RB_OK)
         fail_msg("%s", why.text);
 }
 
@@ -201,9 +201,9 @@ static double stick_under_a_flat_punch(int elements)
     memset(mesh.gap, 0, (size_t)mesh.n * sizeof(double));
     model.mesh = mesh;
     CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &model.bodies, NULL), RB_OK);
-    CHECK_STATUS(rb_rolling_problem_create(&rc, &mesh, &model.bodies, NULL, 0.0,
-                                           &model.problem, NULL),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_rolling_problem_create(&rc, &mesh, &model.bodies, NULL, &model.problem, NULL),
+        RB_OK);
     CHECK_STATUS(rb_contact_state_alloc(mesh.n, &model.state), RB_OK);
     CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &model.state, NULL),
                  RB_OK);
@@ -225,7 +225,9 @@ static void increments_press_as_spence(void **state)
     CHECK_ABS(stick_part(&model), 0.298, 0.01, "in one step");
     rb_rolling_model_free(&model);
     rc.increments = 60;
-    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, watch_stick, &s, &model, &h, NULL),
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL,
+                                        &(rb_rolling_observer){watch_stick, &s}, &model,
+                                        &h, NULL),
                  RB_OK);
     assert_int_equal(h.n, 60);
     CHECK_ABS(s.last, punch, 0.01, "the flat punch");
@@ -296,9 +298,10 @@ static void similar_bodies_press_at_once(void **state)
     rb_rolling_solution_free(&many);
     rc.formulation = RB_TRANSIENT;
     rc.distance = 0.5;
-    CHECK_STATUS(
-        rb_rolling_history_run(&rc, NULL, count_steps, &at_rest, &model, &h, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL,
+                                        &(rb_rolling_observer){count_steps, &at_rest},
+                                        &model, &h, NULL),
+                 RB_OK);
     assert_int_equal(at_rest, 10);
     CHECK_REL(h.distance[h.n - 1], 0.5, 1e-15, "rolled");
     release(&model, &h);
@@ -567,12 +570,14 @@ static void a_bump_passes_from_front_to_back(void **state)
         rc.creep = 2e-3;
         rc.distance = 6.0;
         rb_rolling_case moving = with_spot(&rc, &bump);
-        CHECK_STATUS(
-            rb_rolling_history_run(&rc, NULL, take, &smooth, &model[0], &h[0], NULL),
-            RB_OK);
-        CHECK_STATUS(
-            rb_rolling_history_run(&moving, NULL, take, &bumpy, &model[1], &h[1], NULL),
-            RB_OK);
+        CHECK_STATUS(rb_rolling_history_run(&rc, NULL,
+                                            &(rb_rolling_observer){take, &smooth},
+                                            &model[0], &h[0], NULL),
+                     RB_OK);
+        CHECK_STATUS(rb_rolling_history_run(&moving, NULL,
+                                            &(rb_rolling_observer){take, &bumpy},
+                                            &model[1], &h[1], NULL),
+                     RB_OK);
         assert_int_equal(smooth.n, bumpy.n);
         for (int step = 0; step < bumpy.n; step++) {
             const double x = start - h[1].distance[step] * h[1].half_width;
@@ -655,17 +660,17 @@ static void zones_grow_with_what_passes(void **state)
     rc.force_ratio = 0.0;
     rc.distance = 12.0;
     rb_rolling_case moving = with_spot(&rc, &flat);
-    CHECK_STATUS(
-        rb_rolling_history_run(&moving, NULL, find_widest, &widest, &model, &h, NULL),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_history_run(&moving, NULL,
+                                        &(rb_rolling_observer){find_widest, &widest},
+                                        &model, &h, NULL),
+                 RB_OK);
     const double a = h.half_width;
     CHECK_MAX(1.7 * a, widest, "a wide contact");
     CHECK_MAX(widest, model.mesh.ends[model.mesh.n], "in the zone");
     assert_true(h.distance[h.n - 1] == 12.0);
     release(&model, &h);
     moving.zone = 1.3 * a;
-    CHECK_STATUS(rb_rolling_history_run(&moving, NULL, NULL, NULL, &model, &h, &why),
-                 RB_ZONE);
+    CHECK_STATUS(rb_rolling_history_run(&moving, NULL, NULL, &model, &h, &why), RB_ZONE);
     assert_non_null(strstr(why.text, "widen the zone"));
     release(&model, &h);
 }
@@ -716,8 +721,7 @@ static void every_failed_allocation_is_reported(void **state)
         rb_rolling_model model;
         rb_rolling_history h;
         alloc_fail_after(count);
-        const rb_status s =
-            rb_rolling_history_run(&moving, NULL, NULL, NULL, &model, &h, NULL);
+        const rb_status s = rb_rolling_history_run(&moving, NULL, NULL, &model, &h, NULL);
         refused = alloc_failed();
         alloc_succeed();
         if (refused && s == RB_OK)

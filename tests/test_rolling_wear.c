@@ -44,7 +44,7 @@ static worn run(const rb_rolling_case *rc, const rb_rolling_wear *wear)
 {
     worn w;
     rb_message why = {""};
-    const rb_status s = rb_rolling_wear_run(rc, wear, NULL, NULL, &w.h, &w.last, &why);
+    const rb_status s = rb_rolling_wear_run(rc, wear, NULL, &w.h, &w.last, &why);
     if (s != RB_OK)
         print_error("%s\n", why.text);
     CHECK_STATUS(s, RB_OK);
@@ -275,9 +275,8 @@ static void meaningless_wear_is_refused(void **state)
     for (int k = 0; k < BAD; k++) {
         worn w;
         rb_message why = {""};
-        CHECK_STATUS(
-            rb_rolling_wear_run(&bad[k], &wear[k], NULL, NULL, &w.h, &w.last, &why),
-            RB_EINVAL);
+        CHECK_STATUS(rb_rolling_wear_run(&bad[k], &wear[k], NULL, &w.h, &w.last, &why),
+                     RB_EINVAL);
         if (!strstr(why.text, said[k]))
             print_error("case %d: %s\n", k, why.text);
         assert_non_null(strstr(why.text, said[k]));

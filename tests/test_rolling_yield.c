@@ -112,15 +112,15 @@ static void rolling_from_a_shift_is_met(void **state)
     CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, &why), RB_OK);
     CHECK_STATUS(rb_contact_state_alloc(N, &x), RB_OK);
     for (int step = 0; step < 6; step++) {
-        const rb_rolling_past past = {w_T, yielded};
+        const rb_rolling_past past = {w_T, yielded, 0.08};
         rb_contact_problem p;
         int stick, slip, yield;
         rc.formulation = step ? RB_TRANSIENT : RB_STATIC;
         rc.creep = step ? -0.0004 : NAN;
         rc.force_ratio = step ? NAN : 0.6;
-        CHECK_STATUS(rb_rolling_problem_create(&rc, &mesh, &bodies, step ? &past : NULL,
-                                               0.08, &p, &why),
-                     RB_OK);
+        CHECK_STATUS(
+            rb_rolling_problem_create(&rc, &mesh, &bodies, step ? &past : NULL, &p, &why),
+            RB_OK);
         CHECK_STATUS(rb_rolling_problem_solve(&p, &rc, step > 0, &x, &why), RB_OK);
         double Q = 0.0;
         for (int i = 0; i < N; i++)
@@ -415,9 +415,10 @@ static void shift_to_and_fro_hardens(void **state)
     rc.formulation = RB_STATIC;
     rc.creep = NAN;
     rc.contact_elements = 40;
-    CHECK_STATUS(
-        rb_rolling_history_run(&rc, &program, see_step, &c, &model, &history, &why),
-        RB_OK);
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program,
+                                        &(rb_rolling_observer){see_step, &c}, &model,
+                                        &history, &why),
+                 RB_OK);
     assert_int_equal(c.steps, 8);
     assert_true(c.yields > 40);
     rb_rolling_history_free(&history);

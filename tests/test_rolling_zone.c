@@ -414,7 +414,7 @@ static void a_curve_and_a_history_find_the_end_of_their_mesh(void **state)
     rc.formulation = RB_TRANSIENT;
     rc.creep_ratio = 3.0;
     rc.distance = 3.0;
-    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, NULL, &model, &history, &why),
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &why),
                  RB_ZONE);
     assert_int_equal(model.state.status, RB_ZONE);
     rb_rolling_history_free(&history);

@@ -289,11 +289,10 @@ int rb_case_has_steps(const rb_settled_case *settled);
  */
 
 typedef struct {
-    rb_rolling_model model;            /* without state where there are error bars */
-    rb_rolling_solution solution;      /* n = 0: there is none */
-    rb_rolling_history history;        /* n = 0: not a sequence of steps */
-    rb_rolling_history history_errors; /* n = 0: not asked for */
-    int has_errors; /* of the solution; of a history each step has them */
+    rb_rolling_model model;       /* without state where there are error bars */
+    rb_rolling_solution solution; /* n = 0: there is none */
+    rb_rolling_history history;   /* n = 0: not a sequence of steps */
+    int has_errors;               /* of the solution; of a history each step has them */
     rb_rolling_errors errors;
     int elements; /* that the accuracy took; 0: not asked */
 } rb_case_result;

@@ -75,10 +75,9 @@ rb_status rb_report_table(FILE *out, const rb_rolling_case *rc,
  * the fewest digits that read back equal, at most about twenty rows. */
 rb_status rb_report_brief_table(FILE *out, const rb_rolling_solution *s, int width);
 
-/* The steps of a transient or a static history, one row each.  errors (NULL: not asked
- * for, here as below): columns of their own, error_*. */
-rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
-                            const rb_rolling_history *errors, const char *command,
+/* The steps of a transient or a static history, one row each; its errors, where there
+ * are any, in columns of their own, error_*. */
+rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *command,
                             const rb_report_style *style);
 
 /* ---- JSON ------------------------------------------------------------------------- */
@@ -109,8 +108,7 @@ void rb_report_solutions(FILE *out, const rb_rolling_solutions *all);
 /* The JSON Schema of all this, rollbem/1. */
 struct json_t *rb_report_json_schema(void);
 struct json_t *rb_report_json_errors(const rb_rolling_errors *errors);
-struct json_t *rb_report_json_history(const rb_rolling_history *h,
-                                      const rb_rolling_history *errors);
+struct json_t *rb_report_json_history(const rb_rolling_history *h);
 
 /* What checking a result found. */
 typedef struct {
@@ -139,8 +137,7 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width);
 /* Values with their error bars. */
 void rb_report_errors(FILE *out, const rb_rolling_solution *s,
                       const rb_rolling_errors *e);
-void rb_report_history_summary(FILE *out, const rb_rolling_history *h,
-                               const rb_rolling_history *errors);
+void rb_report_history_summary(FILE *out, const rb_rolling_history *h);
 /* A line each where a result must be read with care: linear elasticity far exceeded,
  * `static` with a creepage, steady rolling without one, full sliding, an arc support that
  * rolls, slip that does not oppose the friction.  They stand in # lines of the table and
@@ -311,8 +308,7 @@ rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind,
  * a static history; errors as bands. */
 rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
                                     const rb_rolling_case *rc,
-                                    const rb_rolling_history *history,
-                                    const rb_rolling_history *errors, rb_message *why);
+                                    const rb_rolling_history *history, rb_message *why);
 
 /* ---- Parameter studies --------------------------------------------------------------
  */

@@ -280,10 +280,17 @@ rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, double from, double
  * growing ones outside each edge (theory.md 5.1). */
 rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, double from, double to,
                                  rb_rolling_mesh *mesh, rb_message *why);
-/* The mesh that the n elements of a result were on, x its midpoints and h its lengths:
- * equal elements from the outer ends alone, fitted ones from each of them. */
-rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc, int are_equal, int n,
-                                    const double *x, const double *h,
+/* The elements of a result; borrowed. */
+typedef struct {
+    int n;
+    const double *x, *h; /* n: midpoints, lengths */
+    int are_equal;
+} rb_rolling_elements;
+
+/* The mesh that they were: equal elements from the outer ends alone, fitted ones from
+ * each of them. */
+rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc,
+                                    const rb_rolling_elements *elements,
                                     rb_rolling_mesh *mesh, rb_message *why);
 void rb_rolling_mesh_free(rb_rolling_mesh *mesh);
 
@@ -352,14 +359,15 @@ typedef struct {
     const double
         *w_T; /* transient: at the former places x + c; static: at the same place */
     const double *yielded; /* there, by an interface that yields; NULL: nothing */
+    double step;           /* rolled distance c of a transient step [length] */
 } rb_rolling_past;
 
 /* Builds (A, d_T) for the formulation of the case; the solvers do not know which it is.
- * past NULL: from rest.  step: rolled distance c of a transient step [length]. */
+ * past NULL: from rest. */
 rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
                                     const rb_rolling_mesh *mesh,
                                     const rb_rolling_bodies *bodies,
-                                    const rb_rolling_past *past, double step,
+                                    const rb_rolling_past *past,
                                     rb_contact_problem *problem, rb_message *why);
 
 /* Solves it by the solver of the case.  warm: the zones of the state are a start. */
@@ -654,7 +662,7 @@ extern const rb_rolling_program_column
     rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS];
 
 /* One entry per step. */
-typedef struct {
+typedef struct rb_rolling_history {
     int n;
     double *distance; /* rolled, at the end of the step, in half-widths; owned, as all */
     double *creepage; /* mean over the step; 0 at rest */
@@ -673,6 +681,7 @@ typedef struct {
     double step;             /* c [length]; 0 in a static history */
     int steady_from; /* first step of the steady state that the end is in, or -1 */
     rb_units units;  /* of all values here */
+    struct rb_rolling_history *errors; /* of every entry; NULL: not asked for; owned */
 } rb_rolling_history;
 
 void rb_rolling_history_free(rb_rolling_history *history);
@@ -685,17 +694,24 @@ typedef int rb_rolling_step(const rb_rolling_model *model,
                             const rb_rolling_history *history, int step, int steps,
                             void *context);
 
+typedef struct {
+    rb_rolling_step *step; /* NULL: nobody looks */
+    void *context;
+} rb_rolling_observer;
+
 /* Runs the program (NULL: the case's own controls: pressed at rest in its increments,
  * then rolled over rc->distance).  Transient steps: rc->steps of equal length; where that
  * is 0, so many that none is longer than an element.  The last one ends on the last row.
  * Where the contact outgrows an automatic zone the run begins anew on a wider one, with
- * step 0.  model and history: overwritten, hold the finished steps also on RB_INTERRUPTED
- * and other positive ends; model->rc is the case of the last step; free them in any case.
+ * step 0.  observer: NULL as well.  model and history: overwritten, hold the finished
+ * steps also on RB_INTERRUPTED and other positive ends; model->rc is the case of the last
+ * step; free them in any case.
  */
 rb_status rb_rolling_history_run(const rb_rolling_case *rc,
-                                 const rb_rolling_program *program, rb_rolling_step *step,
-                                 void *context, rb_rolling_model *model,
-                                 rb_rolling_history *history, rb_message *why);
+                                 const rb_rolling_program *program,
+                                 const rb_rolling_observer *observer,
+                                 rb_rolling_model *model, rb_rolling_history *history,
+                                 rb_message *why);
 
 /* ---- Wear -----------------------------------------------------------------------------
  */
@@ -743,13 +759,18 @@ typedef int rb_rolling_wear_step(rb_rolling_solution *solution,
                                  const rb_rolling_wear_history *history, int step,
                                  int steps, void *context);
 
+typedef struct {
+    rb_rolling_wear_step *step;
+    void *context;
+} rb_rolling_wear_observer;
+
 /* On equal elements that stay where they are; on half-planes more of them are added where
  * the scar outgrows an automatic zone.  last: the solution after the last finished step,
- * with what is worn off as a column.  history and last: overwritten, hold what there is
- * also on RB_INTERRUPTED and other positive ends; free them in any case.  RB_EINVAL: what
- * wears nothing. */
+ * with what is worn off as a column.  observer: or NULL.  history and last: overwritten,
+ * hold what there is also on RB_INTERRUPTED and other positive ends; free them in any
+ * case.  RB_EINVAL: what wears nothing. */
 rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *wear,
-                              rb_rolling_wear_step *see, void *context,
+                              const rb_rolling_wear_observer *observer,
                               rb_rolling_wear_history *history, rb_rolling_solution *last,
                               rb_message *why);
 
@@ -925,16 +946,14 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
                                        rb_rolling_curve *curve, rb_rolling_curve *errors,
                                        rb_message *why);
 
-/* A history and its errors: errors->tangential_load[k] and so on belong to the k-th step,
- * errors->residual means nothing.  The coarser runs have longer steps, so that the errors
- * are those of the steps too; `step` sees them after the run itself, with model and
- * history NULL.  Free all in any case. */
+/* A history with history->errors, whose residual means nothing.  The coarser runs have
+ * longer steps, so that the errors are those of the steps too; the observer sees them
+ * after the run itself, with model and history NULL.  Free both in any case. */
 rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                                          const rb_rolling_program *program,
-                                         rb_rolling_step *step, void *context,
+                                         const rb_rolling_observer *observer,
                                          rb_rolling_model *model,
-                                         rb_rolling_history *history,
-                                         rb_rolling_history *errors, rb_message *why);
+                                         rb_rolling_history *history, rb_message *why);
 
 /* From case to solution in one call; of a case of steps the last one's.  On a positive
  * status the solution holds what there is.  solution: overwritten; free it in any case.

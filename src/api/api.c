@@ -546,8 +546,8 @@ static api_array *series_array(rb_api *a, const char *name)
         const void *owner;
         int rows;
     } series[] = {
-        {"history.error.", &rb_rolling_history_columns, &r->history_errors,
-         r->history_errors.n},
+        {"history.error.", &rb_rolling_history_columns, r->history.errors,
+         r->history.errors ? r->history.errors->n : 0},
         {"history.", &rb_rolling_history_columns, &r->history, r->history.n},
         {"curve.error.", &rb_rolling_curve_columns, &a->curve_errors, a->curve_errors.n},
         {"curve.", &rb_rolling_curve_columns, &a->curve, a->curve.n},

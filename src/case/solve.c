@@ -8,12 +8,9 @@ static rb_status solve_steps(const rb_settled_case *c, rb_rolling_step *step,
 {
     const double start = rb_seconds();
     const rb_rolling_program *program = c->program.n > 0 ? &c->program : NULL;
-    rb_status s =
-        c->error
-            ? rb_rolling_history_with_errors(&c->rc, program, step, context, &r->model,
-                                             &r->history, &r->history_errors, why)
-            : rb_rolling_history_run(&c->rc, program, step, context, &r->model,
-                                     &r->history, why);
+    const rb_rolling_observer observer = {step, context};
+    rb_status s = (c->error ? rb_rolling_history_with_errors : rb_rolling_history_run)(
+        &c->rc, program, &observer, &r->model, &r->history, why);
     if (s >= 0 && r->model.state.p) {
         const rb_status t = rb_rolling_model_solution(&r->model, &r->solution, why);
         s = t == RB_OK ? s : t;
@@ -58,13 +55,11 @@ void rb_case_result_convert(rb_case_result *r, rb_units units)
     rb_rolling_solution_convert(&r->solution, units);
     rb_rolling_solution_convert(&r->errors.scalar, units);
     rb_rolling_history_convert(&r->history, units);
-    rb_rolling_history_convert(&r->history_errors, units);
 }
 
 void rb_case_result_free(rb_case_result *r)
 {
     rb_rolling_solution_free(&r->solution);
     rb_rolling_history_free(&r->history);
-    rb_rolling_history_free(&r->history_errors);
     rb_rolling_model_free(&r->model);
 }

@@ -87,12 +87,6 @@ typedef struct {
 
 /* ---- Output ----------------------------------------------------------------------- */
 
-/* NULL where they were not asked for. */
-static const rb_rolling_history *step_errors(const rb_case_result *r)
-{
-    return r->history_errors.n > 0 ? &r->history_errors : NULL;
-}
-
 static rb_status write_json(FILE *out, const result *it)
 {
     json_t *root =
@@ -103,8 +97,7 @@ static rb_status write_json(FILE *out, const result *it)
     rb_report_json_set(&root, "summary", summary);
     rb_report_json_set(&root, "table", rb_report_json_table(&it->r->solution));
     if (it->r->history.n > 0)
-        rb_report_json_set(&root, "history",
-                           rb_report_json_history(&it->r->history, step_errors(it->r)));
+        rb_report_json_set(&root, "history", rb_report_json_history(&it->r->history));
     if (it->all->n > 0)
         rb_report_json_set(&root, "solutions", rb_report_json_solutions(it->all));
     return rb_report_json_write(out, root);
@@ -126,8 +119,7 @@ static rb_status write_history(FILE *out, const void *context, rb_message *why)
 {
     const result *it = context;
     (void)why;
-    return rb_report_history(out, &it->r->history, step_errors(it->r), cli_command_line(),
-                             &it->o->style);
+    return rb_report_history(out, &it->r->history, cli_command_line(), &it->o->style);
 }
 
 static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
@@ -141,8 +133,7 @@ static rb_status draw_history(FILE *out, rb_report_canvas canvas, const void *co
                               rb_message *why)
 {
     const result *it = context;
-    return rb_report_history_picture(out, canvas, &it->c->rc, &it->r->history,
-                                     step_errors(it->r), why);
+    return rb_report_history_picture(out, canvas, &it->c->rc, &it->r->history, why);
 }
 
 static cli_exit show_behind(const solve_options *so, const rb_rolling_model *model)
@@ -167,7 +158,7 @@ static void tell_people(const result *it)
     if (it->all->n > 0)
         rb_report_solutions(stderr, it->all);
     if (it->r->history.n > 0)
-        rb_report_history_summary(stderr, &it->r->history, step_errors(it->r));
+        rb_report_history_summary(stderr, &it->r->history);
 }
 
 static cli_exit print_result(const result *it)

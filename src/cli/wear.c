@@ -129,7 +129,8 @@ static rb_status run(result *r, const rb_settled_case *c, rb_message *why)
     if (s != RB_OK)
         return s;
     cli_interrupts_catch();
-    s = rb_rolling_wear_run(&c->rc, &wear, after_step, r, &r->history, &r->last, why);
+    s = rb_rolling_wear_run(&c->rc, &wear, &(rb_rolling_wear_observer){after_step, r},
+                            &r->history, &r->last, why);
     cli_interrupts_leave();
     rb_rolling_wear_history_convert(&r->history, rb_case_units(r->words));
     if (r->failed == RB_OK)

@@ -254,12 +254,13 @@ static rb_status rebuild_problem(certificate *c, const rb_settled_case *settled,
             s = rb_fail(why, RB_EFORMAT, "%s: table: element %d is out of order", c->name,
                         i + 1);
     if (s == RB_OK)
-        s = rb_rolling_mesh_of_result(&m->rc, are_equal, n, xh, xh + n, &m->mesh, why);
+        s = rb_rolling_mesh_of_result(
+            &m->rc, &(rb_rolling_elements){n, xh, xh + n, are_equal}, &m->mesh, why);
     if (s == RB_OK)
         s = rb_rolling_bodies_create(&m->rc, &m->mesh, &m->bodies, why);
     if (s == RB_OK)
-        s = rb_rolling_problem_create(&m->rc, &m->mesh, &m->bodies, NULL, 0.0,
-                                      &m->problem, why);
+        s = rb_rolling_problem_create(&m->rc, &m->mesh, &m->bodies, NULL, &m->problem,
+                                      why);
     free(xh);
     return s;
 }

@@ -11,12 +11,11 @@ static rb_report_columns columns_of(const rb_rolling_history *h, int errors)
                                h ? h->units : RB_UNITS_MM};
 }
 
-rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
-                            const rb_rolling_history *errors, const char *command,
+rb_status rb_report_history(FILE *out, const rb_rolling_history *h, const char *command,
                             const rb_report_style *style)
 {
-    const rb_report_columns part[2] = {columns_of(h, 0), columns_of(errors, 1)};
-    const int parts = errors ? 2 : 1;
+    const rb_report_columns part[2] = {columns_of(h, 0), columns_of(h->errors, 1)};
+    const int parts = h->errors ? 2 : 1;
     rb_report_cells c = rb_report_begin_columns(out, style, command, parts, part);
 
     rb_report_comment(&c,
@@ -30,8 +29,7 @@ rb_status rb_report_history(FILE *out, const rb_rolling_history *h,
     return rb_report_end_columns(&c, h->n, parts, part);
 }
 
-json_t *rb_report_json_history(const rb_rolling_history *h,
-                               const rb_rolling_history *errors)
+json_t *rb_report_json_history(const rb_rolling_history *h)
 {
     const rb_report_columns columns = columns_of(h, 0);
     json_t *history = json_object();
@@ -41,8 +39,8 @@ json_t *rb_report_json_history(const rb_rolling_history *h,
     rb_report_json_set(&history, "step", rb_report_json_number(h->step));
     rb_report_json_set(&history, "steady_from",
                        h->steady_from < 0 ? json_null() : json_integer(h->steady_from));
-    if (errors) {
-        const rb_report_columns bars = columns_of(errors, 1);
+    if (h->errors) {
+        const rb_report_columns bars = columns_of(h->errors, 1);
         json_t *object = json_object();
         rb_report_json_columns(&object, h->n, &bars, 0);
         rb_report_json_set(&history, "errors", object);
@@ -51,8 +49,7 @@ json_t *rb_report_json_history(const rb_rolling_history *h,
 }
 
 /* The last step's values with their errors. */
-static void print_errors(FILE *out, const rb_rolling_history *h,
-                         const rb_rolling_history *errors)
+static void print_errors(FILE *out, const rb_rolling_history *h)
 {
     const int last = h->n - 1;
 
@@ -63,14 +60,13 @@ static void print_errors(FILE *out, const rb_rolling_history *h,
         if (!r->error_bar || !rb_rolling_has_column(r, h))
             continue;
         const double value = rb_rolling_entry(r, h, last);
-        const double error = rb_rolling_entry(r, errors, last);
+        const double error = rb_rolling_entry(r, h->errors, last);
         if (!isnan(value) && !isnan(error))
             fprintf(out, "    %-16s %.8g +- %.1g\n", r->name, value + 0.0, error);
     }
 }
 
-void rb_report_history_summary(FILE *out, const rb_rolling_history *h,
-                               const rb_rolling_history *errors)
+void rb_report_history_summary(FILE *out, const rb_rolling_history *h)
 {
     const int last = h->n - 1;
     fprintf(out, "  history   %d steps", h->n);
@@ -82,6 +78,6 @@ void rb_report_history_summary(FILE *out, const rb_rolling_history *h,
         fprintf(out, "; steady from step %d, %.4g a, on", h->steady_from + 1,
                 h->distance[h->steady_from]);
     fputc('\n', out);
-    if (errors)
-        print_errors(out, h, errors);
+    if (h->errors)
+        print_errors(out, h);
 }

@@ -6,7 +6,7 @@
 
 typedef struct {
     const rb_rolling_case *rc;
-    const rb_rolling_history *h, *errors; /* errors: NULL or as many steps */
+    const rb_rolling_history *h;
     int rolls;    /* 1: over the rolled distance, 0: over the increments or the time */
     int in_time;  /* 1: over the time */
     int points;   /* 1: few enough steps to mark each */
@@ -60,11 +60,9 @@ static double place(const view *v, int i)
     return v->rolls ? v->h->distance[i] : v->in_time ? v->h->time[i] : i + 1;
 }
 
-static view make_view(const rb_rolling_history *h, const rb_rolling_history *errors,
-                      rb_report_canvas canvas)
+static view make_view(const rb_rolling_history *h, rb_report_canvas canvas)
 {
     view v = {.h = h,
-              .errors = errors,
               .rolls = h->step > 0.0,
               .in_time = h->step == 0.0 && h->time,
               .points = h->n <= 40,
@@ -96,8 +94,8 @@ static void write_data(FILE *out, const view *v)
             fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g\n", place(v, i),
                     motion(v, v->h, i), force(v, v->h, i),
                     contact ? (double)v->h->stick[i] / contact : 0,
-                    v->errors ? motion(v, v->errors, i) : 0,
-                    v->errors ? force(v, v->errors, i) : 0);
+                    v->h->errors ? motion(v, v->h->errors, i) : 0,
+                    v->h->errors ? force(v, v->h->errors, i) : 0);
     }
     fputs("EOD\n", out);
 }
@@ -132,7 +130,7 @@ static void write_panel(FILE *out, const view *v, const panel *p)
 static void write_range(FILE *out, const view *v, quantity *of, double least, double most)
 {
     for (int i = 0; i < v->h->n; i++) {
-        const double error = v->errors ? of(v, v->errors, i) : 0.0;
+        const double error = v->h->errors ? of(v, v->h->errors, i) : 0.0;
         if (!is_shown(v, i))
             continue;
         least = fmin(least, of(v, v->h, i) - error);
@@ -159,10 +157,10 @@ static void write_way(FILE *out, const view *v)
     else
         snprintf(label, sizeof label, v->rolls ? "ξ" : "shift  [%s]", mm);
     write_range(out, v, motion, INFINITY, -INFINITY);
-    write_panel(out, v, &(panel){0, label, "#6c3483", 2, v->errors ? 5 : 0});
+    write_panel(out, v, &(panel){0, label, "#6c3483", 2, v->h->errors ? 5 : 0});
     fputs("unset label 1\nunset label 9\nunset key\n", out);
     write_range(out, v, force, 0.0, 0.0); /* a force is seen against none */
-    write_panel(out, v, &(panel){1, "Q/(μP)", "#c0392b", 3, v->errors ? 6 : 0});
+    write_panel(out, v, &(panel){1, "Q/(μP)", "#c0392b", 3, v->h->errors ? 6 : 0});
     write_last_axis(out, v->rolls ? "rolled distance / a" : "increment");
     fputs("set yrange [0:1]\nset ytics 0.2\n", out);
     write_panel(out, v, &(panel){2, "stick / contact", "#1f4e79", 4, 0});
@@ -216,12 +214,11 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
 
 rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
                                     const rb_rolling_case *rc,
-                                    const rb_rolling_history *history,
-                                    const rb_rolling_history *errors, rb_message *why)
+                                    const rb_rolling_history *history, rb_message *why)
 {
     if (history->n < 1)
         return rb_fail(why, RB_EINVAL, "no steps to draw");
-    view v = make_view(history, errors, canvas);
+    view v = make_view(history, canvas);
     v.rc = rc;
     return rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS, write_script, &v, why);
 }

@@ -166,7 +166,7 @@ static rb_status transform_operator(const rb_rolling_bodies *bodies, kinematic *
 
 /* d_T and e_T (K2), and the yield stress of what has yielded before (Y1). */
 void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                         const rb_rolling_past *past, double step, rb_contact_problem *p)
+                         const rb_rolling_past *past, rb_contact_problem *p)
 {
     const int n = p->n, m = n + 1;
     const double *x = bodies->f.x, *w0_T = bodies->f.w0 + m;
@@ -180,7 +180,7 @@ void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bod
                 rc->yield_stress +
                 rc->hardening * (past && past->yielded ? past->yielded[i] : 0.0);
         p->e_T[i] = rc->formulation == RB_STEADY      ? x[i + 1] - x[i]
-                    : rc->formulation == RB_TRANSIENT ? step
+                    : rc->formulation == RB_TRANSIENT ? past ? past->step : 0.0
                                                       : 1.0;
     }
 }
@@ -298,8 +298,8 @@ static void set_scales(const rb_rolling_case *rc, rb_contact_problem *p)
 rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
                                     const rb_rolling_mesh *mesh,
                                     const rb_rolling_bodies *bodies,
-                                    const rb_rolling_past *past, double step,
-                                    rb_contact_problem *p, rb_message *why)
+                                    const rb_rolling_past *past, rb_contact_problem *p,
+                                    rb_message *why)
 {
     kinematic A;
     rb_contact_operator *op = NULL;
@@ -320,7 +320,7 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
     rb_rolling_start_bounds(rc, bodies, p);
     p->differences = A.differences;
     rb_rolling_set_gap(mesh, bodies, p);
-    rb_rolling_set_past(rc, bodies, past, step, p);
+    rb_rolling_set_past(rc, bodies, past, p);
     set_weights(rc, bodies, p);
     rb_rolling_set_control(rc, p);
     set_scales(rc, p);

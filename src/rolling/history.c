@@ -11,6 +11,9 @@ static const double STEADY_RATE = 1e-3;
 
 void rb_rolling_history_free(rb_rolling_history *h)
 {
+    if (h->errors)
+        rb_rolling_history_free(h->errors);
+    free(h->errors);
     rb_rolling_columns_free(&rb_rolling_history_columns, h);
     memset(h, 0, sizeof *h);
 }
@@ -21,6 +24,7 @@ void rb_rolling_history_free(rb_rolling_history *h)
 typedef struct {
     const rb_rolling_case *rc;
     const rb_rolling_program *program;
+    const rb_rolling_observer *observer; /* or NULL */
     rb_rolling_model *model;
     rb_rolling_history *history;
     int steps;    /* in all */
@@ -137,7 +141,7 @@ static rb_status relax(run *r, double interval, int rolls, rb_message *why)
         s = rb_rolling_bodies_create(&step, &model->mesh, &model->bodies, why);
         if (s == RB_OK)
             s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL,
-                                          0.0, &model->problem, why);
+                                          &model->problem, why);
         r->interval = interval;
     }
     if (s != RB_OK)
@@ -227,7 +231,7 @@ static rb_status static_step(run *r, rb_message *why)
     rb_rolling_model *model = r->model;
     rb_rolling_case *rest = &model->rc;
     rb_contact_problem *p = &model->problem;
-    const rb_rolling_past past = {r->w_T, model->yielded};
+    const rb_rolling_past past = {r->w_T, model->yielded, 0.0};
     const int first = r->history->n == 0;
     const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
     const double before = time_of(r);
@@ -247,7 +251,7 @@ static rb_status static_step(run *r, rb_message *why)
     s = relax(r, interval, 0, why);
     if (s != RB_OK)
         return s;
-    rb_rolling_set_past(rest, &model->bodies, first ? NULL : &past, 0.0, p);
+    rb_rolling_set_past(rest, &model->bodies, first ? NULL : &past, p);
     rb_rolling_set_control(rest, p);
     p->xi -= p->force_given ? 0.0 : r->shift;
     s = judge(r, rb_rolling_model_resolve(model, 0, &reason), &reason, why);
@@ -278,8 +282,8 @@ static rb_status move_gap(rb_rolling_model *model, double way)
 static rb_status rolled_step(run *r, double from, double to, rb_message *why)
 {
     rb_rolling_model *model = r->model;
-    const rb_rolling_past past = {r->w_T, model->yielded};
     const double c = r->history->step;
+    const rb_rolling_past past = {r->w_T, model->yielded, c};
     rb_message reason = {""};
     rb_status s = remember(r, c);
 
@@ -295,7 +299,7 @@ static rb_status rolled_step(run *r, double from, double to, rb_message *why)
         rb_rolling_start_bounds(&model->rc, &model->bodies, &model->problem);
     if (r->history->max_temperature)
         rb_rolling_heat_track_advance(&r->heat);
-    rb_rolling_set_past(&model->rc, &model->bodies, &past, c, &model->problem);
+    rb_rolling_set_past(&model->rc, &model->bodies, &past, &model->problem);
     s = judge(r, rb_rolling_model_control(model, &reason), &reason, why);
     if (s == RB_OK)
         watch_steadiness(r, c);
@@ -319,7 +323,7 @@ static int steps_at_rest(const run *r)
     return steps;
 }
 
-static rb_status all_steps(run *r, rb_rolling_step *see, void *context, rb_message *why)
+static rb_status all_steps(run *r, rb_message *why)
 {
     const int at_rest = steps_at_rest(r), n = r->program->n;
     const double c = r->history->step / r->history->half_width;
@@ -331,7 +335,8 @@ static rb_status all_steps(run *r, rb_rolling_step *see, void *context, rb_messa
                 ? static_step(r, why)
                 : rolled_step(r, rolled * c,
                               last ? r->program->distance[n - 1] : (rolled + 1) * c, why);
-        if (s == RB_OK && see && see(r->model, r->history, k, r->steps, context))
+        if (s == RB_OK && r->observer && r->observer->step &&
+            r->observer->step(r->model, r->history, k, r->steps, r->observer->context))
             s = rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k + 1,
                         r->steps);
     }
@@ -518,14 +523,13 @@ static void run_free(run *r)
 
 /* Loads that move and surfaces that are irregular may widen the contact beyond that of
  * the largest load at rest: *wider is the zone to begin anew with, or 0. */
-static rb_status run_on_zone(run *r, double zone, rb_rolling_step *see, void *context,
-                             double *wider, rb_message *why)
+static rb_status run_on_zone(run *r, double zone, double *wider, rb_message *why)
 {
     *wider = 0.0;
     rb_status s = prepare(r, zone, why);
 
     if (s == RB_OK) {
-        s = all_steps(r, see, context, why);
+        s = all_steps(r, why);
         if (s == RB_OK)
             s = rb_rolling_check_resolved(r->model, why);
         if (s == RB_ZONE && r->rc->zone == 0.0) {
@@ -542,15 +546,17 @@ static rb_status run_on_zone(run *r, double zone, rb_rolling_step *see, void *co
 }
 
 rb_status rb_rolling_history_run(const rb_rolling_case *rc,
-                                 const rb_rolling_program *program, rb_rolling_step *step,
-                                 void *context, rb_rolling_model *model,
-                                 rb_rolling_history *history, rb_message *why)
+                                 const rb_rolling_program *program,
+                                 const rb_rolling_observer *observer,
+                                 rb_rolling_model *model, rb_rolling_history *history,
+                                 rb_message *why)
 {
     rb_rolling_case base = *rc; /* step by step the elements are equal */
     rb_rolling_program own;
     double *columns = NULL;
     run r = {.rc = &base,
              .program = program ? program : &own,
+             .observer = observer,
              .model = model,
              .history = history};
 
@@ -569,7 +575,7 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
     if (s == RB_OK)
         s = rb_rolling_program_check(r.program, &base, why);
     for (double zone = base.zone, wider = 1.0; s == RB_OK && wider > 0.0; zone = wider) {
-        s = run_on_zone(&r, zone, step, context, &wider, why);
+        s = run_on_zone(&r, zone, &wider, why);
         if (wider > 0.0) {
             base.contact_elements = model->mesh.n; /* more than asked for, with patches */
             rb_rolling_model_free(model);

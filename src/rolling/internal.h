@@ -106,7 +106,7 @@ rb_status rb_rolling_displacement_outside(const rb_rolling_case *rc,
  */
 
 void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
-                         const rb_rolling_past *past, double step, rb_contact_problem *p);
+                         const rb_rolling_past *past, rb_contact_problem *p);
 void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p);
 /* The given rigid shift or its default: a tenth of the approach, 0 under load control. */
 double rb_rolling_wanted_shift(const rb_rolling_case *rc);

@@ -345,17 +345,19 @@ static double half_extent(const rb_rolling_case *rc, double x, double h)
     return 0.5 * h * sqrt(1.0 - gsl_pow_2(x / apothem));
 }
 
-rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc, int are_equal, int n,
-                                    const double *x, const double *h,
+rb_status rb_rolling_mesh_of_result(const rb_rolling_case *rc,
+                                    const rb_rolling_elements *elements,
                                     rb_rolling_mesh *mesh, rb_message *why)
 {
+    const int n = elements->n;
+    const double *x = elements->x, *h = elements->h;
     const double from = x[0] - half_extent(rc, x[0], h[0]);
     const double to = x[n - 1] + half_extent(rc, x[n - 1], h[n - 1]);
     rb_rolling_case equal = *rc;
 
     memset(mesh, 0, sizeof *mesh);
     equal.contact_elements = n;
-    if (are_equal)
+    if (elements->are_equal)
         return rb_rolling_mesh_uniform(&equal, from, to, mesh, why);
     rb_status s = check_extent(rc, from, to, why);
     if (s == RB_OK)

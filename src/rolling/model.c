@@ -113,7 +113,7 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
         kept ? RB_OK
              : rb_rolling_bodies_create(&model->rc, &model->mesh, &model->bodies, why);
     if (s == RB_OK)
-        s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL, 0.0,
+        s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL,
                                       &model->problem, why);
     if (s == RB_OK)
         s = rb_contact_state_alloc(model->mesh.n, &model->state);

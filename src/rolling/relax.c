@@ -217,11 +217,13 @@ static double work(const rb_rolling_relaxing *body, const double *x, const doubl
     return sum;
 }
 
-/* One body from tractions `before` to `after`, both in its frame; e, w: room. */
-static double advance(const rb_rolling_relaxing *body, double step, int all,
-                      const double *before, double *after, double *e, double *w)
+/* One body from tractions `before` to `after`, both in its frame, behind which the track
+ * has room. */
+static double advance(const rb_rolling_memory_track *r, const rb_rolling_relaxing *body,
+                      double step, const double *before, const double *after)
 {
-    const size_t size = 2 * (size_t)all;
+    const size_t size = 2 * (size_t)r->all;
+    double *e = r->room + 2 * (size + 2), *w = e + size + 2;
     double lost = 0.0, of_change = 0.0, factor[3];
 
     for (int k = 0; k < body->memory->n && step > 0.0; k++) {
@@ -250,7 +252,7 @@ void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const 
 {
     const int n = r->n, all = r->all;
     const size_t room = 2 * (size_t)all + 2;
-    double *before = r->room, *after = before + room, *e = after + room, *w = e + room;
+    double *before = r->room, *after = before + room;
 
     for (int b = 0; b < r->bodies; b++) {
         turn(&r->body[b], all, r->traction, before);
@@ -259,7 +261,7 @@ void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const 
             after[r->tail + i] = p[i];
             after[all + r->tail + i] = r->body[b].sign * q[i];
         }
-        r->lost += advance(&r->body[b], step, all, before, after, e, w);
+        r->lost += advance(r, &r->body[b], step, before, after);
     }
     memset(r->traction, 0, 2 * (size_t)all * sizeof *r->traction);
     memcpy(r->traction + r->tail, p, (size_t)n * sizeof *p);

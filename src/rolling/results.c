@@ -393,6 +393,8 @@ void rb_rolling_solution_convert(rb_rolling_solution *s, rb_units units)
 
 void rb_rolling_history_convert(rb_rolling_history *h, rb_units units)
 {
+    if (h->errors)
+        rb_rolling_history_convert(h->errors, units);
     h->units = units;
     if (units == RB_UNITS_MM)
         return;

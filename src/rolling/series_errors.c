@@ -181,10 +181,11 @@ static void add_edge_power(const rb_rolling_case *rc, const rb_rolling_history *
     }
 }
 
-static rb_status history_errors(const rb_rolling_case *rc, int runs,
+static rb_status history_errors(const rb_rolling_case *rc,
                                 const rb_rolling_history placed[],
                                 const rb_rolling_history *own, rb_rolling_history *errors)
 {
+    const int runs = rb_rolling_error_runs(rc);
     const rb_rolling_results *columns = &rb_rolling_history_columns;
     const void *run[RB_ERROR_RUNS];
     rb_status s = rb_rolling_columns_alloc(columns, rc, own->n, errors);
@@ -202,65 +203,65 @@ static rb_status history_errors(const rb_rolling_case *rc, int runs,
     return s;
 }
 
-typedef struct {
-    rb_rolling_step *see;
-    void *context;
-} watcher;
-
+/* context: the observer of the run itself. */
 static int see_coarser(const rb_rolling_model *model, const rb_rolling_history *history,
                        int step, int steps, void *context)
 {
-    const watcher *w = context;
+    const rb_rolling_observer *of_run = context;
 
     (void)model;
     (void)history;
-    return w->see ? w->see(NULL, NULL, step, steps, w->context) : 0;
+    return of_run->step(NULL, NULL, step, steps, of_run->context);
 }
 
-/* The k-th coarser run of the same way, at the steps of `own`. */
+/* Coarser runs of the same way, at its steps. */
 static rb_status run_coarser(const rb_rolling_case *rc, const rb_rolling_program *program,
-                             int k, watcher *w, const rb_rolling_history *own,
-                             rb_rolling_history *placed, rb_message *why)
+                             const rb_rolling_observer *observer,
+                             const rb_rolling_history *own, rb_rolling_history placed[],
+                             rb_message *why)
 {
-    const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
-    rb_rolling_model model = {0};
-    rb_rolling_history history = {0};
-    rb_status s =
-        rb_rolling_history_run(&coarser, program, see_coarser, w, &model, &history, why);
+    rb_rolling_observer passed = observer ? *observer : (rb_rolling_observer){0};
+    const rb_rolling_observer through = {passed.step ? see_coarser : NULL, &passed};
+    const int runs = rb_rolling_error_runs(rc);
+    rb_status s = RB_OK;
 
-    if (s == RB_OK)
-        s = place_history(rc, &history, own, placed);
-    rb_rolling_model_free(&model);
-    rb_rolling_history_free(&history);
+    for (int k = 0; k < runs && s == RB_OK; k++) {
+        const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
+        rb_rolling_model model = {0};
+        rb_rolling_history history = {0};
+        s = rb_rolling_history_run(&coarser, program, &through, &model, &history, why);
+        if (s == RB_OK)
+            s = place_history(rc, &history, own, &placed[k]);
+        rb_rolling_model_free(&model);
+        rb_rolling_history_free(&history);
+    }
     return s;
 }
 
 rb_status rb_rolling_history_with_errors(const rb_rolling_case *rc,
                                          const rb_rolling_program *program,
-                                         rb_rolling_step *step, void *context,
+                                         const rb_rolling_observer *observer,
                                          rb_rolling_model *model,
-                                         rb_rolling_history *history,
-                                         rb_rolling_history *errors, rb_message *why)
+                                         rb_rolling_history *history, rb_message *why)
 {
     rb_rolling_history placed[RB_ERROR_RUNS] = {0};
-    const int runs = rb_rolling_error_runs(rc);
-    watcher w = {step, context};
     rb_status s = rb_rolling_error_check(rc, why);
 
     memset(model, 0, sizeof *model);
     memset(history, 0, sizeof *history);
-    memset(errors, 0, sizeof *errors);
     if (s == RB_OK && program && program->time)
         s = rb_fail(why, RB_EINVAL,
                     "error bars: a history in time has none; compare with half the time "
                     "step and twice the contact elements");
     if (s == RB_OK)
-        s = rb_rolling_history_run(rc, program, step, context, model, history, why);
-    for (int k = 0; k < runs && s == RB_OK; k++)
-        s = run_coarser(rc, program, k, &w, history, &placed[k], why);
+        s = rb_rolling_history_run(rc, program, observer, model, history, why);
     if (s == RB_OK)
-        s = history_errors(rc, runs, placed, history, errors);
-    for (int k = 0; k < runs; k++)
+        s = run_coarser(rc, program, observer, history, placed, why);
+    if (s == RB_OK)
+        s = (history->errors = calloc(1, sizeof *history->errors))
+                ? history_errors(rc, placed, history, history->errors)
+                : RB_ENOMEM;
+    for (int k = 0; k < RB_ERROR_RUNS; k++)
         rb_rolling_history_free(&placed[k]);
     return s;
 }

@@ -19,7 +19,7 @@ rb_status rb_rolling_solve_model_again(const rb_rolling_case *rc, rb_rolling_mod
 
     if (rb_rolling_has_steps(rc)) {
         rb_rolling_model_free(model);
-        s = rb_rolling_history_run(rc, NULL, NULL, NULL, model, &history, why);
+        s = rb_rolling_history_run(rc, NULL, NULL, model, &history, why);
     } else {
         s = rb_rolling_model_again(rc, model, why);
         if (s == RB_OK)

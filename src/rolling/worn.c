@@ -27,8 +27,7 @@ typedef struct {
     double work;        /* of friction in a cycle [force] */
     rb_rolling_wear_history *history;
     rb_rolling_solution *last;
-    rb_rolling_wear_step *see;
-    void *context;
+    const rb_rolling_wear_observer *observer; /* or NULL */
 } run;
 
 static void run_free(run *r)
@@ -135,7 +134,7 @@ static rb_status pose(run *r, const double *F, rb_message *why)
     rb_status s = rb_rolling_mesh_set_gap(&model->rc, &model->mesh);
     model->bodies.F = F;
     if (s == RB_OK)
-        s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL, 0.0,
+        s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL,
                                       &model->problem, why);
     model->bodies.F = own;
     return s;
@@ -225,9 +224,11 @@ static rb_status fret(run *r, double cycles, rb_message *why)
 
     r->work = 0.0;
     memset(r->path, 0, (size_t)r->n * sizeof *r->path);
-    rb_status s = column ? rb_rolling_history_run(&r->rc, &program, see_increment, r,
-                                                  &model, &history, why)
-                         : RB_ENOMEM;
+    rb_status s = column
+                      ? rb_rolling_history_run(&r->rc, &program,
+                                               &(rb_rolling_observer){see_increment, r},
+                                               &model, &history, why)
+                      : RB_ENOMEM;
     rb_rolling_model_free(&model);
     rb_rolling_history_free(&history);
     free(column);
@@ -309,7 +310,8 @@ static rb_status record(run *r, double way, rb_message *why)
     h->n++;
     rb_rolling_solution_free(r->last);
     *r->last = s;
-    return r->see && r->see(r->last, h, k, r->wear->steps, r->context)
+    return r->observer &&
+                   r->observer->step(r->last, h, k, r->wear->steps, r->observer->context)
                ? rb_fail(why, RB_INTERRUPTED, "interrupted after step %d of %d", k,
                          r->wear->steps)
                : RB_OK;
@@ -390,16 +392,12 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
 }
 
 rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *wear,
-                              rb_rolling_wear_step *see, void *context,
+                              const rb_rolling_wear_observer *observer,
                               rb_rolling_wear_history *history, rb_rolling_solution *last,
                               rb_message *why)
 {
-    run r = {.wear = wear,
-             .rc = *rc,
-             .history = history,
-             .last = last,
-             .see = see,
-             .context = context};
+    run r = {
+        .wear = wear, .rc = *rc, .history = history, .last = last, .observer = observer};
     const double part = wear->way / wear->steps;
 
     memset(history, 0, sizeof *history);

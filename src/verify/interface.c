@@ -44,7 +44,7 @@ static void wear(rb_verify *v, int steps)
     rc.mesh = RB_MESH_UNIFORM;
     rc.contact_elements = 60;
     why.text[0] = '\0';
-    const rb_status s = rb_rolling_wear_run(&rc, &w, NULL, NULL, &h, &last, &why);
+    const rb_status s = rb_rolling_wear_run(&rc, &w, NULL, &h, &last, &why);
     rb_verify_note(v, s, &why);
     const double volume = w.coefficient * P * w.way;
     rb_verify_relative(v, s == RB_OK ? h.worn[h.n - 1] : NAN, volume, 1e-12,

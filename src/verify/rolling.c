@@ -45,7 +45,7 @@ static void cattaneo_to_carter(rb_verify *v)
                                                 rc.a.young / 2.0 / (1.0 - 0.28 * 0.28));
     rc.force_ratio = -0.64;
     rc.distance = 3.0;
-    const rb_status s = rb_rolling_history_run(&rc, NULL, NULL, NULL, &model, &h, &why);
+    const rb_status s = rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why);
     rb_verify_note(v, s, &why);
     for (int k = 0; k < 10; k++)
         rb_verify_relative(v, creepage_at(&h, distance[k]), wanted[k], 0.01,
@@ -128,8 +128,7 @@ static void relaxation(rb_verify *v)
     rc.mesh = RB_MESH_UNIFORM;
     rc.a.memory = (rb_rolling_memory){1, {1.0}, {f}};
     rc.time_step = time[1] / STEPS;
-    const rb_status s =
-        rb_rolling_history_run(&rc, &program, NULL, NULL, &model, &h, &why);
+    const rb_status s = rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why);
     rb_verify_note(v, s, &why);
     for (int k = STEPS / 3; k <= STEPS && s == RB_OK; k += STEPS / 3)
         rb_verify_absolute(v, h.normal_load[k] / h.normal_load[0],
