@@ -189,6 +189,9 @@ rb_status rb_contact_residual(const rb_contact_problem *problem,
                               const rb_contact_state *state,
                               rb_contact_violation *violation);
 
+/* The scale of friction: the bound of the pressure p->stress under the largest
+ * coefficient; without friction that pressure. */
+double rb_contact_friction_scale(const rb_contact_problem *problem);
 /* The most friction that the pressures of the state carry: mu P for one coefficient. */
 double rb_contact_capacity(const rb_contact_problem *problem,
                            const rb_contact_state *state);

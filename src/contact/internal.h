@@ -34,6 +34,8 @@ rb_status rb_contact_reduced_alloc(const rb_contact_problem *problem,
                                    rb_contact_unknowns unknowns,
                                    const rb_contact_state *state, rb_contact_reduced *r);
 void rb_contact_reduced_free(rb_contact_reduced *r);
+/* mu times the resultant of the scale pressure: the scale of the given force. */
+double rb_contact_force_scale(const rb_contact_problem *problem);
 
 /* r_T = slope bound r_N of a zone; 0 in stick, where r_T is an unknown of its own. */
 double rb_contact_slope(int zone);

@@ -415,7 +415,7 @@ static void fill(int n, double value, double *x)
 static void set_lcp_scales(const rb_contact_problem *p, rb_contact_lcp *lcp)
 {
     const int n = p->n, pivoted = lcp->form == RB_LCP_PIVOTED;
-    const double bound = p->mu > 0.0 ? p->mu * p->stress : p->stress;
+    const double bound = rb_contact_friction_scale(p);
 
     fill(n, p->stress, lcp->z_scale);
     fill(2 * n, p->slip_length, lcp->z_scale + n);

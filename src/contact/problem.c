@@ -51,6 +51,16 @@ void rb_contact_set_friction(rb_contact_problem *p, double mu, const double *bou
         p->op->kind->forget(p->op);
 }
 
+double rb_contact_friction_scale(const rb_contact_problem *p)
+{
+    return p->mu > 0.0 ? p->mu * p->stress : p->stress;
+}
+
+double rb_contact_force_scale(const rb_contact_problem *p)
+{
+    return p->mu * p->stress * rb_norm_1((size_t)p->n, p->load_N, 1);
+}
+
 static double weighted(const rb_contact_state *state, const double *a_N,
                        const double *a_T)
 {

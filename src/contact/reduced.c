@@ -62,7 +62,7 @@ rb_status rb_contact_reduced_alloc(const rb_contact_problem *p,
         if ((unknowns & RB_TANGENTIAL) && zone[i] == RB_ZONE_STICK)
             r->stick[r->sticks++] = i;
     }
-    r->force_scale = p->mu * p->stress * rb_norm_1((size_t)p->n, p->load_N, 1);
+    r->force_scale = rb_contact_force_scale(p);
     r->load = (unknowns & RB_NORMAL) && p->load_given;
     r->force = (unknowns & RB_TANGENTIAL) && p->force_given;
     r->size = r->contacts + r->sticks + r->load + r->force;

@@ -53,12 +53,6 @@ static double friction_violation(double lambda, double gamma_plus, double gamma_
     return fmax(fabs(plus), fabs(minus));
 }
 
-/* Scale of the friction bound mu p; without friction that of p. */
-static double friction_scale(const rb_contact_problem *problem)
-{
-    return problem->mu > 0.0 ? problem->mu * problem->stress : problem->stress;
-}
-
 /* Given load and force, relative to themselves. */
 static double control_violation(const rb_contact_problem *p,
                                 const rb_contact_state *state)
@@ -85,8 +79,8 @@ typedef struct {
 static void add_element(const rb_contact_problem *problem, const rb_contact_state *state,
                         const motion *m, int i, rb_contact_violation *v)
 {
-    const double tangential = friction_scale(problem), length = problem->slip_length,
-                 limit = problem->bound[i] * state->p[i];
+    const double tangential = rb_contact_friction_scale(problem),
+                 length = problem->slip_length, limit = problem->bound[i] * state->p[i];
     const double gamma_plus = limit + state->q[i], gamma_minus = limit - state->q[i];
     const double contact =
         fabs(fmin(m->gap[i] / problem->gap_length, state->p[i] / problem->stress));
@@ -148,7 +142,7 @@ static rb_contact_zone zone_of(double p, double lambda, double gamma_plus,
 static rb_contact_zone yielding_zone(const rb_contact_problem *problem, double plastic,
                                      double q, double yield)
 {
-    const double lacks = (yield - fabs(q)) / friction_scale(problem);
+    const double lacks = (yield - fabs(q)) / rb_contact_friction_scale(problem);
 
     if (!(fabs(plastic) / problem->slip_length > fmax(lacks, 0.0)))
         return RB_ZONE_STICK;
@@ -158,7 +152,8 @@ static rb_contact_zone yielding_zone(const rb_contact_problem *problem, double p
 void rb_contact_classify(const rb_contact_problem *problem, double tol,
                          rb_contact_state *state)
 {
-    const double tangential = friction_scale(problem), length = problem->slip_length;
+    const double tangential = rb_contact_friction_scale(problem),
+                 length = problem->slip_length;
     double next = 0.0, second = 0.0;
 
     for (int i = problem->n - 1; i >= 0; i--) {

@@ -67,7 +67,7 @@ static double against(double slip)
 static void laws_of_state(const rb_contact_state *state, laws *k)
 {
     const rb_contact_problem *p = k->p;
-    const double stress = (p->mu > 0.0 ? p->mu : 1.0) * p->stress;
+    const double stress = rb_contact_friction_scale(p);
 
     rb_contact_yielded(p, state->plastic, k->yielded);
     for (int i = 0; i < p->n; i++) {
@@ -224,7 +224,7 @@ static void control_rows(const laws *k, double *form, double *A, double *b)
         rb_contact_force_row(p, control, control + n);
         add_form(k, 1.0, control, control + n, 1, form);
         form[k->size] = -p->force;
-        set_row(k, r, p->mu * p->stress * rb_norm_1(n, p->load_N, 1), form, A, b);
+        set_row(k, r, rb_contact_force_scale(p), form, A, b);
     }
 }
 

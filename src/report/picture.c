@@ -154,7 +154,7 @@ static view make_view(const rb_rolling_case *rc, const rb_rolling_solution *s,
 static double bound_of(const view *v, int i)
 {
     const rb_rolling_solution *s = v->s;
-    const double limit = (s->mu ? s->mu[i] : v->rc->mu) * s->p[i];
+    const double limit = (s->mu ? s->mu[i] : rb_rolling_largest_mu(v->rc)) * s->p[i];
     if (!s->plastic)
         return limit;
     const double u = rb_unit_stored(s->units, "mm", s->plastic[i]);
@@ -181,10 +181,11 @@ static void write_carter(FILE *out, const view *v)
     const rb_rolling_solution *s = v->s;
     const double a = s->hertz_half_width;
     const double p0 = rb_closed_hertz_max_pressure(s->normal_load, a);
+    const double mu = rb_rolling_largest_mu(v->rc);
     fputs("$carter << EOD\n", out);
     for (int k = 0; k <= POINTS; k++) {
         const double x = -a * cos(3.14159265358979 * k / POINTS);
-        const double q = rb_closed_carter_traction(v->rc->mu, p0, a, s->creep_ratio, x);
+        const double q = rb_closed_carter_traction(mu, p0, a, s->creep_ratio, x);
         fprintf(out, "%.9g %.9g\n", x / v->unit, q / v->stress_unit);
     }
     fputs("EOD\n", out);

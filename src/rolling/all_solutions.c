@@ -17,7 +17,7 @@ void rb_rolling_solutions_free(rb_rolling_solutions *all)
 static int is_known(const rb_rolling_solutions *all, const rb_rolling_model *model)
 {
     const rb_contact_problem *p = &model->problem;
-    const double small = 1e-6 * p->mu * p->stress;
+    const double small = 1e-6 * rb_contact_friction_scale(p);
 
     for (int k = 0; k < all->n; k++) {
         double difference = 0.0;

@@ -125,7 +125,7 @@ int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 
 int rb_rolling_carter_holds(const rb_rolling_case *rc)
 {
-    return rc->formulation == RB_STEADY && rc->mu > 0.0 &&
+    return rc->formulation == RB_STEADY && rb_rolling_largest_mu(rc) > 0.0 &&
            rc->friction.law == RB_FRICTION_constant && !rb_rolling_law_moves(rc) &&
            rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 &&
            rc->yield_stress == 0.0 &&

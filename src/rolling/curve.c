@@ -33,7 +33,6 @@ static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
     const rb_contact_problem *p = &model->problem;
     const rb_contact_state *state = &model->state;
     const double P = rb_rolling_model_load(model), Q = rb_rolling_model_force(model);
-    const double mu = p->mu;
     const int k = c->n++;
     double contact, stick;
     const double longest =
@@ -41,9 +40,7 @@ static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
 
     rb_rolling_zone_lengths(p->n, state->zone, model->bodies.f.h, &contact, &stick);
     c->creepage[k] = state->xi;
-    c->creep_ratio[k] =
-        mu > 0.0 ? state->xi * rb_rolling_radius(&model->rc) / (mu * model->half_width)
-                 : NAN;
+    c->creep_ratio[k] = rb_rolling_ratio_of_creepage(model, state->xi);
     c->normal_load[k] = P;
     c->tangential_load[k] = Q;
     c->force_ratio[k] = rb_rolling_force_ratio(model);

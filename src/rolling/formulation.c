@@ -349,6 +349,18 @@ double rb_rolling_force_ratio(const rb_rolling_model *model)
     return most > 0.0 ? rb_rolling_model_force(model) / most : NAN;
 }
 
+double rb_rolling_creepage_of_ratio(const rb_rolling_model *model, double ratio)
+{
+    return ratio * model->problem.mu * model->half_width / rb_rolling_radius(&model->rc);
+}
+
+double rb_rolling_ratio_of_creepage(const rb_rolling_model *model, double creepage)
+{
+    const double mu = model->problem.mu, a = model->half_width;
+    return mu > 0.0 && a > 0.0 ? creepage * rb_rolling_radius(&model->rc) / (mu * a)
+                               : NAN;
+}
+
 void rb_rolling_yielded(const rb_rolling_model *model, double *yielded)
 {
     rb_contact_yielded(&model->problem, model->state.plastic, yielded);

@@ -204,7 +204,8 @@ static void watch_steadiness(run *r, double c)
 {
     const rb_contact_state *state = &r->model->state;
     const rb_contact_problem *p = &r->model->problem;
-    const double bound = p->mu * p->stress * STEADY_RATE * c / r->history->half_width;
+    const double bound =
+        rb_contact_friction_scale(p) * STEADY_RATE * c / r->history->half_width;
     int moves = 0;
 
     for (int i = 0; i < state->n; i++)

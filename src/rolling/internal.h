@@ -105,6 +105,11 @@ rb_status rb_rolling_displacement_outside(const rb_rolling_case *rc,
 /* ---- formulation.c: what changes from step to step ------------------------------------
  */
 
+/* The creepage of ratio xi R/(mu a), mu the largest coefficient, and the ratio of a
+ * creepage: NAN without friction or contact. */
+double rb_rolling_creepage_of_ratio(const rb_rolling_model *model, double ratio);
+double rb_rolling_ratio_of_creepage(const rb_rolling_model *model, double creepage);
+
 void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                          const rb_rolling_past *past, rb_contact_problem *p);
 void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p);

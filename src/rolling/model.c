@@ -44,8 +44,7 @@ static rb_status solve_ratio(rb_rolling_model *model, int warm, rb_message *why)
         model->problem.load_given)
         return s;
     for (int k = 0; s == RB_OK; k++) {
-        const double xi = rc->creep_ratio * model->problem.mu * model->half_width /
-                          rb_rolling_radius(rc);
+        const double xi = rb_rolling_creepage_of_ratio(model, rc->creep_ratio);
         const double excess = model->problem.xi - xi;
         missing = fabs(excess / xi);
         if (!(missing > 1e-13) || k == RATIO_ROUNDS)

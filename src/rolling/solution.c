@@ -164,7 +164,6 @@ static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_soluti
 static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     const rb_contact_problem *p = &model->problem;
-    const double R = rb_rolling_radius(&model->rc), mu = model->problem.mu;
 
     s->normal_load = rb_rolling_model_load(model);
     s->tangential_load = rb_rolling_model_force(model);
@@ -177,16 +176,14 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
         s->tangential_shift = model->shift + model->state.xi;
         s->creepage = !isnan(rc->creep) ? rc->creep
                       : !isnan(rc->creep_ratio)
-                          ? rc->creep_ratio * mu * s->hertz_half_width / R
+                          ? rb_rolling_creepage_of_ratio(model, rc->creep_ratio)
                           : 0.0;
     } else {
         s->tangential_shift = NAN;
         s->creepage = model->state.xi;
     }
     s->force_ratio = rb_rolling_force_ratio(model);
-    s->creep_ratio = mu > 0.0 && s->hertz_half_width > 0.0
-                         ? s->creepage * R / (mu * s->hertz_half_width)
-                         : NAN;
+    s->creep_ratio = rb_rolling_ratio_of_creepage(model, s->creepage);
 }
 
 /* ---- All together

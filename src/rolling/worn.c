@@ -79,7 +79,7 @@ static rb_status press(run *r, rb_message *why)
     at_rest.increments = 1;
     at_rest.shift = at_rest.force = at_rest.force_ratio = NAN;
     at_rest.creep = at_rest.creep_ratio = NAN;
-    if (r->wear->slides && at_rest.mu > 0.0)
+    if (r->wear->slides && rb_rolling_largest_mu(&at_rest) > 0.0)
         at_rest.force_ratio = -1.0; /* A slides towards +x */
     else
         at_rest.shift = 0.0;
@@ -166,8 +166,9 @@ static rb_status wear_off(run *r, rb_message *why)
 /* Depth per pressure and slid length. */
 static double archard(const run *r)
 {
-    return r->wear->law == RB_WEAR_ARCHARD ? r->wear->coefficient
-                                           : r->wear->coefficient * r->rc.mu;
+    return r->wear->law == RB_WEAR_ARCHARD
+               ? r->wear->coefficient
+               : r->wear->coefficient * rb_rolling_largest_mu(&r->rc);
 }
 
 static rb_status slide(run *r, double way, rb_message *why)
