@@ -58,10 +58,11 @@ static void one_contact_obeys_coulomb(void **state)
         rb_friction_contact c;
         positive_definite(d, k % 3 ? 0.0 : 1e-2, &seed, W);
         rb_friction_contact_init(d, mu, W, &c);
-        for (int again = 0; again < 3; again++) { /* lambda of the time before */
+        double lambda = 0.0; /* then of the time before */
+        for (int again = 0; again < 3; again++) {
             for (int a = 0; a < d; a++)
                 q[a] = uniform(&seed) - (a == 0) * 0.5;
-            const int steps = rb_friction_contact_exact(&c, q, r);
+            const int steps = rb_friction_contact_exact(&c, &lambda, q, r);
             assert_true(steps > 0 && steps < 20);
             velocity(d, W, q, r, u);
             CHECK_MAX(violation(d, mu, r, u), 1e-11, "contact %d, d = %d, mu = %g", k, d,
@@ -87,7 +88,8 @@ static void elimination_agrees_with_newton(void **state)
         for (int a = 0; a < d; a++)
             q[a] = a ? uniform(&seed) : -0.3 - fabs(uniform(&seed));
         const double rho[] = {1.0 / W[0], 1.0 / (W[d + 1] + (d == 3 ? W[8] : 0.0))};
-        assert_true(rb_friction_contact_exact(&c, q, r) > 0);
+        double lambda = 0.0;
+        assert_true(rb_friction_contact_exact(&c, &lambda, q, r) > 0);
         assert_true(rb_friction_contact_newton(&c, rho, q, s) > 0);
         for (int a = 0; a < d; a++)
             CHECK_ABS(s[a], r[a], 1e-7, "contact %d, r[%d]", k, a);
@@ -124,14 +126,15 @@ static void a_singular_block_is_left_to_newton(void **state)
     const double loose[] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
     const double upside_down[] = {-1.0, 0.0, 0.0, 1.0};
     const double q[] = {-1.0, 0.2, 0.1}, away[] = {0.0, 1.0, 2.0};
-    double r[] = {7.0, 8.0, 9.0};
+    double r[] = {7.0, 8.0, 9.0}, lambda = 0.0;
     rb_friction_contact c;
     rb_friction_contact_init(3, 0.3, loose, &c);
-    assert_int_equal(rb_friction_contact_exact(&c, q, r), 0);
+    assert_int_equal(rb_friction_contact_exact(&c, &lambda, q, r), 0);
     CHECK_ABS(r[0], 7.0, 0.0, "r as it was");
     rb_friction_contact_init(2, 0.3, upside_down, &c);
-    assert_int_equal(rb_friction_contact_exact(&c, q, r), 0);
-    assert_int_equal(rb_friction_contact_exact(&c, away, r), 1); /* open all the same */
+    assert_int_equal(rb_friction_contact_exact(&c, &lambda, q, r), 0);
+    assert_int_equal(rb_friction_contact_exact(&c, &lambda, away, r),
+                     1); /* open all the same */
     CHECK_ABS(r[0], 0.0, 0.0, "it opens");
 }
 

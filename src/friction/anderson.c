@@ -33,19 +33,6 @@ void rb_friction_anderson_free(rb_friction_anderson *a)
     *a = (rb_friction_anderson){0};
 }
 
-/* Four sums at a time: one would wait for each addition before it starts the next. */
-static double dot(size_t n, const double *x, const double *y)
-{
-    double sum[4] = {0.0, 0.0, 0.0, 0.0};
-    size_t k = 0;
-    for (; k + 4 <= n; k += 4)
-        for (size_t i = 0; i < 4; i++)
-            sum[i] += x[k + i] * y[k + i];
-    for (; k < n; k++)
-        sum[0] += x[k] * y[k];
-    return sum[0] + sum[1] + (sum[2] + sum[3]);
-}
-
 /* The differences to the step before take the oldest place; gram: df' df. */
 static void push(rb_friction_anderson *a, const double *start, const double *r,
                  const double *u)
@@ -60,7 +47,7 @@ static void push(rb_friction_anderson *a, const double *start, const double *r,
         a->used++;
     for (int i = 0; i < a->used; i++)
         a->gram[i][a->next] = a->gram[a->next][i] =
-            dot(m, a->df + (size_t)i * m, a->df + at);
+            rb_friction_dot(m, a->df + (size_t)i * m, a->df + at);
     a->next = (a->next + 1) % DEPTH;
 }
 
@@ -97,7 +84,7 @@ static void extrapolate(rb_friction_anderson *a, double *r, double *u)
     const size_t m = (size_t)a->m;
     double weight[DEPTH];
     for (int i = 0; i < a->used; i++)
-        weight[i] = dot(m, a->df + (size_t)i * m, a->f);
+        weight[i] = rb_friction_dot(m, a->df + (size_t)i * m, a->f);
     if (!solve_normal_equations(a, weight)) {
         a->used = a->next = 0;
         return;

@@ -22,35 +22,57 @@ typedef enum { FROM_START, FROM_BEST } stage_origin;
 
 /* What a member does: one stage after the other. */
 typedef struct {
-    const char *solver; /* NULL: the end */
-    int limit;          /* iterations; 0: the solver's own */
+    const rb_friction_method *method; /* NULL: the end */
+    int variant, limit;               /* limit: iterations; 0: the solver's own */
     stage_origin from;
 } stage;
 
+#define AC RB_FRICTION_ALART_CURNIER
+#define JM RB_FRICTION_JEAN_MOREAU
+#define NM RB_FRICTION_NATURAL_MAP
+#define FB RB_FRICTION_FISCHER_BURMEISTER
+#define SEARCH RB_FRICTION_LINE_SEARCH
+
 static const stage sweeps[] = {
-    {"nsgs-aa", 0, FROM_START}, {"extragradient", 0, FROM_BEST}, {NULL, 0, FROM_START}};
-static const stage alternating[] = {{"admm", 0, FROM_START}, {NULL, 0, FROM_START}};
-static const stage plain_sweeps[] = {{"nsgs-ac", 300000, FROM_START},
-                                     {"nsgs-fp", 5000, FROM_START},
-                                     {NULL, 0, FROM_START}};
+    {&rb_friction_sweeps, RB_FRICTION_SWEEP_ANDERSON, 0, FROM_START},
+    {&rb_friction_projections, RB_FRICTION_EXTRAGRADIENT, 0, FROM_BEST},
+    {NULL, 0, 0, FROM_START}};
+static const stage alternating[] = {{&rb_friction_admm, 0, 0, FROM_START},
+                                    {NULL, 0, 0, FROM_START}};
+static const stage plain_sweeps[] = {
+    {&rb_friction_sweeps, 0, 300000, FROM_START},
+    {&rb_friction_sweeps, RB_FRICTION_SWEEP_PROJECTION, 5000, FROM_START},
+    {NULL, 0, 0, FROM_START}};
 /* From sweeps Jean-Moreau's function is the one that cycles least. */
 static const stage newton_after_sweeps[] = {
-    {"nsn-jm-nls", 16, FROM_BEST}, {"nsn-ac-nls", 12, FROM_BEST},
-    {"nsn-fb", 15, FROM_START},    {"nsn-ac", 25, FROM_START},
-    {"nsn-nm", 60, FROM_START},    {"nsn-fb", 60, FROM_BEST},
-    {"nsn-jm", 100, FROM_START},   {"soclcp-smoothing", 150, FROM_START},
-    {"lemke", 0, FROM_START},      {"nsn-ac", 60, FROM_BEST},
-    {"nsn-nm", 60, FROM_BEST},     {"nsn-jm", 60, FROM_BEST},
-    {"nsn-ac", 400, FROM_START},   {"nsn-nm", 500, FROM_BEST},
-    {NULL, 0, FROM_START}};
-static const stage newton_first[] = {
-    {"nsn-ac", 40, FROM_START},    {"nsn-fb", 60, FROM_START},
-    {"nsn-ac-nls", 30, FROM_BEST}, {"nsn-nm", 60, FROM_START},
-    {"nsn-jm", 100, FROM_START},   {"soclcp-smoothing", 150, FROM_START},
-    {"lemke", 0, FROM_START},      {"nsn-ac", 60, FROM_BEST},
-    {"nsn-fb", 60, FROM_BEST},     {"nsn-nm", 60, FROM_BEST},
-    {"nsn-ac", 400, FROM_START},   {"nsn-nm", 500, FROM_BEST},
-    {NULL, 0, FROM_START}};
+    {&rb_friction_newton, JM, 16, FROM_BEST},
+    {&rb_friction_newton, AC, 12, FROM_BEST},
+    {&rb_friction_newton, FB | SEARCH, 15, FROM_START},
+    {&rb_friction_newton, AC | SEARCH, 25, FROM_START},
+    {&rb_friction_newton, NM | SEARCH, 60, FROM_START},
+    {&rb_friction_newton, FB | SEARCH, 60, FROM_BEST},
+    {&rb_friction_newton, JM | SEARCH, 100, FROM_START},
+    {&rb_friction_smoothing_method, 0, 150, FROM_START},
+    {&rb_friction_lemke_method, 0, 0, FROM_START},
+    {&rb_friction_newton, AC | SEARCH, 60, FROM_BEST},
+    {&rb_friction_newton, NM | SEARCH, 60, FROM_BEST},
+    {&rb_friction_newton, JM | SEARCH, 60, FROM_BEST},
+    {&rb_friction_newton, AC | SEARCH, 400, FROM_START},
+    {&rb_friction_newton, NM | SEARCH, 500, FROM_BEST},
+    {NULL, 0, 0, FROM_START}};
+static const stage newton_first[] = {{&rb_friction_newton, AC | SEARCH, 40, FROM_START},
+                                     {&rb_friction_newton, FB | SEARCH, 60, FROM_START},
+                                     {&rb_friction_newton, AC, 30, FROM_BEST},
+                                     {&rb_friction_newton, NM | SEARCH, 60, FROM_START},
+                                     {&rb_friction_newton, JM | SEARCH, 100, FROM_START},
+                                     {&rb_friction_smoothing_method, 0, 150, FROM_START},
+                                     {&rb_friction_lemke_method, 0, 0, FROM_START},
+                                     {&rb_friction_newton, AC | SEARCH, 60, FROM_BEST},
+                                     {&rb_friction_newton, FB | SEARCH, 60, FROM_BEST},
+                                     {&rb_friction_newton, NM | SEARCH, 60, FROM_BEST},
+                                     {&rb_friction_newton, AC | SEARCH, 400, FROM_START},
+                                     {&rb_friction_newton, NM | SEARCH, 500, FROM_BEST},
+                                     {NULL, 0, 0, FROM_START}};
 
 /* first_turn: iterations of the first member's turn alone. */
 typedef struct {
@@ -84,10 +106,12 @@ typedef struct {
     rb_friction_info info; /* the member's own */
 } member;
 
+/* Most calls end in the first turn, before there is more than one member. */
 typedef struct {
-    rb_friction_task *task; /* the call's */
+    const rb_friction_task *task; /* the call's, on whose r, u, v the first one works */
+    int members;
     member member[MEMBERS];
-    double *memory; /* r, u, v of the members */
+    double *memory; /* r, u, v of the others */
 } portfolio;
 
 /* Condensing takes no more operations than this many factorisations of K, of which a step
@@ -110,24 +134,31 @@ static rb_status choose_plan(const rb_friction_task *task, const plan **plans)
     return s;
 }
 
-static rb_status portfolio_init(rb_friction_task *task, portfolio *p)
+static member *add_member(portfolio *p, const plan *its)
 {
-    const size_t m = (size_t)task->m, n = (size_t)task->n;
-    const plan *plans;
-    const rb_status s = choose_plan(task, &plans);
-    if (s != RB_OK)
-        return s;
-    *p = (portfolio){.task = task, .memory = rb_alloc(2 * m + n, MEMBERS)};
+    member *a = &p->member[p->members++];
+    a->plan = its;
+    a->stage = a->stage_end = a->over = 0;
+    a->solver = NULL;
+    a->state = NULL;
+    a->task = *p->task;
+    a->task.info = &a->info;
+    rb_friction_info_clear(&a->info, NULL);
+    return a;
+}
+
+static rb_status add_others(portfolio *p)
+{
+    const size_t m = (size_t)p->task->m, n = (size_t)p->task->n;
+    const plan *plans = p->member[0].plan;
+    p->memory = rb_alloc(2 * m + n, MEMBERS - 1);
     if (!p->memory)
         return RB_ENOMEM;
-    for (int k = 0; k < MEMBERS; k++) {
-        member *a = &p->member[k];
-        a->plan = &plans[k];
-        a->task = *task;
-        a->task.info = &a->info;
-        a->task.r = p->memory + (size_t)k * (2 * m + n);
-        a->task.u = a->task.r + m;
-        a->task.v = a->task.u + m;
+    for (int k = 1; k < MEMBERS; k++) {
+        rb_friction_task *t = &add_member(p, &plans[k])->task;
+        t->r = p->memory + (size_t)(k - 1) * (2 * m + n);
+        t->u = t->r + m;
+        t->v = t->u + m;
     }
     return RB_OK;
 }
@@ -144,7 +175,7 @@ static void end_stage(member *a)
 
 static void portfolio_free(portfolio *p)
 {
-    for (int k = 0; k < MEMBERS; k++)
+    for (int k = 0; k < p->members; k++)
         end_stage(&p->member[k]);
     free(p->memory);
 }
@@ -177,32 +208,42 @@ static double cost_of(const rb_friction_task *task, const rb_friction_solver *so
     return 20.0 * order * fmin(order * order, 1e4);
 }
 
-static void load_stage(const portfolio *p, member *a, stage_origin from)
+static void load_stage(rb_friction_task *t, stage_origin from)
 {
-    rb_friction_task *t = &a->task;
-    const int best = from == FROM_BEST && isfinite(t->best->error);
-    memcpy(t->r, best ? t->best->r : p->task->r, (size_t)t->m * sizeof(double));
-    memcpy(t->v, best ? t->best->r + t->m : p->task->v, (size_t)t->n * sizeof(double));
+    if (from == FROM_BEST && isfinite(t->best->error)) {
+        memcpy(t->r, t->best->r, (size_t)t->m * sizeof(double));
+        memcpy(t->v, t->best->r + t->m, (size_t)t->n * sizeof(double));
+    } else
+        rb_friction_task_start(t);
 }
 
-/* The next stage that fits, ready to go on; none is left: over. */
-static rb_status begin_stage(const portfolio *p, member *a)
+/* The solver of the member's stage, or of the next one that fits; NULL: none is left. */
+static const rb_friction_solver *next_that_fits(member *a)
 {
-    const stage *s = &a->plan->stages[a->stage];
-    while (s->solver && !fits(&a->task, rb_friction_solver_named(s->solver)))
-        s = &a->plan->stages[++a->stage];
-    a->over = !s->solver;
+    for (const stage *s; (s = &a->plan->stages[a->stage])->method; a->stage++) {
+        const rb_friction_solver *solver = rb_friction_solver_of(s->method, s->variant);
+        if (fits(&a->task, solver))
+            return solver;
+    }
+    return NULL;
+}
+
+/* The next stage, ready to go on; none is left: over. */
+static rb_status begin_stage(member *a)
+{
+    a->solver = next_that_fits(a);
+    a->over = !a->solver;
     if (a->over)
         return RB_OK;
-    a->solver = rb_friction_solver_named(s->solver);
+    const stage *s = &a->plan->stages[a->stage];
     a->info.solver = a->solver->name;
     a->stage_end = s->limit ? a->info.iters + s->limit : 0;
     a->task.opt.max_iters = a->stage_end;
-    load_stage(p, a, s->from);
+    load_stage(&a->task, s->from);
     const rb_friction_method *method = a->solver->run;
     if (method->run)
         return RB_OK;
-    a->state = calloc(1, method->size);
+    a->state = malloc(method->size);
     if (!a->state)
         return RB_ENOMEM;
     const int yields = method == &rb_friction_sweeps ? RB_FRICTION_SWEEP_YIELD : 0;
@@ -215,7 +256,7 @@ static rb_status begin_stage(const portfolio *p, member *a)
 static int iterations_left(const portfolio *p)
 {
     int sum = 0;
-    for (int k = 0; k < MEMBERS; k++)
+    for (int k = 0; k < p->members; k++)
         sum += p->member[k].info.iters;
     const int most = p->task->opt.max_iters;
     return !most ? INT_MAX : most > sum ? most - sum : 0;
@@ -249,7 +290,7 @@ static rb_status take_turn(const portfolio *p, member *a, double allowance, int 
 {
     int paused = 0;
     for (int stages = 0; !paused && iterations_left(p) && !(turn && stages); stages++) {
-        rb_status s = a->solver ? RB_OK : begin_stage(p, a);
+        rb_status s = a->solver ? RB_OK : begin_stage(a);
         if (a->over)
             break;
         if (s == RB_OK)
@@ -264,12 +305,16 @@ static rb_status take_turn(const portfolio *p, member *a, double allowance, int 
     return RB_MAXITER;
 }
 
-static rb_status play(portfolio *p, member **winner)
+static rb_status play(portfolio *p, const plan *plans, member **winner)
 {
-    member *first = &p->member[0];
-    rb_status s = take_turn(p, first, INFINITY, first->plan->first_turn);
+    member *first = *winner = add_member(p, plans);
+    rb_status s = take_turn(p, first, INFINITY, plans->first_turn);
+    if (s != RB_MAXITER)
+        return s;
+    s = add_others(p);
     double allowance = fmax(first->info.flops, 1.0);
-    *winner = first;
+    if (s == RB_OK)
+        s = RB_MAXITER;
     for (int left = MEMBERS; s == RB_MAXITER && left && iterations_left(p);) {
         left = 0;
         for (int k = 0; s == RB_MAXITER && k < MEMBERS; k++) {
@@ -285,31 +330,46 @@ static rb_status play(portfolio *p, member **winner)
     return s;
 }
 
+/* The answer is the winner's; operations and iterations are those of all. */
+static void conclude(const portfolio *p, const member *winner, rb_friction_task *task)
+{
+    rb_friction_info *info = task->info;
+    const rb_friction_info *proof = &winner->info;
+    const rb_friction_task *from = &winner->task;
+    for (int k = 0; k < p->members; k++) {
+        info->iters += p->member[k].info.iters;
+        info->flops += p->member[k].info.flops;
+    }
+    task->proved = from->proved;
+    if (!task->proved) {
+        rb_friction_task_start(task);
+        return;
+    }
+    if (from->r != task->r) {
+        memcpy(task->r, from->r, (size_t)task->m * sizeof(double));
+        memcpy(task->u, from->u, (size_t)task->m * sizeof(double));
+        memcpy(task->v, from->v, (size_t)task->n * sizeof(double));
+    }
+    info->solver = proof->solver;
+    info->residual = proof->residual;
+    info->scaled = proof->scaled;
+    info->floor = proof->floor;
+}
+
 static rb_status run_auto(rb_friction_task *task, int variant)
 {
     (void)variant;
     portfolio p;
-    member *winner = NULL;
-    rb_status s = portfolio_init(task, &p);
+    const plan *plans;
+    member *winner;
+    rb_status s = choose_plan(task, &plans);
     if (s != RB_OK)
         return s;
-    s = play(&p, &winner);
-    for (int k = 0; k < MEMBERS; k++) {
-        task->info->iters += p.member[k].info.iters;
-        task->info->flops += p.member[k].info.flops;
-    }
-    if (s == RB_OK) {
-        rb_friction_info *info = task->info;
-        const rb_friction_info *proof = &winner->info;
-        memcpy(task->r, winner->task.r, (size_t)task->m * sizeof(double));
-        memcpy(task->u, winner->task.u, (size_t)task->m * sizeof(double));
-        memcpy(task->v, winner->task.v, (size_t)task->n * sizeof(double));
-        info->solver = proof->solver;
-        info->residual = proof->residual;
-        info->scaled = proof->scaled;
-        info->floor = proof->floor;
-        task->proved = 1;
-    }
+    p.task = task;
+    p.members = 0;
+    p.memory = NULL;
+    s = play(&p, plans, &winner);
+    conclude(&p, winner, task);
     portfolio_free(&p);
     return s;
 }

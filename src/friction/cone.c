@@ -2,16 +2,34 @@
 
 #include <math.h>
 
+/* Four sums at a time: one would wait for each addition before it starts the next. */
+static inline double dot(size_t n, const double *x, const double *y)
+{
+    double sum[4] = {0.0, 0.0, 0.0, 0.0};
+    size_t k = 0;
+    for (; k + 4 <= n; k += 4)
+        for (size_t i = 0; i < 4; i++)
+            sum[i] += x[k + i] * y[k + i];
+    for (; k < n; k++)
+        sum[0] += x[k] * y[k];
+    return sum[0] + sum[1] + (sum[2] + sum[3]);
+}
+
+double rb_friction_dot(size_t n, const double *x, const double *y)
+{
+    return dot(n, x, y);
+}
+
 /* Sums of squares in this range have lost nothing to overflow or underflow. */
-#define LEAST_SQUARE 1e-280
-#define LARGEST_SQUARE 1e280
+static inline int is_safe(double sum)
+{
+    return sum >= 1e-280 && sum <= 1e280;
+}
 
 double rb_friction_norm(size_t n, const double *x)
 {
-    double sum = 0.0;
-    for (size_t k = 0; k < n; k++)
-        sum += x[k] * x[k];
-    if (sum >= LEAST_SQUARE && sum <= LARGEST_SQUARE)
+    double sum = dot(n, x, x);
+    if (is_safe(sum))
         return sqrt(sum);
     const double largest = rb_norm_inf(n, x);
     if (!(largest > 0.0) || !isfinite(largest))
@@ -22,17 +40,23 @@ double rb_friction_norm(size_t n, const double *x)
     return largest * sqrt(sum);
 }
 
-double rb_friction_tangential(int d, const double *x)
+/* Inline, so that loops over contacts are compiled for each dimension. */
+static inline double tangential(int d, const double *x)
 {
     if (d == 2)
         return fabs(x[1]);
     const double sum = x[1] * x[1] + x[2] * x[2];
-    return sum >= LEAST_SQUARE && sum <= LARGEST_SQUARE ? sqrt(sum) : hypot(x[1], x[2]);
+    return is_safe(sum) ? sqrt(sum) : hypot(x[1], x[2]);
 }
 
-void rb_friction_project(int d, double mu, const double *z, double *p)
+double rb_friction_tangential(int d, const double *x)
 {
-    const double zn = z[0], t = rb_friction_tangential(d, z);
+    return tangential(d, x);
+}
+
+static inline void project(int d, double mu, const double *z, double *p)
+{
+    const double zn = z[0], t = tangential(d, z);
     if (zn >= 0.0 && t <= mu * zn) { /* inside K; mu = 0: 0 <= -0 is true */
         for (int a = 0; a < d; a++)
             p[a] = z[a];
@@ -46,9 +70,14 @@ void rb_friction_project(int d, double mu, const double *z, double *p)
     p[0] = pn;
 }
 
+void rb_friction_project(int d, double mu, const double *z, double *p)
+{
+    project(d, mu, z, p);
+}
+
 void rb_friction_project_derivative(int d, double mu, const double *z, double *D)
 {
-    const double zn = z[0], t = rb_friction_tangential(d, z);
+    const double zn = z[0], t = tangential(d, z);
     const int inside = zn >= 0.0 && t <= mu * zn;
     for (int k = 0; k < d * d; k++)
         D[k] = 0.0;
@@ -69,23 +98,57 @@ void rb_friction_project_derivative(int d, double mu, const double *z, double *D
     }
 }
 
-double rb_friction_natural_norm(int d, int contacts, const double *mu, const double *rho,
-                                const double *r, const double *u)
+/* ||F||^2 of one contact */
+static inline double natural_square(int d, double mu, double rho, const double *r,
+                                    const double *u)
 {
-    double sum = 0.0;
-    for (int c = 0; c < contacts; c++) {
-        const double *rc = r + c * d, *uc = u + c * d, k = rho ? rho[2 * c] : 1.0;
-        double z[3], p[3];
-        if (rc[0] == 0.0 && rc[1] == 0.0 && rc[d - 1] == 0.0 && uc[0] >= 0.0)
+    double z[3], p[3], square = 0.0;
+    for (int a = 0; a < d; a++)
+        z[a] = r[a] - rho * u[a];
+    z[0] -= rho * mu * tangential(d, u);
+    project(d, mu, z, p);
+    for (int a = 0; a < d; a++)
+        square += (r[a] - p[a]) * (r[a] - p[a]);
+    return square / (rho * rho);
+}
+
+static inline double natural_norm(int d, const rb_friction_problem *problem,
+                                  const double *rho, const double *r, const double *u,
+                                  double *with_rho_1)
+{
+    double sum = 0.0, sum_1 = 0.0;
+    for (int c = 0; c < problem->contacts; c++, r += d, u += d) {
+        if (r[0] == 0.0 && r[1] == 0.0 && r[d - 1] == 0.0 && u[0] >= 0.0)
             continue; /* open: F = 0 */
-        for (int a = 0; a < d; a++)
-            z[a] = rc[a] - k * uc[a];
-        z[0] -= k * mu[c] * rb_friction_tangential(d, uc);
-        rb_friction_project(d, mu[c], z, p);
-        double square = 0.0;
-        for (int a = 0; a < d; a++)
-            square += (rc[a] - p[a]) * (rc[a] - p[a]);
-        sum += square / (k * k);
+        sum += natural_square(d, problem->mu[c], rho[2 * c], r, u);
+        if (with_rho_1)
+            sum_1 += natural_square(d, problem->mu[c], 1.0, r, u);
     }
+    if (with_rho_1)
+        *with_rho_1 = sqrt(sum_1);
     return sqrt(sum);
+}
+
+double rb_friction_natural_norm(const rb_friction_problem *problem, const double *rho,
+                                const double *r, const double *u, double *with_rho_1)
+{
+    return problem->dimension == 2 ? natural_norm(2, problem, rho, r, u, with_rho_1)
+                                   : natural_norm(3, problem, rho, r, u, with_rho_1);
+}
+
+double rb_friction_size(const rb_friction_problem *problem, const double *rho,
+                        const double *r, double *work)
+{
+    const int d = problem->dimension, nc = problem->contacts;
+    double sum = 0.0;
+    for (int c = 0; c < nc; c++) {
+        const double *rc = r + c * d, k = rho[2 * c], last = d == 3 ? rc[2] : 0.0;
+        sum += (rc[0] * rc[0] + rc[1] * rc[1] + last * last) / (k * k);
+    }
+    if (is_safe(sum))
+        return sqrt(sum);
+    for (int c = 0; c < nc; c++)
+        for (int a = 0; a < d; a++)
+            work[c * d + a] = r[c * d + a] / rho[2 * c];
+    return rb_friction_norm((size_t)(d * nc), work);
 }

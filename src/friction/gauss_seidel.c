@@ -9,23 +9,29 @@
 #define LEAST_CHANGE 1e-16 /* of (14), below which the sweeps stand still */
 #define LOOK_EVERY 200     /* sweeps between looks at (13) that (14) did not ask for */
 
+/* Anderson's acceleration, where the sweeps are accelerated and the first did not do. */
 typedef struct {
-    rb_friction_task *task;
-    const rb_friction_blocks *blocks;
-    rb_friction_contact *contact; /* contacts */
-    double *rho;                  /* 2 per contact; NULL until one contact needs it */
-    double *fixed;                /* contacts: rho of the fixed point, which adapts */
-    int flags;                    /* rb_friction_sweep_flags */
     rb_friction_anderson anderson;
-    double *start;   /* m, where accelerated: r before the sweep */
+    double *start;   /* m: r before the sweep; owns kept too */
     double *kept;    /* 2 m: r and u after the sweep of the least change */
     double least;    /* that change (14) */
     int since;       /* number of that sweep */
     int plain, rest; /* sweeps without acceleration: still to do, and next time */
     int fresh;       /* the acceleration has seen no sweep since it was left off */
-    int k, limit;    /* sweeps done, and at most */
-    double tau;      /* change (14) at which the measure is worth a look */
-    double before;   /* the measure when it was last asked whether the sweeps stall */
+} acceleration;
+
+typedef struct {
+    rb_friction_task *task;
+    const rb_friction_blocks *blocks;
+    rb_friction_contact *contact; /* of the task */
+    double *lambda;               /* contacts: of the last slip */
+    double *rho;                  /* 2 per contact; NULL until one contact needs it */
+    double *fixed;                /* contacts: rho of the fixed point, which adapts */
+    int flags;                    /* rb_friction_sweep_flags */
+    acceleration *faster;         /* NULL: not begun */
+    int k, limit;                 /* sweeps done, and at most */
+    double tau;                   /* change (14) at which the measure is worth a look */
+    double before; /* the measure when it was last asked whether the sweeps stall */
     double touched, steps; /* blocks, steps at single contacts: not yet counted */
     rb_status failed;
 } sweeper;
@@ -67,11 +73,12 @@ static rb_status start_sweeps(rb_friction_task *task, int flags, void *state)
         st = wanted_rho(s);
     if (st != RB_OK)
         return st;
-    s->contact = malloc((size_t)task->contacts * sizeof *s->contact);
-    if (!s->contact)
+    st = rb_friction_task_contacts(task, &s->contact);
+    s->lambda = malloc((size_t)task->contacts * sizeof *s->lambda);
+    if (st != RB_OK || !s->lambda)
         return RB_ENOMEM;
     for (int c = 0; c < task->contacts; c++)
-        s->contact[c].W = NULL;
+        s->lambda[c] = 0.0;
     start_velocities(s);
     return RB_OK;
 }
@@ -79,15 +86,16 @@ static rb_status start_sweeps(rb_friction_task *task, int flags, void *state)
 static void finish_sweeps(void *state)
 {
     sweeper *s = state;
-    rb_friction_anderson_free(&s->anderson);
-    free(s->start);
-    free(s->kept);
-    free(s->contact);
+    if (s->faster) {
+        rb_friction_anderson_free(&s->faster->anderson);
+        free(s->faster->start);
+        free(s->faster);
+    }
+    free(s->lambda);
     free(s->rho);
 }
 
-/* Made when the contact closes: many never do. */
-static rb_friction_contact *wanted_contact(sweeper *s, int c)
+static const rb_friction_contact *wanted_contact(sweeper *s, int c)
 {
     const int d = s->task->d;
     if (!s->contact[c].W)
@@ -98,12 +106,12 @@ static rb_friction_contact *wanted_contact(sweeper *s, int c)
 }
 
 /* The new force of contact c where q is its velocity without it; steps taken. */
-static int solve_contact(sweeper *s, int c, rb_friction_contact *contact, const double *q,
-                         double *r)
+static int solve_contact(sweeper *s, int c, const rb_friction_contact *contact,
+                         const double *q, double *r)
 {
     if (s->flags & RB_FRICTION_SWEEP_PROJECTION)
         return rb_friction_contact_fixed_point(contact, &s->fixed[c], q, r);
-    const int steps = rb_friction_contact_exact(contact, q, r);
+    const int steps = rb_friction_contact_exact(contact, &s->lambda[c], q, r);
     if (steps)
         return steps;
     s->failed = wanted_rho(s);
@@ -111,14 +119,14 @@ static int solve_contact(sweeper *s, int c, rb_friction_contact *contact, const 
                               : 1;
 }
 
-/* One contact with the others held; returns ||change||^2. */
-static double relax(sweeper *s, int c)
+/* One contact with the others held; returns ||change||^2.  Inline, so that its short
+ * loops are compiled for each dimension. */
+static inline double relax(int d, sweeper *s, int c)
 {
-    const int d = s->task->d;
     double *r = s->task->r + c * d, *u = s->task->u + c * d;
     if (r[0] == 0.0 && r[1] == 0.0 && r[d - 1] == 0.0 && u[0] >= 0.0)
         return 0.0; /* it stays open */
-    rb_friction_contact *contact = wanted_contact(s, c);
+    const rb_friction_contact *contact = wanted_contact(s, c);
     const double *W = contact->W;
     double dr[3], q[3], change = 0.0;
     for (int a = 0; a < d; a++) {
@@ -144,8 +152,12 @@ static double sweep(sweeper *s)
 {
     const rb_friction_task *t = s->task;
     double change = 0.0;
-    for (int c = 0; c < t->contacts; c++)
-        change += relax(s, c);
+    if (t->d == 2)
+        for (int c = 0; c < t->contacts; c++)
+            change += relax(2, s, c);
+    else
+        for (int c = 0; c < t->contacts; c++)
+            change += relax(3, s, c);
     t->info->iters++;
     t->info->flops += 2.0 * t->d * t->d * s->touched + 80.0 * s->steps;
     s->touched = s->steps = 0.0;
@@ -168,9 +180,9 @@ static double look(sweeper *s, int refresh)
 {
     rb_friction_task *t = s->task;
     const double tol = t->opt.tol;
-    const double error = rb_friction_natural_norm(t->d, t->contacts, t->problem->mu,
-                                                  t->measure->rho, t->r, t->u) /
-                         t->measure->scale;
+    const double error =
+        rb_friction_natural_norm(t->problem, t->measure->rho, t->r, t->u, NULL) /
+        t->measure->scale;
     t->info->flops += 25.0 * t->m;
     const int clear = error > tol || (error <= 0.5 * tol && tol >= SAFE_TOLERANCE);
     if (!clear || refresh)
@@ -186,57 +198,62 @@ static double look(sweeper *s, int refresh)
 #define PATIENCE 100
 #define REST 100
 
-static void keep_state(sweeper *s, double change)
+static void keep_state(const sweeper *s, double change)
 {
     const size_t m = (size_t)s->task->m;
-    s->least = change;
-    s->since = s->k;
-    memcpy(s->kept, s->task->r, m * sizeof(double));
-    memcpy(s->kept + m, s->task->u, m * sizeof(double));
+    acceleration *a = s->faster;
+    a->least = change;
+    a->since = s->k;
+    memcpy(a->kept, s->task->r, m * sizeof(double));
+    memcpy(a->kept + m, s->task->u, m * sizeof(double));
 }
 
-static void rest_from_acceleration(sweeper *s)
+static void rest_from_acceleration(const sweeper *s)
 {
     const size_t m = (size_t)s->task->m;
-    memcpy(s->task->r, s->kept, m * sizeof(double));
-    memcpy(s->task->u, s->kept + m, m * sizeof(double));
-    rb_friction_anderson_forget(&s->anderson);
-    s->plain = s->rest;
-    s->rest *= 2;
-    s->fresh = 1;
+    acceleration *a = s->faster;
+    memcpy(s->task->r, a->kept, m * sizeof(double));
+    memcpy(s->task->u, a->kept + m, m * sizeof(double));
+    rb_friction_anderson_forget(&a->anderson);
+    a->plain = a->rest;
+    a->rest *= 2;
+    a->fresh = 1;
 }
 
 static rb_status start_acceleration(sweeper *s)
 {
     const size_t m = (size_t)s->task->m;
-    s->start = rb_alloc(m, 1);
-    s->kept = rb_alloc(m, 2);
-    s->rest = REST;
-    s->fresh = 1;
-    return s->start && s->kept ? rb_friction_anderson_init(s->task->m, &s->anderson)
-                               : RB_ENOMEM;
+    acceleration *a = s->faster = calloc(1, sizeof *a);
+    if (!a)
+        return RB_ENOMEM;
+    a->start = rb_alloc(m, 3);
+    a->kept = a->start + m;
+    a->rest = REST;
+    a->fresh = 1;
+    return a->start ? rb_friction_anderson_init(s->task->m, &a->anderson) : RB_ENOMEM;
 }
 
 /* The next sweep starts from where the last ones point to. */
 static rb_status accelerate(sweeper *s, double change)
 {
     rb_friction_task *t = s->task;
-    if (!s->start && start_acceleration(s) != RB_OK)
+    if (!s->faster && start_acceleration(s) != RB_OK)
         return RB_ENOMEM;
-    if (s->plain > 0 && --s->plain > 0)
+    acceleration *a = s->faster;
+    if (a->plain > 0 && --a->plain > 0)
         return RB_OK;
-    if (s->fresh || change < FALL * s->least)
+    if (a->fresh || change < FALL * a->least)
         keep_state(s, change);
-    else if (s->k - s->since >= PATIENCE) {
+    else if (s->k - a->since >= PATIENCE) {
         rest_from_acceleration(s);
         return RB_OK;
     }
-    if (!s->fresh) {
-        rb_friction_anderson_step(&s->anderson, s->start, t->r, t->u);
-        t->info->flops += (6.0 + 8.0 * s->anderson.used) * t->m;
+    if (!a->fresh) {
+        rb_friction_anderson_step(&a->anderson, a->start, t->r, t->u);
+        t->info->flops += (6.0 + 8.0 * a->anderson.used) * t->m;
     }
-    s->fresh = 0;
-    memcpy(s->start, t->r, (size_t)t->m * sizeof(double));
+    a->fresh = 0;
+    memcpy(a->start, t->r, (size_t)t->m * sizeof(double));
     return RB_OK;
 }
 

@@ -15,9 +15,15 @@ void rb_friction_project_derivative(int d, double mu, const double *z, double *D
 /* ||x_T|| of a contact's d entries */
 double rb_friction_tangential(int d, const double *x);
 /* F = (r - P_K(r - rho (u + mu ||u_T|| e_N))) / rho over all contacts; its 2-norm.  rho:
- * every second entry, as rb_friction_rho writes it; NULL: 1. */
-double rb_friction_natural_norm(int d, int contacts, const double *mu, const double *rho,
-                                const double *r, const double *u);
+ * every second entry, as rb_friction_rho writes it.  with_rho_1: the norm of F with
+ * rho = 1, written, or NULL. */
+double rb_friction_natural_norm(const rb_friction_problem *problem, const double *rho,
+                                const double *r, const double *u, double *with_rho_1);
+/* ||r_c / rho_c|| over all contacts, rho as before; work: m, written where squares could
+ * overflow or underflow. */
+double rb_friction_size(const rb_friction_problem *problem, const double *rho,
+                        const double *r, double *work);
+double rb_friction_dot(size_t n, const double *x, const double *y);
 double rb_friction_norm(size_t n, const double *x);
 
 /* ---- Units (rho.c) -- */
@@ -91,15 +97,16 @@ typedef struct {
     int regular;     /* the normal can be eliminated, what is left is positive definite */
     double normal, row[2], column[2]; /* 1/W_NN; W_NT and W_TN over W_NN */
     double S[4];                      /* W_TT - W_TN W_NT / W_NN */
-    double lambda;                    /* -u_T / r_T when it slid last */
 } rb_friction_contact;
 
 void rb_friction_contact_init(int d, double mu, const double *W,
                               rb_friction_contact *contact);
 /* All return the steps taken.  q: velocity without the contact's own force; rho: two, of
  * the functions below.  exact: 0, and r as it was, where the contact is closed and not
- * regular. newton and fixed_point start at r; rho of the fixed point adapts. */
-int rb_friction_contact_exact(rb_friction_contact *contact, const double *q, double *r);
+ * regular; lambda: -u_T / r_T when it slid last, or 0. newton and fixed_point start at r;
+ * rho of the fixed point adapts. */
+int rb_friction_contact_exact(const rb_friction_contact *contact, double *lambda,
+                              const double *q, double *r);
 int rb_friction_contact_newton(const rb_friction_contact *contact, const double *rho,
                                const double *q, double *r);
 int rb_friction_contact_fixed_point(const rb_friction_contact *contact, double *rho,
@@ -119,8 +126,11 @@ typedef struct {
     const rb_friction_problem *local;   /* its local form; NULL: not condensed */
     rb_friction_problem condensed;      /* local points here if W was not given */
     rb_friction_blocks blocks;          /* of local, made when first wanted */
+    rb_friction_contact *contact;       /* likewise; W NULL: that one is not made yet */
     rb_friction_measure measure;        /* of problem */
-    int stop;                           /* the caller has asked for it */
+    double
+        *memory; /* m + 2 n: of the record of a solve, and its v where no one wants it */
+    int stop;    /* the caller has asked for it */
 } rb_friction_shared;
 
 rb_status rb_friction_shared_init(const rb_friction_problem *problem,
@@ -141,7 +151,7 @@ typedef struct {
     const rb_friction_problem *problem; /* of shared, as the next one */
     rb_friction_measure *measure;
     rb_friction_record *best;
-    rb_friction_options opt;
+    rb_friction_options opt; /* r0 NULL: zero */
     rb_friction_info *info;
     int d, contacts, m, n; /* n: 0 for the local form */
     double deadline;       /* on rb_seconds(); 0: none */
@@ -163,6 +173,13 @@ rb_status rb_friction_task_condense(rb_friction_task *task);
 /* The blocks of the task's W; borrowed by all who work with them. */
 rb_status rb_friction_task_blocks(rb_friction_task *task,
                                   const rb_friction_blocks **blocks);
+/* Nothing is known yet.  The message is ended, not zeroed: it is longer than all else. */
+void rb_friction_info_clear(rb_friction_info *info, const char *solver);
+/* r and v as the options have them start. */
+void rb_friction_task_start(rb_friction_task *task);
+/* The contacts of those blocks, each alone, made when it is wanted: many never close. */
+rb_status rb_friction_task_contacts(rb_friction_task *task,
+                                    rb_friction_contact **contacts);
 /* The scaled measure at the task's r and v, which also brings u (and v) up to date, and
  * keeps them where they are the best; counts flops. */
 double rb_friction_task_error(rb_friction_task *task);
@@ -277,8 +294,8 @@ rb_status rb_friction_lapack_status(int info);
 
 /* ---- Methods -- */
 
-/* How a solver is run.  Either all at once, or in parts: start, then go_on until it no
- * longer pauses, then finish, which takes a state of zeros and one whose start failed. */
+/* How a solver is run.  Either all at once, or in parts: start, which writes the whole
+ * state, then go_on until it no longer pauses, then finish, also where start failed. */
 typedef struct rb_friction_method {
     rb_status (*run)(rb_friction_task *task, int variant); /* NULL: in parts */
     size_t size;                                           /* of the state */
@@ -317,6 +334,10 @@ extern const rb_friction_method rb_friction_sweeps, rb_friction_newton, rb_frict
  * and the operations of so many of its pivots. */
 rb_status rb_friction_lemke_pairs(rb_friction_task *task);
 double rb_friction_lemke_pairs_flops(const rb_friction_task *task, double pivots);
+
+/* The row of the list of solvers. */
+const rb_friction_solver *rb_friction_solver_of(const rb_friction_method *method,
+                                                int variant);
 
 /* Runs a method on the prepared task, all at once; `limit` iterations at most. */
 rb_status rb_friction_run(rb_friction_task *task, const rb_friction_method *method,

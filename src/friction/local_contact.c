@@ -89,10 +89,11 @@ static double normal_force(const rb_friction_contact *c, double qn, const double
 }
 
 /* lambda, the root of mu r_N / ||r_T|| - 1, which is nearly linear in lambda: Newton
- * within brackets, from the root of the last time.  t: at that root, written. */
-static int slide(rb_friction_contact *c, double qn, const double *b, double *t)
+ * within brackets, from the root of the last time.  root, and t there: written. */
+static int slide(const rb_friction_contact *c, double qn, const double *b, double *root,
+                 double *t)
 {
-    double low = 0.0, high = INFINITY, lambda = c->lambda;
+    double low = 0.0, high = INFINITY, lambda = *root;
     int k = 1;
     for (; k <= ROOT_STEPS; k++) {
         double dt[2];
@@ -116,11 +117,20 @@ static int slide(rb_friction_contact *c, double qn, const double *b, double *t)
             break;
     }
     tangential_force(c, lambda, b, t);
-    c->lambda = lambda;
+    *root = lambda;
     return k;
 }
 
-int rb_friction_contact_exact(rb_friction_contact *c, const double *q, double *r)
+/* In 2D the force keeps the side of the stuck one, t on entry, and ||t|| = mu r_N is
+ * linear in ||t||: positive at 0 and negative for the stuck force. */
+static void slide_in_plane(const rb_friction_contact *c, double qn, double *t)
+{
+    const double slope = t[0] < 0.0 ? -c->mu : c->mu;
+    t[0] = -slope * qn * c->normal / (1.0 + slope * c->row[0]);
+}
+
+int rb_friction_contact_exact(const rb_friction_contact *c, double *lambda,
+                              const double *q, double *r)
 {
     const int d = c->d;
     double t[2] = {0.0, 0.0};
@@ -137,12 +147,17 @@ int rb_friction_contact_exact(rb_friction_contact *c, const double *q, double *r
                              d == 3 ? q[2] - c->column[1] * q[0] : 0.0};
         tangential_force(c, 0.0, b, t);
         const double most = c->mu * normal_force(c, q[0], t);
-        if (!(most >= 0.0 && t[0] * t[0] + t[1] * t[1] <= most * most))
-            steps += slide(c, q[0], b, t);
+        if (!(most >= 0.0 && t[0] * t[0] + t[1] * t[1] <= most * most)) {
+            if (d == 2)
+                slide_in_plane(c, q[0], t);
+            else
+                steps += slide(c, q[0], b, lambda, t);
+        }
     }
     r[0] = normal_force(c, q[0], t);
-    for (int a = 1; a < d; a++)
-        r[a] = t[a - 1];
+    r[1] = t[0];
+    if (d == 3)
+        r[2] = t[1];
     return steps;
 }
 

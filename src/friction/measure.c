@@ -155,18 +155,21 @@ void rb_friction_measure_free(rb_friction_measure *measure)
     *measure = (rb_friction_measure){0};
 }
 
+/* Contacts that are open have no force, and cost nothing. */
 static void local_velocity(const rb_friction_problem *p, const double *r, double *u)
 {
-    const int m = p->dimension * p->contacts;
+    const int m = p->dimension * p->contacts, dense = p->form == RB_FRICTION_LOCAL_DENSE;
+    const rb_sparse *w = &p->Ws;
     for (int k = 0; k < m; k++)
         u[k] = p->q[k];
-    if (p->form == RB_FRICTION_LOCAL_SPARSE) {
-        rb_sparse_apply(1.0, &p->Ws, r, 1.0, u);
-        return;
-    }
-    for (int j = 0; j < m; j++)
-        for (int i = 0; i < m && r[j] != 0.0; i++)
+    for (int j = 0; j < m; j++) {
+        if (r[j] == 0.0)
+            continue;
+        for (int i = 0; dense && i < m; i++)
             u[i] += p->W[i + (size_t)j * (size_t)m] * r[j];
+        for (int k = dense ? 0 : w->p[j], end = dense ? 0 : w->p[j + 1]; k < end; k++)
+            u[w->i[k]] += w->x[k] * r[j];
+    }
 }
 
 /* v -= K_k^-1 (K v - H r - f); correction: ||H' (what was subtracted)||.  Where K is
@@ -211,8 +214,7 @@ rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *
                                     double *v, double *u, double *scaled, double *paper)
 {
     const rb_friction_problem *p = measure->problem;
-    const int d = p->dimension, nc = p->contacts;
-    double correction = 0.0;
+    double correction = 0.0, with_rho_1;
     rb_status s = RB_OK;
     *scaled = INFINITY;
     if (paper)
@@ -223,22 +225,17 @@ rb_status rb_friction_measure_error(rb_friction_measure *measure, const double *
         local_velocity(p, r, u);
     if (s != RB_OK)
         return s;
-    *scaled = relative(
-        measure, correction + rb_friction_natural_norm(d, nc, p->mu, measure->rho, r, u));
+    const double norm =
+        rb_friction_natural_norm(p, measure->rho, r, u, paper ? &with_rho_1 : NULL);
+    *scaled = relative(measure, correction + norm);
     if (paper)
-        *paper = relative(
-            measure, correction + rb_friction_natural_norm(d, nc, p->mu, NULL, r, u));
+        *paper = relative(measure, correction + with_rho_1);
     return RB_OK;
 }
 
 double rb_friction_measure_resolution(const rb_friction_measure *measure, const double *r)
 {
-    const rb_friction_problem *p = measure->problem;
-    const int d = p->dimension;
-    for (int c = 0; c < p->contacts; c++)
-        for (int a = 0; a < d; a++)
-            measure->y[c * d + a] = r[c * d + a] / measure->rho[2 * c];
-    return DBL_EPSILON * rb_friction_norm((size_t)(d * p->contacts), measure->y) /
+    return DBL_EPSILON * rb_friction_size(measure->problem, measure->rho, r, measure->y) /
            measure->scale;
 }
 
@@ -257,7 +254,7 @@ double rb_friction_measure_floor(const rb_friction_measure *measure, const doubl
             for (int i = 0; i < m; i++)
                 y[i] += fabs(p->W[i + (size_t)j * (size_t)m] * r[j]);
     for (int j = 0; p->form == RB_FRICTION_LOCAL_SPARSE && j < m; j++)
-        for (int k = p->Ws.p[j]; k < p->Ws.p[j + 1]; k++)
+        for (int k = p->Ws.p[j]; r[j] != 0.0 && k < p->Ws.p[j + 1]; k++)
             y[p->Ws.i[k]] += fabs(p->Ws.x[k] * r[j]);
     for (int j = 0; p->form == RB_FRICTION_GLOBAL && j < m; j++)
         for (int k = p->H.p[j]; k < p->H.p[j + 1]; k++)

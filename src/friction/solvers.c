@@ -67,6 +67,15 @@ const rb_friction_solver *rb_friction_solver_named(const char *name)
     return NULL;
 }
 
+const rb_friction_solver *rb_friction_solver_of(const rb_friction_method *method,
+                                                int variant)
+{
+    const rb_friction_solver *row = solvers;
+    while (row->run != method || row->variant != variant)
+        row++;
+    return row;
+}
+
 const char *rb_friction_status_text(rb_status s, double tol, const rb_friction_info *info)
 {
     if (s == RB_OK && info && info->scaled > tol)
@@ -77,28 +86,47 @@ const char *rb_friction_status_text(rb_status s, double tol, const rb_friction_i
 /* ---- One call -------------------------------------------------------------------------
  */
 
-static rb_status check_call(const char *name, const rb_friction_problem *p,
-                            const rb_friction_options *opt,
-                            const rb_friction_solver **chosen, rb_message *why)
+/* What was asked, and when. */
+typedef struct {
+    const rb_friction_solver *solver;
+    rb_friction_options opt;
+    double *r, *u, *v;
+    rb_friction_info *info, unwanted;
+    int timed; /* there is a limit, or somebody wants to know: else the clock would take
+                  a sixth of a call that has six contacts */
+    double start; /* on rb_seconds() */
+} call;
+
+/* info may be NULL; c->r, c->u and c->v are the caller's to set. */
+static rb_status begin_call(call *c, const char *name, const rb_friction_problem *p,
+                            const rb_friction_options *given, rb_friction_info *info)
 {
-    *chosen = rb_friction_solver_named(name);
-    if (!*chosen)
+    c->opt = given ? *given : rb_friction_defaults();
+    c->timed = info || c->opt.seconds > 0.0;
+    c->start = c->timed ? rb_seconds() : 0.0;
+    c->info = info ? info : &c->unwanted;
+    name = name ? name : "auto";
+    rb_friction_info_clear(c->info, name);
+    const rb_friction_options *opt = &c->opt;
+    rb_message *why = &c->info->msg;
+    c->solver = rb_friction_solver_named(name);
+    if (!c->solver)
         return rb_fail(why, RB_EINVAL, "no friction solver named '%s'", name);
     if (!(opt->tol > 0.0) || opt->max_iters < 0 || !(opt->seconds >= 0.0))
         return rb_fail(why, RB_EINVAL, "tol = %g, max_iters = %d, seconds = %g", opt->tol,
                        opt->max_iters, opt->seconds);
-    if (((*chosen)->needs & FLAT) && p->dimension != 2)
+    if ((c->solver->needs & FLAT) && p->dimension != 2)
         return rb_fail(why, RB_EINVAL, "%s solves problems in 2D only", name);
     return RB_OK;
 }
 
-static void load_start(rb_friction_task *task)
+/* A start at zero is no guess that might be the solution already. */
+static int is_zero(int n, const double *x)
 {
-    const rb_friction_options *opt = &task->opt;
-    for (int k = 0; k < task->m; k++)
-        task->r[k] = opt->r0 ? opt->r0[k] : 0.0;
-    for (int i = 0; i < task->n; i++)
-        task->v[i] = opt->v0 ? opt->v0[i] : 0.0;
+    int any = 0;
+    for (int k = 0; k < n; k++)
+        any |= x[k] != 0.0;
+    return !any;
 }
 
 /* What the method ends with is proved; where that is no solution, the best iterate is
@@ -110,7 +138,9 @@ static rb_status run_and_prove(rb_friction_task *task, const rb_friction_solver 
         s = rb_friction_task_condense(task);
     if (s != RB_OK)
         return s;
-    load_start(task);
+    if (task->opt.r0 && is_zero(task->m, task->opt.r0))
+        task->opt.r0 = NULL;
+    rb_friction_task_start(task);
     s = rb_friction_run(task, solver->run, solver->variant, 0);
     if (s < 0 || task->proved) /* the portfolio proves what its members end with */
         return s;
@@ -140,63 +170,51 @@ static void release(rb_friction_handle *handle)
     free(handle->last);
 }
 
-/* start: when the call began. */
-static rb_status solve(rb_friction_shared *shared, const rb_friction_solver *solver,
-                       const rb_friction_options *opt, double start, double *r, double *u,
-                       double *v, rb_friction_info *info)
+static rb_status solve(rb_friction_shared *shared, const call *c)
 {
     const rb_friction_problem *problem = shared->problem;
     const int m = problem->dimension * problem->contacts;
     const int n = problem->form == RB_FRICTION_GLOBAL ? problem->dofs : 0;
-    double *memory = malloc((size_t)(m + 2 * n) * sizeof *memory);
-    rb_friction_record best = {.r = memory, .error = INFINITY};
+    rb_friction_record best = {.r = shared->memory, .error = INFINITY};
     rb_friction_task task = {.shared = shared,
                              .problem = problem,
                              .measure = &shared->measure,
                              .best = &best,
-                             .opt = *opt,
-                             .info = info,
+                             .opt = c->opt,
+                             .info = c->info,
                              .d = problem->dimension,
                              .contacts = problem->contacts,
                              .m = m,
                              .n = n,
-                             .deadline = opt->seconds > 0.0 ? start + opt->seconds : 0.0,
+                             .deadline =
+                                 c->opt.seconds > 0.0 ? c->start + c->opt.seconds : 0.0,
                              .budget = INFINITY,
-                             .r = r,
-                             .u = u,
-                             .v = v ? v : memory + m + n};
-    info->solver = solver->name;
+                             .r = c->r,
+                             .u = c->u,
+                             .v = c->v ? c->v : shared->memory + m + n};
+    c->info->solver = c->solver->name;
     shared->stop = 0;
-    const rb_status s = memory ? run_and_prove(&task, solver) : RB_ENOMEM;
-    free(memory);
-    info->seconds = rb_seconds() - start;
+    const rb_status s = run_and_prove(&task, c->solver);
+    if (c->timed)
+        c->info->seconds = rb_seconds() - c->start;
     return s;
-}
-
-static void clear(rb_friction_info *info, const char *solver)
-{
-    *info =
-        (rb_friction_info){.solver = solver, .residual = INFINITY, .scaled = INFINITY};
 }
 
 rb_status rb_friction_solve(const char *name, const rb_friction_problem *problem,
                             const rb_friction_options *opt, double *r, double *u,
                             double *v, rb_friction_info *info)
 {
-    const double start = rb_seconds();
-    const rb_friction_options used = opt ? *opt : rb_friction_defaults();
-    const rb_friction_solver *solver;
-    rb_friction_info unwanted;
     rb_friction_handle handle;
-    info = info ? info : &unwanted;
-    name = name ? name : "auto";
-    clear(info, name);
-    rb_status s = check_call(name, problem, &used, &solver, &info->msg);
+    call c;
+    rb_status s = begin_call(&c, name, problem, opt, info);
     if (s != RB_OK)
         return s;
-    s = setup(problem, &handle, &info->msg);
+    c.r = r;
+    c.u = u;
+    c.v = v;
+    s = setup(problem, &handle, &c.info->msg);
     if (s == RB_OK)
-        s = solve(&handle.shared, solver, &used, start, r, u, v, info);
+        s = solve(&handle.shared, &c);
     release(&handle);
     return s;
 }
@@ -224,40 +242,40 @@ rb_status rb_friction_update(rb_friction_handle *handle, rb_message *why)
     return s == RB_OK ? rb_friction_shared_reload(&handle->shared) : s;
 }
 
+/* The last solution is where the next call starts, unless that says otherwise. */
+static void keep_solution(rb_friction_handle *handle, const double *r, const double *v,
+                          size_t m, size_t n)
+{
+    if (!handle->last)
+        handle->last = rb_alloc(m + n, 1);
+    if (!handle->last)
+        return;
+    memcpy(handle->last, r, m * sizeof *r);
+    if (n)
+        memcpy(handle->last + m, v, n * sizeof *v);
+}
+
 rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *name,
                                    const rb_friction_options *opt, double *r, double *u,
                                    double *v, rb_friction_info *info)
 {
-    const double start = rb_seconds();
     const rb_friction_problem *p = handle->shared.problem;
     const size_t m = (size_t)(p->dimension * p->contacts);
     const size_t n = p->form == RB_FRICTION_GLOBAL ? (size_t)p->dofs : 0;
-    rb_friction_options used = opt ? *opt : rb_friction_defaults();
-    const rb_friction_solver *solver;
-    rb_friction_info unwanted;
-    info = info ? info : &unwanted;
-    name = name ? name : "auto";
-    clear(info, name);
-    rb_status s = check_call(name, p, &used, &solver, &info->msg);
+    call c;
+    rb_status s = begin_call(&c, name, p, opt, info);
     if (s != RB_OK)
         return s;
-    if (!used.r0 && handle->last) {
-        used.r0 = handle->last;
-        used.v0 = handle->last + m;
+    if (!c.opt.r0 && handle->last) {
+        c.opt.r0 = handle->last;
+        c.opt.v0 = handle->last + m;
     }
-    double *own = v || !n ? NULL : rb_alloc(n, 1);
-    double *at = v ? v : own;
-    if (n && !at)
-        return RB_ENOMEM;
-    s = solve(&handle->shared, solver, &used, start, r, u, at, info);
-    if (s == RB_OK && !handle->last)
-        handle->last = rb_alloc(m + n, 1);
-    if (s == RB_OK && handle->last) {
-        memcpy(handle->last, r, m * sizeof *r);
-        if (n)
-            memcpy(handle->last + m, at, n * sizeof *at);
-    }
-    free(own);
+    c.r = r;
+    c.u = u;
+    c.v = v ? v : handle->shared.memory + m + n;
+    s = solve(&handle->shared, &c);
+    if (s == RB_OK)
+        keep_solution(handle, r, c.v, m, n);
     return s;
 }
 

@@ -14,6 +14,11 @@ rb_status rb_friction_shared_init(const rb_friction_problem *problem,
     *shared = (rb_friction_shared){.problem = problem};
     if (problem->form != RB_FRICTION_GLOBAL)
         shared->local = problem;
+    const size_t m = (size_t)(problem->dimension * problem->contacts);
+    const size_t n = problem->form == RB_FRICTION_GLOBAL ? (size_t)problem->dofs : 0;
+    shared->memory = malloc((m + 2 * n) * sizeof(double));
+    if (!shared->memory)
+        return RB_ENOMEM;
     const rb_status s = rb_friction_measure_init(problem, &shared->measure);
     if (s == RB_SINGULAR)
         return rb_fail(why, s,
@@ -26,6 +31,8 @@ rb_status rb_friction_shared_reload(rb_friction_shared *shared)
 {
     const rb_friction_problem *p = shared->problem;
     rb_status s = rb_friction_measure_reload(&shared->measure);
+    for (int c = 0; shared->contact && c < p->contacts; c++)
+        shared->contact[c].mu = p->mu[c];
     if (s != RB_OK || shared->local != &shared->condensed)
         return s;
     for (int c = 0; c < p->contacts; c++)
@@ -37,6 +44,8 @@ void rb_friction_shared_free(rb_friction_shared *shared)
 {
     rb_friction_measure_free(&shared->measure);
     rb_friction_blocks_free(&shared->blocks);
+    free(shared->contact);
+    free(shared->memory);
     rb_friction_problem_free(&shared->condensed);
     *shared = (rb_friction_shared){0};
 }
@@ -60,6 +69,34 @@ rb_status rb_friction_task_blocks(rb_friction_task *task,
     *blocks = &shared->blocks;
     return shared->blocks.x ? RB_OK
                             : rb_friction_blocks_init(shared->local, &shared->blocks);
+}
+
+rb_status rb_friction_task_contacts(rb_friction_task *task,
+                                    rb_friction_contact **contacts)
+{
+    rb_friction_shared *shared = task->shared;
+    if (!shared->contact)
+        shared->contact = calloc((size_t)task->contacts, sizeof *shared->contact);
+    *contacts = shared->contact;
+    return *contacts ? RB_OK : RB_ENOMEM;
+}
+
+void rb_friction_info_clear(rb_friction_info *info, const char *solver)
+{
+    info->solver = solver;
+    info->iters = 0;
+    info->residual = info->scaled = INFINITY;
+    info->floor = info->flops = info->seconds = 0.0;
+    info->msg.text[0] = '\0';
+}
+
+void rb_friction_task_start(rb_friction_task *task)
+{
+    const rb_friction_options *opt = &task->opt;
+    for (int k = 0; k < task->m; k++)
+        task->r[k] = opt->r0 ? opt->r0[k] : 0.0;
+    for (int i = 0; i < task->n; i++)
+        task->v[i] = opt->v0 ? opt->v0[i] : 0.0;
 }
 
 /* ---- The measure ----------------------------------------------------------------------
@@ -173,7 +210,7 @@ rb_status rb_friction_run(rb_friction_task *task, const rb_friction_method *meth
 {
     if (method->run)
         return method->run(task, variant);
-    void *state = calloc(1, method->size);
+    void *state = malloc(method->size);
     if (!state)
         return RB_ENOMEM;
     const int given = task->opt.max_iters;
