@@ -477,7 +477,7 @@ static void bad_bodies_are_refused(void **state)
         {-1, 1, 1, 0, RB_BEM_HALFPLANE, RB_STEADY, "times > 0"},
         {1, -1, 1, 0, RB_BEM_HALFPLANE, RB_STEADY, "ratios >= 0"},
         {1, 1, 0, 0, RB_BEM_HALFPLANE, RB_STEADY, "speed"},
-        {1, 1, 1, 0, RB_BEM_HUB, RB_STEADY, "halfplane"},
+        {1, 1, 1, 0, RB_BEM_ARC, RB_STEADY, "halfplane"},
         {1, 1, 0, 0, RB_BEM_HALFPLANE, RB_TRANSIENT, "speed"},
         {1, 1, 1, -1, RB_BEM_HALFPLANE, RB_STEADY, "thickness"},
         {1, 1, 1, 2, RB_BEM_ARC, RB_STEADY, "halfplane"},

@@ -243,6 +243,34 @@ rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n,
                                       const double *ends, int points, const double *x,
                                       double *W);
 
+/* A body with memory whose load is linear in time over a step, or whose past is linear
+ * over a length (V6): what is remembered after it is kept * (what was before it) + before
+ * * (load before) + after * (load after). */
+typedef struct {
+    double kept, before, after;
+} rb_bem_fading;
+/* time: of the memory; step > 0, in the same unit. */
+rb_bem_fading rb_bem_fading_over(double time, double step);
+
+/* A wheel with fading memory in steady rolling towards +x, which is alike at every angle:
+ * a ring of one material, or a cover on a core that is rigid or a ring on a rigid hub.
+ * Borrowed as in rb_bem_surface. */
+typedef struct {
+    double radius, inner;     /* of the material that remembers, bonded at `inner` */
+    rb_bem_material material; /* the glassy one */
+    int terms;
+    const double *ratio, *length;
+    double hub; /* radius of the rigid hub below an elastic core; 0: rigid at `inner` */
+    rb_bem_material core;
+} rb_bem_wheel;
+
+/* Adds to the flexibility of the glassy wheel, condensed with these normals, what its
+ * memory makes of it (V8).  ends: of the contact elements, as in rb_bem_mesh_cylinder.
+ * f becomes a dense matrix.  RB_EINVAL: radii, materials, terms; RB_ENOMEM. */
+rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normals normals,
+                                        const double *ends, rb_bem_flexibility *f,
+                                        rb_message *why);
+
 /* Two bodies in contact (4.5): F_A + F_B, B computed as the mirror image (an upper body),
  * so that its coupling blocks enter with the opposite sign.  Takes over a and b (both are
  * left empty), also on failure.  RB_EINVAL: their points differ. */

@@ -48,6 +48,21 @@ static double sign_average(double y, double L)
     return y >= 0.0 ? 0.0 : 2.0 * L * expm1(y / L);
 }
 
+rb_bem_fading rb_bem_fading_over(double time, double step)
+{
+    const double r = step / time;
+    rb_bem_fading f = {.kept = exp(-r)};
+
+    if (r < 1e-2) { /* the closed forms would lose digits */
+        f.before = r * (1.0 / 2.0 - r * (1.0 / 3.0 - r * (1.0 / 8.0 - r / 30.0)));
+        f.after = r * (1.0 / 2.0 - r * (1.0 / 6.0 - r * (1.0 / 24.0 - r / 120.0)));
+    } else {
+        f.before = -expm1(-r) / r - f.kept;
+        f.after = 1.0 + expm1(-r) / r;
+    }
+    return f;
+}
+
 void rb_bem_memory_integrals(const rb_bem_surface *body, double x, double b, double *log,
                              double *sign)
 {

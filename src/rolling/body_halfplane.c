@@ -10,12 +10,18 @@ static double depth_of_datum(const rb_rolling_case *rc, const rb_rolling_body *b
     return body->datum > 0.0 ? body->datum : 2.0 * radius / M_E;
 }
 
+void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body *body,
+                               double length[RB_ROLLING_TERMS])
+{
+    for (int k = 0; k < body->memory.n; k++)
+        length[k] = rc->speed * body->memory.time[k];
+}
+
 rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
                                             const rb_rolling_body *body,
                                             double length[RB_ROLLING_TERMS])
 {
-    for (int k = 0; k < body->memory.n; k++)
-        length[k] = rc->speed * body->memory.time[k];
+    rb_rolling_memory_lengths(rc, body, length);
     const int elastic_base = body->layer > 0.0 && body->base_young > 0.0;
     return (rb_bem_surface){
         .material = rb_bem_material_from_young(body->young, body->poisson),
@@ -165,5 +171,6 @@ static const rb_rolling_parameter relaxation_parameters[] = {{.option = NULL}};
 const rb_rolling_body_kind rb_rolling_relaxation = {.name = "relaxation",
                                                     .support = RB_BEM_HALFPLANE,
                                                     .holds = has_memory,
-                                                    .can = HALFPLANE | RB_BODY_BOUNDARY,
+                                                    .can = RB_BODY_FLAT | RB_BODY_TURNS |
+                                                           RB_BODY_BOUNDARY,
                                                     .parameters = relaxation_parameters};

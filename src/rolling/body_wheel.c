@@ -39,6 +39,30 @@ static rb_status wheel_system(const rb_rolling_body *body,
     return s;
 }
 
+/* What memory adds to the glassy wheel in steady rolling, which is all that asks for the
+ * flexibility of a body with memory. */
+static rb_status add_memory(const rb_rolling_case *rc, const rb_rolling_body *body,
+                            const rb_rolling_mesh *mesh, rb_bem_flexibility *f,
+                            rb_message *why)
+{
+    double length[RB_ROLLING_TERMS];
+    const double hub = body->hub_ratio * body->radius;
+    rb_bem_wheel wheel = {.radius = body->radius,
+                          .inner = body->cover > 0.0 ? body->radius - body->cover : hub,
+                          .material =
+                              rb_bem_material_from_young(body->young, body->poisson),
+                          .terms = body->memory.n,
+                          .ratio = body->memory.ratio,
+                          .length = length};
+
+    rb_rolling_memory_lengths(rc, body, length);
+    if (body->cover > 0.0 && body->core_young > 0.0) {
+        wheel.hub = hub;
+        wheel.core = rb_bem_material_from_young(body->core_young, body->core_poisson);
+    }
+    return rb_bem_flexibility_add_memory(&wheel, rc->normals, mesh->ends, f, why);
+}
+
 static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_body *body,
                                    const rb_rolling_mesh *mesh,
                                    rb_rolling_body_flexibility *made, rb_message *why)
@@ -58,6 +82,8 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_b
         const double start = rb_seconds();
         s = (wants_exact_field(rc, body) ? rb_bem_condense_subtracted : rb_bem_condense)(
             made->system, rc->normals, &made->f, why);
+        if (s == RB_OK && body->memory.n > 0)
+            s = add_memory(rc, body, mesh, &made->f, why);
         made->seconds_condense = rb_seconds() - start;
     }
     return s;

@@ -154,8 +154,9 @@ static int is_positive(double x)
     return isfinite(x) && x > 0.0;
 }
 
-/* Steady rolling averages over what a particle has passed, along a line.  Step by step a
- * body has one compliance, so that nothing may be under it that does not relax. */
+/* Steady rolling averages over what a particle has passed, which must be alike everywhere
+ * for that.  Step by step a body has one compliance, so that nothing may be under it that
+ * does not relax. */
 static rb_status check_relaxing_body(const rb_rolling_case *rc,
                                      const rb_rolling_body *body, rb_message *why)
 {
@@ -163,11 +164,14 @@ static rb_status check_relaxing_body(const rb_rolling_case *rc,
 
     if (body->memory.n == 0)
         return RB_OK;
-    if ((rc->formulation == RB_STEADY && !rb_rolling_body_can(body, RB_BODY_FLAT)) ||
-        (rc->formulation == RB_TRANSIENT && !rb_rolling_can(rc, RB_BODY_FLAT)))
+    if (rc->formulation == RB_STEADY && !rb_rolling_body_can(body, RB_BODY_TURNS))
         return rb_fail(why, RB_EINVAL,
-                       "relaxation: of what rolls for the support halfplane only, got a "
-                       "wheel");
+                       "relaxation: a clamped arc does not turn, and steady rolling asks "
+                       "what a whole turn leaves; expected --support hub or halfplane");
+    if (rc->formulation == RB_TRANSIENT && !rb_rolling_can(rc, RB_BODY_FLAT))
+        return rb_fail(why, RB_EINVAL,
+                       "relaxation: in transient rolling for the support halfplane only, "
+                       "got a wheel; --formulation steady takes wheels");
     if (steps && ((body->layer > 0.0 && body->base_young > 0.0) ||
                   (body->cover > 0.0 && body->core_young > 0.0)))
         return rb_fail(why, RB_EINVAL,

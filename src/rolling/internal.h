@@ -42,6 +42,9 @@ extern const rb_rolling_body_kind rb_rolling_halfplane, rb_rolling_layer,
 rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
                                             const rb_rolling_body *body,
                                             double length[RB_ROLLING_TERMS]);
+/* L = V tau of each term. */
+void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body *body,
+                               double length[RB_ROLLING_TERMS]);
 /* E >= 0, 0 where it is rigid, and nu of what is below a layer or cover. */
 rb_status rb_rolling_check_base(const char *what, double young, double poisson,
                                 const char *which, rb_message *why);

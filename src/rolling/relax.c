@@ -11,27 +11,6 @@
 /* ---- One term over one step (V6) ------------------------------------------------------
  */
 
-/* The filtered traction of a particle after a step in which its traction was linear in
- * time: kept * filtered + before * (traction before) + after * (traction after). */
-typedef struct {
-    double kept, before, after;
-} filter;
-
-static filter filter_of(double time, double step)
-{
-    const double r = step / time;
-    filter f = {.kept = exp(-r)};
-
-    if (r < 1e-2) { /* the closed forms would lose digits */
-        f.before = r * (1.0 / 2.0 - r * (1.0 / 3.0 - r * (1.0 / 8.0 - r / 30.0)));
-        f.after = r * (1.0 / 2.0 - r * (1.0 / 6.0 - r * (1.0 / 24.0 - r / 120.0)));
-    } else {
-        f.before = -expm1(-r) / r - f.kept;
-        f.after = 1.0 + expm1(-r) / r;
-    }
-    return f;
-}
-
 /* The dashpot of a term loses in a step (1/tau) int e F e dt, where e, the traction less
  * the filtered one, is e_0 exp(-t/tau) + d b(t) for a change d of the traction: factors
  * of e_0 F e_0, 2 e_0 F d and d F d (V7). */
@@ -56,7 +35,7 @@ static double softening(const rb_rolling_memory *memory, double step)
 
     for (int k = 0; k < memory->n; k++)
         sum += memory->ratio[k] *
-               (isinf(step) ? 1.0 : filter_of(memory->time[k], step).after);
+               (isinf(step) ? 1.0 : rb_bem_fading_over(memory->time[k], step).after);
     return sum;
 }
 
@@ -193,7 +172,7 @@ void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int 
         turn(body, all, r->traction, own);
         memset(sum, 0, 2 * (size_t)all * sizeof *sum);
         for (int k = 0; k < body->memory->n; k++) {
-            const filter f = filter_of(body->memory->time[k], step);
+            const rb_bem_fading f = rb_bem_fading_over(body->memory->time[k], step);
             double *past = body->past + 2 * (size_t)k * (size_t)all;
             if (rolls)
                 move(all, past);
@@ -228,7 +207,7 @@ static double advance(const rb_rolling_memory_track *r, const rb_rolling_relaxin
 
     for (int k = 0; k < body->memory->n && step > 0.0; k++) {
         const double time = body->memory->time[k], ratio = body->memory->ratio[k];
-        const filter f = filter_of(time, step);
+        const rb_bem_fading f = rb_bem_fading_over(time, step);
         double *past = body->past + (size_t)k * size;
         for (size_t i = 0; i < size; i++) {
             e[i] = before[i] - past[i];

@@ -1,0 +1,453 @@
+/* Wheels and covers with memory that roll steadily (V8): the kernel against the sum of
+ * its waves, and the roll against half-planes, layers and elastic wheels. */
+#include "check.h"
+#include "rollbem/rolling.h"
+#include "solved.h"
+
+#include <complex.h>
+#include <gsl/gsl_math.h>
+#include <lapacke.h>
+#include <string.h>
+
+typedef double complex cplx;
+
+/* ---- The kernel -----------------------------------------------------------------------
+ * Michell's functions of a ring, r^(m+1), r^(m-1), r^(1-m), r^(-1-m), which the library
+ * does not use: displacements u_r = u cos, u_t = v sin over 1/(2 G), stresses s, t. */
+
+static void michell(int m, double nu, double r, double scale, cplx column[4][4])
+{
+    const double ka = 3.0 - 4.0 * nu, x = r / scale;
+    const double power[4] = {pow(x, m + 1), pow(x, m - 1), pow(x, 1 - m), pow(x, -m - 1)};
+    const double value[4][4] = {
+        {ka - m - 1, ka + m + 1, (m + 1.0) * (2 - m), (m + 1.0) * m},
+        {-1, 1, 1 - m, m - 1},
+        {ka + m - 1, m - 1 - ka, (1.0 - m) * (2 + m), m * (1.0 - m)},
+        {-1, -1, m + 1, m + 1}};
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 4; i++)
+            column[k][i] = power[k] * value[k][i] / (i < 2 ? 1.0 : x);
+    if (m == 1) { /* the third is a translation like the second: the force's own field */
+        const double third[4] = {2 * ka * log(x) - 1, -2 * ka * log(x) - 1, (3 + ka) / x,
+                                 (1 - ka) / x};
+        for (int i = 0; i < 4; i++)
+            column[2][i] = third[i];
+    }
+    if (m == 0) { /* stretch and turn */
+        const double zero[4][4] = {{(ka - 1) * x, 0, 2, 0},
+                                   {0, x, 0, 0},
+                                   {-1 / x, 0, 1 / (x * x), 0},
+                                   {0, 1 / x, 0, -1 / (x * x)}};
+        for (int k = 0; k < 4; k++)
+            for (int i = 0; i < 4; i++)
+                column[k][i] = zero[k][i];
+    }
+}
+
+/* Compliance C (uu, vu, uv, vv) [length/stress] of a ring on what has the compliance
+ * `below`. */
+static void ring(int m, cplx shear, double nu, double inner, double outer,
+                 const cplx below[4], cplx C[4])
+{
+    cplx in[4][4], out[4][4], A[16], b[8] = {0};
+    int pivot[4];
+    michell(m, nu, inner, outer, in);
+    michell(m, nu, outer, outer, out);
+    for (int k = 0; k < 4; k++) {
+        for (int i = 0; i < 2; i++) {
+            const cplx stress = below[i] * in[k][2] + below[2 + i] * in[k][3];
+            A[i + 4 * k] = in[k][i] * outer / (2.0 * shear) - stress;
+            A[2 + i + 4 * k] = out[k][2 + i];
+        }
+    }
+    b[2] = b[7] = 1.0;
+    for (int i = 0; i < 4; i++) { /* rows of one size */
+        double largest = 0.0;
+        for (int k = 0; k < 4; k++)
+            largest = fmax(largest, cabs(A[i + 4 * k]));
+        for (int k = 0; k < 4; k++)
+            A[i + 4 * k] /= largest;
+        for (int k = 0; k < 2; k++)
+            b[i + 4 * k] /= largest;
+    }
+    assert_int_equal(LAPACKE_zgesv(LAPACK_COL_MAJOR, 4, 2, (lapack_complex_double *)A, 4,
+                                   pivot, (lapack_complex_double *)b, 4),
+                     0);
+    for (int j = 0; j < 2; j++)
+        for (int i = 0; i < 2; i++) {
+            C[i + 2 * j] = 0.0;
+            for (int k = 0; k < 4; k++)
+                C[i + 2 * j] += out[k][i] * b[k + 4 * j] * outer / (2.0 * shear);
+        }
+}
+
+static void wheel_answers(const rb_bem_wheel *w, int m, cplx softer, cplx C[4])
+{
+    cplx rigid[4] = {0}, core[4] = {0};
+    if (w->hub > 0.0)
+        ring(m, w->core.shear, w->core.poisson, w->hub, w->inner, rigid, core);
+    ring(m, w->material.shear / softer, w->material.poisson, w->inner, w->radius, core,
+         C);
+}
+
+/* What memory adds at an angle under a load of half-angle b: (NN, TN, NT, TT), by the sum
+ * of as many waves as the load has any of. */
+static void sum_of_waves(const rb_bem_wheel *w, double angle, double b, double F[4])
+{
+    enum { SMOOTH = 60 };
+    const int last = (int)(3e3 / b);
+    const double ka = 3.0 - 4.0 * w->material.poisson;
+    memset(F, 0, 4 * sizeof *F);
+    for (int m = 0; m <= last; m++) {
+        cplx softer = 1.0, slow[4], own[4];
+        for (int k = 0; k < w->terms; k++)
+            softer += w->ratio[k] / (1.0 - I * (m * w->length[k] / w->radius));
+        if (m <= SMOOTH) {
+            wheel_answers(w, m, softer, slow);
+            wheel_answers(w, m, 1.0, own);
+            for (int k = 0; k < 4; k++)
+                slow[k] -= own[k];
+        } else { /* the inner contour is out of reach: the disc */
+            const cplx c = (softer - 1.0) * w->radius / (2.0 * w->material.shear);
+            const double out = 0.5 * ka / (m + 1), in = 0.5 / (m - 1);
+            slow[0] = slow[3] = c * (out + in);
+            slow[1] = slow[2] = c * (out - in);
+        }
+        const cplx wave = (m ? 2.0 * sin(m * b) / m : b) / M_PI * cexp(I * (m * angle));
+        F[0] += creal(slow[0] * wave);
+        F[1] -= cimag(slow[1] * wave);
+        F[2] += cimag(slow[2] * wave);
+        F[3] += creal(slow[3] * wave);
+    }
+}
+
+/* Homogeneous, covers on a rigid and on an elastic core; memory short and long against
+ * the circumference. */
+static void the_kernel_is_the_sum_of_its_waves(void **state)
+{
+    (void)state;
+    enum { N = 5, M = N + 1 };
+    static const double ratio[2] = {0.7, 2.0};
+    static const double lengths[4][2] = {
+        {0.05, 0.3}, {1.0, 20.0}, {80.0, 1000.0}, {1e-4, 1e6}};
+    for (int kind = 0; kind < 3; kind++)
+        for (int l = 0; l < 4; l++) {
+            const rb_bem_wheel w = {.radius = 10.0,
+                                    .inner = kind ? 8.0 : 5.0,
+                                    .material = {3.0, kind == 1 ? 0.5 : 0.3},
+                                    .terms = 2,
+                                    .ratio = ratio,
+                                    .length = lengths[l],
+                                    .hub = kind == 2 ? 4.0 : 0.0,
+                                    .core = {5.0, 0.25}};
+            double ends[N + 2], before[4 * M * N], after[4 * M * N], worst = 0.0;
+            rb_bem_flexibility f;
+            const rb_bem_surface any = rb_bem_halfplane(w.material, 1.0);
+            for (int i = 0; i < N + 2; i++)
+                ends[i] = w.radius * sin(0.05 * i * (1.0 + 0.1 * i) - 0.2);
+            CHECK_STATUS(rb_bem_flexibility_surface(N, ends, &any, &f, NULL), RB_OK);
+            CHECK_STATUS(rb_bem_flexibility_matrix(&f, before, 2 * M), RB_OK);
+            CHECK_STATUS(
+                rb_bem_flexibility_add_memory(&w, RB_BEM_NORMALS_SURFACE, ends, &f, NULL),
+                RB_OK);
+            CHECK_STATUS(rb_bem_flexibility_matrix(&f, after, 2 * M), RB_OK);
+            for (int j = 0; j < N; j += 2)
+                for (int i = 0; i < M; i++) {
+                    const double from = asin(ends[j] / w.radius),
+                                 to = asin(ends[j + 1] / w.radius),
+                                 at = 0.5 * (asin(ends[i] / w.radius) +
+                                             asin(ends[i + 1] / w.radius));
+                    double want[4];
+                    const int place[4] = {i + j * 2 * M, i + M + j * 2 * M,
+                                          i + (j + N) * 2 * M, i + M + (j + N) * 2 * M};
+                    sum_of_waves(&w, at - 0.5 * (from + to), 0.5 * (to - from), want);
+                    for (int k = 0; k < 4; k++)
+                        worst = fmax(worst,
+                                     fabs(after[place[k]] - before[place[k]] - want[k]) *
+                                         w.material.shear / (to - from) / w.radius);
+                }
+            CHECK_MAX(worst, 3e-6, "kind %d, lengths %g and %g", kind, lengths[l][0],
+                      lengths[l][1]);
+            rb_bem_flexibility_free(&f);
+        }
+}
+
+static void bad_wheels_are_refused(void **state)
+{
+    (void)state;
+    static const double ratio[1] = {1.0}, length[1] = {1.0}, none[1] = {0.0};
+    const rb_bem_material steel = {1.0, 0.3}, bad = {-1.0, 0.3};
+    const rb_bem_wheel wheel[] = {{1.0, 1.0, steel, 1, ratio, length, 0.0, steel},
+                                  {1.0, 0.5, steel, 1, ratio, length, 0.5, steel},
+                                  {1.0, 0.5, bad, 1, ratio, length, 0.0, steel},
+                                  {1.0, 0.5, steel, 1, ratio, length, 0.2, bad},
+                                  {1.0, 0.5, steel, 1, ratio, none, 0.0, steel}};
+    static const double ends[4] = {-0.1, 0.0, 0.1, 0.2};
+    for (size_t k = 0; k < sizeof wheel / sizeof *wheel; k++) {
+        rb_bem_flexibility f;
+        rb_message why = {""};
+        const rb_bem_surface any = rb_bem_halfplane(steel, 1.0);
+        CHECK_STATUS(rb_bem_flexibility_surface(2, ends, &any, &f, NULL), RB_OK);
+        CHECK_STATUS(rb_bem_flexibility_add_memory(&wheel[k], RB_BEM_NORMALS_OBSTACLE,
+                                                   ends, &f, &why),
+                     RB_EINVAL);
+        assert_true(strlen(why.text) > 0);
+        rb_bem_flexibility_free(&f);
+    }
+}
+
+/* ---- Rolling --------------------------------------------------------------------------
+ */
+
+/* A wheel R = 50 with a_g = 1 on a rigid plane, f = 2, V tau = 1. */
+static rb_rolling_case wheel(int n)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HUB;
+    rc.a.hub_ratio = 0.4;
+    rc.a.radius = 50.0;
+    rc.a.young = 1000.0;
+    rc.a.poisson = 0.3;
+    rc.a.memory = (rb_rolling_memory){1, {1e-3}, {2.0}};
+    rc.speed = 1000.0;
+    rc.half_width = 1.0;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.mu = 0.3;
+    rc.force = 0.0;
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = n;
+    return rc;
+}
+
+/* M/(P a), p0 a/P and xi R/a of the case. */
+static void figures(const rb_rolling_case *rc, double value[3])
+{
+    rb_rolling_solution s = solved(rc);
+    assert_true(s.residual < 1e-9);
+    value[0] = s.resistance_moment / s.normal_load;
+    value[1] = s.max_pressure / s.normal_load;
+    value[2] = s.creepage * rc->a.radius;
+    rb_rolling_solution_free(&s);
+}
+
+/* The nip is 2 mm wide and the wheels grow: deviations from the half-plane fall like 1/R.
+ */
+static void a_large_wheel_is_a_halfplane(void **state)
+{
+    (void)state;
+    double plane[3], before[3] = {0.0}, value[3];
+    rb_rolling_case rc = wheel(40);
+    rc.a.support = RB_BEM_HALFPLANE;
+    figures(&rc, plane);
+    rc.a.support = RB_BEM_HUB;
+    for (int k = 0; k < 3; k++) {
+        rc.a.radius = 50.0 * (1 << k);
+        figures(&rc, value);
+        CHECK_REL(value[0], plane[0], 0.6 / rc.a.radius, "R = %g: M", rc.a.radius);
+        CHECK_REL(value[1], plane[1], 0.03 / rc.a.radius, "R = %g: p0", rc.a.radius);
+        CHECK_ABS(value[2], plane[2], 2.0 / rc.a.radius, "R = %g: xi R", rc.a.radius);
+        for (int i = 0; i < 3 && k > 0; i += 2)
+            CHECK_ABS(before[i] / (value[i] - plane[i]), 2.15, 0.35,
+                      "R = %g: first order of figure %d", rc.a.radius, i);
+        for (int i = 0; i < 3; i++)
+            before[i] = value[i] - plane[i];
+    }
+}
+
+/* So does a cover become the layer that relaxes, on a rigid and on an elastic core. */
+static void a_thin_cover_is_the_layer(void **state)
+{
+    (void)state;
+    for (int core = 0; core < 2; core++) {
+        double before[3] = {0.0};
+        for (int k = 0; k < 2; k++) {
+            double value[3], flat[3];
+            rb_rolling_case rc = wheel(30);
+            rc.a.radius = 50.0 * (1 << k);
+            rc.a.poisson = 0.45;
+            rc.a.cover = 2.0;
+            rc.a.core_young = core ? 2000.0 : 0.0;
+            rc.a.core_poisson = 0.3;
+            figures(&rc, value);
+            rc.a.support = RB_BEM_HALFPLANE;
+            rc.a.layer = rc.a.cover;
+            rc.a.cover = 0.0;
+            rc.a.base_young = rc.a.core_young;
+            rc.a.base_poisson = rc.a.core_poisson;
+            figures(&rc, flat);
+            CHECK_REL(value[0], flat[0], 2.0 / rc.a.radius, "core %d: M", core);
+            CHECK_REL(value[1], flat[1], 0.3 / rc.a.radius, "core %d: p0", core);
+            for (int i = 0; i < 3; i += 2) {
+                value[i] -= flat[i];
+                if (k > 0)
+                    CHECK_ABS(before[i] / value[i], 1.9, 0.2,
+                              "core %d: first order of figure %d", core, i);
+            }
+            memcpy(before, value, sizeof before);
+        }
+    }
+}
+
+/* All below the cover is rigid: it is the wheel on a hub of that size, with other
+ * elements on the hub. */
+static void a_cover_to_the_hub_is_the_wheel(void **state)
+{
+    (void)state;
+    double value[2][3];
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = wheel(30);
+        rc.a.cover = k ? 30.0 : 0.0;
+        rc.near_field = RB_NEAR_FIELD_EXACT;
+        figures(&rc, value[k]);
+    }
+    for (int i = 0; i < 3; i++)
+        CHECK_REL(value[1][i], value[0][i], 2e-4, "figure %d", i);
+}
+
+/* Memory that is over at once makes the rubbery wheel; memory that lasts for many turns
+ * the glassy one, whose rim has shrunk by what the mean pressure leaves.  The bounds are
+ * the error of the boundary elements, which the memory's part does not have. */
+static void speed_has_its_limits(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 3; kind++)
+        for (int fast = 0; fast < 2; fast++) {
+            rb_rolling_case rc = wheel(30);
+            double value[3], limit[3];
+            rc.a.cover = kind ? 4.0 : 0.0;
+            rc.a.core_young = kind == 2 ? 3000.0 : 0.0;
+            rc.a.core_poisson = 0.3;
+            rc.load = rb_rolling_derive(&rc).load;
+            rc.half_width = NAN;
+            rc.a.memory.time[0] = fast ? 1e4 : 1e-9;
+            figures(&rc, value);
+            rc.a.memory.n = 0;
+            rc.a.young /= fast ? 1.0 : 3.0;
+            figures(&rc, limit);
+            CHECK_ABS(value[0], 0.0, 1e-4, "kind %d, fast %d: M", kind, fast);
+            CHECK_REL(value[1], limit[1], 2e-4, "kind %d, fast %d: p0", kind, fast);
+            CHECK_ABS(value[2], limit[2], fast ? 2e-2 : 2e-3, "kind %d, fast %d: xi R",
+                      kind, fast);
+        }
+}
+
+/* What creepage and resistance feed is lost, and bodies lose more than nothing: wheels,
+ * covers, either body, both, a free axle, several terms. */
+static void the_energy_balances(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 8; k++) {
+        rb_rolling_case rc = wheel(k == 7 ? 60 : 30);
+        rc.a.cover = k % 4 == 0 ? 0.0 : 3.0;
+        rc.a.core_young = k % 4 == 2 ? 2000.0 : 0.0;
+        rc.force = k == 5 ? NAN : 0.1 * k;
+        rc.free_axle = k == 5;
+        rc.mesh = k == 7 ? RB_MESH_ALIGNED : RB_MESH_FITTED;
+        rc.slip_operator = k == 7 ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
+        if (k % 4 == 3)
+            rc.a.memory = (rb_rolling_memory){2, {3e-4, 1e-2}, {1.0, 2.0}};
+        if (k > 3) {
+            rc.elastic_b = 1;
+            rc.b = rc.a;
+            rc.b.memory.n = k % 2;
+            rc.b.radius = 80.0;
+        }
+        rb_rolling_solution s = solved(&rc);
+        const double R = 1.0 / (1.0 / rc.a.radius + 1.0 / rc.b.radius);
+        double M = 0.0;
+        for (int i = 0; i < s.n; i++)
+            M += s.x[i] * s.p[i] * s.h[i];
+        CHECK_REL(s.dissipation + s.hysteresis, M / R - s.creepage * s.tangential_load,
+                  1e-3, "case %d", k);
+        CHECK_MAX(-s.hysteresis, 0.0, "case %d: hysteresis", k);
+        CHECK_ABS(s.residual, 0.0, 1e-9, "case %d: residual", k);
+        if (rc.free_axle)
+            CHECK_ABS(s.tangential_load, -M / R, 1e-9 * s.normal_load, "Q = -M/R");
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* The wheel that relaxes below is the one above with everything mirrored. */
+static void either_body_may_relax(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel(40);
+    rb_rolling_solution s[2];
+    rc.elastic_b = 1;
+    rc.b = rc.a;
+    rc.b.memory.n = 0;
+    rc.b.young = 3000.0;
+    rc.b.radius = 70.0;
+    rc.force = NAN;
+    rc.force_ratio = -0.4;
+    s[0] = solved(&rc);
+    const rb_rolling_body a = rc.a;
+    rc.a = rc.b;
+    rc.b = a;
+    rc.force_ratio = 0.4;
+    s[1] = solved(&rc);
+    CHECK_REL(s[1].max_pressure, s[0].max_pressure, 1e-4, "p0");
+    CHECK_REL(s[1].resistance_moment, s[0].resistance_moment, 1e-3, "M");
+    CHECK_REL(s[1].creepage, -s[0].creepage, 1e-3, "creepage");
+    for (int k = 0; k < 2; k++)
+        rb_rolling_solution_free(&s[k]);
+}
+
+/* Resistance of a covered roll over the speed: one maximum, and each point is its case.
+ */
+static void resistance_has_a_maximum_over_the_speed(void **state)
+{
+    (void)state;
+    rb_rolling_curve c;
+    rb_message why = {""};
+    rb_rolling_case rc = wheel(24);
+    double value[3];
+    int turns = 0;
+    rc.a.cover = 3.0;
+    rc.force = NAN;
+    rc.free_axle = 1;
+    CHECK_STATUS(rb_rolling_curve_solve(
+                     &rc, &(rb_rolling_range){RB_OVER_SPEED, 1e1, 1e5, 5}, &c, &why),
+                 RB_OK);
+    for (int k = 1; k < 4; k++)
+        turns += c.resistance_ratio[k] > c.resistance_ratio[k - 1] &&
+                 c.resistance_ratio[k] > c.resistance_ratio[k + 1];
+    assert_int_equal(turns, 1);
+    rc.speed = c.speed[2];
+    figures(&rc, value);
+    CHECK_REL(c.resistance_moment[2] / c.normal_load[2], value[0], 1e-6, "point");
+    rb_rolling_curve_free(&c);
+}
+
+static void what_does_not_turn_is_refused(void **state)
+{
+    (void)state;
+    static const char *const word[2] = {"clamped arc does not turn", "halfplane only"};
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = wheel(40);
+        rb_message why = {""};
+        rc.a.support = k == 0 ? RB_BEM_ARC : RB_BEM_HUB;
+        rc.formulation = k == 1 ? RB_TRANSIENT : RB_STEADY;
+        CHECK_STATUS(rb_rolling_case_check(&rc, &why), RB_EINVAL);
+        if (!strstr(why.text, word[k]))
+            fail_msg("'%s' does not say '%s'", why.text, word[k]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_kernel_is_the_sum_of_its_waves),
+        cmocka_unit_test(bad_wheels_are_refused),
+        cmocka_unit_test(a_large_wheel_is_a_halfplane),
+        cmocka_unit_test(a_thin_cover_is_the_layer),
+        cmocka_unit_test(a_cover_to_the_hub_is_the_wheel),
+        cmocka_unit_test(speed_has_its_limits),
+        cmocka_unit_test(the_energy_balances),
+        cmocka_unit_test(either_body_may_relax),
+        cmocka_unit_test(resistance_has_a_maximum_over_the_speed),
+        cmocka_unit_test(what_does_not_turn_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
