@@ -47,7 +47,10 @@ static rb_rolling_case hunter(double f, double length, int n)
     return rc;
 }
 
-/* docs/theory.md (V3): f, V tau/a_g, leading and trailing edge, p_max/p0g, M/(P a_g). */
+/* docs/theory.md (V3): f, V tau/a_g, leading and trailing edge, p_max/p0g, M/(P a_g). The
+ * formulas were first evaluated with p_max/p0g = 0.3115114 in the last row; the maximum
+ * of V3's pressure is 0.4428963, which the solution meets as it does in the other rows.
+ */
 static const double rows[8][6] = {
     {1, 0.1, 1.4135769, -1.3649042, 0.7078300, 0.0473514},
     {1, 1, 1.3698037, -1.0148946, 0.8318884, 0.2621595},
@@ -79,26 +82,26 @@ static void hunters_solution_is_met(void **state)
     }
 }
 
-/* Four times the elements, a sixteenth of the error of M or less, on both meshes that
- * meet the edges; the rows have seven digits.  Where V tau/(1 + f) is less than an
- * element of the coarse mesh there is no order yet. */
+/* Four times the elements, a sixteenth of the error of M or less, in every row and on
+ * both meshes that meet the edges; the rows have seven digits.  There is an order only
+ * where the elements resolve V tau/(1 + f) behind the leading edge: the short memories
+ * begin with more of them. */
 static void the_moment_is_of_second_order(void **state)
 {
     (void)state;
-    static const int row[4] = {1, 2, 3, 5};
-    for (int k = 0; k < 8; k++) {
-        const double *want = rows[row[k / 2]];
+    static const int coarse[8] = {100, 50, 50, 50, 100, 50, 50, 50};
+    for (int k = 0; k < 16; k++) {
+        const double *want = rows[k / 2];
         double error[2];
         for (int j = 0; j < 2; j++) {
             rb_rolling_solution s;
-            rb_rolling_case rc = hunter(want[0], want[1], 50 << 2 * j);
+            rb_rolling_case rc = hunter(want[0], want[1], coarse[k / 2] << 2 * j);
             rc.mesh = k % 2 ? RB_MESH_ALIGNED : RB_MESH_FITTED;
             CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
             error[j] = fabs(s.resistance_moment / s.normal_load - want[5]);
             rb_rolling_solution_free(&s);
         }
-        CHECK_ABS(error[1], 0.0, error[0] / 16.0 + 6e-8, "row %d, mesh %d", row[k / 2],
-                  k % 2);
+        CHECK_ABS(error[1], 0.0, error[0] / 16.0 + 6e-8, "row %d, mesh %d", k / 2, k % 2);
     }
 }
 
@@ -319,8 +322,33 @@ static void thin_layers_are_mattresses(void **state)
         rc.approach = 1.0 / (2.0 * rc.a.radius);
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
         const double M = rc.a.young * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
-        CHECK_REL(s.normal_load / (2.0 * M / (3.0 * rc.a.radius * d)), want[k], 1e-3,
-                  "a/d = %d", 5 << k);
+        const double ratio = s.normal_load / (2.0 * M / (3.0 * rc.a.radius * d));
+        CHECK_REL(ratio, want[k], 1e-3, "a/d = %d", 5 << k);
+        CHECK_ABS(ratio, 1.0, k == 2 ? 1e-3 : 5e-3, "a/d = %d: mattress", 5 << k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* nu = 1/2: delta = a^2/(6R), P = 2 G a^5/(15 R d^3), which thin layers reach slowly: no
+ * further from it than 1.5 times the deviations of physics P5, and less far the thinner
+ * they are. */
+static void thin_incompressible_layers_have_their_limit(void **state)
+{
+    (void)state;
+    static const double deviation[4] = {0.409, 0.115, 0.031, 0.006};
+    double before = INFINITY;
+    for (int k = 0; k < 4; k++) {
+        const double d = 1.0 / (5 << k);
+        rb_rolling_solution s;
+        rb_rolling_case rc = layered(d, 0.5, 200);
+        rc.half_width = NAN;
+        rc.approach = 1.0 / (6.0 * rc.a.radius);
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        const double limit = 2.0 * rc.a.young / 3.0 / (15.0 * rc.a.radius * d * d * d),
+                     off = fabs(s.normal_load / limit - 1.0);
+        CHECK_MAX(off, 1.5 * deviation[k], "a/d = %d", 5 << k);
+        CHECK_MAX(off, 0.5 * before, "a/d = %d", 5 << k);
+        before = off;
         rb_rolling_solution_free(&s);
     }
 }
@@ -506,6 +534,7 @@ int main(void)
         cmocka_unit_test(contacts_figures_are_met),
         cmocka_unit_test(thick_layers_have_their_series),
         cmocka_unit_test(thin_layers_are_mattresses),
+        cmocka_unit_test(thin_incompressible_layers_have_their_limit),
         cmocka_unit_test(layers_must_be_resolved),
         cmocka_unit_test(incompressible_covers_stretch_in_the_nip),
         cmocka_unit_test(a_layer_of_the_same_material_is_none),
