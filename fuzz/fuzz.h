@@ -33,11 +33,12 @@ void fuzz_require(int holds, const char *property);
 /* A status is one of rollbem/base.h, and a refusal says why in one line. */
 void fuzz_require_reason(rb_status s, const rb_message *why);
 
-/* Whoever opens the file of that name to read it, reads these bytes from memory, until the
- * next call; data: to be kept until then.  Files on a disk would take most of the time. */
+/* Whoever opens the file of that name to read it, reads these bytes from memory, until
+ * the next call; data: to be kept until then.  Files on a disk would take most of the
+ * time. */
 void fuzz_keep(const char *name, const void *data, size_t size);
-/* Writes the bytes to the file of that name in the working folder, for what other processes
- * read or what is written again. */
+/* Writes the bytes to the file of that name in the working folder, for what other
+ * processes read or what is written again. */
 void fuzz_write(const char *name, const void *data, size_t size);
 /* The whole file and a zero behind it; owned by the caller. */
 char *fuzz_read(const char *name, size_t *size);

@@ -79,6 +79,10 @@ static const struct {
     {"--young 1e300", 64, "Young's modulus: expected a size of 1e-100 to 1e+100"},
     {"--radius 1e-300", 64, "radius: expected a size of 1e-100 to 1e+100"},
     {"--load 1e300", 64, "load: expected a size of 1e-100 to 1e+100"},
+    {"--half-width 60", 64,
+     "half-width: expected less than the radius of either body, 50"},
+    {"--support halfplane --similar --radius-b 2 --half-width 3", 64,
+     "half-width: expected less than the radius of either body, 2"},
     {"--trace --solver newton", 64, "--trace: only --solver lemke pivots"},
     {"--support hub --contact-elements 3 --zone 47.5 --approach 1", 64,
      "no room for the element before it within the radius, 50 mm"},
@@ -335,7 +339,7 @@ static void not_solved_is_1(void **state)
     /* a solver that ends without a contact under a load does not widen the zone to nan */
     assert_int_equal(rollbem("--support halfplane --radius 69.4903 --young-b 210000 "
                              "--poisson-b .5 --radius-b 5 --support-b arc --gap parabola "
-                             "--mu 2 --half-width 10 --formulation steady "
+                             "--mu 2 --load 1.2e6 --formulation steady "
                              "--creep-ratio 1.2 --mesh fitted --solver nsn-jm-nls"),
                      1);
     assert_null(strstr(err, "nan"));

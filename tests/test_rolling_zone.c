@@ -73,6 +73,30 @@ static void edges_of_sliding_contacts_are_those_of_fine_meshes(void **state)
     }
 }
 
+/* Even the fewest elements hold the contact and see it: neither grown until it lies
+ * between midpoints, nor taken for open.  The edges are those of Hertz to an element. */
+static void few_elements_see_the_contact(void **state)
+{
+    (void)state;
+    for (int n = 3; n <= 12; n++)
+        for (int k = 0; k < 3; k++) {
+            rb_rolling_case rc = halfplane(0.3, 0.3, n);
+            rc.mesh = RB_MESH_UNIFORM;
+            rc.formulation = k == 0 ? RB_STATIC : RB_STEADY;
+            rc.creep_ratio = k == 0 ? NAN : 0.5;
+            if (k == 2)
+                rc.approach = 1e-16 * rc.a.radius;
+            else
+                rc.half_width = 1.0;
+            const double a = rb_rolling_derive(&rc).half_width;
+            rb_rolling_solution s = solved(&rc);
+            check_ends(&s, "few elements");
+            CHECK_ABS(s.half_width, a, 1.01 * s.h[0], "%d elements, case %d", n, k);
+            CHECK_MAX(s.x[s.n - 1], 3.0 * a, "%d elements, case %d: zone", n, k);
+            rb_rolling_solution_free(&s);
+        }
+}
+
 /* ---- Fitted elements --------------------------------------------------------------- */
 
 static double sum(int n, const double *a, const double *h)
@@ -452,6 +476,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edges_of_sliding_contacts_are_those_of_fine_meshes),
+        cmocka_unit_test(few_elements_see_the_contact),
         cmocka_unit_test(fitted_elements_hold_the_contact),
         cmocka_unit_test(fitted_and_equal_elements_agree),
         cmocka_unit_test(exchanged_bodies_have_the_same_pressure),

@@ -215,9 +215,8 @@ static void read_grid(reading *r, rb_io_contact_case *c)
     }
     if (c->potential >= 3)
         c->from -= c->dx / 2;
-    if (c->potential > 0 &&
-        (c->mx < 1 || c->my < 1 || !isfinite(c->from) ||
-         !(c->from + c->mx * c->dx > c->from)))
+    if (c->potential > 0 && (c->mx < 1 || c->my < 1 || !isfinite(c->from) ||
+                             !(c->from + c->mx * c->dx > c->from)))
         fail(r, "MX, MY >= 1 and DX > 0", "another grid");
 }
 

@@ -287,6 +287,12 @@ static rb_status check_normal(const rb_rolling_case *rc, rb_message *why)
         if (!isnan(normal[i]) && !is_positive(normal[i]))
             return rb_fail(why, RB_EINVAL, "%s: expected > 0, got %g", name[i],
                            normal[i]);
+    const double reach = fmin(fabs(rc->a.radius), fabs(rc->b.radius));
+    if (rc->half_width >= reach)
+        return rb_fail(why, RB_EINVAL,
+                       "half-width: expected less than the radius of either body, %g mm, "
+                       "got %g",
+                       reach, rc->half_width);
     return RB_OK;
 }
 

@@ -8,6 +8,7 @@
 enum {
     ROUNDS = 24,
     SEPARATED_AT_END = 3, /* elements that a chosen potential contact ends with */
+    IN_CONTACT = 3,       /* elements that they leave to the contact */
     MOST_EQUAL = 3000     /* with a dense matrix, to resolve patches far apart */
 };
 
@@ -215,13 +216,23 @@ static interval first_zone(const rb_rolling_case *rc)
 /* ---- The automatic one --------------------------------------------------------------
  */
 
-/* The zone grown where fewer than three separated elements stand at its end. */
+/* Three, or what few elements have beside three in contact: a potential contact that is
+ * grown until all elements are separated no longer sees the contact between their
+ * midpoints. */
+static int wanted_at_end(int elements)
+{
+    const int spare = (elements - IN_CONTACT) / 2;
+    return spare > SEPARATED_AT_END ? SEPARATED_AT_END : spare > 1 ? spare : 1;
+}
+
+/* The zone grown where fewer separated elements than wanted stand at its end. */
 static interval grown_at_ends(const rb_rolling_model *model, interval zone)
 {
+    const int wanted = wanted_at_end(model->state.n);
     int left, right;
 
     separated_at_ends(&model->state, &left, &right);
-    const int at_left = left < SEPARATED_AT_END, at_right = right < SEPARATED_AT_END;
+    const int at_left = left < wanted, at_right = right < wanted;
     const int both = is_symmetric(&model->rc) && (at_left || at_right);
     const interval wider = within(scaled(zone, 1.3), extent(&model->rc));
     if (at_left || both)
@@ -261,7 +272,7 @@ static interval tightened(const rb_rolling_model *model)
     return within(scaled(edge, 1.25), extent(&model->rc));
 }
 
-/* Grows the potential contact until three separated elements stand at each end, or no
+/* Grows the potential contact until enough separated elements stand at each end, or no
  * material is left; tightens it when the contact turns out to fill less than two thirds
  * of it; and takes more elements where they are too long for separate patches, unless a
  * coarse solution will do. */
