@@ -96,7 +96,7 @@ test-all:
 LONGEST := $(patsubst %,$(B)/tests/test_%,net fem_examples rolling_wheel files fem_cli faults)
 
 # only the summary line comes last: continuous integration reads it
-check-tests: all $(TESTS) $(B)/tests/checker
+check-tests: all $(TESTS) $(B)/tests/checker $(B)/packings $(if $(ROLLBEM_TEST_ALL),$(BENCHES),$(B)/bench/bench_large)
 	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave tests/install tests/release tests/site tests/figures $(wildcard tests/journeys/*) $(filter-out $(LONGEST),$(TESTS))
 
 SANITIZED = B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined"

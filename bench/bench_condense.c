@@ -3,16 +3,22 @@
  * among them 356 contacts on 12 000 unknowns, of which most belong to bodies that touch
  * nothing. Seconds, the best of several runs; condensing / solving is to be below 1. */
 #include "fast_blas.h"
+#include "rows.h"
 #include "rollbem/friction.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const char *const packings[] = {
-    "boxes 98 0.5 4 global 3902", "boxes 30 0.5 3 global",   "boxes 300 0.7 6 global",
-    "discs 60 0.5 3 global",      "discs 330 0.5 6 global",  "bricks 20 0.6 3 global",
-    "bricks 100 1 5 global",      "spheres 40 0.5 4 global", "spheres 360 0.7 9 global"};
+static const struct {
+    const char *name, *arguments;
+} packings[] = {{"98 boxes, 3902 loose bodies", "boxes 98 0.5 4 global 3902"},
+                {"300 boxes", "boxes 300 0.7 6 global"},
+                {"330 discs", "discs 330 0.5 6 global"},
+                {"20 bricks", "bricks 20 0.6 3 global"},
+                {"100 bricks", "bricks 100 1 5 global"},
+                {"40 spheres", "spheres 40 0.5 4 global"},
+                {"360 spheres", "spheres 360 0.7 9 global"}};
 
 static int generate(const char *arguments, rb_friction_problem *p)
 {
@@ -36,30 +42,32 @@ int main(int argc, char **argv)
     (void)argc;
     fast_blas(argv);
     double worst = 0.0;
-    printf("%-28s %8s %8s %11s %11s %8s\n", "packing", "contacts", "unknowns", "condense",
-           "solve", "ratio");
+    printf("| packing | contacts | unknowns | condense | solve | ratio "
+           "|\n|---|---|---|---|---|---|\n");
     for (size_t k = 0; k < sizeof packings / sizeof *packings; k++) {
         rb_friction_problem global, local = {0};
         double condense = INFINITY, solve = INFINITY;
-        if (!generate(packings[k], &global))
+        if (!generate(packings[k].arguments, &global))
             return 1;
         const size_t m = (size_t)(global.dimension * global.contacts);
         double *r = rb_alloc(m, 2);
         for (int run = 0; run < 20; run++) {
-            double start = rb_seconds();
+            double start = processor_seconds();
             rb_friction_problem_free(&local);
             if (rb_friction_condense(&global, &local, NULL) != RB_OK)
                 return 1;
-            condense = fmin(condense, rb_seconds() - start);
+            condense = fmin(condense, processor_seconds() - start);
             if (run > 2 && solve > 0.1)
                 continue;
-            start = rb_seconds();
+            start = processor_seconds();
             if (rb_friction_solve("auto", &local, NULL, r, r + m, NULL, NULL) != RB_OK)
                 return 1;
-            solve = fmin(solve, rb_seconds() - start);
+            solve = fmin(solve, processor_seconds() - start);
         }
-        printf("%-28s %8d %8d %11.2e %11.2e %8.2f\n", packings[k], global.contacts,
-               global.dofs, condense, solve, condense / solve);
+        printf("| %s | %d | %d | %s | %s | %.2g |\n", packings[k].name, global.contacts,
+               global.dofs, row_seconds(condense).text, row_seconds(solve).text,
+               condense / solve);
+        fflush(stdout);
         worst = fmax(worst, condense / solve);
         free(r);
         rb_friction_problem_free(&local);

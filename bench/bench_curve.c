@@ -1,6 +1,7 @@
 /* A creep curve of 1000 creepages at 100 elements (half-planes, similar and dissimilar
  * bodies) against as many separate solutions, of which every tenth is timed. */
 #include "fast_blas.h"
+#include "rows.h"
 #include "rollbem/rolling.h"
 
 #include <math.h>
@@ -36,11 +37,11 @@ static double curve_seconds(const rb_rolling_case *rc, double *force)
     for (int k = 0; k < REPEATS; k++) {
         rb_rolling_curve curve;
         rb_message why;
-        const double start = rb_seconds();
+        const double start = processor_seconds();
         if (rb_rolling_curve_solve(rc, &(rb_rolling_range){0, 0.0015, 1.5, POINTS},
                                    &curve, &why) != RB_OK)
             stop(&why);
-        best = fmin(best, rb_seconds() - start);
+        best = fmin(best, processor_seconds() - start);
         for (int i = 0; i < SAMPLES; i++)
             force[i] = curve.force_ratio[i * (POINTS / SAMPLES)];
         rb_rolling_curve_free(&curve);
@@ -51,7 +52,7 @@ static double curve_seconds(const rb_rolling_case *rc, double *force)
 static double separate_seconds(const rb_rolling_case *rc, const double *force,
                                double *difference)
 {
-    const double start = rb_seconds();
+    const double start = processor_seconds();
     *difference = 0.0;
     for (int i = 0; i < SAMPLES; i++) {
         rb_rolling_case one = *rc;
@@ -63,13 +64,17 @@ static double separate_seconds(const rb_rolling_case *rc, const double *force,
         *difference = fmax(*difference, fabs(s.force_ratio - force[i]));
         rb_rolling_solution_free(&s);
     }
-    return (rb_seconds() - start) * POINTS / SAMPLES;
+    return (processor_seconds() - start) * POINTS / SAMPLES;
 }
 
 int main(int argc, char **argv)
 {
     (void)argc;
     fast_blas(argv);
+    printf("%d creepages\n\n| bodies, elements | one curve | separately | ratio | "
+           "difference of Q/(mu P) |\n"
+           "|---|---|---|---|---|\n",
+           POINTS);
     for (int k = 0; k < 4; k++) {
         const int similar = k % 2 == 0, fitted = k / 2;
         const rb_rolling_case rc =
@@ -77,11 +82,9 @@ int main(int argc, char **argv)
         double force[SAMPLES], difference;
         const double together = curve_seconds(&rc, force);
         const double apart = separate_seconds(&rc, force, &difference);
-        printf(
-            "%d creepages, %s bodies, %s elements: one curve %.3f s, separately %.2f s: "
-            "%.0f times faster; largest difference of Q/(mu P) %.1e\n",
-            POINTS, similar ? "similar" : "dissimilar", fitted ? "fitted" : "equal",
-            together, apart, apart / together, difference);
+        printf("| %s, %s | %s | %s | %.0f | %s |\n", similar ? "similar" : "dissimilar",
+               fitted ? "fitted" : "equal", row_seconds(together).text,
+               row_seconds(apart).text, apart / together, row_power(1, difference).text);
     }
     return 0;
 }

@@ -5,6 +5,7 @@
 #define _DEFAULT_SOURCE /* wait4 */
 #include "bem/system.h"
 #include "fast_blas.h"
+#include "rows.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -113,23 +114,29 @@ int main(int argc, char **argv)
 #ifdef _OPENMP
     if (threads)
         omp_set_num_threads(threads);
-    printf("%d processors for both\n", omp_get_max_threads());
+    printf("%d processors for both\n\n", omp_get_max_threads());
 #endif
-    printf(
-        "elements: hierarchical s, processor s, MB; dense s, processor s, MB; ratio of "
-        "s, of processor s; difference of F\n");
+    printf("| elements | dense: clock, processor | hierarchical: clock, processor | "
+           "ratio of processor times | difference of F | memory: hierarchical, dense |\n"
+           "|---|---|---|---|---|---|\n");
     for (int n = 4000; n <= most; n *= 2) {
         rb_bem_mesh mesh = wheel(n);
         run(n, 0, &h);
-        printf("%6d: %6.2f %6.2f %4.0f", mesh.n, h.seconds, h.processor, h.megabytes);
+        printf("| %s | ", row_count(mesh.n).text);
         rb_bem_mesh_free(&mesh);
         if (n <= dense_to) {
             run(n, 1, &dense);
-            printf("; %6.2f %6.2f %4.0f; %5.1f %5.1f; %.1e", dense.seconds,
-                   dense.processor, dense.megabytes, dense.seconds / h.seconds,
-                   dense.processor / h.processor, difference(&h, &dense));
+            printf("%s, %s", row_seconds(dense.seconds).text,
+                   row_seconds(dense.processor).text);
         }
-        printf("\n");
+        printf(" | %s, %s | ", row_seconds(h.seconds).text,
+               row_seconds(h.processor).text);
+        if (n <= dense_to)
+            printf("%.0f | %s | %.0f MB, %.0f MB |\n", dense.processor / h.processor,
+                   row_power(1, difference(&h, &dense)).text, h.megabytes,
+                   dense.megabytes);
+        else
+            printf("| | %.0f MB |\n", h.megabytes);
         fflush(stdout);
     }
     return 0;

@@ -1,17 +1,17 @@
 /* Large contacts: steady Carter on half-planes (similar bodies, s = 0.4, equal elements)
  * from input to solution, without a matrix, against the dense path on the same problem;
- * how cost and memory grow; one product of the Toeplitz operator against one of the
+ * how the cost grows; one product of the Toeplitz operator against one of the
  * matrix. Arguments: the numbers of elements (default 1000 ... 100000; 1300000 is a
  * million in contact). */
 #include "carter.h"
 #include "fast_blas.h"
+#include "rows.h"
 #include "rollbem/rolling.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 
 enum { REPEATS = 5 };
 
@@ -33,17 +33,10 @@ static double median(int n, double *t)
     return t[n / 2];
 }
 
-static double peak_megabytes(void)
-{
-    struct rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss / 1024.0;
-}
-
 /* ---- Growth ---------------------------------------------------------------------------
  */
 
-static double solve_seconds(int n)
+static double solve_seconds(int n, int shown)
 {
     const rb_rolling_case rc = carter(n);
     const int repeats = n > 200000 ? 1 : REPEATS;
@@ -52,17 +45,19 @@ static double solve_seconds(int n)
 
     for (int k = 0; k < repeats; k++) {
         rb_message why;
-        const double start = rb_seconds();
+        const double start = processor_seconds();
         if (rb_rolling_solve(&rc, &s, &why) != RB_OK)
             stop(why.text);
-        t[k] = rb_seconds() - start;
+        t[k] = processor_seconds() - start;
         if (k + 1 < repeats)
             rb_rolling_solution_free(&s);
     }
     const double seconds = median(repeats, t);
-    printf("%9d %9d  %-10s %6d %9.4f %10.2e %12.2e %9.0f\n", n, s.contact,
-           s.large ? "transforms" : "matrix", s.iterations, seconds, s.residual,
-           fabs(-s.force_ratio / 0.64 - 1.0), peak_megabytes());
+    if (shown)
+        printf("| %s%s | %s | %d | %s | %s | %s |\n", row_count(n).text,
+               s.large ? "" : " (matrix)", row_count(s.contact).text, s.iterations,
+               row_seconds(seconds).text, row_power(1, s.residual).text,
+               row_power(2, fabs(-s.force_ratio / 0.64 - 1.0)).text);
     fflush(stdout);
     rb_rolling_solution_free(&s);
     return seconds;
@@ -72,10 +67,10 @@ static void growth(int count, const int *n)
 {
     double first = 0.0, last = 0.0;
 
-    printf("%9s %9s  %-10s %6s %9s %10s %12s %9s\n", "elements", "contact", "by", "steps",
-           "seconds", "residual", "error of Q", "peak MB");
+    printf("| elements | in contact | steps | seconds | residual | error of Q |\n"
+           "|---|---|---|---|---|---|\n");
     for (int k = 0; k < count; k++) {
-        last = solve_seconds(n[k]);
+        last = solve_seconds(n[k], 1);
         first = k == 0 ? last : first;
     }
     if (count > 1)
@@ -104,15 +99,18 @@ static void apply_both(int n)
         if (rb_rolling_bodies_create(&by, &mesh, &bodies, NULL) != RB_OK)
             stop("no memory");
         for (int k = 0; k < REPEATS; k++) {
-            const double start = rb_seconds();
+            const double start = processor_seconds();
             rb_bem_flexibility_apply(&bodies.f, r, w);
-            t[dense][k] = rb_seconds() - start;
+            t[dense][k] = processor_seconds() - start;
         }
         rb_rolling_bodies_free(&bodies);
     }
     const double fast = median(REPEATS, t[0]), slow = median(REPEATS, t[1]);
-    printf("one product, n = %d: matrix %.3g s, transforms %.3g s: %.0f times faster\n",
-           n, slow, fast, slow / fast);
+    printf("\n| | matrix | transforms | ratio | difference of q/p0 "
+           "|\n|---|---|---|---|---|\n"
+           "| one product, %s elements | %s | %s | %.0f | |\n",
+           row_count(n).text, row_seconds(slow).text, row_seconds(fast).text,
+           slow / fast);
     free(r);
     free(w);
     rb_rolling_mesh_free(&mesh);
@@ -128,12 +126,12 @@ static void solve_both(int n)
     rb_contact_problem problem;
     rb_contact_state state;
 
-    double start = rb_seconds();
+    double start = processor_seconds();
     if (rb_rolling_model_create(&rc, &model, NULL) != RB_OK)
         stop("no solution");
-    const double fast = rb_seconds() - start;
+    const double fast = processor_seconds() - start;
     dense.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
-    start = rb_seconds();
+    start = processor_seconds();
     if (rb_rolling_bodies_create(&dense, &model.mesh, &bodies, NULL) != RB_OK ||
         rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, &problem, NULL) !=
             RB_OK ||
@@ -142,14 +140,14 @@ static void solve_both(int n)
     dense.solver = RB_SOLVER_NEWTON;
     if (rb_rolling_problem_solve(&problem, &dense, 0, &state, NULL) != RB_OK)
         stop("no solution with the matrix");
-    const double slow = rb_seconds() - start;
+    const double slow = processor_seconds() - start;
     double difference = 0.0;
     for (int i = 0; i < n; i++)
         difference =
             fmax(difference, fabs(state.q[i] - model.state.q[i]) / problem.stress);
-    printf("one solution, n = %d: matrix %.3g s, transforms %.3g s: %.0f times faster; "
-           "largest difference of q/p0 %.1e\n",
-           n, slow, fast, slow / fast, difference);
+    printf("| one solution, %s elements | %s | %s | %.0f | %s |\n", row_count(n).text,
+           row_seconds(slow).text, row_seconds(fast).text, slow / fast,
+           row_power(1, difference).text);
     rb_contact_state_free(&state);
     rb_contact_problem_free(&problem);
     rb_rolling_bodies_free(&bodies);
@@ -167,7 +165,7 @@ int main(int argc, char **argv)
     for (int k = 0; k < count; k++)
         if ((n[k] = atoi(argv[k + 1])) < 3)
             stop("expected numbers of elements");
-    solve_seconds(2000); /* warm */
+    solve_seconds(2000, 0); /* warm */
     if (count > 0) {
         growth(count, n);
         return 0;

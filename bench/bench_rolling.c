@@ -1,6 +1,7 @@
 /* Where the time of one solution goes, against the numbers of boundary and of contact
  * elements; and Lemke beside Newton on the same problems. */
 #include "fast_blas.h"
+#include "rows.h"
 #include "rollbem/rolling.h"
 
 #include <math.h>
@@ -59,21 +60,22 @@ static void stages(void)
 {
     static const int contact[] = {50, 100, 200, 400, 800};
 
-    printf(
-        "one solution of a wheel on a hub, seconds (the zone found, free rolling too)\n"
-        "%8s %8s %9s %9s %9s %9s %9s %10s\n",
-        "n", "n_c", "assembly", "LU", "condense", "LCP", "total", "residual");
+    printf("one solution of a wheel on a hub (the zone found, free rolling too)\n\n"
+           "| n | n_c | assembly | LU | condensation | LCP | total | residual |\n"
+           "|---|---|---|---|---|---|---|---|\n");
     for (size_t k = 0; k < sizeof contact / sizeof *contact; k++) {
         const rb_rolling_case rc = wheel(contact[k]);
         rb_rolling_solution s = median_solution(&rc);
-        printf("%8d %8d %9.4f %9.4f %9.4f %9.4f %9.4f %10.1e\n", boundary_elements(&rc),
-               contact[k], s.seconds_assembly, s.seconds_factor, s.seconds_condense,
-               s.seconds_lcp, s.seconds_total, s.residual);
+        printf("| %d | %d | %s | %s | %s | %s | %s | %s |\n", boundary_elements(&rc),
+               contact[k], row_seconds(s.seconds_assembly).text,
+               row_seconds(s.seconds_factor).text, row_seconds(s.seconds_condense).text,
+               row_seconds(s.seconds_lcp).text, row_seconds(s.seconds_total).text,
+               row_power(1, s.residual).text);
         rb_rolling_solution_free(&s);
     }
 }
 
-/* Seconds of the complementarity problem alone, by one solver on one model. */
+/* Processor seconds of the complementarity problem alone, by one solver on one model. */
 static double solve_seconds(rb_rolling_model *model, rb_contact_solver solver, int runs)
 {
     rb_rolling_case rc = model->rc;
@@ -84,10 +86,10 @@ static double solve_seconds(rb_rolling_model *model, rb_contact_solver solver, i
     if (rb_contact_state_alloc(model->mesh.n, &state) != RB_OK)
         return NAN;
     for (int k = 0; k < runs; k++) {
-        const double start = rb_seconds();
+        const double start = processor_seconds();
         if (rb_rolling_problem_solve(&model->problem, &rc, 0, &state, NULL) != RB_OK)
             best = NAN;
-        best = fmin(best, rb_seconds() - start);
+        best = fmin(best, processor_seconds() - start);
     }
     rb_contact_state_free(&state);
     return best;
@@ -97,9 +99,8 @@ static void lemke_beside_newton(void)
 {
     static const int contact[] = {100, 200, 800, 3200};
 
-    printf("\nthe same dense problem by both solvers, dissimilar half-planes, s = 0.4\n"
-           "%8s %12s %12s %12s\n",
-           "n_c", "Lemke [s]", "Newton [s]", "ratio");
+    printf("\nthe same dense problem by both solvers, dissimilar half-planes, s = 0.4\n\n"
+           "| n_c | Lemke | Newton | ratio |\n|---|---|---|---|\n");
     for (size_t k = 0; k < sizeof contact / sizeof *contact; k++) {
         rb_rolling_case rc = wheel(contact[k]);
         rb_rolling_model model;
@@ -110,8 +111,8 @@ static void lemke_beside_newton(void)
             const int runs = contact[k] > 1000 ? 1 : 3;
             const double lemke = solve_seconds(&model, RB_SOLVER_LEMKE, runs);
             const double newton = solve_seconds(&model, RB_SOLVER_NEWTON, RUNS);
-            printf("%8d %12.4f %12.4f %12.1f\n", contact[k], lemke, newton,
-                   lemke / newton);
+            printf("| %d | %s | %s | %.2g |\n", contact[k], row_seconds(lemke).text,
+                   row_seconds(newton).text, lemke / newton);
         }
         rb_rolling_model_free(&model);
     }

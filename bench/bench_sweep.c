@@ -24,11 +24,11 @@ static rb_status make(int k, rb_rolling_case *rc, void *context)
     return RB_OK;
 }
 
-static int see(int k, const rb_rolling_solution *row, void *context)
+static int see(int k, const rb_rolling_row *row, void *context)
 {
     int *unsolved = context;
     (void)k;
-    *unsolved += row->status != RB_OK;
+    *unsolved += row->solution.status != RB_OK;
     return 0;
 }
 
