@@ -78,6 +78,7 @@ typedef struct {
     const json_t *worn, *plastic; /* per element, or NULL */
     body a, b;
     double mu, modulus, radius; /* largest coefficient of friction, E*, combined R */
+    double last_mu;             /* of the law, in the last row of a history */
     double *mu_of;              /* of every element, by the friction law */
     int moves;                  /* 1: the law depends on the state */
     int surface_normals;
@@ -299,9 +300,10 @@ static double largest_mu(const json_t *inputs, double mu)
 }
 
 /* mu where A slides at v [mm/s] and the surface has the temperature T. */
-static double mu_by_law(const json_t *inputs, double x, double v, double T)
+static double mu_by_law(const contact *c, double x, double v, double T)
 {
-    double mu = is_table_law(inputs) ? mu_of_table(inputs, x) : number(inputs, "mu");
+    const json_t *inputs = c->inputs;
+    double mu = is_table_law(inputs) ? mu_of_table(inputs, x) : c->last_mu;
     for (size_t k = 0; k < 2; k++) {
         const double m = listed(inputs, "mu-fall", k);
         const double s = m != 0.0 ? v / listed(inputs, "slip-scale", k) : 0.0;
@@ -317,7 +319,17 @@ static double mu_by_law(const json_t *inputs, double x, double v, double T)
     return mu;
 }
 
-static contact contact_of(const json_t *root)
+/* The last row of a history, or the options themselves. */
+static double wanted(const contact *c, const rows *controls, const char *column,
+                     const char *key)
+{
+    const int j = controls ? column_of(controls->header, column) : -1;
+    if (j >= 0 && controls->rows > 0)
+        return controls->x[(controls->rows - 1) * controls->columns + j];
+    return number(c->inputs, key);
+}
+
+static contact contact_of(const json_t *root, const rows *controls)
 {
     contact c = {.inputs = json_object_get(root, "inputs"),
                  .summary = json_object_get(root, "summary")};
@@ -326,7 +338,8 @@ static contact contact_of(const json_t *root)
     c.b = body_of(c.inputs, "-b");
     settle_datum(&c.a, c.a.radius);
     settle_datum(&c.b, c.a.radius);
-    c.mu = largest_mu(c.inputs, number(c.inputs, "mu"));
+    c.last_mu = wanted(&c, controls, "mu", "mu");
+    c.mu = largest_mu(c.inputs, c.last_mu);
     double compliance = (1.0 - c.a.poisson * c.a.poisson) / c.a.young;
     if (c.b.young > 0.0)
         compliance += (1.0 - c.b.poisson * c.b.poisson) / c.b.young;
@@ -406,7 +419,8 @@ static void check_contact(const contact *c, const table *t)
 
 /* The coefficients by the law, from the printed slip and temperatures; with memory of a
  * transient only their range is known. */
-static void check_law(contact *c, const table *t, const json_t *object)
+static void check_law(contact *c, const table *t, const json_t *object,
+                      const rows *controls)
 {
     const json_t *printed = json_object_get(object, "mu_1");
     const json_t *warmth = json_object_get(object, "temperature_K");
@@ -414,18 +428,22 @@ static void check_law(contact *c, const table *t, const json_t *object)
     const double d = listed(c->inputs, "memory", 0), s0 = listed(c->inputs, "memory", 1);
     const int heats = listed(c->inputs, "mu-heat", 0) != 0.0;
     const int is_one = is_law(c->inputs, "constant") && !heats;
+    const int follows_way = controls && column_of(controls->header, "mu") >= 0;
+    /* particles may remember what the history had before */
+    const double most = largest_mu(c->inputs, number(c->inputs, "mu"));
     c->moves = c->formulation != STATIC && (heats || listed(c->inputs, "mu-fall", 0));
     c->mu_of = doubles((size_t)t->n);
-    if ((printed != NULL) == is_one)
+    if ((printed != NULL) == (is_one && !follows_way))
         violated("friction law", "the column mu_1 does not follow --friction-law");
     for (int i = t->n - 1; i >= 0; i--) {
         const double x = t->column[X][i];
         const int open = c->formulation == STATIC || t->column[ZONE][i] == SEPARATED;
         const double v = open ? 0.0 : V * fabs(t->column[SLIP][i]);
         const double T = open ? T0 : json_number_value(json_array_get(warmth, (size_t)i));
-        double mu = mu_by_law(c->inputs, x, v, T);
-        c->mu_of[i] = is_one ? mu : json_number_value(json_array_get(printed, (size_t)i));
-        if (c->mu_of[i] < 0.0 || c->mu_of[i] > c->mu * (1.0 + 1e-12))
+        double mu = mu_by_law(c, x, v, T);
+        c->mu_of[i] =
+            !printed ? mu : json_number_value(json_array_get(printed, (size_t)i));
+        if (c->mu_of[i] < 0.0 || c->mu_of[i] > most * (1.0 + 1e-12))
             violated("friction law", "element %d: mu = %g", i + 1, c->mu_of[i]);
         if (d > 0.0 && c->moves && c->formulation == TRANSIENT)
             continue;
@@ -702,16 +720,6 @@ static void check_heat(const contact *c, const table *t, const json_t *object)
 
 /* ---- What was asked for ---------------------------------------------------------------
  */
-
-/* The last row of a history, or the options themselves. */
-static double wanted(const contact *c, const rows *controls, const char *column,
-                     const char *key)
-{
-    const int j = controls ? column_of(controls->header, column) : -1;
-    if (j >= 0 && controls->rows > 0)
-        return controls->x[(controls->rows - 1) * controls->columns + j];
-    return number(c->inputs, key);
-}
 
 /* NAN under a given approach. */
 static double wanted_load(const contact *c, const rows *controls)
@@ -1170,7 +1178,7 @@ static void check_stress(const json_t *inputs, const json_t *at)
 static void check_case(const json_t *root, const char *table_path,
                        const char *summary_path, const rows *controls)
 {
-    contact c = contact_of(root);
+    contact c = contact_of(root, controls);
     const json_t *object = json_object_get(root, "table");
     const char *status = word(c.summary, "status");
     table t = table_from_json(object);
@@ -1182,7 +1190,7 @@ static void check_case(const json_t *root, const char *table_path,
         violated("status", "'%s' with exit code 0", status);
     check_elements(&t);
     check_contact(&c, &t);
-    check_law(&c, &t, object);
+    check_law(&c, &t, object, controls);
     check_friction(&c, &t);
     check_yield(&c, &t);
     check_sums(&c, &t);

@@ -115,7 +115,9 @@ static const struct {
       {"both", "--interlayer-normal 2e-6 --interlayer-tangential 1e-6"},
       {"hardening", "--interlayer-tangential 1e-6 --yield-stress 40 --hardening 1e5"},
       {"softening", "--yield-stress 200 --hardening -2000"}}},
-    {"mu", NULL, {{"0", "--mu 0"}, {"1e-3", "--mu 1e-3"}, {"0.3", ""}, {"3", "--mu 3"}}},
+    {"mu",
+     NULL,
+     {{"0", "--mu 0"}, {"1e-3", "--mu 1e-3"}, {"0.3", ""}, {"3", "--mu 3"}, {"way", ""}}},
     {"law",
      NULL,
      {{"constant", ""},
@@ -381,6 +383,8 @@ static const conflict conflicts[] = {
     {{"surface=relaxing", "output=stress*"}, "below a layer or a body that relaxes"},
     {{"output=curve-plot", "mu=0"}, "no curve to draw at mu = 0"},
     {{"law=file", "mu=3"}, "the table of --friction-law has the coefficients"},
+    {{"law=file", "mu=way", "regime=static-history"}, "a column mu means nothing"},
+    {{"law=file", "mu=way", "regime=transient-history"}, "a column mu means nothing"},
     {{"law=heat", "heat=none", "regime=steady"}, "needs temperatures"},
     {{"law=heat", "heat=none", "regime=transient*"}, "needs temperatures"},
     {{"law=heat", "heat=none", "regime=steps"}, "needs temperatures"},
@@ -573,7 +577,7 @@ static int spared(const int *row)
 /* Far below mu P of every case. */
 static double force_of(const int *row)
 {
-    return 60.0 * strtod(name_of(row, MU), NULL);
+    return is(row, MU, "way") ? 18.0 : 60.0 * strtod(name_of(row, MU), NULL);
 }
 
 static int has_history(const int *row)
@@ -593,7 +597,7 @@ static void write_controls(const int *row)
     struct {
         const char *name;
         double last;
-    } column[4];
+    } column[5];
     int n = 0;
     if (rolls)
         column[n].name = "distance", column[n++].last = 0.0;
@@ -613,6 +617,8 @@ static void write_controls(const int *row)
         column[n].name = "creep_ratio", column[n++].last = 0.4;
     else if (!rolls)
         column[n].name = "shift", column[n++].last = 2e-3;
+    if (is(row, MU, "way")) /* falls while the others grow */
+        column[n].name = "mu", column[n++].last = 0.3;
 
     FILE *file = fopen("controls.txt", "w");
     assert_non_null(file);
@@ -621,9 +627,10 @@ static void write_controls(const int *row)
     for (int k = 1; k <= 3; k++)
         for (int j = 0; j < n; j++)
             fprintf(file, "%g%s",
-                    j == 0 && rolls          ? 0.2 * (k - 1)
-                    : j == 0 && relaxes(row) ? 0.02 * (k - 1)
-                                             : column[j].last * k / 3,
+                    j == 0 && rolls                     ? 0.2 * (k - 1)
+                    : j == 0 && relaxes(row)            ? 0.02 * (k - 1)
+                    : strcmp(column[j].name, "mu") == 0 ? column[j].last * (6 - k) / 3
+                                                        : column[j].last * k / 3,
                     j + 1 < n ? " " : "\n");
     assert_int_equal(fclose(file), 0);
 }

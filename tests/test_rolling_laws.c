@@ -418,6 +418,229 @@ static void steps_remember_their_friction(void **state)
     }
 }
 
+/* ---- mu over the rolled way ---------------------------------------------------------
+ */
+
+/* A wheel that rolls on a rigid plane (pressure and friction are coupled) or on its like.
+ */
+static rb_rolling_case on_its_way(int coupled, rb_rolling_formulation formulation)
+{
+    rb_rolling_case rc = rail(100.0);
+    rc.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
+    rc.formulation = formulation;
+    rc.elastic_b = !coupled;
+    rc.creep = NAN;
+    rc.zone = 0.0;
+    rc.contact_elements = 40;
+    rc.mu = 0.2;
+    rc.a.datum = rc.b.datum = 10.0;
+    return rc;
+}
+
+static rb_rolling_history run_of(const rb_rolling_case *rc,
+                                 const rb_rolling_program *program, rb_rolling_step *see,
+                                 void *context, rb_rolling_model *model)
+{
+    const rb_rolling_observer observer = {see, context};
+    rb_rolling_history history;
+    rb_message why = {""};
+    if (rb_rolling_history_run(rc, program, &observer, model, &history, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return history;
+}
+
+/* The same numbers, to the last bit, as the case's own mu. */
+static void a_column_of_one_mu_is_that_mu(void **state)
+{
+    (void)state;
+    static const double load[] = {800.0, 2500.0, 3000.0, 3000.0},
+                        shift[] = {0.0, 0.004, 0.008, -0.002},
+                        creep[] = {0.0, 0.001, 0.0003, 0.0005},
+                        distance[] = {0.0, 0.3, 0.7, 1.1}, mu[] = {0.2, 0.2, 0.2, 0.2};
+    for (int k = 0; k < 6;
+         k++) { /* at rest, rolling, with friction that falls; B twice */
+        rb_rolling_case rc = on_its_way(k % 2, k < 2 ? RB_STATIC : RB_TRANSIENT);
+        rb_rolling_program program = {.n = 4, .load = load};
+        rb_rolling_model model[2];
+        rb_rolling_history h[2];
+        *(k < 2 ? &program.shift : &program.creep) = k < 2 ? shift : creep;
+        program.distance = k < 2 ? NULL : distance;
+        if (k >= 4)
+            rc.friction = (rb_rolling_friction){.law = RB_FRICTION_rational,
+                                                .fall = {0.1, 0.0},
+                                                .slip_scale = {100.0, 1.0},
+                                                .memory = 0.01,
+                                                .memory_slip = 1.0};
+        h[0] = run_of(&rc, &program, NULL, NULL, &model[0]);
+        program.mu = mu;
+        rc.mu = 0.7; /* what the column replaces */
+        h[1] = run_of(&rc, &program, NULL, NULL, &model[1]);
+        const size_t steps = (size_t)h[0].n * sizeof(double),
+                     bytes = (size_t)model[0].mesh.n * sizeof(double);
+        assert_int_equal(h[0].n, h[1].n);
+        assert_null(h[0].mu);
+        for (int i = 0; i < h[1].n; i++)
+            CHECK_ABS(h[1].mu[i], 0.2, 0.0, "mu of step %d", i);
+        assert_memory_equal(h[0].tangential_load, h[1].tangential_load, steps);
+        assert_memory_equal(h[0].force_ratio, h[1].force_ratio, steps);
+        assert_memory_equal(h[0].approach, h[1].approach, steps);
+        assert_memory_equal(h[0].residual, h[1].residual, steps);
+        assert_int_equal(model[0].mesh.n, model[1].mesh.n);
+        assert_memory_equal(model[0].state.p, model[1].state.p, bytes);
+        assert_memory_equal(model[0].state.q, model[1].state.q, bytes);
+        for (int j = 0; j < 2; j++) {
+            rb_rolling_model_free(&model[j]);
+            rb_rolling_history_free(&h[j]);
+        }
+    }
+}
+
+/* Coulomb's law of a step with the mu that the rows say, and the slip that the tractions
+ * before it and after it leave. */
+typedef struct {
+    const rb_rolling_program *program;
+    double w[200]; /* of the step before: at the same places, and one element ahead */
+    int steps, slips;
+} way_seen;
+
+static int see_way(const rb_rolling_model *model, const rb_rolling_history *h, int step,
+                   int steps, void *context)
+{
+    way_seen *seen = context;
+    const rb_rolling_program *program = seen->program;
+    const rb_contact_problem *p = &model->problem;
+    const rb_contact_state *s = &model->state;
+    const int n = p->n, m = n + 1, rolls = model->rc.formulation == RB_TRANSIENT;
+    double w[200], mu = program->mu[step < program->n ? step : program->n - 1];
+    (void)steps;
+    assert_true(2 * m <= 200);
+    CHECK_STATUS(rb_rolling_displacement(&model->bodies, s->p, s->q, w), RB_OK);
+    if (rolls) {
+        int r = 1;
+        while (r + 1 < program->n && program->distance[r] < h->distance[step])
+            r++;
+        const double from = program->distance[r - 1], to = program->distance[r],
+                     t = (h->distance[step] - from) / (to - from);
+        mu = (1.0 - t) * program->mu[r - 1] + t * program->mu[r];
+    }
+    CHECK_ABS(h->mu[step], mu, 1e-12, "mu of step %d", step);
+    for (int i = 0; i < n; i++) {
+        const double before = step > 0 ? seen->w[m + i + rolls] : 0.0,
+                     slip = s->xi * (rolls ? h->step : 1.0) + w[m + i] - before,
+                     small = 1e-9 * p->stress;
+        if (s->p[i] == 0.0)
+            continue;
+        assert_true(fabs(s->q[i]) <= mu * s->p[i] + small);
+        if (fabs(s->q[i]) < mu * s->p[i] - small)
+            CHECK_ABS(slip, 0.0, 1e-9 * p->slip_length, "step %d, element %d", step, i);
+        else
+            assert_true(s->q[i] * slip <= 1e-9 * p->slip_length * p->stress);
+        seen->slips += fabs(slip) > 1e-6 * p->slip_length;
+    }
+    memcpy(seen->w, w, 2 * (size_t)m * sizeof *w);
+    seen->steps++;
+    return 0;
+}
+
+/* Friction falls and rises again, at rest under a shift that stays and rolling. */
+static void steps_have_the_friction_of_their_way(void **state)
+{
+    (void)state;
+    static const double load[] = {3000.0, 3000.0, 3000.0, 3000.0, 3000.0},
+                        shift[] = {0.0, 0.005, 0.005, 0.005, -0.004},
+                        creep[] = {0.001, 0.001, 0.001, 0.001, 0.001},
+                        distance[] = {0.0, 0.3, 0.5, 0.8, 1.5},
+                        mu[] = {0.3, 0.3, 0.1, 0.4, 0.05};
+    for (int k = 0; k < 4; k++) {
+        const int rolls = k >= 2;
+        rb_rolling_case rc = on_its_way(k % 2, rolls ? RB_TRANSIENT : RB_STATIC);
+        rb_rolling_program program = {.n = 5, .load = load, .mu = mu};
+        rb_rolling_model model;
+        way_seen seen = {.program = &program};
+        *(rolls ? &program.creep : &program.shift) = rolls ? creep : shift;
+        program.distance = rolls ? distance : NULL;
+        rc.load = 3000.0;
+
+        rb_rolling_history h = run_of(&rc, &program, NULL, NULL, &model);
+        const double way = h.half_width, element = model.bodies.f.h[0];
+        rb_rolling_model_free(&model);
+        rb_rolling_history_free(&h);
+        double whole[5];
+        for (int r = 0; r < 5 && rolls; r++)
+            whole[r] = round(distance[r] * way / element) * element / way;
+        program.distance = rolls ? whole : NULL;
+        h = run_of(&rc, &program, see_way, &seen, &model);
+        assert_int_equal(seen.steps, h.n);
+        assert_true(seen.slips > 10);
+        if (!rolls) /* less friction lets slip what stuck, more friction holds it */
+            assert_true(h.slipping[2] > h.slipping[1] && h.slipping[3] == 0 &&
+                        fabs(h.tangential_load[3] - h.tangential_load[2]) <
+                            1e-9 * fabs(h.tangential_load[2]));
+        rb_rolling_model_free(&model);
+        rb_rolling_history_free(&h);
+    }
+}
+
+/* Rolled on far enough, a contact whose friction has changed is that of the new mu; so it
+ * is with friction that falls with the slip, whose kinetic limit the column is. */
+static void friction_that_has_changed_becomes_steady(void **state)
+{
+    (void)state;
+    static const double mu[] = {0.3, 0.3, 0.15, 0.15},
+                        distance[] = {0.0, 1.0, 1.01, 12.0};
+    for (int falls = 0; falls < 2; falls++) {
+        rb_rolling_case rc = on_its_way(0, RB_TRANSIENT);
+        const rb_rolling_program program = {.n = 4, .distance = distance, .mu = mu};
+        rb_rolling_model model;
+        rc.creep = 0.0008;
+        if (falls)
+            rc.friction = (rb_rolling_friction){.law = RB_FRICTION_exponential,
+                                                .fall = {0.05, 0.0},
+                                                .slip_scale = {100.0, 1.0},
+                                                .memory = 0.003,
+                                                .memory_slip = 1.0};
+        rb_rolling_history h = run_of(&rc, &program, NULL, NULL, &model);
+        rc.mu = 0.15;
+        rc.formulation = RB_STEADY;
+        rc.mesh = RB_MESH_UNIFORM;
+        rc.zone = model.mesh.ends[model.mesh.n];
+        rc.contact_elements = model.mesh.n;
+        rb_rolling_solution steady = solved(&rc);
+        CHECK_REL(h.tangential_load[h.n - 1], steady.tangential_load, 1e-3, "force");
+        CHECK_REL(h.force_ratio[h.n - 1], steady.force_ratio, 1e-3, "ratio");
+        assert_true(fabs(h.tangential_load[0]) < 1e-6 * fabs(steady.tangential_load));
+        assert_int_equal(h.stick[h.n - 1], steady.stick);
+        rb_rolling_solution_free(&steady);
+        rb_rolling_model_free(&model);
+        rb_rolling_history_free(&h);
+    }
+}
+
+static void bad_ways_are_refused(void **state)
+{
+    (void)state;
+    static const double mu[] = {0.3, -0.1}, distance[] = {0.0, 1.0}, place = 0.0;
+    rb_rolling_case rc = on_its_way(0, RB_TRANSIENT);
+    rb_rolling_program program = {.n = 2, .distance = distance, .mu = mu};
+    rb_rolling_model model;
+    rb_rolling_history h;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
+                 RB_EINVAL);
+    assert_string_equal(why.text, "history: row 2: mu: expected >= 0, got -0.1");
+    rc.friction =
+        (rb_rolling_friction){.law = RB_FRICTION_table, .table = {1, &place, mu}};
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, "a column mu means nothing to a table"));
+    rc.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
+    rc.force = 800.0; /* mu P becomes 0 */
+    program.mu = distance;
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, "history: row 1: force"));
+}
+
 /* One step of an element's length at 0.1 % creepage from the steady state of 0.09999 %
  * (case 2 and 3 of veldep_fric.inp): from below CONTACT has 0.5977, 77 stick, 4 slip. */
 static void a_step_has_two_starts(void **state)
@@ -606,6 +829,10 @@ int main(void)
         cmocka_unit_test(a_force_is_met_on_the_rising_branch),
         cmocka_unit_test(the_largest_force_is_told),
         cmocka_unit_test(steps_remember_their_friction),
+        cmocka_unit_test(a_column_of_one_mu_is_that_mu),
+        cmocka_unit_test(steps_have_the_friction_of_their_way),
+        cmocka_unit_test(friction_that_has_changed_becomes_steady),
+        cmocka_unit_test(bad_ways_are_refused),
         cmocka_unit_test(a_step_has_two_starts),
         cmocka_unit_test(warm_surfaces_have_another_friction),
         cmocka_unit_test(steps_become_warm),

@@ -21,10 +21,19 @@ function closed_forms({ hertz_half_width: a, normal_load: P, creep_ratio: s, car
     return { p: (x) => p0 * ellipse(x, a), q: (x) => -Math.sign(s) * mu * p0 * (ellipse(x, a) - stuck * ellipse(x - middle, b)) };
 }
 
+/* What friction may be at each element: mu p with the coefficients of the friction law, or the yield stress of
+ * the layer between the surfaces; null where the columns do not say. */
+export function bounds_of({ columns: c, values }) {
+    const mu = Number(values.mu.split(",")[0]), yields = Number(values["yield-stress"]) || 0, hardening = Number(values.hardening) || 0;
+    const varies = values["friction-law"] !== "constant" || Boolean(Number((values["mu-heat"] ?? "").split(",")[0]));
+    if ((varies && !c.mu) || (yields && !c.plastic)) return null;
+    return [...c.p].map((p, i) => Math.min((c.mu ? c.mu[i] : mu) * p, yields ? Math.max(yields + hardening * c.plastic[i], 0) : Infinity));
+}
+
 export function tractions_picture(host, words, { columns: c, numbers, values }, options = {}) {
-    const width = options.width ?? width_of(host), ends = edges(c), mu = Number(values.mu.split(",")[0]);
+    const width = options.width ?? width_of(host), ends = edges(c), mu = Number(values.mu.split(",")[0]), bounds = bounds_of({ columns: c, values });
     const x = options.window ?? window_of(numbers, ends);
-    const most_p = options.top ?? Math.max(...c.p), top = most_p * 1.12 || 1, low = -mu * most_p * 1.15;
+    const most_p = options.top ?? Math.max(...c.p), top = most_p * 1.12 || 1, low = -Math.max(bounds && !options.top ? Math.max(...bounds) : mu * most_p, ...[...c.q].map(Math.abs)) * 1.15;
     const slip = [...c.slip].map((v, i) => c.zone[i] > 1 && Number.isFinite(v) ? v : 0), has_slip = slip.some((v) => v !== 0);
     const height = Math.round(Math.max(innerHeight < 1000 && width < 560 ? 190 : 260, Math.min(430, width * 0.46))), strip = 26, below = has_slip ? 84 : 8;
     const plot = chart({ width, height: height + strip + below + 46, x, y: [low, top], y_label: words.mpa, bottom: strip + below + 46,
@@ -35,8 +44,7 @@ export function tractions_picture(host, words, { columns: c, numbers, values }, 
     const at = (values) => line([...c.x].map((v, i) => [X(v), Y(values[i])]));
     inner.append(
         svg("path", { d: `M${X(c.x[0])} ${Y(0)}L${at(c.p).slice(1)}L${X(c.x.at(-1))} ${Y(0)}Z`, style: "fill:var(--press-fill);stroke:none" }),
-        svg("path", { d: at([...c.p].map((p) => mu * p)), style: stroke("--soft", 1.4, "stroke-dasharray:2 4") }),
-        svg("path", { d: at([...c.p].map((p) => -mu * p)), style: stroke("--soft", 1.4, "stroke-dasharray:2 4") }),
+        ...(bounds ? [1, -1] : []).map((sign) => svg("path", { d: at(bounds.map((b) => sign * b)), style: stroke("--soft", 1.4, "stroke-dasharray:2 4") })),
         svg("path", { d: at(c.p), style: stroke("--press", 2.4) }),
         svg("path", { d: at(c.q), style: stroke("--rub", 3) }));
     const forms = options.forms === false ? null : closed_forms(numbers, mu);
@@ -63,8 +71,8 @@ export function tractions_picture(host, words, { columns: c, numbers, values }, 
     return root;
 }
 
-export const tractions_legend = (words, numbers, zones) => legend(["--press", words.pressure], ["--rub", words.friction], ["--soft", words.bound, "dotted"],
-    ...(numbers.carter === 1 ? [["--reference", words.hertz, "dashed"]] : []), ...[0, 1, 2, 3].filter((z) => [...zones].includes(z)).map((z) => [zone_colours[z], words.zones[z]]));
+export const tractions_legend = (words, numbers, zones) => legend(["--press", words.pressure], ["--rub", words.friction], ["--soft", [...zones].some((z) => z > 3) ? words.bounds : words.bound, "dotted"],
+    ...(numbers.carter === 1 ? [["--reference", words.hertz, "dashed"]] : []), ...[...zone_colours.keys()].filter((z) => [...zones].includes(z)).map((z) => [zone_colours[z], words.zones[z]]));
 
 const arrow = (x0, y0, x1, y1, colour, width = 2.5) => {
     const long = Math.hypot(x1 - x0, y1 - y0), ux = (x1 - x0) / long, uy = (y1 - y0) / long, h = 9;

@@ -53,7 +53,7 @@ export function chart({ width, height, x, y, x_label, y_label, label, left = 58,
 }
 
 export const stroke = (colour, width = 2, more = "") => `fill:none;stroke:var(${colour});stroke-width:${width};stroke-linejoin:round;${more}`;
-export const zone_colours = ["--apart", "--stick", "--slip", "--slip-other"];
+export const zone_colours = ["--apart", "--stick", "--slip", "--slip-other", "--yield", "--yield-other"];
 
 /* Entries [colour, text, how]: filled, or how = "dotted" or "dashed" as the line is. */
 export const legend = (...entries) => html("div", { class: "legend" }, entries.map(([colour, text, how]) =>

@@ -32,8 +32,9 @@ export function roll_view(words, page) {
 
     /* ---- Drawn by hand ---- */
 
-    const unit = () => page.drawn.what === "load" ? words.hand_load : page.drawn.what === "force_ratio" ? words.curve_y : words.curve_x;
+    const unit = () => page.drawn.what === "mu" ? words.hand.mu : page.drawn.what === "load" ? words.hand_load : page.drawn.what === "force_ratio" ? words.curve_y : words.curve_x;
     function span() {
+        if (page.drawn.what === "mu") return [0.02, Number(Math.max(0.6, ...page.drawn.values).toPrecision(2))];
         if (page.drawn.what !== "load") return page.drawn.what === "force_ratio" ? [-0.95, 0.95] : [-1.4, 1.4];
         const P = Number(page.answer?.numbers.normal_load) || Math.max(...page.drawn.values);
         return [0.1 * P, Number((2 * Math.max(P, ...page.drawn.values.map((v) => v / 2))).toPrecision(2))];
@@ -41,7 +42,8 @@ export function roll_view(words, page) {
     function choose(kind) {
         if (kind === "none") page.drawn = null;
         else {
-            const n = page.answer.numbers, start = { load: n.normal_load, force_ratio: 0, creep_ratio: 0 }[kind], end = { load: n.normal_load, force_ratio: -0.7, creep_ratio: 0.7 }[kind];
+            const n = page.answer.numbers, mu = Math.max(0.02, Number(page.answer.values.mu.split(",")[0]));
+            const start = { mu, load: n.normal_load, force_ratio: 0, creep_ratio: 0 }[kind], end = { mu: Number((mu / 2).toPrecision(3)), load: n.normal_load, force_ratio: -0.7, creep_ratio: 0.7 }[kind];
             const rise = (k) => kind === "load" ? 1 + 0.5 * Math.sin(2 * Math.PI * k / (POINTS - 1)) : Math.min(1, k / 4);
             page.drawn = { what: kind, distance, values: Array.from({ length: POINTS }, (_, k) => Number((kind === "load" ? start * rise(k) : start + (end - start) * rise(k)).toPrecision(3))) };
         }
@@ -60,7 +62,7 @@ export function roll_view(words, page) {
         draw_same();
         if (!page.drawn) return hand.replaceChildren();
         const { values } = page.drawn, last = values.length - 1, [low, high] = span(), focus = [...hand.querySelectorAll("circle")].indexOf(document.activeElement);
-        const width = width_of(hand), height = 210, x = [0, page.drawn.distance], y = page.drawn.what === "load" ? [0, high] : [low * 1.1, high * 1.1];
+        const width = width_of(hand), height = 210, x = [0, page.drawn.distance], y = ["load", "mu"].includes(page.drawn.what) ? [0, high] : [low * 1.1, high * 1.1];
         const plot = chart({ width, height, x, y, x_label: words.roll_x, y_label: unit(), label: words.hand_alt, y_ticks: 4 });
         plot.root.removeAttribute("role");
         plot.root.setAttribute("class", "hand");
@@ -98,7 +100,7 @@ export function roll_view(words, page) {
     function frame(k) {
         if (!data) return;
         const n = data["step.p"].rows, part = (name) => data[name].at.subarray(n * k, n * k + n);
-        const columns = { x: data["step.x"].at, h: data.columns.h, p: part("step.p"), q: part("step.q"), zone: part("step.zone"), slip: new Float64Array(n) };
+        const columns = { x: data["step.x"].at, h: data.columns.h, p: part("step.p"), q: part("step.q"), zone: part("step.zone"), slip: new Float64Array(n), mu: data.history.mu && new Float64Array(n).fill(data.history.mu[k]) };
         const ends = data["step.x"].at, half = data.columns.h[0] / 2;
         picture.replaceChildren(tractions_picture(picture, words, { columns, numbers: data.numbers, values: data.values },
             { name: "roll", forms: false, top: Math.max(...data["step.p"].at), window: [ends[0] - half, ends.at(-1) + half] }));

@@ -24,7 +24,7 @@ export function hold(given, group, name, text) {
 }
 
 /* What is drawn by hand over the way: { what, distance, values }, what a column of a history. */
-export const DRAWN = { load: NORMAL, force_ratio: ALL_TANGENTIAL, creep_ratio: ALL_TANGENTIAL };
+export const DRAWN = { mu: ["mu"], load: NORMAL, force_ratio: ALL_TANGENTIAL, creep_ratio: ALL_TANGENTIAL };
 const MOST_DRAWN = 60;
 
 function read_drawn(text) {

@@ -6,9 +6,11 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { open_page } from "./chromium.mjs";
-import { ticks } from "./draw.js";
+import { bounds_of } from "./contact.js";
+import { ticks, zone_colours } from "./draw.js";
 import { load_library } from "./library.js";
 import { read_case_file, read_link, table_of_drawn, write_link } from "./state.js";
+import { words } from "./words.js";
 import { answer } from "./worker.js";
 
 const build = process.argv[2] ?? "build", program = resolve(`${build}/rollbem`);
@@ -59,6 +61,7 @@ function compare(given, tol, files = {}) {
     check(compared > 12, `only ${compared} numbers compared`);
     for (const name of ["p", "q"])
         want[`${name}_MPa`].forEach((v, i) => check_close(got.columns[name][i], v, tol * got.numbers.max_pressure, `${name}, row ${i + 1}`));
+    return got;
 }
 
 /* A fitted mesh is fitted until the edges move less than a bound: its ends carry that. */
@@ -76,11 +79,19 @@ for (const more of [{ load: "1000", mu: "0.3", "creep-ratio": "0.5" }, { load: "
     { approach: "0.03", mu: "0.1", creep: "0.0004" }, { formulation: "transient", load: "1000", mu: "0.3", "creep-ratio": "0.5", distance: "2", "contact-elements": "24" }])
     await test(`the program's numbers: ${JSON.stringify(more)}`, () => compare({ ...rail, ...more }, 1e-9));
 
-const drawn = [{ what: "load", values: [1000, 1500, 600] }, { what: "force_ratio", values: [0, -0.5, 0.5, 0] }, { what: "creep_ratio", values: [0, 0.8, -0.4] }];
+/* What slips or yields has its friction at the bound that is drawn, and every zone of the table a colour and its words. */
+for (const more of [{ "yield-stress": "60", hardening: "100000" }, { "yield-stress": "100", hardening: "-1000" }, { "mu-fall": "0.1", "friction-law": "exponential", "slip-scale": "500", speed: "45000" }])
+    await test(`bounds and zones: ${JSON.stringify(more)}`, () => {
+        const got = compare({ ...rail, load: "12500", mu: "0.3", "creep-ratio": "0.8", ...more }, 1e-8), { q, zone } = got.columns, bounds = bounds_of(got);
+        check([...zone].some((z) => z === ("yield-stress" in more ? 4 : 2)), "no such zone");
+        bounds.forEach((bound, i) => zone[i] > 1 ? check_close(Math.abs(q[i]), bound, 1e-8 * got.numbers.max_pressure, `bound, row ${i + 1}`) : check(Math.abs(q[i]) <= bound + 1e-9 * got.numbers.max_pressure, `row ${i + 1} beyond its bound`));
+        for (const list of [zone_colours, words.zones, words.zones_signs, words.zones_short]) check(list.length > Math.max(...zone), "a zone without a name");
+    });
+const drawn = [{ what: "mu", values: [0.3, 0.1, 0.4] }, { what: "load", values: [1000, 1500, 600] }, { what: "force_ratio", values: [0, -0.5, 0.5, 0] }, { what: "creep_ratio", values: [0, 0.8, -0.4] }];
 for (const { what, values } of drawn)
     await test(`the program's numbers: ${what} drawn by hand`, () => {
-        const { load, ...rest } = { ...rail, load: "1000", mu: "0.3", formulation: "transient", "contact-elements": "24", history: "drawn.tsv" };
-        compare({ ...rest, ...(what === "load" ? { "creep-ratio": "0.5" } : { load }) }, 1e-9, { "drawn.tsv": table_of_drawn({ what, distance: 2, values }) });
+        const { load, mu, ...rest } = { ...rail, load: "1000", mu: "0.3", formulation: "transient", "contact-elements": "24", history: "drawn.tsv" };
+        compare({ ...rest, ...(what === "load" || what === "mu" ? { "creep-ratio": "0.5" } : {}), ...(what === "load" ? {} : { load }), ...(what === "mu" ? {} : { mu }) }, 1e-9, { "drawn.tsv": table_of_drawn({ what, distance: 2, values }) });
     });
 await test("a file that is not there, and one that is no table", () => {
     const given = { ...rail, load: "1000", mu: "0.3", formulation: "transient", history: "drawn.tsv" };

@@ -149,6 +149,8 @@ typedef struct {
     /* Added: heat times the part of heat_range, 0 to 1, that the surface is warmer than
      * heat_from. */
     double heat, heat_from, heat_range; /* [-], 0: none; two temperatures */
+    int follows_way; /* 1: the case's mu is that of each row of a history, see mu of
+                        rb_rolling_program, which sets it */
     /* Where the first coefficients of the iteration are not those at rest; a law that
      * falls steeply has several solutions (kappa > 1), and finds the one nearby. */
     const rb_rolling_friction_table *start; /* or NULL; borrowed */
@@ -490,6 +492,7 @@ typedef enum {
     RB_FOR_WORN,
     RB_FOR_LAW,        /* coefficients of friction that differ */
     RB_FOR_MOVING_LAW, /* and depend on the state */
+    RB_FOR_WAY,        /* that follow a history's column */
     RB_FOR_MEMORY,
     RB_FOR_YIELD
 } rb_rolling_condition;
@@ -636,7 +639,9 @@ void rb_rolling_solutions_free(rb_rolling_solutions *all);
  * other one replaces it.  Without distance: increments of a static history.  With
  * distance: transient rolling; rows at distance 0 are static increments, the others are
  * rolled to, with load, approach and force linear in between and the creepage of each
- * step its mean. Distances do not decrease and count in half-widths: Hertz's of the
+ * step its mean.  mu is that of the whole contact at once, linear in between too; of a
+ * friction law that depends on the state it is the case's mu in the formula, and a table
+ * over x excludes it.  Distances do not decrease and count in half-widths: Hertz's of the
  * largest load of the program (of the load that its largest approach brings, at rest).
  * Static contact of bodies that relax needs the time [s] of each row, from 0 on, which
  * does not decrease: between two rows everything is linear in time, two rows at the same
@@ -644,6 +649,7 @@ void rb_rolling_solutions_free(rb_rolling_solutions *all);
 typedef struct {
     int n;
     const double *distance, *time;
+    const double *mu;
     const double *load, *approach;                                   /* at most one */
     const double *shift, *creep, *creep_ratio, *force, *force_ratio; /* at most one */
 } rb_rolling_program;                                                /* all borrowed */
@@ -657,9 +663,14 @@ typedef struct {
     int is_mean;   /* 1: a rolled step has the mean over its length, 0: the end's value */
 } rb_rolling_program_column;
 
-enum { RB_ROLLING_PROGRAM_COLUMNS = 9 };
+enum { RB_ROLLING_PROGRAM_COLUMNS = 10 };
 extern const rb_rolling_program_column
     rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS];
+
+/* The case that results of the program refer to: where it has a column mu, its mu is the
+ * largest one. */
+rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
+                                        const rb_rolling_case *rc);
 
 /* One entry per step. */
 typedef struct rb_rolling_history {
@@ -677,10 +688,11 @@ typedef struct rb_rolling_history {
     double *max_temperature; /* at the end of the step; NULL where not asked for */
     double *time;            /* at the end of the step [s]; NULL where no body relaxes */
     double *lost_work;       /* that relaxation has taken so far [force]; NULL likewise */
-    double half_width;       /* that distances count in [length] */
-    double step;             /* c [length]; 0 in a static history */
-    int steady_from; /* first step of the steady state that the end is in, or -1 */
-    rb_units units;  /* of all values here */
+    double *mu; /* the case's mu at the end of the step; NULL where it is one for all */
+    double half_width; /* that distances count in [length] */
+    double step;       /* c [length]; 0 in a static history */
+    int steady_from;   /* first step of the steady state that the end is in, or -1 */
+    rb_units units;    /* of all values here */
     struct rb_rolling_history *errors; /* of every entry; NULL: not asked for; owned */
 } rb_rolling_history;
 

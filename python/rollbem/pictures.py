@@ -58,6 +58,7 @@ def _limits(solution: "Solution") -> "tuple[float, float]":
 def tractions(solution: "Solution", figure: Any = None) -> Any:
     """Pressure, friction between its bounds, zones, and the slip below."""
     s, mu = solution, solution.value("mu")
+    bound = s._arrays.get("mu", mu) * s.p  # a column where a friction law has several coefficients
     unit, label = _stress_unit(s.max_pressure)
     figure, (upper, lower) = _figure(figure, 2, sharex=True, gridspec_kw={"height_ratios": [2, 1]})
     upper.set_xlim(*_limits(s))
@@ -66,7 +67,7 @@ def tractions(solution: "Solution", figure: Any = None) -> Any:
     for axes in (upper, lower):
         axes.axhline(0, color="#999999", linewidth=0.6)
     for sign, text in ((1, "±μp"), (-1, None)):
-        upper.plot(s.x, sign * mu * s.p / unit, "--", color=BOUND, linewidth=0.9, label=text)
+        upper.plot(s.x, sign * bound / unit, "--", color=BOUND, linewidth=0.9, label=text)
     upper.plot(s.x, s.p / unit, color=PRESSURE, label="pressure p")
     upper.plot(s.x, s.q / unit, color=FRICTION, label="friction q")
     below = max(1.2 * min(mu, 1.0) * s.max_pressure, 0.08 * s.max_pressure)

@@ -798,6 +798,8 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     if (s != RB_OK)
         return s;
     choose_mesh(c);
+    if (c->settled.program.n > 0)
+        c->settled.rc = rb_rolling_program_base(&c->settled.program, &c->settled.rc);
     rb_rolling_case checked = c->settled.rc;
     if (c->purpose == RB_CASE_SPEEDS)
         checked.speed = 1.0; /* the curve has its own */

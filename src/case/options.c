@@ -49,7 +49,8 @@ enum {
     ONE_CREEPAGE = 2,
     ONE_LOADING = 4,
     ONE_YOUNG_B = 8,
-    ONE_POISSON_B = 16
+    ONE_POISSON_B = 16,
+    ONE_FRICTION = 32
 };
 
 const rb_option rb_case_table[] = {
@@ -163,7 +164,7 @@ const rb_option rb_case_table[] = {
     RB_GROUP_LINE("friction", "Friction"),
     RB_NUMBER_LINE("mu", RC(mu), "-", RB_FROM(0),
                    "Coulomb's coefficient; curve: several with commas between",
-                   .list = PLACE(mus)),
+                   .list = PLACE(mus), .excludes = ONE_FRICTION),
     RB_CHOICE_LINE(
         "friction-law", RC(friction.law), laws,
         RB_ROLLING_FRICTION_LAWS(HELP_OF_LAW) "or a file of rows x [mm], mu: linear "
@@ -259,7 +260,7 @@ const rb_option rb_case_table[] = {
     RB_TEXT_LINE(
         "history", PLACE(history_file), "FILE",
         "table of controls with named columns: distance (transient, in Hertz "
-        "half-widths of the largest load), time [s] (static, bodies that relax), "
+        "half-widths of the largest load), time [s] (static, bodies that relax), mu, "
         "load or approach, shift, creep, "
         "creep_ratio, force or force_ratio; a column replaces the case's own "
         "value",

@@ -159,6 +159,20 @@ static void relaxed(run *r, double interval)
         rb_rolling_memory_track_end(&r->past, interval, state->p, state->q);
 }
 
+/* mu of a step that differs from that of the step before.  Coefficients that depend on
+ * the state stay as they are: the iteration begins with them. */
+static void follow_way(rb_rolling_model *model, double mu_before)
+{
+    rb_contact_problem *p = &model->problem;
+
+    if (model->rc.mu == mu_before)
+        return;
+    if (rb_rolling_law_moves(&model->rc))
+        rb_contact_set_friction(p, rb_rolling_largest_mu(&model->rc), p->bound);
+    else
+        rb_rolling_start_bounds(&model->rc, &model->bodies, p);
+}
+
 static void record(run *r, double distance)
 {
     rb_rolling_history *h = r->history;
@@ -193,6 +207,8 @@ static void record(run *r, double distance)
         h->time[k] = program->time ? time_of(r) : distance * h->half_width / r->rc->speed;
         h->lost_work[k] = r->past.lost;
     }
+    if (h->mu)
+        h->mu[k] = model->rc.mu;
     for (int i = 0; i < p->n; i++) {
         h->stick[k] += state->zone[i] == RB_ZONE_STICK;
         h->slipping[k] += state->zone[i] > RB_ZONE_STICK;
@@ -235,7 +251,7 @@ static rb_status static_step(run *r, rb_message *why)
     const rb_rolling_past past = {r->w_T, model->yielded, 0.0};
     const int first = r->history->n == 0;
     const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
-    const double before = time_of(r);
+    const double before = time_of(r), mu_before = rest->mu;
     rb_message reason = {""};
     rb_status s = first ? RB_OK : remember(r, 0.0);
 
@@ -252,6 +268,7 @@ static rb_status static_step(run *r, rb_message *why)
     s = relax(r, interval, 0, why);
     if (s != RB_OK)
         return s;
+    follow_way(model, mu_before);
     rb_rolling_set_past(rest, &model->bodies, first ? NULL : &past, p);
     rb_rolling_set_control(rest, p);
     p->xi -= p->force_given ? 0.0 : r->shift;
@@ -283,11 +300,12 @@ static rb_status move_gap(rb_rolling_model *model, double way)
 static rb_status rolled_step(run *r, double from, double to, rb_message *why)
 {
     rb_rolling_model *model = r->model;
-    const double c = r->history->step;
+    const double c = r->history->step, mu_before = model->rc.mu;
     const rb_rolling_past past = {r->w_T, model->yielded, c};
     rb_message reason = {""};
     rb_status s = remember(r, c);
 
+    remember_friction(r, c);
     model->rc = rb_rolling_program_step(r->program, r->rc, from, to);
     if (s == RB_OK)
         s = relax(r, interval_of(r, c), 1, why);
@@ -295,7 +313,7 @@ static rb_status rolled_step(run *r, double from, double to, rb_message *why)
         s = move_gap(model, to * r->history->half_width);
     if (s != RB_OK)
         return s;
-    remember_friction(r, c);
+    follow_way(model, mu_before);
     if (from == 0.0 && model->rc.friction.start)
         rb_rolling_start_bounds(&model->rc, &model->bodies, &model->problem);
     if (r->history->max_temperature)
@@ -552,7 +570,8 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
                                  rb_rolling_model *model, rb_rolling_history *history,
                                  rb_message *why)
 {
-    rb_rolling_case base = *rc; /* step by step the elements are equal */
+    const rb_rolling_case whole = program ? rb_rolling_program_base(program, rc) : *rc;
+    rb_rolling_case base = whole; /* step by step the elements are equal */
     rb_rolling_program own;
     double *columns = NULL;
     run r = {.rc = &base,
@@ -564,7 +583,7 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
     base.mesh = RB_MESH_UNIFORM;
     memset(model, 0, sizeof *model);
     memset(history, 0, sizeof *history);
-    rb_status s = rb_rolling_case_check(rc, why);
+    rb_status s = rb_rolling_case_check(&whole, why);
     if (s == RB_OK && !program && rc->formulation == RB_TRANSIENT &&
         !(rc->distance > 0.0))
         s = rb_fail(why, RB_EINVAL, "distance: expected > 0, got %g", rc->distance);

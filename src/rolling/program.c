@@ -15,6 +15,7 @@
 const rb_rolling_program_column rb_rolling_program_columns[RB_ROLLING_PROGRAM_COLUMNS] = {
     {"distance", offsetof(rb_rolling_program, distance), SIZE_MAX, 0},
     {"time", offsetof(rb_rolling_program, time), SIZE_MAX, 0},
+    COLUMN(mu, 0),
     COLUMN(load, 0),
     COLUMN(approach, 0),
     COLUMN(shift, 0),
@@ -94,6 +95,8 @@ static double value_at(const rb_rolling_program *program, const double *column, 
         return column[0];
     if (x >= d[program->n - 1])
         return column[program->n - 1];
+    if (column[i] == column[i + 1]) /* to the last digit */
+        return column[i];
     const double t = (x - d[i]) / (d[i + 1] - d[i]);
     return (1.0 - t) * column[i] + t * column[i + 1];
 }
@@ -130,6 +133,19 @@ rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
                         : value_at(program, column, to));
     }
     return at;
+}
+
+rb_rolling_case rb_rolling_program_base(const rb_rolling_program *program,
+                                        const rb_rolling_case *rc)
+{
+    rb_rolling_case base = *rc;
+
+    base.friction.follows_way = program->n > 0 && program->mu;
+    if (base.friction.follows_way)
+        base.mu = 0.0;
+    for (int r = 0; r < program->n && program->mu; r++)
+        base.mu = fmax(base.mu, program->mu[r]);
+    return base;
 }
 
 /* ---- Checks ------------------------------------------------------------------------ */
@@ -211,6 +227,10 @@ static rb_status check_columns(const rb_rolling_program *program,
         return rb_fail(why, RB_EINVAL,
                        "history: a column time is of bodies that relax, see "
                        "--relaxation-time");
+    if (program->mu && rc->friction.law == RB_FRICTION_table)
+        return rb_fail(why, RB_EINVAL,
+                       "history: a column mu means nothing to a table of friction over "
+                       "x, which has the coefficients");
     for (int c = 0; c < RB_ROLLING_PROGRAM_COLUMNS; c++)
         for (int r = 0; column_of(program, c) && r < program->n; r++)
             if (!isfinite(column_of(program, c)[r]))

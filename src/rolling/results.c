@@ -173,6 +173,8 @@ static const rb_rolling_result steps[] = {
     STEP("lost_work", lost_work, .unit = "N", .error_bar = RB_SCALE_ONE,
          .condition = RB_FOR_MEMORY,
          .meaning = "work that bodies which relax have lost so far"),
+    STEP("mu", mu, .unit = "1", .condition = RB_FOR_WAY,
+         .meaning = "coefficient of friction at the end of the step"),
 };
 
 static const rb_rolling_result points[] = {
@@ -310,9 +312,12 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc)
     case RB_FOR_WORN:
         return rc->worn_n > 0;
     case RB_FOR_LAW:
-        return rc->friction.law != RB_FRICTION_constant || rc->friction.heat != 0.0;
+        return rc->friction.law != RB_FRICTION_constant || rc->friction.heat != 0.0 ||
+               rc->friction.follows_way;
     case RB_FOR_MOVING_LAW:
         return rb_rolling_law_moves(rc);
+    case RB_FOR_WAY:
+        return rc->friction.follows_way;
     case RB_FOR_MEMORY:
         return rb_rolling_relaxes(rc);
     case RB_FOR_YIELD:
