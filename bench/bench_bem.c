@@ -20,8 +20,7 @@ enum { n = 1600, rounds = 9 };
 
 static const rb_bem_material material = {80.0, 0.3};
 
-/* ---- One element's columns, by every way
- * ----------------------------------------------- */
+/* ---- One element's columns, by every way ------------------------------------------- */
 
 typedef void fill_columns(const rb_bem_mesh *mesh, int j, const rb_points *points,
                           double *const out[4]);
@@ -223,8 +222,7 @@ static void stores_only(const rb_bem_mesh *mesh, int j, const rb_points *points,
         }
 }
 
-/* ---- Timing
- * -------------------------------------------------------------------------------- */
+/* ---- Timing ------------------------------------------------------------------------ */
 
 static double processor_seconds(void)
 {
@@ -333,8 +331,7 @@ static void assembly(void)
     free(x);
 }
 
-/* ---- From mesh to flexibility
- * ---------------------------------------------------------------- */
+/* ---- From mesh to flexibility ------------------------------------------------------ */
 
 /* The LU alone of the same order, of a matrix that has been touched. */
 static double lu_alone(int order)

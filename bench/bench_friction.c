@@ -105,8 +105,7 @@ static double best_seconds(int (*run)(void *context), void *context)
     return best;
 }
 
-/* ---- Siconos -------------------------------------------------------------------------
- */
+/* ---- Siconos ----------------------------------------------------------------------- */
 
 /* Text files as Siconos itself stores them; everything else, and what Lemke needs, dense
  * or sparse from our W. */
@@ -219,8 +218,7 @@ static double their_seconds(const char *path, const rb_friction_problem *p, int 
     return seconds;
 }
 
-/* ---- rollbem
- * --------------------------------------------------------------------------- */
+/* ---- rollbem ----------------------------------------------------------------------- */
 
 typedef struct {
     const rb_friction_problem *problem;
@@ -254,8 +252,7 @@ static double our_seconds(const rb_friction_problem *p, rb_friction_handle *hand
     return s == RB_OK && info->residual <= tol ? best : INFINITY;
 }
 
-/* ---- Tables
- * ----------------------------------------------------------------------------- */
+/* ---- Tables ------------------------------------------------------------------------ */
 
 static int by_size(const void *a, const void *b)
 {

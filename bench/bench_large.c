@@ -33,8 +33,7 @@ static double median(int n, double *t)
     return t[n / 2];
 }
 
-/* ---- Growth ---------------------------------------------------------------------------
- */
+/* ---- Growth ------------------------------------------------------------------------ */
 
 static double solve_seconds(int n, int shown)
 {
@@ -78,8 +77,7 @@ static void growth(int count, const int *n)
                log(last / first) / log((double)n[count - 1] / n[0]), n[0], n[count - 1]);
 }
 
-/* ---- Against the matrix ---------------------------------------------------------------
- */
+/* ---- Against the matrix ------------------------------------------------------------ */
 
 static void apply_both(int n)
 {

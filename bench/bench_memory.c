@@ -33,8 +33,7 @@ static double peak(void)
     return 1024.0 * fmax((double)own.ru_maxrss, (double)children.ru_maxrss);
 }
 
-/* ---- Cases ----------------------------------------------------------------------------
- */
+/* ---- Cases ------------------------------------------------------------------------- */
 
 static rb_rolling_case halfplanes(int n)
 {
@@ -85,8 +84,7 @@ static rb_rolling_case wheel(int n)
     return rc;
 }
 
-/* ---- What runs in the process --------------------------------------------------------
- */
+/* ---- What runs in the process ------------------------------------------------------ */
 
 static int boundary_of(const rb_rolling_model *model)
 {

@@ -25,8 +25,7 @@ int fuzz_begin(void);
 /* Removes that folder. */
 void fuzz_end(void);
 
-/* ---- For the targets ----------------------------------------------------------------
- */
+/* ---- For the targets --------------------------------------------------------------- */
 
 /* Prints the text and ends the process unless the property holds. */
 void fuzz_require(int holds, const char *property);
@@ -57,8 +56,7 @@ int fuzz_choice(fuzz_bytes *b, int n);
  * eight bytes. */
 double fuzz_number(fuzz_bytes *b);
 
-/* ---- Targets, by file ----------------------------------------------------------------
- */
+/* ---- Targets, by file -------------------------------------------------------------- */
 
 fuzz_run fuzz_ini, fuzz_gap, fuzz_history, fuzz_table;                  /* cases.c */
 fuzz_run fuzz_siconos, fuzz_matrix_market, fuzz_lcp_text, fuzz_contact; /* readers.c */

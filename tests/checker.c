@@ -53,8 +53,7 @@ static void expect(const char *law, double got, double want, double tol)
                  got - want, tol);
 }
 
-/* ---- What the program wrote ---------------------------------------------------------
- */
+/* ---- What the program wrote -------------------------------------------------------- */
 
 enum { X, H, GAP, P, Q, UN, UT, SHIFT, SLIP, ZONE, COLUMNS };
 static const char *const column_names[COLUMNS] = {"x_mm",   "h_mm",  "gap_mm", "p_MPa",
@@ -217,8 +216,7 @@ static void table_free(table *t)
         free(t->column[j]);
 }
 
-/* ---- The case -----------------------------------------------------------------------
- */
+/* ---- The case ---------------------------------------------------------------------- */
 
 static body body_of(const json_t *inputs, const char *suffix)
 {
@@ -244,8 +242,7 @@ static void settle_datum(body *b, double radius)
         b->datum = 2.0 * (isinf(b->radius) ? radius : b->radius) / exp(1.0);
 }
 
-/* ---- Friction laws -------------------------------------------------------------------
- */
+/* ---- Friction laws ----------------------------------------------------------------- */
 
 /* Number k of an option that takes several; 0: there are not so many. */
 static double listed(const json_t *inputs, const char *key, size_t k)
@@ -378,8 +375,7 @@ static double tolerance(const contact *c)
            fmax(isnan(tol) ? 1e-10 : tol, isnan(reached) ? 0.0 : fmin(reached, 1e-8));
 }
 
-/* ---- Laws, element by element --------------------------------------------------------
- */
+/* ---- Laws, element by element ------------------------------------------------------ */
 
 static void check_elements(const table *t)
 {
@@ -547,8 +543,7 @@ static void check_yield(const contact *c, const table *t)
         expect("yield", number(c->summary, "yield"), yields, 0.0);
 }
 
-/* ---- Sums and counts ------------------------------------------------------------------
- */
+/* ---- Sums and counts --------------------------------------------------------------- */
 
 typedef struct {
     double P, Q;
@@ -668,8 +663,7 @@ static void check_ratios(const contact *c, const table *t)
         violated("ratios", "of a case without friction are not null");
 }
 
-/* ---- Heat ----------------------------------------------------------------------------
- */
+/* ---- Heat -------------------------------------------------------------------------- */
 
 static double input(const contact *c, const char *key, double otherwise)
 {
@@ -718,8 +712,7 @@ static void check_heat(const contact *c, const table *t, const json_t *object)
     expect_same(c, "peclet", peclet, 1e-9 * peclet);
 }
 
-/* ---- What was asked for ---------------------------------------------------------------
- */
+/* ---- What was asked for ------------------------------------------------------------ */
 
 /* NAN under a given approach. */
 static double wanted_load(const contact *c, const rows *controls)
@@ -772,8 +765,7 @@ static void check_tangential_control(const contact *c, const rows *controls)
                1e-8 * fabs(creep_ratio));
 }
 
-/* ---- Kinematics
- * ------------------------------------------------------------------------ */
+/* ---- Kinematics -------------------------------------------------------------------- */
 
 /* g_0 where a formula gives it; NAN where a table has a part in it. */
 static double initial_gap(const contact *c, double x)
@@ -849,8 +841,7 @@ static void check_kinematics(const contact *c, const table *t)
     }
 }
 
-/* ---- Flamant: the displacements of half-planes again
- * ----------------------------------- */
+/* ---- Flamant: the displacements of half-planes again ------------------------------- */
 
 static long double y_ln_y(long double y)
 {
@@ -913,8 +904,7 @@ static void check_flamant(const contact *c, const table *t)
     }
 }
 
-/* ---- Dissipation and error bars
- * ---------------------------------------------------------- */
+/* ---- Dissipation and error bars ---------------------------------------------------- */
 
 static void check_power(const contact *c, const table *t, const json_t *list)
 {
@@ -998,8 +988,7 @@ static void check_errors(const contact *c)
     }
 }
 
-/* ---- Table and summary say what the JSON says
- * --------------------------------------------- */
+/* ---- Table and summary say what the JSON says -------------------------------------- */
 
 /* Digit for digit; Fourier transforms may round differently from run to run. */
 static void check_table(const contact *c, const table *json, const char *path)
@@ -1075,8 +1064,7 @@ static void check_summary(const contact *c, const char *path)
     free(text);
 }
 
-/* ---- Histories
- * ------------------------------------------------------------------------- */
+/* ---- Histories --------------------------------------------------------------------- */
 
 static double last_of(const json_t *list)
 {
@@ -1110,8 +1098,7 @@ static void check_history(const contact *c, const json_t *history, const rows *c
         expect("rolled distance", last_of(distance), end, 1e-9 * end);
 }
 
-/* ---- Curves
- * ----------------------------------------------------------------------------- */
+/* ---- Curves ------------------------------------------------------------------------ */
 
 static double entry(const json_t *object, const char *key, size_t i)
 {
@@ -1145,8 +1132,7 @@ static void check_curve(const json_t *inputs, const json_t *curve, int surface_n
     }
 }
 
-/* ---- Stress
- * ------------------------------------------------------------------------------ */
+/* ---- Stress ------------------------------------------------------------------------ */
 
 /* Plane strain: what follows from the tensor follows from the printed tensor. */
 static void check_stress(const json_t *inputs, const json_t *at)
@@ -1172,8 +1158,7 @@ static void check_stress(const json_t *inputs, const json_t *at)
     }
 }
 
-/* ---- All together
- * ------------------------------------------------------------------------- */
+/* ---- All together ------------------------------------------------------------------ */
 
 static void check_case(const json_t *root, const char *table_path,
                        const char *summary_path, const rows *controls)

@@ -63,8 +63,7 @@ int posix_memalign(void **p, size_t alignment, size_t size)
     return *p ? 0 : ENOMEM;
 }
 
-/* ---- From the start of main to its end ------------------------------------------------
- */
+/* ---- From the start of main to its end --------------------------------------------- */
 
 typedef int program_main(int argc, char **argv, char **environment);
 

@@ -44,8 +44,7 @@ static rb_bem_flexibility condensed(const rb_bem_cylinder *cylinder, int n_c, do
     return f;
 }
 
-/* ---- The mesh (B7, B9)
- * ---------------------------------------------------------------------- */
+/* ---- The mesh (B7, B9) ------------------------------------------------------------- */
 
 static double element_length(const rb_bem_mesh *mesh, int j)
 {
@@ -314,8 +313,7 @@ static void spoilt_meshes_are_refused(void **state)
     rb_bem_mesh_free(NULL);
 }
 
-/* ---- The paper's Schur complement (20)-(24), r = +C t_c (B5)
- * --------------------------------- */
+/* ---- The paper's Schur complement (20)-(24), r = +C t_c (B5) ----------------------- */
 
 /* B <- A^-1 B */
 static void divide(int n, int columns, double *A, double *B)
@@ -480,8 +478,7 @@ static void every_row_is_a_displacement_of_the_full_solution(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
-/* ---- Symmetry, block by block
- * ------------------------------------------------------------------ */
+/* ---- Symmetry, block by block ------------------------------------------------------ */
 
 /* max |F_ab(i,j) - F_ba(j,i)| over max |F_ab|, i, j in the contact */
 static double asymmetry(const rb_bem_flexibility *f, int a, int b)
@@ -516,8 +513,7 @@ static void flexibility_is_symmetric_up_to_discretisation(void **state)
     }
 }
 
-/* ---- The half-plane limit
- * --------------------------------------------------------------------- */
+/* ---- The half-plane limit ---------------------------------------------------------- */
 
 /* Hertz's pressure and a friction of the same shape on |x| <= a; largest difference of
  * the displacements against those of the half-plane, both less their mean, over their
@@ -587,8 +583,7 @@ static void the_wheel_shows_less_and_less(void **state)
     CHECK_ABS(middle / small, 10.0, 1.0, "a/R = 0.01 and 0.001");
 }
 
-/* ---- Loads and approach
- * ------------------------------------------------------------------------ */
+/* ---- Loads and approach ------------------------------------------------------------ */
 
 /* (reaction at the support + load)/load of a uniform pressure on the contact */
 static double balance(const rb_bem_cylinder *cylinder, int n_c, int outer)

@@ -7,8 +7,7 @@
 
 static const rb_bem_material material = {.shear = 80.0, .poisson = 0.3};
 
-/* ---- Boundary values of a field known in closed form
- * ------------------------------------ */
+/* ---- Boundary values of a field known in closed form ------------------------------- */
 
 /* phi = z^2 + i z/2, psi = 2 z - i z^2: a bending, a shear, a stretch and a rotation */
 static void known_field(double x, double y, double u[2], double s[3])
@@ -122,8 +121,7 @@ static void rigid_motions_have_no_stress(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
-/* ---- Diametral compression
- * --------------------------------------------------------------- */
+/* ---- Diametral compression --------------------------------------------------------- */
 
 /* Pressure 1 on arcs of half-angle alpha about the top and bottom; at the centre
  * sxx = (2/pi)(sin 2 alpha - alpha), syy = -(2/pi)(sin 2 alpha + alpha)  (Hondros).
@@ -163,8 +161,7 @@ static void diametral_compression_at_the_centre(void **state)
     CHECK_ABS(order(fine, finest) / log2(3), 1.1, 0.1, "order");
 }
 
-/* ---- Equilibrium
- * --------------------------------------------------------------------------- */
+/* ---- Equilibrium ------------------------------------------------------------------- */
 
 static void the_field_is_in_equilibrium(void **state)
 {
@@ -192,8 +189,7 @@ static void the_field_is_in_equilibrium(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
-/* ---- Refusals
- * ------------------------------------------------------------------------------ */
+/* ---- Refusals ---------------------------------------------------------------------- */
 
 static void bad_input_is_refused(void **state)
 {

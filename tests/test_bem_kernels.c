@@ -11,8 +11,7 @@ static double uniform(double low, double high)
     return low + (high - low) * (rand() / (double)RAND_MAX);
 }
 
-/* ---- Against quadrature ---------------------------------------------------------------
- */
+/* ---- Against quadrature ------------------------------------------------------------ */
 
 typedef struct {
     double x0, y0, x1, y1, px, py;
@@ -375,8 +374,7 @@ static void H_alone_is_H_to_rounding(void **state)
     }
 }
 
-/* ---- The matrices
- * ---------------------------------------------------------------------- */
+/* ---- The matrices ------------------------------------------------------------------ */
 
 /* max |sum_j H_ij u_j| over max |u| */
 static double rows_times(const rb_bem_mesh *mesh, const double *u)

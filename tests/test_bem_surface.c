@@ -31,8 +31,7 @@ static double adaptive(double (*f)(double, void *), void *context, double from)
     return value;
 }
 
-/* ---- Memory
- * ---------------------------------------------------------------------------- */
+/* ---- Memory ------------------------------------------------------------------------ */
 
 typedef struct {
     const rb_bem_surface *elastic;
@@ -122,8 +121,7 @@ static void memory_has_its_limits(void **state)
         CHECK_ABS(got[j] - other[j], e[j] - e2[j], 1e-8, "glassy, entry %d", j);
 }
 
-/* ---- Layers
- * ---------------------------------------------------------------------------- */
+/* ---- Layers ------------------------------------------------------------------------ */
 
 /* The closed transfer functions of a layer on a rigid base (L1). */
 typedef struct {
@@ -278,8 +276,7 @@ static void layers_remember(void **state)
     }
 }
 
-/* ---- Operators
- * ------------------------------------------------------------------------- */
+/* ---- Operators --------------------------------------------------------------------- */
 
 /* Entries and products of the transforms against the dense matrix, with memory and
  * layers. */

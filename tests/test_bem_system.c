@@ -137,8 +137,7 @@ static void given_displacements_give_the_tractions(void **state)
     check_first_order(dirichlet_error, 40, 5.5e-3, "tractions");
 }
 
-/* ---- The solution itself
- * ------------------------------------------------------------------ */
+/* ---- The solution itself ----------------------------------------------------------- */
 
 /* H u = G t holds for what solve() returns, and what was given is returned. */
 static void the_solution_satisfies_the_equations(void **state)
@@ -180,8 +179,7 @@ static void the_solution_satisfies_the_equations(void **state)
     free(t);
 }
 
-/* ---- Support (B6)
- * ------------------------------------------------------------------------- */
+/* ---- Support (B6) ------------------------------------------------------------------ */
 
 static void expect_free(rb_bem_mesh *mesh, const char *motions)
 {
@@ -240,8 +238,7 @@ static void a_second_body_without_support_is_singular(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
-/* ---- Refusals
- * ------------------------------------------------------------------------------ */
+/* ---- Refusals ---------------------------------------------------------------------- */
 
 static void bad_input_is_refused(void **state)
 {

@@ -142,8 +142,7 @@ static void carter_by_names_is_on_the_fitted_mesh(void **state)
     rb_case_free(c);
 }
 
-/* ---- The table ----------------------------------------------------------------------
- */
+/* ---- The table --------------------------------------------------------------------- */
 
 static void every_option_describes_itself(void **state)
 {
@@ -204,8 +203,7 @@ static void numbers_are_words_too(void **state)
     rb_case_free(by_number);
 }
 
-/* ---- Refusals -----------------------------------------------------------------------
- */
+/* ---- Refusals ---------------------------------------------------------------------- */
 
 static void check_word(rb_status s, const rb_message *why, const char *part)
 {
@@ -291,8 +289,7 @@ static void a_curve_takes_several_mu(void **state)
     rb_case_free(c);
 }
 
-/* ---- Files --------------------------------------------------------------------------
- */
+/* ---- Files ------------------------------------------------------------------------- */
 
 static void files_are_blamed_by_line(void **state)
 {
@@ -338,8 +335,7 @@ static void an_argument_wins_over_the_file(void **state)
     rb_case_free(c);
 }
 
-/* ---- Copies -------------------------------------------------------------------------
- */
+/* ---- Copies ------------------------------------------------------------------------ */
 
 /* What one case of a study settles must not stay in the next: neither mesh nor elements
  * nor what an option took back. */
@@ -390,8 +386,7 @@ static void a_copy_borrows_the_files(void **state)
     rb_case_free(base);
 }
 
-/* ---- Memory -------------------------------------------------------------------------
- */
+/* ---- Memory ------------------------------------------------------------------------ */
 
 static rb_status use_memory(void)
 {

@@ -349,8 +349,7 @@ static void not_solved_is_1(void **state)
                      0);
 }
 
-/* ---- Steps --------------------------------------------------------------------------
- */
+/* ---- Steps ------------------------------------------------------------------------- */
 
 static size_t history_length(const json_t *root, const char *name)
 {
@@ -552,8 +551,7 @@ static void interrupted_run_keeps_its_steps(void **state)
     json_decref(root);
 }
 
-/* ---- Error bars ----------------------------------------------------------------------
- */
+/* ---- Error bars -------------------------------------------------------------------- */
 
 /* s = 0.4: exact Q/(mu P) = -0.64. */
 static void error_bars_hold_the_truth(void **state)

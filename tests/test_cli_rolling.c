@@ -7,8 +7,7 @@
 /* Carter's case: similar bodies. */
 #define SIMILAR "--support halfplane --similar --half-width 0.5 --poisson 0.3 "
 
-/* ---- Bad input -----------------------------------------------------------------------
- */
+/* ---- Bad input --------------------------------------------------------------------- */
 
 static const struct {
     const char *arguments;
@@ -78,8 +77,7 @@ static void bad_points_are_named_by_their_line(void **state)
     check_refused("stress --support hub --points points", 65, "points:1: the point");
 }
 
-/* ---- Curves --------------------------------------------------------------------------
- */
+/* ---- Curves ------------------------------------------------------------------------ */
 
 /* Carter (1926): Q/(mu P) = -s (2 - s). */
 static void curve_follows_carter(void **state)
@@ -142,8 +140,7 @@ static void curve_is_fast(void **state)
     json_decref(root);
 }
 
-/* ---- Stress --------------------------------------------------------------------------
- */
+/* ---- Stress ------------------------------------------------------------------------ */
 
 static void check_maximum(const json_t *root, const char *name, double value, double x,
                           double y)
@@ -250,8 +247,7 @@ static void grid_of_a_wheel(void **state)
     assert_non_null(strstr(out, line));
 }
 
-/* ---- ParaView files
- * -------------------------------------------------------------------- */
+/* ---- ParaView files ---------------------------------------------------------------- */
 
 static int digit(char c)
 {
@@ -362,8 +358,7 @@ static void curves_and_steps_have_error_bars(void **state)
               last_of("h.tsv", "error_force_ratio_1"), "history");
 }
 
-/* ---- Steps
- * ----------------------------------------------------------------------------- */
+/* ---- Steps ------------------------------------------------------------------------- */
 
 #define ROLLING SIMILAR "--formulation transient --creep-ratio 0.5 --contact-elements 20 "
 
@@ -419,8 +414,7 @@ static void bad_rows_are_named_by_their_line(void **state)
     check_refused("--load 10 --gap gap.txt --gap-smoothing -1", 64, "--gap-smoothing");
 }
 
-/* ---- Slip
- * ------------------------------------------------------------------------------ */
+/* ---- Slip -------------------------------------------------------------------------- */
 
 /* The friction power along the contact adds up to the dissipation, which is -xi Q. */
 static void friction_power_adds_up(void **state)
@@ -472,8 +466,7 @@ static void fitted_is_the_default_for_steady(void **state)
     }
 }
 
-/* ---- Pictures -------------------------------------------------------------------------
- */
+/* ---- Pictures ---------------------------------------------------------------------- */
 
 static void pictures_are_drawn(void **state)
 {

@@ -173,8 +173,7 @@ static void bad_files_are_refused(void **state)
     check_refused("contact", 64, "FILE.inp");
 }
 
-/* ---- CONTACT's examples --------------------------------------------------------------
- */
+/* ---- CONTACT's examples ------------------------------------------------------------ */
 
 static const char *data(const char *name)
 {

@@ -49,8 +49,7 @@ static double median(count *c)
     return c->all > 0 ? c->width[c->all / 2] : NAN;
 }
 
-/* ---- Classes and their cases ---------------------------------------------------------
- */
+/* ---- Classes and their cases ------------------------------------------------------- */
 
 typedef struct {
     rb_bem_support support;
@@ -156,8 +155,7 @@ static rb_rolling_case finer(const rb_rolling_case *rc)
     return fine;
 }
 
-/* ---- One case ------------------------------------------------------------------------
- */
+/* ---- One case ---------------------------------------------------------------------- */
 
 static int is_main(const char *name)
 {
@@ -247,8 +245,7 @@ static void count_case(int class_number, int k, counts *t)
         count_solution(&rc, t);
 }
 
-/* ---- The study -----------------------------------------------------------------------
- */
+/* ---- The study --------------------------------------------------------------------- */
 
 static const char *const supports[] = {[RB_BEM_ARC] = "arc", "hub", "halfplane"};
 static const char *const meshes[] = {"uniform", "fitted"};

@@ -3,8 +3,7 @@
 #include "cli_run.h"
 #include "rollbem/case.h"
 
-/* ---- Two answers ----------------------------------------------------------------------
- */
+/* ---- Two answers ------------------------------------------------------------------- */
 
 static const char *const columns[] = {"x_mm",  "h_mm",  "gap_mm",   "p_MPa", "q_MPa",
                                       "un_mm", "ut_mm", "shift_mm", "slip_1"};
@@ -65,8 +64,7 @@ static void check_same(const json_t *a, const json_t *b, double tol, const char 
         check_scalar(a, b, scalars[k], 1.0, tol, what);
 }
 
-/* ---- Mirror
- * ---------------------------------------------------------------------------- */
+/* ---- Mirror ------------------------------------------------------------------------ */
 
 /* The upper body becomes the lower one: friction on A, creepage and shift change their
  * sign. */
@@ -123,8 +121,7 @@ static void test_mirror(void **state)
     }
 }
 
-/* ---- Scaling
- * ----------------------------------------------------------------------------- */
+/* ---- Scaling ----------------------------------------------------------------------- */
 
 /* Lengths times L and stresses times E, powers of two.  On half-planes and of the
  * stresses every digit stays; boundary elements take logarithms of lengths. */
@@ -173,8 +170,7 @@ static void test_scaling(void **state)
     }
 }
 
-/* ---- Without friction
- * --------------------------------------------------------------------- */
+/* ---- Without friction -------------------------------------------------------------- */
 
 /* Half-planes of one E* are one: whose the material is does not matter to the pressure.
  * And increments of the load end where one load does. */
@@ -201,8 +197,7 @@ static void test_no_friction(void **state)
     json_decref(steps);
 }
 
-/* ---- Refinement
- * ---------------------------------------------------------------------------- */
+/* ---- Refinement -------------------------------------------------------------------- */
 
 /* Four times the elements: what is left of the difference is a quarter or less. */
 static void check_refinement(const char *rest, const char *name)
@@ -236,8 +231,7 @@ static void test_refinement(void **state)
     }
 }
 
-/* ---- The same case by other ways
- * ------------------------------------------------------------ */
+/* ---- The same case by other ways --------------------------------------------------- */
 
 static const char *const supports[] = {
     "--support halfplane", "--support hub --similar",

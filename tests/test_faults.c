@@ -39,8 +39,7 @@ enum { JOBS = sizeof jobs / sizeof jobs[0] };
 static const char *const inputs[] = {"case.ini", "study.ini", "input.hdf5", "reference",
                                      "out",      "err",       "count",      NULL};
 
-/* ---- Files ----------------------------------------------------------------------------
- */
+/* ---- Files ------------------------------------------------------------------------- */
 
 static int is_input(const char *name)
 {
@@ -175,8 +174,7 @@ static void inspect(const char *path, void *context)
     free(wanted);
 }
 
-/* ---- Runs -----------------------------------------------------------------------------
- */
+/* ---- Runs -------------------------------------------------------------------------- */
 
 static char words[1000], *arguments[40];
 
@@ -313,8 +311,7 @@ static void every_close(void **state)
     fail_calls(FAULT_CLOSE, "close", 8);
 }
 
-/* ---- Allocations ----------------------------------------------------------------------
- */
+/* ---- Allocations ------------------------------------------------------------------- */
 
 static int run_preloaded(const char *variable, int k)
 {

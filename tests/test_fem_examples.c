@@ -79,8 +79,7 @@ static void laws_hold(const rb_fem_model *model, const rb_fem_history *h, double
     free(f);
 }
 
-/* ---- Bar ----------------------------------------------------------------------------
- */
+/* ---- Bar --------------------------------------------------------------------------- */
 
 static void check_bar_state(const json_t *want, const rb_fem_model *model,
                             const rb_fem_step *got)
@@ -155,8 +154,7 @@ static void bar_by_newton(void **state)
     bar_by("nsn-nm");
 }
 
-/* ---- Truss --------------------------------------------------------------------------
- */
+/* ---- Truss ------------------------------------------------------------------------- */
 
 static void check_truss_state(const json_t *want, const rb_fem_model *model,
                               const rb_fem_step *got)

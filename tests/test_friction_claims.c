@@ -132,8 +132,7 @@ static void pose(unsigned seed, challenge *p)
     }
 }
 
-/* ---- The judge ------------------------------------------------------------------------
- */
+/* ---- The judge --------------------------------------------------------------------- */
 
 static long double sqr(long double x)
 {
@@ -188,8 +187,7 @@ static void judge(const challenge *p, const double *r, double *error, double *fl
     *floor = (double)(1e-14L * sqrtl(f / size));
 }
 
-/* ---- The runs -------------------------------------------------------------------------
- */
+/* ---- The runs ---------------------------------------------------------------------- */
 
 typedef struct {
     int runs, claims, wrong, hopeless;

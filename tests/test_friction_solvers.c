@@ -196,8 +196,7 @@ static void info_may_be_null(void **state)
     assert_non_null(rb_friction_status_text(RB_OK, 1e-8, NULL));
 }
 
-/* ---- The canonical SOCLCP -------------------------------------------------------------
- */
+/* ---- The canonical SOCLCP ---------------------------------------------------------- */
 
 static void cones_of_every_size(void **state)
 {
@@ -287,8 +286,7 @@ static void bad_cones_are_refused(void **state)
     CHECK_ABS(y[1], 1.0, 1e-7, "its slack");
 }
 
-/* ---- Memory
- * ------------------------------------------------------------------------------ */
+/* ---- Memory ------------------------------------------------------------------------ */
 
 static void failing_allocations_are_reported(void **state)
 {
@@ -313,8 +311,7 @@ static void failing_allocations_are_reported(void **state)
     }
 }
 
-/* ---- Files of other projects
- * ---------------------------------------------------------------- */
+/* ---- Files of other projects ------------------------------------------------------- */
 
 static void solve_outside(const char *file)
 {
@@ -392,8 +389,7 @@ static void other_text_files_are_refused(void **state)
                  RB_EFORMAT);
 }
 
-/* ---- Profiles
- * -------------------------------------------------------------------------------- */
+/* ---- Profiles ---------------------------------------------------------------------- */
 
 static void profiles_count_as_dolan_and_more_do(void **state)
 {

@@ -10,8 +10,7 @@
 
 static char checker[700];
 
-/* ---- Numbers -------------------------------------------------------------------------
- */
+/* ---- Numbers ----------------------------------------------------------------------- */
 
 static uint64_t state;
 
@@ -49,8 +48,7 @@ static double either_sign(double x)
     return choice(2) ? x : -x;
 }
 
-/* ---- A case --------------------------------------------------------------------------
- */
+/* ---- A case ------------------------------------------------------------------------ */
 
 static char line[1200];
 
@@ -176,8 +174,7 @@ static void make_case(int k)
     add("%s%s", meshes[choice(4)], solvers[choice(5)]);
 }
 
-/* ---- Judgement ------------------------------------------------------------------------
- */
+/* ---- Judgement --------------------------------------------------------------------- */
 
 enum { SOLVED, REFUSED, UNSOLVED, WRONG, ENDS };
 static const char *const ends[ENDS] = {"right", "refused", "not solved", "wrong"};

@@ -369,8 +369,7 @@ static void short_memory_is_reported(void **state)
     }
 }
 
-/* ---- Matrix Market ------------------------------------------------------------------
- */
+/* ---- Matrix Market ----------------------------------------------------------------- */
 
 static void market_gives_back_the_same_numbers(void **state)
 {
@@ -442,8 +441,7 @@ static void market_refusals(void **state)
         RB_EWRITE);
 }
 
-/* ---- The public collection -----------------------------------------------------------
- */
+/* ---- The public collection --------------------------------------------------------- */
 
 static void check_collection(const char *folder, rb_io_siconos_kind kind, reader *read,
                              int least)

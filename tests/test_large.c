@@ -27,8 +27,7 @@ static rb_rolling_case steady(pairing pair, int elements)
     return rc;
 }
 
-/* ---- Against the dense path ----------------------------------------------------------
- */
+/* ---- Against the dense path -------------------------------------------------------- */
 
 /* The model's problem once more, with the matrix. */
 static void compare_with_matrix(const rb_rolling_case *rc)
@@ -91,8 +90,7 @@ static void equals_the_matrix_in_static_contact(void **state)
     compare_with_matrix(&rc);
 }
 
-/* ---- Residual from the solution alone -------------------------------------------------
- */
+/* ---- Residual from the solution alone ---------------------------------------------- */
 
 /* Displacement of the pair at two points, strip by strip, without transforms. */
 static void displacement(const rb_rolling_case *rc, const rb_rolling_solution *s,
@@ -172,8 +170,7 @@ static void much_friction_is_reached_step_by_step(void **state)
     rb_rolling_solution_free(&s);
 }
 
-/* ---- Closed forms ---------------------------------------------------------------------
- */
+/* ---- Closed forms ------------------------------------------------------------------ */
 
 /* Carter: Q/(mu P) = s (2 - s); Hertz: p0 = E* a/(2R).  First order in 1/n. */
 static void carter(void **state)
@@ -247,8 +244,7 @@ static void frictionless_and_sliding(void **state)
     rb_rolling_solution_free(&s);
 }
 
-/* ---- Work and memory ------------------------------------------------------------------
- */
+/* ---- Work and memory --------------------------------------------------------------- */
 
 /* Newton steps of all levels: they grow with the number of levels only. */
 static void steps_hardly_grow(void **state)

@@ -78,8 +78,7 @@ static void folders_look_down_only(void **state)
     }
 }
 
-/* ---- Calls between files --------------------------------------------------------------
- */
+/* ---- Calls between files ----------------------------------------------------------- */
 
 enum { FILES = 400, SYMBOLS = 10000, WORD = 120 };
 

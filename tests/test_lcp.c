@@ -422,8 +422,7 @@ static void the_iteration_limit_keeps_the_last_point(void **state)
     CHECK_REL(info.res, natural_residual(n, M_, n, q_, z_), 1e-12, "residual");
 }
 
-/* ---- Bad input and short memory -----------------------------------------------------
- */
+/* ---- Bad input and short memory ---------------------------------------------------- */
 
 static void check_refused(int n, const double *M, int ldm, const double *q,
                           const rb_lcp_options *opt, const char *words)
@@ -494,8 +493,7 @@ static void short_memory_is_reported(void **state)
     }
 }
 
-/* ---- The public collection -----------------------------------------------------------
- */
+/* ---- The public collection --------------------------------------------------------- */
 
 typedef struct {
     const char *file;

@@ -8,8 +8,7 @@
 #include <string.h>
 #include <time.h>
 
-/* ---- The flexibility ----------------------------------------------------------------
- */
+/* ---- The flexibility --------------------------------------------------------------- */
 
 enum { N = 20, M = N + 1 };
 
@@ -137,8 +136,7 @@ static void what_does_not_fit_is_refused(void **state)
     rb_bem_mesh_free(&other);
 }
 
-/* ---- Cases --------------------------------------------------------------------------
- */
+/* ---- Cases ------------------------------------------------------------------------- */
 
 /* A roll of R = 100 with a soft cover of thickness d on a rigid plane, a_Hertz = d. */
 static rb_rolling_case roll(double d, double nu, double core_young)

@@ -9,8 +9,7 @@
 #include <gsl/gsl_sf_bessel.h>
 #include <string.h>
 
-/* ---- The strip ------------------------------------------------------------------------
- */
+/* ---- The strip --------------------------------------------------------------------- */
 
 typedef struct {
     double P, conductivity;
@@ -63,8 +62,7 @@ static void strip_meets_quadrature(void **state)
         }
 }
 
-/* ---- An elliptic source ---------------------------------------------------------------
- */
+/* ---- An elliptic source ------------------------------------------------------------ */
 
 /* Similar bodies that slide so fast that the strain does not count: H = mu p xi V. */
 static rb_rolling_case sliding(double peclet, int n)
@@ -178,8 +176,7 @@ static void meshes_agree(void **state)
     }
 }
 
-/* ---- Two bodies -----------------------------------------------------------------------
- */
+/* ---- Two bodies -------------------------------------------------------------------- */
 
 static void surfaces_in_contact_are_equally_warm(void **state)
 {
@@ -231,8 +228,7 @@ static void conduction_between_bodies(void **state)
     rb_rolling_solution_free(&s);
 }
 
-/* ---- Steps ----------------------------------------------------------------------------
- */
+/* ---- Steps ------------------------------------------------------------------------- */
 
 static void steps_tend_to_the_steady_state(void **state)
 {
@@ -277,8 +273,7 @@ static void curve_has_the_temperature_of_its_cases(void **state)
     rb_rolling_solution_free(&s);
 }
 
-/* ---- Without, and refused -------------------------------------------------------------
- */
+/* ---- Without, and refused ---------------------------------------------------------- */
 
 static void other_cases_have_no_temperature(void **state)
 {

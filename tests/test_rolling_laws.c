@@ -139,8 +139,7 @@ static void ratios_refer_to_the_largest_coefficient(void **state)
     rb_rolling_solution_free(&s);
 }
 
-/* ---- Figures of theory.md 4.11 ------------------------------------------------------
- */
+/* ---- Figures of theory.md 4.11 ----------------------------------------------------- */
 
 /* CONTACT: 0.5941, 45 in adhesion, 36 in slip. */
 static void the_rail_case_is_met(void **state)
@@ -304,8 +303,7 @@ static void all_solutions_are_found(void **state)
     rb_rolling_model_free(&model);
 }
 
-/* ---- A given force ------------------------------------------------------------------
- */
+/* ---- A given force ----------------------------------------------------------------- */
 
 static void a_force_is_met_on_the_rising_branch(void **state)
 {
@@ -418,8 +416,7 @@ static void steps_remember_their_friction(void **state)
     }
 }
 
-/* ---- mu over the rolled way ---------------------------------------------------------
- */
+/* ---- mu over the rolled way -------------------------------------------------------- */
 
 /* A wheel that rolls on a rigid plane (pressure and friction are coupled) or on its like.
  */
@@ -780,8 +777,7 @@ static void heat_changes_no_force_at_rest(void **state)
     }
 }
 
-/* ---- Refusals -----------------------------------------------------------------------
- */
+/* ---- Refusals ---------------------------------------------------------------------- */
 
 static void refused(const rb_rolling_case *rc, const char *says)
 {

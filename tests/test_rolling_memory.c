@@ -200,8 +200,7 @@ static void speed_has_its_limits(void **state)
     }
 }
 
-/* ---- CONTACT's visc_cylindr: two cylinders on a grid of 99 elements, x0 = -0.08
- * ---------- */
+/* ---- CONTACT's visc_cylindr: two cylinders on a grid of 99 elements, x0 = -0.08 ---- */
 
 typedef struct {
     double tau, xi, p_max, approach, power;
@@ -277,8 +276,7 @@ static void contacts_figures_are_met(void **state)
     }
 }
 
-/* ---- Layers
- * ------------------------------------------------------------------------------ */
+/* ---- Layers ------------------------------------------------------------------------ */
 
 static rb_rolling_case layered(double thickness, double nu, int n)
 {
@@ -436,8 +434,7 @@ static void a_layer_of_the_same_material_is_none(void **state)
     rb_rolling_solution_free(&s[1]);
 }
 
-/* ---- All solvers, and many elements
- * ------------------------------------------------------ */
+/* ---- All solvers, and many elements ------------------------------------------------ */
 
 /* Lemke in both forms and Newton on the same equal elements; the transforms against
  * fitted ones. */

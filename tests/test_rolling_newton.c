@@ -29,8 +29,7 @@ static rb_rolling_case steady(rb_bem_support support, int elements)
     return rc;
 }
 
-/* ---- Elements in pairs --------------------------------------------------------------
- */
+/* ---- Elements in pairs ------------------------------------------------------------- */
 
 static double pair_mean(int n, const double *x, int k)
 {
@@ -120,8 +119,7 @@ static void pairs_answer_as_their_elements_do(void **state)
     }
 }
 
-/* ---- Cold starts --------------------------------------------------------------------
- */
+/* ---- Cold starts ------------------------------------------------------------------- */
 
 /* Newton alone from nothing, and Lemke. */
 static void check_beside_lemke(rb_rolling_model *model)
@@ -190,8 +188,7 @@ static void steps_grow_by_levels(void **state)
     }
 }
 
-/* ---- The LU that is kept --------------------------------------------------------------
- */
+/* ---- The LU that is kept ----------------------------------------------------------- */
 
 /* The reduced problem of the zones by a kept LU or by a new one; returns the changes that
  * it was solved over. */
@@ -285,8 +282,7 @@ static void a_kept_lu_gives_way_to_a_new_one(void **state)
     rb_rolling_model_free(&model);
 }
 
-/* ---- A block that has no inverse ------------------------------------------------------
- */
+/* ---- A block that has no inverse --------------------------------------------------- */
 
 /* How the approach grows with the load where the zones stay. */
 static double compliance(rb_contact_problem problem, rb_contact_state *s)
@@ -332,8 +328,7 @@ static void a_given_load_does_not_feel_the_datum(void **state)
     rb_rolling_model_free(&critical);
 }
 
-/* ---- Memory -------------------------------------------------------------------------
- */
+/* ---- Memory ------------------------------------------------------------------------ */
 
 static void failing_allocations(void **state)
 {

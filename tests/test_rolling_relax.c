@@ -5,8 +5,7 @@
 #include <gsl/gsl_math.h>
 #include <string.h>
 
-/* ---- Cases ---------------------------------------------------------------------------
- */
+/* ---- Cases ------------------------------------------------------------------------- */
 
 static const double F = 3.0, TAU = 1.0; /* of the bodies with one term */
 
@@ -66,8 +65,7 @@ static double run(const rb_rolling_case *rc, const rb_rolling_program *program,
     return element;
 }
 
-/* ---- Held approach --------------------------------------------------------------------
- */
+/* ---- Held approach ----------------------------------------------------------------- */
 
 /* The contact stays, and every traction follows the relaxation modulus: that of one term
  * in closed form, of more by small steps of p + sum f_k v_k = 1, tau_k v_k' = p - v_k. */
@@ -149,8 +147,7 @@ static void a_held_approach_relaxes(void **state)
     }
 }
 
-/* ---- Lee and Radok: the contact grows
- * -------------------------------------------------- */
+/* ---- Lee and Radok: the contact grows ---------------------------------------------- */
 
 /* a^2 = (4R/pi) int J dP of a load that rises to P at once, J E* = 1 + f (1 -
  * exp(-t/tau)).
@@ -221,8 +218,7 @@ static void a_held_load_creeps(void **state)
     }
 }
 
-/* ---- Ting: the contact shrinks
- * --------------------------------------------------------- */
+/* ---- Ting: the contact shrinks ----------------------------------------------------- */
 
 /* (4R/(pi E)) P_1 times int_0^t J E ds: a^2 of a load that grows by P_1 a second. */
 static double ramp(double t)
@@ -298,8 +294,7 @@ static void an_unloaded_contact_shrinks(void **state)
     }
 }
 
-/* ---- Limits
- * ---------------------------------------------------------------------------- */
+/* ---- Limits ------------------------------------------------------------------------ */
 
 /* Very slow and very fast relaxation are elastic bodies, glassy and rubbery, under the
  * same loads and shifts; a ratio of 0 too. */
@@ -379,8 +374,7 @@ static void bodies_may_change_places(void **state)
     }
 }
 
-/* ---- Rolling
- * --------------------------------------------------------------------------- */
+/* ---- Rolling ----------------------------------------------------------------------- */
 
 static rb_rolling_case roller(int n)
 {
@@ -507,8 +501,7 @@ static void many_elements_tell_the_same(void **state)
         rb_rolling_history_free(&h[k]);
 }
 
-/* ---- Refusals
- * -------------------------------------------------------------------------- */
+/* ---- Refusals ---------------------------------------------------------------------- */
 
 static void bad_programs_are_refused(void **state)
 {

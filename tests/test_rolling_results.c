@@ -109,8 +109,7 @@ static void bad_curves_are_refused(void **state)
         RB_EINVAL);
 }
 
-/* ---- Stress
- * ----------------------------------------------------------------------------- */
+/* ---- Stress ------------------------------------------------------------------------ */
 
 static void check_extremum(const char *name, rb_rolling_extremum got, double value,
                            double x, double y, double p0, double a)
@@ -245,8 +244,7 @@ static void a_point_outside_has_its_index(void **state)
     }
 }
 
-/* ---- Dissipation (theory.md 6)
- * ------------------------------------------------------------ */
+/* ---- Dissipation (theory.md 6) ----------------------------------------------------- */
 
 /* D = -xi Q + (1/R) int x p dx for bodies similar or not. */
 static void dissipation_is_the_work_of_the_forces(void **state)
@@ -268,8 +266,7 @@ static void dissipation_is_the_work_of_the_forces(void **state)
     }
 }
 
-/* ---- Error bars
- * ----------------------------------------------------------------------------- */
+/* ---- Error bars -------------------------------------------------------------------- */
 
 static double uniform(double a, double b)
 {

@@ -134,8 +134,7 @@ static void shifts_add_up(void **state)
     }
 }
 
-/* ---- Pressing in increments -----------------------------------------------------------
- */
+/* ---- Pressing in increments -------------------------------------------------------- */
 
 /* Steel on a rigid plane, half-plane: beta/mu = 0.952. */
 static rb_rolling_case spence(int elements)

@@ -196,8 +196,7 @@ static void bad_wheels_are_refused(void **state)
     }
 }
 
-/* ---- Rolling --------------------------------------------------------------------------
- */
+/* ---- Rolling ----------------------------------------------------------------------- */
 
 /* A wheel R = 50 with a_g = 1 on a rigid plane, f = 2, V tau = 1. */
 static rb_rolling_case wheel(int n)

@@ -198,8 +198,7 @@ static void brushes_converge_to_second_order(void **state)
     }
 }
 
-/* ---- The law, from the printed columns ------------------------------------------------
- */
+/* ---- The law, from the printed columns --------------------------------------------- */
 
 /* Slip of element i by the displacements of A and B together, where these are known. */
 static double slip_of(const rb_rolling_case *rc, const rb_rolling_solution *s, int i)
@@ -357,8 +356,7 @@ static void small_yield_stress_is_a_bound(void **state)
     rb_rolling_solution_free(&s);
 }
 
-/* ---- Histories ------------------------------------------------------------------------
- */
+/* ---- Histories --------------------------------------------------------------------- */
 
 typedef struct {
     double *before; /* n: yielded after the step before */
@@ -451,8 +449,7 @@ static void a_transient_becomes_steady(void **state)
     rb_rolling_solution_free(&steady);
 }
 
-/* ---- A given force, and what is refused -----------------------------------------------
- */
+/* ---- A given force, and what is refused -------------------------------------------- */
 
 static void forces_find_their_creepage(void **state)
 {

@@ -7,8 +7,7 @@
 #include <signal.h>
 #include <sys/mman.h>
 
-/* ---- The library ----------------------------------------------------------------------
- */
+/* ---- The library ------------------------------------------------------------------- */
 
 enum { CASES = 23 };
 
@@ -111,8 +110,7 @@ static void stops_when_told(void **state)
     CHECK_STATUS(run(&r, 100000, &why), RB_EINVAL);
 }
 
-/* ---- The program ----------------------------------------------------------------------
- */
+/* ---- The program ------------------------------------------------------------------- */
 
 #define STUDY "sweep --support halfplane --formulation steady --load 500 --quiet "
 
@@ -335,8 +333,7 @@ static void values_may_have_units(void **state)
                   "--vary-1: expected an option and numbers");
 }
 
-/* ---- Pictures -------------------------------------------------------------------------
- */
+/* ---- Pictures ---------------------------------------------------------------------- */
 
 #define GRID                                                                             \
     STUDY "--similar --contact-elements 20 --vary-1 'load 100 400 900' "                 \

@@ -63,8 +63,7 @@ const char *rb_api_result(const char *table, int k, const char *field, char *tex
 /* Value of an option as settled. */
 const char *rb_api_value(const rb_api *a, const char *name, char *text, int size);
 
-/* ---- Results ------------------------------------------------------------------------
- */
+/* ---- Results ----------------------------------------------------------------------- */
 
 /* In mm, N and MPa, whatever units the options are given in.
  *

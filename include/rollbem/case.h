@@ -285,8 +285,7 @@ rb_units rb_case_file_units(const rb_case *c);
 /* 1: transient rolling, a static history or increments. */
 int rb_case_has_steps(const rb_settled_case *settled);
 
-/* ---- Solving ------------------------------------------------------------------------
- */
+/* ---- Solving ----------------------------------------------------------------------- */
 
 typedef struct {
     rb_rolling_model model;       /* without state where there are error bars */
@@ -310,8 +309,7 @@ rb_status rb_case_solve_again(const rb_settled_case *settled, rb_rolling_step *s
 void rb_case_result_convert(rb_case_result *result, rb_units units);
 void rb_case_result_free(rb_case_result *result);
 
-/* ---- Cases of CONTACT (docs/contact.md) ---------------------------------------------
- */
+/* ---- Cases of CONTACT (docs/contact.md) -------------------------------------------- */
 
 /* A two-dimensional case of CONTACT.  Its x is centre + sign x, its CKSI and FX are sign
  * times creepage and Q: sign < 0 where it rolls towards -x (CHI = 180 degrees). */
@@ -325,8 +323,7 @@ typedef struct {
 
 void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c);
 
-/* ---- Whose fault it is --------------------------------------------------------------
- */
+/* ---- Whose fault it is ------------------------------------------------------------- */
 
 /* Who gave the option of that name; 0: it has its default. */
 int rb_case_given(const rb_case *c, const char *name);

@@ -11,8 +11,7 @@
 
 RB_PUBLIC_BEGIN
 
-/* ---- The operator: what tractions do -------------------------------------------------
- */
+/* ---- The operator: what tractions do ----------------------------------------------- */
 
 /* Gaps F_N r and slips S r, S = A F_T (K2), of tractions r = (r_N, r_T) on n elements. Of
  * two kinds: matrices, which every solver takes, or products alone, with which Newton's
@@ -63,8 +62,7 @@ typedef struct {
 } rb_contact_response;
 rb_contact_response rb_contact_operator_response(const rb_contact_operator *op);
 
-/* ---- The problem ---------------------------------------------------------------------
- */
+/* ---- The problem ------------------------------------------------------------------- */
 
 struct rb_contact_state;
 typedef void rb_contact_newton_trace(const struct rb_contact_state *state, void *context);
@@ -134,8 +132,7 @@ double rb_contact_yield_stress(const rb_contact_problem *problem, int i, double 
 void rb_contact_force_row(const rb_contact_problem *problem, double *control_N,
                           double *control_T);
 
-/* ---- The state: unknowns of a problem -------------------------------------------------
- */
+/* ---- The state: unknowns of a problem ---------------------------------------------- */
 
 typedef enum {
     RB_ZONE_SEPARATED = 0,
@@ -201,8 +198,7 @@ double rb_contact_force(const rb_contact_problem *problem, const rb_contact_stat
 double rb_contact_moment(const rb_contact_problem *problem,
                          const rb_contact_state *state);
 
-/* ---- The LCP (K4, K5, K6) -------------------------------------------------------------
- */
+/* ---- The LCP (K4, K5, K6) ---------------------------------------------------------- */
 
 /* M z + b complementary to z, scaled: physical z_j = z_scale_j z_j.  Size 3n, or 5n where
  * a layer yields (Y1), plus one row for a given load and one for a given force (K6). */
@@ -235,8 +231,7 @@ enum { RB_CONTACT_VARIABLE = 32 };
 const char *rb_contact_lcp_variable(const rb_contact_lcp *lcp, int n, int variable,
                                     char name[RB_CONTACT_VARIABLE]);
 
-/* ---- Solvers --------------------------------------------------------------------------
- */
+/* ---- Solvers ----------------------------------------------------------------------- */
 
 /* A problem with given delta and xi in Coulomb's cones: u = W r + q, two numbers [N, T]
  * per element, scaled to numbers of order one. */

@@ -102,8 +102,7 @@ rb_status rb_fem_problem(const rb_fem_structure *s, const double *load,
                          const rb_fem_state *state, rb_friction_problem *problem,
                          rb_fem_units *units);
 
-/* ---- Condensation to the contact nodes ----------------------------------------------
- */
+/* ---- Condensation to the contact nodes --------------------------------------------- */
 
 /* The unknowns C that H touches are kept, the others F eliminated by a sparse Cholesky
  * factorisation of K_FF: K_c = K_CC - K_CF K_FF^-1 K_FC; opaque. */
@@ -122,8 +121,7 @@ rb_status rb_fem_condense_load(const rb_fem_condensation *c, const double *load,
 rb_status rb_fem_expand(const rb_fem_condensation *c, const double *load,
                         const double *u_c, double *u);
 
-/* ---- Models with a history of loads --------------------------------------------------
- */
+/* ---- Models with a history of loads ------------------------------------------------ */
 
 /* A mesh on a flat obstacle, below along its last axis, and the total loads of every
  * increment. */
@@ -194,8 +192,7 @@ rb_status rb_fem_run(const rb_fem_model *model, const char *solver, double tol,
                      rb_fem_history *history, rb_message *why);
 void rb_fem_history_free(rb_fem_history *history);
 
-/* ---- The wall ------------------------------------------------------------------------
- */
+/* ---- The wall ---------------------------------------------------------------------- */
 
 /* A dry masonry wall like the one of *Acary* 3: five courses in running bond, 12 blocks
  * (six whole, 0.2 x 0.1 x 0.1 m, ... two whole or half, whole, half per course), E

@@ -88,8 +88,7 @@ typedef struct {
 rb_status rb_friction_examine(const rb_friction_problem *problem, int with_rank,
                               rb_friction_facts *facts);
 
-/* ---- Files --------------------------------------------------------------------------
- */
+/* ---- Files ------------------------------------------------------------------------- */
 
 typedef enum {
     RB_FRICTION_FILE_ANY,     /* told by the head of the file */
@@ -118,8 +117,7 @@ rb_status rb_friction_write(const char *path, const rb_friction_problem *problem
                             const double *r, const double *u, const double *v,
                             const char *title, rb_message *why);
 
-/* ---- Measure of error ---------------------------------------------------------------
- */
+/* ---- Measure of error -------------------------------------------------------------- */
 
 /* Equation (13) of *Acary*, rho = 1: ||r - P_K(r - uhat)|| / ||q||, u recomputed from r
  * (||F|| itself where q = 0).  It adds forces to velocities and so depends on units.
@@ -136,8 +134,7 @@ rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
 rb_status rb_friction_scaled_error(const rb_friction_problem *problem, const double *r,
                                    const double *v, double *u, double *error);
 
-/* ---- Solvers ------------------------------------------------------------------------
- */
+/* ---- Solvers ----------------------------------------------------------------------- */
 
 /* An iterate whose error was measured. */
 typedef struct {
@@ -214,8 +211,7 @@ rb_friction_problem rb_friction_of_cone(const rb_contact_cone *cone);
 rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y,
                                  double *least);
 
-/* ---- One structure, many loads ------------------------------------------------------
- */
+/* ---- One structure, many loads ----------------------------------------------------- */
 
 /* Keeps what depends on W, or K and H, alone: the factor of K, the condensed W, its
  * blocks.  Borrows the problem. */
@@ -241,8 +237,7 @@ void rb_friction_handle_free(rb_friction_handle *handle);
 void rb_friction_profile(int problems, int solvers, const double *cost, int taus,
                          const double *tau, double *rho);
 
-/* ---- The canonical SOCLCP, *Kanno* (1) ------------------------------------------------
- */
+/* ---- The canonical SOCLCP, *Kanno* (1) --------------------------------------------- */
 
 /* y = M x + q, x and y in a product of cones, x'y = 0.  Borrowed. */
 typedef struct {

@@ -21,8 +21,7 @@ const char *rb_report_lcp_form(rb_contact_lcp_form form);
 /* The signs of creepage, slip and zones, one line each; ends with NULL. */
 extern const char *const rb_report_conventions[];
 
-/* ---- Tables of any kind -------------------------------------------------------------
- */
+/* ---- Tables of any kind ------------------------------------------------------------ */
 
 /* TSV: the names of the columns, # lines, rows.  The names come first because numpy takes
  * the first line for them even where it is a comment; every other reader skips comments
@@ -187,8 +186,7 @@ rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *ki
 rb_status rb_report_picture(FILE *out, rb_report_canvas canvas, const rb_rolling_case *rc,
                             const rb_rolling_solution *s, rb_message *why);
 
-/* ---- Wear -----------------------------------------------------------------------------
- */
+/* ---- Wear -------------------------------------------------------------------------- */
 
 enum { RB_REPORT_WEAR_PROFILES = 6 };
 
@@ -301,8 +299,7 @@ rb_status rb_report_vtk_check(rb_report_vtk_kind kind, const rb_report_stress *s
 rb_status rb_report_vtk(FILE *out, rb_report_vtk_kind kind,
                         const rb_report_stress *stress);
 
-/* ---- Steps --------------------------------------------------------------------------
- */
+/* ---- Steps ------------------------------------------------------------------------- */
 
 /* Creepage or shift, force and stick over the rolled distance, or over the increments of
  * a static history; errors as bands. */
@@ -310,8 +307,7 @@ rb_status rb_report_history_picture(FILE *out, rb_report_canvas canvas,
                                     const rb_rolling_case *rc,
                                     const rb_rolling_history *history, rb_message *why);
 
-/* ---- Parameter studies --------------------------------------------------------------
- */
+/* ---- Parameter studies ------------------------------------------------------------- */
 
 /* A column of a study's table. */
 typedef struct {
@@ -335,8 +331,7 @@ rb_status rb_report_study_check(const rb_report_study *study, int map, rb_messag
 rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas,
                                   const rb_report_study *study, int map, rb_message *why);
 
-/* ---- Performance profiles -----------------------------------------------------------
- */
+/* ---- Performance profiles ---------------------------------------------------------- */
 
 /* rho_s(tau): share of the problems that solver s solves at a cost of at most tau times
  * the least one. */
@@ -351,8 +346,7 @@ typedef struct {
 rb_status rb_report_profiles_picture(FILE *out, rb_report_canvas canvas,
                                      const rb_report_profiles *profiles, rb_message *why);
 
-/* ---- Behind the solution ------------------------------------------------------------
- */
+/* ---- Behind the solution ----------------------------------------------------------- */
 
 /* Everything a solution was computed from, as Matrix Market files in a folder, which is
  * made if need be and loses what an older dump left; all of them or none: contact, mesh,

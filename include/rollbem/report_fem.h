@@ -7,8 +7,7 @@
 
 RB_PUBLIC_BEGIN
 
-/* ---- Pictures: FILE gets the whole picture; statuses of rb_report_gnuplot ------------
- */
+/* ---- Pictures: FILE gets the whole picture; statuses of rb_report_gnuplot ---------- */
 
 /* The deformed mesh and the reactions after the last increment (*Kanno*, figures 5, 6).
  */
@@ -27,8 +26,7 @@ rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas,
                                  const rb_fem_wall *wall, int steps,
                                  const rb_fem_wall_step *step, rb_message *why);
 
-/* ---- JSON: arrays of one object a step; new references, NULL without memory ----------
- */
+/* ---- JSON: arrays of one object a step; new references, NULL without memory -------- */
 
 struct json_t *rb_report_json_bar(const rb_fem_model *model,
                                   const rb_fem_history *history);

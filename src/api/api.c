@@ -9,8 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Arrays -------------------------------------------------------------------------
- */
+/* ---- Arrays ------------------------------------------------------------------------ */
 
 api_array *rb_api_find_array(rb_api *a, const char *name)
 {
@@ -94,8 +93,7 @@ static api_array *table_column(rb_api *a, const rb_rolling_results *table,
     return made;
 }
 
-/* ---- A case -------------------------------------------------------------------------
- */
+/* ---- A case ------------------------------------------------------------------------ */
 
 int rb_api_ended(rb_api *a, rb_status s)
 {
@@ -274,8 +272,7 @@ const char *rb_api_message(const rb_api *a)
     return a->why.text;
 }
 
-/* ---- Descriptions -------------------------------------------------------------------
- */
+/* ---- Descriptions ------------------------------------------------------------------ */
 
 static const char *write_choices(const rb_option *o, char *text, int size)
 {
@@ -461,8 +458,7 @@ double rb_api_number(const rb_api *a, const char *name)
     return rb_rolling_number(r, is_error ? &result->errors.scalar : &result->solution);
 }
 
-/* ---- Matrices -----------------------------------------------------------------------
- */
+/* ---- Matrices ---------------------------------------------------------------------- */
 
 static api_array *boundary_matrices(rb_api *a, const char *name)
 {
@@ -577,8 +573,7 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
     return made ? made->at : NULL;
 }
 
-/* ---- Further questions --------------------------------------------------------------
- */
+/* ---- Further questions ------------------------------------------------------------- */
 
 int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points)
 {
@@ -828,8 +823,7 @@ int rb_api_guess(rb_api *a, int n, const int *zone)
     return rb_api_ended(a, s);
 }
 
-/* ---- Stress ------------------------------------------------------------------------
- */
+/* ---- Stress ------------------------------------------------------------------------ */
 
 static rb_status keep_stress(rb_api *a, int nx, int ny, const rb_rolling_stress *at)
 {

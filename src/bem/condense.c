@@ -32,8 +32,7 @@ static rb_status solve_contact(const rb_bem_system *s, double *X)
     return RB_OK;
 }
 
-/* ---- Singularities subtracted (B10)
- * ---------------------------------------------------- */
+/* ---- Singularities subtracted (B10) ------------------------------------------------ */
 
 /* What the strip on a contact element leaves for the boundary elements to solve: the
  * tractions and displacements that it causes where others are given. */

@@ -160,8 +160,7 @@ rb_status rb_bem_flexibility_add_compliance(rb_bem_flexibility *f, const double 
     return RB_OK;
 }
 
-/* ---- Two bodies (4.5) ---------------------------------------------------------------
- */
+/* ---- Two bodies (4.5) -------------------------------------------------------------- */
 
 /* B's own frame is the mirror image: its tangential tractions and displacements are those
  * of the pair with the sign changed, which changes the sign of its coupling blocks.

@@ -376,8 +376,7 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
                    n_c);
 }
 
-/* ---- Disc ----------------------------------------------------------------------------
- */
+/* ---- Disc -------------------------------------------------------------------------- */
 
 static rb_status check_disc(int n_c, const double *ends, const rb_bem_disc *disc,
                             rb_message *why)

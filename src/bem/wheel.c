@@ -281,8 +281,7 @@ static double mean(const gsl_spline *spline, gsl_interp_accel *near, double x, d
     return gsl_spline_eval_integ(spline, x - b, x + b, near) / (2.0 * b);
 }
 
-/* ---- The matrix -----------------------------------------------------------------------
- */
+/* ---- The matrix -------------------------------------------------------------------- */
 
 /* The angles of m = n + 1 midpoints and m + 1 ends, and what the half-plane's memory adds
  * along the circumference (2m x 2n). */

@@ -297,8 +297,7 @@ static rb_status settle_body_b(rb_case *c, rb_message *why)
     return RB_OK;
 }
 
-/* ---- Layers and memory ---------------------------------------------------------------
- */
+/* ---- Layers and memory ------------------------------------------------------------- */
 
 /* As many times as ratios. */
 static rb_status settle_memory(const rb_case_memory *typed, const char *which,
@@ -393,8 +392,7 @@ static rb_status settle_heat(rb_case *c, rb_message *why)
     return status;
 }
 
-/* ---- Friction laws -----------------------------------------------------------------
- */
+/* ---- Friction laws ----------------------------------------------------------------- */
 
 /* As many numbers as the option takes. */
 static rb_status count_numbers(const rb_case *c, const char *name, const rb_numbers *list,
@@ -451,8 +449,7 @@ static rb_status settle_law(rb_case *c, rb_message *why)
     return RB_OK;
 }
 
-/* ---- Files that the case names ------------------------------------------------------
- */
+/* ---- Files that the case names ----------------------------------------------------- */
 
 static int is_read(const case_table *t, const char *path, rb_units units)
 {
@@ -651,8 +648,7 @@ static rb_status read_history(rb_case *c, rb_message *why)
     return s == RB_OK ? settle_columns(c, why) : s;
 }
 
-/* ---- What depends on other options --------------------------------------------------
- */
+/* ---- What depends on other options ------------------------------------------------- */
 
 /* The paper's own example stays on its equal elements, as do large contacts, which need
  * them. */

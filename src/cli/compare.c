@@ -209,8 +209,7 @@ static cli_exit make_profiles(comparison *c)
     return CLI_OK;
 }
 
-/* ---- Output -------------------------------------------------------------------------
- */
+/* ---- Output ------------------------------------------------------------------------ */
 
 static const char *status_of(const comparison *c, const run_result *one)
 {
@@ -321,8 +320,7 @@ static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
     return rb_report_profiles_picture(out, canvas, &profiles, why);
 }
 
-/* ---- Command --------------------------------------------------------------------------
- */
+/* ---- Command ----------------------------------------------------------------------- */
 
 static cli_exit compare_files(comparison *c, int n, char **files)
 {

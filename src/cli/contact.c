@@ -61,8 +61,7 @@ typedef struct {
     contact_run *run;
 } contact_runs;
 
-/* ---- Results in CONTACT's words -----------------------------------------------------
- */
+/* ---- Results in CONTACT's words ---------------------------------------------------- */
 
 enum { COLUMNS = 18 };
 static const char columns[] = "case status FN FX FX_REL CKSI PEN PMAX FRIC_POWER NPOT "
@@ -194,8 +193,7 @@ static rb_status print(FILE *out, const void *context, rb_message *why)
     return rb_report_json_write(out, root);
 }
 
-/* ---- Command ------------------------------------------------------------------------
- */
+/* ---- Command ----------------------------------------------------------------------- */
 
 static cli_exit run_case(const contact_runs *all, int k)
 {

@@ -47,8 +47,7 @@ static void print_choices(const rb_option *o)
         printf("%s%s", c == o->choices ? "" : " ", c->name);
 }
 
-/* ---- Manual pages -------------------------------------------------------------------
- */
+/* ---- Manual pages ------------------------------------------------------------------ */
 
 /* Text for troff: a line that begins with blanks is an example and stays as it is. */
 static void print_troff(const char *text)
@@ -131,8 +130,7 @@ static void print_man(const cli_spec *spec)
                cli_command_name(k + 1) ? "," : "");
 }
 
-/* ---- Pages of the reference ----------------------------------------------------------
- */
+/* ---- Pages of the reference -------------------------------------------------------- */
 
 static void print_code_block(const char *text)
 {
@@ -192,8 +190,7 @@ static void print_results(const cli_spec *spec)
     }
 }
 
-/* ---- Completions ---------------------------------------------------------------------
- */
+/* ---- Completions ------------------------------------------------------------------- */
 
 static void each_option(const cli_spec *spec,
                         void (*print)(const rb_option *o, const char *command))
@@ -319,8 +316,7 @@ int cli_describe(const cli_spec *spec, const char *form)
     return 0;
 }
 
-/* ---- A whole completion --------------------------------------------------------------
- */
+/* ---- A whole completion ------------------------------------------------------------ */
 
 /* What every command says of itself; the one without a name last, or first. */
 static void describe_all(const char *form, int nameless_first)

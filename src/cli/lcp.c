@@ -262,8 +262,7 @@ static void print_problem(lcp_run *run, const lcp_result *r)
         print_solutions(run, r);
 }
 
-/* ---- A problem -----------------------------------------------------------------------
- */
+/* ---- A problem --------------------------------------------------------------------- */
 
 /* What rounding of the data allows at least: 1e-14 max (|M| z + |q|). */
 static double rounding_floor(const lcp_result *r)
@@ -375,8 +374,7 @@ static cli_exit run_solver(lcp_run *run, rb_io_matrix *M, lcp_result *r)
     return say_end(run->o, r, s);
 }
 
-/* ---- All solutions ------------------------------------------------------------------
- */
+/* ---- All solutions ----------------------------------------------------------------- */
 
 /* What the enumeration has left out, and whether it has found anything. */
 static cli_exit say_all(const lcp_options *o, lcp_result *r, const rb_lcp_solutions *all)
@@ -472,8 +470,7 @@ static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
     return code;
 }
 
-/* ---- Games ----------------------------------------------------------------------------
- */
+/* ---- Games ------------------------------------------------------------------------- */
 
 /* z = (x, y), w = what each strategy loses, of all solutions; the residual is the worst,
  * the payoffs are those of the first. */
@@ -530,8 +527,7 @@ static cli_exit solve_game(lcp_run *run, lcp_result *r)
     return code;
 }
 
-/* ---- One file -------------------------------------------------------------------------
- */
+/* ---- One file ---------------------------------------------------------------------- */
 
 static cli_exit solve_file(lcp_run *run, const char *path)
 {

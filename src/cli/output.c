@@ -60,8 +60,7 @@ void cli_output_settle(cli_output *o)
         !asked && !o->output && o->style.format == RB_REPORT_TSV && isatty(STDOUT_FILENO);
 }
 
-/* ---- Files that options name ----------------------------------------------------------
- */
+/* ---- Files that options name ------------------------------------------------------- */
 
 /* The same file, by whatever names.  Devices may be input and output. */
 static int same_file(const char *a, const char *b)
@@ -168,8 +167,7 @@ cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
     return code;
 }
 
-/* ---- Open, write, commit --------------------------------------------------------------
- */
+/* ---- Open, write, commit ----------------------------------------------------------- */
 
 rb_status cli_write_to(const char *path, cli_write *write, const void *context,
                        rb_message *why)

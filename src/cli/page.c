@@ -37,8 +37,7 @@ static const char about[] =
 static const char notes[] =
     CLI_CASE_NOTES "Example: rollbem page --mu 0.3 --creep 0.1 --output lecture.html\n";
 
-/* ---- The page as it is built --------------------------------------------------------
- */
+/* ---- The page as it is built ------------------------------------------------------- */
 
 /* Where the case goes: what web/page.html holds, and what stands for no case. */
 static const char marker[] = "<script type=\"application/json\" id=\"carried\">",
@@ -100,8 +99,7 @@ static cli_exit read_page(const char *given, built_page *p)
     return CLI_CONTINUE;
 }
 
-/* ---- The case ------------------------------------------------------------------------
- */
+/* ---- The case ---------------------------------------------------------------------- */
 
 /* The options that are given, name by name, as text of a case file. */
 static json_t *given_options(rb_case *c)

@@ -95,8 +95,7 @@ static void study_free(study *st)
     rb_case_free(st->one);
 }
 
-/* ---- Rows -----------------------------------------------------------------------------
- */
+/* ---- Rows -------------------------------------------------------------------------- */
 
 static uint64_t add_bytes(uint64_t hash, const void *data, size_t size)
 {
@@ -383,8 +382,7 @@ static rb_status make_case(int k, rb_rolling_case *rc, void *context)
     return RB_OK;
 }
 
-/* ---- Progress -------------------------------------------------------------------------
- */
+/* ---- Progress ---------------------------------------------------------------------- */
 
 /* 1: all rows so far are in the file. */
 static int flush_rows(study *st)
@@ -416,8 +414,7 @@ static int tick(int seen, void *context)
     return !flush_rows(st);
 }
 
-/* ---- The output file ------------------------------------------------------------------
- */
+/* ---- The output file --------------------------------------------------------------- */
 
 static cli_exit cannot_write(const char *path)
 {
@@ -636,8 +633,7 @@ static cli_exit close_output(study *st, cli_exit code)
     return cannot_write(st->o->output ? st->o->output : "standard output");
 }
 
-/* ---- Command --------------------------------------------------------------------------
- */
+/* ---- Command ----------------------------------------------------------------------- */
 
 static rb_rolling_sweep sweep_of(study *st)
 {

@@ -74,8 +74,7 @@ rb_status rb_contact_factors_create(rb_contact_factors **factors)
     return *factors ? RB_OK : RB_ENOMEM;
 }
 
-/* ---- Entries, scaled to numbers of order one ------------------------------------------
- */
+/* ---- Entries, scaled to numbers of order one --------------------------------------- */
 
 static double gap_of(const rb_contact_problem *p, int i, traction t)
 {
@@ -151,8 +150,7 @@ static double corner(const rb_contact_problem *p, const rb_contact_reduced *r,
     }
 }
 
-/* ---- What has changed since the LU ----------------------------------------------------
- */
+/* ---- What has changed since the LU ------------------------------------------------- */
 
 static void plan_free(plan *pl)
 {
@@ -229,8 +227,7 @@ static void make_plan(const rb_contact_problem *p, const int *zone,
             k->size + add_border(pl, (border){CREEPAGE, 0, {0}});
 }
 
-/* ---- The LU --------------------------------------------------------------------------
- */
+/* ---- The LU ------------------------------------------------------------------------ */
 
 static rb_status make_room(int size, kept_lu *k)
 {
@@ -270,8 +267,7 @@ static rb_status factor(const rb_contact_problem *p, const rb_contact_reduced *r
     return RB_OK;
 }
 
-/* ---- Solving -------------------------------------------------------------------------
- */
+/* ---- Solving ----------------------------------------------------------------------- */
 
 /* Columns V and f, rows W, T and g. */
 typedef struct {

@@ -7,8 +7,7 @@
 
 #include <math.h>
 
-/* ---- reduced.c -----------------------------------------------------------------------
- */
+/* ---- reduced.c --------------------------------------------------------------------- */
 
 /* Which unknowns a solve moves: (r_N, delta), (r_T, xi) or both. */
 typedef enum { RB_NORMAL = 1, RB_TANGENTIAL = 2, RB_BOTH = 3 } rb_contact_unknowns;
@@ -81,8 +80,7 @@ struct rb_contact_operator {
     rb_contact_response response;
 };
 
-/* ---- pairs.c -------------------------------------------------------------------------
- */
+/* ---- pairs.c ----------------------------------------------------------------------- */
 
 /* The problem with its elements in pairs, forces added; for rb_contact_problem_free.
  * RB_MAXITER: of products there is none; RB_ENOMEM. */
@@ -90,8 +88,7 @@ rb_status rb_contact_halve(const rb_contact_problem *fine, rb_contact_problem *h
 /* Every element takes over what its pair has. */
 void rb_contact_start_from_half(const rb_contact_state *half, rb_contact_state *state);
 
-/* ---- cone.c --------------------------------------------------------------------------
- */
+/* ---- cone.c ------------------------------------------------------------------------ */
 
 /* p and q for the state's delta and xi, by the caller's cone solver.  RB_EINVAL: it is
  * not known. */
@@ -99,8 +96,7 @@ rb_status rb_contact_cone_solve(const rb_contact_problem *problem,
                                 const rb_contact_options *options,
                                 rb_contact_state *state, rb_message *why);
 
-/* ---- residual.c ----------------------------------------------------------------------
- */
+/* ---- residual.c -------------------------------------------------------------------- */
 
 /* Of an element in contact that slides by lambda. */
 rb_contact_zone rb_contact_sliding_zone(double lambda);
@@ -108,8 +104,7 @@ rb_contact_zone rb_contact_sliding_zone(double lambda);
 void rb_contact_classify(const rb_contact_problem *problem, double tol,
                          rb_contact_state *state);
 
-/* ---- newton.c ------------------------------------------------------------------------
- */
+/* ---- newton.c ---------------------------------------------------------------------- */
 
 /* One exact solve with the zones of the state held fixed.  RB_SINGULAR: p and q have lost
  * their values. */
@@ -121,8 +116,7 @@ rb_status rb_contact_solve_zones(rb_contact_problem *problem,
 rb_status rb_contact_newton(rb_contact_problem *problem, int warm,
                             rb_contact_state *state);
 
-/* ---- yield.c -------------------------------------------------------------------------
- */
+/* ---- yield.c ----------------------------------------------------------------------- */
 
 /* 1: friction of the state, which knows no layer, is above the yield stress. */
 int rb_contact_yields(const rb_contact_problem *problem, const rb_contact_state *state);

@@ -169,8 +169,7 @@ static void pivoted_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
         pivoted_border(p, force_row(p, lcp), lcp);
 }
 
-/* ---- Kwak's form (K4) ---------------------------------------------------------------
- */
+/* ---- Kwak's form (K4) -------------------------------------------------------------- */
 
 /* Column of lambda+ (sign 0) or lambda- (sign 1) of element i. */
 static int lambda_column(int n, int i, int sign)
@@ -314,8 +313,7 @@ static rb_status kwak_form(const rb_contact_problem *p, rb_contact_lcp *lcp)
     return s;
 }
 
-/* ---- A layer that yields (Y1) ---------------------------------------------------------
- */
+/* ---- A layer that yields (Y1) ------------------------------------------------------ */
 
 /* Plastic slips s+ and s- (z), against sigma+- = yield + hardening u +- r_T (w), stand
  * behind the 3n: block by block in the pivoted form, by pairs in Kwak's. */

@@ -71,8 +71,7 @@ static void set_response(products *k)
     unit->slip = fabs(k->slip[j]);
 }
 
-/* ---- The system  [A B; C 0]: tractions, and delta and xi at its border --------------
- */
+/* ---- The system  [A B; C 0]: tractions, and delta and xi at its border ------------- */
 
 typedef struct {
     const rb_contact_problem *p;
@@ -151,8 +150,7 @@ static void multiply(const system_of *s, const double *x, double *y)
     border_rows(s, y);
 }
 
-/* ---- The preconditioner  P = [A~ B; C 0] --------------------------------------------
- */
+/* ---- The preconditioner  P = [A~ B; C 0] ------------------------------------------- */
 
 /* The unknown tractions in one direction; the equations are in units of `length`. */
 typedef struct {
@@ -250,8 +248,7 @@ static rb_status system_make(const rb_contact_problem *p, const int *zone,
     return RB_OK;
 }
 
-/* ---- GMRES (Saad and Schultz), preconditioned from the right ------------------------
- */
+/* ---- GMRES (Saad and Schultz), preconditioned from the right ----------------------- */
 
 typedef struct {
     double H[BASIS][BASIS + 1]; /* columns of the Hessenberg matrix, rotated */

@@ -229,8 +229,7 @@ static rb_status solve_newton(rb_contact_problem *problem,
     return s;
 }
 
-/* ---- Without a matrix: by way of less friction ----------------------------------------
- */
+/* ---- Without a matrix: by way of less friction ------------------------------------- */
 
 /* The problem's friction, of which a share acts; a share of 1 gives it back. */
 typedef struct {
@@ -326,8 +325,7 @@ static rb_status solve_by_friction(rb_contact_problem *problem,
     return s;
 }
 
-/* ---- The order of attempts ------------------------------------------------------------
- */
+/* ---- The order of attempts --------------------------------------------------------- */
 
 /* The order of solvers: the wanted one first; where it ends without a solution, the other
  * one.  A warm start is Newton's: it costs a few steps where Lemke would begin anew. */
@@ -375,8 +373,7 @@ static rb_status solve_coulomb(rb_contact_problem *problem,
     return s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
 }
 
-/* ---- A layer that yields --------------------------------------------------------------
- */
+/* ---- A layer that yields ----------------------------------------------------------- */
 
 static rb_status solve_yield_newton(rb_contact_problem *problem,
                                     const rb_contact_options *options, int follows,
@@ -448,8 +445,7 @@ static rb_status solve_given(rb_contact_problem *problem,
                           : solve_coulomb(problem, options, warm, state, why);
 }
 
-/* ---- Full sliding
- * ---------------------------------------------------------------------- */
+/* ---- Full sliding ------------------------------------------------------------------ */
 
 /* Whether the given force is all that friction can carry. */
 static int slides_fully(const rb_contact_problem *problem)

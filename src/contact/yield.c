@@ -55,8 +55,7 @@ static rb_status laws_alloc(const rb_contact_problem *p, laws *k)
     return RB_OK;
 }
 
-/* ---- Laws and states ------------------------------------------------------------------
- */
+/* ---- Laws and states --------------------------------------------------------------- */
 
 static double against(double slip)
 {
@@ -112,8 +111,7 @@ static void zones_of_laws(const laws *k, rb_contact_state *state)
     }
 }
 
-/* ---- The linear problem of the laws ---------------------------------------------------
- */
+/* ---- The linear problem of the laws ------------------------------------------------ */
 
 static void number_unknowns(laws *k)
 {
@@ -319,8 +317,7 @@ static rb_status solve_laws(laws *k, rb_contact_state *state)
     return s;
 }
 
-/* ---- Corrections ----------------------------------------------------------------------
- */
+/* ---- Corrections ------------------------------------------------------------------- */
 
 /* What the layer has yielded upstream of the element that is looked at, by the slips of
  * the solve and the laws as corrected so far: a history that follows the material does
@@ -467,8 +464,7 @@ static rb_status iterate(laws *k, rb_contact_state *state)
     return RB_MAXITER;
 }
 
-/* ---- The way down from a yield stress that nothing reaches ----------------------------
- */
+/* ---- The way down from a yield stress that nothing reaches ------------------------- */
 
 /* Those of a layer with a higher yield stress come first: half the excess less in each
  * step, or a smaller part of it. */

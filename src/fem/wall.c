@@ -186,8 +186,7 @@ rb_status rb_fem_wall_displacements(const rb_fem_wall *wall, double *u)
     return RB_OK;
 }
 
-/* ---- One step ------------------------------------------------------------------------
- */
+/* ---- One step ---------------------------------------------------------------------- */
 
 static double force_at(const rb_fem_wall *w, int step)
 {
@@ -320,8 +319,7 @@ rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
                                 rb_status_text(s), info.residual);
 }
 
-/* ---- Problems for others
- * ---------------------------------------------------------------- */
+/* ---- Problems for others ----------------------------------------------------------- */
 
 static double *copy_of(const double *x, size_t n)
 {

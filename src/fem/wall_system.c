@@ -79,8 +79,7 @@ rb_status wall_elastic_system(const wall_layout *layout, const rb_fem_mesh *mesh
     return status;
 }
 
-/* ---- Rigid blocks -------------------------------------------------------------------
- */
+/* ---- Rigid blocks ------------------------------------------------------------------ */
 
 typedef struct {
     int *row, *col, n;

@@ -180,8 +180,7 @@ static void portfolio_free(portfolio *p)
     free(p->memory);
 }
 
-/* ---- Stages ---------------------------------------------------------------------------
- */
+/* ---- Stages ------------------------------------------------------------------------ */
 
 /* Dense tableaus beyond this take longer than what comes after. */
 #define MOST_FOR_LEMKE 1000
@@ -250,8 +249,7 @@ static rb_status begin_stage(member *a)
     return method->start(&a->task, a->solver->variant | yields, a->state);
 }
 
-/* ---- Turns ----------------------------------------------------------------------------
- */
+/* ---- Turns ------------------------------------------------------------------------- */
 
 static int iterations_left(const portfolio *p)
 {

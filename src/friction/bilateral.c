@@ -118,8 +118,7 @@ static int contradicts(const equations *e, int first, int last)
     return left > RANK * size;
 }
 
-/* ---- Global form ----------------------------------------------------------------------
- */
+/* ---- Global form ------------------------------------------------------------------- */
 
 /* v = v0 + Z y, Z by rows: row i of Z is column i of rows. */
 typedef struct {
@@ -291,8 +290,7 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
     return s;
 }
 
-/* ---- Local form -----------------------------------------------------------------------
- */
+/* ---- Local form -------------------------------------------------------------------- */
 
 /* [R, V', s] (l, r, 1) = 0 */
 static void load_local(const rb_sparse *V, const rb_sparse *R, const double *s,

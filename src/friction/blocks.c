@@ -13,8 +13,7 @@ void rb_friction_blocks_free(rb_friction_blocks *blocks)
     *blocks = (rb_friction_blocks){0};
 }
 
-/* ---- Reading W, the d columns of one contact together --------------------------------
- */
+/* ---- Reading W, the d columns of one contact together ------------------------------ */
 
 typedef struct {
     const rb_friction_problem *local;
@@ -82,8 +81,7 @@ static int next_block(reader *s, double *block)
                                                      : next_sparse(s, block);
 }
 
-/* ---- Blocks --------------------------------------------------------------------------
- */
+/* ---- Blocks ------------------------------------------------------------------------ */
 
 /* Below this, room for one block per entry costs less than counting the blocks. */
 #define NOT_WORTH_COUNTING 10000

@@ -57,8 +57,7 @@ static rb_status part_of(const condenser *c, const rb_sparse *a, int body, int c
     return s;
 }
 
-/* ---- A large body
- * ---------------------------------------------------------------------- */
+/* ---- A large body ------------------------------------------------------------------ */
 
 /* q += H_b' K_b^-1 f_b, and W_b with its rows numbered as those of W */
 static rb_status condense_large(condenser *c, int body, double *q)
@@ -92,8 +91,7 @@ static rb_status condense_large(condenser *c, int body, double *q)
     return s;
 }
 
-/* ---- A small body
- * ---------------------------------------------------------------------- */
+/* ---- A small body ------------------------------------------------------------------ */
 
 #define MOST_DOFS 12 /* of a body that is inverted densely */
 #define LEAST_PIVOT                                                                      \
@@ -175,8 +173,7 @@ static rb_status condense_small(condenser *c, int body, double *q)
     return RB_OK;
 }
 
-/* ---- All bodies
- * ------------------------------------------------------------------------- */
+/* ---- All bodies -------------------------------------------------------------------- */
 
 /* dof, dofs_of and number: the degrees of freedom body by body. */
 static rb_status list_dofs(condenser *c)
@@ -284,8 +281,7 @@ static rb_status condense_bodies(condenser *c, double *q)
     return s;
 }
 
-/* ---- W column by column
- * ----------------------------------------------------------------- */
+/* ---- W column by column ------------------------------------------------------------ */
 
 /* The bodies that a column touches, by increasing number, and its place among the columns
  * of each. */

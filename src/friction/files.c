@@ -185,8 +185,7 @@ rb_status rb_friction_read(const char *path, rb_friction_problem *problem,
     return rb_friction_read_as(path, RB_FRICTION_FILE_ANY, problem, why);
 }
 
-/* ---- SOCLCP
- * -------------------------------------------------------------------------------- */
+/* ---- SOCLCP ------------------------------------------------------------------------ */
 
 void rb_friction_soclcp_data_free(rb_friction_soclcp_data *data)
 {
@@ -253,8 +252,7 @@ rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *dat
     return s;
 }
 
-/* ---- Writing
- * ------------------------------------------------------------------------------- */
+/* ---- Writing ----------------------------------------------------------------------- */
 
 static rb_status describe(const rb_friction_problem *p, rb_io_fclib *file)
 {

@@ -135,8 +135,7 @@ void rb_friction_natural_map(int d, double mu, double rho_n, double rho_t,
         A[a + a * d] += 1.0;
 }
 
-/* ---- Fischer-Burmeister
- * ---------------------------------------------------------------- */
+/* ---- Fischer-Burmeister ------------------------------------------------------------ */
 
 /* L_x of the Jordan product x o y: [x0 x1'; x1 x0 I] */
 static void arrow(int d, const double *x, double *L)

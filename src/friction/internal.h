@@ -5,8 +5,7 @@
 
 #include "rollbem/friction.h"
 
-/* ---- Cones (cone.c) -------------------------------------------------------------------
- */
+/* ---- Cones (cone.c) ---------------------------------------------------------------- */
 
 /* P_K(z), K = {||z_T|| <= mu z_N}; z and p: d entries, may be the same. */
 void rb_friction_project(int d, double mu, const double *z, double *p);

@@ -89,8 +89,7 @@ static rb_status lemke_alloc(rb_friction_task *task, lemke *s)
                : RB_ENOMEM;
 }
 
-/* ---- The equations E u - W r = q ----------------------------------------------------
- */
+/* ---- The equations E u - W r = q --------------------------------------------------- */
 
 static void scatter(const rb_sparse *a, double *dense)
 {
@@ -156,8 +155,7 @@ static void mirror(lemke *s)
         s->q[i] = -s->q[i];
 }
 
-/* ---- The two bases --------------------------------------------------------------------
- */
+/* ---- The two bases ----------------------------------------------------------------- */
 
 /* Row i (of 2 nc, contact by contact N, T) goes to group N or T of the LCP. */
 static size_t row_of(const lemke *s, size_t i)

@@ -45,8 +45,7 @@ static int solve_small(int d, const double *M, const double *b, double *x)
     return det != 0.0 && isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
 }
 
-/* ---- The normal eliminated -----------------------------------------------------------
- */
+/* ---- The normal eliminated --------------------------------------------------------- */
 
 #define LEAST_DETERMINANT 1e-13 /* of S, below which it counts as singular */
 #define ROOT_STEPS 60
@@ -161,8 +160,7 @@ int rb_friction_contact_exact(const rb_friction_contact *c, double *lambda,
     return steps;
 }
 
-/* ---- Without elimination: any W ------------------------------------------------------
- */
+/* ---- Without elimination: any W ---------------------------------------------------- */
 
 /* F at r; M = A + B W where wanted.  Returns ||F||. */
 static double contact_function(const rb_friction_contact *c, const double *rho,

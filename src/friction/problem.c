@@ -109,8 +109,7 @@ rb_status rb_friction_problem_check(const rb_friction_problem *p, rb_message *wh
     return s == RB_OK ? check_vector("q", (size_t)m, p->q, why) : s;
 }
 
-/* ---- Facts ----------------------------------------------------------------------------
- */
+/* ---- Facts ------------------------------------------------------------------------- */
 
 /* Indefinite: the symmetric part + 1e-10 max |W| has no Cholesky factor. */
 static rb_status examine_definiteness(const rb_sparse *w, double largest, int *indefinite)

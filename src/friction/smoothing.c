@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- The smoothed projection ----------------------------------------------------------
- */
+/* ---- The smoothed projection ------------------------------------------------------- */
 
 /* (sqrt(s^2 + 4 mu^2) + s)/2 and its derivative, without cancellation for s < 0 */
 static double plus(double mu, double s, double *derivative)
@@ -52,8 +51,7 @@ double rb_friction_smoothed(int n, double mu, const double *x, double *P, double
     return least;
 }
 
-/* ---- The method -----------------------------------------------------------------------
- */
+/* ---- The method -------------------------------------------------------------------- */
 
 #define ETA 0.05 /* mu, eps and the inner accuracy shrink by it per outer step */
 #define LEAST_SMOOTHING 1e-2 /* of eps */

@@ -11,8 +11,7 @@
 #define LEAST_PIVOT 1e-13 /* of lambda, which nothing fixes where r = 0 and eps -> 0 */
 #define LEAST_SHIFT 1e-12 /* of W's own blocks, in the matrix only */
 
-/* ---- The canonical form ---------------------------------------------------------------
- */
+/* ---- The canonical form ------------------------------------------------------------ */
 
 typedef struct {
     const rb_friction_soclcp_problem *p;
@@ -237,8 +236,7 @@ rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p,
     return s;
 }
 
-/* ---- Friction, *Kanno* (10)
- * -------------------------------------------------------------- */
+/* ---- Friction, *Kanno* (10) -------------------------------------------------------- */
 
 /* Per contact, with rho bringing velocities to forces,
  *     x1 = (lambda, rho u_T),  y1 = (mu r_N + eps lambda, r_T + eps rho u_T)  in L^d,

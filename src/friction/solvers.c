@@ -83,8 +83,7 @@ const char *rb_friction_status_text(rb_status s, double tol, const rb_friction_i
     return rb_status_text(s);
 }
 
-/* ---- One call -------------------------------------------------------------------------
- */
+/* ---- One call ---------------------------------------------------------------------- */
 
 /* What was asked, and when. */
 typedef struct {
@@ -219,8 +218,7 @@ rb_status rb_friction_solve(const char *name, const rb_friction_problem *problem
     return s;
 }
 
-/* ---- One structure, many loads --------------------------------------------------------
- */
+/* ---- One structure, many loads ----------------------------------------------------- */
 
 rb_status rb_friction_setup(const rb_friction_problem *problem,
                             rb_friction_handle **handle, rb_message *why)

@@ -18,8 +18,7 @@ void rb_friction_system_free(rb_friction_system *s)
     *s = (rb_friction_system){0};
 }
 
-/* ---- Global form: the transposed matrix, whose columns are the equations -------------
- */
+/* ---- Global form: the transposed matrix, whose columns are the equations ----------- */
 
 /* Triplets of one filling of the global pattern; only places matter. */
 static int global_places(const rb_friction_problem *p, int d, int *row, int *col,
@@ -97,8 +96,7 @@ rb_status rb_friction_system_init_local(rb_friction_task *task, rb_friction_syst
     return init(task, 0, s);
 }
 
-/* ---- Products ------------------------------------------------------------------------
- */
+/* ---- Products ---------------------------------------------------------------------- */
 
 void rb_friction_system_velocity(const rb_friction_system *s, double constant,
                                  const double *r, const double *v, double *u)
@@ -132,8 +130,7 @@ int rb_friction_system_is_dense(int order, double fill)
     return order <= DENSE_ORDER || fill > DENSE_FILL;
 }
 
-/* ---- Steps ---------------------------------------------------------------------------
- */
+/* ---- Steps ------------------------------------------------------------------------- */
 
 /* The contact equations B H' dv + A dr; K and -H stay. */
 static void fill_global(rb_friction_system *s, const double *A, const double *B)

@@ -53,8 +53,7 @@ static void times(int d, const double *B, const double *x, double *y)
     }
 }
 
-/* ---- Dense ---------------------------------------------------------------------------
- */
+/* ---- Dense ------------------------------------------------------------------------- */
 
 /* The columns of contact c in the matrix of the closed contacts. */
 static void fill_dense_columns(rb_friction_system *s, int c, size_t order,
@@ -107,8 +106,7 @@ static void spread(rb_friction_system *s, const double *F)
             s->x[c * d + a] = s->place[c] < 0 ? -F[c * d + a] : s->x[s->place[c] * d + a];
 }
 
-/* ---- Sparse --------------------------------------------------------------------------
- */
+/* ---- Sparse ------------------------------------------------------------------------ */
 
 rb_status rb_friction_local_pattern(rb_friction_system *s)
 {
@@ -176,8 +174,7 @@ rb_status rb_friction_local_step(rb_friction_system *s, const double *A, const d
     return st;
 }
 
-/* ---- One factorisation, many solves --------------------------------------------------
- */
+/* ---- One factorisation, many solves ------------------------------------------------ */
 
 static int wants_dense(const rb_friction_system *s)
 {

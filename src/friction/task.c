@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- What methods on one problem share ----------------------------------------------
- */
+/* ---- What methods on one problem share --------------------------------------------- */
 
 rb_status rb_friction_shared_init(const rb_friction_problem *problem,
                                   rb_friction_shared *shared, rb_message *why)
@@ -99,8 +98,7 @@ void rb_friction_task_start(rb_friction_task *task)
         task->v[i] = opt->v0 ? opt->v0[i] : 0.0;
 }
 
-/* ---- The measure ----------------------------------------------------------------------
- */
+/* ---- The measure ------------------------------------------------------------------- */
 
 static void count_measure(rb_friction_task *task)
 {
@@ -170,8 +168,7 @@ int rb_friction_prove(rb_friction_task *task)
     return task->proved;
 }
 
-/* ---- Limits
- * ----------------------------------------------------------------------------- */
+/* ---- Limits ------------------------------------------------------------------------ */
 
 int rb_friction_task_left(const rb_friction_task *task, int own)
 {
@@ -202,8 +199,7 @@ rb_status rb_friction_task_judge(rb_friction_task *task)
     return rb_friction_task_late(task) ? RB_INTERRUPTED : RB_MAXITER;
 }
 
-/* ---- Runs
- * ------------------------------------------------------------------------------- */
+/* ---- Runs -------------------------------------------------------------------------- */
 
 rb_status rb_friction_run(rb_friction_task *task, const rb_friction_method *method,
                           int variant, int limit)

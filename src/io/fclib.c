@@ -50,8 +50,7 @@ int rb_io_is_hdf5(const char *path)
     return got == (ssize_t)sizeof head && !memcmp(head, signature, sizeof head);
 }
 
-/* ---- Reading -------------------------------------------------------------------------
- */
+/* ---- Reading ----------------------------------------------------------------------- */
 
 /* Deflate makes at most so many bytes of one, and no array has more than that allows: the
  * memory for a file is bounded by its size. */
@@ -462,8 +461,7 @@ static herr_t note_error(hid_t stack, void *no_memory)
     return H5Ewalk2(stack, H5E_WALK_DOWNWARD, look_for_memory, no_memory);
 }
 
-/* ---- From the child to the parent: sizes and arrays as they lie in memory
- * --------------- */
+/* ---- From the child to the parent: sizes and arrays as they lie in memory ---------- */
 
 static void put_array(FILE *out, const void *x, size_t size, int n)
 {
@@ -618,8 +616,7 @@ rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *w
     return s;
 }
 
-/* ---- Writing --------------------------------------------------------------------------
- */
+/* ---- Writing ----------------------------------------------------------------------- */
 
 /* Each returns 0 when all went well. */
 static int write_array(hid_t parent, const char *name, hid_t type, int n,

@@ -191,8 +191,7 @@ rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p,
     return t.status;
 }
 
-/* ---- Games --------------------------------------------------------------------------
- */
+/* ---- Games ------------------------------------------------------------------------- */
 
 void rb_io_bimatrix_free(rb_io_bimatrix *p)
 {

@@ -65,8 +65,7 @@ rb_status rb_io_matrix_to_sparse(const rb_io_matrix *m, rb_sparse *a)
     return s;
 }
 
-/* ---- Matrix Market ------------------------------------------------------------------
- */
+/* ---- Matrix Market ----------------------------------------------------------------- */
 
 static const char BANNER[] = "%%MatrixMarket matrix array real general";
 

@@ -13,8 +13,7 @@ static int ok(const io_tokens *t)
     return t->status == RB_OK;
 }
 
-/* ---- Matrices ------------------------------------------------------------------------
- */
+/* ---- Matrices ---------------------------------------------------------------------- */
 
 static void read_dense(io_tokens *t, rb_io_matrix *m)
 {
@@ -200,8 +199,7 @@ static double *read_vector(io_tokens *t, int n, const char *what)
     return x;
 }
 
-/* ---- Problems ------------------------------------------------------------------------
- */
+/* ---- Problems ---------------------------------------------------------------------- */
 
 void rb_io_lcp_free(rb_io_lcp *p)
 {
@@ -329,8 +327,7 @@ rb_status rb_io_siconos_read_soclcp(const char *path, rb_io_soclcp *p, rb_messag
     return t.status;
 }
 
-/* ---- Kinds ---------------------------------------------------------------------------
- */
+/* ---- Kinds ------------------------------------------------------------------------- */
 
 /* LCP: n, storage, n, n.  Friction: d, contacts, storage, m, m with m = d contacts.
  * SOCLCP: n, cones, storage, n, n.  Global friction: d, contacts, storage, n, n. */

@@ -19,8 +19,7 @@ static rb_status cannot_write(const char *path, rb_message *why)
                    errno ? strerror(errno) : "write error");
 }
 
-/* ---- Names --------------------------------------------------------------------------
- */
+/* ---- Names ------------------------------------------------------------------------- */
 
 /* The path of `name` in the folder of `target`; owned by the caller. */
 static char *beside(const char *target, const char *name)
@@ -84,8 +83,7 @@ static int link_nameless(const char *name, int fd)
     return linkat(AT_FDCWD, self, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0 ? fd : -1;
 }
 
-/* ---- Open ---------------------------------------------------------------------------
- */
+/* ---- Open -------------------------------------------------------------------------- */
 
 /* A file in the target's folder that has no name until it is committed: whatever ends the
  * program, nothing is left behind. */
@@ -163,8 +161,7 @@ rb_status rb_io_writer_check(const char *path, rb_message *why)
     return s;
 }
 
-/* ---- End ----------------------------------------------------------------------------
- */
+/* ---- End --------------------------------------------------------------------------- */
 
 /* 1: something was not written; errno says why, 0 where that is forgotten. */
 static int flush(FILE *file)
@@ -270,8 +267,7 @@ void rb_io_writer_abandon(rb_io_writer *w)
     *w = (rb_io_writer){0};
 }
 
-/* ---- Folders ------------------------------------------------------------------------
- */
+/* ---- Folders ----------------------------------------------------------------------- */
 
 char *rb_io_join(const char *folder, const char *name)
 {

@@ -84,8 +84,7 @@ static void combine_columns(const mixed *p, const double *x, double *r)
     }
 }
 
-/* ---- The basic point from the data --------------------------------------------------
- */
+/* ---- The basic point from the data ------------------------------------------------- */
 
 /* g = q + M z of the nonbasic z. */
 static void right_hand_side(mixed *p)
@@ -466,8 +465,7 @@ static rb_status solve_from(mixed *p, const double *start)
     return s == RB_OK ? follow_path(p) : s;
 }
 
-/* ---- The problem without free variables ---------------------------------------------
- */
+/* ---- The problem without free variables -------------------------------------------- */
 
 /* A free z(i) is the difference of two that are not negative: its own and one more, whose
  * w is minus w(i).  Then all z can start at a bound, whatever M is. */

@@ -415,8 +415,7 @@ void rb_lcp_tableau_pivot(lcp_tableau *t, int r, int c, const double *a)
         rb_lcp_tableau_flush(t);
 }
 
-/* ---- The tableau from the data and the basis ----------------------------------------
- */
+/* ---- The tableau from the data and the basis --------------------------------------- */
 
 /* w = q + M z + d z0 solved for the basic variables: with C the basic ones of z and z0, R
  * the rows whose w is nonbasic (as many), A = [M d]_RC and E = [M d]_rest,C,

@@ -21,8 +21,7 @@ typedef struct {
 
 static int active, rank, size, stopped;
 
-/* ---- Begin, agree, end ----------------------------------------------------------------
- */
+/* ---- Begin, agree, end ------------------------------------------------------------- */
 
 cli_exit cli_pool_begin(int argc, char **argv)
 {
@@ -108,8 +107,7 @@ void cli_pool_end(void)
     active = 0;
 }
 
-/* ---- Rank 0 ---------------------------------------------------------------------------
- */
+/* ---- Rank 0 ------------------------------------------------------------------------ */
 
 typedef struct {
     rb_rolling_pool pool; /* first */
@@ -183,8 +181,7 @@ static void stop(rb_rolling_pool *pool)
     free(all);
 }
 
-/* ---- The others -----------------------------------------------------------------------
- */
+/* ---- The others -------------------------------------------------------------------- */
 
 enum { QUEUE = 512 }; /* two cases for each of 256 solvers: rank 0 gives no more */
 
@@ -235,8 +232,7 @@ static int run_rank(rb_rolling_pool *own)
     return came;
 }
 
-/* ---- All ------------------------------------------------------------------------------
- */
+/* ---- All --------------------------------------------------------------------------- */
 
 /* A process's share of its machine, at most the processors that mpirun bound it to. */
 static int share(void)

@@ -13,8 +13,7 @@ typedef struct {
     rb_message *why;
 } target;
 
-/* ---- Files ---------------------------------------------------------------------------
- */
+/* ---- Files ------------------------------------------------------------------------- */
 
 /* All that a dump may write: what an old one has left must not stand beside the new. */
 static const char *const names[] = {"contact", "mesh",    "mesh_b", "H",         "H_b",

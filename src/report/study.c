@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- The cases in order ---------------------------------------------------------------
- */
+/* ---- The cases in order ------------------------------------------------------------ */
 
 typedef struct {
     double x, y, value;
@@ -53,8 +52,7 @@ static int count_groups(const rb_report_study *s, const spot *at)
     return groups;
 }
 
-/* ---- What can be drawn ----------------------------------------------------------------
- */
+/* ---- What can be drawn ------------------------------------------------------------- */
 
 /* A place has one case, or the picture would need a third direction. */
 static rb_status check_places(const rb_report_study *s, const spot *at, rb_message *why)
@@ -114,8 +112,7 @@ rb_status rb_report_study_check(const rb_report_study *s, int map, rb_message *w
     return status;
 }
 
-/* ---- Axes -----------------------------------------------------------------------------
- */
+/* ---- Axes -------------------------------------------------------------------------- */
 
 /* Values are shown in a power of ten where their numbers would be long. */
 typedef struct {
@@ -229,8 +226,7 @@ static void write_title(FILE *out, const view *v, rb_report_place place)
         rb_report_label_bodies(out, s->rc, s->units, 0.5, 0.935);
 }
 
-/* ---- Curves ---------------------------------------------------------------------------
- */
+/* ---- Curves ------------------------------------------------------------------------ */
 
 enum { POINTS_UP_TO = 24 }; /* values of a curve that are marked one by one */
 
@@ -274,8 +270,7 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
     fputc('\n', out);
 }
 
-/* ---- Map ------------------------------------------------------------------------------
- */
+/* ---- Map --------------------------------------------------------------------------- */
 
 /* Colours between the values of the cases, where these are few. */
 static int steps_between(int values)
@@ -343,8 +338,7 @@ static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
                      : "");
 }
 
-/* ---- Draw -----------------------------------------------------------------------------
- */
+/* ---- Draw -------------------------------------------------------------------------- */
 
 rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas,
                                   const rb_report_study *s, int map, rb_message *why)

@@ -64,8 +64,7 @@ static void write_array(FILE *out, const char *type, const char *name, int compo
     fputs("</DataArray>\n", out);
 }
 
-/* ---- The points that are written ------------------------------------------------------
- */
+/* ---- The points that are written --------------------------------------------------- */
 
 typedef struct {
     const rb_report_stress *s;
@@ -119,8 +118,7 @@ static rb_status select_points(const rb_report_stress *s, selection *v)
     return RB_OK;
 }
 
-/* ---- Point data
- * ------------------------------------------------------------------------ */
+/* ---- Point data -------------------------------------------------------------------- */
 
 static void write_scalar(FILE *out, selection *v, const rb_rolling_result *r)
 {
@@ -155,8 +153,7 @@ static void write_point_data(FILE *out, selection *v)
     fputs("</PointData>\n", out);
 }
 
-/* ---- Files ---------------------------------------------------------------------------
- */
+/* ---- Files ------------------------------------------------------------------------- */
 
 static void write_head(FILE *out, const char *type)
 {

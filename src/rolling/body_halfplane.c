@@ -83,8 +83,7 @@ rb_status rb_rolling_check_base(const char *what, double young, double poisson,
 
 enum { HALFPLANE = RB_BODY_FLAT | RB_BODY_TURNS };
 
-/* ---- Of one material ----------------------------------------------------------------
- */
+/* ---- Of one material --------------------------------------------------------------- */
 
 static int on_rigid_base(const rb_rolling_body *body)
 {
@@ -126,8 +125,7 @@ const rb_rolling_body_kind rb_rolling_halfplane = {
     .surface = rb_rolling_halfplane_surface,
     .datum = datum};
 
-/* ---- With a layer --------------------------------------------------------------------
- */
+/* ---- With a layer ------------------------------------------------------------------ */
 
 static int has_layer(const rb_rolling_body *body)
 {
@@ -158,8 +156,7 @@ const rb_rolling_body_kind rb_rolling_layer = {.name = "layer",
                                                .parameters = layer_parameters,
                                                .check = check_layer};
 
-/* ---- With memory ---------------------------------------------------------------------
- */
+/* ---- With memory ------------------------------------------------------------------- */
 
 static int has_memory(const rb_rolling_body *body)
 {

@@ -91,8 +91,7 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_b
 
 enum { WHEEL = RB_BODY_BOUNDARY | RB_BODY_ELASTIC | RB_BODY_STRESS };
 
-/* ---- A clamped arc ------------------------------------------------------------------
- */
+/* ---- A clamped arc ----------------------------------------------------------------- */
 
 static rb_status check_arc(const rb_rolling_body *b, const char *which, rb_message *why)
 {
@@ -113,8 +112,7 @@ const rb_rolling_body_kind rb_rolling_arc = {.name = "arc",
                                              .flexibility = wheel_flexibility,
                                              .surface = rb_rolling_halfplane_surface};
 
-/* ---- A rigid hub --------------------------------------------------------------------
- */
+/* ---- A rigid hub ------------------------------------------------------------------- */
 
 static rb_status check_hub(const rb_rolling_body *b, const char *which, rb_message *why)
 {
@@ -143,8 +141,7 @@ const rb_rolling_body_kind rb_rolling_hub = {.name = "hub",
                                              .flexibility = wheel_flexibility,
                                              .surface = rb_rolling_halfplane_surface};
 
-/* ---- A cover on a core ---------------------------------------------------------------
- */
+/* ---- A cover on a core ------------------------------------------------------------- */
 
 static int has_cover(const rb_rolling_body *body)
 {

@@ -113,8 +113,7 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
     return RB_OK;
 }
 
-/* ---- One edge ------------------------------------------------------------------------
- */
+/* ---- One edge ---------------------------------------------------------------------- */
 
 /* Outward positions of fitted edges beyond which the contact was found to go, and those
  * that it was found not to reach. */
@@ -179,8 +178,7 @@ static double refine_all(const patches *found, brackets *known, patches *fitted)
     return worst;
 }
 
-/* ---- All of them ---------------------------------------------------------------------
- */
+/* ---- All of them ------------------------------------------------------------------- */
 
 /* On a mesh that ends somewhere a corner of a punch can be a solution as well.  Where the
  * solver finds that one, the zones of the solution that the mesh was fitted to lead to

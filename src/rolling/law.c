@@ -78,8 +78,7 @@ double rb_rolling_friction_at(const rb_rolling_friction_table *table, double x)
     return table->mu[k] + share * (table->mu[k + 1] - table->mu[k]);
 }
 
-/* ---- What is known of a law beforehand ----------------------------------------------
- */
+/* ---- What is known of a law beforehand --------------------------------------------- */
 
 int rb_rolling_law_slides(const rb_rolling_friction *f)
 {
@@ -190,8 +189,7 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
     return s;
 }
 
-/* ---- The coefficients of a state ------------------------------------------------------
- */
+/* ---- The coefficients of a state --------------------------------------------------- */
 
 static double heat_part(const rb_rolling_friction *f, double temperature)
 {

@@ -190,8 +190,7 @@ rb_status rb_rolling_mesh_uniform(const rb_rolling_case *rc, double from, double
         from, to, rc->a.radius);
 }
 
-/* ---- Fitted elements ------------------------------------------------------------------
- */
+/* ---- Fitted elements --------------------------------------------------------------- */
 
 /* n elements between from and to, symmetric to rounding; returns the last end. */
 static double *put_cosine(double from, double to, int n, double *end)

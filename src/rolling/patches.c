@@ -148,8 +148,7 @@ void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *
     }
 }
 
-/* ---- Results -------------------------------------------------------------------------
- */
+/* ---- Results ----------------------------------------------------------------------- */
 
 /* Vertex of the parabola of p^2 through the largest element and its neighbours: exact for
  * Hertz's ellipse. */

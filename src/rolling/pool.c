@@ -35,8 +35,7 @@ static processes *processes_of(rb_rolling_pool *pool)
     return (processes *)(void *)pool;
 }
 
-/* ---- One worker -----------------------------------------------------------------------
- */
+/* ---- One worker -------------------------------------------------------------------- */
 
 /* What a row has besides the solution. */
 static rb_status measure(unsigned also, const rb_rolling_case *rc,
@@ -106,8 +105,7 @@ static void run_worker(const rb_rolling_sweep *sweep, int parent)
     _exit(0);
 }
 
-/* ---- The parent -----------------------------------------------------------------------
- */
+/* ---- The parent -------------------------------------------------------------------- */
 
 static rb_status start_worker(processes *p, worker *w)
 {

@@ -69,8 +69,7 @@ static rb_status check_noise(int n, const double *x, double noise, rb_message *w
     return RB_OK;
 }
 
-/* ---- Smoothing ------------------------------------------------------------------------
- */
+/* ---- Smoothing --------------------------------------------------------------------- */
 
 /* A smoothing spline (P-spline of Eilers and Marx, 1996): cubic B-splines on equal
  * intervals, whose coefficients c minimise
@@ -221,8 +220,7 @@ static rb_status smoothing_create(int n, const double *x, const double *gap, dou
     return RB_OK;
 }
 
-/* ---- The curve ----------------------------------------------------------------------
- */
+/* ---- The curve --------------------------------------------------------------------- */
 
 static rb_status set_spline(rb_rolling_profile *p, int n, const double *x,
                             const double *gap)

@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- One term over one step (V6) ------------------------------------------------------
- */
+/* ---- One term over one step (V6) --------------------------------------------------- */
 
 /* The dashpot of a term loses in a step (1/tau) int e F e dt, where e, the traction less
  * the filtered one, is e_0 exp(-t/tau) + d b(t) for a change d of the traction: factors
@@ -54,8 +53,7 @@ rb_rolling_case rb_rolling_memory_case(const rb_rolling_case *rc, double step)
     return elastic;
 }
 
-/* ---- The past -------------------------------------------------------------------------
- */
+/* ---- The past ---------------------------------------------------------------------- */
 
 void rb_rolling_memory_track_free(rb_rolling_memory_track *r)
 {

@@ -86,8 +86,7 @@ rb_status rb_rolling_curve_with_errors(const rb_rolling_case *rc,
     return s;
 }
 
-/* ---- Histories ----------------------------------------------------------------------
- */
+/* ---- Histories --------------------------------------------------------------------- */
 
 static int steps_at_rest(const rb_rolling_history *h)
 {

@@ -18,8 +18,7 @@ static rb_status solution_alloc(const rb_rolling_case *rc, int n, rb_rolling_sol
     return rb_rolling_columns_alloc(&rb_rolling_solution_columns, rc, n, s);
 }
 
-/* ---- Scalars of the traction distribution ---------------------------------------------
- */
+/* ---- Scalars of the traction distribution ------------------------------------------ */
 
 void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
                              double *stick)
@@ -61,8 +60,7 @@ static void set_stick_limits(const rb_rolling_mesh *mesh, rb_rolling_solution *s
     }
 }
 
-/* ---- Slip
- * ------------------------------------------------------------------------------ */
+/* ---- Slip -------------------------------------------------------------------------- */
 
 /* static: (12) with sgn(V) = -1, from the creepage of the case and the strain upstream;
  * otherwise the slip of the solution itself. */
@@ -97,8 +95,7 @@ static int count_violations(const rb_rolling_model *model, const rb_rolling_solu
     return violations;
 }
 
-/* ---- Forces
- * ----------------------------------------------------------------------------- */
+/* ---- Forces ------------------------------------------------------------------------ */
 
 void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t)
 {
@@ -186,8 +183,7 @@ static void set_forces(const rb_rolling_model *model, rb_rolling_solution *s)
     s->creep_ratio = rb_rolling_ratio_of_creepage(model, s->creepage);
 }
 
-/* ---- All together
- * ------------------------------------------------------------------------ */
+/* ---- All together ------------------------------------------------------------------ */
 
 static rb_status set_table(const rb_rolling_model *model, rb_rolling_solution *s)
 {

@@ -16,8 +16,7 @@ double rb_rolling_surface(const rb_rolling_case *rc, double x)
                : rb_bem_circle_height(rc->a.radius, x);
 }
 
-/* ---- The field of a solved model ------------------------------------------------------
- */
+/* ---- The field of a solved model --------------------------------------------------- */
 
 typedef struct {
     const rb_rolling_model *model;
@@ -194,8 +193,7 @@ rb_status rb_rolling_stress_at(const rb_rolling_model *model, int n, const doubl
                : s;
 }
 
-/* ---- Maxima
- * ------------------------------------------------------------------------------ */
+/* ---- Maxima ------------------------------------------------------------------------ */
 
 typedef double measure(const rb_rolling_stress *s);
 
@@ -323,8 +321,7 @@ static search box_under(const rb_rolling_model *model, double from, double to,
     return box;
 }
 
-/* ---- Grid ---------------------------------------------------------------------------
- */
+/* ---- Grid -------------------------------------------------------------------------- */
 
 void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid)
 {
@@ -453,8 +450,7 @@ rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int n
     return make_grid(model, &box, 1, grid, why);
 }
 
-/* ---- All maxima -----------------------------------------------------------------------
- */
+/* ---- All maxima -------------------------------------------------------------------- */
 
 /* Of one patch, each where it is larger than those found so far. */
 static rb_status add_maxima(search *s, const rb_rolling_stress_grid *grid,

@@ -12,8 +12,7 @@ void rb_rolling_wear_history_free(rb_rolling_wear_history *h)
     memset(h, 0, sizeof *h);
 }
 
-/* ---- What is at work ------------------------------------------------------------------
- */
+/* ---- What is at work --------------------------------------------------------------- */
 
 typedef struct {
     const rb_rolling_wear *wear;
@@ -119,8 +118,7 @@ static rb_status widen(run *r, rb_message *why)
     return s;
 }
 
-/* ---- One implicit step
- * ----------------------------------------------------------------- */
+/* ---- One implicit step ------------------------------------------------------------- */
 
 static rb_status pose(run *r, const double *F, rb_message *why)
 {
@@ -160,8 +158,7 @@ static rb_status wear_off(run *r, rb_message *why)
     return pose(r, F, why);
 }
 
-/* ---- Sliding, fretting, rolling
- * ---------------------------------------------------------- */
+/* ---- Sliding, fretting, rolling ---------------------------------------------------- */
 
 /* Depth per pressure and slid length. */
 static double archard(const run *r)
@@ -280,8 +277,7 @@ static rb_status roll(run *r, double turns, rb_message *why)
     return s;
 }
 
-/* ---- Records
- * --------------------------------------------------------------------------- */
+/* ---- Records ----------------------------------------------------------------------- */
 
 static rb_status record(run *r, double way, rb_message *why)
 {

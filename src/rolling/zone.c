@@ -48,8 +48,7 @@ static interval within(interval zone, interval limit)
     return (interval){fmax(zone.from, limit.from), fmin(zone.to, limit.to)};
 }
 
-/* ---- Where the elements end ---------------------------------------------------------
- */
+/* ---- Where the elements end -------------------------------------------------------- */
 
 static int is_loaded(const rb_contact_state *state, int i)
 {
@@ -99,8 +98,7 @@ static int is_open(const rb_rolling_model *model)
     return left == model->state.n;
 }
 
-/* ---- Equal elements -----------------------------------------------------------------
- */
+/* ---- Equal elements ---------------------------------------------------------------- */
 
 /* Lengths of all patches together, and how many there are. */
 static int covered(const rb_rolling_model *model, double *length)
@@ -148,8 +146,7 @@ static rb_status solve_equal(rb_rolling_model *model, interval zone, int element
     return s == RB_OK ? rb_rolling_model_build(model, &mesh, why) : s;
 }
 
-/* ---- The first potential contact ----------------------------------------------------
- */
+/* ---- The first potential contact --------------------------------------------------- */
 
 /* Where the gap reaches `level` between x, where it is less, and x + step. */
 static double crossing(const rb_rolling_case *rc, double x, double step, double level)
@@ -213,8 +210,7 @@ static interval first_zone(const rb_rolling_case *rc)
     return within(scaled(zone, 1.3), limit);
 }
 
-/* ---- The automatic one --------------------------------------------------------------
- */
+/* ---- The automatic one ------------------------------------------------------------- */
 
 /* Three, or what few elements have beside three in contact: a potential contact that is
  * grown until all elements are separated no longer sees the contact between their
@@ -339,8 +335,7 @@ static interval known_zone(const rb_rolling_case *rc)
     return zone;
 }
 
-/* ---- A given one --------------------------------------------------------------------
- */
+/* ---- A given one ------------------------------------------------------------------- */
 
 /* A potential contact that does not hold the contact: says how wide it should be. */
 static rb_status solve_given(rb_rolling_model *model, rb_message *why)

@@ -6,8 +6,7 @@
 
 #include <math.h>
 
-/* ---- Carter -------------------------------------------------------------------------
- */
+/* ---- Carter ------------------------------------------------------------------------ */
 
 /* Largest error of Q/(mu P) for s = 0.1 ... 0.95. */
 static void carter_at(rb_verify *v, int elements, double bound)
@@ -70,8 +69,7 @@ static void similar_pair(rb_verify *v)
     rb_rolling_solution_free(&two);
 }
 
-/* ---- Cattaneo ------------------------------------------------------------------------
- */
+/* ---- Cattaneo ---------------------------------------------------------------------- */
 
 static void cattaneo_traction(rb_verify *v)
 {
@@ -92,8 +90,7 @@ static void cattaneo_traction(rb_verify *v)
     rb_rolling_solution_free(&s);
 }
 
-/* ---- Bentall and Johnson
- * --------------------------------------------------------------- */
+/* ---- Bentall and Johnson ----------------------------------------------------------- */
 
 static void bentall_johnson_at(rb_verify *v, double mu, double wanted, double bound)
 {

@@ -69,8 +69,7 @@ static void dissipation(rb_verify *v)
     rb_rolling_solution_free(&s);
 }
 
-/* ---- Bodies that relax --------------------------------------------------------------
- */
+/* ---- Bodies that relax ------------------------------------------------------------- */
 
 /* Hunter's solution (V3), a_g = 1: f, V tau, both edges, p_max over the glassy Hertz's,
  * M/P. */
