@@ -206,9 +206,6 @@ typedef struct {
 /* Elastic, displacement zero at depth datum > 0 under the point. */
 rb_bem_surface rb_bem_halfplane(rb_bem_material material, double datum);
 
-/* RB_EINVAL: material, datum, terms or thickness out of range. */
-rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why);
-
 /* ends as in rb_bem_mesh_cylinder, any real numbers. */
 rb_status rb_bem_flexibility_surface(int n_c, const double *ends,
                                      const rb_bem_surface *body, rb_bem_flexibility *f,

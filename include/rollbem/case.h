@@ -155,13 +155,10 @@ enum { RB_GIVEN_ARGUMENT = -1, RB_GIVEN_NUMBER = -2 };
 const rb_option_set *rb_option_find(int n, const rb_option_set *sets, const char *name,
                                     size_t length, int *index, rb_guess *guess);
 
-/* One value, strictly; a number may have a unit, a plain one stays as it is.  what: how
- * messages call it ("--mu", "case.ini:3: mu").  Text is borrowed.  RB_EINVAL: "what:
- * expected ..., got '...'". */
-rb_status rb_option_read(const rb_option *option, void *target, const char *what,
-                         const char *text, rb_message *why);
-
-/* The same for option k of the set, with its marks in given and plain. */
+/* One value for option k of the set, strictly, with its marks in given and plain; a
+ * number may have a unit, a plain one stays as it is.  what: how messages call it
+ * ("--mu", "case.ini:3: mu").  Text is borrowed.  RB_EINVAL: "what: expected ..., got
+ * '...'". */
 rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *what,
                            const char *text, rb_message *why);
 

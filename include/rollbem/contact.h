@@ -40,7 +40,6 @@ rb_status rb_contact_operator_products(int n, const rb_contact_products *product
 /* NULL is skipped, as everywhere. */
 void rb_contact_operator_free(rb_contact_operator *op);
 
-int rb_contact_operator_size(const rb_contact_operator *op);
 /* gap += F_N (p, q), slip += S (p, q); all n. */
 void rb_contact_operator_add(rb_contact_operator *op, const double *p, const double *q,
                              double *gap, double *slip);
@@ -127,10 +126,6 @@ void rb_contact_yielded(const rb_contact_problem *problem, const double *plastic
                         double *u);
 /* The yield stress of element i that has yielded by u; INFINITY without a layer. */
 double rb_contact_yield_stress(const rb_contact_problem *problem, int i, double u);
-
-/* Row of the given force: control_N'r_N + control_T'r_T = force, n each. */
-void rb_contact_force_row(const rb_contact_problem *problem, double *control_N,
-                          double *control_T);
 
 /* ---- The state: unknowns of a problem ---------------------------------------------- */
 

@@ -12,12 +12,6 @@ RB_PUBLIC_BEGIN
 
 struct json_t; /* jansson's */
 
-/* ---- Names ------------------------------------------------------------------------ */
-
-const char *rb_report_formulation(rb_rolling_formulation formulation);
-const char *rb_report_solver(const rb_rolling_solution *s);
-const char *rb_report_lcp_form(rb_contact_lcp_form form);
-
 /* The signs of creepage, slip and zones, one line each; ends with NULL. */
 extern const char *const rb_report_conventions[];
 

@@ -138,7 +138,6 @@ typedef struct {
     int n; /* 0: none */
     const double *x, *mu;
 } rb_rolling_friction_table;
-double rb_rolling_friction_at(const rb_rolling_friction_table *table, double x);
 
 typedef struct {
     rb_rolling_friction_law law;
@@ -309,49 +308,21 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
                                    rb_rolling_bodies *bodies, rb_message *why);
 void rb_rolling_bodies_free(rb_rolling_bodies *bodies);
 
-/* The flexibility of one body. */
-typedef struct {
-    rb_bem_flexibility f;  /* owned */
-    rb_bem_system *system; /* NULL without boundary elements; owned */
-    double seconds_assembly, seconds_factor, seconds_condense;
-} rb_rolling_body_flexibility;
+/* A row of the table of bodies (src/rolling/body.c): whoever asks what a body is asks its
+ * rows.  A body has the row of its support and one for each addition to it (layer, cover,
+ * memory); it can what all its rows can. */
+typedef struct rb_rolling_body_kind rb_rolling_body_kind;
 
-/* A row of the table of bodies: whoever asks what a body is asks its rows.  A body has
- * the row of its support and one for each addition to it (layer, cover, memory); it can
- * what all its rows can. */
-typedef struct {
-    const char *name; /* in pictures */
-    rb_bem_support support;
-    int (*holds)(const rb_rolling_body *body); /* 1: the body has this
-                                                  addition; NULL: the row of a support */
-    int can;                                   /* a sum of rb_rolling_ability */
-    const rb_rolling_parameter *parameters;
-    /* Ranges of the parameters; of an addition for every body, with or without it.
-     * which: "", or " of body B".  NULL: nothing to check. */
-    rb_status (*check)(const rb_rolling_body *body, const char *which, rb_message *why);
-
-    /* Of the support only: */
-    rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_body *body,
-                             const rb_rolling_mesh *mesh,
-                             rb_rolling_body_flexibility *made, rb_message *why);
-    /* The same on equal elements by Fourier transforms, without a matrix; NULL: it
-     * depends on more than the distance. */
-    rb_status (*transforms)(const rb_rolling_case *rc, const rb_rolling_body *body,
-                            const rb_rolling_mesh *mesh,
-                            rb_rolling_body_flexibility *made, rb_message *why);
-    /* The half-plane or layer that answers like the body close to a load. */
-    rb_bem_surface (*surface)(const rb_rolling_case *rc, const rb_rolling_body *body,
-                              double length[RB_ROLLING_TERMS]);
-    /* Depth of zero displacement; NULL: there is none. */
-    double (*datum)(const rb_rolling_case *rc, const rb_rolling_body *body);
-} rb_rolling_body_kind;
-
-/* All rows; NULL ends them. */
-extern const rb_rolling_body_kind *const rb_rolling_body_kinds[];
-/* 1: it is a row of this body. */
-int rb_rolling_body_is(const rb_rolling_body *body, const rb_rolling_body_kind *kind);
+/* Row k = 0, 1, ...; NULL: there are no more. */
+const rb_rolling_body_kind *rb_rolling_body_kind_get(int k);
 /* The row of the body's support. */
 const rb_rolling_body_kind *rb_rolling_kind_of(const rb_rolling_body *body);
+/* 1: it is a row of this body. */
+int rb_rolling_body_is(const rb_rolling_body *body, const rb_rolling_body_kind *kind);
+const char *rb_rolling_kind_name(const rb_rolling_body_kind *kind); /* in pictures */
+rb_bem_support rb_rolling_kind_support(const rb_rolling_body_kind *kind);
+/* The options that not every body knows; the last one has no name. */
+const rb_rolling_parameter *rb_rolling_kind_parameters(const rb_rolling_body_kind *kind);
 
 /* ---- The formulation as a contact problem (contact.h) -------------------------------
  */

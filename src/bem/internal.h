@@ -29,6 +29,9 @@ rb_status rb_bem_support_check(const rb_bem_mesh *mesh, rb_message *why);
 /* Points at y >= 0 under a load whose xs abscissae increase. */
 int rb_bem_edge_load_is_valid(const rb_bem_edge_load *load, int xs, rb_bem_points points);
 
+/* RB_EINVAL: material, datum, terms or thickness out of range. */
+rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why);
+
 /* A flexibility with x, h, w0 zeroed and nothing behind it. */
 rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f);
 

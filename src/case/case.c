@@ -335,7 +335,7 @@ static rb_status check_parameter(const rb_case *c, int is_b,
     if (parameter->reason)
         return refuse_given(c, name, parameter->reason, why);
     for (const rb_choice *support = rb_rolling_supports; support->name; support++)
-        if (support->value == (int)kind->support)
+        if (support->value == (int)rb_rolling_kind_support(kind))
             word = support->name;
     snprintf(reason, sizeof reason, "of the support %s only", word);
     return rb_case_given(c, name) > 0 && support_by == RB_GIVEN_ARGUMENT
@@ -346,10 +346,11 @@ static rb_status check_parameter(const rb_case *c, int is_b,
 static rb_status check_parameters(const rb_case *c, int is_b, rb_message *why)
 {
     rb_status s = RB_OK;
-    for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds; *kind; kind++)
-        for (const rb_rolling_parameter *p = (*kind)->parameters; p->option && s == RB_OK;
-             p++)
-            s = check_parameter(c, is_b, *kind, p, why);
+    const rb_rolling_body_kind *kind;
+    for (int k = 0; (kind = rb_rolling_body_kind_get(k)); k++)
+        for (const rb_rolling_parameter *p = rb_rolling_kind_parameters(kind);
+             p->option && s == RB_OK; p++)
+            s = check_parameter(c, is_b, kind, p, why);
     return s;
 }
 

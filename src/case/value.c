@@ -188,35 +188,23 @@ static int set_any(const rb_option *o, char *target, const char *value, reading 
     return 0;
 }
 
-static rb_status read_value(const rb_option *option, void *target, const char *what,
-                            const char *text, reading *r, rb_message *why)
-{
-    char expected[200];
-    if (set_any(option, target, text, r))
-        return RB_OK;
-    if (r->why.text[0])
-        return rb_fail(why, RB_EINVAL, "%.300s: expected %s", what, r->why.text);
-    return rb_fail(why, RB_EINVAL, "%s: expected %s, got '%s'", what,
-                   rb_option_expected(option, expected, sizeof expected), text);
-}
-
-rb_status rb_option_read(const rb_option *option, void *target, const char *what,
-                         const char *text, rb_message *why)
-{
-    reading r = {0, {""}};
-    return read_value(option, target, what, text, &r, why);
-}
-
 rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *what,
                            const char *text, rb_message *why)
 {
+    const rb_option *option = &set->options[k];
     reading r = {0, {""}};
-    const rb_status s = read_value(&set->options[k], set->target, what, text, &r, why);
-    if (s == RB_OK && set->given)
+    char expected[200];
+
+    if (!set_any(option, set->target, text, &r))
+        return r.why.text[0]
+                   ? rb_fail(why, RB_EINVAL, "%.300s: expected %s", what, r.why.text)
+                   : rb_fail(why, RB_EINVAL, "%s: expected %s, got '%s'", what,
+                             rb_option_expected(option, expected, sizeof expected), text);
+    if (set->given)
         set->given[k] = by;
-    if (s == RB_OK && set->plain)
+    if (set->plain)
         set->plain[k] = r.plain;
-    return s;
+    return RB_OK;
 }
 
 void rb_option_store(const rb_option_set *set, rb_units system, rb_units file_system,

@@ -33,6 +33,9 @@ rb_status rb_contact_reduced_alloc(const rb_contact_problem *problem,
                                    rb_contact_unknowns unknowns,
                                    const rb_contact_state *state, rb_contact_reduced *r);
 void rb_contact_reduced_free(rb_contact_reduced *r);
+/* Row of the given force: control_N'r_N + control_T'r_T = force, n each. */
+void rb_contact_force_row(const rb_contact_problem *problem, double *control_N,
+                          double *control_T);
 /* mu times the resultant of the scale pressure: the scale of the given force. */
 double rb_contact_force_scale(const rb_contact_problem *problem);
 

@@ -6,11 +6,6 @@ void rb_contact_operator_free(rb_contact_operator *op)
         op->kind->free(op);
 }
 
-int rb_contact_operator_size(const rb_contact_operator *op)
-{
-    return op->n;
-}
-
 void rb_contact_operator_add(rb_contact_operator *op, const double *p, const double *q,
                              double *gap, double *slip)
 {

@@ -368,7 +368,7 @@ static void write_body(FILE *out, const rb_rolling_body *b, rb_units units)
 {
     const double young = rb_unit_shown(units, "MPa", b->young);
     const rb_report_unit unit = rb_report_axis_unit(units, "MPa", young);
-    fputs(rb_rolling_kind_of(b)->name, out);
+    fputs(rb_rolling_kind_name(rb_rolling_kind_of(b)), out);
     if (isfinite(b->radius))
         fprintf(out, ", R = %.5g %s", rb_unit_shown(units, "mm", b->radius),
                 rb_unit_name(units, "mm"));

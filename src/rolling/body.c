@@ -25,6 +25,29 @@ const rb_rolling_body_kind *rb_rolling_kind_of(const rb_rolling_body *body)
     return *kind;
 }
 
+const rb_rolling_body_kind *rb_rolling_body_kind_get(int k)
+{
+    for (int i = 0; i < k; i++)
+        if (!rb_rolling_body_kinds[i])
+            return NULL;
+    return rb_rolling_body_kinds[k];
+}
+
+const char *rb_rolling_kind_name(const rb_rolling_body_kind *kind)
+{
+    return kind->name;
+}
+
+rb_bem_support rb_rolling_kind_support(const rb_rolling_body_kind *kind)
+{
+    return kind->support;
+}
+
+const rb_rolling_parameter *rb_rolling_kind_parameters(const rb_rolling_body_kind *kind)
+{
+    return kind->parameters;
+}
+
 int rb_rolling_body_can(const rb_rolling_body *body, int abilities)
 {
     int can = abilities;

@@ -1,4 +1,4 @@
-/* What the files of this room share. */
+/* What the files of this folder share. */
 #ifndef ROLLBEM_ROLLING_INTERNAL_H
 #define ROLLBEM_ROLLING_INTERNAL_H
 
@@ -32,6 +32,46 @@ int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x)
 /* Three points or more, finite, x increasing: RB_EINVAL "<what>: row ...". */
 rb_status rb_rolling_points_check(const char *what, int n, const double *x,
                                   const double *gap, rb_message *why);
+
+/* ---- Rows of the table of bodies (body.c) --------------------------------------------
+ */
+
+/* The flexibility of one body. */
+typedef struct {
+    rb_bem_flexibility f;  /* owned */
+    rb_bem_system *system; /* NULL without boundary elements; owned */
+    double seconds_assembly, seconds_factor, seconds_condense;
+} rb_rolling_body_flexibility;
+
+struct rb_rolling_body_kind {
+    const char *name; /* in pictures */
+    rb_bem_support support;
+    int (*holds)(const rb_rolling_body *body); /* 1: the body has this
+                                                  addition; NULL: the row of a support */
+    int can;                                   /* a sum of rb_rolling_ability */
+    const rb_rolling_parameter *parameters;
+    /* Ranges of the parameters; of an addition for every body, with or without it.
+     * which: "", or " of body B".  NULL: nothing to check. */
+    rb_status (*check)(const rb_rolling_body *body, const char *which, rb_message *why);
+
+    /* Of the support only: */
+    rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_body *body,
+                             const rb_rolling_mesh *mesh,
+                             rb_rolling_body_flexibility *made, rb_message *why);
+    /* The same on equal elements by Fourier transforms, without a matrix; NULL: it
+     * depends on more than the distance. */
+    rb_status (*transforms)(const rb_rolling_case *rc, const rb_rolling_body *body,
+                            const rb_rolling_mesh *mesh,
+                            rb_rolling_body_flexibility *made, rb_message *why);
+    /* The half-plane or layer that answers like the body close to a load. */
+    rb_bem_surface (*surface)(const rb_rolling_case *rc, const rb_rolling_body *body,
+                              double length[RB_ROLLING_TERMS]);
+    /* Depth of zero displacement; NULL: there is none. */
+    double (*datum)(const rb_rolling_case *rc, const rb_rolling_body *body);
+};
+
+/* All rows; NULL ends them. */
+extern const rb_rolling_body_kind *const rb_rolling_body_kinds[];
 
 /* ---- body_wheel.c, body_halfplane.c: rows of the table in body.c ----------------------
  */
@@ -133,6 +173,8 @@ void rb_rolling_yielded(const rb_rolling_model *model, double *yielded);
  */
 
 rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why);
+/* Linear between the table's places, constant beyond them. */
+double rb_rolling_friction_at(const rb_rolling_friction_table *table, double x);
 /* 1 where the law depends on the slip velocity. */
 int rb_rolling_law_slides(const rb_rolling_friction *f);
 double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v,
