@@ -230,6 +230,98 @@ static void curves_have_two_branches(void **state)
     }
 }
 
+/* Two states of the same problem, both to rounding: a change of mu by one of the two
+ * residuals would be 1e-13, they are 1e-4 apart, and half-way between them Coulomb's law
+ * is violated.  One element at the end of the stick zone sticks in one of them and slips
+ * in the other: the difference falls with the elements (theory.md F3). */
+static void one_element_more_may_stick(void **state)
+{
+    (void)state;
+    static const double creep[] = {0.0009, 0.0012}, apart[] = {1.3044e-4, 3.7478e-5};
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = rail(17.6); /* kappa = 0.97 */
+        rb_rolling_solutions found;
+        rb_message why = {""};
+        rc.contact_elements = 93 * (k + 1);
+        rc.creep = creep[k];
+        rc.tol = 1e-12;
+        rb_rolling_model model = solved_model(&rc);
+        rb_contact_violation middle;
+        CHECK_STATUS(rb_rolling_find_solutions(&model, &found, &why), RB_OK);
+        assert_int_equal(found.n, 2);
+        const rb_rolling_solution *s = found.solution;
+        CHECK_ABS(fabs(s[1].force_ratio - s[0].force_ratio), apart[k], 1e-8, "apart");
+        assert_int_equal(abs(s[1].stick - s[0].stick), 1);
+        for (int i = 0; i < 2; i++)
+            CHECK_MAX(s[i].residual, 5e-13, "solution %d", i);
+        for (int i = 0; i < s[0].n; i++) {
+            model.state.q[i] = 0.5 * (s[0].q[i] + s[1].q[i]);
+            model.problem.bound[i] = 0.5 * (s[0].mu[i] + s[1].mu[i]);
+        }
+        CHECK_STATUS(rb_contact_residual(&model.problem, &model.state, &middle), RB_OK);
+        assert_true(middle.scaled > 1e-5);
+        rb_rolling_solutions_free(&found);
+        rb_rolling_model_free(&model);
+    }
+}
+
+/* Laws so steep that the iteration leaves every solution: Newton's method holds one, on
+ * bodies whose pressure and friction are coupled. */
+static void steep_laws_are_solved(void **state)
+{
+    (void)state;
+    static const rb_rolling_friction_law laws[] = {
+        RB_FRICTION_exponential, RB_FRICTION_rational, RB_FRICTION_linear};
+    for (int k = 0; k < 9; k++) {
+        rb_rolling_case rc = rail(4.8 / (1 + k % 3)); /* kappa = 2.5 ... 7.5 */
+        double kappa;
+        char what[40];
+        rc.friction.law = laws[k / 3];
+        rc.elastic_b = 0;
+        rc.zone = 0.0;
+        rc.mesh = RB_MESH_FITTED;
+        rc.contact_elements = 60;
+        rc.creep = -0.002;
+        rb_rolling_model model = solved_model(&rc);
+        CHECK_STATUS(rb_rolling_law_kappa(&model, &kappa), RB_OK);
+        assert_true(kappa > 1.5);
+        snprintf(what, sizeof what, "law %d, kappa = %g", k / 3, kappa);
+        check_state(&model, NULL, what);
+        rb_rolling_model_free(&model);
+    }
+}
+
+/* Short steps have kappa far above 1, and none of their solutions attracts the iteration:
+ * step 19 here ended after 2000 rounds. */
+static void short_steps_are_solved(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rail(500.0);
+    rb_rolling_model model;
+    rb_rolling_history h;
+    rb_message why = {""};
+    rc.load = 12500.0;
+    rc.a.young = rc.b.young = 210000.0;
+    rc.a.poisson = rc.b.poisson = 0.3;
+    rc.formulation = RB_TRANSIENT;
+    rc.creep = NAN;
+    rc.force_ratio = -0.5;
+    rc.zone = 0.0;
+    rc.contact_elements = 1500;
+    rc.distance = 19.0 * 0.2 / 116.0;
+    rc.steps = 19;
+    if (rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    assert_int_equal(h.n, 20);
+    check_state(&model, NULL, "the last step");
+    for (int k = 0; k < h.n; k++) {
+        CHECK_MAX(h.residual[k], 1e-10, "step %d", k);
+        CHECK_ABS(h.force_ratio[k], -0.5, 1e-9, "step %d", k);
+    }
+    rb_rolling_model_free(&model);
+    rb_rolling_history_free(&h);
+}
+
 /* The contact of dissimilar bodies moves with the creepage: meshes are fitted again, and
  * the branch goes on from the coefficients before. */
 static void branches_outlive_their_mesh(void **state)
@@ -820,6 +912,9 @@ int main(void)
         cmocka_unit_test(the_rail_case_is_met),
         cmocka_unit_test(steep_laws_have_two_solutions),
         cmocka_unit_test(curves_have_two_branches),
+        cmocka_unit_test(one_element_more_may_stick),
+        cmocka_unit_test(steep_laws_are_solved),
+        cmocka_unit_test(short_steps_are_solved),
         cmocka_unit_test(branches_outlive_their_mesh),
         cmocka_unit_test(all_solutions_are_found),
         cmocka_unit_test(a_force_is_met_on_the_rising_branch),

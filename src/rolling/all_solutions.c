@@ -44,26 +44,15 @@ static rb_status keep(rb_rolling_solutions *all, const rb_rolling_model *model,
     return s;
 }
 
-/* From coefficients that are those of fast sliding up to x, and behind it those at rest.
- */
 static rb_status try_start(rb_rolling_model *model, double x, rb_rolling_solutions *all,
                            rb_message *why)
 {
-    const rb_contact_problem *p = &model->problem;
-    const double fastest = 1e3 * model->rc.speed, *places = model->bodies.f.x;
-    const double warmest =
-        model->rc.friction.heat_from + 2.0 * model->rc.friction.heat_range;
     rb_message reason = {""};
-    double *mu = rb_alloc((size_t)p->n, 1);
+    rb_status s = rb_rolling_law_start(model, x, why);
 
-    if (!mu)
-        return rb_fail(why, RB_ENOMEM, "out of memory for a start");
-    for (int i = 0; i < p->n; i++)
-        mu[i] = places[i] < x ? rb_rolling_law_mu(&model->rc, places[i], fastest, warmest)
-                              : rb_rolling_law_at_rest(&model->rc, places[i]);
-    rb_contact_set_friction(&model->problem, p->mu, mu);
-    free(mu);
-    rb_status s = rb_rolling_model_resolve(model, 1, &reason);
+    if (s != RB_OK)
+        return s;
+    s = rb_rolling_model_resolve(model, 1, &reason);
     all->starts++;
     if (s == RB_ENOMEM)
         return rb_fail(why, s, "%s", reason.text);

@@ -189,6 +189,16 @@ void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_bodies 
 /* kappa of the state (theory.md 4.11): above 1 an element by itself, or a step, may have
  * several states.  RB_ENOMEM. */
 rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa);
+/* The coefficients (n) that the law gives the state. */
+rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu,
+                                      rb_message *why);
+/* Bounds to start from: coefficients of fast sliding up to x, behind it those at rest. */
+rb_status rb_rolling_law_start(rb_rolling_model *model, double x, rb_message *why);
+/* law_newton.c: from the bounds at hand until those of the law differ by no more than
+ * `enough` in the natural residual.  left: contact problems that may be solved, counted
+ * down.  RB_MAXITER: none are left, or the residual does not become less. */
+rb_status rb_rolling_law_newton(rb_rolling_model *model, double enough, int *left,
+                                rb_message *why);
 /* Solves the model's problem: in one go where the law does not depend on the state, and
  * by iteration where it does.  iterations: added to. */
 rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *why);

@@ -70,7 +70,8 @@ static void set_coefficients(const rb_rolling_model *model, const double *temper
     }
 }
 
-static rb_status coefficients_of(rb_rolling_model *model, double *mu, rb_message *why)
+rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu,
+                                      rb_message *why)
 {
     const int n = model->state.n, is_warm = model->rc.friction.heat != 0.0;
     double *temperature = is_warm ? rb_alloc((size_t)n, 1) : NULL;
@@ -108,7 +109,7 @@ rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why)
     rb_status s = mu ? RB_OK : RB_ENOMEM;
 
     if (s == RB_OK && rb_rolling_law_moves(&model->rc)) {
-        s = coefficients_of(model, mu, why);
+        s = rb_rolling_law_coefficients(model, mu, why);
         set_force(model);
         if (s == RB_OK)
             rb_contact_set_friction(p, p->mu, mu);
@@ -186,13 +187,20 @@ static rb_status measure(rb_rolling_model *model, rb_message *why)
                          violation.scaled);
 }
 
-/* From the bounds that the problem has: (F1) v -> mu -> contact problem -> v. */
-static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
+/* Which change of the coefficients, as a natural residual, is none. */
+static double enough_of(const rb_rolling_model *model)
 {
-    enum { ROUNDS = 2000 };
+    return fmax(0.1 * model->rc.tol, fmax(model->problem.rounding, 1e-14));
+}
+
+/* From the bounds that the problem has: (F1) v -> mu -> contact problem -> v.
+ * RB_MAXITER: they still change. */
+static rb_status go_round(rb_rolling_model *model, int warm, rb_message *why)
+{
+    enum { ROUNDS = 200 };
     rb_contact_problem *p = &model->problem;
     rb_contact_state *state = &model->state;
-    const double enough = fmax(0.1 * model->rc.tol, fmax(p->rounding, 1e-14));
+    const double enough = enough_of(model);
     double change = INFINITY, *mu = rb_alloc((size_t)p->n, 2);
     relaxation r = {.part = 1.0, .least = INFINITY, .before = INFINITY};
     rb_status s = mu ? RB_OK : RB_ENOMEM;
@@ -202,7 +210,7 @@ static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
         s = rb_rolling_problem_solve(p, &model->rc, warm || k > 0, state, why);
         model->iterations += state->iterations;
         if (s == RB_OK)
-            s = coefficients_of(model, mu, why);
+            s = rb_rolling_law_coefficients(model, mu, why);
         if (s != RB_OK)
             break;
         change = change_of(p, state, mu);
@@ -211,12 +219,54 @@ static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
         rb_contact_set_friction(p, p->mu, mu);
     }
     free(mu);
-    if (s == RB_OK && change > enough)
-        s = rb_fail(
-            why, RB_MAXITER,
-            "friction law: after %d rounds the coefficients still change, by %.2g "
-            "of the largest",
-            ROUNDS, change);
+    return s == RB_OK && change > enough
+               ? rb_fail(why, RB_MAXITER,
+                         "friction law: after %d rounds and Newton's method the "
+                         "coefficients still change, by %.2g of the largest",
+                         ROUNDS, change)
+               : s;
+}
+
+/* Coefficients that are those of fast sliding up to x, and behind it those at rest. */
+rb_status rb_rolling_law_start(rb_rolling_model *model, double x, rb_message *why)
+{
+    const rb_rolling_case *rc = &model->rc;
+    const double fastest = 1e3 * rc->speed, *places = model->bodies.f.x;
+    const double warmest = rc->friction.heat_from + 2.0 * rc->friction.heat_range;
+    rb_contact_problem *p = &model->problem;
+    double *mu = rb_alloc((size_t)p->n, 1);
+
+    if (!mu)
+        return rb_fail(why, RB_ENOMEM, "out of memory for a start");
+    for (int i = 0; i < p->n; i++)
+        mu[i] = places[i] < x ? rb_rolling_law_mu(rc, places[i], fastest, warmest)
+                              : rb_rolling_law_at_rest(rc, places[i]);
+    rb_contact_set_friction(p, p->mu, mu);
+    free(mu);
+    return RB_OK;
+}
+
+/* Where the iteration leaves every solution, because friction falls steeply there,
+ * Newton's method goes on from where it has come, and from other starts. */
+static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
+{
+    enum { STARTS = 12, MOST = 6000 };
+    const double enough = enough_of(model);
+    double from, to;
+    int left = MOST;
+    rb_status s = go_round(model, warm, why);
+
+    if (s != RB_MAXITER)
+        return s == RB_OK ? measure(model, why) : s;
+    s = rb_rolling_law_newton(model, enough, &left, why);
+    rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &from, &to);
+    for (int k = 0; k <= STARTS && s > 0 && left > 0; k++) {
+        s = rb_rolling_law_start(model, from + (to - from) * k / STARTS, why);
+        if (s == RB_OK)
+            s = go_round(model, 1, why);
+        if (s == RB_MAXITER)
+            s = rb_rolling_law_newton(model, enough, &left, why);
+    }
     return s == RB_OK ? measure(model, why) : s;
 }
 
