@@ -5,6 +5,7 @@
 
 #define SMALL " --contact-elements 16 --mu 0.3 "
 #define STEADY " --formulation steady "
+#define STATES " --states "
 
 static const char *const cases[] = {
     SMALL "--creep 0.1",
@@ -21,6 +22,21 @@ static const char *const cases[] = {
 
 enum { CASES = sizeof cases / sizeof cases[0] };
 
+/* Sequences of steps, by load and approach, force, creepage and shift; bodies that relax;
+ * steps of another length than an element's. */
+static const char *const histories[] = {
+    SMALL STATES "--support halfplane --load 100 --young-b 210000 --increments 3 --shift "
+                 "1e-4",
+    SMALL STATES "--support halfplane --similar --half-width 0.3 --formulation transient "
+                 "--distance 0.3 --force-ratio -0.5 --steps 4",
+    SMALL STATES
+    "--support halfplane --load 100 --relaxation-time 0.01,0.1 "
+    "--relaxation-ratio 1,0.5 --speed 100 --formulation transient --distance "
+    "0.3 --creep 1e-3",
+};
+
+enum { HISTORIES = sizeof histories / sizeof histories[0] };
+
 static rb_status certify(const json_t *root, rb_report_certificate *found,
                          rb_message *why)
 {
@@ -32,6 +48,15 @@ static rb_status certify(const json_t *root, rb_report_certificate *found,
     rb_case_free(words);
     fclose(lines);
     return s;
+}
+
+static void write_controls(void)
+{
+    assert_int_equal(shell("printf 'time load shift\\n0 10 0\\n0.1 100 1e-4\\n0.3 100 "
+                           "2e-4\\n0.4 20 0\\n' > rest.txt; printf 'distance load "
+                           "force\\n0 50 0\\n0 100 10\\n0.2 80 20\\n0.4 100 -10\\n' > "
+                           "way.txt"),
+                     0);
 }
 
 static void results_are_valid(void **state)
@@ -63,10 +88,25 @@ static void results_are_valid(void **state)
         "--example hertz",
         "--example carter",
         "--example two-bodies",
+        "--support hub --load 1000 --mu 0.3 --states --increments 4 --shift 0.001",
+        "--support arc --approach 0.01 --mu 0.3 --states --formulation transient "
+        "--distance 0.3 --creep-ratio 0.4",
+        "--support halfplane --load 100 --mu 0.2 --states --formulation transient "
+        "--distance 0.3 --creep 1e-3 --speed 3000 --conductivity 50 --heat-capacity 3.6",
+        "--support halfplane --load 100 --mu 0.2 --states --formulation transient "
+        "--distance 0.3 --force-ratio 0.4 --interlayer-tangential 1e-6 "
+        "--layer-thickness 1 --young-b 3000 --increments 3",
+        "--support hub --cover-thickness 5 --history rest.txt --formulation static "
+        "--time-step 0.05 --mu 0.3 --states --relaxation-time 0.1 --relaxation-ratio 2",
+        "--support halfplane --history way.txt --formulation transient --mu 0.3 "
+        "--states --gap parabola",
     };
-    for (size_t k = 0; k < CASES + sizeof more / sizeof *more; k++) {
+    write_controls();
+    for (size_t k = 0; k < CASES + HISTORIES + sizeof more / sizeof *more; k++) {
         char line[600];
-        const char *given = k < CASES ? cases[k] : more[k - CASES];
+        const char *given = k < CASES               ? cases[k]
+                            : k < CASES + HISTORIES ? histories[k - CASES]
+                                                    : more[k - CASES - HISTORIES];
         snprintf(line, sizeof line,
                  "\"$R\" %s --json --quiet --output r.json && \"$R\" check r.json",
                  given);
@@ -99,6 +139,68 @@ static void expect_found(const json_t *root, const char *given, const char *key,
         print_error("%s: a change of %s[%d] was not found\n", given, key, i);
         missed++;
     }
+}
+
+/* Changes every number of a list, or of lists in it; returns how many. */
+static int change_list(const json_t *root, const char *given, const char *key,
+                       json_t *list)
+{
+    int changes = 0;
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        json_t *old = json_array_get(list, i);
+        if (json_is_array(old)) {
+            changes += change_list(root, given, key, old);
+            continue;
+        }
+        json_incref(old);
+        if (json_is_number(old)) {
+            const int modulus = strcmp(key, "zone") == 0 ? 4 : 1000000;
+            json_array_set_new(list, i,
+                               json_is_integer(old)
+                                   ? json_integer((json_integer_value(old) + 1) % modulus)
+                                   : json_real(changed(json_real_value(old))));
+            expect_found(root, given, key, (int)i);
+            changes++;
+        }
+        json_array_set_new(list, i, old);
+    }
+    return changes;
+}
+
+/* Of every step: what is printed of it, and its state. */
+static void every_changed_number_of_a_history_is_found(void **state)
+{
+    (void)state;
+    int changes = 0;
+    missed = 0;
+    for (int k = 0; k < HISTORIES; k++) {
+        json_t *root = run_json(histories[k]), *list, *value;
+        json_t *history = json_object_get(root, "history");
+        json_t *states = json_object_get(history, "states"), *names;
+        const char *key;
+        rb_report_certificate found;
+        rb_message why = {""};
+        CHECK_STATUS(certify(root, &found, &why), RB_OK);
+        assert_int_equal(found.violations, 0);
+        json_object_foreach(history, key, list) changes +=
+            change_list(root, histories[k], key, list);
+        json_object_foreach(states, key, list) changes +=
+            change_list(root, histories[k], key, list);
+        names = json_copy(history);
+        json_object_foreach(names, key, value)
+        {
+            if (!json_is_real(value))
+                continue;
+            json_object_set_new(history, key, json_real(changed(json_real_value(value))));
+            expect_found(root, histories[k], key, 0);
+            json_object_set(history, key, value);
+            changes++;
+        }
+        json_decref(names);
+        json_decref(root);
+    }
+    assert_true(changes > 500);
+    assert_int_equal(missed, 0);
 }
 
 static void every_changed_number_is_found(void **state)
@@ -191,8 +293,11 @@ static void what_cannot_be_checked_is_refused(void **state)
     char line[500];
     const struct {
         const char *options, *part;
-    } kinds[] = {{"--formulation transient --creep 1e-3 --distance 0.1", "'history'"},
-                 {"--increments 3 --shift 1e-4", "'history'"},
+    } kinds[] = {{"--formulation transient --creep 1e-3 --distance 0.1", "take --states"},
+                 {"--increments 3 --shift 1e-4", "take --states"},
+                 {"--formulation transient --creep 1e-3 --distance 0.1 --states "
+                  "--yield-stress 100",
+                  "an interface that yields"},
                  {"--formulation steady --creep 1e-3 --error", "error bars"},
                  {"--formulation steady --creep 1e-3 --units si", "units other than mm"}};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
@@ -203,6 +308,9 @@ static void what_cannot_be_checked_is_refused(void **state)
         "\"$R\" curve --support halfplane --load 100 --mu 0.3 --from 0 --to 1 --points 3 "
         "--json",
         65, "cannot be checked");
+    assert_int_equal(rollbem("--support halfplane --load 100 --increments 3 --states"),
+                     64);
+    assert_int_equal(rollbem("--support halfplane --load 100 --states --json"), 64);
     check_says("\"$R\" --approach 1e-9 --zone 5 --json", 65, "cannot be checked");
     snprintf(line, sizeof line, "%s | sed 's/\"gap_mm\": \\[/& 0,/'", half);
     check_says(line, 1, "gap_mm");
@@ -222,6 +330,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(results_are_valid),
         cmocka_unit_test(every_changed_number_is_found),
+        cmocka_unit_test(every_changed_number_of_a_history_is_found),
         cmocka_unit_test(inputs_belong_to_the_result),
         cmocka_unit_test(what_cannot_be_checked_is_refused)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

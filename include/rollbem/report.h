@@ -102,6 +102,9 @@ void rb_report_solutions(FILE *out, const rb_rolling_solutions *all);
 struct json_t *rb_report_json_schema(void);
 struct json_t *rb_report_json_errors(const rb_rolling_errors *errors);
 struct json_t *rb_report_json_history(const rb_rolling_history *h);
+/* Of its steps, in mm and MPa: lists of lists, and `motion`, the rigid shift [mm] of a
+ * step at rest, the creepage of a rolled one. */
+struct json_t *rb_report_json_states(const rb_rolling_states *s);
 
 /* What checking a result found. */
 typedef struct {
@@ -109,10 +112,10 @@ typedef struct {
     double residual;         /* of the printed state */
 } rb_report_certificate;
 
-/* Checks the JSON of a static or steady case without solving: rebuilds its problem from
- * its inputs in `words`, a case of defaults, and computes again what it prints from its
- * pressures, friction, approach and creepage.  A line on out for each violation.
- * RB_EFORMAT: a kind of result that cannot be checked; RB_ENOMEM. */
+/* Checks the JSON of a case, or of a history with its states, without solving: rebuilds
+ * its problem from its inputs in `words`, a case of defaults, and computes again what it
+ * prints from its pressures, friction, approach and creepage.  A line on out for each
+ * violation. RB_EFORMAT: a kind of result that cannot be checked; RB_ENOMEM. */
 rb_status rb_report_certify(FILE *out, const char *name, const struct json_t *root,
                             rb_case *words, rb_report_certificate *found,
                             rb_message *why);

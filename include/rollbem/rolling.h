@@ -696,6 +696,36 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
                                  rb_rolling_model *model, rb_rolling_history *history,
                                  rb_message *why);
 
+/* What the steps of a history found: n elements, `steps` states. */
+typedef struct {
+    int n, steps;
+    double *x, *h;          /* n: midpoints and lengths [length]; owned, as all */
+    double *p, *q, *lambda; /* steps x n, one step after the other */
+    int *zone;
+    double *delta; /* steps: approach */
+    double *xi;    /* steps: what was slid at rest [length], creepage of a rolled step */
+} rb_rolling_states;
+
+/* RB_ENOMEM leaves it empty. */
+rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *states);
+/* The model's state as that of a step, counted from 0, and its elements. */
+void rb_rolling_states_set(const rb_rolling_model *model, int step,
+                           rb_rolling_states *states);
+void rb_rolling_states_free(rb_rolling_states *states);
+
+/* Follows the program with these states and solves nothing: after each step the model has
+ * its problem, with the past that the states before it left, and the state with its
+ * residual.  half_width: that distances count in [length], of
+ * histories by approach.  Otherwise as
+ * rb_rolling_history_run.  RB_EINVAL: another number of steps; friction that depends on
+ * the state, or an interface that yields. */
+rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
+                                    const rb_rolling_program *program,
+                                    const rb_rolling_states *states, double half_width,
+                                    const rb_rolling_observer *observer,
+                                    rb_rolling_model *model, rb_rolling_history *history,
+                                    rb_message *why);
+
 /* ---- Wear -----------------------------------------------------------------------------
  */
 

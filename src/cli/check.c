@@ -12,8 +12,12 @@ static const char about[] =
     "load, force and every other number again from the pressures, friction, approach\n"
     "and creepage that are printed, and says valid, or what is violated and by how "
     "much.\n"
-    "Not checked: free_creepage, iterations, seconds, and which solver it was. Refused:\n"
-    "histories, curves, error bars, units other than mm, N, MPa.\n"
+    "Histories are followed step by step where --states has printed what each of them\n"
+    "found: gaps, bounds, and the slip from the step before. Not checked: "
+    "free_creepage,\n"
+    "iterations, seconds, and which solver it was. Refused: histories without states,\n"
+    "or with friction that depends on the slip or the temperature, or an interface that\n"
+    "yields; curves, error bars, units other than mm, N, MPa.\n"
     "\n"
     "Exit codes: 0 valid; 1 violated; 65 cannot be checked; 66 no such file.";
 

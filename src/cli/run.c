@@ -86,6 +86,19 @@ static void remove_snapshots(watch *w)
     w->written = 0;
 }
 
+/* Of this step; a run that begins anew may have other elements. */
+static rb_status keep_state(const rb_rolling_model *model, int step, int steps,
+                            rb_rolling_states *states, rb_message *why)
+{
+    if (step == 0) {
+        rb_rolling_states_free(states);
+        if (rb_rolling_states_alloc(model->mesh.n, steps, states) != RB_OK)
+            return rb_fail(why, RB_ENOMEM, "states: out of memory for %d steps", steps);
+    }
+    rb_rolling_states_set(model, step, states);
+    return RB_OK;
+}
+
 static int after_step(const rb_rolling_model *model, const rb_rolling_history *history,
                       int step, int steps, void *context)
 {
@@ -99,6 +112,8 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
         remove_snapshots(w);
     if (asked->snapshots && ((step + 1) % asked->every == 0 || step + 1 == steps))
         w->failed = write_snapshot(w, model, step + 1);
+    if (asked->states && w->failed == RB_OK)
+        w->failed = keep_state(model, step, steps, asked->states, w->why);
     return cli_interrupted() || w->failed != RB_OK;
 }
 

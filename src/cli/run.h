@@ -7,11 +7,12 @@
 
 /* What a sequence of steps leaves on its way. */
 typedef struct {
-    int progress;          /* a line on standard error now and then */
-    int terminal;          /* the line stays in its place */
-    const char *snapshots; /* folder for traction tables, or NULL */
-    rb_report_style style; /* of the snapshots */
-    int every;             /* steps from one to the next; the last step has one too */
+    int progress;              /* a line on standard error now and then */
+    int terminal;              /* the line stays in its place */
+    const char *snapshots;     /* folder for traction tables, or NULL */
+    rb_report_style style;     /* of the snapshots */
+    int every;                 /* steps from one to the next; the last step has one too */
+    rb_rolling_states *states; /* of all steps, overwritten; or NULL */
 } cli_steps;
 
 /* rb_case_solve, where an interrupt (control-C, SIGTERM, SIGHUP) ends a sequence of steps

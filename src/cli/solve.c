@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 typedef struct {
-    int trace, all_solutions;
+    int trace, all_solutions, states;
     const char *dump, *fclib, *history_table, *history_plot;
     cli_steps steps;
 } solve_options;
@@ -47,6 +47,9 @@ static const rb_option options[] = {
                  .unset = "none", .file = RB_FILE_FOLDER),
     RB_INTEGER_LINE("every", PLACE(steps.every), RB_FROM(1),
                     "steps from one snapshot to the next; the last step has one too"),
+    RB_FLAG_LINE("states", PLACE(states),
+                 "with --json: tractions, slip displacement and zone of every element at "
+                 "every step as history.states, which rollbem check asks for"),
     RB_FLAG_LINE("progress", PLACE(steps.progress),
                  "a line on standard error now and then; terminals get it anyway"),
 };
@@ -83,9 +86,18 @@ typedef struct {
     const cli_output *o;
     const rb_case_result *r;
     const rb_rolling_solutions *all; /* n = 0: not asked for */
+    const rb_rolling_states *states; /* n = 0: likewise */
 } result;
 
 /* ---- Output ----------------------------------------------------------------------- */
+
+static json_t *history_json(const result *it)
+{
+    json_t *history = rb_report_json_history(&it->r->history);
+    if (it->states->n > 0)
+        rb_report_json_set(&history, "states", rb_report_json_states(it->states));
+    return history;
+}
 
 static rb_status write_json(FILE *out, const result *it)
 {
@@ -97,7 +109,7 @@ static rb_status write_json(FILE *out, const result *it)
     rb_report_json_set(&root, "summary", summary);
     rb_report_json_set(&root, "table", rb_report_json_table(&it->r->solution));
     if (it->r->history.n > 0)
-        rb_report_json_set(&root, "history", rb_report_json_history(&it->r->history));
+        rb_report_json_set(&root, "history", history_json(it));
     if (it->all->n > 0)
         rb_report_json_set(&root, "solutions", rb_report_json_solutions(it->all));
     return rb_report_json_write(out, root);
@@ -193,8 +205,11 @@ static cli_exit solve(const solve_options *so, const cli_output *o, const rb_cas
     rb_case_result r;
     rb_message why = {""};
     rb_rolling_solutions all = {0};
-    rb_status status = cli_run_case(c, &so->steps, &r, &why);
-    const result it = {words, c, so, o, &r, &all};
+    rb_rolling_states states = {0};
+    cli_steps steps = so->steps;
+    steps.states = so->states ? &states : NULL;
+    rb_status status = cli_run_case(c, &steps, &r, &why);
+    const result it = {words, c, so, o, &r, &all, &states};
     if (status == RB_OK && so->all_solutions)
         status = rb_rolling_find_solutions(&r.model, &all, &why);
     rb_case_result_convert(&r, c->units);
@@ -205,6 +220,7 @@ static cli_exit solve(const solve_options *so, const cli_output *o, const rb_cas
         code = print_result(&it);
     if (code == CLI_OK && status != RB_OK)
         code = cli_case_refused(words, status, &why);
+    rb_rolling_states_free(&states);
     rb_rolling_solutions_free(&all);
     rb_case_result_free(&r);
     return code;
@@ -249,6 +265,15 @@ static cli_exit check_behind(const solve_options *so, const rb_settled_case *c)
     return CLI_CONTINUE;
 }
 
+/* Where the states of the steps are printed, and in which units. */
+static cli_exit check_states(const solve_options *so, const cli_output *o,
+                             const rb_settled_case *c)
+{
+    if (so->states && (o->style.format != RB_REPORT_JSON || c->units != RB_UNITS_MM))
+        return cli_fail(CLI_USAGE, "--states: with --json and in mm, N, MPa only");
+    return CLI_CONTINUE;
+}
+
 /* Only Lemke's method has pivots to trace. */
 static cli_exit choose_pivots(rb_case *c)
 {
@@ -287,6 +312,8 @@ int cli_solve(int argc, char **argv)
         code = choose_pivots(c);
     so.steps.style = o.style;
     cli_output_settle(&o);
+    if (code == CLI_CONTINUE)
+        code = check_states(&so, &o, rb_case_settled(c));
     so.steps.terminal = !o.quiet && isatty(STDERR_FILENO);
     if (code == CLI_CONTINUE)
         code = solve(&so, &o, c);

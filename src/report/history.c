@@ -48,6 +48,41 @@ json_t *rb_report_json_history(const rb_rolling_history *h)
     return history;
 }
 
+static json_t *lists_of(const rb_rolling_states *s, const double *values)
+{
+    json_t *lists = json_array();
+
+    for (int k = 0; k < s->steps; k++)
+        rb_report_json_append(
+            &lists, rb_report_json_numbers(s->n, values + (size_t)k * (size_t)s->n));
+    return lists;
+}
+
+static json_t *zones_of(const rb_rolling_states *s)
+{
+    json_t *lists = json_array();
+
+    for (int k = 0; k < s->steps; k++) {
+        json_t *list = json_array();
+        for (int i = 0; i < s->n; i++)
+            rb_report_json_append(&list, json_integer(s->zone[k * s->n + i]));
+        rb_report_json_append(&lists, list);
+    }
+    return lists;
+}
+
+json_t *rb_report_json_states(const rb_rolling_states *s)
+{
+    json_t *states = json_object();
+
+    rb_report_json_set(&states, "motion", rb_report_json_numbers(s->steps, s->xi));
+    rb_report_json_set(&states, "p_MPa", lists_of(s, s->p));
+    rb_report_json_set(&states, "q_MPa", lists_of(s, s->q));
+    rb_report_json_set(&states, "shift_mm", lists_of(s, s->lambda));
+    rb_report_json_set(&states, "zone", zones_of(s));
+    return states;
+}
+
 /* The last step's values with their errors. */
 static void print_errors(FILE *out, const rb_rolling_history *h)
 {

@@ -154,8 +154,10 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(
         &of, "solutions",
         list_of(typed("object", NULL), "summary and table of each, of --all-solutions"));
-    rb_report_json_set(&of, "history",
-                       columns(&rb_rolling_history_columns, 0, "an entry per step"));
+    rb_report_json_set(
+        &of, "history",
+        columns(&rb_rolling_history_columns, 0,
+                "an entry per step; states: of --states, a list per step"));
     json_t *curve = columns(&rb_rolling_curve_columns, 0, "an entry per creepage");
     rb_report_json_set(&of, "curve", curve);
     rb_report_json_set(&of, "curves",

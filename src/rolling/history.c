@@ -25,6 +25,7 @@ typedef struct {
     const rb_rolling_case *rc;
     const rb_rolling_program *program;
     const rb_rolling_observer *observer; /* or NULL */
+    const rb_rolling_states *found;      /* to follow without solving; or NULL */
     rb_rolling_model *model;
     rb_rolling_history *history;
     int steps;    /* in all */
@@ -232,6 +233,43 @@ static void watch_steadiness(run *r, double c)
         r->history->steady_from = r->history->n;
 }
 
+/* The state that was found in this step, with the residual that it leaves. */
+static rb_status follow(run *r)
+{
+    rb_rolling_model *model = r->model;
+    rb_contact_state *state = &model->state;
+    const size_t n = (size_t)state->n, at = (size_t)r->history->n * n;
+    rb_contact_violation v;
+
+    memcpy(state->p, r->found->p + at, n * sizeof *state->p);
+    memcpy(state->q, r->found->q + at, n * sizeof *state->q);
+    memcpy(state->lambda, r->found->lambda + at, n * sizeof *state->lambda);
+    memcpy(state->zone, r->found->zone + at, n * sizeof *state->zone);
+    state->delta = r->found->delta[r->history->n];
+    state->xi = r->found->xi[r->history->n];
+    model->half_width =
+        rb_rolling_hertz_half_width(&model->rc, fmax(0.0, rb_rolling_model_load(model)));
+    if (!isnan(model->rc.creep_ratio) && model->rc.formulation == RB_TRANSIENT)
+        model->problem.xi = rb_rolling_creepage_of_ratio(model, model->rc.creep_ratio);
+    const rb_status s = rb_contact_residual(&model->problem, state, &v);
+    state->residual = v.scaled;
+    state->status = RB_OK;
+    return s;
+}
+
+static rb_status answer_at_rest(run *r, rb_message *why)
+{
+    return r->found ? follow(r) : rb_rolling_model_resolve(r->model, 0, why);
+}
+
+static rb_status answer_rolled(run *r, rb_message *why)
+{
+    if (!r->found)
+        return rb_rolling_model_control(r->model, why);
+    rb_rolling_set_control(&r->model->rc, &r->model->problem);
+    return follow(r);
+}
+
 /* What must hold after every step. */
 static rb_status judge(const run *r, rb_status s, rb_message *reason, rb_message *why)
 {
@@ -272,7 +310,7 @@ static rb_status static_step(run *r, rb_message *why)
     rb_rolling_set_past(rest, &model->bodies, first ? NULL : &past, p);
     rb_rolling_set_control(rest, p);
     p->xi -= p->force_given ? 0.0 : r->shift;
-    s = judge(r, rb_rolling_model_resolve(model, 0, &reason), &reason, why);
+    s = judge(r, answer_at_rest(r, &reason), &reason, why);
     r->shift += model->state.xi;
     if (s >= 0) {
         relaxed(r, interval);
@@ -319,7 +357,7 @@ static rb_status rolled_step(run *r, double from, double to, rb_message *why)
     if (r->history->max_temperature)
         rb_rolling_heat_track_advance(&r->heat);
     rb_rolling_set_past(&model->rc, &model->bodies, &past, &model->problem);
-    s = judge(r, rb_rolling_model_control(model, &reason), &reason, why);
+    s = judge(r, answer_rolled(r, &reason), &reason, why);
     if (s == RB_OK)
         watch_steadiness(r, c);
     if (s >= 0 && r->history->max_temperature)
@@ -373,6 +411,24 @@ static double largest(const double *column, int n, double own)
     return max;
 }
 
+/* The elements of what was found, without a state. */
+static rb_status elements_found(const run *r, const rb_rolling_case *rc, rb_message *why)
+{
+    const rb_rolling_states *found = r->found;
+    rb_rolling_model *m = r->model;
+
+    m->rc = *rc;
+    const rb_rolling_elements elements = {
+        .are_equal = 1, .n = found->n, .x = found->x, .h = found->h};
+    rb_status s = rb_rolling_mesh_of_result(rc, &elements, &m->mesh, why);
+
+    if (s == RB_OK)
+        s = rb_rolling_bodies_create(rc, &m->mesh, &m->bodies, why);
+    if (s == RB_OK)
+        s = rb_rolling_problem_create(rc, &m->mesh, &m->bodies, NULL, &m->problem, why);
+    return s == RB_OK ? rb_contact_state_alloc(found->n, &m->state) : s;
+}
+
 /* A mesh that holds the contact of the largest load, solved at rest; zone: 0, automatic.
  */
 static rb_status widest_contact(const run *r, double zone, rb_message *why)
@@ -388,18 +444,19 @@ static rb_status widest_contact(const run *r, double zone, rb_message *why)
     widest.approach = largest(program->approach, program->n, widest.approach);
     widest.shift = widest.creep = widest.creep_ratio = widest.force = NAN;
     widest.force_ratio = 0.0;
-    return rb_rolling_model_create(&widest, r->model, why);
+    return r->found ? elements_found(r, &widest, why)
+                    : rb_rolling_model_create(&widest, r->model, why);
 }
 
 /* The unit of distances: Hertz's half-width of the largest load, of bodies that relax
- * with the glassy modulus. */
+ * with the glassy modulus; under a given approach what was found at rest. */
 static double half_width(const run *r)
 {
     const rb_rolling_model *widest = r->model;
 
-    return rb_rolling_relaxes(r->rc) && widest->problem.load_given
-               ? rb_rolling_hertz_half_width(r->rc, widest->problem.load)
-               : widest->half_width;
+    if (widest->problem.load_given && (r->found || rb_rolling_relaxes(r->rc)))
+        return rb_rolling_hertz_half_width(r->rc, widest->problem.load);
+    return r->found ? r->history->half_width : widest->half_width;
 }
 
 /* Step length and number.  Where the case does not say, a step is one element, or as
@@ -478,7 +535,7 @@ static rb_status prepare_relaxation(run *r, double step, rb_message *why)
     r->row = r->part = 0;
     if (!rb_rolling_relaxes(rc))
         return RB_OK;
-    if (step > 0.0)
+    if (step > 0.0 && !r->found)
         s = match_elements(r, step, why);
     for (int k = 0; k < rc->a.memory.n; k++)
         slowest = fmax(slowest, rc->a.memory.time[k]);
@@ -500,7 +557,12 @@ static rb_status prepare(run *r, double zone, rb_message *why)
         return s;
     r->shift = 0.0;
     r->history->half_width = half_width(r);
+    if (r->found) /* as solving would have left it */
+        r->model->half_width = r->history->half_width;
     s = plan_steps(r, &step, why);
+    if (s == RB_OK && r->found && r->found->steps != r->steps)
+        s = rb_fail(why, RB_EINVAL, "history: %d steps, the program has %d",
+                    r->found->steps, r->steps);
     if (s == RB_OK)
         s = prepare_relaxation(r, step, why);
     if (s != RB_OK)
@@ -564,25 +626,18 @@ static rb_status run_on_zone(run *r, double zone, double *wider, rb_message *why
     return s;
 }
 
-rb_status rb_rolling_history_run(const rb_rolling_case *rc,
-                                 const rb_rolling_program *program,
-                                 const rb_rolling_observer *observer,
-                                 rb_rolling_model *model, rb_rolling_history *history,
-                                 rb_message *why)
+static rb_status run_program(run *r, const rb_rolling_case *rc, rb_message *why)
 {
+    const rb_rolling_program *program = r->program;
     const rb_rolling_case whole = program ? rb_rolling_program_base(program, rc) : *rc;
     rb_rolling_case base = whole; /* step by step the elements are equal */
     rb_rolling_program own;
     double *columns = NULL;
-    run r = {.rc = &base,
-             .program = program ? program : &own,
-             .observer = observer,
-             .model = model,
-             .history = history};
 
     base.mesh = RB_MESH_UNIFORM;
-    memset(model, 0, sizeof *model);
-    memset(history, 0, sizeof *history);
+    r->rc = &base;
+    r->program = program ? program : &own;
+    memset(r->model, 0, sizeof *r->model);
     rb_status s = rb_rolling_case_check(&whole, why);
     if (s == RB_OK && !program && rc->formulation == RB_TRANSIENT &&
         !(rc->distance > 0.0))
@@ -593,16 +648,56 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
         s = columns ? RB_OK : RB_ENOMEM;
     }
     if (s == RB_OK)
-        s = rb_rolling_program_check(r.program, &base, why);
+        s = rb_rolling_program_check(r->program, &base, why);
     for (double zone = base.zone, wider = 1.0; s == RB_OK && wider > 0.0; zone = wider) {
-        s = run_on_zone(&r, zone, &wider, why);
+        s = run_on_zone(r, zone, &wider, why);
         if (wider > 0.0) {
-            base.contact_elements = model->mesh.n; /* more than asked for, with patches */
-            rb_rolling_model_free(model);
-            rb_rolling_history_free(history);
+            base.contact_elements =
+                r->model->mesh.n; /* more than asked for, with patches */
+            rb_rolling_model_free(r->model);
+            rb_rolling_history_free(r->history);
             s = RB_OK;
         }
     }
     free(columns);
     return s;
+}
+
+rb_status rb_rolling_history_run(const rb_rolling_case *rc,
+                                 const rb_rolling_program *program,
+                                 const rb_rolling_observer *observer,
+                                 rb_rolling_model *model, rb_rolling_history *history,
+                                 rb_message *why)
+{
+    run r = {
+        .program = program, .observer = observer, .model = model, .history = history};
+
+    memset(history, 0, sizeof *history);
+    return run_program(&r, rc, why);
+}
+
+rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
+                                    const rb_rolling_program *program,
+                                    const rb_rolling_states *states, double half_width,
+                                    const rb_rolling_observer *observer,
+                                    rb_rolling_model *model, rb_rolling_history *history,
+                                    rb_message *why)
+{
+    run r = {.program = program,
+             .observer = observer,
+             .found = states,
+             .model = model,
+             .history = history};
+
+    memset(history, 0, sizeof *history);
+    memset(model, 0, sizeof *model);
+    history->half_width = half_width;
+    if (rb_rolling_law_moves(rc) || rc->yield_stress > 0.0)
+        return rb_fail(why, RB_EINVAL,
+                       "history: its states do not tell what friction that depends on "
+                       "them, or an interface that yields, remembers");
+    if (!(half_width > 0.0))
+        return rb_fail(why, RB_EINVAL, "history: half-width %g: expected > 0",
+                       half_width);
+    return run_program(&r, rc, why);
 }

@@ -1,0 +1,56 @@
+/* What the files of the certificate share; not installed. */
+#ifndef ROLLBEM_REPORT_CERTIFICATE_H
+#define ROLLBEM_REPORT_CERTIFICATE_H
+
+#include "report/internal.h"
+#include "rollbem/case.h"
+
+#include <jansson.h>
+
+typedef struct {
+    FILE *out;
+    const char *name; /* of the file */
+    rb_report_certificate *found;
+    const json_t *summary, *table;
+    int step; /* of a history, from 1 on, while it is judged; 0: the result */
+    rb_rolling_model model;
+    rb_rolling_solution again; /* computed from the state */
+    double tol;                /* of the scaled residual */
+    double exact; /* of the scaled gap and slip, as the result's own residual has it */
+    double displacement; /* rounding of displacements [length] */
+} rb_certificate;
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void rb_certificate_violated(rb_certificate *c, const char *format, ...);
+/* NAN is equal to NAN alone. */
+void rb_certificate_expect(rb_certificate *c, const char *what, int element,
+                           double printed, double want, double allowed);
+double rb_certificate_number(const json_t *value);
+double rb_certificate_member(const json_t *object, const char *key);
+
+/* A list of n numbers. */
+rb_status rb_certificate_column(const char *name, const json_t *table,
+                                const char *heading, int n, double *x, rb_message *why);
+
+/* From the residual that is printed for the state at hand. */
+void rb_certificate_tolerances(rb_certificate *c, double residual);
+/* The given load or approach, creepage or shift against the model's. */
+void rb_certificate_given(rb_certificate *c, double load);
+void rb_certificate_motion(rb_certificate *c);
+/* Contact and friction, element by element. */
+rb_status rb_certificate_laws(rb_certificate *c);
+/* ---- certificate_history.c ------------------------------------------------------------
+ */
+
+/* Follows the steps of a history by its states, judges each of them and leaves the model
+ * at the last one.  h: overwritten; free it in any case. */
+rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
+                                const rb_settled_case *settled, int n,
+                                rb_rolling_history *h, rb_message *why);
+/* Its columns against those that came out. */
+rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,
+                                         const rb_rolling_history *h);
+
+#endif

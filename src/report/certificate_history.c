@@ -1,0 +1,180 @@
+/* A certificate of a history: each step is judged with the past that the states before it
+ * leave, so that the slip is that from the step before. */
+#include "report/certificate.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- The states -----------------------------------------------------------------------
+ */
+
+static const json_t *list_of_step(const json_t *states, const char *key, int step)
+{
+    return json_array_get(json_object_get(states, key), (size_t)step);
+}
+
+/* n numbers of each step. */
+static rb_status read_lists(const rb_certificate *c, const json_t *states,
+                            const char *key, const rb_rolling_states *to, double *values,
+                            rb_message *why)
+{
+    rb_status s = RB_OK;
+    if ((int)json_array_size(json_object_get(states, key)) != to->steps)
+        return rb_fail(why, RB_EFORMAT, "%s: states: expected %d steps in %s", c->name,
+                       to->steps, key);
+    for (int k = 0; k < to->steps && s == RB_OK; k++) {
+        json_t *of = json_pack("{s:O}", key, list_of_step(states, key, k));
+        s = of ? rb_certificate_column(c->name, of, key, to->n,
+                                       values + (size_t)k * (size_t)to->n, why)
+               : RB_ENOMEM;
+        json_decref(of);
+    }
+    return s;
+}
+
+static rb_status read_zones(const rb_certificate *c, rb_rolling_states *to,
+                            const double *zone, rb_message *why)
+{
+    const size_t all = (size_t)to->n * (size_t)to->steps;
+    for (size_t i = 0; i < all; i++) {
+        if (!(zone[i] >= 0.0 && zone[i] <= 3.0) || zone[i] != floor(zone[i]))
+            return rb_fail(why, RB_EFORMAT, "%s: states: zone %g", c->name, zone[i]);
+        to->zone[i] = (int)zone[i];
+    }
+    return RB_OK;
+}
+
+static rb_status read_states(const rb_certificate *c, const json_t *printed,
+                             rb_rolling_states *to, rb_message *why)
+{
+    const json_t *states = json_object_get(printed, "states");
+    double *zone = rb_alloc((size_t)to->n, (size_t)to->steps);
+    rb_status s = zone ? RB_OK : RB_ENOMEM;
+
+    if (s == RB_OK)
+        s = rb_certificate_column(c->name, c->table, "x_mm", to->n, to->x, why);
+    if (s == RB_OK)
+        s = rb_certificate_column(c->name, c->table, "h_mm", to->n, to->h, why);
+    if (s == RB_OK)
+        s = read_lists(c, states, "p_MPa", to, to->p, why);
+    if (s == RB_OK)
+        s = read_lists(c, states, "q_MPa", to, to->q, why);
+    if (s == RB_OK)
+        s = read_lists(c, states, "shift_mm", to, to->lambda, why);
+    if (s == RB_OK)
+        s = read_lists(c, states, "zone", to, zone, why);
+    if (s == RB_OK)
+        s = read_zones(c, to, zone, why);
+    if (s == RB_OK)
+        s = rb_certificate_column(c->name, printed, "approach", to->steps, to->delta,
+                                  why);
+    if (s == RB_OK)
+        s = rb_certificate_column(c->name, states, "motion", to->steps, to->xi, why);
+    free(zone);
+    return s;
+}
+
+/* ---- Steps ----------------------------------------------------------------------------
+ */
+
+typedef struct {
+    rb_certificate *c;
+    const json_t *residual; /* printed, an entry per step */
+    rb_status status;
+} judge;
+
+static int judge_step(const rb_rolling_model *model, const rb_rolling_history *h,
+                      int step, int steps, void *context)
+{
+    judge *j = context;
+    rb_certificate *c = j->c;
+
+    (void)model; /* it is the certificate's own */
+    (void)steps;
+    c->step = step + 1;
+    rb_certificate_tolerances(
+        c, rb_certificate_number(json_array_get(j->residual, (size_t)step)));
+    rb_certificate_given(c, h->normal_load[step]);
+    rb_certificate_motion(c);
+    j->status = rb_certificate_laws(c);
+    c->step = 0;
+    return j->status != RB_OK;
+}
+
+rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
+                                const rb_settled_case *settled, int n,
+                                rb_rolling_history *h, rb_message *why)
+{
+    const int steps = (int)json_array_size(json_object_get(printed, "approach"));
+    judge j = {c, json_object_get(printed, "residual"), RB_OK};
+    const rb_rolling_observer observer = {judge_step, &j};
+    rb_rolling_states states = {0};
+
+    if (steps < 1)
+        return rb_fail(why, RB_EFORMAT, "%s: cannot be checked: no steps", c->name);
+    rb_status s = rb_rolling_states_alloc(n, steps, &states);
+    if (s == RB_OK)
+        s = read_states(c, printed, &states, why);
+    if (s == RB_OK)
+        s = rb_rolling_history_follow(
+            &settled->rc, settled->program.n > 0 ? &settled->program : NULL, &states,
+            rb_certificate_member(printed, "half_width"), &observer, &c->model, h, why);
+    rb_rolling_states_free(&states);
+    return j.status != RB_OK ? j.status : s;
+}
+
+/* ---- Columns --------------------------------------------------------------------------
+ */
+
+static void compare_list(rb_certificate *c, const char *key, const json_t *printed,
+                         const json_t *again)
+{
+    double largest = 0.0;
+
+    for (size_t k = 0; k < json_array_size(again); k++)
+        largest = fmax(largest, fabs(rb_certificate_number(json_array_get(again, k))));
+    if (json_array_size(printed) != json_array_size(again))
+        rb_certificate_violated(c, "history: %zu numbers in %s, expected %zu",
+                                json_array_size(printed), key, json_array_size(again));
+    for (size_t k = 0; k < json_array_size(again); k++) {
+        const double want = rb_certificate_number(json_array_get(again, k));
+        const int whole = json_is_integer(json_array_get(again, k));
+        c->step = (int)k + 1;
+        rb_certificate_expect(
+            c, key, 0, rb_certificate_number(json_array_get(printed, k)), want,
+            whole                          ? 0.0
+            : strcmp(key, "residual") == 0 ? c->tol
+                                           : 1e-9 * fabs(want) + 1e-12 * largest);
+    }
+    c->step = 0;
+}
+
+rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,
+                                         const rb_rolling_history *h)
+{
+    json_t *again = rb_report_json_history(h), *want;
+    const char *key;
+
+    if (!again)
+        return RB_ENOMEM;
+    json_object_foreach(again, key, want)
+    {
+        const json_t *value = json_object_get(printed, key);
+        if (json_is_array(want))
+            compare_list(c, key, value, want);
+        else if (json_is_real(want))
+            rb_certificate_expect(c, key, 0, rb_certificate_number(value),
+                                  json_real_value(want),
+                                  1e-9 * fabs(json_real_value(want)));
+        else if (!json_equal(value, want))
+            rb_certificate_violated(c, "history: %s is not what it should be", key);
+    }
+    json_object_foreach((json_t *)printed, key, want)
+    {
+        if (!json_object_get(again, key) && strcmp(key, "states") != 0)
+            rb_certificate_violated(c, "history: %s is no result of this case", key);
+    }
+    json_decref(again);
+    return RB_OK;
+}

@@ -1,0 +1,50 @@
+/* The states of the steps of a history, kept to follow it again. */
+#include "rolling/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void rb_rolling_states_free(rb_rolling_states *s)
+{
+    free(s->x);
+    free(s->p);
+    free(s->delta);
+    free(s->zone);
+    memset(s, 0, sizeof *s);
+}
+
+rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *s)
+{
+    const size_t m = (size_t)n, all = (size_t)steps * m;
+
+    *s = (rb_rolling_states){.n = n,
+                             .steps = steps,
+                             .x = rb_alloc(m, 2),
+                             .p = rb_alloc(all, 3),
+                             .delta = rb_alloc((size_t)steps, 2),
+                             .zone = calloc(all > 0 ? all : 1, sizeof *s->zone)};
+    if (!s->x || !s->p || !s->delta || !s->zone) {
+        rb_rolling_states_free(s);
+        return RB_ENOMEM;
+    }
+    s->h = s->x + m;
+    s->q = s->p + all;
+    s->lambda = s->q + all;
+    s->xi = s->delta + steps;
+    return RB_OK;
+}
+
+void rb_rolling_states_set(const rb_rolling_model *model, int step, rb_rolling_states *s)
+{
+    const rb_contact_state *state = &model->state;
+    const size_t n = (size_t)s->n, at = (size_t)step * n;
+
+    memcpy(s->x, model->bodies.f.x, n * sizeof *s->x);
+    memcpy(s->h, model->bodies.f.h, n * sizeof *s->h);
+    memcpy(s->p + at, state->p, n * sizeof *s->p);
+    memcpy(s->q + at, state->q, n * sizeof *s->q);
+    memcpy(s->lambda + at, state->lambda, n * sizeof *s->lambda);
+    memcpy(s->zone + at, state->zone, n * sizeof *s->zone);
+    s->delta[step] = state->delta;
+    s->xi[step] = state->xi;
+}
