@@ -286,6 +286,66 @@ static void check_says(const char *make, int code, const char *part)
     assert_null(strstr(out, "r.json: valid"));
 }
 
+/* Of --all-solutions each is judged by itself; the last number of the last one counts. */
+static void all_solutions_are_judged(void **state)
+{
+    (void)state;
+    static const char given[] =
+        "--support halfplane --similar --radius 460 --young 209920 --poisson 0.28 --load "
+        "3111.08 --speed 45000 --mu 0.18 --friction-law exponential --mu-fall 0.12 "
+        "--slip-scale 5 --mesh uniform --slip-operator upstream --contact-elements 93 "
+        "--zone 4.65 --creep 0.0009999 --all-solutions" STEADY;
+    char line[600];
+    snprintf(line, sizeof line,
+             "\"$R\" %s --json --quiet --output all.json && \"$R\" check all.json",
+             given);
+    assert_int_equal(shell(line), 0);
+    assert_non_null(strstr(out, "all.json: valid: "));
+
+    json_t *root = run_json(given), *all = json_object_get(root, "solutions");
+    rb_case *words = rb_case_create(RB_CASE_SINGLE);
+    rb_report_certificate found;
+    rb_message why = {""};
+    assert_int_equal(json_array_size(all), 3);
+    for (int change = 0; change < 4; change++) {
+        FILE *lines = tmpfile();
+        json_t *wrong = json_deep_copy(root), *list = json_object_get(wrong, "solutions");
+        json_t *q =
+            json_object_get(json_object_get(json_array_get(list, 2), "table"), "q_MPa");
+        char text[400] = "";
+        assert_non_null(lines);
+        if (change == 1) /* friction of an element that sticks */
+            json_array_set_new(
+                q, 60,
+                json_real(json_number_value(json_array_get(q, 60)) * (1.0 + 1e-6)));
+        if (change == 2)
+            json_array_set(list, 2, json_array_get(list, 1));
+        if (change == 3)
+            json_array_remove(list, 0), json_array_remove(list, 0);
+        CHECK_STATUS(rb_report_certify_solutions(lines, "r", wrong, words, &found, &why),
+                     RB_OK);
+        rewind(lines);
+        if (change == 0)
+            assert_int_equal(found.violations, 0);
+        else
+            assert_non_null(fgets(text, sizeof text, lines));
+        if (change == 1)
+            assert_non_null(strstr(text, "r: solution 3: violated: "));
+        if (change == 2)
+            assert_string_equal(text, "r: violated: solutions 2 and 3 are the same\n");
+        if (change == 3)
+            assert_string_equal(text,
+                                "r: violated: the result is none of its solutions\n");
+        fclose(lines);
+        json_decref(wrong);
+    }
+    json_object_set_new(root, "solutions", json_array());
+    CHECK_STATUS(rb_report_certify_solutions(stdout, "r", root, words, &found, &why),
+                 RB_EFORMAT);
+    rb_case_free(words);
+    json_decref(root);
+}
+
 static void what_cannot_be_checked_is_refused(void **state)
 {
     (void)state;
@@ -332,6 +392,7 @@ int main(void)
         cmocka_unit_test(every_changed_number_is_found),
         cmocka_unit_test(every_changed_number_of_a_history_is_found),
         cmocka_unit_test(inputs_belong_to_the_result),
+        cmocka_unit_test(all_solutions_are_judged),
         cmocka_unit_test(what_cannot_be_checked_is_refused)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

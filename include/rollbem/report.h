@@ -119,6 +119,11 @@ typedef struct {
 rb_status rb_report_certify(FILE *out, const char *name, const struct json_t *root,
                             rb_case *words, rb_report_certificate *found,
                             rb_message *why);
+/* The same of a result of --all-solutions, each of its solutions by itself, and whether
+ * they differ; of any other result rb_report_certify. */
+rb_status rb_report_certify_solutions(FILE *out, const char *name,
+                                      const struct json_t *root, rb_case *words,
+                                      rb_report_certificate *found, rb_message *why);
 /* Writes with a final newline and takes json over.  RB_ENOMEM: it is NULL; RB_EWRITE. */
 rb_status rb_report_json_write(FILE *out, struct json_t *json);
 
