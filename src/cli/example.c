@@ -408,11 +408,6 @@ static cli_exit check(const example_options *o, const cli_args *args)
         if (s != RB_OK)
             return cli_say(s, &why);
     }
-    if (o->pictures.size == RB_REPORT_85MM)
-        return cli_fail(CLI_USAGE,
-                        "--plot-size: the pictures of the examples have panels "
-                        "side by side, wider than 85mm; expected 170mm or "
-                        "slide");
     const rb_friction_solver *solver;
     return o->solver ? cli_friction_solver("solver", o->solver, &solver) : CLI_CONTINUE;
 }

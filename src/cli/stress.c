@@ -352,13 +352,9 @@ static cli_exit check_known(const rb_case *c)
     return s == RB_OK ? CLI_CONTINUE : cli_case_refused(c, s, &why);
 }
 
-static cli_exit check(const rb_case *c, const stress_options *so, const cli_output *o,
-                      places *where)
+static cli_exit check(const rb_case *c, const stress_options *so, places *where)
 {
     cli_exit code = check_known(c);
-    if (code == CLI_CONTINUE && o->plot && o->pictures.size == RB_REPORT_85MM)
-        code = cli_fail(CLI_USAGE, "--plot-size: contours are two panels side by side, "
-                                   "wider than 85mm; expected 170mm or slide");
     if (code == CLI_CONTINUE)
         code = check_vtk(so, rb_case_settled(c));
     if (code == CLI_CONTINUE)
@@ -388,7 +384,7 @@ int cli_stress(int argc, char **argv)
     if (code == CLI_CONTINUE) {
         rb_option_store(&spec.sets[1], rb_case_settled(c)->units, rb_case_file_units(c),
                         &so);
-        code = check(c, &so, &o, &where);
+        code = check(c, &so, &where);
     }
     if (code == CLI_CONTINUE)
         code = solve(c, &so, &where, &o);

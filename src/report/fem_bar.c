@@ -95,19 +95,26 @@ static void write_zones(FILE *out, const bar_view *v)
 static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 {
     const bar_view *v = view;
-    (void)canvas;
+    const rb_report_place place = rb_report_place_of(canvas);
+    const double *end = v->step->u + 2 * (v->model->mesh.nodes - 1);
     write_mesh(out, v);
     write_reactions(out, v);
-    fprintf(
-        out,
-        "set multiplot\nset lmargin at screen 0.10\nset rmargin at screen 0.975\n"
-        "set xrange [0:%g]\nset tmargin at screen 0.86\nset bmargin at screen 0.60\n"
-        "set label 1 '{/:Bold Bar pressed onto an obstacle and pushed from the right} "
-        "(Kanno, example 3.2)' at screen 0.535, 0.955 center\n"
-        "set label 2 'deformed mesh, displacements × %g;  end of the bar: %.4f mm, %+.4f "
-        "mm' at screen 0.535, 0.90 center textcolor rgb '#444444'\n",
-        1.005 * v->length, magnify, v->step->u[2 * v->model->mesh.nodes - 2],
-        v->step->u[2 * v->model->mesh.nodes - 1]);
+    fprintf(out,
+            "set multiplot\nset lmargin at screen %g\nset rmargin at screen %g\n"
+            "set xrange [0:%g]\nset tmargin at screen 0.86\nset bmargin at screen 0.60\n",
+            0.10 + 1.6 * place.right, place.titled ? 0.975 : 0.95, 1.005 * v->length);
+    if (place.titled)
+        fprintf(out,
+                "set label 1 '{/:Bold Bar pressed onto an obstacle and pushed from the "
+                "right} (Kanno, example 3.2)' at screen 0.535, 0.955 center\n"
+                "set label 2 'deformed mesh, displacements × %g;  end of the bar: %.4f "
+                "mm, %+.4f mm' at screen 0.535, 0.90 center textcolor rgb '#444444'\n",
+                magnify, end[0], end[1]);
+    else
+        fprintf(out,
+                "set xtics 100\nset label 2 'displacements × %g' at screen 0.58, 0.9 "
+                "center textcolor rgb '#444444'\n",
+                magnify);
     fprintf(
         out,
         "set yrange [%g:%g]\nset ytics 0, %g\nset format x ''\nset ylabel 'y [mm]'\n"
@@ -124,12 +131,12 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
           "set key at graph 0.06, graph 0.46 left Left reverse samplen 1.5\n",
           out);
     write_zones(out, v);
-    fputs(
+    fprintf(
+        out,
         "plot $reaction using 1:2 with points pointtype 5 pointsize 0.9 linecolor rgb "
         "'#1f4e79' title 'normal', $reaction using 1:3 with points pointtype 9 pointsize "
-        "1.0 linecolor rgb '#c0392b' title 'tangential / μ, to the right'\nunset "
-        "multiplot\n",
-        out);
+        "1.0 linecolor rgb '#c0392b' title 'tangential / μ%s'\nunset multiplot\n",
+        place.titled ? ", to the right" : "");
 }
 
 rb_status rb_report_picture_bar(FILE *out, rb_report_canvas canvas,

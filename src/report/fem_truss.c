@@ -5,8 +5,6 @@
 
 #include <math.h>
 
-enum { COLUMNS = 4 };
-
 /* Vectors on the contact nodes with x, y >= 0. */
 typedef struct {
     const rb_fem_model *model;
@@ -96,22 +94,27 @@ static double scale_of(const quarter *q, const rb_fem_step *step, int total)
     return most > 1e-9 ? rb_report_fem_round(1.1e3 * q->spacing / most) : 1.0;
 }
 
-static void open_panel(FILE *out, int panel)
+/* Four panels in a row, or two in a column of print, whose letters are larger. */
+static void open_panel(FILE *out, int column, int panel)
 {
-    const double wide = 0.93 / COLUMNS, left = 0.055 + wide * (panel % COLUMNS);
-    const double tall = 0.42, top = 0.925 - tall * (panel / COLUMNS);
+    const int row = column ? 2 : 4;
+    const double wide = (column ? 0.95 : 0.93) / row;
+    const double left = (column ? 0.1 : 0.055) + wide * (panel % row);
+    const double tall = column ? 0.223 : 0.42;
+    const double top = (column ? 0.99 : 0.925) - tall * (panel / row);
     fprintf(out,
             "set lmargin at screen %.4f\nset rmargin at screen %.4f\n"
             "set tmargin at screen %.4f\nset bmargin at screen %.4f\n",
-            left, left + 0.82 * wide, top - 0.085, top - tall + 0.065);
+            left, left + (column ? 0.78 : 0.82) * wide, top - (column ? 0.05 : 0.085),
+            top - tall + (column ? 0.052 : 0.065));
 }
 
 static void write_panel(FILE *out, const quarter *q, const rb_fem_step *step, int total,
-                        int panel)
+                        int column, int panel)
 {
     const double scale = scale_of(q, step, total);
     write_vectors(out, q, step, total, scale, panel);
-    open_panel(out, panel);
+    open_panel(out, column, panel);
     fprintf(out, "set title '{/:Bold %s%d}  (×%g)' offset 0,0.1\n",
             total ? "total, m = " : "m = ", total ? panel : panel + 1, scale);
     if (!total)
@@ -130,12 +133,13 @@ static void write_panel(FILE *out, const quarter *q, const rb_fem_step *step, in
 }
 
 /* The quarter from the side, at rest and after the last increment. */
-static void write_side(FILE *out, const quarter *q, const rb_fem_step *last, int panel)
+static void write_side(FILE *out, const quarter *q, const rb_fem_step *last, int column,
+                       int panel)
 {
     const double scale = scale_of(q, last, 1);
     write_bars(out, q, "before", 0, NULL, 0.0);
     write_bars(out, q, "after", 0, last->u, scale);
-    open_panel(out, panel);
+    open_panel(out, column, panel);
     fprintf(out,
             "set title '{/:Bold from the side}  (×%g)' offset 0,0.1\n"
             "set autoscale\nset size ratio -1\nunset tics\nunset border\n"
@@ -145,16 +149,23 @@ static void write_side(FILE *out, const quarter *q, const rb_fem_step *last, int
             scale);
 }
 
-static void write_legend(FILE *out)
+static void write_legend(FILE *out, int column)
 {
-    static const char *const lines[] = {
-        "A quarter of the truss from above, x, y ≥ 0 from its centre [m].  {/:Bold Red}: "
-        "slip, its displacement times the factor in parentheses.  {/:Bold Blue}: stick",
-        "(total: no displacement).  Counts are of the whole truss.  From the side: grey "
-        "at rest, blue after the last increment."};
-    for (int k = 0; k < (int)(sizeof lines / sizeof *lines); k++)
-        fprintf(out, "set label %d '{/*0.75 %s}' at screen 0.055, %.4f\n", 10 + k,
-                lines[k], 0.052 - 0.028 * k);
+    enum { LINES = 4 };
+    static const char *const lines[2][LINES] = {
+        {"A quarter of the truss from above, x, y ≥ 0 from its centre [m].  {/:Bold "
+         "Red}: "
+         "slip, its displacement times the factor in parentheses.  {/:Bold Blue}: stick",
+         "(total: no displacement).  Counts are of the whole truss.  From the side: grey "
+         "at rest, blue after the last increment."},
+        {"A quarter of the truss from above, x, y ≥ 0 from its centre [m].",
+         "{/:Bold Red}: slip, its displacement times the factor in parentheses.",
+         "{/:Bold Blue}: stick (total: no displacement).  Counts are of the whole truss.",
+         "From the side: grey at rest, blue after the last increment."}};
+    for (int k = 0; k < LINES && lines[column][k]; k++)
+        fprintf(out, "set label %d '{/*%g %s}' at screen 0.055, %.4f\n", 10 + k,
+                column ? 0.65 : 0.75, lines[column][k],
+                (column ? 0.08 : 0.052) - (column ? 0.02 : 0.028) * k);
 }
 
 typedef struct {
@@ -168,21 +179,24 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
     const truss_view *v = view;
     const quarter *q = &v->q;
     const rb_fem_history *history = v->history;
-    (void)canvas;
-    fprintf(out,
-            "set multiplot\nset label 1 '{/:Bold Truss on an obstacle: increments of the "
-            "contact nodes} (Kanno, example 3.1; %s)' at screen 0.5, 0.955 center\n",
-            v->layout);
+    const rb_fem_step *last = &history->step[history->steps - 1];
+    const int column = !rb_report_place_of(canvas).titled;
+    fputs("set multiplot\n", out);
+    if (!column)
+        fprintf(out,
+                "set label 1 '{/:Bold Truss on an obstacle: increments of the contact "
+                "nodes} (Kanno, example 3.1; %s)' at screen 0.5, 0.955 center\n",
+                v->layout);
     fprintf(out, "set xrange [0:%g]\nset yrange [0:%g]\nset xtics 0, 4\nset ytics 0, 4\n",
             q->width + 1.1 * q->spacing, q->height + 1.1 * q->spacing);
-    write_legend(out);
+    write_legend(out, column);
     write_bars(out, q, "bars", 1, NULL, 0.0);
     for (int k = 0; k < history->steps; k++) {
-        write_panel(out, q, &history->step[k], 0, k);
+        write_panel(out, q, &history->step[k], 0, column, k);
         fputs("unset label\n", out); /* drawn over and over they grow fat */
     }
-    write_panel(out, q, &history->step[history->steps - 1], 1, history->steps);
-    write_side(out, q, &history->step[history->steps - 1], history->steps + 1);
+    write_panel(out, q, last, 1, column, history->steps);
+    write_side(out, q, last, column, history->steps + 1);
     fputs("unset multiplot\n", out);
 }
 
@@ -196,5 +210,5 @@ rb_status rb_report_picture_truss(FILE *out, rb_report_canvas canvas,
     const truss_view v = {make_quarter(model), history,
                           upper < model->structure.contacts ? "upper nodes inside"
                                                             : "upper nodes overhanging"};
-    return rb_report_draw(out, canvas, RB_REPORT_SCREEN, write_script, &v, why);
+    return rb_report_draw(out, canvas, RB_REPORT_PANELS, write_script, &v, why);
 }

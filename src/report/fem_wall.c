@@ -91,20 +91,47 @@ static void write_steps(FILE *out, int steps, const rb_fem_wall_step *step)
     fputs("EOD\n", out);
 }
 
-static void write_wall(FILE *out, const front *f, const rb_fem_wall_step *last)
+/* Where the panels lie on the canvas: side by side, or below each other in a column. */
+typedef struct {
+    double left, right, bottom, top;
+} panel;
+
+enum { FRONT, FORCES, CONTACTS };
+
+static panel panel_of(int column, int which)
 {
+    static const panel beside[] = {{0.08, 0.54, 0.14, 0.85},
+                                   {0.655, 0.965, 0.53, 0.87},
+                                   {0.655, 0.965, 0.14, 0.485}};
+    static const panel below[] = {
+        {0.18, 0.93, 0.50, 0.93}, {0.18, 0.93, 0.27, 0.41}, {0.18, 0.93, 0.09, 0.245}};
+    return column ? below[which] : beside[which];
+}
+
+static void open_panel(FILE *out, panel at)
+{
+    fprintf(out,
+            "set lmargin at screen %g\nset rmargin at screen %g\n"
+            "set bmargin at screen %g\nset tmargin at screen %g\n",
+            at.left, at.right, at.bottom, at.top);
+}
+
+static void write_wall(FILE *out, const front *f, const rb_fem_wall_step *last,
+                       int column)
+{
+    const panel at = panel_of(column, FRONT);
     fprintf(
         out,
         "set multiplot\nset label 1 '{/:Bold Wall of 12 elastic blocks, pressed with %g "
-        "kN "
-        "and sheared}' at screen 0.5, 0.955 center\n"
+        "kN and sheared}' at screen 0.5, 0.955 center\n"
         "set label 2 'displacements × %g, drift of the upper support %.3g mm' at screen "
-        "0.31, 0.885 center textcolor rgb '#444444'\n",
-        1e-3 * last->compression, f->magnify, 1e3 * last->drift);
+        "%g, %g center textcolor rgb '#444444'\n%s",
+        1e-3 * last->compression, f->magnify, 1e3 * last->drift, column ? 0.5 : 0.31,
+        at.top + (column ? 0.025 : 0.035), column ? "unset label 1\n" : "");
+    open_panel(out, at);
     fprintf(
         out,
-        "set size ratio -1\nset lmargin at screen 0.08\nset rmargin at screen 0.54\n"
-        "set tmargin at screen 0.85\nset bmargin at screen 0.14\nset xrange [%g:%g]\n"
+        "set size ratio -1\nset xrange [%g:%g]\n"
         "set yrange [%g:%g]\nset xlabel 'x [m]' offset 0,0.3\nset ylabel 'z [m]' offset "
         "1.5,0\nset "
         "xtics 0, 0.1\n"
@@ -118,26 +145,33 @@ static void write_wall(FILE *out, const front *f, const rb_fem_wall_step *last)
         -0.1 * f->width, -0.05 * f->height, 1.35 * f->width);
 }
 
-static void write_curves(FILE *out)
+static void write_curves(FILE *out, int contacts, int column)
 {
-    fputs(
-        "unset label\nunset object\nset size noratio\nset lmargin at screen 0.655\n"
-        "set rmargin at screen 0.965\nset tmargin at screen 0.87\nset bmargin at screen "
-        "0.53\nset xrange [0:*]\nset yrange [0:*]\nset xtics autofreq\nset ytics "
-        "autofreq\n"
-        "unset xlabel\nset format x ''\nset ylabel 'force [kN]' offset -0.7,0\n"
-        "set key bottom right Left reverse samplen 2\n"
-        "plot $step using 1:2 with lines linecolor rgb '#1f4e79' title 'compression', "
-        "$step using 1:3 with lines linecolor rgb '#c0392b' title 'shear'\n"
-        "set tmargin at screen 0.485\nset bmargin at screen 0.14\nset format x '%g'\n"
-        "set xlabel 'time [s]' offset 0,0.3\nset ylabel 'contact points' offset "
-        "-0.7,0\nset key center "
-        "left Left reverse\n"
-        "plot $step using 1:4 with lines linecolor rgb '#1f4e79' title 'stick', "
-        "$step using 1:5 with lines linecolor rgb '#c0392b' title 'slip', "
-        "$step using 1:6 with lines linecolor rgb '#777777' title 'separated'\n"
-        "unset multiplot\n",
-        out);
+    fputs("unset label\nunset object\nset size noratio\nset xrange [0:*]\nset yrange "
+          "[0:*]\n"
+          "set xtics autofreq\nset ytics autofreq\nunset xlabel\nset format x ''\n",
+          out);
+    if (column)
+        fputs("set xtics 0.2\nset ytics 10\n", out);
+    open_panel(out, panel_of(column, FORCES));
+    fputs("set ylabel 'force [kN]' offset -0.7,0\n"
+          "set key bottom right Left reverse samplen 2\n"
+          "plot $step using 1:2 with lines linecolor rgb '#1f4e79' title 'compression', "
+          "$step using 1:3 with lines linecolor rgb '#c0392b' title 'shear'\n",
+          out);
+    if (column)
+        fprintf(out, "set ytics %g\n", rb_report_round_step(contacts / 4.0));
+    open_panel(out, panel_of(column, CONTACTS));
+    fputs(column ? "set ylabel 'contact points' offset 0.5,0\n"
+                 : "set ylabel 'contact points' offset -0.7,0\n",
+          out);
+    fputs("set format x '%g'\nset xlabel 'time [s]' offset 0,0.3\nset key center left "
+          "Left reverse\n"
+          "plot $step using 1:4 with lines linecolor rgb '#1f4e79' title 'stick', "
+          "$step using 1:5 with lines linecolor rgb '#c0392b' title 'slip', "
+          "$step using 1:6 with lines linecolor rgb '#777777' title 'separated'\n"
+          "unset multiplot\n",
+          out);
 }
 
 typedef struct {
@@ -149,11 +183,12 @@ typedef struct {
 static void write_script(FILE *out, rb_report_canvas canvas, const void *view)
 {
     const wall_view *v = view;
-    (void)canvas;
+    const rb_fem_wall_step *last = &v->step[v->steps - 1];
+    const int column = !rb_report_place_of(canvas).titled;
     write_front(out, &v->f);
     write_steps(out, v->steps, v->step);
-    write_wall(out, &v->f, &v->step[v->steps - 1]);
-    write_curves(out);
+    write_wall(out, &v->f, last, column);
+    write_curves(out, last->stick + last->slip + last->separated, column);
 }
 
 rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas,
@@ -165,7 +200,7 @@ rb_status rb_report_picture_wall(FILE *out, rb_report_canvas canvas,
         return rb_fail(why, RB_EINVAL, "nothing to draw");
     const rb_status s =
         open_front(wall, &v.f) == RB_OK
-            ? rb_report_draw(out, canvas, RB_REPORT_SCREEN, write_script, &v, why)
+            ? rb_report_draw(out, canvas, RB_REPORT_PANELS, write_script, &v, why)
             : rb_fail(why, RB_ENOMEM, "out of memory");
     free(v.f.u);
     return s;

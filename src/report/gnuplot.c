@@ -201,7 +201,7 @@ rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *ki
                    "expected a name ending in .png, .svg or .pdf, got '%s'", path);
 }
 
-enum { SHAPES = 3 };
+enum { SHAPES = 4 };
 
 /* Each shape in its own size: width and height in `unit`, of which an inch has so many.
  * The key needs its font named: svg would take a larger one. */
@@ -211,35 +211,39 @@ static const struct {
 } looks[] = {{"pngcairo",
               "",
               300,
-              {1600, 1800, 1920},
-              {1200, 750, 1080},
-              {24, 20, 24},
-              {2.2, 2.2, 2.0},
+              {1600, 1800, 1920, 1920},
+              {1200, 750, 1080, 1080},
+              {24, 20, 24, 24},
+              {2.2, 2.2, 2.0, 2.0},
               24},
              {"svg",
               "",
               96,
-              {1000, 1200, 1280},
-              {750, 500, 720},
-              {18, 14, 18},
-              {1.5, 1.5, 1.4},
+              {1000, 1200, 1280, 1280},
+              {750, 500, 720, 720},
+              {18, 14, 18, 18},
+              {1.5, 1.5, 1.4, 1.4},
               15},
              {"pdfcairo",
               "in",
               1,
-              {10, 12, 13.33},
-              {7.5, 5, 7.5},
-              {21, 19, 20},
-              {1.6, 1.6, 1.5},
+              {10, 12, 13.33, 13.33},
+              {7.5, 5, 7.5, 7.5},
+              {21, 19, 20, 20},
+              {1.6, 1.6, 1.5, 1.5},
               21}};
 
 /* Sizes that are asked for: width, 0: that of a screen; letters are so much larger, as a
- * part of the width, than in the shape's own size; width over height, 0: the shape's. */
+ * part of the width, than in the shape's own size (column: in four thirds, so that they
+ * are as large in every picture); width over height, 0: the shape's.  In a column panels
+ * that are side by side elsewhere lie below each other. */
 static const struct {
-    double inches, letters, ratio;
-} sizes[] = {[RB_REPORT_85MM] = {85 / 25.4, 1.65, 1.0},
-             [RB_REPORT_170MM] = {170 / 25.4, 1.0, 0.0},
-             [RB_REPORT_SLIDE] = {0.0, 0.85, 16.0 / 9.0}};
+    double inches, letters, ratio[SHAPES];
+    int column;
+} sizes[] = {
+    [RB_REPORT_85MM] = {85 / 25.4, 1.65, {1.0, 0.82, 1.0, 0.6}, 1},
+    [RB_REPORT_170MM] = {170 / 25.4, 1.0, {0.0}, 0},
+    [RB_REPORT_SLIDE] = {0.0, 0.85, {16.0 / 9.0, 16.0 / 9.0, 16.0 / 9.0, 16.0 / 9.0}, 0}};
 
 typedef struct {
     double width, height, letters; /* letters: against those of the shape's own size */
@@ -254,9 +258,11 @@ static extent extent_of(rb_report_canvas canvas, rb_report_shape shape)
     const double inches = sizes[canvas.size].inches;
     const double wanted = inches > 0.0 ? inches * looks[canvas.kind].inch
                                        : looks[canvas.kind].width[RB_REPORT_SCREEN];
-    const double ratio = sizes[canvas.size].ratio;
+    const double ratio = sizes[canvas.size].ratio[shape];
+    const int like = sizes[canvas.size].column ? RB_REPORT_FOUR_THIRDS : (int)shape;
     return (extent){wanted, ratio > 0.0 ? wanted / ratio : wanted * height / width,
-                    sizes[canvas.size].letters * wanted / width};
+                    sizes[canvas.size].letters * wanted / looks[canvas.kind].width[like] *
+                        looks[canvas.kind].font[like] / looks[canvas.kind].font[shape]};
 }
 
 double rb_report_key_font(rb_report_canvas canvas)

@@ -95,8 +95,10 @@ double rb_report_labels_in(double height);
 
 typedef enum {
     RB_REPORT_FOUR_THIRDS,
-    RB_REPORT_WIDE,  /* 12:5 */
-    RB_REPORT_SCREEN /* 16:9 */
+    RB_REPORT_WIDE,   /* 12:5 */
+    RB_REPORT_SCREEN, /* 16:9 */
+    RB_REPORT_PANELS /* the same, with panels side by side, which a column has no room for
+                      */
 } rb_report_shape;
 
 /* Runs gnuplot on a script, which names no file: data blocks only.  out gets the whole

@@ -12,6 +12,7 @@ typedef struct {
     double from, to, depth; /* in units */
     double fringe;          /* [stress] */
     double shape;           /* of the canvas: width over height */
+    int column;             /* panels below each other */
 } view;
 
 static view make_view(const rb_report_stress *s)
@@ -79,17 +80,34 @@ static void write_contact(FILE *out, const view *v)
     }
 }
 
+/* Depth over width, as it is shown: maps that are much deeper or flatter are pressed or
+ * stretched, because their tics and labels would not find room. */
+static double shown_aspect(const view *v)
+{
+    return fmin(fmax(v->depth / (v->to - v->from), 0.35), 1.6);
+}
+
+static int is_to_scale(const view *v)
+{
+    return shown_aspect(v) == v->depth / (v->to - v->from);
+}
+
+static void write_x_label(FILE *out, const view *v)
+{
+    fprintf(out, "set xlabel 'x %s%s%s' offset 0,0.2\n", v->length_label,
+            v->s->s->formulation == RB_STATIC ? "" : "   (rolling towards +x →)",
+            is_to_scale(v) ? "" : "   (y not to scale)");
+}
+
 static void write_axes(FILE *out, const view *v)
 {
-    fputs("set view map\nset size ratio -1\nset tics scale 0.6\nunset key\n"
+    fputs("set view map\nset tics scale 0.6\nunset key\n"
           "set pm3d map corners2color mean\n",
           out);
     fprintf(out, "set xrange [%.9g:%.9g]\nset yrange [0:%.9g]\n", v->from, v->to,
             v->depth);
-    fprintf(out, "set xlabel 'x %s%s' offset 0,0.2\n", v->length_label,
-            v->s->s->formulation == RB_STATIC ? "" : "   (rolling towards +x →)");
-    fprintf(out, "set ylabel 'y %s, into A'\nset ytics %.9g\n", v->length_label,
-            rb_report_round_step(v->depth / 5.0));
+    write_x_label(out, v);
+    fprintf(out, "set ylabel 'y %s, into A'\n", v->length_label);
     write_contact(out, v);
 }
 
@@ -117,33 +135,49 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
 /* ---- Contours ------------------------------------------------------------------------
  */
 
-static const double panel_width = 0.335, panel_middle = 0.48;
+typedef struct {
+    double left, middle, width, height; /* in parts of the canvas */
+} panel;
 
-static double panel_height(const view *v)
+/* As large as fits. `set size ratio -1` would shrink the map inside its margins and leave
+ * the tics behind. */
+static panel panel_of(const view *v, int k)
 {
-    return fmin(0.60, panel_width * v->shape * v->depth / (v->to - v->from));
+    const double wide = v->column ? 0.61 : 0.335, high = v->column ? 0.31 : 0.60;
+    const double aspect = v->shape * shown_aspect(v);
+    const double width = fmin(wide, high / aspect);
+    const double left = v->column ? 0.2 : 0.095 + 0.475 * k;
+    return (panel){.left = left + 0.5 * (wide - width),
+                   .middle = !v->column ? 0.48 : 0.755 - 0.45 * k,
+                   .width = width,
+                   .height = width * aspect};
 }
 
 static void write_panel(FILE *out, const view *v, const char *name, int column,
-                        const rb_rolling_extremum *m, double left)
+                        const rb_rolling_extremum *m, panel at)
 {
-    const double width = panel_width, height = panel_height(v);
-    const double bottom = panel_middle - height / 2, top = bottom + height;
+    const double bottom = at.middle - at.height / 2, top = bottom + at.height;
     fprintf(out,
             "set lmargin at screen %g\nset rmargin at screen %g\n"
             "set bmargin at screen %g\nset tmargin at screen %g\n",
-            left, left + width, bottom, top);
+            at.left, at.left + at.width, bottom, top);
+    fprintf(
+        out, "set xtics %.9g\nset ytics %.9g\n",
+        rb_report_round_step((v->to - v->from) /
+                             rb_report_labels_in((v->column ? 0.7 : 1.2) * at.width)),
+        rb_report_round_step(v->depth / fmin(5.0, 0.6 * rb_report_labels_in(at.height))));
     /* the value of the maximum stands in the title, where it covers no contour's */
-    fprintf(out,
-            "set cbtics %.9g\nset colorbox user origin %g, %g size 0.013, %g\n"
-            "set label 2 '%s  [%s],  at +: %.4g' at screen %g, %g center\n"
-            "set label 3 '' at first %.9g, %.9g point pointtype 1 pointsize 1.6 "
-            "linewidth 1.6 "
-            "linecolor rgb '#111111' front\n",
-            rb_report_round_step(m->value / v->stress_unit / rb_report_labels_in(height)),
-            left + width + 0.012, bottom, height, name, v->stress_label,
-            m->value / v->stress_unit, left + width / 2, top + 0.05, m->x / v->unit,
-            m->y / v->unit);
+    fprintf(
+        out,
+        "set cbtics %.9g\nset colorbox user origin %g, %g size 0.013, %g\n"
+        "set label 2 '%s  [%s],  at +: %.4g' at screen %g, %g center\n"
+        "set label 3 '' at first %.9g, %.9g point pointtype 1 pointsize 1.6 "
+        "linewidth 1.6 "
+        "linecolor rgb '#111111' front\n",
+        rb_report_round_step(m->value / v->stress_unit / rb_report_labels_in(at.height)),
+        at.left + at.width + 0.012, bottom, at.height, name, v->stress_label,
+        m->value / v->stress_unit, at.left + at.width / 2,
+        top + (v->column ? 0.03 : 0.05), m->x / v->unit, m->y / v->unit);
     fprintf(out,
             "splot $grid using 1:2:%d with pm3d nocontour, $grid using 1:2:%d with lines "
             "nosurface linecolor rgb '#ffffff' linewidth 0.6, $grid using 1:2:%d with "
@@ -154,25 +188,31 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
 static void write_contours(FILE *out, rb_report_canvas canvas, const void *context)
 {
     const view *v = context;
+    const panel first = panel_of(v, 0);
     write_grid(out, v);
     write_axes(out, v);
     fprintf(
         out,
-        "set contour base\nset cntrlabel onecolor format '%%g' start 45 interval -1 font "
+        "set contour base\nset cntrlabel onecolor format '%%g' start 20 interval -1 font "
         "',%.3g'\n"
         "set cntrparam levels auto %.0f\n",
         0.6 * rb_report_key_font(canvas),
-        fmin(10.0, 2.0 * rb_report_labels_in(panel_height(v))));
-    fputs(RB_REPORT_PALETTE "set multiplot\n", out);
-    fprintf(out,
-            "set xtics %.9g\n"
-            "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
-            rb_report_round_step((v->to - v->from) / 5.0));
+        fmin(10.0, 2.0 * rb_report_labels_in(first.height)));
+    fputs(RB_REPORT_PALETTE
+          "set multiplot\n"
+          "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
+          out);
     write_subtitle(out, v, "Stress below the surface of A",
-                   panel_middle + panel_height(v) / 2 + 0.18, 0.06);
-    write_panel(out, v, "maximum shear", 3, &v->s->maxima->max_shear, 0.085);
-    fputs("unset label 1\nunset label 4\nunset label 9\nunset ylabel\n", out);
-    write_panel(out, v, "von Mises", 4, &v->s->maxima->von_mises, 0.565);
+                   first.middle + first.height / 2 + 0.18, 0.06);
+    if (v->column) /* its caption says the rest; the lower panel has the x axis of both */
+        fputs("unset label 1\nunset label 9\nset xlabel\n", out);
+    write_panel(out, v, "maximum shear", 3, &v->s->maxima->max_shear, first);
+    fputs("unset label 1\nunset label 4\nunset label 9\n", out);
+    if (v->column)
+        write_x_label(out, v);
+    else
+        fputs("unset ylabel\n", out);
+    write_panel(out, v, "von Mises", 4, &v->s->maxima->von_mises, panel_of(v, 1));
     fputs("unset multiplot\n", out);
 }
 
@@ -190,6 +230,7 @@ rb_status rb_report_stress_picture(FILE *out, rb_report_canvas canvas,
         return RB_EINVAL;
     view v = make_view(s);
     v.shape = rb_report_width_over_height(canvas, RB_REPORT_WIDE);
+    v.column = canvas.size == RB_REPORT_85MM;
     return rb_report_draw(out, canvas, RB_REPORT_WIDE, write_contours, &v, why);
 }
 
@@ -206,8 +247,11 @@ static void write_fringes(FILE *out, rb_report_canvas canvas, const void *contex
             "set palette gray\nset cbrange [0:1]\nunset colorbox\n"
             "set lmargin at screen %g\nset rmargin at screen 0.97\n"
             "set bmargin at screen 0.17\nset tmargin at screen 0.87\n",
-            0.11 + place.right);
+            0.11 + 1.5 * place.right);
     write_axes(out, v);
+    fprintf(out, "set size ratio %g\nset xtics %.9g\nset ytics %.9g\n", shown_aspect(v),
+            rb_report_round_step((v->to - v->from) / (place.titled ? 8.0 : 5.0)),
+            rb_report_round_step(v->depth / 5.0));
     write_subtitle(out, v, "Isochromatics", 0.975, 0.036);
     if (!place.titled)
         fputs("unset label 1\nunset label 9\n", out);
