@@ -259,11 +259,10 @@ const rb_option rb_case_table[] = {
                     "than an element"),
     RB_TEXT_LINE(
         "history", PLACE(history_file), "FILE",
-        "table of controls with named columns: distance (transient, in Hertz "
-        "half-widths of the largest load), time [s] (static, bodies that relax), mu, "
-        "load or approach, shift, creep, "
-        "creep_ratio, force or force_ratio; a column replaces the case's own "
-        "value",
+        "table of controls with named columns: distance (transient, in Hertz half-widths "
+        "of the largest load), time [s] (static, bodies that relax), mu, load or "
+        "approach, shift, creep, creep_ratio, force or force_ratio; a column replaces "
+        "the case's own value",
         .unset = "none", .file = RB_FILE_READ),
 
     RB_NUMBER_LINE("time-step", RC(time_step), "s", RB_ABOVE(0),

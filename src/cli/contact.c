@@ -65,8 +65,7 @@ typedef struct {
 
 enum { COLUMNS = 18 };
 static const char columns[] = "case status FN FX FX_REL CKSI PEN PMAX FRIC_POWER NPOT "
-                              "NCON NADH NSLIP P_N/mm Q_N/mm "
-                              "line residual NPLAST";
+                              "NCON NADH NSLIP P_N/mm Q_N/mm line residual NPLAST";
 static const char element_columns[] = "case X H PN PX S zone UPL";
 
 /* As CONTACT counts it [N m/s], < 0: each element's friction times its own slip, without

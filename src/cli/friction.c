@@ -77,45 +77,37 @@ enum { OPTIONS = sizeof options / sizeof options[0] };
 
 static const char about[] =
     "Solves frictional contact problems u = W r + q (or K v = H r + f, u = H' v + w) "
-    "with "
-    "Coulomb's\n"
+    "with Coulomb's\n"
     "law in two and three dimensions, [N, T...] per contact, N first.\n"
     "FILE: FCLib (HDF5) or text format of Siconos; also Siconos' problems on "
-    "second-order "
-    "cones.";
+    "second-order cones.";
 
 static const char notes[] =
     "One row per file (with --solution a # line): name, solver that gave the answer, "
-    "status, contacts, dimension, "
-    "iterations,\n"
+    "status, contacts, dimension, iterations,\n"
     "residual (*Acary* (13), ||r - P_K(r - uhat)|| / ||q||, recomputed from r), floor "
-    "(what "
-    "rounding\n"
+    "(what rounding\n"
     "of the data allows), seconds, scaled residual. The last one decides: (13) with rho "
-    "= "
-    "1/W_NN\n"
+    "= 1/W_NN\n"
     "of each contact, in units of velocity, which does not change with the units of the "
     "file.\n"
     "Status solved-to-rounding: above the tolerance, at or below the floor; infeasible: "
-    "not "
-    "solved,\n"
+    "not solved,\n"
     "and proved to have no solution.\n"
     "--trace: every iterate measured, with the solver, its own iterations and operations "
     "so far,\n"
     "and the scaled residual; members of auto take turns.\n"
     "After a file that fails the others are still solved.\n"
     "Exit codes, the largest of all files: 0 solved; 1 not solved; 64 wrong command "
-    "line; "
-    "65\n"
+    "line; 65\n"
     "malformed file, or one the solver does not take; 66 no such file; 70 internal; 73 "
     "cannot write.\n"
     "Solvers:\n";
 
 typedef struct {
+    cli_problems files;
     const friction_options *o;
-    rb_report_cells cells;
-    json_t *problems; /* JSON only */
-    json_t *steps;    /* --trace with --json: of the present file */
+    json_t *steps; /* --trace with --json: of the present file */
 } friction_run;
 
 typedef struct {
@@ -171,7 +163,7 @@ static void add_problem(friction_run *run, const friction_result *r)
     }
     if (run->o->trace)
         rb_report_json_set(&p, "trace", json_incref(run->steps));
-    rb_report_json_append(&run->problems, p);
+    rb_report_json_append(&run->files.problems, p);
 }
 
 static const char *columns_of(const friction_options *o)
@@ -230,9 +222,9 @@ static void print_solution(const friction_run *run, rb_report_cells *c,
 static void print_problem(friction_run *run, const friction_result *r)
 {
     if (r->m && run->o->solution)
-        print_solution(run, &run->cells, r);
+        print_solution(run, &run->files.cells, r);
     else if (r->m)
-        print_row(run, &run->cells, r);
+        print_row(run, &run->files.cells, r);
 }
 
 /* ---- One file --------------------------------------------------------------------- */
@@ -332,7 +324,7 @@ static int trace(const rb_friction_progress *at, void *context)
                       at->iters, "flops", rb_report_json_number(at->flops),
                       "scaled_residual", rb_report_json_number(at->error)));
     else
-        rb_report_comment(&run->cells, "%s\t%d\t%.4g\t%.3g", at->solver, at->iters,
+        rb_report_comment(&run->files.cells, "%s\t%d\t%.4g\t%.3g", at->solver, at->iters,
                           at->flops, at->error);
     return 0;
 }
@@ -420,8 +412,9 @@ static cli_exit solve_cones(friction_run *run, friction_result *r)
     return code;
 }
 
-static cli_exit solve_file(friction_run *run, const char *path)
+static cli_exit solve_file(void *context, const char *path)
 {
+    friction_run *run = context;
     friction_result r = {
         .file = path,
         .info = {.solver = run->o->solver, .residual = NAN, .scaled = NAN, .floor = NAN}};
@@ -454,30 +447,6 @@ static const char conventions[] =
     "[N, T...] per contact, u = W r + q, uhat = u + mu ||u_T|| N, K* contains "
     "uhat, complementary to r in K";
 
-typedef struct {
-    const friction_options *o;
-    const cli_args *args;
-    cli_exit *worst;
-} friction_files;
-
-static rb_status solve_files(FILE *out, const void *context, rb_message *why)
-{
-    const friction_files *all = context;
-    friction_run run = {.o = all->o};
-    (void)why;
-    if (is_json(all->o)) {
-        run.problems = json_array();
-    } else {
-        run.cells = rb_report_cells_begin(out, &all->o->style, columns_of(all->o));
-        rb_report_comment_origin(&run.cells, cli_command_line());
-    }
-    for (int i = 0; i < all->args->operands; i++) {
-        const cli_exit code = solve_file(&run, all->args->operand[i]);
-        *all->worst = code > *all->worst ? code : *all->worst;
-    }
-    return is_json(all->o) ? cli_write_problems(out, conventions, run.problems) : RB_OK;
-}
-
 static void settle_format(friction_options *o)
 {
     if (o->format >= KIND)
@@ -508,10 +477,9 @@ int cli_friction(int argc, char **argv)
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE) {
-        cli_exit worst = CLI_OK;
-        const friction_files all = {&o, &args, &worst};
-        code = cli_write_file(o.output, solve_files, &all);
-        code = code == CLI_OK ? worst : code;
+        friction_run run = {
+            .files = {&o.style, columns_of(&o), conventions, solve_file, &run}, .o = &o};
+        code = cli_solve_problems(&run.files, &args, o.output);
     }
     cli_args_free(&args);
     return code;

@@ -88,8 +88,7 @@ static const char about[] =
     "or the text format of Siconos, or M in Matrix Market with q in --q FILE; - is "
     "standard input.\n"
     "With --lower and --upper z lies in a box, w >= 0 at its lower end, <= 0 at its "
-    "upper "
-    "one,\n"
+    "upper one,\n"
     "0 in between. --game: an equilibrium of a bimatrix game by Lemke and Howson's "
     "method.";
 
@@ -98,26 +97,22 @@ static const char notes[] =
     "from z,\n"
     "seconds; with --trace, --solution or --all these stand in # lines. newton counts\n"
     "linear systems, --all bases. Pivots name the variables w(1) ... w(n), z(1) ... z(n) "
-    "and "
-    "the\n"
+    "and the\n"
     "artificial z0. Of a game z holds the probabilities of the row and then of the "
     "column\n"
     "strategies, w what each loses against the best reply.\n"
     "After a file that fails the others are still solved.\n"
     "Exit codes, the largest of all files: 0 solved; 1 secondary ray, iteration limit, "
-    "no "
-    "solution\n"
+    "no solution\n"
     "or residual above the tolerance; 64 wrong command line; 65 malformed file; 66 no "
-    "such "
-    "file;\n"
+    "such file;\n"
     "70 internal; 73 cannot write.\n";
 
 typedef struct {
+    cli_problems files;
     const lcp_options *o;
-    rb_report_cells cells;
     const char *file; /* at hand */
-    json_t *problems,
-        *pivots; /* JSON only, NULL without memory; pivots of the file at hand */
+    json_t *pivots;   /* of it; JSON only, NULL without memory */
 } lcp_run;
 
 typedef struct {
@@ -161,14 +156,14 @@ static void trace(const rb_lcp_pivot *p, void *context)
                                         rb_report_json_number(p->ratio), "z0",
                                         rb_report_json_number(p->z0)));
     else {
-        rb_report_cell_text(&run->cells, run->file);
-        rb_report_cell_whole(&run->cells, p->pivot + 1);
-        rb_report_cell_text(&run->cells, entering);
-        rb_report_cell_text(&run->cells, leaving);
-        rb_report_cell_whole(&run->cells, p->row + 1);
-        rb_report_cell_number(&run->cells, p->ratio);
-        rb_report_cell_number(&run->cells, p->z0);
-        rb_report_cells_end_row(&run->cells);
+        rb_report_cell_text(&run->files.cells, run->file);
+        rb_report_cell_whole(&run->files.cells, p->pivot + 1);
+        rb_report_cell_text(&run->files.cells, entering);
+        rb_report_cell_text(&run->files.cells, leaving);
+        rb_report_cell_whole(&run->files.cells, p->row + 1);
+        rb_report_cell_number(&run->files.cells, p->ratio);
+        rb_report_cell_number(&run->files.cells, p->z0);
+        rb_report_cells_end_row(&run->files.cells);
     }
 }
 
@@ -216,13 +211,13 @@ static void add_problem(lcp_run *run, const lcp_result *r)
         add_solutions(run->o, r, &p);
     if (run->o->trace)
         rb_report_json_set(&p, "pivots", json_incref(run->pivots));
-    rb_report_json_append(&run->problems, p);
+    rb_report_json_append(&run->files.problems, p);
 }
 
 /* A row per unknown; --all numbers the solutions. */
 static void print_solutions(lcp_run *run, const lcp_result *r)
 {
-    rb_report_cells *c = &run->cells;
+    rb_report_cells *c = &run->files.cells;
     for (int k = 0; k < r->solutions; k++)
         for (int i = 0; i < r->n; i++) {
             const size_t at = (size_t)k * (size_t)r->n + (size_t)i;
@@ -239,7 +234,7 @@ static void print_solutions(lcp_run *run, const lcp_result *r)
 /* The row of a file, or its # line where the rows are pivots or unknowns. */
 static void print_problem(lcp_run *run, const lcp_result *r)
 {
-    rb_report_cells *c = &run->cells;
+    rb_report_cells *c = &run->files.cells;
     if (!r->n)
         return;
     if (run->o->trace || run->o->solution || run->o->all) {
@@ -529,8 +524,9 @@ static cli_exit solve_game(lcp_run *run, lcp_result *r)
 
 /* ---- One file ---------------------------------------------------------------------- */
 
-static cli_exit solve_file(lcp_run *run, const char *path)
+static cli_exit solve_file(void *context, const char *path)
 {
+    lcp_run *run = context;
     lcp_result r = {.file = path,
                     .solver = run->o->game ? "lemke-howson" : "lemke",
                     .info = {.res = NAN},
@@ -568,30 +564,6 @@ static const char *columns_of(const lcp_options *o)
 static const char conventions[] = "z >= 0, w = M z + q >= 0, z'w = 0; boxes: w >= 0 at "
                                   "the lower end, <= 0 at the upper; "
                                   "games: z probabilities, w what a strategy loses";
-
-typedef struct {
-    const lcp_options *o;
-    const cli_args *args;
-    cli_exit *worst;
-} lcp_files;
-
-static rb_status solve_files(FILE *out, const void *context, rb_message *why)
-{
-    const lcp_files *all = context;
-    lcp_run run = {.o = all->o};
-    (void)why;
-    if (is_json(all->o)) {
-        run.problems = json_array();
-    } else {
-        run.cells = rb_report_cells_begin(out, &all->o->style, columns_of(all->o));
-        rb_report_comment_origin(&run.cells, cli_command_line());
-    }
-    for (int i = 0; i < all->args->operands; i++) {
-        const cli_exit code = solve_file(&run, all->args->operand[i]);
-        *all->worst = code > *all->worst ? code : *all->worst;
-    }
-    return is_json(all->o) ? cli_write_problems(out, conventions, run.problems) : RB_OK;
-}
 
 /* Options that ask for what the other method does. */
 static cli_exit check_options(const lcp_options *o)
@@ -643,10 +615,9 @@ int cli_lcp(int argc, char **argv)
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE) {
-        cli_exit worst = CLI_OK;
-        const lcp_files all = {&o, &args, &worst};
-        code = cli_write_file(o.output, solve_files, &all);
-        code = code == CLI_OK ? worst : code;
+        lcp_run run = {.files = {&o.style, columns_of(&o), conventions, solve_file, &run},
+                       .o = &o};
+        code = cli_solve_problems(&run.files, &args, o.output);
     }
     cli_args_free(&args);
     return code;

@@ -234,12 +234,43 @@ cli_exit cli_draw_file(const cli_pictures *pictures, const char *option, const c
     return code == CLI_OK ? cli_write_file(path, draw_picture, &d) : code;
 }
 
-rb_status cli_write_problems(FILE *out, const char *conventions, json_t *problems)
+typedef struct {
+    cli_problems *problems;
+    const cli_args *args;
+    cli_exit *worst;
+} problem_run;
+
+static rb_status write_problems(FILE *out, const void *context, rb_message *why)
 {
+    const problem_run *run = context;
+    cli_problems *p = run->problems;
+    const int is_json = p->style->format == RB_REPORT_JSON;
+
+    (void)why;
+    if (is_json) {
+        p->problems = json_array();
+    } else {
+        p->cells = rb_report_cells_begin(out, p->style, p->columns);
+        rb_report_comment_origin(&p->cells, cli_command_line());
+    }
+    for (int i = 0; i < run->args->operands; i++) {
+        const cli_exit code = p->solve(p->context, run->args->operand[i]);
+        *run->worst = code > *run->worst ? code : *run->worst;
+    }
+    if (!is_json)
+        return RB_OK;
     json_t *root = rb_report_json_start(cli_command_line());
-    rb_report_json_set(&root, "conventions", json_string(conventions));
-    rb_report_json_set(&root, "problems", problems);
+    rb_report_json_set(&root, "conventions", json_string(p->conventions));
+    rb_report_json_set(&root, "problems", p->problems);
     return rb_report_json_write(out, root);
+}
+
+cli_exit cli_solve_problems(cli_problems *p, const cli_args *args, const char *output)
+{
+    cli_exit worst = CLI_OK;
+    const problem_run run = {p, args, &worst};
+    const cli_exit code = cli_write_file(output, write_problems, &run);
+    return code == CLI_OK ? worst : code;
 }
 
 int cli_terminal_width(void)

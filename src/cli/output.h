@@ -72,9 +72,18 @@ cli_exit cli_write_file(const char *path, cli_write *write, const void *context)
 cli_exit cli_draw_file(const cli_pictures *pictures, const char *option, const char *path,
                        cli_draw *draw, const void *context);
 
-/* The results of a command that runs over problems from files, as JSON; problems is taken
- * over. */
-rb_status cli_write_problems(FILE *out, const char *conventions, struct json_t *problems);
+/* Problems from files, solved one after the other into one table or one JSON text. */
+typedef struct {
+    const rb_report_style *style;
+    const char *columns, *conventions;
+    cli_exit (*solve)(void *context, const char *file); /* adds to what follows */
+    void *context;
+    rb_report_cells cells;   /* of the table */
+    struct json_t *problems; /* of JSON alone */
+} cli_problems;
+
+/* All operands, also after one that fails; the largest exit code of them. */
+cli_exit cli_solve_problems(cli_problems *p, const cli_args *args, const char *output);
 
 /* Characters in a line of standard error. */
 int cli_terminal_width(void);

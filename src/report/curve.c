@@ -332,8 +332,7 @@ static void write_script(FILE *out, rb_report_canvas canvas, const void *context
     for (int k = 0; k < v->curves->n; k++)
         fprintf(out,
                 "%s$curve%d using 1:2 every ::0::%d with lines linecolor rgb '%s' "
-                "dashtype %s "
-                "linewidth 2.6 title 'μ %s %g'",
+                "dashtype %s linewidth 2.6 title 'μ %s %g'",
                 k > 0 ? ", " : "", k, v->curves->curve[k].rising - 1, rb_report_colour(k),
                 rb_report_dashes(k), v->curves->curve[k].branch ? "≤" : "=",
                 scale_of(v, k));

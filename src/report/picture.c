@@ -325,15 +325,12 @@ static void write_tractions(FILE *out, const view *v, double key_font)
     /* few elements: what each of them carries; many: a curve */
     const char *style = v->s->n <= STEPS_UP_TO ? "histeps" : "lines";
     fprintf(out,
-            "plot 0 with lines linecolor rgb '#999999' linewidth 0.6 notitle, "
-            "$data using 1:4 with %s dashtype (6,4) linecolor rgb '#7a7a7a' "
-            "linewidth 0.9 title '%s', "
-            "$data using 1:(-$4) with %s dashtype (6,4) linecolor rgb '#7a7a7a' "
-            "linewidth 0.9 notitle, "
-            "$data using 1:2 with %s linecolor rgb '#1f4e79' linewidth 1.8 "
-            "title 'pressure p', "
-            "$data using 1:3 with %s linecolor rgb '#c0392b' linewidth 3 "
-            "title 'friction q'",
+            "plot 0 with lines linecolor rgb '#999999' linewidth 0.6 notitle, $data "
+            "using 1:4 with %s dashtype (6,4) linecolor rgb '#7a7a7a' linewidth 0.9 "
+            "title '%s', $data using 1:(-$4) with %s dashtype (6,4) linecolor rgb "
+            "'#7a7a7a' linewidth 0.9 notitle, $data using 1:2 with %s linecolor rgb "
+            "'#1f4e79' linewidth 1.8 title 'pressure p', $data using 1:3 with %s "
+            "linecolor rgb '#c0392b' linewidth 3 title 'friction q'",
             style, v->s->plastic ? "bounds" : "±μp", style, style, style);
     if (v->carter)
         fputs(", $carter using 1:2 with lines dashtype (10,5) linecolor rgb '#1e8449' "
