@@ -68,7 +68,7 @@ static double first_member(const rb_friction_problem *p, double *r)
     const size_t m = (size_t)(p->dimension * p->contacts);
     rb_friction_options opt = rb_friction_defaults();
     rb_friction_info info;
-    opt.max_iters = p->form == RB_FRICTION_GLOBAL ? 40 : 100;
+    opt.max_iters = p->form == RB_FRICTION_GLOBAL ? 15 : 100;
     const rb_status s =
         rb_friction_solve(p->form == RB_FRICTION_GLOBAL ? "nsn-ac" : "nsgs-aa", p, &opt,
                           r, r + m, NULL, &info);

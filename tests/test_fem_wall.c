@@ -259,6 +259,76 @@ static void memory_runs_out(void **state)
     }
 }
 
+/* How far r, v and u are from a solution of the global form, recomputed: the imbalance
+ * over the load, and Coulomb's law contact by contact over the largest velocity. */
+static double violation(const rb_friction_problem *p, const double *r, const double *v)
+{
+    const int n = p->dofs, m = 3 * p->contacts;
+    double *e = rb_alloc((size_t)n, 1), *u = rb_alloc((size_t)m, 1);
+    double load = 0.0, worst = 0.0, fast = 0.0, hard = 0.0, law = 0.0;
+    for (int j = 0; j < n; j++)
+        for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++)
+            e[p->K.i[k]] += p->K.x[k] * v[j];
+    for (int j = 0; j < m; j++)
+        for (int k = p->H.p[j]; k < p->H.p[j + 1]; k++) {
+            e[p->H.i[k]] -= p->H.x[k] * r[j];
+            u[j] += p->H.x[k] * v[p->H.i[k]];
+        }
+    for (int i = 0; i < n; i++) {
+        load = fmax(load, fabs(p->f[i]));
+        worst = fmax(worst, fabs(e[i] - p->f[i]));
+    }
+    for (int j = 0; j < m; j++) {
+        u[j] += p->w[j];
+        fast = fmax(fast, fabs(u[j]));
+        hard = fmax(hard, fabs(r[j]));
+    }
+    for (int c = 0; c < p->contacts; c++) {
+        const double *rc = r + 3 * c, *uc = u + 3 * c, mu = p->mu[c];
+        const double rt = hypot(rc[1], rc[2]), ut = hypot(uc[1], uc[2]);
+        law = fmax(law, fmax(-uc[0] / fast, -rc[0] / hard));
+        law = fmax(law, fmin(rc[0] / hard, uc[0] / fast));
+        law = fmax(law, (rt - mu * rc[0]) / hard);
+        law = fmax(law, fmin(ut / fast, (mu * rc[0] - rt) / hard));
+    }
+    free(u);
+    free(e);
+    return fmax(worst / load, law);
+}
+
+/* The wall with little friction, under its weight: Newton from zero cycles. */
+static void auto_turns_to_smoothing_where_newton_cycles(void **state)
+{
+    (void)state;
+    rb_fem_wall_options o = small_wall(0);
+    rb_fem_wall *wall;
+    rb_fem_wall_step step;
+    rb_friction_problem p;
+    rb_friction_info smooth, info;
+    rb_message why = {""};
+    CHECK_STATUS(rb_fem_wall_create(&o, &wall, &why), RB_OK);
+    CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-8, &step, &why), RB_OK);
+    CHECK_STATUS(rb_fem_wall_problem(wall, 0, &p), RB_OK);
+    const size_t m = 3 * (size_t)p.contacts, n = (size_t)p.dofs;
+    double *r = rb_alloc(m, 2), *v = rb_alloc(n, 1);
+    rb_friction_options opt = rb_friction_defaults();
+    for (int c = 0; c < p.contacts; c++)
+        p.mu[c] *= 0.3;
+    opt.tol = 1e-10;
+    opt.max_iters = 60;
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, r, r + m, v, &info), RB_MAXITER);
+    CHECK_STATUS(rb_friction_solve("soclcp-smoothing", &p, &opt, r, r + m, v, &smooth),
+                 RB_OK);
+    opt.max_iters = 0;
+    CHECK_STATUS(rb_friction_solve("auto", &p, &opt, r, r + m, v, &info), RB_OK);
+    CHECK_MAX(violation(&p, r, v), 1e-6, "%s", info.solver);
+    CHECK_MAX(info.flops, 3.0 * smooth.flops, "%s beside smoothing", info.solver);
+    free(v);
+    free(r);
+    rb_friction_problem_free(&p);
+    rb_fem_wall_free(wall);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -271,6 +341,7 @@ int main(void)
         cmocka_unit_test(rigid_wall_carries_its_load),
         cmocka_unit_test(bad_input_is_refused),
         cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(auto_turns_to_smoothing_where_newton_cycles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

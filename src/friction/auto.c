@@ -60,12 +60,14 @@ static const stage newton_after_sweeps[] = {
     {&rb_friction_newton, AC | SEARCH, 400, FROM_START},
     {&rb_friction_newton, NM | SEARCH, 500, FROM_BEST},
     {NULL, 0, 0, FROM_START}};
-static const stage newton_first[] = {{&rb_friction_newton, AC | SEARCH, 40, FROM_START},
+/* Where Newton from zero converges at all, it takes some ten steps; smoothing takes about
+ * twenty, also where Newton cycles. */
+static const stage newton_first[] = {{&rb_friction_newton, AC | SEARCH, 15, FROM_START},
+                                     {&rb_friction_smoothing_method, 0, 60, FROM_START},
                                      {&rb_friction_newton, FB | SEARCH, 60, FROM_START},
                                      {&rb_friction_newton, AC, 30, FROM_BEST},
                                      {&rb_friction_newton, NM | SEARCH, 60, FROM_START},
                                      {&rb_friction_newton, JM | SEARCH, 100, FROM_START},
-                                     {&rb_friction_smoothing_method, 0, 150, FROM_START},
                                      {&rb_friction_lemke_method, 0, 0, FROM_START},
                                      {&rb_friction_newton, AC | SEARCH, 60, FROM_BEST},
                                      {&rb_friction_newton, FB | SEARCH, 60, FROM_BEST},
@@ -74,11 +76,16 @@ static const stage newton_first[] = {{&rb_friction_newton, AC | SEARCH, 40, FROM
                                      {&rb_friction_newton, NM | SEARCH, 500, FROM_BEST},
                                      {NULL, 0, 0, FROM_START}};
 
-/* first_turn: iterations of the first member's turn alone. */
+/* The first member's turn alone: so many of its stages, of so many iterations (0: their
+ * own). */
+typedef struct {
+    int stages, iterations;
+} first_turn;
+
 typedef struct {
     const stage *stages;
     double share;
-    int first_turn;
+    first_turn first; /* 0: it is not the first */
 } plan;
 
 enum { MEMBERS = 4 };
@@ -86,14 +93,14 @@ enum { MEMBERS = 4 };
 /* Some sweeps are cheap where W is there and solve most problems.  The global form has to
  * be condensed for them, which costs little for rigid bodies and for few contacts on a
  * large structure. */
-static const plan local_plan[MEMBERS] = {{sweeps, 1.0, 100},
-                                         {newton_after_sweeps, 0.7, 0},
-                                         {alternating, 1.0, 0},
-                                         {plain_sweeps, 0.1, 0}};
-static const plan global_plan[MEMBERS] = {{newton_first, 1.0, 40},
-                                          {sweeps, 0.7, 0},
-                                          {alternating, 1.0, 0},
-                                          {plain_sweeps, 0.1, 0}};
+static const plan local_plan[MEMBERS] = {{sweeps, 1.0, {1, 100}},
+                                         {newton_after_sweeps, 0.7, {0, 0}},
+                                         {alternating, 1.0, {0, 0}},
+                                         {plain_sweeps, 0.1, {0, 0}}};
+static const plan global_plan[MEMBERS] = {{newton_first, 1.0, {2, 0}},
+                                          {sweeps, 0.7, {0, 0}},
+                                          {alternating, 1.0, {0, 0}},
+                                          {plain_sweeps, 0.1, {0, 0}}};
 
 typedef struct {
     const plan *plan;
@@ -282,17 +289,21 @@ static rb_status go_on(const portfolio *p, member *a, double allowance, int turn
     return s;
 }
 
-/* RB_MAXITER: the member has used its allowance, or has no stage left.  What a stage
- * stumbles on is not the reason why the problem is not solved. */
-static rb_status take_turn(const portfolio *p, member *a, double allowance, int turn)
+/* first: of the first turn, else NULL.  RB_MAXITER: the member has used its allowance, or
+ * has no stage left.  What a stage stumbles on is not the reason why the problem is not
+ * solved. */
+static rb_status take_turn(const portfolio *p, member *a, double allowance,
+                           const first_turn *first)
 {
     int paused = 0;
-    for (int stages = 0; !paused && iterations_left(p) && !(turn && stages); stages++) {
+    for (int stages = 0; !paused && iterations_left(p); stages++) {
+        if (first && stages == first->stages)
+            break;
         rb_status s = a->solver ? RB_OK : begin_stage(a);
         if (a->over)
             break;
         if (s == RB_OK)
-            s = go_on(p, a, allowance, turn, &paused);
+            s = go_on(p, a, allowance, first ? first->iterations : 0, &paused);
         if (s == RB_OK && rb_friction_prove(&a->task))
             return RB_OK;
         if (s == RB_ENOMEM || s == RB_INTERRUPTED)
@@ -306,7 +317,7 @@ static rb_status take_turn(const portfolio *p, member *a, double allowance, int 
 static rb_status play(portfolio *p, const plan *plans, member **winner)
 {
     member *first = *winner = add_member(p, plans);
-    rb_status s = take_turn(p, first, INFINITY, plans->first_turn);
+    rb_status s = take_turn(p, first, INFINITY, &plans->first);
     if (s != RB_MAXITER)
         return s;
     s = add_others(p);
@@ -318,7 +329,7 @@ static rb_status play(portfolio *p, const plan *plans, member **winner)
         for (int k = 0; s == RB_MAXITER && k < MEMBERS; k++) {
             member *a = *winner = &p->member[k];
             if (!a->over)
-                s = take_turn(p, a, allowance * a->plan->share, 0);
+                s = take_turn(p, a, allowance * a->plan->share, NULL);
             left += !a->over;
         }
         if (allowance > MOST_OPERATIONS)
