@@ -55,7 +55,8 @@ static void write_controls(void)
     assert_int_equal(shell("printf 'time load shift\\n0 10 0\\n0.1 100 1e-4\\n0.3 100 "
                            "2e-4\\n0.4 20 0\\n' > rest.txt; printf 'distance load "
                            "force\\n0 50 0\\n0 100 10\\n0.2 80 20\\n0.4 100 -10\\n' > "
-                           "way.txt"),
+                           "way.txt; printf 'distance mu creep_ratio\\n0 0.3 0.5\\n"
+                           "0.4 0.3 0.5\\n0.8 0.1 0.5\\n' > wet.txt"),
                      0);
 }
 
@@ -100,6 +101,8 @@ static void results_are_valid(void **state)
         "--time-step 0.05 --mu 0.3 --states --relaxation-time 0.1 --relaxation-ratio 2",
         "--support halfplane --history way.txt --formulation transient --mu 0.3 "
         "--states --gap parabola",
+        "--support halfplane --similar --load 100 --history wet.txt --formulation "
+        "transient --states", /* symmetric: its moment is rounding */
     };
     write_controls();
     for (size_t k = 0; k < CASES + HISTORIES + sizeof more / sizeof *more; k++) {

@@ -723,6 +723,16 @@ static void bad_ways_are_refused(void **state)
                  RB_EINVAL);
     assert_non_null(strstr(why.text, "a column mu means nothing to a table"));
     rc.friction = (rb_rolling_friction){.law = RB_FRICTION_constant};
+    static const double less[] = {0.1, 0.3}, load[] = {100.0, 12500.0},
+                        force[] = {10.0, 3700.0};
+    const rb_rolling_program between = {
+        .n = 2, .distance = distance, .mu = less, .load = load, .force = force};
+    CHECK_STATUS(rb_rolling_history_run(&rc, &between, NULL, &model, &h, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, "step 2: force Q = "));
+    assert_non_null(strstr(why.text, "friction carries at most mu P = "));
+    rb_rolling_model_free(&model);
+    rb_rolling_history_free(&h);
     rc.force = 800.0; /* mu P becomes 0 */
     program.mu = distance;
     CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),

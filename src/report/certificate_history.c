@@ -127,10 +127,12 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
 /* ---- Columns --------------------------------------------------------------------------
  */
 
-static void compare_list(rb_certificate *c, const char *key, const json_t *printed,
-                         const json_t *again)
+/* moment: load times half-width, of which the moment of a symmetric pressure is rounding.
+ */
+static void compare_list(rb_certificate *c, const char *key, double moment,
+                         const json_t *printed, const json_t *again)
 {
-    double largest = 0.0;
+    double largest = strcmp(key, "moment") == 0 ? moment : 0.0;
 
     for (size_t k = 0; k < json_array_size(again); k++)
         largest = fmax(largest, fabs(rb_certificate_number(json_array_get(again, k))));
@@ -153,6 +155,7 @@ static void compare_list(rb_certificate *c, const char *key, const json_t *print
 rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,
                                          const rb_rolling_history *h)
 {
+    const double moment = h->n > 0 ? h->normal_load[h->n - 1] * h->half_width : 0.0;
     json_t *again = rb_report_json_history(h), *want;
     const char *key;
 
@@ -162,7 +165,7 @@ rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printe
     {
         const json_t *value = json_object_get(printed, key);
         if (json_is_array(want))
-            compare_list(c, key, value, want);
+            compare_list(c, key, moment, value, want);
         else if (json_is_real(want))
             rb_certificate_expect(c, key, 0, rb_certificate_number(value),
                                   json_real_value(want),

@@ -279,6 +279,17 @@ static rb_status judge(const run *r, rb_status s, rb_message *reason, rb_message
     return s;
 }
 
+/* The rows are checked beforehand; between two of them mu and the load both vary, and
+ * their product may be less than a force that is linear. */
+static rb_status check_force(const run *r, rb_message *why)
+{
+    rb_message reason = {""};
+    const rb_status s =
+        r->program->mu ? rb_rolling_case_check(&r->model->rc, &reason) : RB_OK;
+
+    return judge(r, s, &reason, why);
+}
+
 /* A step at rest towards a row of the program: the rigid shift moves the contact, or the
  * given force does. */
 static rb_status static_step(run *r, rb_message *why)
@@ -298,12 +309,14 @@ static rb_status static_step(run *r, rb_message *why)
     r->part++;
     const double interval = time_of(r) - before;
     *rest = rb_rolling_program_row(r->program, r->rc, r->row, r->part, parts);
+    s = check_force(r, why);
     if (rest->formulation == RB_TRANSIENT && isnan(rest->force) &&
         isnan(rest->force_ratio))
         rest->force_ratio = 0.0; /* driven by its creepage as soon as it rolls */
     rest->formulation = RB_STATIC;
     model->shift = r->shift;
-    s = relax(r, interval, 0, why);
+    if (s == RB_OK)
+        s = relax(r, interval, 0, why);
     if (s != RB_OK)
         return s;
     follow_way(model, mu_before);
@@ -345,6 +358,8 @@ static rb_status rolled_step(run *r, double from, double to, rb_message *why)
 
     remember_friction(r, c);
     model->rc = rb_rolling_program_step(r->program, r->rc, from, to);
+    if (s == RB_OK)
+        s = check_force(r, why);
     if (s == RB_OK)
         s = relax(r, interval_of(r, c), 1, why);
     if (s == RB_OK)

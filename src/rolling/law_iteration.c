@@ -250,7 +250,7 @@ rb_status rb_rolling_law_start(rb_rolling_model *model, double x, rb_message *wh
  * Newton's method goes on from where it has come, and from other starts. */
 static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
 {
-    enum { STARTS = 6, MOST = 3000 };
+    enum { STARTS = 6, MOST = 2000 };
     const double enough = enough_of(model);
     double from, to;
     int left = MOST;
