@@ -93,7 +93,7 @@ test-all:
 	@$(MAKE) --no-print-directory B=$(B) analyse
 
 # the longest programs start first, so that no processor waits for one of them at the end
-LONGEST := $(patsubst %,$(B)/tests/test_%,net fem_examples rolling_wheel files fem_cli faults)
+LONGEST := $(patsubst %,$(B)/tests/test_%,net cli_examples faults cli_rolling course)
 
 # only the summary line comes last: continuous integration reads it
 check-tests: all $(TESTS) $(B)/tests/checker $(B)/packings $(if $(ROLLBEM_TEST_ALL),$(BENCHES),$(B)/bench/bench_large)

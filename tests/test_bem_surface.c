@@ -318,6 +318,50 @@ static void transforms_are_the_dense_matrix(void **state)
     }
 }
 
+/* Without a matrix the displacement is the matrix times the tractions, for more points
+ * than are taken together too; bad sizes are refused, and a failing allocation leaves
+ * nothing. */
+static void tractions_are_summed_as_by_the_matrix(void **state)
+{
+    (void)state;
+    enum { n = 3, many = 1100 };
+    const double ratio[2] = {1.0, 4.0}, length[2] = {0.1, 2.0};
+    const double ends[n + 1] = {-0.5, -0.2, 0.1, 0.7}, p[n] = {1.0, 3.0, -2.0},
+                          q[n] = {0.5, -1.0, 0.7};
+    const rb_bem_edge_load strips = {n, ends, p, q};
+    const rb_bem_surface bodies[3] = {
+        {.material = rubber, .datum = 9.0, .terms = 2, .ratio = ratio, .length = length},
+        {.material = soft, .thickness = 0.7},
+        {.material = rubber,
+         .thickness = 0.3,
+         .elastic_base = 1,
+         .base = core,
+         .datum = 5.0}};
+    static double x[many], w[many], W[2 * many * 2 * n];
+    for (int i = 0; i < many; i++)
+        x[i] = -2.0 + 4.0 * i / many;
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < many; i++)
+            w[i] = 1.0;
+        CHECK_STATUS(rb_bem_surface_displacement(&bodies[k], n, ends, many, x, W), RB_OK);
+        CHECK_STATUS(rb_bem_surface_add_normal(&bodies[k], &strips, many, x, w), RB_OK);
+        for (int i = 0; i < many; i++) {
+            double want = 1.0;
+            for (int j = 0; j < n; j++)
+                want += W[i + 2 * many * j] * p[j] + W[i + 2 * many * (n + j)] * q[j];
+            CHECK_ABS(w[i], want, 1e-11, "body %d, x = %g", k, x[i]);
+        }
+        CHECK_STATUS(rb_bem_surface_add_normal(&bodies[k], &strips, 0, x, w), RB_EINVAL);
+    }
+    for (int i = 0, done = 0; !done; i++) {
+        alloc_fail_after(i);
+        const rb_status s = rb_bem_surface_add_normal(&bodies[1], &strips, 2, x, w);
+        alloc_fail_after(-1);
+        done = s == RB_OK;
+        assert_true(done ? i >= 4 : s == RB_ENOMEM);
+    }
+}
+
 static void bad_surfaces_are_refused(void **state)
 {
     (void)state;
@@ -385,6 +429,7 @@ int main(void)
         cmocka_unit_test(thin_layers_are_mattresses),
         cmocka_unit_test(layers_remember),
         cmocka_unit_test(transforms_are_the_dense_matrix),
+        cmocka_unit_test(tractions_are_summed_as_by_the_matrix),
         cmocka_unit_test(bad_surfaces_are_refused),
         cmocka_unit_test(short_memory_is_told),
     };

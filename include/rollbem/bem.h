@@ -240,6 +240,18 @@ rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n,
                                       const double *ends, int points, const double *x,
                                       double *W);
 
+/* Tractions on the edge y = 0 of a half-plane y >= 0; borrowed. */
+typedef struct {
+    int n;
+    const double *x;     /* ends of n strips (n + 1), or n nodes; increasing */
+    const double *p, *q; /* n: along +y, into the body (pressure), and along +x */
+} rb_bem_edge_load;
+
+/* Adds w_N under constant strips to w, for points x: no matrix is formed.  As above. */
+rb_status rb_bem_surface_add_normal(const rb_bem_surface *body,
+                                    const rb_bem_edge_load *load, int points,
+                                    const double *x, double *w);
+
 /* A body with memory whose load is linear in time over a step, or whose past is linear
  * over a length (V6): what is remembered after it is kept * (what was before it) + before
  * * (load before) + after * (load after). */
@@ -334,13 +346,6 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
 rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points,
                               double *stress, rb_message *why);
 void rb_bem_field_free(rb_bem_field *field);
-
-/* Tractions on the edge y = 0 of a half-plane y >= 0; borrowed. */
-typedef struct {
-    int n;
-    const double *x;     /* ends of n strips (n + 1), or n nodes; increasing */
-    const double *p, *q; /* n: along +y, into the body (pressure), and along +x */
-} rb_bem_edge_load;
 
 /* Stress below tractions that are constant on n strips [x[i], x[i+1]].  stress: 3 per
  * point (sxx, syy, sxy); on y = 0 the limit from inside. */

@@ -15,7 +15,8 @@ static const double LAST = 24.0;
 enum {
     GAUSS = 16,
     HALVINGS = 12,
-    CHUNK = 64 /* panels whose products are formed together */
+    CHUNK = 64,  /* panels whose products are formed together */
+    BLOCK = 1024 /* points whose waves stand in memory, where no matrix is formed */
 };
 
 /* ---- Transfer functions (L2) ---------------------------------------------------------
@@ -44,8 +45,8 @@ typedef struct {
     double beta;
 } bonded_layer;
 
-static void bond(const bonded_layer *layer, double p, double s, double complex *C,
-                 double complex *D)
+/* C[0], D[0] for p = 1, C[1], D[1] for s = 1. */
+static void bond(const bonded_layer *layer, double complex C[2], double complex D[2])
 {
     const double al = layer->al, nu = layer->nu, beta = layer->beta;
     const double complex rho = layer->rho;
@@ -58,10 +59,11 @@ static void bond(const bonded_layer *layer, double p, double s, double complex *
         v[j] = (1.0 - nu) * f3[j] - (2.0 - nu) * f1[j] - rho * (f[j] + beta * f1[j]);
         u[j] = (1.0 - nu) * f2[j] + nu * f[j] + rho * (f1[j] + beta * f[j]);
     }
-    const double complex b1 = -(p * v[0] + s * v[1]), b2 = -(p * u[0] + s * u[1]);
-    const double complex det = v[2] * u[3] - v[3] * u[2];
-    *C = (b1 * u[3] - v[3] * b2) / det;
-    *D = (v[2] * b2 - b1 * u[2]) / det;
+    const double complex per_det = 1.0 / (v[2] * u[3] - v[3] * u[2]);
+    for (int j = 0; j < 2; j++) {
+        C[j] = (v[3] * u[j] - v[j] * u[3]) * per_det;
+        D[j] = (v[j] * u[2] - v[2] * u[j]) * per_det;
+    }
 }
 
 /* (L2) at al = k d; layer and base elastic, `softer`: compliance of the layer's material
@@ -77,8 +79,7 @@ static transfer transfer_at(const rb_bem_surface *body, double al, double comple
         layer.rho = 2.0 * (1.0 - nu_2) * body->material.shear / body->base.shear / softer;
         layer.beta = (1.0 - 2.0 * nu_2) / (2.0 * (1.0 - nu_2));
     }
-    bond(&layer, 1.0, 0.0, &C[0], &D[0]);
-    bond(&layer, 0.0, 1.0, &C[1], &D[1]);
+    bond(&layer, C, D);
     return (transfer){.N = D[0], .T = -C[1], .C = -C[0] - 0.5 / (1.0 - nu)};
 }
 
@@ -132,17 +133,15 @@ static double *make_panels(const rb_bem_surface *body, double reach, int *count)
  */
 
 /* With waves exp(i k (x - s)) split into those of the points and those of the strips, the
- * remainder is a product of thin matrices: W += P D, P: cosines and sines of the points
- * (points x 2 nodes), D: those of the strips with the transfer functions (2 nodes x n).
+ * remainder is a product of thin matrices: W += P D', P: cosines and sines of the points
+ * (points x 2 nodes), D: those of the strips with the transfer functions (n x 2 nodes).
  */
 typedef struct {
     const rb_bem_surface *body;
-    int points, n;          /* of points and strips; */
-    const double *x, *ends; /* all borrowed */
-    int nodes;
-    double *P, *N, *T, *C; /* P: points x 2 nodes; the others 2 nodes x n */
-    double M0;             /* what the longest waves add over the half-plane, and */
-    double *constant;      /* n: that of each strip everywhere */
+    int points, n, nodes;
+    const double *x, *ends;
+    double *P, *N, *T, *C; /* P: points x 2 nodes; the others n x 2 nodes */
+    double *constant;      /* n: what long waves add everywhere */
 } waves;
 
 static void waves_free(waves *w)
@@ -152,69 +151,48 @@ static void waves_free(waves *w)
     free(w->constant);
 }
 
-/* w: with body, points and strips. */
-static rb_status waves_start(waves *w)
+static rb_status waves_alloc(waves *w)
 {
-    const size_t room = 2 * GAUSS * CHUNK, columns = (size_t)w->n;
-    w->M0 = 1.0 - base_compliance(w->body);
-    for (int k = 0; k < w->body->terms; k++)
-        w->M0 += w->body->ratio[k];
+    const size_t room = 2 * GAUSS * CHUNK, n = (size_t)w->n;
     w->P = rb_alloc((size_t)w->points, room);
-    w->N = rb_alloc(room, 3 * columns);
-    w->constant = rb_alloc(columns, 1);
+    w->N = rb_alloc(n, 3 * room);
+    w->constant = rb_alloc(n, 1);
     if (!w->P || !w->N || !w->constant) {
         waves_free(w);
         return RB_ENOMEM;
     }
-    w->T = w->N + room * columns;
-    w->C = w->T + room * columns;
+    w->T = w->N + n * room;
+    w->C = w->T + n * room;
     return RB_OK;
 }
 
 /* Node k of the rule, at al with this weight: Re[Z exp(i k (x - s))] and, for the
  * coupling, Im[Z exp(i k (x - s))]. */
-static void set_node(waves *w, int k, double al, double weight)
+static void set_node(waves *w, double al, double weight, double M0, int k)
 {
-    const size_t room = 2 * GAUSS * CHUNK, even = 2 * (size_t)k, odd = even + 1;
-    const double *x = w->x, *ends = w->ends, wave = al / w->body->thickness;
+    const size_t points = (size_t)w->points, n = (size_t)w->n;
+    const double wave = al / w->body->thickness, long_waves = M0 * exp(-al);
     const transfer Z = remainder_at(w->body, al);
+    double *P = w->P + 2 * (size_t)k * points, *N = w->N + 2 * (size_t)k * n,
+           *T = w->T + 2 * (size_t)k * n, *C = w->C + 2 * (size_t)k * n;
 
-    for (size_t i = 0; i < (size_t)w->points; i++) {
-        w->P[i + even * (size_t)w->points] = cos(wave * x[i]);
-        w->P[i + odd * (size_t)w->points] = sin(wave * x[i]);
+    for (size_t i = 0; i < points; i++) {
+        const double t = wave * w->x[i];
+        P[i] = cos(t);
+        P[i + points] = sin(t);
     }
-    for (size_t j = 0; j < (size_t)w->n; j++) {
-        const double h = ends[j + 1] - ends[j], half = 0.5 * wave * h;
-        const double s = 0.5 * (ends[j] + ends[j + 1]), c_s = cos(wave * s),
-                     s_s = sin(wave * s), a = weight / al * h * sin(half) / half;
-        w->N[even + j * room] = a * (creal(Z.N) * c_s + cimag(Z.N) * s_s);
-        w->N[odd + j * room] = a * (creal(Z.N) * s_s - cimag(Z.N) * c_s);
-        w->T[even + j * room] = a * (creal(Z.T) * c_s + cimag(Z.T) * s_s);
-        w->T[odd + j * room] = a * (creal(Z.T) * s_s - cimag(Z.T) * c_s);
-        w->C[even + j * room] = a * (-creal(Z.C) * s_s + cimag(Z.C) * c_s);
-        w->C[odd + j * room] = a * (creal(Z.C) * c_s + cimag(Z.C) * s_s);
-        w->constant[j] += weight / al * h * w->M0 * exp(-al);
+    for (size_t j = 0; j < n; j++) {
+        const double h = w->ends[j + 1] - w->ends[j], half = 0.5 * wave * h;
+        const double t = wave * 0.5 * (w->ends[j] + w->ends[j + 1]), c = cos(t),
+                     s = sin(t), a = weight / al * h * sin(half) / half;
+        N[j] = a * (creal(Z.N) * c + cimag(Z.N) * s);
+        N[j + n] = a * (creal(Z.N) * s - cimag(Z.N) * c);
+        T[j] = a * (creal(Z.T) * c + cimag(Z.T) * s);
+        T[j + n] = a * (creal(Z.T) * s - cimag(Z.T) * c);
+        C[j] = a * (-creal(Z.C) * s + cimag(Z.C) * c);
+        C[j + n] = a * (creal(Z.C) * c + cimag(Z.C) * s);
+        w->constant[j] += weight / al * h * long_waves;
     }
-}
-
-/* block += scale P D. */
-static void add_block(waves *w, double scale, const double *D, double *block, int ld)
-{
-    if (w->nodes > 0)
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, w->points, w->n,
-                    2 * w->nodes, scale, w->P, w->points, D, 2 * GAUSS * CHUNK, 1.0,
-                    block, ld);
-}
-
-static void add_products(waves *w, double scale, double *W)
-{
-    const size_t points = (size_t)w->points, half = (size_t)w->n * 2 * points;
-    const int ld = 2 * w->points;
-    add_block(w, scale, w->N, W, ld);
-    add_block(w, scale, w->T, W + half + points, ld);
-    add_block(w, scale, w->C, W + half, ld);
-    add_block(w, -scale, w->C, W + points, ld);
-    w->nodes = 0;
 }
 
 static double reach_of(const waves *w)
@@ -227,61 +205,155 @@ static double reach_of(const waves *w)
     return high - low;
 }
 
-/* Long waves move the whole surface: as (L3) has it, and by the datum of an elastic base.
- */
-static void add_constants(const waves *w, double scale, double *W)
-{
-    const rb_bem_surface *body = w->body;
-    const double *ends = w->ends;
-    const size_t points = (size_t)w->points, n = (size_t)w->n;
-    const double base = base_compliance(body);
-    const double datum = base > 0.0 ? base * log(body->datum / body->thickness) : 0.0;
+/* Adds scale times the nodes that are set to what is wanted of them. */
+typedef void add_nodes(waves *w, double scale, void *to);
 
-    for (size_t j = 0; j < n; j++) {
-        const double c = scale * (w->constant[j] + datum * (ends[j + 1] - ends[j]));
-        double *N = W + j * 2 * points, *T = W + (j + n) * 2 * points + points;
-        for (size_t i = 0; i < points; i++) {
-            N[i] += c;
-            T[i] += c;
-        }
-    }
+/* (1 - nu)/(pi shear), by which every wave counts. */
+static double scale_of(const rb_bem_surface *body)
+{
+    return (1.0 - body->material.poisson) / (M_PI * body->material.shear);
+}
+
+/* What long waves add under strip j: as (L3) has it, and by the datum of an elastic base.
+ */
+static double constant_of(const waves *w, int j)
+{
+    const double base = base_compliance(w->body);
+    const double datum =
+        base > 0.0 ? base * log(w->body->datum / w->body->thickness) : 0.0;
+    return scale_of(w->body) * (w->constant[j] + datum * (w->ends[j + 1] - w->ends[j]));
 }
 
 /* All panels, one node after the other. */
-static void integrate(waves *w, const gsl_integration_glfixed_table *rule, int panels,
-                      const double *end, double *W)
+static rb_status integrate(waves *w, add_nodes *add, void *to)
 {
-    const rb_bem_material m = w->body->material;
-    const double scale = (1.0 - m.poisson) / (M_PI * m.shear);
+    int panels = 0;
+    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(GAUSS);
+    double *end = make_panels(w->body, reach_of(w), &panels);
+    double M0 = 1.0 - base_compliance(w->body);
 
-    for (int k = 0; k < panels; k++) {
+    for (int k = 0; k < w->body->terms; k++)
+        M0 += w->body->ratio[k];
+    for (int k = 0; rule && end && k < panels; k++) {
         for (size_t g = 0; g < GAUSS; g++) {
             double al, weight;
             gsl_integration_glfixed_point(end[k], end[k + 1], g, &al, &weight, rule);
-            set_node(w, w->nodes++, al, weight);
+            set_node(w, al, weight, M0, w->nodes++);
         }
-        if (w->nodes == GAUSS * CHUNK || k + 1 == panels)
-            add_products(w, scale, W);
+        if (w->nodes == GAUSS * CHUNK || k + 1 == panels) {
+            add(w, scale_of(w->body), to);
+            w->nodes = 0;
+        }
     }
-    add_constants(w, scale, W);
+    const rb_status s = rule && end ? RB_OK : RB_ENOMEM;
+    free(end);
+    if (rule)
+        gsl_integration_glfixed_table_free(rule);
+    return s;
+}
+
+/* ---- The matrix of all points and strips ----------------------------------------------
+ */
+
+/* block += scale P D'. */
+static void add_block(const waves *w, double scale, const double *D, double *block)
+{
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, w->points, w->n, 2 * w->nodes,
+                scale, w->P, w->points, D, w->n, 1.0, block, 2 * w->points);
+}
+
+static void add_to_matrix(waves *w, double scale, void *to)
+{
+    const size_t points = (size_t)w->points, half = (size_t)w->n * 2 * points;
+    double *W = to;
+    add_block(w, scale, w->N, W);
+    add_block(w, scale, w->T, W + half + points);
+    add_block(w, scale, w->C, W + half);
+    add_block(w, -scale, w->C, W + points);
 }
 
 rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points,
                                      const double *x, int n, const double *ends,
                                      double *W)
 {
-    int panels = 0;
     waves w = {.body = body, .points = points, .n = n, .x = x, .ends = ends};
-    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(GAUSS);
-    double *end = make_panels(body, reach_of(&w), &panels);
-    const rb_status s = rule && end ? waves_start(&w) : RB_ENOMEM;
+    rb_status s = waves_alloc(&w);
 
-    if (s == RB_OK) {
-        integrate(&w, rule, panels, end, W);
-        waves_free(&w);
+    if (s != RB_OK)
+        return s;
+    s = integrate(&w, add_to_matrix, W);
+    for (int j = 0; j < n; j++) {
+        const double c = constant_of(&w, j);
+        double *N = W + (size_t)j * 2 * (size_t)points,
+               *T = W + (size_t)(j + n) * 2 * (size_t)points + points;
+        for (int i = 0; i < points; i++) {
+            N[i] += c;
+            T[i] += c;
+        }
     }
-    free(end);
-    if (rule)
-        gsl_integration_glfixed_table_free(rule);
+    waves_free(&w);
+    return s;
+}
+
+/* ---- The displacement under given tractions -------------------------------------------
+ */
+
+typedef struct {
+    const rb_bem_edge_load *load;
+    double *amplitude; /* of every wave, 2 nodes */
+    double *w;         /* of the points */
+} displacement;
+
+/* w += scale P (N' p + C' q). */
+static void add_to_displacement(waves *w, double scale, void *to)
+{
+    const displacement *d = to;
+    const int waves_n = 2 * w->nodes;
+    cblas_dgemv(CblasColMajor, CblasTrans, w->n, waves_n, scale, w->N, w->n, d->load->p,
+                1, 0.0, d->amplitude, 1);
+    cblas_dgemv(CblasColMajor, CblasTrans, w->n, waves_n, scale, w->C, w->n, d->load->q,
+                1, 1.0, d->amplitude, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, w->points, waves_n, 1.0, w->P, w->points,
+                d->amplitude, 1, 1.0, d->w, 1);
+}
+
+/* For the points of `all`, whose waves are formed together. */
+static rb_status add_block_of_points(waves *all, displacement *to)
+{
+    double everywhere = 0.0;
+    for (int j = 0; j < all->n; j++)
+        all->constant[j] = 0.0;
+    const rb_status s = integrate(all, add_to_displacement, to);
+    for (int j = 0; j < all->n; j++)
+        everywhere += constant_of(all, j) * to->load->p[j];
+    for (int i = 0; i < all->points; i++)
+        to->w[i] += everywhere;
+    return s;
+}
+
+rb_status rb_bem_layer_add_normal(const rb_bem_surface *body,
+                                  const rb_bem_edge_load *load, int points,
+                                  const double *x, double *w)
+{
+    waves all = {.body = body,
+                 .points = points < BLOCK ? points : BLOCK,
+                 .n = load->n,
+                 .x = x,
+                 .ends = load->x};
+    displacement to = {load, rb_alloc(2 * GAUSS * CHUNK, 1), w};
+    rb_status s = to.amplitude ? waves_alloc(&all) : RB_ENOMEM;
+
+    if (s != RB_OK) {
+        free(to.amplitude);
+        return s;
+    }
+    for (int first = 0; first < points && s == RB_OK; first += BLOCK) {
+        all.points = points - first < BLOCK ? points - first : BLOCK;
+        all.x = x + first;
+        to.w = w + first;
+        s = add_block_of_points(&all, &to);
+    }
+    waves_free(&all);
+    free(to.amplitude);
     return s;
 }

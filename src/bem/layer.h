@@ -11,4 +11,9 @@ rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points,
                                      const double *x, int n, const double *ends,
                                      double *W);
 
+/* Adds that part of w_N under given tractions to w, without a matrix.  RB_ENOMEM. */
+rb_status rb_bem_layer_add_normal(const rb_bem_surface *body,
+                                  const rb_bem_edge_load *load, int points,
+                                  const double *x, double *w);
+
 #endif

@@ -94,6 +94,20 @@ static strip_kernel kernel_of(const rb_bem_surface *body)
     return k;
 }
 
+/* w_N at a point under unit p and under unit q. */
+typedef struct {
+    double p, q;
+} normal_entry;
+
+static normal_entry entry_of(const strip_kernel *k, double X, double b)
+{
+    double log_memory = 0.0, sign_memory = 0.0;
+    if (k->body->terms > 0)
+        rb_bem_memory_integrals(k->body, -X, b, &log_memory, &sign_memory);
+    return (normal_entry){-k->K * (k->slow * strip_log(X, b, k->depth) + log_memory),
+                          k->c * (k->slow * strip_sign(X, b) + sign_memory)};
+}
+
 /* 2m x 2n, column-major: displacements of m points under n strips. */
 typedef struct {
     size_t m, n;
@@ -104,14 +118,12 @@ typedef struct {
 static void set_entries(const strip_kernel *k, double X, double b, const response *to,
                         size_t i, size_t j)
 {
+    const normal_entry e = entry_of(k, X, b);
     const size_t m = to->m;
     double *N = to->F + j * 2 * m, *T = to->F + (j + to->n) * 2 * m;
-    double log_memory = 0.0, sign_memory = 0.0;
-    if (k->body->terms > 0)
-        rb_bem_memory_integrals(k->body, -X, b, &log_memory, &sign_memory);
-    N[i] = T[m + i] = -k->K * (k->slow * strip_log(X, b, k->depth) + log_memory);
-    T[i] = k->c * (k->slow * strip_sign(X, b) + sign_memory);
-    N[m + i] = -T[i];
+    N[i] = T[m + i] = e.p;
+    T[i] = e.q;
+    N[m + i] = -e.q;
 }
 
 /* ---- Many -----------------------------------------------------------------------------
@@ -130,6 +142,25 @@ rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n,
             set_entries(&kernel, 0.5 * ((ends[j] - x[i]) + (ends[j + 1] - x[i])),
                         0.5 * (ends[j + 1] - ends[j]), &to, i, j);
     return body->thickness > 0.0 ? rb_bem_layer_add_remainder(body, points, x, n, ends, W)
+                                 : RB_OK;
+}
+
+rb_status rb_bem_surface_add_normal(const rb_bem_surface *body,
+                                    const rb_bem_edge_load *load, int points,
+                                    const double *x, double *w)
+{
+    const double *ends = load->x;
+    if (rb_bem_surface_check(body, NULL) != RB_OK || load->n < 1 || points < 1)
+        return RB_EINVAL;
+    const strip_kernel kernel = kernel_of(body);
+    for (int j = 0; j < load->n; j++)
+        for (int i = 0; i < points; i++) {
+            const normal_entry e =
+                entry_of(&kernel, 0.5 * ((ends[j] - x[i]) + (ends[j + 1] - x[i])),
+                         0.5 * (ends[j + 1] - ends[j]));
+            w[i] += e.p * load->p[j] + e.q * load->q[j];
+        }
+    return body->thickness > 0.0 ? rb_bem_layer_add_normal(body, load, points, x, w)
                                  : RB_OK;
 }
 

@@ -259,23 +259,28 @@ void rb_rolling_heat_track_free(rb_rolling_heat_track *track)
     *track = (rb_rolling_heat_track){.n = 0};
 }
 
-/* Heat of `back` steps ago at a place between midpoints. */
-static double heat_at(const rb_rolling_heat_track *t, int back, double place)
-{
-    const int row = (t->newest - back + t->rows) % t->rows;
-    const double *heat = t->heat + (size_t)row * (size_t)t->n;
-    const int j = (int)floor(place);
-    const double part = place - j;
-    const double left = j >= 0 && j < t->n ? heat[j] : 0.0;
-    const double right = j + 1 >= 0 && j + 1 < t->n ? heat[j + 1] : 0.0;
-
-    return part > 1e-9 ? (1.0 - part) * left + part * right : left;
-}
-
 void rb_rolling_heat_track_advance(rb_rolling_heat_track *t)
 {
     t->newest = (t->newest + 1) % t->rows;
     t->known = t->known < t->rows ? t->known + 1 : t->rows;
+}
+
+/* temperature += weight times the heat of k steps ago, k c further: between midpoints,
+ * and nothing beyond the last one. */
+static void add_heat(const rb_rolling_heat_track *t, int k, double weight,
+                     double *temperature)
+{
+    const int row = (t->newest - k + t->rows) % t->rows;
+    const double *heat = t->heat + (size_t)row * (size_t)t->n;
+    const double shift = k * t->step / t->h, whole = floor(shift);
+    const double part = shift - whole > 1e-9 ? shift - whole : 0.0;
+    const int last = t->n - 1 - (int)whole; /* its left neighbour is the last element */
+
+    for (int i = 0; i < last; i++)
+        temperature[i] += weight * ((1.0 - part) * heat[i + (int)whole] +
+                                    part * heat[i + (int)whole + 1]);
+    if (last >= 0)
+        temperature[last] += weight * (1.0 - part) * heat[t->n - 1];
 }
 
 /* (T3) A particle at x was at x + k c when the k-th step back ended. */
@@ -287,16 +292,11 @@ void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
                               sqrt(rc->heat_b.conductivity * rc->heat_b.heat_capacity);
     const double unit = 2.0 * sqrt(t->step / (M_PI * rc->speed)) / effusivity;
 
-    for (int i = 0; i < t->n; i++)
+    for (int i = 0; i < t->n; i++) {
         t->heat[(size_t)t->newest * (size_t)t->n + (size_t)i] =
             -q[i] * lambda[i] * rc->speed / t->step;
-    for (int i = 0; i < t->n; i++) {
         temperature[i] = rc->heat_a.temperature;
-        for (int k = 0; k < t->known; k++) {
-            const double place = i + k * t->step / t->h;
-            if (place >= t->n)
-                break;
-            temperature[i] += unit * (sqrt(k + 1.0) - sqrt(k)) * heat_at(t, k, place);
-        }
     }
+    for (int k = 0; k < t->known && k * t->step < t->n * t->h; k++)
+        add_heat(t, k, unit * (sqrt(k + 1.0) - sqrt(k)), temperature);
 }

@@ -9,7 +9,6 @@
 
 enum {
     MOST_STRIPS = 1024, /* that stand for the loaded elements, seen from afar */
-    BLOCK = 64,         /* places at a time */
     BETWEEN = 4,        /* places from one row of the table to the next */
     MOST_PLACES = 20000
 };
@@ -65,22 +64,14 @@ static rb_status add_halfplane(const rb_rolling_case *rc, const rb_rolling_body 
 {
     double length[RB_ROLLING_TERMS];
     const rb_bem_surface surface = rb_rolling_surface_of(rc, body, length);
-    double *W = rb_alloc(2 * BLOCK, 2 * (size_t)s->n);
-    rb_status status = W ? RB_OK : RB_ENOMEM;
-
-    for (int first = 0; first < at->n && status == RB_OK; first += BLOCK) {
-        const int m = at->n - first < BLOCK ? at->n - first : BLOCK;
-        status =
-            rb_bem_surface_displacement(&surface, s->n, s->ends, m, at->x + first, W);
-        if (status != RB_OK)
-            break;
-        cblas_dgemv(CblasColMajor, CblasNoTrans, m, s->n, 1.0, W, 2 * m, s->p, 1, 1.0,
-                    at->w + first, 1);
-        cblas_dgemv(CblasColMajor, CblasNoTrans, m, s->n, coupling,
-                    W + 2 * (size_t)m * (size_t)s->n, 2 * m, s->q, 1, 1.0, at->w + first,
-                    1);
-    }
-    free(W);
+    double *q = rb_alloc((size_t)s->n, 1);
+    if (!q)
+        return RB_ENOMEM;
+    cblas_daxpy(s->n, coupling, s->q, 1, q, 1);
+    const rb_bem_edge_load loads = {s->n, s->ends, s->p, q};
+    const rb_status status =
+        rb_bem_surface_add_normal(&surface, &loads, at->n, at->x, at->w);
+    free(q);
     return status;
 }
 
