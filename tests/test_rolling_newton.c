@@ -165,6 +165,29 @@ static void cold_starts_end_where_lemke_does(void **state)
     }
 }
 
+/* Where nothing sticks under a given creepage no element is held, which only a given force
+ * needs: Newton ends by itself, without the fall back to Lemke, and all of the contact slides
+ * the way the creepage says. */
+static void full_sliding_needs_no_other_solver(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
+        const double sign = k % 2 ? -1.0 : 1.0;
+        rc.creep_ratio = 4.0 * sign;
+        rc.solver = RB_SOLVER_NEWTON;
+        if (k < 2)
+            rc.b.young = rc.a.young;
+        rb_rolling_solution s = solved(&rc);
+        assert_int_equal(s.solver, RB_SOLVER_NEWTON);
+        assert_int_equal(s.stick, 0);
+        for (int i = 0; i < s.n; i++)
+            CHECK_ABS(s.q[i], -sign * rc.mu * s.p[i], 1e-9 * s.max_pressure,
+                      "case %d, element %d", k, i);
+        rb_rolling_solution_free(&s);
+    }
+}
+
 /* The levels below share one number of steps, the finest one adds a few. */
 static void steps_grow_by_levels(void **state)
 {
@@ -354,6 +377,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_answer_as_their_elements_do),
         cmocka_unit_test(cold_starts_end_where_lemke_does),
+        cmocka_unit_test(full_sliding_needs_no_other_solver),
         cmocka_unit_test(steps_grow_by_levels),
         cmocka_unit_test(a_kept_lu_serves_other_zones),
         cmocka_unit_test(a_kept_lu_gives_way_to_a_new_one),
