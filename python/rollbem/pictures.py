@@ -55,10 +55,20 @@ def _limits(solution: "Solution") -> "tuple[float, float]":
     return low, high
 
 
+def bounds(solution: "Solution") -> Any:
+    """What friction may be at each element: mu p by the friction law, or the yield stress of the interface."""
+    s, columns = solution, solution._arrays
+    bound = columns.get("mu", s.value("mu")) * s.p
+    if "plastic" in columns:
+        yields = s.value("yield-stress") + s.value("hardening") * columns["plastic"]
+        bound = bound.clip(max=yields.clip(min=0))
+    return bound
+
+
 def tractions(solution: "Solution", figure: Any = None) -> Any:
     """Pressure, friction between its bounds, zones, and the slip below."""
     s, mu = solution, solution.value("mu")
-    bound = s._arrays.get("mu", mu) * s.p  # a column where a friction law has several coefficients
+    bound = bounds(s)
     unit, label = _stress_unit(s.max_pressure)
     figure, (upper, lower) = _figure(figure, 2, sharex=True, gridspec_kw={"height_ratios": [2, 1]})
     upper.set_xlim(*_limits(s))

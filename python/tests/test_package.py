@@ -127,6 +127,20 @@ def test_versions_must_agree(tmp_path):
         assert words in got.stderr.splitlines()[-1]
 
 
+def test_friction_over_the_way():
+    way = {"distance": [0, 1, 1.01, 2], "mu": [0.3, 0.3, 0.1, 0.1], "creep": [1e-3] * 4}
+    case = {"support": "halfplane", "similar": True, "load": 500, "contact_elements": 30}
+    h = rollbem.history(way, formulation="transient", **case)
+    assert h.mu[0] == 0.3 and h.mu[-1] == 0.1
+    assert abs(h.force_ratio[-1] * 0.1 * 500 - h.tangential_load[-1]) < 1e-9
+    for law in ({"yield_stress": 50, "hardening": 1000}, {"friction_law": "exponential", "mu_fall": 0.1,
+                                                          "slip_scale": 100, "speed": 1000}):
+        s = rollbem.solve(formulation="steady", creep=1e-3, **law, **case)
+        most = rollbem.pictures.bounds(s)
+        assert (abs(s.q) <= most + 1e-9).all()
+        assert (abs(abs(s.q) - most)[s.zone > 1] < 1e-6).all() and (s.zone > 1).any()
+
+
 def test_pictures(tmp_path):
     pytest.importorskip("matplotlib")
     base = {k: v for k, v in ROLLED.items() if k not in ("formulation", "creep_ratio")}
