@@ -708,6 +708,21 @@ static void bad_friction_laws_are_refused(void **state)
     check_refused("--friction-law back.txt", 65, "back.txt:2: expected x to increase");
     check_refused("--friction-law less.txt", 65, "less.txt:2: expected mu >= 0");
     check_refused("--friction-law mu.txt --mu 0.3", 64, "--mu: the table");
+    write_file("way.txt", "shift mu\n0.001 0.3\n0.002 -0.1\n");
+    check_refused("--formulation static --history way.txt --mu 0.3", 64,
+                  "--mu: the history has a column mu");
+    check_refused("--formulation static --history way.txt", 65,
+                  "way.txt:3: mu: expected >= 0, got -0.1");
+    check_refused("--formulation static --history way.txt --friction-law mu.txt", 65,
+                  "a column mu means nothing to a table");
+    /* the command line wins over a case file */
+    assert_int_equal(shell("printf '[friction]\\nmu = 0.25\\n' > own.ini; printf "
+                           "'[friction]\\nmu = 0.25\\nfriction-law = mu.txt\\n' > "
+                           "both.ini"),
+                     0);
+    check_refused("both.ini", 65, "both.ini:2: mu: the table");
+    assert_int_equal(shell("\"$R\" own.ini --friction-law mu.txt --quiet > table.tsv"),
+                     0);
     check_refused(RAIL FALLS "--force -840", 64, "the largest is -5");
     check_refused(RAIL FALLS "--force -100 --all-solutions", 64, "a given creepage");
     check_refused(RAIL "--all-solutions", 64, "friction that depends on");

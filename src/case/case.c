@@ -532,6 +532,21 @@ static rb_status read_worn(rb_case *c, rb_message *why)
     return RB_OK;
 }
 
+/* The table stands in the place of --mu: on the command line it wins over mu of the case
+ * file. */
+static rb_status settle_table_and_mu(rb_case *c, rb_message *why)
+{
+    const rb_settled_case defaults = default_words(c->purpose);
+    const rb_option_set set = rb_case_options(c);
+    const rb_option_precedence how = {&defaults, rb_case_alike(c->words.rc.formulation),
+                                      c->path};
+    const rb_status s = rb_option_settle_against(
+        &set, &how, rb_case_option("mu"), rb_case_given(c, "friction-law"),
+        "the table of --friction-law has the coefficients", why);
+    c->settled.rc.mu = c->words.rc.mu;
+    return s;
+}
+
 /* x and mu. */
 static rb_status read_friction(rb_case *c, rb_message *why)
 {
@@ -548,7 +563,7 @@ static rb_status read_friction(rb_case *c, rb_message *why)
         return s;
     settled->rc.friction.table =
         (rb_rolling_friction_table){t->rows, t->x, t->x + t->rows};
-    return refuse_given(c, "mu", "the table of --friction-law has the coefficients", why);
+    return settle_table_and_mu(c, why);
 }
 
 /* Index of a column in rb_rolling_program_columns; -1: none has that name. */
