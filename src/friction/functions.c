@@ -12,75 +12,76 @@ static void identity(int d, double x, double *M)
 }
 
 /* r_N - max(0, r_N - rho u_N); returns r_N - rho u_N */
-static double normal_part(int d, double rho, const double *r, const double *u, double *F,
-                          double *A, double *B)
+static double normal_part(const rb_friction_cone *cone, const double *r, const double *u,
+                          const rb_friction_linearised *at)
 {
-    const double z = r[0] - rho * u[0];
-    identity(d, 1.0, A);
-    identity(d, 0.0, B);
-    F[0] = z > 0.0 ? rho * u[0] : r[0];
+    const double rho = cone->rho_n, z = r[0] - rho * u[0];
+    identity(cone->d, 1.0, at->A);
+    identity(cone->d, 0.0, at->B);
+    at->F[0] = z > 0.0 ? rho * u[0] : r[0];
     if (z > 0.0) {
-        A[0] = 0.0;
-        B[0] = rho;
+        at->A[0] = 0.0;
+        at->B[0] = rho;
     }
     return z;
 }
 
 /* F_T = r_T - P_D(r_T - rho u_T), D the disc of the given radius; direction of the
  * projected point n, written; returns 1 where the point lies on the rim. */
-static int tangential_part(int d, double rho, double radius, const double *r,
-                           const double *u, double *F, double *A, double *B, double *n)
+static int tangential_part(const rb_friction_cone *cone, double radius, const double *r,
+                           const double *u, const rb_friction_linearised *at, double *n)
 {
+    const int d = cone->d;
+    const double rho = cone->rho_t;
     double y[3] = {0.0, 0.0, 0.0};
     for (int a = 1; a < d; a++)
         y[a] = r[a] - rho * u[a];
     const double t = rb_friction_tangential(d, y);
     if (t <= radius && radius > 0.0) {
         for (int a = 1; a < d; a++) {
-            F[a] = rho * u[a];
-            A[a + a * d] = 0.0;
-            B[a + a * d] = rho;
+            at->F[a] = rho * u[a];
+            at->A[a + a * d] = 0.0;
+            at->B[a + a * d] = rho;
         }
         return 0;
     }
     const double g = t > 0.0 ? radius / t : 0.0;
     for (int a = 1; a < d; a++) {
         n[a] = t > 0.0 ? y[a] / t : 0.0;
-        F[a] = r[a] - g * y[a];
+        at->F[a] = r[a] - g * y[a];
     }
     for (int a = 1; a < d; a++)
         for (int b = 1; b < d; b++) {
             const double dp = g * ((a == b) - n[a] * n[b]); /* d(radius y/t)/dy */
-            A[a + b * d] = (a == b) - dp;
-            B[a + b * d] = rho * dp;
+            at->A[a + b * d] = (a == b) - dp;
+            at->B[a + b * d] = rho * dp;
         }
     return 1;
 }
 
-void rb_friction_alart_curnier(int d, double mu, double rho_n, double rho_t,
-                               const double *r, const double *u, double *F, double *A,
-                               double *B)
+void rb_friction_alart_curnier(const rb_friction_cone *cone, const double *r,
+                               const double *u, const rb_friction_linearised *at)
 {
+    const double mu = cone->mu, z = normal_part(cone, r, u, at);
     double n[3];
-    const double z = normal_part(d, rho_n, r, u, F, A, B);
-    if (!tangential_part(d, rho_t, mu * fmax(0.0, z), r, u, F, A, B, n) || z <= 0.0)
+    if (!tangential_part(cone, mu * fmax(0.0, z), r, u, at, n) || z <= 0.0)
         return;
-    for (int a = 1; a < d; a++) { /* the radius mu (r_N - rho u_N) moves too */
-        A[a] = -mu * n[a];
-        B[a] = mu * rho_n * n[a];
+    for (int a = 1; a < cone->d; a++) { /* the radius mu (r_N - rho u_N) moves too */
+        at->A[a] = -mu * n[a];
+        at->B[a] = mu * cone->rho_n * n[a];
     }
 }
 
-void rb_friction_jean_moreau(int d, double mu, double rho_n, double rho_t,
-                             const double *r, const double *u, double *F, double *A,
-                             double *B)
+void rb_friction_jean_moreau(const rb_friction_cone *cone, const double *r,
+                             const double *u, const rb_friction_linearised *at)
 {
+    const double mu = cone->mu;
     double n[3];
-    normal_part(d, rho_n, r, u, F, A, B);
-    if (!tangential_part(d, rho_t, mu * fmax(0.0, r[0]), r, u, F, A, B, n) || r[0] <= 0.0)
+    normal_part(cone, r, u, at);
+    if (!tangential_part(cone, mu * fmax(0.0, r[0]), r, u, at, n) || r[0] <= 0.0)
         return;
-    for (int a = 1; a < d; a++)
-        A[a] = -mu * n[a];
+    for (int a = 1; a < cone->d; a++)
+        at->A[a] = -mu * n[a];
 }
 
 /* C = X Y, d x d column-major */
@@ -108,16 +109,17 @@ static void de_saxce(int d, double mu, const double *u, double *uhat, double *G)
 }
 
 /* One rho for all directions: another one would deform the cone. */
-static double common_rho(int d, double rho_n, double rho_t)
+static double common_rho(const rb_friction_cone *cone)
 {
-    return d / (1.0 / rho_n + (d - 1) / rho_t);
+    return cone->d / (1.0 / cone->rho_n + (cone->d - 1) / cone->rho_t);
 }
 
-void rb_friction_natural_map(int d, double mu, double rho_n, double rho_t,
-                             const double *r, const double *u, double *F, double *A,
-                             double *B)
+void rb_friction_natural_map(const rb_friction_cone *cone, const double *r,
+                             const double *u, const rb_friction_linearised *at)
 {
-    const double rho = common_rho(d, rho_n, rho_t);
+    const int d = cone->d;
+    const double mu = cone->mu, rho = common_rho(cone);
+    double *F = at->F, *A = at->A, *B = at->B;
     double uhat[3], G[9], D[9], z[3], p[3];
     de_saxce(d, mu, u, uhat, G);
     for (int a = 0; a < d; a++)
@@ -175,27 +177,28 @@ static void root_of_squares(int d, const double *x, const double *y, double leas
 }
 
 static void scalar_fischer_burmeister(int d, double rho, const double *r, const double *u,
-                                      double *F, double *A, double *B)
+                                      const rb_friction_linearised *at)
 {
     const double y = rho * u[0], w = hypot(r[0], y);
-    identity(d, 1.0, A);
-    identity(d, 0.0, B);
+    identity(d, 1.0, at->A);
+    identity(d, 0.0, at->B);
     for (int a = 1; a < d; a++)
-        F[a] = r[a];
-    F[0] = r[0] + y - w;
-    A[0] = 1.0 - (w > 0.0 ? r[0] / w : M_SQRT1_2);
-    B[0] = rho * (1.0 - (w > 0.0 ? y / w : M_SQRT1_2));
+        at->F[a] = r[a];
+    at->F[0] = r[0] + y - w;
+    at->A[0] = 1.0 - (w > 0.0 ? r[0] / w : M_SQRT1_2);
+    at->B[0] = rho * (1.0 - (w > 0.0 ? y / w : M_SQRT1_2));
 }
 
 /* x + y - (x^2 + y^2)^(1/2), x = (mu r_N, r_T), y = rho (uhat_N, mu u_T), both in the
  * Lorentz cone */
-void rb_friction_fischer_burmeister(int d, double mu, double rho_n, double rho_t,
-                                    const double *r, const double *u, double *F,
-                                    double *A, double *B)
+void rb_friction_fischer_burmeister(const rb_friction_cone *cone, const double *r,
+                                    const double *u, const rb_friction_linearised *at)
 {
-    const double rho = common_rho(d, rho_n, rho_t);
+    const int d = cone->d;
+    const double mu = cone->mu, rho = common_rho(cone);
+    double *F = at->F, *A = at->A, *B = at->B;
     if (mu == 0.0) { /* the Lorentz cone loses r_N */
-        scalar_fischer_burmeister(d, rho, r, u, F, A, B);
+        scalar_fischer_burmeister(d, rho, r, u, at);
         return;
     }
     double uhat[3], G[9], x[3], y[3], w[3], L[9], P[9], inverse[9], size = 0.0;

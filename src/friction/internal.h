@@ -226,11 +226,19 @@ void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, dou
 
 /* ---- Functions whose roots are solutions (functions.c) -- */
 
-/* One contact: F(r, u) in units of force, A = dF/dr, B = dF/du (d x d column-major; all
- * three written).  rho_n, rho_t > 0 [force/velocity]. */
-typedef void rb_friction_function(int d, double mu, double rho_n, double rho_t,
-                                  const double *r, const double *u, double *F, double *A,
-                                  double *B);
+/* One contact's cone and scaling: rho_n, rho_t > 0 [force/velocity]. */
+typedef struct {
+    int d;
+    double mu, rho_n, rho_t;
+} rb_friction_cone;
+
+/* F(r, u) in units of force, A = dF/dr, B = dF/du (d x d column-major), all written. */
+typedef struct {
+    double *F, *A, *B;
+} rb_friction_linearised;
+
+typedef void rb_friction_function(const rb_friction_cone *cone, const double *r,
+                                  const double *u, const rb_friction_linearised *at);
 
 rb_friction_function rb_friction_alart_curnier; /* (8) of *Acary* */
 rb_friction_function rb_friction_jean_moreau;   /* (9) */

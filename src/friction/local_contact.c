@@ -169,7 +169,8 @@ static double contact_function(const rb_friction_contact *c, const double *rho,
     const int d = c->d;
     double u[3], A[9], B[9];
     contact_velocity(d, c->W, q, r, u);
-    rb_friction_alart_curnier(d, c->mu, rho[0], rho[1], r, u, F, A, B);
+    rb_friction_alart_curnier(&(rb_friction_cone){d, c->mu, rho[0], rho[1]}, r, u,
+                              &(rb_friction_linearised){F, A, B});
     for (int a = 0; M && a < d; a++)
         for (int b = 0; b < d; b++) {
             M[a + b * d] = A[a + b * d];

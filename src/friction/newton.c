@@ -67,11 +67,12 @@ static double evaluate(newton *s, const double *r, const double *u, double *F)
     const int d = t->d, dd = d * d;
     double sum = 0.0;
     for (int c = 0; c < t->contacts; c++) {
-        double *Fc = F + c * d;
-        s->function(d, t->problem->mu[c], s->system.rho[2 * c], s->system.rho[2 * c + 1],
-                    r + c * d, u + c * d, Fc, s->A + c * dd, s->B + c * dd);
+        const double *rho = s->system.rho + 2 * c;
+        const rb_friction_cone cone = {d, t->problem->mu[c], rho[0], rho[1]};
+        const rb_friction_linearised at = {F + c * d, s->A + c * dd, s->B + c * dd};
+        s->function(&cone, r + c * d, u + c * d, &at);
         for (int a = 0; a < d; a++)
-            sum += Fc[a] * Fc[a];
+            sum += at.F[a] * at.F[a];
     }
     s->system.flops += 40.0 * t->m;
     return sum;
