@@ -394,6 +394,27 @@ static void layers_must_be_resolved(void **state)
     }
 }
 
+/* Where elements are so long that no solver gets anywhere, that is the reason given. */
+static void hopeless_layers_are_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = layered(3e-4, 0.5, 20);
+    rb_rolling_solution s;
+    rb_message why = {""};
+    rc.a.radius = 50.0;
+    rc.a.young = 94500.0;
+    rc.half_width = NAN;
+    rc.approach = 1e-4;
+    rc.gap = RB_GAP_EXACT;
+    rc.mu = 0.3;
+    rc.creep = 1e-3;
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.zone = 0.4;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "may not be longer than the thickness"));
+    rb_rolling_solution_free(&s);
+}
+
 /* Free rolling of a covered roll, docs/physics: xi R/c at nu = 0.5, c/d = 1. */
 static void incompressible_covers_stretch_in_the_nip(void **state)
 {
@@ -533,6 +554,7 @@ int main(void)
         cmocka_unit_test(thin_layers_are_mattresses),
         cmocka_unit_test(thin_incompressible_layers_have_their_limit),
         cmocka_unit_test(layers_must_be_resolved),
+        cmocka_unit_test(hopeless_layers_are_refused),
         cmocka_unit_test(incompressible_covers_stretch_in_the_nip),
         cmocka_unit_test(a_layer_of_the_same_material_is_none),
         cmocka_unit_test(all_solvers_agree),

@@ -237,8 +237,7 @@ rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_ran
     if (s == RB_OK)
         s = (range->over == RB_OVER_SPEED ? over_speeds : over_creepages)(
             &steady, range, &model, curve, why);
-    if (s == RB_OK)
-        s = rb_rolling_check_resolved(&model, why);
+    s = rb_rolling_end(&model, s, why);
     curve->iterations = model.iterations;
     curve->seconds = rb_seconds() - start;
     rb_rolling_model_free(&model);

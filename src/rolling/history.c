@@ -625,9 +625,7 @@ static rb_status run_on_zone(run *r, double zone, double *wider, rb_message *why
     rb_status s = prepare(r, zone, why);
 
     if (s == RB_OK) {
-        s = all_steps(r, why);
-        if (s == RB_OK)
-            s = rb_rolling_check_resolved(r->model, why);
+        s = rb_rolling_end(r->model, all_steps(r, why), why);
         if (s == RB_ZONE && r->rc->zone == 0.0) {
             const rb_rolling_mesh *mesh = &r->model->mesh;
             const double now = fmax(-mesh->ends[0], mesh->ends[mesh->n]);

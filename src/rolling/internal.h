@@ -401,9 +401,11 @@ rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
 /* ---- zone.c ---------------------------------------------------------------------------
  */
 
-/* RB_EINVAL: a layer or cover needs shorter elements than those in contact.  Of meshes
- * that results are taken from; the coarse ones before them may be too coarse. */
-rb_status rb_rolling_check_resolved(const rb_rolling_model *model, rb_message *why);
+/* The end of a solution, a history or a curve with this status.  RB_EINVAL: a layer or
+ * cover needs shorter elements than those in contact, which may also be why it failed.
+ * Of meshes that results are taken from; the coarse ones before them may be too coarse.
+ */
+rb_status rb_rolling_end(const rb_rolling_model *model, rb_status s, rb_message *why);
 /* Solves on equal elements in the given potential contact, or in one that holds the
  * contact.  coarse: elements may be too long for separate patches.  RB_ZONE where there
  * is none; RB_NO_CONTACT. */

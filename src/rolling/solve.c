@@ -21,9 +21,7 @@ rb_status rb_rolling_solve_model_again(const rb_rolling_case *rc, rb_rolling_mod
         rb_rolling_model_free(model);
         s = rb_rolling_history_run(rc, NULL, NULL, model, &history, why);
     } else {
-        s = rb_rolling_model_again(rc, model, why);
-        if (s == RB_OK)
-            s = rb_rolling_check_resolved(model, why);
+        s = rb_rolling_end(model, rb_rolling_model_again(rc, model, why), why);
     }
     rb_rolling_history_free(&history);
     memset(solution, 0, sizeof *solution);

@@ -58,7 +58,7 @@ static int is_loaded(const rb_contact_state *state, int i)
 /* A layer or cover that is nearly incompressible carries by waves as short as it is
  * thick: longer elements make the load of nu = 1/2 wrong by 2 % and more.  Others are
  * mattresses when they are thin, which any element resolves (theory.md L4). */
-rb_status rb_rolling_check_resolved(const rb_rolling_model *model, rb_message *why)
+static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
 {
     static const double nearly_incompressible = 0.49;
     const rb_rolling_case *rc = &model->rc;
@@ -66,8 +66,10 @@ rb_status rb_rolling_check_resolved(const rb_rolling_model *model, rb_message *w
 
     for (int b = 0; b < 1 + rc->elastic_b && model->state.zone; b++) {
         const double thickness = fmax(bodies[b]->layer, bodies[b]->cover);
-        const double h = rb_rolling_longest_element(model->mesh.n, model->state.zone,
-                                                    model->bodies.f.h);
+        const int n = model->mesh.n;
+        const double longest =
+            rb_rolling_longest_element(n, model->state.zone, model->bodies.f.h);
+        const double h = longest > 0.0 ? longest : model->bodies.f.h[n / 2];
         if (thickness > 0.0 && bodies[b]->poisson > nearly_incompressible &&
             h > thickness * (1.0 + 1e-9))
             return rb_fail(why, RB_EINVAL,
@@ -78,6 +80,20 @@ rb_status rb_rolling_check_resolved(const rb_rolling_model *model, rb_message *w
                            h, thickness, ceil(rc->contact_elements * h / thickness));
     }
     return RB_OK;
+}
+
+rb_status rb_rolling_end(const rb_rolling_model *model, rb_status s, rb_message *why)
+{
+    rb_message reason;
+
+    if (s == RB_OK)
+        return check_resolved(model, why);
+    if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || !model->bodies.f.h)
+        return s;
+    const rb_status unresolved = check_resolved(model, &reason);
+    if (unresolved != RB_OK && why)
+        *why = reason;
+    return unresolved == RB_OK ? s : unresolved;
 }
 
 /* Elements without contact at either end; n of them if there is no contact. */
