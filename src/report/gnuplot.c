@@ -45,10 +45,12 @@ static int close_others(posix_spawn_file_actions_t *actions)
     return e;
 }
 
-/* -d: without the start-up files of the machine and of the user. */
+/* -d: without the start-up files of the machine and of the user.  From its standard input
+ * gnuplot reads byte by byte, a system call for each; from a file of any name it reads in
+ * blocks. */
 static int spawn(FILE *script, FILE *picture, FILE *errors, pid_t *pid)
 {
-    char *const argv[] = {"gnuplot", "-d", NULL};
+    char *const argv[] = {"gnuplot", "-d", "/dev/stdin", NULL};
     posix_spawn_file_actions_t actions;
     int e = posix_spawn_file_actions_init(&actions);
     if (e)
