@@ -1,10 +1,10 @@
 /* Rolling contact in two dimensions: case -> contact mesh -> flexibility -> LCP -> solver
  * -> solution.  Each arrow is a public function that takes the structs before it and
- * fills the next one, so that one may stop after any of them and print what is there.
- * Conventions (theory.md 2): A rolls towards +x, material passes the contact from +x to
- * -x; creepage xi > 0 is a braked wheel: A's surface slides towards +x over the ground,
- * the friction on A points to -x, Q < 0.  Loads are per unit length (plane strain).
- * Equation tags (K1) ... (K6): docs/theory.md. */
+ * fills the next one, so that a program can use each one alone and print what it has
+ * found. Conventions (theory.md 2): A rolls towards +x, material passes the contact from
+ * +x to -x; creepage xi > 0 is a braked wheel: A's surface slides towards +x over the
+ * ground, the friction on A points to -x, Q < 0.  Loads are per unit length (plane
+ * strain). Equation tags (K1) ... (K6): docs/theory.md. */
 #ifndef ROLLBEM_ROLLING_H
 #define ROLLBEM_ROLLING_H
 
@@ -520,8 +520,9 @@ const char *rb_rolling_heading(const rb_rolling_result *r, rb_units units,
 const rb_rolling_result *rb_rolling_study_column(int k);
 
 /* Friction power per area and unit speed [stress], n values with sum power h =
- * dissipation: the energy that a wear law takes.  In steady rolling the slip lives
- * between midpoints and counts half for either element (theory.md 6).  NAN in static. */
+ * dissipation: the energy that a wear law takes.  In steady rolling the slip is
+ * known between midpoints, and half of it counts for either element (theory.md 6).  NAN
+ * in static. */
 void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
 
 /* Rise of the temperature at a point of the surface, from a unit heat per area and time

@@ -6,9 +6,9 @@
 #include <math.h>
 #include <stdarg.h>
 
-/* Strains are of the order of approach/R and a/R: linear elasticity is stretched, and
- * does not hold at all. */
-static const double stretched_approach = 0.02, stretched_width = 0.1;
+/* Strains are of the order of approach/R and a/R: from these on linear elasticity is
+ * inaccurate, from those below it does not hold at all. */
+static const double inaccurate_approach = 0.02, inaccurate_width = 0.1;
 /* An element by itself has other states from kappa = 1 on, several together a little
  * earlier (theory.md F3). */
 static const double not_unique = 0.95;
@@ -41,8 +41,8 @@ static void note_strain(rb_report_note_list *list, const rb_rolling_case *rc,
             "approach/R = %.2g, a/R = %.2g: linear elasticity does not hold there, no "
             "body could bear it",
             approach, width);
-    else if (approach > stretched_approach || width > stretched_width)
-        add(list, "approach/R = %.2g, a/R = %.2g: linear elasticity is stretched",
+    else if (approach > inaccurate_approach || width > inaccurate_width)
+        add(list, "approach/R = %.2g, a/R = %.2g: linear elasticity is inaccurate there",
             approach, width);
 }
 

@@ -368,11 +368,10 @@ static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
                        "not a friction law");
     if (!rolls &&
         (rc->mesh != RB_MESH_UNIFORM || rc->contact_elements >= RB_ROLLING_LARGE))
-        return rb_fail(
-            why, RB_EINVAL,
-            "wear: the worn gap lives on equal elements (--mesh uniform), fewer "
-            "than %d",
-            RB_ROLLING_LARGE);
+        return rb_fail(why, RB_EINVAL,
+                       "wear: the worn gap needs equal elements (--mesh uniform), fewer "
+                       "than %d",
+                       RB_ROLLING_LARGE);
     if (rolls && wear->slides)
         return rb_fail(why, RB_EINVAL,
                        "wear: a wheel that rolls does not slide; steady or "
