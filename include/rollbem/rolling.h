@@ -705,6 +705,7 @@ typedef struct {
     int *zone;
     double *delta; /* steps: approach */
     double *xi;    /* steps: what was slid at rest [length], creepage of a rolled step */
+    double half_width; /* that distances count in [length] */
 } rb_rolling_states;
 
 /* RB_ENOMEM leaves it empty. */
@@ -722,7 +723,7 @@ void rb_rolling_states_free(rb_rolling_states *states);
  * the state, or an interface that yields. */
 rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
                                     const rb_rolling_program *program,
-                                    const rb_rolling_states *states, double half_width,
+                                    const rb_rolling_states *states,
                                     const rb_rolling_observer *observer,
                                     rb_rolling_model *model, rb_rolling_history *history,
                                     rb_message *why);

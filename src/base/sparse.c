@@ -67,9 +67,13 @@ static void add_equal_places(rb_sparse *a)
     }
 }
 
-static void place_entries(int nz, const int *order, const int *row, const int *col,
-                          const double *x, rb_sparse *a, int *next)
+static rb_status place_entries(int nz, const int *order, const int *row, const int *col,
+                               const double *x, rb_sparse *a)
 {
+    int *next = rb_alloc_int((size_t)a->cols);
+
+    if (!next)
+        return RB_ENOMEM;
     for (int k = 0; k < nz; k++)
         a->p[col[k] + 1]++;
     running_sum(a->cols, a->p);
@@ -79,7 +83,9 @@ static void place_entries(int nz, const int *order, const int *row, const int *c
         a->i[to] = row[from];
         a->x[to] = x[from];
     }
+    free(next);
     add_equal_places(a);
+    return RB_OK;
 }
 
 rb_status rb_sparse_from_triplets(int rows, int cols, int nz, const int *row,
@@ -93,16 +99,15 @@ rb_status rb_sparse_from_triplets(int rows, int cols, int nz, const int *row,
             return RB_EINVAL;
 
     rb_status s = sparse_alloc(rows, cols, nz, a);
-    int *order = rb_alloc_int((size_t)nz), *next = rb_alloc_int((size_t)cols);
-    if (s == RB_OK && !(order && next))
+    int *order = rb_alloc_int((size_t)nz);
+    if (s == RB_OK && !order)
         s = RB_ENOMEM;
     if (s == RB_OK)
         s = sorted_by_row(rows, nz, row, order);
     if (s == RB_OK)
-        place_entries(nz, order, row, col, x, a, next);
-    else
+        s = place_entries(nz, order, row, col, x, a);
+    if (s != RB_OK)
         rb_sparse_free(a);
-    free(next);
     free(order);
     return s;
 }

@@ -68,12 +68,11 @@ static json_t *result_with(const json_t *root, const json_t *from)
     return one;
 }
 
-static rb_status certify_one(FILE *out, const char *name, const json_t *root,
-                             const json_t *from, rb_case *words,
+/* one: taken over; NULL: no memory. */
+static rb_status certify_one(FILE *out, const char *name, json_t *one, rb_case *words,
                              rb_report_certificate *found, rb_message *why)
 {
     rb_report_certificate own;
-    json_t *one = result_with(root, from);
     const rb_status s = one ? rb_report_certify(out, name, one, words, &own, why)
                             : rb_fail(why, RB_ENOMEM, "%s: out of memory", name);
 
@@ -99,12 +98,12 @@ rb_status rb_report_certify_solutions(FILE *out, const char *name, const json_t 
     if (!json_is_array(all) || json_array_size(all) == 0)
         return rb_fail(why, RB_EFORMAT, "%s: cannot be checked: no list of solutions",
                        name);
-    rb_status s = certify_one(out, name, root, root, words, found, why);
+    rb_status s = certify_one(out, name, result_with(root, root), words, found, why);
     for (size_t k = 0; k < json_array_size(all) && s == RB_OK; k++) {
         const json_t *one = json_array_get(all, k);
         snprintf(label, sizeof label, "%.300s: solution %zu", name, k + 1);
         s = json_object_size(one) == 2
-                ? certify_one(out, label, root, one, words, found, why)
+                ? certify_one(out, label, result_with(root, one), words, found, why)
                 : rb_fail(why, RB_EFORMAT,
                           "%s: cannot be checked: expected a summary and a table", label);
     }

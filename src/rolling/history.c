@@ -691,7 +691,7 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
 
 rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
                                     const rb_rolling_program *program,
-                                    const rb_rolling_states *states, double half_width,
+                                    const rb_rolling_states *states,
                                     const rb_rolling_observer *observer,
                                     rb_rolling_model *model, rb_rolling_history *history,
                                     rb_message *why)
@@ -704,13 +704,13 @@ rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
 
     memset(history, 0, sizeof *history);
     memset(model, 0, sizeof *model);
-    history->half_width = half_width;
+    history->half_width = states->half_width;
     if (rb_rolling_law_moves(rc) || rc->yield_stress > 0.0)
         return rb_fail(why, RB_EINVAL,
                        "history: its states do not tell what friction that depends on "
                        "them, or an interface that yields, remembers");
-    if (!(half_width > 0.0))
+    if (!(states->half_width > 0.0))
         return rb_fail(why, RB_EINVAL, "history: half-width %g: expected > 0",
-                       half_width);
+                       states->half_width);
     return run_program(&r, rc, why);
 }
