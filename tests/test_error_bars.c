@@ -172,7 +172,7 @@ static void count_solution(const rb_rolling_case *rc, counts *t)
     const rb_rolling_case fine = finer(rc);
     rb_rolling_solution s, truth = {0};
     rb_rolling_errors e;
-    rb_status status = rb_rolling_solve_with_errors(rc, 0, &s, &e, NULL);
+    rb_status status = rb_rolling_solve_with_errors(rc, &s, &e, NULL);
 
     if (status == RB_OK)
         status = rb_rolling_solve(&fine, &truth, NULL);
@@ -349,7 +349,7 @@ static void bars_hold_on_a_thin_rim(void **state)
     const rb_rolling_case rc = thin_rim();
     rb_rolling_solution s;
     rb_rolling_errors e;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
     CHECK_ABS(s.approach, 0.068824, e.scalar.approach, "approach");
     CHECK_ABS(s.max_pressure, 36.7829, e.scalar.max_pressure, "p0");
@@ -375,7 +375,7 @@ static void a_narrow_stick_zone_widens_the_bars(void **state)
     rc.shift = -2.26e-4;
     rc.mesh = RB_MESH_FITTED;
     rc.contact_elements = 24;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
     rc.contact_elements = 400;
     CHECK_STATUS(rb_rolling_solve(&rc, &truth, NULL), RB_OK);
     CHECK_ABS(s.force_ratio, truth.force_ratio, e.scalar.force_ratio, "Q/(mu P)");
@@ -394,12 +394,12 @@ static void given_outer_elements_have_bars(void **state)
     rb_rolling_solution s;
     rb_rolling_errors e;
     rc.outer_elements = 100;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_OK);
     CHECK_ABS(s.force_ratio, thin_rim_force_ratio, e.scalar.force_ratio, "Q/(mu P)");
     assert_true(fabs(s.force_ratio - thin_rim_force_ratio) > 0.03);
     rb_rolling_solution_free(&s);
     rc.outer_elements = 15;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, NULL), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_EINVAL);
 }
 
 /* --accuracy refines what needs it, here the boundary. */
@@ -479,7 +479,7 @@ static void a_failed_coarser_run_leaves_the_solution(void **state)
     rc.half_width = 0.1;
     rc.zone = 1.05 * rc.half_width;
     rc.contact_elements = 40;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, &why), RB_ZONE);
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, &why), RB_ZONE);
     CHECK_STATUS(s.status, RB_OK);
     CHECK_REL(s.normal_load, 0.25 * M_PI * 94500.0 / 0.75 * 0.01 / 50.0, 1e-10, "load");
     assert_true(isnan(e.scalar.max_pressure));

@@ -291,7 +291,7 @@ static void count_random_case(int fitted, tally *t)
         rc.creep_ratio = s;
     else
         rc.force_ratio = -s;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &so, &e, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &so, &e, NULL), RB_OK);
     const double a = rc.half_width, p0 = 2.0 * so.normal_load / (M_PI * a);
     tally_count(t, so.max_pressure - p0, e.scalar.max_pressure);
     tally_count(t, so.half_width - a, e.scalar.half_width);
@@ -359,7 +359,7 @@ static void refinement_reaches_the_accuracy(void **state)
     CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 2.0, &s, &e, &elements, NULL),
                  RB_EINVAL);
     rc.contact_elements = 5;
-    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, 0, &s, &e, NULL), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_EINVAL);
 }
 
 /* A name is given once, and the columns of a study are numbered without a gap. */

@@ -941,9 +941,15 @@ typedef struct {
 /* From the spread over n/2, 0.7 n and n contact elements and from the difference that
  * half the elements of wheels outside the contact make.  On a positive status the
  * solution holds what there is; free it in any case. */
-rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, int with_stress,
+rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc,
                                        rb_rolling_solution *solution,
                                        rb_rolling_errors *errors, rb_message *why);
+/* The same of a case that is solved already, from its whole solution in mm, N, MPa; stress:
+ * its maxima down to the usual depth, for their error bars, or NULL. */
+rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc,
+                                     const rb_rolling_solution *solution,
+                                     const rb_rolling_stress_maxima *stress,
+                                     rb_rolling_errors *errors, rb_message *why);
 
 /* Refines contact and boundary until the estimates of P, Q, p0, half-width and creepage
  * are at most `accuracy` relative.  *elements: contact elements that it took; 0: none

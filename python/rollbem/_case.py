@@ -347,6 +347,12 @@ class Sweep(_Named):
         found = {name: values.ravel() for name, values in zip(self.axes, grid)}
         return {**{name: array.ravel() for name, array in self._arrays.items()}, **found}
 
+    def plot(self, figure: Any = None, show: str = "force_ratio", over: Optional[str] = None,
+             family: Optional[str] = None, map: bool = False) -> Any:
+        """A result over one option, a curve for each value of another, as ``rollbem sweep --plot``;
+        with ``map`` its contours over the two.  Returns the figure."""
+        return pictures.study(self, show, over, family, map, figure)
+
     def __repr__(self) -> str:
         return f"<Sweep: {' x '.join(f'{len(v)} {k}' for k, v in self.axes.items())} cases>"
 

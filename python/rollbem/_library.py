@@ -269,12 +269,12 @@ class Handle:
         return array[:, 0] if columns.value == 1 else array
 
     def arrays(self, table: str, prefix: str = "", copied: bool = False) -> dict:
-        """The arrays of a table by name, whole numbers as int."""
+        """The arrays of a table by name, whole numbers as int unless some are missing."""
         found = {}
         for name, result in RESULTS[table].items():
             array = self.array(prefix + name)
             if array is not None:
-                whole = result.kind == "whole"
+                whole = result.kind == "whole" and bool(np.isfinite(array).all())
                 found[name] = array.astype(int) if whole else array.copy() if copied else array
         return found
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from itertools import groupby
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import TYPE_CHECKING, Any, Optional, Sequence
 
 import numpy as np
 
+from ._library import OPTIONS, RESULTS, InvalidInput
+
 if TYPE_CHECKING:
-    from ._case import Curve, History, Solution, Stress
+    from ._case import Curve, History, Solution, Stress, Sweep
 
 PRESSURE, FRICTION, BOUND, SLIP, CARTER = "#1f4e79", "#c0392b", "#7a7a7a", "#6c3483", "#1e8449"
 CURVES = ["#1f4e79", "#c0392b", "#b9770e", "#6c3483", "#117864", "#5d6d7e", "#7b241c", "#2e86c1"]
@@ -153,4 +155,65 @@ def contours(of: "Stress", figure: Any = None, field: str = "max_shear") -> Any:
                        f"at ({largest.x:.4g}, {largest.y:.4g}) mm")
     axes.set(xlabel="x [mm]", ylabel="depth y [mm]", aspect="equal")
     axes.invert_yaxis()
+    return figure
+
+
+def _named(name: str, unit: str) -> str:
+    words = name.replace("_", " ")
+    return words if unit in ("", "1", "-") else f"{words} [{unit}]"
+
+
+def _axis(of: "Sweep", name: "Optional[str]", but: "Optional[str]" = None) -> "Optional[str]":
+    """The option that is asked for, or else the last that has several values."""
+    free = [axis for axis, values in of.axes.items() if len(values) > 1 and axis != but]
+    if name is not None and name not in free:
+        raise InvalidInput(f"expected an option that varies ({', '.join(free)}), got '{name}'")
+    return name or (free[-1] if free else None)
+
+
+def study(of: "Sweep", show: str = "force_ratio", over: "Optional[str]" = None, family: "Optional[str]" = None,
+          map: bool = False, figure: Any = None) -> Any:
+    """A result over one option, a curve for each value of another; or a map over the two.
+
+    Cases that were not solved leave holes.
+    """
+    if show not in RESULTS["number"] or not hasattr(of, show):
+        raise InvalidInput(f"expected a result of the study, got '{show}'")
+    over = _axis(of, over)
+    if over is None:
+        raise InvalidInput("no option varies")
+    family = _axis(of, family, but=over)
+    others = [name for name, values in of.axes.items() if len(values) > 1 and name not in (over, family)]
+    if others:
+        raise InvalidInput(f"{', '.join(others)}: more options vary than the picture shows")
+    if map and family is None:
+        raise InvalidInput("a map needs two options that vary")
+    names = list(of.axes)
+    values = np.where(of.status == 0, getattr(of, show), np.nan)
+    shape = (len(of.axes[family]) if family else 1, len(of.axes[over]))
+    if family and names.index(family) > names.index(over):
+        values = values.squeeze().T
+    values = values.reshape(shape)
+    figure, (axes,) = _figure(figure)
+    label = _named(show, RESULTS["number"][show].unit)
+    axes.set_xlabel(_named(over, OPTIONS[over].unit))
+    # curves and maps go along ascending values
+    order = np.argsort(of.axes[over])
+    x, values = of.axes[over][order], values[:, order]
+    if map:
+        rows = np.argsort(of.axes[family])
+        field = np.ma.masked_invalid(values[rows])
+        filled = axes.contourf(x, of.axes[family][rows], field, 12, cmap="viridis")
+        lines = axes.contour(x, of.axes[family][rows], field, filled.levels, colors="white", linewidths=0.4)
+        axes.clabel(lines, fontsize=7)
+        figure.colorbar(filled, ax=axes, label=label)
+        axes.set_ylabel(_named(family, OPTIONS[family].unit))
+        return figure
+    for row, value, colour in zip(values, of.axes[family] if family else [None], CURVES * (1 + len(values) // len(CURVES))):
+        axes.plot(x, row, color=colour, marker="o", markersize=2.5,
+                  label=None if value is None else f"{family.replace('_', ' ')} = {value:g}")
+    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.set_ylabel(label)
+    if family:
+        axes.legend()
     return figure

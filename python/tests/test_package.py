@@ -153,6 +153,31 @@ def test_pictures(tmp_path):
     rollbem.pictures.curves(rollbem.curve(points=5, mu=[0.1, 0.3], **base))
 
 
+def test_pictures_of_a_study():
+    """What is drawn are the results, in ascending order of the options, whatever theirs is."""
+    pytest.importorskip("matplotlib")
+    base = {k: v for k, v in ROLLED.items() if k not in ("mu", "creep_ratio")}
+    study = rollbem.sweep(creep_ratio=[0.9, 0.2, 0.5], mu=[0.1, 0.4], **base)
+    axes = study.plot(show="tangential_load", over="creep_ratio").axes[0]
+    assert axes.get_xlabel() == "creep ratio" and axes.get_ylabel() == "tangential load [N/mm]"
+    for k, line in enumerate(axes.lines):
+        assert line.get_label() == f"mu = {study.axes['mu'][k]:g}"
+        assert line.get_xdata().tolist() == [0.2, 0.5, 0.9]
+        assert line.get_ydata().tolist() == study.tangential_load[[1, 2, 0], k].tolist()
+    over_mu = study.plot().axes[0]  # the last option that varies
+    assert [list(line.get_ydata()) for line in over_mu.lines] == study.force_ratio.tolist()
+    drawn = study.plot(map=True, show="max_pressure")
+    assert drawn.axes[0].get_ylabel() == "creep ratio" and drawn.axes[1].get_ylabel() == "max pressure [MPa]"
+    study.status[0, 0] = 1  # not solved: a hole
+    assert np.isnan(study.plot().axes[0].lines[0].get_ydata()[0])
+    for wrong, words in (({"show": "p"}, "expected a result"), ({"over": "radius"}, "creep_ratio, mu"),
+                         ({"family": "mu"}, "option that varies")):
+        with pytest.raises(rollbem.InvalidInput, match=words):
+            study.plot(**wrong)
+    with pytest.raises(rollbem.InvalidInput, match="a map needs two"):
+        rollbem.sweep(mu=[0.1, 0.2], **base, creep_ratio=0.5).plot(map=True)
+
+
 @pytest.mark.parametrize("path", sorted((ROOT / "python/examples").glob("*.ipynb")), ids=lambda path: path.stem)
 def test_notebooks_run(path, monkeypatch):
     pytest.importorskip("matplotlib")

@@ -196,7 +196,6 @@ static rb_status add_bond(rb_bem_system *s, const rb_assembly *assembly)
 static rb_status assemble(rb_bem_system *s)
 {
     const rb_bem_mesh *mesh = &s->mesh;
-    const double pairs = (double)mesh->n * mesh->n;
     rb_assembly assembly;
     rb_status status = rb_assembly_begin(mesh, s->material, &assembly);
     if (status != RB_OK)
@@ -204,7 +203,8 @@ static rb_status assemble(rb_bem_system *s)
     for (int j = 0; j < mesh->n; j++)
         s->unit[j] = s->material.shear /
                      hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
-#pragma omp parallel for schedule(static) if (pairs > rb_pairs_for_threads)
+#pragma omp parallel for schedule(static) if ((double)mesh->n * mesh->n >                \
+                                              rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++)
         assemble_element(s, &assembly, j);
     status = s->bond ? add_bond(s, &assembly) : RB_OK;

@@ -47,7 +47,7 @@ rb_status rb_case_solve_again(const rb_settled_case *c, rb_rolling_step *step,
     if (c->accuracy > 0.0)
         return rb_rolling_solve_to_accuracy(&c->rc, c->accuracy, &r->solution, &r->errors,
                                             &r->elements, why);
-    return rb_rolling_solve_with_errors(&c->rc, 0, &r->solution, &r->errors, why);
+    return rb_rolling_solve_with_errors(&c->rc, &r->solution, &r->errors, why);
 }
 
 void rb_case_result_convert(rb_case_result *r, rb_units units)

@@ -193,16 +193,18 @@ static rb_report_stress of_grid(const result *r, const rb_rolling_stress_grid *g
         .s = &r->run.solution};
 }
 
-/* The model belongs to a plain solution; its error bars are estimated beside it. */
+/* The model belongs to a plain solution, whose error bars follow. */
 static rb_status run_case(result *r, rb_message *why)
 {
     rb_settled_case plain = *r->c;
-    rb_rolling_solution again = {0};
+    rb_rolling_stress_maxima maxima;
     plain.error = 0;
     rb_status s = cli_run_case(&plain, NULL, &r->run, why);
     if (s == RB_OK && r->c->error)
-        s = rb_rolling_solve_with_errors(&r->c->rc, 1, &again, &r->errors, why);
-    rb_rolling_solution_free(&again);
+        s = rb_rolling_stress_maxima_find(&r->run.model, 0.0, &maxima, why);
+    if (s == RB_OK && r->c->error)
+        s = rb_rolling_estimate_errors(&r->c->rc, &r->run.solution, &maxima, &r->errors,
+                                       why);
     return s;
 }
 

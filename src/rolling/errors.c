@@ -258,19 +258,15 @@ static rb_status take_sample(const rb_rolling_case *rc, int with_stress, sample 
     return status;
 }
 
-/* The case, then its coarser runs.  The solution stays where one of these fails. */
-static rb_status solve_parts(const rb_rolling_case *rc, int with_stress,
-                             rb_rolling_solution *solution, error_parts *parts,
-                             rb_message *why)
+/* From the case's own results and those of its coarser runs. */
+static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sample *own,
+                            error_parts *parts, rb_message *why)
 {
-    sample own = {0}, run[RB_ERROR_RUNS] = {0};
+    sample run[RB_ERROR_RUNS] = {0};
     rb_message reason = {""};
     const int runs = rb_rolling_error_runs(rc);
-    rb_status status = take_sample(rc, with_stress, &own, why);
+    rb_status status = RB_OK;
 
-    *solution = own.solution;
-    if (status != RB_OK)
-        return status;
     for (int k = 0; k < runs && status == RB_OK; k++) {
         const rb_rolling_case coarser = rb_rolling_error_run(rc, k);
         status = take_sample(&coarser, with_stress, &run[k], &reason);
@@ -279,13 +275,43 @@ static rb_status solve_parts(const rb_rolling_case *rc, int with_stress,
                     coarser.contact_elements, reason.text);
     }
     if (status == RB_OK)
-        estimate(rc, run, &own, with_stress, parts);
+        estimate(rc, run, own, with_stress, parts);
     for (int k = 0; k < runs; k++)
         rb_rolling_solution_free(&run[k].solution);
     return status;
 }
 
-rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, int with_stress,
+rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc,
+                                     const rb_rolling_solution *solution,
+                                     const rb_rolling_stress_maxima *stress,
+                                     rb_rolling_errors *errors, rb_message *why)
+{
+    sample own = {.solution = *solution};
+    error_parts parts;
+    rb_status status = rb_rolling_error_check(rc, why);
+
+    if (stress)
+        own.stress = *stress;
+    *errors = rb_rolling_no_row(RB_OK).errors;
+    if (status == RB_OK)
+        status = find_parts(rc, stress != NULL, &own, &parts, why);
+    if (status == RB_OK)
+        add_parts(&parts, errors);
+    return status;
+}
+
+/* The solution stays where a coarser run fails. */
+static rb_status solve_parts(const rb_rolling_case *rc, rb_rolling_solution *solution,
+                             error_parts *parts, rb_message *why)
+{
+    sample own = {0};
+    const rb_status status = take_sample(rc, 0, &own, why);
+
+    *solution = own.solution;
+    return status == RB_OK ? find_parts(rc, 0, &own, parts, why) : status;
+}
+
+rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc,
                                        rb_rolling_solution *solution,
                                        rb_rolling_errors *errors, rb_message *why)
 {
@@ -295,7 +321,7 @@ rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc, int with_stres
     memset(solution, 0, sizeof *solution);
     *errors = rb_rolling_no_row(RB_OK).errors;
     if (status == RB_OK)
-        status = solve_parts(rc, with_stress, solution, &parts, why);
+        status = solve_parts(rc, solution, &parts, why);
     if (status == RB_OK)
         add_parts(&parts, errors);
     return status;
@@ -367,7 +393,7 @@ rb_status rb_rolling_solve_to_accuracy(const rb_rolling_case *rc, double accurac
         return status;
     do {
         rb_rolling_solution finer;
-        status = solve_parts(&refined, 0, &finer, &parts, why);
+        status = solve_parts(&refined, &finer, &parts, why);
         if (status != RB_OK && round > 0) {
             rb_rolling_solution_free(&finer); /* the best one so far stays */
             break;

@@ -39,18 +39,17 @@ static processes *processes_of(rb_rolling_pool *pool)
 
 /* What a row has besides the solution. */
 static rb_status measure(unsigned also, const rb_rolling_case *rc,
-                         const rb_rolling_model *model, rb_rolling_row *row)
+                         const rb_rolling_model *model,
+                         const rb_rolling_solution *solution, rb_rolling_row *row)
 {
     const int with_stress = (also & RB_ROW_STRESS) != 0;
     rb_status s = RB_OK;
 
     if (with_stress)
         s = rb_rolling_stress_maxima_find(model, 0.0, &row->stress, NULL);
-    if (s == RB_OK && also & RB_ROW_ERRORS) {
-        rb_rolling_solution again;
-        s = rb_rolling_solve_with_errors(rc, with_stress, &again, &row->errors, NULL);
-        rb_rolling_solution_free(&again);
-    }
+    if (s == RB_OK && also & RB_ROW_ERRORS)
+        s = rb_rolling_estimate_errors(rc, solution, with_stress ? &row->stress : NULL,
+                                       &row->errors, NULL);
     return s;
 }
 
@@ -66,7 +65,8 @@ static void solve_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row *row
         s = rb_rolling_solve_model(&rc, &model, &solution, NULL);
     if (s >= 0 && solution.p)
         row->solution = rb_rolling_scalars_of(&solution);
-    row->solution.status = s == RB_OK ? measure(sweep->also, &rc, &model, row) : s;
+    row->solution.status =
+        s == RB_OK ? measure(sweep->also, &rc, &model, &solution, row) : s;
     rb_rolling_solution_free(&solution);
     rb_rolling_model_free(&model);
 }
