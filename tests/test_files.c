@@ -31,8 +31,7 @@ static void clear(void)
     assert_int_equal(system("rm -rf ./* .r*; : >out; : >err"), 0);
 }
 
-/* ---- Inputs ---------------------------------------------------------------------------
- */
+/* ---- Inputs ------------------------------------------------------------------------ */
 
 static const struct {
     const char *arguments, *part;
@@ -74,8 +73,7 @@ static void inputs_are_not_written_over(void **state)
     clear();
 }
 
-/* ---- What cannot be written -----------------------------------------------------------
- */
+/* ---- What cannot be written -------------------------------------------------------- */
 
 static const char *const unwritable[] = {
     CASE "--output /no/file",         CASE "--plot /no/file.svg",
@@ -167,8 +165,7 @@ static void a_dump_replaces_the_one_before(void **state)
     clear();
 }
 
-/* ---- Signals --------------------------------------------------------------------------
- */
+/* ---- Signals ----------------------------------------------------------------------- */
 
 /* The signal comes once the run has used a tenth of a second of processor time: it is at
  * work then, however busy the machine is, and none of these ends so soon. */
@@ -205,8 +202,7 @@ static void signals_leave_nothing_behind(void **state)
         }
 }
 
-/* ---- Descriptors and names ------------------------------------------------------------
- */
+/* ---- Descriptors and names --------------------------------------------------------- */
 
 static void a_closed_output_matters_only_where_it_is_used(void **state)
 {
@@ -257,8 +253,7 @@ static void names_of_any_bytes_are_printed(void **state)
     clear();
 }
 
-/* ---- What is no text ------------------------------------------------------------------
- */
+/* ---- What is no text --------------------------------------------------------------- */
 
 static void files_that_are_no_text_are_named(void **state)
 {
@@ -280,8 +275,7 @@ static void files_that_are_no_text_are_named(void **state)
     clear();
 }
 
-/* ---- Memory ---------------------------------------------------------------------------
- */
+/* ---- Memory ------------------------------------------------------------------------ */
 
 /* OpenBLAS waits for ever for its buffer. */
 static void a_limit_of_memory_is_said(void **state)

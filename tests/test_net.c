@@ -12,8 +12,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
-/* ---- Factors ------------------------------------------------------------------------
- */
+/* ---- Factors ----------------------------------------------------------------------- */
 
 enum {
     SUPPORT,
@@ -293,8 +292,7 @@ static int starts(const int *row, int factor, const char *start)
     return strncmp(name_of(row, factor), start, strlen(start)) == 0;
 }
 
-/* ---- What does not go together --------------------------------------------------------
- */
+/* ---- What does not go together ----------------------------------------------------- */
 
 /* Names as "factor=level"; "level*": all that start so.  reason: part of the line that
  * refuses it, or NULL: the program takes it, and the net leaves it out because it costs

@@ -358,8 +358,7 @@ rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points po
 rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load,
                                          rb_bem_points points, double *stress);
 
-/* ---- A reference ---------------------------------------------------------------------
- */
+/* ---- A reference ------------------------------------------------------------------- */
 
 /* Exact elastic disc: displacement of its rim (u_r outwards, u_t counter-clockwise) at
  * `angle` counter-clockwise from the middle of an arc of width h, 0 < h < 2 pi, under

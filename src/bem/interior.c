@@ -116,8 +116,7 @@ static rb_status interior_make(const rb_bem_boundary *body, rb_interior *in)
     return RB_OK;
 }
 
-/* ---- Off the surface -----------------------------------------------------------------
- */
+/* ---- Off the surface --------------------------------------------------------------- */
 
 typedef struct {
     cplx twoGu, normal, deviator; /* sum A I0; sum (B I0 - A I1) */
@@ -176,8 +175,7 @@ static int evaluate_inside(const rb_interior *in, double x, double y,
     return field.angle > M_PI;
 }
 
-/* ---- On the surface
- * -------------------------------------------------------------------- */
+/* ---- On the surface ---------------------------------------------------------------- */
 
 /* The element on which (x, y) lies, or -1; *s: from its midpoint along it. */
 static int element_at(const rb_interior *in, double x, double y, double *s)

@@ -19,8 +19,7 @@ enum {
     BLOCK = 1024 /* points whose waves stand in memory, where no matrix is formed */
 };
 
-/* ---- Transfer functions (L2) ---------------------------------------------------------
- */
+/* ---- Transfer functions (L2) ------------------------------------------------------- */
 
 /* Normalised displacements of the surface under unit waves of pressure and friction. */
 typedef struct {
@@ -103,8 +102,7 @@ static double base_compliance(const rb_bem_surface *body)
                : 0.0;
 }
 
-/* ---- Panels of wave numbers
- * ------------------------------------------------------------ */
+/* ---- Panels of wave numbers -------------------------------------------------------- */
 
 /* Ends of the panels in al: narrow enough for cos(al x/d), halved towards zero. */
 static double *make_panels(const rb_bem_surface *body, double reach, int *count)
@@ -129,8 +127,7 @@ static double *make_panels(const rb_bem_surface *body, double reach, int *count)
     return end;
 }
 
-/* ---- Products -------------------------------------------------------------------------
- */
+/* ---- Products ---------------------------------------------------------------------- */
 
 /* With waves exp(i k (x - s)) split into those of the points and those of the strips, the
  * remainder is a product of thin matrices: W += P D', P: cosines and sines of the points
@@ -252,8 +249,7 @@ static rb_status integrate(waves *w, add_nodes *add, void *to)
     return s;
 }
 
-/* ---- The matrix of all points and strips ----------------------------------------------
- */
+/* ---- The matrix of all points and strips ------------------------------------------- */
 
 /* block += scale P D'. */
 static void add_block(const waves *w, double scale, const double *D, double *block)
@@ -295,8 +291,7 @@ rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points,
     return s;
 }
 
-/* ---- The displacement under given tractions -------------------------------------------
- */
+/* ---- The displacement under given tractions ---------------------------------------- */
 
 typedef struct {
     const rb_bem_edge_load *load;

@@ -49,8 +49,7 @@ rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why)
     return RB_OK;
 }
 
-/* ---- One strip ------------------------------------------------------------------------
- */
+/* ---- One strip --------------------------------------------------------------------- */
 
 /* int ln|s/d| ds over the strip of half-length b whose midpoint lies X from the point.
  * Near: [s ln|s/d| - s].  Far: the difference of its two large parts is formed as
@@ -126,8 +125,7 @@ static void set_entries(const strip_kernel *k, double X, double b, const respons
     N[m + i] = -e.q;
 }
 
-/* ---- Many -----------------------------------------------------------------------------
- */
+/* ---- Many -------------------------------------------------------------------------- */
 
 rb_status rb_bem_surface_displacement(const rb_bem_surface *body, int n,
                                       const double *ends, int points, const double *x,

@@ -77,8 +77,7 @@ static const char about[] =
     "Units: bar and truss N, mm, MPa; wall SI. x to the right, the last axis up; normal\n"
     "reactions >= 0 push up.";
 
-/* ---- Writing --------------------------------------------------------------------------
- */
+/* ---- Writing ----------------------------------------------------------------------- */
 
 static json_t *inputs_of(const example_options *o, const char *name)
 {
@@ -114,8 +113,7 @@ static rb_report_cells begin_table(FILE *out, const example_options *o,
     return c;
 }
 
-/* ---- Bar and truss --------------------------------------------------------------------
- */
+/* ---- Bar and truss ----------------------------------------------------------------- */
 
 typedef struct {
     const char *name, *columns;
@@ -233,8 +231,7 @@ static cli_exit run_truss(const example_options *o)
     return code;
 }
 
-/* ---- Wall
- * ------------------------------------------------------------------------------ */
+/* ---- Wall -------------------------------------------------------------------------- */
 
 typedef struct {
     const example_options *o;
@@ -393,8 +390,7 @@ static cli_exit run_wall(const example_options *o)
     return code;
 }
 
-/* ---- Command
- * --------------------------------------------------------------------------- */
+/* ---- Command ----------------------------------------------------------------------- */
 
 static cli_exit check(const example_options *o, const cli_args *args)
 {

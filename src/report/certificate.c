@@ -56,8 +56,7 @@ static double largest(const json_t *list)
     return most;
 }
 
-/* ---- What can be checked --------------------------------------------------------------
- */
+/* ---- What can be checked ----------------------------------------------------------- */
 
 static rb_status refuse(const char *name, const char *what, rb_message *why)
 {

@@ -41,8 +41,7 @@ void rb_certificate_given(rb_certificate *c, double load);
 void rb_certificate_motion(rb_certificate *c);
 /* Contact and friction, element by element. */
 rb_status rb_certificate_laws(rb_certificate *c);
-/* ---- certificate_history.c ------------------------------------------------------------
- */
+/* ---- certificate_history.c --------------------------------------------------------- */
 
 /* Follows the steps of a history by its states, judges each of them and leaves the model
  * at the last one.  h: overwritten; free it in any case. */

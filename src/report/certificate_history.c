@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- The states -----------------------------------------------------------------------
- */
+/* ---- The states -------------------------------------------------------------------- */
 
 static const json_t *list_of_step(const json_t *states, const char *key, int step)
 {
@@ -75,8 +74,7 @@ static rb_status read_states(const rb_certificate *c, const json_t *printed,
     return s;
 }
 
-/* ---- Steps ----------------------------------------------------------------------------
- */
+/* ---- Steps ------------------------------------------------------------------------- */
 
 typedef struct {
     rb_certificate *c;
@@ -125,8 +123,7 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
     return j.status != RB_OK ? j.status : s;
 }
 
-/* ---- Columns --------------------------------------------------------------------------
- */
+/* ---- Columns ----------------------------------------------------------------------- */
 
 /* moment: load times half-width, of which the moment of a symmetric pressure is rounding.
  */

@@ -13,8 +13,7 @@
 
 extern char **environ;
 
-/* ---- The program --------------------------------------------------------------------
- */
+/* ---- The program ------------------------------------------------------------------- */
 
 /* A file without a name that gnuplot does not inherit. */
 static FILE *temporary(void)
@@ -115,8 +114,7 @@ static rb_status wait_for(pid_t pid, double seconds, FILE *errors, rb_message *w
     return RB_OK;
 }
 
-/* ---- The picture --------------------------------------------------------------------
- */
+/* ---- The picture ------------------------------------------------------------------- */
 
 /* How a whole picture begins and ends, line ends apart. */
 static const struct {
@@ -186,8 +184,7 @@ rb_status rb_report_gnuplot(FILE *script, rb_report_picture_kind kind, double se
     return s;
 }
 
-/* ---- Kinds and shapes ---------------------------------------------------------------
- */
+/* ---- Kinds and shapes -------------------------------------------------------------- */
 
 rb_status rb_report_picture_kind_of(const char *path, rb_report_picture_kind *kind,
                                     rb_message *why)

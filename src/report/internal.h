@@ -12,8 +12,7 @@ const char *rb_report_lcp_form(rb_contact_lcp_form form);
 /* For people: 0 where x is rounding of a sum of terms of that size. */
 double rb_report_tidy(double x, double size);
 
-/* ---- Columns by the tables of results ------------------------------------------------
- */
+/* ---- Columns by the tables of results ---------------------------------------------- */
 
 /* The columns of an owner side by side; of errors those that have error bars alone. */
 typedef struct {
@@ -49,8 +48,7 @@ void rb_report_json_columns(struct json_t **object, int rows, const rb_report_co
 
 int rb_report_stress_is_inside(const rb_report_stress *s, int k);
 
-/* ---- Behind the solution -------------------------------------------------------------
- */
+/* ---- Behind the solution ----------------------------------------------------------- */
 
 /* What rb_report_trace has left in the folder. */
 void rb_report_remove_tableaux(const char *folder);

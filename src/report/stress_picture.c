@@ -132,8 +132,7 @@ static void write_subtitle(FILE *out, const view *v, const char *title, double y
     rb_report_label_bodies(out, v->s->rc, s->units, 0.5, y - line);
 }
 
-/* ---- Contours ------------------------------------------------------------------------
- */
+/* ---- Contours ---------------------------------------------------------------------- */
 
 typedef struct {
     double left, middle, width, height; /* in parts of the canvas */
@@ -234,8 +233,7 @@ rb_status rb_report_stress_picture(FILE *out, rb_report_canvas canvas,
     return rb_report_draw(out, canvas, RB_REPORT_WIDE, write_contours, &v, why);
 }
 
-/* ---- Fringes -------------------------------------------------------------------------
- */
+/* ---- Fringes ----------------------------------------------------------------------- */
 
 /* Between crossed polarisers light passes as sin^2 of pi times the order. */
 static void write_fringes(FILE *out, rb_report_canvas canvas, const void *context)

@@ -24,8 +24,7 @@ double rb_rolling_peclet(const rb_rolling_heat *body, double speed, double half_
                                     : INFINITY;
 }
 
-/* ---- One body (T1) ------------------------------------------------------------------
- */
+/* ---- One body (T1) ----------------------------------------------------------------- */
 
 /* G(z) = z exp(z) [K0|z| + sgn(z) K1|z|] - 1, the integral of exp(t) K0|t| from 0. */
 static double moving_source(double z)
@@ -93,8 +92,7 @@ static void conductor_row(const conductor *c, int i, double *row)
     }
 }
 
-/* ---- Both bodies ---------------------------------------------------------------------
- */
+/* ---- Both bodies ------------------------------------------------------------------- */
 
 static int is_contact(const rb_rolling_solution *s, int i)
 {
@@ -222,8 +220,7 @@ void rb_rolling_warmest(int n, const double *x, const int *zone, const double *t
     *at -= slope / (2.0 * curvature);
 }
 
-/* ---- Rolling in time ------------------------------------------------------------------
- */
+/* ---- Rolling in time --------------------------------------------------------------- */
 
 /* So much smaller than a Peclet number of 10 the heat that spreads along the surface
  * would count by more than 1e-3. */

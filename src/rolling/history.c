@@ -18,8 +18,7 @@ void rb_rolling_history_free(rb_rolling_history *h)
     memset(h, 0, sizeof *h);
 }
 
-/* ---- Steps ----------------------------------------------------------------------------
- */
+/* ---- Steps ------------------------------------------------------------------------- */
 
 typedef struct {
     const rb_rolling_case *rc;
@@ -415,8 +414,7 @@ static rb_status all_steps(run *r, rb_message *why)
     return s;
 }
 
-/* ---- Preparation --------------------------------------------------------------------
- */
+/* ---- Preparation ------------------------------------------------------------------- */
 
 static double largest(const double *column, int n, double own)
 {

@@ -24,8 +24,7 @@ double rb_rolling_force_ratio(const rb_rolling_model *model);
  * long line of equal elements, by Newton. */
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
 
-/* ---- profile.c ----------------------------------------------------------------------
- */
+/* ---- profile.c --------------------------------------------------------------------- */
 
 /* Number and places of the points that the spline goes through; borrowed. */
 int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x);
@@ -33,8 +32,7 @@ int rb_rolling_profile_rows(const rb_rolling_profile *profile, const double **x)
 rb_status rb_rolling_points_check(const char *what, int n, const double *x,
                                   const double *gap, rb_message *why);
 
-/* ---- Rows of the table of bodies (body.c) --------------------------------------------
- */
+/* ---- Rows of the table of bodies (body.c) ------------------------------------------ */
 
 /* The flexibility of one body. */
 typedef struct {
@@ -73,8 +71,7 @@ struct rb_rolling_body_kind {
 /* All rows; NULL ends them. */
 extern const rb_rolling_body_kind *const rb_rolling_body_kinds[];
 
-/* ---- body_wheel.c, body_halfplane.c: rows of the table in body.c ----------------------
- */
+/* ---- body_wheel.c, body_halfplane.c: rows of the table in body.c ------------------- */
 
 extern const rb_rolling_body_kind rb_rolling_arc, rb_rolling_hub, rb_rolling_cover;
 extern const rb_rolling_body_kind rb_rolling_halfplane, rb_rolling_layer,
@@ -106,21 +103,18 @@ rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
                                      const rb_rolling_body *body,
                                      double length[RB_ROLLING_TERMS]);
 
-/* ---- bodies.c ------------------------------------------------------------------------
- */
+/* ---- bodies.c ---------------------------------------------------------------------- */
 
 /* w = w0 + F (p, q), 2m values, m = n + 1.  RB_ENOMEM. */
 rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double *p,
                                   const double *q, double *w);
 
-/* ---- mesh.c ---------------------------------------------------------------------------
- */
+/* ---- mesh.c ------------------------------------------------------------------------ */
 
 /* Gaps at the midpoints, with the irregularity where it is now.  RB_ENOMEM. */
 rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh);
 
-/* ---- ahead.c --------------------------------------------------------------------------
- */
+/* ---- ahead.c ----------------------------------------------------------------------- */
 
 /* Tangential displacement a length `step` further along the surface than each midpoint:
  * w_T = w0_T + W_T (p, q).  Equal elements, half-planes and wheels. */
@@ -145,8 +139,7 @@ void rb_rolling_ahead_free(rb_rolling_ahead *ahead);
 rb_status rb_rolling_displacement_outside(const rb_rolling_case *rc,
                                           const rb_rolling_bodies *bodies, double *W_T);
 
-/* ---- formulation.c: what changes from step to step ------------------------------------
- */
+/* ---- formulation.c: what changes from step to step --------------------------------- */
 
 /* The creepage of ratio xi R/(mu a), mu the largest coefficient, and the ratio of a
  * creepage: NAN without friction or contact. */
@@ -207,8 +200,7 @@ rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *wh
 double rb_rolling_sliding_creepage(const rb_rolling_case *rc,
                                    const rb_contact_problem *p);
 
-/* ---- heat.c ---------------------------------------------------------------------------
- */
+/* ---- heat.c ------------------------------------------------------------------------ */
 
 /* 1 where the case asks for temperatures. */
 int rb_rolling_has_heat(const rb_rolling_case *rc);
@@ -243,8 +235,7 @@ void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
                                 double *temperature);
 void rb_rolling_heat_track_free(rb_rolling_heat_track *track);
 
-/* ---- relax.c --------------------------------------------------------------------------
- */
+/* ---- relax.c ----------------------------------------------------------------------- */
 
 /* A body that relaxes, and the filtered tractions of each of its terms (V6). */
 typedef struct {
@@ -298,8 +289,7 @@ void rb_rolling_columns_free(const rb_rolling_results *table, void *owner);
 /* A column of numbers. */
 double *rb_rolling_column(const rb_rolling_result *r, const void *owner);
 
-/* ---- program.c ------------------------------------------------------------------------
- */
+/* ---- program.c --------------------------------------------------------------------- */
 
 /* Rows at rest that the program begins with. */
 int rb_rolling_program_at_rest(const rb_rolling_program *program);
@@ -322,8 +312,7 @@ rb_status rb_rolling_program_check(const rb_rolling_program *program,
 double *rb_rolling_program_of_case(const rb_rolling_case *rc,
                                    rb_rolling_program *program);
 
-/* ---- errors.c -------------------------------------------------------------------------
- */
+/* ---- errors.c ---------------------------------------------------------------------- */
 
 /* The coarser runs whose differences are the error: 2, with wheels 3 = RB_ERROR_RUNS. */
 enum { RB_ERROR_RUNS = 3 };
@@ -343,8 +332,7 @@ double rb_rolling_boundary_error(int runs, const double coarser[], double own);
 double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage,
                              double a, double share);
 
-/* ---- coarse.c -------------------------------------------------------------------------
- */
+/* ---- coarse.c ---------------------------------------------------------------------- */
 
 /* Elements of the mesh that starts one of n. */
 int rb_rolling_coarse_elements(int n);
@@ -353,8 +341,7 @@ void rb_rolling_start_from(const rb_rolling_case *rc, const rb_rolling_mesh *mes
                            const rb_contact_state *coarse,
                            const rb_rolling_mesh *fine_mesh, rb_contact_state *fine);
 
-/* ---- model.c -------------------------------------------------------------------------
- */
+/* ---- model.c ----------------------------------------------------------------------- */
 
 /* Takes over the mesh, builds the bodies on it and solves.  RB_ZONE: solved, and the
  * contact does not end within the mesh. */
@@ -376,8 +363,7 @@ rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
 rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
                                           rb_message *why);
 
-/* ---- outside.c ------------------------------------------------------------------------
- */
+/* ---- outside.c --------------------------------------------------------------------- */
 
 enum { RB_MOST_OVERLAPS = 16 };
 
@@ -398,8 +384,7 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
  * problem. */
 rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
                                     const rb_contact_state *state, rb_message *why);
-/* ---- zone.c ---------------------------------------------------------------------------
- */
+/* ---- zone.c ------------------------------------------------------------------------ */
 
 /* The end of a solution, a history or a curve with this status.  RB_EINVAL: a layer or
  * cover needs shorter elements than those in contact, which may also be why it failed.
@@ -411,8 +396,7 @@ rb_status rb_rolling_end(const rb_rolling_model *model, rb_status s, rb_message 
  * is none; RB_NO_CONTACT. */
 rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why);
 
-/* ---- align.c --------------------------------------------------------------------------
- */
+/* ---- align.c ----------------------------------------------------------------------- */
 
 /* A first solution, then equal elements whose ends meet both edges; where these do not
  * come to rest, equal ones anywhere, with model->equal_instead saying so.  RB_EINVAL:
@@ -420,8 +404,7 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
 rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why);
 /* The same from the edges that the model has now. */
 rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why);
-/* ---- fit.c ----------------------------------------------------------------------------
- */
+/* ---- fit.c ------------------------------------------------------------------------- */
 
 /* Solves on elements fitted to the contact edges; on equal ones where these do not come
  * to rest, with model->equal_instead saying so. */
@@ -431,8 +414,7 @@ rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why);
 /* As many equal elements across the contact, wherever their ends are. */
 rb_status rb_rolling_solve_equal_instead(rb_rolling_model *model, rb_message *why);
 
-/* ---- mesh.c ---------------------------------------------------------------------------
- */
+/* ---- mesh.c ------------------------------------------------------------------------ */
 
 /* What is worn off at x. */
 double rb_rolling_worn_depth(const rb_rolling_case *rc, double x);
@@ -455,8 +437,7 @@ rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int count,
                                 const rb_rolling_span *span, rb_rolling_mesh *mesh,
                                 rb_message *why);
 
-/* ---- solution.c -----------------------------------------------------------------------
- */
+/* ---- solution.c -------------------------------------------------------------------- */
 
 /* Tractions of the state on A in global x, y: 2 per contact element. */
 void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
@@ -468,8 +449,7 @@ void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *co
 /* The longest element in contact. */
 double rb_rolling_longest_element(int n, const int *zone, const double *h);
 
-/* ---- power.c --------------------------------------------------------------------------
- */
+/* ---- power.c ----------------------------------------------------------------------- */
 
 /* Power per unit speed of friction q (n) and slip displacement lambda (n); NAN for
  * static. */
@@ -481,8 +461,7 @@ double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const doubl
  * rolling.  RB_ENOMEM. */
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power);
 
-/* ---- patches.c ------------------------------------------------------------------------
- */
+/* ---- patches.c --------------------------------------------------------------------- */
 
 /* A patch: neighbouring elements first ... last in contact, and its edges. */
 typedef struct {

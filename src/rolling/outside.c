@@ -16,8 +16,7 @@ enum {
  * would carry next to nothing. */
 static const double NEGLIGIBLE = 1e-3;
 
-/* ---- Displacement of the surfaces away from the contact -------------------------------
- */
+/* ---- Displacement of the surfaces away from the contact ---------------------------- */
 
 /* Elements in groups with the mean of their tractions. */
 typedef struct {
@@ -203,8 +202,7 @@ static rb_status displacement(const rb_rolling_model *model,
     return status;
 }
 
-/* ---- Where nobody has looked ---------------------------------------------------------
- */
+/* ---- Where nobody has looked ------------------------------------------------------- */
 
 /* Element of the mesh that x lies in; -1, n: before and behind all. */
 static int element_at(const rb_rolling_mesh *mesh, double x)
