@@ -83,6 +83,12 @@ static const struct {
      "half-width: expected less than the radius of either body, 50"},
     {"--support halfplane --similar --radius-b 2 --half-width 3", 64,
      "half-width: expected less than the radius of either body, 2"},
+    {"--support halfplane --load 100 --young 1 --layer-thickness 0.01 --poisson 0.495 "
+     "--mesh uniform --contact-elements 20",
+     64, "layer thickness: with nu = 0.495 the elements"},
+    {"--support halfplane --load 100 --young-b 1000 --layer-thickness-b 0.01 --poisson-b "
+     "0.495 --mesh uniform --contact-elements 20",
+     64, "layer thickness: with nu = 0.495 the elements"},
     {"--trace --solver newton", 64, "--trace: only --solver lemke pivots"},
     {"--support hub --contact-elements 3 --zone 47.5 --approach 1", 64,
      "no room for the element before it within the radius, 50 mm"},

@@ -165,9 +165,9 @@ static void cold_starts_end_where_lemke_does(void **state)
     }
 }
 
-/* Where nothing sticks under a given creepage no element is held, which only a given force
- * needs: Newton ends by itself, without the fall back to Lemke, and all of the contact slides
- * the way the creepage says. */
+/* Where nothing sticks under a given creepage no element is held, which only a given
+ * force needs: Newton ends by itself, without the fall back to Lemke, and all of the
+ * contact slides the way the creepage says. */
 static void full_sliding_needs_no_other_solver(void **state)
 {
     (void)state;

@@ -294,7 +294,7 @@ double rb_rolling_number(const rb_rolling_result *r, const void *owner)
     if (r->kind != RB_RESULT_WHOLE)
         return *(const double *)at;
     const int count = *(const int *)at;
-    return count < 0 ? NAN : count;
+    return count < 0 ? (double)NAN : count; /* NAN is a float */
 }
 
 static void *column_of(const rb_rolling_result *r, const void *owner)
