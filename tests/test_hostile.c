@@ -176,8 +176,9 @@ static void make_case(int k)
 
 /* ---- Judgement --------------------------------------------------------------------- */
 
-enum { SOLVED, REFUSED, UNSOLVED, WRONG, ENDS };
-static const char *const ends[ENDS] = {"right", "refused", "not solved", "wrong"};
+enum { SOLVED, REFUSED, BEYOND, UNSOLVED, WRONG, ENDS };
+static const char *const ends[ENDS] = {"right", "refused", "beyond the given gap",
+                                       "not solved", "wrong"};
 
 enum { REASONS = 60, SECONDS_AIM = 5, SECONDS_MAX = 60 };
 static struct {
@@ -237,6 +238,13 @@ static int run_case(int k, double *seconds)
         for (const char *more; last && (more = strstr(last + 9, "rollbem: "));
              last = more)
             ;
+        /* high friction between unlike bodies widens the contact: such a case has no
+         * answer where its table of the gap says nothing any more */
+        if (last && strstr(last, "the gap table or the wheel has x") &&
+            strstr(line, "--gap gap.txt")) {
+            count_reason("beyond the given gap", last + 9);
+            return BEYOND;
+        }
         count_reason("not solved", last ? last + 9 : err);
         if (getenv("HOSTILE"))
             print_message("case %d is not solved:%s\n", k, line);
