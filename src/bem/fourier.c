@@ -3,6 +3,7 @@
 #ifdef _OPENMP
 #include <omp.h>
 #endif
+#include <pthread.h>
 #include <string.h>
 
 /* Below this length a transform is over before a second thread has begun. */
@@ -42,7 +43,10 @@ double *rb_fourier_alloc(const rb_fourier *f)
     return fftw_alloc_real((size_t)f->size + 2);
 }
 
-/* FFTW's planner is not reentrant, nor is the end of a plan. */
+/* FFTW's planner is not reentrant, nor is the end of a plan.  No critical section of
+ * OpenMP, as threads of the caller meet here in a build without OpenMP, too. */
+static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
+
 int rb_fourier_make(int least, rb_fourier *f)
 {
     *f = (rb_fourier){.size = good_size(least)};
@@ -50,12 +54,11 @@ int rb_fourier_make(int least, rb_fourier *f)
     fftw_complex *transform = (fftw_complex *)work;
 
     if (work) {
-#pragma omp critical(rb_fourier_planner)
-        {
-            choose_threads(f->size);
-            f->forward = fftw_plan_dft_r2c_1d(f->size, work, transform, FFTW_ESTIMATE);
-            f->backward = fftw_plan_dft_c2r_1d(f->size, transform, work, FFTW_ESTIMATE);
-        }
+        pthread_mutex_lock(&planner);
+        choose_threads(f->size);
+        f->forward = fftw_plan_dft_r2c_1d(f->size, work, transform, FFTW_ESTIMATE);
+        f->backward = fftw_plan_dft_c2r_1d(f->size, transform, work, FFTW_ESTIMATE);
+        pthread_mutex_unlock(&planner);
     }
     fftw_free(work);
     if (f->forward && f->backward)
@@ -66,13 +69,12 @@ int rb_fourier_make(int least, rb_fourier *f)
 
 void rb_fourier_free(rb_fourier *f)
 {
-#pragma omp critical(rb_fourier_planner)
-    {
-        if (f->forward)
-            fftw_destroy_plan(f->forward);
-        if (f->backward)
-            fftw_destroy_plan(f->backward);
-    }
+    pthread_mutex_lock(&planner);
+    if (f->forward)
+        fftw_destroy_plan(f->forward);
+    if (f->backward)
+        fftw_destroy_plan(f->backward);
+    pthread_mutex_unlock(&planner);
     memset(f, 0, sizeof *f);
 }
 
