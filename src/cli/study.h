@@ -24,6 +24,7 @@ typedef struct {
 /* Columns of one factor vary together: one option of a --vary, or those of the cases. */
 typedef struct {
     char name[40], heading[40]; /* creep-ratio, creep_ratio */
+    cli_exit bad;               /* of a value that is refused */
     int factor;
     const double *value; /* one per row of the factor */
 } study_column;

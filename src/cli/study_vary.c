@@ -9,35 +9,47 @@
 
 enum { NO_MEMORY = -1 };
 
-/* Columns that vary together: one of --vary, or those of --cases. */
-static cli_exit add_column(study *st, const char *source, const char *name,
+/* What a refusal of such an option ends with: it stands on the command line or in the
+ * case file. */
+static cli_exit code_of(const study *st, const char *option)
+{
+    for (int i = 0; i < st->own->n; i++)
+        if (strcmp(st->own->options[i].name, option) == 0 && st->own->given[i] > 0)
+            return CLI_DATA;
+    return CLI_USAGE;
+}
+
+/* Columns that vary together: one of --vary, or those of --cases; bad: the exit code of
+ * what is wrong with one. */
+static cli_exit add_column(study *st, const char *source, cli_exit bad, const char *name,
                            const double *value)
 {
     study_column *c = &st->column[st->columns];
+    c->bad = bad;
     if (st->columns == COLUMNS_MAX || strlen(name) >= sizeof c->name)
-        return cli_fail(CLI_DATA, "%s: '%.60s' is no option of a case", source, name);
+        return cli_fail(bad, "%s: '%.60s' is no option of a case", source, name);
     for (size_t k = 0; k <= strlen(name); k++) {
         c->name[k] = name[k] == '_' ? '-' : name[k];
         c->heading[k] = name[k] == '-' ? '_' : name[k];
     }
     for (int k = 0; k < st->columns; k++)
         if (strcmp(st->column[k].name, c->name) == 0)
-            return cli_fail(CLI_DATA, "%s: '%s' varies already", source, c->name);
+            return cli_fail(bad, "%s: '%s' varies already", source, c->name);
     c->factor = st->factors;
     c->value = value;
     st->columns++;
     const rb_option *o = rb_case_option(c->name);
     return o && (o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER)
                ? CLI_CONTINUE
-               : cli_fail(CLI_DATA, "%s: '%s' is no option of a case that takes a number",
+               : cli_fail(bad, "%s: '%s' is no option of a case that takes a number",
                           source, c->name);
 }
 
-static cli_exit add_factor(study *st, const char *source, int rows)
+static cli_exit add_factor(study *st, const char *source, cli_exit bad, int rows)
 {
     const double cases = (double)st->cases * rows;
     if (cases > 1e8)
-        return cli_fail(CLI_DATA, "%s: %g cases, expected at most 1e8", source, cases);
+        return cli_fail(bad, "%s: %g cases, expected at most 1e8", source, cases);
     st->rows[st->factors++] = rows;
     st->cases = (int)cases;
     return CLI_CONTINUE;
@@ -135,14 +147,13 @@ static cli_exit read_varied(study *st, int k, const char *source, const char *te
     if (rows == NO_MEMORY)
         return cli_fail(CLI_INTERNAL, "%s: out of memory", source);
     if (rows == 0 && t.why.text[0])
-        return cli_fail(CLI_USAGE, "%s: %s: expected %s", source, c->name, t.why.text);
+        return cli_fail(c->bad, "%s: %s: expected %s", source, c->name, t.why.text);
     if (rows == 0)
         return cli_fail(
-            CLI_USAGE,
-            "%s: expected an option and numbers, or first:last:count, got '%s'", source,
-            st->o->vary[k]);
+            c->bad, "%s: expected an option and numbers, or first:last:count, got '%s'",
+            source, st->o->vary[k]);
     c->value = st->owned[k];
-    return add_factor(st, source, rows);
+    return add_factor(st, source, c->bad, rows);
 }
 
 static cli_exit add_varied(study *st, int k)
@@ -151,10 +162,11 @@ static cli_exit add_varied(study *st, int k)
     int at = 0;
 
     snprintf(source, sizeof source, "--vary-%d", k + 1);
+    const cli_exit bad = code_of(st, source + 2);
     if (sscanf(st->o->vary[k], "%63s%n", name, &at) != 1)
-        return cli_fail(CLI_USAGE, "%s: expected an option and numbers, got '%s'", source,
+        return cli_fail(bad, "%s: expected an option and numbers, got '%s'", source,
                         st->o->vary[k]);
-    const cli_exit code = add_column(st, source, name, NULL);
+    const cli_exit code = add_column(st, source, bad, name, NULL);
     return code == CLI_CONTINUE ? read_varied(st, k, source, st->o->vary[k] + at) : code;
 }
 
@@ -171,12 +183,12 @@ static cli_exit add_table(study *st)
         return cli_fail(CLI_DATA, "%s: expected a line that names the columns", path);
     for (int j = 0; j < st->table.columns && code == CLI_CONTINUE; j++) {
         double *value = st->table.x + (size_t)j * (size_t)st->table.rows;
-        code = add_column(st, path, st->table.name[j], value);
+        code = add_column(st, path, CLI_DATA, st->table.name[j], value);
         const typed t = typed_of(st, "cases", st->column[st->columns - 1].name);
         for (int k = 0; k < st->table.rows && code == CLI_CONTINUE; k++)
             value[k] = converted(&t, value[k]);
     }
-    return code == CLI_CONTINUE ? add_factor(st, path, st->table.rows) : code;
+    return code == CLI_CONTINUE ? add_factor(st, path, CLI_DATA, st->table.rows) : code;
 }
 
 cli_exit cli_study_read(study *st)
@@ -208,7 +220,7 @@ cli_exit cli_study_set_values(const study *st, rb_case *c, int number)
         if (rb_case_set_number(c, st->column[k].name,
                                cli_study_value(st, &st->column[k], number),
                                &why) != RB_OK)
-            return cli_fail(CLI_DATA, "case %d: %s", number + 1, why.text);
+            return cli_fail(st->column[k].bad, "case %d: %s", number + 1, why.text);
     return CLI_CONTINUE;
 }
 
