@@ -1,6 +1,6 @@
-/* What the page does not hold: transforms for long lines, hierarchical matrices, cone
- * solvers. The page's ranges stay below the sizes that would need them; asked for all the
- * same, they refuse. */
+/* What the page does not hold: transforms for long lines, hierarchical matrices, wheels
+ * with memory, cone solvers. The page's ranges stay below the sizes that would need
+ * them; asked for all the same, they refuse. */
 #include "api/internal.h"
 #include "bem/hierarchical.h"
 #include "bem/large.h"
@@ -17,6 +17,17 @@ static const char refusal[] = "not in the page: use the program";
 double *rb_large_alloc(size_t rows, size_t cols)
 {
     return rb_alloc(rows, cols);
+}
+
+rb_status rb_bem_flexibility_add_memory(const rb_bem_wheel *wheel, rb_bem_normals normals,
+                                        const double *ends, rb_bem_flexibility *f,
+                                        rb_message *why)
+{
+    (void)wheel;
+    (void)normals;
+    (void)ends;
+    (void)f;
+    return rb_fail(why, RB_EINVAL, "a wheel that relaxes is %s", refusal);
 }
 
 rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
