@@ -121,6 +121,11 @@ for (const given of [{ mu: "-1" }, { mu: "x" }, { "contact-elements": "2" }, { s
         check(got.refused, "the page solves it");
         check(ran.stderr.includes(got.refused), `got '${got.refused}', the program says '${ran.stderr.trim()}'`);
     });
+await test("a wheel that relaxes is not in the page", () => {
+    const given = { support: "hub", load: "100", formulation: "steady", "creep-ratio": "0.3", "relaxation-time": "0.01", "relaxation-ratio": "1", speed: "100" };
+    check(run(["--quiet", ...words_of(given)]).status === 0, "the program does not solve it");
+    check(/a wheel that relaxes is not in the page: use the program/.test(answer(library, { kind: "solve", given }).refused), "it is not refused");
+});
 await test("a size that the page does not take", () => check(/use the program/.test(answer(library, { kind: "solve", given: { "contact-elements": "5000" } }).refused), "it is solved"));
 
 /* ---- The page ---------------------------------------------------------------------- */
