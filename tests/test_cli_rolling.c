@@ -578,6 +578,10 @@ static void pictures_name_the_case(void **state)
         {"--support hub --young-b 2e5 --poisson-b 0.3 --support-b halfplane "
          "--approach 0.5",
          "plot", "A: hub, R = 50 mm, E = 94.5 GPa;  B: half-plane, E = 200 GPa"},
+        {"--support hub --cover-thickness 5 --relaxation-time 1e-3 "
+         "--relaxation-ratio 1 --speed 1000 --load 100 --formulation steady "
+         "--creep 1e-4",
+         "plot", "A: hub, R = 50 mm, cover 5 mm, E = 94.5 GPa, relaxes;  B rigid"},
         {"curve " SIMILAR "--points 5", "plot", "A: half-plane, R = 50 mm, E"},
         {"curve " SIMILAR "--points 5 --mu 0.1,0.3", "plot",
          "dashtype (9,4) linewidth 2.6 title 'μ = 0.3'"},

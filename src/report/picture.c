@@ -4,15 +4,16 @@
 #include "rollbem/closed_forms.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <string.h>
 
-/* What the axes show. */
 /* A y axis in units of a power of ten. */
 typedef struct {
     int exponent;
     double unit, from, to;
 } axis;
 
+/* What the axes show. */
 typedef struct {
     const rb_rolling_case *rc;
     const rb_rolling_solution *s;
@@ -361,28 +362,60 @@ rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double larg
     return (rb_report_unit){1.0, rb_unit_name(units, unit)};
 }
 
-static void write_body(FILE *out, const rb_rolling_body *b, rb_units units)
+/* Words that are put one behind the other, as far as there is room. */
+typedef struct {
+    char text[256];
+    size_t n;
+} words;
+
+__attribute__((format(printf, 2, 3))) static void add_words(words *w, const char *format,
+                                                            ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const int n = vsnprintf(w->text + w->n, sizeof w->text - w->n, format, arguments);
+    va_end(arguments);
+    if (n > 0)
+        w->n += (size_t)n < sizeof w->text - w->n ? (size_t)n : sizeof w->text - 1 - w->n;
+}
+
+static void add_length(words *w, const char *of, double length, rb_units units)
+{
+    add_words(w, ", %s%.5g %s", of, rb_unit_shown(units, "mm", length),
+              rb_unit_name(units, "mm"));
+}
+
+static void add_body(words *w, const rb_rolling_body *b, rb_units units)
 {
     const double young = rb_unit_shown(units, "MPa", b->young);
     const rb_report_unit unit = rb_report_axis_unit(units, "MPa", young);
-    fputs(rb_rolling_kind_name(rb_rolling_kind_of(b)), out);
+    add_words(w, "%s", rb_rolling_kind_name(rb_rolling_kind_of(b)));
     if (isfinite(b->radius))
-        fprintf(out, ", R = %.5g %s", rb_unit_shown(units, "mm", b->radius),
-                rb_unit_name(units, "mm"));
-    fprintf(out, ", E = %.4g %s", young / unit.size, unit.name);
+        add_length(w, "R = ", b->radius, units);
+    if (b->cover > 0.0)
+        add_length(w, "cover ", b->cover, units);
+    if (b->layer > 0.0)
+        add_length(w, "layer ", b->layer, units);
+    add_words(w, ", E = %.4g %s%s", young / unit.size, unit.name,
+              b->memory.n > 0 ? ", relaxes" : "");
 }
 
 void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units,
                             double x, double y)
 {
-    fputs("set label 9 '{/*0.95 A: ", out);
-    write_body(out, &rc->a, units);
+    enum { FITS = 90 }; /* characters of this size in a line */
+    words w = {.n = 0};
+    add_words(&w, "A: ");
+    add_body(&w, &rc->a, units);
+    add_words(&w, ";  B");
     if (rc->elastic_b) {
-        fputs(";  B: ", out);
-        write_body(out, &rc->b, units);
+        add_words(&w, ": ");
+        add_body(&w, &rc->b, units);
     } else
-        fputs(";  B rigid", out);
-    fprintf(out, "}' at screen %g, %g center textcolor rgb '#444444'\n", x, y);
+        add_words(&w, " rigid");
+    fprintf(out,
+            "set label 9 '{/*%.3g %s}' at screen %g, %g center textcolor rgb '#444444'\n",
+            w.n > FITS ? 0.95 * FITS / (double)w.n : 0.95, w.text, x, y);
 }
 
 double rb_report_round_step(double step)
