@@ -477,8 +477,12 @@ int cli_friction(int argc, char **argv)
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE) {
-        friction_run run = {
-            .files = {&o.style, columns_of(&o), conventions, solve_file, &run}, .o = &o};
+        friction_run run = {.files = {.style = &o.style,
+                                      .columns = columns_of(&o),
+                                      .conventions = conventions,
+                                      .solve = solve_file,
+                                      .context = &run},
+                            .o = &o};
         code = cli_solve_problems(&run.files, &args, o.output);
     }
     cli_args_free(&args);

@@ -615,7 +615,11 @@ int cli_lcp(int argc, char **argv)
     if (code == CLI_CONTINUE)
         code = cli_check_files(&spec, &args);
     if (code == CLI_CONTINUE) {
-        lcp_run run = {.files = {&o.style, columns_of(&o), conventions, solve_file, &run},
+        lcp_run run = {.files = {.style = &o.style,
+                                 .columns = columns_of(&o),
+                                 .conventions = conventions,
+                                 .solve = solve_file,
+                                 .context = &run},
                        .o = &o};
         code = cli_solve_problems(&run.files, &args, o.output);
     }
