@@ -604,6 +604,17 @@ static void pictures_name_the_case(void **state)
     }
 }
 
+/* Free rolling slips nowhere: what rounding leaves is no curve over an axis of 10^-18. */
+static void rounding_is_not_drawn_as_slip(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("--example rail --quiet --output out.tsv --plot free.svg "
+                             "--plot-script free.gp"),
+                     0);
+    assert_int_equal(shell("grep -F \"slip\" free.gp"), 0);
+    assert_null(strstr(out, "10^{"));
+}
+
 /* The last x of a block of gnuplot's script. */
 static double last_x_of(const char *script, const char *name)
 {
@@ -793,6 +804,7 @@ int main(void)
         cmocka_unit_test(fitted_is_the_default_for_steady),
         cmocka_unit_test(pictures_are_drawn),
         cmocka_unit_test(pictures_in_sizes),
+        cmocka_unit_test(rounding_is_not_drawn_as_slip),
         cmocka_unit_test(curves_of_a_picture_share_their_range),
         cmocka_unit_test(the_largest_stress_covers_no_contour),
         cmocka_unit_test(a_truss_is_drawn_with_its_bars),

@@ -106,13 +106,21 @@ static void write_exponent(FILE *out, int exponent, const char *unit)
         fprintf(out, "  [%s]", unit);
 }
 
+/* Without what rounding leaves of it, which is judged by the strains under the pressure:
+ * in free rolling nothing else would be drawn. */
+static double slip_of(const view *v, int i)
+{
+    const double p0 = rb_unit_stored(v->s->units, "MPa", v->s->max_pressure);
+    return rb_report_tidy(v->s->slip[i], p0 / v->rc->a.young);
+}
+
 static void choose_slip_axis(view *v)
 {
     double least = 0.0, most = 0.0;
     for (int i = 0; i < v->s->n; i++)
         if (is_shown(v, i)) {
-            least = fmin(least, v->s->slip[i]);
-            most = fmax(most, v->s->slip[i]);
+            least = fmin(least, slip_of(v, i));
+            most = fmax(most, slip_of(v, i));
         }
     v->slip = axis_between(least, most);
 }
@@ -170,7 +178,7 @@ static void write_data(FILE *out, const view *v)
     for (int i = 0; i < s->n; i++)
         fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->unit,
                 s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
-                bound_of(v, i) / v->stress_unit, s->slip[i] / v->slip.unit,
+                bound_of(v, i) / v->stress_unit, slip_of(v, i) / v->slip.unit,
                 s->temperature ? s->temperature[i] / v->heat.unit : 0.0,
                 s->temperature ? s->temperature_b[i] / v->heat.unit : 0.0);
     fputs("EOD\n", out);
