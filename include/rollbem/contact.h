@@ -25,8 +25,9 @@ rb_status rb_contact_operator_dense(int n, const double *F, int ldf, double *S,
 
 /* Products, on a line of equal elements. */
 typedef struct {
-    /* r: 2n; gap, slip: n each, written. */
-    void (*apply)(void *context, const double *r, double *gap, double *slip);
+    /* r: 2n; *gap, *slip: n each, the context's own, until its next product. */
+    void (*apply)(void *context, const double *r, const double **gap,
+                  const double **slip);
     /* Approximate inverse of F_NN (tangential 0) or A F_TT (1); line: n, overwritten. */
     void (*precondition)(void *context, int tangential, double *line);
     void (*free)(void *context);

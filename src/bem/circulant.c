@@ -59,38 +59,26 @@ static rb_status kernel_scale(const rb_bem_flexibility *f, double *scale)
     return s;
 }
 
-/* One over the transform of the body and of the interface on it, mode k > 0. */
-static double inverse_of(double scale, double interface, int k, int size)
-{
-    return 1.0 / ((scale * log_kernel(2.0 * M_PI * k / size) + interface) * size);
-}
-
-/* The mean, which the datum of the body decides, gets a number that does no harm. */
-static void set_inverse(double scale, double interface, rb_bem_circulant *c)
+/* Of F_NN, and of F_TT divided by the symbol of A, sum over k of stencil_k
+ * exp(i (k-1) theta); own: what the interface adds to either.  The mean, which the datum
+ * of the body decides and for which the symbol vanishes, gets numbers that do no harm. */
+static void set_inverses(const double stencil[4], double scale, const double own[2],
+                         rb_bem_circulant *c)
 {
     const int size = c->fourier.size;
 
-    for (int k = 1; k <= size / 2; k++)
-        c->inverse[k] = inverse_of(scale, interface, k, size);
-    c->inverse[0] = 0.25 * c->inverse[1];
-}
-
-/* Divided by the symbol of A, sum over k of stencil_k exp(i (k-1) theta), which vanishes
- * for the mean: there again a number that does no harm. */
-static void set_difference(const double stencil[4], double scale, double interface,
-                           rb_bem_circulant *c)
-{
-    const int size = c->fourier.size;
-
-    c->difference[0][0] = 0.5 * c->inverse[0];
     for (int k = 1; k <= size / 2; k++) {
-        const double complex e = cexp(I * (2.0 * M_PI * k / size));
+        const double theta = 2.0 * M_PI * k / size, body = scale * log_kernel(theta);
+        const double complex e = cexp(I * theta);
         const double complex symbol =
             stencil[0] * conj(e) + stencil[1] + stencil[2] * e + stencil[3] * e * e;
-        const double complex x = inverse_of(scale, interface, k, size) / symbol;
+        const double complex x = 1.0 / ((body + own[1]) * size) / symbol;
+        c->inverse[k] = 1.0 / ((body + own[0]) * size);
         c->difference[k][0] = creal(x);
         c->difference[k][1] = cimag(x);
     }
+    c->inverse[0] = 0.25 * c->inverse[1];
+    c->difference[0][0] = 0.5 * c->inverse[0];
 }
 
 rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double stencil[4],
@@ -112,9 +100,9 @@ rb_status rb_bem_circulant_create(const rb_bem_flexibility *f, const double sten
         rb_bem_circulant_free(c);
         return RB_ENOMEM;
     }
-    const double *own = f->compliance;
-    set_inverse(scale, own ? own[f->n / 2] : 0.0, c);
-    set_difference(stencil, scale, own ? own[f->n + f->n / 2] : 0.0, c);
+    const double *all = f->compliance;
+    const double own[2] = {all ? all[f->n / 2] : 0.0, all ? all[f->n + f->n / 2] : 0.0};
+    set_inverses(stencil, scale, own, c);
     *circulant = c;
     return RB_OK;
 }

@@ -13,17 +13,21 @@
 enum { N, T };
 
 /* w_N = t_N * r_N + s * r_T, w_T = t_T * r_T - s * r_N.  Elastic bodies have t even and s
- * odd in the distance, bodies with memory neither; those whose surface is alike
- * everywhere have one t for both.  Transforms of length >= 2n + 1 let nothing wrap
- * around.  `base`, the mean of t, times the sum of the tractions is added apart: with a
- * deep datum it would drown the rest in rounding.  work: room for one product, so that an
- * operator serves one thread at a time. */
+ * odd in the distance, so that the transform of t is real and that of s imaginary; bodies
+ * with memory have neither.  Those whose surface is alike everywhere have one t for both.
+ * Transforms of length >= 2n + 1 let nothing wrap around.  `base`, the mean of t, times
+ * the sum of the tractions is added apart: with a deep datum it would drown the rest in
+ * rounding.  work: room for one product, so that an operator serves one thread at a time.
+ */
 typedef struct {
     int n, coupled, alike; /* alike: t_T is t_N */
+    int symmetric;         /* t even and s odd */
     int flat;              /* 0: the elements lie on a disc */
     double base[2];
-    double *t[2], *s;               /* 2n + 1: of distances -n ... n elements */
-    fftw_complex *t_hat[2], *s_hat; /* size/2 + 1: transforms, t less its base */
+    double *t[2], *s; /* 2n + 1: of distances -n ... n elements */
+    /* Transforms, t less its base: size/2 + 1 numbers, complex ones, or where `symmetric`
+     * the real parts of t and the imaginary ones of s. */
+    double *t_hat[2], *s_hat;
     double *work[2];
     rb_fourier fourier;
     double *cosine, *sine; /* m: of the angle to the obstacle's frame; NULL: none */
@@ -57,11 +61,11 @@ static int alloc_kernels(toeplitz *o)
 
     for (int k = 0; k < 2; k++) {
         o->t[k] = k && o->alike ? o->t[N] : rb_alloc(distances, 1);
-        o->t_hat[k] = k && o->alike ? o->t_hat[N] : calloc(half, sizeof *o->t_hat[k]);
+        o->t_hat[k] = k && o->alike ? o->t_hat[N] : rb_alloc(half, 2);
         o->work[k] = rb_fourier_alloc(&o->fourier);
     }
     o->s = rb_alloc(distances, 1);
-    o->s_hat = calloc(half, sizeof *o->s_hat);
+    o->s_hat = rb_alloc(half, 2);
     return o->t[N] && o->t[T] && o->s && o->t_hat[N] && o->t_hat[T] && o->s_hat &&
            o->work[N] && o->work[T];
 }
@@ -108,7 +112,7 @@ static void transform_back(const toeplitz *o, double constant, double *work, dou
 /* One traction, no coupling: the product with t. */
 static void apply_alone(const toeplitz *o, int k, const double *r, double *w)
 {
-    fftw_complex *const t = o->t_hat[k];
+    const double *t = o->t_hat[k];
 
     if (all_zero(o->n, r)) {
         memset(w, 0, ((size_t)o->n + 1) * sizeof *w);
@@ -117,10 +121,39 @@ static void apply_alone(const toeplitz *o, int k, const double *r, double *w)
     fftw_complex *z = rb_fourier_forward(&o->fourier, o->n, r, o->work[0]);
     for (int j = 0; j <= o->fourier.size / 2; j++) {
         const double re = z[j][0], im = z[j][1];
-        z[j][0] = t[j][0] * re - t[j][1] * im;
-        z[j][1] = t[j][0] * im + t[j][1] * re;
+        if (o->symmetric) {
+            z[j][0] = t[j] * re;
+            z[j][1] = t[j] * im;
+        } else {
+            z[j][0] = t[2 * j] * re - t[2 * j + 1] * im;
+            z[j][1] = t[2 * j] * im + t[2 * j + 1] * re;
+        }
     }
     transform_back(o, o->base[k] * sum_of(o->n, r), o->work[0], w);
+}
+
+/* Mode k of both, p and q, for real transforms of t and imaginary ones of s. */
+static void couple_symmetric(const toeplitz *o, int k, double *p, double *q)
+{
+    const double t_N = o->t_hat[N][k], t_T = o->t_hat[T][k], s = o->s_hat[k];
+    const double p0 = p[0], p1 = p[1], q0 = q[0], q1 = q[1];
+
+    p[0] = t_N * p0 - s * q1;
+    p[1] = t_N * p1 + s * q0;
+    q[0] = t_T * q0 + s * p1;
+    q[1] = t_T * q1 - s * p0;
+}
+
+static void couple(const toeplitz *o, int k, double *p, double *q)
+{
+    const double *t_N = o->t_hat[N] + 2 * k, *t_T = o->t_hat[T] + 2 * k,
+                 *s = o->s_hat + 2 * k;
+    const double p0 = p[0], p1 = p[1], q0 = q[0], q1 = q[1];
+
+    p[0] = t_N[0] * p0 - t_N[1] * p1 + s[0] * q0 - s[1] * q1;
+    p[1] = t_N[0] * p1 + t_N[1] * p0 + s[0] * q1 + s[1] * q0;
+    q[0] = t_T[0] * q0 - t_T[1] * q1 - s[0] * p0 + s[1] * p1;
+    q[1] = t_T[0] * q1 + t_T[1] * q0 - s[0] * p1 - s[1] * p0;
 }
 
 /* Both at once. */
@@ -130,14 +163,11 @@ static void apply_coupled(const toeplitz *o, const double *r, double *w)
     fftw_complex *p = rb_fourier_forward(f, o->n, r, o->work[N]);
     fftw_complex *q = rb_fourier_forward(f, o->n, r + o->n, o->work[T]);
 
-    for (int k = 0; k <= f->size / 2; k++) {
-        const double *t_N = o->t_hat[N][k], *t_T = o->t_hat[T][k], *s = o->s_hat[k];
-        const double p0 = p[k][0], p1 = p[k][1], q0 = q[k][0], q1 = q[k][1];
-        p[k][0] = t_N[0] * p0 - t_N[1] * p1 + s[0] * q0 - s[1] * q1;
-        p[k][1] = t_N[0] * p1 + t_N[1] * p0 + s[0] * q1 + s[1] * q0;
-        q[k][0] = t_T[0] * q0 - t_T[1] * q1 - s[0] * p0 + s[1] * p1;
-        q[k][1] = t_T[0] * q1 + t_T[1] * q0 - s[0] * p1 - s[1] * p0;
-    }
+    for (int k = 0; k <= f->size / 2; k++)
+        if (o->symmetric)
+            couple_symmetric(o, k, p[k], q[k]);
+        else
+            couple(o, k, p[k], q[k]);
     transform_back(o, o->base[N] * sum_of(o->n, r), o->work[N], w);
     transform_back(o, o->base[T] * sum_of(o->n, r + o->n), o->work[T], w + o->n + 1);
 }
@@ -221,24 +251,22 @@ static rb_status toeplitz_matrix(const rb_bem_flexibility *f, double *F, int ldf
 
 /* ---- Construction ------------------------------------------------------------------ */
 
-/* +1: the same at both sides, -1: of opposite sign, 0: neither. */
-static int parity(int n, const double *kernel)
+/* From the distances 0 ... n of a symmetric body to those of both signs. */
+static void mirror(toeplitz *o)
 {
-    int even = 1, odd = 1;
-    for (int k = 0; k <= n; k++) {
-        even = even && kernel[n + k] == kernel[n - k];
-        odd = odd && kernel[n + k] == -kernel[n - k];
+    for (int k = 1; k <= o->n; k++) {
+        o->t[N][o->n - k] = o->t[N][o->n + k];
+        o->t[T][o->n - k] = o->t[T][o->n + k];
+        o->s[o->n - k] = -o->s[o->n + k];
     }
-    return even ? 1 : odd ? -1 : 0;
 }
 
 /* The transform of a kernel less its base, with FFTW's factor `size` of a transform and
- * its inverse.  Of even and odd kernels the part that is rounding alone is set to zero.
- */
-static void transform(const toeplitz *o, const double *kernel, double base,
-                      fftw_complex *hat)
+ * its inverse.  part: 0 of t, 1 of s, which is all there is of a symmetric body. */
+static void transform(const toeplitz *o, const double *kernel, double base, int part,
+                      double *hat)
 {
-    const int n = o->n, size = o->fourier.size, way = parity(n, kernel);
+    const int n = o->n, size = o->fourier.size;
     double *line = o->work[0];
 
     memset(line, 0, (size_t)size * sizeof *line);
@@ -246,8 +274,12 @@ static void transform(const toeplitz *o, const double *kernel, double base,
         line[k < 0 ? size + k : k] = kernel[n + k] - base;
     fftw_complex *z = rb_fourier_forward(&o->fourier, size, line, line);
     for (int j = 0; j <= size / 2; j++) {
-        hat[j][0] = way < 0 ? 0.0 : z[j][0] / size;
-        hat[j][1] = way > 0 ? 0.0 : z[j][1] / size;
+        if (o->symmetric) {
+            hat[j] = z[j][part] / size;
+        } else {
+            hat[2 * j] = z[j][0] / size;
+            hat[2 * j + 1] = z[j][1] / size;
+        }
     }
 }
 
@@ -258,31 +290,34 @@ static void set_transforms(toeplitz *o)
     for (int k = N; k <= T; k++) {
         o->base[k] = sum_of(n + 1, o->t[k] + n) / (n + 1);
         if (k == N || !o->alike)
-            transform(o, o->t[k], o->base[k], o->t_hat[k]);
+            transform(o, o->t[k], o->base[k], 0, o->t_hat[k]);
     }
-    transform(o, o->s, 0.0, o->s_hat);
     o->coupled = !all_zero(2 * n + 1, o->s);
+    if (o->coupled)
+        transform(o, o->s, 0.0, 1, o->s_hat);
 }
 
 /* One strip seen from distances -n ... n elements. */
 static rb_status set_response(toeplitz *o, double h, const rb_bem_surface *body)
 {
     const double strip[2] = {-0.5 * h, 0.5 * h};
-    const int n = o->n;
-    const size_t points = 2 * (size_t)n + 1;
+    const int n = o->n, first = o->symmetric ? 0 : -n;
+    const size_t points = (size_t)(n - first) + 1;
     double *x = rb_alloc(points, 1), *W = rb_alloc(2 * points, 2);
     rb_status s = x && W ? RB_OK : RB_ENOMEM;
 
     if (s == RB_OK) {
-        for (int i = -n; i <= n; i++)
-            x[n + i] = i * h;
+        for (int i = first; i <= n; i++)
+            x[i - first] = i * h;
         s = rb_bem_surface_displacement(body, 1, strip, (int)points, x, W);
     }
     if (s == RB_OK) {
-        memcpy(o->t[N], W, points * sizeof *W);
+        memcpy(o->t[N] + n + first, W, points * sizeof *W);
         if (!o->alike)
-            memcpy(o->t[T], W + 3 * points, points * sizeof *W);
-        memcpy(o->s, W + 2 * points, points * sizeof *W);
+            memcpy(o->t[T] + n + first, W + 3 * points, points * sizeof *W);
+        memcpy(o->s + n + first, W + 2 * points, points * sizeof *W);
+        if (o->symmetric)
+            mirror(o);
         set_transforms(o);
     }
     free(x);
@@ -334,6 +369,7 @@ static int toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
             o->t[T][k] += other->t[T][k];
         o->s[k] -= other->s[k];
     }
+    o->symmetric = o->symmetric && other->symmetric;
     set_transforms(o);
     return 1;
 }
@@ -366,8 +402,10 @@ rb_status rb_bem_flexibility_toeplitz(int n_c, const double *ends,
     if (s != RB_OK)
         return s;
     toeplitz *o = start(n_c, ends, body->thickness == 0.0, f);
-    if (o)
+    if (o) {
         o->flat = 1;
+        o->symmetric = body->terms == 0;
+    }
     s = o ? set_response(o, (ends[n_c + 1] - ends[0]) / (n_c + 1), body) : RB_ENOMEM;
     if (s == RB_OK)
         return s;
@@ -433,16 +471,16 @@ static rb_status set_disc(toeplitz *o, double h, const rb_bem_disc *disc)
 
     for (int k = 0; k <= o->n; k++) {
         double u[4];
-        const int up = o->n + k, down = o->n - k;
         const rb_status s = rb_bem_disc_response(disc, h, k * h, u);
         if (s != RB_OK)
             return s;
         const double shift = scale * 2.0 * sin(0.5 * h) * cos(k * h);
-        o->t[N][up] = o->t[N][down] = u[0] - shift;
-        o->t[T][up] = o->t[T][down] = u[3] + shift;
-        o->s[up] = k == 0 ? 0.0 : 0.5 * (u[1] - u[2]);
-        o->s[down] = -o->s[up];
+        o->t[N][o->n + k] = u[0] - shift;
+        o->t[T][o->n + k] = u[3] + shift;
+        o->s[o->n + k] = k == 0 ? 0.0 : 0.5 * (u[1] - u[2]);
     }
+    o->symmetric = 1;
+    mirror(o);
     set_transforms(o);
     return RB_OK;
 }

@@ -17,7 +17,8 @@ static const double TOLERANCE = 2e-11;
 typedef struct {
     rb_contact_operator base;
     rb_contact_products by;
-    double *r, *gap, *slip;   /* one product: 2n, n, n; owned, as the rest */
+    double *r;                /* 2n: tractions of one product; owned, as the rest */
+    double *line;             /* n: what is preconditioned */
     double *basis[BASIS + 1]; /* 2n + 2 each, on demand */
     double *work;             /* 2n + 2 */
 } products;
@@ -36,6 +37,7 @@ static void products_free(rb_contact_operator *op)
         free(k->basis[j]);
     free(k->work);
     free(k->r);
+    free(k->line);
     free(k);
 }
 
@@ -44,12 +46,13 @@ static void products_add(rb_contact_operator *op, const double *p, const double 
 {
     const products *k = (const products *)op;
     const int n = op->n;
+    const double *added_gap, *added_slip;
 
     memcpy(k->r, p, (size_t)n * sizeof *p);
     memcpy(k->r + n, q, (size_t)n * sizeof *q);
-    k->by.apply(k->by.context, k->r, k->gap, k->slip);
-    cblas_daxpy(n, 1.0, k->gap, 1, gap, 1);
-    cblas_daxpy(n, 1.0, k->slip, 1, slip, 1);
+    k->by.apply(k->by.context, k->r, &added_gap, &added_slip);
+    cblas_daxpy(n, 1.0, added_gap, 1, gap, 1);
+    cblas_daxpy(n, 1.0, added_slip, 1, slip, 1);
 }
 
 /* On equal elements the middle one stands for all. */
@@ -57,18 +60,19 @@ static void set_response(products *k)
 {
     const int n = k->base.n, j = n / 2;
     rb_contact_response *unit = &k->base.response;
+    const double *gap, *slip;
 
     memset(k->r, 0, 2 * (size_t)n * sizeof *k->r);
     k->r[j] = 1.0;
-    k->by.apply(k->by.context, k->r, k->gap, k->slip);
-    unit->gap = fabs(k->gap[j]);
-    unit->coupled_slip = rb_norm_1((size_t)n, k->slip, 1);
+    k->by.apply(k->by.context, k->r, &gap, &slip);
+    unit->gap = fabs(gap[j]);
+    unit->coupled_slip = rb_norm_1((size_t)n, slip, 1);
     unit->coupled = unit->coupled_slip != 0.0;
-    unit->reach = rb_norm_1((size_t)n, k->gap, 1) / unit->gap;
+    unit->reach = rb_norm_1((size_t)n, gap, 1) / unit->gap;
     k->r[j] = 0.0;
     k->r[n + j] = 1.0;
-    k->by.apply(k->by.context, k->r, k->gap, k->slip);
-    unit->slip = fabs(k->slip[j]);
+    k->by.apply(k->by.context, k->r, &gap, &slip);
+    unit->slip = fabs(slip[j]);
 }
 
 /* ---- The system  [A B; C 0]: tractions, and delta and xi at its border ------------- */
@@ -136,16 +140,17 @@ static void multiply(const system_of *s, const double *x, double *y)
     const rb_contact_problem *p = s->p;
     const rb_contact_reduced *r = s->r;
     const products *k = of(p);
+    const double *gap, *slip;
     const double delta = r->load ? x[s->inner] : 0.0;
     const double xi = r->force ? x[s->inner + r->load] : 0.0;
 
     scatter(s, x);
-    k->by.apply(k->by.context, k->r, k->gap, k->slip);
+    k->by.apply(k->by.context, k->r, &gap, &slip);
     for (int c = 0; c < r->contacts; c++)
-        *y++ = k->gap[r->contact[c]] / p->gap_length - delta;
+        *y++ = gap[r->contact[c]] / p->gap_length - delta;
     for (int c = 0; c < r->sticks; c++) {
         const int i = r->stick[c];
-        *y++ = k->slip[i] / p->slip_length + xi * p->e_T[i] / p->e_T[0];
+        *y++ = slip[i] / p->slip_length + xi * p->e_T[i] / p->e_T[0];
     }
     border_rows(s, y);
 }
@@ -164,7 +169,7 @@ static void precondition_group(const system_of *s, const group *g, const double 
                                double *x)
 {
     const products *op = of(s->p);
-    double *line = op->slip;
+    double *line = op->line;
 
     if (g->count == 0)
         return;
@@ -413,14 +418,13 @@ rb_status rb_contact_operator_products(int n, const rb_contact_products *by,
     }
     k->base = (rb_contact_operator){.kind = &kind, .n = n};
     k->by = *by;
-    k->r = rb_alloc((size_t)n, 4);
+    k->r = rb_alloc((size_t)n, 2);
+    k->line = rb_alloc((size_t)n, 1);
     k->work = rb_alloc(2 * (size_t)n + 2, 1);
-    if (!k->r || !k->work) {
+    if (!k->r || !k->line || !k->work) {
         products_free(&k->base);
         return RB_ENOMEM;
     }
-    k->gap = k->r + 2 * (size_t)n;
-    k->slip = k->gap + n;
     set_response(k);
     *op = &k->base;
     return RB_OK;

@@ -99,7 +99,8 @@ typedef struct {
     rb_bem_flexibility f; /* its arrays borrowed from the bodies */
     kinematic A;          /* owned, as the rest */
     rb_bem_circulant *inverse;
-    double *w; /* 2m: displacements of one product */
+    double *w;    /* 2m: displacements of one product */
+    double *slip; /* n: A w_T */
 } transforms;
 
 static void transforms_free(void *context)
@@ -109,22 +110,25 @@ static void transforms_free(void *context)
     rb_bem_circulant_free(t->inverse);
     free(t->A.outside);
     free(t->w);
+    free(t->slip);
     free(t);
 }
 
-static void transforms_apply(void *context, const double *r, double *gap, double *slip)
+static void transforms_apply(void *context, const double *r, const double **gap,
+                             const double **slip)
 {
     const transforms *t = context;
     const int n = t->A.n;
     double outside[2] = {0.0, 0.0};
 
     rb_bem_flexibility_apply(&t->f, r, t->w);
-    memcpy(gap, t->w, (size_t)n * sizeof *gap);
     for (int j = 0; t->A.outside && j < 2 * n; j++)
         for (int k = 0; k < 2; k++)
             outside[k] += t->A.outside[2 * (size_t)j + (size_t)k] * r[j];
     for (int i = 0; i < n; i++)
-        slip[i] = row_of(&t->A, t->w + n + 1, outside, i);
+        t->slip[i] = row_of(&t->A, t->w + n + 1, outside, i);
+    *gap = t->w;
+    *slip = t->slip;
 }
 
 static void transforms_precondition(void *context, int tangential, double *line)
@@ -149,8 +153,10 @@ static rb_status transform_operator(const rb_rolling_bodies *bodies, kinematic *
     t->A = *A;
     A->outside = NULL;
     t->w = rb_alloc(2 * (size_t)bodies->f.m, 1);
-    const rb_status s =
-        t->w ? rb_bem_circulant_create(&t->f, t->A.stencil, &t->inverse) : RB_ENOMEM;
+    t->slip = rb_alloc((size_t)A->n, 1);
+    const rb_status s = t->w && t->slip
+                            ? rb_bem_circulant_create(&t->f, t->A.stencil, &t->inverse)
+                            : RB_ENOMEM;
     if (s != RB_OK) {
         transforms_free(t);
         return s;
