@@ -98,13 +98,16 @@ typedef struct {
     double p, q;
 } normal_entry;
 
-static normal_entry entry_of(const strip_kernel *k, double X, double b)
+static inline normal_entry entry_of(const strip_kernel *k, double X, double b)
 {
-    double log_memory = 0.0, sign_memory = 0.0;
-    if (k->body->terms > 0)
+    double log = k->slow * strip_log(X, b, k->depth), sign = k->slow * strip_sign(X, b);
+    if (k->body->terms > 0) {
+        double log_memory, sign_memory;
         rb_bem_memory_integrals(k->body, -X, b, &log_memory, &sign_memory);
-    return (normal_entry){-k->K * (k->slow * strip_log(X, b, k->depth) + log_memory),
-                          k->c * (k->slow * strip_sign(X, b) + sign_memory)};
+        log += log_memory;
+        sign += sign_memory;
+    }
+    return (normal_entry){-k->K * log, k->c * sign};
 }
 
 /* 2m x 2n, column-major: displacements of m points under n strips. */

@@ -40,11 +40,20 @@ void rb_contact_force_row(const rb_contact_problem *problem, double *control_N,
 double rb_contact_force_scale(const rb_contact_problem *problem);
 
 /* r_T = slope bound r_N of a zone; 0 in stick, where r_T is an unknown of its own. */
-double rb_contact_slope(int zone);
+static inline double rb_contact_slope(int zone)
+{
+    return zone == RB_ZONE_SLIP_NEGATIVE   ? -1.0
+           : zone == RB_ZONE_SLIP_POSITIVE ? 1.0
+                                           : 0.0;
+}
 /* r_T of an element per unit of its unknown pressure: its bound in the direction that its
  * zone says, or 0 where the pressure is not moved together with it. */
-double rb_contact_reduced_friction(const rb_contact_problem *problem,
-                                   const rb_contact_reduced *r, const int *zone, int i);
+static inline double rb_contact_reduced_friction(const rb_contact_problem *p,
+                                                 const rb_contact_reduced *r,
+                                                 const int *zone, int i)
+{
+    return rb_contact_slope(zone[i]) * (r->unknowns == RB_BOTH ? p->bound[i] : 0.0);
+}
 
 /* Sets the unknowns of the state to zero and the friction of slipping elements to its
  * bound. */

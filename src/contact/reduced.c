@@ -4,13 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-double rb_contact_slope(int zone)
-{
-    return zone == RB_ZONE_SLIP_NEGATIVE   ? -1.0
-           : zone == RB_ZONE_SLIP_POSITIVE ? 1.0
-                                           : 0.0;
-}
-
 void rb_contact_reduced_free(rb_contact_reduced *r)
 {
     free(r->contact);
@@ -73,12 +66,6 @@ rb_status rb_contact_reduced_alloc(const rb_contact_problem *p,
     set_start(p, state, r);
     rb_contact_force_row(p, r->control_N, r->control_T);
     return RB_OK;
-}
-
-double rb_contact_reduced_friction(const rb_contact_problem *p,
-                                   const rb_contact_reduced *r, const int *zone, int i)
-{
-    return rb_contact_slope(zone[i]) * (r->unknowns == RB_BOTH ? p->bound[i] : 0.0);
 }
 
 void rb_contact_reduced_clear(const rb_contact_problem *p, const rb_contact_reduced *r,

@@ -118,15 +118,16 @@ static void transforms_apply(void *context, const double *r, const double **gap,
                              const double **slip)
 {
     const transforms *t = context;
-    const int n = t->A.n;
+    const kinematic A = t->A; /* no store to slip changes it: the loop has no branches */
+    const double *w_T = t->w + A.n + 1;
     double outside[2] = {0.0, 0.0};
 
     rb_bem_flexibility_apply(&t->f, r, t->w);
-    for (int j = 0; t->A.outside && j < 2 * n; j++)
+    for (int j = 0; A.outside && j < 2 * A.n; j++)
         for (int k = 0; k < 2; k++)
-            outside[k] += t->A.outside[2 * (size_t)j + (size_t)k] * r[j];
-    for (int i = 0; i < n; i++)
-        t->slip[i] = row_of(&t->A, t->w + n + 1, outside, i);
+            outside[k] += A.outside[2 * (size_t)j + (size_t)k] * r[j];
+    for (int i = 0; i < A.n; i++)
+        t->slip[i] = row_of(&A, w_T, outside, i);
     *gap = t->w;
     *slip = t->slip;
 }
