@@ -942,21 +942,13 @@ static int outgrows_zone(const int *row, const char *errors)
            strstr(errors, "zone: the contact is not within the potential contact");
 }
 
-/* Where friction falls, the force may jump over the given one (theory.md F4), which a
- * study only counts. */
-static int force_jumps(const int *row, const char *errors)
-{
-    return !is(row, LAW, "constant") && is(row, TANGENTIAL, "force") &&
-           (strstr(errors, "the force jumps over") || strstr(errors, "; not solved: "));
-}
-
 static void check_failure(const int *row, int code, const char *errors)
 {
     slurp(errors, err, sizeof err);
     const char *line = strstr(err, "rollbem: ");
     for (const char *next = line; next; next = strstr(next + 1, "\nrollbem: "))
         line = next;
-    if (code != 1 || !(may_fail(row) || outgrows_zone(row, err) || force_jumps(row, err)))
+    if (code != 1 || !(may_fail(row) || outgrows_zone(row, err)))
         complain("exit code %d: ...%s", code,
                  err + (strlen(err) > 400) * (strlen(err) - 400));
     else if (!line && !strstr(err, "; not solved: ")) /* a study counts them */

@@ -378,6 +378,37 @@ static rb_status find_force(search *s, double x[2], double f[2], double small)
                          s->side * x[1]);
 }
 
+/* The iteration with the force given, from the state at hand.  A force that refers to the
+ * load is set anew until the load does not change any more.  RB_MAXITER: its creepage is
+ * not one of those between which the force is reached. */
+static rb_status solve_between(search *s, double from, double to, double small)
+{
+    enum { ROUNDS = 40 };
+    rb_rolling_model *model = s->model;
+    rb_contact_problem *p = &model->problem;
+    double before = INFINITY;
+    rb_status status = RB_OK;
+
+    for (int k = 0; k < ROUNDS && status == RB_OK && fabs(p->force - before) > small;
+         k++) {
+        before = p->force;
+        status = iterate(model, 1, NULL);
+        set_force(model);
+    }
+    const double x = s->side * model->state.xi;
+    return status == RB_OK && !(x >= from && x <= to) ? RB_MAXITER : status;
+}
+
+/* The force is lacking at x[0] and reached at x[1].  Where a creepage has several states
+ * and the search falls on one or another of them, the force tells them apart. */
+static rb_status meet_force(search *s, double x[2], double f[2], double small)
+{
+    const double from = x[0], to = x[1];
+    const rb_status status = find_force(s, x, f, small);
+
+    return status > 0 && solve_between(s, from, to, small) == RB_OK ? RB_OK : status;
+}
+
 /* From creepage 0 along the branch on which the force grows with the creepage (F4). */
 static rb_status solve_force(rb_rolling_model *model, rb_message *why)
 {
@@ -404,7 +435,7 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
                 "at creepage %g",
                 p->force, p->force + by.side * f[1], by.side * x[1]);
         else if (s == RB_OK)
-            s = find_force(&by, x, f, small);
+            s = meet_force(&by, x, f, small);
     }
     free(by.start);
     return s == RB_OK ? measure(model, why) : s;
