@@ -429,6 +429,68 @@ static void a_force_is_met_on_the_rising_branch(void **state)
     }
 }
 
+/* Much friction between unlike bodies, whose contact has several states at a creepage;
+ * the law alone would leave one. */
+static rb_rolling_case wheel_on_layer(void)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HUB;
+    rc.b.support = RB_BEM_HALFPLANE;
+    rc.a.young = 80000.0;
+    rc.b.young = 200000.0;
+    rc.b.poisson = 0.28;
+    rc.b.radius = 80.0;
+    rc.b.layer = 2.0;
+    rc.elastic_b = 1;
+    rc.formulation = RB_STEADY;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 40;
+    rc.half_width = 1.0;
+    rc.speed = 3000.0;
+    rc.mu = 3.0;
+    rc.friction = (rb_rolling_friction){
+        .law = RB_FRICTION_rational, .fall = {0.1, 0.05}, .slip_scale = {20.0, 5.0}};
+    return rc;
+}
+
+/* The same by a force ratio under a load that is not known beforehand. */
+static void a_force_is_met_between_states_of_one_creepage(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        double Q = 0.0, kappa;
+        rb_rolling_case rc = wheel_on_layer();
+        rc.force = k < 3 ? 160.0 + 20.0 * k : NAN;
+        if (k == 3) {
+            rc.half_width = NAN;
+            rc.approach = 0.0604;
+            rc.force_ratio = 0.038;
+        }
+        rb_rolling_model model = solved_model(&rc);
+        const double xi = model.state.xi;
+        check_state(&model, NULL, "between states");
+        CHECK_MAX(model.state.residual, 1e-10, "case %d", k);
+        for (int i = 0; i < model.mesh.n; i++)
+            Q += model.bodies.f.h[i] * model.state.q[i];
+        if (k < 3)
+            CHECK_REL(Q, rc.force, 1e-9, "force, case %d", k);
+        else
+            CHECK_ABS(rb_rolling_force_ratio(&model), 0.038, 1e-11, "ratio");
+        CHECK_STATUS(rb_rolling_law_kappa(&model, &kappa), RB_OK);
+        assert_true(kappa < 1.0);
+        rb_rolling_model_free(&model);
+        for (int side = -1; side <= 1; side += 2) { /* it grows there */
+            rb_rolling_case near = rc;
+            near.force = near.force_ratio = NAN;
+            near.creep = (1.0 + 0.01 * side) * xi;
+            model = solved_model(&near);
+            assert_true(side * (rb_rolling_model_force(&model) - Q) > 0.0);
+            rb_rolling_model_free(&model);
+        }
+    }
+}
+
 static void the_largest_force_is_told(void **state)
 {
     (void)state;
@@ -928,6 +990,7 @@ int main(void)
         cmocka_unit_test(branches_outlive_their_mesh),
         cmocka_unit_test(all_solutions_are_found),
         cmocka_unit_test(a_force_is_met_on_the_rising_branch),
+        cmocka_unit_test(a_force_is_met_between_states_of_one_creepage),
         cmocka_unit_test(the_largest_force_is_told),
         cmocka_unit_test(steps_remember_their_friction),
         cmocka_unit_test(a_column_of_one_mu_is_that_mu),
