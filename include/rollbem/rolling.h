@@ -944,8 +944,8 @@ typedef struct {
 rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc,
                                        rb_rolling_solution *solution,
                                        rb_rolling_errors *errors, rb_message *why);
-/* The same of a case that is solved already, from its whole solution in mm, N, MPa; stress:
- * its maxima down to the usual depth, for their error bars, or NULL. */
+/* The same of a case that is solved already, from its whole solution in mm, N, MPa;
+ * stress: its maxima down to the usual depth, for their error bars, or NULL. */
 rb_status rb_rolling_estimate_errors(const rb_rolling_case *rc,
                                      const rb_rolling_solution *solution,
                                      const rb_rolling_stress_maxima *stress,

@@ -28,7 +28,8 @@ static cli_exit check_root(const char *path, const json_t *root)
     rb_case *words = cli_case_create(RB_CASE_SINGLE);
     if (!words)
         return CLI_INTERNAL;
-    const rb_status s = rb_report_certify_solutions(stdout, path, root, words, &found, &why);
+    const rb_status s =
+        rb_report_certify_solutions(stdout, path, root, words, &found, &why);
     rb_case_free(words);
     if (s != RB_OK)
         return cli_fail(s == RB_ENOMEM ? CLI_INTERNAL : CLI_DATA, "%s", why.text);
