@@ -567,6 +567,11 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
  * last bit. */
 rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_message *why);
+/* Bodies and contact problem on the elements of a result, with a state of zeros: nothing
+ * is solved.  model: all zeros before; free it in any case. */
+rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
+                                     const rb_rolling_elements *elements,
+                                     rb_rolling_model *model, rb_message *why);
 void rb_rolling_model_free(rb_rolling_model *model);
 
 /* The LCP that gave the model's state, or the one that Lemke's method tries first. */

@@ -207,10 +207,9 @@ static rb_status rebuild_case(const char *name, const json_t *inputs, rb_case *w
  * -------------------------------------------------------------------
  */
 
-rb_status rb_certificate_column(const char *name, const json_t *table,
-                                const char *heading, int n, double *x, rb_message *why)
+rb_status rb_certificate_list(const char *name, const json_t *list, const char *heading,
+                              int n, double *x, rb_message *why)
 {
-    const json_t *list = json_object_get(table, heading);
     if ((int)json_array_size(list) != n)
         return rb_fail(why, RB_EFORMAT, "%s: table: expected %d numbers in %s", name, n,
                        heading);
@@ -223,6 +222,12 @@ rb_status rb_certificate_column(const char *name, const json_t *table,
     return RB_OK;
 }
 
+rb_status rb_certificate_column(const char *name, const json_t *table,
+                                const char *heading, int n, double *x, rb_message *why)
+{
+    return rb_certificate_list(name, json_object_get(table, heading), heading, n, x, why);
+}
+
 /* Bodies and contact problem on the elements of the table. */
 static rb_status rebuild_problem(rb_certificate *c, const rb_settled_case *settled, int n,
                                  rb_message *why)
@@ -231,9 +236,8 @@ static rb_status rebuild_problem(rb_certificate *c, const rb_settled_case *settl
     double *xh = rb_alloc((size_t)n, 2);
     rb_status s = xh ? RB_OK : RB_ENOMEM;
 
-    m->rc = settled->rc;
     m->equal_instead = strcmp(word(c->summary, "mesh"), "uniform") == 0;
-    const int are_equal = m->equal_instead || m->rc.mesh != RB_MESH_FITTED;
+    const int are_equal = m->equal_instead || settled->rc.mesh != RB_MESH_FITTED;
     if (s == RB_OK)
         s = rb_certificate_column(c->name, c->table, "x_mm", n, xh, why);
     if (s == RB_OK)
@@ -243,13 +247,8 @@ static rb_status rebuild_problem(rb_certificate *c, const rb_settled_case *settl
             s = rb_fail(why, RB_EFORMAT, "%s: table: element %d is out of order", c->name,
                         i + 1);
     if (s == RB_OK)
-        s = rb_rolling_mesh_of_result(
-            &m->rc, &(rb_rolling_elements){n, xh, xh + n, are_equal}, &m->mesh, why);
-    if (s == RB_OK)
-        s = rb_rolling_bodies_create(&m->rc, &m->mesh, &m->bodies, why);
-    if (s == RB_OK)
-        s = rb_rolling_problem_create(&m->rc, &m->mesh, &m->bodies, NULL, &m->problem,
-                                      why);
+        s = rb_rolling_model_of_result(
+            &settled->rc, &(rb_rolling_elements){n, xh, xh + n, are_equal}, m, why);
     free(xh);
     return s;
 }
@@ -279,10 +278,8 @@ static rb_status read_state(rb_certificate *c, rb_message *why)
 {
     rb_rolling_model *m = &c->model;
     const int n = m->mesh.n, is_static = m->rc.formulation == RB_STATIC;
-    rb_status s = rb_contact_state_alloc(n, &m->state);
+    rb_status s = rb_certificate_column(c->name, c->table, "p_MPa", n, m->state.p, why);
 
-    if (s == RB_OK)
-        s = rb_certificate_column(c->name, c->table, "p_MPa", n, m->state.p, why);
     if (s == RB_OK)
         s = rb_certificate_column(c->name, c->table, "q_MPa", n, m->state.q, why);
     if (s == RB_OK)

@@ -30,7 +30,9 @@ void rb_certificate_expect(rb_certificate *c, const char *what, int element,
 double rb_certificate_number(const json_t *value);
 double rb_certificate_member(const json_t *object, const char *key);
 
-/* A list of n numbers. */
+/* n numbers: a list, and the one that a table has under a heading. */
+rb_status rb_certificate_list(const char *name, const json_t *list, const char *heading,
+                              int n, double *x, rb_message *why);
 rb_status rb_certificate_column(const char *name, const json_t *table,
                                 const char *heading, int n, double *x, rb_message *why);
 
@@ -41,6 +43,7 @@ void rb_certificate_given(rb_certificate *c, double load);
 void rb_certificate_motion(rb_certificate *c);
 /* Contact and friction, element by element. */
 rb_status rb_certificate_laws(rb_certificate *c);
+
 /* ---- certificate_history.c --------------------------------------------------------- */
 
 /* Follows the steps of a history by its states, judges each of them and leaves the model

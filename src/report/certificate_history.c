@@ -8,27 +8,19 @@
 
 /* ---- The states -------------------------------------------------------------------- */
 
-static const json_t *list_of_step(const json_t *states, const char *key, int step)
-{
-    return json_array_get(json_object_get(states, key), (size_t)step);
-}
-
 /* n numbers of each step. */
 static rb_status read_lists(const rb_certificate *c, const json_t *states,
                             const char *key, const rb_rolling_states *to, double *values,
                             rb_message *why)
 {
+    const json_t *lists = json_object_get(states, key);
     rb_status s = RB_OK;
-    if ((int)json_array_size(json_object_get(states, key)) != to->steps)
+    if ((int)json_array_size(lists) != to->steps)
         return rb_fail(why, RB_EFORMAT, "%s: states: expected %d steps in %s", c->name,
                        to->steps, key);
-    for (int k = 0; k < to->steps && s == RB_OK; k++) {
-        json_t *of = json_pack("{s:O}", key, list_of_step(states, key, k));
-        s = of ? rb_certificate_column(c->name, of, key, to->n,
-                                       values + (size_t)k * (size_t)to->n, why)
-               : RB_ENOMEM;
-        json_decref(of);
-    }
+    for (int k = 0; k < to->steps && s == RB_OK; k++)
+        s = rb_certificate_list(c->name, json_array_get(lists, (size_t)k), key, to->n,
+                                values + (size_t)k * (size_t)to->n, why);
     return s;
 }
 

@@ -8,35 +8,25 @@ void rb_report_comment_head(const rb_report_cells *c, const char *command)
         rb_report_comment(c, "%s", *line);
 }
 
-/* The k-th column of all parts, and its part; NULL: there are no more. */
-static const rb_rolling_result *column(int k, int parts, const rb_report_columns *part,
-                                       const rb_report_columns **of)
+/* Of errors those columns are shown that have error bars. */
+static int is_shown(const rb_report_columns *part, const rb_rolling_result *r)
 {
-    for (int p = 0; p < parts; p++)
-        for (int j = 0; j < part[p].columns->n; j++) {
-            const rb_rolling_result *r = &part[p].columns->row[j];
-            if ((part[p].errors && !r->error_bar) ||
-                !rb_rolling_has_column(r, part[p].owner))
-                continue;
-            if (k-- == 0) {
-                *of = &part[p];
-                return r;
-            }
-        }
-    return NULL;
+    return (!part->errors || r->error_bar) && rb_rolling_has_column(r, part->owner);
 }
 
 void rb_report_cell_headings(rb_report_cells *c, int parts, const rb_report_columns *part)
 {
-    const rb_report_columns *of;
-    const rb_rolling_result *r;
     char heading[RB_ROLLING_HEADING], name[RB_ROLLING_HEADING + 8];
 
-    for (int k = 0; (r = column(k, parts, part, &of)); k++) {
-        snprintf(name, sizeof name, "%s%s", of->errors ? "error_" : "",
-                 rb_rolling_heading(r, of->units, heading));
-        rb_report_cell_text(c, name);
-    }
+    for (const rb_report_columns *of = part; of < part + parts; of++)
+        for (int j = 0; j < of->columns->n; j++) {
+            const rb_rolling_result *r = &of->columns->row[j];
+            if (!is_shown(of, r))
+                continue;
+            snprintf(name, sizeof name, "%s%s", of->errors ? "error_" : "",
+                     rb_rolling_heading(r, of->units, heading));
+            rb_report_cell_text(c, name);
+        }
 }
 
 rb_report_cells rb_report_begin_columns(FILE *out, const rb_report_style *style,
@@ -53,11 +43,12 @@ rb_report_cells rb_report_begin_columns(FILE *out, const rb_report_style *style,
 void rb_report_cell_entries(rb_report_cells *c, int i, int parts,
                             const rb_report_columns *part)
 {
-    const rb_report_columns *of;
-    const rb_rolling_result *r;
-
-    for (int k = 0; (r = column(k, parts, part, &of)); k++)
-        rb_report_cell_number(c, rb_rolling_entry(r, of->owner, i));
+    for (const rb_report_columns *of = part; of < part + parts; of++)
+        for (int j = 0; j < of->columns->n; j++) {
+            const rb_rolling_result *r = &of->columns->row[j];
+            if (is_shown(of, r))
+                rb_report_cell_number(c, rb_rolling_entry(r, of->owner, i));
+        }
 }
 
 rb_status rb_report_end_columns(rb_report_cells *c, int rows, int parts,

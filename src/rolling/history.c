@@ -424,24 +424,6 @@ static double largest(const double *column, int n, double own)
     return max;
 }
 
-/* The elements of what was found, without a state. */
-static rb_status elements_found(const run *r, const rb_rolling_case *rc, rb_message *why)
-{
-    const rb_rolling_states *found = r->found;
-    rb_rolling_model *m = r->model;
-
-    m->rc = *rc;
-    const rb_rolling_elements elements = {
-        .are_equal = 1, .n = found->n, .x = found->x, .h = found->h};
-    rb_status s = rb_rolling_mesh_of_result(rc, &elements, &m->mesh, why);
-
-    if (s == RB_OK)
-        s = rb_rolling_bodies_create(rc, &m->mesh, &m->bodies, why);
-    if (s == RB_OK)
-        s = rb_rolling_problem_create(rc, &m->mesh, &m->bodies, NULL, &m->problem, why);
-    return s == RB_OK ? rb_contact_state_alloc(found->n, &m->state) : s;
-}
-
 /* A mesh that holds the contact of the largest load, solved at rest; zone: 0, automatic.
  */
 static rb_status widest_contact(const run *r, double zone, rb_message *why)
@@ -457,8 +439,11 @@ static rb_status widest_contact(const run *r, double zone, rb_message *why)
     widest.approach = largest(program->approach, program->n, widest.approach);
     widest.shift = widest.creep = widest.creep_ratio = widest.force = NAN;
     widest.force_ratio = 0.0;
-    return r->found ? elements_found(r, &widest, why)
-                    : rb_rolling_model_create(&widest, r->model, why);
+    if (!r->found)
+        return rb_rolling_model_create(&widest, r->model, why);
+    const rb_rolling_elements elements = {
+        .are_equal = 1, .n = r->found->n, .x = r->found->x, .h = r->found->h};
+    return rb_rolling_model_of_result(&widest, &elements, r->model, why);
 }
 
 /* The unit of distances: Hertz's half-width of the largest load, of bodies that relax

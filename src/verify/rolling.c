@@ -71,6 +71,22 @@ static void dissipation(rb_verify *v)
 
 /* ---- Bodies that relax ------------------------------------------------------------- */
 
+/* A cylinder that relaxes, with a_g = 1, and rolls without friction. */
+static rb_rolling_case relaxing_cylinder(double radius, double ratio, double length,
+                                         int elements)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.radius = radius;
+    rc.half_width = 1.0;
+    rc.a.memory = (rb_rolling_memory){1, {length}, {ratio}};
+    rc.speed = 1.0;
+    rc.mu = 0.0;
+    rc.creep = 0.0;
+    rc.formulation = RB_STEADY;
+    rc.contact_elements = elements;
+    return rc;
+}
+
 /* Hunter's solution (V3), a_g = 1: f, V tau, both edges, p_max over the glassy Hertz's,
  * M/P. */
 static void hunter(rb_verify *v)
@@ -81,16 +97,8 @@ static void hunter(rb_verify *v)
         {4.0, 1.0, 2.1922928, -1.5023576, 0.5770909, 0.5920417}};
     for (int k = 0; k < 3; k++) {
         const double *row = rows[k];
-        rb_rolling_case rc = rb_verify_uncoupled();
+        const rb_rolling_case rc = relaxing_cylinder(1e4, row[0], row[1], 200);
         rb_rolling_solution s;
-        rc.a.radius = 1e4;
-        rc.half_width = 1.0;
-        rc.a.memory = (rb_rolling_memory){1, {row[1]}, {row[0]}};
-        rc.speed = 1.0;
-        rc.mu = 0.0;
-        rc.creep = 0.0;
-        rc.formulation = RB_STEADY;
-        rc.contact_elements = 200;
         rb_verify_solve(v, &rc, &s);
         const double P = s.normal_load, p_glassy = 2.0 * P / M_PI;
         rb_verify_absolute(v, s.contact_to, row[2], 1e-3,
@@ -114,19 +122,11 @@ static void hunter(rb_verify *v)
  * limit, of first order in a/R. */
 static void hunter_on_a_hub(rb_verify *v)
 {
-    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_case rc = relaxing_cylinder(400.0, 1.0, 1.0, 100);
     rb_rolling_solution s;
 
-    rc.a.radius = 400.0;
     rc.a.support = RB_BEM_HUB;
     rc.a.hub_ratio = 0.3;
-    rc.half_width = 1.0;
-    rc.a.memory = (rb_rolling_memory){1, {1.0}, {1.0}};
-    rc.speed = 1.0;
-    rc.mu = 0.0;
-    rc.creep = 0.0;
-    rc.formulation = RB_STEADY;
-    rc.contact_elements = 100;
     rb_verify_solve(v, &rc, &s);
     rb_verify_absolute(v, s.resistance_moment / s.normal_load, 0.2621595, 1e-3,
                        "Hunter on a cylinder held by its hub: M/(P a)");
