@@ -7,6 +7,7 @@
 
 #include <complex.h>
 #include <gsl/gsl_math.h>
+#include <gsl/gsl_spline.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -155,14 +156,17 @@ typedef struct {
     int nodes, first, count;
     double *x;
     double *N, *T, *C; /* count each: what memory adds beside the half-plane's part */
-    double *integral;  /* 3 count: of N, T and C from the first of these angles on */
+    gsl_spline *spline[3];
+    gsl_interp_accel *near;
 } table;
 
 static void table_free(table *t)
 {
     free(t->x);
     free(t->N);
-    free(t->integral);
+    for (int k = 0; k < 3; k++)
+        gsl_spline_free(t->spline[k]);
+    gsl_interp_accel_free(t->near);
 }
 
 /* Equal steps to +-reach, growing ones from there to +-pi. */
@@ -177,8 +181,8 @@ static rb_status table_alloc(double reach, double step, table *t)
     t->nodes = t->count + 2 * OUTSIDE;
     t->x = rb_alloc((size_t)t->nodes, 1);
     t->N = rb_alloc((size_t)t->count, 3);
-    t->integral = rb_alloc((size_t)t->count, 3);
-    if (!t->x || !t->N || !t->integral)
+    t->near = gsl_interp_accel_alloc();
+    if (!t->x || !t->N || !t->near)
         return RB_ENOMEM;
     t->T = t->N + t->count;
     t->C = t->T + t->count;
@@ -252,18 +256,6 @@ static void add_inner(const rb_bem_wheel *w, table *t)
     }
 }
 
-/* The integral of values at equal steps, by the cubic through four of them; at the ends
- * of the line by the trapezium. */
-static void integrate(int n, double step, const double *value, double *integral)
-{
-    for (int i = 0; i + 1 < n; i++) {
-        const double middle = value[i] + value[i + 1];
-        const int inside = i > 0 && i + 2 < n;
-        const double outside = inside ? value[i - 1] + value[i + 2] : middle;
-        integral[i + 1] = integral[i] + step * (13.0 * middle - outside) / 24.0;
-    }
-}
-
 static rb_status make_table(const rb_bem_wheel *w, double reach, table *t)
 {
     rb_status s = table_alloc(reach, 0.05 * log(w->radius / w->inner), t);
@@ -272,29 +264,21 @@ static rb_status make_table(const rb_bem_wheel *w, double reach, table *t)
         add_disc(w, k, t);
     if (s == RB_OK)
         add_inner(w, t);
-    for (int k = 0; k < 3 && s == RB_OK; k++)
-        integrate(t->count, t->x[t->first + 1] - t->x[t->first], t->N + k * t->count,
-                  t->integral + k * t->count);
+    for (int k = 0; k < 3 && s == RB_OK; k++) {
+        t->spline[k] = gsl_spline_alloc(gsl_interp_cspline, (size_t)t->count);
+        if (!t->spline[k])
+            s = RB_ENOMEM;
+        else
+            gsl_spline_init(t->spline[k], t->x + t->first, t->N + k * t->count,
+                            (size_t)t->count);
+    }
     return s;
 }
 
-/* Integral of direction k (N, T, C) up to angle x: Hermite's cubic, whose slopes are the
- * values themselves. */
-static double integral_to(const table *t, int k, double x)
-{
-    const double *from = t->x + t->first, step = from[1] - from[0];
-    const int i = (int)fmin(fmax(floor((x - from[0]) / step), 0.0), t->count - 2);
-    const double *sum = t->integral + k * t->count + i, *value = t->N + k * t->count + i;
-    const double u = (x - from[i]) / step, v = 1.0 - u;
-
-    return sum[0] + (sum[1] - sum[0]) * u * u * (3.0 - 2.0 * u) +
-           step * u * v * (v * value[0] - u * value[1]);
-}
-
 /* The mean over a load of half-angle b. */
-static double mean(const table *t, int k, double x, double b)
+static double mean(const gsl_spline *spline, gsl_interp_accel *near, double x, double b)
 {
-    return (integral_to(t, k, x + b) - integral_to(t, k, x - b)) / (2.0 * b);
+    return gsl_spline_eval_integ(spline, x - b, x + b, near) / (2.0 * b);
 }
 
 /* ---- The matrix -------------------------------------------------------------------- */
@@ -362,11 +346,12 @@ static void add_memory(const rb_bem_wheel *w, rb_bem_normals normals, const tabl
         for (size_t i = 0; i < m; i++) {
             const double h = c->end[j + 1] - c->end[j], b = 0.5 * h / w->radius,
                          to = c->arc[i] / w->radius, from = c->arc[j] / w->radius;
-            const double coupling = scale * h * mean(t, 2, to - from, b);
+            const double coupling = scale * h * mean(t->spline[2], t->near, to - from, b);
             const size_t N = i + j * 2 * m, T = i + (j + n) * 2 * m;
-            double B[4] = {c->W[N] + scale * h * mean(t, 0, to - from, b),
-                           c->W[N + m] - coupling, c->W[T] + coupling,
-                           c->W[T + m] + scale * h * mean(t, 1, to - from, b)};
+            double B[4] = {
+                c->W[N] + scale * h * mean(t->spline[0], t->near, to - from, b),
+                c->W[N + m] - coupling, c->W[T] + coupling,
+                c->W[T + m] + scale * h * mean(t->spline[1], t->near, to - from, b)};
             if (normals == RB_BEM_NORMALS_OBSTACLE)
                 turn(to, from, B);
             F[N] += B[0];
