@@ -56,7 +56,9 @@ static void write_controls(void)
                            "2e-4\\n0.4 20 0\\n' > rest.txt; printf 'distance load "
                            "force\\n0 50 0\\n0 100 10\\n0.2 80 20\\n0.4 100 -10\\n' > "
                            "way.txt; printf 'distance mu creep_ratio\\n0 0.3 0.5\\n"
-                           "0.4 0.3 0.5\\n0.8 0.1 0.5\\n' > wet.txt"),
+                           "0.4 0.3 0.5\\n0.8 0.1 0.5\\n' > wet.txt; printf 'mu load "
+                           "shift\\n0.2 100 0\\n0.4 120 1e-4\\n' > dry.txt; printf 'time "
+                           "load\\n0 100\\n1e-3 100\\n3e-3 50\\n' > calm.txt"),
                      0);
 }
 
@@ -103,6 +105,9 @@ static void results_are_valid(void **state)
         "--states --gap parabola",
         "--support halfplane --similar --load 100 --history wet.txt --formulation "
         "transient --states", /* symmetric: its moment is rounding */
+        "--support hub --history dry.txt --states", /* mu of the column, not of --mu */
+        "--support hub --history calm.txt --mu 3 --states --contact-elements 20 "
+        "--relaxation-time 1e-3 --relaxation-ratio 1", /* Q is rounding */
     };
     write_controls();
     for (size_t k = 0; k < CASES + HISTORIES + sizeof more / sizeof *more; k++) {

@@ -279,6 +279,8 @@ const rb_settled_case *rb_case_settled(const rb_case *c);
 rb_units rb_case_units(const rb_case *c);
 /* The system of the plain numbers in the case file. */
 rb_units rb_case_file_units(const rb_case *c);
+/* 1: a column of the history stands in the place of the option. */
+int rb_case_is_replaced(const rb_case *c, const rb_option *option);
 /* 1: transient rolling, a static history or increments. */
 int rb_case_has_steps(const rb_settled_case *settled);
 

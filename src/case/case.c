@@ -610,6 +610,15 @@ static const rb_option *replaced_option(const char *column)
     return option && strcmp(option->name, "distance") != 0 ? option : NULL;
 }
 
+int rb_case_is_replaced(const rb_case *c, const rb_option *option)
+{
+    const rb_io_table *t = &c->history.table;
+    for (int j = 0; j < t->columns && c->settled.program.n > 0; j++)
+        if (replaced_option(t->name[j]) == option)
+            return 1;
+    return 0;
+}
+
 /* A column stands in the place of an option: as between two options the command line wins
  * over the file, and otherwise both at once are refused. */
 static rb_status settle_columns(rb_case *c, rb_message *why)

@@ -487,28 +487,34 @@ rb_status rb_certificate_laws(rb_certificate *c)
  */
 
 /* How exactly a result comes out again beside its own nine digits, by its unit. */
+double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
+                               const rb_certificate_scales *s, double otherwise)
+{
+    for (int k = 0; k < all->n; k++) {
+        const char *unit = all->row[k].unit;
+        if (strcmp(all->row[k].name, name) == 0 && unit)
+            return strcmp(unit, "mm") == 0     ? 1e-12 * s->half_width
+                   : strcmp(unit, "N/mm") == 0 ? 1e-13 * s->load
+                   : strcmp(unit, "N") == 0    ? 1e-12 * s->load * s->half_width
+                   : strcmp(unit, "MPa") == 0  ? 1e-12 * s->pressure
+                   : strcmp(unit, "1") == 0    ? 1e-13 * s->number
+                                               : 0.0;
+    }
+    return otherwise;
+}
+
 static double rounding_of(const rb_certificate *c, const char *key)
 {
-    const rb_rolling_results *all = &rb_rolling_solution_scalars;
     const rb_rolling_solution *s = &c->again;
-    const double P = s->normal_load;
+    const rb_certificate_scales scales = {
+        .half_width = s->half_width, .load = s->normal_load, .pressure = s->max_pressure};
 
     if (strncmp(key, "residual_", 9) == 0)
         return c->tol * (strcmp(key, "residual_friction") == 0 ? c->model.problem.stress
                          : strcmp(key, "residual_gap") == 0
                              ? c->model.problem.gap_length
                              : c->model.problem.slip_length);
-    for (int k = 0; k < all->n; k++) {
-        const char *unit = all->row[k].unit;
-        if (strcmp(all->row[k].name, key) != 0 || !unit)
-            continue;
-        return strcmp(unit, "mm") == 0     ? 1e-12 * s->half_width
-               : strcmp(unit, "N/mm") == 0 ? 1e-13 * P
-               : strcmp(unit, "N") == 0    ? 1e-12 * P * s->half_width
-               : strcmp(unit, "MPa") == 0  ? 1e-12 * s->max_pressure
-                                           : 0.0;
-    }
-    return 1e-10;
+    return rb_certificate_rounding(&rb_rolling_solution_scalars, key, &scales, 1e-10);
 }
 
 static void compare_table(rb_certificate *c, const json_t *again)

@@ -36,6 +36,16 @@ rb_status rb_certificate_list(const char *name, const json_t *list, const char *
 rb_status rb_certificate_column(const char *name, const json_t *table,
                                 const char *heading, int n, double *x, rb_message *why);
 
+/* Sizes of what a result has, which rounding is judged by. */
+typedef struct {
+    double half_width, load, pressure;
+    double number; /* of unit 1 */
+} rb_certificate_scales;
+/* What a number of this name, a row of the table, may differ by beside its own nine
+ * digits; otherwise: it is none of them or has no unit. */
+double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
+                               const rb_certificate_scales *scales, double otherwise);
+
 /* From the residual that is printed for the state at hand. */
 void rb_certificate_tolerances(rb_certificate *c, double residual);
 /* The given load or approach, creepage or shift against the model's. */

@@ -117,12 +117,12 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
 
 /* ---- Columns ----------------------------------------------------------------------- */
 
-/* moment: load times half-width, of which the moment of a symmetric pressure is rounding.
- */
-static void compare_list(rb_certificate *c, const char *key, double moment,
+/* rounding: of its numbers, as of a force that is none, or of the moment of a symmetric
+ * pressure. */
+static void compare_list(rb_certificate *c, const char *key, double rounding,
                          const json_t *printed, const json_t *again)
 {
-    double largest = strcmp(key, "moment") == 0 ? moment : 0.0;
+    double largest = 0.0;
 
     for (size_t k = 0; k < json_array_size(again); k++)
         largest = fmax(largest, fabs(rb_certificate_number(json_array_get(again, k))));
@@ -133,11 +133,12 @@ static void compare_list(rb_certificate *c, const char *key, double moment,
         const double want = rb_certificate_number(json_array_get(again, k));
         const int whole = json_is_integer(json_array_get(again, k));
         c->step = (int)k + 1;
-        rb_certificate_expect(
-            c, key, 0, rb_certificate_number(json_array_get(printed, k)), want,
-            whole                          ? 0.0
-            : strcmp(key, "residual") == 0 ? c->tol
-                                           : 1e-9 * fabs(want) + 1e-12 * largest);
+        rb_certificate_expect(c, key, 0,
+                              rb_certificate_number(json_array_get(printed, k)), want,
+                              whole ? 0.0
+                              : strcmp(key, "residual") == 0
+                                  ? c->tol
+                                  : 1e-9 * fabs(want) + 1e-12 * largest + rounding);
     }
     c->step = 0;
 }
@@ -145,17 +146,24 @@ static void compare_list(rb_certificate *c, const char *key, double moment,
 rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,
                                          const rb_rolling_history *h)
 {
-    const double moment = h->n > 0 ? h->normal_load[h->n - 1] * h->half_width : 0.0;
+    rb_certificate_scales scales = {.half_width = h->half_width, .number = 1.0};
     json_t *again = rb_report_json_history(h), *want;
     const char *key;
 
     if (!again)
         return RB_ENOMEM;
+    for (int k = 0; k < h->n; k++) {
+        scales.load = fmax(scales.load, h->normal_load[k]);
+        scales.pressure = fmax(scales.pressure, h->max_pressure[k]);
+    }
     json_object_foreach(again, key, want)
     {
         const json_t *value = json_object_get(printed, key);
         if (json_is_array(want))
-            compare_list(c, key, moment, value, want);
+            compare_list(
+                c, key,
+                rb_certificate_rounding(&rb_rolling_history_columns, key, &scales, 0.0),
+                value, want);
         else if (json_is_real(want))
             rb_certificate_expect(c, key, 0, rb_certificate_number(value),
                                   json_real_value(want),

@@ -1,4 +1,5 @@
-/* The inputs of a case as JSON: every value used, defaults included. */
+/* The inputs of a case as JSON: every value used, defaults included; null where a column
+ * of the history is used instead. */
 #include "report/internal.h"
 #include "rollbem/case.h"
 
@@ -39,6 +40,9 @@ json_t *rb_report_json_inputs(const rb_case *c)
     json_t *inputs = json_object();
     for (int i = 0; i < n; i++)
         if (o[i].kind != RB_OPTION_GROUP)
-            rb_report_json_set(&inputs, o[i].name, input(&o[i], settled, settled->units));
+            rb_report_json_set(&inputs, o[i].name,
+                               rb_case_is_replaced(c, &o[i])
+                                   ? json_null()
+                                   : input(&o[i], settled, settled->units));
     return inputs;
 }
