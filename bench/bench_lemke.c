@@ -288,7 +288,7 @@ static double siconos(const problem *p, int *pivots, double *residual)
     lcp_lexicolemke(&lcp, z, w, &info, options);
     const double seconds = cpu_seconds() - start;
     *pivots = options->iparam[SICONOS_IPARAM_ITER_DONE];
-    *residual = rb_lcp_residual(p->n, p->M, p->n, p->q, z, NULL);
+    *residual = rb_lcp_residual(&(rb_lcp_problem){p->n, p->M, p->n, p->q}, z, NULL);
     solver_options_delete(options);
     NM_clear(lcp.M); /* frees M */
     free(z);
@@ -310,7 +310,8 @@ static double delayed(const problem *p, int runs, rb_lcp_info *info)
     double *z = need(p->n, 1), *seconds = need(runs, 1);
     for (int k = 0; k < runs; k++) {
         const double start = cpu_seconds();
-        const rb_status s = rb_lcp_lemke(p->n, p->M, p->n, p->q, NULL, z, info);
+        const rb_status s =
+            rb_lcp_lemke(&(rb_lcp_problem){p->n, p->M, p->n, p->q}, NULL, z, info);
         seconds[k] = cpu_seconds() - start;
         if (s != RB_OK)
             fprintf(stderr, "bench_lemke: %s: %s\n", rb_status_text(s), info->msg.text);
@@ -352,7 +353,7 @@ static void compare(int nc, int runs)
     double *z = need(p.n, 1);
     opt.trace = record;
     opt.trace_context = &way;
-    rb_lcp_lemke(p.n, p.M, p.n, p.q, &opt, z, &info);
+    rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M, p.n, p.q}, &opt, z, &info);
 
     int other;
     const double ours = delayed(&p, runs, &info), plain = rank_one(&p, &way, &other);

@@ -79,18 +79,19 @@ void fuzz_lemke(const uint8_t *data, size_t size)
         row[k] = k % n;
         col[k] = k / n;
     }
-    if (rb_lcp_lemke(n, M, n, q, &opt, z, &info) == RB_OK)
+    if (rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, &opt, z, &info) == RB_OK)
         require_solved("Lemke's solution solves", n, M, q, z);
     fuzz_require(rb_sparse_from_triplets(n, n, n * n, row, col, M, &a) == RB_OK,
                  "a matrix becomes sparse");
     if (rb_lcp_newton(&a, q, &opt, z, &info) == RB_OK)
         require_solved("Newton's solution solves", n, M, q, z);
-    if (rb_lcp_mixed(&a, q, NULL, NULL, &opt, z, &info) == RB_OK)
+    if (rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &a, .q = q}, &opt, z, &info) == RB_OK)
         require_solved("the solution of the sparse method solves", n, M, q, z);
     rb_sparse_free(&a);
     rb_lcp_solutions all = {0};
     rb_message why = {""};
-    const rb_status s = rb_lcp_enumerate(n, M, n, q, NULL, NULL, &all, &why);
+    const rb_status s =
+        rb_lcp_enumerate(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, &all, &why);
     fuzz_require_reason(s, &why);
     for (int k = 0; s == RB_OK && k < all.count; k++)
         require_listed(n, M, q, all.z + k * n);

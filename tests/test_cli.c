@@ -613,7 +613,8 @@ static void dump_holds_the_problem(void **state)
     double *scale = read_matrix("d/z_scale.mtx", SIZE, 1), z[SIZE];
     double *F = read_matrix("d/F.mtx", 2 * (N + 1), 2 * N);
     rb_lcp_info info;
-    assert_int_equal(rb_lcp_lemke(SIZE, M, SIZE, b, NULL, z, &info), RB_OK);
+    assert_int_equal(rb_lcp_lemke(&(rb_lcp_problem){SIZE, M, SIZE, b}, NULL, z, &info),
+                     RB_OK);
     const json_t *table = json_object_get(root, "table");
     for (size_t i = 0; i < N; i++) {
         const double p =

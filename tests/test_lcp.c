@@ -46,7 +46,7 @@ static void a_nonnegative_q_needs_no_pivot(void **state)
     const double M[] = {-1.0, 0.0, 0.0, -1.0}, q[] = {0.0, 2.0};
     double z[2] = {9.0, 9.0};
     rb_lcp_info info;
-    CHECK_STATUS(rb_lcp_lemke(2, M, 2, q, NULL, z, &info), RB_OK);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){2, M, 2, q}, NULL, z, &info), RB_OK);
     assert_int_equal(info.iters, 0);
     CHECK_ABS(z[0], 0.0, 0.0, "z");
     CHECK_ABS(z[1], 0.0, 0.0, "z");
@@ -60,14 +60,14 @@ static void two_by_two(void **state)
     const double M[] = {2.0, 1.0, NAN, 1.0, 2.0, NAN}, q[] = {-5.0, -6.0};
     double z[2];
     rb_lcp_info info;
-    CHECK_STATUS(rb_lcp_lemke(2, M, 3, q, NULL, z, &info), RB_OK);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){2, M, 3, q}, NULL, z, &info), RB_OK);
     CHECK_REL(z[0], 4.0 / 3.0, 1e-15, "z_0");
     CHECK_REL(z[1], 7.0 / 3.0, 1e-15, "z_1");
     CHECK_MAX(natural_residual(2, M, 3, q, z), 1e-15, "residual");
     double w[2];
-    CHECK_MAX(rb_lcp_residual(2, M, 3, q, z, w), 1e-15, "residual");
+    CHECK_MAX(rb_lcp_residual(&(rb_lcp_problem){2, M, 3, q}, z, w), 1e-15, "residual");
     CHECK_ABS(w[0], 0.0, 1e-15, "w");
-    CHECK_STATUS(rb_lcp_lemke(2, M, 3, q, NULL, z, NULL), RB_OK);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){2, M, 3, q}, NULL, z, NULL), RB_OK);
 }
 
 /* w = -z - 1 has no solution: z enters and nothing stops it. */
@@ -77,7 +77,7 @@ static void a_secondary_ray_names_its_variable(void **state)
     const double M[] = {-1.0}, q[] = {-1.0};
     double z[1];
     rb_lcp_info info;
-    CHECK_STATUS(rb_lcp_lemke(1, M, 1, q, NULL, z, &info), RB_RAY);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){1, M, 1, q}, NULL, z, &info), RB_RAY);
     assert_int_equal(info.ray_variable, 1);
     assert_int_equal(info.iters, 1);
     assert_non_null(strstr(info.msg.text, "z(1)"));
@@ -182,7 +182,8 @@ static void planted_problems_are_solved(void **state)
         rb_lcp_info info;
         make_matrix(which, n, ldm, M_);
         plant(n, ldm, M_, which == DEGENERATE, q_);
-        const rb_status s = rb_lcp_lemke(n, M_, ldm, q_, NULL, z_, &info);
+        const rb_status s =
+            rb_lcp_lemke(&(rb_lcp_problem){n, M_, ldm, q_}, NULL, z_, &info);
         if (s != RB_OK)
             print_error("problem %d, kind %d, n = %d: %s\n", k, (int)which, n,
                         info.msg.text);
@@ -206,14 +207,16 @@ static void the_residual_is_that_of_z(void **state)
         z_[i] = uniform();
     }
     const double want = natural_residual(n, M_, ldm, q_, z_);
-    CHECK_REL(rb_lcp_residual(n, M_, ldm, q_, z_, NULL), want, 1e-13, "without w");
-    CHECK_REL(rb_lcp_residual(n, M_, ldm, q_, z_, w), want, 1e-13, "with w");
+    CHECK_REL(rb_lcp_residual(&(rb_lcp_problem){n, M_, ldm, q_}, z_, NULL), want, 1e-13,
+              "without w");
+    CHECK_REL(rb_lcp_residual(&(rb_lcp_problem){n, M_, ldm, q_}, z_, w), want, 1e-13,
+              "with w");
     double last = q_[n - 1];
     for (int j = 0; j < n; j++)
         last += M_[n - 1 + j * ldm] * z_[j];
     CHECK_REL(w[n - 1], last, 1e-12, "last w");
     z_[70] = NAN;
-    assert_true(isnan(rb_lcp_residual(n, M_, ldm, q_, z_, NULL)));
+    assert_true(isnan(rb_lcp_residual(&(rb_lcp_problem){n, M_, ldm, q_}, z_, NULL)));
 }
 
 /* ---- Ties ------------------------------------------------------------------------- */
@@ -248,7 +251,7 @@ static void kostreva_cycles_only_without_the_lexicographic_rule(void **state)
     opt.trace_context = &b;
     opt.rule = RB_LCP_FIRST_INDEX;
     opt.max_iters = 44;
-    CHECK_STATUS(rb_lcp_lemke(3, M, 3, q, &opt, z, &info), RB_MAXITER);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){3, M, 3, q}, &opt, z, &info), RB_MAXITER);
     assert_int_equal(info.iters, 44);
     assert_int_equal(b.count, 44);
     for (int k = 8; k < 44; k++)
@@ -256,7 +259,7 @@ static void kostreva_cycles_only_without_the_lexicographic_rule(void **state)
 
     b = (bases){0};
     opt.rule = RB_LCP_LEXICOGRAPHIC;
-    CHECK_STATUS(rb_lcp_lemke(3, M, 3, q, &opt, z, &info), RB_OK);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){3, M, 3, q}, &opt, z, &info), RB_OK);
     assert_int_equal(b.repeated, 0);
     for (int i = 0; i < 3; i++)
         CHECK_REL(z[i], 1.0 / 3.0, 1e-15, "z_%d", i);
@@ -274,7 +277,8 @@ static void integer_problems_do_not_cycle(void **state)
             M_[i] = floor(2 * (k & 1) + 2.5 * uniform());
         for (int i = 0; i < n; i++)
             q_[i] = uniform() > 0.6 ? 0.0 : -1.0;
-        const rb_status s = rb_lcp_lemke(n, M_, n, q_, NULL, z_, &info);
+        const rb_status s =
+            rb_lcp_lemke(&(rb_lcp_problem){n, M_, n, q_}, NULL, z_, &info);
         assert_true(s == RB_OK || s == RB_RAY);
         solved += s == RB_OK;
         rays += s == RB_RAY;
@@ -316,7 +320,8 @@ static void rounding_errors_are_no_pivots(void **state)
         rb_lcp_info info;
         seed = start[k];
         make_copositive(n);
-        CHECK_STATUS(rb_lcp_lemke(n, M_, n, q_, NULL, z_, &info), RB_OK);
+        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M_, n, q_}, NULL, z_, &info),
+                     RB_OK);
         CHECK_MAX(natural_residual(n, M_, n, q_, z_), 1e-12, "problem %d", k);
     }
     seed = before;
@@ -394,15 +399,16 @@ static void the_trace_sees_every_pivot(void **state)
     opt.trace = watch;
     opt.attempt = ATTEMPT;
     opt.trace_context = &p_;
-    CHECK_STATUS(rb_lcp_lemke(n, M_, ldm, q_, &opt, z_, &info), RB_OK);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M_, ldm, q_}, &opt, z_, &info), RB_OK);
     assert_int_equal(info.iters, p_.count);
     assert_true(info.iters > n / 2);
     opt.trace_context = &p_full_;
     opt.trace_tableau = 1;
-    CHECK_STATUS(rb_lcp_lemke(n, M_, ldm, q_, &opt, z_, &info), RB_OK);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M_, ldm, q_}, &opt, z_, &info), RB_OK);
     assert_int_equal(p_full_.count, p_.count);
     assert_memory_equal(p_full_.pivots, p_.pivots, sizeof p_.pivots);
-    CHECK_STATUS(rb_lcp_lemke(n, M_, ldm, q_, NULL, z_, NULL), RB_OK); /* no info */
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M_, ldm, q_}, NULL, z_, NULL),
+                 RB_OK); /* no info */
 }
 
 static void the_iteration_limit_keeps_the_last_point(void **state)
@@ -414,7 +420,8 @@ static void the_iteration_limit_keeps_the_last_point(void **state)
     make_matrix(P_MATRIX, n, n, M_);
     plant(n, n, M_, 0, q_);
     opt.max_iters = 5;
-    CHECK_STATUS(rb_lcp_lemke(n, M_, n, q_, &opt, z_, &info), RB_MAXITER);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M_, n, q_}, &opt, z_, &info),
+                 RB_MAXITER);
     assert_int_equal(info.iters, 5);
     assert_int_equal(info.ray_variable, -1);
     for (int i = 0; i < n; i++)
@@ -429,7 +436,7 @@ static void check_refused(int n, const double *M, int ldm, const double *q,
 {
     double z[2];
     rb_lcp_info info;
-    CHECK_STATUS(rb_lcp_lemke(n, M, ldm, q, opt, z, &info), RB_EINVAL);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M, ldm, q}, opt, z, &info), RB_EINVAL);
     if (!strstr(info.msg.text, words))
         fail_msg("expected '%s' in: %s", words, info.msg.text);
 }
@@ -480,7 +487,7 @@ static void short_memory_is_reported(void **state)
         double z[2];
         rb_lcp_info info;
         alloc_fail_after(i);
-        const rb_status s = rb_lcp_lemke(2, M, 2, q, &opt, z, &info);
+        const rb_status s = rb_lcp_lemke(&(rb_lcp_problem){2, M, 2, q}, &opt, z, &info);
         const int refused = alloc_failed();
         alloc_succeed();
         if (!refused) {
@@ -519,7 +526,9 @@ static void the_collection_is_solved(void **state)
             fail_msg("%s", why.text);
         CHECK_STATUS(rb_io_matrix_to_dense(&p.M), RB_OK);
         assert_int_equal(p.n, files[k].n);
-        CHECK_STATUS(rb_lcp_lemke(p.n, p.M.dense, p.n, p.q, NULL, z, &info), RB_OK);
+        CHECK_STATUS(
+            rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M.dense, p.n, p.q}, NULL, z, &info),
+            RB_OK);
         CHECK_MAX(natural_residual(p.n, p.M.dense, p.n, p.q, z),
                   1e-13 * size_of(p.n, p.q), "%s", files[k].file);
         assert_int_equal(info.iters, files[k].pivots + 1); /* z0's entry is one */
@@ -571,7 +580,7 @@ static void plane_friction_problems_are_solved(void **state)
         double *M = calloc((size_t)(n * n), sizeof *M), *q = calloc((size_t)n, sizeof *q);
         double *z = calloc((size_t)n, sizeof *z);
         friction_matrix(&p, M, q);
-        CHECK_STATUS(rb_lcp_lemke(n, M, n, q, NULL, z, &info), RB_OK);
+        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, NULL, z, &info), RB_OK);
         CHECK_MAX(natural_residual(n, M, n, q, z), 1e-12 * size_of(n, q), "%s",
                   files[k].file);
         assert_true(info.iters <= files[k].pivots + 1);

@@ -16,11 +16,13 @@ static double uniform(void)
 enum { N = 40, LD = N + 3 };
 
 static double A[LD * N], B[LD * N];
+static const rb_lcp_game two = {2, 2, A, B, LD};
 
 /* What the better player could gain by another strategy, from the definition; also
  * refuses what are no probabilities. */
-static double gain(int m, int n, const double *x, const double *y)
+static double gain(int m, int n, const double *z)
 {
+    const double *x = z, *y = z + m;
     double sum_x = 0.0, sum_y = 0.0, got_a = 0.0, got_b = 0.0, best_a = -INFINITY,
            best_b = -INFINITY;
     for (int i = 0; i < m; i++) {
@@ -59,14 +61,14 @@ static void random_game(int m, int n, int integers)
 static void random_games_are_solved(void **state)
 {
     (void)state;
-    double x[N], y[N];
+    double z[2 * N];
     rb_lcp_info info;
     for (int k = 0; k < 60; k++) {
         const int m = 1 + (7 * k) % N, n = 1 + (11 * k) % N;
+        const rb_lcp_game game = {m, n, A, B, LD};
         random_game(m, n, 0);
-        CHECK_STATUS(rb_lcp_bimatrix(m, n, A, B, LD, k % (m + n), NULL, x, y, &info),
-                     RB_OK);
-        CHECK_MAX(gain(m, n, x, y), 1e-10, "game %d", k);
+        CHECK_STATUS(rb_lcp_bimatrix(&game, k % (m + n), NULL, z, &info), RB_OK);
+        CHECK_MAX(gain(m, n, z), 1e-10, "game %d", k);
         CHECK_MAX(info.res, 1e-11, "game %d", k);
     }
 }
@@ -75,14 +77,14 @@ static void random_games_are_solved(void **state)
 static void games_of_small_integers_do_not_cycle(void **state)
 {
     (void)state;
-    double x[N], y[N];
+    double z[2 * N];
     rb_lcp_info info;
     for (int k = 0; k < 400; k++) {
         const int m = 1 + k % 13, n = 1 + k % 11;
+        const rb_lcp_game game = {m, n, A, B, LD};
         random_game(m, n, 1);
-        CHECK_STATUS(rb_lcp_bimatrix(m, n, A, B, LD, k % (m + n), NULL, x, y, &info),
-                     RB_OK);
-        CHECK_MAX(gain(m, n, x, y), 1e-12, "game %d", k);
+        CHECK_STATUS(rb_lcp_bimatrix(&game, k % (m + n), NULL, z, &info), RB_OK);
+        CHECK_MAX(gain(m, n, z), 1e-12, "game %d", k);
     }
 }
 
@@ -102,12 +104,12 @@ static void all_equilibria_of_a_game(void **state)
     rb_message why;
     int mixed = 0;
     battle_of_the_sexes();
-    CHECK_STATUS(rb_lcp_bimatrix_enumerate(2, 2, A, B, LD, &all, &why), RB_OK);
+    CHECK_STATUS(rb_lcp_bimatrix_enumerate(&two, &all, &why), RB_OK);
     assert_int_equal(all.count, 3);
     assert_int_equal(all.bases, 16);
     for (int k = 0; k < 3; k++) {
         const double *z = all.z + 4 * k;
-        CHECK_MAX(gain(2, 2, z, z + 2), 1e-15, "equilibrium %d", k);
+        CHECK_MAX(gain(2, 2, z), 1e-15, "equilibrium %d", k);
         if (z[0] > 0.01 && z[0] < 0.99) {
             mixed++;
             CHECK_REL(z[0], 2.0 / 3.0, 1e-15, "x");
@@ -125,15 +127,15 @@ static void every_label_leads_to_an_equilibrium(void **state)
     (void)state;
     for (int k = 0; k < 30; k++) {
         const int m = 2 + k % 3, n = 2 + k % 4;
+        const rb_lcp_game game = {m, n, A, B, LD};
         rb_lcp_solutions all;
         double z[N];
         random_game(m, n, 0);
-        CHECK_STATUS(rb_lcp_bimatrix_enumerate(m, n, A, B, LD, &all, NULL), RB_OK);
+        CHECK_STATUS(rb_lcp_bimatrix_enumerate(&game, &all, NULL), RB_OK);
         assert_int_equal(all.count % 2, 1);
         for (int label = 0; label < m + n; label++) {
             int found = 0;
-            CHECK_STATUS(rb_lcp_bimatrix(m, n, A, B, LD, label, NULL, z, z + m, NULL),
-                         RB_OK);
+            CHECK_STATUS(rb_lcp_bimatrix(&game, label, NULL, z, NULL), RB_OK);
             for (int s = 0; s < all.count; s++) {
                 double apart = 0.0;
                 for (int i = 0; i < m + n; i++)
@@ -154,13 +156,15 @@ static void one_variable_by_hand(void **state)
     (void)state;
     const double M[] = {-1.0}, q[] = {1.0}, high[] = {3.0}, low[] = {0.0};
     rb_lcp_solutions all;
-    CHECK_STATUS(rb_lcp_enumerate(1, M, 1, q, NULL, NULL, &all, NULL), RB_OK);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, &all, NULL),
+                 RB_OK);
     assert_int_equal(all.count, 2);
     assert_int_equal(all.bases, 2);
     assert_int_equal(all.singular, 0);
     CHECK_ABS(all.z[0] + all.z[1], 1.0, 1e-15, "z");
     rb_lcp_solutions_free(&all);
-    CHECK_STATUS(rb_lcp_enumerate(1, M, 1, q, low, high, &all, NULL), RB_OK);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, low, high, &all, NULL),
+                 RB_OK);
     assert_int_equal(all.count, 3);
     CHECK_ABS(all.z[0] + all.z[1] + all.z[2], 4.0, 1e-15, "z");
     rb_lcp_solutions_free(&all);
@@ -173,11 +177,15 @@ static void solutions_are_listed_once(void **state)
     (void)state;
     const double M[] = {2.0, 1.0, 1.0, 2.0}, zero[] = {0.0, 0.0};
     rb_lcp_solutions all;
-    CHECK_STATUS(rb_lcp_enumerate(2, M, 2, zero, NULL, NULL, &all, NULL), RB_OK);
+    CHECK_STATUS(
+        rb_lcp_enumerate(&(rb_lcp_problem){2, M, 2, zero}, NULL, NULL, &all, NULL),
+        RB_OK);
     assert_int_equal(all.count, 1);
     CHECK_ABS(all.z[0] + all.z[1], 0.0, 0.0, "z");
     rb_lcp_solutions_free(&all);
-    CHECK_STATUS(rb_lcp_enumerate(1, zero, 1, zero, NULL, NULL, &all, NULL), RB_OK);
+    CHECK_STATUS(
+        rb_lcp_enumerate(&(rb_lcp_problem){1, zero, 1, zero}, NULL, NULL, &all, NULL),
+        RB_OK);
     assert_int_equal(all.count, 1);
     assert_int_equal(all.singular, 1);
     rb_lcp_solutions_free(&all);
@@ -196,9 +204,11 @@ static void what_lemke_finds_is_listed(void **state)
             M[i] = uniform();
         for (int i = 0; i < n; i++)
             q[i] = uniform();
-        if (rb_lcp_lemke(n, M, n, q, NULL, z, NULL) != RB_OK)
+        if (rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, NULL, z, NULL) != RB_OK)
             continue;
-        CHECK_STATUS(rb_lcp_enumerate(n, M, n, q, NULL, NULL, &all, NULL), RB_OK);
+        CHECK_STATUS(
+            rb_lcp_enumerate(&(rb_lcp_problem){n, M, n, q}, NULL, NULL, &all, NULL),
+            RB_OK);
         for (int s = 0; s < all.count; s++) {
             double apart = 0.0;
             for (int i = 0; i < n; i++)
@@ -215,28 +225,36 @@ static void what_lemke_finds_is_listed(void **state)
 static void bad_input_is_named(void **state)
 {
     (void)state;
-    double x[N], y[N];
+    double z[2 * N];
     rb_lcp_info info;
     rb_lcp_solutions all;
     rb_message why;
     const double low[] = {1.0, 0.0}, high[] = {0.0, 1.0}, zero[] = {0.0, 0.0};
     static const double big[23 * 23];
     battle_of_the_sexes();
-    CHECK_STATUS(rb_lcp_bimatrix(0, 2, A, B, LD, 0, NULL, x, y, &info), RB_EINVAL);
-    CHECK_STATUS(rb_lcp_bimatrix(2, 2, A, B, 1, 0, NULL, x, y, &info), RB_EINVAL);
-    CHECK_STATUS(rb_lcp_bimatrix(2, 2, A, B, LD, 4, NULL, x, y, &info), RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){0, 2, A, B, LD}, 0, NULL, z, &info),
+                 RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){2, 2, A, B, 1}, 0, NULL, z, &info),
+                 RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix(&two, 4, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "label 5: expected 1 to 4"));
     rb_lcp_options opt = rb_lcp_defaults();
     opt.max_iters = 1;
-    CHECK_STATUS(rb_lcp_bimatrix(2, 2, A, B, LD, 0, &opt, x, y, &info), RB_MAXITER);
+    CHECK_STATUS(rb_lcp_bimatrix(&two, 0, &opt, z, &info), RB_MAXITER);
     B[1] = NAN;
-    CHECK_STATUS(rb_lcp_bimatrix(2, 2, A, B, LD, 0, NULL, x, y, &info), RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix(&two, 0, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "B(2, 1)"));
-    CHECK_STATUS(rb_lcp_enumerate(2, A, LD, low, low, high, &all, &why), RB_EINVAL);
+    CHECK_STATUS(
+        rb_lcp_enumerate(&(rb_lcp_problem){2, A, LD, low}, low, high, &all, &why),
+        RB_EINVAL);
     assert_non_null(strstr(why.text, "box 1 is [1, 0]"));
-    CHECK_STATUS(rb_lcp_enumerate(23, big, 23, big, NULL, NULL, &all, &why), RB_EINVAL);
+    CHECK_STATUS(
+        rb_lcp_enumerate(&(rb_lcp_problem){23, big, 23, big}, NULL, NULL, &all, &why),
+        RB_EINVAL);
     assert_non_null(strstr(why.text, "order 22"));
-    CHECK_STATUS(rb_lcp_enumerate(2, B, LD, zero, NULL, NULL, &all, &why), RB_EINVAL);
+    CHECK_STATUS(
+        rb_lcp_enumerate(&(rb_lcp_problem){2, B, LD, zero}, NULL, NULL, &all, &why),
+        RB_EINVAL);
     assert_non_null(strstr(why.text, "M(2, 1) = nan"));
 }
 
@@ -246,7 +264,8 @@ static void points_beyond_the_largest_number_are_no_solutions(void **state)
     (void)state;
     const double M[] = {1e-300}, q[] = {-1e300};
     rb_lcp_solutions all;
-    CHECK_STATUS(rb_lcp_enumerate(1, M, 1, q, NULL, NULL, &all, NULL), RB_OK);
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){1, M, 1, q}, NULL, NULL, &all, NULL),
+                 RB_OK);
     assert_int_equal(all.count, 0);
     rb_lcp_solutions_free(&all);
 }
@@ -256,11 +275,11 @@ static void short_memory_is_reported(void **state)
     (void)state;
     battle_of_the_sexes();
     for (int i = 0;; i++) {
-        double x[2], y[2];
+        double z[4];
         rb_lcp_solutions all;
         alloc_fail_after(i);
-        const rb_status s = rb_lcp_bimatrix(2, 2, A, B, LD, 0, NULL, x, y, NULL);
-        const rb_status t = rb_lcp_bimatrix_enumerate(2, 2, A, B, LD, &all, NULL);
+        const rb_status s = rb_lcp_bimatrix(&two, 0, NULL, z, NULL);
+        const rb_status t = rb_lcp_bimatrix_enumerate(&two, &all, NULL);
         const int refused = alloc_failed();
         alloc_succeed();
         assert_true(refused == (s == RB_ENOMEM || t == RB_ENOMEM));

@@ -44,7 +44,8 @@ static rb_status solve(const problem *p, const rb_lcp_options *opt, double *z,
 {
     rb_sparse M;
     CHECK_STATUS(rb_sparse_from_dense(p->n, p->n, p->M, p->n, &M), RB_OK);
-    const rb_status s = rb_lcp_mixed(&M, p->q, p->lower, p->upper, opt, z, info);
+    const rb_status s =
+        rb_lcp_mixed(&(rb_lcp_mixed_problem){&M, p->q, p->lower, p->upper}, opt, z, info);
     rb_sparse_free(&M);
     return s;
 }
@@ -95,7 +96,8 @@ static void without_boxes_it_is_the_lcp(void **state)
     rb_lcp_info info;
     for (int k = 0; k < 300; k++) {
         positive_definite(1 + k % N, &p);
-        CHECK_STATUS(rb_lcp_lemke(p.n, p.M, p.n, p.q, NULL, want, NULL), RB_OK);
+        CHECK_STATUS(
+            rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M, p.n, p.q}, NULL, want, NULL), RB_OK);
         CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
         const double size = 1.0 + rb_norm_inf((size_t)p.n, want);
         CHECK_MAX(natural_residual(&p, z), 1e-12 * size, "problem %d", k);
@@ -388,7 +390,8 @@ static void a_large_obstacle_is_solved_as_by_newton(void **state)
     rb_lcp_info info;
     obstacle(SIDE, &M, q);
     CHECK_STATUS(rb_lcp_newton(&M, q, NULL, want, &info), RB_OK);
-    CHECK_STATUS(rb_lcp_mixed(&M, q, NULL, NULL, NULL, z, &info), RB_OK);
+    CHECK_STATUS(rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, NULL, z, &info),
+                 RB_OK);
     assert_true(info.iters < SIDE * SIDE);
     CHECK_MAX(info.res, 1e-15, "residual");
     for (int i = 0; i < SIDE * SIDE; i++)
@@ -460,7 +463,8 @@ static void short_memory_is_reported(void **state)
     for (int i = 0;; i++) {
         double z[N];
         alloc_fail_after(i);
-        const rb_status s = rb_lcp_mixed(&M, p.q, p.lower, p.upper, NULL, z, NULL);
+        const rb_status s = rb_lcp_mixed(
+            &(rb_lcp_mixed_problem){&M, p.q, p.lower, p.upper}, NULL, z, NULL);
         const int refused = alloc_failed();
         alloc_succeed();
         CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
@@ -481,7 +485,8 @@ static void a_large_row_hides_no_wrong_one(void **state)
     rb_sparse M;
     rb_lcp_info info;
     CHECK_STATUS(rb_sparse_from_triplets(2, 2, 4, row, col, x, &M), RB_OK);
-    assert_int_not_equal(rb_lcp_mixed(&M, q, NULL, NULL, NULL, z, &info), RB_OK);
+    assert_int_not_equal(
+        rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, NULL, z, &info), RB_OK);
     rb_sparse_free(&M);
 }
 

@@ -54,7 +54,8 @@ static void p_matrices_are_solved_as_by_lemke(void **state)
         rb_lcp_info info;
         random_problem(n, M, q);
         CHECK_STATUS(rb_sparse_from_dense(n, n, M, n, &a), RB_OK);
-        CHECK_STATUS(rb_lcp_lemke(n, M, n, q, NULL, want, NULL), RB_OK);
+        CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, NULL, want, NULL),
+                     RB_OK);
         CHECK_STATUS(rb_lcp_newton(&a, q, NULL, z, &info), RB_OK);
         CHECK_MAX(natural_residual(n, M, q, z), 1e-12 * (1.0 + rb_norm_inf((size_t)n, z)),
                   "problem %d", k);

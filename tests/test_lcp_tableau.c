@@ -7,7 +7,7 @@
 enum { N = 60, LDM = 61 };
 
 static double M_[N * LDM], q_[N], cover_[N];
-static const lcp_data data_ = {N, M_, q_, cover_, LDM};
+static const lcp_data data_ = {{N, M_, LDM, q_}, cover_};
 static unsigned long long seed = 7;
 
 static double uniform(void)

@@ -96,7 +96,7 @@ static void check_form(const rb_rolling_model *model, rb_contact_lcp_form form,
     double *z = rb_alloc((size_t)lcp.size, 2), *w = z + lcp.size;
     for (int i = 0; i < lcp.size; i++)
         z[i] = rand() / (double)RAND_MAX;
-    rb_lcp_residual(lcp.size, lcp.M, lcp.size, lcp.b, z, w);
+    rb_lcp_residual(&(rb_lcp_problem){lcp.size, lcp.M, lcp.size, lcp.b}, z, w);
     check_rows(&model->problem, &lcp, z, w);
     free(z);
     rb_contact_lcp_free(&lcp);

@@ -9,6 +9,32 @@
 
 RB_PUBLIC_BEGIN
 
+/* w = M z + q with a dense M.  Borrowed, as every problem here. */
+typedef struct {
+    int n;
+    const double *M; /* n x n, column-major */
+    int ldm;         /* >= n */
+    const double *q; /* n */
+} rb_lcp_problem;
+
+/* The same with a sparse M, and boxes: lower <= z <= upper, and each w_i is >= 0 where
+ * z_i = lower_i, <= 0 where z_i = upper_i, 0 in between, any number where lower_i =
+ * upper_i. */
+typedef struct {
+    const rb_sparse *M;
+    const double *q;             /* n */
+    const double *lower, *upper; /* n each, infinite where there is no bound; NULL: 0 and
+                                    infinity, which is the LCP */
+} rb_lcp_mixed_problem;
+
+/* A bimatrix game: the row player, who mixes his m strategies by x, gets x'A y and the
+ * column player, who mixes n by y, gets x'B y. */
+typedef struct {
+    int m, n;
+    const double *A, *B; /* m x n, column-major */
+    int ld;              /* >= m, of both */
+} rb_lcp_game;
+
 /* Which row leaves when several ratios tie. */
 typedef enum {
     RB_LCP_LEXICOGRAPHIC, /* cannot cycle */
@@ -61,14 +87,14 @@ typedef struct {
 
 rb_lcp_options rb_lcp_defaults(void);
 
-/* Lemke's method.  M: n x n, column-major, ldm >= n; q: n; z: n, written (the last
- * basic point when not solved).  opt NULL: defaults.
+/* Lemke's method.  z: n, written (the last basic point when not solved).  opt NULL:
+ * defaults.
  * RB_OK, RB_RAY, RB_MAXITER, RB_INTERRUPTED (time limit); RB_INACCURATE: rounding has
  * spoilt the solution, residual above 1e-6 max |q|; RB_EINVAL: n < 1, ldm < n, NaN or
  * infinity, no cover; RB_ENOMEM.
  */
-rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
-                       const rb_lcp_options *opt, double *z, rb_lcp_info *info);
+rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, double *z,
+                       rb_lcp_info *info);
 
 /* Block principal pivoting for sparse M: Newton's method on min(z, M z + q) = 0 with a
  * rule that ends for every P-matrix.  Of the options max_iters and start count.  RB_OK,
@@ -77,19 +103,15 @@ rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
 rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
                         double *z, rb_lcp_info *info);
 
-/* Lemke's method on a sparse LU, for boxes: lower <= z <= upper, and of w = M z + q each
- * w_i is >= 0 where z_i = lower_i, <= 0 where z_i = upper_i, 0 in between, any number
- * where lower_i = upper_i.  lower, upper: n, infinite where there is no bound; NULL: 0
- * and infinity, which is the LCP.  Ties are settled by a generic perturbation, with
- * RB_LCP_FIRST_INDEX by the row; trace_tableau counts for nothing.  A variable without
- * any bound is split: the other half of the k-th of them is variable n + k for the trace,
- * which sees a larger n then.  With opt->start the path begins at the basis of that
- * point, and once more at the bounds when it does not lead to a solution. Statuses as
- * rb_lcp_lemke, and RB_SINGULAR: a basis is, to rounding; RB_EINVAL: crossed bounds, too.
- */
-rb_status rb_lcp_mixed(const rb_sparse *M, const double *q, const double *lower,
-                       const double *upper, const rb_lcp_options *opt, double *z,
-                       rb_lcp_info *info);
+/* Lemke's method on a sparse LU, for boxes.  Ties are settled by a generic perturbation,
+ * with RB_LCP_FIRST_INDEX by the row; trace_tableau counts for nothing.  A variable
+ * without any bound is split: the other half of the k-th of them is variable n + k for
+ * the trace, which sees a larger n then.  With opt->start the path begins at the basis of
+ * that point, and once more at the bounds when it does not lead to a solution.  Statuses
+ * as rb_lcp_lemke, and RB_SINGULAR: a basis is, to rounding; RB_EINVAL: crossed bounds,
+ * too. */
+rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
+                       double *z, rb_lcp_info *info);
 
 /* All solutions that complementary bases give, each once. */
 typedef struct {
@@ -99,42 +121,33 @@ typedef struct {
                             not found */
 } rb_lcp_solutions;
 
-/* lower, upper as for rb_lcp_mixed.  RB_EINVAL: more than 2^22 bases (order 22 without
- * boxes), crossed bounds, NaN or infinity in M or q; RB_ENOMEM. */
-rb_status rb_lcp_enumerate(int n, const double *M, int ldm, const double *q,
-                           const double *lower, const double *upper,
-                           rb_lcp_solutions *all, rb_message *why);
+/* lower, upper as in rb_lcp_mixed_problem.  RB_EINVAL: more than 2^22 bases (order 22
+ * without boxes), crossed bounds, NaN or infinity in M or q; RB_ENOMEM. */
+rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower,
+                           const double *upper, rb_lcp_solutions *all, rb_message *why);
 void rb_lcp_solutions_free(rb_lcp_solutions *all);
 
-/* An equilibrium of the bimatrix game in which the row player, mixing his m strategies by
- * x, gets x'A y and the column player x'B y (A, B: m x n, leading dimension ld), by the
- * method of Lemke and Howson with a lexicographic rule.  label, 0 ... m + n - 1: the
- * strategy dropped first (rows, then columns); other labels may lead to other equilibria.
- * Of the options max_iters, seconds and trace count; to the trace z_k is the probability,
- * w_k the regret of strategy k.  x: m, y: n, written.  RB_OK, RB_MAXITER, RB_INACCURATE,
- * RB_EINVAL, RB_ENOMEM. */
-rb_status rb_lcp_bimatrix(int m, int n, const double *A, const double *B, int ld,
-                          int label, const rb_lcp_options *opt, double *x, double *y,
-                          rb_lcp_info *info);
-/* All equilibria that complementary bases give: n = m + n, z = (x, y).  Otherwise as
- * rb_lcp_enumerate: m + n is at most 22. */
-rb_status rb_lcp_bimatrix_enumerate(int m, int n, const double *A, const double *B,
-                                    int ld, rb_lcp_solutions *all, rb_message *why);
+/* An equilibrium of a game by the method of Lemke and Howson with a lexicographic rule.
+ * label, 0 ... m + n - 1: the strategy dropped first (rows, then columns); other labels
+ * may lead to other equilibria.  Of the options max_iters, seconds and trace count; to
+ * the trace z_k is the probability, w_k the regret of strategy k.  z = (x, y): m + n,
+ * written.  RB_OK, RB_MAXITER, RB_INACCURATE, RB_EINVAL, RB_ENOMEM. */
+rb_status rb_lcp_bimatrix(const rb_lcp_game *game, int label, const rb_lcp_options *opt,
+                          double *z, rb_lcp_info *info);
+/* All equilibria that complementary bases give, as rb_lcp_enumerate: m + n is at most
+ * 22. */
+rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *game, rb_lcp_solutions *all,
+                                    rb_message *why);
 /* What each strategy loses against the best reply to the other player's mixture (m + n,
  * >= 0), the payoffs of the best replies, and max min(probability, regret). */
-double rb_lcp_bimatrix_regret(int m, int n, const double *A, const double *B, int ld,
-                              const double *x, const double *y, double *regret,
+double rb_lcp_bimatrix_regret(const rb_lcp_game *game, const double *z, double *regret,
                               double payoff[2]);
 
 /* w = M z + q and max_i |min(z_i, w_i)|; w: n or NULL. */
-double rb_lcp_residual(int n, const double *M, int ldm, const double *q, const double *z,
-                       double *w);
-/* The same for sparse M; w: n. */
-double rb_lcp_residual_sparse(const rb_sparse *M, const double *q, const double *z,
-                              double *w);
-/* The same for boxes: max_i |max(min(z_i - lower_i, w_i), z_i - upper_i)|. */
-double rb_lcp_residual_mixed(const rb_sparse *M, const double *q, const double *lower,
-                             const double *upper, const double *z, double *w);
+double rb_lcp_residual(const rb_lcp_problem *p, const double *z, double *w);
+/* The same for sparse M and boxes: max_i |max(min(z_i - lower_i, w_i), z_i - upper_i)|;
+ * w: n. */
+double rb_lcp_residual_mixed(const rb_lcp_mixed_problem *p, const double *z, double *w);
 
 RB_PUBLIC_END
 

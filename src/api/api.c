@@ -695,6 +695,7 @@ static void each_pivot(const rb_lcp_pivot *p, void *context)
 static rb_status follow_pivots(rb_api *a)
 {
     const size_t n = (size_t)a->lcp.size;
+    const rb_lcp_problem p = {a->lcp.size, a->lcp.M, a->lcp.size, a->lcp.b};
     rb_lcp_options options = rb_lcp_defaults();
     rb_lcp_info info = {0};
     double *z = rb_alloc(n, 1);
@@ -708,8 +709,7 @@ static rb_status follow_pivots(rb_api *a)
 
     rb_status s = RB_ENOMEM;
     if (z && a->tableau && a->nonbasis)
-        s = rb_lcp_lemke(a->lcp.size, a->lcp.M, a->lcp.size, a->lcp.b, &options, z,
-                         &info);
+        s = rb_lcp_lemke(&p, &options, z, &info);
     if (s < 0)
         rb_fail(&a->why, s, "%s", s == RB_ENOMEM ? "out of memory" : info.msg.text);
     if (s >= 0 && a->status != RB_OK)

@@ -37,12 +37,14 @@ static rb_status solve_lcp(rb_api *a, int newton, const lcp *p,
                            const rb_lcp_options *options)
 {
     const int n = p->M.rows;
+    const rb_lcp_problem dense = {n, p->dense, n, p->q};
+    const rb_lcp_mixed_problem sparse = {.M = &p->M, .q = p->q};
     rb_lcp_info info = {0};
     rb_api_call_begins();
     const rb_status s = newton ? rb_lcp_newton(&p->M, p->q, options, p->z, &info)
-                               : rb_lcp_lemke(n, p->dense, n, p->q, options, p->z, &info);
+                               : rb_lcp_lemke(&dense, options, p->z, &info);
     if (s >= 0)
-        a->residual = rb_lcp_residual_sparse(&p->M, p->q, p->z, p->w);
+        a->residual = rb_lcp_residual_mixed(&sparse, p->z, p->w);
     rb_api_call_ends();
     a->iterations = info.iters;
     a->why = info.msg;

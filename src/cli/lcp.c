@@ -119,9 +119,9 @@ typedef struct {
     const char *file, *status, *solver;
     int n; /* 0: not read */
     rb_lcp_info info;
-    double size, floor, seconds;           /* size: the largest constant, for --tol */
-    rb_sparse M;                           /* owned, as the vectors but q */
-    const double *q;                       /* borrowed */
+    double size, floor, seconds; /* size: the largest constant, for --tol */
+    rb_sparse M;                 /* owned, as the vectors */
+    rb_lcp_mixed_problem boxed;  /* borrows M, lower, upper, and q of the file */
     double *lower, *upper, *cover, *start; /* n each, or NULL */
     double *z, *w;                         /* n x solutions */
     int solutions;                         /* 1 but for --all */
@@ -266,7 +266,7 @@ static double rounding_floor(const lcp_result *r)
     if (!size)
         return floor;
     for (int i = 0; i < r->n; i++)
-        size[i] = fabs(r->q[i]);
+        size[i] = fabs(r->boxed.q[i]);
     for (int j = 0; j < r->n; j++)
         for (int k = r->M.p[j]; k < r->M.p[j + 1]; k++)
             size[r->M.i[k]] += fabs(r->M.x[k]) * r->z[j];
@@ -312,11 +312,12 @@ static rb_status run_lemke(lcp_run *run, rb_io_matrix *M, lcp_result *r)
 {
     const rb_lcp_options opt = solver_options(run, r);
     if (r->lower || r->upper || r->start || (!M->dense && M->rows >= LARGE))
-        return rb_lcp_mixed(&r->M, r->q, r->lower, r->upper, &opt, r->z, &r->info);
+        return rb_lcp_mixed(&r->boxed, &opt, r->z, &r->info);
     if (rb_io_matrix_to_dense(M) != RB_OK)
         return rb_fail(&r->info.msg, RB_ENOMEM,
                        "lcp: no memory for a dense matrix of order %d", r->n);
-    return rb_lcp_lemke(r->n, M->dense, r->n, r->q, &opt, r->z, &r->info);
+    return rb_lcp_lemke(&(rb_lcp_problem){r->n, M->dense, r->n, r->boxed.q}, &opt, r->z,
+                        &r->info);
 }
 
 static int wants_newton(const lcp_options *o, const rb_io_matrix *M)
@@ -331,7 +332,7 @@ static rb_status run_methods(lcp_run *run, rb_io_matrix *M, lcp_result *r)
     const rb_lcp_options opt = solver_options(run, r);
     if (wants_newton(run->o, M)) {
         r->solver = "newton";
-        const rb_status s = rb_lcp_newton(&r->M, r->q, &opt, r->z, &r->info);
+        const rb_status s = rb_lcp_newton(&r->M, r->boxed.q, &opt, r->z, &r->info);
         if (s <= 0 || run->o->solver == NEWTON)
             return s;
     }
@@ -364,7 +365,7 @@ static cli_exit run_solver(lcp_run *run, rb_io_matrix *M, lcp_result *r)
     r->seconds = rb_seconds() - start;
     if (s < 0)
         return invalid(r, s, &r->info.msg);
-    r->info.res = rb_lcp_residual_mixed(&r->M, r->q, r->lower, r->upper, r->z, r->w);
+    r->info.res = rb_lcp_residual_mixed(&r->boxed, r->z, r->w);
     r->floor = rounding_floor(r);
     return say_end(run->o, r, s);
 }
@@ -408,8 +409,8 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
     const double start = rb_seconds();
     rb_status s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
     if (rb_io_matrix_to_dense(M) == RB_OK)
-        s = rb_lcp_enumerate(r->n, M->dense, r->n, r->q, r->lower, r->upper, &all,
-                             &r->info.msg);
+        s = rb_lcp_enumerate(&(rb_lcp_problem){r->n, M->dense, r->n, r->boxed.q},
+                             r->lower, r->upper, &all, &r->info.msg);
     r->seconds = rb_seconds() - start;
     if (s == RB_OK)
         s = take_all(r, &all);
@@ -420,7 +421,7 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
     for (int k = 0; k < all.count; k++) {
         const double *z = r->z + (size_t)k * (size_t)r->n;
         double *w = r->w + (size_t)k * (size_t)r->n;
-        const double res = rb_lcp_residual_mixed(&r->M, r->q, r->lower, r->upper, z, w);
+        const double res = rb_lcp_residual_mixed(&r->boxed, z, w);
         r->info.res = fmax(r->info.res, res);
     }
     return say_all(run->o, r, &all);
@@ -448,7 +449,7 @@ static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
     r->w = rb_alloc((size_t)p->n, 1);
     if (rb_io_matrix_to_sparse(&p->M, &r->M) != RB_OK || !r->z || !r->w)
         return failed(r, RB_ENOMEM, "out of memory");
-    r->q = p->q;
+    r->boxed = (rb_lcp_mixed_problem){&r->M, p->q, r->lower, r->upper};
     r->size = rb_norm_inf((size_t)p->n, p->q);
     return run->o->all ? run_all(run, &p->M, r) : run_solver(run, &p->M, r);
 }
@@ -469,14 +470,13 @@ static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
 
 /* z = (x, y), w = what each strategy loses, of all solutions; the residual is the worst,
  * the payoffs are those of the first. */
-static void measure_game(const rb_io_bimatrix *g, lcp_result *r)
+static void measure_game(const rb_lcp_game *g, lcp_result *r)
 {
     const size_t entries = (size_t)g->m * (size_t)g->n, n = (size_t)r->n;
     r->info.res = 0.0;
     for (int k = r->solutions - 1; k >= 0; k--) {
-        const double *x = r->z + (size_t)k * n;
-        const double res = rb_lcp_bimatrix_regret(
-            g->m, g->n, g->A, g->B, g->m, x, x + g->m, r->w + (size_t)k * n, r->payoff);
+        const double res = rb_lcp_bimatrix_regret(g, r->z + (size_t)k * n,
+                                                  r->w + (size_t)k * n, r->payoff);
         r->info.res = fmax(r->info.res, res);
     }
     r->size = fmax(rb_norm_inf(entries, g->A), rb_norm_inf(entries, g->B));
@@ -486,6 +486,7 @@ static void measure_game(const rb_io_bimatrix *g, lcp_result *r)
 static cli_exit run_game(lcp_run *run, const rb_io_bimatrix *g, lcp_result *r)
 {
     const rb_lcp_options opt = solver_options(run, r);
+    const rb_lcp_game game = {g->m, g->n, g->A, g->B, g->m};
     const double start = rb_seconds();
     rb_lcp_solutions all = {0};
     rb_status s = rb_fail(&r->info.msg, RB_ENOMEM, "out of memory");
@@ -494,17 +495,16 @@ static cli_exit run_game(lcp_run *run, const rb_io_bimatrix *g, lcp_result *r)
     r->z = rb_alloc((size_t)r->n, 1);
     r->w = rb_alloc((size_t)r->n, 1);
     if (run->o->all)
-        s = rb_lcp_bimatrix_enumerate(g->m, g->n, g->A, g->B, g->m, &all, &r->info.msg);
+        s = rb_lcp_bimatrix_enumerate(&game, &all, &r->info.msg);
     else if (r->z && r->w)
-        s = rb_lcp_bimatrix(g->m, g->n, g->A, g->B, g->m,
-                            (run->o->label ? run->o->label : 1) - 1, &opt, r->z,
-                            r->z + g->m, &r->info);
+        s = rb_lcp_bimatrix(&game, (run->o->label ? run->o->label : 1) - 1, &opt, r->z,
+                            &r->info);
     r->seconds = rb_seconds() - start;
     if (run->o->all && s == RB_OK)
         s = take_all(r, &all);
     if (s < 0)
         return invalid(r, s, &r->info.msg);
-    measure_game(g, r);
+    measure_game(&game, r);
     return run->o->all ? say_all(run->o, r, &all) : say_end(run->o, r, s);
 }
 

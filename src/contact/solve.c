@@ -124,7 +124,8 @@ static rb_status try_lemke(rb_contact_problem *problem, const rb_contact_options
         pivoting.trace_context = options->trace_context;
         pivoting.trace_tableau = options->trace_tableau;
         pivoting.attempt = at->number;
-        s = rb_lcp_lemke(lcp.size, lcp.M, lcp.size, lcp.b, &pivoting, z, &info);
+        const rb_lcp_problem p = {lcp.size, lcp.M, lcp.size, lcp.b};
+        s = rb_lcp_lemke(&p, &pivoting, z, &info);
         state->iterations += info.iters;
         if (s < 0)
             rb_fail(why, s, "%s", info.msg.text);

@@ -242,7 +242,7 @@ static void unfold(lemke *s, const attempt *a)
 {
     rb_friction_task *t = s->task;
     const int nc = s->nc, n = s->n;
-    rb_lcp_residual(n, s->M, n, s->b, s->z, s->w);
+    rb_lcp_residual(&(rb_lcp_problem){n, s->M, n, s->b}, s->z, s->w);
     const double *force = a->kind == FORCE ? s->z : s->w;
     const double *displacement = a->kind == FORCE ? s->w : s->z;
     const double *u_minus = a->kind == STIFFNESS ? s->z : force;
@@ -280,7 +280,7 @@ static rb_status run_attempt(lemke *s, const attempt *a)
         const int most = a == attempts ? MOST_AT_FIRST(s->n) : MOST_PIVOTS(s->n);
         opt.max_iters = left < most ? left : most;
         opt.seconds = t->deadline > 0.0 ? fmax(t->deadline - rb_seconds(), 1e-9) : 0.0;
-        st = rb_lcp_lemke(s->n, s->M, s->n, s->b, &opt, s->z, &info);
+        st = rb_lcp_lemke(&(rb_lcp_problem){s->n, s->M, s->n, s->b}, &opt, s->z, &info);
         t->info->iters += info.iters;
         t->info->flops += 2.0 * s->n * (double)s->n * info.iters;
     }

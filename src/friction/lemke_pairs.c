@@ -102,7 +102,7 @@ rb_status rb_friction_lemke_pairs(rb_friction_task *task)
     opt.max_iters = left < INT_MAX ? left : 0;
     opt.seconds = task->deadline > 0.0 ? fmax(task->deadline - rb_seconds(), 1e-9) : 0.0;
     if (s == RB_OK) {
-        s = rb_lcp_mixed(&M, q, NULL, NULL, &opt, z, &info);
+        s = rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, &opt, z, &info);
         task->info->iters += info.iters;
         task->info->flops += rb_friction_lemke_pairs_flops(task, info.iters);
     }

@@ -48,15 +48,14 @@ static void add_product(int rows, int columns, const double *M, int ldm, const d
     }
 }
 
-double rb_lcp_residual(int n, const double *M, int ldm, const double *q, const double *z,
-                       double *w)
+double rb_lcp_residual(const rb_lcp_problem *p, const double *z, double *w)
 {
     double panel[PANEL], worst = 0.0;
-    for (int first = 0; first < n; first += PANEL) {
-        const int rows = n - first < PANEL ? n - first : PANEL;
+    for (int first = 0; first < p->n; first += PANEL) {
+        const int rows = p->n - first < PANEL ? p->n - first : PANEL;
         double *part = w ? w + first : panel;
-        cblas_dcopy(rows, q + first, 1, part, 1);
-        add_product(rows, n, M + first, ldm, z, part);
+        cblas_dcopy(rows, p->q + first, 1, part, 1);
+        add_product(rows, p->n, p->M + first, p->ldm, z, part);
         worst = natural(rows, z + first, part, worst);
     }
     return worst;
@@ -91,7 +90,7 @@ static double defect(const lemke *l, const double *constant, const double *basic
         r[i] = fixed + cover - r[i];
     }
     size = fmax(size, l->largest * values(l, basic, entering, n, z));
-    add_product(n, n, l->data.M, l->data.ldm, z, r);
+    add_product(n, n, l->data.p.M, l->data.p.ldm, z, r);
     return size > 0.0 ? rb_norm_inf((size_t)n, r) / size : 0.0;
 }
 
@@ -133,7 +132,7 @@ static rb_status refresh(lemke *l)
     rb_status s = RB_SINGULAR;
     double *r = l->r, *before = l->scratch;
     memcpy(before, l->t.q, (size_t)l->n * sizeof *before);
-    if (defect(l, l->data.q, l->t.q, -1, l->other, r) > DRIFT)
+    if (defect(l, l->data.p.q, l->t.q, -1, l->other, r) > DRIFT)
         s = rb_lcp_lemke_rebuild(l);
     if (s == RB_SINGULAR)
         refine(l, r);
@@ -157,11 +156,6 @@ int rb_lcp_lemke_column_holds(lemke *l, int entering)
 
 /* ---- The answer ------------------------------------------------------------------- */
 
-static double residual(const lemke *l, const double *z, double *w)
-{
-    return rb_lcp_residual(l->n, l->data.M, l->data.ldm, l->data.q, z, w);
-}
-
 static void basic_point(const lemke *l, double *z)
 {
     const int n = l->n;
@@ -179,7 +173,7 @@ typedef struct {
 static int factor(const lemke *l, final_basis *b)
 {
     const int n = l->n;
-    const size_t ldm = (size_t)l->data.ldm;
+    const size_t ldm = (size_t)l->data.p.ldm;
     b->m = 0;
     for (int i = 0; i < n; i++)
         if (l->t.place[n + i] >= 0)
@@ -187,7 +181,8 @@ static int factor(const lemke *l, final_basis *b)
     const size_t m = (size_t)b->m;
     for (size_t j = 0; j < m; j++)
         for (size_t i = 0; i < m; i++)
-            b->LU[i + j * m] = l->data.M[(size_t)b->index[i] + (size_t)b->index[j] * ldm];
+            b->LU[i + j * m] =
+                l->data.p.M[(size_t)b->index[i] + (size_t)b->index[j] * ldm];
     return m > 0 &&
            LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, b->m, b->m, b->LU, b->m, b->pivots) == 0;
 }
@@ -195,7 +190,7 @@ static int factor(const lemke *l, final_basis *b)
 /* x_B -= M_BB^-1 (M x + q)_B */
 static void correct(const lemke *l, const final_basis *b, double *w, double *r, double *x)
 {
-    residual(l, x, w);
+    rb_lcp_residual(&l->data.p, x, w);
     for (int k = 0; k < b->m; k++)
         r[k] = w[b->index[k]];
     LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'N', b->m, 1, b->LU, b->m, b->pivots, r, b->m);
@@ -218,7 +213,7 @@ static void polish(lemke *l, double *z)
     correct(l, &b, l->a, l->other, x);
     for (size_t i = 0; i < n; i++)
         x[i] = fmax(x[i], 0.0);
-    const double res = residual(l, x, NULL);
+    const double res = rb_lcp_residual(&l->data.p, x, NULL);
     if (res <= l->info->res) {
         memcpy(z, x, n * sizeof *z);
         l->info->res = res;
@@ -228,7 +223,7 @@ static void polish(lemke *l, double *z)
 void rb_lcp_lemke_answer(lemke *l, int solved, double *z)
 {
     basic_point(l, z);
-    l->info->res = residual(l, z, NULL);
+    l->info->res = rb_lcp_residual(&l->data.p, z, NULL);
     if (solved)
         polish(l, z);
 }

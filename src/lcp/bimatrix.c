@@ -26,7 +26,7 @@ static double *row_of(const tableau *t, int row)
     return t->T + (size_t)row * (size_t)t->width;
 }
 
-static rb_status create(int rows, int labels, int first, tableau *t)
+static rb_status tableau_create(int rows, int labels, int first, tableau *t)
 {
     *t = (tableau){.rows = rows, .width = labels + 1, .first = first};
     t->T = rb_alloc((size_t)rows, (size_t)labels + 1);
@@ -41,7 +41,7 @@ static rb_status create(int rows, int labels, int first, tableau *t)
     return RB_OK;
 }
 
-static void release(tableau *t)
+static void tableau_free(tableau *t)
 {
     free(t->T);
     free(t->basis);
@@ -111,159 +111,186 @@ static void strategy(const tableau *t, int first, int count, double *x)
         cblas_dscal(count, 1.0 / sum, x, 1);
 }
 
-static double least_of(int m, int n, const double *A, int ld)
-{
-    double least = INFINITY;
-    for (int j = 0; j < n; j++)
-        for (int i = 0; i < m; i++)
-            least = fmin(least, A[(size_t)i + (size_t)j * (size_t)ld]);
-    return least;
-}
+/* The least of a player's payoffs, and how far the largest is above it (1 where all are
+ * equal). */
+typedef struct {
+    double low, wide;
+} payoffs;
 
-static double spread_of(int m, int n, const double *A, int ld)
+static payoffs payoffs_of(const rb_lcp_game *g, const double *P)
 {
-    double most = 0.0;
-    const double least = least_of(m, n, A, ld);
-    for (int j = 0; j < n; j++)
-        for (int i = 0; i < m; i++)
-            most = fmax(most, A[(size_t)i + (size_t)j * (size_t)ld] - least);
-    return most > 0.0 ? most : 1.0;
-}
-
-/* Payoffs from 1 to 2: adding to them and multiplying them changes no equilibrium. */
-static void fill(int m, int n, const double *A, const double *B, int ld, tableau *of_x,
-                 tableau *of_y)
-{
-    const double low_a = least_of(m, n, A, ld), wide_a = spread_of(m, n, A, ld);
-    const double low_b = least_of(m, n, B, ld), wide_b = spread_of(m, n, B, ld);
-    for (int j = 0; j < n; j++)
-        for (int i = 0; i < m; i++) {
-            const size_t at = (size_t)i + (size_t)j * (size_t)ld;
-            row_of(of_x, j)[i] = 1.0 + (B[at] - low_b) / wide_b;
-            row_of(of_y, i)[m + j] = 1.0 + (A[at] - low_a) / wide_a;
+    double low = INFINITY, high = -INFINITY;
+    for (int j = 0; j < g->n; j++)
+        for (int i = 0; i < g->m; i++) {
+            low = fmin(low, P[(size_t)i + (size_t)j * (size_t)g->ld]);
+            high = fmax(high, P[(size_t)i + (size_t)j * (size_t)g->ld]);
         }
+    return (payoffs){low, high > low ? high - low : 1.0};
 }
 
-static void tell_trace(const rb_lcp_options *opt, const rb_lcp_info *info, int labels,
-                       int entering, int leaving, int row, double ratio)
+/* In [0, 1]: adding to payoffs and multiplying them changes no equilibrium. */
+static double scaled(payoffs p, const rb_lcp_game *g, const double *P, int i, int j)
 {
-    const rb_lcp_pivot seen = {.pivot = info->iters,
-                               .entering = entering,
-                               .leaving = leaving,
-                               .row = row,
-                               .ratio = ratio,
-                               .attempt = opt->attempt,
-                               .n = labels};
-    if (opt->trace)
-        opt->trace(&seen, opt->trace_context);
+    return (P[(size_t)i + (size_t)j * (size_t)g->ld] - p.low) / p.wide;
+}
+
+/* Labels 0 ... m - 1 are the rows of the game, the others its columns. */
+typedef struct {
+    int m, labels;
+    tableau of_x, of_y;
+    int *tied; /* labels: scratch; owned */
+    const rb_lcp_options *opt;
+    rb_lcp_info *info;
+} lemke_howson;
+
+static rb_status create(const rb_lcp_game *g, lemke_howson *l)
+{
+    l->m = g->m;
+    l->labels = g->m + g->n;
+    l->tied = rb_alloc_int((size_t)l->labels);
+    if (tableau_create(g->n, l->labels, g->m, &l->of_x) != RB_OK ||
+        tableau_create(g->m, l->labels, 0, &l->of_y) != RB_OK || !l->tied)
+        return RB_ENOMEM;
+    const payoffs of_a = payoffs_of(g, g->A), of_b = payoffs_of(g, g->B);
+    for (int j = 0; j < g->n; j++)
+        for (int i = 0; i < g->m; i++) {
+            row_of(&l->of_x, j)[i] = 1.0 + scaled(of_b, g, g->B, i, j);
+            row_of(&l->of_y, i)[g->m + j] = 1.0 + scaled(of_a, g, g->A, i, j);
+        }
+    return RB_OK;
+}
+
+static void release(lemke_howson *l)
+{
+    tableau_free(&l->of_x);
+    tableau_free(&l->of_y);
+    free(l->tied);
+}
+
+/* Number of a label's variable for the trace: z in its own tableau, w in the other. */
+static int variable(const lemke_howson *l, const tableau *t, int label)
+{
+    const int is_z = (label < l->m) == (t == &l->of_x);
+    return is_z ? l->labels + label : label;
+}
+
+/* After the pivot on that row of t. */
+static void tell_trace(const lemke_howson *l, const tableau *t, int entering, int leaving,
+                       int row)
+{
+    const rb_lcp_pivot seen = {.pivot = l->info->iters,
+                               .entering = variable(l, t, entering),
+                               .leaving = variable(l, t, leaving),
+                               .row = t == &l->of_x ? l->m + row : row,
+                               .ratio = row_of(t, row)[t->width - 1],
+                               .attempt = l->opt->attempt,
+                               .n = l->labels};
+    if (l->opt->trace)
+        l->opt->trace(&seen, l->opt->trace_context);
 }
 
 /* Drops the label, and then in turn every label that the last pivot has doubled, from the
  * tableau where it can enter, until the dropped one is back. */
-static rb_status follow_path(int m, int labels, int dropped, tableau *of_x, tableau *of_y,
-                             const rb_lcp_options *opt, int *tied, rb_lcp_info *info)
+static rb_status follow_path(lemke_howson *l, int dropped)
 {
-    tableau *t = dropped < m ? of_x : of_y;
+    tableau *t = dropped < l->m ? &l->of_x : &l->of_y;
     int entering = dropped, leaving = -1;
     const double start = rb_seconds();
     while (leaving != dropped) {
-        const rb_status s = rb_lcp_check_limits(info, opt, start);
+        const rb_status s = rb_lcp_check_limits(l->info, l->opt, start);
         if (s != RB_OK)
             return s;
-        const int row = blocking_row(t, entering, tied);
+        const int row = blocking_row(t, entering, l->tied);
         if (row < 0)
-            return rb_fail(&info->msg, RB_INACCURATE,
+            return rb_fail(&l->info->msg, RB_INACCURATE,
                            "lcp: rounding has spoilt the path after %d pivots",
-                           info->iters);
+                           l->info->iters);
         leaving = t->basis[row];
         pivot(t, row, entering);
-        const int enters_v = (entering < m) == (t == of_x);
-        const int leaves_v = (leaving < m) == (t == of_x);
-        tell_trace(opt, info, labels, entering + (enters_v ? labels : 0),
-                   leaving + (leaves_v ? labels : 0), t == of_x ? m + row : row,
-                   row_of(t, row)[t->width - 1]);
-        info->iters++;
+        tell_trace(l, t, entering, leaving, row);
+        l->info->iters++;
         entering = leaving;
-        t = t == of_x ? of_y : of_x;
+        t = t == &l->of_x ? &l->of_y : &l->of_x;
     }
     return RB_OK;
 }
 
-double rb_lcp_bimatrix_regret(int m, int n, const double *A, const double *B, int ld,
-                              const double *x, const double *y, double *regret,
+double rb_lcp_bimatrix_regret(const rb_lcp_game *g, const double *z, double *regret,
                               double payoff[2])
 {
+    const double *x = z, *y = z + g->m;
+    const int m = g->m, n = g->n;
     double worst = 0.0;
     payoff[0] = payoff[1] = -INFINITY;
-    cblas_dgemv(CblasColMajor, CblasNoTrans, m, n, -1.0, A, ld, y, 1, 0.0, regret, 1);
-    cblas_dgemv(CblasColMajor, CblasTrans, m, n, -1.0, B, ld, x, 1, 0.0, regret + m, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, m, n, -1.0, g->A, g->ld, y, 1, 0.0, regret,
+                1);
+    cblas_dgemv(CblasColMajor, CblasTrans, m, n, -1.0, g->B, g->ld, x, 1, 0.0, regret + m,
+                1);
     for (int k = 0; k < m + n; k++)
         payoff[k >= m] = fmax(payoff[k >= m], -regret[k]);
     for (int k = 0; k < m + n; k++) {
-        const double z = k < m ? x[k] : y[k - m];
         regret[k] += payoff[k >= m];
-        if (isnan(z) || isnan(regret[k]))
+        if (isnan(z[k]) || isnan(regret[k]))
             return NAN;
-        worst = fmax(worst, fmin(z, regret[k]));
+        worst = fmax(worst, fmin(z[k], regret[k]));
     }
     return worst;
 }
 
-static rb_status check_input(int m, int n, const double *A, const double *B, int ld,
-                             int label, rb_message *why)
+static rb_status check_input(const rb_lcp_game *g, int label, rb_message *why)
 {
-    if (m < 1 || n < 1 || ld < m)
+    const int m = g->m, n = g->n;
+    if (m < 1 || n < 1 || g->ld < m)
         return rb_fail(why, RB_EINVAL,
                        "lcp: a game of %d by %d, ld = %d: expected 1 <= m "
                        "<= ld, 1 <= n",
-                       m, n, ld);
+                       m, n, g->ld);
     if (label < 0 || label >= m + n)
         return rb_fail(why, RB_EINVAL, "lcp: label %d: expected 1 to %d", label + 1,
                        m + n);
     for (int j = 0; j < n; j++)
         for (int i = 0; i < m; i++) {
-            const size_t at = (size_t)i + (size_t)j * (size_t)ld;
-            if (!isfinite(A[at]) || !isfinite(B[at]))
+            const size_t at = (size_t)i + (size_t)j * (size_t)g->ld;
+            if (!isfinite(g->A[at]) || !isfinite(g->B[at]))
                 return rb_fail(why, RB_EINVAL,
                                "lcp: %c(%d, %d): expected a finite number",
-                               isfinite(A[at]) ? 'B' : 'A', i + 1, j + 1);
+                               isfinite(g->A[at]) ? 'B' : 'A', i + 1, j + 1);
         }
     return RB_OK;
 }
 
-rb_status rb_lcp_bimatrix(int m, int n, const double *A, const double *B, int ld,
-                          int label, const rb_lcp_options *opt, double *x, double *y,
-                          rb_lcp_info *info)
+static rb_status out_of_memory(const rb_lcp_game *g, rb_message *why)
+{
+    return rb_fail(why, RB_ENOMEM, "lcp: out of memory for a game of %d by %d", g->m,
+                   g->n);
+}
+
+rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options *opt,
+                          double *z, rb_lcp_info *info)
 {
     rb_lcp_info unread;
     rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
-    tableau of_x = {0}, of_y = {0};
-    info = info ? info : &unread;
-    *info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
-    rb_status s = check_input(m, n, A, B, ld, label, &info->msg);
+    lemke_howson l = {.opt = &o, .info = info ? info : &unread};
+    *l.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
+    rb_status s = check_input(g, label, &l.info->msg);
     if (s != RB_OK)
         return s;
-    const int labels = m + n;
     if (!o.max_iters)
-        o.max_iters = 50 * labels + 1000;
-    int *tied = rb_alloc_int((size_t)labels);
-    double *regret = rb_alloc((size_t)labels, 1), payoff[2];
-    if (create(n, labels, m, &of_x) != RB_OK || create(m, labels, 0, &of_y) != RB_OK ||
-        !tied || !regret)
-        s = rb_fail(&info->msg, RB_ENOMEM, "lcp: out of memory for a game of %d by %d", m,
-                    n);
-    if (s == RB_OK) {
-        fill(m, n, A, B, ld, &of_x, &of_y);
-        s = follow_path(m, labels, label, &of_x, &of_y, &o, tied, info);
-        strategy(&of_x, 0, m, x);
-        strategy(&of_y, m, n, y);
-        info->res = rb_lcp_bimatrix_regret(m, n, A, B, ld, x, y, regret, payoff);
+        o.max_iters = 50 * (g->m + g->n) + 1000;
+    double *regret = rb_alloc((size_t)g->m + (size_t)g->n, 1), payoff[2];
+    s = create(g, &l);
+    if (s != RB_OK || !regret) {
+        s = out_of_memory(g, &l.info->msg);
+    } else {
+        s = follow_path(&l, label);
+        strategy(&l.of_x, 0, g->m, z);
+        strategy(&l.of_y, g->m, g->n, z + g->m);
+        l.info->res = rb_lcp_bimatrix_regret(g, z, regret, payoff);
     }
     if (s == RB_OK)
-        s = rb_lcp_judge(info, fmax(spread_of(m, n, A, ld), spread_of(m, n, B, ld)));
-    release(&of_x);
-    release(&of_y);
-    free(tied);
+        s = rb_lcp_judge(l.info,
+                         fmax(payoffs_of(g, g->A).wide, payoffs_of(g, g->B).wide));
+    release(&l);
     free(regret);
     return s;
 }
@@ -271,43 +298,41 @@ rb_status rb_lcp_bimatrix(int m, int n, const double *A, const double *B, int ld
 /* ---- All equilibria ---------------------------------------------------------------- */
 
 /* Each half of a solution becomes a strategy: its probabilities add up to 1. */
-static void normalise(int m, int n, rb_lcp_solutions *all)
+static void normalise(const rb_lcp_game *g, rb_lcp_solutions *all)
 {
     for (int k = 0; k < all->count; k++) {
-        double *x = all->z + (size_t)k * (size_t)(m + n), *y = x + m;
-        cblas_dscal(m, 1.0 / rb_norm_1((size_t)m, x, 1), x, 1);
-        cblas_dscal(n, 1.0 / rb_norm_1((size_t)n, y, 1), y, 1);
+        double *x = all->z + (size_t)k * (size_t)all->n, *y = x + g->m;
+        cblas_dscal(g->m, 1.0 / rb_norm_1((size_t)g->m, x, 1), x, 1);
+        cblas_dscal(g->n, 1.0 / rb_norm_1((size_t)g->n, y, 1), y, 1);
     }
 }
 
 /* With payoffs turned into costs a, b > 0 an equilibrium is, but for the length of its
  * halves, a solution of the LCP with M = [0 a; b' 0] and q = -1 (Cottle, Pang, Stone,
  * section 1.2); w >= 0 leaves neither half of it zero. */
-rb_status rb_lcp_bimatrix_enumerate(int m, int n, const double *A, const double *B,
-                                    int ld, rb_lcp_solutions *all, rb_message *why)
+rb_status rb_lcp_bimatrix_enumerate(const rb_lcp_game *g, rb_lcp_solutions *all,
+                                    rb_message *why)
 {
-    const int order = m + n;
+    const int m = g->m, order = g->m + g->n;
     *all = (rb_lcp_solutions){0};
-    rb_status s = check_input(m, n, A, B, ld, 0, why);
+    rb_status s = check_input(g, 0, why);
     if (s != RB_OK)
         return s;
-    double *M = rb_alloc((size_t)order, (size_t)order + 1), *q = NULL;
+    double *M = rb_alloc((size_t)order, (size_t)order + 1);
     if (!M)
-        return rb_fail(why, RB_ENOMEM, "lcp: out of memory for a game of %d by %d", m, n);
-    q = M + (size_t)order * (size_t)order;
-    const double low_a = least_of(m, n, A, ld), wide_a = spread_of(m, n, A, ld);
-    const double low_b = least_of(m, n, B, ld), wide_b = spread_of(m, n, B, ld);
-    for (int j = 0; j < n; j++)
+        return out_of_memory(g, why);
+    double *q = M + (size_t)order * (size_t)order;
+    const payoffs of_a = payoffs_of(g, g->A), of_b = payoffs_of(g, g->B);
+    for (int j = 0; j < g->n; j++)
         for (int i = 0; i < m; i++) {
-            const size_t at = (size_t)i + (size_t)j * (size_t)ld;
-            M[i + (m + j) * order] = 2.0 - (A[at] - low_a) / wide_a;
-            M[m + j + i * order] = 2.0 - (B[at] - low_b) / wide_b;
+            M[i + (m + j) * order] = 2.0 - scaled(of_a, g, g->A, i, j);
+            M[m + j + i * order] = 2.0 - scaled(of_b, g, g->B, i, j);
         }
     for (int k = 0; k < order; k++)
         q[k] = -1.0;
-    s = rb_lcp_enumerate(order, M, order, q, NULL, NULL, all, why);
+    s = rb_lcp_enumerate(&(rb_lcp_problem){order, M, order, q}, NULL, NULL, all, why);
     if (s == RB_OK)
-        normalise(m, n, all);
+        normalise(g, all);
     free(M);
     return s;
 }

@@ -53,19 +53,35 @@ static rb_status check_cover(int n, const double *q, const double *cover, rb_mes
     return RB_OK;
 }
 
-rb_status rb_lcp_check_dense(int n, const double *M, int ldm, const double *q,
-                             const rb_lcp_options *opt, rb_message *why)
+rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt,
+                             rb_message *why)
 {
+    const int n = p->n;
     if (n < 1)
         return rb_fail(why, RB_EINVAL, "lcp: n = %d: expected at least 1", n);
-    if (ldm < n)
-        return rb_fail(why, RB_EINVAL, "lcp: ldm = %d: expected at least n = %d", ldm, n);
+    if (p->ldm < n)
+        return rb_fail(why, RB_EINVAL, "lcp: ldm = %d: expected at least n = %d", p->ldm,
+                       n);
     rb_status s = check_options(opt, why);
     for (int j = 0; j < n && s == RB_OK; j++)
-        s = check_column(n, j, M + (size_t)j * (size_t)ldm, why);
+        s = check_column(n, j, p->M + (size_t)j * (size_t)p->ldm, why);
     if (s == RB_OK)
-        s = check_q(n, q, why);
-    return s == RB_OK ? check_cover(n, q, opt->cover, why) : s;
+        s = check_q(n, p->q, why);
+    return s == RB_OK ? check_cover(n, p->q, opt->cover, why) : s;
+}
+
+rb_status rb_lcp_check_boxes(int n, const double *lower, const double *upper,
+                             rb_message *why)
+{
+    for (int i = 0; i < n; i++) {
+        const double low = rb_lcp_lower(lower, i), high = rb_lcp_upper(upper, i);
+        if (!(low <= high) || low == INFINITY || high == -INFINITY)
+            return rb_fail(why, RB_EINVAL,
+                           "lcp: box %d is [%g, %g]: expected lower <= upper, with a "
+                           "number in between",
+                           i + 1, low, high);
+    }
+    return RB_OK;
 }
 
 rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q,

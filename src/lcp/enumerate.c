@@ -18,8 +18,9 @@ static const double MOST_BASES = 4194304.0;
 typedef enum { AT_LOWER, AT_UPPER, BETWEEN } place;
 
 typedef struct {
-    int n, ldm;
-    const double *M, *q, *lower, *upper;
+    int n;
+    rb_lcp_problem p;
+    const double *lower, *upper;
     place *at;          /* n */
     double *A, *x;      /* n x n, n: system of the z between their bounds */
     int *inside, *swap; /* n: those z; pivots */
@@ -27,19 +28,9 @@ typedef struct {
     rb_lcp_solutions *all;
 } search;
 
-static double lower_of(const search *s, int i)
-{
-    return s->lower ? s->lower[i] : 0.0;
-}
-
-static double upper_of(const search *s, int i)
-{
-    return s->upper ? s->upper[i] : INFINITY;
-}
-
 static int is_place(const search *s, int i, place at)
 {
-    const double low = lower_of(s, i), high = upper_of(s, i);
+    const double low = rb_lcp_lower(s->lower, i), high = rb_lcp_upper(s->upper, i);
     return at == AT_LOWER   ? isfinite(low)
            : at == AT_UPPER ? isfinite(high) && high > low
                             : high > low;
@@ -64,9 +55,9 @@ static int next_choice(search *s)
 /* M z + q, with the z that are between their bounds as they stand. */
 static void product(search *s)
 {
-    memcpy(s->w, s->q, (size_t)s->n * sizeof *s->w);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, s->n, s->n, 1.0, s->M, s->ldm, s->z, 1, 1.0,
-                s->w, 1);
+    memcpy(s->w, s->p.q, (size_t)s->n * sizeof *s->w);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, s->n, s->n, 1.0, s->p.M, s->p.ldm, s->z, 1,
+                1.0, s->w, 1);
 }
 
 /* z of the basis; 0: its matrix has no inverse. */
@@ -74,8 +65,8 @@ static int basic_point(search *s)
 {
     int m = 0;
     for (int i = 0; i < s->n; i++) {
-        s->z[i] = s->at[i] == AT_LOWER   ? lower_of(s, i)
-                  : s->at[i] == AT_UPPER ? upper_of(s, i)
+        s->z[i] = s->at[i] == AT_LOWER   ? rb_lcp_lower(s->lower, i)
+                  : s->at[i] == AT_UPPER ? rb_lcp_upper(s->upper, i)
                                          : 0.0;
         if (s->at[i] == BETWEEN)
             s->inside[m++] = i;
@@ -84,7 +75,7 @@ static int basic_point(search *s)
         return 1;
     product(s);
     for (int c = 0; c < m; c++) {
-        const double *column = s->M + (size_t)s->inside[c] * (size_t)s->ldm;
+        const double *column = s->p.M + (size_t)s->inside[c] * (size_t)s->p.ldm;
         for (int r = 0; r < m; r++)
             s->A[r + c * m] = column[s->inside[r]];
         s->x[c] = -s->w[s->inside[c]];
@@ -111,11 +102,11 @@ static int is_solution(search *s)
         !isfinite(rb_norm_inf((size_t)s->n, s->w)))
         return 0;
     for (int i = 0; i < s->n; i++) {
-        const double low = lower_of(s, i), high = upper_of(s, i);
-        const double *row = s->M + i;
-        double size = fabs(s->q[i]);
+        const double low = rb_lcp_lower(s->lower, i), high = rb_lcp_upper(s->upper, i);
+        const double *row = s->p.M + i;
+        double size = fabs(s->p.q[i]);
         for (int j = 0; j < s->n; j++)
-            size += fabs(row[(size_t)j * (size_t)s->ldm] * s->z[j]);
+            size += fabs(row[(size_t)j * (size_t)s->p.ldm] * s->z[j]);
         if (s->z[i] < low - small_z || s->z[i] > high + small_z)
             return 0;
         s->z[i] = fmin(fmax(s->z[i], low), high);
@@ -168,38 +159,32 @@ void rb_lcp_solutions_free(rb_lcp_solutions *all)
 
 static rb_status check(const search *s, rb_message *why)
 {
+    const rb_lcp_options plain = rb_lcp_defaults();
+    rb_status status = rb_lcp_check_dense(&s->p, &plain, why);
+    if (status == RB_OK)
+        status = rb_lcp_check_boxes(s->n, s->lower, s->upper, why);
     double bases = 1.0;
-    for (int i = 0; i < s->n; i++) {
-        const double low = lower_of(s, i), high = upper_of(s, i);
+    for (int i = 0; status == RB_OK && i < s->n; i++) {
         int places = 0;
-        if (!(low <= high) || low == INFINITY || high == -INFINITY)
-            return rb_fail(why, RB_EINVAL,
-                           "lcp: box %d is [%g, %g]: expected lower <= upper, with a "
-                           "number in between",
-                           i + 1, low, high);
         for (int at = AT_LOWER; at <= BETWEEN; at++)
             places += is_place(s, i, (place)at);
         bases *= places;
     }
-    if (bases > MOST_BASES)
+    if (status == RB_OK && bases > MOST_BASES)
         return rb_fail(why, RB_EINVAL,
                        "lcp: all solutions: %.3g complementary bases: expected at most "
                        "%.3g, that is order 22 without boxes",
                        bases, MOST_BASES);
-    return RB_OK;
+    return status;
 }
 
-rb_status rb_lcp_enumerate(int n, const double *M, int ldm, const double *q,
-                           const double *lower, const double *upper,
-                           rb_lcp_solutions *all, rb_message *why)
+rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower,
+                           const double *upper, rb_lcp_solutions *all, rb_message *why)
 {
-    search s = {.n = n, .ldm = ldm, .M = M, .q = q, .lower = lower, .upper = upper};
+    const int n = p->n;
+    search s = {.n = n, .p = *p, .lower = lower, .upper = upper, .all = all};
     *all = (rb_lcp_solutions){.n = n};
-    s.all = all;
-    const rb_lcp_options plain = rb_lcp_defaults();
-    rb_status status = rb_lcp_check_dense(n, M, ldm, q, &plain, why);
-    if (status == RB_OK)
-        status = check(&s, why);
+    rb_status status = check(&s, why);
     if (status != RB_OK)
         return status;
     s.at = calloc((size_t)n, sizeof *s.at);

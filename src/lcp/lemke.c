@@ -55,9 +55,9 @@ static int first_row(const lemke *l)
     int r = -1;
     double least = 0.0;
     for (int i = 0; i < l->n; i++) {
-        if (l->data.q[i] >= 0.0)
+        if (l->data.p.q[i] >= 0.0)
             continue;
-        const double ratio = l->data.q[i] / rb_lcp_cover(&l->data, i);
+        const double ratio = l->data.p.q[i] / rb_lcp_cover(&l->data, i);
         const int wins =
             l->opt.rule == RB_LCP_LEXICOGRAPHIC ? ratio <= least : ratio < least;
         if (wins) {
@@ -290,11 +290,11 @@ static rb_status follow_path(lemke *l)
 
 /* ---- All together ------------------------------------------------------------------ */
 
-static double largest_entry(const lcp_data *data)
+static double largest_entry(const rb_lcp_problem *p)
 {
     double most = 0.0;
-    for (int j = 0; j < data->n; j++)
-        most = fmax(most, largest(data->n, data->M + (size_t)j * (size_t)data->ldm));
+    for (int j = 0; j < p->n; j++)
+        most = fmax(most, largest(p->n, p->M + (size_t)j * (size_t)p->ldm));
     return most;
 }
 
@@ -326,27 +326,27 @@ static void release(lemke *l)
     free(l->image);
 }
 
-rb_status rb_lcp_lemke(int n, const double *M, int ldm, const double *q,
-                       const rb_lcp_options *opt, double *z, rb_lcp_info *info)
+rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, double *z,
+                       rb_lcp_info *info)
 {
     rb_lcp_info unread;
-    lemke l = {.n = n, .began = rb_seconds(), .info = info ? info : &unread};
+    lemke l = {.n = p->n, .began = rb_seconds(), .info = info ? info : &unread};
     *l.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
     l.opt = opt ? *opt : rb_lcp_defaults();
-    l.data = (lcp_data){n, M, q, l.opt.cover, ldm};
-    rb_status s = rb_lcp_check_dense(n, M, ldm, q, &l.opt, &l.info->msg);
+    l.data = (lcp_data){*p, l.opt.cover};
+    rb_status s = rb_lcp_check_dense(p, &l.opt, &l.info->msg);
     if (s != RB_OK)
         return s;
     if (!l.opt.max_iters)
-        l.opt.max_iters = 50 * n + 1000;
+        l.opt.max_iters = 50 * p->n + 1000;
     s = allocate(&l);
     if (s == RB_OK) {
-        l.largest = largest_entry(&l.data);
+        l.largest = largest_entry(p);
         s = follow_path(&l);
         rb_lcp_lemke_answer(&l, s == RB_OK, z);
     }
     if (s == RB_OK)
-        s = rb_lcp_judge(l.info, rb_norm_inf((size_t)n, q));
+        s = rb_lcp_judge(l.info, rb_norm_inf((size_t)p->n, p->q));
     release(&l);
     return s;
 }

@@ -4,7 +4,8 @@
 #define LCP_LEMKE_H
 
 #include "lcp/tableau.h"
-#include "rollbem/lcp.h"
+
+#include <math.h>
 
 typedef struct {
     int n;
@@ -41,13 +42,26 @@ rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, doub
 /* RB_INACCURATE where info->res is not below 1e-6 of size, the largest constant. */
 rb_status rb_lcp_judge(rb_lcp_info *info, double size);
 
-/* ---- check.c: RB_EINVAL for M that is not square, max_iters < 0, tol, NaN, infinity
- * ---- */
+/* ---- check.c: RB_EINVAL for sizes, max_iters < 0, tol, NaN, infinity ----------------
+ */
 
-rb_status rb_lcp_check_dense(int n, const double *M, int ldm, const double *q,
-                             const rb_lcp_options *opt, rb_message *why);
+rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt,
+                             rb_message *why);
 rb_status rb_lcp_check_sparse(const rb_sparse *M, const double *q,
                               const rb_lcp_options *opt, rb_message *why);
+/* lower, upper: n, NULL as in rb_lcp_mixed_problem.  RB_EINVAL: crossed bounds. */
+rb_status rb_lcp_check_boxes(int n, const double *lower, const double *upper,
+                             rb_message *why);
+
+static inline double rb_lcp_lower(const double *lower, int i)
+{
+    return lower ? lower[i] : 0.0;
+}
+
+static inline double rb_lcp_upper(const double *upper, int i)
+{
+    return upper ? upper[i] : INFINITY;
+}
 
 /* ---- accuracy.c: what the rounding errors of the pivots have done ---- */
 

@@ -505,10 +505,10 @@ static rb_status split_matrix(const rb_sparse *M, const int *number, split *f)
     return s;
 }
 
-static rb_status split_create(const rb_sparse *M, const double *q, const double *lower,
-                              const double *upper, const double *start, split *f)
+static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start,
+                              split *f)
 {
-    const int n = M->rows;
+    const int n = p->M->rows;
     *f = (split){.n = n, .of = rb_alloc_int((size_t)n), .q = rb_alloc((size_t)n, 8)};
     int *number = rb_alloc_int((size_t)n);
     rb_status s = f->of && f->q && number ? RB_OK : RB_ENOMEM;
@@ -518,9 +518,9 @@ static rb_status split_create(const rb_sparse *M, const double *q, const double 
         f->start = start ? f->upper + 2 * n : NULL;
     }
     for (int i = 0; s == RB_OK && i < n; i++) {
-        const double low = lower ? lower[i] : 0.0, high = upper ? upper[i] : INFINITY;
+        const double low = rb_lcp_lower(p->lower, i), high = rb_lcp_upper(p->upper, i);
         const int free_one = isinf(low) && isinf(high);
-        f->q[i] = q[i];
+        f->q[i] = p->q[i];
         f->lower[i] = free_one ? 0.0 : low;
         f->upper[i] = high;
         number[i] = free_one ? f->n : -1;
@@ -528,35 +528,30 @@ static rb_status split_create(const rb_sparse *M, const double *q, const double 
             f->start[i] = start[i];
         if (!free_one)
             continue;
-        f->q[f->n] = -q[i];
+        f->q[f->n] = -p->q[i];
         f->upper[f->n] = INFINITY;
         if (start)
             f->start[f->n] = -start[i];
         f->of[f->n++ - n] = i;
     }
     if (s == RB_OK && f->n > n)
-        s = split_matrix(M, number, f);
+        s = split_matrix(p->M, number, f);
     free(number);
     return s;
 }
 
 /* ---- All together ------------------------------------------------------------------ */
 
-static rb_status check_input(const rb_sparse *M, const double *q, const double *lower,
-                             const double *upper, const rb_lcp_options *opt,
+static rb_status check_input(const rb_lcp_mixed_problem *p, const rb_lcp_options *opt,
                              rb_message *why)
 {
-    rb_status s = rb_lcp_check_sparse(M, q, opt, why);
-    for (int i = 0; s == RB_OK && i < M->rows; i++) {
-        const double low = lower ? lower[i] : 0.0, high = upper ? upper[i] : INFINITY;
+    rb_status s = rb_lcp_check_sparse(p->M, p->q, opt, why);
+    if (s == RB_OK)
+        s = rb_lcp_check_boxes(p->M->rows, p->lower, p->upper, why);
+    for (int i = 0; s == RB_OK && i < p->M->rows; i++) {
         const double cover = opt->cover ? opt->cover[i] : 1.0;
         const double start = opt->start ? opt->start[i] : 0.0;
-        if (!(low <= high) || low == INFINITY || high == -INFINITY)
-            s = rb_fail(why, RB_EINVAL,
-                        "lcp: box %d is [%g, %g]: expected lower <= upper, with a number "
-                        "in between",
-                        i + 1, low, high);
-        else if (!(isfinite(cover) && cover >= 0.0))
+        if (!(isfinite(cover) && cover >= 0.0))
             s = rb_fail(why, RB_EINVAL, "lcp: cover(%d) = %g: expected a number >= 0",
                         i + 1, cover);
         else if (!isfinite(start))
@@ -604,15 +599,14 @@ static void answer(const mixed *p, const split *f, int n, double *z)
     }
 }
 
-double rb_lcp_residual_mixed(const rb_sparse *M, const double *q, const double *lower,
-                             const double *upper, const double *z, double *w)
+double rb_lcp_residual_mixed(const rb_lcp_mixed_problem *p, const double *z, double *w)
 {
     double worst = 0.0;
-    memcpy(w, q, (size_t)M->rows * sizeof *w);
-    rb_sparse_apply(1.0, M, z, 1.0, w);
-    for (int i = 0; i < M->rows; i++) {
-        const double low = z[i] - (lower ? lower[i] : 0.0);
-        const double high = z[i] - (upper ? upper[i] : INFINITY);
+    memcpy(w, p->q, (size_t)p->M->rows * sizeof *w);
+    rb_sparse_apply(1.0, p->M, z, 1.0, w);
+    for (int i = 0; i < p->M->rows; i++) {
+        const double low = z[i] - rb_lcp_lower(p->lower, i);
+        const double high = z[i] - rb_lcp_upper(p->upper, i);
         if (isnan(z[i]) || isnan(w[i]))
             return NAN;
         worst = fmax(worst, fabs(fmax(fmin(low, w[i]), high)));
@@ -624,40 +618,40 @@ double rb_lcp_residual_mixed(const rb_sparse *M, const double *q, const double *
  * has none: the q of the problem moved there, which rounding is judged by as that of an
  * LCP is.  w of the answer is no such measure: a large row of M would hide a wrong small
  * one. z, w: scratch. */
-static double size_of_problem(const rb_sparse *M, const double *q, const double *lower,
-                              const double *upper, double *z, double *w)
+static double size_of_problem(const rb_lcp_mixed_problem *p, double *z, double *w)
 {
-    const size_t n = (size_t)M->rows;
-    double size = rb_norm_inf(n, q);
-    for (int at_upper = 0; at_upper < 2 && (lower || upper); at_upper++) {
-        for (size_t i = 0; i < n; i++) {
-            const double low = lower ? lower[i] : 0.0, high = upper ? upper[i] : INFINITY;
+    const size_t n = (size_t)p->M->rows;
+    double size = rb_norm_inf(n, p->q);
+    for (int at_upper = 0; at_upper < 2 && (p->lower || p->upper); at_upper++) {
+        for (int i = 0; i < p->M->rows; i++) {
+            const double low = rb_lcp_lower(p->lower, i);
+            const double high = rb_lcp_upper(p->upper, i);
             const double first = at_upper ? high : low, second = at_upper ? low : high;
             z[i] = isfinite(first) ? first : isfinite(second) ? second : 0.0;
         }
-        memcpy(w, q, n * sizeof *w);
-        rb_sparse_apply(1.0, M, z, 1.0, w);
+        memcpy(w, p->q, n * sizeof *w);
+        rb_sparse_apply(1.0, p->M, z, 1.0, w);
         size = fmax(size, rb_norm_inf(n, w));
     }
     return size;
 }
 
-rb_status rb_lcp_mixed(const rb_sparse *M, const double *q, const double *lower,
-                       const double *upper, const rb_lcp_options *opt, double *z,
-                       rb_lcp_info *info)
+rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *given, const rb_lcp_options *opt,
+                       double *z, rb_lcp_info *info)
 {
+    const int n = given->M->rows;
     rb_lcp_info unread;
     mixed p = {.began = rb_seconds(),
                .info = info ? info : &unread,
                .opt = opt ? *opt : rb_lcp_defaults()};
     split f = {0};
     *p.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
-    rb_status s = check_input(M, q, lower, upper, &p.opt, &p.info->msg);
+    rb_status s = check_input(given, &p.opt, &p.info->msg);
     if (s != RB_OK)
         return s;
-    s = split_create(M, q, lower, upper, p.opt.start, &f);
-    s = s == RB_OK ? create(&f, f.n > M->rows ? &f.M : M, &p)
-                   : rb_fail(&p.info->msg, s, "lcp: out of memory for order %d", M->rows);
+    s = split_create(given, p.opt.start, &f);
+    s = s == RB_OK ? create(&f, f.n > n ? &f.M : given->M, &p)
+                   : rb_fail(&p.info->msg, s, "lcp: out of memory for order %d", n);
     if (s == RB_OK) {
         if (f.start)
             s = solve_from(&p, f.start);
@@ -665,10 +659,10 @@ rb_status rb_lcp_mixed(const rb_sparse *M, const double *q, const double *lower,
             p.opt.start = NULL;
             s = solve_from(&p, NULL);
         }
-        answer(&p, &f, M->rows, z);
-        p.info->res = rb_lcp_residual_mixed(M, q, lower, upper, z, p.g);
+        answer(&p, &f, n, z);
+        p.info->res = rb_lcp_residual_mixed(given, z, p.g);
         if (s == RB_OK)
-            s = rb_lcp_judge(p.info, size_of_problem(M, q, lower, upper, p.y, p.g));
+            s = rb_lcp_judge(p.info, size_of_problem(given, p.y, p.g));
     }
     rb_lcp_basis_free(&p.b);
     free(p.value);

@@ -14,8 +14,7 @@ static const double NEGATIVE = 1e-13;
 enum { CHANCES = 10 };
 
 typedef struct {
-    const rb_sparse *M;
-    const double *q;
+    rb_lcp_mixed_problem p;
     double *z, *w, *rhs, *x; /* n each; z is the caller's */
     int *number;             /* n: of i among the basic z, or -1 */
     int *wrong, m;           /* n: the negative components, and how many */
@@ -23,16 +22,10 @@ typedef struct {
     rb_lcp_info *info;
 } newton;
 
-double rb_lcp_residual_sparse(const rb_sparse *M, const double *q, const double *z,
-                              double *w)
-{
-    return rb_lcp_residual_mixed(M, q, NULL, NULL, z, w);
-}
-
 /* A = M_FF for the basic z, F. */
 static void basic_part(newton *s)
 {
-    const rb_sparse *M = s->M;
+    const rb_sparse *M = s->p.M;
     rb_sparse *A = &s->A;
     int size = 0, nz = 0;
     for (int j = 0; j < M->cols; j++)
@@ -55,12 +48,12 @@ static void basic_part(newton *s)
 /* M_FF z_F = -q_F, the other z are zero. */
 static rb_status solve_basic(newton *s)
 {
-    const int n = s->M->rows;
+    const int n = s->p.M->rows;
     rb_sparse_lu *lu = NULL;
     basic_part(s);
     for (int i = 0; i < n; i++)
         if (s->number[i] >= 0)
-            s->rhs[s->number[i]] = -s->q[i];
+            s->rhs[s->number[i]] = -s->p.q[i];
     rb_status status = RB_OK;
     if (s->A.rows > 0)
         status = rb_sparse_lu_create(&s->A, &lu);
@@ -84,11 +77,11 @@ static rb_status solve_basic(newton *s)
 /* s->wrong: where the basic z or the basic w is negative. */
 static void find_negative(newton *s)
 {
-    const int n = s->M->rows;
-    rb_lcp_residual_sparse(s->M, s->q, s->z, s->w);
+    const int n = s->p.M->rows;
+    rb_lcp_residual_mixed(&s->p, s->z, s->w);
     const double small_z = NEGATIVE * rb_norm_inf((size_t)n, s->z);
     const double small_w =
-        NEGATIVE * fmax(rb_norm_inf((size_t)n, s->w), rb_norm_inf((size_t)n, s->q));
+        NEGATIVE * fmax(rb_norm_inf((size_t)n, s->w), rb_norm_inf((size_t)n, s->p.q));
     s->m = 0;
     for (int i = 0; i < n; i++)
         if (s->number[i] >= 0 ? s->z[i] < -small_z : s->w[i] < -small_w)
@@ -107,7 +100,7 @@ static void exchange(newton *s, int first)
  * for P-matrices (Murty), until there are fewer of them than ever before. */
 static rb_status iterate(newton *s, int max_iters)
 {
-    int fewest = s->M->rows + 1, chances = CHANCES;
+    int fewest = s->p.M->rows + 1, chances = CHANCES;
     while (s->info->iters < max_iters) {
         const rb_status status = solve_basic(s);
         if (status != RB_OK)
@@ -133,7 +126,7 @@ static rb_status iterate(newton *s, int max_iters)
 
 static rb_status allocate(newton *s)
 {
-    const size_t n = (size_t)s->M->rows, nz = (size_t)s->M->p[s->M->cols];
+    const size_t n = (size_t)s->p.M->rows, nz = (size_t)s->p.M->p[s->p.M->cols];
     s->w = rb_alloc(n, 3);
     s->number = rb_alloc_int(2 * n);
     s->A.p = rb_alloc_int(n + 1);
@@ -141,8 +134,8 @@ static rb_status allocate(newton *s)
     s->A.x = rb_alloc(nz + 1, 1);
     if (!s->w || !s->number || !s->A.p || !s->A.i || !s->A.x)
         return rb_fail(&s->info->msg, RB_ENOMEM,
-                       "lcp: newton: no memory for order %d with %zu entries", s->M->rows,
-                       nz);
+                       "lcp: newton: no memory for order %d with %zu entries",
+                       s->p.M->rows, nz);
     s->rhs = s->w + n;
     s->x = s->rhs + n;
     s->wrong = s->number + n;
@@ -153,7 +146,7 @@ rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_option
                         double *z, rb_lcp_info *info)
 {
     rb_lcp_info unread;
-    newton s = {.M = M, .q = q, .z = z, .info = info ? info : &unread};
+    newton s = {.p = {.M = M, .q = q}, .z = z, .info = info ? info : &unread};
     const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
     const int n = M->rows;
     *s.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
@@ -168,7 +161,7 @@ rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_option
         status = iterate(&s, o.max_iters ? o.max_iters : 10 * n + 100);
         for (int i = 0; i < n; i++)
             z[i] = fmax(z[i], 0.0);
-        s.info->res = rb_lcp_residual_sparse(M, q, z, s.w);
+        s.info->res = rb_lcp_residual_mixed(&s.p, z, s.w);
     }
     if (status == RB_OK)
         status = rb_lcp_judge(s.info, rb_norm_inf((size_t)n, q));

@@ -76,7 +76,7 @@ static void all_current(lcp_tableau *t)
 static void start(lcp_tableau *t)
 {
     const int n = t->n;
-    memcpy(t->q, t->data->q, (size_t)n * sizeof *t->q);
+    memcpy(t->q, t->data->p.q, (size_t)n * sizeof *t->q);
     for (int i = 0; i < n; i++)
         t->basis[i] = t->place[i] = i;
     for (int c = 0; c <= n; c++) {
@@ -109,7 +109,7 @@ static void share(lcp_tableau *t)
 
 rb_status rb_lcp_tableau_create(const lcp_data *data, lcp_tableau *t)
 {
-    const int n = data->n, depth = depth_of(n), blocks = (n + depth - 1) / depth;
+    const int n = data->p.n, depth = depth_of(n), blocks = (n + depth - 1) / depth;
     memset(t, 0, sizeof *t);
     *t = (lcp_tableau){.n = n,
                        .data = data,
@@ -141,7 +141,7 @@ static void load(const lcp_tableau *t, int c, double *x)
     } else if (t->slot[c] == BORN) {
         memset(x, 0, n * sizeof *x);
     } else if (c < t->n) {
-        memcpy(x, t->data->M + (size_t)c * (size_t)t->data->ldm, n * sizeof *x);
+        memcpy(x, t->data->p.M + (size_t)c * (size_t)t->data->p.ldm, n * sizeof *x);
     } else {
         for (int i = 0; i < t->n; i++)
             x[i] = rb_lcp_cover(t->data, i);
@@ -439,7 +439,7 @@ static void solver_free(solver *p)
 
 static rb_status solver_alloc(const lcp_data *data, const lcp_tableau *t, solver *p)
 {
-    const int n = data->n;
+    const int n = data->p.n;
     *p = (solver){.data = data, .n = n};
     for (int i = 0; i < n; i++)
         p->m += t->place[i] < 0;
@@ -473,7 +473,7 @@ static void choose_rows(const lcp_tableau *t, solver *p)
 static void gather(const solver *p, int v)
 {
     const int n = p->n;
-    const double *x = p->data->M + (size_t)(v < n ? 0 : v - n) * (size_t)p->data->ldm;
+    const double *x = p->data->p.M + (size_t)(v < n ? 0 : v - n) * (size_t)p->data->p.ldm;
     for (int k = 0; k < n; k++) {
         const int i = p->row[k];
         p->g[k] = v < n ? -(double)(i == v) : v < 2 * n ? x[i] : rb_lcp_cover(p->data, i);
@@ -527,7 +527,7 @@ rb_status rb_lcp_tableau_rebuild(lcp_tableau *t)
             memcpy(t->T + (size_t)c * (size_t)n, p.g, (size_t)n * sizeof *p.g);
         }
         for (int k = 0; k < n; k++)
-            t->q[k] = data->q[p.row[k]];
+            t->q[k] = data->p.q[p.row[k]];
         solve(&p, t, n + 1, t->T);
         solve(&p, t, 1, t->q);
         all_current(t);

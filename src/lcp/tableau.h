@@ -3,13 +3,12 @@
 #ifndef LCP_TABLEAU_H
 #define LCP_TABLEAU_H
 
-#include "rollbem/base.h"
+#include "rollbem/lcp.h"
 
-/* w = q + M z + d z0; all borrowed. */
+/* w = q + M z + d z0; borrowed. */
 typedef struct {
-    int n;
-    const double *M, *q, *cover; /* cover: d, NULL: ones */
-    int ldm;
+    rb_lcp_problem p;
+    const double *cover; /* n: d, NULL: ones */
 } lcp_data;
 
 static inline int rb_lcp_complement(int n, int variable)

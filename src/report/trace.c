@@ -104,8 +104,8 @@ static rb_status follow(trace *t, const rb_contact_lcp *lcp)
     options.trace = each_pivot;
     options.trace_context = t;
     options.trace_tableau = t->folder != NULL;
-    const rb_status s =
-        rb_lcp_lemke(lcp->size, lcp->M, lcp->size, lcp->b, &options, z, &info);
+    const rb_lcp_problem p = {lcp->size, lcp->M, lcp->size, lcp->b};
+    const rb_status s = rb_lcp_lemke(&p, &options, z, &info);
     free(z);
     if (s < 0)
         return rb_fail(t->why, s, "%s", info.msg.text);
