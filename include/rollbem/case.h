@@ -155,17 +155,15 @@ enum { RB_GIVEN_ARGUMENT = -1, RB_GIVEN_NUMBER = -2 };
 const rb_option_set *rb_option_find(int n, const rb_option_set *sets, const char *name,
                                     size_t length, int *index, rb_guess *guess);
 
+/* Who gave the option of that name, as in `given`; 0: it has its default. */
+int rb_option_given(const rb_option_set *set, const char *name);
+
 /* One value for option k of the set, strictly, with its marks in given and plain; a
  * number may have a unit, a plain one stays as it is.  what: how messages call it
  * ("--mu", "case.ini:3: mu").  Text is borrowed.  RB_EINVAL: "what: expected ..., got
  * '...'". */
 rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *what,
                            const char *text, rb_message *why);
-
-/* Plain numbers of the set that were given are in that system, those of a case file in
- * the file's; those of target (like the set's) become mm, N, MPa. */
-void rb_option_store(const rb_option_set *set, rb_units system, rb_units file_system,
-                     void *target);
 
 /* "a number >= 0", "lemke, newton or auto": what the option wants.  Returns text. */
 const char *rb_option_expected(const rb_option *option, char *text, size_t size);
@@ -275,10 +273,11 @@ typedef struct {
 
 /* Borrowed, valid until c changes. */
 const rb_settled_case *rb_case_settled(const rb_case *c);
-/* The system of the plain numbers that arguments give, and of what is shown. */
-rb_units rb_case_units(const rb_case *c);
-/* The system of the plain numbers in the case file. */
-rb_units rb_case_file_units(const rb_case *c);
+/* The system of the plain numbers of that giver: the case file (by > 0) has its own. */
+rb_units rb_case_units(const rb_case *c, int by);
+/* Plain numbers of the set that were given, beside the case or in its file, become mm, N,
+ * MPa in target, a struct like the set's. */
+void rb_case_store(const rb_case *c, const rb_option_set *set, void *target);
 /* 1: a column of the history stands in the place of the option. */
 int rb_case_is_replaced(const rb_case *c, const rb_option *option);
 /* 1: transient rolling, a static history or increments. */

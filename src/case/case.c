@@ -124,6 +124,15 @@ const rb_option_set *rb_option_find(int n, const rb_option_set *sets, const char
     return NULL;
 }
 
+int rb_option_given(const rb_option_set *set, const char *name)
+{
+    for (int i = 0; i < set->n; i++)
+        if (set->options[i].kind != RB_OPTION_GROUP &&
+            strcmp(set->options[i].name, name) == 0)
+            return set->given[i];
+    return 0;
+}
+
 rb_option_set rb_case_options(rb_case *c)
 {
     return (rb_option_set){rb_case_table, rb_case_table_n, &c->words, c->given, c->plain};
@@ -197,6 +206,26 @@ rb_status rb_case_set_number(rb_case *c, const char *name, double value, rb_mess
         return rb_fail(why, RB_EINVAL, "%s: takes no number", name);
     snprintf(text, sizeof text, "%.17g", value);
     return set(c, o, text, RB_GIVEN_NUMBER, why);
+}
+
+rb_units rb_case_units(const rb_case *c, int by)
+{
+    return by > 0 ? c->file_units : c->words.units;
+}
+
+void rb_case_store(const rb_case *c, const rb_option_set *set, void *target)
+{
+    for (int k = 0; k < set->n; k++) {
+        const rb_option *o = &set->options[k];
+        double *place = (double *)(void *)((char *)target + o->offset);
+        rb_numbers *list = (rb_numbers *)(void *)((char *)target + o->list);
+        const rb_units units = rb_case_units(c, set->given[k]);
+        if (o->kind != RB_OPTION_NUMBER || !set->given[k] || !set->plain[k])
+            continue;
+        *place = rb_unit_stored(units, o->unit, *place);
+        for (int i = 0; o->list && i < list->n; i++)
+            list->value[i] = rb_unit_stored(units, o->unit, list->value[i]);
+    }
 }
 
 /* ---- Who is to blame --------------------------------------------------------------- */
@@ -460,7 +489,7 @@ static int is_read(const case_table *t, const char *path, rb_units units)
 /* Of the numbers in the file that an option names. */
 static rb_units units_of_file(const rb_case *c, const char *option)
 {
-    return rb_case_given(c, option) > 0 ? c->file_units : c->words.units;
+    return rb_case_units(c, rb_case_given(c, option));
 }
 
 /* Two columns, of which the first `lengths` are in mm. */
@@ -795,7 +824,7 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     if (s == RB_OK)
         s = read_history(c, why);
     c->settled = c->words;
-    rb_option_store(&set, c->words.units, c->file_units, &c->settled);
+    rb_case_store(c, &set, &c->settled);
     if (s == RB_OK)
         s = settle_body_b(c, why);
     if (s == RB_OK)
@@ -828,16 +857,6 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     if (s == RB_OK)
         c->settled.derived = rb_rolling_derive(&c->settled.rc);
     return rb_case_blame(c, s, why);
-}
-
-rb_units rb_case_units(const rb_case *c)
-{
-    return c->words.units;
-}
-
-rb_units rb_case_file_units(const rb_case *c)
-{
-    return c->file_units;
 }
 
 const rb_settled_case *rb_case_settled(const rb_case *c)

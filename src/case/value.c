@@ -207,22 +207,6 @@ rb_status rb_option_assign(const rb_option_set *set, int k, int by, const char *
     return RB_OK;
 }
 
-void rb_option_store(const rb_option_set *set, rb_units system, rb_units file_system,
-                     void *target)
-{
-    for (int k = 0; k < set->n; k++) {
-        const rb_option *o = &set->options[k];
-        double *place = (double *)(void *)((char *)target + o->offset);
-        rb_numbers *list = (rb_numbers *)(void *)((char *)target + o->list);
-        const rb_units units = set->given[k] > 0 ? file_system : system;
-        if (o->kind != RB_OPTION_NUMBER || !set->given[k] || !set->plain[k])
-            continue;
-        *place = rb_unit_stored(units, o->unit, *place);
-        for (int i = 0; o->list && i < list->n; i++)
-            list->value[i] = rb_unit_stored(units, o->unit, list->value[i]);
-    }
-}
-
 static const char *choice_name(const rb_option *o, const char *target)
 {
     const int value = *(const int *)(target + o->offset);

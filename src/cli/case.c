@@ -1,9 +1,11 @@
 #include "cli/case.h"
-#include "cli/output.h"
+
 #include "rollbem/friction.h"
 
 #include <jansson.h>
 #include <string.h>
+
+/* ---- A case from words ------------------------------------------------------------ */
 
 rb_case *cli_case_create(rb_case_purpose purpose)
 {
@@ -73,15 +75,6 @@ cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)
     return cli_say(rb_case_blame(c, s, why), why);
 }
 
-rb_units cli_units_of(const rb_case *c, const rb_option *options, int n, const int *given,
-                      const char *name)
-{
-    for (int k = 0; k < n; k++)
-        if (strcmp(options[k].name, name) == 0 && given[k] > 0)
-            return rb_case_file_units(c);
-    return rb_case_units(c);
-}
-
 json_t *cli_case_json(const rb_case *c, const rb_rolling_solution *s, json_t *inputs)
 {
     const rb_settled_case *settled = rb_case_settled(c);
@@ -91,4 +84,107 @@ json_t *cli_case_json(const rb_case *c, const rb_rolling_solution *s, json_t *in
     rb_report_json_set(&root, "units", rb_report_json_units(settled->units));
     rb_report_json_set(&root, "inputs", inputs);
     return root;
+}
+
+/* ---- Commands that solve one ------------------------------------------------------ */
+
+static rb_status write_results(FILE *out, const void *context, rb_message *why)
+{
+    const cli_case_run *run = context;
+    (void)why;
+    if (run->o.style.format != RB_REPORT_JSON)
+        return (run->o.brief ? run->command->brief_table : run->command->table)(out, run);
+    json_t *inputs = rb_report_json_inputs(run->words);
+    if (run->command->inputs)
+        run->command->inputs(run, &inputs);
+    json_t *root = cli_case_json(run->words, run->solution, inputs);
+    run->command->json(run, &root);
+    return rb_report_json_write(out, root);
+}
+
+/* The files of one kind that are asked for: pictures, or all others. */
+static cli_exit write_files(const cli_spec *spec, const cli_case_run *run, int pictures)
+{
+    cli_exit code = CLI_OK;
+    for (const cli_case_file *f = run->command->files; f->option && code == CLI_OK; f++) {
+        const char *path = cli_option_path(spec, f->option);
+        if (path && pictures && f->draw)
+            code = cli_draw_file(&run->o.pictures, f->option, path, f->draw, run);
+        else if (path && !pictures && f->write)
+            code = cli_write_file(path, f->write, run);
+    }
+    return code;
+}
+
+static void summarise(const cli_case_run *run)
+{
+    if (run->o.quiet)
+        return;
+    if (run->solution)
+        rb_report_notes(stderr, &run->c->rc, run->solution);
+    run->command->summarise(run);
+}
+
+static cli_exit print(const cli_spec *spec, const cli_case_run *run)
+{
+    cli_exit code = run->command->before_table ? run->command->before_table(run) : CLI_OK;
+    if (code == CLI_OK && run->o.brief)
+        summarise(run);
+    if (code == CLI_OK)
+        code = cli_write_file(run->o.output, write_results, run);
+    if (code == CLI_OK)
+        code = write_files(spec, run, 0);
+    if (code == CLI_OK && !run->o.brief)
+        summarise(run);
+    if (code == CLI_OK && run->o.cite)
+        rb_report_citations(stderr, &run->c->rc, run->solution);
+    return code == CLI_OK ? write_files(spec, run, 1) : code;
+}
+
+static cli_exit solve(const cli_spec *spec, cli_case_run *run)
+{
+    rb_message why = {""};
+    const rb_status s = run->command->solve(run, &why);
+    const cli_exit code = run->printable ? print(spec, run) : CLI_OK;
+    return code == CLI_OK && s != RB_OK ? cli_case_refused(run->words, s, &why) : code;
+}
+
+cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc,
+                              char **argv)
+{
+    enum { MOST = 20 };
+    int given[MOST] = {0}, plain[MOST] = {0};
+    cli_case_run run = {.command = command,
+                        .own = own,
+                        .set = {command->options, command->option_n, own, given, plain},
+                        .words = cli_case_create(command->purpose)};
+    if (!run.words)
+        return CLI_INTERNAL;
+    const rb_option_set output = cli_output_set(&run.o);
+    const cli_spec spec = {command->synopsis,
+                           command->about,
+                           command->notes,
+                           {rb_case_options(run.words),
+                            command->options_last ? output : run.set,
+                            command->options_last ? run.set : output, cli_example_set()},
+                           4};
+    cli_exit code = command->option_n <= MOST
+                        ? cli_case_read(&spec, argc, argv, run.words, &run.args)
+                        : cli_fail(CLI_INTERNAL, "more than %d options", MOST);
+    if (code == CLI_CONTINUE && command->choose_purpose)
+        command->choose_purpose(&run);
+    if (code == CLI_CONTINUE)
+        code = cli_case_settle(&spec, run.words, &run.args);
+    if (code == CLI_CONTINUE) {
+        run.c = rb_case_settled(run.words);
+        run.o.brief = command->brief_table && cli_output_is_brief(&run.o);
+        rb_case_store(run.words, &run.set, own);
+        if (command->check)
+            code = command->check(&run);
+    }
+    if (code == CLI_CONTINUE)
+        code = solve(&spec, &run);
+    cli_args_free(&run.args);
+    rb_case_free(run.words);
+    return code;
 }

@@ -2,7 +2,7 @@
 #ifndef ROLLBEM_CLI_CASE_H
 #define ROLLBEM_CLI_CASE_H
 
-#include "cli/cli.h"
+#include "cli/output.h"
 
 /* For --help of every command that takes a case. */
 #define CLI_CASE_SIGNS                                                                   \
@@ -24,6 +24,8 @@
     "A case file holds the same names as keys, in the sections named in brackets or\n"   \
     "in none; the command line wins over the file.\n"
 
+/* ---- A case from words ------------------------------------------------------------ */
+
 /* A case of defaults, or NULL after saying that there is no memory. */
 rb_case *cli_case_create(rb_case_purpose purpose);
 
@@ -37,21 +39,74 @@ cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c,
                        cli_args *args);
 cli_exit cli_case_settle(const cli_spec *spec, rb_case *c, const cli_args *args);
 
-/* The system of the plain numbers of a command's own option: the case file's where the
- * file gave it.  given: as in its set. */
-rb_units cli_units_of(const rb_case *c, const rb_option *options, int n, const int *given,
-                      const char *name);
+/* --example NAME, the last set of every spec of a case, and what it asks for. */
+rb_option_set cli_example_set(void);
+cli_exit cli_example_read(rb_case *c, const cli_args *args);
 
 /* The start of JSON on a case: notes on the solution (s NULL: none), units, inputs, which
  * are taken over. */
 struct json_t *cli_case_json(const rb_case *c, const rb_rolling_solution *s,
                              struct json_t *inputs);
 
-/* --example NAME, the last set of every spec of a case, and what it asks for. */
-rb_option_set cli_example_set(void);
-cli_exit cli_example_read(rb_case *c, const cli_args *args);
-
 /* Prints why the library refused the case; the exit code tells command line from file. */
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why);
+
+/* ---- Commands that solve one ------------------------------------------------------ */
+
+typedef struct cli_case_command cli_case_command;
+
+/* A run of such a command, which all its functions see. */
+typedef struct {
+    const cli_case_command *command;
+    void *own;         /* the command's struct: its options and its results */
+    rb_option_set set; /* of its options */
+    rb_case *words;
+    const rb_settled_case *c; /* what they mean */
+    cli_output o;
+    cli_args args;
+    const rb_rolling_solution *solution; /* for notes, citations, JSON; NULL: none */
+    int printable; /* 1: there are results, if not all that were asked for */
+} cli_case_run;
+
+/* A file that an option of the command asks for; by one of the two, whose context is the
+ * cli_case_run. */
+typedef struct {
+    const char *option;
+    cli_write *write;
+    cli_draw *draw;
+} cli_case_file;
+
+/* What is the command's own.  The functions may be NULL, but for solve, table and json.
+ */
+struct cli_case_command {
+    const char *synopsis, *about, *notes;
+    rb_case_purpose purpose;
+    const rb_option *options;
+    int option_n;
+    int options_last;           /* 1: they continue the section [output] */
+    const cli_case_file *files; /* the last row has no option */
+
+    /* before the case is settled */
+    void (*choose_purpose)(cli_case_run *run);
+    /* before it is solved: CLI_CONTINUE, or an exit code after saying what is wrong */
+    cli_exit (*check)(cli_case_run *run);
+    /* sets solution and printable, in the units that are shown */
+    rb_status (*solve)(cli_case_run *run, rb_message *why);
+    /* what may still refuse before the table is written */
+    cli_exit (*before_table)(const cli_case_run *run);
+    rb_status (*table)(FILE *out, const cli_case_run *run);
+    /* in the place of the table for a person at a terminal, whom the summary comes before
+     */
+    rb_status (*brief_table)(FILE *out, const cli_case_run *run);
+    /* adds to `inputs`, and to what stands beside it */
+    void (*inputs)(const cli_case_run *run, struct json_t **inputs);
+    void (*json)(const cli_case_run *run, struct json_t **root);
+    /* the summary, on standard error */
+    void (*summarise)(const cli_case_run *run);
+};
+
+/* Reads, settles, solves and prints: the whole command.  Its exit code. */
+cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc,
+                              char **argv);
 
 #endif

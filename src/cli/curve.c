@@ -1,7 +1,6 @@
 /* rollbem curve: the tangential force over the creepage, or the resistance to rolling
  * over the speed. */
 #include "cli/case.h"
-#include "cli/output.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -14,14 +13,19 @@ typedef struct {
     const char *end[2]; /* NULL: the default */
     double from, to;    /* creepages, or speeds [mm/s] */
     int points, over;   /* rb_rolling_variable */
-    int given[5];
 } range_options;
+
+typedef struct {
+    range_options range;
+    rb_report_curves curves;
+    rb_report_curves drawn; /* as many where the picture has its own */
+} curve;
 
 enum { FROM = 1, TO = 2 }; /* places in the table */
 
 static const double default_end[] = {0.0, 1.5};
 
-#define PLACE(member) offsetof(range_options, member)
+#define PLACE(member) offsetof(curve, range.member)
 
 static const rb_option options[] = {
     RB_GROUP_LINE("curve", "Range of the curve"),
@@ -36,8 +40,6 @@ static const rb_option options[] = {
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
-
-_Static_assert(OPTIONS == 5, "given");
 
 static const char about[] =
     "Computes a creep curve, the tangential force of steady rolling over the\n"
@@ -63,34 +65,34 @@ static const char *unit_of(const range_options *r)
 }
 
 /* One end, as it is stored; place: FROM or TO. */
-static cli_exit read_end(const rb_case *words, const cli_args *args, range_options *r,
-                         int place, double *end)
+static cli_exit read_end(cli_case_run *run, int place, double *end)
 {
+    const range_options *r = &((const curve *)run->own)->range;
     const char *text = r->end[place - FROM], *name = options[place].name;
     const rb_option number = {
         .name = name, .kind = RB_OPTION_NUMBER, .unit = unit_of(r), .range = RB_ANY};
-    int plain = 0, *given = &r->given[place];
-    const rb_option_set set = {&number, 1, end, given, &plain};
+    int *given = &run->set.given[place];
+    const rb_option_set set = {&number, 1, end, given, &run->set.plain[place]};
     char what[300];
     rb_message why;
     *end = default_end[place - FROM];
     if (!text)
         return CLI_CONTINUE;
     if (*given > 0)
-        snprintf(what, sizeof what, "%.200s:%d: %s", args->operand[0], *given, name);
+        snprintf(what, sizeof what, "%.200s:%d: %s", run->args.operand[0], *given, name);
     else
         snprintf(what, sizeof what, "--%s", name);
     if (rb_option_assign(&set, 0, *given, what, text, &why) != RB_OK)
         return cli_fail(*given > 0 ? CLI_DATA : CLI_USAGE, "%s", why.text);
-    rb_option_store(&set, rb_case_units(words), rb_case_file_units(words), end);
+    rb_case_store(run->words, &set, end);
     return CLI_CONTINUE;
 }
 
-static cli_exit read_range(const rb_case *words, const cli_args *args, range_options *r)
+static cli_exit read_range(cli_case_run *run, range_options *r)
 {
-    cli_exit code = read_end(words, args, r, FROM, &r->from);
+    cli_exit code = read_end(run, FROM, &r->from);
     if (code == CLI_CONTINUE)
-        code = read_end(words, args, r, TO, &r->to);
+        code = read_end(run, TO, &r->to);
     return code == CLI_CONTINUE && r->from == r->to
                ? cli_fail(CLI_USAGE, "--from and --to: expected two different values")
                : code;
@@ -98,38 +100,14 @@ static cli_exit read_range(const rb_case *words, const cli_args *args, range_opt
 
 /* ---- Solve ------------------------------------------------------------------------ */
 
-typedef struct {
-    const rb_case *words;
-    const rb_settled_case *c;
-    const range_options *range;
-    const cli_output *o;
-    rb_report_curves curves;
-    rb_report_curves drawn; /* as many where the picture has its own */
-} result;
-
-/* The picture shows the force as a part of the friction, mu P. */
-static cli_exit check_picture(const rb_settled_case *c, const range_options *r,
-                              const cli_output *o)
-{
-    rb_rolling_case rc = c->rc;
-    int frictionless = rb_rolling_largest_mu(&rc) == 0.0;
-    for (int k = 0; k < c->mus.n; k++) {
-        rc.mu = c->mus.value[k];
-        frictionless |= rb_rolling_largest_mu(&rc) == 0.0;
-    }
-    return o->plot && frictionless && r->over != RB_OVER_SPEED
-               ? cli_fail(CLI_USAGE, "--plot: no curve to draw at mu = 0")
-               : CLI_CONTINUE;
-}
-
 static rb_status solve_curve(const rb_rolling_case *rc, const range_options *r,
-                             int with_errors, rb_rolling_curve *curve,
+                             int with_errors, rb_rolling_curve *points,
                              rb_rolling_curve *errors, rb_message *why)
 {
     const rb_rolling_range range = {(rb_rolling_variable)r->over, r->from, r->to,
                                     r->points};
-    return with_errors ? rb_rolling_curve_with_errors(rc, &range, curve, errors, why)
-                       : rb_rolling_curve_solve(rc, &range, curve, why);
+    return with_errors ? rb_rolling_curve_with_errors(rc, &range, points, errors, why)
+                       : rb_rolling_curve_solve(rc, &range, points, why);
 }
 
 static rb_status solve_curves(const rb_settled_case *c, const range_options *range,
@@ -156,10 +134,10 @@ static rb_status solve_curves(const rb_settled_case *c, const range_options *ran
 
 /* Equal ratios are different creepages where mu differs, and the curves of a picture over
  * xi would end one after another: it has its own, over all the creepages that occur. */
-static rb_status solve_drawn(result *r, rb_message *why)
+static rb_status solve_drawn(const cli_case_run *run, curve *r, rb_message *why)
 {
-    range_options common = *r->range;
-    if (!r->o->plot || common.over != RB_OVER_CREEP_RATIO || r->curves.n < 2)
+    range_options common = r->range;
+    if (!run->o.plot || common.over != RB_OVER_CREEP_RATIO || r->curves.n < 2)
         return RB_OK;
     common.over = RB_OVER_CREEP;
     common.from = INFINITY;
@@ -169,7 +147,7 @@ static rb_status solve_drawn(result *r, rb_message *why)
         common.from = fmin(common.from, fmin(c->creepage[0], c->creepage[c->rising - 1]));
         common.to = fmax(common.to, fmax(c->creepage[0], c->creepage[c->rising - 1]));
     }
-    return solve_curves(r->c, &common, &r->drawn, why);
+    return solve_curves(run->c, &common, &r->drawn, why);
 }
 
 static void convert(rb_report_curves *curves, rb_units units)
@@ -188,108 +166,112 @@ static void free_curves(rb_report_curves *curves)
     }
 }
 
-/* ---- Print ------------------------------------------------------------------------ */
-
-static rb_status print_json(FILE *out, const result *r)
+static rb_status solve(cli_case_run *run, rb_message *why)
 {
-    json_t *inputs = rb_report_json_inputs(r->words);
-    const char *unit = unit_of(r->range);
-    rb_report_json_set(&inputs, "from",
-                       json_real(rb_unit_shown(r->c->units, unit, r->range->from)));
-    rb_report_json_set(&inputs, "to",
-                       json_real(rb_unit_shown(r->c->units, unit, r->range->to)));
-    rb_report_json_set(&inputs, "points", json_integer(r->range->points));
-    rb_report_json_set(&inputs, "over",
-                       json_string(rb_case_curve_variables[r->range->over].name));
-    json_t *root = cli_case_json(r->words, NULL, inputs);
-    rb_report_json_curves(&root, &r->curves);
-    return rb_report_json_write(out, root);
+    curve *r = run->own;
+    rb_status s = solve_curves(run->c, &r->range, &r->curves, why);
+    if (s == RB_OK)
+        s = solve_drawn(run, r, why);
+    convert(&r->curves, run->c->units);
+    convert(&r->drawn, run->c->units);
+    run->printable = s >= 0 && r->curves.n > 0 && r->curves.curve[0].n > 0;
+    return s;
 }
 
-static rb_status print(FILE *out, const void *context, rb_message *why)
+/* ---- Print ------------------------------------------------------------------------ */
+
+static void add_inputs(const cli_case_run *run, json_t **inputs)
 {
-    const result *r = context;
-    (void)why;
-    return r->o->style.format == RB_REPORT_JSON
-               ? print_json(out, r)
-               : rb_report_curve_table(out, &r->curves, cli_command_line(), &r->o->style);
+    const range_options *r = &((const curve *)run->own)->range;
+    const rb_units units = run->c->units;
+    rb_report_json_set(inputs, "from",
+                       json_real(rb_unit_shown(units, unit_of(r), r->from)));
+    rb_report_json_set(inputs, "to", json_real(rb_unit_shown(units, unit_of(r), r->to)));
+    rb_report_json_set(inputs, "points", json_integer(r->points));
+    rb_report_json_set(inputs, "over",
+                       json_string(rb_case_curve_variables[r->over].name));
+}
+
+static void add_json(const cli_case_run *run, json_t **root)
+{
+    rb_report_json_curves(root, &((const curve *)run->own)->curves);
+}
+
+static rb_status write_table(FILE *out, const cli_case_run *run)
+{
+    return rb_report_curve_table(out, &((const curve *)run->own)->curves,
+                                 cli_command_line(), &run->o.style);
 }
 
 static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
                       rb_message *why)
 {
-    const result *r = context;
-    return rb_report_curve_picture(out, canvas, &r->c->rc,
+    const cli_case_run *run = context;
+    const curve *r = run->own;
+    return rb_report_curve_picture(out, canvas, &run->c->rc,
                                    r->drawn.n == r->curves.n ? &r->drawn : &r->curves,
-                                   (rb_rolling_variable)r->range->over, why);
+                                   (rb_rolling_variable)r->range.over, why);
+}
+
+static const cli_case_file files[] = {{"plot", .draw = draw}, {NULL, NULL, NULL}};
+
+static void summarise(const cli_case_run *run)
+{
+    rb_report_curve_summary(stderr, &((const curve *)run->own)->curves);
 }
 
 /* ---- Command ---------------------------------------------------------------------- */
 
-static cli_exit show(const result *r)
+static void choose_purpose(cli_case_run *run)
 {
-    cli_exit code = cli_write_file(r->o->output, print, r);
-    if (code == CLI_OK && !r->o->quiet)
-        rb_report_curve_summary(stderr, &r->curves);
-    if (code == CLI_OK && r->o->cite) {
-        rb_rolling_case steady = r->c->rc;
-        steady.formulation = RB_STEADY;
-        rb_report_citations(stderr, &steady, NULL);
-    }
-    if (code == CLI_OK)
-        code = cli_draw_file(&r->o->pictures, "plot", r->o->plot, draw, r);
-    return code;
+    if (((const curve *)run->own)->range.over == RB_OVER_SPEED)
+        rb_case_set_purpose(run->words, RB_CASE_SPEEDS);
 }
 
-static cli_exit solve(const rb_case *words, const range_options *range,
-                      const cli_output *o)
+/* The picture shows the force as a part of the friction, mu P. */
+static cli_exit check_picture(const cli_case_run *run, const range_options *r)
 {
-    const rb_settled_case *c = rb_case_settled(words);
-    result r = {.words = words, .c = c, .range = range, .o = o};
-    rb_message why = {""};
-    cli_exit code = CLI_OK;
-    rb_status s = solve_curves(c, range, &r.curves, &why);
-    if (s == RB_OK)
-        s = solve_drawn(&r, &why);
-    convert(&r.curves, c->units);
-    convert(&r.drawn, c->units);
-    if (s >= 0 && r.curves.n > 0 && r.curves.curve[0].n > 0)
-        code = show(&r);
-    if (code == CLI_OK && s != RB_OK)
-        code = cli_case_refused(words, s, &why);
-    free_curves(&r.curves);
-    free_curves(&r.drawn);
-    return code;
+    const rb_settled_case *c = run->c;
+    rb_rolling_case rc = c->rc;
+    int frictionless = rb_rolling_largest_mu(&rc) == 0.0;
+    for (int k = 0; k < c->mus.n; k++) {
+        rc.mu = c->mus.value[k];
+        frictionless |= rb_rolling_largest_mu(&rc) == 0.0;
+    }
+    return run->o.plot && frictionless && r->over != RB_OVER_SPEED
+               ? cli_fail(CLI_USAGE, "--plot: no curve to draw at mu = 0")
+               : CLI_CONTINUE;
 }
+
+static cli_exit check(cli_case_run *run)
+{
+    range_options *r = &((curve *)run->own)->range;
+    const cli_exit code = read_range(run, r);
+    return code == CLI_CONTINUE ? check_picture(run, r) : code;
+}
+
+static const cli_case_command command = {
+    .synopsis = "rollbem curve [OPTION...] [CASE.ini]",
+    .about = about,
+    .notes = notes,
+    .purpose = RB_CASE_CURVE,
+    .options = options,
+    .option_n = OPTIONS,
+    .files = files,
+    .choose_purpose = choose_purpose,
+    .check = check,
+    .solve = solve,
+    .table = write_table,
+    .inputs = add_inputs,
+    .json = add_json,
+    .summarise = summarise,
+};
 
 int cli_curve(int argc, char **argv)
 {
-    cli_output o = {0};
-    range_options range = {.points = 61};
-    cli_args args = {0};
-    rb_case *c = cli_case_create(RB_CASE_CURVE);
-    if (!c)
-        return CLI_INTERNAL;
-    const cli_spec spec = {"rollbem curve [OPTION...] [CASE.ini]",
-                           about,
-                           notes,
-                           {rb_case_options(c),
-                            {options, OPTIONS, &range, range.given, NULL},
-                            cli_output_set(&o),
-                            cli_example_set()},
-                           4};
-    cli_exit code = cli_case_read(&spec, argc, argv, c, &args);
-    if (range.over == RB_OVER_SPEED)
-        rb_case_set_purpose(c, RB_CASE_SPEEDS);
-    if (code == CLI_CONTINUE)
-        code = cli_case_settle(&spec, c, &args);
-    if (code == CLI_CONTINUE)
-        code = read_range(c, &args, &range);
-    if (code == CLI_CONTINUE)
-        code = check_picture(rb_case_settled(c), &range, &o);
-    if (code == CLI_CONTINUE)
-        code = solve(c, &range, &o);
-    cli_args_free(&args);
-    rb_case_free(c);
+    curve r = {.range.points = 61};
+    const cli_exit code = cli_case_run_command(&command, &r, argc, argv);
+    free_curves(&r.curves);
+    free_curves(&r.drawn);
     return code;
 }

@@ -49,18 +49,26 @@ rb_option_set cli_output_set(cli_output *o)
     return (rb_option_set){options, OPTIONS, o, o->given, NULL};
 }
 
-/* Whoever asks for a form of the table gets it. */
-void cli_output_settle(cli_output *o)
+int cli_output_is_brief(const cli_output *o)
 {
     int asked = 0;
     for (int i = 0; i < OPTIONS; i++)
         asked |= o->given[i] && (strcmp(options[i].name, "format") == 0 ||
                                  strcmp(options[i].name, "header") == 0);
-    o->brief =
-        !asked && !o->output && o->style.format == RB_REPORT_TSV && isatty(STDOUT_FILENO);
+    return !asked && !o->output && o->style.format == RB_REPORT_TSV &&
+           isatty(STDOUT_FILENO);
 }
 
 /* ---- Files that options name ------------------------------------------------------- */
+
+const char *cli_option_path(const cli_spec *spec, const char *name)
+{
+    int i;
+    rb_guess guess = {.word = name};
+    const rb_option_set *set =
+        rb_option_find(spec->set_n, spec->sets, name, strlen(name), &i, &guess);
+    return set ? rb_option_path(&set->options[i], set->target) : NULL;
+}
 
 /* The same file, by whatever names.  Devices may be input and output. */
 static int same_file(const char *a, const char *b)

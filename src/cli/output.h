@@ -49,8 +49,11 @@ typedef struct {
 /* Section [output]: form of the results, --output, --plot and how, --quiet, --cite. */
 rb_option_set cli_output_set(cli_output *o);
 
-/* Whether a table goes to a terminal. */
-void cli_output_settle(cli_output *o);
+/* 1: the table goes to a terminal, and nobody has asked for a form of it. */
+int cli_output_is_brief(const cli_output *o);
+
+/* The file that the option of that name asks for; NULL: none. */
+const char *cli_option_path(const cli_spec *spec, const char *name);
 
 /* Before the work: refuses what the options of spec name and cannot be written, pictures
  * of an unknown kind, and files that would be written over while they are inputs or

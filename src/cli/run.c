@@ -50,27 +50,36 @@ static rb_status write_table(FILE *out, const void *context, rb_message *why)
 }
 
 /* Owned by the caller; NULL: no memory. */
-static char *name_snapshot(const cli_steps *steps, int step)
+static char *name_snapshot(const char *folder, int step, const rb_report_style *style)
 {
     char name[40];
     snprintf(name, sizeof name, "step_%06d.%s", step,
-             steps->style.format == RB_REPORT_CSV ? "csv" : "tsv");
-    return rb_io_join(steps->snapshots, name);
+             style->format == RB_REPORT_CSV ? "csv" : "tsv");
+    return rb_io_join(folder, name);
 }
 
-static rb_status write_snapshot(watch *w, const rb_rolling_model *model, int step)
+rb_status cli_write_snapshot(const char *folder, int step, const rb_rolling_case *rc,
+                             const rb_rolling_solution *solution,
+                             const rb_report_style *style, rb_message *why)
+{
+    const snapshot it = {rc, solution, style};
+    char *path = name_snapshot(folder, step, style);
+    const rb_status s = path ? cli_write_to(path, write_table, &it, why)
+                             : rb_fail(why, RB_ENOMEM, "out of memory");
+    free(path);
+    return s;
+}
+
+static rb_status keep_snapshot(watch *w, const rb_rolling_model *model, int step)
 {
     rb_rolling_solution solution = {0};
-    const snapshot it = {&model->rc, &solution, &w->steps->style};
-    char *path = name_snapshot(w->steps, step);
-    rb_status s = path ? rb_rolling_model_solution(model, &solution, w->why)
-                       : rb_fail(w->why, RB_ENOMEM, "out of memory");
+    rb_status s = rb_rolling_model_solution(model, &solution, w->why);
     rb_rolling_solution_convert(&solution, w->units);
     if (s == RB_OK)
-        s = cli_write_to(path, write_table, &it, w->why);
+        s = cli_write_snapshot(w->steps->snapshots, step, &model->rc, &solution,
+                               &w->steps->style, w->why);
     w->written = step;
     rb_rolling_solution_free(&solution);
-    free(path);
     return s;
 }
 
@@ -78,7 +87,7 @@ static rb_status write_snapshot(watch *w, const rb_rolling_model *model, int ste
 static void remove_snapshots(watch *w)
 {
     for (int step = w->steps->every; step <= w->written; step += w->steps->every) {
-        char *path = name_snapshot(w->steps, step);
+        char *path = name_snapshot(w->steps->snapshots, step, &w->steps->style);
         if (path)
             remove(path);
         free(path);
@@ -111,7 +120,7 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
     if (step == 0 && w->written > 0)
         remove_snapshots(w);
     if (asked->snapshots && ((step + 1) % asked->every == 0 || step + 1 == steps))
-        w->failed = write_snapshot(w, model, step + 1);
+        w->failed = keep_snapshot(w, model, step + 1);
     if (asked->states && w->failed == RB_OK)
         w->failed = keep_state(model, step, steps, asked->states, w->why);
     return cli_interrupted() || w->failed != RB_OK;

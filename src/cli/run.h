@@ -15,6 +15,12 @@ typedef struct {
     rb_rolling_states *states; /* of all steps, overwritten; or NULL */
 } cli_steps;
 
+/* The tractions after that step as a file of the folder: step_000012.tsv, or .csv.  rc
+ * NULL: no # lines about the case. */
+rb_status cli_write_snapshot(const char *folder, int step, const rb_rolling_case *rc,
+                             const rb_rolling_solution *solution,
+                             const rb_report_style *style, rb_message *why);
+
 /* rb_case_solve, where an interrupt (control-C, SIGTERM, SIGHUP) ends a sequence of steps
  * after the one at hand.  steps NULL: nothing on the way.  Free the result in any case.
  */

@@ -66,11 +66,11 @@ typedef struct {
 
 static typed typed_of(const study *st, const char *source, const char *name)
 {
+    const int by = rb_option_given(st->own, source);
     return (typed){.source = source,
                    .option = rb_case_option(name),
-                   .from = cli_units_of(st->base, st->own->options, st->own->n,
-                                        st->own->given, source),
-                   .to = rb_case_units(st->base)};
+                   .from = rb_case_units(st->base, by),
+                   .to = rb_case_units(st->base, RB_GIVEN_ARGUMENT)};
 }
 
 /* Plain numbers of the case file are in its units; the case takes all values, and the

@@ -1,7 +1,7 @@
 /* rollbem wear: what sliding, fretting or rolling takes off. */
 #include "cli/case.h"
 #include "cli/interrupt.h"
-#include "cli/output.h"
+#include "cli/run.h"
 #include "rollbem/io.h"
 
 #include <jansson.h>
@@ -10,13 +10,19 @@
 #include <string.h>
 
 typedef struct {
+    /* options */
     int law, steps, increments, every;
     double coefficient, slide, cycles;
     const char *snapshots, *profile;
-    int given[10], plain[10];
-} wear_options;
+    /* results */
+    rb_report_wear report;
+    rb_rolling_wear_history history;
+    rb_rolling_solution last;
+    rb_status failed; /* of a snapshot */
+    rb_message why;
+} wear;
 
-#define PLACE(member) offsetof(wear_options, member)
+#define PLACE(member) offsetof(wear, member)
 
 static const rb_choice laws[] = {
     {"archard", RB_WEAR_ARCHARD}, {"dissipation", RB_WEAR_DISSIPATION}, {NULL, 0}};
@@ -52,8 +58,6 @@ static const rb_option options[] = {
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
-_Static_assert(OPTIONS <= 10, "given");
-
 static const char about[] =
     "Wears body A: sliding over B (--slide), fretting between --shift or --force and "
     "its\n"
@@ -70,109 +74,81 @@ static const char notes[] = CLI_CASE_NOTES
 
 /* ---- Run -------------------------------------------------------------------------- */
 
-typedef struct {
-    const rb_case *words;
-    const wear_options *options;
-    const cli_output *o;
-    rb_report_wear report;
-    rb_rolling_wear_history history;
-    rb_rolling_solution last;
-    const rb_rolling_solution *shown; /* of the snapshot at hand */
-    rb_status failed;                 /* of a snapshot */
-    rb_message why;
-} result;
-
-static rb_status write_snapshot(FILE *out, const void *context, rb_message *why)
-{
-    const result *r = context;
-    (void)why;
-    return rb_report_table(out, NULL, r->shown, cli_command_line(), &r->o->style);
-}
-
-static rb_status save_snapshot(result *r, const rb_rolling_solution *s, int step)
-{
-    char name[40];
-    snprintf(name, sizeof name, "step_%06d.%s", step,
-             r->o->style.format == RB_REPORT_CSV ? "csv" : "tsv");
-    char *path = rb_io_join(r->options->snapshots, name);
-    r->shown = s;
-    const rb_status status = path ? cli_write_to(path, write_snapshot, r, &r->why)
-                                  : rb_fail(&r->why, RB_ENOMEM, "out of memory");
-    free(path);
-    return status;
-}
-
 static int after_step(rb_rolling_solution *s, const rb_rolling_wear_history *h, int step,
                       int steps, void *context)
 {
-    result *r = context;
-    rb_rolling_solution_convert(s, rb_case_units(r->words));
-    const int due = step % r->options->every == 0 || step == steps;
-    if (r->options->snapshots && due)
-        r->failed = save_snapshot(r, s, step);
-    if (r->failed == RB_OK)
-        r->failed = rb_report_wear_keep(&r->report, s, h, step, steps);
-    return cli_interrupted() || r->failed != RB_OK;
+    const cli_case_run *run = context;
+    wear *w = run->own;
+    rb_rolling_solution_convert(s, run->c->units);
+    if (w->snapshots && (step % w->every == 0 || step == steps))
+        w->failed =
+            cli_write_snapshot(w->snapshots, step, NULL, s, &run->o.style, &w->why);
+    if (w->failed == RB_OK)
+        w->failed = rb_report_wear_keep(&w->report, s, h, step, steps);
+    return cli_interrupted() || w->failed != RB_OK;
 }
 
-static rb_status run(result *r, const rb_settled_case *c, rb_message *why)
+static rb_status solve(cli_case_run *run, rb_message *why)
 {
-    const wear_options *w = r->options;
-    const rb_rolling_wear wear = {.law = w->law,
-                                  .coefficient = w->coefficient,
-                                  .slides = !isnan(w->slide),
-                                  .way = isnan(w->slide) ? w->cycles : w->slide,
-                                  .steps = w->steps,
-                                  .increments = w->increments};
-    r->report.history = &r->history;
+    wear *w = run->own;
+    const rb_rolling_wear how = {.law = w->law,
+                                 .coefficient = w->coefficient,
+                                 .slides = !isnan(w->slide),
+                                 .way = isnan(w->slide) ? w->cycles : w->slide,
+                                 .steps = w->steps,
+                                 .increments = w->increments};
+    w->report.history = &w->history;
     rb_status s = w->snapshots ? rb_io_make_folder(w->snapshots, why) : RB_OK;
     if (s != RB_OK)
         return s;
     cli_interrupts_catch();
-    s = rb_rolling_wear_run(&c->rc, &wear, &(rb_rolling_wear_observer){after_step, r},
-                            &r->history, &r->last, why);
+    s = rb_rolling_wear_run(&run->c->rc, &how,
+                            &(rb_rolling_wear_observer){after_step, run}, &w->history,
+                            &w->last, why);
     cli_interrupts_leave();
-    rb_rolling_wear_history_convert(&r->history, rb_case_units(r->words));
-    if (r->failed == RB_OK)
-        return s;
-    *why = r->why;
-    return r->failed;
+    rb_rolling_wear_history_convert(&w->history, run->c->units);
+    if (w->failed != RB_OK) {
+        *why = w->why;
+        s = w->failed;
+    }
+    run->solution = &w->last;
+    run->printable = s >= 0 && w->history.n > 0;
+    return s;
 }
 
 /* ---- Print ------------------------------------------------------------------------ */
 
-static rb_status print_json(FILE *out, const result *r)
+static void add_inputs(const cli_case_run *run, json_t **inputs)
 {
-    const wear_options *w = r->options;
-    const rb_units units = rb_case_units(r->words);
-    json_t *inputs = rb_report_json_inputs(r->words);
-    rb_report_json_set(&inputs, "wear-law", json_string(laws[w->law].name));
-    rb_report_json_set(&inputs, "wear-coefficient",
+    const wear *w = run->own;
+    const rb_units units = run->c->units;
+    rb_report_json_set(inputs, "wear-law", json_string(laws[w->law].name));
+    rb_report_json_set(inputs, "wear-coefficient",
                        json_real(rb_unit_shown(units, "1/MPa", w->coefficient)));
-    rb_report_json_set(&inputs, "slide",
+    rb_report_json_set(inputs, "slide",
                        rb_report_json_number(rb_unit_shown(units, "mm", w->slide)));
-    rb_report_json_set(&inputs, "cycles", rb_report_json_number(w->cycles));
-    rb_report_json_set(&inputs, "wear-steps", json_integer(w->steps));
-    rb_report_json_set(&inputs, "quarter", json_integer(w->increments));
-    json_t *root = cli_case_json(r->words, &r->last, inputs);
-    rb_report_json_set(&root, "wear", rb_report_json_wear(&r->report));
-    rb_report_json_set(&root, "summary", rb_report_json_summary(&r->last));
-    rb_report_json_set(&root, "table", rb_report_json_table(&r->last));
-    return rb_report_json_write(out, root);
+    rb_report_json_set(inputs, "cycles", rb_report_json_number(w->cycles));
+    rb_report_json_set(inputs, "wear-steps", json_integer(w->steps));
+    rb_report_json_set(inputs, "quarter", json_integer(w->increments));
 }
 
-static rb_status print(FILE *out, const void *context, rb_message *why)
+static void add_json(const cli_case_run *run, json_t **root)
 {
-    const result *r = context;
-    (void)why;
-    return r->o->style.format == RB_REPORT_JSON
-               ? print_json(out, r)
-               : rb_report_wear_table(out, &r->report, cli_command_line(), &r->o->style);
+    const wear *w = run->own;
+    rb_report_json_set(root, "wear", rb_report_json_wear(&w->report));
+    rb_report_json_set(root, "summary", rb_report_json_summary(&w->last));
+    rb_report_json_set(root, "table", rb_report_json_table(&w->last));
 }
 
-static rb_status print_profile(FILE *out, const void *context, rb_message *why)
+static rb_status write_table(FILE *out, const cli_case_run *run)
 {
-    const rb_rolling_solution *s = &((const result *)context)->last;
+    const wear *w = run->own;
+    return rb_report_wear_table(out, &w->report, cli_command_line(), &run->o.style);
+}
+
+static rb_status write_profile(FILE *out, const void *context, rb_message *why)
+{
+    const rb_rolling_solution *s = ((const cli_case_run *)context)->solution;
     (void)why;
     const char *mm = rb_unit_name(s->units, "mm");
     fprintf(out, "x_%s\tdepth_%s\n# %s\n", mm, mm, cli_command_line());
@@ -184,90 +160,62 @@ static rb_status print_profile(FILE *out, const void *context, rb_message *why)
 static rb_status draw(FILE *out, rb_report_canvas canvas, const void *context,
                       rb_message *why)
 {
-    const result *r = context;
-    return rb_report_wear_picture(out, canvas, &r->report, why);
+    const wear *w = ((const cli_case_run *)context)->own;
+    return rb_report_wear_picture(out, canvas, &w->report, why);
 }
 
-static cli_exit show(const result *r)
+static const cli_case_file files[] = {
+    {"profile", .write = write_profile}, {"plot", .draw = draw}, {NULL, NULL, NULL}};
+
+static void summarise(const cli_case_run *run)
 {
-    cli_exit code = cli_write_file(r->o->output, print, r);
-    if (code == CLI_OK && r->options->profile)
-        code = cli_write_file(r->options->profile, print_profile, r);
-    const rb_rolling_case *rc = &rb_case_settled(r->words)->rc;
-    if (code == CLI_OK && !r->o->quiet) {
-        rb_report_notes(stderr, rc, &r->last);
-        rb_report_wear_summary(stderr, &r->report);
-    }
-    if (code == CLI_OK && r->o->cite)
-        rb_report_citations(stderr, rc, &r->last);
-    if (code == CLI_OK)
-        code = cli_draw_file(&r->o->pictures, "plot", r->o->plot, draw, r);
-    return code;
+    rb_report_wear_summary(stderr, &((const wear *)run->own)->report);
 }
 
 /* ---- Command ---------------------------------------------------------------------- */
 
-static cli_exit check(const wear_options *w, const rb_settled_case *c)
+static cli_exit check(cli_case_run *run)
 {
-    const int rolls = c->rc.formulation == RB_STEADY;
+    const wear *w = run->own;
     if (isnan(w->coefficient))
         return cli_fail(CLI_USAGE, "wear needs --wear-coefficient");
     if (!isnan(w->slide) && !isnan(w->cycles))
         return cli_fail(CLI_USAGE, "--slide and --cycles exclude each other");
     if (isnan(w->slide) && isnan(w->cycles))
         return cli_fail(CLI_USAGE, "wear needs --slide or --cycles");
-    if (rolls && w->profile)
+    if (run->c->rc.formulation == RB_STEADY && w->profile)
         return cli_fail(CLI_USAGE,
                         "--profile: a wheel that rolls stays round; see the radius");
     return CLI_CONTINUE;
 }
 
-static cli_exit solve(const rb_case *words, const wear_options *w, const cli_output *o)
-{
-    result r = {.words = words, .options = w, .o = o};
-    rb_message why = {""};
-    cli_exit code = CLI_OK;
-    const rb_status s = run(&r, rb_case_settled(words), &why);
-    if (s >= 0 && r.history.n > 0)
-        code = show(&r);
-    if (code == CLI_OK && s != RB_OK)
-        code = cli_case_refused(words, s, &why);
-    rb_report_wear_free(&r.report);
-    rb_rolling_wear_history_free(&r.history);
-    rb_rolling_solution_free(&r.last);
-    return code;
-}
+static const cli_case_command command = {
+    .synopsis = "rollbem wear [OPTION...] [CASE.ini]",
+    .about = about,
+    .notes = notes,
+    .purpose = RB_CASE_WEAR,
+    .options = options,
+    .option_n = OPTIONS,
+    .files = files,
+    .check = check,
+    .solve = solve,
+    .table = write_table,
+    .inputs = add_inputs,
+    .json = add_json,
+    .summarise = summarise,
+};
 
 int cli_wear(int argc, char **argv)
 {
-    cli_output o = {0};
-    wear_options w = {.coefficient = NAN,
-                      .slide = NAN,
-                      .cycles = NAN,
-                      .steps = 20,
-                      .increments = 8,
-                      .every = 1};
-    cli_args args = {0};
-    rb_case *c = cli_case_create(RB_CASE_WEAR);
-    if (!c)
-        return CLI_INTERNAL;
-    const cli_spec spec = {"rollbem wear [OPTION...] [CASE.ini]",
-                           about,
-                           notes,
-                           {rb_case_options(c),
-                            {options, OPTIONS, &w, w.given, w.plain},
-                            cli_output_set(&o),
-                            cli_example_set()},
-                           4};
-    cli_exit code = cli_case_parse(&spec, argc, argv, c, &args);
-    if (code == CLI_CONTINUE) {
-        rb_option_store(&spec.sets[1], rb_case_settled(c)->units, rb_case_file_units(c),
-                        &w);
-        code = check(&w, rb_case_settled(c));
-    }
-    if (code == CLI_CONTINUE)
-        code = solve(c, &w, &o);
-    cli_args_free(&args);
-    rb_case_free(c);
+    wear w = {.coefficient = NAN,
+              .slide = NAN,
+              .cycles = NAN,
+              .steps = 20,
+              .increments = 8,
+              .every = 1};
+    const cli_exit code = cli_case_run_command(&command, &w, argc, argv);
+    rb_report_wear_free(&w.report);
+    rb_rolling_wear_history_free(&w.history);
+    rb_rolling_solution_free(&w.last);
     return code;
 }
