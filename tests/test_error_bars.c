@@ -299,9 +299,7 @@ static int study(int cases)
     return short_of;
 }
 
-/* ---- The part of it that is quick
- * ------------------------------------------------------
- */
+/* ---- The part of it that is quick -------------------------------------------------- */
 
 /* Every class of half-planes and some of wheels, all together: too few cases to
  * judge a class by. */

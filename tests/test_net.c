@@ -568,9 +568,7 @@ static int spared(const int *row)
     return others > 0;
 }
 
-/* ---- The command line of a row
- * ---------------------------------------------------------
- */
+/* ---- The command line of a row ----------------------------------------------------- */
 
 /* Far below mu P of every case. */
 static double force_of(const int *row)

@@ -151,9 +151,7 @@ static void an_even_table_is_one_coefficient(void **state)
     rb_rolling_model_free(&one);
 }
 
-/* ---- A yielding interface
- * ---------------------------------------------------------------
- */
+/* ---- A yielding interface ---------------------------------------------------------- */
 
 /* Its own displacement, and nothing else, is what F r has more. */
 static void an_interface_yields_by_itself(void **state)

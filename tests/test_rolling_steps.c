@@ -306,9 +306,7 @@ static void similar_bodies_press_at_once(void **state)
     release(&model, &h);
 }
 
-/* ---- Where a history ends
- * ---------------------------------------------------------------
- */
+/* ---- Where a history ends ---------------------------------------------------------- */
 
 static void histories_end_on_their_last_row(void **state)
 {
@@ -472,9 +470,7 @@ static void power_and_moment_balance_when_steady(void **state)
     release(&model, &h);
 }
 
-/* ---- Irregular surfaces
- * ------------------------------------------------------------------
- */
+/* ---- Irregular surfaces ------------------------------------------------------------ */
 
 /* A round flat of depth d [mm] and half-length l around x. */
 typedef struct {

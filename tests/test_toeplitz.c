@@ -186,9 +186,7 @@ static void refuse(int n, const double *ends, rb_bem_material material, double d
     rb_bem_flexibility_free(&f);
 }
 
-/* ---- The disc
- * --------------------------------------------------------------------------
- */
+/* ---- The disc ---------------------------------------------------------------------- */
 
 static double *equal_arcs(int n, double radius, double from, double to)
 {

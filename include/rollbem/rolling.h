@@ -324,8 +324,7 @@ rb_bem_support rb_rolling_kind_support(const rb_rolling_body_kind *kind);
 /* The options that not every body knows; the last one has no name. */
 const rb_rolling_parameter *rb_rolling_kind_parameters(const rb_rolling_body_kind *kind);
 
-/* ---- The formulation as a contact problem (contact.h) -------------------------------
- */
+/* ---- The formulation as a contact problem (contact.h) ------------------------------ */
 
 /* The state that a static history or a transient starts from. */
 typedef struct {
@@ -427,8 +426,7 @@ typedef struct {
 
 void rb_rolling_solution_free(rb_rolling_solution *s);
 
-/* ---- The results by name -------------------------------------------------------------
- */
+/* ---- The results by name ----------------------------------------------------------- */
 
 typedef enum {
     RB_RESULT_NUMBER,
@@ -531,8 +529,7 @@ void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
 double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from,
                                 double to);
 
-/* ---- A case at work ------------------------------------------------------------------
- */
+/* ---- A case at work ---------------------------------------------------------------- */
 
 /* Everything between case and solution, kept for further solves on the same mesh. */
 typedef struct {
@@ -609,8 +606,7 @@ rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solution
                                     rb_message *why);
 void rb_rolling_solutions_free(rb_rolling_solutions *all);
 
-/* ---- Histories: static increments and transient rolling -------------------------------
- */
+/* ---- Histories: static increments and transient rolling ---------------------------- */
 
 /* Controls along the way, one row each; a NULL column keeps the value of the case, any
  * other one replaces it.  Without distance: increments of a static history.  With
@@ -733,8 +729,7 @@ rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
                                     rb_rolling_model *model, rb_rolling_history *history,
                                     rb_message *why);
 
-/* ---- Wear -----------------------------------------------------------------------------
- */
+/* ---- Wear -------------------------------------------------------------------------- */
 
 typedef enum {
     RB_WEAR_ARCHARD,    /* depth = K int p |ds| */
@@ -794,8 +789,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
                               rb_rolling_wear_history *history, rb_rolling_solution *last,
                               rb_message *why);
 
-/* ---- Creep curves
- * ---------------------------------------------------------------------- */
+/* ---- Creep curves ------------------------------------------------------------------ */
 
 /* What a curve runs over. */
 typedef enum {
@@ -848,8 +842,7 @@ void rb_rolling_curve_free(rb_rolling_curve *curve);
 rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_range *range,
                                  rb_rolling_curve *curve, rb_message *why);
 
-/* ---- Subsurface stress of body A
- * -------------------------------------------------------- */
+/* ---- Subsurface stress of body A --------------------------------------------------- */
 
 /* Plane strain at one point (x, y), y > 0 inside A; tension positive. */
 typedef struct {
@@ -931,8 +924,7 @@ void rb_rolling_stress_grid_free(rb_rolling_stress_grid *grid);
 rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, double to,
                                    rb_rolling_solution *solution, rb_message *why);
 
-/* ---- Error bars (theory.md 5.1)
- * ----------------------------------------------------------- */
+/* ---- Error bars (theory.md 5.1) ---------------------------------------------------- */
 
 /* Estimated discretisation errors. */
 typedef struct {

@@ -25,9 +25,7 @@ static void dense_forget(rb_contact_operator *op)
     rb_contact_factors_clear(((rb_contact_dense *)op)->factors);
 }
 
-/* ---- Products
- * --------------------------------------------------------------------------
- */
+/* ---- Products ---------------------------------------------------------------------- */
 
 /* y += A x; separated elements at the ends cost nothing. */
 static void add_product(int n, const double *A, int lda, const double *x, double *y)
@@ -87,9 +85,7 @@ static rb_contact_response response(int n, const rb_contact_matrix *K)
                                             any_nonzero(n, K->F + length * ldf, K->ldf)};
 }
 
-/* ---- Zones held fixed
- * -------------------------------------------------------------------
- */
+/* ---- Zones held fixed -------------------------------------------------------------- */
 
 /* Solves, and where a kept LU served or digits were lost, solves again for what the
  * equations still lack, until a correction is small.  *settled: 0 where none was. */
@@ -126,9 +122,7 @@ static rb_status dense_solve(const rb_contact_problem *p, rb_contact_state *stat
     return s;
 }
 
-/* ---- The kind
- * ---------------------------------------------------------------------------
- */
+/* ---- The kind ---------------------------------------------------------------------- */
 
 rb_status rb_contact_operator_dense(int n, const double *F, int ldf, double *S,
                                     rb_contact_operator **op)

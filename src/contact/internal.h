@@ -66,9 +66,7 @@ void rb_contact_reduced_right_side(const rb_contact_problem *problem,
 rb_status rb_contact_reduced_add(const rb_contact_problem *problem,
                                  const rb_contact_reduced *r, rb_contact_state *state);
 
-/* ---- operator.c: what every kind has
- * ---------------------------------------------------
- */
+/* ---- operator.c: what every kind has ----------------------------------------------- */
 
 typedef struct {
     void (*add)(rb_contact_operator *op, const double *p, const double *q, double *gap,

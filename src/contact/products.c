@@ -400,9 +400,7 @@ static rb_status products_solve(const rb_contact_problem *p, rb_contact_state *s
     return s == RB_OK ? rb_contact_reduced_add(p, r, state) : s;
 }
 
-/* ---- The kind
- * ---------------------------------------------------------------------------
- */
+/* ---- The kind ---------------------------------------------------------------------- */
 
 rb_status rb_contact_operator_products(int n, const rb_contact_products *by,
                                        rb_contact_operator **op)

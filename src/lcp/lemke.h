@@ -42,8 +42,7 @@ rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, doub
 /* RB_INACCURATE where info->res is not below 1e-6 of size, the largest constant. */
 rb_status rb_lcp_judge(rb_lcp_info *info, double size);
 
-/* ---- check.c: RB_EINVAL for sizes, max_iters < 0, tol, NaN, infinity ----------------
- */
+/* ---- check.c: RB_EINVAL for sizes, max_iters < 0, tol, NaN, infinity --------------- */
 
 rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt,
                              rb_message *why);

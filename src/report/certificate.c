@@ -118,9 +118,7 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
     return RB_OK;
 }
 
-/* ---- The case again
- * --------------------------------------------------------------------
- */
+/* ---- The case again ---------------------------------------------------------------- */
 
 /* A value as an option takes it: a word, a number, numbers with commas. */
 static void option_text(const json_t *value, char *text, size_t size)
@@ -203,9 +201,7 @@ static rb_status rebuild_case(const char *name, const json_t *inputs, rb_case *w
     return s;
 }
 
-/* ---- The model again
- * -------------------------------------------------------------------
- */
+/* ---- The model again --------------------------------------------------------------- */
 
 rb_status rb_certificate_list(const char *name, const json_t *list, const char *heading,
                               int n, double *x, rb_message *why)
@@ -306,9 +302,7 @@ static rb_status read_state(rb_certificate *c, rb_message *why)
     return s;
 }
 
-/* ---- Sums
- * ------------------------------------------------------------------------------
- */
+/* ---- Sums -------------------------------------------------------------------------- */
 
 /* Neumaier's sum of products that fma splits without error. */
 typedef struct {
@@ -372,9 +366,7 @@ static void check_forces(rb_certificate *c)
     rb_certificate_given(c, P);
 }
 
-/* ---- Laws, element by element
- * ----------------------------------------------------------
- */
+/* ---- Laws, element by element ------------------------------------------------------ */
 
 /* What is given of creepage, shift, force: the residual has the force. */
 void rb_certificate_motion(rb_certificate *c)
@@ -482,9 +474,7 @@ rb_status rb_certificate_laws(rb_certificate *c)
     return s;
 }
 
-/* ---- Everything else that is printed
- * ---------------------------------------------------
- */
+/* ---- Everything else that is printed ----------------------------------------------- */
 
 /* How exactly a result comes out again beside its own nine digits, by its unit. */
 double rb_certificate_rounding(const rb_rolling_results *all, const char *name,

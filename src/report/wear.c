@@ -67,9 +67,7 @@ void rb_report_wear_summary(FILE *out, const rb_report_wear *w)
             h->max_pressure[last], MPa, h->max_pressure[0], MPa, h->residual[last]);
 }
 
-/* ---- What a picture keeps
- * ---------------------------------------------------------------
- */
+/* ---- What a picture keeps ---------------------------------------------------------- */
 
 void rb_report_wear_free(rb_report_wear *w)
 {
@@ -112,9 +110,7 @@ rb_status rb_report_wear_keep(rb_report_wear *w, const rb_rolling_solution *s,
                         &w->profile[w->profiles++]);
 }
 
-/* ---- Picture
- * ---------------------------------------------------------------------------
- */
+/* ---- Picture ----------------------------------------------------------------------- */
 
 /* Depths are shown in a small unit. */
 static rb_report_unit depth_unit(rb_units units)

@@ -10,9 +10,7 @@
 enum { MOST_ELEMENTS = 6400, MOST_ON_WHEELS = 1600 };
 static const double finest_boundary = 32.0;
 
-/* ---- The coarser runs
- * ------------------------------------------------------------------
- */
+/* ---- The coarser runs -------------------------------------------------------------- */
 
 /* The contact elements, with the steps of a transient, and the elements of the wheels
  * outside the contact are made coarser in turn: errors of different signs would cancel in
@@ -56,9 +54,7 @@ rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
-/* ---- From their values to a bar
- * --------------------------------------------------------
- */
+/* ---- From their values to a bar ---------------------------------------------------- */
 
 /* Three times the spread over the contact meshes: three errors where they are of first
  * order, nine where of second, and less where they jump as the edges pass elements. */
@@ -86,9 +82,7 @@ double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepag
     return rb_rolling_largest_mu(rc) * P * slip * pow(share, 1.5);
 }
 
-/* ---- Results of a solution
- * -------------------------------------------------------------
- */
+/* ---- Results of a solution --------------------------------------------------------- */
 
 enum { STRESS_NUMBERS = sizeof(rb_rolling_stress_maxima) / sizeof(double) };
 
@@ -243,9 +237,7 @@ static void add_parts(const error_parts *parts, rb_rolling_errors *errors)
     }
 }
 
-/* ---- One case and its error bars
- * -------------------------------------------------------
- */
+/* ---- One case and its error bars --------------------------------------------------- */
 
 static rb_status take_sample(const rb_rolling_case *rc, int with_stress, sample *s,
                              rb_message *why)
@@ -327,9 +319,7 @@ rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc,
     return status;
 }
 
-/* ---- To a given accuracy
- * ---------------------------------------------------------------
- */
+/* ---- To a given accuracy ----------------------------------------------------------- */
 
 /* Largest of the relative estimates that --accuracy asks for: forces in units of their
  * bound, creepage in units of mu a/R. */

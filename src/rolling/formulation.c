@@ -6,9 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- The kinematic operator A
- * ----------------------------------------------------------
- */
+/* ---- The kinematic operator A ------------------------------------------------------ */
 
 /* (A w)_i = sum over k of stencil_k w_{i-1+k}, w the tangential displacement of the n
  * elements and of one downstream and two upstream of them. */
@@ -53,9 +51,7 @@ static double row_of(const kinematic *A, const double *w, const double outside[2
     return a[0] * before + a[1] * w[i] + a[2] * w[i + 1] + a[3] * second;
 }
 
-/* ---- Its two operators
- * -----------------------------------------------------------------
- */
+/* ---- Its two operators ------------------------------------------------------------- */
 
 /* The local part of F_TT takes another member of the family: t = 1, whose leading edge is
  * not shifted there (theory.md 4.10). */
@@ -167,9 +163,7 @@ static rb_status transform_operator(const rb_rolling_bodies *bodies, kinematic *
     return rb_contact_operator_products(A->n, &by, op);
 }
 
-/* ---- What moves the surfaces
- * ------------------------------------------------------------
- */
+/* ---- What moves the surfaces ------------------------------------------------------- */
 
 /* d_T and e_T (K2), and the yield stress of what has yielded before (Y1). */
 void rb_rolling_set_past(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
@@ -334,9 +328,7 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
     return check_softening(rc, p, why);
 }
 
-/* ---- What a state carries
- * --------------------------------------------------------------
- */
+/* ---- What a state carries ---------------------------------------------------------- */
 
 double rb_rolling_model_load(const rb_rolling_model *model)
 {
@@ -375,9 +367,7 @@ void rb_rolling_yielded(const rb_rolling_model *model, double *yielded)
         yielded[i] += model->yielded[i];
 }
 
-/* ---- How it is solved
- * -------------------------------------------------------------------
- */
+/* ---- How it is solved -------------------------------------------------------------- */
 
 double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_problem *p)
 {

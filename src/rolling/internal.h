@@ -86,9 +86,7 @@ void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body 
 rb_status rb_rolling_check_base(const char *what, double young, double poisson,
                                 const char *which, rb_message *why);
 
-/* ---- body.c
- * ----------------------------------------------------------------------------
- */
+/* ---- body.c ------------------------------------------------------------------------ */
 
 /* RB_EINVAL: what no body can be.  which: "", or " of body B". */
 rb_status rb_rolling_body_check(const rb_rolling_body *body, const char *which,
@@ -161,9 +159,7 @@ double rb_rolling_model_force(const rb_rolling_model *model);
 /* What the interface has yielded so far at the elements (n). */
 void rb_rolling_yielded(const rb_rolling_model *model, double *yielded);
 
-/* ---- law.c, law_iteration.c: friction laws
- * ---------------------------------------------
- */
+/* ---- law.c, law_iteration.c: friction laws ----------------------------------------- */
 
 rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why);
 /* Linear between the table's places, constant beyond them. */
@@ -270,9 +266,7 @@ void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const 
                                  const double *q);
 void rb_rolling_memory_track_free(rb_rolling_memory_track *r);
 
-/* ---- results.c
- * -------------------------------------------------------------------------
- */
+/* ---- results.c --------------------------------------------------------------------- */
 
 /* A solution without columns: of numbers that are not there (NAN), or those of another.
  */
@@ -354,9 +348,7 @@ rb_status rb_rolling_model_resolve(rb_rolling_model *model, int warm, rb_message
  * present zones. */
 rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
 
-/* ---- create.c
- * --------------------------------------------------------------------------
- */
+/* ---- create.c ---------------------------------------------------------------------- */
 
 /* The free creepage as one result among others: where it is not found it is NAN, and the
  * case that was solved stays solved.  RB_ENOMEM. */

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- The coefficients of a state -----------------------------------------------------
- */
+/* ---- The coefficients of a state --------------------------------------------------- */
 
 /* Of the surfaces of a solved state. */
 static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message *why)
@@ -85,8 +84,7 @@ rb_status rb_rolling_law_coefficients(rb_rolling_model *model, double *mu,
     return s;
 }
 
-/* ---- The force ------------------------------------------------------------------------
- */
+/* ---- The force --------------------------------------------------------------------- */
 
 static void set_force(rb_rolling_model *model)
 {
@@ -118,9 +116,7 @@ rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why)
     return s;
 }
 
-/* ---- The iteration at a given creepage
- * -------------------------------------------------
- */
+/* ---- The iteration at a given creepage --------------------------------------------- */
 
 /* The natural residual that coefficients in the place of the problem's would leave. */
 static double change_of(const rb_contact_problem *p, const rb_contact_state *state,
@@ -270,9 +266,7 @@ static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
     return s == RB_OK ? measure(model, why) : s;
 }
 
-/* ---- A given force
- * ---------------------------------------------------------------------
- */
+/* ---- A given force ----------------------------------------------------------------- */
 
 /* Q at a creepage that goes away from 0, in the direction in which it is wanted. */
 typedef struct {
@@ -455,9 +449,7 @@ rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *wh
     return model->state.status = s;
 }
 
-/* ---- Uniqueness
- * ------------------------------------------------------------------------
- */
+/* ---- Uniqueness -------------------------------------------------------------------- */
 
 /* The largest eigenvalue of B diag(pressure), B the slips of unit friction, which is
  * nearly symmetric: the power method.  room: 4n, of zeros. */

@@ -331,9 +331,7 @@ rb_status rb_rolling_mesh_fitted(const rb_rolling_case *rc, double from, double 
     return rb_rolling_mesh_spans(rc, 1, &span, mesh, why);
 }
 
-/* ---- The mesh of a result
- * --------------------------------------------------------------
- */
+/* ---- The mesh of a result ---------------------------------------------------------- */
 
 /* Half of an element's extent along x: on a wheel elements are chords of its circle. */
 static double half_extent(const rb_rolling_case *rc, double x, double h)

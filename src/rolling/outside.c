@@ -401,9 +401,7 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
     return status;
 }
 
-/* ---- Whether the mesh holds the contact
- * ------------------------------------------------
- */
+/* ---- Whether the mesh holds the contact -------------------------------------------- */
 
 static rb_status check_end(const rb_rolling_model *model, const rb_contact_state *state,
                            int right, rb_message *why)
