@@ -832,7 +832,7 @@ static void a_step_has_two_starts(void **state)
         model.rc.formulation = RB_TRANSIENT;
         model.rc.creep = 0.001;
         model.rc.friction.start = start ? &sliding : NULL;
-        model.mu_before = before;
+        model.surfaces.mu = before;
         CHECK_STATUS(rb_rolling_problem_create(&model.rc, &model.mesh, &model.bodies,
                                                &past, &model.problem, &why),
                      RB_OK);

@@ -531,6 +531,17 @@ double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, doubl
 
 /* ---- A case at work ---------------------------------------------------------------- */
 
+/* What the surfaces bring into a step of a history besides their displacement: the state
+ * variables of the friction law and of the interface. */
+typedef struct {
+    double *temperature; /* n: of both surfaces after a rolled step; NULL: not known */
+    double *yielded;  /* n: what the interface had yielded before the last step where this
+                         found it [length]; NULL: nothing */
+    const double *mu; /* n: coefficients of the particles before the step; NULL: those at
+                         rest; borrowed, as heat */
+    struct rb_rolling_heat_track *heat; /* of the steps before; NULL: none */
+} rb_rolling_surfaces;
+
 /* Everything between case and solution, kept for further solves on the same mesh. */
 typedef struct {
     rb_rolling_case rc; /* borrows the profile */
@@ -542,15 +553,9 @@ typedef struct {
     int equal_instead; /* 1: of fitted elements, whose edges did not come to rest */
     double half_width; /* Hertz's, of the load found last: scale of the ratios */
     double seconds_lcp;
-    int iterations;      /* of all solves so far */
-    int same_bodies;     /* 1: `bodies` are those of `rc` wherever the mesh is `mesh` */
-    double *temperature; /* n: of both surfaces after a rolled step; NULL: not known */
-    /* Of a rolled step under a law that depends on the state, borrowed from the history:
-     */
-    const double *mu_before;            /* n: of the particles before it; NULL: at rest */
-    struct rb_rolling_heat_track *heat; /* NULL: none */
-    double *yielded; /* n: what the interface had yielded before the last step where
-                        this found it [length]; NULL: nothing */
+    int iterations;  /* of all solves so far */
+    int same_bodies; /* 1: `bodies` are those of `rc` wherever the mesh is `mesh` */
+    rb_rolling_surfaces surfaces;
 } rb_rolling_model;
 
 /* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a
@@ -700,6 +705,7 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
 
 /* What the steps of a history found: n elements, `steps` states. */
 typedef struct {
+    const rb_rolling_program *program; /* whose steps; NULL: the case's own; borrowed */
     int n, steps;
     double *x, *h;          /* n: midpoints and lengths [length]; owned, as all */
     double *p, *q, *lambda; /* steps x n, one step after the other */
@@ -716,14 +722,11 @@ void rb_rolling_states_set(const rb_rolling_model *model, int step,
                            rb_rolling_states *states);
 void rb_rolling_states_free(rb_rolling_states *states);
 
-/* Follows the program with these states and solves nothing: after each step the model has
- * its problem, with the past that the states before it left, and the state with its
- * residual.  half_width: that distances count in [length], of
- * histories by approach.  Otherwise as
- * rb_rolling_history_run.  RB_EINVAL: another number of steps; friction that depends on
- * the state, or an interface that yields. */
+/* Follows their program with these states and solves nothing: after each step the model
+ * has its problem, with the past that the states before it left, and the state with its
+ * residual.  Otherwise as rb_rolling_history_run.  RB_EINVAL: another number of steps;
+ * friction that depends on the state, or an interface that yields. */
 rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
-                                    const rb_rolling_program *program,
                                     const rb_rolling_states *states,
                                     const rb_rolling_observer *observer,
                                     rb_rolling_model *model, rb_rolling_history *history,

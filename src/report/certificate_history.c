@@ -107,10 +107,10 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
     if (s == RB_OK)
         s = read_states(c, printed, &states, why);
     states.half_width = rb_certificate_member(printed, "half_width");
+    states.program = settled->program.n > 0 ? &settled->program : NULL;
     if (s == RB_OK)
-        s = rb_rolling_history_follow(&settled->rc,
-                                      settled->program.n > 0 ? &settled->program : NULL,
-                                      &states, &observer, &c->model, h, why);
+        s = rb_rolling_history_follow(&settled->rc, &states, &observer, &c->model, h,
+                                      why);
     rb_rolling_states_free(&states);
     return j.status != RB_OK ? j.status : s;
 }

@@ -48,10 +48,9 @@ rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *mo
         rb_rolling_model_free(model);
         return rb_rolling_model_create(rc, model, why);
     }
-    rb_contact_state_free(&model->state);
-    rb_contact_problem_free(&model->problem);
-    free(model->temperature);
-    free(model->yielded);
+    model->mesh = (rb_rolling_mesh){.ends = NULL};
+    model->bodies = (rb_rolling_bodies){.F = NULL};
+    rb_rolling_model_free(model);
     *model = kept;
     model->same_bodies = 1;
     const rb_status s = solve_on_its_mesh(rc, model, why);

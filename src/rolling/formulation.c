@@ -363,8 +363,8 @@ double rb_rolling_ratio_of_creepage(const rb_rolling_model *model, double creepa
 void rb_rolling_yielded(const rb_rolling_model *model, double *yielded)
 {
     rb_contact_yielded(&model->problem, model->state.plastic, yielded);
-    for (int i = 0; i < model->mesh.n && model->yielded; i++)
-        yielded[i] += model->yielded[i];
+    for (int i = 0; i < model->mesh.n && model->surfaces.yielded; i++)
+        yielded[i] += model->surfaces.yielded[i];
 }
 
 /* ---- How it is solved -------------------------------------------------------------- */

@@ -55,7 +55,7 @@ static void remember_friction(run *r, double c)
 
     for (int i = 0; i < p->n && r->mu; i++)
         r->mu[i] = rb_rolling_friction_at(&now, x[i] + c);
-    r->model->mu_before = r->mu;
+    r->model->surfaces.mu = r->mu;
 }
 
 /* What the interface has yielded where the particles come from that a step of length c
@@ -66,7 +66,7 @@ static void remember_yielded(run *r, double c)
     const double *x = r->model->bodies.f.x;
     const int n = r->model->mesh.n;
 
-    if (!r->model->yielded)
+    if (!r->model->surfaces.yielded)
         return;
     rb_rolling_yielded(r->model, r->yielded);
     r->yielded[n] = 0.0;
@@ -74,7 +74,7 @@ static void remember_yielded(run *r, double c)
         while (j < n && x[j + 1] <= x[i] + c)
             j++;
         const double share = j < n ? (x[i] + c - x[j]) / (x[j + 1] - x[j]) : 0.0;
-        r->model->yielded[i] =
+        r->model->surfaces.yielded[i] =
             j < n ? (1.0 - share) * r->yielded[j] + share * r->yielded[j + 1] : 0.0;
     }
 }
@@ -199,8 +199,8 @@ static void record(run *r, double distance)
     h->moment[k] = rb_contact_moment(p, state);
     if (h->max_temperature) {
         double at;
-        rb_rolling_warmest(p->n, model->bodies.f.x, state->zone, model->temperature,
-                           &h->max_temperature[k], &at);
+        rb_rolling_warmest(p->n, model->bodies.f.x, state->zone,
+                           model->surfaces.temperature, &h->max_temperature[k], &at);
     }
     if (h->time) {
         const rb_rolling_program *program = r->program;
@@ -296,7 +296,7 @@ static rb_status static_step(run *r, rb_message *why)
     rb_rolling_model *model = r->model;
     rb_rolling_case *rest = &model->rc;
     rb_contact_problem *p = &model->problem;
-    const rb_rolling_past past = {r->w_T, model->yielded, 0.0};
+    const rb_rolling_past past = {r->w_T, model->surfaces.yielded, 0.0};
     const int first = r->history->n == 0;
     const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
     const double before = time_of(r), mu_before = rest->mu;
@@ -351,7 +351,7 @@ static rb_status rolled_step(run *r, double from, double to, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     const double c = r->history->step, mu_before = model->rc.mu;
-    const rb_rolling_past past = {r->w_T, model->yielded, c};
+    const rb_rolling_past past = {r->w_T, model->surfaces.yielded, c};
     rb_message reason = {""};
     rb_status s = remember(r, c);
 
@@ -376,7 +376,7 @@ static rb_status rolled_step(run *r, double from, double to, rb_message *why)
         watch_steadiness(r, c);
     if (s >= 0 && r->history->max_temperature)
         rb_rolling_heat_track_step(&model->rc, model->state.q, model->state.lambda,
-                                   &r->heat, model->temperature);
+                                   &r->heat, model->surfaces.temperature);
     if (s >= 0) {
         relaxed(r, interval_of(r, c));
         record(r, to);
@@ -489,12 +489,12 @@ static rb_status prepare_heat(run *r, double step, rb_message *why)
 
     if (!rb_rolling_has_heat(r->rc))
         return RB_OK;
-    r->model->temperature = rb_alloc((size_t)n, 1);
-    if (!r->model->temperature)
+    r->model->surfaces.temperature = rb_alloc((size_t)n, 1);
+    if (!r->model->surfaces.temperature)
         return RB_ENOMEM;
     for (int i = 0; i < n; i++)
-        r->model->temperature[i] = r->rc->heat_a.temperature;
-    r->model->heat = &r->heat;
+        r->model->surfaces.temperature[i] = r->rc->heat_a.temperature;
+    r->model->surfaces.heat = &r->heat;
     r->heat = (rb_rolling_heat_track){.n = n, .h = element_length(r), .step = step};
     return rb_rolling_heat_track_create(r->rc, r->model->half_width, &r->heat, why);
 }
@@ -571,9 +571,9 @@ static rb_status prepare(run *r, double zone, rb_message *why)
     r->mu = moves ? rb_alloc((size_t)r->model->mesh.n, 1) : NULL;
     const int yields = r->rc->yield_stress > 0.0;
     r->yielded = yields ? rb_alloc((size_t)r->model->mesh.n + 1, 1) : NULL;
-    r->model->yielded = yields ? rb_alloc((size_t)r->model->mesh.n, 1) : NULL;
+    r->model->surfaces.yielded = yields ? rb_alloc((size_t)r->model->mesh.n, 1) : NULL;
     s = r->w_T && r->q && (r->mu || !moves) &&
-                (!yields || (r->yielded && r->model->yielded))
+                (!yields || (r->yielded && r->model->surfaces.yielded))
             ? RB_OK
             : RB_ENOMEM;
     if (s == RB_OK)
@@ -593,8 +593,8 @@ static void run_free(run *r)
     free(r->mu);
     free(r->yielded);
     r->w_T = r->q = r->mu = r->yielded = NULL;
-    r->model->mu_before = NULL; /* both were the run's */
-    r->model->heat = NULL;
+    r->model->surfaces.mu = NULL; /* both are the run's */
+    r->model->surfaces.heat = NULL;
     rb_rolling_ahead_free(&r->ahead);
     rb_rolling_heat_track_free(&r->heat);
     rb_rolling_memory_track_free(&r->past);
@@ -673,13 +673,12 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
 }
 
 rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
-                                    const rb_rolling_program *program,
                                     const rb_rolling_states *states,
                                     const rb_rolling_observer *observer,
                                     rb_rolling_model *model, rb_rolling_history *history,
                                     rb_message *why)
 {
-    run r = {.program = program,
+    run r = {.program = states->program,
              .observer = observer,
              .found = states,
              .model = model,

@@ -23,7 +23,7 @@ static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message 
                                 .slip_operator = rc->slip_operator};
 
     if (rc->formulation == RB_TRANSIENT) {
-        rb_rolling_heat_track_step(rc, state->q, state->lambda, model->heat, t);
+        rb_rolling_heat_track_step(rc, state->q, state->lambda, model->surfaces.heat, t);
         return RB_OK;
     }
     double *room = rb_alloc((size_t)n, 3), *power = room, *t_b = room + n;
@@ -61,9 +61,10 @@ static void set_coefficients(const rb_rolling_model *model, const double *temper
                                   temperature ? temperature[i] : rc->heat_a.temperature);
         if (f->memory == 0.0)
             continue;
-        const double before = rc->formulation == RB_STEADY
-                                  ? (i + 1 < state->n ? mu[i + 1] : at_rest)
-                                  : (model->mu_before ? model->mu_before[i] : at_rest);
+        const double before =
+            rc->formulation == RB_STEADY
+                ? (i + 1 < state->n ? mu[i + 1] : at_rest)
+                : (model->surfaces.mu ? model->surfaces.mu[i] : at_rest);
         const double slid = fmax(v, f->memory_slip) * e_T[i] / rc->speed;
         mu[i] += (before - mu[i]) * exp(-slid / f->memory);
     }

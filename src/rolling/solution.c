@@ -271,9 +271,9 @@ static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solut
                                                        s->temperature_b, why)
                        : RB_ENOMEM;
         free(power);
-    } else if (model->temperature) {
-        memcpy(s->temperature, model->temperature, size);
-        memcpy(s->temperature_b, model->temperature, size);
+    } else if (model->surfaces.temperature) {
+        memcpy(s->temperature, model->surfaces.temperature, size);
+        memcpy(s->temperature_b, model->surfaces.temperature, size);
     }
     rb_rolling_warmest(s->n, s->x, s->zone, s->temperature, &s->max_temperature,
                        &s->max_temperature_at);
