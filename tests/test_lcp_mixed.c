@@ -107,6 +107,20 @@ static void without_boxes_it_is_the_lcp(void **state)
     }
 }
 
+/* Also of negative unknowns, as boxes have. */
+static void the_floor_is_of_magnitudes(void **state)
+{
+    const double M[4] = {3.0, -1.0, 2.0, 0.5}, q[2] = {6.0, -8.0}, z[2] = {-2.0, 1.0};
+    double room[2];
+    rb_sparse sparse;
+    (void)state;
+    CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &sparse), RB_OK);
+    CHECK_REL(
+        rb_lcp_rounding_floor(&(rb_lcp_mixed_problem){&sparse, q, NULL, NULL}, z, room),
+        14e-14, 1e-12, "|3 (-2)| + |2| + 6");
+    rb_sparse_free(&sparse);
+}
+
 static void boxes_of_all_kinds_are_solved(void **state)
 {
     (void)state;
@@ -495,6 +509,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_boxes_it_is_the_lcp),
         cmocka_unit_test(boxes_of_all_kinds_are_solved),
+        cmocka_unit_test(the_floor_is_of_magnitudes),
         cmocka_unit_test(finite_boxes_are_solved_for_every_matrix),
         cmocka_unit_test(open_boxes_have_the_enumerated_solution),
         cmocka_unit_test(integers_full_of_ties_do_not_cycle),

@@ -320,6 +320,9 @@ typedef struct {
 } rb_case_contact;
 
 void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c);
+/* FRIC_POWER as CONTACT counts it [N m/s], < 0: each element's friction times its own
+ * slip, without what the third body takes by yielding.  NAN where nothing rolls. */
+double rb_case_contact_power(const rb_io_contact_case *in, const rb_rolling_solution *s);
 
 /* ---- Whose fault it is ------------------------------------------------------------- */
 

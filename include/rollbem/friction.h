@@ -210,6 +210,10 @@ rb_friction_problem rb_friction_of_cone(const rb_contact_cone *cone);
  * proves nothing. RB_EINVAL: global form; RB_ENOMEM. */
 rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y,
                                  double *least);
+/* 1 where it is proved so of a problem of either form: what any solution needs is beyond
+ * all proportion to the velocities that are given, whose sum is *given. */
+int rb_friction_has_no_solution(const rb_friction_problem *problem, double *least,
+                                double *given);
 
 /* ---- One structure, many loads ----------------------------------------------------- */
 

@@ -148,6 +148,10 @@ double rb_lcp_residual(const rb_lcp_problem *p, const double *z, double *w);
 /* The same for sparse M and boxes: max_i |max(min(z_i - lower_i, w_i), z_i - upper_i)|;
  * w: n. */
 double rb_lcp_residual_mixed(const rb_lcp_mixed_problem *p, const double *z, double *w);
+/* The residual that rounding of the data allows: 1e-14 max_i (|M| |z| + |q|)_i; room: n.
+ */
+double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z,
+                             double *room);
 
 RB_PUBLIC_END
 

@@ -186,3 +186,14 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
         c->runs = 0;
     }
 }
+
+double rb_case_contact_power(const rb_io_contact_case *in, const rb_rolling_solution *s)
+{
+    const double *u = s->plastic;
+    double power = 0.0;
+    for (int i = 0; i < s->n; i++) {
+        const double yields = u ? u[i] - (i + 1 < s->n ? u[i + 1] : 0.0) : 0.0;
+        power -= fabs(s->q[i]) * (fabs(s->shift[i]) - yields);
+    }
+    return in->digit.T == 3 ? power * in->dy * in->velocity * 1e-3 : NAN;
+}

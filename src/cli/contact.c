@@ -68,19 +68,6 @@ static const char columns[] = "case status FN FX FX_REL CKSI PEN PMAX FRIC_POWER
                               "NCON NADH NSLIP P_N/mm Q_N/mm line residual NPLAST";
 static const char element_columns[] = "case X H PN PX S zone UPL";
 
-/* As CONTACT counts it [N m/s], < 0: each element's friction times its own slip, without
- * what the third body takes by yielding. */
-static double friction_power(const contact_run *r)
-{
-    const double *u = r->s.plastic;
-    double power = 0.0;
-    for (int i = 0; i < r->s.n; i++) {
-        const double yields = u ? u[i] - (i + 1 < r->s.n ? u[i + 1] : 0.0) : 0.0;
-        power -= fabs(r->s.q[i]) * (fabs(r->s.shift[i]) - yields);
-    }
-    return r->in->digit.T == 3 ? power * r->in->dy * r->in->velocity * 1e-3 : NAN;
-}
-
 /* What stands in the columns behind the status. */
 static void values_of(const contact_run *r, double x[COLUMNS - 2])
 {
@@ -94,7 +81,7 @@ static void values_of(const contact_run *r, double x[COLUMNS - 2])
         sign * (in->digit.T == 3 ? s->creepage : s->tangential_shift),
         s->approach,
         s->max_pressure,
-        friction_power(r),
+        rb_case_contact_power(in, s),
         s->n,
         s->contact,
         s->stick,

@@ -272,29 +272,12 @@ static cli_exit examine(const friction_run *run, const rb_friction_problem *p,
     return CLI_OK;
 }
 
-/* Reactions that any solution needs, in units of the velocities that are given: beyond so
- * many there is none. */
-static const double BEYOND_ALL = 1e8;
-
 /* 1, with a line, where it can be proved that a problem that was not solved has no
- * solution; a global problem by its condensed form. */
+ * solution. */
 static int is_infeasible(const rb_friction_problem *p, const char *file)
 {
-    rb_friction_problem condensed = {0};
-    const rb_friction_problem *local = p;
-    double *y = rb_alloc((size_t)p->contacts, 1), least = 0.0, given = 0.0;
-    rb_status s = y ? RB_OK : RB_ENOMEM;
-    if (s == RB_OK && p->form == RB_FRICTION_GLOBAL) {
-        s = rb_friction_condense(p, &condensed, NULL);
-        local = &condensed;
-    }
-    if (s == RB_OK)
-        s = rb_friction_infeasible(local, y, &least);
-    for (int i = 0; s == RB_OK && i < p->dimension * p->contacts; i++)
-        given += fabs(local->q[i]);
-    rb_friction_problem_free(&condensed);
-    free(y);
-    if (s != RB_OK || !(least > BEYOND_ALL * given))
+    double least, given;
+    if (!rb_friction_has_no_solution(p, &least, &given))
         return 0;
     fprintf(stderr,
             "rollbem: %s: note: no solution exists: no reactions of a sum W_NN r_N below "

@@ -259,22 +259,6 @@ static void print_problem(lcp_run *run, const lcp_result *r)
 
 /* ---- A problem --------------------------------------------------------------------- */
 
-/* What rounding of the data allows at least: 1e-14 max (|M| z + |q|). */
-static double rounding_floor(const lcp_result *r)
-{
-    double *size = rb_alloc((size_t)r->n, 1), floor = NAN;
-    if (!size)
-        return floor;
-    for (int i = 0; i < r->n; i++)
-        size[i] = fabs(r->boxed.q[i]);
-    for (int j = 0; j < r->n; j++)
-        for (int k = r->M.p[j]; k < r->M.p[j + 1]; k++)
-            size[r->M.i[k]] += fabs(r->M.x[k]) * r->z[j];
-    floor = 1e-14 * rb_norm_inf((size_t)r->n, size);
-    free(size);
-    return floor;
-}
-
 /* "solved" is what the recomputed residual says, not the method. */
 static cli_exit judge(const lcp_options *o, lcp_result *r, rb_status s)
 {
@@ -365,8 +349,8 @@ static cli_exit run_solver(lcp_run *run, rb_io_matrix *M, lcp_result *r)
     r->seconds = rb_seconds() - start;
     if (s < 0)
         return invalid(r, s, &r->info.msg);
+    r->floor = rb_lcp_rounding_floor(&r->boxed, r->z, r->w);
     r->info.res = rb_lcp_residual_mixed(&r->boxed, r->z, r->w);
-    r->floor = rounding_floor(r);
     return say_end(run->o, r, s);
 }
 
@@ -416,7 +400,7 @@ static cli_exit run_all(lcp_run *run, rb_io_matrix *M, lcp_result *r)
         s = take_all(r, &all);
     if (s != RB_OK)
         return invalid(r, s, &r->info.msg);
-    r->floor = all.count ? rounding_floor(r) : NAN;
+    r->floor = all.count ? rb_lcp_rounding_floor(&r->boxed, r->z, r->w) : NAN;
     r->info.res = 0.0;
     for (int k = 0; k < all.count; k++) {
         const double *z = r->z + (size_t)k * (size_t)r->n;

@@ -160,3 +160,25 @@ rb_status rb_friction_infeasible(const rb_friction_problem *local, double *y,
     free(s.rho);
     return st;
 }
+
+int rb_friction_has_no_solution(const rb_friction_problem *problem, double *least,
+                                double *given)
+{
+    static const double beyond_all = 1e8; /* of the velocities that are given */
+    rb_friction_problem condensed = {0};
+    const int global = problem->form == RB_FRICTION_GLOBAL;
+    const rb_friction_problem *local = global ? &condensed : problem;
+    double *y = rb_alloc((size_t)problem->contacts, 1);
+    rb_status s = y ? RB_OK : RB_ENOMEM;
+
+    *least = *given = 0.0;
+    if (s == RB_OK && global)
+        s = rb_friction_condense(problem, &condensed, NULL);
+    if (s == RB_OK)
+        s = rb_friction_infeasible(local, y, least);
+    for (int i = 0; s == RB_OK && i < problem->dimension * problem->contacts; i++)
+        *given += fabs(local->q[i]);
+    rb_friction_problem_free(&condensed);
+    free(y);
+    return s == RB_OK && *least > beyond_all * *given;
+}

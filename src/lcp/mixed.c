@@ -614,6 +614,17 @@ double rb_lcp_residual_mixed(const rb_lcp_mixed_problem *p, const double *z, dou
     return worst;
 }
 
+double rb_lcp_rounding_floor(const rb_lcp_mixed_problem *p, const double *z, double *room)
+{
+    const rb_sparse *M = p->M;
+    for (int i = 0; i < M->rows; i++)
+        room[i] = fabs(p->q[i]);
+    for (int j = 0; j < M->cols; j++)
+        for (int k = M->p[j]; k < M->p[j + 1]; k++)
+            room[M->i[k]] += fabs(M->x[k] * z[j]);
+    return 1e-14 * rb_norm_inf((size_t)M->rows, room);
+}
+
 /* max |M z + q| where every z is at its lower bound, or at its upper ones, or 0 where it
  * has none: the q of the problem moved there, which rounding is judged by as that of an
  * LCP is.  w of the answer is no such measure: a large row of M would hide a wrong small
