@@ -19,7 +19,7 @@ static void begin(void)
         fuzz_require(freopen("/dev/null", "w", stdout) && cli_begin(commands, 1, argv),
                      "the program begins");
     begun = 1;
-    cli_keep_failures();
+    cli_keep_failures(1);
 }
 
 static int known(int code)

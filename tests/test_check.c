@@ -354,6 +354,164 @@ static void all_solutions_are_judged(void **state)
     json_decref(root);
 }
 
+/* ---- Tables ------------------------------------------------------------------------ */
+
+/* A case of "--name value" pairs. */
+static rb_case *case_of(const char *given)
+{
+    char text[600], *name, *value;
+    rb_message why = {""};
+    rb_case *words = rb_case_create(RB_CASE_SINGLE);
+    assert_non_null(words);
+    snprintf(text, sizeof text, "%s", given);
+    for (name = strtok(text, " "); name; name = strtok(NULL, " ")) {
+        value = strtok(NULL, " ");
+        assert_non_null(value);
+        CHECK_STATUS(rb_case_set(words, name + 2, value, RB_GIVEN_ARGUMENT, &why), RB_OK);
+    }
+    CHECK_STATUS(rb_case_settle(words, &why), RB_OK);
+    return words;
+}
+
+static int violations_of(const char *text, const rb_case *words)
+{
+    rb_report_certificate found;
+    rb_message why = {""};
+    FILE *lines = tmpfile();
+    assert_non_null(lines);
+    const rb_status s =
+        rb_report_certify_table(lines, "table", text, words, &found, &why);
+    fclose(lines);
+    return s == RB_OK ? found.violations : -1;
+}
+
+/* The number in that place of a line of them, changed. */
+static void change_cell(const char *text, const char *line, int column,
+                        char *changed_text)
+{
+    for (int j = 0; j < column; j++)
+        line = strchr(line, '\t') + 1;
+    char *end;
+    const double x = strtod(line, &end);
+    const int is_zone = *end == '\n'; /* the last column of these cases */
+    sprintf(changed_text, "%.*s%.17g%s", (int)(line - text), text,
+            is_zone ? (double)(((int)x + 1) % 4) : changed(x), end);
+}
+
+/* A part of the cells, so that every column and every row is among them. */
+static void every_changed_number_of_a_table_is_found(void **state)
+{
+    (void)state;
+    static char text[sizeof out], changed_text[sizeof out];
+    int changes = 0;
+    for (int k = 0; k < CASES; k++) {
+        rb_case *words = case_of(cases[k]);
+        assert_int_equal(rollbem(cases[k]), 0);
+        memcpy(text, out, sizeof text);
+        assert_int_equal(violations_of(text, words), 0);
+        int row = 0;
+        for (const char *line = text; *line; line = strchr(line, '\n') + 1) {
+            if (*line == '#' || *line == 'x')
+                continue;
+            for (int j = row++ % 5; j < 10; j += 5) {
+                change_cell(text, line, j, changed_text);
+                if (violations_of(changed_text, words) == 0)
+                    print_error("%s: row %d, column %d\n", cases[k], row, j);
+                assert_int_not_equal(violations_of(changed_text, words), 0);
+                changes++;
+            }
+        }
+        rb_case_free(words);
+    }
+    assert_true(changes > 200);
+}
+
+/* From the command line that the table quotes: a case file, options behind it, words in
+ * quotes, several contacts. */
+static void tables_are_valid_by_their_comments(void **state)
+{
+    (void)state;
+    static const char *const tables[] = {
+        "case.ini --creep-ratio 0.2 --dump d",
+        "--example carter --trace",
+        "--support halfplane --load 100 --mu 0.3 --gap \"it's two humps.txt\"",
+        "--support halfplane --load 100 --mu 0.3 --formulation steady --free-axle "
+        "--layer-thickness 1",
+        "--support hub --approach 0.01 --force-ratio -0.4 --mu 0.1",
+        "--support halfplane --load 100 --mu 0.3 --formulation steady --creep-ratio 0 "
+        "--yield-stress 20 --mesh uniform --interlayer-tangential 1e-5"};
+    char line[600];
+    assert_int_equal(
+        shell(
+            "printf '[body-a]\\nsupport = halfplane\\n[friction]\\nmu = 0.3\\n[normal]\\n"
+            "load = 100\\n[problem]\\nformulation = steady\\n' > case.ini; "
+            "awk 'BEGIN {for (x = -4; x < 4.01; x += 0.25) { a = x < 0 ? -x - 2 : x - 2; "
+            "print x, a * a / 50 }}' > \"it's two humps.txt\""),
+        0);
+    for (size_t k = 0; k < sizeof tables / sizeof *tables; k++) {
+        snprintf(line, sizeof line,
+                 "\"$R\" %s --quiet > t.tsv 2>/dev/null; rm -rf d; \"$R\" check t.tsv "
+                 "&& [ ! -e d ]",
+                 tables[k]);
+        const int code = shell(line);
+        if (code || err[0])
+            print_error("%s\n%s%s", tables[k], out, err);
+        assert_int_equal(code, 0);
+        assert_non_null(strstr(out, "t.tsv: valid: "));
+    }
+    snprintf(line, sizeof line,
+             "\"$R\" %s --quiet | sed '/^# patch 2/s/P = ./P = 7/' > t.tsv; "
+             "\"$R\" check t.tsv",
+             tables[2]);
+    assert_int_equal(shell(line), 1);
+    assert_non_null(strstr(out, "violated: P of a patch: printed 7"));
+    snprintf(line, sizeof line,
+             "\"$R\" %s --quiet | sed '/^# patch 1/d' > t.tsv; \"$R\" check t.tsv",
+             tables[2]);
+    assert_int_equal(shell(line), 1);
+    assert_string_equal(out, "t.tsv: violated: patch 1 is missing\n");
+    snprintf(
+        line, sizeof line,
+        "\"$R\" %s --quiet | sed '/^# .* solved; residual/s/residual.*/residual 1e-3/' "
+        "> t.tsv; \"$R\" check t.tsv",
+        tables[4]);
+    assert_int_equal(shell(line), 1);
+    assert_non_null(strstr(out, "violated: residual: printed 0.001"));
+}
+
+static void tables_that_cannot_be_checked_are_refused(void **state)
+{
+    (void)state;
+    static const char half[] = "\"$R\" --support halfplane --load 100 --mu 0.3 ";
+    char line[500];
+    static const struct {
+        const char *options, *part;
+    } kinds[] = {
+        {"--increments 3 --shift 1e-4", "take --json --states"},
+        {"--formulation steady --creep 1e-3 --error", "error bars"},
+        {"--formulation steady --creep 1e-3 --units si", "units other than mm"},
+        {"--format csv", "expected the JSON of a result, or a table with its comments"},
+        {"| sed 's/--mu 0.3/--mu x/'",
+         "r.json: cannot be checked: the command line in its comments: --mu: expected"},
+        {"| sed 's/--mu 0.3/none.ini/'", "none.ini: No such file"},
+        {"| sed '/^# static/d'", "expected a table of a single case, with its comments"},
+        {"| sed '/^# static/s/solved/not solved/'", "says itself that it is not solved"},
+        {"| sed '/^[-0-9]/d'", "no numbers"},
+        {"| awk '!/^[-0-9]/ || n++ < 2'", "it has 2 elements"},
+        {"| sed '/^-/s/\t/\tx/'", "expected a number"},
+        {"| sed 's/h_mm/width/'", "table: expected"}};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        snprintf(line, sizeof line, "%s%s", half, kinds[k].options);
+        check_says(line, 65, kinds[k].part);
+    }
+    check_says("\"$R\" curve --support halfplane --load 100 --mu 0.3 --from 0 --to 1 "
+               "--points 3",
+               65, "a table of rollbem curve (only tables of single cases can)");
+    check_says("printf '# rollbem 0.1.0\\n# rollbem \\\\\\n1 2\\n'", 65,
+               "r.json: cannot");
+    check_says("echo 1 2", 65, "expected the JSON of a result, or a table");
+}
+
 static void what_cannot_be_checked_is_refused(void **state)
 {
     (void)state;
@@ -401,6 +559,9 @@ int main(void)
         cmocka_unit_test(every_changed_number_of_a_history_is_found),
         cmocka_unit_test(inputs_belong_to_the_result),
         cmocka_unit_test(all_solutions_are_judged),
+        cmocka_unit_test(every_changed_number_of_a_table_is_found),
+        cmocka_unit_test(tables_are_valid_by_their_comments),
+        cmocka_unit_test(tables_that_cannot_be_checked_are_refused),
         cmocka_unit_test(what_cannot_be_checked_is_refused)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -107,7 +107,7 @@ static void kept_failures_are_not_printed(void **state)
 {
     (void)state;
     assert_string_equal(cli_kept_failure(), "");
-    cli_keep_failures();
+    cli_keep_failures(1);
     assert_string_equal(printed(say_reason, CLI_USAGE), "");
     assert_string_equal(cli_kept_failure(), "mu = -1: expected >= 0");
     assert_string_equal(printed(fail_long, CLI_USAGE), "");

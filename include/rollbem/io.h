@@ -61,6 +61,9 @@ typedef struct {
  * than in the first row or than names, not a number, a name twice, no row; RB_ENOMEM.
  * t: overwritten, empty after a failure. */
 rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why);
+/* The same of a text that was read from path already; its lines are cut apart. */
+rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t,
+                            rb_message *why);
 /* The same for a table of exactly that many columns. */
 rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t,
                                    rb_message *why);

@@ -94,6 +94,8 @@ struct json_t *rb_report_json_numbers(int n, const double *x);
 struct json_t *rb_report_json_summary(const rb_rolling_solution *s);
 /* Every value that the settled case uses, defaults included. */
 struct json_t *rb_report_json_inputs(const rb_case *c);
+/* The columns of rb_report_table; and with the power of friction in rolling. */
+struct json_t *rb_report_json_table_columns(const rb_rolling_solution *s);
 struct json_t *rb_report_json_table(const rb_rolling_solution *s);
 /* An object with summary and table for each; and a line for each, for people. */
 struct json_t *rb_report_json_solutions(const rb_rolling_solutions *all);
@@ -124,6 +126,14 @@ rb_status rb_report_certify(FILE *out, const char *name, const struct json_t *ro
 rb_status rb_report_certify_solutions(FILE *out, const char *name,
                                       const struct json_t *root, rb_case *words,
                                       rb_report_certificate *found, rb_message *why);
+/* The same of what rb_report_table wrote of a case.  words: its inputs, settled, as the
+ * command line in its comments has them (rb_report_table_command). */
+rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
+                                  const rb_case *words, rb_report_certificate *found,
+                                  rb_message *why);
+/* What stands behind `rollbem` in the command line that the comments of a table of any
+ * command quote; owned by the caller, NULL: none there, or no memory. */
+char *rb_report_table_command(const char *text);
 /* Writes with a final newline and takes json over.  RB_ENOMEM: it is NULL; RB_EWRITE. */
 rb_status rb_report_json_write(FILE *out, struct json_t *json);
 

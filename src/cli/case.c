@@ -149,10 +149,52 @@ static cli_exit solve(const cli_spec *spec, cli_case_run *run)
     return code == CLI_OK && s != RB_OK ? cli_case_refused(run->words, s, &why) : code;
 }
 
+/* The sets of options of a command: the case's, the command's and those of its output. */
+static cli_spec spec_of(cli_case_run *run)
+{
+    const cli_case_command *command = run->command;
+    const rb_option_set output = cli_output_set(&run->o);
+    return (cli_spec){command->synopsis,
+                      command->about,
+                      command->notes,
+                      {rb_case_options(run->words),
+                       command->options_last ? output : run->set,
+                       command->options_last ? run->set : output, cli_example_set()},
+                      4};
+}
+
+enum { MOST = 20 }; /* options of a command */
+
+static cli_exit read_words(const cli_spec *spec, cli_case_run *run, int argc, char **argv)
+{
+    const cli_exit code = run->command->option_n <= MOST
+                              ? cli_case_read(spec, argc, argv, run->words, &run->args)
+                              : cli_fail(CLI_INTERNAL, "more than %d options", MOST);
+    if (code == CLI_CONTINUE && run->command->choose_purpose)
+        run->command->choose_purpose(run);
+    return code;
+}
+
+cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
+                         char **argv, rb_case *words)
+{
+    int given[MOST] = {0}, plain[MOST] = {0};
+    cli_case_run run = {.command = command,
+                        .own = own,
+                        .set = {command->options, command->option_n, own, given, plain},
+                        .words = words};
+    const cli_spec spec = spec_of(&run);
+    rb_message why = {""};
+    cli_exit code = read_words(&spec, &run, argc, argv);
+    if (code == CLI_CONTINUE)
+        code = cli_say(rb_case_settle(words, &why), &why);
+    cli_args_free(&run.args);
+    return code;
+}
+
 cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc,
                               char **argv)
 {
-    enum { MOST = 20 };
     int given[MOST] = {0}, plain[MOST] = {0};
     cli_case_run run = {.command = command,
                         .own = own,
@@ -160,19 +202,8 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
                         .words = cli_case_create(command->purpose)};
     if (!run.words)
         return CLI_INTERNAL;
-    const rb_option_set output = cli_output_set(&run.o);
-    const cli_spec spec = {command->synopsis,
-                           command->about,
-                           command->notes,
-                           {rb_case_options(run.words),
-                            command->options_last ? output : run.set,
-                            command->options_last ? run.set : output, cli_example_set()},
-                           4};
-    cli_exit code = command->option_n <= MOST
-                        ? cli_case_read(&spec, argc, argv, run.words, &run.args)
-                        : cli_fail(CLI_INTERNAL, "more than %d options", MOST);
-    if (code == CLI_CONTINUE && command->choose_purpose)
-        command->choose_purpose(&run);
+    const cli_spec spec = spec_of(&run);
+    cli_exit code = read_words(&spec, &run, argc, argv);
     if (code == CLI_CONTINUE)
         code = cli_case_settle(&spec, run.words, &run.args);
     if (code == CLI_CONTINUE) {

@@ -109,4 +109,11 @@ struct cli_case_command {
 cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc,
                               char **argv);
 
+/* The settled case of a command line of `rollbem` itself; what it would write is neither
+ * looked at nor written.  CLI_CONTINUE, or the exit code after the line of why. */
+cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words);
+/* The same of any such command. */
+cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
+                         char **argv, rb_case *words);
+
 #endif

@@ -5,68 +5,137 @@
 
 #include <jansson.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const char about[] =
-    "Checks results that `rollbem --json` wrote, without solving: builds the problem\n"
-    "again from `inputs`, on the elements of the table, computes gaps, slip, bounds,\n"
-    "load, force and every other number again from the pressures, friction, approach\n"
-    "and creepage that are printed, and says valid, or what is violated and by how "
-    "much.\n"
+    "Checks results that `rollbem` wrote, as --json or as a table, without solving:\n"
+    "builds the problem again from `inputs`, or from the command line in the comments "
+    "of\n"
+    "the table, on the elements of the table, computes gaps, slip, bounds, load, force\n"
+    "and every other number again from the pressures, friction, approach and creepage\n"
+    "that are printed, and says valid, or what is violated and by how much. A table has\n"
+    "no approach and creepage: those that fit its gaps and slips best are taken.\n"
     "Histories are followed step by step where --states has printed what each of them\n"
     "found: gaps, bounds, and the slip from the step before. Not checked: "
     "free_creepage,\n"
     "iterations, seconds, and which solver it was. Refused: histories without states,\n"
     "or with friction that depends on the slip or the temperature, or an interface that\n"
-    "yields; curves, error bars, units other than mm, N, MPa.\n"
+    "yields; curves, error bars, units other than mm, N, MPa; CSV.\n"
     "\n"
     "Exit codes: 0 valid; 1 violated; 65 cannot be checked; 66 no such file.";
 
-static cli_exit check_root(const char *path, const json_t *root)
+static cli_exit tell(const char *path, rb_status s, const rb_report_certificate *found,
+                     const rb_message *why)
+{
+    if (s != RB_OK)
+        return cli_fail(s == RB_ENOMEM ? CLI_INTERNAL : CLI_DATA, "%s", why->text);
+    if (found->violations == 0)
+        printf("%s: valid: %d numbers computed again, residual %.2g\n", path,
+               found->numbers, found->residual);
+    return found->violations ? CLI_UNSOLVED : CLI_OK;
+}
+
+static cli_exit check_json(const char *path, const char *text, size_t size,
+                           rb_case *words)
+{
+    rb_report_certificate found = {0};
+    rb_message why = {""};
+    json_error_t error;
+    json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
+    if (!json_is_object(root)) {
+        json_decref(root);
+        return cli_fail(CLI_DATA, "%s:%d: expected the JSON of a result: %s", path,
+                        root ? 1 : error.line, root ? "no object" : error.text);
+    }
+    const rb_status s =
+        rb_report_certify_solutions(stdout, path, root, words, &found, &why);
+    json_decref(root);
+    return tell(path, s, &found, &why);
+}
+
+/* ---- Tables ------------------------------------------------------------------------ */
+
+/* The command that a table is of, where it is not `rollbem` itself; or NULL. */
+static const char *other_command(const char *word)
+{
+    const char *name;
+    for (int k = 0; word && (name = cli_command_name(k)); k++)
+        if (strcmp(name, word) == 0)
+            return name;
+    return NULL;
+}
+
+/* Settles `words` by the command line that the table quotes. */
+static cli_exit read_inputs(const char *path, char *line, rb_case *words)
+{
+    int argc;
+    char **argv = cli_split_line(line, &argc);
+    if (!argv)
+        return cli_fail(CLI_INTERNAL, "%s: out of memory", path);
+    const char *other = other_command(argv[1]);
+    const int kept = cli_keep_failures(1);
+    cli_exit code = other ? CLI_DATA : cli_solve_inputs(argc, argv, words);
+    cli_keep_failures(kept);
+    free(argv);
+    if (code == CLI_CONTINUE)
+        return code;
+    if (other)
+        return cli_fail(code,
+                        "%s: cannot be checked: a table of rollbem %s (only tables of "
+                        "single cases can)",
+                        path, other);
+    return cli_fail(code == CLI_INTERNAL ? code : CLI_DATA,
+                    "%s: cannot be checked: the command line in its comments: %s", path,
+                    cli_kept_failure());
+}
+
+static cli_exit check_table(const char *path, const char *text, rb_case *words)
 {
     rb_report_certificate found;
     rb_message why = {""};
-    rb_case *words = cli_case_create(RB_CASE_SINGLE);
-    if (!words)
-        return CLI_INTERNAL;
-    const rb_status s =
-        rb_report_certify_solutions(stdout, path, root, words, &found, &why);
-    rb_case_free(words);
-    if (s != RB_OK)
-        return cli_fail(s == RB_ENOMEM ? CLI_INTERNAL : CLI_DATA, "%s", why.text);
-    if (found.violations == 0)
-        printf("%s: valid: %d numbers computed again, residual %.2g\n", path,
-               found.numbers, found.residual);
-    return found.violations ? CLI_UNSOLVED : CLI_OK;
+    char *line = rb_report_table_command(text);
+    if (!line)
+        return cli_fail(CLI_DATA,
+                        "%s: cannot be checked: expected the JSON of a result, or a "
+                        "table with its comments ('# rollbem ...')",
+                        path);
+    const cli_exit code = read_inputs(path, line, words);
+    free(line);
+    if (code != CLI_CONTINUE)
+        return code;
+    const rb_status s = rb_report_certify_table(stdout, path, text, words, &found, &why);
+    return tell(path, s, &found, &why);
 }
+
+/* ---- Command ----------------------------------------------------------------------- */
 
 static cli_exit check_file(const char *path)
 {
     char *text = NULL;
     size_t size;
     rb_message why = {""};
-    json_error_t error;
     const rb_status s = rb_io_read_text(path, &text, &size, &why);
     if (s != RB_OK)
         return cli_say(s, &why);
-    json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
+    rb_case *words = cli_case_create(RB_CASE_SINGLE);
+    const char first = text[strspn(text, " \t\r\n")];
+    cli_exit code = CLI_INTERNAL;
+    if (words)
+        code = first == '{' || first == '[' ? check_json(path, text, size, words)
+                                            : check_table(path, text, words);
+    rb_case_free(words);
     free(text);
-    const cli_exit code =
-        json_is_object(root)
-            ? check_root(path, root)
-            : cli_fail(CLI_DATA, "%s:%d: expected the JSON of a result: %s", path,
-                       root ? 1 : error.line, root ? "no object" : error.text);
-    json_decref(root);
     return code;
 }
 
 int cli_check(int argc, char **argv)
 {
-    static const cli_spec spec = {.synopsis = "rollbem check RESULT.json...",
+    static const cli_spec spec = {.synopsis = "rollbem check RESULT.json|TABLE...",
                                   .about = about};
     cli_args args = {0};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
     if (code == CLI_CONTINUE && args.operands == 0)
-        code = cli_fail(CLI_USAGE, "check: expected a file that `rollbem --json` wrote");
+        code = cli_fail(CLI_USAGE, "check: expected a file that `rollbem` wrote");
     else if (code == CLI_CONTINUE) {
         code = CLI_OK;
         for (int k = 0; k < args.operands; k++) {

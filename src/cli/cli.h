@@ -56,6 +56,9 @@ void cli_guess_command(rb_guess *guess);
 
 /* The command line as typed, quoted for a shell where needed. */
 const char *cli_command_line(void);
+/* The words of a line that is quoted so, cut apart in place, behind "rollbem" and with
+ * NULL at the end; the caller frees the list.  NULL: no memory. */
+char **cli_split_line(char *line, int *argc);
 
 /* ---- Ends ------------------------------------------------------------------------ */
 
@@ -86,8 +89,9 @@ cli_exit cli_say(rb_status s, const rb_message *why);
 /* The same behind the name of an option. */
 cli_exit cli_say_of(const char *option, rb_status s, const rb_message *why);
 
-/* From now on cli_fail keeps its line for cli_kept_failure() ("": none so far). */
-void cli_keep_failures(void);
+/* 1: from now on cli_fail keeps its line for cli_kept_failure() ("": none so far); 0: it
+ * prints again.  Returns what it did before. */
+int cli_keep_failures(int keep);
 const char *cli_kept_failure(void);
 
 /* ---- Options (rollbem/case.h) ----------------------------------------------------- */

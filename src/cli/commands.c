@@ -58,6 +58,35 @@ static char *quote(int argc, char **argv)
     return printable;
 }
 
+char **cli_split_line(char *line, int *argc)
+{
+    static char program[] = "rollbem";
+    char **words = calloc(strlen(line) / 2 + 3, sizeof *words), *to = line;
+    int n = 1, quoted = 0, inside = 0;
+
+    for (const char *c = line; words && *c; c++) {
+        if (*c == ' ' && !quoted) {
+            *to++ = '\0';
+            inside = 0;
+            continue;
+        }
+        if (!inside)
+            words[n++] = to;
+        inside = 1;
+        if (*c == '\'')
+            quoted = !quoted;
+        else if (*c != '\\' || quoted)
+            *to++ = *c;
+        else if (c[1])
+            *to++ = *++c;
+    }
+    *to = '\0';
+    if (words)
+        words[0] = program;
+    *argc = n;
+    return words;
+}
+
 int cli_begin(const cli_command *table, int argc, char **argv)
 {
     commands = table;

@@ -27,9 +27,11 @@ cli_exit cli_exit_of(rb_status s)
 static char kept[400];
 static int keeps;
 
-void cli_keep_failures(void)
+int cli_keep_failures(int keep)
 {
-    keeps = 1;
+    const int before = keeps;
+    keeps = keep;
+    return before;
 }
 
 const char *cli_kept_failure(void)

@@ -281,6 +281,12 @@ static const cli_case_command command = {
     .summarise = summarise,
 };
 
+cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words)
+{
+    solved it = {.steps.every = 1};
+    return cli_case_inputs(&command, &it, argc, argv, words);
+}
+
 int cli_solve(int argc, char **argv)
 {
     solved it = {.steps.every = 1};

@@ -236,20 +236,27 @@ static rb_status by_columns(const reading *r)
     return RB_OK;
 }
 
-rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why)
+rb_status rb_io_table_parse(const char *path, char *text, rb_io_table *t, rb_message *why)
 {
     reading r = {.path = path, .comment = "", .t = t, .why = why};
+    memset(t, 0, sizeof *t);
+    rb_status s = read_lines(&r, text);
+    if (s == RB_OK)
+        s = by_columns(&r);
+    if (s != RB_OK)
+        rb_io_table_free(t);
+    return s;
+}
+
+rb_status rb_io_table_read(const char *path, rb_io_table *t, rb_message *why)
+{
     char *text;
     size_t size;
     rb_status s = rb_io_read_text(path, &text, &size, why);
     memset(t, 0, sizeof *t);
     if (s == RB_OK)
-        s = read_lines(&r, text);
+        s = rb_io_table_parse(path, text, t, why);
     free(text);
-    if (s == RB_OK)
-        s = by_columns(&r);
-    if (s != RB_OK)
-        rb_io_table_free(t);
     return s;
 }
 

@@ -33,7 +33,7 @@ cli_exit cli_pool_begin(int argc, char **argv)
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     active = 1;
     if (rank > 0) { /* what they all have to say, rank 0 says */
-        cli_keep_failures();
+        cli_keep_failures(1);
         if (!freopen("/dev/null", "w", stdout))
             MPI_Abort(MPI_COMM_WORLD, CLI_INTERNAL);
     }

@@ -1,7 +1,8 @@
 /* A certificate of a result: the problem is built again from the inputs that the result
  * prints, on the elements of its table, and everything else that it prints is computed
- * again from its pressures, friction, approach and creepage.  Nothing is solved.  A
- * history is followed by the states of its steps: certificate_history.c. */
+ * again from its pressures, friction, approach and creepage.  Nothing is solved.
+ * What a file holds is read in certificate_json.c and certificate_table.c; a history is
+ * followed by the states of its steps in certificate_history.c. */
 #include "report/certificate.h"
 
 #include <math.h>
@@ -10,6 +11,7 @@
 #include <string.h>
 
 static const double CONTROLS = 1e-9; /* a given value against the one that was met */
+static const double RATIO = 1e-13;   /* rounding of the creepage ratio of a table */
 
 void rb_certificate_violated(rb_certificate *c, const char *format, ...)
 {
@@ -56,149 +58,15 @@ static double largest(const json_t *list)
     return most;
 }
 
-/* ---- What can be checked ----------------------------------------------------------- */
-
-static rb_status refuse(const char *name, const char *what, rb_message *why)
+rb_status rb_certificate_refuse(const char *name, const char *what, rb_message *why)
 {
     return rb_fail(why, RB_EFORMAT, "%s: cannot be checked: %s", name, what);
 }
 
-static const char *word(const json_t *object, const char *key)
+const char *rb_certificate_word(const json_t *object, const char *key)
 {
     const char *text = json_string_value(json_object_get(object, key));
     return text ? text : "";
-}
-
-/* Results of `rollbem` itself, in mm, N, MPa. */
-static rb_status check_kind(const char *name, const json_t *root, rb_message *why)
-{
-    static const char *const known[] = {"schema", "version", "command", "conventions",
-                                        "notes",  "units",   "inputs",  "summary",
-                                        "table",  "history"};
-    const json_t *history = json_object_get(root, "history");
-    const json_t *inputs = json_object_get(root, "inputs");
-    const json_t *summary = json_object_get(root, "summary");
-    const char *key;
-    json_t *value;
-
-    if (strcmp(word(root, "schema"), "rollbem/1") != 0)
-        return refuse(name, "not a result of schema rollbem/1", why);
-    json_object_foreach((json_t *)root, key, value)
-    {
-        size_t k = 0;
-        while (k < sizeof known / sizeof *known && strcmp(key, known[k]) != 0)
-            k++;
-        if (k == sizeof known / sizeof *known)
-            return rb_fail(
-                why, RB_EFORMAT,
-                "%s: cannot be checked: results with '%s' (only single cases and "
-                "histories without error bars can)",
-                name, key);
-    }
-    if (!json_is_object(inputs) || !json_is_object(summary) ||
-        !json_is_object(json_object_get(root, "table")))
-        return refuse(name, "inputs, summary or table is missing", why);
-    const int has_steps = strcmp(word(inputs, "formulation"), "transient") == 0 ||
-                          word(inputs, "history")[0] ||
-                          rb_certificate_member(inputs, "increments") > 1.0;
-    if (has_steps != json_is_object(history))
-        return refuse(name, "its inputs and its history do not belong together", why);
-    if (has_steps && !json_is_object(json_object_get(history, "states")))
-        return refuse(
-            name, "its last state depends on the steps before it: take --states", why);
-    if (json_is_true(json_object_get(inputs, "error")) ||
-        json_object_get(summary, "errors") ||
-        json_is_number(json_object_get(inputs, "accuracy")))
-        return refuse(name, "error bars take solutions on other meshes", why);
-    if (strcmp(word(inputs, "units"), "mm") != 0 ||
-        strcmp(word(json_object_get(root, "units"), "system"), "mm") != 0)
-        return refuse(name, "units other than mm, N, MPa", why);
-    if (strcmp(word(summary, "status"), "solved") != 0)
-        return refuse(name, "it says itself that it is not solved", why);
-    return RB_OK;
-}
-
-/* ---- The case again ---------------------------------------------------------------- */
-
-/* A value as an option takes it: a word, a number, numbers with commas. */
-static void option_text(const json_t *value, char *text, size_t size)
-{
-    if (json_is_string(value))
-        snprintf(text, size, "%s", json_string_value(value));
-    else if (json_is_boolean(value))
-        snprintf(text, size, json_is_true(value) ? "yes" : "no");
-    else if (json_is_integer(value))
-        snprintf(text, size, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
-    else if (json_is_real(value))
-        snprintf(text, size, "%.17g", json_real_value(value));
-    else
-        text[0] = '\0';
-    for (size_t k = 0; json_is_array(value) && k < json_array_size(value); k++) {
-        const size_t n = strlen(text);
-        snprintf(text + n, size - n, "%s%.17g", k ? "," : "",
-                 rb_certificate_number(json_array_get(value, k)));
-    }
-}
-
-/* Material of B that --similar copies from A. */
-static int is_copied(const json_t *inputs, const char *key)
-{
-    return json_is_true(json_object_get(inputs, "similar")) &&
-           (strcmp(key, "young-b") == 0 || strcmp(key, "poisson-b") == 0);
-}
-
-/* Sets what differs from `now`. */
-static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *words,
-                            rb_message *why)
-{
-    rb_status s = RB_OK;
-    const char *key;
-    json_t *value;
-    char text[4200];
-
-    json_object_foreach((json_t *)inputs, key, value)
-    {
-        if (s != RB_OK || json_is_null(value) || is_copied(inputs, key) ||
-            json_equal(value, json_object_get(now, key)))
-            continue;
-        option_text(value, text, sizeof text);
-        s = rb_case_set(words, key, text, RB_GIVEN_ARGUMENT, why);
-    }
-    return s == RB_OK ? rb_case_settle(words, why) : s;
-}
-
-/* Sees that the same inputs come out.  What follows from others, such as the mesh of
- * steady rolling, is given as well where it is another one: hence the second round. */
-static rb_status rebuild_case(const char *name, const json_t *inputs, rb_case *words,
-                              rb_message *why)
-{
-    json_t *now = rb_report_json_inputs(words), *value;
-    rb_status s = now ? RB_OK : RB_ENOMEM;
-    const char *key;
-    rb_message reason = {""};
-
-    for (int round = 0; round < 2 && s == RB_OK && !json_equal(now, inputs); round++) {
-        s = set_inputs(inputs, now, words, &reason);
-        json_decref(now);
-        now = rb_report_json_inputs(words);
-        if (s == RB_OK && !now)
-            s = RB_ENOMEM;
-    }
-    if (s != RB_OK)
-        s = rb_fail(why, s == RB_ENOMEM ? s : RB_EFORMAT,
-                    "%s: cannot be checked: inputs: %s", name, reason.text);
-    json_object_foreach(now, key, value)
-    {
-        if (s == RB_OK && !json_equal(value, json_object_get(inputs, key)))
-            s = rb_fail(why, RB_EFORMAT,
-                        "%s: cannot be checked: '%s' of inputs cannot be built again",
-                        name, key);
-    }
-    if (s == RB_OK && !json_equal(now, inputs))
-        s = rb_fail(why, RB_EFORMAT, "%s: cannot be checked: inputs have other names",
-                    name);
-    json_decref(now);
-    return s;
 }
 
 /* ---- The model again --------------------------------------------------------------- */
@@ -224,6 +92,17 @@ rb_status rb_certificate_column(const char *name, const json_t *table,
     return rb_certificate_list(name, json_object_get(table, heading), heading, n, x, why);
 }
 
+/* Of a table that does not say whether its mesh could be fitted. */
+static int has_equal_elements(const json_t *table)
+{
+    const json_t *h = json_object_get(table, "h_mm");
+    const double first = rb_certificate_number(json_array_get(h, 0));
+    for (size_t i = 1; i < json_array_size(h); i++)
+        if (!(fabs(rb_certificate_number(json_array_get(h, i)) - first) <= 1e-9 * first))
+            return 0;
+    return 1;
+}
+
 /* Bodies and contact problem on the elements of the table. */
 static rb_status rebuild_problem(rb_certificate *c, const rb_settled_case *settled, int n,
                                  rb_message *why)
@@ -232,7 +111,9 @@ static rb_status rebuild_problem(rb_certificate *c, const rb_settled_case *settl
     double *xh = rb_alloc((size_t)n, 2);
     rb_status s = xh ? RB_OK : RB_ENOMEM;
 
-    m->equal_instead = strcmp(word(c->summary, "mesh"), "uniform") == 0;
+    m->equal_instead =
+        c->summary ? strcmp(rb_certificate_word(c->summary, "mesh"), "uniform") == 0
+                   : has_equal_elements(c->table);
     const int are_equal = m->equal_instead || settled->rc.mesh != RB_MESH_FITTED;
     if (s == RB_OK)
         s = rb_certificate_column(c->name, c->table, "x_mm", n, xh, why);
@@ -269,6 +150,59 @@ static rb_status read_plastic(rb_certificate *c, rb_message *why)
     return s;
 }
 
+/* Gaps and shifts of the printed tractions at an approach and a motion: w, 2 n. */
+static void kinematics_at(const rb_certificate *c, double delta, double xi, double *w)
+{
+    rb_contact_state at = c->model.state;
+    at.delta = delta;
+    at.xi = xi;
+    rb_contact_kinematics(&c->model.problem, &at, w, w + c->model.problem.n);
+}
+
+/* The factor of a for which r - factor a is least, in the sense of least squares. */
+static double fit(size_t n, const double *a, const double *r)
+{
+    double aa = 0.0, ar = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        aa += a[i] * a[i];
+        ar += a[i] * r[i];
+    }
+    return ar / aa;
+}
+
+/* Gaps and shifts are linear in both.  What is given is taken as it is. */
+static rb_status fit_motion(rb_certificate *c, rb_message *why)
+{
+    const rb_contact_problem *p = &c->model.problem;
+    rb_contact_state *x = &c->model.state;
+    const size_t n = (size_t)p->n;
+    double *w = rb_alloc(n, 6), *unit = w + 2 * n, *printed = w + 4 * n;
+    if (!w)
+        return RB_ENOMEM;
+    const rb_status s =
+        rb_certificate_column(c->name, c->table, "gap_mm", p->n, printed, why);
+    memcpy(printed + n, x->lambda, n * sizeof *printed);
+    x->xi = p->xi;
+    x->delta = p->delta;
+    kinematics_at(c, 0.0, 0.0, w);
+    for (size_t i = 0; i < 2 * n; i++)
+        printed[i] -= w[i];
+    if (p->load_given) {
+        kinematics_at(c, 1.0, 0.0, unit);
+        for (size_t i = 0; i < n; i++)
+            unit[i] -= w[i];
+        x->delta = fit(n, unit, printed);
+    }
+    if (p->force_given || p->axle > 0.0 || !isnan(c->model.rc.creep_ratio)) {
+        kinematics_at(c, 0.0, 1.0, unit);
+        for (size_t i = n; i < 2 * n; i++)
+            unit[i] -= w[i];
+        x->xi = fit(n, unit + n, printed + n);
+    }
+    free(w);
+    return s;
+}
+
 /* The printed unknowns. */
 static rb_status read_state(rb_certificate *c, rb_message *why)
 {
@@ -293,6 +227,8 @@ static rb_status read_state(rb_certificate *c, rb_message *why)
         s = rb_certificate_column(c->name, c->table, "shift_mm", n, m->state.lambda, why);
     if (s == RB_OK && m->problem.yield)
         s = read_plastic(c, why);
+    if (s == RB_OK && !c->summary)
+        return fit_motion(c, why);
     m->state.delta = rb_certificate_member(c->summary, "approach");
     m->state.xi =
         rb_certificate_member(c->summary, is_static ? "tangential_shift" : "creepage");
@@ -355,12 +291,14 @@ static void check_forces(rb_certificate *c)
     const double Q = weighted(p->n, p->force_N, x->p, p->force_T, x->q);
     const rb_rolling_derived d = rb_rolling_derive(&c->model.rc);
 
-    rb_certificate_expect(c, "normal_load", 0,
-                          rb_certificate_member(c->summary, "normal_load"), P,
-                          1e-13 * fabs(P));
-    rb_certificate_expect(c, "tangential_load", 0,
-                          rb_certificate_member(c->summary, "tangential_load"), Q,
-                          1e-13 * fabs(P));
+    if (c->summary) {
+        rb_certificate_expect(c, "normal_load", 0,
+                              rb_certificate_member(c->summary, "normal_load"), P,
+                              1e-13 * fabs(P));
+        rb_certificate_expect(c, "tangential_load", 0,
+                              rb_certificate_member(c->summary, "tangential_load"), Q,
+                              1e-13 * fabs(P));
+    }
     c->model.half_width =
         P > 0.0 ? sqrt(4.0 * P * d.radius / (acos(-1.0) * d.modulus)) : 0.0;
     rb_certificate_given(c, P);
@@ -377,7 +315,7 @@ void rb_certificate_motion(rb_certificate *c)
         return;
     if (c->step == 0 && rc->formulation == RB_STEADY && !isnan(rc->creep_ratio))
         rb_certificate_expect(c, "the given creep_ratio", 0, c->again.creep_ratio,
-                              rc->creep_ratio, CONTROLS * fabs(rc->creep_ratio));
+                              rc->creep_ratio, CONTROLS * fabs(rc->creep_ratio) + RATIO);
     else
         rb_certificate_expect(c, "the given shift or creepage", 0, c->model.state.xi,
                               p->xi, CONTROLS * fabs(p->xi));
@@ -427,7 +365,9 @@ void rb_certificate_tolerances(rb_certificate *c, double residual)
 {
     const rb_contact_problem *p = &c->model.problem;
     const int hierarchical =
-        strcmp(word(c->summary, "boundary_matrix"), "hierarchical") == 0;
+        c->summary ? strcmp(rb_certificate_word(c->summary, "boundary_matrix"),
+                            "hierarchical") == 0
+                   : c->again.hierarchical;
     const double asked = fmax(c->model.rc.tol, p->rounding);
 
     c->tol = (hierarchical ? 100.0 : 10.0) * asked;
@@ -583,15 +523,14 @@ static void compare_objects(rb_certificate *c, const char *name, const json_t *p
     }
 }
 
-static rb_status compare_results(rb_certificate *c, rb_message *why)
+static rb_status compare_results(rb_certificate *c)
 {
-    const rb_status s = rb_rolling_model_solution(&c->model, &c->again, why);
-    if (s != RB_OK)
-        return s;
     json_t *summary = rb_report_json_summary(&c->again);
-    json_t *table = rb_report_json_table(&c->again);
+    json_t *table = c->summary ? rb_report_json_table(&c->again)
+                               : rb_report_json_table_columns(&c->again);
     if (summary && table) {
-        compare_objects(c, "summary", c->summary, summary);
+        if (c->summary)
+            compare_objects(c, "summary", c->summary, summary);
         compare_table(c, table);
         rb_certificate_motion(c);
     }
@@ -601,9 +540,8 @@ static rb_status compare_results(rb_certificate *c, rb_message *why)
     return t;
 }
 
-/* A single case: its problem is built, and its state is what is printed. */
-static rb_status rebuild_result(rb_certificate *c, const rb_settled_case *settled, int n,
-                                rb_message *why)
+rb_status rb_certificate_rebuild(rb_certificate *c, const rb_settled_case *settled, int n,
+                                 rb_message *why)
 {
     rb_status s = rebuild_problem(c, settled, n, why);
     if (s == RB_OK)
@@ -611,44 +549,25 @@ static rb_status rebuild_result(rb_certificate *c, const rb_settled_case *settle
     return s == RB_OK ? rb_rolling_model_friction(&c->model, why) : s;
 }
 
-rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
-                            rb_case *words, rb_report_certificate *found, rb_message *why)
+rb_status rb_certificate_judge(rb_certificate *c, double residual, rb_message *why)
 {
-    rb_certificate c = {.out = out,
-                        .name = name,
-                        .found = found,
-                        .summary = json_object_get(root, "summary"),
-                        .table = json_object_get(root, "table")};
-    const json_t *history = json_object_get(root, "history");
-    const int n = (int)json_array_size(json_object_get(c.table, "x_mm"));
-    rb_rolling_history again = {0};
+    check_forces(c); /* and the half-width, which ratios of the creepage take */
+    rb_status s = rb_rolling_model_solution(&c->model, &c->again, why);
+    if (s != RB_OK)
+        return s;
+    rb_certificate_tolerances(c, residual);
+    s = rb_certificate_laws(c);
+    return s == RB_OK ? compare_results(c) : s;
+}
 
-    memset(found, 0, sizeof *found);
-    rb_status s = check_kind(name, root, why);
-    if (s == RB_OK && n < 3)
-        s = refuse(name, "its table has no elements", why);
-    if (s == RB_OK)
-        s = rebuild_case(name, json_object_get(root, "inputs"), words, why);
-    if (s == RB_OK && history)
-        s = rb_certificate_follow(&c, history, rb_case_settled(words), n, &again, why);
-    else if (s == RB_OK)
-        s = rebuild_result(&c, rb_case_settled(words), n, why);
-    if (s == RB_OK) {
-        rb_certificate_tolerances(&c, rb_certificate_member(c.summary, "residual"));
-        check_forces(&c);
-        s = rb_certificate_laws(&c);
-    }
-    if (s == RB_OK)
-        s = compare_results(&c, why);
-    if (s == RB_OK && history)
-        s = rb_certificate_compare_history(&c, history, &again);
-    rb_rolling_history_free(&again);
-    rb_rolling_solution_free(&c.again);
-    rb_rolling_model_free(&c.model);
+rb_status rb_certificate_end(rb_certificate *c, rb_status s, rb_message *why)
+{
+    rb_rolling_solution_free(&c->again);
+    rb_rolling_model_free(&c->model);
     if (s == RB_OK || s == RB_EFORMAT)
         return s;
     const rb_message reason = *why;
-    return s == RB_ENOMEM
-               ? rb_fail(why, s, "%s: out of memory", name)
-               : rb_fail(why, RB_EFORMAT, "%s: cannot be checked: %s", name, reason.text);
+    return s == RB_ENOMEM ? rb_fail(why, s, "%s: out of memory", c->name)
+                          : rb_fail(why, RB_EFORMAT, "%s: cannot be checked: %s", c->name,
+                                    reason.text);
 }

@@ -11,7 +11,8 @@ typedef struct {
     FILE *out;
     const char *name; /* of the file */
     rb_report_certificate *found;
-    const json_t *summary, *table;
+    const json_t *summary; /* NULL: of a table, which has none */
+    const json_t *table;
     int step; /* of a history, from 1 on, while it is judged; 0: the result */
     rb_rolling_model model;
     rb_rolling_solution again; /* computed from the state */
@@ -27,6 +28,10 @@ void rb_certificate_violated(rb_certificate *c, const char *format, ...);
 /* NAN is equal to NAN alone. */
 void rb_certificate_expect(rb_certificate *c, const char *what, int element,
                            double printed, double want, double allowed);
+/* RB_EFORMAT: "<name>: cannot be checked: <what>". */
+rb_status rb_certificate_refuse(const char *name, const char *what, rb_message *why);
+/* "" where there is no such word. */
+const char *rb_certificate_word(const json_t *object, const char *key);
 double rb_certificate_number(const json_t *value);
 double rb_certificate_member(const json_t *object, const char *key);
 
@@ -53,6 +58,14 @@ void rb_certificate_given(rb_certificate *c, double load);
 void rb_certificate_motion(rb_certificate *c);
 /* Contact and friction, element by element. */
 rb_status rb_certificate_laws(rb_certificate *c);
+
+/* The model of a case on the n elements of its table, with the state that is printed. */
+rb_status rb_certificate_rebuild(rb_certificate *c, const rb_settled_case *settled, int n,
+                                 rb_message *why);
+/* Judges the state of the model, and what is printed beside it; residual: as printed. */
+rb_status rb_certificate_judge(rb_certificate *c, double residual, rb_message *why);
+/* Frees, and returns s with its reason in words. */
+rb_status rb_certificate_end(rb_certificate *c, rb_status s, rb_message *why);
 
 /* ---- certificate_history.c --------------------------------------------------------- */
 

@@ -173,13 +173,19 @@ void rb_report_json_columns(json_t **object, int rows, const rb_report_columns *
     }
 }
 
-json_t *rb_report_json_table(const rb_rolling_solution *s)
+json_t *rb_report_json_table_columns(const rb_rolling_solution *s)
 {
     const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0, s->units};
     json_t *table = json_object();
+    rb_report_json_columns(&table, s->n, &columns, 1);
+    return table;
+}
+
+json_t *rb_report_json_table(const rb_rolling_solution *s)
+{
+    json_t *table = rb_report_json_table_columns(s);
     char power[40];
     snprintf(power, sizeof power, "friction_power_%s", rb_unit_name(s->units, "MPa"));
-    rb_report_json_columns(&table, s->n, &columns, 1);
     if (s->formulation != RB_STATIC)
         rb_report_json_set(&table, power, friction_power(s));
     return table;

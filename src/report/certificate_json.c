@@ -1,0 +1,172 @@
+/* The certificate of a result in JSON. */
+#include "report/certificate.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- What can be checked ----------------------------------------------------------- */
+
+/* Results of `rollbem` itself, in mm, N, MPa. */
+static rb_status check_kind(const char *name, const json_t *root, rb_message *why)
+{
+    static const char *const known[] = {"schema", "version", "command", "conventions",
+                                        "notes",  "units",   "inputs",  "summary",
+                                        "table",  "history"};
+    const json_t *history = json_object_get(root, "history");
+    const json_t *inputs = json_object_get(root, "inputs");
+    const json_t *summary = json_object_get(root, "summary");
+    const char *key;
+    json_t *value;
+
+    if (strcmp(rb_certificate_word(root, "schema"), "rollbem/1") != 0)
+        return rb_certificate_refuse(name, "not a result of schema rollbem/1", why);
+    json_object_foreach((json_t *)root, key, value)
+    {
+        size_t k = 0;
+        while (k < sizeof known / sizeof *known && strcmp(key, known[k]) != 0)
+            k++;
+        if (k == sizeof known / sizeof *known)
+            return rb_fail(
+                why, RB_EFORMAT,
+                "%s: cannot be checked: results with '%s' (only single cases and "
+                "histories without error bars can)",
+                name, key);
+    }
+    if (!json_is_object(inputs) || !json_is_object(summary) ||
+        !json_is_object(json_object_get(root, "table")))
+        return rb_certificate_refuse(name, "inputs, summary or table is missing", why);
+    const int has_steps =
+        strcmp(rb_certificate_word(inputs, "formulation"), "transient") == 0 ||
+        rb_certificate_word(inputs, "history")[0] ||
+        rb_certificate_member(inputs, "increments") > 1.0;
+    if (has_steps != json_is_object(history))
+        return rb_certificate_refuse(
+            name, "its inputs and its history do not belong together", why);
+    if (has_steps && !json_is_object(json_object_get(history, "states")))
+        return rb_certificate_refuse(
+            name, "its last state depends on the steps before it: take --states", why);
+    if (json_is_true(json_object_get(inputs, "error")) ||
+        json_object_get(summary, "errors") ||
+        json_is_number(json_object_get(inputs, "accuracy")))
+        return rb_certificate_refuse(name, "error bars take solutions on other meshes",
+                                     why);
+    if (strcmp(rb_certificate_word(inputs, "units"), "mm") != 0 ||
+        strcmp(rb_certificate_word(json_object_get(root, "units"), "system"), "mm") != 0)
+        return rb_certificate_refuse(name, "units other than mm, N, MPa", why);
+    if (strcmp(rb_certificate_word(summary, "status"), "solved") != 0)
+        return rb_certificate_refuse(name, "it says itself that it is not solved", why);
+    return RB_OK;
+}
+
+/* ---- The case again ---------------------------------------------------------------- */
+
+/* A value as an option takes it: a word, a number, numbers with commas. */
+static void option_text(const json_t *value, char *text, size_t size)
+{
+    if (json_is_string(value))
+        snprintf(text, size, "%s", json_string_value(value));
+    else if (json_is_boolean(value))
+        snprintf(text, size, json_is_true(value) ? "yes" : "no");
+    else if (json_is_integer(value))
+        snprintf(text, size, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
+    else if (json_is_real(value))
+        snprintf(text, size, "%.17g", json_real_value(value));
+    else
+        text[0] = '\0';
+    for (size_t k = 0; json_is_array(value) && k < json_array_size(value); k++) {
+        const size_t n = strlen(text);
+        snprintf(text + n, size - n, "%s%.17g", k ? "," : "",
+                 rb_certificate_number(json_array_get(value, k)));
+    }
+}
+
+/* Material of B that --similar copies from A. */
+static int is_copied(const json_t *inputs, const char *key)
+{
+    return json_is_true(json_object_get(inputs, "similar")) &&
+           (strcmp(key, "young-b") == 0 || strcmp(key, "poisson-b") == 0);
+}
+
+/* Sets what differs from `now`. */
+static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *words,
+                            rb_message *why)
+{
+    rb_status s = RB_OK;
+    const char *key;
+    json_t *value;
+    char text[4200];
+
+    json_object_foreach((json_t *)inputs, key, value)
+    {
+        if (s != RB_OK || json_is_null(value) || is_copied(inputs, key) ||
+            json_equal(value, json_object_get(now, key)))
+            continue;
+        option_text(value, text, sizeof text);
+        s = rb_case_set(words, key, text, RB_GIVEN_ARGUMENT, why);
+    }
+    return s == RB_OK ? rb_case_settle(words, why) : s;
+}
+
+/* Sees that the same inputs come out.  What follows from others, such as the mesh of
+ * steady rolling, is given as well where it is another one: hence the second round. */
+static rb_status rebuild_case(const char *name, const json_t *inputs, rb_case *words,
+                              rb_message *why)
+{
+    json_t *now = rb_report_json_inputs(words), *value;
+    rb_status s = now ? RB_OK : RB_ENOMEM;
+    const char *key;
+    rb_message reason = {""};
+
+    for (int round = 0; round < 2 && s == RB_OK && !json_equal(now, inputs); round++) {
+        s = set_inputs(inputs, now, words, &reason);
+        json_decref(now);
+        now = rb_report_json_inputs(words);
+        if (s == RB_OK && !now)
+            s = RB_ENOMEM;
+    }
+    if (s != RB_OK)
+        s = rb_fail(why, s == RB_ENOMEM ? s : RB_EFORMAT,
+                    "%s: cannot be checked: inputs: %s", name, reason.text);
+    json_object_foreach(now, key, value)
+    {
+        if (s == RB_OK && !json_equal(value, json_object_get(inputs, key)))
+            s = rb_fail(why, RB_EFORMAT,
+                        "%s: cannot be checked: '%s' of inputs cannot be built again",
+                        name, key);
+    }
+    if (s == RB_OK && !json_equal(now, inputs))
+        s = rb_fail(why, RB_EFORMAT, "%s: cannot be checked: inputs have other names",
+                    name);
+    json_decref(now);
+    return s;
+}
+
+rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
+                            rb_case *words, rb_report_certificate *found, rb_message *why)
+{
+    rb_certificate c = {.out = out,
+                        .name = name,
+                        .found = found,
+                        .summary = json_object_get(root, "summary"),
+                        .table = json_object_get(root, "table")};
+    const json_t *history = json_object_get(root, "history");
+    const int n = (int)json_array_size(json_object_get(c.table, "x_mm"));
+    rb_rolling_history again = {0};
+
+    memset(found, 0, sizeof *found);
+    rb_status s = check_kind(name, root, why);
+    if (s == RB_OK && n < 3)
+        s = rb_certificate_refuse(name, "its table has no elements", why);
+    if (s == RB_OK)
+        s = rebuild_case(name, json_object_get(root, "inputs"), words, why);
+    if (s == RB_OK && history)
+        s = rb_certificate_follow(&c, history, rb_case_settled(words), n, &again, why);
+    else if (s == RB_OK)
+        s = rb_certificate_rebuild(&c, rb_case_settled(words), n, why);
+    if (s == RB_OK)
+        s = rb_certificate_judge(&c, rb_certificate_member(c.summary, "residual"), why);
+    if (s == RB_OK && history)
+        s = rb_certificate_compare_history(&c, history, &again);
+    rb_rolling_history_free(&again);
+    return rb_certificate_end(&c, s, why);
+}

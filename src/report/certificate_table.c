@@ -1,0 +1,138 @@
+/* The certificate of a table: its inputs are those of the command line in its comments,
+ * its approach and its motion those that fit its gaps and shifts best. */
+#include "report/certificate.h"
+#include "rollbem/io.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What lies behind `start` in the first line that begins so; NULL: no line does. */
+static const char *line_behind(const char *text, const char *start)
+{
+    const size_t n = strlen(start);
+    while (text && strncmp(text, start, n) != 0) {
+        text = strchr(text, '\n');
+        text += text != NULL;
+    }
+    return text ? text + n : NULL;
+}
+
+char *rb_report_table_command(const char *text)
+{
+    const char *version = line_behind(text, "# rollbem ");
+    const char *next = version ? strchr(version, '\n') : NULL;
+    const char *command = next ? line_behind(next + 1, "# rollbem") : NULL;
+    return command ? strndup(command, strcspn(command, "\r\n")) : NULL;
+}
+
+/* ---- Comments ---------------------------------------------------------------------- */
+
+/* "# steady, solved; residual 3.1e-14" */
+static rb_status read_status(const char *name, const char *text, double *residual,
+                             rb_message *why)
+{
+    const char *of = strstr(text, "; residual ");
+    if (!of || sscanf(of, "; residual %lf", residual) != 1)
+        return rb_certificate_refuse(
+            name, "expected a table of a single case, with its comments", why);
+    const size_t n = strlen(", solved");
+    return of - text > (ptrdiff_t)n && strncmp(of - n, ", solved", n) == 0
+               ? RB_OK
+               : rb_certificate_refuse(name, "it says itself that it is not solved", why);
+}
+
+/* "# patch 1: from -1 to 1 mm, p0 = 400 MPa, P = 500, Q = -20 N/mm" */
+static void compare_patches(rb_certificate *c, const char *text)
+{
+    const rb_rolling_solution *s = &c->again;
+    const double length = 1e-12 * s->half_width, stress = 1e-12 * s->max_pressure,
+                 load = 1e-13 * s->normal_load;
+
+    for (int k = 0; k < s->patches && s->patches > 1; k++) {
+        const rb_rolling_patch *want = &s->patch[k];
+        char start[40];
+        double from, to, p0, P, Q;
+        snprintf(start, sizeof start, "# patch %d: ", k + 1);
+        const char *line = line_behind(text, start);
+        if (!line ||
+            sscanf(line, "from %lf to %lf mm, p0 = %lf MPa, P = %lf, Q = %lf N/mm", &from,
+                   &to, &p0, &P, &Q) != 5) {
+            rb_certificate_violated(c, "patch %d is missing", k + 1);
+            continue;
+        }
+        rb_certificate_expect(c, "from of a patch", 0, from, want->from,
+                              1e-8 * fabs(want->from) + length);
+        rb_certificate_expect(c, "to of a patch", 0, to, want->to,
+                              1e-8 * fabs(want->to) + length);
+        rb_certificate_expect(c, "p0 of a patch", 0, p0, want->max_pressure,
+                              1e-8 * want->max_pressure + stress);
+        rb_certificate_expect(c, "P of a patch", 0, P, want->normal_load,
+                              1e-8 * want->normal_load + load);
+        rb_certificate_expect(c, "Q of a patch", 0, Q, want->tangential_load,
+                              1e-8 * fabs(want->tangential_load) + load);
+    }
+}
+
+/* ---- All together ------------------------------------------------------------------ */
+
+static rb_status check_inputs(const char *name, const rb_settled_case *settled,
+                              rb_message *why)
+{
+    const char *what =
+        rb_case_has_steps(settled)
+            ? "its last state depends on the steps before it: take --json --states"
+        : settled->error || settled->accuracy > 0.0
+            ? "error bars take solutions on other meshes"
+        : settled->units != RB_UNITS_MM ? "units other than mm, N, MPa"
+                                        : NULL;
+    return what ? rb_certificate_refuse(name, what, why) : RB_OK;
+}
+
+static json_t *json_of(const rb_io_table *t)
+{
+    json_t *table = json_object();
+    for (int j = 0; t->name && j < t->columns; j++)
+        rb_report_json_set(
+            &table, t->name[j],
+            rb_report_json_numbers(t->rows, t->x + (size_t)j * (size_t)t->rows));
+    return table;
+}
+
+rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
+                                  const rb_case *words, rb_report_certificate *found,
+                                  rb_message *why)
+{
+    const rb_settled_case *settled = rb_case_settled(words);
+    rb_io_table t = {0};
+    double residual = 0.0;
+    char *lines = strdup(text);
+
+    memset(found, 0, sizeof *found);
+    rb_status s = lines ? check_inputs(name, settled, why) : RB_ENOMEM;
+    if (s == RB_OK)
+        s = read_status(name, text, &residual, why);
+    if (s == RB_OK)
+        s = rb_io_table_parse(name, lines, &t, why);
+    free(lines);
+    json_t *table = json_of(&t);
+    rb_certificate c = {.out = out, .name = name, .found = found, .table = table};
+    if (s == RB_OK && !table)
+        s = RB_ENOMEM;
+    if (s == RB_OK && t.rows < 3)
+        s = rb_fail(why, RB_EFORMAT, "%s: cannot be checked: it has %d elements", name,
+                    t.rows);
+    if (s == RB_OK)
+        s = rb_certificate_rebuild(&c, settled, t.rows, why);
+    if (s == RB_OK)
+        s = rb_certificate_judge(&c, residual, why);
+    if (s == RB_OK) {
+        rb_certificate_expect(&c, "residual", 0, residual, c.again.residual, c.tol);
+        compare_patches(&c, text);
+    }
+    rb_io_table_free(&t);
+    s = rb_certificate_end(&c, s, why);
+    json_decref(table);
+    return s;
+}
