@@ -15,10 +15,11 @@ static void require_finite(const double *x, int n, const char *property)
 static void require_matrix(rb_io_matrix *m)
 {
     rb_sparse a = {0};
+    const rb_triplets *t = &m->entries;
     fuzz_require(m->rows > 0 && m->cols > 0, "a matrix has rows and columns");
-    for (int k = 0; !m->dense && k < m->nz; k++)
-        fuzz_require(m->row[k] >= 0 && m->row[k] < m->rows && m->col[k] >= 0 &&
-                         m->col[k] < m->cols,
+    for (int k = 0; !m->dense && k < t->nz; k++)
+        fuzz_require(t->row[k] >= 0 && t->row[k] < m->rows && t->col[k] >= 0 &&
+                         t->col[k] < m->cols,
                      "entries lie in the matrix");
     /* a few numbers may name the size of a matrix that has no room as a dense one */
     if ((double)m->rows * m->cols > 1e6)

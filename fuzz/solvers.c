@@ -65,7 +65,7 @@ void fuzz_lemke(const uint8_t *data, size_t size)
     const int n = 1 + fuzz_choice(&b, ORDER_MAX);
     double M[ORDER_MAX * ORDER_MAX], q[ORDER_MAX], z[ORDER_MAX], kept[ORDER_MAX];
     double copy[ORDER_MAX * ORDER_MAX];
-    int row[ORDER_MAX * ORDER_MAX], col[ORDER_MAX * ORDER_MAX];
+    rb_triplets t = {.rows = n, .cols = n};
     rb_lcp_options opt = rb_lcp_defaults();
     rb_lcp_info info;
     rb_sparse a = {0};
@@ -76,13 +76,12 @@ void fuzz_lemke(const uint8_t *data, size_t size)
         kept[i] = q[i] = fuzz_number(&b);
     for (int k = 0; k < n * n; k++) {
         copy[k] = M[k] = fuzz_number(&b);
-        row[k] = k % n;
-        col[k] = k / n;
+        rb_triplets_add(&t, k % n, k / n, M[k]);
     }
     if (rb_lcp_lemke(&(rb_lcp_problem){n, M, n, q}, &opt, z, &info) == RB_OK)
         require_solved("Lemke's solution solves", n, M, q, z);
-    fuzz_require(rb_sparse_from_triplets(n, n, n * n, row, col, M, &a) == RB_OK,
-                 "a matrix becomes sparse");
+    fuzz_require(rb_sparse_from_triplets(&t, &a) == RB_OK, "a matrix becomes sparse");
+    rb_triplets_free(&t);
     if (rb_lcp_newton(&a, q, &opt, z, &info) == RB_OK)
         require_solved("Newton's solution solves", n, M, q, z);
     if (rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &a, .q = q}, &opt, z, &info) == RB_OK)

@@ -13,14 +13,18 @@
  */
 static void small_local(rb_io_fclib *p)
 {
-    const int row[] = {0, 1, 0, 3, 2, 5, 4, 0}, col[] = {0, 1, 5, 3, 2, 5, 4, 3};
-    const double x[] = {1.0, 2.0, -0.5, 3.0, 4.0, 5.0, 6.0, 0.25};
+    int row[] = {0, 1, 0, 3, 2, 5, 4, 0}, col[] = {0, 1, 5, 3, 2, 5, 4, 3};
+    double x[] = {1.0, 2.0, -0.5, 3.0, 4.0, 5.0, 6.0, 0.25};
     *p = (rb_io_fclib){.spacedim = 3,
                        .contacts = 2,
                        .q = rb_alloc(6, 1),
                        .mu = rb_alloc(2, 1),
                        .r = rb_alloc(6, 1)};
-    CHECK_STATUS(rb_sparse_from_triplets(6, 6, 8, row, col, x, &p->W), RB_OK);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 6, .cols = 6, .nz = 8, .row = row, .col = col, .x = x},
+            &p->W),
+        RB_OK);
     for (int k = 0; k < 6; k++)
         p->q[k] = k - 2.5, p->r[k] = 0.1 * k;
     p->mu[0] = 0.3, p->mu[1] = 0.0;
@@ -28,9 +32,9 @@ static void small_local(rb_io_fclib *p)
 
 static void small_global(rb_io_fclib *p)
 {
-    const int row[] = {0, 1, 2, 0, 1}, col[] = {0, 1, 2, 1, 0};
-    const double x[] = {2.0, 2.0, 5.0, -1.0, -1.0}, one[] = {1.0, 1.0};
-    const int hrow[] = {0, 2}, hcol[] = {0, 1};
+    int row[] = {0, 1, 2, 0, 1}, col[] = {0, 1, 2, 1, 0};
+    double x[] = {2.0, 2.0, 5.0, -1.0, -1.0}, one[] = {1.0, 1.0};
+    int hrow[] = {0, 2}, hcol[] = {0, 1};
     *p = (rb_io_fclib){.global = 1,
                        .spacedim = 2,
                        .contacts = 1,
@@ -38,8 +42,17 @@ static void small_global(rb_io_fclib *p)
                        .w = rb_alloc(2, 1),
                        .mu = rb_alloc(1, 1),
                        .v = rb_alloc(3, 1)};
-    CHECK_STATUS(rb_sparse_from_triplets(3, 3, 5, row, col, x, &p->M), RB_OK);
-    CHECK_STATUS(rb_sparse_from_triplets(3, 2, 2, hrow, hcol, one, &p->H), RB_OK);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 3, .cols = 3, .nz = 5, .row = row, .col = col, .x = x},
+            &p->M),
+        RB_OK);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){
+                .rows = 3, .cols = 2, .nz = 2, .row = hrow, .col = hcol, .x = one},
+            &p->H),
+        RB_OK);
     p->f[0] = -1.0, p->f[2] = 0.1, p->w[1] = 0.5, p->mu[0] = 0.3, p->v[2] = 7.0;
 }
 
@@ -98,9 +111,14 @@ static void one_triangle_of_m_is_completed(void **state)
     for (int lower = 0; lower < 2; lower++) {
         small_global(&p);
         rb_sparse full = p.M;
-        const int row[] = {0, 1, 2, lower}, col[] = {0, 1, 2, !lower};
-        const double x[] = {2.0, 2.0, 5.0, -1.0};
-        CHECK_STATUS(rb_sparse_from_triplets(3, 3, 4, row, col, x, &p.M), RB_OK);
+        int row[] = {0, 1, 2, lower}, col[] = {0, 1, 2, !lower};
+        double x[] = {2.0, 2.0, 5.0, -1.0};
+        CHECK_STATUS(
+            rb_sparse_from_triplets(
+                &(rb_triplets){
+                    .rows = 3, .cols = 3, .nz = 4, .row = row, .col = col, .x = x},
+                &p.M),
+            RB_OK);
         CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", &why),
                      RB_OK);
         CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
@@ -204,14 +222,22 @@ static void sizes_and_indices_are_checked(void **state)
 static void fresh_constrained(void)
 {
     rb_io_fclib p;
-    const int at[] = {0, 3}, zero[] = {0, 0};
-    const double x[] = {2.0, -1.0};
+    int at[] = {0, 3}, zero[] = {0, 0};
+    double x[] = {2.0, -1.0};
     small_local(&p);
     p.constraints = 1;
     p.s = rb_alloc(1, 1);
     p.s[0] = 0.5;
-    CHECK_STATUS(rb_sparse_from_triplets(6, 1, 2, at, zero, x, &p.V), RB_OK);
-    CHECK_STATUS(rb_sparse_from_triplets(1, 1, 1, zero, zero, x, &p.R), RB_OK);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 6, .cols = 1, .nz = 2, .row = at, .col = zero, .x = x},
+            &p.V),
+        RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(
+                     &(rb_triplets){
+                         .rows = 1, .cols = 1, .nz = 1, .row = zero, .col = zero, .x = x},
+                     &p.R),
+                 RB_OK);
     CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSC, "", "", NULL), RB_OK);
     rb_io_fclib_free(&p);
 }

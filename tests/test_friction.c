@@ -137,8 +137,7 @@ static void the_measure_is_equation_13(void **state)
 static void series_of_springs(int d, int nc, double held, rb_friction_problem *p)
 {
     const int m = d * nc, n = 2 * m;
-    int row[400], col[400], nz = 0;
-    double x[400], one[200];
+    rb_triplets K = {.rows = n, .cols = n}, H = {.rows = n, .cols = m};
     *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
                                .dimension = d,
                                .contacts = nc,
@@ -148,16 +147,16 @@ static void series_of_springs(int d, int nc, double held, rb_friction_problem *p
                                .w = rb_alloc((size_t)m, 1)};
     for (int k = 0; k < m; k++) {
         const int i = 2 * k, j = 2 * k + 1;
-        row[nz] = i, col[nz] = i, x[nz++] = 1.0 + held;
-        row[nz] = i, col[nz] = j, x[nz++] = -1.0;
-        row[nz] = j, col[nz] = i, x[nz++] = -1.0;
-        row[nz] = j, col[nz] = j, x[nz++] = 1.0;
-        one[k] = 1.0;
+        rb_triplets_add(&K, i, i, 1.0 + held);
+        rb_triplets_add(&K, i, j, -1.0);
+        rb_triplets_add(&K, j, i, -1.0);
+        rb_triplets_add(&K, j, j, 1.0);
+        rb_triplets_add(&H, j, k, 1.0);
     }
-    CHECK_STATUS(rb_sparse_from_triplets(n, n, nz, row, col, x, &p->K), RB_OK);
-    for (int k = 0; k < m; k++)
-        row[k] = 2 * k + 1, col[k] = k;
-    CHECK_STATUS(rb_sparse_from_triplets(n, m, m, row, col, one, &p->H), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(&K, &p->K), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
+    rb_triplets_free(&K);
+    rb_triplets_free(&H);
     for (int c = 0; c < nc; c++) {
         p->mu[c] = 0.5;
         /* pressed down by 1, pulled along T1 by 0.2 (sticks), 0.8 (slips); lifted */
@@ -206,9 +205,7 @@ static void condensation_gives_the_same_problem(void **state)
 static void chains(int size, int nc, rb_friction_problem *p)
 {
     const int m = 2 * nc, n = m * size;
-    int *row = rb_alloc_int((size_t)(3 * n)), *col = rb_alloc_int((size_t)(3 * n)),
-        nz = 0;
-    double *x = rb_alloc((size_t)(3 * n), 1);
+    rb_triplets K = {.rows = n, .cols = n}, H = {.rows = n, .cols = m};
     *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
                                .dimension = 2,
                                .contacts = nc,
@@ -216,26 +213,24 @@ static void chains(int size, int nc, rb_friction_problem *p)
                                .mu = rb_alloc((size_t)nc, 1),
                                .f = rb_alloc((size_t)n, 1),
                                .w = rb_alloc((size_t)m, 1)};
-    for (int k = 0; k < m; k++)
-        for (int i = 0; i < size; i++) {
-            const int at = k * size + i;
-            row[nz] = col[nz] = at, x[nz++] = i + 1 < size ? 2.0 : 1.0;
-            if (i + 1 < size) {
-                row[nz] = at, col[nz] = at + 1, x[nz++] = -1.0;
-                row[nz] = at + 1, col[nz] = at, x[nz++] = -1.0;
+    for (int k = 0; k < m; k++) {
+        const int last = (k + 1) * size - 1;
+        for (int at = k * size; at <= last; at++) {
+            rb_triplets_add(&K, at, at, at < last ? 2.0 : 1.0);
+            if (at < last) {
+                rb_triplets_add(&K, at, at + 1, -1.0);
+                rb_triplets_add(&K, at + 1, at, -1.0);
             }
         }
-    CHECK_STATUS(rb_sparse_from_triplets(n, n, nz, row, col, x, &p->K), RB_OK);
-    for (int k = 0; k < m; k++) {
-        row[k] = (k + 1) * size - 1, col[k] = k, x[k] = 1.0;
-        p->f[row[k]] = k % 2 ? 0.2 * (k % 5) : -1.0;
+        rb_triplets_add(&H, last, k, 1.0);
+        p->f[last] = k % 2 ? 0.2 * (k % 5) : -1.0;
     }
-    CHECK_STATUS(rb_sparse_from_triplets(n, m, m, row, col, x, &p->H), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(&K, &p->K), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
     for (int c = 0; c < nc; c++)
         p->mu[c] = 0.3;
-    free(x);
-    free(col);
-    free(row);
+    rb_triplets_free(&K);
+    rb_triplets_free(&H);
 }
 
 /* Masses (one degree of freedom), bodies inverted densely and bodies for CHOLMOD. */
@@ -337,7 +332,8 @@ static void a_structure_held_by_friction_alone_is_solved(void **state)
 
     /* a motion that no contact sees: the message says so */
     rb_sparse_free(&p.H);
-    CHECK_STATUS(rb_sparse_from_triplets(N, M, 0, NULL, NULL, NULL, &p.H), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.rows = N, .cols = M}, &p.H),
+                 RB_OK);
     CHECK_STATUS(rb_friction_solve("nsn-ac", &p, NULL, r, u, v, &info), RB_SINGULAR);
     assert_non_null(strstr(info.msg.text, "no contact sees"));
     rb_friction_problem_free(&p);

@@ -289,8 +289,8 @@ static void a_rod_slides_or_sticks_as_a_whole(void **state)
 {
     (void)state;
     for (int slides = 0; slides < 2; slides++) {
-        const int at[] = {0, 1, 2, 3}, rod[] = {1, 3}, first[] = {0, 0};
-        const double one[] = {1.0, 1.0, 1.0, 1.0}, apart[] = {1.0, -1.0}, none[] = {0.0};
+        int at[] = {0, 1, 2, 3}, rod[] = {1, 3}, first[] = {0, 0};
+        double one[] = {1.0, 1.0, 1.0, 1.0}, apart[] = {1.0, -1.0}, none[] = {0.0};
         const double push = slides ? 3.0 : 0.8;
         rb_sparse G;
         rb_message why = {""};
@@ -303,9 +303,24 @@ static void a_rod_slides_or_sticks_as_a_whole(void **state)
                                  .mu = rb_alloc(2, 1),
                                  .f = rb_alloc(4, 1),
                                  .w = rb_alloc(4, 1)};
-        CHECK_STATUS(rb_sparse_from_triplets(4, 4, 4, at, at, one, &p.K), RB_OK);
-        CHECK_STATUS(rb_sparse_from_triplets(4, 4, 4, at, at, one, &p.H), RB_OK);
-        CHECK_STATUS(rb_sparse_from_triplets(4, 1, 2, rod, first, apart, &G), RB_OK);
+        CHECK_STATUS(
+            rb_sparse_from_triplets(
+                &(rb_triplets){
+                    .rows = 4, .cols = 4, .nz = 4, .row = at, .col = at, .x = one},
+                &p.K),
+            RB_OK);
+        CHECK_STATUS(
+            rb_sparse_from_triplets(
+                &(rb_triplets){
+                    .rows = 4, .cols = 4, .nz = 4, .row = at, .col = at, .x = one},
+                &p.H),
+            RB_OK);
+        CHECK_STATUS(
+            rb_sparse_from_triplets(
+                &(rb_triplets){
+                    .rows = 4, .cols = 1, .nz = 2, .row = rod, .col = first, .x = apart},
+                &G),
+            RB_OK);
         p.mu[0] = p.mu[1] = 0.5;
         p.f[0] = p.f[2] = -1.0, p.f[1] = push;
         CHECK_STATUS(rb_friction_eliminate(&p, &G, none, &why), RB_OK);
@@ -336,23 +351,40 @@ static void what_cannot_be_is_refused(void **state)
     rb_sparse G, bad = {0};
     rb_message why = {""};
     const double b[] = {1.0, 1.5, NAN};
-    const int row[] = {0, 3, 0, 3}, col[] = {0, 0, 1, 1};
-    const double x[] = {1.0, -1.0, 2.0, -2.0};
+    int row[] = {0, 3, 0, 3}, col[] = {0, 0, 1, 1};
+    double x[] = {1.0, -1.0, 2.0, -2.0};
     int all[DOFS];
     double ones[DOFS];
     make_structure(3, 0, &s);
     as_problem(&s, &p, &G);
-    CHECK_STATUS(rb_sparse_from_triplets(DOFS, 2, 4, row, col, x, &bad), RB_OK);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){
+                .rows = DOFS, .cols = 2, .nz = 4, .row = row, .col = col, .x = x},
+            &bad),
+        RB_OK);
     refused(rb_friction_eliminate(&p, &bad, b, &why), &why, "contradict");
     refused(rb_friction_eliminate(&p, &bad, b + 1, &why), &why, "b: entry 2 is");
     refused(rb_friction_eliminate_local(&p, &bad, &bad, b, &why), &why, "local form");
     rb_sparse_free(&bad);
-    CHECK_STATUS(rb_sparse_from_triplets(DOFS + 1, 2, 4, row, col, x, &bad), RB_OK);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){
+                .rows = DOFS + 1, .cols = 2, .nz = 4, .row = row, .col = col, .x = x},
+            &bad),
+        RB_OK);
     refused(rb_friction_eliminate(&p, &bad, b, &why), &why, "G is 15 x 2");
     rb_sparse_free(&bad);
     for (int i = 0; i < DOFS; i++)
         all[i] = i, ones[i] = 1.0;
-    CHECK_STATUS(rb_sparse_from_triplets(DOFS, DOFS, DOFS, all, all, ones, &bad), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.rows = DOFS,
+                                                        .cols = DOFS,
+                                                        .nz = DOFS,
+                                                        .row = all,
+                                                        .col = all,
+                                                        .x = ones},
+                                         &bad),
+                 RB_OK);
     refused(rb_friction_eliminate(&p, &bad, s.f, &why), &why, "no motion");
     rb_sparse_free(&bad);
     assert_int_equal(p.dofs, DOFS); /* the problem is what it was */

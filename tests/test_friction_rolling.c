@@ -77,8 +77,7 @@ static void as_file(const row_of_balls *s, double unit, rb_io_fclib *p)
 {
     const size_t n = (size_t)s->dofs, nc = (size_t)s->contacts;
     double *H = rb_alloc(n, (size_t)s->rows);
-    int at[DOFS];
-    double m[DOFS];
+    rb_triplets M = {.rows = s->dofs, .cols = s->dofs};
     *p = (rb_io_fclib){.global = 1,
                        .rolling = 1,
                        .spacedim = 5,
@@ -89,17 +88,17 @@ static void as_file(const row_of_balls *s, double unit, rb_io_fclib *p)
                        .mu_r = rb_alloc(nc, 1)};
     for (int i = 0; i < s->dofs; i++) {
         const int turns = i % 6 > 2;
-        at[i] = i;
-        m[i] = mass(i) * (turns ? unit * unit : 1.0);
-        p->f[i] = m[i] * s->v[i] * (turns ? 1.0 : unit);
+        const double m = mass(i) * (turns ? unit * unit : 1.0);
+        rb_triplets_add(&M, i, i, m);
+        p->f[i] = m * s->v[i] * (turns ? 1.0 : unit);
         for (int k = 0; k < s->rows; k++) /* slip: arms are lengths; turns: rates */
             H[i + k * s->dofs] =
                 s->H[i + k * s->dofs] * (turns && k % 5 < 3 ? unit : 1.0);
     }
     for (int c = 0; c < s->contacts; c++)
         p->mu[c] = s->mu, p->mu_r[c] = unit * s->mu_r;
-    CHECK_STATUS(rb_sparse_from_triplets(s->dofs, s->dofs, s->dofs, at, at, m, &p->M),
-                 RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(&M, &p->M), RB_OK);
+    rb_triplets_free(&M);
     CHECK_STATUS(rb_sparse_from_dense(s->dofs, s->rows, H, s->dofs, &p->H), RB_OK);
     free(H);
 }
@@ -235,8 +234,8 @@ static void constraints_go_with_rolling_friction(void **state)
 {
     (void)state;
     double r[6], u[6];
-    const int turns[] = {3, 4, 5}, each[] = {0, 1, 2};
-    const double one[] = {1.0, 1.0, 1.0};
+    int turns[] = {3, 4, 5}, each[] = {0, 1, 2};
+    double one[] = {1.0, 1.0, 1.0};
     row_of_balls s;
     rb_io_fclib file;
     rb_friction_problem p;
@@ -247,7 +246,12 @@ static void constraints_go_with_rolling_friction(void **state)
     as_file(&s, 1.0, &file);
     file.constraints = 3;
     file.b = rb_alloc(3, 1);
-    CHECK_STATUS(rb_sparse_from_triplets(6, 3, 3, turns, each, one, &file.G), RB_OK);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){
+                .rows = 6, .cols = 3, .nz = 3, .row = turns, .col = each, .x = one},
+            &file.G),
+        RB_OK);
     CHECK_STATUS(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &why), RB_OK);
     CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
     CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, r, u, NULL, NULL), RB_OK);

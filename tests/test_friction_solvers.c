@@ -92,8 +92,8 @@ static void every_solver_obeys_coulomb(void **state)
 /* A block on the ground that only friction holds: K = 0 on both of its motions. */
 static void a_loose_block(rb_friction_problem *p)
 {
-    const int at[] = {0, 1};
-    const double zero[] = {0.0, 0.0}, one[] = {1.0, 1.0};
+    int at[] = {0, 1};
+    double zero[] = {0.0, 0.0}, one[] = {1.0, 1.0};
     *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
                                .dimension = 2,
                                .contacts = 1,
@@ -101,8 +101,16 @@ static void a_loose_block(rb_friction_problem *p)
                                .mu = rb_alloc(1, 1),
                                .f = rb_alloc(2, 1),
                                .w = rb_alloc(2, 1)};
-    CHECK_STATUS(rb_sparse_from_triplets(2, 2, 2, at, at, zero, &p->K), RB_OK);
-    CHECK_STATUS(rb_sparse_from_triplets(2, 2, 2, at, at, one, &p->H), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(
+                     &(rb_triplets){
+                         .rows = 2, .cols = 2, .nz = 2, .row = at, .col = at, .x = zero},
+                     &p->K),
+                 RB_OK);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 2, .cols = 2, .nz = 2, .row = at, .col = at, .x = one},
+            &p->H),
+        RB_OK);
     p->mu[0] = 0.5, p->f[0] = -2.0, p->f[1] = 0.7;
 }
 

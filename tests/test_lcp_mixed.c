@@ -372,9 +372,8 @@ static void a_start_without_basis_begins_at_the_bounds(void **state)
 /* The obstacle problem on m x m points, M: minus the five-point Laplacian. */
 static void obstacle(int m, rb_sparse *M, double *q)
 {
-    rb_triplets t = {0};
+    rb_triplets t = {.rows = m * m, .cols = m * m};
     const double h = 1.0 / (m + 1);
-    CHECK_STATUS(rb_triplets_reserve(&t, 5 * (size_t)(m * m)), RB_OK);
     for (int k = 0; k < m * m; k++) {
         const int i = k % m, j = k / m;
         const int next[5] = {k, i > 0 ? k - 1 : -1, i + 1 < m ? k + 1 : -1,
@@ -383,15 +382,11 @@ static void obstacle(int m, rb_sparse *M, double *q)
         for (int s = 0; s < 5; s++) {
             if (next[s] < 0)
                 q[k] -= 0.02;
-            else {
-                t.row[t.nz] = k;
-                t.col[t.nz] = next[s];
-                t.x[t.nz++] = s ? -1.0 : 4.0;
-            }
+            else
+                rb_triplets_add(&t, k, next[s], s ? -1.0 : 4.0);
         }
     }
-    CHECK_STATUS(rb_sparse_from_triplets(m * m, m * m, t.nz, t.row, t.col, t.x, M),
-                 RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(&t, M), RB_OK);
     rb_triplets_free(&t);
 }
 
@@ -493,12 +488,16 @@ static void short_memory_is_reported(void **state)
 static void a_large_row_hides_no_wrong_one(void **state)
 {
     (void)state;
-    const int row[] = {0, 1, 0, 1}, col[] = {0, 0, 1, 1};
-    const double x[] = {-1.12e-4, 1e300, -1e-8, 1e154}, q[] = {-23.75, -24.5};
+    int row[] = {0, 1, 0, 1}, col[] = {0, 0, 1, 1};
+    double x[] = {-1.12e-4, 1e300, -1e-8, 1e154}, q[] = {-23.75, -24.5};
     double z[2];
     rb_sparse M;
     rb_lcp_info info;
-    CHECK_STATUS(rb_sparse_from_triplets(2, 2, 4, row, col, x, &M), RB_OK);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 2, .cols = 2, .nz = 4, .row = row, .col = col, .x = x},
+            &M),
+        RB_OK);
     assert_int_not_equal(
         rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, NULL, z, &info), RB_OK);
     rb_sparse_free(&M);

@@ -17,23 +17,22 @@ static void random_pair(int rows, int cols, double share, rb_sparse *a, double *
 {
     unsigned seed = 17u + (unsigned)(rows * cols);
     memset(dense, 0, (size_t)(rows * cols) * sizeof *dense);
-    int row[4000], col[4000], nz = 0;
-    double x[4000];
+    rb_triplets t = {.rows = rows, .cols = cols};
     for (int k = 0; k < rows * cols; k++) {
         if (next_random(&seed) + 0.5 > share)
             continue;
-        row[nz] = rows - 1 - k % rows, col[nz] = k / rows;
-        x[nz] = next_random(&seed);
-        dense[row[nz] + col[nz] * rows] += x[nz];
-        nz++;
+        const int i = rows - 1 - k % rows, j = k / rows;
+        const double x = next_random(&seed);
+        rb_triplets_add(&t, i, j, x);
+        dense[i + j * rows] += x;
     }
     /* the same places once more, in another order: they add up */
-    for (int k = nz - 1; k >= 0; k -= 3) {
-        row[nz] = row[k], col[nz] = col[k], x[nz] = 0.25;
-        dense[row[k] + col[k] * rows] += 0.25;
-        nz++;
+    for (int k = t.nz - 1; k >= 0; k -= 3) {
+        rb_triplets_add(&t, t.row[k], t.col[k], 0.25);
+        dense[t.row[k] + t.col[k] * rows] += 0.25;
     }
-    CHECK_STATUS(rb_sparse_from_triplets(rows, cols, nz, row, col, x, a), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(&t, a), RB_OK);
+    rb_triplets_free(&t);
 }
 
 static void products_agree_with_the_dense_matrix(void **state)
@@ -120,13 +119,26 @@ static void products_of_matrices_agree_with_dense_ones(void **state)
 static void places_outside_are_refused(void **state)
 {
     (void)state;
-    const int row[] = {0, 2}, col[] = {0, 1}, low[] = {0, -1};
-    const double x[] = {1.0, 2.0};
+    int row[] = {0, 2}, col[] = {0, 1}, low[] = {0, -1};
+    double x[] = {1.0, 2.0};
     rb_sparse a;
-    CHECK_STATUS(rb_sparse_from_triplets(2, 2, 2, row, col, x, &a), RB_EINVAL);
-    CHECK_STATUS(rb_sparse_from_triplets(3, 1, 2, row, col, x, &a), RB_EINVAL);
-    CHECK_STATUS(rb_sparse_from_triplets(3, 3, 2, row, low, x, &a), RB_EINVAL);
-    CHECK_STATUS(rb_sparse_from_triplets(-1, 3, 0, row, low, x, &a), RB_EINVAL);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 2, .cols = 2, .nz = 2, .row = row, .col = col, .x = x},
+            &a),
+        RB_EINVAL);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 3, .cols = 1, .nz = 2, .row = row, .col = col, .x = x},
+            &a),
+        RB_EINVAL);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){.rows = 3, .cols = 3, .nz = 2, .row = row, .col = low, .x = x},
+            &a),
+        RB_EINVAL);
+    CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.rows = -1, .cols = 3}, &a),
+                 RB_EINVAL);
     CHECK_STATUS(rb_sparse_from_dense(3, 1, x, 2, &a), RB_EINVAL);
     rb_sparse_free(&a);
     rb_sparse_free(NULL);
@@ -135,17 +147,16 @@ static void places_outside_are_refused(void **state)
 /* Second differences on n points; free ends when `held` is 0 (null vector: ones). */
 static void chain(int n, int held, rb_sparse *k)
 {
-    int row[600], col[600], nz = 0;
-    double x[600];
+    rb_triplets t = {.rows = n, .cols = n};
     for (int i = 0; i < n; i++) {
-        row[nz] = col[nz] = i;
-        x[nz++] = (i > 0) + (i < n - 1) + held * (i == 0);
+        rb_triplets_add(&t, i, i, (i > 0) + (i < n - 1) + held * (i == 0));
         if (i + 1 < n) {
-            row[nz] = i, col[nz] = i + 1, x[nz++] = -1.0;
-            row[nz] = i + 1, col[nz] = i, x[nz++] = -1.0;
+            rb_triplets_add(&t, i, i + 1, -1.0);
+            rb_triplets_add(&t, i + 1, i, -1.0);
         }
     }
-    CHECK_STATUS(rb_sparse_from_triplets(n, n, nz, row, col, x, k), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(&t, k), RB_OK);
+    rb_triplets_free(&t);
 }
 
 static void ranks_are_seen(void **state)
@@ -251,17 +262,15 @@ static void a_sparse_congruence_takes_little_memory(void **state)
     unsigned long pages = 0;
     rb_sparse one, w;
     rb_sparse_cholesky *f;
-    int place[N];
-    double value[N];
+    rb_triplets t = {.rows = N, .cols = N};
     FILE *statm = fopen("/proc/self/statm", "r");
     assert_non_null(statm);
     assert_int_equal(fscanf(statm, "%lu", &pages), 1);
     fclose(statm);
-    for (int i = 0; i < N; i++) {
-        place[i] = i;
-        value[i] = 1.0;
-    }
-    CHECK_STATUS(rb_sparse_from_triplets(N, N, N, place, place, value, &one), RB_OK);
+    for (int i = 0; i < N; i++)
+        rb_triplets_add(&t, i, i, 1.0);
+    CHECK_STATUS(rb_sparse_from_triplets(&t, &one), RB_OK);
+    rb_triplets_free(&t);
     CHECK_STATUS(rb_sparse_cholesky_create(&one, &f), RB_OK);
     getrlimit(RLIMIT_AS, &before);
     tight = before;
@@ -280,12 +289,14 @@ static void a_sparse_congruence_takes_little_memory(void **state)
 
 static rb_status build_and_factor(void)
 {
-    const int row[] = {0, 1, 1}, col[] = {0, 0, 1};
-    const double v[] = {2.0, 1.0, 3.0}, dense[] = {1.0, 0.0, 0.0, 1.0};
+    int row[] = {0, 1, 1}, col[] = {0, 0, 1};
+    double v[] = {2.0, 1.0, 3.0}, dense[] = {1.0, 0.0, 0.0, 1.0};
     rb_sparse a = {0}, b = {0}, t = {0}, d = {0}, w = {0};
     rb_sparse_lu *lu = NULL;
     rb_sparse_cholesky *f = NULL;
-    rb_status s = rb_sparse_from_triplets(2, 2, 3, row, col, v, &a);
+    rb_status s = rb_sparse_from_triplets(
+        &(rb_triplets){.rows = 2, .cols = 2, .nz = 3, .row = row, .col = col, .x = v},
+        &a);
     if (s == RB_OK)
         s = rb_sparse_copy(&a, &b);
     if (s == RB_OK)

@@ -81,17 +81,15 @@ rb_status rb_io_read_columns(const char *path, int columns, int *rows, double **
 
 /* ---- Matrices ---------------------------------------------------------------------- */
 
-/* As a file has it: dense, or nz triplets (entries at the same place are added). */
+/* As a file has it: dense, or in coordinate form. */
 typedef struct {
     int rows, cols;
-    double *dense; /* rows x cols column-major, or NULL; owned, as all arrays here */
-    int nz;
-    int *row, *col; /* nz each, from 0 */
-    double *x;
+    double *dense; /* rows x cols column-major, or NULL; owned */
+    rb_triplets entries;
 } rb_io_matrix;
 
 void rb_io_matrix_free(rb_io_matrix *m);
-/* Afterwards m->dense is there and the triplets are gone.  RB_ENOMEM. */
+/* Afterwards m->dense is there and the entries are gone.  RB_ENOMEM. */
 rb_status rb_io_matrix_to_dense(rb_io_matrix *m);
 /* A copy in compressed columns; zeros of a dense matrix are left out.  RB_ENOMEM. */
 rb_status rb_io_matrix_to_sparse(const rb_io_matrix *m, rb_sparse *a);

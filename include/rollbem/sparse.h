@@ -14,25 +14,30 @@ typedef struct {
     double *x; /* p[cols] values; owned */
 } rb_sparse;
 
-/* From nz triplets (entries at the same place are added).  RB_EINVAL: an index out of
- * range; RB_ENOMEM. */
-rb_status rb_sparse_from_triplets(int rows, int cols, int nz, const int *row,
-                                  const int *col, const double *x, rb_sparse *a);
-/* From a column-major dense matrix, lda >= rows; exact zeros are left out. */
-rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda,
-                               rb_sparse *a);
-/* Triplets in the making: make room for some more before appending them.  Zeroed: none.
- */
+/* A matrix in coordinate form, whose entries come in any order; those at the same place
+ * are added.  Start with {.rows = m, .cols = n}. */
 typedef struct {
+    int rows, cols;
     int nz, room;
-    int *row, *col; /* room; owned */
-    double *x;      /* room; owned */
+    int *row, *col;   /* room; owned */
+    double *x;        /* room; owned */
+    rb_status status; /* RB_ENOMEM once there was no memory for an entry, or there were
+                         more than INT_MAX of them, which an rb_sparse cannot hold */
 } rb_triplets;
 
-/* RB_ENOMEM, also for more than INT_MAX triplets, which an rb_sparse cannot hold. */
+void rb_triplets_add(rb_triplets *t, int row, int col, double x);
+/* factor A, whose size is that of t or less. */
+void rb_triplets_add_matrix(rb_triplets *t, double factor, const rb_sparse *a);
+/* Room for some more at once; rb_triplets_add makes room for its own entry.  Returns
+ * t->status. */
 rb_status rb_triplets_reserve(rb_triplets *t, size_t more);
 void rb_triplets_free(rb_triplets *t);
 
+/* t stays.  RB_EINVAL: an index out of range; RB_ENOMEM. */
+rb_status rb_sparse_from_triplets(const rb_triplets *t, rb_sparse *a);
+/* From a column-major dense matrix, lda >= rows; exact zeros are left out. */
+rb_status rb_sparse_from_dense(int rows, int cols, const double *dense, int lda,
+                               rb_sparse *a);
 rb_status rb_sparse_copy(const rb_sparse *a, rb_sparse *b);
 rb_status rb_sparse_transpose(const rb_sparse *a, rb_sparse *t);
 void rb_sparse_free(rb_sparse *a);

@@ -319,32 +319,19 @@ static rb_status congruence_panel(rb_sparse_cholesky *f, const rb_sparse *h, int
     return RB_OK;
 }
 
-static void append(rb_triplets *t, int row, int col, double x)
-{
-    t->row[t->nz] = row;
-    t->col[t->nz] = col;
-    t->x[t->nz++] = x;
-}
-
 /* The lower triangle of a panel, with its mirror image, column by column. */
-static rb_status append_panel(int rows, int from, int n, const double *w, rb_triplets *t)
+static void append_panel(int from, int n, const double *w, rb_triplets *t)
 {
     for (int j = 0; j < n; j++) {
-        const double *column = w + (size_t)j * (size_t)rows;
-        size_t entries = 0;
-        for (int i = from + j; i < rows; i++)
-            entries += column[i] != 0.0;
-        if (rb_triplets_reserve(t, 2 * entries) != RB_OK)
-            return RB_ENOMEM;
-        for (int i = from + j; i < rows; i++) {
+        const double *column = w + (size_t)j * (size_t)t->rows;
+        for (int i = from + j; i < t->rows; i++) {
             if (column[i] == 0.0)
                 continue;
-            append(t, i, from + j, column[i]);
+            rb_triplets_add(t, i, from + j, column[i]);
             if (i != from + j)
-                append(t, from + j, i, column[i]);
+                rb_triplets_add(t, from + j, i, column[i]);
         }
     }
-    return RB_OK;
 }
 
 rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_sparse *h,
@@ -353,16 +340,16 @@ rb_status rb_sparse_cholesky_congruence(rb_sparse_cholesky *factor, const rb_spa
     *w = (rb_sparse){0};
     const size_t m = (size_t)h->cols;
     double *rhs = rb_alloc((size_t)h->rows, PANEL), *panel = rb_alloc(m, PANEL);
-    rb_triplets t = {0};
+    rb_triplets t = {.rows = h->cols, .cols = h->cols};
     rb_status s = rhs && panel ? RB_OK : RB_ENOMEM;
     for (int j = 0; s == RB_OK && j < h->cols; j += PANEL) {
         const int n = h->cols - j < PANEL ? h->cols - j : PANEL;
         s = congruence_panel(factor, h, j, n, rhs, panel);
         if (s == RB_OK)
-            s = append_panel(h->cols, j, n, panel, &t);
+            append_panel(j, n, panel, &t);
     }
     if (s == RB_OK)
-        s = rb_sparse_from_triplets(h->cols, h->cols, t.nz, t.row, t.col, t.x, w);
+        s = rb_sparse_from_triplets(&t, w);
     rb_triplets_free(&t);
     free(panel);
     free(rhs);

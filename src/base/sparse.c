@@ -34,16 +34,16 @@ static void running_sum(int n, int *counts)
         counts[k + 1] += counts[k];
 }
 
-static rb_status sorted_by_row(int rows, int nz, const int *row, int *order)
+static rb_status sorted_by_row(const rb_triplets *t, int *order)
 {
-    int *start = rb_alloc_int((size_t)rows + 1);
+    int *start = rb_alloc_int((size_t)t->rows + 1);
     if (!start)
         return RB_ENOMEM;
-    for (int k = 0; k < nz; k++)
-        start[row[k] + 1]++;
-    running_sum(rows, start);
-    for (int k = 0; k < nz; k++)
-        order[start[row[k]]++] = k;
+    for (int k = 0; k < t->nz; k++)
+        start[t->row[k] + 1]++;
+    running_sum(t->rows, start);
+    for (int k = 0; k < t->nz; k++)
+        order[start[t->row[k]]++] = k;
     free(start);
     return RB_OK;
 }
@@ -67,59 +67,61 @@ static void add_equal_places(rb_sparse *a)
     }
 }
 
-static rb_status place_entries(int nz, const int *order, const int *row, const int *col,
-                               const double *x, rb_sparse *a)
+static rb_status place_entries(const rb_triplets *t, const int *order, rb_sparse *a)
 {
     int *next = rb_alloc_int((size_t)a->cols);
 
     if (!next)
         return RB_ENOMEM;
-    for (int k = 0; k < nz; k++)
-        a->p[col[k] + 1]++;
+    for (int k = 0; k < t->nz; k++)
+        a->p[t->col[k] + 1]++;
     running_sum(a->cols, a->p);
     memcpy(next, a->p, (size_t)a->cols * sizeof *next);
-    for (int k = 0; k < nz; k++) {
-        const int from = order[k], to = next[col[from]]++;
-        a->i[to] = row[from];
-        a->x[to] = x[from];
+    for (int k = 0; k < t->nz; k++) {
+        const int from = order[k], to = next[t->col[from]]++;
+        a->i[to] = t->row[from];
+        a->x[to] = t->x[from];
     }
     free(next);
     add_equal_places(a);
     return RB_OK;
 }
 
-rb_status rb_sparse_from_triplets(int rows, int cols, int nz, const int *row,
-                                  const int *col, const double *x, rb_sparse *a)
+rb_status rb_sparse_from_triplets(const rb_triplets *t, rb_sparse *a)
 {
     *a = (rb_sparse){0};
-    if (rows < 0 || cols < 0 || nz < 0)
+    if (t->status != RB_OK)
+        return t->status;
+    if (t->rows < 0 || t->cols < 0)
         return RB_EINVAL;
-    for (int k = 0; k < nz; k++)
-        if (row[k] < 0 || row[k] >= rows || col[k] < 0 || col[k] >= cols)
+    for (int k = 0; k < t->nz; k++)
+        if (t->row[k] < 0 || t->row[k] >= t->rows || t->col[k] < 0 ||
+            t->col[k] >= t->cols)
             return RB_EINVAL;
 
-    rb_status s = sparse_alloc(rows, cols, nz, a);
-    int *order = rb_alloc_int((size_t)nz);
+    rb_status s = sparse_alloc(t->rows, t->cols, t->nz, a);
+    int *order = rb_alloc_int((size_t)t->nz);
     if (s == RB_OK && !order)
         s = RB_ENOMEM;
     if (s == RB_OK)
-        s = sorted_by_row(rows, nz, row, order);
+        s = sorted_by_row(t, order);
     if (s == RB_OK)
-        s = place_entries(nz, order, row, col, x, a);
+        s = place_entries(t, order, a);
     if (s != RB_OK)
         rb_sparse_free(a);
     free(order);
     return s;
 }
 
+/* The status is set for good when there is no room: entries would be missing. */
 rb_status rb_triplets_reserve(rb_triplets *t, size_t more)
 {
-    const size_t wanted = (size_t)t->nz + more;
-    if (wanted <= (size_t)t->room)
-        return RB_OK;
+    const size_t wanted = (size_t)t->nz + more, twice = 2 * (size_t)t->room;
+    if (t->status != RB_OK || wanted <= (size_t)t->room)
+        return t->status;
     if (wanted > INT_MAX)
-        return RB_ENOMEM;
-    const size_t room = wanted <= INT_MAX / 2 ? 2 * wanted : INT_MAX;
+        return t->status = RB_ENOMEM;
+    const size_t room = wanted > twice ? wanted : twice < INT_MAX ? twice : INT_MAX;
     int *row = realloc(t->row, room * sizeof *row);
     if (row)
         t->row = row;
@@ -130,9 +132,26 @@ rb_status rb_triplets_reserve(rb_triplets *t, size_t more)
     if (x)
         t->x = x;
     if (!row || !col || !x)
-        return RB_ENOMEM;
+        return t->status = RB_ENOMEM;
     t->room = (int)room;
     return RB_OK;
+}
+
+void rb_triplets_add(rb_triplets *t, int row, int col, double x)
+{
+    if (t->nz == t->room && rb_triplets_reserve(t, t->nz ? 1 : 16) != RB_OK)
+        return;
+    t->row[t->nz] = row;
+    t->col[t->nz] = col;
+    t->x[t->nz++] = x;
+}
+
+void rb_triplets_add_matrix(rb_triplets *t, double factor, const rb_sparse *a)
+{
+    rb_triplets_reserve(t, (size_t)a->p[a->cols]);
+    for (int j = 0; j < a->cols; j++)
+        for (int k = a->p[j]; k < a->p[j + 1]; k++)
+            rb_triplets_add(t, a->i[k], j, factor * a->x[k]);
 }
 
 void rb_triplets_free(rb_triplets *t)
@@ -193,22 +212,19 @@ rb_status rb_sparse_multiply(const rb_sparse *a, const rb_sparse *b, rb_sparse *
     *c = (rb_sparse){0};
     if (a->cols != b->rows)
         return RB_EINVAL;
-    rb_triplets t = {0};
+    rb_triplets t = {.rows = a->rows, .cols = b->cols};
     double *sum = rb_alloc((size_t)a->rows, 1);
     int *seen = rb_alloc_int(2 * (size_t)a->rows);
     rb_status s = sum && seen ? RB_OK : RB_ENOMEM;
     for (int j = 0; s == RB_OK && j < b->cols; j++) {
         int *touched = seen + a->rows;
         const int count = multiply_column(a, b, j, sum, seen, touched);
-        s = rb_triplets_reserve(&t, (size_t)count);
-        for (int k = 0; s == RB_OK && k < count; k++, t.nz++) {
-            t.row[t.nz] = touched[k];
-            t.col[t.nz] = j;
-            t.x[t.nz] = sum[touched[k]];
-        }
+        for (int k = 0; k < count; k++)
+            rb_triplets_add(&t, touched[k], j, sum[touched[k]]);
+        s = t.status;
     }
     if (s == RB_OK)
-        s = rb_sparse_from_triplets(a->rows, b->cols, t.nz, t.row, t.col, t.x, c);
+        s = rb_sparse_from_triplets(&t, c);
     rb_triplets_free(&t);
     free(seen);
     free(sum);

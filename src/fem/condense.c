@@ -28,54 +28,33 @@ static void sort_unknowns(const rb_fem_structure *s, rb_fem_condensation *c)
 static rb_status block(const rb_fem_condensation *c, const rb_sparse *a, int row_c,
                        int col_c, rb_sparse *b)
 {
-    const size_t most = (size_t)a->p[a->cols];
     const int nc = c->condensed.dofs;
-    int *row = rb_alloc_int(most), *col = rb_alloc_int(most), nz = 0;
-    double *x = rb_alloc(most, 1);
-    rb_status s = row && col && x ? RB_OK : RB_ENOMEM;
-    for (int j = 0; s == RB_OK && j < a->cols; j++) {
+    rb_triplets t = {.rows = row_c ? nc : c->nf,
+                     .cols = col_c == 2 ? a->cols : (col_c ? nc : c->nf)};
+    for (int j = 0; j < a->cols; j++) {
         const int pj = col_c == 2 ? j : c->place[j];
         if (col_c != 2 && (pj >= 0) != col_c)
             continue;
         for (int k = a->p[j]; k < a->p[j + 1]; k++) {
             const int pi = c->place[a->i[k]];
-            if ((pi >= 0) != row_c)
-                continue;
-            row[nz] = pi >= 0 ? pi : -1 - pi;
-            col[nz] = pj >= 0 ? pj : -1 - pj;
-            x[nz++] = a->x[k];
+            if ((pi >= 0) == row_c)
+                rb_triplets_add(&t, pi >= 0 ? pi : -1 - pi, pj >= 0 ? pj : -1 - pj,
+                                a->x[k]);
         }
     }
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(row_c ? nc : c->nf,
-                                    col_c == 2 ? a->cols : (col_c ? nc : c->nf), nz, row,
-                                    col, x, b);
-    free(row);
-    free(col);
-    free(x);
+    const rb_status s = rb_sparse_from_triplets(&t, b);
+    rb_triplets_free(&t);
     return s;
 }
 
 /* a - b, same size. */
 static rb_status subtract(const rb_sparse *a, const rb_sparse *b, rb_sparse *difference)
 {
-    const rb_sparse *term[2] = {a, b};
-    const size_t most = (size_t)a->p[a->cols] + (size_t)b->p[b->cols];
-    int *row = rb_alloc_int(most), *col = rb_alloc_int(most), nz = 0;
-    double *x = rb_alloc(most, 1);
-    rb_status s = row && col && x ? RB_OK : RB_ENOMEM;
-    for (int t = 0; s == RB_OK && t < 2; t++)
-        for (int j = 0; j < term[t]->cols; j++)
-            for (int k = term[t]->p[j]; k < term[t]->p[j + 1]; k++) {
-                row[nz] = term[t]->i[k];
-                col[nz] = j;
-                x[nz++] = t == 0 ? term[t]->x[k] : -term[t]->x[k];
-            }
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(a->rows, a->cols, nz, row, col, x, difference);
-    free(row);
-    free(col);
-    free(x);
+    rb_triplets t = {.rows = a->rows, .cols = a->cols};
+    rb_triplets_add_matrix(&t, 1.0, a);
+    rb_triplets_add_matrix(&t, -1.0, b);
+    const rb_status s = rb_sparse_from_triplets(&t, difference);
+    rb_triplets_free(&t);
     return s;
 }
 

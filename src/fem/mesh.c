@@ -52,15 +52,12 @@ void rb_fem_mesh_number(rb_fem_mesh *mesh)
 
 typedef rb_status element_matrix(const double *x, const rb_fem_material *m, double *A);
 
-/* Triplets of all elements; *nz of them. */
-static rb_status gather(const rb_fem_mesh *mesh, const rb_fem_material *material,
-                        element_matrix *matrix, int *row, int *col, double *value,
-                        int *nz, rb_message *why)
+static rb_status add_elements(const rb_fem_mesh *mesh, const rb_fem_material *material,
+                              element_matrix *matrix, rb_triplets *t, rb_message *why)
 {
     const int d = mesh->dimension, n = d * mesh->element_nodes;
     double x[24], A[576];
     int dof[24];
-    *nz = 0;
     for (int e = 0; e < mesh->elements; e++) {
         for (int k = 0; k < n; k++) {
             const int at = d * mesh->node[mesh->element_nodes * e + k / d] + k % d;
@@ -69,13 +66,9 @@ static rb_status gather(const rb_fem_mesh *mesh, const rb_fem_material *material
         }
         if (matrix(x, material, A) != RB_OK)
             return rb_fail(why, RB_EINVAL, "element %d is degenerate or turned over", e);
-        for (int k = 0; k < n * n; k++) {
-            if (dof[k % n] < 0 || dof[k / n] < 0)
-                continue;
-            row[*nz] = dof[k % n];
-            col[*nz] = dof[k / n];
-            value[(*nz)++] = A[k];
-        }
+        for (int k = 0; k < n * n; k++)
+            if (dof[k % n] >= 0 && dof[k / n] >= 0)
+                rb_triplets_add(t, dof[k % n], dof[k / n], A[k]);
     }
     return RB_OK;
 }
@@ -95,21 +88,13 @@ static rb_status check_mesh(const rb_fem_mesh *mesh, rb_message *why)
 static rb_status assemble(const rb_fem_mesh *mesh, const rb_fem_material *material,
                           element_matrix *matrix, rb_sparse *A, rb_message *why)
 {
-    const int n = mesh->dimension * mesh->element_nodes;
-    const size_t most = (size_t)mesh->elements * (size_t)(n * n);
+    rb_triplets t = {.rows = mesh->dofs, .cols = mesh->dofs};
     rb_status s = check_mesh(mesh, why);
-    if (s != RB_OK)
-        return s;
-    int *row = rb_alloc_int(most), *col = rb_alloc_int(most), nz = 0;
-    double *value = rb_alloc(most, 1);
-    s = row && col && value ? RB_OK : RB_ENOMEM;
     if (s == RB_OK)
-        s = gather(mesh, material, matrix, row, col, value, &nz, why);
+        s = add_elements(mesh, material, matrix, &t, why);
     if (s == RB_OK)
-        s = rb_sparse_from_triplets(mesh->dofs, mesh->dofs, nz, row, col, value, A);
-    free(row);
-    free(col);
-    free(value);
+        s = rb_sparse_from_triplets(&t, A);
+    rb_triplets_free(&t);
     return s;
 }
 

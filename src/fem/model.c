@@ -14,22 +14,14 @@ static rb_status contact_map(const rb_fem_mesh *mesh, int contacts, const int *n
                              rb_sparse *H)
 {
     const int d = mesh->dimension, m = d * contacts;
-    int *row = rb_alloc_int((size_t)m), *col = rb_alloc_int((size_t)m), nz = 0;
-    double *one = rb_alloc((size_t)m, 1);
-    rb_status s = row && col && one ? RB_OK : RB_ENOMEM;
-    for (int k = 0; s == RB_OK && k < m; k++) {
+    rb_triplets t = {.rows = mesh->dofs, .cols = m};
+    for (int k = 0; k < m; k++) {
         const int dof = mesh->dof[d * node[k / d] + axis_of(d, k % d)];
-        if (dof < 0)
-            continue;
-        row[nz] = dof;
-        col[nz] = k;
-        one[nz++] = 1.0;
+        if (dof >= 0)
+            rb_triplets_add(&t, dof, k, 1.0);
     }
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(mesh->dofs, m, nz, row, col, one, H);
-    free(row);
-    free(col);
-    free(one);
+    const rb_status s = rb_sparse_from_triplets(&t, H);
+    rb_triplets_free(&t);
     return s;
 }
 

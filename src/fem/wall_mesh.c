@@ -180,44 +180,31 @@ static int interpolate(const wall_block *b, const double *p, int node[8],
 }
 
 /* The entries of one contact's three columns of H. */
-static int contact_entries(const wall_layout *layout, const rb_fem_mesh *mesh, int column,
-                           const wall_contact *c, int *row, int *col, double *value)
+static void contact_entries(const wall_layout *layout, const rb_fem_mesh *mesh,
+                            int column, const wall_contact *c, rb_triplets *t)
 {
-    int node[9] = {c->node}, n = 1, nz = 0;
+    int node[9] = {c->node}, n = 1;
     double weight[9] = {-1.0};
     if (c->other >= 0 && c->other < BLOCKS)
         n += interpolate(&layout->block[c->other], mesh->x + 3 * c->node, node + 1,
                          weight + 1);
     for (int k = 0; k < 3; k++) {
         const double sign = k == 0 ? c->sign : 1.0;
-        for (int a = 0; a < n; a++) {
-            row[nz] = mesh->dof[3 * node[a] + wall_axis(c, k)];
-            col[nz] = column + k;
-            value[nz++] = -sign * weight[a];
-        }
+        for (int a = 0; a < n; a++)
+            rb_triplets_add(t, mesh->dof[3 * node[a] + wall_axis(c, k)], column + k,
+                            -sign * weight[a]);
     }
-    if (c->other == UPPER_SUPPORT) {
-        row[nz] = mesh->dofs;
-        col[nz] = column;
-        value[nz++] = -c->sign;
-    }
-    return nz;
+    if (c->other == UPPER_SUPPORT)
+        rb_triplets_add(t, mesh->dofs, column, -c->sign);
 }
 
 rb_status wall_contact_map(const wall_layout *layout, const rb_fem_mesh *mesh,
                            int contacts, const wall_contact *contact, rb_sparse *H)
 {
-    const size_t most = 27 * (size_t)contacts;
-    int *row = rb_alloc_int(most), *col = rb_alloc_int(most), nz = 0;
-    double *value = rb_alloc(most, 1);
-    rb_status s = row && col && value ? RB_OK : RB_ENOMEM;
-    for (int i = 0; s == RB_OK && i < contacts; i++)
-        nz += contact_entries(layout, mesh, 3 * i, contact + i, row + nz, col + nz,
-                              value + nz);
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(mesh->dofs + 1, 3 * contacts, nz, row, col, value, H);
-    free(row);
-    free(col);
-    free(value);
+    rb_triplets t = {.rows = mesh->dofs + 1, .cols = 3 * contacts};
+    for (int i = 0; i < contacts; i++)
+        contact_entries(layout, mesh, 3 * i, contact + i, &t);
+    const rb_status s = rb_sparse_from_triplets(&t, H);
+    rb_triplets_free(&t);
     return s;
 }

@@ -81,54 +81,24 @@ rb_status wall_elastic_system(const wall_layout *layout, const rb_fem_mesh *mesh
 
 /* ---- Rigid blocks ------------------------------------------------------------------ */
 
-typedef struct {
-    int *row, *col, n;
-    double *value;
-} triplets;
-
-static rb_status triplets_alloc(size_t most, triplets *t)
-{
-    *t = (triplets){rb_alloc_int(most), rb_alloc_int(most), 0, rb_alloc(most, 1)};
-    return t->row && t->col && t->value ? RB_OK : RB_ENOMEM;
-}
-
-static void triplets_add(triplets *t, int row, int col, double value)
-{
-    t->row[t->n] = row;
-    t->col[t->n] = col;
-    t->value[t->n++] = value;
-}
-
-static rb_status triplets_finish(triplets *t, rb_status s, int rows, int cols,
-                                 rb_sparse *a)
-{
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(rows, cols, t->n, t->row, t->col, t->value, a);
-    free(t->row);
-    free(t->col);
-    free(t->value);
-    return s;
-}
-
 /* Velocities of a node at arm from the block's centre under the block's six freedoms. */
 static void add_rigid_rows(const rb_fem_mesh *mesh, int node, int block,
-                           const double *centre, triplets *t)
+                           const double *centre, rb_triplets *t)
 {
     for (int c = 0; c < 3; c++) {
         const int row = mesh->dof[3 * node + c], d = (c + 1) % 3, e = (c + 2) % 3;
-        triplets_add(t, row, 6 * block + c, 1.0);
+        rb_triplets_add(t, row, 6 * block + c, 1.0);
         /* (omega x arm)_c = omega_d arm_e - omega_e arm_d */
-        triplets_add(t, row, 6 * block + 3 + d, mesh->x[3 * node + e] - centre[e]);
-        triplets_add(t, row, 6 * block + 3 + e, centre[d] - mesh->x[3 * node + d]);
+        rb_triplets_add(t, row, 6 * block + 3 + d, mesh->x[3 * node + e] - centre[e]);
+        rb_triplets_add(t, row, 6 * block + 3 + e, centre[d] - mesh->x[3 * node + d]);
     }
 }
 
 static rb_status rigid_motions(const wall_layout *layout, const rb_fem_mesh *mesh,
                                rb_sparse *R)
 {
-    triplets t;
-    rb_status s = triplets_alloc(9 * (size_t)mesh->nodes + 1, &t);
-    for (int b = 0; s == RB_OK && b < BLOCKS; b++) {
+    rb_triplets t = {.rows = mesh->dofs + 1, .cols = 6 * BLOCKS + 1};
+    for (int b = 0; b < BLOCKS; b++) {
         const wall_block *block = &layout->block[b];
         double centre[3];
         for (int c = 0; c < 3; c++)
@@ -136,23 +106,10 @@ static rb_status rigid_motions(const wall_layout *layout, const rb_fem_mesh *mes
         for (int a = 0; a < block->n[0] * block->n[1] * block->n[2]; a++)
             add_rigid_rows(mesh, block->first + a, b, centre, &t);
     }
-    if (s == RB_OK)
-        triplets_add(&t, mesh->dofs, 6 * BLOCKS, 1.0);
-    return triplets_finish(&t, s, mesh->dofs + 1, 6 * BLOCKS + 1, R);
-}
-
-static rb_status multiply(const rb_sparse *a, const rb_sparse *b, rb_sparse *product)
-{
-    size_t most = 0;
-    for (int k = 0; k < b->p[b->cols]; k++)
-        most += (size_t)(a->p[b->i[k] + 1] - a->p[b->i[k]]);
-    triplets t;
-    const rb_status s = triplets_alloc(most, &t);
-    for (int j = 0; s == RB_OK && j < b->cols; j++)
-        for (int k = b->p[j]; k < b->p[j + 1]; k++)
-            for (int l = a->p[b->i[k]]; l < a->p[b->i[k] + 1]; l++)
-                triplets_add(&t, a->i[l], j, a->x[l] * b->x[k]);
-    return triplets_finish(&t, s, a->rows, b->cols, product);
+    rb_triplets_add(&t, mesh->dofs, 6 * BLOCKS, 1.0);
+    const rb_status s = rb_sparse_from_triplets(&t, R);
+    rb_triplets_free(&t);
+    return s;
 }
 
 rb_status wall_rigid_system(const wall_layout *layout, const rb_fem_mesh *mesh,
@@ -161,17 +118,18 @@ rb_status wall_rigid_system(const wall_layout *layout, const rb_fem_mesh *mesh,
     rb_sparse Rt = {0}, MR = {0};
     memset(s, 0, sizeof *s);
     s->dofs = 6 * BLOCKS + 1;
+    const rb_triplets none = {.rows = s->dofs, .cols = s->dofs};
     rb_status status = rigid_motions(layout, mesh, R);
     if (status == RB_OK)
         status = rb_sparse_transpose(R, &Rt);
     if (status == RB_OK)
-        status = multiply(&elastic->M, R, &MR);
+        status = rb_sparse_multiply(&elastic->M, R, &MR);
     if (status == RB_OK)
-        status = multiply(&Rt, &MR, &s->M);
+        status = rb_sparse_multiply(&Rt, &MR, &s->M);
     if (status == RB_OK)
-        status = multiply(&Rt, &elastic->H, &s->H);
+        status = rb_sparse_multiply(&Rt, &elastic->H, &s->H);
     if (status == RB_OK)
-        status = rb_sparse_from_triplets(s->dofs, s->dofs, 0, NULL, NULL, NULL, &s->K);
+        status = rb_sparse_from_triplets(&none, &s->K);
     s->weight = rb_alloc((size_t)s->dofs, 1);
     s->press = rb_alloc((size_t)s->dofs, 1);
     if (!s->weight || !s->press)

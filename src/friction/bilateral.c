@@ -153,37 +153,29 @@ static int list_touched(const rb_sparse *G, int *touched, int *number)
 /* Every motion that is not solved for is one of y. */
 static rb_status form_motions(const equations *e, const int *touched, int n, motions *m)
 {
-    rb_triplets t = {0};
+    rb_triplets t = {.cols = n};
     int *place = rb_alloc_int((size_t)n);
-    rb_status s = place ? RB_OK : RB_ENOMEM;
     m->v0 = rb_alloc((size_t)n, 1);
-    if (s == RB_OK)
-        s = m->v0 ? rb_triplets_reserve(&t,
-                                        (size_t)n + (size_t)e->rank * (size_t)e->unknowns)
-                  : RB_ENOMEM;
+    rb_status s = place && m->v0 ? RB_OK : RB_ENOMEM;
     if (s == RB_OK) {
         for (int k = 0; k < e->rank; k++)
             place[touched[e->at[k]]] = -1;
         for (int i = 0; i < n; i++) {
             if (place[i] < 0)
                 continue;
-            t.row[t.nz] = place[i] = m->kept++;
-            t.col[t.nz] = i;
-            t.x[t.nz++] = 1.0;
+            place[i] = m->kept++;
+            rb_triplets_add(&t, place[i], i, 1.0);
         }
         for (int k = 0; k < e->rank; k++) {
             const double *a = row_of(e, k);
             const int i = touched[e->at[k]];
             m->v0[i] = -a[e->unknowns];
-            for (int j = 0; j < e->unknowns; j++) {
-                if (a[j] == 0.0 || j == e->at[k])
-                    continue;
-                t.row[t.nz] = place[touched[j]];
-                t.col[t.nz] = i;
-                t.x[t.nz++] = -a[j];
-            }
+            for (int j = 0; j < e->unknowns; j++)
+                if (a[j] != 0.0 && j != e->at[k])
+                    rb_triplets_add(&t, place[touched[j]], i, -a[j]);
         }
-        s = rb_sparse_from_triplets(m->kept, n, t.nz, t.row, t.col, t.x, &m->rows);
+        t.rows = m->kept;
+        s = rb_sparse_from_triplets(&t, &m->rows);
     }
     rb_triplets_free(&t);
     free(place);
@@ -309,34 +301,15 @@ static void load_local(const rb_sparse *V, const rb_sparse *R, const double *s,
 /* -L, of which row at[k] is the r part of row k: l = l0 - L r. */
 static rb_status form_forces(const equations *e, int m, rb_sparse *minus_L)
 {
-    rb_triplets t = {0};
-    rb_status s = RB_OK;
-    for (int k = 0; s == RB_OK && k < e->rank; k++) {
+    rb_triplets t = {.rows = e->rows, .cols = m};
+    for (int k = 0; k < e->rank; k++) {
         const double *row = row_of(e, k) + e->unknowns;
-        s = rb_triplets_reserve(&t, (size_t)m);
-        for (int j = 0; s == RB_OK && j < m; j++) {
-            if (row[j] == 0.0)
-                continue;
-            t.row[t.nz] = e->at[k];
-            t.col[t.nz] = j;
-            t.x[t.nz++] = -row[j];
-        }
+        for (int j = 0; j < m; j++)
+            if (row[j] != 0.0)
+                rb_triplets_add(&t, e->at[k], j, -row[j]);
     }
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(e->rows, m, t.nz, t.row, t.col, t.x, minus_L);
+    const rb_status s = rb_sparse_from_triplets(&t, minus_L);
     rb_triplets_free(&t);
-    return s;
-}
-
-static rb_status append(const rb_sparse *a, rb_triplets *t)
-{
-    const rb_status s = rb_triplets_reserve(t, (size_t)a->p[a->cols]);
-    for (int j = 0; s == RB_OK && j < a->cols; j++)
-        for (int k = a->p[j]; k < a->p[j + 1]; k++, t->nz++) {
-            t->row[t->nz] = a->i[k];
-            t->col[t->nz] = j;
-            t->x[t->nz] = a->x[k];
-        }
     return s;
 }
 
@@ -346,22 +319,22 @@ static rb_status subtract_constraints(rb_friction_problem *p, const rb_sparse *V
 {
     const int m = p->dimension * p->contacts;
     rb_sparse minus_L = {0}, change = {0}, W = {0};
-    rb_triplets t = {0};
+    rb_triplets t = {.rows = m, .cols = m};
     rb_status s = form_forces(e, m, &minus_L);
     if (s == RB_OK)
         s = rb_sparse_multiply(V, &minus_L, &change);
     if (s == RB_OK && p->form == RB_FRICTION_LOCAL_DENSE) {
         s = rb_sparse_from_dense(m, m, p->W, m, &W);
         if (s == RB_OK)
-            s = append(&W, &t);
+            rb_triplets_add_matrix(&t, 1.0, &W);
         rb_sparse_free(&W);
     } else if (s == RB_OK) {
-        s = append(&p->Ws, &t);
+        rb_triplets_add_matrix(&t, 1.0, &p->Ws);
     }
-    if (s == RB_OK)
-        s = append(&change, &t);
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(m, m, t.nz, t.row, t.col, t.x, &W);
+    if (s == RB_OK) {
+        rb_triplets_add_matrix(&t, 1.0, &change);
+        s = rb_sparse_from_triplets(&t, &W);
+    }
     rb_triplets_free(&t);
     rb_sparse_free(&change);
     rb_sparse_free(&minus_L);

@@ -34,26 +34,17 @@ static rb_status name_the_nullity(const rb_sparse *k, rb_message *why)
                    k->rows - rank);
 }
 
-/* The entries of a in rows of `body` and in the listed columns, renumbered to rows x
- * cols. */
+/* The entries of a in rows of `body` and in the listed columns, renumbered. */
 static rb_status part_of(const condenser *c, const rb_sparse *a, int body, int cols,
-                         const int *list, int rows, rb_sparse *part)
+                         const int *list, rb_sparse *part)
 {
-    int places = 0, n = 0;
+    rb_triplets t = {.rows = c->dofs_of[body + 1] - c->dofs_of[body], .cols = cols};
     for (int j = 0; j < cols; j++)
-        places += a->p[list[j] + 1] - a->p[list[j]];
-    int *row = rb_alloc_int((size_t)places), *col = rb_alloc_int((size_t)places);
-    double *x = rb_alloc((size_t)places, 1);
-    rb_status s = row && col && x ? RB_OK : RB_ENOMEM;
-    for (int j = 0; s == RB_OK && j < cols; j++)
         for (int k = a->p[list[j]]; k < a->p[list[j] + 1]; k++)
             if (c->body[a->i[k]] == body)
-                row[n] = c->number[a->i[k]], col[n] = j, x[n++] = a->x[k];
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(rows, cols, n, row, col, x, part);
-    free(x);
-    free(col);
-    free(row);
+                rb_triplets_add(&t, c->number[a->i[k]], j, a->x[k]);
+    const rb_status s = rb_sparse_from_triplets(&t, part);
+    rb_triplets_free(&t);
     return s;
 }
 
@@ -67,9 +58,9 @@ static rb_status condense_large(condenser *c, int body, double *q)
     const int *dof = c->dof + c->dofs_of[body], *column = c->column + c->columns_of[body];
     rb_sparse k = {0}, h = {0}, *w = &c->W[body];
     rb_sparse_cholesky *factor = NULL;
-    rb_status s = part_of(c, &c->p->K, body, n, dof, n, &k);
+    rb_status s = part_of(c, &c->p->K, body, n, dof, &k);
     if (s == RB_OK)
-        s = part_of(c, &c->p->H, body, cols, column, n, &h);
+        s = part_of(c, &c->p->H, body, cols, column, &h);
     if (s == RB_OK)
         s = rb_sparse_cholesky_create(&k, &factor);
     for (int i = 0; i < n; i++)

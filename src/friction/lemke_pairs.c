@@ -27,11 +27,8 @@ static double mean_diagonal(const rb_friction_blocks *w)
 
 static void put(rb_triplets *t, int row, int col, double x)
 {
-    if (x == 0.0)
-        return;
-    t->row[t->nz] = row;
-    t->col[t->nz] = col;
-    t->x[t->nz++] = x;
+    if (x != 0.0)
+        rb_triplets_add(t, row, col, x);
 }
 
 static rb_status form_matrix(const rb_friction_blocks *w, const double *mu, double unit,
@@ -39,9 +36,8 @@ static rb_status form_matrix(const rb_friction_blocks *w, const double *mu, doub
 {
     static const double sign[] = {1.0, 1.0, -1.0};
     const int nc = w->contacts;
-    rb_triplets t = {0};
-    rb_status s = rb_triplets_reserve(&t, 9 * (size_t)w->p[nc] + 5 * (size_t)nc);
-    for (int c = 0; s == RB_OK && c < nc; c++) {
+    rb_triplets t = {.rows = 4 * nc, .cols = 4 * nc};
+    for (int c = 0; c < nc; c++) {
         for (int k = w->p[c]; k < w->p[c + 1]; k++)
             for (int a = 0; a < 3; a++)
                 for (int b = 0; b < 3; b++) {
@@ -54,8 +50,7 @@ static rb_status form_matrix(const rb_friction_blocks *w, const double *mu, doub
         put(&t, 3 * nc + c, nc + c, -1.0);
         put(&t, 3 * nc + c, 2 * nc + c, -1.0);
     }
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(4 * nc, 4 * nc, t.nz, t.row, t.col, t.x, M);
+    const rb_status s = rb_sparse_from_triplets(&t, M);
     rb_triplets_free(&t);
     return s;
 }

@@ -18,24 +18,14 @@
 static rb_status add_springs(const rb_sparse *k, const rb_sparse *h, double spring,
                              rb_sparse *sum)
 {
-    int places = k->p[k->cols], n = 0;
+    rb_triplets t = {.rows = k->rows, .cols = k->cols};
+    rb_triplets_add_matrix(&t, 1.0, k);
     for (int j = 0; j < h->cols; j++)
-        places += (h->p[j + 1] - h->p[j]) * (h->p[j + 1] - h->p[j]);
-    int *row = rb_alloc_int((size_t)places), *col = rb_alloc_int((size_t)places);
-    double *x = rb_alloc((size_t)places, 1);
-    rb_status s = row && col && x ? RB_OK : RB_ENOMEM;
-    for (int j = 0; s == RB_OK && j < k->cols; j++)
-        for (int l = k->p[j]; l < k->p[j + 1]; l++)
-            row[n] = k->i[l], col[n] = j, x[n++] = k->x[l];
-    for (int j = 0; s == RB_OK && j < h->cols; j++)
         for (int a = h->p[j]; a < h->p[j + 1]; a++)
             for (int b = h->p[j]; b < h->p[j + 1]; b++)
-                row[n] = h->i[a], col[n] = h->i[b], x[n++] = spring * h->x[a] * h->x[b];
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(k->rows, k->cols, n, row, col, x, sum);
-    free(x);
-    free(col);
-    free(row);
+                rb_triplets_add(&t, h->i[a], h->i[b], spring * h->x[a] * h->x[b]);
+    const rb_status s = rb_sparse_from_triplets(&t, sum);
+    rb_triplets_free(&t);
     return s;
 }
 

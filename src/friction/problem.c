@@ -114,30 +114,23 @@ rb_status rb_friction_problem_check(const rb_friction_problem *p, rb_message *wh
 /* Indefinite: the symmetric part + 1e-10 max |W| has no Cholesky factor. */
 static rb_status examine_definiteness(const rb_sparse *w, double largest, int *indefinite)
 {
-    const int nz = w->p[w->cols], places = 2 * nz + w->cols;
-    int *row = rb_alloc_int((size_t)places), *col = rb_alloc_int((size_t)places);
-    double *x = rb_alloc((size_t)places, 1);
+    rb_triplets t = {.rows = w->rows, .cols = w->cols};
     rb_sparse sum = {0};
     rb_sparse_cholesky *factor = NULL;
-    int n = 0;
-    rb_status s = row && col && x ? RB_OK : RB_ENOMEM;
-    for (int j = 0; s == RB_OK && j < w->cols; j++) {
-        row[n] = col[n] = j, x[n++] = 1e-10 * largest;
+    for (int j = 0; j < w->cols; j++) {
+        rb_triplets_add(&t, j, j, 1e-10 * largest);
         for (int k = w->p[j]; k < w->p[j + 1]; k++) {
-            row[n] = w->i[k], col[n] = j, x[n++] = 0.5 * w->x[k];
-            row[n] = j, col[n] = w->i[k], x[n++] = 0.5 * w->x[k];
+            rb_triplets_add(&t, w->i[k], j, 0.5 * w->x[k]);
+            rb_triplets_add(&t, j, w->i[k], 0.5 * w->x[k]);
         }
     }
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(w->rows, w->cols, n, row, col, x, &sum);
+    rb_status s = rb_sparse_from_triplets(&t, &sum);
     if (s == RB_OK)
         s = rb_sparse_cholesky_create(&sum, &factor);
     *indefinite = s == RB_SINGULAR;
     rb_sparse_cholesky_free(factor);
     rb_sparse_free(&sum);
-    free(x);
-    free(col);
-    free(row);
+    rb_triplets_free(&t);
     return s == RB_SINGULAR ? RB_OK : s;
 }
 

@@ -31,18 +31,11 @@ static double compliance(const splitter *s, int column, int count)
     return sum;
 }
 
-static void put(rb_triplets *t, int row, int col, double x)
-{
-    t->row[t->nz] = row;
-    t->col[t->nz] = col;
-    t->x[t->nz++] = x;
-}
-
 static void put_column(splitter *s, int from, int to, double factor)
 {
     const rb_sparse *h = &s->p->H;
     for (int k = h->p[from]; k < h->p[from + 1]; k++)
-        put(&s->H, h->i[k], to, factor * h->x[k]);
+        rb_triplets_add(&s->H, h->i[k], to, factor * h->x[k]);
 }
 
 /* Columns, velocities and coefficients of contact c as those of A and B. */
@@ -54,10 +47,10 @@ static void split_contact(splitter *s, int c, const double *mu_r,
     const double of_turn = compliance(s, 5 * c + 3, 2), normal = compliance(s, 5 * c, 1);
     const double length = of_slip > 0.0 && of_turn > 0.0 ? sqrt(of_slip / of_turn) : 1.0;
     const int xi = p->dofs + c;
-    put(&s->K, xi, xi, normal > 0.0 ? 4.0 / normal : 1.0);
+    rb_triplets_add(&s->K, xi, xi, normal > 0.0 ? 4.0 / normal : 1.0);
     for (int k = 0; k < 2; k++) {
         put_column(s, 5 * c, 6 * c + 3 * k, 0.5);
-        put(&s->H, xi, 6 * c + 3 * k, k ? -1.0 : 1.0);
+        rb_triplets_add(&s->H, xi, 6 * c + 3 * k, k ? -1.0 : 1.0);
         out->w[6 * c + 3 * k] = 0.5 * p->w[5 * c];
     }
     for (int a = 1; a < 3; a++) {
@@ -76,7 +69,6 @@ static rb_status split(const rb_friction_problem *p, const double *mu_r,
 {
     const size_t nc = (size_t)p->contacts, n = (size_t)p->dofs;
     double *diagonal = rb_alloc(n, 1);
-    splitter s = {.p = p, .diagonal = diagonal};
     *out = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
                                  .dimension = 3,
                                  .contacts = 2 * p->contacts,
@@ -85,28 +77,26 @@ static rb_status split(const rb_friction_problem *p, const double *mu_r,
                                  .w = rb_alloc(nc, 6),
                                  .f = rb_alloc(n + nc, 1),
                                  .lengths = rb_alloc(nc, 1)};
-    rb_status st = diagonal && out->mu && out->w && out->f && out->lengths
-                       ? rb_triplets_reserve(&s.H, 2 * (size_t)p->H.p[p->H.cols] + 2 * nc)
-                       : RB_ENOMEM;
-    if (st == RB_OK)
-        st = rb_triplets_reserve(&s.K, (size_t)p->K.p[p->K.cols] + nc);
+    splitter s = {.p = p,
+                  .diagonal = diagonal,
+                  .H = {.rows = out->dofs, .cols = 3 * out->contacts},
+                  .K = {.rows = out->dofs, .cols = out->dofs}};
+    rb_status st =
+        diagonal && out->mu && out->w && out->f && out->lengths ? RB_OK : RB_ENOMEM;
     if (st == RB_OK) {
+        rb_triplets_add_matrix(&s.K, 1.0, &p->K);
         for (int j = 0; j < p->dofs; j++)
-            for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++) {
-                put(&s.K, p->K.i[k], j, p->K.x[k]);
+            for (int k = p->K.p[j]; k < p->K.p[j + 1]; k++)
                 if (p->K.i[k] == j)
                     diagonal[j] = p->K.x[k];
-            }
         for (size_t i = 0; i < n; i++)
             out->f[i] = p->f[i];
         for (int c = 0; c < p->contacts; c++)
             split_contact(&s, c, mu_r, out);
-        st = rb_sparse_from_triplets(out->dofs, 3 * out->contacts, s.H.nz, s.H.row,
-                                     s.H.col, s.H.x, &out->H);
+        st = rb_sparse_from_triplets(&s.H, &out->H);
     }
     if (st == RB_OK)
-        st = rb_sparse_from_triplets(out->dofs, out->dofs, s.K.nz, s.K.row, s.K.col,
-                                     s.K.x, &out->K);
+        st = rb_sparse_from_triplets(&s.K, &out->K);
     rb_triplets_free(&s.K);
     rb_triplets_free(&s.H);
     free(diagonal);

@@ -20,45 +20,25 @@ void rb_friction_system_free(rb_friction_system *s)
 
 /* ---- Global form: the transposed matrix, whose columns are the equations ----------- */
 
-/* Triplets of one filling of the global pattern; only places matter. */
-static int global_places(const rb_friction_problem *p, int d, int *row, int *col,
-                         double *x)
+/* One filling of the global pattern; only places matter. */
+static rb_status global_pattern(rb_friction_system *s)
 {
-    const rb_sparse *k = &p->K, *h = &p->H;
-    const int n = p->dofs;
-    int count = 0;
-    for (int j = 0; j < n; j++)
-        for (int l = k->p[j]; l < k->p[j + 1]; l++)
-            row[count] = k->i[l], col[count] = j, x[count++] = k->x[l];
+    const rb_sparse *h = &s->problem->H;
+    const int n = s->n, d = s->d;
+    rb_triplets t = {.rows = n + s->m, .cols = n + s->m};
+    rb_triplets_add_matrix(&t, 1.0, &s->problem->K);
     for (int j = 0; j < h->cols; j++) {
         const int c = j / d;
         for (int l = h->p[j]; l < h->p[j + 1]; l++)
-            row[count] = n + j, col[count] = h->i[l], x[count++] = -h->x[l];
+            rb_triplets_add(&t, n + j, h->i[l], -h->x[l]);
         for (int a = 0; a < d; a++) {
             for (int l = h->p[c * d + a]; l < h->p[c * d + a + 1]; l++)
-                row[count] = h->i[l], col[count] = n + j, x[count++] = 0.0;
-            row[count] = n + c * d + a, col[count] = n + j, x[count++] = 0.0;
+                rb_triplets_add(&t, h->i[l], n + j, 0.0);
+            rb_triplets_add(&t, n + c * d + a, n + j, 0.0);
         }
     }
-    return count;
-}
-
-static rb_status global_pattern(rb_friction_system *s)
-{
-    const rb_friction_problem *p = s->problem;
-    const size_t places = (size_t)p->K.p[p->dofs] +
-                          (size_t)(s->d + 1) * (size_t)p->H.p[s->m] +
-                          (size_t)s->m * (size_t)s->d;
-    int *row = rb_alloc_int(places), *col = rb_alloc_int(places);
-    double *x = rb_alloc(places, 1);
-    rb_status st = RB_ENOMEM;
-    if (row && col && x) {
-        const int count = global_places(p, s->d, row, col, x);
-        st = rb_sparse_from_triplets(s->n + s->m, s->n + s->m, count, row, col, x, &s->j);
-    }
-    free(x);
-    free(col);
-    free(row);
+    const rb_status st = rb_sparse_from_triplets(&t, &s->j);
+    rb_triplets_free(&t);
     return st;
 }
 

@@ -235,11 +235,15 @@ static rb_status assemble(const reader *in, const char *group, int m, int n, int
     if (s == RB_OK && nz < 0)
         s = expand(in, group, lines, entries, p, &wide);
     if (s == RB_OK) {
-        s = rb_sparse_from_triplets(m, n, entries, nz == -2 ? wide : i,
-                                    nz == -2   ? i
-                                    : nz == -1 ? wide
-                                               : p,
-                                    x, a);
+        const rb_triplets t = {.rows = m,
+                               .cols = n,
+                               .nz = entries,
+                               .row = nz == -2 ? wide : i,
+                               .col = nz == -2   ? i
+                                      : nz == -1 ? wide
+                                                 : p,
+                               .x = x};
+        s = rb_sparse_from_triplets(&t, a);
         if (s == RB_EINVAL)
             s = rb_fail(in->why, RB_EFORMAT, "%s: %s: index out of range for %d x %d",
                         in->path, group, m, n);
@@ -278,22 +282,16 @@ static rb_status complete_symmetric(rb_sparse *a)
         }
     if (below == above || a->rows != a->cols)
         return RB_OK;
-    const int nz = a->p[a->cols];
-    int *row = rb_alloc_int(2 * (size_t)nz), *col = rb_alloc_int(2 * (size_t)nz), n = 0;
-    double *x = rb_alloc(2 * (size_t)nz, 1);
+    rb_triplets t = {.rows = a->rows, .cols = a->cols};
     rb_sparse full = {0};
-    rb_status s = row && col && x ? RB_OK : RB_ENOMEM;
-    for (int j = 0; s == RB_OK && j < a->cols; j++)
+    for (int j = 0; j < a->cols; j++)
         for (int k = a->p[j]; k < a->p[j + 1]; k++) {
-            row[n] = a->i[k], col[n] = j, x[n++] = a->x[k];
+            rb_triplets_add(&t, a->i[k], j, a->x[k]);
             if (a->i[k] != j)
-                row[n] = j, col[n] = a->i[k], x[n++] = a->x[k];
+                rb_triplets_add(&t, j, a->i[k], a->x[k]);
         }
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(a->rows, a->cols, n, row, col, x, &full);
-    free(x);
-    free(col);
-    free(row);
+    const rb_status s = rb_sparse_from_triplets(&t, &full);
+    rb_triplets_free(&t);
     if (s == RB_OK) {
         rb_sparse_free(a);
         *a = full;

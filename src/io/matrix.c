@@ -7,9 +7,7 @@
 void rb_io_matrix_free(rb_io_matrix *m)
 {
     free(m->dense);
-    free(m->row);
-    free(m->col);
-    free(m->x);
+    rb_triplets_free(&m->entries);
     *m = (rb_io_matrix){0};
 }
 
@@ -21,48 +19,18 @@ rb_status rb_io_matrix_to_dense(rb_io_matrix *m)
     d.dense = rb_alloc((size_t)m->rows, (size_t)m->cols);
     if (!d.dense)
         return RB_ENOMEM;
-    for (int k = 0; k < m->nz; k++)
-        d.dense[(size_t)m->row[k] + (size_t)m->col[k] * (size_t)m->rows] += m->x[k];
+    const rb_triplets *t = &m->entries;
+    for (int k = 0; k < t->nz; k++)
+        d.dense[(size_t)t->row[k] + (size_t)t->col[k] * (size_t)m->rows] += t->x[k];
     rb_io_matrix_free(m);
     *m = d;
     return RB_OK;
 }
 
-/* The nonzeros of a dense matrix, as triplets unless x is NULL; returns their number. */
-static size_t nonzeros(const rb_io_matrix *m, int *row, int *col, double *x)
-{
-    size_t nz = 0;
-    for (int j = 0; j < m->cols; j++)
-        for (int i = 0; i < m->rows; i++) {
-            const double value = m->dense[(size_t)i + (size_t)j * (size_t)m->rows];
-            if (value == 0.0)
-                continue;
-            if (x) {
-                row[nz] = i;
-                col[nz] = j;
-                x[nz] = value;
-            }
-            nz++;
-        }
-    return nz;
-}
-
 rb_status rb_io_matrix_to_sparse(const rb_io_matrix *m, rb_sparse *a)
 {
-    if (!m->dense)
-        return rb_sparse_from_triplets(m->rows, m->cols, m->nz, m->row, m->col, m->x, a);
-    const size_t nz = nonzeros(m, NULL, NULL, NULL);
-    int *row = rb_alloc_int(nz), *col = rb_alloc_int(nz);
-    double *x = rb_alloc(nz, 1);
-    rb_status s = RB_ENOMEM;
-    if (nz <= INT_MAX && row && col && x) {
-        nonzeros(m, row, col, x);
-        s = rb_sparse_from_triplets(m->rows, m->cols, (int)nz, row, col, x, a);
-    }
-    free(row);
-    free(col);
-    free(x);
-    return s;
+    return m->dense ? rb_sparse_from_dense(m->rows, m->cols, m->dense, m->rows, a)
+                    : rb_sparse_from_triplets(&m->entries, a);
 }
 
 /* ---- Matrix Market ----------------------------------------------------------------- */
@@ -148,19 +116,16 @@ static void read_coordinates(io_tokens *t, int symmetric, rb_io_matrix *m)
     const size_t room = (size_t)count << symmetric;
     if (!rb_io_tokens_room_for(t, (size_t)count, 3, "entries"))
         return;
-    m->row = rb_alloc_int(room);
-    m->col = rb_alloc_int(room);
-    m->x = rb_alloc(room, 1);
-    have(t, m->row && m->col ? m->x : NULL);
+    m->entries = (rb_triplets){.rows = m->rows, .cols = m->cols};
+    if (rb_triplets_reserve(&m->entries, room) != RB_OK)
+        t->status = rb_fail(t->why, RB_ENOMEM, "%s: out of memory for matrix", t->path);
     for (int k = 0; t->status == RB_OK && k < count; k++) {
         const int i = rb_io_tokens_int(t, 1, m->rows, "row") - 1;
         const int j = rb_io_tokens_int(t, 1, m->cols, "column") - 1;
         const double x = rb_io_tokens_real(t, "value");
-        for (int both = 0; both <= (symmetric && i != j); both++) {
-            m->row[m->nz] = both ? j : i;
-            m->col[m->nz] = both ? i : j;
-            m->x[m->nz++] = x;
-        }
+        rb_triplets_add(&m->entries, i, j, x);
+        if (symmetric && i != j)
+            rb_triplets_add(&m->entries, j, i, x);
     }
 }
 

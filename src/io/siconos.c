@@ -27,9 +27,12 @@ static void alloc_triplets(io_tokens *t, size_t nz, rb_io_matrix *m)
 {
     if (nz > INT_MAX)
         rb_io_tokens_fail(t, "matrix: more than %d entries", INT_MAX);
-    m->row = rb_io_tokens_alloc_int(t, nz, "matrix");
-    m->col = rb_io_tokens_alloc_int(t, nz, "matrix");
-    m->x = rb_io_tokens_alloc(t, nz, 1, "matrix");
+    m->entries = (rb_triplets){.rows = m->rows,
+                               .cols = m->cols,
+                               .room = (int)nz,
+                               .row = rb_io_tokens_alloc_int(t, nz, "matrix"),
+                               .col = rb_io_tokens_alloc_int(t, nz, "matrix"),
+                               .x = rb_io_tokens_alloc(t, nz, 1, "matrix")};
 }
 
 /* n integers, increasing (by step at least) from low; the last is total. */
@@ -97,11 +100,12 @@ static void read_block(io_tokens *t, const blocks *b, int i, int k, rb_io_matrix
               cols = extent(b->col_end, j);
     const int row = b->row_end[i] - rows, col = b->col_end[j] - cols;
     rb_io_tokens_int(t, k, k, "number of the block");
-    rb_io_tokens_reals(t, (size_t)rows * (size_t)cols, m->x + m->nz, "block");
+    rb_triplets *e = &m->entries;
+    rb_io_tokens_reals(t, (size_t)rows * (size_t)cols, e->x + e->nz, "block");
     for (int c = 0; c < cols; c++)
         for (int r = 0; r < rows; r++) {
-            m->row[m->nz] = row + r;
-            m->col[m->nz++] = col + c;
+            e->row[e->nz] = row + r;
+            e->col[e->nz++] = col + c;
         }
 }
 
@@ -120,34 +124,34 @@ static void read_blocks(io_tokens *t, rb_io_matrix *m)
 /* "i j : value" */
 static void read_triplets(io_tokens *t, int nz, rb_io_matrix *m)
 {
-    for (; ok(t) && m->nz < nz; m->nz++) {
-        m->row[m->nz] = rb_io_tokens_int(t, 0, m->rows - 1, "row");
-        m->col[m->nz] = rb_io_tokens_int(t, 0, m->cols - 1, "column");
+    while (ok(t) && m->entries.nz < nz) {
+        const int i = rb_io_tokens_int(t, 0, m->rows - 1, "row");
+        const int j = rb_io_tokens_int(t, 0, m->cols - 1, "column");
         rb_io_tokens_word(t, ":");
-        m->x[m->nz] = rb_io_tokens_real(t, "value");
+        rb_triplets_add(&m->entries, i, j, rb_io_tokens_real(t, "value"));
     }
 }
 
 /* "i : value" below "col j : locations a to b" */
 static void read_columns(io_tokens *t, int nz, rb_io_matrix *m)
 {
+    rb_triplets *e = &m->entries;
     for (int j = 0; ok(t) && j < m->cols; j++) {
         rb_io_tokens_word(t, "col");
         rb_io_tokens_int(t, j, j, "column");
         rb_io_tokens_word(t, ":");
         rb_io_tokens_word(t, "locations");
-        rb_io_tokens_int(t, m->nz, m->nz, "location");
+        rb_io_tokens_int(t, e->nz, e->nz, "location");
         rb_io_tokens_word(t, "to");
-        const int last = rb_io_tokens_int(t, m->nz - 1, nz - 1, "location");
-        for (; ok(t) && m->nz <= last; m->nz++) {
-            m->row[m->nz] = rb_io_tokens_int(t, 0, m->rows - 1, "row");
+        const int last = rb_io_tokens_int(t, e->nz - 1, nz - 1, "location");
+        while (ok(t) && e->nz <= last) {
+            const int i = rb_io_tokens_int(t, 0, m->rows - 1, "row");
             rb_io_tokens_word(t, ":");
-            m->col[m->nz] = j;
-            m->x[m->nz] = rb_io_tokens_real(t, "value");
+            rb_triplets_add(e, i, j, rb_io_tokens_real(t, "value"));
         }
     }
-    if (ok(t) && m->nz != nz)
-        rb_io_tokens_fail(t, "sparse matrix: expected %d entries, got %d", nz, m->nz);
+    if (ok(t) && e->nz != nz)
+        rb_io_tokens_fail(t, "sparse matrix: expected %d entries, got %d", nz, e->nz);
 }
 
 /* A version line, then "[triplet: ]3-by-3, nzmax: 4 nnz: 3[, 1-norm: 3.5]". */

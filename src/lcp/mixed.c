@@ -485,22 +485,17 @@ static void split_free(split *f)
 /* [M, -M_:F; -M_F:, M_FF] */
 static rb_status split_matrix(const rb_sparse *M, const int *number, split *f)
 {
-    const int n = M->rows;
-    rb_triplets t = {0};
-    rb_status s = rb_triplets_reserve(&t, 4 * (size_t)M->p[n] + 1);
-    for (int j = 0; s == RB_OK && j < n; j++)
+    rb_triplets t = {.rows = f->n, .cols = f->n};
+    for (int j = 0; j < M->cols; j++)
         for (int k = M->p[j]; k < M->p[j + 1]; k++)
             for (int more = 0; more < 4; more++) {
                 const int i = M->i[k], row = more & 1 ? number[i] : i;
                 const int col = more & 2 ? number[j] : j;
-                if (row < 0 || col < 0)
-                    continue;
-                t.row[t.nz] = row;
-                t.col[t.nz] = col;
-                t.x[t.nz++] = more == 1 || more == 2 ? -M->x[k] : M->x[k];
+                if (row >= 0 && col >= 0)
+                    rb_triplets_add(&t, row, col,
+                                    more == 1 || more == 2 ? -M->x[k] : M->x[k]);
             }
-    if (s == RB_OK)
-        s = rb_sparse_from_triplets(f->n, f->n, t.nz, t.row, t.col, t.x, &f->M);
+    const rb_status s = rb_sparse_from_triplets(&t, &f->M);
     rb_triplets_free(&t);
     return s;
 }
