@@ -500,33 +500,16 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
 
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
 {
+    static rb_status (*const checks[])(const rb_rolling_case *, rb_message *) = {
+        check_memory,     check_heat,         rb_rolling_law_check,
+        check_interlayer, check_normal,       check_tangential,
+        check_gap,        check_irregularity, check_worn,
+        check_increments, check_sizes,        check_mesh};
     rb_status s = rb_rolling_body_check(&rc->a, "", 0, why);
 
     if (s == RB_OK && rc->elastic_b)
         s = rb_rolling_body_check(&rc->b, " of body B", 1, why);
-    if (s == RB_OK)
-        s = check_memory(rc, why);
-    if (s == RB_OK)
-        s = check_heat(rc, why);
-    if (s == RB_OK)
-        s = rb_rolling_law_check(rc, why);
-    if (s == RB_OK)
-        s = check_interlayer(rc, why);
-    if (s == RB_OK)
-        s = check_normal(rc, why);
-    if (s == RB_OK)
-        s = check_tangential(rc, why);
-    if (s == RB_OK)
-        s = check_gap(rc, why);
-    if (s == RB_OK)
-        s = check_irregularity(rc, why);
-    if (s == RB_OK)
-        s = check_worn(rc, why);
-    if (s == RB_OK)
-        s = check_increments(rc, why);
-    if (s == RB_OK)
-        s = check_sizes(rc, why);
-    if (s == RB_OK)
-        s = check_mesh(rc, why);
+    for (size_t k = 0; k < sizeof checks / sizeof *checks && s == RB_OK; k++)
+        s = checks[k](rc, why);
     return s;
 }

@@ -84,18 +84,9 @@ double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepag
 
 /* ---- Results of a solution --------------------------------------------------------- */
 
-enum { STRESS_NUMBERS = sizeof(rb_rolling_stress_maxima) / sizeof(double) };
-
-static double at(const void *base, size_t offset)
+static void put(const rb_rolling_result *r, void *owner, double value)
 {
-    double value;
-    memcpy(&value, (const char *)base + offset, sizeof value);
-    return value;
-}
-
-static void put(void *base, size_t offset, double value)
-{
-    memcpy((char *)base + offset, &value, sizeof value);
+    memcpy((char *)owner + r->offset, &value, sizeof value);
 }
 
 /* Whether slip turns round over a stick zone of fewer than four elements: no mesh tells
@@ -187,54 +178,55 @@ typedef struct {
     rb_rolling_errors contact, boundary;
 } error_parts;
 
+/* The tables of what has error bars: of a solution, and of its largest stresses. */
+static const rb_rolling_results *const tables[] = {&rb_rolling_solution_scalars,
+                                                   &rb_rolling_maxima_scalars};
+enum { TABLES = 2 };
+
+static const void *part_of_sample(const sample *s, int table)
+{
+    return table ? (const void *)&s->stress : &s->solution;
+}
+
+static void *part_of_errors(rb_rolling_errors *e, int table)
+{
+    return table ? (void *)&e->stress : &e->scalar;
+}
+
 static void estimate(const rb_rolling_case *rc, const sample run[], const sample *own,
                      int with_stress, error_parts *e)
 {
     const int runs = rb_rolling_error_runs(rc);
     double coarser[RB_ERROR_RUNS];
 
-    e->contact.scalar = e->boundary.scalar = rb_rolling_no_scalars(RB_OK);
-    for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
-        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
-        if (r->error_bar == RB_SCALE_NONE)
-            continue;
-        const double value = rb_rolling_number(r, &own->solution);
-        for (int j = 0; j < runs; j++)
-            coarser[j] = rb_rolling_number(r, &run[j].solution);
-        put(&e->contact.scalar, r->offset,
-            rb_rolling_contact_error(coarser, value) +
-                least_error(rc, &own->solution, r->error_bar));
-        put(&e->boundary.scalar, r->offset,
-            rb_rolling_boundary_error(runs, coarser, value));
-    }
-    for (size_t k = 0; k < STRESS_NUMBERS; k++) {
-        const size_t offset = k * sizeof(double);
-        for (int r = 0; r < runs; r++)
-            coarser[r] = at(&run[r].stress, offset);
-        const double value = with_stress ? at(&own->stress, offset) : NAN;
-        put(&e->contact.stress, offset,
-            rb_rolling_contact_error(coarser, value) +
-                least_error(rc, &own->solution,
-                            k % 3 == 0 ? RB_SCALE_PRESSURE : RB_SCALE_WIDTH));
-        put(&e->boundary.stress, offset, rb_rolling_boundary_error(runs, coarser, value));
-    }
+    e->contact = e->boundary = rb_rolling_no_row(RB_OK).errors;
+    for (int t = 0; t <= with_stress; t++)
+        for (int k = 0; k < tables[t]->n; k++) {
+            const rb_rolling_result *r = &tables[t]->row[k];
+            if (r->error_bar == RB_SCALE_NONE)
+                continue;
+            const double value = rb_rolling_number(r, part_of_sample(own, t));
+            for (int j = 0; j < runs; j++)
+                coarser[j] = rb_rolling_number(r, part_of_sample(&run[j], t));
+            put(r, part_of_errors(&e->contact, t),
+                rb_rolling_contact_error(coarser, value) +
+                    least_error(rc, &own->solution, r->error_bar));
+            put(r, part_of_errors(&e->boundary, t),
+                rb_rolling_boundary_error(runs, coarser, value));
+        }
 }
 
-static void add_parts(const error_parts *parts, rb_rolling_errors *errors)
+static void add_parts(error_parts *parts, rb_rolling_errors *errors)
 {
-    errors->scalar = rb_rolling_no_scalars(RB_OK);
-    for (int k = 0; k < rb_rolling_solution_scalars.n; k++) {
-        const rb_rolling_result *r = &rb_rolling_solution_scalars.row[k];
-        if (r->error_bar != RB_SCALE_NONE)
-            put(&errors->scalar, r->offset,
-                rb_rolling_number(r, &parts->contact.scalar) +
-                    rb_rolling_number(r, &parts->boundary.scalar));
-    }
-    for (size_t k = 0; k < STRESS_NUMBERS; k++) {
-        const size_t offset = k * sizeof(double);
-        put(&errors->stress, offset,
-            at(&parts->contact.stress, offset) + at(&parts->boundary.stress, offset));
-    }
+    *errors = rb_rolling_no_row(RB_OK).errors;
+    for (int t = 0; t < TABLES; t++)
+        for (int k = 0; k < tables[t]->n; k++) {
+            const rb_rolling_result *r = &tables[t]->row[k];
+            if (r->error_bar != RB_SCALE_NONE)
+                put(r, part_of_errors(errors, t),
+                    rb_rolling_number(r, part_of_errors(&parts->contact, t)) +
+                        rb_rolling_number(r, part_of_errors(&parts->boundary, t)));
+        }
 }
 
 /* ---- One case and its error bars --------------------------------------------------- */

@@ -26,11 +26,7 @@ double rb_rolling_worn_depth(const rb_rolling_case *rc, double x)
 
     if (n == 0 || x < row[0] || x > row[n - 1])
         return 0.0;
-    int i = 0;
-    for (int above = n - 1; above - i > 1;) {
-        const int middle = (i + above) / 2;
-        *(row[middle] <= x ? &i : &above) = middle;
-    }
+    const int i = (int)gsl_interp_bsearch(row, x, 0, (size_t)n - 1);
     const double t = i + 1 < n ? (x - row[i]) / (row[i + 1] - row[i]) : 0.0;
     return t > 0.0 ? (1.0 - t) * rc->worn_depth[i] + t * rc->worn_depth[i + 1]
                    : rc->worn_depth[i];

@@ -3,6 +3,7 @@
 #include "rolling/internal.h"
 
 #include <cblas.h>
+#include <gsl/gsl_interp.h>
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -207,15 +208,11 @@ static rb_status displacement(const rb_rolling_model *model,
 /* Element of the mesh that x lies in; -1, n: before and behind all. */
 static int element_at(const rb_rolling_mesh *mesh, double x)
 {
-    int from = -1, to = mesh->n;
-
     if (x < mesh->ends[0])
         return -1;
-    while (to - from > 1) {
-        const int middle = (from + to) / 2;
-        *(mesh->ends[middle] <= x ? &from : &to) = middle;
-    }
-    return x < mesh->ends[mesh->n] ? from : mesh->n;
+    return x < mesh->ends[mesh->n]
+               ? (int)gsl_interp_bsearch(mesh->ends, x, 0, (size_t)mesh->n)
+               : mesh->n;
 }
 
 static double shortest(const rb_rolling_mesh *mesh)
