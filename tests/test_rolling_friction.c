@@ -9,7 +9,7 @@
 
 /* Half as much friction over the middle of the contact as at its ends. */
 static const double places[] = {-0.6, -0.2, 0.2, 0.6}, values[] = {0.4, 0.2, 0.2, 0.4};
-static const rb_rolling_friction_table sand = {4, places, values};
+static const rb_rolling_table sand = {4, places, values};
 
 static rb_rolling_case steady(void)
 {
@@ -139,7 +139,7 @@ static void an_even_table_is_one_coefficient(void **state)
     static const double even[] = {0.4, 0.4};
     (void)state;
     rb_rolling_case rc = steady();
-    rc.friction.table = (rb_rolling_friction_table){2, places, even};
+    rc.friction.table = (rb_rolling_table){2, places, even};
     rb_rolling_model table = solved_model(&rc);
     rc.friction.law = RB_FRICTION_constant;
     rb_rolling_model one = solved_model(&rc);
@@ -258,7 +258,7 @@ static void bad_tables_are_refused(void **state)
 {
     static const double back[] = {0.0, 0.0}, negative[] = {0.4, -0.1};
     const struct {
-        rb_rolling_friction_table table;
+        rb_rolling_table table;
         const char *says;
     } bad[] = {{{2, back, values}, "row 2: expected x to increase"},
                {{2, places, negative}, "row 2: expected mu >= 0"},

@@ -169,7 +169,7 @@ static void steep_laws_have_two_solutions(void **state)
 {
     (void)state;
     static const double kinetic = 0.18, place = 0.0;
-    static const rb_rolling_friction_table sliding = {1, &place, &kinetic};
+    static const rb_rolling_table sliding = {1, &place, &kinetic};
     static const double scale[] = {100.0, 50.0, 20.0, 15.5, 10.0, 5.0, 2.0};
     for (int k = 0; k < 7; k++) {
         rb_rolling_case rc = rail(scale[k]);
@@ -445,9 +445,9 @@ static rb_rolling_case wheel_on_layer(void)
     rc.elastic_b = 1;
     rc.formulation = RB_STEADY;
     rc.gap = RB_GAP_PARABOLA;
-    rc.worn_n = 4;
-    rc.worn_x = worn_x;
-    rc.worn_depth = worn_depth;
+    rc.worn.n = 4;
+    rc.worn.x = worn_x;
+    rc.worn.y = worn_depth;
     rc.normals = RB_BEM_NORMALS_OBSTACLE;
     rc.near_field = RB_NEAR_FIELD_PLAIN;
     rc.mesh = RB_MESH_FITTED;
@@ -814,7 +814,7 @@ static void a_step_has_two_starts(void **state)
 {
     (void)state;
     static const double kinetic = 0.18, place = 0.0;
-    static const rb_rolling_friction_table sliding = {1, &place, &kinetic};
+    static const rb_rolling_table sliding = {1, &place, &kinetic};
     double ratio[2];
     for (int start = 0; start < 2; start++) {
         rb_rolling_case rc = rail(100.0);

@@ -491,9 +491,9 @@ static spot make_spot(double x, double l, double d)
 static rb_rolling_case with_spot(const rb_rolling_case *rc, const spot *s)
 {
     rb_rolling_case other = *rc;
-    other.irregularity_n = 21;
-    other.irregularity_x = s->x;
-    other.irregularity_gap = s->gap;
+    other.irregularity.n = 21;
+    other.irregularity.x = s->x;
+    other.irregularity.y = s->gap;
     return other;
 }
 
@@ -690,9 +690,9 @@ static void bad_irregularities_are_refused(void **state)
         rb_rolling_case rc = kind_of_case(0);
         rb_message why = {""};
         rc.formulation = bad[k].formulation;
-        rc.irregularity_n = bad[k].n;
-        rc.irregularity_x = bad[k].x;
-        rc.irregularity_gap = bad[k].gap;
+        rc.irregularity.n = bad[k].n;
+        rc.irregularity.x = bad[k].x;
+        rc.irregularity.y = bad[k].gap;
         CHECK_STATUS(rb_rolling_case_check(&rc, &why), RB_EINVAL);
         if (!strstr(why.text, bad[k].word))
             fail_msg("'%s' does not say '%s'", why.text, bad[k].word);

@@ -231,9 +231,9 @@ static void wear_goes_on(void **state)
     rb_rolling_case rc = cylinder(160, 5.0);
     const rb_rolling_wear ten = sliding(&rc, 2.0, 10), five = sliding(&rc, 1.0, 5);
     worn all = run(&rc, &ten), first = run(&rc, &five);
-    rc.worn_n = first.last.n;
-    rc.worn_x = first.last.x;
-    rc.worn_depth = first.last.worn;
+    rc.worn.n = first.last.n;
+    rc.worn.x = first.last.x;
+    rc.worn.y = first.last.worn;
     worn second = run(&rc, &five);
     for (int i = 0; i < all.last.n; i++) {
         CHECK_ABS(second.last.worn[i], all.last.worn[i], 1e-12 * all.h.max_depth[10],

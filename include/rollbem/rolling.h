@@ -96,6 +96,12 @@ extern const rb_choice rb_rolling_supports[];
 /* 1: the body can all of `abilities`, a sum of them. */
 int rb_rolling_body_can(const rb_rolling_body *body, int abilities);
 
+/* Values y at n places x [length], which increase.  Borrowed. */
+typedef struct {
+    int n; /* 0: none */
+    const double *x, *y;
+} rb_rolling_table;
+
 /* A measured gap g_0(x) [length]: n points, x increasing, as a cubic spline, whose
  * curvature, which the pressure follows, is continuous.  noise: 0: the spline goes
  * through the points; > 0: the standard deviation of their noise [length], and the spline
@@ -132,17 +138,12 @@ typedef enum {
 } rb_rolling_friction_law;
 #undef RB_FRICTION_LAW_NAME
 
-/* mu over x [length]: linear between n points, x increasing, constant beyond them.
- * Borrowed. */
-typedef struct {
-    int n; /* 0: none */
-    const double *x, *mu;
-} rb_rolling_friction_table;
-
 typedef struct {
     rb_rolling_friction_law law;
-    rb_rolling_friction_table table; /* RB_FRICTION_table; the case's mu is not read */
-    double fall[2], slip_scale[2];   /* m >= -mu [-], s > 0 [length/s]; m = 0: no term */
+    /* RB_FRICTION_table: mu over x, linear between the points, constant beyond them; the
+     * case's mu is not read. */
+    rb_rolling_table table;
+    double fall[2], slip_scale[2]; /* m >= -mu [-], s > 0 [length/s]; m = 0: no term */
     /* Memory over the slid distance d: dmu/dt = -(max(v, s0)/d)(mu - mu(v)). */
     double memory, memory_slip; /* d [length], 0: none; s0 > 0 [length/s] */
     /* Added: heat times the part of heat_range, 0 to 1, that the surface is warmer than
@@ -152,7 +153,7 @@ typedef struct {
                         rb_rolling_program, which sets it */
     /* Where the first coefficients of the iteration are not those at rest; a law that
      * falls steeply has several solutions (kappa > 1), and finds the one nearby. */
-    const rb_rolling_friction_table *start; /* or NULL; borrowed */
+    const rb_rolling_table *start; /* or NULL; borrowed */
 } rb_rolling_friction;
 
 /* Every input of one case.  Quantities of which "one of" is asked are NAN when not given.
@@ -170,13 +171,11 @@ typedef struct {
      * added to the gap: points that begin and end with 0 and lie at these x before
      * rolling.  It rides with the material, towards -x; `passed` says how far.  Not in
      * steady. */
-    int irregularity_n;
-    const double *irregularity_x, *irregularity_gap; /* [length]; borrowed */
-    double passed;                                   /* [length]; histories set it */
+    rb_rolling_table irregularity;
+    double passed; /* [length]; histories set it */
     /* What is worn off the surfaces in the contact frame, added to the gap: linear
-     * between n points with x increasing, nothing beyond them. */
-    int worn_n;
-    const double *worn_x, *worn_depth; /* [length]; borrowed */
+     * between the points, nothing beyond them [length]. */
+    rb_rolling_table worn;
 
     /* Compliance of an interface between the surfaces, which yields under each point by
      * the traction there alone [length/stress]; 0: none. */

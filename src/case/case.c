@@ -492,73 +492,57 @@ static rb_units units_of_file(const rb_case *c, const char *option)
     return rb_case_units(c, rb_case_given(c, option));
 }
 
-/* Two columns, of which the first `lengths` are in mm. */
-static rb_status read_profile_table(case_table *t, const char *path, int lengths,
-                                    rb_units units, rb_message *why)
+/* Two columns, of which the first `lengths` are in mm: the second over the first. */
+static rb_status read_over_x(case_table *t, const char *path, rb_units units, int lengths,
+                             rb_rolling_table *over_x, rb_message *why)
 {
-    if (is_read(t, path, units))
-        return RB_OK;
-    free_table(t);
-    const rb_status s = rb_io_table_read_columns(path, 2, &t->table, why);
-    t->path = s == RB_OK ? path : NULL;
-    t->units = units;
-    for (int j = 0; j < lengths && s == RB_OK; j++)
-        rb_io_table_convert(&t->table, j, "mm", units);
-    return s;
+    if (!is_read(t, path, units)) {
+        free_table(t);
+        const rb_status s = rb_io_table_read_columns(path, 2, &t->table, why);
+        if (s != RB_OK)
+            return s;
+        t->path = path;
+        t->units = units;
+        for (int j = 0; j < lengths; j++)
+            rb_io_table_convert(&t->table, j, "mm", units);
+    }
+    *over_x = (rb_rolling_table){t->table.rows, t->table.x, t->table.x + t->table.rows};
+    return RB_OK;
 }
 
 static rb_status read_profile(rb_case *c, rb_message *why)
 {
     rb_settled_case *settled = &c->settled;
-    const rb_io_table *t = &c->gap.table;
+    const rb_units units = units_of_file(c, "gap");
     const double noise = settled->gap_smoothing;
+    rb_rolling_table gap;
     if (settled->rc.gap != RB_GAP_TABLE)
         return refuse_given(c, "gap-smoothing", "of a gap from a file only", why);
-    if (!is_read(&c->gap, settled->gap_file, units_of_file(c, "gap")) ||
-        c->profile.noise != noise)
+    if (!is_read(&c->gap, settled->gap_file, units) || c->profile.noise != noise)
         free_profile(&c->profile);
-    rb_status s =
-        read_profile_table(&c->gap, settled->gap_file, 2, units_of_file(c, "gap"), why);
+    rb_status s = read_over_x(&c->gap, settled->gap_file, units, 2, &gap, why);
     if (s == RB_OK && !c->profile.curve) {
         c->profile = (case_profile){.noise = noise};
-        s = rb_rolling_profile_create(t->rows, t->x, t->x + t->rows, noise,
-                                      &c->profile.curve, why);
+        s = rb_rolling_profile_create(gap.n, gap.x, gap.y, noise, &c->profile.curve, why);
         s = rb_case_blame(c, s, why);
     }
     settled->rc.profile = c->profile.curve;
     return s;
 }
 
-static rb_status read_irregularity(rb_case *c, rb_message *why)
+/* What is irregular about the surfaces, and what is worn off them. */
+static rb_status read_surfaces(rb_case *c, rb_message *why)
 {
     rb_settled_case *settled = &c->settled;
-    const rb_io_table *t = &c->irregularity.table;
-    if (!settled->irregularity_file)
-        return RB_OK;
-    const rb_status s = read_profile_table(&c->irregularity, settled->irregularity_file,
-                                           2, units_of_file(c, "irregularity"), why);
-    if (s != RB_OK)
-        return s;
-    settled->rc.irregularity_n = t->rows;
-    settled->rc.irregularity_x = t->x;
-    settled->rc.irregularity_gap = t->x + t->rows;
-    return RB_OK;
-}
-
-static rb_status read_worn(rb_case *c, rb_message *why)
-{
-    rb_settled_case *settled = &c->settled;
-    const rb_io_table *t = &c->worn.table;
-    if (!settled->worn_file)
-        return RB_OK;
-    const rb_status s = read_profile_table(&c->worn, settled->worn_file, 2,
-                                           units_of_file(c, "worn"), why);
-    if (s != RB_OK)
-        return s;
-    settled->rc.worn_n = t->rows;
-    settled->rc.worn_x = t->x;
-    settled->rc.worn_depth = t->x + t->rows;
-    return RB_OK;
+    rb_status s = RB_OK;
+    if (settled->irregularity_file)
+        s = read_over_x(&c->irregularity, settled->irregularity_file,
+                        units_of_file(c, "irregularity"), 2, &settled->rc.irregularity,
+                        why);
+    if (s == RB_OK && settled->worn_file)
+        s = read_over_x(&c->worn, settled->worn_file, units_of_file(c, "worn"), 2,
+                        &settled->rc.worn, why);
+    return s;
 }
 
 /* The table stands in the place of --mu: on the command line it wins over mu of the case
@@ -576,23 +560,17 @@ static rb_status settle_table_and_mu(rb_case *c, rb_message *why)
     return s;
 }
 
-/* x and mu. */
 static rb_status read_friction(rb_case *c, rb_message *why)
 {
     rb_settled_case *settled = &c->settled;
-    const rb_io_table *t = &c->friction.table;
-    const rb_units units = units_of_file(c, "friction-law");
     if (settled->rc.friction.law != RB_FRICTION_table)
         return RB_OK;
     if (!settled->friction_file)
         return refuse_given(c, "friction-law", "expected the file of the table", why);
-    const rb_status s =
-        read_profile_table(&c->friction, settled->friction_file, 1, units, why);
-    if (s != RB_OK)
-        return s;
-    settled->rc.friction.table =
-        (rb_rolling_friction_table){t->rows, t->x, t->x + t->rows};
-    return settle_table_and_mu(c, why);
+    const rb_status s = read_over_x(&c->friction, settled->friction_file,
+                                    units_of_file(c, "friction-law"), 1,
+                                    &settled->rc.friction.table, why);
+    return s == RB_OK ? settle_table_and_mu(c, why) : s;
 }
 
 /* Index of a column in rb_rolling_program_columns; -1: none has that name. */
@@ -838,9 +816,7 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     if (s == RB_OK)
         s = read_profile(c, why);
     if (s == RB_OK)
-        s = read_irregularity(c, why);
-    if (s == RB_OK)
-        s = read_worn(c, why);
+        s = read_surfaces(c, why);
     if (s == RB_OK)
         s = read_friction(c, why);
     if (s == RB_OK)

@@ -130,7 +130,7 @@ int rb_rolling_carter_holds(const rb_rolling_case *rc)
            rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 &&
            rc->yield_stress == 0.0 &&
            rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) &&
-           rc->gap != RB_GAP_TABLE && rc->worn_n == 0 &&
+           rc->gap != RB_GAP_TABLE && rc->worn.n == 0 &&
            fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
 }
 
@@ -211,7 +211,7 @@ static rb_status check_memory(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "relaxation: needs the speed of rolling, add --speed");
     if (rc->formulation != RB_STEADY &&
-        (rc->gap == RB_GAP_TABLE || rc->irregularity_n > 0 || rc->worn_n > 0))
+        (rc->gap == RB_GAP_TABLE || rc->irregularity.n > 0 || rc->worn.n > 0))
         return rb_fail(why, RB_EINVAL,
                        "relaxation: step by step under a parabola or circle only, got a "
                        "table of the gap");
@@ -393,7 +393,7 @@ static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
 /* The surface is smooth again where the points end; steady rolling sees nothing pass. */
 static rb_status check_irregularity(const rb_rolling_case *rc, rb_message *why)
 {
-    const int n = rc->irregularity_n;
+    const int n = rc->irregularity.n;
 
     if (n == 0)
         return RB_OK;
@@ -401,21 +401,21 @@ static rb_status check_irregularity(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "irregularity: it rides through the contact, which is transient "
                        "rolling");
-    const rb_status s = rb_rolling_points_check("irregularity", n, rc->irregularity_x,
-                                                rc->irregularity_gap, why);
+    const rb_status s = rb_rolling_points_check("irregularity", n, rc->irregularity.x,
+                                                rc->irregularity.y, why);
     for (int i = 0; s == RB_OK && i < n; i += n - 1)
-        if (rc->irregularity_gap[i] != 0.0)
+        if (rc->irregularity.y[i] != 0.0)
             return rb_fail(why, RB_EINVAL,
                            "irregularity: row %d: expected gap 0 where it ends, got %g",
-                           i + 1, rc->irregularity_gap[i]);
+                           i + 1, rc->irregularity.y[i]);
     return s;
 }
 
 static rb_status check_worn(const rb_rolling_case *rc, rb_message *why)
 {
-    for (int i = 0; i < rc->worn_n; i++)
-        if (!isfinite(rc->worn_x[i]) || !isfinite(rc->worn_depth[i]) ||
-            (i > 0 && !(rc->worn_x[i] > rc->worn_x[i - 1])))
+    for (int i = 0; i < rc->worn.n; i++)
+        if (!isfinite(rc->worn.x[i]) || !isfinite(rc->worn.y[i]) ||
+            (i > 0 && !(rc->worn.x[i] > rc->worn.x[i - 1])))
             return rb_fail(why, RB_EINVAL,
                            "worn: row %d: expected finite numbers, x increasing", i + 1);
     return RB_OK;

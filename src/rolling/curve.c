@@ -116,7 +116,7 @@ static double value_at(const rb_rolling_range *r, int k)
 
 /* The coefficients of the last point, from which a solve on another mesh starts. */
 typedef struct {
-    rb_rolling_friction_table table;
+    rb_rolling_table table;
     double *room;
 } branch_start;
 
@@ -131,7 +131,7 @@ static rb_status remember_branch(rb_rolling_model *model, branch_start *start)
     memcpy(room + n, model->problem.bound, n * sizeof *room);
     free(start->room);
     start->room = room;
-    start->table = (rb_rolling_friction_table){model->mesh.n, room, room + n};
+    start->table = (rb_rolling_table){model->mesh.n, room, room + n};
     model->rc.friction.start = &start->table;
     return RB_OK;
 }

@@ -51,7 +51,7 @@ static void remember_friction(run *r, double c)
 {
     const rb_contact_problem *p = &r->model->problem;
     const double *x = r->model->bodies.f.x;
-    const rb_rolling_friction_table now = {p->n, x, p->bound};
+    const rb_rolling_table now = {p->n, x, p->bound};
 
     for (int i = 0; i < p->n && r->mu; i++)
         r->mu[i] = rb_rolling_friction_at(&now, x[i] + c);
@@ -339,7 +339,7 @@ static rb_status static_step(run *r, rb_message *why)
 static rb_status move_gap(rb_rolling_model *model, double way)
 {
     model->rc.passed = way;
-    if (model->rc.irregularity_n == 0)
+    if (model->rc.irregularity.n == 0)
         return RB_OK;
     const rb_status s = rb_rolling_mesh_set_gap(&model->rc, &model->mesh);
     rb_rolling_set_gap(&model->mesh, &model->bodies, &model->problem);

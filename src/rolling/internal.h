@@ -163,7 +163,7 @@ void rb_rolling_yielded(const rb_rolling_model *model, double *yielded);
 
 rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why);
 /* Linear between the table's places, constant beyond them. */
-double rb_rolling_friction_at(const rb_rolling_friction_table *table, double x);
+double rb_rolling_friction_at(const rb_rolling_table *table, double x);
 /* 1 where the law depends on the slip velocity. */
 int rb_rolling_law_slides(const rb_rolling_friction *f);
 double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v,

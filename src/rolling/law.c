@@ -65,17 +65,17 @@ static const struct {
 #define NAME_OF_LAW(name, help) #name,
 static const char *const names[] = {RB_ROLLING_FRICTION_LAWS(NAME_OF_LAW) "table"};
 
-double rb_rolling_friction_at(const rb_rolling_friction_table *table, double x)
+double rb_rolling_friction_at(const rb_rolling_table *table, double x)
 {
     const int last = table->n - 1;
 
     if (x <= table->x[0])
-        return table->mu[0];
+        return table->y[0];
     if (x >= table->x[last])
-        return table->mu[last];
+        return table->y[last];
     const size_t k = gsl_interp_bsearch(table->x, x, 0, (size_t)last);
     const double share = (x - table->x[k]) / (table->x[k + 1] - table->x[k]);
-    return table->mu[k] + share * (table->mu[k + 1] - table->mu[k]);
+    return table->y[k] + share * (table->y[k + 1] - table->y[k]);
 }
 
 /* ---- What is known of a law beforehand --------------------------------------------- */
@@ -98,7 +98,7 @@ static double end_of_range(const rb_rolling_case *rc, double side)
     double most = side * rc->mu;
 
     for (int k = 0; k < f->table.n && f->law == RB_FRICTION_table; k++)
-        most = k == 0 ? side * f->table.mu[0] : fmax(most, side * f->table.mu[k]);
+        most = k == 0 ? side * f->table.y[0] : fmax(most, side * f->table.y[k]);
     for (int k = 0; k < 2 && rb_rolling_law_slides(f); k++)
         most += fmax(0.0, side * f->fall[k]);
     return side * (most + fmax(0.0, side * f->heat));
@@ -109,7 +109,7 @@ double rb_rolling_largest_mu(const rb_rolling_case *rc)
     return end_of_range(rc, 1.0);
 }
 
-static rb_status check_table(const rb_rolling_friction_table *t, rb_message *why)
+static rb_status check_table(const rb_rolling_table *t, rb_message *why)
 {
     if (t->n < 1)
         return rb_fail(why, RB_EINVAL, "friction table: expected a row or more");
@@ -118,10 +118,10 @@ static rb_status check_table(const rb_rolling_friction_table *t, rb_message *why
             return rb_fail(why, RB_EINVAL,
                            "friction table: row %d: expected x to increase, got %g",
                            k + 1, t->x[k]);
-        if (!(isfinite(t->mu[k]) && t->mu[k] >= 0.0))
+        if (!(isfinite(t->y[k]) && t->y[k] >= 0.0))
             return rb_fail(why, RB_EINVAL,
                            "friction table: row %d: expected mu >= 0, got %g", k + 1,
-                           t->mu[k]);
+                           t->y[k]);
     }
     return RB_OK;
 }
@@ -224,7 +224,7 @@ double rb_rolling_law_steepest(const rb_rolling_case *rc)
 void rb_rolling_start_bounds(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
                              rb_contact_problem *p)
 {
-    const rb_rolling_friction_table *start =
+    const rb_rolling_table *start =
         rc->formulation == RB_STATIC ? NULL : rc->friction.start;
 
     for (int i = 0; i < p->n; i++)

@@ -21,15 +21,14 @@ void rb_rolling_mesh_free(rb_rolling_mesh *mesh)
 
 double rb_rolling_worn_depth(const rb_rolling_case *rc, double x)
 {
-    const int n = rc->worn_n;
-    const double *row = rc->worn_x;
+    const int n = rc->worn.n;
+    const double *row = rc->worn.x;
 
     if (n == 0 || x < row[0] || x > row[n - 1])
         return 0.0;
     const int i = (int)gsl_interp_bsearch(row, x, 0, (size_t)n - 1);
     const double t = i + 1 < n ? (x - row[i]) / (row[i + 1] - row[i]) : 0.0;
-    return t > 0.0 ? (1.0 - t) * rc->worn_depth[i] + t * rc->worn_depth[i + 1]
-                   : rc->worn_depth[i];
+    return t > 0.0 ? (1.0 - t) * rc->worn.y[i] + t * rc->worn.y[i + 1] : rc->worn.y[i];
 }
 
 static double round_gap(const rb_rolling_case *rc, double x)
@@ -67,13 +66,13 @@ static rb_status mesh_alloc(int n, rb_rolling_mesh *mesh)
 static rb_status add_irregularity(const rb_rolling_case *rc, int n, const double *x,
                                   double *gap)
 {
-    const size_t rows = (size_t)rc->irregularity_n;
-    const double *row = rc->irregularity_x;
+    const size_t rows = (size_t)rc->irregularity.n;
+    const double *row = rc->irregularity.x;
     gsl_spline *spline = gsl_spline_alloc(gsl_interp_cspline, rows);
 
     if (!spline)
         return RB_ENOMEM;
-    gsl_spline_init(spline, row, rc->irregularity_gap, rows);
+    gsl_spline_init(spline, row, rc->irregularity.y, rows);
     for (int i = 0; i < n; i++) {
         const double place = x[i] + rc->passed;
         if (place > row[0] && place < row[rows - 1])
@@ -88,12 +87,12 @@ rb_status rb_rolling_gap_along(const rb_rolling_case *rc, int n, const double *x
 {
     for (int i = 0; i < n; i++)
         gap[i] = rb_rolling_initial_gap(rc, x[i]);
-    return rc->irregularity_n > 0 ? add_irregularity(rc, n, x, gap) : RB_OK;
+    return rc->irregularity.n > 0 ? add_irregularity(rc, n, x, gap) : RB_OK;
 }
 
 int rb_rolling_is_convex(const rb_rolling_case *rc)
 {
-    return rc->gap != RB_GAP_TABLE && rc->irregularity_n == 0 && rc->worn_n == 0;
+    return rc->gap != RB_GAP_TABLE && rc->irregularity.n == 0 && rc->worn.n == 0;
 }
 
 rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh)

@@ -246,9 +246,9 @@ static size_t most_places(int rows)
     return (size_t)fmin(BETWEEN * (double)rows, MOST_PLACES) + BETWEEN;
 }
 
-/* A table that moves: its rows stood at x before it has passed so far. */
+/* A table that moves: its n rows stood at x before it has passed so far. */
 typedef struct {
-    int rows;
+    int n;
     const double *x;
     double passed;
 } table;
@@ -259,12 +259,12 @@ static int add_places(const rb_rolling_model *model, const rb_contact_state *sta
                       const table *t, double *x, int n)
 {
     const double h = shortest(&model->mesh);
-    const int all = BETWEEN * (t->rows - 1), stride = 1 + all / MOST_PLACES;
+    const int all = BETWEEN * (t->n - 1), stride = 1 + all / MOST_PLACES;
     double from, to;
 
     rb_rolling_extent(&model->rc, &from, &to);
     for (int k = 0; k <= all; k += stride) {
-        const int r = k < all ? k / BETWEEN : t->rows - 2;
+        const int r = k < all ? k / BETWEEN : t->n - 2;
         const double share = (double)(k - BETWEEN * r) / BETWEEN;
         const double place = t->x[r] + share * (t->x[r + 1] - t->x[r]) - t->passed;
         if (place >= from && place <= to && is_unseen(&model->mesh, state, h, place))
@@ -279,19 +279,16 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The rows of the profile, of the irregularity and of what is worn. */
-typedef struct {
-    int profile, irregularity, worn;
-    const double *profile_x;
-} tables;
+enum { TABLES = 3 };
 
-static tables tables_of(const rb_rolling_case *rc)
+/* The profile, what is irregular and what is worn; n < 2: it says nothing. */
+static void find_tables(const rb_rolling_case *rc, table t[TABLES])
 {
-    tables t = {.irregularity = rc->irregularity_n, .worn = rc->worn_n};
-
+    t[0] = (table){0, NULL, 0.0};
+    t[1] = (table){rc->irregularity.n, rc->irregularity.x, rc->passed};
+    t[2] = (table){rc->worn.n, rc->worn.x, 0.0};
     if (rc->gap == RB_GAP_TABLE)
-        t.profile = rb_rolling_profile_rows(rc->profile, &t.profile_x);
-    return t;
+        t[0].n = rb_rolling_profile_rows(rc->profile, &t[0].x);
 }
 
 /* Places of all tables in order, and the undeformed gap there. */
@@ -299,20 +296,15 @@ static rb_status unseen_places(const rb_rolling_model *model,
                                const rb_contact_state *state, int *places, double *x,
                                double *gap)
 {
-    const rb_rolling_case *rc = &model->rc;
-    const tables t = tables_of(rc);
+    table t[TABLES];
 
+    find_tables(&model->rc, t);
     *places = 0;
-    if (t.profile > 0)
-        *places = add_places(model, state, &(table){t.profile, t.profile_x, 0.0}, x, 0);
-    if (t.irregularity > 0)
-        *places = add_places(model, state,
-                             &(table){t.irregularity, rc->irregularity_x, rc->passed}, x,
-                             *places);
-    if (t.worn > 1)
-        *places = add_places(model, state, &(table){t.worn, rc->worn_x, 0.0}, x, *places);
+    for (int k = 0; k < TABLES; k++)
+        if (t[k].n > 1)
+            *places = add_places(model, state, &t[k], x, *places);
     qsort(x, (size_t)*places, sizeof *x, by_value);
-    return rb_rolling_gap_along(rc, *places, x, gap);
+    return rb_rolling_gap_along(&model->rc, *places, x, gap);
 }
 
 /* Leaves the places whose gap is less than `reach`. */
@@ -386,9 +378,11 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
     o->count = 0;
     if (rb_rolling_is_convex(rc) || model->mesh.n < 2)
         return RB_OK;
-    const tables t = tables_of(rc);
-    const size_t room =
-        most_places(t.profile) + most_places(t.irregularity) + most_places(t.worn) + 2;
+    table t[TABLES];
+    size_t room = 2;
+    find_tables(rc, t);
+    for (int k = 0; k < TABLES; k++)
+        room += most_places(t[k].n);
     double *x = rb_alloc(room, 3);
     rb_status status = x ? gather_strips(&model->mesh, state, &s) : RB_ENOMEM;
     if (status == RB_OK)

@@ -310,7 +310,7 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc)
     case RB_FOR_HEAT:
         return rb_rolling_has_heat(rc);
     case RB_FOR_WORN:
-        return rc->worn_n > 0;
+        return rc->worn.n > 0;
     case RB_FOR_LAW:
         return rc->friction.law != RB_FRICTION_constant || rc->friction.heat != 0.0 ||
                rc->friction.follows_way;

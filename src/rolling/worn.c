@@ -60,11 +60,9 @@ static rb_status take_mesh(run *r)
     return RB_OK;
 }
 
-static void wear_on_mesh(run *r)
+static rb_rolling_table worn_of(const run *r)
 {
-    r->rc.worn_n = r->n;
-    r->rc.worn_x = r->x;
-    r->rc.worn_depth = r->depth;
+    return (rb_rolling_table){r->n, r->x, r->depth};
 }
 
 /* The contact at rest, on equal elements that stay: those of an automatic zone, with
@@ -114,7 +112,7 @@ static rb_status widen(run *r, rb_message *why)
         wider.depth[i + more] = r->depth[i];
     run_free(r);
     *r = wider;
-    wear_on_mesh(r);
+    r->rc.worn = worn_of(r);
     return s;
 }
 
@@ -126,9 +124,7 @@ static rb_status pose(run *r, const double *F, rb_message *why)
     const double *own = model->bodies.F;
 
     rb_contact_problem_free(&model->problem);
-    model->rc.worn_n = r->n;
-    model->rc.worn_x = r->x;
-    model->rc.worn_depth = r->depth;
+    model->rc.worn = worn_of(r);
     rb_status s = rb_rolling_mesh_set_gap(&model->rc, &model->mesh);
     model->bodies.F = F;
     if (s == RB_OK)
@@ -411,7 +407,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
         s = rc->formulation == RB_STEADY ? rb_rolling_model_create(rc, &r.model, why)
                                          : press(&r, why);
     if (s == RB_OK && rc->formulation != RB_STEADY) {
-        wear_on_mesh(&r);
+        r.rc.worn = worn_of(&r);
         s = pose(&r, r.model.bodies.F, why);
     }
     if (s == RB_OK)

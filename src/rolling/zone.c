@@ -25,7 +25,7 @@ static double width(interval zone)
  * the potential contact. */
 static int is_symmetric(const rb_rolling_case *rc)
 {
-    return rc->gap != RB_GAP_TABLE && rc->worn_n == 0;
+    return rc->gap != RB_GAP_TABLE && rc->worn.n == 0;
 }
 
 static interval extent(const rb_rolling_case *rc)
