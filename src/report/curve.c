@@ -261,8 +261,7 @@ static void choose_axes(view *v)
             largest = fmax(largest, fabs(v->over == RB_OVER_SPEED ? c->resistance_ratio[i]
                                                                   : c->creepage[i]));
     }
-    if (largest > 0.0 && largest < 0.1)
-        v->exponent = (int)floor(log10(largest));
+    v->exponent = rb_report_exponent(largest);
     v->from = INFINITY;
     v->to = -INFINITY;
     for (int k = 0; k < v->curves->n; k++)

@@ -72,8 +72,7 @@ static view make_view(const rb_rolling_history *h, rb_report_canvas canvas)
     double largest = 0.0;
     for (int i = 0; i < h->n; i++)
         largest = is_shown(&v, i) ? fmax(largest, fabs(motion(&v, h, i))) : largest;
-    if (largest > 0.0 && largest < 0.1)
-        v.exponent = (int)floor(log10(largest));
+    v.exponent = rb_report_exponent(largest);
     v.power = pow(10.0, v.exponent);
     v.from = v.rolls || v.in_time ? 0.0 : 1.0;
     v.to = place(&v, h->n - 1);

@@ -82,6 +82,15 @@ typedef struct {
 
 /* One whose numbers are neither long nor tiny up to `largest`; unit: "MPa" or "mm". */
 rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double largest);
+/* Lengths about a contact of half-width a, in the system's unit or, where that has too
+ * many digits, in a: "[mm]", "/ a". */
+typedef struct {
+    double size;
+    char label[16];
+} rb_report_length;
+rb_report_length rb_report_length_axis(rb_units units, double a);
+/* The power of ten that small numbers up to `largest` are shown in; of others 0. */
+int rb_report_exponent(double largest);
 /* The next of 1, 2, 5 times a power of ten. */
 double rb_report_round_step(double step);
 /* As many labels as that part of the canvas takes without one touching the next. */

@@ -4,7 +4,6 @@
 #include "rollbem/closed_forms.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <string.h>
 
 /* A y axis in units of a power of ten. */
@@ -17,8 +16,7 @@ typedef struct {
 typedef struct {
     const rb_rolling_case *rc;
     const rb_rolling_solution *s;
-    double unit; /* length of one unit of the x axis */
-    char x_label[16];
+    rb_report_length length; /* of one unit of the x axis */
     double stress_unit;
     const char *stress_label;
     double from, to; /* x axis, in its units */
@@ -60,27 +58,20 @@ static double middle_of(const view *v, int which)
 static void choose_x_axis(view *v)
 {
     const rb_rolling_solution *s = v->s;
-    const double a = s->half_width;
-    const rb_report_unit unit = rb_report_axis_unit(s->units, "mm", a);
-    const int ratio = a > 0.0 && (a / unit.size < 0.01 || a / unit.size > 1e5);
-    v->unit = ratio ? a : unit.size;
-    if (ratio)
-        snprintf(v->x_label, sizeof v->x_label, "x / a");
-    else
-        snprintf(v->x_label, sizeof v->x_label, "x [%s]", unit.name);
+    v->length = rb_report_length_axis(s->units, s->half_width);
     double from = s->x[0] - s->h[0] / 2, to = s->x[s->n - 1] + s->h[s->n - 1] / 2;
     if (s->contact > 0) {
         const double margin = 0.15 * (s->contact_to - s->contact_from);
         from = fmax(from, s->contact_from - margin);
         to = fmin(to, s->contact_to + margin);
     }
-    v->from = from / v->unit;
-    v->to = to / v->unit;
+    v->from = from / v->length.size;
+    v->to = to / v->length.size;
 }
 
 static int is_shown(const view *v, int i)
 {
-    const double x = v->s->x[i] / v->unit;
+    const double x = v->s->x[i] / v->length.size;
     return x >= v->from && x <= v->to;
 }
 
@@ -89,8 +80,7 @@ static int is_shown(const view *v, int i)
 static axis axis_between(double least, double most)
 {
     const double largest = fmax(most, -least);
-    axis y = {.exponent =
-                  largest > 0.0 && largest < 0.1 ? (int)floor(log10(largest)) : 0};
+    axis y = {.exponent = rb_report_exponent(largest)};
     y.unit = pow(10.0, y.exponent);
     const double margin = most > least ? 0.12 * (most - least) : y.unit;
     y.from = (least - margin) / y.unit;
@@ -176,7 +166,7 @@ static void write_data(FILE *out, const view *v)
     const rb_rolling_solution *s = v->s;
     fputs("$data << EOD\n", out);
     for (int i = 0; i < s->n; i++)
-        fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->unit,
+        fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s->x[i] / v->length.size,
                 s->p[i] / v->stress_unit, s->q[i] / v->stress_unit,
                 bound_of(v, i) / v->stress_unit, slip_of(v, i) / v->slip.unit,
                 s->temperature ? s->temperature[i] / v->heat.unit : 0.0,
@@ -195,7 +185,7 @@ static void write_carter(FILE *out, const view *v)
     for (int k = 0; k <= POINTS; k++) {
         const double x = -a * cos(3.14159265358979 * k / POINTS);
         const double q = rb_closed_carter_traction(mu, p0, a, s->creep_ratio, x);
-        fprintf(out, "%.9g %.9g\n", x / v->unit, q / v->stress_unit);
+        fprintf(out, "%.9g %.9g\n", x / v->length.size, q / v->stress_unit);
     }
     fputs("EOD\n", out);
 }
@@ -214,8 +204,8 @@ static stretch next_stretch(const view *v, int *i)
     const int first = *i;
     while (*i < s->n && s->zone[*i] == s->zone[first])
         ++*i;
-    const double from = (s->x[first] - s->h[first] / 2) / v->unit;
-    const double to = (s->x[*i - 1] + s->h[*i - 1] / 2) / v->unit;
+    const double from = (s->x[first] - s->h[first] / 2) / v->length.size;
+    const double to = (s->x[*i - 1] + s->h[*i - 1] / 2) / v->length.size;
     return (stretch){fmax(from, v->from), fmin(to, v->to), s->zone[first]};
 }
 
@@ -348,99 +338,9 @@ static void write_tractions(FILE *out, const view *v, double key_font)
     fputs("\n", out);
 }
 
-rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double largest)
-{
-    /* from the largest down to the system's own, which is 1 */
-    static const struct {
-        rb_units units;
-        const char *of;
-        double from; /* used from this value on */
-        rb_report_unit unit;
-    } all[] = {{RB_UNITS_MM, "MPa", 1e4, {1e3, "GPa"}},
-               {RB_UNITS_SI, "MPa", 1e10, {1e9, "GPa"}},
-               {RB_UNITS_SI, "MPa", 1e6, {1e6, "MPa"}},
-               {RB_UNITS_SI, "MPa", 1e4, {1e3, "kPa"}},
-               {RB_UNITS_INCH, "MPa", 1e4, {1e3, "ksi"}}};
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-        if (all[k].units == units && strcmp(all[k].of, unit) == 0 &&
-            largest >= all[k].from)
-            return all[k].unit;
-    if (units == RB_UNITS_SI && strcmp(unit, "mm") == 0 && largest < 0.1)
-        return (rb_report_unit){1e-3, "mm"};
-    return (rb_report_unit){1.0, rb_unit_name(units, unit)};
-}
-
-/* Words that are put one behind the other, as far as there is room. */
-typedef struct {
-    char text[256];
-    size_t n;
-} words;
-
-__attribute__((format(printf, 2, 3))) static void add_words(words *w, const char *format,
-                                                            ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    const int n = vsnprintf(w->text + w->n, sizeof w->text - w->n, format, arguments);
-    va_end(arguments);
-    if (n > 0)
-        w->n += (size_t)n < sizeof w->text - w->n ? (size_t)n : sizeof w->text - 1 - w->n;
-}
-
-static void add_length(words *w, const char *of, double length, rb_units units)
-{
-    add_words(w, ", %s%.5g %s", of, rb_unit_shown(units, "mm", length),
-              rb_unit_name(units, "mm"));
-}
-
-static void add_body(words *w, const rb_rolling_body *b, rb_units units)
-{
-    const double young = rb_unit_shown(units, "MPa", b->young);
-    const rb_report_unit unit = rb_report_axis_unit(units, "MPa", young);
-    add_words(w, "%s", rb_rolling_kind_name(rb_rolling_kind_of(b)));
-    if (isfinite(b->radius))
-        add_length(w, "R = ", b->radius, units);
-    if (b->cover > 0.0)
-        add_length(w, "cover ", b->cover, units);
-    if (b->layer > 0.0)
-        add_length(w, "layer ", b->layer, units);
-    add_words(w, ", E = %.4g %s%s", young / unit.size, unit.name,
-              b->memory.n > 0 ? ", relaxes" : "");
-}
-
-void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units,
-                            double x, double y)
-{
-    enum { FITS = 90 }; /* characters of this size in a line */
-    words w = {.n = 0};
-    add_words(&w, "A: ");
-    add_body(&w, &rc->a, units);
-    add_words(&w, ";  B");
-    if (rc->elastic_b) {
-        add_words(&w, ": ");
-        add_body(&w, &rc->b, units);
-    } else
-        add_words(&w, " rigid");
-    fprintf(out,
-            "set label 9 '{/*%.3g %s}' at screen %g, %g center textcolor rgb '#444444'\n",
-            w.n > FITS ? 0.95 * FITS / (double)w.n : 0.95, w.text, x, y);
-}
-
-double rb_report_round_step(double step)
-{
-    const double power = pow(10.0, floor(log10(step)));
-    const double digit = step / power;
-    return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
-}
-
-double rb_report_labels_in(double height)
-{
-    return fmax(2.0, 12.0 * height);
-}
-
 static void write_x_label(FILE *out, const view *v)
 {
-    fprintf(out, "set xlabel '%s%s' offset 0,0.3\n", v->x_label,
+    fprintf(out, "set xlabel 'x %s%s' offset 0,0.3\n", v->length.label,
             v->s->formulation == RB_STATIC ? "" : "      (rolling towards +x →)");
 }
 

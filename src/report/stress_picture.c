@@ -5,8 +5,7 @@
 
 typedef struct {
     const rb_report_stress *s;
-    double unit; /* length of one unit of the axes */
-    char length_label[16];
+    rb_report_length length; /* of one unit of the axes */
     double stress_unit;
     const char *stress_label;
     double from, to, depth; /* in units */
@@ -17,25 +16,18 @@ typedef struct {
 
 static view make_view(const rb_report_stress *s)
 {
-    const double a = s->s->half_width;
-    const rb_report_unit length = rb_report_axis_unit(s->s->units, "mm", a);
     const rb_report_unit stress =
         rb_report_axis_unit(s->s->units, "MPa", s->s->max_pressure);
-    const int ratio = a / length.size < 0.01 || a / length.size > 1e5;
     view v = {.s = s,
-              .unit = ratio ? a : length.size,
+              .length = rb_report_length_axis(s->s->units, s->s->half_width),
               .stress_unit = stress.size,
               .stress_label = stress.name};
-    if (ratio)
-        snprintf(v.length_label, sizeof v.length_label, "/ a");
-    else
-        snprintf(v.length_label, sizeof v.length_label, "[%s]", length.name);
-    v.from = s->at[0].x / v.unit;
-    v.to = s->at[s->nx - 1].x / v.unit;
+    v.from = s->at[0].x / v.length.size;
+    v.to = s->at[s->nx - 1].x / v.length.size;
     v.depth = 0.0;
     for (int k = 0; k < s->n; k++)
         if (rb_report_stress_is_inside(s, k))
-            v.depth = fmax(v.depth, s->at[k].y / v.unit);
+            v.depth = fmax(v.depth, s->at[k].y / v.length.size);
     return v;
 }
 
@@ -46,7 +38,7 @@ static void write_grid(FILE *out, const view *v)
     fputs("$grid << EOD\n", out);
     for (int k = 0; k < s->n; k++) {
         const rb_rolling_stress *at = &s->at[k];
-        fprintf(out, "%.9g %.9g ", at->x / v->unit, at->y / v->unit);
+        fprintf(out, "%.9g %.9g ", at->x / v->length.size, at->y / v->length.size);
         if (rb_report_stress_is_inside(s, k))
             fprintf(out, "%.7g %.7g %.7g\n", at->max_shear / v->stress_unit,
                     at->von_mises / v->stress_unit,
@@ -74,8 +66,8 @@ static void write_contact(FILE *out, const view *v)
         fprintf(out,
                 "set arrow from %.9g, graph -0.018 to %.9g, graph -0.018 nohead "
                 "linewidth %d linecolor rgb '%s' front\n",
-                (s->x[first] - s->h[first] / 2) / v->unit,
-                (s->x[i - 1] + s->h[i - 1] / 2) / v->unit,
+                (s->x[first] - s->h[first] / 2) / v->length.size,
+                (s->x[i - 1] + s->h[i - 1] / 2) / v->length.size,
                 s->zone[first] == RB_ZONE_STICK ? 2 : 6, colours[s->zone[first]]);
     }
 }
@@ -94,7 +86,7 @@ static int is_to_scale(const view *v)
 
 static void write_x_label(FILE *out, const view *v)
 {
-    fprintf(out, "set xlabel 'x %s%s%s' offset 0,0.2\n", v->length_label,
+    fprintf(out, "set xlabel 'x %s%s%s' offset 0,0.2\n", v->length.label,
             v->s->s->formulation == RB_STATIC ? "" : "   (rolling towards +x →)",
             is_to_scale(v) ? "" : "   (y not to scale)");
 }
@@ -107,7 +99,7 @@ static void write_axes(FILE *out, const view *v)
     fprintf(out, "set xrange [%.9g:%.9g]\nset yrange [0:%.9g]\n", v->from, v->to,
             v->depth);
     write_x_label(out, v);
-    fprintf(out, "set ylabel 'y %s, into A'\n", v->length_label);
+    fprintf(out, "set ylabel 'y %s, into A'\n", v->length.label);
     write_contact(out, v);
 }
 
@@ -176,7 +168,7 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
         rb_report_round_step(m->value / v->stress_unit / rb_report_labels_in(at.height)),
         at.left + at.width + 0.012, bottom, at.height, name, v->stress_label,
         m->value / v->stress_unit, at.left + at.width / 2,
-        top + (v->column ? 0.03 : 0.05), m->x / v->unit, m->y / v->unit);
+        top + (v->column ? 0.03 : 0.05), m->x / v->length.size, m->y / v->length.size);
     fprintf(out,
             "splot $grid using 1:2:%d with pm3d nocontour, $grid using 1:2:%d with lines "
             "nosurface linecolor rgb '#ffffff' linewidth 0.6, $grid using 1:2:%d with "

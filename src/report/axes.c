@@ -1,0 +1,116 @@
+/* Axes and labels that the pictures share: units, powers of ten, steps, the bodies. */
+#include "report/internal.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+/* ---- Axes -------------------------------------------------------------------------- */
+
+rb_report_unit rb_report_axis_unit(rb_units units, const char *unit, double largest)
+{
+    /* from the largest down to the system's own, which is 1 */
+    static const struct {
+        rb_units units;
+        const char *of;
+        double from; /* used from this value on */
+        rb_report_unit unit;
+    } all[] = {{RB_UNITS_MM, "MPa", 1e4, {1e3, "GPa"}},
+               {RB_UNITS_SI, "MPa", 1e10, {1e9, "GPa"}},
+               {RB_UNITS_SI, "MPa", 1e6, {1e6, "MPa"}},
+               {RB_UNITS_SI, "MPa", 1e4, {1e3, "kPa"}},
+               {RB_UNITS_INCH, "MPa", 1e4, {1e3, "ksi"}}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        if (all[k].units == units && strcmp(all[k].of, unit) == 0 &&
+            largest >= all[k].from)
+            return all[k].unit;
+    if (units == RB_UNITS_SI && strcmp(unit, "mm") == 0 && largest < 0.1)
+        return (rb_report_unit){1e-3, "mm"};
+    return (rb_report_unit){1.0, rb_unit_name(units, unit)};
+}
+
+rb_report_length rb_report_length_axis(rb_units units, double a)
+{
+    const rb_report_unit unit = rb_report_axis_unit(units, "mm", a);
+    rb_report_length axis = {a, "/ a"};
+    if (!(a > 0.0 && (a / unit.size < 0.01 || a / unit.size > 1e5))) {
+        axis.size = unit.size;
+        snprintf(axis.label, sizeof axis.label, "[%s]", unit.name);
+    }
+    return axis;
+}
+
+int rb_report_exponent(double largest)
+{
+    return largest > 0.0 && largest < 0.1 ? (int)floor(log10(largest)) : 0;
+}
+
+double rb_report_round_step(double step)
+{
+    const double power = pow(10.0, floor(log10(step)));
+    const double digit = step / power;
+    return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
+}
+
+double rb_report_labels_in(double height)
+{
+    return fmax(2.0, 12.0 * height);
+}
+
+/* ---- The bodies -------------------------------------------------------------------- */
+
+/* Words that are put one behind the other, as far as there is room. */
+typedef struct {
+    char text[256];
+    size_t n;
+} words;
+
+__attribute__((format(printf, 2, 3))) static void add_words(words *w, const char *format,
+                                                            ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const int n = vsnprintf(w->text + w->n, sizeof w->text - w->n, format, arguments);
+    va_end(arguments);
+    if (n > 0)
+        w->n += (size_t)n < sizeof w->text - w->n ? (size_t)n : sizeof w->text - 1 - w->n;
+}
+
+static void add_length(words *w, const char *of, double length, rb_units units)
+{
+    add_words(w, ", %s%.5g %s", of, rb_unit_shown(units, "mm", length),
+              rb_unit_name(units, "mm"));
+}
+
+static void add_body(words *w, const rb_rolling_body *b, rb_units units)
+{
+    const double young = rb_unit_shown(units, "MPa", b->young);
+    const rb_report_unit unit = rb_report_axis_unit(units, "MPa", young);
+    add_words(w, "%s", rb_rolling_kind_name(rb_rolling_kind_of(b)));
+    if (isfinite(b->radius))
+        add_length(w, "R = ", b->radius, units);
+    if (b->cover > 0.0)
+        add_length(w, "cover ", b->cover, units);
+    if (b->layer > 0.0)
+        add_length(w, "layer ", b->layer, units);
+    add_words(w, ", E = %.4g %s%s", young / unit.size, unit.name,
+              b->memory.n > 0 ? ", relaxes" : "");
+}
+
+void rb_report_label_bodies(FILE *out, const rb_rolling_case *rc, rb_units units,
+                            double x, double y)
+{
+    enum { FITS = 90 }; /* characters of this size in a line */
+    words w = {.n = 0};
+    add_words(&w, "A: ");
+    add_body(&w, &rc->a, units);
+    add_words(&w, ";  B");
+    if (rc->elastic_b) {
+        add_words(&w, ": ");
+        add_body(&w, &rc->b, units);
+    } else
+        add_words(&w, " rigid");
+    fprintf(out,
+            "set label 9 '{/*%.3g %s}' at screen %g, %g center textcolor rgb '#444444'\n",
+            w.n > FITS ? 0.95 * FITS / (double)w.n : 0.95, w.text, x, y);
+}
