@@ -90,6 +90,12 @@ struct rb_contact_operator {
     rb_contact_response response;
 };
 
+/* ---- problem.c --------------------------------------------------------------------- */
+
+/* Arrays of zeros for the n elements of a problem whose operator is set; frees it where
+ * there is no memory. */
+rb_status rb_contact_problem_alloc_rows(rb_contact_problem *problem);
+
 /* ---- pairs.c ----------------------------------------------------------------------- */
 
 /* The problem with its elements in pairs, forces added; for rb_contact_problem_free.

@@ -73,40 +73,29 @@ rb_status rb_contact_halve(const rb_contact_problem *fine, rb_contact_problem *h
     const int n = fine->n;
     const shares slip = of_slips(fine->differences);
     rb_contact_operator *op = NULL;
-    rb_contact_problem pairs;
     rb_status s = fine->op->kind->halve
                       ? fine->op->kind->halve(fine->op, fine->differences, &op)
                       : RB_MAXITER;
 
-    if (s == RB_OK)
-        s = rb_contact_problem_alloc(op, &pairs);
     if (s != RB_OK)
         return s;
-    add_means(n, MEAN, fine->bound, pairs.bound);
-    add_means(n, MEAN, fine->d_N, pairs.d_N);
-    add_means(n, slip, fine->d_T, pairs.d_T);
-    add_means(n, slip, fine->e_T, pairs.e_T);
-    add_pairs(n, fine->load_N, pairs.load_N);
-    add_pairs(n, fine->load_T, pairs.load_T);
-    add_pairs(n, fine->force_N, pairs.force_N);
-    add_pairs(n, fine->force_T, pairs.force_T);
-    add_pairs(n, fine->moment_N, pairs.moment_N);
-    add_pairs(n, fine->moment_T, pairs.moment_T);
-    /* controls and scales are those of the fine problem */
-    *half = *fine;
+    *half = *fine; /* controls and scales are those of the fine problem */
+    half->op = op;
+    half->n = op->n;
     half->yield = NULL; /* elastic problems alone start from pairs */
-    half->n = pairs.n;
-    half->op = pairs.op;
-    half->bound = pairs.bound;
-    half->d_N = pairs.d_N;
-    half->d_T = pairs.d_T;
-    half->e_T = pairs.e_T;
-    half->load_N = pairs.load_N;
-    half->load_T = pairs.load_T;
-    half->force_N = pairs.force_N;
-    half->force_T = pairs.force_T;
-    half->moment_N = pairs.moment_N;
-    half->moment_T = pairs.moment_T;
+    s = rb_contact_problem_alloc_rows(half);
+    if (s != RB_OK)
+        return s;
+    add_means(n, MEAN, fine->bound, half->bound);
+    add_means(n, MEAN, fine->d_N, half->d_N);
+    add_means(n, slip, fine->d_T, half->d_T);
+    add_means(n, slip, fine->e_T, half->e_T);
+    add_pairs(n, fine->load_N, half->load_N);
+    add_pairs(n, fine->load_T, half->load_T);
+    add_pairs(n, fine->force_N, half->force_N);
+    add_pairs(n, fine->force_T, half->force_T);
+    add_pairs(n, fine->moment_N, half->moment_N);
+    add_pairs(n, fine->moment_T, half->moment_T);
     return RB_OK;
 }
 

@@ -4,41 +4,49 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { ROWS = 10 };
+
+/* The arrays of a problem, n numbers each. */
+static void list_rows(rb_contact_problem *p, double **row[ROWS])
+{
+    double **const rows[ROWS] = {&p->bound,    &p->d_N,     &p->d_T,     &p->e_T,
+                                 &p->load_N,   &p->load_T,  &p->force_N, &p->force_T,
+                                 &p->moment_N, &p->moment_T};
+    memcpy(row, rows, sizeof rows);
+}
+
 void rb_contact_problem_free(rb_contact_problem *p)
 {
+    double **row[ROWS];
+
+    list_rows(p, row);
+    for (int k = 0; k < ROWS; k++)
+        free(*row[k]);
     rb_contact_operator_free(p->op);
-    free(p->bound);
-    free(p->d_N);
-    free(p->d_T);
-    free(p->e_T);
-    free(p->load_N);
-    free(p->load_T);
-    free(p->force_N);
-    free(p->force_T);
-    free(p->moment_N);
-    free(p->moment_T);
     free(p->yield);
     memset(p, 0, sizeof *p);
 }
 
-rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *p)
+rb_status rb_contact_problem_alloc_rows(rb_contact_problem *p)
 {
-    double **const vectors[] = {&p->bound,    &p->d_N,     &p->d_T,     &p->e_T,
-                                &p->load_N,   &p->load_T,  &p->force_N, &p->force_T,
-                                &p->moment_N, &p->moment_T};
+    double **row[ROWS];
     int complete = 1;
 
-    memset(p, 0, sizeof *p);
-    p->op = op;
-    p->n = op->n;
-    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++) {
-        *vectors[k] = rb_alloc((size_t)p->n, 1);
-        complete = complete && *vectors[k];
+    list_rows(p, row);
+    for (int k = 0; k < ROWS; k++) {
+        *row[k] = rb_alloc((size_t)p->n, 1);
+        complete = complete && *row[k];
     }
     if (complete)
         return RB_OK;
     rb_contact_problem_free(p);
     return RB_ENOMEM;
+}
+
+rb_status rb_contact_problem_alloc(rb_contact_operator *op, rb_contact_problem *p)
+{
+    *p = (rb_contact_problem){.op = op, .n = op->n};
+    return rb_contact_problem_alloc_rows(p);
 }
 
 void rb_contact_set_friction(rb_contact_problem *p, double mu, const double *bound)

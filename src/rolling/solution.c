@@ -292,8 +292,6 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     }
     if (status == RB_OK) {
         s->free_creepage = NAN;
-        memcpy(s->p, model->state.p, (size_t)s->n * sizeof(double));
-        memcpy(s->q, model->state.q, (size_t)s->n * sizeof(double));
         set_forces(model, s);
         status = set_table(model, s);
     }
