@@ -1,63 +1,144 @@
 /* Loaded before a program (LD_PRELOAD): lets its allocations fail, those of libraries
- * too.  Counted from the start of main, in programs called rollbem only.
- *   FAULT_MALLOC=K   the K-th allocation fails
- *   FAULT_FROM=K     all from the K-th on fail
- *   FAULT_COUNT=FILE the number of allocations of main is written there */
+ * too, from the start of main to its end.  In place of main a server runs, which forks a
+ * process that goes on with main for every fault_request; its output goes to the files
+ * out and err, and FAULT_CALLS names the file that keeps the calls that have seen a
+ * failure. */
 #define _GNU_SOURCE
+#include "fault_malloc.h"
+
 #include <dlfcn.h>
 #include <errno.h>
+#include <fcntl.h>
+#include <link.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <unwind.h>
 
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *p, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 
-static int counts;
-static long *count, only, from; /* count: of all processes that main forks */
+/* Shared by all processes that main forks. */
+typedef struct {
+    long allocations;
+    int refused;
+} tally;
 
-static int allowed(void)
+static int counts;
+static tally *run;
+static fault_request request;
+
+/* ---- Calls ------------------------------------------------------------------------- */
+
+enum { CALLS = 1 << 16, STACKS = 1 << 14 };
+
+static uintptr_t *calls; /* kept in a file: return addresses below the program's base */
+static uintptr_t base, code_start, code_end;
+
+/* 1: the set has that key now and had not before.  A full set takes no more. */
+static int insert(uintptr_t *set, size_t size, uintptr_t key)
+{
+    size_t i = (size_t)((uint64_t)key * 0x9e3779b97f4a7c15u >> 32) % size;
+    for (size_t k = 0; k < size; k++, i = (i + 1) % size) {
+        if (set[i] == key)
+            return 0;
+        if (set[i] == 0) {
+            set[i] = key;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static _Unwind_Reason_Code note_call(struct _Unwind_Context *context, void *found)
+{
+    const uintptr_t at = _Unwind_GetIP(context);
+    if (at >= code_start && at < code_end && insert(calls, CALLS, at - base))
+        *(int *)found = 1;
+    return _URC_NO_REASON;
+}
+
+/* Walking the stack is slow: one that has been walked in this process, told by its
+ * lowest return address and its depth, has nothing new. */
+static int has_new_call(const void *caller, const void *frame)
+{
+    static uintptr_t stacks[STACKS];
+    int found = 0;
+    if (insert(stacks, STACKS, (uintptr_t)caller * 31 + (uintptr_t)frame))
+        _Unwind_Backtrace(note_call, &found);
+    return found;
+}
+
+static int find_program(struct dl_phdr_info *info, size_t size, void *unused)
+{
+    (void)size;
+    (void)unused;
+    base = info->dlpi_addr;
+    for (int i = 0; i < info->dlpi_phnum; i++)
+        if (info->dlpi_phdr[i].p_type == PT_LOAD && info->dlpi_phdr[i].p_flags & PF_X) {
+            code_start = base + info->dlpi_phdr[i].p_vaddr;
+            code_end = code_start + info->dlpi_phdr[i].p_memsz;
+        }
+    return 1; /* the program comes first */
+}
+
+/* ---- Allocations ------------------------------------------------------------------- */
+
+static int refuses(long k, const void *caller, const void *frame)
+{
+    if (request.by_calls)
+        return !run->refused && has_new_call(caller, frame);
+    return k == request.only || (request.from && k >= request.from);
+}
+
+static int allowed(const void *caller, const void *frame)
 {
     if (!counts)
         return 1;
-    const long k = __atomic_add_fetch(count, 1, __ATOMIC_RELAXED);
-    if (k != only && (from == 0 || k < from))
+    const long k = __atomic_add_fetch(&run->allocations, 1, __ATOMIC_RELAXED);
+    if (!refuses(k, caller, frame))
         return 1;
+    run->refused = 1;
     errno = ENOMEM;
     return 0;
 }
 
+#define ALLOWED allowed(__builtin_return_address(0), __builtin_frame_address(0))
+
 void *malloc(size_t size)
 {
-    return allowed() ? __libc_malloc(size) : NULL;
+    return ALLOWED ? __libc_malloc(size) : NULL;
 }
 
 void *calloc(size_t n, size_t size)
 {
-    return allowed() ? __libc_calloc(n, size) : NULL;
+    return ALLOWED ? __libc_calloc(n, size) : NULL;
 }
 
 void *realloc(void *p, size_t size)
 {
-    return allowed() ? __libc_realloc(p, size) : NULL;
+    return ALLOWED ? __libc_realloc(p, size) : NULL;
 }
 
 void *memalign(size_t alignment, size_t size)
 {
-    return allowed() ? __libc_memalign(alignment, size) : NULL;
+    return ALLOWED ? __libc_memalign(alignment, size) : NULL;
 }
 
 void *aligned_alloc(size_t alignment, size_t size)
 {
-    return allowed() ? __libc_memalign(alignment, size) : NULL;
+    return ALLOWED ? __libc_memalign(alignment, size) : NULL;
 }
 
 int posix_memalign(void **p, size_t alignment, size_t size)
 {
-    if (!allowed())
+    if (!ALLOWED)
         return ENOMEM;
     *p = __libc_memalign(alignment, size);
     return *p ? 0 : ENOMEM;
@@ -69,30 +150,61 @@ typedef int program_main(int argc, char **argv, char **environment);
 
 static program_main *real_main;
 
-static long number(const char *name)
+static void *map_shared(size_t size, const char *file)
 {
-    const char *text = getenv(name);
-    return text ? atol(text) : 0;
+    const int fd = file ? open(file, O_RDWR | O_CREAT | O_CLOEXEC, 0666) : -1;
+    if (file && (fd < 0 || ftruncate(fd, (off_t)size) != 0))
+        abort();
+    void *at = mmap(NULL, size, PROT_READ | PROT_WRITE,
+                    file ? MAP_SHARED : MAP_SHARED | MAP_ANONYMOUS, fd, 0);
+    if (at == MAP_FAILED)
+        abort();
+    close(fd);
+    return at;
+}
+
+static void redirect(int to, const char *file)
+{
+    const int fd = open(file, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (fd < 0 || dup2(fd, to) < 0)
+        abort();
+    close(fd);
 }
 
 static int counted_main(int argc, char **argv, char **environment)
 {
-    const char *file = getenv("FAULT_COUNT");
-    only = number("FAULT_MALLOC");
-    from = number("FAULT_FROM");
-    count = mmap(NULL, sizeof *count, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
-                 -1, 0);
-    counts =
-        count != MAP_FAILED && strncmp(program_invocation_short_name, "rollbem", 7) == 0;
+    counts = 1;
     const int code = real_main(argc, argv, environment);
-    const int counted = counts;
     counts = 0;
-    FILE *out = counted && file ? fopen(file, "w") : NULL;
-    if (out) {
-        fprintf(out, "%ld\n", *count);
-        fclose(out);
-    }
     return code;
+}
+
+static int serve(int argc, char **argv, char **environment)
+{
+    fault_reply reply;
+    calls = map_shared(CALLS * sizeof *calls, getenv("FAULT_CALLS"));
+    run = map_shared(sizeof *run, NULL);
+    dl_iterate_phdr(find_program, NULL);
+    unsetenv("FAULT_CALLS");
+    unsetenv("LD_PRELOAD");
+    while (read(FAULT_REQUESTS, &request, sizeof request) == sizeof request) {
+        *run = (tally){0};
+        const pid_t pid = fork();
+        if (pid == 0) {
+            close(FAULT_REQUESTS);
+            close(FAULT_REPLIES);
+            redirect(1, "out");
+            redirect(2, "err");
+            return counted_main(argc, argv, environment);
+        }
+        if (waitpid(pid, &reply.status, 0) != pid)
+            abort();
+        reply.refused = run->refused;
+        reply.allocations = run->allocations;
+        if (write(FAULT_REPLIES, &reply, sizeof reply) != sizeof reply)
+            abort();
+    }
+    _exit(0);
 }
 
 int __libc_start_main(program_main *start, int argc, char **argv, void (*init)(void),
@@ -102,5 +214,6 @@ int __libc_start_main(program_main *start, int argc, char **argv, void (*init)(v
                 void (*)(void), void *) = NULL;
     *(void **)&real = dlsym(RTLD_NEXT, "__libc_start_main");
     real_main = start;
-    return real(counted_main, argc, argv, init, fini, rtld_fini, stack_end);
+    return real(getenv("FAULT_CALLS") ? serve : start, argc, argv, init, fini, rtld_fini,
+                stack_end);
 }

@@ -3,6 +3,8 @@
  * in `make test`, all in `make test-all`. */
 #include "cli_run.h"
 #include "fault_call.h"
+#include "fault_malloc.h"
+#include "rollbem/blas.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -36,8 +38,121 @@ static const job jobs[] = {
 
 enum { JOBS = sizeof jobs / sizeof jobs[0] };
 
-static const char *const inputs[] = {"case.ini", "study.ini", "input.hdf5", "reference",
-                                     "out",      "err",       "count",      NULL};
+/* What else allocates.  The last ones take a second each: `make test-all` has them. */
+static const char *const allocating[] = {
+    "--version",
+    "--help",
+    "help friction",
+    "--describe=man",
+    "--describe=markdown",
+    "--describe=schema",
+    "--completion=bash",
+    "--completion=zsh",
+    "--completion=fish",
+    "--usage",
+    "examples",
+    "in/b.ini --support arc --outer-elements 24 --load 100 --similar --json",
+    "in/b.ini --support hub --outer-elements 24 --load 100 --young-b 2e5 --radius-b 60 "
+    "--support-b hub --cite",
+    "in/b.ini --support hub --outer-elements 24 --cover-thickness 15 --core-young 2e5 "
+    "--normals surface",
+    "in/b.ini --support hub --outer-elements 24 --formulation steady --creep-ratio 0.5 "
+    "--mesh fitted --near-field exact",
+    "in/b.ini --layer-thickness 2 --base-young 1e3 --young-b 2e5 --layer-thickness-b 3",
+    "in/b.ini --relaxation-time 0.1,1 --relaxation-ratio 1,0.5 --speed 10 --formulation "
+    "steady --creep-ratio 0.5 --json",
+    "in/b.ini --relaxation-time 0.1 --relaxation-ratio 1 --history in/time.txt "
+    "--time-step 0.2 --history-table h.tsv",
+    "in/b.ini --support hub --outer-elements 24 --relaxation-time 0.1 --relaxation-ratio "
+    "1 --history in/time.txt",
+    "in/b.ini --gap in/gap.txt --gap-smoothing 1e-6",
+    "in/b.ini --formulation transient --distance 0.3 --steps 2 --creep-ratio 0.5 "
+    "--irregularity in/flat.txt --json --states",
+    "in/b.ini --worn in/worn.txt --formulation steady --creep-ratio 0.5 --json",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --friction-law exponential "
+    "--mu-fall 0.1 --slip-scale 10 --speed 1e3 --all-solutions --json",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --friction-law rational --mu-fall "
+    "0.1 --slip-scale 10 --speed 1e3 --memory 0.1",
+    "in/b.ini --formulation transient --distance 0.3 --steps 2 --creep-ratio 0.5 "
+    "--friction-law linear --mu-fall 0.1 --slip-scale 10 --speed 1e3 --memory 0.1",
+    "in/b.ini --friction-law in/mu.txt --shift 0.001",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --mu-heat -0.1,20,100 "
+    "--conductivity 50 --heat-capacity 3 --speed 1e3 --all-solutions",
+    "in/b.ini --formulation transient --distance 0.3 --steps 2 --creep-ratio 0.5 "
+    "--conductivity 50 --heat-capacity 3 --speed 1e4",
+    "in/b.ini --formulation steady --force-ratio 0.5 --interlayer-tangential 1e-5 "
+    "--interlayer-normal 1e-6 --yield-stress 10 --hardening 100",
+    "in/b.ini --support hub --outer-elements 24 --formulation steady --free-axle "
+    "--young-b 2e5",
+    "in/b.ini --increments 2 --shift 0.001 --json",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --mesh fitted --solver newton",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --mesh aligned --contact-elements "
+    "12",
+    "in/b.ini --formulation steady --force-ratio 0.5 --slip-operator second --solver "
+    "nsn-ac",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --lcp-form kwak --solver lemke "
+    "--trace",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --error --json --contact-elements "
+    "12",
+    "in/b.ini --formulation steady --creep-ratio 0.5 --accuracy 0.2 --contact-elements "
+    "12",
+    "in/b.ini --units si --load 1e5 --format csv --plot-script p.gp --plot p.svg",
+    "in/b.ini --formulation transient --distance 0.3 --steps 2 --creep-ratio 0.5 "
+    "--history-plot h.svg --progress --error --contact-elements 12",
+    "--example by-hand --json",
+    "curve in/b.ini --points 3 --mu 0.1,0.3 --plot-script p.gp --plot p.svg",
+    "curve in/b.ini --points 3 --over speed --from 1 --to 100 --relaxation-time 0.1 "
+    "--relaxation-ratio 1 --creep-ratio 0.5 --format csv",
+    "curve in/b.ini --points 3 --error --json --contact-elements 12",
+    "sweep in/b.ini --cases in/cases.txt --jobs 1 --format csv --output w.csv",
+    "sweep in/s.ini --map m.svg --show force_ratio --jobs 1 --json",
+    "stress in/b.ini --shift 0.001 --points in/points.txt --json",
+    "wear in/b.ini --formulation steady --creep-ratio 0.5 --wear-coefficient 1e-7 "
+    "--cycles 1000 --wear-steps 2 --json --plot p.svg --plot-script p.gp",
+    "wear in/b.ini --wear-law dissipation --wear-coefficient 1e-7 --slide 10 "
+    "--wear-steps 2 --snapshots s --profile w.tsv",
+    "wear in/b.ini --wear-coefficient 1e-7 --shift 0.001 --cycles 100 --quarter 2 "
+    "--wear-steps 2",
+    "check in/static.json in/steady.json in/transient.json",
+    "lcp in/rod.txt --solution --json",
+    "lcp in/murty.txt --all --json",
+    "lcp in/murty.txt --trace --rule first-index --json",
+    "lcp in/string.mtx --q in/string-q.txt --solver newton --json --output l.json",
+    "lcp in/rod.txt --upper in/rod-upper.txt --solver lemke --json --output l.json",
+    "lcp --game in/game.txt --all --json",
+    "lcp --game in/game.txt --label 1 --json",
+    "friction in/f.hdf5 in/block.dat --facts --solution --json",
+    "friction in/f.hdf5 --trace --json",
+    "friction in/two-blocks.dat --solver nsn-fb --json",
+    "friction in/two-blocks.dat --solver nsn-jm-nls --json",
+    "friction in/two-blocks.dat --solver nsn-ac-hybrid --json",
+    "friction in/two-blocks.dat --solver nsgs-ac --json",
+    "friction in/two-blocks.dat --solver nsgs-aa --json",
+    "friction in/two-blocks.dat --solver nsgs-fp --json",
+    "friction in/two-blocks.dat --solver fixed-point --json",
+    "friction in/two-blocks.dat --solver extragradient --json",
+    "friction in/two-blocks.dat --solver admm --json",
+    "friction in/two-blocks.dat --solver soclcp-smoothing --json",
+    "friction in/f.hdf5 --solver lemke --json",
+    "compare in/f.hdf5 in/two-blocks.dat --solvers nsgs-ac,nsn-ac --measure iterations "
+    "--profiles q.tsv --plot p.svg --plot-script p.gp",
+    "contact in/carter.inp --tractions",
+    "contact in/carter.inp --json",
+    "example truss --nodes 2 --json",
+    "sweep in/s.ini --plot p.svg --jobs 2 --restart --output w.tsv",
+    "example truss --nodes 2 --plot p.svg",
+    "stress in/b.ini --formulation steady --creep-ratio 0.5 --grid 3x3 --shakedown "
+    "--yield-shear 300 --plot-script p.gp",
+    NULL,
+    "stress in/b.ini --formulation steady --creep-ratio 0.5 --grid 3x3 --shakedown "
+    "--yield-shear 300 --shakedown-map k.svg --plot-script p.gp",
+    "stress in/b.ini --support hub --outer-elements 24 --grid 3x3 --fringes f.svg --json",
+    "example bar --json",
+    NULL};
+
+static const char *const inputs[] = {"case.ini",  "study.ini", "input.hdf5",
+                                     "reference", "out",       "err",
+                                     "calls",     "in",        NULL};
 
 /* ---- Files ------------------------------------------------------------------------- */
 
@@ -233,6 +348,16 @@ static void make_reference(const job *j)
     split(j);
 }
 
+static int wrong; /* judgements of the present test */
+
+static void none_wrong(int tried, const char *what)
+{
+    const int n = wrong;
+    wrong = 0;
+    print_message("# %s: %d faults, %d wrong\n", what, tried, n);
+    assert_int_equal(n, 0);
+}
+
 /* What came of it.  said: part of the line that goes with the code. */
 static void judge(const job *j, const char *fault, int k, int status, int code,
                   const char *said)
@@ -250,7 +375,7 @@ static void judge(const job *j, const char *fault, int k, int status, int code,
     if (!good)
         print_error("%s: %s %d: status %x, %d of %d files, stderr: %s\n", j->name, fault,
                     k, (unsigned)status, in.files, reference_files, text);
-    assert_true(good);
+    wrong += !good;
     free(text);
     free(printed);
 }
@@ -290,7 +415,7 @@ static void fail_calls(fault_kind kind, const char *name, int samples)
         }
     }
     unsetenv("ASAN_OPTIONS");
-    print_message("# %s: %d faults\n", name, tried);
+    none_wrong(tried, name);
 }
 
 static void every_write(void **state)
@@ -313,76 +438,148 @@ static void every_close(void **state)
 
 /* ---- Allocations ------------------------------------------------------------------- */
 
-static int run_preloaded(const char *variable, int k)
-{
-    char value[20];
-    int status;
+typedef struct {
     pid_t pid;
-    posix_spawn_file_actions_t files;
-    snprintf(value, sizeof value, "%d", k);
-    setenv("LD_PRELOAD", preload, 1);
-    setenv(variable, value, 1);
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, 1, "out", O_WRONLY | O_CREAT | O_TRUNC,
-                                     0666);
-    posix_spawn_file_actions_addopen(&files, 2, "err", O_WRONLY | O_CREAT | O_TRUNC,
-                                     0666);
-    assert_int_equal(posix_spawn(&pid, program, &files, NULL, arguments, environ), 0);
-    posix_spawn_file_actions_destroy(&files);
-    unsetenv(variable);
-    unsetenv("LD_PRELOAD");
-    assert_int_equal(waitpid(pid, &status, 0), pid);
-    return status;
-}
+    int requests, replies;
+} fault_server;
 
-static int allocations(const job *j)
+/* The program with the job's arguments, waiting for requests (tests/fault_malloc.c). */
+static fault_server start_server(void)
 {
-    size_t size;
-    setenv("FAULT_COUNT", "count", 1);
-    judge(j, "malloc", 0, run_preloaded("FAULT_MALLOC", 0), 0, "");
-    unsetenv("FAULT_COUNT");
-    char *text = read_all("count", &size);
-    const int n = text ? atoi(text) : 0;
-    assert_int_equal(unlink("count"), 0);
-    free(text);
-    return n;
+    int request[2], reply[2];
+    fault_server server;
+    posix_spawn_file_actions_t files;
+    assert_int_equal(pipe(request) | pipe(reply), 0);
+    fcntl(request[1], F_SETFD, FD_CLOEXEC);
+    fcntl(reply[0], F_SETFD, FD_CLOEXEC);
+    setenv("LD_PRELOAD", preload, 1);
+    setenv("FAULT_CALLS", "calls", 1);
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, request[0], FAULT_REQUESTS);
+    posix_spawn_file_actions_adddup2(&files, reply[1], FAULT_REPLIES);
+    assert_int_equal(posix_spawn(&server.pid, program, &files, NULL, arguments, environ),
+                     0);
+    posix_spawn_file_actions_destroy(&files);
+    unsetenv("FAULT_CALLS");
+    unsetenv("LD_PRELOAD");
+    close(request[0]);
+    close(reply[1]);
+    server.requests = request[1];
+    server.replies = reply[0];
+    return server;
 }
 
-static void fail_allocations(const char *variable, int samples)
+static void stop_server(const fault_server *server)
+{
+    int status;
+    close(server->requests);
+    close(server->replies);
+    assert_int_equal(waitpid(server->pid, &status, 0), server->pid);
+    assert_int_equal(status, 0);
+}
+
+static fault_reply run_failing(const fault_server *server, const job *j,
+                               const fault_request *request)
+{
+    fault_reply reply;
+    prepare(j);
+    assert_int_equal(write(server->requests, request, sizeof *request), sizeof *request);
+    assert_int_equal(read(server->replies, &reply, sizeof reply), sizeof reply);
+    return reply;
+}
+
+static int preloaded(void)
+{
+    const char *core = rb_blas_better_core();
+    if (core) /* or the program would start a second time, out of the server's sight */
+        setenv("OPENBLAS_CORETYPE", core, 1);
+    return !SANITIZED && access(preload, R_OK) == 0;
+}
+
+static int fail_every_call(const job *j)
+{
+    make_reference(j);
+    const fault_server server = start_server();
+    const fault_reply whole = run_failing(&server, j, &(fault_request){0});
+    judge(j, "no fault", 0, whole.status, 0, "");
+    assert_true(whole.allocations > 0);
+    for (int k = 1;; k++) {
+        const fault_reply reply =
+            run_failing(&server, j, &(fault_request){.by_calls = 1});
+        judge(j, "call that allocates", k, reply.status, 70, "out of memory");
+        if (!reply.refused) {
+            stop_server(&server);
+            return k - 1;
+        }
+    }
+}
+
+/* Every call of the program that leads to an allocation sees one fail. */
+static void every_call_that_allocates(void **state)
 {
     int tried = 0;
-#if SANITIZED
-    skip();
-#endif
-    if (access(preload, R_OK) != 0)
+    (void)state;
+    if (!preloaded())
+        skip();
+    for (int i = 0; i < JOBS; i++)
+        tried += fail_every_call(&jobs[i]);
+    const char *const *line = allocating;
+    for (int part = 0; part < (getenv("ROLLBEM_TEST_ALL") ? 2 : 1); part++, line++)
+        for (; *line; line++)
+            tried += fail_every_call(&(job){.name = *line, .arguments = *line});
+    none_wrong(tried, "calls that allocate");
+}
+
+/* From one allocation on all fail, also those of the way out. */
+static void every_allocation_from_one_on(void **state)
+{
+    int tried = 0;
+    (void)state;
+    if (!preloaded())
         skip();
     for (int i = 0; i < JOBS; i++) {
         make_reference(&jobs[i]);
-        prepare(&jobs[i]);
-        const int n = allocations(&jobs[i]), step = stride(n, samples);
-        for (int k = 1 + i % step; k <= n; k += step, tried++) {
-            prepare(&jobs[i]);
-            judge(&jobs[i], variable, k, run_preloaded(variable, k), 70, "out of memory");
+        const fault_server server = start_server();
+        const long n = run_failing(&server, &jobs[i], &(fault_request){0}).allocations;
+        const int step = stride((int)n, 15);
+        for (long k = 1 + i % step; k <= n; k += step, tried++) {
+            const fault_request request = {.from = k};
+            judge(&jobs[i], "no memory from allocation", (int)k,
+                  run_failing(&server, &jobs[i], &request).status, 70, "out of memory");
         }
+        stop_server(&server);
     }
-    print_message("# %s: %d faults\n", variable, tried);
+    none_wrong(tried, "from one allocation on");
 }
 
-static void every_allocation(void **state)
-{
-    (void)state;
-    fail_allocations("FAULT_MALLOC", 30);
-}
+/* Small inputs of every kind, in the folder in. */
+static const char *const making_inputs[] = {
+    "mkdir in; cp $E/lcp/*.txt $E/lcp/*.mtx $E/friction/*.dat in; "
+    "cp $E/../tests/fuzz/contact/steady in/carter.inp",
+    "cd in; printf 'support = halfplane\\nload = 100\\ncontact-elements = 8\\nzone = "
+    "1\\n' "
+    ">b.ini; cat b.ini >s.ini; printf 'formulation = steady\\n[sweep]\\n"
+    "vary-1 = load 100 200\\nvary-2 = creep-ratio 0 0.5\\n' >>s.ini",
+    "cd in; printf 'time shift load\\n0 0 100\\n0.2 0.001 100\\n' >time.txt; "
+    "printf -- '-3 0.09\\n-2 0.04\\n-1 0.01\\n0 0\\n1 0.01\\n2 0.04\\n3 0.09\\n' "
+    ">gap.txt; "
+    "printf '0.5 0\\n0.6 0.0001\\n0.7 0\\n' >flat.txt; "
+    "printf -- '-2 0\\n0 0.0001\\n2 0\\n' >worn.txt; "
+    "printf -- '-1 0.3\\n1 0.2\\n' >mu.txt; printf '0 0.1\\n0.1 0.2\\n' >points.txt; "
+    "printf 'creep-ratio mu\\n0.2 0.1\\n0.5 0.3\\n' >cases.txt",
+    "\"$R\" in/b.ini --quiet --fclib in/f.hdf5; "
+    "\"$R\" in/b.ini --quiet --json --output in/static.json; "
+    "\"$R\" in/b.ini --quiet --formulation steady --creep-ratio 0.5 --json --output "
+    "in/steady.json; \"$R\" in/b.ini --quiet --formulation transient --distance 0.3 "
+    "--steps 2 --creep-ratio 0.5 --states --json --output in/transient.json"};
 
-static void every_allocation_from_one_on(void **state)
-{
-    (void)state;
-    fail_allocations("FAULT_FROM", 15);
-}
-
-/* A case, a study of three of them, and a friction problem. */
+/* A case, a study of three of them, a friction problem, and those of the folder. */
 static int prepare_inputs(void **state)
 {
+    char examples[500], here[400];
+    assert_non_null(getcwd(here, sizeof here));
+    snprintf(examples, sizeof examples, "%s/examples", here);
+    setenv("E", examples, 1);
     if (enter_folder(state) != 0)
         return -1;
     snprintf(preload, sizeof preload, "%.*s/tests/fault_malloc.so",
@@ -392,6 +589,9 @@ static int prepare_inputs(void **state)
     write_file("study.ini",
                "support = halfplane\nload = 100\ncontact-elements = 12\n"
                "formulation = steady\n[sweep]\nvary-1 = creep-ratio 0:1:3\n");
+    for (size_t k = 0; k < sizeof making_inputs / sizeof *making_inputs; k++)
+        if (shell(making_inputs[k]) != 0)
+            return -1;
     return rollbem("case.ini --quiet --fclib input.hdf5");
 }
 
@@ -401,7 +601,7 @@ int main(void)
         cmocka_unit_test(every_write),
         cmocka_unit_test(every_rename),
         cmocka_unit_test(every_close),
-        cmocka_unit_test(every_allocation),
+        cmocka_unit_test(every_call_that_allocates),
         cmocka_unit_test(every_allocation_from_one_on),
     };
     return cmocka_run_group_tests(tests, prepare_inputs, leave_folder);
