@@ -113,7 +113,7 @@ static const char *const allocating[] = {
     "--wear-steps 2 --snapshots s --profile w.tsv",
     "wear in/b.ini --wear-coefficient 1e-7 --shift 0.001 --cycles 100 --quarter 2 "
     "--wear-steps 2",
-    "check in/static.json in/steady.json in/transient.json",
+    "check in/static.json in/steady.json in/transient.json in/table.tsv",
     "lcp in/rod.txt --solution --json",
     "lcp in/murty.txt --all --json",
     "lcp in/murty.txt --trace --rule first-index --json",
@@ -135,6 +135,7 @@ static const char *const allocating[] = {
     "friction in/two-blocks.dat --solver soclcp-smoothing --json",
     "friction in/f.hdf5 --solver lemke --json",
     "compare in/f.hdf5 in/two-blocks.dat --solvers nsgs-ac,nsn-ac --measure iterations "
+    "--json "
     "--profiles q.tsv --plot p.svg --plot-script p.gp",
     "contact in/carter.inp --tractions",
     "contact in/carter.inp --json",
@@ -142,7 +143,7 @@ static const char *const allocating[] = {
     "sweep in/s.ini --plot p.svg --jobs 2 --restart --output w.tsv",
     "example truss --nodes 2 --plot p.svg",
     "stress in/b.ini --formulation steady --creep-ratio 0.5 --grid 3x3 --shakedown "
-    "--yield-shear 300 --plot-script p.gp",
+    "--yield-shear 300",
     NULL,
     "stress in/b.ini --formulation steady --creep-ratio 0.5 --grid 3x3 --shakedown "
     "--yield-shear 300 --shakedown-map k.svg --plot-script p.gp",
@@ -568,7 +569,8 @@ static const char *const making_inputs[] = {
     "printf -- '-1 0.3\\n1 0.2\\n' >mu.txt; printf '0 0.1\\n0.1 0.2\\n' >points.txt; "
     "printf 'creep-ratio mu\\n0.2 0.1\\n0.5 0.3\\n' >cases.txt",
     "\"$R\" in/b.ini --quiet --fclib in/f.hdf5; "
-    "\"$R\" in/b.ini --quiet --json --output in/static.json; "
+    "\"$R\" in/b.ini --quiet --json --output in/static.json; $R in/b.ini --quiet "
+    "--output in/table.tsv; "
     "\"$R\" in/b.ini --quiet --formulation steady --creep-ratio 0.5 --json --output "
     "in/steady.json; \"$R\" in/b.ini --quiet --formulation transient --distance 0.3 "
     "--steps 2 --creep-ratio 0.5 --states --json --output in/transient.json"};

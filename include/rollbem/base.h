@@ -67,6 +67,11 @@ rb_fail(rb_message *why, rb_status s, const char *format, ...);
 
 /* "solved", "secondary ray", ...: static text. */
 const char *rb_status_text(rb_status s);
+/* What why says, or the text of s where it says nothing. */
+const char *rb_status_reason(rb_status s, const rb_message *why);
+/* What LAPACK's info means where it can be only three things: solved, no memory, or a
+ * matrix without inverse.  (LAPACKE refuses NaN with a small negative number.) */
+rb_status rb_lapack_status(int info);
 
 /* The candidate nearest to a misspelt word.  Start with {.word = word}. */
 typedef struct {

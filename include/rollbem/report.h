@@ -132,8 +132,8 @@ rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
                                   const rb_case *words, rb_report_certificate *found,
                                   rb_message *why);
 /* What stands behind `rollbem` in the command line that the comments of a table of any
- * command quote; owned by the caller, NULL: none there, or no memory. */
-char *rb_report_table_command(const char *text);
+ * command quote, owned by the caller; RB_EFORMAT: there is none. */
+rb_status rb_report_table_command(const char *text, char **line);
 /* Writes with a final newline and takes json over.  RB_ENOMEM: it is NULL; RB_EWRITE. */
 rb_status rb_report_json_write(FILE *out, struct json_t *json);
 

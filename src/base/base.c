@@ -1,5 +1,6 @@
 #include "rollbem/base.h"
 
+#include <lapacke.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -58,6 +59,18 @@ const char *rb_status_text(rb_status s)
         return "interrupted";
     }
     return "unknown status";
+}
+
+const char *rb_status_reason(rb_status s, const rb_message *why)
+{
+    return why->text[0] ? why->text : rb_status_text(s);
+}
+
+rb_status rb_lapack_status(int info)
+{
+    if (info == 0)
+        return RB_OK;
+    return info == LAPACK_WORK_MEMORY_ERROR ? RB_ENOMEM : RB_SINGULAR;
 }
 
 /* Bytes of the UTF-8 character at text; 0: none, or a control character. */

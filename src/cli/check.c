@@ -42,6 +42,9 @@ static cli_exit check_json(const char *path, const char *text, size_t size,
     rb_message why = {""};
     json_error_t error;
     json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
+    /* jansson says nothing where it could not even begin */
+    if (!root && (!error.text[0] || json_error_code(&error) == json_error_out_of_memory))
+        return cli_say(RB_ENOMEM, &why);
     if (!json_is_object(root)) {
         json_decref(root);
         return cli_fail(CLI_DATA, "%s:%d: expected the JSON of a result: %s", path,
@@ -93,8 +96,11 @@ static cli_exit check_table(const char *path, const char *text, rb_case *words)
 {
     rb_report_certificate found;
     rb_message why = {""};
-    char *line = rb_report_table_command(text);
-    if (!line)
+    char *line = NULL;
+    const rb_status found_line = rb_report_table_command(text, &line);
+    if (found_line == RB_ENOMEM)
+        return cli_say(found_line, &why);
+    if (found_line != RB_OK)
         return cli_fail(CLI_DATA,
                         "%s: cannot be checked: expected the JSON of a result, or a "
                         "table with its comments ('# rollbem ...')",

@@ -195,7 +195,7 @@ static cli_exit run_case(const contact_runs *all, int k)
         return CLI_OK;
     const cli_exit code = r->status == RB_EINVAL ? CLI_DATA : cli_exit_of(r->status);
     return cli_fail(code, "%s:%d: case %d: %s", all->path, r->in->line, k + 1,
-                    r->why.text[0] ? r->why.text : rb_status_text(r->status));
+                    rb_status_reason(r->status, &r->why));
 }
 
 static cli_exit run_all(contact_runs *all, const rb_io_contact_case *cases)

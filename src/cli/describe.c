@@ -290,47 +290,52 @@ static void fish_command(const cli_spec *spec)
 
 /* ---- The schema of --json --------------------------------------------------------- */
 
-static void print_schema(const cli_spec *spec)
+static cli_exit print_schema(void)
 {
-    (void)spec;
-    rb_report_json_write(stdout, rb_report_json_schema());
+    const rb_message why = {""};
+    const rb_status s = rb_report_json_write(stdout, rb_report_json_schema());
+    /* what could not be written is said by main */
+    return s == RB_ENOMEM ? cli_say(s, &why) : CLI_OK;
 }
 
 static const struct {
     const char *name;
     void (*print)(const cli_spec *spec);
-} forms[] = {{"man", print_man},         {"schema", print_schema},
-             {"results", print_results}, {"markdown", print_markdown},
-             {"bash", bash_command},     {"zsh", zsh_command},
-             {"fish", fish_command}};
+} forms[] = {{"man", print_man},           {"results", print_results},
+             {"markdown", print_markdown}, {"bash", bash_command},
+             {"zsh", zsh_command},         {"fish", fish_command}};
 
 enum { FORMS = sizeof forms / sizeof *forms };
 
-int cli_describe(const cli_spec *spec, const char *form)
+cli_exit cli_describe(const cli_spec *spec, const char *form)
 {
+    if (strcmp(form, "schema") == 0)
+        return print_schema();
     for (int k = 0; k < FORMS; k++)
         if (strcmp(forms[k].name, form) == 0) {
             forms[k].print(spec);
-            return 1;
+            return CLI_OK;
         }
-    return 0;
+    return CLI_CONTINUE;
 }
 
 /* ---- A whole completion ------------------------------------------------------------ */
 
 /* What every command says of itself; the one without a name last, or first. */
-static void describe_all(const char *form, int nameless_first)
+static cli_exit describe_all(const char *form, int nameless_first)
 {
     char describe[40];
     char *words[] = {"", describe, NULL};
+    int code = CLI_OK;
     snprintf(describe, sizeof describe, "--describe=%s", form);
     if (nameless_first)
-        cli_run("", 2, words);
-    for (int k = 0; cli_command_name(k); k++)
+        code = cli_run("", 2, words);
+    for (int k = 0; code == CLI_OK && cli_command_name(k); k++)
         if (strcmp(cli_command_name(k), "help") != 0)
-            cli_run(cli_command_name(k), 2, words);
-    if (!nameless_first)
-        cli_run("", 2, words);
+            code = cli_run(cli_command_name(k), 2, words);
+    if (code == CLI_OK && !nameless_first)
+        code = cli_run("", 2, words);
+    return code;
 }
 
 static void print_commands(const char *between)
@@ -339,7 +344,7 @@ static void print_commands(const char *between)
         printf("%s%s", k ? between : "", cli_command_name(k));
 }
 
-static void bash_completion(void)
+static cli_exit bash_completion(void)
 {
     fputs("# rollbem for bash: source this file, or keep it in bash-completion's folder\n"
           "_rollbem() {\n"
@@ -351,7 +356,7 @@ static void bash_completion(void)
           "    [ \"$previous\" = = ] && previous=${COMP_WORDS[COMP_CWORD-2]}\n"
           "    case $command in\n",
           stdout);
-    describe_all("bash", 0);
+    const cli_exit code = describe_all("bash", 0);
     fputs("    esac\n"
           "    options=\"$options --help --usage --version\"\n"
           "    [ \"$COMP_CWORD\" -eq 1 ] && options=\"$options ",
@@ -367,9 +372,10 @@ static void bash_completion(void)
           "}\n"
           "complete -o default -F _rollbem rollbem\n",
           stdout);
+    return code;
 }
 
-static void zsh_completion(void)
+static cli_exit zsh_completion(void)
 {
     fputs("#compdef rollbem\n"
           "_rollbem() {\n"
@@ -379,11 +385,12 @@ static void zsh_completion(void)
           stdout);
     print_commands(" ");
     fputs("\n    fi\n    case $command in\n", stdout);
-    describe_all("zsh", 0);
+    const cli_exit code = describe_all("zsh", 0);
     fputs("    esac\n}\n_rollbem \"$@\"\n", stdout);
+    return code;
 }
 
-static void fish_completion(void)
+static cli_exit fish_completion(void)
 {
     fputs("# rollbem for fish\nfunction __rollbem_solves\n"
           "    not __fish_seen_subcommand_from ",
@@ -396,20 +403,18 @@ static void fish_completion(void)
         print_quoted(cli_command_help(cli_command_name(k)));
         puts("'");
     }
-    describe_all("fish", 1);
+    return describe_all("fish", 1);
 }
 
-int cli_complete(const char *shell)
+cli_exit cli_complete(const char *shell)
 {
     static const struct {
         const char *name;
-        void (*print)(void);
+        cli_exit (*print)(void);
     } shells[] = {
         {"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}};
     for (size_t k = 0; k < sizeof shells / sizeof *shells; k++)
-        if (strcmp(shells[k].name, shell) == 0) {
-            shells[k].print();
-            return 1;
-        }
-    return 0;
+        if (strcmp(shells[k].name, shell) == 0)
+            return shells[k].print();
+    return CLI_CONTINUE;
 }

@@ -299,7 +299,7 @@ static rb_status run_lemke(lcp_run *run, rb_io_matrix *M, lcp_result *r)
         return rb_lcp_mixed(&r->boxed, &opt, r->z, &r->info);
     if (rb_io_matrix_to_dense(M) != RB_OK)
         return rb_fail(&r->info.msg, RB_ENOMEM,
-                       "lcp: no memory for a dense matrix of order %d", r->n);
+                       "lcp: out of memory for a dense matrix of order %d", r->n);
     return rb_lcp_lemke(&(rb_lcp_problem){r->n, M->dense, r->n, r->boxed.q}, &opt, r->z,
                         &r->info);
 }

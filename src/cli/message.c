@@ -59,7 +59,7 @@ cli_exit cli_say_of(const char *option, rb_status s, const rb_message *why)
     if (s == RB_OK)
         return CLI_CONTINUE;
     return cli_fail(cli_exit_of(s), "%s%s%s%s", option ? "--" : "", option ? option : "",
-                    option ? ": " : "", why->text[0] ? why->text : rb_status_text(s));
+                    option ? ": " : "", rb_status_reason(s, why));
 }
 
 cli_exit cli_say(rb_status s, const rb_message *why)

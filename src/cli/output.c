@@ -219,7 +219,7 @@ static rb_status draw_picture(FILE *out, const void *context, rb_message *why)
     if (s == RB_OK || (s == RB_EWRITE && ferror(out)))
         return s;
     return rb_fail(why, s, "--%s: %s", d->option,
-                   reason.text[0] ? reason.text : rb_status_text(s));
+                   rb_status_reason(s, &reason));
 }
 
 cli_exit cli_draw_file(const cli_pictures *pictures, const char *option, const char *path,

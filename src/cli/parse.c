@@ -118,14 +118,15 @@ static cli_exit answer_builder(const cli_spec *spec, const char *argument)
 {
     const char *form = value_behind("--describe=", argument);
     const char *shell = value_behind("--completion=", argument);
-    if (form && !cli_describe(spec, form))
+    cli_exit code = CLI_CONTINUE;
+    if (form && (code = cli_describe(spec, form)) == CLI_CONTINUE)
         return cli_fail(CLI_USAGE,
                         "--describe: expected man, markdown, results or schema, got '%s'",
                         form);
-    if (shell && !cli_complete(shell))
+    if (shell && (code = cli_complete(shell)) == CLI_CONTINUE)
         return cli_fail(CLI_USAGE, "--completion: expected bash, zsh or fish, got '%s'",
                         shell);
-    return form || shell ? CLI_OK : CLI_CONTINUE;
+    return code;
 }
 
 static cli_exit answer_common(const cli_spec *spec, const char *argument)

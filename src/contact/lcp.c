@@ -186,7 +186,7 @@ static rb_status invert(int n, double *B)
     if (fault == 0)
         fault = LAPACKE_dgetri(LAPACK_COL_MAJOR, n, B, n, pivots);
     free(pivots);
-    return fault == 0 ? RB_OK : RB_SINGULAR;
+    return rb_lapack_status(fault);
 }
 
 /* r_T = R z + r_0 for z = (r_N, lambda, delta', xi').  R's columns of lambda+ and lambda-

@@ -130,7 +130,7 @@ static rb_status try_lemke(rb_contact_problem *problem, const rb_contact_options
         if (s < 0)
             rb_fail(why, s, "%s", info.msg.text);
     }
-    if (s >= 0) {
+    if (z && s >= 0) { /* Kwak's matrix may have no inverse */
         rb_contact_lcp_recover(problem, &lcp, z, state);
         state->solver = RB_SOLVER_LEMKE;
         state->mirrored = at->mirrored;

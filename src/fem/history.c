@@ -132,8 +132,7 @@ static rb_status solve_increment(runner *run, const char *solver, double tol,
     *length = units.length;
     if (s != RB_OK)
         rb_fail(why, s, "%s: %s after %d iterations, residual %.3g", solver,
-                info.msg.text[0] ? info.msg.text : rb_status_text(s), info.iters,
-                info.residual);
+                rb_status_reason(s, &info.msg), info.iters, info.residual);
     rb_friction_problem_free(&problem);
     return s;
 }

@@ -31,8 +31,8 @@ rb_status rb_fem_nullity(const rb_sparse *K, int *nullity, double *largest)
     rb_status s = dense && value ? RB_OK : RB_ENOMEM;
     if (s == RB_OK) {
         spread(K, dense);
-        if (LAPACKE_dsyev(LAPACK_COL_MAJOR, 'N', 'U', n, dense, n, value) != 0)
-            s = RB_MAXITER;
+        const int info = LAPACKE_dsyev(LAPACK_COL_MAJOR, 'N', 'U', n, dense, n, value);
+        s = info > 0 ? RB_MAXITER : rb_lapack_status(info);
     }
     if (s == RB_OK) {
         *nullity = 0;

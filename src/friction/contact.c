@@ -32,7 +32,7 @@ static rb_status solve(const char *name, const rb_contact_cone *cone, double tol
     options.tol = tol;
     const rb_status s = rb_friction_solve(name, &problem, &options, r, u, NULL, &info);
     if (s != RB_OK)
-        rb_fail(why, s, "%s: %.240s", name, info.msg.text);
+        rb_fail(why, s, "%s: %.240s", name, rb_status_reason(s, &info.msg));
     *iterations += info.iters;
     free(u);
     return s;

@@ -38,8 +38,8 @@ typedef struct {
     double scale;               /* ||q||, or 1 where q = 0 */
     rb_sparse_cholesky *factor; /* GLOBAL: of K, or of K + k H H' where K is singular */
     double spring;              /* k; 0 where K is regular */
-    double *y;                  /* m, workspace; owns e and rho too */
-    double *e;                  /* n, workspace */
+    double *y;                  /* m, workspace; owns e, dv and rho too */
+    double *e, *dv;             /* n each, workspace */
     double *rho;                /* 2 per contact */
 } rb_friction_measure;
 
@@ -156,6 +156,7 @@ typedef struct {
     double deadline;       /* on rb_seconds(); 0: none */
     double budget;         /* of info->flops, where a method pauses; INFINITY: never */
     int proved;            /* rb_friction_prove has accepted r */
+    rb_status measured;    /* of the last error: there may be no memory for it */
     double *r, *u;         /* m: the iterate; start on entry */
     double *v;             /* n */
 } rb_friction_task;
@@ -296,8 +297,6 @@ rb_status rb_friction_local_factor(rb_friction_system *system, const double *A,
 rb_status rb_friction_local_solve(rb_friction_system *system, double *x);
 rb_status rb_friction_local_step(rb_friction_system *system, const double *A,
                                  const double *B, const double *F);
-
-rb_status rb_friction_lapack_status(int info);
 
 /* ---- Methods -- */
 

@@ -223,7 +223,7 @@ static rb_status form(lemke *s, const attempt *a)
         info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->n, 1, s->basis, s->n, s->pivots,
                               s->b, s->n);
     s->task->info->flops += 8.0 / 3.0 * (double)n * (double)n * (double)n;
-    return rb_friction_lapack_status(info);
+    return rb_lapack_status(info);
 }
 
 static void choose_cover(lemke *s, const attempt *a)

@@ -120,11 +120,12 @@ rb_status rb_friction_measure_init(const rb_friction_problem *p,
     const size_t n = p->form == RB_FRICTION_GLOBAL ? (size_t)p->dofs : 0;
     const size_t nc = (size_t)p->contacts;
     *measure = (rb_friction_measure){
-        .problem = p, .scale = 1.0, .y = malloc((m + n + 2 * nc) * sizeof(double))};
+        .problem = p, .scale = 1.0, .y = malloc((m + 2 * n + 2 * nc) * sizeof(double))};
     if (!measure->y)
         return RB_ENOMEM;
     measure->e = measure->y + m;
-    measure->rho = measure->e + n;
+    measure->dv = measure->e + n;
+    measure->rho = measure->dv + n;
     rb_status s = rb_friction_rho(p, measure->rho);
     if (s == RB_OK && n) {
         s = rb_sparse_cholesky_create(&p->K, &measure->factor);
@@ -169,8 +170,8 @@ static rb_status balance(rb_friction_measure *measure, const double *r, double *
 {
     const rb_friction_problem *p = measure->problem;
     const int n = p->dofs, m = p->dimension * p->contacts;
-    double *dv = rb_alloc((size_t)n, 1);
-    rb_status s = dv ? RB_OK : RB_ENOMEM;
+    double *dv = measure->dv;
+    rb_status s = RB_OK;
     *correction = 0.0;
     for (int pass = 0; s == RB_OK && pass < (measure->spring > 0.0 ? 1 : 2); pass++) {
         for (int i = 0; i < n; i++)
@@ -190,7 +191,6 @@ static rb_status balance(rb_friction_measure *measure, const double *r, double *
             u[k] = p->w[k];
         rb_sparse_apply_transposed(1.0, &p->H, v, 1.0, u);
     }
-    free(dv);
     return s;
 }
 

@@ -81,7 +81,7 @@ static rb_status canonical_step(void *context, double mu, double eps, const doub
         dx[i] = -H[i];
     c->flops += 2.0 / 3.0 * n * (double)n * n;
     const int info = LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, c->J, n, c->pivots, dx, n);
-    return rb_friction_lapack_status(info);
+    return rb_lapack_status(info);
 }
 
 static int canonical_late(void *context)

@@ -147,6 +147,8 @@ static rb_status run_and_prove(rb_friction_task *task, const rb_friction_solver 
         rb_friction_task_recall(task);
     if (rb_friction_prove(task))
         return RB_OK;
+    if (task->measured != RB_OK)
+        return task->measured;
     return s == RB_OK ? RB_INACCURATE : s;
 }
 

@@ -135,14 +135,6 @@ static void fill_global(rb_friction_system *s, const double *A, const double *B)
     }
 }
 
-/* LAPACKE refuses NaN with a small negative number. */
-rb_status rb_friction_lapack_status(int info)
-{
-    if (info == 0)
-        return RB_OK;
-    return info == LAPACK_WORK_MEMORY_ERROR ? RB_ENOMEM : RB_SINGULAR;
-}
-
 rb_status rb_friction_system_dense(rb_friction_system *s, size_t order)
 {
     if (order > s->order) {
@@ -165,7 +157,7 @@ rb_status rb_friction_system_solve_dense(rb_friction_system *s, int order,
         info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, transposed, order, 1, s->dense, order,
                               s->pivots, s->x, order);
     s->flops += (double)order * order * (2.0 / 3.0 * order + 2.0);
-    return rb_friction_lapack_status(info);
+    return rb_lapack_status(info);
 }
 
 static rb_status solve_global_dense(rb_friction_system *s)

@@ -202,7 +202,7 @@ rb_status rb_friction_local_factor(rb_friction_system *s, const double *A,
     for (int c = 0; c < s->contacts; c++)
         fill_dense_columns(s, c, (size_t)s->m, A, B);
     s->flops += 2.0 / 3.0 * m * m * m;
-    return rb_friction_lapack_status(
+    return rb_lapack_status(
         LAPACKE_dgetrf(LAPACK_COL_MAJOR, s->m, s->m, s->dense, s->m, s->pivots));
 }
 
@@ -210,8 +210,8 @@ rb_status rb_friction_local_solve(rb_friction_system *s, double *x)
 {
     if (wants_dense(s)) {
         s->flops += 2.0 * s->m * (double)s->m;
-        return rb_friction_lapack_status(LAPACKE_dgetrs(
-            LAPACK_COL_MAJOR, 'N', s->m, 1, s->dense, s->m, s->pivots, x, s->m));
+        return rb_lapack_status(LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', s->m, 1, s->dense,
+                                               s->m, s->pivots, x, s->m));
     }
     for (int k = 0; k < s->m; k++)
         s->rhs[k] = x[k];

@@ -134,7 +134,8 @@ void rb_friction_task_seen(rb_friction_task *task, double error)
 double rb_friction_task_error(rb_friction_task *task)
 {
     double error;
-    rb_friction_measure_error(task->measure, task->r, task->v, task->u, &error, NULL);
+    task->measured =
+        rb_friction_measure_error(task->measure, task->r, task->v, task->u, &error, NULL);
     count_measure(task);
     rb_friction_task_seen(task, error);
     return error;
@@ -160,8 +161,8 @@ int rb_friction_task_accepts(const rb_friction_task *task, double error)
 int rb_friction_prove(rb_friction_task *task)
 {
     rb_friction_info *info = task->info;
-    rb_friction_measure_error(task->measure, task->r, task->v, task->u, &info->scaled,
-                              &info->residual);
+    task->measured = rb_friction_measure_error(task->measure, task->r, task->v, task->u,
+                                               &info->scaled, &info->residual);
     info->floor = rb_friction_measure_floor(task->measure, task->r, task->v);
     count_measure(task);
     task->proved = rb_friction_task_accepts(task, info->scaled);
@@ -195,7 +196,7 @@ rb_status rb_friction_task_judge(rb_friction_task *task)
     if (rb_friction_task_accepts(task, error))
         return RB_OK;
     if (!isfinite(error))
-        return RB_SINGULAR;
+        return task->measured == RB_OK ? RB_SINGULAR : task->measured;
     return rb_friction_task_late(task) ? RB_INTERRUPTED : RB_MAXITER;
 }
 

@@ -23,8 +23,9 @@ typedef struct {
     const double *lower, *upper;
     place *at;          /* n */
     double *A, *x;      /* n x n, n: system of the z between their bounds */
-    int *inside, *swap; /* n: those z; pivots */
+    int *inside, *swap; /* n, 2n: those z; pivots, and work of dgecon */
     double *z, *w;      /* n */
+    double *work;       /* 4n, of dgecon */
     rb_lcp_solutions *all;
 } search;
 
@@ -83,7 +84,8 @@ static int basic_point(search *s)
     double rcond = 0.0;
     const double norm = LAPACKE_dlange(LAPACK_COL_MAJOR, '1', m, m, s->A, m);
     if (LAPACKE_dgetrf(LAPACK_COL_MAJOR, m, m, s->A, m, s->swap) != 0 ||
-        LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', m, s->A, m, norm, &rcond) != 0 ||
+        LAPACKE_dgecon_work(LAPACK_COL_MAJOR, '1', m, s->A, m, norm, &rcond, s->work,
+                            s->swap + s->n) != 0 ||
         rcond < SINGULAR)
         return 0;
     LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', m, 1, s->A, m, s->swap, s->x, m);
@@ -188,14 +190,15 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower,
     if (status != RB_OK)
         return status;
     s.at = calloc((size_t)n, sizeof *s.at);
-    s.A = rb_alloc((size_t)n, (size_t)n + 3);
-    s.inside = rb_alloc_int(2 * (size_t)n);
+    s.A = rb_alloc((size_t)n, (size_t)n + 7);
+    s.inside = rb_alloc_int(3 * (size_t)n);
     if (!s.at || !s.A || !s.inside)
         status = RB_ENOMEM;
     if (status == RB_OK) {
         s.x = s.A + (size_t)n * (size_t)n;
         s.z = s.x + n;
         s.w = s.z + n;
+        s.work = s.w + n;
         s.swap = s.inside + n;
         for (int i = 0; i < n; i++)
             while (!is_place(&s, i, s.at[i]))

@@ -71,7 +71,7 @@ static rb_status solve_basic(newton *s)
                        s->A.rows, s->info->iters);
     return status == RB_OK ? status
                            : rb_fail(&s->info->msg, RB_ENOMEM,
-                                     "lcp: newton: no memory for a factorisation");
+                                     "lcp: newton: out of memory for a factorisation");
 }
 
 /* s->wrong: where the basic z or the basic w is negative. */
@@ -134,7 +134,7 @@ static rb_status allocate(newton *s)
     s->A.x = rb_alloc(nz + 1, 1);
     if (!s->w || !s->number || !s->A.p || !s->A.i || !s->A.x)
         return rb_fail(&s->info->msg, RB_ENOMEM,
-                       "lcp: newton: no memory for order %d with %zu entries",
+                       "lcp: newton: out of memory for order %d with %zu entries",
                        s->p.M->rows, nz);
     s->rhs = s->w + n;
     s->x = s->rhs + n;

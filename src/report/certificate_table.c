@@ -19,12 +19,13 @@ static const char *line_behind(const char *text, const char *start)
     return text ? text + n : NULL;
 }
 
-char *rb_report_table_command(const char *text)
+rb_status rb_report_table_command(const char *text, char **line)
 {
     const char *version = line_behind(text, "# rollbem ");
     const char *next = version ? strchr(version, '\n') : NULL;
     const char *command = next ? line_behind(next + 1, "# rollbem") : NULL;
-    return command ? strndup(command, strcspn(command, "\r\n")) : NULL;
+    *line = command ? strndup(command, strcspn(command, "\r\n")) : NULL;
+    return *line ? RB_OK : command ? RB_ENOMEM : RB_EFORMAT;
 }
 
 /* ---- Comments ---------------------------------------------------------------------- */

@@ -29,12 +29,16 @@ static json_t *list_of(json_t *items, const char *description)
     return schema;
 }
 
-static json_t *object_of(json_t *properties, json_t *required, const char *description)
+static json_t *object_of(json_t *properties, const char *description)
 {
     json_t *schema = typed("object", description);
     rb_report_json_set(&schema, "properties", properties);
-    if (required)
-        rb_report_json_set(&schema, "required", required);
+    return schema;
+}
+
+static json_t *with_required(json_t *schema, json_t *required)
+{
+    rb_report_json_set(&schema, "required", required);
     return schema;
 }
 
@@ -102,7 +106,7 @@ static json_t *inputs(void)
                 json_pack("[s, s, s, s]", "number", "null", "string", "array"));
         rb_report_json_set(&properties, o[i].name, schema);
     }
-    return object_of(properties, NULL, "every value used, defaults included");
+    return object_of(properties, "every value used, defaults included");
 }
 
 static json_t *summary(void)
@@ -114,17 +118,17 @@ static json_t *summary(void)
         rb_report_json_set(&properties, words[k], typed("string", NULL));
         rb_report_json_append(&required, json_string(words[k]));
     }
+    rb_report_json_set(&properties, "seconds",
+                       object_of(results(&rb_rolling_solution_scalars, 1), "time spent"));
     rb_report_json_set(
-        &properties, "seconds",
-        object_of(results(&rb_rolling_solution_scalars, 1), NULL, "time spent"));
-    rb_report_json_set(&properties, "patches",
-                       list_of(object_of(results(&rb_rolling_patch_scalars, 0),
-                                         names(&rb_rolling_patch_scalars), NULL),
-                               "the parts of the contact, where it has several"));
+        &properties, "patches",
+        list_of(with_required(object_of(results(&rb_rolling_patch_scalars, 0), NULL),
+                              names(&rb_rolling_patch_scalars)),
+                "the parts of the contact, where it has several"));
     rb_report_json_set(&properties, "errors",
-                       object_of(results(&rb_rolling_solution_scalars, 0), NULL,
+                       object_of(results(&rb_rolling_solution_scalars, 0),
                                  "estimated errors of the discretisation"));
-    return object_of(properties, required, "the numbers of the solution");
+    return with_required(object_of(properties, "the numbers of the solution"), required);
 }
 
 static json_t *heads(void)
@@ -175,7 +179,8 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "cases", list_of(typed("object", NULL), "of contact"));
     rb_report_json_set(&of, "steps", list_of(typed("object", NULL), "of example"));
 
-    json_t *schema = object_of(of, heads(), "What rollbem prints with --json");
+    json_t *schema =
+        with_required(object_of(of, "What rollbem prints with --json"), heads());
     rb_report_json_set(&schema, "$schema",
                        json_string("https://json-schema.org/draft/2020-12/schema"));
     rb_report_json_set(&schema, "title", json_string("rollbem/1"));

@@ -256,7 +256,7 @@ static rb_status find_parts(const rb_rolling_case *rc, int with_stress, const sa
         status = take_sample(&coarser, with_stress, &run[k], &reason);
         if (status != RB_OK)
             rb_fail(why, status, "error bars: %d contact elements: %.200s",
-                    coarser.contact_elements, reason.text);
+                    coarser.contact_elements, rb_status_reason(status, &reason));
     }
     if (status == RB_OK)
         estimate(rc, run, own, with_stress, parts);

@@ -274,7 +274,7 @@ static rb_status judge(const run *r, rb_status s, rb_message *reason, rb_message
 {
     if (s != RB_OK)
         rb_fail(why, s, "step %d: %.260s", r->history->n + 1,
-                reason->text[0] ? reason->text : rb_status_text(s));
+                rb_status_reason(s, reason));
     return s;
 }
 

@@ -327,9 +327,7 @@ static rb_status one_step(run *r, double part, rb_message *why)
         if (s != RB_OK)
             break;
     }
-    return s == RB_OK ? s
-                      : rb_fail(why, s, "%.300s",
-                                reason.text[0] ? reason.text : rb_status_text(s));
+    return s == RB_OK ? s : rb_fail(why, s, "%.300s", rb_status_reason(s, &reason));
 }
 
 static rb_status check(const rb_rolling_case *rc, const rb_rolling_wear *wear,
