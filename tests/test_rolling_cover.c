@@ -12,16 +12,17 @@
 
 enum { N = 20, M = N + 1 };
 
-/* F of N equal elements over +-half on a wheel of R = 100 with a hub of 30; cover 0:
- * homogeneous; core.shear 0: rigid below the cover.  Owned by the caller. */
-static double *flexibility(double cover, rb_bem_material core, double half, double fine)
+static void equal_ends(double half, double *ends)
+{
+    for (int i = 0; i < N + 2; i++)
+        ends[i] = half * (2.0 * i / N - 1.0);
+}
+
+/* F of N equal elements over +-half of the wheel; core.shear 0: rigid below the cover.
+ * Owned by the caller. */
+static double *flexibility_of(rb_bem_cylinder cylinder, rb_bem_material core, double half)
 {
     const rb_bem_material rubber = {.shear = 3.0, .poisson = 0.3};
-    const rb_bem_cylinder cylinder = {.radius = 100.0,
-                                      .support = RB_BEM_HUB,
-                                      .hub_ratio = 0.3,
-                                      .cover = cover,
-                                      .refinement = fine};
     rb_bem_mesh mesh, inner = {0};
     rb_bem_system *system = NULL;
     rb_bem_flexibility f;
@@ -29,10 +30,9 @@ static double *flexibility(double cover, rb_bem_material core, double half, doub
     double ends[N + 2];
     double *F = malloc(sizeof(double) * 4 * M * N);
 
-    for (int i = 0; i < N + 2; i++)
-        ends[i] = half * (2.0 * i / N - 1.0);
+    equal_ends(half, ends);
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, &why), RB_OK);
-    if (cover > 0.0 && core.shear > 0.0) {
+    if (cylinder.cover > 0.0 && core.shear > 0.0) {
         CHECK_STATUS(rb_bem_mesh_core(&cylinder, &mesh, &inner, &why), RB_OK);
         CHECK_STATUS(
             rb_bem_system_create_bonded(&mesh, rubber, &inner, core, &system, &why),
@@ -48,6 +48,17 @@ static double *flexibility(double cover, rb_bem_material core, double half, doub
     rb_bem_mesh_free(&inner);
     rb_bem_mesh_free(&mesh);
     return F;
+}
+
+/* R = 100 with a hub of 30; cover 0: homogeneous. */
+static double *flexibility(double cover, rb_bem_material core, double half, double fine)
+{
+    return flexibility_of((rb_bem_cylinder){.radius = 100.0,
+                                            .support = RB_BEM_HUB,
+                                            .hub_ratio = 0.3,
+                                            .cover = cover,
+                                            .refinement = fine},
+                          core, half);
 }
 
 /* Largest difference of F_NN (block 0) or F_TT (block 1) over its largest entry; shape:
@@ -103,6 +114,46 @@ static void a_stiff_core_is_a_rigid_one(void **state)
         free(A);
     }
     free(B);
+}
+
+static int elements_of(rb_bem_cylinder cylinder, double half)
+{
+    double ends[N + 2];
+    rb_bem_mesh mesh;
+    rb_message why = {""};
+
+    equal_ends(half, ends);
+    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, &why), RB_OK);
+    const int n = mesh.n;
+    rb_bem_mesh_free(&mesh);
+    return n;
+}
+
+/* The elements of a rim grow where its stress has died down: with all of them as small as
+ * under the contact these would be 4000, and no more accurate. */
+static void a_thin_rim_has_few_elements(void **state)
+{
+    (void)state;
+    const rb_bem_material rigid = {.shear = 0.0, .poisson = 0.3};
+    rb_bem_cylinder rim = {.radius = 100.0, .support = RB_BEM_HUB, .hub_ratio = 0.99};
+    double *F[3];
+
+    assert_in_range(elements_of(rim, 0.5), 300, 700);
+    assert_in_range(elements_of(rim, 30.0), 300,
+                    1200); /* those of the contact are long */
+    for (int i = 0; i < 2; i++) {
+        rim.refinement = 1 + i;
+        F[i] = flexibility_of(rim, rigid, 0.5);
+    }
+    F[2] = flexibility(1.0, rigid, 0.5, 2.0);
+    for (int block = 0; block < 2; block++) {
+        CHECK_ABS(difference(F[0], F[1], block, 0), 0.0, 2e-3, "block %d", block);
+        CHECK_ABS(difference(F[0], F[2], block, 0), 0.0, 1e-9, "block %d", block);
+    }
+    for (int i = 0; i < 3; i++)
+        free(F[i]);
+    rim.hub_ratio = 0.9998; /* much longer elements would be chords that cut the hub */
+    assert_true(elements_of(rim, 0.5) > 0);
 }
 
 static void what_does_not_fit_is_refused(void **state)
@@ -336,6 +387,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_material_has_no_seam),
         cmocka_unit_test(a_stiff_core_is_a_rigid_one),
+        cmocka_unit_test(a_thin_rim_has_few_elements),
         cmocka_unit_test(what_does_not_fit_is_refused),
         cmocka_unit_test(a_thin_cover_is_the_layer),
         cmocka_unit_test(sixty_points_take_three_seconds),

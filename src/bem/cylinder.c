@@ -22,8 +22,10 @@ typedef struct {
 
 static const double automatic_growth = 0.15; /* neighbours differ by at most a fifth */
 static const double largest_angle = 2.0 * M_PI / 72.0;
-/* What is finer, a clamped point or a thin rim, would need the whole circle as fine. */
+/* What is finer, a clamped point, would need the whole circle as fine. */
 static const double smallest_feature = 0.003;
+/* A larger hub leaves a rim whose elements would be thousands if all were as fine. */
+static const double largest_thick = 0.95;
 
 static double side_length(const graded_side *side)
 {
@@ -79,8 +81,8 @@ static double end_angle(const graded_side *side, int k)
     return k == side->free_n + side->arc_n ? M_PI : side->from + s;
 }
 
-/* The inner contour of a cover: equal elements under the contact, from angle low to high,
- * and graded sides. */
+/* The inner contour of a thin wall: equal elements under the contact, from angle low to
+ * high, and graded sides. */
 typedef struct {
     double low, high;
     int middle_n;
@@ -90,7 +92,7 @@ typedef struct {
 typedef struct {
     graded_side right, left;
     int hub_n;
-    interface_layout interface; /* of a cover, hub_n elements */
+    interface_layout interface; /* of a thin wall, hub_n elements */
 } outer_layout;
 
 /* With the two elements beside the contact. */
@@ -145,23 +147,53 @@ static double downstream_angle(double R, int n_c, const double *ends)
     return first - ratio * (asin(ends[n_c + 1] / R) - last);
 }
 
+/* A thin wall, of a cover or of the rim around a large hub: what happens in it has died
+ * down some thicknesses beside the contact, so that its elements may grow from there. */
+static int is_thin(const rb_bem_cylinder *cylinder)
+{
+    return cylinder->cover > 0.0 ||
+           (cylinder->support == RB_BEM_HUB && cylinder->hub_ratio > largest_thick);
+}
+
+/* A rim has twice the elements of a cover, and is then as accurate as with equal ones. */
 static double refinement(const rb_bem_cylinder *cylinder)
 {
-    return cylinder->refinement > 0.0 ? cylinder->refinement : 1.0;
+    const double asked = cylinder->refinement > 0.0 ? cylinder->refinement : 1.0;
+    return is_thin(cylinder) && cylinder->cover == 0.0 ? 2.0 * asked : asked;
+}
+
+/* Radius of the rigid core, or of the core under a cover. */
+static double inner_radius(const rb_bem_cylinder *cylinder)
+{
+    return cylinder->cover > 0.0 ? cylinder->radius - cylinder->cover
+                                 : cylinder->hub_ratio * cylinder->radius;
+}
+
+/* Of a thin wall. */
+static double thickness(const rb_bem_cylinder *cylinder)
+{
+    return cylinder->cover > 0.0 ? cylinder->cover
+                                 : (1.0 - cylinder->hub_ratio) * cylinder->radius;
+}
+
+/* Angle of the largest elements.  A chord is away from its arc by angle^2/8 radii, at
+ * most an eighth of a thin wall. */
+static double largest_size(const rb_bem_cylinder *cylinder)
+{
+    const double feature =
+        is_thin(cylinder)                 ? sqrt(thickness(cylinder) / cylinder->radius)
+        : cylinder->support == RB_BEM_HUB ? (1.0 - cylinder->hub_ratio) / 4.0
+                                          : 2.0 * cylinder->arc / 8.0;
+    return fmin(largest_angle, fmax(feature, smallest_feature)) / refinement(cylinder);
 }
 
 static graded_side lay_out_side(const rb_bem_cylinder *cylinder, double contact,
                                 double from)
 {
     const int has_hub = cylinder->support == RB_BEM_HUB;
-    /* what happens in a cover has died down some thicknesses beside the contact */
-    const double feature = cylinder->cover > 0.0 ? largest_angle
-                           : has_hub             ? (1.0 - cylinder->hub_ratio) / 4.0
-                                                 : 2.0 * cylinder->arc / 8.0;
-    graded_side side = {.from = from, .h0 = from - contact};
+    graded_side side = {
+        .from = from, .h0 = from - contact, .cap = largest_size(cylinder)};
 
-    side.cap =
-        fmin(largest_angle, fmax(feature, smallest_feature)) / refinement(cylinder);
     side.growth = copysign(automatic_growth / refinement(cylinder), side.cap - side.h0);
     side.clamped = side_length(&side) - (has_hub ? 0.0 : cylinder->arc);
     return side;
@@ -169,24 +201,25 @@ static graded_side lay_out_side(const rb_bem_cylinder *cylinder, double contact,
 
 static graded_side interface_side(const rb_bem_cylinder *cylinder, double from, double h)
 {
-    graded_side side = {.from = from,
-                        .h0 = h,
-                        .cap = largest_angle / refinement(cylinder),
-                        .clamped = M_PI - from};
+    graded_side side = {
+        .from = from, .h0 = h, .cap = largest_size(cylinder), .clamped = M_PI - from};
     side.growth = copysign(automatic_growth / refinement(cylinder), side.cap - h);
     count_elements(&side, 0);
     return side;
 }
 
-/* Ten elements to the thickness of the cover under the contact. */
+/* Ten elements to the thickness of the wall under the contact, or fewer, but four, where
+ * the contact's own are eight times as long. */
 static interface_layout lay_out_interface(const rb_bem_cylinder *cylinder, int n_c,
                                           const double *ends)
 {
-    const double R = cylinder->radius;
+    const double R = cylinder->radius, inner = inner_radius(cylinder);
     const double left = asin(ends[0] / R), right = asin(ends[n_c] / R);
-    const double size =
-        fmin(0.1 * cylinder->cover / (R - cylinder->cover), largest_angle) /
-        refinement(cylinder);
+    const double fine = fmin(0.1 * thickness(cylinder) / inner, largest_angle),
+                 coarse = fmax(0.25 * thickness(cylinder) / inner, smallest_feature),
+                 longest =
+                     fmin(coarse / refinement(cylinder), (right - left) / (8 * n_c)),
+                 size = fmax(fine / refinement(cylinder), longest);
     const double half = fmax(0.5 * (right - left), size), centre = 0.5 * (left + right);
     interface_layout in = {.low = centre - half,
                            .high = centre + half,
@@ -214,7 +247,7 @@ static outer_layout lay_out(const rb_bem_cylinder *cylinder, int n_c, const doub
         count_elements(&layout.right, 0);
         count_elements(&layout.left, 0);
     }
-    if (cylinder->cover > 0.0) {
+    if (is_thin(cylinder)) {
         layout.interface = lay_out_interface(cylinder, n_c, ends);
         layout.hub_n = layout.interface.middle_n + layout.interface.right.free_n +
                        layout.interface.left.free_n;
@@ -363,13 +396,6 @@ static void place_hub(double R, double r, const outer_layout *layout, int first,
         place(mesh, first + k, from, to, RB_BEM_DISPLACEMENT);
         from = to;
     }
-}
-
-/* Radius of the rigid core, or of the core under a cover. */
-static double inner_radius(const rb_bem_cylinder *cylinder)
-{
-    return cylinder->cover > 0.0 ? cylinder->radius - cylinder->cover
-                                 : cylinder->hub_ratio * cylinder->radius;
 }
 
 /* Few elements are long chords, which must not cut the core. */
