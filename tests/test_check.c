@@ -50,6 +50,23 @@ static rb_status certify(const json_t *root, rb_report_certificate *found,
     return s;
 }
 
+/* A case of "--name value" pairs. */
+static rb_case *case_of(const char *given)
+{
+    char text[600], *name, *value;
+    rb_message why = {""};
+    rb_case *words = rb_case_create(RB_CASE_SINGLE);
+    assert_non_null(words);
+    snprintf(text, sizeof text, "%s", given);
+    for (name = strtok(text, " "); name; name = strtok(NULL, " ")) {
+        value = strtok(NULL, " ");
+        assert_non_null(value);
+        CHECK_STATUS(rb_case_set(words, name + 2, value, RB_GIVEN_ARGUMENT, &why), RB_OK);
+    }
+    CHECK_STATUS(rb_case_settle(words, &why), RB_OK);
+    return words;
+}
+
 static void write_controls(void)
 {
     assert_int_equal(shell("printf 'time load shift\\n0 10 0\\n0.1 100 1e-4\\n0.3 100 "
@@ -258,7 +275,33 @@ static void every_changed_number_is_found(void **state)
     assert_int_equal(missed, 0);
 }
 
-/* A given value that the result does not meet. */
+/* Given values that the result does not meet, and those that it does not depend on. */
+static void every_changed_input_is_found(void **state)
+{
+    (void)state;
+    int changes = 0;
+    missed = 0;
+    for (int k = 0; k < CASES; k++) {
+        json_t *root = run_json(cases[k]), *value;
+        json_t *all = json_object_get(root, "inputs"), *names = json_copy(all);
+        const char *key;
+        json_object_foreach(names, key, value)
+        {
+            if (!json_is_real(value))
+                continue;
+            json_object_set_new(all, key, json_real(changed(json_real_value(value))));
+            expect_found(root, cases[k], key, 0);
+            json_object_set(all, key, value);
+            changes++;
+        }
+        json_decref(names);
+        json_decref(root);
+    }
+    assert_true(changes > 60);
+    assert_int_equal(missed, 0);
+}
+
+/* What the result itself says against a given value, with the hash made to fit. */
 static void inputs_belong_to_the_result(void **state)
 {
     (void)state;
@@ -271,13 +314,38 @@ static void inputs_belong_to_the_result(void **state)
     for (size_t k = 0; k < sizeof inputs / sizeof *inputs; k++) {
         json_t *root = run_json(cases[inputs[k].which]);
         json_t *all = json_object_get(root, "inputs");
-        const double x = json_number_value(json_object_get(all, inputs[k].key));
-        json_object_set_new(all, inputs[k].key, json_real(x * (1.0 + 1e-5)));
-        missed = 0;
-        expect_found(root, cases[inputs[k].which], inputs[k].key, 0);
-        assert_int_equal(missed, 0);
+        const double x =
+            json_number_value(json_object_get(all, inputs[k].key)) * (1.0 + 1e-5);
+        char value[40];
+        rb_message why = {""};
+        rb_report_certificate found;
+        json_object_set_new(all, inputs[k].key, json_real(x));
+        rb_case *words = case_of(cases[inputs[k].which]);
+        snprintf(value, sizeof value, "%.17g", x);
+        CHECK_STATUS(rb_case_set(words, inputs[k].key, value, RB_GIVEN_ARGUMENT, &why),
+                     RB_OK);
+        CHECK_STATUS(rb_case_settle(words, &why), RB_OK);
+        json_object_set_new(root, "input_hash", rb_report_json_input_hash(words));
+        rb_case_free(words);
+        CHECK_STATUS(certify(root, &found, &why), RB_OK);
+        assert_true(found.violations > 0);
         json_decref(root);
     }
+}
+
+/* The table of a gap, changed by what does not change the contact. */
+static void files_belong_to_the_result(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        shell("awk 'BEGIN {for (x = -4; x < 4.01; x += 0.25) print x, x * x / 50}' > "
+              "g.txt; \"$R\" --support halfplane --load 100 --mu 0.3 --gap g.txt --json "
+              "--quiet --output r.json && \"$R\" check r.json"),
+        0);
+    assert_int_equal(shell("echo '# seen' >> g.txt; \"$R\" check r.json"), 1);
+    assert_string_equal(out,
+                        "r.json: violated: inputs, or a file that they name, are not "
+                        "those of the result (input_hash)\n");
 }
 
 static void check_says(const char *make, int code, const char *part)
@@ -355,23 +423,6 @@ static void all_solutions_are_judged(void **state)
 }
 
 /* ---- Tables ------------------------------------------------------------------------ */
-
-/* A case of "--name value" pairs. */
-static rb_case *case_of(const char *given)
-{
-    char text[600], *name, *value;
-    rb_message why = {""};
-    rb_case *words = rb_case_create(RB_CASE_SINGLE);
-    assert_non_null(words);
-    snprintf(text, sizeof text, "%s", given);
-    for (name = strtok(text, " "); name; name = strtok(NULL, " ")) {
-        value = strtok(NULL, " ");
-        assert_non_null(value);
-        CHECK_STATUS(rb_case_set(words, name + 2, value, RB_GIVEN_ARGUMENT, &why), RB_OK);
-    }
-    CHECK_STATUS(rb_case_settle(words, &why), RB_OK);
-    return words;
-}
 
 static int violations_of(const char *text, const rb_case *words)
 {
@@ -557,7 +608,9 @@ int main(void)
         cmocka_unit_test(results_are_valid),
         cmocka_unit_test(every_changed_number_is_found),
         cmocka_unit_test(every_changed_number_of_a_history_is_found),
+        cmocka_unit_test(every_changed_input_is_found),
         cmocka_unit_test(inputs_belong_to_the_result),
+        cmocka_unit_test(files_belong_to_the_result),
         cmocka_unit_test(all_solutions_are_judged),
         cmocka_unit_test(every_changed_number_of_a_table_is_found),
         cmocka_unit_test(tables_are_valid_by_their_comments),

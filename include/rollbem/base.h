@@ -3,6 +3,7 @@
 #define ROLLBEM_BASE_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* Around the declarations of every public header: for C++ too, and the only names that
  * the shared library exports. */
@@ -101,6 +102,10 @@ rb_status rb_memory_check(double bytes, const char *what, rb_message *why);
 
 /* Seconds on a clock that only moves forward. */
 double rb_seconds(void);
+
+/* FNV-1a: begin with RB_HASH_START, go on with what came out. */
+#define RB_HASH_START UINT64_C(14695981039346656037)
+uint64_t rb_hash(uint64_t hash, const void *data, size_t size);
 
 /* max |x_i| over n; NaN if any entry is NaN. */
 double rb_norm_inf(size_t n, const double *x);

@@ -171,3 +171,11 @@ double rb_norm_1(size_t n, const double *x, size_t stride)
         norm += fabs(x[i * stride]);
     return norm;
 }
+
+uint64_t rb_hash(uint64_t hash, const void *data, size_t size)
+{
+    const unsigned char *byte = data;
+    for (size_t k = 0; k < size; k++)
+        hash = (hash ^ byte[k]) * UINT64_C(1099511628211);
+    return hash;
+}

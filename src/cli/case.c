@@ -82,6 +82,7 @@ json_t *cli_case_json(const rb_case *c, const rb_rolling_solution *s, json_t *in
     if (s)
         rb_report_json_set(&root, "notes", rb_report_json_notes(&settled->rc, s));
     rb_report_json_set(&root, "units", rb_report_json_units(settled->units));
+    rb_report_json_set(&root, "input_hash", rb_report_json_input_hash(c));
     rb_report_json_set(&root, "inputs", inputs);
     return root;
 }

@@ -97,61 +97,22 @@ static void study_free(study *st)
 
 /* ---- Rows -------------------------------------------------------------------------- */
 
-static uint64_t add_bytes(uint64_t hash, const void *data, size_t size)
-{
-    const unsigned char *byte = data;
-    for (size_t k = 0; k < size; k++)
-        hash = (hash ^ byte[k]) * 1099511628211u;
-    return hash;
-}
-
-/* The contents of the files that the case names. */
-static cli_exit add_files(const rb_settled_case *c, uint64_t *hash)
-{
-    int n;
-    const rb_option *o = rb_case_describe(&n);
-    for (int i = 0; i < n; i++) {
-        const char *path = rb_option_path(&o[i], c);
-        char *text;
-        size_t size;
-        rb_message why;
-        if (!path || o[i].file != RB_FILE_READ)
-            continue;
-        const rb_status s = rb_io_read_text(path, &text, &size, &why);
-        if (s != RB_OK)
-            return cli_say(s, &why);
-        *hash = add_bytes(*hash, text, size);
-        free(text);
-    }
-    return CLI_CONTINUE;
-}
-
-static int add_text(const char *text, size_t size, void *hash)
-{
-    *(uint64_t *)hash = add_bytes(*(uint64_t *)hash, text, size);
-    return 0;
-}
-
-/* FNV-1a of every input, the contents of files among them: tells whether a file holds
- * rows of this study. */
+/* Of every input and of the columns: tells whether a file holds rows of this study. */
 static cli_exit find_fingerprint(study *st)
 {
-    json_t *inputs = rb_report_json_inputs(st->base);
-    uint64_t hash = add_bytes(14695981039346656037u, RB_VERSION, sizeof RB_VERSION);
-
-    /* json_dumps loses pieces where its text cannot grow */
-    const int failed = json_dump_callback(inputs, add_text, &hash, JSON_COMPACT) != 0;
-    json_decref(inputs);
-    if (failed)
-        return cli_fail(CLI_INTERNAL, "out of memory");
+    rb_message why = {""};
+    uint64_t hash;
+    const rb_status s = rb_report_input_hash(st->base, &hash, &why);
+    if (s != RB_OK)
+        return cli_say(s, &why);
+    hash = rb_hash(hash, RB_VERSION, sizeof RB_VERSION);
     for (int k = 0; k < st->columns; k++) {
         const study_column *c = &st->column[k];
-        hash = add_bytes(hash, c->name, strlen(c->name));
-        hash = add_bytes(hash, c->value, (size_t)st->rows[c->factor] * sizeof(double));
+        hash = rb_hash(hash, c->name, strlen(c->name));
+        hash = rb_hash(hash, c->value, (size_t)st->rows[c->factor] * sizeof(double));
     }
-    const cli_exit code = add_files(rb_case_settled(st->base), &hash);
     st->fingerprint = hash;
-    return code;
+    return CLI_CONTINUE;
 }
 
 /* A file names a column once: what was given is not printed again. */

@@ -130,15 +130,6 @@ static int correct_zones(const rb_contact_problem *p, rb_contact_unknowns unknow
     return changes;
 }
 
-/* FNV-1a over the zones: a set of zones that comes back means a cycle. */
-static uint64_t fingerprint(int n, const int *zone)
-{
-    uint64_t hash = 14695981039346656037u;
-    for (int i = 0; i < n; i++)
-        hash = (hash ^ (uint64_t)zone[i]) * 1099511628211u;
-    return hash;
-}
-
 static int seen_before(int count, const uint64_t *seen, uint64_t hash)
 {
     for (int k = 0; k < count; k++)
@@ -160,7 +151,7 @@ static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns,
     uint64_t seen[MAX_STEPS];
 
     for (int step = 0; step < MAX_STEPS; step++) {
-        seen[step] = fingerprint(p->n, state->zone);
+        seen[step] = rb_hash(RB_HASH_START, state->zone, (size_t)p->n * sizeof(int));
         if (seen_before(step, seen, seen[step]))
             return RB_MAXITER;
         const rb_status s = rb_contact_solve_zones(p, unknowns, state);

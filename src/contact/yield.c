@@ -428,11 +428,9 @@ static int correct(laws *k, const rb_contact_state *state, int single)
 
 static uint64_t fingerprint(const laws *k)
 {
-    uint64_t hash = 14695981039346656037u;
-    for (int i = 0; i < k->p->n; i++)
-        hash = (hash ^ (uint64_t)(3 * (int)k->law[i] + 1 + (int)k->sign[i])) *
-               1099511628211u;
-    return hash;
+    const size_t n = (size_t)k->p->n;
+    return rb_hash(rb_hash(RB_HASH_START, k->law, n * sizeof *k->law), k->sign,
+                   n * sizeof *k->sign);
 }
 
 /* Solves and corrects until the laws stay; where they come back, one element at a time.

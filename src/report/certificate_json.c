@@ -9,9 +9,9 @@
 /* Results of `rollbem` itself, in mm, N, MPa. */
 static rb_status check_kind(const char *name, const json_t *root, rb_message *why)
 {
-    static const char *const known[] = {"schema", "version", "command", "conventions",
-                                        "notes",  "units",   "inputs",  "summary",
-                                        "table",  "history"};
+    static const char *const known[] = {"schema",  "version", "command",    "conventions",
+                                        "notes",   "units",   "input_hash", "inputs",
+                                        "summary", "table",   "history"};
     const json_t *history = json_object_get(root, "history");
     const json_t *inputs = json_object_get(root, "inputs");
     const json_t *summary = json_object_get(root, "summary");
@@ -141,6 +141,17 @@ static rb_status rebuild_case(const char *name, const json_t *inputs, rb_case *w
     return s;
 }
 
+/* Also of what the answer does not depend on, and of the files that inputs name. */
+static void compare_hash(rb_certificate *c, const json_t *printed, const rb_case *words)
+{
+    json_t *now = rb_report_json_input_hash(words);
+    if (!json_equal(now, printed))
+        rb_certificate_violated(c,
+                                "inputs, or a file that they name, are not those of the "
+                                "result (input_hash)");
+    json_decref(now);
+}
+
 rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
                             rb_case *words, rb_report_certificate *found, rb_message *why)
 {
@@ -159,6 +170,8 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
         s = rb_certificate_refuse(name, "its table has no elements", why);
     if (s == RB_OK)
         s = rebuild_case(name, json_object_get(root, "inputs"), words, why);
+    if (s == RB_OK)
+        compare_hash(&c, json_object_get(root, "input_hash"), words);
     if (s == RB_OK && history)
         s = rb_certificate_follow(&c, history, rb_case_settled(words), n, &again, why);
     else if (s == RB_OK)

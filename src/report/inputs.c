@@ -2,8 +2,11 @@
  * of the history is used instead. */
 #include "report/internal.h"
 #include "rollbem/case.h"
+#include "rollbem/io.h"
 
+#include <inttypes.h>
 #include <jansson.h>
+#include <stdlib.h>
 
 static json_t *input(const rb_option *o, const void *values, rb_units units)
 {
@@ -45,4 +48,51 @@ json_t *rb_report_json_inputs(const rb_case *c)
                                    ? json_null()
                                    : input(&o[i], settled, settled->units));
     return inputs;
+}
+
+/* ---- Hash -------------------------------------------------------------------------- */
+
+static rb_status add_files(const rb_case *c, uint64_t *hash, rb_message *why)
+{
+    int n;
+    const rb_option *o = rb_case_describe(&n);
+    for (int i = 0; i < n; i++) {
+        const char *path = rb_option_path(&o[i], rb_case_settled(c));
+        char *text;
+        size_t size;
+        if (!path || o[i].file != RB_FILE_READ)
+            continue;
+        const rb_status s = rb_io_read_text(path, &text, &size, why);
+        if (s != RB_OK)
+            return s;
+        *hash = rb_hash(*hash, text, size);
+        free(text);
+    }
+    return RB_OK;
+}
+
+static int add_text(const char *text, size_t size, void *hash)
+{
+    *(uint64_t *)hash = rb_hash(*(uint64_t *)hash, text, size);
+    return 0;
+}
+
+rb_status rb_report_input_hash(const rb_case *c, uint64_t *hash, rb_message *why)
+{
+    json_t *inputs = rb_report_json_inputs(c);
+    *hash = RB_HASH_START;
+    /* json_dumps loses pieces where its text cannot grow */
+    const int failed = json_dump_callback(inputs, add_text, hash, JSON_COMPACT) != 0;
+    json_decref(inputs);
+    return failed ? rb_fail(why, RB_ENOMEM, "out of memory") : add_files(c, hash, why);
+}
+
+json_t *rb_report_json_input_hash(const rb_case *c)
+{
+    char text[17];
+    uint64_t hash;
+    if (rb_report_input_hash(c, &hash, NULL) != RB_OK)
+        return json_null();
+    snprintf(text, sizeof text, "%016" PRIx64, hash);
+    return json_string(text);
 }

@@ -150,6 +150,9 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "notes",
                        list_of(typed("string", NULL), "what changes how it is read"));
     rb_report_json_set(&of, "units", typed("object", "of the numbers, by quantity"));
+    rb_report_json_set(
+        &of, "input_hash",
+        typed("string", "of all inputs and the contents of the files they name"));
     rb_report_json_set(&of, "inputs", inputs());
     rb_report_json_set(&of, "summary", summary());
     rb_report_json_set(
