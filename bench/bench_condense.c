@@ -60,7 +60,8 @@ int main(int argc, char **argv)
             if (run > 2 && solve > 0.1)
                 continue;
             start = processor_seconds();
-            if (rb_friction_solve("auto", &local, NULL, r, r + m, NULL, NULL) != RB_OK)
+            if (rb_friction_solve("auto", &local, NULL,
+                                  &(rb_friction_solution){r, r + m, NULL}, NULL) != RB_OK)
                 return 1;
             solve = fmin(solve, processor_seconds() - start);
         }

@@ -187,7 +187,8 @@ static double their_seconds(const char *path, const rb_friction_problem *p, int 
                             double tol)
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
-    double *r = rb_alloc(m, 1), seconds = INFINITY, error;
+    double *r = rb_alloc(m, 1), seconds = INFINITY;
+    rb_friction_errors error;
     for (double at = tol; at >= 0.9e-4 * tol; at *= 1e-2) {
         int ends[2];
         fflush(stdout);
@@ -209,7 +210,8 @@ static double their_seconds(const char *path, const rb_friction_problem *p, int 
         waitpid(pid, NULL, 0);
         if (!answered)
             break;
-        if (rb_friction_error(p, r, NULL, NULL, &error, NULL) == RB_OK && error <= tol) {
+        if (rb_friction_error(p, r, NULL, NULL, &error) == RB_OK &&
+            error.residual <= tol) {
             seconds = taken;
             break;
         }
@@ -224,16 +226,16 @@ typedef struct {
     const rb_friction_problem *problem;
     rb_friction_handle *handle; /* NULL: the whole of rb_friction_solve */
     rb_friction_options options;
-    double *r, *u;
+    rb_friction_solution at;
 } our_call;
 
 static int our_run(void *context)
 {
     const our_call *c = context;
-    return (c->handle ? rb_friction_handle_solve(c->handle, "auto", &c->options, c->r,
-                                                 c->u, NULL, NULL)
-                      : rb_friction_solve("auto", c->problem, &c->options, c->r, c->u,
-                                          NULL, NULL)) == RB_OK;
+    return (c->handle
+                ? rb_friction_handle_solve(c->handle, "auto", &c->options, &c->at, NULL)
+                : rb_friction_solve("auto", c->problem, &c->options, &c->at, NULL)) ==
+           RB_OK;
 }
 
 static double our_seconds(const rb_friction_problem *p, rb_friction_handle *handle,
@@ -241,13 +243,12 @@ static double our_seconds(const rb_friction_problem *p, rb_friction_handle *hand
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
     double *r = rb_alloc(m, 3);
-    our_call call = {.problem = p, .handle = handle, .r = r, .u = r + m};
+    our_call call = {.problem = p, .handle = handle, .at = {r, r + m, NULL}};
     call.options = rb_friction_defaults();
     call.options.tol = tol;
     call.options.r0 = r + 2 * m; /* zero, not the last solution */
     const double best = best_seconds(our_run, &call);
-    const rb_status s =
-        rb_friction_solve("auto", p, &call.options, call.r, call.u, NULL, info);
+    const rb_status s = rb_friction_solve("auto", p, &call.options, &call.at, info);
     free(r);
     return s == RB_OK && info->residual <= tol ? best : INFINITY;
 }

@@ -53,7 +53,8 @@ static void find_best(const rb_friction_problem *p, const rb_friction_info *of_a
     for (int k = 1; k < count; k++) {
         rb_friction_info info;
         opt.context = is_part(&all[k]) ? &part->flops : &any->flops;
-        if (rb_friction_solve(all[k].name, p, &opt, r, r + m, NULL, &info) != RB_OK)
+        if (rb_friction_solve(all[k].name, p, &opt,
+                              &(rb_friction_solution){r, r + m, NULL}, &info) != RB_OK)
             continue;
         if (is_part(&all[k]) && info.flops < part->flops)
             *part = (champion){info.flops, all[k].name};
@@ -71,7 +72,7 @@ static double first_member(const rb_friction_problem *p, double *r)
     opt.max_iters = p->form == RB_FRICTION_GLOBAL ? 15 : 100;
     const rb_status s =
         rb_friction_solve(p->form == RB_FRICTION_GLOBAL ? "nsn-ac" : "nsgs-aa", p, &opt,
-                          r, r + m, NULL, &info);
+                          &(rb_friction_solution){r, r + m, NULL}, &info);
     return s == RB_OK ? info.flops : INFINITY;
 }
 
@@ -83,7 +84,8 @@ static void measure(const char *name, const rb_friction_problem *p, tally *t)
     rb_friction_info info;
     champion part, any;
     opt.seconds = SECONDS;
-    const rb_status s = rb_friction_solve("auto", p, &opt, r, r + m, NULL, &info);
+    const rb_status s = rb_friction_solve("auto", p, &opt,
+                                          &(rb_friction_solution){r, r + m, NULL}, &info);
     find_best(p, &info, r, &part, &any);
     const double flops = info.flops, ratio = flops / part.flops;
     const double first = first_member(p, r);

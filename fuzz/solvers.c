@@ -107,7 +107,8 @@ void fuzz_friction(const uint8_t *data, size_t size)
     const rb_friction_solver *solvers = rb_friction_solvers(&count);
     const char *solver = solvers[fuzz_choice(&b, count)].name;
     double mu[CONTACTS_MAX], W[ROWS_MAX * ROWS_MAX], q[ROWS_MAX], r[ROWS_MAX];
-    double u[ROWS_MAX], error;
+    double u[ROWS_MAX];
+    rb_friction_errors error;
     rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
                              .dimension = 2 + fuzz_choice(&b, 2),
                              .contacts = 1 + fuzz_choice(&b, CONTACTS_MAX),
@@ -137,14 +138,15 @@ void fuzz_friction(const uint8_t *data, size_t size)
                     return;
             }
     }
-    const rb_status s = rb_friction_solve(solver, &p, &opt, r, u, NULL, &info);
+    const rb_status s =
+        rb_friction_solve(solver, &p, &opt, &(rb_friction_solution){r, u, NULL}, &info);
     fuzz_require(s >= RB_EHELPER && s <= RB_INTERRUPTED, "a status is a known one");
     if (s != RB_OK)
         return;
     for (int i = 0; i < m; i++)
         fuzz_require(isfinite(r[i]), "a solution is finite");
-    fuzz_require(rb_friction_scaled_error(&p, r, NULL, u, &error) == RB_OK,
+    fuzz_require(rb_friction_error(&p, r, NULL, u, &error) == RB_OK,
                  "what is solved can be measured");
-    fuzz_require(error <= fmax(opt.tol, info.floor) * (1.0 + 1e-9),
+    fuzz_require(error.scaled <= fmax(opt.tol, info.floor) * (1.0 + 1e-9),
                  "what is called solved is below its tolerance");
 }

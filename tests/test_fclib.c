@@ -393,7 +393,9 @@ static void problems_go_through_files(void **state)
     CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
     assert_int_equal(p.form, RB_FRICTION_LOCAL_SPARSE);
     assert_int_equal(p.contacts, 2);
-    CHECK_STATUS(rb_friction_write(path, &p, p.q, p.q, NULL, "again", &why), RB_OK);
+    CHECK_STATUS(rb_friction_write(path, &p, &(rb_friction_solution){p.q, p.q, NULL},
+                                   "again", &why),
+                 RB_OK);
     rb_friction_problem_free(&p);
     CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
     CHECK_ABS(p.q[5], 2.5, 0.0, "q");
@@ -410,7 +412,9 @@ static void problems_go_through_files(void **state)
     CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
     assert_int_equal(p.form, RB_FRICTION_GLOBAL);
     assert_int_equal(p.dofs, 3);
-    CHECK_STATUS(rb_friction_write(path, &p, NULL, NULL, p.f, "again", &why), RB_OK);
+    CHECK_STATUS(
+        rb_friction_write(path, &p, &(rb_friction_solution){.v = p.f}, "again", &why),
+        RB_OK);
     rb_friction_problem_free(&p);
 }
 

@@ -287,7 +287,8 @@ static void condensation_changes_nothing(void **state)
     double *r = rb_alloc((size_t)m, 1), *u = rb_alloc((size_t)m, 1);
     rb_friction_options options = rb_friction_defaults();
     options.tol = 1e-12;
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &problem, &options, r, u, NULL, &info),
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &problem, &options,
+                                   &(rb_friction_solution){r, u, NULL}, &info),
                  RB_OK);
     for (int k = 0; k < m; k++)
         CHECK_ABS(units.force * r[k], h.step[0].r[k], 1e-4, "reaction %d of 3e5 N", k);

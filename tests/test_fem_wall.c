@@ -161,8 +161,9 @@ static void steps_are_problems_for_every_solver(void **state)
         options.tol = 1e-11;
         CHECK_STATUS(rb_fem_wall_problem(wall, k, &problem), RB_OK);
         for (size_t l = 0; l < 2; l++)
-            CHECK_STATUS(rb_friction_solve(solvers[l], &problem, &options, r + l * m,
-                                           u + l * m, NULL, &info),
+            CHECK_STATUS(rb_friction_solve(
+                             solvers[l], &problem, &options,
+                             &(rb_friction_solution){r + l * m, u + l * m, NULL}, &info),
                          RB_OK);
         for (size_t i = 0; i < m; i++)
             CHECK_ABS(u[i], u[i + m], 1e-7 * 1e-3, "step %d, entry %zu", k, i);
@@ -316,11 +317,16 @@ static void auto_turns_to_smoothing_where_newton_cycles(void **state)
         p.mu[c] *= 0.3;
     opt.tol = 1e-10;
     opt.max_iters = 60;
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, r, r + m, v, &info), RB_MAXITER);
-    CHECK_STATUS(rb_friction_solve("soclcp-smoothing", &p, &opt, r, r + m, v, &smooth),
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt,
+                                   &(rb_friction_solution){r, r + m, v}, &info),
+                 RB_MAXITER);
+    CHECK_STATUS(rb_friction_solve("soclcp-smoothing", &p, &opt,
+                                   &(rb_friction_solution){r, r + m, v}, &smooth),
                  RB_OK);
     opt.max_iters = 0;
-    CHECK_STATUS(rb_friction_solve("auto", &p, &opt, r, r + m, v, &info), RB_OK);
+    CHECK_STATUS(
+        rb_friction_solve("auto", &p, &opt, &(rb_friction_solution){r, r + m, v}, &info),
+        RB_OK);
     CHECK_MAX(violation(&p, r, v), 1e-6, "%s", info.solver);
     CHECK_MAX(info.flops, 3.0 * smooth.flops, "%s beside smoothing", info.solver);
     free(v);

@@ -106,28 +106,28 @@ static void the_measure_is_equation_13(void **state)
     for (int d = 2; d <= 3; d++) {
         enum { NC = 7 };
         rb_friction_problem p;
-        double r[3 * NC], u[3 * NC], error, floor;
+        double r[3 * NC], u[3 * NC];
+        rb_friction_errors error, same;
         plant(d, NC, 5, &p, r);
-        CHECK_STATUS(rb_friction_error(&p, r, NULL, u, &error, &floor), RB_OK);
-        CHECK_MAX(error, 1e-14, "planted solution, d = %d", d);
-        assert_true(floor > 1e-15 && floor < 1e-12);
+        CHECK_STATUS(rb_friction_error(&p, r, NULL, u, &error), RB_OK);
+        CHECK_MAX(error.residual, 1e-14, "planted solution, d = %d", d);
+        assert_true(error.floor > 1e-15 && error.floor < 1e-12);
         for (int trial = 0; trial < 50; trial++) {
             for (int k = 0; k < d * NC; k++)
                 r[k] = 3.0 * uniform(&seed);
-            CHECK_STATUS(rb_friction_error(&p, r, NULL, u, &error, NULL), RB_OK);
+            CHECK_STATUS(rb_friction_error(&p, r, NULL, u, &error), RB_OK);
             for (int i = 0; i < d * NC; i++) {
                 double want = p.q[i];
                 for (int j = 0; j < d * NC; j++)
                     want += p.W[i + j * d * NC] * r[j];
                 CHECK_ABS(u[i], want, 1e-12, "u = W r + q, row %d", i);
             }
-            CHECK_REL(error, measure_again(d, NC, p.mu, r, u, p.q), 1e-12, "trial %d",
-                      trial);
+            CHECK_REL(error.residual, measure_again(d, NC, p.mu, r, u, p.q), 1e-12,
+                      "trial %d", trial);
         }
         make_sparse(&p);
-        double same;
-        CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &same, NULL), RB_OK);
-        CHECK_REL(same, error, 1e-13, "sparse W");
+        CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &same), RB_OK);
+        CHECK_REL(same.residual, error.residual, 1e-13, "sparse W");
         rb_friction_problem_free(&p);
     }
 }
@@ -173,7 +173,7 @@ static void condensation_gives_the_same_problem(void **state)
     rb_friction_problem p, local;
     rb_friction_info info;
     rb_message why;
-    double r[M], u[M], v[2 * M], r2[M], u2[M], error;
+    double r[M], u[M], v[2 * M], r2[M], u2[M];
     series_of_springs(3, NC, 1.0, &p);
     CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_OK);
     /* springs in series: W = 2, q = w + f */
@@ -184,18 +184,22 @@ static void condensation_gives_the_same_problem(void **state)
     }
     rb_friction_options opt = rb_friction_defaults();
     opt.tol = 1e-14;
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, r, u, v, &info), RB_OK);
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &local, &opt, r2, u2, NULL, &info), RB_OK);
+    CHECK_STATUS(
+        rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, v}, &info),
+        RB_OK);
+    CHECK_STATUS(rb_friction_solve("nsn-ac", &local, &opt,
+                                   &(rb_friction_solution){r2, u2, NULL}, &info),
+                 RB_OK);
     for (int k = 0; k < M; k++) {
         CHECK_ABS(r[k], r2[k], 1e-12, "r[%d]", k);
         CHECK_ABS(u[k], u2[k], 1e-12, "u[%d]", k);
     }
     CHECK_REL(measure_again(3, NC, p.mu, r, u, local.q) + 1.0, 1.0, 1e-12, "by hand");
     r[0] += 0.1;
-    double local_error;
-    CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &error, NULL), RB_OK);
-    CHECK_STATUS(rb_friction_error(&local, r, NULL, NULL, &local_error, NULL), RB_OK);
-    CHECK_REL(error, local_error, 1e-12, "(13) on both forms");
+    rb_friction_errors error, local_error;
+    CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &error), RB_OK);
+    CHECK_STATUS(rb_friction_error(&local, r, NULL, NULL, &local_error), RB_OK);
+    CHECK_REL(error.residual, local_error.residual, 1e-12, "(13) on both forms");
     rb_friction_problem_free(&local);
     rb_friction_problem_free(&p);
 }
@@ -279,17 +283,20 @@ static void a_handle_solves_one_load_after_another(void **state)
                 *(global ? &p.w[k] : &p.q[k]) += 1e-3 * (k % 7);
             p.mu[load] *= 0.9;
             CHECK_STATUS(rb_friction_update(handle, &why), RB_OK);
-            CHECK_STATUS(
-                rb_friction_handle_solve(handle, solvers[load], NULL, r, u, NULL, &warm),
-                RB_OK);
-            CHECK_STATUS(rb_friction_solve(solvers[load], &p, NULL, r2, u2, NULL, &cold),
+            CHECK_STATUS(rb_friction_handle_solve(handle, solvers[load], NULL,
+                                                  &(rb_friction_solution){r, u, NULL},
+                                                  &warm),
+                         RB_OK);
+            CHECK_STATUS(rb_friction_solve(solvers[load], &p, NULL,
+                                           &(rb_friction_solution){r2, u2, NULL}, &cold),
                          RB_OK);
             for (int k = 0; k < m; k++)
                 CHECK_ABS(r[k], r2[k], 1e-6, "load %d, r[%d]", load, k);
             assert_true(warm.iters <= cold.iters);
         }
         /* solved already: nothing is left to do */
-        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", NULL, r, u, NULL, &warm),
+        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", NULL,
+                                              &(rb_friction_solution){r, u, NULL}, &warm),
                      RB_OK);
         assert_int_equal(warm.iters, 0);
         p.mu[0] = -1.0;
@@ -310,7 +317,8 @@ static void a_structure_held_by_friction_alone_is_solved(void **state)
     rb_friction_info info;
     rb_friction_facts facts;
     rb_message why = {""};
-    double r[M], u[M], v[N], error;
+    double r[M], u[M], v[N];
+    rb_friction_errors error;
     series_of_springs(3, NC, 0.0, &p);
     p.f[2 * 4] = 0.3; /* contact 2 sticks too */
     CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_SINGULAR);
@@ -319,22 +327,26 @@ static void a_structure_held_by_friction_alone_is_solved(void **state)
     assert_int_equal(facts.nullity, 6);
     assert_int_equal(facts.rank, 6);
     assert_int_equal(facts.hyperstaticity, 0);
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, NULL, r, u, v, &info), RB_OK);
+    CHECK_STATUS(
+        rb_friction_solve("nsn-ac", &p, NULL, &(rb_friction_solution){r, u, v}, &info),
+        RB_OK);
     /* every force goes through to the ground: r = -f */
     for (int c = 0; c < NC; c++)
         for (int a = 0; a < 3; a++)
             CHECK_ABS(r[3 * c + a], -p.f[2 * (3 * c + a)], 1e-10, "contact %d, %d", c, a);
-    CHECK_STATUS(rb_friction_error(&p, r, v, u, &error, NULL), RB_OK);
-    CHECK_MAX(error, 1e-8, "measure");
+    CHECK_STATUS(rb_friction_error(&p, r, v, u, &error), RB_OK);
+    CHECK_MAX(error.residual, 1e-8, "measure");
     v[1] += 1e-3; /* a displacement that the forces do not balance counts */
-    CHECK_STATUS(rb_friction_error(&p, r, v, u, &error, NULL), RB_OK);
-    assert_true(error > 1e-5);
+    CHECK_STATUS(rb_friction_error(&p, r, v, u, &error), RB_OK);
+    assert_true(error.residual > 1e-5);
 
     /* a motion that no contact sees: the message says so */
     rb_sparse_free(&p.H);
     CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.rows = N, .cols = M}, &p.H),
                  RB_OK);
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, NULL, r, u, v, &info), RB_SINGULAR);
+    CHECK_STATUS(
+        rb_friction_solve("nsn-ac", &p, NULL, &(rb_friction_solution){r, u, v}, &info),
+        RB_SINGULAR);
     assert_non_null(strstr(info.msg.text, "no contact sees"));
     rb_friction_problem_free(&p);
 }
@@ -354,7 +366,9 @@ static void newton_solves_planted_problems(void **state)
                 plant(d, nc, 7u + (unsigned)nc, &p, planted);
                 if (nc > 40)
                     make_sparse(&p);
-                CHECK_STATUS(rb_friction_solve(names[s], &p, NULL, r, u, NULL, &info),
+                CHECK_STATUS(rb_friction_solve(names[s], &p, NULL,
+                                               &(rb_friction_solution){r, u, NULL},
+                                               &info),
                              RB_OK);
                 CHECK_MAX(measure_again(d, nc, p.mu, r, u, p.q), 1.0001e-8,
                           "%s d %d nc %d", names[s], d, nc);
@@ -397,7 +411,9 @@ static void zero_q_has_the_trivial_solution(void **state)
     double r[6], u[6];
     plant(2, 3, 4, &p, r);
     memset(p.q, 0, 6 * sizeof *p.q);
-    CHECK_STATUS(rb_friction_solve("auto", &p, NULL, r, u, NULL, &info), RB_OK);
+    CHECK_STATUS(
+        rb_friction_solve("auto", &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
+        RB_OK);
     for (int k = 0; k < 6; k++)
         CHECK_ABS(r[k], 0.0, 0.0, "r[%d]", k);
     CHECK_ABS(info.residual, 0.0, 0.0, "residual");
@@ -408,7 +424,9 @@ static void refuse(rb_friction_problem *p, const char *words)
 {
     rb_friction_info info;
     double r[9], u[9];
-    CHECK_STATUS(rb_friction_solve("nsn-ac", p, NULL, r, u, NULL, &info), RB_EINVAL);
+    CHECK_STATUS(
+        rb_friction_solve("nsn-ac", p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
+        RB_EINVAL);
     if (!strstr(info.msg.text, words))
         print_error("'%s' lacks '%s'\n", info.msg.text, words);
     assert_non_null(strstr(info.msg.text, words));
@@ -439,10 +457,14 @@ static void bad_problems_are_refused(void **state)
     p.Ws.cols = 8;
     refuse(&p, "9 x 8");
     p.Ws.cols = 9;
-    CHECK_STATUS(rb_friction_solve("newton", &p, NULL, r, u, NULL, &info), RB_EINVAL);
+    CHECK_STATUS(
+        rb_friction_solve("newton", &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
+        RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "'newton'"));
     opt.tol = 0.0;
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, r, u, NULL, &info), RB_EINVAL);
+    CHECK_STATUS(
+        rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
+        RB_EINVAL);
     rb_friction_problem_free(&p);
 
     series_of_springs(2, 1, 1.0, &p);
@@ -465,8 +487,7 @@ static void a_frictionless_contact_does_not_pull(void **state)
 {
     (void)state;
     for (int d = 2; d <= 3; d++) {
-        double W[9] = {0.0}, q[3] = {1.0}, mu[1] = {0.0}, pulls[3] = {-1.0}, error, r[3],
-               u[3];
+        double W[9] = {0.0}, q[3] = {1.0}, mu[1] = {0.0}, pulls[3] = {-1.0}, r[3], u[3];
         for (int a = 0; a < d; a++)
             W[a * (d + 1)] = 1.0;
         const rb_friction_problem p = {.form = RB_FRICTION_LOCAL_DENSE,
@@ -475,8 +496,9 @@ static void a_frictionless_contact_does_not_pull(void **state)
                                        .mu = mu,
                                        .W = W,
                                        .q = q};
-        CHECK_STATUS(rb_friction_error(&p, pulls, NULL, NULL, &error, NULL), RB_OK);
-        CHECK_ABS(error, 1.0, 1e-15, "it pulls");
+        rb_friction_errors error;
+        CHECK_STATUS(rb_friction_error(&p, pulls, NULL, NULL, &error), RB_OK);
+        CHECK_ABS(error.residual, 1.0, 1e-15, "it pulls");
         rb_friction_options opt = rb_friction_defaults();
         opt.r0 = pulls;
         int count;
@@ -484,7 +506,8 @@ static void a_frictionless_contact_does_not_pull(void **state)
         for (int k = 0; k < count; k++) {
             if (d == 3 && (all[k].needs & RB_FRICTION_ONLY_2D))
                 continue;
-            CHECK_STATUS(rb_friction_solve(all[k].name, &p, &opt, r, u, NULL, NULL),
+            CHECK_STATUS(rb_friction_solve(all[k].name, &p, &opt,
+                                           &(rb_friction_solution){r, u, NULL}, NULL),
                          RB_OK);
             CHECK_ABS(r[0], 0.0, 1e-7, "%s", all[k].name);
         }
@@ -500,19 +523,24 @@ static void success_is_never_claimed_above_the_tolerance(void **state)
     double r[30], u[30], planted[30];
     plant(3, 10, 4, &p, planted);
     opt.max_iters = 1;
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, r, u, NULL, &info), RB_MAXITER);
+    CHECK_STATUS(
+        rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
+        RB_MAXITER);
     assert_true(info.residual > opt.tol);
     assert_string_equal(rb_friction_status_text(RB_MAXITER, opt.tol, &info),
                         "iteration limit");
     /* from the solution: nothing to do; a tolerance below rounding: solved to rounding */
     opt.r0 = planted, opt.tol = 1e-300;
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, r, u, NULL, &info), RB_OK);
+    CHECK_STATUS(
+        rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
+        RB_OK);
     assert_int_equal(info.iters, 0);
     assert_string_equal(rb_friction_status_text(RB_OK, opt.tol, &info),
                         "solved-to-rounding");
     opt.r0 = NULL, opt.tol = 1e-8, opt.max_iters = 0, opt.seconds = 1e-9;
-    CHECK_STATUS(rb_friction_solve("nsn-ac", &p, &opt, r, u, NULL, &info),
-                 RB_INTERRUPTED);
+    CHECK_STATUS(
+        rb_friction_solve("nsn-ac", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
+        RB_INTERRUPTED);
     rb_friction_problem_free(&p);
 }
 
@@ -524,7 +552,8 @@ static int fail_each(const char *solver, const rb_friction_problem *p)
     int count = 0;
     for (rb_status s = RB_ENOMEM; s != RB_OK && count < 400; count++) {
         alloc_fail_after(count);
-        s = rb_friction_solve(solver, p, NULL, r, u, NULL, &info);
+        s = rb_friction_solve(solver, p, NULL, &(rb_friction_solution){r, u, NULL},
+                              &info);
         const int refused = alloc_failed();
         alloc_succeed();
         assert_true(s == RB_OK || refused);

@@ -144,7 +144,9 @@ static void solve_and_judge(const structure *s, const rb_friction_problem *p, do
     rb_friction_options opt = rb_friction_defaults();
     rb_friction_info info;
     opt.tol = 1e-11;
-    CHECK_STATUS(rb_friction_solve("auto", p, &opt, r, u, NULL, &info), RB_OK);
+    CHECK_STATUS(
+        rb_friction_solve("auto", p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
+        RB_OK);
     velocities(s, r, want);
     for (int k = 0; k < ROWS; k++)
         CHECK_ABS(u[k], want[k], 1e-9, "u[%d]", k);
@@ -325,7 +327,9 @@ static void a_rod_slides_or_sticks_as_a_whole(void **state)
         p.f[0] = p.f[2] = -1.0, p.f[1] = push;
         CHECK_STATUS(rb_friction_eliminate(&p, &G, none, &why), RB_OK);
         assert_int_equal(p.dofs, 3);
-        CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, r, u, NULL, &info), RB_OK);
+        CHECK_STATUS(
+            rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
+            RB_OK);
         CHECK_ABS(r[0], 1.0, 1e-7, "r_N");
         CHECK_ABS(r[2], 1.0, 1e-7, "r_N");
         CHECK_ABS(r[1] + r[3], slides ? -1.0 : -0.8, 1e-7, "friction");

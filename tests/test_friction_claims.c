@@ -213,7 +213,8 @@ static void ask(const challenge *c, const rb_friction_solver *solver, double tol
     opt.max_iters = 3000;
     n->runs++;
     n->hopeless += c->hopeless;
-    if (rb_friction_solve(solver->name, &p, &opt, r, u, NULL, &info) != RB_OK)
+    if (rb_friction_solve(solver->name, &p, &opt, &(rb_friction_solution){r, u, NULL},
+                          &info) != RB_OK)
         return;
     n->claims++;
     judge(c, r, &error, &floor);
@@ -260,7 +261,9 @@ static void the_judge_sees_small_errors(void **state)
                                    .mu = c.mu,
                                    .W = c.W,
                                    .q = c.q};
-    CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, r, u, NULL, NULL), RB_OK);
+    CHECK_STATUS(
+        rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
+        RB_OK);
     judge(&c, r, &error, &floor);
     CHECK_MAX(error, 1e-8, "a solution");
     int at = 0;

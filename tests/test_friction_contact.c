@@ -201,6 +201,7 @@ static void a_newton_step_solves_its_system(void **state)
         const int d = 2 + k % 2, nc = sizes[k / 2], m = d * nc, dd = d * d;
         double *A = rb_alloc((size_t)m, 3 * (size_t)d + 3), *B = A + m * d;
         double *F = B + m * d, *dr = F + m, *y = dr + m;
+        const rb_friction_linearised at = {F, A, B};
         random_problem(d, nc, &seed, &p);
         for (int j = 0; j < m && k / 2; j++) /* thin it out */
             for (int i = 0; i < m; i++)
@@ -218,7 +219,7 @@ static void a_newton_step_solves_its_system(void **state)
         rb_friction_task task = {
             .shared = &shared, .problem = &p, .d = d, .contacts = nc, .m = m};
         CHECK_STATUS(rb_friction_system_init(&task, &s), RB_OK);
-        CHECK_STATUS(rb_friction_system_step(&s, A, B, F, NULL, dr, NULL), RB_OK);
+        CHECK_STATUS(rb_friction_system_step(&s, &at, NULL, dr, NULL), RB_OK);
         assert_true((s.lu != NULL) == (k / 2));
         rb_friction_blocks_apply(&shared.blocks, dr, y);
         for (int c = 0; c < nc; c++)
@@ -313,8 +314,12 @@ static void acceleration_saves_sweeps(void **state)
     rb_friction_info plain, fast;
     double r[60], s[60], u[60];
     pile(30, 1.0, &p);
-    CHECK_STATUS(rb_friction_solve("nsgs-ac", &p, NULL, r, u, NULL, &plain), RB_OK);
-    CHECK_STATUS(rb_friction_solve("nsgs-aa", &p, NULL, s, u, NULL, &fast), RB_OK);
+    CHECK_STATUS(rb_friction_solve("nsgs-ac", &p, NULL,
+                                   &(rb_friction_solution){r, u, NULL}, &plain),
+                 RB_OK);
+    CHECK_STATUS(rb_friction_solve("nsgs-aa", &p, NULL,
+                                   &(rb_friction_solution){s, u, NULL}, &fast),
+                 RB_OK);
     CHECK_MAX((double)fast.iters, plain.iters / 5.0, "%d sweeps without", plain.iters);
     for (int k = 0; k < 60; k++)
         CHECK_ABS(s[k], r[k], 1e-4, "r[%d]", k);
@@ -336,9 +341,11 @@ static void the_hybrid_sees_what_sweeps_are_worth(void **state)
             p.q[2 * c] = strong ? -1.0 : 0.1 * (c % 9) - 0.5;
             p.q[2 * c + 1] = strong ? 0.05 * (c - 30) : 0.2 * (c % 5) - 0.3;
         }
-        CHECK_STATUS(rb_friction_solve("nsn-ac-nls", &p, NULL, r, u, NULL, &newton),
+        CHECK_STATUS(rb_friction_solve("nsn-ac-nls", &p, NULL,
+                                       &(rb_friction_solution){r, u, NULL}, &newton),
                      RB_OK);
-        CHECK_STATUS(rb_friction_solve("nsn-ac-hybrid", &p, NULL, r, u, NULL, &hybrid),
+        CHECK_STATUS(rb_friction_solve("nsn-ac-hybrid", &p, NULL,
+                                       &(rb_friction_solution){r, u, NULL}, &hybrid),
                      RB_OK);
         assert_true(newton.iters > 2);
         assert_int_equal(hybrid.iters, 7 + (strong ? newton.iters : 1));

@@ -61,7 +61,8 @@ static rb_status run(const char *solver, const rb_friction_problem *p, double *r
     double *u = rb_alloc((size_t)(p->dimension * p->contacts), 1);
     rb_friction_options opt = rb_friction_defaults();
     opt.max_iters = strncmp(solver, "nsn", 3) ? 0 : 25;
-    const rb_status s = rb_friction_solve(solver, p, &opt, r, u, NULL, info);
+    const rb_status s =
+        rb_friction_solve(solver, p, &opt, &(rb_friction_solution){r, u, NULL}, info);
     free(u);
     return s;
 }
@@ -273,7 +274,9 @@ static void lemke_ends_in_time(void **state)
     double *r = rb_alloc((size_t)(2 * p.contacts), 2);
     rb_friction_options opt = rb_friction_defaults();
     opt.seconds = 1e-3;
-    CHECK_STATUS(rb_friction_solve("lemke", &p, &opt, r, r + 2 * p.contacts, NULL, &info),
+    CHECK_STATUS(rb_friction_solve("lemke", &p, &opt,
+                                   &(rb_friction_solution){r, r + 2 * p.contacts, NULL},
+                                   &info),
                  RB_INTERRUPTED);
     CHECK_MAX(info.seconds, 0.1, "a pivot takes no longer");
     free(r);
@@ -315,7 +318,9 @@ static void pauses_change_nothing(void **state)
         rb_friction_shared shared;
         double v[1];
         rb_friction_record record = {.r = best, .error = INFINITY};
-        CHECK_STATUS(rb_friction_solve(names[k], &p, NULL, whole, u, NULL, &info), RB_OK);
+        CHECK_STATUS(rb_friction_solve(names[k], &p, NULL,
+                                       &(rb_friction_solution){whole, u, NULL}, &info),
+                     RB_OK);
         CHECK_STATUS(rb_friction_shared_init(&p, &shared, NULL), RB_OK);
         memset(r, 0, (size_t)m * sizeof *r);
         rb_friction_task task = {.shared = &shared,
@@ -380,13 +385,16 @@ static void the_caller_hears_and_may_stop(void **state)
     for (int k = 0; k < count; k++) {
         l = (listener){0, -1};
         opt.max_iters = 100;
-        rb_friction_solve(all[k].name, &p, &opt, r, u, NULL, &info);
+        rb_friction_solve(all[k].name, &p, &opt, &(rb_friction_solution){r, u, NULL},
+                          &info);
         if (!l.calls)
             print_error("%s tells nothing\n", all[k].name);
         assert_true(l.calls > 0);
     }
     l = (listener){0, 2};
-    CHECK_STATUS(rb_friction_solve("auto", &p, &opt, r, u, NULL, &info), RB_INTERRUPTED);
+    CHECK_STATUS(
+        rb_friction_solve("auto", &p, &opt, &(rb_friction_solution){r, u, NULL}, &info),
+        RB_INTERRUPTED);
     assert_int_equal(l.calls, 2);
     free(r);
     rb_friction_problem_free(&p);

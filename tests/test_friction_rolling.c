@@ -144,7 +144,8 @@ static rb_status solve_row(const row_of_balls *s, double unit, const char *solve
         fail_msg("%s", why.text);
     assert_int_equal(p.contacts, 2 * s->contacts);
     opt.tol = 1e-9;
-    const rb_status st = rb_friction_solve(solver, &p, &opt, r, u, NULL, NULL);
+    const rb_status st =
+        rb_friction_solve(solver, &p, &opt, &(rb_friction_solution){r, u, NULL}, NULL);
     rb_friction_unite_rolling(&p, r, u, r, u);
     for (int k = 0; k < s->rows; k++)
         r[k] /= k % 5 < 3 ? unit : unit * unit; /* back to lengths of 1 */
@@ -254,11 +255,13 @@ static void constraints_go_with_rolling_friction(void **state)
         RB_OK);
     CHECK_STATUS(rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, "", "", &why), RB_OK);
     CHECK_STATUS(rb_friction_read(path, &p, &why), RB_OK);
-    CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, r, u, NULL, NULL), RB_OK);
+    CHECK_STATUS(
+        rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
+        RB_OK);
     rb_friction_unite_rolling(&p, r, u, r, u);
     CHECK_ABS(fabs(r[1]), 0.1, 1e-7, "it slides");
     CHECK_ABS(hypot(u[3], u[4]), 0.0, 1e-9, "and does not turn");
-    CHECK_STATUS(rb_friction_write(path, &p, NULL, NULL, NULL, "", &why), RB_EINVAL);
+    CHECK_STATUS(rb_friction_write(path, &p, NULL, "", &why), RB_EINVAL);
     rb_friction_problem_free(&p);
     rb_io_fclib_free(&file);
 }

@@ -68,15 +68,17 @@ static void every_solver_obeys_coulomb(void **state)
             rb_friction_info info;
             double r[180], u[180], reference[180];
             chain(d, 60, &p);
-            CHECK_STATUS(
-                rb_friction_solve("nsgs-ac", &p, NULL, reference, u, NULL, &info), RB_OK);
+            CHECK_STATUS(rb_friction_solve("nsgs-ac", &p, NULL,
+                                           &(rb_friction_solution){reference, u, NULL},
+                                           &info),
+                         RB_OK);
             if (k % 2) {
                 const int m = 60 * d;
                 CHECK_STATUS(rb_sparse_from_dense(m, m, p.W, m, &p.Ws), RB_OK);
                 p.form = RB_FRICTION_LOCAL_SPARSE;
             }
-            const rb_status s =
-                rb_friction_solve(all[k].name, &p, NULL, r, u, NULL, &info);
+            const rb_status s = rb_friction_solve(
+                all[k].name, &p, NULL, &(rb_friction_solution){r, u, NULL}, &info);
             if (s != RB_OK)
                 print_error("%s in %dD: %s\n", all[k].name, d, rb_status_text(s));
             CHECK_STATUS(s, RB_OK);
@@ -124,7 +126,8 @@ static void solvers_without_need_of_w_take_a_singular_k(void **state)
         rb_friction_info info;
         double r[2], u[2], v[2];
         a_loose_block(&p);
-        const rb_status s = rb_friction_solve(all[k].name, &p, NULL, r, u, v, &info);
+        const rb_status s = rb_friction_solve(all[k].name, &p, NULL,
+                                              &(rb_friction_solution){r, u, v}, &info);
         if (all[k].needs & RB_FRICTION_NEEDS_W) {
             CHECK_STATUS(s, RB_SINGULAR);
             assert_non_null(strstr(info.msg.text, "nullity 2"));
@@ -155,7 +158,8 @@ static void what_has_no_solution_is_not_solved(void **state)
         double r[2], u[2], v[2];
         a_loose_block(&p);
         p.f[1] = 1.5;
-        const rb_status s = rb_friction_solve(all[k].name, &p, NULL, r, u, v, &info);
+        const rb_status s = rb_friction_solve(all[k].name, &p, NULL,
+                                              &(rb_friction_solution){r, u, v}, &info);
         if (s <= 0)
             print_error("%s: %s\n", all[k].name, rb_status_text(s));
         assert_true(s > 0);
@@ -177,7 +181,8 @@ static void the_iteration_limit_is_that_of_the_whole_call(void **state)
             opt.tol = 1e-14;
             opt.max_iters = most;
             chain(2, 60, &p);
-            rb_friction_solve(all[k].name, &p, &opt, r, u, NULL, &info);
+            rb_friction_solve(all[k].name, &p, &opt, &(rb_friction_solution){r, u, NULL},
+                              &info);
             CHECK_MAX(info.iters, most, "%s with --max-iters %d", all[k].name, most);
             rb_friction_problem_free(&p);
         }
@@ -192,8 +197,12 @@ static void info_may_be_null(void **state)
     double r[20], u[20];
     chain(2, 10, &p);
     for (int k = 0; k < count; k++)
-        CHECK_STATUS(rb_friction_solve(all[k].name, &p, NULL, r, u, NULL, NULL), RB_OK);
-    CHECK_STATUS(rb_friction_solve("none", &p, NULL, r, u, NULL, NULL), RB_EINVAL);
+        CHECK_STATUS(rb_friction_solve(all[k].name, &p, NULL,
+                                       &(rb_friction_solution){r, u, NULL}, NULL),
+                     RB_OK);
+    CHECK_STATUS(
+        rb_friction_solve("none", &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
+        RB_EINVAL);
     CHECK_MAX(violation(&p, r, u), 1e-6, "without info");
     rb_friction_problem_free(&p);
     const double M[] = {2.0}, q[] = {-1.0};
@@ -309,7 +318,8 @@ static void failing_allocations_are_reported(void **state)
         int count = 0;
         for (rb_status s = RB_ENOMEM; s != RB_OK && count < 300; count++) {
             alloc_fail_after(count);
-            s = rb_friction_solve(all[k].name, &p, NULL, r, u, NULL, &info);
+            s = rb_friction_solve(all[k].name, &p, NULL,
+                                  &(rb_friction_solution){r, u, NULL}, &info);
             const int refused = alloc_failed();
             alloc_succeed();
             assert_true(s == RB_OK || refused);
@@ -326,14 +336,17 @@ static void solve_outside(const char *file)
     rb_friction_problem p;
     rb_friction_info info;
     rb_message why = {""};
-    double r[900], u[900], error;
+    double r[900], u[900];
+    rb_friction_errors error;
     const rb_status s = rb_friction_read(outside_data(file), &p, &why);
     if (s != RB_OK)
         print_error("%s\n", why.text);
     CHECK_STATUS(s, RB_OK);
-    CHECK_STATUS(rb_friction_solve(NULL, &p, NULL, r, u, NULL, &info), RB_OK);
-    CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &error, NULL), RB_OK);
-    CHECK_MAX(error, 1e-8, "%s", file);
+    CHECK_STATUS(
+        rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, &info),
+        RB_OK);
+    CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &error), RB_OK);
+    CHECK_MAX(error.residual, 1e-8, "%s", file);
     rb_friction_problem_free(&p);
 }
 

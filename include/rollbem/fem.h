@@ -133,13 +133,15 @@ typedef struct {
     double *load; /* dofs x steps, totals; owned */
 } rb_fem_model;
 
-/* Takes over mesh and nodes (node numbers of the contacts), also on failure; all loads
- * are zero.  Frame of every contact: N along the last axis, T along the others.  A
- * contact whose tangential direction is held keeps mu = 0: its friction would be
- * undetermined. */
-rb_status rb_fem_model_create(rb_fem_mesh *mesh, const rb_fem_material *material,
-                              int contacts, int *nodes, double mu, int steps,
-                              rb_fem_model *model, rb_message *why);
+/* Room for a mesh as rb_fem_mesh_alloc makes it, and for the nodes of the contacts; all
+ * are to be filled in.  Released with rb_fem_model_free, also on failure. */
+rb_status rb_fem_model_alloc(rb_fem_kind kind, int nodes, int elements, int contacts,
+                             rb_fem_model *model);
+/* The structure of a model whose mesh and contact nodes are filled in; all loads are
+ * zero.  Frame of every contact: N along the last axis, T along the others.  A contact
+ * whose tangential direction is held keeps mu = 0: its friction would be undetermined. */
+rb_status rb_fem_model_build(rb_fem_model *model, const rb_fem_material *material,
+                             double mu, int steps, rb_message *why);
 void rb_fem_model_free(rb_fem_model *model);
 /* Adds a force on one direction of a node in increment step; held directions take it. */
 void rb_fem_model_load(rb_fem_model *model, int step, int node, int direction,

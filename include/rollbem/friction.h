@@ -40,6 +40,12 @@ typedef struct {
 
 void rb_friction_problem_free(rb_friction_problem *problem);
 
+/* Where a solution stands; borrowed. */
+typedef struct {
+    double *r, *u; /* m */
+    double *v;     /* n: global form; or NULL */
+} rb_friction_solution;
+
 /* RB_EINVAL, with the place in why: dimension other than 2 or 3, no contact, sizes that
  * differ, mu < 0, NaN or infinity, unsymmetric K. */
 rb_status rb_friction_problem_check(const rb_friction_problem *problem, rb_message *why);
@@ -111,28 +117,29 @@ rb_status rb_friction_read(const char *path, rb_friction_problem *problem,
 rb_status rb_friction_read_as(const char *path, rb_friction_file kind,
                               rb_friction_problem *problem, rb_message *why);
 
-/* As FCLib (HDF5); r, u, v: a solution to go with it, or NULL.  RB_EWRITE;
+/* As FCLib (HDF5); solution: to go with it, where it is not NULL.  RB_EWRITE;
  * RB_EINVAL: rolling friction. */
 rb_status rb_friction_write(const char *path, const rb_friction_problem *problem,
-                            const double *r, const double *u, const double *v,
-                            const char *title, rb_message *why);
+                            const rb_friction_solution *solution, const char *title,
+                            rb_message *why);
 
 /* ---- Measure of error -------------------------------------------------------------- */
 
-/* Equation (13) of *Acary*, rho = 1: ||r - P_K(r - uhat)|| / ||q||, u recomputed from r
- * (||F|| itself where q = 0).  It adds forces to velocities and so depends on units.
- * Global form: u from K v = H r + f; where K is singular, from v, see docs/friction.md.
- * floor: what rounding of the data allows.  v: n, global form only, else NULL; u: m,
- * written, or NULL; floor: written, or NULL. */
-rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
-                            const double *v, double *u, double *error, double *floor);
+/* residual: equation (13) of *Acary*, rho = 1: ||r - P_K(r - uhat)|| / ||q|| (||F||
+ * itself where q = 0), which adds forces to velocities and so depends on units. scaled:
+ * what decides whether a problem is solved, (13) with rho_c = 1/W_NN of each contact's
+ * own block, in units of velocity: || (r - P_K(r - rho_c uhat)) / rho_c || /
+ * ||q||.  Multiplying W, q, lengths or masses by constants does not change it.  Global
+ * form: W_NN is estimated from diag(K).
+ * floor: what rounding of the data allows of both. */
+typedef struct {
+    double residual, scaled, floor;
+} rb_friction_errors;
 
-/* What decides whether a problem is solved, (13) with rho_c = 1/W_NN of each contact's
- * own block, in units of velocity: || (r - P_K(r - rho_c uhat)) / rho_c || / ||q||.
- * Multiplying W, q, lengths or masses by constants does not change it.  Global form: W_NN
- * is estimated from diag(K).  u: m, written, or NULL. */
-rb_status rb_friction_scaled_error(const rb_friction_problem *problem, const double *r,
-                                   const double *v, double *u, double *error);
+/* u is recomputed from r; global form: from K v = H r + f; where K is singular, from v,
+ * see docs/friction.md.  v: n, global form only, else NULL; u: m, written, or NULL. */
+rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
+                            const double *v, double *u, rb_friction_errors *error);
 
 /* ---- Solvers ----------------------------------------------------------------------- */
 
@@ -160,10 +167,10 @@ typedef struct {
 typedef struct {
     const char *solver; /* that gave the answer; static text */
     int iters;          /* Newton steps, sweeps, pivots */
-    double residual;    /* (13), recomputed from r (and v) alone */
-    double scaled;      /* rb_friction_scaled_error, which decides */
-    double floor;       /* of both, from rounding of the data */
-    double flops;       /* floating-point operations, docs/friction.md says how counted */
+    double residual;    /* as in rb_friction_errors, recomputed from r (and v) alone */
+    double scaled;      /* likewise; decides */
+    double floor;
+    double flops; /* floating-point operations, docs/friction.md says how counted */
     double seconds;
     rb_message msg;
 } rb_friction_info;
@@ -188,14 +195,14 @@ const rb_friction_solver *rb_friction_solver_named(const char *name);
 
 rb_friction_options rb_friction_defaults(void);
 
-/* solver NULL: "auto".  opt NULL: defaults.  r, u: m, written; v: n, written, or NULL;
- * the best iterate when not solved. RB_OK: scaled <= max(tol, floor).  RB_MAXITER,
- * RB_RAY, RB_SINGULAR, RB_INACCURATE, RB_INTERRUPTED (time limit): not solved. RB_EINVAL:
- * unknown solver, problem refused by rb_friction_problem_check or by the solver;
- * info->msg says which.  info: written, or NULL. */
+/* solver NULL: "auto".  opt NULL: defaults.  solution: r, u and, unless it is NULL, v are
+ * written; the best iterate when not solved.  RB_OK: scaled <= max(tol, floor).
+ * RB_MAXITER, RB_RAY, RB_SINGULAR, RB_INACCURATE, RB_INTERRUPTED (time limit): not
+ * solved. RB_EINVAL: unknown solver, problem refused by rb_friction_problem_check or by
+ * the solver; info->msg says which.  info: written, or NULL. */
 rb_status rb_friction_solve(const char *solver, const rb_friction_problem *problem,
-                            const rb_friction_options *opt, double *r, double *u,
-                            double *v, rb_friction_info *info);
+                            const rb_friction_options *opt,
+                            const rb_friction_solution *solution, rb_friction_info *info);
 
 /* The solvers for rolling contact (rb_rolling_case, rb_case_use_cone_solvers). */
 const rb_contact_cone_solvers *rb_friction_cone_solvers(void);
@@ -229,8 +236,9 @@ rb_status rb_friction_setup(const rb_friction_problem *problem,
 rb_status rb_friction_update(rb_friction_handle *handle, rb_message *why);
 /* As rb_friction_solve; opt->r0 NULL: starts from the last solution, if there is one. */
 rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *solver,
-                                   const rb_friction_options *opt, double *r, double *u,
-                                   double *v, rb_friction_info *info);
+                                   const rb_friction_options *opt,
+                                   const rb_friction_solution *solution,
+                                   rb_friction_info *info);
 void rb_friction_handle_free(rb_friction_handle *handle);
 
 /* ---- Performance profiles (Dolan and More) ----------------------------------------- */

@@ -100,8 +100,9 @@ static rb_status solve_friction(rb_api *a, const rb_friction_problem *p,
     api_array *mu = u ? rb_api_copy_array(a, "friction.mu", p->contacts, 1, p->mu) : NULL;
     if (!mu)
         return RB_ENOMEM;
+    const rb_friction_solution solution = {r->at, u->at, NULL};
     rb_api_call_begins();
-    const rb_status s = rb_friction_solve(solver, p, &options, r->at, u->at, NULL, &info);
+    const rb_status s = rb_friction_solve(solver, p, &options, &solution, &info);
     rb_api_call_ends();
     a->solver = info.solver;
     a->iterations = info.iters;

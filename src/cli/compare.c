@@ -144,6 +144,7 @@ static cli_exit run_problem(comparison *c, const char *path, const rb_friction_p
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
     double *r = rb_alloc(m, 1), *u = rb_alloc(m, 1);
+    const rb_friction_solution solution = {r, u, NULL};
     rb_friction_options opt = rb_friction_defaults();
     opt.tol = c->o->tol;
     opt.seconds = c->o->limit;
@@ -151,7 +152,7 @@ static cli_exit run_problem(comparison *c, const char *path, const rb_friction_p
     cli_exit code = r && u ? CLI_OK : cli_fail(CLI_INTERNAL, "out of memory");
     for (int s = 0; code == CLI_OK && s < c->solvers; s++) {
         run_result *one = &c->result[c->problems * c->solvers + s];
-        one->status = rb_friction_solve(c->solver[s], p, &opt, r, u, NULL, &one->info);
+        one->status = rb_friction_solve(c->solver[s], p, &opt, &solution, &one->info);
         if (one->status == RB_ENOMEM)
             code = cli_fail(CLI_INTERNAL, "%s: %s: out of memory", path, c->solver[s]);
     }

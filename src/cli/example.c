@@ -290,7 +290,7 @@ static rb_status write_problem(const wall_run *run, int rank, int step, rb_messa
     char *path = rb_io_join(run->o->output, name);
     rb_status s = path ? rb_fem_wall_problem(run->wall, step, &problem) : RB_ENOMEM;
     if (s == RB_OK)
-        s = rb_friction_write(path, &problem, NULL, NULL, NULL, title, why);
+        s = rb_friction_write(path, &problem, NULL, title, why);
     rb_friction_problem_free(&problem);
     free(path);
     return s;

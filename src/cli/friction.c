@@ -349,7 +349,8 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
         r->r && r->u ? examine(run, &p, r) : failed(r, RB_ENOMEM, "out of memory");
     if (code == CLI_OK) {
         const rb_friction_options opt = solver_options(run);
-        s = rb_friction_solve(run->o->solver, &p, &opt, r->r, r->u, NULL, &r->info);
+        const rb_friction_solution solution = {r->r, r->u, NULL};
+        s = rb_friction_solve(run->o->solver, &p, &opt, &solution, &r->info);
         code = judge(run, r, s);
         if (code == CLI_UNSOLVED && is_infeasible(&p, r->file))
             r->status = "infeasible";

@@ -120,8 +120,8 @@ static rb_status solve_increment(runner *run, const char *solver, double tol,
     if (s != RB_OK)
         return s;
     options.tol = tol;
-    s = rb_friction_solve(solver, &problem, &options, run->state.r, run->du, run->v,
-                          &info);
+    const rb_friction_solution solution = {run->state.r, run->du, run->v};
+    s = rb_friction_solve(solver, &problem, &options, &solution, &info);
     for (int k = 0; k < run->condensed->H.cols; k++)
         run->state.r[k] *= units.force;
     for (int k = 0; k < run->condensed->dofs; k++)

@@ -33,42 +33,36 @@ static int slides(const rb_fem_mesh *mesh, int node)
     return 1;
 }
 
-static rb_status build_structure(const rb_fem_material *material, int contacts, double mu,
-                                 rb_fem_model *model, rb_message *why)
+rb_status rb_fem_model_alloc(rb_fem_kind kind, int nodes, int elements, int contacts,
+                             rb_fem_model *model)
 {
     rb_fem_structure *s = &model->structure;
-    s->dofs = model->mesh.dofs;
-    s->dimension = model->mesh.dimension;
+    memset(model, 0, sizeof *model);
     s->contacts = contacts;
     s->mu = rb_alloc((size_t)contacts, 1);
     s->gap = rb_alloc((size_t)contacts, 1);
-    if (!s->mu || !s->gap)
-        return RB_ENOMEM;
-    for (int i = 0; i < contacts; i++)
-        s->mu[i] = slides(&model->mesh, model->contact_node[i]) ? mu : 0.0;
-    const rb_status status = rb_fem_stiffness(&model->mesh, material, &s->K, why);
-    return status == RB_OK
-               ? contact_map(&model->mesh, contacts, model->contact_node, &s->H)
-               : status;
+    model->contact_node = rb_alloc_int((size_t)contacts);
+    const rb_status status = rb_fem_mesh_alloc(kind, nodes, elements, &model->mesh);
+    s->dimension = model->mesh.dimension;
+    return s->mu && s->gap && model->contact_node ? status : RB_ENOMEM;
 }
 
-rb_status rb_fem_model_create(rb_fem_mesh *mesh, const rb_fem_material *material,
-                              int contacts, int *nodes, double mu, int steps,
-                              rb_fem_model *model, rb_message *why)
+rb_status rb_fem_model_build(rb_fem_model *model, const rb_fem_material *material,
+                             double mu, int steps, rb_message *why)
 {
-    memset(model, 0, sizeof *model);
-    model->mesh = *mesh;
-    memset(mesh, 0, sizeof *mesh);
-    model->contact_node = nodes;
-    model->steps = steps;
+    rb_fem_structure *s = &model->structure;
     rb_fem_mesh_number(&model->mesh);
-    model->load = rb_alloc((size_t)model->mesh.dofs, (size_t)steps);
-    rb_status s = model->load ? RB_OK : RB_ENOMEM;
-    if (s == RB_OK)
-        s = build_structure(material, contacts, mu, model, why);
-    if (s != RB_OK)
-        rb_fem_model_free(model);
-    return s;
+    s->dofs = model->mesh.dofs;
+    for (int i = 0; i < s->contacts; i++)
+        s->mu[i] = slides(&model->mesh, model->contact_node[i]) ? mu : 0.0;
+    model->steps = steps;
+    model->load = rb_alloc((size_t)s->dofs, (size_t)steps);
+    if (!model->load)
+        return RB_ENOMEM;
+    const rb_status status = rb_fem_stiffness(&model->mesh, material, &s->K, why);
+    return status == RB_OK
+               ? contact_map(&model->mesh, s->contacts, model->contact_node, &s->H)
+               : status;
 }
 
 void rb_fem_model_free(rb_fem_model *model)

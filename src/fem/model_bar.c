@@ -1,8 +1,6 @@
 /* *Kanno* 3.2: half a bar pressed onto an obstacle and pushed from its end. */
 #include "rollbem/fem.h"
 
-#include <stdlib.h>
-
 static const double length = 400.0, height = 40.0, thickness = 10.0; /* mm */
 static const double pressure = 0.01; /* MPa per increment */
 
@@ -55,23 +53,20 @@ rb_status rb_fem_model_bar(int nx, int ny, rb_fem_model *model, rb_message *why)
 {
     const rb_fem_material material = {
         .young = 5.0, .poisson = 0.48, .section = thickness};
-    rb_fem_mesh mesh = {0};
     *model = (rb_fem_model){0};
     if (nx < 1 || ny < 1 || nx > 2000 || ny > 2000)
         return rb_fail(why, RB_EINVAL, "bar: %d x %d elements", nx, ny);
-    int *nodes = rb_alloc_int((size_t)nx + 1);
-    rb_status s = RB_ENOMEM;
-    if (nodes)
-        s = rb_fem_mesh_alloc(RB_FEM_QUAD, (nx + 1) * (ny + 1), nx * ny, &mesh);
-    if (s != RB_OK) {
-        free(nodes);
-        return s;
+    rb_status s =
+        rb_fem_model_alloc(RB_FEM_QUAD, (nx + 1) * (ny + 1), nx * ny, nx + 1, model);
+    if (s == RB_OK) {
+        place_nodes(nx, ny, &model->mesh);
+        for (int i = 0; i <= nx; i++)
+            model->contact_node[i] = node_at(nx, i, 0);
+        s = rb_fem_model_build(model, &material, 1.3, INCREMENTS, why);
     }
-    place_nodes(nx, ny, &mesh);
-    for (int i = 0; i <= nx; i++)
-        nodes[i] = node_at(nx, i, 0);
-    s = rb_fem_model_create(&mesh, &material, nx + 1, nodes, 1.3, INCREMENTS, model, why);
     if (s == RB_OK)
         apply_loads(nx, ny, model);
+    else
+        rb_fem_model_free(model);
     return s;
 }

@@ -2,8 +2,6 @@
  */
 #include "rollbem/fem.h"
 
-#include <stdlib.h>
-
 static const double spacing[3] = {2000.0, 3000.0, 2000.0}; /* mm */
 static const double inner_load = 102900.0;                 /* N */
 static const double gamma_of[] = {5.0, 4.05, 3.1, 2.15, 1.2, 0.25};
@@ -86,25 +84,22 @@ rb_status rb_fem_model_truss(rb_fem_layout layout, int n, rb_fem_model *model,
 {
     const rb_fem_material material = {.young = 205800.0, .section = 10000.0};
     const grid g = {n, layout == RB_FEM_UPPER_INSIDE ? n - 1 : n + 1};
-    rb_fem_mesh mesh = {0};
     *model = (rb_fem_model){0};
     if (n < 2 || n > 200)
         return rb_fail(why, RB_EINVAL, "truss: %d contact nodes per side", n);
-    int *nodes = rb_alloc_int((size_t)(n * n));
-    rb_status s = RB_ENOMEM;
-    if (nodes)
-        s = rb_fem_mesh_alloc(RB_FEM_BAR, n * n + g.m * g.m, bars(g), &mesh);
-    if (s != RB_OK) {
-        free(nodes);
-        return s;
+    rb_status s =
+        rb_fem_model_alloc(RB_FEM_BAR, n * n + g.m * g.m, bars(g), n * n, model);
+    if (s == RB_OK) {
+        place_layer(n, 0, 0.0, &model->mesh);
+        place_layer(g.m, n * n, spacing[2], &model->mesh);
+        join_layers(g, join_layer(g.m, n * n, join_layer(n, 0, model->mesh.node)));
+        for (int k = 0; k < n * n; k++)
+            model->contact_node[k] = k;
+        s = rb_fem_model_build(model, &material, 0.12, INCREMENTS, why);
     }
-    place_layer(n, 0, 0.0, &mesh);
-    place_layer(g.m, n * n, spacing[2], &mesh);
-    join_layers(g, join_layer(g.m, n * n, join_layer(n, 0, mesh.node)));
-    for (int k = 0; k < n * n; k++)
-        nodes[k] = k;
-    s = rb_fem_model_create(&mesh, &material, n * n, nodes, 0.12, INCREMENTS, model, why);
     if (s == RB_OK)
         apply_loads(g, model);
+    else
+        rb_fem_model_free(model);
     return s;
 }

@@ -280,7 +280,8 @@ static rb_status solve_step(rb_fem_wall *w, const char *solver, double tol,
     rb_friction_options options = rb_friction_defaults();
     options.tol = tol;
     options.r0 = w->r;
-    return rb_friction_solve(solver, &problem, &options, w->r, w->ur, w->v, info);
+    const rb_friction_solution solution = {w->r, w->ur, w->v};
+    return rb_friction_solve(solver, &problem, &options, &solution, info);
 }
 
 static rb_status record_vectors(rb_fem_wall *wall, recorded_step *now)

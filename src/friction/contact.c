@@ -30,7 +30,8 @@ static rb_status solve(const char *name, const rb_contact_cone *cone, double tol
     if (!u)
         return RB_ENOMEM;
     options.tol = tol;
-    const rb_status s = rb_friction_solve(name, &problem, &options, r, u, NULL, &info);
+    const rb_friction_solution solution = {r, u, NULL};
+    const rb_status s = rb_friction_solve(name, &problem, &options, &solution, &info);
     if (s != RB_OK)
         rb_fail(why, s, "%s: %.240s", name, rb_status_reason(s, &info.msg));
     *iterations += info.iters;

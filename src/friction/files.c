@@ -277,20 +277,21 @@ static rb_status describe(const rb_friction_problem *p, rb_io_fclib *file)
 }
 
 rb_status rb_friction_write(const char *path, const rb_friction_problem *p,
-                            const double *r, const double *u, const double *v,
-                            const char *title, rb_message *why)
+                            const rb_friction_solution *solution, const char *title,
+                            rb_message *why)
 {
     const size_t m = (size_t)(p->dimension * p->contacts);
+    const rb_friction_solution x = solution ? *solution : (rb_friction_solution){0};
     rb_io_fclib file;
     if (p->lengths)
         return rb_fail(why, RB_EINVAL, "%s: rolling friction cannot be written", path);
     rb_status s = describe(p, &file);
-    if (s == RB_OK && r)
-        s = copy_vector(m, r, &file.r);
-    if (s == RB_OK && u)
-        s = copy_vector(m, u, &file.u);
-    if (s == RB_OK && v && file.global)
-        s = copy_vector((size_t)p->dofs, v, &file.v);
+    if (s == RB_OK && x.r)
+        s = copy_vector(m, x.r, &file.r);
+    if (s == RB_OK && x.u)
+        s = copy_vector(m, x.u, &file.u);
+    if (s == RB_OK && x.v && file.global)
+        s = copy_vector((size_t)p->dofs, x.v, &file.v);
     if (s == RB_OK)
         s = rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, title, "written by rollbem",
                               why);

@@ -278,9 +278,9 @@ void rb_friction_system_imbalance(const rb_friction_system *system, const double
                                   const double *v, double *e);
 /* Operations that the first step may take, from the pattern of its matrix alone. */
 rb_status rb_friction_system_estimate(rb_friction_system *system, double *flops);
-/* A, B: d x d per contact; F: m; e: n.  dr: m, dv: n, written. */
-rb_status rb_friction_system_step(rb_friction_system *system, const double *A,
-                                  const double *B, const double *F, const double *e,
+/* at: of all contacts, one after the other; e: n.  dr: m, dv: n, written. */
+rb_status rb_friction_system_step(rb_friction_system *system,
+                                  const rb_friction_linearised *at, const double *e,
                                   double *dr, double *dv);
 
 /* What the two forms share: which LU is the faster one; dense: room for that order,
@@ -295,8 +295,8 @@ rb_status rb_friction_local_pattern(rb_friction_system *system);
 rb_status rb_friction_local_factor(rb_friction_system *system, const double *A,
                                    const double *B);
 rb_status rb_friction_local_solve(rb_friction_system *system, double *x);
-rb_status rb_friction_local_step(rb_friction_system *system, const double *A,
-                                 const double *B, const double *F);
+rb_status rb_friction_local_step(rb_friction_system *system,
+                                 const rb_friction_linearised *at);
 
 /* ---- Methods -- */
 

@@ -252,9 +252,8 @@ double rb_friction_measure_floor(const rb_friction_measure *measure, const doubl
     return 1e-14 * rb_friction_norm((size_t)m, y) / measure->scale;
 }
 
-static rb_status error_of(const rb_friction_problem *problem, const double *r,
-                          const double *v, double *u, double *scaled, double *paper,
-                          double *floor)
+rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
+                            const double *v, double *u, rb_friction_errors *error)
 {
     const size_t m = (size_t)(problem->dimension * problem->contacts);
     const size_t n = problem->form == RB_FRICTION_GLOBAL ? (size_t)problem->dofs : 0;
@@ -264,25 +263,13 @@ static rb_status error_of(const rb_friction_problem *problem, const double *r,
     if (s == RB_OK) {
         for (size_t i = 0; v && i < n; i++)
             at[i] = v[i];
-        s = rb_friction_measure_error(&measure, r, at, u ? u : own, scaled, paper);
+        s = rb_friction_measure_error(&measure, r, at, u ? u : own, &error->scaled,
+                                      &error->residual);
     }
-    if (s == RB_OK && floor)
-        *floor = rb_friction_measure_floor(&measure, r, at);
+    if (s == RB_OK)
+        error->floor = rb_friction_measure_floor(&measure, r, at);
     rb_friction_measure_free(&measure);
     free(at);
     free(own);
     return s;
-}
-
-rb_status rb_friction_error(const rb_friction_problem *problem, const double *r,
-                            const double *v, double *u, double *error, double *floor)
-{
-    double scaled;
-    return error_of(problem, r, v, u, &scaled, error, floor);
-}
-
-rb_status rb_friction_scaled_error(const rb_friction_problem *problem, const double *r,
-                                   const double *v, double *u, double *error)
-{
-    return error_of(problem, r, v, u, error, NULL, NULL);
 }

@@ -15,7 +15,8 @@ typedef struct {
     rb_friction_task *task;
     rb_friction_function *function;
     rb_friction_system system;
-    double *F, *A, *B, *e; /* at the iterate */
+    rb_friction_linearised at; /* the iterate; at.F owns all arrays */
+    double *e;
     double *dr, *du, *dv;
     double *r, *u, *v; /* m, m, n: trial */
     double history[MEMORY];
@@ -28,7 +29,7 @@ static void finish_newton(void *state)
 {
     newton *s = state;
     rb_friction_system_free(&s->system);
-    free(s->F);
+    free(s->at.F);
 }
 
 static rb_status start_newton(rb_friction_task *task, int variant, void *state)
@@ -43,12 +44,12 @@ static rb_status start_newton(rb_friction_task *task, int variant, void *state)
                   .line_search = variant & RB_FRICTION_LINE_SEARCH,
                   .limit = rb_friction_task_left(task, STEPS),
                   .shift = LEAST_SHIFT};
-    s->F = rb_alloc(m * (5 + 2 * d) + 3 * n, 1);
-    if (!s->F)
+    s->at.F = rb_alloc(m * (5 + 2 * d) + 3 * n, 1);
+    if (!s->at.F)
         return RB_ENOMEM;
-    s->A = s->F + m;
-    s->B = s->A + m * d;
-    s->dr = s->B + m * d;
+    s->at.A = s->at.F + m;
+    s->at.B = s->at.A + m * d;
+    s->dr = s->at.B + m * d;
     s->du = s->dr + m;
     s->r = s->du + m;
     s->u = s->r + m;
@@ -69,7 +70,7 @@ static double evaluate(newton *s, const double *r, const double *u, double *F)
     for (int c = 0; c < t->contacts; c++) {
         const double *rho = s->system.rho + 2 * c;
         const rb_friction_cone cone = {d, t->problem->mu[c], rho[0], rho[1]};
-        const rb_friction_linearised at = {F + c * d, s->A + c * dd, s->B + c * dd};
+        const rb_friction_linearised at = {F + c * d, s->at.A + c * dd, s->at.B + c * dd};
         s->function(&cone, r + c * d, u + c * d, &at);
         for (int a = 0; a < d; a++)
             sum += at.F[a] * at.F[a];
@@ -87,7 +88,7 @@ static void add_shift(newton *s)
         for (int b = 0; b < d; b++) {
             const double eta = s->shift / s->system.rho[2 * c + (b > 0)];
             for (int a = 0; a < d; a++)
-                s->A[(c * d + b) * d + a] += eta * s->B[(c * d + b) * d + a];
+                s->at.A[(c * d + b) * d + a] += eta * s->at.B[(c * d + b) * d + a];
         }
 }
 
@@ -96,7 +97,7 @@ static rb_status direction(newton *s)
     rb_status st = RB_SINGULAR;
     for (; st == RB_SINGULAR && s->shift <= LARGEST_SHIFT; s->shift *= 1e3) {
         add_shift(s);
-        st = rb_friction_system_step(&s->system, s->A, s->B, s->F, s->e, s->dr, s->dv);
+        st = rb_friction_system_step(&s->system, &s->at, s->e, s->dr, s->dv);
         if (st == RB_OK)
             break;
     }
@@ -113,7 +114,7 @@ static double trial(newton *s, double t, double imbalance)
         s->r[i] = k->r[i] + t * s->dr[i];
         s->u[i] = k->u[i] + t * s->du[i];
     }
-    return evaluate(s, s->r, s->u, s->F) + (1.0 - t) * (1.0 - t) * imbalance;
+    return evaluate(s, s->r, s->u, s->at.F) + (1.0 - t) * (1.0 - t) * imbalance;
 }
 
 /* Nonmonotone Armijo; the smallest merit seen where none is small enough. */
@@ -146,7 +147,7 @@ static rb_status step(newton *s)
 {
     rb_friction_task *t = s->task;
     const double before = t->info->flops;
-    const double merit = evaluate(s, t->r, t->u, s->F);
+    const double merit = evaluate(s, t->r, t->u, s->at.F);
     rb_friction_system_imbalance(&s->system, t->r, t->v, s->e);
     const rb_status st = direction(s);
     if (st == RB_OK) {

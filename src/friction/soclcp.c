@@ -247,9 +247,9 @@ rb_status rb_friction_soclcp(const rb_friction_soclcp_problem *p,
 typedef struct {
     rb_friction_task *task;
     rb_friction_system system;
-    double *u, *du;    /* m */
-    double *F, *A, *B; /* m, m d, m d: the step with lambda eliminated */
-    double *solve_for; /* 2 + 2 d per contact: lambda's row, see eliminate() */
+    double *u, *du;            /* m */
+    rb_friction_linearised at; /* the step with lambda eliminated */
+    double *solve_for;         /* 2 + 2 d per contact: lambda's row, see eliminate() */
 } friction;
 
 static double rho_of(const friction *f, int c)
@@ -319,7 +319,7 @@ static void eliminate(friction *f, int c, double mu, double eps, const double *z
     const int d = t->d;
     const double rho = rho_of(f, c), friction_mu = t->problem->mu[c];
     double x[3], y[3], s[3], P[3], D[9], Q[9] = {0.0}, Dn[1];
-    double *A = f->A + c * d * d, *B = f->B + c * d * d, *F = f->F + c * d;
+    double *A = f->at.A + c * d * d, *B = f->at.B + c * d * d, *F = f->at.F + c * d;
     double *keep = f->solve_for + c * (2 + 2 * d);
     first_cone(f, c, eps, z, x, y);
     for (int a = 0; a < d; a++)
@@ -364,10 +364,10 @@ static rb_status friction_step(void *context, double mu, double eps, const doubl
     for (int c = 0; c < nc; c++) {
         eliminate(f, c, mu, eps, z, H + c * (d + 1));
         for (int k = c * d * d; k < (c + 1) * d * d; k++)
-            f->A[k] += shift / rho_of(f, c) * f->B[k];
+            f->at.A[k] += shift / rho_of(f, c) * f->at.B[k];
     }
     const rb_status st =
-        rb_friction_system_step(&f->system, f->A, f->B, f->F, H + t->m + nc, dz, dv);
+        rb_friction_system_step(&f->system, &f->at, H + t->m + nc, dz, dv);
     if (st != RB_OK)
         return st;
     regular_velocity(f, 0.0, shift, dz, dv, f->du);
@@ -427,10 +427,10 @@ static rb_status run_smoothing(rb_friction_task *task, int variant)
     rb_status st = f.u && z ? rb_friction_system_init(task, &f.system) : RB_ENOMEM;
     if (st == RB_OK) {
         f.du = f.u + m;
-        f.F = f.du + m;
-        f.A = f.F + m;
-        f.B = f.A + m * d;
-        f.solve_for = f.B + m * d;
+        f.at.F = f.du + m;
+        f.at.A = f.at.F + m;
+        f.at.B = f.at.A + m * d;
+        f.solve_for = f.at.B + m * d;
         st = run_friction(&f, z);
         task->info->flops += f.system.flops;
         rb_friction_system_free(&f.system);

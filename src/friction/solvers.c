@@ -89,14 +89,14 @@ const char *rb_friction_status_text(rb_status s, double tol, const rb_friction_i
 typedef struct {
     const rb_friction_solver *solver;
     rb_friction_options opt;
-    double *r, *u, *v;
+    rb_friction_solution at;
     rb_friction_info *info, unwanted;
     int timed; /* there is a limit, or somebody wants to know: else the clock would take
                   a sixth of a call that has six contacts */
     double start; /* on rb_seconds() */
 } call;
 
-/* info may be NULL; c->r, c->u and c->v are the caller's to set. */
+/* info may be NULL; c->at is the caller's to set. */
 static rb_status begin_call(call *c, const char *name, const rb_friction_problem *p,
                             const rb_friction_options *given, rb_friction_info *info)
 {
@@ -190,9 +190,9 @@ static rb_status solve(rb_friction_shared *shared, const call *c)
                              .deadline =
                                  c->opt.seconds > 0.0 ? c->start + c->opt.seconds : 0.0,
                              .budget = INFINITY,
-                             .r = c->r,
-                             .u = c->u,
-                             .v = c->v ? c->v : shared->memory + m + n};
+                             .r = c->at.r,
+                             .u = c->at.u,
+                             .v = c->at.v ? c->at.v : shared->memory + m + n};
     c->info->solver = c->solver->name;
     shared->stop = 0;
     const rb_status s = run_and_prove(&task, c->solver);
@@ -202,17 +202,15 @@ static rb_status solve(rb_friction_shared *shared, const call *c)
 }
 
 rb_status rb_friction_solve(const char *name, const rb_friction_problem *problem,
-                            const rb_friction_options *opt, double *r, double *u,
-                            double *v, rb_friction_info *info)
+                            const rb_friction_options *opt,
+                            const rb_friction_solution *solution, rb_friction_info *info)
 {
     rb_friction_handle handle;
     call c;
     rb_status s = begin_call(&c, name, problem, opt, info);
     if (s != RB_OK)
         return s;
-    c.r = r;
-    c.u = u;
-    c.v = v;
+    c.at = *solution;
     s = setup(problem, &handle, &c.info->msg);
     if (s == RB_OK)
         s = solve(&handle.shared, &c);
@@ -243,21 +241,22 @@ rb_status rb_friction_update(rb_friction_handle *handle, rb_message *why)
 }
 
 /* The last solution is where the next call starts, unless that says otherwise. */
-static void keep_solution(rb_friction_handle *handle, const double *r, const double *v,
+static void keep_solution(rb_friction_handle *handle, const rb_friction_solution *at,
                           size_t m, size_t n)
 {
     if (!handle->last)
         handle->last = rb_alloc(m + n, 1);
     if (!handle->last)
         return;
-    memcpy(handle->last, r, m * sizeof *r);
+    memcpy(handle->last, at->r, m * sizeof *at->r);
     if (n)
-        memcpy(handle->last + m, v, n * sizeof *v);
+        memcpy(handle->last + m, at->v, n * sizeof *at->v);
 }
 
 rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *name,
-                                   const rb_friction_options *opt, double *r, double *u,
-                                   double *v, rb_friction_info *info)
+                                   const rb_friction_options *opt,
+                                   const rb_friction_solution *solution,
+                                   rb_friction_info *info)
 {
     const rb_friction_problem *p = handle->shared.problem;
     const size_t m = (size_t)(p->dimension * p->contacts);
@@ -270,12 +269,12 @@ rb_status rb_friction_handle_solve(rb_friction_handle *handle, const char *name,
         c.opt.r0 = handle->last;
         c.opt.v0 = handle->last + m;
     }
-    c.r = r;
-    c.u = u;
-    c.v = v ? v : handle->shared.memory + m + n;
+    c.at = *solution;
+    if (!c.at.v)
+        c.at.v = handle->shared.memory + m + n;
     s = solve(&handle->shared, &c);
     if (s == RB_OK)
-        keep_solution(handle, r, c.v, m, n);
+        keep_solution(handle, &c.at, m, n);
     return s;
 }
 

@@ -185,15 +185,15 @@ static rb_status solve_global_sparse(rb_friction_system *s)
     return st;
 }
 
-static rb_status global_step(rb_friction_system *s, const double *A, const double *B,
-                             const double *F, const double *e)
+static rb_status global_step(rb_friction_system *s, const rb_friction_linearised *at,
+                             const double *e)
 {
     const int n = s->n, order = n + s->m;
-    fill_global(s, A, B);
+    fill_global(s, at->A, at->B);
     for (int i = 0; i < n; i++)
         s->rhs[i] = -e[i];
     for (int k = 0; k < s->m; k++)
-        s->rhs[n + k] = -F[k];
+        s->rhs[n + k] = -at->F[k];
     s->flops += 2.0 * s->d * (double)s->problem->H.p[s->m] * s->d;
     return rb_friction_system_is_dense(order, s->j.p[order] / ((double)order * order))
                ? solve_global_dense(s)
@@ -214,12 +214,10 @@ rb_status rb_friction_system_estimate(rb_friction_system *s, double *flops)
     return st == RB_OK ? rb_sparse_lu_estimate(&s->j, flops) : st;
 }
 
-rb_status rb_friction_system_step(rb_friction_system *s, const double *A, const double *B,
-                                  const double *F, const double *e, double *dr,
-                                  double *dv)
+rb_status rb_friction_system_step(rb_friction_system *s, const rb_friction_linearised *at,
+                                  const double *e, double *dr, double *dv)
 {
-    const rb_status st =
-        s->n ? global_step(s, A, B, F, e) : rb_friction_local_step(s, A, B, F);
+    const rb_status st = s->n ? global_step(s, at, e) : rb_friction_local_step(s, at);
     for (int i = 0; i < s->n; i++)
         dv[i] = s->x[i];
     for (int k = 0; k < s->m; k++) {

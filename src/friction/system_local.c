@@ -74,8 +74,8 @@ static void fill_dense_columns(rb_friction_system *s, int c, size_t order,
                 A[c * dd + a + b * d];
 }
 
-static rb_status solve_dense(rb_friction_system *s, int order, const double *A,
-                             const double *B, const double *F)
+static rb_status solve_dense(rb_friction_system *s, int order,
+                             const rb_friction_linearised *at)
 {
     const int d = s->d, dd = d * d;
     double *moved = s->rhs;
@@ -84,15 +84,15 @@ static rb_status solve_dense(rb_friction_system *s, int order, const double *A,
         return st;
     for (int k = 0; k < s->m; k++)
         moved[k] = 0.0;
-    move_open(s, F, moved);
+    move_open(s, at->F, moved);
     for (int c = 0; c < s->contacts; c++) {
         if (s->place[c] < 0)
             continue;
         double *x = s->x + s->place[c] * d;
-        times(d, B + c * dd, moved + c * d, x);
+        times(d, at->B + c * dd, moved + c * d, x);
         for (int a = 0; a < d; a++)
-            x[a] = -F[c * d + a] - x[a];
-        fill_dense_columns(s, c, (size_t)order, A, B);
+            x[a] = -at->F[c * d + a] - x[a];
+        fill_dense_columns(s, c, (size_t)order, at->A, at->B);
     }
     return order ? rb_friction_system_solve_dense(s, order, 'N') : RB_OK;
 }
@@ -144,15 +144,14 @@ static void fill_sparse(rb_friction_system *s, const double *A, const double *B)
             }
 }
 
-static rb_status solve_sparse(rb_friction_system *s, const double *A, const double *B,
-                              const double *F)
+static rb_status solve_sparse(rb_friction_system *s, const rb_friction_linearised *at)
 {
     rb_status st = s->lu ? RB_OK : rb_friction_local_pattern(s);
     if (st != RB_OK)
         return st;
-    fill_sparse(s, A, B);
+    fill_sparse(s, at->A, at->B);
     for (int k = 0; k < s->m; k++)
-        s->rhs[k] = -F[k];
+        s->rhs[k] = -at->F[k];
     st = rb_sparse_lu_factor(s->lu, &s->j, &s->flops);
     if (st == RB_OK)
         st = rb_sparse_lu_solve(s->lu, s->rhs, s->x);
@@ -160,17 +159,16 @@ static rb_status solve_sparse(rb_friction_system *s, const double *A, const doub
     return st;
 }
 
-rb_status rb_friction_local_step(rb_friction_system *s, const double *A, const double *B,
-                                 const double *F)
+rb_status rb_friction_local_step(rb_friction_system *s, const rb_friction_linearised *at)
 {
     const double blocks = s->blocks->p[s->contacts], nc = s->contacts;
-    const int order = s->d * number_closed(s, A, B);
+    const int order = s->d * number_closed(s, at->A, at->B);
     s->flops += 2.0 * s->d * s->d * s->d * blocks;
     if (!rb_friction_system_is_dense(order, blocks / (nc * nc)))
-        return solve_sparse(s, A, B, F);
-    const rb_status st = solve_dense(s, order, A, B, F);
+        return solve_sparse(s, at);
+    const rb_status st = solve_dense(s, order, at);
     if (st == RB_OK)
-        spread(s, F);
+        spread(s, at->F);
     return st;
 }
 

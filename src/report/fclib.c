@@ -19,12 +19,12 @@ rb_status rb_report_fclib(const char *path, const rb_rolling_model *model,
         return s;
     const rb_friction_problem problem = rb_friction_of_cone(&cone);
     double *r = rb_alloc(2 * (size_t)p->n, 1);
+    const rb_friction_solution forces = {.r = r};
     for (int i = 0; r && i < p->n; i++) {
         r[2 * i] = state->p[i] / p->stress;
         r[2 * i + 1] = state->q[i] / p->stress;
     }
-    s = r ? rb_friction_write(path, &problem, r, NULL, NULL, "rolling contact by rollbem",
-                              why)
+    s = r ? rb_friction_write(path, &problem, &forces, "rolling contact by rollbem", why)
           : rb_fail(why, RB_ENOMEM, "out of memory for %d contacts", p->n);
     free(r);
     rb_contact_cone_free(&cone);
