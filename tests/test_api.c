@@ -42,8 +42,6 @@ static void descriptions_are_complete(void **state)
     static const char *const fields[] = {"name",     "section", "kind",     "unit",
                                          "expected", "from",    "to",       "choices",
                                          "word",     "default", "excludes", "help"};
-    static const char *const tables[] = {"number", "column", "step",
-                                         "point",  "patch",  "stress"};
     char text[400];
     int n, k;
     (void)state;
@@ -54,10 +52,13 @@ static void descriptions_are_complete(void **state)
     assert_null(rb_api_option(n, "name", text, sizeof text));
     assert_null(rb_api_option(-1, "name", text, sizeof text));
     assert_null(rb_api_option(1, "colour", text, sizeof text));
-    for (size_t t = 0; t < sizeof tables / sizeof *tables; t++)
-        for (k = 0; rb_api_result(tables[t], k, "name", text, sizeof text); k++)
-            assert_true(
-                strlen(rb_api_result(tables[t], k, "meaning", text, sizeof text)) > 0);
+    for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++) {
+        for (k = 0; rb_api_result(t->name, k, "name", text, sizeof text); k++)
+            assert_true(strlen(rb_api_result(t->name, k, "meaning", text, sizeof text)) >
+                        0);
+        assert_int_equal(k, t->results->n);
+    }
+    assert_string_equal(rb_api_result("wear", 0, "name", text, sizeof text), "way");
     assert_null(rb_api_result("nothing", 0, "name", text, sizeof text));
 }
 

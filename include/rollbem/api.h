@@ -56,8 +56,9 @@ const char *rb_api_message(const rb_api *a);
  * choice, flag, text), "unit", "expected" (the range in words), "from", "to", "choices"
  * (with blanks between), "word", "default", "excludes" (a bit mask), "help". */
 const char *rb_api_option(int k, const char *field, char *text, int size);
-/* Field of result k of a table ("number", "column", "step", "point", "patch" or
- * "stress"): "name", "unit", "kind" (number, whole, seconds), "meaning". */
+/* Field of result k of a table ("number", "column", "patch", "step", "point",
+ * "wear", "stress" or "maximum"): "name", "unit", "kind" (number, whole, seconds),
+ * "meaning". */
 const char *rb_api_result(const char *table, int k, const char *field, char *text,
                           int size);
 /* Value of an option as settled. */

@@ -499,6 +499,13 @@ extern const rb_rolling_results rb_rolling_wear_columns;
  * value three rows, itself and its place. */
 extern const rb_rolling_results rb_rolling_stress_scalars, rb_rolling_maxima_scalars;
 
+/* All of them, for those who list them; the last row has no name. */
+typedef struct {
+    const char *name, *title;
+    const rb_rolling_results *results;
+} rb_rolling_result_table;
+extern const rb_rolling_result_table rb_rolling_result_tables[];
+
 /* 1 where the case has that result. */
 int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc);
 /* 1 where the owner has that column. */

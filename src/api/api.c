@@ -355,20 +355,10 @@ const char *rb_api_result(const char *table, int k, const char *field, char *tex
     static const char *const kinds[] = {[RB_RESULT_NUMBER] = "number",
                                         [RB_RESULT_WHOLE] = "whole",
                                         [RB_RESULT_SECONDS] = "seconds"};
-    const struct {
-        const char *name;
-        const rb_rolling_results *rows;
-    } tables[] = {{"number", &rb_rolling_solution_scalars},
-                  {"column", &rb_rolling_solution_columns},
-                  {"step", &rb_rolling_history_columns},
-                  {"point", &rb_rolling_curve_columns},
-                  {"patch", &rb_rolling_patch_scalars},
-                  {"stress", &rb_rolling_stress_scalars}};
-
-    for (size_t t = 0; t < sizeof tables / sizeof *tables; t++) {
-        if (strcmp(table, tables[t].name) != 0 || k < 0 || k >= tables[t].rows->n)
+    for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++) {
+        if (strcmp(table, t->name) != 0 || k < 0 || k >= t->results->n)
             continue;
-        const rb_rolling_result *r = &tables[t].rows->row[k];
+        const rb_rolling_result *r = &t->results->row[k];
         const char *what = strcmp(field, "name") == 0      ? r->name
                            : strcmp(field, "unit") == 0    ? (r->unit ? r->unit : "")
                            : strcmp(field, "kind") == 0    ? kinds[r->kind]

@@ -166,23 +166,14 @@ static void print_markdown(const cli_spec *spec)
 /* Every table of results. */
 static void print_results(const cli_spec *spec)
 {
-    static const struct {
-        const char *title;
-        const rb_rolling_results *rows;
-    } tables[] = {{"Numbers of a solution", &rb_rolling_solution_scalars},
-                  {"Columns of the table of tractions", &rb_rolling_solution_columns},
-                  {"Patches of a contact", &rb_rolling_patch_scalars},
-                  {"Steps of a history", &rb_rolling_history_columns},
-                  {"Points of a creep curve", &rb_rolling_curve_columns},
-                  {"Stress at a point", &rb_rolling_stress_scalars}};
     (void)spec;
     puts(
         "# Results\n\nBy the names that JSON, tables, studies and the package for Python "
         "use.");
-    for (size_t t = 0; t < sizeof tables / sizeof *tables; t++) {
-        printf("\n## %s\n\n| name | unit | meaning |\n|---|---|---|\n", tables[t].title);
-        for (int k = 0; k < tables[t].rows->n; k++) {
-            const rb_rolling_result *r = &tables[t].rows->row[k];
+    for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++) {
+        printf("\n## %s\n\n| name | unit | meaning |\n|---|---|---|\n", t->title);
+        for (int k = 0; k < t->results->n; k++) {
+            const rb_rolling_result *r = &t->results->row[k];
             printf("| `%s` | %s | ", r->name, r->unit ? r->unit : "");
             print_escaped(r->meaning, "|*_<", "\\");
             puts(" |");

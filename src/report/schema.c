@@ -169,6 +169,8 @@ json_t *rb_report_json_schema(void)
     rb_report_json_set(&of, "curve", curve);
     rb_report_json_set(&of, "curves",
                        list_of(json_incref(curve), "of several coefficients"));
+    rb_report_json_set(&of, "wear",
+                       columns(&rb_rolling_wear_columns, 0, "an entry per step of wear"));
     rb_report_json_set(
         &of, "grid",
         columns(&rb_rolling_stress_scalars, 1, "stress, an entry per point"));

@@ -280,6 +280,17 @@ const rb_rolling_results rb_rolling_wear_columns = TABLE(wears);
 const rb_rolling_results rb_rolling_stress_scalars = TABLE(stresses);
 const rb_rolling_results rb_rolling_maxima_scalars = TABLE(maxima);
 
+const rb_rolling_result_table rb_rolling_result_tables[] = {
+    {"number", "Numbers of a solution", &rb_rolling_solution_scalars},
+    {"column", "Columns of the table of tractions", &rb_rolling_solution_columns},
+    {"patch", "Patches of a contact", &rb_rolling_patch_scalars},
+    {"step", "Steps of a history", &rb_rolling_history_columns},
+    {"point", "Points of a creep curve", &rb_rolling_curve_columns},
+    {"wear", "Steps of wear", &rb_rolling_wear_columns},
+    {"stress", "Stress at a point", &rb_rolling_stress_scalars},
+    {"maximum", "Largest stresses", &rb_rolling_maxima_scalars},
+    {NULL, NULL, NULL}};
+
 /* ---- Values ------------------------------------------------------------------------ */
 
 static void *place(const rb_rolling_result *r, const void *owner)
