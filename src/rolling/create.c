@@ -24,20 +24,6 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
     return solve_on_its_mesh(rc, model, why);
 }
 
-rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
-                                     const rb_rolling_elements *elements,
-                                     rb_rolling_model *model, rb_message *why)
-{
-    model->rc = *rc;
-    rb_status s = rb_rolling_mesh_of_result(rc, elements, &model->mesh, why);
-    if (s == RB_OK)
-        s = rb_rolling_bodies_create(rc, &model->mesh, &model->bodies, why);
-    if (s == RB_OK)
-        s = rb_rolling_problem_create(rc, &model->mesh, &model->bodies, NULL,
-                                      &model->problem, why);
-    return s == RB_OK ? rb_contact_state_alloc(elements->n, &model->state) : s;
-}
-
 rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_message *why)
 {

@@ -96,6 +96,28 @@ static int have_same_ends(const rb_rolling_mesh *x, const rb_rolling_mesh *y)
            memcmp(x->ends, y->ends, ((size_t)x->n + 2) * sizeof *x->ends) == 0;
 }
 
+/* Bodies, where they are not kept, contact problem and a state of zeros on the model's
+ * mesh. */
+static rb_status set_up(rb_rolling_model *model, int kept, rb_message *why)
+{
+    rb_status s =
+        kept ? RB_OK
+             : rb_rolling_bodies_create(&model->rc, &model->mesh, &model->bodies, why);
+    if (s == RB_OK)
+        s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL,
+                                      &model->problem, why);
+    return s == RB_OK ? rb_contact_state_alloc(model->mesh.n, &model->state) : s;
+}
+
+rb_status rb_rolling_model_of_result(const rb_rolling_case *rc,
+                                     const rb_rolling_elements *elements,
+                                     rb_rolling_model *model, rb_message *why)
+{
+    model->rc = *rc;
+    const rb_status s = rb_rolling_mesh_of_result(rc, elements, &model->mesh, why);
+    return s == RB_OK ? set_up(model, 0, why) : s;
+}
+
 rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
                                  rb_message *why)
 {
@@ -108,14 +130,7 @@ rb_status rb_rolling_model_build(rb_rolling_model *model, rb_rolling_mesh *mesh,
         rb_rolling_bodies_free(&model->bodies);
     model->mesh = *mesh;
     memset(mesh, 0, sizeof *mesh);
-    rb_status s =
-        kept ? RB_OK
-             : rb_rolling_bodies_create(&model->rc, &model->mesh, &model->bodies, why);
-    if (s == RB_OK)
-        s = rb_rolling_problem_create(&model->rc, &model->mesh, &model->bodies, NULL,
-                                      &model->problem, why);
-    if (s == RB_OK)
-        s = rb_contact_state_alloc(model->mesh.n, &model->state);
+    rb_status s = set_up(model, kept, why);
     const int large = !model->bodies.F;
     if (s == RB_OK && large)
         s = start_from_coarse(model, why);

@@ -3,6 +3,17 @@
 
 #include <string.h>
 
+/* Of a model whose solve has ended with status s; the status of both. */
+static rb_status take_solution(const rb_rolling_model *model, rb_status s,
+                               rb_rolling_solution *solution, rb_message *why)
+{
+    memset(solution, 0, sizeof *solution);
+    if (s < 0 || !model->state.p)
+        return s;
+    const rb_status t = rb_rolling_model_solution(model, solution, why);
+    return t == RB_OK ? s : t;
+}
+
 rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_rolling_solution *solution, rb_message *why)
 {
@@ -24,12 +35,7 @@ rb_status rb_rolling_solve_model_again(const rb_rolling_case *rc, rb_rolling_mod
         s = rb_rolling_end(model, rb_rolling_model_again(rc, model, why), why);
     }
     rb_rolling_history_free(&history);
-    memset(solution, 0, sizeof *solution);
-    if (s >= 0 && model->state.p) {
-        const rb_status t = rb_rolling_model_solution(model, solution, why);
-        if (t != RB_OK)
-            s = t;
-    }
+    s = take_solution(model, s, solution, why);
     if (s == RB_OK && rc->formulation == RB_STEADY && rb_rolling_largest_mu(rc) > 0.0)
         s = rb_rolling_free_creepage_if_any(model, &solution->free_creepage, why);
     if (s >= 0)
@@ -44,6 +50,27 @@ rb_status rb_rolling_solve(const rb_rolling_case *rc, rb_rolling_solution *solut
     rb_rolling_model model;
     const rb_status s = rb_rolling_solve_model(rc, &model, solution, why);
 
+    rb_rolling_model_free(&model);
+    return s;
+}
+
+rb_status rb_rolling_solve_between(const rb_rolling_case *rc, double from, double to,
+                                   rb_rolling_solution *solution, rb_message *why)
+{
+    const double start = rb_seconds();
+    rb_rolling_model model = {.rc = *rc};
+    rb_rolling_mesh mesh = {0};
+    rb_status s = rb_rolling_case_check(rc, why);
+
+    if (s == RB_OK)
+        s = rb_rolling_mesh_uniform(rc, from, to, &mesh, why);
+    if (s == RB_OK)
+        s = rb_rolling_model_build(&model, &mesh, why);
+    s = take_solution(&model, s, solution, why);
+    if (s >= 0)
+        solution->status = s;
+    solution->seconds_total = rb_seconds() - start;
+    rb_rolling_mesh_free(&mesh);
     rb_rolling_model_free(&model);
     return s;
 }
