@@ -21,9 +21,7 @@ static const rb_option options[] = {
     RB_FLAG_LINE("tractions", PLACE(tractions),
                  "a row per element of every case instead of one per case"),
     CLI_STYLE_LINES(PLACE(style)),
-    RB_TEXT_LINE("output", PLACE(output), "FILE",
-                 "where the table or JSON goes, whole or not at all",
-                 .unset = "standard output", .file = RB_FILE_WRITTEN),
+    CLI_OUTPUT_LINE(PLACE(output)),
     RB_FLAG_LINE("quiet", PLACE(quiet), "no lines on what is left out"),
 };
 

@@ -56,9 +56,7 @@ static const rb_option options[] = {
                  "bar, truss: file for the table or JSON; wall: folder for its problems "
                  "(FCLib)",
                  .unset = "none"),
-    RB_TEXT_LINE("plot", PLACE(plot), "FILE", "picture: .png, .svg or .pdf (by gnuplot)",
-                 .unset = "none", .file = RB_FILE_PICTURE),
-    CLI_PICTURE_LINES(PLACE(pictures)),
+    CLI_PLOT_LINES(PLACE(plot), PLACE(pictures)),
     RB_FLAG_LINE("quiet", PLACE(quiet), "wall: no line per step on standard error"),
 };
 

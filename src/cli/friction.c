@@ -68,9 +68,7 @@ static const rb_option options[] = {
         "of the results: a table with tabs, with commas, or JSON; or, as --kind, "
         "of the files"),
     CLI_HEADER_LINE(PLACE(style)),
-    RB_TEXT_LINE("output", PLACE(output), "FILE",
-                 "where the table or JSON goes, whole or not at all",
-                 .unset = "standard output", .file = RB_FILE_WRITTEN),
+    CLI_OUTPUT_LINE(PLACE(output)),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };

@@ -71,9 +71,7 @@ static const rb_option options[] = {
     RB_FLAG_LINE("solution", PLACE(solution),
                  "a row per unknown, z and w = M z + q, instead of one per file"),
     CLI_STYLE_LINES(PLACE(style)),
-    RB_TEXT_LINE("output", PLACE(output), "FILE",
-                 "where the table or JSON goes, whole or not at all",
-                 .unset = "standard output", .file = RB_FILE_WRITTEN),
+    CLI_OUTPUT_LINE(PLACE(output)),
 };
 
 enum { OPTIONS = sizeof options / sizeof options[0] };

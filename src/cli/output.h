@@ -21,6 +21,11 @@ extern const rb_choice cli_formats[], cli_headers[];
                        "of the results: a table with tabs, with commas, or JSON"),       \
         CLI_HEADER_LINE(style)
 
+#define CLI_OUTPUT_LINE(output)                                                          \
+    RB_TEXT_LINE("output", output, "FILE",                                               \
+                 "where the table or JSON goes, whole or not at all",                    \
+                 .unset = "standard output", .file = RB_FILE_WRITTEN)
+
 /* How pictures are drawn. */
 typedef struct {
     int size;           /* rb_report_picture_size */
@@ -36,6 +41,11 @@ extern const rb_choice cli_picture_sizes[];
                      "the picture's gnuplot script with its data too, for changes by "   \
                      "hand",                                                             \
                      .unset = "none", .file = RB_FILE_WRITTEN)
+
+#define CLI_PLOT_LINES(plot, pictures)                                                   \
+    RB_TEXT_LINE("plot", plot, "FILE", "picture: .png, .svg or .pdf (by gnuplot)",       \
+                 .unset = "none", .file = RB_FILE_PICTURE),                              \
+        CLI_PICTURE_LINES(pictures)
 
 typedef struct {
     rb_report_style style; /* of tables; JSON: the results whole */
