@@ -383,13 +383,12 @@ static void transient_rolls_step_by_step(void **state)
     assert_string_equal(json_string_value(json_object_get(
                             json_object_get(root, "summary"), "formulation")),
                         "transient");
-    double *x;
-    int rows;
-    assert_int_equal(rb_io_read_columns("steps.tsv", 15, &rows, &x, NULL), RB_OK);
-    assert_int_equal(rows, steps);
-    CHECK_ABS(x[rows - 1 + 5 * rows], member(root, "summary", "tangential_load"), 1e-9,
-              "Q of the last step");
-    free(x);
+    rb_io_table t;
+    assert_int_equal(rb_io_table_read_columns("steps.tsv", 15, &t, NULL), RB_OK);
+    assert_int_equal(t.rows, steps);
+    CHECK_ABS(t.x[steps - 1 + 5 * steps], member(root, "summary", "tangential_load"),
+              1e-9, "Q of the last step");
+    rb_io_table_free(&t);
     json_decref(root);
 }
 

@@ -429,14 +429,14 @@ static void start_up_files_are_off(void **state)
 
 /* ---- Tables of numbers ------------------------------------------------------------- */
 
-static rb_status read_text(const char *text, int *rows, double **x, rb_message *why)
+static rb_status read_text(const char *text, rb_io_table *t, rb_message *why)
 {
     char name[] = "/tmp/rollbem-columns-XXXXXX";
     const int fd = mkstemp(name);
     assert_true(fd >= 0);
     assert_int_equal(write(fd, text, strlen(text)), (int)strlen(text));
     close(fd);
-    const rb_status s = rb_io_read_columns(name, 2, rows, x, why);
+    const rb_status s = rb_io_table_read_columns(name, 2, t, why);
     unlink(name);
     return s;
 }
@@ -444,15 +444,14 @@ static rb_status read_text(const char *text, int *rows, double **x, rb_message *
 static void columns_are_read(void **state)
 {
     (void)state;
-    int rows;
-    double *x;
+    rb_io_table t;
     rb_message why = {""};
-    assert_int_equal(
-        read_text("# x, gap\n1 2\n\n3,\t4 # end\n -5e-1  6", &rows, &x, &why), RB_OK);
-    assert_int_equal(rows, 3);
-    CHECK_ABS(x[2], -0.5, 0.0, "x");
-    CHECK_ABS(x[3 + 1], 4.0, 0.0, "gap");
-    free(x);
+    assert_int_equal(read_text("# x, gap\n1 2\n\n3,\t4 # end\n -5e-1  6", &t, &why),
+                     RB_OK);
+    assert_int_equal(t.rows, 3);
+    CHECK_ABS(t.x[2], -0.5, 0.0, "x");
+    CHECK_ABS(t.x[3 + 1], 4.0, 0.0, "gap");
+    rb_io_table_free(&t);
 }
 
 static void bad_columns_are_named(void **state)
@@ -460,23 +459,22 @@ static void bad_columns_are_named(void **state)
     (void)state;
     static const char *const bad[] = {"1 2\n3\n", "1 2\n3 4 5\n", "1 2\n3 x\n",
                                       "1 2\n3 nan\n", "1 2\n3 4x\n"};
-    int rows;
-    double *x;
+    rb_io_table t;
     for (int k = 0; k < 5; k++) {
         rb_message why = {""};
-        assert_int_equal(read_text(bad[k], &rows, &x, &why), RB_EFORMAT);
+        assert_int_equal(read_text(bad[k], &t, &why), RB_EFORMAT);
         assert_non_null(strstr(why.text, ":2: expected"));
-        assert_null(x);
+        assert_null(t.x);
     }
-    assert_int_equal(read_text("# nothing\n", &rows, &x, NULL), RB_EFORMAT);
-    assert_int_equal(rb_io_read_columns("/nonexistent", 2, &rows, &x, NULL), RB_ENOENT);
+    assert_int_equal(read_text("# nothing\n", &t, NULL), RB_EFORMAT);
+    assert_int_equal(rb_io_table_read_columns("/nonexistent", 2, &t, NULL), RB_ENOENT);
 }
 
 static void columns_without_memory(void **state)
 {
     (void)state;
-    int rows, refused = 1;
-    double *x;
+    int refused = 1;
+    rb_io_table t;
     char name[] = "/tmp/rollbem-columns-XXXXXX";
     const int fd = mkstemp(name);
     for (int i = 0; i < 200; i++)
@@ -484,12 +482,12 @@ static void columns_without_memory(void **state)
     close(fd);
     for (int k = 0; refused; k++) {
         alloc_fail_after(k);
-        const rb_status s = rb_io_read_columns(name, 2, &rows, &x, NULL);
+        const rb_status s = rb_io_table_read_columns(name, 2, &t, NULL);
         refused = alloc_failed();
         alloc_succeed();
         assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
     }
-    free(x);
+    rb_io_table_free(&t);
     unlink(name);
 }
 

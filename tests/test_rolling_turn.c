@@ -11,8 +11,9 @@
 
 typedef double complex cplx;
 
-/* ---- The kernel -----------------------------------------------------------------------
- * Michell's functions of a ring, r^(m+1), r^(m-1), r^(1-m), r^(-1-m), which the library
+/* ---- The kernel -------------------------------------------------------------------- */
+
+/* Michell's functions of a ring, r^(m+1), r^(m-1), r^(1-m), r^(-1-m), which the library
  * does not use: displacements u_r = u cos, u_t = v sin over 1/(2 G), stresses s, t. */
 
 static void michell(int m, double nu, double r, double scale, cplx column[4][4])

@@ -49,8 +49,9 @@ void rb_api_stop(rb_api *a);
 int rb_api_status(const rb_api *a);
 const char *rb_api_message(const rb_api *a);
 
-/* ---- Descriptions, as text ----------------------------------------------------------
- * Each writes at most `size` bytes and returns text, or NULL: no such index or field. */
+/* ---- Descriptions, as text --------------------------------------------------------- */
+
+/* Each writes at most `size` bytes and returns text, or NULL: no such index or field. */
 
 /* Field of option k = 0, 1, ...: "name", "section", "kind" (group, number, integer,
  * choice, flag, text), "unit", "expected" (the range in words), "from", "to", "choices"
@@ -134,8 +135,9 @@ int rb_api_stress_at(rb_api *a, int n, const double *xy);
 /* The largest stresses and where they are, to a depth in length (0: automatic). */
 int rb_api_stress_maxima(rb_api *a, double depth);
 
-/* ---- Problems by themselves ---------------------------------------------------------
- * The case of the handle is neither read nor changed. */
+/* ---- Problems by themselves -------------------------------------------------------- */
+
+/* The case of the handle is neither read nor changed. */
 
 /* z >= 0, M z + q >= 0, complementary; M n x n, column by column.  solver: "lemke" or
  * "newton" (sparse); max_pivots 0: the solver's own limit. */

@@ -41,6 +41,8 @@ typedef struct {
 
 rb_status rb_bem_mesh_alloc(int n, rb_bem_mesh *mesh); /* all traction-free */
 void rb_bem_mesh_free(rb_bem_mesh *mesh);
+/* Of element j. */
+double rb_bem_mesh_length(const rb_bem_mesh *mesh, int j);
 
 /* Appends nothing itself: checks that every contour closes, no element has zero length,
  * contact elements are contiguous.  RB_EINVAL with the element's number in why. */

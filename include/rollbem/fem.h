@@ -76,10 +76,6 @@ typedef struct {
 
 void rb_fem_structure_free(rb_fem_structure *s);
 
-/* Number of zero eigenvalues of K, and its largest eigenvalue if asked for: dense, for
- * small structures (a truss, a condensed bar). */
-rb_status rb_fem_nullity(const rb_sparse *K, int *nullity, double *largest);
-
 /* Displacements u (dofs) and reactions r (dimension contacts) after an increment. */
 typedef struct {
     double *u, *r; /* owned */

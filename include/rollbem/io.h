@@ -74,11 +74,6 @@ const double *rb_io_table_column(const rb_io_table *t, const char *name);
 void rb_io_table_convert(rb_io_table *t, int j, const char *unit, rb_units system);
 void rb_io_table_free(rb_io_table *t);
 
-/* Its numbers alone.  x: *rows values of the first column, then of the
- * second, ...; owned by the caller.  Otherwise as rb_io_table_read. */
-rb_status rb_io_read_columns(const char *path, int columns, int *rows, double **x,
-                             rb_message *why);
-
 /* ---- Matrices ---------------------------------------------------------------------- */
 
 /* As a file has it: dense, or in coordinate form. */

@@ -119,8 +119,9 @@ void rb_rolling_profile_range(const rb_rolling_profile *profile, double *from,
 /* At any x; straight on beyond the ends, where no contact is accepted. */
 double rb_rolling_profile_gap(const rb_rolling_profile *profile, double x);
 
-/* ---- Friction laws (theory.md 4.11) -------------------------------------------------
- * A law gives the coefficient of an element from its state: place x, slip velocity v,
+/* ---- Friction laws (theory.md 4.11) ------------------------------------------------ */
+
+/* A law gives the coefficient of an element from its state: place x, slip velocity v,
  * temperature.  A row: its name, and one line about it.  Its function stands in
  * src/rolling/law.c; option, help, JSON and messages are made from the row.  mu: the
  * coefficient of the case, m and s: its falls and slip scales. */

@@ -105,41 +105,39 @@ rb_status rb_sparse_lu_factor(rb_sparse_lu *lu, const rb_sparse *a, double *flop
     return umfpack_status(code);
 }
 
-static rb_status lu_solve(int system, const rb_sparse_lu *lu, const double *b, double *x)
-{
-    if (!lu->numeric)
-        return RB_EINVAL;
-    const rb_sparse *a = lu->a;
-    return umfpack_status(
-        umfpack_di_solve(system, a->p, a->i, a->x, x, b, lu->numeric, lu->control, NULL));
-}
-
-rb_status rb_sparse_lu_solve(const rb_sparse_lu *lu, const double *b, double *x)
-{
-    return lu_solve(UMFPACK_A, lu, b, x);
-}
-
-rb_status rb_sparse_lu_solve_once(const rb_sparse_lu *lu, const double *b, double *x)
+/* steps: of refinement, at most. */
+static rb_status lu_solve(const rb_sparse_lu *lu, int system, double steps,
+                          const double *b, double *x)
 {
     double control[UMFPACK_CONTROL];
     const rb_sparse *a = lu->a;
     if (!lu->numeric)
         return RB_EINVAL;
     memcpy(control, lu->control, sizeof control);
-    control[UMFPACK_IRSTEP] = 0;
+    control[UMFPACK_IRSTEP] = steps;
     return umfpack_status(
-        umfpack_di_solve(UMFPACK_A, a->p, a->i, a->x, x, b, lu->numeric, control, NULL));
+        umfpack_di_solve(system, a->p, a->i, a->x, x, b, lu->numeric, control, NULL));
 }
 
-double rb_sparse_lu_entries(const rb_sparse_lu *lu)
+rb_status rb_sparse_lu_solve(const rb_sparse_lu *lu, const double *b, double *x)
 {
-    return lu->entries;
+    return lu_solve(lu, UMFPACK_A, lu->control[UMFPACK_IRSTEP], b, x);
+}
+
+rb_status rb_sparse_lu_solve_once(const rb_sparse_lu *lu, const double *b, double *x)
+{
+    return lu_solve(lu, UMFPACK_A, 0.0, b, x);
 }
 
 rb_status rb_sparse_lu_solve_transposed(const rb_sparse_lu *lu, const double *b,
                                         double *x)
 {
-    return lu_solve(UMFPACK_At, lu, b, x);
+    return lu_solve(lu, UMFPACK_At, lu->control[UMFPACK_IRSTEP], b, x);
+}
+
+double rb_sparse_lu_entries(const rb_sparse_lu *lu)
+{
+    return lu->entries;
 }
 
 void rb_sparse_lu_free(rb_sparse_lu *lu)

@@ -321,7 +321,7 @@ static rb_status condense(const rb_bem_system *system, rb_bem_normals normals,
         for (int i = 0; i < f->m; i++) {
             const int j = mesh->contact_first + i;
             f->x[i] = 0.5 * (mesh->x0[j] + mesh->x1[j]);
-            f->h[i] = hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+            f->h[i] = rb_bem_mesh_length(mesh, j);
         }
         turn_to_frames(system, normals, X, f, F);
     } else {

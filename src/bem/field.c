@@ -36,18 +36,14 @@ static double complex traction_of(const double *t_contact, int n, int c)
     return c < 0 || c >= n ? 0.0 : t_contact[2 * c] + t_contact[2 * c + 1] * I;
 }
 
-static double length_of(const rb_bem_mesh *mesh, int j)
-{
-    return hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
-}
-
 /* Traction at the end between contact elements c - 1 and c, linear between midpoints. */
 static double complex end_traction(const rb_bem_mesh *mesh, const double *t_contact,
                                    int c)
 {
     const int n = mesh->contact_n, j = mesh->contact_first + c;
-    const double before = c > 0 ? length_of(mesh, j - 1) : length_of(mesh, j);
-    const double after = c < n ? length_of(mesh, j) : before;
+    const double before =
+        c > 0 ? rb_bem_mesh_length(mesh, j - 1) : rb_bem_mesh_length(mesh, j);
+    const double after = c < n ? rb_bem_mesh_length(mesh, j) : before;
 
     return (before * traction_of(t_contact, n, c) +
             after * traction_of(t_contact, n, c - 1)) /

@@ -60,6 +60,14 @@ rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f)
     return f->x && f->h && f->w0 ? RB_OK : RB_ENOMEM;
 }
 
+static void copy_points(const rb_bem_flexibility *from, rb_bem_flexibility *to)
+{
+    const size_t m = (size_t)from->m;
+    memcpy(to->x, from->x, m * sizeof *to->x);
+    memcpy(to->h, from->h, m * sizeof *to->h);
+    memcpy(to->w0, from->w0, 2 * m * sizeof *to->w0);
+}
+
 /* ---- A dense matrix ---------------------------------------------------------------- */
 
 static void dense_apply(const rb_bem_flexibility *f, const double *r, double *w)
@@ -134,9 +142,7 @@ rb_status rb_bem_flexibility_store(rb_bem_flexibility *f)
         rb_bem_flexibility_free(&dense);
         return s;
     }
-    memcpy(dense.x, f->x, (size_t)f->m * sizeof *f->x);
-    memcpy(dense.h, f->h, (size_t)f->m * sizeof *f->h);
-    memcpy(dense.w0, f->w0, 2 * (size_t)f->m * sizeof *f->w0);
+    copy_points(f, &dense);
     rb_bem_flexibility_free(f);
     *f = dense;
     return RB_OK;
@@ -238,13 +244,10 @@ static rb_status same_points(const rb_bem_flexibility *a, const rb_bem_flexibili
 static rb_status join(const body_pair *pair, rb_bem_flexibility *f)
 {
     const rb_bem_flexibility *a = &pair->a;
-    const size_t m = (size_t)a->m;
     const rb_status s = rb_bem_flexibility_points(a->n, f);
     if (s != RB_OK)
         return s;
-    memcpy(f->x, a->x, m * sizeof *f->x);
-    memcpy(f->h, a->h, m * sizeof *f->h);
-    memcpy(f->w0, a->w0, 2 * m * sizeof *f->w0);
+    copy_points(a, f);
     add_mirrored(a->m, pair->b.w0, f->w0);
     f->apply = pair_apply;
     f->matrix = pair_matrix;

@@ -37,13 +37,13 @@ static inline int rb_hierarchical_clusters(const rb_hierarchical *h)
 /* Radius of the circle that separates far from near, over that of the cluster. */
 static const double RB_HIERARCHICAL_REACH = 2.0;
 
-/* ---- hierarchical_skeletons.c ---- */
+/* ---- hierarchical_skeletons.c ------------------------------------------------------ */
 
 /* Which rows and columns of cluster k stand for the others, and how: its order, and kept,
  * V and Z of its elimination.  Reads the lists of its neighbours.  RB_ENOMEM. */
 rb_status rb_hierarchical_skeletonise(const rb_hierarchical *h, int level, int k);
 
-/* ---- hierarchical_solve.c ---- */
+/* ---- hierarchical_solve.c ---------------------------------------------------------- */
 
 /* RB_SINGULAR unless solutions give their right-hand sides back; RB_ENOMEM. */
 rb_status rb_hierarchical_verify(const rb_hierarchical *h);

@@ -47,17 +47,12 @@ static cplx pair_of(const double *values, int j)
     return complex_of(values[2 * j], values[2 * j + 1]);
 }
 
-static double length(const rb_bem_mesh *mesh, int j)
-{
-    return hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
-}
-
 /* du/ds between the midpoints of j and of the element after it */
 static cplx slope_after(const rb_interior *in, int j)
 {
     const int k = in->next[j];
     return (pair_of(in->u, k) - pair_of(in->u, j)) /
-           (0.5 * (length(in->mesh, j) + length(in->mesh, k)));
+           (0.5 * (rb_bem_mesh_length(in->mesh, j) + rb_bem_mesh_length(in->mesh, k)));
 }
 
 static void make_pieces(rb_interior *in)
@@ -68,7 +63,8 @@ static void make_pieces(rb_interior *in)
                per_s = I * in->shear / (M_PI * (1.0 + in->kap));
     for (int j = 0; j < mesh->n; j++) {
         const double mx = 0.5 * (mesh->x0[j] + mesh->x1[j]),
-                     my = 0.5 * (mesh->y0[j] + mesh->y1[j]), half = 0.5 * length(mesh, j);
+                     my = 0.5 * (mesh->y0[j] + mesh->y1[j]),
+                     half = 0.5 * rb_bem_mesh_length(mesh, j);
         const cplx before = slope_after(in, in->previous[j]), after = slope_after(in, j);
         rb_piece *p = in->piece + 2 * j;
         p[0].e = rb_element_make(mesh->x0[j], mesh->y0[j], mx, my, r0);
@@ -198,8 +194,9 @@ static int element_at(const rb_interior *in, double x, double y, double *s)
 static cplx slope_at(const rb_interior *in, int j, double s)
 {
     const int i = in->previous[j], k = in->next[j];
-    const double h = length(in->mesh, j), hi = length(in->mesh, i),
-                 hk = length(in->mesh, k);
+    const double h = rb_bem_mesh_length(in->mesh, j),
+                 hi = rb_bem_mesh_length(in->mesh, i),
+                 hk = rb_bem_mesh_length(in->mesh, k);
     const cplx before = slope_after(in, i), after = slope_after(in, j);
     const cplx middle = (before * (h + hk) + after * (h + hi)) / (2.0 * h + hi + hk);
     const double part = fabs(s) / (0.5 * h);

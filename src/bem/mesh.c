@@ -54,7 +54,7 @@ rb_status rb_bem_mesh_copy(const rb_bem_mesh *from, rb_bem_mesh *to)
     return RB_OK;
 }
 
-static double length(const rb_bem_mesh *mesh, int j)
+double rb_bem_mesh_length(const rb_bem_mesh *mesh, int j)
 {
     return hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
 }
@@ -75,7 +75,7 @@ double rb_bem_mesh_size(const rb_bem_mesh *mesh)
 static rb_status check_elements(const rb_bem_mesh *mesh, rb_message *why)
 {
     for (int j = 0; j < mesh->n; j++) {
-        const double h = length(mesh, j);
+        const double h = rb_bem_mesh_length(mesh, j);
         if (!(h > 0.0 && isfinite(h)))
             return rb_fail(why, RB_EINVAL, "element %d: length %g, expected > 0", j, h);
         for (int k = 0; k < 2; k++) {
@@ -100,7 +100,8 @@ static rb_status check_elements(const rb_bem_mesh *mesh, rb_message *why)
 static int meets(const rb_bem_mesh *mesh, int j, int next)
 {
     const double gap = hypot(mesh->x0[next] - mesh->x1[j], mesh->y0[next] - mesh->y1[j]);
-    return gap <= 1e-9 * fmin(length(mesh, j), length(mesh, next));
+    return gap <=
+           1e-9 * fmin(rb_bem_mesh_length(mesh, j), rb_bem_mesh_length(mesh, next));
 }
 
 /* Each contour is a run of elements, end to start, whose last end is the run's start. */

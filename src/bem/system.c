@@ -201,8 +201,7 @@ static rb_status assemble(rb_bem_system *s)
     if (status != RB_OK)
         return status;
     for (int j = 0; j < mesh->n; j++)
-        s->unit[j] = s->material.shear /
-                     hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+        s->unit[j] = s->material.shear / rb_bem_mesh_length(mesh, j);
 #pragma omp parallel for schedule(static) if ((double)mesh->n * mesh->n >                \
                                               rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++)

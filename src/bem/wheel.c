@@ -14,8 +14,9 @@
 
 typedef double complex cplx;
 
-/* ---- Waves on rings -------------------------------------------------------------------
- * u_r = U cos m theta, u_theta = V sin m theta, and stresses S and T of an arc alike.  In
+/* ---- Waves on rings ---------------------------------------------------------------- */
+
+/* u_r = U cos m theta, u_theta = V sin m theta, and stresses S and T of an arc alike.  In
  * ln r the equations for y = (2 G U, 2 G V, r S, r T) have constant coefficients. */
 
 /* (u, v) = K (s, t). */
@@ -107,8 +108,9 @@ static cplx creep(const rb_bem_wheel *w, int m)
     return c;
 }
 
-/* ---- The kernel -----------------------------------------------------------------------
- * A unit load at angle 0 seen at angle x, over R/(4 pi G): normal and tangential answer,
+/* ---- The kernel -------------------------------------------------------------------- */
+
+/* A unit load at angle 0 seen at angle x, over R/(4 pi G): normal and tangential answer,
  * and the normal one of friction, which is minus the tangential one of pressure. */
 
 typedef struct {

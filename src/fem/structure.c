@@ -1,8 +1,6 @@
 /* A structure that may touch obstacles, and its state. */
 #include "rollbem/fem.h"
 
-#include <lapacke.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,35 +13,6 @@ void rb_fem_structure_free(rb_fem_structure *s)
     free(s->mu);
     free(s->gap);
     memset(s, 0, sizeof *s);
-}
-
-static void spread(const rb_sparse *K, double *dense)
-{
-    for (int j = 0; j < K->cols; j++)
-        for (int k = K->p[j]; k < K->p[j + 1]; k++)
-            dense[K->i[k] + (size_t)K->rows * (size_t)j] = K->x[k];
-}
-
-rb_status rb_fem_nullity(const rb_sparse *K, int *nullity, double *largest)
-{
-    const int n = K->rows;
-    double *dense = rb_alloc((size_t)n, (size_t)n), *value = rb_alloc((size_t)n, 1);
-    rb_status s = dense && value ? RB_OK : RB_ENOMEM;
-    if (s == RB_OK) {
-        spread(K, dense);
-        const int info = LAPACKE_dsyev(LAPACK_COL_MAJOR, 'N', 'U', n, dense, n, value);
-        s = info > 0 ? RB_MAXITER : rb_lapack_status(info);
-    }
-    if (s == RB_OK) {
-        *nullity = 0;
-        for (int k = 0; k < n; k++)
-            *nullity += fabs(value[k]) <= 1e-12 * value[n - 1];
-        if (largest)
-            *largest = value[n - 1];
-    }
-    free(dense);
-    free(value);
-    return s;
 }
 
 rb_status rb_fem_state_alloc(const rb_fem_structure *s, rb_fem_state *state)

@@ -211,26 +211,6 @@ static rb_status reduce(rb_friction_problem *p, const motions *m)
     return RB_OK;
 }
 
-static rb_status check_sizes(const char *name, const rb_sparse *a, int rows, int cols,
-                             rb_message *why)
-{
-    if (a->rows != rows || a->cols != cols)
-        return rb_fail(why, RB_EINVAL, "%s is %d x %d, expected %d x %d", name, a->rows,
-                       a->cols, rows, cols);
-    for (int k = 0; k < a->p[a->cols]; k++)
-        if (!isfinite(a->x[k]))
-            return rb_fail(why, RB_EINVAL, "%s: entry %d is %g", name, k + 1, a->x[k]);
-    return RB_OK;
-}
-
-static rb_status check_numbers(const char *name, int n, const double *x, rb_message *why)
-{
-    for (int k = 0; k < n; k++)
-        if (!isfinite(x[k]))
-            return rb_fail(why, RB_EINVAL, "%s: entry %d is %g", name, k + 1, x[k]);
-    return RB_OK;
-}
-
 /* Row by row of G': the motions it couples, and b. */
 static void load_constraints(const rb_sparse *G, const double *b, const int *number,
                              equations *e)
@@ -252,9 +232,9 @@ rb_status rb_friction_eliminate(rb_friction_problem *global, const rb_sparse *G,
         return rb_fail(why, RB_EINVAL, "constraints on v: expected the global form");
     rb_status s = rb_friction_problem_check(global, why);
     if (s == RB_OK)
-        s = check_sizes("G", G, n, G->cols, why);
+        s = rb_friction_check_sparse("G", G, n, G->cols, why);
     if (s == RB_OK)
-        s = check_numbers("b", G->cols, b, why);
+        s = rb_friction_check_vector("b", (size_t)G->cols, b, why);
     if (s != RB_OK)
         return s;
     int *touched = rb_alloc_int(2 * (size_t)n);
@@ -359,11 +339,11 @@ rb_status rb_friction_eliminate_local(rb_friction_problem *local, const rb_spars
         return rb_fail(why, RB_EINVAL, "constraints with R: expected the local form");
     rb_status st = rb_friction_problem_check(local, why);
     if (st == RB_OK)
-        st = check_sizes("R", R, c, c, why);
+        st = rb_friction_check_sparse("R", R, c, c, why);
     if (st == RB_OK)
-        st = check_sizes("V", V, m, c, why);
+        st = rb_friction_check_sparse("V", V, m, c, why);
     if (st == RB_OK)
-        st = check_numbers("s", c, s, why);
+        st = rb_friction_check_vector("s", (size_t)c, s, why);
     if (st != RB_OK)
         return st;
     st = make_equations(c, c, c + m + 1, &e);

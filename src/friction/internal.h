@@ -5,6 +5,14 @@
 
 #include "rollbem/friction.h"
 
+/* ---- Problems (problem.c) ---------------------------------------------------------- */
+
+/* RB_EINVAL, with the place in why: missing, other sizes, NaN or infinity. */
+rb_status rb_friction_check_vector(const char *name, size_t n, const double *x,
+                                   rb_message *why);
+rb_status rb_friction_check_sparse(const char *name, const rb_sparse *a, int rows,
+                                   int cols, rb_message *why);
+
 /* ---- Cones (cone.c) ---------------------------------------------------------------- */
 
 /* P_K(z), K = {||z_T|| <= mu z_N}; z and p: d entries, may be the same. */
@@ -25,13 +33,13 @@ double rb_friction_size(const rb_friction_problem *problem, const double *rho,
 double rb_friction_dot(size_t n, const double *x, const double *y);
 double rb_friction_norm(size_t n, const double *x);
 
-/* ---- Units (rho.c) -- */
+/* ---- Units (rho.c) ----------------------------------------------------------------- */
 
 /* 2 per contact: rho_n = 1/W_NN, rho_t = 1/(largest eigenvalue of W_TT) of its own block;
  * of the mean of all where that vanishes.  Global form: estimated from diag(K). */
 rb_status rb_friction_rho(const rb_friction_problem *problem, double *rho);
 
-/* ---- Measure (measure.c) -- */
+/* ---- Measure (measure.c) ----------------------------------------------------------- */
 
 typedef struct {
     const rb_friction_problem *problem;
@@ -65,7 +73,7 @@ rb_status rb_friction_measure_displacement(rb_friction_measure *measure, const d
 rb_status rb_friction_measure_spring_load(rb_friction_measure *measure, double *q);
 void rb_friction_measure_free(rb_friction_measure *measure);
 
-/* ---- W in d x d blocks (blocks.c) -- */
+/* ---- W in d x d blocks (blocks.c) -------------------------------------------------- */
 
 typedef struct {
     int d, contacts;
@@ -87,7 +95,7 @@ int rb_friction_blocks_add_all(const rb_friction_blocks *blocks, const double *x
 void rb_friction_blocks_apply(const rb_friction_blocks *blocks, const double *x,
                               double *y);
 
-/* ---- One contact alone (local_contact.c) -- */
+/* ---- One contact alone (local_contact.c) ------------------------------------------- */
 
 typedef struct {
     int d;
@@ -117,7 +125,7 @@ int rb_friction_contact_fixed_point(const rb_friction_contact *contact, double *
 #define RB_FRICTION_UPK_LEAST 0.3
 #define RB_FRICTION_UPK_SHRINK (2.0 / 3.0)
 
-/* ---- One solve in progress (task.c) -- */
+/* ---- One solve in progress (task.c) ------------------------------------------------ */
 
 /* What all methods that work on one problem share. */
 typedef struct {
@@ -204,7 +212,7 @@ int rb_friction_prove(rb_friction_task *task);
 /* r, v and info->solver of the best iterate, where one is on record. */
 void rb_friction_task_recall(rb_friction_task *task);
 
-/* ---- Anderson's acceleration (anderson.c) -- */
+/* ---- Anderson's acceleration (anderson.c) ------------------------------------------ */
 
 #define RB_FRICTION_ANDERSON_DEPTH 5
 
@@ -225,7 +233,7 @@ void rb_friction_anderson_forget(rb_friction_anderson *a);
 void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, double *r,
                                double *u);
 
-/* ---- Functions whose roots are solutions (functions.c) -- */
+/* ---- Functions whose roots are solutions (functions.c) ----------------------------- */
 
 /* One contact's cone and scaling: rho_n, rho_t > 0 [force/velocity]. */
 typedef struct {
@@ -246,7 +254,7 @@ rb_friction_function rb_friction_jean_moreau;   /* (9) */
 rb_friction_function rb_friction_natural_map;   /* (10) */
 rb_friction_function rb_friction_fischer_burmeister;
 
-/* ---- Linear systems of Newton's steps (system.c) -- */
+/* ---- Linear systems of Newton's steps (system.c) ----------------------------------- */
 
 /* Local form:  (A + B W) dr = -F.
  * Global form: K dv - H dr = -e,  B H' dv + A dr = -F: one sparse system, no W. */
@@ -298,7 +306,7 @@ rb_status rb_friction_local_solve(rb_friction_system *system, double *x);
 rb_status rb_friction_local_step(rb_friction_system *system,
                                  const rb_friction_linearised *at);
 
-/* ---- Methods -- */
+/* ---- Methods ----------------------------------------------------------------------- */
 
 /* How a solver is run.  Either all at once, or in parts: start, which writes the whole
  * state, then go_on until it no longer pauses, then finish, also where start failed. */

@@ -1,4 +1,4 @@
-#include "rollbem/friction.h"
+#include "friction/internal.h"
 
 #include <float.h>
 #include <math.h>
@@ -20,8 +20,8 @@ void rb_friction_problem_free(rb_friction_problem *problem)
     *problem = (rb_friction_problem){0};
 }
 
-static rb_status check_vector(const char *name, size_t n, const double *x,
-                              rb_message *why)
+rb_status rb_friction_check_vector(const char *name, size_t n, const double *x,
+                                   rb_message *why)
 {
     if (!x)
         return rb_fail(why, RB_EINVAL, "%s is missing", name);
@@ -34,15 +34,15 @@ static rb_status check_vector(const char *name, size_t n, const double *x,
     return RB_OK;
 }
 
-static rb_status check_sparse(const char *name, const rb_sparse *a, int rows, int cols,
-                              rb_message *why)
+rb_status rb_friction_check_sparse(const char *name, const rb_sparse *a, int rows,
+                                   int cols, rb_message *why)
 {
     if (!a->p || !a->i || !a->x)
         return rb_fail(why, RB_EINVAL, "%s is missing", name);
     if (a->rows != rows || a->cols != cols)
         return rb_fail(why, RB_EINVAL, "%s is %d x %d, expected %d x %d", name, a->rows,
                        a->cols, rows, cols);
-    return check_vector(name, (size_t)a->p[cols], a->x, why);
+    return rb_friction_check_vector(name, (size_t)a->p[cols], a->x, why);
 }
 
 /* max |A - A'| and max |A| */
@@ -71,13 +71,13 @@ static rb_status check_global(const rb_friction_problem *p, int m, rb_message *w
 {
     if (p->dofs < 1)
         return rb_fail(why, RB_EINVAL, "%d degrees of freedom", p->dofs);
-    rb_status s = check_sparse("K", &p->K, p->dofs, p->dofs, why);
+    rb_status s = rb_friction_check_sparse("K", &p->K, p->dofs, p->dofs, why);
     if (s == RB_OK)
-        s = check_sparse("H", &p->H, p->dofs, m, why);
+        s = rb_friction_check_sparse("H", &p->H, p->dofs, m, why);
     if (s == RB_OK)
-        s = check_vector("f", (size_t)p->dofs, p->f, why);
+        s = rb_friction_check_vector("f", (size_t)p->dofs, p->f, why);
     if (s == RB_OK)
-        s = check_vector("w", (size_t)m, p->w, why);
+        s = rb_friction_check_vector("w", (size_t)m, p->w, why);
     double difference = 0.0, largest = 0.0;
     if (s == RB_OK)
         s = sparse_asymmetry(&p->K, &difference, &largest);
@@ -94,7 +94,7 @@ rb_status rb_friction_problem_check(const rb_friction_problem *p, rb_message *wh
     if (p->contacts < 1)
         return rb_fail(why, RB_EINVAL, "%d contacts: expected at least 1", p->contacts);
     const int m = p->dimension * p->contacts;
-    rb_status s = check_vector("mu", (size_t)p->contacts, p->mu, why);
+    rb_status s = rb_friction_check_vector("mu", (size_t)p->contacts, p->mu, why);
     for (int c = 0; s == RB_OK && c < p->contacts; c++)
         if (p->mu[c] < 0.0)
             s = rb_fail(why, RB_EINVAL, "mu of contact %d is %g: expected >= 0", c + 1,
@@ -104,9 +104,9 @@ rb_status rb_friction_problem_check(const rb_friction_problem *p, rb_message *wh
     if (p->form == RB_FRICTION_GLOBAL)
         return check_global(p, m, why);
     s = p->form == RB_FRICTION_LOCAL_DENSE
-            ? check_vector("W", (size_t)m * (size_t)m, p->W, why)
-            : check_sparse("W", &p->Ws, m, m, why);
-    return s == RB_OK ? check_vector("q", (size_t)m, p->q, why) : s;
+            ? rb_friction_check_vector("W", (size_t)m * (size_t)m, p->W, why)
+            : rb_friction_check_sparse("W", &p->Ws, m, m, why);
+    return s == RB_OK ? rb_friction_check_vector("q", (size_t)m, p->q, why) : s;
 }
 
 /* ---- Facts ------------------------------------------------------------------------- */

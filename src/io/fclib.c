@@ -14,26 +14,34 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+enum { MATRICES = 6, VECTORS = 10 };
+
+/* All arrays of a problem, for what is done to each of them alike. */
+typedef struct {
+    rb_sparse *matrix[MATRICES];
+    double **vector[VECTORS];
+    int length[VECTORS];
+} arrays;
+
+static arrays arrays_of(rb_io_fclib *p)
+{
+    const int m = p->contacts * p->spacedim;
+    return (arrays){.matrix = {&p->W, &p->M, &p->H, &p->G, &p->V, &p->R},
+                    .vector = {&p->b, &p->s, &p->q, &p->f, &p->w, &p->mu, &p->mu_r, &p->r,
+                               &p->u, &p->v},
+                    .length = {p->constraints, p->constraints, m, p->M.rows, m,
+                               p->contacts, p->contacts, m, m, p->M.rows}};
+}
+
 void rb_io_fclib_free(rb_io_fclib *problem)
 {
     if (!problem)
         return;
-    rb_sparse_free(&problem->W);
-    rb_sparse_free(&problem->M);
-    rb_sparse_free(&problem->H);
-    rb_sparse_free(&problem->G);
-    rb_sparse_free(&problem->V);
-    rb_sparse_free(&problem->R);
-    free(problem->b);
-    free(problem->s);
-    free(problem->q);
-    free(problem->f);
-    free(problem->w);
-    free(problem->mu);
-    free(problem->mu_r);
-    free(problem->r);
-    free(problem->u);
-    free(problem->v);
+    const arrays all = arrays_of(problem);
+    for (int k = 0; k < MATRICES; k++)
+        rb_sparse_free(all.matrix[k]);
+    for (int k = 0; k < VECTORS; k++)
+        free(*all.vector[k]);
     *problem = (rb_io_fclib){0};
 }
 
@@ -440,9 +448,9 @@ static rb_status read_file(const reader *in, rb_io_fclib *p)
     return s == RB_OK ? read_solution(in, p) : s;
 }
 
-/* ---- HDF5 in a process of its own
- * ------------------------------------------------------- It crashes where memory is
- * short and on damaged files, and says of both the same. */
+/* ---- HDF5 in a process of its own -------------------------------------------------- */
+
+/* It crashes where memory is short and on damaged files, and says of both the same. */
 
 static herr_t look_for_memory(unsigned n, const H5E_error2_t *error, void *found)
 {
@@ -507,24 +515,12 @@ static rb_status read_in_child(FILE *out, const void *path, rb_message *why)
     free(probe);
     if (s != RB_OK)
         return s;
-    const int m = p.contacts * p.spacedim;
+    const arrays all = arrays_of(&p);
     fwrite(&p, sizeof p, 1, out);
-    put_sparse(out, &p.W);
-    put_sparse(out, &p.M);
-    put_sparse(out, &p.H);
-    put_sparse(out, &p.G);
-    put_sparse(out, &p.V);
-    put_sparse(out, &p.R);
-    put_array(out, p.b, sizeof *p.b, p.constraints);
-    put_array(out, p.s, sizeof *p.s, p.constraints);
-    put_array(out, p.q, sizeof *p.q, m);
-    put_array(out, p.f, sizeof *p.f, p.M.rows);
-    put_array(out, p.w, sizeof *p.w, m);
-    put_array(out, p.mu, sizeof *p.mu, p.contacts);
-    put_array(out, p.mu_r, sizeof *p.mu_r, p.contacts);
-    put_array(out, p.r, sizeof *p.r, m);
-    put_array(out, p.u, sizeof *p.u, m);
-    put_array(out, p.v, sizeof *p.v, p.M.rows);
+    for (int k = 0; k < MATRICES; k++)
+        put_sparse(out, all.matrix[k]);
+    for (int k = 0; k < VECTORS; k++)
+        put_array(out, *all.vector[k], sizeof(double), all.length[k]);
     return RB_OK;
 }
 
@@ -566,29 +562,12 @@ static void take_sparse(bytes_in *in, rb_sparse *a)
 static rb_status take_problem(const char *bytes, rb_io_fclib *p)
 {
     bytes_in in = {.at = bytes};
-    rb_io_fclib sizes;
-    take(&in, &sizes, sizeof sizes);
-    *p = (rb_io_fclib){.global = sizes.global,
-                       .rolling = sizes.rolling,
-                       .spacedim = sizes.spacedim,
-                       .contacts = sizes.contacts,
-                       .constraints = sizes.constraints};
-    take_sparse(&in, &p->W);
-    take_sparse(&in, &p->M);
-    take_sparse(&in, &p->H);
-    take_sparse(&in, &p->G);
-    take_sparse(&in, &p->V);
-    take_sparse(&in, &p->R);
-    p->b = take_array(&in, sizeof *p->b);
-    p->s = take_array(&in, sizeof *p->s);
-    p->q = take_array(&in, sizeof *p->q);
-    p->f = take_array(&in, sizeof *p->f);
-    p->w = take_array(&in, sizeof *p->w);
-    p->mu = take_array(&in, sizeof *p->mu);
-    p->mu_r = take_array(&in, sizeof *p->mu_r);
-    p->r = take_array(&in, sizeof *p->r);
-    p->u = take_array(&in, sizeof *p->u);
-    p->v = take_array(&in, sizeof *p->v);
+    const arrays all = arrays_of(p);
+    take(&in, p, sizeof *p); /* its pointers are those of the child: all are replaced */
+    for (int k = 0; k < MATRICES; k++)
+        take_sparse(&in, all.matrix[k]);
+    for (int k = 0; k < VECTORS; k++)
+        *all.vector[k] = take_array(&in, sizeof(double));
     return in.no_memory ? RB_ENOMEM : RB_OK;
 }
 

@@ -271,19 +271,3 @@ rb_status rb_io_table_read_columns(const char *path, int columns, rb_io_table *t
     }
     return s;
 }
-
-rb_status rb_io_read_columns(const char *path, int columns, int *rows, double **x,
-                             rb_message *why)
-{
-    rb_io_table t;
-    const rb_status s = rb_io_table_read_columns(path, columns, &t, why);
-    *x = NULL;
-    *rows = 0;
-    if (s == RB_OK) {
-        *x = t.x;
-        *rows = t.rows;
-        t.x = NULL;
-    }
-    rb_io_table_free(&t);
-    return s;
-}

@@ -32,7 +32,7 @@ static inline double lemke_z0(const lemke *l)
     return row >= 0 ? l->t.q[row] : 0.0;
 }
 
-/* ---- The ends that the methods share (lemke.c, newton.c) ---- */
+/* ---- The ends that the methods share (lemke.c, newton.c) --------------------------- */
 
 /* RB_RAY with its message. */
 rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0);
@@ -62,7 +62,7 @@ static inline double rb_lcp_upper(const double *upper, int i)
     return upper ? upper[i] : INFINITY;
 }
 
-/* ---- accuracy.c: what the rounding errors of the pivots have done ---- */
+/* ---- accuracy.c: what the rounding errors of the pivots have done ------------------ */
 
 /* Refreshes the constants when z0 has fallen far or many pivots have passed: one step of
  * iterative refinement, or a new tableau where it has drifted too far for that.

@@ -134,8 +134,7 @@ static rb_status support_balance(const rb_rolling_model *model, double load,
 
     for (int j = 0; j < mesh->n && s == RB_OK; j++)
         if (mesh->condition[2 * j + 1] == RB_BEM_DISPLACEMENT)
-            reaction += t[2 * j + 1] *
-                        hypot(mesh->x1[j] - mesh->x0[j], mesh->y1[j] - mesh->y0[j]);
+            reaction += t[2 * j + 1] * rb_bem_mesh_length(mesh, j);
     if (s == RB_OK)
         *balance = (reaction + load) / load;
     free(u);
