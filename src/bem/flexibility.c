@@ -60,6 +60,14 @@ rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f)
     return f->x && f->h && f->w0 ? RB_OK : RB_ENOMEM;
 }
 
+void rb_bem_flexibility_place(const double *ends, rb_bem_flexibility *f)
+{
+    for (int i = 0; i < f->m; i++) {
+        f->x[i] = 0.5 * (ends[i] + ends[i + 1]);
+        f->h[i] = ends[i + 1] - ends[i];
+    }
+}
+
 static void copy_points(const rb_bem_flexibility *from, rb_bem_flexibility *to)
 {
     const size_t m = (size_t)from->m;

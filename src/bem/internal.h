@@ -34,6 +34,8 @@ rb_status rb_bem_surface_check(const rb_bem_surface *body, rb_message *why);
 
 /* A flexibility with x, h, w0 zeroed and nothing behind it. */
 rb_status rb_bem_flexibility_points(int n, rb_bem_flexibility *f);
+/* x and h of elements between these ends (n + 2). */
+void rb_bem_flexibility_place(const double *ends, rb_bem_flexibility *f);
 
 /* A flexibility with x, h, w0 zeroed and a dense matrix of zeros behind it; *F: that
  * matrix, 2m x 2n with leading dimension 2m, borrowed.  RB_ENOMEM leaves f empty. */

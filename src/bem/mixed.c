@@ -1,6 +1,7 @@
 #include "bem/mixed.h"
 #include "bem/internal.h"
 
+#include <gsl/gsl_math.h>
 #include <stdlib.h>
 
 void rb_mixed_free(rb_mixed *a)
@@ -91,7 +92,7 @@ void rb_mixed_rows_free(rb_mixed_rows *r)
 
 static double angle(int q, int points)
 {
-    return 2.0 * 3.14159265358979323846 * q / points;
+    return 2.0 * M_PI * q / points;
 }
 
 /* x, y: of the points, after those of the rows' elements. */

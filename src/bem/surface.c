@@ -193,12 +193,10 @@ rb_status rb_bem_flexibility_surface(int n_c, const double *ends,
     if (s != RB_OK)
         return s;
     s = rb_bem_flexibility_dense(n_c, f, &F);
-    for (int i = 0; i < f->m; i++) {
-        f->x[i] = 0.5 * (ends[i] + ends[i + 1]);
-        f->h[i] = ends[i + 1] - ends[i];
-    }
-    if (s == RB_OK)
+    if (s == RB_OK) {
+        rb_bem_flexibility_place(ends, f);
         s = fill(n_c, ends, body, f->x, F);
+    }
     if (s == RB_OK)
         return s;
     rb_bem_flexibility_free(f);

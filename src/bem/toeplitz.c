@@ -386,10 +386,7 @@ static toeplitz *start(int n_c, const double *ends, int alike, rb_bem_flexibilit
     f->matrix = toeplitz_matrix;
     f->add_mirrored = toeplitz_add;
     f->free_data = toeplitz_free;
-    for (int i = 0; i < f->m; i++) {
-        f->x[i] = 0.5 * (ends[i] + ends[i + 1]);
-        f->h[i] = ends[i + 1] - ends[i];
-    }
+    rb_bem_flexibility_place(ends, f);
     return o;
 }
 

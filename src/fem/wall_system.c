@@ -22,22 +22,17 @@ void wall_system_free(wall_system *s)
 /* a with one more row and column, which hold only their diagonal entry; takes over a. */
 static rb_status append(rb_sparse *a, double diagonal)
 {
-    const int n = a->cols, nz = a->p[n];
-    int *p = realloc(a->p, ((size_t)n + 2) * sizeof *p);
-    if (p)
-        a->p = p;
-    int *i = realloc(a->i, ((size_t)nz + 1) * sizeof *i);
-    if (i)
-        a->i = i;
-    double *x = realloc(a->x, ((size_t)nz + 1) * sizeof *x);
-    if (x)
-        a->x = x;
-    if (!p || !i || !x)
-        return RB_ENOMEM;
-    a->rows = a->cols = n + 1;
-    p[n + 1] = nz + 1;
-    i[nz] = n;
-    x[nz] = diagonal;
+    const int n = a->cols;
+    rb_triplets t = {.rows = n + 1, .cols = n + 1};
+    rb_sparse larger;
+    rb_triplets_add_matrix(&t, 1.0, a);
+    rb_triplets_add(&t, n, n, diagonal);
+    const rb_status s = rb_sparse_from_triplets(&t, &larger);
+    rb_triplets_free(&t);
+    if (s != RB_OK)
+        return s;
+    rb_sparse_free(a);
+    *a = larger;
     return RB_OK;
 }
 

@@ -103,19 +103,11 @@ void rb_friction_anderson_forget(rb_friction_anderson *a)
     a->used = a->next = a->known = 0;
 }
 
-static double distance(size_t n, const double *x, const double *y)
-{
-    double sum = 0.0;
-    for (size_t k = 0; k < n; k++)
-        sum += (x[k] - y[k]) * (x[k] - y[k]);
-    return sqrt(sum);
-}
-
 void rb_friction_anderson_step(rb_friction_anderson *a, const double *start, double *r,
                                double *u)
 {
     const size_t m = (size_t)a->m, bytes = m * sizeof(double);
-    const double size = distance(m, r, start);
+    const double size = rb_friction_distance(m, r, start);
     if (a->used && size > WORST_GROWTH * a->size) {
         memcpy(r, a->r, bytes);
         memcpy(u, a->u, bytes);

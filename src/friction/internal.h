@@ -32,6 +32,8 @@ double rb_friction_size(const rb_friction_problem *problem, const double *rho,
                         const double *r, double *work);
 double rb_friction_dot(size_t n, const double *x, const double *y);
 double rb_friction_norm(size_t n, const double *x);
+/* ||x - y|| */
+double rb_friction_distance(size_t n, const double *x, const double *y);
 
 /* ---- Units (rho.c) ----------------------------------------------------------------- */
 

@@ -17,7 +17,18 @@ typedef struct {
     int k, limit, extragradient, begun;
 } projector;
 
-static void uhat_at(const projector *s, const double *r, double *uhat);
+static void uhat_at(const projector *s, const double *r, double *uhat)
+{
+    const rb_friction_problem *p = s->task->shared->local;
+    const int d = p->dimension;
+    rb_friction_blocks_apply(s->blocks, r, uhat);
+    for (int c = 0; c < p->contacts; c++) {
+        for (int a = 0; a < d; a++)
+            uhat[c * d + a] += p->q[c * d + a];
+        uhat[c * d] += p->mu[c] * rb_friction_tangential(d, uhat + c * d);
+    }
+    s->task->info->flops += 2.0 * s->blocks->p[p->contacts] * d * d + 8.0 * s->task->m;
+}
 
 static rb_status start_projections(rb_friction_task *task, int variant, void *state)
 {
@@ -43,19 +54,6 @@ static void finish_projections(void *state)
     free(((projector *)state)->uhat);
 }
 
-static void uhat_at(const projector *s, const double *r, double *uhat)
-{
-    const rb_friction_problem *p = s->task->shared->local;
-    const int d = p->dimension;
-    rb_friction_blocks_apply(s->blocks, r, uhat);
-    for (int c = 0; c < p->contacts; c++) {
-        for (int a = 0; a < d; a++)
-            uhat[c * d + a] += p->q[c * d + a];
-        uhat[c * d] += p->mu[c] * rb_friction_tangential(d, uhat + c * d);
-    }
-    s->task->info->flops += 2.0 * s->blocks->p[p->contacts] * d * d + 8.0 * s->task->m;
-}
-
 /* p = P_K(r - rho uhat) */
 static void project_all(const projector *s, const double *uhat, double *p)
 {
@@ -65,14 +63,6 @@ static void project_all(const projector *s, const double *uhat, double *p)
     for (int c = 0; c < t->contacts; c++)
         rb_friction_project(t->d, t->problem->mu[c], p + c * t->d, p + c * t->d);
     t->info->flops += 12.0 * t->m;
-}
-
-static double distance(int n, const double *x, const double *y)
-{
-    double sum = 0.0;
-    for (int k = 0; k < n; k++)
-        sum += (x[k] - y[k]) * (x[k] - y[k]);
-    return sqrt(sum);
 }
 
 /* One step from r, uhat; ||r_{k+1} - r_k|| / ||r_{k+1}||.  rho shrinks until the step
@@ -85,15 +75,17 @@ static double advance(projector *s)
     for (;;) {
         project_all(s, s->uhat, s->p);
         uhat_at(s, s->p, s->up);
-        step = distance(t->m, s->p, t->r);
-        ratio = step > 0.0 ? s->rho * distance(t->m, s->up, s->uhat) / step : 0.0;
+        step = rb_friction_distance((size_t)t->m, s->p, t->r);
+        ratio = step > 0.0
+                    ? s->rho * rb_friction_distance((size_t)t->m, s->up, s->uhat) / step
+                    : 0.0;
         if (!(ratio > RB_FRICTION_UPK_MOST) || s->rho < DBL_MIN)
             break;
         s->rho *= RB_FRICTION_UPK_SHRINK;
     }
     if (s->extragradient) {
         project_all(s, s->up, s->p);
-        step = distance(t->m, s->p, t->r);
+        step = rb_friction_distance((size_t)t->m, s->p, t->r);
         uhat_at(s, s->p, s->up);
     }
     memcpy(t->r, s->p, (size_t)t->m * sizeof(double));

@@ -15,10 +15,6 @@ static const double REFRESH = 1e-3;
 /* Beyond this relative defect a tableau is not refined but rebuilt. */
 static const double DRIFT = 1e-12;
 
-/* A zero that comes out of a refinement as less than this part of the largest constant is
- * still zero. */
-static const double ZERO = 1e-10;
-
 /* ---- The residual ------------------------------------------------------------------ */
 
 enum { PANEL = 512 }; /* rows of w formed at a time: no memory is asked for */

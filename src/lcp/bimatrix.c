@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Parts of the largest entry below which ratios tie, and entries are no pivots. */
-static const double TIE = 1e-11, NOISE = 1e-11;
+static const double SAME = 1e-11, SMALL = 1e-11;
 
 /* s = 1 - P v >= 0, v >= 0: the best replies of one player, P the other player's payoffs
  * made positive.  A column per label: a label belongs to a strategy, that is to one v
@@ -56,7 +56,7 @@ static int blocking_row(const tableau *t, int entering, int *tied)
     for (int r = 0; r < t->rows; r++)
         most = fmax(most, fabs(row_of(t, r)[entering]));
     for (int r = 0; r < t->rows; r++)
-        if (row_of(t, r)[entering] > NOISE * most)
+        if (row_of(t, r)[entering] > SMALL * most)
             tied[count++] = r;
     for (int k = -1; k < t->rows && count > 1; k++) {
         const int column = k < 0 ? t->width - 1 : t->first + k;
@@ -71,7 +71,7 @@ static int blocking_row(const tableau *t, int entering, int *tied)
         for (int i = 0; i < count; i++) {
             const double *row = row_of(t, tied[i]);
             if (row[column] / row[entering] - least <=
-                TIE * fmax(fabs(least), TIE * size))
+                SAME * fmax(fabs(least), SAME * size))
                 tied[kept++] = tied[i];
         }
         count = kept;
@@ -197,7 +197,7 @@ static rb_status follow_path(lemke_howson *l, int dropped)
     int entering = dropped, leaving = -1;
     const double start = rb_seconds();
     while (leaving != dropped) {
-        const rb_status s = rb_lcp_check_limits(l->info, l->opt, start);
+        const rb_status s = rb_lcp_check_limits(l->info, l->opt, l->labels, start);
         if (s != RB_OK)
             return s;
         const int row = blocking_row(t, entering, l->tied);
@@ -269,14 +269,12 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options 
                           double *z, rb_lcp_info *info)
 {
     rb_lcp_info unread;
-    rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
+    const rb_lcp_options o = opt ? *opt : rb_lcp_defaults();
     lemke_howson l = {.opt = &o, .info = info ? info : &unread};
     *l.info = (rb_lcp_info){.res = NAN, .ray_variable = -1};
     rb_status s = check_input(g, label, &l.info->msg);
     if (s != RB_OK)
         return s;
-    if (!o.max_iters)
-        o.max_iters = 50 * (g->m + g->n) + 1000;
     double *regret = rb_alloc((size_t)g->m + (size_t)g->n, 1), payoff[2];
     s = create(g, &l);
     if (s != RB_OK || !regret) {

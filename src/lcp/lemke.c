@@ -7,13 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Parts of the largest entry of a column: entries below DROP are zeros, below NOISE they
- * are no pivots, below DOUBT they are pivots only in a tableau that has just been
- * rebuilt.  Rows tie that the least ratio brings below TIE of the largest constant,
- * unless their own ratio is more than NEAR away, relative to the step or to max |q| / max
- * |a|. */
-static const double DROP = 1e-13, NOISE = 1e-12, DOUBT = 1e-10, TIE = 1e-12, NEAR = 1e-10;
-
 /* A solution whose residual is above this part of max |q| is spoilt by rounding. */
 static const double SPOILT = 1e-6;
 
@@ -236,11 +229,13 @@ rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0)
                    info->iters, entering < n ? 'w' : 'z', entering % n + 1, z0);
 }
 
-rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, double start)
+rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n,
+                              double start)
 {
-    if (info->iters >= opt->max_iters)
+    const int most = opt->max_iters ? opt->max_iters : 50 * n + 1000;
+    if (info->iters >= most)
         return rb_fail(&info->msg, RB_MAXITER,
-                       "lcp: no solution after max_iters = %d pivots", opt->max_iters);
+                       "lcp: no solution after max_iters = %d pivots", most);
     if (opt->seconds > 0.0 && rb_seconds() - start > opt->seconds)
         return rb_fail(&info->msg, RB_INTERRUPTED,
                        "lcp: no solution after %d pivots in %g s", info->iters,
@@ -272,7 +267,7 @@ static rb_status follow_path(lemke *l)
 
     for (;;) {
         const int entering = rb_lcp_complement(l->n, leaving);
-        rb_status s = rb_lcp_check_limits(l->info, &l->opt, l->began);
+        rb_status s = rb_lcp_check_limits(l->info, &l->opt, l->n, l->began);
         if (s == RB_OK)
             s = find_row(l, entering, &row);
         if (s == RB_OK && row < 0)
@@ -337,8 +332,6 @@ rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, doubl
     rb_status s = rb_lcp_check_dense(p, &l.opt, &l.info->msg);
     if (s != RB_OK)
         return s;
-    if (!l.opt.max_iters)
-        l.opt.max_iters = 50 * p->n + 1000;
     s = allocate(&l);
     if (s == RB_OK) {
         l.largest = largest_entry(p);

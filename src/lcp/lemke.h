@@ -7,6 +7,17 @@
 
 #include <math.h>
 
+/* Parts of the largest entry of a column: entries below DROP are zeros, below NOISE they
+ * are no pivots, below DOUBT they are pivots only in a tableau or with an LU that has
+ * just been made.  Rows tie that the least ratio brings below TIE of the largest
+ * constant, unless their own ratio is more than NEAR away, relative to the step or to
+ * max |q| / max |a|. */
+static const double DROP = 1e-13, NOISE = 1e-12, DOUBT = 1e-10, TIE = 1e-12, NEAR = 1e-10;
+
+/* A constant that was zero, or at its bound, and comes out of a refinement or of a new LU
+ * as less than this part of the largest constant is there still. */
+static const double ZERO = 1e-10;
+
 typedef struct {
     int n;
     lcp_data data;
@@ -36,9 +47,10 @@ static inline double lemke_z0(const lemke *l)
 
 /* RB_RAY with its message. */
 rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0);
-/* RB_OK: the path may go on.  RB_MAXITER, RB_INTERRUPTED with their messages; start: on
- * rb_seconds(). */
-rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, double start);
+/* RB_OK: the path of a problem of order n may go on.  RB_MAXITER, RB_INTERRUPTED with
+ * their messages; start: on rb_seconds(). */
+rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n,
+                              double start);
 /* RB_INACCURATE where info->res is not below 1e-6 of size, the largest constant. */
 rb_status rb_lcp_judge(rb_lcp_info *info, double size);
 

@@ -9,14 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* As in lemke.c: parts of the largest entry of a column below which an entry is zero, no
- * pivot, a pivot only with a new LU; constants that tie. */
-static const double DROP = 1e-13, NOISE = 1e-12, DOUBT = 1e-10, TIE = 1e-12, NEAR = 1e-10;
-
-/* A constant at its bound before a new LU and this near to it afterwards is still there.
- */
-static const double ZERO = 1e-10;
-
 /* A variable out of its range by this part of the largest of its kind is at its bound. */
 static const double ROUNDING = 1e-13;
 
@@ -435,7 +427,7 @@ static rb_status follow_path(mixed *p)
     while (s == RB_OK && slot != NONE) {
         const int entering = rb_lcp_complement(n, leaving);
         const double sign = p->at_upper[entering % n] ? -1.0 : 1.0;
-        s = rb_lcp_check_limits(p->info, &p->opt, p->began);
+        s = rb_lcp_check_limits(p->info, &p->opt, n, p->began);
         if (s == RB_OK && rb_lcp_basis_is_long(&p->b))
             s = refresh(p);
         if (s == RB_OK)
@@ -575,8 +567,6 @@ static rb_status create(const split *f, const rb_sparse *M, mixed *p)
     p->g = p->y + n;
     p->tied = p->at_upper + n;
     p->settled = p->tied + n;
-    if (!p->opt.max_iters)
-        p->opt.max_iters = 50 * f->n + 1000;
     return RB_OK;
 }
 
