@@ -493,31 +493,54 @@ static const conflict conflicts[] = {
 
 enum { CONFLICTS = sizeof conflicts / sizeof conflicts[0] };
 
-/* "factor=level", "factor!level" holds for the row. */
-static int holds(const char *value, const int *row)
+/* The levels of a factor that a value of a conflict names, as a set of bits. */
+typedef struct {
+    int factor; /* -1: of no value */
+    uint64_t levels;
+} condition;
+
+static condition parsed[CONFLICTS][3];
+
+/* "factor=level", "factor!level". */
+static condition parse(const char *value)
 {
     const size_t n = strcspn(value, "=!");
     const char *wanted = value + n + 1;
-    const size_t length = strlen(wanted);
+    const size_t length = strlen(wanted), start = length - (wanted[length - 1] == '*');
     for (int f = 0; f < FACTORS; f++) {
         if (strlen(factors[f].name) != n || strncmp(factors[f].name, value, n) != 0)
             continue;
-        if (row[f] == COVERING_OPEN)
-            return 0;
-        const char *name = name_of(row, f);
-        const int same = wanted[length - 1] == '*'
-                             ? strncmp(name, wanted, length - 1) == 0
-                             : strcmp(name, wanted) == 0;
-        return value[n] == '=' ? same : !same;
+        condition c = {f, 0};
+        for (int v = 0; v < level_n[f]; v++) {
+            const char *name = levels[f][v].name;
+            const int same = start < length ? strncmp(name, wanted, start) == 0
+                                            : strcmp(name, wanted) == 0;
+            if (same == (value[n] == '='))
+                c.levels |= UINT64_C(1) << v;
+        }
+        return c;
     }
     print_error("no factor in %s\n", value);
     exit(1);
 }
 
-static int conflict_holds(const conflict *c, const int *row)
+static void parse_conflicts(void)
 {
-    for (int k = 0; k < 3 && c->value[k]; k++)
-        if (!holds(c->value[k], row))
+    for (int k = 0; k < CONFLICTS; k++)
+        for (int j = 0; j < 3; j++)
+            parsed[k][j] = conflicts[k].value[j] ? parse(conflicts[k].value[j])
+                                                 : (condition){.factor = -1};
+}
+
+static int holds(const condition *c, const int *row)
+{
+    return row[c->factor] != COVERING_OPEN && c->levels >> row[c->factor] & 1;
+}
+
+static int conflict_holds(const condition c[3], const int *row)
+{
+    for (int k = 0; k < 3 && c[k].factor >= 0; k++)
+        if (!holds(&c[k], row))
             return 0;
     return 1;
 }
@@ -527,7 +550,7 @@ static int excused = -1; /* the conflict that is wanted */
 static int forbidden(const int *row)
 {
     for (int k = 0; k < CONFLICTS; k++)
-        if (k != excused && conflict_holds(&conflicts[k], row))
+        if (k != excused && conflict_holds(parsed[k], row))
             return 1;
     return 0;
 }
@@ -1041,14 +1064,12 @@ static int row_with(covering *c, int k, int *row)
     int seed[COVERING_FACTORS];
     for (int f = 0; f < COVERING_FACTORS; f++)
         seed[f] = COVERING_OPEN;
-    for (int j = 0; j < 3 && conflicts[k].value[j]; j++)
-        for (int f = 0; f < FACTORS; f++)
-            for (int v = 0; v < level_n[f] && !holds(conflicts[k].value[j], seed); v++) {
-                const int before = seed[f];
-                seed[f] = v;
-                if (!holds(conflicts[k].value[j], seed))
-                    seed[f] = before;
-            }
+    for (int j = 0; j < 3 && parsed[k][j].factor >= 0; j++) {
+        const condition *wanted = &parsed[k][j];
+        for (int v = 0; v < level_n[wanted->factor] && !holds(wanted, seed); v++)
+            if (wanted->levels >> v & 1)
+                seed[wanted->factor] = v;
+    }
     return covering_row(c, seed, row);
 }
 
@@ -1137,6 +1158,7 @@ static int enter(void **state)
     snprintf(checker, sizeof checker, "%.*s/tests/checker", (int)(slash - program),
              program);
     set_levels();
+    parse_conflicts();
     return entered;
 }
 

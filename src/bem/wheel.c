@@ -70,10 +70,12 @@ static compliance across(int m, double nu, double inner, double outer, complianc
             S[i][1] = E[i + 2][0] * K.uv + E[i + 2][1] * K.vv + E[i + 2][3];
         }
         const cplx det = S[0][0] * S[1][1] - S[0][1] * S[1][0];
-        K = (compliance){(D[0][0] * S[1][1] - D[0][1] * S[1][0]) / det,
-                         (D[0][1] * S[0][0] - D[0][0] * S[0][1]) / det,
-                         (D[1][0] * S[1][1] - D[1][1] * S[1][0]) / det,
-                         (D[1][1] * S[0][0] - D[1][0] * S[0][1]) / det};
+        /* without the care of C11's quotients, which numbers of this size do not need */
+        const cplx per_det = conj(det) / (gsl_pow_2(creal(det)) + gsl_pow_2(cimag(det)));
+        K = (compliance){(D[0][0] * S[1][1] - D[0][1] * S[1][0]) * per_det,
+                         (D[0][1] * S[0][0] - D[0][0] * S[0][1]) * per_det,
+                         (D[1][0] * S[1][1] - D[1][1] * S[1][0]) * per_det,
+                         (D[1][1] * S[0][0] - D[1][0] * S[0][1]) * per_det};
     }
     return K;
 }
@@ -85,18 +87,34 @@ static compliance of_disc(int m, double kappa)
     return (compliance){outer + inner, outer - inner, outer - inner, outer + inner};
 }
 
-/* The wheel whose material is `softer` than the glassy one, over the glassy 2 G. */
-static compliance of_wheel(const rb_bem_wheel *w, int m, cplx softer)
+/* What the inner contour rests on, over its own 2 G: an elastic core, or nothing that
+ * yields. */
+static compliance of_core(const rb_bem_wheel *w, int m)
 {
-    compliance K = {0.0, 0.0, 0.0, 0.0};
+    const compliance rigid = {0.0, 0.0, 0.0, 0.0};
+
+    return w->hub > 0.0 ? across(m, w->core.poisson, w->hub, w->inner, rigid) : rigid;
+}
+
+/* What memory, which makes the material `softer` than the glassy one, adds to the wheel,
+ * over the glassy 2 G.  On a rigid core all of it is softer by that. */
+static compliance added_by_memory(const rb_bem_wheel *w, int m, cplx softer)
+{
+    const double nu = w->material.poisson;
+    const compliance core = of_core(w, m);
+    compliance own = {0.0, 0.0, 0.0, 0.0}, slow = own;
 
     if (w->hub > 0.0) {
-        const cplx ratio = w->material.shear / (softer * w->core.shear);
-        K = across(m, w->core.poisson, w->hub, w->inner, K);
-        K = (compliance){ratio * K.uu, ratio * K.uv, ratio * K.vu, ratio * K.vv};
+        const double over = w->material.shear / w->core.shear;
+        const cplx r = over / softer;
+        own =
+            (compliance){over * core.uu, over * core.uv, over * core.vu, over * core.vv};
+        slow = (compliance){r * core.uu, r * core.uv, r * core.vu, r * core.vv};
     }
-    K = across(m, w->material.poisson, w->inner, w->radius, K);
-    return (compliance){softer * K.uu, softer * K.uv, softer * K.vu, softer * K.vv};
+    own = across(m, nu, w->inner, w->radius, own);
+    slow = w->hub > 0.0 ? across(m, nu, w->inner, w->radius, slow) : own;
+    return (compliance){softer * slow.uu - own.uu, softer * slow.uv - own.uv,
+                        softer * slow.vu - own.vu, softer * slow.vv - own.vv};
 }
 
 /* 1 + sum f_k/(1 - i m L_k/R). */
@@ -233,29 +251,40 @@ static void add_disc(const rb_bem_wheel *w, int term, table *t)
     }
 }
 
-/* Adds what memory makes of the inner contour's part, and of the waves 0 and 1. */
-static void add_inner(const rb_bem_wheel *w, table *t)
+/* Adds what memory makes of the inner contour's part, and of the waves 0 and 1: a
+ * polynomial in exp(ix), by Horner's scheme. */
+static rb_status add_inner(const rb_bem_wheel *w, table *t)
 {
     const double kappa = 3.0 - 4.0 * w->material.poisson;
     const int last = 2 + (int)ceil(REACH / log(w->radius / w->inner));
+    cplx(*factor)[3] = calloc((size_t)last + 1, sizeof *factor);
 
+    if (!factor)
+        return RB_ENOMEM;
     for (int m = 0; m <= last; m++) {
         const cplx softer = creep(w, m);
-        const compliance slow = of_wheel(w, m, softer), own = of_wheel(w, m, 1.0),
+        const compliance added = added_by_memory(w, m, softer),
                          disc =
                              m < 2 ? (compliance){0.0, 0.0, 0.0, 0.0} : of_disc(m, kappa);
         const double twice = m > 0 ? 2.0 : 1.0;
-        const cplx N = twice * (slow.uu - own.uu - (softer - 1.0) * disc.uu),
-                   T = twice * (slow.vv - own.vv - (softer - 1.0) * disc.vv),
-                   C = twice * (slow.uv - own.uv - (softer - 1.0) * disc.uv);
-        for (int i = 0; i < t->count; i++) {
-            const double x = t->x[t->first + i];
-            const cplx wave = cexp(I * (m * x));
-            t->N[i] += creal(N * wave);
-            t->T[i] += creal(T * wave);
-            t->C[i] += cimag(C * wave);
-        }
+        factor[m][0] = twice * (added.uu - (softer - 1.0) * disc.uu);
+        factor[m][1] = twice * (added.vv - (softer - 1.0) * disc.vv);
+        factor[m][2] = twice * (added.uv - (softer - 1.0) * disc.uv);
     }
+    for (int i = 0; i < t->count; i++) {
+        const cplx z = cexp(I * t->x[t->first + i]);
+        cplx N = 0.0, T = 0.0, C = 0.0;
+        for (int m = last; m >= 0; m--) {
+            N = N * z + factor[m][0];
+            T = T * z + factor[m][1];
+            C = C * z + factor[m][2];
+        }
+        t->N[i] += creal(N);
+        t->T[i] += creal(T);
+        t->C[i] += cimag(C);
+    }
+    free(factor);
+    return RB_OK;
 }
 
 static rb_status make_table(const rb_bem_wheel *w, double reach, table *t)
@@ -265,7 +294,7 @@ static rb_status make_table(const rb_bem_wheel *w, double reach, table *t)
     for (int k = 0; k < w->terms && s == RB_OK; k++)
         add_disc(w, k, t);
     if (s == RB_OK)
-        add_inner(w, t);
+        s = add_inner(w, t);
     for (int k = 0; k < 3 && s == RB_OK; k++) {
         t->spline[k] = gsl_spline_alloc(gsl_interp_cspline, (size_t)t->count);
         if (!t->spline[k])

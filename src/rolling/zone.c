@@ -254,11 +254,14 @@ static interval grown_at_ends(const rb_rolling_model *model, interval zone)
     return zone;
 }
 
-/* The same, and over all places where the bodies overlap outside it. */
+/* The same, and over all places where the bodies overlap outside it; the state of a
+ * solution says that they do so nowhere. */
 static rb_status grown(const rb_rolling_model *model, interval zone, interval *wider)
 {
-    rb_rolling_overlap overlap;
-    const rb_status s = rb_rolling_find_overlap(model, &model->state, &overlap);
+    rb_rolling_overlap overlap = {0};
+    const rb_status s = model->state.status == RB_OK
+                            ? RB_OK
+                            : rb_rolling_find_overlap(model, &model->state, &overlap);
 
     *wider = grown_at_ends(model, zone);
     for (int k = 0; k < overlap.count; k++) {
