@@ -7,6 +7,8 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdio.h>
+#include <string.h>
 #include <sys/ptrace.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
@@ -77,13 +79,22 @@ static void set_result(registers *r, long value)
 }
 #endif
 
-static int is_of_kind(const registers *r, fault_kind kind)
+/* Where a build with --coverage keeps its counters. */
+static int is_profile(pid_t pid, long fd)
+{
+    char link[60], path[600];
+    snprintf(link, sizeof link, "/proc/%d/fd/%ld", (int)pid, fd);
+    const ssize_t n = readlink(link, path, sizeof path);
+    return n > 5 && memcmp(path + n - 5, ".gcda", 5) == 0;
+}
+
+static int is_of_kind(pid_t pid, const registers *r, fault_kind kind)
 {
     switch (kind) {
     case FAULT_WRITE: /* not the lines for people */
         return (call_of(r) == SYS_write || call_of(r) == SYS_pwrite64 ||
                 call_of(r) == SYS_writev) &&
-               first_argument(r) != STDERR_FILENO;
+               first_argument(r) != STDERR_FILENO && !is_profile(pid, first_argument(r));
     case FAULT_RENAME:
 #ifdef SYS_rename
         if (call_of(r) == SYS_rename)
@@ -92,7 +103,7 @@ static int is_of_kind(const registers *r, fault_kind kind)
         return call_of(r) == SYS_renameat || call_of(r) == SYS_renameat2 ||
                call_of(r) == SYS_linkat;
     case FAULT_CLOSE:
-        return call_of(r) == SYS_close;
+        return call_of(r) == SYS_close && !is_profile(pid, first_argument(r));
     }
     return 0;
 }
@@ -119,7 +130,7 @@ static int follow(pid_t pid, fault_kind kind, int k, int *count)
         if (!get_registers(pid, &r))
             continue;
         if (entry) {
-            failing = is_of_kind(&r, kind) && ++*count == k;
+            failing = is_of_kind(pid, &r, kind) && ++*count == k;
             if (failing && kind != FAULT_CLOSE) /* a failing close closes all the same */
                 skip_call(pid, &r);
         } else if (failing) {
