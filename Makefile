@@ -220,7 +220,7 @@ $(B)/tests/test_core: tests/test_core.c tests/check.h $(B)/librollbem-core.a
 # the program under failing system calls, and under failing allocations
 $(B)/tests/test_symbols $(B)/tests/test_hardening: | $(B)/librollbem.so
 $(B)/tests/test_faults: $(B)/tests/fault_call.o $(B)/tests/fault_malloc.so
-$(B)/tests/fault_malloc.so: tests/fault_malloc.c
+$(B)/tests/fault_malloc.so: tests/fault_malloc.c tests/fault_malloc.h tests/fault_calls.h
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) -O1 -Wall -Wextra -fPIC -shared -o $@ $< -ldl

@@ -3,6 +3,8 @@
 #ifndef ROLLBEM_TESTS_CHECK_H
 #define ROLLBEM_TESTS_CHECK_H
 
+#include "rollbem/base.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -84,6 +86,11 @@ static inline void tally_check(const tally *t, const char *of)
 void alloc_fail_after(int count);
 void alloc_succeed(void);
 int alloc_failed(void);
+
+/* Does the work again and again; in each run the first allocation fails that is reached
+ * through a call which none has failed behind before, until there is none.  The work
+ * returns RB_ENOMEM, or RB_OK where it does without.  How many runs had a failure. */
+int alloc_fail_every_call(rb_status (*work)(void *context), void *context);
 
 /* Path of `name` below the folder ROLLBEM_DATA; skips the test when it is not set.
  * Static storage. */

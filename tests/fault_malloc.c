@@ -4,20 +4,18 @@
  * out and err, and FAULT_CALLS names the file that keeps the calls that have seen a
  * failure. */
 #define _GNU_SOURCE
+#include "fault_calls.h"
 #include "fault_malloc.h"
 
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <link.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <unwind.h>
 
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t n, size_t size);
@@ -33,69 +31,6 @@ typedef struct {
 static int counts;
 static tally *run;
 static fault_request request;
-
-/* ---- Calls ------------------------------------------------------------------------- */
-
-enum { CALLS = 1 << 16, STACKS = 1 << 14 };
-
-static uintptr_t *calls; /* kept in a file: return addresses below the program's base */
-static uintptr_t base, code_start, code_end;
-
-/* 1: the set has that key now and had not before.  A full set takes no more. */
-static int insert(uintptr_t *set, size_t size, uintptr_t key)
-{
-    size_t i = (size_t)((uint64_t)key * 0x9e3779b97f4a7c15u >> 32) % size;
-    for (size_t k = 0; k < size; k++, i = (i + 1) % size) {
-        if (set[i] == key)
-            return 0;
-        if (set[i] == 0) {
-            set[i] = key;
-            return 1;
-        }
-    }
-    return 0;
-}
-
-static _Unwind_Reason_Code note_call(struct _Unwind_Context *context, void *found)
-{
-    const uintptr_t at = _Unwind_GetIP(context);
-    if (at >= code_start && at < code_end && insert(calls, CALLS, at - base))
-        *(int *)found = 1;
-    return _URC_NO_REASON;
-}
-
-/* OpenBLAS' kernels for small matrices ask for memory and use it without a look. */
-static int is_unchecked(const void *caller)
-{
-    Dl_info info;
-    return dladdr(caller, &info) && info.dli_sname &&
-           strstr(info.dli_sname, "small_kernel");
-}
-
-/* Walking the stack is slow: one that has been walked in this process, told by its
- * lowest return address and its depth, has nothing new. */
-static int has_new_call(const void *caller, const void *frame)
-{
-    static uintptr_t stacks[STACKS];
-    int found = 0;
-    if (insert(stacks, STACKS, (uintptr_t)caller * 31 + (uintptr_t)frame) &&
-        !is_unchecked(caller))
-        _Unwind_Backtrace(note_call, &found);
-    return found;
-}
-
-static int find_program(struct dl_phdr_info *info, size_t size, void *unused)
-{
-    (void)size;
-    (void)unused;
-    base = info->dlpi_addr;
-    for (int i = 0; i < info->dlpi_phnum; i++)
-        if (info->dlpi_phdr[i].p_type == PT_LOAD && info->dlpi_phdr[i].p_flags & PF_X) {
-            code_start = base + info->dlpi_phdr[i].p_vaddr;
-            code_end = code_start + info->dlpi_phdr[i].p_memsz;
-        }
-    return 1; /* the program comes first */
-}
 
 /* ---- Allocations ------------------------------------------------------------------- */
 
@@ -154,6 +89,8 @@ int posix_memalign(void **p, size_t alignment, size_t size)
     return *p ? 0 : ENOMEM;
 }
 
+void alloc_succeed(void);
+
 /* ---- From the start of main to its end --------------------------------------------- */
 
 typedef int program_main(int argc, char **argv, char **environment);
@@ -181,6 +118,12 @@ static void redirect(int to, const char *file)
     close(fd);
 }
 
+/* Called by the program where it keeps its counters (tests/coverage.c). */
+void alloc_succeed(void)
+{
+    counts = 0;
+}
+
 static int counted_main(int argc, char **argv, char **environment)
 {
     counts = 1;
@@ -194,7 +137,7 @@ static int serve(int argc, char **argv, char **environment)
     fault_reply reply;
     calls = map_shared(CALLS * sizeof *calls, getenv("FAULT_CALLS"));
     run = map_shared(sizeof *run, NULL);
-    dl_iterate_phdr(find_program, NULL);
+    find_program();
     unsetenv("FAULT_CALLS");
     unsetenv("LD_PRELOAD");
     while (read(FAULT_REQUESTS, &request, sizeof request) == sizeof request) {

@@ -331,6 +331,83 @@ static void results_of_every_table_are_there(void **state)
     rb_api_free(a);
 }
 
+/* What the models, the curve, the history and a problem alone are asked by name. */
+static void every_name_has_its_value(void **state)
+{
+    static const char *const rolls[] = {"support",
+                                        "halfplane",
+                                        "load",
+                                        "500",
+                                        "creep-ratio",
+                                        "0.5",
+                                        "formulation",
+                                        "transient",
+                                        "distance",
+                                        "0.5",
+                                        "contact-elements",
+                                        "12",
+                                        "lcp-form",
+                                        "kwak",
+                                        "solver",
+                                        "lemke",
+                                        NULL};
+    static const double M = 2.0, q = -4.0, W = 1.0, v = -1.0, mu = 0.3;
+    rb_api *a = solved(rolls);
+    const double R = 50.0, E = 94500.0 / (1.0 - 0.1 * 0.1), P = 500.0;
+    const double width = sqrt(4.0 * P * R / (3.14159265358979323846 * E));
+    (void)state;
+    CHECK_REL(rb_api_number(a, "radius"), R, 1e-14, "radius");
+    CHECK_REL(rb_api_number(a, "modulus"), E, 1e-12, "modulus");
+    CHECK_REL(rb_api_number(a, "hertz_load"), P, 1e-12, "load");
+    CHECK_REL(rb_api_number(a, "history.half_width"), width, 1e-9, "unit of distances");
+    assert_true(isnan(rb_api_number(a, "curve.half_width")));
+    assert_string_equal(rb_api_word(a, "lcp-form"), "kwak");
+    assert_string_equal(rb_api_word(a, "solver"), "lemke");
+    assert_null(rb_api_word(a, "colour"));
+    assert_null(rb_api_array(a, "mesh.x0", &(int){0}, &(int){0})); /* a half-plane */
+    assert_true(rb_api_stress_at(a, 0, &M) < 0);
+    assert_non_null(strstr(rb_api_message(a), "at least one point, got 0"));
+    assert_int_equal(rb_api_curve(a, 0.0, 1.0, 3), RB_OK);
+    CHECK_REL(rb_api_number(a, "curve.half_width"), width, 1e-9, "of the curve");
+
+    assert_int_equal(rb_api_lcp(a, 1, &M, &q, "lemke", 0), RB_OK);
+    assert_string_equal(rb_api_word(a, "task.solver"), "lemke");
+    CHECK_ABS(rb_api_number(a, "task.iterations"), 2.0, 0.0, "z0, then z");
+    CHECK_ABS(rb_api_number(a, "task.residual"), 0.0, 1e-15, "2 z = 4");
+    assert_true(rb_api_lcp(a, 0, &M, &q, "lemke", 0) < 0);
+    assert_int_equal(rb_api_friction(a, 1, 1, &W, &v, &mu, "auto", 1e-10, 0), RB_EINVAL);
+    assert_true(rb_api_read(a, "nothing.ini") < 0);
+    assert_non_null(strstr(rb_api_message(a), "nothing.ini"));
+    rb_api_free(a);
+}
+
+static void zones_of_a_yielding_interface_are_no_guess(void **state)
+{
+    static const char *const words[] = {"support",
+                                        "halfplane",
+                                        "load",
+                                        "500",
+                                        "formulation",
+                                        "steady",
+                                        "creep-ratio",
+                                        "0.5",
+                                        "yield-stress",
+                                        "10",
+                                        "contact-elements",
+                                        "12",
+                                        "zone",
+                                        "2",
+                                        NULL};
+    rb_api *a = solved(words);
+    const int zone[12] = {0};
+    (void)state;
+    assert_true(rb_api_guess(a, 12, zone) < 0);
+    assert_non_null(strstr(rb_api_message(a), "--yield-stress"));
+    assert_int_equal(rb_api_set(a, "mu", "0.1"), RB_OK);
+    assert_true(rb_api_guess(a, 12, zone) < 0); /* not solved since */
+    rb_api_free(a);
+}
+
 static void stress_is_known_at_points(void **state)
 {
     rb_api *a = solved(steady);
@@ -406,6 +483,126 @@ static void a_sweep_is_its_cases(void **state)
     rb_api_free(study);
 }
 
+/* ---- Short memory ------------------------------------------------------------------ */
+
+static rb_status have_arrays(rb_api *a, const char *const *name)
+{
+    for (int r, c; *name; name++)
+        if (!rb_api_array(a, *name, &r, &c))
+            return RB_ENOMEM;
+    return RB_OK;
+}
+
+static rb_status step_through(rb_api *a)
+{
+    static const char *const arrays[] = {
+        "p",     "H",       "mesh.x0",     "mesh.y0",     "mesh.x1", "mesh.y1", "F",
+        "lcp.M", "lcp.q",   "pivot.value", "newton.p",    "guess.p", "guess.q", "gap0",
+        "ends",  "pivot.p", "pivot.z0",    "newton.zone", NULL};
+    int zone[12], s = rb_api_pivots(a);
+    for (int i = 0; i < 12; i++)
+        zone[i] = RB_ZONE_STICK;
+    if (s == RB_OK)
+        s = rb_api_newton(a);
+    if (s == RB_OK)
+        s = rb_api_guess(a, 12, zone);
+    return s == RB_OK ? have_arrays(a, arrays) : (rb_status)s;
+}
+
+static rb_status look_around(rb_api *a)
+{
+    static const char *const arrays[] = {"patch.normal_load", "friction_power",
+                                         "curve.creepage", "curve.error.force_ratio",
+                                         NULL};
+    const int s = rb_api_curve_over(a, "creep", 0.0, 1e-3, 3);
+    return s == RB_OK ? have_arrays(a, arrays) : (rb_status)s;
+}
+
+static rb_status look_below(rb_api *a)
+{
+    static const char *const arrays[] = {
+        "step.p",           "step.x",     "history.normal_load",
+        "maxima.max_shear", "stress.syy", NULL};
+    const double xy[] = {0.0, 0.1};
+    int s = rb_api_stress(a, 3, 3, 0.0);
+    if (s == RB_OK)
+        s = rb_api_stress_maxima(a, 0.0);
+    if (s == RB_OK)
+        s = rb_api_stress_at(a, 1, xy);
+    return s == RB_OK ? have_arrays(a, arrays) : (rb_status)s;
+}
+
+static rb_status solve_problems(rb_api *a)
+{
+    static const double M[] = {2, 1, 1, 2}, q[] = {-5, -6};
+    static const double W[] = {2, 0, 0, 0, 1, 0, 0, 0, 1}, v[] = {-1, 0.1, 0.4}, mu = 0.3;
+    static const char *const of_lcp[] = {"lcp.z", "lcp.w", NULL},
+                             *const of_friction[] = {"friction.r", "friction.u", NULL},
+                             *const of_sweep[] = {"sweep.status", "sweep.force_ratio",
+                                                  NULL};
+    rb_api *const cases[] = {a};
+    int s = rb_api_lcp(a, 2, M, q, "lemke", 0);
+    if (s == RB_OK)
+        s = rb_api_lcp(a, 2, M, q, "newton", 0);
+    if (s == RB_OK)
+        s = have_arrays(a, of_lcp);
+    if (s == RB_OK)
+        s = rb_api_friction(a, 3, 1, W, v, &mu, "auto", 1e-10, 0);
+    if (s == RB_OK)
+        s = have_arrays(a, of_friction);
+    if (s == RB_OK)
+        s = rb_api_sweep(a, 1, cases, 1);
+    return s == RB_OK ? have_arrays(a, of_sweep) : (rb_status)s;
+}
+
+typedef struct {
+    const char *const *words;
+    rb_status (*then)(rb_api *a);
+} handle_job;
+
+static rb_status by_handle(void *context)
+{
+    const handle_job *j = context;
+    rb_api *a = rb_api_create();
+    int s = a ? RB_OK : RB_ENOMEM;
+    for (const char *const *w = j->words; s == RB_OK && *w; w += 2)
+        s = rb_api_set(a, w[0], w[1]);
+    if (s == RB_OK)
+        s = rb_api_solve(a);
+    if (s == RB_OK)
+        s = j->then(a);
+    if (a && s == RB_ENOMEM && rb_api_status(a) == RB_ENOMEM)
+        assert_non_null(strstr(rb_api_message(a), "memory"));
+    rb_api_free(a);
+    return (rb_status)s;
+}
+
+static void short_memory_is_reported(void **state)
+{
+    static const char *const bars[] = {
+        "formulation", "steady",      "support", "halfplane", "load",
+        "500",         "creep-ratio", "0.5",     "mesh",      "uniform",
+        "error",       "yes",         "zone",    "2",         "contact-elements",
+        "12",          NULL};
+    static const char *const rolls[] = {
+        "support",     "halfplane", "load",     "500", "creep-ratio",      "0.5",
+        "formulation", "transient", "distance", "0.2", "contact-elements", "8",
+        "zone",        "2",         NULL};
+    static const char *const small[] = {
+        "support", "halfplane", "load", "500", "contact-elements",
+        "8",       "zone",      "2",    NULL};
+    const handle_job jobs[] = {{wheel, step_through},
+                               {bars, look_around},
+                               {rolls, look_below},
+                               {small, solve_problems}};
+    (void)state;
+    for (size_t k = 0; k < sizeof jobs / sizeof *jobs; k++) {
+        const int n = alloc_fail_every_call(by_handle, (void *)&jobs[k]);
+        print_message("# job %d: %d failures of memory\n", (int)k, n);
+        assert_true(n > 5);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -420,9 +617,12 @@ int main(void)
         cmocka_unit_test(steps_are_kept),
         cmocka_unit_test(steps_have_error_bars),
         cmocka_unit_test(results_of_every_table_are_there),
+        cmocka_unit_test(every_name_has_its_value),
+        cmocka_unit_test(zones_of_a_yielding_interface_are_no_guess),
         cmocka_unit_test(stress_is_known_at_points),
         cmocka_unit_test(problems_by_themselves_are_solved),
         cmocka_unit_test(a_sweep_is_its_cases),
+        cmocka_unit_test(short_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

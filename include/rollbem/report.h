@@ -97,7 +97,8 @@ struct json_t *rb_report_json_inputs(const rb_case *c);
 /* A hash of these values and of the contents of the files that they name: whether two
  * results are of the same inputs.  RB_ENOENT, RB_EFORMAT of a file; RB_ENOMEM. */
 rb_status rb_report_input_hash(const rb_case *c, uint64_t *hash, rb_message *why);
-/* As 16 hexadecimal digits; null where a file cannot be read any more. */
+/* As 16 hexadecimal digits; null where a file cannot be read any more; NULL: no memory.
+ */
 struct json_t *rb_report_json_input_hash(const rb_case *c);
 /* The columns of rb_report_table; and with the power of friction in rolling. */
 struct json_t *rb_report_json_table_columns(const rb_rolling_solution *s);

@@ -241,6 +241,7 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
     if (s == RB_OK)
         s = add_column(a, "step.q", n, model->state.q);
     free(row);
+    a->status = s;
     return s != RB_OK;
 }
 
@@ -251,9 +252,11 @@ int rb_api_solve(rb_api *a)
     a->result.model = a->kept;
     memset(&a->kept, 0, sizeof a->kept);
     rb_api_call_begins();
-    const rb_status s =
+    rb_status s =
         rb_case_solve_again(rb_case_settled(a->words), keep_step, a, &a->result, &a->why);
     rb_api_call_ends();
+    if (s == RB_INTERRUPTED && a->status == RB_ENOMEM) /* a step could not be kept */
+        s = rb_fail(&a->why, RB_ENOMEM, "out of memory");
     return rb_api_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
 }
 

@@ -20,7 +20,7 @@ rb_case *cli_case_create(rb_case_purpose purpose)
 /* A misspelt command looks like a case file that is not there. */
 static cli_exit read_case_file(const cli_spec *spec, const char *path, rb_case *c)
 {
-    rb_message why;
+    rb_message why = {""};
     rb_guess guess = {.word = path};
     double number;
     int plain;

@@ -166,7 +166,7 @@ static cli_exit run_problem(comparison *c, const char *path, const rb_friction_p
 static cli_exit run_file(comparison *c, const char *path)
 {
     rb_friction_problem p;
-    rb_message why;
+    rb_message why = {""};
     const rb_status s = rb_friction_read(path, &p, &why);
     if (s != RB_OK)
         return cli_say(s, &why);

@@ -238,7 +238,7 @@ int cli_contact(int argc, char **argv)
     if (code == CLI_CONTINUE) {
         contact_runs all = {.o = &o, .path = args.operand[0]};
         rb_io_contact_case *cases = NULL;
-        rb_message why;
+        rb_message why = {""};
         code = cli_say(rb_io_contact_read(all.path, &all.n, &cases, &why), &why);
         if (code == CLI_CONTINUE)
             code = run_all(&all, cases);

@@ -74,7 +74,7 @@ static cli_exit read_end(cli_case_run *run, int place, double *end)
     int *given = &run->set.given[place];
     const rb_option_set set = {&number, 1, end, given, &run->set.plain[place]};
     char what[300];
-    rb_message why;
+    rb_message why = {""};
     *end = default_end[place - FROM];
     if (!text)
         return CLI_CONTINUE;
@@ -124,7 +124,7 @@ static rb_status solve_curves(const rb_settled_case *c, const range_options *ran
                         &reason);
         curves->n += s >= 0;
         if (s != RB_OK && mus->n > 1)
-            rb_fail(why, s, "mu = %g: %.280s", rc.mu, reason.text);
+            rb_fail(why, s, "mu = %g: %.280s", rc.mu, rb_status_reason(s, &reason));
         else if (s != RB_OK)
             *why = reason;
     }

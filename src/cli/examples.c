@@ -30,7 +30,7 @@ rb_option_set cli_example_set(void)
 
 cli_exit cli_example_read(rb_case *c, const cli_args *args)
 {
-    rb_message why;
+    rb_message why = {""};
     rb_guess guess = {.word = chosen};
     char title[80];
     if (!chosen)

@@ -334,7 +334,7 @@ static void unite_rolling(const rb_friction_problem *p, friction_result *r)
 static cli_exit solve_friction(friction_run *run, friction_result *r)
 {
     rb_friction_problem p;
-    rb_message why;
+    rb_message why = {""};
     rb_status s = rb_friction_read_as(r->file, (rb_friction_file)run->o->kind, &p, &why);
     if (s != RB_OK)
         return unreadable(r, s, &why);
@@ -371,7 +371,7 @@ static void restore_slopes(const rb_friction_soclcp_data *d, double *x, double *
 static cli_exit solve_cones(friction_run *run, friction_result *r)
 {
     rb_friction_soclcp_data d;
-    rb_message why;
+    rb_message why = {""};
     rb_status s = rb_friction_soclcp_read(r->file, &d, &why);
     if (s != RB_OK)
         return unreadable(r, s, &why);
@@ -401,7 +401,7 @@ static cli_exit solve_file(void *context, const char *path)
         .file = path,
         .info = {.solver = run->o->solver, .residual = NAN, .scaled = NAN, .floor = NAN}};
     rb_friction_file kind = (rb_friction_file)run->o->kind;
-    rb_message why;
+    rb_message why = {""};
     rb_status s = RB_OK;
     if (kind == RB_FRICTION_FILE_ANY)
         s = rb_friction_file_kind(path, &kind, &why);

@@ -325,7 +325,7 @@ static rb_status run_methods(lcp_run *run, rb_io_matrix *M, lcp_result *r)
 /* The numbers are of a file: RB_EINVAL is its fault. */
 static cli_exit invalid(lcp_result *r, rb_status s, const rb_message *msg)
 {
-    rb_message why;
+    rb_message why = {""};
     rb_fail(&why, s, "%s: %s", r->file, msg->text);
     return failed(r, s == RB_EINVAL ? RB_EFORMAT : s, why.text);
 }
@@ -439,7 +439,7 @@ static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
 static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
 {
     rb_io_lcp p;
-    rb_message why;
+    rb_message why = {""};
     rb_status s = rb_io_lcp_read(r->file, run->o->q, &p, &why);
     if (s == RB_OK)
         s = read_vectors(run->o, p.n, r, &why);
@@ -493,7 +493,7 @@ static cli_exit run_game(lcp_run *run, const rb_io_bimatrix *g, lcp_result *r)
 static cli_exit solve_game(lcp_run *run, lcp_result *r)
 {
     rb_io_bimatrix g;
-    rb_message why;
+    rb_message why = {""};
     rb_status s = rb_io_bimatrix_read(r->file, &g, &why);
     if (s == RB_OK && run->o->label > g.m + g.n)
         s = rb_fail(&why, RB_EINVAL,

@@ -122,7 +122,7 @@ static cli_exit check_clash(const cli_spec *spec, const cli_args *args,
 static cli_exit check_path(const rb_option *o, const char *path)
 {
     rb_report_picture_kind kind;
-    rb_message why;
+    rb_message why = {""};
     if (o->file == RB_FILE_PICTURE &&
         rb_report_picture_kind_of(path, &kind, &why) != RB_OK)
         return cli_fail(CLI_USAGE, "--%s: %s", o->name, why.text);
@@ -222,7 +222,7 @@ cli_exit cli_draw_file(const cli_pictures *pictures, const char *option, const c
                        cli_draw *draw, const void *context)
 {
     drawing d = {.option = option, .draw = draw, .context = context};
-    rb_message why;
+    rb_message why = {""};
     if (!path)
         return CLI_OK;
     d.canvas.size = (rb_report_picture_size)pictures->size;

@@ -100,7 +100,7 @@ static cli_exit parse_option(const cli_spec *spec, int *i, int argc, char **argv
         return cli_fail(CLI_USAGE, "%s: expected %s, got nothing", what,
                         rb_option_expected(o, expected, sizeof expected));
     }
-    rb_message why;
+    rb_message why = {""};
     if (rb_option_assign(set, k, RB_GIVEN_ARGUMENT, what, value, &why) == RB_OK)
         return CLI_CONTINUE;
     return cli_fail(CLI_USAGE, "%s", why.text);

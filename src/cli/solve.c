@@ -243,7 +243,7 @@ static cli_exit check_states(const cli_case_run *run)
 /* Only Lemke's method has pivots to trace. */
 static cli_exit choose_pivots(rb_case *c)
 {
-    rb_message why;
+    rb_message why = {""};
     if (rb_case_settled(c)->rc.solver != RB_SOLVER_AUTO)
         return CLI_CONTINUE;
     rb_status s = rb_case_set(c, "solver", "lemke", RB_GIVEN_ARGUMENT, &why);

@@ -95,7 +95,7 @@ static cli_exit read_grid(stress *st)
 
 static cli_exit read_points(stress *st, rb_units units)
 {
-    rb_message why;
+    rb_message why = {""};
     const rb_status s = rb_io_table_read_columns(st->points, 2, &st->place, &why);
     const int n = st->place.rows;
     if (s != RB_OK)
@@ -116,7 +116,7 @@ static cli_exit check(cli_case_run *run)
 {
     stress *st = run->own;
     rb_report_vtk_kind kind;
-    rb_message why;
+    rb_message why = {""};
     const rb_report_stress asked = {.nx = st->points ? 0 : 1, .rc = &run->c->rc};
     const rb_status s = rb_rolling_stress_check(&run->c->rc, &why);
     if (s != RB_OK)

@@ -108,7 +108,7 @@ static rb_status check_picture(const rb_report_study *picture, const void *conte
 
 static cli_exit check_kind(const study *st, const char *option, int map)
 {
-    rb_message why;
+    rb_message why = {""};
     const rb_status s = with_picture(st, check_picture, &map, &why);
     return s == RB_OK ? CLI_CONTINUE : cli_say_of(option, s, &why);
 }

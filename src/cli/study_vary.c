@@ -173,7 +173,7 @@ static cli_exit add_varied(study *st, int k)
 static cli_exit add_table(study *st)
 {
     const char *path = st->o->cases;
-    rb_message why;
+    rb_message why = {""};
     const rb_status s = rb_io_table_read(path, &st->table, &why);
     cli_exit code = CLI_CONTINUE;
 
@@ -215,7 +215,7 @@ double cli_study_value(const study *st, const study_column *c, int number)
 
 cli_exit cli_study_set_values(const study *st, rb_case *c, int number)
 {
-    rb_message why;
+    rb_message why = {""};
     for (int k = 0; k < st->columns; k++)
         if (rb_case_set_number(c, st->column[k].name,
                                cli_study_value(st, &st->column[k], number),
@@ -227,7 +227,7 @@ cli_exit cli_study_set_values(const study *st, rb_case *c, int number)
 /* Sets st->one to that case. */
 cli_exit cli_study_make_one(study *st, int number)
 {
-    rb_message why;
+    rb_message why = {""};
     const cli_exit code = cli_study_set_values(st, st->one, number);
     return code == CLI_CONTINUE ? cli_say(rb_case_settle(st->one, &why), &why) : code;
 }

@@ -187,7 +187,7 @@ static void choose_error_bars(study *st)
 /* Stress below a layer is not known; what else is wrong is known with the first case. */
 static cli_exit check_stress(const study *st)
 {
-    rb_message why;
+    rb_message why = {""};
     const rb_status s = rb_rolling_stress_check(&rb_case_settled(st->one)->rc, &why);
     for (int k = 0; k < st->results; k++)
         if (st->result[k].of_stress && s != RB_OK)
@@ -507,7 +507,7 @@ static cli_exit close_output(study *st, cli_exit code);
 /* What cannot be resumed appears at the end, whole. */
 static cli_exit open_whole(study *st)
 {
-    rb_message why;
+    rb_message why = {""};
     const rb_status s = rb_io_writer_open(st->o->output, &st->w, &why);
     if (s != RB_OK)
         return cli_say(s, &why);
@@ -671,7 +671,7 @@ static cli_exit solve(study *st, cli_exit code)
     code = cli_pool_agree(code, code == CLI_CONTINUE ? st->fingerprint : 0);
     if (cli_pool_is_worker()) {
         const rb_rolling_sweep sweep = sweep_of(st);
-        rb_message why;
+        rb_message why = {""};
         if (code == CLI_CONTINUE)
             cli_pool_run(&sweep, &why);
         return CLI_OK; /* rank 0 has the exit code */

@@ -175,7 +175,7 @@ rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p,
                          rb_message *why)
 {
     io_tokens t;
-    rb_message unread;
+    rb_message unread = {""};
     *p = (rb_io_lcp){0};
     rb_io_tokens_open(path, &t, why ? why : &unread);
     if (is_market(&t))

@@ -142,14 +142,18 @@ static rb_status rebuild_case(const char *name, const json_t *inputs, rb_case *w
 }
 
 /* Also of what the answer does not depend on, and of the files that inputs name. */
-static void compare_hash(rb_certificate *c, const json_t *printed, const rb_case *words)
+static rb_status compare_hash(rb_certificate *c, const json_t *printed,
+                              const rb_case *words)
 {
     json_t *now = rb_report_json_input_hash(words);
+    if (!now)
+        return RB_ENOMEM;
     if (!json_equal(now, printed))
         rb_certificate_violated(c,
                                 "inputs, or a file that they name, are not those of the "
                                 "result (input_hash)");
     json_decref(now);
+    return RB_OK;
 }
 
 rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
@@ -171,7 +175,7 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
     if (s == RB_OK)
         s = rebuild_case(name, json_object_get(root, "inputs"), words, why);
     if (s == RB_OK)
-        compare_hash(&c, json_object_get(root, "input_hash"), words);
+        s = compare_hash(&c, json_object_get(root, "input_hash"), words);
     if (s == RB_OK && history)
         s = rb_certificate_follow(&c, history, rb_case_settled(words), n, &again, why);
     else if (s == RB_OK)

@@ -91,8 +91,9 @@ json_t *rb_report_json_input_hash(const rb_case *c)
 {
     char text[17];
     uint64_t hash;
-    if (rb_report_input_hash(c, &hash, NULL) != RB_OK)
-        return json_null();
+    const rb_status s = rb_report_input_hash(c, &hash, NULL);
+    if (s != RB_OK)
+        return s == RB_ENOMEM ? NULL : json_null();
     snprintf(text, sizeof text, "%016" PRIx64, hash);
     return json_string(text);
 }

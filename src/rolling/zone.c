@@ -84,7 +84,7 @@ static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
 
 rb_status rb_rolling_end(const rb_rolling_model *model, rb_status s, rb_message *why)
 {
-    rb_message reason;
+    rb_message reason = {""};
 
     if (s == RB_OK)
         return check_resolved(model, why);
