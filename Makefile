@@ -232,8 +232,8 @@ $(B)/tests/checker: tests/checker.c
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -o $@ $< $(LDFLAGS) -ljansson -lm
 
 # fuzz targets: replayed by a test, and given to libFuzzer by make fuzz; they call commands too,
-# and files that are only read are kept in memory
-FUZZ_WRAP = -Wl,--wrap=fopen
+# files that are only read are kept in memory, and HDF5 may work in the same process
+FUZZ_WRAP = -Wl,--wrap=fopen,--wrap=rb_io_in_child
 FUZZ_OBJ = $(patsubst %.c,$(B)/%.o,$(filter-out fuzz/libfuzzer.c,$(wildcard fuzz/*.c))) $(filter-out %/cli/main.o,$(CLI_OBJ))
 $(B)/tests/test_fuzz $(B)/tests/test_message: $(B)/tests/%: tests/%.c tests/check.h $(FUZZ_OBJ) $(B)/librollbem.a
 	@mkdir -p $(@D)
