@@ -30,7 +30,7 @@ rb_case *rb_case_create(rb_case_purpose purpose)
     if (!c)
         return NULL;
     c->purpose = purpose;
-    c->words = default_words(purpose);
+    c->words = c->defaults = default_words(purpose);
     rb_case_settle(c, NULL);
     return c;
 }
@@ -38,6 +38,7 @@ rb_case *rb_case_create(rb_case_purpose purpose)
 void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose)
 {
     c->purpose = purpose;
+    c->defaults = default_words(purpose);
 }
 
 void rb_case_use_cone_solvers(rb_case *c, const rb_contact_cone_solvers *solvers)
@@ -51,38 +52,19 @@ rb_case *rb_case_copy(const rb_case *c)
     if (!copy)
         return NULL;
     *copy = *c;
-    copy->gap.borrowed = copy->irregularity.borrowed = copy->history.borrowed = 1;
-    copy->worn.borrowed = copy->friction.borrowed = 1;
+    for (int k = 0; k < CASE_TABLES; k++)
+        copy->table[k].borrowed = 1;
     copy->profile.borrowed = 1;
     copy->text = NULL;
     copy->texts = 0;
     return copy;
 }
 
-static void free_table(case_table *t)
-{
-    if (!t->borrowed)
-        rb_io_table_free(&t->table);
-    *t = (case_table){.path = NULL};
-}
-
-static void free_profile(case_profile *p)
-{
-    if (!p->borrowed)
-        rb_rolling_profile_free(p->curve);
-    *p = (case_profile){.curve = NULL};
-}
-
 void rb_case_free(rb_case *c)
 {
     if (!c)
         return;
-    free_profile(&c->profile);
-    free_table(&c->gap);
-    free_table(&c->irregularity);
-    free_table(&c->worn);
-    free_table(&c->friction);
-    free_table(&c->history);
+    rb_case_free_files(c);
     for (int i = 0; i < c->texts; i++)
         free(c->text[i]);
     free(c->text);
@@ -245,9 +227,8 @@ static rb_status refuse(const rb_case *c, const rb_option *o, const char *reason
                    rb_option_source(o, by, c->path, room, sizeof room), reason);
 }
 
-/* RB_OK where the option was not given. */
-static rb_status refuse_given(const rb_case *c, const char *name, const char *reason,
-                              rb_message *why)
+rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *reason,
+                               rb_message *why)
 {
     const rb_option *o = rb_case_option(name);
     return o && rb_case_given(c, name) ? refuse(c, o, reason, why) : RB_OK;
@@ -282,15 +263,14 @@ rb_status rb_case_blame(const rb_case *c, rb_status s, rb_message *why)
 {
     if (s != RB_EINVAL || !why)
         return s;
-    rb_status blamed = blame_row(&c->history, "history", why);
-    if (blamed == RB_OK)
-        blamed = blame_row(&c->gap, "gap", why);
-    if (blamed == RB_OK)
-        blamed = blame_row(&c->irregularity, "irregularity", why);
-    if (blamed == RB_OK)
-        blamed = blame_row(&c->worn, "worn", why);
-    if (blamed == RB_OK)
-        blamed = blame_row(&c->friction, "friction table", why);
+    static const char *const names[CASE_TABLES] = {[CASE_HISTORY] = "history",
+                                                   [CASE_GAP] = "gap",
+                                                   [CASE_IRREGULARITY] = "irregularity",
+                                                   [CASE_WORN] = "worn",
+                                                   [CASE_FRICTION] = "friction table"};
+    rb_status blamed = RB_OK;
+    for (int k = 0; k < CASE_TABLES && blamed == RB_OK; k++)
+        blamed = blame_row(&c->table[k], names[k], why);
     if (blamed != RB_OK || !all_from_file(c))
         return blamed != RB_OK ? blamed : s;
     const rb_message said = *why;
@@ -362,14 +342,14 @@ static rb_status check_parameter(const rb_case *c, int is_b,
                                : rb_rolling_body_is(body, kind))
         return RB_OK;
     if (parameter->reason)
-        return refuse_given(c, name, parameter->reason, why);
+        return rb_case_refuse_given(c, name, parameter->reason, why);
     for (const rb_choice *support = rb_rolling_supports; support->name; support++)
         if (support->value == (int)rb_rolling_kind_support(kind))
             word = support->name;
     snprintf(reason, sizeof reason, "of the support %s only", word);
     return rb_case_given(c, name) > 0 && support_by == RB_GIVEN_ARGUMENT
                ? RB_OK
-               : refuse_given(c, name, reason, why);
+               : rb_case_refuse_given(c, name, reason, why);
 }
 
 static rb_status check_parameters(const rb_case *c, int is_b, rb_message *why)
@@ -386,7 +366,9 @@ static rb_status check_parameters(const rb_case *c, int is_b, rb_message *why)
 static rb_status settle_bodies(rb_case *c, rb_message *why)
 {
     rb_settled_case *s = &c->settled;
-    rb_status status = settle_memory(&s->memory_a, "", &s->rc.a.memory, why);
+    rb_status status = settle_body_b(c, why);
+    if (status == RB_OK)
+        status = settle_memory(&s->memory_a, "", &s->rc.a.memory, why);
     if (status == RB_OK)
         status = settle_memory(&s->memory_b, "-b", &s->rc.b.memory, why);
     for (int body = 0; body < 2 && status == RB_OK; body++)
@@ -411,14 +393,15 @@ static rb_status settle_heat(rb_case *c, rb_message *why)
     if (a->conductivity > 0.0)
         return RB_OK;
     for (size_t k = 0; k < sizeof of_heat / sizeof *of_heat && status == RB_OK; k++)
-        status =
-            refuse_given(c, of_heat[k], "for temperatures only, see --conductivity", why);
+        status = rb_case_refuse_given(c, of_heat[k],
+                                      "for temperatures only, see --conductivity", why);
     if (status == RB_OK && rb_rolling_can(&s->rc, RB_BODY_ELASTIC) && s->law.falls.n == 0)
-        status = refuse_given(c, "speed",
-                              "for bodies that relax, for temperatures and friction that "
-                              "falls only, see --relaxation-time, --conductivity and "
-                              "--mu-fall",
-                              why);
+        status = rb_case_refuse_given(
+            c, "speed",
+            "for bodies that relax, for temperatures and friction that "
+            "falls only, see --relaxation-time, --conductivity and "
+            "--mu-fall",
+            why);
     return status;
 }
 
@@ -433,7 +416,7 @@ static rb_status count_numbers(const rb_case *c, const char *name, const rb_numb
         return RB_OK;
     snprintf(reason, sizeof reason, "expected %d%s numbers, got %d", least,
              most > least ? " or more" : "", list->n);
-    return refuse_given(c, name, reason, why);
+    return rb_case_refuse_given(c, name, reason, why);
 }
 
 static rb_status settle_law(rb_case *c, rb_message *why)
@@ -450,17 +433,18 @@ static rb_status settle_law(rb_case *c, rb_message *why)
             "got %d and %d",
             typed->falls.n, typed->slip_scales.n);
     if (s == RB_OK && falls && typed->falls.n == 0)
-        s = refuse_given(c, "friction-law", "needs --mu-fall and --slip-scale", why);
+        s = rb_case_refuse_given(c, "friction-law", "needs --mu-fall and --slip-scale",
+                                 why);
     for (int k = 0; k < 2 && s == RB_OK && !falls; k++)
-        s = refuse_given(c, k ? "slip-scale" : "mu-fall",
-                         "of friction laws that fall, see --friction-law", why);
+        s = rb_case_refuse_given(c, k ? "slip-scale" : "mu-fall",
+                                 "of friction laws that fall, see --friction-law", why);
     if (s == RB_OK)
         s = count_numbers(c, "memory", &typed->memories, 1, 2, why);
     if (s == RB_OK)
         s = count_numbers(c, "mu-heat", &typed->heats, 3, 3, why);
     if (s == RB_OK && !falls && typed->heats.n == 0)
-        s = refuse_given(c, "memory",
-                         "of friction that changes, see --mu-fall and --mu-heat", why);
+        s = rb_case_refuse_given(
+            c, "memory", "of friction that changes, see --mu-fall and --mu-heat", why);
     for (int k = 0; k < 2 && s == RB_OK; k++) {
         f->fall[k] = k < typed->falls.n ? typed->falls.value[k] : 0.0;
         f->slip_scale[k] = k < typed->slip_scales.n ? typed->slip_scales.value[k] : 0.0;
@@ -477,207 +461,6 @@ static rb_status settle_law(rb_case *c, rb_message *why)
         f->heat_range = typed->heats.value[2];
     }
     return RB_OK;
-}
-
-/* ---- Files that the case names ----------------------------------------------------- */
-
-static int is_read(const case_table *t, const char *path, rb_units units)
-{
-    return t->path && strcmp(t->path, path) == 0 && t->units == units;
-}
-
-/* Of the numbers in the file that an option names. */
-static rb_units units_of_file(const rb_case *c, const char *option)
-{
-    return rb_case_units(c, rb_case_given(c, option));
-}
-
-/* Two columns, of which the first `lengths` are in mm: the second over the first. */
-static rb_status read_over_x(case_table *t, const char *path, rb_units units, int lengths,
-                             rb_rolling_table *over_x, rb_message *why)
-{
-    if (!is_read(t, path, units)) {
-        free_table(t);
-        const rb_status s = rb_io_table_read_columns(path, 2, &t->table, why);
-        if (s != RB_OK)
-            return s;
-        t->path = path;
-        t->units = units;
-        for (int j = 0; j < lengths; j++)
-            rb_io_table_convert(&t->table, j, "mm", units);
-    }
-    *over_x = (rb_rolling_table){t->table.rows, t->table.x, t->table.x + t->table.rows};
-    return RB_OK;
-}
-
-static rb_status read_profile(rb_case *c, rb_message *why)
-{
-    rb_settled_case *settled = &c->settled;
-    const rb_units units = units_of_file(c, "gap");
-    const double noise = settled->gap_smoothing;
-    rb_rolling_table gap;
-    if (settled->rc.gap != RB_GAP_TABLE)
-        return refuse_given(c, "gap-smoothing", "of a gap from a file only", why);
-    if (!is_read(&c->gap, settled->gap_file, units) || c->profile.noise != noise)
-        free_profile(&c->profile);
-    rb_status s = read_over_x(&c->gap, settled->gap_file, units, 2, &gap, why);
-    if (s == RB_OK && !c->profile.curve) {
-        c->profile = (case_profile){.noise = noise};
-        s = rb_rolling_profile_create(gap.n, gap.x, gap.y, noise, &c->profile.curve, why);
-        s = rb_case_blame(c, s, why);
-    }
-    settled->rc.profile = c->profile.curve;
-    return s;
-}
-
-/* What is irregular about the surfaces, and what is worn off them. */
-static rb_status read_surfaces(rb_case *c, rb_message *why)
-{
-    rb_settled_case *settled = &c->settled;
-    rb_status s = RB_OK;
-    if (settled->irregularity_file)
-        s = read_over_x(&c->irregularity, settled->irregularity_file,
-                        units_of_file(c, "irregularity"), 2, &settled->rc.irregularity,
-                        why);
-    if (s == RB_OK && settled->worn_file)
-        s = read_over_x(&c->worn, settled->worn_file, units_of_file(c, "worn"), 2,
-                        &settled->rc.worn, why);
-    return s;
-}
-
-/* The table stands in the place of --mu: on the command line it wins over mu of the case
- * file. */
-static rb_status settle_table_and_mu(rb_case *c, rb_message *why)
-{
-    const rb_settled_case defaults = default_words(c->purpose);
-    const rb_option_set set = rb_case_options(c);
-    const rb_option_precedence how = {&defaults, rb_case_alike(c->words.rc.formulation),
-                                      c->path};
-    const rb_status s = rb_option_settle_against(
-        &set, &how, rb_case_option("mu"), rb_case_given(c, "friction-law"),
-        "the table of --friction-law has the coefficients", why);
-    c->settled.rc.mu = c->words.rc.mu;
-    return s;
-}
-
-static rb_status read_friction(rb_case *c, rb_message *why)
-{
-    rb_settled_case *settled = &c->settled;
-    if (settled->rc.friction.law != RB_FRICTION_table)
-        return RB_OK;
-    if (!settled->friction_file)
-        return refuse_given(c, "friction-law", "expected the file of the table", why);
-    const rb_status s = read_over_x(&c->friction, settled->friction_file,
-                                    units_of_file(c, "friction-law"), 1,
-                                    &settled->rc.friction.table, why);
-    return s == RB_OK ? settle_table_and_mu(c, why) : s;
-}
-
-/* Index of a column in rb_rolling_program_columns; -1: none has that name. */
-static int program_column(const char *name, rb_guess *guess)
-{
-    for (int k = 0; k < RB_ROLLING_PROGRAM_COLUMNS; k++) {
-        if (strcmp(name, rb_rolling_program_columns[k].name) == 0)
-            return k;
-        rb_guess_try(guess, rb_rolling_program_columns[k].name);
-    }
-    return -1;
-}
-
-static rb_status set_program(const rb_io_table *t, const char *path,
-                             rb_rolling_program *program, rb_message *why)
-{
-    *program = (rb_rolling_program){.n = t->rows};
-    for (int j = 0; j < t->columns; j++) {
-        rb_guess guess = {.word = t->name[j]};
-        const int k = program_column(t->name[j], &guess);
-        if (k < 0)
-            return rb_fail(why, RB_EFORMAT, "%s: unknown column '%s'%s", path, t->name[j],
-                           rb_guess_text(&guess, ""));
-        const double *column = t->x + (size_t)j * (size_t)t->rows;
-        memcpy((char *)program + rb_rolling_program_columns[k].column, &column,
-               sizeof column);
-    }
-    return RB_OK;
-}
-
-/* The option whose value a column replaces: creep-ratio by creep_ratio; NULL: none. */
-static const rb_option *replaced_option(const char *column)
-{
-    char name[32];
-    const rb_option *option = NULL;
-    for (size_t n = strlen(column); n > 0 && !option; n--) {
-        if (column[n] != '\0' && column[n] != '_') /* perhaps its unit stands behind */
-            continue;
-        snprintf(name, sizeof name, "%.*s", (int)n, column);
-        for (char *c = name; *c; c++)
-            *c = *c == '_' ? '-' : *c;
-        option = rb_case_option(name);
-    }
-    return option && strcmp(option->name, "distance") != 0 ? option : NULL;
-}
-
-int rb_case_is_replaced(const rb_case *c, const rb_option *option)
-{
-    const rb_io_table *t = &c->history.table;
-    for (int j = 0; j < t->columns && c->settled.program.n > 0; j++)
-        if (replaced_option(t->name[j]) == option)
-            return 1;
-    return 0;
-}
-
-/* A column stands in the place of an option: as between two options the command line wins
- * over the file, and otherwise both at once are refused. */
-static rb_status settle_columns(rb_case *c, rb_message *why)
-{
-    const rb_settled_case defaults = default_words(c->purpose);
-    const rb_option_precedence how = {&defaults, rb_case_alike(c->words.rc.formulation),
-                                      c->path};
-    const rb_option_set set = rb_case_options(c);
-    const rb_io_table *t = &c->history.table;
-    rb_status s = RB_OK;
-    for (int j = 0; j < t->columns && s == RB_OK; j++) {
-        char reason[80];
-        const rb_option *option = replaced_option(t->name[j]);
-        snprintf(reason, sizeof reason, "the history has a column %s", t->name[j]);
-        if (option)
-            s = rb_option_settle_against(&set, &how, option, rb_case_given(c, "history"),
-                                         reason, why);
-    }
-    return s;
-}
-
-/* Columns named like options, in the units of those or in their own: load_kN/m. */
-static rb_status read_program_table(case_table *t, const char *path, rb_units units,
-                                    rb_message *why)
-{
-    if (is_read(t, path, units))
-        return RB_OK;
-    free_table(t);
-    rb_status s = rb_io_table_read(path, &t->table, why);
-    if (s == RB_OK && !t->table.name)
-        s = rb_fail(why, RB_EFORMAT, "%s: expected a line that names the columns", path);
-    t->path = s == RB_OK ? path : NULL;
-    t->units = units;
-    for (int j = 0; j < t->table.columns && s == RB_OK; j++) {
-        const rb_option *option = replaced_option(t->table.name[j]);
-        if (option)
-            rb_io_table_convert(&t->table, j, option->unit, units);
-    }
-    return s;
-}
-
-/* Before the words are used: the table may replace some of them. */
-static rb_status read_history(rb_case *c, rb_message *why)
-{
-    const rb_io_table *t = &c->history.table;
-    const char *path = c->words.history_file;
-    if (!path || c->words.rc.formulation == RB_STEADY) /* check_formulation refuses it */
-        return RB_OK;
-    rb_status s = read_program_table(&c->history, path, units_of_file(c, "history"), why);
-    if (s == RB_OK)
-        s = set_program(t, path, &c->words.program, why);
-    return s == RB_OK ? settle_columns(c, why) : s;
 }
 
 /* ---- What depends on other options ------------------------------------------------- */
@@ -710,37 +493,37 @@ int rb_case_has_steps(const rb_settled_case *settled)
 static rb_status check_formulation(const rb_case *c, rb_message *why)
 {
     const rb_settled_case *settled = &c->settled;
-    const int transient = settled->rc.formulation == RB_TRANSIENT;
-    const int history = settled->history_file != NULL;
+    const rb_rolling_case *rc = &settled->rc;
+    const int transient = rc->formulation == RB_TRANSIENT,
+              steady = rc->formulation == RB_STEADY,
+              history = settled->history_file != NULL;
+    const int relaxes_at_rest = rc->formulation == RB_STATIC && rb_rolling_relaxes(rc);
+    const struct {
+        int has_no_meaning;
+        const char *option, *reason;
+    } rules[] = {
+        {!transient, "distance", "of transient rolling only"},
+        {transient && history, "distance", "the history says how far"},
+        {!transient, "steps", "of transient rolling only"},
+        {!transient, "irregularity",
+         "it rides through the contact; of transient rolling only"},
+        {steady, "history", "steady rolling has no history"},
+        {steady && rc->increments > 1, "increments",
+         "steady rolling forgets how it was pressed"},
+        {!relaxes_at_rest, "time-step", "of static contact of bodies that relax only"},
+        {relaxes_at_rest && history, "speed", "static contact does not roll"},
+        {history, "increments", "the history says them row by row"},
+        {rb_case_has_steps(settled) && rc->mesh != RB_MESH_UNIFORM, "mesh",
+         "step by step the elements are equal"}};
     rb_status s = RB_OK;
-    if (!transient)
-        s = refuse_given(c, "distance", "of transient rolling only", why);
-    else if (history)
-        s = refuse_given(c, "distance", "the history says how far", why);
-    if (s == RB_OK && !transient)
-        s = refuse_given(c, "steps", "of transient rolling only", why);
-    if (s == RB_OK && !transient)
-        s = refuse_given(c, "irregularity",
-                         "it rides through the contact; of transient rolling only", why);
-    if (s == RB_OK && settled->rc.formulation == RB_STEADY)
-        s = refuse_given(c, "history", "steady rolling has no history", why);
-    if (s == RB_OK && settled->rc.formulation == RB_STEADY && settled->rc.increments > 1)
-        s = refuse_given(c, "increments", "steady rolling forgets how it was pressed",
-                         why);
-    const int relaxes = rb_rolling_relaxes(&settled->rc);
-    if (s == RB_OK && !(relaxes && settled->rc.formulation == RB_STATIC))
-        s = refuse_given(c, "time-step", "of static contact of bodies that relax only",
-                         why);
-    if (s == RB_OK && relaxes && settled->rc.formulation == RB_STATIC)
-        s = history ? refuse_given(c, "speed", "static contact does not roll", why)
-                    : rb_fail(why, RB_EINVAL,
-                              "static contact of bodies that relax needs --history, a "
-                              "table with a column time");
-    if (s == RB_OK && history)
-        s = refuse_given(c, "increments", "the history says them row by row", why);
-    if (s == RB_OK && rb_case_has_steps(settled) && settled->rc.mesh != RB_MESH_UNIFORM)
-        s = refuse_given(c, "mesh", "step by step the elements are equal", why);
-    if (s == RB_OK && transient && !history && !(settled->rc.distance > 0.0))
+    for (size_t k = 0; k < sizeof rules / sizeof *rules && s == RB_OK; k++)
+        if (rules[k].has_no_meaning)
+            s = rb_case_refuse_given(c, rules[k].option, rules[k].reason, why);
+    if (s == RB_OK && relaxes_at_rest && !history)
+        s = rb_fail(why, RB_EINVAL,
+                    "static contact of bodies that relax needs --history, a table with a "
+                    "column time");
+    if (s == RB_OK && transient && !history && !(rc->distance > 0.0))
         s = rb_fail(why, RB_EINVAL, "transient rolling needs --distance or --history");
     return s;
 }
@@ -778,33 +561,32 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
     rb_status s = RB_OK;
     for (size_t k = 0; k < sizeof meaningless / sizeof *meaningless && s == RB_OK; k++)
         if (c->purpose == meaningless[k].purpose)
-            s = refuse_given(c, meaningless[k].option, meaningless[k].reason, why);
+            s = rb_case_refuse_given(c, meaningless[k].option, meaningless[k].reason,
+                                     why);
     if (s == RB_OK && curve && formulation != RB_STEADY)
-        s = refuse_given(c, "formulation", "a curve is one of steady rolling", why);
+        s = rb_case_refuse_given(c, "formulation", "a curve is one of steady rolling",
+                                 why);
     if (s == RB_OK && c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT)
-        s = refuse_given(c, "formulation", "a study is one of static or steady cases",
-                         why);
+        s = rb_case_refuse_given(c, "formulation",
+                                 "a study is one of static or steady cases", why);
     if (s == RB_OK && !curve && c->settled.mus.n > 1)
-        s = refuse_given(c, "mu", "expected one number; a curve takes several", why);
+        s = rb_case_refuse_given(c, "mu", "expected one number; a curve takes several",
+                                 why);
     if (s == RB_OK && rb_case_has_steps(&c->settled))
-        s = refuse_given(c, "accuracy", "of static and steady cases without steps only",
-                         why);
+        s = rb_case_refuse_given(c, "accuracy",
+                                 "of static and steady cases without steps only", why);
     return s;
 }
 
 rb_status rb_case_settle(rb_case *c, rb_message *why)
 {
-    const rb_settled_case defaults = default_words(c->purpose);
-    const rb_option_precedence how = {&defaults, rb_case_alike(c->words.rc.formulation),
-                                      c->path};
+    const rb_option_precedence how = rb_case_precedence(c);
     const rb_option_set set = rb_case_options(c);
     rb_status s = rb_option_settle(&set, &how, why);
     if (s == RB_OK)
-        s = read_history(c, why);
+        s = rb_case_read_history(c, why);
     c->settled = c->words;
     rb_case_store(c, &set, &c->settled);
-    if (s == RB_OK)
-        s = settle_body_b(c, why);
     if (s == RB_OK)
         s = settle_bodies(c, why);
     if (s == RB_OK)
@@ -814,11 +596,7 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     if (s == RB_OK)
         s = check_formulation(c, why);
     if (s == RB_OK)
-        s = read_profile(c, why);
-    if (s == RB_OK)
-        s = read_surfaces(c, why);
-    if (s == RB_OK)
-        s = read_friction(c, why);
+        s = rb_case_read_files(c, why);
     if (s == RB_OK)
         s = check_purpose(c, why);
     if (s != RB_OK)

@@ -22,13 +22,16 @@ typedef struct {
     int borrowed;
 } case_profile;
 
+/* The tables that a case may name. */
+enum { CASE_HISTORY, CASE_GAP, CASE_IRREGULARITY, CASE_WORN, CASE_FRICTION, CASE_TABLES };
+
 struct rb_case {
     rb_case_purpose purpose;
-    rb_settled_case words, settled; /* as given; as used */
-    char path[320];                 /* case file, "" without */
-    rb_units file_units;            /* of the plain numbers in that file */
+    rb_settled_case defaults, words, settled; /* of the purpose; as given; as used */
+    char path[320];                           /* case file, "" without */
+    rb_units file_units;                      /* of the plain numbers in that file */
     int given[RB_CASE_OPTIONS_MAX], plain[RB_CASE_OPTIONS_MAX];
-    case_table gap, irregularity, worn, friction, history;
+    case_table table[CASE_TABLES];
     case_profile profile;
     char **text; /* copies of values; owned */
     int texts;
@@ -48,12 +51,29 @@ const char *rb_case_keep(rb_case *c, const char *text);
 const char *rb_option_source(const rb_option *option, int given, const char *path,
                              char *room, size_t size);
 
+/* Refuses an option that was given: RB_EFORMAT where the case file gave it, else
+ * RB_EINVAL.  RB_OK where nobody did. */
+rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *reason,
+                               rb_message *why);
+
+/* ---- files.c: the tables that a case names ----------------------------------------- */
+
+void rb_case_free_files(rb_case *c);
+/* Before the words are used: the columns of a history may replace some of them. */
+rb_status rb_case_read_history(rb_case *c, rb_message *why);
+/* Gap, irregularity, wear and friction of the settled case. */
+rb_status rb_case_read_files(rb_case *c, rb_message *why);
+
+/* ---- settle.c ---------------------------------------------------------------------- */
+
 /* How options that exclude each other are settled. */
 typedef struct {
     const void *defaults; /* a struct like the set's target: what is taken back becomes */
     unsigned alike;       /* bits of `excludes` that count as one */
     const char *path;     /* of the case file, for messages */
 } rb_option_precedence;
+
+rb_option_precedence rb_case_precedence(const rb_case *c);
 
 /* Two given options that share a bit of `excludes` are refused, naming both, unless one
  * is an argument and one comes from the file: then the argument wins and the other

@@ -4,6 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
+rb_option_precedence rb_case_precedence(const rb_case *c)
+{
+    return (rb_option_precedence){&c->defaults, rb_case_alike(c->words.rc.formulation),
+                                  c->path};
+}
+
 const char *rb_option_source(const rb_option *option, int given, const char *path,
                              char *room, size_t size)
 {
