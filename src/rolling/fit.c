@@ -15,11 +15,10 @@ static const double AT_REST = 0.1, NEAR_REST = 3.0;
 /* Patches nearer than this part of the wider one are fitted as one. */
 static const double NARROW = 0.02;
 
-/* Patches to fit elements to, and the lengths of the elements beside their edges. */
+/* Patches to fit elements to. */
 typedef struct {
     int count;
     rb_rolling_span span[MOST_PATCHES];
-    double left[MOST_PATCHES], right[MOST_PATCHES];
 } patches;
 
 static double length_of(const rb_rolling_mesh *mesh, int i)
@@ -53,27 +52,20 @@ static void join(patches *found, int k)
 
     found->span[k - 1].to = fmax(found->span[k - 1].to, found->span[k].to);
     found->span[k - 1].room_right = found->span[k].room_right;
-    found->right[k - 1] = found->right[k];
+    found->span[k - 1].h_right = found->span[k].h_right;
     memmove(found->span + k, found->span + k + 1, behind * sizeof *found->span);
-    memmove(found->left + k, found->left + k + 1, behind * sizeof *found->left);
-    memmove(found->right + k, found->right + k + 1, behind * sizeof *found->right);
 }
 
 /* Into the order of x, together with those that it touches.  0: there is no room. */
-static int add_patch(const rb_rolling_case *rc, const rb_rolling_span *span, double left,
-                     double right, patches *found)
+static int add_patch(const rb_rolling_case *rc, const rb_rolling_span *span,
+                     patches *found)
 {
     if (found->count == MOST_PATCHES)
         return 0;
     int k = found->count++;
-    for (; k > 0 && found->span[k - 1].from > span->from; k--) {
+    for (; k > 0 && found->span[k - 1].from > span->from; k--)
         found->span[k] = found->span[k - 1];
-        found->left[k] = found->left[k - 1];
-        found->right[k] = found->right[k - 1];
-    }
     found->span[k] = *span;
-    found->left[k] = left;
-    found->right[k] = right;
     for (k = found->count - 1; k > 0; k--)
         if (are_one(rc, found, k))
             join(found, k);
@@ -95,9 +87,10 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
             .from = run.from,
             .to = run.to,
             .room_left = room_beyond(mesh, &run, run.first, run.first - 1),
-            .room_right = room_beyond(mesh, &run, run.last, run.last + 1)};
-        complete = complete && add_patch(&model->rc, &span, length_of(mesh, run.first),
-                                         length_of(mesh, run.last), found);
+            .room_right = room_beyond(mesh, &run, run.last, run.last + 1),
+            .h_left = length_of(mesh, run.first),
+            .h_right = length_of(mesh, run.last)};
+        complete = complete && add_patch(&model->rc, &span, found);
     }
     if (model->state.status == RB_ZONE) {
         const rb_status s = rb_rolling_find_overlap(model, &model->state, &overlap);
@@ -106,8 +99,9 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
     }
     for (int k = 0; k < overlap.count; k++) {
         const double room = 0.1 * (overlap.to[k] - overlap.from[k]);
-        const rb_rolling_span span = {overlap.from[k], overlap.to[k], room, room};
-        complete = complete && add_patch(&model->rc, &span, room, room, found);
+        const rb_rolling_span span = {
+            overlap.from[k], overlap.to[k], room, room, room, room};
+        complete = complete && add_patch(&model->rc, &span, found);
     }
     found->count = complete ? found->count : 0;
     return RB_OK;
@@ -169,8 +163,8 @@ static double refine_all(const patches *found, brackets *known, patches *fitted)
         const rb_rolling_span *now = &found->span[k];
         rb_rolling_span *span = &fitted->span[k];
         double left = -span->from;
-        worst = fmax(worst, refine(-now->from, found->left[k], &left, &known[k].left));
-        worst = fmax(worst, refine(now->to, found->right[k], &span->to, &known[k].right));
+        worst = fmax(worst, refine(-now->from, now->h_left, &left, &known[k].left));
+        worst = fmax(worst, refine(now->to, now->h_right, &span->to, &known[k].right));
         span->from = -left;
         span->room_left = now->room_left;
         span->room_right = now->room_right;

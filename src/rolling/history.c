@@ -21,8 +21,10 @@ void rb_rolling_history_free(rb_rolling_history *h)
 /* ---- Steps ------------------------------------------------------------------------- */
 
 typedef struct {
-    const rb_rolling_case *rc;
-    const rb_rolling_program *program;
+    rb_rolling_case base;                /* step by step the elements are equal */
+    rb_rolling_program own;              /* of the case, where none is given */
+    const rb_rolling_case *rc;           /* base */
+    const rb_rolling_program *program;   /* own, or the given one */
     const rb_rolling_observer *observer; /* or NULL */
     const rb_rolling_states *found;      /* to follow without solving; or NULL */
     rb_rolling_model *model;
@@ -626,30 +628,30 @@ static rb_status run_program(run *r, const rb_rolling_case *rc, rb_message *why)
 {
     const rb_rolling_program *program = r->program;
     const rb_rolling_case whole = program ? rb_rolling_program_base(program, rc) : *rc;
-    rb_rolling_case base = whole; /* step by step the elements are equal */
-    rb_rolling_program own;
     double *columns = NULL;
 
-    base.mesh = RB_MESH_UNIFORM;
-    r->rc = &base;
-    r->program = program ? program : &own;
+    r->base = whole;
+    r->base.mesh = RB_MESH_UNIFORM;
+    r->rc = &r->base;
+    r->program = program ? program : &r->own;
     memset(r->model, 0, sizeof *r->model);
     rb_status s = rb_rolling_case_check(&whole, why);
     if (s == RB_OK && !program && rc->formulation == RB_TRANSIENT &&
         !(rc->distance > 0.0))
         s = rb_fail(why, RB_EINVAL, "distance: expected > 0, got %g", rc->distance);
     if (s == RB_OK && !program) {
-        base.half_width = NAN; /* a column of loads replaces it */
-        columns = rb_rolling_program_of_case(rc, &own);
+        r->base.half_width = NAN; /* a column of loads replaces it */
+        columns = rb_rolling_program_of_case(rc, &r->own);
         s = columns ? RB_OK : RB_ENOMEM;
     }
     if (s == RB_OK)
-        s = rb_rolling_program_check(r->program, &base, why);
-    for (double zone = base.zone, wider = 1.0; s == RB_OK && wider > 0.0; zone = wider) {
+        s = rb_rolling_program_check(r->program, r->rc, why);
+    for (double zone = r->base.zone, wider = 1.0; s == RB_OK && wider > 0.0;
+         zone = wider) {
         s = run_on_zone(r, zone, &wider, why);
         if (wider > 0.0) {
-            base.contact_elements =
-                r->model->mesh.n; /* more than asked for, with patches */
+            /* more than asked for, with patches */
+            r->base.contact_elements = r->model->mesh.n;
             rb_rolling_model_free(r->model);
             rb_rolling_history_free(r->history);
             s = RB_OK;

@@ -423,6 +423,7 @@ void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to);
 /* A patch to fit elements to, and how far beyond either edge they have to reach. */
 typedef struct {
     double from, to, room_left, room_right;
+    double h_left, h_right; /* lengths of the elements that told the edges; fit.c */
 } rb_rolling_span;
 
 rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int count,
