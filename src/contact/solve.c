@@ -204,6 +204,13 @@ static int is_solved(rb_status s, const rb_contact_problem *problem,
     return s == RB_OK && state->residual <= fmax(options->tol, problem->rounding);
 }
 
+/* s, but where the residual says that a solution is none. */
+static rb_status proven(rb_status s, const rb_contact_problem *problem,
+                        const rb_contact_options *options, const rb_contact_state *state)
+{
+    return s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
+}
+
 /* What Newton has ended with, as s says, made a state. */
 static rb_status complete_newton(rb_contact_problem *problem, rb_status s,
                                  rb_contact_state *state)
@@ -265,9 +272,7 @@ static rb_status start_by_friction(rb_contact_problem *problem,
 
     for (int k = 0; k < MOST_HALVINGS && s > 0; k++) {
         take_share(of, of->share *= 0.5, problem);
-        s = solve_newton(problem, options, 0, state);
-        if (s == RB_OK && !is_solved(s, problem, options, state))
-            s = RB_INACCURATE;
+        s = proven(solve_newton(problem, options, 0, state), problem, options, state);
     }
     return s;
 }
@@ -371,7 +376,7 @@ static rb_status solve_coulomb(rb_contact_problem *problem,
     if (s >= 0 && !is_solved(s, problem, options, state) &&
         !rb_contact_operator_matrix(problem->op).F && problem->mu > 0.0)
         s = solve_by_friction(problem, options, state);
-    return s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
+    return proven(s, problem, options, state);
 }
 
 /* ---- A layer that yields ----------------------------------------------------------- */
@@ -380,10 +385,9 @@ static rb_status solve_yield_newton(rb_contact_problem *problem,
                                     const rb_contact_options *options, int follows,
                                     rb_contact_state *state)
 {
-    rb_status s = rb_contact_yield_newton(problem, follows, state);
+    const rb_status s = rb_contact_yield_newton(problem, follows, state);
 
-    s = complete_newton(problem, s, state);
-    return s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
+    return proven(complete_newton(problem, s, state), problem, options, state);
 }
 
 /* Where the friction of the surfaces without the layer stays below its yield stress, that
@@ -420,8 +424,7 @@ static rb_status solve_yielding(rb_contact_problem *problem,
                        "%d contact elements are too many for a layer that yields",
                        problem->n);
     if (lemke) {
-        s = solve_lemke(problem, options, state, why);
-        s = s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
+        s = proven(solve_lemke(problem, options, state, why), problem, options, state);
     } else if (warm) {
         s = solve_yield_newton(problem, options, 0, state);
     }
@@ -435,7 +438,7 @@ static rb_status solve_yielding(rb_contact_problem *problem,
         s = solve_from_coulomb(problem, options, 1, state, why);
     if (s > 0 && !lemke && problem->n <= LEMKE_UP_TO)
         s = solve_lemke(problem, options, state, why);
-    return s == RB_OK && !is_solved(s, problem, options, state) ? RB_INACCURATE : s;
+    return proven(s, problem, options, state);
 }
 
 static rb_status solve_given(rb_contact_problem *problem,
@@ -605,9 +608,8 @@ static rb_status solve_cone(rb_contact_problem *problem,
     if (t < 0)
         return t;
     /* the case's residual decides, whatever the cone solver thinks of its own */
-    if (is_solved(RB_OK, problem, options, state))
-        return RB_OK;
-    return s == RB_OK ? RB_INACCURATE : s;
+    const rb_status judged = proven(RB_OK, problem, options, state);
+    return judged == RB_OK || s == RB_OK ? judged : s;
 }
 
 rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options *options,
