@@ -212,6 +212,8 @@ rb_option_set rb_case_options(rb_case *c);
 const rb_option *rb_case_describe(int *n);
 /* The option of that name; NULL: there is none. */
 const rb_option *rb_case_option(const char *name);
+/* The word that option `name` has for one of its choices; NULL: it has none. */
+const char *rb_case_word(const char *name, int value);
 /* The section that it stands in. */
 const char *rb_case_section(const rb_option *option);
 

@@ -381,15 +381,6 @@ const char *rb_api_value(const rb_api *a, const char *name, char *text, int size
     return written(rb_option_text(o, rb_case_settled(a->words), room), text, size);
 }
 
-/* The name of a choice of a case's option, as case files have it. */
-static const char *choice_named(const char *option, int value)
-{
-    for (const rb_choice *c = rb_case_option(option)->choices; c->name; c++)
-        if (c->value == value)
-            return c->name;
-    return NULL;
-}
-
 const char *rb_api_word(const rb_api *a, const char *name)
 {
     const rb_rolling_solution *s = &a->result.solution;
@@ -400,12 +391,12 @@ const char *rb_api_word(const rb_api *a, const char *name)
     if (s->n == 0)
         return NULL;
     if (strcmp(name, "formulation") == 0)
-        return choice_named(name, (int)s->formulation);
+        return rb_case_word(name, (int)s->formulation);
     if (strcmp(name, "lcp-form") == 0)
-        return choice_named(name, (int)s->lcp_form);
+        return rb_case_word(name, (int)s->lcp_form);
     if (strcmp(name, "solver") == 0)
         return s->solver == RB_SOLVER_CONE ? s->cone_solver
-                                           : choice_named(name, (int)s->solver);
+                                           : rb_case_word(name, (int)s->solver);
     return NULL;
 }
 

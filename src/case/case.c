@@ -136,6 +136,14 @@ const rb_option *rb_case_option(const char *name)
     return NULL;
 }
 
+const char *rb_case_word(const char *name, int value)
+{
+    for (const rb_choice *c = rb_case_option(name)->choices; c->name; c++)
+        if (c->value == value)
+            return c->name;
+    return NULL;
+}
+
 const char *rb_case_section(const rb_option *option)
 {
     while (option->kind != RB_OPTION_GROUP)

@@ -4,10 +4,8 @@
 
 #include "rollbem/report.h"
 
-/* Words for what a result names. */
-const char *rb_report_formulation(rb_rolling_formulation formulation);
+/* The solver that gave the answer, as the option `solver` calls it. */
 const char *rb_report_solver(const rb_rolling_solution *s);
-const char *rb_report_lcp_form(rb_contact_lcp_form form);
 
 /* For people: 0 where x is rounding of a sum of terms of that size. */
 double rb_report_tidy(double x, double size);

@@ -1,5 +1,6 @@
 /* Solutions as JSON: schema rollbem/1. */
 #include "report/internal.h"
+#include "rollbem/case.h"
 #include "rollbem/blas.h"
 
 #include <jansson.h>
@@ -72,9 +73,8 @@ json_t *rb_report_json_units(rb_units units)
         const char *quantity, *unit;
     } all[] = {{"length", "mm"}, {"stress", "MPa"}, {"load", "N/mm"},
                {"moment", "N"},  {"speed", "mm/s"}, {"compliance", "mm/MPa"}};
-    static const char *const systems[] = {"mm", "si", "inch"};
     json_t *object = json_object();
-    rb_report_json_set(&object, "system", json_string(systems[units]));
+    rb_report_json_set(&object, "system", json_string(rb_case_word("units", (int)units)));
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         rb_report_json_set(&object, all[k].quantity,
                            json_string(rb_unit_name(units, all[k].unit)));
@@ -118,12 +118,12 @@ json_t *rb_report_json_summary(const rb_rolling_solution *s)
     json_t *summary = json_object(), *times = json_object();
     rb_report_json_set(&summary, "status", json_string(rb_status_text(s->status)));
     rb_report_json_set(&summary, "formulation",
-                       json_string(rb_report_formulation(s->formulation)));
+                       json_string(rb_case_word("formulation", (int)s->formulation)));
     rb_report_json_set(&summary, "solver", json_string(rb_report_solver(s)));
     rb_report_json_set(&summary, "flexibility",
                        json_string(s->large ? "transforms" : "matrix"));
     rb_report_json_set(&summary, "lcp_form",
-                       json_string(rb_report_lcp_form(s->lcp_form)));
+                       json_string(rb_case_word("lcp-form", (int)s->lcp_form)));
     set_results(&summary, &rb_rolling_solution_scalars, s, 0);
     if (s->patches > 1)
         rb_report_json_set(&summary, "patches", patches(s));

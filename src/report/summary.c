@@ -1,5 +1,6 @@
 /* A solution in a few lines for people, and the notes on how to read it. */
 #include "report/internal.h"
+#include "rollbem/case.h"
 #include "rollbem/blas.h"
 
 #include <math.h>
@@ -165,7 +166,7 @@ static void print_machine(FILE *out, const rb_rolling_solution *s)
 void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
 {
     const int newton = s->solver == RB_SOLVER_NEWTON;
-    fprintf(out, "%s: %s by ", rb_report_formulation(s->formulation),
+    fprintf(out, "%s: %s by ", rb_case_word("formulation", (int)s->formulation),
             rb_status_text(s->status));
     if (s->solver == RB_SOLVER_CONE)
         fprintf(out, "%s, %d iterations", rb_report_solver(s), s->iterations);
@@ -173,8 +174,8 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width)
         fprintf(out, "Newton%s, %d steps", s->large ? " with Fourier transforms" : "",
                 s->iterations);
     else
-        fprintf(out, "Lemke (%s form), %d pivots", rb_report_lcp_form(s->lcp_form),
-                s->iterations);
+        fprintf(out, "Lemke (%s form), %d pivots",
+                rb_case_word("lcp-form", (int)s->lcp_form), s->iterations);
     fprintf(out, ", residual %.2g\n", s->residual);
     print_forces(out, s);
     print_motion(out, s);

@@ -1,5 +1,6 @@
 /* The traction table. */
 #include "report/internal.h"
+#include "rollbem/case.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +12,8 @@ rb_status rb_report_table(FILE *out, const rb_rolling_case *rc,
     const rb_report_columns columns = {&rb_rolling_solution_columns, s, 0, s->units};
     rb_report_cells c = rb_report_begin_columns(out, style, command, 1, &columns);
 
-    rb_report_comment(&c, "%s, %s; residual %.3g", rb_report_formulation(s->formulation),
+    rb_report_comment(&c, "%s, %s; residual %.3g",
+                      rb_case_word("formulation", (int)s->formulation),
                       rb_status_text(s->status), s->residual);
     for (int k = 0; k < s->patches && s->patches > 1; k++)
         rb_report_comment(&c,

@@ -1,5 +1,6 @@
-/* The names that all formats share. */
+/* The words that all formats share. */
 #include "report/internal.h"
+#include "rollbem/case.h"
 
 #include <stddef.h>
 
@@ -13,19 +14,8 @@ const char *const rb_report_conventions[] = {
     "zone: 0 separated, 1 stick, 2 slip with q = -mu p, 3 slip with q = +mu p",
     NULL};
 
-const char *rb_report_formulation(rb_rolling_formulation formulation)
-{
-    static const char *const names[] = {"static", "steady", "transient"};
-    return names[formulation];
-}
-
 const char *rb_report_solver(const rb_rolling_solution *s)
 {
-    static const char *const names[] = {"auto", "lemke", "newton"};
-    return s->solver == RB_SOLVER_CONE ? s->cone_solver : names[s->solver];
-}
-
-const char *rb_report_lcp_form(rb_contact_lcp_form form)
-{
-    return form == RB_LCP_KWAK ? "kwak" : "pivoted";
+    return s->solver == RB_SOLVER_CONE ? s->cone_solver
+                                       : rb_case_word("solver", (int)s->solver);
 }
