@@ -211,13 +211,13 @@ void rb_rolling_warmest(int n, const double *x, const int *zone, const double *t
     if (k == 0 || k == n - 1 || zone[k - 1] == RB_ZONE_SEPARATED ||
         zone[k + 1] == RB_ZONE_SEPARATED)
         return;
-    const double dl = x[k - 1] - x[k], dr = x[k + 1] - x[k];
-    const double fl = (t[k - 1] - t[k]) / dl, fr = (t[k + 1] - t[k]) / dr;
-    const double curvature = (fr - fl) / (dr - dl), slope = fl - curvature * dl;
-    if (!(curvature < 0.0))
+    const double d[2] = {x[k - 1] - x[k], x[k + 1] - x[k]};
+    const double f[2] = {t[k - 1] - t[k], t[k + 1] - t[k]};
+    double rise, off;
+    if (!rb_rolling_vertex(d, f, &rise, &off))
         return;
-    *value -= gsl_pow_2(slope) / (4.0 * curvature);
-    *at -= slope / (2.0 * curvature);
+    *value += rise;
+    *at += off;
 }
 
 /* ---- Rolling in time --------------------------------------------------------------- */

@@ -466,6 +466,9 @@ typedef struct {
 /* A patch of so many equal elements has edges that the pressure tells (theory.md 4.7). */
 enum { RB_ROLLING_ALIGNED_LEAST = 9 };
 
+/* The vertex of the parabola through (0, 0) and two neighbours (d, f): how high, and
+ * where.  0: it has no maximum. */
+int rb_rolling_vertex(const double d[2], const double f[2], double *rise, double *at);
 /* The next patch from element `at` on; 0 where there is none. */
 int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                           const rb_contact_state *state, int at, rb_rolling_run *run);

@@ -150,6 +150,19 @@ void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *
 
 /* ---- Results ----------------------------------------------------------------------- */
 
+int rb_rolling_vertex(const double d[2], const double f[2], double *rise, double *at)
+{
+    const double left = f[0] / d[0], right = f[1] / d[1];
+    const double curvature = (right - left) / (d[1] - d[0]);
+    const double slope = left - curvature * d[0];
+
+    if (!(curvature < 0.0))
+        return 0;
+    *rise = -gsl_pow_2(slope) / (4.0 * curvature);
+    *at = -slope / (2.0 * curvature);
+    return 1;
+}
+
 /* Vertex of the parabola of p^2 through the largest element and its neighbours: exact for
  * Hertz's ellipse. */
 static void set_peak(const rb_rolling_mesh *mesh, const double *p,
@@ -163,16 +176,15 @@ static void set_peak(const rb_rolling_mesh *mesh, const double *p,
     patch->peak = midpoint(mesh, k);
     if (k == 0 || k == mesh->n - 1)
         return;
-    const double dl = midpoint(mesh, k - 1) - midpoint(mesh, k);
-    const double dr = midpoint(mesh, k + 1) - midpoint(mesh, k);
-    const double fl = gsl_pow_2(p[k - 1]) - gsl_pow_2(p[k]),
-                 fr = gsl_pow_2(p[k + 1]) - gsl_pow_2(p[k]);
-    const double curvature = (fl / dl - fr / dr) / (dl - dr);
-    const double gradient = fl / dl - curvature * dl;
-    if (!(curvature < 0.0))
+    const double d[2] = {midpoint(mesh, k - 1) - midpoint(mesh, k),
+                         midpoint(mesh, k + 1) - midpoint(mesh, k)};
+    const double f[2] = {gsl_pow_2(p[k - 1]) - gsl_pow_2(p[k]),
+                         gsl_pow_2(p[k + 1]) - gsl_pow_2(p[k])};
+    double rise, at;
+    if (!rb_rolling_vertex(d, f, &rise, &at))
         return;
-    patch->max_pressure = sqrt(gsl_pow_2(p[k]) - gsl_pow_2(gradient) / (4.0 * curvature));
-    patch->peak -= gradient / (2.0 * curvature);
+    patch->max_pressure = sqrt(gsl_pow_2(p[k]) + rise);
+    patch->peak += at;
 }
 
 static rb_rolling_patch patch_of(const rb_rolling_model *model, const rb_rolling_run *run)
