@@ -132,9 +132,7 @@ static void below_sliding(rb_verify *v)
 {
     rb_rolling_case rc = rb_verify_uncoupled();
     rc.a.poisson = 0.3;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    rb_verify_on_same(&rc);
     rc.mu = 0.2;
     rc.formulation = RB_STEADY;
     rc.creep_ratio = -2.0;
@@ -158,9 +156,7 @@ static void shakedown(rb_verify *v)
         rb_message why = {""};
         rb_rolling_case rc = rb_verify_uncoupled();
         rc.a.poisson = 0.3;
-        rc.b = rc.a;
-        rc.b.radius = INFINITY;
-        rc.elastic_b = 1;
+        rb_verify_on_same(&rc);
         rc.mu = mu[k];
         rc.formulation = RB_STEADY;
         rc.creep = -1.0;

@@ -66,6 +66,13 @@ rb_rolling_case rb_verify_uncoupled(void)
     return rc;
 }
 
+void rb_verify_on_same(rb_rolling_case *rc)
+{
+    rc->b = rc->a;
+    rc->b.radius = INFINITY;
+    rc->elastic_b = 1;
+}
+
 /* Aluminium on steel rolling freely, R_A = R_B = 50, a = 0.1. */
 rb_rolling_case rb_verify_aluminium_on_steel(double mu)
 {

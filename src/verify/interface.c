@@ -56,22 +56,28 @@ static void wear(rb_verify *v, int steps)
 }
 
 /* Bodies so stiff that the third body alone gives way. */
-static void brushes(rb_verify *v, int elements, double bound)
+static rb_rolling_case stiff_bodies(int elements)
 {
-    const double s = 0.5;
     rb_rolling_case rc = rb_verify_uncoupled();
-    rb_rolling_solution it;
     rc.a.young = 1e13;
     rc.interlayer_normal = 1e-6;
     rc.interlayer_tangential = 2e-6;
     rc.half_width = NAN; /* P = 2 a^3/(3 R L_N), a = 1 */
     rc.load = 2.0 / (3.0 * rc.a.radius * rc.interlayer_normal);
-    rc.creep =
-        s * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
     rc.formulation = RB_STEADY;
     rc.mesh = RB_MESH_ALIGNED;
     rc.slip_operator = RB_SLIP_SECOND;
     rc.contact_elements = elements;
+    return rc;
+}
+
+static void brushes(rb_verify *v, int elements, double bound)
+{
+    const double s = 0.5;
+    rb_rolling_case rc = stiff_bodies(elements);
+    rb_rolling_solution it;
+    rc.creep =
+        s * rc.mu * rc.interlayer_tangential / (rc.a.radius * rc.interlayer_normal);
     rb_verify_solve(v, &rc, &it);
     rb_verify_absolute(v, it.force_ratio, -(1.0 - (1.0 - s) * (1.0 - s) * (1.0 - s)),
                        bound, "brushes, %d elements: Q/(mu P)", elements);
@@ -87,9 +93,7 @@ static void falling_friction(rb_verify *v)
                              .poisson = 0.28,
                              .radius = 460.0,
                              .support = RB_BEM_HALFPLANE};
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    rb_verify_on_same(&rc);
     rc.load = 3111.08;
     rc.formulation = RB_STEADY;
     rc.creep = 0.0009999;
@@ -112,22 +116,13 @@ static void falling_friction(rb_verify *v)
  * stress, by xi/(L_T + 1/k) to mu p, and is mu p then (theory.md Y2). */
 static void yielding_brushes(rb_verify *v, int elements, double bound)
 {
-    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_case rc = stiff_bodies(elements);
     rb_rolling_solution it;
-    rc.a.young = 1e13;
-    rc.interlayer_normal = 1e-6;
-    rc.interlayer_tangential = 2e-6;
-    rc.half_width = NAN;
-    rc.load = 2.0 / (3.0 * rc.a.radius * rc.interlayer_normal); /* a = 1 */
     const double most = rc.mu / (2.0 * rc.a.radius * rc.interlayer_normal);
     const double elastic = 0.8 * most;
     rc.creep = elastic * rc.interlayer_tangential;
     rc.yield_stress = 0.3 * most;
     rc.hardening = 1.0 / rc.interlayer_tangential;
-    rc.formulation = RB_STEADY;
-    rc.mesh = RB_MESH_ALIGNED;
-    rc.slip_operator = RB_SLIP_SECOND;
-    rc.contact_elements = elements;
     rb_verify_solve(v, &rc, &it);
     /* in units of most, s from the leading edge: 0.8 s up to 3/8, then 0.15 + 0.4 s up
      * to where it meets 2 s - s^2 */
@@ -147,9 +142,7 @@ static void yielding_half_planes(rb_verify *v, double hardening, double want)
     rc.a.support = RB_BEM_HALFPLANE;
     rc.a.young = 209920.0;
     rc.a.poisson = 0.28;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    rb_verify_on_same(&rc);
     rc.a.radius = 500.0;
     rc.gap = RB_GAP_PARABOLA;
     rc.mu = 0.5;

@@ -36,6 +36,9 @@ void rb_verify_solve(rb_verify *v, const rb_rolling_case *rc, rb_rolling_solutio
  * fitted elements; with nu = 1/2 the pair has no coupling, as similar bodies. */
 rb_rolling_case rb_verify_uncoupled(void);
 
+/* Makes B a plane of A's material and support. */
+void rb_verify_on_same(rb_rolling_case *rc);
+
 /* Aluminium on steel rolling freely, R_A = R_B = 50, a = 0.1 (theory.md 6). */
 rb_rolling_case rb_verify_aluminium_on_steel(double mu);
 

@@ -32,9 +32,7 @@ static void cattaneo_to_carter(rb_verify *v)
     rc.a.radius = 500.0;
     rc.a.poisson = 0.28;
     rc.a.young = 2.0 * 82000.0 * 1.28;
-    rc.b = rc.a;
-    rc.b.radius = INFINITY;
-    rc.elastic_b = 1;
+    rb_verify_on_same(&rc);
     rc.half_width = NAN;
     rc.load = 178.896;
     rc.mu = 0.3;
