@@ -468,7 +468,19 @@ enum { RB_ROLLING_ALIGNED_LEAST = 9 };
 
 /* The vertex of the parabola through (0, 0) and two neighbours (d, f): how high, and
  * where.  0: it has no maximum. */
-int rb_rolling_vertex(const double d[2], const double f[2], double *rise, double *at);
+static inline int rb_rolling_vertex(const double d[2], const double f[2], double *rise,
+                                    double *at)
+{
+    const double left = f[0] / d[0], right = f[1] / d[1];
+    const double curvature = (right - left) / (d[1] - d[0]);
+    const double slope = left - curvature * d[0];
+
+    if (!(curvature < 0.0))
+        return 0;
+    *rise = -slope * slope / (4.0 * curvature);
+    *at = -slope / (2.0 * curvature);
+    return 1;
+}
 /* The next patch from element `at` on; 0 where there is none. */
 int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                           const rb_contact_state *state, int at, rb_rolling_run *run);

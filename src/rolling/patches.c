@@ -150,19 +150,6 @@ void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *
 
 /* ---- Results ----------------------------------------------------------------------- */
 
-int rb_rolling_vertex(const double d[2], const double f[2], double *rise, double *at)
-{
-    const double left = f[0] / d[0], right = f[1] / d[1];
-    const double curvature = (right - left) / (d[1] - d[0]);
-    const double slope = left - curvature * d[0];
-
-    if (!(curvature < 0.0))
-        return 0;
-    *rise = -gsl_pow_2(slope) / (4.0 * curvature);
-    *at = -slope / (2.0 * curvature);
-    return 1;
-}
-
 /* Vertex of the parabola of p^2 through the largest element and its neighbours: exact for
  * Hertz's ellipse. */
 static void set_peak(const rb_rolling_mesh *mesh, const double *p,
