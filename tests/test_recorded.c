@@ -23,13 +23,13 @@ static int at_number(const char *text, const char *s)
            (s == text || (!isalnum((unsigned char)s[-1]) && !strchr("#_.", s[-1])));
 }
 
-/* Time and processor: no two runs have the same. */
+/* Time and processor: no two runs have the same.  Every new option changes a hash. */
 static int is_of_this_run(const char *line, const char *next)
 {
     static const char *const words[] = {
-        "  computed  in ", " cases in ",     "\"seconds\": ", "\"integrals\": ",
-        "\"openblas\": ",  "\"assembly\": ", "\"factor\": ",  "\"condense\": ",
-        "\"lcp\": ",       "\"total\": "};
+        "  computed  in ", " cases in ",     "\"seconds\": ",    "\"integrals\": ",
+        "\"openblas\": ",  "\"assembly\": ", "\"factor\": ",     "\"condense\": ",
+        "\"lcp\": ",       "\"total\": ",    "\"input_hash\": ", "# study "};
     for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
         const char *at = strstr(line, words[k]);
         if (at && at < next)

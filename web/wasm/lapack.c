@@ -115,7 +115,7 @@ int LAPACKE_dgetri(int layout, int n, double *A, int lda, const int *pivots)
 {
     double *X = calloc((size_t)n * (size_t)n + 1, sizeof *X);
     if (!X)
-        return -1010; /* LAPACK_WORK_MEMORY_ERROR */
+        return LAPACK_WORK_MEMORY_ERROR;
     for (int i = 0; i < n; i++)
         X[(size_t)i * ((size_t)n + 1)] = 1.0;
     LAPACKE_dgetrs_work(layout, 'N', n, n, A, lda, pivots, X, n);

@@ -3,6 +3,7 @@
 #define ROLLBEM_WASM_LAPACKE_H
 
 #define LAPACK_COL_MAJOR 102
+#define LAPACK_WORK_MEMORY_ERROR (-1010)
 typedef int lapack_int;
 
 int LAPACKE_dgetrf_work(int layout, int m, int n, double *A, int lda, int *pivots);
