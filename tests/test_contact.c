@@ -154,6 +154,51 @@ static void what_is_left_out_is_named(void **state)
     }
 }
 
+/* A case of our frame, changed by a line of sed: what is left out of it, and whether it
+ * is run all the same. */
+static void what_is_left_out_is_said(void **state)
+{
+    static const struct {
+        int code;
+        const char *change, *said;
+    } all[] = {
+        {1, "s/ 3 MODULE/ 1 MODULE/", "not run: leaves out module 1 (module 3 alone"},
+        {1, "s/^ 1$/ -1/", "not run: leaves out Hertzian input (IPOTCN = -1)"},
+        {1, "s/1   1   IBASE/9   1   IBASE/", "not run: leaves out IBASE = 9"},
+        {1, "s/0.0016666/-0.0016666/", "not run: leaves out a gap without curvature"},
+        {1, "s/203100/202100/", "goes on from the case before (T = 2)"},
+        {1, "s/203100/001100/;/1000\\.$/d", "a shift that goes on from the case before"},
+        {1, "s/203100/213100/", "not run: leaves out approximate pressure (B = 1)"},
+        {1, "s/203100/203000/", "reaches the end of the potential contact"},
+        {0, "s/022020   L/022220   L/;/POISS/a 1 1 1 1", "the simplified theory (M = 2)"},
+        {0, "s/022020   L/022320   L/;/POISS/a 1 1 1 1", "that of Fastsim (M = 3)"},
+        {0, "s/022020   L/022920   L/;/POISS/a 1 1 1 1", "the material (M = 9)"},
+        {0, "s/1   1   IBASE/1   2   IBASE/", "the planform (IPLAN = 2)"},
+        {0, "s/ 0000331/ 1000331/", "temperatures (H = 1)"},
+        {0, "s/ 0000331/ 3000331/;/POISS/a 1 2 3 4\\n 1 2 3 4", "temperatures (H = 3)"},
+        {0, "s/022020/022022/", "the rigid slip per element (E = 2)"},
+        {0, "s/0.25  0.25/0.3 0.25/", "another friction law (L = 0): mu = 0.3"},
+        {0, "s/-0.0004 0. 0./-0.0004 0.1 0./", "CETA, FY and CPHI"},
+        {0, "s/0.0  0.05 1000/0.0  0.5 1000/", "the step DQ = 0.5"},
+        {0, "s/022020   L/022120   L/;/POISS/a 0.5 0.5 0.001 0.001", ""},
+        {0, "s/022020   L/022120   L/;/POISS/a 0.5 0.5 0 0", ""},
+        {0, "s/022020   L/022420   L/;/POISS/a 800 0.02 30 0", ""}};
+    char text[2000], line[600];
+    (void)state;
+    snprintf(text, sizeof text, frame, 3, 0, "-0.0004", ROLLS, GRID, GAP);
+    write_file("own.inp", text);
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        snprintf(line, sizeof line,
+                 "sed '%s' own.inp >changed.inp; \"$R\" contact changed.inp --json",
+                 all[k].change);
+        const int code = shell(line);
+        if (code != all[k].code || !strstr(err, all[k].said))
+            print_error("%s: %d, %s\n", all[k].change, code, err);
+        assert_int_equal(code, all[k].code);
+        assert_non_null(strstr(err, all[k].said));
+    }
+}
+
 static void bad_files_are_refused(void **state)
 {
     (void)state;
@@ -290,6 +335,7 @@ int main(void)
         cmocka_unit_test(grids_and_gaps_are_those_of_the_file),
         cmocka_unit_test(cases_go_on_from_the_one_before),
         cmocka_unit_test(what_is_left_out_is_named),
+        cmocka_unit_test(what_is_left_out_is_said),
         cmocka_unit_test(bad_files_are_refused),
         cmocka_unit_test(carters_example_is_met),
         cmocka_unit_test(falling_friction_is_met),

@@ -83,6 +83,177 @@ static void forty_mistakes_get_a_line_that_helps(void **state)
     assert_int_equal(wrong, 0);
 }
 
+/* What every command refuses: the exit code, and one line. */
+static void refusals_have_their_code_and_reason(void **state)
+{
+    static const struct {
+        int code;
+        const char *arguments, *said;
+    } all[] = {
+        {64, "b.ini --relaxation-time 0.1,1 --relaxation-ratio 1 --speed 10",
+         "as many of one as of the other, got 2 and 1"},
+        {64,
+         "b.ini --friction-law exponential --mu-fall 0.1,0.2 --slip-scale 1 --speed 1",
+         "as many of one as of the other, got 2 and 1"},
+        {64,
+         "b.ini --friction-law exponential --mu-fall 0.1 --slip-scale 1 --speed 1 "
+         "--memory 1,2,3",
+         "--memory: expected 1 or 2 numbers, got 3"},
+        {64, "b.ini --friction-law exponential", "needs --mu-fall and --slip-scale"},
+        {64, "b.ini --mu-fall 0.1 --slip-scale 1", "of friction laws that fall"},
+        {64, "b.ini --mu-heat 0.1,2", "--mu-heat: expected 3 numbers, got 2"},
+        {66, "b.ini --friction-law nothing.txt", "nothing.txt: No such file"},
+        {64, "b.ini --relaxation-time 1s,2 --relaxation-ratio 1,1 --speed 1",
+         "expected a unit for each number or for none"},
+        {64, "b.ini --hub-ratio 2", "expected a number in (0, 1), got '2'"},
+        {64, "b.ini --contact-elements 1", "expected a whole number >= 3, got '1'"},
+        {64, "b.ini --contact-elements 3.5", "got '3.5'"},
+        {64, "b.ini --plot-script p.gp", "got 0"},
+        {64,
+         "b.ini --plot-script p.gp --plot p.svg --history-plot q.svg --formulation "
+         "transient --distance 1",
+         "expected one picture (such as --plot FILE), got 2"},
+        {64, "b.ini --plot-size slide", "there is no picture; --plot FILE asks for one"},
+        {64, "b.ini --all-solutions", "of steady rolling without error bars"},
+        {64,
+         "b.ini --all-solutions --trace --formulation steady --creep-ratio 0.5 "
+         "--friction-law linear --mu-fall .1 --slip-scale 1 --speed 1",
+         "not together with --dump, --fclib, --trace"},
+        {73, "b.ini --output .", ".: cannot write: Is a directory"},
+        {73, "b.ini --dump b.ini", "b.ini: cannot write: Not a directory"},
+        {73, "b.ini --snapshots b.ini --formulation transient --distance 0.3",
+         "b.ini: cannot write: Not a directory"},
+        {73, "b.ini --plot /nothing/p.svg", "/nothing/p.svg: cannot write"},
+        {73, "b.ini --fclib /nothing/f.hdf5", "/nothing/f.hdf5: cannot write"},
+        {64, "--describe=nothing",
+         "expected man, markdown, results or schema, got 'nothing'"},
+        {64, "--completion=tcsh", "expected bash, zsh or fish, got 'tcsh'"},
+        {64, "help nothing", "unknown command 'nothing'"},
+        {64, "examples more", "examples: unexpected 'more'"},
+        {64, "verify more", "verify: unexpected 'more'"},
+        {66, "check nothing", "nothing: No such file"},
+        {64, "check", "expected a file that"},
+        {65, "check b.ini",
+         "expected the JSON of a result, or a table with its comments"},
+        {65, "check list.json", "no object"},
+        {65, "check cut.json", "cut.json:2: expected the JSON of a result"},
+        {64, "curve b.ini --mu 0 --plot p.svg", "--plot: no curve to draw at mu = 0"},
+        {64, "curve b.ini --mu 0.1,x", "expected a number >= 0, got '0.1,x'"},
+        {65, "curve list.ini", "list.ini:1"},
+        {64, "wear b.ini --slide 1", "wear needs --wear-coefficient"},
+        {64, "wear b.ini --wear-coefficient 1", "wear needs --slide or --cycles"},
+        {64, "wear b.ini --wear-coefficient 1 --slide 1 --cycles 1",
+         "--slide and --cycles exclude each other"},
+        {64,
+         "wear b.ini --wear-coefficient 1e-7 --slide 1 --formulation steady "
+         "--creep-ratio 0.5",
+         "steady or a way, not both"},
+        {64, "stress b.ini --grid 3", "expected two numbers >= 2 such as 61x41, got '3'"},
+        {64, "stress b.ini --grid 3x3 --points at.txt",
+         "--grid and --points exclude each other"},
+        {64, "stress b.ini --grid 3x3 --vtk v.txt",
+         "expected a name ending in .vti or .vtu, got 'v.txt'"},
+        {64, "stress b.ini --points at.txt --vtk v.vti",
+         ".vti holds regular grids; for points use .vtu"},
+        {64, "stress --grid 3x3 --load 100 --contact-elements 8 --vtk v.vti",
+         "that of a wheel follows its surface"},
+        {65, "stress b.ini --points one.txt", "one.txt:1: expected 2 numbers, got 1"},
+        {65, "stress b.ini --points below.txt",
+         "the point (0, -0.1) mm lies outside body A"},
+        {64, "sweep b.ini", "a study needs --vary-1 or --cases"},
+        {64, "sweep b.ini --show load --vary-1 'load 100 200'",
+         "--show: there is no picture"},
+        {64, "sweep b.ini --over load --vary-1 'load 100 200'",
+         "--over: there is no picture"},
+        {64, "sweep b.ini --family load --vary-1 'load 100 200'",
+         "--family: there is no picture"},
+        {64, "sweep s.ini --show nothing --plot p.svg", "--show: no result 'nothing'"},
+        {64, "sweep s.ini --show load --plot p.svg", "load varies; expected a result"},
+        {64, "sweep s.ini --results nothing", "--results: no result 'nothing'"},
+        {64, "sweep s.ini --results error_tangential_load",
+         "'error_tangential_load' needs --error"},
+        {64, "sweep s.ini --error --results error_iterations",
+         "iterations has no error bar"},
+        {64, "sweep s.ini --plot p.svg --over young",
+         "expected an option that varies, got 'young'"},
+        {64, "sweep s.ini --plot p.svg --over load --family load",
+         "expected another option that varies, got 'load'"},
+        {64, "sweep b.ini --plot p.svg --cases two.txt",
+         "a curve needs two values of mu; creep-ratio = 0.2 has one"},
+        {64, "sweep b.ini --plot p.svg --cases just.txt",
+         "--plot: no option varies"},
+        {64, "sweep b.ini --map p.svg --cases two.txt",
+         "a map needs two options with two values or more"},
+        {64, "sweep b.ini --map p.svg --cases holes.txt",
+         "those with load = 200 are others than those with load = 100"},
+        {64, "sweep b.ini --vary-1 'shape 1 2'", "'shape' is no option of a case"},
+        {64, "sweep b.ini --vary-1 'load 1 2' --vary-2 'load 3 4'",
+         "'load' varies already"},
+        {64, "sweep b.ini --vary-1 load",
+         "expected an option and numbers, or first:last:count, got 'load'"},
+        {64, "sweep b.ini --vary-1 'load 1:2:x'", "expected"},
+        {64, "sweep b.ini --vary-1 'load 0:2:3:log'", "expected"},
+        {64, "sweep b.ini --vary-1 'load 1:2:0'", "expected"},
+        {64, "sweep b.ini --vary-1 'load 1parsec 2'", "parsec"},
+        {64, "sweep b.ini --vary-1 'load 1:2:20000' --vary-2 'mu 0:1:20000'",
+         "cases, expected at most 1e8"},
+        {65, "sweep b.ini --cases names.txt", "names.txt: no numbers"},
+        {65, "sweep b.ini --cases colour.txt",
+         "'colour' is no option of a case that takes a number"},
+        {65, "sweep b.ini --cases twice.txt", "column 'mu' is named twice"},
+        {65, "sweep b.ini --cases negative.txt",
+         "case 1: mu: expected a number >= 0, got '-1'"},
+        {65, "sweep b.ini --cases one.txt", "expected a line that names the columns"},
+        {73, "sweep s.ini --output /nothing/w.tsv", "/nothing/w.tsv: cannot write"},
+        {73, "sweep s.ini --output .", ".: cannot write: Is a directory"},
+        {65, "page b.ini --page b.ini --output p.html",
+         "expected the page of `make page`"},
+        {66, "page b.ini --page nothing.html --output p.html", "nothing.html"},
+        {64, "lcp game.txt --q game.txt --game", "--q"},
+        {66, "lcp nothing.txt --output t.tsv", "nothing.txt: No such file"},
+        {65, "lcp colour.txt --output t.tsv",
+         "colour.txt:1: n: expected an integer >= 1"},
+        {64, "compare --solvers nothing one.txt",
+         "no friction solver is called 'nothing'"},
+        {65, "friction one.txt --output t.tsv",
+         "one.txt:4: size at the head: expected an integer >= 0"},
+        {64, "friction one.txt --solver nothing",
+         "no friction solver is called 'nothing'"},
+        {65, "contact b.ini", "no line such as '3 MODULE': not an input file of CONTACT"},
+        {66, "contact nothing.inp", "nothing.inp: No such file"},
+        {64, "example tower", "expected bar, truss or wall, got 'tower'"},
+        {64, "example truss --plot p.xyz",
+         "expected a name ending in .png, .svg or .pdf, got 'p.xyz'"},
+        {73, "example wall --mesh coarse --output b.ini",
+         "b.ini: cannot write: Not a directory"},
+        {73, "example truss --nodes 2 --output /nothing/t.tsv",
+         "/nothing/t.tsv: cannot write"},
+    };
+    (void)state;
+    write_file("b.ini",
+               "support = halfplane\nload = 100\ncontact-elements = 8\nzone = 1\n");
+    write_file("s.ini",
+               "support = halfplane\nload = 100\ncontact-elements = 12\nzone = 1\n"
+               "formulation = steady\n[sweep]\nvary-1 = load 100 200\n"
+               "vary-2 = creep-ratio 0 0.5\n");
+    write_file("list.json", "[1]\n");
+    write_file("cut.json", "{\"schema\": \n");
+    write_file("list.ini", "mu = 0.1,x\n");
+    write_file("one.txt", "1\n2\n3\n");
+    write_file("at.txt", "0 0.1\n");
+    write_file("below.txt", "0 -0.1\n");
+    write_file("two.txt", "creep-ratio mu\n0.2 0.1\n0.5 0.3\n");
+    write_file("just.txt", "mu\n0.1\n");
+    write_file("holes.txt", "load mu\n100 0.1\n100 0.2\n200 0.1\n");
+    write_file("names.txt", "mu\n");
+    write_file("colour.txt", "colour\n1\n");
+    write_file("twice.txt", "mu mu\n1 2\n");
+    write_file("negative.txt", "mu\n-1\n");
+    write_file("game.txt", "2 2\n1 2\n3 4\n1 2\n3 4\n");
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        check_refused(all[k].arguments, all[k].code, all[k].said);
+}
+
 /* What is no error, and perhaps not what was meant. */
 static void doubtful_values_are_noted(void **state)
 {
@@ -170,6 +341,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(forty_mistakes_get_a_line_that_helps),
+        cmocka_unit_test(refusals_have_their_code_and_reason),
         cmocka_unit_test(doubtful_values_are_noted),
         cmocka_unit_test(found_creepage_is_not_doubted),
         cmocka_unit_test(examples_are_at_hand),

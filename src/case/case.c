@@ -422,8 +422,11 @@ static rb_status count_numbers(const rb_case *c, const char *name, const rb_numb
     char reason[80];
     if (!rb_case_given(c, name) || (list->n >= least && list->n <= most))
         return RB_OK;
-    snprintf(reason, sizeof reason, "expected %d%s numbers, got %d", least,
-             most > least ? " or more" : "", list->n);
+    if (most > least)
+        snprintf(reason, sizeof reason, "expected %d or %d numbers, got %d", least, most,
+                 list->n);
+    else
+        snprintf(reason, sizeof reason, "expected %d numbers, got %d", least, list->n);
     return rb_case_refuse_given(c, name, reason, why);
 }
 
