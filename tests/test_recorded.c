@@ -29,7 +29,8 @@ static int is_of_this_run(const char *line, const char *next)
     static const char *const words[] = {
         "  computed  in ", " cases in ",     "\"seconds\": ",    "\"integrals\": ",
         "\"openblas\": ",  "\"assembly\": ", "\"factor\": ",     "\"condense\": ",
-        "\"lcp\": ",       "\"total\": ",    "\"input_hash\": ", "# study "};
+        "\"lcp\": ",       "\"total\": ",    "\"input_hash\": ", "# study ",
+        " points in "};
     for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
         const char *at = strstr(line, words[k]);
         if (at && at < next)
