@@ -104,11 +104,12 @@ static double base_compliance(const rb_bem_surface *body)
 
 /* ---- Panels of wave numbers -------------------------------------------------------- */
 
-/* Ends of the panels in al: narrow enough for cos(al x/d), halved towards zero. */
+/* Ends of the panels in al: narrow enough for cos(al x/d), which the rule integrates to
+ * rounding over ten radians, halved towards zero. */
 static double *make_panels(const rb_bem_surface *body, double reach, int *count)
 {
     const double d = body->thickness;
-    double width = fmin(1.0, 3.0 * d / reach), longest = 0.0;
+    double width = fmin(1.0, 10.0 * d / reach), longest = 0.0;
     for (int j = 0; j < body->terms; j++)
         longest = fmax(longest, body->length[j]);
     const int halvings = HALVINGS + (longest > d ? (int)ceil(log2(longest / d)) : 0);
@@ -251,21 +252,27 @@ static rb_status integrate(waves *w, add_nodes *add, void *to)
 
 /* ---- The matrix of all points and strips ------------------------------------------- */
 
+/* W (2 points x 2n), and points x n that pressure moves along and, with the other sign,
+ * friction moves down. */
+typedef struct {
+    double *W, *coupling;
+} matrix;
+
 /* block += scale P D'. */
-static void add_block(const waves *w, double scale, const double *D, double *block)
+static void add_block(const waves *w, double scale, const double *D, double *block,
+                      int ld)
 {
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, w->points, w->n, 2 * w->nodes,
-                scale, w->P, w->points, D, w->n, 1.0, block, 2 * w->points);
+                scale, w->P, w->points, D, w->n, 1.0, block, ld);
 }
 
 static void add_to_matrix(waves *w, double scale, void *to)
 {
     const size_t points = (size_t)w->points, half = (size_t)w->n * 2 * points;
-    double *W = to;
-    add_block(w, scale, w->N, W);
-    add_block(w, scale, w->T, W + half + points);
-    add_block(w, scale, w->C, W + half);
-    add_block(w, -scale, w->C, W + points);
+    const matrix *m = to;
+    add_block(w, scale, w->N, m->W, 2 * w->points);
+    add_block(w, scale, w->T, m->W + half + points, 2 * w->points);
+    add_block(w, scale, w->C, m->coupling, w->points);
 }
 
 rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points,
@@ -273,20 +280,27 @@ rb_status rb_bem_layer_add_remainder(const rb_bem_surface *body, int points,
                                      double *W)
 {
     waves w = {.body = body, .points = points, .n = n, .x = x, .ends = ends};
-    rb_status s = waves_alloc(&w);
+    matrix to = {W, rb_alloc((size_t)points, (size_t)n)};
+    rb_status s = to.coupling ? waves_alloc(&w) : RB_ENOMEM;
 
-    if (s != RB_OK)
+    if (s != RB_OK) {
+        free(to.coupling);
         return s;
-    s = integrate(&w, add_to_matrix, W);
+    }
+    s = integrate(&w, add_to_matrix, &to);
     for (int j = 0; j < n; j++) {
-        const double c = constant_of(&w, j);
-        double *N = W + (size_t)j * 2 * (size_t)points,
-               *T = W + (size_t)(j + n) * 2 * (size_t)points + points;
+        const double c = constant_of(&w, j),
+                     *coupling = to.coupling + (size_t)j * (size_t)points;
+        double *pressure = W + (size_t)j * 2 * (size_t)points,
+               *friction = W + (size_t)(j + n) * 2 * (size_t)points;
         for (int i = 0; i < points; i++) {
-            N[i] += c;
-            T[i] += c;
+            pressure[i] += c;
+            pressure[i + points] -= coupling[i];
+            friction[i] += coupling[i];
+            friction[i + points] += c;
         }
     }
+    free(to.coupling);
     waves_free(&w);
     return s;
 }
