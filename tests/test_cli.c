@@ -495,6 +495,7 @@ static void increments_press_gradually(void **state)
     write_file("study.tsv", out);
     assert_int_equal(shell("tail -1 study.tsv | cut -f14"), 0);
     CHECK_ABS(atof(out), stick, 0.0, "of the study's second case");
+    write_file("history.txt", "load\n50\n");
     check_refused("curve --increments 5 --load 10", 64, "--increments:");
     check_refused("--formulation steady --increments 5", 64, "--increments:");
     check_refused("--history history.txt --increments 5", 64, "--increments:");
