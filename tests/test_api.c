@@ -273,7 +273,10 @@ static void steps_are_kept(void **state)
     const double *p = rb_api_array(a, "step.p", &n, &steps);
     assert_non_null(p);
     const double *load = array(a, "history.normal_load", steps, 1),
-                 *h = array(a, "h", n, 1);
+                 *h = array(a, "h", n, 1), *x = array(a, "step.x", n, 1),
+                 *last = array(a, "x", n, 1);
+    for (int i = 0; i < n; i++)
+        CHECK_ABS(x[i], last[i], 1e-12, "element %d", i);
     for (int k = 0; k < steps; k++) {
         double P = 0.0;
         for (int i = 0; i < n; i++)

@@ -213,6 +213,9 @@ static void bad_input_is_refused(void **state)
     CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
                                  (rb_bem_points){-1, hole}, NULL, s, NULL),
                  RB_EINVAL);
+    CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, u, t},
+                                 (rb_bem_points){0, hole}, NULL, s, NULL),
+                 RB_OK);
     CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, {0, 0.3}, u, t},
                                  (rb_bem_points){0, hole}, NULL, s, NULL),
                  RB_EINVAL);

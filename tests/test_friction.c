@@ -1,5 +1,6 @@
 /* The problem, its measure, and Newton on both forms. */
 #include "check.h"
+#include "friction/smoothing.h"
 #include "rollbem/friction.h"
 
 #include <string.h>
@@ -99,6 +100,58 @@ static void make_sparse(rb_friction_problem *p)
     p->form = RB_FRICTION_LOCAL_SPARSE;
 }
 
+/* Its spectral values s and those of x obey s - mu^2/s = x, along the same axis; D is its
+ * derivative. */
+static void smoothed_projections_obey_their_definition(void **state)
+{
+    (void)state;
+    unsigned seed = 11;
+    for (int n = 1; n <= 3; n++)
+        for (int trial = 0; trial < 20; trial++) {
+            const double mu = 0.3 + 0.1 * trial, step = 1e-5;
+            double x[3], P[3], D[9], up[3], down[3], t = 0.0, along = 0.0;
+            for (int a = 0; a < n; a++)
+                x[a] = 3.0 * uniform(&seed);
+            for (int a = 1; a < n; a++)
+                t = hypot(t, x[a]);
+            const double least = rb_friction_smoothed(n, mu, x, P, D);
+            CHECK_REL(least, fmin(fabs(x[0] - t), fabs(x[0] + t)), 1e-12, "n = %d", n);
+            for (int a = 1; a < n; a++)
+                along += P[a] * x[a] / t;
+            for (int side = n == 1 ? 1 : -1; side <= 1; side += 2) {
+                const double s = P[0] + side * along;
+                assert_true(s > 0.0);
+                CHECK_ABS(s - mu * mu / s, x[0] + side * t, 1e-10, "n = %d, mu = %g", n,
+                          mu);
+            }
+            for (int b = 0; b < n; b++) {
+                x[b] += step;
+                rb_friction_smoothed(n, mu, x, up, NULL);
+                x[b] -= 2.0 * step;
+                rb_friction_smoothed(n, mu, x, down, NULL);
+                x[b] += step;
+                for (int a = 0; a < n; a++)
+                    CHECK_ABS(D[a + b * n], (up[a] - down[a]) / (2.0 * step), 1e-8,
+                              "n = %d, D(%d, %d)", n, a, b);
+            }
+        }
+}
+
+/* 1e-14 of the sums |q| + |W| |r|, as (13) counts them. */
+static double floor_again(const rb_friction_problem *p, const double *r)
+{
+    const int m = p->dimension * p->contacts;
+    double sums = 0.0, size = 0.0;
+    for (int i = 0; i < m; i++) {
+        double sum = fabs(p->q[i]);
+        for (int j = 0; j < m; j++)
+            sum += fabs(p->W[i + j * m] * r[j]);
+        sums += sum * sum;
+        size += p->q[i] * p->q[i];
+    }
+    return 1e-14 * sqrt(sums / size);
+}
+
 static void the_measure_is_equation_13(void **state)
 {
     (void)state;
@@ -111,7 +164,7 @@ static void the_measure_is_equation_13(void **state)
         plant(d, NC, 5, &p, r);
         CHECK_STATUS(rb_friction_error(&p, r, NULL, u, &error), RB_OK);
         CHECK_MAX(error.residual, 1e-14, "planted solution, d = %d", d);
-        assert_true(error.floor > 1e-15 && error.floor < 1e-12);
+        CHECK_REL(error.floor, floor_again(&p, r), 1e-12, "floor, d = %d", d);
         for (int trial = 0; trial < 50; trial++) {
             for (int k = 0; k < d * NC; k++)
                 r[k] = 3.0 * uniform(&seed);
@@ -128,6 +181,7 @@ static void the_measure_is_equation_13(void **state)
         make_sparse(&p);
         CHECK_STATUS(rb_friction_error(&p, r, NULL, NULL, &same), RB_OK);
         CHECK_REL(same.residual, error.residual, 1e-13, "sparse W");
+        CHECK_REL(same.floor, floor_again(&p, r), 1e-12, "floor of a sparse W");
         rb_friction_problem_free(&p);
     }
 }
@@ -584,6 +638,7 @@ static void failing_allocations_are_reported(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(smoothed_projections_obey_their_definition),
         cmocka_unit_test(the_measure_is_equation_13),
         cmocka_unit_test(condensation_gives_the_same_problem),
         cmocka_unit_test(bodies_of_every_size_are_condensed),

@@ -370,6 +370,8 @@ static void what_cannot_be_is_refused(void **state)
     refused(rb_friction_eliminate(&p, &bad, b, &why), &why, "contradict");
     refused(rb_friction_eliminate(&p, &bad, b + 1, &why), &why, "b: entry 2 is");
     refused(rb_friction_eliminate_local(&p, &bad, &bad, b, &why), &why, "local form");
+    bad.x[0] = NAN;
+    refused(rb_friction_eliminate(&p, &bad, b, &why), &why, "entry 1 is nan");
     rb_sparse_free(&bad);
     CHECK_STATUS(
         rb_sparse_from_triplets(

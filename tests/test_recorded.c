@@ -2,10 +2,10 @@
  * Most digits of a picture, of a header and of a message follow from no formula, so that
  * only a record of them shows a change that nobody wanted.
  *
- * A file of tests/recorded is a shell line, where $R is the program, and what came of it.
- * ROLLBEM_RECORD=1 build/tests/test_recorded writes all of them anew: look at the
- * difference and name the reason when you commit it.  Run from the project's root; B: the
- * build. */
+ * A file of tests/recorded is a shell line, where $R is the program and $EXAMPLES the
+ * folder examples, and what came of it. ROLLBEM_RECORD=1 build/tests/test_recorded writes
+ * all of them anew: look at the difference and name the reason when you commit it.  Run
+ * from the project's root; B: the build. */
 #include "cli_run.h"
 
 #include <ctype.h>
@@ -62,8 +62,7 @@ static void keep(char *text)
     *to = '\0';
 }
 
-/* Long numbers with nine digits: the others are rounding, different on every processor.
- */
+/* Long numbers with nine digits: more are rounding, different on every processor. */
 static void round_numbers(char *text)
 {
     char *to = text;
@@ -71,7 +70,11 @@ static void round_numbers(char *text)
         char *end = s + 1;
         const double x = at_number(text, s) ? strtod(s, &end) : 0.0;
         if (end - s > 11) {
-            to += snprintf(to, (size_t)(end - s), "%.9g", fabs(x) < 1e-12 ? 0.0 : x);
+            char digits[40];
+            snprintf(digits, sizeof digits, "%.9g", fabs(x) < 1e-12 ? 0.0 : x);
+            const size_t length = strlen(digits);
+            memcpy(to, digits, length); /* never longer than what stood there */
+            to += length;
             s = end;
         } else
             while (s < end)
@@ -132,11 +135,13 @@ int main(void)
 {
     enum { ENOUGH = 200 };
     static struct CMUnitTest tests[ENOUGH];
-    static char names[ENOUGH][100], here[500];
+    static char names[ENOUGH][100], here[500], examples[600];
     int n = 0;
     if (!getcwd(here, sizeof here))
         return 1;
     snprintf(records, sizeof records, "%s/tests/recorded", here);
+    snprintf(examples, sizeof examples, "%s/examples", here);
+    setenv("EXAMPLES", examples, 1);
     DIR *dir = opendir(records);
     for (const struct dirent *e; dir && n < ENOUGH && (e = readdir(dir)) != NULL;)
         if (e->d_name[0] != '.') {
