@@ -209,6 +209,30 @@ static void sizes_and_indices_are_checked(void **state)
     fresh_local();
     overwrite("/fclib_local/vectors/mu", H5T_NATIVE_DOUBLE, 1, few);
     refused("expected 2");
+    const int p_below[] = {0, 1, 2, 3, 4, 5, -8};
+    fresh_local();
+    overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_below);
+    refused("W/p ends in -8");
+    fresh_local();
+    overwrite("/fclib_local/W/m", H5T_NATIVE_INT, 0, p_below);
+    refused("/W/m is empty");
+    fresh_local();
+    set_int("/fclib_local/spacedim", 2);
+    refused("expected 3"); /* three contacts have three mu */
+
+    rb_io_fclib p;
+    small_local(&p);
+    CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", NULL), RB_OK);
+    set_int("/fclib_local/W/n", 7);
+    refused("W is 6 x 7");
+    set_int("/fclib_local/W/m", 7);
+    refused("7 contact rows are no multiple of 3");
+    rb_io_fclib_free(&p);
+    small_global(&p);
+    CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", NULL), RB_OK);
+    set_int("/fclib_global/H/m", 4);
+    refused("M is 3 x 3 and H is 4 x 2");
+    rb_io_fclib_free(&p);
     /* nzmax beyond what is stored does not matter */
     fresh_local();
     set_int("/fclib_local/W/nzmax", 900);
