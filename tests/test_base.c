@@ -65,10 +65,25 @@ static void the_sum_does_not_depend_on_the_address(void **state)
 static void every_status_has_its_own_words(void **state)
 {
     (void)state;
-    for (int i = RB_EWRITE; i <= RB_INTERRUPTED; i++)
-        for (int j = RB_EWRITE; j < i; j++)
+    for (int i = RB_EHELPER; i <= RB_INTERRUPTED; i++)
+        for (int j = RB_EHELPER; j < i; j++)
             assert_string_not_equal(rb_status_text((rb_status)i),
                                     rb_status_text((rb_status)j));
+}
+
+static void what_went_wrong_has_its_words(void **state)
+{
+    const rb_message said = {"why"}, nothing = {""};
+    char room[6];
+    (void)state;
+    assert_string_equal(rb_status_text((rb_status)99), "unknown status");
+    assert_string_equal(rb_status_reason(RB_ENOMEM, &nothing), "out of memory");
+    assert_string_equal(rb_status_reason(RB_ENOMEM, &said), "why");
+    assert_int_equal(rb_lapack_status(0), RB_OK);
+    assert_int_equal(rb_lapack_status(3), RB_SINGULAR);
+    assert_int_equal(rb_lapack_status(-4), RB_SINGULAR);
+    assert_int_equal(rb_lapack_status(-1010), RB_ENOMEM);
+    assert_string_equal(rb_printable("abc\x01zzz", room, sizeof room), "abc");
 }
 
 int main(void)
@@ -80,6 +95,7 @@ int main(void)
         cmocka_unit_test(the_norm_does_not_lose_a_nan),
         cmocka_unit_test(the_sum_does_not_depend_on_the_address),
         cmocka_unit_test(every_status_has_its_own_words),
+        cmocka_unit_test(what_went_wrong_has_its_words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -526,7 +526,13 @@ static void bad_problems_are_refused(void **state)
     refuse(&p, "not symmetric");
     p.K.x[1] = -1.0, p.dofs = 3;
     refuse(&p, "K is 4 x 4");
+    p.dofs = 0;
+    refuse(&p, "0 degrees of freedom");
     p.dofs = 4;
+    double *entries = p.H.x;
+    p.H.x = NULL;
+    refuse(&p, "H is missing");
+    p.H.x = entries;
     free(p.f);
     p.f = NULL;
     refuse(&p, "f is missing");

@@ -333,6 +333,47 @@ static void failing_allocations_are_reported(void **state)
     assert_true(count > 10);
 }
 
+static void only_square_matrices_have_components(void **state)
+{
+    const double dense[] = {1.0, 2.0};
+    rb_sparse wide, none;
+    int count = 7, part[2];
+    (void)state;
+    CHECK_STATUS(rb_sparse_from_dense(1, 2, dense, 1, &wide), RB_OK);
+    CHECK_STATUS(rb_sparse_components(&wide, &count, part), RB_EINVAL);
+    assert_int_equal(count, 0);
+    CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.status = RB_ENOMEM}, &none),
+                 RB_ENOMEM);
+    rb_sparse_free(&wide);
+}
+
+/* Before there are numbers there is nothing to solve with. */
+static void a_factor_without_numbers_solves_nothing(void **state)
+{
+    const double dense[] = {2.0, 0.0, 0.0, 4.0}, zero[] = {0.0, 0.0, 0.0, 0.0};
+    const double b[] = {2.0, 4.0};
+    double x[2];
+    rb_sparse a, none;
+    rb_sparse_lu *lu;
+    (void)state;
+    CHECK_STATUS(rb_sparse_from_dense(2, 2, dense, 2, &a), RB_OK);
+    CHECK_STATUS(rb_sparse_lu_create(&a, &lu), RB_OK);
+    CHECK_STATUS(rb_sparse_lu_solve(lu, b, x), RB_EINVAL);
+    CHECK_STATUS(rb_sparse_lu_solve_once(lu, b, x), RB_EINVAL);
+    CHECK_STATUS(rb_sparse_lu_factor(lu, &a, NULL), RB_OK);
+    CHECK_STATUS(rb_sparse_lu_solve(lu, b, x), RB_OK);
+    for (int i = 0; i < 2; i++)
+        CHECK_REL(x[i], 1.0, 1e-15, "x[%d]", i);
+    for (int k = 0; k < a.p[2]; k++)
+        a.x[k] = 0.0;
+    CHECK_STATUS(rb_sparse_lu_factor(lu, &a, NULL), RB_SINGULAR);
+    rb_sparse_lu_free(lu);
+    rb_sparse_free(&a);
+    CHECK_STATUS(rb_sparse_from_dense(2, 2, zero, 2, &none), RB_OK);
+    assert_int_equal(none.p[2], 0);
+    rb_sparse_free(&none);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -344,6 +385,8 @@ int main(void)
         cmocka_unit_test(cholesky_solves_condenses_and_refuses),
         cmocka_unit_test(a_sparse_congruence_takes_little_memory),
         cmocka_unit_test(failing_allocations_are_reported),
+        cmocka_unit_test(only_square_matrices_have_components),
+        cmocka_unit_test(a_factor_without_numbers_solves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
