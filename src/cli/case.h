@@ -68,16 +68,15 @@ typedef struct {
     int printable; /* 1: there are results, if not all that were asked for */
 } cli_case_run;
 
-/* A file that an option of the command asks for; by one of the two, whose context is the
- * cli_case_run. */
+/* A file that an option of the command asks for, written or drawn by one of the two
+ * functions; their context is the cli_case_run. */
 typedef struct {
     const char *option;
     cli_write *write;
     cli_draw *draw;
 } cli_case_file;
 
-/* What is the command's own.  The functions may be NULL, but for solve, table and json.
- */
+/* What is the command's own.  Functions may be NULL, but for solve, table, json. */
 struct cli_case_command {
     const char *synopsis, *about, *notes;
     rb_case_purpose purpose;
@@ -95,8 +94,7 @@ struct cli_case_command {
     /* what may still refuse before the table is written */
     cli_exit (*before_table)(const cli_case_run *run);
     rb_status (*table)(FILE *out, const cli_case_run *run);
-    /* in the place of the table for a person at a terminal, whom the summary comes before
-     */
+    /* for a person at a terminal, in the place of the table and behind the summary */
     rb_status (*brief_table)(FILE *out, const cli_case_run *run);
     /* adds to `inputs`, and to what stands beside it */
     void (*inputs)(const cli_case_run *run, struct json_t **inputs);
