@@ -93,11 +93,12 @@ test-all:
 	@$(MAKE) --no-print-directory B=$(B) analyse
 
 # the longest programs start first, so that no processor waits for one of them at the end
-LONGEST := $(patsubst %,$(B)/tests/test_%,net cli_examples faults cli_rolling course)
+LONGEST := $(B)/tests/test_net $(B)/tests/test_cli_examples tests/page tests/site $(patsubst %,$(B)/tests/test_%,faults cli_rolling rolling_turn course rolling_laws cli) tests/python tests/journeys/phd-student-in-python
+OTHERS := tests/octave tests/install tests/release tests/figures $(wildcard tests/journeys/*) $(TESTS)
 
 # only the summary line comes last: continuous integration reads it
 check-tests: all $(TESTS) $(B)/tests/checker $(B)/packings $(if $(ROLLBEM_TEST_ALL),$(BENCHES),$(B)/bench/bench_large)
-	@B=$(B) tests/run $(LONGEST) tests/page tests/python tests/octave tests/install tests/release tests/site tests/figures $(wildcard tests/journeys/*) $(filter-out $(LONGEST),$(TESTS))
+	@B=$(B) tests/run $(LONGEST) $(filter-out $(LONGEST),$(OTHERS))
 
 SANITIZED = B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined"
 asan:

@@ -94,7 +94,7 @@ static double finite_free_creepage(double ratio, double mu)
     rc.b.young = 2.0 * 82000.0 * 1.28;
     rc.elastic_b = 1;
     rc.mu = mu;
-    rc.contact_elements = 100;
+    rc.contact_elements = 60;
     rc.half_width = ratio * rc.a.radius;
     rc.force = 0.0;
     rb_rolling_solution s = solved(&rc);
