@@ -95,6 +95,8 @@ char *rb_printable(const char *text, char *to, size_t size);
  * product overflows.  Released with free(). */
 double *rb_alloc(size_t rows, size_t cols);
 int *rb_alloc_int(size_t n);
+/* n doubles with the values of x; NULL when memory is short.  Released with free(). */
+double *rb_copy(size_t n, const double *x);
 
 /* RB_EINVAL, with the memory that `what` needs and the machine's in why, where it has not
  * that much: to be asked before allocating. */

@@ -64,7 +64,6 @@ typedef void rb_lcp_trace(const rb_lcp_pivot *pivot, void *context);
 typedef struct {
     int max_iters;       /* 0: 50 n + 1000 pivots; newton: 10 n + 100 steps */
     double seconds;      /* time limit, but not of newton; 0: none */
-    double tol;          /* relative size below which z0 counts as zero, default 1e-13 */
     const double *cover; /* n: covering vector d >= 0, > 0 where q < 0; NULL: ones;
                             borrowed */
     const double *start; /* newton and mixed, n: z_i is basic at first where this is

@@ -133,6 +133,14 @@ int *rb_alloc_int(size_t n)
     return alloc_array(n, 1, sizeof(int));
 }
 
+double *rb_copy(size_t n, const double *x)
+{
+    double *copy = rb_alloc(n, 1);
+    if (copy && n)
+        memcpy(copy, x, n * sizeof *copy);
+    return copy;
+}
+
 rb_status rb_memory_check(double bytes, const char *what, rb_message *why)
 {
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);

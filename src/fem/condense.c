@@ -87,16 +87,11 @@ static rb_status reduce(const rb_fem_structure *full, rb_fem_condensation *c,
 
 static rb_status copy_contacts(const rb_fem_structure *full, rb_fem_structure *c)
 {
-    const size_t n = (size_t)full->contacts;
     c->dimension = full->dimension;
     c->contacts = full->contacts;
-    c->mu = rb_alloc(n, 1);
-    c->gap = rb_alloc(n, 1);
-    if (!c->mu || !c->gap)
-        return RB_ENOMEM;
-    memcpy(c->mu, full->mu, n * sizeof *c->mu);
-    memcpy(c->gap, full->gap, n * sizeof *c->gap);
-    return RB_OK;
+    c->mu = rb_copy((size_t)full->contacts, full->mu);
+    c->gap = rb_copy((size_t)full->contacts, full->gap);
+    return c->mu && c->gap ? RB_OK : RB_ENOMEM;
 }
 
 rb_status rb_fem_condense(const rb_fem_structure *full, rb_fem_condensation **result,

@@ -322,14 +322,6 @@ rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
 
 /* ---- Problems for others ----------------------------------------------------------- */
 
-static double *copy_of(const double *x, size_t n)
-{
-    double *copy = rb_alloc(n, 1);
-    if (copy)
-        memcpy(copy, x, n * sizeof *copy);
-    return copy;
-}
-
 rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step,
                               rb_friction_problem *problem)
 {
@@ -338,9 +330,9 @@ rb_status rb_fem_wall_problem(const rb_fem_wall *wall, int step,
         return RB_EINVAL;
     const rb_friction_problem own = borrowed_problem(wall, step);
     *problem = own;
-    problem->mu = copy_of(own.mu, (size_t)own.contacts);
-    problem->f = copy_of(own.f, (size_t)own.dofs);
-    problem->w = copy_of(own.w, 3 * (size_t)own.contacts);
+    problem->mu = rb_copy((size_t)own.contacts, own.mu);
+    problem->f = rb_copy((size_t)own.dofs, own.f);
+    problem->w = rb_copy(3 * (size_t)own.contacts, own.w);
     memset(&problem->K, 0, sizeof problem->K);
     memset(&problem->H, 0, sizeof problem->H);
     rb_status s = problem->mu && problem->f && problem->w ? RB_OK : RB_ENOMEM;

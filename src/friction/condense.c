@@ -415,20 +415,6 @@ static rb_status assemble(const condenser *c, int m, rb_sparse *W)
     return s;
 }
 
-static rb_status copy_rest(const rb_friction_problem *global, rb_friction_problem *local)
-{
-    const int m = global->dimension * global->contacts;
-    local->mu = rb_alloc((size_t)global->contacts, 1);
-    local->q = rb_alloc((size_t)m, 1);
-    if (!local->mu || !local->q)
-        return RB_ENOMEM;
-    for (int c = 0; c < global->contacts; c++)
-        local->mu[c] = global->mu[c];
-    for (int k = 0; k < m; k++)
-        local->q[k] = global->w[k];
-    return RB_OK;
-}
-
 static rb_status condense(condenser *c, rb_friction_problem *local)
 {
     const size_t n = (size_t)c->p->dofs, m = (size_t)c->p->H.cols;
@@ -466,11 +452,14 @@ rb_status rb_friction_condense_counted(const rb_friction_problem *global,
                                        rb_friction_problem *local, double *flops,
                                        rb_message *why)
 {
+    const size_t m = (size_t)(global->dimension * global->contacts);
     condenser c = {.p = global};
     *local = (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
                                    .dimension = global->dimension,
-                                   .contacts = global->contacts};
-    rb_status s = copy_rest(global, local);
+                                   .contacts = global->contacts,
+                                   .mu = rb_copy((size_t)global->contacts, global->mu),
+                                   .q = rb_copy(m, global->w)};
+    rb_status s = local->mu && local->q ? RB_OK : RB_ENOMEM;
     if (s == RB_OK)
         s = condense(&c, local);
     *flops += c.flops;

@@ -7,16 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static rb_status copy_vector(size_t n, const double *from, double **to)
-{
-    *to = rb_alloc(n, 1);
-    if (!*to)
-        return RB_ENOMEM;
-    if (n)
-        memcpy(*to, from, n * sizeof *from);
-    return RB_OK;
-}
-
 /* Moves what a problem without constraints has of the file. */
 static void adopt_fclib(rb_io_fclib *file, rb_friction_problem *p)
 {
@@ -254,44 +244,45 @@ rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *dat
 
 /* ---- Writing ----------------------------------------------------------------------- */
 
-static rb_status describe(const rb_friction_problem *p, rb_io_fclib *file)
+/* solution: may be NULL, as its parts. */
+static rb_status describe(const rb_friction_problem *p,
+                          const rb_friction_solution *solution, rb_io_fclib *file)
 {
-    const int m = p->dimension * p->contacts;
-    *file = (rb_io_fclib){.global = p->form == RB_FRICTION_GLOBAL,
-                          .spacedim = p->dimension,
-                          .contacts = p->contacts};
-    rb_status s = copy_vector((size_t)p->contacts, p->mu, &file->mu);
-    if (s == RB_OK && p->form == RB_FRICTION_LOCAL_DENSE)
-        s = rb_sparse_from_dense(m, m, p->W, m, &file->W);
-    if (s == RB_OK && p->form == RB_FRICTION_LOCAL_SPARSE)
-        s = rb_sparse_copy(&p->Ws, &file->W);
-    if (p->form != RB_FRICTION_GLOBAL)
-        return s == RB_OK ? copy_vector((size_t)m, p->q, &file->q) : s;
-    if (s == RB_OK)
-        s = rb_sparse_copy(&p->K, &file->M);
-    if (s == RB_OK)
-        s = rb_sparse_copy(&p->H, &file->H);
-    if (s == RB_OK)
-        s = copy_vector((size_t)p->dofs, p->f, &file->f);
-    return s == RB_OK ? copy_vector((size_t)m, p->w, &file->w) : s;
+    const int m = p->dimension * p->contacts, global = p->form == RB_FRICTION_GLOBAL;
+    const rb_friction_solution x = solution ? *solution : (rb_friction_solution){0};
+    *file = (rb_io_fclib){
+        .global = global, .spacedim = p->dimension, .contacts = p->contacts};
+    const struct {
+        const double *from;
+        int n;
+        double **to;
+    } vectors[] = {{p->mu, p->contacts, &file->mu},
+                   {global ? NULL : p->q, m, &file->q},
+                   {global ? p->f : NULL, p->dofs, &file->f},
+                   {global ? p->w : NULL, m, &file->w},
+                   {x.r, m, &file->r},
+                   {x.u, m, &file->u},
+                   {global ? x.v : NULL, p->dofs, &file->v}};
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
+        if (vectors[k].from &&
+            !(*vectors[k].to = rb_copy((size_t)vectors[k].n, vectors[k].from)))
+            return RB_ENOMEM;
+    if (p->form == RB_FRICTION_LOCAL_DENSE)
+        return rb_sparse_from_dense(m, m, p->W, m, &file->W);
+    if (!global)
+        return rb_sparse_copy(&p->Ws, &file->W);
+    const rb_status s = rb_sparse_copy(&p->K, &file->M);
+    return s == RB_OK ? rb_sparse_copy(&p->H, &file->H) : s;
 }
 
 rb_status rb_friction_write(const char *path, const rb_friction_problem *p,
                             const rb_friction_solution *solution, const char *title,
                             rb_message *why)
 {
-    const size_t m = (size_t)(p->dimension * p->contacts);
-    const rb_friction_solution x = solution ? *solution : (rb_friction_solution){0};
     rb_io_fclib file;
     if (p->lengths)
         return rb_fail(why, RB_EINVAL, "%s: rolling friction cannot be written", path);
-    rb_status s = describe(p, &file);
-    if (s == RB_OK && x.r)
-        s = copy_vector(m, x.r, &file.r);
-    if (s == RB_OK && x.u)
-        s = copy_vector(m, x.u, &file.u);
-    if (s == RB_OK && x.v && file.global)
-        s = copy_vector((size_t)p->dofs, x.v, &file.v);
+    rb_status s = describe(p, solution, &file);
     if (s == RB_OK)
         s = rb_io_fclib_write(path, &file, RB_IO_FCLIB_CSC, title, "written by rollbem",
                               why);

@@ -179,32 +179,29 @@ static rb_status read_int(const reader *in, const char *group, const char *name,
     return s;
 }
 
-static rb_status read_ints(const reader *in, const char *group, const char *name,
-                           int least, int **values)
+static rb_status read_values(const reader *in, const char *group, const char *name,
+                             hid_t type, int least, void **values)
 {
     char full[160];
     int n;
     snprintf(full, sizeof full, "%s/%s", group, name);
-    const rb_status s =
-        read_array(in, full, H5T_NATIVE_INT, sizeof(int), &n, (void **)values);
+    const rb_status s = read_array(in, full, type, H5Tget_size(type), &n, values);
     if (s == RB_OK && n < least)
         return rb_fail(in->why, RB_EFORMAT, "%s: %s has %d entries, expected %d",
                        in->path, full, n, least);
     return s;
 }
 
+static rb_status read_ints(const reader *in, const char *group, const char *name,
+                           int least, int **values)
+{
+    return read_values(in, group, name, H5T_NATIVE_INT, least, (void **)values);
+}
+
 static rb_status read_doubles(const reader *in, const char *group, const char *name,
                               int least, double **values)
 {
-    char full[160];
-    int n;
-    snprintf(full, sizeof full, "%s/%s", group, name);
-    const rb_status s =
-        read_array(in, full, H5T_NATIVE_DOUBLE, sizeof(double), &n, (void **)values);
-    if (s == RB_OK && n < least)
-        return rb_fail(in->why, RB_EFORMAT, "%s: %s has %d entries, expected %d",
-                       in->path, full, n, least);
-    return s;
+    return read_values(in, group, name, H5T_NATIVE_DOUBLE, least, (void **)values);
 }
 
 /* Pointers of compressed columns (rows) -> a column (row) number per entry. */

@@ -9,9 +9,6 @@ static rb_status check_options(const rb_lcp_options *opt, rb_message *why)
     if (opt->max_iters < 0)
         return rb_fail(why, RB_EINVAL, "lcp: max_iters = %d: expected >= 0",
                        opt->max_iters);
-    if (!(opt->tol >= 0.0 && opt->tol < 1.0))
-        return rb_fail(why, RB_EINVAL, "lcp: tol = %g: expected a number in [0, 1)",
-                       opt->tol);
     return RB_OK;
 }
 

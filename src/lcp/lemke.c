@@ -12,7 +12,7 @@ static const double SPOILT = 1e-6;
 
 rb_lcp_options rb_lcp_defaults(void)
 {
-    return (rb_lcp_options){.tol = 1e-13, .rule = RB_LCP_LEXICOGRAPHIC};
+    return (rb_lcp_options){.rule = RB_LCP_LEXICOGRAPHIC};
 }
 
 /* ---- The ratio test: which row leaves ---------------------------------------------- */
@@ -278,7 +278,7 @@ static rb_status follow_path(lemke *l)
         if (leaving == z0)
             return RB_OK;
         s = rb_lcp_lemke_keep_accurate(l);
-        if (s != RB_OK || lemke_z0(l) <= l->opt.tol * l->start)
+        if (s != RB_OK || lemke_z0(l) <= VANISHED * l->start)
             return s;
     }
 }

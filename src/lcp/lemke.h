@@ -18,6 +18,9 @@ static const double DROP = 1e-13, NOISE = 1e-12, DOUBT = 1e-10, TIE = 1e-12, NEA
  * as less than this part of the largest constant is there still. */
 static const double ZERO = 1e-10;
 
+/* The path has ended where z0 is below this part of its first value. */
+static const double VANISHED = 1e-13;
+
 typedef struct {
     int n;
     lcp_data data;
@@ -54,7 +57,7 @@ rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int 
 /* RB_INACCURATE where info->res is not below 1e-6 of size, the largest constant. */
 rb_status rb_lcp_judge(rb_lcp_info *info, double size);
 
-/* ---- check.c: RB_EINVAL for sizes, max_iters < 0, tol, NaN, infinity --------------- */
+/* ---- check.c: RB_EINVAL for sizes, max_iters < 0, NaN, infinity -------------------- */
 
 rb_status rb_lcp_check_dense(const rb_lcp_problem *p, const rb_lcp_options *opt,
                              rb_message *why);

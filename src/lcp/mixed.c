@@ -439,7 +439,7 @@ static rb_status follow_path(mixed *p)
         leaving = slot == OPPOSITE ? entering : p->b.variable[slot];
         s = move(p, entering, sign, step, slot, count);
         p->info->iters++;
-        if (leaving == 2 * n || value_of_t(p) <= p->opt.tol * p->first_t)
+        if (leaving == 2 * n || value_of_t(p) <= VANISHED * p->first_t)
             return s == RB_OK ? refresh(p) : s;
         if (p->opt.start && value_of_t(p) > AWAY * p->first_t)
             return RB_RAY;
