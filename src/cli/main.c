@@ -20,7 +20,7 @@ static const cli_command commands[] = {
     {"verify", cli_verify,
      "every reference that the program should meet, and how it does"},
     {"check", cli_check,
-     "checks a result in JSON without solving: valid, or what is wrong"},
+     "checks results without solving: valid, or what is wrong"},
     {"lcp", cli_lcp, "solves complementarity problems and bimatrix games from files"},
     {"friction", cli_friction, "solves frictional contact problems from files"},
     {"compare", cli_compare, "performance profiles of friction solvers over files"},
