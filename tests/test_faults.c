@@ -134,6 +134,14 @@ static const char *const allocating[] = {
     "friction in/two-blocks.dat --solver admm --json",
     "friction in/two-blocks.dat --solver soclcp-smoothing --json",
     "friction in/f.hdf5 --solver lemke --json",
+    "friction in/cones --json --solution",
+    "friction in/global --solver nsgs-ac --json",
+    "friction in/global --solver admm --json",
+    "friction in/global --solver lemke --json",
+    "lcp in/block --json",
+    "lcp in/dense --json --solution",
+    "lcp in/rod.txt --start in/start.txt --json",
+    "lcp in/rod.txt --cover in/start.txt --json",
     "compare in/f.hdf5 in/two-blocks.dat --solvers nsgs-ac,nsn-ac --measure iterations "
     "--json "
     "--profiles q.tsv --plot p.svg --plot-script p.gp",
@@ -556,7 +564,9 @@ static void every_allocation_from_one_on(void **state)
 /* Small inputs of every kind, in the folder in. */
 static const char *const making_inputs[] = {
     "mkdir in; cp $E/lcp/*.txt $E/lcp/*.mtx $E/friction/*.dat in; "
-    "cp $E/../tests/fuzz/contact/steady in/carter.inp",
+    "cp $E/../tests/fuzz/contact/steady in/carter.inp; cp $E/../tests/fuzz/siconos/cones "
+    "$E/../tests/fuzz/siconos/global $E/../tests/fuzz/siconos/block "
+    "$E/../tests/fuzz/siconos/dense in; echo 1 1 1 1 1 >in/start.txt",
     "cd in; printf 'support = halfplane\\nload = 100\\ncontact-elements = 8\\nzone = "
     "1\\n' "
     ">b.ini; cat b.ini >s.ini; printf 'formulation = steady\\n[sweep]\\n"

@@ -123,15 +123,19 @@ static rb_status read_global(const char *path, rb_friction_problem *problem,
 static rb_status read_text(const char *path, rb_friction_problem *problem,
                            rb_message *why)
 {
-    rb_status s = read_siconos(path, problem, why);
-    if (s == RB_EFORMAT && read_global(path, problem, NULL) == RB_OK)
-        s = RB_OK;
-    return s;
+    rb_message other = {""};
+    const rb_status s = read_siconos(path, problem, why);
+    const rb_status t = s == RB_EFORMAT ? read_global(path, problem, &other) : s;
+    if (t == RB_ENOMEM && s == RB_EFORMAT)
+        return rb_fail(why, t, "%s", rb_status_reason(t, &other));
+    if (t == RB_OK && why) /* nothing is wrong with the file */
+        why->text[0] = '\0';
+    return t == RB_OK ? t : s;
 }
 
 rb_status rb_friction_file_kind(const char *path, rb_friction_file *kind, rb_message *why)
 {
-    rb_io_siconos_kind text;
+    rb_io_siconos_kind text = RB_IO_SICONOS_FRICTION;
     if (rb_io_is_hdf5(path)) {
         *kind = RB_FRICTION_FILE_FCLIB;
         return RB_OK;
