@@ -276,6 +276,21 @@ static void layers_remember(void **state)
     }
 }
 
+/* A panel of wave numbers holds ten radians of the farthest point's wave: the more where
+ * no farther one narrows it. */
+static void waves_that_reach_far_are_met(void **state)
+{
+    (void)state;
+    const rb_bem_surface body = {.material = rubber, .thickness = 0.6};
+    const double ends[2] = {-0.25, 0.25}, at = 18.0, x[2] = {at, 3.0 * at};
+    double under[4], alone[4], together[8];
+    seen(&body, 0.0, 0.25, under);
+    CHECK_STATUS(rb_bem_surface_displacement(&body, 1, ends, 1, &at, alone), RB_OK);
+    CHECK_STATUS(rb_bem_surface_displacement(&body, 1, ends, 2, x, together), RB_OK);
+    for (int e = 0; e < 4; e++)
+        CHECK_ABS(alone[e], together[2 * e], 5e-13 * fabs(under[0]), "entry %d", e);
+}
+
 /* ---- Operators --------------------------------------------------------------------- */
 
 /* Entries and products of the transforms against the dense matrix, with memory and
@@ -428,6 +443,7 @@ int main(void)
         cmocka_unit_test(layers_have_their_limits),
         cmocka_unit_test(thin_layers_are_mattresses),
         cmocka_unit_test(layers_remember),
+        cmocka_unit_test(waves_that_reach_far_are_met),
         cmocka_unit_test(transforms_are_the_dense_matrix),
         cmocka_unit_test(tractions_are_summed_as_by_the_matrix),
         cmocka_unit_test(bad_surfaces_are_refused),
