@@ -24,6 +24,7 @@ static double uniform(unsigned *state)
 typedef struct {
     int balls, contacts, dofs, rows;
     double H[DOFS * ROWS], v[DOFS], mu, mu_r;
+    double w[ROWS]; /* u = H'v + w: what moves by itself */
 } row_of_balls;
 
 /* Column of one direction at contact c: b is pushed along t, a against it; a turn: the
@@ -97,6 +98,8 @@ static void as_file(const row_of_balls *s, double unit, rb_io_fclib *p)
     }
     for (int c = 0; c < s->contacts; c++)
         p->mu[c] = s->mu, p->mu_r[c] = unit * s->mu_r;
+    for (int k = 0; k < s->rows; k++)
+        p->w[k] = s->w[k] * (k % 5 < 3 ? unit : 1.0);
     CHECK_STATUS(rb_sparse_from_triplets(&M, &p->M), RB_OK);
     rb_triplets_free(&M);
     CHECK_STATUS(rb_sparse_from_dense(s->dofs, s->rows, H, s->dofs, &p->H), RB_OK);
@@ -113,7 +116,7 @@ static double violation(const row_of_balls *s, const double *r)
             v[i] += s->H[i + k * s->dofs] * r[k] / mass(i);
     }
     for (int k = 0; k < s->rows; k++) {
-        u[k] = 0.0;
+        u[k] = s->w[k];
         for (int i = 0; i < s->dofs; i++)
             u[k] += s->H[i + k * s->dofs] * v[i];
     }
@@ -164,6 +167,7 @@ static void rows_of_balls_obey_both_laws(void **state)
                  {3, 0.5, 0.05}, {5, 0.8, 0.2}, {8, 0.3, 0.01},
                  {12, 0.5, 0.1}, {4, 0.0, 0.1}, {4, 0.5, 0.0}};
     static double r[6 * CONTACTS], u[6 * CONTACTS];
+    unsigned random = 8;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
         for (unsigned seed = 1; seed < 4; seed++) {
             row_of_balls s;
@@ -171,6 +175,10 @@ static void rows_of_balls_obey_both_laws(void **state)
             CHECK_STATUS(solve_row(&s, 1.0, "auto", r, u), RB_OK);
             CHECK_MAX(violation(&s, r), 1e-7, "%d balls, mu %g, mu_r %g", s.balls, s.mu,
                       s.mu_r);
+            for (int i = 0; i < s.rows; i++)
+                s.w[i] = 0.2 * uniform(&random);
+            CHECK_STATUS(solve_row(&s, 2.0, "auto", r, u), RB_OK);
+            CHECK_MAX(violation(&s, r), 1e-7, "%d balls, moved", s.balls);
         }
 }
 
