@@ -106,6 +106,10 @@ static void smoothed_projections_obey_their_definition(void **state)
 {
     (void)state;
     unsigned seed = 11;
+    double zero = 0.0, own = NAN, slope = NAN;
+    rb_friction_smoothed(1, 0.0, &zero, &own, &slope);
+    CHECK_ABS(own, 0.0, 0.0, "the tip of the cone, not smoothed");
+    CHECK_ABS(slope, 0.5, 0.0, "its derivative");
     for (int n = 1; n <= 3; n++)
         for (int trial = 0; trial < 20; trial++) {
             const double mu = 0.3 + 0.1 * trial, step = 1e-5;
