@@ -214,8 +214,7 @@ static rb_status draw_picture(FILE *out, const void *context, rb_message *why)
     const rb_status s = d->draw(out, d->canvas, d->context, &reason);
     if (s == RB_OK || (s == RB_EWRITE && ferror(out)))
         return s;
-    return rb_fail(why, s, "--%s: %s", d->option,
-                   rb_status_reason(s, &reason));
+    return rb_fail(why, s, "--%s: %s", d->option, rb_status_reason(s, &reason));
 }
 
 cli_exit cli_draw_file(const cli_pictures *pictures, const char *option, const char *path,
