@@ -911,7 +911,7 @@ static void check_power(const contact *c, const table *t, const json_t *list)
     const double D = number(c->summary, "dissipation");
     const double p0 = largest(t->n, t->column[P]);
     const double largest_slip = largest(t->n, t->column[SLIP]);
-    double sum = 0.0, size = 0.0;
+    double sum = 0.0, size = 0.0, summed = 0.0;
     if (c->formulation == STATIC) {
         if (!isnan(D))
             violated("dissipation", "of static contact is not null");
@@ -920,12 +920,15 @@ static void check_power(const contact *c, const table *t, const json_t *list)
     for (int i = 0; i < t->n; i++) {
         const double power = json_number_value(json_array_get(list, (size_t)i));
         sum += power * t->column[H][i];
+        summed += fabs(power) * t->column[H][i];
         size += fabs(t->column[SLIP][i] * t->column[Q][i]) * t->column[H][i];
         /* of a steady state it is shared between neighbours, whatever their signs */
         if (c->formulation == TRANSIENT && power < -1e-9 * p0 * largest_slip)
             violated("friction power", "element %d gives %g", i + 1, power);
     }
-    expect("dissipation", D, sum, 1e-11 * size + 1e-14 * p0);
+    /* where nearly all sticks, all of it is lost between the midpoints, whose slip is
+     * zero: then it is the rounding of the sum that counts */
+    expect("dissipation", D, sum, 1e-11 * size + 1e-14 * (p0 + summed));
 }
 
 static int has_memory(const json_t *inputs, const char *suffix)
