@@ -135,7 +135,7 @@ void rb_io_read_matrix_market(io_tokens *t, rb_io_matrix *m)
     const market_kind kind = read_head(t);
     m->rows = rb_io_tokens_int(t, 0, INT_MAX, "rows");
     m->cols = rb_io_tokens_int(t, 0, INT_MAX, "columns");
-    if (t->status == RB_OK && (m->rows == 0) != (m->cols == 0))
+    if (t->status == RB_OK && (m->rows == 0 || m->cols == 0))
         rb_io_tokens_fail(t, "a matrix of %d by %d has no entries", m->rows, m->cols);
     if (t->status == RB_OK && kind.symmetric && m->rows != m->cols)
         rb_io_tokens_fail(t, "a symmetric matrix of %d by %d", m->rows, m->cols);
