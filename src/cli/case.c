@@ -176,14 +176,21 @@ static cli_exit read_words(const cli_spec *spec, cli_case_run *run, int argc, ch
     return code;
 }
 
+/* given, plain: MOST zeros each, which the run borrows. */
+static cli_case_run run_of(const cli_case_command *command, void *own, int *given,
+                           int *plain, rb_case *words)
+{
+    return (cli_case_run){.command = command,
+                          .own = own,
+                          .set = {command->options, command->option_n, own, given, plain},
+                          .words = words};
+}
+
 cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
                          char **argv, rb_case *words)
 {
     int given[MOST] = {0}, plain[MOST] = {0};
-    cli_case_run run = {.command = command,
-                        .own = own,
-                        .set = {command->options, command->option_n, own, given, plain},
-                        .words = words};
+    cli_case_run run = run_of(command, own, given, plain, words);
     const cli_spec spec = spec_of(&run);
     rb_message why = {""};
     cli_exit code = read_words(&spec, &run, argc, argv);
@@ -197,10 +204,8 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
                               char **argv)
 {
     int given[MOST] = {0}, plain[MOST] = {0};
-    cli_case_run run = {.command = command,
-                        .own = own,
-                        .set = {command->options, command->option_n, own, given, plain},
-                        .words = cli_case_create(command->purpose)};
+    cli_case_run run =
+        run_of(command, own, given, plain, cli_case_create(command->purpose));
     if (!run.words)
         return CLI_INTERNAL;
     const cli_spec spec = spec_of(&run);
