@@ -1,0 +1,404 @@
+/* Pictures and JSON of the finite-element examples: what gnuplot would read of a small
+ * wall, bar and truss, against their meshes, displacements and steps. */
+#include "check.h"
+#include "fem/wall.h"
+#include "report/fem_internal.h"
+#include "rollbem/report_fem.h"
+
+#include <jansson.h>
+#include <string.h>
+
+static const rb_report_canvas page = {.kind = RB_REPORT_SVG, .script = 1};
+static const rb_report_canvas one_column = {
+    .kind = RB_REPORT_SVG, .size = RB_REPORT_85MM, .script = 1};
+
+/* ---- Scripts ----------------------------------------------------------------------- */
+
+/* What was written, in static storage. */
+static const char *written(FILE *file)
+{
+    static char text[400000];
+    rewind(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    return text;
+}
+
+static void check_says(const char *script, const char *part)
+{
+    if (!strstr(script, part))
+        fail_msg("the script has no '%s'", part);
+}
+
+/* The numbers of a block of data, `columns` in a line; how many lines. */
+static int block(const char *script, const char *name, int columns, int most, double *x)
+{
+    char begin[40];
+    int rows = 0;
+    snprintf(begin, sizeof begin, "$%s << EOD\n", name);
+    const char *s = strstr(script, begin);
+    if (!s)
+        fail_msg("no block of data $%s", name);
+    for (s += strlen(begin); strncmp(s, "EOD", 3) != 0; s += strcspn(s, "\n") + 1) {
+        if (*s == '\n')
+            continue;
+        assert_true(rows < most);
+        char *end = (char *)s;
+        for (int k = 0; k < columns; k++)
+            x[columns * rows + k] = strtod(end, &end);
+        assert_int_equal(end[strspn(end, " ")], '\n');
+        rows++;
+    }
+    return rows;
+}
+
+/* Is the closed or open line of so many points of [m] among those drawn? */
+static int is_drawn(const double *line, int points, const double *drawn, int rows)
+{
+    for (int k = 0; k + points <= rows; k += points) {
+        double off = 0.0;
+        for (int i = 0; i < 2 * points; i++)
+            off = fmax(off, fabs(drawn[2 * k + i] - line[i]));
+        if (off < 1e-5)
+            return 1;
+    }
+    return 0;
+}
+
+/* ---- The wall ---------------------------------------------------------------------- */
+
+enum { PRESS = 2, SHEAR = 2, STEPS = 1 + PRESS + SHEAR, POINTS = 2000 };
+
+typedef struct {
+    rb_fem_wall_options options;
+    rb_fem_wall *wall;
+    rb_fem_wall_step step[STEPS];
+    double *u;
+} solved_wall;
+
+static solved_wall walls[2]; /* elastic, of rigid blocks (under its weight alone) */
+
+static int solve_walls(void **state)
+{
+    (void)state;
+    static const int fine[3] = {4, 3, 3}, coarse[3] = {3, 2, 3};
+    for (int rigid = 0; rigid < 2; rigid++) {
+        solved_wall *w = &walls[rigid];
+        w->options = rb_fem_wall_defaults();
+        w->options.press = PRESS;
+        w->options.shear = SHEAR;
+        w->options.rigid = rigid;
+        memcpy(w->options.fine, fine, sizeof fine);
+        memcpy(w->options.coarse, coarse, sizeof coarse);
+        if (rb_fem_wall_create(&w->options, &w->wall, NULL) != RB_OK)
+            return -1;
+        for (int k = 0; k < (rigid ? 1 : STEPS); k++)
+            if (rb_fem_wall_advance(w->wall, "nsn-ac", 1e-9, &w->step[k], NULL) != RB_OK)
+                return -1;
+        w->u = rb_alloc(3, (size_t)rb_fem_wall_mesh(w->wall)->nodes);
+        if (!w->u || rb_fem_wall_displacements(w->wall, w->u) != RB_OK)
+            return -1;
+    }
+    return 0;
+}
+
+static int free_walls(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        free(walls[k].u);
+        rb_fem_wall_free(walls[k].wall);
+    }
+    return 0;
+}
+
+static const char *draw_wall(const solved_wall *w, rb_report_canvas canvas, int steps)
+{
+    rb_message why = {""};
+    FILE *out = tmpfile();
+    CHECK_STATUS(rb_report_picture_wall(out, canvas, w->wall, steps, w->step, &why),
+                 RB_OK);
+    return written(out);
+}
+
+/* The longest displacement in the plane of the front is drawn as at most 0.12 of the
+ * height of 0.5 m, by a factor of 1, 2 or 5 times a power of ten. */
+static double factor_of(const solved_wall *w)
+{
+    double longest = 0.0, factor = 1e-3;
+    for (int a = 0; a < rb_fem_wall_mesh(w->wall)->nodes; a++)
+        longest = fmax(longest, hypot(w->u[3 * a], w->u[3 * a + 2]));
+    for (int k = 0; factor * (k % 3 == 1 ? 2.5 : 2.0) * longest <= 0.12 * 0.5; k++)
+        factor *= k % 3 == 1 ? 2.5 : 2.0;
+    return factor;
+}
+
+static void place(const solved_wall *w, double factor, int node, double at[2])
+{
+    const double *x = rb_fem_wall_mesh(w->wall)->x + 3 * node;
+    at[0] = x[0] + factor * w->u[3 * node];
+    at[1] = x[2] + factor * w->u[3 * node + 2];
+}
+
+/* Every face of the front, displaced, and the outline of every block. */
+static void front_of_the_wall_is_drawn(void **state)
+{
+    (void)state;
+    static double mesh[2 * POINTS], edge[2 * POINTS];
+    const solved_wall *w = &walls[0];
+    const char *script = draw_wall(w, page, STEPS);
+    const int points = block(script, "mesh", 2, POINTS, mesh);
+    const int ends = block(script, "edge", 2, POINTS, edge);
+    const wall_layout layout = wall_lay_out(&w->options);
+    const double factor = factor_of(w);
+    int faces = 0, edges = 0;
+    for (int k = 0; k < BLOCKS; k++) {
+        const wall_block *b = &layout.block[k];
+        for (int i = 0; i + 1 < b->n[0]; i++)
+            for (int j = 0; j + 1 < b->n[2]; j++, faces++) {
+                static const int step[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+                double face[10];
+                for (int c = 0; c < 5; c++)
+                    place(w, factor, wall_node(b, i + step[c][0], 0, j + step[c][1]),
+                          face + 2 * c);
+                if (!is_drawn(face, 5, mesh, points))
+                    fail_msg("face %d, %d of block %d is not drawn", i, j, k);
+                for (int c = 0; c < 4; c++) {
+                    const int outer = (c == 0 && j == 0) ||
+                                      (c == 2 && j + 2 == b->n[2]) ||
+                                      (c == 1 && i + 2 == b->n[0]) || (c == 3 && i == 0);
+                    edges += outer;
+                    assert_int_equal(is_drawn(face + 2 * c, 2, edge, ends), outer);
+                }
+            }
+    }
+    assert_int_equal(points, 5 * faces);
+    assert_int_equal(ends, 2 * edges);
+    char title[200];
+    snprintf(title, sizeof title,
+             "displacements × %g, drift of the upper support %.3g mm' at screen 0.31, "
+             "0.885 center",
+             factor, 1e3 * w->step[STEPS - 1].drift);
+    check_says(script, title);
+    check_says(script, "pressed with 30 kN and sheared}' at screen 0.5, 0.955 center");
+    check_says(script, "set xrange [-0.04:0.54]\nset yrange [-0.025:0.54]\n");
+    check_says(script, "rectangle from -0.04, -0.025 to 0.54, 0 fillcolor");
+}
+
+/* Blocks that have not moved are drawn as they are. */
+static void wall_at_rest_is_not_magnified(void **state)
+{
+    (void)state;
+    static double mesh[2 * POINTS];
+    solved_wall still = walls[0];
+    double right = 0.0, top = 0.0;
+    CHECK_STATUS(rb_fem_wall_create(&still.options, &still.wall, NULL), RB_OK);
+    const char *script = draw_wall(&still, page, 1);
+    check_says(script, "displacements × 1, drift");
+    const int points = block(script, "mesh", 2, POINTS, mesh);
+    for (int k = 0; k < points; k++) {
+        right = fmax(right, mesh[2 * k]);
+        top = fmax(top, mesh[2 * k + 1]);
+    }
+    CHECK_ABS(right, 0.4, 0.0, "width");
+    CHECK_ABS(top, 0.5, 0.0, "height");
+    rb_fem_wall_free(still.wall);
+}
+
+static void steps_of_the_wall_are_drawn(void **state)
+{
+    (void)state;
+    const solved_wall *w = &walls[0];
+    for (int steps = 1; steps <= STEPS; steps += STEPS - 1) {
+        double x[7 * STEPS];
+        const char *script = draw_wall(w, page, steps);
+        assert_int_equal(block(script, "step", 7, STEPS, x), steps);
+        for (int k = 0; k < steps; k++) {
+            const rb_fem_wall_step *s = &w->step[k];
+            const double want[7] = {
+                s->time, 1e-3 * s->compression, 1e-3 * s->shear, s->stick,
+                s->slip, s->separated,          s->iterations};
+            for (int c = 0; c < 7; c++)
+                CHECK_REL(x[7 * k + c], want[c], 1e-5, "step %d, column %d", k, c);
+        }
+    }
+}
+
+/* Panels side by side; in a column of print one below the other, without a title. */
+static void panels_lie_beside_or_below_each_other(void **state)
+{
+    (void)state;
+    const solved_wall *w = &walls[0];
+    for (int column = 0; column < 2; column++) {
+        const char *script = draw_wall(w, column ? one_column : page, STEPS);
+        double at[3][4]; /* left, right, bottom, top */
+        const char *s = script;
+        for (int k = 0; k < 3; k++) {
+            s = strstr(s, "set lmargin at screen");
+            assert_non_null(s);
+            assert_int_equal(sscanf(s,
+                                    "set lmargin at screen %lf\nset rmargin at screen "
+                                    "%lf\nset bmargin at screen %lf\nset tmargin at "
+                                    "screen %lf\n",
+                                    &at[k][0], &at[k][1], &at[k][2], &at[k][3]),
+                             4);
+            assert_true(0.05 < at[k][0] && at[k][0] + 0.3 < at[k][1] && at[k][1] < 0.98);
+            assert_true(0.05 < at[k][2] && at[k][2] + 0.13 < at[k][3] && at[k][3] < 0.95);
+            s++;
+        }
+        assert_null(strstr(s, "set lmargin"));
+        for (int k = 1; k < 3; k++) /* room for the ticks between them */
+            if (column || k == 2)
+                assert_true(at[k][3] + 0.02 < at[k - 1][2]);
+            else
+                assert_true(at[0][1] + 0.1 < at[k][0] && at[2][0] == at[1][0]);
+        assert_int_equal(strstr(script, "unset label 1\n") != NULL, column);
+        assert_int_equal(strstr(script, "set xtics 0.2\nset ytics 10\n") != NULL, column);
+        assert_int_equal(strstr(script, "set ytics 50\n") != NULL, column); /* of 161 */
+        check_says(script, column ? "at screen 0.5, 0.955 center textcolor"
+                                  : "at screen 0.31, 0.885 center textcolor");
+        check_says(script, column ? "set ylabel 'contact points' offset 0.5,0\n"
+                                  : "set ylabel 'contact points' offset -0.7,0\n");
+    }
+}
+
+static void wall_needs_steps_and_memory(void **state)
+{
+    (void)state;
+    rb_message why = {""};
+    FILE *out = tmpfile();
+    CHECK_STATUS(rb_report_picture_wall(out, page, walls[0].wall, 0, walls[0].step, &why),
+                 RB_EINVAL);
+    assert_string_equal(why.text, "nothing to draw");
+    for (int k = 0; k < 2; k++) {
+        alloc_fail_after(k);
+        const rb_status s =
+            rb_report_picture_wall(out, page, walls[k].wall, 1, walls[k].step, &why);
+        alloc_succeed();
+        CHECK_STATUS(s, RB_ENOMEM);
+        assert_string_equal(why.text, "out of memory");
+    }
+    assert_int_equal(ftell(out), 0);
+    fclose(out);
+}
+
+static double number(const json_t *object, const char *name)
+{
+    const json_t *x = json_object_get(object, name);
+    return json_is_number(x) ? json_number_value(x) : NAN;
+}
+
+static void wall_as_json(void **state)
+{
+    (void)state;
+    rb_fem_wall_step steps[STEPS];
+    memcpy(steps, walls[0].step, sizeof steps);
+    steps[1].residual = NAN;
+    json_t *list = rb_report_json_wall(STEPS, steps);
+    assert_int_equal(json_array_size(list), STEPS);
+    for (size_t k = 0; k < STEPS; k++) {
+        const rb_fem_wall_step *s = &steps[k];
+        const json_t *o = json_array_get(list, k);
+        const struct {
+            const char *name;
+            double value;
+        } wanted[] = {{"time_s", s->time},         {"compression_N", s->compression},
+                      {"shear_N", s->shear},       {"drift_m", s->drift},
+                      {"stick", s->stick},         {"slip", s->slip},
+                      {"separated", s->separated}, {"iterations", s->iterations},
+                      {"seconds", s->seconds}};
+        for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
+            CHECK_ABS(number(o, wanted[i].name), wanted[i].value, 0.0, "%s of step %zu",
+                      wanted[i].name, k);
+        assert_int_equal(json_object_size(o), sizeof wanted / sizeof *wanted + 1);
+        assert_int_equal(json_is_null(json_object_get(o, "residual")), k == 1);
+        if (k != 1)
+            CHECK_ABS(number(o, "residual"), s->residual, 0.0, "residual");
+    }
+    json_decref(list);
+}
+
+/* ---- Bar and truss ----------------------------------------------------------------- */
+
+static void bar_and_truss_need_steps(void **state)
+{
+    (void)state;
+    const rb_fem_model model = {0};
+    const rb_fem_history history = {0};
+    rb_message why[2] = {{""}, {""}};
+    FILE *out = tmpfile();
+    CHECK_STATUS(rb_report_picture_bar(out, page, &model, &history, &why[0]), RB_EINVAL);
+    CHECK_STATUS(rb_report_picture_truss(out, page, &model, &history, &why[1]),
+                 RB_EINVAL);
+    for (int k = 0; k < 2; k++)
+        assert_string_equal(why[k].text, "nothing to draw");
+    assert_int_equal(ftell(out), 0);
+    fclose(out);
+}
+
+/* A quarter of the truss: every node of it once in each panel, with its vector where it
+ * slips, and at the end where it has moved, if only along one axis. */
+static void truss_is_drawn_by_its_slips(void **state)
+{
+    (void)state;
+    enum { NODES = 4, QUARTER = 4 };
+    static const char *const names[] = {"upper nodes inside", "upper nodes overhanging"};
+    for (int layout = 0; layout < 2; layout++) {
+        rb_fem_model model;
+        rb_fem_history history;
+        CHECK_STATUS(rb_fem_model_truss((rb_fem_layout)layout, NODES, &model, NULL),
+                     RB_OK);
+        CHECK_STATUS(rb_fem_run(&model, "nsn-ac", 1e-9, &history, NULL), RB_OK);
+        rb_fem_step *last = &history.step[history.steps - 1];
+        for (int i = 0, k = 0; i < model.structure.contacts; i++)
+            if (model.mesh.x[3 * i] >= 0.0 && model.mesh.x[3 * i + 1] >= 0.0) {
+                last->u[3 * i] = k == 1 ? 2.0 : 0.0; /* [mm] */
+                last->u[3 * i + 1] = k == 2 ? -3.0 : 0.0;
+                k++;
+            }
+        rb_message why = {""};
+        FILE *out = tmpfile();
+        CHECK_STATUS(rb_report_picture_truss(out, page, &model, &history, &why), RB_OK);
+        const char *script = written(out);
+        check_says(script, names[layout]);
+        assert_null(strstr(script, names[1 - layout]));
+        for (int panel = 0; panel <= history.steps; panel++) {
+            const rb_fem_step *step = &history.step[panel];
+            char name[20];
+            double move[4 * (QUARTER + 1)], rest[4 * (QUARTER + 1)];
+            int slipping = 0;
+            snprintf(name, sizeof name, "move%d", panel);
+            const int moves = block(script, name, 4, QUARTER + 1, move);
+            snprintf(name, sizeof name, "rest%d", panel);
+            const int rests = block(script, name, 4, QUARTER + 1, rest);
+            assert_int_equal(moves + rests, QUARTER + 2); /* and one beyond the picture */
+            for (int i = 0; i < model.structure.contacts && step <= last; i++)
+                slipping += model.mesh.x[3 * i] >= 0.0 &&
+                            model.mesh.x[3 * i + 1] >= 0.0 &&
+                            step->contact[i] == RB_FEM_SLIP;
+            assert_int_equal(moves - 1, panel < history.steps ? slipping : 2);
+            if (panel == history.steps) { /* the longest is at most 1.1 cells of 2 m */
+                const double scale = move[6] / 2e-3;
+                CHECK_REL(move[4 + 4 + 3], -3e-3 * scale, 1e-8, "vector");
+                assert_true(3e-3 * scale <= 2.2 && 3e-3 * scale > 0.8);
+            }
+        }
+        rb_fem_history_free(&history);
+        rb_fem_model_free(&model);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(front_of_the_wall_is_drawn),
+        cmocka_unit_test(wall_at_rest_is_not_magnified),
+        cmocka_unit_test(steps_of_the_wall_are_drawn),
+        cmocka_unit_test(panels_lie_beside_or_below_each_other),
+        cmocka_unit_test(wall_needs_steps_and_memory),
+        cmocka_unit_test(wall_as_json),
+        cmocka_unit_test(bar_and_truss_need_steps),
+        cmocka_unit_test(truss_is_drawn_by_its_slips),
+    };
+    return cmocka_run_group_tests(tests, solve_walls, free_walls);
+}
