@@ -602,6 +602,213 @@ static void what_cannot_be_checked_is_refused(void **state)
     assert_int_equal(rollbem("check"), 64);
 }
 
+/* ---- Results that somebody has changed --------------------------------------------- */
+
+/* The member of that name, or the entry of that number. */
+static json_t *member(json_t *from, const char *name)
+{
+    return json_is_array(from) ? json_array_get(from, strtoul(name, NULL, 10))
+                               : json_object_get(from, name);
+}
+
+/* Puts a value of JSON into its place, names and numbers with / between; "": takes away
+ * what is there. */
+static void edit(json_t *root, const char *path, const char *value)
+{
+    char text[100], *name, *next;
+    json_t *new_one = *value ? json_loads(value, JSON_DECODE_ANY, NULL) : NULL;
+    snprintf(text, sizeof text, "%s", path);
+    for (name = text; (next = strchr(name, '/')) != NULL; name = next + 1) {
+        *next = '\0';
+        root = member(root, name);
+    }
+    const size_t i = strtoul(name, NULL, 10);
+    const int done = json_is_array(root) ? new_one ? json_array_set_new(root, i, new_one)
+                                                   : json_array_remove(root, i)
+                     : new_one ? json_object_set_new(root, name, new_one)
+                                         : json_object_del(root, name);
+    if (done != 0)
+        fail_msg("%s cannot be changed to '%s'", path, value);
+}
+
+/* What the check of a result with that change says; "": it is valid. */
+static const char *said_of(const json_t *root, const char *path, const char *value)
+{
+    static char text[50000];
+    FILE *lines = tmpfile();
+    rb_case *words = rb_case_create(RB_CASE_SINGLE);
+    json_t *other = json_deep_copy(root);
+    rb_report_certificate found;
+    rb_message why = {""};
+    edit(other, path, value);
+    const rb_status s =
+        rb_report_certify_solutions(lines, "r", other, words, &found, &why);
+    rewind(lines);
+    text[fread(text, 1, sizeof text - 1, lines)] = '\0';
+    assert_int_equal(found.violations > 0, text[0] != '\0');
+    if (s != RB_OK) {
+        CHECK_STATUS(s, RB_EFORMAT);
+        snprintf(text, sizeof text, "%s", why.text);
+    }
+    fclose(lines);
+    rb_case_free(words);
+    json_decref(other);
+    return text;
+}
+
+/* A line for each thing that is missing, of another kind, or against a law. */
+static void every_edit_is_named(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *given;
+        struct {
+            const char *path, *value, *part;
+        } edit[40];
+    } results[] = {
+        {"--support halfplane --load 100 --mu 0.3 --creep-ratio 0.4 --mesh uniform "
+         "--contact-elements 12" STEADY,
+         {
+             {"notes", "[]", ""},
+             {"schema", "\"rollbem/2\"", "r: cannot be checked: not a result of schema"},
+             {"inputs", "", "inputs, summary or table is missing"},
+             {"summary", "[]", "inputs, summary or table is missing"},
+             {"table", "", "inputs, summary or table is missing"},
+             {"errors", "{}", "results with 'errors' (only single cases"},
+             {"history", "{}", "its inputs and its history do not belong together"},
+             {"inputs/error", "true", "error bars take solutions"},
+             {"inputs/accuracy", "0.01", "error bars take solutions"},
+             {"summary/errors", "{}", "error bars take solutions"},
+             {"inputs/units", "\"si\"", "units other than mm"},
+             {"units/system", "\"si\"", "units other than mm"},
+             {"summary/status", "\"iteration limit\"", "says itself that it is not"},
+             {"table/x_mm", "[0, 1]", "its table has no elements"},
+             {"inputs/length", "1", "inputs: unknown option 'length'"},
+             {"inputs/mu", "\"much\"", "inputs: --mu: expected a number"},
+             {"inputs/load", "{}", "r: cannot be checked: inputs: "},
+             {"inputs/tol", "", "'tol' of inputs cannot be built again"},
+             {"inputs/gap-smoothing", "null", "'gap-smoothing' of inputs cannot be"},
+             {"inputs/shift", "", "'shift' of inputs cannot be built again"},
+             {"inputs/shift-b", "null", "cannot be checked: inputs have other names"},
+             {"input_hash", "\"0\"", "are not those of the result (input_hash)"},
+             {"table/h_mm/3", "-0.1", "r: table: element 4 is out of order"},
+             {"table/x_mm/5", "-9", "r: table: element 6 is out of order"},
+             {"table/x_mm/5", "null", "r: table: x_mm of element 6 is no number"},
+             {"table/h_mm", "", "numbers in h_mm"},
+             {"table/p_MPa", "", "numbers in p_MPa"},
+             {"table/q_MPa/2", "", "numbers in q_MPa"},
+             {"table/zone", "", "numbers in zone"},
+             {"table/shift_mm", "", "numbers in shift_mm"},
+             {"table/zone/5", "1.5", "r: table: zone of element 6 is 1.5"},
+             {"table/zone/5", "4", "r: table: zone of element 6 is 4"},
+             {"table/zone/0", "-1", "r: table: zone of element 1 is -1"},
+             {"summary/creepage", "null", "no approach, shift or creepage"},
+             {"summary/approach", "", "no approach, shift or creepage"},
+         }},
+        {"--support halfplane --load 100 --mu 0.3 --creep-ratio 0.4 --mesh uniform "
+         "--contact-elements 12" STEADY,
+         {
+             {"table/p_MPa/6", "-1", "violated: pressure of element 7: -1 < 0"},
+             {"table/p_MPa/6", "-1", "zone of element 7: 2 at a pressure of -1"},
+             {"table/p_MPa/0", "1", "violated: zone of element 1: 0 at a pressure of 1"},
+             {"table/p_MPa/0", "1", "violated: the contact reaches an end of the table"},
+             {"table/p_MPa/11", "1", "violated: the contact reaches an end of the"},
+             {"table/q_MPa/6", "1e4", "of element 7: |q| exceeds mu p by"},
+             {"table/zone/6", "1", "violated: stick of element 7: it slips by"},
+             {"table/zone/6", "3", "violated: slip of element 7: q - mu p ="},
+             {"table/q_MPa/6", "0", "violated: slip of element 7: q + mu p ="},
+             {"table/shift_mm/6", "-1", "violated: slip of element 7: q + mu p = "},
+             {"table/gap_mm/6", "1", "violated: gap_mm of element 7: printed 1"},
+             {"table/un_mm/6", "", "violated: un_mm: 11 numbers, expected 12"},
+             {"table/ut_mm/6", "1", "violated: ut_mm of element 7: printed 1"},
+             {"table/more", "[]", "columns, expected"},
+             {"summary/more", "1", "violated: summary: more is no result of this case"},
+             {"summary/datum", "", "summary: datum is missing, or should be null"},
+             {"summary/load_error", "", "load_error is missing, or should be null"},
+             {"summary/support_balance", "1", "support_balance is missing, or should be"},
+             {"summary/contact", "\"x\"", "violated: contact: printed nan, recomputed"},
+             {"summary/edges", "\"x\"", "summary: edges is not what it should be"},
+             {"summary/iterations", "1000", ""},
+             {"summary/normal_load", "101", "violated: normal_load: printed 101"},
+             {"summary/tangential_load", "1", "violated: tangential_load: printed 1"},
+             {"summary/creepage", "0", "violated: the given creep_ratio: printed 0"},
+             {"summary/boundary_matrix", "\"hierarchical\"", "boundary_matrix"},
+         }},
+        {"--support halfplane --load 100 --mu 0.3 --creep-ratio -0.4 --mesh uniform "
+         "--contact-elements 12" STEADY,
+         {
+             {"table/zone/8", "2", "violated: slip of element 9: q + mu p ="},
+             {"table/q_MPa/8", "0", "violated: slip of element 9: q - mu p ="},
+             {"table/shift_mm/8", "1", "violated: slip of element 9: q - mu p = "},
+         }},
+        {"--support halfplane --load 100 --mu 0.3 --creep-ratio 0.3 --yield-stress 20 "
+         "--interlayer-tangential 1e-5 --mesh uniform --contact-elements 14" STEADY,
+         {
+             {"table/zone/9", "4", "violated: yield of element 10: |q| is off its yield"},
+             {"table/zone/9", "6", "r: table: zone of element 10 is 6"},
+             {"table/q_MPa/5", "-30", "yield stress of element 6: |q| exceeds it by"},
+             {"table/plastic_mm", "", "numbers in plastic_mm"},
+         }},
+        {"--support halfplane --load 100 --mu 0.3 --gap humps.txt --contact-elements 20",
+         {
+             {"summary/patches/1/normal_load", "1", "violated: normal_load: printed 1"},
+             {"summary/patches/0/to", "null", "violated: to: printed nan"},
+             {"summary/patches/0/more", "1", "patches: more is no result of this case"},
+             {"summary/patches/1", "", "summary: patches is not what it should be"},
+             {"summary/creepage", "1", "violated: creepage: printed 1, recomputed 0 "},
+         }},
+        {"--support halfplane --load 100 --mu 0.3 --increments 3 --shift 1e-4 "
+         "--contact-elements 12" STATES,
+         {
+             {"history", "", "its inputs and its history do not belong together"},
+             {"history/states", "", "depends on the steps before it: take --states"},
+             {"inputs/increments", "1", "its inputs and its history do not belong"},
+             {"history/approach", "[]", "r: cannot be checked: no steps"},
+             {"history/states/p_MPa", "", "r: states: expected 6 steps in p_MPa"},
+             {"history/states/q_MPa/0", "", "r: states: expected 6 steps in q_MPa"},
+             {"history/states/shift_mm/1/4", "", "numbers in shift_mm"},
+             {"history/states/shift_mm/1/4", "null",
+              "shift_mm of element 5 is no number"},
+             {"history/states/zone", "", "r: states: expected 6 steps in zone"},
+             {"history/states/zone/2/4", "4", "r: states: zone 4"},
+             {"history/states/zone/2/4", "-1", "r: states: zone -1"},
+             {"history/states/zone/2/4", "0.5", "r: states: zone 0.5"},
+             {"history/states/motion", "", "numbers in motion"},
+             {"table/x_mm/3", "null", "x_mm of element 4 is no number"},
+             {"table/h_mm", "", "numbers in h_mm"},
+             {"history/states/motion/1", "1", "violated: step 2: the given shift or"},
+             {"history/states/p_MPa/1/5", "1", "violated: step 2: "},
+             {"history/approach/1", "1", "violated: step 2: gap of element"},
+             {"history/normal_load/1", "",
+              "history: 5 numbers in normal_load, expected 6"},
+             {"history/stick/1", "7.5", "violated: step 2: stick: printed 7.5"},
+             {"history/residual/1", "1", "violated: step 2: residual: printed 1"},
+             {"history/half_width", "1", "violated: half_width: printed 1"},
+             {"history/steady_from", "\"x\"", "steady_from is not what it should be"},
+             {"history/more", "1", "violated: history: more is no result of this case"},
+         }},
+    };
+    assert_int_equal(shell("awk 'BEGIN {for (x = -4; x < 4.01; x += 0.25) { a = x < 0 ? "
+                           "-x - 2 : x - 2; print x, a * a / 50 }}' > humps.txt"),
+                     0);
+    int wrong = 0;
+    for (size_t k = 0; k < sizeof results / sizeof *results; k++) {
+        json_t *root = run_json(results[k].given);
+        for (size_t i = 0; i < 40 && results[k].edit[i].path; i++) {
+            const char *path = results[k].edit[i].path, *value = results[k].edit[i].value,
+                       *part = results[k].edit[i].part;
+            const char *said = said_of(root, path, value);
+            if (*part ? strstr(said, part) != NULL : *said == '\0')
+                continue;
+            print_error("result %zu, %s = %s: '%s' wanted; said: %s\n", k, path, value,
+                        part, said);
+            wrong++;
+        }
+        json_decref(root);
+    }
+    assert_int_equal(wrong, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -615,6 +822,7 @@ int main(void)
         cmocka_unit_test(every_changed_number_of_a_table_is_found),
         cmocka_unit_test(tables_are_valid_by_their_comments),
         cmocka_unit_test(tables_that_cannot_be_checked_are_refused),
-        cmocka_unit_test(what_cannot_be_checked_is_refused)};
+        cmocka_unit_test(what_cannot_be_checked_is_refused),
+        cmocka_unit_test(every_edit_is_named)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
