@@ -473,6 +473,15 @@ static void ignore(const rb_lcp_pivot *seen, void *context)
     (void)context;
 }
 
+static rb_status solve_anew(void *context)
+{
+    double z[2];
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.trace = ignore;
+    opt.trace_tableau = 1;
+    return rb_lcp_lemke(context, &opt, z, NULL);
+}
+
 static void short_memory_is_reported(void **state)
 {
     (void)state;
@@ -495,6 +504,8 @@ static void short_memory_is_reported(void **state)
         CHECK_STATUS(s, RB_ENOMEM);
         assert_non_null(strstr(info.msg.text, "memory"));
     }
+    rb_lcp_problem p = {2, M, 2, q};
+    assert_true(alloc_fail_every_call(solve_anew, &p) > 5);
 }
 
 /* ---- The public collection --------------------------------------------------------- */

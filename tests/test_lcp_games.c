@@ -270,6 +270,16 @@ static void points_beyond_the_largest_number_are_no_solutions(void **state)
     rb_lcp_solutions_free(&all);
 }
 
+static rb_status solve_anew(void *context)
+{
+    double z[4];
+    rb_lcp_solutions all;
+    const rb_status s = rb_lcp_bimatrix(context, 0, NULL, z, NULL);
+    const rb_status t = rb_lcp_bimatrix_enumerate(context, &all, NULL);
+    rb_lcp_solutions_free(&all);
+    return s == RB_OK ? t : s;
+}
+
 static void short_memory_is_reported(void **state)
 {
     (void)state;
@@ -287,6 +297,7 @@ static void short_memory_is_reported(void **state)
         if (!refused)
             break;
     }
+    assert_true(alloc_fail_every_call(solve_anew, (void *)&two) > 8);
 }
 
 int main(void)

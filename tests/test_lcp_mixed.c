@@ -288,6 +288,185 @@ static void the_rule_decides_whether_kostreva_cycles(void **state)
     CHECK_STATUS(solve(&p, &opt, z, &info), RB_MAXITER);
 }
 
+/* ---- The path, as the trace sees it -------------------------------------------------
+ */
+
+enum { PIVOTS = 400 };
+
+typedef struct {
+    const problem *p;
+    const double *cover; /* n */
+    int n, count;
+    int entering[PIVOTS], leaving[PIVOTS];
+    unsigned long long basis[PIVOTS]; /* a bit of each variable */
+} path;
+
+static void keep_pivot(const rb_lcp_pivot *seen, void *context)
+{
+    path *own = context;
+    assert_int_equal(seen->pivot, own->count);
+    assert_true(own->count < PIVOTS);
+    own->n = seen->n;
+    own->entering[own->count] = seen->entering;
+    own->leaving[own->count] = seen->leaving;
+    own->basis[own->count] = 0;
+    for (int s = 0; s < seen->n; s++)
+        own->basis[own->count] |= 1ULL << seen->basis[s];
+    own->count++;
+}
+
+/* Every point of the path of an LCP: z, w, t >= 0 are complementary, and w = M z + q + t
+ * times the cover. */
+static void check_point(const rb_lcp_pivot *seen, void *context)
+{
+    const path *own = context;
+    const problem *p = own->p;
+    double x[2 * N + 1] = {0}, most = 1.0;
+    keep_pivot(seen, context);
+    assert_int_equal(seen->basis[seen->row], seen->entering);
+    CHECK_ABS(seen->value[seen->row], seen->ratio, 1e-12 * (1.0 + seen->ratio), "step");
+    for (int s = 0; s < p->n; s++) {
+        x[seen->basis[s]] = seen->value[s];
+        most = fmax(most, seen->value[s]);
+    }
+    CHECK_ABS(x[2 * p->n], seen->z0, 0.0, "t");
+    for (int i = 0; i < p->n; i++) {
+        double w = p->q[i] + own->cover[i] * seen->z0;
+        for (int j = 0; j < p->n; j++)
+            w += p->M[i + j * p->n] * x[p->n + j];
+        CHECK_ABS(x[i], w, 1e-11 * most, "pivot %d, w(%d)", seen->pivot, i + 1);
+        CHECK_MAX(fmax(-x[i], -x[p->n + i]), 1e-11 * most, "pivot %d", seen->pivot);
+        assert_true(x[i] == 0.0 || x[p->n + i] == 0.0);
+    }
+}
+
+static void every_point_of_the_path_solves_with_a_cover(void **state)
+{
+    (void)state;
+    static problem p;
+    static path own;
+    double z[N], cover[N];
+    rb_lcp_info info;
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.trace = check_point;
+    opt.trace_context = &own;
+    opt.cover = cover;
+    for (int k = 0; k < 40; k++) {
+        positive_definite(1 + k % 30, &p);
+        for (int i = 0; i < p.n; i++)
+            cover[i] = 1.5 + uniform();
+        own = (path){.p = &p, .cover = cover};
+        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        assert_int_equal(info.iters, own.count);
+        if (own.count == 0)
+            continue;
+        assert_int_equal(own.entering[0], 2 * p.n);
+        assert_int_equal(own.leaving[own.count - 1], 2 * p.n);
+        for (int i = 1; i < own.count; i++)
+            assert_int_equal(own.entering[i], (own.leaving[i - 1] + p.n) % (2 * p.n));
+    }
+}
+
+/* Under a generic perturbation the path is a simple curve, so no basis comes twice,
+ * however many rows tie. */
+static void a_path_through_ties_meets_no_basis_twice(void **state)
+{
+    (void)state;
+    static problem p;
+    static path own;
+    double z[N];
+    rb_lcp_info info;
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.trace = keep_pivot;
+    opt.trace_context = &own;
+    for (int k = 0; k < 300; k++) {
+        p.n = 6 + k % 20;
+        for (int i = 0; i < p.n * p.n; i++)
+            p.M[i] = floor(1.5 * (1.0 + uniform()));
+        for (int i = 0; i < p.n; i++) {
+            p.M[i + i * p.n] = 1.0 + (i % 2);
+            p.q[i] = -1.0;
+        }
+        no_boxes(&p);
+        own = (path){.p = &p};
+        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        for (int i = 1; i < own.count; i++)
+            for (int j = 0; j < i; j++)
+                if (own.basis[i] == own.basis[j])
+                    fail_msg("problem %d, n = %d: pivots %d and %d", k, p.n, j, i);
+    }
+}
+
+static void check_same_path(const path *a, const path *b, const char *of)
+{
+    if (a->count != b->count)
+        fail_msg("%s: %d and %d pivots", of, a->count, b->count);
+    for (int i = 0; i < a->count; i++)
+        if (a->entering[i] != b->entering[i] || a->leaving[i] != b->leaving[i])
+            fail_msg("%s: pivot %d", of, i);
+}
+
+/* z + c in the boxes moved by c, and -z in the boxes turned round, have the same path:
+ * integers, so that the same rows tie; a P-matrix, with which t never grows. */
+static void moved_and_mirrored_boxes_have_the_same_path(void **state)
+{
+    (void)state;
+    static problem p, other;
+    static path own, theirs;
+    double z[N], at[N], from[N], there[N];
+    rb_lcp_info info;
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.trace = keep_pivot;
+    for (int k = 0; k < 200; k++) {
+        p.n = 2 + k % 20;
+        for (int i = 0; i < p.n; i++)
+            for (int j = 0; j <= i; j++) {
+                const double skew = floor(1.5 * uniform() + 0.5);
+                p.M[i + j * p.n] = i == j ? 1.0 : skew;
+                p.M[j + i * p.n] = i == j ? 1.0 : -skew;
+            }
+        for (int i = 0; i < p.n; i++) {
+            p.q[i] = floor(2.0 * uniform());
+            p.lower[i] = 0.0;
+            p.upper[i] = 1.0 + (uniform() > 0.0);
+            from[i] = uniform() > 0.5 ? p.upper[i] : 0.0;
+        }
+        opt.start = from;
+        opt.trace_context = &own;
+        own = (path){.p = &p};
+        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+
+        other = p;
+        for (int i = 0; i < p.n; i++) {
+            const double c = 3.0 + i % 4;
+            other.lower[i] += c;
+            other.upper[i] += c;
+            there[i] = from[i] + c;
+            for (int j = 0; j < p.n; j++)
+                other.q[j] -= p.M[j + i * p.n] * c;
+        }
+        opt.start = there;
+        opt.trace_context = &theirs;
+        theirs = (path){.p = &other};
+        CHECK_STATUS(solve(&other, &opt, at, &info), RB_OK);
+        check_same_path(&own, &theirs, "moved");
+        for (int i = 0; i < p.n; i++)
+            CHECK_ABS(at[i], z[i] + 3.0 + i % 4, 1e-12, "problem %d, z(%d)", k, i + 1);
+
+        for (int i = 0; i < p.n; i++) {
+            other.q[i] = -p.q[i];
+            other.lower[i] = -p.upper[i];
+            other.upper[i] = -p.lower[i];
+            there[i] = -from[i];
+        }
+        theirs = (path){.p = &other};
+        CHECK_STATUS(solve(&other, &opt, at, &info), RB_OK);
+        check_same_path(&own, &theirs, "mirrored");
+        for (int i = 0; i < p.n; i++)
+            CHECK_ABS(at[i], -z[i], 1e-12, "problem %d, z(%d)", k, i + 1);
+    }
+}
+
 /* ---- Free variables ---------------------------------------------------------------- */
 
 /* min 1/2 x'Qx + c'x, A x = b, x >= 0 with free multipliers; Q = 0: a linear program,
@@ -351,6 +530,52 @@ static void a_solution_is_recognised_and_a_neighbour_is_near(void **state)
         warm += info.iters;
     }
     CHECK_MAX(warm, 0.2 * cold, "pivots");
+}
+
+/* Every third z is inside its box, the others at their bounds; there every second w is 0.
+ */
+static void plant_at_bounds(int n, double side, problem *p, double *z)
+{
+    positive_definite(n, p);
+    for (int i = 0; i < n; i++) {
+        const double bound = uniform() / 3.0;
+        z[i] = bound + (i % 3 ? 0.0 : side * (1.5 + uniform()));
+        p->lower[i] = side > 0.0 ? bound : -INFINITY;
+        p->upper[i] = side > 0.0 ? INFINITY : bound;
+        p->q[i] = i % 3 == 1 ? side * (1.5 + uniform()) : 0.0;
+    }
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            p->q[i] -= p->M[i + j * n] * z[j];
+}
+
+/* Where z(i) is at its bound and w(i) = 0 both may be basic in the end; what the path has
+ * brought to its bound is handed out as that bound and not as a number next to it.  From
+ * a start a little inside, z(i) is at its bound but for rounding of either sign, and no
+ * pivot is needed. */
+static void a_degenerate_solution_is_exactly_at_its_bounds(void **state)
+{
+    (void)state;
+    static problem p;
+    double z[N], want[N], from[N];
+    rb_lcp_info info;
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.start = from;
+    for (int k = 0; k < 100; k++) {
+        const double side = k % 2 ? -1.0 : 1.0;
+        plant_at_bounds(12, side, &p, want);
+        CHECK_STATUS(solve(&p, NULL, z, &info), RB_OK);
+        for (int i = 0; i < p.n; i++) {
+            CHECK_ABS(z[i], want[i], i % 3 ? 0.0 : 1e-12, "problem %d, z(%d)", k, i + 1);
+            from[i] = want[i] + (i % 3 == 2 ? 1e-3 * side : 0.0);
+        }
+        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        assert_int_equal(info.iters, 0);
+        for (int i = 0; i < p.n; i++) {
+            CHECK_ABS(z[i], want[i], 1e-12, "problem %d, z(%d)", k, i + 1);
+            assert_true(p.lower[i] <= z[i] && z[i] <= p.upper[i]);
+        }
+    }
 }
 
 /* M = [0 -1; 1 0]: the submatrix of z(1) alone is singular. */
@@ -461,6 +686,12 @@ static void bad_input_is_named(void **state)
     assert_non_null(strstr(info.msg.text, "M(1, 1) = nan"));
 }
 
+static rb_status solve_anew(void *context)
+{
+    double z[N];
+    return rb_lcp_mixed(context, NULL, z, NULL);
+}
+
 static void short_memory_is_reported(void **state)
 {
     (void)state;
@@ -480,6 +711,8 @@ static void short_memory_is_reported(void **state)
         if (!refused)
             break;
     }
+    rb_lcp_mixed_problem one = {&M, p.q, p.lower, p.upper};
+    assert_true(alloc_fail_every_call(solve_anew, &one) > 15);
     rb_sparse_free(&M);
 }
 
@@ -513,8 +746,12 @@ int main(void)
         cmocka_unit_test(open_boxes_have_the_enumerated_solution),
         cmocka_unit_test(integers_full_of_ties_do_not_cycle),
         cmocka_unit_test(the_rule_decides_whether_kostreva_cycles),
+        cmocka_unit_test(every_point_of_the_path_solves_with_a_cover),
+        cmocka_unit_test(a_path_through_ties_meets_no_basis_twice),
+        cmocka_unit_test(moved_and_mirrored_boxes_have_the_same_path),
         cmocka_unit_test(programs_with_equations_are_solved),
         cmocka_unit_test(a_solution_is_recognised_and_a_neighbour_is_near),
+        cmocka_unit_test(a_degenerate_solution_is_exactly_at_its_bounds),
         cmocka_unit_test(a_start_without_basis_begins_at_the_bounds),
         cmocka_unit_test(a_large_obstacle_is_solved_as_by_newton),
         cmocka_unit_test(a_ray_names_its_variable),

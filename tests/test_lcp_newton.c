@@ -110,6 +110,13 @@ static void what_it_cannot_solve_is_said(void **state)
     rb_sparse_free(&a);
 }
 
+static rb_status solve_anew(void *context)
+{
+    const double q[] = {-5.0, -6.0};
+    double z[2];
+    return rb_lcp_newton(context, q, NULL, z, NULL);
+}
+
 static void short_memory_is_reported(void **state)
 {
     (void)state;
@@ -126,6 +133,7 @@ static void short_memory_is_reported(void **state)
         if (!refused)
             break;
     }
+    assert_true(alloc_fail_every_call(solve_anew, &a) > 5);
     rb_sparse_free(&a);
 }
 

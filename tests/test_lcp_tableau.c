@@ -137,6 +137,57 @@ static void a_combination_is_the_sum_of_its_columns(void **state)
     rb_lcp_tableau_free(&t);
 }
 
+/* Lemke's method asks next for the complement of what leaves, and the rows with the least
+ * ratios leave first: their columns are brought up to date with the one that is wanted,
+ * as many as go through the blocks together. */
+static void the_next_columns_are_looked_for_by_their_ratios(void **state)
+{
+    (void)state;
+    lcp_tableau t;
+    double a[N], driving[N];
+    int row[N], rows = 0;
+    make_tableau(&t);
+    for (int k = 0; k < 30; k++) { /* w_k leaves, first for z0, then for z_k */
+        rb_lcp_tableau_column(&t, k ? k : N, a);
+        if (a[k] != 0.0)
+            rb_lcp_tableau_pivot(&t, k, k ? k : N, a);
+    }
+    for (int i = 0; i < N; i++) { /* ratios 1, 2, ... in an order of their own */
+        const int place = 37 * i % N;
+        t.q[i] = i % 11 == 10 ? -1.0 : 1.0 + place;
+        driving[i] = i % 4 == 0 ? 1.0 : i % 4 == 1 ? -2.0 : -1.0;
+    }
+    for (int i = 0; i < N; i++)
+        if (driving[i] < 0.0 && t.basis[i] != 2 * N)
+            row[rows++] = i;
+    for (int i = 1; i < rows; i++) /* by ratios; those of negative constants are zero */
+        for (int j = i; j > 0 && fmax(t.q[row[j]], 0.0) / -driving[row[j]] <
+                                     fmax(t.q[row[j - 1]], 0.0) / -driving[row[j - 1]];
+             j--) {
+            const int swap = row[j];
+            row[j] = row[j - 1];
+            row[j - 1] = swap;
+        }
+    const int wanted = 40;
+    int expected[N + 1] = {0}, count = 1;
+    expected[wanted] = 1;
+    for (int i = 0; i < rows && count < t.group; i++) {
+        const int place = t.place[rb_lcp_complement(N, t.basis[row[i]])];
+        if (place < 0 && !expected[-1 - place]) {
+            expected[-1 - place] = 1;
+            count++;
+        }
+    }
+    assert_true(t.group < rows);
+    int behind[N + 1];
+    for (int c = 0; c <= N; c++)
+        behind[c] = rb_lcp_tableau_behind(&t, c);
+    rb_lcp_tableau_fetch(&t, wanted, driving);
+    for (int c = 0; c <= N; c++)
+        assert_int_equal(rb_lcp_tableau_behind(&t, c), expected[c] ? 0 : behind[c]);
+    rb_lcp_tableau_free(&t);
+}
+
 static void without_pivots_nothing_changes(void **state)
 {
     (void)state;
@@ -176,7 +227,6 @@ static void short_memory_leaves_the_tableau(void **state)
     rb_lcp_tableau_free(&t);
 }
 
-/* A basis of two equal columns. */
 /* A column of zeros: of two equal ones rounding may leave a pivot. */
 static void a_singular_basis_is_told(void **state)
 {
@@ -199,6 +249,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_pivots_give_the_tableau_of_the_basis),
         cmocka_unit_test(a_combination_is_the_sum_of_its_columns),
+        cmocka_unit_test(the_next_columns_are_looked_for_by_their_ratios),
         cmocka_unit_test(without_pivots_nothing_changes),
         cmocka_unit_test(short_memory_leaves_the_tableau),
         cmocka_unit_test(a_singular_basis_is_told),

@@ -33,11 +33,6 @@ rb_status rb_lcp_basis_create(const rb_sparse *M, lcp_basis *b)
     b->slot = b->variable + n;
     b->row = b->slot + 2 * n + 1;
     b->position = b->row + n;
-    for (int i = 0; i < b->n; i++) {
-        b->variable[i] = b->slot[i] = i;
-        b->slot[b->n + i] = b->position[i] = -1;
-    }
-    b->slot[2 * b->n] = -1;
     return RB_OK;
 }
 
@@ -176,9 +171,6 @@ rb_status rb_lcp_basis_column(lcp_basis *b, int variable, double *y)
     memset(b->g, 0, (size_t)n * sizeof *b->g);
     if (variable < n)
         b->g[variable] = 1.0;
-    else if (variable == 2 * n)
-        for (int i = 0; i < n; i++)
-            b->g[i] = -b->d[i];
     else
         for (int k = M->p[variable - n]; k < M->p[variable - n + 1]; k++)
             b->g[M->i[k]] = -M->x[k];

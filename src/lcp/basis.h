@@ -37,7 +37,7 @@ typedef struct {
     double pending; /* operations that the exchanges have cost so far */
 } lcp_basis;
 
-/* B = I: all w basic. */
+/* Memory alone: the caller chooses what is basic, in variable and slot, and factors. */
 rb_status rb_lcp_basis_create(const rb_sparse *M, lcp_basis *b);
 void rb_lcp_basis_free(lcp_basis *b);
 

@@ -300,8 +300,8 @@ static int blocking_slot(mixed *p, int entering, double sign, double *step, int 
     if (isinf(least))
         return NONE;
     const double zero = TIE * (most_value + least * most_y);
-    const double most =
-        least + NEAR * fmax(least, most_y > 0.0 ? most_value / most_y : 0.0);
+    /* where all of y is zero no slot ties, and any number or none will do */
+    const double most = least + NEAR * fmax(least, most_value / most_y);
     for (int s = 0; s < p->n; s++) {
         const double size = fabs(p->y[s]);
         if (size <= NOISE * most_y)
