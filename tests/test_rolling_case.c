@@ -97,6 +97,335 @@ static void a_table_gap_needs_its_table(void **state)
     check_refused(&rc, "gap", "none is given");
 }
 
+/* ---- Every range, from both sides -------------------------------------------------- */
+
+/* A default case with these changes is refused with these words, or accepted. */
+#define REFUSED(words, ...)                                                              \
+    do {                                                                                 \
+        rb_rolling_case rc = rb_rolling_case_defaults();                                 \
+        __VA_ARGS__;                                                                     \
+        check_refused(&rc, words, "");                                                   \
+    } while (0)
+#define ACCEPTED(...)                                                                    \
+    do {                                                                                 \
+        rb_rolling_case rc = rb_rolling_case_defaults();                                 \
+        rb_message why = {""};                                                           \
+        __VA_ARGS__;                                                                     \
+        if (rb_rolling_case_check(&rc, &why) != RB_OK)                                   \
+            fail_msg("%s: %s", #__VA_ARGS__, why.text);                                  \
+    } while (0)
+#define HUB rc.a.support = RB_BEM_HUB
+#define PLANE rc.a.support = RB_BEM_HALFPLANE
+#define STEADY rc.formulation = RB_STEADY
+#define TRANSIENT rc.formulation = RB_TRANSIENT
+
+static void ranges_of_the_bodies(void **state)
+{
+    (void)state;
+    ACCEPTED(rc.a.poisson = 0.5);
+    REFUSED("Young's modulus", rc.a.young = INFINITY);
+    REFUSED("radius of body B", rc.elastic_b = 1; rc.b.radius = 0.0);
+    REFUSED("support: there is no number 7", rc.a.support = (rb_bem_support)7);
+    REFUSED("support of body B: a plane has", rc.elastic_b = 1;
+            rc.b.support = RB_BEM_HUB);
+    ACCEPTED(rc.a.arc = 90.0);
+    REFUSED("arc: expected in (0, 90]", rc.a.arc = 0.0);
+    ACCEPTED(HUB; rc.a.hub_ratio = 0.999);
+    REFUSED("hub ratio: expected in (0, 1), got 0", HUB; rc.a.hub_ratio = 0.0);
+    REFUSED("hub ratio: expected in (0, 1), got 1", HUB; rc.a.hub_ratio = 1.0);
+    ACCEPTED(PLANE; rc.a.datum = 0.0);
+    REFUSED("datum: expected a depth", PLANE; rc.a.datum = -1.0);
+    REFUSED("datum of body B", rc.elastic_b = 1; rc.b.datum = INFINITY);
+}
+
+static void ranges_of_layers_and_covers(void **state)
+{
+    (void)state;
+    ACCEPTED(PLANE; rc.a.layer = 1.0; rc.a.base_young = 0.0; rc.a.base_poisson = 9.0);
+    ACCEPTED(PLANE; rc.a.layer = 1.0; rc.a.base_young = 1.0; rc.a.base_poisson = 0.5);
+    REFUSED("layer thickness: expected > 0", PLANE; rc.a.layer = -1.0);
+    REFUSED("layer thickness: expected > 0", PLANE; rc.a.layer = INFINITY);
+    REFUSED("for the support halfplane only", HUB; rc.a.layer = 1.0);
+    REFUSED("Young's modulus of the base: expected > 0, got -1", PLANE; rc.a.layer = 1.0;
+            rc.a.base_young = -1.0);
+    REFUSED("Young's modulus of the base", PLANE; rc.a.layer = 1.0;
+            rc.a.base_young = INFINITY);
+    REFUSED("Poisson's ratio of the base: expected in (-1, 0.5], got -1", PLANE;
+            rc.a.layer = 1.0; rc.a.base_young = 1.0; rc.a.base_poisson = -1.0);
+    REFUSED("Poisson's ratio of the base", PLANE; rc.a.layer = 1.0; rc.a.base_young = 1.0;
+            rc.a.base_poisson = 0.51);
+
+    ACCEPTED(HUB; rc.a.cover = 49.0; rc.a.core_young = 1.0; rc.a.poisson = 0.499);
+    ACCEPTED(HUB; rc.a.cover = 49.0; rc.a.poisson = 0.5);
+    REFUSED("cover thickness: its core holds the wheel", rc.a.cover = 1.0);
+    REFUSED("cover thickness: expected > 0 and less", HUB; rc.a.cover = -1.0);
+    REFUSED("cover thickness: expected > 0 and less", HUB; rc.a.cover = NAN);
+    REFUSED("cover thickness: expected > 0 and less", HUB; rc.a.cover = 50.0);
+    REFUSED("has to be compressible", HUB; rc.a.cover = 1.0; rc.a.core_young = 1.0;
+            rc.a.poisson = 0.4991);
+    REFUSED("Poisson's ratio of the core", HUB; rc.a.cover = 1.0; rc.a.core_young = 1.0;
+            rc.a.core_poisson = 0.51);
+}
+
+static void ranges_of_relaxation(void **state)
+{
+    (void)state;
+    const rb_rolling_memory one = {1, {2.0}, {0.5}}, late = {1, {0.0}, {0.5}},
+                            less = {1, {1.0}, {-0.1}}, endless = {1, {1.0}, {INFINITY}},
+                            none = {1, {1.0}, {0.0}};
+    const double x[2] = {-1.0, 1.0}, y[2] = {0.0, 0.0};
+
+    ACCEPTED(PLANE; rc.a.memory = one);
+    ACCEPTED(PLANE; rc.a.memory = none; rc.time_step = 0.1);
+    ACCEPTED(HUB; rc.a.memory = one; STEADY; rc.speed = 1.0);
+    ACCEPTED(PLANE; rc.a.memory = one; rc.a.layer = 1.0);
+    ACCEPTED(PLANE; rc.a.memory = one; rc.a.layer = 1.0; rc.a.base_young = 1.0; STEADY;
+             rc.speed = 1.0);
+    REFUSED("terms, got -1", rc.a.memory.n = -1);
+    REFUSED("terms, got 17", PLANE; rc.a.memory.n = RB_ROLLING_TERMS + 1);
+    REFUSED("times > 0 and ratios >= 0", PLANE; rc.a.memory = late);
+    REFUSED("times > 0 and ratios >= 0", PLANE; rc.a.memory = less);
+    REFUSED("times > 0 and ratios >= 0", PLANE; rc.a.memory = endless);
+    REFUSED("steps: bodies that relax", PLANE; rc.a.memory = one; TRANSIENT; rc.steps = 3;
+            rc.speed = 1.0);
+    REFUSED("a clamped arc does not turn", rc.a.memory = one; STEADY; rc.speed = 1.0);
+    REFUSED("in transient rolling for the support halfplane", HUB; rc.a.memory = one;
+            TRANSIENT; rc.speed = 1.0);
+    REFUSED("is rigid, got an elastic one", PLANE; rc.a.memory = one; rc.a.layer = 1.0;
+            rc.a.base_young = 1.0);
+    REFUSED("is rigid, got an elastic one", HUB; rc.a.memory = one; rc.a.cover = 1.0;
+            rc.a.core_young = 1.0);
+    REFUSED("relaxation: needs the speed", PLANE; rc.a.memory = one; STEADY);
+    REFUSED("relaxation: needs the speed", PLANE; rc.a.memory = one; TRANSIENT;
+            rc.speed = INFINITY);
+    REFUSED("step by step under a parabola", PLANE; rc.a.memory = one;
+            rc.gap = RB_GAP_TABLE);
+    REFUSED("step by step under a parabola", PLANE; rc.a.memory = one;
+            rc.worn = ((rb_rolling_table){2, x, y}));
+    REFUSED("step by step under a parabola", PLANE; rc.a.memory = one;
+            rc.irregularity = ((rb_rolling_table){2, x, y}));
+    REFUSED("time step: expected > 0", PLANE; rc.a.memory = one; rc.time_step = -1.0);
+    REFUSED("time step: expected > 0", PLANE; rc.a.memory = one; rc.time_step = INFINITY);
+    REFUSED("relaxation: needs the speed", PLANE; rc.elastic_b = 1; rc.b.memory = one;
+            STEADY);
+    ACCEPTED(PLANE; rc.b.memory = one; STEADY); /* B is rigid */
+}
+
+#define WARM                                                                             \
+    PLANE;                                                                               \
+    STEADY;                                                                              \
+    rc.speed = 1.0;                                                                      \
+    rc.heat_a = (rb_rolling_heat)                                                        \
+    {                                                                                    \
+        .conductivity = 40.0, .heat_capacity = 3.5                                       \
+    }
+
+static void ranges_of_heat(void **state)
+{
+    (void)state;
+    ACCEPTED(WARM);
+    ACCEPTED(WARM; TRANSIENT);
+    ACCEPTED(WARM; rc.heat_a.conductivity = 0.0; rc.heat_a.heat_capacity = -1.0);
+    ACCEPTED(WARM; rc.heat_b.temperature = 20.0);
+    ACCEPTED(WARM; rc.contact_elements = 100000);
+    ACCEPTED(WARM; rc.heat_b = rc.heat_a; rc.contact_elements = 100000);
+    ACCEPTED(WARM; rc.heat_b = rc.heat_a; rc.heat_b.heat_capacity = 1.0;
+             rc.contact_elements = 4000);
+    REFUSED("conductivity: expected >= 0", WARM; rc.heat_a.conductivity = -1.0);
+    REFUSED("conductivity: expected >= 0", WARM; rc.heat_a.conductivity = INFINITY);
+    REFUSED("conductivity of body B: expected >= 0", WARM; rc.heat_b.conductivity = -1.0);
+    REFUSED("conductivity of body B: expected >= 0", WARM;
+            rc.heat_b.conductivity = INFINITY);
+    REFUSED("needs the heat capacity", WARM; rc.heat_a.heat_capacity = 0.0);
+    REFUSED("needs the heat capacity", WARM; rc.heat_b.conductivity = 1.0);
+    REFUSED("temperature: expected finite", WARM; rc.heat_a.temperature = NAN);
+    REFUSED("temperature: expected finite", WARM; rc.heat_b.temperature = INFINITY);
+    REFUSED("friction heats bodies that roll", WARM; rc.formulation = RB_STATIC);
+    REFUSED("conductivity: needs the speed", WARM; rc.speed = 0.0);
+    REFUSED("of homogeneous elastic bodies", WARM; rc.a.layer = 1.0);
+    REFUSED("both bodies start equally warm", WARM; TRANSIENT;
+            rc.heat_b.temperature = 20.0);
+    REFUSED("at most 100000 contact elements, got 100001", WARM;
+            rc.contact_elements = 100001);
+    for (int k = 0; k < 3; k++)
+        REFUSED("at most 4000 contact elements of bodies that conduct differently", WARM;
+                rc.heat_b = rc.heat_a; rc.contact_elements = 4001;
+                *(k == 0   ? &rc.heat_b.conductivity
+                  : k == 1 ? &rc.heat_b.heat_capacity
+                           : &rc.heat_b.temperature) += 1.0);
+}
+
+static void ranges_of_the_interface(void **state)
+{
+    (void)state;
+    ACCEPTED(rc.yield_stress = 1.0; rc.hardening = -1.0);
+    REFUSED("expected a normal compliance", rc.interlayer_normal = -1.0);
+    REFUSED("expected a tangential compliance", rc.interlayer_tangential = INFINITY);
+    REFUSED("yield stress: expected > 0", rc.yield_stress = -1.0);
+    REFUSED("yield stress: expected > 0", rc.yield_stress = INFINITY);
+    REFUSED("hardening: expected a finite number", rc.yield_stress = 1.0;
+            rc.hardening = INFINITY);
+    REFUSED("hardening: of an interface that yields", rc.hardening = 1.0);
+    REFUSED("not with a law that follows slip or heat", WARM; rc.yield_stress = 1.0;
+            rc.friction.heat = -0.1; rc.friction.heat_range = 100.0);
+    REFUSED("not with a law that follows slip or heat", STEADY; rc.speed = 1.0;
+            rc.yield_stress = 1.0; rc.friction.law = RB_FRICTION_linear;
+            rc.friction.fall[0] = 0.1; rc.friction.slip_scale[0] = 1.0);
+    REFUSED("knows Coulomb's law alone", rc.yield_stress = 1.0;
+            rc.solver = RB_SOLVER_CONE; rc.cone_solver = "semismooth");
+}
+
+/* What friction can carry: mu P = 3. */
+static void ranges_of_the_loading(void **state)
+{
+    (void)state;
+    ACCEPTED(rc.load = 10.0; rc.force = 3.0);
+    ACCEPTED(rc.load = 10.0; rc.force = -3.0);
+    REFUSED("friction carries at most mu P = 3 N/mm", rc.load = 10.0; rc.force = 3.00001);
+    REFUSED("friction carries at most mu P = 3 N/mm", rc.load = 10.0;
+            rc.force = -3.00001);
+    ACCEPTED(rc.force = 1e9); /* the load is not known before */
+    ACCEPTED(rc.force_ratio = -1.0);
+    REFUSED("friction carries at most 1", rc.force_ratio = -1.01);
+    ACCEPTED(rc.force_ratio = 0.0; rc.mu = 0.0);
+    REFUSED("has no meaning at mu = 0", rc.force_ratio = 0.1; rc.mu = 0.0);
+    REFUSED("has no meaning at mu = 0", rc.creep_ratio = 0.1; rc.mu = 0.0);
+    REFUSED("creep: expected a finite", rc.creep = -INFINITY);
+    REFUSED("force-ratio: expected a finite", rc.force_ratio = INFINITY);
+    REFUSED("shift, force and force-ratio exclude", rc.shift = 0.1; rc.force = 0.1);
+    REFUSED("shift, force and force-ratio exclude", rc.force_ratio = rc.force = 0.1);
+    ACCEPTED(rc.shift = rc.creep = 0.1);
+    REFUSED("rolling is driven by", TRANSIENT; rc.shift = 0.1);
+    REFUSED("creep, creep-ratio, force and force-ratio exclude", STEADY;
+            rc.creep_ratio = rc.force_ratio = 0.1);
+    ACCEPTED(STEADY; rc.free_axle = 1);
+    REFUSED("free axle: it excludes", STEADY; rc.free_axle = 1; rc.creep = 0.0);
+    REFUSED("free axle: of steady rolling only", TRANSIENT; rc.free_axle = 1);
+    REFUSED("friction alone turns it", STEADY; rc.free_axle = 1; rc.mu = 0.0);
+
+    ACCEPTED(rc.half_width = 49.9);
+    REFUSED("less than the radius of either body, 50 mm", rc.half_width = 50.0);
+    REFUSED("less than the radius of either body, 20 mm", rc.elastic_b = 1;
+            rc.b.radius = 20.0; rc.half_width = 20.0);
+    REFUSED("approach, load and half-width exclude", rc.half_width = rc.load = 1.0);
+    REFUSED("approach: expected > 0", rc.approach = INFINITY);
+}
+
+static void ranges_of_tables(void **state)
+{
+    (void)state;
+    const double x[3] = {-1.0, 0.0, 1.0}, back[3] = {-1.0, 1.0, 1.0},
+                 gone[3] = {-1.0, NAN, 1.0}, dent[3] = {0.0, 0.1, 0.0},
+                 begins[3] = {0.1, 0.1, 0.0}, ends[3] = {0.0, 0.1, 0.1},
+                 mu[3] = {0.0, 0.2, 0.3}, less[3] = {0.2, -0.1, 0.3},
+                 lost[3] = {0.2, NAN, 0.3};
+#define TABLE(x, y) ((rb_rolling_table){3, x, y})
+#define MU(x, y) rc.friction.law = RB_FRICTION_table, rc.friction.table = TABLE(x, y)
+    ACCEPTED(rc.irregularity = TABLE(x, dent));
+    REFUSED("irregularity: row 1: expected gap 0", rc.irregularity = TABLE(x, begins));
+    REFUSED("irregularity: row 3: expected gap 0", rc.irregularity = TABLE(x, ends));
+    REFUSED("irregularity: row 3", rc.irregularity = TABLE(back, dent));
+    REFUSED("irregularity: row 2", rc.irregularity = TABLE(gone, dent));
+    REFUSED("irregularity: row 2", rc.irregularity = TABLE(x, gone));
+    REFUSED("irregularity: it rides through", STEADY; rc.irregularity = TABLE(x, dent));
+    ACCEPTED(rc.worn = TABLE(x, begins));
+    REFUSED("worn: row 3", rc.worn = TABLE(back, dent));
+    REFUSED("worn: row 2", rc.worn = TABLE(gone, dent));
+    REFUSED("worn: row 2", rc.worn = TABLE(x, gone));
+    ACCEPTED(MU(x, mu));
+    REFUSED("friction table: expected a row", MU(x, mu); rc.friction.table.n = 0);
+    REFUSED("friction table: row 3: expected x to increase, got 1", MU(back, mu));
+    REFUSED("friction table: row 2: expected x to increase", MU(gone, mu));
+    REFUSED("friction table: row 2: expected mu >= 0, got -0.1", MU(x, less));
+    REFUSED("friction table: row 2: expected mu >= 0", MU(x, lost));
+#undef MU
+#undef TABLE
+}
+
+#define FALLS                                                                            \
+    STEADY;                                                                              \
+    rc.speed = 1.0;                                                                      \
+    rc.friction.law = RB_FRICTION_rational;                                              \
+    rc.friction.fall[1] = 0.1;                                                           \
+    rc.friction.slip_scale[1] = 1.0
+
+static void ranges_of_friction_laws(void **state)
+{
+    (void)state;
+    ACCEPTED(FALLS);
+    ACCEPTED(FALLS; rc.formulation = RB_STATIC; rc.speed = 0.0);
+    ACCEPTED(FALLS; rc.friction.slip_scale[0] = -1.0); /* of no fall */
+    ACCEPTED(FALLS; rc.friction.fall[0] = -rc.mu; rc.friction.slip_scale[0] = 1.0);
+    REFUSED("expected mu >= 0 everywhere", FALLS; rc.friction.fall[0] = -0.31;
+            rc.friction.slip_scale[0] = 1.0);
+    REFUSED("expected a slip scale > 0", FALLS; rc.friction.fall[0] = INFINITY);
+    REFUSED("expected a slip scale > 0", FALLS; rc.friction.slip_scale[1] = 0.0);
+    REFUSED("expected a slip scale > 0", FALLS; rc.friction.slip_scale[1] = INFINITY);
+    REFUSED("friction law rational: needs the speed", FALLS; rc.speed = 0.0);
+    REFUSED("friction law rational: needs the speed", FALLS; rc.speed = INFINITY);
+    ACCEPTED(FALLS; rc.friction.memory = 1.0; rc.friction.memory_slip = 1.0);
+    REFUSED("friction memory: expected", FALLS; rc.friction.memory = -1.0);
+    REFUSED("friction memory: expected", FALLS; rc.friction.memory = INFINITY);
+    REFUSED("friction memory: expected", FALLS; rc.friction.memory = 1.0);
+
+    ACCEPTED(WARM; rc.friction.heat = -0.3; rc.friction.heat_range = 100.0);
+    ACCEPTED(rc.friction.heat = -0.3; rc.friction.heat_range = 100.0); /* at rest */
+    REFUSED("expected mu >= 0 everywhere", WARM; rc.friction.heat = -0.31;
+            rc.friction.heat_range = 100.0);
+    REFUSED("friction and heat: needs temperatures", STEADY; rc.friction.heat = -0.1;
+            rc.friction.heat_range = 100.0);
+    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = INFINITY);
+    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
+            rc.friction.heat_range = 0.0);
+    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
+            rc.friction.heat_range = INFINITY);
+    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
+            rc.friction.heat_from = NAN; rc.friction.heat_range = 100.0);
+}
+
+static void ranges_of_the_mesh(void **state)
+{
+    (void)state;
+    ACCEPTED(rc.contact_elements = 3; rc.increments = 1000000);
+    ACCEPTED(rc.contact_elements = 1 << 24; rc.outer_elements = 1 << 20);
+    REFUSED("contact elements: expected 3", rc.contact_elements = 2);
+    REFUSED("contact elements: expected 3", rc.contact_elements = (1 << 24) + 1);
+    REFUSED("outer elements: expected 0", rc.outer_elements = -1);
+    REFUSED("outer elements: expected 0", rc.outer_elements = (1 << 20) + 1);
+    ACCEPTED(rc.outer_refinement = 1000.0);
+    REFUSED("outer refinement: expected 0", rc.outer_refinement = 1001.0);
+    REFUSED("outer refinement: expected 0", rc.outer_refinement = -1.0);
+    REFUSED("increments: expected 0", rc.increments = -1);
+    REFUSED("increments: expected 0", rc.increments = 1000001);
+    ACCEPTED(STEADY; rc.increments = 1);
+    REFUSED("steady rolling forgets", STEADY; rc.increments = 2);
+    ACCEPTED(rc.zone = 49.9);
+    REFUSED("zone: expected a half-width", rc.zone = INFINITY);
+    REFUSED("wider than the radius, 20 mm", rc.elastic_b = 1; rc.b.radius = 20.0;
+            rc.zone = 20.0);
+    ACCEPTED(rc.mesh = RB_MESH_ALIGNED; rc.contact_elements = 12);
+    REFUSED("mesh aligned: expected 12", rc.mesh = RB_MESH_ALIGNED;
+            rc.contact_elements = 11);
+    ACCEPTED(STEADY; rc.slip_operator = RB_SLIP_SECOND);
+    REFUSED("slip operator second: of steady", rc.slip_operator = RB_SLIP_SECOND);
+    REFUSED("slip operator second: on equal", STEADY; rc.slip_operator = RB_SLIP_SECOND;
+            rc.mesh = RB_MESH_FITTED);
+    ACCEPTED(rc.normals = RB_BEM_NORMALS_SURFACE);
+    REFUSED("with a rigid plane only", rc.normals = RB_BEM_NORMALS_SURFACE;
+            rc.elastic_b = 1);
+    REFUSED("got ''", rc.solver = RB_SOLVER_CONE);
+    REFUSED("tol: expected > 0", rc.tol = INFINITY);
+    ACCEPTED(rc.a.young = 1e-100);
+    REFUSED("Young's modulus: expected a size", rc.a.young = 0.9e-100);
+    ACCEPTED(rc.load = 1e100);
+    REFUSED("load: expected a size", rc.load = 1.1e100);
+    REFUSED("Young's modulus of body B: expected a size", rc.elastic_b = 1;
+            rc.b.young = 1e101);
+    REFUSED("radius of body B: expected a size", rc.elastic_b = 1; rc.b.radius = 1e101);
+}
+
+/* ---- Derived quantities ------------------------------------------------------------ */
+
 static void hertz_closes_the_circle(void **state)
 {
     (void)state;
@@ -128,6 +457,15 @@ int main(void)
         cmocka_unit_test(bad_values_are_refused_by_name),
         cmocka_unit_test(contradictions_name_both_sides),
         cmocka_unit_test(a_table_gap_needs_its_table),
+        cmocka_unit_test(ranges_of_the_bodies),
+        cmocka_unit_test(ranges_of_layers_and_covers),
+        cmocka_unit_test(ranges_of_relaxation),
+        cmocka_unit_test(ranges_of_heat),
+        cmocka_unit_test(ranges_of_the_interface),
+        cmocka_unit_test(ranges_of_the_loading),
+        cmocka_unit_test(ranges_of_tables),
+        cmocka_unit_test(ranges_of_friction_laws),
+        cmocka_unit_test(ranges_of_the_mesh),
         cmocka_unit_test(hertz_closes_the_circle),
         cmocka_unit_test(the_half_width_of_an_approach_inverts_the_compression),
     };

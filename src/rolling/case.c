@@ -10,26 +10,32 @@ rb_rolling_case rb_rolling_case_defaults(void)
                                   .radius = 50.0,
                                   .support = RB_BEM_ARC,
                                   .arc = 30.0,
-                                  .hub_ratio = 0.3};
-    rb_rolling_case rc = {.a = body, .b = body};
+                                  .hub_ratio = 0.3,
+                                  .base_poisson = 0.1,
+                                  .core_poisson = 0.1};
+    rb_rolling_case rc = {.a = body,
+                          .b = body,
+                          .gap = RB_GAP_EXACT,
+                          .mu = 0.3,
+                          .approach = NAN,
+                          .load = NAN,
+                          .half_width = NAN,
+                          .shift = NAN,
+                          .creep = NAN,
+                          .creep_ratio = NAN,
+                          .force = NAN,
+                          .force_ratio = NAN,
+                          .formulation = RB_STATIC,
+                          .increments = 1,
+                          .mesh = RB_MESH_UNIFORM,
+                          .contact_elements = 60,
+                          .normals = RB_BEM_NORMALS_OBSTACLE,
+                          .solver = RB_SOLVER_AUTO,
+                          .lcp_form = RB_LCP_PIVOTED,
+                          .tol = 1e-10};
 
-    rc.a.base_poisson = rc.b.base_poisson = body.poisson;
-    rc.a.core_poisson = rc.b.core_poisson = body.poisson;
     rc.b.radius = INFINITY;
     rc.b.support = RB_BEM_HALFPLANE;
-    rc.gap = RB_GAP_EXACT;
-    rc.mu = 0.3;
-    rc.approach = rc.load = rc.half_width = NAN;
-    rc.free_axle = 0;
-    rc.shift = rc.creep = rc.creep_ratio = rc.force = rc.force_ratio = NAN;
-    rc.formulation = RB_STATIC;
-    rc.increments = 1;
-    rc.mesh = RB_MESH_UNIFORM;
-    rc.contact_elements = 60;
-    rc.normals = RB_BEM_NORMALS_OBSTACLE;
-    rc.solver = RB_SOLVER_AUTO;
-    rc.lcp_form = RB_LCP_PIVOTED;
-    rc.tol = 1e-10;
     return rc;
 }
 

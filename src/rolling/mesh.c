@@ -33,15 +33,11 @@ double rb_rolling_worn_depth(const rb_rolling_case *rc, double x)
 
 static double round_gap(const rb_rolling_case *rc, double x)
 {
-    switch (rc->gap) {
-    case RB_GAP_TABLE:
+    if (rc->gap == RB_GAP_TABLE)
         return rb_rolling_profile_gap(rc->profile, x);
-    case RB_GAP_EXACT:
+    if (rc->gap == RB_GAP_EXACT)
         return rb_bem_circle_height(rc->a.radius, x) +
                (isfinite(rc->b.radius) ? rb_bem_circle_height(rc->b.radius, x) : 0.0);
-    case RB_GAP_PARABOLA:
-        break;
-    }
     return x * x / (2.0 * rb_rolling_radius(rc));
 }
 

@@ -77,22 +77,19 @@ rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program,
     return at;
 }
 
-/* The last row at or before distance x that has a row behind it. */
+/* The last row at or before distance x that has a row behind it; of rows at the same
+ * distance, which are at rest, the last one. */
 static int row_before(const rb_rolling_program *program, double x)
 {
-    return program->n < 2
-               ? 0
-               : (int)gsl_interp_bsearch(program->distance, x, 0, (size_t)program->n - 1);
+    return (int)gsl_interp_bsearch(program->distance, x, 0, (size_t)program->n - 1);
 }
 
-/* Linear between the rows; before the first one and behind the last one theirs. */
+/* Linear between the rows; behind the last one its own. */
 static double value_at(const rb_rolling_program *program, const double *column, double x)
 {
     const double *d = program->distance;
     const int i = row_before(program, x);
 
-    if (x <= d[0])
-        return column[0];
     if (x >= d[program->n - 1])
         return column[program->n - 1];
     if (column[i] == column[i + 1]) /* to the last digit */
@@ -108,10 +105,7 @@ static double mean_between(const rb_rolling_program *program, const double *colu
     double sum = 0.0, x = from;
 
     while (x < to) {
-        const int next = row_before(program, x) + 1;
-        const double end = next < program->n && program->distance[next] > x
-                               ? fmin(to, program->distance[next])
-                               : to;
+        const double end = fmin(to, program->distance[row_before(program, x) + 1]);
         sum += 0.5 * (end - x) *
                (value_at(program, column, x) + value_at(program, column, end));
         x = end;

@@ -268,8 +268,7 @@ static rb_status refine(search *s, rb_rolling_extremum *best)
         gsl_vector_set_all(step, 0.05);
         gsl_multimin_fminimizer_set(m, &function, start, step);
         for (int k = 0; k < SEARCH_STEPS && gsl_multimin_fminimizer_size(m) > 1e-6; k++)
-            if (gsl_multimin_fminimizer_iterate(m))
-                break;
+            gsl_multimin_fminimizer_iterate(m);
         const double x = fmin(fmax(gsl_vector_get(m->x, 0) * s->scale, s->from), s->to);
         const double depth =
             fmin(fmax(gsl_vector_get(m->x, 1) * s->scale, 0.0), s->depth);
@@ -277,15 +276,10 @@ static rb_status refine(search *s, rb_rolling_extremum *best)
         status = s->status == RB_OK ? stress_below(s, x, depth, &at) : s->status;
         if (status == RB_OK && s->of(&at) > best->value)
             *best = (rb_rolling_extremum){s->of(&at), at.x, at.y};
-        if (status == RB_EINVAL)
-            status = RB_OK;
     }
-    if (m)
-        gsl_multimin_fminimizer_free(m);
-    if (start)
-        gsl_vector_free(start);
-    if (step)
-        gsl_vector_free(step);
+    gsl_multimin_fminimizer_free(m);
+    gsl_vector_free(start);
+    gsl_vector_free(step);
     return status;
 }
 
