@@ -126,7 +126,7 @@ covered-tests: all $(TESTS) $(B)/tests/checker $(B)/packings $(B)/bench/bench_la
 coverage: packages
 	@mkdir -p $(B)/coverage
 	@$(CC) -O1 -fPIC -c -o $(B)/coverage/exit.o tests/coverage.c
-	-@$(MAKE) --no-print-directory B=$(B)/coverage CFLAGS="-O0 -g --coverage -fprofile-abs-path -fprofile-update=atomic -DRB_INLINE=static -Wno-unused-function" LDFLAGS="$(CURDIR)/$(B)/coverage/exit.o -Wl,--wrap=_exit" $(COVERED)
+	-@$(MAKE) --no-print-directory B=$(B)/coverage CFLAGS="-O0 -g --coverage -fprofile-abs-path -fprofile-update=atomic -DRB_INLINE=static -Wno-unused-function" LDFLAGS="$(CURDIR)/$(B)/coverage/exit.o -Wl,--wrap=_exit,--wrap=kill" $(COVERED)
 	@scripts/coverage $(B)/coverage
 
 # what touches most of the library's memory in a minute or two

@@ -1,0 +1,328 @@
+/* Each call that leads to an allocation sees one fail, in every task of the folder: the
+ * answer is RB_ENOMEM, or the task does without; nothing is lost or freed twice (make
+ * asan). */
+#include "check.h"
+#include "rolling/internal.h"
+
+#include <string.h>
+
+typedef struct {
+    rb_rolling_case rc;
+    rb_rolling_model model;
+    rb_message why;
+} task;
+
+/* A wheel R = 50 of similar half-planes, of few elements. */
+static rb_rolling_case few(rb_rolling_formulation formulation, int elements)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.formulation = formulation;
+    rc.load = 500.0;
+    rc.contact_elements = elements;
+    rc.zone = elements < 12 ? 1.0 : 0.0;
+    if (formulation != RB_STATIC)
+        rc.creep_ratio = 0.5;
+    rc.speed = 1000.0;
+    rc.distance = 0.3;
+    return rc;
+}
+
+static rb_rolling_case falling(rb_rolling_formulation formulation, int elements)
+{
+    rb_rolling_case rc = few(formulation, elements);
+    rc.friction.law = RB_FRICTION_exponential;
+    rc.friction.fall[0] = 0.1;
+    rc.friction.slip_scale[0] = 1.0;
+    return rc;
+}
+
+static rb_rolling_case warm(rb_rolling_case rc)
+{
+    rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
+    rc.heat_b = (rb_rolling_heat){.conductivity = 20.0, .heat_capacity = 3.5};
+    return rc;
+}
+
+static rb_rolling_case relaxing(rb_rolling_formulation formulation)
+{
+    rb_rolling_case rc = few(formulation, 8);
+    rc.a.memory = (rb_rolling_memory){2, {1e-4, 1e-3}, {0.5, 0.5}};
+    rc.zone = 3.0;
+    return rc;
+}
+
+/* ---- Tasks ------------------------------------------------------------------------- */
+
+static rb_status solve(void *context)
+{
+    task *t = context;
+    rb_rolling_solution s;
+    const rb_status status = rb_rolling_solve(&t->rc, &s, &t->why);
+    rb_rolling_solution_free(&s);
+    return status;
+}
+
+static rb_status curve_over(rb_rolling_variable over, double from, double to, task *t)
+{
+    const rb_rolling_range range = {.over = over, .from = from, .to = to, .points = 2};
+    rb_rolling_curve curve, errors;
+    const rb_status s =
+        t->rc.contact_elements < 12
+            ? rb_rolling_curve_solve(&t->rc, &range, &curve, &t->why)
+            : rb_rolling_curve_with_errors(&t->rc, &range, &curve, &errors, &t->why);
+    rb_rolling_curve_free(&curve);
+    if (t->rc.contact_elements >= 12)
+        rb_rolling_curve_free(&errors);
+    return s;
+}
+
+static rb_status curve(void *context)
+{
+    return curve_over(RB_OVER_CREEP_RATIO, 0.1, 0.8, context);
+}
+
+static rb_status curve_of_speeds(void *context)
+{
+    return curve_over(RB_OVER_SPEED, 1000.0, 2000.0, context);
+}
+
+static rb_status history(void *context)
+{
+    task *t = context;
+    rb_rolling_history h;
+    const rb_status s =
+        rb_rolling_history_with_errors(&t->rc, NULL, NULL, &t->model, &h, &t->why);
+    rb_rolling_history_free(&h);
+    rb_rolling_model_free(&t->model);
+    return s;
+}
+
+static rb_status history_in_time(void *context)
+{
+    static const double time[] = {0.0, 1e-3}, load[] = {300.0, 500.0};
+    static const rb_rolling_program program = {.n = 2, .time = time, .load = load};
+    task *t = context;
+    rb_rolling_history h;
+    const rb_status s =
+        rb_rolling_history_run(&t->rc, &program, NULL, &t->model, &h, &t->why);
+    rb_rolling_history_free(&h);
+    rb_rolling_model_free(&t->model);
+    return s;
+}
+
+static rb_status wear_by(const rb_rolling_wear *wear, task *t)
+{
+    rb_rolling_wear_history h;
+    rb_rolling_solution last;
+    const rb_status s = rb_rolling_wear_run(&t->rc, wear, NULL, &h, &last, &t->why);
+    rb_rolling_wear_history_free(&h);
+    rb_rolling_solution_free(&last);
+    return s;
+}
+
+static rb_status slide(void *context)
+{
+    const rb_rolling_wear wear = {
+        .slides = 1, .coefficient = 1e-8, .way = 1e4, .steps = 2};
+    return wear_by(&wear, context);
+}
+
+static rb_status fret(void *context)
+{
+    const rb_rolling_wear wear = {
+        .coefficient = 1e-8, .way = 10.0, .steps = 1, .increments = 1};
+    return wear_by(&wear, context);
+}
+
+static rb_status turn(void *context)
+{
+    const rb_rolling_wear wear = {
+        .law = RB_WEAR_DISSIPATION, .coefficient = 1e-9, .way = 1e4, .steps = 1};
+    return wear_by(&wear, context);
+}
+
+static rb_status with_model(task *t, rb_status (*use)(task *t))
+{
+    rb_status s = rb_rolling_model_create(&t->rc, &t->model, &t->why);
+    if (s == RB_OK)
+        s = use(t);
+    rb_rolling_model_free(&t->model);
+    return s;
+}
+
+static rb_status use_solutions(task *t)
+{
+    rb_rolling_solutions all;
+    const rb_status s = rb_rolling_find_solutions(&t->model, &all, &t->why);
+    rb_rolling_solutions_free(&all);
+    return s;
+}
+
+static rb_status use_stress(task *t)
+{
+    const double xy[] = {0.0, 0.5, 0.3, 0.2};
+    rb_rolling_stress at[2];
+    rb_rolling_stress_grid grid;
+    rb_rolling_stress_maxima maxima;
+    rb_rolling_shakedown shakedown;
+    rb_status s = rb_rolling_stress_at(&t->model, 2, xy, at, &t->why);
+    if (s == RB_OK)
+        s = rb_rolling_stress_on_grid(&t->model, 2, 3, 0.0, &grid, &t->why);
+    if (s == RB_OK)
+        rb_rolling_stress_grid_free(&grid);
+    if (s == RB_OK)
+        s = rb_rolling_stress_maxima_find(&t->model, 0.0, &maxima, &t->why);
+    return s == RB_OK && t->rc.a.support == RB_BEM_HALFPLANE
+               ? rb_rolling_shakedown_find(&t->model, &shakedown, &t->why)
+               : s;
+}
+
+static rb_status use_again(task *t)
+{
+    rb_rolling_case rc = t->rc;
+    rb_contact_lcp lcp;
+    rb_status s = rb_rolling_model_lcp(&t->model, &lcp, &t->why);
+    if (s == RB_OK)
+        rb_contact_lcp_free(&lcp);
+    if (s == RB_OK)
+        s = rb_rolling_model_friction(&t->model, &t->why);
+    rc.load *= 1.1;
+    return s == RB_OK ? rb_rolling_model_again(&rc, &t->model, &t->why) : s;
+}
+
+static rb_status solutions(void *context)
+{
+    return with_model(context, use_solutions);
+}
+
+static rb_status stress(void *context)
+{
+    return with_model(context, use_stress);
+}
+
+static rb_status again(void *context)
+{
+    return with_model(context, use_again);
+}
+
+static rb_status to_accuracy(void *context)
+{
+    task *t = context;
+    rb_rolling_solution s;
+    rb_rolling_errors errors;
+    int elements;
+    const rb_status status =
+        rb_rolling_solve_to_accuracy(&t->rc, 0.4, &s, &errors, &elements, &t->why);
+    rb_rolling_solution_free(&s);
+    return status;
+}
+
+/* ---- All of them ------------------------------------------------------------------- */
+
+static void fail_all(const char *name, rb_status (*work)(void *), rb_rolling_case rc)
+{
+    static task t; /* it outlives a failure */
+    t = (task){.rc = rc};
+    if (work(&t) != RB_OK)
+        fail_msg("%s: %s", name, t.why.text);
+    print_message("# %s: %d more failures of memory\n", name,
+                  alloc_fail_every_call(work, &t));
+}
+
+#define FAIL(work, ...) fail_all(#work ", " #__VA_ARGS__, work, __VA_ARGS__)
+
+static rb_rolling_case on(rb_rolling_mesh_kind mesh, rb_rolling_case rc)
+{
+    rc.mesh = mesh;
+    return rc;
+}
+
+static rb_rolling_case second(rb_rolling_case rc)
+{
+    rc.slip_operator = RB_SLIP_SECOND;
+    return rc;
+}
+
+static rb_rolling_case yielding(rb_rolling_case rc)
+{
+    rc.interlayer_tangential = 1e-5;
+    rc.yield_stress = 50.0;
+    return rc;
+}
+
+static rb_rolling_case dissimilar(rb_rolling_case rc)
+{
+    rc.a.poisson = 0.3;
+    return rc;
+}
+
+static rb_rolling_case forced(rb_rolling_case rc, double ratio)
+{
+    rc.creep_ratio = NAN;
+    rc.force_ratio = ratio;
+    return rc;
+}
+
+static rb_rolling_case wheel(rb_rolling_case rc)
+{
+    rc.a.support = RB_BEM_HUB;
+    rc.outer_elements = 24;
+    return rc;
+}
+
+static void solutions_are_short_of_memory(void **state)
+{
+    (void)state;
+    FAIL(solve, dissimilar(few(RB_STEADY, 8)));
+    FAIL(solve, second(few(RB_STEADY, 8)));
+    FAIL(solve, yielding(few(RB_STEADY, 8)));
+    FAIL(solve, on(RB_MESH_FITTED, dissimilar(few(RB_STEADY, 8))));
+    FAIL(solve, on(RB_MESH_ALIGNED, few(RB_STEADY, 12)));
+    FAIL(solve, warm(few(RB_STEADY, 8)));
+    FAIL(solve, relaxing(RB_STEADY));
+    FAIL(solve, wheel(few(RB_STEADY, 8)));
+    FAIL(again, few(RB_STEADY, 8));
+    FAIL(again, warm(falling(RB_STEADY, 8)));
+}
+
+static void friction_laws_are_short_of_memory(void **state)
+{
+    (void)state;
+    FAIL(solve, falling(RB_STEADY, 8));
+    FAIL(solve, falling(RB_TRANSIENT, 8));
+    FAIL(solve, forced(falling(RB_STEADY, 8), -0.4));
+    FAIL(solve, warm(falling(RB_STEADY, 8)));
+    FAIL(curve, falling(RB_STEADY, 8));
+    FAIL(solutions, falling(RB_STEADY, 6));
+}
+
+static void tasks_are_short_of_memory(void **state)
+{
+    (void)state;
+    FAIL(curve, dissimilar(few(RB_STEADY, 12)));
+    FAIL(curve, warm(few(RB_STEADY, 8)));
+    FAIL(curve, on(RB_MESH_ALIGNED, few(RB_STEADY, 24)));
+    FAIL(curve_of_speeds, relaxing(RB_STEADY));
+    FAIL(history, few(RB_TRANSIENT, 12));
+    FAIL(solve, yielding(few(RB_TRANSIENT, 8)));
+    FAIL(solve, warm(few(RB_TRANSIENT, 8)));
+    FAIL(solve, relaxing(RB_TRANSIENT));
+    FAIL(history_in_time, relaxing(RB_STATIC));
+    FAIL(slide, few(RB_STATIC, 8));
+    FAIL(fret, forced(few(RB_STATIC, 8), 0.5));
+    FAIL(turn, few(RB_STEADY, 8));
+    FAIL(stress, few(RB_STATIC, 8));
+    FAIL(stress, wheel(few(RB_STATIC, 8)));
+    FAIL(to_accuracy, few(RB_STATIC, 12));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(solutions_are_short_of_memory),
+        cmocka_unit_test(friction_laws_are_short_of_memory),
+        cmocka_unit_test(tasks_are_short_of_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
