@@ -1,6 +1,7 @@
 /* Input files of CONTACT: our own in every way of writing them, the same cases by the
  * program's own options, and CONTACT's examples below ROLLBEM_DATA. */
 #include "cli_run.h"
+#include "rollbem/io_contact.h"
 
 #include <stdlib.h>
 
@@ -218,6 +219,167 @@ static void bad_files_are_refused(void **state)
     check_refused("contact", 64, "FILE.inp");
 }
 
+/* Every line that the digits ask for is read, and each of its numbers kept. */
+static void every_number_has_its_name(void **state)
+{
+    (void)state;
+    rb_io_contact_case *c;
+    rb_message why = {""};
+    int n;
+    write_file("all.inp",
+               "%% every line that there is\n"
+               " 3   MODULE\n 203110\n 022422\n 13203310\n of debugging\n"
+               " 1 2 3 4 5\n of the solver\n 25000, 0.5 0.6 0.7 a comment\n 0.3 0.25\n"
+               " 90d 0.05 1000\n 0.28 0.29 81000 82000\n 800 0.02 30 7\n"
+               " 1 2 3 4\n 5 6 7 8\n of plastic heat\n"
+               " 4\n 3 2 10 20 14 21\n 2 1\n 6 7 8 9 10\n\n"
+               " 3 MODULE\n 103000\n 422122\n 00100000\n -1 2 3 4\n"
+               " 0.3 0.1 0.2 0.05 0.4\n 0.9 0.8\n"
+               " 1.5707963267948966 0.1 10\n .1 .2 3 4\n .5 .6 .7 .8\n"
+               " 2\n 4 2 0 0 2 1\n 1 1\n 1 2 3 4 5 6\n"
+               " 3 MODULE\n 203100\n 520000\n 00100000\n 25000. 0.6 0. 0.\n"
+               " 1 2 3 4 5\n 6 7\n 3\n 5 1 1 1 0.5 0.25\n"
+               " 3 MODULE\n 200100\n 100000\n 10\n 1 2 3 4 5\n 1 0.6 0. 0.\n"
+               " 4 MODULE\n 0 MODULE\n 3 MODULE\n");
+    if (rb_io_contact_read("all.inp", &n, &c, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    assert_int_equal(n, 5);
+    assert_true(c[0].line == 2 && c[0].module == 3 && c[4].module == 4);
+    const rb_io_contact_digits *d = &c[0].digit;
+    assert_true(d->P == 2 && d->B == 0 && d->T == 3 && d->N == 1 && d->F == 1 &&
+                d->S == 0);
+    assert_true(d->L == 0 && d->D == 2 && d->C == 2 && d->M == 4 && d->Z == 2 &&
+                d->E == 2);
+    assert_true(d->X == 1 && d->H == 3 && d->G == 2);
+    assert_true(c[3].digit.X == 0 && c[3].digit.H == 0 && c[3].digit.G == 0);
+    const struct {
+        double got, want;
+    } all[] = {{c->normal, 25000},
+               {c->tangential, 0.5},
+               {c->side, 0.6},
+               {c->spin, 0.7},
+               {c->fstat, 0.3},
+               {c->fkin, 0.25},
+               {c->chi, 90},
+               {c->dq, 0.05},
+               {c->velocity, 1000},
+               {c->poisson[0], 0.28},
+               {c->poisson[1], 0.29},
+               {c->shear[0], 81000},
+               {c->shear[1], 82000},
+               {c->layer_shear, 800},
+               {c->layer, 0.02},
+               {c->yield, 30},
+               {c->hardening, 7},
+               {c->potential, 4},
+               {c->mx, 3},
+               {c->my, 2},
+               {c->dx, 2},
+               {c->dy, 1},
+               {c->from, 9},
+               {c->base, 2},
+               {c->plan, 1},
+               {c->centre, 7},
+               {c->radius, 8},
+               {c[1].fkin, 0.3},
+               {c[1].fstat, 0.45},
+               {c[1].fall[0], 0.1},
+               {c[1].slip_scale[0], 0.2},
+               {c[1].fall[1], 0.05},
+               {c[1].slip_scale[1], 0.4},
+               {c[1].memory, 0.9},
+               {c[1].memory_slip, 0.8},
+               {c[1].chi, 90},
+               {c[1].ratio[0], 0.5},
+               {c[1].ratio[1], 0.6},
+               {c[1].time[0], 0.7},
+               {c[1].time[1], 0.8},
+               {c[1].layer, 0.02},
+               {c[1].from, 0},
+               {c[1].dx, 0.5},
+               {c[1].dy, 0.5},
+               {c[1].b[0], 1},
+               {c[1].b[5], 6},
+               {c[1].radius, 8},
+               {c[1].law, 4},
+               {c[2].law, 5},
+               {c[2].fstat, 1},
+               {c[2].fall[1], 4},
+               {c[2].slip_scale[1], 5},
+               {c[2].memory_slip, 7},
+               {c[2].from, 0.75},
+               {c[2].dx, 0.5},
+               {c[2].dy, 0.25},
+               {c[2].b[5], 6},
+               {c[3].law, 5},
+               {c[3].fstat, 1},
+               {c[3].mx, 5}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        CHECK_ABS(all[k].got, all[k].want, 1e-13 * fabs(all[k].want), "number %zu", k);
+    free(c);
+}
+
+#define DIGITS " 3 MODULE\n 203100\n 022020\n 331\n 1 2 3 4 5\n"
+#define BODIES DIGITS " 1 2 3 4\n .3 .3\n 0 1 1\n .3 .3 1 1\n"
+
+/* Each line that is short, and each count that is none, with its place. */
+static void short_lines_are_named(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *said;
+    } all[] = {
+        {" 3 MODULE\n 20310000x\n", ":2: expected"},
+        {" 3 MODULE\n 203100203\n",
+         ":2: expected the digits P-B-T-N-F-S, got '203100203'"},
+        {" 3 MODULE\n x\n", ":2: expected the digits P-B-T-N-F-S, got 'x'"},
+        {DIGITS " 1 2 3\n",
+         ":6: expected FN or PEN, CKSI or FX, CETA or FY, CPHI, got '1 2 3'"},
+        {DIGITS " 1 2 3 inf\n", ":6: expected FN"},
+        {DIGITS " 1 2 3 4\n 0.3\n", ":7: expected FSTAT, FKIN"},
+        {DIGITS " 1 2 3 4\n .3 .3\n 0 1\n", ":8: expected CHI, DQ, VELOC"},
+        {BODIES " 0\n", ":10: expected IPOTCN from 1 to 4, or negative, got '0'"},
+        {BODIES " 5\n", "got '5'"},
+        {BODIES " 1.5\n", ":10: IPOTCN: expected whole numbers, got 1.5"},
+        {BODIES " 1\n 1 1 0 0 1\n", ":11: expected MX, MY and the grid"},
+        {BODIES " 1\n 0 1 0 0 1 1\n",
+         ":11: expected MX, MY >= 1 and DX > 0, got 'another grid'"},
+        {BODIES " 1\n 1 0 0 0 1 1\n", "got 'another grid'"},
+        {BODIES " 1\n 1 1 0 0 0 1\n", "got 'another grid'"},
+        {BODIES " 4\n 1 1 0 0 1 1\n", /* one midpoint has no distance */
+         "got 'another grid'"},
+        {BODIES " 1\n 1 1 0 0 1 1\n 1.5 1\n",
+         ":12: IBASE: expected whole numbers, got 1.5"},
+        {BODIES " 1\n 1 1 0 0 1 1\n 1 1\n 1 2 3 4 5\n", ":13: expected B1, ..., B6"},
+        {BODIES " 1\n 1 1 0 0 1 1\n 2 1\n 1 2\n", ":13: expected NN, XM, RX1, Y1, DY1"}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        rb_io_contact_case *c;
+        rb_message why = {""};
+        int n = 7;
+        write_file("short.inp", all[k].text);
+        CHECK_STATUS(rb_io_contact_read("short.inp", &n, &c, &why), RB_EFORMAT);
+        if (!strstr(why.text, all[k].said))
+            fail_msg("'%s' lacks '%s'", why.text, all[k].said);
+        assert_true(n == 0 && !c);
+    }
+}
+
+static void cases_without_memory_are_refused(void **state)
+{
+    (void)state;
+    write_file("three.inp", " 1 MODULE\n 1 MODULE\n 1 MODULE\n");
+    rb_status s = RB_ENOMEM;
+    for (int k = 0; s != RB_OK; k++) {
+        rb_io_contact_case *c;
+        int n;
+        alloc_fail_after(k);
+        s = rb_io_contact_read("three.inp", &n, &c, NULL);
+        alloc_succeed();
+        assert_true(s == RB_ENOMEM ? n == 0 && !c : n == 3);
+        free(c);
+    }
+}
+
 /* ---- CONTACT's examples ------------------------------------------------------------ */
 
 static const char *data(const char *name)
@@ -337,6 +499,9 @@ int main(void)
         cmocka_unit_test(what_is_left_out_is_named),
         cmocka_unit_test(what_is_left_out_is_said),
         cmocka_unit_test(bad_files_are_refused),
+        cmocka_unit_test(every_number_has_its_name),
+        cmocka_unit_test(short_lines_are_named),
+        cmocka_unit_test(cases_without_memory_are_refused),
         cmocka_unit_test(carters_example_is_met),
         cmocka_unit_test(falling_friction_is_met),
         cmocka_unit_test(plastic_examples_are_met),

@@ -1,13 +1,25 @@
 /* FCLib files: written and read back in the three layouts, the traps of files found in
  * the wild, and every way in which a file can be wrong. */
+#define _GNU_SOURCE
 #include "check.h"
+#include "failing_call.h"
+#include "io/child.h"
 #include "rollbem/friction.h"
 #include "rollbem/io_fclib.h"
 #include "scratch.h"
 
 #include <hdf5.h>
-#include <string.h>
-#include <unistd.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+
+/* The clock that HDF5 would note: another one in every process. */
+int gettimeofday(struct timeval *restrict now, void *restrict zone)
+{
+    (void)zone;
+    *now = (struct timeval){.tv_sec = getpid()};
+    return 0;
+}
 
 /* Unsymmetric, with an empty column and an entry per layout that tells rows from columns.
  */
@@ -159,6 +171,14 @@ static void fresh_local(void)
     rb_io_fclib_free(&p);
 }
 
+static void fresh_global(void)
+{
+    rb_io_fclib p;
+    small_global(&p);
+    CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", NULL), RB_OK);
+    rb_io_fclib_free(&p);
+}
+
 static void refused(const char *words)
 {
     rb_io_fclib p;
@@ -209,7 +229,35 @@ static void sizes_and_indices_are_checked(void **state)
     fresh_local();
     overwrite("/fclib_local/vectors/mu", H5T_NATIVE_DOUBLE, 1, few);
     refused("expected 2");
-    const int p_below[] = {0, 1, 2, 3, 4, 5, -8};
+    const int p_below[] = {0, 1, 2, 3, 4, 5, -8}, p_first[] = {-1, 1, 2, 3, 4, 5, 8},
+              p_beyond[] = {0, 9, 2, 3, 4, 5, 8}, p_equal[] = {0, 0, 0, 0, 0, 8, 8};
+    fresh_local();
+    overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_first);
+    refused("W/p does not increase");
+    fresh_local();
+    overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_beyond);
+    refused("W/p does not increase");
+    fresh_local();
+    overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_equal); /* empty columns */
+    rb_io_fclib gathered;
+    CHECK_STATUS(rb_io_fclib_read(path, &gathered, NULL), RB_OK);
+    assert_int_equal(gathered.W.p[4], 0);
+    rb_io_fclib_free(&gathered);
+    fresh_local();
+    set_int("/fclib_local/W/nz", -3);
+    refused("W is 6 x 6 with nz = -3");
+    fresh_local();
+    set_int("/fclib_local/W/n", 0);
+    refused("W is 6 x 0 with nz = -1");
+    fresh_local();
+    set_int("/fclib_local/W/m", 1 << 29);
+    refused("W is 536870912 x 6 with nz = -1");
+    fresh_local();
+    set_int("/fclib_local/W/n", 1 << 29);
+    refused("W is 6 x 536870912 with nz = -1");
+    fresh_local();
+    overwrite("/fclib_local_rolling", H5T_NATIVE_INT, 1, p_down);
+    refused("rolling friction in the local form is not supported");
     fresh_local();
     overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_below);
     refused("W/p ends in -8");
@@ -228,11 +276,21 @@ static void sizes_and_indices_are_checked(void **state)
     set_int("/fclib_local/W/m", 7);
     refused("7 contact rows are no multiple of 3");
     rb_io_fclib_free(&p);
-    small_global(&p);
-    CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_TRIPLET, "", "", NULL), RB_OK);
+    fresh_global();
     set_int("/fclib_global/H/m", 4);
     refused("M is 3 x 3 and H is 4 x 2");
-    rb_io_fclib_free(&p);
+    fresh_global();
+    set_int("/fclib_global/M/n", 4);
+    refused("M is 3 x 4 and H is 3 x 2");
+    const double upper_alone[] = {2.0, -1.0, 2.0, 5.0};
+    const int rows[] = {0, 0, 1, 2}, columns[] = {0, 1, 1, 2};
+    fresh_global(); /* a triangle, but of no square matrix */
+    overwrite("/fclib_global/M/x", H5T_NATIVE_DOUBLE, 4, upper_alone);
+    overwrite("/fclib_global/M/i", H5T_NATIVE_INT, 4, rows);
+    overwrite("/fclib_global/M/p", H5T_NATIVE_INT, 4, columns);
+    set_int("/fclib_global/M/nz", 4);
+    set_int("/fclib_global/M/n", 4);
+    refused("M is 3 x 4 and H is 3 x 2");
     /* nzmax beyond what is stored does not matter */
     fresh_local();
     set_int("/fclib_local/W/nzmax", 900);
@@ -242,26 +300,32 @@ static void sizes_and_indices_are_checked(void **state)
     rb_io_fclib_free(&back);
 }
 
-/* u = W r + V l + q, V' r + R l + s = 0 with one constraint */
-static void fresh_constrained(void)
+/* u = W r + V l + q, V' r + R l + s = 0 with one constraint; entries of R: 0 or 1 */
+static void small_constrained(rb_io_fclib *p, int entries)
 {
-    rb_io_fclib p;
     int at[] = {0, 3}, zero[] = {0, 0};
     double x[] = {2.0, -1.0};
-    small_local(&p);
-    p.constraints = 1;
-    p.s = rb_alloc(1, 1);
-    p.s[0] = 0.5;
+    small_local(p);
+    p->constraints = 1;
+    p->s = rb_alloc(1, 1);
+    p->s[0] = 0.5;
     CHECK_STATUS(
         rb_sparse_from_triplets(
             &(rb_triplets){.rows = 6, .cols = 1, .nz = 2, .row = at, .col = zero, .x = x},
-            &p.V),
+            &p->V),
         RB_OK);
-    CHECK_STATUS(rb_sparse_from_triplets(
-                     &(rb_triplets){
-                         .rows = 1, .cols = 1, .nz = 1, .row = zero, .col = zero, .x = x},
-                     &p.R),
-                 RB_OK);
+    CHECK_STATUS(
+        rb_sparse_from_triplets(
+            &(rb_triplets){
+                .rows = 1, .cols = 1, .nz = entries, .row = zero, .col = zero, .x = x},
+            &p->R),
+        RB_OK);
+}
+
+static void fresh_constrained(void)
+{
+    rb_io_fclib p;
+    small_constrained(&p, 1);
     CHECK_STATUS(rb_io_fclib_write(path, &p, RB_IO_FCLIB_CSC, "", "", NULL), RB_OK);
     rb_io_fclib_free(&p);
 }
@@ -287,6 +351,20 @@ static void constraints_are_whole_or_refused(void **state)
     rb_io_fclib_free(&p);
     drop("/fclib_local/R");
     refused("no /fclib_local/R/m");
+    drop("/fclib_local/vectors/s");
+    refused("no /fclib_local/R/m");
+    fresh_constrained();
+    drop("/fclib_local/V");
+    drop("/fclib_local/R");
+    refused("no /fclib_local/V/m");
+    drop("/fclib_local/vectors/s"); /* no constraints at all */
+    CHECK_STATUS(rb_io_fclib_read(path, &p, NULL), RB_OK);
+    assert_int_equal(p.constraints, 0);
+    rb_io_fclib_free(&p);
+    fresh_constrained();
+    drop("/fclib_local/V");
+    drop("/fclib_local/vectors/s");
+    refused("no /fclib_local/V/m");
     fresh_constrained();
     drop("/fclib_local/V");
     refused("no /fclib_local/V/m");
@@ -299,12 +377,136 @@ static void constraints_are_whole_or_refused(void **state)
     fresh_constrained();
     set_int("/fclib_local/R/m", 2);
     refused("/fclib_local/R is 2 x 1, expected 1 x 1");
+    fresh_constrained();
+    const int two[] = {0, 1, 1};
+    set_int("/fclib_local/R/n", 2);
+    overwrite("/fclib_local/R/p", H5T_NATIVE_INT, 3, two);
+    refused("/fclib_local/R is 1 x 2, expected 1 x 1");
     rb_io_fclib g;
     small_global(&g);
     CHECK_STATUS(rb_io_fclib_write(path, &g, RB_IO_FCLIB_CSR, "", "", NULL), RB_OK);
     rb_io_fclib_free(&g);
     overwrite("/fclib_global/vectors/b", H5T_NATIVE_DOUBLE, 1, few);
     refused("no /fclib_global/G/m");
+}
+
+/* Also a matrix without an entry, and each vector of a solution by itself. */
+static void constraints_are_read_as_written_in_every_layout(void **state)
+{
+    (void)state;
+    for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
+        rb_io_fclib p, back;
+        rb_message why = {""};
+        small_constrained(&p, 0);
+        p.u = p.r; /* u alone */
+        p.r = NULL;
+        CHECK_STATUS(
+            rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &why), RB_OK);
+        CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
+        assert_int_equal(back.constraints, 1);
+        same_sparse(&p.V, &back.V);
+        same_sparse(&p.R, &back.R);
+        assert_non_null(back.R.i);
+        assert_non_null(back.R.x);
+        assert_memory_equal(p.s, back.s, sizeof *p.s);
+        assert_memory_equal(p.u, back.u, 6 * sizeof *p.u);
+        assert_null(back.r);
+        assert_null(back.v);
+        rb_io_fclib_free(&back);
+        rb_io_fclib_free(&p);
+
+        int row[] = {1, 2}, zero[] = {0, 0};
+        double x[] = {3.0, -4.0};
+        small_global(&p);
+        p.constraints = 1;
+        p.b = rb_alloc(1, 1);
+        p.b[0] = 0.75;
+        free(p.v);
+        p.v = NULL;
+        CHECK_STATUS(
+            rb_sparse_from_triplets(
+                &(rb_triplets){
+                    .rows = 3, .cols = 1, .nz = 2, .row = row, .col = zero, .x = x},
+                &p.G),
+            RB_OK);
+        CHECK_STATUS(
+            rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &why), RB_OK);
+        CHECK_STATUS(rb_io_fclib_read(path, &back, &why), RB_OK);
+        same_sparse(&p.G, &back.G);
+        CHECK_ABS(back.b[0], 0.75, 0.0, "b");
+        assert_null(back.r);
+        assert_null(back.u);
+        assert_null(back.v);
+        rb_io_fclib_free(&back);
+        rb_io_fclib_free(&p);
+    }
+}
+
+static void texts_of(hid_t file, const char *name, char *text, size_t size)
+{
+    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT), type = H5Dget_type(set);
+    memset(text, 0, size);
+    assert_true(H5Tget_size(type) < size);
+    assert_true(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0);
+    H5Tclose(type);
+    H5Dclose(set);
+}
+
+static void ints_of(hid_t file, const char *name, int n, int *x)
+{
+    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(set);
+    assert_int_equal(H5Sget_simple_extent_npoints(space), n);
+    assert_true(H5Dread(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, x) >= 0);
+    H5Sclose(space);
+    H5Dclose(set);
+}
+
+/* What other programs look for: the texts, the sign of nz, and what p holds. */
+static void files_are_as_the_format_says(void **state)
+{
+    (void)state;
+    static const int nz[] = {5, -1, -2}, length[] = {5, 4, 4};
+    static const int p[][5] = {{0, 0, 1, 1, 2}, {0, 2, 4, 5}, {0, 2, 4, 5}};
+    for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
+        rb_io_fclib problem;
+        char text[40];
+        int x[8];
+        small_global(&problem);
+        CHECK_STATUS(rb_io_fclib_write(path, &problem, (rb_io_fclib_layout)layout,
+                                       layout ? "a title" : NULL, layout ? NULL : "words",
+                                       NULL),
+                     RB_OK);
+        rb_io_fclib_free(&problem);
+        const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+        texts_of(file, "/fclib_global/info/title", text, sizeof text);
+        assert_string_equal(text, layout ? "a title" : "");
+        texts_of(file, "/fclib_global/info/description", text, sizeof text);
+        assert_string_equal(text, layout ? "" : "words");
+        texts_of(file, "/fclib_global/info/math_info", text, sizeof text);
+        assert_string_equal(text, "");
+        ints_of(file, "/fclib_global/M/nz", 1, x);
+        assert_int_equal(x[0], nz[layout]);
+        ints_of(file, "/fclib_global/M/nzmax", 1, x);
+        assert_int_equal(x[0], 5);
+        ints_of(file, "/fclib_global/M/p", length[layout], x);
+        assert_memory_equal(x, p[layout], (size_t)length[layout] * sizeof *x);
+        ints_of(file, "/fclib_global/spacedim", 1, x);
+        assert_int_equal(x[0], 2);
+        assert_true(H5Lexists(file, "/solution", H5P_DEFAULT) > 0);
+        assert_int_equal(H5Lexists(file, "/solution/r", H5P_DEFAULT), 0);
+        H5Fclose(file);
+    }
+    char *bytes[2];
+    for (int k = 0; k < 2; k++) {
+        bytes[k] = calloc(100000, 1);
+        fresh_local();
+        FILE *f = fopen(path, "rb");
+        assert_true(fread(bytes[k], 1, 100000, f) < 100000);
+        fclose(f);
+    }
+    assert_memory_equal(bytes[0], bytes[1], 100000);
+    free(bytes[0]);
+    free(bytes[1]);
 }
 
 /* Opens the file for a change of one array, which is deleted. */
@@ -379,6 +581,8 @@ static void memory_is_bounded_by_the_size_of_the_file(void **state)
     set_int("/fclib_local/W/m", 1 << 27);
     set_int("/fclib_local/W/n", 1 << 27);
     refused("134217728 x 134217728");
+    put_set(without(q), q, 1 << 30, H5Pcreate(H5P_DATASET_CREATE));
+    refused("/fclib_local/vectors/q: unreadable size");
 }
 
 static void other_files_are_refused(void **state)
@@ -442,6 +646,122 @@ static void problems_go_through_files(void **state)
     rb_friction_problem_free(&p);
 }
 
+/* ---- The process of its own -------------------------------------------------------- */
+
+typedef enum { ANSWERS, REFUSES, CRASHES, IS_KILLED, ENDS, IS_LOUD } deed;
+
+static rb_status do_it(FILE *out, const void *context, rb_message *why)
+{
+    struct rlimit core;
+    switch (*(const deed *)context) {
+    case ANSWERS:
+        fputs("an answer", out);
+        return getrlimit(RLIMIT_CORE, &core) == 0 && core.rlim_cur == 0 ? RB_OK
+                                                                        : RB_EINVAL;
+    case REFUSES:
+        fputs("half of it", out);
+        return rb_fail(why, RB_EFORMAT, "it is bad");
+    case CRASHES:
+        signal(SIGSEGV, SIG_DFL);
+        raise(SIGSEGV);
+        return RB_OK;
+    case IS_KILLED:
+        raise(SIGKILL);
+        return RB_OK;
+    case ENDS:
+        fputs("no ending, of many bytes: 0123456789012345678901234567890123456789", out);
+        fflush(out);
+        _exit(0);
+    case IS_LOUD:
+        fputs("something for people", stderr);
+        return RB_OK;
+    }
+    return RB_OK;
+}
+
+static rb_status in_child(deed what, char **bytes, size_t *size, rb_message *why)
+{
+    why->text[0] = '\0';
+    return rb_io_in_child("it", do_it, &what, bytes, size, why);
+}
+
+static void a_child_answers_or_is_blamed(void **state)
+{
+    (void)state;
+    static const struct {
+        deed what;
+        rb_status status;
+        const char *words;
+    } bad[] = {{REFUSES, RB_EFORMAT, "it is bad"},
+               {CRASHES, RB_ENOMEM, "it: HDF5 crashed: out of memory, or a damaged file"},
+               {IS_KILLED, RB_ENOMEM, "it: out of memory"},
+               {ENDS, RB_ENOMEM, "it: out of memory"}};
+    char *bytes;
+    size_t size;
+    rb_message why;
+    CHECK_STATUS(in_child(ANSWERS, &bytes, &size, &why), RB_OK);
+    assert_int_equal(size, strlen("an answer"));
+    assert_memory_equal(bytes, "an answer", size);
+    free(bytes);
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        CHECK_STATUS(in_child(bad[k].what, &bytes, &size, &why), bad[k].status);
+        assert_string_equal(why.text, bad[k].words);
+        assert_null(bytes);
+    }
+}
+
+static void a_child_without_means_is_told(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *call;
+        int error;
+        const char *words;
+    } all[] = {{"pipe", EMFILE, "it: out of memory: Too many open files"},
+               {"fork", EAGAIN, "it: out of memory"},
+               {"fdopen", ENOMEM, "it: out of memory"}};
+    char *bytes;
+    size_t size;
+    rb_message why;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        const int next = dup(0);
+        close(next);
+        fail_call(all[k].call, all[k].error, 1);
+        CHECK_STATUS(in_child(ANSWERS, &bytes, &size, &why), RB_ENOMEM);
+        assert_true(calls_succeed());
+        assert_string_equal(why.text, all[k].words);
+        assert_null(bytes);
+        const int after = dup(0);
+        close(after);
+        assert_int_equal(after, next); /* no descriptor is left open */
+    }
+    fail_call("waitpid", EINTR, 1);
+    CHECK_STATUS(in_child(ANSWERS, &bytes, &size, &why), RB_OK);
+    assert_true(calls_succeed());
+    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1); /* nobody is left to wait for */
+    free(bytes);
+}
+
+static void a_child_is_quiet(void **state)
+{
+    (void)state;
+    char *bytes;
+    size_t size;
+    rb_message why;
+    struct stat st;
+    const int own = dup(2), file = open(path, O_WRONLY | O_TRUNC);
+    dup2(file, 2);
+    const rb_status s = in_child(IS_LOUD, &bytes, &size, &why);
+    dup2(own, 2);
+    close(own);
+    close(file);
+    CHECK_STATUS(s, RB_OK);
+    assert_int_equal(size, 0);
+    assert_int_equal(stat(path, &st), 0);
+    assert_int_equal(st.st_size, 0);
+    free(bytes);
+}
+
 static void failing_allocations_are_reported(void **state)
 {
     (void)state;
@@ -462,6 +782,18 @@ static void failing_allocations_are_reported(void **state)
             assert_true(s == RB_ENOMEM || (s == RB_OK && !refused_one));
         }
         assert_true(count > 10);
+        for (int layout = RB_IO_FCLIB_TRIPLET; layout <= RB_IO_FCLIB_CSR; layout++) {
+            rb_status s = RB_ENOMEM;
+            for (count = 0; s != RB_OK && count < 50; count++) {
+                rb_message why = {""};
+                alloc_fail_after(count);
+                s = rb_io_fclib_write(path, &p, (rb_io_fclib_layout)layout, "", "", &why);
+                alloc_succeed();
+                assert_true(s == RB_OK || (s == RB_ENOMEM && strstr(why.text, "memory")));
+            }
+            CHECK_STATUS(s, RB_OK);
+            assert_true(count > 5);
+        }
         rb_io_fclib_free(&p);
     }
 }
@@ -495,10 +827,15 @@ int main(void)
         cmocka_unit_test(one_triangle_of_m_is_completed),
         cmocka_unit_test(sizes_and_indices_are_checked),
         cmocka_unit_test(constraints_are_whole_or_refused),
+        cmocka_unit_test(constraints_are_read_as_written_in_every_layout),
+        cmocka_unit_test(files_are_as_the_format_says),
         cmocka_unit_test(nothing_is_read_of_another_file),
         cmocka_unit_test(memory_is_bounded_by_the_size_of_the_file),
         cmocka_unit_test(other_files_are_refused),
         cmocka_unit_test(problems_go_through_files),
+        cmocka_unit_test(a_child_answers_or_is_blamed),
+        cmocka_unit_test(a_child_without_means_is_told),
+        cmocka_unit_test(a_child_is_quiet),
         cmocka_unit_test(failing_allocations_are_reported),
         cmocka_unit_test(outside_files_are_read),
     };

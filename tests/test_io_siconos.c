@@ -105,11 +105,36 @@ static void friction_and_cones(void **state)
     rb_io_soclcp_free(&s);
 }
 
+/* Blocks of one and two rows and columns, of which one is not stored. */
+static void blocks_of_other_sizes_are_in_their_places(void **state)
+{
+    (void)state;
+    static const double want[] = {1, 0, 0, 2, 4, 5, 3, 6, 7};
+    rb_io_lcp p;
+    put("3\n1\n3 3\n3\n2\n2\n1 3\n1 3\n3\n3\n0 2 3\n0 1 1\n"
+        "0\n1\n1\n2 3\n2\n4 5 6 7\n-1 -2 -3");
+    CHECK_STATUS(rb_io_siconos_read_lcp(path, &p, NULL), RB_OK);
+    CHECK_STATUS(rb_io_matrix_to_dense(&p.M), RB_OK);
+    for (int k = 0; k < 9; k++)
+        CHECK_ABS(p.M.dense[k], want[k], 0.0, "entry %d", k);
+    rb_io_lcp_free(&p);
+}
+
 /* ---- Refusals --------------------------------------------------------------------- */
 
 typedef rb_status reader(void);
 
 static rb_message why;
+static reader read_with_q, read_game, read_as_dense;
+static char second[sizeof path + 2]; /* another file beside the first */
+
+static void put_second(const char *text)
+{
+    snprintf(second, sizeof second, "%s-q", path);
+    FILE *f = fopen(second, "wb");
+    fputs(text, f);
+    fclose(f);
+}
 
 static rb_status read_lcp(void)
 {
@@ -349,10 +374,19 @@ static void missing_files_and_folders(void **state)
 static void short_memory_is_reported(void **state)
 {
     (void)state;
-    const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN, FRICTION, SOCLCP, BLOCK, PLAIN};
-    reader *read[] = {read_lcp,      read_lcp,    read_lcp,     read_lcp,
-                      read_friction, read_soclcp, read_any_lcp, read_any_lcp};
-    for (int k = 0; k < 8; k++) {
+    static const char ARRAY[] =
+        "%%MatrixMarket matrix array real symmetric\n2 2\n1 2 3\n",
+                      ENTRIES[] = "%%MatrixMarket matrix coordinate real general\n"
+                                  "2 2 2\n1 1 1\n2 2 3\n",
+                      COLUMN_Q[] = "%%MatrixMarket matrix coordinate real general\n"
+                                   "2 1 2\n1 1 5\n2 1 -6\n";
+    const char *texts[] = {DENSE, BLOCK, TRIPLET, COLUMN,  FRICTION, SOCLCP,
+                           BLOCK, PLAIN, ARRAY,   ENTRIES, ARRAY,    "1 1 2 3"};
+    reader *read[] = {read_lcp,      read_lcp,      read_lcp,     read_lcp,
+                      read_friction, read_soclcp,   read_any_lcp, read_any_lcp,
+                      read_as_dense, read_as_dense, read_with_q,  read_game};
+    put_second(COLUMN_Q);
+    for (int k = 0; k < 12; k++) {
         put(texts[k]);
         for (int i = 0;; i++) {
             alloc_fail_after(i);
@@ -367,6 +401,7 @@ static void short_memory_is_reported(void **state)
                 CHECK_STATUS(s, RB_ENOMEM);
         }
     }
+    unlink(second);
 }
 
 /* ---- Matrix Market ----------------------------------------------------------------- */
@@ -441,6 +476,268 @@ static void market_refusals(void **state)
         RB_EWRITE);
 }
 
+static void check_content(const char *wanted)
+{
+    char text[200];
+    FILE *f = fopen(path, "r");
+    assert_non_null(f);
+    text[fread(text, 1, sizeof text - 1, f)] = '\0';
+    fclose(f);
+    assert_string_equal(text, wanted);
+}
+
+static void market_files_are_written_by_columns(void **state)
+{
+    (void)state;
+    const double x[] = {1.0, 2.0, NAN, 3.0, 4.0, NAN};
+    static const rb_io_dense bad[] = {
+        {-1, 1, NULL, 2}, {1, -1, NULL, 2}, {3, 1, NULL, 2}};
+    CHECK_STATUS(
+        rb_io_matrix_market_write(path, (rb_io_dense){2, 2, x, 3}, "words", NULL), RB_OK);
+    check_content("%%MatrixMarket matrix array real general\n% words\n2 2\n1\n2\n3\n4\n");
+    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){1, 2, x, 1}, NULL, NULL),
+                 RB_OK);
+    check_content("%%MatrixMarket matrix array real general\n1 2\n1\n2\n");
+    for (int k = 0; k < 3; k++) {
+        CHECK_STATUS(rb_io_matrix_market_write(path, bad[k], NULL, &why), RB_EINVAL);
+        assert_non_null(strstr(why.text, "with leading dimension 2"));
+    }
+    CHECK_STATUS(rb_io_matrix_market_write(path, (rb_io_dense){0, 0, x, 0}, NULL, NULL),
+                 RB_OK);
+    check_content("%%MatrixMarket matrix array real general\n0 0\n");
+}
+
+/* Each word of the head, each size, and what stands behind. */
+static void market_heads_are_taken_word_by_word(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *words;
+    } bad[] = {
+        {"%%MatrixMarket vector array real general\n1 1\n1\n", ":1: expected the line"},
+        {"%%MatrixMarket matrix heap real general\n1 1\n1\n", ":1: expected the line"},
+        {"%%MatrixMarket matrix array complex general\n1 1\n1\n",
+         ":1: expected the line"},
+        {"%%MatrixMarket matrix array real hermitian\n1 1\n1\n", ":1: expected the line"},
+        {"%%MatrixMarket matrix array real general\n-1 1\n1\n",
+         ":2: rows: expected an integer >= 0, got '-1'"},
+        {"%%MatrixMarket matrix coordinate real general\n1 1 -1\n",
+         "number of entries: expected an integer >= 0, got '-1'"},
+        {"%%MatrixMarket matrix coordinate real symmetric\n1 1 2147483647\n1 1 1",
+         "number of entries: expected an integer from 0 to 1073741823"},
+        {"%%MatrixMarket matrix coordinate real general\n2 3 2\n1 1 1\n1 4 1\n",
+         ":4: column: expected an integer from 1 to 3, got '4'"},
+        {"%%MatrixMarket matrix coordinate real general\n2 3 1\n0 1 1\n",
+         ":3: row: expected an integer from 1 to 2, got '0'"},
+        {"%%MatrixMarket matrix coordinate real general\n2 3 2\n1 1 1.000\n1 1",
+         "value: expected a finite number, the file ends"},
+        {"%%MatrixMarket matrix coordinate real general\n2 3 2\n1 1 1\n",
+         "entries: expected 6 numbers, the rest of the file has room for"},
+        {"%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n2",
+         ":4: expected the end of the file"},
+        {"%%MatrixMarket matrix array real symmetric\n3 3\n1 2 3 4 5 x\n",
+         ":3: column of the triangle, number 1: expected a finite number, got 'x'"},
+        {"%%MatrixMarket matrix array real symmetric\n30 30\n1 2 3 4 5 x\n",
+         "matrix: expected 450 numbers"}};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+        check_refused(read_market, bad[k].text, bad[k].words);
+    rb_io_matrix m;
+    put("%%MatrixMarket matrix coordinate real general\n2 3 0\n");
+    CHECK_STATUS(rb_io_matrix_market_read(path, &m, &why), RB_OK);
+    CHECK_STATUS(rb_io_matrix_to_dense(&m), RB_OK);
+    for (int k = 0; k < 6; k++)
+        CHECK_ABS(m.dense[k], 0.0, 0.0, "entry %d", k);
+    rb_io_matrix_free(&m);
+}
+
+static rb_status read_as_dense(void)
+{
+    rb_io_matrix m;
+    rb_status s = rb_io_matrix_market_read(path, &m, &why);
+    if (s == RB_OK)
+        s = rb_io_matrix_to_dense(&m);
+    rb_io_matrix_free(&m);
+    return s;
+}
+
+/* ---- LCPs, vectors, games ---------------------------------------------------------- */
+
+static rb_status read_with_q(void)
+{
+    rb_io_lcp p;
+    const rb_status s = rb_io_lcp_read(path, second, &p, &why);
+    if (s == RB_OK) {
+        assert_int_equal(p.n, 2);
+        CHECK_ABS(p.q[0], 5.0, 0.0, "q");
+        CHECK_ABS(p.q[1], -6.0, 0.0, "q");
+    } else {
+        assert_null(p.q);
+    }
+    rb_io_lcp_free(&p);
+    return s;
+}
+
+static rb_status read_game(void)
+{
+    rb_io_bimatrix p;
+    const rb_status s = rb_io_bimatrix_read(path, &p, &why);
+    if (s != RB_OK)
+        assert_true(!p.A && !p.B);
+    rb_io_bimatrix_free(&p);
+    return s;
+}
+
+static void refused_with(reader *read, const char *text, const char *q, const char *words)
+{
+    put(text);
+    put_second(q);
+    CHECK_STATUS(read(), RB_EFORMAT);
+    if (!strstr(why.text, words))
+        fail_msg("expected '%s' in: %s", words, why.text);
+}
+
+static void kinds_of_lcp_are_told_apart(void **state)
+{
+    (void)state;
+    static const char M[] = "%%MatrixMarket matrix array real general\n2 2\n1 2 3 4\n",
+                      WIDE[] = "%%MatrixMarket matrix array real general\n1 2\n1 2\n";
+    static const char *const q[] = {
+        "5 -6", "# q\n5 # first\n-6",
+        "%%MatrixMarket matrix array real general\n2 1\n5\n-6\n",
+        "%%MatrixMarket matrix coordinate real general\n2 1 2\n2 1 -6\n1 1 5\n"};
+    for (int k = 0; k < 4; k++) {
+        put(M);
+        put_second(q[k]);
+        if (read_with_q() != RB_OK)
+            fail_msg("%s", why.text);
+    }
+    refused_with(read_with_q, WIDE, "5 6", "M: expected a square matrix, got 1 by 2");
+    refused_with(read_with_q, M, "5", "q: expected 2 numbers, got 1");
+    refused_with(read_with_q, M, "5 6 7", "q: expected 2 numbers, got 3");
+    refused_with(read_with_q, M, "5 inf", "expected a finite number, got 'inf'");
+    refused_with(read_with_q, M, WIDE, "q: expected a matrix of 2 by 1, got 1 by 2");
+    refused_with(read_with_q, M, M, "q: expected a matrix of 2 by 1, got 2 by 2");
+    refused_with(read_with_q, PLAIN, "5 6", "this file holds q itself");
+    refused_with(read_any_lcp, M, "", "q is wanted from a file of its own (--q)");
+    refused_with(read_any_lcp, FRICTION, "", "a friction problem of Siconos");
+    refused_with(read_any_lcp, SOCLCP, "", "a SOCLCP of Siconos, expected an LCP");
+    refused_with(read_any_lcp, "1 2 3 4", "", "end of the file after n, n rows of M and");
+    refused_with(read_any_lcp, "2\n1 x 3 4\n5 6", "", ":2: M, row 1, number 2");
+    refused_with(read_any_lcp, "2\n1 2\n3 x\n5 6", "", ":3: M, row 2, number 2");
+    refused_with(read_any_lcp, "0", "", ":1: n: expected an integer >= 1, got '0'");
+    put("1 2");
+    CHECK_STATUS(rb_io_lcp_read(path, NULL, &(rb_io_lcp){0}, NULL), RB_EFORMAT);
+    CHECK_STATUS(rb_io_lcp_read("/nowhere/x", NULL, &(rb_io_lcp){0}, &why), RB_ENOENT);
+    CHECK_STATUS(rb_io_lcp_read("/nowhere/x", path, &(rb_io_lcp){0}, &why), RB_ENOENT);
+    /* the head of a friction problem, but n, n rows of M and q */
+    rb_io_lcp p;
+    put("2 1 0 2 2 -7 8");
+    CHECK_STATUS(rb_io_lcp_read(path, NULL, &p, &why), RB_OK);
+    static const double want[] = {1.0, 2.0, 0.0, 2.0};
+    for (int k = 0; k < 4; k++)
+        CHECK_ABS(p.M.dense[k], want[k], 0.0, "M, entry %d", k);
+    CHECK_ABS(p.q[1], 8.0, 0.0, "q");
+    rb_io_lcp_free(&p);
+    unlink(second);
+}
+
+static void vectors_are_as_long_as_they_must(void **state)
+{
+    (void)state;
+    double *x;
+    put("1 inf\n-Infinity # no bound");
+    CHECK_STATUS(rb_io_bounds_read(path, 3, "the bounds", &x, &why), RB_OK);
+    assert_true(x[0] == 1.0 && x[1] == INFINITY && x[2] == -INFINITY);
+    free(x);
+    CHECK_STATUS(rb_io_vector_read(path, 3, "the start", &x, &why), RB_EFORMAT);
+    assert_non_null(
+        strstr(why.text, ":1: the start, number 2: expected a finite number, got 'inf'"));
+    assert_null(x);
+    put("1 nan");
+    CHECK_STATUS(rb_io_bounds_read(path, 2, "the bounds", &x, &why), RB_EFORMAT);
+    assert_non_null(strstr(why.text, "expected a number, inf or -inf, got 'nan'"));
+    CHECK_STATUS(rb_io_vector_read("/nowhere/x", 1, "x", &x, &why), RB_ENOENT);
+    assert_null(x);
+    put("0123456789012345678901234567890123456789-more");
+    CHECK_STATUS(rb_io_vector_read(path, 1, "x", &x, &why), RB_EFORMAT);
+    assert_non_null(strstr(why.text, "got '0123456789012345678901234567890123456789'"));
+}
+
+static void games_are_two_matrices(void **state)
+{
+    (void)state;
+    rb_io_bimatrix p;
+    put("1, 1 # sizes\n3\n4");
+    CHECK_STATUS(rb_io_bimatrix_read(path, &p, &why), RB_OK);
+    assert_true(p.m == 1 && p.n == 1 && p.A[0] == 3.0 && p.B[0] == 4.0);
+    rb_io_bimatrix_free(&p);
+    put("2 3\n1 2 3\n4 5 6\n7 8 9\n10 11 12\n");
+    CHECK_STATUS(rb_io_bimatrix_read(path, &p, &why), RB_OK);
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 3; j++) {
+            CHECK_ABS(p.A[i + 2 * j], 1.0 + 3 * i + j, 0.0, "A");
+            CHECK_ABS(p.B[i + 2 * j], 7.0 + 3 * i + j, 0.0, "B");
+        }
+    rb_io_bimatrix_free(&p);
+    check_refused(read_game, "0 1\n1\n1", "m: expected an integer >= 1, got '0'");
+    check_refused(read_game, "1 0\n1\n1", "n: expected an integer >= 1, got '0'");
+    check_refused(read_game, "1 1\n1\n1\n1",
+                  ":4: expected the end of the file after m, n, A and B (1 by 1)");
+    check_refused(read_game, "1 2\n1 2\n3 x", ":3: B, row 1, number 2");
+    check_refused(read_game, "2 1\n1\nx\n1\n1", ":3: A, row 2");
+    CHECK_STATUS(rb_io_bimatrix_read("/nowhere/x", &p, &why), RB_ENOENT);
+}
+
+/* ---- Text -------------------------------------------------------------------------- */
+
+static void texts_are_told_from_what_is_none(void **state)
+{
+    (void)state;
+    char *text;
+    size_t size;
+    put_bytes("\xff\xfe"
+              "1\0",
+              4);
+    CHECK_STATUS(rb_io_read_text(path, &text, &size, &why), RB_EFORMAT);
+    assert_non_null(strstr(why.text, ": UTF-16 text, expected ASCII or UTF-8"));
+    assert_null(text);
+    put_bytes("\xfe\xff\0"
+              "1",
+              4);
+    CHECK_STATUS(rb_io_read_text(path, &text, &size, &why), RB_EFORMAT);
+    assert_non_null(strstr(why.text, "UTF-16"));
+    put_bytes("1\n2\n\0\n", 6);
+    CHECK_STATUS(rb_io_read_text(path, &text, &size, &why), RB_EFORMAT);
+    assert_non_null(strstr(why.text, ":3: a zero byte, expected text"));
+    put_bytes("\xff", 1);
+    CHECK_STATUS(rb_io_read_text(path, &text, &size, &why), RB_OK);
+    assert_int_equal(size, 1);
+    free(text);
+    put("\xef\xbb\xbf"
+        "1 2\n");
+    CHECK_STATUS(rb_io_read_text(path, &text, &size, &why), RB_OK);
+    assert_string_equal(text, "   1 2\n");
+    free(text);
+    CHECK_STATUS(rb_io_read_text("/tmp", &text, &size, &why), RB_ENOENT);
+    assert_string_equal(why.text, "/tmp: Is a directory");
+    if (access("/proc/self/mem", R_OK) == 0) { /* opens, and cannot be read at 0 */
+        CHECK_STATUS(rb_io_read_text("/proc/self/mem", &text, &size, &why), RB_ENOENT);
+        assert_string_equal(why.text, "/proc/self/mem: Input/output error");
+        assert_null(text);
+    }
+    enum { LONG = 9000 }; /* more than two of its buffers */
+    static char all[LONG + 1];
+    memset(all, '7', LONG);
+    for (int n = 4094; n <= LONG; n += n < 4098 ? 1 : 2451) {
+        put_bytes(all, (size_t)n);
+        CHECK_STATUS(rb_io_read_text(path, &text, &size, &why), RB_OK);
+        assert_int_equal(size, (size_t)n);
+        assert_memory_equal(text, all, (size_t)n);
+        assert_int_equal(text[n], '\0');
+        free(text);
+    }
+}
+
 /* ---- The public collection --------------------------------------------------------- */
 
 static void check_collection(const char *folder, rb_io_siconos_kind kind, reader *read,
@@ -494,6 +791,13 @@ int main(void)
         WITH_FILE(market_gives_back_the_same_numbers),
         WITH_FILE(market_kinds),
         WITH_FILE(market_refusals),
+        WITH_FILE(blocks_of_other_sizes_are_in_their_places),
+        WITH_FILE(market_files_are_written_by_columns),
+        WITH_FILE(market_heads_are_taken_word_by_word),
+        WITH_FILE(kinds_of_lcp_are_told_apart),
+        WITH_FILE(vectors_are_as_long_as_they_must),
+        WITH_FILE(games_are_two_matrices),
+        WITH_FILE(texts_are_told_from_what_is_none),
         WITH_FILE(the_collection_is_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

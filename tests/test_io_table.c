@@ -77,6 +77,19 @@ static void bad_tables_are_named_with_their_line(void **state)
         {"load force\n", ": no numbers"},
         {"# load force\n\n", ": no numbers"},
         {"", ": no numbers"},
+        {"# load load\n1 2\n", ":2: column 'load' is named twice"},
+        {"load load force\n1 2 3\n", ":1: column 'load' is named twice"},
+        {"load force load\n1 2 3\n", ":1: column 'load' is named twice"},
+        {"1 2\n3 1234567890123456789012345678901234567890123456789012345678901x\n",
+         "got '123456789012345678901234567890123456789012345678901234567890'"},
+        {"1 2\n3 123456789012345678901234567890123456789012345678901234567x\n",
+         "got '123456789012345678901234567890123456789012345678901234567x'"},
+        {"aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa "
+         "bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb "
+         "cccccccccccccccccccccccccccccccccccccccc "
+         "dddddddddddddddddddddddddddddddddddddddd "
+         "eeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeeee\n1\n",
+         ":2: expected 5 numbers (aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbb"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         rb_io_table t;
@@ -90,6 +103,90 @@ static void bad_tables_are_named_with_their_line(void **state)
     }
     rb_io_table t;
     assert_int_equal(rb_io_table_read("/nonexistent", &t, NULL), RB_ENOENT);
+}
+
+/* The last comment before the numbers names the columns if it has as many words. */
+static void comments_name_columns_or_not(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *name;
+    } all[] = {{"# load force\n# too many words here\n1 2\n", NULL},
+               {"# too many words\n# load force\n1 2\n", "force"},
+               {"# load force\n1 2 # two words\n3 4 # other words\n", NULL},
+               {"# load force\n1 2\n3 4 # other words\n", "force"},
+               {"#\n1 2\n", NULL}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        rb_io_table t;
+        CHECK_STATUS(read_text(all[k].text, &t, NULL), RB_OK);
+        assert_int_equal(t.columns, 2);
+        assert_int_equal(rb_io_table_column(&t, "force") != NULL, all[k].name != NULL);
+        rb_io_table_free(&t);
+    }
+}
+
+static void long_tables_keep_every_row(void **state)
+{
+    (void)state;
+    enum { ROWS = 300 }; /* the room grows twice */
+    static char text[20 * ROWS];
+    int used = 0;
+    for (int i = 0; i < ROWS; i++)
+        used += sprintf(text + used, "%d,%d\r\n%s", i, -2 * i, i % 7 ? "" : "\n");
+    rb_io_table t;
+    CHECK_STATUS(read_text(text, &t, NULL), RB_OK);
+    assert_int_equal(t.rows, ROWS);
+    for (int i = 0; i < ROWS; i++) {
+        CHECK_ABS(t.x[i], i, 0.0, "row %d", i);
+        CHECK_ABS(t.x[ROWS + i], -2.0 * i, 0.0, "row %d", i);
+        assert_int_equal(t.line[i], i + 1 + (i + 6) / 7);
+    }
+    rb_io_table_free(&t);
+}
+
+static void columns_are_counted_where_they_are_known(void **state)
+{
+    (void)state;
+    rb_io_table t;
+    rb_message why = {""};
+    char name[] = "/tmp/rollbem-table-XXXXXX";
+    static const char text[] = "# two\n\n1 2\n";
+    const int fd = mkstemp(name);
+    assert_int_equal(write(fd, text, sizeof text - 1), (int)sizeof text - 1);
+    close(fd);
+    CHECK_STATUS(rb_io_table_read_columns(name, 2, &t, &why), RB_OK);
+    assert_true(t.columns == 2 && t.x[1] == 2.0);
+    rb_io_table_free(&t);
+    CHECK_STATUS(rb_io_table_read_columns(name, 3, &t, &why), RB_EFORMAT);
+    assert_non_null(strstr(why.text, ":3: expected 3 numbers, got 2"));
+    assert_null(t.x);
+    unlink(name);
+    CHECK_STATUS(rb_io_table_read_columns(name, 2, &t, &why), RB_ENOENT);
+}
+
+/* A unit at the end of a name counts and is dropped; else the column has that of the
+ * system. */
+static void units_of_columns_are_those_of_their_names(void **state)
+{
+    (void)state;
+    rb_io_table t;
+    CHECK_STATUS(read_text("x_m gap\n1 2\n3 4\n", &t, NULL), RB_OK);
+    rb_io_table_convert(&t, 0, "mm", RB_UNITS_SI);
+    rb_io_table_convert(&t, 1, "mm", RB_UNITS_SI);
+    CHECK_REL(t.x[1], 3000.0, 1e-15, "x in m by its name");
+    CHECK_REL(t.x[3], 4000.0, 1e-15, "gap in m by the system");
+    assert_string_equal(t.name[0], "x");
+    assert_string_equal(t.name[1], "gap");
+    rb_io_table_free(&t);
+    CHECK_STATUS(read_text("x_mm gap\n1 2\n", &t, NULL), RB_OK);
+    rb_io_table_convert(&t, 0, "mm", RB_UNITS_SI);
+    CHECK_ABS(t.x[0], 1.0, 0.0, "x in mm by its name");
+    rb_io_table_free(&t);
+    CHECK_STATUS(read_text("1 2\n", &t, NULL), RB_OK);
+    rb_io_table_convert(&t, 1, "mm", RB_UNITS_SI);
+    CHECK_ABS(t.x[0], 1.0, 0.0, "another column");
+    CHECK_REL(t.x[1], 2000.0, 1e-15, "without names");
+    rb_io_table_free(&t);
 }
 
 static void lines_of_any_length_are_read(void **state)
@@ -129,6 +226,10 @@ int main(void)
         cmocka_unit_test(columns_are_named_in_three_ways),
         cmocka_unit_test(names_may_be_missing),
         cmocka_unit_test(bad_tables_are_named_with_their_line),
+        cmocka_unit_test(comments_name_columns_or_not),
+        cmocka_unit_test(long_tables_keep_every_row),
+        cmocka_unit_test(columns_are_counted_where_they_are_known),
+        cmocka_unit_test(units_of_columns_are_those_of_their_names),
         cmocka_unit_test(lines_of_any_length_are_read),
         cmocka_unit_test(tables_without_memory),
     };

@@ -1,14 +1,12 @@
 /* Output files appear whole or not at all. */
-#define _XOPEN_SOURCE 700
+#define _GNU_SOURCE
 #include "check.h"
+#include "failing_call.h"
 #include "rollbem/io.h"
 
 #include <dirent.h>
 #include <signal.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 static char folder[64], path[128];
 
@@ -237,6 +235,221 @@ static void short_memory_is_reported(void **state)
     }
 }
 
+/* With a link on the way, a device, and a folder that is asked about. */
+static void short_memory_is_reported_on_every_way(void **state)
+{
+    (void)state;
+    char link[160], below[160];
+    snprintf(link, sizeof link, "%s/link", folder);
+    snprintf(below, sizeof below, "%s/below", folder);
+    assert_int_equal(symlink("out", link), 0);
+    const char *const names[] = {link, "/dev/null", below};
+    for (int k = 0; k < 3; k++)
+        for (int i = 0, refused = 1; refused; i++) {
+            rb_message why = {""};
+            alloc_fail_after(i);
+            const rb_status s = k < 2 ? rb_io_writer_check(names[k], &why)
+                                      : rb_io_folder_check(names[k], &why);
+            rb_io_writer w = {0};
+            const rb_status opened =
+                k == 1 ? rb_io_writer_open(names[k], &w, &why) : RB_OK;
+            refused = alloc_failed();
+            alloc_succeed();
+            rb_io_writer_abandon(&w);
+            if (s != RB_OK || opened != RB_OK) {
+                CHECK_STATUS(s != RB_OK ? s : opened, RB_ENOMEM);
+                assert_non_null(strstr(why.text, "out of memory"));
+            }
+        }
+    unlink(link);
+}
+
+/* Whatever fails between opening and the new name: the reason is told, the old file stays
+ * as it was, and nothing lies beside it. */
+static void every_call_that_fails_leaves_the_old_file(void **state)
+{
+    static const struct {
+        const char *first, *call;
+        int error, opened; /* 1: the call is made on commit */
+    } all[] = {{NULL, "access", EACCES, 0},     {NULL, "O_TMPFILE", ENOSPC, 0},
+               {NULL, "fchmod", EPERM, 0},      {NULL, "fdopen", EMFILE, 0},
+               {"O_TMPFILE", "open", EROFS, 0}, {NULL, "fclose", EIO, 1},
+               {NULL, "rename", EXDEV, 1},      {"linkat", "open", EDQUOT, 1},
+               {"linkat", "fchmod", EPERM, 1},  {"linkat", "lseek", EIO, 1},
+               {"linkat", "read", EIO, 1},      {"linkat", "write", ENOSPC, 1},
+               {"linkat", "close", EDQUOT, 1},  {"linkat", "rename", EXDEV, 1}};
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        rb_io_writer w;
+        rb_message why = {""};
+        rb_status s = RB_OK;
+        write_line("old");
+        if (all[k].first)
+            fail_call(all[k].first, EOPNOTSUPP, EVERY_CALL);
+        if (!all[k].opened)
+            fail_call(all[k].call, all[k].error, 1);
+        s = rb_io_writer_open(path, &w, &why);
+        if (all[k].opened) {
+            CHECK_STATUS(s, RB_OK);
+            fputs("new", w.file);
+            fail_call(all[k].call, all[k].error, 1);
+            s = rb_io_writer_commit(&w, &why);
+        }
+        if (!calls_succeed() || s != RB_EWRITE || !strstr(why.text, path) ||
+            !strstr(why.text, strerror(all[k].error)))
+            fail_msg("%s: status %d, '%s'", all[k].call, s, why.text);
+        assert_null(w.file);
+        assert_string_equal(content(), "old");
+        assert_int_equal(entries(), 1);
+    }
+}
+
+/* Where the file system has no nameless files, or gives them no name: the same file. */
+static void files_are_written_without_the_help_of_the_system(void **state)
+{
+    static const struct {
+        const char *call;
+        int error;
+    } all[] = {{"O_TMPFILE", EOPNOTSUPP},
+               {"O_TMPFILE", EISDIR},
+               {"O_TMPFILE", EINVAL},
+               {"linkat", EPERM}};
+    enum { LONG = 100000 }; /* several buffers */
+    static char text[LONG + 1], got[LONG + 1];
+    struct stat st;
+    (void)state;
+    for (int i = 0; i < LONG; i++)
+        text[i] = (char)('a' + i % 23);
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        write_line("old");
+        chmod(path, 0604);
+        fail_call(all[k].call, all[k].error, EVERY_CALL);
+        write_line(text);
+        calls_succeed();
+        FILE *f = fopen(path, "r");
+        assert_int_equal(fread(got, 1, LONG + 1, f), LONG);
+        fclose(f);
+        assert_memory_equal(got, text, LONG);
+        assert_int_equal(stat(path, &st), 0);
+        assert_int_equal(st.st_mode & 07777, 0604);
+        assert_int_equal(entries(), 1);
+    }
+}
+
+/* A name that an interrupted run of the same number left behind is passed over. */
+static void names_in_use_are_passed_over(void **state)
+{
+    (void)state;
+    char used[2][160];
+    for (int k = 0; k < 2; k++) {
+        snprintf(used[k], sizeof used[k], "%s/.rollbem-%ld-%d", folder, (long)getpid(),
+                 k);
+        FILE *f = fopen(used[k], "w");
+        fputs("of another", f);
+        fclose(f);
+    }
+    write_line("new");
+    assert_string_equal(content(), "new");
+    assert_int_equal(entries(), 3);
+    for (int k = 0; k < 2; k++) {
+        struct stat st;
+        assert_int_equal(stat(used[k], &st), 0);
+        assert_int_equal(st.st_size, (off_t)strlen("of another"));
+        unlink(used[k]);
+    }
+}
+
+/* The names of devices are told, and so is what became of what was buffered. */
+static void devices_that_fail_are_named(void **state)
+{
+    (void)state;
+    rb_io_writer w;
+    rb_message why = {""};
+    fail_call("access", EACCES, 1);
+    CHECK_STATUS(rb_io_writer_check("/dev/null", &why), RB_EWRITE);
+    assert_string_equal(why.text, "/dev/null: cannot write: Permission denied");
+    assert_true(calls_succeed());
+    CHECK_STATUS(rb_io_writer_open("/dev/null", &w, NULL), RB_OK);
+    fail_call("fclose", EIO, 1);
+    CHECK_STATUS(rb_io_writer_commit(&w, &why), RB_EWRITE);
+    assert_string_equal(why.text, "/dev/null: cannot write: Input/output error");
+    assert_true(calls_succeed());
+    if (access("/dev/full", W_OK) != 0)
+        skip();
+    CHECK_STATUS(rb_io_writer_open("/dev/full", &w, NULL), RB_OK);
+    fputs("lost", w.file);
+    fflush(w.file); /* its reason is forgotten by the time of the commit */
+    fail_call("fclose", EIO, 1);
+    CHECK_STATUS(rb_io_writer_commit(&w, &why), RB_EWRITE);
+    assert_string_equal(why.text, "/dev/full: cannot write: write error");
+    calls_succeed();
+}
+
+/* A write has failed before the commit, which no longer knows why: one more write tells
+ * the reason where it still holds. */
+static void a_reason_that_is_forgotten_is_asked_for_again(void **state)
+{
+    (void)state;
+    const int full = open("/dev/full", O_WRONLY);
+    if (full < 0)
+        skip();
+    for (int still = 0; still < 2; still++) {
+        rb_io_writer w;
+        rb_message why = {""};
+        CHECK_STATUS(rb_io_writer_open(path, &w, NULL), RB_OK);
+        const int own = dup(fileno(w.file));
+        dup2(full, fileno(w.file));
+        fputs("lost", w.file);
+        assert_int_not_equal(fflush(w.file), 0);
+        dup2(own, fileno(w.file));
+        close(own);
+        assert_true(ferror(w.file));
+        if (still)
+            fail_call("write", ENOSPC, 1);
+        CHECK_STATUS(rb_io_writer_commit(&w, &why), RB_EWRITE);
+        assert_true(calls_succeed());
+        assert_non_null(strstr(why.text, still ? "No space left" : "write error"));
+        assert_int_equal(entries(), 0);
+    }
+    close(full);
+}
+
+static void folders_are_made_or_refused(void **state)
+{
+    (void)state;
+    char name[4][160], *joined;
+    rb_message why = {""};
+    static const char *const below[] = {"below", "below///", "dangling", "no/such"};
+    for (int k = 0; k < 4; k++)
+        snprintf(name[k], sizeof name[k], "%s/%s", folder, below[k]);
+    CHECK_STATUS(rb_io_folder_check(name[0], NULL), RB_OK);
+    CHECK_STATUS(rb_io_folder_check(name[1], NULL), RB_OK);
+    CHECK_STATUS(rb_io_folder_check("here-there-is-none", NULL), RB_OK);
+    CHECK_STATUS(rb_io_folder_check(name[3], &why), RB_EWRITE);
+    assert_non_null(strstr(why.text, "no/such: cannot write: No such file"));
+    assert_int_equal(entries(), 0);
+    CHECK_STATUS(rb_io_make_folder(name[0], NULL), RB_OK);
+    CHECK_STATUS(rb_io_make_folder(name[0], NULL), RB_OK);
+    CHECK_STATUS(rb_io_folder_check(name[0], NULL), RB_OK);
+    fail_call("access", EACCES, 1);
+    CHECK_STATUS(rb_io_folder_check(name[0], &why), RB_EWRITE);
+    assert_non_null(strstr(why.text, "below: cannot write: Permission denied"));
+    assert_true(calls_succeed());
+    write_line("a file");
+    CHECK_STATUS(rb_io_folder_check(path, &why), RB_EWRITE);
+    assert_non_null(strstr(why.text, "out: cannot write: Not a directory"));
+    CHECK_STATUS(rb_io_make_folder(path, &why), RB_EWRITE);
+    assert_int_equal(symlink("nowhere", name[2]), 0);
+    CHECK_STATUS(rb_io_make_folder(name[2], &why), RB_EWRITE);
+    assert_non_null(strstr(why.text, "dangling: cannot write: "));
+    CHECK_STATUS(rb_io_make_folder(name[3], &why), RB_EWRITE);
+    joined = rb_io_join("a", "b.txt");
+    assert_string_equal(joined, "a/b.txt");
+    free(joined);
+    unlink(name[2]);
+    rmdir(name[0]);
+}
+
 #define IN_FOLDER(f) cmocka_unit_test_setup_teardown(f, make_folder, remove_folder)
 
 int main(void)
@@ -254,6 +467,13 @@ int main(void)
         cmocka_unit_test(a_full_device_is_noticed),
         cmocka_unit_test(stdout_is_not_closed),
         IN_FOLDER(short_memory_is_reported),
+        IN_FOLDER(short_memory_is_reported_on_every_way),
+        IN_FOLDER(every_call_that_fails_leaves_the_old_file),
+        IN_FOLDER(files_are_written_without_the_help_of_the_system),
+        IN_FOLDER(names_in_use_are_passed_over),
+        cmocka_unit_test(devices_that_fail_are_named),
+        IN_FOLDER(a_reason_that_is_forgotten_is_asked_for_again),
+        IN_FOLDER(folders_are_made_or_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,8 +23,7 @@ static void be_quiet(void)
     const struct rlimit none = {0, 0};
     const int null = open("/dev/null", O_WRONLY);
     setrlimit(RLIMIT_CORE, &none);
-    if (null >= 0)
-        dup2(null, STDERR_FILENO);
+    dup2(null, STDERR_FILENO);
 }
 
 static void run_child(int to, io_work *work, const void *context)
@@ -57,7 +56,6 @@ rb_status rb_io_in_child(const char *name, io_work *work, const void *context,
     *size = 0;
     if (pipe(end) != 0)
         return rb_fail(why, RB_ENOMEM, "%s: out of memory: %s", name, strerror(errno));
-    fflush(NULL); /* or the child would have what is in the buffers */
     const pid_t pid = fork();
     if (pid == 0) {
         close(end[0]);

@@ -52,11 +52,11 @@ static void fail(reading *r, const char *names, const char *got)
  * an angle says degrees, and *degrees; D is Fortran's exponent. */
 static void read_numbers(reading *r, int n, double *x, const char *names, int *degrees)
 {
-    char *line = r->status == RB_OK ? next_line(r) : NULL, *at = line;
+    const char *line = r->status == RB_OK ? next_line(r) : NULL, *at = line ? line : "";
     for (int k = 0; k < n && r->status == RB_OK; k++) {
-        char *end = at;
-        x[k] = at ? strtod(at, &end) : NAN;
-        if (!at || end == at || !isfinite(x[k])) {
+        char *end;
+        x[k] = strtod(at, &end);
+        if (end == at || !isfinite(x[k])) {
             fail(r, names, line);
             return;
         }

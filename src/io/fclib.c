@@ -14,7 +14,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MATRICES = 6, VECTORS = 10 };
+enum { MATRICES = 6, VECTORS = 10, SOLUTION = 7 /* the first vector of it */ };
+
+static const char *const MATRIX[MATRICES] = {"M", "H", "W", "G", "V", "R"},
+                         *const VECTOR[VECTORS] = {"mu", "f", "w", "q", "mu_r",
+                                                   "b",  "s", "r", "u", "v"};
 
 /* All arrays of a problem, for what is done to each of them alike. */
 typedef struct {
@@ -26,11 +30,11 @@ typedef struct {
 static arrays arrays_of(rb_io_fclib *p)
 {
     const int m = p->contacts * p->spacedim;
-    return (arrays){.matrix = {&p->W, &p->M, &p->H, &p->G, &p->V, &p->R},
-                    .vector = {&p->b, &p->s, &p->q, &p->f, &p->w, &p->mu, &p->mu_r, &p->r,
+    return (arrays){.matrix = {&p->M, &p->H, &p->W, &p->G, &p->V, &p->R},
+                    .vector = {&p->mu, &p->f, &p->w, &p->q, &p->mu_r, &p->b, &p->s, &p->r,
                                &p->u, &p->v},
-                    .length = {p->constraints, p->constraints, m, p->M.rows, m,
-                               p->contacts, p->contacts, m, m, p->M.rows}};
+                    .length = {p->contacts, p->M.rows, m, m, p->contacts, p->constraints,
+                               p->constraints, m, m, p->M.rows}};
 }
 
 void rb_io_fclib_free(rb_io_fclib *problem)
@@ -104,13 +108,11 @@ static rb_status check_storage(const reader *in, const char *name, hid_t set,
                                double points)
 {
     const hid_t layout = H5Dget_create_plist(set), type = H5Dget_type(set);
-    const int outside = layout < 0 || H5Pget_layout(layout) == H5D_VIRTUAL ||
-                        H5Pget_external_count(layout) != 0;
-    const double bytes = points * (type < 0 ? 0.0 : (double)H5Tget_size(type));
-    if (layout >= 0)
-        H5Pclose(layout);
-    if (type >= 0)
-        H5Tclose(type);
+    const int outside =
+        H5Pget_layout(layout) == H5D_VIRTUAL || H5Pget_external_count(layout) != 0;
+    const double bytes = points * (double)H5Tget_size(type);
+    H5Pclose(layout);
+    H5Tclose(type);
     if (outside)
         return rb_fail(in->why, RB_EFORMAT, "%s: %s is kept in another file", in->path,
                        name);
@@ -127,12 +129,11 @@ static rb_status open_array(const reader *in, const char *name, hid_t *set, int 
     if (*set < 0)
         return rb_fail(in->why, RB_EFORMAT, "%s: no %s", in->path, name);
     const hid_t space = H5Dget_space(*set);
-    const hssize_t points = space < 0 ? -1 : H5Sget_simple_extent_npoints(space);
-    if (space >= 0)
-        H5Sclose(space);
+    const hssize_t points = H5Sget_simple_extent_npoints(space); /* or negative */
+    H5Sclose(space);
     *n = (int)points;
     const rb_status s =
-        points >= 0 && points < 1 << 30
+        (uint64_t)points < 1 << 30
             ? check_storage(in, name, *set, (double)points)
             : rb_fail(in->why, RB_EFORMAT, "%s: %s: unreadable size", in->path, name);
     if (s != RB_OK)
@@ -149,7 +150,7 @@ static rb_status read_array(const reader *in, const char *name, hid_t type, size
     rb_status s = open_array(in, name, &set, n);
     if (s != RB_OK)
         return s;
-    *values = malloc(size * (size_t)(*n ? *n : 1));
+    *values = malloc(size * (size_t)*n + 1);
     if (!*values)
         s = RB_ENOMEM;
     else if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *values) < 0)
@@ -488,14 +489,14 @@ static rb_status read_in_child(FILE *out, const void *path, rb_message *why)
 {
     rb_io_fclib p = {0};
     int no_memory = 0, unknown = 0, linked = 0;
-    struct stat file;
-    const double size = stat(path, &file) == 0 ? (double)file.st_size : 0.0;
+    struct stat file = {0};
+    stat(path, &file);
     H5PLset_loading_state(0); /* filters are its own, none is loaded */
     if (H5Eset_auto2(H5E_DEFAULT, note_error, &no_memory) < 0) /* its first call */
         no_memory = 1;
     const reader in = {path,
                        H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT),
-                       EXPANSION * size,
+                       EXPANSION * (double)file.st_size,
                        why,
                        &unknown,
                        &linked};
@@ -538,7 +539,7 @@ static void *take_array(bytes_in *in, size_t size)
     take(in, &n, sizeof n);
     if (n < 0)
         return NULL;
-    void *x = malloc(n ? size * (size_t)n : 1);
+    void *x = malloc(size * (size_t)n + 1);
     if (x)
         memcpy(x, in->at, size * (size_t)n);
     else
@@ -592,162 +593,102 @@ rb_status rb_io_fclib_read(const char *path, rb_io_fclib *problem, rb_message *w
 
 /* ---- Writing ----------------------------------------------------------------------- */
 
-/* Each returns 0 when all went well. */
-static int write_array(hid_t parent, const char *name, hid_t type, int n,
-                       const void *values)
+/* Called by HDF5 for each of its errors, so that no call is asked whether it failed; a
+ * call with what an earlier one did not give is one more error. */
+static herr_t note_failure(hid_t stack, void *failed)
 {
-    const hsize_t size = (hsize_t)n;
-    const hid_t space = H5Screate_simple(1, &size, NULL);
+    (void)stack;
+    *(int *)failed = 1;
+    return 0;
+}
+
+/* n values, or a text of n characters. */
+static void write_set(hid_t parent, const char *name, hid_t type, hid_t space, int n,
+                      const void *values)
+{
     const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_obj_track_times(properties, 0); /* the same numbers give the same bytes */
     const hid_t set =
         H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT);
-    const int bad =
-        set < 0 || (n && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0);
-    if (set >= 0)
-        H5Dclose(set);
+    if (n)
+        H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+    H5Dclose(set);
     H5Pclose(properties);
     H5Sclose(space);
-    return bad;
 }
 
-static int write_int(hid_t parent, const char *name, int value)
+static void write_array(hid_t parent, const char *name, hid_t type, int n,
+                        const void *values)
 {
-    return write_array(parent, name, H5T_NATIVE_INT, 1, &value);
+    const hsize_t size = (hsize_t)n;
+    write_set(parent, name, type, H5Screate_simple(1, &size, NULL), n, values);
 }
 
-static int write_text(hid_t parent, const char *name, const char *text)
+static void write_int(hid_t parent, const char *name, int value)
 {
-    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-    const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
-    H5Pset_obj_track_times(properties, 0);
+    write_array(parent, name, H5T_NATIVE_INT, 1, &value);
+}
+
+static void write_text(hid_t parent, const char *name, const char *text)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, strlen(text) + 1);
-    const hid_t set =
-        H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT);
-    const int bad =
-        set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0;
-    if (set >= 0)
-        H5Dclose(set);
-    H5Pclose(properties);
-    H5Sclose(space);
+    write_set(parent, name, type, H5Screate(H5S_SCALAR), 1, text);
     H5Tclose(type);
-    return bad;
 }
 
-static int write_compressed(hid_t group, const rb_sparse *a, int nz)
+/* A column number per entry; NULL without memory. */
+static int *columns_of(const rb_sparse *a)
 {
-    const int entries = a->p[a->cols];
-    return write_int(group, "nz", nz) || write_int(group, "nzmax", entries) ||
-           write_array(group, "p", H5T_NATIVE_INT, a->cols + 1, a->p) ||
-           write_array(group, "i", H5T_NATIVE_INT, entries, a->i) ||
-           write_array(group, "x", H5T_NATIVE_DOUBLE, entries, a->x);
-}
-
-static int write_triplet(hid_t group, const rb_sparse *a)
-{
-    const int entries = a->p[a->cols];
-    int *column = rb_alloc_int((size_t)entries);
+    int *column = rb_alloc_int((size_t)a->p[a->cols]);
     for (int j = 0; column && j < a->cols; j++)
         for (int k = a->p[j]; k < a->p[j + 1]; k++)
             column[k] = j;
-    const int bad = !column || write_int(group, "nz", entries) ||
-                    write_int(group, "nzmax", entries) ||
-                    write_array(group, "p", H5T_NATIVE_INT, entries, column) ||
-                    write_array(group, "i", H5T_NATIVE_INT, entries, a->i) ||
-                    write_array(group, "x", H5T_NATIVE_DOUBLE, entries, a->x);
-    free(column);
-    return bad;
+    return column;
 }
 
-static int write_matrix(hid_t parent, const char *name, const rb_sparse *a,
-                        rb_io_fclib_layout layout)
+static rb_status write_matrix(hid_t parent, const char *name, const rb_sparse *a,
+                              rb_io_fclib_layout layout)
 {
+    static const int NZ[] = {[RB_IO_FCLIB_CSC] = -1, [RB_IO_FCLIB_CSR] = -2};
+    const int entries = a->p[a->cols], triplets = layout == RB_IO_FCLIB_TRIPLET;
     rb_sparse t = {0};
-    if (layout == RB_IO_FCLIB_CSR && rb_sparse_transpose(a, &t) != RB_OK)
-        return 1;
-    const hid_t group = H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    int bad =
-        group < 0 || write_int(group, "m", a->rows) || write_int(group, "n", a->cols);
-    if (!bad && layout == RB_IO_FCLIB_TRIPLET)
-        bad = write_triplet(group, a);
-    else if (!bad)
-        bad = layout == RB_IO_FCLIB_CSC ? write_compressed(group, a, -1)
-                                        : write_compressed(group, &t, -2);
-    if (group >= 0)
+    int *column = NULL;
+    rb_status s = RB_OK;
+    if (triplets)
+        s = (column = columns_of(a)) ? RB_OK : RB_ENOMEM;
+    else if (layout == RB_IO_FCLIB_CSR)
+        s = rb_sparse_transpose(a, &t);
+    if (s == RB_OK) {
+        const rb_sparse *lines = t.p ? &t : a;
+        const hid_t group =
+            H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        write_int(group, "m", a->rows);
+        write_int(group, "n", a->cols);
+        write_int(group, "nz", triplets ? entries : NZ[layout]);
+        write_int(group, "nzmax", entries);
+        write_array(group, "p", H5T_NATIVE_INT, triplets ? entries : lines->cols + 1,
+                    triplets ? column : lines->p);
+        write_array(group, "i", H5T_NATIVE_INT, entries, lines->i);
+        write_array(group, "x", H5T_NATIVE_DOUBLE, entries, lines->x);
         H5Gclose(group);
+    }
+    free(column);
     rb_sparse_free(&t);
-    return bad;
+    return s;
 }
 
-static int write_vectors(hid_t root, const rb_io_fclib *p)
+/* The vectors from the first to before the last that the problem has. */
+static void write_vectors(hid_t parent, const char *name, rb_io_fclib p, int first,
+                          int last)
 {
-    const int m = p->contacts * p->spacedim;
-    const hid_t group =
-        H5Gcreate2(root, "vectors", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    int bad =
-        group < 0 || write_array(group, "mu", H5T_NATIVE_DOUBLE, p->contacts, p->mu);
-    if (!bad && p->global)
-        bad = write_array(group, "f", H5T_NATIVE_DOUBLE, p->M.rows, p->f) ||
-              write_array(group, "w", H5T_NATIVE_DOUBLE, m, p->w);
-    else if (!bad)
-        bad = write_array(group, "q", H5T_NATIVE_DOUBLE, m, p->q);
-    if (!bad && p->rolling)
-        bad = write_array(group, "mu_r", H5T_NATIVE_DOUBLE, p->contacts, p->mu_r);
-    if (!bad && p->constraints)
-        bad = write_array(group, p->global ? "b" : "s", H5T_NATIVE_DOUBLE, p->constraints,
-                          p->global ? p->b : p->s);
-    if (group >= 0)
-        H5Gclose(group);
-    return bad;
-}
-
-static int write_info(hid_t root, const char *title, const char *description)
-{
-    const hid_t group = H5Gcreate2(root, "info", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    const int bad = group < 0 || write_text(group, "title", title ? title : "") ||
-                    write_text(group, "description", description ? description : "") ||
-                    write_text(group, "math_info", "");
-    if (group >= 0)
-        H5Gclose(group);
-    return bad;
-}
-
-static int write_solution(hid_t file, const rb_io_fclib *p)
-{
-    const int m = p->contacts * p->spacedim;
-    if (!p->r && !p->u && !p->v)
-        return 0;
-    const hid_t group =
-        H5Gcreate2(file, "solution", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    const int bad = group < 0 ||
-                    (p->r && write_array(group, "r", H5T_NATIVE_DOUBLE, m, p->r)) ||
-                    (p->u && write_array(group, "u", H5T_NATIVE_DOUBLE, m, p->u)) ||
-                    (p->v && p->global &&
-                     write_array(group, "v", H5T_NATIVE_DOUBLE, p->M.rows, p->v));
-    if (group >= 0)
-        H5Gclose(group);
-    return bad;
-}
-
-static int write_file(hid_t file, const rb_io_fclib *p, rb_io_fclib_layout layout,
-                      const char *title, const char *description)
-{
-    const hid_t root =
-        H5Gcreate2(file, root_of(p), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    int bad = root < 0 || write_int(root, "spacedim", p->spacedim) ||
-              write_info(root, title, description) || write_vectors(root, p);
-    if (!bad && p->global)
-        bad = write_matrix(root, "M", &p->M, layout) ||
-              write_matrix(root, "H", &p->H, layout);
-    else if (!bad)
-        bad = write_matrix(root, "W", &p->W, layout);
-    if (!bad && p->constraints)
-        bad = p->global ? write_matrix(root, "G", &p->G, layout)
-                        : write_matrix(root, "V", &p->V, layout) ||
-                              write_matrix(root, "R", &p->R, layout);
-    if (root >= 0)
-        H5Gclose(root);
-    return bad || write_solution(file, p);
+    const arrays all = arrays_of(&p);
+    const hid_t group = H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    for (int k = first; k < last; k++)
+        if (*all.vector[k])
+            write_array(group, VECTOR[k], H5T_NATIVE_DOUBLE, all.length[k],
+                        *all.vector[k]);
+    H5Gclose(group);
 }
 
 typedef struct {
@@ -756,31 +697,60 @@ typedef struct {
     const char *title, *description;
 } contents;
 
-/* The file in memory: HDF5 touches no disk, where it crashes when that is full. */
-static int write_image(FILE *out, hid_t file)
+static rb_status write_file(hid_t file, const contents *c)
 {
-    const ssize_t n =
-        H5Fflush(file, H5F_SCOPE_LOCAL) >= 0 ? H5Fget_file_image(file, NULL, 0) : -1;
+    rb_io_fclib p = *c->problem;
+    const arrays all = arrays_of(&p);
+    const hid_t root =
+        H5Gcreate2(file, root_of(&p), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t info = H5Gcreate2(root, "info", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    rb_status s = RB_OK;
+    write_int(root, "spacedim", p.spacedim);
+    write_text(info, "title", c->title ? c->title : "");
+    write_text(info, "description", c->description ? c->description : "");
+    write_text(info, "math_info", "");
+    H5Gclose(info);
+    write_vectors(root, "vectors", p, 0, SOLUTION);
+    for (int k = 0; k < MATRICES && s == RB_OK; k++)
+        if (all.matrix[k]->p)
+            s = write_matrix(root, MATRIX[k], all.matrix[k], c->layout);
+    H5Gclose(root);
+    if (p.r || p.u || p.v)
+        write_vectors(file, "solution", p, SOLUTION, VECTORS);
+    return s;
+}
+
+/* The file in memory: HDF5 touches no disk, where it crashes when that is full. */
+static rb_status write_image(FILE *out, hid_t file)
+{
+    H5Fflush(file, H5F_SCOPE_LOCAL);
+    const ssize_t n = H5Fget_file_image(file, NULL, 0);
     void *image = n > 0 ? malloc((size_t)n) : NULL;
-    const int bad = !image || H5Fget_file_image(file, image, (size_t)n) != n ||
-                    fwrite(image, 1, (size_t)n, out) != (size_t)n;
+    if (!image)
+        return RB_ENOMEM;
+    H5Fget_file_image(file, image, (size_t)n);
+    fwrite(image, 1, (size_t)n, out);
     free(image);
-    return bad;
+    return RB_OK;
 }
 
 static rb_status write_in_child(FILE *out, const void *context, rb_message *why)
 {
     enum { GROWTH = 1 << 20 };
     const contents *c = context;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    rb_status s = RB_ENOMEM;
+    int failed = 0;
+    if (H5Eset_auto2(H5E_DEFAULT, note_failure, &failed) < 0) /* its first call */
+        failed = 1;
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    hid_t file = -1;
-    if (access >= 0 && H5Pset_fapl_core(access, GROWTH, 0) >= 0)
-        file = H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access);
-    const int bad = file < 0 ||
-                    write_file(file, c->problem, c->layout, c->title, c->description) ||
-                    write_image(out, file);
-    return bad ? rb_fail(why, RB_ENOMEM, "HDF5: out of memory") : RB_OK;
+    H5Pset_fapl_core(access, GROWTH, 0);
+    if (!failed) { /* or H5Fcreate would make a file of that name */
+        const hid_t file = H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+        s = write_file(file, c);
+        if (s == RB_OK)
+            s = write_image(out, file);
+    }
+    return failed || s != RB_OK ? rb_fail(why, RB_ENOMEM, "HDF5: out of memory") : RB_OK;
 }
 
 rb_status rb_io_fclib_write(const char *path, const rb_io_fclib *problem,

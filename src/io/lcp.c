@@ -94,7 +94,7 @@ static void read_market(io_tokens *t, const char *q_path, rb_io_lcp *p)
         return;
     }
     rb_io_read_matrix_market(t, &p->M);
-    if (t->status == RB_OK && (p->M.rows != p->M.cols || p->M.rows < 1))
+    if (t->status == RB_OK && p->M.rows != p->M.cols)
         rb_io_tokens_fail(t, "M: expected a square matrix, got %d by %d", p->M.rows,
                           p->M.cols);
     p->n = p->M.rows;
@@ -175,9 +175,8 @@ rb_status rb_io_lcp_read(const char *path, const char *q_path, rb_io_lcp *p,
                          rb_message *why)
 {
     io_tokens t;
-    rb_message unread = {""};
     *p = (rb_io_lcp){0};
-    rb_io_tokens_open(path, &t, why ? why : &unread);
+    rb_io_tokens_open(path, &t, why);
     if (is_market(&t))
         read_market(&t, q_path, p);
     else if (t.status == RB_OK && q_path)

@@ -337,8 +337,9 @@ rb_status rb_io_siconos_read_soclcp(const char *path, rb_io_soclcp *p, rb_messag
  * SOCLCP: n, cones, storage, n, n.  Global friction: d, contacts, storage, n, n. */
 int rb_io_siconos_kind_at(io_tokens *t)
 {
-    int head[5];
-    for (int i = 0; i < 5; i++)
+    enum { SIZES = 5 };
+    int head[SIZES];
+    for (int i = 0; i < SIZES; i++)
         head[i] = rb_io_tokens_int(t, 0, INT_MAX, "size at the head");
     if (!ok(t))
         return -1;

@@ -69,7 +69,7 @@ static int is_number(const char *word, size_t n, double *value)
 {
     char *end;
     *value = strtod(word, &end);
-    return n > 0 && end == word + n && isfinite(*value);
+    return end == word + n && isfinite(*value);
 }
 
 /* ---- Names ------------------------------------------------------------------------- */

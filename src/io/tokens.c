@@ -54,25 +54,25 @@ static void skip_space(io_tokens *t)
 }
 
 /* The next token's length, 0 at the end of the file. */
-static int peek(io_tokens *t)
+static size_t peek(io_tokens *t)
 {
     skip_space(t);
     const char *p = t->at;
-    while (p < t->end && !space(*p) && p - t->at < INT_MAX)
+    while (p < t->end && !space(*p))
         p++;
-    return (int)(p - t->at);
+    return (size_t)(p - t->at);
 }
 
-static void expected(io_tokens *t, const char *what, const char *wanted, int length)
+static void expected(io_tokens *t, const char *what, const char *wanted, size_t length)
 {
     if (length)
         rb_io_tokens_fail(t, "%s: expected %s, got '%.*s'", what, wanted,
-                          length < 40 ? length : 40, t->at);
+                          length < 40 ? (int)length : 40, t->at);
     else
         rb_io_tokens_fail(t, "%s: expected %s, the file ends", what, wanted);
 }
 
-static void expected_int(io_tokens *t, const char *what, int low, int high, int length)
+static void expected_int(io_tokens *t, const char *what, int low, int high, size_t length)
 {
     char wanted[60];
     if (low == high)
@@ -88,7 +88,7 @@ int rb_io_tokens_int(io_tokens *t, int low, int high, const char *what)
 {
     if (t->status != RB_OK)
         return 0;
-    const int length = peek(t);
+    const size_t length = peek(t);
     char *stop;
     errno = 0;
     const long value = strtol(t->at, &stop, 10);
@@ -110,7 +110,7 @@ double rb_io_tokens_real(io_tokens *t, const char *what)
 {
     if (t->status != RB_OK)
         return 0.0;
-    const int length = peek(t);
+    const size_t length = peek(t);
     char *stop;
     const double value = strtod(t->at, &stop);
     if (length && stop == t->at + length && allowed(t, value)) {
@@ -141,8 +141,8 @@ void rb_io_tokens_word(io_tokens *t, const char *word)
 {
     if (t->status != RB_OK)
         return;
-    const int length = peek(t);
-    if (length == (int)strlen(word) && !strncmp(t->at, word, (size_t)length))
+    const size_t length = peek(t);
+    if (length == strlen(word) && !strncmp(t->at, word, length))
         t->at += length;
     else
         expected(t, "sparse matrix", word, length);
@@ -150,20 +150,20 @@ void rb_io_tokens_word(io_tokens *t, const char *word)
 
 int rb_io_tokens_take(io_tokens *t, const char *word)
 {
-    const int length = t->status == RB_OK ? peek(t) : 0;
-    if (length != (int)strlen(word) || strncasecmp(t->at, word, (size_t)length) != 0)
+    const size_t length = t->status == RB_OK ? peek(t) : 0;
+    if (length != strlen(word) || strncasecmp(t->at, word, length) != 0)
         return 0;
     t->at += length;
     return 1;
 }
 
-/* A number takes at least one character and a separator. */
+/* A number takes at least one character and a separator; cols > 0. */
 int rb_io_tokens_room_for(io_tokens *t, size_t rows, size_t cols, const char *what)
 {
     if (t->status != RB_OK)
         return 0;
     const size_t most = ((size_t)(t->end - t->at) + 1) / 2;
-    if (!rows || !cols || rows <= most / cols)
+    if (rows <= most / cols)
         return 1;
     rb_io_tokens_fail(t,
                       "%s: expected %.10g numbers, the rest of the file has room for %zu",

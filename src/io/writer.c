@@ -54,7 +54,7 @@ static char *resolve(const char *path)
 /* Calls make with unused names beside the target until one is taken. */
 static char *take_name(const char *target, int (*make)(const char *name, int fd), int *fd)
 {
-    for (int k = 0; k < 10000; k++) {
+    for (int k = 0;; k++) {
         char name[40];
         snprintf(name, sizeof name, ".rollbem-%ld-%d", (long)getpid(), k);
         char *path = beside(target, name);
@@ -65,9 +65,8 @@ static char *take_name(const char *target, int (*make)(const char *name, int fd)
         }
         free(path);
         if (errno != EEXIST)
-            break;
+            return NULL;
     }
-    return NULL;
 }
 
 static int create(const char *name, int fd)
@@ -184,13 +183,14 @@ static int finish(FILE *file)
 static char *copy_to_name(const char *target, int from)
 {
     char buffer[1 << 14];
-    struct stat st;
-    int to = -1, bad = fstat(from, &st) != 0;
-    char *name = bad ? NULL : take_name(target, create, &to);
+    struct stat st = {0};
+    int to = -1;
+    char *name = take_name(target, create, &to);
     ssize_t n = 0;
     if (!name)
         return NULL;
-    bad = fchmod(to, st.st_mode & 07777) != 0 || lseek(from, 0, SEEK_SET) != 0;
+    fstat(from, &st);
+    int bad = fchmod(to, st.st_mode & 07777) != 0 || lseek(from, 0, SEEK_SET) != 0;
     while (!bad && (n = read(from, buffer, sizeof buffer)) > 0)
         for (ssize_t at = 0, part; at < n && !bad; at += part)
             bad = (part = write(to, buffer + at, (size_t)(n - at))) <= 0;
