@@ -625,6 +625,42 @@ static int fail_each(const char *solver, const rb_friction_problem *p)
     return count;
 }
 
+typedef struct {
+    const char *solver;
+    const rb_friction_problem *p;
+} job;
+
+static rb_status solve_anew(void *context)
+{
+    const job *own = context;
+    double r[9], u[9];
+    return rb_friction_solve(own->solver, own->p, NULL,
+                             &(rb_friction_solution){r, u, NULL}, NULL);
+}
+
+/* Each alone, where the ones after it succeed. */
+static void each_failing_allocation_is_reported(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "auto",          "nsn-ac",           "nsn-fb",  "nsn-ac-hybrid",
+        "nsgs-ac",       "nsgs-aa",          "nsgs-fp", "fixed-point",
+        "extragradient", "soclcp-smoothing", "admm"};
+    rb_friction_problem p[3];
+    double r[9];
+    int calls = 0;
+    plant(3, 3, 4, &p[0], r);
+    plant(3, 3, 4, &p[1], r);
+    make_sparse(&p[1]);
+    series_of_springs(3, 2, 1.0, &p[2]);
+    for (int k = 0; k < 3; k++) {
+        for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+            calls += alloc_fail_every_call(solve_anew, &(job){names[i], &p[k]});
+        rb_friction_problem_free(&p[k]);
+    }
+    assert_true(calls > 60);
+}
+
 static void failing_allocations_are_reported(void **state)
 {
     (void)state;
@@ -661,6 +697,7 @@ int main(void)
         cmocka_unit_test(a_frictionless_contact_does_not_pull),
         cmocka_unit_test(success_is_never_claimed_above_the_tolerance),
         cmocka_unit_test(failing_allocations_are_reported),
+        cmocka_unit_test(each_failing_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -342,6 +342,10 @@ typedef enum {
 
 typedef enum { RB_FRICTION_HUNDRED_SWEEPS = 1 } rb_friction_hybrid_variant;
 
+/* Of plane problems alone.  Variant 0: one attempt after the other until one solves; k:
+ * the k-th alone. */
+enum { RB_FRICTION_LEMKE_ATTEMPTS = 8 };
+
 extern const rb_friction_method rb_friction_sweeps, rb_friction_newton, rb_friction_admm,
     rb_friction_projections, rb_friction_hybrid, rb_friction_smoothing_method,
     rb_friction_lemke_method, rb_friction_auto_method;

@@ -25,22 +25,22 @@ typedef enum { FORCE, PAIRS, DISPLACEMENT, STIFFNESS } basis_kind; /* PAIRS: 4 n
 typedef struct {
     basis_kind kind;
     int mirror;
-    double cover[3]; /* on the three groups of rows; the second is multiplied by 2 mu in
-                        the displacement and stiffness bases */
+    double third; /* cover of the third group of rows; that of the first is 1, that of the
+                     second 2 mu in the displacement and stiffness bases, else 1 */
     rb_lcp_rule rule;
 } attempt;
 
-static const attempt attempts[] = {
-    {FORCE, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC}, /* dense W only */
-    {PAIRS, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
-    {FORCE, 1, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
-    /* on ties r_N leaves first: it has the lowest numbers */
-    {DISPLACEMENT, 0, {1.0, 1.0, 1.0}, RB_LCP_FIRST_INDEX},
-    {DISPLACEMENT, 0, {1.0, 1.0, 0.01}, RB_LCP_FIRST_INDEX},
-    {DISPLACEMENT, 0, {1.0, 1.0, 100.0}, RB_LCP_FIRST_INDEX},
-    {DISPLACEMENT, 1, {1.0, 1.0, 1.0}, RB_LCP_FIRST_INDEX},
-    {DISPLACEMENT, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
-    {STIFFNESS, 0, {1.0, 1.0, 1.0}, RB_LCP_LEXICOGRAPHIC},
+static const attempt attempts[RB_FRICTION_LEMKE_ATTEMPTS] = {
+    {FORCE, 0, 1.0, RB_LCP_LEXICOGRAPHIC}, /* dense W only */
+    {PAIRS, 0, 1.0, RB_LCP_LEXICOGRAPHIC},
+    {FORCE, 1, 1.0, RB_LCP_LEXICOGRAPHIC},
+    /* r_N and s+ tie where a contact opens, and r_N, which has the lowest number, is to
+       leave: after s+ the path ends on a ray */
+    {DISPLACEMENT, 0, 1.0, RB_LCP_FIRST_INDEX},
+    {DISPLACEMENT, 0, 0.01, RB_LCP_FIRST_INDEX},
+    {DISPLACEMENT, 0, 100.0, RB_LCP_FIRST_INDEX},
+    {DISPLACEMENT, 1, 1.0, RB_LCP_FIRST_INDEX},
+    {STIFFNESS, 0, 1.0, RB_LCP_LEXICOGRAPHIC},
 };
 
 typedef struct {
@@ -231,9 +231,9 @@ static void choose_cover(lemke *s, const attempt *a)
     for (int c = 0; c < s->nc; c++) {
         const double two_mu = 2.0 * s->task->problem->mu[c];
         const double second = a->kind != FORCE && two_mu > 0.0 ? two_mu : 1.0;
-        s->cover[c] = a->cover[0];
-        s->cover[s->nc + c] = a->cover[1] * second;
-        s->cover[2 * s->nc + c] = a->cover[2];
+        s->cover[c] = 1.0;
+        s->cover[s->nc + c] = second;
+        s->cover[2 * s->nc + c] = a->third;
     }
 }
 
@@ -334,12 +334,11 @@ static rb_status try(lemke *s, const attempt *a)
 
 static rb_status run_lemke(rb_friction_task *task, int variant)
 {
-    (void)variant;
+    const int from = variant ? variant - 1 : 0;
+    const int to = variant ? variant : RB_FRICTION_LEMKE_ATTEMPTS;
     lemke s = {.task = task};
     rb_status first = RB_OK, st = RB_MAXITER;
-    if (task->d != 2)
-        return RB_EINVAL;
-    for (size_t k = 0; st > 0 && k < sizeof attempts / sizeof *attempts; k++) {
+    for (int k = from; st > 0 && k < to; k++) {
         st = try(&s, &attempts[k]);
         if (first == RB_OK || first == RB_SINGULAR)
             first = st; /* what went wrong first is what is told */
