@@ -169,11 +169,17 @@ static void write_panel(FILE *out, const view *v, const char *name, int column,
         at.left + at.width + 0.012, bottom, at.height, name, v->stress_label,
         m->value / v->stress_unit, at.left + at.width / 2,
         top + (v->column ? 0.03 : 0.05), m->x / v->length.size, m->y / v->length.size);
+    /* the line of the contact would cover half of a value at the surface: these contours
+     * are cut off there, and so both sorts need the same levels */
+    const double step = rb_report_round_step(
+        m->value / v->stress_unit / fmin(10.0, 2.0 * rb_report_labels_in(at.height)));
     fprintf(out,
+            "set cntrparam levels incremental %.9g, %.9g, %.9g\n"
             "splot $grid using 1:2:%d with pm3d nocontour, $grid using 1:2:%d with lines "
-            "nosurface linecolor rgb '#ffffff' linewidth 0.6, $grid using 1:2:%d with "
-            "labels boxed nosurface\n",
-            column, column, column);
+            "nosurface linecolor rgb '#ffffff' linewidth 0.6, $grid using 1:2:($2 > %.3g "
+            "? $%d : NaN) with labels boxed nosurface\n",
+            step, step, m->value / v->stress_unit, column, column,
+            0.02 * v->depth / at.height, column);
 }
 
 static void write_contours(FILE *out, rb_report_canvas canvas, const void *context)
@@ -184,11 +190,9 @@ static void write_contours(FILE *out, rb_report_canvas canvas, const void *conte
     write_axes(out, v);
     fprintf(
         out,
-        "set contour base\nset cntrlabel onecolor format '%%g' start 20 interval -1 font "
-        "',%.3g'\n"
-        "set cntrparam levels auto %.0f\n",
-        0.6 * rb_report_key_font(canvas),
-        fmin(10.0, 2.0 * rb_report_labels_in(first.height)));
+        "set contour base\nset cntrlabel onecolor format '%%g' start 40 interval -1 font "
+        "',%.3g'\n",
+        0.6 * rb_report_key_font(canvas));
     fputs(RB_REPORT_PALETTE
           "set multiplot\n"
           "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.6\n",
