@@ -321,6 +321,128 @@ static void missing_gnuplot_is_named(void **state)
     fclose(out);
 }
 
+/* What has no steps, no grid, no contact is no picture, and no file is written. */
+static void pictures_need_something_to_draw(void **state)
+{
+    (void)state;
+    const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
+    const rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution none = carter(), pressed = carter();
+    const rb_rolling_history no_steps = {0};
+    const rb_report_curves curves = {
+        .n = 1, .mu = {0.3}, .curve = {{.n = 1, .rising = 1}}};
+    const rb_report_wear no_wear = {0};
+    const rb_rolling_shakedown shakedown = {0};
+    rb_report_stress row = {.nx = 5, .ny = 1, .s = &pressed, .rc = &rc};
+    rb_report_stress column = {.nx = 1, .ny = 5, .s = &pressed, .rc = &rc};
+    rb_report_stress no_load = {.s = &none, .rc = &rc, .shakedown = &shakedown};
+    const double x[] = {1.0, 2.0}, no_value[] = {NAN, NAN};
+    const rb_report_study study = {
+        .n = 2, .x = {"mu", "", x}, .shown = {"force_ratio", "", no_value}};
+    enum { PICTURES = 11 };
+    rb_message why[PICTURES];
+    FILE *out = tmpfile();
+    none.n = 0;
+    none.normal_load = 0.0;
+    const rb_status status[PICTURES] = {
+        rb_report_picture(out, canvas, &rc, &none, &why[0]),
+        rb_report_history_picture(out, canvas, &rc, &no_steps, &why[1]),
+        rb_report_curve_picture(out, canvas, &rc, &curves, RB_OVER_CREEP, &why[2]),
+        rb_report_wear_picture(out, canvas, &no_wear, &why[3]),
+        rb_report_stress_picture(out, canvas, &row, &why[4]),
+        rb_report_stress_picture(out, canvas, &column, &why[5]),
+        rb_report_fringes(out, canvas, &row, 0.0, &why[6]),
+        rb_report_shakedown_map(out, canvas, &row, &why[7]),
+        rb_report_shakedown_map(out, canvas, &no_load, &why[8]),
+        rb_report_study_picture(out, canvas, &study, 0, &why[9]),
+        rb_report_study_picture(out, canvas, &study, 1, &why[10])};
+    static const char *const wanted[PICTURES] = {
+        "nothing to draw",
+        "no steps to draw",
+        "no curve to draw at mu = 0.3",
+        "nothing to draw",
+        "a picture of the stress needs a grid",
+        "a picture of the stress needs a grid",
+        "a picture of the stress needs a grid",
+        "no contact to draw",
+        "no contact to draw",
+        "no case has a force_ratio",
+        "a map needs two options with two values or more"};
+    for (int k = 0; k < PICTURES; k++) {
+        CHECK_STATUS(status[k], RB_EINVAL);
+        assert_string_equal(why[k].text, wanted[k]);
+    }
+    assert_int_equal(ftell(out), 0);
+    fclose(out);
+}
+
+/* What the picture of a solution says of one without contact. */
+static void picture_without_contact_says_so(void **state)
+{
+    (void)state;
+    const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
+    const rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s = carter();
+    rb_message why = {""};
+    FILE *out = tmpfile();
+    memset(s.p, 0, N * sizeof *s.p);
+    memset(s.q, 0, N * sizeof *s.q);
+    memset(s.slip, 0, N * sizeof *s.slip);
+    memset(s.zone, 0, N * sizeof *s.zone);
+    s.contact = s.stick = s.slipping = 0;
+    s.half_width = s.max_pressure = s.normal_load = s.tangential_load = 0.0;
+    CHECK_STATUS(rb_report_picture(out, canvas, &rc, &s, &why), RB_OK);
+    const char *script = content(out);
+    assert_non_null(strstr(script, "set label 2 '{/*0.95 no contact}'"));
+    assert_non_null(strstr(script, "set xrange [-1.25:1.25]")); /* all elements */
+    assert_null(strstr(script, "$carter"));
+    assert_null(strstr(script, "nan"));
+    fclose(out);
+}
+
+/* The first step, the last and those nearest to equal parts of the way; no more than fit.
+ */
+static void wear_keeps_some_profiles(void **state)
+{
+    (void)state;
+    enum { STEPS = 37 };
+    double way[STEPS + 1], depth[STEPS + 1];
+    const rb_rolling_solution s = carter();
+    const rb_rolling_wear_history h = {
+        .n = STEPS + 1, .slides = 1, .way = way, .max_depth = depth};
+    rb_report_wear w = {.history = &h};
+    for (int k = 0; k <= STEPS; k++) {
+        way[k] = 10.0 * k;
+        depth[k] = 1e-3 * k;
+        CHECK_STATUS(rb_report_wear_keep(&w, &s, &h, k, STEPS), RB_OK);
+    }
+    const int last = RB_REPORT_WEAR_PROFILES - 1;
+    assert_int_equal(w.profiles, last + 1);
+    for (int k = 0; k <= last; k++) {
+        const rb_report_wear_profile *p = &w.profile[k];
+        const int step = (k * STEPS + last - 1) / last; /* the first that is so far */
+        CHECK_ABS(p->way, way[step], 0.0, "profile %d", k);
+        assert_int_equal(p->n, N);
+        for (int i = 0; i < N; i++) {
+            CHECK_ABS(p->x[i], s.x[i], 0.0, "x");
+            CHECK_ABS(p->p[i], s.p[i], 0.0, "p");
+            CHECK_ABS(p->depth[i], depth[step], 0.0, "depth");
+        }
+    }
+    CHECK_STATUS(rb_report_wear_keep(&w, &s, &h, 0, STEPS), RB_OK);
+    assert_int_equal(w.profiles, last + 1);
+    rb_report_wear_free(&w);
+    assert_int_equal(w.profiles, 0);
+    for (int k = 0; k < 3; k++) /* few steps: each of them */
+        CHECK_STATUS(rb_report_wear_keep(&w, &s, &h, k, 2), RB_OK);
+    assert_int_equal(w.profiles, 3);
+    alloc_fail_after(0);
+    const rb_status refused = rb_report_wear_keep(&w, &s, &h, 3, 3);
+    alloc_succeed();
+    CHECK_STATUS(refused, RB_ENOMEM);
+    rb_report_wear_free(&w);
+}
+
 /* ---- A gnuplot that misbehaves ---- */
 
 /* A program called gnuplot, of that shell script, comes first in PATH. */
@@ -559,6 +681,9 @@ int main(void)
         cmocka_unit_test(notes_warn_where_due),
         cmocka_unit_test(pictures_of_three_kinds),
         cmocka_unit_test(picture_of_another_kind),
+        cmocka_unit_test(pictures_need_something_to_draw),
+        cmocka_unit_test(picture_without_contact_says_so),
+        cmocka_unit_test(wear_keeps_some_profiles),
         cmocka_unit_test(gnuplot_complaint_is_handed_on),
         cmocka_unit_test(missing_gnuplot_is_named),
         cmocka_unit_test(a_part_of_a_picture_is_none),
