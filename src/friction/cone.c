@@ -96,7 +96,7 @@ void rb_friction_project_derivative(int d, double mu, const double *z, double *D
         return;
     const double c = 1.0 / (1.0 + mu * mu), pn = c * (zn + mu * t);
     D[0] = c;
-    for (int a = 1; a < d && t > 0.0; a++) {
+    for (int a = 1; a < d; a++) {
         const double na = z[a] / t;
         D[a] = D[a * d] = mu * c * na;
         for (int b = 1; b < d; b++) {
