@@ -86,6 +86,85 @@ static void what_went_wrong_has_its_words(void **state)
     assert_string_equal(rb_printable("abc\x01zzz", room, sizeof room), "abc");
 }
 
+/* Anything that is no printable character of UTF-8 is shown by its bytes, and no
+ * character is cut in two. */
+static void only_characters_are_printed(void **state)
+{
+    static const struct {
+        const char *text, *shown;
+        size_t room; /* 0: enough */
+    } all[] = {{"a~ ", "a~ ", 0},
+               {"\x1f\x7f\n", "\\x1f\\x7f\\x0a", 0},
+               {"\xc2\xa0\xc3\xa9", "\xc2\xa0\xc3\xa9", 0},
+               {"\xc2\x9f", "\\xc2\\x9f", 0},          /* a control character */
+               {"\x80z", "\\x80z", 0},                 /* no beginning */
+               {"\xc3z", "\\xc3z", 0},                 /* no end */
+               {"\xc1\xbf", "\\xc1\\xbf", 0},          /* too long for its number */
+               {"\xe0\xa0\x80", "\xe0\xa0\x80", 0},    /* U+0800, the first of three */
+               {"\xe0\x9f\xbf", "\\xe0\\x9f\\xbf", 0}, /* too long */
+               {"\xed\x9f\xbf", "\xed\x9f\xbf", 0},    /* below the surrogates */
+               {"\xed\xa0\x80", "\\xed\\xa0\\x80", 0}, /* the first of them */
+               {"\xed\xbf\xbf", "\\xed\\xbf\\xbf", 0}, /* the last */
+               {"\xee\x80\x80", "\xee\x80\x80", 0},    /* behind them */
+               {"\xf0\x90\x80\x80", "\xf0\x90\x80\x80", 0}, /* U+10000 */
+               {"\xf4\x8f\xbf\xbf", "\xf4\x8f\xbf\xbf", 0}, /* U+10FFFF, the last */
+               {"\xf4\x90\x80\x80", "\\xf4\\x90\\x80\\x80", 0},
+               {"\xff", "\\xff", 0},
+               {"abc", "ab", 3},
+               {"\xe2\x82\xac", "", 3},
+               {"\xe2\x82\xac", "\xe2\x82\xac", 4},
+               {"\x01z", "", 4},
+               {"\x01z", "\\x01", 5}};
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char room[40];
+        memset(room, 'x', sizeof room);
+        assert_ptr_equal(
+            rb_printable(all[k].text, room, all[k].room ? all[k].room : sizeof room),
+            room);
+        if (strcmp(room, all[k].shown) != 0)
+            fail_msg("row %zu: '%s', expected '%s'", k, room, all[k].shown);
+        if (all[k].room)
+            assert_int_equal(room[all[k].room], 'x');
+    }
+}
+
+/* A third of the letters may be wrong: left out, one more, another one, two swapped. */
+static void misspelt_words_are_guessed(void **state)
+{
+    static const char *const names[] = {"creep", "load", "load-factor", "mu"};
+    static const struct {
+        const char *word, *meant;
+    } all[] = {{"laod", "load"},
+               {"lod", "load"},
+               {"loadd", "load"},
+               {"lpad", "load"},
+               {"lpxx", ""},
+               {"laod-factro", "load-factor"},
+               {"m", "mu"},
+               {"um", "mu"},
+               {"x", ""},
+               {"peerc", ""},
+               {"load-facotr", "load-factor"},
+               {"creeeep", "creep"},
+               {"creeeeep", "creep"},
+               {"creeeeeep", ""},
+               {"a-word-that-is-longer-than-any-name-of-an-option", ""}};
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        rb_guess guess = {.word = all[k].word};
+        char wanted[60] = "";
+        for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+            rb_guess_try(&guess, names[i]);
+        if (*all[k].meant)
+            snprintf(wanted, sizeof wanted, " (did you mean '--%s'?)", all[k].meant);
+        if (strcmp(rb_guess_text(&guess, "--"), wanted) != 0)
+            fail_msg("%s: %s", all[k].word, guess.text);
+    }
+    rb_guess none = {.word = "load"};
+    assert_string_equal(rb_guess_text(&none, "--"), "");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -96,6 +175,8 @@ int main(void)
         cmocka_unit_test(the_sum_does_not_depend_on_the_address),
         cmocka_unit_test(every_status_has_its_own_words),
         cmocka_unit_test(what_went_wrong_has_its_words),
+        cmocka_unit_test(only_characters_are_printed),
+        cmocka_unit_test(misspelt_words_are_guessed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,8 @@
 #include "check.h"
 #include "rollbem/sparse.h"
 
+#include <limits.h>
+#include <suitesparse/SuiteSparse_config.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -333,6 +335,136 @@ static void failing_allocations_are_reported(void **state)
     assert_true(count > 10);
 }
 
+static void *no_memory(size_t size)
+{
+    (void)size;
+    return NULL;
+}
+
+static void *no_zeroed_memory(size_t n, size_t size)
+{
+    (void)n;
+    (void)size;
+    return NULL;
+}
+
+static void *no_more_memory(void *p, size_t size)
+{
+    (void)p;
+    (void)size;
+    return NULL;
+}
+
+/* SuiteSparse asks by itself. */
+static void suitesparse_without_memory_is_reported(void **state)
+{
+    (void)state;
+    const double dense[] = {2.0, 1.0, 1.0, 3.0};
+    const struct SuiteSparse_config_struct as_it_was = SuiteSparse_config;
+    rb_sparse a;
+    rb_sparse_lu *lu = NULL, *early = NULL;
+    rb_sparse_cholesky *f = NULL, *none = NULL;
+    double b[] = {1.0, 2.0}, x[2], flops;
+    int rank;
+    CHECK_STATUS(rb_sparse_from_dense(2, 2, dense, 2, &a), RB_OK);
+    CHECK_STATUS(rb_sparse_cholesky_create(&a, &f), RB_OK);
+    CHECK_STATUS(rb_sparse_lu_create(&a, &lu), RB_OK);
+    SuiteSparse_config.malloc_func = no_memory;
+    SuiteSparse_config.calloc_func = no_zeroed_memory;
+    SuiteSparse_config.realloc_func = no_more_memory;
+    const rb_status of[] = {
+        rb_sparse_rank(&a, &rank),         rb_sparse_lu_create(&a, &early),
+        rb_sparse_lu_factor(lu, &a, NULL), rb_sparse_cholesky_create(&a, &none),
+        rb_sparse_cholesky_solve(f, b, x), rb_sparse_lu_estimate(&a, &flops)};
+    SuiteSparse_config = as_it_was;
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++)
+        if (of[k] != RB_ENOMEM)
+            fail_msg("call %zu: %s", k, rb_status_text(of[k]));
+    assert_null(early);
+    assert_null(none);
+    CHECK_STATUS(rb_sparse_cholesky_solve(f, b, x), RB_OK);
+    CHECK_REL(x[0], 0.2, 1e-15, "x_0");
+    CHECK_REL(x[1], 0.6, 1e-15, "x_1");
+    rb_sparse_lu_free(lu);
+    rb_sparse_cholesky_free(f);
+    rb_sparse_free(&a);
+}
+
+/* Each of the numbers that make a matrix, wrong in turn. */
+static void impossible_sizes_are_refused(void **state)
+{
+    static const struct {
+        int rows, cols, row, col;
+    } all[] = {{-1, 2, 0, 0}, {2, -1, 0, 0}, {2, 2, -1, 0},
+               {2, 2, 2, 0},  {2, 2, 0, -1}, {2, 2, 0, 2}};
+    const double one[] = {1.0};
+    rb_sparse a;
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        int row = all[k].row, col = all[k].col;
+        double x = 1.0;
+        CHECK_STATUS(rb_sparse_from_triplets(&(rb_triplets){.rows = all[k].rows,
+                                                            .cols = all[k].cols,
+                                                            .nz = 1,
+                                                            .row = &row,
+                                                            .col = &col,
+                                                            .x = &x},
+                                             &a),
+                     RB_EINVAL);
+        assert_null(a.p);
+    }
+    CHECK_STATUS(rb_sparse_from_dense(-1, 1, one, 1, &a), RB_EINVAL);
+    CHECK_STATUS(rb_sparse_from_dense(1, -1, one, 1, &a), RB_EINVAL);
+    CHECK_STATUS(rb_sparse_from_dense(1, 1, one, 0, &a), RB_EINVAL);
+    rb_sparse_cholesky *f;
+    int none[] = {0};
+    CHECK_STATUS(rb_sparse_cholesky_create(&(rb_sparse){.p = none}, &f), RB_EINVAL);
+}
+
+/* There is no room: an entry that is missing must not go unseen. */
+static void triplets_without_room_stay_refused(void **state)
+{
+    rb_triplets t = {.rows = 2, .cols = 2};
+    rb_sparse a;
+    (void)state;
+    rb_triplets_add(&t, 0, 0, 1.0);
+    CHECK_STATUS(rb_triplets_reserve(&t, (size_t)INT_MAX), RB_ENOMEM);
+    assert_int_equal(t.nz, 1);
+    CHECK_STATUS(rb_triplets_reserve(&t, 1), RB_ENOMEM);
+    for (int k = 0; k < 40; k++)
+        rb_triplets_add(&t, 1, 1, 1.0);
+    CHECK_STATUS(rb_sparse_from_triplets(&t, &a), RB_ENOMEM);
+    rb_triplets_free(&t);
+}
+
+/* As many entries as columns, and yet not diagonal. */
+static void what_looks_diagonal_is_factored(void **state)
+{
+    const double crossed[] = {0.0, 1.0, 1.0, 0.0}, below[] = {1.0, 1.0, 0.0, 0.0};
+    const double negative[] = {2.0, 0.0, 0.0, -1.0}, right[] = {4.0, 0.0, 0.0, 2.0};
+    const double *const refused[] = {crossed, below, negative};
+    const double b[] = {1.0, 1.0};
+    double x[2];
+    rb_sparse a;
+    rb_sparse_cholesky *f;
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        CHECK_STATUS(rb_sparse_from_dense(2, 2, refused[k], 2, &a), RB_OK);
+        CHECK_STATUS(rb_sparse_cholesky_create(&a, &f), RB_SINGULAR);
+        assert_null(f);
+        rb_sparse_free(&a);
+    }
+    CHECK_STATUS(rb_sparse_from_dense(2, 2, right, 2, &a), RB_OK);
+    CHECK_STATUS(rb_sparse_cholesky_create(&a, &f), RB_OK);
+    CHECK_STATUS(rb_sparse_cholesky_solve(f, b, x), RB_OK);
+    CHECK_REL(x[0], 0.25, 1e-15, "x_0");
+    CHECK_REL(x[1], 0.5, 1e-15, "x_1");
+    CHECK_REL(rb_sparse_cholesky_entries(f), 2.0, 0.0, "entries");
+    CHECK_REL(rb_sparse_cholesky_flops(f), 2.0, 0.0, "operations");
+    rb_sparse_cholesky_free(f);
+    rb_sparse_free(&a);
+}
+
 static void only_square_matrices_have_components(void **state)
 {
     const double dense[] = {1.0, 2.0};
@@ -385,6 +517,10 @@ int main(void)
         cmocka_unit_test(cholesky_solves_condenses_and_refuses),
         cmocka_unit_test(a_sparse_congruence_takes_little_memory),
         cmocka_unit_test(failing_allocations_are_reported),
+        cmocka_unit_test(suitesparse_without_memory_is_reported),
+        cmocka_unit_test(impossible_sizes_are_refused),
+        cmocka_unit_test(triplets_without_room_stay_refused),
+        cmocka_unit_test(what_looks_diagonal_is_factored),
         cmocka_unit_test(only_square_matrices_have_components),
         cmocka_unit_test(a_factor_without_numbers_solves_nothing),
     };

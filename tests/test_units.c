@@ -48,6 +48,23 @@ static void units_are_as_defined(void **state)
                   all[k].text);
 }
 
+/* What the table does not know stays as it is: ratios, and units of a kind of their own.
+ */
+static void units_of_no_kind_are_their_own(void **state)
+{
+    double value = 0.0;
+    int plain;
+    (void)state;
+    CHECK_ABS(rb_unit_stored(RB_UNITS_SI, "furlong", 2.5), 2.5, 0.0, "stored");
+    CHECK_ABS(rb_unit_shown(RB_UNITS_SI, "furlong", 2.5), 2.5, 0.0, "shown");
+    CHECK_ABS(rb_unit_of("furlong", "mm", 2.5), 2.5, 0.0, "of a name");
+    CHECK_STATUS(rb_unit_read("2.5 furlong", "furlong", &value, &plain, NULL), RB_OK);
+    CHECK_ABS(value, 2.5, 0.0, "read");
+    assert_int_equal(plain, 0);
+    CHECK_STATUS(rb_unit_read("2.5 -", "-", &value, &plain, NULL), RB_EINVAL);
+    CHECK_STATUS(rb_unit_read("2.5 furlong", "mm", &value, &plain, NULL), RB_EINVAL);
+}
+
 /* The point moves: no digit is lost where a unit is a power of ten of another. */
 static void powers_of_ten_are_exact(void **state)
 {
@@ -446,6 +463,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(units_are_as_defined),
+        cmocka_unit_test(units_of_no_kind_are_their_own),
         cmocka_unit_test(powers_of_ten_are_exact),
         cmocka_unit_test(every_command_converts_the_same_numbers),
         cmocka_unit_test(values_say_their_own_units),

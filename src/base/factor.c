@@ -189,10 +189,8 @@ static cholmod_dense dense_view(int n, double *x)
 
 static rb_status cholmod_outcome(rb_sparse_cholesky *f)
 {
-    if (f->c.status == CHOLMOD_OUT_OF_MEMORY)
+    if (f->c.status < 0) /* no memory, or more entries than its indices count */
         return RB_ENOMEM;
-    if (f->c.status < 0)
-        return RB_EINVAL;
     /* cholmod_rcond: (smallest/largest diagonal of L)^2.  A structure condensed to its
      * contacts (a bar of 321 unknowns, free to float) leaves 6e-13 of a pivot that is 0.
      */
