@@ -87,9 +87,14 @@ void alloc_fail_after(int count);
 void alloc_succeed(void);
 int alloc_failed(void);
 
+/* Does the work again and again; in the k-th run the k-th allocation fails and those
+ * after it succeed, until there is none left.  The work returns RB_ENOMEM, or RB_OK where
+ * it does without.  How many allocations there were. */
+int alloc_fail_each(rb_status (*work)(void *context), void *context);
+
 /* Does the work again and again; in each run the first allocation fails that is reached
  * through a call which none has failed behind before, until there is none.  The work
- * returns RB_ENOMEM, or RB_OK where it does without.  How many runs had a failure. */
+ * returns as above.  How many runs had a failure. */
 int alloc_fail_every_call(rb_status (*work)(void *context), void *context);
 
 /* Path of `name` below the folder ROLLBEM_DATA; skips the test when it is not set.

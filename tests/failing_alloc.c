@@ -8,7 +8,7 @@
 #include <errno.h>
 
 static int remaining = -1; /* < 0: never fail */
-static int refused, by_calls;
+static int refused, by_calls, once;
 
 void alloc_fail_after(int count)
 {
@@ -19,12 +19,34 @@ void alloc_fail_after(int count)
 void alloc_succeed(void)
 {
     remaining = -1;
-    by_calls = 0;
+    by_calls = once = 0;
 }
 
 int alloc_failed(void)
 {
     return refused;
+}
+
+static void check_work(int n, rb_status s)
+{
+    if (s != RB_ENOMEM && s != RB_OK)
+        print_error("failure %d of memory: status %d\n", n, s);
+    assert_true(s == RB_ENOMEM || s == RB_OK);
+}
+
+int alloc_fail_each(rb_status (*work)(void *context), void *context)
+{
+    for (int n = 0;; n++) {
+        alloc_fail_after(n);
+        once = 1;
+        const rb_status s = work(context);
+        alloc_succeed();
+        if (!refused) {
+            assert_int_equal(s, RB_OK);
+            return n;
+        }
+        check_work(n, s);
+    }
 }
 
 int alloc_fail_every_call(rb_status (*work)(void *context), void *context)
@@ -41,9 +63,7 @@ int alloc_fail_every_call(rb_status (*work)(void *context), void *context)
             assert_int_equal(s, RB_OK);
             return n;
         }
-        if (s != RB_ENOMEM && s != RB_OK)
-            print_error("failure %d of memory: status %d\n", n, s);
-        assert_true(s == RB_ENOMEM || s == RB_OK);
+        check_work(n, s);
     }
 }
 
@@ -51,6 +71,8 @@ static int refuses(const void *caller, const void *frame)
 {
     if (by_calls)
         return !refused && has_new_call(caller, frame);
+    if (once && refused)
+        return 0;
     if (remaining > 0)
         remaining--;
     else

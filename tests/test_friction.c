@@ -655,10 +655,10 @@ static void each_failing_allocation_is_reported(void **state)
     series_of_springs(3, 2, 1.0, &p[2]);
     for (int k = 0; k < 3; k++) {
         for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-            calls += alloc_fail_every_call(solve_anew, &(job){names[i], &p[k]});
+            calls += alloc_fail_each(solve_anew, &(job){names[i], &p[k]});
         rb_friction_problem_free(&p[k]);
     }
-    assert_true(calls > 60);
+    assert_true(calls > 10);
 }
 
 static void failing_allocations_are_reported(void **state)

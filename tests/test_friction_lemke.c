@@ -265,10 +265,10 @@ static void short_memory_is_reported(void **state)
     for (kind k = 0; k < KINDS; k++) {
         rb_friction_problem p;
         make_problem(k, &p);
-        calls += alloc_fail_every_call(solve_anew, &p);
+        calls += alloc_fail_each(solve_anew, &p);
         rb_friction_problem_free(&p);
     }
-    assert_true(calls > 50);
+    assert_true(calls > 10);
 }
 
 int main(void)

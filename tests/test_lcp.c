@@ -505,7 +505,7 @@ static void short_memory_is_reported(void **state)
         assert_non_null(strstr(info.msg.text, "memory"));
     }
     rb_lcp_problem p = {2, M, 2, q};
-    assert_true(alloc_fail_every_call(solve_anew, &p) > 5);
+    assert_true(alloc_fail_each(solve_anew, &p) > 2);
 }
 
 /* ---- The public collection --------------------------------------------------------- */

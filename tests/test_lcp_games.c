@@ -297,7 +297,7 @@ static void short_memory_is_reported(void **state)
         if (!refused)
             break;
     }
-    assert_true(alloc_fail_every_call(solve_anew, (void *)&two) > 8);
+    assert_true(alloc_fail_each(solve_anew, (void *)&two) > 3);
 }
 
 int main(void)

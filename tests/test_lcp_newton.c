@@ -133,7 +133,7 @@ static void short_memory_is_reported(void **state)
         if (!refused)
             break;
     }
-    assert_true(alloc_fail_every_call(solve_anew, &a) > 5);
+    assert_true(alloc_fail_each(solve_anew, &a) > 2);
     rb_sparse_free(&a);
 }
 
