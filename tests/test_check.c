@@ -37,6 +37,21 @@ static const char *const histories[] = {
 
 enum { HISTORIES = sizeof histories / sizeof histories[0] };
 
+static const char *const stresses[] = {
+    "stress " SMALL "--support halfplane --load 100 --creep-ratio 0.4 --mesh fitted "
+    "--grid 5x4 --shakedown" STEADY,
+    "stress " SMALL "--support hub --load 100 --mesh fitted --outer-elements 24 "
+    "--creep-ratio 0.5 --grid 6x4 --depth 0.4" STEADY,
+    "stress " SMALL "--load 100 --points inside.txt",
+};
+
+enum { STRESSES = sizeof stresses / sizeof stresses[0] };
+
+static void write_points(void)
+{
+    assert_int_equal(shell("printf '0.1 0.02\n-0.1 0.3\n5 40\n' > inside.txt"), 0);
+}
+
 static rb_status certify(const json_t *root, rb_report_certificate *found,
                          rb_message *why)
 {
@@ -127,11 +142,15 @@ static void results_are_valid(void **state)
         "--relaxation-time 1e-3 --relaxation-ratio 1", /* Q is rounding */
     };
     write_controls();
-    for (size_t k = 0; k < CASES + HISTORIES + sizeof more / sizeof *more; k++) {
+    write_points();
+    for (size_t k = 0; k < CASES + HISTORIES + STRESSES + sizeof more / sizeof *more;
+         k++) {
         char line[600];
-        const char *given = k < CASES               ? cases[k]
-                            : k < CASES + HISTORIES ? histories[k - CASES]
-                                                    : more[k - CASES - HISTORIES];
+        const size_t after = CASES + HISTORIES;
+        const char *given = k < CASES              ? cases[k]
+                            : k < after            ? histories[k - CASES]
+                            : k < after + STRESSES ? stresses[k - after]
+                                                   : more[k - after - STRESSES];
         snprintf(line, sizeof line,
                  "\"$R\" %s --json --quiet --output r.json && \"$R\" check r.json",
                  given);
@@ -272,6 +291,84 @@ static void every_changed_number_is_found(void **state)
         json_decref(root);
     }
     assert_true(changes > 1000);
+    assert_int_equal(missed, 0);
+}
+
+/* What the search for a place finds: a thousandth.  Of a wheel's stress a part in a
+ * million of the largest pressure is found. */
+static json_t *changed_stress(const char *key, double x)
+{
+    const int is_place = strcmp(key, "x") == 0 || strcmp(key, "y") == 0;
+    return json_real(is_place ? x * (1.0 + 1e-3) + 1e-3 : changed(x) + 1e-4);
+}
+
+/* Every real number of an object or a list and of those in it; returns how many. */
+static int change_all(const char *key, json_t *of)
+{
+    int changes = 0;
+    const char *name;
+    json_t *names = json_is_object(of) ? json_copy(of) : NULL, *value;
+    json_object_foreach(names, name, value)
+    {
+        if (json_is_real(value) && strcmp(name, "yield_shear") != 0 && ++changes)
+            json_object_set_new(of, name, changed_stress(name, json_real_value(value)));
+        else if (!json_is_real(value))
+            changes += change_all(name, value);
+    }
+    for (size_t i = 0; i < json_array_size(of); i++) {
+        value = json_array_get(of, i);
+        if (json_is_real(value) && ++changes)
+            json_array_set_new(of, i, changed_stress(key, json_real_value(value)));
+    }
+    json_decref(names);
+    return changes;
+}
+
+static void expect_violations(const json_t *root, int wanted)
+{
+    rb_report_certificate found;
+    rb_message why = {""};
+    CHECK_STATUS(certify(root, &found, &why), RB_OK);
+    assert_int_equal(found.violations, wanted);
+}
+
+/* Each of them has its own line: all are changed at once, but for what was given. */
+static void every_changed_number_of_a_stress_is_found(void **state)
+{
+    (void)state;
+    static const char *const parts[] = {"maxima", "grid", "points", "shakedown"};
+    static const char *const given[] = {"x_mm", "y_mm"};
+    write_points();
+    missed = 0;
+    for (int k = 0; k < STRESSES; k++) {
+        json_t *root = run_json(stresses[k]);
+        json_t *points = json_object_get(root, "points");
+        json_t *depth = json_incref(json_object_get(root, "depth"));
+        int changes = 0;
+        expect_violations(root, 0);
+        json_object_set_new(root, "depth", json_real(0.01));
+        expect_found(root, stresses[k], "depth", 0);
+        json_object_set_new(root, "depth", depth);
+        for (int j = 0; j < 2 && points; j++) {
+            json_t *kept = json_deep_copy(json_object_get(points, given[j]));
+            change_all(given[j], json_object_get(points, given[j]));
+            expect_found(root, stresses[k], given[j], 0);
+            json_object_set_new(points, given[j], kept);
+        }
+        for (size_t j = 0; j < sizeof parts / sizeof *parts; j++) {
+            json_t *part = json_object_get(root, parts[j]), *own = json_deep_copy(part);
+            changes += change_all(parts[j], part);
+            for (int i = 0; i < 2 && part == points && points; i++) {
+                json_t *x = json_object_get(own, given[i]);
+                changes -= (int)json_array_size(x);
+                json_object_set(points, given[i], x);
+            }
+            json_decref(own);
+        }
+        assert_true(changes > 30);
+        expect_violations(root, changes);
+        json_decref(root);
+    }
     assert_int_equal(missed, 0);
 }
 
@@ -815,6 +912,7 @@ int main(void)
         cmocka_unit_test(results_are_valid),
         cmocka_unit_test(every_changed_number_is_found),
         cmocka_unit_test(every_changed_number_of_a_history_is_found),
+        cmocka_unit_test(every_changed_number_of_a_stress_is_found),
         cmocka_unit_test(every_changed_input_is_found),
         cmocka_unit_test(inputs_belong_to_the_result),
         cmocka_unit_test(files_belong_to_the_result),

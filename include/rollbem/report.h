@@ -114,13 +114,19 @@ struct json_t *rb_report_json_history(const rb_rolling_history *h);
  * step at rest, the creepage of a rolled one. */
 struct json_t *rb_report_json_states(const rb_rolling_states *s);
 
+/* Sets "summary", with its error bars, "table" and, of a sequence of steps, "history",
+ * with what its steps found where states are kept; NULL: they are not. */
+void rb_report_json_result(struct json_t **root, const rb_case_result *result,
+                           const rb_rolling_states *states);
+
 /* What checking a result found. */
 typedef struct {
     int violations, numbers; /* numbers: compared with what they should be */
     double residual;         /* of the printed state */
 } rb_report_certificate;
 
-/* Checks the JSON of a case, or of a history with its states, without solving: rebuilds
+/* Checks the JSON of a case, or of a history with its states, and of the stress below a
+ * case, without solving: rebuilds
  * its problem from its inputs in `words`, a case of defaults, and computes again what it
  * prints from its pressures, friction, approach and creepage.  A line on out for each
  * violation. RB_EFORMAT: a kind of result that cannot be checked; RB_ENOMEM. */
@@ -272,6 +278,7 @@ rb_status rb_report_curve_picture(FILE *out, rb_report_canvas canvas,
  * nx = 0, n points.  Grid points outside the body are left out. */
 typedef struct {
     int nx, ny, n;
+    double depth; /* of the grid and of the maxima [length]; 0: 2.5 half-widths */
     const rb_rolling_stress *at; /* n; borrowed, as all here */
     const int *inside;           /* n; NULL: all */
     const rb_rolling_stress_maxima *maxima;
@@ -285,7 +292,7 @@ typedef struct {
 /* One row per point; the maxima stand in the header.  RB_EWRITE: see errno. */
 rb_status rb_report_stress_table(FILE *out, const rb_report_stress *stress,
                                  const char *command, const rb_report_style *style);
-/* Sets "maxima", and "grid" or "points". */
+/* Sets "depth", "maxima", and "grid" or "points". */
 void rb_report_json_stress(struct json_t **root, const rb_report_stress *stress);
 /* The maxima, with their errors where known. */
 void rb_report_stress_summary(FILE *out, const rb_report_stress *stress);

@@ -76,12 +76,14 @@ static void make_pieces(rb_bem_field *f, const double *t_contact)
     }
 }
 
-static void add_strips(const rb_bem_field *f, double complex z, double stress[3])
+/* Of all strips but the two halves of contact element `without`; -1: of all. */
+static void add_strips(const rb_bem_field *f, double complex z, int without,
+                       double stress[3])
 {
     for (int k = 0; k < f->pieces; k++) {
         const piece *p = &f->piece[k];
         double own[3];
-        if (p->traction == 0.0 && p->slope == 0.0)
+        if (k / 2 == without || (p->traction == 0.0 && p->slope == 0.0))
             continue;
         rb_strip_linear_stress(&p->strip, z, p->traction, p->slope, own);
         for (int i = 0; i < 3; i++)
@@ -99,9 +101,11 @@ static double complex strips_displacement(const rb_bem_field *f, double complex 
     return u;
 }
 
-/* What the strips leave of the given value at element j in one direction. */
-static void left_over(const rb_bem_field *f, const double *t_contact, int j,
-                      double value[2])
+/* What the strips leave of the given value at element j, in both directions.  A contact
+ * element's own strips give its traction exactly: computed at its midpoint, where their
+ * ends meet, they would give it but for the rounding of coordinates over a part in 1e9 of
+ * a short element. */
+static void left_over(const rb_bem_field *f, int j, double value[2])
 {
     const rb_bem_mesh *mesh = &f->system->mesh;
     const double complex z = rb_strip_midpoint(mesh, j),
@@ -109,13 +113,14 @@ static void left_over(const rb_bem_field *f, const double *t_contact, int j,
     const double n[2] = {creal(normal), cimag(normal)};
     double s[3] = {0.0, 0.0, 0.0};
 
-    add_strips(f, z, s);
+    const int contact =
+        mesh->condition[2 * j] == RB_BEM_CONTACT ? j - mesh->contact_first : -1;
+    add_strips(f, z, contact, s);
     const double t[2] = {s[0] * n[0] + s[2] * n[1], s[2] * n[0] + s[1] * n[1]};
     const double complex u = strips_displacement(f, z);
     for (int d = 0; d < 2; d++) {
         const rb_bem_condition condition = mesh->condition[2 * j + d];
-        value[d] = condition == RB_BEM_CONTACT
-                       ? t_contact[2 * (j - mesh->contact_first) + d] - t[d]
+        value[d] = contact >= 0 ? -t[d]
                    : condition == RB_BEM_TRACTION
                        ? mesh->value[2 * j + d] - t[d]
                        : mesh->value[2 * j + d] - (d ? cimag(u) : creal(u));
@@ -157,7 +162,7 @@ rb_status rb_bem_field_create(const rb_bem_system *system, const double *t_conta
         f->t = f->u + dofs;
         make_pieces(f, t_contact);
         for (int j = 0; j < system->mesh.n; j++)
-            left_over(f, t_contact, j, value + 2 * j);
+            left_over(f, j, value + 2 * j);
         s = system->bond
                 ? rb_bond_left_over(system->bond, &system->mesh, system->material,
                                     strips_field, f, value + 2 * system->bond->first)
@@ -181,6 +186,7 @@ rb_status rb_bem_field_stress(const rb_bem_field *field, rb_bem_points points,
     const rb_status s = rb_bem_interior(&rest, points, NULL, stress, why);
 
     for (int k = 0; k < points.n && s == RB_OK; k++)
-        add_strips(field, points.xy[2 * k] + points.xy[2 * k + 1] * I, stress + 3 * k);
+        add_strips(field, points.xy[2 * k] + points.xy[2 * k + 1] * I, -1,
+                   stress + 3 * k);
     return s;
 }

@@ -88,17 +88,7 @@ static const char notes[] = CLI_CASE_NOTES
 static void add_json(const cli_case_run *run, json_t **root)
 {
     const solved *it = run->own;
-    json_t *summary = rb_report_json_summary(&it->r.solution);
-    if (it->r.has_errors)
-        rb_report_json_set(&summary, "errors", rb_report_json_errors(&it->r.errors));
-    rb_report_json_set(root, "summary", summary);
-    rb_report_json_set(root, "table", rb_report_json_table(&it->r.solution));
-    if (it->r.history.n > 0) {
-        json_t *history = rb_report_json_history(&it->r.history);
-        if (it->kept.n > 0)
-            rb_report_json_set(&history, "states", rb_report_json_states(&it->kept));
-        rb_report_json_set(root, "history", history);
-    }
+    rb_report_json_result(root, &it->r, &it->kept);
     if (it->all.n > 0)
         rb_report_json_set(root, "solutions", rb_report_json_solutions(&it->all));
 }

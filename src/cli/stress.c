@@ -165,6 +165,7 @@ static rb_report_stress of_grid(const cli_case_run *run,
     return (rb_report_stress){.nx = grid->nx,
                               .ny = grid->ny,
                               .n = grid->nx * grid->ny,
+                              .depth = rb_unit_shown(run->c->units, "mm", st->depth),
                               .at = grid->at,
                               .inside = grid->inside,
                               .maxima = &st->maxima,
@@ -250,7 +251,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
 static void add_json(const cli_case_run *run, json_t **root)
 {
     const stress *st = run->own;
-    rb_report_json_set(root, "summary", rb_report_json_summary(run->solution));
+    rb_report_json_result(root, &st->run, NULL);
     rb_report_json_stress(root, &st->table);
 }
 

@@ -364,17 +364,17 @@ static void check_zone(rb_certificate *c, int i, double slack, double yield)
 void rb_certificate_tolerances(rb_certificate *c, double residual)
 {
     const rb_contact_problem *p = &c->model.problem;
-    const int hierarchical =
-        c->summary ? strcmp(rb_certificate_word(c->summary, "boundary_matrix"),
-                            "hierarchical") == 0
-                   : c->again.hierarchical;
+    c->hierarchical = c->summary
+                          ? strcmp(rb_certificate_word(c->summary, "boundary_matrix"),
+                                   "hierarchical") == 0
+                          : c->again.hierarchical;
     const double asked = fmax(c->model.rc.tol, p->rounding);
 
-    c->tol = (hierarchical ? 100.0 : 10.0) * asked;
+    c->tol = (c->hierarchical ? 100.0 : 10.0) * asked;
     c->exact = 10.0 * fmax(residual < asked ? residual : asked, p->rounding);
     c->displacement =
-        (hierarchical ? 1e-10 : 1e-13) * (largest(json_object_get(c->table, "un_mm")) +
-                                          largest(json_object_get(c->table, "ut_mm")));
+        (c->hierarchical ? 1e-10 : 1e-13) * (largest(json_object_get(c->table, "un_mm")) +
+                                             largest(json_object_get(c->table, "ut_mm")));
 }
 
 rb_status rb_certificate_laws(rb_certificate *c)

@@ -16,6 +16,7 @@ typedef struct {
     int step; /* of a history, from 1 on, while it is judged; 0: the result */
     rb_rolling_model model;
     rb_rolling_solution again; /* computed from the state */
+    int hierarchical;          /* a matrix that approximates */
     double tol;                /* of the scaled residual */
     double exact; /* of the scaled gap and slip, as the result's own residual has it */
     double displacement; /* rounding of displacements [length] */
@@ -77,5 +78,10 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
 /* Its columns against those that came out. */
 rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,
                                          const rb_rolling_history *h);
+
+/* ---- certificate_stress.c ---------------------------------------------------------- */
+
+/* Grid or points, maxima and shakedown, computed from the model's tractions. */
+rb_status rb_certificate_stress(rb_certificate *c, const json_t *root, rb_message *why);
 
 #endif

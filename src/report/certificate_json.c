@@ -11,7 +11,8 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
 {
     static const char *const known[] = {"schema",  "version", "command",    "conventions",
                                         "notes",   "units",   "input_hash", "inputs",
-                                        "summary", "table",   "history"};
+                                        "summary", "table",   "history",    "depth",
+                                        "maxima",  "grid",    "points",     "shakedown"};
     const json_t *history = json_object_get(root, "history");
     const json_t *inputs = json_object_get(root, "inputs");
     const json_t *summary = json_object_get(root, "summary");
@@ -26,11 +27,10 @@ static rb_status check_kind(const char *name, const json_t *root, rb_message *wh
         while (k < sizeof known / sizeof *known && strcmp(key, known[k]) != 0)
             k++;
         if (k == sizeof known / sizeof *known)
-            return rb_fail(
-                why, RB_EFORMAT,
-                "%s: cannot be checked: results with '%s' (only single cases and "
-                "histories without error bars can)",
-                name, key);
+            return rb_fail(why, RB_EFORMAT,
+                           "%s: cannot be checked: results with '%s' (only single cases, "
+                           "histories and stress without error bars can)",
+                           name, key);
     }
     if (!json_is_object(inputs) || !json_is_object(summary) ||
         !json_is_object(json_object_get(root, "table")))
@@ -184,6 +184,8 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
         s = rb_certificate_judge(&c, rb_certificate_member(c.summary, "residual"), why);
     if (s == RB_OK && history)
         s = rb_certificate_compare_history(&c, history, &again);
+    if (s == RB_OK && json_object_get(root, "maxima"))
+        s = rb_certificate_stress(&c, root, why);
     rb_rolling_history_free(&again);
     return rb_certificate_end(&c, s, why);
 }

@@ -148,6 +148,8 @@ static json_t *json_shakedown(const rb_report_stress *s)
 void rb_report_json_stress(json_t **root, const rb_report_stress *s)
 {
     json_t *points = json_object();
+    rb_report_json_set(root, "depth",
+                       rb_report_json_number(s->depth > 0.0 ? s->depth : NAN));
     rb_report_json_set(root, "maxima", json_maxima(s));
     if (s->shakedown)
         rb_report_json_set(root, "shakedown", json_shakedown(s));

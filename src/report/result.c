@@ -1,0 +1,21 @@
+/* The JSON of a solved case. */
+#include "report/internal.h"
+#include "rollbem/case.h"
+
+#include <jansson.h>
+
+void rb_report_json_result(json_t **root, const rb_case_result *r,
+                           const rb_rolling_states *states)
+{
+    json_t *summary = rb_report_json_summary(&r->solution);
+    if (r->has_errors)
+        rb_report_json_set(&summary, "errors", rb_report_json_errors(&r->errors));
+    rb_report_json_set(root, "summary", summary);
+    rb_report_json_set(root, "table", rb_report_json_table(&r->solution));
+    if (r->history.n == 0)
+        return;
+    json_t *history = rb_report_json_history(&r->history);
+    if (states && states->n > 0)
+        rb_report_json_set(&history, "states", rb_report_json_states(states));
+    rb_report_json_set(root, "history", history);
+}
