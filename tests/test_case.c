@@ -203,6 +203,385 @@ static void numbers_are_words_too(void **state)
     rb_case_free(by_number);
 }
 
+/* ---- One value --------------------------------------------------------------------- */
+
+typedef struct {
+    double free, above, from, between, within, upto, below, most, word, list;
+    rb_numbers all;
+    int whole, choice, other, flag;
+    const char *text, *file, *name;
+} every_kind;
+
+#define AT(member) offsetof(every_kind, member)
+
+static const rb_choice fruit[] = {{"apple", 3}, {"pear", 5}, {NULL, 0}};
+static const rb_option kinds[] = {
+    RB_GROUP_LINE("kinds", "Kinds"),
+    RB_NUMBER_LINE("free", AT(free), "", RB_ANY, ""),
+    RB_NUMBER_LINE("above", AT(above), "", RB_ABOVE(1.0), ""),
+    RB_NUMBER_LINE("from", AT(from), "", RB_FROM(1.0), ""),
+    RB_NUMBER_LINE("between", AT(between), "", RB_BETWEEN(1.0, 2.0), ""),
+    RB_NUMBER_LINE("within", AT(within), "", RB_FROM_TO(1.0, 2.0), ""),
+    RB_NUMBER_LINE("upto", AT(upto), "", RB_ABOVE_UPTO(1.0, 2.0), ""),
+    {.name = "below",
+     .kind = RB_OPTION_NUMBER,
+     .offset = AT(below),
+     .unit = "",
+     .range = {-INFINITY, 2.0, 1, 1}},
+    {.name = "most",
+     .kind = RB_OPTION_NUMBER,
+     .offset = AT(most),
+     .unit = "",
+     .range = {-INFINITY, 2.0, 1, 0}},
+    RB_NUMBER_LINE("word", AT(word), "mm", RB_FROM(0.0), "", .word = "auto",
+                   .word_value = -1.0),
+    RB_NUMBER_LINE("list", AT(list), "mm", RB_FROM(0.0), "", .list = AT(all)),
+    RB_INTEGER_LINE("whole", AT(whole), RB_FROM_TO(-3e9, 3e9), ""),
+    RB_CHOICE_LINE("choice", AT(choice), fruit, ""),
+    RB_CHOICE_LINE("other", AT(other), fruit, "", .path = AT(name), .path_value = 9,
+                   .path_name = "FILE", .file = RB_FILE_READ),
+    RB_FLAG_LINE("flag", AT(flag), ""),
+    RB_TEXT_LINE("text", AT(text), "NAME", ""),
+    RB_TEXT_LINE("file", AT(file), "FILE", "", .file = RB_FILE_WRITTEN)};
+
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+/* Both sides of every end, every word, and what stands for a value. */
+static void values_are_taken_strictly(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *good, *bad, *shown, *expected; /* by | */
+    } all[] = {
+        {"free", "-1e300|0|.5|1e3", "|x| 1|1 x|nan|inf|1e999|0x", "1000", "a number"},
+        {"above", "1.001|9", "1|0.9", "9", "a number > 1"},
+        {"from", "1|9", "0.999", "9", "a number >= 1"},
+        {"between", "1.001|1.999", "1|2|3|0", "1.999", "a number in (1, 2)"},
+        {"within", "1|2", "0.999|2.001", "2", "a number in [1, 2]"},
+        {"upto", "1.001|2", "1|2.001", "2", "a number in (1, 2]"},
+        {"below", "-5|1.999", "2|3", "1.999", "a number < 2"},
+        {"most", "-5|2", "2.001", "2", "a number <= 2"},
+        {"word", "3|auto", "-1|aut|auto ", "auto", "a number >= 0 or auto"},
+        {"list", "0|1,2|1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16",
+         "|,|1,|1,,2|-1|1,-1|1;2|1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17|"
+         "1,00000000000000000000000000000000000000000000000000000000000000001",
+         "1", "a number >= 0"},
+        {"whole", "0|-7|2147483647|-2147483648",
+         "| 1|1.0|1e3|x|2147483648|-2147483649|99999999999999999999", "-2147483648",
+         "a whole number in [-3e+09, 3e+09]"},
+        {"choice", "apple|pear", "|appl|apples|plum", "pear", "apple or pear"},
+        {"other", "apple|plum|pear", "", "pear", "apple or pear"},
+        {"flag", "no|true|false|yes", "|y|1|Yes", "yes", "yes or no"},
+        {"text", "a|some words", "", "some words", "a name"}};
+    every_kind values;
+    int given[KINDS], plain[KINDS];
+    const rb_option_set set = {kinds, KINDS, &values, given, plain};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        int at;
+        char text[600], room[64], wanted[200];
+        rb_message why = {""};
+        rb_guess guess = {.word = all[k].name};
+        assert_ptr_equal(
+            rb_option_find(1, &set, all[k].name, strlen(all[k].name), &at, &guess), &set);
+        memset(&values, 0, sizeof values);
+        for (int good = 1; good >= 0; good--) {
+            snprintf(text, sizeof text, "%s", good ? all[k].good : all[k].bad);
+            for (char *word = text, *end = word; end; word = end + 1) {
+                end = strchr(word, '|');
+                if (end)
+                    *end = '\0';
+                given[at] = plain[at] = 0;
+                const rb_status s = rb_option_assign(&set, at, 7, "it", word, &why);
+                if (s != (good ? RB_OK : RB_EINVAL) || given[at] != (good ? 7 : 0))
+                    fail_msg("%s = '%s': status %d", all[k].name, word, s);
+                if (!good && !strstr(why.text, "it: expected "))
+                    fail_msg("%s = '%s': %s", all[k].name, word, why.text);
+            }
+            if (good) /* the last one */
+                assert_string_equal(rb_option_text(&kinds[at], &values, room),
+                                    all[k].shown);
+        }
+        assert_string_equal(rb_option_expected(&kinds[at], wanted, sizeof wanted),
+                            all[k].expected);
+    }
+}
+
+static rb_status assign(const rb_option_set *set, const char *name, const char *text,
+                        rb_message *why)
+{
+    int at;
+    rb_guess guess = {.word = name};
+    assert_non_null(rb_option_find(1, set, name, strlen(name), &at, &guess));
+    return rb_option_assign(set, at, RB_GIVEN_ARGUMENT, "it", text, why);
+}
+
+/* Lists, units, files, and sets where nobody asks who gave what. */
+static void values_are_kept_where_they_belong(void **state)
+{
+    (void)state;
+    every_kind v = {.free = NAN};
+    int given[KINDS] = {0}, plain[KINDS] = {0};
+    const rb_option_set set = {kinds, KINDS, &v, given, plain},
+                        bare = {kinds, KINDS, &v, NULL, NULL};
+    rb_message why = {""};
+    char room[64];
+    const rb_option *list = kinds + 10, *other = kinds + 13, *file = kinds + 16;
+    CHECK_STATUS(assign(&set, "list", "3,4,5", &why), RB_OK);
+    assert_true(v.all.n == 3 && v.list == 3.0 && v.all.value[2] == 5.0);
+    assert_int_equal(plain[list - kinds], 1);
+    assert_int_equal(rb_option_given(&set, "list"), RB_GIVEN_ARGUMENT);
+    assert_int_equal(rb_option_given(&set, "word"), 0);
+    assert_int_equal(rb_option_given(&set, "kinds"), 0);
+    assert_int_equal(rb_option_given(&set, "nothing"), 0);
+    CHECK_STATUS(assign(&set, "list", "3cm,4m", &why), RB_OK);
+    assert_true(v.all.n == 2 && v.list == 30.0 && v.all.value[1] == 4000.0);
+    assert_int_equal(plain[list - kinds], 0);
+    CHECK_STATUS(assign(&set, "list", "3cm,4", &why), RB_EINVAL);
+    assert_string_equal(why.text, "it: expected a unit for each number or for none");
+    CHECK_STATUS(assign(&set, "list", "3,4 parsec", &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "parsec"));
+    assert_true(v.all.n == 2); /* what is refused changes nothing */
+    CHECK_STATUS(assign(&bare, "word", "2 in", &why), RB_OK);
+    CHECK_REL(v.word, 50.8, 1e-15, "inches");
+    assert_string_equal(rb_option_text(kinds + 1, &v, room), "");
+    assert_string_equal(rb_option_text(file, &v, room), "");
+    assert_null(rb_option_path(file, &v));
+    assert_null(rb_option_path(kinds + 15, &v)); /* a text that names no file */
+    CHECK_STATUS(assign(&set, "file", "f.txt", &why), RB_OK);
+    assert_string_equal(rb_option_path(file, &v), "f.txt");
+    CHECK_STATUS(assign(&set, "other", "g.txt", &why), RB_OK);
+    assert_int_equal(v.other, 9);
+    assert_string_equal(rb_option_path(other, &v), "g.txt");
+    assert_string_equal(rb_option_text(other, &v, room), "g.txt");
+    CHECK_STATUS(assign(&set, "other", "", &why), RB_EINVAL);
+    CHECK_STATUS(assign(&set, "other", "apple", &why), RB_OK);
+    assert_null(rb_option_path(other, &v));
+    CHECK_STATUS(assign(&set, "text", "", &why), RB_EINVAL);
+    CHECK_STATUS(assign(&set, "flag", "false", &why), RB_OK);
+    assert_string_equal(rb_option_text(kinds + 14, &v, room), "no");
+    assert_string_equal(rb_option_text(kinds, &v, room), "");
+    v.choice = 99;
+    assert_string_equal(rb_option_text(kinds + 12, &v, room), "");
+    assert_string_equal(rb_option_expected(kinds, room, sizeof room), "a name");
+    double x;
+    assert_true(rb_option_number("-2.5e1", &x) && x == -25.0);
+    assert_false(rb_option_number("", &x) || rb_option_number("\t1", &x) ||
+                 rb_option_number("1x", &x) || rb_option_number("inf", &x));
+}
+
+static void names_that_are_none_are_said(void **state)
+{
+    (void)state;
+    rb_message why = {""};
+    rb_case *c = case_of("");
+    assert_null(rb_case_word("support", 99));
+    assert_string_equal(rb_case_word("formulation", RB_STEADY), "steady");
+    assert_int_equal(rb_case_given(c, "nothing"), 0);
+    CHECK_STATUS(rb_case_set_number(c, "lood", 3.0, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "'load'?"));
+    rb_case_free(c);
+}
+
+/* ---- Cases of CONTACT -------------------------------------------------------------- */
+
+/* Steel on steel, rolling by CKSI under FN, 60 elements of 0.05. */
+static const rb_io_contact_case steel = {
+    .module = 3,
+    .digit = {.P = 2, .T = 3, .N = 1, .D = 2, .C = 2, .Z = 2},
+    .normal = 25000.0,
+    .tangential = -4e-4,
+    .fstat = 0.25,
+    .fkin = 0.25,
+    .dq = 0.05,
+    .velocity = 1000.0,
+    .poisson = {0.3, 0.28},
+    .shear = {82000.0, 81000.0},
+    .potential = 1,
+    .mx = 60,
+    .my = 1,
+    .from = -1.0,
+    .dx = 0.05,
+    .dy = 100.0,
+    .base = 1,
+    .plan = 1,
+    .b = {1.0 / 600.0}};
+
+static void cases_of_contact_are_our_own(void **state)
+{
+    (void)state;
+    rb_case_contact c;
+    rb_io_contact_case in = steel;
+    rb_case_from_contact(&in, &c);
+    assert_true(c.runs && !c.left_out[0] && c.sign == 1.0 && c.centre == 0.0);
+    assert_true(c.rc.formulation == RB_STEADY && c.rc.creep == -4e-4);
+    assert_true(isnan(c.rc.force_ratio) && isnan(c.rc.shift) && isnan(c.rc.approach));
+    CHECK_REL(c.rc.load, 250.0, 1e-15, "FN/DY");
+    CHECK_REL(c.rc.a.radius, 300.0, 1e-15, "1/(2 B1)");
+    CHECK_REL(c.rc.a.young, 2.0 * 82000.0 * 1.3, 1e-15, "E of A");
+    CHECK_REL(c.rc.b.young, 2.0 * 81000.0 * 1.28, 1e-15, "E of B");
+    CHECK_REL(c.rc.a.datum, 100.0, 1e-15, "DY");
+    CHECK_REL(c.from, -1.0, 1e-15, "XL");
+    CHECK_REL(c.to, 2.0, 1e-15, "XL + MX DX");
+    CHECK_REL(c.rc.zone, 1.5, 1e-15, "half of it");
+    assert_true(c.rc.mu == 0.25 && c.rc.contact_elements == 60);
+
+    in.b[3] = -1.0 / 300.0; /* the lowest point at 1 */
+    in.chi = 180.0;         /* and the mirror image */
+    rb_case_from_contact(&in, &c);
+    CHECK_REL(c.centre, 1.0, 1e-15, "-B4/(2 B1)");
+    assert_true(c.sign == -1.0 && c.rc.creep == 4e-4);
+    CHECK_REL(c.from, -1.0, 1e-14, "-(2 - 1)");
+    CHECK_REL(c.to, 2.0, 1e-14, "-(-1 - 1)");
+    in.chi = 90.0;
+    rb_case_from_contact(&in, &c);
+    assert_true(c.sign == 1.0);
+    in.chi = 450.0; /* as 90 */
+    rb_case_from_contact(&in, &c);
+    assert_true(c.sign == 1.0);
+    in.chi = -180.0;
+    rb_case_from_contact(&in, &c);
+    assert_true(c.sign == -1.0);
+
+    in = steel;
+    in.chi = 180.0; /* nothing rolls: no direction */
+    in.digit.T = 1;
+    in.digit.F = 1;
+    rb_case_from_contact(&in, &c);
+    assert_true(c.runs && c.sign == 1.0 && c.rc.formulation == RB_STATIC);
+    assert_true(c.rc.force_ratio == -4e-4 && isnan(c.rc.shift) && isnan(c.rc.creep));
+    in.digit.F = 0;
+    in.digit.N = 0;
+    in.normal = 0.01;
+    rb_case_from_contact(&in, &c);
+    assert_true(c.rc.shift == -4e-4 && isnan(c.rc.force_ratio));
+    assert_true(c.rc.approach == 0.01 && isnan(c.rc.load));
+    in.digit.T = 0; /* without friction */
+    in.fkin = 0.2;
+    in.side = 0.1;
+    rb_case_from_contact(&in, &c);
+    assert_true(c.runs && !c.left_out[0] && c.rc.mu == 0.0 && c.rc.shift == 0.0);
+
+    in = steel;
+    in.base = 2;
+    in.centre = 0.5;
+    in.radius = 460.0;
+    in.digit.T = 3;
+    in.digit.F = 1;
+    rb_case_from_contact(&in, &c);
+    assert_true(c.rc.gap == RB_GAP_EXACT && c.rc.a.radius == 460.0 && c.centre == 0.5);
+    assert_true(c.rc.force_ratio == -4e-4 && isnan(c.rc.creep));
+}
+
+static void materials_and_laws_of_contact(void **state)
+{
+    (void)state;
+    static const rb_rolling_friction_law laws[] = {
+        RB_FRICTION_linear, RB_FRICTION_rational, RB_FRICTION_exponential};
+    rb_case_contact c;
+    rb_io_contact_case in = steel;
+    for (int law = 2; law <= 4; law++) {
+        in = steel;
+        in.law = law;
+        in.fstat = 0.45;
+        in.fall[0] = 0.2;
+        in.slip_scale[1] = 7.0;
+        in.memory = law == 3 ? 0.1 : 0.0;
+        in.memory_slip = 0.5;
+        rb_case_from_contact(&in, &c);
+        assert_true(c.runs && !c.left_out[0]);
+        assert_true(c.rc.mu == 0.25 && c.rc.speed == 1000.0);
+        assert_int_equal(c.rc.friction.law, laws[law - 2]);
+        assert_true(c.rc.friction.fall[0] == 0.2 && c.rc.friction.slip_scale[1] == 7.0);
+        assert_true(c.rc.friction.memory_slip == (law == 3 ? 0.5 : 0.0));
+    }
+    in = steel;
+    in.digit.M = 1;
+    in.ratio[0] = 0.5;
+    in.time[0] = 0.2;
+    in.ratio[1] = 0.5;
+    rb_case_from_contact(&in, &c);
+    assert_true(c.rc.a.memory.n == 1 && c.rc.a.memory.time[0] == 0.2);
+    assert_true(c.rc.a.memory.ratio[0] == 0.5 && c.rc.speed == 1000.0);
+    CHECK_REL(c.rc.b.young, 2.0 * 81000.0 * 1.28 / 1.5, 1e-15, "relaxed at once");
+    assert_int_equal(c.rc.b.memory.n, 0);
+    in.ratio[0] = 0.0;
+    rb_case_from_contact(&in, &c);
+    assert_int_equal(c.rc.a.memory.n, 0);
+    in = steel;
+    in.digit.M = 4;
+    in.layer = 0.02;
+    in.layer_shear = 800.0;
+    in.hardening = 5.0;
+    rb_case_from_contact(&in, &c);
+    CHECK_REL(c.rc.interlayer_tangential, 0.02 / 800.0, 1e-15, "LAYTHK/GG3");
+    assert_true(c.rc.yield_stress == 0.0 && c.rc.hardening == 0.0);
+    in.yield = 30.0;
+    rb_case_from_contact(&in, &c);
+    assert_true(c.rc.yield_stress == 30.0 && c.rc.hardening == 5.0);
+    in.layer = in.layer_shear = 0.0;
+    rb_case_from_contact(&in, &c);
+    assert_true(c.rc.interlayer_tangential == 0.0);
+}
+
+/* Every clause in turn, and all that a case that is run can have at once. */
+static void what_contact_has_besides_is_listed(void **state)
+{
+    (void)state;
+    rb_case_contact c;
+    rb_io_contact_case in = steel;
+    in.fstat = 0.3;
+    in.law = 5;
+    in.digit.M = 2;
+    in.spin = 1e-3;
+    in.dq = 0.0506;
+    in.plan = 2;
+    in.digit.H = 1;
+    in.digit.E = 2;
+    rb_case_from_contact(&in, &c);
+    assert_true(c.runs);
+    assert_string_equal(
+        c.left_out,
+        "another friction law (L = 5): mu = 0.3, its value at rest; the flexibility of "
+        "the simplified theory (M = 2); CETA, FY and CPHI; the step DQ = 0.0506: slip is "
+        "that over an element, DX = 0.05; the planform (IPLAN = 2); temperatures (H = "
+        "1); the rigid slip per element (E = 2)");
+    in = steel;
+    in.dq = 0.0504; /* within a hundredth */
+    in.digit.E = 1;
+    in.law = 2;
+    in.fstat = 0.3;
+    rb_case_from_contact(&in, &c);
+    assert_string_equal(c.left_out, "");
+    in.law = 1;
+    in.side = 1e-9;
+    rb_case_from_contact(&in, &c);
+    assert_string_equal(c.left_out, "another friction law (L = 1): mu = 0.3, its value "
+                                    "at rest; CETA, FY and CPHI");
+    in = steel;
+    in.from = 1e300;
+    rb_case_from_contact(&in, &c);
+    assert_false(c.runs);
+    assert_string_equal(c.left_out,
+                        "a potential contact at 1e+300 without width beside 0");
+}
+
+/* -sum |q| (|shift| - what the third body takes) over DY V; the element behind the last
+ * has not yielded. */
+static void friction_power_is_that_of_contact(void **state)
+{
+    (void)state;
+    double q[] = {2.0, -3.0, 4.0}, shift[] = {0.1, -0.2, 0.3},
+           plastic[] = {0.05, 0.03, 0.02};
+    rb_io_contact_case in = steel;
+    rb_rolling_solution s = {.n = 3, .q = q, .shift = shift};
+    CHECK_REL(rb_case_contact_power(&in, &s), -(0.2 + 0.6 + 1.2) * 100.0, 1e-14, "W");
+    s.plastic = plastic;
+    CHECK_REL(rb_case_contact_power(&in, &s),
+              -(2.0 * 0.08 + 3.0 * 0.19 + 4.0 * 0.28) * 100.0, 1e-14, "yielding");
+    in.digit.T = 1;
+    assert_true(isnan(rb_case_contact_power(&in, &s)));
+}
+
 /* ---- Refusals ---------------------------------------------------------------------- */
 
 static void check_word(rb_status s, const rb_message *why, const char *part)
@@ -241,6 +620,7 @@ static void contradictions_are_refused(void **state)
         {"mu=0.1,0.2", "a curve takes several"},
         {"accuracy=1e-3 formulation=transient distance=1", "without steps only"},
         {"force-ratio=1.5", "at most 1"},
+        {"gap-smoothing=0.1", "of a gap from a file only"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_message why = {""};
@@ -432,6 +812,13 @@ int main(void)
         cmocka_unit_test(every_option_describes_itself),
         cmocka_unit_test(a_value_survives_as_text),
         cmocka_unit_test(numbers_are_words_too),
+        cmocka_unit_test(values_are_taken_strictly),
+        cmocka_unit_test(values_are_kept_where_they_belong),
+        cmocka_unit_test(names_that_are_none_are_said),
+        cmocka_unit_test(cases_of_contact_are_our_own),
+        cmocka_unit_test(materials_and_laws_of_contact),
+        cmocka_unit_test(what_contact_has_besides_is_listed),
+        cmocka_unit_test(friction_power_is_that_of_contact),
         cmocka_unit_test(wrong_words_are_refused),
         cmocka_unit_test(contradictions_are_refused),
         cmocka_unit_test(a_purpose_refuses_what_means_nothing_to_it),

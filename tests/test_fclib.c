@@ -605,6 +605,11 @@ static void other_files_are_refused(void **state)
     }
     assert_int_equal(truncate(path, 3), 0);
     refused("not an HDF5 file");
+    assert_int_equal(rb_io_is_hdf5(path), 0);
+    assert_int_equal(rb_io_is_hdf5("/nowhere/x.hdf5"), 0);
+    assert_int_equal(rb_io_is_hdf5("/tmp"), 0);
+    fresh_local();
+    assert_int_equal(rb_io_is_hdf5(path), 1);
     CHECK_STATUS(rb_io_fclib_write("/nowhere/x.hdf5", &(rb_io_fclib){0}, RB_IO_FCLIB_CSC,
                                    "", "", &why),
                  RB_EWRITE);

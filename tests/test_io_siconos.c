@@ -105,6 +105,36 @@ static void friction_and_cones(void **state)
     rb_io_soclcp_free(&s);
 }
 
+/* By five numbers at the head; -1: of no kind. */
+static void kinds_are_told_by_their_sizes(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *head;
+        int kind;
+    } all[] = {{"4 0 4 4 0", RB_IO_SICONOS_LCP},
+               {"4 2 4 4 0", RB_IO_SICONOS_LCP},
+               {"4 3 4 4 0", -1},
+               {"2 1 0 2 2", RB_IO_SICONOS_FRICTION},
+               {"3 5 2 15 15", RB_IO_SICONOS_FRICTION},
+               {"3 5 3 15 15", -1},
+               {"4 1 0 4 4", RB_IO_SICONOS_SOCLCP},
+               {"3 2 1 3 3", RB_IO_SICONOS_SOCLCP},
+               {"3 2 1 7 7", RB_IO_SICONOS_FRICTION_GLOBAL},
+               {"2 2 1 7 7", RB_IO_SICONOS_FRICTION_GLOBAL},
+               {"4 2 1 7 7", -1},
+               {"3 2 1 0 0", -1},
+               {"3 2 1 7 8", -1}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        rb_io_siconos_kind kind = RB_IO_SICONOS_LCP;
+        put(all[k].head);
+        const rb_status s = rb_io_siconos_guess(path, &kind, NULL);
+        if (s != (all[k].kind < 0 ? RB_EFORMAT : RB_OK) ||
+            (s == RB_OK && (int)kind != all[k].kind))
+            fail_msg("%s: status %d, kind %d", all[k].head, s, (int)kind);
+    }
+}
+
 /* Blocks of one and two rows and columns, of which one is not stored. */
 static void blocks_of_other_sizes_are_in_their_places(void **state)
 {
@@ -275,6 +305,7 @@ static void what_is_wrong_is_named_with_its_line(void **state)
     check_refused(read_soclcp, "2 2 0 2 2 2 2 2 0 1 3 -5 -6 1 1 2 0.5 0.25",
                   "start of the cones");
     check_refused(guess, "5 5 5 5 5", "no known kind");
+    check_refused(guess, "2 1 0 2", "size at the head: expected an integer >= 0");
 }
 
 static void blocks_and_columns_must_fit(void **state)
@@ -781,6 +812,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_FILE(every_storage_gives_the_same_lcp),
         WITH_FILE(friction_and_cones),
+        WITH_FILE(kinds_are_told_by_their_sizes),
         WITH_FILE(global_friction_problems),
         WITH_FILE(what_is_wrong_is_named_with_its_line),
         WITH_FILE(blocks_and_columns_must_fit),

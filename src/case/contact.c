@@ -13,14 +13,12 @@ __attribute__((format(printf, 2, 3)))
 static void
 leave_out(rb_case_contact *c, const char *format, ...)
 {
-    const size_t used = strlen(c->left_out), room = sizeof c->left_out - used;
+    size_t used = strlen(c->left_out);
     va_list args;
     va_start(args, format);
-    if (used > 0 && room > 2)
-        strcpy(c->left_out + used, "; ");
-    if (room > 3)
-        vsnprintf(c->left_out + strlen(c->left_out),
-                  sizeof c->left_out - strlen(c->left_out), format, args);
+    snprintf(c->left_out + used, sizeof c->left_out - used, "%s", used > 0 ? "; " : "");
+    used = strlen(c->left_out);
+    vsnprintf(c->left_out + used, sizeof c->left_out - used, format, args);
     va_end(args);
 }
 
@@ -100,7 +98,7 @@ static double set_gap(const rb_io_contact_case *in, rb_rolling_case *rc)
 {
     rc->gap = in->base == 2 ? RB_GAP_EXACT : RB_GAP_PARABOLA;
     rc->a.radius = in->base == 2 ? in->radius : 0.5 / in->b[0];
-    return in->base == 2 ? in->centre : -0.5 * in->b[3] / in->b[0];
+    return in->base == 2 ? in->centre : 0.0 - 0.5 * in->b[3] / in->b[0]; /* no -0 */
 }
 
 static void set_friction(const rb_io_contact_case *in, rb_rolling_case *rc)

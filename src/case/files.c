@@ -102,9 +102,6 @@ static rb_status read_friction(rb_case *c, rb_message *why)
     rb_settled_case *settled = &c->settled;
     if (settled->rc.friction.law != RB_FRICTION_table)
         return RB_OK;
-    if (!settled->friction_file)
-        return rb_case_refuse_given(c, "friction-law", "expected the file of the table",
-                                    why);
     const rb_status s = read_over_x(&c->table[CASE_FRICTION], settled->friction_file,
                                     units_of_file(c, "friction-law"), 1,
                                     &settled->rc.friction.table, why);

@@ -11,7 +11,7 @@
 int rb_option_number(const char *text, double *value)
 {
     char *end;
-    if (*text == '\0' || strchr(" \t\n", *text))
+    if (strchr(" \t\n", *text)) /* or empty */
         return 0;
     *value = strtod(text, &end);
     return *end == '\0' && isfinite(*value);
@@ -20,7 +20,7 @@ int rb_option_number(const char *text, double *value)
 static int whole_number(const char *text, int *value)
 {
     char *end;
-    if (*text == '\0' || strchr(" \t\n", *text))
+    if (strchr(" \t\n", *text)) /* or empty */
         return 0;
     errno = 0;
     const long v = strtol(text, &end, 10);
