@@ -148,6 +148,13 @@ static void refusals_have_their_code_and_reason(void **state)
          "wear b.ini --wear-coefficient 1e-7 --slide 1 --formulation steady "
          "--creep-ratio 0.5",
          "steady or a way, not both"},
+        {64,
+         "wear b.ini --wear-coefficient 1e-7 --cycles 1 --formulation steady "
+         "--creep-ratio 0.5 --profile w.tsv",
+         "--profile"},
+        {64, "stress b.ini --grid 3x1", "expected two numbers >= 2 such as 61x41"},
+        {64, "stress b.ini --grid 1x3", "expected two numbers >= 2 such as 61x41"},
+        {64, "stress b.ini --grid 3x3x3", "expected two numbers >= 2 such as 61x41"},
         {64, "stress b.ini --grid 3", "expected two numbers >= 2 such as 61x41, got '3'"},
         {64, "stress b.ini --grid 3x3 --points at.txt",
          "--grid and --points exclude each other"},
@@ -200,8 +207,26 @@ static void refusals_have_their_code_and_reason(void **state)
         {65, "sweep b.ini --cases colour.txt",
          "'colour' is no option of a case that takes a number"},
         {65, "sweep b.ini --cases twice.txt", "column 'mu' is named twice"},
-        {65, "sweep b.ini --cases negative.txt",
-         "case 1: mu: expected a number >= 0, got '-1'"},
+        {65, "sweep b.ini --cases negative.txt --vary-1 'load 1 2'",
+         "negative.txt:5: mu: expected a number >= 0, got '-1'"},
+        {64, "sweep b.ini --cases just.txt --vary-1 'contact-elements 8 3.5'",
+         "case 2: contact-elements: expected a whole number >= 3, got '3.5'"},
+        {65, "sweep b.ini --cases long.txt",
+         "'abcdefghijklmnopqrstuvwxyzabcdefghijklmn' is no option of a case"},
+        {65, "sweep b.ini --cases unit.txt",
+         "unit.txt: 'load_foo' is no option of a case that takes a number"},
+        {64, "sweep b.ini --vary-1 ' '", "expected an option and numbers, got ' '"},
+        {64, "sweep b.ini --vary-1 'load 1:2:3:lin'", "got 'load 1:2:3:lin'"},
+        {64, "sweep b.ini --vary-1 'load 1:2'", "got 'load 1:2'"},
+        {64, "sweep b.ini --vary-1 'load x:2:3'", "got 'load x:2:3'"},
+        {64, "sweep b.ini --vary-1 'load 1:x:3'", "got 'load 1:x:3'"},
+        {64, "sweep b.ini --vary-1 'load 1:2:1'", "got 'load 1:2:1'"},
+        {64, "sweep b.ini --vary-1 'load 1:2:2.5'", "got 'load 1:2:2.5'"},
+        {64, "sweep b.ini --vary-1 'load 1:2:1e8'", "got 'load 1:2:1e8'"},
+        {64, "sweep b.ini --vary-1 'load 1:0:3:log'", "got 'load 1:0:3:log'"},
+        {64, "sweep b.ini --vary-1 'load 1:2:3 4'", "got 'load 1:2:3 4'"},
+        {64, "sweep b.ini --vary-1 'load 1 x'", "got 'load 1 x'"},
+        {64, "sweep b.ini --vary-1 'contact-elements 8 x'", "got 'contact-elements"},
         {65, "sweep b.ini --cases one.txt", "expected a line that names the columns"},
         {73, "sweep s.ini --output /nothing/w.tsv", "/nothing/w.tsv: cannot write"},
         {73, "sweep s.ini --output .", ".: cannot write: Is a directory"},
@@ -210,6 +235,28 @@ static void refusals_have_their_code_and_reason(void **state)
         {66, "page b.ini --page nothing.html --output p.html", "nothing.html"},
         {64, "lcp game.txt --q game.txt --game", "--q"},
         {66, "lcp nothing.txt --output t.tsv", "nothing.txt: No such file"},
+        {64, "lcp", "lcp: expected at least one FILE"},
+        {64, "lcp one.txt one.txt --q one.txt", "lcp: --q goes with one FILE, got 2"},
+        {64, "lcp one.txt --solver newton --trace", "not with --solver newton"},
+        {64, "lcp one.txt --solver newton --cover one.txt", "not with --solver newton"},
+        {64, "lcp one.txt --solver newton --rule first-index",
+         "not with --solver newton"},
+        {64, "lcp one.txt --solver newton --lower one.txt", "--lower and --upper are"},
+        {64, "lcp one.txt --solver newton --upper one.txt", "--lower and --upper are"},
+        {64, "lcp one.txt --trace --solution", "are two tables: one of them"},
+        {64, "lcp one.txt --all --trace", "--all tries every basis"},
+        {64, "lcp one.txt --all --start one.txt", "--all tries every basis"},
+        {64, "lcp one.txt --all --solver lemke", "--all tries every basis"},
+        {64, "lcp one.txt --all --max-pivots 3", "--all tries every basis"},
+        {64, "lcp game.txt --game --lower one.txt", "--game reads A and B alone"},
+        {64, "lcp game.txt --game --upper one.txt", "--game reads A and B alone"},
+        {64, "lcp game.txt --game --start one.txt", "--game reads A and B alone"},
+        {64, "lcp game.txt --game --cover one.txt", "--game reads A and B alone"},
+        {64, "lcp game.txt --game --q one.txt", "--game reads A and B alone"},
+        {64, "lcp game.txt --game --solver lemke", "--game reads A and B alone"},
+        {64, "lcp game.txt --game --rule first-index", "--game reads A and B alone"},
+        {64, "lcp game.txt --label 1", "only with --game and without --all"},
+        {64, "lcp game.txt --game --all --label 1", "only with --game and without --all"},
         {65, "lcp colour.txt --output t.tsv",
          "colour.txt:1: n: expected an integer >= 1"},
         {64, "compare --solvers nothing one.txt",
@@ -247,7 +294,9 @@ static void refusals_have_their_code_and_reason(void **state)
     write_file("names.txt", "mu\n");
     write_file("colour.txt", "colour\n1\n");
     write_file("twice.txt", "mu mu\n1 2\n");
-    write_file("negative.txt", "mu\n-1\n");
+    write_file("negative.txt", "mu\n0.1\n# a comment\n\n-1\n");
+    write_file("long.txt", "abcdefghijklmnopqrstuvwxyzabcdefghijklmn\n1\n");
+    write_file("unit.txt", "mu load_foo\n0.1 1\n");
     write_file("game.txt", "2 2\n1 2\n3 4\n1 2\n3 4\n");
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         check_refused(all[k].arguments, all[k].code, all[k].said);

@@ -42,7 +42,7 @@ static cli_exit add_column(study *st, const char *source, cli_exit bad, const ch
     return o && (o->kind == RB_OPTION_NUMBER || o->kind == RB_OPTION_INTEGER)
                ? CLI_CONTINUE
                : cli_fail(bad, "%s: '%s' is no option of a case that takes a number",
-                          source, c->name);
+                          source, name);
 }
 
 static cli_exit add_factor(study *st, const char *source, cli_exit bad, int rows)
@@ -170,6 +170,14 @@ static cli_exit add_varied(study *st, int k)
     return code == CLI_CONTINUE ? read_varied(st, k, source, st->o->vary[k] + at) : code;
 }
 
+/* The numbers of the table, as typed numbers. */
+static void convert_column(const study *st, const study_column *c, double *value)
+{
+    const typed t = typed_of(st, "cases", c->name);
+    for (int k = 0; k < st->table.rows; k++)
+        value[k] = converted(&t, value[k]);
+}
+
 static cli_exit add_table(study *st)
 {
     const char *path = st->o->cases;
@@ -184,9 +192,8 @@ static cli_exit add_table(study *st)
     for (int j = 0; j < st->table.columns && code == CLI_CONTINUE; j++) {
         double *value = st->table.x + (size_t)j * (size_t)st->table.rows;
         code = add_column(st, path, CLI_DATA, st->table.name[j], value);
-        const typed t = typed_of(st, "cases", st->column[st->columns - 1].name);
-        for (int k = 0; k < st->table.rows && code == CLI_CONTINUE; k++)
-            value[k] = converted(&t, value[k]);
+        if (code == CLI_CONTINUE)
+            convert_column(st, &st->column[st->columns - 1], value);
     }
     return code == CLI_CONTINUE ? add_factor(st, path, CLI_DATA, st->table.rows) : code;
 }
@@ -206,21 +213,38 @@ cli_exit cli_study_read(study *st)
     return code;
 }
 
-double cli_study_value(const study *st, const study_column *c, int number)
+/* The row of its factor that case k has. */
+static int row_of(const study *st, const study_column *c, int k)
 {
     for (int f = st->factors - 1; f > c->factor; f--)
-        number /= st->rows[f];
-    return c->value[number % st->rows[c->factor]];
+        k /= st->rows[f];
+    return k % st->rows[c->factor];
 }
 
-cli_exit cli_study_set_values(const study *st, rb_case *c, int number)
+double cli_study_value(const study *st, const study_column *c, int k)
+{
+    return c->value[row_of(st, c, k)];
+}
+
+/* The table of cases is the first factor, and is blamed by its line. */
+static cli_exit refuse_value(const study *st, const study_column *c, int k,
+                             const rb_message *why)
+{
+    return st->o->cases && c->factor == 0
+               ? cli_fail(c->bad, "%s:%d: %s", st->o->cases,
+                          st->table.line[row_of(st, c, k)], why->text)
+               : cli_fail(c->bad, "case %d: %s", k + 1, why->text);
+}
+
+cli_exit cli_study_set_values(const study *st, rb_case *c, int k)
 {
     rb_message why = {""};
-    for (int k = 0; k < st->columns; k++)
-        if (rb_case_set_number(c, st->column[k].name,
-                               cli_study_value(st, &st->column[k], number),
-                               &why) != RB_OK)
-            return cli_fail(st->column[k].bad, "case %d: %s", number + 1, why.text);
+    for (int j = 0; j < st->columns; j++) {
+        const study_column *column = &st->column[j];
+        if (rb_case_set_number(c, column->name, cli_study_value(st, column, k), &why) !=
+            RB_OK)
+            return refuse_value(st, column, k, &why);
+    }
     return CLI_CONTINUE;
 }
 

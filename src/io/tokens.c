@@ -27,7 +27,7 @@ void rb_io_tokens_fail(io_tokens *t, const char *format, ...)
 void rb_io_tokens_open(const char *path, io_tokens *t, rb_message *why)
 {
     const int given = !strcmp(path, "-");
-    size_t size = 0;
+    size_t size;
     *t = (io_tokens){.path = path, .line = 1, .why = why};
     t->status = rb_io_read_text(given ? "/dev/stdin" : path, &t->text, &size, why);
     if (given)
