@@ -841,6 +841,7 @@ static void every_edit_is_named(void **state)
         {"--support halfplane --load 100 --mu 0.3 --creep-ratio 0.3 --yield-stress 20 "
          "--interlayer-tangential 1e-5 --mesh uniform --contact-elements 14" STEADY,
          {
+             {"notes", "[]", ""},
              {"table/zone/9", "4", "violated: yield of element 10: |q| is off its yield"},
              {"table/zone/9", "6", "r: table: zone of element 10 is 6"},
              {"table/q_MPa/5", "-30", "yield stress of element 6: |q| exceeds it by"},
@@ -857,6 +858,7 @@ static void every_edit_is_named(void **state)
         {"--support halfplane --load 100 --mu 0.3 --increments 3 --shift 1e-4 "
          "--contact-elements 12" STATES,
          {
+             {"notes", "[]", ""},
              {"history", "", "its inputs and its history do not belong together"},
              {"history/states", "", "depends on the steps before it: take --states"},
              {"inputs/increments", "1", "its inputs and its history do not belong"},
@@ -900,6 +902,17 @@ static void every_edit_is_named(void **state)
             print_error("result %zu, %s = %s: '%s' wanted; said: %s\n", k, path, value,
                         part, said);
             wrong++;
+        }
+        if (k == 4) { /* beside nine digits 1e-10 of what has no unit of its own */
+            const double x = json_number_value(
+                member(member(member(member(root, "summary"), "patches"), "0"), "to"));
+            char value[40];
+            for (int beyond = 0; beyond < 2; beyond++) {
+                snprintf(value, sizeof value, "%.17g",
+                         x + 1e-9 * fabs(x) + (beyond ? 1.2e-10 : 0.8e-10));
+                const char *said = said_of(root, "summary/patches/0/to", value);
+                assert_int_equal(*said != '\0', beyond);
+            }
         }
         json_decref(root);
     }

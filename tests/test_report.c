@@ -235,6 +235,91 @@ static void summary_says_how_much_of_the_stick_zone_sticks(void **state)
     }
 }
 
+/* The contact and an element at either side, the slip where the terminal is wide; of
+ * many elements at most about twenty. */
+static void brief_table_shows_the_contact(void **state)
+{
+    (void)state;
+    static const char all[] = "elements; all, with every column: rollbem ... > FILE\n";
+    rb_rolling_solution s = carter();
+    char line[200], want[100];
+    for (int wide = 0; wide < 2; wide++) {
+        FILE *file = tmpfile();
+        CHECK_STATUS(rb_report_brief_table(file, &s, wide ? 96 : 95), RB_OK);
+        rewind(file);
+        assert_non_null(fgets(line, sizeof line, file));
+        assert_int_equal(strstr(line, "slip_1") != NULL, wide);
+        assert_int_equal(strlen(line), (wide ? 4 : 3) * 24 + 6 + 1);
+        for (int i = 1; i < 19; i++) {
+            double x, p, q, slip = s.slip[i];
+            int zone;
+            assert_non_null(fgets(line, sizeof line, file));
+            if (wide)
+                assert_int_equal(
+                    sscanf(line, "%lf %lf %lf %lf %d", &x, &p, &q, &slip, &zone), 5);
+            else
+                assert_int_equal(sscanf(line, "%lf %lf %lf %d", &x, &p, &q, &zone), 4);
+            CHECK_ABS(x, s.x[i], 0.0, "x");
+            CHECK_ABS(p, s.p[i], 0.0, "p");
+            CHECK_ABS(q, s.q[i], 0.0, "q");
+            CHECK_ABS(slip, s.slip[i], 0.0, "slip");
+            assert_int_equal(zone, s.zone[i]);
+        }
+        assert_non_null(fgets(line, sizeof line, file));
+        snprintf(want, sizeof want, "18 of 20 %s", all);
+        assert_string_equal(line, want);
+        fclose(file);
+    }
+    memset(zones, 0, sizeof zones);
+    for (int touching = 0; touching < 3; touching++) { /* none, the last, the first */
+        FILE *file = tmpfile();
+        if (touching)
+            zones[touching == 1 ? N - 1 : 0] = 1;
+        CHECK_STATUS(rb_report_brief_table(file, &s, 80), RB_OK);
+        const int rows = touching == 2 ? N : 2; /* first and last: all of them */
+        snprintf(want, sizeof want, "\n%d of 20 %s", rows, all);
+        assert_non_null(strstr(content(file), want));
+        fclose(file);
+    }
+}
+
+static void brief_table_of_many_elements_skips_some(void **state)
+{
+    (void)state;
+    enum { MANY = 101 };
+    static double column[9][MANY];
+    static int zone[MANY];
+    rb_rolling_solution s = {.n = MANY,
+                             .x = column[0],
+                             .h = column[1],
+                             .gap = column[2],
+                             .p = column[3],
+                             .q = column[4],
+                             .un = column[5],
+                             .ut = column[6],
+                             .shift = column[7],
+                             .slip = column[8],
+                             .zone = zone};
+    double x;
+    char line[200];
+    for (int i = 0; i < MANY; i++) {
+        s.x[i] = i;
+        zone[i] = i >= 10 && i < 52; /* with their neighbours 44: every third */
+    }
+    FILE *file = tmpfile();
+    CHECK_STATUS(rb_report_brief_table(file, &s, 80), RB_OK);
+    rewind(file);
+    assert_non_null(fgets(line, sizeof line, file));
+    for (int i = 9; i < 53; i += 3) {
+        assert_non_null(fgets(line, sizeof line, file));
+        assert_int_equal(sscanf(line, "%lf", &x), 1);
+        CHECK_ABS(x, i, 0.0, "row");
+    }
+    assert_non_null(fgets(line, sizeof line, file));
+    assert_int_equal(strncmp(line, "15 of 101 elements", 18), 0);
+    fclose(file);
+}
+
 static void notes_warn_where_due(void **state)
 {
     (void)state;
@@ -441,6 +526,44 @@ static void wear_keeps_some_profiles(void **state)
     alloc_succeed();
     CHECK_STATUS(refused, RB_ENOMEM);
     rb_report_wear_free(&w);
+}
+
+/* Steps of the shares over tau, a colour for each solver; a column of print has its
+ * caption instead of a title. */
+static void profiles_are_drawn(void **state)
+{
+    (void)state;
+    static const char *const solver[] = {"auto", "lemke"};
+    static const double tau[] = {1.0, 2.0, 10.0},
+                        rho[] = {0.75, 0.75, 1.0, 0.25, 0.5, 0.5};
+    for (int column = 0; column < 2; column++)
+        for (int problems = 1; problems < 5; problems += 3) {
+            const rb_report_profiles profiles = {problems, 2,   3,  solver,
+                                                 "time",   tau, rho};
+            const rb_report_canvas canvas = {.kind = RB_REPORT_SVG,
+                                             .size = column ? RB_REPORT_85MM
+                                                            : RB_REPORT_OWN_SIZE,
+                                             .script = 1};
+            rb_message why = {""};
+            char title[100];
+            FILE *out = tmpfile();
+            CHECK_STATUS(rb_report_profiles_picture(out, canvas, &profiles, &why), RB_OK);
+            const char *script = content(out);
+            snprintf(title, sizeof title, "Performance profiles}   %d problem%s'",
+                     problems, problems > 1 ? "s" : "");
+            assert_int_equal(strstr(script, title) == NULL, column);
+            assert_non_null(strstr(script, "\n$profiles << EOD\n1 0.75 0.25\n2 0.75 "
+                                           "0.5\n10 1 0.5\nEOD\n"));
+            assert_non_null(strstr(script, "plot $profiles using 1:2 with steps"));
+            assert_non_null(strstr(script, "title 'auto', $profiles using 1:3 with "));
+            assert_non_null(strstr(script, "title 'lemke'\n"));
+            assert_non_null(strstr(script, "set logscale x\nset xrange [1:1000]\nset "
+                                           "yrange [0:1.05]\n"));
+            assert_non_null(strstr(script, column ? "set tmargin at screen 0.945\n"
+                                                  : "set tmargin at screen 0.9\n"));
+            assert_non_null(strstr(script, "set xlabel 'τ: time over the least"));
+            fclose(out);
+        }
 }
 
 /* ---- A gnuplot that misbehaves ---- */
@@ -681,6 +804,9 @@ int main(void)
         cmocka_unit_test(notes_warn_where_due),
         cmocka_unit_test(pictures_of_three_kinds),
         cmocka_unit_test(picture_of_another_kind),
+        cmocka_unit_test(brief_table_shows_the_contact),
+        cmocka_unit_test(brief_table_of_many_elements_skips_some),
+        cmocka_unit_test(profiles_are_drawn),
         cmocka_unit_test(pictures_need_something_to_draw),
         cmocka_unit_test(picture_without_contact_says_so),
         cmocka_unit_test(wear_keeps_some_profiles),
