@@ -269,15 +269,139 @@ static void bad_input_is_refused(void **state)
     mesh.node[2] = 4;
     CHECK_STATUS(rb_fem_stiffness(&mesh, &material, &A, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "node 4 of 4"));
-    const rb_fem_material wrong[] = {{.young = -1.0, .poisson = 0.3, .section = 1.0},
-                                     {.young = 1.0, .poisson = 0.5, .section = 1.0},
-                                     {.young = 1.0, .poisson = 0.3, .section = 0.0}};
-    for (int k = 0; k < 3; k++)
-        CHECK_STATUS(rb_fem_stiffness(&mesh, &wrong[k], &A, &why), RB_EINVAL);
+    mesh.node[2] = -1;
+    CHECK_STATUS(rb_fem_stiffness(&mesh, &material, &A, &why), RB_EINVAL);
+    assert_string_equal(why.text, "element 0: node -1 of 4");
+    const struct {
+        rb_fem_material m;
+        const char *part;
+    } wrong[] = {
+        {{.young = -1.0, .poisson = 0.3, .section = 1.0}, "young = -1: expected > 0"},
+        {{.young = INFINITY, .poisson = 0.3, .section = 1.0}, "young = inf"},
+        {{.young = 1.0, .poisson = 0.5, .section = 1.0}, "poisson = 0.5: expected in"},
+        {{.young = 1.0, .poisson = -1.0, .section = 1.0}, "poisson = -1: expected in"},
+        {{.young = 1.0, .poisson = 0.3, .section = 0.0}, "section = 0: expected > 0"}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        CHECK_STATUS(rb_fem_stiffness(&mesh, &wrong[k].m, &A, &why), RB_EINVAL);
+        assert_non_null(strstr(why.text, wrong[k].part));
+    }
+    mesh.node[2] = 2;
+    for (int k = 0; k < 8; k++)
+        rb_fem_mesh_hold(&mesh, k / 2, k % 2);
+    rb_fem_mesh_number(&mesh);
+    CHECK_STATUS(rb_fem_stiffness(&mesh, &material, &A, &why), RB_EINVAL);
+    assert_string_equal(why.text, "mesh: every node is held");
     rb_fem_mesh_free(&mesh);
-    rb_fem_model model;
-    CHECK_STATUS(rb_fem_model_bar(0, 3, &model, &why), RB_EINVAL);
-    CHECK_STATUS(rb_fem_model_truss(RB_FEM_UPPER_INSIDE, 1, &model, &why), RB_EINVAL);
+    CHECK_STATUS(rb_fem_mesh_alloc(RB_FEM_BRICK, 4, -1, &mesh), RB_EINVAL);
+    CHECK_STATUS(rb_fem_mesh_alloc(RB_FEM_BRICK, 8, 1, &mesh), RB_OK);
+    const rb_fem_material weightless = {.young = 1.0, .poisson = 0.3};
+    CHECK_STATUS(rb_fem_mass(&mesh, &weightless, &A, &why), RB_EINVAL);
+    assert_string_equal(why.text, "density = 0: expected > 0");
+    rb_fem_mesh_free(&mesh);
+}
+
+/* The smallest models are there, those beside the range are not. */
+static void models_have_their_range(void **state)
+{
+    (void)state;
+    static const struct {
+        int truss, nx, ny, is_there;
+    } sizes[] = {{0, 0, 3, 0}, {0, 3, 0, 0}, {0, 2001, 1, 0}, {0, 1, 2001, 0},
+                 {0, 1, 1, 1}, {1, 1, 0, 0}, {1, 201, 0, 0},  {1, 2, 0, 1}};
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        rb_fem_model model;
+        rb_message why = {""};
+        const rb_status s =
+            sizes[k].truss
+                ? rb_fem_model_truss(RB_FEM_UPPER_INSIDE, sizes[k].nx, &model, &why)
+                : rb_fem_model_bar(sizes[k].nx, sizes[k].ny, &model, &why);
+        CHECK_STATUS(s, sizes[k].is_there ? RB_OK : RB_EINVAL);
+        assert_int_equal(why.text[0] == '\0', sizes[k].is_there);
+        rb_fem_model_free(&model);
+    }
+}
+
+/* A structure by hand: all unknowns touch a contact, one is left over, one is loose, or
+ * nothing touches anything. */
+static void condensation_of_every_kind(void **state)
+{
+    (void)state;
+    static const double K[9] = {2.0, 1.0, 0.5, 1.0, 3.0, 0.0, 0.5, 0.0, 4.0};
+    static const double load[3] = {1.0, -2.0, 3.0};
+    for (int kind = 0; kind < 4; kind++) {
+        const int n = kind == 0 ? 2 : 3;
+        double mu = 0.3, gap = 0.1, load_c[2], u[3], unit[6] = {0};
+        double stiffness[9];
+        rb_fem_structure s = {
+            .dofs = n, .dimension = 2, .contacts = 1, .mu = &mu, .gap = &gap};
+        rb_fem_condensation *c;
+        rb_message why = {""};
+        for (int i = 0; i < n * n; i++)
+            stiffness[i] = K[i % n + 3 * (i / n)];
+        if (kind == 2)
+            stiffness[2] = stiffness[6] = stiffness[8] = 0.0;
+        unit[0] = unit[n + 1] = kind < 3;
+        CHECK_STATUS(rb_sparse_from_dense(n, n, stiffness, n, &s.K), RB_OK);
+        CHECK_STATUS(rb_sparse_from_dense(n, 2, unit, n, &s.H), RB_OK);
+        const rb_status status = rb_fem_condense(&s, &c, &why);
+        CHECK_STATUS(status, kind < 2 ? RB_OK : kind == 2 ? RB_SINGULAR : RB_EINVAL);
+        if (kind == 2)
+            assert_non_null(strstr(why.text, "parts of the structure move even when"));
+        if (kind == 3)
+            assert_non_null(strstr(why.text, "no contact touches the structure"));
+        if (kind < 2) { /* u_C = e_1: K_c e_1 balances the reduced load */
+            const double alone[2] = {1.0, -0.5};
+            const rb_fem_structure *d = rb_fem_condensed(c);
+            assert_int_equal(d->dofs, 2);
+            CHECK_ABS(d->gap[0], 0.1, 0.0, "gap");
+            CHECK_ABS(d->mu[0], 0.3, 0.0, "mu");
+            double reaction[2] = {0.0, 0.0};
+            rb_sparse_apply(1.0, &d->K, alone, 0.0, reaction);
+            CHECK_STATUS(rb_fem_condense_load(c, load, load_c), RB_OK);
+            CHECK_STATUS(rb_fem_expand(c, load, alone, u), RB_OK);
+            for (int i = 0; i < n; i++) {
+                double force = -load[i];
+                for (int j = 0; j < n; j++)
+                    force += stiffness[i + n * j] * u[j];
+                CHECK_ABS(force, i < 2 ? reaction[i] - load_c[i] : 0.0, 1e-14,
+                          "kind %d, row %d", kind, i);
+            }
+        } else
+            assert_null(c);
+        rb_fem_condensation_free(c);
+        rb_sparse_free(&s.K);
+        rb_sparse_free(&s.H);
+    }
+}
+
+/* Without a load and without stiffness forces and lengths keep their units. */
+static void units_without_a_load(void **state)
+{
+    (void)state;
+    static const double none[4] = {0.0}, half[4] = {0.0, 0.5, 0.5, 8.0};
+    for (int stiff = 0; stiff < 2; stiff++)
+        for (int loaded = 0; loaded < 2; loaded++) {
+            double mu = 0.3, gap = 0.1, load[2] = {0.0, loaded ? -4.0 : 0.0};
+            const double unit[4] = {1.0, 0.0, 0.0, 1.0};
+            rb_fem_structure s = {
+                .dofs = 2, .dimension = 2, .contacts = 1, .mu = &mu, .gap = &gap};
+            rb_fem_state at;
+            rb_fem_units units;
+            rb_friction_problem p;
+            CHECK_STATUS(rb_sparse_from_dense(2, 2, stiff ? half : none, 2, &s.K), RB_OK);
+            CHECK_STATUS(rb_sparse_from_dense(2, 2, unit, 2, &s.H), RB_OK);
+            CHECK_STATUS(rb_fem_state_alloc(&s, &at), RB_OK);
+            CHECK_STATUS(rb_fem_problem(&s, load, &at, &p, &units), RB_OK);
+            CHECK_ABS(units.force, loaded ? 4.0 : 1.0, 0.0, "force");
+            CHECK_ABS(units.length, stiff ? units.force * 2.0 / 8.0 : 1.0, 0.0, "length");
+            CHECK_ABS(p.f[1], loaded ? -1.0 : 0.0, 0.0, "f");
+            CHECK_ABS(p.w[0], 0.1 / units.length, 1e-15, "w");
+            CHECK_ABS(p.w[1], 0.0, 0.0, "w");
+            rb_friction_problem_free(&p);
+            rb_fem_state_free(&at);
+            rb_sparse_free(&s.K);
+            rb_sparse_free(&s.H);
+        }
 }
 
 static rb_status build_and_condense(void)
@@ -319,6 +443,9 @@ int main(void)
         cmocka_unit_test(condensed_stiffness_is_the_reference),
         cmocka_unit_test(expansion_solves_the_full_system),
         cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(models_have_their_range),
+        cmocka_unit_test(condensation_of_every_kind),
+        cmocka_unit_test(units_without_a_load),
         cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
