@@ -222,21 +222,136 @@ static void rigid_wall_carries_its_load(void **state)
     rb_fem_wall_free(wall);
 }
 
+/* An option of the wall out of its range is named, the last one within is taken. */
 static void bad_input_is_refused(void **state)
 {
     (void)state;
+    static const struct {
+        const char *part; /* of the message; NULL: it is a wall */
+        int fine[3], coarse[3];
+        double dt;
+        int press, shear;
+    } walls[] = {
+        {NULL, {4, 2, 3}, {3, 2, 3}, 1e-2, 1, 0},
+        {"2 and 3 nodes in direction 0", {2, 2, 3}, {3, 2, 3}, 1e-2, 1, 0},
+        {"1 and 2 nodes in direction 1", {4, 1, 3}, {3, 2, 3}, 1e-2, 1, 0},
+        {"3 and 2 nodes in direction 2", {4, 2, 3}, {3, 2, 2}, 1e-2, 1, 0},
+        {"201 and 3 nodes in direction 0", {201, 2, 3}, {3, 2, 3}, 1e-2, 1, 0},
+        {"2 and 201 nodes in direction 1", {4, 2, 3}, {3, 201, 3}, 1e-2, 1, 0},
+        {"dt = 0, 1 + 0 steps", {4, 2, 3}, {3, 2, 3}, 0.0, 1, 0},
+        {"dt = 0.01, 0 + 1 steps", {4, 2, 3}, {3, 2, 3}, 1e-2, 0, 1},
+        {"dt = 0.01, 1 + -1 steps", {4, 2, 3}, {3, 2, 3}, 1e-2, 1, -1},
+    };
+    for (size_t k = 0; k < sizeof walls / sizeof *walls; k++) {
+        rb_fem_wall *wall;
+        rb_message why = {""};
+        rb_fem_wall_options o = {
+            .dt = walls[k].dt, .press = walls[k].press, .shear = walls[k].shear};
+        memcpy(o.fine, walls[k].fine, sizeof o.fine);
+        memcpy(o.coarse, walls[k].coarse, sizeof o.coarse);
+        CHECK_STATUS(rb_fem_wall_create(&o, &wall, &why),
+                     walls[k].part ? RB_EINVAL : RB_OK);
+        if (walls[k].part)
+            assert_non_null(strstr(why.text, walls[k].part));
+        assert_int_equal(wall == NULL, walls[k].part != NULL);
+        rb_fem_wall_free(wall);
+    }
+}
+
+/* Solvers that are none or do not come to an end say so with the step, and short memory;
+ * steps that are not solved have no problem. */
+static void failures_name_the_step(void **state)
+{
+    (void)state;
+    const rb_fem_wall_options o = small_wall(0);
     rb_fem_wall *wall;
-    rb_message why;
-    rb_fem_wall_options o = small_wall(0);
-    o.dt = 0.0;
-    CHECK_STATUS(rb_fem_wall_create(&o, &wall, &why), RB_EINVAL);
-    o = small_wall(0);
-    o.coarse[2] = 2;
-    CHECK_STATUS(rb_fem_wall_create(&o, &wall, &why), RB_EINVAL);
-    assert_non_null(strstr(why.text, "direction 2"));
-    o = small_wall(0);
-    o.press = 0;
-    CHECK_STATUS(rb_fem_wall_create(&o, &wall, &why), RB_EINVAL);
+    rb_fem_wall_step step;
+    rb_friction_problem problem;
+    rb_message why = {""};
+    int chosen;
+    CHECK_STATUS(rb_fem_wall_create(&o, &wall, NULL), RB_OK);
+    CHECK_STATUS(rb_fem_wall_problem(wall, 0, &problem), RB_EINVAL);
+    CHECK_STATUS(rb_fem_wall_select(wall, 1, &chosen), RB_EINVAL);
+    CHECK_STATUS(rb_fem_wall_advance(wall, "none", 1e-8, &step, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "wall, step 1: "));
+    assert_non_null(strstr(why.text, "'none'"));
+    for (int k = 0; k < 3; k++) {
+        alloc_fail_after(k);
+        const rb_status s = rb_fem_wall_advance(wall, "nsn-ac", 1e-8, &step, &why);
+        alloc_succeed();
+        CHECK_STATUS(s, RB_ENOMEM);
+        assert_string_equal(why.text, "wall, step 1: out of memory");
+    }
+    CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-300, &step, &why), RB_MAXITER);
+    assert_int_equal(strncmp(why.text, "wall, step 1: iteration limit, residual ", 40),
+                     0);
+    CHECK_STATUS(rb_fem_wall_problem(wall, -1, &problem), RB_EINVAL);
+    CHECK_STATUS(rb_fem_wall_problem(wall, 1, &problem), RB_EINVAL);
+    CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-8, &step, &why), RB_OK);
+    CHECK_STATUS(rb_fem_wall_select(wall, 0, &chosen), RB_EINVAL);
+    CHECK_STATUS(rb_fem_wall_select(wall, 1, &chosen), RB_OK);
+    assert_int_equal(chosen, 1);
+    alloc_fail_after(0);
+    const rb_status selected = rb_fem_wall_select(wall, 1, &chosen);
+    alloc_succeed();
+    CHECK_STATUS(selected, RB_ENOMEM);
+    for (int k = 0;; k++) {
+        alloc_fail_after(k);
+        const rb_status s = rb_fem_wall_problem(wall, 0, &problem);
+        const int refused = alloc_failed();
+        alloc_succeed();
+        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+        rb_friction_problem_free(&problem);
+        if (!refused)
+            break;
+    }
+    rb_fem_wall_free(wall);
+}
+
+/* Pressed until nothing moves any more it is as short as a column of its section; blocks
+ * that are rigid only move and turn. */
+static void displacements_are_those_of_the_blocks(void **state)
+{
+    (void)state;
+    for (int rigid = 0; rigid < 2; rigid++) {
+        rb_fem_wall_options o = small_wall(rigid);
+        rb_fem_wall *wall;
+        rb_fem_wall_step step;
+        o.press = 4;
+        o.shear = 0;
+        CHECK_STATUS(rb_fem_wall_create(&o, &wall, NULL), RB_OK);
+        for (int k = 0; k < (rigid ? 1 : 5); k++)
+            CHECK_STATUS(rb_fem_wall_advance(wall, "nsn-ac", 1e-9, &step, NULL), RB_OK);
+        const rb_fem_mesh *mesh = rb_fem_wall_mesh(wall);
+        double *u = rb_alloc(3, (size_t)mesh->nodes), top = 0.0, largest = 0.0;
+        int nodes = 0;
+        CHECK_STATUS(rb_fem_wall_displacements(wall, u), RB_OK);
+        for (int a = 0; a < mesh->nodes; a++) {
+            largest = fmax(largest, fabs(u[3 * a + 2]));
+            if (mesh->x[3 * a + 2] > 0.5 - 1e-9) {
+                top += u[3 * a + 2];
+                nodes++;
+            }
+        }
+        const double whole = 30e3 * 0.5 / (2.2e9 * 0.4 * 0.1);
+        if (!rigid)
+            CHECK_REL(top / nodes, -whole, 0.1, "height of the wall");
+        for (int e = 0; e < mesh->elements && rigid; e++)
+            for (int k = 1; k < 8; k++) { /* no distance changes, to first order */
+                const int a = 3 * mesh->node[8 * e], b = 3 * mesh->node[8 * e + k];
+                double stretch = 0.0;
+                for (int d = 0; d < 3; d++)
+                    stretch += (u[b + d] - u[a + d]) * (mesh->x[b + d] - mesh->x[a + d]);
+                CHECK_ABS(stretch, 0.0, 1e-12 * largest, "element %d", e);
+            }
+        assert_true(largest > 0.0);
+        alloc_fail_after(0);
+        const rb_status s = rb_fem_wall_displacements(wall, u);
+        alloc_succeed();
+        CHECK_STATUS(s, RB_ENOMEM);
+        free(u);
+        rb_fem_wall_free(wall);
+    }
 }
 
 static void memory_runs_out(void **state)
@@ -346,6 +461,8 @@ int main(void)
         cmocka_unit_test(selection_is_by_difficulty),
         cmocka_unit_test(rigid_wall_carries_its_load),
         cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(failures_name_the_step),
+        cmocka_unit_test(displacements_are_those_of_the_blocks),
         cmocka_unit_test(memory_runs_out),
         cmocka_unit_test(auto_turns_to_smoothing_where_newton_cycles),
     };

@@ -309,7 +309,8 @@ rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
     if (s == RB_OK)
         s = solve_step(wall, solver, tol, &info);
     if (s < RB_OK)
-        return rb_fail(why, s, "wall, step %d: %s", wall->solved + 1, info.msg.text);
+        return rb_fail(why, s, "wall, step %d: %s", wall->solved + 1,
+                       info.msg.text[0] ? info.msg.text : rb_status_text(s));
     describe_step(wall, &info, step);
     now->iterations = info.iters;
     for (int i = 0; i < wall->system.dofs; i++)
