@@ -82,10 +82,6 @@ static rb_status read_siconos(const char *path, rb_friction_problem *problem,
 {
     rb_io_friction file = {0};
     rb_status s = rb_io_siconos_read_friction(path, &file, why);
-    if (s == RB_OK &&
-        (file.W.rows != file.W.cols || file.W.rows != file.dimension * file.contacts))
-        s = rb_fail(why, RB_EFORMAT, "%s: W is %d x %d, expected %d rows and columns",
-                    path, file.W.rows, file.W.cols, file.dimension * file.contacts);
     if (s == RB_OK)
         s = adopt_siconos(&file, problem);
     rb_io_friction_free(&file);
@@ -235,9 +231,6 @@ rb_status rb_friction_soclcp_read(const char *path, rb_friction_soclcp_data *dat
     rb_io_soclcp file = {0};
     *data = (rb_friction_soclcp_data){0};
     rb_status s = rb_io_siconos_read_soclcp(path, &file, why);
-    if (s == RB_OK && (file.M.rows != file.n || file.M.cols != file.n))
-        s = rb_fail(why, RB_EFORMAT, "%s: M is %d x %d, expected %d rows and columns",
-                    path, file.M.rows, file.M.cols, file.n);
     if (s == RB_OK)
         s = adopt_soclcp(path, &file, data, why);
     rb_io_soclcp_free(&file);
