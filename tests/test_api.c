@@ -1,7 +1,9 @@
 /* Opaque handles: descriptions are complete, refusals are those of the case, and the
  * arrays satisfy the equations that they stand for. */
+#include "api/internal.h"
 #include "check.h"
 #include "rollbem/api.h"
+#include "rollbem/blas.h"
 #include "rollbem/case.h"
 
 #include <stdio.h>
@@ -486,6 +488,165 @@ static void a_sweep_is_its_cases(void **state)
     rb_api_free(study);
 }
 
+/* Descriptions of options and results that are none, and texts cut to their room. */
+static void descriptions_have_their_ends(void **state)
+{
+    char text[400];
+    int n, group = 0, k = 0;
+    (void)state;
+    const rb_option *o = rb_case_describe(&n);
+    while (o[group].kind != RB_OPTION_GROUP)
+        group++;
+    assert_null(rb_api_option(group, "name", text, 0));
+    assert_string_equal(rb_api_option(group, "kind", text, sizeof text), "group");
+    assert_string_equal(rb_api_option(group, "expected", text, sizeof text), "");
+    assert_string_equal(rb_api_option(group, "default", text, sizeof text), "");
+    assert_string_equal(rb_api_option(group, "choices", text, sizeof text), "");
+    while (strcmp(o[k].name, "formulation") != 0)
+        k++;
+    assert_string_equal(rb_api_option(k, "choices", text, sizeof text),
+                        "static steady transient");
+    assert_string_equal(rb_api_option(k, "choices", text, 11), "static ste");
+    assert_string_equal(rb_api_option(k, "choices", text, 7), "static");
+    assert_string_equal(rb_api_option(k, "default", text, sizeof text), "static");
+    assert_string_equal(rb_api_option(k, "kind", text, sizeof text), "choice");
+
+    const char *table = rb_rolling_result_tables[0].name;
+    assert_null(rb_api_result(table, -1, "name", text, sizeof text));
+    assert_null(rb_api_result(table, 0, "colour", text, sizeof text));
+    for (k = 0; k < rb_rolling_result_tables[0].results->n; k++) {
+        const rb_rolling_result *r = &rb_rolling_result_tables[0].results->row[k];
+        assert_string_equal(rb_api_result(table, k, "unit", text, sizeof text),
+                            r->unit ? r->unit : "");
+        assert_string_equal(rb_api_result(table, k, "kind", text, sizeof text),
+                            r->kind == RB_RESULT_WHOLE     ? "whole"
+                            : r->kind == RB_RESULT_SECONDS ? "seconds"
+                                                           : "number");
+    }
+    rb_api *a = rb_api_create();
+    assert_null(rb_api_value(a, "colour", text, sizeof text));
+    assert_null(rb_api_value(a, o[group].name, text, sizeof text));
+    assert_string_equal(rb_api_value(a, "mu", text, sizeof text), "0.3");
+    rb_api_free(a);
+    rb_api_free(NULL);
+}
+
+/* Before anything is solved, and of the wrong kind of case. */
+static void what_is_not_there_is_none(void **state)
+{
+    static const char *const names[] = {
+        "x",     "p",     "patch.normal_load", "patch.colour", "friction_power", "H",
+        "lcp.M", "lcp.z", "history.distance",  "curve.",       "curve.colour",   "F",
+        "colour"};
+    static const char *const numbers[] = {
+        "normal_load",   "curve.free_creepage", "curve.half_width", "history.half_width",
+        "task.residual", "error.normal_load",   "error.colour",     "colour"};
+    rb_api *a = rb_api_create();
+    const int zone[1] = {0};
+    char text[40];
+    int r, c;
+    (void)state;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        assert_null(rb_api_array(a, names[k], &r, &c));
+    assert_true(rb_api_lcp(a, 0, NULL, NULL, "lemke", 0) < 0);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        assert_true(isnan(rb_api_number(a, numbers[k])));
+    assert_null(rb_api_word(a, "solver"));
+    assert_null(rb_api_variable(a, 0, text, sizeof text));
+    const int refused[] = {rb_api_pivots(a), rb_api_newton(a), rb_api_guess(a, 1, zone),
+                           rb_api_stress(a, 3, 3, 0.0), rb_api_stress_maxima(a, 0.0)};
+    for (size_t k = 0; k < sizeof refused / sizeof *refused; k++)
+        assert_int_equal(refused[k], RB_EINVAL);
+    assert_string_equal(rb_api_message(a), "nothing is solved");
+    rb_api_free(a);
+
+    a = solved(wheel);
+    assert_int_equal(rb_api_pivots(a), RB_OK);
+    array(a, "lcp.q", 36, 1); /* below: its last variable */
+    assert_null(rb_api_variable(a, -1, text, sizeof text));
+    assert_string_equal(rb_api_variable(a, 2 * 36, text, sizeof text), "z0");
+    assert_null(rb_api_variable(a, 2 * 36 + 1, text, sizeof text));
+    assert_null(rb_api_array(a, "mesh.z0", &r, &c));
+    assert_null(rb_api_array(a, "patch.colour", &r, &c));
+    assert_true(isnan(rb_api_number(a, "error.normal_load"))); /* not asked for */
+    rb_api_free(a);
+}
+
+/* The solver that `solver` names, of the cones' too, and what a friction problem leaves.
+ */
+static void solvers_have_their_names(void **state)
+{
+    static const char *const cone[] = {"support", "halfplane", "load", "500",
+                                       "mu",      "0.3",       "zone", "2",
+                                       "solver",  "nsn-ac",    NULL};
+    static const double W[] = {2, 0, 0, 1}, v[] = {-1, 0.1}, mu = 0.3;
+    rb_api *a = solved(cone);
+    (void)state;
+    assert_string_equal(rb_api_word(a, "solver"), "nsn-ac");
+    assert_int_equal(rb_api_friction(a, 2, 1, W, v, &mu, "nsn-ac", 1e-10, 0), RB_OK);
+    assert_string_equal(rb_api_word(a, "task.solver"), "nsn-ac");
+    CHECK_MAX(rb_api_number(a, "task.scaled_residual"), 1e-10, "scaled");
+    CHECK_MAX(0.0, rb_api_number(a, "task.scaled_residual"), "a number");
+    assert_int_equal(rb_api_friction(a, 2, 0, W, v, &mu, "nsn-ac", 1e-10, 0), RB_EINVAL);
+    assert_non_null(strstr(rb_api_message(a), "0 contacts of dimension 2"));
+    assert_int_equal(rb_api_friction(a, 3, 1 << 30, W, v, &mu, "nsn-ac", 1e-10, 0),
+                     RB_EINVAL);
+    assert_int_equal(rb_api_friction(a, 2, 1, W, v, &(double){-1.0}, "nsn-ac", 1e-10, 0),
+                     RB_EINVAL);
+    rb_api_free(a);
+}
+
+/* Whoever uses BLAS beside has his threads again when the call is over. */
+static void calls_leave_the_threads_alone(void **state)
+{
+    const char *given = getenv("OPENBLAS_NUM_THREADS");
+    char before[20];
+    (void)state;
+    snprintf(before, sizeof before, "%s", given ? given : "");
+    for (int forced = 0; forced < 2; forced++) {
+        if (forced)
+            setenv("OPENBLAS_NUM_THREADS", "2", 1);
+        else
+            unsetenv("OPENBLAS_NUM_THREADS");
+        rb_blas_threads(2);
+        if (rb_blas_threads(2) != 2) /* a library with one thread */
+            skip();
+        rb_api_free(solved(wheel));
+        assert_int_equal(rb_blas_threads(1), 2);
+    }
+    if (given)
+        setenv("OPENBLAS_NUM_THREADS", before, 1);
+    else
+        unsetenv("OPENBLAS_NUM_THREADS");
+}
+
+/* As many arrays as there are names in all tables, twice for the errors, fit. */
+static void arrays_of_every_name_fit(void **state)
+{
+    rb_api *a = rb_api_create();
+    char name[20];
+    int names = 60; /* of meshes, matrices, pivots, steps, guesses, problems */
+    (void)state;
+    for (const rb_rolling_result_table *t = rb_rolling_result_tables; t->name; t++)
+        names +=
+            t->results->n *
+            (strcmp(t->name, "history") == 0 || strcmp(t->name, "curve") == 0 ? 2 : 1);
+    assert_true(names <= API_ARRAYS);
+    for (int k = 0; k < API_ARRAYS; k++) {
+        snprintf(name, sizeof name, "a%d", k);
+        assert_non_null(rb_api_make_array(a, name, 1, 1));
+    }
+    assert_null(rb_api_make_array(a, "one more", 1, 1));
+    assert_int_equal(rb_api_lcp(a, 1, (double[]){1.0}, (double[]){-1.0}, "lemke", 0),
+                     RB_ENOMEM);
+    rb_api_forget_arrays(a, "a1");
+    assert_null(rb_api_find_array(a, "a17"));
+    assert_non_null(rb_api_find_array(a, "a27"));
+    assert_int_equal(rb_api_lcp(a, 1, (double[]){1.0}, (double[]){-1.0}, "lemke", 0),
+                     RB_OK);
+    rb_api_free(a);
+}
+
 /* ---- Short memory ------------------------------------------------------------------ */
 
 static rb_status have_arrays(rb_api *a, const char *const *name)
@@ -625,6 +786,11 @@ int main(void)
         cmocka_unit_test(stress_is_known_at_points),
         cmocka_unit_test(problems_by_themselves_are_solved),
         cmocka_unit_test(a_sweep_is_its_cases),
+        cmocka_unit_test(descriptions_have_their_ends),
+        cmocka_unit_test(what_is_not_there_is_none),
+        cmocka_unit_test(solvers_have_their_names),
+        cmocka_unit_test(calls_leave_the_threads_alone),
+        cmocka_unit_test(arrays_of_every_name_fit),
         cmocka_unit_test(short_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,7 +12,7 @@ typedef struct {
     double *at; /* owned */
 } api_array;
 
-enum { API_ARRAYS = 160 };
+enum { API_ARRAYS = 256 }; /* more than all tables have names */
 
 struct rb_api {
     rb_case *words;
