@@ -193,11 +193,18 @@ static rb_status alternate(rb_contact_problem *p, int rounds, workspace *ws,
     return s;
 }
 
+/* Whether friction moves the normal problem or pressure the tangential one: by what they
+ * do to gaps and slips, or by friction's part of a given load. */
+static int is_coupled(const rb_contact_problem *p)
+{
+    return p->op->response.coupled ||
+           (p->load_given && rb_norm_1((size_t)p->n, p->load_T, 1) > 0.0);
+}
+
 /* From the zones of the state. */
 static rb_status from_zones(rb_contact_problem *p, workspace *ws, rb_contact_state *state)
 {
-    return p->op->response.coupled ? iterate(p, RB_BOTH, ws, state)
-                                   : alternate(p, 1, ws, state);
+    return is_coupled(p) ? iterate(p, RB_BOTH, ws, state) : alternate(p, 1, ws, state);
 }
 
 static void forget(const rb_contact_problem *p)
@@ -213,9 +220,9 @@ static rb_status from_nothing(rb_contact_problem *p, workspace *ws,
 {
     cold_start(p, state);
     forget(p);
-    const rb_status s =
-        alternate(p, p->op->response.coupled ? STAGGERED_ROUNDS : 1, ws, state);
-    if (s < 0 || !p->op->response.coupled)
+    const int coupled = is_coupled(p);
+    const rb_status s = alternate(p, coupled ? STAGGERED_ROUNDS : 1, ws, state);
+    if (s < 0 || !coupled)
         return s;
     forget(p);
     return iterate(p, RB_BOTH, ws, state);

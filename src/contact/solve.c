@@ -517,9 +517,9 @@ static rb_status solve_driven(rb_contact_problem *problem,
     return s;
 }
 
-/* Whether a given force is more than a layer that yields carries: RB_EINVAL.  The most is
- * that of full sliding, or, where the layer softens, the largest along the creep curve:
- * beyond it more slip carries less. */
+/* Whether a given force is more than a layer that does not harden carries: RB_EINVAL. The
+ * most is that of full sliding, or, where the layer softens, the largest along the creep
+ * curve: beyond it more slip carries less. */
 static rb_status check_layer(rb_contact_problem *problem,
                              const rb_contact_options *options, rb_contact_state *state,
                              rb_message *why)
@@ -551,7 +551,8 @@ static rb_status check_layer(rb_contact_problem *problem,
 }
 
 /* Whether a given force is more than friction carries under the load that the approach
- * brings, or the resistance to rolling more than friction can turn: RB_EINVAL.  Full
+ * brings, or the resistance to rolling more than friction can turn: RB_EINVAL.  A layer
+ * that hardens carries with more slip all that the friction of the surfaces does.  Full
  * sliding, which has that load, is solved in a state of its own, because the state that
  * failed is what the caller prints. */
 static rb_status check_capacity(rb_contact_problem *problem,
@@ -562,7 +563,8 @@ static rb_status check_capacity(rb_contact_problem *problem,
     double most = 0.0, resistance = 0.0;
     rb_status s = rb_contact_state_alloc(problem->n, &sliding);
 
-    if (s == RB_OK && problem->yield && problem->axle == 0.0) {
+    if (s == RB_OK && problem->yield && problem->hardening <= 0.0 &&
+        problem->axle == 0.0) {
         s = check_layer(problem, options, &sliding, why);
         rb_contact_state_free(&sliding);
         return s < 0 ? s : RB_OK;

@@ -1,0 +1,1148 @@
+/* Contact problems of random numbers, without a wheel: what every solver hands back is
+ * judged by loops over the matrices here, and so are the rows of the LCP, zones that are
+ * held, scales, forces and refusals. */
+#include "check.h"
+#include "contact/internal.h"
+
+#include <string.h>
+
+/* ---- Random problems --------------------------------------------------------------- */
+
+static uint64_t numbers;
+
+/* Of a generator that is the same everywhere. */
+static double uniform(double least, double most)
+{
+    numbers = numbers * 6364136223846793005u + 1442695040888963407u;
+    return least + (most - least) * ((double)(numbers >> 11) / 9007199254740992.0);
+}
+
+enum { LARGEST = 130, PADDING = 3 };
+/* Scales that are no powers of one another: a wrong one shows. */
+static const double STRESS = 240.0, GAP = 0.05, SLIP = 0.0125;
+
+/* F with rows behind those of the gaps, which nobody may read. */
+static double F[(LARGEST + PADDING) * 2 * LARGEST];
+static int ldf;
+
+typedef struct {
+    int n;
+    double mu, coupling;
+    int load_given, force_given, axle;
+    int yields; /* 0: no layer; 1: it hardens, 2: neither, 3: it softens */
+    int order;  /* what has yielded: 0 stays, 1 and 2 follow the material by this order */
+    int rolls;  /* slips are differences upstream, kernels those of a half-plane */
+} kind;
+
+/* Displacements at a distance d from a unit pressure, and from a unit friction at right
+ * angles to it. */
+static double normal_kernel(int d)
+{
+    return 1.0 - 0.5 * log(0.05 + d * d);
+}
+
+static double cross_kernel(const kind *of, int d)
+{
+    return of->coupling * ((d > 0) - (d < 0));
+}
+
+static void set_rolling_matrices(const kind *of, double *S)
+{
+    const int n = of->n;
+
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++) {
+            const int d = i - j;
+            F[i + j * ldf] = GAP / STRESS * (3.0 + normal_kernel(d));
+            F[i + (n + j) * ldf] = -GAP / STRESS * cross_kernel(of, d);
+            S[i + j * n] =
+                SLIP / STRESS * (cross_kernel(of, d) - cross_kernel(of, d + 1));
+            S[i + (n + j) * n] =
+                SLIP / STRESS * (normal_kernel(d) - normal_kernel(d + 1));
+        }
+}
+
+/* Gaps and slips fall with the distance; pressure makes slip and friction gaps, with the
+ * signs of two bodies, as far as `coupling` says. */
+static double *random_matrices(const kind *of)
+{
+    const int n = of->n;
+    double *S = rb_alloc((size_t)n, 2 * (size_t)n);
+
+    ldf = n + PADDING;
+    for (size_t k = 0; k < sizeof F / sizeof *F; k++)
+        F[k] = NAN;
+    if (of->rolls) {
+        set_rolling_matrices(of, S);
+        return S;
+    }
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++) {
+            const double near = exp(-0.7 * abs(i - j));
+            const double odd = (i - j) * near * of->coupling * uniform(0.8, 1.2);
+            F[i + j * ldf] = GAP / STRESS * near;
+            F[i + (n + j) * ldf] = GAP / STRESS * odd;
+            S[i + j * n] = SLIP / STRESS * -odd;
+            S[i + (n + j) * n] = SLIP / STRESS * near * (i <= j ? 1.0 : 0.6);
+        }
+    return S;
+}
+
+static void set_layer(const kind *of, rb_contact_problem *p)
+{
+    static const double recall[3][3] = {
+        {0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}, {4.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0}};
+    static const double hardening[] = {0.0, 0.3, 0.0, -0.1};
+
+    CHECK_STATUS(rb_contact_set_yield(p, 0.5 * of->mu * STRESS,
+                                      hardening[of->yields] * of->mu * STRESS / SLIP),
+                 RB_OK);
+    memcpy(p->recall, recall[of->order], sizeof p->recall);
+    p->own = recall[of->order][2];
+}
+
+static void random_problem(const kind *of, rb_contact_problem *p)
+{
+    const int n = of->n;
+    rb_contact_operator *op;
+    double *bound = rb_alloc((size_t)n, 1), total = 0.0;
+
+    CHECK_STATUS(rb_contact_operator_dense(n, F, n + PADDING, random_matrices(of), &op),
+                 RB_OK);
+    CHECK_STATUS(rb_contact_problem_alloc(op, p), RB_OK);
+    p->stress = STRESS;
+    p->gap_length = GAP;
+    p->slip_length = SLIP;
+    for (int i = 0; i < n; i++) {
+        const double x = n > 1 ? 2.0 * i / (n - 1) - 1.0 : 0.0;
+        p->d_N[i] = GAP * (2.5 * x * x - 1.5 + uniform(-0.1, 0.1));
+        p->d_T[i] = SLIP * uniform(-0.2, 0.2);
+        p->e_T[i] = uniform(0.9, 1.1);
+        p->load_N[i] = uniform(0.9, 1.1);
+        p->load_T[i] = uniform(-0.02, 0.02);
+        p->force_N[i] = uniform(-0.02, 0.02);
+        p->force_T[i] = uniform(0.9, 1.1);
+        p->moment_N[i] = x * p->load_N[i];
+        p->moment_T[i] = uniform(-0.02, 0.02);
+        bound[i] = of->mu * uniform(0.8, 1.0);
+        total += p->load_N[i];
+    }
+    bound[n / 2] = of->mu;
+    rb_contact_set_friction(p, of->mu, bound);
+    free(bound);
+    p->load_given = of->load_given;
+    p->load = 0.5 * STRESS * total;
+    p->delta = 0.1 * GAP;
+    p->xi = SLIP * uniform(-2.0, 2.0);
+    p->force_given = of->force_given > 0;
+    if (of->force_given == 1)
+        p->force_ratio = uniform(-0.6, 0.6);
+    if (of->force_given == 2)
+        p->force = 0.2 * of->mu * uniform(-1.0, 1.0) * p->load;
+    if (of->axle)
+        p->axle = 0.1 * of->mu;
+    if (of->yields)
+        set_layer(of, p);
+}
+
+static rb_contact_options options_of(rb_contact_solver solver)
+{
+    return (rb_contact_options){.solver = solver, .tol = 1e-9, .sliding = 10.0 * SLIP};
+}
+
+/* ---- The judge --------------------------------------------------------------------- */
+
+/* Gap and slip of element i, by a loop. */
+static void move(const rb_contact_problem *p, const rb_contact_state *s, int i,
+                 double *gap, double *slip)
+{
+    const double *S = rb_contact_operator_matrix(p->op).S;
+    const int n = p->n;
+
+    *gap = p->d_N[i] - s->delta;
+    *slip = p->d_T[i] + s->xi * p->e_T[i];
+    for (int j = 0; j < n; j++) {
+        *gap += F[i + j * ldf] * s->p[j] + F[i + (n + j) * ldf] * s->q[j];
+        *slip += S[i + j * n] * s->p[j] + S[i + (n + j) * n] * s->q[j];
+    }
+}
+
+static double sum_of(int n, const double *a, const double *x, const double *b,
+                     const double *y)
+{
+    double sum = 0.0;
+    for (int i = 0; i < n; i++)
+        sum += a[i] * x[i] + b[i] * y[i];
+    return sum;
+}
+
+/* Q - what was asked for, over what friction carries. */
+static double force_error(const rb_contact_problem *p, const rb_contact_state *s,
+                          double *most)
+{
+    const int n = p->n;
+    const double Q = sum_of(n, p->force_N, s->p, p->force_T, s->q);
+    const double M = sum_of(n, p->moment_N, s->p, p->moment_T, s->q);
+
+    *most = 0.0;
+    for (int i = 0; i < n; i++)
+        *most += p->bound[i] * (p->load_N[i] * s->p[i] + p->load_T[i] * s->q[i]);
+    return Q - p->force - p->force_ratio * *most + p->axle * M;
+}
+
+/* Of two that are not negative and of which one is zero. */
+static double conflict(double a, double b)
+{
+    return fabs(fmin(a, b));
+}
+
+/* Coulomb's law of a slip under the bound of |q|: a slip goes against q. */
+static double coulomb(double slip, double q, double bound)
+{
+    return fmax(conflict(fmax(slip, 0.0), bound + q),
+                conflict(fmax(-slip, 0.0), bound - q));
+}
+
+/* The natural residual of the scaled problem, from p, q, plastic, delta and xi. */
+static double residual_of(const rb_contact_problem *p, const rb_contact_state *s)
+{
+    const double mu_stress = STRESS * (p->mu > 0.0 ? p->mu : 1.0);
+    double worst = 0.0, most, next = 0.0, second = 0.0;
+
+    for (int i = p->n - 1; i >= 0; i--) {
+        double gap, slip;
+        move(p, s, i, &gap, &slip);
+        const double plastic = p->yield ? s->plastic[i] : 0.0;
+        const double q = s->q[i] / mu_stress, bound = p->bound[i] * s->p[i] / mu_stress;
+        worst = fmax(worst, conflict(gap / GAP, s->p[i] / STRESS));
+        worst = fmax(worst, coulomb((slip - plastic) / SLIP, q, bound));
+        if (p->yield) {
+            const double u =
+                p->recall[0] * next + p->recall[1] * second + p->own * fabs(plastic);
+            const double yield = fmax(p->yield[i] + p->hardening * u, 0.0);
+            worst = fmax(worst, coulomb(plastic / SLIP, q, yield / mu_stress));
+            second = next;
+            next = u;
+        }
+    }
+    if (p->load_given)
+        worst = fmax(
+            worst, fabs(sum_of(p->n, p->load_N, s->p, p->load_T, s->q) / p->load - 1.0));
+    if (p->force_given) {
+        const double error = force_error(p, s, &most);
+        worst = fmax(worst, fabs(error) / most);
+    }
+    return worst;
+}
+
+/* The zone of every element is what its tractions and slips do. */
+static void check_zones(const rb_contact_problem *p, const rb_contact_state *s)
+{
+    for (int i = 0; i < p->n; i++) {
+        const double limit = p->bound[i] * s->p[i], tiny = 1e-7 * STRESS;
+        double gap, slip;
+        move(p, s, i, &gap, &slip);
+        CHECK_ABS(s->lambda[i], s->zone[i] == RB_ZONE_STICK && !p->yield ? 0.0 : slip,
+                  1e-7 * SLIP, "lambda %d, zone %d", i, s->zone[i]);
+        if (s->zone[i] == RB_ZONE_SEPARATED)
+            CHECK_ABS(fabs(s->p[i]) + fabs(s->q[i]), 0.0, tiny, "separated %d", i);
+        if (s->zone[i] == RB_ZONE_SLIP_NEGATIVE)
+            CHECK_ABS(s->q[i], -limit, tiny, "slips to +x %d", i);
+        if (s->zone[i] == RB_ZONE_SLIP_POSITIVE)
+            CHECK_ABS(s->q[i], limit, tiny, "slips to -x %d", i);
+        if (s->zone[i] >= RB_ZONE_YIELD_NEGATIVE)
+            assert_true(p->yield && fabs(s->plastic[i]) > 0.0);
+    }
+}
+
+/* ---- Solutions --------------------------------------------------------------------- */
+
+/* How often a problem was solved, refused, and not solved. */
+typedef struct {
+    int solved, refused, failed;
+} outcome;
+
+static void check_outcome(const rb_contact_problem *p, const rb_contact_state *s,
+                          rb_status status, const rb_message *why, outcome *o)
+{
+    double Q, most;
+
+    assert_int_equal(s->status, status == RB_EINVAL ? s->status : status);
+    o->solved += status == RB_OK;
+    o->refused += status == RB_EINVAL;
+    o->failed += status > 0;
+    if (status == RB_OK) {
+        CHECK_MAX(residual_of(p, s), 1e-8, "n %d, mu %g, load %d, force %d", p->n, p->mu,
+                  p->load_given, p->force_given);
+        CHECK_ABS(s->residual, residual_of(p, s), 1e-10, "residual");
+        check_zones(p, s);
+    } else if (status == RB_EINVAL) {
+        const char *carries = strstr(why->text, "carries at most");
+        assert_non_null(carries);
+        assert_int_equal(sscanf(why->text, "force Q = %lf", &Q), 1);
+        assert_int_equal(sscanf(carries + strcspn(carries, "0123456789"), "%lf", &most),
+                         1);
+        assert_true(fabs(Q) > most);
+    } else {
+        assert_true(status > 0 && strstr(why->text, "scaled residual"));
+    }
+}
+
+/* By all solvers, cold and then warm. */
+static outcome check_solvers(const kind *of)
+{
+    static const rb_contact_solver solvers[] = {RB_SOLVER_AUTO, RB_SOLVER_LEMKE,
+                                                RB_SOLVER_NEWTON};
+    rb_contact_problem p;
+    rb_contact_state s;
+    outcome o = {0};
+
+    random_problem(of, &p);
+    CHECK_STATUS(rb_contact_state_alloc(of->n, &s), RB_OK);
+    for (int k = 0; k < 6; k++) {
+        const rb_contact_options options = options_of(solvers[k % 3]);
+        rb_message why = {""};
+        const rb_status status = rb_contact_solve(&p, &options, k >= 3, &s, &why);
+        check_outcome(&p, &s, status, &why, &o);
+    }
+    rb_contact_state_free(&s);
+    rb_contact_problem_free(&p);
+    return o;
+}
+
+static void every_solver_solves_random_problems(void **state)
+{
+    (void)state;
+    numbers = 1;
+    for (int k = 0; k < 120; k++) {
+        const kind of = {.n = 1 + k % 9,
+                         .mu = k % 5 ? 0.3 : 0.0,
+                         .coupling = k % 3 ? 0.05 : 0.0,
+                         .load_given = k / 2 % 2,
+                         .force_given = k % 5 ? k / 4 % 3 : 0,
+                         .axle = k % 5 && k / 4 % 3 && k % 7 == 0};
+        assert_int_equal(check_solvers(&of).solved, 6);
+    }
+}
+
+/* A small contact that yields cannot carry every force, and says so whoever solves it. */
+static void every_solver_solves_layers_that_yield(void **state)
+{
+    outcome all = {0};
+
+    (void)state;
+    numbers = 2;
+    for (int k = 0; k < 144; k++) {
+        const kind of = {.n = 1 + k % 7,
+                         .mu = 0.3,
+                         .coupling = k % 3 ? 0.05 : 0.0,
+                         .load_given = k / 2 % 2,
+                         .force_given = k / 4 % 3,
+                         .axle = k / 4 % 3 && k % 11 == 0,
+                         .yields = 1 + k / 12 % 3,
+                         .order = k / 36 % 3};
+        const outcome one = check_solvers(&of);
+        assert_true(one.solved == 6 || one.solved == 0);
+        all.solved += one.solved > 0;
+        all.refused += one.refused > 0;
+        all.failed += one.failed > 0;
+    }
+    assert_true(all.refused > 3 && all.refused < 15);
+    CHECK_MAX(all.failed, 1, "neither solved nor refused");
+}
+
+/* ---- Zones that are held ----------------------------------------------------------- */
+
+/* The linear problem of the zones, by its equations. */
+static void check_held(const rb_contact_problem *p, const rb_contact_state *s,
+                       const double *gaps, int round)
+{
+    static const double slope[] = {0.0, 0.0, -1.0, 1.0};
+    double most;
+
+    for (int i = 0; i < p->n; i++) {
+        double gap, slip;
+        move(p, s, i, &gap, &slip);
+        CHECK_ABS(gaps[i], gap, 1e-9 * GAP, "round %d: gap %d", round, i);
+        CHECK_ABS(s->lambda[i], slip, 1e-9 * SLIP, "round %d: slip %d", round, i);
+        if (s->zone[i] == RB_ZONE_SEPARATED)
+            assert_true(s->p[i] == 0.0 && s->q[i] == 0.0);
+        else
+            CHECK_ABS(gap, 0.0, 1e-9 * GAP, "round %d: contact %d", round, i);
+        if (s->zone[i] == RB_ZONE_STICK)
+            CHECK_ABS(slip, 0.0, 1e-9 * SLIP, "round %d: stick %d", round, i);
+        else
+            CHECK_ABS(s->q[i], slope[s->zone[i]] * p->bound[i] * s->p[i], 1e-9 * STRESS,
+                      "round %d: friction %d", round, i);
+    }
+    if (p->load_given)
+        CHECK_REL(sum_of(p->n, p->load_N, s->p, p->load_T, s->q), p->load, 1e-9, "load");
+    else
+        CHECK_ABS(s->delta, p->delta, 0.0, "approach");
+    if (p->force_given)
+        CHECK_ABS(force_error(p, s, &most), 0.0, 1e-9 * fabs(p->mu * p->load), "force");
+    else
+        CHECK_ABS(s->xi, p->xi, 0.0, "creepage");
+}
+
+/* One element after the other changes its zone: solves with an LU that is kept and what
+ * has changed since at its border, and, after larger changes, with a new one. */
+static void zones_may_change_one_by_one(void **state)
+{
+    (void)state;
+    numbers = 3;
+    for (int k = 0; k < 8; k++) {
+        const kind of = {.n = 24,
+                         .mu = 0.3,
+                         .coupling = 0.05,
+                         .load_given = k % 2,
+                         .force_given = k / 2 % 2,
+                         .axle = k / 4};
+        rb_contact_problem p;
+        rb_contact_state s;
+        double gap[24];
+        random_problem(&of, &p);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        for (int i = 0; i < of.n; i++)
+            s.zone[i] = i % 3 ? RB_ZONE_STICK : RB_ZONE_SLIP_NEGATIVE;
+        for (int round = 0; round < 40; round++) {
+            for (int c = round % 10 ? 1 : of.n / 2; c > 0; c--)
+                s.zone[1 + (int)uniform(0.0, of.n - 1.0)] = (int)uniform(0.0, 4.0);
+            s.zone[0] = RB_ZONE_STICK; /* a given force moves what sticks */
+            if (round == 20)
+                rb_contact_set_friction(&p, 0.2, NULL);
+            CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_OK);
+            check_held(&p, &s, gap, round);
+        }
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
+/* Without a contact nothing can carry a load, without stick the creepage does not change
+ * a force. */
+static void zones_that_determine_nothing_are_singular(void **state)
+{
+    (void)state;
+    numbers = 4;
+    for (int k = 0; k < 2; k++) {
+        const kind of = {.n = 3, .mu = 0.3, .load_given = !k, .force_given = k};
+        rb_contact_problem p;
+        rb_contact_state s;
+        double gap[3];
+        random_problem(&of, &p);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        for (int i = 0; i < of.n; i++)
+            s.zone[i] = k ? RB_ZONE_SLIP_POSITIVE : RB_ZONE_SEPARATED;
+        CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_SINGULAR);
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
+/* ---- Products alone ---------------------------------------------------------------- */
+
+/* The same matrices behind products; the inverse is that of a diagonal. */
+typedef struct {
+    int n;
+    double *S, *gap, *slip;
+    int freed;
+} by_products;
+
+static void apply(void *context, const double *r, const double **gap, const double **slip)
+{
+    by_products *k = context;
+    const int n = k->n;
+
+    for (int i = 0; i < n; i++) {
+        k->gap[i] = k->slip[i] = 0.0;
+        for (int j = 0; j < 2 * n; j++) {
+            k->gap[i] += F[i + j * ldf] * r[j];
+            k->slip[i] += k->S[i + j * n] * r[j];
+        }
+    }
+    *gap = k->gap;
+    *slip = k->slip;
+}
+
+static void divide(void *context, int tangential, double *line)
+{
+    const by_products *k = context;
+
+    for (int i = 0; i < k->n; i++)
+        line[i] *= STRESS / (tangential ? SLIP : GAP);
+}
+
+static void forget(void *context)
+{
+    by_products *k = context;
+    free(k->S);
+    free(k->gap);
+    k->freed++;
+}
+
+/* p, its operator replaced by products of the same matrices. */
+static void use_products(rb_contact_problem *p, by_products *k)
+{
+    const size_t n = (size_t)p->n;
+    rb_contact_operator *op;
+
+    *k = (by_products){p->n, rb_alloc(n, 2 * n), rb_alloc(n, 2), NULL, 0};
+    k->slip = k->gap + n;
+    memcpy(k->S, rb_contact_operator_matrix(p->op).S, 2 * n * n * sizeof(double));
+    const rb_contact_products by = {apply, divide, forget, k};
+    CHECK_STATUS(rb_contact_operator_products(p->n, &by, &op), RB_OK);
+    rb_contact_operator_free(p->op);
+    p->op = op;
+    p->rounding = 1e-9;
+}
+
+/* Loops need a matrix: the judge looks at a problem that has it. */
+static void products_give_what_matrices_do(void **state)
+{
+    int refused = 0;
+
+    (void)state;
+    for (int k = 0; k < 48; k++) {
+        const kind of = {.n = 1 + k % 11,
+                         .mu = k % 7 ? 0.3 : 0.0,
+                         .coupling = k % 3 ? 0.1 : 0.0,
+                         .load_given = k % 2,
+                         .force_given = k % 7 ? k / 2 % 3 : 0};
+        const rb_contact_options options = options_of(RB_SOLVER_AUTO);
+        rb_contact_problem p, with;
+        rb_contact_state s;
+        by_products by;
+        outcome o = {0};
+        rb_message why = {""};
+        numbers = 100 + (uint64_t)k;
+        random_problem(&of, &with);
+        numbers = 100 + (uint64_t)k;
+        random_problem(&of, &p);
+        use_products(&p, &by);
+        assert_null(rb_contact_operator_matrix(p.op).F);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        for (int warm = 0; warm < 2; warm++) {
+            const rb_status status = rb_contact_solve(&p, &options, warm, &s, &why);
+            check_outcome(&with, &s, status, &why, &o);
+        }
+        assert_int_equal(o.failed, 0);
+        refused += o.refused > 0;
+        const rb_contact_response unit = rb_contact_operator_response(p.op);
+        CHECK_REL(unit.gap, GAP / STRESS, 1e-14, "gap");
+        CHECK_REL(unit.slip, SLIP / STRESS, 1e-14, "slip");
+        assert_int_equal(unit.coupled, of.coupling > 0.0 && of.n > 1);
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+        rb_contact_problem_free(&with);
+        assert_int_equal(by.freed, 1);
+    }
+    CHECK_MAX(refused, 1, "forces that nothing carries");
+}
+
+/* Large friction, where Newton's steps end from nearly the same friction only; the scales
+ * and bounds of the problem stay what they were. */
+static void products_follow_friction(void **state)
+{
+    static const struct {
+        int n, load, force;
+        double mu, coupling;
+        uint64_t seed;
+    } all[] = {{32, 0, 1, 100.0, 0.3, 102},
+               {47, 1, 0, 10.0, 0.6, 117},
+               {33, 1, 1, 1e3, 0.4, 103}};
+
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        const kind of = {.n = all[k].n,
+                         .mu = all[k].mu,
+                         .coupling = all[k].coupling,
+                         .load_given = all[k].load,
+                         .force_given = all[k].force,
+                         .rolls = 1};
+        const rb_contact_options options = options_of(RB_SOLVER_AUTO);
+        rb_contact_problem p, with;
+        rb_contact_state s;
+        by_products by;
+        outcome o = {0};
+        rb_message why = {""};
+        numbers = all[k].seed;
+        random_problem(&of, &with);
+        numbers = all[k].seed;
+        random_problem(&of, &p);
+        use_products(&p, &by);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        assert_true(rb_contact_newton(&p, 0, &s) > 0);
+        check_outcome(&with, &s, rb_contact_solve(&p, &options, 0, &s, &why), &why, &o);
+        assert_true(k == 2 || o.solved == 1);
+        CHECK_ABS(p.mu, of.mu, 0.0, "friction");
+        for (int i = 0; i < of.n; i++)
+            CHECK_ABS(p.bound[i], with.bound[i], 0.0, "bound %d", i);
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+        rb_contact_problem_free(&with);
+    }
+}
+
+/* ---- Newton's trace ---------------------------------------------------------------- */
+
+static void count_steps(const rb_contact_state *state, void *context)
+{
+    int *steps = context;
+    for (int i = 0; i < state->n; i++)
+        assert_in_range(state->zone[i], RB_ZONE_SEPARATED, RB_ZONE_YIELD_POSITIVE);
+    ++*steps;
+}
+
+static void every_step_is_shown(void **state)
+{
+    (void)state;
+    numbers = 5;
+    for (int yields = 0; yields < 2; yields++) {
+        const kind of = {.n = 7, .mu = 0.3, .coupling = 0.05, .yields = yields};
+        const rb_contact_options options = options_of(RB_SOLVER_NEWTON);
+        rb_contact_problem p;
+        rb_contact_state s;
+        int steps = 0;
+        random_problem(&of, &p);
+        p.trace = count_steps;
+        p.trace_context = &steps;
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, NULL), RB_OK);
+        assert_true(steps > 1);
+        assert_int_equal(s.iterations, steps);
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
+/* ---- The LCP ----------------------------------------------------------------------- */
+
+/* What every variable of a problem with a layer means, by its name. */
+typedef struct {
+    double gap, slip, plus, minus, yield_plus, yield_minus;
+} meaning;
+
+/* Places of the pairs + and - behind the pressures: by blocks, or next to each other. */
+static int place(const rb_contact_lcp *lcp, int n, int group, int i, int sign)
+{
+    return lcp->form == RB_LCP_KWAK ? n + 2 * n * group + 2 * i + sign
+                                    : n + 2 * n * group + n * sign + i;
+}
+
+static void check_lcp_rows(const rb_contact_problem *p, const rb_contact_lcp *lcp,
+                           const double *z, const double *w)
+{
+    const int n = p->n, kwak = lcp->form == RB_LCP_KWAK;
+    const double o = lcp->mirrored ? -1.0 : 1.0;
+    double next = 0.0, second = 0.0, most;
+    rb_contact_state s;
+
+    CHECK_STATUS(rb_contact_state_alloc(n, &s), RB_OK);
+    rb_contact_lcp_recover(p, lcp, z, &s);
+    assert_int_equal(s.lcp_form, lcp->form);
+    for (int i = n - 1; i >= 0; i--) {
+        double gap, slip, s_plus = 0.0, s_minus = 0.0;
+        move(p, &s, i, &gap, &slip);
+        CHECK_REL(s.p[i], STRESS * z[i], 1e-14, "p %d", i);
+        CHECK_ABS(w[i] * lcp->w_scale[i], gap, 1e-9 * GAP, "gap %d", i);
+        if (p->yield) {
+            const int plus = place(lcp, n, 1, i, 0), minus = place(lcp, n, 1, i, 1);
+            s_plus = SLIP * z[plus];
+            s_minus = SLIP * z[minus];
+            CHECK_ABS(s.plastic[i], o * (s_plus - s_minus), 1e-12 * SLIP, "plastic %d",
+                      i);
+            const double u =
+                p->recall[0] * next + p->recall[1] * second + p->own * (s_plus + s_minus);
+            const double yield = p->yield[i] + p->hardening * u;
+            second = next;
+            next = u;
+            CHECK_ABS(w[plus] * lcp->w_scale[plus], yield + o * s.q[i], 1e-9 * STRESS,
+                      "+ %d", i);
+            CHECK_ABS(w[minus] * lcp->w_scale[minus], yield - o * s.q[i], 1e-9 * STRESS,
+                      "- %d", i);
+        }
+        const int first = place(lcp, n, 0, i, 0), other = place(lcp, n, 0, i, 1);
+        const double plus = p->bound[i] * s.p[i] + o * s.q[i],
+                     minus = p->bound[i] * s.p[i] - o * s.q[i];
+        slip -= s.plastic[i];
+        if (kwak) {
+            CHECK_ABS(SLIP * (z[first] - z[other]), slip, 1e-9 * SLIP, "slip %d", i);
+            CHECK_ABS(w[first] * lcp->w_scale[first], plus, 1e-9 * STRESS, "gamma+ %d",
+                      i);
+        } else {
+            CHECK_ABS(w[first] * lcp->w_scale[first] - SLIP * z[other], o * slip,
+                      1e-9 * SLIP, "slip %d", i);
+            CHECK_ABS(z[first] * lcp->z_scale[first], plus, 1e-9 * STRESS, "gamma+ %d",
+                      i);
+        }
+        CHECK_ABS(w[other] * lcp->w_scale[other], minus, 1e-9 * STRESS, "gamma- %d", i);
+    }
+    if (p->load_given)
+        CHECK_ABS(w[lcp->size - 1 - p->force_given] *
+                      lcp->w_scale[lcp->size - 1 - p->force_given],
+                  sum_of(n, p->load_N, s.p, p->load_T, s.q) - p->load, 1e-9 * p->load,
+                  "load");
+    if (p->force_given)
+        CHECK_ABS(w[lcp->size - 1] * lcp->w_scale[lcp->size - 1],
+                  (lcp->xi0 > 0.0 ? 1.0 : -1.0) * force_error(p, &s, &most),
+                  1e-9 * p->load, "force");
+    rb_contact_state_free(&s);
+}
+
+static void every_row_of_the_lcp_is_its_equation(void **state)
+{
+    (void)state;
+    numbers = 6;
+    for (int k = 0; k < 144; k++) {
+        const kind of = {.n = 1 + k % 5,
+                         .mu = 0.3,
+                         .coupling = 0.1,
+                         .load_given = k % 2,
+                         .force_given = k / 2 % 2,
+                         .axle = k / 2 % 2,
+                         .yields = k / 12 % 4,
+                         .order = k / 48};
+        const rb_contact_lcp_form form = k / 4 % 3 == 2 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+        double z[40], w[40];
+        rb_contact_problem p;
+        rb_contact_lcp lcp;
+        random_problem(&of, &p);
+        CHECK_STATUS(
+            rb_contact_lcp_create(&p, form, k / 4 % 3, k % 5 ? SLIP : -SLIP, &lcp, NULL),
+            RB_OK);
+        assert_int_equal(lcp.size, (of.yields ? 5 : 3) * of.n + k % 2 + k / 2 % 2);
+        assert_int_equal(lcp.mirrored, k / 4 % 3 == 1);
+        for (int i = 0; i < lcp.size; i++)
+            z[i] = uniform(0.0, 1.0);
+        rb_lcp_residual(&(rb_lcp_problem){lcp.size, lcp.M, lcp.size, lcp.b}, z, w);
+        check_lcp_rows(&p, &lcp, z, w);
+        rb_contact_lcp_free(&lcp);
+        rb_contact_problem_free(&p);
+    }
+}
+
+/* Names on two elements, w then z; of a layer too. */
+static void variables_have_names(void **state)
+{
+    static const char *const names[][26] = {
+        {"gap[1]",      "gap[2]",      "lambda+[1]", "lambda+[2]",  "gamma-[1]",
+         "gamma-[2]",   "yield+[1]",   "yield+[2]",  "yield-[1]",   "yield-[2]",
+         "force[1]",    "force[2]",    "p[1]",       "p[2]",        "gamma+[1]",
+         "gamma+[2]",   "lambda-[1]",  "lambda-[2]", "plastic+[1]", "plastic+[2]",
+         "plastic-[1]", "plastic-[2]", "motion[1]",  "motion[2]",   "z0"},
+        {"gap[1]",      "gap[2]",      "lambda-[1]", "lambda-[2]",  "gamma+[1]",
+         "gamma+[2]",   "yield-[1]",   "yield-[2]",  "yield+[1]",   "yield+[2]",
+         "force[1]",    "force[2]",    "p[1]",       "p[2]",        "gamma-[1]",
+         "gamma-[2]",   "lambda+[1]",  "lambda+[2]", "plastic-[1]", "plastic-[2]",
+         "plastic+[1]", "plastic+[2]", "motion[1]",  "motion[2]",   "z0"},
+        {"gap[1]",      "gap[2]",      "gamma+[1]",  "gamma-[1]",   "gamma+[2]",
+         "gamma-[2]",   "yield+[1]",   "yield-[1]",  "yield+[2]",   "yield-[2]",
+         "force[1]",    "force[2]",    "p[1]",       "p[2]",        "lambda+[1]",
+         "lambda-[1]",  "lambda+[2]",  "lambda-[2]", "plastic+[1]", "plastic-[1]",
+         "plastic+[2]", "plastic-[2]", "motion[1]",  "motion[2]",   "z0"}};
+
+    (void)state;
+    numbers = 7;
+    for (int k = 0; k < 6; k++) {
+        const kind of = {
+            .n = 2, .mu = 0.3, .load_given = 1, .force_given = 1, .yields = k / 3};
+        char name[RB_CONTACT_VARIABLE];
+        rb_contact_problem p;
+        rb_contact_lcp lcp;
+        random_problem(&of, &p);
+        CHECK_STATUS(rb_contact_lcp_create(&p, k % 3 == 2 ? RB_LCP_KWAK : RB_LCP_PIVOTED,
+                                           k % 3, SLIP, &lcp, NULL),
+                     RB_OK);
+        for (int v = 0; v <= 2 * lcp.size; v++) {
+            const int half = v / lcp.size * 12, at = v % lcp.size;
+            const int skipped = !of.yields && at >= 6 ? 4 : 0; /* the layer's */
+            assert_string_equal(rb_contact_lcp_variable(&lcp, of.n, v, name),
+                                names[k % 3][half + at + skipped * (half < 24)]);
+        }
+        rb_contact_lcp_free(&lcp);
+        rb_contact_problem_free(&p);
+    }
+}
+
+/* The state tells which LCP it came from. */
+static void the_lcp_of_a_state_is_the_one_that_gave_it(void **state)
+{
+    (void)state;
+    numbers = 8;
+    for (int k = 0; k < 3; k++) {
+        const kind of = {.n = 4, .mu = 0.3, .coupling = 0.05, .force_given = 2};
+        rb_contact_options options = options_of(k ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON);
+        rb_contact_problem p;
+        rb_contact_state s;
+        rb_contact_lcp lcp;
+        options.lcp_form = k == 2 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+        random_problem(&of, &p);
+        p.force = 0.1 * of.mu * STRESS;
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, NULL), RB_OK);
+        assert_int_equal(s.solver, k ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON);
+        for (int with = 0; with < 2; with++) {
+            CHECK_STATUS(rb_contact_lcp_first(&p, &options, with ? &s : NULL, &lcp, NULL),
+                         RB_OK);
+            assert_int_equal(lcp.form, options.lcp_form);
+            CHECK_ABS(lcp.xi0, -options.sliding, 0.0, "against a positive force");
+            assert_int_equal(lcp.mirrored, k < 2);
+            rb_contact_lcp_free(&lcp);
+        }
+        s.solver = RB_SOLVER_LEMKE;
+        s.lcp_form = RB_LCP_PIVOTED;
+        s.mirrored = 0;
+        s.xi0 = 3.0;
+        CHECK_STATUS(rb_contact_lcp_first(&p, &options, &s, &lcp, NULL), RB_OK);
+        assert_int_equal(lcp.mirrored, 0);
+        CHECK_ABS(lcp.xi0, 3.0, 0.0, "of the state");
+        rb_contact_lcp_free(&lcp);
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
+/* ---- Residuals, forces ------------------------------------------------------------- */
+
+static void residuals_and_forces_are_sums_over_elements(void **state)
+{
+    (void)state;
+    numbers = 9;
+    for (int k = 0; k < 64; k++) {
+        const kind of = {.n = 1 + k % 6,
+                         .mu = k % 5 ? 0.3 : 0.0,
+                         .coupling = 0.1,
+                         .load_given = k % 2,
+                         .force_given = k % 5 ? k / 2 % 3 : 0,
+                         .axle = k % 5 && k / 2 % 3,
+                         .yields = k % 5 ? k / 8 % 4 : 0,
+                         .order = k % 3};
+        rb_contact_problem p;
+        rb_contact_state s;
+        rb_contact_violation v;
+        double most, gap = 0.0, slip, friction = 0.0;
+        random_problem(&of, &p);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        for (int i = 0; i < of.n; i++) {
+            s.p[i] = STRESS * uniform(-0.2, 1.0);
+            s.q[i] = STRESS * uniform(-0.5, 0.5);
+            s.plastic[i] = p.yield ? SLIP * uniform(-1.0, 1.0) : 0.0;
+        }
+        s.delta = GAP * uniform(-1.0, 1.0);
+        s.xi = SLIP * uniform(-1.0, 1.0);
+        for (int i = 0; i < of.n; i++) {
+            double one;
+            move(&p, &s, i, &one, &slip);
+            gap = fmax(gap, GAP * conflict(one / GAP, s.p[i] / STRESS));
+            friction = fmax(friction, fabs(s.q[i]) - p.bound[i] * s.p[i]);
+        }
+        CHECK_STATUS(rb_contact_residual(&p, &s, &v), RB_OK);
+        CHECK_REL(v.scaled, residual_of(&p, &s), 1e-12, "residual");
+        CHECK_REL(v.gap, gap, 1e-12, "gap");
+        if (!p.yield)
+            CHECK_REL(v.friction, friction, 1e-12, "friction");
+        else
+            assert_true(v.friction >= friction);
+        CHECK_REL(rb_contact_load(&p, &s), sum_of(of.n, p.load_N, s.p, p.load_T, s.q),
+                  1e-12, "P");
+        CHECK_REL(rb_contact_force(&p, &s), sum_of(of.n, p.force_N, s.p, p.force_T, s.q),
+                  1e-12, "Q");
+        CHECK_REL(rb_contact_moment(&p, &s),
+                  sum_of(of.n, p.moment_N, s.p, p.moment_T, s.q), 1e-11, "M");
+        force_error(&p, &s, &most);
+        CHECK_ABS(rb_contact_capacity(&p, &s), most, 1e-12 * STRESS * of.n, "mu P");
+        double *const spoilt[] = {&s.p[0], &s.q[of.n - 1], &s.delta, &s.xi};
+        for (int bad = 0; bad < 4; bad++) {
+            const double kept = *spoilt[bad];
+            *spoilt[bad] = NAN;
+            CHECK_STATUS(rb_contact_residual(&p, &s, &v), RB_OK);
+            assert_true(isinf(v.scaled));
+            *spoilt[bad] = kept;
+        }
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
+/* ---- Cones ------------------------------------------------------------------------- */
+
+static int knows_it(const char *name)
+{
+    return strcmp(name, "it") == 0;
+}
+
+/* Tractions that tell their places; what has been asked for must be u = W r + q. */
+static rb_status number_tractions(const char *name, const rb_contact_cone *cone,
+                                  double tol, double *r, int *iterations, rb_message *why)
+{
+    (void)why;
+    assert_string_equal(name, "it");
+    assert_true(tol > 0.0 && tol < 1e-9);
+    for (int i = 0; i < 2 * cone->n; i++)
+        r[i] = 0.1 * (i + 1);
+    *iterations += 7;
+    return RB_OK;
+}
+
+static void cones_move_as_the_problem_does(void **state)
+{
+    (void)state;
+    numbers = 10;
+    const kind of = {.n = 5, .mu = 0.3, .coupling = 0.1};
+    static const rb_contact_cone_solvers by = {knows_it, number_tractions};
+    rb_contact_options options = options_of(RB_SOLVER_CONE);
+    rb_contact_problem p;
+    rb_contact_state s;
+    rb_contact_cone cone;
+    rb_message why = {""};
+    random_problem(&of, &p);
+    CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+    s.delta = p.delta;
+    s.xi = p.xi;
+    s.iterations = 1;
+    const struct {
+        const rb_contact_cone_solvers *by;
+        const char *name, *said;
+    } refused[] = {{NULL, "it", "'it'"}, {&by, NULL, "''"}, {&by, "that", "'that'"}};
+    for (int k = 0; k < 3; k++) {
+        options.cone_solvers = refused[k].by;
+        options.cone_solver = refused[k].name;
+        CHECK_STATUS(rb_contact_cone_solve(&p, &options, &s, &why), RB_EINVAL);
+        assert_non_null(strstr(why.text, refused[k].said));
+    }
+    options.cone_solver = "it";
+    CHECK_STATUS(rb_contact_cone_solve(&p, &options, &s, &why), RB_OK);
+    assert_int_equal(s.iterations, 8);
+    CHECK_STATUS(rb_contact_cone_create(&p, s.delta, s.xi, &cone, &why), RB_OK);
+    for (int i = 0; i < of.n; i++) {
+        double gap, slip, u[2] = {cone.q[2 * i], cone.q[2 * i + 1]};
+        move(&p, &s, i, &gap, &slip);
+        CHECK_REL(s.p[i], STRESS * 0.1 * (2 * i + 1), 1e-14, "p %d", i);
+        CHECK_REL(s.q[i], STRESS * 0.1 * (2 * i + 2), 1e-14, "q %d", i);
+        CHECK_ABS(cone.mu[i], p.bound[i], 0.0, "mu %d", i);
+        for (int j = 0; j < 2 * of.n; j++)
+            for (int d = 0; d < 2; d++)
+                u[d] += cone.W[2 * i + d + j * 2 * of.n] * 0.1 * (j + 1);
+        CHECK_REL(GAP * u[0], gap, 1e-11, "gap %d", i);
+        CHECK_REL(SLIP * u[1], slip, 1e-11, "slip %d", i);
+    }
+    rb_contact_cone_free(&cone);
+    rb_contact_state_free(&s);
+    rb_contact_problem_free(&p);
+}
+
+/* ---- Refusals ---------------------------------------------------------------------- */
+
+/* What needs matrices says so of products. */
+static void products_have_no_lcp(void **state)
+{
+    (void)state;
+    numbers = 11;
+    const kind of = {.n = 4, .mu = 0.3, .coupling = 0.05, .yields = 1};
+    const rb_contact_options options = options_of(RB_SOLVER_AUTO);
+    rb_contact_problem p;
+    rb_contact_state s;
+    rb_contact_lcp lcp;
+    rb_contact_cone cone;
+    by_products by;
+    rb_message why = {""};
+    random_problem(&of, &p);
+    use_products(&p, &by);
+    CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+    CHECK_STATUS(rb_contact_lcp_create(&p, RB_LCP_PIVOTED, 0, 1.0, &lcp, &why),
+                 RB_EINVAL);
+    assert_string_equal(why.text, "4 contact elements are too many for an LCP");
+    CHECK_STATUS(rb_contact_cone_create(&p, 0.0, 0.0, &cone, &why), RB_EINVAL);
+    assert_string_equal(why.text, "4 elements are too many for a dense W");
+    CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, &why), RB_EINVAL);
+    assert_string_equal(why.text,
+                        "4 contact elements are too many for a layer that yields");
+    rb_contact_state_free(&s);
+    rb_contact_problem_free(&p);
+}
+
+/* Kwak's form has the inverse of A F_TT. */
+static void kwaks_form_needs_an_inverse(void **state)
+{
+    (void)state;
+    const int n = 2;
+    double *S = rb_alloc(2, 4);
+    rb_contact_operator *op;
+    rb_contact_problem p;
+    rb_contact_lcp lcp;
+    rb_message why = {""};
+    for (int k = 0; k < 8; k++)
+        F[k] = k % 3 == 0 ? 1.0 : 0.0;
+    S[4] = S[5] = S[6] = S[7] = 1.0;
+    CHECK_STATUS(rb_contact_operator_dense(n, F, n, S, &op), RB_OK);
+    CHECK_STATUS(rb_contact_problem_alloc(op, &p), RB_OK);
+    CHECK_STATUS(rb_contact_lcp_create(&p, RB_LCP_KWAK, 0, 1.0, &lcp, &why), RB_SINGULAR);
+    assert_non_null(strstr(why.text, "LCP of 2 contact elements: "));
+    assert_null(lcp.M);
+    rb_contact_problem_free(&p);
+}
+
+/* A force beyond friction, a layer's stress, or the resistance to rolling beyond
+ * friction. */
+static void forces_that_nothing_carries_are_refused(void **state)
+{
+    static const struct {
+        int yields;
+        double force, ratio, axle;
+        const char *said;
+    } all[] = {{0, 1.1, 0.0, 0.0, "friction carries at most mu P = "},
+               {0, -1.1, 0.0, 0.0, "friction carries at most mu P = "},
+               {1, 0.98, 0.0, 0.0,
+                NULL}, /* the more slip, the more a layer that hardens carries */
+               {2, 0.98, 0.0, 0.0, "the interface yields, and carries at most "},
+               {2, -0.98, 0.0, 0.0, "the interface yields, and carries at most "},
+               {2, 0.0, 0.98, 0.0, "the interface yields, and carries at most "},
+               {3, 0.98, 0.0, 0.0, "the interface yields, and carries at most "},
+               {3, 0.0, -0.98, 0.0, "the interface yields, and carries at most "},
+               {0, 0.0, 0.0, 30.0, "the resistance to rolling M/R = "}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        const kind of = {.n = 6,
+                         .mu = 0.3,
+                         .coupling = 0.02,
+                         .load_given = 1,
+                         .force_given = 1,
+                         .yields = all[k].yields};
+        rb_contact_options options = options_of(RB_SOLVER_AUTO);
+        rb_contact_problem p;
+        rb_contact_state s;
+        rb_message why = {""};
+        numbers = 12;
+        random_problem(&of, &p);
+        for (int i = 0; i < of.n; i++) { /* the pressure leans to one side */
+            p.moment_N[i] += 0.1 * p.load_N[i];
+            p.bound[i] = of.mu;
+        }
+        p.force = all[k].force * of.mu * p.load;
+        p.force_ratio = all[k].ratio;
+        p.axle = all[k].axle;
+        options.force_unit = " N/mm";
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        const rb_status status = rb_contact_solve(&p, &options, 0, &s, &why);
+        if (all[k].said) {
+            if (status != RB_EINVAL || !strstr(why.text, all[k].said) ||
+                !strstr(why.text, " N/mm"))
+                fail_msg("%zu: %d, %s", k, status, why.text);
+        } else {
+            assert_true(status >= 0);
+        }
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
+/* ---- Memory ------------------------------------------------------------------------ */
+
+enum { PROBLEMS = 6 };
+
+/* Of every kind: matrices, products, layers, both forms of the LCP, a start from pairs.
+ */
+static kind kind_of(int k)
+{
+    return (kind){.n = k == 5 ? LARGEST : 4,
+                  .mu = 0.3,
+                  .coupling = 0.05,
+                  .load_given = k == 1,
+                  .force_given = k == 1,
+                  .yields = k == 2 || k == 4};
+}
+
+static rb_status create_operator(int by_matrix)
+{
+    by_products by = {.n = 2};
+    const rb_contact_products products = {apply, divide, forget, &by};
+    rb_contact_operator *op = NULL;
+    rb_contact_problem p;
+
+    by.S = rb_alloc(2, 4);
+    by.gap = rb_alloc(2, 2);
+    if (!by.S || !by.gap) {
+        forget(&by);
+        return RB_ENOMEM;
+    }
+    by.slip = by.gap + 2;
+    by.S[4] = by.S[7] = 1.0;
+    rb_status s = by_matrix ? rb_contact_operator_dense(2, F, ldf, by.S, &op)
+                            : rb_contact_operator_products(2, &products, &op);
+    if (by_matrix)
+        free(by.gap);
+    if (s != RB_OK)
+        assert_null(op);
+    if (s == RB_OK)
+        s = rb_contact_problem_alloc(op, &p);
+    if (s == RB_OK) {
+        s = rb_contact_set_yield(&p, 1.0, 1.0);
+        rb_contact_problem_free(&p);
+    }
+    assert_true(by_matrix || by.freed == 1);
+    return s;
+}
+
+static rb_status solve_all(void *context)
+{
+    rb_contact_problem *p = context;
+    rb_status s = create_operator(0);
+
+    if (s == RB_OK)
+        s = create_operator(1);
+    for (int k = 0; k < PROBLEMS && s == RB_OK; k++) {
+        rb_contact_options options =
+            options_of(k == 3 || k == 4 ? RB_SOLVER_LEMKE : RB_SOLVER_AUTO);
+        rb_contact_state state;
+        options.lcp_form = k == 3 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+        s = rb_contact_state_alloc(p[k].n, &state);
+        if (s != RB_OK)
+            break;
+        s = rb_contact_solve(&p[k], &options, 0, &state, NULL);
+        rb_contact_state_free(&state);
+    }
+    return s;
+}
+
+static void no_memory_is_said(void **state)
+{
+    rb_contact_problem p[PROBLEMS];
+    by_products by;
+
+    (void)state;
+    for (int k = 0; k < PROBLEMS; k++) {
+        const kind of = kind_of(k);
+        numbers = 13;
+        random_problem(&of, &p[k]);
+        if (k == 1)
+            use_products(&p[k], &by);
+    }
+    assert_true(alloc_fail_every_call(solve_all, p) > 40);
+    for (int k = 0; k < PROBLEMS; k++)
+        rb_contact_problem_free(&p[k]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_solver_solves_random_problems),
+        cmocka_unit_test(every_solver_solves_layers_that_yield),
+        cmocka_unit_test(zones_may_change_one_by_one),
+        cmocka_unit_test(zones_that_determine_nothing_are_singular),
+        cmocka_unit_test(products_give_what_matrices_do),
+        cmocka_unit_test(products_follow_friction),
+        cmocka_unit_test(every_step_is_shown),
+        cmocka_unit_test(every_row_of_the_lcp_is_its_equation),
+        cmocka_unit_test(variables_have_names),
+        cmocka_unit_test(the_lcp_of_a_state_is_the_one_that_gave_it),
+        cmocka_unit_test(residuals_and_forces_are_sums_over_elements),
+        cmocka_unit_test(cones_move_as_the_problem_does),
+        cmocka_unit_test(products_have_no_lcp),
+        cmocka_unit_test(kwaks_form_needs_an_inverse),
+        cmocka_unit_test(forces_that_nothing_carries_are_refused),
+        cmocka_unit_test(no_memory_is_said),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
