@@ -260,6 +260,7 @@ static void check_zones(const rb_contact_problem *p, const rb_contact_state *s)
 /* How often a problem was solved, refused, and not solved. */
 typedef struct {
     int solved, refused, failed;
+    int by_newton, steps; /* solves by Newton's method, and their steps */
 } outcome;
 
 static void check_outcome(const rb_contact_problem *p, const rb_contact_state *s,
@@ -271,6 +272,8 @@ static void check_outcome(const rb_contact_problem *p, const rb_contact_state *s
     o->solved += status == RB_OK;
     o->refused += status == RB_EINVAL;
     o->failed += status > 0;
+    o->by_newton += status == RB_OK && s->solver == RB_SOLVER_NEWTON;
+    o->steps += status == RB_OK && s->solver == RB_SOLVER_NEWTON ? s->iterations : 0;
     if (status == RB_OK) {
         CHECK_MAX(residual_of(p, s), 1e-8, "n %d, mu %g, load %d, force %d", p->n, p->mu,
                   p->load_given, p->force_given);
@@ -312,6 +315,8 @@ static outcome check_solvers(const kind *of)
 
 static void every_solver_solves_random_problems(void **state)
 {
+    int by_newton = 0, steps = 0;
+
     (void)state;
     numbers = 1;
     for (int k = 0; k < 120; k++) {
@@ -321,8 +326,13 @@ static void every_solver_solves_random_problems(void **state)
                          .load_given = k / 2 % 2,
                          .force_given = k % 5 ? k / 4 % 3 : 0,
                          .axle = k % 5 && k / 4 % 3 && k % 7 == 0};
-        assert_int_equal(check_solvers(&of).solved, 6);
+        const outcome one = check_solvers(&of);
+        assert_int_equal(one.solved, 6);
+        by_newton += one.by_newton;
+        steps += one.steps;
     }
+    assert_true(by_newton > 340);
+    CHECK_MAX((double)steps / by_newton, 3.6, "Newton's steps");
 }
 
 /* A small contact that yields cannot carry every force, and says so whoever solves it. */
@@ -346,7 +356,11 @@ static void every_solver_solves_layers_that_yield(void **state)
         all.solved += one.solved > 0;
         all.refused += one.refused > 0;
         all.failed += one.failed > 0;
+        all.by_newton += one.by_newton;
+        all.steps += one.steps;
     }
+    assert_true(all.by_newton > 460);
+    CHECK_MAX((double)all.steps / all.by_newton, 5.5, "Newton's steps");
     assert_true(all.refused > 3 && all.refused < 15);
     CHECK_MAX(all.failed, 1, "neither solved nor refused");
 }
@@ -573,8 +587,9 @@ static void products_follow_friction(void **state)
         use_products(&p, &by);
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
         assert_true(rb_contact_newton(&p, 0, &s) > 0);
-        check_outcome(&with, &s, rb_contact_solve(&p, &options, 0, &s, &why), &why, &o);
-        assert_true(k == 2 || o.solved == 1);
+        const rb_status status = rb_contact_solve(&p, &options, 0, &s, &why);
+        check_outcome(&with, &s, status, &why, &o);
+        assert_true(o.solved == 1 || (k == 2 && status == RB_MAXITER));
         CHECK_ABS(p.mu, of.mu, 0.0, "friction");
         for (int i = 0; i < of.n; i++)
             CHECK_ABS(p.bound[i], with.bound[i], 0.0, "bound %d", i);
@@ -639,6 +654,8 @@ static void check_lcp_rows(const rb_contact_problem *p, const rb_contact_lcp *lc
     rb_contact_state s;
 
     CHECK_STATUS(rb_contact_state_alloc(n, &s), RB_OK);
+    for (int i = 0; i < n; i++) /* of an earlier solve */
+        s.p[i] = s.q[i] = s.lambda[i] = s.plastic[i] = 1e3;
     rb_contact_lcp_recover(p, lcp, z, &s);
     assert_int_equal(s.lcp_form, lcp->form);
     for (int i = n - 1; i >= 0; i--) {
@@ -932,6 +949,113 @@ static void cones_move_as_the_problem_does(void **state)
     rb_contact_problem_free(&p);
 }
 
+static rb_contact_state known;
+static rb_status says;
+static double noise;
+
+/* The solution but for some noise, with the status that the test wants. */
+static rb_status hand_back(const char *name, const rb_contact_cone *cone, double tol,
+                           double *r, int *iterations, rb_message *why)
+{
+    (void)name, (void)tol, (void)iterations, (void)why;
+    for (int i = 0; i < cone->n; i++) {
+        const int touches = known.zone[i] != RB_ZONE_SEPARATED;
+        r[2 * i] = touches * known.p[i] / STRESS * (1.0 + noise);
+        r[2 * i + 1] = touches * known.q[i] / STRESS * (1.0 + noise);
+    }
+    return says;
+}
+
+/* A solution counts whatever the cone solver says of it, and noise is taken from it; no
+ * tractions at all do not count. */
+static void the_residual_judges_cone_solvers(void **state)
+{
+    static const struct {
+        rb_status says;
+        double noise;
+        rb_status wanted;
+    } all[] = {{RB_OK, 0.0, RB_OK},       {RB_OK, 1e-7, RB_OK},
+               {RB_MAXITER, 1e-7, RB_OK}, {RB_OK, -1.0, RB_INACCURATE},
+               {RB_RAY, -1.0, RB_RAY},    {RB_ENOMEM, 0.0, RB_ENOMEM}};
+    static const rb_contact_cone_solvers by = {knows_it, hand_back};
+
+    (void)state;
+    for (size_t k = 0; k < 4 * sizeof all / sizeof *all; k++) {
+        const kind of = {.n = 7,
+                         .mu = 0.3,
+                         .coupling = 0.05,
+                         .load_given = k / 6 % 2,
+                         .force_given = k / 12};
+        rb_contact_options options = options_of(RB_SOLVER_NEWTON);
+        rb_contact_problem p;
+        rb_contact_state s;
+        rb_message why = {""};
+        numbers = 14;
+        random_problem(&of, &p);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &known), RB_OK);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        CHECK_STATUS(rb_contact_solve(&p, &options, 0, &known, NULL), RB_OK);
+        options.solver = RB_SOLVER_CONE;
+        options.cone_solvers = &by;
+        options.cone_solver = "it";
+        says = all[k % 6].says;
+        noise = all[k % 6].noise;
+        const rb_status status = rb_contact_solve(&p, &options, 0, &s, &why);
+        if (status != all[k % 6].wanted)
+            fail_msg("case %zu: %d, %s", k, status, why.text);
+        if (all[k % 6].wanted >= 0)
+            assert_int_equal(s.solver, RB_SOLVER_CONE);
+        if (all[k % 6].wanted == RB_OK) {
+            CHECK_MAX(residual_of(&p, &s), 1e-13, "case %zu", k);
+            CHECK_ABS(s.xi, known.xi, 1e-12 * SLIP, "xi");
+            CHECK_ABS(s.delta, known.delta, 1e-12 * GAP, "delta");
+            check_zones(&p, &s);
+        }
+        rb_contact_state_free(&s);
+        rb_contact_state_free(&known);
+        rb_contact_problem_free(&p);
+    }
+}
+
+/* The same of a layer: one solve with the laws that a state nearly obeys. */
+static void a_layer_is_solved_from_what_is_nearly_its_solution(void **state)
+{
+    int polished = 0;
+
+    (void)state;
+    numbers = 15;
+    for (int k = 0; k < 60; k++) {
+        const kind of = {.n = 3 + k % 5,
+                         .mu = 0.3,
+                         .coupling = 0.05,
+                         .load_given = k % 2,
+                         .yields = 1 + k / 2 % 3,
+                         .order = k / 6 % 3};
+        const rb_contact_options options = options_of(RB_SOLVER_AUTO);
+        rb_contact_problem p;
+        rb_contact_state s;
+        int zone[8], same = 1;
+        random_problem(&of, &p);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        if (rb_contact_solve(&p, &options, 0, &s, NULL) == RB_OK) {
+            memcpy(zone, s.zone, (size_t)of.n * sizeof *zone);
+            for (int i = 0; i < of.n; i++) {
+                s.p[i] *= 1.0 + 1e-9;
+                s.q[i] *= 1.0 + 1e-9;
+                s.plastic[i] *= 1.0 - 1e-9;
+            }
+            CHECK_STATUS(rb_contact_yield_polish(&p, &s), RB_OK);
+            CHECK_MAX(residual_of(&p, &s), 1e-12, "case %d", k);
+            for (int i = 0; i < of.n; i++)
+                same = same && s.zone[i] == zone[i];
+            polished += same;
+        }
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+    assert_int_equal(polished, 60);
+}
+
 /* ---- Refusals ---------------------------------------------------------------------- */
 
 /* What needs matrices says so of products. */
@@ -1139,6 +1263,8 @@ int main(void)
         cmocka_unit_test(the_lcp_of_a_state_is_the_one_that_gave_it),
         cmocka_unit_test(residuals_and_forces_are_sums_over_elements),
         cmocka_unit_test(cones_move_as_the_problem_does),
+        cmocka_unit_test(the_residual_judges_cone_solvers),
+        cmocka_unit_test(a_layer_is_solved_from_what_is_nearly_its_solution),
         cmocka_unit_test(products_have_no_lcp),
         cmocka_unit_test(kwaks_form_needs_an_inverse),
         cmocka_unit_test(forces_that_nothing_carries_are_refused),

@@ -6,6 +6,12 @@
 
 #include <math.h>
 
+/* The larger error; NaN, of a case that was not solved, stays. */
+static double larger(double error, double so_far)
+{
+    return error <= so_far ? so_far : error;
+}
+
 /* ---- Carter ------------------------------------------------------------------------ */
 
 /* Largest error of Q/(mu P) for s = 0.1 ... 0.95. */
@@ -21,7 +27,7 @@ static void carter_at(rb_verify *v, int elements, double bound)
         rc.creep_ratio = ratio;
         rb_verify_solve(v, &rc, &s);
         const double error = fabs(s.force_ratio - rb_closed_carter_force_ratio(ratio));
-        largest = error <= largest ? largest : error; /* keeps NaN */
+        largest = larger(error, largest);
         rb_rolling_solution_free(&s);
     }
     rb_verify_absolute(v, largest, 0.0, bound,
@@ -42,8 +48,8 @@ static void carter_by_force(rb_verify *v)
         rb_verify_solve(v, &rc, &s);
         const double wanted = rb_closed_carter_creep_ratio(-ratio);
         const double error = fabs(s.creep_ratio / wanted - 1.0);
-        largest = error <= largest ? largest : error;
-        off = fmax(off, fabs(s.force_ratio / ratio + 1.0));
+        largest = larger(error, largest);
+        off = larger(fabs(s.force_ratio / ratio + 1.0), off);
         rb_rolling_solution_free(&s);
     }
     rb_verify_absolute(v, off, 0.0, 1e-10, "Carter by force: Q as asked, relative");
