@@ -1,0 +1,76 @@
+/* Powers of made-up slip and friction, recomputed, and that they add up. */
+#include "check.h"
+#include "rolling/internal.h"
+
+enum { N = 5 };
+
+static double shift[N] = {0.3, -0.1, 0.0, 0.2, 0.7}, q[N] = {1.0, -2.0, 3.0, 0.5, 4.0},
+              h[N] = {0.5, 0.25, 1.0, 2.0, 0.125}, slip[N] = {0.1, 0.2, -0.3, 0.4, 0.5},
+              e_T[N] = {2.0, 3.0, 4.0, 5.0, 6.0};
+
+static void steady_slip_lies_between_two_midpoints(void **state)
+{
+    (void)state;
+    const rb_rolling_solution s = {
+        .n = N, .shift = shift, .q = q, .h = h, .slip = slip, .formulation = RB_STEADY};
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    double power[N], sum = 0.0;
+    rc.formulation = RB_STEADY;
+    rb_rolling_friction_power(&s, power);
+    for (int i = 0; i < N; i++) {
+        const double before = i > 0 ? shift[i - 1] : 0.0;
+        CHECK_REL(power[i], -0.5 * (before + shift[i]) * q[i] / h[i], 1e-15, "%d", i);
+        sum += power[i] * h[i];
+    }
+    CHECK_REL(rb_rolling_dissipated_power(&rc, N, shift, q, h, e_T), sum, 1e-14, "all");
+    CHECK_REL(sum, -0.5 * (0.3 * -1.0 + -0.1 * 1.0 + 0.2 * 4.5 + 0.7 * 4.0), 1e-14,
+              "sum of lambda_i (q_i + q_i+1)/2");
+}
+
+static void other_slip_belongs_to_its_element(void **state)
+{
+    (void)state;
+    rb_rolling_solution s = {
+        .n = N, .shift = shift, .q = q, .h = h, .slip = slip, .formulation = RB_STEADY};
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    double power[N], want = 0.0;
+    for (int i = 0; i < N; i++)
+        want -= shift[i] / e_T[i] * q[i] * h[i];
+    s.slip_operator = RB_SLIP_SECOND;
+    for (int k = 0; k < 2; k++) {
+        rc.formulation = s.formulation = k ? RB_TRANSIENT : RB_STEADY;
+        rc.slip_operator = s.slip_operator = k ? RB_SLIP_UPSTREAM : RB_SLIP_SECOND;
+        rb_rolling_friction_power(&s, power);
+        for (int i = 0; i < N; i++)
+            CHECK_REL(power[i], -slip[i] * q[i], 1e-15, "%d", i);
+        CHECK_REL(rb_rolling_dissipated_power(&rc, N, shift, q, h, e_T), want, 1e-14,
+                  "all");
+    }
+    rc.formulation = s.formulation = RB_STATIC;
+    rb_rolling_friction_power(&s, power);
+    for (int i = 0; i < N; i++)
+        assert_true(isnan(power[i]));
+    assert_true(isnan(rb_rolling_dissipated_power(&rc, N, shift, q, h, e_T)));
+}
+
+static void elastic_bodies_lose_nothing(void **state)
+{
+    (void)state;
+    rb_rolling_model model = {.rc = rb_rolling_case_defaults()};
+    double power;
+    CHECK_STATUS(rb_rolling_hysteresis(&model, &power), RB_OK);
+    assert_true(isnan(power)); /* static */
+    model.rc.formulation = RB_STEADY;
+    CHECK_STATUS(rb_rolling_hysteresis(&model, &power), RB_OK);
+    CHECK_ABS(power, 0.0, 0.0, "steady");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(steady_slip_lies_between_two_midpoints),
+        cmocka_unit_test(other_slip_belongs_to_its_element),
+        cmocka_unit_test(elastic_bodies_lose_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
