@@ -1,0 +1,384 @@
+/* A case as a contact problem (theory.md 4.2): operator, weights, controls, scales. */
+#include "check.h"
+#include "rolling/internal.h"
+
+#include <float.h>
+#include <string.h>
+
+enum { N = 9, M = N + 1 };
+
+typedef struct {
+    rb_rolling_case rc;
+    rb_rolling_mesh mesh;
+    rb_rolling_bodies bodies;
+    rb_contact_problem p;
+    rb_contact_matrix K;
+} posed;
+
+static rb_rolling_case plane(rb_rolling_formulation formulation)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.poisson = 0.3;
+    rc.formulation = formulation;
+    rc.contact_elements = N;
+    rc.load = 500.0;
+    return rc;
+}
+
+static posed pose(const rb_rolling_case *rc, const rb_rolling_past *past)
+{
+    posed d = {.rc = *rc};
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_mesh_uniform(rc, -1.0, 0.8, &d.mesh, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(rc, &d.mesh, &d.bodies, &why), RB_OK);
+    if (rb_rolling_problem_create(rc, &d.mesh, &d.bodies, past, &d.p, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    d.K = rb_contact_operator_matrix(d.p.op);
+    return d;
+}
+
+static void release(posed *d)
+{
+    rb_contact_problem_free(&d->p);
+    rb_rolling_bodies_free(&d->bodies);
+    rb_rolling_mesh_free(&d->mesh);
+}
+
+/* Tangential displacement of midpoint i, the one upstream included, under a unit traction
+ * j. */
+static double w_T(const posed *d, int i, int j)
+{
+    return d->bodies.F[(size_t)j * 2 * M + M + (size_t)i];
+}
+
+static double S(const posed *d, int i, int j)
+{
+    return d->K.S[(size_t)j * N + (size_t)i];
+}
+
+/* ---- The operator ------------------------------------------------------------------ */
+
+static void steady_slip_is_the_difference_upstream(void **state)
+{
+    (void)state;
+    const rb_rolling_case steady = plane(RB_STEADY), rest = plane(RB_STATIC);
+    posed rolls = pose(&steady, NULL), stands = pose(&rest, NULL);
+    assert_int_equal(rolls.p.differences, 1);
+    assert_int_equal(stands.p.differences, 0);
+    for (int j = 0; j < 2 * N; j++)
+        for (int i = 0; i < N; i++) {
+            CHECK_ABS(S(&rolls, i, j), w_T(&rolls, i, j) - w_T(&rolls, i + 1, j), 0.0,
+                      "steady %d %d", i, j);
+            CHECK_ABS(S(&stands, i, j), w_T(&stands, i, j), 0.0, "static %d %d", i, j);
+        }
+    for (int i = 0; i < N; i++) {
+        CHECK_REL(rolls.p.e_T[i], 0.2, 1e-12, "one element");
+        CHECK_ABS(stands.p.e_T[i], 1.0, 0.0, "a shift");
+    }
+    release(&rolls);
+    release(&stands);
+}
+
+/* ((1-t)/4, (3+3t)/4, -(5+3t)/4, (1+t)/4); what the interface has under its own element
+ * takes t = 1. */
+static void the_second_order_operator_has_four_points(void **state)
+{
+    (void)state;
+    const double t = 0.0740956,
+                 a[4] = {(1 - t) / 4, (3 + 3 * t) / 4, -(5 + 3 * t) / 4, (1 + t) / 4};
+    rb_rolling_case rc = plane(RB_STEADY);
+    rc.slip_operator = RB_SLIP_SECOND;
+    posed d = pose(&rc, NULL);
+    for (int j = 0; j < 2 * N; j++)
+        for (int i = 1; i + 1 < N; i++)
+            CHECK_ABS(S(&d, i, j),
+                      a[0] * w_T(&d, i - 1, j) + a[1] * w_T(&d, i, j) +
+                          a[2] * w_T(&d, i + 1, j) + a[3] * w_T(&d, i + 2, j),
+                      1e-12 * fabs(w_T(&d, 0, N)), "%d %d", i, j);
+    /* a half-plane answers to distances alone: rows at the ends are moved others */
+    for (int j = 1; j < N; j++)
+        CHECK_ABS(S(&d, 0, N + j - 1), S(&d, 1, N + j), 1e-12 * fabs(w_T(&d, 0, N)),
+                  "first row, %d", j);
+    for (int j = 1; j < N; j++)
+        CHECK_ABS(S(&d, N - 1, N + j), S(&d, N - 2, N + j - 1),
+                  1e-12 * fabs(w_T(&d, 0, N)), "last row, %d", j);
+
+    static const double local[4] = {0.0, 1.5, -2.0, 0.5};
+    rc.interlayer_tangential = 1e-5;
+    posed with = pose(&rc, NULL);
+    for (int i = 1; i + 1 < N; i++) /* the outermost elements are open */
+        for (int j = 0; j < N; j++) {
+            const int k = j - i + 1;
+            CHECK_ABS(S(&with, i, N + j) - S(&d, i, N + j),
+                      k >= 0 && k < 4 ? 1e-5 * local[k] : 0.0, 1e-16, "interface %d %d",
+                      i, j);
+            CHECK_ABS(S(&with, i, j), S(&d, i, j), 0.0, "of pressures %d %d", i, j);
+        }
+    release(&with);
+    release(&d);
+}
+
+/* ---- What moves the surfaces ------------------------------------------------------- */
+
+static void a_step_begins_with_its_past(void **state)
+{
+    (void)state;
+    double before[N], u[N];
+    for (int i = 0; i < N; i++) {
+        before[i] = 1e-4 * i * i;
+        u[i] = 1e-3 * i;
+    }
+    rb_rolling_case rc = plane(RB_TRANSIENT);
+    rc.yield_stress = 50.0;
+    rc.hardening = 100.0;
+    const rb_rolling_past past = {before, u, 0.07}, smooth = {before, NULL, 0.07};
+    posed d = pose(&rc, &past);
+    for (int i = 0; i < N; i++) {
+        CHECK_ABS(d.p.d_T[i], d.bodies.f.w0[M + i] - before[i], 1e-18, "d_T %d", i);
+        CHECK_ABS(d.p.e_T[i], 0.07, 0.0, "e_T %d", i);
+        CHECK_REL(d.p.yield[i], 50.0 + 0.1 * i, 1e-14, "yield stress %d", i);
+        CHECK_ABS(d.p.d_N[i], d.mesh.gap[i] + d.bodies.f.w0[i], 1e-18, "d_N %d", i);
+    }
+    rb_rolling_set_past(&rc, &d.bodies, &smooth, &d.p);
+    for (int i = 0; i < N; i++)
+        CHECK_ABS(d.p.yield[i], 50.0, 0.0, "nothing has yielded");
+    rb_rolling_set_past(&rc, &d.bodies, NULL, &d.p);
+    for (int i = 0; i < N; i++)
+        CHECK_ABS(d.p.d_T[i], d.bodies.f.w0[M + i], 0.0, "from rest");
+    CHECK_ABS(d.p.e_T[0], 0.0, 0.0, "from rest");
+    release(&d);
+}
+
+/* u_i = recall_0 u_i+1 + recall_1 u_i+2 + own |plastic_i|: steadily by the order of the
+ * slip, in a step of its own. */
+static void what_yields_follows_the_material(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_case rc = plane(k == 2 ? RB_TRANSIENT : RB_STEADY);
+        static const double want[3][3] = {
+            {1.0, 0.0, 1.0}, {4.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0}, {0.0, 0.0, 1.0}};
+        rc.slip_operator = k == 1 ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
+        rc.yield_stress = 50.0;
+        posed d = pose(&rc, NULL);
+        CHECK_ABS(d.p.recall[0], want[k][0], 1e-15, "case %d", k);
+        CHECK_ABS(d.p.recall[1], want[k][1], 1e-15, "case %d", k);
+        CHECK_ABS(d.p.own, want[k][2], 1e-15, "case %d", k);
+        CHECK_ABS(d.p.hardening, 0.0, 0.0, "case %d", k);
+        release(&d);
+    }
+}
+
+/* An element softens by less than its slip sets free: the limit is 1/(own S_ii). */
+static void softening_has_a_limit(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(RB_STEADY);
+    rc.yield_stress = 50.0;
+    posed d = pose(&rc, NULL);
+    double most = 0.0;
+    for (int i = 0; i < N; i++)
+        most = fmax(most, S(&d, i, N + i));
+    release(&d);
+    for (int k = 0; k < 2; k++) {
+        rb_message why = {""};
+        rc.hardening = -(k ? 1.0001 : 0.9999) / most;
+        if (k == 0) {
+            d = pose(&rc, NULL);
+            release(&d);
+            continue;
+        }
+        d = (posed){.rc = rc};
+        CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -1.0, 0.8, &d.mesh, &why), RB_OK);
+        CHECK_STATUS(rb_rolling_bodies_create(&rc, &d.mesh, &d.bodies, &why), RB_OK);
+        CHECK_STATUS(rb_rolling_problem_create(&rc, &d.mesh, &d.bodies, NULL, &d.p, &why),
+                     RB_EINVAL);
+        assert_non_null(strstr(why.text, "has no unique solution"));
+        release(&d);
+    }
+}
+
+/* ---- Forces ------------------------------------------------------------------------ */
+
+/* Along the surface of the wheel normals turn by x/R. */
+static void normals_of_the_surface_turn_with_it(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = plane(RB_STATIC);
+        rc.a.support = RB_BEM_ARC;
+        rc.outer_elements = 30;
+        rc.a.radius = 2.0;
+        rc.normals = k ? RB_BEM_NORMALS_SURFACE : RB_BEM_NORMALS_OBSTACLE;
+        posed d = pose(&rc, NULL);
+        for (int i = 0; i < N; i++) {
+            const double x = d.bodies.f.x[i], h = d.bodies.f.h[i];
+            const double sine = k ? x / 2.0 : 0.0, cosine = sqrt(1.0 - sine * sine);
+            CHECK_REL(d.p.load_N[i], h * cosine, 1e-14, "load of p, %d", i);
+            CHECK_ABS(d.p.load_T[i], h * sine, 1e-15, "load of q, %d", i);
+            CHECK_ABS(d.p.force_N[i], -h * sine, 1e-15, "force of p, %d", i);
+            CHECK_REL(d.p.force_T[i], h * cosine, 1e-14, "force of q, %d", i);
+            CHECK_ABS(d.p.moment_N[i], x * h * cosine, 1e-14, "moment of p, %d", i);
+            CHECK_ABS(d.p.moment_T[i], x * h * sine, 1e-14, "moment of q, %d", i);
+        }
+        release(&d);
+    }
+}
+
+/* ---- Controls ---------------------------------------------------------------------- */
+
+static void each_control_gives_its_unknown(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(RB_STEADY);
+    posed d = pose(&rc, NULL);
+    rb_contact_problem *p = &d.p;
+    const rb_rolling_derived derived = rb_rolling_derive(&rc);
+    const double scale = 0.3 * derived.half_width / derived.radius;
+
+    assert_int_equal(p->load_given, 1);
+    assert_int_equal(p->force_given, 0);
+    CHECK_ABS(p->load, 500.0, 0.0, "P");
+    CHECK_ABS(p->xi, 0.0, 0.0, "no creepage is 0");
+    rc.creep_ratio = 0.5;
+    rb_rolling_set_control(&rc, p);
+    CHECK_REL(p->xi, 0.5 * scale, 1e-14, "xi R/(mu a)");
+    rc.creep_ratio = NAN;
+    rc.creep = 0.01;
+    rb_rolling_set_control(&rc, p);
+    CHECK_ABS(p->xi, 0.01, 0.0, "xi");
+    rc.creep = NAN;
+    rc.force_ratio = -0.4;
+    rb_rolling_set_control(&rc, p);
+    assert_int_equal(p->force_given, 1);
+    CHECK_ABS(p->force_ratio, -0.4, 0.0, "Q/(mu P)");
+    CHECK_ABS(p->xi, 0.0, 0.0, "an unknown");
+    rc.force_ratio = NAN;
+    rc.force = 60.0;
+    rb_rolling_set_control(&rc, p);
+    CHECK_REL(p->force_ratio, 0.4, 1e-14, "of the known load");
+    CHECK_ABS(p->force, 0.0, 0.0, "of the known load");
+    rc.friction.heat = -0.1; /* mu is not known */
+    rb_rolling_set_control(&rc, p);
+    CHECK_ABS(p->force_ratio, 0.0, 0.0, "mu is not known");
+    CHECK_ABS(p->force, 60.0, 0.0, "mu is not known");
+    rc.friction.heat = 0.0;
+    rc.friction.law = RB_FRICTION_linear;
+    rb_rolling_set_control(&rc, p);
+    CHECK_ABS(p->force, 60.0, 0.0, "mu is not known");
+    rc.friction.law = RB_FRICTION_constant;
+    rc.load = NAN;
+    rc.approach = 0.02;
+    rb_rolling_set_control(&rc, p);
+    assert_int_equal(p->load_given, 0);
+    CHECK_ABS(p->delta, 0.02, 0.0, "the approach");
+    CHECK_ABS(p->force, 60.0, 0.0, "the load is not known");
+    rc.force = NAN;
+    rc.free_axle = 1;
+    rb_rolling_set_control(&rc, p);
+    assert_int_equal(p->force_given, 1);
+    CHECK_REL(p->axle, 1.0 / 50.0, 1e-15, "1/R");
+    rc.free_axle = 0;
+    rc.formulation = RB_STATIC;
+    rb_rolling_set_control(&rc, p);
+    CHECK_ABS(p->axle, 0.0, 0.0, "none");
+    CHECK_REL(p->xi, 0.002, 1e-14, "a tenth of the approach");
+    rc.shift = 0.003;
+    rb_rolling_set_control(&rc, p);
+    CHECK_ABS(p->xi, 0.003, 0.0, "the shift");
+    rc.force_ratio = 0.2; /* without friction no force is given */
+    p->mu = 0.0;
+    rb_rolling_set_control(&rc, p);
+    assert_int_equal(p->force_given, 0);
+    CHECK_ABS(p->xi, 0.003, 0.0, "the shift");
+    rc.shift = NAN;
+    rc.approach = NAN;
+    rc.load = 500.0;
+    CHECK_ABS(rb_rolling_wanted_shift(&rc), 0.0, 0.0, "under a load");
+    release(&d);
+}
+
+/* ---- Scales ------------------------------------------------------------------------ */
+
+static void scales_make_the_diagonals_one(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_case rc = plane(RB_STEADY);
+        rc.mu = k == 0 ? 0.3 : k == 1 ? 0.0 : 1e-6;
+        posed d = pose(&rc, NULL);
+        const rb_contact_response unit = rb_contact_operator_response(d.p.op);
+        const double p0 = rb_rolling_derive(&rc).stress;
+        CHECK_REL(d.p.stress, p0, 1e-15, "Hertz's p0");
+        CHECK_REL(d.p.gap_length, p0 * unit.gap, 1e-15, "gaps");
+        CHECK_REL(d.p.slip_length,
+                  p0 * fmax((k == 0   ? 0.3
+                             : k == 1 ? 1.0
+                                      : 1e-6) *
+                                unit.slip,
+                            unit.coupled_slip),
+                  1e-15, "slips");
+        CHECK_ABS(d.p.rounding, 64.0 * DBL_EPSILON * unit.reach, 1e-30, "rounding");
+        CHECK_ABS(unit.reach, 0.0, 0.0, "of matrices");
+        release(&d);
+    }
+}
+
+static void ratios_come_from_load_and_friction(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(RB_STEADY);
+    rb_rolling_model model;
+    rc.creep_ratio = 0.5;
+    CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+    const double P = rb_rolling_model_load(&model), Q = rb_rolling_model_force(&model);
+    CHECK_REL(P, 500.0, 1e-9, "P");
+    CHECK_REL(rb_rolling_force_ratio(&model), Q / (0.3 * P), 1e-12, "Q/(mu P)");
+    CHECK_REL(rb_rolling_ratio_of_creepage(&model, model.state.xi), 0.5, 1e-9, "there");
+    CHECK_REL(rb_rolling_creepage_of_ratio(&model, 0.5), model.state.xi, 1e-9, "back");
+    model.half_width = 0.0;
+    assert_true(isnan(rb_rolling_ratio_of_creepage(&model, 0.1)));
+    model.half_width = 1.0;
+    model.problem.mu = 0.0;
+    assert_true(isnan(rb_rolling_ratio_of_creepage(&model, 0.1)));
+    memset(model.state.p, 0, sizeof(double) * (size_t)model.state.n);
+    assert_true(isnan(rb_rolling_force_ratio(&model)));
+    rb_rolling_model_free(&model);
+}
+
+/* Q of Coulomb's full sliding is -mu P beyond that creepage, whatever couples. */
+static void everything_slides_at_the_sliding_creepage(void **state)
+{
+    (void)state;
+    static const double mu[] = {0.05, 0.3, 1.0};
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_case rc = plane(RB_STEADY);
+        rb_rolling_model model;
+        rc.mu = mu[k];
+        rc.contact_elements = 30;
+        posed d = pose(&rc, NULL);
+        rc.creep = rb_rolling_sliding_creepage(&rc, &d.p);
+        release(&d);
+        CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
+        CHECK_REL(rb_rolling_force_ratio(&model), -1.0, 1e-9, "mu = %g", mu[k]);
+        rb_rolling_model_free(&model);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(steady_slip_is_the_difference_upstream),
+        cmocka_unit_test(the_second_order_operator_has_four_points),
+        cmocka_unit_test(a_step_begins_with_its_past),
+        cmocka_unit_test(what_yields_follows_the_material),
+        cmocka_unit_test(softening_has_a_limit),
+        cmocka_unit_test(normals_of_the_surface_turn_with_it),
+        cmocka_unit_test(each_control_gives_its_unknown),
+        cmocka_unit_test(scales_make_the_diagonals_one),
+        cmocka_unit_test(ratios_come_from_load_and_friction),
+        cmocka_unit_test(everything_slides_at_the_sliding_creepage),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
