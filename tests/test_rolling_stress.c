@@ -1,0 +1,302 @@
+/* Stress below a contact: its parts, closed forms on the axis and far away, maxima and
+ * where they are looked for. */
+#include "rolling/internal.h"
+#include "solved.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+static rb_rolling_case hertz(int elements)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.poisson = 0.3;
+    rc.mu = 0.0;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.half_width = 1.0;
+    rc.contact_elements = elements;
+    return rc;
+}
+
+static rb_rolling_stress at(const rb_rolling_model *model, double x, double y)
+{
+    const double xy[2] = {x, y};
+    rb_rolling_stress s;
+    CHECK_STATUS(rb_rolling_stress_at(model, 1, xy, &s, NULL), RB_OK);
+    return s;
+}
+
+/* Everything follows from sxx, syy, sxy in plane strain. */
+static void check_parts(const rb_rolling_stress *s, double nu)
+{
+    const double mean = 0.5 * (s->sxx + s->syy), szz = nu * (s->sxx + s->syy);
+    const double radius = sqrt(gsl_pow_2(0.5 * (s->sxx - s->syy)) + gsl_pow_2(s->sxy));
+    const double small = 1e-12 * (fabs(mean) + radius);
+    CHECK_ABS(s->szz, szz, small, "szz");
+    CHECK_ABS(s->principal_1, mean + radius, small, "larger");
+    CHECK_ABS(s->principal_2, mean - radius, small, "smaller");
+    CHECK_ABS(s->max_shear, radius, small, "Tresca");
+    CHECK_ABS(s->hydrostatic, (s->sxx + s->syy + szz) / 3.0, small, "mean of three");
+    const double a = s->principal_1, b = s->principal_2;
+    CHECK_ABS(s->von_mises, sqrt(a * a + b * b + szz * szz - a * b - b * szz - szz * a),
+              small, "Mises");
+}
+
+/* McEwen on the axis: sxx = -p0 [(1 + 2 y^2)/sqrt(1 + y^2) - 2 y], syy = -p0/sqrt(1+y^2).
+ */
+static void the_axis_has_its_closed_form(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = hertz(200);
+    rb_rolling_model model = solved_model(&rc);
+    const double p0 = rb_rolling_derive(&rc).stress;
+    for (int k = 1; k <= 8; k++) {
+        const double y = 0.25 * k, root = sqrt(1.0 + y * y);
+        const rb_rolling_stress s = at(&model, 0.0, y);
+        CHECK_ABS(s.sxx, -p0 * ((1.0 + 2.0 * y * y) / root - 2.0 * y), 2e-3 * p0,
+                  "sxx at %g", y);
+        CHECK_ABS(s.syy, -p0 / root, 2e-3 * p0, "syy at %g", y);
+        CHECK_ABS(s.sxy, 0.0, 1e-9 * p0, "sxy at %g", y);
+        check_parts(&s, 0.3);
+        const rb_rolling_stress off = at(&model, 0.3 * k, y);
+        check_parts(&off, 0.3);
+    }
+    rb_rolling_model_free(&model);
+}
+
+/* Flamant's point load from far away: srr = -2 P cos(angle)/(pi r), on either side of the
+ * distance where strips of constant traction take over. */
+static void far_away_it_is_a_point_load(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = hertz(60);
+    rb_rolling_model model = solved_model(&rc);
+    const double P = rb_rolling_derive(&rc).load;
+    const double width = model.mesh.ends[60] - model.mesh.ends[0];
+    for (double far = 15.0; far < 1e7; far *= far < 100.0 ? 1.3 : 30.0) {
+        const double r = far * width, x = 0.6 * r, y = 0.8 * r;
+        const double radial = -2.0 * P * 0.8 / (M_PI * r);
+        const rb_rolling_stress s = at(&model, x, y);
+        CHECK_ABS(s.sxx, radial * 0.36, 1e-2 / far / far * -radial * 20.0, "sxx %g", far);
+        CHECK_ABS(s.syy, radial * 0.64, 1e-2 / far / far * -radial * 20.0, "syy %g", far);
+        CHECK_ABS(s.sxy, radial * 0.48, 1e-2 / far / far * -radial * 20.0, "sxy %g", far);
+    }
+    rb_rolling_model_free(&model);
+}
+
+static void places_outside_are_named(void **state)
+{
+    (void)state;
+    const double xy[] = {0.0, 0.0, 0.1, 0.2, 0.3, -1e-9};
+    rb_rolling_stress s[3];
+    rb_message why = {""};
+    const rb_rolling_case rc = hertz(20);
+    rb_rolling_model model = solved_model(&rc);
+    int inside[3];
+    CHECK_STATUS(rb_rolling_stress_at(&model, 0, xy, s, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "0 points"));
+    CHECK_STATUS(rb_rolling_stress_at(&model, 2, xy, s, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_stress_at(&model, 3, xy, s, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "point 2 at (0.3, -1e-09)"));
+    CHECK_STATUS(rb_rolling_inside(&model, 3, xy, inside), RB_OK);
+    assert_true(inside[0] && inside[1] && !inside[2]);
+    CHECK_ABS(rb_rolling_surface(&rc, 0.4), 0.0, 0.0, "flat");
+    rb_rolling_model_free(&model);
+}
+
+/* p0: 0.300 at 0.786 a; Mises of nu = 0.3: 0.558 at 0.704 a; sxy: 1/4 at 0.866 a, a/2; no
+ * tension but rounding.  A depth that ends before them ends the search. */
+static void maxima_are_hertzs(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = hertz(100);
+    rb_rolling_model model = solved_model(&rc);
+    rb_rolling_stress_maxima m;
+    const double p0 = rb_rolling_derive(&rc).stress;
+    CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL), RB_OK);
+    CHECK_REL(m.max_shear.value, 0.30028 * p0, 1e-3, "Tresca");
+    CHECK_ABS(m.max_shear.y, 0.7861, 5e-3, "its depth");
+    CHECK_ABS(m.max_shear.x, 0.0, 5e-3, "its place");
+    CHECK_REL(m.von_mises.value, 0.5577 * p0, 2e-3, "Mises");
+    CHECK_ABS(m.von_mises.y, 0.704, 1e-2, "its depth");
+    CHECK_REL(m.orthogonal_shear.value, 0.25 * p0, 2e-3, "sxy");
+    CHECK_ABS(fabs(m.orthogonal_shear.x), 0.866, 1e-2, "its place");
+    CHECK_ABS(m.orthogonal_shear.y, 0.5, 1e-2, "its depth");
+    CHECK_ABS(m.tension.value, 0.0, 2e-2 * p0, "no tension");
+    const rb_rolling_stress s = at(&model, m.von_mises.x, m.von_mises.y);
+    CHECK_REL(s.von_mises, m.von_mises.value, 1e-12, "the stress there");
+    CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.3, &m, NULL), RB_OK);
+    CHECK_ABS(m.max_shear.y, 0.3, 1e-6, "the deepest place that is looked at");
+    CHECK_ABS(m.von_mises.y, 0.3, 1e-6, "the deepest place that is looked at");
+    assert_true(m.orthogonal_shear.y <= 0.3 + 1e-12);
+    rb_rolling_model_free(&model);
+}
+
+/* A half-width beyond either edge, evenly down to 2.5 half-widths. */
+static void a_grid_lies_under_the_contact(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = hertz(60);
+    rb_rolling_model model = solved_model(&rc);
+    rb_rolling_stress_grid grid;
+    double from, to;
+    rb_message why = {""};
+    rb_rolling_contact_edges(&model.rc, &model.mesh, &model.state, &from, &to);
+    CHECK_STATUS(rb_rolling_stress_on_grid(&model, 5, 3, 0.0, &grid, NULL), RB_OK);
+    const double a = 0.5 * (to - from);
+    for (int k = 0; k < 15; k++) {
+        CHECK_ABS(grid.at[k].x, from - a + 4.0 * a * (k % 5) / 4.0, 1e-12, "x of %d", k);
+        CHECK_ABS(grid.at[k].y, 2.5 * a * (k / 5) / 2.0, 1e-12, "y of %d", k);
+        assert_int_equal(grid.inside[k], 1);
+        const rb_rolling_stress s = at(&model, grid.at[k].x, grid.at[k].y);
+        CHECK_ABS(grid.at[k].sxx, s.sxx, 1e-12 * fabs(s.sxx), "sxx of %d", k);
+    }
+    rb_rolling_stress_grid_free(&grid);
+    CHECK_STATUS(rb_rolling_stress_on_grid(&model, 2, 2, 0.7, &grid, NULL), RB_OK);
+    CHECK_ABS(grid.at[3].y, 0.7, 1e-15, "the given depth");
+    rb_rolling_stress_grid_free(&grid);
+    assert_null(grid.at);
+    for (int k = 0; k < 3; k++) {
+        const int nx = k == 0 ? 1 : k == 1 ? 2 : 20000, ny = k == 1 ? 1 : 20000;
+        CHECK_STATUS(rb_rolling_stress_on_grid(&model, nx, ny, 0.0, &grid, &why),
+                     RB_EINVAL);
+        assert_non_null(strstr(why.text, "grid: expected 2 x 2"));
+        assert_null(grid.at);
+    }
+    memset(model.state.zone, 0, sizeof(int) * 60);
+    CHECK_STATUS(rb_rolling_stress_on_grid(&model, 2, 2, 0.0, &grid, &why),
+                 RB_NO_CONTACT);
+    rb_rolling_stress_maxima m;
+    rb_rolling_shakedown limit;
+    CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &m, &why), RB_NO_CONTACT);
+    CHECK_STATUS(rb_rolling_shakedown_find(&model, &limit, &why), RB_NO_CONTACT);
+    assert_non_null(strstr(why.text, "no contact, no stress"));
+    rb_rolling_model_free(&model);
+}
+
+/* The wheel is a polygon: between it and its circle there is stress, outside the circle
+ * and in the hub there is none. */
+static void a_wheel_has_stress_up_to_its_circle(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = hertz(16);
+    rc.a.support = RB_BEM_HUB;
+    rc.outer_elements = 40;
+    rb_rolling_model model = solved_model(&rc);
+    const rb_bem_mesh *mesh = rb_bem_system_mesh(model.bodies.system_a);
+    rb_rolling_stress s;
+    rb_message why;
+    int inside, chords = 0;
+    for (int j = 0; j < mesh->n; j++) {
+        const double mx = 0.5 * (mesh->x0[j] + mesh->x1[j]);
+        const double my = 0.5 * (mesh->y0[j] + mesh->y1[j]);
+        const double circle = rb_rolling_surface(&rc, mx);
+        if (fabs(mx) > 20.0 || my > 10.0 || !(mesh->x0[j] < mesh->x1[j]))
+            continue;
+        assert_true(circle < my);
+        chords++;
+        for (int k = 0; k < 2; k++) {
+            const double xy[2] = {mx, k ? circle
+                                        : circle - 0.2 * (mesh->x1[j] - mesh->x0[j])};
+            CHECK_STATUS(rb_rolling_inside(&model, 1, xy, &inside), RB_OK);
+            assert_int_equal(inside, k);
+            assert_int_equal(rb_rolling_stress_at(&model, 1, xy, &s, &why),
+                             k ? RB_OK : RB_EINVAL);
+        }
+    }
+    assert_true(chords > 16);
+    const double hub[] = {0.0, 50.0}, deep[] = {0.0, 30.0}, above[] = {0.0, 101.0};
+    CHECK_STATUS(rb_rolling_inside(&model, 1, hub, &inside), RB_OK);
+    assert_int_equal(inside, 0);
+    CHECK_STATUS(rb_rolling_inside(&model, 1, above, &inside), RB_OK);
+    assert_int_equal(inside, 0);
+    CHECK_STATUS(rb_rolling_inside(&model, 1, deep, &inside), RB_OK);
+    assert_int_equal(inside, 1);
+    rb_rolling_model_free(&model);
+}
+
+/* A grid that reaches beyond the wheel and into its hub: what is outside is no number. */
+static void a_wide_grid_stays_on_the_lower_half(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = hertz(16);
+    rc.a.support = RB_BEM_HUB;
+    rc.outer_elements = 40;
+    rc.half_width = 25.0;
+    rc.gap = RB_GAP_EXACT;
+    rb_rolling_model model = solved_model(&rc);
+    rb_rolling_stress_grid grid;
+    int outside = 0;
+    CHECK_STATUS(rb_rolling_stress_on_grid(&model, 9, 7, 60.0, &grid, NULL), RB_OK);
+    for (int k = 0; k < 63; k++) {
+        outside += !grid.inside[k];
+        assert_int_equal(isnan(grid.at[k].sxx), !grid.inside[k]);
+        assert_int_equal(isnan(grid.at[k].von_mises), !grid.inside[k]);
+        assert_true(fabs(grid.at[k].x) <= 45.0 * (1.0 + 1e-12)); /* 0.9 R */
+        assert_true(isfinite(grid.at[k].y));
+    }
+    assert_in_range(outside, 5, 40);
+    rb_rolling_stress_grid_free(&grid);
+    rb_rolling_model_free(&model);
+}
+
+/* ---- Shakedown --------------------------------------------------------------------- */
+
+/* Tresca's circle with the residual stress 2 c: at the best depth of Hertz p0/4, whatever
+ * the residual stress does for sxx - syy. */
+static void shakedown_of_a_frictionless_contact_is_sxy(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = hertz(80);
+    rb_rolling_model model = solved_model(&rc);
+    rb_rolling_shakedown limit;
+    CHECK_STATUS(rb_rolling_shakedown_find(&model, &limit, NULL), RB_OK);
+    CHECK_REL(limit.shear_yield, 0.25 * rb_rolling_derive(&rc).stress, 3e-3, "p0/4");
+    CHECK_ABS(limit.y, 0.5, 2e-2, "depth");
+    CHECK_ABS(fabs(limit.x), 0.866, 3e-2, "place");
+    const rb_rolling_stress s = at(&model, limit.x, limit.y);
+    CHECK_ABS(0.5 * (s.sxx - s.syy) + 0.5 * limit.residual, 0.0, 2e-2 * limit.shear_yield,
+              "the residual stress evens the others out");
+    CHECK_REL(hypot(0.5 * (s.sxx - s.syy + limit.residual), s.sxy), limit.shear_yield,
+              1e-9, "Mohr's circle there");
+    rb_rolling_model_free(&model);
+
+    rb_rolling_case wheel = hertz(16);
+    rb_message why;
+    wheel.a.support = RB_BEM_HUB;
+    wheel.outer_elements = 40;
+    model = solved_model(&wheel);
+    CHECK_STATUS(rb_rolling_shakedown_find(&model, &limit, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "shakedown: of a half-plane"));
+    rb_rolling_model_free(&model);
+}
+
+static void stress_below_a_layer_is_not_known(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = hertz(16);
+    rb_message why;
+    rb_rolling_stress s;
+    const double xy[] = {0.0, 0.1};
+    rc.a.layer = 5.0;
+    rb_rolling_model model = solved_model(&rc);
+    CHECK_STATUS(rb_rolling_stress_at(&model, 1, xy, &s, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "inside a homogeneous elastic body only"));
+    rb_rolling_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_axis_has_its_closed_form),
+        cmocka_unit_test(far_away_it_is_a_point_load),
+        cmocka_unit_test(places_outside_are_named),
+        cmocka_unit_test(maxima_are_hertzs),
+        cmocka_unit_test(a_grid_lies_under_the_contact),
+        cmocka_unit_test(a_wheel_has_stress_up_to_its_circle),
+        cmocka_unit_test(a_wide_grid_stays_on_the_lower_half),
+        cmocka_unit_test(shakedown_of_a_frictionless_contact_is_sxy),
+        cmocka_unit_test(stress_below_a_layer_is_not_known),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
