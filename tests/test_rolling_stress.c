@@ -255,7 +255,7 @@ static void shakedown_of_a_frictionless_contact_is_sxy(void **state)
     CHECK_ABS(limit.y, 0.5, 2e-2, "depth");
     CHECK_ABS(fabs(limit.x), 0.866, 3e-2, "place");
     const rb_rolling_stress s = at(&model, limit.x, limit.y);
-    CHECK_ABS(0.5 * (s.sxx - s.syy) + 0.5 * limit.residual, 0.0, 2e-2 * limit.shear_yield,
+    CHECK_ABS(0.5 * (s.sxx - s.syy) + 0.5 * limit.residual, 0.0, 5e-2 * limit.shear_yield,
               "the residual stress evens the others out");
     CHECK_REL(hypot(0.5 * (s.sxx - s.syy + limit.residual), s.sxy), limit.shear_yield,
               1e-9, "Mohr's circle there");

@@ -1,0 +1,137 @@
+/* The start of a fine solution from a coarse one that is made up. */
+#include "check.h"
+#include "rolling/internal.h"
+
+#include <string.h>
+
+enum { COARSE = 8, FINE = 24 };
+
+typedef struct {
+    rb_rolling_mesh mesh;
+    rb_contact_state state;
+    double ends[FINE + 2], p[FINE], q[FINE];
+    int zone[FINE];
+} line;
+
+/* Elements of length h from 0 on. */
+static void make(line *l, int n, double h)
+{
+    memset(l, 0, sizeof *l);
+    for (int i = 0; i < n + 2; i++)
+        l->ends[i] = i * h;
+    l->mesh = (rb_rolling_mesh){.n = n, .ends = l->ends};
+    l->state = (rb_contact_state){.n = n, .p = l->p, .q = l->q, .zone = l->zone};
+}
+
+static rb_rolling_case plane(void)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    return rc;
+}
+
+/* Three fine elements in each coarse one: its middle has its values, the others lie on
+ * the line to its neighbour; beyond the outermost midpoints they stay. */
+static void tractions_are_linear_between_midpoints(void **state)
+{
+    (void)state;
+    line coarse, fine;
+    const rb_rolling_case rc = plane();
+    make(&coarse, COARSE, 3.0);
+    make(&fine, FINE, 1.0);
+    for (int j = 0; j < COARSE; j++) {
+        coarse.p[j] = 6.0 + j * j;
+        coarse.q[j] = j % 2 ? 3.0 : -3.0;
+        coarse.zone[j] = RB_ZONE_STICK;
+    }
+    coarse.state.delta = 0.4;
+    coarse.state.xi = 0.05;
+    rb_rolling_start_from(&rc, &coarse.mesh, &coarse.state, &fine.mesh, &fine.state);
+    for (int i = 0; i < FINE; i++) {
+        const int j = i / 3, other = i % 3 == 0 ? j - 1 : i % 3 == 2 ? j + 1 : j;
+        const int to = other < 0 || other == COARSE ? j : other;
+        CHECK_REL(fine.p[i], coarse.p[j] + (coarse.p[to] - coarse.p[j]) / 3.0, 1e-14,
+                  "p of %d", i);
+        CHECK_REL(fine.q[i], coarse.q[j] + (coarse.q[to] - coarse.q[j]) / 3.0, 1e-14,
+                  "q of %d", i);
+    }
+    CHECK_ABS(fine.state.delta, 0.4, 0.0, "approach");
+    CHECK_ABS(fine.state.xi, 0.05, 0.0, "creepage");
+}
+
+/* Zones are those of the coarse element within its edges, which lie between midpoints:
+ * there an open element takes the zone of its loaded neighbour. */
+static void zones_end_at_the_coarse_edges(void **state)
+{
+    (void)state;
+    line coarse, fine;
+    const rb_rolling_case rc = plane();
+    double from, to;
+    make(&coarse, COARSE, 3.0);
+    make(&fine, FINE, 1.0);
+    /* p^2 falls linearly to 4.9 and to 20.3, open elements reach to 6 and from 18 on */
+    for (int j = 2; j < 6; j++) {
+        const double x = 3.0 * j + 1.5;
+        coarse.p[j] = sqrt(x < 12.0 ? x - 4.9 : 20.3 - x);
+        coarse.zone[j] = j < 4 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_STICK;
+    }
+    coarse.p[1] = coarse.p[6] = 0.0;
+    /* five elements and more have edges of their own */
+    coarse.zone[6] = RB_ZONE_SEPARATED;
+    rb_rolling_contact_edges(&rc, &coarse.mesh, &coarse.state, &from, &to);
+    CHECK_ABS(from, 6.0, 0.0, "four elements end at their ends");
+    rb_rolling_start_from(&rc, &coarse.mesh, &coarse.state, &fine.mesh, &fine.state);
+    for (int i = 0; i < FINE; i++)
+        assert_int_equal(fine.zone[i], i < 6    ? RB_ZONE_SEPARATED
+                                       : i < 12 ? RB_ZONE_SLIP_NEGATIVE
+                                       : i < 18 ? RB_ZONE_STICK
+                                                : RB_ZONE_SEPARATED);
+}
+
+static void open_elements_inside_the_edges_join_their_neighbour(void **state)
+{
+    (void)state;
+    line coarse, fine;
+    const rb_rolling_case rc = plane();
+    double from, to;
+    make(&coarse, COARSE, 3.0);
+    make(&fine, FINE, 1.0);
+    for (int j = 1; j < 7; j++) { /* p^2 falls to 2.2 and to 21.8, in open elements */
+        const double x = 3.0 * j + 1.5;
+        coarse.p[j] = sqrt(x < 12.0 ? x - 2.2 : 21.8 - x);
+        coarse.zone[j] = j < 4 ? RB_ZONE_SLIP_POSITIVE : RB_ZONE_STICK;
+    }
+    rb_rolling_contact_edges(&rc, &coarse.mesh, &coarse.state, &from, &to);
+    CHECK_ABS(from, 2.2, 1e-12, "in the open element");
+    CHECK_ABS(to, 21.8, 1e-12, "in the open element");
+    rb_rolling_start_from(&rc, &coarse.mesh, &coarse.state, &fine.mesh, &fine.state);
+    for (int i = 0; i < FINE; i++)
+        assert_int_equal(fine.zone[i], i < 2    ? RB_ZONE_SEPARATED
+                                       : i < 12 ? RB_ZONE_SLIP_POSITIVE
+                                       : i < 22 ? RB_ZONE_STICK
+                                                : RB_ZONE_SEPARATED);
+    coarse.zone[3] = RB_ZONE_SEPARATED; /* a gap inside: of both the left neighbour */
+    coarse.zone[4] = RB_ZONE_SLIP_NEGATIVE;
+    rb_rolling_start_from(&rc, &coarse.mesh, &coarse.state, &fine.mesh, &fine.state);
+    assert_int_equal(fine.zone[10], RB_ZONE_SLIP_POSITIVE);
+}
+
+static void a_quarter_of_the_elements_or_150_start(void **state)
+{
+    (void)state;
+    assert_int_equal(rb_rolling_coarse_elements(0), 150);
+    assert_int_equal(rb_rolling_coarse_elements(4 * RB_ROLLING_LARGE - 1), 150);
+    assert_int_equal(rb_rolling_coarse_elements(4 * RB_ROLLING_LARGE), RB_ROLLING_LARGE);
+    assert_int_equal(rb_rolling_coarse_elements(40000), 10000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tractions_are_linear_between_midpoints),
+        cmocka_unit_test(zones_end_at_the_coarse_edges),
+        cmocka_unit_test(open_elements_inside_the_edges_join_their_neighbour),
+        cmocka_unit_test(a_quarter_of_the_elements_or_150_start),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,265 @@
+/* Curves: where their points lie, that each is its case, refusals. */
+#include "rolling/internal.h"
+#include "solved.h"
+
+#include <string.h>
+
+static rb_rolling_case carter(int elements)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.load = 500.0;
+    rc.contact_elements = elements;
+    rc.speed = 1000.0;
+    return rc;
+}
+
+static rb_rolling_case relaxing(void)
+{
+    rb_rolling_case rc = carter(24);
+    rc.a.memory = (rb_rolling_memory){1, {1e-3}, {1.0}};
+    rc.creep = 0.0;
+    return rc;
+}
+
+static rb_rolling_curve run(const rb_rolling_case *rc, rb_rolling_variable over,
+                            double from, double to, int points)
+{
+    const rb_rolling_range range = {
+        .over = over, .from = from, .to = to, .points = points};
+    rb_rolling_curve c;
+    rb_message why = {""};
+    if (rb_rolling_curve_solve(rc, &range, &c, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return c;
+}
+
+static void check_point(const rb_rolling_curve *c, int k, const rb_rolling_case *rc)
+{
+    rb_rolling_solution s = solved(rc);
+    double contact, stick;
+    rb_rolling_zone_lengths(s.n, s.zone, s.h, &contact, &stick);
+    CHECK_REL(c->creepage[k], s.creepage, 1e-9, "point %d: creepage", k);
+    CHECK_REL(c->creep_ratio[k], s.creep_ratio, 1e-9, "point %d: its ratio", k);
+    CHECK_REL(c->normal_load[k], s.normal_load, 1e-9, "point %d: P", k);
+    CHECK_REL(c->tangential_load[k], s.tangential_load, 1e-8, "point %d: Q", k);
+    CHECK_REL(c->force_ratio[k], s.force_ratio, 1e-8, "point %d: Q/(mu P)", k);
+    CHECK_REL(c->stick_ratio[k], stick / contact, 1e-9, "point %d: stick", k);
+    CHECK_REL(c->dissipation[k], s.dissipation, 1e-7, "point %d: power", k);
+    CHECK_ABS(c->resistance_moment[k], s.resistance_moment,
+              1e-9 * s.normal_load * s.half_width, "point %d: M", k);
+    CHECK_ABS(c->resistance_ratio[k], s.resistance_ratio, 1e-9, "point %d: M/(P R)", k);
+    CHECK_ABS(c->hysteresis[k], s.hysteresis, 1e-9 * s.normal_load, "point %d: lost", k);
+    CHECK_ABS(c->speed[k], rc->speed, 1e-9 * rc->speed, "point %d: speed", k);
+    CHECK_MAX(c->residual[k], 1e-9, "point %d: residual", k);
+    rb_rolling_solution_free(&s);
+}
+
+static void every_point_is_its_case(void **state)
+{
+    (void)state;
+    for (int over = 0; over < 2; over++) {
+        rb_rolling_case rc = carter(40);
+        const double scale = over == RB_OVER_CREEP_RATIO ? 1.0 : 0.01;
+        rc.force_ratio = 0.3; /* not read */
+        rb_rolling_curve c =
+            run(&rc, (rb_rolling_variable)over, -0.5 * scale, 1.5 * scale, 5);
+        rc.force_ratio = NAN;
+        rc.formulation = RB_STEADY;
+        assert_int_equal(c.n, 5);
+        assert_int_equal(c.rising, 5);
+        assert_null(c.branch);
+        for (int k = 0; k < 5; k++) {
+            const double wanted = (-0.5 + 0.5 * k) * scale;
+            *(over == RB_OVER_CREEP ? &rc.creep : &rc.creep_ratio) = wanted;
+            if (k != 1) /* nothing is dissipated there */
+                check_point(&c, k, &rc);
+            CHECK_ABS(over == RB_OVER_CREEP ? c.creepage[k] : c.creep_ratio[k], wanted,
+                      1e-9 * scale, "point %d", k);
+        }
+        CHECK_ABS(c.free_creepage, 0.0, 0.0, "similar bodies");
+        rb_rolling_solution s = solved(&rc);
+        CHECK_REL(c.half_width, s.hertz_half_width, 1e-9, "Hertz's");
+        CHECK_REL(c.stick_step, 1.0 / s.contact, 1e-9, "one element");
+        rb_rolling_solution_free(&s);
+        rb_rolling_curve_free(&c);
+        assert_null(c.creepage);
+    }
+}
+
+static void a_single_point_is_the_first(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = carter(20);
+    rb_rolling_curve c = run(&rc, RB_OVER_CREEP_RATIO, 0.4, 0.9, 1);
+    assert_int_equal(c.n, 1);
+    CHECK_REL(c.creep_ratio[0], 0.4, 1e-9, "from");
+    rb_rolling_curve_free(&c);
+}
+
+/* Equal steps of its logarithm, each with bodies of its own. */
+static void speeds_have_their_own_bodies(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = relaxing();
+    rb_rolling_curve c = run(&rc, RB_OVER_SPEED, 100.0, 10000.0, 3);
+    rc.formulation = RB_STEADY;
+    assert_int_equal(c.n, 3);
+    for (int k = 0; k < 3; k++) {
+        rc.speed = 100.0 * pow(10.0, k);
+        rb_rolling_solution s = solved(&rc);
+        CHECK_REL(c.speed[k], rc.speed, 1e-12, "speed %d", k);
+        CHECK_REL(c.resistance_moment[k], s.resistance_moment, 1e-8, "M of %d", k);
+        CHECK_REL(c.hysteresis[k], s.hysteresis, 1e-6, "lost at %d", k);
+        rb_rolling_solution_free(&s);
+    }
+    assert_true(isnan(c.free_creepage));
+    assert_true(c.iterations > 0);
+    rb_rolling_curve_free(&c);
+}
+
+/* Between midpoints of four elements nothing touches. */
+static void a_curve_without_contact_says_so(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = relaxing();
+    rb_message why = {""};
+    rb_rolling_curve c;
+    const rb_rolling_range range = {
+        .over = RB_OVER_SPEED, .from = 1.0, .to = 2.0, .points = 2};
+    rc.load = NAN;
+    rc.approach = 1e-9;
+    rc.zone = 1.0;
+    rc.contact_elements = 4;
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &range, &c, &why), RB_NO_CONTACT);
+    assert_non_null(strstr(why.text, "no contact"));
+    assert_int_equal(c.n, 1);
+    CHECK_ABS(c.stick_ratio[0], 0.0, 0.0, "nothing sticks");
+    CHECK_ABS(c.stick_step, 0.0, 0.0, "nothing sticks");
+    rb_rolling_curve_free(&c);
+}
+
+/* Unlike bodies move the contact: fitted and aligned meshes follow it, and every point is
+ * still its case. */
+static void meshes_follow_the_contact(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = carter(40);
+        rc.elastic_b = 0;
+        rc.a.poisson = 0.0;
+        rc.mu = 1.0;
+        rc.mesh = k ? RB_MESH_ALIGNED : RB_MESH_FITTED;
+        rb_rolling_curve c = run(&rc, RB_OVER_CREEP_RATIO, -2.0, 2.0, 3);
+        rc.formulation = RB_STEADY;
+        for (int i = 0; i < 3; i += 2) {
+            rc.creep_ratio = -2.0 + 2.0 * i;
+            rb_rolling_solution s = solved(&rc);
+            CHECK_REL(c.tangential_load[i], s.tangential_load, 2e-4, "Q of %d", i);
+            CHECK_REL(c.resistance_moment[i], s.resistance_moment, 1e-2, "M of %d", i);
+            rb_rolling_solution_free(&s);
+        }
+        rb_rolling_curve_free(&c);
+    }
+}
+
+/* A friction law that falls: there and back, each point from the one before it. */
+static void falling_friction_goes_there_and_back(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = carter(24);
+    rc.friction.law = RB_FRICTION_exponential;
+    rc.friction.fall[0] = 0.2;
+    rc.friction.slip_scale[0] = 2.0;
+    for (int k = 0; k < 2; k++) {
+        rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        rb_rolling_curve c = run(&rc, RB_OVER_CREEP_RATIO, 0.2, 1.2, 3);
+        static const double ratio[] = {0.2, 0.7, 1.2, 1.2, 0.7, 0.2};
+        assert_int_equal(c.n, 6);
+        assert_int_equal(c.rising, 3);
+        for (int i = 0; i < 6; i++) {
+            CHECK_REL(c.creep_ratio[i], ratio[i], 1e-9, "point %d", i);
+            assert_int_equal(c.branch[i], i < 3 ? 1 : 2);
+            assert_true(c.kappa[i] > 0.0);
+            CHECK_REL(c.kappa[i], c.kappa[5 - i], 1e-2, "there and back, %d", i);
+            CHECK_MAX(c.residual[i], 1e-9, "residual of %d", i);
+        }
+        CHECK_REL(c.tangential_load[2], c.tangential_load[3], 1e-3, "where it turns");
+        rb_rolling_curve_free(&c);
+    }
+}
+
+/* A mild law has one solution, so that each point is its case; a heated one has its
+ * temperature too. */
+static void warm_curves_have_the_temperatures_of_their_cases(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = carter(24);
+    rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
+    rb_rolling_curve c = run(&rc, RB_OVER_CREEP_RATIO, 0.4, 1.2, 2);
+    rc.formulation = RB_STEADY;
+    for (int k = 0; k < 2; k++) {
+        rc.creep_ratio = k ? 1.2 : 0.4;
+        rb_rolling_solution s = solved(&rc);
+        CHECK_REL(c.max_temperature[k], s.max_temperature, 1e-8, "point %d", k);
+        rb_rolling_solution_free(&s);
+    }
+    rb_rolling_curve_free(&c);
+    c = run(&rc, RB_OVER_SPEED, 1000.0, 2000.0, 2); /* heat depends on it */
+    assert_true(c.max_temperature[1] > c.max_temperature[0]);
+    rb_rolling_curve_free(&c);
+}
+
+static void refused(rb_rolling_case rc, rb_rolling_range range, const char *words)
+{
+    rb_rolling_curve c;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_curve_solve(&rc, &range, &c, &why), RB_EINVAL);
+    if (!strstr(why.text, words))
+        fail_msg("'%s' does not say '%s'", why.text, words);
+    assert_int_equal(c.n, 0);
+    rb_rolling_curve_free(&c);
+}
+
+static void ranges_that_make_no_sense_are_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case smooth = carter(20);
+    smooth.mu = 0.0;
+    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, NAN, 1.0, 3}, "finite numbers");
+    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, INFINITY, 3},
+            "finite numbers");
+    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, 0.1, 0}, "points: exp");
+    refused(carter(20), (rb_rolling_range){RB_OVER_CREEP, 0.0, 0.1, 1000001},
+            "points: expected 1 ... 1000000");
+    refused(smooth, (rb_rolling_range){RB_OVER_CREEP_RATIO, 0.0, 1.0, 3},
+            "has no meaning at mu = 0");
+    refused(relaxing(), (rb_rolling_range){RB_OVER_SPEED, 0.0, 1.0, 3},
+            "expected from and to > 0");
+    refused(relaxing(), (rb_rolling_range){RB_OVER_SPEED, 1.0, -1.0, 3},
+            "expected from and to > 0");
+    refused(carter(20), (rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 3},
+            "no body relaxes");
+    rb_rolling_curve c = run(&smooth, RB_OVER_CREEP, 0.0, 0.01, 2);
+    assert_true(isnan(c.free_creepage));
+    assert_true(isnan(c.creep_ratio[1]));
+    rb_rolling_curve_free(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_point_is_its_case),
+        cmocka_unit_test(a_single_point_is_the_first),
+        cmocka_unit_test(speeds_have_their_own_bodies),
+        cmocka_unit_test(a_curve_without_contact_says_so),
+        cmocka_unit_test(meshes_follow_the_contact),
+        cmocka_unit_test(falling_friction_goes_there_and_back),
+        cmocka_unit_test(warm_curves_have_the_temperatures_of_their_cases),
+        cmocka_unit_test(ranges_that_make_no_sense_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
