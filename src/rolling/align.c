@@ -70,7 +70,7 @@ static rb_status align(rb_rolling_model *model, int *rest, rb_message *why)
 
 rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why)
 {
-    int rest = 0;
+    int rest;
     const rb_status s = align(model, &rest, why);
 
     model->equal_instead = !rest;

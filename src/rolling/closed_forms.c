@@ -40,7 +40,7 @@ double rb_closed_half_cylinder_approach(double load, double radius, double plane
 /* xi > 0 brakes: the friction on A points to -x */
 static double opposing(double s)
 {
-    return s > 0.0 ? -1.0 : s < 0.0 ? 1.0 : 0.0;
+    return s > 0.0 ? -1.0 : 1.0;
 }
 
 double rb_closed_carter_force_ratio(double s)

@@ -1,0 +1,390 @@
+/* Friction that depends on the state: the coefficients of a state, starts, the uniqueness
+ * number, forces, each recomputed here; and in how many solves they are found. */
+#include "rolling/internal.h"
+#include "solved.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static rb_rolling_case falling(rb_rolling_formulation formulation, double fall,
+                               double scale)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.formulation = formulation;
+    rc.load = 500.0;
+    rc.contact_elements = 24;
+    rc.speed = 1000.0;
+    rc.distance = 0.3;
+    rc.mu = 0.2;
+    rc.friction.law = RB_FRICTION_exponential;
+    rc.friction.fall[0] = fall;
+    rc.friction.slip_scale[0] = scale;
+    return rc;
+}
+
+static double mu_of(const rb_rolling_case *rc, double v)
+{
+    return rc->mu +
+           rc->friction.fall[0] * exp(-log(2.0) * v / rc->friction.slip_scale[0]);
+}
+
+/* ---- The coefficients of a state --------------------------------------------------- */
+
+static void each_element_has_the_coefficient_of_its_slip(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
+    rc.creep_ratio = 0.7;
+    rb_rolling_model model = solved_model(&rc);
+    const rb_contact_state *s = &model.state;
+    int slides = 0;
+    for (int i = 0; i < s->n; i++) {
+        const double v = fabs(s->lambda[i]) / model.problem.e_T[i] * rc.speed;
+        if (s->p[i] == 0.0)
+            continue;
+        CHECK_MAX(fabs(s->q[i]), mu_of(&rc, v) * s->p[i] + 1e-8 * model.problem.stress,
+                  "bound of %d", i);
+        if (s->zone[i] == RB_ZONE_STICK)
+            continue;
+        slides++;
+        CHECK_ABS(fabs(s->q[i]), mu_of(&rc, v) * s->p[i], 1e-8 * model.problem.stress,
+                  "friction of %d", i);
+    }
+    assert_true(slides > 3);
+    CHECK_MAX(s->residual, 1e-10, "residual");
+    rb_rolling_model_free(&model);
+}
+
+/* A made-up state: open elements are at rest; with a memory d each forgets the one
+ * upstream of it over the way max(v, s0) e_T/V that it slides. */
+static void coefficients_forget_from_the_leading_edge_on(void **state)
+{
+    (void)state;
+    for (int steady = 0; steady < 2; steady++) {
+        rb_rolling_case rc = falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
+        rc.creep_ratio = 0.5;
+        rb_rolling_model model;
+        rb_rolling_solution solution;
+        rb_message why = {""};
+        double mu[100], before[100];
+        CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &solution, &why), RB_OK);
+        rb_contact_state *s = &model.state;
+        const double *e_T = model.problem.e_T, rest = mu_of(&rc, 0.0);
+        for (int i = 0; i < s->n; i++) {
+            s->zone[i] = i % 7 == 3 ? RB_ZONE_SEPARATED : RB_ZONE_SLIP_NEGATIVE;
+            s->lambda[i] = e_T[i] * 0.01 * (i % 5);
+            before[i] = 0.25 + 0.001 * i;
+        }
+        for (int k = 0; k < 3; k++) { /* no memory, with it, with a past */
+            model.rc.friction.memory = k ? 0.01 : 0.0;
+            model.rc.friction.memory_slip = 15.0;
+            model.surfaces.mu = k == 2 ? before : NULL;
+            CHECK_STATUS(rb_rolling_law_coefficients(&model, mu, &why), RB_OK);
+            double upstream = rest;
+            for (int i = s->n - 1; i >= 0; i--) {
+                const double v = 10.0 * (i % 5), now = mu_of(&rc, v);
+                const double from = steady ? upstream : k == 2 ? before[i] : rest;
+                const double kept = exp(-fmax(v, 15.0) * e_T[i] / rc.speed / 0.01);
+                const double want = s->zone[i] == RB_ZONE_SEPARATED ? rest
+                                    : k == 0                        ? now
+                                             : now + (from - now) * kept;
+                CHECK_REL(mu[i], want, 1e-13, "%d %d: element %d", steady, k, i);
+                upstream = want;
+            }
+        }
+        model.surfaces.mu = NULL;
+        rb_rolling_solution_free(&solution);
+        rb_rolling_model_free(&model);
+    }
+}
+
+/* Warm surfaces lose heat_range's part of `heat`. */
+static void warm_elements_have_another_coefficient(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = falling(RB_STEADY, 0.0, 1.0);
+    rc.creep_ratio = 2.0;
+    rc.heat_a = (rb_rolling_heat){
+        .conductivity = 40.0, .heat_capacity = 3.5, .temperature = 20.0};
+    rc.heat_b.temperature = 20.0;
+    rc.friction.heat = -0.1;
+    rc.friction.heat_from = 20.5;
+    rc.friction.heat_range = 200.0;
+    rb_rolling_solution s = solved(&rc);
+    for (int i = 0; i < s.n; i++) {
+        const double part = fmin(1.0, fmax(0.0, (s.temperature[i] - 20.5) / 200.0));
+        if (s.zone[i] != RB_ZONE_SEPARATED)
+            CHECK_ABS(s.mu[i], 0.2 - 0.1 * part, 1e-8, "element %d", i);
+    }
+    assert_true(s.max_temperature > 21.0);
+    CHECK_MAX(s.residual, 1e-10, "residual");
+    rb_rolling_solution_free(&s);
+}
+
+static void starts_slide_up_to_their_place(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
+    rc.creep_ratio = 0.5;
+    rb_rolling_model model = solved_model(&rc);
+    const double *x = model.bodies.f.x;
+    CHECK_STATUS(rb_rolling_law_start(&model, x[10], NULL), RB_OK);
+    for (int i = 0; i < model.problem.n; i++)
+        CHECK_ABS(model.problem.bound[i], i < 10 ? 0.2 : 0.4, 1e-12, "element %d", i);
+    model.rc.friction.heat = -0.1;
+    model.rc.friction.heat_range = 50.0;
+    CHECK_STATUS(rb_rolling_law_start(&model, x[0], NULL), RB_OK);
+    CHECK_ABS(model.problem.bound[0], 0.4, 1e-12, "at rest and cold");
+    CHECK_STATUS(rb_rolling_law_start(&model, INFINITY, NULL), RB_OK);
+    CHECK_ABS(model.problem.bound[5], 0.1, 1e-12, "fast and warm");
+    rb_rolling_model_free(&model);
+}
+
+/* The given coefficients that an iteration starts from count where bodies roll. */
+static void bounds_start_where_they_are_told(void **state)
+{
+    (void)state;
+    const double x[] = {-0.1, 0.1}, y[] = {0.21, 0.31};
+    const rb_rolling_table start = {2, x, y};
+    rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
+    rc.creep_ratio = 0.5;
+    rb_rolling_model model = solved_model(&rc);
+    model.rc.friction.start = &start;
+    for (int k = 0; k < 2; k++) {
+        model.rc.formulation = k ? RB_STATIC : RB_TRANSIENT;
+        rb_rolling_start_bounds(&model.rc, &model.bodies, &model.problem);
+        for (int i = 0; i < model.problem.n; i++) {
+            const double at = model.bodies.f.x[i];
+            CHECK_ABS(model.problem.bound[i],
+                      k ? 0.4 : 0.26 + 0.5 * fmin(0.1, fmax(-0.1, at)), 1e-12, "at %g",
+                      at);
+        }
+        CHECK_ABS(model.problem.mu, 0.4, 1e-15, "the scale");
+    }
+    rb_rolling_model_free(&model);
+}
+
+/* ---- Uniqueness -------------------------------------------------------------------- */
+
+/* (F3) V max(-dmu/dv) times, steadily the largest p_i S_ii/e_T, in a step the largest
+ * eigenvalue of S diag(p)/e_T, here by many more rounds. */
+static void kappa_is_slope_times_answer(void **state)
+{
+    (void)state;
+    for (int steady = 0; steady < 2; steady++) {
+        rb_rolling_case rc = falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, 20.0);
+        rb_rolling_model model;
+        rb_rolling_solution s;
+        rc.creep_ratio = 0.5;
+        CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, NULL), RB_OK);
+        const int n = model.problem.n;
+        const double *S = rb_contact_operator_matrix(model.problem.op).S;
+        const double slope = rc.speed * 0.2 * log(2.0) / 20.0, *p = model.state.p;
+        double largest = 0.0, kappa, v[100], w[100];
+        for (int i = 0; i < n; i++) {
+            v[i] = 1.0;
+            largest = fmax(largest, steady ? p[i] * S[i + (n + i) * n] : 0.0);
+        }
+        for (int k = 0; k < 500 && !steady; k++) {
+            for (int i = 0; i < n; i++) {
+                w[i] = 0.0;
+                for (int j = 0; j < n && p[i] > 0.0; j++)
+                    w[i] += S[i + (n + j) * n] * p[j] * v[j];
+            }
+            largest = rb_norm_inf((size_t)n, w);
+            for (int i = 0; i < n; i++)
+                v[i] = w[i] / largest;
+        }
+        CHECK_STATUS(rb_rolling_law_kappa(&model, &kappa), RB_OK);
+        CHECK_REL(kappa, slope * largest / model.problem.e_T[0], steady ? 1e-12 : 1e-6,
+                  "steady %d", steady);
+        CHECK_ABS(s.kappa, kappa, 0.0, "of the solution");
+        rb_rolling_solution_free(&s);
+        rb_rolling_model_free(&model);
+    }
+}
+
+/* ---- Forces ------------------------------------------------------------------------ */
+
+static double force_at(rb_rolling_case rc, double creepage)
+{
+    rc.force = rc.force_ratio = NAN;
+    rc.creep = creepage;
+    rb_rolling_solution s = solved(&rc);
+    const double Q = s.tangential_load;
+    rb_rolling_solution_free(&s);
+    return Q;
+}
+
+/* Either direction, as a force or as a ratio, in steady rolling and in steps; from a few
+ * dozen contact problems. */
+static void forces_are_met_in_few_solves(void **state)
+{
+    (void)state;
+    static const double ratios[] = {-0.7, 0.35, 0.0, 0.05};
+    for (int k = 0; k < 8; k++) {
+        rb_rolling_case rc = falling(k % 2 ? RB_TRANSIENT : RB_STEADY, 0.1, 40.0);
+        const double wanted = ratios[k / 2] * 0.3 * 500.0;
+        if (k < 4)
+            rc.force = wanted;
+        else
+            rc.force_ratio = ratios[k / 2];
+        if (k % 2 && wanted == 0.0)
+            continue;
+        rb_rolling_solution s = solved(&rc);
+        CHECK_ABS(s.tangential_load, wanted, 1e-7, "force %d", k);
+        CHECK_MAX(s.residual, 1e-10, "force %d", k);
+        CHECK_MAX(s.iterations, 400, "solves for force %d", k);
+        if (k % 2 == 0)
+            CHECK_ABS(force_at(rc, s.creepage), wanted, 1e-6, "at its creepage, %d", k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* The rising branch ends where Q is largest: a force beyond it is refused with that
+ * maximum and its creepage. */
+static void the_largest_force_is_that_of_a_scan(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = falling(RB_STEADY, 0.2, 4.0);
+    rb_rolling_solution s;
+    rb_message why = {""};
+    double largest = 0.0, place = 0.0, told = 0.0, at = 0.0;
+    for (int k = 1; k <= 60; k++) {
+        const double Q = -force_at(rc, 1e-4 * k);
+        if (Q > largest) {
+            largest = Q;
+            place = 1e-4 * k;
+        }
+    }
+    rc.force = -199.0;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
+    rb_rolling_solution_free(&s);
+    const char *from = strstr(why.text, "the largest is ");
+    assert_non_null(from);
+    assert_int_equal(sscanf(from, "the largest is %lg N/mm, at creepage %lg", &told, &at),
+                     2);
+    CHECK_REL(told, -largest, 5e-3, "largest force");
+    CHECK_ABS(at, place, 1.5e-4, "its creepage");
+    rc.force = 0.99 * told;
+    s = solved(&rc);
+    CHECK_REL(s.tangential_load, rc.force, 1e-7, "a little less is met");
+    CHECK_MAX(s.creepage, at, "on the rising branch");
+    rb_rolling_solution_free(&s);
+}
+
+/* The axle is driven by nothing: Q R = -M. */
+static void a_free_axle_has_no_moment(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = falling(RB_STEADY, 0.1, 40.0);
+    rc.a.memory = (rb_rolling_memory){1, {2e-4}, {1.0}};
+    rc.free_axle = 1;
+    rb_rolling_solution s = solved(&rc);
+    CHECK_ABS(s.tangential_load, -s.resistance_moment / 50.0, 1e-7, "Q = -M/R");
+    assert_true(s.resistance_moment > 0.0);
+    rb_rolling_solution_free(&s);
+}
+
+/* ---- Steep laws -------------------------------------------------------------------- */
+
+/* The iteration turns back and forth, or leaves every solution: shorter steps and
+ * Newton's method find one that satisfies the law. */
+static void steep_laws_are_solved_in_few_steps(void **state)
+{
+    (void)state;
+    static const double scale[] = {4.0, 1.0, 0.4, 0.2};
+    for (int k = 0; k < 4; k++)
+        for (int steady = 0; steady < 2; steady++) {
+            rb_rolling_case rc =
+                falling(steady ? RB_STEADY : RB_TRANSIENT, 0.2, scale[k]);
+            rc.creep_ratio = 0.6;
+            rc.steps = steady ? 0 : 3;
+            rb_rolling_solution s = solved(&rc);
+            print_message("# kappa %g: %d iterations\n", s.kappa, s.iterations);
+            CHECK_MAX(s.residual, 1e-10, "scale %g", scale[k]);
+            CHECK_MAX(s.iterations, 150, "scale %g", scale[k]);
+            rb_rolling_solution_free(&s);
+        }
+}
+
+/* ---- All solutions ----------------------------------------------------------------- */
+
+static void all_solutions_of_one_are_one(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = falling(RB_STEADY, 0.1, 200.0);
+    rb_rolling_solutions all;
+    rb_message why = {""};
+    rc.contact_elements = 12;
+    rc.creep_ratio = 0.5;
+    rb_rolling_model model = solved_model(&rc);
+    int touch = 0;
+    for (int i = 0; i < model.state.n; i++)
+        touch += model.state.p[i] > 0.0;
+    CHECK_STATUS(rb_rolling_find_solutions(&model, &all, &why), RB_OK);
+    assert_int_equal(all.n, 1);
+    assert_int_equal(all.starts, touch + 1);
+    assert_int_equal(all.failed, 0);
+    rb_rolling_solutions_free(&all);
+    model.problem.force_given = 1;
+    CHECK_STATUS(rb_rolling_find_solutions(&model, &all, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "not under a given force"));
+    model.problem.force_given = 0;
+    for (int k = 0; k < 2; k++) {
+        model.rc.formulation = k ? RB_STEADY : RB_TRANSIENT;
+        model.rc.friction.fall[0] = k ? 0.0 : 0.1;
+        CHECK_STATUS(rb_rolling_find_solutions(&model, &all, &why), RB_EINVAL);
+        assert_non_null(strstr(why.text, "all solutions: of steady rolling with"));
+    }
+    rb_rolling_model_free(&model);
+}
+
+/* Each differs from the others, the largest force first, and is proven. */
+static void several_solutions_are_told_apart(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = falling(RB_STEADY, 0.2, 0.2);
+    rb_rolling_solutions all;
+    rc.creep_ratio = 0.3;
+    rb_rolling_model model = solved_model(&rc);
+    CHECK_STATUS(rb_rolling_find_solutions(&model, &all, NULL), RB_OK);
+    assert_true(all.n >= 2);
+    for (int k = 0; k < all.n; k++) {
+        CHECK_MAX(all.solution[k].residual, 1e-10, "solution %d", k);
+        assert_true(k == 0 || fabs(all.solution[k].tangential_load) <=
+                                  fabs(all.solution[k - 1].tangential_load));
+        for (int j = 0; j < k; j++) {
+            double difference = 0.0;
+            for (int i = 0; i < model.state.n; i++)
+                difference =
+                    fmax(difference, fabs(all.solution[k].q[i] - all.solution[j].q[i]));
+            assert_true(difference > 1e-6 * 0.4 * model.problem.stress);
+        }
+    }
+    rb_rolling_solutions_free(&all);
+    rb_rolling_model_free(&model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_element_has_the_coefficient_of_its_slip),
+        cmocka_unit_test(coefficients_forget_from_the_leading_edge_on),
+        cmocka_unit_test(warm_elements_have_another_coefficient),
+        cmocka_unit_test(starts_slide_up_to_their_place),
+        cmocka_unit_test(bounds_start_where_they_are_told),
+        cmocka_unit_test(kappa_is_slope_times_answer),
+        cmocka_unit_test(forces_are_met_in_few_solves),
+        cmocka_unit_test(the_largest_force_is_that_of_a_scan),
+        cmocka_unit_test(a_free_axle_has_no_moment),
+        cmocka_unit_test(steep_laws_are_solved_in_few_steps),
+        cmocka_unit_test(all_solutions_of_one_are_one),
+        cmocka_unit_test(several_solutions_are_told_apart),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,208 @@
+/* The processes of a study, as the one sees them that hands out cases. */
+#define _GNU_SOURCE
+#include "rolling/internal.h"
+#include "solved.h"
+
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+/* Case 3 is refused by its maker, case 4 by the solver. */
+static rb_status make(int k, rb_rolling_case *rc, void *context)
+{
+    (void)context;
+    *rc = rb_rolling_case_defaults();
+    rc->a.support = RB_BEM_HALFPLANE;
+    rc->load = 100.0 * (k + 1);
+    rc->contact_elements = k == 4 ? 1 : 16;
+    rc->formulation = RB_STEADY;
+    rc->creep_ratio = 0.5;
+    return k == 3 ? RB_INACCURATE : RB_OK;
+}
+
+static int see_nothing(int k, const rb_rolling_row *row, void *context)
+{
+    (void)k;
+    (void)row;
+    (void)context;
+    return 0;
+}
+
+static rb_rolling_sweep of(int count, int workers, unsigned also)
+{
+    return (rb_rolling_sweep){.count = count,
+                              .workers = workers,
+                              .also = also,
+                              .make = make,
+                              .see = see_nothing};
+}
+
+static rb_rolling_row row_of(rb_rolling_pool *pool, int k)
+{
+    rb_rolling_row row;
+    int which = -1, came = 0;
+    CHECK_STATUS(pool->submit(pool, k), RB_OK);
+    for (int i = 0; i < 10000 && came == 0; i++)
+        came = pool->collect(pool, 20, &which, &row);
+    assert_int_equal(came, 1);
+    assert_int_equal(which, k);
+    return row;
+}
+
+/* What is asked for, and NAN otherwise. */
+static void rows_have_what_is_asked_for(void **state)
+{
+    (void)state;
+    for (unsigned also = 0; also < 4; also++) {
+        const rb_rolling_sweep sweep = of(1, 1, also);
+        rb_rolling_pool *pool;
+        rb_rolling_case rc;
+        rb_rolling_errors errors;
+        rb_rolling_stress_maxima stress;
+        CHECK_STATUS(rb_rolling_pool_start(&sweep, &pool, NULL), RB_OK);
+        const rb_rolling_row row = row_of(pool, 0);
+        pool->stop(pool);
+        CHECK_STATUS(make(0, &rc, NULL), RB_OK);
+        rb_rolling_model model;
+        rb_rolling_solution s;
+        CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &stress, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_estimate_errors(&rc, &s, &stress, &errors, NULL), RB_OK);
+        CHECK_STATUS(row.solution.status, RB_OK);
+        CHECK_ABS(row.solution.tangential_load, s.tangential_load, 0.0, "Q");
+        CHECK_ABS(row.solution.free_creepage, s.free_creepage, 0.0, "free creepage");
+        assert_int_equal(row.solution.contact, s.contact);
+        assert_int_equal(row.solution.n, 0);
+        assert_int_equal(row.solution.patches, 0);
+        assert_null(row.solution.patch);
+        assert_null(row.solution.p);
+        assert_null(row.solution.zone);
+        assert_null(row.solution.cone_solver);
+        if (also & RB_ROW_STRESS)
+            CHECK_REL(row.stress.von_mises.value, stress.von_mises.value, 1e-12, "Mises");
+        else
+            assert_true(isnan(row.stress.von_mises.value));
+        if (also & RB_ROW_ERRORS)
+            CHECK_REL(row.errors.scalar.approach, errors.scalar.approach, 1e-9, "bar");
+        else
+            assert_true(isnan(row.errors.scalar.approach));
+        if (also == 3)
+            CHECK_REL(row.errors.stress.von_mises.value, errors.stress.von_mises.value,
+                      1e-9, "bar of Mises");
+        else
+            assert_true(isnan(row.errors.stress.von_mises.value));
+        rb_rolling_solution_free(&s);
+        rb_rolling_model_free(&model);
+    }
+}
+
+static void refused_cases_have_their_status(void **state)
+{
+    (void)state;
+    const rb_rolling_sweep sweep = of(8, 1, RB_ROW_STRESS);
+    rb_rolling_pool *pool;
+    CHECK_STATUS(rb_rolling_pool_start(&sweep, &pool, NULL), RB_OK);
+    rb_rolling_row row = row_of(pool, 3);
+    CHECK_STATUS(row.solution.status, RB_INACCURATE);
+    assert_true(isnan(row.solution.normal_load));
+    row = row_of(pool, 4);
+    CHECK_STATUS(row.solution.status, RB_EINVAL);
+    assert_true(isnan(row.solution.normal_load) && isnan(row.stress.von_mises.value));
+    row = row_of(pool, 5);
+    CHECK_STATUS(row.solution.status, RB_OK);
+    CHECK_REL(row.solution.normal_load, 600.0, 1e-9, "load");
+    pool->stop(pool);
+}
+
+static void workers_are_counted(void **state)
+{
+    (void)state;
+    static const int workers[][3] = {{5, 3, 3}, {2, 3, 2}, {0, 3, 0}}; /* count, wanted */
+    rb_rolling_pool *pool;
+    rb_message why = {""};
+    for (int k = 0; k < 3; k++) {
+        const rb_rolling_sweep sweep = of(workers[k][0], workers[k][1], 0);
+        CHECK_STATUS(rb_rolling_pool_start(&sweep, &pool, NULL), RB_OK);
+        assert_int_equal(pool->idle(pool), workers[k][2]);
+        for (int i = 1; i <= workers[k][2]; i++) {
+            CHECK_STATUS(pool->submit(pool, i - 1), RB_OK);
+            assert_int_equal(pool->idle(pool), workers[k][2] - i);
+        }
+        pool->stop(pool);
+    }
+    const rb_rolling_sweep all = of(10000, 0, 0);
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    CHECK_STATUS(rb_rolling_pool_start(&all, &pool, NULL), RB_OK);
+    assert_int_equal(pool->idle(pool), processors < 256 ? processors : 256);
+    pool->stop(pool);
+    const rb_rolling_sweep bad[] = {of(-1, 1, 0), of(1, -1, 0), of(1, 257, 0)};
+    for (int k = 0; k < 3; k++) {
+        CHECK_STATUS(rb_rolling_pool_start(&bad[k], &pool, &why), RB_EINVAL);
+        assert_non_null(strstr(why.text, "expected 0 ... 256"));
+        assert_null(pool);
+    }
+}
+
+/* Every worker in turn: rows come whoever finishes. */
+static void all_cases_come_back_once(void **state)
+{
+    (void)state;
+    enum { CASES = 12 };
+    const rb_rolling_sweep sweep = of(CASES, 3, 0);
+    rb_rolling_pool *pool;
+    int seen[CASES] = {0}, given = 0, came = 0;
+    CHECK_STATUS(rb_rolling_pool_start(&sweep, &pool, NULL), RB_OK);
+    while (came < CASES) {
+        rb_rolling_row row;
+        int k = -1;
+        while (given < CASES && pool->idle(pool) > 0)
+            CHECK_STATUS(pool->submit(pool, given++), RB_OK);
+        if (pool->collect(pool, 20, &k, &row) == 1) {
+            assert_in_range(k, 0, CASES - 1);
+            assert_int_equal(seen[k]++, 0);
+            came++;
+            if (k != 3 && k != 4)
+                CHECK_REL(row.solution.normal_load, 100.0 * (k + 1), 1e-9, "case %d", k);
+        }
+    }
+    assert_int_equal(pool->idle(pool), 3);
+    rb_rolling_row none;
+    int k;
+    assert_int_equal(pool->collect(pool, 0, &k, &none), 0); /* nobody works */
+    pool->stop(pool);
+}
+
+/* Without descriptors no worker can be reached. */
+static void a_pool_that_cannot_start_says_why(void **state)
+{
+    (void)state;
+    const rb_rolling_sweep sweep = of(4, 4, 0);
+    rb_rolling_pool *pool;
+    rb_message why = {""};
+    struct rlimit before, few;
+    assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
+    for (int room = 0; room < 4; room += 3) { /* none, and enough for one worker */
+        const int next = dup(0);
+        close(next);
+        few = before;
+        few.rlim_cur = (rlim_t)(next + room);
+        assert_int_equal(setrlimit(RLIMIT_NOFILE, &few), 0);
+        const rb_status s = rb_rolling_pool_start(&sweep, &pool, &why);
+        assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
+        CHECK_STATUS(s, RB_ENOMEM);
+        assert_null(pool);
+        assert_non_null(strstr(why.text, "sweep: cannot start a process: Too many open"));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_have_what_is_asked_for),
+        cmocka_unit_test(refused_cases_have_their_status),
+        cmocka_unit_test(workers_are_counted),
+        cmocka_unit_test(all_cases_come_back_once),
+        cmocka_unit_test(a_pool_that_cannot_start_says_why),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,280 @@
+/* Wear of one small contact: each step recomputed from the one before it, and refusals.
+ */
+#include "rolling/internal.h"
+#include "solved.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+static rb_rolling_case plane(int elements)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    rc.elastic_b = 1;
+    rc.gap = RB_GAP_PARABOLA;
+    rc.load = 500.0;
+    rc.contact_elements = elements;
+    rc.zone = 1.6;
+    return rc;
+}
+
+typedef struct {
+    rb_rolling_wear_history h;
+    rb_rolling_solution last;
+    int seen, stop_at;
+    double worn[3], p[3], x; /* at an element, after each step */
+    rb_status status;
+    rb_message why;
+} run;
+
+static int see(rb_rolling_solution *s, const rb_rolling_wear_history *h, int step,
+               int steps, void *context)
+{
+    run *r = context;
+    const int k = s->n / 2 + 2;
+    assert_int_equal(step, r->seen);
+    assert_int_equal(h->n, step + 1);
+    assert_true(steps >= step);
+    if (step < 3) {
+        r->worn[step] = s->worn ? s->worn[k] : 0.0;
+        r->p[step] = s->p[k];
+        r->x = s->x[k];
+    }
+    return ++r->seen == r->stop_at;
+}
+
+static void start(run *r, const rb_rolling_case *rc, const rb_rolling_wear *wear)
+{
+    const rb_rolling_wear_observer observer = {see, r};
+    r->why.text[0] = '\0';
+    r->seen = 0;
+    r->status = rb_rolling_wear_run(rc, wear, &observer, &r->h, &r->last, &r->why);
+}
+
+static void finish(run *r)
+{
+    rb_rolling_wear_history_free(&r->h);
+    rb_rolling_solution_free(&r->last);
+}
+
+/* Implicit: each step takes K ds p off with the pressure at its end. */
+static void a_step_takes_off_what_its_pressure_wears(void **state)
+{
+    (void)state;
+    for (int law = 0; law < 2; law++) {
+        run r = {.stop_at = -1};
+        const rb_rolling_case rc = plane(40);
+        const rb_rolling_wear wear = {.law = law ? RB_WEAR_DISSIPATION : RB_WEAR_ARCHARD,
+                                      .slides = 1,
+                                      .coefficient = 1e-8,
+                                      .way = 1000.0,
+                                      .steps = 2};
+        start(&r, &rc, &wear);
+        CHECK_STATUS(r.status, RB_OK);
+        assert_int_equal(r.seen, 3);
+        assert_int_equal(r.h.n, 3);
+        assert_int_equal(r.h.slides, 1);
+        assert_int_equal(r.h.rolls, 0);
+        const double depth =
+            1e-8 * (law ? 0.3 : 1.0) * 500.0; /* per pressure, of a step */
+        CHECK_ABS(r.worn[0], 0.0, 0.0, "nothing before");
+        CHECK_REL(r.worn[1], depth * r.p[1], 1e-9, "first step");
+        CHECK_REL(r.worn[2] - r.worn[1], depth * r.p[2], 1e-9, "second step");
+        for (int k = 0; k < 3; k++) {
+            CHECK_REL(r.h.way[k], 500.0 * k, 1e-15, "way %d", k);
+            CHECK_REL(r.h.worn[k], depth * k * 500.0, 1e-9, "volume %d", k);
+            CHECK_REL(r.h.normal_load[k], 500.0, 1e-9, "load %d", k);
+            CHECK_REL(r.h.work[k], 150.0, 1e-9, "friction of full sliding, %d", k);
+            CHECK_ABS(r.h.radius[k], 50.0, 0.0, "radius %d", k);
+            CHECK_MAX(r.h.residual[k], 1e-10, "residual %d", k);
+        }
+        double most = 0.0;
+        for (int i = 0; i < r.last.n; i++)
+            most = fmax(most, r.last.worn[i]);
+        CHECK_ABS(r.h.max_depth[2], most, 0.0, "deepest");
+        CHECK_REL(r.h.max_pressure[2], r.last.max_pressure, 1e-15, "p0");
+        CHECK_REL(r.h.contact_to[2], r.last.contact_to, 1e-15, "edge");
+        CHECK_REL(r.h.approach[2], r.last.approach, 1e-15, "approach");
+        assert_true(r.last.tangential_load < 0.0); /* A slides towards +x */
+        finish(&r);
+    }
+}
+
+/* What wears without sliding friction is pressed without a force. */
+static void smooth_surfaces_wear_by_archard(void **state)
+{
+    (void)state;
+    run r = {.stop_at = -1};
+    rb_rolling_case rc = plane(40);
+    const rb_rolling_wear wear = {
+        .slides = 1, .coefficient = 1e-8, .way = 1000.0, .steps = 1};
+    rc.mu = 0.0;
+    rc.load = NAN;
+    rc.half_width = rb_rolling_hertz_half_width(&rc, 500.0); /* means this load */
+    start(&r, &rc, &wear);
+    CHECK_STATUS(r.status, RB_OK);
+    CHECK_REL(r.h.worn[1], 1e-5 * 500.0, 1e-9, "volume of the load");
+    CHECK_ABS(r.h.work[1], 0.0, 0.0, "no friction");
+    finish(&r);
+}
+
+/* Of the second cycle every increment counts: here it slides as a whole, to s and back,
+ * so that each place of the middle slides 4 s, and the work is mu P 4 s. */
+static void fretting_counts_one_closed_cycle(void **state)
+{
+    (void)state;
+    run r = {.stop_at = -1};
+    rb_rolling_case rc = plane(40);
+    const rb_rolling_wear wear = {
+        .coefficient = 1e-9, .way = 100.0, .steps = 1, .increments = 3};
+    rc.mu = 0.01; /* it sticks for a small part of the cycle alone */
+    rc.shift = 0.05;
+    start(&r, &rc, &wear);
+    CHECK_STATUS(r.status, RB_OK);
+    CHECK_REL(r.h.work[1], 0.01 * 500.0 * 4.0 * 0.05, 0.02, "work of a cycle");
+    CHECK_REL(r.h.worn[1], 1e-9 * 100.0 * 4.0 * 0.05 * 500.0, 0.02, "K P 4 s cycles");
+    CHECK_ABS(r.h.way[1], 100.0, 0.0, "cycles");
+    assert_int_equal(r.h.slides, 0);
+    finish(&r);
+}
+
+/* (W3) a round wheel stays round: R = R_before - turns K power, the power of its end. */
+static void a_rolling_wheel_shrinks(void **state)
+{
+    (void)state;
+    for (int law = 0; law < 2; law++) {
+        run r = {.stop_at = -1};
+        rb_rolling_case rc = plane(40);
+        const rb_rolling_wear wear = {.law = law ? RB_WEAR_DISSIPATION : RB_WEAR_ARCHARD,
+                                      .coefficient = 1e-9,
+                                      .way = 1e6,
+                                      .steps = 2};
+        rc.formulation = RB_STEADY;
+        rc.creep = 0.01; /* slides everywhere */
+        start(&r, &rc, &wear);
+        CHECK_STATUS(r.status, RB_OK);
+        assert_int_equal(r.h.rolls, 1);
+        double depth = r.last.dissipation;
+        if (!law) {
+            depth = 0.0;
+            for (int i = 0; i < r.last.n; i++)
+                depth += r.last.p[i] * fabs(r.last.shift[i]);
+        }
+        CHECK_REL(r.h.radius[1] - r.h.radius[2], 1e-9 * 5e5 * depth, 1e-9,
+                  "law %d: second step", law);
+        CHECK_ABS(r.h.radius[0], 50.0, 0.0, "before");
+        for (int k = 0; k < 3; k++) {
+            CHECK_REL(r.h.max_depth[k], 50.0 - r.h.radius[k], 1e-12, "depth %d", k);
+            CHECK_REL(r.h.worn[k], M_PI * (2500.0 - gsl_pow_2(r.h.radius[k])), 1e-12,
+                      "ring %d", k);
+        }
+        CHECK_REL(r.h.work[2], r.last.dissipation, 1e-12, "power");
+        CHECK_REL(r.h.radius_before, 50.0, 0.0, "before");
+        finish(&r);
+        const rb_rolling_wear much = {.coefficient = 1e-2, .way = 1e6, .steps = 1};
+        start(&r, &rc, &much);
+        CHECK_STATUS(r.status, RB_EINVAL);
+        assert_non_null(strstr(r.why.text, "of the radius 50; take more steps"));
+        assert_int_equal(r.h.n, 1); /* what there was before */
+        finish(&r);
+    }
+}
+
+static void a_scar_that_outgrows_its_zone(void **state)
+{
+    (void)state;
+    run r = {.stop_at = -1};
+    rb_rolling_case rc = plane(40);
+    const rb_rolling_wear wear = {
+        .slides = 1, .coefficient = 1e-7, .way = 1e4, .steps = 3};
+    start(&r, &rc, &wear); /* of half-planes it is widened */
+    CHECK_STATUS(r.status, RB_OK);
+    assert_true(r.last.n > 40);
+    CHECK_REL(r.h.worn[3], 1e-3 * 500.0, 1e-9, "volume");
+    CHECK_REL(r.last.x[r.last.n - 1] - r.last.x[0], (r.last.n - 1) * r.last.h[0], 1e-12,
+              "equal elements");
+    CHECK_REL(r.last.h[0], 3.2 / 40.0, 1e-12, "of the same length");
+    finish(&r);
+    rc = plane(16);
+    rc.elastic_b = 0;
+    rc.a.support = RB_BEM_HUB;
+    rc.outer_elements = 30;
+    start(&r, &rc, &wear);
+    CHECK_STATUS(r.status, RB_ZONE);
+    assert_non_null(strstr(r.why.text, "on wheels the elements would move"));
+    finish(&r);
+}
+
+static void an_observer_ends_the_run(void **state)
+{
+    (void)state;
+    run r = {.stop_at = 2};
+    const rb_rolling_case rc = plane(20);
+    const rb_rolling_wear wear = {
+        .slides = 1, .coefficient = 1e-8, .way = 1000.0, .steps = 5};
+    start(&r, &rc, &wear);
+    CHECK_STATUS(r.status, RB_INTERRUPTED);
+    assert_non_null(strstr(r.why.text, "interrupted after step 1 of 5"));
+    assert_int_equal(r.h.n, 2);
+    assert_int_equal(r.last.n, 20);
+    finish(&r);
+}
+
+static void wear_that_makes_no_sense_is_refused(void **state)
+{
+    (void)state;
+    const rb_rolling_wear fine = {
+        .slides = 1, .coefficient = 1e-8, .way = 1.0, .steps = 1, .increments = 1};
+#define REFUSED(words, ...)                                                              \
+    do {                                                                                 \
+        rb_rolling_case rc = plane(20);                                                  \
+        rb_rolling_wear wear = fine;                                                     \
+        run r = {.stop_at = -1};                                                         \
+        __VA_ARGS__;                                                                     \
+        start(&r, &rc, &wear);                                                           \
+        CHECK_STATUS(r.status, RB_EINVAL);                                               \
+        if (!strstr(r.why.text, words))                                                  \
+            fail_msg("'%s' does not say '%s'", r.why.text, words);                       \
+        assert_int_equal(r.seen, 0);                                                     \
+        finish(&r);                                                                      \
+    } while (0)
+#define STEADY rc.formulation = RB_STEADY, wear.slides = 0
+    REFUSED("not of a transient", rc.formulation = RB_TRANSIENT);
+    REFUSED("wear coefficient: expected > 0, got 0", wear.coefficient = 0.0);
+    REFUSED("wear coefficient: expected > 0", wear.coefficient = INFINITY);
+    REFUSED("wear coefficient: expected > 0", wear.coefficient = NAN);
+    REFUSED("a way or cycles > 0, got -1", wear.way = -1.0);
+    REFUSED("a way or cycles > 0", wear.way = INFINITY);
+    REFUSED("wear steps: expected 1 ... 1000000, got 0", wear.steps = 0);
+    REFUSED("wear steps: expected 1 ... 1000000", wear.steps = 1000001);
+    REFUSED("wear increments: expected >= 1, got 0", wear.slides = 0,
+            wear.increments = 0);
+    REFUSED("friction dissipates nothing", rc.mu = 0.0, wear.law = RB_WEAR_DISSIPATION);
+    REFUSED("friction dissipates nothing", rc.mu = 0.0, wear.slides = 0);
+    REFUSED("takes one coefficient of friction", wear.law = RB_WEAR_DISSIPATION,
+            rc.friction.law = RB_FRICTION_linear);
+    REFUSED("needs equal elements", rc.mesh = RB_MESH_FITTED);
+    REFUSED("fewer than 1500", rc.contact_elements = RB_ROLLING_LARGE);
+    REFUSED("a wheel that rolls does not slide", rc.formulation = RB_STEADY);
+    REFUSED("of one elastic material only", STEADY, rc.a.layer = 1.0);
+    REFUSED("not with --yield-stress", rc.yield_stress = 1.0);
+    REFUSED("mu: expected >= 0", rc.mu = -0.1);
+#undef STEADY
+#undef REFUSED
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_step_takes_off_what_its_pressure_wears),
+        cmocka_unit_test(smooth_surfaces_wear_by_archard),
+        cmocka_unit_test(fretting_counts_one_closed_cycle),
+        cmocka_unit_test(a_rolling_wheel_shrinks),
+        cmocka_unit_test(a_scar_that_outgrows_its_zone),
+        cmocka_unit_test(an_observer_ends_the_run),
+        cmocka_unit_test(wear_that_makes_no_sense_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
