@@ -294,6 +294,10 @@ static void what_is_wrong_is_named_with_its_line(void **state)
     check_refused(read_lcp, "2 0 2 2 2 2 1 2 3 4;5 5 6", "got '4;5'");
     check_refused(read_lcp, "2000000000 0 2000000000 2000000000 2000000000 2000000000 1",
                   "room for");
+    check_refused(read_friction, "2 715827883", /* three of each are no int */
+                  "number of contacts: expected an integer from 1 to 715827882");
+    check_refused(read_friction, "3 715827882 0",
+                  "rows of the matrix: expected 2147483646, the file ends");
     check_refused(read_friction, "4 1", "dimension: expected an integer from 2 to 3");
     check_refused(read_friction, "2 1 0 2 2 2 2 2 0 1 3 -5 -6 0.5 2",
                   "after the last number");

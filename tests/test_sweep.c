@@ -259,7 +259,16 @@ static void what_is_no_row_of_the_study_is_refused(void **state)
     check_not_resumed("sed -i '7s/0.5/0.6/' s.tsv", "s.tsv:7: not the row of case 2");
     check_not_resumed("sed -i '8s/\\t[^\\t]*$//' s.tsv",
                       "s.tsv:8: not the row of case 3");
+    check_not_resumed("sed -i '8s/[^\\t]*$//' s.tsv", "s.tsv:8: not the row of case 3");
+    check_not_resumed("sed -i '8s/$/x/' s.tsv", "s.tsv:8: not the row of case 3");
+    check_not_resumed("sed -i '8s/$/\\t0/' s.tsv", "s.tsv:8: not the row of case 3");
+    check_not_resumed("sed -i '7s/\\t0\\t/\\tx\\t/' s.tsv",
+                      "s.tsv:7: not the row of case 2");
+    check_not_resumed("sed -i '7s/\\t0\\t/ 0\\t/' s.tsv",
+                      "s.tsv:7: not the row of case 2");
     check_not_resumed("sed -i '1s/force_ratio/x/' s.tsv", "holds something else");
+    check_not_resumed("sed -i '2s/$/x/' s.tsv", "holds something else");
+    check_not_resumed("head -2 s.tsv >t; mv t s.tsv", "holds something else");
     check_not_resumed("sed -i '8p' s.tsv", "s.tsv:9: not the row of case 4");
 }
 
