@@ -109,6 +109,24 @@ static void refusals_have_their_code_and_reason(void **state)
         {64, "b.ini --contact-elements 1", "expected a whole number >= 3, got '1'"},
         {64, "b.ini --contact-elements 3.5", "got '3.5'"},
         {64, "b.ini --plot-script p.gp", "got 0"},
+        {65, "size.ini", "--plot-size: there is no picture; --plot FILE asks for one"},
+        {65, "script.ini", "--plot-script: expected one picture (such as --plot FILE)"},
+        {66, "''", ": No such file"},
+        {64, "--an-option-of-a-name-that-is-longer-than-any-other-name 3",
+         "--an-option-of-a-name-that-is-longer-than"},
+        {64, "help friction lcp", "help: unexpected 'lcp'"},
+        {64,
+         "sweep s.ini --results a_result_of_a_name_that_is_longer_than_any_heading_is",
+         "--results: no result 'a_result_of_a_name"},
+        {64, "sweep s.ini --map p.svg --vary-2 'mu 0.1'",
+         "a map needs two options with two values or more"},
+        {64, "sweep b.ini --map p.svg --cases just.txt", "--map: no option varies"},
+        {64, "contact", "FILE.inp"},
+        {64, "example", "example: expected one of bar, truss, wall"},
+        {64, "compare", "compare: expected at least one FILE"},
+        {64, "compare one.txt --solvers nsn-ac,nsn-ac", "'nsn-ac' is given twice"},
+        {64, "compare one.txt --solvers nsn-ac,", "no friction solver is called ''"},
+        {64, "friction", "FILE"},
         {64,
          "b.ini --plot-script p.gp --plot p.svg --history-plot q.svg --formulation "
          "transient --distance 1",
@@ -282,6 +300,8 @@ static void refusals_have_their_code_and_reason(void **state)
                "support = halfplane\nload = 100\ncontact-elements = 12\nzone = 1\n"
                "formulation = steady\n[sweep]\nvary-1 = load 100 200\n"
                "vary-2 = creep-ratio 0 0.5\n");
+    write_file("size.ini", "load = 100\n[output]\nplot-size = slide\n");
+    write_file("script.ini", "load = 100\n[output]\nplot-script = p.gp\n");
     write_file("list.json", "[1]\n");
     write_file("cut.json", "{\"schema\": \n");
     write_file("list.ini", "mu = 0.1,x\n");

@@ -221,13 +221,10 @@ cli_exit cli_draw_file(const cli_pictures *pictures, const char *option, const c
                        cli_draw *draw, const void *context)
 {
     drawing d = {.option = option, .draw = draw, .context = context};
-    rb_message why = {""};
     if (!path)
         return CLI_OK;
     d.canvas.size = (rb_report_picture_size)pictures->size;
-    const rb_status s = rb_report_picture_kind_of(path, &d.canvas.kind, &why);
-    if (s != RB_OK)
-        return cli_say(s, &why);
+    rb_report_picture_kind_of(path, &d.canvas.kind, NULL); /* cli_check_files knows it */
     drawing script = d;
     script.canvas.script = 1;
     /* first the script, which does not need gnuplot */
