@@ -22,7 +22,7 @@ static double scaled_exponential_integral(double z)
 static double entire_part(double z)
 {
     double term = 1.0, sum = 0.0;
-    for (int k = 1; k <= 24 && fabs(term) > 1e-19; k++) {
+    for (int k = 1; fabs(term) > 1e-19; k++) {
         term *= -z / k;
         sum += term / k;
     }

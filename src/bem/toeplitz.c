@@ -340,8 +340,10 @@ static int are_equal(int n_c, const double *ends)
 static rb_status check(int n_c, const double *ends, const rb_bem_surface *body,
                        rb_message *why)
 {
+    if (n_c > 1 << 28)
+        return rb_fail(why, RB_EINVAL, "contact elements: %d, expected at most %d", n_c,
+                       1 << 28);
     rb_status s = rb_bem_surface_check(body, why);
-
     if (s == RB_OK)
         s = rb_bem_ends_check(n_c, ends, why);
     if (s == RB_OK && !are_equal(n_c, ends))
@@ -349,9 +351,6 @@ static rb_status check(int n_c, const double *ends, const rb_bem_surface *body,
                     "half-plane by Fourier transforms: %d elements of "
                     "different lengths, expected equal ones",
                     n_c + 1);
-    if (s == RB_OK && n_c > 1 << 28)
-        s = rb_fail(why, RB_EINVAL, "contact elements: %d, expected at most %d", n_c,
-                    1 << 28);
     return s;
 }
 

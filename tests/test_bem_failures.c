@@ -1,0 +1,660 @@
+/* Boundary elements without memory, and with bad input: every kind of body, every
+ * refusal. */
+#include "bem/cluster.h"
+#include "bem/hierarchical.h"
+#include "bem/large.h"
+#include "bem_shapes.h"
+
+#include <string.h>
+
+static const rb_bem_material steel = {82000.0, 0.28}, rubber = {1.0, 0.45};
+
+/* Equal elements in the middle, which a disc of this radius takes for equal arcs. */
+enum { N = 6, M = N + 1 };
+static const double RADIUS = 1e4;
+static double ends[N + 2];
+
+static int equal_ends(void **state)
+{
+    (void)state;
+    for (int i = 0; i < N + 2; i++)
+        ends[i] = 0.1 * (i - 0.5 * N);
+    return 0;
+}
+
+/* ---- Kinds of flexibilities -------------------------------------------------------- */
+
+enum { FLAT, SOFT, REMEMBERS, LAYER, DENSE, DISC, DISC_TURNED, KINDS };
+
+static rb_status make(int kind, rb_bem_flexibility *f)
+{
+    static const double ratio[] = {2.0, NAN},
+                        length[] = {0.3, NAN}; /* one term is told */
+    rb_bem_surface body = {.material = kind == FLAT ? steel : rubber, .datum = 7.0};
+    const rb_bem_disc disc = {RADIUS, steel};
+
+    if (kind >= DISC)
+        return rb_bem_flexibility_disc(
+            N, ends, &disc,
+            kind == DISC ? RB_BEM_NORMALS_SURFACE : RB_BEM_NORMALS_OBSTACLE, f, NULL);
+    if (kind == REMEMBERS) {
+        body.terms = 1;
+        body.ratio = ratio;
+        body.length = length;
+    }
+    if (kind == LAYER)
+        body.thickness = 0.4;
+    return kind == DENSE ? rb_bem_flexibility_surface(N, ends, &body, f, NULL)
+                         : rb_bem_flexibility_toeplitz(N, ends, &body, f, NULL);
+}
+
+/* Whatever two bodies are: F_A + F_B, whose coupling changes its sign; products are those
+ * of the matrix, and so is what is stored. */
+static void check_pair(int kind_a, int kind_b)
+{
+    rb_bem_flexibility a, b, f;
+    double A[4 * M * N], B[4 * M * N], F[4 * M * N], r[2 * N], w[2 * M];
+    const double most = 1e-3 + 1e-4 * (kind_a == FLAT && kind_b == FLAT);
+
+    CHECK_STATUS(make(kind_a, &a), RB_OK);
+    CHECK_STATUS(make(kind_b, &b), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&a, A, 2 * M), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&b, B, 2 * M), RB_OK);
+    a.w0[1] = b.w0[1] = 3.0;
+    a.w0[M + 1] = b.w0[M + 1] = 4.0;
+    CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, NULL), RB_OK);
+    CHECK_ABS(f.w0[1], 6.0, 0.0, "what is given along n adds up");
+    CHECK_ABS(f.w0[M + 1], 0.0, 0.0, "what is given along t is mirrored");
+    for (int stored = 0; stored < 2; stored++) {
+        CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * M), RB_OK);
+        for (int j = 0; j < 2 * N; j++)
+            for (int i = 0; i < 2 * M; i++) {
+                const double sign = (i < M) == (j < N) ? 1.0 : -1.0;
+                CHECK_ABS(F[i + j * 2 * M], A[i + j * 2 * M] + sign * B[i + j * 2 * M],
+                          1e-13 * most * 1e3, "kinds %d and %d: entry %d, %d", kind_a,
+                          kind_b, i, j);
+            }
+        for (int k = 0; k < 3; k++) { /* all tractions, and those along n or t alone */
+            for (int j = 0; j < 2 * N; j++)
+                r[j] = k && (j < N) == (k - 1) ? 0.0 : cos(1.0 + j);
+            rb_bem_flexibility_apply(&f, r, w);
+            for (int i = 0; i < 2 * M; i++) {
+                double want = 0.0;
+                for (int j = 0; j < 2 * N; j++)
+                    want += F[i + j * 2 * M] * r[j];
+                CHECK_ABS(w[i], want, 1e-12, "kinds %d and %d: product %d", kind_a,
+                          kind_b, i);
+            }
+        }
+        CHECK_STATUS(rb_bem_flexibility_store(&f), RB_OK);
+        assert_non_null(rb_bem_flexibility_stored(&f));
+    }
+    rb_bem_flexibility_free(&f);
+}
+
+static void two_of_any_kind_are_their_sum(void **state)
+{
+    (void)state;
+    for (int a = 0; a < KINDS; a++)
+        for (int b = 0; b < KINDS; b++)
+            check_pair(a, b);
+}
+
+/* What is added on the diagonals stays where the operator changes its kind. */
+static void interfaces_yield_under_their_own_traction(void **state)
+{
+    double c[2 * N], bad[N], F[4 * M * N], G[4 * M * N], r[2 * N], w[2 * M];
+
+    (void)state;
+    for (int i = 0; i < 2 * N; i++) {
+        c[i] = 0.1 * (i + 1);
+        r[i] = sin(2.0 + i);
+    }
+    for (int kind = 0; kind < KINDS; kind++) {
+        rb_bem_flexibility f;
+        CHECK_STATUS(make(kind, &f), RB_OK);
+        CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * M), RB_OK);
+        for (int k = 0; k < 6; k++) {
+            memcpy(bad, c, sizeof bad);
+            bad[k] = k % 3 == 0 ? -1.0 : k % 3 == 1 ? NAN : INFINITY;
+            CHECK_STATUS(
+                rb_bem_flexibility_add_compliance(&f, k < 3 ? bad : c, k < 3 ? c : bad),
+                RB_EINVAL);
+        }
+        for (int twice = 0; twice < 2; twice++)
+            CHECK_STATUS(rb_bem_flexibility_add_compliance(&f, c, c + N), RB_OK);
+        for (int stored = 0; stored < 2; stored++) {
+            CHECK_STATUS(rb_bem_flexibility_matrix(&f, G, 2 * M), RB_OK);
+            rb_bem_flexibility_apply(&f, r, w);
+            for (int i = 0; i < 2 * M; i++) {
+                double product = 0.0;
+                for (int j = 0; j < 2 * N; j++) {
+                    const int own = i == (j < N ? j : j - N + M);
+                    CHECK_ABS(G[i + j * 2 * M], F[i + j * 2 * M] + own * 2.0 * c[j],
+                              1e-14, "kind %d: entry %d, %d", kind, i, j);
+                    product += G[i + j * 2 * M] * r[j];
+                }
+                CHECK_ABS(w[i], product, 1e-12, "kind %d: product %d", kind, i);
+            }
+            CHECK_STATUS(rb_bem_flexibility_store(&f), RB_OK);
+        }
+        rb_bem_flexibility_free(&f);
+    }
+}
+
+/* ---- Memory ------------------------------------------------------------------------ */
+
+/* Fails where, and only where, an allocation was refused. */
+static rb_status strictly(rb_status s)
+{
+    assert_int_equal(s, alloc_failed() ? RB_ENOMEM : RB_OK);
+    return s;
+}
+
+static rb_status make_pair(void *context)
+{
+    static const double upstream[4] = {0.0, 1.0, -1.0, 0.0};
+    const int *kinds = context;
+    double F[4 * M * N], c[2 * N] = {0.0};
+    rb_bem_flexibility a = {0}, b = {0}, f = {0};
+    rb_bem_circulant *circulant = NULL;
+
+    rb_status s = make(kinds[0], &a);
+    if (s == RB_OK)
+        s = make(kinds[1], &b);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_pair(&a, &b, &f, NULL);
+    if (s == RB_OK)
+        s = rb_bem_circulant_create(&f, upstream, &circulant);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_add_compliance(&f, c, c);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_matrix(&f, F, 2 * M);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_store(&f);
+    rb_bem_circulant_free(circulant);
+    rb_bem_flexibility_free(&a);
+    rb_bem_flexibility_free(&b);
+    rb_bem_flexibility_free(&f);
+    return strictly(s);
+}
+
+static void pairs_tell_of_missing_memory(void **state)
+{
+    static const int kinds[][2] = {
+        {FLAT, SOFT}, {LAYER, DENSE}, {DENSE, REMEMBERS}, {DISC_TURNED, DISC}};
+    (void)state;
+    for (int k = 0; k < 4; k++)
+        alloc_fail_every_call(make_pair, (void *)kinds[k]);
+}
+
+static rb_bem_cylinder cylinder_of(int has_cover)
+{
+    return (rb_bem_cylinder){.radius = 2.0,
+                             .support = RB_BEM_HUB,
+                             .hub_ratio = 0.4,
+                             .cover = has_cover ? 0.5 : 0.0,
+                             .outer_elements = has_cover ? 30 : 12};
+}
+
+/* A wheel, or a cover on its core, its flexibility, its memory and its stress. */
+static rb_status make_wheel(void *context)
+{
+    static const double ratio[] = {2.0, NAN}, length[] = {0.3, NAN};
+    const int has_cover = *(const int *)context;
+    const rb_bem_cylinder cylinder = cylinder_of(has_cover);
+    const rb_bem_wheel wheel = {.radius = 2.0,
+                                .inner = has_cover ? 1.5 : 0.8,
+                                .material = rubber,
+                                .terms = 1,
+                                .ratio = ratio,
+                                .length = length,
+                                .hub = has_cover ? 0.8 : 0.0,
+                                .core = steel};
+    const double t_contact[2 * N] = {0.0, 1.0}, xy[4] = {0.0, 0.2, 0.1, 0.3};
+    double stress[6], u[600], t[600];
+    rb_bem_mesh mesh = {0}, core = {0};
+    rb_bem_system *system = NULL;
+    rb_bem_field *field = NULL;
+    rb_bem_flexibility f = {0}, g = {0};
+
+    rb_status s = rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, NULL);
+    if (s == RB_OK && has_cover)
+        s = rb_bem_mesh_core(&cylinder, &mesh, &core, NULL);
+    if (s == RB_OK)
+        s = has_cover
+                ? rb_bem_system_create_bonded(&mesh, rubber, &core, steel, &system, NULL)
+                : rb_bem_system_create(&mesh, rubber, &system, NULL);
+    if (s == RB_OK)
+        s = rb_bem_system_solve(system, t_contact, u, t);
+    if (s == RB_OK)
+        s = rb_bem_condense(system, RB_BEM_NORMALS_SURFACE, &f, NULL);
+    if (s == RB_OK)
+        s = rb_bem_condense_subtracted(system, RB_BEM_NORMALS_OBSTACLE, &g, NULL);
+    if (s == RB_OK)
+        s = rb_bem_flexibility_add_memory(&wheel, RB_BEM_NORMALS_OBSTACLE, ends, &g,
+                                          NULL);
+    if (s == RB_OK)
+        s = rb_bem_field_create(system, t_contact, &field, NULL);
+    if (s == RB_OK)
+        s = rb_bem_field_stress(field, (rb_bem_points){2, xy}, stress, NULL);
+    assert_true(mesh.n <= 300);
+    rb_bem_field_free(field);
+    rb_bem_flexibility_free(&f);
+    rb_bem_flexibility_free(&g);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+    rb_bem_mesh_free(&core);
+    return strictly(s);
+}
+
+static void wheels_tell_of_missing_memory(void **state)
+{
+    (void)state;
+    for (int has_cover = 0; has_cover < 2; has_cover++)
+        assert_true(alloc_fail_every_call(make_wheel, &has_cover) > 10);
+}
+
+static const double *units;
+
+/* Eight clusters: one thread. */
+static rb_status make_hierarchical(void *context)
+{
+    const rb_bem_mesh *mesh = context;
+    double *X = rb_alloc(2 * (size_t)mesh->n, 1);
+    rb_hierarchical *h = NULL;
+
+    if (!X)
+        return RB_ENOMEM;
+    X[0] = 1.0;
+    rb_status s = rb_hierarchical_create(mesh, steel, units, 1e-6, &h);
+    if (s == RB_OK)
+        s = rb_hierarchical_solve(h, 1, X);
+    rb_hierarchical_free(h);
+    free(X);
+    return strictly(s);
+}
+
+static void clusters_tell_of_missing_memory(void **state)
+{
+    rb_bem_cylinder cylinder = cylinder_of(0);
+    rb_bem_mesh mesh;
+
+    (void)state;
+    cylinder.outer_elements = 150;
+    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, NULL), RB_OK);
+    assert_in_range(mesh.n, 128, 250);
+    double *unit = rb_alloc((size_t)mesh.n, 1);
+    for (int j = 0; j < mesh.n; j++)
+        unit[j] = steel.shear / rb_bem_mesh_length(&mesh, j);
+    units = unit;
+    assert_true(alloc_fail_every_call(make_hierarchical, &mesh) > 10);
+    free(unit);
+    rb_bem_mesh_free(&mesh);
+}
+
+static void absurd_sizes_have_no_room(void **state)
+{
+    (void)state;
+    assert_null(rb_large_alloc(SIZE_MAX / sizeof(double), 2));
+    free(rb_large_alloc(3, 0));
+}
+
+/* ---- Where formulas have no value of their own ------------------------------------- */
+
+/* At the ends of strips, where a logarithm or its angle has none, values are those beside
+ * them. */
+static void ends_of_strips_are_limits(void **state)
+{
+    static const double ratio = 2.0, length = 0.3, one = 1.0;
+    const rb_bem_surface body = {
+        .material = rubber, .datum = 5.0, .terms = 1, .ratio = &ratio, .length = &length};
+    const rb_bem_disc disc = {2.0, steel};
+    const double strip[2] = {-0.2, 0.3}, xy[4] = {-0.2, 0.0, 0.3, 0.0};
+    double W[4], beside[4], stress[6];
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const double near = strip[k] + 1e-9;
+        CHECK_STATUS(rb_bem_surface_displacement(&body, 1, strip, 1, &strip[k], W),
+                     RB_OK);
+        CHECK_STATUS(rb_bem_surface_displacement(&body, 1, strip, 1, &near, beside),
+                     RB_OK);
+        for (int i = 0; i < 4; i++)
+            CHECK_ABS(W[i], beside[i], 1e-7, "surface, end %d, entry %d", k, i);
+        const double angle = k ? 0.05 : -0.05;
+        CHECK_STATUS(rb_bem_disc_response(&disc, 0.1, angle, W), RB_OK);
+        CHECK_STATUS(rb_bem_disc_response(&disc, 0.1, angle + 1e-9, beside), RB_OK);
+        for (int i = 0; i < 4; i++)
+            CHECK_ABS(W[i], beside[i], 1e-11, "disc, end %d, entry %d", k, i);
+    }
+    const rb_bem_edge_load load = {1, strip, &one, &one};
+    CHECK_STATUS(rb_bem_halfplane_stress(&load, (rb_bem_points){2, xy}, stress), RB_OK);
+    for (int k = 0; k < 2; k++) {
+        CHECK_REL(stress[3 * k + 1], -0.5, 1e-12, "half of the pressure");
+        CHECK_REL(stress[3 * k + 2], -0.5, 1e-12, "half of the friction");
+    }
+}
+
+/* ---- Clusters ---------------------------------------------------------------------- */
+
+/* Of a long thin row of elements, the halves lie beside each other along it, whichever
+ * way it lies, and circles reach to the ends of their elements and no further. */
+static void clusters_are_cut_across_their_longer_side(void **state)
+{
+    enum { COUNT = 64 };
+    rb_element e[COUNT];
+    int order[COUNT];
+
+    (void)state;
+    for (int along = 0; along < 2; along++) {
+        for (int i = 0; i < COUNT; i++) {
+            const double s = 10.0 * ((i * 37) % COUNT) + 100.0, t = -50.0 - i % 2;
+            e[i] = (rb_element){.mx = along ? t : s, .my = along ? s : t, .a = 0.5};
+        }
+        rb_cluster_order(COUNT, e, 1, order);
+        for (int i = 0; i < COUNT; i++) {
+            const double s = along ? e[order[i]].my : e[order[i]].mx;
+            assert_true((s < 100.0 + 5.0 * COUNT) == (i < COUNT / 2));
+        }
+        const rb_circle c = rb_cluster_circle(e, 0, COUNT);
+        CHECK_REL(along ? c.y : c.x, 100.0 + 5.0 * (COUNT - 1), 1e-12, "middle");
+        CHECK_REL(along ? c.x : c.y, -50.5, 1e-12, "middle");
+        CHECK_REL(c.r, hypot(5.0 * (COUNT - 1), 0.5) + 0.5, 1e-12, "radius");
+    }
+}
+
+/* ---- Refusals ---------------------------------------------------------------------- */
+
+static void absurd_cylinders_are_refused(void **state)
+{
+    static const double lopsided[] = {-1.8, 0.0, 0.01, 1.0};
+    static const struct {
+        rb_bem_cylinder c;
+        const double *ends;
+        const char *said;
+    } all[] = {
+        {{.radius = NAN, .support = RB_BEM_HUB, .hub_ratio = 0.4}, NULL, "radius = "},
+        {{.radius = INFINITY, .support = RB_BEM_HUB, .hub_ratio = 0.4},
+         NULL,
+         "radius = "},
+        {{.radius = 2.0, .support = RB_BEM_HALFPLANE}, NULL, "support arc or hub"},
+        {{.radius = 2.0, .support = RB_BEM_ARC, .arc = 2.0}, NULL, "half-angle 2"},
+        {{.radius = 2.0, .support = RB_BEM_HUB, .hub_ratio = 1.0}, NULL, "hub ratio = 1"},
+        {{.radius = 2.0, .support = RB_BEM_ARC, .arc = 0.5, .cover = 0.5},
+         NULL,
+         "cover of"},
+        {{.radius = 2.0, .support = RB_BEM_HUB, .hub_ratio = 0.4, .cover = -0.5},
+         NULL,
+         "cover of thickness -0.5"},
+        {{.radius = 2.0, .support = RB_BEM_HUB, .hub_ratio = 0.4, .cover = 2.0},
+         NULL,
+         "cover of thickness 2"},
+        {{.radius = 2.0, .support = RB_BEM_HUB, .hub_ratio = 0.4, .outer_elements = -1},
+         NULL,
+         "outer elements = -1"},
+        {{.radius = 2.0, .support = RB_BEM_HUB, .hub_ratio = 0.4, .outer_elements = 7},
+         NULL,
+         "outer elements = 7"},
+        {{.radius = 2.0, .support = RB_BEM_HUB, .hub_ratio = 0.4, .refinement = -1.0},
+         NULL,
+         "refinement = -1"},
+        {{.radius = 2.0, .support = RB_BEM_HUB, .hub_ratio = 0.4, .refinement = 1001.0},
+         NULL,
+         "refinement = 1001"},
+        {{.radius = 2.0,
+          .support = RB_BEM_HUB,
+          .hub_ratio = 0.4,
+          .outer_elements = 1000001},
+         NULL,
+         "at most a million"},
+        {{.radius = 0.3, .support = RB_BEM_HUB, .hub_ratio = 0.4},
+         NULL,
+         "on a radius of 0.3"},
+        {{.radius = 2.0, .support = RB_BEM_ARC, .arc = 0.5}, lopsided, "the clamped arc"},
+        {{.radius = 2.0, .support = RB_BEM_HUB, .hub_ratio = 0.4}, lopsided, "no room"}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        rb_bem_mesh mesh;
+        rb_message why = {""};
+        CHECK_STATUS(rb_bem_mesh_cylinder(&all[k].c, all[k].ends ? 2 : N,
+                                          all[k].ends ? all[k].ends : ends, &mesh, &why),
+                     RB_EINVAL);
+        if (!strstr(why.text, all[k].said))
+            fail_msg("case %zu: %s", k, why.text);
+    }
+}
+
+static void absurd_surfaces_are_refused(void **state)
+{
+    static const double one = 1.0, endless = INFINITY, none = NAN;
+    static const double reversed[] = {0.0, 1.0, 0.5}, open[] = {0.0, 1.0, INFINITY};
+    const struct {
+        rb_bem_surface body;
+        const double *ends;
+        const char *said;
+    } all[] = {
+        {{.material = {INFINITY, 0.3}, .datum = 1.0}, ends, "shear"},
+        {{.material = rubber, .datum = INFINITY}, ends, "datum"},
+        {{.material = rubber, .thickness = INFINITY}, ends, "thickness"},
+        {{.material = rubber, .thickness = NAN}, ends, "thickness"},
+        {{.material = rubber,
+          .datum = 1.0,
+          .terms = 1,
+          .ratio = &endless,
+          .length = &one},
+         ends,
+         "ratio inf"},
+        {{.material = rubber, .datum = 1.0, .terms = 1, .ratio = &none, .length = &one},
+         ends,
+         "ratio"},
+        {{.material = rubber,
+          .datum = 1.0,
+          .terms = 1,
+          .ratio = &one,
+          .length = &endless},
+         ends,
+         "length inf"},
+        {{.material = rubber, .datum = 1.0}, NULL, "contact elements: 1"},
+        {{.material = rubber, .datum = 1.0}, reversed, "expected increasing ends"},
+        {{.material = rubber, .datum = 1.0}, open, "expected increasing ends"}};
+    double W[4], w[1] = {0.0};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        rb_bem_flexibility f;
+        rb_message why = {""};
+        CHECK_STATUS(rb_bem_flexibility_surface(1, all[k].ends, &all[k].body, &f, &why),
+                     RB_EINVAL);
+        if (!strstr(why.text, all[k].said))
+            fail_msg("case %zu: %s", k, why.text);
+        if (k < 7)
+            CHECK_STATUS(rb_bem_surface_displacement(&all[k].body, 1, ends, 1, &one, W),
+                         RB_EINVAL);
+        const rb_bem_edge_load load = {k < 7, ends, &one, &one};
+        CHECK_STATUS(rb_bem_surface_add_normal(&all[k].body, &load, 1, &one, w),
+                     RB_EINVAL);
+    }
+    const rb_bem_surface good = {.material = rubber, .datum = 1.0};
+    CHECK_STATUS(rb_bem_surface_displacement(&good, 0, ends, 1, &one, W), RB_EINVAL);
+    CHECK_STATUS(rb_bem_surface_displacement(&good, 1, ends, 0, &one, W), RB_EINVAL);
+}
+
+/* Without reading any end of them; and what does not fit together. */
+static void absurd_operators_are_refused(void **state)
+{
+    const rb_bem_surface good = {.material = rubber, .datum = 1.0};
+    const rb_bem_surface film = {.material = rubber, .thickness = 1e-8};
+    rb_bem_flexibility f, a, b, none = {0}, other = {0};
+    rb_message why = {""};
+
+    (void)state;
+    CHECK_STATUS(rb_bem_flexibility_toeplitz((1 << 28) + 1, NULL, &good, &f, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, "expected at most 268435456"));
+    CHECK_STATUS(rb_bem_flexibility_surface(N, ends, &film, &f, &why), RB_ENOMEM);
+    CHECK_STATUS(make(FLAT, &a), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&a, NULL, 2 * M), RB_EINVAL);
+    CHECK_STATUS(rb_bem_flexibility_surface(2, ends, &good, &b, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, &why), RB_EINVAL);
+    assert_string_equal(why.text, "bodies in contact: 6 elements on A, 2 on B");
+    CHECK_STATUS(rb_bem_flexibility_pair(&none, &other, &f, &why), RB_EINVAL);
+    CHECK_STATUS(make(FLAT, &a), RB_OK);
+    CHECK_STATUS(make(SOFT, &b), RB_OK);
+    b.x[2] += 1e-6;
+    CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "point 2"));
+    assert_true(rb_bem_system_bytes(100, 10) > 8.0 * 200 * 200);
+    assert_true(rb_bem_system_bytes(20000, 10) < 8.0 * 40000.0 * 40000.0);
+}
+
+static void absurd_discs_are_refused(void **state)
+{
+    static const double beside[] = {1.0, 1.1, 1.2, 1.3};
+    const rb_bem_disc all[] = {
+        {INFINITY, steel}, {NAN, steel}, {1.05, steel}, {0.5, steel}, {5.0, {-1.0, 0.3}}};
+    double response[4];
+
+    (void)state;
+    for (int k = 0; k < 5; k++) {
+        rb_bem_flexibility f;
+        CHECK_STATUS(
+            rb_bem_flexibility_disc(2, beside, &all[k], RB_BEM_NORMALS_SURFACE, &f, NULL),
+            RB_EINVAL);
+    }
+    CHECK_STATUS(rb_bem_disc_response(&all[2], 7.0, 0.0, response), RB_EINVAL);
+    CHECK_STATUS(rb_bem_disc_response(&all[2], 0.0, 0.0, response), RB_EINVAL);
+    CHECK_STATUS(rb_bem_disc_response(&all[2], 0.1, INFINITY, response), RB_EINVAL);
+    CHECK_STATUS(rb_bem_disc_response(&all[4], 0.1, 0.0, response), RB_EINVAL);
+}
+
+static void absurd_wheels_are_refused(void **state)
+{
+    static const double one = 1.0, endless = INFINITY, zero = 0.0, minus = -1.0;
+    const struct {
+        double radius, inner, hub;
+        const double *ratio, *length;
+        const char *said;
+    } all[] = {{2.0, 1.0, -0.5, &one, &one, "radii -0.5, 1, 2"},
+               {2.0, 1.0, 1.0, &one, &one, "radii 1, 1, 2"},
+               {2.0, 2.0, 1.0, &one, &one, "radii 1, 2, 2"},
+               {INFINITY, 2.0, 1.0, &one, &one, "radii 1, 2, inf"},
+               {2.0, 1.0, 0.0, &minus, &one, "term 1: ratio -1"},
+               {2.0, 1.0, 0.0, &endless, &one, "term 1: ratio inf"},
+               {2.0, 1.0, 0.0, &one, &zero, "term 1: ratio 1, length 0"},
+               {2.0, 1.0, 0.0, &one, &endless, "length inf"}};
+    rb_bem_flexibility f;
+
+    (void)state;
+    CHECK_STATUS(make(FLAT, &f), RB_OK);
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        const rb_bem_wheel wheel = {.radius = all[k].radius,
+                                    .inner = all[k].inner,
+                                    .hub = all[k].hub,
+                                    .material = rubber,
+                                    .core = steel,
+                                    .terms = 1,
+                                    .ratio = all[k].ratio,
+                                    .length = all[k].length};
+        rb_message why = {""};
+        CHECK_STATUS(rb_bem_flexibility_add_memory(&wheel, RB_BEM_NORMALS_OBSTACLE, ends,
+                                                   &f, &why),
+                     RB_EINVAL);
+        if (!strstr(why.text, all[k].said))
+            fail_msg("case %zu: %s", k, why.text);
+    }
+    rb_bem_flexibility_free(&f);
+}
+
+static void absurd_meshes_are_refused(void **state)
+{
+    static const struct {
+        int at;
+        double value;
+        rb_bem_condition condition;
+        int first, n;
+        const char *said;
+    } all[] = {
+        {11, INFINITY, RB_BEM_TRACTION, 0, 0, "element 11: given traction in y = inf"},
+        {11, NAN, RB_BEM_DISPLACEMENT, 0, 0, "element 11: given displacement in y = "},
+        {11, 0.0, RB_BEM_CONTACT, 0, 0, "element 11: outside the contact"},
+        {11, 0.0, RB_BEM_TRACTION, 11, 1, "element 11: in contact"},
+        {3, 0.0, RB_BEM_TRACTION, 0, -1, "contact elements 0 to -2"},
+        {3, 0.0, RB_BEM_TRACTION, -1, 1, "contact elements -1 to -1"},
+        {3, 0.0, RB_BEM_TRACTION, 16, 1, "contact elements 16 to 16"},
+        {3, 0.0, RB_BEM_TRACTION, 15, 1, NULL}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        rb_bem_mesh mesh = circle(16, 1.0);
+        rb_message why = {""};
+        mesh.value[2 * all[k].at + 1] = all[k].value;
+        mesh.condition[2 * all[k].at + 1] = all[k].condition;
+        mesh.contact_first = all[k].first;
+        mesh.contact_n = all[k].n;
+        CHECK_STATUS(rb_bem_mesh_check(&mesh, &why), RB_EINVAL);
+        if (all[k].said && !strstr(why.text, all[k].said))
+            fail_msg("case %zu: %s", k, why.text);
+        rb_bem_mesh_free(&mesh);
+    }
+    rb_bem_mesh mesh = circle(16, 1.0);
+    rb_message why = {""};
+    mesh.x1[4] = mesh.x0[5] = INFINITY;
+    CHECK_STATUS(rb_bem_mesh_check(&mesh, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "element 4: length inf"));
+    rb_bem_mesh_free(&mesh);
+}
+
+/* An incompressible cover does not tell how its core is pressed, a core without hub
+ * floats, and one of another cover does not fit. */
+static void covers_need_their_core(void **state)
+{
+    const rb_bem_material jelly = {1.0, 0.5}, wrong = {-1.0, 0.3};
+    rb_bem_cylinder cylinder = cylinder_of(1);
+    rb_bem_mesh mesh, core, other;
+    rb_bem_system *system;
+    rb_message why = {""};
+
+    (void)state;
+    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_mesh_core(&cylinder, &mesh, &core, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_system_create_bonded(&mesh, jelly, &core, steel, &system, &why),
+                 RB_EINVAL);
+    assert_non_null(
+        strstr(why.text, "cover on an elastic core: expected Poisson's ratio below"));
+    CHECK_STATUS(rb_bem_system_create_bonded(&mesh, rubber, &core, wrong, &system, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, "shear"));
+    cylinder.hub_ratio = 0.74;
+    CHECK_STATUS(rb_bem_mesh_core(&cylinder, &mesh, &other, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "hub of radius 1.48"));
+    core.x1[1] = core.x0[2] += 1e-3;
+    CHECK_STATUS(rb_bem_system_create_bonded(&mesh, rubber, &core, steel, &system, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, "of the cover is not element"));
+    rb_bem_mesh_free(&mesh);
+    rb_bem_mesh_free(&core);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(two_of_any_kind_are_their_sum),
+        cmocka_unit_test(interfaces_yield_under_their_own_traction),
+        cmocka_unit_test(pairs_tell_of_missing_memory),
+        cmocka_unit_test(wheels_tell_of_missing_memory),
+        cmocka_unit_test(clusters_tell_of_missing_memory),
+        cmocka_unit_test(absurd_sizes_have_no_room),
+        cmocka_unit_test(ends_of_strips_are_limits),
+        cmocka_unit_test(clusters_are_cut_across_their_longer_side),
+        cmocka_unit_test(absurd_cylinders_are_refused),
+        cmocka_unit_test(absurd_surfaces_are_refused),
+        cmocka_unit_test(absurd_operators_are_refused),
+        cmocka_unit_test(absurd_discs_are_refused),
+        cmocka_unit_test(absurd_wheels_are_refused),
+        cmocka_unit_test(absurd_meshes_are_refused),
+        cmocka_unit_test(covers_need_their_core),
+    };
+    return cmocka_run_group_tests(tests, equal_ends, NULL);
+}
