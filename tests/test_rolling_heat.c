@@ -1,6 +1,7 @@
 /* Flash temperature: the moving strip against quadrature, the closed form of an elliptic
  * source, two bodies, low and high speed, steps against the steady state, refusals. */
 #include "rollbem/closed_forms.h"
+#include "rolling/internal.h"
 #include "solved.h"
 
 #include <gsl/gsl_errno.h>
@@ -332,6 +333,124 @@ static void slow_steps_are_refused(void **state)
     rb_rolling_solution_free(&s);
 }
 
+/* ---- Parts ------------------------------------------------------------------------- */
+
+static void the_warmest_place_is_a_vertex_in_contact(void **state)
+{
+    (void)state;
+    enum { N = 6 };
+    const double x[N] = {0.0, 1.0, 2.0, 3.5, 4.0, 5.0};
+    double t[N], value, at;
+    int zone[N] = {0, 1, 1, 2, 2, 0};
+    for (int i = 0; i < N; i++)
+        t[i] = 90.0 - 2.0 * (x[i] - 2.3) * (x[i] - 2.3);
+    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    CHECK_REL(value, 90.0, 1e-13, "of a parabola");
+    CHECK_REL(at, 2.3, 1e-13, "its place");
+    zone[3] = 0; /* a neighbour that is open tells nothing */
+    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    CHECK_ABS(value, t[2], 0.0, "beside an open element");
+    CHECK_ABS(at, 2.0, 0.0, "beside an open element");
+    zone[3] = 2;
+    zone[1] = 0;
+    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    CHECK_ABS(at, 2.0, 0.0, "beside an open element");
+    t[0] = 500.0; /* open */
+    t[4] = 100.0;
+    zone[5] = 1;
+    t[5] = 100.0;
+    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    assert_true(value > 100.0 && at > 4.0 && at < 5.0); /* the first of two */
+    t[5] = 120.0;
+    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    CHECK_ABS(value, 120.0, 0.0, "at the end of the mesh");
+    CHECK_ABS(at, 5.0, 0.0, "at the end of the mesh");
+    zone[0] = 1;
+    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    CHECK_ABS(value, 500.0, 0.0, "at the other end");
+    for (int i = 0; i < N; i++) {
+        zone[i] = 1;
+        t[i] = 7.0;
+    }
+    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    CHECK_ABS(value, 7.0, 0.0, "equally warm");
+    memset(zone, 0, sizeof zone);
+    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    assert_true(isnan(value) && isnan(at));
+}
+
+static void peclets_number_compares_speed_and_diffusion(void **state)
+{
+    (void)state;
+    const rb_rolling_heat steel = {.conductivity = 40.0, .heat_capacity = 4.0},
+                          none = {0};
+    CHECK_REL(rb_rolling_peclet(&steel, 500.0, 0.2), 500.0 * 0.2 / 20.0, 1e-15, "V a/2k");
+    assert_true(isinf(rb_rolling_peclet(&none, 500.0, 0.2)));
+}
+
+/* (T3) Each step's heat H warms what has passed it since: 2 H sqrt(c/(pi V))/(b_A + b_B)
+ * (sqrt(k+1) - sqrt(k)) after k steps, linear between midpoints, from elements alone. */
+static void steps_warm_what_passes_them(void **state)
+{
+    (void)state;
+    enum { N = 8, STEPS = 9 };
+    static const double lengths[] = {1.0, 2.0, 0.5, 0.7};
+    for (int j = 0; j < 4; j++) {
+        const double h = 0.1, c = lengths[j] * h, V = 500.0;
+        rb_rolling_case rc = rb_rolling_case_defaults();
+        rb_rolling_heat_track track = {.n = N, .h = h, .step = c};
+        double q[N], lambda[N], t[N], heat[STEPS][N];
+        rc.speed = V;
+        rc.heat_a = (rb_rolling_heat){40.0, 4.0, 20.0};
+        rc.heat_b = (rb_rolling_heat){10.0, 1.0, 20.0};
+        CHECK_STATUS(rb_rolling_heat_track_create(&rc, 5.0, &track, NULL), RB_OK);
+        assert_int_equal(track.rows, (int)ceil(N / lengths[j]) + 1);
+        const double unit = 2.0 * sqrt(c / (M_PI * V)) / (sqrt(160.0) + sqrt(10.0));
+        for (int k = 0; k < STEPS; k++) {
+            for (int i = 0; i < N; i++) {
+                q[i] = -10.0 * (i + 1) - k;
+                lambda[i] = 0.001 * (N - i) + 0.0001 * k * k;
+                heat[k][i] = -q[i] * lambda[i] * V / c;
+            }
+            rb_rolling_heat_track_advance(&track);
+            rb_rolling_heat_track_step(&rc, q, lambda, &track, t);
+            for (int i = 0; i < N; i++) {
+                double want = 20.0;
+                for (int b = 0; b <= k; b++) { /* b steps ago it stood at place */
+                    const double place = i + b * lengths[j];
+                    const int left = (int)(place + 1e-9);
+                    const double part = fmax(0.0, place - left);
+                    double H = left < N ? (1.0 - part) * heat[k - b][left] : 0.0;
+                    H += left + 1 < N ? part * heat[k - b][left + 1] : 0.0;
+                    want += unit * H * (sqrt(b + 1.0) - sqrt(b));
+                }
+                CHECK_REL(t[i], want, 1e-9, "length %g, step %d, element %d", lengths[j],
+                          k, i);
+            }
+        }
+        rb_rolling_heat_track_free(&track);
+        assert_null(track.heat);
+    }
+}
+
+/* Where nothing rolls no heat is kept; along the depth only where heat is slow. */
+static void a_track_is_refused_where_heat_runs_along(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_heat_track track = {.n = 8, .h = 0.1, .step = 0.0};
+    rb_message why = {""};
+    rc.speed = 500.0;
+    rc.heat_a = (rb_rolling_heat){40.0, 4.0, 20.0}; /* V a/(2 k) = 25 a */
+    CHECK_STATUS(rb_rolling_heat_track_create(&rc, 0.4, &track, &why), RB_OK);
+    assert_int_equal(track.rows, 1);
+    rb_rolling_heat_track_free(&track);
+    CHECK_STATUS(rb_rolling_heat_track_create(&rc, 0.399, &track, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "V a/(2 diffusivity) >= 10"));
+    rc.heat_b = (rb_rolling_heat){400.0, 4.0, 20.0};
+    CHECK_STATUS(rb_rolling_heat_track_create(&rc, 0.4, &track, &why), RB_EINVAL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -347,6 +466,10 @@ int main(void)
         cmocka_unit_test(other_cases_have_no_temperature),
         cmocka_unit_test(meaningless_cases_are_refused),
         cmocka_unit_test(slow_steps_are_refused),
+        cmocka_unit_test(the_warmest_place_is_a_vertex_in_contact),
+        cmocka_unit_test(peclets_number_compares_speed_and_diffusion),
+        cmocka_unit_test(steps_warm_what_passes_them),
+        cmocka_unit_test(a_track_is_refused_where_heat_runs_along),
     };
     gsl_set_error_handler_off();
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,271 @@
+/* Tables of the gap whose patches lie where no element stands: they are found, fitted,
+ * refused where they cannot be. */
+#include "rolling/internal.h"
+#include "solved.h"
+
+#include <gsl/gsl_math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { POINTS = 1201, MOST = 20 };
+
+typedef struct {
+    rb_rolling_case rc;
+    rb_rolling_profile *profile;
+    double x[POINTS], gap[POINTS];
+} table;
+
+/* Bumps of radius 10 at places x, so much higher than the lowest. */
+static table *bumps(int n, const double *x, const double *height)
+{
+    table *t = calloc(1, sizeof *t);
+    rb_message why = {""};
+    assert_non_null(t);
+    const double half = fmax(fabs(x[0]), fabs(x[n - 1])) + 1.5;
+    for (int i = 0; i < POINTS; i++) {
+        t->x[i] = half * (2.0 * i / (POINTS - 1) - 1.0);
+        t->gap[i] = INFINITY;
+        for (int k = 0; k < n; k++)
+            t->gap[i] = fmin(t->gap[i], gsl_pow_2(t->x[i] - x[k]) / 20.0 + height[k]);
+    }
+    if (rb_rolling_profile_create(POINTS, t->x, t->gap, 0.0, &t->profile, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    t->rc = rb_rolling_case_defaults();
+    t->rc.a.support = RB_BEM_HALFPLANE;
+    t->rc.gap = RB_GAP_TABLE;
+    t->rc.profile = t->profile;
+    t->rc.contact_elements = 40;
+    t->rc.load = 30.0;
+    return t;
+}
+
+static void release(table *t)
+{
+    rb_rolling_profile_free(t->profile);
+    free(t);
+}
+
+/* Solved on elements over a part of the table alone. */
+static rb_rolling_model solved_between(const rb_rolling_case *rc, double from, double to)
+{
+    rb_rolling_model model = {.rc = *rc};
+    rb_rolling_mesh mesh;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_mesh_uniform(rc, from, to, &mesh, &why), RB_OK);
+    const rb_status s = rb_rolling_model_build(&model, &mesh, &why);
+    if (s != RB_OK && s != RB_ZONE)
+        fail_msg("%s", why.text);
+    return model;
+}
+
+/* Elements under one bump: the others overlap, each in a stretch of its own around its
+ * place, from as far from the mesh as they are. */
+static void every_bump_that_overlaps_is_found(void **state)
+{
+    (void)state;
+    static const double x[] = {-5.0, -2.5, 0.0, 3.0, 6.0}, height[5] = {0.0};
+    table *t = bumps(5, x, height);
+    rb_rolling_model model = solved_between(&t->rc, -0.4, 0.4);
+    rb_rolling_overlap o;
+    assert_int_equal(model.state.status, RB_ZONE);
+    CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
+    assert_int_equal(o.count, 4);
+    for (int k = 0; k < 4; k++) {
+        const double place = x[k < 2 ? k : k + 1];
+        assert_true(o.from[k] < place && place < o.to[k]);
+        CHECK_ABS(0.5 * (o.from[k] + o.to[k]), place, 0.1, "bump %d", k);
+        CHECK_MAX(o.to[k] - o.from[k], 1.0, "stretch %d", k);
+    }
+    rb_rolling_model_free(&model);
+
+    /* where its own elements see it, a bump is no overlap */
+    model = solved_between(&t->rc, -3.5, 4.0);
+    CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
+    assert_int_equal(o.count, 2);
+    rb_rolling_model_free(&model);
+    release(t);
+}
+
+/* The surface sinks by what the pressed half-plane gives way there: a bump that is just
+ * too low does not overlap, one a little higher does. */
+static void a_bump_overlaps_where_the_surface_has_not_sunk(void **state)
+{
+    (void)state;
+    const double x[] = {0.0, 4.0}, flat[] = {0.0, 1e-4};
+    table *t = bumps(2, x, flat);
+    rb_rolling_model model = solved_between(&t->rc, -0.5, 0.5);
+    rb_rolling_overlap o;
+    /* w_N of the resultant at a distance against the approach, from the closed form of
+     * the half-plane: -2 P/(pi E') ln(r) up to the same datum */
+    const double E = 94500.0 / 0.99, P = rb_rolling_model_load(&model);
+    double w[2 * 41];
+    CHECK_STATUS(rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
+                 RB_OK);
+    const double far = w[0] - 2.0 * P / (M_PI * E) * log(4.0 / fabs(model.bodies.f.x[0]));
+    const double limit = model.state.delta - far; /* gaps below it overlap */
+    rb_rolling_model_free(&model);
+    release(t);
+    for (int k = 0; k < 2; k++) {
+        const double height[] = {0.0, limit * (k ? 1.05 : 0.95)};
+        t = bumps(2, x, height);
+        model = solved_between(&t->rc, -0.5, 0.5);
+        CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
+        assert_int_equal(o.count, k ? 0 : 1);
+        assert_int_equal(model.state.status, k ? RB_OK : RB_ZONE);
+        rb_rolling_model_free(&model);
+        release(t);
+    }
+}
+
+static void more_overlaps_than_there_is_room_end_in_one(void **state)
+{
+    (void)state;
+    double x[MOST], height[MOST] = {0.0};
+    for (int k = 0; k < MOST; k++)
+        x[k] = 1.5 * (k - MOST / 2);
+    table *t = bumps(MOST, x, height);
+    rb_rolling_model model = solved_between(&t->rc, -0.5, 0.5);
+    rb_rolling_overlap o;
+    CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
+    assert_int_equal(o.count, RB_MOST_OVERLAPS);
+    CHECK_ABS(o.to[RB_MOST_OVERLAPS - 1], x[MOST - 1], 0.3, "up to the last one");
+    rb_rolling_model_free(&model);
+    release(t);
+}
+
+/* ---- Fitted ------------------------------------------------------------------------ */
+
+/* Each patch carries Hertz's pressure of its load on elements of its own. */
+static void elements_are_fitted_to_every_patch(void **state)
+{
+    (void)state;
+    static const double x[] = {-6.0, 0.0, 6.0}, height[] = {0.0, 1e-4, 5e-4};
+    table *t = bumps(3, x, height);
+    t->rc.mesh = RB_MESH_FITTED;
+    t->rc.mu = 0.0;
+    rb_rolling_solution s = solved(&t->rc);
+    assert_int_equal(s.patches, 3);
+    assert_int_equal(s.equal_instead, 0);
+    for (int k = 0; k < 3; k++) {
+        const double a = 0.5 * (s.patch[k].to - s.patch[k].from);
+        CHECK_REL(s.patch[k].normal_load, M_PI * 94500.0 / 0.99 * a * a / (4.0 * 10.0),
+                  0.02, "patch %d", k);
+        CHECK_ABS(s.patch[k].peak, x[k], 0.02, "patch %d", k);
+    }
+    assert_true(s.patch[0].normal_load > s.patch[1].normal_load &&
+                s.patch[1].normal_load > s.patch[2].normal_load);
+    rb_rolling_solution_free(&s);
+    release(t);
+}
+
+/* More patches than elements are fitted to: equal ones instead, and it is said. */
+static void too_many_patches_have_equal_elements(void **state)
+{
+    (void)state;
+    double x[17], height[17] = {0.0};
+    for (int k = 0; k < 17; k++)
+        x[k] = 1.0 * (k - 8);
+    table *t = bumps(17, x, height);
+    t->rc.mesh = RB_MESH_FITTED;
+    t->rc.load = 60.0;
+    t->rc.contact_elements = 100;
+    rb_rolling_solution s = solved(&t->rc);
+    assert_int_equal(s.patches, 17);
+    assert_int_equal(s.equal_instead, 1);
+    CHECK_REL(s.h[0], s.h[s.n - 1], 1e-9, "equal elements");
+    rb_rolling_solution_free(&s);
+    release(t);
+}
+
+/* Aligned elements have two edges: of one patch. */
+static void several_patches_cannot_be_aligned(void **state)
+{
+    (void)state;
+    static const double x[] = {-2.0, 2.0}, height[] = {0.0, 0.0};
+    table *t = bumps(2, x, height);
+    rb_rolling_solution s;
+    rb_message why = {""};
+    t->rc.mesh = RB_MESH_ALIGNED;
+    CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "the contact has several patches"));
+    rb_rolling_solution_free(&s);
+    release(t);
+}
+
+/* Patches that nearly touch are fitted as one. */
+static void patches_side_by_side_are_fitted_as_one(void **state)
+{
+    (void)state;
+    static const double x[] = {-0.35, 0.35}, height[] = {0.0, 0.0};
+    table *t = bumps(2, x, height);
+    t->rc.mesh = RB_MESH_FITTED;
+    for (int k = 0; k < 2; k++) {
+        t->rc.load = k ? 8000.0 : 300.0;
+        rb_rolling_solution s = solved(&t->rc);
+        CHECK_REL(s.normal_load, t->rc.load, 1e-9, "load");
+        CHECK_MAX(s.residual, 1e-10, "residual");
+        assert_int_equal(s.patches, k ? 1 : 2);
+        rb_rolling_solution_free(&s);
+    }
+    release(t);
+}
+
+/* ---- Zones ------------------------------------------------------------------------- */
+
+/* A zone that is too narrow is refused with the width that would do. */
+static void a_narrow_zone_is_told_its_width(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s;
+    rb_message why = {""};
+    double wide = 0.0, given = 0.0;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.half_width = 1.0;
+    rc.zone = 0.8;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_ZONE);
+    rb_rolling_solution_free(&s);
+    const char *at = strstr(why.text, "half-width ");
+    assert_non_null(at);
+    assert_int_equal(sscanf(at, "half-width %lg mm; widen it to %lg", &given, &wide), 2);
+    CHECK_ABS(given, 0.8, 1e-12, "the given one");
+    assert_true(wide > 1.05 && wide < 2.0);
+    rc.zone = wide;
+    s = solved(&rc);
+    CHECK_ABS(s.half_width, 1.0, 0.05, "the contact");
+    rb_rolling_solution_free(&s);
+}
+
+/* Far from each other and narrow: equal elements would be too many. */
+static void patches_too_far_apart_need_fitted_elements(void **state)
+{
+    (void)state;
+    static const double x[] = {-30.0, 30.0}, height[] = {0.0, 0.0};
+    table *t = bumps(2, x, height);
+    rb_rolling_solution s;
+    rb_message why = {""};
+    t->rc.load = 1.0;
+    t->rc.formulation = RB_STEADY;
+    t->rc.creep_ratio = 0.5;
+    t->rc.yield_stress = 1.0; /* not without a matrix */
+    CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &why), RB_ZONE);
+    assert_non_null(strstr(why.text, "patches so far apart that equal elements"));
+    rb_rolling_solution_free(&s);
+    release(t);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_bump_that_overlaps_is_found),
+        cmocka_unit_test(a_bump_overlaps_where_the_surface_has_not_sunk),
+        cmocka_unit_test(more_overlaps_than_there_is_room_end_in_one),
+        cmocka_unit_test(elements_are_fitted_to_every_patch),
+        cmocka_unit_test(too_many_patches_have_equal_elements),
+        cmocka_unit_test(several_patches_cannot_be_aligned),
+        cmocka_unit_test(patches_side_by_side_are_fitted_as_one),
+        cmocka_unit_test(a_narrow_zone_is_told_its_width),
+        cmocka_unit_test(patches_too_far_apart_need_fitted_elements),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
