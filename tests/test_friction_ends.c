@@ -1,0 +1,523 @@
+/* What every friction solver does at its limits: with no time, with numbers beyond the
+ * largest, with arguments that are none, and without memory. */
+#include "check.h"
+#include "rollbem/friction.h"
+
+#include <float.h>
+#include <string.h>
+
+enum { NC = 4, LARGEST = 3 * NC };
+
+static unsigned long long seed = 31;
+
+static double uniform(void)
+{
+    seed = seed * 6364136223846793005ULL + 1442695040888963407ULL;
+    return (double)(seed >> 11) / 4503599627370496.0 - 1.0;
+}
+
+/* Coupled contacts that are pressed and dragged; W times `unit`. */
+static void make_local(int d, double unit, rb_friction_problem *p)
+{
+    const int m = d * NC;
+    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
+                               .dimension = d,
+                               .contacts = NC,
+                               .mu = rb_alloc(NC, 1),
+                               .W = rb_alloc((size_t)m, (size_t)m),
+                               .q = rb_alloc((size_t)m, 1)};
+    for (int j = 0; j < m; j++)
+        for (int i = 0; i <= j; i++)
+            p->W[i + j * m] = p->W[j + i * m] = unit * (i == j ? 3.0 : 0.4 * uniform());
+    for (int i = 0; i < m; i++)
+        p->q[i] = i % d ? 0.8 * uniform() : -1.0;
+    for (int c = 0; c < NC; c++)
+        p->mu[c] = 0.3;
+}
+
+static void make_sparse(rb_friction_problem *p)
+{
+    const int m = p->dimension * p->contacts;
+    CHECK_STATUS(rb_sparse_from_dense(m, m, p->W, m, &p->Ws), RB_OK);
+    free(p->W);
+    p->W = NULL;
+    p->form = RB_FRICTION_LOCAL_SPARSE;
+}
+
+/* The same W as that of a structure: K is its inverse's place, H = 1, so that W = K^-1.
+ */
+static void make_global(int d, rb_friction_problem *p)
+{
+    const int m = d * NC;
+    rb_friction_problem local;
+    rb_triplets H = {.rows = m, .cols = m};
+    make_local(d, 1.0, &local);
+    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
+                               .dimension = d,
+                               .contacts = NC,
+                               .dofs = m,
+                               .mu = rb_copy(NC, local.mu),
+                               .f = rb_alloc((size_t)m, 1),
+                               .w = rb_copy((size_t)m, local.q)};
+    for (int i = 0; i < m; i++)
+        rb_triplets_add(&H, i, i, 1.0);
+    CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
+    CHECK_STATUS(rb_sparse_from_dense(m, m, local.W, m, &p->K), RB_OK);
+    rb_triplets_free(&H);
+    rb_friction_problem_free(&local);
+}
+
+static rb_status solve(const char *name, const rb_friction_problem *p,
+                       const rb_friction_options *opt, rb_friction_info *info)
+{
+    static double r[LARGEST], u[LARGEST], v[LARGEST];
+    return rb_friction_solve(name, p, opt, &(rb_friction_solution){r, u, v}, info);
+}
+
+/* What takes a problem of this dimension, by name. */
+static int takes(const rb_friction_solver *solver, int d)
+{
+    return d == 2 || !(solver->needs & RB_FRICTION_ONLY_2D);
+}
+
+static void without_time_every_solver_says_so(void **state)
+{
+    (void)state;
+    int count;
+    const rb_friction_solver *all = rb_friction_solvers(&count);
+    rb_friction_options opt = rb_friction_defaults();
+    opt.seconds = 1e-9;
+    opt.tol = 1e-13;
+    for (int d = 2; d <= 3; d++) {
+        rb_friction_problem p;
+        make_local(d, 1.0, &p);
+        for (int k = 0; k < count; k++) {
+            rb_friction_info info;
+            if (!takes(&all[k], d))
+                continue;
+            const rb_status s = solve(all[k].name, &p, &opt, &info);
+            if (s != RB_INTERRUPTED)
+                fail_msg("%s, d = %d: %s", all[k].name, d, rb_status_text(s));
+            assert_true(info.iters <= 1);
+        }
+        rb_friction_problem_free(&p);
+    }
+}
+
+/* Velocities whose squares and sums overflow are not solved, and not called solved. */
+static void numbers_beyond_the_largest_are_not_solved(void **state)
+{
+    (void)state;
+    int count;
+    const rb_friction_solver *all = rb_friction_solvers(&count);
+    rb_friction_options opt = rb_friction_defaults();
+    opt.max_iters = 300;
+    for (int d = 2; d <= 3; d++) {
+        rb_friction_problem p;
+        make_local(d, 0.3 * DBL_MAX, &p);
+        for (int i = 0; i < d * NC; i++)
+            p.q[i] *= DBL_MAX;
+        for (int k = 0; k < count; k++) {
+            rb_friction_info info;
+            const double guess[LARGEST] = {9.0, 0.0, 0.0, 9.0, 9.0, 0.0, 9.0};
+            if (!takes(&all[k], d))
+                continue;
+            opt.r0 = guess;
+            if (solve(all[k].name, &p, &opt, &info) == RB_OK)
+                fail_msg("%s, d = %d: solved, %g", all[k].name, d, info.scaled);
+        }
+        rb_friction_problem_free(&p);
+    }
+}
+
+static void options_that_are_none_are_refused(void **state)
+{
+    static const rb_friction_options bad[] = {{.tol = 0.0},
+                                              {.tol = NAN},
+                                              {.tol = 1e-8, .max_iters = -1},
+                                              {.tol = 1e-8, .seconds = -1.0},
+                                              {.tol = 1e-8, .seconds = NAN}};
+    rb_friction_problem p;
+    rb_friction_handle *handle;
+    rb_friction_info info;
+    (void)state;
+    make_local(3, 1.0, &p);
+    CHECK_STATUS(rb_friction_setup(&p, &handle, NULL), RB_OK);
+    double r[LARGEST], u[LARGEST];
+    const rb_friction_solution at = {r, u, NULL};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        CHECK_STATUS(solve("nsgs-ac", &p, &bad[k], &info), RB_EINVAL);
+        assert_non_null(strstr(info.msg.text, "max_iters ="));
+        CHECK_STATUS(rb_friction_handle_solve(handle, NULL, &bad[k], &at, NULL),
+                     RB_EINVAL);
+    }
+    CHECK_STATUS(solve("lemke", &p, NULL, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "in 2D only"));
+    CHECK_STATUS(solve("nobody", &p, NULL, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "nobody"));
+    rb_friction_handle_free(handle);
+    rb_friction_problem_free(&p);
+}
+
+/* A handle starts from its last solution, unless it is given another start, and forgets
+ * nothing where a call fails. */
+static void a_handle_keeps_its_last_solution(void **state)
+{
+    (void)state;
+    for (int global = 0; global < 2; global++) {
+        rb_friction_problem p;
+        rb_friction_handle *handle;
+        rb_friction_info info;
+        rb_friction_options opt = rb_friction_defaults();
+        double r[LARGEST], u[LARGEST], v[LARGEST], zero[LARGEST] = {0.0};
+        if (global)
+            make_global(3, &p);
+        else
+            make_local(3, 1.0, &p);
+        CHECK_STATUS(rb_friction_setup(&p, &handle, NULL), RB_OK);
+        const rb_friction_solution at = {r, u, global ? v : NULL};
+        opt.max_iters = 1;
+        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info),
+                     RB_MAXITER); /* which is no solution to start from */
+        opt.max_iters = 0;
+        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info),
+                     RB_OK);
+        const int cold = info.iters;
+        assert_true(cold > 1);
+        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info),
+                     RB_OK);
+        assert_int_equal(info.iters, 0);
+        opt.r0 = zero;
+        opt.v0 = zero;
+        CHECK_STATUS(rb_friction_handle_solve(handle, "nsgs-ac", &opt, &at, &info),
+                     RB_OK);
+        assert_int_equal(info.iters, cold);
+        rb_friction_handle_free(handle);
+        rb_friction_problem_free(&p);
+    }
+}
+
+/* ---- Facts and refusals of problems ------------------------------------------------ */
+
+static void facts_do_not_depend_on_the_form(void **state)
+{
+    (void)state;
+    for (int with_rank = 0; with_rank < 2; with_rank++) {
+        rb_friction_problem p;
+        rb_friction_facts dense, sparse, global;
+        make_local(3, 1.0, &p);
+        p.W[1] += 0.3; /* not symmetric any more */
+        CHECK_STATUS(rb_friction_examine(&p, with_rank, &dense), RB_OK);
+        make_sparse(&p);
+        CHECK_STATUS(rb_friction_examine(&p, with_rank, &sparse), RB_OK);
+        CHECK_REL(dense.asymmetry, 0.3 / 3.0, 1e-14, "asymmetry");
+        CHECK_ABS(sparse.asymmetry, dense.asymmetry, 0.0, "asymmetry");
+        assert_int_equal(dense.rank, with_rank ? LARGEST : 0);
+        assert_int_equal(sparse.rank, dense.rank);
+        assert_int_equal(dense.hyperstaticity, 0);
+        assert_int_equal(dense.indefinite, 0);
+        p.Ws.x[0] = -1.0;
+        CHECK_STATUS(rb_friction_examine(&p, with_rank, &sparse), RB_OK);
+        assert_int_equal(sparse.indefinite, 1);
+        rb_friction_problem_free(&p);
+        make_global(3, &p);
+        CHECK_STATUS(rb_friction_examine(&p, with_rank, &global), RB_OK);
+        assert_int_equal(global.rank, with_rank ? LARGEST : 0);
+        assert_int_equal(global.nullity, 0);
+        rb_friction_problem_free(&p);
+    }
+}
+
+typedef enum { NO_P, NO_I, NO_X, NO_ROWS, NO_COLS, INFINITE, DEFECTS } defect;
+
+static void damaged_matrices_are_named(void **state)
+{
+    static const char *const words[DEFECTS] = {"H is missing", "H is missing",
+                                               "H is missing", "H is 11 x 12",
+                                               "H is 12 x 11", "H: entry 1 is inf"};
+    (void)state;
+    for (defect k = 0; k < DEFECTS; k++) {
+        rb_friction_problem p;
+        rb_message why = {""};
+        make_global(3, &p);
+        rb_sparse whole = p.H;
+        const double first = whole.x[0];
+        switch (k) {
+        case NO_P:
+            p.H.p = NULL;
+            break;
+        case NO_I:
+            p.H.i = NULL;
+            break;
+        case NO_X:
+            p.H.x = NULL;
+            break;
+        case NO_ROWS:
+            p.H.rows--;
+            break;
+        case NO_COLS:
+            p.H.cols--;
+            break;
+        default:
+            whole.x[0] = INFINITY;
+        }
+        CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_EINVAL);
+        assert_non_null(strstr(why.text, words[k]));
+        p.H = whole;
+        p.H.x[0] = first;
+        CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_OK);
+        p.dofs = 0;
+        CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_EINVAL);
+        assert_non_null(strstr(why.text, "0 degrees of freedom"));
+        p.dofs = LARGEST;
+        rb_friction_problem_free(&p);
+    }
+    rb_friction_problem_free(NULL);
+}
+
+/* Two ends of one body that move together to 1e-12: no matrix to condense with. */
+static void nearly_loose_bodies_are_not_condensed(void **state)
+{
+    const double K[] = {1.0, 1.0 - 1e-13, 1.0 - 1e-13, 1.0}, H[] = {1.0, 0.0, 0.0, 1.0};
+    double mu[] = {0.5}, f[] = {1.0, 1.0}, w[] = {0.0, 0.0};
+    rb_friction_problem p = {.form = RB_FRICTION_GLOBAL,
+                             .dimension = 2,
+                             .contacts = 1,
+                             .dofs = 2,
+                             .mu = mu,
+                             .f = f,
+                             .w = w};
+    rb_friction_problem local;
+    rb_message why = {""};
+    (void)state;
+    CHECK_STATUS(rb_sparse_from_dense(2, 2, K, 2, &p.K), RB_OK);
+    CHECK_STATUS(rb_sparse_from_dense(2, 2, H, 2, &p.H), RB_OK);
+    CHECK_STATUS(rb_friction_condense(&p, &local, &why), RB_SINGULAR);
+    assert_non_null(strstr(why.text, "K is singular to rounding"));
+    rb_sparse_free(&p.K);
+    rb_sparse_free(&p.H);
+}
+
+/* ---- Cones ------------------------------------------------------------------------- */
+
+static void cones_that_are_none_are_refused(void **state)
+{
+    static const struct {
+        int n, size[2];
+        double M, q;
+        const char *words;
+    } all[] = {{3, {2, 1}, NAN, 1.0, "M: entry 1 is"},
+               {3, {2, 1}, 1.0, NAN, "q: entry 1"},
+               {3, {1, 1}, 1.0, 1.0, "cones hold 2 of 3"},
+               {3, {0, 3}, 1.0, 1.0, "cone 1"},
+               {3, {2, 2}, 1.0, 1.0, "cone 2"},
+               {0, {0, 0}, 1.0, 1.0, ""}};
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        double M[9] = {all[k].M, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+        double q[3] = {all[k].q, 0.0, 0.0}, x[3], y[3];
+        int size[2] = {all[k].size[0], all[k].size[1]};
+        rb_friction_info info;
+        const rb_friction_soclcp_problem p = {all[k].n, M, q, all[k].n ? 2 : 0, size};
+        CHECK_STATUS(rb_friction_soclcp(&p, NULL, x, y, &info), RB_EINVAL);
+        if (!strstr(info.msg.text, all[k].words))
+            fail_msg("row %zu: %s", k, info.msg.text);
+    }
+}
+
+static double cone_matrix[9] = {3.0, 0.5, 0.2, 0.5, 2.0, 0.1, 0.2, 0.1, 1.0};
+static double cone_q[3] = {-1.0, 0.7, -0.3};
+static int cone_sizes[2] = {2, 1};
+static const rb_friction_soclcp_problem on_cones = {3, cone_matrix, cone_q, 2,
+                                                    cone_sizes};
+
+static void limits_hold_on_cones(void **state)
+{
+    rb_friction_info info;
+    rb_friction_options opt = rb_friction_defaults();
+    double x[3], y[3], again[3];
+    (void)state;
+    CHECK_STATUS(rb_friction_soclcp(&on_cones, NULL, x, y, NULL), RB_OK);
+    for (int i = 0; i < 3; i++) {
+        double want = cone_q[i];
+        for (int j = 0; j < 3; j++)
+            want += cone_matrix[i + 3 * j] * x[j];
+        CHECK_ABS(y[i], want, 1e-14, "y = M x + q");
+    }
+    CHECK_MAX(fabs(x[1]) - x[0], 1e-7, "x in its cone");
+    CHECK_MAX(fabs(y[1]) - y[0], 1e-7, "y in its cone");
+    CHECK_ABS(x[0] * y[0] + x[1] * y[1], 0.0, 1e-7, "orthogonal");
+    CHECK_ABS(fmin(x[2], y[2]), 0.0, 1e-7, "half-line");
+    opt.r0 = x;
+    CHECK_STATUS(rb_friction_soclcp(&on_cones, &opt, again, y, &info), RB_OK);
+    CHECK_MAX(info.iters, 2, "from the solution");
+    opt.r0 = NULL;
+    opt.max_iters = 1;
+    CHECK_STATUS(rb_friction_soclcp(&on_cones, &opt, again, y, &info), RB_MAXITER);
+    opt.max_iters = 0;
+    opt.seconds = 1e-9;
+    CHECK_STATUS(rb_friction_soclcp(&on_cones, &opt, again, y, &info), RB_INTERRUPTED);
+    opt.seconds = 60.0;
+    CHECK_STATUS(rb_friction_soclcp(&on_cones, &opt, again, y, &info), RB_OK);
+    const double zero[9] = {0.0}, up[3] = {1.0, 0.5, 1.0};
+    const rb_friction_soclcp_problem flat = {3, zero, up, 2, cone_sizes};
+    CHECK_STATUS(rb_friction_soclcp(&flat, NULL, x, y, NULL), RB_OK); /* x = 0 */
+    CHECK_ABS(fmax(fabs(x[0]), fabs(x[2])), 0.0, 1e-6, "M = 0");
+}
+
+/* ---- Rolling friction -------------------------------------------------------------- */
+
+enum { WHEELS = 2, MOTIONS = 10 };
+
+static void make_wheels(rb_friction_problem *p)
+{
+    rb_triplets K = {.rows = MOTIONS, .cols = MOTIONS}, H = K;
+    *p = (rb_friction_problem){.form = RB_FRICTION_GLOBAL,
+                               .dimension = 5,
+                               .contacts = WHEELS,
+                               .dofs = MOTIONS,
+                               .mu = rb_alloc(WHEELS, 1),
+                               .f = rb_alloc(MOTIONS, 1),
+                               .w = rb_alloc(5 * WHEELS, 1)};
+    for (int i = 0; i < MOTIONS; i++) {
+        rb_triplets_add(&K, i, i, 2.0 + 0.1 * i);
+        rb_triplets_add(&H, i, i, 1.0);
+    }
+    CHECK_STATUS(rb_sparse_from_triplets(&K, &p->K), RB_OK);
+    CHECK_STATUS(rb_sparse_from_triplets(&H, &p->H), RB_OK);
+    rb_triplets_free(&K);
+    rb_triplets_free(&H);
+}
+
+static void what_does_not_roll_is_refused(void **state)
+{
+    static const double fine[] = {0.1, 0.2};
+    static const double bad[][2] = {{0.1, -0.1}, {NAN, 0.1}, {0.1, INFINITY}};
+    (void)state;
+    for (int k = 0; k < 9; k++) {
+        rb_friction_problem p, whole;
+        rb_message why = {""};
+        make_wheels(&p);
+        whole = p;
+        p.form = k == 0 ? RB_FRICTION_LOCAL_SPARSE : p.form;
+        p.dimension = k == 1 ? 3 : 5;
+        p.contacts = k == 2 ? 0 : WHEELS;
+        p.H.cols -= k == 3;
+        p.H.rows -= k == 4;
+        p.K.cols -= k == 5;
+        CHECK_STATUS(rb_friction_split_rolling(&p, k < 6 ? fine : bad[k - 6], &why),
+                     RB_EINVAL);
+        assert_non_null(
+            strstr(why.text, k < 6 ? "five columns of H" : "mu_r of contact"));
+        rb_friction_problem_free(&whole);
+    }
+}
+
+/* A wheel whose motions have no stiffness of their own takes the length 1. */
+static void wheels_without_stiffness_have_the_length_one(void **state)
+{
+    static const double mu_r[] = {0.1, 0.2};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        rb_friction_problem p;
+        rb_message why = {""};
+        make_wheels(&p);
+        for (int a = 0; a < 5; a++) /* the normal; the slip; the turn */
+            if ((k == 0 && a == 0) || (k == 1 && (a == 1 || a == 2)) || (k == 2 && a > 2))
+                p.K.x[a] = 0.0;
+        CHECK_STATUS(rb_friction_split_rolling(&p, mu_r, &why), RB_OK);
+        assert_int_equal(p.contacts, 2 * WHEELS);
+        const double slip = 1.0 / 2.1 + 1.0 / 2.2, turn = 1.0 / 2.3 + 1.0 / 2.4;
+        CHECK_REL(p.lengths[0], k ? 1.0 : sqrt(slip / turn), 1e-14, "length");
+        CHECK_REL(p.mu[1], mu_r[0] / p.lengths[0], 1e-14, "mu of the moment");
+        CHECK_REL(p.K.x[p.K.p[MOTIONS]], k == 0 ? 1.0 : 4.0 * 2.0, 1e-14, "spring");
+        rb_friction_problem_free(&p);
+    }
+}
+
+/* ---- Memory ------------------------------------------------------------------------ */
+
+static rb_status use_handle(void *context)
+{
+    rb_friction_handle *handle;
+    double r[LARGEST], u[LARGEST];
+    rb_status s = rb_friction_setup(context, &handle, NULL);
+    if (s != RB_OK)
+        return s;
+    s = rb_friction_handle_solve(handle, "nsgs-aa", NULL,
+                                 &(rb_friction_solution){r, u, NULL}, NULL);
+    if (s == RB_OK)
+        s = rb_friction_update(handle, NULL);
+    rb_friction_handle_free(handle);
+    return s;
+}
+
+static rb_status examine(void *context)
+{
+    rb_friction_facts facts;
+    return rb_friction_examine(context, 1, &facts);
+}
+
+static rb_status measure(void *context)
+{
+    rb_friction_errors error;
+    const double r[LARGEST] = {1.0};
+    return rb_friction_error(context, r, NULL, NULL, &error);
+}
+
+static rb_status solve_on_cones(void *context)
+{
+    double x[3], y[3];
+    return rb_friction_soclcp(context, NULL, x, y, NULL);
+}
+
+/* The problem is changed only where all succeeds, in the last run. */
+static rb_status roll(void *context)
+{
+    static const double mu_r[] = {0.1, 0.2};
+    rb_friction_problem *p = context;
+    return rb_friction_split_rolling(p, mu_r, NULL);
+}
+
+static void short_memory_is_reported(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        rb_friction_problem p;
+        if (k == 2)
+            make_global(3, &p);
+        else
+            make_local(3, 1.0, &p);
+        if (k == 1)
+            make_sparse(&p);
+        assert_true(alloc_fail_each(use_handle, &p) > 3);
+        assert_true(alloc_fail_each(examine, &p) > (k == 2 ? -1 : 3));
+        assert_true(alloc_fail_each(measure, &p) > 2);
+        rb_friction_problem_free(&p);
+    }
+    assert_true(alloc_fail_each(solve_on_cones, (void *)&on_cones) > 5);
+    rb_friction_problem wheels;
+    make_wheels(&wheels);
+    assert_true(alloc_fail_each(roll, &wheels) > 5);
+    assert_int_equal(wheels.contacts, 2 * WHEELS);
+    rb_friction_problem_free(&wheels);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(without_time_every_solver_says_so),
+        cmocka_unit_test(numbers_beyond_the_largest_are_not_solved),
+        cmocka_unit_test(options_that_are_none_are_refused),
+        cmocka_unit_test(a_handle_keeps_its_last_solution),
+        cmocka_unit_test(facts_do_not_depend_on_the_form),
+        cmocka_unit_test(damaged_matrices_are_named),
+        cmocka_unit_test(nearly_loose_bodies_are_not_condensed),
+        cmocka_unit_test(cones_that_are_none_are_refused),
+        cmocka_unit_test(limits_hold_on_cones),
+        cmocka_unit_test(what_does_not_roll_is_refused),
+        cmocka_unit_test(wheels_without_stiffness_have_the_length_one),
+        cmocka_unit_test(short_memory_is_reported),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
