@@ -470,6 +470,152 @@ static void every_failed_allocation_is_reported(void **state)
     }
 }
 
+/* ---- Refusals and starts ----------------------------------------------------------- */
+
+static void check_refused(rb_status s, const rb_message *why, const char *words)
+{
+    CHECK_STATUS(s, RB_EINVAL);
+    if (!strstr(why->text, words))
+        fail_msg("'%s' does not say '%s'", why->text, words);
+}
+
+static void ways_that_lead_nowhere_are_refused(void **state)
+{
+    (void)state;
+    static const double distance[] = {0.0, -1.0, NAN, 1e8};
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_case rc = steel_wheel(20);
+        rb_rolling_model model;
+        rb_rolling_history h;
+        rb_message why = {""};
+        rc.formulation = RB_TRANSIENT;
+        rc.creep = 1e-4;
+        rc.distance = distance[k];
+        check_refused(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why), &why,
+                      k < 3 ? "distance: expected > 0" : "expected at most 1e7");
+        assert_int_equal(h.n, 0);
+        release(&model, &h);
+    }
+}
+
+/* Keeps the states of a run, which follow it to the same history; what does not fit is
+ * refused. */
+static int keep_state(const rb_rolling_model *model, const rb_rolling_history *history,
+                      int step, int steps, void *context)
+{
+    rb_rolling_states *states = context;
+    (void)history;
+    if (step == 0)
+        CHECK_STATUS(rb_rolling_states_alloc(model->state.n, steps, states), RB_OK);
+    rb_rolling_states_set(model, step, states);
+    return 0;
+}
+
+static void states_are_followed_to_the_same_history(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steel_wheel(20);
+    rb_rolling_states states = {0};
+    rb_rolling_model model, again;
+    rb_rolling_history h, followed;
+    rb_message why = {""};
+    const rb_rolling_observer observer = {keep_state, &states};
+    rc.formulation = RB_TRANSIENT;
+    rc.creep = 1e-4;
+    rc.distance = 0.5;
+    rc.increments = 2;
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, &observer, &model, &h, &why), RB_OK);
+    check_refused(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why),
+                  &why, "half-width 0: expected > 0");
+    release(&again, &followed);
+    states.half_width = h.half_width;
+    if (rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    assert_int_equal(followed.n, h.n);
+    for (int k = 0; k < h.n; k++) {
+        CHECK_ABS(followed.distance[k], h.distance[k], 1e-13, "distance of step %d", k);
+        CHECK_REL(followed.normal_load[k], h.normal_load[k], 1e-13, "P of step %d", k);
+        CHECK_ABS(followed.tangential_load[k], h.tangential_load[k], 1e-13,
+                  "Q of step %d", k);
+        CHECK_ABS(followed.creepage[k], h.creepage[k], 1e-15, "xi of step %d", k);
+        CHECK_ABS(followed.approach[k], h.approach[k], 0.0, "approach of step %d", k);
+        CHECK_ABS(followed.dissipation[k], h.dissipation[k], 1e-12, "power of %d", k);
+        CHECK_MAX(followed.residual[k], 1e-9, "residual of step %d", k);
+        assert_int_equal(followed.stick[k], h.stick[k]);
+    }
+    release(&again, &followed);
+    states.p[(states.steps - 1) * states.n + states.n / 2] *= 1.01;
+    CHECK_STATUS(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why),
+                 RB_OK);
+    CHECK_MAX(1e-4, followed.residual[h.n - 1], "a changed state");
+    CHECK_MAX(followed.residual[h.n - 2], 1e-9, "the state before");
+    release(&again, &followed);
+    states.steps--;
+    check_refused(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why),
+                  &why, "steps, the program has");
+    release(&again, &followed);
+    rb_rolling_case yields = rc, falls = rc;
+    yields.yield_stress = 10.0;
+    check_refused(
+        rb_rolling_history_follow(&yields, &states, NULL, &again, &followed, &why), &why,
+        "its states do not tell");
+    falls.friction.law = RB_FRICTION_linear;
+    falls.friction.fall[0] = 0.1;
+    check_refused(
+        rb_rolling_history_follow(&falls, &states, NULL, &again, &followed, &why), &why,
+        "its states do not tell");
+    rb_rolling_states_free(&states);
+    release(&model, &h);
+}
+
+/* Steps of more than an element: what has yielded comes from between midpoints, and from
+ * beyond the mesh comes nothing. */
+static int check_yielded(const rb_rolling_model *model, const rb_rolling_history *h,
+                         int step, int steps, void *context)
+{
+    static double before[100];
+    const double *x = model->bodies.f.x, c = h->step;
+    const int n = model->mesh.n;
+    (void)steps;
+    for (int i = 0; i < n && step > 0; i++) {
+        double want = 0.0;
+        for (int j = 0; j < n; j++) {
+            const double next = j + 1 < n ? before[j + 1] : 0.0, place = x[i] + c;
+            if (x[j] <= place && place < x[j + 1])
+                want =
+                    before[j] + (next - before[j]) * (place - x[j]) / (x[j + 1] - x[j]);
+        }
+        CHECK_ABS(model->surfaces.yielded[i], want, 1e-9 * *(double *)context,
+                  "step %d, element %d", step, i);
+    }
+    rb_rolling_yielded(model, before);
+    for (int i = 0; i < n; i++)
+        *(double *)context = fmax(*(double *)context, before[i]);
+    return 0;
+}
+
+static void what_has_yielded_rides_along(void **state)
+{
+    (void)state;
+    double most = 0.0;
+    rb_rolling_case rc = steel_wheel(20);
+    rb_rolling_model model;
+    rb_rolling_history h;
+    rb_message why = {""};
+    const rb_rolling_observer observer = {check_yielded, &most};
+    rc.formulation = RB_TRANSIENT;
+    rc.creep_ratio = 1.5;
+    rc.distance = 1.0;
+    rc.steps = 5;
+    rc.interlayer_tangential = 1e-6;
+    rc.yield_stress = 0.05 * rb_rolling_derive(&rc).stress;
+    if (rb_rolling_history_run(&rc, NULL, &observer, &model, &h, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    assert_true(most > 0.0);
+    assert_true(h.step > 1.5 * model.bodies.f.h[0]);
+    release(&model, &h);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -488,6 +634,9 @@ int main(void)
         cmocka_unit_test(error_bars_hold_mindlin),
         cmocka_unit_test(companions_can_be_interrupted),
         cmocka_unit_test(every_failed_allocation_is_reported),
+        cmocka_unit_test(ways_that_lead_nowhere_are_refused),
+        cmocka_unit_test(states_are_followed_to_the_same_history),
+        cmocka_unit_test(what_has_yielded_rides_along),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

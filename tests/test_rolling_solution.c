@@ -1,0 +1,298 @@
+/* What a solution says, recomputed from the model that it is taken from. */
+#include "rolling/internal.h"
+#include "solved.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static rb_rolling_case plane(rb_rolling_formulation formulation)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.poisson = 0.3;
+    rc.formulation = formulation;
+    rc.load = 500.0;
+    rc.contact_elements = 24;
+    rc.speed = 1000.0;
+    rc.distance = 0.3;
+    if (formulation != RB_STATIC)
+        rc.creep_ratio = 0.5;
+    return rc;
+}
+
+static rb_rolling_solution of(const rb_rolling_model *model)
+{
+    rb_rolling_solution s;
+    rb_message why = {""};
+    if (rb_rolling_model_solution(model, &s, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return s;
+}
+
+static void columns_are_those_of_the_state(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_case rc = plane((rb_rolling_formulation)k);
+        rb_rolling_model model;
+        rb_rolling_solution s;
+        rc.b = rc.a;
+        rc.b.radius = INFINITY;
+        rc.elastic_b = 1;
+        CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, NULL), RB_OK);
+        const rb_contact_state *c = &model.state;
+        const int n = s.n;
+        double *w = rb_alloc(2 * (size_t)n + 2, 1), contact = 0.0, stick = 0.0;
+        int loaded = 0, stuck = 0, first = -1, last = -1;
+        assert_non_null(w);
+        CHECK_STATUS(rb_rolling_displacement(&model.bodies, c->p, c->q, w), RB_OK);
+        for (int i = 0; i < n; i++) {
+            CHECK_ABS(s.p[i], c->p[i], 0.0, "p %d", i);
+            CHECK_ABS(s.q[i], c->q[i], 0.0, "q %d", i);
+            CHECK_ABS(s.shift[i], c->lambda[i], 0.0, "shift %d", i);
+            CHECK_ABS(s.un[i], w[i], 0.0, "w_N %d", i);
+            CHECK_ABS(s.ut[i], w[n + 1 + i], 0.0, "w_T %d", i);
+            CHECK_ABS(s.gap[i], model.mesh.gap[i] + w[i] - c->delta, 1e-12, "gap %d", i);
+            const double dx = model.bodies.f.x[i + 1] - model.bodies.f.x[i];
+            const double slip = k == RB_STATIC
+                                    ? s.creepage - (w[n + 2 + i] - w[n + 1 + i]) / dx
+                                : k == RB_STEADY ? c->lambda[i] / dx
+                                                 : c->lambda[i] / model.problem.e_T[i];
+            CHECK_ABS(s.slip[i], slip, 1e-15, "slip %d", i);
+            loaded += c->zone[i] != RB_ZONE_SEPARATED;
+            contact += c->zone[i] != RB_ZONE_SEPARATED ? s.h[i] : 0.0;
+            if (c->zone[i] == RB_ZONE_STICK) {
+                stuck++;
+                stick += s.h[i];
+                first = first < 0 ? i : first;
+                last = i;
+            }
+        }
+        assert_int_equal(s.contact, loaded);
+        assert_int_equal(s.stick, stuck);
+        assert_int_equal(s.slipping, loaded - stuck);
+        assert_int_equal(s.yielding, -1);
+        assert_true(stuck > 2);
+        CHECK_REL(s.stick_length, stick, 1e-14, "stuck");
+        CHECK_ABS(s.stick_from, model.mesh.ends[first], 0.0, "from");
+        CHECK_ABS(s.stick_to, model.mesh.ends[last + 1], 0.0, "to");
+        double all, stuck_length;
+        rb_rolling_zone_lengths(n, s.zone, s.h, &all, &stuck_length);
+        CHECK_REL(all, contact, 1e-14, "in contact");
+        CHECK_REL(stuck_length, stick, 1e-14, "stuck");
+        CHECK_REL(rb_rolling_longest_element(n, s.zone, s.h), s.h[0], 1e-9, "equal");
+        if (k != RB_STATIC)
+            assert_int_equal(s.slip_violations, 0);
+        free(w);
+        rb_rolling_solution_free(&s);
+        rb_rolling_model_free(&model);
+    }
+}
+
+static void sums_are_those_of_the_tractions(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = plane(k ? RB_STEADY : RB_STATIC);
+        if (!k)
+            rc.force_ratio = 0.5;
+        rb_rolling_model model = solved_model(&rc);
+        rb_rolling_solution s = of(&model);
+        double P = 0.0, Q = 0.0, M = 0.0;
+        for (int i = 0; i < s.n; i++) {
+            P += s.p[i] * s.h[i];
+            Q += s.q[i] * s.h[i];
+            M += s.x[i] * s.p[i] * s.h[i];
+        }
+        CHECK_REL(s.normal_load, P, 1e-13, "P");
+        CHECK_REL(s.tangential_load, Q, 1e-12, "Q");
+        CHECK_ABS(s.load_error, fabs(P - 500.0) / 500.0, 1e-13, "load error");
+        CHECK_REL(s.force_ratio, Q / (0.3 * P), 1e-12, "Q/(mu P)");
+        CHECK_REL(s.half_width, 0.5 * (s.contact_to - s.contact_from), 1e-14, "a");
+        CHECK_REL(s.hertz_half_width, rb_rolling_hertz_half_width(&rc, P), 1e-12,
+                  "Hertz");
+        CHECK_REL(s.datum, 2.0 * 50.0 / exp(1.0), 1e-12, "2 R/e");
+        assert_true(isnan(s.support_balance) && isnan(s.kappa) && isnan(s.peclet));
+        assert_int_equal(s.boundary_elements, 0);
+        if (k) {
+            CHECK_ABS(s.resistance_moment, M, 1e-12 * P, "M");
+            CHECK_ABS(s.resistance_ratio, M / (P * 50.0), 1e-13, "M/(P R)");
+            CHECK_ABS(s.hysteresis, 0.0, 0.0, "elastic");
+            CHECK_REL(s.creepage, model.state.xi, 0.0, "xi");
+            assert_true(isnan(s.tangential_shift));
+        } else {
+            assert_true(isnan(s.resistance_moment) && isnan(s.resistance_ratio) &&
+                        isnan(s.hysteresis) && isnan(s.dissipation));
+            CHECK_REL(s.tangential_shift, model.state.xi, 1e-15, "the shift");
+        }
+        rb_rolling_solution_free(&s);
+        rb_rolling_model_free(&model);
+    }
+}
+
+/* A shift before the state's own is added; the creepage of a contact at rest is the given
+ * one, or its ratio. */
+static void shift_and_creepage_at_rest(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(RB_STATIC);
+    rc.shift = 0.001;
+    rb_rolling_model model = solved_model(&rc);
+    for (int k = 0; k < 3; k++) {
+        model.shift = 0.01 * k;
+        model.rc.creep = k == 1 ? 0.02 : NAN;
+        model.rc.creep_ratio = k == 2 ? 0.5 : NAN;
+        rb_rolling_solution s = of(&model);
+        CHECK_REL(s.tangential_shift, 0.001 + 0.01 * k, 1e-12, "shift %d", k);
+        CHECK_ABS(s.creepage,
+                  k == 0   ? 0.0
+                  : k == 1 ? 0.02
+                           : 0.5 * 0.3 * s.hertz_half_width / 50.0,
+                  1e-15, "creepage %d", k);
+        rb_rolling_solution_free(&s);
+    }
+    model.problem.load_given = 0;
+    rb_rolling_solution s = of(&model);
+    assert_true(isnan(s.load_error));
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+}
+
+/* Slip against the zone is counted, of each zone; as small as rounding it is none. */
+static void slip_that_pushes_is_a_violation(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = plane(RB_STEADY);
+    rb_rolling_model model = solved_model(&rc);
+    static const int zones[] = {RB_ZONE_STICK,          RB_ZONE_SLIP_NEGATIVE,
+                                RB_ZONE_SLIP_POSITIVE,  RB_ZONE_YIELD_NEGATIVE,
+                                RB_ZONE_YIELD_POSITIVE, RB_ZONE_SEPARATED};
+    static const int counts[6][3] = {{1, 0, 1}, {1, 0, 0}, {0, 0, 1},
+                                     {1, 0, 0}, {0, 0, 1}, {0, 0, 0}};
+    const double length = model.problem.slip_length;
+    for (int k = 0; k < 6; k++)
+        for (int sign = -1; sign <= 1; sign++) {
+            for (int i = 0; i < model.state.n; i++) {
+                model.state.zone[i] = RB_ZONE_SEPARATED;
+                model.state.lambda[i] = 0.0;
+            }
+            model.state.zone[5] = zones[k];
+            model.state.lambda[5] = sign * 1e-6 * length;
+            model.state.zone[7] = RB_ZONE_STICK;
+            model.state.lambda[7] = 1e-11 * length;
+            rb_rolling_solution s = of(&model);
+            assert_int_equal(s.slip_violations, counts[k][sign + 1]);
+            rb_rolling_solution_free(&s);
+        }
+    rb_rolling_model_free(&model);
+}
+
+/* The support of a wheel holds the load; both wheels' elements are counted. */
+static void a_support_holds_the_load(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(RB_STATIC);
+    rc.a.support = RB_BEM_HUB;
+    rc.outer_elements = 60;
+    rc.contact_elements = 16;
+    rb_rolling_model model = solved_model(&rc);
+    rb_rolling_solution s = of(&model);
+    CHECK_ABS(s.support_balance, 0.0, 2e-2, "reaction");
+    assert_true(s.support_balance != 0.0);
+    assert_int_equal(s.boundary_elements, rb_bem_system_mesh(model.bodies.system_a)->n);
+    assert_int_equal(s.hierarchical, 0);
+    assert_true(isnan(s.datum));
+    double t[2 * 64];
+    rb_rolling_contact_tractions(&model, t);
+    for (int i = 0; i < s.n; i++) {
+        CHECK_REL(t[2 * i + 1], s.p[i], 1e-12, "vertical %d", i);
+        CHECK_ABS(t[2 * i], s.q[i], 1e-12 * s.max_pressure, "horizontal %d", i);
+    }
+    rb_rolling_solution_free(&s);
+    memset(model.state.p, 0, sizeof(double) * 16);
+    s = of(&model);
+    assert_true(isnan(s.support_balance)); /* nothing to hold */
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+}
+
+/* Solved again with another load: as from the start, whatever the model held. */
+static void a_model_solves_the_next_case_as_the_first(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_case rc = plane(RB_STEADY), next;
+        rb_rolling_model model = {0};
+        rc.mesh = k == 1 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        next = rc;
+        next.mesh = k == 2 ? RB_MESH_FITTED : rc.mesh;
+        next.load = 700.0;
+        if (k < 3)
+            model = solved_model(&rc);
+        CHECK_STATUS(rb_rolling_model_again(&next, &model, NULL), RB_OK);
+        rb_rolling_model fresh = solved_model(&next);
+        assert_int_equal(model.state.n, fresh.state.n);
+        for (int i = 0; i < fresh.state.n; i++) {
+            CHECK_ABS(model.state.p[i], fresh.state.p[i], 0.0, "%d: p %d", k, i);
+            CHECK_ABS(model.state.q[i], fresh.state.q[i], 0.0, "%d: q %d", k, i);
+        }
+        assert_int_equal(model.same_bodies, 0);
+        rb_rolling_model_free(&fresh);
+        rb_rolling_model_free(&model);
+    }
+}
+
+/* A given ratio of the creepage refers to the load that an approach leads to. */
+static void a_ratio_is_met_under_an_approach(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(RB_STEADY);
+    rc.load = NAN;
+    rc.approach = 0.05;
+    rb_rolling_solution s = solved(&rc);
+    CHECK_REL(s.creep_ratio, 0.5, 1e-10, "xi R/(mu a)");
+    CHECK_REL(s.creepage,
+              0.5 * 0.3 * rb_rolling_hertz_half_width(&rc, s.normal_load) / 50.0, 1e-10,
+              "of the load that was found");
+    CHECK_ABS(s.approach, 0.05, 0.0, "the approach");
+    rb_rolling_solution_free(&s);
+}
+
+/* On elements between given places; where they do not hold the contact, that is said. */
+static void elements_may_stand_where_they_are_told(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(RB_STATIC);
+    rb_rolling_solution s;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_solve_between(&rc, -2.0, 1.6, &s, &why), RB_OK);
+    assert_int_equal(s.n, 24);
+    CHECK_REL(s.h[3], 0.15, 1e-12, "3.6 mm");
+    CHECK_REL(s.normal_load, 500.0, 1e-9, "load");
+    rb_rolling_solution_free(&s);
+    CHECK_STATUS(rb_rolling_solve_between(&rc, -0.3, 0.3, &s, &why), RB_ZONE);
+    CHECK_STATUS(s.status, RB_ZONE);
+    assert_non_null(strstr(why.text, "widen the zone"));
+    assert_int_equal(s.n, 24); /* what there is */
+    rb_rolling_solution_free(&s);
+    CHECK_STATUS(rb_rolling_solve_between(&rc, 0.3, 0.3, &s, &why), RB_EINVAL);
+    assert_null(s.p);
+    rc.mu = -1.0;
+    CHECK_STATUS(rb_rolling_solve_between(&rc, -2.0, 2.0, &s, &why), RB_EINVAL);
+    assert_null(s.p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(columns_are_those_of_the_state),
+        cmocka_unit_test(sums_are_those_of_the_tractions),
+        cmocka_unit_test(shift_and_creepage_at_rest),
+        cmocka_unit_test(slip_that_pushes_is_a_violation),
+        cmocka_unit_test(a_support_holds_the_load),
+        cmocka_unit_test(a_model_solves_the_next_case_as_the_first),
+        cmocka_unit_test(a_ratio_is_met_under_an_approach),
+        cmocka_unit_test(elements_may_stand_where_they_are_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
