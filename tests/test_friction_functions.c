@@ -341,6 +341,11 @@ static void the_natural_norm_is_that_of_the_contacts(void **state)
                 r[c * d + a] = c == 1 ? 0.0 : uniform();
                 u[c * d + a] = c == 1 && a == 0 ? 0.5 : uniform();
             }
+            if (c == 2) { /* closed, not dragged, and leaving: no solution */
+                r[c * d] = u[c * d] = 0.4;
+                for (int a = 1; a < d; a++)
+                    r[c * d + a] = 0.0;
+            }
             for (int unit = 0; unit < 2; unit++) {
                 const double by = unit ? 1.0 : rho[2 * c], *uc = u + c * d;
                 double z[3], F[3];

@@ -467,6 +467,20 @@ static void bad_input_is_refused(void **state)
     check_refused(2, M, 2, q, &opt, "max_iters = -1");
 }
 
+/* No cover is needed where q is not negative, and sums that overflow are no infinities.
+ */
+static void odd_input_is_taken(void **state)
+{
+    (void)state;
+    const double M[] = {1.5e308, 1.5e308, 0.0, 1.0}, q[] = {1.0, 2.0},
+                 cover[] = {0.0, 0.0};
+    rb_lcp_options opt = rb_lcp_defaults();
+    double z[2];
+    opt.cover = cover;
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){2, M, 2, q}, &opt, z, NULL), RB_OK);
+    CHECK_ABS(fmax(z[0], z[1]), 0.0, 0.0, "z");
+}
+
 static void ignore(const rb_lcp_pivot *seen, void *context)
 {
     (void)seen;
@@ -613,6 +627,7 @@ int main(void)
         cmocka_unit_test(the_trace_sees_every_pivot),
         cmocka_unit_test(the_iteration_limit_keeps_the_last_point),
         cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(odd_input_is_taken),
         cmocka_unit_test(short_memory_is_reported),
         cmocka_unit_test(the_collection_is_solved),
         cmocka_unit_test(plane_friction_problems_are_solved),

@@ -148,6 +148,87 @@ static void every_label_leads_to_an_equilibrium(void **state)
     }
 }
 
+/* What each strategy loses against the best reply, written out; what was in the arrays
+ * before does not matter. */
+static void regrets_are_those_of_the_definition(void **state)
+{
+    (void)state;
+    const int m = 3, n = 4;
+    const rb_lcp_game game = {m, n, A, B, LD};
+    for (int k = 0; k < 20; k++) {
+        double z[7], regret[7], payoff[2] = {1e9, 1e9}, best[2] = {-INFINITY, -INFINITY};
+        double of[7], worst = 0.0;
+        random_game(m, n, 0);
+        for (int j = 0; j < n && k % 2; j++) /* losses for all */
+            for (int i = 0; i < m; i++) {
+                A[i + j * LD] -= 5.0;
+                B[i + j * LD] -= 500.0;
+            }
+        for (int i = 0; i < m + n; i++)
+            z[i] = fabs(uniform());
+        for (int i = 0; i < m + n; i++) {
+            of[i] = 0.0;
+            for (int l = 0; l < (i < m ? n : m); l++)
+                of[i] += i < m ? A[i + l * LD] * z[m + l] : B[l + (i - m) * LD] * z[l];
+            best[i >= m] = fmax(best[i >= m], of[i]);
+        }
+        for (int i = 0; i < m + n; i++)
+            worst = fmax(worst, fmin(z[i], best[i >= m] - of[i]));
+        CHECK_REL(rb_lcp_bimatrix_regret(&game, z, regret, payoff), worst, 1e-12,
+                  "worst");
+        for (int i = 0; i < 2; i++)
+            CHECK_REL(payoff[i], best[i], 1e-12, "payoff of player %d", i);
+        for (int i = 0; i < m + n; i++)
+            CHECK_ABS(regret[i], best[i >= m] - of[i], 1e-11, "regret %d", i);
+        z[k % 7] = NAN;
+        assert_true(isnan(rb_lcp_bimatrix_regret(&game, z, regret, payoff)));
+    }
+}
+
+typedef struct {
+    int pivots, entering, leaving, first, labels;
+} story;
+
+/* A label that was doubled enters next, by its other variable. */
+static void follow(const rb_lcp_pivot *seen, void *context)
+{
+    story *s = context;
+    assert_int_equal(seen->pivot, s->pivots);
+    assert_int_equal(seen->n, s->labels);
+    assert_int_equal(seen->attempt, 3);
+    assert_true(seen->row >= 0 && seen->row < s->labels && seen->ratio >= 0.0);
+    assert_null(seen->basis);
+    if (s->pivots == 0)
+        s->first = seen->entering;
+    else
+        assert_int_equal(seen->entering % s->labels, s->leaving % s->labels);
+    if (s->pivots)
+        assert_int_not_equal(seen->entering, s->leaving);
+    s->leaving = seen->leaving;
+    s->pivots++;
+}
+
+static void the_trace_follows_the_labels(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 40; k++) {
+        const int m = 1 + k % 7, n = 1 + k % 5, label = k % (m + n);
+        const rb_lcp_game game = {m, n, A, B, LD};
+        double z[2 * N];
+        rb_lcp_info info;
+        story s = {.labels = m + n};
+        rb_lcp_options opt = rb_lcp_defaults();
+        opt.trace = follow;
+        opt.trace_context = &s;
+        opt.attempt = 3;
+        random_game(m, n, 0);
+        CHECK_STATUS(rb_lcp_bimatrix(&game, label, &opt, z, &info), RB_OK);
+        assert_int_equal(info.iters, s.pivots);
+        assert_int_equal(s.first, m + n + label); /* its probability */
+        assert_int_equal(s.leaving % (m + n), label);
+    }
+}
+
 /* ---- All solutions of a problem ---------------------------------------------------- */
 
 /* M = -1, q = 1: z = 0 and z = 1; with a box [0, 3] z = 3 is another, since w(3) < 0. */
@@ -168,6 +249,39 @@ static void one_variable_by_hand(void **state)
     assert_int_equal(all.count, 3);
     CHECK_ABS(all.z[0] + all.z[1] + all.z[2], 4.0, 1e-15, "z");
     rb_lcp_solutions_free(&all);
+}
+
+/* M = 1: z = -q cut off by its box, whatever ends that has. */
+static void boxes_of_every_kind_are_enumerated(void **state)
+{
+    static const struct {
+        double low, high, q, z;
+    } all[] = {{-INFINITY, 2.0, -1.0, 1.0},
+               {-INFINITY, 2.0, -3.0, 2.0},
+               {-INFINITY, 2.0, 7.0, -7.0},
+               {-1.0, INFINITY, 3.0, -1.0},
+               {-INFINITY, INFINITY, 3.0, -3.0},
+               {-1.0, 2.0, -3.0, 2.0},
+               {-1.0, 2.0, 3.0, -1.0},
+               {0.5, 0.5, 3.0, 0.5},
+               {0.5, 0.5, -3.0, 0.5}};
+    enum { BOXES = sizeof all / sizeof *all };
+    const double M[] = {1.0, 0.0, 0.0, 1.0};
+    (void)state;
+    for (int k = 0; k < BOXES * BOXES; k++) { /* two at a time */
+        const int a = k % BOXES, b = k / BOXES;
+        const double low[] = {all[a].low, all[b].low}, q[] = {all[a].q, all[b].q};
+        const double high[] = {all[a].high, all[b].high};
+        rb_lcp_solutions found;
+        CHECK_STATUS(
+            rb_lcp_enumerate(&(rb_lcp_problem){2, M, 2, q}, low, high, &found, NULL),
+            RB_OK);
+        assert_int_equal(found.count, 1);
+        CHECK_ABS(found.z[0], all[a].z, 0.0, "z(1), boxes %d and %d", a, b);
+        CHECK_ABS(found.z[1], all[b].z, 0.0, "z(2), boxes %d and %d", a, b);
+        rb_lcp_solutions_free(&found);
+    }
+    rb_lcp_solutions_free(NULL);
 }
 
 /* A P-matrix has one solution, which several bases give when it is degenerate; M = 0 with
@@ -238,6 +352,17 @@ static void bad_input_is_named(void **state)
                  RB_EINVAL);
     CHECK_STATUS(rb_lcp_bimatrix(&two, 4, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "label 5: expected 1 to 4"));
+    CHECK_STATUS(rb_lcp_bimatrix(&two, -1, NULL, z, &info), RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix(&(rb_lcp_game){2, 0, A, B, LD}, 0, NULL, z, &info),
+                 RB_EINVAL);
+    CHECK_STATUS(rb_lcp_bimatrix_enumerate(&(rb_lcp_game){2, 0, A, B, LD}, &all, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, "a game of 2 by 0"));
+    const double right = A[LD];
+    A[LD] = -INFINITY;
+    CHECK_STATUS(rb_lcp_bimatrix(&two, 0, NULL, z, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "A(1, 2)"));
+    A[LD] = right;
     rb_lcp_options opt = rb_lcp_defaults();
     opt.max_iters = 1;
     CHECK_STATUS(rb_lcp_bimatrix(&two, 0, &opt, z, &info), RB_MAXITER);
@@ -307,7 +432,10 @@ int main(void)
         cmocka_unit_test(games_of_small_integers_do_not_cycle),
         cmocka_unit_test(all_equilibria_of_a_game),
         cmocka_unit_test(every_label_leads_to_an_equilibrium),
+        cmocka_unit_test(regrets_are_those_of_the_definition),
+        cmocka_unit_test(the_trace_follows_the_labels),
         cmocka_unit_test(one_variable_by_hand),
+        cmocka_unit_test(boxes_of_every_kind_are_enumerated),
         cmocka_unit_test(solutions_are_listed_once),
         cmocka_unit_test(what_lemke_finds_is_listed),
         cmocka_unit_test(bad_input_is_named),

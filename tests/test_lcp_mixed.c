@@ -578,6 +578,81 @@ static void a_degenerate_solution_is_exactly_at_its_bounds(void **state)
     }
 }
 
+typedef struct {
+    double first, last;      /* t after the first pivot of a path, and now */
+    int paths, pivots, gone; /* begun; of the last one; given up because t had grown */
+    int n;
+} heights;
+
+static void watch_t(const rb_lcp_pivot *seen, void *context)
+{
+    heights *h = context;
+    if (seen->entering == 2 * seen->n) {
+        h->gone += h->paths && h->last > h->first * (1.0 + 1e-9);
+        h->paths++;
+        h->pivots = 0;
+        h->first = seen->z0;
+    } else if (h->paths == 1) { /* from the start: t may not be above its first value */
+        assert_true(h->last <= h->first * (1.0 + 1e-9));
+    }
+    h->last = seen->z0;
+    h->pivots++;
+}
+
+/* Without a P-matrix t can grow: from a start that is no sign of a solution nearby, and
+ * the path begins anew at the bounds. */
+static void a_start_that_leads_away_is_given_up(void **state)
+{
+    (void)state;
+    static problem p;
+    double z[N], from[N];
+    rb_lcp_info info;
+    rb_lcp_options opt = rb_lcp_defaults();
+    heights h;
+    int gone = 0;
+    opt.start = from;
+    opt.trace = watch_t;
+    opt.trace_context = &h;
+    for (int k = 0; k < 200; k++) {
+        p.n = 2 + k % 20;
+        for (int i = 0; i < p.n * p.n; i++)
+            p.M[i] = uniform();
+        for (int i = 0; i < p.n; i++) {
+            p.q[i] = 3.0 * uniform();
+            p.lower[i] = 0.0;
+            p.upper[i] = 1.5 + uniform();
+            from[i] = uniform() > 0.0 ? p.upper[i] : 0.5 * p.upper[i];
+        }
+        h = (heights){0};
+        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        CHECK_MAX(natural_residual(&p, z), 1e-11, "problem %d", k);
+        assert_true(h.paths <= 2);
+        gone += h.gone;
+    }
+    assert_true(gone > 10);
+}
+
+static void limits_end_the_path(void **state)
+{
+    (void)state;
+    static problem p;
+    double z[N];
+    rb_lcp_info info;
+    rb_lcp_options opt = rb_lcp_defaults();
+    positive_definite(30, &p);
+    opt.max_iters = 2;
+    CHECK_STATUS(solve(&p, &opt, z, &info), RB_MAXITER);
+    assert_int_equal(info.iters, 2);
+    assert_non_null(strstr(info.msg.text, "max_iters = 2"));
+    opt.max_iters = 0;
+    opt.seconds = 1e-12;
+    CHECK_STATUS(solve(&p, &opt, z, &info), RB_INTERRUPTED);
+    CHECK_STATUS(rb_lcp_lemke(&(rb_lcp_problem){p.n, p.M, p.n, p.q}, &opt, z, &info),
+                 RB_INTERRUPTED);
+    opt.seconds = 100.0;
+    CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+}
+
 /* M = [0 -1; 1 0]: the submatrix of z(1) alone is singular. */
 static void a_start_without_basis_begins_at_the_bounds(void **state)
 {
@@ -681,9 +756,35 @@ static void bad_input_is_named(void **state)
     opt.cover = none;
     CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "cover(1) = 0"));
+    const double negative[] = {1.0, -1.0}, endless[] = {1.0, INFINITY};
+    opt.cover = negative;
+    CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "cover(2) = -1"));
+    opt.cover = endless;
+    CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "cover(2) = inf"));
     p.M[0] = NAN;
     CHECK_STATUS(solve(&p, NULL, z, &info), RB_EINVAL);
     assert_non_null(strstr(info.msg.text, "M(1, 1) = nan"));
+    rb_sparse wide, empty = {.rows = 0};
+    CHECK_STATUS(rb_sparse_from_dense(1, 2, endless, 1, &wide), RB_OK);
+    CHECK_STATUS(
+        rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &wide, .q = p.q}, NULL, z, &info),
+        RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "M is 1 by 2"));
+    CHECK_STATUS(rb_lcp_newton(&empty, p.q, NULL, z, &info), RB_EINVAL);
+    assert_non_null(strstr(info.msg.text, "M is 0 by 0"));
+    rb_sparse_free(&wide);
+    /* of what is no number the residual is none */
+    const double one[] = {1.0}, no[] = {NAN};
+    rb_sparse M;
+    CHECK_STATUS(rb_sparse_from_dense(1, 1, one, 1, &M), RB_OK);
+    assert_true(
+        isnan(rb_lcp_residual_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = one}, no, z)));
+    assert_true(
+        isnan(rb_lcp_residual_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = no}, one, z)));
+    assert_true(isnan(rb_lcp_residual(&(rb_lcp_problem){1, one, 1, no}, one, z)));
+    rb_sparse_free(&M);
 }
 
 static rb_status solve_anew(void *context)
@@ -752,6 +853,8 @@ int main(void)
         cmocka_unit_test(programs_with_equations_are_solved),
         cmocka_unit_test(a_solution_is_recognised_and_a_neighbour_is_near),
         cmocka_unit_test(a_degenerate_solution_is_exactly_at_its_bounds),
+        cmocka_unit_test(a_start_that_leads_away_is_given_up),
+        cmocka_unit_test(limits_end_the_path),
         cmocka_unit_test(a_start_without_basis_begins_at_the_bounds),
         cmocka_unit_test(a_large_obstacle_is_solved_as_by_newton),
         cmocka_unit_test(a_ray_names_its_variable),

@@ -61,6 +61,11 @@ static void units_of_no_kind_are_their_own(void **state)
     CHECK_STATUS(rb_unit_read("2.5 furlong", "furlong", &value, &plain, NULL), RB_OK);
     CHECK_ABS(value, 2.5, 0.0, "read");
     assert_int_equal(plain, 0);
+    /* seventeen digits stay */
+    CHECK_ABS(rb_unit_of("m", "mm", 0.30000000000000004), 300.00000000000004, 0.0,
+              "of m");
+    CHECK_ABS(rb_unit_shown(RB_UNITS_SI, "mm", 300.00000000000006), 0.30000000000000006,
+              0.0, "in m");
     CHECK_STATUS(rb_unit_read("2.5 -", "-", &value, &plain, NULL), RB_EINVAL);
     CHECK_STATUS(rb_unit_read("2.5 furlong", "mm", &value, &plain, NULL), RB_EINVAL);
 }
