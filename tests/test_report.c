@@ -7,6 +7,7 @@
 
 #include <jansson.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -461,6 +462,102 @@ static void pictures_need_something_to_draw(void **state)
     fclose(out);
 }
 
+/* A history by hand: one step has a range too, a step without contact a width of zero. */
+static void history_of_few_steps_is_drawn(void **state)
+{
+    (void)state;
+    double column[12][2] = {{0.0}};
+    int stick[2] = {3, 0}, slipping[2] = {1, 0};
+    rb_rolling_history h = {.n = 1,
+                            .distance = column[0],
+                            .creepage = column[1],
+                            .shift = column[2],
+                            .approach = column[3],
+                            .normal_load = column[4],
+                            .tangential_load = column[5],
+                            .force_ratio = column[6],
+                            .contact_from = column[7],
+                            .contact_to = column[8],
+                            .stick = stick,
+                            .slipping = slipping};
+    const rb_rolling_case rc = rb_rolling_case_defaults();
+    const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
+    rb_message why = {""};
+    FILE *out = tmpfile();
+    h.shift[0] = 0.25;
+    h.normal_load[0] = 100.0;
+    h.contact_from[0] = -1.0;
+    h.contact_to[0] = 3.0;
+    CHECK_STATUS(rb_report_history_picture(out, canvas, &rc, &h, &why), RB_OK);
+    const char *script = content(out);
+    assert_non_null(strstr(script, "set xrange [1:1.000001]\n"));
+    assert_non_null(strstr(script, "$data << EOD\n1 0.25 0 0.75 0 0\nEOD"));
+    assert_non_null(strstr(script, "set label 2 'shift  [mm]'"));
+    fclose(out);
+
+    out = tmpfile();
+    h.n = 2;
+    h.time = column[9];
+    h.time[1] = 0.5;
+    h.contact_from[1] = h.contact_to[1] = NAN;
+    CHECK_STATUS(rb_report_history_picture(out, canvas, &rc, &h, &why), RB_OK);
+    script = content(out);
+    assert_non_null(strstr(script, "Static contact in time}   2 steps"));
+    assert_non_null(strstr(script, "$data << EOD\n0 2 100 0\n0.5 0 0 0\nEOD"));
+    assert_non_null(strstr(script, "set xrange [0:0.5]\n"));
+    fclose(out);
+}
+
+/* What has no number is left out of the lines for people and of the title. */
+static void what_is_not_known_is_left_out(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *in_summary, *in_title;
+    } words[] = {{", Q/(mu P) = ", "Q/(μP) = "},
+                 {", xi R/(mu a) = ", "ξR/(μa) = "},
+                 {"creepage  xi = ", "ξ = "}};
+    const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
+    const rb_rolling_case rc = rb_rolling_case_defaults();
+    for (int without = 0; without <= 3; without++) {
+        rb_rolling_solution s = carter();
+        rb_message why = {""};
+        if (without > 0)
+            s.force_ratio = NAN;
+        if (without > 1)
+            s.creep_ratio = NAN;
+        if (without > 2)
+            s.creepage = NAN;
+        for (int title = 0; title < 2; title++) {
+            FILE *file = tmpfile();
+            if (title)
+                CHECK_STATUS(rb_report_picture(file, canvas, &rc, &s, &why), RB_OK);
+            else
+                rb_report_summary(file, &s, 80);
+            const char *text = content(file);
+            for (int k = 0; k < 3; k++) {
+                const char *word = title ? words[k].in_title : words[k].in_summary;
+                if ((strstr(text, word) == NULL) != (k < without))
+                    fail_msg("%d of 3 left out: '%s'", without, word);
+            }
+            assert_null(strstr(text, "nan"));
+            fclose(file);
+        }
+    }
+    rb_rolling_solution s = carter(); /* static: the shift, and a creepage if there is */
+    s.formulation = RB_STATIC;
+    for (int k = 0; k < 4; k++) {
+        FILE *file = tmpfile();
+        s.creepage = k / 2 ? 1e-3 : 0.0;
+        s.tangential_shift = k % 2 ? 0.125 : NAN;
+        rb_report_summary(file, &s, 80);
+        const char *text = content(file);
+        assert_int_equal(strstr(text, "creepage  xi = 0.001") != NULL, k / 2);
+        assert_int_equal(strstr(text, "shift     0.125 mm\n") != NULL, k % 2);
+        fclose(file);
+    }
+}
+
 /* What the picture of a solution says of one without contact. */
 static void picture_without_contact_says_so(void **state)
 {
@@ -615,6 +712,71 @@ static void a_part_of_a_picture_is_none(void **state)
         CHECK_STATUS(draw_by(pictures[k].all, 20.0, pictures[k].kind, out, &why), RB_OK);
         assert_true(ftell(out) > 20);
         fclose(out);
+    }
+}
+
+/* Each way in which a program called gnuplot may end without a picture. */
+static void gnuplot_that_fails_is_told(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *lines;
+        rb_status status;
+        const char *part;
+    } ends[] = {{"exit 127", RB_EHELPER, "gnuplot is not installed"},
+                {"exit 2", RB_EHELPER, "gnuplot failed: no message"},
+                {"echo '  wrong' >&2; echo '  ^' >&2; echo >&2; exit 1", RB_EHELPER,
+                 "gnuplot failed:   wrong"},
+                {"kill -9 $$", RB_EHELPER, "gnuplot failed: no message"},
+                {"printf '<!xml> <svg> more and more </svg>'", RB_EWRITE,
+                 "a part of the picture"},
+                {"printf '<?xml'", RB_EWRITE, "a part of the picture"},
+                {"printf '<?xml <svg> more </svg\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n'",
+                 RB_EWRITE, "a part of the picture"}};
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
+        FILE *out = tmpfile();
+        rb_message why = {""};
+        CHECK_STATUS(draw_by(ends[k].lines, 20.0, RB_REPORT_SVG, out, &why),
+                     ends[k].status);
+        if (!strstr(why.text, ends[k].part))
+            fail_msg("'%s': %s", ends[k].lines, why.text);
+        assert_int_equal(ftell(out), 0);
+        fclose(out);
+    }
+}
+
+/* A file that is no program, a caller who does not wait for children, a full disk. */
+static void gnuplot_and_its_surroundings(void **state)
+{
+    (void)state;
+    static const char picture[] = "printf '<?xml <svg> more </svg>'";
+    char folder[] = "/tmp/rollbem-gnuplot-XXXXXX", name[64], before[4096];
+    rb_message why = {""};
+    FILE *script = tmpfile(), *out = tmpfile(), *disk = fopen("/dev/full", "w");
+    assert_non_null(mkdtemp(folder));
+    snprintf(name, sizeof name, "%s/gnuplot", folder);
+    fclose(fopen(name, "w"));
+    snprintf(before, sizeof before, "%s", getenv("PATH"));
+    setenv("PATH", folder, 1);
+    const rb_status s = rb_report_gnuplot(script, RB_REPORT_SVG, 20.0, out, &why);
+    setenv("PATH", before, 1);
+    unlink(name);
+    rmdir(folder);
+    fclose(script);
+    CHECK_STATUS(s, RB_EHELPER);
+    assert_string_equal(why.text, "gnuplot does not start: Permission denied");
+
+    signal(SIGCHLD, SIG_IGN);
+    CHECK_STATUS(draw_by(picture, 20.0, RB_REPORT_SVG, out, &why), RB_EHELPER);
+    signal(SIGCHLD, SIG_DFL);
+    assert_string_equal(why.text, "gnuplot: No child processes");
+    assert_int_equal(ftell(out), 0);
+    fclose(out);
+    if (disk) {
+        setbuf(disk, NULL);
+        CHECK_STATUS(draw_by(picture, 20.0, RB_REPORT_SVG, disk, &why), RB_EWRITE);
+        assert_string_equal(why.text, "cannot write: No space left on device");
+        fclose(disk);
     }
 }
 
@@ -808,11 +970,15 @@ int main(void)
         cmocka_unit_test(brief_table_of_many_elements_skips_some),
         cmocka_unit_test(profiles_are_drawn),
         cmocka_unit_test(pictures_need_something_to_draw),
+        cmocka_unit_test(history_of_few_steps_is_drawn),
+        cmocka_unit_test(what_is_not_known_is_left_out),
         cmocka_unit_test(picture_without_contact_says_so),
         cmocka_unit_test(wear_keeps_some_profiles),
         cmocka_unit_test(gnuplot_complaint_is_handed_on),
         cmocka_unit_test(missing_gnuplot_is_named),
         cmocka_unit_test(a_part_of_a_picture_is_none),
+        cmocka_unit_test(gnuplot_that_fails_is_told),
+        cmocka_unit_test(gnuplot_and_its_surroundings),
         cmocka_unit_test(gnuplot_has_a_time_limit),
         cmocka_unit_test(gnuplot_inherits_no_descriptor),
         cmocka_unit_test(start_up_files_are_off),

@@ -246,7 +246,7 @@ enum { RB_REPORT_CURVES = 16 };
 
 /* One curve for each mu. */
 typedef struct {
-    int n;
+    int n; /* at least one */
     double mu[RB_REPORT_CURVES];
     rb_rolling_curve curve[RB_REPORT_CURVES];
     int has_errors;

@@ -70,10 +70,9 @@ __attribute__((format(printf, 2, 3))) static void add_words(words *w, const char
 {
     va_list arguments;
     va_start(arguments, format);
-    const int n = vsnprintf(w->text + w->n, sizeof w->text - w->n, format, arguments);
+    vsnprintf(w->text + w->n, sizeof w->text - w->n, format, arguments);
     va_end(arguments);
-    if (n > 0)
-        w->n += (size_t)n < sizeof w->text - w->n ? (size_t)n : sizeof w->text - 1 - w->n;
+    w->n = strlen(w->text);
 }
 
 static void add_length(words *w, const char *of, double length, rb_units units)

@@ -77,8 +77,7 @@ void rb_report_json_curves(json_t **root, const rb_report_curves *curves)
     json_t *all = json_array();
     for (int k = 0; k < curves->n; k++)
         rb_report_json_append(&all, json_curve(curves, k));
-    if (curves->n > 0)
-        rb_report_json_set(root, "curve", json_incref(json_array_get(all, 0)));
+    rb_report_json_set(root, "curve", json_incref(json_array_get(all, 0)));
     if (curves->n > 1)
         rb_report_json_set(root, "curves", json_incref(all));
     json_decref(all);

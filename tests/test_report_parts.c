@@ -1,0 +1,381 @@
+/* Parts of reports by themselves: units and steps of axes, cells, studies, files of
+ * matrices and of ParaView. */
+#include "check.h"
+#include "report/internal.h"
+#include "rollbem/case.h"
+#include "rollbem/io.h"
+
+#include <dirent.h>
+#include <string.h>
+
+/* What is in a file, in static storage. */
+static char *content(FILE *file)
+{
+    static char text[100000];
+    rewind(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    return text;
+}
+
+/* ---- Axes -------------------------------------------------------------------------- */
+
+/* From each limit on the larger unit. */
+static void axes_have_units_that_fit(void **state)
+{
+    (void)state;
+    static const struct {
+        rb_units units;
+        const char *of;
+        double largest, size;
+        const char *name;
+    } axes[] = {{RB_UNITS_MM, "MPa", 9999.0, 1.0, "MPa"},
+                {RB_UNITS_MM, "MPa", 1e4, 1e3, "GPa"},
+                {RB_UNITS_SI, "MPa", 9999.0, 1.0, "Pa"},
+                {RB_UNITS_SI, "MPa", 1e4, 1e3, "kPa"},
+                {RB_UNITS_SI, "MPa", 1e6, 1e6, "MPa"},
+                {RB_UNITS_SI, "MPa", 9.9e9, 1e6, "MPa"},
+                {RB_UNITS_SI, "MPa", 1e10, 1e9, "GPa"},
+                {RB_UNITS_INCH, "MPa", 9999.0, 1.0, "psi"},
+                {RB_UNITS_INCH, "MPa", 1e4, 1e3, "ksi"},
+                {RB_UNITS_MM, "mm", 1e-3, 1.0, "mm"},
+                {RB_UNITS_SI, "mm", 0.099, 1e-3, "mm"},
+                {RB_UNITS_SI, "mm", 0.1, 1.0, "m"},
+                {RB_UNITS_SI, "N/mm", 0.01, 1.0, "N/m"},
+                {RB_UNITS_INCH, "mm", 0.01, 1.0, "in"}};
+    for (size_t k = 0; k < sizeof axes / sizeof *axes; k++) {
+        const rb_report_unit unit =
+            rb_report_axis_unit(axes[k].units, axes[k].of, axes[k].largest);
+        CHECK_ABS(unit.size, axes[k].size, 0.0, "axis %zu", k);
+        assert_string_equal(unit.name, axes[k].name);
+    }
+}
+
+/* Lengths in half-widths where the numbers would be long. */
+static void lengths_are_shown_in_half_widths_or_units(void **state)
+{
+    (void)state;
+    static const struct {
+        rb_units units;
+        double a, size;
+        const char *label;
+    } axes[] = {{RB_UNITS_MM, 0.0, 1.0, "[mm]"},      {RB_UNITS_MM, 0.01, 1.0, "[mm]"},
+                {RB_UNITS_MM, 0.0099, 0.0099, "/ a"}, {RB_UNITS_MM, 1e5, 1.0, "[mm]"},
+                {RB_UNITS_MM, 1.1e5, 1.1e5, "/ a"},   {RB_UNITS_SI, 2e-5, 1e-3, "[mm]"},
+                {RB_UNITS_SI, 0.9e-5, 0.9e-5, "/ a"}};
+    for (size_t k = 0; k < sizeof axes / sizeof *axes; k++) {
+        const rb_report_length axis = rb_report_length_axis(axes[k].units, axes[k].a);
+        CHECK_ABS(axis.size, axes[k].size, 0.0, "axis %zu", k);
+        assert_string_equal(axis.label, axes[k].label);
+    }
+}
+
+static void steps_are_one_two_or_five(void **state)
+{
+    (void)state;
+    static const double steps[][2] = {
+        {1.0, 1.0},  {1.01, 2.0}, {2.0, 2.0},   {2.1, 5.0},  {5.0, 5.0},
+        {5.1, 10.0}, {9.9, 10.0}, {0.03, 0.05}, {70.0, 1e2}, {1.2e-7, 2e-7}};
+    for (size_t k = 0; k < sizeof steps / sizeof *steps; k++)
+        CHECK_REL(rb_report_round_step(steps[k][0]), steps[k][1], 1e-14, "step %zu", k);
+    static const double powers[][2] = {{0.0, 0.0},   {0.1, 0.0},     {0.099, -2.0},
+                                       {0.01, -2.0}, {0.0099, -3.0}, {7.0, 0.0}};
+    for (size_t k = 0; k < sizeof powers / sizeof *powers; k++)
+        assert_int_equal(rb_report_exponent(powers[k][0]), (int)powers[k][1]);
+    CHECK_ABS(rb_report_labels_in(0.1), 2.0, 0.0, "at least two");
+    CHECK_REL(rb_report_labels_in(0.5), 6.0, 1e-14, "twelve in the whole height");
+}
+
+/* ---- Cells ------------------------------------------------------------------------- */
+
+/* A cell that a reader would split or skip stands in quotes. */
+static void cells_are_quoted_where_needed(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *cell;
+    } cells[] = {{"plain", "plain"},
+                 {"", "\"\""},
+                 {"two words", "\"two words\""},
+                 {"a,b", "\"a,b\""},
+                 {"#1", "\"#1\""},
+                 {"say \"x\"", "\"say \"\"x\"\"\""},
+                 {"tab\there", "tab\\x09here"}};
+    for (int csv = 0; csv < 2; csv++)
+        for (size_t k = 0; k < sizeof cells / sizeof *cells; k++) {
+            const rb_report_style style = {csv ? RB_REPORT_CSV : RB_REPORT_TSV, 1};
+            FILE *file = tmpfile();
+            char want[100];
+            rb_report_cells c = rb_report_cells_begin(file, &style, "");
+            rb_report_cell_whole(&c, 7);
+            rb_report_cell_text(&c, cells[k].text);
+            rb_report_cell_number(&c, NAN);
+            rb_report_cells_end_row(&c);
+            snprintf(want, sizeof want, csv ? "7,%s,\n" : "7\t%s\tNaN\n", cells[k].cell);
+            assert_string_equal(content(file), want);
+            fclose(file);
+        }
+}
+
+/* ---- Studies ----------------------------------------------------------------------- */
+
+enum { MOST = 200 };
+
+/* A study of so many x and y, in the order of the cases, and what it shows. */
+static rb_report_study study_of(int nx, int ny, int with_y, double *room)
+{
+    double *x = room, *y = room + MOST, *value = room + 2 * MOST;
+    for (int k = 0; k < nx * ny; k++) {
+        x[k] = 1.0 + k % nx;
+        y[k] = 10.0 * (1 + k / nx);
+        value[k] = x[k] * y[k];
+    }
+    return (rb_report_study){.n = nx * ny,
+                             .x = {"load", "N/mm", x},
+                             .y = {"mu", "", with_y ? y : NULL},
+                             .shown = {"max_pressure", "MPa", value}};
+}
+
+static void studies_that_make_no_picture_are_named(void **state)
+{
+    (void)state;
+    static double room[3 * MOST];
+    static const struct {
+        int nx, ny, with_y, map,
+            place; /* place: of the x that is changed to `to`; or -1 */
+        double to;
+        const char *why; /* NULL: it can be drawn */
+    } studies[] = {
+        {3, 2, 1, 0, -1, 0.0, NULL},
+        {3, 2, 1, 1, -1, 0.0, NULL},
+        {3, 1, 0, 0, -1, 0.0, NULL},
+        {3, 2, 1, 0, 2, 2.0,
+         "cases 2 and 3 have the same load and mu: more options vary than the picture "
+         "shows"},
+        {3, 1, 0, 0, 2, 1.0,
+         "cases 1 and 3 have the same load: more options vary than the picture shows"},
+        {2, 17, 1, 0, -1, 0.0, "17 values of mu: at most 16 curves are drawn"},
+        {2, 16, 1, 0, -1, 0.0, NULL},
+        {1, 2, 1, 0, -1, 0.0, "a curve needs two values of load; mu = 10 has one"},
+        {1, 1, 0, 0, -1, 0.0, "a curve needs two values of load"},
+        {3, 1, 0, 1, -1, 0.0, "a map needs two options with two values or more"},
+        {3, 1, 1, 1, -1, 0.0, "a map needs two options with two values or more"},
+        {1, 3, 1, 1, -1, 0.0, "a map needs two options with two values or more"},
+        {3, 2, 1, 1, 5, 9.0,
+         "a map needs a case for every pair of load and mu; those with mu = 20 are "
+         "others "
+         "than those with mu = 10"}};
+    for (size_t k = 0; k < sizeof studies / sizeof *studies; k++) {
+        rb_report_study s =
+            study_of(studies[k].nx, studies[k].ny, studies[k].with_y, room);
+        rb_message why = {""};
+        if (studies[k].place >= 0)
+            room[studies[k].place] = studies[k].to;
+        const rb_status status = rb_report_study_check(&s, studies[k].map, &why);
+        CHECK_STATUS(status, studies[k].why ? RB_EINVAL : RB_OK);
+        assert_string_equal(why.text, studies[k].why ? studies[k].why : "");
+    }
+    rb_report_study ragged = study_of(3, 2, 1, room); /* three of one, two of the other */
+    ragged.n = 5;
+    rb_message why = {""};
+    CHECK_STATUS(rb_report_study_check(&ragged, 1, &why), RB_EINVAL);
+    CHECK_STATUS(rb_report_study_check(&ragged, 0, &why), RB_OK);
+    alloc_fail_after(0);
+    const rb_status s = rb_report_study_check(&ragged, 0, &why);
+    alloc_succeed();
+    CHECK_STATUS(s, RB_ENOMEM);
+    assert_string_equal(why.text, "out of memory for 5 cases");
+}
+
+static const char *drawn(const rb_report_study *s, int map)
+{
+    const rb_report_canvas canvas = {.kind = RB_REPORT_SVG, .script = 1};
+    rb_message why = {""};
+    FILE *out = tmpfile();
+    CHECK_STATUS(rb_report_study_picture(out, canvas, s, map, &why), RB_OK);
+    const char *script = content(out);
+    fclose(out);
+    return script;
+}
+
+/* Colours between few values, labels in the middle of the contours; a map of one value
+ * has no contours. */
+static void maps_suit_the_number_of_cases(void **state)
+{
+    (void)state;
+    static double room[3 * MOST];
+    rb_report_study s = study_of(3, 2, 1, room);
+    const char *script = drawn(&s, 1);
+    assert_non_null(strstr(script, "interpolate 27,40\n"));
+    assert_non_null(strstr(script, "start 3 interval -1"));
+    assert_non_null(strstr(script, "set cntrparam levels incremental"));
+    assert_non_null(strstr(script, "labels boxed"));
+    assert_non_null(
+        strstr(script, "$map << EOD\n1 10 10\n2 10 20\n3 10 30\n\n1 20 20\n"));
+    s = study_of(90, 2, 1, room);
+    script = drawn(&s, 1);
+    assert_non_null(strstr(script, "interpolate 1,40\n"));
+    assert_non_null(strstr(script, "start 23 interval -1")); /* 92 lines */
+    for (int k = 0; k < s.n; k++)
+        room[2 * MOST + k] = 4.0;
+    script = drawn(&s, 1);
+    assert_null(strstr(script, "contour base"));
+    assert_null(strstr(script, "labels boxed"));
+    assert_non_null(strstr(script, "splot $map using 1:2:3 with pm3d nocontour\n"));
+}
+
+/* Points are marked where there are few; a power of ten stands beside the unit. */
+static void curves_suit_the_number_of_cases(void **state)
+{
+    (void)state;
+    static double room[3 * MOST];
+    for (int many = 0; many < 2; many++) {
+        rb_report_study s = study_of(many ? 25 : 24, 2, 1, room);
+        const char *script = drawn(&s, 0);
+        assert_int_equal(strstr(script, " with linespoints ") == NULL, many);
+        assert_int_equal(strstr(script, " with lines ") != NULL, many);
+        assert_non_null(strstr(script, "title '10', $curve1"));
+        assert_non_null(strstr(script, "set ylabel 'max pressure  [MPa]'\n"));
+        assert_non_null(strstr(script, "set xlabel 'load  [N/mm]'\n"));
+    }
+    rb_report_study s = study_of(3, 1, 0, room);
+    room[2 * MOST] = -2e5;
+    s.shown.unit = "";
+    const char *script = drawn(&s, 0);
+    assert_non_null(strstr(script, "set ylabel 'max pressure  [10^{5}]'\n"));
+    assert_non_null(strstr(script, "\n1 -2\n2 0.0002\n"));
+    assert_non_null(strstr(script, "set offsets 0,0,graph 0.05,graph 0.05\n"));
+    assert_non_null(strstr(script, "unset key\n"));
+    room[2 * MOST] = 0.01;
+    for (int k = 1; k < 3; k++) {
+        room[k] = pow(10.0, k);
+        room[2 * MOST + k] = 0.02 * k;
+    }
+    s.shown.unit = "MPa";
+    script = drawn(&s, 0);
+    assert_non_null(strstr(script, "set ylabel 'max pressure  [10^{-2} MPa]'\n"));
+    assert_non_null(strstr(script, "set logscale x\n"));
+    assert_non_null(strstr(script, "set offsets 0,0,graph 0.05,graph 0\n"));
+}
+
+/* ---- Files ------------------------------------------------------------------------- */
+
+static void vtk_files_are_known_by_their_names(void **state)
+{
+    (void)state;
+    static const char *const none[] = {"a", "a.vtk", ".", "vti", "a.vti.gz"};
+    rb_report_vtk_kind kind;
+    rb_message why;
+    CHECK_STATUS(rb_report_vtk_kind_of("a.b.vti", &kind, &why), RB_OK);
+    assert_int_equal(kind, RB_REPORT_VTI);
+    CHECK_STATUS(rb_report_vtk_kind_of(".vtu", &kind, &why), RB_OK);
+    assert_int_equal(kind, RB_REPORT_VTU);
+    for (size_t k = 0; k < sizeof none / sizeof *none; k++) {
+        CHECK_STATUS(rb_report_vtk_kind_of(none[k], &kind, &why), RB_EINVAL);
+        assert_non_null(strstr(why.text, "expected a name ending in .vti or .vtu"));
+    }
+}
+
+/* A case of "name value" pairs, solved. */
+static void solve(const char *const *words, rb_case_result *result)
+{
+    rb_message why = {""};
+    rb_case *c = rb_case_create(RB_CASE_SINGLE);
+    for (; *words; words += 2)
+        if (rb_case_set(c, words[0], words[1], RB_GIVEN_ARGUMENT, &why) != RB_OK)
+            fail_msg("%s", why.text);
+    if (rb_case_settle(c, &why) != RB_OK ||
+        rb_case_solve(rb_case_settled(c), NULL, NULL, result, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    rb_case_free(c);
+}
+
+static const char *const wheels[] = {"contact-elements",
+                                     "6",
+                                     "outer-elements",
+                                     "24",
+                                     "support",
+                                     "hub",
+                                     "support-b",
+                                     "hub",
+                                     "similar",
+                                     "yes",
+                                     "radius-b",
+                                     "60",
+                                     "load",
+                                     "100",
+                                     "solver",
+                                     "lemke",
+                                     NULL};
+static const char *const planes[] = {
+    "contact-elements", "6",   "support", "halfplane", "load", "100",
+    "similar",          "yes", "solver",  "lemke",     NULL};
+
+typedef struct {
+    const char *folder;
+    const rb_rolling_model *model;
+} dump_job;
+
+static int files_in(const char *folder)
+{
+    int n = 0;
+    DIR *dir = opendir(folder);
+    for (const struct dirent *e; dir && (e = readdir(dir)) != NULL;)
+        n += e->d_name[0] != '.';
+    if (dir)
+        closedir(dir);
+    return n;
+}
+
+static rb_status dump(void *context)
+{
+    const dump_job *j = context;
+    rb_message why = {""};
+    FILE *lines = tmpfile();
+    rb_status s = rb_report_dump(j->folder, j->model, &why);
+    if (s != RB_OK)
+        assert_int_equal(files_in(j->folder), 0);
+    if (s == RB_OK)
+        s = rb_report_trace(lines, j->folder, j->model, &why);
+    if (s != RB_OK)
+        assert_non_null(strstr(why.text, "out of memory"));
+    fclose(lines);
+    return s;
+}
+
+/* All files or none, and none of an older dump. */
+static void matrices_are_written_all_or_none(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/rollbem-dump-XXXXXX", command[100];
+    assert_non_null(mkdtemp(folder));
+    rb_case_result two = {0}, flat = {0};
+    solve(wheels, &two);
+    solve(planes, &flat);
+    dump_job j = {folder, &two.model};
+    rb_message why = {""};
+    CHECK_STATUS(rb_report_dump(folder, &two.model, &why), RB_OK);
+    assert_int_equal(files_in(folder), 12); /* two meshes, H, G; contact, F; LCP: four */
+    CHECK_STATUS(rb_report_dump(folder, &flat.model, &why), RB_OK);
+    assert_int_equal(files_in(folder), 6);
+    assert_true(alloc_fail_every_call(dump, &j) > 10);
+    rb_case_result_free(&two);
+    rb_case_result_free(&flat);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(axes_have_units_that_fit),
+        cmocka_unit_test(lengths_are_shown_in_half_widths_or_units),
+        cmocka_unit_test(steps_are_one_two_or_five),
+        cmocka_unit_test(cells_are_quoted_where_needed),
+        cmocka_unit_test(studies_that_make_no_picture_are_named),
+        cmocka_unit_test(maps_suit_the_number_of_cases),
+        cmocka_unit_test(curves_suit_the_number_of_cases),
+        cmocka_unit_test(vtk_files_are_known_by_their_names),
+        cmocka_unit_test(matrices_are_written_all_or_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
