@@ -435,6 +435,52 @@ static void wheels_without_stiffness_have_the_length_one(void **state)
     }
 }
 
+/* Blocks of contacts without a tangential part: what is dragged slips, W or no W. */
+static void make_loose(rb_friction_problem *p)
+{
+    static const double q[] = {-1.0, 0.5, -2.0, -0.5, 0.3, 1.0, -1.0, 2.0};
+    *p = (rb_friction_problem){.form = RB_FRICTION_LOCAL_DENSE,
+                               .dimension = 2,
+                               .contacts = NC,
+                               .mu = rb_alloc(NC, 1),
+                               .W = rb_alloc(2 * NC, 2 * NC),
+                               .q = rb_copy(2 * NC, q)};
+    for (int c = 0; c < NC; c++) {
+        p->mu[c] = 0.5;
+        p->W[2 * c * (2 * NC + 1)] = 2.0;
+    }
+}
+
+static void contacts_without_tangential_compliance_slip(void **state)
+{
+    static const char *const names[] = {"nsgs-ac", "nsgs-aa", "lemke", "auto"};
+    (void)state;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        rb_friction_problem p;
+        rb_friction_info info;
+        double r[2 * NC], u[2 * NC];
+        make_loose(&p);
+        CHECK_STATUS(rb_friction_solve(names[k], &p, NULL,
+                                       &(rb_friction_solution){r, u, NULL}, &info),
+                     RB_OK);
+        for (int c = 0; c < NC; c++) {
+            const double rn = fmax(0.0, -p.q[2 * c] / 2.0);
+            CHECK_ABS(r[2 * c], rn, 1e-7, "%s, r_N of %d", names[k], c);
+            CHECK_ABS(r[2 * c + 1], p.q[2 * c + 1] > 0.0 ? -0.5 * rn : 0.5 * rn, 1e-7,
+                      "%s, r_T of %d", names[k], c);
+            CHECK_ABS(u[2 * c + 1], p.q[2 * c + 1], 1e-12, "%s, u_T of %d", names[k], c);
+        }
+        memset(p.W, 0, 4 * NC * NC * sizeof *p.W); /* nothing can be pushed: all open */
+        for (int c = 0; c < NC; c++)
+            p.q[2 * c] = 1.0 + c;
+        CHECK_STATUS(rb_friction_solve(names[k], &p, NULL,
+                                       &(rb_friction_solution){r, u, NULL}, &info),
+                     RB_OK);
+        CHECK_ABS(rb_norm_inf(2 * NC, r), 0.0, 0.0, "%s, W = 0", names[k]);
+        rb_friction_problem_free(&p);
+    }
+}
+
 /* ---- Memory ------------------------------------------------------------------------ */
 
 static rb_status use_handle(void *context)
@@ -495,6 +541,10 @@ static void short_memory_is_reported(void **state)
         assert_true(alloc_fail_each(measure, &p) > 2);
         rb_friction_problem_free(&p);
     }
+    rb_friction_problem loose;
+    make_loose(&loose);
+    assert_true(alloc_fail_each(use_handle, &loose) > 5);
+    rb_friction_problem_free(&loose);
     assert_true(alloc_fail_each(solve_on_cones, (void *)&on_cones) > 5);
     rb_friction_problem wheels;
     make_wheels(&wheels);
@@ -517,6 +567,7 @@ int main(void)
         cmocka_unit_test(limits_hold_on_cones),
         cmocka_unit_test(what_does_not_roll_is_refused),
         cmocka_unit_test(wheels_without_stiffness_have_the_length_one),
+        cmocka_unit_test(contacts_without_tangential_compliance_slip),
         cmocka_unit_test(short_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -7,8 +7,6 @@
 
 void rb_friction_blocks_free(rb_friction_blocks *blocks)
 {
-    if (!blocks)
-        return;
     free(blocks->x);
     *blocks = (rb_friction_blocks){0};
 }

@@ -53,12 +53,10 @@ static rb_status wanted_rho(sweeper *s)
     if (!s->rho)
         return RB_ENOMEM;
     const rb_status st = rb_friction_rho(s->task->shared->local, s->rho);
-    if (st != RB_OK)
-        return st;
     s->fixed = s->rho + 2 * nc;
     for (size_t c = 0; c < nc; c++)
         s->fixed[c] = fmin(s->rho[2 * c], s->rho[2 * c + 1]);
-    return RB_OK;
+    return st;
 }
 
 static rb_status start_sweeps(rb_friction_task *task, int flags, void *state)

@@ -28,10 +28,12 @@ rb_status rb_friction_check_vector(const char *name, size_t n, const double *x,
     int bad = 0; /* without a jump, since almost always nothing is found */
     for (size_t k = 0; k < n; k++)
         bad |= !(fabs(x[k]) <= DBL_MAX);
-    for (size_t k = 0; bad && k < n; k++)
-        if (!isfinite(x[k]))
-            return rb_fail(why, RB_EINVAL, "%s: entry %zu is %g", name, k + 1, x[k]);
-    return RB_OK;
+    if (!bad)
+        return RB_OK;
+    size_t k = 0;
+    while (isfinite(x[k]))
+        k++;
+    return rb_fail(why, RB_EINVAL, "%s: entry %zu is %g", name, k + 1, x[k]);
 }
 
 rb_status rb_friction_check_sparse(const char *name, const rb_sparse *a, int rows,

@@ -7,8 +7,6 @@
 
 void rb_friction_system_free(rb_friction_system *s)
 {
-    if (!s)
-        return;
     rb_sparse_lu_free(s->lu);
     rb_sparse_free(&s->j);
     free(s->dense);
