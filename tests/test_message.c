@@ -102,6 +102,88 @@ static void a_refusal_is_one_line_in_print(void **state)
     assert_string_equal(printed(say_without_reason, CLI_INTERNAL), wanted);
 }
 
+/* ---- Command lines ----------------------------------------------------------------- */
+
+static int run_nothing(int argc, char **argv)
+{
+    (void)argc, (void)argv;
+    return CLI_OK;
+}
+
+static const cli_command two[] = {{"lcp", run_nothing, "problems"},
+                                  {"", run_nothing, "cases"}};
+
+/* What is printed as the command gives the same words again. */
+static void a_command_line_is_quoted_and_split(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *words[5], *line;
+    } all[] = {{{"--mu=0.3", "a.ini"}, "rollbem --mu=0.3 a.ini"},
+               {{"load 1 2", ""}, "rollbem 'load 1 2' ''"},
+               {{"it's", "'", "a b"}, "rollbem 'it'\\''s' ''\\''' 'a b'"},
+               {{"x_y-z+1,2:/@%^"}, "rollbem x_y-z+1,2:/@%^"},
+               {{"$HOME", "*", "a;b", "#"}, "rollbem '$HOME' '*' 'a;b' '#'"}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char program[] = "rollbem", *argv[6] = {program}, line[200];
+        int argc = 1, n;
+        for (; argc < 6 && all[k].words[argc - 1]; argc++)
+            argv[argc] = (char *)(uintptr_t)all[k].words[argc - 1];
+        assert_true(cli_begin(two, argc, argv));
+        assert_string_equal(cli_command_line(), all[k].line);
+        snprintf(line, sizeof line, "%s", all[k].line + strlen("rollbem "));
+        char **words = cli_split_line(line, &n);
+        assert_int_equal(n, argc);
+        for (int i = 0; i < n; i++)
+            assert_string_equal(words[i], argv[i]);
+        free(words);
+        cli_end();
+        assert_string_equal(cli_command_line(), "rollbem");
+    }
+}
+
+static void lines_are_split_as_a_shell_does(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line;
+        int n;
+        const char *words[4];
+    } all[] = {{"", 1, {""}},
+               {"  a   b ", 3, {"a", "b"}},
+               {"a\\ b c", 3, {"a b", "c"}},
+               {"a'b c'd", 2, {"ab cd"}},
+               {"'a\\b' \\\\", 3, {"a\\b", "\\"}},
+               {"a\\", 2, {"a"}},
+               {"'' x", 3, {"", "x"}}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char line[40];
+        int n;
+        snprintf(line, sizeof line, "%s", all[k].line);
+        char **words = cli_split_line(line, &n);
+        assert_int_equal(n, all[k].n);
+        assert_string_equal(words[0], "rollbem");
+        for (int i = 1; i < n; i++)
+            assert_string_equal(words[i], all[k].words[i - 1]);
+        free(words);
+    }
+}
+
+static void commands_are_found_by_name(void **state)
+{
+    (void)state;
+    assert_true(cli_begin(two, 1, (char *[]){NULL}));
+    assert_string_equal(cli_command_name(0), "lcp");
+    assert_null(cli_command_name(1));
+    assert_string_equal(cli_command_help("lcp"), "problems");
+    assert_string_equal(cli_command_help(""), "cases");
+    assert_null(cli_command_help("lc"));
+    rb_guess guess = {.word = "lpc"};
+    cli_guess_command(&guess);
+    assert_string_equal(rb_guess_text(&guess, ""), " (did you mean 'lcp'?)");
+    cli_end();
+}
+
 /* Last: it cannot be taken back. */
 static void kept_failures_are_not_printed(void **state)
 {
@@ -119,6 +201,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_status_has_its_exit_code),
         cmocka_unit_test(a_refusal_is_one_line_in_print),
+        cmocka_unit_test(a_command_line_is_quoted_and_split),
+        cmocka_unit_test(lines_are_split_as_a_shell_does),
+        cmocka_unit_test(commands_are_found_by_name),
         cmocka_unit_test(kept_failures_are_not_printed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

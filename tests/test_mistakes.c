@@ -137,6 +137,52 @@ static void refusals_have_their_code_and_reason(void **state)
          "b.ini --all-solutions --trace --formulation steady --creep-ratio 0.5 "
          "--friction-law linear --mu-fall .1 --slip-scale 1 --speed 1",
          "not together with --dump, --fclib, --trace"},
+        {64,
+         "b.ini --all-solutions --formulation steady --creep-ratio 0.5 --friction-law "
+         "linear --mu-fall .1 --slip-scale 1 --speed 1 --dump d",
+         "not together with --dump, --fclib, --trace"},
+        {64,
+         "b.ini --all-solutions --formulation steady --creep-ratio 0.5 --friction-law "
+         "linear --mu-fall .1 --slip-scale 1 --speed 1 --fclib f.hdf5",
+         "not together with --dump, --fclib, --trace"},
+        {64,
+         "b.ini --all-solutions --formulation steady --friction-law linear --mu-fall .1 "
+         "--slip-scale 1 --speed 1 --force 1",
+         "at a given creepage, not under a given force"},
+        {64,
+         "b.ini --all-solutions --formulation steady --friction-law linear --mu-fall .1 "
+         "--slip-scale 1 --speed 1 --force-ratio 0.1",
+         "at a given creepage, not under a given force"},
+        {64,
+         "b.ini --all-solutions --formulation steady --friction-law linear --mu-fall .1 "
+         "--slip-scale 1 --speed 1 --free-axle",
+         "at a given creepage, not under a given force"},
+        {64,
+         "b.ini --all-solutions --formulation steady --creep-ratio 0.5 --friction-law "
+         "linear --mu-fall .1 --slip-scale 1 --speed 1 --error",
+         "of steady rolling without error bars"},
+        {64, "b.ini --all-solutions --formulation steady --creep-ratio 0.5",
+         "of steady rolling without error bars"},
+        {64,
+         "b.ini --all-solutions --shift 0.001 --friction-law linear --mu-fall .1 "
+         "--slip-scale 1 --speed 1",
+         "of steady rolling"},
+        {64, "b.ini --shift 0.001 --error --dump d",
+         "--dump, --fclib and --trace: not together with error bars"},
+        {64, "b.ini --shift 0.001 --error --fclib f.hdf5",
+         "--dump, --fclib and --trace: not together with error bars"},
+        {64, "b.ini --shift 0.001 --error --trace",
+         "--dump, --fclib and --trace: not together with error bars"},
+        {64, "b.ini --shift 0.001 --accuracy 0.1 --trace",
+         "not together with error bars"},
+        {64, "b.ini --shift 0.001 --trace --solver newton",
+         "--trace: only --solver lemke pivots"},
+        {64, "b.ini --formulation transient --distance 0.3 --steps 2 --states",
+         "--states: with --json and in mm, N, MPa only"},
+        {64,
+         "b.ini --formulation transient --distance 0.3 --steps 2 --states --json --units "
+         "si",
+         "--states: with --json and in mm, N, MPa only"},
         {73, "b.ini --output .", ".: cannot write: Is a directory"},
         {73, "b.ini --dump b.ini", "b.ini: cannot write: Not a directory"},
         {73, "b.ini --snapshots b.ini --formulation transient --distance 0.3",
