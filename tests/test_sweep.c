@@ -269,7 +269,41 @@ static void what_is_no_row_of_the_study_is_refused(void **state)
     check_not_resumed("sed -i '1s/force_ratio/x/' s.tsv", "holds something else");
     check_not_resumed("sed -i '2s/$/x/' s.tsv", "holds something else");
     check_not_resumed("head -2 s.tsv >t; mv t s.tsv", "holds something else");
+    check_not_resumed("printf x >s.tsv", "holds something else");
     check_not_resumed("sed -i '8p' s.tsv", "s.tsv:9: not the row of case 4");
+}
+
+/* What is in the file when the disk is full is whole, and the study goes on from there.
+ */
+static void a_full_disk_leaves_whole_rows(void **state)
+{
+    (void)state;
+    static const char study[] = STUDY "--contact-elements 30 --vary-1 'mu 0.1:0.3:12' ";
+    static char whole[20000], part[20000];
+    char line[600];
+    snprintf(line, sizeof line, "%s --output whole.tsv", study);
+    assert_int_equal(rollbem(line), 0);
+    slurp("whole.tsv", whole, sizeof whole);
+    for (int blocks = 0; blocks < 3; blocks += 2) {
+        snprintf(
+            line, sizeof line,
+            "bash -c \"(ulimit -f %d; exec '$R' %s --output full.tsv 2>&1) | cat; exit "
+            "\\${PIPESTATUS[0]}\"",
+            blocks, study);
+        assert_int_equal(shell(line), 73);
+        assert_non_null(strstr(out, "rollbem: full.tsv: File too large"));
+        if (blocks == 0) {
+            assert_int_not_equal(access("full.tsv", F_OK), 0);
+            continue;
+        }
+        slurp("full.tsv", part, sizeof part);
+        const size_t n = strlen(part);
+        assert_true(n > 0 && n < 2048 && part[n - 1] == '\n');
+    }
+    snprintf(line, sizeof line, "%s --output full.tsv", study);
+    assert_int_equal(rollbem(line), 0);
+    slurp("full.tsv", part, sizeof part);
+    assert_string_equal(strstr(part, "\n1\t"), strstr(whole, "\n1\t"));
 }
 
 /* The other formats have the same numbers and come whole. */
@@ -636,6 +670,7 @@ int main(void)
         cmocka_unit_test(an_interrupted_study_goes_on),
         cmocka_unit_test(cases_that_fail_are_rows_and_an_exit_code),
         cmocka_unit_test(what_is_no_row_of_the_study_is_refused),
+        cmocka_unit_test(a_full_disk_leaves_whole_rows),
         cmocka_unit_test(studies_come_in_three_formats),
         cmocka_unit_test(any_result_is_a_column_by_its_name),
         cmocka_unit_test(studies_name_their_papers),
