@@ -230,6 +230,24 @@ static void an_interrupted_study_goes_on(void **state)
     assert_null(strstr(again, "of 31 cases"));
 }
 
+/* A table that a case file in SI names is in SI; the study shows what it shows. */
+static void tables_are_in_the_units_of_the_file_that_names_them(void **state)
+{
+    (void)state;
+    write_file("si.ini", "units = si\nsupport = halfplane\nyoung = 2e11\nradius = 0.3\n"
+                         "contact-elements = 12\n[sweep]\ncases = si.txt\n");
+    write_file("si.txt", "load\n100000\n200000\n");
+    write_file("mm.txt", "load\n100\n200\n");
+    assert_int_equal(rollbem("sweep --support halfplane --young 2e5 --radius 300 "
+                             "--contact-elements 12 --cases mm.txt --header bare "
+                             "--quiet"),
+                     0);
+    assert_non_null(strstr(out, "\n1\t100\t"));
+    assert_int_equal(rollbem("sweep si.ini --units mm --header bare --quiet"), 0);
+    assert_non_null(strstr(out, "\n1\t100\t"));
+    assert_non_null(strstr(out, "\n2\t200\t"));
+}
+
 static void cases_that_fail_are_rows_and_an_exit_code(void **state)
 {
     (void)state;
@@ -300,6 +318,14 @@ static void a_full_disk_leaves_whole_rows(void **state)
         const size_t n = strlen(part);
         assert_true(n > 0 && n < 2048 && part[n - 1] == '\n');
     }
+    /* half a head in a file that was there and empty is taken back, too */
+    snprintf(line, sizeof line,
+             "touch empty.tsv; bash -c \"(ulimit -f 1; exec '$R' %s --output \\$(printf "
+             "'./%%.0s' {1..400})empty.tsv 2>&1) | cat; exit \\${PIPESTATUS[0]}\"",
+             study);
+    assert_int_equal(shell(line), 73);
+    slurp("empty.tsv", part, sizeof part);
+    assert_string_equal(part, "");
     snprintf(line, sizeof line, "%s --output full.tsv", study);
     assert_int_equal(rollbem(line), 0);
     slurp("full.tsv", part, sizeof part);
@@ -668,6 +694,7 @@ int main(void)
         cmocka_unit_test(grid_times_table),
         cmocka_unit_test(options_may_need_the_one_that_varies),
         cmocka_unit_test(an_interrupted_study_goes_on),
+        cmocka_unit_test(tables_are_in_the_units_of_the_file_that_names_them),
         cmocka_unit_test(cases_that_fail_are_rows_and_an_exit_code),
         cmocka_unit_test(what_is_no_row_of_the_study_is_refused),
         cmocka_unit_test(a_full_disk_leaves_whole_rows),

@@ -469,6 +469,8 @@ static cli_exit resume(study *st)
         st->whole = ftell(st->out);
     }
     free(line);
+    if (code != CLI_CONTINUE)
+        st->path = NULL; /* it is another's: nothing of it is taken back */
     if (code == CLI_CONTINUE && (ftruncate(fileno(st->out), st->whole) != 0 ||
                                  fseek(st->out, st->whole, SEEK_SET) != 0))
         code = cannot_write(st->path);
@@ -572,7 +574,7 @@ static void take_back(const study *st)
     struct stat now;
     if (st->created && st->whole == 0)
         unlink(st->path);
-    else if (st->whole > 0 && stat(st->path, &now) == 0 && now.st_size > st->whole)
+    else if (stat(st->path, &now) == 0 && now.st_size > st->whole)
         (void)!truncate(st->path, st->whole);
 }
 
@@ -617,7 +619,6 @@ static cli_exit run(study *st)
     rb_message why = {""};
     const rb_rolling_sweep sweep = sweep_of(st);
 
-    fflush(st->out); /* or every process would have what is in the buffer */
     cli_interrupts_catch();
     st->start = st->shown = rb_seconds();
     const rb_status s = cli_pool_run(&sweep, &why);
