@@ -611,8 +611,30 @@ static void calls_leave_the_threads_alone(void **state)
         rb_blas_threads(2);
         if (rb_blas_threads(2) != 2) /* a library with one thread */
             skip();
-        rb_api_free(solved(wheel));
+        rb_api *a = solved(wheel);
+        const double one = 1.0, minus[] = {-1.0, 0.1}, W[] = {2, 0, 0, 1},
+                     xy[] = {0.0, 1.0};
+        for (int k = 0; k < 9; k++) {
+            assert_int_equal(rb_blas_threads(2), 2);
+            CHECK_STATUS(k == 0   ? rb_api_stress(a, 2, 2, 0.0)
+                         : k == 1 ? rb_api_stress_at(a, 1, xy)
+                         : k == 2 ? rb_api_stress_maxima(a, 0.0)
+                         : k == 3 ? rb_api_pivots(a)
+                         : k == 4 ? rb_api_newton(a)
+                         : k == 5 ? rb_api_lcp(a, 1, &one, minus, "lemke", 0)
+                         : k == 6
+                             ? rb_api_friction(a, 2, 1, W, minus, &one, "auto", 1e-9, 0)
+                         : k == 7 ? rb_api_sweep(a, 1, &a, 1)
+                                  : rb_api_solve(a),
+                         RB_OK);
+        }
         assert_int_equal(rb_blas_threads(1), 2);
+        rb_api_free(a);
+        a = solved(steady);
+        rb_blas_threads(2);
+        CHECK_STATUS(rb_api_curve(a, 0.0, 1.0, 2), RB_OK);
+        assert_int_equal(rb_blas_threads(1), 2);
+        rb_api_free(a);
     }
     if (given)
         setenv("OPENBLAS_NUM_THREADS", before, 1);

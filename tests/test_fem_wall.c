@@ -263,7 +263,7 @@ static void bad_input_is_refused(void **state)
 static void failures_name_the_step(void **state)
 {
     (void)state;
-    const rb_fem_wall_options o = small_wall(0);
+    const rb_fem_wall_options o = small_wall(1);
     rb_fem_wall *wall;
     rb_fem_wall_step step;
     rb_friction_problem problem;
