@@ -116,6 +116,222 @@ static void cells_are_quoted_where_needed(void **state)
         }
 }
 
+/* ---- Notes ------------------------------------------------------------------------- */
+
+typedef struct {
+    rb_rolling_case rc;
+    rb_rolling_solution s;
+    rb_rolling_patch patch[2];
+} noted;
+
+/* A steady case of a half-plane with R = 50 mm of which nothing has to be said. */
+static void quiet(noted *n)
+{
+    memset(n, 0, sizeof *n);
+    n->rc = rb_rolling_case_defaults();
+    n->rc.formulation = n->s.formulation = RB_STEADY;
+    n->rc.a.support = RB_BEM_HALFPLANE;
+    n->rc.a.radius = 50.0;
+    n->rc.creep = 1e-3;
+    n->s.creep_ratio = 0.5;
+    n->s.creepage = 1e-3;
+    n->s.contact = 6;
+    n->s.stick = 3;
+    n->s.patch = n->patch;
+    n->s.patches = 1;
+    n->s.half_width = 1.0;
+}
+
+/* Each note on both sides of its condition. */
+static void notes_begin_where_they_should(void **state)
+{
+    (void)state;
+    static const char inaccurate[] = "linear elasticity is inaccurate",
+                      broken[] = "linear elasticity does not hold",
+                      percent[] = "is the creepage meant in %, --creep 0.001%?",
+                      radians[] = "is it meant in radians, --arc 1.99rad?",
+                      sliding[] = "full sliding: the creepage is not unique",
+                      equal[] = "equal elements instead",
+                      edge[] = "such an edge is only known to an element",
+                      yields[] = "the interface yields", falls[] = "kappa = 0.96, that",
+                      still[] = "rolls at creepage 0", enters[] = "enters only the slip",
+                      opposes[] = "at 2 points the slip of (12) does not oppose",
+                      angle[] = "rolling differs at every angle of the wheel";
+    noted n;
+    for (int k = 0; k < 41; k++) {
+        const char *want = NULL;
+        quiet(&n);
+        rb_rolling_case *rc = &n.rc;
+        rb_rolling_solution *s = &n.s;
+        if (k > 20 && k < 28) { /* full sliding under a given force */
+            rc->creep = NAN;
+            rc->force_ratio = 1.0;
+            s->stick = 0;
+        }
+        switch (k) {
+        case 1:
+            s->approach = 50.0 * 0.0199;
+            break;
+        case 2:
+            s->approach = 50.0 * 0.0201;
+            want = inaccurate;
+            break;
+        case 3:
+            s->approach = 50.0 * 0.0999;
+            want = inaccurate;
+            break;
+        case 4:
+            s->approach = 50.0 * 0.1001;
+            want = broken;
+            break;
+        case 5:
+            s->half_width = 50.0 * 0.0999;
+            break;
+        case 6:
+            s->half_width = 50.0 * 0.1001;
+            want = inaccurate;
+            break;
+        case 7:
+            s->half_width = 50.0 * 0.2999;
+            want = inaccurate;
+            break;
+        case 8:
+            s->half_width = 50.0 * 0.3001;
+            want = broken;
+            break;
+        case 9:  /* two narrow patches far apart */
+        case 10: /* one of them wide */
+            s->patches = 2;
+            s->half_width = 40.0;
+            n.patch[0].to = 1.0;
+            n.patch[1].from = k == 9 ? 30.0 : 20.0;
+            n.patch[1].to = 31.0;
+            want = k == 9 ? NULL : inaccurate;
+            break;
+        case 11:
+            rc->creep = NAN;
+            want = still;
+            break;
+        case 12:
+            rc->creep = NAN;
+            rc->creep_ratio = 0.5;
+            break;
+        case 13:
+            rc->creep = NAN;
+            rc->force = 1.0;
+            break;
+        case 14:
+            rc->creep = NAN;
+            rc->free_axle = 1;
+            break;
+        case 15:
+            rc->formulation = RB_STATIC;
+            want = enters;
+            break;
+        case 16:
+            rc->formulation = RB_STATIC;
+            rc->creep = NAN;
+            break;
+        case 17:
+            s->creep_ratio = 20.0;
+            break;
+        case 18:
+            s->creep_ratio = -20.1;
+            want = percent;
+            break;
+        case 19:
+            s->creep_ratio = 21.0;
+            rc->creep = NAN;
+            rc->creep_ratio = 21.0;
+            break;
+        case 20:
+            s->yielding = 1;
+            want = yields;
+            break;
+        case 21:
+            want = sliding;
+            break;
+        case 22:
+            s->stick = 1;
+            break;
+        case 23:
+            s->contact = 0;
+            break;
+        case 24:
+            rc->mu = 0.0;
+            break;
+        case 25:
+            s->formulation = RB_STATIC;
+            break;
+        case 26:
+            rc->friction.law = RB_FRICTION_exponential;
+            rc->friction.fall[0] = 0.1;
+            rc->friction.slip_scale[0] = 1.0;
+            break;
+        case 27:
+            rc->force_ratio = NAN;
+            rc->force = 30.0;
+            want = sliding;
+            break;
+        case 28:
+            s->equal_instead = 1;
+            want = equal;
+            break;
+        case 29:
+            s->edges_bounded = 1;
+            want = edge;
+            break;
+        case 30:
+            s->edges_bounded = 1;
+            s->contact = 0;
+            break;
+        case 31:
+            s->kappa = 0.95;
+            break;
+        case 32:
+            s->kappa = 0.96;
+            want = falls;
+            break;
+        case 33:
+            s->slip_violations = 2;
+            break; /* of rolling nothing is said */
+        case 34:
+        case 35:
+            rc->formulation = RB_STATIC;
+            rc->creep = NAN;
+            s->slip_violations = k == 34 ? 2 : 0;
+            want = k == 34 ? opposes : NULL;
+            break;
+        case 36:
+            rc->formulation = RB_STATIC;
+            rc->creep = NAN;
+            rc->mu = 0.0;
+            s->slip_violations = 2;
+            break;
+        case 37:
+            rc->a.support = RB_BEM_ARC;
+            rc->a.arc = 30.0;
+            want = angle;
+            break;
+        case 38:
+            rc->a.support = RB_BEM_HUB;
+            break;
+        case 39:
+        case 40:
+            rc->formulation = RB_STATIC;
+            rc->creep = NAN;
+            rc->a.support = RB_BEM_ARC;
+            rc->a.arc = k == 39 ? 1.99 : 2.0;
+            want = k == 39 ? radians : NULL;
+            break;
+        }
+        const rb_report_note_list list = rb_report_find_notes(rc, s);
+        if (list.n != (want != NULL) || (want && !strstr(list.text[0], want)))
+            fail_msg("%d: %d notes: %s; wanted: %s", k, list.n,
+                     list.n ? list.text[0] : "", want ? want : "none");
+    }
+}
+
 /* ---- Studies ----------------------------------------------------------------------- */
 
 enum { MOST = 200 };
@@ -371,6 +587,7 @@ int main(void)
         cmocka_unit_test(lengths_are_shown_in_half_widths_or_units),
         cmocka_unit_test(steps_are_one_two_or_five),
         cmocka_unit_test(cells_are_quoted_where_needed),
+        cmocka_unit_test(notes_begin_where_they_should),
         cmocka_unit_test(studies_that_make_no_picture_are_named),
         cmocka_unit_test(maps_suit_the_number_of_cases),
         cmocka_unit_test(curves_suit_the_number_of_cases),

@@ -111,14 +111,14 @@ static int threads_outside;
 
 void rb_api_call_begins(void)
 {
-    if (calls++ == 0 && !getenv("OPENBLAS_NUM_THREADS"))
-        threads_outside = rb_blas_threads(1);
+    if (calls++ == 0)
+        threads_outside = getenv("OPENBLAS_NUM_THREADS") ? 0 : rb_blas_threads(1);
 }
 
 void rb_api_call_ends(void)
 {
-    if (--calls == 0 && threads_outside > 0)
-        rb_blas_threads(threads_outside);
+    if (--calls == 0)
+        rb_blas_threads(threads_outside); /* 0: as the variable says */
 }
 
 static void begin(rb_api *a)
