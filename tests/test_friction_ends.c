@@ -130,6 +130,38 @@ static void numbers_beyond_the_largest_are_not_solved(void **state)
     }
 }
 
+static int count_looks(const rb_friction_progress *at, void *context)
+{
+    (void)at;
+    ++*(int *)context;
+    return 0;
+}
+
+/* The measure costs as much as a sweep: it is looked at after 1, 2, 4 ... 128 sweeps and
+ * every 200, and else only where the change of a sweep says that it may be met. */
+static void sweeps_seldom_look_at_the_measure(void **state)
+{
+    (void)state;
+    for (int d = 2; d <= 3; d++) {
+        rb_friction_problem p;
+        rb_friction_info info;
+        rb_friction_options opt = rb_friction_defaults();
+        int looks = 0;
+        make_local(d, 1.0, &p);
+        for (int j = 0; j < NC; j++) /* contacts that nearly do the same */
+            for (int i = 0; i < NC; i++)
+                p.W[i * d + j * d * d * NC] = i == j ? 3.0 : 2.97;
+        for (int c = 0; c < NC; c++)
+            p.q[c * d] = -1.0 - 0.001 * c;
+        opt.progress = count_looks;
+        opt.context = &looks;
+        CHECK_STATUS(solve("nsgs-ac", &p, &opt, &info), RB_OK);
+        assert_true(info.iters > 300);
+        CHECK_MAX(looks, 12 + info.iters / 200, "d = %d, %d sweeps", d, info.iters);
+        rb_friction_problem_free(&p);
+    }
+}
+
 static void options_that_are_none_are_refused(void **state)
 {
     static const rb_friction_options bad[] = {{.tol = 0.0},
@@ -275,6 +307,43 @@ static void damaged_matrices_are_named(void **state)
     rb_friction_problem_free(NULL);
 }
 
+static void damaged_vectors_are_named(void **state)
+{
+    (void)state;
+    for (int global = 0; global < 2; global++) {
+        rb_friction_problem p;
+        rb_message why = {""};
+        if (global)
+            make_global(3, &p);
+        else
+            make_local(3, 1.0, &p);
+        struct {
+            const char *name;
+            double **x;
+        } all[] = {{"mu", &p.mu},
+                   {global ? "f" : "q", global ? &p.f : &p.q},
+                   {global ? "w" : "W", global ? &p.w : &p.W}};
+        for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+            char words[40];
+            double *const whole = *all[k].x, right = whole[2];
+            whole[2] = NAN;
+            CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_EINVAL);
+            snprintf(words, sizeof words, "%s: entry 3 is", all[k].name);
+            if (!strstr(why.text, words))
+                fail_msg("%s, expected %s", why.text, words);
+            whole[2] = right;
+            *all[k].x = NULL;
+            CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_EINVAL);
+            snprintf(words, sizeof words, "%s is missing", all[k].name);
+            if (!strstr(why.text, words))
+                fail_msg("%s, expected %s", why.text, words);
+            *all[k].x = whole;
+        }
+        CHECK_STATUS(rb_friction_problem_check(&p, &why), RB_OK);
+        rb_friction_problem_free(&p);
+    }
+}
+
 /* Two ends of one body that move together to 1e-12: no matrix to condense with. */
 static void nearly_loose_bodies_are_not_condensed(void **state)
 {
@@ -330,6 +399,41 @@ static double cone_q[3] = {-1.0, 0.7, -0.3};
 static int cone_sizes[2] = {2, 1};
 static const rb_friction_soclcp_problem on_cones = {3, cone_matrix, cone_q, 2,
                                                     cone_sizes};
+
+/* ||x - P(x - y)|| / ||q||, whatever the unit of both; absolute where q = 0. */
+static void the_error_on_cones_is_relative(void **state)
+{
+    const double x[3] = {1.0, 0.2, 0.3};
+    double y[3], s[3], square = 0.0;
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        s[i] = x[i] - cone_q[i];
+        for (int j = 0; j < 3; j++)
+            s[i] -= cone_matrix[i + 3 * j] * x[j];
+    }
+    /* onto {|p_1| <= p_0} and {p_2 >= 0} */
+    const double t = fabs(s[1]), face = 0.5 * (s[0] + t);
+    const double p[3] = {t <= s[0] ? s[0] : fmax(face, 0.0),
+                         t <= s[0] ? s[1] : fmax(face, 0.0) * (s[1] > 0.0 ? 1.0 : -1.0),
+                         fmax(s[2], 0.0)};
+    for (int i = 0; i < 3; i++)
+        square += (x[i] - p[i]) * (x[i] - p[i]);
+    for (int k = -3; k <= 3; k++) {
+        const double unit = pow(10.0, k);
+        double far_x[3], far_q[3];
+        for (int i = 0; i < 3; i++) {
+            far_x[i] = unit * x[i];
+            far_q[i] = unit * cone_q[i];
+        }
+        const rb_friction_soclcp_problem far = {3, cone_matrix, far_q, 2, cone_sizes};
+        CHECK_REL(rb_friction_soclcp_error(&far, far_x, y),
+                  sqrt(square / (1.0 + 0.49 + 0.09)), 1e-12, "times %g", unit);
+    }
+    const double none[3] = {0.0};
+    const rb_friction_soclcp_problem at_rest = {3, cone_matrix, none, 2, cone_sizes};
+    CHECK_ABS(rb_friction_soclcp_error(&at_rest, none, y), 0.0, 0.0, "q = 0, x = 0");
+    assert_true(rb_friction_soclcp_error(&at_rest, x, y) > 0.1);
+}
 
 static void limits_hold_on_cones(void **state)
 {
@@ -558,12 +662,15 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_time_every_solver_says_so),
         cmocka_unit_test(numbers_beyond_the_largest_are_not_solved),
+        cmocka_unit_test(sweeps_seldom_look_at_the_measure),
         cmocka_unit_test(options_that_are_none_are_refused),
         cmocka_unit_test(a_handle_keeps_its_last_solution),
         cmocka_unit_test(facts_do_not_depend_on_the_form),
         cmocka_unit_test(damaged_matrices_are_named),
+        cmocka_unit_test(damaged_vectors_are_named),
         cmocka_unit_test(nearly_loose_bodies_are_not_condensed),
         cmocka_unit_test(cones_that_are_none_are_refused),
+        cmocka_unit_test(the_error_on_cones_is_relative),
         cmocka_unit_test(limits_hold_on_cones),
         cmocka_unit_test(what_does_not_roll_is_refused),
         cmocka_unit_test(wheels_without_stiffness_have_the_length_one),

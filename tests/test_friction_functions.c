@@ -232,6 +232,35 @@ static void at_zero_the_derivatives_are_regular(void **state)
             }
 }
 
+/* A block is kept for any entry of it, whatever stands in the others. */
+static void single_entries_make_blocks(void **state)
+{
+    (void)state;
+    for (int d = 2; d <= 3; d++)
+        for (int entry = 0; entry < 4 * d * d; entry++) {
+            const int m = 2 * d;
+            double W[36] = {0.0}, x[6], y[6];
+            rb_friction_problem p = {
+                .form = RB_FRICTION_LOCAL_DENSE, .dimension = d, .contacts = 2, .W = W};
+            W[entry] = 2.0;
+            for (int k = 0; k < m; k++)
+                x[k] = 1.0 + k;
+            for (int sparse = 0; sparse < 2; sparse++) {
+                rb_friction_blocks b;
+                if (sparse)
+                    CHECK_STATUS(rb_sparse_from_dense(m, m, W, m, &p.Ws), RB_OK);
+                p.form = sparse ? RB_FRICTION_LOCAL_SPARSE : RB_FRICTION_LOCAL_DENSE;
+                CHECK_STATUS(rb_friction_blocks_init(&p, &b), RB_OK);
+                rb_friction_blocks_apply(&b, x, y);
+                for (int k = 0; k < m; k++)
+                    CHECK_ABS(y[k], k == entry % m ? 2.0 * x[entry / m] : 0.0, 0.0,
+                              "entry %d, y(%d)", entry, k);
+                rb_friction_blocks_free(&b);
+            }
+            rb_sparse_free(&p.Ws);
+        }
+}
+
 /* ---- The units of a contact -------------------------------------------------------- */
 
 enum { NC = 5 };
@@ -325,6 +354,56 @@ static void rho_of_a_structure_comes_from_its_diagonal(void **state)
     rb_sparse_free(&p.H);
 }
 
+/* u = H'v + c w and e = K v - H r - f, of a structure written out. */
+static void velocities_and_imbalance_are_those_of_the_structure(void **state)
+{
+    enum { DOFS = 4, M = 2 };
+    double K[DOFS * DOFS], H[DOFS * M], f[DOFS], w[M], r[M], v[DOFS], u[M], e[DOFS];
+    rb_friction_problem p = {.form = RB_FRICTION_GLOBAL,
+                             .dimension = 2,
+                             .contacts = 1,
+                             .dofs = DOFS,
+                             .f = f,
+                             .w = w};
+    (void)state;
+    for (int i = 0; i < DOFS; i++) {
+        f[i] = uniform();
+        v[i] = uniform();
+        for (int j = 0; j < DOFS; j++)
+            K[i + j * DOFS] = uniform();
+        for (int j = 0; j < M; j++)
+            H[i + j * DOFS] = uniform();
+    }
+    for (int j = 0; j < M; j++) {
+        w[j] = uniform();
+        r[j] = uniform();
+    }
+    CHECK_STATUS(rb_sparse_from_dense(DOFS, DOFS, K, DOFS, &p.K), RB_OK);
+    CHECK_STATUS(rb_sparse_from_dense(DOFS, M, H, DOFS, &p.H), RB_OK);
+    const rb_friction_system s = {
+        .problem = &p, .d = 2, .contacts = 1, .m = M, .n = DOFS};
+    for (int c = 0; c < 3; c++) {
+        rb_friction_system_velocity(&s, c, r, v, u);
+        for (int j = 0; j < M; j++) {
+            double want = c * w[j];
+            for (int i = 0; i < DOFS; i++)
+                want += H[i + j * DOFS] * v[i];
+            CHECK_ABS(u[j], want, 1e-15, "u(%d)", j);
+        }
+    }
+    rb_friction_system_imbalance(&s, r, v, e);
+    for (int i = 0; i < DOFS; i++) {
+        double want = -f[i];
+        for (int j = 0; j < DOFS; j++)
+            want += K[i + j * DOFS] * v[j];
+        for (int j = 0; j < M; j++)
+            want -= H[i + j * DOFS] * r[j];
+        CHECK_ABS(e[i], want, 1e-15, "e(%d)", i);
+    }
+    rb_sparse_free(&p.K);
+    rb_sparse_free(&p.H);
+}
+
 /* || r - P(r - rho uhat) || / rho over the contacts, and the size of r in those units. */
 static void the_natural_norm_is_that_of_the_contacts(void **state)
 {
@@ -380,8 +459,10 @@ int main(void)
         cmocka_unit_test(solutions_are_the_roots),
         cmocka_unit_test(derivatives_are_those_of_the_functions),
         cmocka_unit_test(at_zero_the_derivatives_are_regular),
+        cmocka_unit_test(single_entries_make_blocks),
         cmocka_unit_test(rho_is_the_inverse_of_a_contacts_own_compliance),
         cmocka_unit_test(rho_of_a_structure_comes_from_its_diagonal),
+        cmocka_unit_test(velocities_and_imbalance_are_those_of_the_structure),
         cmocka_unit_test(the_natural_norm_is_that_of_the_contacts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-enum { N = 60, LDM = 61 };
+/* A multiple of the columns that go through the blocks together. */
+enum { N = 64, LDM = 65 };
 
 static double M_[N * LDM], q_[N], cover_[N];
 static const lcp_data data_ = {{N, M_, LDM, q_}, cover_};

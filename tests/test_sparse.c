@@ -465,6 +465,23 @@ static void what_looks_diagonal_is_factored(void **state)
     rb_sparse_free(&a);
 }
 
+/* Twenty-four decades between the units of two unknowns are no bad condition. */
+static void units_of_the_unknowns_do_not_matter(void **state)
+{
+    const double k[] = {1e-12, 0.5, 0.5, 1e12}, b[] = {1e-6, 1e6};
+    double x[2]; /* times the roots of the diagonal: [1 .5; .5 1] (2/3, 2/3) = (1, 1) */
+    rb_sparse a;
+    rb_sparse_cholesky *f;
+    (void)state;
+    CHECK_STATUS(rb_sparse_from_dense(2, 2, k, 2, &a), RB_OK);
+    CHECK_STATUS(rb_sparse_cholesky_create(&a, &f), RB_OK);
+    CHECK_STATUS(rb_sparse_cholesky_solve(f, b, x), RB_OK);
+    CHECK_REL(x[0], 2e6 / 3.0, 1e-14, "x_0");
+    CHECK_REL(x[1], 2e-6 / 3.0, 1e-14, "x_1");
+    rb_sparse_cholesky_free(f);
+    rb_sparse_free(&a);
+}
+
 static void only_square_matrices_have_components(void **state)
 {
     const double dense[] = {1.0, 2.0};
@@ -521,6 +538,7 @@ int main(void)
         cmocka_unit_test(impossible_sizes_are_refused),
         cmocka_unit_test(triplets_without_room_stay_refused),
         cmocka_unit_test(what_looks_diagonal_is_factored),
+        cmocka_unit_test(units_of_the_unknowns_do_not_matter),
         cmocka_unit_test(only_square_matrices_have_components),
         cmocka_unit_test(a_factor_without_numbers_solves_nothing),
     };
