@@ -335,6 +335,7 @@ static void every_instruction_set_gives_the_same(void **state)
             }
         }
     assert_null(rb_column_variant_get(-1));
+    assert_string_equal(rb_bem_vector_name(), rb_column_variant_get(0)->name);
 }
 
 static void the_series_meet_at_the_ends_of_their_ranges(void **state)

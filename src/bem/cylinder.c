@@ -444,7 +444,6 @@ rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *c
 {
     const double R = cylinder->radius, hub = cylinder->hub_ratio * R,
                  outside = inner_radius(cylinder);
-    outer_layout layout = {.hub_n = 0};
     int n = 0;
 
     *core = (rb_bem_mesh){0};
@@ -458,8 +457,9 @@ rb_status rb_bem_mesh_core(const rb_bem_cylinder *cylinder, const rb_bem_mesh *c
             hub, outside);
     const double size =
         fmin(largest_angle, fmin(M_PI / 18.0, 0.5 * (outside / hub - 1.0)));
-    layout.hub_n =
-        (int)fmin(fmax(16.0, ceil(refinement(cylinder) * 2.0 * M_PI / size)), 20000.0);
+    const outer_layout layout = {
+        .hub_n = (int)fmin(fmax(16.0, ceil(refinement(cylinder) * 2.0 * M_PI / size)),
+                           20000.0)};
     rb_status s = rb_bem_mesh_alloc(n + layout.hub_n, core);
     if (s != RB_OK)
         return rb_fail(why, s, "core: out of memory for %d elements", n + layout.hub_n);
