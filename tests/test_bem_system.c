@@ -102,6 +102,13 @@ static void disc_under_pressure(void **state)
     check_first_order(disc_error, 80, 1e-3, "disc");
 }
 
+/* Columns of a power of two of numbers are set further apart in memory. */
+static void discs_of_any_size_are_solved(void **state)
+{
+    (void)state;
+    CHECK_REL(256.0 * disc_error(256), 252.0 * disc_error(252), 0.01, "n error");
+}
+
 static void thick_ring_under_internal_pressure(void **state)
 {
     (void)state;
@@ -304,6 +311,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(disc_under_pressure),
+        cmocka_unit_test(discs_of_any_size_are_solved),
         cmocka_unit_test(thick_ring_under_internal_pressure),
         cmocka_unit_test(given_displacements_give_the_tractions),
         cmocka_unit_test(the_solution_satisfies_the_equations),
