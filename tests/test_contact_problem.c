@@ -1274,7 +1274,7 @@ static void no_memory_is_said(void **state)
         if (k == 1)
             use_products(&p[k], &by);
     }
-    assert_true(alloc_fail_every_call(solve_all, p) > 40);
+    assert_true(alloc_fail_every_call(solve_all, p) > 25);
     for (int k = 0; k < PROBLEMS; k++)
         rb_contact_problem_free(&p[k]);
 }
