@@ -144,17 +144,24 @@ static void interfaces_yield_under_their_own_traction(void **state)
 
 /* ---- Memory ------------------------------------------------------------------------ */
 
-/* Fails where, and only where, an allocation was refused. */
-static rb_status strictly(rb_status s)
+/* Does the work with the first allocation refused, then the second ...: it fails where,
+ * and only where, one was. */
+static void check_memory(rb_status (*work)(const void *of), const void *of)
 {
-    assert_int_equal(s, alloc_failed() ? RB_ENOMEM : RB_OK);
-    return s;
+    for (int count = 0, refused = 1; refused; count += 1 + count / 40) {
+        alloc_fail_after(count);
+        const rb_status s = work(of);
+        refused = alloc_failed();
+        alloc_succeed();
+        assert_int_equal(s, refused ? RB_ENOMEM : RB_OK);
+        assert_true(count < 10000);
+    }
 }
 
-static rb_status make_pair(void *context)
+static rb_status make_pair(const void *of)
 {
     static const double upstream[4] = {0.0, 1.0, -1.0, 0.0};
-    const int *kinds = context;
+    const int *kinds = of;
     double F[4 * M * N], c[2 * N] = {0.0};
     rb_bem_flexibility a = {0}, b = {0}, f = {0};
     rb_bem_circulant *circulant = NULL;
@@ -176,7 +183,7 @@ static rb_status make_pair(void *context)
     rb_bem_flexibility_free(&a);
     rb_bem_flexibility_free(&b);
     rb_bem_flexibility_free(&f);
-    return strictly(s);
+    return s;
 }
 
 static void pairs_tell_of_missing_memory(void **state)
@@ -185,7 +192,7 @@ static void pairs_tell_of_missing_memory(void **state)
         {FLAT, SOFT}, {LAYER, DENSE}, {DENSE, REMEMBERS}, {DISC_TURNED, DISC}};
     (void)state;
     for (int k = 0; k < 4; k++)
-        alloc_fail_every_call(make_pair, (void *)kinds[k]);
+        check_memory(make_pair, kinds[k]);
 }
 
 static rb_bem_cylinder cylinder_of(int has_cover)
@@ -198,10 +205,10 @@ static rb_bem_cylinder cylinder_of(int has_cover)
 }
 
 /* A wheel, or a cover on its core, its flexibility, its memory and its stress. */
-static rb_status make_wheel(void *context)
+static rb_status make_wheel(const void *of)
 {
     static const double ratio[] = {2.0, NAN}, length[] = {0.3, NAN};
-    const int has_cover = *(const int *)context;
+    const int has_cover = *(const int *)of;
     const rb_bem_cylinder cylinder = cylinder_of(has_cover);
     const rb_bem_wheel wheel = {.radius = 2.0,
                                 .inner = has_cover ? 1.5 : 0.8,
@@ -245,25 +252,22 @@ static rb_status make_wheel(void *context)
     rb_bem_system_free(system);
     rb_bem_mesh_free(&mesh);
     rb_bem_mesh_free(&core);
-    return strictly(s);
+    return s;
 }
 
 static void wheels_tell_of_missing_memory(void **state)
 {
-    int failures = 0;
-
     (void)state;
     for (int has_cover = 0; has_cover < 2; has_cover++)
-        failures += alloc_fail_every_call(make_wheel, &has_cover);
-    assert_true(failures > 15);
+        check_memory(make_wheel, &has_cover);
 }
 
 static const double *units;
 
 /* Eight clusters: one thread. */
-static rb_status make_hierarchical(void *context)
+static rb_status make_hierarchical(const void *of)
 {
-    const rb_bem_mesh *mesh = context;
+    const rb_bem_mesh *mesh = of;
     double *X = rb_alloc(2 * (size_t)mesh->n, 1);
     rb_hierarchical *h = NULL;
 
@@ -275,7 +279,7 @@ static rb_status make_hierarchical(void *context)
         s = rb_hierarchical_solve(h, 1, X);
     rb_hierarchical_free(h);
     free(X);
-    return strictly(s);
+    return s;
 }
 
 static void clusters_tell_of_missing_memory(void **state)
@@ -291,7 +295,7 @@ static void clusters_tell_of_missing_memory(void **state)
     for (int j = 0; j < mesh.n; j++)
         unit[j] = steel.shear / rb_bem_mesh_length(&mesh, j);
     units = unit;
-    assert_true(alloc_fail_every_call(make_hierarchical, &mesh) > 10);
+    check_memory(make_hierarchical, &mesh);
     free(unit);
     rb_bem_mesh_free(&mesh);
 }
@@ -337,6 +341,33 @@ static void ends_of_strips_are_limits(void **state)
         CHECK_REL(stress[3 * k + 1], -0.5, 1e-12, "half of the pressure");
         CHECK_REL(stress[3 * k + 2], -0.5, 1e-12, "half of the friction");
     }
+}
+
+/* Of displacement and stress each may be asked for alone, inside and on the surface. */
+static void fields_may_be_asked_for_alone(void **state)
+{
+    const rb_bem_cylinder cylinder = cylinder_of(0);
+    const double t_contact[2 * N] = {0.0, 1.0, 0.5, 2.0};
+    double u[600], t[600], both_u[4], both_s[6], alone[6];
+    rb_bem_mesh mesh;
+    rb_bem_system *system;
+
+    (void)state;
+    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_system_create(&mesh, steel, &system, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_system_solve(system, t_contact, u, t), RB_OK);
+    const int c = mesh.contact_first + 2;
+    const double xy[4] = {0.1, 0.5, midpoint_x(&mesh, c), midpoint_y(&mesh, c)};
+    const rb_bem_points points = {2, xy};
+    const rb_bem_boundary body = {&mesh, steel, u, t};
+    CHECK_STATUS(rb_bem_interior(&body, points, both_u, both_s, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_interior(&body, points, alone, NULL, NULL), RB_OK);
+    assert_memory_equal(alone, both_u, sizeof both_u);
+    CHECK_STATUS(rb_bem_interior(&body, points, NULL, alone, NULL), RB_OK);
+    assert_memory_equal(alone, both_s, sizeof both_s);
+    CHECK_ABS(both_u[2], u[2 * c], 1e-12 * fabs(u[2 * c]), "displacement of the element");
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
 }
 
 /* ---- Clusters ---------------------------------------------------------------------- */
@@ -650,6 +681,7 @@ int main(void)
         cmocka_unit_test(clusters_tell_of_missing_memory),
         cmocka_unit_test(absurd_sizes_have_no_room),
         cmocka_unit_test(ends_of_strips_are_limits),
+        cmocka_unit_test(fields_may_be_asked_for_alone),
         cmocka_unit_test(clusters_are_cut_across_their_longer_side),
         cmocka_unit_test(absurd_cylinders_are_refused),
         cmocka_unit_test(absurd_surfaces_are_refused),

@@ -55,14 +55,13 @@ static void products_add(rb_contact_operator *op, const double *p, const double 
     cblas_daxpy(n, 1.0, added_slip, 1, slip, 1);
 }
 
-/* On equal elements the middle one stands for all. */
+/* On equal elements the middle one stands for all; k->r is zero to begin with. */
 static void set_response(products *k)
 {
     const int n = k->base.n, j = n / 2;
     rb_contact_response *unit = &k->base.response;
     const double *gap, *slip;
 
-    memset(k->r, 0, 2 * (size_t)n * sizeof *k->r);
     k->r[j] = 1.0;
     k->by.apply(k->by.context, k->r, &gap, &slip);
     unit->gap = fabs(gap[j]);
