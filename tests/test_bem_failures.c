@@ -1,8 +1,8 @@
 /* Boundary elements without memory, and with bad input: every kind of body, every
  * refusal. */
 #include "bem/cluster.h"
-#include "bem/hierarchical.h"
 #include "bem/large.h"
+#include "bem/system.h"
 #include "bem_shapes.h"
 
 #include <string.h>
@@ -262,42 +262,41 @@ static void wheels_tell_of_missing_memory(void **state)
         check_memory(make_wheel, &has_cover);
 }
 
-static const double *units;
+typedef struct {
+    rb_bem_mesh mesh;
+    rb_bem_material material;
+} solid;
 
 /* Eight clusters: one thread. */
 static rb_status make_hierarchical(const void *of)
 {
-    const rb_bem_mesh *mesh = of;
-    double *X = rb_alloc(2 * (size_t)mesh->n, 1);
-    rb_hierarchical *h = NULL;
+    const solid *b = of;
+    double *u = rb_alloc(2 * (size_t)b->mesh.n, 2);
+    rb_bem_system *system = NULL;
 
-    if (!X)
+    if (!u)
         return RB_ENOMEM;
-    X[0] = 1.0;
-    rb_status s = rb_hierarchical_create(mesh, steel, units, 1e-6, &h);
+    rb_status s = rb_bem_system_create_as(&b->mesh, b->material, 0, &system, NULL);
     if (s == RB_OK)
-        s = rb_hierarchical_solve(h, 1, X);
-    rb_hierarchical_free(h);
-    free(X);
+        s = rb_bem_system_solve(system, NULL, u, u + 2 * b->mesh.n);
+    rb_bem_system_free(system);
+    free(u);
     return s;
 }
 
 static void clusters_tell_of_missing_memory(void **state)
 {
     rb_bem_cylinder cylinder = cylinder_of(0);
-    rb_bem_mesh mesh;
+    solid b = {.material = steel};
 
     (void)state;
     cylinder.outer_elements = 150;
-    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &mesh, NULL), RB_OK);
-    assert_in_range(mesh.n, 128, 250);
-    double *unit = rb_alloc((size_t)mesh.n, 1);
-    for (int j = 0; j < mesh.n; j++)
-        unit[j] = steel.shear / rb_bem_mesh_length(&mesh, j);
-    units = unit;
-    check_memory(make_hierarchical, &mesh);
-    free(unit);
-    rb_bem_mesh_free(&mesh);
+    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, N, ends, &b.mesh, NULL), RB_OK);
+    assert_in_range(b.mesh.n, 128, 250);
+    check_memory(make_hierarchical, &b);
+    b.material.poisson = 0.5;
+    check_memory(make_hierarchical, &b);
+    rb_bem_mesh_free(&b.mesh);
 }
 
 static void absurd_sizes_have_no_room(void **state)
@@ -463,7 +462,8 @@ static void absurd_cylinders_are_refused(void **state)
 static void absurd_surfaces_are_refused(void **state)
 {
     static const double one = 1.0, endless = INFINITY, none = NAN;
-    static const double reversed[] = {0.0, 1.0, 0.5}, open[] = {0.0, 1.0, INFINITY};
+    static const double reversed[] = {0.0, 1.0, 0.5}, open[] = {0.0, 1.0, INFINITY},
+                        endless_left[] = {-INFINITY, 0.0, 1.0};
     const struct {
         rb_bem_surface body;
         const double *ends;
@@ -492,7 +492,8 @@ static void absurd_surfaces_are_refused(void **state)
          "length inf"},
         {{.material = rubber, .datum = 1.0}, NULL, "contact elements: 1"},
         {{.material = rubber, .datum = 1.0}, reversed, "expected increasing ends"},
-        {{.material = rubber, .datum = 1.0}, open, "expected increasing ends"}};
+        {{.material = rubber, .datum = 1.0}, open, "expected increasing ends"},
+        {{.material = rubber, .datum = 1.0}, endless_left, "expected increasing ends"}};
     double W[4], w[1] = {0.0};
 
     (void)state;

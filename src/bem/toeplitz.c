@@ -356,7 +356,7 @@ static rb_status check(int n_c, const double *ends, const rb_bem_surface *body,
 
 static int toeplitz_add(rb_bem_flexibility *a, const rb_bem_flexibility *b)
 {
-    if (b->apply != toeplitz_apply || a->n != b->n)
+    if (b->apply != toeplitz_apply)
         return 0;
     toeplitz *o = a->data;
     const toeplitz *other = b->data;
