@@ -558,6 +558,8 @@ typedef struct {
     rb_contact_state state;
     double shift;      /* rigid shift before the state's own, in a history [length] */
     int equal_instead; /* 1: of fitted elements, whose edges did not come to rest */
+    double first_from, first_to; /* ends of the equal elements that the search for these
+                                    edges began with; equal: none [length] */
     double half_width; /* Hertz's, of the load found last: scale of the ratios */
     double seconds_lcp;
     int iterations;  /* of all solves so far */

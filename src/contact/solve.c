@@ -98,6 +98,11 @@ static rb_status complete(rb_contact_problem *problem, int exact, rb_contact_sta
     return s;
 }
 
+/* What the artificial variable of Lemke's method lifts: every row alike; or what is
+ * negative at the start, unevenly, so that elements do not change their zones all at
+ * once. */
+typedef enum { EVEN, UNEVEN } covering;
+
 typedef struct {
     int number;
     rb_contact_lcp_form form;
@@ -105,21 +110,60 @@ typedef struct {
     double xi0;
 } attempt;
 
-enum { ATTEMPTS = 3 };
+/* Pivoted form in its own orientation, mirrored, and Kwak's (theory.md K5). */
+enum { OWN, MIRRORED, KWAK, FORMS };
+
+/* The order of attempts.  Most paths end after one pivot per unknown.  Between unlike
+ * bodies under large friction a path may take fifty, where another form or another
+ * covering vector leads to a solution in three. */
+static const struct {
+    int form;
+    covering cover;
+} order_of_attempts[] = {{OWN, EVEN},   {KWAK, EVEN},     {KWAK, UNEVEN},
+                         {OWN, UNEVEN}, {MIRRORED, EVEN}, {MIRRORED, UNEVEN}};
+enum { ATTEMPTS = sizeof order_of_attempts / sizeof *order_of_attempts };
+
+/* Pivots of an attempt: in two rounds few for all, in the last one as many as Lemke's
+ * method allows by itself (0), evenly covered. */
+enum { ROUNDS = 3 };
+
+static int most_pivots(int round, int size)
+{
+    return round + 1 < ROUNDS ? (round ? 15 : 5) * size + 100 : 0;
+}
+
+/* The covering vector; NULL: ones. */
+static rb_status cover_rows(const rb_contact_lcp *lcp, covering kind, double **cover)
+{
+    static const double golden = 0.6180339887498949, little = 1e-4;
+
+    *cover = NULL;
+    if (kind == EVEN)
+        return RB_OK;
+    *cover = rb_alloc((size_t)lcp->size, 1);
+    for (int i = 0; i < lcp->size && *cover; i++)
+        (*cover)[i] =
+            (lcp->b[i] < 0.0 ? 1.0 : little) * (0.5 + fmod(0.5 + golden * i, 1.0));
+    return *cover ? RB_OK : RB_ENOMEM;
+}
 
 static rb_status try_lemke(rb_contact_problem *problem, const rb_contact_options *options,
-                           const attempt *at, rb_contact_state *state, rb_message *why)
+                           const attempt *at, covering kind, int round,
+                           rb_contact_state *state, rb_message *why)
 {
     rb_lcp_options pivoting = rb_lcp_defaults();
     rb_contact_lcp lcp = {0};
     rb_lcp_info info = {0};
+    double *cover = NULL;
     rb_status s =
         rb_contact_lcp_create(problem, at->form, at->mirrored, at->xi0, &lcp, why);
     double *z = s == RB_OK ? rb_alloc((size_t)lcp.size, 1) : NULL;
 
-    if (s == RB_OK && !z)
-        s = RB_ENOMEM;
+    if (s == RB_OK)
+        s = z ? cover_rows(&lcp, kind, &cover) : RB_ENOMEM;
     if (s == RB_OK) {
+        pivoting.cover = cover;
+        pivoting.max_iters = most_pivots(round, lcp.size);
         pivoting.trace = options->trace;
         pivoting.trace_context = options->trace_context;
         pivoting.trace_tableau = options->trace_tableau;
@@ -138,6 +182,7 @@ static rb_status try_lemke(rb_contact_problem *problem, const rb_contact_options
         const rb_status t = complete(problem, 0, state);
         s = t < 0 ? t : s;
     }
+    free(cover);
     free(z);
     rb_contact_lcp_free(&lcp);
     return s;
@@ -154,32 +199,45 @@ static int slides_backwards(const rb_contact_problem *problem)
     return sum < 0.0;
 }
 
-/* Pivoted form in its own orientation, mirrored, then Kwak's (theory.md K5); Kwak's form
- * alone where the case asks for it.  Returns the number of the first one to try. */
-static int plan_attempts(const rb_contact_problem *problem,
-                         const rb_contact_options *options, attempt at[ATTEMPTS])
+/* Kwak's form alone where the case asks for it.  Returns the first one to try. */
+static int plan_forms(const rb_contact_problem *problem,
+                      const rb_contact_options *options, attempt at[FORMS])
 {
     const int backwards = slides_backwards(problem);
     const double xi0 = (backwards ? -1.0 : 1.0) * options->sliding;
 
-    at[0] = (attempt){0, RB_LCP_PIVOTED, backwards, xi0};
-    at[1] = (attempt){1, RB_LCP_PIVOTED, !backwards, xi0};
-    at[2] = (attempt){2, RB_LCP_KWAK, 0, xi0};
-    return options->lcp_form == RB_LCP_KWAK ? 2 : 0;
+    at[OWN] = (attempt){0, RB_LCP_PIVOTED, backwards, xi0};
+    at[MIRRORED] = (attempt){1, RB_LCP_PIVOTED, !backwards, xi0};
+    at[KWAK] = (attempt){2, RB_LCP_KWAK, 0, xi0};
+    return options->lcp_form == RB_LCP_KWAK ? KWAK : OWN;
+}
+
+/* 0: the attempt has ended for good, or is not for this form or round. */
+static int is_due(int k, int round, int first_form, const int *unfinished)
+{
+    return order_of_attempts[k].form >= first_form && (round == 0 || unfinished[k]) &&
+           (round + 1 < ROUNDS || order_of_attempts[k].cover == EVEN);
 }
 
 static rb_status solve_lemke(rb_contact_problem *problem,
                              const rb_contact_options *options, rb_contact_state *state,
                              rb_message *why)
 {
-    attempt at[ATTEMPTS];
+    attempt at[FORMS];
+    const int first = plan_forms(problem, options, at);
+    int unfinished[ATTEMPTS] = {0};
     rb_status s = RB_RAY;
 
-    for (int k = plan_attempts(problem, options, at); k < ATTEMPTS; k++) {
-        s = try_lemke(problem, options, &at[k], state, why);
-        if (s < 0 || (s == RB_OK && state->residual <= options->tol))
-            return s;
-    }
+    for (int round = 0; round < ROUNDS; round++)
+        for (int k = 0; k < ATTEMPTS; k++) {
+            if (!is_due(k, round, first, unfinished))
+                continue;
+            s = try_lemke(problem, options, &at[order_of_attempts[k].form],
+                          order_of_attempts[k].cover, round, state, why);
+            if (s < 0 || (s == RB_OK && state->residual <= options->tol))
+                return s;
+            unfinished[k] = s == RB_MAXITER;
+        }
     return s;
 }
 
@@ -188,8 +246,8 @@ rb_status rb_contact_lcp_first(const rb_contact_problem *problem,
                                const rb_contact_state *state, rb_contact_lcp *lcp,
                                rb_message *why)
 {
-    attempt at[ATTEMPTS];
-    const int first = plan_attempts(problem, options, at);
+    attempt at[FORMS];
+    const int first = plan_forms(problem, options, at);
 
     if (state && state->solver == RB_SOLVER_LEMKE)
         return rb_contact_lcp_create(problem, state->lcp_form, state->mirrored,

@@ -48,7 +48,7 @@ static rb_status solve_on(rb_rolling_model *model, int across, double from, doub
     return s;
 }
 
-/* *rest: 0 where the edges did not come to rest. */
+/* *rest: 0 where the edges did not come to rest, or no solution was found. */
 static rb_status align(rb_rolling_model *model, int *rest, rb_message *why)
 {
     const int across = model->rc.contact_elements;
@@ -73,8 +73,8 @@ rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why)
     int rest;
     const rb_status s = align(model, &rest, why);
 
-    model->equal_instead = !rest;
-    return s != RB_OK || rest ? s : rb_rolling_solve_equal_instead(model, why);
+    model->equal_instead = s >= 0 && !rest;
+    return model->equal_instead ? rb_rolling_solve_equal_instead(model, why) : s;
 }
 
 rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why)

@@ -36,8 +36,7 @@ static double room_beyond(const rb_rolling_mesh *mesh, const rb_rolling_run *run
     return 0.5 * (length_of(mesh, outer) + length_of(mesh, open));
 }
 
-/* 1: elements between the patches k - 1 and k would be of no use.  Under a convex gap the
- * contact is one patch, whatever single elements beside an edge do. */
+/* 1: elements between the patches k - 1 and k would be of no use. */
 static int are_one(const rb_rolling_case *rc, const patches *found, int k)
 {
     const rb_rolling_span *a = &found->span[k - 1], *b = &found->span[k];
@@ -82,7 +81,7 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
     int complete = 1;
 
     found->count = 0;
-    while (rb_rolling_next_patch(&model->rc, mesh, &model->state, run.last + 1, &run)) {
+    while (rb_rolling_next_place(&model->rc, mesh, &model->state, run.last + 1, &run)) {
         const rb_rolling_span span = {
             .from = run.from,
             .to = run.to,
@@ -199,7 +198,7 @@ static rb_status solve_on(rb_rolling_model *model, const patches *now, rb_messag
 }
 
 /* From a solution to elements fitted to its edges, until these rest.  *rest: 0 where they
- * do not. */
+ * do not, or where no solution is found on them. */
 static rb_status fit(rb_rolling_model *model, int *rest, rb_message *why)
 {
     patches fitted, found;
@@ -243,8 +242,8 @@ rb_status rb_rolling_model_refit(rb_rolling_model *model, rb_message *why)
     int rest;
     const rb_status s = fit(model, &rest, why);
 
-    model->equal_instead = !rest;
-    return s != RB_OK || rest ? s : rb_rolling_solve_equal_instead(model, why);
+    model->equal_instead = s >= 0 && !rest;
+    return model->equal_instead ? rb_rolling_solve_equal_instead(model, why) : s;
 }
 
 /* A coarse solution to fit to: where the rest of a wheel has many elements, with few of

@@ -384,8 +384,8 @@ rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
  */
 rb_status rb_rolling_end(const rb_rolling_model *model, rb_status s, rb_message *why);
 /* Solves on equal elements in the given potential contact, or in one that holds the
- * contact.  coarse: elements may be too long for separate patches.  RB_ZONE where there
- * is none; RB_NO_CONTACT. */
+ * contact.  coarse: elements may be too long for separate patches; later searches begin
+ * with the potential contact of this one.  RB_ZONE where there is none; RB_NO_CONTACT. */
 rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why);
 
 /* ---- align.c ----------------------------------------------------------------------- */
@@ -483,6 +483,11 @@ static inline int rb_rolling_vertex(const double d[2], const double f[2], double
 }
 /* The next patch from element `at` on; 0 where there is none. */
 int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                          const rb_contact_state *state, int at, rb_rolling_run *run);
+/* The same with patches between which more elements would be of no use made one: all
+ * under a convex gap, whatever single elements beside an edge do; and those that one open
+ * element separates where large friction between unlike bodies opens every other one. */
+int rb_rolling_next_place(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                           const rb_contact_state *state, int at, rb_rolling_run *run);
 /* The outer edges of all patches; NAN without contact. */
 void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,

@@ -134,6 +134,29 @@ int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh
     return 1;
 }
 
+/* Where A slides, F_NN - mu F_NT of (K5) has its largest entries beside the diagonal, not
+ * on it, once mu beta > 1 or so: every other element opens, however small they are. */
+static int may_alternate(const rb_rolling_case *rc)
+{
+    return rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs) > 1.0;
+}
+
+int rb_rolling_next_place(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                          const rb_contact_state *state, int at, rb_rolling_run *run)
+{
+    const int one_place = rb_rolling_is_convex(rc), alternates = may_alternate(rc);
+    rb_rolling_run next;
+
+    if (!rb_rolling_next_patch(rc, mesh, state, at, run))
+        return 0;
+    while (rb_rolling_next_patch(rc, mesh, state, run->last + 1, &next) &&
+           (one_place || (alternates && next.first == run->last + 2))) {
+        run->last = next.last;
+        run->to = next.to;
+    }
+    return 1;
+}
+
 void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                               const rb_contact_state *state, double *from, double *to)
 {

@@ -116,14 +116,14 @@ static int is_open(const rb_rolling_model *model)
 
 /* ---- Equal elements ---------------------------------------------------------------- */
 
-/* Lengths of all patches together, and how many there are. */
+/* Lengths of all places in contact together, and how many there are. */
 static int covered(const rb_rolling_model *model, double *length)
 {
     rb_rolling_run run = {.last = -1};
     int count = 0;
 
     *length = 0.0;
-    for (; rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, run.last + 1,
+    for (; rb_rolling_next_place(&model->rc, &model->mesh, &model->state, run.last + 1,
                                  &run);
          count++)
         *length += run.to - run.from;
@@ -380,10 +380,18 @@ static rb_status solve_given(rb_rolling_model *model, rb_message *why)
 
 rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message *why)
 {
-    const rb_status s = model->rc.zone > 0.0
-                            ? solve_given(model, why)
-                            : solve_automatic(model, known_zone(&model->rc), coarse, why);
+    const interval before = {model->first_from, model->first_to};
+    const rb_status s =
+        model->rc.zone > 0.0
+            ? solve_given(model, why)
+            : solve_automatic(
+                  model, !coarse && width(before) > 0.0 ? before : known_zone(&model->rc),
+                  coarse, why);
 
+    if (s == RB_OK && coarse) {
+        model->first_from = model->mesh.ends[0];
+        model->first_to = model->mesh.ends[model->mesh.n];
+    }
     return s == RB_OK && is_open(model)
                ? rb_fail(why, RB_NO_CONTACT, "no contact: the bodies do not touch")
                : s;
