@@ -158,6 +158,11 @@ static void sweeps_seldom_look_at_the_measure(void **state)
         CHECK_STATUS(solve("nsgs-ac", &p, &opt, &info), RB_OK);
         assert_true(info.iters > 300);
         CHECK_MAX(looks, 12 + info.iters / 200, "d = %d, %d sweeps", d, info.iters);
+        looks = 0;
+        opt.max_iters = 35;
+        solve("admm", &p, &opt, &info); /* every tenth, and at both ends */
+        CHECK_MAX(looks, 3 + info.iters / 10, "d = %d, %d iterations", d, info.iters);
+        opt.max_iters = 0;
         rb_friction_problem_free(&p);
     }
 }
@@ -365,6 +370,33 @@ static void nearly_loose_bodies_are_not_condensed(void **state)
     assert_non_null(strstr(why.text, "K is singular to rounding"));
     rb_sparse_free(&p.K);
     rb_sparse_free(&p.H);
+}
+
+/* A constraint that follows from the others but for rounding drops out; one that says
+ * otherwise is refused. */
+static void constraints_are_redundant_but_for_rounding(void **state)
+{
+    (void)state;
+    for (int trial = 0; trial < 20; trial++)
+        for (int contradicts = 0; contradicts < 2; contradicts++) {
+            double G[3 * LARGEST], b[3] = {uniform(), uniform(), 0.0};
+            rb_friction_problem p;
+            rb_sparse rows;
+            rb_message why = {""};
+            make_global(3, &p);
+            for (int i = 0; i < LARGEST; i++) {
+                G[i] = uniform();
+                G[i + LARGEST] = uniform();
+                G[i + 2 * LARGEST] = 0.7 * G[i] - 1.3 * G[i + LARGEST];
+            }
+            b[2] = 0.7 * b[0] - 1.3 * b[1] + 0.01 * contradicts;
+            CHECK_STATUS(rb_sparse_from_dense(LARGEST, 3, G, LARGEST, &rows), RB_OK);
+            CHECK_STATUS(rb_friction_eliminate(&p, &rows, b, &why),
+                         contradicts ? RB_EINVAL : RB_OK);
+            assert_int_equal(p.dofs, contradicts ? LARGEST : LARGEST - 2);
+            rb_sparse_free(&rows);
+            rb_friction_problem_free(&p);
+        }
 }
 
 /* ---- Cones ------------------------------------------------------------------------- */
@@ -669,6 +701,7 @@ int main(void)
         cmocka_unit_test(damaged_matrices_are_named),
         cmocka_unit_test(damaged_vectors_are_named),
         cmocka_unit_test(nearly_loose_bodies_are_not_condensed),
+        cmocka_unit_test(constraints_are_redundant_but_for_rounding),
         cmocka_unit_test(cones_that_are_none_are_refused),
         cmocka_unit_test(the_error_on_cones_is_relative),
         cmocka_unit_test(limits_hold_on_cones),

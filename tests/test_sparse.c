@@ -1,4 +1,5 @@
 #include "check.h"
+#include "rollbem/base.h"
 #include "rollbem/sparse.h"
 
 #include <limits.h>
