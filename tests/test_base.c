@@ -84,6 +84,13 @@ static void what_went_wrong_has_its_words(void **state)
     assert_int_equal(rb_lapack_status(-4), RB_SINGULAR);
     assert_int_equal(rb_lapack_status(-1010), RB_ENOMEM);
     assert_string_equal(rb_printable("abc\x01zzz", room, sizeof room), "abc");
+    char text[6] = "ab";
+    rb_append(text, sizeof text, "%d", 34);
+    assert_string_equal(text, "ab34");
+    rb_append(text, sizeof text, "%s", "5678");
+    assert_string_equal(text, "ab345");
+    rb_append(text, sizeof text, "9");
+    assert_string_equal(text, "ab345");
 }
 
 /* Anything that is no printable character of UTF-8 is shown by its bytes, and no

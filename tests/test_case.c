@@ -460,6 +460,9 @@ static void cases_of_contact_are_our_own(void **state)
     in.side = 0.1;
     rb_case_from_contact(&in, &c);
     assert_true(c.runs && !c.left_out[0] && c.rc.mu == 0.0 && c.rc.shift == 0.0);
+    in.law = 2;
+    rb_case_from_contact(&in, &c);
+    assert_true(c.rc.mu == 0.0 && c.rc.friction.law == RB_FRICTION_constant);
 
     in = steel;
     in.base = 2;
@@ -766,6 +769,42 @@ static void a_copy_borrows_the_files(void **state)
     rb_case_free(base);
 }
 
+/* Whatever tables a case names are there when it is settled, and again. */
+static void tables_are_where_the_case_wants_them(void **state)
+{
+    (void)state;
+    rb_message why = {""};
+    write_file("worn.txt", "-5 0\n0 0.01\n5 0\n");
+    write_file("mu.txt", "-5 0.1\n5 0.3\n");
+    write_file("flat.txt", "0 0\n1 0.02\n2 0\n");
+    write_file("history.txt", "distance load_N/m\n0 100000\n1 200000\n");
+    rb_case *c = case_of("support=halfplane load=500 formulation=steady creep-ratio=0.1 "
+                         "worn=worn.txt friction-law=mu.txt");
+    for (int again = 0; again < 2; again++) {
+        const rb_rolling_case *rc = &rb_case_settled(c)->rc;
+        assert_true(rc->worn.n == 3 && rc->worn.y[1] == 0.01);
+        assert_true(rc->friction.table.n == 2 && rc->friction.table.y[1] == 0.3);
+        assert_int_equal(rc->mesh, RB_MESH_UNIFORM); /* not fitted to what is worn */
+        CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
+    }
+    rb_case_free(c);
+    c = case_of("support=halfplane formulation=transient creep-ratio=0.1 "
+                "irregularity=flat.txt history=history.txt");
+    for (int again = 0; again < 2; again++) {
+        const rb_settled_case *s = rb_case_settled(c);
+        assert_true(s->rc.irregularity.n == 3 && s->rc.irregularity.y[1] == 0.02);
+        assert_int_equal(s->program.n, 2);
+        CHECK_REL(s->program.load[1], 200.0, 1e-14, "its own unit");
+        assert_true(rb_case_is_replaced(c, rb_case_option("load")));
+        assert_false(rb_case_is_replaced(c, rb_case_option("mu")));
+        CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
+    }
+    rb_case_free(c);
+    c = case_of("load=500");
+    assert_false(rb_case_is_replaced(c, rb_case_option("load")));
+    rb_case_free(c);
+}
+
 /* ---- Memory ------------------------------------------------------------------------ */
 
 static rb_status use_memory(void)
@@ -827,6 +866,7 @@ int main(void)
         cmocka_unit_test(an_argument_wins_over_the_file),
         cmocka_unit_test(a_copy_is_settled_from_its_words),
         cmocka_unit_test(a_copy_borrows_the_files),
+        cmocka_unit_test(tables_are_where_the_case_wants_them),
         cmocka_unit_test(every_failing_allocation_is_told),
     };
     return cmocka_run_group_tests(tests, enter, leave_folder);

@@ -66,6 +66,13 @@ __attribute__((format(printf, 3, 4)))
 rb_status
 rb_fail(rb_message *why, rb_status s, const char *format, ...);
 
+/* Writes behind the text, which has room for size bytes in all; what is more is cut. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+void
+rb_append(char *text, size_t size, const char *format, ...);
+
 /* "solved", "secondary ray", ...: static text. */
 const char *rb_status_text(rb_status s);
 /* What why says, or the text of s where it says nothing. */

@@ -21,6 +21,15 @@ rb_status rb_fail(rb_message *why, rb_status s, const char *format, ...)
     return s;
 }
 
+void rb_append(char *text, size_t size, const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text + used, size - used, format, args);
+    va_end(args);
+}
+
 const char *rb_version(void)
 {
     return RB_VERSION;

@@ -13,13 +13,13 @@ __attribute__((format(printf, 2, 3)))
 static void
 leave_out(rb_case_contact *c, const char *format, ...)
 {
-    size_t used = strlen(c->left_out);
+    char clause[160];
     va_list args;
     va_start(args, format);
-    snprintf(c->left_out + used, sizeof c->left_out - used, "%s", used > 0 ? "; " : "");
-    used = strlen(c->left_out);
-    vsnprintf(c->left_out + used, sizeof c->left_out - used, format, args);
+    vsnprintf(clause, sizeof clause, format, args);
     va_end(args);
+    rb_append(c->left_out, sizeof c->left_out, "%s%s", c->left_out[0] ? "; " : "",
+              clause);
 }
 
 /* 1: what makes the case another one, so that it is not run. */
@@ -157,7 +157,7 @@ void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)
         return;
     list_left_out(c, in);
     c->runs = 1;
-    c->sign = fabs(fmod(in->chi, 360.0)) > 90.0 && in->digit.T >= 2 ? -1.0 : 1.0;
+    c->sign = fabs(fmod(in->chi, 360.0)) > 90.0 && in->digit.T == 3 ? -1.0 : 1.0;
     c->rc.a = body_of(in, 0);
     c->rc.b = body_of(in, 1);
     c->rc.elastic_b = 1;

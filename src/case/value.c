@@ -50,11 +50,10 @@ static void range_text(const rb_range *r, char *text, size_t size)
 
 static void choices_text(const rb_choice *c, char *text, size_t size)
 {
-    size_t used = 0;
     text[0] = '\0';
-    for (int i = 0; c[i].name && used < size; i++) {
+    for (int i = 0; c[i].name; i++) {
         const char *between = i == 0 ? "" : c[i + 1].name ? ", " : " or ";
-        used += (size_t)snprintf(text + used, size - used, "%s%s", between, c[i].name);
+        rb_append(text, size, "%s%s", between, c[i].name);
     }
 }
 

@@ -164,19 +164,15 @@ static cli_spec spec_of(cli_case_run *run)
                       4};
 }
 
-enum { MOST = 20 }; /* options of a command */
-
 static cli_exit read_words(const cli_spec *spec, cli_case_run *run, int argc, char **argv)
 {
-    const cli_exit code = run->command->option_n <= MOST
-                              ? cli_case_read(spec, argc, argv, run->words, &run->args)
-                              : cli_fail(CLI_INTERNAL, "more than %d options", MOST);
+    const cli_exit code = cli_case_read(spec, argc, argv, run->words, &run->args);
     if (code == CLI_CONTINUE && run->command->choose_purpose)
         run->command->choose_purpose(run);
     return code;
 }
 
-/* given, plain: MOST zeros each, which the run borrows. */
+/* given, plain: CLI_COMMAND_OPTIONS_MAX zeros each, which the run borrows. */
 static cli_case_run run_of(const cli_case_command *command, void *own, int *given,
                            int *plain, rb_case *words)
 {
@@ -189,7 +185,7 @@ static cli_case_run run_of(const cli_case_command *command, void *own, int *give
 cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
                          char **argv, rb_case *words)
 {
-    int given[MOST] = {0}, plain[MOST] = {0};
+    int given[CLI_COMMAND_OPTIONS_MAX] = {0}, plain[CLI_COMMAND_OPTIONS_MAX] = {0};
     cli_case_run run = run_of(command, own, given, plain, words);
     const cli_spec spec = spec_of(&run);
     rb_message why = {""};
@@ -203,7 +199,7 @@ cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
 cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc,
                               char **argv)
 {
-    int given[MOST] = {0}, plain[MOST] = {0};
+    int given[CLI_COMMAND_OPTIONS_MAX] = {0}, plain[CLI_COMMAND_OPTIONS_MAX] = {0};
     cli_case_run run =
         run_of(command, own, given, plain, cli_case_create(command->purpose));
     if (!run.words)
@@ -216,8 +212,7 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
         run.c = rb_case_settled(run.words);
         run.o.brief = command->brief_table && cli_output_is_brief(&run.o);
         rb_case_store(run.words, &run.set, own);
-        if (command->check)
-            code = command->check(&run);
+        code = command->check(&run);
     }
     if (code == CLI_CONTINUE)
         code = solve(&spec, &run);

@@ -76,12 +76,15 @@ typedef struct {
     cli_draw *draw;
 } cli_case_file;
 
-/* What is the command's own.  Functions may be NULL, but for solve, table, json. */
+enum { CLI_COMMAND_OPTIONS_MAX = 20 };
+
+/* What is the command's own.  Functions may be NULL, but for check, solve, table, json.
+ */
 struct cli_case_command {
     const char *synopsis, *about, *notes;
     rb_case_purpose purpose;
     const rb_option *options;
-    int option_n;
+    int option_n;               /* CLI_COMMAND_OPTIONS_MAX at most */
     int options_last;           /* 1: they continue the section [output] */
     const cli_case_file *files; /* the last row has no option */
 

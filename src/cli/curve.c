@@ -41,6 +41,8 @@ static const rb_option options[] = {
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
+_Static_assert((int)OPTIONS <= (int)CLI_COMMAND_OPTIONS_MAX, "given");
+
 static const char about[] =
     "Computes a creep curve, the tangential force of steady rolling over the\n"
     "creepage, on one mesh with warm starts, and prints a row per creepage. --mu\n"

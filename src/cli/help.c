@@ -8,7 +8,7 @@ enum { NAME_COLUMN = 28, WIDTH = 88 };
 
 void cli_option_metavar(const rb_option *o, char *text, size_t size)
 {
-    size_t used = 0;
+    text[0] = '\0';
     switch (o->kind) {
     case RB_OPTION_NUMBER:
         snprintf(text, size, " X%s%s", o->word ? "|" : "", o->word ? o->word : "");
@@ -17,17 +17,16 @@ void cli_option_metavar(const rb_option *o, char *text, size_t size)
         snprintf(text, size, " N");
         break;
     case RB_OPTION_CHOICE:
-        for (const rb_choice *c = o->choices; c->name && used < size; c++)
-            used += (size_t)snprintf(text + used, size - used, "%s%s",
-                                     c == o->choices ? " " : "|", c->name);
-        if (o->path && used < size)
-            snprintf(text + used, size - used, "|%s", o->path_name);
+        for (const rb_choice *c = o->choices; c->name; c++)
+            rb_append(text, size, "%s%s", c == o->choices ? " " : "|", c->name);
+        if (o->path)
+            rb_append(text, size, "|%s", o->path_name);
         break;
     case RB_OPTION_TEXT:
-        snprintf(text, size, " %s", *o->unit ? o->unit : "NAME");
+        snprintf(text, size, " %s", o->unit);
         break;
     default:
-        text[0] = '\0';
+        break;
     }
 }
 

@@ -60,6 +60,8 @@ static const rb_option options[] = {
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
+_Static_assert((int)OPTIONS <= (int)CLI_COMMAND_OPTIONS_MAX, "given");
+
 static const char about[] =
     "Solves one case of rolling contact, a cylinder A on a body B, by boundary\n"
     "elements and a linear complementarity problem, and prints the tractions element\n"

@@ -21,9 +21,8 @@ void cli_friction_solver_lines(char *text, size_t size)
 {
     int count;
     const rb_friction_solver *all = rb_friction_solvers(&count);
-    size_t used = 0;
-    for (int k = 0; k < count && used < size; k++)
-        used += (size_t)snprintf(text + used, size - used, "  %-17s %s: %s%s\n",
-                                 all[k].name, all[k].method, all[k].summary,
-                                 all[k].needs & RB_FRICTION_ONLY_2D ? " (2D)" : "");
+    text[0] = '\0';
+    for (int k = 0; k < count; k++)
+        rb_append(text, size, "  %-17s %s: %s%s\n", all[k].name, all[k].method,
+                  all[k].summary, all[k].needs & RB_FRICTION_ONLY_2D ? " (2D)" : "");
 }

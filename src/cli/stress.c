@@ -62,6 +62,8 @@ static const rb_option options[] = {
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
+_Static_assert((int)OPTIONS <= (int)CLI_COMMAND_OPTIONS_MAX, "given");
+
 /* Pictures are finer than tables, and fringes finer than contours. */
 enum { CONTOURS_X = 161, CONTOURS_Y = 101, FRINGES_X = 241, FRINGES_Y = 151 };
 

@@ -58,6 +58,8 @@ static const rb_option options[] = {
 
 enum { OPTIONS = sizeof options / sizeof options[0] };
 
+_Static_assert((int)OPTIONS <= (int)CLI_COMMAND_OPTIONS_MAX, "given");
+
 static const char about[] =
     "Wears body A: sliding over B (--slide), fretting between --shift or --force and "
     "its\n"

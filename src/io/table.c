@@ -146,10 +146,8 @@ static rb_status make_room(reading *r)
 static rb_status wrong_count(const reading *r, int n)
 {
     char names[160] = "";
-    size_t used = 0;
-    for (int j = 0; r->t->name && j < r->t->columns && used < sizeof names; j++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s",
-                                 j ? ", " : " (", r->t->name[j]);
+    for (int j = 0; r->t->name && j < r->t->columns; j++)
+        rb_append(names, sizeof names, "%s%s", j ? ", " : " (", r->t->name[j]);
     return rb_fail(r->why, RB_EFORMAT, "%s:%d: expected %d number%s%s%s, got %d", r->path,
                    r->line, r->t->columns, r->t->columns == 1 ? "" : "s", names,
                    *names ? ")" : "", n);
