@@ -208,6 +208,34 @@ static void edge_lies_before_the_first_open_midpoint(void **state)
     rb_rolling_solution_free(&s);
 }
 
+/* Nine elements in contact tell the edges that others are aligned to; with fewer they
+ * stay equal ones, and that is said. */
+static void nine_elements_tell_the_edges(void **state)
+{
+    (void)state;
+    int nine = 0, eight = 0;
+    for (int k = 0; k < 12; k++) {
+        rb_rolling_case rc = carter(13);
+        const double a = rb_rolling_derive(&rc).half_width;
+        int touch = 0;
+        rc.creep_ratio = 0.5;
+        rc.slip_operator = RB_SLIP_UPSTREAM;
+        rc.zone = (1.2 + 0.05 * k) * a;
+        rc.mesh = RB_MESH_UNIFORM;
+        rb_rolling_solution first = solved(&rc);
+        for (int i = 0; i < first.n; i++)
+            touch += first.zone[i] != RB_ZONE_SEPARATED;
+        rc.mesh = RB_MESH_ALIGNED;
+        rb_rolling_solution s = solved(&rc);
+        assert_int_equal(s.equal_instead, touch < 9);
+        nine += touch == 9;
+        eight += touch < 9;
+        rb_rolling_solution_free(&first);
+        rb_rolling_solution_free(&s);
+    }
+    assert_true(nine > 0 && eight > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -221,6 +249,7 @@ int main(void)
         cmocka_unit_test(dissimilar_bodies_roll_freely),
         cmocka_unit_test(wheels_take_aligned_elements_too),
         cmocka_unit_test(what_cannot_be_aligned_is_refused),
+        cmocka_unit_test(nine_elements_tell_the_edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* Cases that must be refused, each with its reason, and the quantities derived from good
  * ones. */
-#include "check.h"
+#include "refused.h"
 #include "rolling/internal.h"
 
 #include <gsl/gsl_math.h>
@@ -48,15 +48,6 @@ static void bad_values_are_refused_by_name(void **state)
     }
 }
 
-static void check_refused(const rb_rolling_case *rc, const char *first,
-                          const char *second)
-{
-    rb_message why = {""};
-    CHECK_STATUS(rb_rolling_case_check(rc, &why), RB_EINVAL);
-    if (!strstr(why.text, first) || !strstr(why.text, second))
-        fail_msg("'%s' does not name '%s' and '%s'", why.text, first, second);
-}
-
 static void contradictions_name_both_sides(void **state)
 {
     (void)state;
@@ -98,26 +89,6 @@ static void a_table_gap_needs_its_table(void **state)
 }
 
 /* ---- Every range, from both sides -------------------------------------------------- */
-
-/* A default case with these changes is refused with these words, or accepted. */
-#define REFUSED(words, ...)                                                              \
-    do {                                                                                 \
-        rb_rolling_case rc = rb_rolling_case_defaults();                                 \
-        __VA_ARGS__;                                                                     \
-        check_refused(&rc, words, "");                                                   \
-    } while (0)
-#define ACCEPTED(...)                                                                    \
-    do {                                                                                 \
-        rb_rolling_case rc = rb_rolling_case_defaults();                                 \
-        rb_message why = {""};                                                           \
-        __VA_ARGS__;                                                                     \
-        if (rb_rolling_case_check(&rc, &why) != RB_OK)                                   \
-            fail_msg("%s: %s", #__VA_ARGS__, why.text);                                  \
-    } while (0)
-#define HUB rc.a.support = RB_BEM_HUB
-#define PLANE rc.a.support = RB_BEM_HALFPLANE
-#define STEADY rc.formulation = RB_STEADY
-#define TRANSIENT rc.formulation = RB_TRANSIENT
 
 static void ranges_of_the_bodies(void **state)
 {
@@ -210,15 +181,6 @@ static void ranges_of_relaxation(void **state)
             STEADY);
     ACCEPTED(PLANE; rc.b.memory = one; STEADY); /* B is rigid */
 }
-
-#define WARM                                                                             \
-    PLANE;                                                                               \
-    STEADY;                                                                              \
-    rc.speed = 1.0;                                                                      \
-    rc.heat_a = (rb_rolling_heat)                                                        \
-    {                                                                                    \
-        .conductivity = 40.0, .heat_capacity = 3.5                                       \
-    }
 
 static void ranges_of_heat(void **state)
 {
@@ -316,11 +278,8 @@ static void ranges_of_tables(void **state)
     (void)state;
     const double x[3] = {-1.0, 0.0, 1.0}, back[3] = {-1.0, 1.0, 1.0},
                  gone[3] = {-1.0, NAN, 1.0}, dent[3] = {0.0, 0.1, 0.0},
-                 begins[3] = {0.1, 0.1, 0.0}, ends[3] = {0.0, 0.1, 0.1},
-                 mu[3] = {0.0, 0.2, 0.3}, less[3] = {0.2, -0.1, 0.3},
-                 lost[3] = {0.2, NAN, 0.3};
+                 begins[3] = {0.1, 0.1, 0.0}, ends[3] = {0.0, 0.1, 0.1};
 #define TABLE(x, y) ((rb_rolling_table){3, x, y})
-#define MU(x, y) rc.friction.law = RB_FRICTION_table, rc.friction.table = TABLE(x, y)
     ACCEPTED(rc.irregularity = TABLE(x, dent));
     REFUSED("irregularity: row 1: expected gap 0", rc.irregularity = TABLE(x, begins));
     REFUSED("irregularity: row 3: expected gap 0", rc.irregularity = TABLE(x, ends));
@@ -332,55 +291,7 @@ static void ranges_of_tables(void **state)
     REFUSED("worn: row 3", rc.worn = TABLE(back, dent));
     REFUSED("worn: row 2", rc.worn = TABLE(gone, dent));
     REFUSED("worn: row 2", rc.worn = TABLE(x, gone));
-    ACCEPTED(MU(x, mu));
-    REFUSED("friction table: expected a row", MU(x, mu); rc.friction.table.n = 0);
-    REFUSED("friction table: row 3: expected x to increase, got 1", MU(back, mu));
-    REFUSED("friction table: row 2: expected x to increase", MU(gone, mu));
-    REFUSED("friction table: row 2: expected mu >= 0, got -0.1", MU(x, less));
-    REFUSED("friction table: row 2: expected mu >= 0", MU(x, lost));
-#undef MU
 #undef TABLE
-}
-
-#define FALLS                                                                            \
-    STEADY;                                                                              \
-    rc.speed = 1.0;                                                                      \
-    rc.friction.law = RB_FRICTION_rational;                                              \
-    rc.friction.fall[1] = 0.1;                                                           \
-    rc.friction.slip_scale[1] = 1.0
-
-static void ranges_of_friction_laws(void **state)
-{
-    (void)state;
-    ACCEPTED(FALLS);
-    ACCEPTED(FALLS; rc.formulation = RB_STATIC; rc.speed = 0.0);
-    ACCEPTED(FALLS; rc.friction.slip_scale[0] = -1.0); /* of no fall */
-    ACCEPTED(FALLS; rc.friction.fall[0] = -rc.mu; rc.friction.slip_scale[0] = 1.0);
-    REFUSED("expected mu >= 0 everywhere", FALLS; rc.friction.fall[0] = -0.31;
-            rc.friction.slip_scale[0] = 1.0);
-    REFUSED("expected a slip scale > 0", FALLS; rc.friction.fall[0] = INFINITY);
-    REFUSED("expected a slip scale > 0", FALLS; rc.friction.slip_scale[1] = 0.0);
-    REFUSED("expected a slip scale > 0", FALLS; rc.friction.slip_scale[1] = INFINITY);
-    REFUSED("friction law rational: needs the speed", FALLS; rc.speed = 0.0);
-    REFUSED("friction law rational: needs the speed", FALLS; rc.speed = INFINITY);
-    ACCEPTED(FALLS; rc.friction.memory = 1.0; rc.friction.memory_slip = 1.0);
-    REFUSED("friction memory: expected", FALLS; rc.friction.memory = -1.0);
-    REFUSED("friction memory: expected", FALLS; rc.friction.memory = INFINITY);
-    REFUSED("friction memory: expected", FALLS; rc.friction.memory = 1.0);
-
-    ACCEPTED(WARM; rc.friction.heat = -0.3; rc.friction.heat_range = 100.0);
-    ACCEPTED(rc.friction.heat = -0.3; rc.friction.heat_range = 100.0); /* at rest */
-    REFUSED("expected mu >= 0 everywhere", WARM; rc.friction.heat = -0.31;
-            rc.friction.heat_range = 100.0);
-    REFUSED("friction and heat: needs temperatures", STEADY; rc.friction.heat = -0.1;
-            rc.friction.heat_range = 100.0);
-    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = INFINITY);
-    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
-            rc.friction.heat_range = 0.0);
-    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
-            rc.friction.heat_range = INFINITY);
-    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
-            rc.friction.heat_from = NAN; rc.friction.heat_range = 100.0);
 }
 
 static void ranges_of_the_mesh(void **state)
@@ -464,7 +375,6 @@ int main(void)
         cmocka_unit_test(ranges_of_the_interface),
         cmocka_unit_test(ranges_of_the_loading),
         cmocka_unit_test(ranges_of_tables),
-        cmocka_unit_test(ranges_of_friction_laws),
         cmocka_unit_test(ranges_of_the_mesh),
         cmocka_unit_test(hertz_closes_the_circle),
         cmocka_unit_test(the_half_width_of_an_approach_inverts_the_compression),

@@ -1,8 +1,6 @@
-/* The laws of friction by their formulas, their largest and steepest values. */
-#include "check.h"
+/* The laws of friction by their formulas, their largest and steepest values, refusals. */
+#include "refused.h"
 #include "rolling/internal.h"
-
-#include <string.h>
 
 static rb_rolling_case law(rb_rolling_friction_law which, double m1, double m2)
 {
@@ -132,6 +130,66 @@ static void the_steepest_fall_is_that_of_the_formula(void **state)
     CHECK_ABS(rb_rolling_law_steepest(&constant), 0.0, 0.0, "constant");
 }
 
+/* ---- Refusals ---------------------------------------------------------------------- */
+
+static void tables_of_no_friction_are_refused(void **state)
+{
+    (void)state;
+    const double x[3] = {-1.0, 0.0, 1.0}, back[3] = {-1.0, 1.0, 1.0},
+                 gone[3] = {-1.0, NAN, 1.0}, mu[3] = {0.0, 0.2, 0.3},
+                 less[3] = {0.2, -0.1, 0.3}, lost[3] = {0.2, NAN, 0.3};
+#define MU(x, y)                                                                         \
+    rc.friction.law = RB_FRICTION_table, rc.friction.table = (rb_rolling_table){3, x, y}
+    ACCEPTED(MU(x, mu));
+    REFUSED("friction table: expected a row", MU(x, mu); rc.friction.table.n = 0);
+    REFUSED("friction table: row 3: expected x to increase, got 1", MU(back, mu));
+    REFUSED("friction table: row 2: expected x to increase", MU(gone, mu));
+    REFUSED("friction table: row 2: expected mu >= 0, got -0.1", MU(x, less));
+    REFUSED("friction table: row 2: expected mu >= 0", MU(x, lost));
+#undef MU
+}
+
+#define FALLS                                                                            \
+    STEADY;                                                                              \
+    rc.speed = 1.0;                                                                      \
+    rc.friction.law = RB_FRICTION_rational;                                              \
+    rc.friction.fall[1] = 0.1;                                                           \
+    rc.friction.slip_scale[1] = 1.0
+
+static void ranges_of_friction_laws(void **state)
+{
+    (void)state;
+    ACCEPTED(FALLS);
+    ACCEPTED(FALLS; rc.formulation = RB_STATIC; rc.speed = 0.0);
+    ACCEPTED(FALLS; rc.friction.slip_scale[0] = -1.0); /* of no fall */
+    ACCEPTED(FALLS; rc.friction.fall[0] = -rc.mu; rc.friction.slip_scale[0] = 1.0);
+    REFUSED("expected mu >= 0 everywhere", FALLS; rc.friction.fall[0] = -0.31;
+            rc.friction.slip_scale[0] = 1.0);
+    REFUSED("expected a slip scale > 0", FALLS; rc.friction.fall[0] = INFINITY);
+    REFUSED("expected a slip scale > 0", FALLS; rc.friction.slip_scale[1] = 0.0);
+    REFUSED("expected a slip scale > 0", FALLS; rc.friction.slip_scale[1] = INFINITY);
+    REFUSED("friction law rational: needs the speed", FALLS; rc.speed = 0.0);
+    REFUSED("friction law rational: needs the speed", FALLS; rc.speed = INFINITY);
+    ACCEPTED(FALLS; rc.friction.memory = 1.0; rc.friction.memory_slip = 1.0);
+    REFUSED("friction memory: expected", FALLS; rc.friction.memory = -1.0);
+    REFUSED("friction memory: expected", FALLS; rc.friction.memory = INFINITY);
+    REFUSED("friction memory: expected", FALLS; rc.friction.memory = 1.0);
+
+    ACCEPTED(WARM; rc.friction.heat = -0.3; rc.friction.heat_range = 100.0);
+    ACCEPTED(rc.friction.heat = -0.3; rc.friction.heat_range = 100.0); /* at rest */
+    REFUSED("expected mu >= 0 everywhere", WARM; rc.friction.heat = -0.31;
+            rc.friction.heat_range = 100.0);
+    REFUSED("friction and heat: needs temperatures", STEADY; rc.friction.heat = -0.1;
+            rc.friction.heat_range = 100.0);
+    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = INFINITY);
+    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
+            rc.friction.heat_range = 0.0);
+    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
+            rc.friction.heat_range = INFINITY);
+    REFUSED("friction and heat: expected a change", WARM; rc.friction.heat = -0.1;
+            rc.friction.heat_from = NAN; rc.friction.heat_range = 100.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -140,6 +198,8 @@ int main(void)
         cmocka_unit_test(heat_adds_its_part),
         cmocka_unit_test(the_largest_coefficient_is_at_rest_or_fast),
         cmocka_unit_test(the_steepest_fall_is_that_of_the_formula),
+        cmocka_unit_test(tables_of_no_friction_are_refused),
+        cmocka_unit_test(ranges_of_friction_laws),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -312,6 +312,34 @@ static void steep_laws_are_solved_in_few_steps(void **state)
         }
 }
 
+/* Unlike bodies, kappa from 2.5 to 7.5: Newton's method, whose directions end as soon as
+ * they have reduced the residual to a thousandth. */
+static void newtons_method_needs_few_contact_problems(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 3; k += 2) {
+        rb_rolling_case rc = falling(RB_STEADY, 0.12, 4.8 / k);
+        rc.a.young = 2.0 * 82000.0 * 1.28;
+        rc.a.poisson = 0.28;
+        rc.a.radius = 460.0;
+        rc.elastic_b = 0;
+        rc.mu = 0.18;
+        rc.load = 3111.08;
+        rc.speed = 45000.0;
+        rc.creep = -0.002;
+        rc.contact_elements = 60;
+        rc.mesh = RB_MESH_FITTED;
+        rb_rolling_model model = solved_model(&rc);
+        double kappa;
+        CHECK_STATUS(rb_rolling_law_kappa(&model, &kappa), RB_OK);
+        print_message("# kappa %g: %d iterations\n", kappa, model.iterations);
+        assert_true(kappa > 2.0);
+        CHECK_MAX(model.state.residual, 1e-10, "kappa %g", kappa);
+        CHECK_MAX(model.iterations, k == 1 ? 1300 : 800, "kappa %g", kappa);
+        rb_rolling_model_free(&model);
+    }
+}
+
 /* ---- All solutions ----------------------------------------------------------------- */
 
 static void all_solutions_of_one_are_one(void **state)
@@ -383,6 +411,7 @@ int main(void)
         cmocka_unit_test(the_largest_force_is_that_of_a_scan),
         cmocka_unit_test(a_free_axle_has_no_moment),
         cmocka_unit_test(steep_laws_are_solved_in_few_steps),
+        cmocka_unit_test(newtons_method_needs_few_contact_problems),
         cmocka_unit_test(all_solutions_of_one_are_one),
         cmocka_unit_test(several_solutions_are_told_apart),
     };

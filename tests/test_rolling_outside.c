@@ -192,19 +192,28 @@ static void several_patches_cannot_be_aligned(void **state)
     release(t);
 }
 
-/* Patches that nearly touch are fitted as one. */
+/* Patches that nearly touch are fitted as one; with equal elements they are the same. */
 static void patches_side_by_side_are_fitted_as_one(void **state)
 {
     (void)state;
     static const double x[] = {-0.35, 0.35}, height[] = {0.0, 0.0};
     table *t = bumps(2, x, height);
-    t->rc.mesh = RB_MESH_FITTED;
-    for (int k = 0; k < 2; k++) {
-        t->rc.load = k ? 8000.0 : 300.0;
+    t->rc.mu = 0.0;
+    for (int k = 0; k < 12; k++) {
+        t->rc.load = 1300.0 + 80.0 * k;
+        t->rc.mesh = RB_MESH_FITTED;
+        t->rc.contact_elements = 40;
         rb_rolling_solution s = solved(&t->rc);
-        CHECK_REL(s.normal_load, t->rc.load, 1e-9, "load");
-        CHECK_MAX(s.residual, 1e-10, "residual");
-        assert_int_equal(s.patches, k ? 1 : 2);
+        t->rc.mesh = RB_MESH_UNIFORM;
+        t->rc.contact_elements = 200;
+        rb_rolling_solution fine = solved(&t->rc);
+        CHECK_REL(s.normal_load, t->rc.load, 1e-9, "load %d", k);
+        CHECK_MAX(s.residual, 1e-10, "residual %d", k);
+        CHECK_ABS(s.contact_from, fine.contact_from, 0.02, "left edge %d", k);
+        CHECK_ABS(s.contact_to, fine.contact_to, 0.02, "right edge %d", k);
+        CHECK_REL(s.approach, fine.approach, 2e-3, "approach %d", k);
+        assert_int_equal(s.equal_instead, 0);
+        rb_rolling_solution_free(&fine);
         rb_rolling_solution_free(&s);
     }
     release(t);

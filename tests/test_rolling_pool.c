@@ -3,14 +3,19 @@
 #include "rolling/internal.h"
 #include "solved.h"
 
+#include <signal.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
-/* Case 3 is refused by its maker, case 4 by the solver. */
+/* Case 3 is refused by its maker, case 4 by the solver; the process that solves case 6
+ * dies, each time or as often as the context says, in memory that all share. */
 static rb_status make(int k, rb_rolling_case *rc, void *context)
 {
-    (void)context;
+    int *deaths = context;
+    if (k == 6 && (!deaths || (*deaths)-- > 0))
+        raise(SIGKILL);
     *rc = rb_rolling_case_defaults();
     rc->a.support = RB_BEM_HALFPLANE;
     rc->load = 100.0 * (k + 1);
@@ -114,6 +119,34 @@ static void refused_cases_have_their_status(void **state)
     pool->stop(pool);
 }
 
+/* A worker that dies is replaced and tries its case once more: a death is nobody's fault,
+ * two are the case's. */
+static void a_case_is_lost_with_its_second_worker(void **state)
+{
+    (void)state;
+    int *deaths = mmap(NULL, sizeof *deaths, PROT_READ | PROT_WRITE,
+                       MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    assert_true(deaths != MAP_FAILED);
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_sweep sweep = of(8, 1, 0);
+        rb_rolling_pool *pool;
+        sweep.context = k ? deaths : NULL;
+        *deaths = 1;
+        CHECK_STATUS(rb_rolling_pool_start(&sweep, &pool, NULL), RB_OK);
+        rb_rolling_row row = row_of(pool, 6);
+        CHECK_STATUS(row.solution.status, k ? RB_OK : RB_ENOMEM);
+        if (k)
+            CHECK_REL(row.solution.normal_load, 700.0, 1e-9, "load");
+        else
+            assert_true(isnan(row.solution.normal_load));
+        row = row_of(pool, 1); /* the worker that took its place goes on */
+        CHECK_STATUS(row.solution.status, RB_OK);
+        assert_int_equal(pool->idle(pool), 1);
+        pool->stop(pool);
+    }
+    munmap(deaths, sizeof *deaths);
+}
+
 static void workers_are_counted(void **state)
 {
     (void)state;
@@ -148,9 +181,10 @@ static void all_cases_come_back_once(void **state)
 {
     (void)state;
     enum { CASES = 12 };
-    const rb_rolling_sweep sweep = of(CASES, 3, 0);
+    rb_rolling_sweep sweep = of(CASES, 3, 0);
     rb_rolling_pool *pool;
-    int seen[CASES] = {0}, given = 0, came = 0;
+    int seen[CASES] = {0}, given = 0, came = 0, deaths = 0;
+    sweep.context = &deaths;
     CHECK_STATUS(rb_rolling_pool_start(&sweep, &pool, NULL), RB_OK);
     while (came < CASES) {
         rb_rolling_row row;
@@ -200,6 +234,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_have_what_is_asked_for),
         cmocka_unit_test(refused_cases_have_their_status),
+        cmocka_unit_test(a_case_is_lost_with_its_second_worker),
         cmocka_unit_test(workers_are_counted),
         cmocka_unit_test(all_cases_come_back_once),
         cmocka_unit_test(a_pool_that_cannot_start_says_why),

@@ -1,4 +1,5 @@
 /* Bodies that relax, step by step: static contact in time and transient rolling. */
+#include "rolling/internal.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 
@@ -600,6 +601,51 @@ static void every_failing_allocation_is_noticed(void **state)
     }
 }
 
+/* ---- Parts ------------------------------------------------------------------------- */
+
+/* Tractions, and what the terms keep of them, move by an element, each direction for
+ * itself, and nothing comes in; the displacement that they bring along is that of kept
+ * and former tractions through the glassy body (V6). */
+static void the_past_moves_with_the_material(void **state)
+{
+    (void)state;
+    enum { N = 6, TAIL = 3, ALL = N + TAIL };
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_mesh mesh;
+    rb_rolling_memory_track track;
+    double w0[2 * (N + 1)], past[2 * ALL], own[2 * ALL], sum[2 * ALL], w[2 * (ALL + 1)];
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.memory = (rb_rolling_memory){1, {2.0}, {0.5}};
+    rc.contact_elements = N;
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -0.3, 0.3, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_rolling_memory_track_create(&rc, &mesh, TAIL, &track, NULL), RB_OK);
+    for (int rolls = 0; rolls < 2; rolls++) {
+        for (int i = 0; i < 2 * ALL; i++) {
+            track.traction[i] = own[i] = 1.0 + i;
+            track.body[0].past[i] = past[i] = 50.0 - i * i;
+        }
+        for (int i = 0; i < 2 * ALL && rolls; i++) {
+            const int last = i % ALL == ALL - 1;
+            own[i] = last ? 0.0 : 2.0 + i;
+            past[i] = last ? 0.0 : 50.0 - (i + 1) * (i + 1);
+        }
+        rb_rolling_memory_track_begin(&track, 3.0, rolls, w0);
+        const rb_bem_fading f = rb_bem_fading_over(2.0, 3.0);
+        for (int i = 0; i < 2 * ALL; i++) {
+            CHECK_ABS(track.traction[i], own[i], 0.0, "traction %d", i);
+            CHECK_ABS(track.body[0].past[i], past[i], 0.0, "past %d", i);
+            sum[i] = 0.5 * (f.kept * past[i] + f.before * own[i]);
+        }
+        rb_bem_flexibility_apply(&track.body[0].f, sum, w);
+        for (int i = 0; i <= N; i++) {
+            CHECK_REL(w0[i], w[TAIL + i], 1e-12, "w_N %d", i);
+            CHECK_REL(w0[N + 1 + i], w[ALL + 1 + TAIL + i], 1e-12, "w_T %d", i);
+        }
+    }
+    rb_rolling_memory_track_free(&track);
+    rb_rolling_mesh_free(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -615,6 +661,7 @@ int main(void)
         cmocka_unit_test(bad_programs_are_refused),
         cmocka_unit_test(one_static_solve_is_refused),
         cmocka_unit_test(every_failing_allocation_is_noticed),
+        cmocka_unit_test(the_past_moves_with_the_material),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

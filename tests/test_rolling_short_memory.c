@@ -218,6 +218,50 @@ static rb_status to_accuracy(void *context)
     return status;
 }
 
+/* A study whose rows come at once, by a pool that is no process. */
+static int one_is_idle(rb_rolling_pool *pool)
+{
+    (void)pool;
+    return 1;
+}
+
+static rb_status take(rb_rolling_pool *pool, int k)
+{
+    (void)pool;
+    (void)k;
+    return RB_OK;
+}
+
+static int give(rb_rolling_pool *pool, int milliseconds, int *k, rb_rolling_row *row)
+{
+    (void)pool;
+    (void)milliseconds;
+    *k = 0;
+    *row = rb_rolling_no_row(RB_OK);
+    return 1;
+}
+
+static void rest(rb_rolling_pool *pool)
+{
+    (void)pool;
+}
+
+static int see(int k, const rb_rolling_row *row, void *context)
+{
+    (void)k;
+    (void)row;
+    (void)context;
+    return 0;
+}
+
+static rb_status study(void *context)
+{
+    task *t = context;
+    rb_rolling_pool pool = {one_is_idle, take, give, rest};
+    const rb_rolling_sweep sweep = {.count = 1, .workers = 1, .see = see};
+    return rb_rolling_sweep_by(&sweep, &pool, &t->why);
+}
+
 /* ---- All of them ------------------------------------------------------------------- */
 
 static void fail_all(const char *name, rb_status (*work)(void *), rb_rolling_case rc)
@@ -315,6 +359,7 @@ static void tasks_are_short_of_memory(void **state)
     FAIL(stress, few(RB_STATIC, 8));
     FAIL(stress, wheel(few(RB_STATIC, 8)));
     FAIL(to_accuracy, few(RB_STATIC, 12));
+    FAIL(study, few(RB_STATIC, 12));
 }
 
 /* ---- How much it will be ----------------------------------------------------------- */

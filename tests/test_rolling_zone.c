@@ -450,6 +450,38 @@ static void a_curve_and_a_history_find_the_end_of_their_mesh(void **state)
     rb_rolling_curve_free(&curve);
 }
 
+/* The first zone, 1.3 half-widths, stays where three separated elements stand at either
+ * end of it, and grows otherwise. */
+static void a_zone_ends_with_three_separated_elements(void **state)
+{
+    (void)state;
+    int kept = 0, grown = 0;
+    for (int n = 20; n <= 44; n += 2) {
+        rb_rolling_case rc = halfplane(0.3, 0.0, n);
+        rc.mu = 0.0;
+        rc.load = rb_rolling_hertz_load(&rc, 1.0);
+        rc.half_width = NAN;
+        rb_rolling_solution first, s = solved(&rc);
+        CHECK_STATUS(rb_rolling_solve_between(&rc, -1.3, 1.3, &first, NULL), RB_OK);
+        int left = 0, right = 0;
+        while (first.zone[left] == RB_ZONE_SEPARATED)
+            left++;
+        while (first.zone[n - 1 - right] == RB_ZONE_SEPARATED)
+            right++;
+        assert_int_equal(left, right);
+        const double end = s.x[n - 1] + 0.5 * s.h[n - 1];
+        if (left >= 3)
+            CHECK_REL(end, 1.3, 1e-12, "%d elements", n);
+        else
+            CHECK_REL(end, 1.3 * 1.3, 1e-12, "%d elements", n);
+        kept += left == 3;
+        grown += left < 3;
+        rb_rolling_solution_free(&first);
+        rb_rolling_solution_free(&s);
+    }
+    assert_true(kept > 0 && grown > 0);
+}
+
 static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
@@ -486,6 +518,7 @@ int main(void)
         cmocka_unit_test(a_wavy_surface_gets_equal_elements),
         cmocka_unit_test(stress_is_looked_for_below_every_patch),
         cmocka_unit_test(a_given_zone_must_hold_every_patch),
+        cmocka_unit_test(a_zone_ends_with_three_separated_elements),
         cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(a_contact_without_an_end_is_refused),
         cmocka_unit_test(a_curve_and_a_history_find_the_end_of_their_mesh),
