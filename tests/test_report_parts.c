@@ -413,8 +413,8 @@ static const char *drawn(const rb_report_study *s, int map)
     return script;
 }
 
-/* Colours between few values, labels in the middle of the contours; a map of one value
- * has no contours. */
+/* Colours between few values, labels in the middle of the contours; a result that is the
+ * same in all cases has one colour and no contours. */
 static void maps_suit_the_number_of_cases(void **state)
 {
     (void)state;
@@ -431,12 +431,24 @@ static void maps_suit_the_number_of_cases(void **state)
     script = drawn(&s, 1);
     assert_non_null(strstr(script, "interpolate 1,40\n"));
     assert_non_null(strstr(script, "start 23 interval -1")); /* 92 lines */
-    for (int k = 0; k < s.n; k++)
-        room[2 * MOST + k] = 4.0;
-    script = drawn(&s, 1);
-    assert_null(strstr(script, "contour base"));
-    assert_null(strstr(script, "labels boxed"));
-    assert_non_null(strstr(script, "splot $map using 1:2:3 with pm3d nocontour\n"));
+    for (int zero = 0; zero < 2; zero++) { /* the same but for rounding, or zero */
+        for (int k = 0; k < s.n; k++)
+            room[2 * MOST + k] = zero ? 0.0 : 4.0 * (1.0 + 1e-15 * (k % 3));
+        for (int map = 0; map < 2; map++) {
+            script = drawn(&s, map);
+            char range[40];
+            snprintf(range, sizeof range, "set %srange [%s]\n", map ? "cb" : "y",
+                     zero ? "-1:1" : "3.6:4.4");
+            assert_non_null(strstr(script, range));
+            assert_null(strstr(script, "contour base"));
+            assert_null(strstr(script, "labels boxed"));
+            assert_true(!map || strstr(script, "splot $map using 1:2:3 with pm3d "
+                                               "nocontour\n"));
+        }
+    }
+    room[2 * MOST] = 1e-8; /* beside zero that is a difference */
+    assert_non_null(strstr(drawn(&s, 1), "contour base"));
+    assert_null(strstr(drawn(&s, 0), "set yrange"));
 }
 
 /* Points are marked where there are few; a power of ten stands beside the unit. */

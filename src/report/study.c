@@ -118,6 +118,7 @@ rb_status rb_report_study_check(const rb_report_study *s, int map, rb_message *w
 typedef struct {
     double from, to, unit;
     int exponent, logarithmic;
+    int flat; /* of a result: its values differ by rounding alone, or are one */
 } axis;
 
 typedef struct {
@@ -155,7 +156,7 @@ static int is_logarithmic(int n, const double *value)
 
 static axis axis_of(int n, const rb_report_quantity *q, int may_be_logarithmic)
 {
-    axis a = {INFINITY, -INFINITY, 1.0, 0, 0};
+    axis a = {INFINITY, -INFINITY, 1.0, 0, 0, 0};
     for (int k = 0; k < n && q->value; k++) {
         a.from = fmin(a.from, q->value[k]); /* fmin and fmax pass over NAN */
         a.to = fmax(a.to, q->value[k]);
@@ -168,6 +169,21 @@ static axis axis_of(int n, const rb_report_quantity *q, int may_be_logarithmic)
     a.unit = pow(10.0, a.exponent);
     a.from /= a.unit;
     a.to /= a.unit;
+    return a;
+}
+
+/* Of the result.  Where it is the same in all cases, a range around it, or the picture
+ * would show the rounding. */
+static axis axis_of_result(const rb_report_study *s)
+{
+    axis a = axis_of(s->n, &s->shown, 0);
+    const double size = fmax(fabs(a.from), fabs(a.to));
+    const double margin = size > 0.0 ? 0.1 * size : 1.0;
+    a.flat = a.to - a.from <= 1e-9 * size;
+    if (a.flat) {
+        a.from -= margin;
+        a.to += margin;
+    }
     return a;
 }
 
@@ -252,6 +268,8 @@ static void write_curves(FILE *out, rb_report_canvas canvas, const void *context
     write_title(out, v, place);
     write_axis(out, 'x', &s->x, &v->x, labels_below(place));
     write_label(out, "ylabel", &s->shown, &v->shown);
+    if (v->shown.flat)
+        fprintf(out, "set yrange [%.9g:%.9g]\n", v->shown.from, v->shown.to);
     if (s->y.value)
         fprintf(
             out,
@@ -329,13 +347,15 @@ static void write_map(FILE *out, rb_report_canvas canvas, const void *context)
     snprintf(label, sizeof label, "label 2 at screen 0.968, %g center rotate",
              bottom + height / 2.0);
     write_label(out, label, &s->shown, &v->shown);
-    const int contours = v->shown.to > v->shown.from;
-    if (contours)
+    if (v->shown.flat)
+        fprintf(out, "set cbrange [%.9g:%.9g]\n", v->shown.from, v->shown.to);
+    else
         write_scale(out, canvas, v, height);
     fprintf(out, "splot $map using 1:2:3 with pm3d nocontour%s\n",
-            contours ? ", $map using 1:2:3 with lines nosurface linecolor rgb '#ffffff' "
-                       "linewidth 0.8, $map using 1:2:3 with labels boxed nosurface"
-                     : "");
+            v->shown.flat
+                ? ""
+                : ", $map using 1:2:3 with lines nosurface linecolor rgb '#ffffff' "
+                  "linewidth 0.8, $map using 1:2:3 with labels boxed nosurface");
 }
 
 /* ---- Draw -------------------------------------------------------------------------- */
@@ -354,7 +374,7 @@ rb_status rb_report_study_picture(FILE *out, rb_report_canvas canvas,
                     .row = length_of_group(s, at, 0),
                     .x = axis_of(s->n, &s->x, 1),
                     .y = axis_of(s->n, &s->y, 1),
-                    .shown = axis_of(s->n, &s->shown, 0)};
+                    .shown = axis_of_result(s)};
     status = v.shown.from <= v.shown.to
                  ? rb_report_draw(out, canvas, RB_REPORT_FOUR_THIRDS,
                                   map ? write_map : write_curves, &v, why)
