@@ -339,6 +339,37 @@ static void every_solver_solves_random_problems(void **state)
     CHECK_MAX((double)steps / by_newton, 3.6, "Newton's steps");
 }
 
+/* Where pressure and friction do not meet, Newton's method solves for one after the
+ * other, the given force with what slides already carries. */
+static void uncoupled_problems_are_solved_in_turn(void **state)
+{
+    int sticks = 0, slides = 0;
+
+    (void)state;
+    numbers = 19;
+    for (int k = 0; k < 16; k++) {
+        const kind of = {.n = 9, .mu = 0.3, .force_given = 1, .axle = k / 8};
+        rb_contact_problem p;
+        rb_contact_state s;
+        random_problem(&of, &p);
+        p.force_ratio = k % 2 ? -0.7 : 0.6;
+        if (k / 4 % 2) {
+            p.force = p.force_ratio * 0.1 * of.mu * p.load;
+            p.force_ratio = 0.0;
+        }
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        CHECK_STATUS(rb_contact_newton(&p, 0, &s), RB_OK);
+        CHECK_MAX(residual_of(&p, &s), 1e-11, "case %d", k);
+        for (int i = 0; i < of.n; i++) {
+            sticks += s.zone[i] == RB_ZONE_STICK;
+            slides += s.zone[i] > RB_ZONE_STICK;
+        }
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+    assert_true(sticks > 10 && slides > 10);
+}
+
 /* A small contact that yields cannot carry every force, and says so whoever solves it. */
 static void every_solver_solves_layers_that_yield(void **state)
 {
@@ -370,17 +401,21 @@ static void every_solver_solves_layers_that_yield(void **state)
     CHECK_MAX(all.failed, 1, "neither solved nor refused");
 }
 
-/* Laws that come back are corrected one by one from then on, and where all would slide
- * under a given force, the element sticks that wants to slide least: without the one, or
- * with another, these take twice the steps, or Newton's method fails. */
+/* Laws that come back are corrected one by one from then on, where all would slide under
+ * a given force the element sticks that wants to slide least, and a layer is followed
+ * down from a higher yield stress: without one of these, some take twice the steps or
+ * need Lemke. */
 static void cycles_of_laws_end_soon(void **state)
 {
     static const struct {
         int k, steps;
-    } all[] = {{54, 45}, {272, 16}, {449, 150}, {887, 26}};
+        rb_contact_solver by;
+    } all[] = {{34, 240, RB_SOLVER_NEWTON}, {54, 45, RB_SOLVER_NEWTON},
+               {272, 16, RB_SOLVER_NEWTON}, {449, 150, RB_SOLVER_LEMKE},
+               {887, 26, RB_SOLVER_NEWTON}, {969, 240, RB_SOLVER_NEWTON}};
 
     (void)state;
-    for (int c = 0; c < 4; c++) {
+    for (int c = 0; c < 6; c++) {
         const int k = all[c].k;
         const kind of = {.n = 4 + k % 17,
                          .mu = 0.3,
@@ -398,7 +433,7 @@ static void cycles_of_laws_end_soon(void **state)
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
         CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, NULL), RB_OK);
         CHECK_MAX(residual_of(&p, &s), 1e-9, "case %d", k);
-        assert_true(k != 272 || s.solver == RB_SOLVER_NEWTON);
+        assert_int_equal(s.solver, all[c].by);
         CHECK_MAX(s.iterations, all[c].steps, "steps of case %d", k);
         rb_contact_state_free(&s);
         rb_contact_problem_free(&p);
@@ -434,6 +469,51 @@ static void pivots_leave_no_rounding(void **state)
     }
     for (int k = 0; k < 3; k++)
         CHECK_MAX(sum[k] / 4.0, 3e-15, "layer %d", k);
+}
+
+/* Pairs of elements have one traction each, and the mean gap and slip of the two. */
+static void pairs_move_as_their_elements(void **state)
+{
+    (void)state;
+    numbers = 18;
+    const kind of = {
+        .n = 8, .mu = 0.3, .coupling = 0.1, .load_given = 1, .force_given = 2};
+    rb_contact_problem p, half;
+    rb_contact_state fine, coarse;
+    double gap[4], slip[4], most;
+
+    random_problem(&of, &p);
+    CHECK_STATUS(rb_contact_halve(&p, &half), RB_OK);
+    assert_int_equal(half.n, 4);
+    CHECK_STATUS(rb_contact_state_alloc(8, &fine), RB_OK);
+    CHECK_STATUS(rb_contact_state_alloc(4, &coarse), RB_OK);
+    for (int i = 0; i < 4; i++) {
+        coarse.p[i] = STRESS * uniform(0.0, 1.0);
+        coarse.q[i] = STRESS * uniform(-0.3, 0.3);
+    }
+    coarse.delta = 0.3 * GAP;
+    coarse.xi = 0.7 * SLIP;
+    rb_contact_start_from_half(&coarse, &fine);
+    rb_contact_kinematics(&half, &coarse, gap, slip);
+    for (int i = 0; i < 4; i++) {
+        double g[2], l[2];
+        for (int k = 0; k < 2; k++)
+            move(&p, &fine, 2 * i + k, &g[k], &l[k]);
+        CHECK_ABS(gap[i], 0.5 * (g[0] + g[1]), 1e-12 * GAP, "gap %d", i);
+        CHECK_ABS(slip[i], 0.5 * (l[0] + l[1]), 1e-12 * SLIP, "slip %d", i);
+        CHECK_REL(half.bound[i], 0.5 * (p.bound[2 * i] + p.bound[2 * i + 1]), 1e-14,
+                  "bound");
+    }
+    CHECK_REL(rb_contact_load(&half, &coarse), rb_contact_load(&p, &fine), 1e-13, "P");
+    CHECK_REL(rb_contact_force(&half, &coarse), rb_contact_force(&p, &fine), 1e-12, "Q");
+    CHECK_REL(rb_contact_moment(&half, &coarse), rb_contact_moment(&p, &fine), 1e-12,
+              "M");
+    CHECK_ABS(force_error(&half, &coarse, &most) - rb_contact_force(&half, &coarse),
+              -p.force, 1e-12 * STRESS, "the force that is given");
+    rb_contact_state_free(&fine);
+    rb_contact_state_free(&coarse);
+    rb_contact_problem_free(&half);
+    rb_contact_problem_free(&p);
 }
 
 /* ---- Zones that are held ----------------------------------------------------------- */
@@ -531,7 +611,7 @@ static void zones_that_determine_nothing_are_singular(void **state)
 typedef struct {
     int n;
     double *S, *gap, *slip;
-    int freed;
+    int freed, products;
 } by_products;
 
 static void apply(void *context, const double *r, const double **gap, const double **slip)
@@ -539,6 +619,7 @@ static void apply(void *context, const double *r, const double **gap, const doub
     by_products *k = context;
     const int n = k->n;
 
+    k->products++;
     for (int i = 0; i < n; i++) {
         k->gap[i] = k->slip[i] = 0.0;
         for (int j = 0; j < 2 * n; j++) {
@@ -572,7 +653,7 @@ static void use_products(rb_contact_problem *p, by_products *k)
     const size_t n = (size_t)p->n;
     rb_contact_operator *op;
 
-    *k = (by_products){p->n, rb_alloc(n, 2 * n), rb_alloc(n, 2), NULL, 0};
+    *k = (by_products){p->n, rb_alloc(n, 2 * n), rb_alloc(n, 2), NULL, 0, 0};
     k->slip = k->gap + n;
     memcpy(k->S, rb_contact_operator_matrix(p->op).S, 2 * n * n * sizeof(double));
     const rb_contact_products by = {apply, divide, forget, k};
@@ -585,7 +666,7 @@ static void use_products(rb_contact_problem *p, by_products *k)
 /* Loops need a matrix: the judge looks at a problem that has it. */
 static void products_give_what_matrices_do(void **state)
 {
-    int refused = 0;
+    int refused = 0, products = 0;
 
     (void)state;
     for (int k = 0; k < 48; k++) {
@@ -621,7 +702,9 @@ static void products_give_what_matrices_do(void **state)
         rb_contact_problem_free(&p);
         rb_contact_problem_free(&with);
         assert_int_equal(by.freed, 1);
+        products += by.products;
     }
+    CHECK_MAX(products, 3625, "products of all solves");
     CHECK_MAX(refused, 1, "forces that nothing carries");
 }
 
@@ -1338,6 +1421,8 @@ static void no_memory_is_said(void **state)
         if (k == 1)
             use_products(&p[k], &by);
     }
+    assert_true(alloc_fail_every_call(solve_all, p) >
+                10); /* one alone, then all from one on */
     for (int count = 0, refused = 1; refused; count++) {
         alloc_fail_after(count);
         const rb_status s = solve_all(p);
@@ -1354,9 +1439,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_solver_solves_random_problems),
+        cmocka_unit_test(uncoupled_problems_are_solved_in_turn),
         cmocka_unit_test(every_solver_solves_layers_that_yield),
         cmocka_unit_test(cycles_of_laws_end_soon),
         cmocka_unit_test(pivots_leave_no_rounding),
+        cmocka_unit_test(pairs_move_as_their_elements),
         cmocka_unit_test(zones_may_change_one_by_one),
         cmocka_unit_test(zones_that_determine_nothing_are_singular),
         cmocka_unit_test(products_give_what_matrices_do),
