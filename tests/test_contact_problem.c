@@ -370,6 +370,48 @@ static void uncoupled_problems_are_solved_in_turn(void **state)
     assert_true(sticks > 10 && slides > 10);
 }
 
+/* All that friction carries: every creepage beyond a least one would do, and this is the
+ * least one, at which the slowest element is about to stick. */
+static void full_sliding_has_the_least_creepage(void **state)
+{
+    (void)state;
+    numbers = 20;
+    for (int k = 0; k < 8; k++) {
+        const kind of = {.n = 7,
+                         .mu = 0.3,
+                         .coupling = k % 4 < 2 ? 0.05 : 0.0,
+                         .load_given = k / 4,
+                         .force_given = 1};
+        const double sign = k % 2 ? 1.0 : -1.0;
+        rb_contact_options options =
+            options_of(k % 3 ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON);
+        rb_contact_problem p;
+        rb_contact_state s;
+        double least = INFINITY;
+        options.sliding =
+            k / 2 % 2 ? options.sliding : 1e-2 * SLIP; /* too small to slide */
+        random_problem(&of, &p);
+        memset(p.load_T, 0,
+               sizeof(double) * (size_t)of.n); /* level: P has no friction in it */
+        memset(p.force_N, 0, sizeof(double) * (size_t)of.n);
+        memcpy(p.force_T, p.load_N, sizeof(double) * (size_t)of.n);
+        p.force_ratio = sign;
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, NULL), RB_OK);
+        CHECK_MAX(residual_of(&p, &s), 1e-10, "case %d", k);
+        for (int i = 0; i < of.n; i++) {
+            double gap, slip;
+            move(&p, &s, i, &gap, &slip);
+            if (s.p[i] > 0.0)
+                least = fmin(least, -sign * slip);
+            CHECK_ABS(s.lambda[i], slip, 1e-9 * SLIP, "case %d: lambda %d", k, i);
+        }
+        CHECK_ABS(least, 0.0, 1e-9 * SLIP, "case %d: the slowest", k);
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
 /* A small contact that yields cannot carry every force, and says so whoever solves it. */
 static void every_solver_solves_layers_that_yield(void **state)
 {
@@ -1440,6 +1482,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_solver_solves_random_problems),
         cmocka_unit_test(uncoupled_problems_are_solved_in_turn),
+        cmocka_unit_test(full_sliding_has_the_least_creepage),
         cmocka_unit_test(every_solver_solves_layers_that_yield),
         cmocka_unit_test(cycles_of_laws_end_soon),
         cmocka_unit_test(pivots_leave_no_rounding),
