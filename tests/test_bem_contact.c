@@ -265,6 +265,11 @@ static void no_elements(rb_bem_mesh *m)
 {
     m->n = 0;
 }
+static void one_element(rb_bem_mesh *m)
+{
+    m->n = 1;
+    m->contact_n = 0;
+}
 static void clockwise(rb_bem_mesh *m)
 {
     for (int j = 0; j < m->n; j++) {
@@ -287,6 +292,7 @@ static void spoilt_meshes_are_refused(void **state)
         spoil *how;
         const char *text;
     } bad[] = {{open_contour, "does not close"},
+               {one_element, "outside the contact"},
                {gap_inside, "element 20 ends"},
                {no_length, "element 27: length"},
                {infinite_value, "element 4: given"},
