@@ -258,6 +258,19 @@ static rb_status make_wheel(const void *of)
 static void wheels_tell_of_missing_memory(void **state)
 {
     (void)state;
+    const rb_bem_cylinder wheel = {
+        .radius = 50.0, .support = RB_BEM_HUB, .hub_ratio = 0.5};
+    rb_bem_mesh mesh;
+    rb_message why = {""};
+    char text[80];
+    CHECK_STATUS(rb_bem_mesh_cylinder(&wheel, N, ends, &mesh, NULL), RB_OK);
+    snprintf(text, sizeof text, "cylinder: out of memory for %d elements", mesh.n);
+    rb_bem_mesh_free(&mesh);
+    alloc_fail_after(0);
+    const rb_status s = rb_bem_mesh_cylinder(&wheel, N, ends, &mesh, &why);
+    alloc_succeed();
+    CHECK_STATUS(s, RB_ENOMEM);
+    assert_string_equal(why.text, text);
     for (int has_cover = 0; has_cover < 2; has_cover++)
         check_memory(make_wheel, &has_cover);
 }

@@ -1,6 +1,7 @@
 /* Cases by names: the table describes itself, words are set, settled and refused, and the
  * same words give the same answer through the library and through the program. */
 #include "cli_run.h"
+#include "case/internal.h"
 #include "rollbem/blas.h"
 #include "rollbem/case.h"
 
@@ -843,6 +844,45 @@ static void every_failing_allocation_is_told(void **state)
     rb_case_free(NULL);
 }
 
+/* A value from elsewhere against a table of two options, which share no bit: what the
+ * file has gives way, what an argument has does not, and nothing behind the table is
+ * read. */
+static void values_from_elsewhere_settle_a_table(void **state)
+{
+    (void)state;
+    struct {
+        double a, b;
+    } target = {1.0, 2.0};
+    const struct {
+        double a, b;
+    } defaults = {10.0, 20.0};
+    rb_option options[] = {{.name = "a", .offset = 0, .excludes = 1},
+                           {.name = "b", .offset = sizeof(double), .excludes = 2}};
+    int given[] = {RB_GIVEN_ARGUMENT, 3};
+    const rb_option_set set = {
+        .options = options, .n = 2, .target = &target, .given = given};
+    const rb_option_precedence how = {.defaults = &defaults, .path = "case.ini"};
+    rb_option other = {.name = "c", .excludes = 4};
+    rb_message why = {""};
+
+    options[0].kind = options[1].kind = RB_OPTION_NUMBER;
+    CHECK_STATUS(rb_option_settle(&set, &how, &why), RB_OK);
+    CHECK_STATUS(
+        rb_option_settle_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+        RB_OK);
+    assert_true(target.a == 1.0 && target.b == 2.0);
+    other.excludes = 2;
+    CHECK_STATUS(
+        rb_option_settle_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+        RB_OK);
+    assert_true(target.a == 1.0 && target.b == 20.0 && given[1] == 0);
+    other.excludes = 1;
+    CHECK_STATUS(
+        rb_option_settle_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+        RB_EINVAL);
+    assert_string_equal(why.text, "--a: no");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -867,6 +907,7 @@ int main(void)
         cmocka_unit_test(a_copy_is_settled_from_its_words),
         cmocka_unit_test(a_copy_borrows_the_files),
         cmocka_unit_test(tables_are_where_the_case_wants_them),
+        cmocka_unit_test(values_from_elsewhere_settle_a_table),
         cmocka_unit_test(every_failing_allocation_is_told),
     };
     return cmocka_run_group_tests(tests, enter, leave_folder);
