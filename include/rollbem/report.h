@@ -128,8 +128,8 @@ typedef struct {
 /* Checks the JSON of a case, or of a history with its states, and of the stress below a
  * case, without solving: rebuilds its problem from its inputs in `words`, a case of
  * defaults, and computes again what it prints from its pressures, friction, approach and
- * creepage.  A line on out for each violation. RB_EFORMAT: a kind of result that cannot be
- * checked; RB_ENOMEM. */
+ * creepage.  A line on out for each violation. RB_EFORMAT: a kind of result that cannot
+ * be checked; RB_ENOMEM. */
 rb_status rb_report_certify(FILE *out, const char *name, const struct json_t *root,
                             rb_case *words, rb_report_certificate *found,
                             rb_message *why);
