@@ -51,8 +51,9 @@ int alloc_fail_each(rb_status (*work)(void *context), void *context)
 
 int alloc_fail_every_call(rb_status (*work)(void *context), void *context)
 {
-    static uintptr_t room[CALLS];
+    static uintptr_t room[CALLS], walked[STACKS];
     calls = room;
+    stacks = walked;
     find_program();
     for (int n = 0;; n++) {
         refused = 0;

@@ -11,9 +11,10 @@
 #include <string.h>
 #include <unwind.h>
 
-enum { CALLS = 1 << 16, STACKS = 1 << 14 };
+enum { CALLS = 1 << 16, STACKS = 1 << 16, WORDS = 128 };
 
-static uintptr_t *calls; /* CALLS, of the includer: return addresses, less the base */
+static uintptr_t *calls;  /* CALLS, of the includer: return addresses, less the base */
+static uintptr_t *stacks; /* STACKS, of the includer: those that have been walked */
 static uintptr_t base, code_start, code_end;
 
 /* 1: the set has that key now and had not before.  A full set takes no more. */
@@ -47,14 +48,25 @@ static int is_unchecked(const void *caller)
            strstr(info.dli_sname, "small_kernel");
 }
 
-/* Walking the stack is slow: one that has been walked in this process, told by its
- * lowest return address and its depth, has nothing new. */
+/* A number of a stack: from its depth and from what lies next on it and could be a return
+ * address into the program.  Two calls of one function out of one other are two stacks.
+ */
+__attribute__((no_sanitize("address"))) static uintptr_t number_of(const void *caller,
+                                                                   const void *frame)
+{
+    const uintptr_t *word = frame;
+    uintptr_t number = (uintptr_t)caller * 31 + (uintptr_t)frame;
+    for (int k = 0; k < WORDS; k++)
+        if (word[k] >= code_start && word[k] < code_end)
+            number = number * 31 + word[k];
+    return number;
+}
+
+/* Walking a stack is slow, and one that has been walked has nothing new. */
 static int has_new_call(const void *caller, const void *frame)
 {
-    static uintptr_t stacks[STACKS];
     int found = 0;
-    if (insert(stacks, STACKS, (uintptr_t)caller * 31 + (uintptr_t)frame) &&
-        !is_unchecked(caller))
+    if (insert(stacks, STACKS, number_of(caller, frame)) && !is_unchecked(caller))
         _Unwind_Backtrace(note_call, &found);
     return found;
 }

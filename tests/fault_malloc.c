@@ -136,6 +136,7 @@ static int serve(int argc, char **argv, char **environment)
 {
     fault_reply reply;
     calls = map_shared(CALLS * sizeof *calls, getenv("FAULT_CALLS"));
+    stacks = map_shared(STACKS * sizeof *stacks, NULL);
     run = map_shared(sizeof *run, NULL);
     find_program();
     unsetenv("FAULT_CALLS");
