@@ -6,8 +6,10 @@
 #include "rollbem/blas.h"
 #include "rollbem/case.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/time.h>
 
 static rb_api *solved(const char *const *words)
 {
@@ -628,6 +630,11 @@ static void calls_leave_the_threads_alone(void **state)
                                   : rb_api_solve(a),
                          RB_OK);
         }
+        rb_api_call_begins(); /* two at a time: the last one that ends gives them back */
+        rb_api_call_begins();
+        rb_api_call_ends();
+        assert_int_equal(rb_blas_threads(forced ? 2 : 1), forced ? 2 : 1);
+        rb_api_call_ends();
         assert_int_equal(rb_blas_threads(1), 2);
         rb_api_free(a);
         a = solved(steady);
@@ -667,6 +674,62 @@ static void arrays_of_every_name_fit(void **state)
     assert_int_equal(rb_api_lcp(a, 1, (double[]){1.0}, (double[]){-1.0}, "lemke", 0),
                      RB_OK);
     rb_api_free(a);
+}
+
+/* Bodies whose flexibility is no matrix, matrices that are asked for in another order. */
+static void matrices_are_at_hand_or_refused(void **state)
+{
+    static const char *const large[] = {
+        "support", "halfplane", "load", "500", "mesh", "uniform", "contact-elements",
+        "1500",    "zone",      "2",    "mu",  "0",    NULL};
+    int r, c;
+    (void)state;
+    rb_api *a = solved(large);
+    assert_int_equal(rb_api_pivots(a), RB_EINVAL);
+    assert_string_equal(rb_api_message(a),
+                        "nothing is solved whose matrices are at hand");
+    assert_null(rb_api_array(a, "G", &r, &c));
+    assert_int_equal(rb_api_stress_at(a, 0, NULL), RB_EINVAL);
+    assert_string_equal(rb_api_message(a), "stress: expected at least one point, got 0");
+    rb_api_free(a);
+    a = solved(wheel);
+    rb_api *b = solved(wheel);
+    const double *G = rb_api_array(a, "G", &r, &c), *H = rb_api_array(b, "H", &r, &c);
+    const size_t bytes = sizeof *G * (size_t)r * (size_t)c;
+    assert_memory_equal(H, array(a, "H", r, c), bytes);
+    assert_memory_equal(G, array(b, "G", r, c), bytes);
+    rb_api_free(b);
+    rb_api_free(a);
+}
+
+static rb_api *stopped;
+
+static void stop(int number)
+{
+    (void)number;
+    rb_api_stop(stopped);
+}
+
+/* From a handler of signals, as docs say: the run ends after the step at hand. */
+static void a_stopped_run_is_interrupted(void **state)
+{
+    static const char *const words[] = {
+        "support",     "halfplane", "load",     "500",  "creep-ratio",      "0.5",
+        "formulation", "transient", "distance", "1000", "contact-elements", "8",
+        "zone",        "2",         NULL};
+    const struct itimerval soon = {{0, 1000}, {0, 1000}}, never = {{0, 0}, {0, 0}};
+    (void)state;
+    stopped = rb_api_create();
+    for (const char *const *w = words; *w; w += 2)
+        assert_int_equal(rb_api_set(stopped, w[0], w[1]), RB_OK);
+    signal(SIGALRM, stop);
+    setitimer(ITIMER_REAL, &soon, NULL);
+    const int s = rb_api_solve(stopped);
+    setitimer(ITIMER_REAL, &never, NULL);
+    signal(SIGALRM, SIG_DFL);
+    assert_int_equal(s, RB_INTERRUPTED);
+    assert_string_equal(rb_api_word(stopped, "status"), "interrupted");
+    rb_api_free(stopped);
 }
 
 /* ---- Short memory ------------------------------------------------------------------ */
@@ -727,7 +790,10 @@ static rb_status solve_problems(rb_api *a)
                              *const of_sweep[] = {"sweep.status", "sweep.force_ratio",
                                                   NULL};
     rb_api *const cases[] = {a};
-    int s = rb_api_lcp(a, 2, M, q, "lemke", 0);
+    char text[40];
+    int s = rb_api_option(1, "default", text, sizeof text) ? RB_OK : RB_ENOMEM;
+    if (s == RB_OK)
+        s = rb_api_lcp(a, 2, M, q, "lemke", 0);
     if (s == RB_OK)
         s = rb_api_lcp(a, 2, M, q, "newton", 0);
     if (s == RB_OK)
@@ -813,6 +879,8 @@ int main(void)
         cmocka_unit_test(solvers_have_their_names),
         cmocka_unit_test(calls_leave_the_threads_alone),
         cmocka_unit_test(arrays_of_every_name_fit),
+        cmocka_unit_test(matrices_are_at_hand_or_refused),
+        cmocka_unit_test(a_stopped_run_is_interrupted),
         cmocka_unit_test(short_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

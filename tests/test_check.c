@@ -586,6 +586,7 @@ static void tables_are_valid_by_their_comments(void **state)
         "--support halfplane --load 100 --mu 0.3 --formulation steady --free-axle "
         "--layer-thickness 1",
         "--support hub --approach 0.01 --force-ratio -0.4 --mu 0.1",
+        "--support halfplane --load 100 --mu 0.3 --formulation steady --free-axle",
         "--support halfplane --load 100 --mu 0.3 --formulation steady --creep-ratio 0 "
         "--yield-stress 20 --mesh uniform --interlayer-tangential 1e-5"};
     char line[600];
@@ -744,6 +745,8 @@ static const char *said_of(const json_t *root, const char *path, const char *val
     text[fread(text, 1, sizeof text - 1, lines)] = '\0';
     assert_int_equal(found.violations > 0, text[0] != '\0');
     if (s != RB_OK) {
+        if (s != RB_EFORMAT)
+            print_error("%s = %s: %s\n", path, value, why.text);
         CHECK_STATUS(s, RB_EFORMAT);
         snprintf(text, sizeof text, "%s", why.text);
     }
@@ -761,7 +764,7 @@ static void every_edit_is_named(void **state)
         const char *given;
         struct {
             const char *path, *value, *part;
-        } edit[40];
+        } edit[50];
     } results[] = {
         {"--support halfplane --load 100 --mu 0.3 --creep-ratio 0.4 --mesh uniform "
          "--contact-elements 12" STEADY,
@@ -787,6 +790,15 @@ static void every_edit_is_named(void **state)
              {"inputs/gap-smoothing", "null", "'gap-smoothing' of inputs cannot be"},
              {"inputs/shift", "", "'shift' of inputs cannot be built again"},
              {"inputs/shift-b", "null", "cannot be checked: inputs have other names"},
+             {"inputs", "[]", "inputs, summary or table is missing"},
+             {"summary", "", "inputs, summary or table is missing"},
+             {"table", "[]", "inputs, summary or table is missing"},
+             {"inputs/error", "", "'error' of inputs cannot be built again"},
+             {"inputs/accuracy", "", "'accuracy' of inputs cannot be built again"},
+             {"inputs/similar", "", "'similar' of inputs cannot be built again"},
+             {"inputs/formulation", "", "'formulation' of inputs cannot be built again"},
+             {"table/p_MPa", "[0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]",
+              "r: violated: the given load: printed 0, recomputed 100 ("},
              {"input_hash", "\"0\"", "are not those of the result (input_hash)"},
              {"table/h_mm/3", "-0.1", "r: table: element 4 is out of order"},
              {"table/x_mm/5", "-9", "r: table: element 6 is out of order"},
@@ -805,6 +817,7 @@ static void every_edit_is_named(void **state)
         {"--support halfplane --load 100 --mu 0.3 --creep-ratio 0.4 --mesh uniform "
          "--contact-elements 12" STEADY,
          {
+             {"history", "null", "r: cannot be checked: no steps"},
              {"table/p_MPa/6", "-1", "violated: pressure of element 7: -1 < 0"},
              {"table/p_MPa/6", "-1", "zone of element 7: 2 at a pressure of -1"},
              {"table/p_MPa/0", "1", "violated: zone of element 1: 0 at a pressure of 1"},
@@ -860,7 +873,9 @@ static void every_edit_is_named(void **state)
          {
              {"notes", "[]", ""},
              {"history", "", "its inputs and its history do not belong together"},
+             {"history", "[]", "its inputs and its history do not belong together"},
              {"history/states", "", "depends on the steps before it: take --states"},
+             {"history/states", "[]", "depends on the steps before it: take --states"},
              {"inputs/increments", "1", "its inputs and its history do not belong"},
              {"history/approach", "[]", "r: cannot be checked: no steps"},
              {"history/states/p_MPa", "", "r: states: expected 6 steps in p_MPa"},
@@ -886,14 +901,46 @@ static void every_edit_is_named(void **state)
              {"history/steady_from", "\"x\"", "steady_from is not what it should be"},
              {"history/more", "1", "violated: history: more is no result of this case"},
          }},
+        {"--support halfplane --load 100 --mu 0.3 --shift 1e-4 --contact-elements 12 "
+         "--grid 3x4 --shakedown",
+         {
+             {"notes", "[]", ""},
+             {"grid", "", "r: cannot be checked: "},
+             {"grid/nx", "4", "cannot be checked: its grid is not nx by ny points"},
+             {"grid/nx", "1", "cannot be checked: its grid is not nx by ny points"},
+             {"grid/ny", "null", "cannot be checked: its grid is not nx by ny points"},
+             {"grid/ny", "0", "cannot be checked: its grid is not nx by ny points"},
+             {"grid/x_mm", "", "cannot be checked: its grid is not nx by ny points"},
+             {"grid/y_mm", "[]", "violated: grid.y_mm: 0 numbers, expected 12"},
+             {"grid/more", "[]", "violated: grid: "},
+             {"grid/sxx_MPa/2", "null", "violated: grid.sxx_MPa of element 3: printed"},
+             {"maxima/max_shear", "1", "violated: maxima.max_shear: 0 entries, expected"},
+             {"shakedown", "1", "violated: shakedown: 0 entries, expected"},
+         }},
+        {"--support halfplane --load 100 --mu 0.3 --shift 1e-4 --contact-elements 12 "
+         "--points inside.txt",
+         {
+             {"points/x_mm", "[]", "numbers in y_mm"},
+             {"points", "{\"x_mm\": [], \"y_mm\": []}", "r: cannot be checked: "},
+             {"points/y_mm/1", "", "numbers in y_mm"},
+             {"points/x_mm/1", "null", "x_mm of element 2 is no number"},
+         }},
     };
+    write_points();
     assert_int_equal(shell("awk 'BEGIN {for (x = -4; x < 4.01; x += 0.25) { a = x < 0 ? "
                            "-x - 2 : x - 2; print x, a * a / 50 }}' > humps.txt"),
                      0);
     int wrong = 0;
     for (size_t k = 0; k < sizeof results / sizeof *results; k++) {
-        json_t *root = run_json(results[k].given);
-        for (size_t i = 0; i < 40 && results[k].edit[i].path; i++) {
+        char line[600];
+        snprintf(line, sizeof line, "%s%s",
+                 strstr(results[k].given, "--grid") ||
+                         strstr(results[k].given, "--points")
+                     ? "stress "
+                     : "",
+                 results[k].given);
+        json_t *root = run_json(line);
+        for (size_t i = 0; i < 50 && results[k].edit[i].path; i++) {
             const char *path = results[k].edit[i].path, *value = results[k].edit[i].value,
                        *part = results[k].edit[i].part;
             const char *said = said_of(root, path, value);

@@ -221,7 +221,7 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
     (void)history;
     (void)steps;
     rb_api *a = context;
-    if (a->stopped || !model || !model->state.p) /* no model: a run for error bars */
+    if (a->stopped || !model) /* no model: a run for error bars */
         return a->stopped;
     const int n = model->mesh.n;
     if (step == 0) /* a run may begin anew on a wider zone */
@@ -287,21 +287,21 @@ static const char *write_choices(const rb_option *o, char *text, int size)
     return text;
 }
 
+static const char *written(const char *what, char *text, int size)
+{
+    snprintf(text, (size_t)size, "%s", what ? what : "");
+    return text;
+}
+
 static const char *write_default(const rb_option *o, char *text, int size)
 {
     rb_case *c = rb_case_create(RB_CASE_SINGLE);
     char room[64];
     if (!c)
         return NULL;
-    const char *value = o->unset ? o->unset : rb_option_text(o, rb_case_settled(c), room);
-    snprintf(text, (size_t)size, "%s", value ? value : "");
+    written(o->unset ? o->unset : rb_option_text(o, rb_case_settled(c), room), text,
+            size);
     rb_case_free(c);
-    return text;
-}
-
-static const char *written(const char *what, char *text, int size)
-{
-    snprintf(text, (size_t)size, "%s", what ? what : "");
     return text;
 }
 
@@ -376,7 +376,7 @@ const char *rb_api_value(const rb_api *a, const char *name, char *text, int size
 {
     const rb_option *o = rb_case_option(name);
     char room[64];
-    if (!o || o->kind == RB_OPTION_GROUP)
+    if (!o)
         return NULL;
     return written(rb_option_text(o, rb_case_settled(a->words), room), text, size);
 }
@@ -474,9 +474,8 @@ static api_array *boundary_array(rb_api *a, const char *name)
         return rb_api_copy_array(a, name, mesh->n, 1, mesh->x1);
     if (strcmp(name, "mesh.y1") == 0)
         return rb_api_copy_array(a, name, mesh->n, 1, mesh->y1);
-    if (strcmp(name, "H") == 0 || strcmp(name, "G") == 0)
-        return boundary_matrices(a, name);
-    return NULL;
+    return strcmp(name, "H") == 0 || strcmp(name, "G") == 0 ? boundary_matrices(a, name)
+                                                            : NULL;
 }
 
 static api_array *model_array(rb_api *a, const char *name)
@@ -516,7 +515,8 @@ static api_array *power_array(rb_api *a, const char *name)
     return made;
 }
 
-/* An entry of the tables whose columns are arrays, by the beginning of its name. */
+/* An entry of the tables whose columns are arrays, by the beginning of its name: those of
+ * the solution begin with nothing. */
 static api_array *series_array(rb_api *a, const char *name)
 {
     const rb_case_result *r = &a->result;
@@ -532,13 +532,11 @@ static api_array *series_array(rb_api *a, const char *name)
         {"curve.error.", &rb_rolling_curve_columns, &a->curve_errors, a->curve_errors.n},
         {"curve.", &rb_rolling_curve_columns, &a->curve, a->curve.n},
         {"", &rb_rolling_solution_columns, &r->solution, r->solution.n}};
-    for (size_t k = 0; k < sizeof series / sizeof *series; k++) {
-        const size_t n = strlen(series[k].beginning);
-        if (strncmp(name, series[k].beginning, n) == 0)
-            return table_column(a, series[k].table, series[k].owner, series[k].rows, name,
-                                name + n);
-    }
-    return NULL;
+    size_t n, k = 0;
+    while (strncmp(name, series[k].beginning, n = strlen(series[k].beginning)) != 0)
+        k++;
+    return table_column(a, series[k].table, series[k].owner, series[k].rows, name,
+                        name + n);
 }
 
 const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
@@ -695,7 +693,7 @@ static rb_status follow_pivots(rb_api *a)
     if (z && a->tableau && a->nonbasis)
         s = rb_lcp_lemke(&p, &options, z, &info);
     if (s < 0)
-        rb_fail(&a->why, s, "%s", s == RB_ENOMEM ? "out of memory" : info.msg.text);
+        rb_fail(&a->why, s, "%s", rb_status_reason(s, &info.msg));
     if (s >= 0 && a->status != RB_OK)
         s = rb_fail(&a->why, a->status, "out of memory");
     free(z);
