@@ -26,6 +26,22 @@ static void arrays_are_zeroed_and_overflow_is_refused(void **state)
     alloc_succeed();
 }
 
+static void a_copy_is_an_array_of_its_own(void **state)
+{
+    (void)state;
+    const double x[] = {1.0, -2.5};
+    double *copy = rb_copy(2, x);
+    CHECK_ABS(copy[0], 1.0, 0.0, "entry 0");
+    CHECK_ABS(copy[1], -2.5, 0.0, "entry 1");
+    free(copy);
+    copy = rb_copy(0, NULL); /* to be freed as any other */
+    assert_non_null(copy);
+    free(copy);
+    alloc_fail_after(0);
+    assert_null(rb_copy(2, x));
+    alloc_succeed();
+}
+
 static void absurd_sizes_are_refused_by_name(void **state)
 {
     (void)state;
@@ -168,6 +184,14 @@ static void misspelt_words_are_guessed(void **state)
         if (strcmp(rb_guess_text(&guess, "--"), wanted) != 0)
             fail_msg("%s: %s", all[k].word, guess.text);
     }
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzabcdefghijklmnop"; /* 42 */
+    for (int off = 0; off < 4; off++) { /* more than 40 letters are compared no more */
+        rb_guess guess = {.word = letters + off};
+        rb_guess_try(&guess, letters);
+        assert_int_equal(guess.distance, 40);
+        rb_guess_try(&guess, letters + off);
+        assert_int_equal(guess.distance, off < 2 ? 40 : 0);
+    }
     rb_guess none = {.word = "load"};
     assert_string_equal(rb_guess_text(&none, "--"), "");
 }
@@ -177,6 +201,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refusals_write_their_line),
         cmocka_unit_test(arrays_are_zeroed_and_overflow_is_refused),
+        cmocka_unit_test(a_copy_is_an_array_of_its_own),
         cmocka_unit_test(absurd_sizes_are_refused_by_name),
         cmocka_unit_test(the_norm_does_not_lose_a_nan),
         cmocka_unit_test(the_sum_does_not_depend_on_the_address),

@@ -208,6 +208,20 @@ static void cattaneo(void **state)
     rb_rolling_solution_free(&s);
 }
 
+/* The same elements find free rolling too: beta = 0.3, mu = beta/2. */
+static void driven_contacts_know_how_they_roll_freely(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steady(RIGID, RB_ROLLING_LARGE);
+    rb_rolling_solution s;
+    rc.a.poisson = 2.0 / 7.0;
+    rc.mu = 0.15;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    assert_int_equal(s.large, 1);
+    CHECK_REL(s.free_creepage * rc.a.radius / 0.3, -0.715826, 1e-3, "free creepage");
+    rb_rolling_solution_free(&s);
+}
+
 /* Free rolling of dissimilar cylinders at very small friction (Bentall and Johnson). */
 static void bentall_johnson(void **state)
 {
@@ -307,6 +321,7 @@ int main(void)
         cmocka_unit_test(much_friction_is_reached_step_by_step),
         cmocka_unit_test(carter),
         cmocka_unit_test(cattaneo),
+        cmocka_unit_test(driven_contacts_know_how_they_roll_freely),
         cmocka_unit_test(bentall_johnson),
         cmocka_unit_test(frictionless_and_sliding),
         cmocka_unit_test(steps_hardly_grow),

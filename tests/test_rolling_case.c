@@ -294,6 +294,11 @@ static void ranges_of_tables(void **state)
 #undef TABLE
 }
 
+static int knows_newton(const char *name)
+{
+    return strcmp(name, "newton") == 0;
+}
+
 static void ranges_of_the_mesh(void **state)
 {
     (void)state;
@@ -324,7 +329,14 @@ static void ranges_of_the_mesh(void **state)
     ACCEPTED(rc.normals = RB_BEM_NORMALS_SURFACE);
     REFUSED("with a rigid plane only", rc.normals = RB_BEM_NORMALS_SURFACE;
             rc.elastic_b = 1);
+    const rb_contact_cone_solvers by = {knows_newton, NULL};
+    ACCEPTED(rc.solver = RB_SOLVER_CONE; rc.cone_solvers = &by;
+             rc.cone_solver = "newton");
     REFUSED("got ''", rc.solver = RB_SOLVER_CONE);
+    REFUSED("got ''", rc.solver = RB_SOLVER_CONE; rc.cone_solvers = &by);
+    REFUSED("got 'newton'", rc.solver = RB_SOLVER_CONE; rc.cone_solver = "newton");
+    REFUSED("got 'sor'", rc.solver = RB_SOLVER_CONE; rc.cone_solvers = &by;
+            rc.cone_solver = "sor");
     REFUSED("tol: expected > 0", rc.tol = INFINITY);
     ACCEPTED(rc.a.young = 1e-100);
     REFUSED("Young's modulus: expected a size", rc.a.young = 0.9e-100);
@@ -333,6 +345,83 @@ static void ranges_of_the_mesh(void **state)
     REFUSED("Young's modulus of body B: expected a size", rc.elastic_b = 1;
             rc.b.young = 1e101);
     REFUSED("radius of body B: expected a size", rc.elastic_b = 1; rc.b.radius = 1e101);
+}
+
+/* ---- What a case is ---------------------------------------------------------------- */
+
+static rb_rolling_case similar_half_planes(void)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    PLANE;
+    STEADY;
+    rc.elastic_b = 1;
+    rc.b = rc.a;
+    rc.b.radius = INFINITY;
+    return rc;
+}
+
+/* A wanted value of `function` for that case with these changes. */
+#define HOLDS(function, wanted, ...)                                                     \
+    do {                                                                                 \
+        rb_rolling_case rc = similar_half_planes();                                      \
+        __VA_ARGS__;                                                                     \
+        if ((function) != (wanted))                                                      \
+            fail_msg("%s of %s: not %d", #function, #__VA_ARGS__, wanted);               \
+    } while (0)
+
+static void carters_law_is_for_similar_half_planes(void **state)
+{
+    (void)state;
+    const double x[] = {-1.0, 1.0}, y[] = {0.0, 0.0};
+    HOLDS(rb_rolling_carter_holds(&rc), 1, rc.creep = 0.001);
+    HOLDS(rb_rolling_carter_holds(&rc), 1, rc.b.radius = 20.0);
+    HOLDS(rb_rolling_carter_holds(&rc), 1, rc.elastic_b = 0; rc.a.poisson = 0.5);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.elastic_b = 0);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.formulation = RB_STATIC);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, TRANSIENT);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.mu = 0.0);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.friction.law = RB_FRICTION_exponential);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.friction.heat = -0.1);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.interlayer_normal = 1e-9);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.interlayer_tangential = 1e-9);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.yield_stress = 1.0);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.a.layer = 1.0);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.b.support = RB_BEM_HUB; rc.b.radius = 9.0);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.gap = RB_GAP_TABLE);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.worn = ((rb_rolling_table){2, x, y}));
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.b.young *= 2.0);
+}
+
+static void transforms_are_for_many_equal_elements_on_half_planes(void **state)
+{
+    (void)state;
+    const rb_rolling_mesh large = {.n = RB_ROLLING_LARGE}, small = {.n = large.n - 1};
+    HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.creep = 0.001);
+    HOLDS(rb_rolling_is_large(&rc, &small), 0, rc.creep = 0.001);
+    HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.solver = RB_SOLVER_NEWTON);
+    HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.solver = RB_SOLVER_LEMKE);
+    HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.mesh = RB_MESH_ALIGNED);
+    HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.mesh = RB_MESH_FITTED);
+    HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.yield_stress = 1.0);
+    HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.interlayer_tangential = 1e-6);
+    HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.slip_operator = RB_SLIP_SECOND);
+    HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.slip_operator = RB_SLIP_SECOND;
+          rc.interlayer_tangential = 1e-6);
+    HOLDS(rb_rolling_is_large(&rc, &large), 0, HUB);
+    HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.b.support = RB_BEM_HUB);
+    HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.b.support = RB_BEM_HUB;
+          rc.elastic_b = 0);
+}
+
+static void the_list_of_bodies_has_an_end(void **state)
+{
+    (void)state;
+    int n = 0;
+    for (; rb_rolling_body_kind_get(n); n++)
+        assert_true(strlen(rb_rolling_kind_name(rb_rolling_body_kind_get(n))) > 0);
+    assert_true(n >= 3);
+    assert_null(rb_rolling_body_kind_get(n + 1));
+    assert_null(rb_rolling_body_kind_get(n + 100));
 }
 
 /* ---- Derived quantities ------------------------------------------------------------ */
@@ -376,6 +465,9 @@ int main(void)
         cmocka_unit_test(ranges_of_the_loading),
         cmocka_unit_test(ranges_of_tables),
         cmocka_unit_test(ranges_of_the_mesh),
+        cmocka_unit_test(carters_law_is_for_similar_half_planes),
+        cmocka_unit_test(transforms_are_for_many_equal_elements_on_half_planes),
+        cmocka_unit_test(the_list_of_bodies_has_an_end),
         cmocka_unit_test(hertz_closes_the_circle),
         cmocka_unit_test(the_half_width_of_an_approach_inverts_the_compression),
     };

@@ -249,6 +249,43 @@ static void ranges_that_make_no_sense_are_refused(void **state)
     rb_rolling_curve_free(&c);
 }
 
+/* A mesh is fitted again, which takes many iterations, where the point's solution on the
+ * mesh of the first one has an edge that is a hundredth of the half-width away. */
+static void a_hundredth_of_the_half_width_is_followed(void **state)
+{
+    (void)state;
+    int stay = 0, follow = 0;
+    for (int k = 0; k < 6; k++) {
+        const double last = -0.99 + 0.01 * k;
+        rb_rolling_case rc = carter(16);
+        double from[2], to[2];
+        rc.mesh = RB_MESH_FITTED;
+        rc.formulation = RB_STEADY;
+        rc.solver = RB_SOLVER_NEWTON; /* a step or two from the solution at hand */
+        rc.elastic_b = 0;
+        rc.a.poisson = 0.2;
+        rc.creep_ratio = -1.0;
+        rb_rolling_model model = solved_model(&rc);
+        for (int i = 0; i < 2; i++) {
+            rb_rolling_contact_edges(&model.rc, &model.mesh, &model.state, &from[i],
+                                     &to[i]);
+            model.rc.creep_ratio = last;
+            CHECK_STATUS(rb_rolling_model_control(&model, NULL), RB_OK);
+        }
+        rb_rolling_model_free(&model);
+        const double moved = fmax(fabs(from[1] - from[0]), fabs(to[1] - to[0])) /
+                             (0.5 * (to[0] - from[0]));
+        rb_rolling_curve one = run(&rc, RB_OVER_CREEP_RATIO, -1.0, -1.0, 1),
+                         two = run(&rc, RB_OVER_CREEP_RATIO, -1.0, last, 2);
+        assert_int_equal(two.iterations > one.iterations + 12, moved > 0.01);
+        stay += moved > 0.006 && moved <= 0.01;
+        follow += moved > 0.01 && moved < 0.015;
+        rb_rolling_curve_free(&one);
+        rb_rolling_curve_free(&two);
+    }
+    assert_true(stay > 0 && follow > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -257,6 +294,7 @@ int main(void)
         cmocka_unit_test(speeds_have_their_own_bodies),
         cmocka_unit_test(a_curve_without_contact_says_so),
         cmocka_unit_test(meshes_follow_the_contact),
+        cmocka_unit_test(a_hundredth_of_the_half_width_is_followed),
         cmocka_unit_test(falling_friction_goes_there_and_back),
         cmocka_unit_test(warm_curves_have_the_temperatures_of_their_cases),
         cmocka_unit_test(ranges_that_make_no_sense_are_refused),

@@ -245,6 +245,25 @@ static void forces_are_met_in_few_solves(void **state)
     }
 }
 
+/* To a tenth of the tolerance, which a loose one shows. */
+static void forces_are_met_to_a_tenth_of_the_tolerance(void **state)
+{
+    (void)state;
+    double worst = 0.0;
+    for (int k = 0; k < 25; k++) {
+        rb_rolling_case rc = falling(RB_STEADY, 0.1, 40.0);
+        rc.tol = 1e-2;
+        rc.force = -5.0 * (k + 0.5);
+        rb_rolling_model model = solved_model(&rc);
+        const double capacity = rb_contact_capacity(&model.problem, &model.state);
+        const double off = fabs(rb_rolling_model_force(&model) - rc.force);
+        CHECK_MAX(off, 0.1 * rc.tol * capacity, "force %g", rc.force);
+        worst = fmax(worst, off / (rc.tol * capacity));
+        rb_rolling_model_free(&model);
+    }
+    CHECK_MAX(0.05, worst, "and not to much less");
+}
+
 /* The rising branch ends where Q is largest: a force beyond it is refused with that
  * maximum and its creepage. */
 static void the_largest_force_is_that_of_a_scan(void **state)
@@ -408,6 +427,7 @@ int main(void)
         cmocka_unit_test(bounds_start_where_they_are_told),
         cmocka_unit_test(kappa_is_slope_times_answer),
         cmocka_unit_test(forces_are_met_in_few_solves),
+        cmocka_unit_test(forces_are_met_to_a_tenth_of_the_tolerance),
         cmocka_unit_test(the_largest_force_is_that_of_a_scan),
         cmocka_unit_test(a_free_axle_has_no_moment),
         cmocka_unit_test(steep_laws_are_solved_in_few_steps),

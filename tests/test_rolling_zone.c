@@ -482,6 +482,58 @@ static void a_zone_ends_with_three_separated_elements(void **state)
     assert_true(kept > 0 && grown > 0);
 }
 
+/* No choice on the way depends on the unit of length: the potential contact of a layer,
+ * which is tightened, and all results are as many times larger. */
+static void a_contact_has_the_same_zone_in_every_unit(void **state)
+{
+    (void)state;
+    double ends[2], width[2];
+    for (int k = 0; k < 2; k++) {
+        const double unit = k ? 1e-3 : 1e3;
+        rb_rolling_case rc = halfplane(0.3, 0.3, 40);
+        rc.a.young = 94500.0;
+        rc.a.radius *= unit;
+        rc.a.layer = 0.2 * unit;
+        rc.load = 300.0 * unit;
+        rc.half_width = NAN;
+        rc.creep_ratio = 0.4;
+        rb_rolling_solution s = solved(&rc);
+        ends[k] = (s.x[s.n - 1] + 0.5 * s.h[s.n - 1]) / unit;
+        width[k] = s.half_width / unit;
+        CHECK_MAX(ends[k], 0.9 * 1.3 * rb_rolling_derive(&rc).half_width / unit,
+                  "tightened");
+        rb_rolling_solution_free(&s);
+    }
+    CHECK_REL(ends[1], ends[0], 1e-9, "the end of the zone");
+    CHECK_REL(width[1], width[0], 1e-9, "the half-width");
+}
+
+/* Sliding towards one side the contact fits elements that end before the contact that
+ * rolls freely does: that one is looked for on elements of its own. */
+static void free_rolling_may_need_other_elements(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = halfplane(0.0, 1.0, 80);
+    rb_rolling_model model = {0};
+    rb_rolling_mesh mesh;
+    rb_message why = {""};
+    double creepage;
+    rc.half_width = 1.0;
+    rc.force_ratio = 0.0;
+    rb_rolling_solution freely = solved(&rc);
+    rc.force_ratio = NAN;
+    rc.creep_ratio = 3.0;
+    model.rc = rc;
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -0.85, 1.6, &mesh, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_model_build(&model, &mesh, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, &why), RB_OK);
+    CHECK_REL(creepage, freely.creepage, 1e-9, "on its own elements");
+    model.rc.zone = 1.6; /* a given zone stays */
+    CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, &why), RB_ZONE);
+    rb_rolling_solution_free(&freely);
+    rb_rolling_model_free(&model);
+}
+
 static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
@@ -519,6 +571,8 @@ int main(void)
         cmocka_unit_test(stress_is_looked_for_below_every_patch),
         cmocka_unit_test(a_given_zone_must_hold_every_patch),
         cmocka_unit_test(a_zone_ends_with_three_separated_elements),
+        cmocka_unit_test(a_contact_has_the_same_zone_in_every_unit),
+        cmocka_unit_test(free_rolling_may_need_other_elements),
         cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(a_contact_without_an_end_is_refused),
         cmocka_unit_test(a_curve_and_a_history_find_the_end_of_their_mesh),
