@@ -294,6 +294,11 @@ static void ranges_of_tables(void **state)
 #undef TABLE
 }
 
+static rb_rolling_memory relaxing(double time)
+{
+    return (rb_rolling_memory){1, {time}, {1.0}};
+}
+
 static int knows_newton(const char *name)
 {
     return strcmp(name, "newton") == 0;
@@ -345,6 +350,16 @@ static void ranges_of_the_mesh(void **state)
     REFUSED("Young's modulus of body B: expected a size", rc.elastic_b = 1;
             rc.b.young = 1e101);
     REFUSED("radius of body B: expected a size", rc.elastic_b = 1; rc.b.radius = 1e101);
+    ACCEPTED(PLANE; STEADY; rc.a.memory = relaxing(1e100); rc.speed = 1e-100);
+    ACCEPTED(PLANE; STEADY; rc.a.memory = relaxing(1e-100); rc.speed = 1e100);
+    REFUSED("speed: expected a size", PLANE; STEADY; rc.a.memory = relaxing(1.0);
+            rc.speed = 0.9e-100);
+    REFUSED("speed: expected a size", PLANE; STEADY; rc.a.memory = relaxing(1.0);
+            rc.speed = 1.1e100);
+    REFUSED("relaxation time: expected a size", PLANE; STEADY; rc.speed = 1.0;
+            rc.a.memory = relaxing(0.9e-100));
+    REFUSED("relaxation time: expected a size", PLANE; STEADY; rc.speed = 1.0;
+            rc.elastic_b = 1; rc.b.memory = relaxing(1.1e100));
 }
 
 /* ---- What a case is ---------------------------------------------------------------- */

@@ -482,9 +482,20 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
 }
 
 /* Squares and products of what is given must be numbers too. */
-static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
+static rb_status check_size(const char *what, double value, rb_message *why)
 {
     static const double least = 1e-100, most = 1e100;
+    const double size = fabs(value);
+
+    if (isfinite(size) && (size < least || size > most))
+        return rb_fail(why, RB_EINVAL, "%s: expected a size of %g to %g, got %g", what,
+                       least, most, value);
+    return RB_OK;
+}
+
+static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
+{
+    const rb_rolling_memory *const memory[2] = {&rc->a.memory, &rc->b.memory};
     const struct {
         const char *what;
         double value;
@@ -494,14 +505,16 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
                  {"radius of body B", rc->elastic_b ? rc->b.radius : INFINITY},
                  {"load", rc->load},
                  {"approach", rc->approach},
-                 {"half-width", rc->half_width}};
-    for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
-        const double size = fabs(sizes[k].value);
-        if (isfinite(size) && (size < least || size > most))
-            return rb_fail(why, RB_EINVAL, "%s: expected a size of %g to %g, got %g",
-                           sizes[k].what, least, most, sizes[k].value);
-    }
-    return RB_OK;
+                 {"half-width", rc->half_width},
+                 {"speed", rc->speed != 0.0 ? rc->speed : NAN}};
+    rb_status s = RB_OK;
+
+    for (size_t k = 0; k < sizeof sizes / sizeof sizes[0] && s == RB_OK; k++)
+        s = check_size(sizes[k].what, sizes[k].value, why);
+    for (int b = 0; b < 1 + rc->elastic_b; b++)
+        for (int k = 0; k < memory[b]->n && s == RB_OK; k++)
+            s = check_size("relaxation time", memory[b]->time[k], why);
+    return s;
 }
 
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
