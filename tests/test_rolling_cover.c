@@ -382,6 +382,41 @@ static void bad_covers_are_refused(void **state)
     }
 }
 
+/* A core of next to no stiffness holds no cover: no state is told, and the model serves
+ * the next case. */
+static void a_cover_that_nothing_holds_is_singular(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = roll(5.0, 0.3, 1e-90);
+    rb_rolling_model model = {0};
+    rb_rolling_solution s;
+    rb_rolling_curve curve;
+    rb_message why = {""};
+    rc.half_width = 1.0;
+    rc.contact_elements = 8;
+    for (int k = 0; k < 2; k++) {
+        CHECK_STATUS(rb_rolling_solve_model_again(&rc, &model, &s, &why), RB_SINGULAR);
+        assert_non_null(strstr(why.text, "singular"));
+        assert_null(s.p);
+        assert_int_equal(s.status, RB_SINGULAR);
+        rb_rolling_solution_free(&s);
+    }
+    rb_rolling_case relaxing = rc;
+    relaxing.formulation = RB_STEADY;
+    relaxing.speed = 1.0;
+    relaxing.a.memory = (rb_rolling_memory){1, {1.0}, {1.0}};
+    CHECK_STATUS(rb_rolling_curve_solve(&relaxing,
+                                        &(rb_rolling_range){RB_OVER_SPEED, 1.0, 2.0, 2},
+                                        &curve, &why),
+                 RB_SINGULAR);
+    assert_int_equal(curve.n, 0);
+    rb_rolling_curve_free(&curve);
+    rc.a.core_young = 1e5;
+    CHECK_STATUS(rb_rolling_solve_model_again(&rc, &model, &s, &why), RB_OK);
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -394,6 +429,7 @@ int main(void)
         cmocka_unit_test(either_body_may_be_covered),
         cmocka_unit_test(the_bond_carries_the_load),
         cmocka_unit_test(bad_covers_are_refused),
+        cmocka_unit_test(a_cover_that_nothing_holds_is_singular),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

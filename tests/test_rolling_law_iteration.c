@@ -391,6 +391,26 @@ static void all_solutions_of_one_are_one(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* Starts that lead to no state within the tolerance are counted, and the others stay. */
+static void starts_that_fail_are_counted(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = falling(RB_STEADY, 0.1, 200.0);
+    rb_rolling_solutions all;
+    rb_message why = {""};
+    rc.contact_elements = 6;
+    rc.creep_ratio = 0.5;
+    rb_rolling_model model = solved_model(&rc);
+    model.rc.tol = 1e-300; /* rounding leaves more */
+    model.problem.rounding = 0.0;
+    CHECK_STATUS(rb_rolling_find_solutions(&model, &all, &why), RB_OK);
+    assert_int_equal(all.n, 1);
+    assert_true(all.starts > 1);
+    assert_int_equal(all.failed, all.starts);
+    rb_rolling_solutions_free(&all);
+    rb_rolling_model_free(&model);
+}
+
 /* Each differs from the others, the largest force first, and is proven. */
 static void several_solutions_are_told_apart(void **state)
 {
@@ -433,6 +453,7 @@ int main(void)
         cmocka_unit_test(steep_laws_are_solved_in_few_steps),
         cmocka_unit_test(newtons_method_needs_few_contact_problems),
         cmocka_unit_test(all_solutions_of_one_are_one),
+        cmocka_unit_test(starts_that_fail_are_counted),
         cmocka_unit_test(several_solutions_are_told_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -508,6 +508,25 @@ static void a_contact_has_the_same_zone_in_every_unit(void **state)
     CHECK_REL(width[1], width[0], 1e-9, "the half-width");
 }
 
+/* Similar bodies roll freely without creepage unless something displaces their surfaces:
+ * d_T everywhere, which -d_T/e_T undoes. */
+static void free_rolling_undoes_what_displaces(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = halfplane(0.5, 0.3, 20);
+    double creepage;
+    rc.half_width = 1.0;
+    rc.creep_ratio = 0.4;
+    rb_rolling_model model = solved_model(&rc);
+    CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, NULL), RB_OK);
+    CHECK_ABS(creepage, 0.0, 0.0, "nothing displaces");
+    for (int i = 0; i < model.problem.n; i++)
+        model.problem.d_T[i] = 1e-3 * model.problem.e_T[i];
+    CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, NULL), RB_OK);
+    CHECK_REL(creepage, -1e-3, 1e-9, "d_T");
+    rb_rolling_model_free(&model);
+}
+
 /* Sliding towards one side the contact fits elements that end before the contact that
  * rolls freely does: that one is looked for on elements of its own. */
 static void free_rolling_may_need_other_elements(void **state)
@@ -572,6 +591,7 @@ int main(void)
         cmocka_unit_test(a_given_zone_must_hold_every_patch),
         cmocka_unit_test(a_zone_ends_with_three_separated_elements),
         cmocka_unit_test(a_contact_has_the_same_zone_in_every_unit),
+        cmocka_unit_test(free_rolling_undoes_what_displaces),
         cmocka_unit_test(free_rolling_may_need_other_elements),
         cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(a_contact_without_an_end_is_refused),

@@ -18,8 +18,8 @@ static rb_status find_edges(const rb_rolling_model *model, double *from, double 
 {
     rb_rolling_run run = {.last = -1}, other;
 
-    *known = rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, 0, &run) &&
-             run.last - run.first + 1 >= RB_ROLLING_ALIGNED_LEAST;
+    rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, 0, &run);
+    *known = run.last - run.first + 1 >= RB_ROLLING_ALIGNED_LEAST;
     if (rb_rolling_next_patch(&model->rc, &model->mesh, &model->state, run.last + 1,
                               &other) &&
         !rb_rolling_is_convex(&model->rc))

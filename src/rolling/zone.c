@@ -64,7 +64,7 @@ static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
     const rb_rolling_case *rc = &model->rc;
     const rb_rolling_body *const bodies[2] = {&rc->a, &rc->b};
 
-    for (int b = 0; b < 1 + rc->elastic_b && model->state.zone; b++) {
+    for (int b = 0; b < 1 + rc->elastic_b; b++) {
         const double thickness = fmax(bodies[b]->layer, bodies[b]->cover);
         const int n = model->mesh.n;
         const double longest =
@@ -88,12 +88,10 @@ rb_status rb_rolling_end(const rb_rolling_model *model, rb_status s, rb_message 
 
     if (s == RB_OK)
         return check_resolved(model, why);
-    if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || !model->bodies.f.h)
+    if (s < 0 || s == RB_ZONE || s == RB_INTERRUPTED || !model->state.zone)
         return s;
     const rb_status unresolved = check_resolved(model, &reason);
-    if (unresolved != RB_OK && why)
-        *why = reason;
-    return unresolved == RB_OK ? s : unresolved;
+    return unresolved == RB_OK ? s : rb_fail(why, unresolved, "%s", reason.text);
 }
 
 /* Elements without contact at either end; n of them if there is no contact. */
