@@ -338,6 +338,8 @@ static void refusals_have_their_code_and_reason(void **state)
         {64, "example tower", "expected bar, truss or wall, got 'tower'"},
         {64, "example truss --plot p.xyz",
          "expected a name ending in .png, .svg or .pdf, got 'p.xyz'"},
+        {64, "example truss --nodes 2 --solver lemke",
+         "lemke solves problems in 2D only"},
         {73, "example wall --mesh coarse --output b.ini",
          "b.ini: cannot write: Not a directory"},
         {73, "example truss --nodes 2 --output /nothing/t.tsv",

@@ -57,7 +57,7 @@ static const rb_option options[] = {
                  .unset = "none", .file = RB_FILE_WRITTEN),
 };
 
-enum { OPTIONS = sizeof options / sizeof options[0], MOST_SOLVERS = 32, TAUS = 61 };
+enum { OPTIONS = sizeof options / sizeof options[0], TAUS = 61 };
 
 _Static_assert(OPTIONS <= 20, "given");
 
@@ -86,15 +86,16 @@ typedef struct {
 typedef struct {
     const compare_options *o;
     int solvers, problems; /* problems: those that could be read */
-    const char *solver[MOST_SOLVERS];
-    char *names;        /* copy of --solvers, cut at its commas; owned */
-    const char **file;  /* problems; owned */
-    run_result *result; /* solvers per problem; owned */
+    const char **solver;   /* names of static storage; owned */
+    char *names;           /* copy of --solvers, cut at its commas; owned */
+    const char **file;     /* problems; owned */
+    run_result *result;    /* solvers per problem; owned */
     double tau[TAUS], *rho;
 } comparison;
 
 static void comparison_free(comparison *c)
 {
+    free(c->solver);
     free(c->names);
     free(c->file);
     free(c->result);
@@ -117,25 +118,24 @@ static cli_exit add_solver(comparison *c, const char *name)
 
 static cli_exit choose_solvers(comparison *c)
 {
-    cli_exit code = CLI_CONTINUE;
     int n;
     const rb_friction_solver *all = rb_friction_solvers(&n);
-    for (int k = 0; !c->o->solvers && k < n && k < MOST_SOLVERS; k++)
-        c->solver[c->solvers++] = all[k].name;
-    if (!c->o->solvers)
-        return CLI_CONTINUE;
-    c->names = strdup(c->o->solvers);
-    if (!c->names)
+    c->solver = calloc((size_t)n, sizeof *c->solver); /* none is given twice */
+    c->names = strdup(c->o->solvers ? c->o->solvers : "");
+    if (!c->solver || !c->names)
         return cli_fail(CLI_INTERNAL, "out of memory");
-    char *name = c->names;
-    while (name && code == CLI_CONTINUE) {
-        char *comma = strchr(name, ',');
+    if (!c->o->solvers)
+        for (int k = 0; k < n; k++)
+            c->solver[c->solvers++] = all[k].name;
+    for (char *name = c->names, *comma; c->o->solvers && name; name = comma) {
+        comma = strchr(name, ',');
         if (comma)
             *comma++ = '\0';
-        code = add_solver(c, name);
-        name = comma;
+        const cli_exit code = add_solver(c, name);
+        if (code != CLI_CONTINUE)
+            return code;
     }
-    return code;
+    return CLI_CONTINUE;
 }
 
 /* ---- Runs -------------------------------------------------------------------------- */
@@ -335,7 +335,7 @@ static cli_exit compare_files(comparison *c, int n, char **files)
             return code;
     }
     if (!c->problems)
-        return worst ? worst : CLI_UNSOLVED;
+        return worst; /* of the files that cannot be read */
     code = make_profiles(c);
     if (code == CLI_OK)
         code = cli_write_file(c->o->output, write_results, c);

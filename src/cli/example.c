@@ -186,11 +186,13 @@ static rb_status draw_history(FILE *out, rb_report_canvas canvas, const void *co
     return r->e->picture(out, canvas, r->model, r->history, why);
 }
 
-static cli_exit run_history(const example_options *o, const example *e,
-                            const rb_fem_model *model)
+/* made: the status of the model, which is taken over. */
+static cli_exit run_history(const example_options *o, const example *e, rb_status made,
+                            rb_fem_model *model, rb_message why)
 {
     rb_fem_history history;
-    rb_message why = {""};
+    if (made != RB_OK)
+        return cli_say(made, &why);
     const rb_status s = rb_fem_run(model, o->solver, o->tol, &history, &why);
     const example_run r = {o, e, model, &history};
     cli_exit code = CLI_OK;
@@ -201,6 +203,7 @@ static cli_exit run_history(const example_options *o, const example *e,
     if (s != RB_OK && code == CLI_OK)
         code = cli_say(s, &why);
     rb_fem_history_free(&history);
+    rb_fem_model_free(model);
     return code;
 }
 
@@ -209,11 +212,7 @@ static cli_exit run_bar(const example_options *o)
     rb_fem_model model;
     rb_message why = {""};
     const rb_status s = rb_fem_model_bar(160, 16, &model, &why);
-    if (s != RB_OK)
-        return cli_say(s, &why);
-    const cli_exit code = run_history(o, &bar, &model);
-    rb_fem_model_free(&model);
-    return code;
+    return run_history(o, &bar, s, &model, why);
 }
 
 static cli_exit run_truss(const example_options *o)
@@ -222,11 +221,7 @@ static cli_exit run_truss(const example_options *o)
     rb_message why = {""};
     const rb_status s =
         rb_fem_model_truss((rb_fem_layout)o->layout, o->nodes, &model, &why);
-    if (s != RB_OK)
-        return cli_say(s, &why);
-    const cli_exit code = run_history(o, &truss, &model);
-    rb_fem_model_free(&model);
-    return code;
+    return run_history(o, &truss, s, &model, why);
 }
 
 /* ---- Wall -------------------------------------------------------------------------- */
@@ -298,9 +293,10 @@ static cli_exit write_problems(const wall_run *run)
 {
     int chosen[75];
     rb_message why = {""};
-    const int count = run->o->problems < run->steps ? run->o->problems : run->steps - 1;
+    const int solved = run->steps - 1; /* the first step, under the weight, is none */
+    const int count = run->o->problems < solved ? run->o->problems : solved;
     rb_status s = rb_io_make_folder(run->o->output, &why);
-    if (s == RB_OK)
+    if (s == RB_OK && count > 0)
         s = rb_fem_wall_select(run->wall, count, chosen);
     for (int k = 0; s == RB_OK && k < count; k++)
         s = write_problem(run, k + 1, chosen[k], &why);

@@ -130,9 +130,12 @@ static rb_status solve_increment(runner *run, const char *solver, double tol,
     step->iterations = info.iters;
     step->residual = info.residual;
     *length = units.length;
-    if (s != RB_OK)
-        rb_fail(why, s, "%s: %s after %d iterations, residual %.3g", solver,
-                rb_status_reason(s, &info.msg), info.iters, info.residual);
+    const char *reason = rb_status_reason(s, &info.msg);
+    if (s != RB_OK && isfinite(info.residual))
+        rb_fail(why, s, "%s: %s after %d iterations, residual %.3g", solver, reason,
+                info.iters, info.residual);
+    else if (s != RB_OK) /* it has not begun */
+        rb_fail(why, s, "%s", reason);
     rb_friction_problem_free(&problem);
     return s;
 }
