@@ -1,6 +1,7 @@
 /* `rollbem friction` and `rollbem compare` as their users meet them. */
 #define _XOPEN_SOURCE 700
 #include "cli_run.h"
+#include "rollbem/friction.h"
 
 /* One contact, W = 1: pressed with 2, drawn with 3 against mu = 0.5: slides, r = (2, -1).
  */
@@ -143,6 +144,38 @@ static void what_is_not_solved_says_so(void **state)
     assert_non_null(strstr(err, "not symmetric"));
     assert_non_null(strstr(err, "indefinite"));
     assert_non_null(strstr(out, "\trank\thyperstaticity\t"));
+    assert_int_equal(rollbem("friction --facts --solution odd"), 0);
+    assert_non_null(strstr(out, "asymmetry 0.2, indefinite\n"));
+}
+
+/* One row more than are looked at unasked.  W is the identity but for its last entries,
+ * which are not symmetric. */
+static void large_problems_are_looked_at_when_asked(void **state)
+{
+    enum { ROWS = 3002 };
+    static double q[ROWS], mu[ROWS / 2];
+    rb_friction_problem p = {.form = RB_FRICTION_LOCAL_SPARSE,
+                             .dimension = 2,
+                             .contacts = ROWS / 2,
+                             .mu = mu,
+                             .q = q};
+    rb_triplets W = {.rows = ROWS, .cols = ROWS};
+    (void)state;
+    for (int i = 0; i < ROWS; i++) {
+        rb_triplets_add(&W, i, i, 1.0);
+        q[i] = i % 2 == 0 ? -1.0 : 0.1;
+        mu[i / 2] = 0.5;
+    }
+    rb_triplets_add(&W, ROWS - 2, ROWS - 1, 0.25);
+    assert_int_equal(rb_sparse_from_triplets(&W, &p.Ws), RB_OK);
+    assert_int_equal(rb_friction_write("large.hdf5", &p, NULL, "large", NULL), RB_OK);
+    assert_int_equal(rollbem("friction large.hdf5"), 0);
+    assert_string_equal(err, "");
+    assert_int_equal(rollbem("friction --facts large.hdf5"), 0);
+    assert_non_null(
+        strstr(err, "large.hdf5: note: W is not symmetric (|W - W'| is 0.25"));
+    rb_triplets_free(&W);
+    rb_sparse_free(&p.Ws);
 }
 
 static void cones_and_forced_formats(void **state)
@@ -150,6 +183,8 @@ static void cones_and_forced_formats(void **state)
     (void)state;
     assert_int_equal(rollbem("friction --format siconos-soclcp --solution cone"), 0);
     assert_non_null(strstr(out, "soclcp-smoothing"));
+    assert_int_equal(
+        rollbem("friction --format siconos-soclcp --solver soclcp-smoothing cone"), 0);
     check_refused("friction --output x --format siconos-soclcp --solver lemke cone", 65,
                   "soclcp-smoothing alone");
     check_refused("friction --output x --kind fclib slides", 65, "not an HDF5 file");
@@ -233,6 +268,7 @@ int main(void)
         cmocka_unit_test(every_solver_is_there_by_name),
         cmocka_unit_test(bad_files_get_a_line_each_and_the_others_run),
         cmocka_unit_test(what_is_not_solved_says_so),
+        cmocka_unit_test(large_problems_are_looked_at_when_asked),
         cmocka_unit_test(cones_and_forced_formats),
         cmocka_unit_test(global_problems_are_read_as_text),
         cmocka_unit_test(the_command_line_is_checked),
