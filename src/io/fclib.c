@@ -743,7 +743,8 @@ static rb_status write_in_child(FILE *out, const void *context, rb_message *why)
     if (H5Eset_auto2(H5E_DEFAULT, note_failure, &failed) < 0) /* its first call */
         failed = 1;
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    H5Pset_fapl_core(access, GROWTH, 0);
+    if (H5Pset_fapl_core(access, GROWTH, 0) < 0)
+        failed = 1;
     if (!failed) { /* or H5Fcreate would make a file of that name */
         const hid_t file = H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access);
         s = write_file(file, c);
