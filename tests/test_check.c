@@ -459,6 +459,60 @@ static void check_says(const char *make, int code, const char *part)
     assert_null(strstr(out, "r.json: valid"));
 }
 
+/* The member of that name, or the entry of that number. */
+static json_t *member(json_t *from, const char *name)
+{
+    return json_is_array(from) ? json_array_get(from, strtoul(name, NULL, 10))
+                               : json_object_get(from, name);
+}
+
+/* Puts a value of JSON into its place, names and numbers with / between; "": takes away
+ * what is there. */
+static void edit(json_t *root, const char *path, const char *value)
+{
+    char text[100], *name, *next;
+    json_t *new_one = *value ? json_loads(value, JSON_DECODE_ANY, NULL) : NULL;
+    snprintf(text, sizeof text, "%s", path);
+    for (name = text; (next = strchr(name, '/')) != NULL; name = next + 1) {
+        *next = '\0';
+        root = member(root, name);
+    }
+    const size_t i = strtoul(name, NULL, 10);
+    const int done = json_is_array(root) ? new_one ? json_array_set_new(root, i, new_one)
+                                                   : json_array_remove(root, i)
+                     : new_one ? json_object_set_new(root, name, new_one)
+                                         : json_object_del(root, name);
+    if (done != 0)
+        fail_msg("%s cannot be changed to '%s'", path, value);
+}
+
+/* What the check of a result with that change says; "": it is valid. */
+static const char *said_of(const json_t *root, const char *path, const char *value)
+{
+    static char text[400000];
+    FILE *lines = tmpfile();
+    rb_case *words = rb_case_create(RB_CASE_SINGLE);
+    json_t *other = json_deep_copy(root);
+    rb_report_certificate found;
+    rb_message why = {""};
+    edit(other, path, value);
+    const rb_status s =
+        rb_report_certify_solutions(lines, "r", other, words, &found, &why);
+    rewind(lines);
+    text[fread(text, 1, sizeof text - 1, lines)] = '\0';
+    assert_int_equal(found.violations > 0, text[0] != '\0');
+    if (s != RB_OK) {
+        if (s != RB_EFORMAT)
+            print_error("%s = %s: %s\n", path, value, why.text);
+        CHECK_STATUS(s, RB_EFORMAT);
+        snprintf(text, sizeof text, "%s", why.text);
+    }
+    fclose(lines);
+    rb_case_free(words);
+    json_decref(other);
+    return text;
+}
+
 /* Of --all-solutions each is judged by itself; the last number of the last one counts. */
 static void all_solutions_are_judged(void **state)
 {
@@ -512,9 +566,45 @@ static void all_solutions_are_judged(void **state)
         fclose(lines);
         json_decref(wrong);
     }
-    json_object_set_new(root, "solutions", json_array());
-    CHECK_STATUS(rb_report_certify_solutions(stdout, "r", root, words, &found, &why),
-                 RB_EFORMAT);
+    static const struct {
+        const char *path, *value, *part;
+    } edits[] = {
+        {"solutions", "[]", "cannot be checked: no list of solutions"},
+        {"solutions", "{}", "cannot be checked: no list of solutions"},
+        {"solutions/1", "{}", "solution 2: cannot be checked: expected a summary and a"},
+        {"solutions/1/table", "",
+         "solution 2: cannot be checked: expected a summary and"},
+        {"solutions/1/more", "1",
+         "solution 2: cannot be checked: expected a summary and"},
+        {"summary/status", "\"x\"", "r: cannot be checked: it says itself"},
+    };
+    for (size_t k = 0; k < sizeof edits / sizeof *edits; k++)
+        if (!strstr(said_of(root, edits[k].path, edits[k].value), edits[k].part))
+            fail_msg("%s = %s: %s", edits[k].path, edits[k].value,
+                     said_of(root, edits[k].path, edits[k].value));
+
+    /* none of all slips: what is compared by its largest friction */
+    json_t *still = json_deep_copy(root);
+    for (size_t k = 0; k < 2; k++) {
+        json_t *q = member(
+            member(member(member(still, "solutions"), k ? "1" : "0"), "table"), "q_MPa");
+        for (size_t i = 0; i < json_array_size(q); i++)
+            json_array_set_new(q, i, json_real(0.0));
+    }
+    assert_non_null(strstr(said_of(still, "notes", "[]"),
+                           "r: violated: solutions 1 and 2 are the same\n"));
+    json_decref(still);
+
+    /* one on other elements is another one */
+    json_t *coarse = run_json(
+        "--support halfplane --similar --radius 460 --young 209920 --poisson 0.28 --load "
+        "3111.08 --speed 45000 --mu 0.18 --friction-law exponential --mu-fall 0.12 "
+        "--slip-scale 5 --mesh uniform --slip-operator upstream --contact-elements 92 "
+        "--zone 4.65 --creep 0.0009999 --all-solutions" STEADY);
+    json_array_set(member(root, "solutions"), 2,
+                   member(member(coarse, "solutions"), "0"));
+    assert_string_equal(said_of(root, "notes", "[]"), "");
+    json_decref(coarse);
     rb_case_free(words);
     json_decref(root);
 }
@@ -619,6 +709,12 @@ static void tables_are_valid_by_their_comments(void **state)
              tables[2]);
     assert_int_equal(shell(line), 1);
     assert_string_equal(out, "t.tsv: violated: patch 1 is missing\n");
+    snprintf(line, sizeof line,
+             "\"$R\" %s --quiet | sed '/^# patch 2/s/from/from x/' > t.tsv; "
+             "\"$R\" check t.tsv",
+             tables[2]);
+    assert_int_equal(shell(line), 1);
+    assert_string_equal(out, "t.tsv: violated: patch 2 is missing\n");
     snprintf(
         line, sizeof line,
         "\"$R\" %s --quiet | sed '/^# .* solved; residual/s/residual.*/residual 1e-3/' "
@@ -644,6 +740,10 @@ static void tables_that_cannot_be_checked_are_refused(void **state)
          "r.json: cannot be checked: the command line in its comments: --mu: expected"},
         {"| sed 's/--mu 0.3/none.ini/'", "none.ini: No such file"},
         {"| sed '/^# static/d'", "expected a table of a single case, with its comments"},
+        {"| sed '/^# static/s/residual .*/residual x/'",
+         "expected a table of a single case, with its comments"},
+        {"| sed '1s/^/# ; residual 1\\n/'", "says itself that it is not solved"},
+        {"--formulation steady --creep 1e-3 --accuracy 0.5", "error bars"},
         {"| sed '/^# static/s/solved/not solved/'", "says itself that it is not solved"},
         {"| sed '/^[-0-9]/d'", "no numbers"},
         {"| awk '!/^[-0-9]/ || n++ < 2'", "it has 2 elements"},
@@ -701,60 +801,6 @@ static void what_cannot_be_checked_is_refused(void **state)
 }
 
 /* ---- Results that somebody has changed --------------------------------------------- */
-
-/* The member of that name, or the entry of that number. */
-static json_t *member(json_t *from, const char *name)
-{
-    return json_is_array(from) ? json_array_get(from, strtoul(name, NULL, 10))
-                               : json_object_get(from, name);
-}
-
-/* Puts a value of JSON into its place, names and numbers with / between; "": takes away
- * what is there. */
-static void edit(json_t *root, const char *path, const char *value)
-{
-    char text[100], *name, *next;
-    json_t *new_one = *value ? json_loads(value, JSON_DECODE_ANY, NULL) : NULL;
-    snprintf(text, sizeof text, "%s", path);
-    for (name = text; (next = strchr(name, '/')) != NULL; name = next + 1) {
-        *next = '\0';
-        root = member(root, name);
-    }
-    const size_t i = strtoul(name, NULL, 10);
-    const int done = json_is_array(root) ? new_one ? json_array_set_new(root, i, new_one)
-                                                   : json_array_remove(root, i)
-                     : new_one ? json_object_set_new(root, name, new_one)
-                                         : json_object_del(root, name);
-    if (done != 0)
-        fail_msg("%s cannot be changed to '%s'", path, value);
-}
-
-/* What the check of a result with that change says; "": it is valid. */
-static const char *said_of(const json_t *root, const char *path, const char *value)
-{
-    static char text[50000];
-    FILE *lines = tmpfile();
-    rb_case *words = rb_case_create(RB_CASE_SINGLE);
-    json_t *other = json_deep_copy(root);
-    rb_report_certificate found;
-    rb_message why = {""};
-    edit(other, path, value);
-    const rb_status s =
-        rb_report_certify_solutions(lines, "r", other, words, &found, &why);
-    rewind(lines);
-    text[fread(text, 1, sizeof text - 1, lines)] = '\0';
-    assert_int_equal(found.violations > 0, text[0] != '\0');
-    if (s != RB_OK) {
-        if (s != RB_EFORMAT)
-            print_error("%s = %s: %s\n", path, value, why.text);
-        CHECK_STATUS(s, RB_EFORMAT);
-        snprintf(text, sizeof text, "%s", why.text);
-    }
-    fclose(lines);
-    rb_case_free(words);
-    json_decref(other);
-    return text;
-}
 
 /* A line for each thing that is missing, of another kind, or against a law. */
 static void every_edit_is_named(void **state)

@@ -113,7 +113,8 @@ static const char *const allocating[] = {
     "--wear-steps 2 --snapshots s --profile w.tsv",
     "wear in/b.ini --wear-coefficient 1e-7 --shift 0.001 --cycles 100 --quarter 2 "
     "--wear-steps 2",
-    "check in/static.json in/steady.json in/transient.json in/table.tsv",
+    "check in/static.json in/steady.json in/transient.json in/table.tsv in/all.json "
+    "in/grid.json in/points.json",
     "lcp in/rod.txt --solution --json",
     "lcp in/murty.txt --all --json",
     "lcp in/murty.txt --trace --rule first-index --json",
@@ -583,7 +584,13 @@ static const char *const making_inputs[] = {
     "--output in/table.tsv; "
     "\"$R\" in/b.ini --quiet --formulation steady --creep-ratio 0.5 --json --output "
     "in/steady.json; \"$R\" in/b.ini --quiet --formulation transient --distance 0.3 "
-    "--steps 2 --creep-ratio 0.5 --states --json --output in/transient.json"};
+    "--steps 2 --creep-ratio 0.5 --states --json --output in/transient.json",
+    "\"$R\" in/b.ini --quiet --formulation steady --creep-ratio 0.5 --friction-law "
+    "exponential --mu-fall 0.1 --slip-scale 10 --speed 1e3 --all-solutions --json "
+    "--output in/all.json; "
+    "\"$R\" stress in/b.ini --quiet --shift 0.001 --grid 3x3 --shakedown --json --output "
+    "in/grid.json; \"$R\" stress in/b.ini --quiet --shift 0.001 --points in/points.txt "
+    "--json --output in/points.json"};
 
 /* A case, a study of three of them, a friction problem, and those of the folder. */
 static int prepare_inputs(void **state)
