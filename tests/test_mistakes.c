@@ -109,8 +109,11 @@ static void refusals_have_their_code_and_reason(void **state)
         {64, "b.ini --contact-elements 1", "expected a whole number >= 3, got '1'"},
         {64, "b.ini --contact-elements 3.5", "got '3.5'"},
         {64, "b.ini --plot-script p.gp", "got 0"},
-        {65, "size.ini", "--plot-size: there is no picture; --plot FILE asks for one"},
-        {65, "script.ini", "--plot-script: expected one picture (such as --plot FILE)"},
+        {65, "size.ini",
+         "size.ini:3: plot-size: there is no picture; --plot FILE asks for one"},
+        {65, "every.ini", "every.ini:2: every: for --formulation transient, --history"},
+        {65, "script.ini",
+         "script.ini:3: plot-script: expected one picture (such as --plot FILE)"},
         {66, "''", ": No such file"},
         {64, "--an-option-of-a-name-that-is-longer-than-any-other-name 3",
          "--an-option-of-a-name-that-is-longer-than"},
@@ -352,6 +355,7 @@ static void refusals_have_their_code_and_reason(void **state)
                "support = halfplane\nload = 100\ncontact-elements = 12\nzone = 1\n"
                "formulation = steady\n[sweep]\nvary-1 = load 100 200\n"
                "vary-2 = creep-ratio 0 0.5\n");
+    write_file("every.ini", "load = 100\nevery = 2\n");
     write_file("size.ini", "load = 100\n[output]\nplot-size = slide\n");
     write_file("script.ini", "load = 100\n[output]\nplot-script = p.gp\n");
     write_file("list.json", "[1]\n");

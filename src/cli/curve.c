@@ -80,10 +80,7 @@ static cli_exit read_end(cli_case_run *run, int place, double *end)
     *end = default_end[place - FROM];
     if (!text)
         return CLI_CONTINUE;
-    if (*given > 0)
-        snprintf(what, sizeof what, "%.200s:%d: %s", run->args.operand[0], *given, name);
-    else
-        snprintf(what, sizeof what, "--%s", name);
+    cli_given_name(&run->args, name, *given, what);
     if (rb_option_assign(&set, 0, *given, what, text, &why) != RB_OK)
         return cli_fail(*given > 0 ? CLI_DATA : CLI_USAGE, "%s", why.text);
     rb_case_store(run->words, &set, end);

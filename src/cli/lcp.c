@@ -270,11 +270,11 @@ static cli_exit judge(const lcp_options *o, lcp_result *r, rb_status s)
     return r->info.res <= r->floor ? CLI_OK : CLI_UNSOLVED;
 }
 
-static cli_exit failed(lcp_result *r, rb_status s, const char *text)
+static cli_exit failed(lcp_result *r, rb_status s, const rb_message *why)
 {
     r->status = rb_status_text(s);
     r->n = 0;
-    return cli_fail(cli_exit_of(s), "%s", text[0] ? text : rb_status_text(s));
+    return cli_fail(cli_exit_of(s), "%s", rb_status_reason(s, why));
 }
 
 static rb_lcp_options solver_options(lcp_run *run, const lcp_result *r)
@@ -327,7 +327,7 @@ static cli_exit invalid(lcp_result *r, rb_status s, const rb_message *msg)
 {
     rb_message why = {""};
     rb_fail(&why, s, "%s: %s", r->file, msg->text);
-    return failed(r, s == RB_EINVAL ? RB_EFORMAT : s, why.text);
+    return failed(r, s == RB_EINVAL ? RB_EFORMAT : s, &why);
 }
 
 static cli_exit say_end(const lcp_options *o, lcp_result *r, rb_status s)
@@ -430,7 +430,7 @@ static cli_exit solve_problem(lcp_run *run, rb_io_lcp *p, lcp_result *r)
     r->z = rb_alloc((size_t)p->n, 1);
     r->w = rb_alloc((size_t)p->n, 1);
     if (rb_io_matrix_to_sparse(&p->M, &r->M) != RB_OK || !r->z || !r->w)
-        return failed(r, RB_ENOMEM, "out of memory");
+        return failed(r, RB_ENOMEM, &(rb_message){""});
     r->boxed = (rb_lcp_mixed_problem){&r->M, p->q, r->lower, r->upper};
     r->size = rb_norm_inf((size_t)p->n, p->q);
     return run->o->all ? run_all(run, &p->M, r) : run_solver(run, &p->M, r);
@@ -443,7 +443,7 @@ static cli_exit solve_lcp(lcp_run *run, lcp_result *r)
     rb_status s = rb_io_lcp_read(r->file, run->o->q, &p, &why);
     if (s == RB_OK)
         s = read_vectors(run->o, p.n, r, &why);
-    const cli_exit code = s == RB_OK ? solve_problem(run, &p, r) : failed(r, s, why.text);
+    const cli_exit code = s == RB_OK ? solve_problem(run, &p, r) : failed(r, s, &why);
     rb_io_lcp_free(&p);
     return code;
 }
@@ -499,7 +499,7 @@ static cli_exit solve_game(lcp_run *run, lcp_result *r)
         s = rb_fail(&why, RB_EINVAL,
                     "--label: expected one of the %d strategies of %.200s, got %d",
                     g.m + g.n, r->file, run->o->label);
-    const cli_exit code = s == RB_OK ? run_game(run, &g, r) : failed(r, s, why.text);
+    const cli_exit code = s == RB_OK ? run_game(run, &g, r) : failed(r, s, &why);
     rb_io_bimatrix_free(&g);
     return code;
 }

@@ -132,8 +132,9 @@ static cli_exit check_path(const rb_option *o, const char *path)
 }
 
 /* A size needs a picture, and a script belongs to one alone. */
-static cli_exit check_pictures(const cli_spec *spec)
+static cli_exit check_pictures(const cli_spec *spec, const cli_args *args)
 {
+    char name[300];
     int pictures = 0, size = 0, script = 0;
     for (int k = 0; k < spec->set_n; k++)
         for (int i = 0; i < spec->sets[k].n; i++) {
@@ -147,12 +148,12 @@ static cli_exit check_pictures(const cli_spec *spec)
         }
     if (size && pictures == 0)
         return cli_fail(size > 0 ? CLI_DATA : CLI_USAGE,
-                        "--plot-size: there is no picture; --plot FILE asks for one");
+                        "%s: there is no picture; --plot FILE asks for one",
+                        cli_given_name(args, "plot-size", size, name));
     if (script && pictures != 1)
         return cli_fail(script > 0 ? CLI_DATA : CLI_USAGE,
-                        "--plot-script: expected one picture (such as --plot FILE), "
-                        "got %d",
-                        pictures);
+                        "%s: expected one picture (such as --plot FILE), got %d",
+                        cli_given_name(args, "plot-script", script, name), pictures);
     return CLI_CONTINUE;
 }
 
@@ -160,7 +161,7 @@ cli_exit cli_check_files(const cli_spec *spec, const cli_args *args)
 {
     const rb_option *o;
     const char *path;
-    cli_exit code = check_pictures(spec);
+    cli_exit code = check_pictures(spec, args);
     int set = 0, i = 0;
     while (code == CLI_CONTINUE && (path = next_path(spec, &set, &i, &o)) != NULL) {
         if (is_output(o) && strcmp(path, "-") != 0)

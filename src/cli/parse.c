@@ -188,3 +188,13 @@ void cli_args_free(cli_args *args)
     free(args->operand);
     *args = (cli_args){0};
 }
+
+const char *cli_given_name(const cli_args *args, const char *name, int given,
+                           char room[300])
+{
+    if (given > 0)
+        snprintf(room, 300, "%.200s:%d: %s", args->operand[0], given, name);
+    else
+        snprintf(room, 300, "--%s", name);
+    return room;
+}

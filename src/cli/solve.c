@@ -186,14 +186,15 @@ static rb_status solve(cli_case_run *run, rb_message *why)
 /* Options of steps mean nothing without any. */
 static cli_exit check_steps(const cli_case_run *run)
 {
+    char name[300];
     int steps = 0;
     for (int i = 0; i < OPTIONS && !rb_case_has_steps(run->c); i++) {
         steps |= strcmp(options[i].name, "history-table") == 0; /* the first of them */
         if (steps && run->set.given[i])
             return cli_fail(
                 run->set.given[i] > 0 ? CLI_DATA : CLI_USAGE,
-                "--%s: for --formulation transient, --history or --increments",
-                options[i].name);
+                "%s: for --formulation transient, --history or --increments",
+                cli_given_name(&run->args, options[i].name, run->set.given[i], name));
     }
     return CLI_CONTINUE;
 }
