@@ -37,12 +37,12 @@ static double room_beyond(const rb_rolling_mesh *mesh, const rb_rolling_run *run
 }
 
 /* 1: elements between the patches k - 1 and k would be of no use. */
-static int are_one(const rb_rolling_case *rc, const patches *found, int k)
+static int are_one(const patches *found, int k)
 {
     const rb_rolling_span *a = &found->span[k - 1], *b = &found->span[k];
     const double wider = fmax(a->to - a->from, b->to - b->from);
 
-    return rb_rolling_is_convex(rc) || b->from - a->to < NARROW * wider;
+    return b->from - a->to < NARROW * wider;
 }
 
 static void join(patches *found, int k)
@@ -56,8 +56,7 @@ static void join(patches *found, int k)
 }
 
 /* Into the order of x, together with those that it touches.  0: there is no room. */
-static int add_patch(const rb_rolling_case *rc, const rb_rolling_span *span,
-                     patches *found)
+static int add_patch(const rb_rolling_span *span, patches *found)
 {
     if (found->count == MOST_PATCHES)
         return 0;
@@ -66,7 +65,7 @@ static int add_patch(const rb_rolling_case *rc, const rb_rolling_span *span,
         found->span[k] = found->span[k - 1];
     found->span[k] = *span;
     for (k = found->count - 1; k > 0; k--)
-        if (are_one(rc, found, k))
+        if (are_one(found, k))
             join(found, k);
     return 1;
 }
@@ -78,10 +77,12 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
     const rb_rolling_mesh *mesh = &model->mesh;
     rb_rolling_run run = {.last = -1};
     rb_rolling_overlap overlap = {0};
+    rb_status s = RB_OK;
     int complete = 1;
 
     found->count = 0;
-    while (rb_rolling_next_place(&model->rc, mesh, &model->state, run.last + 1, &run)) {
+    while (complete &&
+           rb_rolling_next_place(&model->rc, mesh, &model->state, run.last + 1, &run)) {
         const rb_rolling_span span = {
             .from = run.from,
             .to = run.to,
@@ -89,21 +90,18 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
             .room_right = room_beyond(mesh, &run, run.last, run.last + 1),
             .h_left = length_of(mesh, run.first),
             .h_right = length_of(mesh, run.last)};
-        complete = complete && add_patch(&model->rc, &span, found);
+        complete = add_patch(&span, found);
     }
-    if (model->state.status == RB_ZONE) {
-        const rb_status s = rb_rolling_find_overlap(model, &model->state, &overlap);
-        if (s != RB_OK)
-            return s;
-    }
-    for (int k = 0; k < overlap.count; k++) {
+    if (model->state.status == RB_ZONE)
+        s = rb_rolling_find_overlap(model, &model->state, &overlap);
+    for (int k = 0; complete && k < overlap.count; k++) {
         const double room = 0.1 * (overlap.to[k] - overlap.from[k]);
         const rb_rolling_span span = {
             overlap.from[k], overlap.to[k], room, room, room, room};
-        complete = complete && add_patch(&model->rc, &span, found);
+        complete = add_patch(&span, found);
     }
     found->count = complete ? found->count : 0;
-    return RB_OK;
+    return s;
 }
 
 /* ---- One edge ---------------------------------------------------------------------- */

@@ -68,8 +68,6 @@ static rb_status conductor_create(const rb_rolling_case *rc, const rb_rolling_he
     const int n = s->n;
 
     *c = (conductor){body, rc->speed, n, s->x, s->h, rc->mesh != RB_MESH_FITTED, NULL};
-    for (int i = 1; i < n; i++)
-        c->equal = c->equal && fabs(s->h[i] - s->h[0]) <= 1e-9 * s->h[0];
     if (!c->equal)
         return RB_OK;
     c->source = rb_alloc(2 * (size_t)n, 1);

@@ -528,6 +528,7 @@ static rb_status prepare_relaxation(run *r, double step, rb_message *why)
 {
     enum { FORGOTTEN = 36 }; /* exp(-36) is below rounding */
     const rb_rolling_case *rc = r->rc;
+    const rb_rolling_memory *const memory[2] = {&rc->a.memory, &rc->b.memory};
     double slowest = 0.0;
     rb_status s = RB_OK;
 
@@ -537,10 +538,9 @@ static rb_status prepare_relaxation(run *r, double step, rb_message *why)
         return RB_OK;
     if (step > 0.0 && !r->found)
         s = match_elements(r, step, why);
-    for (int k = 0; k < rc->a.memory.n; k++)
-        slowest = fmax(slowest, rc->a.memory.time[k]);
-    for (int k = 0; k < rc->b.memory.n && rc->elastic_b; k++)
-        slowest = fmax(slowest, rc->b.memory.time[k]);
+    for (int b = 0; b < 1 + rc->elastic_b; b++)
+        for (int k = 0; k < memory[b]->n; k++)
+            slowest = fmax(slowest, memory[b]->time[k]);
     const double tail =
         step > 0.0 ? fmin(r->steps, FORGOTTEN * slowest * rc->speed / step) : 0.0;
     return s == RB_OK ? rb_rolling_memory_track_create(rc, &r->model->mesh,

@@ -67,7 +67,7 @@ static rb_status search_depth(row *r, double low, double high, rb_rolling_shaked
 {
     const double part = 0.5 * (sqrt(5.0) - 1.0);
     rb_status s = RB_OK;
-    for (int k = 0; k < HALVINGS / 2 && s == RB_OK; k++) {
+    for (int k = 0; k < HALVINGS / 2; k++) {
         rb_rolling_shakedown a, b;
         s = needed_at(r, high - part * (high - low), &a);
         if (s == RB_OK)

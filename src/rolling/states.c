@@ -22,7 +22,7 @@ rb_status rb_rolling_states_alloc(int n, int steps, rb_rolling_states *s)
                              .x = rb_alloc(m, 2),
                              .p = rb_alloc(all, 3),
                              .delta = rb_alloc((size_t)steps, 2),
-                             .zone = calloc(all > 0 ? all : 1, sizeof *s->zone)};
+                             .zone = rb_alloc_int(all)};
     if (!s->x || !s->p || !s->delta || !s->zone) {
         rb_rolling_states_free(s);
         return RB_ENOMEM;

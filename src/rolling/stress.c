@@ -59,7 +59,7 @@ static int element_below(const rb_bem_mesh *mesh, double x)
 {
     int below = -1;
     for (int j = 0; j < mesh->n; j++)
-        if (mesh->x0[j] <= x && x <= mesh->x1[j] && mesh->x0[j] < mesh->x1[j] &&
+        if (mesh->x0[j] < mesh->x1[j] && mesh->x0[j] <= x && x <= mesh->x1[j] &&
             (below < 0 || mesh->y0[j] < mesh->y0[below]))
             below = j;
     return below;

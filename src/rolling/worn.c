@@ -99,7 +99,7 @@ static rb_status widen(run *r, rb_message *why)
     const int n = r->n, more = n / 4 + 2;
     run wider = *r;
 
-    if (r->model.bodies.system_a || r->model.bodies.system_b)
+    if (!rb_rolling_can(&r->rc, RB_BODY_FLAT))
         return rb_fail(why, RB_ZONE,
                        "the contact outgrows the zone; give a wider one, --zone, because "
                        "on wheels the elements would move");
@@ -180,7 +180,7 @@ static int see_increment(const rb_rolling_model *model, const rb_rolling_history
 
     (void)h;
     (void)steps;
-    for (int i = 0; i < r->n && step >= quarter && model->state.n == r->n; i++) {
+    for (int i = 0; i < r->n && step >= quarter; i++) {
         const double slip = fabs(model->state.lambda[i]);
         r->path[i] += slip;
         r->work += slip * fabs(model->state.q[i]) * model->bodies.f.h[i];
@@ -253,7 +253,7 @@ static rb_status roll(run *r, double turns, rb_message *why)
     const double before = r->rc.a.radius;
     rb_status s = RB_OK;
 
-    for (int k = 0; k < ROUNDS && s == RB_OK; k++) {
+    for (int k = 0; k < ROUNDS; k++) {
         rb_rolling_model_free(&r->model);
         s = rb_rolling_model_create(&r->rc, &r->model, why);
         if (s != RB_OK)
@@ -289,7 +289,7 @@ static rb_status record(run *r, double way, rb_message *why)
     h->max_depth[k] = rolls ? h->radius_before - r->rc.a.radius : 0.0;
     h->worn[k] =
         rolls ? M_PI * (gsl_pow_2(h->radius_before) - gsl_pow_2(h->radius[k])) : 0.0;
-    for (int i = 0; i < r->n && !rolls; i++) {
+    for (int i = 0; i < r->n; i++) { /* none where it rolls */
         h->worn[k] += r->depth[i] * s.h[i];
         h->max_depth[k] = fmax(h->max_depth[k], r->depth[i]);
     }
