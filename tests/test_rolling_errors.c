@@ -267,6 +267,80 @@ static void what_is_no_accuracy_is_refused(void **state)
     }
 }
 
+/* Each that makes coarser runs refuses a case that cannot be halved. */
+static void nothing_is_halved_below_its_least(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = carter(4);
+    rb_rolling_solution s = {0};
+    rb_rolling_errors errors;
+    rb_rolling_curve curve, bars;
+    rb_rolling_model model;
+    rb_rolling_history h;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_error_check(&rc, &why), RB_EINVAL);
+    CHECK_STATUS(rb_rolling_estimate_errors(&rc, &s, NULL, &errors, &why), RB_EINVAL);
+    assert_true(isnan(errors.scalar.normal_load));
+    CHECK_STATUS(rb_rolling_curve_with_errors(&rc, &(rb_rolling_range){0, 0.0, 1.0, 2},
+                                              &curve, &bars, &why),
+                 RB_EINVAL);
+    rc.formulation = RB_TRANSIENT;
+    rc.distance = 1.0;
+    CHECK_STATUS(rb_rolling_history_with_errors(&rc, NULL, NULL, &model, &h, &why),
+                 RB_EINVAL);
+    rb_rolling_history_free(&h);
+    rb_rolling_model_free(&model);
+}
+
+/* The limit is told with what was reached; equal elements hear of fitted ones. */
+static void an_accuracy_that_no_mesh_has_is_refused_at_once(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = carter(12);
+        rb_rolling_solution s;
+        rb_rolling_errors errors;
+        rb_message why = {""};
+        int elements;
+        rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        CHECK_STATUS(
+            rb_rolling_solve_to_accuracy(&rc, 1e-12, &s, &errors, &elements, &why),
+            RB_INACCURATE);
+        assert_int_equal(elements, 12);
+        assert_non_null(strstr(why.text, "accuracy 1e-12 not reached with 12 elements"));
+        assert_int_equal(strstr(why.text, "a fitted mesh needs fewer") != NULL, !k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
+/* Memory that is refused to a later round leaves the best solution so far. */
+static void a_later_round_that_fails_leaves_the_one_before(void **state)
+{
+    (void)state;
+    int none = 0, some = 0;
+    for (int count = 50; count < 3000; count = count * 5 / 4) {
+        rb_rolling_case rc = carter(12);
+        rb_rolling_solution s;
+        rb_rolling_errors errors;
+        rb_message why = {""};
+        int elements;
+        alloc_fail_after(count);
+        const rb_status status =
+            rb_rolling_solve_to_accuracy(&rc, 0.05, &s, &errors, &elements, &why);
+        const int failed = alloc_failed();
+        alloc_succeed();
+        if (failed && elements > 0) {
+            CHECK_STATUS(status, RB_INACCURATE);
+            CHECK_REL(s.normal_load, 500.0, 1e-9, "the load");
+            assert_true(elements >= 12 && isfinite(errors.scalar.force_ratio));
+        }
+        none += failed && elements == 0;
+        some += failed && elements > 0;
+        rb_rolling_solution_free(&s);
+    }
+    assert_true(none > 0 && some > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -278,6 +352,9 @@ int main(void)
         cmocka_unit_test(a_history_has_bars_of_its_steps),
         cmocka_unit_test(an_accuracy_is_reached_by_more_elements),
         cmocka_unit_test(what_is_no_accuracy_is_refused),
+        cmocka_unit_test(nothing_is_halved_below_its_least),
+        cmocka_unit_test(an_accuracy_that_no_mesh_has_is_refused_at_once),
+        cmocka_unit_test(a_later_round_that_fails_leaves_the_one_before),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

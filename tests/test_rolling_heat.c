@@ -451,6 +451,94 @@ static void a_track_is_refused_where_heat_runs_along(void **state)
     CHECK_STATUS(rb_rolling_heat_track_create(&rc, 0.4, &track, &why), RB_EINVAL);
 }
 
+/* Equal temperatures beside the warmest element have no vertex. */
+static void an_even_temperature_has_its_first_place(void **state)
+{
+    (void)state;
+    const double x[] = {-1.0, 0.0, 1.0, 2.0}, t[] = {5.0, 7.0, 7.0, 7.0};
+    const int zone[] = {RB_ZONE_STICK, RB_ZONE_STICK, RB_ZONE_STICK, RB_ZONE_STICK};
+    const double even[] = {7.0, 7.0, 7.0, 7.0};
+    double value, at;
+    rb_rolling_warmest(4, x, zone, t, &value, &at);
+    CHECK_MAX(7.0, value, "a vertex");
+    rb_rolling_warmest(3, x + 1, zone, even, &value, &at);
+    CHECK_ABS(value, 7.0, 0.0, "no vertex");
+    CHECK_ABS(at, 0.0, 0.0, "the first place");
+}
+
+/* B takes as much heat as A where it is the same in all three; otherwise the surfaces are
+ * equally warm where they touch. */
+static void unlike_bodies_share_by_temperature(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_case rc = rb_rolling_case_defaults();
+        rc.a.support = RB_BEM_HALFPLANE;
+        rc.formulation = RB_STEADY;
+        rc.speed = 1000.0;
+        rc.half_width = 1.0;
+        rc.creep_ratio = 2.0;
+        rc.contact_elements = 12;
+        rc.heat_a = rc.heat_b =
+            (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
+        rc.heat_b.heat_capacity *= k == 1 ? 2.0 : 1.0;
+        rc.heat_b.temperature += k == 2 ? 10.0 : 0.0;
+        rc.heat_b.conductivity *= k == 3 ? 2.0 : 1.0;
+        rb_rolling_solution s = solved(&rc);
+        int touch = 0;
+        for (int i = 0; i < s.n; i++) {
+            touch += s.zone[i] != RB_ZONE_SEPARATED;
+            if (s.zone[i] != RB_ZONE_SEPARATED)
+                CHECK_REL(s.temperature_b[i], s.temperature[i], 1e-9, "%d at %d", k, i);
+        }
+        assert_true(touch > 3);
+        memset(s.zone, 0, (size_t)s.n * sizeof *s.zone); /* nowhere in contact */
+        s.contact = 0;
+        double power[100] = {0.0};
+        assert_true(s.n <= 100 && RB_ZONE_SEPARATED == 0);
+        CHECK_STATUS(rb_rolling_steady_temperature(&rc, &s, power, s.temperature,
+                                                   s.temperature_b, NULL),
+                     RB_OK);
+        for (int i = 0; i < s.n; i++) {
+            CHECK_ABS(s.temperature[i], 0.0, 1e-12, "A away from B, %d at %d", k, i);
+            CHECK_ABS(s.temperature_b[i], rc.heat_b.temperature, 1e-12, "B");
+        }
+        rb_rolling_solution_free(&s);
+    }
+}
+
+static void tracks_longer_than_memory_are_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_heat_track track = {.n = 1000, .h = 1.0, .step = 1e-15};
+    rb_message why = {""};
+    rc.speed = 1e6;
+    rc.heat_a = rc.heat_b = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
+    CHECK_STATUS(rb_rolling_heat_track_create(&rc, 1.0, &track, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "the heat of steps"));
+    rb_rolling_heat_track_free(&track);
+}
+
+/* A case of steps that is solved without them has no heat behind it. */
+static void without_steps_no_heat_is_known(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.formulation = RB_TRANSIENT;
+    rc.speed = 1000.0;
+    rc.half_width = 1.0;
+    rc.creep_ratio = 2.0;
+    rc.distance = 1.0;
+    rc.contact_elements = 12;
+    rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
+    CHECK_STATUS(rb_rolling_solve_between(&rc, -1.3, 1.3, &s, NULL), RB_OK);
+    CHECK_ABS(s.max_temperature, 0.0, 0.0, "nothing is warm");
+    rb_rolling_solution_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -470,6 +558,10 @@ int main(void)
         cmocka_unit_test(peclets_number_compares_speed_and_diffusion),
         cmocka_unit_test(steps_warm_what_passes_them),
         cmocka_unit_test(a_track_is_refused_where_heat_runs_along),
+        cmocka_unit_test(an_even_temperature_has_its_first_place),
+        cmocka_unit_test(unlike_bodies_share_by_temperature),
+        cmocka_unit_test(tracks_longer_than_memory_are_refused),
+        cmocka_unit_test(without_steps_no_heat_is_known),
     };
     gsl_set_error_handler_off();
     return cmocka_run_group_tests(tests, NULL, NULL);

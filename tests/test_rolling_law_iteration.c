@@ -437,6 +437,84 @@ static void several_solutions_are_told_apart(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* Friction that grows with the speed to twice its value at rest: the last of it would
+ * take any speed, and a force of that much is refused with what a very large one brings.
+ */
+static void forces_that_only_great_speed_reaches_are_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = falling(RB_STEADY, -0.1, 40.0);
+    rb_rolling_solution s;
+    rb_message why = {""};
+    double told = 0.0, at = 0.0;
+    rc.friction.law = RB_FRICTION_rational;
+    rc.force = -100.0 * (1.0 - 1e-12);
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
+    const char *from = strstr(why.text, "the largest is ");
+    assert_non_null(from);
+    assert_int_equal(sscanf(from, "the largest is %lg N/mm, at creepage %lg", &told, &at),
+                     2);
+    CHECK_MAX(1e3, at, "creepage");
+    CHECK_REL(told, -500.0 * (0.2 - 0.1 / (1.0 + at * rc.speed / 40.0)), 1e-6,
+              "everything slides at that speed");
+    rb_rolling_solution_free(&s);
+}
+
+/* Below what rounding leaves no start ends: all of them are tried, with as many contact
+ * problems as there are for them. */
+static void what_cannot_be_met_ends(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = falling(k ? RB_TRANSIENT : RB_STEADY, 0.2, 0.2);
+        rb_message why = {""};
+        rc.contact_elements = 12;
+        rc.creep_ratio = 0.6;
+        rb_rolling_model model;
+        rb_rolling_solution s;
+        CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, &why), RB_OK);
+        rb_rolling_solution_free(&s);
+        model.rc.tol = 1e-300;
+        model.problem.rounding = 0.0;
+        const rb_status status = rb_rolling_model_resolve(&model, 0, &why);
+        assert_true(status == RB_MAXITER || status == RB_INACCURATE);
+        assert_true(strlen(why.text) > 0);
+        rb_rolling_model_free(&model);
+    }
+}
+
+static void kappa_of_no_pressure_is_nothing(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = falling(RB_TRANSIENT, 0.2, 20.0);
+    rb_rolling_model model;
+    rb_rolling_solution s;
+    double kappa;
+    rc.creep_ratio = 0.5;
+    CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, NULL), RB_OK);
+    memset(model.state.p, 0, (size_t)model.state.n * sizeof *model.state.p);
+    CHECK_STATUS(rb_rolling_law_kappa(&model, &kappa), RB_OK);
+    CHECK_ABS(kappa, 0.0, 0.0, "kappa");
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+}
+
+/* Where there is one solution, it does not depend on the start. */
+static void transients_may_start_elsewhere(void **state)
+{
+    (void)state;
+    const double x[] = {-1.0, 1.0}, y[] = {0.2, 0.3};
+    const rb_rolling_table start = {2, x, y};
+    rb_rolling_case rc = falling(RB_TRANSIENT, 0.1, 200.0);
+    rc.creep_ratio = 0.5;
+    rb_rolling_solution s = solved(&rc);
+    rc.friction.start = &start;
+    rb_rolling_solution t = solved(&rc);
+    CHECK_REL(t.tangential_load, s.tangential_load, 1e-8, "Q");
+    rb_rolling_solution_free(&s);
+    rb_rolling_solution_free(&t);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -455,6 +533,10 @@ int main(void)
         cmocka_unit_test(all_solutions_of_one_are_one),
         cmocka_unit_test(starts_that_fail_are_counted),
         cmocka_unit_test(several_solutions_are_told_apart),
+        cmocka_unit_test(forces_that_only_great_speed_reaches_are_refused),
+        cmocka_unit_test(what_cannot_be_met_ends),
+        cmocka_unit_test(kappa_of_no_pressure_is_nothing),
+        cmocka_unit_test(transients_may_start_elsewhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -229,6 +229,7 @@ static void aligned_edges_stay_beside_their_element(void **state)
                 {{1.0, 1.2, 1.4}, 3.0},  /* 5, too far */
                 {{1.0, 1.4, 1.8}, 2.5},  /* of a line */
                 {{1.0, 2.25, 4.0}, 2.0}, /* a double root */
+                {{12.0, 6.0, 2.0}, 2.5}, /* roots on the other side */
                 {{3.0, 2.0, 3.0}, 2.5},  /* no root */
                 {{2.0, 1.0, 0.5}, 2.5}}; /* no root on this side */
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
