@@ -188,6 +188,22 @@ static void large_contacts_look_ahead_alike(void **state)
     }
 }
 
+static void memory_for_what_is_ahead_may_be_refused(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = plane(0, k ? LARGE : N);
+        pressed d = press(&rc, -1.0, 1.0);
+        rb_rolling_ahead ahead;
+        assert_int_equal(d.bodies.F == NULL, k);
+        alloc_fail_after(0);
+        CHECK_STATUS(rb_rolling_ahead_create(&rc, &d.bodies, 0.01, &ahead), RB_ENOMEM);
+        alloc_succeed();
+        assert_true(!ahead.W_T && !ahead.response);
+        release(&d);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -195,6 +211,7 @@ int main(void)
         cmocka_unit_test(places_beyond_the_mesh_are_those_of_a_longer_one),
         cmocka_unit_test(a_wheel_is_nearly_on_the_line_of_its_midpoints),
         cmocka_unit_test(large_contacts_look_ahead_alike),
+        cmocka_unit_test(memory_for_what_is_ahead_may_be_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

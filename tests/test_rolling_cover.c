@@ -417,6 +417,21 @@ static void a_cover_that_nothing_holds_is_singular(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* A cover of nu = 1/2 carries by waves as short as it is thick. */
+static void elements_longer_than_the_cover_are_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = roll(0.2, 0.5, 0.0);
+    rb_rolling_solution s;
+    rb_message why = {""};
+    rc.half_width = 1.0;
+    rc.contact_elements = 6;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "cover thickness: with nu = 0.5 the elements"));
+    assert_non_null(strstr(why.text, "may not be longer than the thickness, 0.2 mm"));
+    rb_rolling_solution_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -430,6 +445,7 @@ int main(void)
         cmocka_unit_test(the_bond_carries_the_load),
         cmocka_unit_test(bad_covers_are_refused),
         cmocka_unit_test(a_cover_that_nothing_holds_is_singular),
+        cmocka_unit_test(elements_longer_than_the_cover_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

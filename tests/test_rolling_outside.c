@@ -263,6 +263,85 @@ static void patches_too_far_apart_need_fitted_elements(void **state)
     release(t);
 }
 
+/* Without a table there is nothing beyond the radius: a soft interface spreads the
+ * contact so far. */
+static void a_contact_as_wide_as_the_wheel_is_refused(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_solution s;
+    rb_message why = {""};
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.mu = 0.0;
+    rc.load = 100.0;
+    rc.interlayer_normal = 1e4;
+    rc.contact_elements = 20;
+    CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_ZONE);
+    assert_non_null(strstr(why.text, "the contact does not end within"));
+    rb_rolling_solution_free(&s);
+}
+
+/* A given zone and the widest one fail alike: so much more than the given one is said. */
+static void a_zone_without_an_end_is_told_a_third_more(void **state)
+{
+    (void)state;
+    static const double x[] = {0.0}, height[] = {0.0};
+    table *t = bumps(1, x, height);
+    rb_rolling_solution s;
+    rb_message why = {""};
+    t->rc.load = 1e6;
+    t->rc.zone = 0.5;
+    CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &why), RB_ZONE);
+    assert_non_null(strstr(why.text, "half-width 0.5 mm; widen it to 0.65 mm"));
+    rb_rolling_solution_free(&s);
+    release(t);
+}
+
+/* What is irregular beyond the wheel is never met. */
+static void places_beyond_the_wheel_are_not_looked_at(void **state)
+{
+    (void)state;
+    enum { ROWS = 61 };
+    double x[ROWS], y[ROWS] = {0.0};
+    for (int i = 0; i < ROWS; i++)
+        x[i] = 10.0 * (i - 30);
+    y[1] = y[ROWS - 2] = -1.0;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.formulation = RB_TRANSIENT;
+    rc.half_width = 0.5;
+    rc.mu = 0.0;
+    rc.creep = 1e-3;
+    rc.distance = 0.5;
+    rc.contact_elements = 16;
+    rc.zone = 0.8;
+    rb_rolling_solution even = solved(&rc);
+    rc.irregularity = (rb_rolling_table){ROWS, x, y};
+    rb_rolling_solution s = solved(&rc);
+    assert_int_equal(s.n, even.n);
+    for (int i = 0; i < s.n; i++)
+        CHECK_ABS(s.p[i], even.p[i], 1e-9 * even.max_pressure, "element %d", i);
+    rb_rolling_solution_free(&even);
+    rb_rolling_solution_free(&s);
+}
+
+/* On half-planes products do for so many elements. */
+static void half_planes_have_elements_for_patches_far_apart(void **state)
+{
+    (void)state;
+    static const double x[] = {-30.0, 30.0}, height[] = {0.0, 0.0};
+    table *t = bumps(2, x, height);
+    t->rc.load = 1.0;
+    t->rc.mu = 0.0;
+    rb_rolling_solution s = solved(&t->rc);
+    assert_int_equal(s.patches, 2);
+    assert_int_equal(s.large, 1);
+    CHECK_MAX(3000, s.n, "elements");
+    CHECK_REL(s.patch[0].normal_load, 0.5, 1e-3, "half of the load");
+    rb_rolling_solution_free(&s);
+    release(t);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -275,6 +354,10 @@ int main(void)
         cmocka_unit_test(patches_side_by_side_are_fitted_as_one),
         cmocka_unit_test(a_narrow_zone_is_told_its_width),
         cmocka_unit_test(patches_too_far_apart_need_fitted_elements),
+        cmocka_unit_test(a_contact_as_wide_as_the_wheel_is_refused),
+        cmocka_unit_test(a_zone_without_an_end_is_told_a_third_more),
+        cmocka_unit_test(places_beyond_the_wheel_are_not_looked_at),
+        cmocka_unit_test(half_planes_have_elements_for_patches_far_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

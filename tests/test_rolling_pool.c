@@ -229,6 +229,119 @@ static void a_pool_that_cannot_start_says_why(void **state)
     }
 }
 
+/* A pool of no processes: rows come at once, the last case first, until it fails. */
+typedef struct {
+    rb_rolling_pool pool;
+    int idle, given, most, waiting[40000], submits, collects; /* fail after so many */
+    int seen, stopped;
+} pretended;
+
+static int pretended_idle(rb_rolling_pool *pool)
+{
+    const pretended *p = (pretended *)(void *)pool;
+    return p->idle;
+}
+
+static rb_status pretended_submit(rb_rolling_pool *pool, int k)
+{
+    pretended *p = (pretended *)(void *)pool;
+    if (p->submits-- == 0)
+        return RB_ENOMEM;
+    p->waiting[p->given++] = k;
+    p->most = p->given > p->most ? p->given : p->most;
+    return RB_OK;
+}
+
+static int pretended_collect(rb_rolling_pool *pool, int milliseconds, int *k,
+                             rb_rolling_row *row)
+{
+    pretended *p = (pretended *)(void *)pool;
+    (void)milliseconds;
+    if (p->collects-- == 0)
+        return RB_ENOMEM;
+    *k = p->waiting[--p->given];
+    *row = rb_rolling_no_row(RB_OK);
+    row->solution.normal_load = *k;
+    return 1;
+}
+
+static void pretended_stop(rb_rolling_pool *pool)
+{
+    ((pretended *)(void *)pool)->stopped++;
+}
+
+static int see_in_order(int k, const rb_rolling_row *row, void *context)
+{
+    pretended *p = context;
+    assert_int_equal(k, p->seen++);
+    CHECK_ABS(row->solution.normal_load, k, 0.0, "row %d", k);
+    return 0;
+}
+
+static pretended pretend(int idle, int submits, int collects)
+{
+    return (pretended){
+        .pool = {pretended_idle, pretended_submit, pretended_collect, pretended_stop},
+        .idle = idle,
+        .submits = submits,
+        .collects = collects};
+}
+
+/* Rows are seen in the order of the cases, and at most 16384 wait for an earlier one. */
+static void a_pool_s_rows_are_seen_in_order(void **state)
+{
+    (void)state;
+    static pretended p;
+    p = pretend(100000, -1, -1);
+    rb_rolling_sweep sweep = of(40000, 1, 0);
+    sweep.see = see_in_order;
+    sweep.context = &p;
+    CHECK_STATUS(rb_rolling_sweep_by(&sweep, &p.pool, NULL), RB_OK);
+    assert_int_equal(p.seen, 40000);
+    assert_int_equal(p.most, 16384);
+    assert_int_equal(p.stopped, 1);
+}
+
+static void a_pool_that_cannot_go_on_ends_the_study(void **state)
+{
+    (void)state;
+    static pretended p;
+    for (int k = 0; k < 2; k++) {
+        rb_message why = {""};
+        p = pretend(1, k ? -1 : 2, k ? 2 : -1);
+        rb_rolling_sweep sweep = of(5, 1, 0);
+        sweep.see = see_in_order;
+        sweep.context = &p;
+        CHECK_STATUS(rb_rolling_sweep_by(&sweep, &p.pool, &why), RB_ENOMEM);
+        assert_non_null(strstr(why.text, "cannot replace a lost process"));
+        assert_int_equal(p.seen, 2);
+        assert_int_equal(p.stopped, 1);
+    }
+}
+
+static rb_status make_covered(int k, rb_rolling_case *rc, void *context)
+{
+    (void)context;
+    make(k, rc, NULL);
+    rc->a.memory = (rb_rolling_memory){1, {1e-3}, {1.0}}; /* whose stress is not known */
+    rc->speed = 1.0;
+    return RB_OK;
+}
+
+/* Error bars wait for the stress. */
+static void rows_without_stress_have_its_status(void **state)
+{
+    (void)state;
+    rb_rolling_sweep sweep = of(1, 1, RB_ROW_STRESS | RB_ROW_ERRORS);
+    rb_rolling_pool *pool;
+    sweep.make = make_covered;
+    CHECK_STATUS(rb_rolling_pool_start(&sweep, &pool, NULL), RB_OK);
+    const rb_rolling_row row = row_of(pool, 0);
+    CHECK_STATUS(row.solution.status, RB_EINVAL);
+    assert_true(isnan(row.errors.scalar.normal_load));
+    pool->stop(pool);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -238,6 +351,9 @@ int main(void)
         cmocka_unit_test(workers_are_counted),
         cmocka_unit_test(all_cases_come_back_once),
         cmocka_unit_test(a_pool_that_cannot_start_says_why),
+        cmocka_unit_test(a_pool_s_rows_are_seen_in_order),
+        cmocka_unit_test(a_pool_that_cannot_go_on_ends_the_study),
+        cmocka_unit_test(rows_without_stress_have_its_status),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

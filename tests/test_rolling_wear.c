@@ -284,6 +284,59 @@ static void meaningless_wear_is_refused(void **state)
     }
 }
 
+/* A stroke by its force and by the ratio of that is one stroke. */
+static void strokes_may_be_forces(void **state)
+{
+    (void)state;
+    double depth[2];
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = cylinder(24, 1.5);
+        rc.force = k ? NAN : 0.5 * rc.mu * rc.load;
+        rc.force_ratio = k ? 0.5 : NAN;
+        const rb_rolling_wear wear = {.law = RB_WEAR_ARCHARD,
+                                      .coefficient = 1e-9,
+                                      .way = 1e3,
+                                      .steps = 1,
+                                      .increments = 4};
+        worn w = run(&rc, &wear);
+        depth[k] = w.h.max_depth[w.h.n - 1];
+        assert_true(depth[k] > 0.0);
+        worn_free(&w);
+    }
+    CHECK_REL(depth[1], depth[0], 1e-9, "a ratio");
+}
+
+/* The law of dissipation takes one coefficient where surfaces slide; Archard's law, and
+ * wheels that roll, take any. */
+static void friction_laws_wear_where_they_can(void **state)
+{
+    (void)state;
+    rb_message why = {""};
+    worn w;
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_case rc = cylinder(12, 1.5);
+        rb_rolling_wear wear = {.law = k ? RB_WEAR_DISSIPATION : RB_WEAR_ARCHARD,
+                                .coefficient = 1e-12,
+                                .way = 1.0,
+                                .steps = 1,
+                                .slides = k < 2};
+        rc.friction.law = RB_FRICTION_exponential;
+        rc.friction.fall[0] = 0.1;
+        rc.friction.slip_scale[0] = 100.0;
+        rc.speed = 1.0;
+        if (k == 2) {
+            rc.formulation = RB_STEADY;
+            rc.creep = 1e-3;
+            rc.zone = 0.0;
+        }
+        CHECK_STATUS(rb_rolling_wear_run(&rc, &wear, NULL, &w.h, &w.last, &why),
+                     k == 1 ? RB_EINVAL : RB_OK);
+        if (k == 1)
+            assert_non_null(strstr(why.text, "the law of dissipation takes one"));
+        worn_free(&w);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -295,6 +348,8 @@ int main(void)
         cmocka_unit_test(wheel_loses_its_radius),
         cmocka_unit_test(wear_goes_on),
         cmocka_unit_test(meaningless_wear_is_refused),
+        cmocka_unit_test(strokes_may_be_forces),
+        cmocka_unit_test(friction_laws_wear_where_they_can),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

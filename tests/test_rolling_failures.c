@@ -1,0 +1,208 @@
+/* Every call that leads to an allocation sees it refused once, in small cases of all
+ * kinds: it is told, and nothing is lost. */
+#include "rolling/internal.h"
+#include "solved.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+static rb_rolling_case plane(int elements)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.formulation = RB_STEADY;
+    rc.half_width = 1.0;
+    rc.creep_ratio = 0.5;
+    rc.speed = 1000.0;
+    rc.contact_elements = elements;
+    return rc;
+}
+
+static const rb_rolling_heat warm = {.conductivity = 40.0, .heat_capacity = 3.5};
+
+/* ---- What is done ------------------------------------------------------------------ */
+
+static rb_status solve(void *context)
+{
+    rb_rolling_solution s;
+    const rb_status status = rb_rolling_solve(context, &s, NULL);
+    rb_rolling_solution_free(&s);
+    return status;
+}
+
+static rb_status find_all(void *context)
+{
+    rb_rolling_model model;
+    rb_rolling_solutions all = {0};
+    rb_status s = rb_rolling_model_create(context, &model, NULL);
+    if (s == RB_OK)
+        s = rb_rolling_find_solutions(&model, &all, NULL);
+    rb_rolling_solutions_free(&all);
+    rb_rolling_model_free(&model);
+    return s;
+}
+
+static rb_status find_shakedown(void *context)
+{
+    rb_rolling_model model;
+    rb_rolling_shakedown limit;
+    rb_rolling_stress_maxima maxima;
+    rb_status s = rb_rolling_model_create(context, &model, NULL);
+    if (s == RB_OK)
+        s = rb_rolling_shakedown_find(&model, &limit, NULL);
+    if (s == RB_OK)
+        s = rb_rolling_stress_maxima_find(&model, 0.0, &maxima, NULL);
+    rb_rolling_model_free(&model);
+    return s;
+}
+
+static rb_status wear(void *context)
+{
+    const rb_rolling_case *rc = context;
+    const rb_rolling_wear w = {.law = RB_WEAR_ARCHARD,
+                               .coefficient = 1e-9,
+                               .way = 1.0,
+                               .steps = 1,
+                               .increments = 1};
+    rb_rolling_wear_history h;
+    rb_rolling_solution last;
+    const rb_status s = rb_rolling_wear_run(rc, &w, NULL, &h, &last, NULL);
+    rb_rolling_wear_history_free(&h);
+    rb_rolling_solution_free(&last);
+    return s;
+}
+
+static rb_status draw(void *context)
+{
+    rb_rolling_curve curve, errors;
+    const rb_status s = rb_rolling_curve_with_errors(
+        context, &(rb_rolling_range){0, 0.1, 0.2, 2}, &curve, &errors, NULL);
+    rb_rolling_curve_free(&curve);
+    rb_rolling_curve_free(&errors);
+    return s;
+}
+
+/* Without a matrix; nothing is solved. */
+static rb_status pose_large(void *context)
+{
+    const rb_rolling_case *rc = context;
+    rb_rolling_mesh mesh = {0};
+    rb_rolling_bodies bodies = {0};
+    rb_contact_problem p = {0};
+    rb_status s = rb_rolling_mesh_uniform(rc, -1.3, 1.3, &mesh, NULL);
+    if (s == RB_OK)
+        s = rb_rolling_bodies_create(rc, &mesh, &bodies, NULL);
+    if (s == RB_OK)
+        s = rb_rolling_problem_create(rc, &mesh, &bodies, NULL, &p, NULL);
+    rb_contact_problem_free(&p);
+    rb_rolling_bodies_free(&bodies);
+    rb_rolling_mesh_free(&mesh);
+    return s;
+}
+
+/* The calls that an earlier one has not come to. */
+static void refuse(const char *what, rb_status (*work)(void *), rb_rolling_case *rc)
+{
+    print_message("# %s: %d\n", what, alloc_fail_every_call(work, rc));
+}
+
+/* ---- Cases ------------------------------------------------------------------------- */
+
+static void laws_and_heat(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(6);
+    rc.friction.law = RB_FRICTION_exponential;
+    rc.friction.fall[0] = 0.2;
+    rc.friction.slip_scale[0] = 0.2;
+    refuse("a steep law", solve, &rc);
+    rc.friction.slip_scale[0] = 200.0;
+    refuse("all solutions", find_all, &rc);
+    rc.creep_ratio = NAN;
+    rc.force_ratio = 0.2;
+    refuse("a force", solve, &rc);
+    rc = plane(6);
+    rc.heat_a = rc.heat_b = warm;
+    rc.heat_b.conductivity *= 2.0;
+    rc.friction.heat = -0.1;
+    rc.friction.heat_from = 1.0;
+    rc.friction.heat_range = 100.0;
+    refuse("warm friction", solve, &rc);
+    rc.friction.heat = 0.0;
+    rc.heat_b = rc.heat_a;
+    rc.formulation = RB_TRANSIENT;
+    rc.distance = 0.5;
+    rc.steps = 2;
+    refuse("warm steps", solve, &rc);
+}
+
+static void stress_wear_and_curves(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(6);
+    refuse("shakedown", find_shakedown, &rc);
+    refuse("a wheel that wears", wear, &rc);
+    rc.contact_elements = 12;
+    refuse("curves and their bars", draw, &rc);
+    rc.formulation = RB_STATIC;
+    rc.creep_ratio = NAN;
+    rc.force_ratio = 0.5;
+    refuse("fretting", wear, &rc);
+}
+
+static void steps_that_yield(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(6);
+    rc.formulation = RB_TRANSIENT;
+    rc.distance = 0.5;
+    rc.steps = 2;
+    rc.interlayer_tangential = 1e-5;
+    rc.yield_stress = 10.0;
+    refuse("yielding", solve, &rc);
+}
+
+/* Two lobes, on a wheel: places that no element sees. */
+static void patches_of_wheels(void **state)
+{
+    (void)state;
+    enum { ROWS = 41 };
+    double x[ROWS], gap[ROWS];
+    rb_rolling_profile *profile;
+    for (int i = 0; i < ROWS; i++) {
+        x[i] = 0.2 * (i - ROWS / 2);
+        gap[i] = fmin(gsl_pow_2(x[i] - 2.0), gsl_pow_2(x[i] + 2.0) + 0.01) / 20.0;
+    }
+    CHECK_STATUS(rb_rolling_profile_create(ROWS, x, gap, 0.0, &profile, NULL), RB_OK);
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = plane(10);
+        rc.a.support = RB_BEM_HUB;
+        rc.outer_elements = 24;
+        rc.gap = RB_GAP_TABLE;
+        rc.profile = profile;
+        rc.half_width = NAN;
+        rc.load = 20.0;
+        rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        refuse("patches", solve, &rc);
+    }
+    rb_rolling_profile_free(profile);
+}
+
+static void products_of_large_contacts(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(RB_ROLLING_LARGE);
+    refuse("products", pose_large, &rc);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(laws_and_heat),
+        cmocka_unit_test(stress_wear_and_curves),
+        cmocka_unit_test(steps_that_yield),
+        cmocka_unit_test(patches_of_wheels),
+        cmocka_unit_test(products_of_large_contacts),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
