@@ -616,6 +616,23 @@ static void what_has_yielded_rides_along(void **state)
     release(&model, &h);
 }
 
+/* With the coefficient of its row a force may be too large: at rest as on the way. */
+static void a_row_s_friction_bounds_its_force(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steel_wheel(20);
+    rb_rolling_model model;
+    rb_rolling_history h;
+    rb_message why = {""};
+    const double mu[] = {0.3, 0.1}, force[] = {0.2 * rc.load, 0.2 * rc.load};
+    const rb_rolling_program program = {.n = 2, .mu = mu, .force = force};
+    rc.formulation = RB_STATIC;
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
+                 RB_EINVAL);
+    assert_non_null(strstr(why.text, "row 2"));
+    release(&model, &h);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -637,6 +654,7 @@ int main(void)
         cmocka_unit_test(ways_that_lead_nowhere_are_refused),
         cmocka_unit_test(states_are_followed_to_the_same_history),
         cmocka_unit_test(what_has_yielded_rides_along),
+        cmocka_unit_test(a_row_s_friction_bounds_its_force),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

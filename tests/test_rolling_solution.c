@@ -220,14 +220,15 @@ static void a_support_holds_the_load(void **state)
 static void a_model_solves_the_next_case_as_the_first(void **state)
 {
     (void)state;
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = plane(RB_STEADY), next;
         rb_rolling_model model = {0};
-        rc.mesh = k == 1 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        rc.mesh = k == 1 || k == 4 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
         next = rc;
-        next.mesh = k == 2 ? RB_MESH_FITTED : rc.mesh;
+        next.mesh = k == 2 ? RB_MESH_FITTED : k == 4 ? RB_MESH_UNIFORM : rc.mesh;
         next.load = 700.0;
-        if (k < 3)
+        next.contact_elements += k == 5 ? 2 : 0;
+        if (k != 3)
             model = solved_model(&rc);
         CHECK_STATUS(rb_rolling_model_again(&next, &model, NULL), RB_OK);
         rb_rolling_model fresh = solved_model(&next);

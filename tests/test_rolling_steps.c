@@ -725,6 +725,31 @@ static void every_failed_allocation_is_reported(void **state)
     }
 }
 
+/* Steps without contact have no edge whose power is uncertain. */
+static void lost_contact_has_error_bars(void **state)
+{
+    (void)state;
+    const spot hole = make_spot(9.0, 6.0, 0.5);
+    rb_rolling_case rc = kind_of_case(KINDS - 1);
+    rb_rolling_model model;
+    rb_rolling_history h;
+    int lost = 0;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.formulation = RB_TRANSIENT;
+    rc.creep = 1e-3;
+    rc.distance = 14.0;
+    rc.steps = 20;
+    const rb_rolling_case moving = with_spot(&rc, &hole);
+    CHECK_STATUS(rb_rolling_history_with_errors(&moving, NULL, NULL, &model, &h, NULL),
+                 RB_OK);
+    for (int i = 0; i < h.n; i++) {
+        lost += h.normal_load[i] == 0.0;
+        assert_true(isfinite(h.errors->dissipation[i]));
+    }
+    assert_true(lost > 2);
+    release(&model, &h);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -745,6 +770,7 @@ int main(void)
         cmocka_unit_test(zones_grow_with_what_passes),
         cmocka_unit_test(bad_irregularities_are_refused),
         cmocka_unit_test(every_failed_allocation_is_reported),
+        cmocka_unit_test(lost_contact_has_error_bars),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -575,6 +575,28 @@ static void every_failed_allocation_is_reported(void **state)
     }
 }
 
+/* At rest the table holds the contact, in sliding not: the zone grows to all of it, and
+ * then there is nothing more. */
+static void a_history_grows_its_zone_to_the_end_of_the_table(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = halfplane(0.0, 1.0, 40);
+    rb_rolling_model model;
+    rb_rolling_history history;
+    rb_message why = {""};
+    rc.half_width = 1.0;
+    rc.formulation = RB_TRANSIENT;
+    rc.creep_ratio = 3.0;
+    rc.distance = 3.0;
+    set_table(&rc, 1.25, 0.0);
+    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &history, &why),
+                 RB_ZONE);
+    assert_non_null(strstr(why.text, "table"));
+    CHECK_ABS(model.mesh.ends[model.mesh.n], 1.25, 1e-2, "the widest zone");
+    rb_rolling_history_free(&history);
+    rb_rolling_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -596,6 +618,7 @@ int main(void)
         cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(a_contact_without_an_end_is_refused),
         cmocka_unit_test(a_curve_and_a_history_find_the_end_of_their_mesh),
+        cmocka_unit_test(a_history_grows_its_zone_to_the_end_of_the_table),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     rb_rolling_profile_free(profile);
