@@ -555,8 +555,12 @@ static void what_is_not_there_is_none(void **state)
         assert_true(isnan(rb_api_number(a, numbers[k])));
     assert_null(rb_api_word(a, "solver"));
     assert_null(rb_api_variable(a, 0, text, sizeof text));
-    const int refused[] = {rb_api_pivots(a), rb_api_newton(a), rb_api_guess(a, 1, zone),
-                           rb_api_stress(a, 3, 3, 0.0), rb_api_stress_maxima(a, 0.0)};
+    const int refused[] = {rb_api_pivots(a),
+                           rb_api_newton(a),
+                           rb_api_guess(a, 1, zone),
+                           rb_api_stress(a, 3, 3, 0.0),
+                           rb_api_stress_at(a, 1, (double[]){0.0, 1.0}),
+                           rb_api_stress_maxima(a, 0.0)};
     for (size_t k = 0; k < sizeof refused / sizeof *refused; k++)
         assert_int_equal(refused[k], RB_EINVAL);
     assert_string_equal(rb_api_message(a), "nothing is solved");
@@ -569,6 +573,7 @@ static void what_is_not_there_is_none(void **state)
     assert_string_equal(rb_api_variable(a, 2 * 36, text, sizeof text), "z0");
     assert_null(rb_api_variable(a, 2 * 36 + 1, text, sizeof text));
     assert_null(rb_api_array(a, "mesh.z0", &r, &c));
+    assert_null(rb_api_array(a, "plastic", &r, &c)); /* nothing yields */
     assert_null(rb_api_array(a, "patch.colour", &r, &c));
     assert_true(isnan(rb_api_number(a, "error.normal_load"))); /* not asked for */
     rb_api_free(a);

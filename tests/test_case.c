@@ -704,6 +704,29 @@ static void files_are_blamed_by_line(void **state)
     }
 }
 
+/* A caller's own options stand beside those of the case; who gave them it need not ask.
+ */
+static void own_options_are_read_beside_the_case(void **state)
+{
+    double own = 0.0;
+    static const rb_option options[] = {RB_GROUP_LINE("own", "Own"),
+                                        RB_NUMBER_LINE("weight", 0, "", RB_ANY, "")};
+    const rb_option_set set = {options, 2, &own, NULL, NULL};
+    rb_message why = {""};
+    rb_case *c = rb_case_create(RB_CASE_SINGLE);
+    (void)state;
+    write_file("own.ini", "mu = 0.2\n[own]\nweight = 2\n");
+    CHECK_STATUS(rb_case_read(c, "own.ini", 1, &set, &why), RB_OK);
+    CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
+    CHECK_ABS(own, 2.0, 0.0, "own");
+    CHECK_ABS(rb_case_settled(c)->rc.mu, 0.2, 0.0, "mu");
+    CHECK_STATUS(rb_option_assign(&set, 0, 1, "own", "1", &why), RB_EINVAL);
+    write_file("own.ini", "[own]\nmu = 0.2\n");
+    CHECK_STATUS(rb_case_read(c, "own.ini", 1, &set, &why), RB_EFORMAT);
+    assert_non_null(strstr(why.text, "own.ini:2: key 'mu' belongs to section"));
+    rb_case_free(c);
+}
+
 static void an_argument_wins_over_the_file(void **state)
 {
     (void)state;
@@ -903,6 +926,7 @@ int main(void)
         cmocka_unit_test(a_purpose_refuses_what_means_nothing_to_it),
         cmocka_unit_test(a_curve_takes_several_mu),
         cmocka_unit_test(files_are_blamed_by_line),
+        cmocka_unit_test(own_options_are_read_beside_the_case),
         cmocka_unit_test(an_argument_wins_over_the_file),
         cmocka_unit_test(a_copy_is_settled_from_its_words),
         cmocka_unit_test(a_copy_borrows_the_files),

@@ -758,6 +758,8 @@ static void tables_that_cannot_be_checked_are_refused(void **state)
                65, "a table of rollbem curve (only tables of single cases can)");
     check_says("printf '# rollbem 0.1.0\\n# rollbem \\\\\\n1 2\\n'", 65,
                "r.json: cannot");
+    check_says("printf '# rollbem 0.1.0\\n# rollbem\\n1 2\\n'", 65,
+               "expected a table of a single case, with its comments");
     check_says("echo 1 2", 65, "expected the JSON of a result, or a table");
 }
 

@@ -55,9 +55,20 @@ static void what_no_page_can_be_made_of_is_refused(void **state)
     (void)state;
     write_file("page.html", page);
     write_file("other.html", "<p>nothing</p>");
+    write_file("filled.html", "<script type=\"application/json\" id=\"carried\">{}"
+                              "</script><script type=\"application/json\" "
+                              "id=\"limits\">{}</script>");
+    write_file("endless.html",
+               "<script type=\"application/json\" id=\"carried\">null</script>");
+    write_file("strange.html", "<script type=\"application/json\" id=\"carried\">null"
+                               "</script><script type=\"application/json\" "
+                               "id=\"limits\">{\"left_out\": [1]}</script>");
     write_file("gap.tsv", "-1 0.1\n0 0\n1 0.1\n");
     check_refused("page --page none.html", 66, "none.html");
     check_refused("page --page other.html", 65, "other.html: expected the page");
+    check_refused("page --page filled.html", 65, "filled.html: expected the page");
+    check_refused("page --page endless.html", 65, "endless.html: expected the page");
+    assert_int_equal(rollbem("page --page strange.html --mu 0.1"), 0);
     check_refused("page --page page.html --mu -1", 64, "--mu");
     check_refused("page --page page.html --gap gap.tsv", 64, "--gap: names a file");
     check_refused("page --page page.html --error", 64, "--error: not in the page");

@@ -111,6 +111,17 @@ static void refusals_have_their_code_and_reason(void **state)
         {64, "b.ini --plot-script p.gp", "got 0"},
         {65, "size.ini",
          "size.ini:3: plot-size: there is no picture; --plot FILE asks for one"},
+        {65, "arc.ini", "arc.ini:2: arc: of the support arc only"},
+        {64, "help --nothing", "unknown command '--nothing'"},
+        {64,
+         "b.ini --friction-law exponential --mu-fall 1,2,3 --slip-scale 1,2,3 --speed 1",
+         "--mu-fall: expected 1 or 2 numbers, got 3"},
+        {64, "sweep s.ini --results nothing,contact", "no result 'nothing'"},
+        {73, "sweep s.ini --quiet --output /dev/full", "/dev/full: No space left"},
+        {64, "sweep v.ini --vary-1 'creep 0.1 0.2'",
+         "creep and v.ini:4: creep-ratio exclude each other"},
+        {64, "sweep w.ini --vary-1 'creep-ratio 0.1 0.2'",
+         "w.ini:4: creep and creep-ratio exclude each other"},
         {65, "every.ini", "every.ini:2: every: for --formulation transient, --history"},
         {65, "script.ini",
          "script.ini:3: plot-script: expected one picture (such as --plot FILE)"},
@@ -355,6 +366,11 @@ static void refusals_have_their_code_and_reason(void **state)
                "support = halfplane\nload = 100\ncontact-elements = 12\nzone = 1\n"
                "formulation = steady\n[sweep]\nvary-1 = load 100 200\n"
                "vary-2 = creep-ratio 0 0.5\n");
+    write_file("arc.ini", "support = halfplane\narc = 30\nload = 100\n");
+    write_file("v.ini", "formulation = steady\nsupport = halfplane\nload = 100\n"
+                        "creep-ratio = 0.1\n");
+    write_file("w.ini", "formulation = steady\nsupport = halfplane\nload = 100\n"
+                        "creep = 0.1\n");
     write_file("every.ini", "load = 100\nevery = 2\n");
     write_file("size.ini", "load = 100\n[output]\nplot-size = slide\n");
     write_file("script.ini", "load = 100\n[output]\nplot-script = p.gp\n");

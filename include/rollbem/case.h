@@ -137,7 +137,7 @@ typedef struct {
         .help = __VA_ARGS__                                                              \
     }
 
-/* A table and the struct its values go to. */
+/* A table, which begins with a heading, and the struct its values go to. */
 typedef struct {
     const rb_option *options;
     int n;

@@ -238,8 +238,7 @@ static rb_status refuse(const rb_case *c, const rb_option *o, const char *reason
 rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *reason,
                                rb_message *why)
 {
-    const rb_option *o = rb_case_option(name);
-    return o && rb_case_given(c, name) ? refuse(c, o, reason, why) : RB_OK;
+    return rb_case_given(c, name) ? refuse(c, rb_case_option(name), reason, why) : RB_OK;
 }
 
 /* 1: the case file is to blame, since nothing else gives anything of the case. */

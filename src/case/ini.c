@@ -39,14 +39,6 @@ static char *read_line(char *line, int size, void *context)
     return line;
 }
 
-/* The section that option i stands in: the heading above it. */
-static const char *section_of(const rb_option_set *set, int i)
-{
-    while (i >= 0 && set->options[i].kind != RB_OPTION_GROUP)
-        i--;
-    return i >= 0 ? set->options[i].name : "";
-}
-
 static int known_section(const ini_state *st, const char *name, rb_guess *guess)
 {
     for (int k = 0; k < st->n; k++)
@@ -64,7 +56,7 @@ static int known_section(const ini_state *st, const char *name, rb_guess *guess)
 static rb_status check_section(const ini_state *st, const rb_option_set *set, int i,
                                const char *section)
 {
-    const char *wanted = section_of(set, i);
+    const char *wanted = rb_case_section(&set->options[i]);
     if (*section == '\0' || strcmp(section, wanted) == 0)
         return RB_OK;
     return rb_fail(st->why, RB_EFORMAT,
@@ -124,7 +116,7 @@ static rb_status set_key(const ini_state *st, const char *section, const char *n
         return rb_fail(st->why, RB_EFORMAT,
                        "%s:%d: key '%s' was given before, in line %d", st->path, st->line,
                        name, before);
-    if (strcmp(name, "units") == 0 && set->target == &st->c->words)
+    if (strcmp(name, "units") == 0)
         return set_units(st, set, i, value);
     return before == RB_GIVEN_ARGUMENT ? RB_OK : set_value(st, set, i, value);
 }
@@ -132,9 +124,8 @@ static rb_status set_key(const ini_state *st, const char *section, const char *n
 static int handle_key(void *context, const char *section, const char *name,
                       const char *value)
 {
-    ini_state *st = context;
-    if (st->status == RB_OK)
-        st->status = set_key(st, section, name, value);
+    ini_state *st = context; /* behind an error read_line ends the file */
+    st->status = set_key(st, section, name, value);
     return st->status == RB_OK;
 }
 

@@ -43,7 +43,7 @@ rb_status rb_case_solve_again(const rb_settled_case *c, rb_rolling_step *step,
     rb_rolling_model_free(&model);
     if (rb_case_has_steps(c))
         return solve_steps(c, step, context, r, why);
-    r->has_errors = c->error || c->accuracy > 0.0;
+    r->has_errors = 1;
     if (c->accuracy > 0.0)
         return rb_rolling_solve_to_accuracy(&c->rc, c->accuracy, &r->solution, &r->errors,
                                             &r->elements, why);

@@ -144,7 +144,7 @@ int cli_help(int argc, char **argv)
 {
     if (argc > 2)
         return cli_fail(CLI_USAGE, "help: unexpected '%s'", argv[2]);
-    if (argc > 1 && argv[1][0] != '-') {
+    if (argc > 1 && strcmp(argv[1], "--help") != 0) {
         char *args[] = {argv[1], "--help", NULL};
         return cli_run(argv[1], 2, args);
     }

@@ -4,6 +4,7 @@
 
 #include "rollbem/report.h"
 
+#include <ctype.h>
 #include <string.h>
 
 /* "curve" of "rollbem curve [OPTION...]"; "" for the command without a name. */
@@ -30,7 +31,7 @@ static void print_escaped(const char *text, const char *special, const char *bef
     for (; *text; text++) {
         if (strchr(special, *text))
             fputs(before, stdout);
-        putchar(*text == '\n' ? ' ' : *text);
+        putchar(*text);
     }
 }
 
@@ -79,7 +80,7 @@ static void print_troff(const char *text)
 static void print_upper(const char *text)
 {
     for (; *text; text++)
-        putchar(*text >= 'a' && *text <= 'z' ? *text - 'a' + 'A' : *text);
+        putchar(toupper((unsigned char)*text));
 }
 
 static void print_man_option(const rb_option *o, const void *target)

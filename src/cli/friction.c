@@ -208,7 +208,7 @@ static void print_solution(const friction_run *run, rb_report_cells *c,
         rb_report_comment(c, "rank %d, hyperstaticity %d, nullity %d, asymmetry %.3g%s",
                           r->facts.rank, r->facts.hyperstaticity, r->facts.nullity,
                           r->facts.asymmetry, r->facts.indefinite ? ", indefinite" : "");
-    for (int i = 0; i < r->m && r->r; i++) {
+    for (int i = 0; i < r->m; i++) {
         rb_report_cell_text(c, r->file);
         rb_report_cell_whole(c, i + 1);
         rb_report_cell_number(c, r->r[i]);

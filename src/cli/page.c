@@ -2,6 +2,7 @@
 #include "cli/case.h"
 #include "cli/output.h"
 #include "rollbem/io.h"
+#include "rollbem/report.h"
 
 #include <jansson.h>
 #include <stddef.h>
@@ -171,7 +172,7 @@ static rb_status write_page(FILE *out, const void *context, rb_message *why)
         else
             putc(*c, out);
     fputs(p->place + strlen(no_case), out);
-    return ferror(out) ? RB_EWRITE : RB_OK;
+    return rb_report_flush(out);
 }
 
 static cli_exit fill_page(rb_case *c, const page_options *o)

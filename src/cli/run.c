@@ -153,7 +153,6 @@ rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
         s = run_steps(c, &w, r, why);
     if (w.failed == RB_OK)
         return s;
-    if (why)
-        *why = failure;
+    *why = failure;
     return w.failed;
 }
