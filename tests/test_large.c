@@ -220,6 +220,12 @@ static void driven_contacts_know_how_they_roll_freely(void **state)
     assert_int_equal(s.large, 1);
     CHECK_REL(s.free_creepage * rc.a.radius / 0.3, -0.715826, 1e-3, "free creepage");
     rb_rolling_solution_free(&s);
+    rb_rolling_model model = solved_model(&rc);
+    double creepage;
+    alloc_fail_after(0);
+    CHECK_STATUS(rb_rolling_free_creepage(&model, &creepage, NULL), RB_ENOMEM);
+    alloc_succeed();
+    rb_rolling_model_free(&model);
 }
 
 /* Free rolling of dissimilar cylinders at very small friction (Bentall and Johnson). */

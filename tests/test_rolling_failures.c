@@ -183,6 +183,7 @@ static void patches_of_wheels(void **state)
         rc.half_width = NAN;
         rc.load = 20.0;
         rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        rc.elastic_b = k;
         refuse("patches", solve, &rc);
     }
     rb_rolling_profile_free(profile);

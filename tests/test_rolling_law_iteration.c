@@ -460,27 +460,54 @@ static void forces_that_only_great_speed_reaches_are_refused(void **state)
     rb_rolling_solution_free(&s);
 }
 
-/* Below what rounding leaves no start ends: all of them are tried, with as many contact
- * problems as there are for them. */
-static void what_cannot_be_met_ends(void **state)
+/* ---- Newton's method by itself ----------------------------------------------------- */
+
+static rb_rolling_model steep_model(void)
+{
+    rb_rolling_case rc = falling(RB_STEADY, 0.2, 1.0);
+    rc.contact_elements = 10;
+    rc.creep_ratio = 0.6;
+    return solved_model(&rc);
+}
+
+/* With as many contact problems as it is given, and no more. */
+static void newtons_method_ends_with_its_problems(void **state)
 {
     (void)state;
-    for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = falling(k ? RB_TRANSIENT : RB_STEADY, 0.2, 0.2);
+    static const int most[] = {0, 1, 3};
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_model model = steep_model();
         rb_message why = {""};
-        rc.contact_elements = 12;
-        rc.creep_ratio = 0.6;
-        rb_rolling_model model;
-        rb_rolling_solution s;
-        CHECK_STATUS(rb_rolling_solve_model(&rc, &model, &s, &why), RB_OK);
-        rb_rolling_solution_free(&s);
-        model.rc.tol = 1e-300;
-        model.problem.rounding = 0.0;
-        const rb_status status = rb_rolling_model_resolve(&model, 0, &why);
-        assert_true(status == RB_MAXITER || status == RB_INACCURATE);
-        assert_true(strlen(why.text) > 0);
+        int left = most[k];
+        for (int i = 0; i < model.problem.n; i++)
+            model.problem.bound[i] *= i % 2 ? 0.9 : 1.0;
+        CHECK_STATUS(rb_rolling_law_newton(&model, 0.0, &left, &why), RB_MAXITER);
+        assert_int_equal(left, -1);
         rb_rolling_model_free(&model);
     }
+}
+
+static rb_status go_to_rest(void *context)
+{
+    rb_rolling_model *model = context;
+    int left = 2000;
+    for (int i = 0; i < model->problem.n; i++)
+        model->problem.bound[i] *= i % 2 ? 0.9 : 1.0;
+    return rb_rolling_law_newton(model, 1e-12, &left, NULL);
+}
+
+static rb_status set_friction(void *context)
+{
+    return rb_rolling_model_friction(context, NULL);
+}
+
+static void newtons_method_may_have_no_memory(void **state)
+{
+    (void)state;
+    rb_rolling_model model = steep_model();
+    assert_true(alloc_fail_each(go_to_rest, &model) > 5);
+    assert_true(alloc_fail_each(set_friction, &model) > 0);
+    rb_rolling_model_free(&model);
 }
 
 static void kappa_of_no_pressure_is_nothing(void **state)
@@ -534,7 +561,8 @@ int main(void)
         cmocka_unit_test(starts_that_fail_are_counted),
         cmocka_unit_test(several_solutions_are_told_apart),
         cmocka_unit_test(forces_that_only_great_speed_reaches_are_refused),
-        cmocka_unit_test(what_cannot_be_met_ends),
+        cmocka_unit_test(newtons_method_ends_with_its_problems),
+        cmocka_unit_test(newtons_method_may_have_no_memory),
         cmocka_unit_test(kappa_of_no_pressure_is_nothing),
         cmocka_unit_test(transients_may_start_elsewhere),
     };
