@@ -1,4 +1,5 @@
 /* Large contacts on half-planes: no matrix, the same answers. */
+#include "rolling/internal.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
@@ -300,6 +301,18 @@ static void without_a_matrix_some_refuse(void **state)
 static void failing_allocations(void **state)
 {
     (void)state;
+    const rb_rolling_case given = steady(DISSIMILAR, RB_ROLLING_LARGE);
+    for (int k = 0, refused = 1; k < 60 && refused; k++) { /* up to the coarser start */
+        rb_rolling_model model = {.rc = given};
+        rb_rolling_mesh mesh;
+        CHECK_STATUS(rb_rolling_mesh_uniform(&given, -1.3, 1.3, &mesh, NULL), RB_OK);
+        alloc_fail_after(k);
+        const rb_status s = rb_rolling_model_build(&model, &mesh, NULL);
+        refused = alloc_failed();
+        alloc_succeed();
+        CHECK_STATUS(s, refused ? RB_ENOMEM : RB_OK);
+        rb_rolling_model_free(&model);
+    }
     const rb_rolling_case rc = steady(DISSIMILAR, RB_ROLLING_LARGE);
     rb_message why;
 

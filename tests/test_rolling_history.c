@@ -633,6 +633,29 @@ static void a_row_s_friction_bounds_its_force(void **state)
     release(&model, &h);
 }
 
+/* Friction and force are linear between the rows of a time, what friction holds is not.
+ */
+static void friction_between_rows_bounds_the_force(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steel_wheel(12);
+    rb_rolling_model model;
+    rb_rolling_history h;
+    rb_message why = {""};
+    const double P = rc.load, mu[] = {0.1, 0.9}, load[] = {0.1 * P, 0.9 * P},
+                 force[] = {0.009 * P, 0.8 * P}, time[] = {0.0, 1.0};
+    const rb_rolling_program program = {
+        .n = 2, .time = time, .mu = mu, .load = load, .force = force};
+    rc.formulation = RB_STATIC;
+    rc.time_step = 0.25;
+    rc.a.memory = (rb_rolling_memory){1, {1.0}, {1.0}};
+    CHECK_STATUS(rb_rolling_history_run(&rc, &program, NULL, &model, &h, &why),
+                 RB_EINVAL);
+    print_message("%s\n", why.text);
+    assert_true(h.n > 0);
+    release(&model, &h);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -655,6 +678,7 @@ int main(void)
         cmocka_unit_test(states_are_followed_to_the_same_history),
         cmocka_unit_test(what_has_yielded_rides_along),
         cmocka_unit_test(a_row_s_friction_bounds_its_force),
+        cmocka_unit_test(friction_between_rows_bounds_the_force),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -259,8 +259,7 @@ static rb_status iterate(rb_rolling_model *model, int warm, rb_message *why)
     rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &from, &to);
     for (int k = 0; k <= STARTS && s > 0 && left > 0; k++) {
         s = rb_rolling_law_start(model, from + (to - from) * k / STARTS, why);
-        if (s == RB_OK)
-            s = go_round(model, 1, why);
+        s = s == RB_OK ? go_round(model, 1, why) : s;
         if (s == RB_MAXITER)
             s = rb_rolling_law_newton(model, enough, &left, why);
     }
