@@ -501,12 +501,36 @@ static rb_status set_friction(void *context)
     return rb_rolling_model_friction(context, NULL);
 }
 
+/* Anywhere on the way to the largest force, which is refused in the end. */
+static void the_way_to_a_force_may_have_no_memory(void **state)
+{
+    (void)state;
+    int refused = 0;
+    for (int count = 40; count < 8000; count = count * 6 / 5) {
+        rb_rolling_case rc = falling(RB_STEADY, 0.2, 4.0);
+        rb_rolling_solution s;
+        rc.contact_elements = 8;
+        rc.force = -199.0;
+        alloc_fail_after(count);
+        const rb_status status = rb_rolling_solve(&rc, &s, NULL);
+        const int failed = alloc_failed();
+        alloc_succeed();
+        CHECK_STATUS(status, failed ? RB_ENOMEM : RB_EINVAL);
+        refused += failed;
+        rb_rolling_solution_free(&s);
+    }
+    assert_true(refused > 10);
+}
+
 static void newtons_method_may_have_no_memory(void **state)
 {
     (void)state;
     rb_rolling_model model = steep_model();
     assert_true(alloc_fail_each(go_to_rest, &model) > 5);
-    assert_true(alloc_fail_each(set_friction, &model) > 0);
+    model.rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
+    model.rc.friction.heat = -0.1;
+    model.rc.friction.heat_range = 100.0;
+    assert_true(alloc_fail_each(set_friction, &model) > 2);
     rb_rolling_model_free(&model);
 }
 
@@ -562,6 +586,7 @@ int main(void)
         cmocka_unit_test(several_solutions_are_told_apart),
         cmocka_unit_test(forces_that_only_great_speed_reaches_are_refused),
         cmocka_unit_test(newtons_method_ends_with_its_problems),
+        cmocka_unit_test(the_way_to_a_force_may_have_no_memory),
         cmocka_unit_test(newtons_method_may_have_no_memory),
         cmocka_unit_test(kappa_of_no_pressure_is_nothing),
         cmocka_unit_test(transients_may_start_elsewhere),

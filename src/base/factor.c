@@ -58,16 +58,10 @@ struct rb_sparse_lu {
 
 static rb_status umfpack_status(int code)
 {
-    switch (code) {
-    case UMFPACK_OK:
-        return RB_OK;
-    case UMFPACK_ERROR_out_of_memory:
-        return RB_ENOMEM;
-    case UMFPACK_WARNING_singular_matrix:
-        return RB_SINGULAR;
-    default:
-        return RB_EINVAL;
-    }
+    return code == UMFPACK_OK                        ? RB_OK
+           : code == UMFPACK_ERROR_out_of_memory     ? RB_ENOMEM
+           : code == UMFPACK_WARNING_singular_matrix ? RB_SINGULAR
+                                                     : RB_EINVAL;
 }
 
 rb_status rb_sparse_lu_create(const rb_sparse *a, rb_sparse_lu **lu)

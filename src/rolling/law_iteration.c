@@ -344,15 +344,14 @@ static rb_status go_on(search *s, double x[3], double f[3])
 static rb_status find_force(search *s, double x[2], double f[2], double small)
 {
     enum { ROUNDS = 200 };
-    rb_status status = RB_OK;
     int kept = -1;
 
-    for (int k = 0; k < ROUNDS && status == RB_OK; k++) {
+    for (int k = 0; k < ROUNDS; k++) {
         const double middle = 0.5 * (x[0] + x[1]);
         double next = x[0] + (x[1] - x[0]) * f[0] / (f[0] - f[1]), g;
         if (!(next > x[0] && next < x[1]) || k % 8 == 7)
             next = middle;
-        status = lack(s, next, &g);
+        const rb_status status = lack(s, next, &g);
         if (status != RB_OK || fabs(g) <= small)
             return status;
         if (!(middle > x[0] && middle < x[1]))
@@ -364,12 +363,10 @@ static rb_status find_force(search *s, double x[2], double f[2], double small)
             f[1 - end] *= 0.5;
         kept = 1 - end;
     }
-    return status != RB_OK
-               ? status
-               : rb_fail(s->why, RB_MAXITER,
-                         "friction law: at creepage %g the force jumps over the one that "
-                         "is wanted",
-                         s->side * x[1]);
+    return rb_fail(s->why, RB_MAXITER,
+                   "friction law: at creepage %g the force jumps over the one that is "
+                   "wanted",
+                   s->side * x[1]);
 }
 
 /* The iteration with the force given, from the state at hand.  A force that refers to the
