@@ -165,6 +165,31 @@ static void cold_starts_end_where_lemke_does(void **state)
     }
 }
 
+/* On a rigid plane under mu beta = 0.86 the steps go round in circles, and without the
+ * path that leads out of them Newton alone solves none of these. */
+static void circles_are_left_on_a_path(void **state)
+{
+    static const struct {
+        int elements;
+        double force_ratio;
+    } cases[] = {{30, NAN}, {63, NAN}, {70, NAN}, {150, -0.5}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        rb_rolling_case rc = steady(RB_BEM_HALFPLANE, cases[k].elements);
+        rc.elastic_b = 0;
+        rc.a.poisson = 0.3;
+        rc.mu = 3.0;
+        rc.zone = 1.7 * rc.half_width;
+        rc.force_ratio = cases[k].force_ratio;
+        if (!isnan(rc.force_ratio))
+            rc.creep_ratio = NAN;
+        rb_rolling_model model = solved_model(&rc);
+        check_beside_lemke(&model);
+        rb_rolling_model_free(&model);
+    }
+}
+
 /* Where nothing sticks under a given creepage no element is held, which only a given
  * force needs: Newton ends by itself, without the fall back to Lemke, and all of the
  * contact slides the way the creepage says. */
@@ -377,6 +402,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_answer_as_their_elements_do),
         cmocka_unit_test(cold_starts_end_where_lemke_does),
+        cmocka_unit_test(circles_are_left_on_a_path),
         cmocka_unit_test(full_sliding_needs_no_other_solver),
         cmocka_unit_test(steps_grow_by_levels),
         cmocka_unit_test(a_kept_lu_serves_other_zones),

@@ -132,6 +132,12 @@ rb_status rb_contact_solve_zones(rb_contact_problem *problem,
 rb_status rb_contact_newton(rb_contact_problem *problem, int warm,
                             rb_contact_state *state);
 
+/* ---- path.c ------------------------------------------------------------------------ */
+
+/* From the zones of the state, which should be nearly right, by changing one element at a
+ * time.  RB_MAXITER where the path ends without a solution, RB_SINGULAR, RB_ENOMEM. */
+rb_status rb_contact_follow_path(rb_contact_problem *problem, rb_contact_state *state);
+
 /* ---- yield.c ----------------------------------------------------------------------- */
 
 /* 1: friction of the state, which knows no layer, is above the yield stress. */

@@ -3,11 +3,14 @@
  * again; the same solve polishes what Lemke found. */
 #include "contact/internal.h"
 
+#include <limits.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { MAX_STEPS = 60, STAGGERED_ROUNDS = 3 };
+/* Steps without fewer zones to correct than before, after which the path is followed. */
+enum { PATIENCE = 20 };
 /* From so many elements on a cold start solves for pairs of them first. */
 enum { HALVED = 100 };
 
@@ -114,9 +117,9 @@ static void hold_one(const rb_contact_problem *p, const rb_contact_state *state,
         zone[held] = RB_ZONE_STICK;
 }
 
-/* New zones into state; returns how many changed. */
+/* Into zone; returns how many changed. */
 static int correct_zones(const rb_contact_problem *p, rb_contact_unknowns unknowns,
-                         rb_contact_state *state, const double *gap, int *zone)
+                         const rb_contact_state *state, const double *gap, int *zone)
 {
     int changes = 0;
 
@@ -126,7 +129,6 @@ static int correct_zones(const rb_contact_problem *p, rb_contact_unknowns unknow
         hold_one(p, state, zone);
     for (int i = 0; i < p->n; i++)
         changes += zone[i] != state->zone[i];
-    memcpy(state->zone, zone, (size_t)p->n * sizeof(int));
     return changes;
 }
 
@@ -140,20 +142,40 @@ static int seen_before(int count, const uint64_t *seen, uint64_t hash)
 
 typedef struct {
     double *gap;
-    int *zone;
+    int *zone, *best; /* corrected ones; those with the fewest corrections so far */
 } workspace;
 
+/* After steps that went round in circles: from the nearest zones found the path leads on
+ * where both groups are unknown, unless the state of the last step lacks no more than
+ * rounding. */
+static rb_status leave_circle(rb_contact_problem *p, rb_contact_unknowns unknowns,
+                              const workspace *ws, rb_contact_state *state)
+{
+    rb_contact_violation violation;
+
+    if (unknowns != RB_BOTH)
+        return RB_MAXITER;
+    const rb_status s = rb_contact_residual(p, state, &violation);
+    if (s != RB_OK || violation.scaled <= p->rounding)
+        return s == RB_OK ? RB_MAXITER : s;
+    memcpy(state->zone, ws->best, (size_t)p->n * sizeof(int));
+    return rb_contact_follow_path(p, state);
+}
+
 /* Solves and corrects until the zones stay: RB_OK; RB_MAXITER when a set of zones comes
- * back, which ends every cycle. */
+ * back, which ends every cycle, or the corrections no longer become fewer, and no path
+ * leads on. */
 static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns,
                          workspace *ws, rb_contact_state *state)
 {
+    const size_t bytes = (size_t)p->n * sizeof(int);
     uint64_t seen[MAX_STEPS];
+    int least = INT_MAX, waited = 0;
 
-    for (int step = 0; step < MAX_STEPS; step++) {
-        seen[step] = rb_hash(RB_HASH_START, state->zone, (size_t)p->n * sizeof(int));
+    for (int step = 0; step < MAX_STEPS && waited < PATIENCE; step++) {
+        seen[step] = rb_hash(RB_HASH_START, state->zone, bytes);
         if (seen_before(step, seen, seen[step]))
-            return RB_MAXITER;
+            break;
         const rb_status s = rb_contact_solve_zones(p, unknowns, state);
         if (s != RB_OK)
             return s;
@@ -161,10 +183,17 @@ static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns,
         rb_contact_kinematics(p, state, ws->gap, state->lambda);
         if (p->trace)
             p->trace(state, p->trace_context);
-        if (correct_zones(p, unknowns, state, ws->gap, ws->zone) == 0)
+        const int changes = correct_zones(p, unknowns, state, ws->gap, ws->zone);
+        if (changes == 0)
             return RB_OK;
+        waited = unknowns == RB_BOTH && changes >= least ? waited + 1 : 0;
+        if (changes < least) {
+            least = changes;
+            memcpy(ws->best, state->zone, bytes);
+        }
+        memcpy(state->zone, ws->zone, bytes);
     }
-    return RB_MAXITER;
+    return leave_circle(p, unknowns, ws, state);
 }
 
 /* Everything in frictionless contact, to begin with. */
@@ -257,9 +286,12 @@ static rb_status from_half(rb_contact_problem *p, workspace *ws, rb_contact_stat
 rb_status rb_contact_newton(rb_contact_problem *problem, int warm,
                             rb_contact_state *state)
 {
-    workspace ws = {rb_alloc((size_t)problem->n, 1), rb_alloc_int((size_t)problem->n)};
+    workspace ws = {rb_alloc((size_t)problem->n, 1), rb_alloc_int(2 * (size_t)problem->n),
+                    NULL};
     rb_status s = ws.gap && ws.zone ? RB_OK : RB_ENOMEM;
 
+    if (s == RB_OK)
+        ws.best = ws.zone + problem->n;
     if (s == RB_OK && warm)
         s = from_zones(problem, &ws, state);
     else if (s == RB_OK) {
