@@ -82,16 +82,16 @@ static void far_away_it_keeps_its_digits(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
-/* Two strips that share an end where the traction has a kink, against the tent of the
- * half-plane; the end itself included. */
+/* Two strips of different length that share an end where the traction has a kink, against
+ * the tent of the half-plane; the end itself included. */
 static void linear_strips_make_a_tent(void **state)
 {
     (void)state;
-    const double nodes[] = {-0.3, 0.1, 0.5}, p[] = {0.0, 2.0, 0.0},
+    const double nodes[] = {-0.3, 0.1, 0.2}, p[] = {0.0, 2.0, 0.0},
                  q[] = {0.0, -0.7, 0.0};
     const double xy[] = {0.0, 0.3, 0.1, 0.2, 0.1, 0.0, -1.0, 0.01, 0.3, 0.0, 2.0, 1.0};
     const rb_strip left = rb_strip_between(-0.3, 0.1, steel, 1.0),
-                   right = rb_strip_between(0.1, 0.5, steel, 1.0);
+                   right = rb_strip_between(0.1, 0.2, steel, 1.0);
     const double complex top = q[1] + p[1] * I;
     double want[18], a[3], b[3];
     CHECK_STATUS(rb_bem_halfplane_stress_linear(&(rb_bem_edge_load){3, nodes, p, q},
@@ -100,9 +100,10 @@ static void linear_strips_make_a_tent(void **state)
     for (int k = 0; k < 6; k++) {
         const double complex z = xy[2 * k] + xy[2 * k + 1] * I;
         rb_strip_linear_stress(&left, z, 0.5 * top, top / 0.4, a);
-        rb_strip_linear_stress(&right, z, 0.5 * top, -top / 0.4, b);
+        rb_strip_linear_stress(&right, z, 0.5 * top, -top / 0.1, b);
         for (int i = 0; i < 3; i++)
-            CHECK_ABS(a[i] + b[i], want[3 * k + i], 1e-7, "point %d, component %d", k, i);
+            CHECK_ABS(a[i] + b[i], want[3 * k + i], 1e-10, "point %d, component %d", k,
+                      i);
     }
 }
 

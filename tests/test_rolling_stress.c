@@ -132,6 +132,75 @@ static void maxima_are_hertzs(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* Stuck under large friction, elements graded: sxx has a sharp peak behind each edge. */
+static rb_rolling_case stuck(void)
+{
+    rb_rolling_case rc = hertz(31);
+    rc.mu = 3.0;
+    rc.elastic_b = 1;
+    rc.b.support = RB_BEM_HALFPLANE;
+    rc.b.radius = 0.5 * rc.a.radius;
+    rc.b.young = 0.05 * rc.a.young;
+    rc.mesh = RB_MESH_FITTED;
+    return rc;
+}
+
+/* Of several peaks the highest, on its top: no point of a fine row has more.  Mirror
+ * images have the same. */
+static void the_highest_of_several_peaks_is_found(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = stuck();
+    rb_rolling_model model = solved_model(&rc);
+    rb_rolling_stress_maxima m, again;
+    double tension = 0.0, mises = 0.0;
+    CHECK_STATUS(rb_rolling_stress_maxima_find(&model, 0.0, &m, NULL), RB_OK);
+    for (int k = -1200; k <= 1200; k++) {
+        const rb_rolling_stress s = at(&model, 1e-3 * k, 0.0);
+        tension = fmax(tension, s.principal_1);
+        mises = fmax(mises, s.von_mises);
+    }
+    assert_true(m.tension.value >= tension);
+    assert_true(m.von_mises.value >= mises);
+    CHECK_REL(m.tension.value, tension, 1e-3, "not far above the row");
+    again = m;
+    again.max_shear.value = again.tension.value = NAN;
+    again.tension.x = -m.tension.x;
+    CHECK_STATUS(rb_rolling_stress_maxima_at(&model, &again, NULL), RB_OK);
+    CHECK_REL(again.tension.value, m.tension.value, 1e-6, "the mirror image");
+    CHECK_REL(again.max_shear.value, m.max_shear.value, 1e-12, "at its own place");
+    again.orthogonal_shear.y = -0.1;
+    CHECK_STATUS(rb_rolling_stress_maxima_at(&model, &again, NULL), RB_EINVAL);
+    rb_rolling_model_free(&model);
+}
+
+/* At the ends of a wheel's elements, which are its corners, as next to them. */
+static void ends_of_elements_are_not_seen(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = hertz(24);
+    rc.a.support = RB_BEM_HUB;
+    rc.outer_elements = 40;
+    rc.mesh = RB_MESH_FITTED;
+    rc.mu = 0.3;
+    rc.formulation = RB_STEADY;
+    rc.creep = 2e-3;
+    rb_rolling_model model = solved_model(&rc);
+    const rb_bem_mesh *mesh = rb_bem_system_mesh(model.bodies.system_a);
+    const double p0 = rb_rolling_derive(&rc).stress;
+    for (int c = 1; c < mesh->contact_n; c++) {
+        const int j = mesh->contact_first + c;
+        const double x = mesh->x0[j], step = 1e-3 * (mesh->x1[j] - x);
+        const double there = at(&model, x, mesh->y0[j]).sxx;
+        for (int side = -1; side <= 1; side += 2) {
+            const double near = x + side * step;
+            const double next = at(&model, near, rb_rolling_surface(&rc, near)).sxx;
+            CHECK_ABS(there, next, 5e-3 * p0, "end %d", c);
+        }
+    }
+    rb_rolling_model_free(&model);
+}
+
 /* A half-width beyond either edge, evenly down to 2.5 half-widths. */
 static void a_grid_lies_under_the_contact(void **state)
 {
@@ -259,6 +328,12 @@ static void shakedown_of_a_frictionless_contact_is_sxy(void **state)
               "the residual stress evens the others out");
     CHECK_REL(hypot(0.5 * (s.sxx - s.syy + limit.residual), s.sxy), limit.shear_yield,
               1e-9, "Mohr's circle there");
+    rb_rolling_shakedown again = limit;
+    again.shear_yield = NAN;
+    CHECK_STATUS(rb_rolling_shakedown_at(&model, &again, NULL), RB_OK);
+    CHECK_REL(again.shear_yield, limit.shear_yield, 1e-12, "again");
+    again.y = -1.0;
+    CHECK_STATUS(rb_rolling_shakedown_at(&model, &again, NULL), RB_EINVAL);
     rb_rolling_model_free(&model);
 
     rb_rolling_case wheel = hertz(16);
@@ -292,6 +367,8 @@ int main(void)
         cmocka_unit_test(far_away_it_is_a_point_load),
         cmocka_unit_test(places_outside_are_named),
         cmocka_unit_test(maxima_are_hertzs),
+        cmocka_unit_test(the_highest_of_several_peaks_is_found),
+        cmocka_unit_test(ends_of_elements_are_not_seen),
         cmocka_unit_test(a_grid_lies_under_the_contact),
         cmocka_unit_test(a_wheel_has_stress_up_to_its_circle),
         cmocka_unit_test(a_wide_grid_stays_on_the_lower_half),

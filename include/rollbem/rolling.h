@@ -897,6 +897,9 @@ void rb_rolling_stress_convert(int n, rb_rolling_stress *at,
 rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double depth,
                                         rb_rolling_stress_maxima *maxima,
                                         rb_message *why);
+/* The values again at the places that maxima names.  RB_EINVAL: one lies outside A. */
+rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
+                                      rb_rolling_stress_maxima *maxima, rb_message *why);
 
 /* inside[k] = 1 where point k lies in A or on its surface: where rb_rolling_stress_at
  * has an answer.  RB_ENOMEM. */
@@ -923,6 +926,9 @@ typedef struct {
 /* RB_EINVAL: a wheel, a layer, a body that relaxes; RB_NO_CONTACT, RB_ENOMEM. */
 rb_status rb_rolling_shakedown_find(const rb_rolling_model *model,
                                     rb_rolling_shakedown *shakedown, rb_message *why);
+/* shear_yield again: what the stress at x, y needs with that residual stress. */
+rb_status rb_rolling_shakedown_at(const rb_rolling_model *model,
+                                  rb_rolling_shakedown *shakedown, rb_message *why);
 
 /* Over the same width and depth as the maxima; nx, ny >= 2.  grid: overwritten. */
 rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int ny,

@@ -31,12 +31,24 @@ void rb_bem_field_free(rb_bem_field *field)
     free(field);
 }
 
-static double complex traction_of(const double *t_contact, int n, int c)
+/* Traction of contact element c in its own frame, along it and into the body: 0 beyond
+ * the contact elements. */
+static double complex own_traction(const rb_bem_mesh *mesh, const double *t_contact,
+                                   int c)
 {
-    return c < 0 || c >= n ? 0.0 : t_contact[2 * c] + t_contact[2 * c + 1] * I;
+    if (c < 0 || c >= mesh->contact_n)
+        return 0.0;
+    const int j = mesh->contact_first + c;
+    const double complex along =
+        (mesh->x1[j] - mesh->x0[j] + (mesh->y1[j] - mesh->y0[j]) * I) /
+        rb_bem_mesh_length(mesh, j);
+    return conj(along) * (t_contact[2 * c] + t_contact[2 * c + 1] * I);
 }
 
-/* Traction at the end between contact elements c - 1 and c, linear between midpoints. */
+/* Traction at the end between contact elements c - 1 and c, linear between midpoints.
+ * Pressure and friction go on there, each along its own element: if the vector did, the
+ * friction would jump by the pressure times the angle between the elements, and the
+ * stress would be infinite at their end, which on the circle it is not. */
 static double complex end_traction(const rb_bem_mesh *mesh, const double *t_contact,
                                    int c)
 {
@@ -45,16 +57,18 @@ static double complex end_traction(const rb_bem_mesh *mesh, const double *t_cont
         c > 0 ? rb_bem_mesh_length(mesh, j - 1) : rb_bem_mesh_length(mesh, j);
     const double after = c < n ? rb_bem_mesh_length(mesh, j) : before;
 
-    return (before * traction_of(t_contact, n, c) +
-            after * traction_of(t_contact, n, c - 1)) /
+    return (before * own_traction(mesh, t_contact, c) +
+            after * own_traction(mesh, t_contact, c - 1)) /
            (before + after);
 }
 
+/* The tractions at its two ends in its own frame. */
 static piece half_element(double complex from, double complex to, double complex f_from,
                           double complex f_to, rb_bem_material material, double unit)
 {
     const rb_strip strip = rb_strip_between(from, to, material, unit);
-    return (piece){strip, 0.5 * (f_from + f_to), (f_to - f_from) / strip.h};
+    return (piece){strip, strip.along * 0.5 * (f_from + f_to),
+                   strip.along * (f_to - f_from) / strip.h};
 }
 
 static void make_pieces(rb_bem_field *f, const double *t_contact)
@@ -67,7 +81,7 @@ static void make_pieces(rb_bem_field *f, const double *t_contact)
         const double complex from = mesh->x0[j] + mesh->y0[j] * I;
         const double complex to = mesh->x1[j] + mesh->y1[j] * I,
                              middle = 0.5 * (from + to);
-        const double complex own = traction_of(t_contact, mesh->contact_n, c);
+        const double complex own = own_traction(mesh, t_contact, c);
         f->piece[2 * c] = half_element(from, middle, end_traction(mesh, t_contact, c),
                                        own, f->system->material, unit);
         f->piece[2 * c + 1] =

@@ -101,12 +101,13 @@ rb_strip_answer rb_strip_traction(const rb_strip *strip, double complex z,
 }
 
 /* At the ends the logarithm of a strip is infinite; those of its neighbours, whose
- * traction goes on from there, cancel it next to the end. */
-static double complex off_the_ends(double complex z, double h)
+ * traction goes on from there, cancel it if they take the same distance.  It is that of
+ * the unit, so large that the rounding of coordinates is not felt in it. */
+static double complex off_the_ends(const rb_strip *strip, double complex z)
 {
-    const double close = 1e-9 * h;
-    const int at_end = cabs(z - 0.5 * h) < close || cabs(z + 0.5 * h) < close;
-    return at_end ? z + close * I : z;
+    const double end = creal(z) < 0.0 ? -0.5 * strip->h : 0.5 * strip->h;
+    const double close = 1e-13 * strip->unit;
+    return cabs(z - end) < close ? complex_of(end, close) : z;
 }
 
 /* With w = z - s and F = f_z - slope w, f_z = f + slope z:
@@ -115,7 +116,8 @@ void rb_strip_linear_stress(const rb_strip *strip, double complex z, double comp
                             double complex slope, double stress[3])
 {
     const double h = strip->h;
-    const double complex at = off_the_ends(below(strip, z), h), lambda = log_ratio(at, h);
+    const double complex at = off_the_ends(strip, below(strip, z)),
+                         lambda = log_ratio(at, h);
     const double complex turn = conj(strip->along), middle = turn * f;
     /* far away the slope is not felt, and would cost digits */
     const double complex rise = cabs(at) < 1e4 * h ? turn * slope : 0.0;

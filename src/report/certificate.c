@@ -447,6 +447,14 @@ static double rounding_of(const rb_certificate *c, const char *key)
     return rb_certificate_rounding(&rb_rolling_solution_scalars, key, &scales, 1e-10);
 }
 
+/* Displacements are differences of larger ones; in static contact the slip, of these. */
+static double rounding_of_column(const rb_certificate *c, const char *key, int i)
+{
+    if (strcmp(key, "un_mm") == 0 || strcmp(key, "ut_mm") == 0)
+        return c->displacement;
+    return strcmp(key, "slip_1") == 0 ? c->displacement / c->again.h[i] : 0.0;
+}
+
 static void compare_table(rb_certificate *c, const json_t *again)
 {
     const char *key;
@@ -461,13 +469,12 @@ static void compare_table(rb_certificate *c, const json_t *again)
             strcmp(key, "q_MPa") == 0)
             continue; /* the laws have these */
         const double most = largest(list);
-        const int is_slip = strcmp(key, "slip_1") == 0; /* in static a difference of ut */
         for (size_t i = 0; i < json_array_size(list); i++) {
             const double want = rb_certificate_number(json_array_get(list, i));
             rb_certificate_expect(c, key, (int)i + 1,
                                   rb_certificate_number(json_array_get(printed, i)), want,
                                   1e-9 * fabs(want) + 1e-11 * most +
-                                      (is_slip ? c->displacement / c->again.h[i] : 0.0));
+                                      rounding_of_column(c, key, (int)i));
         }
     }
     if (json_object_size(c->table) != json_object_size(again))
@@ -487,40 +494,65 @@ static int is_of_the_way(const char *key)
     return 0;
 }
 
-static void compare_objects(rb_certificate *c, const char *name, const json_t *printed,
-                            const json_t *again)
+/* A number, or null where there is none; name: its path, element: its place in a list. */
+static void compare_number(rb_certificate *c, const char *name, int element,
+                           const json_t *printed, const json_t *again,
+                           rb_certificate_slack *slack)
+{
+    const char *dot = strrchr(name, '.');
+    const double want = rb_certificate_number(again);
+    const int exact = json_is_null(again) || json_is_integer(again);
+
+    if (!printed || (json_is_null(again) && !json_is_null(printed)))
+        rb_certificate_violated(c, "%s is missing, or should be null", name);
+    else
+        rb_certificate_expect(c, name, element, rb_certificate_number(printed), want,
+                              exact ? 0.0 : slack(c, dot ? dot + 1 : name, want));
+}
+
+/* The members of an object, and that there are no others. */
+static void compare_members(rb_certificate *c, const char *name, int element,
+                            const json_t *printed, const json_t *again,
+                            rb_certificate_slack *slack)
 {
     const char *key;
-    json_t *want;
-    json_object_foreach((json_t *)again, key, want)
+    json_t *value;
+    char own[120] = "", path[160];
+    snprintf(own, sizeof own, element > 0 ? "%s.%d" : "%s", name, element);
+    json_object_foreach((json_t *)again, key, value)
     {
-        const json_t *value = json_object_get(printed, key);
-        if (is_of_the_way(key))
-            continue;
-        if (json_is_array(want) && json_array_size(want) == json_array_size(value)) {
-            for (size_t i = 0; i < json_array_size(want); i++)
-                compare_objects(c, key, json_array_get(value, i),
-                                json_array_get(want, i));
-            continue;
-        }
-        if (json_is_number(want) || json_is_null(want)) {
-            const double x = rb_certificate_number(want);
-            if (!value || (json_is_null(want) && !json_is_null(value)))
-                rb_certificate_violated(c, "%s: %s is missing, or should be null", name,
-                                        key);
-            else
-                rb_certificate_expect(
-                    c, key, 0, rb_certificate_number(value), x,
-                    (json_is_integer(want) ? 0.0 : 1e-9 * fabs(x) + rounding_of(c, key)));
-        } else if (!json_equal(value, want)) {
-            rb_certificate_violated(c, "%s: %s is not what it should be", name, key);
-        }
+        snprintf(path, sizeof path, "%s.%s", own, key);
+        if (!is_of_the_way(key))
+            rb_certificate_compare(c, path, 0, json_object_get(printed, key), value,
+                                   slack);
     }
-    json_object_foreach((json_t *)printed, key, want)
+    json_object_foreach((json_t *)printed, key, value)
     {
         if (!json_object_get(again, key))
-            rb_certificate_violated(c, "%s: %s is no result of this case", name, key);
+            rb_certificate_violated(c, "%s.%s is no result of this case", own, key);
     }
+}
+
+void rb_certificate_compare(rb_certificate *c, const char *name, int element,
+                            const json_t *printed, const json_t *again,
+                            rb_certificate_slack *slack)
+{
+    const size_t n = json_array_size(again);
+    if (json_is_object(again))
+        compare_members(c, name, element, printed, again, slack);
+    else if (json_is_number(again) || json_is_null(again))
+        compare_number(c, name, element, printed, again, slack);
+    else if (json_is_array(again) && json_array_size(printed) == n)
+        for (size_t i = 0; i < n; i++)
+            rb_certificate_compare(c, name, (int)i + 1, json_array_get(printed, i),
+                                   json_array_get(again, i), slack);
+    else if (!json_equal(printed, again))
+        rb_certificate_violated(c, "%s is not what it should be", name);
+}
+
+static double slack_of_summary(const rb_certificate *c, const char *key, double want)
+{
+    return 1e-9 * fabs(want) + rounding_of(c, key);
 }
 
 static rb_status compare_results(rb_certificate *c)
@@ -530,7 +562,8 @@ static rb_status compare_results(rb_certificate *c)
                                : rb_report_json_table_columns(&c->again);
     if (summary && table) {
         if (c->summary)
-            compare_objects(c, "summary", c->summary, summary);
+            rb_certificate_compare(c, "summary", 0, c->summary, summary,
+                                   slack_of_summary);
         compare_table(c, table);
         rb_certificate_motion(c);
     }

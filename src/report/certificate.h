@@ -52,6 +52,15 @@ typedef struct {
 double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
                                const rb_certificate_scales *scales, double otherwise);
 
+/* What the number of this key may differ by. */
+typedef double rb_certificate_slack(const rb_certificate *c, const char *key,
+                                    double want);
+/* All that `again` holds against what is printed in its place: objects in objects, lists.
+ * name: the path of both, of which a violation tells; element: from 1 on, in a list. */
+void rb_certificate_compare(rb_certificate *c, const char *name, int element,
+                            const json_t *printed, const json_t *again,
+                            rb_certificate_slack *slack);
+
 /* From the residual that is printed for the state at hand. */
 void rb_certificate_tolerances(rb_certificate *c, double residual);
 /* The given load or approach, creepage or shift against the model's. */

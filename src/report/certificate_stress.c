@@ -6,69 +6,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How well a search finds the place of a flat maximum, in half-widths. */
-static const double PLACE = 1e-5;
-
-/* A wheel's stress next to the ends of its elements magnifies the rounding of the ends,
- * and an approximated matrix has other digits for other ends. */
-static double allowed_for(const rb_certificate *c, const char *key, double want)
+/* What a better place may have more of, of the largest pressure: a search ends on top of
+ * a flat maximum somewhere; a wheel's surface has corners. */
+static double search_slack(const rb_certificate *c)
 {
-    const double a = c->again.half_width, most = c->again.max_pressure;
-    if (strcmp(key, "x") == 0 || strcmp(key, "y") == 0)
-        return PLACE * a;
+    const int is_flat = rb_rolling_body_can(&c->model.rc.a, RB_BODY_FLAT);
+    return (is_flat ? 1e-6 : 1e-3) * c->again.max_pressure;
+}
+
+/* A wheel's stress next to its surface magnifies the rounding of the ends of elements,
+ * and an approximated matrix has other digits for other ends. */
+static double slack_of_stress(const rb_certificate *c, const char *key, double want)
+{
+    const double most = c->again.max_pressure;
     if (strcmp(key, "x_mm") == 0 || strcmp(key, "y_mm") == 0)
-        return 1e-12 * a;
+        return 1e-12 * c->again.half_width;
     return 1e-9 * fabs(want) + most * (c->hierarchical ? 1e-5
                                        : rb_rolling_body_can(&c->model.rc.a, RB_BODY_FLAT)
                                            ? 1e-12
-                                           : 1e-8);
-}
-
-static void compare_number(rb_certificate *c, const char *name, int element,
-                           const json_t *printed, const json_t *again)
-{
-    const char *dot = strrchr(name, '.');
-    const double want = rb_certificate_number(again);
-    const double number = json_is_null(again) && !json_is_null(printed)
-                              ? INFINITY
-                              : rb_certificate_number(printed);
-    rb_certificate_expect(c, name, element, number, want,
-                          allowed_for(c, dot ? dot + 1 : name, want));
-}
-
-/* Every number of a list. */
-static void compare_list(rb_certificate *c, const char *name, const json_t *printed,
-                         const json_t *again)
-{
-    if (json_array_size(printed) != json_array_size(again))
-        rb_certificate_violated(c, "%s: %zu numbers, expected %zu", name,
-                                json_array_size(printed), json_array_size(again));
-    for (size_t i = 0; i < json_array_size(again); i++)
-        compare_number(c, name, (int)i + 1, json_array_get(printed, i),
-                       json_array_get(again, i));
-}
-
-/* Every number of `again`, in objects of objects, against the one printed in its place.
- */
-static void compare(rb_certificate *c, const char *name, const json_t *printed,
-                    const json_t *again)
-{
-    const char *key;
-    json_t *value;
-    char inner[120];
-
-    if (json_is_array(again))
-        compare_list(c, name, printed, again);
-    else if (!json_is_object(again))
-        compare_number(c, name, 0, printed, again);
-    else if (json_object_size(printed) != json_object_size(again))
-        rb_certificate_violated(c, "%s: %zu entries, expected %zu", name,
-                                json_object_size(printed), json_object_size(again));
-    json_object_foreach((json_t *)again, key, value)
-    {
-        snprintf(inner, sizeof inner, "%s.%s", name, key);
-        compare(c, inner, json_object_get(printed, key), value);
-    }
+                                           : 1e-7);
 }
 
 /* The grid's points follow from its size. */
@@ -108,16 +64,88 @@ static rb_status points_again(rb_certificate *c, const json_t *printed,
     return s;
 }
 
+/* ---- Largest stresses -------------------------------------------------------------- */
+
+static rb_rolling_extremum printed_extremum(const json_t *maxima, const char *name)
+{
+    const json_t *one = json_object_get(maxima, name);
+    return (rb_rolling_extremum){rb_certificate_member(one, "value"),
+                                 rb_certificate_member(one, "x"),
+                                 rb_certificate_member(one, "y")};
+}
+
+/* Its place has to lie in the depth that was given, and no other may have more. */
+static void expect_largest(rb_certificate *c, const char *name, double depth,
+                           rb_rolling_extremum printed, rb_rolling_extremum found)
+{
+    const double below = printed.y - rb_rolling_surface(&c->model.rc, printed.x);
+    if (depth > 0.0 && !(below <= depth * (1.0 + 1e-9)))
+        rb_certificate_violated(c, "maxima.%s: %g below the surface, looked at to %g",
+                                name, below, depth);
+    if (!(found.value <= printed.value + search_slack(c)))
+        rb_certificate_violated(c, "maxima.%s: printed %.17g, but %.17g at (%g, %g)",
+                                name, printed.value, found.value, found.x, found.y);
+}
+
+/* The stresses at the places that are printed: where a flat or symmetric maximum has
+ * several places, a search may end at another one. */
+static rb_status maxima_again(rb_certificate *c, const json_t *printed, double depth,
+                              rb_rolling_stress_maxima *there, rb_message *why)
+{
+    rb_rolling_stress_maxima found;
+    rb_status s = rb_rolling_stress_maxima_find(&c->model, depth, &found, why);
+
+    there->max_shear = printed_extremum(printed, "max_shear");
+    there->von_mises = printed_extremum(printed, "von_mises");
+    there->orthogonal_shear = printed_extremum(printed, "orthogonal_shear");
+    there->tension = printed_extremum(printed, "tension");
+    if (s != RB_OK)
+        return s;
+    expect_largest(c, "max_shear", depth, there->max_shear, found.max_shear);
+    expect_largest(c, "von_mises", depth, there->von_mises, found.von_mises);
+    expect_largest(c, "orthogonal_shear", depth, there->orthogonal_shear,
+                   found.orthogonal_shear);
+    expect_largest(c, "tension", depth, there->tension, found.tension);
+    s = rb_rolling_stress_maxima_at(&c->model, there, why);
+    if (s == RB_EINVAL)
+        rb_certificate_violated(c, "maxima: %s", why->text);
+    return s == RB_EINVAL ? RB_OK : s;
+}
+
+/* The same of the place that decides. */
+static rb_status shakedown_again(rb_certificate *c, const json_t *printed,
+                                 rb_rolling_shakedown *there, rb_message *why)
+{
+    rb_rolling_shakedown found;
+    rb_status s = rb_rolling_shakedown_find(&c->model, &found, why);
+
+    *there = (rb_rolling_shakedown){rb_certificate_member(printed, "shear_yield"),
+                                    rb_certificate_member(printed, "x"),
+                                    rb_certificate_member(printed, "y"),
+                                    rb_certificate_member(printed, "residual")};
+    if (s != RB_OK)
+        return s;
+    rb_certificate_expect(c, "shakedown.shear_yield", 0, there->shear_yield,
+                          found.shear_yield, search_slack(c));
+    s = rb_rolling_shakedown_at(&c->model, there, why);
+    if (s == RB_EINVAL)
+        rb_certificate_violated(c, "shakedown: %s", why->text);
+    return s == RB_EINVAL ? RB_OK : s;
+}
+
 /* What the program would print of them now. */
 static rb_status compare_all(rb_certificate *c, const json_t *root,
                              const rb_report_stress *stress)
 {
-    json_t *again = json_object(), *value;
+    json_t *again = json_object(), *part;
     const char *key;
 
     rb_report_json_stress(&again, stress);
-    json_object_foreach(again, key, value)
-        compare(c, key, json_object_get(root, key), value);
+    json_object_foreach(again, key, part)
+    {
+        rb_certificate_compare(c, key, 0, json_object_get(root, key), part,
+                               slack_of_stress);
+    }
     const rb_status s = again ? RB_OK : RB_ENOMEM;
     json_decref(again);
     return s;
@@ -131,14 +159,14 @@ rb_status rb_certificate_stress(rb_certificate *c, const json_t *root, rb_messag
     const int is_grid = printed != NULL;
     rb_rolling_stress_grid grid = {0};
     rb_rolling_stress_maxima maxima;
-    rb_rolling_shakedown found;
+    rb_rolling_shakedown limit;
     rb_status s = is_grid ? grid_again(c, printed, depth, &grid, why)
                           : points_again(c, json_object_get(root, "points"), &grid, why);
 
     if (s == RB_OK)
-        s = rb_rolling_stress_maxima_find(&c->model, depth, &maxima, why);
+        s = maxima_again(c, json_object_get(root, "maxima"), depth, &maxima, why);
     if (s == RB_OK && shakedown)
-        s = rb_rolling_shakedown_find(&c->model, &found, why);
+        s = shakedown_again(c, shakedown, &limit, why);
     if (s == RB_OK)
         s = compare_all(c, root,
                         &(rb_report_stress){.nx = is_grid ? grid.nx : 0,
@@ -147,7 +175,7 @@ rb_status rb_certificate_stress(rb_certificate *c, const json_t *root, rb_messag
                                             .depth = depth,
                                             .at = grid.at,
                                             .maxima = &maxima,
-                                            .shakedown = shakedown ? &found : NULL,
+                                            .shakedown = shakedown ? &limit : NULL,
                                             .yield_shear = rb_certificate_member(
                                                 shakedown, "yield_shear"),
                                             .s = &c->again});

@@ -14,17 +14,21 @@ typedef struct {
     rb_rolling_stress at[ACROSS];
 } row;
 
-/* What Tresca's body needs with the residual stress 2 c: the largest radius of the
- * circles of Mohr. */
+/* The radius of Mohr's circle with the residual stress 2 c. */
+static double radius_with(const rb_rolling_stress *s, double c)
+{
+    return hypot(0.5 * (s->sxx - s->syy) + c, s->sxy);
+}
+
+/* What Tresca's body needs with it: the largest radius. */
 static double needed_with(const row *r, double c, double *x)
 {
     double most = 0.0;
     for (int i = 0; i < ACROSS; i++) {
-        const rb_rolling_stress *s = &r->at[i];
-        const double radius = hypot(0.5 * (s->sxx - s->syy) + c, s->sxy);
+        const double radius = radius_with(&r->at[i], c);
         if (radius > most) {
             most = radius;
-            *x = s->x;
+            *x = r->at[i].x;
         }
     }
     return most;
@@ -115,4 +119,15 @@ rb_status rb_rolling_shakedown_find(const rb_rolling_model *model,
     }
     free(r);
     return s == RB_ENOMEM ? rb_fail(why, s, "out of memory for the shakedown limit") : s;
+}
+
+rb_status rb_rolling_shakedown_at(const rb_rolling_model *model,
+                                  rb_rolling_shakedown *shakedown, rb_message *why)
+{
+    const double xy[] = {shakedown->x, shakedown->y};
+    rb_rolling_stress at;
+    const rb_status s = rb_rolling_stress_at(model, 1, xy, &at, why);
+    if (s == RB_OK)
+        shakedown->shear_yield = radius_with(&at, 0.5 * shakedown->residual);
+    return s;
 }

@@ -7,7 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { GRID_X = 64, GRID_Y = 40, SEARCH_STEPS = 200 };
+enum {
+    GRID_X = 64,
+    GRID_Y = 40,
+    SURFACE_X = 512,
+    SEARCH_STEPS = 100,
+    STARTS = 4,
+    CLIMBS = 3
+};
+static const double SIZES[CLIMBS] = {0.05, 0.01, 0.002}; /* of simplices, half-widths */
+static const double CONVERGED = 1e-6;                    /* size of their last one */
 
 double rb_rolling_surface(const rb_rolling_case *rc, double x)
 {
@@ -223,6 +232,7 @@ typedef struct {
     measure *of;
     double scale; /* half-width: unit of the search */
     double from, to, depth;
+    double nearly;    /* what a start may have less than the best, of that */
     rb_status status; /* of the evaluations so far */
 } search;
 
@@ -233,67 +243,129 @@ static rb_status stress_below(const search *s, double x, double depth,
     return stress_of_field(s->f, 1, xy, at, NULL);
 }
 
-/* Smaller is better; outside the box the nearest point of it counts. */
+/* Outside of low ... high the mirror image: a simplex does not feel the end as a wall, on
+ * which it would collapse short of the top. */
+static double folded(double x, double low, double high)
+{
+    const double inside = x < low ? 2.0 * low - x : x > high ? 2.0 * high - x : x;
+    return fmin(fmax(inside, low), high);
+}
+
+static double place_x(const search *s, const gsl_vector *place)
+{
+    return folded(gsl_vector_get(place, 0) * s->scale, s->from, s->to);
+}
+
+static double place_depth(const search *s, const gsl_vector *place)
+{
+    return folded(gsl_vector_get(place, 1) * s->scale, 0.0, s->depth);
+}
+
+/* Smaller is better. */
 static double search_value(const gsl_vector *place, void *context)
 {
     search *s = context;
-    const double x = gsl_vector_get(place, 0) * s->scale;
-    const double depth = gsl_vector_get(place, 1) * s->scale;
-    const double inside_x = fmin(fmax(x, s->from), s->to);
-    const double inside_depth = fmin(fmax(depth, 0.0), s->depth);
     rb_rolling_stress at;
+    const rb_status status =
+        stress_below(s, place_x(s, place), place_depth(s, place), &at);
 
-    const rb_status status = stress_below(s, inside_x, inside_depth, &at);
-    if (status != RB_OK) {
-        if (status != RB_EINVAL) /* that is a place in the hub */
-            s->status = status;
-        return GSL_DBL_MAX;
-    }
-    const double away = hypot(x - inside_x, depth - inside_depth) / s->scale;
-    return -s->of(&at) * (1.0 - away);
+    if (status == RB_OK)
+        return -s->of(&at);
+    if (status != RB_EINVAL) /* that is a place in the hub */
+        s->status = status;
+    return GSL_DBL_MAX;
 }
 
+/* Climbs from a place to the top; the simplex points away from the middle, so that mirror
+ * images of a stress have mirror images of searches. */
+static rb_status climb(search *s, double size, gsl_multimin_fminimizer *m,
+                       gsl_vector *place, gsl_vector *step, rb_rolling_extremum *best)
+{
+    gsl_multimin_function function = {search_value, 2, s};
+    rb_rolling_stress at;
+
+    gsl_vector_set(place, 0, best->x / s->scale);
+    gsl_vector_set(place, 1,
+                   (best->y - rb_rolling_surface(&s->f->model->rc, best->x)) / s->scale);
+    gsl_vector_set(step, 0, best->x < 0.5 * (s->from + s->to) ? -size : size);
+    gsl_vector_set(step, 1, size);
+    gsl_multimin_fminimizer_set(m, &function, place, step);
+    for (int k = 0; k < SEARCH_STEPS && gsl_multimin_fminimizer_size(m) > CONVERGED; k++)
+        gsl_multimin_fminimizer_iterate(m);
+    const double depth = place_depth(s, m->x);
+    const rb_status status =
+        s->status == RB_OK
+            ? stress_below(s, place_x(s, m->x),
+                           /* on the surface, as far as the search can tell */
+                           depth < 10.0 * CONVERGED * s->scale ? 0.0 : depth, &at)
+            : s->status;
+    if (status == RB_OK && s->of(&at) > best->value)
+        *best = (rb_rolling_extremum){s->of(&at), at.x, at.y};
+    return status;
+}
+
+/* A simplex may collapse short of the top, into a dip between two of its corners: a
+ * smaller one goes on from there. */
 static rb_status refine(search *s, rb_rolling_extremum *best)
 {
-    const double surface = rb_rolling_surface(&s->f->model->rc, best->x);
     gsl_multimin_fminimizer *m =
         gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, 2);
-    gsl_vector *start = gsl_vector_alloc(2), *step = gsl_vector_alloc(2);
-    gsl_multimin_function function = {search_value, 2, s};
-    rb_status status = m && start && step ? RB_OK : RB_ENOMEM;
+    gsl_vector *place = gsl_vector_alloc(2), *step = gsl_vector_alloc(2);
+    rb_status status = m && place && step ? RB_OK : RB_ENOMEM;
 
-    if (status == RB_OK) {
-        gsl_vector_set(start, 0, best->x / s->scale);
-        gsl_vector_set(start, 1, (best->y - surface) / s->scale);
-        gsl_vector_set_all(step, 0.05);
-        gsl_multimin_fminimizer_set(m, &function, start, step);
-        for (int k = 0; k < SEARCH_STEPS && gsl_multimin_fminimizer_size(m) > 1e-6; k++)
-            gsl_multimin_fminimizer_iterate(m);
-        const double x = fmin(fmax(gsl_vector_get(m->x, 0) * s->scale, s->from), s->to);
-        const double depth =
-            fmin(fmax(gsl_vector_get(m->x, 1) * s->scale, 0.0), s->depth);
-        rb_rolling_stress at;
-        status = s->status == RB_OK ? stress_below(s, x, depth, &at) : s->status;
-        if (status == RB_OK && s->of(&at) > best->value)
-            *best = (rb_rolling_extremum){s->of(&at), at.x, at.y};
-    }
+    for (int k = 0; k < CLIMBS && status == RB_OK &&
+                    (k == 0 || gsl_multimin_fminimizer_size(m) > CONVERGED);
+         k++)
+        status = climb(s, SIZES[k], m, place, step, best);
     gsl_multimin_fminimizer_free(m);
-    gsl_vector_free(start);
+    gsl_vector_free(place);
     gsl_vector_free(step);
     return status;
 }
 
-/* Grid points outside the body are no number and never the best. */
+/* 1: no neighbour on the grid has more.  Points outside the body are no number. */
+static int is_peak(const search *s, const rb_rolling_stress_grid *grid, int k)
+{
+    const int i = k % grid->nx, j = k / grid->nx;
+    for (int v = j - (j > 0); v <= j + (j + 1 < grid->ny); v++)
+        for (int u = i - (i > 0); u <= i + (i + 1 < grid->nx); u++)
+            if (s->of(&grid->at[v * grid->nx + u]) > s->of(&grid->at[k]))
+                return 0;
+    return !isnan(s->of(&grid->at[k]));
+}
+
+/* The highest peak that is lower than peak `last`, or behind it; -1: none. */
+static int next_peak(const search *s, const rb_rolling_stress_grid *grid, int last)
+{
+    int next = -1;
+    for (int k = 0; k < grid->nx * grid->ny; k++) {
+        const double here = s->of(&grid->at[k]);
+        const double limit = last < 0 ? INFINITY : s->of(&grid->at[last]);
+        if ((here < limit || (here == limit && k > last)) &&
+            (next < 0 || here > s->of(&grid->at[next])) && is_peak(s, grid, k))
+            next = k;
+    }
+    return next;
+}
+
+/* Several peaks may be nearly as high, and the highest one of the grid need not have the
+ * highest top.  best: of the places looked at before. */
 static rb_status maximum(search *s, const rb_rolling_stress_grid *grid,
                          rb_rolling_extremum *best)
 {
-    *best = (rb_rolling_extremum){-INFINITY, NAN, NAN};
-    for (int k = 0; k < grid->nx * grid->ny; k++) {
-        const rb_rolling_stress *at = &grid->at[k];
-        if (s->of(at) > best->value)
-            *best = (rb_rolling_extremum){s->of(at), at->x, at->y};
+    rb_status status = RB_OK;
+    int peak = -1;
+    for (int k = 0; k < STARTS && status == RB_OK; k++) {
+        peak = next_peak(s, grid, peak);
+        const rb_rolling_stress *at = peak < 0 ? NULL : &grid->at[peak];
+        if (!at || s->of(at) < best->value - s->nearly * fabs(best->value))
+            break;
+        rb_rolling_extremum top = {s->of(at), at->x, at->y};
+        status = refine(s, &top);
+        if (top.value > best->value)
+            *best = top;
     }
-    return refine(s, best);
+    return status;
 }
 
 /* The box that is looked at under a contact, or a patch of it, between two edges. */
@@ -446,21 +518,49 @@ rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int n
 
 /* ---- All maxima -------------------------------------------------------------------- */
 
-/* Of one patch, each where it is larger than those found so far. */
+enum { MEASURES = 4 };
+static measure *const measures[MEASURES] = {max_shear, von_mises, orthogonal_shear,
+                                            tension};
+
+static rb_rolling_extremum *of_measure(rb_rolling_stress_maxima *m, int k)
+{
+    rb_rolling_extremum *const all[MEASURES] = {&m->max_shear, &m->von_mises,
+                                                &m->orthogonal_shear, &m->tension};
+    return all[k];
+}
+
+/* Each where it is larger than what was found so far. */
 static rb_status add_maxima(search *s, const rb_rolling_stress_grid *grid,
                             rb_rolling_stress_maxima *maxima)
 {
-    measure *const measures[] = {max_shear, von_mises, orthogonal_shear, tension};
-    rb_rolling_extremum *const results[] = {&maxima->max_shear, &maxima->von_mises,
-                                            &maxima->orthogonal_shear, &maxima->tension};
     rb_status status = RB_OK;
 
-    for (int k = 0; k < 4 && status == RB_OK; k++) {
-        rb_rolling_extremum here;
+    for (int k = 0; k < MEASURES && status == RB_OK; k++) {
         s->of = measures[k];
-        status = maximum(s, grid, &here);
-        if (here.value > results[k]->value)
-            *results[k] = here;
+        status = maximum(s, grid, of_measure(maxima, k));
+    }
+    return status;
+}
+
+/* From a grid that is finer where the stress changes faster, and from two rows at the
+ * surface, where friction that changes from element to element makes narrow peaks. */
+static rb_status add_maxima_under(search *s, rb_rolling_stress_maxima *maxima,
+                                  rb_message *why)
+{
+    const double first_row = s->depth / gsl_pow_2(GRID_Y - 1.0);
+    const double depth[] = {s->depth, first_row}, nearly[] = {0.05, 0.002};
+    const int size[][2] = {{GRID_X, GRID_Y}, {SURFACE_X, 2}};
+    rb_status status = RB_OK;
+
+    for (int k = 0; k < 2 && status == RB_OK; k++) {
+        rb_rolling_stress_grid grid = {.nx = size[k][0], .ny = size[k][1]};
+        search box = *s;
+        box.depth = depth[k];
+        status = make_grid(s->f->model, &box, 2, &grid, why);
+        s->nearly = nearly[k];
+        if (status == RB_OK)
+            status = add_maxima(s, &grid, maxima);
+        rb_rolling_stress_grid_free(&grid);
     }
     return status;
 }
@@ -477,18 +577,29 @@ rb_status rb_rolling_stress_maxima_find(const rb_rolling_model *model, double de
     *maxima = (rb_rolling_stress_maxima){none, none, none, none};
     while (s == RB_OK && rb_rolling_next_patch(&model->rc, &model->mesh, &model->state,
                                                run.last + 1, &run)) {
-        rb_rolling_stress_grid grid = {.nx = GRID_X, .ny = GRID_Y};
         search box = box_under(model, run.from, run.to, depth);
         box.f = &f;
-        /* finer where the stress changes faster */
-        s = make_grid(model, &box, 2, &grid, why);
-        if (s == RB_OK)
-            s = add_maxima(&box, &grid, maxima);
-        rb_rolling_stress_grid_free(&grid);
+        s = add_maxima_under(&box, maxima, why);
         patches++;
     }
     field_free(&f);
     return s == RB_OK && patches == 0
                ? rb_fail(why, RB_NO_CONTACT, "no contact, no stress")
                : s;
+}
+
+rb_status rb_rolling_stress_maxima_at(const rb_rolling_model *model,
+                                      rb_rolling_stress_maxima *maxima, rb_message *why)
+{
+    double xy[2 * MEASURES];
+    rb_rolling_stress at[MEASURES];
+
+    for (int k = 0; k < MEASURES; k++) {
+        xy[2 * k] = of_measure(maxima, k)->x;
+        xy[2 * k + 1] = of_measure(maxima, k)->y;
+    }
+    const rb_status s = rb_rolling_stress_at(model, MEASURES, xy, at, why);
+    for (int k = 0; k < MEASURES && s == RB_OK; k++)
+        of_measure(maxima, k)->value = measures[k](&at[k]);
+    return s;
 }
