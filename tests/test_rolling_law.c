@@ -55,6 +55,9 @@ static void a_table_is_linear_between_its_rows(void **state)
     CHECK_REL(rb_rolling_friction_at(&t, 1.0), 0.5, 1e-15, "between");
     CHECK_ABS(rb_rolling_friction_at(&t, 3.0), 0.1, 0.0, "the last row, to the digit");
     CHECK_ABS(rb_rolling_friction_at(&t, 9.0), 0.1, 0.0, "behind");
+    const rb_rolling_table falls = {2, x + 1, y + 1};
+    CHECK_REL(rb_rolling_friction_at(&falls, 1e-9), 0.7 - 0.2e-9, 1e-15, "behind a row");
+    CHECK_REL(rb_rolling_friction_at(&falls, 1.5), 0.4, 1e-15, "in the middle of two");
     CHECK_ABS(rb_rolling_friction_at(&one, 5.0), 0.1, 0.0, "a single row");
     CHECK_ABS(rb_rolling_friction_at(&one, -5.0), 0.1, 0.0, "a single row");
     rc.friction.table = t;

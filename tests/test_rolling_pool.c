@@ -3,10 +3,12 @@
 #include "rolling/internal.h"
 #include "solved.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 /* Case 3 is refused by its maker, case 4 by the solver; the process that solves case 6
@@ -342,6 +344,20 @@ static void rows_without_stress_have_its_status(void **state)
     pool->stop(pool);
 }
 
+/* A pool that has stopped leaves no process behind, not even a dead one. */
+static void no_process_outlives_its_pool(void **state)
+{
+    (void)state;
+    const rb_rolling_sweep sweep = of(8, 3, 0);
+    rb_rolling_pool *pool;
+    CHECK_STATUS(rb_rolling_pool_start(&sweep, &pool, NULL), RB_OK);
+    row_of(pool, 1);
+    row_of(pool, 6); /* whose process dies, and is replaced */
+    pool->stop(pool);
+    assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
+    assert_int_equal(errno, ECHILD);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -354,6 +370,7 @@ int main(void)
         cmocka_unit_test(a_pool_s_rows_are_seen_in_order),
         cmocka_unit_test(a_pool_that_cannot_go_on_ends_the_study),
         cmocka_unit_test(rows_without_stress_have_its_status),
+        cmocka_unit_test(no_process_outlives_its_pool),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
