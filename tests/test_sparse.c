@@ -417,6 +417,7 @@ static void impossible_sizes_are_refused(void **state)
     CHECK_STATUS(rb_sparse_from_dense(-1, 1, one, 1, &a), RB_EINVAL);
     CHECK_STATUS(rb_sparse_from_dense(1, -1, one, 1, &a), RB_EINVAL);
     CHECK_STATUS(rb_sparse_from_dense(1, 1, one, 0, &a), RB_EINVAL);
+    assert_true(a.rows == 0 && a.cols == 0 && !a.p);
     rb_sparse_cholesky *f;
     int none[] = {0};
     CHECK_STATUS(rb_sparse_cholesky_create(&(rb_sparse){.p = none}, &f), RB_EINVAL);
