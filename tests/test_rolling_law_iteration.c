@@ -237,6 +237,7 @@ static void forces_are_met_in_few_solves(void **state)
             continue;
         rb_rolling_solution s = solved(&rc);
         CHECK_ABS(s.tangential_load, wanted, 1e-7, "force %d", k);
+        CHECK_ABS(s.force_ratio, s.tangential_load / (0.3 * 500.0), 1e-9, "ratio %d", k);
         CHECK_MAX(s.residual, 1e-10, "force %d", k);
         CHECK_MAX(s.iterations, 400, "solves for force %d", k);
         if (k % 2 == 0)

@@ -193,6 +193,7 @@ static void a_support_holds_the_load(void **state)
     (void)state;
     rb_rolling_case rc = plane(RB_STATIC);
     rc.a.support = RB_BEM_HUB;
+    rc.a.core_young = 1e3; /* not read: there is no cover */
     rc.outer_elements = 60;
     rc.contact_elements = 16;
     rb_rolling_model model = solved_model(&rc);
@@ -283,6 +284,34 @@ static void elements_may_stand_where_they_are_told(void **state)
     assert_null(s.p);
 }
 
+/* Along normals that turn with the surface pressure and friction have both components. */
+static void tilted_tractions_add_up_to_both_forces(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.normals = RB_BEM_NORMALS_SURFACE;
+    rc.approach = 2.0; /* a wide contact */
+    rc.mu = 0.5;
+    rc.contact_elements = 16;
+    rb_rolling_model model = solved_model(&rc);
+    rb_rolling_solution s = of(&model);
+    double t[2 * 64], down = 0.0, along = 0.0;
+    assert_true(s.n <= 64);
+    rb_rolling_contact_tractions(&model, t);
+    for (int i = 0; i < s.n; i++) {
+        along += s.h[i] * t[2 * i];
+        down += s.h[i] * t[2 * i + 1];
+    }
+    CHECK_REL(down, s.normal_load, 1e-12, "load");
+    CHECK_REL(along, s.tangential_load, 1e-12, "force");
+    double plain = 0.0;
+    for (int i = 0; i < s.n; i++)
+        plain += s.h[i] * s.p[i];
+    CHECK_MAX(1e-4, fabs(down / plain - 1.0), "tilt");
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -294,6 +323,7 @@ int main(void)
         cmocka_unit_test(a_model_solves_the_next_case_as_the_first),
         cmocka_unit_test(a_ratio_is_met_under_an_approach),
         cmocka_unit_test(elements_may_stand_where_they_are_told),
+        cmocka_unit_test(tilted_tractions_add_up_to_both_forces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
