@@ -604,9 +604,9 @@ static int prepare_inputs(void **state)
     snprintf(preload, sizeof preload, "%.*s/tests/fault_malloc.so",
              (int)(strlen(program) - strlen("/rollbem")), program);
     write_file("case.ini", "support = halfplane\n[normal]\nload = 100\n[friction]\n"
-                           "mu = 0.3\n[mesh]\ncontact-elements = 12\nzone = 0.5\n");
+                           "mu = 0.3\n[mesh]\ncontact-elements = 6\nzone = 0.5\n");
     write_file("study.ini",
-               "support = halfplane\nload = 100\ncontact-elements = 12\n"
+               "support = halfplane\nload = 100\ncontact-elements = 6\n"
                "formulation = steady\n[sweep]\nvary-1 = creep-ratio 0:1:3\n");
     for (size_t k = 0; k < sizeof making_inputs / sizeof *making_inputs; k++)
         if (shell(making_inputs[k]) != 0)
