@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static char program[600], folder[] = "/tmp/rollbem-cli-XXXXXX";
+static char program[600], folder[40] = "/tmp/rollbem-cli-XXXXXX";
 static char out[1000000], err[20000];
 
 static inline void slurp(const char *name, char *text, size_t size)
