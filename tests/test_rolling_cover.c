@@ -206,7 +206,7 @@ static rb_rolling_case roll(double d, double nu, double core_young)
     rc.formulation = RB_STEADY;
     rc.force_ratio = -0.5;
     rc.mesh = RB_MESH_FITTED;
-    rc.contact_elements = 60;
+    rc.contact_elements = 36;
     return rc;
 }
 

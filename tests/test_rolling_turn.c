@@ -283,7 +283,7 @@ static void a_thin_cover_is_the_layer(void **state)
         double before[3] = {0.0};
         for (int k = 0; k < 2; k++) {
             double value[3], flat[3];
-            rb_rolling_case rc = wheel(30);
+            rb_rolling_case rc = wheel(20);
             rc.a.radius = 50.0 * (1 << k);
             rc.a.poisson = 0.45;
             rc.a.cover = 2.0;
@@ -316,7 +316,7 @@ static void a_cover_to_the_hub_is_the_wheel(void **state)
     (void)state;
     double value[2][3];
     for (int k = 0; k < 2; k++) {
-        rb_rolling_case rc = wheel(30);
+        rb_rolling_case rc = wheel(20);
         rc.a.cover = k ? 30.0 : 0.0;
         rc.near_field = RB_NEAR_FIELD_EXACT;
         figures(&rc, value[k]);
@@ -358,7 +358,7 @@ static void the_energy_balances(void **state)
 {
     (void)state;
     for (int k = 0; k < 8; k++) {
-        rb_rolling_case rc = wheel(k == 7 ? 60 : 30);
+        rb_rolling_case rc = wheel(k == 7 ? 60 : 20);
         rc.a.cover = k % 4 == 0 ? 0.0 : 3.0;
         rc.a.core_young = k % 4 == 2 ? 2000.0 : 0.0;
         rc.force = k == 5 ? NAN : 0.1 * k;
