@@ -507,7 +507,7 @@ static void check_titles_of_axes(const char *line)
 }
 
 /* Each command in each size: width and height as asked for, at 96 pixels an inch.  What
- * the script draws is the picture. */
+ * the script draws is the picture, which is seen in one size of each. */
 static void pictures_in_sizes(void **state)
 {
     (void)state;
@@ -518,11 +518,12 @@ static void pictures_in_sizes(void **state)
         {"--approach 0.5 --contact-elements 20", "plot", 481, 321},
         {"--approach 0.5 --contact-elements 20 --increments 2", "history-plot", 481, 321},
         {"curve " SIMILAR "--points 9 --contact-elements 20", "plot", 481, 321},
-        {"stress " SIMILAR "--contact-elements 20", "plot", 267, 391},
-        {"stress --support halfplane --half-width 0.05 --contact-elements 20", "fringes",
+        {"stress " SIMILAR "--contact-elements 20 --grid 15x9", "plot", 267, 391},
+        {"stress --support halfplane --half-width 0.05 --contact-elements 20 "
+         "--grid 15x9",
+         "fringes", 481, 321},
+        {"stress " SIMILAR "--contact-elements 8 --grid 5x3 --shakedown", "shakedown-map",
          481, 321},
-        {"stress " SIMILAR "--contact-elements 20 --shakedown", "shakedown-map", 481,
-         321},
         {"wear " SIMILAR "--gap parabola --slide 1e5 --wear-coefficient 1e-10 "
          "--wear-steps 2 --contact-elements 20",
          "plot", 481, 321},
@@ -555,7 +556,8 @@ static void pictures_in_sizes(void **state)
                 print_error("%s: not %s\n", line, want);
             assert_non_null(strstr(out, want));
             check_titles_of_axes(line);
-            assert_int_equal(shell("gnuplot -d sized.gp | cmp - sized.svg"), 0);
+            if (i == (int)k % 3)
+                assert_int_equal(shell("gnuplot -d sized.gp | cmp - sized.svg"), 0);
         }
     }
     assert_int_equal(
@@ -585,9 +587,9 @@ static void pictures_name_the_case(void **state)
         {"curve " SIMILAR "--points 5", "plot", "A: half-plane, R = 50 mm, E"},
         {"curve " SIMILAR "--points 5 --mu 0.1,0.3", "plot",
          "dashtype (9,4) linewidth 2.6 title 'μ = 0.3'"},
-        {"stress " SIMILAR, "plot", "A: half-plane, R = 50 mm, E"},
-        {"stress " SIMILAR, "plot", "with labels boxed"},
-        {"stress " SIMILAR, "fringes", "A: half-plane, R = 50 mm, E"},
+        {"stress " SIMILAR "--grid 15x9", "plot", "A: half-plane, R = 50 mm, E"},
+        {"stress " SIMILAR "--grid 15x9", "plot", "with labels boxed"},
+        {"stress " SIMILAR "--grid 15x9", "fringes", "A: half-plane, R = 50 mm, E"},
         {SIMILAR "--increments 2 --force-ratio 0.5", "history-plot", "A: half-plane, R"},
         {SIMILAR "--increments 2 --force-ratio 0.5 --error", "history-plot",
          "title 'estimated error'"}};
