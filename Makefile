@@ -18,7 +18,8 @@ LDLIBS += $(filter-out -lgslcblas,$(shell pkg-config --libs $(PKGS) 2>/dev/null)
 # Debian's shared HDF5 loads thirty libraries for files on the web (curl, Kerberos, LDAP), which take
 # two thirds of the program's start. Its archive does not; make HDF5_ARCHIVE= does without it.
 HDF5_ARCHIVE := $(if $(filter hdf5-serial,$(HDF5)),$(wildcard $(patsubst -L%,%/libhdf5.a,$(shell pkg-config --libs-only-L $(HDF5)))))
-PROGRAM_LIBS = $(if $(HDF5_ARCHIVE),$(patsubst -lhdf5,$(HDF5_ARCHIVE) -lsz -lz,$(LDLIBS)),$(LDLIBS))
+# Where it wants more than is named here the shared one is linked.
+PROGRAM_LIBS = $(patsubst -lhdf5,$(HDF5_ARCHIVE) -lsz -lz,$(LDLIBS))
 CPPFLAGS += $(OPENMP) -Iinclude -Isrc $(shell pkg-config --cflags $(PKGS) 2>/dev/null)
 # rollbem-mpi, for studies over machines: where Open MPI's headers are; make MPI= goes without
 MPI := $(shell pkg-config --exists ompi-c 2>/dev/null && echo ompi-c)
@@ -162,13 +163,17 @@ $(B)/librollbem.so: $(LIB_OBJ)
 	@echo "  LD  $@"
 	$(Q)$(CC) $(CFLAGS) $(HARDEN_SO) -shared -Wl,-soname,librollbem.so.0 -o $@ $^ $(LDFLAGS) $(LDLIBS)
 
+# of these objects and libraries
+link_with = $(CC) $(CFLAGS) $(HARDEN_LD) -o $@ $(1) $(B)/librollbem.a $(LDFLAGS) $(3) $(2)
+link_program = $(if $(HDF5_ARCHIVE),$(call link_with,$(1),$(2),$(PROGRAM_LIBS)) 2>$@.link ||) $(call link_with,$(1),$(2),$(LDLIBS)); status=$$?; rm -f $@.link; exit $$status
+
 $(B)/rollbem: $(CLI_OBJ) $(B)/librollbem.a
 	@echo "  LD  $@"
-	$(Q)$(CC) $(CFLAGS) $(HARDEN_LD) -o $@ $(CLI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(PROGRAM_LIBS)
+	$(Q)$(call link_program,$(CLI_OBJ),)
 
 $(B)/rollbem-mpi: $(MPI_OBJ) $(B)/librollbem.a
 	@echo "  LD  $@"
-	$(Q)$(CC) $(CFLAGS) $(HARDEN_LD) -o $@ $(MPI_OBJ) $(B)/librollbem.a $(LDFLAGS) $(PROGRAM_LIBS) $(shell pkg-config --libs $(MPI))
+	$(Q)$(call link_program,$(MPI_OBJ),$(shell pkg-config --libs $(MPI)))
 
 # the generator of the friction problems of examples/packings, for the tests and the study
 $(B)/packings: examples/packings/packings.c
