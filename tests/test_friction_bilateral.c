@@ -420,6 +420,55 @@ static void what_cannot_be_is_refused(void **state)
     rb_io_fclib_free(&file);
 }
 
+static void put_dense(const rb_sparse *W, double *dense)
+{
+    for (int j = 0; j < W->cols; j++)
+        for (int k = W->p[j]; k < W->p[j + 1]; k++)
+            dense[W->i[k] + j * W->rows] = W->x[k];
+}
+
+/* A dense W becomes a sparse one, the same as from a sparse one. */
+static void dense_problems_lose_their_constraints_alike(void **state)
+{
+    enum { M = 3 * CONTACTS };
+    double W[2][M * M] = {{0.0}};
+    rb_friction_problem p[2];
+
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        structure s;
+        rb_io_fclib file;
+        rb_message why = {""};
+        make_structure(9, 0, &s);
+        make_local(&s, &file);
+        p[k] = (rb_friction_problem){.form = RB_FRICTION_LOCAL_SPARSE,
+                                     .dimension = 3,
+                                     .contacts = CONTACTS,
+                                     .mu = file.mu,
+                                     .q = file.q,
+                                     .Ws = file.W};
+        if (k == 1) {
+            p[k].form = RB_FRICTION_LOCAL_DENSE;
+            p[k].W = calloc(M * M, sizeof(double));
+            put_dense(&file.W, p[k].W);
+            rb_sparse_free(&file.W);
+            p[k].Ws = (rb_sparse){0};
+        }
+        file.mu = file.q = NULL, file.W = (rb_sparse){0};
+        CHECK_STATUS(rb_friction_eliminate_local(&p[k], &file.V, &file.R, file.s, &why),
+                     RB_OK);
+        assert_int_equal(p[k].form, RB_FRICTION_LOCAL_SPARSE);
+        put_dense(&p[k].Ws, W[k]);
+        rb_io_fclib_free(&file);
+    }
+    for (int i = 0; i < M * M; i++)
+        CHECK_ABS(W[1][i], W[0][i], 1e-15, "W, entry %d", i);
+    for (int i = 0; i < M; i++)
+        CHECK_ABS(p[1].q[i], p[0].q[i], 0.0, "q(%d)", i);
+    rb_friction_problem_free(&p[0]);
+    rb_friction_problem_free(&p[1]);
+}
+
 static void failing_allocations_leave_the_problem(void **state)
 {
     (void)state;
@@ -466,6 +515,7 @@ int main(void)
         cmocka_unit_test(redundant_constraints_drop_out),
         cmocka_unit_test(a_rod_slides_or_sticks_as_a_whole),
         cmocka_unit_test(what_cannot_be_is_refused),
+        cmocka_unit_test(dense_problems_lose_their_constraints_alike),
         cmocka_unit_test(failing_allocations_leave_the_problem),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -54,7 +54,7 @@ typedef struct {
 
 void rb_contact_factors_clear(rb_contact_factors *factors)
 {
-    for (int k = 0; factors && k < 3; k++) {
+    for (int k = 0; k < 3; k++) {
         free(factors->kept[k].unknown);
         free(factors->kept[k].LU);
         free(factors->kept[k].pivots);

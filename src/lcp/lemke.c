@@ -124,14 +124,14 @@ static int keep_least(lemke *l, int count, const double *x)
 }
 
 /* w_j is basic in this row, which has a one in that column of the basis inverse; the
- * other rows have a zero and win. */
+ * other rows, of which there is one at least, have a zero and win. */
 static int drop_row(lemke *l, int count, int row)
 {
     int kept = 0;
     for (int k = 0; k < count; k++)
         if (l->tied[k] != row)
             l->tied[kept++] = l->tied[k];
-    return kept ? kept : count;
+    return kept;
 }
 
 /* The basis inverse restricted to the column of w_j is -T_:w_j where w_j is nonbasic, a
