@@ -98,7 +98,7 @@ test-all:
 	@$(MAKE) --no-print-directory B=$(B) analyse
 
 # the longest programs start first, so that no processor waits for one of them at the end
-LONGEST := $(B)/tests/test_net $(B)/tests/test_cli_examples tests/page tests/site $(patsubst %,$(B)/tests/test_%,faults cli_rolling rolling_turn course rolling_laws cli) tests/python tests/journeys/phd-student-in-python
+LONGEST := $(B)/tests/test_net $(B)/tests/test_cli_examples tests/page tests/site $(patsubst %,$(B)/tests/test_%,faults cli_rolling rolling_laws check course recorded rolling_turn rolling_wheel) tests/python $(patsubst %,$(B)/tests/test_%,sweep fem_examples hostile facts) tests/journeys/phd-student-in-python
 OTHERS := tests/octave tests/install tests/release tests/figures $(wildcard tests/journeys/*) $(TESTS)
 
 # only the summary line comes last: continuous integration reads it

@@ -191,6 +191,15 @@ static void refused(const char *words)
     assert_null(p.W.p);
 }
 
+/* A local problem with another array there. */
+static void refused_with(const char *name, hid_t type, hsize_t n, const void *values,
+                         const char *part)
+{
+    fresh_local();
+    overwrite(name, type, n, values);
+    refused(part);
+}
+
 static void sizes_and_indices_are_checked(void **state)
 {
     (void)state;
@@ -214,29 +223,16 @@ static void sizes_and_indices_are_checked(void **state)
     fresh_local();
     set_int("/fclib_local/W/nz", 800);
     refused("expected 800");
-    fresh_local();
-    overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_down);
-    refused("does not increase");
-    fresh_local();
-    overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_long);
-    refused("expected 900");
-    fresh_local();
-    overwrite("/fclib_local/W/i", H5T_NATIVE_INT, 8, i_far);
-    refused("index out of range");
-    fresh_local();
-    overwrite("/fclib_local/vectors/q", H5T_NATIVE_DOUBLE, 1, few);
-    refused("expected 6");
-    fresh_local();
-    overwrite("/fclib_local/vectors/mu", H5T_NATIVE_DOUBLE, 1, few);
-    refused("expected 2");
+    refused_with("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_down, "does not increase");
+    refused_with("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_long, "expected 900");
+    refused_with("/fclib_local/W/i", H5T_NATIVE_INT, 8, i_far, "index out of range");
+    refused_with("/fclib_local/vectors/q", H5T_NATIVE_DOUBLE, 1, few, "expected 6");
+    refused_with("/fclib_local/vectors/mu", H5T_NATIVE_DOUBLE, 1, few, "expected 2");
     const int p_below[] = {0, 1, 2, 3, 4, 5, -8}, p_first[] = {-1, 1, 2, 3, 4, 5, 8},
               p_beyond[] = {0, 9, 2, 3, 4, 5, 8}, p_equal[] = {0, 0, 0, 0, 0, 8, 8};
-    fresh_local();
-    overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_first);
-    refused("W/p does not increase");
-    fresh_local();
-    overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_beyond);
-    refused("W/p does not increase");
+    refused_with("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_first, "W/p does not increase");
+    refused_with("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_beyond,
+                 "W/p does not increase");
     fresh_local();
     overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_equal); /* empty columns */
     rb_io_fclib gathered;
@@ -258,12 +254,8 @@ static void sizes_and_indices_are_checked(void **state)
     fresh_local();
     overwrite("/fclib_local_rolling", H5T_NATIVE_INT, 1, p_down);
     refused("rolling friction in the local form is not supported");
-    fresh_local();
-    overwrite("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_below);
-    refused("W/p ends in -8");
-    fresh_local();
-    overwrite("/fclib_local/W/m", H5T_NATIVE_INT, 0, p_below);
-    refused("/W/m is empty");
+    refused_with("/fclib_local/W/p", H5T_NATIVE_INT, 7, p_below, "W/p ends in -8");
+    refused_with("/fclib_local/W/m", H5T_NATIVE_INT, 0, p_below, "/W/m is empty");
     fresh_local();
     set_int("/fclib_local/spacedim", 2);
     refused("expected 3"); /* three contacts have three mu */

@@ -59,6 +59,20 @@ static void tractions_are_linear_between_midpoints(void **state)
     CHECK_ABS(fine.state.xi, 0.05, 0.0, "creepage");
 }
 
+/* A coarse contact of elements first ... last, whose p^2 falls linearly to the edges,
+ * slips left of x = 12 and sticks right of it; a fine line for its start. */
+static void make_contact(line *coarse, line *fine, int first, int last,
+                         const double edge[2], int slip)
+{
+    make(coarse, COARSE, 3.0);
+    make(fine, FINE, 1.0);
+    for (int j = first; j <= last; j++) {
+        const double x = 3.0 * j + 1.5;
+        coarse->p[j] = sqrt(x < 12.0 ? x - edge[0] : edge[1] - x);
+        coarse->zone[j] = j < 4 ? slip : RB_ZONE_STICK;
+    }
+}
+
 /* Zones are those of the coarse element within its edges, which lie between midpoints:
  * there an open element takes the zone of its loaded neighbour. */
 static void zones_end_at_the_coarse_edges(void **state)
@@ -67,14 +81,8 @@ static void zones_end_at_the_coarse_edges(void **state)
     line coarse, fine;
     const rb_rolling_case rc = plane();
     double from, to;
-    make(&coarse, COARSE, 3.0);
-    make(&fine, FINE, 1.0);
-    /* p^2 falls linearly to 4.9 and to 20.3, open elements reach to 6 and from 18 on */
-    for (int j = 2; j < 6; j++) {
-        const double x = 3.0 * j + 1.5;
-        coarse.p[j] = sqrt(x < 12.0 ? x - 4.9 : 20.3 - x);
-        coarse.zone[j] = j < 4 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_STICK;
-    }
+    /* open elements reach to 6 and from 18 on */
+    make_contact(&coarse, &fine, 2, 5, (double[]){4.9, 20.3}, RB_ZONE_SLIP_NEGATIVE);
     coarse.p[1] = coarse.p[6] = 0.0;
     /* five elements and more have edges of their own */
     coarse.zone[6] = RB_ZONE_SEPARATED;
@@ -94,13 +102,8 @@ static void open_elements_inside_the_edges_join_their_neighbour(void **state)
     line coarse, fine;
     const rb_rolling_case rc = plane();
     double from, to;
-    make(&coarse, COARSE, 3.0);
-    make(&fine, FINE, 1.0);
-    for (int j = 1; j < 7; j++) { /* p^2 falls to 2.2 and to 21.8, in open elements */
-        const double x = 3.0 * j + 1.5;
-        coarse.p[j] = sqrt(x < 12.0 ? x - 2.2 : 21.8 - x);
-        coarse.zone[j] = j < 4 ? RB_ZONE_SLIP_POSITIVE : RB_ZONE_STICK;
-    }
+    /* the edges lie in open elements */
+    make_contact(&coarse, &fine, 1, 6, (double[]){2.2, 21.8}, RB_ZONE_SLIP_POSITIVE);
     rb_rolling_contact_edges(&rc, &coarse.mesh, &coarse.state, &from, &to);
     CHECK_ABS(from, 2.2, 1e-12, "in the open element");
     CHECK_ABS(to, 21.8, 1e-12, "in the open element");

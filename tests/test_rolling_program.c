@@ -170,6 +170,12 @@ static void programs_that_make_no_sense_are_refused(void **state)
 
 /* ---- The program of a case --------------------------------------------------------- */
 
+static void check_rows(const double *got, const double *wanted, int n, const char *what)
+{
+    for (int r = 0; r < n; r++)
+        CHECK_ABS(got[r], wanted[r], 1e-15 * fabs(wanted[r]), "row %d: %s", r, what);
+}
+
 static void increments_press_first_and_load_then(void **state)
 {
     (void)state;
@@ -184,10 +190,8 @@ static void increments_press_first_and_load_then(void **state)
     assert_int_equal(program.n, 4);
     assert_null(program.load);
     assert_null(program.distance);
-    for (int r = 0; r < 4; r++) {
-        CHECK_REL(program.approach[r], approach[r], 1e-15, "row %d: approach", r);
-        CHECK_REL(program.shift[r], shift[r], 1e-15, "row %d: shift", r);
-    }
+    check_rows(program.approach, approach, 4, "approach");
+    check_rows(program.shift, shift, 4, "shift");
     free(columns);
 
     rc.approach = rc.shift = NAN;
@@ -219,11 +223,9 @@ static void a_transient_rolls_under_its_loads(void **state)
                         ratio[] = {0.0, 0.0, 0.25, 0.5, 0.5},
                         distance[] = {0.0, 0.0, 0.0, 0.0, 3.0};
     assert_int_equal(program.n, 5);
-    for (int r = 0; r < 5; r++) {
-        CHECK_ABS(program.load[r], load[r], 0.0, "row %d: load", r);
-        CHECK_ABS(program.force_ratio[r], ratio[r], 0.0, "row %d: Q/(mu P)", r);
-        CHECK_ABS(program.distance[r], distance[r], 0.0, "row %d: distance", r);
-    }
+    check_rows(program.load, load, 5, "load");
+    check_rows(program.force_ratio, ratio, 5, "Q/(mu P)");
+    check_rows(program.distance, distance, 5, "distance");
     free(columns);
 
     rc.force_ratio = NAN;
