@@ -864,6 +864,7 @@ static void every_edit_is_named(void **state)
              {"history", "{}", "its inputs and its history do not belong together"},
              {"inputs/error", "true", "error bars take solutions"},
              {"inputs/accuracy", "0.01", "error bars take solutions"},
+             {"inputs/accuracy", "1", "error bars take solutions"},
              {"summary/errors", "{}", "error bars take solutions"},
              {"inputs/units", "\"si\"", "units other than mm"},
              {"units/system", "\"si\"", "units other than mm"},

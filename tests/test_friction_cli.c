@@ -198,6 +198,11 @@ static void global_problems_are_read_as_text(void **state)
 {
     (void)state;
     write_file("plane", "2 1 0 2 2 2 2 2 0 0 2\n0 2 2 2 2 1 0 0 1\n-4 1\n0 0\n0.5\n");
+    write_file("loose", "2 1 0 2 2 2 2 2 0 0 0\n0 2 2 2 2 1 0 0 1\n-4 1\n0 0\n0.5\n");
+    assert_int_equal(rollbem("friction --solver extragradient loose"), 1);
+    assert_string_equal(err,
+                        "rollbem: loose: K is singular to rounding (nullity 1): there "
+                        "is no W to condense to\n");
     assert_int_equal(rollbem("friction --solution plane"), 0);
     double r[3], u[3];
     const char *at = strstr(out, "\nplane\t");

@@ -586,6 +586,8 @@ static void matrices_are_written_all_or_none(void **state)
     CHECK_STATUS(rb_report_dump(folder, &flat.model, &why), RB_OK);
     assert_int_equal(files_in(folder), 6);
     assert_true(alloc_fail_every_call(dump, &j) > 10);
+    CHECK_STATUS(rb_report_dump("/dev/null/d", &flat.model, &why), RB_EWRITE);
+    assert_non_null(strstr(why.text, "/dev/null/d: cannot write"));
     rb_case_result_free(&two);
     rb_case_result_free(&flat);
     snprintf(command, sizeof command, "rm -r %s", folder);

@@ -193,7 +193,7 @@ static rb_status fit_motion(rb_certificate *c, rb_message *why)
             unit[i] -= w[i];
         x->delta = fit(n, unit, printed);
     }
-    if (p->force_given || p->axle > 0.0 || !isnan(c->model.rc.creep_ratio)) {
+    if (p->force_given || !isnan(c->model.rc.creep_ratio)) {
         kinematics_at(c, 0.0, 1.0, unit);
         for (size_t i = n; i < 2 * n; i++)
             unit[i] -= w[i];
@@ -311,7 +311,7 @@ void rb_certificate_motion(rb_certificate *c)
 {
     const rb_contact_problem *p = &c->model.problem;
     const rb_rolling_case *rc = &c->model.rc;
-    if (p->force_given || p->axle > 0.0)
+    if (p->force_given)
         return;
     if (c->step == 0 && rc->formulation == RB_STEADY && !isnan(rc->creep_ratio))
         rb_certificate_expect(c, "the given creep_ratio", 0, c->again.creep_ratio,

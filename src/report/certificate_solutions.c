@@ -20,7 +20,7 @@ static double difference(const json_t *one, const json_t *other)
     const size_t n = json_array_size(q[0]);
     double most = 0.0, largest = 0.0;
 
-    if (n == 0 || json_array_size(q[1]) != n)
+    if (json_array_size(q[1]) != n)
         return INFINITY;
     for (size_t i = 0; i < n; i++) {
         const double a = json_number_value(json_array_get(q[0], i)),
