@@ -341,6 +341,28 @@ static void a_later_round_that_fails_leaves_the_one_before(void **state)
     assert_true(none > 0 && some > 0);
 }
 
+/* Twice the elements make twice the steps: what is told is the solution of that case. */
+static void accuracy_takes_more_steps_too(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = carter(12);
+    rb_rolling_solution s;
+    rb_rolling_errors errors;
+    int elements;
+    rc.formulation = RB_TRANSIENT;
+    rc.distance = 1.0;
+    rc.steps = 4;
+    CHECK_STATUS(rb_rolling_solve_to_accuracy(&rc, 0.3, &s, &errors, &elements, NULL),
+                 RB_OK);
+    assert_true(elements > 12 && elements % 12 == 0);
+    rc.contact_elements = elements;
+    rc.steps = 4 * elements / 12;
+    rb_rolling_solution same = solved(&rc);
+    CHECK_REL(s.tangential_load, same.tangential_load, 1e-12, "Q");
+    rb_rolling_solution_free(&same);
+    rb_rolling_solution_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -355,6 +377,7 @@ int main(void)
         cmocka_unit_test(nothing_is_halved_below_its_least),
         cmocka_unit_test(an_accuracy_that_no_mesh_has_is_refused_at_once),
         cmocka_unit_test(a_later_round_that_fails_leaves_the_one_before),
+        cmocka_unit_test(accuracy_takes_more_steps_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

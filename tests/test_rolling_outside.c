@@ -342,6 +342,42 @@ static void half_planes_have_elements_for_patches_far_apart(void **state)
     release(t);
 }
 
+/* The surface of a wheel sinks by what its boundary elements say: known from elements
+ * that reach there, with a bump that is too high to touch. */
+static void a_wheel_sinks_as_on_elements_that_reach_there(void **state)
+{
+    (void)state;
+    for (int place = 0; place < 4; place++) {
+        const double x[] = {0.0, 3.0 + 0.4 * place}, high[] = {0.0, 0.05};
+        table *t = bumps(2, x, high);
+        double w[2 * 41], limit = NAN;
+        t->rc.a.support = RB_BEM_HUB;
+        rb_rolling_model near = solved_between(&t->rc, -0.5, 0.5);
+        rb_rolling_model model =
+            solved_between(&t->rc, -0.5, x[1] + 0.5); /* as much load */
+        CHECK_STATUS(
+            rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
+            RB_OK);
+        for (int i = 0; i + 1 < model.mesh.n; i++)
+            if (model.bodies.f.x[i] <= x[1] && model.bodies.f.x[i + 1] > x[1])
+                limit = near.state.delta - w[i];
+        rb_rolling_model_free(&near);
+        rb_rolling_model_free(&model);
+        release(t);
+        for (int k = 0; k < 2; k++) {
+            const double height[] = {0.0, limit * (k ? 1.01 : 0.99)};
+            rb_rolling_overlap o;
+            t = bumps(2, x, height);
+            t->rc.a.support = RB_BEM_HUB;
+            model = solved_between(&t->rc, -0.5, 0.5);
+            CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
+            assert_int_equal(o.count, k ? 0 : 1);
+            rb_rolling_model_free(&model);
+            release(t);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -358,6 +394,7 @@ int main(void)
         cmocka_unit_test(a_zone_without_an_end_is_told_a_third_more),
         cmocka_unit_test(places_beyond_the_wheel_are_not_looked_at),
         cmocka_unit_test(half_planes_have_elements_for_patches_far_apart),
+        cmocka_unit_test(a_wheel_sinks_as_on_elements_that_reach_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
