@@ -597,6 +597,26 @@ static void a_history_grows_its_zone_to_the_end_of_the_table(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* An incompressible layer carries by waves as short as it is thick: so long an element
+ * may be, and no longer. */
+static void elements_are_as_long_as_the_layer_at_most(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = halfplane(0.5, 0.0, 20);
+        rb_rolling_solution s;
+        rb_message why = {""};
+        rc.mu = 0.0;
+        rc.half_width = 0.5;
+        rc.zone = 1.0; /* elements of 0.1 */
+        rc.a.layer = k ? 0.1 * (1.0 - 1e-6) : 0.1;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), k ? RB_EINVAL : RB_OK);
+        if (k)
+            assert_non_null(strstr(why.text, "layer thickness: with nu = 0.5"));
+        rb_rolling_solution_free(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -619,6 +639,7 @@ int main(void)
         cmocka_unit_test(a_contact_without_an_end_is_refused),
         cmocka_unit_test(a_curve_and_a_history_find_the_end_of_their_mesh),
         cmocka_unit_test(a_history_grows_its_zone_to_the_end_of_the_table),
+        cmocka_unit_test(elements_are_as_long_as_the_layer_at_most),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     rb_rolling_profile_free(profile);
