@@ -312,6 +312,19 @@ static void tilted_tractions_add_up_to_both_forces(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* Fewer than five elements in contact do not tell its edges, and that is said. */
+static void few_elements_do_not_tell_the_edges(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = plane(RB_STEADY);
+        rc.contact_elements = k ? 40 : 5;
+        rb_rolling_solution s = solved(&rc);
+        assert_int_equal(s.edges_bounded, !k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -324,6 +337,7 @@ int main(void)
         cmocka_unit_test(a_ratio_is_met_under_an_approach),
         cmocka_unit_test(elements_may_stand_where_they_are_told),
         cmocka_unit_test(tilted_tractions_add_up_to_both_forces),
+        cmocka_unit_test(few_elements_do_not_tell_the_edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
