@@ -723,11 +723,13 @@ static void a_stopped_run_is_interrupted(void **state)
         "formulation", "transient", "distance", "1000", "contact-elements", "8",
         "zone",        "2",         NULL};
     const struct itimerval soon = {{0, 1000}, {0, 1000}}, never = {{0, 0}, {0, 0}};
+    /* stays when called; signal() may go back to the default, which ends the test */
+    const struct sigaction stops = {.sa_handler = stop};
     (void)state;
     stopped = rb_api_create();
     for (const char *const *w = words; *w; w += 2)
         assert_int_equal(rb_api_set(stopped, w[0], w[1]), RB_OK);
-    signal(SIGALRM, stop);
+    sigaction(SIGALRM, &stops, NULL);
     setitimer(ITIMER_REAL, &soon, NULL);
     const int s = rb_api_solve(stopped);
     setitimer(ITIMER_REAL, &never, NULL);
