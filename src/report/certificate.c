@@ -380,11 +380,12 @@ void rb_certificate_tolerances(rb_certificate *c, double residual)
                           : c->again.hierarchical;
     const double asked = fmax(c->model.rc.tol, p->rounding);
 
-    c->tol = (c->hierarchical ? 100.0 : 10.0) * asked;
     c->exact = 10.0 * fmax(residual < asked ? residual : asked, p->rounding);
     c->displacement =
         rounding_of_displacements(c) * (largest(json_object_get(c->table, "un_mm")) +
                                         largest(json_object_get(c->table, "ut_mm")));
+    c->tol = (c->hierarchical ? 100.0 : 10.0) * asked +
+             c->displacement / fmin(p->gap_length, p->slip_length);
 }
 
 rb_status rb_certificate_laws(rb_certificate *c)
@@ -449,6 +450,8 @@ static double rounding_of(const rb_certificate *c, const char *key)
     const rb_certificate_scales scales = {
         .half_width = s->half_width, .load = s->normal_load, .pressure = s->max_pressure};
 
+    if (strcmp(key, "residual") == 0)
+        return c->tol;
     if (strncmp(key, "residual_", 9) == 0)
         return c->tol * (strcmp(key, "residual_friction") == 0 ? c->model.problem.stress
                          : strcmp(key, "residual_gap") == 0
