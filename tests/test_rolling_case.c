@@ -192,6 +192,17 @@ static void ranges_of_heat(void **state)
     ACCEPTED(WARM; rc.contact_elements = 100000);
     ACCEPTED(WARM; rc.heat_b = rc.heat_a; rc.contact_elements = 100000);
     ACCEPTED(WARM; rc.heat_b.temperature = 1.0; rc.contact_elements = 4001);
+    REFUSED("conductivity: expected >= 0, got -1", WARM; rc.heat_a.conductivity = -1.0);
+    REFUSED("conductivity: expected >= 0, got inf", WARM;
+            rc.heat_a.conductivity = INFINITY);
+    REFUSED("conductivity of body B: expected >= 0", WARM; rc.heat_b.conductivity = -1.0);
+    REFUSED("conductivity of body B: expected >= 0", WARM;
+            rc.heat_b.conductivity = INFINITY);
+    REFUSED("needs the heat capacity", WARM; rc.heat_a.heat_capacity = 0.0);
+    REFUSED("needs the heat capacity", WARM; rc.heat_b.conductivity = 1.0;
+            rc.heat_b.heat_capacity = 0.0);
+    REFUSED("temperature: expected finite", WARM; rc.heat_a.temperature = INFINITY);
+    REFUSED("temperature: expected finite", WARM; rc.heat_b.temperature = NAN);
     REFUSED("of homogeneous elastic bodies", WARM; rc.a.layer = 1.0);
     REFUSED("both bodies start equally warm", WARM; TRANSIENT;
             rc.heat_b.temperature = 20.0);
