@@ -81,6 +81,16 @@ static void far_away_it_is_a_point_load(void **state)
         CHECK_ABS(s.syy, radial * 0.64, 1e-2 / far / far * -radial * 20.0, "syy %g", far);
         CHECK_ABS(s.sxy, radial * 0.48, 1e-2 / far / far * -radial * 20.0, "sxy %g", far);
     }
+    /* near and far ones in one list as each by itself */
+    const double xy[] = {0.1, 0.2, 40.0 * width, 1.0, -0.3, 0.5, 3.0, 90.0 * width};
+    rb_rolling_stress all[4];
+    CHECK_STATUS(rb_rolling_stress_at(&model, 4, xy, all, NULL), RB_OK);
+    for (int k = 0; k < 4; k++) {
+        const rb_rolling_stress s = at(&model, xy[2 * k], xy[2 * k + 1]);
+        CHECK_ABS(all[k].sxx, s.sxx, 0.0, "sxx of point %d", k);
+        CHECK_ABS(all[k].syy, s.syy, 0.0, "syy of point %d", k);
+        CHECK_ABS(all[k].sxy, s.sxy, 0.0, "sxy of point %d", k);
+    }
     rb_rolling_model_free(&model);
 }
 
