@@ -165,7 +165,7 @@ $(B)/librollbem.so: $(LIB_OBJ)
 
 # of these objects and libraries
 link_with = $(CC) $(CFLAGS) $(HARDEN_LD) -o $@ $(1) $(B)/librollbem.a $(LDFLAGS) $(3) $(2)
-link_program = $(if $(HDF5_ARCHIVE),$(call link_with,$(1),$(2),$(PROGRAM_LIBS)) 2>$@.link ||) $(call link_with,$(1),$(2),$(LDLIBS)); status=$$?; rm -f $@.link; exit $$status
+link_program = $(if $(HDF5_ARCHIVE),$(call link_with,$(1),$(2),$(PROGRAM_LIBS)) 2>/dev/null ||) $(call link_with,$(1),$(2),$(LDLIBS))
 
 $(B)/rollbem: $(CLI_OBJ) $(B)/librollbem.a
 	@echo "  LD  $@"

@@ -466,21 +466,28 @@ static void an_even_temperature_has_its_first_place(void **state)
     CHECK_ABS(at, 0.0, 0.0, "the first place");
 }
 
+/* A half-plane on a rigid one, twelve elements in full sliding. */
+static rb_rolling_case warm_sliding(rb_rolling_formulation formulation)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.formulation = formulation;
+    rc.speed = 1000.0;
+    rc.half_width = 1.0;
+    rc.creep_ratio = 2.0;
+    rc.contact_elements = 12;
+    rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
+    return rc;
+}
+
 /* B takes as much heat as A where it is the same in all three; otherwise the surfaces are
  * equally warm where they touch. */
 static void unlike_bodies_share_by_temperature(void **state)
 {
     (void)state;
     for (int k = 0; k < 4; k++) {
-        rb_rolling_case rc = rb_rolling_case_defaults();
-        rc.a.support = RB_BEM_HALFPLANE;
-        rc.formulation = RB_STEADY;
-        rc.speed = 1000.0;
-        rc.half_width = 1.0;
-        rc.creep_ratio = 2.0;
-        rc.contact_elements = 12;
-        rc.heat_a = rc.heat_b =
-            (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
+        rb_rolling_case rc = warm_sliding(RB_STEADY);
+        rc.heat_b = rc.heat_a;
         rc.heat_b.heat_capacity *= k == 1 ? 2.0 : 1.0;
         rc.heat_b.temperature += k == 2 ? 10.0 : 0.0;
         rc.heat_b.conductivity *= k == 3 ? 2.0 : 1.0;
@@ -524,16 +531,9 @@ static void tracks_longer_than_memory_are_refused(void **state)
 static void without_steps_no_heat_is_known(void **state)
 {
     (void)state;
-    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_case rc = warm_sliding(RB_TRANSIENT);
     rb_rolling_solution s;
-    rc.a.support = RB_BEM_HALFPLANE;
-    rc.formulation = RB_TRANSIENT;
-    rc.speed = 1000.0;
-    rc.half_width = 1.0;
-    rc.creep_ratio = 2.0;
     rc.distance = 1.0;
-    rc.contact_elements = 12;
-    rc.heat_a = (rb_rolling_heat){.conductivity = 40.0, .heat_capacity = 3.5};
     CHECK_STATUS(rb_rolling_solve_between(&rc, -1.3, 1.3, &s, NULL), RB_OK);
     CHECK_ABS(s.max_temperature, 0.0, 0.0, "nothing is warm");
     rb_rolling_solution_free(&s);

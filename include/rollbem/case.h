@@ -173,6 +173,9 @@ const char *rb_option_text(const rb_option *option, const void *target, char roo
 
 /* The file that the option names; NULL: none. */
 const char *rb_option_path(const rb_option *option, const void *target);
+/* Where an option came from in a message: "--load", "case.ini:3: load".  Returns room. */
+const char *rb_option_source(const rb_option *option, int given, const char *path,
+                             char *room, size_t size);
 
 /* 1: the whole of text is one finite number. */
 int rb_option_number(const char *text, double *value);

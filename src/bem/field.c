@@ -39,9 +39,7 @@ static double complex own_traction(const rb_bem_mesh *mesh, const double *t_cont
     if (c < 0 || c >= mesh->contact_n)
         return 0.0;
     const int j = mesh->contact_first + c;
-    const double complex along =
-        (mesh->x1[j] - mesh->x0[j] + (mesh->y1[j] - mesh->y0[j]) * I) /
-        rb_bem_mesh_length(mesh, j);
+    const double complex along = I * rb_strip_outward(mesh, j);
     return conj(along) * (t_contact[2 * c] + t_contact[2 * c + 1] * I);
 }
 

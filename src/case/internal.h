@@ -47,10 +47,6 @@ unsigned rb_case_alike(rb_rolling_formulation formulation);
 /* A copy that lives as long as c; NULL: no memory. */
 const char *rb_case_keep(rb_case *c, const char *text);
 
-/* Where an option came from in a message: "--load", "case.ini:3: load".  Returns room. */
-const char *rb_option_source(const rb_option *option, int given, const char *path,
-                             char *room, size_t size);
-
 /* Refuses an option that was given: RB_EFORMAT where the case file gave it, else
  * RB_EINVAL.  RB_OK where nobody did. */
 rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *reason,

@@ -117,9 +117,6 @@ typedef struct {
  * --version are answered here, an error has been printed.  Free args in any case. */
 cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args);
 void cli_args_free(cli_args *args);
-/* An option as who gave it has written it: "--every", "case.ini:3: every". */
-const char *cli_given_name(const cli_args *args, const char *name, int given,
-                           char room[300]);
 
 /* How the value of an option is shown: " X", " arc|hub"; "" of a flag. */
 void cli_option_metavar(const rb_option *o, char *text, size_t size);

@@ -80,7 +80,7 @@ static cli_exit read_end(cli_case_run *run, int place, double *end)
     *end = default_end[place - FROM];
     if (!text)
         return CLI_CONTINUE;
-    cli_given_name(&run->args, name, *given, what);
+    rb_option_source(&number, *given, run->args.operand[0], what, sizeof what);
     if (rb_option_assign(&set, 0, *given, what, text, &why) != RB_OK)
         return cli_fail(*given > 0 ? CLI_DATA : CLI_USAGE, "%s", why.text);
     rb_case_store(run->words, &set, end);

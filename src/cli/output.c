@@ -135,25 +135,28 @@ static cli_exit check_path(const rb_option *o, const char *path)
 static cli_exit check_pictures(const cli_spec *spec, const cli_args *args)
 {
     char name[300];
+    const char *path = args->operand[0];
+    const rb_option *size_of = NULL, *script_of = NULL;
     int pictures = 0, size = 0, script = 0;
     for (int k = 0; k < spec->set_n; k++)
         for (int i = 0; i < spec->sets[k].n; i++) {
             const rb_option_set *set = &spec->sets[k];
             const rb_option *o = &set->options[i];
             pictures += o->file == RB_FILE_PICTURE && rb_option_path(o, set->target);
-            if (strcmp(o->name, "plot-size") == 0)
-                size = set->given[i];
-            if (strcmp(o->name, "plot-script") == 0)
-                script = set->given[i];
+            if (strcmp(o->name, "plot-size") == 0 && (size = set->given[i]) != 0)
+                size_of = o;
+            if (strcmp(o->name, "plot-script") == 0 && (script = set->given[i]) != 0)
+                script_of = o;
         }
     if (size && pictures == 0)
         return cli_fail(size > 0 ? CLI_DATA : CLI_USAGE,
                         "%s: there is no picture; --plot FILE asks for one",
-                        cli_given_name(args, "plot-size", size, name));
+                        rb_option_source(size_of, size, path, name, sizeof name));
     if (script && pictures != 1)
         return cli_fail(script > 0 ? CLI_DATA : CLI_USAGE,
                         "%s: expected one picture (such as --plot FILE), got %d",
-                        cli_given_name(args, "plot-script", script, name), pictures);
+                        rb_option_source(script_of, script, path, name, sizeof name),
+                        pictures);
     return CLI_CONTINUE;
 }
 

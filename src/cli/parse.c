@@ -172,7 +172,7 @@ static cli_exit parse_argument(const cli_spec *spec, int *i, int argc, char **ar
 cli_exit cli_parse(const cli_spec *spec, int argc, char **argv, cli_args *args)
 {
     int operands_only = 0;
-    args->operand = malloc(sizeof(char *) * (size_t)(argc + 1));
+    args->operand = calloc((size_t)argc + 1, sizeof(char *));
     if (!args->operand)
         return cli_fail(CLI_INTERNAL, "out of memory");
     for (int i = 1; i < argc; i++) {
@@ -187,14 +187,4 @@ void cli_args_free(cli_args *args)
 {
     free(args->operand);
     *args = (cli_args){0};
-}
-
-const char *cli_given_name(const cli_args *args, const char *name, int given,
-                           char room[300])
-{
-    if (given > 0)
-        snprintf(room, 300, "%.200s:%d: %s", args->operand[0], given, name);
-    else
-        snprintf(room, 300, "--%s", name);
-    return room;
 }

@@ -191,10 +191,10 @@ static cli_exit check_steps(const cli_case_run *run)
     for (int i = 0; i < OPTIONS && !rb_case_has_steps(run->c); i++) {
         steps |= strcmp(options[i].name, "history-table") == 0; /* the first of them */
         if (steps && run->set.given[i])
-            return cli_fail(
-                run->set.given[i] > 0 ? CLI_DATA : CLI_USAGE,
-                "%s: for --formulation transient, --history or --increments",
-                cli_given_name(&run->args, options[i].name, run->set.given[i], name));
+            return cli_fail(run->set.given[i] > 0 ? CLI_DATA : CLI_USAGE,
+                            "%s: for --formulation transient, --history or --increments",
+                            rb_option_source(&options[i], run->set.given[i],
+                                             run->args.operand[0], name, sizeof name));
     }
     return CLI_CONTINUE;
 }

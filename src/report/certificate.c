@@ -362,10 +362,9 @@ static void check_zone(rb_certificate *c, int i, double slack, double yield)
  * its boundary again, on ends of elements that differ by a rounding. */
 static double rounding_of_displacements(const rb_certificate *c)
 {
-    const rb_rolling_case *rc = &c->model.rc;
-    const int is_flat = rb_rolling_body_can(&rc->a, RB_BODY_FLAT) &&
-                        (!rc->elastic_b || rb_rolling_body_can(&rc->b, RB_BODY_FLAT));
-    return c->hierarchical ? 1e-10 : is_flat ? 1e-13 : 2e-12;
+    return c->hierarchical                              ? 1e-10
+           : rb_rolling_can(&c->model.rc, RB_BODY_FLAT) ? 1e-13
+                                                        : 2e-12;
 }
 
 /* The residual that the result prints is believed where it is below what was asked for.

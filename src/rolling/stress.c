@@ -456,7 +456,7 @@ static void scatter(int n, const double *xy, const int *inside,
 }
 
 /* The depth of the rows grows like a power. */
-static rb_status fill_grid(const rb_rolling_model *model, const search *box, int power,
+static rb_status fill_grid(const field *f, const search *box, int power,
                            rb_rolling_stress_grid *grid, rb_message *why)
 {
     const int n = grid->nx * grid->ny;
@@ -467,13 +467,13 @@ static rb_status fill_grid(const rb_rolling_model *model, const search *box, int
     for (int k = 0; k < n && s == RB_OK; k++) {
         xy[2 * k] = box->from + (box->to - box->from) * (k % grid->nx) / (grid->nx - 1);
         xy[2 * k + 1] =
-            rb_rolling_surface(&model->rc, xy[2 * k]) +
+            rb_rolling_surface(&f->model->rc, xy[2 * k]) +
             box->depth * gsl_pow_int((double)(k / grid->nx) / (grid->ny - 1), power);
     }
     if (s == RB_OK)
-        s = rb_rolling_inside(model, n, xy, grid->inside);
+        s = rb_rolling_inside(f->model, n, xy, grid->inside);
     if (s == RB_OK)
-        s = rb_rolling_stress_at(model, gather(n, xy, grid->inside, kept), kept, at, why);
+        s = stress_of_field(f, gather(n, xy, grid->inside, kept), kept, at, why);
     if (s == RB_OK)
         scatter(n, xy, grid->inside, at, grid->at);
     free(xy);
@@ -483,14 +483,14 @@ static rb_status fill_grid(const rb_rolling_model *model, const search *box, int
 }
 
 /* Of grid->nx x grid->ny points. */
-static rb_status make_grid(const rb_rolling_model *model, const search *box, int power,
+static rb_status make_grid(const field *f, const search *box, int power,
                            rb_rolling_stress_grid *grid, rb_message *why)
 {
     const int nx = grid->nx, ny = grid->ny;
     grid->at = calloc((size_t)nx * (size_t)ny, sizeof *grid->at);
     grid->inside = rb_alloc_int((size_t)nx * (size_t)ny);
     const rb_status s =
-        grid->at && grid->inside ? fill_grid(model, box, power, grid, why) : RB_ENOMEM;
+        grid->at && grid->inside ? fill_grid(f, box, power, grid, why) : RB_ENOMEM;
     if (s != RB_OK)
         rb_rolling_stress_grid_free(grid);
     return s == RB_ENOMEM
@@ -512,8 +512,16 @@ rb_status rb_rolling_stress_on_grid(const rb_rolling_model *model, int nx, int n
     if (!(from < to))
         return rb_fail(why, RB_NO_CONTACT, "no contact, no stress");
     const search box = box_under(model, from, to, depth);
-    *grid = (rb_rolling_stress_grid){.nx = nx, .ny = ny};
-    return make_grid(model, &box, 1, grid, why);
+    field f;
+    rb_status s = field_create(model, &f, why);
+    if (s == RB_ENOMEM)
+        rb_fail(why, s, "out of memory for the stress at %d x %d points", nx, ny);
+    if (s == RB_OK) {
+        *grid = (rb_rolling_stress_grid){.nx = nx, .ny = ny};
+        s = make_grid(&f, &box, 1, grid, why);
+    }
+    field_free(&f);
+    return s;
 }
 
 /* ---- All maxima -------------------------------------------------------------------- */
@@ -556,7 +564,7 @@ static rb_status add_maxima_under(search *s, rb_rolling_stress_maxima *maxima,
         rb_rolling_stress_grid grid = {.nx = size[k][0], .ny = size[k][1]};
         search box = *s;
         box.depth = depth[k];
-        status = make_grid(s->f->model, &box, 2, &grid, why);
+        status = make_grid(s->f, &box, 2, &grid, why);
         s->nearly = nearly[k];
         if (status == RB_OK)
             status = add_maxima(s, &grid, maxima);
