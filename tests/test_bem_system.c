@@ -156,6 +156,8 @@ static void the_solution_satisfies_the_equations(void **state)
     rb_bem_system *system;
     CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, 4, ends, &mesh, NULL), RB_OK);
     give(&mesh, 20, RB_BEM_TRACTION, 3.0, -1.0);
+    give(&mesh, 21, RB_BEM_TRACTION, 1.0, 0.0); /* along one axis alone */
+    give(&mesh, 22, RB_BEM_TRACTION, 0.0, 1.0);
     const size_t d = 2 * (size_t)mesh.n;
     double *H = rb_alloc(d, d), *G = rb_alloc(d, d), *u = rb_alloc(d, 1),
            *t = rb_alloc(d, 1);
@@ -285,11 +287,17 @@ static void failing_memory_is_reported(void **state)
         rb_bem_mesh mesh = {0};
         rb_bem_system *system = NULL;
         rb_bem_flexibility f = {0};
+        rb_message why = {""};
+        char expected[sizeof why.text];
         alloc_fail_after(count);
         rb_status s = rb_bem_mesh_cylinder(&cylinder, 2, ends, &mesh, NULL);
         if (s == RB_OK) {
             give(&mesh, 5, RB_BEM_TRACTION, 1.0, 1.0);
-            s = rb_bem_system_create(&mesh, material, &system, NULL);
+            s = rb_bem_system_create(&mesh, material, &system, &why);
+            snprintf(expected, sizeof expected,
+                     "boundary elements: out of memory for %d elements (%.3g MB)", mesh.n,
+                     1e-6 * rb_bem_system_bytes(mesh.n, mesh.contact_n));
+            assert_string_equal(why.text, s == RB_OK ? "" : expected);
         }
         if (s == RB_OK)
             s = rb_bem_system_solve(system, NULL, u, t);

@@ -750,6 +750,64 @@ static void products_give_what_matrices_do(void **state)
     CHECK_MAX(refused, 1, "forces that nothing carries");
 }
 
+/* F_N and S become diagonals, of which `divide` is the inverse. */
+static void make_diagonal(by_products *k)
+{
+    const int n = k->n;
+
+    for (int j = 0; j < 2 * n; j++)
+        for (int i = 0; i < n; i++) {
+            F[i + j * ldf] *= i == j;
+            k->S[i + j * n] *= i + n == j;
+        }
+}
+
+/* Where the preconditioner is the exact inverse, GMRES needs one step whatever is at the
+ * border and whatever the unit of the creepage: five products, two of which are for the
+ * right-hand side and the slips, one for the step, and two for its residual before and
+ * after. */
+static void an_exact_preconditioner_needs_one_step(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 8; k++) {
+        const kind of = {
+            .n = 9, .mu = 0.3, .load_given = k % 2, .force_given = k / 2 % 2};
+        rb_contact_problem p;
+        rb_contact_state s;
+        by_products by;
+        double gap[9], P, Q;
+        numbers = 21;
+        random_problem(&of, &p);
+        use_products(&p, &by);
+        make_diagonal(&by);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        for (int i = 0; i < of.n; i++) {
+            s.zone[i] = i < 2             ? RB_ZONE_SEPARATED
+                        : i == 4 && k < 4 ? RB_ZONE_SLIP_NEGATIVE
+                                          : RB_ZONE_STICK;
+            p.e_T[i] *= 0.01;
+        }
+        by.products = 0;
+        CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_OK);
+        CHECK_MAX(by.products, 5, "case %d", k);
+        for (int i = 2; i < of.n; i++) {
+            CHECK_REL(s.p[i], STRESS / GAP * (s.delta - p.d_N[i]), 1e-9, "pressure %d",
+                      i);
+            if (s.zone[i] == RB_ZONE_STICK)
+                CHECK_REL(s.q[i], -STRESS / SLIP * (p.d_T[i] + s.xi * p.e_T[i]), 1e-9,
+                          "friction %d", i);
+        }
+        P = sum_of(of.n, p.load_N, s.p, p.load_T, s.q);
+        Q = sum_of(of.n, p.force_N, s.p, p.force_T, s.q);
+        if (of.load_given)
+            CHECK_REL(P, p.load, 1e-9, "load");
+        if (of.force_given)
+            CHECK_REL(Q, p.force_ratio * rb_contact_capacity(&p, &s), 1e-9, "force");
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
 /* Large friction, where Newton's steps end from nearly the same friction only; the scales
  * and bounds of the problem stay what they were. */
 static void products_follow_friction(void **state)
@@ -1358,6 +1416,58 @@ static void forces_that_nothing_carries_are_refused(void **state)
     }
 }
 
+/* A force that friction carries, in a problem that no solver solves to the tolerance. */
+static void what_is_not_solved_says_so(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const kind of = {.n = 6,
+                         .mu = 0.3,
+                         .coupling = 0.02,
+                         .load_given = k % 2,
+                         .force_given = 2,
+                         .yields = k / 2};
+        rb_contact_options options = options_of(RB_SOLVER_AUTO);
+        rb_contact_problem p;
+        rb_contact_state s;
+        rb_message why = {""};
+        numbers = 19;
+        random_problem(&of, &p);
+        options.tol = 0.0;
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        const rb_status status = rb_contact_solve(&p, &options, 0, &s, &why);
+        assert_true(status > 0 && s.status == status);
+        assert_true(s.residual > 0.0 && s.residual < 1e-12);
+        assert_non_null(strstr(why.text, "; scaled residual "));
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
+/* A yield stress that is followed down to a problem which has no solution: surfaces that
+ * do not give way, under a load. */
+static void a_layer_that_cannot_be_followed_is_not_solved(void **state)
+{
+    const kind of = {.n = 3, .mu = 0.3, .load_given = 1, .yields = 1};
+    rb_contact_problem p;
+    rb_contact_state s;
+
+    (void)state;
+    numbers = 20;
+    random_problem(&of, &p);
+    for (int i = 0; i < of.n; i++)
+        for (int j = 0; j < 2 * of.n; j++)
+            F[i + j * ldf] = 0.0;
+    CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+    for (int i = 0; i < of.n; i++) {
+        s.zone[i] = RB_ZONE_STICK;
+        s.p[i] = s.q[i] = STRESS;
+    }
+    CHECK_STATUS(rb_contact_yield_newton(&p, 1, &s), RB_MAXITER);
+    rb_contact_state_free(&s);
+    rb_contact_problem_free(&p);
+}
+
 /* Surfaces that do not touch carry no force, with and without a layer, for every solver.
  */
 static void surfaces_apart_carry_nothing(void **state)
@@ -1490,6 +1600,7 @@ int main(void)
         cmocka_unit_test(zones_may_change_one_by_one),
         cmocka_unit_test(zones_that_determine_nothing_are_singular),
         cmocka_unit_test(products_give_what_matrices_do),
+        cmocka_unit_test(an_exact_preconditioner_needs_one_step),
         cmocka_unit_test(products_follow_friction),
         cmocka_unit_test(every_step_is_shown),
         cmocka_unit_test(every_row_of_the_lcp_is_its_equation),
@@ -1502,6 +1613,8 @@ int main(void)
         cmocka_unit_test(products_have_no_lcp),
         cmocka_unit_test(kwaks_form_needs_an_inverse),
         cmocka_unit_test(forces_that_nothing_carries_are_refused),
+        cmocka_unit_test(what_is_not_solved_says_so),
+        cmocka_unit_test(a_layer_that_cannot_be_followed_is_not_solved),
         cmocka_unit_test(surfaces_apart_carry_nothing),
         cmocka_unit_test(no_memory_is_said),
     };

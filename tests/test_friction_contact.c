@@ -326,6 +326,70 @@ static void acceleration_saves_sweeps(void **state)
     rb_friction_problem_free(&p);
 }
 
+/* K dv - H dr = -e and B H' dv + A dr = -F of bodies in a row, each of which touches the
+ * next one.  Operations: the blocks B H', and dense LU with its two substitutions. */
+static void a_step_of_all_bodies_solves_its_system(void **state)
+{
+    (void)state;
+    unsigned seed = 6;
+    for (int sparse = 0; sparse < 2; sparse++) {
+        const int nc = sparse ? 60 : 3, m = 2 * nc, n = m + 2;
+        rb_triplets tk = {.rows = n, .cols = n}, th = {.rows = n, .cols = m};
+        rb_friction_problem p = {
+            .form = RB_FRICTION_GLOBAL, .dimension = 2, .contacts = nc, .dofs = n};
+        double *A = rb_alloc((size_t)m, 7), *B = A + 2 * m, *F = B + 2 * m, *dr = F + m,
+               *y = dr + m, *e = rb_alloc((size_t)n, 2), *dv = e + n, estimate;
+        const rb_friction_linearised at = {F, A, B};
+        for (int i = 0; i < n; i++) {
+            rb_triplets_add(&tk, i, i, 2.0 + 0.1 * i);
+            e[i] = uniform(&seed);
+        }
+        for (int j = 0; j < m; j++) {
+            rb_triplets_add(&th, j, j, 1.0);
+            rb_triplets_add(&th, j + 2, j, -1.0);
+            F[j] = uniform(&seed);
+        }
+        for (int k = 0; k < 2 * m; k++) {
+            A[k] = (k % 4 % 3 == 0) * 3.0 + uniform(&seed);
+            B[k] = uniform(&seed);
+        }
+        CHECK_STATUS(rb_sparse_from_triplets(&tk, &p.K), RB_OK);
+        CHECK_STATUS(rb_sparse_from_triplets(&th, &p.H), RB_OK);
+        rb_friction_system s;
+        rb_friction_task task = {.problem = &p, .d = 2, .contacts = nc, .m = m, .n = n};
+        CHECK_STATUS(rb_friction_system_init(&task, &s), RB_OK);
+        CHECK_STATUS(rb_friction_system_estimate(&s, &estimate), RB_OK);
+        CHECK_STATUS(rb_friction_system_step(&s, &at, e, dr, dv), RB_OK);
+        assert_true((s.lu != NULL) == sparse);
+        const double order = n + m, lu = 2.0 / 3.0 * order * order * order;
+        if (!sparse) {
+            CHECK_REL(estimate, lu, 1e-15, "estimate");
+            CHECK_REL(s.flops, 2.0 * 2.0 * 2.0 * m * 2.0 + lu + 2.0 * order * order,
+                      1e-15, "operations");
+        } else {
+            assert_true(estimate < 0.1 * lu && s.flops < 0.1 * lu);
+        }
+        for (int i = 0; i < n; i++) {
+            const double turned = (i < m ? dr[i] : 0.0) - (i > 1 ? dr[i - 2] : 0.0);
+            CHECK_ABS((2.0 + 0.1 * i) * dv[i] - turned, -e[i], 1e-12, "motion %d", i);
+        }
+        for (int j = 0; j < m; j++)
+            y[j] = dv[j] - dv[j + 2];
+        for (int j = 0; j < m; j++) {
+            const int own = 4 * (j / 2) + j % 2, first = j / 2 * 2;
+            CHECK_ABS(A[own] * dr[first] + A[own + 2] * dr[first + 1] +
+                          B[own] * y[first] + B[own + 2] * y[first + 1],
+                      -F[j], 1e-12, "contact equation %d", j);
+        }
+        rb_friction_system_free(&s);
+        rb_friction_problem_free(&p);
+        rb_triplets_free(&tk);
+        rb_triplets_free(&th);
+        free(A);
+        free(e);
+    }
+}
+
 /* A pile that shrugs off what happens a few contacts away: seven sweeps leave Newton one
  * step. One in which every contact feels all the others: Newton goes from zero as if
  * there had been no sweeps. */
@@ -402,6 +466,7 @@ int main(void)
         cmocka_unit_test(a_singular_block_is_left_to_newton),
         cmocka_unit_test(blocks_multiply_as_the_matrix_does),
         cmocka_unit_test(a_newton_step_solves_its_system),
+        cmocka_unit_test(a_step_of_all_bodies_solves_its_system),
         cmocka_unit_test(acceleration_solves_a_linear_iteration),
         cmocka_unit_test(acceleration_goes_back_where_it_was_led_astray),
         cmocka_unit_test(acceleration_saves_sweeps),
