@@ -289,7 +289,8 @@ static int blocking_slot(mixed *p, int entering, double sign, double *step, int 
     const range own = range_of(p, entering);
     const double most_y = rb_norm_inf((size_t)p->n, p->y);
     const double most_value = rb_norm_inf((size_t)p->n, p->value);
-    double least = own.high - own.low;
+    const double width = own.high - own.low;
+    double least = width;
     *count = 0;
     for (int s = 0; s < p->n; s++) {
         if (fabs(p->y[s]) <= NOISE * most_y)
@@ -311,7 +312,9 @@ static int blocking_slot(mixed *p, int entering, double sign, double *step, int 
             p->tied[(*count)++] = s;
     }
     *step = least;
-    return settle_tie(p, *count, sign, own.high - own.low <= most ? least : INFINITY);
+    /* most may have overflowed: a variable without another bound never comes to it */
+    return settle_tie(p, *count, sign,
+                      isfinite(width) && width <= most ? least : INFINITY);
 }
 
 /* p->y = the column of the entering variable, without what is zero but for rounding. */
