@@ -131,6 +131,68 @@ static void identical_bodies_lose_their_coupling(void **state)
     rb_bem_flexibility_free(&f);
 }
 
+/* A load of which neither sum nor moment is left does not feel the datum, nor the ends of
+ * the line, and varies over `width` elements. */
+static void wavelet(int n, double width, double *r)
+{
+    for (int i = 0; i < n; i++) {
+        const double x = (i - 0.5 * n) / width;
+        r[i] = (1.0 - 2.0 * x * x) * exp(-x * x);
+    }
+}
+
+/* The preconditioner takes back what a half-plane makes of such loads, with an interface
+ * that yields in between or without, and the differences upstream of what it slides. */
+static void a_line_is_nearly_inverted_by_its_waves(void **state)
+{
+    enum { n = 200, m = n + 1 };
+    static const double stencil[] = {0.1, 0.9, -0.8, -0.2};
+    double ends[m + 1], r[2 * n] = {0.0}, w[2 * m], line[n], loose[n], stiff[n];
+
+    (void)state;
+    for (int i = 0; i <= m; i++)
+        ends[i] = i / 64.0;
+    for (int i = 0; i < n; i++) {
+        loose[i] = 3e-8;
+        stiff[i] = 1e-8;
+    }
+    for (int k = 0; k < 6; k++) {
+        rb_bem_flexibility f;
+        rb_bem_circulant *c;
+        CHECK_STATUS(
+            rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, 30.0), &f, NULL),
+            RB_OK);
+        if (k % 2)
+            CHECK_STATUS(rb_bem_flexibility_add_compliance(&f, loose, stiff), RB_OK);
+        CHECK_STATUS(rb_bem_circulant_create(&f, stencil, &c), RB_OK);
+        double worst[2] = {0.0};
+        for (int tangential = 0; tangential < 2; tangential++) {
+            memset(r, 0, sizeof r);
+            wavelet(n, k < 2 ? 1.0 : k < 4 ? 4.0 : 10.0, r + tangential * n);
+            rb_bem_flexibility_apply(&f, r, w);
+            const double *moved = w + tangential * m;
+            for (int i = 0; i < n; i++) {
+                line[i] = moved[i];
+                if (tangential)
+                    line[i] = stencil[0] * moved[i > 0 ? i - 1 : 0] +
+                              stencil[1] * moved[i] + stencil[2] * moved[i + 1] +
+                              stencil[3] * moved[i + 2 < m ? i + 2 : i + 1];
+            }
+            if (tangential)
+                rb_bem_circulant_apply_difference(c, line, line);
+            else
+                rb_bem_circulant_apply(c, line, line);
+            for (int i = n / 10; i < n - n / 10; i++)
+                worst[tangential] =
+                    fmax(worst[tangential], fabs(line[i] - r[i + tangential * n]));
+        }
+        CHECK_MAX(worst[0], k < 2 ? 1e-3 : 2e-4, "pressure, case %d", k);
+        CHECK_MAX(worst[1], k < 2 ? 1e-3 : 1e-4, "friction, case %d", k);
+        rb_bem_circulant_free(c);
+        rb_bem_flexibility_free(&f);
+    }
+}
+
 static void bad_input_is_refused(void **state)
 {
     (void)state;
@@ -208,6 +270,7 @@ int main(void)
         cmocka_unit_test(distant_strips_lose_no_digits),
         cmocka_unit_test(apply_is_the_matrix_and_ldf_is_kept),
         cmocka_unit_test(identical_bodies_lose_their_coupling),
+        cmocka_unit_test(a_line_is_nearly_inverted_by_its_waves),
         cmocka_unit_test(bad_input_is_refused),
         cmocka_unit_test(failing_memory_is_reported),
     };

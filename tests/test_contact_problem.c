@@ -207,18 +207,17 @@ static double coulomb(double slip, double q, double bound)
                 conflict(fmax(-slip, 0.0), bound - q));
 }
 
-/* The natural residual of the scaled problem, from p, q, plastic, delta and xi. */
-static double residual_of(const rb_contact_problem *p, const rb_contact_state *s)
+/* Coulomb's law and the layer's, scaled, from p, q, plastic, delta and xi. */
+static double friction_residual(const rb_contact_problem *p, const rb_contact_state *s)
 {
     const double mu_stress = STRESS * (p->mu > 0.0 ? p->mu : 1.0);
-    double worst = 0.0, most, next = 0.0, second = 0.0;
+    double worst = 0.0, next = 0.0, second = 0.0;
 
     for (int i = p->n - 1; i >= 0; i--) {
         double gap, slip;
         move(p, s, i, &gap, &slip);
         const double plastic = p->yield ? s->plastic[i] : 0.0;
         const double q = s->q[i] / mu_stress, bound = p->bound[i] * s->p[i] / mu_stress;
-        worst = fmax(worst, conflict(gap / GAP, s->p[i] / STRESS));
         worst = fmax(worst, coulomb((slip - plastic) / SLIP, q, bound));
         if (p->yield) {
             const double u =
@@ -228,6 +227,19 @@ static double residual_of(const rb_contact_problem *p, const rb_contact_state *s
             second = next;
             next = u;
         }
+    }
+    return worst;
+}
+
+/* The natural residual of the scaled problem, from p, q, plastic, delta and xi. */
+static double residual_of(const rb_contact_problem *p, const rb_contact_state *s)
+{
+    double worst = friction_residual(p, s), most;
+
+    for (int i = 0; i < p->n; i++) {
+        double gap, slip;
+        move(p, s, i, &gap, &slip);
+        worst = fmax(worst, conflict(gap / GAP, s->p[i] / STRESS));
     }
     if (p->load_given)
         worst = fmax(
@@ -254,6 +266,8 @@ static void check_zones(const rb_contact_problem *p, const rb_contact_state *s)
             CHECK_ABS(s->q[i], -limit, tiny, "slips to +x %d", i);
         if (s->zone[i] == RB_ZONE_SLIP_POSITIVE)
             CHECK_ABS(s->q[i], limit, tiny, "slips to -x %d", i);
+        if (s->zone[i] <= RB_ZONE_STICK)
+            CHECK_ABS(s->plastic[i], 0.0, 0.0, "%d does not yield", i);
         if (s->zone[i] >= RB_ZONE_YIELD_NEGATIVE)
             assert_true(p->yield && fabs(s->plastic[i]) > 0.0);
     }
@@ -626,6 +640,94 @@ static void zones_may_change_one_by_one(void **state)
     }
 }
 
+/* From zones of which one or two elements are wrong, a path leads to the solution within
+ * a few bends: at its start every element obeys the law of its zone. */
+static void paths_lead_back_to_the_solution(void **state)
+{
+    const rb_contact_options options = options_of(RB_SOLVER_NEWTON);
+    int solves = 0, solved = 0;
+
+    (void)state;
+    numbers = 22;
+    for (int k = 0; k < 64; k++) {
+        const kind of = {.n = 4 + k % 6,
+                         .mu = 0.3,
+                         .coupling = 0.05,
+                         .load_given = k % 2,
+                         .force_given = k / 2 % 3};
+        rb_contact_problem p;
+        rb_contact_state s;
+        random_problem(&of, &p);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        CHECK_STATUS(rb_contact_solve(&p, &options, 0, &s, NULL), RB_OK);
+        const int first = (int)uniform(0.0, of.n), second = (int)uniform(0.0, of.n);
+        s.zone[first] = k % 4 ? (s.zone[first] + 1) % 4 : RB_ZONE_SEPARATED;
+        s.zone[second] = (s.zone[second] + k / 4) % 4;
+        s.iterations = 0;
+        const rb_status status = rb_contact_follow_path(&p, &s);
+        assert_true(status == RB_OK ||
+                    (status == RB_SINGULAR && s.iterations == 1)); /* none sticks */
+        solved += status == RB_OK;
+        solves += s.iterations;
+        if (status == RB_OK)
+            CHECK_MAX(residual_of(&p, &s), 1e-10, "case %d", k);
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+    assert_int_equal(solved, 61);
+    assert_in_range(solves, 460, 468); /* three, and two for every bend */
+}
+
+/* Allocations of a solve with the zones of the state. */
+static int allocations(rb_contact_problem *p, rb_contact_state *s)
+{
+    double gap[24];
+
+    for (int count = 0;; count++) {
+        alloc_fail_after(count);
+        const rb_status status = rb_contact_try_zones(p, s, gap);
+        const int failed = alloc_failed();
+        alloc_succeed();
+        CHECK_STATUS(status, failed ? RB_ENOMEM : RB_OK);
+        if (!failed)
+            return count;
+    }
+}
+
+/* The second solve has the room of the first one, until that is forgotten: other bounds
+ * move what slides where friction opens gaps, or carry a given force. */
+static void what_is_kept_can_be_forgotten(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const kind of = {
+            .n = 24, .mu = 0.3, .coupling = k % 2 ? 0.05 : 0.0, .force_given = k / 2};
+        rb_contact_problem p;
+        rb_contact_state s;
+        double gap[24];
+        numbers = 25;
+        random_problem(&of, &p);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        for (int i = 0; i < of.n; i++)
+            s.zone[i] = i % 3 ? RB_ZONE_STICK : RB_ZONE_SLIP_NEGATIVE;
+        CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_OK);
+        const int again = allocations(&p, &s);
+        p.op->kind->forget(p.op);
+        CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_OK);
+        assert_int_equal(allocations(&p, &s), again);
+        rb_contact_set_friction(&p, p.mu, p.bound); /* the same */
+        alloc_fail_after(again);
+        CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), k ? RB_ENOMEM : RB_OK);
+        alloc_succeed();
+        p.op->kind->forget(p.op);
+        alloc_fail_after(again);
+        CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_ENOMEM);
+        alloc_succeed();
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
 /* Without a contact nothing can carry a load, without stick the creepage does not change
  * a force. */
 static void zones_that_determine_nothing_are_singular(void **state)
@@ -853,6 +955,44 @@ static void products_follow_friction(void **state)
     }
 }
 
+/* The answer to unit tractions at the middle element: by products, and by matrices, whose
+ * diagonals are a mean over all. */
+static void responses_are_those_to_unit_tractions(void **state)
+{
+    (void)state;
+    numbers = 24;
+    for (int k = 0; k < 6; k++) {
+        const kind of = {.n = 3 + k, .mu = 0.3, .coupling = 0.1, .rolls = k % 2};
+        const int n = of.n, j = n / 2;
+        rb_contact_problem p;
+        by_products by;
+        double gap = 0.0, slip = 0.0, coupled = 0.0, answer = 0.0, reach = 0.0;
+        random_problem(&of, &p);
+        const double *S = rb_contact_operator_matrix(p.op).S;
+        for (int i = 0; i < n; i++) {
+            gap += fabs(F[i + i * ldf]) / n;
+            slip += fabs(S[i + (n + i) * n]) / n;
+            coupled += fabs(S[j + i * n]); /* of the middle element to all pressures */
+            answer += fabs(S[i + j * n]);  /* of all to the middle pressure */
+            reach += fabs(F[i + j * ldf]);
+        }
+        rb_contact_response unit = rb_contact_operator_response(p.op);
+        CHECK_REL(unit.gap, gap, 1e-14, "gap");
+        CHECK_REL(unit.slip, slip, 1e-14, "slip");
+        CHECK_REL(unit.coupled_slip, coupled, 1e-14, "slip of pressures");
+        CHECK_ABS(unit.reach, 0.0, 0.0, "reach");
+        const double own[] = {F[j + j * ldf], fabs(S[j + (n + j) * n])};
+        use_products(&p, &by);
+        unit = rb_contact_operator_response(p.op);
+        CHECK_REL(unit.gap, own[0], 1e-14, "gap by a product");
+        CHECK_REL(unit.slip, own[1], 1e-14, "slip by a product");
+        CHECK_REL(unit.coupled_slip, answer, 1e-14, "slips of a pressure");
+        CHECK_REL(unit.reach, reach / own[0], 1e-14, "reach");
+        assert_true(unit.coupled);
+        rb_contact_problem_free(&p);
+    }
+}
+
 /* ---- Newton's trace ---------------------------------------------------------------- */
 
 static void count_steps(const rb_contact_state *state, void *context)
@@ -1074,6 +1214,54 @@ static void the_lcp_of_a_state_is_the_one_that_gave_it(void **state)
     }
 }
 
+/* ---- Zones of tractions and slips ---------------------------------------------------
+ */
+
+/* The layer of all elements has yielded upstream.  Each is at its yield stress to 1e-9,
+ * and has yielded by 1e-8 of the slip's scale or more: it yields.  Not so where its
+ * friction lacks 1e-6 (1), without pressure (2), without a plastic slip (4), and where
+ * the friction of the surfaces is at its bound and they slide (5, 6). */
+static void zones_are_told_by_what_is_larger(void **state)
+{
+    static const double yields_by[] = {-1e-8, 1e-8, 1e-8, 0.3, 0.0, 0.3, -0.3};
+    static const int zone[] = {RB_ZONE_YIELD_POSITIVE, RB_ZONE_STICK,
+                               RB_ZONE_SEPARATED,      RB_ZONE_YIELD_NEGATIVE,
+                               RB_ZONE_STICK,          RB_ZONE_SLIP_NEGATIVE,
+                               RB_ZONE_SLIP_POSITIVE};
+
+    (void)state;
+    numbers = 23;
+    for (int k = 0; k < 9; k++) {
+        const kind of = {
+            .n = 7, .mu = 0.3, .yields = 1 + k % 3, .order = k / 3, .coupling = 0.05};
+        rb_contact_problem p;
+        rb_contact_state s;
+        double u[7];
+        random_problem(&of, &p);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        for (int i = 0; i < of.n; i++)
+            s.lambda[i] = s.plastic[i] = yields_by[i] * SLIP;
+        rb_contact_yielded(&p, s.plastic, u);
+        for (int i = 0; i < of.n; i++) {
+            const double yield = p.yield[i] + p.hardening * u[i];
+            CHECK_REL(rb_contact_yield_stress(&p, i, u[i]), yield, 1e-14, "stress %d", i);
+            s.p[i] = i == 2 ? 0.0 : 2.0 * yield / p.bound[i];
+            s.q[i] = copysign(yield * (1.0 - 1e-9), -yields_by[i]);
+        }
+        s.q[1] *= 1.0 - 1e-6;
+        s.lambda[5] += 0.1 * SLIP;
+        s.q[5] = -p.bound[5] * s.p[5];
+        s.lambda[6] -= 0.1 * SLIP;
+        s.q[6] = p.bound[6] * s.p[6];
+        rb_contact_classify(&p, 1e-12, &s);
+        for (int i = 0; i < of.n; i++)
+            if (s.zone[i] != zone[i])
+                fail_msg("case %d: element %d is in zone %d", k, i, s.zone[i]);
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
 /* ---- Residuals, forces ------------------------------------------------------------- */
 
 static void residuals_and_forces_are_sums_over_elements(void **state)
@@ -1111,10 +1299,13 @@ static void residuals_and_forces_are_sums_over_elements(void **state)
         CHECK_STATUS(rb_contact_residual(&p, &s, &v), RB_OK);
         CHECK_REL(v.scaled, residual_of(&p, &s), 1e-12, "residual");
         CHECK_REL(v.gap, gap, 1e-12, "gap");
-        if (!p.yield)
-            CHECK_REL(v.friction, friction, 1e-12, "friction");
-        else
-            assert_true(v.friction >= friction);
+        CHECK_ABS(v.slip, SLIP * friction_residual(&p, &s), 1e-12 * SLIP, "slip");
+        double u[6];
+        rb_contact_yielded(&p, s.plastic, u);
+        for (int i = 0; i < of.n && p.yield; i++)
+            friction =
+                fmax(friction, fabs(s.q[i]) - fmax(p.yield[i] + p.hardening * u[i], 0.0));
+        CHECK_REL(v.friction, friction, 1e-12, "friction");
         CHECK_REL(rb_contact_load(&p, &s), sum_of(of.n, p.load_N, s.p, p.load_T, s.q),
                   1e-12, "P");
         CHECK_REL(rb_contact_force(&p, &s), sum_of(of.n, p.force_N, s.p, p.force_T, s.q),
@@ -1444,6 +1635,47 @@ static void what_is_not_solved_says_so(void **state)
     }
 }
 
+/* Each path of Lemke's method begins with pivot 0. */
+typedef struct {
+    int paths, attempt[12];
+} attempts;
+
+static void note_attempts(const rb_lcp_pivot *pivot, void *context)
+{
+    attempts *a = context;
+    if (pivot->pivot == 0)
+        a->attempt[a->paths++] = pivot->attempt;
+}
+
+/* Where none is accurate enough, every form is tried once, evenly covered and unevenly,
+ * in their order; Kwak's alone where it is asked for. */
+static void every_form_is_tried(void **state)
+{
+    static const int all[] = {0, 2, 2, 0, 1, 1};
+
+    (void)state;
+    for (int kwak = 0; kwak < 2; kwak++) {
+        const kind of = {.n = 5, .mu = 0.3, .coupling = 0.02};
+        rb_contact_options options = options_of(RB_SOLVER_LEMKE);
+        attempts tried = {0};
+        rb_contact_problem p;
+        rb_contact_state s;
+        numbers = 26;
+        random_problem(&of, &p);
+        options.tol = 0.0;
+        options.lcp_form = kwak ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+        options.trace = note_attempts;
+        options.trace_context = &tried;
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        assert_true(rb_contact_solve(&p, &options, 0, &s, NULL) > 0);
+        assert_true(tried.paths >= (kwak ? 2 : 6));
+        for (int k = 0; k < tried.paths; k++)
+            assert_int_equal(tried.attempt[k], kwak ? 2 : all[k % 6]);
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
 /* A yield stress that is followed down to a problem which has no solution: surfaces that
  * do not give way, under a load. */
 static void a_layer_that_cannot_be_followed_is_not_solved(void **state)
@@ -1598,14 +1830,18 @@ int main(void)
         cmocka_unit_test(pivots_leave_no_rounding),
         cmocka_unit_test(pairs_move_as_their_elements),
         cmocka_unit_test(zones_may_change_one_by_one),
+        cmocka_unit_test(paths_lead_back_to_the_solution),
+        cmocka_unit_test(what_is_kept_can_be_forgotten),
         cmocka_unit_test(zones_that_determine_nothing_are_singular),
         cmocka_unit_test(products_give_what_matrices_do),
         cmocka_unit_test(an_exact_preconditioner_needs_one_step),
         cmocka_unit_test(products_follow_friction),
+        cmocka_unit_test(responses_are_those_to_unit_tractions),
         cmocka_unit_test(every_step_is_shown),
         cmocka_unit_test(every_row_of_the_lcp_is_its_equation),
         cmocka_unit_test(variables_have_names),
         cmocka_unit_test(the_lcp_of_a_state_is_the_one_that_gave_it),
+        cmocka_unit_test(zones_are_told_by_what_is_larger),
         cmocka_unit_test(residuals_and_forces_are_sums_over_elements),
         cmocka_unit_test(cones_move_as_the_problem_does),
         cmocka_unit_test(the_residual_judges_cone_solvers),
@@ -1614,6 +1850,7 @@ int main(void)
         cmocka_unit_test(kwaks_form_needs_an_inverse),
         cmocka_unit_test(forces_that_nothing_carries_are_refused),
         cmocka_unit_test(what_is_not_solved_says_so),
+        cmocka_unit_test(every_form_is_tried),
         cmocka_unit_test(a_layer_that_cannot_be_followed_is_not_solved),
         cmocka_unit_test(surfaces_apart_carry_nothing),
         cmocka_unit_test(no_memory_is_said),
