@@ -625,6 +625,7 @@ static void contradictions_are_refused(void **state)
         {"accuracy=1e-3 formulation=transient distance=1", "without steps only"},
         {"force-ratio=1.5", "at most 1"},
         {"gap-smoothing=0.1", "of a gap from a file only"},
+        {"memory=1", "--memory: of friction that changes"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_message why = {""};

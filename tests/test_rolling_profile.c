@@ -126,6 +126,32 @@ static void smoothing_keeps_the_shape(void **state)
     rb_rolling_profile_free(profile);
 }
 
+/* A curve of mirrored points is the mirrored curve: the splines stand alike at both
+ * ends. */
+static void smoothing_does_not_know_left_from_right(void **state)
+{
+    (void)state;
+    enum { N = 40 };
+    double u[2][N], g[2][N];
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    for (int i = 0; i < N; i++) {
+        u[0][i] = -7.0 + 0.3 * i + 0.1 * gsl_rng_uniform(rng);
+        g[0][i] = u[0][i] * u[0][i] / 90.0 + gsl_ran_gaussian(rng, 0.02);
+        u[1][N - 1 - i] = -u[0][i];
+        g[1][N - 1 - i] = g[0][i];
+    }
+    rb_rolling_profile *one = profile_of(N, u[0], g[0], 0.015);
+    rb_rolling_profile *other = profile_of(N, u[1], g[1], 0.015);
+    for (int i = 0; i < 3 * N; i++) {
+        const double at = -8.0 + 0.12 * i;
+        CHECK_REL(rb_rolling_profile_gap(other, -at), rb_rolling_profile_gap(one, at),
+                  1e-8, "x = %g", at);
+    }
+    rb_rolling_profile_free(one);
+    rb_rolling_profile_free(other);
+    gsl_rng_free(rng);
+}
+
 /* On points anywhere, also on uneven ones; beyond them straight on. */
 static void the_spline_passes_through_its_points(void **state)
 {
@@ -178,6 +204,15 @@ static void bad_tables_are_refused(void **state)
     check_refused(4, u, g, -1.0, "smoothing");
     check_refused(4, u, g, NAN, "smoothing");
     check_refused(4, far, g, 1e-3, "x = 1e+12");
+    for (int k = 0; k < 2; k++) { /* a stretch of so many times 1e-9 of where it lies */
+        double near[4];
+        for (int i = 0; i < 4; i++)
+            near[i] = -1.0 + (k ? 1.1e-9 : 0.9e-9) * i / 3.0;
+        if (k == 0)
+            check_refused(4, near, g, 1e-3, "all points lie at x = -1");
+        else
+            rb_rolling_profile_free(profile_of(4, near, g, 1e-3));
+    }
 }
 
 /* Under load and under approach, without rolling and with it, on half-planes and wheels:
@@ -280,6 +315,7 @@ int main(void)
         cmocka_unit_test(a_coarse_table_of_a_parabola_is_that_parabola),
         cmocka_unit_test(smoothing_takes_the_noise_away),
         cmocka_unit_test(smoothing_keeps_the_shape),
+        cmocka_unit_test(smoothing_does_not_know_left_from_right),
         cmocka_unit_test(the_spline_passes_through_its_points),
         cmocka_unit_test(bad_tables_are_refused),
         cmocka_unit_test(contact_beyond_the_table_is_no_result),

@@ -646,6 +646,63 @@ static void the_past_moves_with_the_material(void **state)
     rb_rolling_mesh_free(&mesh);
 }
 
+/* x F y over the elements of a body. */
+static double work_of(const rb_bem_flexibility *f, const double *a, const double *b)
+{
+    double w[2 * 8], sum = 0.0;
+    rb_bem_flexibility_apply(f, b, w);
+    for (int i = 0; i < f->n; i++)
+        sum += f->h[i] * (a[i] * w[i] + a[f->n + i] * w[f->m + i]);
+    return sum;
+}
+
+/* A dashpot loses (1/tau) int e F e dt, with e = e_0 exp(-t/tau) + d (1 - exp(-t/tau))
+ * tau/step for a change d of the traction.  After a long step and a short one, both
+ * of e_0 and d are there; from rest and at a held traction, one of them alone. */
+static void a_step_loses_what_its_dashpot_does(void **state)
+{
+    (void)state;
+    enum { N = 6 };
+    static const double steps[] = {1e-4, 0.0099, 0.0101, 1.0, 9.0};
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_mesh mesh;
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.memory = (rb_rolling_memory){1, {TAU}, {F}};
+    rc.contact_elements = N;
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -0.3, 0.3, &mesh, NULL), RB_OK);
+    for (int j = 0; j < 15; j++) {
+        const double step = steps[j / 3];
+        const int kind = j % 3; /* from rest; held; both */
+        const long double r = (long double)(step / TAU), faded = -expm1l(-r);
+        const double f0 = (double)(-0.5L * expm1l(-2.0L * r)),
+                     f1 = (double)(0.5L * faded * faded / r),
+                     f2 = (double)((r - 2.0L * faded - 0.5L * expm1l(-2.0L * r)) /
+                                   (r * r));
+        rb_rolling_memory_track track;
+        double e[2 * N] = {0.0}, d[2 * N], next[2 * N];
+        CHECK_STATUS(rb_rolling_memory_track_create(&rc, &mesh, 0, &track, NULL), RB_OK);
+        for (int i = 0; i < 2 * N; i++)
+            next[i] = 2.0 + i * i;
+        if (kind > 0)
+            rb_rolling_memory_track_end(&track, 0.5, next, next + N);
+        for (int i = 0; i < 2 * N; i++) {
+            if (kind > 0)
+                e[i] = track.traction[i] - track.body[0].past[i];
+            next[i] += kind == 2 ? 3.0 * i - 4.0 : 0.0;
+            d[i] = next[i] - track.traction[i];
+        }
+        const rb_bem_flexibility *f = &track.body[0].f;
+        const double was = track.lost;
+        rb_rolling_memory_track_end(&track, step, next, next + N);
+        const double want = F * (f0 * work_of(f, e, e) + 2.0 * f1 * work_of(f, d, e) +
+                                 f2 * work_of(f, d, d));
+        CHECK_REL(track.lost - was, want, kind == 2 ? 1e-7 : 1e-9, "step %g, %d", step,
+                  kind);
+        rb_rolling_memory_track_free(&track);
+    }
+    rb_rolling_mesh_free(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -662,6 +719,7 @@ int main(void)
         cmocka_unit_test(one_static_solve_is_refused),
         cmocka_unit_test(every_failing_allocation_is_noticed),
         cmocka_unit_test(the_past_moves_with_the_material),
+        cmocka_unit_test(a_step_loses_what_its_dashpot_does),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
