@@ -203,6 +203,23 @@ static void the_limit_is_the_steady_state(void **state)
 
 /* Mindlin-Deresiewicz: loaded to Q1 and back to Q2, the friction is the sum of Cattaneo's
  * for Q1 and twice the negative of that for (Q1 - Q2)/2. */
+/* Without friction nothing changes from the first step that rolls on, behind the one at
+ * rest. */
+static void without_friction_all_of_it_is_steady(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steel_wheel(10);
+    rb_rolling_model model;
+    rb_rolling_history h;
+    rc.formulation = RB_TRANSIENT;
+    rc.mu = 0.0;
+    rc.distance = 0.5;
+    run(&rc, NULL, &model, &h);
+    assert_true(h.n > 2);
+    assert_int_equal(h.steady_from, 1);
+    release(&model, &h);
+}
+
 static void unloading_follows_mindlin_and_deresiewicz(void **state)
 {
     (void)state;
@@ -665,6 +682,7 @@ int main(void)
         cmocka_unit_test(a_quarter_ahead_is_a_midpoint_of_halves),
         cmocka_unit_test(other_steps_on_a_wheel),
         cmocka_unit_test(the_limit_is_the_steady_state),
+        cmocka_unit_test(without_friction_all_of_it_is_steady),
         cmocka_unit_test(unloading_follows_mindlin_and_deresiewicz),
         cmocka_unit_test(shift_and_force_are_two_sides_of_one_history),
         cmocka_unit_test(loads_vary_along_the_way),

@@ -9,15 +9,19 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 /* Case 3 is refused by its maker, case 4 by the solver; the process that solves case 6
- * dies, each time or as often as the context says, in memory that all share. */
+ * dies, each time or as often as the context says, in memory that all share; case 7 takes
+ * its time. */
 static rb_status make(int k, rb_rolling_case *rc, void *context)
 {
     int *deaths = context;
     if (k == 6 && (!deaths || (*deaths)-- > 0))
         raise(SIGKILL);
+    if (k == 7)
+        nanosleep(&(struct timespec){.tv_nsec = 60000000}, NULL);
     *rc = rb_rolling_case_defaults();
     rc->a.support = RB_BEM_HALFPLANE;
     rc->load = 100.0 * (k + 1);
@@ -208,6 +212,24 @@ static void all_cases_come_back_once(void **state)
     pool->stop(pool);
 }
 
+/* The row of the second worker does not wait for the one of the first. */
+static void a_fast_case_overtakes_a_slow_one(void **state)
+{
+    (void)state;
+    const rb_rolling_sweep sweep = of(8, 2, 0);
+    rb_rolling_pool *pool;
+    rb_rolling_row row;
+    int k = -1;
+    CHECK_STATUS(rb_rolling_pool_start(&sweep, &pool, NULL), RB_OK);
+    CHECK_STATUS(pool->submit(pool, 7), RB_OK);
+    row = row_of(pool, 0);
+    CHECK_REL(row.solution.normal_load, 100.0, 1e-9, "the fast one");
+    assert_int_equal(pool->collect(pool, 10000, &k, &row), 1);
+    assert_int_equal(k, 7);
+    CHECK_REL(row.solution.normal_load, 800.0, 1e-9, "the slow one");
+    pool->stop(pool);
+}
+
 /* Without descriptors no worker can be reached. */
 static void a_pool_that_cannot_start_says_why(void **state)
 {
@@ -366,6 +388,7 @@ int main(void)
         cmocka_unit_test(a_case_is_lost_with_its_second_worker),
         cmocka_unit_test(workers_are_counted),
         cmocka_unit_test(all_cases_come_back_once),
+        cmocka_unit_test(a_fast_case_overtakes_a_slow_one),
         cmocka_unit_test(a_pool_that_cannot_start_says_why),
         cmocka_unit_test(a_pool_s_rows_are_seen_in_order),
         cmocka_unit_test(a_pool_that_cannot_go_on_ends_the_study),
