@@ -143,6 +143,10 @@ static void refusals_have_their_exit_codes(void **state)
     assert_int_equal(run("truss --nodes 1 2>/dev/null"), 64);
     assert_int_equal(run("truss --layout other 2>/dev/null"), 64);
     assert_int_equal(run("wall --step 0 2>/dev/null"), 64);
+    assert_int_equal(run("truss --nodes 2 --solver extragradient --output %s 2>/dev/null",
+                         inside("none.tsv")),
+                     1);
+    assert_int_equal(access(inside("none.tsv"), F_OK), -1); /* no increment, no table */
     assert_int_equal(run("truss --nodes 4 --output /no/such/folder/x 2>/dev/null"), 73);
 }
 

@@ -313,6 +313,22 @@ static void an_unknown_solver_is_refused(void **state)
     rb_fem_model_free(&model);
 }
 
+/* The whole stiffness of a truss is singular, so that a solver of the condensed problem
+ * does not begin: there is no increment whose numbers anybody could take for a result. */
+static void an_increment_that_has_not_begun_is_none(void **state)
+{
+    (void)state;
+    rb_fem_model model;
+    rb_fem_history h;
+    rb_message why = {""};
+    CHECK_STATUS(rb_fem_model_truss(RB_FEM_UPPER_INSIDE, 2, &model, &why), RB_OK);
+    CHECK_STATUS(rb_fem_run(&model, "extragradient", 1e-8, &h, &why), RB_SINGULAR);
+    assert_non_null(strstr(why.text, "K is singular to rounding"));
+    assert_int_equal(h.steps, 0);
+    rb_fem_history_free(&h);
+    rb_fem_model_free(&model);
+}
+
 static void memory_runs_out(void **state)
 {
     (void)state;
@@ -344,6 +360,7 @@ int main(void)
         cmocka_unit_test(trusses_by_smoothing),
         cmocka_unit_test(condensation_changes_nothing),
         cmocka_unit_test(an_unknown_solver_is_refused),
+        cmocka_unit_test(an_increment_that_has_not_begun_is_none),
         cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, load_reference, drop_reference);

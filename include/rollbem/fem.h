@@ -185,7 +185,8 @@ typedef struct {
 
 /* Runs all increments of the condensed model with the friction solver of that name, the
  * state of one entering the next.  Ends with the first increment that is not solved to
- * tol; what there is stays in history. */
+ * tol; what there is stays in history: without that increment where the solver has not
+ * begun. */
 rb_status rb_fem_run(const rb_fem_model *model, const char *solver, double tol,
                      rb_fem_history *history, rb_message *why);
 void rb_fem_history_free(rb_fem_history *history);

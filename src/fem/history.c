@@ -187,6 +187,8 @@ rb_status rb_fem_run(const rb_fem_model *model, const char *solver, double tol,
             break;
         history->steps++;
         s = run_step(&run, k, solver, tol, &history->step[k], why);
+        if (s > 0 && !isfinite(history->step[k].residual)) /* it has not begun */
+            free_step(&history->step[--history->steps]);
     }
     if (history->step)
         close_runner(&run);

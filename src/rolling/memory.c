@@ -9,11 +9,15 @@ static double lemke_squares(const rb_rolling_case *rc)
     return rc->lcp_form == RB_LCP_KWAK ? 9.0 + 9.0 + 1.0 + 6.0 : 9.0 + 9.0;
 }
 
+/* Numbers per element of the path on which Newton's method goes on where its steps go
+ * round in circles. */
+enum { PATH = 12 };
+
 /* The kept LU of all tractions, or those of the normal and of the tangential ones, which
  * are less together; before it the problem of half as many elements and its LU. */
-static double newton_numbers(double square, double lu)
+static double newton_numbers(double n, double lu)
 {
-    return fmax(lu, square + 0.25 * lu);
+    return fmax(lu, n * n + 0.25 * lu) + PATH * n;
 }
 
 double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unknowns)
@@ -23,10 +27,12 @@ double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unkn
 
     /* similar bodies: one group of unknowns at once */
     if (rb_rolling_is_large(rc, &mesh))
-        return (rb_rolling_derive(rc).dundurs == 0.0 ? 520.0 : 720.0) * n;
+        return ((rb_rolling_derive(rc).dundurs == 0.0 ? 520.0 : 720.0) +
+                (double)sizeof(double) * PATH) *
+               n;
     const double lcp = rc->solver == RB_SOLVER_LEMKE
                            ? lemke_squares(rc) * square
-                           : newton_numbers(square, (double)unknowns * unknowns);
+                           : newton_numbers(n, (double)unknowns * unknowns);
     const double solution = sizeof(double) * (6.0 * square + lcp);
     if (!boundary)
         return fmax(sizeof(double) * 4.0 * (1 + rc->elastic_b) * square, solution);
