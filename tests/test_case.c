@@ -626,6 +626,16 @@ static void contradictions_are_refused(void **state)
         {"force-ratio=1.5", "at most 1"},
         {"gap-smoothing=0.1", "of a gap from a file only"},
         {"memory=1", "--memory: of friction that changes"},
+        {"friction-law=linear mu-fall=0.1 slip-scale=9 speed=3 memory=1,2,3",
+         "--memory: expected 1 or 2 numbers, got 3"},
+        {"friction-law=linear mu-fall=0.1,0.1,0.1 slip-scale=9,9,9 speed=3",
+         "--mu-fall: expected 1 or 2 numbers, got 3"},
+        {"friction-law=linear mu-fall=0.1 slip-scale=9,9 speed=3",
+         "as many of one as of the other, got 1 and 2"},
+        {"friction-law=linear speed=3", "needs --mu-fall and --slip-scale"},
+        {"mu-fall=0.1", "--mu-fall: of friction laws that fall"},
+        {"slip-scale=1", "--slip-scale: of friction laws that fall"},
+        {"mu-heat=0.1,20", "--mu-heat: expected 3 numbers, got 2"},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         rb_message why = {""};
@@ -701,6 +711,94 @@ static void files_are_blamed_by_line(void **state)
             s = rb_case_settle(c, &why);
         if (s != bad[k].status || !strstr(why.text, bad[k].part))
             fail_msg("status %d, '%s', wanted '%s'", (int)s, why.text, bad[k].part);
+        rb_case_free(c);
+    }
+}
+
+/* What the library says of a row is said of the file and its line. */
+static void rows_are_blamed_by_file_and_line(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *words, *text, *part;
+    } bad[] = {
+        {"formulation=transient creep=0.1 history=", "# way\ndistance load\n0 3\n1 -2\n",
+         "rows.txt:4: load: expected > 0, got -2"},
+        {"load=3 gap=", "-1 1\n0 0\n0 0.5\n1 1\n",
+         "rows.txt:3: expected an x larger than in the row before"},
+        {"load=3 gap=", "-1 1\n1 1\n", "rows.txt: "},
+        {"load=3 worn=", "-5 0\n0 0.01\n-1 0.01\n5 0\n", "rows.txt:3: expected finite"},
+        {"load=3 friction-law=", "-5 0.1\n0 -0.1\n5 0.3\n",
+         "rows.txt:2: expected mu >= 0, got -0.1"},
+        {"formulation=transient creep=0.1 distance=1 load=3 irregularity=",
+         "0 0\n1 0.1\n\n1 0\n", "rows.txt:4: expected an x larger"},
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        char words[300];
+        rb_message why = {""};
+        rb_case *c = rb_case_create(RB_CASE_SINGLE);
+        write_file("rows.txt", bad[k].text);
+        snprintf(words, sizeof words, "support=halfplane %srows.txt", bad[k].words);
+        CHECK_STATUS(set_words(c, words, &why), RB_OK);
+        rb_case_result r = {.has_errors = 0};
+        rb_status s = rb_case_settle(c, &why);
+        if (s == RB_OK) /* a way is looked at when it begins */
+            s = rb_case_blame(c, rb_case_solve(rb_case_settled(c), NULL, NULL, &r, &why),
+                              &why);
+        rb_case_result_free(&r);
+        if (s != RB_EFORMAT || strncmp(why.text, bad[k].part, strlen(bad[k].part)) != 0)
+            fail_msg("status %d, '%s', wanted '%s'", (int)s, why.text, bad[k].part);
+        rb_case_free(c);
+    }
+}
+
+/* A column in the place of an option of the command line, which is named. */
+static void a_column_excludes_its_option(void **state)
+{
+    (void)state;
+    static const char *const columns[][2] = {
+        {"mu", "mu"}, {"load", "load"}, {"load", "approach"}, {"creep", "creep-ratio"}};
+    for (size_t k = 0; k < sizeof columns / sizeof *columns; k++) {
+        char text[100], words[100], wanted[100];
+        rb_message why = {""};
+        rb_case *c = rb_case_create(RB_CASE_SINGLE);
+        snprintf(text, sizeof text, "distance %s\n0 0.1\n1 0.2\n", columns[k][0]);
+        write_file("way.txt", text);
+        snprintf(words, sizeof words, "formulation=transient history=way.txt %s=0.3",
+                 columns[k][1]);
+        snprintf(wanted, sizeof wanted, "--%s: the history has a column %s",
+                 columns[k][1], columns[k][0]);
+        CHECK_STATUS(set_words(c, words, &why), RB_OK);
+        CHECK_STATUS(rb_case_settle(c, &why), RB_EINVAL);
+        assert_string_equal(why.text, wanted);
+        rb_case_free(c);
+    }
+}
+
+/* Solution, error bars and steps have the same units. */
+static void all_of_a_result_is_converted(void **state)
+{
+    (void)state;
+    static const char *const words[] = {
+        "support=halfplane load=100 contact-elements=12 error=yes",
+        "support=halfplane load=100 contact-elements=10 formulation=transient "
+        "creep-ratio=0.5 distance=1"};
+    for (int k = 0; k < 2; k++) {
+        rb_message why = {""};
+        rb_case *c = case_of(words[k]);
+        rb_case_result r;
+        if (rb_case_solve(rb_case_settled(c), NULL, NULL, &r, &why) != RB_OK)
+            fail_msg("%s: %s", words[k], why.text);
+        const double load = r.solution.normal_load, bar = r.errors.scalar.approach;
+        const double step = k ? r.history.step : NAN, p = r.solution.p[4];
+        rb_case_result_convert(&r, RB_UNITS_SI);
+        CHECK_REL(r.solution.normal_load, 1e3 * load, 1e-14, "N/m");
+        CHECK_REL(r.solution.p[4], 1e6 * p, 1e-14, "Pa");
+        if (k == 0)
+            CHECK_REL(r.errors.scalar.approach, 1e-3 * bar, 1e-14, "bar in m");
+        else
+            CHECK_REL(r.history.step, 1e-3 * step, 1e-14, "step in m");
+        rb_case_result_free(&r);
         rb_case_free(c);
     }
 }
@@ -927,6 +1025,9 @@ int main(void)
         cmocka_unit_test(a_purpose_refuses_what_means_nothing_to_it),
         cmocka_unit_test(a_curve_takes_several_mu),
         cmocka_unit_test(files_are_blamed_by_line),
+        cmocka_unit_test(rows_are_blamed_by_file_and_line),
+        cmocka_unit_test(a_column_excludes_its_option),
+        cmocka_unit_test(all_of_a_result_is_converted),
         cmocka_unit_test(own_options_are_read_beside_the_case),
         cmocka_unit_test(an_argument_wins_over_the_file),
         cmocka_unit_test(a_copy_is_settled_from_its_words),
