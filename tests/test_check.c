@@ -823,6 +823,9 @@ static void what_cannot_be_checked_is_refused(void **state)
         "\"$R\" curve --support halfplane --load 100 --mu 0.3 --from 0 --to 1 --points 3 "
         "--json",
         65, "cannot be checked");
+    check_says("\"$R\" stress --support halfplane --load 100 --contact-elements 12 "
+               "--increments 3 --shift 1e-4 --json",
+               65, "check the contact alone, by the same case without `stress`, with");
     assert_int_equal(rollbem("--support halfplane --load 100 --increments 3 --states"),
                      64);
     assert_int_equal(rollbem("--support halfplane --load 100 --states --json"), 64);
