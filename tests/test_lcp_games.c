@@ -251,6 +251,24 @@ static void one_variable_by_hand(void **state)
     rb_lcp_solutions_free(&all);
 }
 
+/* z2 and z3 between their bounds give z2 = -4e-10, which is rounding beside z3 = 4e6; on
+ * its bound, though, w1 = -1e8, where it was 4e144 before.  z1 = 1e8 / 24.75 and z3 are
+ * a solution. */
+static void a_bound_may_change_the_sign_of_a_row(void **state)
+{
+    (void)state;
+    const double M[] = {24.75, 12.75, 0.0, -1e154, -25.0, -25.0, -25.0, 0.0, -25.0};
+    const double q[] = {1.0 / 3.0, -1e-8, 1e8};
+    rb_lcp_solutions all;
+    CHECK_STATUS(rb_lcp_enumerate(&(rb_lcp_problem){3, M, 3, q}, NULL, NULL, &all, NULL),
+                 RB_OK);
+    assert_int_equal(all.count, 1);
+    CHECK_REL(all.z[0], (1e8 - 1.0 / 3.0) / 24.75, 1e-13, "z1");
+    CHECK_ABS(all.z[1], 0.0, 0.0, "z2");
+    CHECK_REL(all.z[2], 4e6, 1e-13, "z3");
+    rb_lcp_solutions_free(&all);
+}
+
 /* M = 1: z = -q cut off by its box, whatever ends that has. */
 static void boxes_of_every_kind_are_enumerated(void **state)
 {
@@ -435,6 +453,7 @@ int main(void)
         cmocka_unit_test(regrets_are_those_of_the_definition),
         cmocka_unit_test(the_trace_follows_the_labels),
         cmocka_unit_test(one_variable_by_hand),
+        cmocka_unit_test(a_bound_may_change_the_sign_of_a_row),
         cmocka_unit_test(boxes_of_every_kind_are_enumerated),
         cmocka_unit_test(solutions_are_listed_once),
         cmocka_unit_test(what_lemke_finds_is_listed),

@@ -94,27 +94,49 @@ static int basic_point(search *s)
     return 1;
 }
 
-/* The signs of w and the bounds of z, which the basis alone does not give. */
-static int is_solution(search *s)
+/* The terms of row i of M z + q, whose rounding is a part of them. */
+static double terms(const search *s, int i)
 {
-    const double small_z = RIGHT * rb_norm_inf((size_t)s->n, s->z);
-    product(s);
-    /* entries near the largest double can give a point that is no numbers */
-    if (!isfinite(rb_norm_inf((size_t)s->n, s->z)) ||
-        !isfinite(rb_norm_inf((size_t)s->n, s->w)))
-        return 0;
+    const double *row = s->p.M + i;
+    double sum = fabs(s->p.q[i]);
+    for (int j = 0; j < s->n; j++)
+        sum += fabs(row[(size_t)j * (size_t)s->p.ldm] * s->z[j]);
+    return sum;
+}
+
+/* z between its bounds: what is outside by rounding is put on them; 0: by more. */
+static int is_in_box(search *s)
+{
+    const double small = RIGHT * rb_norm_inf((size_t)s->n, s->z);
     for (int i = 0; i < s->n; i++) {
         const double low = rb_lcp_lower(s->lower, i), high = rb_lcp_upper(s->upper, i);
-        const double *row = s->p.M + i;
-        double size = fabs(s->p.q[i]);
-        for (int j = 0; j < s->n; j++)
-            size += fabs(row[(size_t)j * (size_t)s->p.ldm] * s->z[j]);
-        if (s->z[i] < low - small_z || s->z[i] > high + small_z)
+        if (s->z[i] < low - small || s->z[i] > high + small)
             return 0;
         s->z[i] = fmin(fmax(s->z[i], low), high);
-        if (low < high && s->at[i] == AT_LOWER && s->w[i] < -RIGHT * size)
+    }
+    return 1;
+}
+
+/* The bounds of z and the signs of w, which the basis alone does not give; and that the
+ * rows of z between their bounds are still zero, which large entries of M may spoil
+ * where a z was put on a bound. */
+static int is_solution(search *s)
+{
+    double most = 0.0;
+    if (!is_in_box(s))
+        return 0;
+    product(s);
+    for (int i = 0; i < s->n; i++)
+        most = fmax(most, terms(s, i));
+    /* entries near the largest double can give a point that is no numbers */
+    if (!isfinite(rb_norm_inf((size_t)s->n, s->z)) || !isfinite(most))
+        return 0;
+    for (int i = 0; i < s->n; i++) {
+        const int fixed = rb_lcp_lower(s->lower, i) >= rb_lcp_upper(s->upper, i);
+        const double small = RIGHT * (s->at[i] == BETWEEN ? most : terms(s, i));
+        if (s->at[i] != AT_UPPER && s->w[i] < -small && !fixed)
             return 0;
-        if (s->at[i] == AT_UPPER && s->w[i] > RIGHT * size)
+        if (s->at[i] != AT_LOWER && s->w[i] > small)
             return 0;
     }
     return 1;
