@@ -553,8 +553,13 @@ static void absurd_operators_are_refused(void **state)
     b.x[2] += 1e-6;
     CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "point 2"));
-    assert_true(rb_bem_system_bytes(100, 10) > 8.0 * 200 * 200);
-    assert_true(rb_bem_system_bytes(20000, 10) < 8.0 * 40000.0 * 40000.0);
+    /* docs/performance.md, "Memory" */
+    const int most = RB_BEM_HIERARCHICAL - 1;
+    const double all = most, n = 10.0;
+    CHECK_REL(rb_bem_system_bytes(most, 10),
+              8.0 * (4.0 * all * all + 8.0 * all * n + 4.0 * n * n), 1e-14, "dense");
+    CHECK_REL(rb_bem_system_bytes(most + 1, 10), (all + 1.0) * (6000.0 + 64.0 * n), 1e-14,
+              "hierarchical");
 }
 
 static void absurd_discs_are_refused(void **state)

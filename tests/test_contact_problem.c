@@ -910,6 +910,41 @@ static void an_exact_preconditioner_needs_one_step(void **state)
     }
 }
 
+/* Answers that differ by four digits from element to element need more steps than the
+ * basis has room for: a second cycle goes on from where the first one has ended. */
+static void a_full_basis_begins_anew(void **state)
+{
+    enum { n = 130 };
+    const kind of = {.n = n, .mu = 0.3, .load_given = 1, .force_given = 1};
+    rb_contact_problem p;
+    rb_contact_state s;
+    by_products by;
+    double gap[n];
+
+    (void)state;
+    numbers = 27;
+    random_problem(&of, &p);
+    use_products(&p, &by);
+    make_diagonal(&by);
+    for (int i = 0; i < n; i++) {
+        F[i + i * ldf] *= 1.0 + 100.0 * i;
+        by.S[i + (n + i) * n] *= 1.0 + 100.0 * (n - i);
+    }
+    CHECK_STATUS(rb_contact_state_alloc(n, &s), RB_OK);
+    for (int i = 0; i < n; i++)
+        s.zone[i] = RB_ZONE_STICK;
+    by.products = 0;
+    CHECK_STATUS(rb_contact_try_zones(&p, &s, gap), RB_OK);
+    assert_in_range(by.products, 200, 400);
+    for (int i = 0; i < n; i++) {
+        CHECK_ABS(gap[i], 0.0, 1e-9 * GAP, "gap %d", i);
+        CHECK_ABS(s.lambda[i], 0.0, 1e-9 * SLIP, "slip %d", i);
+    }
+    CHECK_REL(sum_of(n, p.load_N, s.p, p.load_T, s.q), p.load, 1e-9, "load");
+    rb_contact_state_free(&s);
+    rb_contact_problem_free(&p);
+}
+
 /* Large friction, where Newton's steps end from nearly the same friction only; the scales
  * and bounds of the problem stay what they were. */
 static void products_follow_friction(void **state)
@@ -1835,6 +1870,7 @@ int main(void)
         cmocka_unit_test(zones_that_determine_nothing_are_singular),
         cmocka_unit_test(products_give_what_matrices_do),
         cmocka_unit_test(an_exact_preconditioner_needs_one_step),
+        cmocka_unit_test(a_full_basis_begins_anew),
         cmocka_unit_test(products_follow_friction),
         cmocka_unit_test(responses_are_those_to_unit_tractions),
         cmocka_unit_test(every_step_is_shown),
