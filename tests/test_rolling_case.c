@@ -404,6 +404,13 @@ static void carters_law_is_for_similar_half_planes(void **state)
     HOLDS(rb_rolling_carter_holds(&rc), 0, rc.gap = RB_GAP_TABLE);
     HOLDS(rb_rolling_carter_holds(&rc), 0, rc.worn = ((rb_rolling_table){2, x, y}));
     HOLDS(rb_rolling_carter_holds(&rc), 0, rc.b.young *= 2.0);
+    /* Dundurs' beta of -(1 - 2 nu)/(1 - nu) e/4 for moduli of E and (1 + e) E */
+    const double nu = similar_half_planes().a.poisson;
+    const double e = 4e-9 * (1.0 - nu) / (1.0 - 2.0 * nu);
+    HOLDS(rb_rolling_carter_holds(&rc), 1, rc.b.young *= 1.0 + 0.95 * e);
+    HOLDS(rb_rolling_carter_holds(&rc), 1, rc.b.young *= 1.0 - 0.95 * e);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.b.young *= 1.0 + 1.05 * e);
+    HOLDS(rb_rolling_carter_holds(&rc), 0, rc.b.young *= 1.0 - 1.05 * e);
 }
 
 static void transforms_are_for_many_equal_elements_on_half_planes(void **state)
