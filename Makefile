@@ -46,7 +46,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: journeys dist deb site course page page-test python-test install-python all run test test-all check-tests covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install help clean packages check-packages study
+.PHONY: journeys dist deb site course page page-where-possible page-test python-test install-python all run test test-all check-tests covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -102,10 +102,10 @@ LONGEST := $(B)/tests/test_net $(B)/tests/test_cli_examples tests/page tests/sit
 OTHERS := tests/octave tests/install tests/release tests/figures $(wildcard tests/journeys/*) $(TESTS)
 
 # only the summary line comes last: continuous integration reads it
-check-tests: all $(TESTS) $(B)/tests/checker $(B)/packings $(if $(ROLLBEM_TEST_ALL),$(BENCHES),$(B)/bench/bench_large)
+check-tests: all page-where-possible $(TESTS) $(B)/tests/checker $(B)/packings $(if $(ROLLBEM_TEST_ALL),$(BENCHES),$(B)/bench/bench_large)
 	@B=$(B) tests/run $(LONGEST) $(filter-out $(LONGEST),$(OTHERS))
 
-SANITIZED = B=build/asan CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined"
+SANITIZED = B=build/asan PAGE=$(B)/page CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined"
 asan:
 	@$(MAKE) --no-print-directory $(SANITIZED) test
 
@@ -126,12 +126,12 @@ mutants: packages ; @scripts/mutants $(B) --mutants $(MUTANTS) --jobs $(shell np
 # (install, release, python, journeys): they would replace objects that count by others.
 COVERED ?= covered-tests
 UNCOVERED = symbols hardening
-covered-tests: all $(TESTS) $(B)/tests/checker $(B)/packings $(B)/bench/bench_large
+covered-tests: all page-where-possible $(TESTS) $(B)/tests/checker $(B)/packings $(B)/bench/bench_large
 	@B=$(B) tests/run $(filter-out $(UNCOVERED:%=$(B)/tests/test_%),$(LONGEST) $(filter-out $(LONGEST),$(TESTS))) tests/figures
 coverage: packages
 	@mkdir -p $(B)/coverage
 	@$(CC) -O1 -fPIC -c -o $(B)/coverage/exit.o tests/coverage.c
-	-@$(MAKE) --no-print-directory B=$(B)/coverage CFLAGS="-O0 -g --coverage -fprofile-abs-path -fprofile-update=atomic -DRB_INLINE=static -Wno-unused-function" LDFLAGS="$(CURDIR)/$(B)/coverage/exit.o -Wl,--wrap=_exit,--wrap=kill" $(COVERED)
+	-@$(MAKE) --no-print-directory B=$(B)/coverage PAGE=$(B)/page CFLAGS="-O0 -g --coverage -fprofile-abs-path -fprofile-update=atomic -DRB_INLINE=static -Wno-unused-function" LDFLAGS="$(CURDIR)/$(B)/coverage/exit.o -Wl,--wrap=_exit,--wrap=kill" $(COVERED)
 	@scripts/coverage $(B)/coverage
 
 # what touches most of the library's memory in a minute or two
@@ -330,8 +330,33 @@ course: packages
 site:
 	@scripts/packages --install site && $(MAKE) --no-print-directory B=$(B) all && scripts/site $(B)
 
-# the page in a browser: one file with the library as WebAssembly
-page: ; @scripts/packages --install page && node web/build.mjs $(B)/rollbem.html
+# the page in a browser: one file with the library as WebAssembly, of the sources that web/sources
+# names.  No CC and no CFLAGS change it: other builds (make asan) take it from the same PAGE.
+PAGE ?= $(B)/page
+WASM_CC = clang-14
+WASM_TARGET = --target=wasm32-wasi --sysroot=/usr
+WASM_FLAGS = $(WASM_TARGET) -std=c11 -D_POSIX_C_SOURCE=200809L -O3 -msimd128 -Iweb/wasm/include -Iinclude -Isrc -idirafter /usr/include
+WASM_EXPORTS = malloc free $(addprefix rb_api_,create free set settle solve status message option result value number \
+    array curve pivots newton variable guess stress)
+WASM_WORDS := $(shell sed 's/\#.*//' web/sources)
+WASM_SRC := $(filter-out $(patsubst -%,src/%,$(filter -%,$(WASM_WORDS))),$(wildcard $(patsubst %,src/%/*.c,$(filter-out -%,$(WASM_WORDS))) web/wasm/*.c))
+WASM_OBJ := $(WASM_SRC:%.c=$(PAGE)/%.o)
+$(PAGE)/%.o: %.c
+	@mkdir -p $(@D)
+	@echo "  WASM $<"
+	$(Q)$(WASM_CC) $(WASM_FLAGS) -MMD -MP -c -o $@ $<
+$(PAGE)/rollbem.wasm: $(WASM_OBJ) web/sources
+	@echo "  LD  $@"
+	$(Q)$(WASM_CC) $(WASM_TARGET) -mexec-model=reactor -o $@ $(WASM_OBJ) -lm -Wl,--strip-all -Wl,-z,stack-size=1048576 $(WASM_EXPORTS:%=-Wl,--export=%)
+$(B)/rollbem.html: $(PAGE)/rollbem.wasm $(wildcard web/*.*) docs/signs.svg include/rollbem/base.h
+	@node web/build.mjs $@ $<
+-include $(WASM_OBJ:.o=.d)
+
+page: ; @scripts/packages --install page && $(MAKE) --no-print-directory B=$(B) $(B)/rollbem.html
+# for the suite, which skips its tests where the tools are absent
+page-where-possible:
+	@if missing=$$(scripts/packages page 2>&1); then $(MAKE) --no-print-directory $(if $(Q),-s) B=$(B) $(B)/rollbem.html; \
+	else echo "the page is not built: $$missing" | head -1; fi
 
 # what people of several kinds do on their first day; pictures stay in $(B)/journeys
 journeys: all

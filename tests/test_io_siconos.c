@@ -8,8 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A new file each time: ext4 waits for the disk where a file is cut to nothing and written
- * again. */
+/* A new file each time: ext4 waits for the disk where a file is cut to nothing and
+ * written again. */
 static void put_bytes(const char *text, size_t n)
 {
     remove(path);

@@ -40,7 +40,7 @@ export async function open_page(url, { width = 1280, height = 900, dark = false,
         return result.value;
     }
     async function until(expression, seconds = 30) {
-        for (const end = Date.now() + 1000 * seconds; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 60)))
+        for (const end = Date.now() + 1000 * seconds; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 10)))
             if (await run(expression).catch(() => false)) return;
         throw new Error(`not so after ${seconds} s: ${expression}`);
     }
