@@ -1,4 +1,5 @@
 /* Flexibilities of the contact: the half-plane and the pair of bodies. */
+#include "bem/fourier.h"
 #include "bem_shapes.h"
 #include "check.h"
 #include "rollbem/bem.h"
@@ -129,6 +130,22 @@ static void identical_bodies_lose_their_coupling(void **state)
     CHECK_ABS(f.w0[1], 8.0, 0.0, "w0_N");
     CHECK_ABS(f.w0[m + 1], -2.0, 0.0, "w0_T");
     rb_bem_flexibility_free(&f);
+}
+
+/* The smallest even product of twos, threes and fives that has the room. */
+static void transforms_have_lengths_that_are_quick(void **state)
+{
+    static const int all[][2] = {{1, 2},   {2, 2},   {3, 4},   {7, 8},     {11, 12},
+                                 {13, 16}, {21, 24}, {26, 30}, {31, 32},   {41, 48},
+                                 {51, 54}, {61, 64}, {91, 96}, {961, 972}, {2501, 2560}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        rb_fourier f;
+        assert_true(rb_fourier_make(all[k][0], &f));
+        assert_int_equal(f.size, all[k][1]);
+        rb_fourier_free(&f);
+    }
 }
 
 /* A load of which neither sum nor moment is left does not feel the datum, nor the ends of
@@ -270,6 +287,7 @@ int main(void)
         cmocka_unit_test(distant_strips_lose_no_digits),
         cmocka_unit_test(apply_is_the_matrix_and_ldf_is_kept),
         cmocka_unit_test(identical_bodies_lose_their_coupling),
+        cmocka_unit_test(transforms_have_lengths_that_are_quick),
         cmocka_unit_test(a_line_is_nearly_inverted_by_its_waves),
         cmocka_unit_test(bad_input_is_refused),
         cmocka_unit_test(failing_memory_is_reported),

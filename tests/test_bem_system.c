@@ -1,4 +1,5 @@
 /* Mixed problems: classical solutions, support, refusals. */
+#include "bem/internal.h"
 #include "bem_shapes.h"
 
 #include <string.h>
@@ -249,6 +250,26 @@ static void a_second_body_without_support_is_singular(void **state)
 
 /* ---- Refusals ---------------------------------------------------------------------- */
 
+static void materials_have_their_limits(void **state)
+{
+    static const struct {
+        double shear, poisson;
+        rb_status wanted;
+    } all[] = {
+        {1e-300, -1.0 + 1e-15, RB_OK}, {1e300, 0.5, RB_OK},        {1.0, -1.0, RB_EINVAL},
+        {1.0, 0.5 + 1e-15, RB_EINVAL}, {1.0, NAN, RB_EINVAL},      {0.0, 0.3, RB_EINVAL},
+        {-1.0, 0.3, RB_EINVAL},        {INFINITY, 0.3, RB_EINVAL}, {NAN, 0.3, RB_EINVAL}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        rb_message why = {""};
+        CHECK_STATUS(
+            rb_bem_material_check((rb_bem_material){all[k].shear, all[k].poisson}, &why),
+            all[k].wanted);
+        assert_true((why.text[0] != 0) == (all[k].wanted != RB_OK));
+    }
+}
+
 static void bad_input_is_refused(void **state)
 {
     (void)state;
@@ -268,6 +289,7 @@ static void bad_input_is_refused(void **state)
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, &why), RB_OK);
     CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "no contact"));
+    assert_int_equal(f.n, 0);
     rb_bem_system_free(system);
     mesh.x0[3] = NAN;
     CHECK_STATUS(rb_bem_assemble(&mesh, material, H, NULL, 2 * n, &why), RB_EINVAL);
@@ -325,6 +347,7 @@ int main(void)
         cmocka_unit_test(the_solution_satisfies_the_equations),
         cmocka_unit_test(a_body_without_support_is_refused),
         cmocka_unit_test(a_second_body_without_support_is_singular),
+        cmocka_unit_test(materials_have_their_limits),
         cmocka_unit_test(bad_input_is_refused),
         cmocka_unit_test(failing_memory_is_reported),
     };
