@@ -1,8 +1,9 @@
 /* Loaded before a program (LD_PRELOAD): lets its allocations fail, those of libraries
  * too, from the start of main to its end.  In place of main a server runs, which forks a
  * process that goes on with main for every fault_request; its output goes to the files
- * out and err, and FAULT_CALLS names the file that keeps the calls that have seen a
- * failure. */
+ * out and err, FAULT_CALLS names the file that keeps the calls that have seen a failure,
+ * and FAULT_CODE_END says how far in the program calls count (hexadecimal; empty: all).
+ */
 #define _GNU_SOURCE
 #include "fault_calls.h"
 #include "fault_malloc.h"
@@ -139,6 +140,10 @@ static int serve(int argc, char **argv, char **environment)
     stacks = map_shared(STACKS * sizeof *stacks, NULL);
     run = map_shared(sizeof *run, NULL);
     find_program();
+    const char *end = getenv("FAULT_CODE_END");
+    if (end && *end)
+        code_end = base + strtoul(end, NULL, 16);
+    unsetenv("FAULT_CODE_END");
     unsetenv("FAULT_CALLS");
     unsetenv("LD_PRELOAD");
     while (read(FAULT_REQUESTS, &request, sizeof request) == sizeof request) {
