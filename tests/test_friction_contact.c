@@ -74,6 +74,31 @@ static void one_contact_obeys_coulomb(void **state)
     assert_true(states[0] > 500 && states[1] > 500 && states[2] > 500);
 }
 
+/* Compliances 2^-40 times as large carry 2^40 times the force, to the last bit; the root
+ * lambda is a compliance. */
+static void one_contact_has_no_unit(void **state)
+{
+    (void)state;
+    unsigned seed = 7;
+    for (int k = 0; k < 500; k++) {
+        const int d = 2 + k % 2;
+        double W[9], q[3], r[3] = {0.0}, scaled[3] = {0.0}, lambda = 0.0, small = 0.0;
+        rb_friction_contact c;
+        positive_definite(d, k % 3 ? 0.0 : 1e-2, &seed, W);
+        for (int a = 0; a < d; a++)
+            q[a] = uniform(&seed) - (a == 0) * 0.5;
+        rb_friction_contact_init(d, 0.3, W, &c);
+        rb_friction_contact_exact(&c, &lambda, q, r);
+        for (int a = 0; a < d * d; a++)
+            W[a] *= 0x1p-40;
+        rb_friction_contact_init(d, 0.3, W, &c);
+        rb_friction_contact_exact(&c, &small, q, scaled);
+        for (int a = 0; a < d; a++)
+            CHECK_ABS(0x1p-40 * scaled[a], r[a], 0.0, "contact %d: r[%d]", k, a);
+        CHECK_ABS(0x1p40 * small, lambda, 0.0, "contact %d: lambda", k);
+    }
+}
+
 /* Elimination and Newton on Alart-Curnier's function are two ways to the same force. */
 static void elimination_agrees_with_newton(void **state)
 {
@@ -461,6 +486,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_contact_obeys_coulomb),
+        cmocka_unit_test(one_contact_has_no_unit),
         cmocka_unit_test(elimination_agrees_with_newton),
         cmocka_unit_test(newton_obeys_coulomb_with_unsymmetric_blocks),
         cmocka_unit_test(a_singular_block_is_left_to_newton),

@@ -131,6 +131,13 @@ static void planted_proofs_are_found(void **state)
         for (int i = 0; i < m; i++)
             q[i] -= (load + 1.0) / size * plan[i];
         check_infeasible(&p, "planted");
+        for (int unit = -1; unit <= 1; unit += 2) { /* of the velocities */
+            for (int i = 0; i < m; i++)
+                q[i] *= unit < 0 ? 0x1p-40 : 0x1p80;
+            check_infeasible(&p, "planted, in another unit");
+        }
+        for (int i = 0; i < m; i++)
+            q[i] *= 0x1p-40;
         for (int i = 0; i < m; i++)
             q[i] += 2.0 / size * plan[i];
         double y[MOST], least;
