@@ -245,6 +245,34 @@ static void a_narrow_zone_is_told_its_width(void **state)
     rb_rolling_solution_free(&s);
 }
 
+/* The width that would do is that of the side that reaches further. */
+static void a_zone_is_as_wide_as_its_longer_side(void **state)
+{
+    (void)state;
+    static const double height[] = {0.0, 1e-4};
+    for (int side = -1; side < 2; side += 2) {
+        const double near = -1.0 * side, far = 3.0 * side;
+        const double x[] = {fmin(near, far), fmax(near, far)};
+        table *t = bumps(2, x, height);
+        double given = 0.0, wide = 0.0;
+        rb_message why = {""};
+        rb_rolling_solution s = solved(&t->rc);
+        const double from = s.x[0] - 0.5 * s.h[0];
+        const double to = s.x[s.n - 1] + 0.5 * s.h[s.n - 1];
+        rb_rolling_solution_free(&s);
+        t->rc.zone = 0.5;
+        CHECK_STATUS(rb_rolling_solve(&t->rc, &s, &why), RB_ZONE);
+        rb_rolling_solution_free(&s);
+        const char *at = strstr(why.text, "half-width ");
+        assert_non_null(at);
+        assert_int_equal(sscanf(at, "half-width %lg mm; widen it to %lg", &given, &wide),
+                         2);
+        CHECK_REL(wide, side < 0 ? -from : to, 1e-3, "side %d", side);
+        assert_true(wide > 3.0);
+        release(t);
+    }
+}
+
 /* Far from each other and narrow: equal elements would be too many. */
 static void patches_too_far_apart_need_fitted_elements(void **state)
 {
@@ -390,6 +418,7 @@ int main(void)
         cmocka_unit_test(several_patches_cannot_be_aligned),
         cmocka_unit_test(patches_side_by_side_are_fitted_as_one),
         cmocka_unit_test(a_narrow_zone_is_told_its_width),
+        cmocka_unit_test(a_zone_is_as_wide_as_its_longer_side),
         cmocka_unit_test(patches_too_far_apart_need_fitted_elements),
         cmocka_unit_test(a_contact_as_wide_as_the_wheel_is_refused),
         cmocka_unit_test(a_zone_without_an_end_is_told_a_third_more),

@@ -90,6 +90,32 @@ static void a_coarse_table_of_a_parabola_is_that_parabola(void **state)
     }
 }
 
+/* The potential contact of a tabulated parabola is the one of the parabola: where its gap
+ * is less than at the edge of Hertz's contact, and as much beyond. */
+static void a_table_of_a_parabola_has_its_zone(void **state)
+{
+    (void)state;
+    double ends[2][2];
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_solution s;
+        rb_rolling_case rc = rail();
+        rb_rolling_profile *profile =
+            profile_of(tabulate(-30.0, 30.0, 0.5, 0.0, 1, x, gap), x, gap, 0.0);
+        rc.mesh = RB_MESH_UNIFORM;
+        rc.contact_elements = 40;
+        rc.gap = k ? RB_GAP_TABLE : RB_GAP_PARABOLA;
+        rc.profile = profile;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+        ends[k][0] = s.x[0] - 0.5 * s.h[0];
+        ends[k][1] = s.x[s.n - 1] + 0.5 * s.h[s.n - 1];
+        CHECK_REL(ends[k][1], 1.3 * rb_rolling_derive(&rc).half_width, 1e-3, "zone");
+        rb_rolling_solution_free(&s);
+        rb_rolling_profile_free(profile);
+    }
+    CHECK_REL(ends[1][0], ends[0][0], 1e-3, "left end");
+    CHECK_REL(ends[1][1], ends[0][1], 1e-3, "right end");
+}
+
 static void smoothing_takes_the_noise_away(void **state)
 {
     (void)state;
@@ -313,6 +339,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(smoothed_splines_have_as_many_points),
         cmocka_unit_test(a_coarse_table_of_a_parabola_is_that_parabola),
+        cmocka_unit_test(a_table_of_a_parabola_has_its_zone),
         cmocka_unit_test(smoothing_takes_the_noise_away),
         cmocka_unit_test(smoothing_keeps_the_shape),
         cmocka_unit_test(smoothing_does_not_know_left_from_right),

@@ -29,6 +29,25 @@ static rb_rolling_solution of(const rb_rolling_model *model)
     return s;
 }
 
+/* Every part of the work of a wheel takes some of its time. */
+static void the_parts_of_the_time_are_within_the_whole(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(RB_STATIC);
+    rc.a.support = RB_BEM_HUB;
+    rc.outer_elements = 40;
+    rb_rolling_solution s = solved(&rc);
+    const double part[] = {s.seconds_assembly, s.seconds_factor, s.seconds_condense,
+                           s.seconds_lcp};
+    double sum = 0.0;
+    for (int k = 0; k < 4; k++) {
+        assert_true(part[k] > 0.0);
+        sum += part[k];
+    }
+    CHECK_MAX(sum, s.seconds_total, "seconds");
+    rb_rolling_solution_free(&s);
+}
+
 static void columns_are_those_of_the_state(void **state)
 {
     (void)state;
@@ -328,6 +347,7 @@ static void few_elements_do_not_tell_the_edges(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_parts_of_the_time_are_within_the_whole),
         cmocka_unit_test(columns_are_those_of_the_state),
         cmocka_unit_test(sums_are_those_of_the_tractions),
         cmocka_unit_test(shift_and_creepage_at_rest),

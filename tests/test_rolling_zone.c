@@ -482,6 +482,26 @@ static void a_zone_ends_with_three_separated_elements(void **state)
     assert_true(kept > 0 && grown > 0);
 }
 
+/* Under a very soft third body the surfaces stay as they are: pressed by an approach,
+ * they touch to sqrt(2 R delta); by a load, P = 2 a^3/(3 R L). */
+static void a_soft_interlayer_has_the_zone_of_its_own_contact(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = halfplane(0.3, 0.0, 40);
+        const double R = rc.a.radius, L = 10.0, a = 2.0;
+        rc.interlayer_normal = L;
+        if (k)
+            rc.load = 2.0 * a * a * a / (3.0 * R * L);
+        else
+            rc.approach = 0.5 * a * a / R;
+        rb_rolling_solution s = solved(&rc);
+        CHECK_REL(s.x[39] + 0.5 * s.h[39], 1.3 * a, 1e-12, "zone");
+        CHECK_ABS(s.contact_to, a, s.h[0], "contact, to an element");
+        rb_rolling_solution_free(&s);
+    }
+}
+
 /* No choice on the way depends on the unit of length: the potential contact of a layer,
  * which is tightened, and all results are as many times larger. */
 static void a_contact_has_the_same_zone_in_every_unit(void **state)
@@ -632,6 +652,7 @@ int main(void)
         cmocka_unit_test(stress_is_looked_for_below_every_patch),
         cmocka_unit_test(a_given_zone_must_hold_every_patch),
         cmocka_unit_test(a_zone_ends_with_three_separated_elements),
+        cmocka_unit_test(a_soft_interlayer_has_the_zone_of_its_own_contact),
         cmocka_unit_test(a_contact_has_the_same_zone_in_every_unit),
         cmocka_unit_test(free_rolling_undoes_what_displaces),
         cmocka_unit_test(free_rolling_may_need_other_elements),
