@@ -123,6 +123,13 @@ static void rigid_blocks_have_their_inertia(void **state)
             CHECK_ABS(column[i], i == j ? want[i] : 0.0, 1e-14, "inertia %d, %d", i, j);
     }
     CHECK_REL(rigid.M.x[rigid.M.p[rigid.dofs] - 1], 300.0, 1e-14, "upper support");
+    double weight = 0.0, press = 0.0;
+    for (int i = 0; i < rigid.dofs; i++) {
+        weight += i % 6 == 2 ? rigid.weight[i] : 0.0; /* the others turn */
+        press += rigid.press[i];
+    }
+    CHECK_REL(weight, -9.81 * 2000.0 * 0.4 * 0.1 * 0.5, 1e-13, "weight");
+    CHECK_REL(press, -1.0, 1e-14, "of a unit force on the upper support");
     wall_system_free(&rigid);
     rb_sparse_free(&R);
     close_parts(&p);
@@ -167,6 +174,15 @@ static void steps_are_problems_for_every_solver(void **state)
                          RB_OK);
         for (size_t i = 0; i < m; i++)
             CHECK_ABS(u[i], u[i + m], 1e-7 * 1e-3, "step %d, entry %zu", k, i);
+        if (k == 6) { /* the impulses on the upper support, along the wall */
+            parts p;
+            double shear = 0.0;
+            open_parts(&o, &p);
+            for (int i = 0; i < p.contacts; i++)
+                shear += p.contact[i].other == UPPER_SUPPORT ? r[3 * i + 1] / o.dt : 0.0;
+            CHECK_REL(step.shear, shear, 1e-5, "shear");
+            close_parts(&p);
+        }
         rb_friction_problem_free(&problem);
     }
     free(r);
