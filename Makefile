@@ -98,7 +98,7 @@ test-all:
 	@$(MAKE) --no-print-directory B=$(B) analyse
 
 # the longest programs start first, so that no processor waits for one of them at the end
-LONGEST := $(B)/tests/test_net $(B)/tests/test_cli_examples tests/page tests/site $(patsubst %,$(B)/tests/test_%,faults cli_rolling rolling_laws check course recorded rolling_turn rolling_wheel) tests/python $(patsubst %,$(B)/tests/test_%,sweep fem_examples hostile facts) tests/journeys/phd-student-in-python
+LONGEST := $(B)/tests/test_net $(B)/tests/test_cli_examples tests/page $(patsubst %,$(B)/tests/test_%,check faults rolling_laws cli_rolling recorded) tests/site tests/python $(patsubst %,$(B)/tests/test_%,course rolling_turn rolling_wheel sweep cli error_bars rolling_cover rolling_memory) tests/journeys/phd-student-in-python $(patsubst %,$(B)/tests/test_%,fem_examples hostile friction_portfolio facts fem_cli)
 OTHERS := tests/octave tests/install tests/release tests/figures $(wildcard tests/journeys/*) $(TESTS)
 
 # only the summary line comes last: continuous integration reads it
