@@ -506,8 +506,9 @@ static void check_titles_of_axes(const char *line)
     }
 }
 
-/* Each command in each size: width and height as asked for, at 96 pixels an inch.  What
- * the script draws is the picture, which is seen in one size of each. */
+/* Each command in the sizes of pages: width and height as asked for, at 96 pixels an
+ * inch. A slide, whose size is the same for all and the widest, is asked of each third.
+ * What the script draws is the picture, which is seen in one size of each. */
 static void pictures_in_sizes(void **state)
 {
     (void)state;
@@ -543,6 +544,8 @@ static void pictures_in_sizes(void **state)
                      {"slide", 1280, 720},
                      {"85mm", 321, pictures[k].column}};
         for (int i = 0; i < 3; i++) {
+            if (i == 1 && k % 3 != 1 && !getenv("ROLLBEM_TEST_ALL"))
+                continue;
             char line[400], want[60];
             snprintf(line, sizeof line,
                      "%s --quiet --output out.tsv --%s sized.svg --plot-size %s "

@@ -75,7 +75,9 @@ static rb_status limit_of(const rb_rolling_case *rc, rb_rolling_shakedown *limit
 static void johnsons_map_is_met(void **state)
 {
     (void)state;
-    for (int k = 0; k <= 5; k++) {
+    /* both sides of the coefficient from which on the surface yields first */
+    const int step = getenv("ROLLBEM_TEST_ALL") ? 1 : 2;
+    for (int k = 0; k <= 5; k += step) {
         const double mu = 0.1 * k;
         const rb_rolling_case rc = sliding(mu);
         rb_rolling_shakedown limit;
