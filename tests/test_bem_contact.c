@@ -714,6 +714,52 @@ static void the_disc_is_compressed_as_two_half_cylinders(void **state)
     CHECK_ABS(order(fine, finest), 1.1, 0.1, "order");
 }
 
+/* A memory that is over at once makes a wheel on a rigid hub twice as soft: what it adds
+ * in closed form is what the boundary elements of the same wheel have given, but for the
+ * error of constant elements beside the load and of their coupling. */
+static void memory_without_length_doubles_the_flexibility(void **state)
+{
+    enum { n = 8, m = n + 1 };
+    static const double ratio[] = {0.25, 0.75}, length[] = {1e-9, 1e-8};
+    double ends[n + 2], F[4 * m * n], soft[4 * m * n], most = 0.0;
+
+    (void)state;
+    for (int i = 0; i < n + 2; i++)
+        ends[i] = 0.5 * (i - n / 2);
+    const rb_bem_cylinder cylinder = {
+        .radius = 50.0, .support = RB_BEM_HUB, .hub_ratio = 0.5, .outer_elements = 200};
+    const rb_bem_material steel = {.shear = 82000.0, .poisson = 0.28};
+    const rb_bem_wheel wheel = {.radius = 50.0,
+                                .inner = 25.0,
+                                .material = steel,
+                                .terms = 2,
+                                .ratio = ratio,
+                                .length = length};
+    rb_bem_mesh mesh;
+    rb_bem_system *system;
+    rb_bem_flexibility f;
+    CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_system_create(&mesh, steel, &system, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_SURFACE, &f, NULL), RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&f, F, 2 * m), RB_OK);
+    CHECK_STATUS(
+        rb_bem_flexibility_add_memory(&wheel, RB_BEM_NORMALS_SURFACE, ends, &f, NULL),
+        RB_OK);
+    CHECK_STATUS(rb_bem_flexibility_matrix(&f, soft, 2 * m), RB_OK);
+    for (int k = 0; k < 4 * m * n; k++)
+        most = fmax(most, fabs(F[k]));
+    for (int k = 0; k < 4 * m * n; k++) {
+        const int row = k % (2 * m), column = k / (2 * m),
+                  apart = abs(row % m - column % n);
+        const int is_coupling = row / m != column / n;
+        CHECK_ABS(soft[k], 2.0 * F[k], (apart < 2 || is_coupling ? 0.02 : 1e-3) * most,
+                  "row %d, column %d", row, column);
+    }
+    rb_bem_flexibility_free(&f);
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -733,6 +779,7 @@ int main(void)
         cmocka_unit_test(the_support_carries_the_load),
         cmocka_unit_test(the_default_datum_is_the_half_cylinder),
         cmocka_unit_test(the_disc_is_compressed_as_two_half_cylinders),
+        cmocka_unit_test(memory_without_length_doubles_the_flexibility),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
