@@ -657,6 +657,13 @@ static void absurd_meshes_are_refused(void **state)
     CHECK_STATUS(rb_bem_mesh_check(&mesh, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "element 4: length inf"));
     rb_bem_mesh_free(&mesh);
+    mesh = circle(16, 1.0);
+    mesh.contact_first = 3;
+    mesh.contact_n = 1;
+    mesh.x1[3] = mesh.x0[3]; /* upright */
+    CHECK_STATUS(rb_bem_mesh_check(&mesh, &why), RB_EINVAL);
+    assert_string_equal(why.text, "contact element 3 does not run towards +x");
+    rb_bem_mesh_free(&mesh);
 }
 
 /* An incompressible cover does not tell how its core is pressed, a core without hub
