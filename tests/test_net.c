@@ -1,6 +1,7 @@
 /* Options times regimes: every pair of values of the factors below is run (every triple
  * by make test-all) and judged by tests/checker.c, which shares no
  * code with the library. */
+#define _DEFAULT_SOURCE   /* MAP_ANONYMOUS */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "cli_run.h"
 #include "covering.h"
@@ -11,6 +12,8 @@
 #include <fcntl.h>
 #include <ftw.h>
 #include <signal.h>
+#include <stdatomic.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <time.h>
 
@@ -677,17 +680,17 @@ static const char *command_of(const int *row)
 }
 
 /* Few elements, for a row costs what they cost.  Error bars compare with half of them,
- * of which an aligned mesh needs twelve. */
+ * of which an aligned mesh, which some rows have without its name, needs twelve. */
 static void add_size(const int *row, char *text, size_t size)
 {
     const int compares = is(row, OUTPUT, "error") || is(row, OUTPUT, "accuracy");
     const int cover = starts(row, SURFACE, "cover") || is(row, SURFACE, "b-cover");
-    const int least = compares && is(row, MESH, "aligned") ? 24 : 14;
+    const int least = compares ? 24 : 14;
     if (is(row, SIZE, "odd") || is(row, SIZE, "even"))
         snprintf(text + strlen(text), size - strlen(text), " --contact-elements %d",
                  least + is(row, SIZE, "odd"));
     if (cover && !compares)
-        snprintf(text + strlen(text), size - strlen(text), " --outer-elements 60");
+        snprintf(text + strlen(text), size - strlen(text), " --outer-elements 100");
 }
 
 /* Options of the bodies that are there. */
@@ -1000,17 +1003,16 @@ static int all_unsolved_are(rb_status status, const char *table)
     return unsolved > 0 && others == 0;
 }
 
-/* Along a curve or a study the contact may outgrow a zone that is given, which then is
- * said. */
+/* The contact may outgrow a zone that is given, which then is said: along a curve or a
+ * study, and by large friction, which makes it wider. */
 static int outgrows_zone(const int *row, const char *errors)
 {
     if (!is(row, ZONE, "given"))
         return 0;
-    return is(row, OUTPUT, "sweep")
-               ? all_unsolved_are(RB_ZONE, "out.table")
-               : starts(row, OUTPUT, "curve") &&
-                     strstr(errors,
-                            "zone: the contact is not within the potential contact");
+    if (is(row, OUTPUT, "sweep"))
+        return all_unsolved_are(RB_ZONE, "out.table");
+    return (starts(row, OUTPUT, "curve") || is(row, MU, "3")) &&
+           strstr(errors, "zone: the contact is not within the potential contact");
 }
 
 static void check_failure(const int *row, int code, const char *errors)
@@ -1067,13 +1069,18 @@ static void check_row(const int *row)
         check_verdict(row, !command[0]);
 }
 
-/* The rows are shared out to processes, each with a folder of its own. */
-static int workers, worker;
+/* The rows are shared out to processes, each with a folder of its own: who has ended one
+ * takes the next one that nobody has, because some take a hundred times as long as
+ * others. */
+static int workers, worker, row_taken;
+static atomic_int *rows_taken; /* by all of them, in shared memory */
 
 static void check_row_of_share(const int *row)
 {
-    if (rows++ % workers == worker)
-        check_row(row);
+    if (rows++ != row_taken)
+        return;
+    check_row(row);
+    row_taken = atomic_fetch_add(rows_taken, 1);
 }
 
 static covering array_of(int strength)
@@ -1166,6 +1173,7 @@ static void work(int result)
     if (mkdir(name, 0777) != 0 || chdir(name) != 0)
         _exit(1);
     failures = 0;
+    row_taken = atomic_fetch_add(rows_taken, 1);
     setenv("OMP_NUM_THREADS", "1", 1); /* there is a worker for every processor */
     covering_visit(&c, check_row_of_share);
     const findings found = {rows, c.tuples, c.unreachable, failures, failed_solves};
@@ -1181,6 +1189,9 @@ static void test_every_combination(void **state)
     int ends[2], status;
 
     assert_int_equal(pipe(ends), 0);
+    rows_taken = mmap(NULL, sizeof *rows_taken, PROT_READ | PROT_WRITE,
+                      MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    assert_true(rows_taken != MAP_FAILED);
     workers = (int)fmin(fmax(1.0, (double)sysconf(_SC_NPROCESSORS_ONLN)), 16.0);
     for (worker = 0; worker < workers; worker++)
         if (fork() == 0)
