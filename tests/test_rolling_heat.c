@@ -514,6 +514,40 @@ static void unlike_bodies_share_by_temperature(void **state)
     }
 }
 
+/* One contact of equal elements has a matrix of distances, which is solved without being
+ * made; the same elements taken as fitted ones have it made. */
+static void shares_of_equal_elements_are_those_of_any(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = warm_sliding(RB_STEADY);
+    rc.contact_elements = 60;
+    rc.heat_b =
+        (rb_rolling_heat){.conductivity = 7.0, .heat_capacity = 2.0, .temperature = 30.0};
+    rb_rolling_solution s = solved(&rc);
+    double power[200], t[4][200];
+    assert_true(s.n <= 200 && s.contact > 20);
+    for (int hole = 0; hole < 2; hole++) {
+        if (hole) /* two contacts */
+            s.contact -= s.zone[s.n / 2] != RB_ZONE_SEPARATED;
+        s.zone[s.n / 2] = hole ? RB_ZONE_SEPARATED : s.zone[s.n / 2];
+        for (int i = 0; i < s.n; i++)
+            power[i] = s.zone[i] != RB_ZONE_SEPARATED ? 1.0 + 0.01 * i : 0.0;
+        for (int k = 0; k < 2; k++) {
+            rc.mesh = k ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+            CHECK_STATUS(rb_rolling_steady_temperature(&rc, &s, power, t[2 * k],
+                                                       t[2 * k + 1], NULL),
+                         RB_OK);
+        }
+        for (int i = 0; i < s.n; i++) {
+            CHECK_REL(t[0][i], t[2][i], 1e-11, "A at %d, hole %d", i, hole);
+            CHECK_REL(t[1][i], t[3][i], 1e-11, "B at %d, hole %d", i, hole);
+            if (s.zone[i] != RB_ZONE_SEPARATED)
+                CHECK_REL(t[0][i], t[1][i], 1e-11, "both at %d, hole %d", i, hole);
+        }
+    }
+    rb_rolling_solution_free(&s);
+}
+
 static void tracks_longer_than_memory_are_refused(void **state)
 {
     (void)state;
@@ -560,6 +594,7 @@ int main(void)
         cmocka_unit_test(a_track_is_refused_where_heat_runs_along),
         cmocka_unit_test(an_even_temperature_has_its_first_place),
         cmocka_unit_test(unlike_bodies_share_by_temperature),
+        cmocka_unit_test(shares_of_equal_elements_are_those_of_any),
         cmocka_unit_test(tracks_longer_than_memory_are_refused),
         cmocka_unit_test(without_steps_no_heat_is_known),
     };

@@ -56,85 +56,34 @@ typedef struct {
     double speed;
     int n;
     const double *x, *h;
-    int equal;      /* 1: equal elements */
-    double *source; /* equal: G at distances (k + 1/2) h, k = -n ... n - 1, from its
-                       middle on; owned */
+    double *response; /* NULL, or of equal elements at distances of 1 - n ... n - 1 of
+                         them; owned */
 } conductor;
 
 static rb_status conductor_create(const rb_rolling_case *rc, const rb_rolling_heat *body,
                                   const rb_rolling_solution *s, conductor *c)
 {
-    const double P = rc->speed / (2.0 * diffusivity(body));
     const int n = s->n;
 
-    *c = (conductor){body, rc->speed, n, s->x, s->h, rc->mesh != RB_MESH_FITTED, NULL};
-    if (!c->equal)
+    *c = (conductor){body, rc->speed, n, s->x, s->h, NULL};
+    if (rc->mesh == RB_MESH_FITTED || n == 0)
         return RB_OK;
-    c->source = rb_alloc(2 * (size_t)n, 1);
-    for (int k = -n; c->source && k < n; k++)
-        c->source[n + k] = moving_source(P * s->h[0] * (k + 0.5));
-    return c->source ? RB_OK : RB_ENOMEM;
+    c->response = rb_alloc(2 * (size_t)n - 1, 1);
+    for (int k = 1 - n; c->response && k < n; k++)
+        c->response[n - 1 + k] = rb_rolling_heat_response(
+            body, rc->speed, s->h[0] * (k - 0.5), s->h[0] * (k + 0.5));
+    return c->response ? RB_OK : RB_ENOMEM;
 }
 
 /* row_j: rise at midpoint i of a unit heat per area and time in element j. */
 static void conductor_row(const conductor *c, int i, double *row)
 {
-    const double P = c->speed / (2.0 * diffusivity(c->body));
-    const double unit = 1.0 / (M_PI * c->body->conductivity * P);
-
-    for (int j = 0; j < c->n; j++) {
-        const double *g = c->equal ? &c->source[c->n + j - i - 1] : NULL;
+    if (c->response)
+        memcpy(row, &c->response[c->n - 1 - i], (size_t)c->n * sizeof *row);
+    for (int j = 0; !c->response && j < c->n; j++) {
         const double left = c->x[j] - 0.5 * c->h[j] - c->x[i];
-        row[j] = g ? unit * (g[1] - g[0])
-                   : rb_rolling_heat_response(c->body, c->speed, left, left + c->h[j]);
+        row[j] = rb_rolling_heat_response(c->body, c->speed, left, left + c->h[j]);
     }
-}
-
-/* ---- Both bodies ------------------------------------------------------------------- */
-
-static int is_contact(const rb_rolling_solution *s, int i)
-{
-    return s->zone[i] != RB_ZONE_SEPARATED;
-}
-
-/* In contact both surfaces are equally warm: (K_A + K_B) H_A = K_B H + T_B - T_A gives
- * the part H_A of the heat H that enters A. */
-static rb_status share_heat(const conductor *a, const conductor *b,
-                            const rb_rolling_solution *s, const double *heat,
-                            double *heat_a)
-{
-    const int n = s->n, m = s->contact;
-    const double difference = b->body->temperature - a->body->temperature;
-    double *M = rb_alloc((size_t)m, (size_t)m), *rhs = rb_alloc((size_t)m, 1);
-    double *row_a = rb_alloc((size_t)n, 1), *row_b = rb_alloc((size_t)n, 1);
-    lapack_int *pivots = malloc(sizeof *pivots * ((size_t)m + 1));
-    rb_status status = M && rhs && row_a && row_b && pivots ? RB_OK : RB_ENOMEM;
-
-    for (int i = 0, k = 0; i < n && status == RB_OK; i++) {
-        if (!is_contact(s, i))
-            continue;
-        conductor_row(a, i, row_a);
-        conductor_row(b, i, row_b);
-        rhs[k] = difference;
-        for (int j = 0, l = 0; j < n; j++) {
-            if (!is_contact(s, j))
-                continue;
-            M[(size_t)l++ * (size_t)m + (size_t)k] = row_a[j] + row_b[j];
-            rhs[k] += row_b[j] * heat[j];
-        }
-        k++;
-    }
-    if (status == RB_OK && m > 0 &&
-        LAPACKE_dgesv_work(LAPACK_COL_MAJOR, m, 1, M, m, pivots, rhs, m) != 0)
-        status = RB_SINGULAR;
-    for (int i = 0, k = 0; i < n && status == RB_OK; i++)
-        heat_a[i] = is_contact(s, i) ? rhs[k++] : 0.0;
-    free(M);
-    free(rhs);
-    free(row_a);
-    free(row_b);
-    free(pivots);
-    return status;
 }
 
 /* T = T_0 + K H. */
@@ -150,6 +99,122 @@ static rb_status warm(const conductor *c, const double *heat, double *temperatur
     }
     free(row);
     return row ? RB_OK : RB_ENOMEM;
+}
+
+/* Levinson's recursion for m equations with t[i - j] in row i and column j; rhs becomes
+ * their solution.  Moving sources have a matrix whose symmetric part is positive
+ * definite, so that no pivot vanishes. */
+static rb_status solve_toeplitz(int m, const double *t, double *rhs)
+{
+    /* Of the inverse of the leading equations: its first and its last column. */
+    double *first = rb_alloc((size_t)m, 2), *last = first ? first + m : NULL;
+    rb_status status = first ? RB_OK : RB_ENOMEM;
+
+    for (int k = 0; k < m && status == RB_OK; k++) {
+        double ahead = 0.0, behind = 0.0, missing = rhs[k];
+        for (int j = 0; j < k; j++) {
+            ahead += t[k - j] * first[j];
+            behind += t[-1 - j] * last[j];
+            missing -= t[k - j] * rhs[j];
+        }
+        const double pivot = k ? 1.0 - ahead * behind : t[0];
+        if (!(fabs(pivot) > 0.0))
+            status = RB_SINGULAR;
+        memmove(last + 1, last, (size_t)k * sizeof *last);
+        last[0] = k ? 0.0 : 1.0;
+        first[k] = k ? 0.0 : 1.0;
+        rhs[k] = 0.0;
+        for (int j = 0; j <= k; j++) {
+            const double f = first[j], b = last[j];
+            first[j] = (f - ahead * b) / pivot;
+            last[j] = (b - behind * f) / pivot;
+            rhs[j] += missing * last[j];
+        }
+    }
+    free(first);
+    return status;
+}
+
+/* ---- Both bodies ------------------------------------------------------------------- */
+
+static int is_contact(const rb_rolling_solution *s, int i)
+{
+    return s->zone[i] != RB_ZONE_SEPARATED;
+}
+
+/* Whether there are elements in contact that follow one another. */
+static int is_one_contact(const rb_rolling_solution *s)
+{
+    int edges = 0;
+
+    for (int i = 0; i < s->n; i++)
+        edges += is_contact(s, i) && (i == 0 || !is_contact(s, i - 1));
+    return edges == 1;
+}
+
+/* (K_A + K_B) x = rhs in the contact.  Of equal elements that follow one another the
+ * matrix depends on distances alone. */
+static rb_status solve_equal(const conductor *a, const conductor *b, int m, double *rhs)
+{
+    const int n = a->n;
+    double *t = rb_alloc((size_t)m, 2);
+    rb_status status = t ? RB_OK : RB_ENOMEM;
+
+    for (int d = 1 - m; d < m && t; d++)
+        t[m + d] = a->response[n - 1 - d] + b->response[n - 1 - d];
+    if (status == RB_OK)
+        status = solve_toeplitz(m, t + m, rhs);
+    free(t);
+    return status;
+}
+
+static rb_status solve_any(const conductor *a, const conductor *b,
+                           const rb_rolling_solution *s, double *rhs)
+{
+    const int n = s->n, m = s->contact;
+    double *M = rb_alloc((size_t)m, (size_t)m), *row = rb_alloc((size_t)n, 2);
+    lapack_int *pivots = malloc(sizeof *pivots * ((size_t)m + 1));
+    rb_status status = M && row && pivots ? RB_OK : RB_ENOMEM;
+
+    for (int i = 0, k = 0; i < n && status == RB_OK; i++) {
+        if (!is_contact(s, i))
+            continue;
+        conductor_row(a, i, row);
+        conductor_row(b, i, row + n);
+        for (int j = 0, l = 0; j < n; j++)
+            if (is_contact(s, j))
+                M[(size_t)l++ * (size_t)m + (size_t)k] = row[j] + row[n + j];
+        k++;
+    }
+    if (status == RB_OK && m > 0 &&
+        LAPACKE_dgesv_work(LAPACK_COL_MAJOR, m, 1, M, m, pivots, rhs, m) != 0)
+        status = RB_SINGULAR;
+    free(M);
+    free(row);
+    free(pivots);
+    return status;
+}
+
+/* In contact both surfaces are equally warm: (K_A + K_B) H_A = K_B H + T_B - T_A gives
+ * the part H_A of the heat H that enters A. */
+static rb_status share_heat(const conductor *a, const conductor *b,
+                            const rb_rolling_solution *s, const double *heat,
+                            double *heat_a)
+{
+    const int n = s->n;
+    double *rhs = rb_alloc((size_t)n, 1);
+    rb_status status = rhs ? warm(b, heat, heat_a) : RB_ENOMEM;
+
+    for (int i = 0, k = 0; i < n && status == RB_OK; i++)
+        if (is_contact(s, i))
+            rhs[k++] = heat_a[i] - a->body->temperature;
+    if (status == RB_OK)
+        status = a->response && is_one_contact(s) ? solve_equal(a, b, s->contact, rhs)
+                                                  : solve_any(a, b, s, rhs);
+    for (int i = 0, k = 0; i < n && status == RB_OK; i++)
+        heat_a[i] = is_contact(s, i) ? rhs[k++] : 0.0;
+    free(rhs);
+    return status;
 }
 
 static int is_alike(const rb_rolling_heat *a, const rb_rolling_heat *b)
@@ -185,8 +250,8 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc,
     if (status == RB_OK && b_conducts)
         status = warm(&b, heat, t_b);
     free(heat);
-    free(a.source);
-    free(b.source);
+    free(a.response);
+    free(b.response);
     return status == RB_OK
                ? RB_OK
                : rb_fail(why, status, "temperature: %s", rb_status_text(status));
