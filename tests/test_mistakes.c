@@ -11,6 +11,8 @@ static const struct {
     {"--mu 0.1 0.2", "commas between, as --mu 0.1,0.2"},
     {"--mu 0.1,0.2", "a curve takes several"},
     {"-mu 0.3", "options start with --, as --mu"},
+    {"-creep=0.1", "options start with --, as --creep)"},
+    {"-zorro=0.1", "options start with --, as --zorro)"},
     {"-o table.tsv", "as --output"},
     {"--E 210000", "did you mean '--young'"},
     {"--nu 0.3", "did you mean '--poisson'"},

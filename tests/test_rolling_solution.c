@@ -206,6 +206,22 @@ static void slip_that_pushes_is_a_violation(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* Two thousand boundary elements have no dense matrix. */
+static void many_boundary_elements_are_called_hierarchical(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = plane(RB_STATIC);
+    rc.a.support = RB_BEM_HUB;
+    rc.outer_elements = 1500;
+    rc.contact_elements = 12;
+    rb_rolling_model model = solved_model(&rc);
+    rb_rolling_solution s = of(&model);
+    assert_true(s.boundary_elements > 2000);
+    assert_int_equal(s.hierarchical, 1);
+    rb_rolling_solution_free(&s);
+    rb_rolling_model_free(&model);
+}
+
 /* The support of a wheel holds the load; both wheels' elements are counted. */
 static void a_support_holds_the_load(void **state)
 {
@@ -353,6 +369,7 @@ int main(void)
         cmocka_unit_test(shift_and_creepage_at_rest),
         cmocka_unit_test(slip_that_pushes_is_a_violation),
         cmocka_unit_test(a_support_holds_the_load),
+        cmocka_unit_test(many_boundary_elements_are_called_hierarchical),
         cmocka_unit_test(a_model_solves_the_next_case_as_the_first),
         cmocka_unit_test(a_ratio_is_met_under_an_approach),
         cmocka_unit_test(elements_may_stand_where_they_are_told),
