@@ -201,8 +201,6 @@ static void the_limit_is_the_steady_state(void **state)
     }
 }
 
-/* Mindlin-Deresiewicz: loaded to Q1 and back to Q2, the friction is the sum of Cattaneo's
- * for Q1 and twice the negative of that for (Q1 - Q2)/2. */
 /* Without friction nothing changes from the first step that rolls on, behind the one at
  * rest. */
 static void without_friction_all_of_it_is_steady(void **state)
@@ -220,6 +218,8 @@ static void without_friction_all_of_it_is_steady(void **state)
     release(&model, &h);
 }
 
+/* Mindlin-Deresiewicz: loaded to Q1 and back to Q2, the friction is the sum of Cattaneo's
+ * for Q1 and twice the negative of that for (Q1 - Q2)/2. */
 static void unloading_follows_mindlin_and_deresiewicz(void **state)
 {
     (void)state;

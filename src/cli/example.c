@@ -195,10 +195,11 @@ static cli_exit run_history(const example_options *o, const example *e, rb_statu
         return cli_say(made, &why);
     const rb_status s = rb_fem_run(model, o->solver, o->tol, &history, &why);
     const example_run r = {o, e, model, &history};
+    const int begun = s >= RB_OK && history.steps > 0;
     cli_exit code = CLI_OK;
-    if (s >= RB_OK && history.steps > 0)
+    if (begun)
         code = cli_write_file(o->output, write_history, &r);
-    if (s >= RB_OK && history.steps > 0 && code == CLI_OK)
+    if (begun && code == CLI_OK)
         code = cli_draw_file(&o->pictures, "plot", o->plot, draw_history, &r);
     if (s != RB_OK && code == CLI_OK)
         code = cli_say(s, &why);

@@ -21,11 +21,11 @@ typedef struct {
     int n;
     rb_lcp_problem p;
     const double *lower, *upper;
-    place *at;          /* n */
-    double *A, *x;      /* n x n, n: system of the z between their bounds */
-    int *inside, *swap; /* n, 2n: those z; pivots, and work of dgecon */
-    double *z, *w;      /* n */
-    double *work;       /* 4n, of dgecon */
+    place *at;             /* n */
+    double *A, *x;         /* n x n, n: system of the z between their bounds */
+    int *inside, *swap;    /* n, 2n: those z; pivots, and work of dgecon */
+    double *z, *w, *terms; /* n; terms: of the rows of w, by modulus */
+    double *work;          /* 4n, of dgecon */
     rb_lcp_solutions *all;
 } search;
 
@@ -94,14 +94,17 @@ static int basic_point(search *s)
     return 1;
 }
 
-/* The terms of row i of M z + q, whose rounding is a part of them. */
-static double terms(const search *s, int i)
+/* The terms of every row of M z + q, whose rounding is a part of them; returns the most.
+ */
+static double sum_terms(search *s)
 {
-    const double *row = s->p.M + i;
-    double sum = fabs(s->p.q[i]);
-    for (int j = 0; j < s->n; j++)
-        sum += fabs(row[(size_t)j * (size_t)s->p.ldm] * s->z[j]);
-    return sum;
+    for (int i = 0; i < s->n; i++) {
+        const double *row = s->p.M + i;
+        s->terms[i] = fabs(s->p.q[i]);
+        for (int j = 0; j < s->n; j++)
+            s->terms[i] += fabs(row[(size_t)j * (size_t)s->p.ldm] * s->z[j]);
+    }
+    return rb_norm_inf((size_t)s->n, s->terms);
 }
 
 /* z between its bounds: what is outside by rounding is put on them; 0: by more. */
@@ -122,18 +125,16 @@ static int is_in_box(search *s)
  * where a z was put on a bound. */
 static int is_solution(search *s)
 {
-    double most = 0.0;
     if (!is_in_box(s))
         return 0;
     product(s);
-    for (int i = 0; i < s->n; i++)
-        most = fmax(most, terms(s, i));
+    const double most = sum_terms(s);
     /* entries near the largest double can give a point that is no numbers */
     if (!isfinite(rb_norm_inf((size_t)s->n, s->z)) || !isfinite(most))
         return 0;
     for (int i = 0; i < s->n; i++) {
         const int fixed = rb_lcp_lower(s->lower, i) >= rb_lcp_upper(s->upper, i);
-        const double small = RIGHT * (s->at[i] == BETWEEN ? most : terms(s, i));
+        const double small = RIGHT * (s->at[i] == BETWEEN ? most : s->terms[i]);
         if (s->at[i] != AT_UPPER && s->w[i] < -small && !fixed)
             return 0;
         if (s->at[i] != AT_LOWER && s->w[i] > small)
@@ -212,7 +213,7 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower,
     if (status != RB_OK)
         return status;
     s.at = calloc((size_t)n, sizeof *s.at);
-    s.A = rb_alloc((size_t)n, (size_t)n + 7);
+    s.A = rb_alloc((size_t)n, (size_t)n + 8);
     s.inside = rb_alloc_int(3 * (size_t)n);
     if (!s.at || !s.A || !s.inside)
         status = RB_ENOMEM;
@@ -220,7 +221,8 @@ rb_status rb_lcp_enumerate(const rb_lcp_problem *p, const double *lower,
         s.x = s.A + (size_t)n * (size_t)n;
         s.z = s.x + n;
         s.w = s.z + n;
-        s.work = s.w + n;
+        s.terms = s.w + n;
+        s.work = s.terms + n;
         s.swap = s.inside + n;
         for (int i = 0; i < n; i++)
             while (!is_place(&s, i, s.at[i]))
