@@ -35,11 +35,20 @@ static void print_escaped(const char *text, const char *special, const char *bef
     }
 }
 
+/* A character, or what stands for it where that is not NULL. */
+static void print_character(char c, const char *instead)
+{
+    if (instead)
+        fputs(instead, stdout);
+    else
+        putchar(c);
+}
+
 /* In single quotes, which a shell leaves as they are. */
 static void print_quoted(const char *text)
 {
     for (; *text; text++)
-        fputs(*text == '\'' ? "'\\''" : (char[2]){*text, 0}, stdout);
+        print_character(*text, *text == '\'' ? "'\\''" : NULL);
 }
 
 static void print_choices(const rb_option *o)
@@ -65,10 +74,9 @@ static void print_troff(const char *text)
         if (n > 0 && (*text == '.' || *text == '\''))
             fputs("\\&", stdout);
         for (size_t k = 0; k < n; k++)
-            fputs(text[k] == '\\'  ? "\\e"
-                  : text[k] == '-' ? "\\-"
-                                   : (char[2]){text[k], 0},
-                  stdout);
+            print_character(text[k], text[k] == '\\'  ? "\\e"
+                                     : text[k] == '-' ? "\\-"
+                                                      : NULL);
         if (n > 0)
             putchar('\n');
         text += n + (text[n] == '\n');
@@ -226,11 +234,11 @@ static void zsh_option(const rb_option *o, const char *command)
 {
     (void)command;
     printf("            '--%s%s[", o->name, o->kind == RB_OPTION_FLAG ? "" : "=");
-    for (const char *c = o->help; *c; c++)
-        fputs(*c == '\''            ? "'\\''"
-              : strchr("[]:\\", *c) ? (char[3]){'\\', *c, 0}
-                                    : (char[2]){*c, 0},
-              stdout);
+    for (const char *c = o->help; *c; c++) {
+        if (strchr("[]:\\", *c))
+            putchar('\\');
+        print_character(*c, *c == '\'' ? "'\\''" : NULL);
+    }
     fputs("]", stdout);
     if (o->kind != RB_OPTION_FLAG) {
         fputs(takes_file(o) ? ":file:_files"
