@@ -366,6 +366,39 @@ static void write_slip(FILE *out, const view *v)
             v->s->n <= STEPS_UP_TO ? "linespoints pointtype 7" : "lines");
 }
 
+static double warmer_by(const view *v, int i)
+{
+    return (v->s->temperature[i] - v->s->temperature_b[i]) / v->heat.unit;
+}
+
+/* The names of the bodies at that end of the curves where these are farther apart (in the
+ * contact they are one): between the two where there is room, else only that of the
+ * upper. */
+static void write_bodies(FILE *out, const view *v)
+{
+    const double height = v->heat.to - v->heat.from;
+    int first = 0, last = v->s->n - 1;
+    while (first < last && !is_shown(v, first))
+        first++;
+    while (last > first && !is_shown(v, last))
+        last--;
+    const int left = fabs(warmer_by(v, first)) > fabs(warmer_by(v, last));
+    const int at = left ? first : last;
+    const double apart = warmer_by(v, at), t_b = v->s->temperature_b[at] / v->heat.unit;
+    if (fabs(apart) < 0.02 * height) /* one curve, to the eye */
+        return;
+    const int room = fabs(apart) > 0.4 * height;
+    const double t[] = {t_b + apart, t_b}, up = 0.13 * height;
+    for (int k = 0; k < 2; k++) {
+        const int upper = (k == 0) == (apart > 0.0);
+        if (upper || room)
+            fprintf(out, "set label '%s' at first %.9g, first %.9g %s front\n",
+                    k ? "B" : "A", v->s->x[at] / v->length.size,
+                    t[k] + (upper == room ? -up : up),
+                    left ? "left offset 0.5,0" : "right offset -0.5,0");
+    }
+}
+
 static void write_temperature(FILE *out, const view *v)
 {
     fputs("unset label\nunset object\n", out);
@@ -377,6 +410,7 @@ static void write_temperature(FILE *out, const view *v)
     write_exponent(out, v->heat.exponent, "K");
     fprintf(out, "' at screen 0.028, %g center rotate\n", middle_of(v, TEMPERATURE));
     write_zones(out, v, 0);
+    write_bodies(out, v);
     fputs("plot $data using 1:7 with lines dashtype (6,4) linecolor rgb '#7a7a7a' "
           "linewidth 1.2, $data using 1:6 with lines linecolor rgb '#b9770e' linewidth "
           "1.8\n",
