@@ -382,7 +382,10 @@ static void every_name_has_its_value(void **state)
     CHECK_ABS(rb_api_number(a, "task.iterations"), 2.0, 0.0, "z0, then z");
     CHECK_ABS(rb_api_number(a, "task.residual"), 0.0, 1e-15, "2 z = 4");
     assert_true(rb_api_lcp(a, 0, &M, &q, "lemke", 0) < 0);
+    assert_int_equal(rb_api_lcp(a, 1, &M, &q, "lemke", 0), RB_OK);
     assert_int_equal(rb_api_friction(a, 1, 1, &W, &v, &mu, "auto", 1e-10, 0), RB_EINVAL);
+    CHECK_ABS(rb_api_number(a, "task.iterations"), 0.0, 0.0,
+              "none of the problem before");
     assert_true(rb_api_read(a, "nothing.ini") < 0);
     assert_non_null(strstr(rb_api_message(a), "nothing.ini"));
     rb_api_free(a);
