@@ -139,6 +139,7 @@ static void what_is_not_solved_says_so(void **state)
     assert_non_null(strstr(out, "\tinfeasible\t"));
     assert_int_equal(rollbem("friction --max-iters 1 --solver fixed-point slides"), 1);
     assert_null(strstr(err, "no solution exists"));
+    assert_null(strstr(out, "\tinfeasible\t"));
     assert_non_null(strstr(out, "slides\t"));
     assert_int_equal(rollbem("friction --facts odd zero"), 0);
     assert_non_null(strstr(err, "not symmetric"));

@@ -80,6 +80,21 @@ static void abandoning_leaves_the_old_file(void **state)
     assert_int_equal(entries(), 1);
 }
 
+/* The lowest free descriptor tells how many are open. */
+static void no_descriptor_stays_open(void **state)
+{
+    (void)state;
+    const int before = dup(STDIN_FILENO);
+    close(before);
+    rb_io_writer w;
+    CHECK_STATUS(rb_io_writer_open(path, &w, NULL), RB_OK);
+    rb_io_writer_abandon(&w);
+    write_line("whole");
+    const int after = dup(STDIN_FILENO);
+    close(after);
+    assert_int_equal(before, after);
+}
+
 static void an_old_file_keeps_its_mode_and_a_link_its_place(void **state)
 {
     (void)state;
@@ -457,6 +472,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(the_target_appears_on_commit),
         IN_FOLDER(abandoning_leaves_the_old_file),
+        IN_FOLDER(no_descriptor_stays_open),
         IN_FOLDER(an_old_file_keeps_its_mode_and_a_link_its_place),
         IN_FOLDER(a_link_to_a_file_yet_to_come_is_followed),
         IN_FOLDER(a_new_file_has_the_mode_that_the_umask_leaves),
