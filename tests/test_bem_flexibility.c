@@ -243,8 +243,22 @@ static void bad_input_is_refused(void **state)
     CHECK_STATUS(rb_bem_flexibility_surface(1, moved, HALFPLANE(steel, 1.0), &b, NULL),
                  RB_OK);
     CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, &why), RB_EINVAL);
-    assert_non_null(strstr(why.text, "point 1"));
+    assert_non_null(strstr(why.text, "point 1 at x = 1.5 on A, 1.55 on B"));
     assert_null(a.x);
+    for (int e = -6; e <= 6; e += 6) /* of any unit of length */
+        for (int k = 0; k < 2; k++) {
+            const double h = pow(10.0, e), ends_a[] = {-h, 0.0, h},
+                         ends_b[] = {-h, 0.0, h * (1.0 + (k ? 1e-8 : 1e-10))};
+            CHECK_STATUS(
+                rb_bem_flexibility_surface(1, ends_a, HALFPLANE(steel, h), &a, NULL),
+                RB_OK);
+            CHECK_STATUS(
+                rb_bem_flexibility_surface(1, ends_b, HALFPLANE(steel, h), &b, NULL),
+                RB_OK);
+            CHECK_STATUS(rb_bem_flexibility_pair(&a, &b, &f, NULL),
+                         k ? RB_EINVAL : RB_OK);
+            rb_bem_flexibility_free(&f);
+        }
     CHECK_STATUS(rb_bem_flexibility_surface(1, two, HALFPLANE(steel, 1.0), &a, NULL),
                  RB_OK);
     CHECK_STATUS(

@@ -182,6 +182,69 @@ static void the_near_field_is_the_half_planes(void **state)
     assert_true(distance_from_halfplane(20, 0) > 5.0 * distance_from_halfplane(20, 1));
 }
 
+/* A block in contact below, whose left side and top glide along rigid walls, the one
+ * held in x and the other in y: with and without the subtraction it gives way alike, the
+ * nearer the finer. */
+static double distance_on_gliding_sides(int side)
+{
+    const int touch = side / 5, first = 2 * side / 5;
+    static const double corner[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+    rb_bem_mesh mesh;
+    rb_bem_system *system;
+    rb_bem_flexibility f[2];
+    double *F[2], worst = 0.0, size = 0.0;
+    CHECK_STATUS(rb_bem_mesh_alloc(4 * side, &mesh), RB_OK);
+    for (int j = 0; j < 4 * side; j++) {
+        const double *a = corner[j / side], *b = corner[j / side + 1];
+        const double from = (double)(j % side) / side, to = from + 1.0 / side;
+        mesh.x0[j] = a[0] + from * (b[0] - a[0]);
+        mesh.y0[j] = a[1] + from * (b[1] - a[1]);
+        mesh.x1[j] = a[0] + to * (b[0] - a[0]);
+        mesh.y1[j] = a[1] + to * (b[1] - a[1]);
+        if (j / side >= 2)
+            mesh.condition[2 * j + (j / side == 2)] = RB_BEM_DISPLACEMENT;
+        if (j >= first && j < first + touch)
+            mesh.condition[2 * j] = mesh.condition[2 * j + 1] = RB_BEM_CONTACT;
+    }
+    for (int j = 4 * side; j-- > 0;) { /* ends meet to the last digit */
+        mesh.x1[j] = mesh.x0[(j + 1) % (4 * side)];
+        mesh.y1[j] = mesh.y0[(j + 1) % (4 * side)];
+    }
+    mesh.contact_first = first;
+    mesh.contact_n = touch;
+    rb_message why = {""};
+    if (rb_bem_system_create(&mesh, steel, &system, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    const int m = touch + 1, all = 2 * m * 2 * touch;
+    for (int k = 0; k < 2; k++) {
+        CHECK_STATUS((k ? rb_bem_condense_subtracted
+                        : rb_bem_condense)(system, RB_BEM_NORMALS_OBSTACLE, &f[k], &why),
+                     RB_OK);
+        F[k] = rb_alloc((size_t)all, 1);
+        CHECK_STATUS(rb_bem_flexibility_matrix(&f[k], F[k], 2 * m), RB_OK);
+    }
+    for (int i = 0; i < all; i++) {
+        worst = fmax(worst, fabs(F[1][i] - F[0][i]));
+        size = fmax(size, fabs(F[0][i]));
+    }
+    for (int k = 0; k < 2; k++) {
+        rb_bem_flexibility_free(&f[k]);
+        free(F[k]);
+    }
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+    return worst / size;
+}
+
+static void sides_may_glide(void **state)
+{
+    (void)state;
+    const double coarse = distance_on_gliding_sides(10),
+                 fine = distance_on_gliding_sides(20);
+    CHECK_MAX(fine, 0.03, "20 elements a side");
+    CHECK_MAX(fine, 0.9 * coarse, "against 10");
+}
+
 static void a_hollow_contact_is_refused(void **state)
 {
     (void)state;
@@ -251,6 +314,7 @@ int main(void)
         cmocka_unit_test(linear_strips_make_a_tent),
         cmocka_unit_test(linear_strips_do_not_know_their_direction),
         cmocka_unit_test(the_near_field_is_the_half_planes),
+        cmocka_unit_test(sides_may_glide),
         cmocka_unit_test(a_hollow_contact_is_refused),
         cmocka_unit_test(every_failed_allocation_is_reported),
     };

@@ -80,6 +80,63 @@ static void contradictions_name_both_sides(void **state)
     check_refused(&rc, "normals", "half-plane");
 }
 
+/* One of each list determines the contact, and any two of it contradict each other,
+ * whatever the third ones are. */
+static void any_two_controls_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        rb_rolling_formulation formulation;
+        int n;
+        size_t field[4];
+        double value;
+    } lists[] = {{"exclude each other",
+                  RB_STATIC,
+                  3,
+                  {FIELD(approach), FIELD(load), FIELD(half_width)},
+                  1.0},
+                 {"exclude each other",
+                  RB_STATIC,
+                  3,
+                  {FIELD(shift), FIELD(force), FIELD(force_ratio)},
+                  0.1},
+                 {"exclude each other",
+                  RB_STEADY,
+                  4,
+                  {FIELD(creep), FIELD(creep_ratio), FIELD(force), FIELD(force_ratio)},
+                  0.1},
+                 {"exclude each other",
+                  RB_TRANSIENT,
+                  4,
+                  {FIELD(creep), FIELD(creep_ratio), FIELD(force), FIELD(force_ratio)},
+                  0.1}};
+    for (size_t l = 0; l < sizeof lists / sizeof *lists; l++)
+        for (int given = 1; given < 1 << lists[l].n; given++) {
+            rb_rolling_case rc = rb_rolling_case_defaults();
+            rb_message why = {""};
+            rc.formulation = lists[l].formulation;
+            for (int i = 0; i < lists[l].n; i++)
+                if (given >> i & 1)
+                    memcpy((char *)&rc + lists[l].field[i], &lists[l].value,
+                           sizeof(double));
+            if (given & (given - 1))
+                check_refused(&rc, lists[l].text, "");
+            else if (rb_rolling_case_check(&rc, &why) != RB_OK)
+                fail_msg("list %d, control %d: %s", (int)l, given, why.text);
+        }
+    for (int i = 0; i < 5; i++) {
+        static const size_t field[5] = {FIELD(shift), FIELD(creep), FIELD(creep_ratio),
+                                        FIELD(force), FIELD(force_ratio)};
+        const double value = 0.1;
+        rb_rolling_case rc = rb_rolling_case_defaults();
+        rc.formulation = i ? RB_STEADY : RB_STATIC;
+        rc.free_axle = 1;
+        memcpy((char *)&rc + field[i], &value, sizeof(double));
+        check_refused(&rc, "free axle: it excludes", "");
+    }
+}
+
 static void a_table_gap_needs_its_table(void **state)
 {
     (void)state;
@@ -477,6 +534,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_values_are_refused_by_name),
         cmocka_unit_test(contradictions_name_both_sides),
+        cmocka_unit_test(any_two_controls_are_refused),
         cmocka_unit_test(a_table_gap_needs_its_table),
         cmocka_unit_test(ranges_of_the_bodies),
         cmocka_unit_test(ranges_of_layers_and_covers),

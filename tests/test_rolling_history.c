@@ -585,6 +585,45 @@ static void states_are_followed_to_the_same_history(void **state)
     release(&model, &h);
 }
 
+/* A ratio refers to the load, which a given approach finds: with the states' own loads
+ * they follow it, and a creepage that is another one is seen. */
+static void states_of_a_ratio_are_followed(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steel_wheel(20);
+    rb_rolling_states states = {0};
+    rb_rolling_model model, again;
+    rb_rolling_history h, followed;
+    rb_message why = {""};
+    const rb_rolling_observer observer = {keep_state, &states};
+    rc.formulation = RB_TRANSIENT;
+    rc.load = NAN;
+    rc.approach = 6e-3;
+    rc.b.young *= 0.5; /* dissimilar: the load changes on the way */
+    rc.creep_ratio = 0.5;
+    rc.distance = 0.5;
+    rc.zone *= 2.0;
+    if (rb_rolling_history_run(&rc, NULL, &observer, &model, &h, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    states.half_width = h.half_width;
+    for (int k = 0; k < 2; k++) {
+        const double creepage = states.xi[states.steps - 1];
+        CHECK_STATUS(
+            rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why),
+            RB_OK);
+        CHECK_ABS(followed.creepage[h.n - 1], creepage, 1e-15, "creepage");
+        CHECK_REL(again.problem.xi, model.problem.xi, 1e-12, "the wanted one");
+        if (k == 0)
+            CHECK_MAX(followed.residual[h.n - 1], 1e-9, "residual");
+        else
+            CHECK_MAX(1e-5, followed.residual[h.n - 1], "another creepage");
+        release(&again, &followed);
+        states.xi[states.steps - 1] *= 1.001;
+    }
+    rb_rolling_states_free(&states);
+    release(&model, &h);
+}
+
 /* Steps of more than an element: what has yielded comes from between midpoints, and from
  * beyond the mesh comes nothing. */
 static int check_yielded(const rb_rolling_model *model, const rb_rolling_history *h,
@@ -694,6 +733,7 @@ int main(void)
         cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(ways_that_lead_nowhere_are_refused),
         cmocka_unit_test(states_are_followed_to_the_same_history),
+        cmocka_unit_test(states_of_a_ratio_are_followed),
         cmocka_unit_test(what_has_yielded_rides_along),
         cmocka_unit_test(a_row_s_friction_bounds_its_force),
         cmocka_unit_test(friction_between_rows_bounds_the_force),

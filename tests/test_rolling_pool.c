@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -380,6 +381,60 @@ static void no_process_outlives_its_pool(void **state)
     assert_int_equal(errno, ECHILD);
 }
 
+static volatile sig_atomic_t rings;
+
+static void ring(int number)
+{
+    (void)number;
+    rings++;
+}
+
+/* Signals that its program handles, with a timer, say, do not disturb a study. */
+static void a_timer_does_not_disturb_a_study(void **state)
+{
+    (void)state;
+    const struct itimerval often = {{0, 500}, {0, 500}}, never = {{0, 0}, {0, 0}};
+    struct sigaction before, handler = {.sa_handler = ring}; /* interrupts system calls */
+    const rb_rolling_sweep sweep = of(8, 2, 0);
+    rb_rolling_pool *pool;
+    assert_int_equal(sigaction(SIGALRM, &handler, &before), 0);
+    CHECK_STATUS(rb_rolling_pool_start(&sweep, &pool, NULL), RB_OK);
+    assert_int_equal(setitimer(ITIMER_REAL, &often, NULL), 0);
+    for (int round = 0; round < 3; round++) {
+        const rb_rolling_row slow = row_of(pool, 7);
+        CHECK_REL(slow.solution.normal_load, 800.0, 1e-9, "round %d", round);
+    }
+    assert_int_equal(setitimer(ITIMER_REAL, &never, NULL), 0);
+    pool->stop(pool);
+    assert_int_equal(sigaction(SIGALRM, &before, NULL), 0);
+    assert_true(rings > 10);
+}
+
+/* Whoever is killed takes the processes of its study along: each has the parent's end of
+ * those that are older, so that the youngest sees first that it is gone. */
+static void workers_end_with_their_parent(void **state)
+{
+    (void)state;
+    int line[2];
+    char byte;
+    assert_int_equal(pipe(line), 0);
+    const pid_t parent = fork();
+    assert_true(parent >= 0);
+    if (parent == 0) {
+        const rb_rolling_sweep sweep = of(8, 3, 0);
+        rb_rolling_pool *pool;
+        close(line[0]);
+        if (rb_rolling_pool_start(&sweep, &pool, NULL) != RB_OK)
+            _exit(1);
+        row_of(pool, 6); /* whose process dies, and is replaced by one that is younger */
+        raise(SIGKILL);
+    }
+    close(line[1]);
+    assert_int_equal(waitpid(parent, NULL, 0), parent);
+    assert_int_equal(read(line[0], &byte, 1), 0); /* nobody holds the other end */
+    close(line[0]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -394,6 +449,8 @@ int main(void)
         cmocka_unit_test(a_pool_that_cannot_go_on_ends_the_study),
         cmocka_unit_test(rows_without_stress_have_its_status),
         cmocka_unit_test(no_process_outlives_its_pool),
+        cmocka_unit_test(a_timer_does_not_disturb_a_study),
+        cmocka_unit_test(workers_end_with_their_parent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

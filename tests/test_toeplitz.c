@@ -308,7 +308,17 @@ static void bad_discs_are_refused(void **state)
     CHECK_STATUS(rb_bem_flexibility_disc(2, equal, &(rb_bem_disc){1.5, steel},
                                          RB_BEM_NORMALS_SURFACE, &f, &why),
                  RB_EINVAL);
-    assert_non_null(strstr(why.text, "wider"));
+    assert_non_null(strstr(why.text, "radius 1.5: contact from -1.5 to 1.5 is wider"));
+    const double tilted[] = {-1.0, 0.0, 1.0, 2.0};
+    for (int k = 0; k < 2; k++) {
+        double ends[4];
+        for (int i = 0; i < 4; i++)
+            ends[i] = k ? -tilted[3 - i] : tilted[i];
+        CHECK_STATUS(rb_bem_flexibility_disc(2, ends, &(rb_bem_disc){1.9, steel},
+                                             RB_BEM_NORMALS_SURFACE, &f, &why),
+                     RB_EINVAL);
+        assert_non_null(strstr(why.text, k ? "from -2 to 1 is" : "from -1 to 2 is"));
+    }
     double *ends = equal_arcs(6, 3.0, -0.5, 0.5);
     for (int k = 0, refused = 1; refused; k++) {
         alloc_fail_after(k);
@@ -321,6 +331,28 @@ static void bad_discs_are_refused(void **state)
         assert_true(k < 40);
     }
     free(ends);
+}
+
+/* Whether elements are equal does not depend on the unit of length, nor on where they
+ * lie, but for the rounding of their places. */
+static void equal_lengths_are_those_of_any_unit(void **state)
+{
+    (void)state;
+    enum { n = 6 };
+    for (int e = -9; e <= 9; e += 3)
+        for (int side = -1; side <= 1; side++) {
+            const double h = pow(10.0, e), far = 1e8 * side * h;
+            double ends[n + 2];
+            rb_bem_flexibility f;
+            for (int i = 0; i < n + 2; i++)
+                ends[i] = far + i * h;
+            CHECK_STATUS(
+                rb_bem_flexibility_toeplitz(n, ends, HALFPLANE(steel, h), &f, NULL),
+                RB_OK);
+            rb_bem_flexibility_free(&f);
+            ends[2] += 1e-6 * h;
+            refuse(n, ends, steel, h, "different lengths");
+        }
 }
 
 static void bad_input(void **state)
@@ -372,6 +404,7 @@ int main(void)
         cmocka_unit_test(the_disc_is_the_reference_but_for_a_translation),
         cmocka_unit_test(a_short_arc_is_a_half_plane),
         cmocka_unit_test(bad_discs_are_refused),
+        cmocka_unit_test(equal_lengths_are_those_of_any_unit),
         cmocka_unit_test(bad_input),
         cmocka_unit_test(failing_allocations),
     };

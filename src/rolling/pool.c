@@ -118,9 +118,6 @@ static rb_status start_worker(processes *p, worker *w)
     w->pid = fork();
     if (w->pid == 0) {
         close(end[0]);
-        for (int i = 0; i < p->workers; i++) /* or nobody would see the parent die */
-            if (p->worker[i].socket >= 0)
-                close(p->worker[i].socket);
         run_worker(p->sweep, end[1]);
     }
     close(end[1]);
