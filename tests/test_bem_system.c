@@ -191,6 +191,55 @@ static void the_solution_satisfies_the_equations(void **state)
 
 /* ---- Support (B6) ------------------------------------------------------------------ */
 
+/* A ring that is pulled outside, whose hole is held all around, or along x alone. */
+static void pull_ring(double nu, int all_around, double *u, double *t)
+{
+    enum { n = 40 };
+    rb_bem_mesh mesh = ring(n, 2.0, 1.0);
+    for (int j = 0; j < n; j++) {
+        mesh.condition[2 * (n + j)] = RB_BEM_DISPLACEMENT;
+        if (all_around)
+            mesh.condition[2 * (n + j) + 1] = RB_BEM_DISPLACEMENT;
+        mesh.value[2 * j] = 0.3 + 0.1 * cos(2.0 * M_PI * j / n);
+        mesh.value[2 * j + 1] = 0.2 * sin(4.0 * M_PI * j / n);
+    }
+    mesh.condition[1] = RB_BEM_DISPLACEMENT; /* the rightmost element, along y */
+    mesh.value[1] = 0.0;
+    rb_bem_system *system;
+    rb_message why = {""};
+    if (rb_bem_system_create(&mesh, (rb_bem_material){1.0, nu}, &system, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    CHECK_STATUS(rb_bem_system_solve(system, NULL, u, t), RB_OK);
+    if (all_around && nu == 0.5) {
+        double mean = 0.0;
+        for (int j = n; j < 2 * n; j++)
+            mean += t[2 * j] * (mesh.y1[j] - mesh.y0[j]) -
+                    t[2 * j + 1] * (mesh.x1[j] - mesh.x0[j]);
+        CHECK_ABS(mean, 0.0, 1e-10, "mean pressure on the hole");
+    }
+    rb_bem_system_free(system);
+    rb_bem_mesh_free(&mesh);
+}
+
+/* Displacements go on to nu = 1/2, and so do tractions but for the pressure that a hole
+ * which is held all around leaves open: there its mean is zero. */
+static void incompressible_bodies_are_a_limit(void **state)
+{
+    (void)state;
+    enum { n = 80 };
+    for (int all = 0; all < 2; all++) {
+        double u[2][2 * n], t[2][2 * n];
+        pull_ring(0.5, all, u[0], t[0]);
+        pull_ring(0.5 - 1e-6, all, u[1], t[1]);
+        const double size[2] = {rb_norm_inf(2 * n, u[0]), rb_norm_inf(2 * n, t[0])};
+        for (int i = 0; i < 2 * n; i++) {
+            CHECK_ABS(u[1][i], u[0][i], 1e-4 * size[0], "%d: u of %d", all, i);
+            if (!all)
+                CHECK_ABS(t[1][i], t[0][i], 1e-3 * size[1], "%d: t of %d", all, i);
+        }
+    }
+}
+
 static void expect_free(rb_bem_mesh *mesh, const char *motions)
 {
     rb_bem_system *system;
@@ -345,6 +394,7 @@ int main(void)
         cmocka_unit_test(thick_ring_under_internal_pressure),
         cmocka_unit_test(given_displacements_give_the_tractions),
         cmocka_unit_test(the_solution_satisfies_the_equations),
+        cmocka_unit_test(incompressible_bodies_are_a_limit),
         cmocka_unit_test(a_body_without_support_is_refused),
         cmocka_unit_test(a_second_body_without_support_is_singular),
         cmocka_unit_test(materials_have_their_limits),

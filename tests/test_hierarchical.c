@@ -3,6 +3,7 @@
 #include "bem/hierarchical.h"
 #include "bem/incompressible.h"
 #include "bem/internal.h"
+#include "bem/mixed.h"
 #include "bem/system.h"
 #include "bem_shapes.h"
 
@@ -327,6 +328,47 @@ static void failing_allocations(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
+/* What stands for all that is far is a closed polygon: a uniform pressure on it takes no
+ * volume from an incompressible body, and displaces nothing outside. */
+static void a_pressed_circle_displaces_nothing_outside(void **state)
+{
+    (void)state;
+    enum { n = 12, rows = 2 * n };
+    const rb_bem_material rubber = {1.0, 0.5};
+    rb_bem_mesh mesh = circle(n, 1.0);
+    double unit[n];
+    int order[n], row[rows];
+    rb_mixed a;
+    rb_mixed_rows r;
+    for (int j = 0; j < n; j++)
+        unit[j] = 1.0;
+    for (int i = 0; i < rows; i++)
+        row[i] = i;
+    CHECK_STATUS(rb_mixed_make(&mesh, rubber, unit, 0, order, &a), RB_OK);
+    CHECK_STATUS(rb_mixed_rows_make(&a, rows, row, NULL, 0, &r), RB_OK);
+    for (int points = 3; points < 20; points += 4) {
+        double *G = rb_alloc(rows, 2 * (size_t)points), largest;
+        CHECK_STATUS(rb_mixed_far(&a, &r, (rb_circle){3.0, -1.5, 1.7}, points,
+                                  (rb_matrix_view){G, 1, rows}),
+                     RB_OK);
+        largest = rb_norm_inf((size_t)rows * 2 * (size_t)points, G);
+        assert_true(largest > 0.01 && largest < 100.0);
+        for (int i = 0; i < rows; i++) {
+            double sum = 0.0;
+            for (int q = 0; q < points; q++) {
+                const double outward = 2.0 * M_PI * (q + 0.5) / points;
+                sum += cos(outward) * G[i + 2 * q * rows] +
+                       sin(outward) * G[i + (2 * q + 1) * rows];
+            }
+            CHECK_ABS(sum, 0.0, 1e-13 * largest * points, "%d points, row %d", points, i);
+        }
+        free(G);
+    }
+    rb_mixed_rows_free(&r);
+    rb_mixed_free(&a);
+    rb_bem_mesh_free(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -336,6 +378,7 @@ int main(void)
         cmocka_unit_test(the_flexibility_is_the_dense_one),
         cmocka_unit_test(plates_are_solved_as_by_the_dense_matrix),
         cmocka_unit_test(long_boundaries_are_solved),
+        cmocka_unit_test(a_pressed_circle_displaces_nothing_outside),
         cmocka_unit_test(failing_allocations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

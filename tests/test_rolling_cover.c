@@ -156,6 +156,63 @@ static void a_thin_rim_has_few_elements(void **state)
     assert_true(elements_of(rim, 0.5) > 0);
 }
 
+/* Neighbours differ by at most a fifth, on the cover and where it is bonded, twice as
+ * fine by half of it. */
+static void neighbours_are_nearly_as_long(void **state)
+{
+    (void)state;
+    double ends[N + 2], longest[2] = {0.0, 0.0};
+    int count[2];
+    equal_ends(0.5, ends);
+    for (int fine = 0; fine < 2; fine++) {
+        const rb_bem_cylinder c = {.radius = 100.0,
+                                   .support = RB_BEM_HUB,
+                                   .hub_ratio = 0.3,
+                                   .cover = 8.0,
+                                   .refinement = fine ? 2.0 : 1.0};
+        rb_bem_mesh mesh, core;
+        CHECK_STATUS(rb_bem_mesh_cylinder(&c, N, ends, &mesh, NULL), RB_OK);
+        CHECK_STATUS(rb_bem_mesh_core(&c, &mesh, &core, NULL), RB_OK);
+        count[fine] = mesh.n;
+        for (int j = 0; j < mesh.n; j++) {
+            if (mesh.x1[j] != mesh.x0[(j + 1) % mesh.n] ||
+                mesh.y1[j] != mesh.y0[(j + 1) % mesh.n])
+                continue; /* the end of a contour */
+            const double a = rb_bem_mesh_length(&mesh, j),
+                         b = rb_bem_mesh_length(&mesh, (j + 1) % mesh.n);
+            longest[fine] = fmax(longest[fine], fmax(a / b, b / a));
+        }
+        rb_bem_mesh_free(&core);
+        rb_bem_mesh_free(&mesh);
+    }
+    print_message("# %d %d %g %g\n", count[0], count[1], longest[0], longest[1]);
+    CHECK_MAX(longest[0], 1.2, "neighbours");
+    CHECK_MAX(longest[1], 1.1, "finer neighbours");
+    CHECK_ABS(count[1], 2.0 * count[0], 0.3 * count[0], "elements");
+}
+
+/* The core's modulus says nothing of a wheel without a cover. */
+static void a_core_needs_its_cover(void **state)
+{
+    (void)state;
+    double approach[2];
+    for (int core = 0; core < 2; core++) {
+        rb_rolling_case rc = rb_rolling_case_defaults();
+        rb_rolling_solution s;
+        rb_message why = {""};
+        rc.a.support = RB_BEM_HUB;
+        rc.a.core_young = core ? 10.0 : 0.0;
+        rc.a.core_poisson = 0.3;
+        rc.contact_elements = 12;
+        rc.load = 1000.0;
+        if (rb_rolling_solve(&rc, &s, &why) != RB_OK)
+            fail_msg("%s", why.text);
+        approach[core] = s.approach;
+        rb_rolling_solution_free(&s);
+    }
+    CHECK_REL(approach[1], approach[0], 1e-14, "approach");
+}
+
 static void what_does_not_fit_is_refused(void **state)
 {
     (void)state;
@@ -439,6 +496,8 @@ int main(void)
         cmocka_unit_test(one_material_has_no_seam),
         cmocka_unit_test(a_stiff_core_is_a_rigid_one),
         cmocka_unit_test(a_thin_rim_has_few_elements),
+        cmocka_unit_test(neighbours_are_nearly_as_long),
+        cmocka_unit_test(a_core_needs_its_cover),
         cmocka_unit_test(what_does_not_fit_is_refused),
         cmocka_unit_test(a_thin_cover_is_the_layer),
         cmocka_unit_test(sixty_points_take_three_seconds),

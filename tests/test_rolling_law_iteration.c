@@ -59,6 +59,27 @@ static void each_element_has_the_coefficient_of_its_slip(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* The residual that is told is that with the coefficients of the state, which a loose
+ * tolerance shows. */
+static void the_residual_is_that_of_the_law(void **state)
+{
+    (void)state;
+    double largest = 0.0;
+    for (int k = 0; k < 6; k++) {
+        rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
+        rc.creep_ratio = 0.2 + 0.15 * k;
+        rc.tol = 1e-3;
+        rb_rolling_model model = solved_model(&rc);
+        rb_contact_violation v;
+        CHECK_STATUS(rb_contact_residual(&model.problem, &model.state, &v), RB_OK);
+        CHECK_ABS(model.state.residual, v.scaled, 1e-13, "residual");
+        CHECK_MAX(v.scaled, 1e-3, "residual");
+        largest = fmax(largest, v.scaled);
+        rb_rolling_model_free(&model);
+    }
+    CHECK_MAX(1e-8, largest, "that a loose tolerance leaves");
+}
+
 /* A made-up state: open elements are at rest; with a memory d each forgets the one
  * upstream of it over the way max(v, s0) e_T/V that it slides. */
 static void coefficients_forget_from_the_leading_edge_on(void **state)
@@ -571,6 +592,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_element_has_the_coefficient_of_its_slip),
+        cmocka_unit_test(the_residual_is_that_of_the_law),
         cmocka_unit_test(coefficients_forget_from_the_leading_edge_on),
         cmocka_unit_test(warm_elements_have_another_coefficient),
         cmocka_unit_test(starts_slide_up_to_their_place),

@@ -217,6 +217,42 @@ static void bad_wheels_are_refused(void **state)
     }
 }
 
+/* On any flexibility of the glassy wheel, the disc by transforms, too: what is added to
+ * it is added to its matrix. */
+static void memory_is_added_to_any_flexibility(void **state)
+{
+    (void)state;
+    enum { n = 6, m = n + 1 };
+    static const double ratio[1] = {1.0}, length[1] = {0.3};
+    const rb_bem_material steel = {1.0, 0.3};
+    const rb_bem_wheel wheel = {1.0, 0.5, steel, 1, ratio, length, 0.0, steel};
+    double ends[n + 2], F[3][2 * m * 2 * n];
+    for (int i = 0; i < n + 2; i++)
+        ends[i] = sin(0.05 * (i - n / 2));
+    for (int k = 0; k < 2; k++) {
+        rb_bem_flexibility f;
+        const rb_bem_surface plane = rb_bem_halfplane(steel, 1.0);
+        if (k == 0)
+            CHECK_STATUS(rb_bem_flexibility_disc(n, ends, &(rb_bem_disc){1.0, steel},
+                                                 RB_BEM_NORMALS_OBSTACLE, &f, NULL),
+                         RB_OK);
+        else
+            CHECK_STATUS(rb_bem_flexibility_surface(n, ends, &plane, &f, NULL), RB_OK);
+        CHECK_STATUS(rb_bem_flexibility_matrix(&f, F[2], 2 * m), RB_OK);
+        CHECK_STATUS(rb_bem_flexibility_add_memory(&wheel, RB_BEM_NORMALS_OBSTACLE, ends,
+                                                   &f, NULL),
+                     RB_OK);
+        CHECK_STATUS(rb_bem_flexibility_matrix(&f, F[k], 2 * m), RB_OK);
+        for (int i = 0; i < 2 * m * 2 * n; i++)
+            F[k][i] -= F[2][i];
+        rb_bem_flexibility_free(&f);
+    }
+    const double size = rb_norm_inf(2 * m * 2 * n, F[1]);
+    assert_true(size > 0.0);
+    for (int i = 0; i < 2 * m * 2 * n; i++)
+        CHECK_ABS(F[0][i], F[1][i], 1e-12 * size, "entry %d", i);
+}
+
 /* ---- Rolling ----------------------------------------------------------------------- */
 
 /* A wheel R = 50 with a_g = 1 on a rigid plane, f = 2, V tau = 1. */
@@ -490,6 +526,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_kernel_is_the_sum_of_its_waves),
         cmocka_unit_test(bad_wheels_are_refused),
+        cmocka_unit_test(memory_is_added_to_any_flexibility),
         cmocka_unit_test(a_large_wheel_is_a_halfplane),
         cmocka_unit_test(a_thin_cover_is_the_layer),
         cmocka_unit_test(a_cover_to_the_hub_is_the_wheel),

@@ -80,11 +80,49 @@ static void what_is_small_is_left_out(void **state)
         CHECK_ABS(T[i], 0.0, 0.0, "of nothing");
 }
 
+/* Matrices of many columns are shortened first, where they have as many rows: the rank
+ * and the columns are those of any other. */
+static void wide_matrices_are_shortened(void **state)
+{
+    (void)state;
+    static const int size[][2] = {{130, 100}, {100, 100}, {90, 100}, {130, 95}};
+    for (int k = 0; k < 4; k++) {
+        const int rows = size[k][0], columns = size[k][1];
+        double *K = rb_alloc((size_t)rows, (size_t)columns),
+               *T = rb_alloc((size_t)columns, (size_t)columns);
+        int order[100];
+        rb_skeleton s;
+        assert_true(K && T);
+        CHECK_STATUS(rb_skeleton_alloc(rows, columns, &s), RB_OK);
+        for (int j = 0; j < columns; j++)
+            for (int i = 0; i < rows; i++) {
+                for (int r = 0; r < RANK; r++)
+                    K[i + j * rows] +=
+                        cos(1.0 + r * (1.0 + i)) * sin(2.0 + (r + 1.0) * j);
+                s.K[i + (size_t)j * (size_t)s.ld] = K[i + j * rows];
+            }
+        CHECK_STATUS(rb_skeleton_factor(&s, 1e-9), RB_OK);
+        assert_int_equal(s.rank, RANK);
+        CHECK_STATUS(rb_skeleton_split(&s, RANK, order, T), RB_OK);
+        for (int j = RANK; j < columns; j++)
+            for (int i = 0; i < rows; i++) {
+                double sum = 0.0;
+                for (int r = 0; r < RANK; r++)
+                    sum += K[i + order[r] * rows] * T[r + (j - RANK) * RANK];
+                CHECK_ABS(sum, K[i + order[j] * rows], 1e-11, "size %d: %d %d", k, i, j);
+            }
+        rb_skeleton_free(&s);
+        free(K);
+        free(T);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_rank_is_found),
         cmocka_unit_test(what_is_small_is_left_out),
+        cmocka_unit_test(wide_matrices_are_shortened),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

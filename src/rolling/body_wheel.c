@@ -4,6 +4,11 @@
 
 #include <gsl/gsl_math.h>
 
+int rb_rolling_has_elastic_core(const rb_rolling_body *body)
+{
+    return body->cover > 0.0 && body->core_young > 0.0;
+}
+
 /* Of a cover as well: its stretch under the load is what one wants to know. */
 static int wants_exact_field(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
@@ -24,7 +29,7 @@ static rb_status wheel_system(const rb_rolling_body *body,
     rb_bem_mesh boundary = {0}, core = {0};
     rb_status s = rb_bem_mesh_cylinder(cylinder, mesh->n, mesh->ends, &boundary, why);
 
-    if (s == RB_OK && body->cover > 0.0 && body->core_young > 0.0) {
+    if (s == RB_OK && rb_rolling_has_elastic_core(body)) {
         s = rb_bem_mesh_core(cylinder, &boundary, &core, why);
         if (s == RB_OK)
             s = rb_bem_system_create_bonded(
@@ -56,7 +61,7 @@ static rb_status add_memory(const rb_rolling_case *rc, const rb_rolling_body *bo
                           .length = length};
 
     rb_rolling_memory_lengths(rc, body, length);
-    if (body->cover > 0.0 && body->core_young > 0.0) {
+    if (rb_rolling_has_elastic_core(body)) {
         wheel.hub = hub;
         wheel.core = rb_bem_material_from_young(body->core_young, body->core_poisson);
     }
@@ -124,7 +129,7 @@ static rb_status check_hub(const rb_rolling_body *b, const char *which, rb_messa
 
 static int shows_its_hub(const rb_rolling_body *body)
 {
-    return body->cover == 0.0 || body->core_young > 0.0;
+    return body->cover == 0.0 || rb_rolling_has_elastic_core(body);
 }
 
 static const rb_rolling_parameter hub_parameters[] = {
@@ -159,7 +164,7 @@ static rb_status check_cover(const rb_rolling_body *b, const char *which, rb_mes
             why, RB_EINVAL,
             "cover thickness%s: expected > 0 and less than the radius, %g mm, got %g mm",
             which, b->radius, b->cover);
-    if (b->cover > 0.0 && b->core_young > 0.0 && b->poisson > 0.499)
+    if (rb_rolling_has_elastic_core(b) && b->poisson > 0.499)
         return rb_fail(why, RB_EINVAL,
                        "Poisson's ratio%s: a cover on an elastic core has to be "
                        "compressible, expected 0.499 at most, got %g",

@@ -179,7 +179,7 @@ static rb_status check_relaxing_body(const rb_rolling_case *rc,
                        "relaxation: in transient rolling for the support halfplane only, "
                        "got a wheel; --formulation steady takes wheels");
     if (steps && ((body->layer > 0.0 && body->base_young > 0.0) ||
-                  (body->cover > 0.0 && body->core_young > 0.0)))
+                  rb_rolling_has_elastic_core(body)))
         return rb_fail(why, RB_EINVAL,
                        "relaxation: step by step the base or core of a body that relaxes "
                        "is rigid, got an elastic one");

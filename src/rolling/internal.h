@@ -73,6 +73,8 @@ extern const rb_rolling_body_kind *const rb_rolling_body_kinds[];
 
 /* ---- body_wheel.c, body_halfplane.c: rows of the table in body.c ------------------- */
 
+/* 1: a cover whose core is elastic, and not rigid. */
+int rb_rolling_has_elastic_core(const rb_rolling_body *body);
 extern const rb_rolling_body_kind rb_rolling_arc, rb_rolling_hub, rb_rolling_cover;
 extern const rb_rolling_body_kind rb_rolling_halfplane, rb_rolling_layer,
     rb_rolling_relaxation;
