@@ -435,6 +435,31 @@ static void friction_power_adds_up(void **state)
     json_decref(root);
 }
 
+/* Where hardly anything is dissipated, the mean of the tractions on both sides of a slip
+ * can be of the wrong sign: the balance holds, and the error bar too. */
+static void power_below_zero_is_named(void **state)
+{
+    (void)state;
+    static const char *const unlike =
+        "--support halfplane --layer-thickness 2 --young-b 2e5 --interlayer-normal 2e-6 "
+        "--interlayer-tangential 1e-6 --half-width 1 --contact-elements 24 ";
+    char line[500];
+    snprintf(line, sizeof line,
+             "curve %s --mesh uniform --from -0.25 --to 0.25 --points 3", unlike);
+    assert_int_equal(rollbem(line), 0);
+    assert_non_null(strstr(err, "below zero at 1 point, -0.00032 N/mm at xi = 0:"));
+    for (int aligned = 0; aligned < 2; aligned++) {
+        snprintf(line, sizeof line, "%s --formulation steady --creep 0 --error --mesh %s",
+                 unlike, aligned ? "aligned" : "uniform");
+        json_t *root = run_json(line);
+        const json_t *summary = json_object_get(root, "summary");
+        const double bar = number_in(json_object_get(summary, "errors"), "dissipation");
+        CHECK_ABS(number_in(summary, "dissipation"), 2.1e-4, bar, "aligned %d", aligned);
+        assert_int_equal(number_in(summary, "dissipation") < 0.0, !aligned);
+        json_decref(root);
+    }
+}
+
 static void full_sliding_says_that_creepage_is_open(void **state)
 {
     (void)state;
@@ -805,6 +830,7 @@ int main(void)
         cmocka_unit_test(steps_leave_snapshots_and_a_picture),
         cmocka_unit_test(bad_rows_are_named_by_their_line),
         cmocka_unit_test(friction_power_adds_up),
+        cmocka_unit_test(power_below_zero_is_named),
         cmocka_unit_test(full_sliding_says_that_creepage_is_open),
         cmocka_unit_test(fitted_is_the_default_for_steady),
         cmocka_unit_test(pictures_are_drawn),

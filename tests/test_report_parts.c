@@ -158,7 +158,7 @@ static void notes_begin_where_they_should(void **state)
                       opposes[] = "at 2 points the slip of (12) does not oppose",
                       angle[] = "rolling differs at every angle of the wheel";
     noted n;
-    for (int k = 0; k < 41; k++) {
+    for (int k = 0; k < 43; k++) {
         const char *want = NULL;
         quiet(&n);
         rb_rolling_case *rc = &n.rc;
@@ -315,6 +315,12 @@ static void notes_begin_where_they_should(void **state)
             break;
         case 38:
             rc->a.support = RB_BEM_HUB;
+            break;
+        case 41:
+        case 42: /* below zero, by more than rounding */
+            s->normal_load = 100.0;
+            s->dissipation = k == 41 ? -1e-9 : -1e-11;
+            want = k == 41 ? "the dissipation, -1e-09 N/mm, is below zero" : NULL;
             break;
         case 39:
         case 40:

@@ -138,6 +138,22 @@ static void print_most_resistance(FILE *out, const rb_rolling_curve *c)
             c->resistance_ratio[most], c->speed[most], rb_unit_name(c->units, "mm/s"));
 }
 
+static void print_power_below_zero(FILE *out, const rb_rolling_curve *c)
+{
+    int points = 0, least = 0;
+    for (int i = 0; i < c->n; i++) {
+        points += rb_report_is_below_zero(c->dissipation[i], c->normal_load[i]);
+        if (c->dissipation[i] < c->dissipation[least])
+            least = i;
+    }
+    if (points > 0)
+        fprintf(out,
+                "  dissipation below zero at %d point%s, %.2g %s at xi = %.5g: smaller "
+                "than its error on these elements; take more of them or --mesh aligned\n",
+                points, points > 1 ? "s" : "", c->dissipation[least],
+                rb_unit_name(c->units, "N/mm"), c->creepage[least]);
+}
+
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
 {
     for (int k = 0; k < curves->n; k++) {
@@ -163,6 +179,7 @@ void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)
                     largest(c->n, curves->error[k].force_ratio),
                     largest(c->n, curves->error[k].normal_load),
                     rb_unit_name(c->units, "N/mm"));
+        print_power_below_zero(out, c);
         if (sliding > 0 && curves->mu[k] > 0.0)
             fprintf(
                 out,

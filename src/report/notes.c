@@ -28,6 +28,11 @@ add(rb_report_note_list *list, const char *format, ...)
     va_end(args);
 }
 
+int rb_report_is_below_zero(double dissipation, double load)
+{
+    return dissipation < -1e-12 * load;
+}
+
 static void note_strain(rb_report_note_list *list, const rb_rolling_case *rc,
                         const rb_rolling_solution *s)
 {
@@ -91,6 +96,16 @@ static void note_mesh(rb_report_note_list *list, const rb_rolling_solution *s)
                   "every edge: such an edge is only known to an element");
 }
 
+/* Slip between two midpoints that the mean of their tractions does not oppose. */
+static void note_power(rb_report_note_list *list, const rb_rolling_solution *s)
+{
+    if (rb_report_is_below_zero(s->dissipation, s->normal_load))
+        add(list,
+            "the dissipation, %.2g %s, is below zero: it is smaller than its error on "
+            "these elements; take more of them or --mesh aligned",
+            s->dissipation, rb_unit_name(s->units, "N/mm"));
+}
+
 /* Beyond full sliding the force does not change: it does not tell the creepage. */
 static void note_full_sliding(rb_report_note_list *list, const rb_rolling_case *rc,
                               const rb_rolling_solution *s)
@@ -120,6 +135,7 @@ rb_report_note_list rb_report_find_notes(const rb_rolling_case *rc,
                    "and halfplane do not");
     note_yield(&list, s);
     note_mesh(&list, s);
+    note_power(&list, s);
     if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 &&
         s->slip_violations > 0)
         add(&list, "at %d points the slip of (12) does not oppose the friction",
