@@ -1,4 +1,5 @@
 /* Error bars from runs that are made up or solved here, and the way to an accuracy. */
+#include "rollbem/closed_forms.h"
 #include "rolling/internal.h"
 #include "solved.h"
 
@@ -250,6 +251,32 @@ static void an_accuracy_is_reached_by_more_elements(void **state)
     CHECK_MAX(before, 1600, "elements");
 }
 
+/* Unlike bodies under little friction: their creepage of free rolling (Bentall and
+ * Johnson) is hundreds of mu a/R, and its error is judged by itself. */
+static void little_friction_asks_for_no_more_elements(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = carter(40);
+    rb_rolling_solution s;
+    rb_rolling_errors e;
+    rb_message why = {""};
+    int elements;
+    rc.b.young = rc.a.young / 40.0;
+    rc.creep_ratio = NAN;
+    rc.force = 0.0;
+    rc.mu = 1e-4;
+    if (rb_rolling_solve_to_accuracy(&rc, 0.2, &s, &e, &elements, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    const double unit = rc.mu * s.hertz_half_width / rc.a.radius;
+    const double exact = rb_closed_bentall_johnson_slip(
+        fabs(rb_rolling_derive(&rc).dundurs), s.hertz_half_width, rc.a.radius);
+    CHECK_MAX(elements, 80, "elements");
+    CHECK_MAX(e.scalar.creepage, 0.2 * fabs(s.creepage), "the error of the creepage");
+    assert_true(e.scalar.creepage > 5.0 * unit);
+    CHECK_ABS(fabs(s.creepage), exact, e.scalar.creepage, "Bentall and Johnson");
+    rb_rolling_solution_free(&s);
+}
+
 static void what_is_no_accuracy_is_refused(void **state)
 {
     (void)state;
@@ -373,6 +400,7 @@ int main(void)
         cmocka_unit_test(every_scalar_has_its_bar),
         cmocka_unit_test(a_history_has_bars_of_its_steps),
         cmocka_unit_test(an_accuracy_is_reached_by_more_elements),
+        cmocka_unit_test(little_friction_asks_for_no_more_elements),
         cmocka_unit_test(what_is_no_accuracy_is_refused),
         cmocka_unit_test(nothing_is_halved_below_its_least),
         cmocka_unit_test(an_accuracy_that_no_mesh_has_is_refused_at_once),

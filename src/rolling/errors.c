@@ -314,10 +314,14 @@ rb_status rb_rolling_solve_with_errors(const rb_rolling_case *rc,
 /* ---- To a given accuracy ----------------------------------------------------------- */
 
 /* Largest of the relative estimates that --accuracy asks for: forces in units of their
- * bound, creepage in units of mu a/R. */
+ * bound, creepage in units of itself, or of mu a/R where it is less.  The creepage of
+ * free rolling, of wheels or of unlike bodies, does not vanish with mu: in units of mu
+ * a/R alone no mesh would do for a small one. */
 static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solution *s,
                              const rb_rolling_solution *e)
 {
+    const double strain =
+        rb_rolling_largest_mu(rc) * s->hertz_half_width / rb_rolling_radius(rc);
     double worst =
         fmax(e->normal_load / s->normal_load, e->max_pressure / s->max_pressure);
 
@@ -325,8 +329,7 @@ static double worst_relative(const rb_rolling_case *rc, const rb_rolling_solutio
     if (rb_rolling_largest_mu(rc) > 0.0)
         worst = fmax(worst, e->force_ratio);
     if (rb_rolling_largest_mu(rc) > 0.0 && rc->formulation != RB_STATIC)
-        worst = fmax(worst, e->creepage * rb_rolling_radius(rc) /
-                                (rb_rolling_largest_mu(rc) * s->hertz_half_width));
+        worst = fmax(worst, e->creepage / fmax(strain, fabs(s->creepage)));
     return worst;
 }
 
