@@ -460,6 +460,37 @@ static void power_below_zero_is_named(void **state)
     }
 }
 
+/* A load held for 2 s in one step, while the stress relaxes within 0.25 s: by Lee and
+ * Radok, pressure 1/(2R) int E*(t - s) d sqrt(a(s)^2 - x^2), p0 = 2.66927 MPa. */
+static void steps_too_long_for_relaxation_are_named(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *step, *says;
+        double bound;
+    } cases[] = {{"", "relaxes within 0.25 s of such a step: --time-step 0.05", 0.06},
+                 {"--time-step 0.05", NULL, 5e-4},
+                 {"--time-step 0.1", NULL, 2e-3}};
+    char line[500];
+    write_file("held.txt", "time load\n0 20\n2 20\n");
+    for (int k = 0; k < 3; k++) {
+        snprintf(line, sizeof line,
+                 "--formulation static --support halfplane --radius 40 --young 100 "
+                 "--poisson 0.4 --young-b 300 --poisson-b 0.2 --mu 0 --gap parabola "
+                 "--contact-elements 61 --relaxation-time 0.5,5 --relaxation-ratio 1,0.7 "
+                 "--history held.txt --json %s",
+                 cases[k].step);
+        assert_int_equal(rollbem(line), 0);
+        assert_int_equal(strstr(err, "the stress relaxes") != NULL,
+                         cases[k].says != NULL);
+        assert_true(!cases[k].says || strstr(err, cases[k].says));
+        json_t *root = json_loads(out, 0, NULL);
+        CHECK_REL(number_in(json_object_get(root, "summary"), "max_pressure"), 2.66927,
+                  cases[k].bound, "p0, %s", cases[k].step);
+        json_decref(root);
+    }
+}
+
 static void full_sliding_says_that_creepage_is_open(void **state)
 {
     (void)state;
@@ -831,6 +862,7 @@ int main(void)
         cmocka_unit_test(bad_rows_are_named_by_their_line),
         cmocka_unit_test(friction_power_adds_up),
         cmocka_unit_test(power_below_zero_is_named),
+        cmocka_unit_test(steps_too_long_for_relaxation_are_named),
         cmocka_unit_test(full_sliding_says_that_creepage_is_open),
         cmocka_unit_test(fitted_is_the_default_for_steady),
         cmocka_unit_test(pictures_are_drawn),

@@ -160,7 +160,8 @@ void rb_report_summary(FILE *out, const rb_rolling_solution *s, int width);
 /* Values with their error bars. */
 void rb_report_errors(FILE *out, const rb_rolling_solution *s,
                       const rb_rolling_errors *e);
-void rb_report_history_summary(FILE *out, const rb_rolling_history *h);
+void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
+                               const rb_rolling_history *h);
 /* A line each where a result must be read with care: linear elasticity far exceeded,
  * `static` with a creepage, steady rolling without one, full sliding, an arc support that
  * rolls, slip that does not oppose the friction.  They stand in # lines of the table and

@@ -158,7 +158,7 @@ static void summarise(const cli_case_run *run)
     if (it->all.n > 0)
         rb_report_solutions(stderr, &it->all);
     if (it->r.history.n > 0)
-        rb_report_history_summary(stderr, &it->r.history);
+        rb_report_history_summary(stderr, &run->c->rc, &it->r.history);
 }
 
 /* ---- Command ---------------------------------------------------------------------- */

@@ -101,7 +101,40 @@ static void print_errors(FILE *out, const rb_rolling_history *h)
     }
 }
 
-void rb_report_history_summary(FILE *out, const rb_rolling_history *h)
+/* The relaxation time of the stress that the steps of a static history resolve least:
+ * longer than half of it, and not so long that its end is all that is seen.  NAN: none.
+ */
+static double unresolved(const rb_rolling_memory *m, const rb_rolling_history *h)
+{
+    double most = 0.5, time = NAN;
+    for (int k = 0; k < m->n; k++)
+        for (int i = 1; i < h->n; i++) {
+            const double of_stress = m->time[k] / (1.0 + m->ratio[k]);
+            const double steps = (h->time[i] - h->time[i - 1]) / of_stress;
+            if (m->ratio[k] > 0.0 && steps > most && steps < 100.0) {
+                most = steps;
+                time = of_stress;
+            }
+        }
+    return time;
+}
+
+static void print_unresolved(FILE *out, const rb_rolling_case *rc,
+                             const rb_rolling_history *h)
+{
+    double time = unresolved(&rc->a.memory, h);
+    if (isnan(time) && rc->elastic_b)
+        time = unresolved(&rc->b.memory, h);
+    if (!isnan(time))
+        fprintf(
+            out,
+            "            the stress relaxes within %.2g s of such a step: --time-step "
+            "%.1g follows it\n",
+            time, 0.2 * time);
+}
+
+void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
+                               const rb_rolling_history *h)
 {
     const int last = h->n - 1;
     fprintf(out, "  history   %d steps", h->n);
@@ -113,6 +146,8 @@ void rb_report_history_summary(FILE *out, const rb_rolling_history *h)
         fprintf(out, "; steady from step %d, %.4g a, on", h->steady_from + 1,
                 h->distance[h->steady_from]);
     fputc('\n', out);
+    if (h->time && h->step == 0.0)
+        print_unresolved(out, rc, h);
     if (h->errors)
         print_errors(out, h);
 }
