@@ -224,6 +224,28 @@ static void wheel_loses_its_radius(void **state)
     worn_free(&w);
 }
 
+/* Carter: it slides where abs(q) = mu p, so that Archard's law takes K xi abs(Q)/mu per
+ * turn, in partial and in full sliding. */
+static void archard_s_wheel_loses_what_creepage_feeds(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_case rc = cylinder(50, 0.0);
+        const double s = k % 2 ? 2.0 : 0.5;
+        rc.formulation = RB_STEADY;
+        rc.mesh = k < 2 ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+        rc.creep_ratio = s;
+        const rb_rolling_wear wear = {
+            .law = RB_WEAR_ARCHARD, .coefficient = 1e-9, .way = 1.0, .steps = 1};
+        worn w = run(&rc, &wear);
+        const double a = w.last.hertz_half_width, P = w.last.normal_load;
+        const double fed =
+            s * rc.mu * a / rc.a.radius * P * (s < 1.0 ? s * (2.0 - s) : 1);
+        CHECK_REL(w.h.max_depth[1], 1e-9 * fed, k < 2 ? 2e-3 : 2e-2, "s = %g", s);
+        worn_free(&w);
+    }
+}
+
 /* Ten steps, or five and then five more from the profile they left. */
 static void wear_goes_on(void **state)
 {
@@ -346,6 +368,7 @@ int main(void)
         cmocka_unit_test(fretting_spares_what_sticks),
         cmocka_unit_test(gross_slip_wears_four_strokes),
         cmocka_unit_test(wheel_loses_its_radius),
+        cmocka_unit_test(archard_s_wheel_loses_what_creepage_feeds),
         cmocka_unit_test(wear_goes_on),
         cmocka_unit_test(meaningless_wear_is_refused),
         cmocka_unit_test(strokes_may_be_forces),

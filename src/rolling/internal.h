@@ -451,6 +451,10 @@ double rb_rolling_longest_element(int n, const int *zone, const double *h);
 double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
                                    const double *q, const double *h, const double *e_T);
 
+/* int p abs(slip) dx per rolled way, slip and pressure paired as the power does. */
+double rb_rolling_slid_pressure(const rb_rolling_case *rc, int n, const double *lambda,
+                                const double *p, const double *h, const double *e_T);
+
 /* Power per unit speed that the bodies lose, - int (p w_N' + q w_T') dx, from pressures,
  * friction and displacements (theory.md V4): 0 for elastic bodies, NAN but in steady
  * rolling.  RB_ENOMEM. */

@@ -1,6 +1,7 @@
 /* The power that friction dissipates and that bodies lose. */
 #include "rolling/internal.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 void rb_rolling_friction_power(const rb_rolling_solution *s, double *power)
@@ -14,24 +15,39 @@ void rb_rolling_friction_power(const rb_rolling_solution *s, double *power)
     }
 }
 
-/* The upstream difference of steady rolling is the slip between two midpoints, so it is
- * paired with the mean of their tractions (theory.md 6); otherwise slip and traction
- * belong to the same point. */
+/* Slip i times a traction, per rolled way.  The upstream difference of steady rolling is
+ * the slip between two midpoints, so it is paired with the mean of their tractions
+ * (theory.md 6); otherwise slip and traction belong to the same point. */
+static double slip_times(const rb_rolling_case *rc, int n, const double *lambda,
+                         const double *traction, const double *h, const double *e_T,
+                         int i)
+{
+    const double next = i + 1 < n ? traction[i + 1] : 0.0;
+    return rc->formulation == RB_STEADY && rc->slip_operator == RB_SLIP_UPSTREAM
+               ? lambda[i] * 0.5 * (traction[i] + next)
+               : lambda[i] / e_T[i] * traction[i] * h[i];
+}
+
 double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const double *lambda,
                                    const double *q, const double *h, const double *e_T)
 {
-    const int between =
-        rc->formulation == RB_STEADY && rc->slip_operator == RB_SLIP_UPSTREAM;
     double power = 0.0;
 
     if (rc->formulation == RB_STATIC)
         return NAN;
-    for (int i = 0; i < n; i++) {
-        const double next = i + 1 < n ? q[i + 1] : 0.0;
-        power -=
-            between ? lambda[i] * 0.5 * (q[i] + next) : lambda[i] / e_T[i] * q[i] * h[i];
-    }
+    for (int i = 0; i < n; i++)
+        power -= slip_times(rc, n, lambda, q, h, e_T, i);
     return power;
+}
+
+double rb_rolling_slid_pressure(const rb_rolling_case *rc, int n, const double *lambda,
+                                const double *p, const double *h, const double *e_T)
+{
+    double sum = 0.0;
+
+    for (int i = 0; i < n; i++)
+        sum += fabs(slip_times(rc, n, lambda, p, h, e_T, i));
+    return sum;
 }
 
 /* -int p w_N' dx by differences over the neighbours' unequal distances, exact for a

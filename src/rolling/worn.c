@@ -235,15 +235,15 @@ static rb_status fret(run *r, double cycles, rb_message *why)
 static double depth_of_turn(const run *r)
 {
     const rb_rolling_model *model = &r->model;
-    double depth = 0.0;
+    const rb_contact_state *state = &model->state;
+    const double *h = model->bodies.f.h, *e_T = model->problem.e_T;
 
-    for (int i = 0; i < model->state.n && r->wear->law == RB_WEAR_ARCHARD; i++)
-        depth += model->state.p[i] * fabs(model->state.lambda[i]);
-    if (r->wear->law == RB_WEAR_DISSIPATION)
-        depth = rb_rolling_dissipated_power(&model->rc, model->state.n,
-                                            model->state.lambda, model->state.q,
-                                            model->bodies.f.h, model->problem.e_T);
-    return r->wear->coefficient * depth;
+    return r->wear->coefficient *
+           (r->wear->law == RB_WEAR_ARCHARD
+                ? rb_rolling_slid_pressure(&model->rc, state->n, state->lambda, state->p,
+                                           h, e_T)
+                : rb_rolling_dissipated_power(&model->rc, state->n, state->lambda,
+                                              state->q, h, e_T));
 }
 
 /* (W3) A round wheel stays round: R = R_before - turns dz(R). */
