@@ -18,7 +18,7 @@ static const bad_value bad_values[] = {
     {"mu", FIELD(mu), -0.1},
     {"mu", FIELD(mu), NAN},
     {"mu", FIELD(mu), INFINITY},
-    {"Young", FIELD(a.young), 0.0},
+    {"Young's modulus: expected > 0, got 0", FIELD(a.young), 0.0},
     {"Young", FIELD(a.young), NAN},
     {"Poisson", FIELD(a.poisson), 0.51},
     {"Poisson", FIELD(a.poisson), -1.0},

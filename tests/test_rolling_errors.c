@@ -368,6 +368,30 @@ static void a_later_round_that_fails_leaves_the_one_before(void **state)
     assert_true(none > 0 && some > 0);
 }
 
+/* Under a given force the creepage is what has to be accurate, in units of full sliding.
+ */
+static void a_given_force_has_an_accurate_creepage(void **state)
+{
+    (void)state;
+    static const double accuracy[] = {0.1, 0.05, 0.02};
+    for (int k = 0; k < 6; k++) {
+        rb_rolling_case rc = carter(12);
+        rb_rolling_solution s;
+        rb_rolling_errors e;
+        rb_message why = {""};
+        int elements;
+        rc.creep_ratio = NAN;
+        rc.force_ratio = -0.9;
+        rc.mesh = k < 3 ? RB_MESH_UNIFORM : RB_MESH_FITTED;
+        if (rb_rolling_solve_to_accuracy(&rc, accuracy[k % 3], &s, &e, &elements, &why) !=
+            RB_OK)
+            fail_msg("%s", why.text);
+        CHECK_MAX(e.scalar.creepage * rb_rolling_radius(&rc) / (rc.mu * s.half_width),
+                  accuracy[k % 3], "case %d", k);
+        rb_rolling_solution_free(&s);
+    }
+}
+
 /* Twice the elements make twice the steps: what is told is the solution of that case. */
 static void accuracy_takes_more_steps_too(void **state)
 {
@@ -406,6 +430,7 @@ int main(void)
         cmocka_unit_test(an_accuracy_that_no_mesh_has_is_refused_at_once),
         cmocka_unit_test(a_later_round_that_fails_leaves_the_one_before),
         cmocka_unit_test(accuracy_takes_more_steps_too),
+        cmocka_unit_test(a_given_force_has_an_accurate_creepage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

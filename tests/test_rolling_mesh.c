@@ -367,6 +367,23 @@ static void a_result_has_the_elements_of_its_mesh(void **state)
     }
 }
 
+/* Whatever the case asks for, a result has its own elements. */
+static void a_result_may_have_other_elements_than_its_case(void **state)
+{
+    (void)state;
+    const double x[] = {-1.0, 0.0, 1.0}, h[] = {1.0, 1.0, 1.0};
+    for (int equal = 0; equal < 2; equal++) {
+        const rb_rolling_case rc = plane(20);
+        const rb_rolling_elements elements = {.n = 3, .x = x, .h = h, .are_equal = equal};
+        rb_rolling_mesh mesh;
+        CHECK_STATUS(rb_rolling_mesh_of_result(&rc, &elements, &mesh, NULL), RB_OK);
+        assert_int_equal(mesh.n, 3);
+        for (int i = 0; i <= 3; i++)
+            CHECK_ABS(mesh.ends[i], i - 1.5, 1e-14, "end %d", i);
+        rb_rolling_mesh_free(&mesh);
+    }
+}
+
 static void elements_out_of_order_are_refused(void **state)
 {
     (void)state;
@@ -379,8 +396,10 @@ static void elements_out_of_order_are_refused(void **state)
                   "element 3 ends before it begins");
     assert_null(mesh.ends);
     elements.x = far;
+    memset(&mesh, 1, sizeof mesh);
     check_refused(rb_rolling_mesh_of_result(&rc, &elements, &mesh, &why), &why,
                   "wider than the radius");
+    assert_null(mesh.ends);
 }
 
 int main(void)
@@ -400,6 +419,7 @@ int main(void)
         cmocka_unit_test(patches_far_apart_have_64_elements_between_them),
         cmocka_unit_test(unequal_elements_grow_until_they_are_alike),
         cmocka_unit_test(a_result_has_the_elements_of_its_mesh),
+        cmocka_unit_test(a_result_may_have_other_elements_than_its_case),
         cmocka_unit_test(elements_out_of_order_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

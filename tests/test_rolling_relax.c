@@ -646,6 +646,26 @@ static void the_past_moves_with_the_material(void **state)
     rb_rolling_mesh_free(&mesh);
 }
 
+/* Over steps of any length the three parts make one, and each is its integral, here in
+ * more digits: kept exp(-r), after 1 - (1 - exp(-r))/r. */
+static void what_fades_is_known_to_rounding(void **state)
+{
+    (void)state;
+    for (double r = 1e-7; r < 50.0; r *= 1.3) {
+        const rb_bem_fading f = rb_bem_fading_over(4.0, 4.0 * r);
+        long double after = 0.0L, term = 1.0L; /* its series, or closed */
+        for (int k = 1; k < 60 && r < 1.0; k++)
+            after += (term *= (k > 1 ? -1.0L : 1.0L) * r / (k + 1));
+        if (r >= 1.0)
+            after = 1.0L + expm1l(-(long double)r) / r;
+        CHECK_REL(f.kept, exp(-r), 1e-14, "kept, r = %g", r);
+        CHECK_REL(f.after, (double)after, 1e-13, "after, r = %g", r);
+        CHECK_REL(f.before, (double)(-expm1l(-(long double)r) - after), 2e-13,
+                  "before, r = %g", r);
+        CHECK_ABS(f.kept + f.before + f.after, 1.0, 1e-15, "sum, r = %g", r);
+    }
+}
+
 /* x F y over the elements of a body. */
 static double work_of(const rb_bem_flexibility *f, const double *a, const double *b)
 {
@@ -719,6 +739,7 @@ int main(void)
         cmocka_unit_test(one_static_solve_is_refused),
         cmocka_unit_test(every_failing_allocation_is_noticed),
         cmocka_unit_test(the_past_moves_with_the_material),
+        cmocka_unit_test(what_fades_is_known_to_rounding),
         cmocka_unit_test(a_step_loses_what_its_dashpot_does),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

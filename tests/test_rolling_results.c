@@ -428,6 +428,113 @@ static void every_failed_allocation_is_reported(void **state)
     }
 }
 
+/* ---- Units ------------------------------------------------------------------------- */
+
+static rb_rolling_case case_of_any_kind(int k)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = k == 1 ? RB_BEM_ARC : k % 2 ? RB_BEM_HALFPLANE : RB_BEM_HUB;
+    rc.elastic_b = k % 3 == 0;
+    rc.b.young = 70000.0;
+    rc.contact_elements = 18;
+    rc.outer_elements = 40;
+    rc.load = 300.0;
+    rc.speed = 1000.0;
+    rc.formulation = k == 1 ? RB_STATIC : k == 3 ? RB_TRANSIENT : RB_STEADY;
+    rc.mesh = k == 4 ? RB_MESH_FITTED : k == 5 ? RB_MESH_ALIGNED : RB_MESH_UNIFORM;
+    if (k == 1) {
+        rc.load = NAN;
+        rc.approach = 0.05;
+    } else if (k == 2) {
+        rc.force_ratio = -0.4;
+    } else {
+        rc.creep_ratio = 0.6;
+    }
+    if (k == 3) {
+        rc.distance = 0.5;
+        rc.steps = 4;
+    }
+    if (k == 6) {
+        rc.friction.law = RB_FRICTION_exponential;
+        rc.friction.fall[0] = 0.1;
+        rc.friction.slip_scale[0] = 20.0;
+    }
+    return rc;
+}
+
+/* The case with another unit of length and of stress. */
+static rb_rolling_case in_units(rb_rolling_case rc, double length, double stress)
+{
+    rc.a.radius *= length;
+    rc.b.radius *= length;
+    rc.a.young *= stress;
+    rc.b.young *= stress;
+    rc.approach *= length;
+    rc.load *= stress * length;
+    return rc;
+}
+
+static double factor_of(const rb_rolling_result *r, double length, double stress)
+{
+    const char *unit = r->unit ? r->unit : "1";
+    if (strcmp(unit, "mm") == 0)
+        return length;
+    if (strcmp(unit, "MPa") == 0)
+        return stress;
+    if (strcmp(unit, "N/mm") == 0)
+        return stress * length;
+    if (strcmp(unit, "N") == 0)
+        return stress * length * length;
+    return strcmp(unit, "1") == 0 ? 1.0 : NAN;
+}
+
+/* No bound of the program knows a length or a stress: in units a thousand million times
+ * as large or small every number and every column is the same but for its unit. */
+static void no_result_knows_its_unit(void **state)
+{
+    (void)state;
+    static const double units[][2] = {{0x1p-12, 0x1p-30}, {0x1p20, 0x1p24}};
+    for (int k = 0; k < 7; k++)
+        for (int u = 0; u < 2; u++) {
+            const double length = units[u][0], stress = units[u][1];
+            const rb_rolling_case rc = case_of_any_kind(k),
+                                  other = in_units(rc, length, stress);
+            rb_rolling_solution s, t;
+            rb_message why = {""};
+            if (rb_rolling_solve(&rc, &s, &why) != RB_OK ||
+                rb_rolling_solve(&other, &t, &why) != RB_OK)
+                fail_msg("case %d: %s", k, why.text);
+            assert_int_equal(s.n, t.n);
+            const double one[] = {s.half_width, s.max_pressure, s.normal_load};
+            for (int i = 0; i < rb_rolling_solution_scalars.n; i++) {
+                const rb_rolling_result *r = &rb_rolling_solution_scalars.row[i];
+                const double a = rb_rolling_number(r, &s), b = rb_rolling_number(r, &t),
+                             factor = factor_of(r, length, stress);
+                if (r->kind == RB_RESULT_SECONDS || isnan(factor) ||
+                    strcmp(r->name, "iterations") == 0)
+                    continue;
+                const double size =
+                    fmax(fabs(a), factor == 1.0      ? 1.0
+                                  : factor == length ? one[0]
+                                  : factor == stress ? one[1]
+                                                     : one[2] * fmin(1.0, one[0]));
+                assert_int_equal(!isnan(a), !isnan(b));
+                if (!isnan(a))
+                    CHECK_ABS(b / factor, a, 1e-8 * size, "case %d, units %d: %s", k, u,
+                              r->name);
+            }
+            for (int i = 0; i < s.n; i++) {
+                CHECK_ABS(t.x[i] / length, s.x[i], 1e-8 * one[0], "%d: x of %d", k, i);
+                CHECK_ABS(t.p[i] / stress, s.p[i], 1e-8 * one[1], "%d: p of %d", k, i);
+                CHECK_ABS(t.q[i] / stress, s.q[i], 1e-8 * one[1], "%d: q of %d", k, i);
+                CHECK_ABS(t.slip[i], s.slip[i], 1e-10, "%d: slip of %d", k, i);
+                assert_int_equal(t.zone[i], s.zone[i]);
+            }
+            rb_rolling_solution_free(&s);
+            rb_rolling_solution_free(&t);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -446,6 +553,7 @@ int main(void)
         cmocka_unit_test(error_bars_of_curves_hold_the_truth),
         cmocka_unit_test(refinement_reaches_the_accuracy),
         cmocka_unit_test(every_result_stands_once),
+        cmocka_unit_test(no_result_knows_its_unit),
         cmocka_unit_test(every_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

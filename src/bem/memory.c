@@ -54,8 +54,14 @@ rb_bem_fading rb_bem_fading_over(double time, double step)
     rb_bem_fading f = {.kept = exp(-r)};
 
     if (r < 1e-2) { /* the closed forms would lose digits */
-        f.before = r * (1.0 / 2.0 - r * (1.0 / 3.0 - r * (1.0 / 8.0 - r / 30.0)));
-        f.after = r * (1.0 / 2.0 - r * (1.0 / 6.0 - r * (1.0 / 24.0 - r / 120.0)));
+        static const double of_before[] = {1.0 / 2,  1.0 / 3,   1.0 / 8,
+                                           1.0 / 30, 1.0 / 144, 1.0 / 840},
+                            of_after[] = {1.0 / 2,   1.0 / 6,   1.0 / 24,
+                                          1.0 / 120, 1.0 / 720, 1.0 / 5040};
+        for (int k = 5; k >= 0; k--) {
+            f.before = r * (of_before[k] - f.before);
+            f.after = r * (of_after[k] - f.after);
+        }
     } else {
         f.before = -expm1(-r) / r - f.kept;
         f.after = 1.0 + expm1(-r) / r;

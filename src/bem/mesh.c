@@ -147,7 +147,7 @@ static rb_status check_contact(const rb_bem_mesh *mesh, rb_message *why)
     const int first = mesh->contact_first, n = mesh->contact_n, upstream = first + n;
     if (n == 0)
         return RB_OK;
-    if (n < 0 || first < 0 || first >= mesh->n || n >= mesh->n - first)
+    if (n < 0 || first < 0 || n >= mesh->n - first)
         return rb_fail(why, RB_EINVAL,
                        "contact elements %d to %d and one after them: the mesh has %d",
                        first, upstream - 1, mesh->n);
