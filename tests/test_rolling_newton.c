@@ -330,6 +330,58 @@ static void a_kept_lu_gives_way_to_a_new_one(void **state)
     rb_rolling_model_free(&model);
 }
 
+/* Zones solved with the friction of `bound`, by what is kept or anew. */
+static void solve_with(rb_rolling_model *model, const double *bound, int anew,
+                       rb_contact_state *s)
+{
+    rb_contact_problem *p = &model->problem;
+
+    rb_contact_set_friction(p, p->mu, bound);
+    if (anew)
+        p->op->kind->forget(p->op);
+    CHECK_STATUS(rb_contact_solve_zones(p, RB_BOTH, s), RB_OK);
+}
+
+/* As laws change it from round to round: the LU of other coefficients of friction, up to
+ * a hundredth away, leads to what one of these gives. */
+static void a_kept_lu_serves_friction_that_changes(void **state)
+{
+    static const double change[] = {1e-9, 1e-4, 0.05, 0.09, 2.0};
+    rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
+    rb_rolling_model model = solved_model(&rc);
+    const int n = model.mesh.n;
+    rb_contact_state kept, fresh;
+    double *bound = rb_alloc((size_t)n, 1);
+
+    (void)state;
+    CHECK_STATUS(rb_contact_state_alloc(n, &kept), RB_OK);
+    CHECK_STATUS(rb_contact_state_alloc(n, &fresh), RB_OK);
+    memcpy(kept.zone, model.state.zone, (size_t)n * sizeof(int));
+    memcpy(fresh.zone, model.state.zone, (size_t)n * sizeof(int));
+    for (int k = 0; k < 5; k++) {
+        solve_with(&model, NULL, 1, &kept); /* which is kept */
+        for (int i = 0; i < n; i++)
+            bound[i] = rc.mu * (1.0 + change[k] * (i % 3) / 2.0);
+        rb_contact_set_friction(&model.problem, rc.mu, bound);
+        rb_contact_reduced r;
+        assert_int_equal(direct(&model.problem, RB_BOTH, RB_LU_KEPT, &kept, &r), 0);
+        assert_int_equal(r.slight > 0, k < 4);
+        rb_contact_reduced_free(&r);
+        solve_with(&model, NULL, 1, &kept);
+        solve_with(&model, bound, 0, &kept);
+        solve_with(&model, bound, 1, &fresh);
+        const double p0 = rb_norm_inf((size_t)n, fresh.p);
+        for (int i = 0; i < n; i++) {
+            CHECK_ABS(kept.p[i], fresh.p[i], 1e-12 * p0, "pressure %d, %g", i, change[k]);
+            CHECK_ABS(kept.q[i], fresh.q[i], 1e-12 * p0, "friction %d, %g", i, change[k]);
+        }
+    }
+    free(bound);
+    rb_contact_state_free(&kept);
+    rb_contact_state_free(&fresh);
+    rb_rolling_model_free(&model);
+}
+
 /* ---- A block that has no inverse --------------------------------------------------- */
 
 /* How the approach grows with the load where the zones stay. */
@@ -407,6 +459,7 @@ int main(void)
         cmocka_unit_test(steps_grow_by_levels),
         cmocka_unit_test(a_kept_lu_serves_other_zones),
         cmocka_unit_test(a_kept_lu_gives_way_to_a_new_one),
+        cmocka_unit_test(a_kept_lu_serves_friction_that_changes),
         cmocka_unit_test(a_given_load_does_not_feel_the_datum),
         cmocka_unit_test(failing_allocations),
     };

@@ -26,6 +26,11 @@ typedef struct {
     lapack_int *pivots;
 } kept_lu;
 
+/* A change of friction per pressure that the LU need not know: solved again, what it
+ * leaves falls by about as much each time.  Coefficients that depend on the state change
+ * at every element from round to round, ever less. */
+static const double SLIGHT = 0.01;
+
 /* One for each of RB_NORMAL, RB_TANGENTIAL, RB_BOTH. */
 struct rb_contact_factors {
     kept_lu kept[3];
@@ -50,6 +55,7 @@ typedef struct {
     int *source;       /* of r->x among (x, y) */
     border *border;
     int count, changes; /* borders; those that stand for zones */
+    int slight; /* unknowns that have turned, and so little that none stands for it */
 } plan;
 
 void rb_contact_factors_clear(rb_contact_factors *factors)
@@ -203,8 +209,10 @@ static void compare(const kept_lu *k, int from, int to, int now, int end, plan *
             pl->source[now++] = k->size + add_border(pl, b);
         } else {
             const double turn = pl->unknown[now].T - k->unknown[from].T;
-            if (turn != 0.0)
+            if (fabs(turn) > SLIGHT)
                 add_border(pl, (border){TURNED, from, {is, 0.0, turn}});
+            else
+                pl->slight += turn != 0.0;
             pl->source[now++] = from++;
         }
     }
@@ -216,7 +224,7 @@ static void make_plan(const rb_contact_problem *p, const int *zone,
     const int tractions = r->contacts + r->sticks;
 
     present_unknowns(p, zone, r, pl->unknown);
-    pl->count = 0;
+    pl->count = pl->slight = 0;
     compare(k, 0, k->contacts, 0, r->contacts, pl);
     compare(k, k->contacts, k->size, r->contacts, tractions, pl);
     pl->changes = pl->count;
@@ -370,6 +378,7 @@ rb_status rb_contact_reduced_direct(const rb_contact_problem *p, const int *zone
     if (s == RB_OK)
         s = solve_bordered(p, k, &pl, r);
     r->changes = k->size > 0 ? pl.changes : 0;
+    r->slight = k->size > 0 ? pl.slight : 0;
     plan_free(&pl);
     return s;
 }

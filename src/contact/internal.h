@@ -26,6 +26,7 @@ typedef struct {
     double *start;                 /* size: the unknowns as the state had them */
     double *x;                     /* size: right-hand side, then solution */
     int changes;                   /* of unknowns since the LU that solved it */
+    int slight;                    /* unknowns whose friction has turned a little since */
     double growth;                 /* of tractions without borders over those with */
 } rb_contact_reduced;
 

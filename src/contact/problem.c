@@ -54,9 +54,6 @@ void rb_contact_set_friction(rb_contact_problem *p, double mu, const double *bou
     p->mu = mu;
     for (int i = 0; i < p->n; i++)
         p->bound[i] = bound ? bound[i] : mu;
-    /* slipping elements have the bounds in a matrix that a solver may have kept */
-    if (p->op->kind->forget && (p->op->response.coupled || p->force_given))
-        p->op->kind->forget(p->op);
 }
 
 double rb_contact_friction_scale(const rb_contact_problem *p)
