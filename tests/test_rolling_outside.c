@@ -219,6 +219,67 @@ static void patches_side_by_side_are_fitted_as_one(void **state)
     release(t);
 }
 
+/* A table and its mirror image, shifted the other way, have mirrored contacts, whatever
+ * elements are taken and wherever the patches are. */
+static void mirrored_tables_have_mirrored_contacts(void **state)
+{
+    (void)state;
+    static const struct {
+        int n;
+        double x[3], height[3], load;
+    } tables[] = {{1, {0.7}, {0.0}, 200.0},
+                  {2, {-0.4, 0.35}, {0.0, 2e-4}, 900.0},
+                  {2, {-5.0, 2.0}, {0.0, 1e-3}, 300.0},
+                  {3, {-6.0, 0.3, 5.0}, {2e-4, 0.0, 5e-4}, 500.0}};
+    for (size_t k = 0; k < sizeof tables / sizeof *tables; k++)
+        for (int fitted = 0; fitted < 2; fitted++) {
+            rb_rolling_solution s[2];
+            for (int side = 0; side < 2; side++) {
+                double x[3], height[3];
+                const int n = tables[k].n;
+                for (int i = 0; i < n; i++) {
+                    x[i] = side ? -tables[k].x[n - 1 - i] : tables[k].x[i];
+                    height[i] = tables[k].height[side ? n - 1 - i : i];
+                }
+                table *t = bumps(n, x, height);
+                t->rc.mesh = fitted ? RB_MESH_FITTED : RB_MESH_UNIFORM;
+                t->rc.load = tables[k].load;
+                t->rc.a.poisson = 0.2;
+                t->rc.formulation = RB_STATIC;
+                t->rc.creep = t->rc.creep_ratio = NAN;
+                t->rc.shift = side ? -2e-4 : 2e-4;
+                t->rc.contact_elements = 48;
+                s[side] = solved(&t->rc);
+                release(t);
+            }
+            const double p0 = s[0].max_pressure;
+            const int n = s[0].n, patches = s[0].patches;
+            assert_int_equal(s[1].n, n);
+            assert_int_equal(s[1].patches, patches);
+            assert_int_equal(s[1].equal_instead, s[0].equal_instead);
+            for (int i = 0; i < n; i++) {
+                const int j = n - 1 - i;
+                CHECK_ABS(s[1].x[j], -s[0].x[i], 1e-7, "%d %d: x of %d", (int)k, fitted,
+                          i);
+                CHECK_ABS(s[1].p[j], s[0].p[i], 1e-5 * p0, "%d %d: p of %d", (int)k,
+                          fitted, i);
+                CHECK_ABS(s[1].q[j], -s[0].q[i], 1e-5 * p0, "%d %d: q of %d", (int)k,
+                          fitted, i);
+            }
+            CHECK_ABS(s[1].contact_from, -s[0].contact_to, 1e-6, "left end");
+            CHECK_ABS(s[1].stick_from, -s[0].stick_to, 1e-6, "stick");
+            for (int i = 0; i < patches; i++) {
+                const rb_rolling_patch *a = &s[0].patch[i],
+                                       *b = &s[1].patch[patches - 1 - i];
+                CHECK_ABS(b->from, -a->to, 1e-6, "patch %d", i);
+                CHECK_ABS(b->peak, -a->peak, 1e-6, "its peak, %d", i);
+                CHECK_REL(b->normal_load, a->normal_load, 1e-6, "its load, %d", i);
+            }
+            rb_rolling_solution_free(&s[0]);
+            rb_rolling_solution_free(&s[1]);
+        }
+}
+
 /* ---- Zones ------------------------------------------------------------------------- */
 
 /* A zone that is too narrow is refused with the width that would do. */
@@ -417,6 +478,7 @@ int main(void)
         cmocka_unit_test(too_many_patches_have_equal_elements),
         cmocka_unit_test(several_patches_cannot_be_aligned),
         cmocka_unit_test(patches_side_by_side_are_fitted_as_one),
+        cmocka_unit_test(mirrored_tables_have_mirrored_contacts),
         cmocka_unit_test(a_narrow_zone_is_told_its_width),
         cmocka_unit_test(a_zone_is_as_wide_as_its_longer_side),
         cmocka_unit_test(patches_too_far_apart_need_fitted_elements),
