@@ -41,13 +41,18 @@ static double moving_source(double z)
                            1.0;
 }
 
-double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from,
-                                double to)
+/* Rise at the origin from a unit heat per area and time between 0 and x. */
+static double rise_from_origin(const rb_rolling_heat *body, double speed, double x)
 {
     const double P = speed / (2.0 * diffusivity(body));
 
-    return (moving_source(P * to) - moving_source(P * from)) /
-           (M_PI * body->conductivity * P);
+    return moving_source(P * x) / (M_PI * body->conductivity * P);
+}
+
+double rb_rolling_heat_response(const rb_rolling_heat *body, double speed, double from,
+                                double to)
+{
+    return rise_from_origin(body, speed, to) - rise_from_origin(body, speed, from);
 }
 
 /* The surfaces of one body: rise at the midpoints from heat in the elements. */
@@ -75,14 +80,21 @@ static rb_status conductor_create(const rb_rolling_case *rc, const rb_rolling_he
     return c->response ? RB_OK : RB_ENOMEM;
 }
 
-/* row_j: rise at midpoint i of a unit heat per area and time in element j. */
+/* row_j: rise at midpoint i of a unit heat per area and time in element j, which begins
+ * where the one before ends. */
 static void conductor_row(const conductor *c, int i, double *row)
 {
-    if (c->response)
+    if (c->response) {
         memcpy(row, &c->response[c->n - 1 - i], (size_t)c->n * sizeof *row);
-    for (int j = 0; !c->response && j < c->n; j++) {
-        const double left = c->x[j] - 0.5 * c->h[j] - c->x[i];
-        row[j] = rb_rolling_heat_response(c->body, c->speed, left, left + c->h[j]);
+        return;
+    }
+    double before =
+        rise_from_origin(c->body, c->speed, c->x[0] - 0.5 * c->h[0] - c->x[i]);
+    for (int j = 0; j < c->n; j++) {
+        const double to =
+            rise_from_origin(c->body, c->speed, c->x[j] + 0.5 * c->h[j] - c->x[i]);
+        row[j] = to - before;
+        before = to;
     }
 }
 
