@@ -2,7 +2,9 @@
 #include "rolling/internal.h"
 #include "solved.h"
 
+#include <cblas.h>
 #include <gsl/gsl_math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Steel cylinder on a plane of steel, of a softer metal, or rigid. */
@@ -40,8 +42,11 @@ static void compare_with_matrix(const rb_rolling_case *rc)
     rb_contact_state state;
     rb_message why;
 
-    assert_null(model.bodies.F);
-    assert_null(rb_contact_operator_matrix(model.problem.op).F);
+    if (rc->contact_elements >= RB_ROLLING_LARGE) {
+        assert_null(model.bodies.F);
+        assert_null(rb_contact_operator_matrix(model.problem.op).F);
+    } else
+        assert_int_equal(model.bodies.transforms.n, rc->contact_elements);
     dense.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
     CHECK_STATUS(rb_rolling_bodies_create(&dense, &model.mesh, &bodies, &why), RB_OK);
     assert_non_null(bodies.F);
@@ -89,6 +94,98 @@ static void equals_the_matrix_in_static_contact(void **state)
     rc.approach = 0.01;
     rc.shift = 0.0007;
     compare_with_matrix(&rc);
+}
+
+static void equals_the_matrix_that_it_helps(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = steady(DISSIMILAR, 300);
+    rc.mesh = RB_MESH_UNIFORM;
+    compare_with_matrix(&rc);
+    rc = steady(RIGID, 300);
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.slip_operator = RB_SLIP_UPSTREAM;
+    rc.interlayer_normal = 1e-6;
+    rc.interlayer_tangential = 2e-6;
+    compare_with_matrix(&rc);
+}
+
+/* Products with the matrices of an operator, or numbers that no solve can end with. */
+typedef struct {
+    rb_contact_matrix K;
+    int n, lie, count;
+    double *room;
+} watched;
+
+static void watched_apply(void *context, const double *r, const double **gap,
+                          const double **slip)
+{
+    watched *of = context;
+    const int n = of->n;
+
+    of->count++;
+    *gap = of->room;
+    *slip = of->room + n;
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, 2 * n, 1.0, of->K.F, of->K.ldf, r, 1, 0.0,
+                of->room, 1);
+    cblas_dgemv(CblasColMajor, CblasNoTrans, n, 2 * n, 1.0, of->K.S, n, r, 1, 0.0,
+                of->room + n, 1);
+    for (int i = 0; i < 2 * n && of->lie; i++)
+        of->room[i] = NAN;
+}
+
+static void watched_precondition(void *context, int tangential, double *line)
+{
+    (void)context;
+    (void)tangential;
+    (void)line;
+}
+
+static void watched_free(void *context)
+{
+    free(((watched *)context)->room);
+}
+
+/* p, its own products replaced by others that are counted. */
+static void watch(rb_contact_problem *p, watched *by)
+{
+    rb_contact_operator *op;
+
+    *by = (watched){.K = rb_contact_operator_matrix(p->op), .n = p->n};
+    by->room = rb_alloc((size_t)p->n, 2);
+    const rb_contact_products products = {watched_apply, watched_precondition,
+                                          watched_free, by};
+    CHECK_STATUS(rb_contact_operator_products(p->n, &products, &op), RB_OK);
+    rb_contact_operator_add_products(p->op, op);
+}
+
+/* Zones of many elements are solved by the products, and by the matrices where these do
+ * not come to an end; few elements by the matrices at once. */
+static void the_matrix_stands_in_for_products(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        rb_rolling_case rc = steady(DISSIMILAR, k == 2 ? 60 : 240);
+        rc.mesh = RB_MESH_UNIFORM;
+        rb_rolling_model model = solved_model(&rc);
+        const int n = model.mesh.n;
+        double *gap = rb_alloc((size_t)n, 3), *p = gap + n, *q = p + n;
+        watched by;
+        memcpy(p, model.state.p, (size_t)n * sizeof *p);
+        memcpy(q, model.state.q, (size_t)n * sizeof *q);
+        assert_int_equal(model.bodies.transforms.n, 0);
+        watch(&model.problem, &by);
+        by.lie = k == 1;
+        by.count = 0;
+        CHECK_STATUS(rb_contact_try_zones(&model.problem, &model.state, gap), RB_OK);
+        assert_int_equal(by.count > 0, k < 2);
+        for (int i = 0; i < n; i++) {
+            CHECK_ABS(model.state.p[i], p[i], 1e-9 * model.problem.stress, "p of %d", i);
+            CHECK_ABS(model.state.q[i], q[i], 1e-9 * model.problem.stress, "q of %d", i);
+        }
+        free(gap);
+        rb_rolling_model_free(&model);
+    }
 }
 
 /* ---- Residual from the solution alone ---------------------------------------------- */
@@ -337,6 +434,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equals_the_matrix_in_steady_rolling),
         cmocka_unit_test(equals_the_matrix_in_static_contact),
+        cmocka_unit_test(equals_the_matrix_that_it_helps),
+        cmocka_unit_test(the_matrix_stands_in_for_products),
         cmocka_unit_test(residual_is_true),
         cmocka_unit_test(much_friction_is_reached_step_by_step),
         cmocka_unit_test(carter),

@@ -301,6 +301,8 @@ typedef struct {
     rb_bem_system *system_a, *system_b; /* NULL for half-planes and rigid bodies; owned */
     const double *F; /* 2m x 2n dense flexibility, ld = 2m, m = n + 1; f's; NULL where
                         products with f serve instead (large contacts) */
+    rb_bem_flexibility transforms; /* f once more, as products, where Newton's method is
+                                      faster with them than with F; n = 0: none; owned */
     double seconds_assembly, seconds_factor, seconds_condense;
 } rb_rolling_bodies;
 

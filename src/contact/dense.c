@@ -4,6 +4,9 @@
 #include <cblas.h>
 #include <stdlib.h>
 
+/* Unknowns that GMRES finds sooner than an LU. */
+enum { LEAST_BY_PRODUCTS = 200 };
+
 /* Solves with one LU before it is given up, and the relative correction that is the last
  * one: the next would be rounding.  Where friction has turned slightly each falls by the
  * same factor only. */
@@ -17,6 +20,7 @@ static void dense_free(rb_contact_operator *op)
     rb_contact_dense *dense = (rb_contact_dense *)op;
 
     rb_contact_factors_free(dense->factors);
+    rb_contact_operator_free(dense->products);
     free(dense->S);
     free(dense);
 }
@@ -118,9 +122,14 @@ static rb_status solve_by(const rb_contact_problem *p, rb_contact_lu lu,
 static rb_status dense_solve(const rb_contact_problem *p, rb_contact_state *state,
                              rb_contact_reduced *r)
 {
+    rb_contact_problem by_products = *p;
     rb_status s = RB_OK;
     int settled = 0;
 
+    by_products.op = ((const rb_contact_dense *)p->op)->products;
+    if (by_products.op && r->size >= LEAST_BY_PRODUCTS &&
+        by_products.op->kind->solve(&by_products, state, r) == RB_OK)
+        return RB_OK;
     for (int lu = RB_LU_KEPT; lu < RB_LU_KINDS && s >= 0 && !settled; lu++)
         s = solve_by(p, (rb_contact_lu)lu, state, r, &settled);
     return s;
@@ -150,4 +159,10 @@ rb_status rb_contact_operator_dense(int n, const double *F, int ldf, double *S,
     dense->base.response = response(n, &dense->base.matrix);
     *op = &dense->base;
     return RB_OK;
+}
+
+void rb_contact_operator_add_products(rb_contact_operator *dense,
+                                      rb_contact_operator *products)
+{
+    ((rb_contact_dense *)dense)->products = products;
 }

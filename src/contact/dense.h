@@ -9,8 +9,9 @@ typedef struct rb_contact_factors rb_contact_factors;
 
 typedef struct {
     rb_contact_operator base;
-    double *S;                   /* owned, as the factors */
-    rb_contact_factors *factors; /* empty at first and when cleared */
+    double *S;                     /* owned, as the factors */
+    rb_contact_factors *factors;   /* empty at first and when cleared */
+    rb_contact_operator *products; /* NULL: none; owned */
 } rb_contact_dense;
 
 rb_status rb_contact_factors_create(rb_contact_factors **factors);

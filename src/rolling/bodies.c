@@ -9,6 +9,7 @@
 void rb_rolling_bodies_free(rb_rolling_bodies *bodies)
 {
     rb_bem_flexibility_free(&bodies->f);
+    rb_bem_flexibility_free(&bodies->transforms);
     rb_bem_system_free(bodies->system_a);
     rb_bem_system_free(bodies->system_b);
     memset(bodies, 0, sizeof *bodies);
@@ -42,19 +43,53 @@ static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f
 }
 
 static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_body *body,
-                                  const rb_rolling_mesh *mesh,
+                                  const rb_rolling_mesh *mesh, int transforms,
                                   rb_rolling_body_flexibility *made, rb_message *why)
 {
     const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
-    return (rb_rolling_is_large(rc, mesh) ? kind->transforms
-                                          : kind->flexibility)(rc, body, mesh, made, why);
+    return (transforms ? kind->transforms : kind->flexibility)(rc, body, mesh, made, why);
+}
+
+/* f: that of both bodies together; own: what else they have made. */
+static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                             int transforms, rb_rolling_body_flexibility own[2],
+                             rb_bem_flexibility *f, rb_message *why)
+{
+    rb_status s = body_flexibility(rc, &rc->a, mesh, transforms, &own[0], why);
+
+    if (s == RB_OK && rc->elastic_b) {
+        s = body_flexibility(rc, &rc->b, mesh, transforms, &own[1], why);
+        if (s == RB_OK)
+            s = rb_bem_flexibility_pair(&own[0].f, &own[1].f, f, why);
+    } else if (s == RB_OK) {
+        *f = own[0].f;
+        memset(&own[0].f, 0, sizeof own[0].f);
+    }
+    rb_bem_flexibility_free(&own[0].f);
+    rb_bem_flexibility_free(&own[1].f);
+    return s;
+}
+
+/* Fewer elements are solved sooner by an LU (docs/performance.md). */
+enum { LEAST_TRANSFORMED = 250 };
+
+static rb_status add_transforms(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                rb_rolling_bodies *bodies, rb_message *why)
+{
+    rb_rolling_body_flexibility own[2] = {{.system = NULL}, {.system = NULL}};
+
+    if (mesh->n < LEAST_TRANSFORMED || !rb_rolling_has_transforms(rc))
+        return RB_OK;
+    const rb_status s = join_bodies(rc, mesh, 1, own, &bodies->transforms, why);
+    return s == RB_OK ? add_interlayer(rc, &bodies->transforms) : s;
 }
 
 rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                    rb_rolling_bodies *bodies, rb_message *why)
 {
     memset(bodies, 0, sizeof *bodies);
-    rb_rolling_body_flexibility a = {0}, b = {0};
+    rb_rolling_body_flexibility own[2] = {{.system = NULL}, {.system = NULL}};
+    const int large = rb_rolling_is_large(rc, mesh);
     rb_status s = check_memory(rc, mesh, why);
 
     if (s == RB_OK && rb_rolling_relaxes(rc) && rc->formulation != RB_STEADY)
@@ -63,28 +98,20 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
             "relaxation: bodies that relax and do not roll steadily need a history "
             "of steps in time");
     if (s == RB_OK)
-        s = body_flexibility(rc, &rc->a, mesh, &a, why);
-    if (s == RB_OK && rc->elastic_b) {
-        s = body_flexibility(rc, &rc->b, mesh, &b, why);
-        if (s == RB_OK)
-            s = rb_bem_flexibility_pair(&a.f, &b.f, &bodies->f, why);
-    } else if (s == RB_OK) {
-        bodies->f = a.f;
-        memset(&a.f, 0, sizeof a.f);
-    }
-    bodies->system_a = a.system;
-    bodies->system_b = b.system;
-    bodies->seconds_assembly = a.seconds_assembly + b.seconds_assembly;
-    bodies->seconds_factor = a.seconds_factor + b.seconds_factor;
-    bodies->seconds_condense = a.seconds_condense + b.seconds_condense;
-    if (s == RB_OK && !rb_rolling_is_large(rc, mesh))
+        s = join_bodies(rc, mesh, large, own, &bodies->f, why);
+    bodies->system_a = own[0].system;
+    bodies->system_b = own[1].system;
+    bodies->seconds_assembly = own[0].seconds_assembly + own[1].seconds_assembly;
+    bodies->seconds_factor = own[0].seconds_factor + own[1].seconds_factor;
+    bodies->seconds_condense = own[0].seconds_condense + own[1].seconds_condense;
+    if (s == RB_OK && !large)
         s = rb_bem_flexibility_store(&bodies->f);
     if (s == RB_OK)
         s = add_interlayer(rc, &bodies->f);
     if (s == RB_OK)
         bodies->F = rb_bem_flexibility_stored(&bodies->f);
-    rb_bem_flexibility_free(&a.f);
-    rb_bem_flexibility_free(&b.f);
+    if (s == RB_OK && !large)
+        s = add_transforms(rc, mesh, bodies, why);
     if (s != RB_OK)
         rb_rolling_bodies_free(bodies);
     return s == RB_ENOMEM

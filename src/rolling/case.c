@@ -118,15 +118,20 @@ int rb_rolling_force_is_given(const rb_rolling_case *rc)
     return !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
 }
 
-int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
+int rb_rolling_has_transforms(const rb_rolling_case *rc)
 {
     /* products know one operator for bodies and third body */
     const int two_operators =
         rc->slip_operator == RB_SLIP_SECOND && rc->interlayer_tangential > 0.0;
-    return mesh->n >= RB_ROLLING_LARGE && !two_operators && rc->yield_stress == 0.0 &&
+    return !two_operators && rc->yield_stress == 0.0 &&
            (rc->solver == RB_SOLVER_AUTO || rc->solver == RB_SOLVER_NEWTON) &&
            rc->mesh != RB_MESH_FITTED && rb_rolling_kind_of(&rc->a)->transforms &&
            (!rc->elastic_b || rb_rolling_kind_of(&rc->b)->transforms);
+}
+
+int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
+{
+    return mesh->n >= RB_ROLLING_LARGE && rb_rolling_has_transforms(rc);
 }
 
 int rb_rolling_carter_holds(const rb_rolling_case *rc)

@@ -139,17 +139,17 @@ static void transforms_precondition(void *context, int tangential, double *line)
 }
 
 /* A: taken over, also on failure. */
-static rb_status transform_operator(const rb_rolling_bodies *bodies, kinematic *A,
+static rb_status transform_operator(const rb_bem_flexibility *f, kinematic *A,
                                     rb_contact_operator **op)
 {
     transforms *t = calloc(1, sizeof *t);
 
     if (!t)
         return RB_ENOMEM;
-    t->f = bodies->f;
+    t->f = *f;
     t->A = *A;
     A->outside = NULL;
-    t->w = rb_alloc(2 * (size_t)bodies->f.m, 1);
+    t->w = rb_alloc(2 * (size_t)f->m, 1);
     t->slip = rb_alloc((size_t)A->n, 1);
     const rb_status s = t->w && t->slip
                             ? rb_bem_circulant_create(&t->f, t->A.stencil, &t->inverse)
@@ -161,6 +161,26 @@ static rb_status transform_operator(const rb_rolling_bodies *bodies, kinematic *
     const rb_contact_products by = {transforms_apply, transforms_precondition,
                                     transforms_free, t};
     return rb_contact_operator_products(A->n, &by, op);
+}
+
+/* The matrix, with the products at its side where these solve sooner. */
+static rb_status make_operator(const rb_rolling_case *rc, const rb_rolling_bodies *bodies,
+                               kinematic *A, rb_contact_operator **op)
+{
+    rb_contact_operator *products = NULL;
+    rb_status s = RB_OK;
+
+    if (!bodies->F)
+        return transform_operator(&bodies->f, A, op);
+    s = dense_operator(rc, bodies, A, op);
+    /* a matrix of another's, as of a worn surface, has no products */
+    if (s == RB_OK && bodies->transforms.n > 0 &&
+        bodies->F == rb_bem_flexibility_stored(&bodies->f)) {
+        s = transform_operator(&bodies->transforms, A, &products);
+        if (s == RB_OK)
+            rb_contact_operator_add_products(*op, products);
+    }
+    return s;
 }
 
 /* ---- What moves the surfaces ------------------------------------------------------- */
@@ -308,8 +328,7 @@ rb_status rb_rolling_problem_create(const rb_rolling_case *rc,
 
     memset(p, 0, sizeof *p);
     if (s == RB_OK)
-        s = bodies->F ? dense_operator(rc, bodies, &A, &op)
-                      : transform_operator(bodies, &A, &op);
+        s = make_operator(rc, bodies, &A, &op);
     free(A.outside);
     if (s == RB_OK)
         s = rb_contact_problem_alloc(op, p);

@@ -20,8 +20,10 @@ int rb_rolling_force_is_given(const rb_rolling_case *rc);
 /* Q over the most that friction carries, mu P; NAN without friction or load. */
 double rb_rolling_force_ratio(const rb_rolling_model *model);
 
-/* 1 where products with the flexibility replace the dense matrix: half-planes under a
- * long line of equal elements, by Newton. */
+/* 1 where the flexibility has products by Fourier transforms: half-planes under equal
+ * elements, by Newton. */
+int rb_rolling_has_transforms(const rb_rolling_case *rc);
+/* 1 where they replace the dense matrix: there under a long line. */
 int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh);
 
 /* ---- profile.c --------------------------------------------------------------------- */
