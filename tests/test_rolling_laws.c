@@ -525,6 +525,38 @@ static void the_largest_force_is_told(void **state)
     }
 }
 
+/* Unlike bodies roll freely at a creepage of their own: at creepage 0 this wheel is on
+ * the falling branch of the other direction, where the search for a force begins. */
+static void a_force_is_met_from_beyond_free_rolling(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.poisson = 0.0;
+    rc.b = (rb_rolling_body){.young = 900000.0,
+                             .poisson = -0.5,
+                             .radius = INFINITY,
+                             .support = RB_BEM_HALFPLANE};
+    rc.elastic_b = 1;
+    rc.approach = 0.01;
+    rc.formulation = RB_STEADY;
+    rc.mesh = RB_MESH_FITTED;
+    rc.slip_operator = RB_SLIP_UPSTREAM;
+    rc.contact_elements = 100;
+    rc.speed = 1000.0;
+    rc.friction = (rb_rolling_friction){
+        .law = RB_FRICTION_exponential, .fall = {0.2, 0.0}, .slip_scale = {5.0, 5.0}};
+    rc.force_ratio = 0.9;
+    rb_rolling_model model = solved_model(&rc);
+    CHECK_REL(rb_rolling_force_ratio(&model), 0.9, 1e-9, "force");
+    const double creepage = model.state.xi, Q = rb_rolling_model_force(&model);
+    rb_rolling_model_free(&model);
+    rc.force_ratio = NAN;
+    rc.creep = creepage;
+    model = solved_model(&rc);
+    CHECK_REL(rb_rolling_model_force(&model), Q, 1e-3, "at that creepage");
+    rb_rolling_model_free(&model);
+}
+
 /* ---- Steps ------------------------------------------------------------------------- */
 
 typedef struct {
@@ -999,6 +1031,7 @@ int main(void)
         cmocka_unit_test(a_force_is_met_on_the_rising_branch),
         cmocka_unit_test(a_force_is_met_between_states_of_one_creepage),
         cmocka_unit_test(the_largest_force_is_told),
+        cmocka_unit_test(a_force_is_met_from_beyond_free_rolling),
         cmocka_unit_test(steps_remember_their_friction),
         cmocka_unit_test(a_column_of_one_mu_is_that_mu),
         cmocka_unit_test(steps_have_the_friction_of_their_way),

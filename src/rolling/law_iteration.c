@@ -317,7 +317,8 @@ static rb_status find_least(search *s, double x[3], double f[3])
 }
 
 /* Goes on until the force is reached, x[0] and x[1] on either side of it, or does not
- * grow any more. */
+ * grow any more.  A force that still opposes the wanted direction is that before free
+ * rolling: on its falling branch it grows first. */
 static rb_status go_on(search *s, double x[3], double f[3])
 {
     const double far = 1e6 * s->unit;
@@ -327,10 +328,11 @@ static rb_status go_on(search *s, double x[3], double f[3])
     x[1] = x[0];
     f[1] = f[0];
     while (status == RB_OK && f[1] > 0.0 && x[1] < far) {
+        const int opposed = s->side * rb_rolling_model_force(s->model) > 0.0;
         x[2] = x[1] + step;
         step *= 2.0;
         status = lack(s, x[2], &f[2]);
-        if (status == RB_OK && f[2] >= f[1])
+        if (status == RB_OK && f[2] >= f[1] && !opposed)
             return find_least(s, x, f);
         x[0] = x[1];
         f[0] = f[1];
