@@ -249,13 +249,25 @@ static void guesses_are_judged(void **state)
     rb_api *a = solved(wheel);
     int zone[12];
     (void)state;
-    const double *is = array(a, "zone", 12, 1), *p = array(a, "p", 12, 1);
+    const double *is = array(a, "zone", 12, 1);
     for (int i = 0; i < 12; i++)
         zone[i] = (int)is[i];
     assert_int_equal(rb_api_guess(a, 12, zone), RB_OK);
-    const double *guess = array(a, "guess.p", 12, 1);
+    static const char *const guessed[] = {"guess.p", "guess.q", "guess.gap"},
+                             *const found[] = {"p", "q", "gap"};
+    const double most[] = {rb_api_number(a, "max_pressure"),
+                           rb_api_number(a, "max_pressure"),
+                           rb_api_number(a, "approach")};
+    for (int k = 0; k < 3; k++) {
+        const double *guess = array(a, guessed[k], 12, 1),
+                     *is_so = array(a, found[k], 12, 1);
+        for (int i = 0; i < 12; i++)
+            CHECK_ABS(guess[i], is_so[i], 1e-9 * most[k], "%s[%d]", found[k], i);
+    }
+    const double *ends = array(a, "ends", 14, 1), *x = array(a, "x", 12, 1);
     for (int i = 0; i < 12; i++)
-        CHECK_ABS(guess[i], p[i], 1e-9 * rb_api_number(a, "max_pressure"), "p[%d]", i);
+        CHECK_ABS(0.5 * (ends[i] + ends[i + 1]), x[i], 1e-3 * (ends[i + 1] - ends[i]),
+                  "midpoint %d", i);
 
     for (int i = 0; i < 12; i++) /* everything pressed: the ends would have to pull */
         zone[i] = RB_ZONE_STICK;

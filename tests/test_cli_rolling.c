@@ -833,6 +833,8 @@ static void friction_laws_by_words(void **state)
                              "--creep 0.0009999 --all-solutions --json"),
                      0);
     assert_non_null(strstr(err, "2 solutions that differ from 82 starts"));
+    assert_non_null(strstr(err, "\n  1   Q/(mu P) = "));
+    assert_non_null(strstr(err, "\n  2   Q/(mu P) = "));
     json_t *several = json_loads(out, 0, NULL);
     json_t *list = json_object_get(several, "solutions");
     assert_int_equal(json_array_size(list), 2);

@@ -274,6 +274,25 @@ static void constraints_go_with_rolling_friction(void **state)
     rb_io_fclib_free(&file);
 }
 
+/* Two contacts stand for a rolling one and carry the same pressure: what they do together
+ * is what the united one does. */
+static void united_entries_do_the_same_work(void **state)
+{
+    (void)state;
+    const double r[6] = {3.0, 0.5, -0.7, 3.0, 0.2, 0.9},
+                 u[6] = {0.4, -1.0, 2.0, -0.3, 5.0, 0.25};
+    double force[5], velocity[5], length[1] = {0.8}, apart = 0.0, together = 0.0;
+    rb_friction_problem p = {.contacts = 2, .dimension = 3, .lengths = length};
+    rb_friction_unite_rolling(&p, r, u, force, velocity);
+    for (int i = 0; i < 6; i++)
+        apart += r[i] * u[i];
+    for (int i = 0; i < 5; i++)
+        together += force[i] * velocity[i];
+    CHECK_REL(together, apart, 1e-14, "work");
+    CHECK_REL(force[3], 0.8 * 0.2, 1e-14, "moment");
+    CHECK_REL(velocity[0], 0.1, 1e-12, "approach");
+}
+
 static void the_program_tells_five_entries_per_contact(void **state)
 {
     (void)state;
@@ -351,6 +370,7 @@ int main(void)
         cmocka_unit_test(rows_of_balls_obey_both_laws),
         cmocka_unit_test(every_family_of_solvers_takes_it),
         cmocka_unit_test(one_ball_slides_rolls_or_stops),
+        cmocka_unit_test(united_entries_do_the_same_work),
         cmocka_unit_test(the_program_tells_five_entries_per_contact),
         cmocka_unit_test(units_do_not_matter),
         cmocka_unit_test(constraints_go_with_rolling_friction),
