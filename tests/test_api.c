@@ -472,6 +472,9 @@ static void problems_by_themselves_are_solved(void **state)
         CHECK_ABS(r[i], -mu * r[0] * u[i] / slip, 1e-9, "r[%d]", i);
     assert_true(rb_api_friction(a, 4, 1, W, v, &mu, "auto", 1e-8, 0) < 0);
     assert_true(rb_api_friction_file(a, "nothing.hdf5", "auto", 1e-8, 0) == RB_ENOENT);
+    assert_int_equal(rb_api_friction_file(a, "tests/fuzz/fclib/local", "auto", 1e-8, 0),
+                     RB_OK);
+    CHECK_MAX(rb_api_number(a, "task.scaled_residual"), 1e-8, "of a file");
     rb_api_free(a);
 }
 
