@@ -528,6 +528,16 @@ static int keep_state(const rb_rolling_model *model, const rb_rolling_history *h
     return 0;
 }
 
+/* A history whose states are kept. */
+static void run_recorded(const rb_rolling_case *rc, rb_rolling_states *states,
+                         rb_rolling_model *model, rb_rolling_history *h)
+{
+    const rb_rolling_observer observer = {keep_state, states};
+    rb_message why = {""};
+    if (rb_rolling_history_run(rc, NULL, &observer, model, h, &why) != RB_OK)
+        fail_msg("%s", why.text);
+}
+
 static void states_are_followed_to_the_same_history(void **state)
 {
     (void)state;
@@ -536,12 +546,11 @@ static void states_are_followed_to_the_same_history(void **state)
     rb_rolling_model model, again;
     rb_rolling_history h, followed;
     rb_message why = {""};
-    const rb_rolling_observer observer = {keep_state, &states};
     rc.formulation = RB_TRANSIENT;
     rc.creep = 1e-4;
     rc.distance = 0.5;
     rc.increments = 2;
-    CHECK_STATUS(rb_rolling_history_run(&rc, NULL, &observer, &model, &h, &why), RB_OK);
+    run_recorded(&rc, &states, &model, &h);
     check_refused(rb_rolling_history_follow(&rc, &states, NULL, &again, &followed, &why),
                   &why, "half-width 0: expected > 0");
     release(&again, &followed);
@@ -595,7 +604,6 @@ static void states_of_a_ratio_are_followed(void **state)
     rb_rolling_model model, again;
     rb_rolling_history h, followed;
     rb_message why = {""};
-    const rb_rolling_observer observer = {keep_state, &states};
     rc.formulation = RB_TRANSIENT;
     rc.load = NAN;
     rc.approach = 6e-3;
@@ -603,8 +611,7 @@ static void states_of_a_ratio_are_followed(void **state)
     rc.creep_ratio = 0.5;
     rc.distance = 0.5;
     rc.zone *= 2.0;
-    if (rb_rolling_history_run(&rc, NULL, &observer, &model, &h, &why) != RB_OK)
-        fail_msg("%s", why.text);
+    run_recorded(&rc, &states, &model, &h);
     states.half_width = h.half_width;
     for (int k = 0; k < 2; k++) {
         const double creepage = states.xi[states.steps - 1];

@@ -410,8 +410,7 @@ static void a_timer_does_not_disturb_a_study(void **state)
     assert_true(rings > 10);
 }
 
-/* Whoever is killed takes the processes of its study along: each has the parent's end of
- * those that are older, so that the youngest sees first that it is gone. */
+/* Whoever is killed takes the processes of its study along. */
 static void workers_end_with_their_parent(void **state)
 {
     (void)state;

@@ -147,11 +147,9 @@ static void print_power_below_zero(FILE *out, const rb_rolling_curve *c)
             least = i;
     }
     if (points > 0)
-        fprintf(out,
-                "  dissipation below zero at %d point%s, %.2g %s at xi = %.5g: smaller "
-                "than its error on these elements; take more of them or --mesh aligned\n",
+        fprintf(out, "  dissipation below zero at %d point%s, %.2g %s at xi = %.5g: %s\n",
                 points, points > 1 ? "s" : "", c->dissipation[least],
-                rb_unit_name(c->units, "N/mm"), c->creepage[least]);
+                rb_unit_name(c->units, "N/mm"), c->creepage[least], rb_report_below_zero);
 }
 
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)

@@ -28,6 +28,9 @@ add(rb_report_note_list *list, const char *format, ...)
     va_end(args);
 }
 
+const char rb_report_below_zero[] =
+    "smaller than its error on these elements; take more of them or --mesh aligned";
+
 int rb_report_is_below_zero(double dissipation, double load)
 {
     return dissipation < -1e-12 * load;
@@ -100,10 +103,8 @@ static void note_mesh(rb_report_note_list *list, const rb_rolling_solution *s)
 static void note_power(rb_report_note_list *list, const rb_rolling_solution *s)
 {
     if (rb_report_is_below_zero(s->dissipation, s->normal_load))
-        add(list,
-            "the dissipation, %.2g %s, is below zero: it is smaller than its error on "
-            "these elements; take more of them or --mesh aligned",
-            s->dissipation, rb_unit_name(s->units, "N/mm"));
+        add(list, "the dissipation, %.2g %s, is below zero: it is %s", s->dissipation,
+            rb_unit_name(s->units, "N/mm"), rb_report_below_zero);
 }
 
 /* Beyond full sliding the force does not change: it does not tell the creepage. */

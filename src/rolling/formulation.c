@@ -173,7 +173,7 @@ static rb_status make_operator(const rb_rolling_case *rc, const rb_rolling_bodie
     if (!bodies->F)
         return transform_operator(&bodies->f, A, op);
     s = dense_operator(rc, bodies, A, op);
-    /* a matrix of another's, as of a worn surface, has no products */
+    /* another matrix than that of the bodies, as of a worn surface, has no products */
     if (s == RB_OK && bodies->transforms.n > 0 &&
         bodies->F == rb_bem_flexibility_stored(&bodies->f)) {
         s = transform_operator(&bodies->transforms, A, &products);

@@ -118,6 +118,10 @@ static rb_status start_worker(processes *p, worker *w)
     w->pid = fork();
     if (w->pid == 0) {
         close(end[0]);
+        /* or idle workers would see the parent die only when the youngest has ended */
+        for (int i = 0; i < p->workers; i++)
+            if (p->worker[i].socket >= 0)
+                close(p->worker[i].socket);
         run_worker(p->sweep, end[1]);
     }
     close(end[1]);
