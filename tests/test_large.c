@@ -110,6 +110,25 @@ static void equals_the_matrix_that_it_helps(void **state)
     compare_with_matrix(&rc);
 }
 
+/* What GMRES leaves is more than so small a tolerance: the matrix solves once more. */
+static void a_small_tolerance_is_met_by_the_matrix(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = steady(DISSIMILAR, 400);
+        rc.mesh = RB_MESH_UNIFORM;
+        rc.tol = 5e-13;
+        if (k) {
+            rc.creep_ratio = NAN;
+            rc.force_ratio = 0.5;
+        }
+        rb_rolling_model model = solved_model(&rc);
+        assert_int_equal(model.state.solver, RB_SOLVER_NEWTON);
+        CHECK_MAX(model.state.residual, rc.tol, "residual");
+        rb_rolling_model_free(&model);
+    }
+}
+
 /* Products with the matrices of an operator, or numbers that no solve can end with. */
 typedef struct {
     rb_contact_matrix K;
@@ -435,6 +454,7 @@ int main(void)
         cmocka_unit_test(equals_the_matrix_in_steady_rolling),
         cmocka_unit_test(equals_the_matrix_in_static_contact),
         cmocka_unit_test(equals_the_matrix_that_it_helps),
+        cmocka_unit_test(a_small_tolerance_is_met_by_the_matrix),
         cmocka_unit_test(the_matrix_stands_in_for_products),
         cmocka_unit_test(residual_is_true),
         cmocka_unit_test(much_friction_is_reached_step_by_step),

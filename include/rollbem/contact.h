@@ -39,7 +39,8 @@ rb_status rb_contact_operator_products(int n, const rb_contact_products *product
                                        rb_contact_operator **op);
 
 /* Lets `dense` solve long systems by the products of the same operator, which it takes
- * over, and by its matrices where GMRES does not come to the end. */
+ * over in place of those before (NULL: by its matrices alone), and by its matrices where
+ * GMRES does not come to the end. */
 void rb_contact_operator_add_products(rb_contact_operator *dense,
                                       rb_contact_operator *products);
 

@@ -164,5 +164,13 @@ rb_status rb_contact_operator_dense(int n, const double *F, int ldf, double *S,
 void rb_contact_operator_add_products(rb_contact_operator *dense,
                                       rb_contact_operator *products)
 {
-    ((rb_contact_dense *)dense)->products = products;
+    rb_contact_dense *of = (rb_contact_dense *)dense;
+
+    rb_contact_operator_free(of->products);
+    of->products = products;
+}
+
+int rb_contact_dense_has_products(const rb_contact_operator *op)
+{
+    return op->matrix.F && ((const rb_contact_dense *)op)->products;
 }

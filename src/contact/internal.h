@@ -97,6 +97,11 @@ struct rb_contact_operator {
  * there is no memory. */
 rb_status rb_contact_problem_alloc_rows(rb_contact_problem *problem);
 
+/* ---- dense.c ----------------------------------------------------------------------- */
+
+/* 1: matrices with products at their side, whose solves end at a tolerance of GMRES. */
+int rb_contact_dense_has_products(const rb_contact_operator *op);
+
 /* ---- pairs.c ----------------------------------------------------------------------- */
 
 /* The problem with its elements in pairs, forces added; for rb_contact_problem_free.

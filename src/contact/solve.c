@@ -289,6 +289,12 @@ static rb_status solve_newton(rb_contact_problem *problem,
     rb_status s = rb_contact_newton(problem, warm, state);
 
     s = complete_newton(problem, s, state);
+    /* GMRES ends at a tolerance of its own; for a smaller one the matrix solves alone */
+    if (s == RB_OK && !is_solved(s, problem, options, state) &&
+        rb_contact_dense_has_products(problem->op)) {
+        rb_contact_operator_add_products(problem->op, NULL);
+        s = complete(problem, 0, state);
+    }
     if (s == RB_MAXITER && problem->rounding > 0.0 &&
         is_solved(RB_OK, problem, options, state))
         s = RB_OK;
