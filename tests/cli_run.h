@@ -61,6 +61,7 @@ static inline void check_refused(const char *arguments, int code, const char *pa
     assert_int_equal(got, code);
     assert_int_equal(strncmp(err, "rollbem: ", 9), 0);
     assert_non_null(strstr(err, part));
+    assert_null(strstr(err, "(null)"));
     assert_ptr_equal(strchr(err, '\n'), err + n - 1);
     assert_string_equal(out, "");
 }

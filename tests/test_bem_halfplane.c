@@ -140,6 +140,24 @@ static void the_surface_carries_the_tractions(void **state)
     assert_true(isfinite(end[0]));
 }
 
+/* The end of a strip sees half of it: under pressure alone all components are the mean of
+ * both sides, sxx = syy = -p/2. */
+static void the_end_of_a_strip_sees_half_of_it(void **state)
+{
+    (void)state;
+    const double ends[] = {-1.0, 2.0}, p[] = {3.0}, q[] = {0.0};
+    for (int k = 0; k < 2; k++) {
+        const double at[2] = {ends[k], 0.0};
+        double s[3];
+        CHECK_STATUS(rb_bem_halfplane_stress(&(rb_bem_edge_load){1, ends, p, q},
+                                             (rb_bem_points){1, at}, s),
+                     RB_OK);
+        CHECK_REL(s[0], -1.5, 1e-14, "sxx at end %d", k);
+        CHECK_REL(s[1], -1.5, 1e-14, "syy at end %d", k);
+        CHECK_ABS(s[2], 0.0, 1e-14, "sxy at end %d", k);
+    }
+}
+
 /* div s = 0 by central differences of order h^2 */
 static void the_field_is_in_equilibrium(void **state)
 {
@@ -195,6 +213,7 @@ int main(void)
         cmocka_unit_test(full_sliding_moves_the_maximum),
         cmocka_unit_test(the_axis_is_in_closed_form),
         cmocka_unit_test(the_surface_carries_the_tractions),
+        cmocka_unit_test(the_end_of_a_strip_sees_half_of_it),
         cmocka_unit_test(the_field_is_in_equilibrium),
         cmocka_unit_test(bad_input_and_short_memory),
     };

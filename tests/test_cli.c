@@ -331,6 +331,31 @@ verify_takes_no_operand(void **state) /* what it prints: tests/recorded/verify *
     check_refused("verify now", 64, "unexpected 'now'");
 }
 
+/* As first word the completion for bash offers every command that the help lists. */
+static void completion_offers_every_command(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        shell("\"$R\" --completion=bash > completion && bash -c '. ./completion; "
+              "COMP_WORDS=(rollbem \"\"); COMP_CWORD=1; _rollbem; "
+              "printf \" %s \" \"${COMPREPLY[@]}\"'"),
+        0);
+    char offered[sizeof out], word[40];
+    strcpy(offered, out);
+    assert_int_equal(rollbem("help"), 0);
+    int commands = 0;
+    for (const char *line = strstr(out, "\nrollbem "); line;
+         line = strstr(line + 1, "\nrollbem "))
+        if (sscanf(line, "\nrollbem %39[a-z] ", word) == 1) {
+            char as_offered[50];
+            snprintf(as_offered, sizeof as_offered, " %s ", word);
+            if (!strstr(offered, as_offered))
+                fail_msg("not offered: %s", word);
+            commands++;
+        }
+    assert_true(commands > 10);
+}
+
 static void not_solved_is_1(void **state)
 {
     (void)state;
@@ -847,6 +872,7 @@ int main(void)
         cmocka_unit_test(readme_case_is_solved),
         cmocka_unit_test(version_help_and_usage),
         cmocka_unit_test(verify_takes_no_operand),
+        cmocka_unit_test(completion_offers_every_command),
         cmocka_unit_test(not_solved_is_1),
         cmocka_unit_test(static_history_from_a_table),
         cmocka_unit_test(columns_win_over_the_case_file),

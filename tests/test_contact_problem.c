@@ -457,6 +457,36 @@ static void every_solver_solves_layers_that_yield(void **state)
     CHECK_MAX(all.failed, 1, "neither solved nor refused");
 }
 
+/* A layer whose yield stress has been raised above all friction keeps nothing of what has
+ * yielded before. */
+static void strong_layers_forget_what_has_yielded(void **state)
+{
+    (void)state;
+    numbers = 6;
+    for (int k = 0; k < 12; k++) {
+        const kind of = {.n = 7,
+                         .mu = 0.3,
+                         .coupling = 0.05,
+                         .load_given = k % 2,
+                         .yields = 1 + k % 3};
+        const rb_contact_options options = options_of(RB_SOLVER_AUTO);
+        rb_contact_problem p;
+        rb_contact_state s;
+        random_problem(&of, &p);
+        CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
+        for (int i = 0; i < of.n; i++) {
+            p.yield[i] = 1e3 * STRESS;
+            s.plastic[i] = SLIP * (i + 1);
+        }
+        CHECK_STATUS(rb_contact_solve(&p, &options, k >= 6, &s, NULL), RB_OK);
+        for (int i = 0; i < of.n; i++)
+            CHECK_ABS(s.plastic[i], 0.0, 0.0, "element %d", i);
+        CHECK_MAX(residual_of(&p, &s), 1e-8, "problem %d", k);
+        rb_contact_state_free(&s);
+        rb_contact_problem_free(&p);
+    }
+}
+
 /* Laws that come back are corrected one by one from then on, where all would slide under
  * a given force the element sticks that wants to slide least, and a layer is followed
  * down from a higher yield stress: without one of these, some take twice the steps or
@@ -1349,6 +1379,10 @@ static void residuals_and_forces_are_sums_over_elements(void **state)
                   sum_of(of.n, p.moment_N, s.p, p.moment_T, s.q), 1e-11, "M");
         force_error(&p, &s, &most);
         CHECK_ABS(rb_contact_capacity(&p, &s), most, 1e-12 * STRESS * of.n, "mu P");
+        double resultant = 0.0;
+        for (int i = 0; i < of.n; i++)
+            resultant += STRESS * fabs(p.load_N[i]);
+        CHECK_REL(rb_contact_force_scale(&p), of.mu * resultant, 1e-12, "scale of Q");
         double *const spoilt[] = {&s.p[0], &s.q[of.n - 1], &s.delta, &s.xi};
         for (int bad = 0; bad < 4; bad++) {
             const double kept = *spoilt[bad];
@@ -1861,6 +1895,7 @@ int main(void)
         cmocka_unit_test(uncoupled_problems_are_solved_in_turn),
         cmocka_unit_test(full_sliding_has_the_least_creepage),
         cmocka_unit_test(every_solver_solves_layers_that_yield),
+        cmocka_unit_test(strong_layers_forget_what_has_yielded),
         cmocka_unit_test(cycles_of_laws_end_soon),
         cmocka_unit_test(pivots_leave_no_rounding),
         cmocka_unit_test(pairs_move_as_their_elements),

@@ -397,7 +397,11 @@ static void given_outer_elements_have_bars(void **state)
     assert_true(fabs(s.force_ratio - thin_rim_force_ratio) > 0.03);
     rb_rolling_solution_free(&s);
     rc.outer_elements = 15;
+    memset(&s, 1, sizeof s);
     CHECK_STATUS(rb_rolling_solve_with_errors(&rc, &s, &e, NULL), RB_EINVAL);
+    assert_int_equal(s.n, 0);
+    assert_true(s.p == NULL && isnan(e.scalar.force_ratio));
+    rb_rolling_solution_free(&s); /* of a case that is refused there is nothing */
 }
 
 /* --accuracy refines what needs it, here the boundary. */

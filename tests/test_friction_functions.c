@@ -255,6 +255,13 @@ static void single_entries_make_blocks(void **state)
                 for (int k = 0; k < m; k++)
                     CHECK_ABS(y[k], k == entry % m ? 2.0 * x[entry / m] : 0.0, 0.0,
                               "entry %d, y(%d)", entry, k);
+                for (int k = 0; k < m; k++) {
+                    const double one[6] = {k == 0, k == 1, k == 2,
+                                           k == 3, k == 4, k == 5};
+                    rb_friction_blocks_apply(&b, one, y);
+                    CHECK_ABS(y[entry % m], k == entry / m ? 2.0 : 0.0, 0.0,
+                              "entry %d, column %d", entry, k);
+                }
                 rb_friction_blocks_free(&b);
             }
             rb_sparse_free(&p.Ws);

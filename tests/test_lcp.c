@@ -472,7 +472,7 @@ static void bad_input_is_refused(void **state)
 static void odd_input_is_taken(void **state)
 {
     (void)state;
-    const double M[] = {1.5e308, 1.5e308, 0.0, 1.0}, q[] = {1.0, 2.0},
+    const double M[] = {1.5e308, 1.5e308, 1.5e308, 1.5e308}, q[] = {1.0, 2.0},
                  cover[] = {0.0, 0.0};
     rb_lcp_options opt = rb_lcp_defaults();
     double z[2];

@@ -238,6 +238,45 @@ static void the_disc_is_symmetric(void **state)
     }
 }
 
+/* From the frame of the obstacle to that of the surface at this angle; way -1: back. */
+static void turn(double angle, double way, const double in[2], double out[2])
+{
+    const double c = cos(angle), s = way * sin(angle);
+    out[0] = c * in[0] - s * in[1];
+    out[1] = s * in[0] + c * in[1];
+}
+
+/* The obstacle's frame is the surface's, turned by the angle of each point and element.
+ */
+static void the_obstacles_frame_is_turned_by_the_angle(void **state)
+{
+    (void)state;
+    enum { n = 24, m = n + 1 };
+    static double F[2][2 * m * 2 * n];
+    const double from = -1.2, h = (0.7 - from) / n;
+    for (int normals = 0; normals < 2; normals++) {
+        rb_bem_flexibility f = disc(n, 40.0, from, 0.7, (rb_bem_normals)normals);
+        CHECK_STATUS(rb_bem_flexibility_matrix(&f, F[normals], 2 * m), RB_OK);
+        rb_bem_flexibility_free(&f);
+    }
+    const double *own = F[RB_BEM_NORMALS_SURFACE], *turned = F[RB_BEM_NORMALS_OBSTACLE];
+    const double scale = largest(sizeof F[0] / sizeof F[0][0], own);
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < n; j++)
+            for (int b = 0; b < 2; b++) {
+                const double load[2] = {b == 0, b == 1}, at = from + (j + 0.5) * h;
+                double r[2], w[2], want[2];
+                turn(at, 1.0, load, r);
+                for (int a = 0; a < 2; a++)
+                    w[a] = own[a * m + i + j * 2 * m] * r[0] +
+                           own[a * m + i + (n + j) * 2 * m] * r[1];
+                turn(from + (i + 0.5) * h, -1.0, w, want);
+                for (int a = 0; a < 2; a++)
+                    CHECK_ABS(turned[a * m + i + (b * n + j) * 2 * m], want[a],
+                              1e-13 * scale, "%d%d of point %d, element %d", a, b, i, j);
+            }
+}
+
 /* A rigid motion apart it is the reference: u and what is expected differ by c, t e_x. */
 static void the_disc_is_the_reference_but_for_a_translation(void **state)
 {
@@ -401,6 +440,7 @@ int main(void)
         cmocka_unit_test(keeps_differences_under_a_deep_datum),
         cmocka_unit_test(long_lines_work),
         cmocka_unit_test(the_disc_is_symmetric),
+        cmocka_unit_test(the_obstacles_frame_is_turned_by_the_angle),
         cmocka_unit_test(the_disc_is_the_reference_but_for_a_translation),
         cmocka_unit_test(a_short_arc_is_a_half_plane),
         cmocka_unit_test(bad_discs_are_refused),
