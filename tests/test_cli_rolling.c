@@ -705,6 +705,43 @@ static void curves_of_a_picture_share_their_range(void **state)
     assert_int_equal(atoi(out), 2);
 }
 
+/* The upper end of the axis that the script sets. */
+static double top_of(const char *script)
+{
+    double from, to;
+    slurp(script, out, sizeof out);
+    const char *range = strstr(out, "set yrange [");
+    assert_non_null(range);
+    assert_int_equal(sscanf(range, "set yrange [%lf:%lf]", &from, &to), 2);
+    return to;
+}
+
+/* A pressure far beyond the limit stays below the upper edge of the map, by a tenth. */
+static void the_shakedown_map_shows_its_case(void **state)
+{
+    (void)state;
+    const double yield_shear = 40.0;
+    json_t *root = run_json("stress --example rail --force-ratio -0.6 --shakedown "
+                            "--yield-shear 40 --shakedown-map m.svg --plot-script m.gp");
+    const double own =
+        number_in(json_object_get(root, "summary"), "max_pressure") / yield_shear;
+    assert_true(own > 10.0);
+    CHECK_REL(top_of("m.gp"), 1.1 * own, 1e-5, "p0 = %g k", own);
+    json_decref(root);
+}
+
+/* Over large mu the bound mu p is cut off at the largest pressure, which keeps the room.
+ */
+static void a_large_bound_leaves_room_to_the_pressure(void **state)
+{
+    (void)state;
+    json_t *one = run_json(SIMILAR "--mu 1 --plot 1.svg --plot-script 1.gp"),
+           *three = run_json(SIMILAR "--mu 3 --plot 3.svg --plot-script 3.gp");
+    CHECK_REL(top_of("1.gp"), top_of("3.gp"), 1e-6, "upper end");
+    json_decref(one);
+    json_decref(three);
+}
+
 /* The value of the largest stress stands in the title of its panel, where it covers no
  * label of a contour. */
 static void the_largest_stress_covers_no_contour(void **state)
@@ -871,6 +908,8 @@ int main(void)
         cmocka_unit_test(pictures_in_sizes),
         cmocka_unit_test(rounding_is_not_drawn_as_slip),
         cmocka_unit_test(curves_of_a_picture_share_their_range),
+        cmocka_unit_test(the_shakedown_map_shows_its_case),
+        cmocka_unit_test(a_large_bound_leaves_room_to_the_pressure),
         cmocka_unit_test(the_largest_stress_covers_no_contour),
         cmocka_unit_test(a_truss_is_drawn_with_its_bars),
         cmocka_unit_test(pictures_name_the_case),
