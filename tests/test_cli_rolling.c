@@ -665,6 +665,21 @@ static void pictures_name_the_case(void **state)
     }
 }
 
+/* Where an option of a body varies, no one body is that of the whole picture. */
+static void pictures_of_varied_bodies_name_none(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        char line[300];
+        snprintf(line, sizeof line,
+                 "sweep --restart " SIMILAR "--contact-elements 20 --vary-1 '%s' --show "
+                 "max_pressure --quiet --output o.tsv --plot v.svg --plot-script v.gp",
+                 k ? "radius 9 20" : "mu .1 .2");
+        assert_int_equal(rollbem(line), 0);
+        assert_int_equal(shell("grep -F 'A: half-plane' v.gp"), k);
+    }
+}
+
 /* Free rolling slips nowhere: what rounding leaves is no curve over an axis of 10^-18. */
 static void rounding_is_not_drawn_as_slip(void **state)
 {
@@ -906,6 +921,7 @@ int main(void)
         cmocka_unit_test(fitted_is_the_default_for_steady),
         cmocka_unit_test(pictures_are_drawn),
         cmocka_unit_test(pictures_in_sizes),
+        cmocka_unit_test(pictures_of_varied_bodies_name_none),
         cmocka_unit_test(rounding_is_not_drawn_as_slip),
         cmocka_unit_test(curves_of_a_picture_share_their_range),
         cmocka_unit_test(the_shakedown_map_shows_its_case),
