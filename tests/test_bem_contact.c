@@ -227,6 +227,27 @@ static void bad_cylinders_are_refused(void **state)
     }
 }
 
+/* With the elements beside it the zone reaches at most 95 % of the way to the clamped
+ * arc, on either side. */
+static void the_zone_ends_before_the_clamped_arc(void **state)
+{
+    (void)state;
+    const rb_bem_cylinder half = {.radius = 50.0, .support = RB_BEM_ARC, .arc = M_PI_2};
+    for (int k = 0; k < 4; k++) {
+        const double reach = (0.95 + (k % 2 ? 1e-6 : -1e-6)) * M_PI_2, arc = 0.2;
+        double ends[5];
+        for (int i = 0; i < 5; i++)
+            ends[i] = 50.0 * sin(k < 2 ? reach - (4 - i) * arc : -reach + (1 + i) * arc);
+        rb_bem_mesh mesh;
+        rb_message why = {""};
+        CHECK_STATUS(rb_bem_mesh_cylinder(&half, 3, ends, &mesh, &why),
+                     k % 2 ? RB_EINVAL : RB_OK);
+        assert_true(k % 2 ==
+                    (strstr(why.text, "clamped arc of half-angle 1.57") != NULL));
+        rb_bem_mesh_free(&mesh);
+    }
+}
+
 typedef void spoil(rb_bem_mesh *mesh);
 static void open_contour(rb_bem_mesh *m)
 {
@@ -770,6 +791,7 @@ int main(void)
         cmocka_unit_test(symmetric_ends_make_a_symmetric_mesh),
         cmocka_unit_test(outer_elements_are_as_many_as_asked_for),
         cmocka_unit_test(bad_cylinders_are_refused),
+        cmocka_unit_test(the_zone_ends_before_the_clamped_arc),
         cmocka_unit_test(spoilt_meshes_are_refused),
         cmocka_unit_test(flexibility_is_the_papers_schur_complement),
         cmocka_unit_test(every_row_is_a_displacement_of_the_full_solution),

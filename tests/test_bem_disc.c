@@ -112,6 +112,32 @@ static void elements_converge_to_the_disc(void **state)
     CHECK_ABS(order(fine, finest) / log2(3), 1.0, 0.1, "order");
 }
 
+/* The first of the contact elements that is not of the others' arc is named. */
+static void every_element_is_of_the_same_arc(void **state)
+{
+    (void)state;
+    enum { n = 4 };
+    const rb_bem_disc disc = {2.0, material};
+    for (int k = 0; k <= n; k++) {
+        rb_bem_flexibility f;
+        rb_message why = {""};
+        double ends[n + 2];
+        for (int i = 0; i < n + 2; i++)
+            ends[i] = 2.0 * sin(-0.2 + 0.15 * i);
+        if (k > 0)
+            ends[k] += 1e-6;
+        CHECK_STATUS(
+            rb_bem_flexibility_disc(n, ends, &disc, RB_BEM_NORMALS_SURFACE, &f, &why),
+            k ? RB_EINVAL : RB_OK);
+        char text[80] = "";
+        if (k)
+            snprintf(text, sizeof text,
+                     "disc: contact element %d is not of the others' arc", k);
+        assert_string_equal(why.text, text);
+        rb_bem_flexibility_free(&f);
+    }
+}
+
 static void bad_input_is_refused(void **state)
 {
     (void)state;
@@ -135,6 +161,7 @@ int main(void)
         cmocka_unit_test(the_closed_form_is_the_series),
         cmocka_unit_test(arcs_add_up_at_any_width),
         cmocka_unit_test(elements_converge_to_the_disc),
+        cmocka_unit_test(every_element_is_of_the_same_arc),
         cmocka_unit_test(bad_input_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

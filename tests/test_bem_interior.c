@@ -161,6 +161,38 @@ static void diametral_compression_at_the_centre(void **state)
     CHECK_ABS(order(fine, finest) / log2(3), 1.1, 0.1, "order");
 }
 
+/* A polygon held at two sides and pulled at a third one, in another unit of length:
+ * stresses stay, displacements become as many times as long. */
+static void no_unit_of_length_is_preferred(void **state)
+{
+    (void)state;
+    enum { n = 24, P = 3 };
+    static const double inside[2 * P] = {0.1, 0.2, -0.5, 0.3, 0.0, -0.93};
+    double u[2][2 * P], s[2][3 * P];
+    for (int k = 0; k < 2; k++) {
+        const double unit = k ? 1e-3 : 1.0;
+        rb_bem_mesh mesh = circle(n, unit);
+        rb_bem_system *system;
+        double at[2 * n], t[2 * n], xy[2 * P];
+        for (int i = 0; i < 2 * P; i++)
+            xy[i] = unit * inside[i];
+        for (int j = 0; j < 8; j++)
+            give(&mesh, 3 * j, RB_BEM_DISPLACEMENT, 0.0, j == 2 ? 1e-3 * unit : 0.0);
+        give(&mesh, 4, RB_BEM_TRACTION, 1.0, 3.0);
+        CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, NULL), RB_OK);
+        CHECK_STATUS(rb_bem_system_solve(system, NULL, at, t), RB_OK);
+        CHECK_STATUS(rb_bem_interior(&(rb_bem_boundary){&mesh, material, at, t},
+                                     (rb_bem_points){P, xy}, u[k], s[k], NULL),
+                     RB_OK);
+        rb_bem_system_free(system);
+        rb_bem_mesh_free(&mesh);
+    }
+    for (int i = 0; i < 2 * P; i++)
+        CHECK_ABS(1e3 * u[1][i], u[0][i], 1e-14, "displacement %d", i);
+    for (int i = 0; i < 3 * P; i++)
+        CHECK_ABS(s[1][i], s[0][i], 1e-11, "stress %d", i);
+}
+
 /* ---- Equilibrium ------------------------------------------------------------------- */
 
 static void the_field_is_in_equilibrium(void **state)
@@ -250,6 +282,7 @@ int main(void)
         cmocka_unit_test(a_known_field_is_reproduced),
         cmocka_unit_test(rigid_motions_have_no_stress),
         cmocka_unit_test(diametral_compression_at_the_centre),
+        cmocka_unit_test(no_unit_of_length_is_preferred),
         cmocka_unit_test(the_field_is_in_equilibrium),
         cmocka_unit_test(bad_input_is_refused),
         cmocka_unit_test(failing_memory_is_reported),

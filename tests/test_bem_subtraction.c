@@ -276,6 +276,48 @@ static void a_hollow_contact_is_refused(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
+/* Every contact element alone has the field of its mirror image, mirrored. */
+static void fields_have_their_mirror_images(void **state)
+{
+    (void)state;
+    enum { n = 4, P = 3 };
+    static const double depth[P] = {0.1, 0.6, 40.0}, aside[P] = {0.2, -0.9, 30.0};
+    for (int support = 0; support < 2; support++) {
+        const rb_bem_cylinder cylinder = {.radius = 100.0,
+                                          .support = support ? RB_BEM_ARC : RB_BEM_HUB,
+                                          .arc = 0.5,
+                                          .hub_ratio = 0.3};
+        const double ends[n + 2] = {-1.0, -0.5, 0.0, 0.5, 1.0, 1.5};
+        rb_bem_mesh mesh;
+        rb_bem_system *system;
+        CHECK_STATUS(rb_bem_mesh_cylinder(&cylinder, n, ends, &mesh, NULL), RB_OK);
+        CHECK_STATUS(rb_bem_system_create(&mesh, steel, &system, NULL), RB_OK);
+        for (int load = 0; load < 2 * n; load++) {
+            double s[2][3 * P];
+            const double sign = load % 2 ? 1.0 : -1.0; /* of friction the mirror's */
+            for (int side = 0; side < 2; side++) {
+                double t[2 * n] = {0.0}, xy[2 * P];
+                rb_bem_field *field;
+                t[side ? 2 * (n - 1 - load / 2) + load % 2 : load] = side ? sign : 1.0;
+                for (int k = 0; k < P; k++) {
+                    xy[2 * k] = side ? -aside[k] : aside[k];
+                    xy[2 * k + 1] = depth[k];
+                }
+                CHECK_STATUS(rb_bem_field_create(system, t, &field, NULL), RB_OK);
+                CHECK_STATUS(
+                    rb_bem_field_stress(field, (rb_bem_points){P, xy}, s[side], NULL),
+                    RB_OK);
+                rb_bem_field_free(field);
+            }
+            for (int k = 0; k < 3 * P; k++)
+                CHECK_ABS(s[1][k], (k % 3 == 2 ? -1.0 : 1.0) * s[0][k], 1e-9,
+                          "load %d, stress %d, support %d", load, k, support);
+        }
+        rb_bem_system_free(system);
+        rb_bem_mesh_free(&mesh);
+    }
+}
+
 static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
@@ -316,6 +358,7 @@ int main(void)
         cmocka_unit_test(the_near_field_is_the_half_planes),
         cmocka_unit_test(sides_may_glide),
         cmocka_unit_test(a_hollow_contact_is_refused),
+        cmocka_unit_test(fields_have_their_mirror_images),
         cmocka_unit_test(every_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

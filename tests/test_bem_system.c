@@ -334,7 +334,7 @@ static void bad_input_is_refused(void **state)
                  RB_EINVAL);
     assert_non_null(strstr(why.text, "shear"));
     CHECK_STATUS(rb_bem_assemble(&mesh, material, H, NULL, 2 * n - 1, &why), RB_EINVAL);
-    assert_non_null(strstr(why.text, "leading dimension"));
+    assert_string_equal(why.text, "leading dimension 31: expected at least 32");
     CHECK_STATUS(rb_bem_system_create(&mesh, material, &system, &why), RB_OK);
     CHECK_STATUS(rb_bem_condense(system, RB_BEM_NORMALS_OBSTACLE, &f, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "no contact"));

@@ -1706,7 +1706,7 @@ static void what_is_not_solved_says_so(void **state)
 
 /* Each path of Lemke's method begins with pivot 0. */
 typedef struct {
-    int paths, attempt[12];
+    int paths, attempt[12], pivots, tableaus;
 } attempts;
 
 static void note_attempts(const rb_lcp_pivot *pivot, void *context)
@@ -1714,10 +1714,13 @@ static void note_attempts(const rb_lcp_pivot *pivot, void *context)
     attempts *a = context;
     if (pivot->pivot == 0)
         a->attempt[a->paths++] = pivot->attempt;
+    a->pivots++;
+    a->tableaus += pivot->tableau != NULL;
 }
 
 /* Where none is accurate enough, every form is tried once, evenly covered and unevenly,
- * in their order; Kwak's alone where it is asked for. */
+ * in their order; Kwak's alone where it is asked for, with tableaus that are asked for.
+ */
 static void every_form_is_tried(void **state)
 {
     static const int all[] = {0, 2, 2, 0, 1, 1};
@@ -1735,9 +1738,11 @@ static void every_form_is_tried(void **state)
         options.lcp_form = kwak ? RB_LCP_KWAK : RB_LCP_PIVOTED;
         options.trace = note_attempts;
         options.trace_context = &tried;
+        options.trace_tableau = kwak;
         CHECK_STATUS(rb_contact_state_alloc(of.n, &s), RB_OK);
         assert_true(rb_contact_solve(&p, &options, 0, &s, NULL) > 0);
         assert_true(tried.paths >= (kwak ? 2 : 6));
+        assert_int_equal(tried.tableaus, kwak ? tried.pivots : 0);
         for (int k = 0; k < tried.paths; k++)
             assert_int_equal(tried.attempt[k], kwak ? 2 : all[k % 6]);
         rb_contact_state_free(&s);

@@ -153,6 +153,25 @@ static void force_control_never_fails_on_wheels(void **state)
 
 /* More than any machine has is refused before a matrix is allocated; a contact without a
  * matrix of the same size is not. */
+static void at_rest_relaxing_bodies_need_steps_in_time(void **state)
+{
+    (void)state;
+    static const double time = 0.1, ratio = 1.0;
+    rb_rolling_case rc = steady_wheel(RB_BEM_HALFPLANE, 0.3);
+    rc.a.memory = (rb_rolling_memory){.n = 1, .ratio = {ratio}, .time = {time}};
+    rc.formulation = RB_STATIC;
+    rb_rolling_mesh mesh;
+    rb_rolling_bodies bodies;
+    rb_message why = {""};
+    CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -1.0, 1.0, &mesh, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, &why), RB_EINVAL);
+    assert_string_equal(why.text,
+                        "relaxation: bodies that relax and do not roll steadily "
+                        "need a history of steps in time");
+    rb_rolling_bodies_free(&bodies);
+    rb_rolling_mesh_free(&mesh);
+}
+
 static void absurd_sizes_are_refused(void **state)
 {
     (void)state;
@@ -182,6 +201,7 @@ int main(void)
         cmocka_unit_test(exchanging_the_bodies_mirrors_the_result),
         cmocka_unit_test(finite_cylinders_tend_to_bentall_and_johnson),
         cmocka_unit_test(force_control_never_fails_on_wheels),
+        cmocka_unit_test(at_rest_relaxing_bodies_need_steps_in_time),
         cmocka_unit_test(absurd_sizes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

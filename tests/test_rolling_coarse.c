@@ -96,6 +96,42 @@ static void zones_end_at_the_coarse_edges(void **state)
                                                 : RB_ZONE_SEPARATED);
 }
 
+/* Elements of a fine line that is wider than the coarse one are open, and have the
+ * tractions of its last element on their side. */
+static void nothing_is_known_beyond_the_coarse_line(void **state)
+{
+    (void)state;
+    const rb_rolling_case rc = plane();
+    line *coarse = calloc(1, sizeof *coarse);
+    double *ends = rb_alloc(COARSE + 2, 1), *p = rb_alloc(COARSE, 1);
+    int *zone = rb_alloc_int(COARSE);
+    line fine;
+    assert_true(coarse && ends && p && zone);
+    make(coarse, COARSE, 3.0);
+    make(&fine, FINE, 2.0); /* from -12 to 36 over 0 to 24 */
+    for (int i = 0; i < FINE + 2; i++)
+        fine.ends[i] -= 12.0;
+    for (int j = 0; j < COARSE; j++) {
+        p[j] = 1.0 + j;
+        zone[j] = RB_ZONE_STICK;
+    }
+    memcpy(ends, coarse->ends, (COARSE + 2) * sizeof *ends);
+    coarse->mesh.ends = ends; /* arrays of their own end where they end */
+    coarse->state.p = coarse->state.q = p;
+    coarse->state.zone = zone;
+    rb_rolling_start_from(&rc, &coarse->mesh, &coarse->state, &fine.mesh, &fine.state);
+    for (int i = 0; i < FINE; i++) {
+        if (i >= 6 && i < 18)
+            continue;
+        assert_int_equal(fine.zone[i], RB_ZONE_SEPARATED);
+        CHECK_ABS(fine.p[i], i < 6 ? 1.0 : COARSE, 0.0, "p of %d", i);
+    }
+    free(zone);
+    free(p);
+    free(ends);
+    free(coarse);
+}
+
 static void open_elements_inside_the_edges_join_their_neighbour(void **state)
 {
     (void)state;
@@ -133,6 +169,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tractions_are_linear_between_midpoints),
         cmocka_unit_test(zones_end_at_the_coarse_edges),
+        cmocka_unit_test(nothing_is_known_beyond_the_coarse_line),
         cmocka_unit_test(open_elements_inside_the_edges_join_their_neighbour),
         cmocka_unit_test(a_quarter_of_the_elements_or_150_start),
     };

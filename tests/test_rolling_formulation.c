@@ -2,6 +2,7 @@
 #include "check.h"
 #include "rolling/internal.h"
 
+#include <cblas.h>
 #include <float.h>
 #include <string.h>
 
@@ -117,6 +118,75 @@ static void the_second_order_operator_has_four_points(void **state)
         }
     release(&with);
     release(&d);
+}
+
+/* What a wheel has over the half-plane of its material is continued on a line, over the
+ * two points outside of which the second-order operator asks. */
+static void displacement_outside_continues_the_wheel(void **state)
+{
+    (void)state;
+    const double t = 0.0740956, first = (1 - t) / 4, last = (1 + t) / 4,
+                 middle[2] = {(3 + 3 * t) / 4, -(5 + 3 * t) / 4};
+    rb_rolling_case rc = plane(RB_STEADY);
+    rc.slip_operator = RB_SLIP_SECOND;
+    posed flat = pose(&rc, NULL);
+    rc.a.support = RB_BEM_ARC;
+    rc.a.radius = 5000.0; /* arcs are as long as their chords */
+    rc.outer_elements = 30;
+    posed wheel = pose(&rc, NULL);
+    for (int j = 0; j < 2 * N; j++) {
+        double over[M], before = S(&wheel, 0, j) - S(&flat, 0, j),
+                        beyond = S(&wheel, N - 1, j) - S(&flat, N - 1, j);
+        for (int i = 0; i < M; i++)
+            over[i] = w_T(&wheel, i, j) - w_T(&flat, i, j);
+        before -= middle[0] * over[0] + middle[1] * over[1] + last * over[2];
+        beyond -= first * over[N - 2] + middle[0] * over[N - 1] + middle[1] * over[N];
+        const double small = 1e-8 * fabs(w_T(&flat, 0, N));
+        CHECK_ABS(before, first * (2.0 * over[0] - over[1]), small, "before, %d", j);
+        CHECK_ABS(beyond, last * (2.0 * over[N] - over[N - 1]), small, "beyond, %d", j);
+    }
+    release(&flat);
+    release(&wheel);
+}
+
+/* Displacements of the elements under a unit traction on element `of`, without a matrix.
+ */
+static void answer_to(posed *d, int of, double *answer)
+{
+    const int n = d->p.n;
+    double *r = calloc(4 * (size_t)n, sizeof *r), *w = r + 2 * n;
+    assert_non_null(r);
+    r[of] = 1.0;
+    rb_contact_operator_add(d->p.op, r, r + n, w, w + n);
+    memcpy(answer, w, 2 * (size_t)n * sizeof *w);
+    free(r);
+}
+
+/* Half-planes answer to distances alone, with products as with matrices: the answer to a
+ * traction moves with it, from the first element to the last one. */
+static void products_move_with_the_tractions(void **state)
+{
+    enum { n = RB_ROLLING_LARGE };
+    static double here[2 * n], there[2 * n];
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = plane(RB_STEADY);
+        rc.contact_elements = n;
+        rc.slip_operator = k ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
+        posed d = pose(&rc, NULL);
+        assert_null(d.K.S);
+        for (int side = 0; side < 2; side++)
+            for (int left = 0; left < n; left += n - 2) {
+                answer_to(&d, side * n + left, here);
+                answer_to(&d, side * n + left + 1, there);
+                const double most = fabs(here[cblas_idamax(2 * n, here, 1)]);
+                for (int i = 0; i < 2 * n; i++)
+                    if (i != n - 1 && i != 2 * n - 1)
+                        CHECK_ABS(there[i + 1], here[i], 1e-12 * most, "answer %d to %d",
+                                  i, left);
+            }
+        release(&d);
+    }
 }
 
 /* ---- What moves the surfaces ------------------------------------------------------- */
@@ -371,6 +441,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(steady_slip_is_the_difference_upstream),
         cmocka_unit_test(the_second_order_operator_has_four_points),
+        cmocka_unit_test(displacement_outside_continues_the_wheel),
+        cmocka_unit_test(products_move_with_the_tractions),
         cmocka_unit_test(a_step_begins_with_its_past),
         cmocka_unit_test(what_yields_follows_the_material),
         cmocka_unit_test(softening_has_a_limit),
