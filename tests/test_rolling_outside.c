@@ -219,6 +219,38 @@ static void patches_side_by_side_are_fitted_as_one(void **state)
     release(t);
 }
 
+/* A groove of a hundredth of the contact does not divide the fitted elements: they reach
+ * from one of Hertz's edges to the other. */
+static void a_narrow_groove_is_fitted_over(void **state)
+{
+    (void)state;
+    enum { ROWS = 1601 };
+    static double x[ROWS], gap[ROWS];
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rb_rolling_profile *profile;
+    for (int i = 0; i < ROWS; i++) {
+        x[i] = 0.002 * (i - ROWS / 2);
+        gap[i] = x[i] * x[i] / 100.0 + 0.01 * exp(-pow((x[i] - 0.3) / 0.004, 2.0));
+    }
+    CHECK_STATUS(rb_rolling_profile_create(ROWS, x, gap, 0.0, &profile, NULL), RB_OK);
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.gap = RB_GAP_TABLE;
+    rc.profile = profile;
+    rc.mu = 0.0;
+    rc.formulation = RB_STATIC;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 200;
+    rc.load = 1800.0;
+    rb_rolling_solution s = solved(&rc);
+    const double a = sqrt(4.0 * 1800.0 * 50.0 * 0.99 / (M_PI * 94500.0));
+    assert_int_equal(s.patches, 2);
+    assert_int_equal(s.equal_instead, 0);
+    CHECK_REL(-s.contact_from, a, 2e-3, "left edge");
+    CHECK_REL(s.contact_to, a, 2e-3, "right edge");
+    rb_rolling_solution_free(&s);
+    rb_rolling_profile_free(profile);
+}
+
 /* A table and its mirror image, shifted the other way, have mirrored contacts, whatever
  * elements are taken and wherever the patches are. */
 static void mirrored_tables_have_mirrored_contacts(void **state)
@@ -478,6 +510,7 @@ int main(void)
         cmocka_unit_test(too_many_patches_have_equal_elements),
         cmocka_unit_test(several_patches_cannot_be_aligned),
         cmocka_unit_test(patches_side_by_side_are_fitted_as_one),
+        cmocka_unit_test(a_narrow_groove_is_fitted_over),
         cmocka_unit_test(mirrored_tables_have_mirrored_contacts),
         cmocka_unit_test(a_narrow_zone_is_told_its_width),
         cmocka_unit_test(a_zone_is_as_wide_as_its_longer_side),
