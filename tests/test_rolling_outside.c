@@ -117,6 +117,37 @@ static void a_bump_overlaps_where_the_surface_has_not_sunk(void **state)
     }
 }
 
+/* Likewise the rim of a wheel, by what elements that reach the bump tell of it. */
+static void a_wheel_sinks_as_its_elements_tell(void **state)
+{
+    (void)state;
+    enum { WIDE = 112, M = WIDE + 1 };
+    const double x[] = {0.0, 6.0};
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_overlap o;
+        double w[2 * M], height[] = {0.0, 0.5};
+        table *t = bumps(2, x, height);
+        t->rc.a.support = k < 2 ? RB_BEM_HUB : RB_BEM_ARC;
+        t->rc.contact_elements = WIDE;
+        rb_rolling_model model = solved_between(&t->rc, -0.5, 6.5);
+        CHECK_STATUS(
+            rb_rolling_displacement(&model.bodies, model.state.p, model.state.q, w),
+            RB_OK);
+        const int at = (int)(6.5 / 7.0 * WIDE);
+        CHECK_ABS(model.bodies.f.x[at], 6.0, 0.05, "there");
+        height[1] = (model.state.delta - w[at]) * (k % 2 ? 1.05 : 0.95);
+        rb_rolling_model_free(&model);
+        release(t);
+        t = bumps(2, x, height);
+        t->rc.a.support = k < 2 ? RB_BEM_HUB : RB_BEM_ARC;
+        model = solved_between(&t->rc, -0.5, 0.5);
+        CHECK_STATUS(rb_rolling_find_overlap(&model, &model.state, &o), RB_OK);
+        assert_int_equal(o.count, k % 2 ? 0 : 1);
+        rb_rolling_model_free(&model);
+        release(t);
+    }
+}
+
 static void more_overlaps_than_there_is_room_end_in_one(void **state)
 {
     (void)state;
@@ -505,6 +536,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_bump_that_overlaps_is_found),
         cmocka_unit_test(a_bump_overlaps_where_the_surface_has_not_sunk),
+        cmocka_unit_test(a_wheel_sinks_as_its_elements_tell),
         cmocka_unit_test(more_overlaps_than_there_is_room_end_in_one),
         cmocka_unit_test(elements_are_fitted_to_every_patch),
         cmocka_unit_test(too_many_patches_have_equal_elements),
