@@ -588,6 +588,25 @@ static void transients_may_start_elsewhere(void **state)
     rb_rolling_solution_free(&t);
 }
 
+/* Where there are several, it does: little friction to begin with stays less. */
+static void a_transient_finds_the_solution_of_its_start(void **state)
+{
+    (void)state;
+    const double x[] = {-1.0, 1.0}, y[] = {0.2, 0.2};
+    const rb_rolling_table start = {2, x, y};
+    rb_rolling_case rc = falling(RB_TRANSIENT, 0.2, 0.05);
+    rc.creep_ratio = 2.0;
+    rc.steps = 1;
+    rb_rolling_solution s = solved(&rc);
+    rc.friction.start = &start;
+    rb_rolling_solution t = solved(&rc);
+    CHECK_MAX(s.residual, 1e-10, "from rest");
+    CHECK_MAX(t.residual, 1e-10, "from little friction");
+    CHECK_MAX(-t.tangential_load, -0.995 * s.tangential_load, "-Q");
+    rb_rolling_solution_free(&s);
+    rb_rolling_solution_free(&t);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -613,6 +632,7 @@ int main(void)
         cmocka_unit_test(newtons_method_may_have_no_memory),
         cmocka_unit_test(kappa_of_no_pressure_is_nothing),
         cmocka_unit_test(transients_may_start_elsewhere),
+        cmocka_unit_test(a_transient_finds_the_solution_of_its_start),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
