@@ -367,6 +367,44 @@ static void every_point_of_the_path_solves_with_a_cover(void **state)
     }
 }
 
+/* The halves of a free z have the cover of its row, so that a path ends where the one
+ * that all rows cover alike does, and a row that must be covered is named as the caller
+ * numbers it. */
+static void a_cover_is_that_of_both_halves_of_a_free_z(void **state)
+{
+    (void)state;
+    static problem p;
+    double z[N], want[N], cover[N];
+    rb_lcp_info info;
+    rb_lcp_options opt = rb_lcp_defaults();
+    opt.cover = cover;
+    for (int k = 0; k < 40; k++) {
+        positive_definite(1 + k % 30, &p);
+        for (int i = 0; i < p.n; i++) {
+            cover[i] = 1.5 + uniform();
+            if (i % 3 == 0)
+                p.lower[i] = -INFINITY;
+        }
+        CHECK_STATUS(solve(&p, NULL, want, NULL), RB_OK);
+        CHECK_STATUS(solve(&p, &opt, z, &info), RB_OK);
+        CHECK_MAX(natural_residual(&p, z), 1e-11, "order %d", p.n);
+        for (int i = 0; i < p.n; i++)
+            CHECK_ABS(z[i], want[i], 1e-10, "order %d, z(%d)", p.n, i + 1);
+    }
+    for (int sign = -1; sign <= 1; sign += 2) {
+        positive_definite(4, &p);
+        for (int i = 0; i < 4; i++)
+            cover[i] = i != 2, p.q[i] = i == 2 ? 0.5 * sign : 1.0;
+        p.lower[0] = p.lower[2] = -INFINITY;
+        CHECK_STATUS(solve(&p, &opt, z, &info), RB_EINVAL);
+        assert_string_equal(
+            info.msg.text, sign > 0 ? "lcp: cover(3) = 0: expected a number > 0, because "
+                                      "w(3) = 0.5 at the start has the wrong sign"
+                                    : "lcp: cover(3) = 0: expected a number > 0, because "
+                                      "w(3) = -0.5 at the start has the wrong sign");
+    }
+}
+
 /* Under a generic perturbation the path is a simple curve, so no basis comes twice,
  * however many rows tie. */
 static void a_path_through_ties_meets_no_basis_twice(void **state)
@@ -832,6 +870,7 @@ static void a_large_row_hides_no_wrong_one(void **state)
     (void)state;
     int row[] = {0, 1, 0, 1}, col[] = {0, 0, 1, 1};
     double x[] = {-1.12e-4, 1e300, -1e-8, 1e154}, q[] = {-23.75, -24.5};
+    const double lower[] = {0.0, 0.0}, upper[] = {INFINITY, INFINITY};
     double z[2];
     rb_sparse M;
     rb_lcp_info info;
@@ -842,6 +881,9 @@ static void a_large_row_hides_no_wrong_one(void **state)
         RB_OK);
     assert_int_not_equal(
         rb_lcp_mixed(&(rb_lcp_mixed_problem){.M = &M, .q = q}, NULL, z, &info), RB_OK);
+    assert_int_not_equal(
+        rb_lcp_mixed(&(rb_lcp_mixed_problem){&M, q, lower, upper}, NULL, z, &info),
+        RB_OK);
     rb_sparse_free(&M);
 }
 
@@ -856,6 +898,7 @@ int main(void)
         cmocka_unit_test(integers_full_of_ties_do_not_cycle),
         cmocka_unit_test(the_rule_decides_whether_kostreva_cycles),
         cmocka_unit_test(every_point_of_the_path_solves_with_a_cover),
+        cmocka_unit_test(a_cover_is_that_of_both_halves_of_a_free_z),
         cmocka_unit_test(a_path_through_ties_meets_no_basis_twice),
         cmocka_unit_test(moved_and_mirrored_boxes_have_the_same_path),
         cmocka_unit_test(programs_with_equations_are_solved),

@@ -18,7 +18,9 @@ static const double AWAY = 1.0 + 1e-9;
 enum { NONE = -1, OPPOSITE = -2 }; /* in place of a slot: no block; the other bound */
 
 typedef struct {
-    int n;
+    int n,
+        given; /* order; that of the caller's problem, before free variables are split */
+    const int *of; /* n - given: whose other half each more is */
     const rb_sparse *M;
     const double *q, *lower, *upper; /* n; no box without a finite end */
     rb_lcp_options opt;
@@ -196,6 +198,16 @@ static void choose_shift(mixed *p)
     combine_columns(p, p->generic, p->shift);
 }
 
+/* Of the other half of a free variable the caller knows the first one. */
+static rb_status fail_cover(const mixed *p, int s)
+{
+    const int v = p->b.variable[s], i = v < p->given ? v : p->of[v - p->given];
+    return rb_fail(&p->info->msg, RB_EINVAL,
+                   "lcp: cover(%d) = 0: expected a number > 0, because w(%d) = %g "
+                   "at the start has the wrong sign",
+                   i + 1, i + 1, v < p->given ? p->value[s] : -p->value[s]);
+}
+
 /* The basic variables are to be value + t times y: for w the covering vector, for z so
  * much that where t makes all of them feasible z has not passed through its box. */
 static rb_status choose_cover(mixed *p)
@@ -208,11 +220,7 @@ static rb_status choose_cover(mixed *p)
         if (violation(p, s) <= 0.0)
             continue;
         if (cover == 0.0)
-            return rb_fail(
-                &p->info->msg, RB_EINVAL,
-                "lcp: cover(%d) = 0: expected a number > 0, because w(%d) = %g "
-                "at the start has the wrong sign",
-                v + 1, v + 1, p->value[s]);
+            return fail_cover(p, s);
         worst = fmax(worst, violation(p, s) / cover);
     }
     for (int s = 0; s < p->n; s++) {
@@ -467,7 +475,8 @@ static rb_status solve_from(mixed *p, const double *start)
 typedef struct {
     int n, *of;  /* order; n - rows of M: the i that each more belongs to; owned */
     rb_sparse M; /* owned when there are any */
-    double *q, *lower, *upper, *start; /* n each; q owns all */
+    double *q, *lower, *upper, *start, *cover; /* n each; q owns all; of the options that
+                                                  are NULL, NULL */
 } split;
 
 static void split_free(split *f)
@@ -496,16 +505,17 @@ static rb_status split_matrix(const rb_sparse *M, const int *number, split *f)
 }
 
 static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start,
-                              split *f)
+                              const double *cover, split *f)
 {
     const int n = p->M->rows;
-    *f = (split){.n = n, .of = rb_alloc_int((size_t)n), .q = rb_alloc((size_t)n, 8)};
+    *f = (split){.n = n, .of = rb_alloc_int((size_t)n), .q = rb_alloc((size_t)n, 10)};
     int *number = rb_alloc_int((size_t)n);
     rb_status s = f->of && f->q && number ? RB_OK : RB_ENOMEM;
     if (s == RB_OK) {
         f->lower = f->q + 2 * n;
         f->upper = f->lower + 2 * n;
         f->start = start ? f->upper + 2 * n : NULL;
+        f->cover = cover ? f->upper + 4 * n : NULL;
     }
     for (int i = 0; s == RB_OK && i < n; i++) {
         const double low = rb_lcp_lower(p->lower, i), high = rb_lcp_upper(p->upper, i);
@@ -516,12 +526,16 @@ static rb_status split_create(const rb_lcp_mixed_problem *p, const double *start
         number[i] = free_one ? f->n : -1;
         if (start)
             f->start[i] = start[i];
+        if (cover)
+            f->cover[i] = cover[i];
         if (!free_one)
             continue;
         f->q[f->n] = -p->q[i];
         f->upper[f->n] = INFINITY;
         if (start)
             f->start[f->n] = -start[i];
+        if (cover)
+            f->cover[f->n] = cover[i];
         f->of[f->n++ - n] = i;
     }
     if (s == RB_OK && f->n > n)
@@ -555,10 +569,12 @@ static rb_status create(const split *f, const rb_sparse *M, mixed *p)
 {
     const size_t n = (size_t)f->n;
     p->n = f->n;
+    p->of = f->of;
     p->M = M;
     p->q = f->q;
     p->lower = f->lower;
     p->upper = f->upper;
+    p->opt.cover = f->cover;
     p->value = rb_alloc(n, 5);
     p->at_upper = rb_alloc_int(4 * n + 1);
     const rb_status s = rb_lcp_basis_create(M, &p->b);
@@ -640,7 +656,8 @@ rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *given, const rb_lcp_options *
 {
     const int n = given->M->rows;
     rb_lcp_info unread;
-    mixed p = {.began = rb_seconds(),
+    mixed p = {.given = n,
+               .began = rb_seconds(),
                .info = info ? info : &unread,
                .opt = opt ? *opt : rb_lcp_defaults()};
     split f = {0};
@@ -648,7 +665,7 @@ rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *given, const rb_lcp_options *
     rb_status s = check_input(given, &p.opt, &p.info->msg);
     if (s != RB_OK)
         return s;
-    s = split_create(given, p.opt.start, &f);
+    s = split_create(given, p.opt.start, p.opt.cover, &f);
     s = s == RB_OK ? create(&f, f.n > n ? &f.M : given->M, &p)
                    : rb_fail(&p.info->msg, s, "lcp: out of memory for order %d", n);
     if (s == RB_OK) {
