@@ -277,6 +277,7 @@ static void bad_input_is_refused(void **state)
         const char *part;
     } wrong[] = {
         {{.young = -1.0, .poisson = 0.3, .section = 1.0}, "young = -1: expected > 0"},
+        {{.young = 0.0, .poisson = 0.3, .section = 1.0}, "young = 0: expected > 0"},
         {{.young = INFINITY, .poisson = 0.3, .section = 1.0}, "young = inf"},
         {{.young = 1.0, .poisson = 0.5, .section = 1.0}, "poisson = 0.5: expected in"},
         {{.young = 1.0, .poisson = -1.0, .section = 1.0}, "poisson = -1: expected in"},
@@ -408,9 +409,13 @@ static rb_status build_and_condense(void)
 {
     rb_fem_model model;
     rb_fem_condensation *c = NULL;
+    rb_fem_state at = {0};
     rb_status s = rb_fem_model_bar(4, 2, &model, NULL);
     if (s == RB_OK)
         s = rb_fem_condense(&model.structure, &c, NULL);
+    if (s == RB_OK)
+        s = rb_fem_state_alloc(&model.structure, &at);
+    rb_fem_state_free(&at);
     rb_fem_condensation_free(c);
     rb_fem_model_free(&model);
     return s;

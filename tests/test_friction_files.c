@@ -21,6 +21,9 @@ static const char half[] = "2 1 0 2 2 2 2\n4 0 0 3\n-5 -6\n0.5\n";
 /* d, contacts, M; H; f; w; mu. */
 static const char global[] = "2 1 0 3 3 3 3\n2 0 0 0 3 0 0 0 4\n0 3 2 3 2\n1 0 5 0 1 0\n"
                              "7 8 9\n0.1 0.2\n0.3\n";
+/* As many motions as rows of contacts: its head is that of a local problem too. */
+static const char two_ways[] =
+    "2 1 0 2 2 2 2\n2 0 0 4\n0 2 2 2 2\n1 0 0 5\n7 8\n0.1 0.2\n0.3\n";
 /* n, cones; M; q; where the cones start; slopes. */
 static const char cones[] = "4 2 0 4 4 4 4\n"
                             "8 1 2 4 1 6 3 5 2 3 9 7 4 5 7 10\n-1 -2 -3 -4\n0 3 4\n2 5\n";
@@ -81,6 +84,29 @@ static void global_problems_come_from_text(void **state)
         CHECK_ABS(p.mu[0], 0.3, 0.0, "mu");
         rb_friction_problem_free(&p);
     }
+}
+
+/* What the head leaves open is told by the length; where neither form has it, the message
+ * is that of the local one. */
+static void a_head_of_both_forms_is_followed_to_the_end(void **state)
+{
+    (void)state;
+    rb_friction_problem p;
+    rb_message why = {""};
+    read_whole(two_ways, RB_FRICTION_FILE_ANY, &p);
+    assert_int_equal(p.form, RB_FRICTION_GLOBAL);
+    CHECK_ABS(p.K.x[1], 4.0, 0.0, "K(2, 2)");
+    CHECK_ABS(p.H.x[1], 5.0, 0.0, "H(2, 2)");
+    CHECK_ABS(p.mu[0], 0.3, 0.0, "mu");
+    rb_friction_problem_free(&p);
+    char text[300], wanted[1200];
+    snprintf(text, sizeof text, "%s 99", full);
+    put(text);
+    CHECK_STATUS(rb_friction_read(path, &p, &why), RB_EFORMAT);
+    snprintf(wanted, sizeof wanted,
+             "%s:5: after the last number: expected an integer from 0 to 1, got '99'",
+             path);
+    assert_string_equal(why.text, wanted);
 }
 
 /* A cone ||x_T|| <= x_0 / slope becomes one of slope 1 by x_0 / slope in the place of
@@ -243,6 +269,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(local_problems_come_from_text),
         cmocka_unit_test(global_problems_come_from_text),
+        cmocka_unit_test(a_head_of_both_forms_is_followed_to_the_end),
         cmocka_unit_test(cones_get_the_slope_one),
         cmocka_unit_test(what_is_no_friction_problem_is_refused),
         cmocka_unit_test(problems_go_into_fclib_and_come_back),
