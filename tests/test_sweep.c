@@ -256,6 +256,24 @@ static void cases_that_fail_are_rows_and_an_exit_code(void **state)
                      1);
     assert_non_null(strstr(err, "2 cases"));
     assert_non_null(strstr(err, "not solved: 2 of 2"));
+    assert_non_null(
+        strstr(err, "rollbem: case 1 is not solved: zone: the contact is not"));
+}
+
+/* Also where messages are not wanted; of the others nobody hears. */
+static void the_first_case_that_fails_says_why(void **state)
+{
+    (void)state;
+    assert_int_equal(rollbem("sweep --support halfplane --load 100 --error --quiet "
+                             "--vary-1 'contact-elements 16 10 8 20'"),
+                     64);
+    assert_string_equal(err,
+                        "rollbem: case 2 is not solved: error bars compare with half "
+                        "the elements: expected 12 contact elements or more, got 10\n");
+    assert_int_equal(rollbem("sweep --support halfplane --load 100 --error --quiet "
+                             "--vary-1 'contact-elements 16 20'"),
+                     0);
+    assert_string_equal(err, "");
 }
 
 #define THREE STUDY "--contact-elements 20 --vary-1 'creep-ratio 0:1:3' --output s.tsv "
@@ -696,6 +714,7 @@ int main(void)
         cmocka_unit_test(an_interrupted_study_goes_on),
         cmocka_unit_test(tables_are_in_the_units_of_the_file_that_names_them),
         cmocka_unit_test(cases_that_fail_are_rows_and_an_exit_code),
+        cmocka_unit_test(the_first_case_that_fails_says_why),
         cmocka_unit_test(what_is_no_row_of_the_study_is_refused),
         cmocka_unit_test(a_full_disk_leaves_whole_rows),
         cmocka_unit_test(studies_come_in_three_formats),

@@ -1040,6 +1040,10 @@ typedef struct {
     void *context;
 } rb_rolling_sweep;
 
+/* Case k in the caller's own process, as a process of the sweep solves it: its row, and
+ * why it was not solved, where row->solution.status says so. */
+void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row *row,
+                           rb_message *why);
 /* RB_INTERRUPTED: see or tick said so; no process is left in any case. */
 rb_status rb_rolling_sweep_run(const rb_rolling_sweep *sweep, rb_message *why);
 

@@ -62,6 +62,7 @@ typedef struct {
     int created;         /* 1: there was no such file */
     int worst;           /* exit code so far */
     int unsolved, no_memory, first;
+    int unsolved_case; /* the first that may be solved again to say why; 0: none */
     double start, shown;
 } study;
 

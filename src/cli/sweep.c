@@ -279,12 +279,14 @@ static void write_inputs(const study *st, int k, FILE *out)
 }
 
 /* A case that was not solved shows in the exit code. */
-static void count_status(study *st, rb_status status)
+static void count_status(study *st, int k, rb_status status)
 {
     const int code = cli_exit_of(status);
     st->unsolved += status != RB_OK;
     st->no_memory += status == RB_ENOMEM;
     st->worst = code > st->worst ? code : st->worst;
+    if (status != RB_OK && status != RB_ENOMEM && !st->unsolved_case)
+        st->unsolved_case = k + 1;
 }
 
 static int see_row(int k, const rb_rolling_row *row, void *context)
@@ -306,7 +308,7 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     }
     if (st->o->style.format != RB_REPORT_JSON)
         rb_report_cells_end_row(&c);
-    count_status(st, row->solution.status);
+    count_status(st, k, row->solution.status);
     return ferror(st->out);
 }
 
@@ -441,7 +443,7 @@ static int is_row(study *st, int k, const char *line, size_t length)
             st->drawn[k] = value;
     }
     if (good && *at == '\n')
-        count_status(st, (rb_status)status);
+        count_status(st, k, (rb_status)status);
     return good && *at == '\n';
 }
 
@@ -614,6 +616,20 @@ static rb_rolling_sweep sweep_of(study *st)
                               .context = st};
 }
 
+/* Rows have no place for words: the first that was not solved is solved once more. */
+static void say_why_unsolved(const study *st, const rb_rolling_sweep *sweep)
+{
+    rb_message why = {""};
+    rb_rolling_row row;
+
+    if (!st->unsolved_case)
+        return;
+    rb_rolling_sweep_case(sweep, st->unsolved_case - 1, &row, &why);
+    if (row.solution.status != RB_OK)
+        cli_fail(CLI_UNSOLVED, "case %d is not solved: %s", st->unsolved_case,
+                 why.text[0] ? why.text : rb_status_text(row.solution.status));
+}
+
 static cli_exit run(study *st)
 {
     rb_message why = {""};
@@ -633,6 +649,7 @@ static cli_exit run(study *st)
     if (!st->o->quiet)
         fprintf(stderr, "study: %d cases in %.3g s; not solved: %d of %d\n", sweep.count,
                 spent, st->unsolved, st->cases);
+    say_why_unsolved(st, &sweep);
     if (st->o->cite)
         rb_report_citations(stderr, &rb_case_settled(st->base)->rc, NULL);
     if (st->no_memory > 0)

@@ -40,20 +40,22 @@ static processes *processes_of(rb_rolling_pool *pool)
 /* What a row has besides the solution. */
 static rb_status measure(unsigned also, const rb_rolling_case *rc,
                          const rb_rolling_model *model,
-                         const rb_rolling_solution *solution, rb_rolling_row *row)
+                         const rb_rolling_solution *solution, rb_rolling_row *row,
+                         rb_message *why)
 {
     const int with_stress = (also & RB_ROW_STRESS) != 0;
     rb_status s = RB_OK;
 
     if (with_stress)
-        s = rb_rolling_stress_maxima_find(model, 0.0, &row->stress, NULL);
+        s = rb_rolling_stress_maxima_find(model, 0.0, &row->stress, why);
     if (s == RB_OK && also & RB_ROW_ERRORS)
         s = rb_rolling_estimate_errors(rc, solution, with_stress ? &row->stress : NULL,
-                                       &row->errors, NULL);
+                                       &row->errors, why);
     return s;
 }
 
-static void solve_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row *row)
+void rb_rolling_sweep_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row *row,
+                           rb_message *why)
 {
     rb_rolling_case rc;
     rb_rolling_model model = {0};
@@ -62,11 +64,11 @@ static void solve_case(const rb_rolling_sweep *sweep, int k, rb_rolling_row *row
 
     *row = rb_rolling_no_row(s);
     if (s == RB_OK)
-        s = rb_rolling_solve_model(&rc, &model, &solution, NULL);
+        s = rb_rolling_solve_model(&rc, &model, &solution, why);
     if (s >= 0 && solution.p)
         row->solution = rb_rolling_scalars_of(&solution);
     row->solution.status =
-        s == RB_OK ? measure(sweep->also, &rc, &model, &solution, row) : s;
+        s == RB_OK ? measure(sweep->also, &rc, &model, &solution, row, why) : s;
     rb_rolling_solution_free(&solution);
     rb_rolling_model_free(&model);
 }
@@ -100,7 +102,7 @@ static void run_worker(const rb_rolling_sweep *sweep, int parent)
     do {
         if (!receive_all(parent, &k, sizeof k))
             break;
-        solve_case(sweep, k, &row);
+        rb_rolling_sweep_case(sweep, k, &row, NULL);
     } while (send_all(parent, &row, sizeof row));
     _exit(0);
 }
