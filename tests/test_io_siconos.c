@@ -311,6 +311,8 @@ static void what_is_wrong_is_named_with_its_line(void **state)
                   "start of the cones");
     check_refused(read_soclcp, "2 2 0 2 2 2 2 2 0 1 3 -5 -6 1 1 2 0.5 0.25",
                   "start of the cones");
+    check_refused(read_soclcp, "2 2 0 2 2 2 2 2 0 1 3 -5 -6 0 1 2 0.5 0.25 7",
+                  "after the last number: expected an integer from 0 to 1, got '7'");
     check_refused(guess, "5 5 5 5 5", "no known kind");
     check_refused(guess, "2 1 0 2", "size at the head: expected an integer >= 0");
 }

@@ -619,8 +619,6 @@ static rb_status keep_tractions(rb_api *a, const rb_lcp_pivot *p, const double *
     double *z = rb_alloc((size_t)p->n, 1);
     rb_contact_state state = {0};
     rb_status s = z ? rb_contact_state_alloc(n, &state) : RB_ENOMEM;
-    for (int i = 0; z && i < p->n; i++)
-        z[i] = 0.0;
     for (int i = 0; s == RB_OK && i < p->n; i++)
         if (p->basis[i] >= p->n && p->basis[i] < 2 * p->n)
             z[p->basis[i] - p->n] = value[i];
