@@ -108,6 +108,7 @@ static void separated_elements_carry_nothing(void **state)
     rc.cone_solvers = &rough;
     rc.cone_solver = "rough";
     CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
+    assert_string_equal(s.cone_solver, "rough");
     CHECK_MAX(s.residual, 1e-10, "residual");
     for (int i = 0; i < s.n; i++)
         if (s.zone[i] == RB_ZONE_SEPARATED) {

@@ -46,6 +46,11 @@ static void the_parts_of_the_time_are_within_the_whole(void **state)
     }
     CHECK_MAX(sum, s.seconds_total, "seconds");
     rb_rolling_solution_free(&s);
+
+    const rb_rolling_case flat = plane(RB_STATIC); /* without a boundary */
+    s = solved(&flat);
+    CHECK_ABS(s.seconds_assembly + s.seconds_factor, 0.0, 0.0, "seconds of no boundary");
+    rb_rolling_solution_free(&s);
 }
 
 static void columns_are_those_of_the_state(void **state)

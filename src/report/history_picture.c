@@ -66,6 +66,7 @@ static view make_view(const rb_rolling_history *h, rb_report_canvas canvas)
               .rolls = h->step > 0.0,
               .in_time = h->step == 0.0 && h->time,
               .points = h->n <= 40,
+              .power = 1.0, /* as motion() reads it below */
               .place = rb_report_place_of(canvas)};
     double largest = 0.0;
     for (int i = 0; i < h->n; i++)
