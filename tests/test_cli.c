@@ -580,6 +580,27 @@ static void interrupted_run_keeps_its_steps(void **state)
     json_decref(root);
 }
 
+/* Under nohup it goes on when the terminal goes; without, it is interrupted.  Signals are
+ * sent as soon as the program catches them: SIGHUP is bit 0 of the mask, SIGINT bit 1. */
+static void a_terminal_that_goes_interrupts_unless_nohup(void **state)
+{
+    (void)state;
+    for (int nohup = 0; nohup < 2; nohup++) {
+        char line[500];
+        snprintf(line, sizeof line,
+                 "%s \"$R\" " QUICK
+                 " --similar --formulation transient --distance 100000 "
+                 "--creep-ratio 0.5 --quiet --output gone.tsv & p=$!; "
+                 "until grep -q 'SigCgt:.*[%s]$' /proc/$p/status || [ $((n+=1)) -gt 500 "
+                 "]; do sleep 0.01; "
+                 "done; kill -HUP $p; %s wait $p",
+                 nohup ? "trap '' HUP;" : "", nohup ? "2367abef" : "37bf",
+                 nohup ? "sleep 0.3; kill -INT $p || exit 9;" : "");
+        assert_int_equal(shell(line), 1);
+        assert_non_null(strstr(err, "interrupted after step"));
+    }
+}
+
 /* ---- Error bars -------------------------------------------------------------------- */
 
 /* s = 0.4: exact Q/(mu P) = -0.64. */
@@ -883,6 +904,7 @@ int main(void)
         cmocka_unit_test(transient_rolls_step_by_step),
         cmocka_unit_test(bad_histories_are_refused),
         cmocka_unit_test(interrupted_run_keeps_its_steps),
+        cmocka_unit_test(a_terminal_that_goes_interrupts_unless_nohup),
         cmocka_unit_test(error_bars_hold_the_truth),
         cmocka_unit_test(dump_holds_the_problem),
         cmocka_unit_test(dumped_influence_moves_rigidly),

@@ -205,6 +205,8 @@ static void bad_files_are_refused(void **state)
     (void)state;
     write_file("bad.inp", " 3 MODULE\n 203100\n 022020\n 0000331\n 1 2\n");
     check_refused("contact bad.inp", 65, "bad.inp:5: expected MAXGS, MAXIN");
+    check_refused("contact bad.inp --output bad.inp", 64, "--output");
+    check_refused("contact bad.inp --output none/out.tsv", 73, "none/out.tsv");
     write_file("bad.inp", "mu = 0.3\n");
     check_refused("contact bad.inp", 65, "not an input file of CONTACT");
     write_file("bad.inp", " 3 MODULE\n 203100\n");

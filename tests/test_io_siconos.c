@@ -345,6 +345,10 @@ static void blocks_and_columns_must_fit(void **state)
                   "2 2 2 2 2\nCSparse\n2-by-2, nzmax: 1 nnz: 2,\n"
                   "col 0 : locations 0 to 0\n0 : 1\ncol 1 : locations 1 to 0\n1 1",
                   "expected 2 entries, got 1");
+    check_refused(read_lcp,
+                  "2 2 2 2 2\nCSparse\n2-by-2, nzmax: 1 nnz: 1,\n"
+                  "col 0 : locations 0 to 0\n2 : 1\ncol 1 : locations 1 to 0\n1 1",
+                  ":5: row: expected an integer from 0 to 1, got '2'");
 }
 
 /* Files of a few bytes that speak of gigabytes, or of sizes whose sums and products are
