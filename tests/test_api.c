@@ -180,10 +180,14 @@ static void pivots_keep_the_ratio_test(void **state)
             CHECK_ABS(v[i], value[(k - 1) * size + i], 0.0, "what was is kept");
     }
     CHECK_ABS(z0[pivots - 1], 0.0, 1e-12, "z0 at the end");
-    const double *last = array(a, "pivot.p", 12, pivots) + 12 * (pivots - 1),
-                 *p = array(a, "p", 12, 1);
-    for (int i = 0; i < 12; i++)
-        CHECK_ABS(last[i], p[i], 1e-9 * rb_api_number(a, "max_pressure"), "p[%d]", i);
+    static const char *const tractions[][2] = {{"pivot.p", "p"}, {"pivot.q", "q"}};
+    for (int c = 0; c < 2; c++) {
+        const double *last = array(a, tractions[c][0], 12, pivots) + 12 * (pivots - 1),
+                     *own = array(a, tractions[c][1], 12, 1);
+        for (int i = 0; i < 12; i++)
+            CHECK_ABS(last[i], own[i], 1e-9 * rb_api_number(a, "max_pressure"), "%s[%d]",
+                      tractions[c][1], i);
+    }
     rb_api_free(a);
 }
 

@@ -342,6 +342,10 @@ static void blocks_and_columns_must_fit(void **state)
                   "col 0 : locations 0 to 5\n0 : 1\n1 1",
                   ":4: location");
     check_refused(read_lcp,
+                  "2 2 2 2 2\nCSparse\n2-by-2, nzmax: 1 nnz: 1,\n"
+                  "col 0 : locations 0 to 1\n0 : 1\n1 : 1\n1 1",
+                  ":4: location: expected an integer from -1 to 0, got '1'");
+    check_refused(read_lcp,
                   "2 2 2 2 2\nCSparse\n2-by-2, nzmax: 1 nnz: 2,\n"
                   "col 0 : locations 0 to 0\n0 : 1\ncol 1 : locations 1 to 0\n1 1",
                   "expected 2 entries, got 1");
