@@ -158,7 +158,7 @@ static void notes_begin_where_they_should(void **state)
                       opposes[] = "at 2 points the slip of (12) does not oppose",
                       angle[] = "rolling differs at every angle of the wheel";
     noted n;
-    for (int k = 0; k < 44; k++) {
+    for (int k = 0; k < 45; k++) {
         const char *want = NULL;
         quiet(&n);
         rb_rolling_case *rc = &n.rc;
@@ -207,6 +207,13 @@ static void notes_begin_where_they_should(void **state)
             n.patch[1].from = k == 9 ? 30.0 : 20.0;
             n.patch[1].to = 31.0;
             want = k == 9 ? NULL : inaccurate;
+            break;
+        case 44: /* the first of two is wide */
+            s->patches = 2;
+            n.patch[0].to = 11.0;
+            n.patch[1].from = 30.0;
+            n.patch[1].to = 31.0;
+            want = inaccurate;
             break;
         case 43: /* two narrow patches of a small cylinder */
             s->patches = 2;

@@ -241,7 +241,7 @@ static cli_exit unreadable(friction_result *r, rb_status s, const rb_message *wh
 {
     r->status = rb_status_text(s);
     r->info.residual = r->info.scaled = r->info.floor = r->info.flops = r->info.seconds =
-        NAN;
+        r->facts.asymmetry = NAN;
     return cli_say(s, why);
 }
 
