@@ -222,8 +222,10 @@ static int run_case(int k, double *seconds)
 {
     char command[2000];
     make_case(k);
-    snprintf(command, sizeof command, "ulimit -t %d; \"$R\"%s --json >json", SECONDS_MAX,
-             line);
+    /* who runs the tests may allow less already */
+    snprintf(command, sizeof command,
+             "(ulimit -t %d) 2>/dev/null && ulimit -t %d; \"$R\"%s --json >json",
+             SECONDS_MAX, SECONDS_MAX, line);
     const double start = seconds_so_far();
     const int code = shell(command);
     *seconds = seconds_so_far() - start;
