@@ -283,6 +283,52 @@ static void lemke_ends_in_time(void **state)
     rb_friction_problem_free(&p);
 }
 
+/* r, u and v of the portfolio, whoever of its members found them. */
+static void the_winner_hands_over_all_it_has(void **state)
+{
+    static const struct {
+        const char *packing, *winner;
+    } cases[] = {{"boxes 100 2 4", "admm"},
+                 {"discs 60 2 3", "nsn-jm-nls"},
+                 {"boxes 30 2 3 global 5", "nsgs-aa"},
+                 {"bricks 8 2 3 global 5", "nsn-jm-nls"}};
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        rb_friction_problem p, condensed = {0};
+        rb_friction_info info;
+        rb_message why;
+        packing(cases[k].packing, &p);
+        const int m = p.dimension * p.contacts, n = p.dofs;
+        const int global = p.form == RB_FRICTION_GLOBAL;
+        double *r = rb_alloc((size_t)(2 * m + 2 * n + 1), 1), *u = r + m, *v = u + m;
+        CHECK_STATUS(rb_friction_solve("auto", &p, NULL,
+                                       &(rb_friction_solution){r, u, global ? v : NULL},
+                                       &info),
+                     RB_OK);
+        assert_string_equal(info.solver, cases[k].winner);
+        if (global) {
+            double *rest = v + n;
+            memcpy(rest, p.f, (size_t)n * sizeof *rest);
+            rb_sparse_apply(1.0, &p.H, r, 1.0, rest);
+            const double size = rb_norm_inf((size_t)n, rest);
+            rb_sparse_apply(-1.0, &p.K, v, 1.0, rest);
+            CHECK_MAX(rb_norm_inf((size_t)n, rest), 1e-12 * size, "forces of case %d",
+                      (int)k);
+            CHECK_STATUS(rb_friction_condense(&p, &condensed, &why), RB_OK);
+        }
+        const rb_friction_problem *local = global ? &condensed : &p;
+        CHECK_MAX(violation(local, r), 1e-7, "case %d", (int)k);
+        for (int i = 0; i < m; i++)
+            u[i] -= local->q[i];
+        rb_sparse_apply(-1.0, &local->Ws, r, 1.0, u);
+        CHECK_MAX(rb_norm_inf((size_t)m, u), 1e-12 * rb_norm_inf((size_t)m, local->q) * m,
+                  "velocities of case %d", (int)k);
+        free(r);
+        rb_friction_problem_free(&condensed);
+        rb_friction_problem_free(&p);
+    }
+}
+
 /* The same path twice, to the last digit. */
 static void auto_repeats_itself(void **state)
 {
@@ -411,6 +457,7 @@ int main(void)
         cmocka_unit_test(splitting_solves_redundant_contacts),
         cmocka_unit_test(lemke_solves_redundant_contacts),
         cmocka_unit_test(lemke_ends_in_time),
+        cmocka_unit_test(the_winner_hands_over_all_it_has),
         cmocka_unit_test(auto_repeats_itself),
         cmocka_unit_test(pauses_change_nothing),
         cmocka_unit_test(the_caller_hears_and_may_stop),
