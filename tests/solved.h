@@ -10,8 +10,10 @@ static inline rb_rolling_solution solved(const rb_rolling_case *rc)
 {
     rb_rolling_solution s;
     rb_message why = {""};
+    const double start = rb_seconds();
     if (rb_rolling_solve(rc, &s, &why) != RB_OK)
         fail_msg("%s", why.text);
+    CHECK_MAX(s.seconds_total, rb_seconds() - start, "no more seconds than have passed");
     return s;
 }
 

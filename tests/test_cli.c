@@ -356,6 +356,26 @@ static void completion_offers_every_command(void **state)
     assert_true(commands > 10);
 }
 
+/* What the schema describes of a case is what a result holds, no more and no less. */
+static void the_schema_describes_every_input(void **state)
+{
+    (void)state;
+    json_t *result = run_json("--support halfplane --load 100"),
+           *schema = run_json("--describe=schema");
+    json_t *inputs = json_object_get(result, "inputs"),
+           *described = json_object_get(
+               json_object_get(json_object_get(schema, "properties"), "inputs"),
+               "properties");
+    const char *name;
+    json_t *value;
+    assert_true(json_object_size(inputs) > 50);
+    assert_int_equal(json_object_size(described), json_object_size(inputs));
+    json_object_foreach(inputs, name, value) if (!json_object_get(described, name))
+        fail_msg("not described: %s", name);
+    json_decref(result);
+    json_decref(schema);
+}
+
 static void not_solved_is_1(void **state)
 {
     (void)state;
@@ -894,6 +914,7 @@ int main(void)
         cmocka_unit_test(version_help_and_usage),
         cmocka_unit_test(verify_takes_no_operand),
         cmocka_unit_test(completion_offers_every_command),
+        cmocka_unit_test(the_schema_describes_every_input),
         cmocka_unit_test(not_solved_is_1),
         cmocka_unit_test(static_history_from_a_table),
         cmocka_unit_test(columns_win_over_the_case_file),

@@ -48,6 +48,9 @@ static void an_installed_program_finds_its_page(void **state)
                      0);
     assert_int_equal(shell("tree/bin/rollbem page --mu 0.2"), 0);
     assert_non_null(strstr(out, "{\"mu\":\"0.2"));
+    assert_int_equal(shell("sed s/before/beside/ page.html > tree/bin/rollbem.html"), 0);
+    assert_int_equal(shell("tree/bin/rollbem page"), 0);
+    assert_non_null(strstr(out, "beside")); /* the nearer one */
 }
 
 static void what_no_page_can_be_made_of_is_refused(void **state)

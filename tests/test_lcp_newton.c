@@ -110,6 +110,22 @@ static void what_it_cannot_solve_is_said(void **state)
     rb_sparse_free(&a);
 }
 
+/* z_2 = -0.1 is rounding beside z_1 = 1e16, but not in w_1 = -1 + 1e-16 z_1 + z_2. */
+static void a_residual_too_large_is_no_solution(void **state)
+{
+    (void)state;
+    const double M[] = {1e-16, 0.0, 1.0, 1.0}, q[] = {-1.0, 0.1}, both[] = {1.0, 1.0};
+    rb_lcp_options opt = rb_lcp_defaults();
+    rb_sparse a;
+    rb_lcp_info info;
+    double z[2];
+    CHECK_STATUS(rb_sparse_from_dense(2, 2, M, 2, &a), RB_OK);
+    opt.start = both;
+    CHECK_STATUS(rb_lcp_newton(&a, q, &opt, z, &info), RB_INACCURATE);
+    CHECK_REL(info.res, 0.1, 1e-9, "residual");
+    rb_sparse_free(&a);
+}
+
 static rb_status solve_anew(void *context)
 {
     const double q[] = {-5.0, -6.0};
@@ -143,6 +159,7 @@ int main(void)
         cmocka_unit_test(p_matrices_are_solved_as_by_lemke),
         cmocka_unit_test(cycling_newton_steps_end_by_single_ones),
         cmocka_unit_test(what_it_cannot_solve_is_said),
+        cmocka_unit_test(a_residual_too_large_is_no_solution),
         cmocka_unit_test(short_memory_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

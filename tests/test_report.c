@@ -216,6 +216,7 @@ static void summary_fits_the_terminal(void **state)
             strstr(text, "steady: solved by Lemke (pivoted form), 21 pivots"));
         assert_non_null(strstr(text, "Q/(mu P) = -0.75"));
         assert_null(strstr(text, "nan"));
+        assert_non_null(strstr(text, "\n  computed  in "));
         fclose(file);
     }
 }

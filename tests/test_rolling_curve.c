@@ -32,8 +32,11 @@ static rb_rolling_curve run(const rb_rolling_case *rc, rb_rolling_variable over,
         .over = over, .from = from, .to = to, .points = points};
     rb_rolling_curve c;
     rb_message why = {""};
+    const double start = rb_seconds();
     if (rb_rolling_curve_solve(rc, &range, &c, &why) != RB_OK)
         fail_msg("%s", why.text);
+    CHECK_MAX(c.seconds, rb_seconds() - start, "no more than have passed");
+    CHECK_MAX(-c.seconds, 0.0, "time");
     return c;
 }
 

@@ -68,6 +68,20 @@ static void a_table_is_linear_between_its_rows(void **state)
     assert_int_equal(rb_rolling_law_moves(&rc), 0);
 }
 
+/* Whichever row has it; mu beside a table counts for nothing. */
+static void the_largest_of_a_table_is_that_of_any_row(void **state)
+{
+    (void)state;
+    const double x[] = {-1.0, 0.0, 3.0};
+    for (int at = 0; at < 3; at++) {
+        const double y[] = {at == 0 ? 0.2 : 0.15, at == 1 ? 0.2 : 0.1,
+                            at == 2 ? 0.2 : 0.05};
+        rb_rolling_case rc = law(RB_FRICTION_table, 0.0, 0.0);
+        rc.friction.table = (rb_rolling_table){3, x, y};
+        CHECK_ABS(rb_rolling_largest_mu(&rc), 0.2, 0.0, "row %d", at);
+    }
+}
+
 static void heat_adds_its_part(void **state)
 {
     (void)state;
@@ -198,6 +212,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_law_is_its_formula),
         cmocka_unit_test(a_table_is_linear_between_its_rows),
+        cmocka_unit_test(the_largest_of_a_table_is_that_of_any_row),
         cmocka_unit_test(heat_adds_its_part),
         cmocka_unit_test(the_largest_coefficient_is_at_rest_or_fast),
         cmocka_unit_test(the_steepest_fall_is_that_of_the_formula),

@@ -292,6 +292,23 @@ static void normals_of_the_surface_cost_a_creepage_of_delta_over_R(void **state)
     }
 }
 
+/* They turn pressure into a part of Q and friction into a part of P. */
+static void normals_of_the_surface_share_the_forces(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = wheel(RB_BEM_HUB, 0.1);
+    rc.normals = RB_BEM_NORMALS_SURFACE;
+    rb_rolling_solution s = solved(&rc);
+    double p = 0.0;
+    for (int i = 0; i < s.n; i++)
+        p += s.p[i] * s.h[i];
+    assert_true(fabs(p / s.normal_load - 1.0) > 1e-5);
+    assert_int_equal(s.patches, 1);
+    CHECK_REL(s.patch[0].normal_load, s.normal_load, 1e-12, "P of the one patch");
+    CHECK_REL(s.patch[0].tangential_load, s.tangential_load, 1e-12, "its Q");
+    rb_rolling_solution_free(&s);
+}
+
 static double support_balance(rb_rolling_case rc, int outer, int fine)
 {
     rc.contact_elements = 30 * fine;
@@ -495,6 +512,7 @@ int main(void)
         cmocka_unit_test(the_two_signs_mirror_up_to_delta_over_R),
         cmocka_unit_test(free_rolling_of_an_incompressible_wheel),
         cmocka_unit_test(normals_of_the_surface_cost_a_creepage_of_delta_over_R),
+        cmocka_unit_test(normals_of_the_surface_share_the_forces),
         cmocka_unit_test(the_support_carries_the_load),
         cmocka_unit_test(the_case_of_addi),
         cmocka_unit_test(a_symmetric_case_has_a_symmetric_answer),

@@ -230,6 +230,21 @@ static void an_interrupted_study_goes_on(void **state)
     assert_null(strstr(again, "of 31 cases"));
 }
 
+/* A table holds the rows that there are; JSON is whole or not there, whatever was there
+ * before stays. */
+static void an_interrupted_study_in_json_leaves_no_file(void **state)
+{
+    (void)state;
+    write_file("whole.json", "before");
+    assert_int_equal(
+        shell("\"$R\" " STUDY "--contact-elements 30 --vary-1 'creep-ratio 0:1.5:100000' "
+              "--jobs 1 --json --output whole.json & p=$!; sleep 0.5; kill -INT $p; "
+              "wait $p"),
+        1);
+    assert_int_equal(shell("cat whole.json; ls whole.json?* 2>/dev/null | wc -l"), 0);
+    assert_string_equal(out, "before0\n");
+}
+
 /* A table that a case file in SI names is in SI; the study shows what it shows. */
 static void tables_are_in_the_units_of_the_file_that_names_them(void **state)
 {
@@ -712,6 +727,7 @@ int main(void)
         cmocka_unit_test(grid_times_table),
         cmocka_unit_test(options_may_need_the_one_that_varies),
         cmocka_unit_test(an_interrupted_study_goes_on),
+        cmocka_unit_test(an_interrupted_study_in_json_leaves_no_file),
         cmocka_unit_test(tables_are_in_the_units_of_the_file_that_names_them),
         cmocka_unit_test(cases_that_fail_are_rows_and_an_exit_code),
         cmocka_unit_test(the_first_case_that_fails_says_why),

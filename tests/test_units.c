@@ -420,6 +420,13 @@ static void case_files_have_their_own_units(void **state)
     CHECK_REL(number_in(json_object_get(root, "inputs"), "radius"), 460.0 / 25.4, 1e-12,
               "the wheel stays one of 460 mm");
     json_decref(root);
+    root = run_json("--example rail --creep-ratio 0.4 --friction-law exponential "
+                    "--mu-fall 0.1,0.2 --slip-scale 50,3 --units si --speed 1");
+    const json_t *scales = json_object_get(json_object_get(root, "inputs"), "slip-scale");
+    for (size_t k = 0; k < 2; k++)
+        CHECK_REL(json_real_value(json_array_get(scales, k)), k ? 3.0 : 50.0, 1e-15,
+                  "number %d of a list", (int)k);
+    json_decref(root);
 }
 
 static void what_people_see_says_the_units(void **state)

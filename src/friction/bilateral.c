@@ -63,7 +63,7 @@ static double find_pivot(const equations *e, int first, int *row, int *col)
     return most;
 }
 
-/* Row i -= what makes its entry in this column 0. */
+/* Row i -= what makes its entry in this column 0, exactly, as the pivot is 1. */
 static void subtract(equations *e, int i, int pivot, int col)
 {
     double *to = row_of(e, i);
@@ -72,7 +72,6 @@ static void subtract(equations *e, int i, int pivot, int col)
         const double change = factor * from[j], left = to[j] - change;
         to[j] = fabs(left) <= ROUNDING * fabs(change) ? 0.0 : left;
     }
-    to[col] = 0.0;
 }
 
 /* Rows of size 1 first, so that units of single constraints do not matter. */
