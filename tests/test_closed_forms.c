@@ -95,6 +95,21 @@ static void cattaneo_traction_sums_to_the_force(void **state)
     CHECK_REL(rb_closed_cattaneo_stick(0.64), 0.6, 1e-14, "stick");
 }
 
+/* Of two parts whose squares add up to 1 the ratios beta/mu are inverse; little sticks
+ * where friction is low: K(c/a) = pi/2 and K' = ln(4a/c) to second order. */
+static void spence_of_complementary_parts(void **state)
+{
+    (void)state;
+    const double beta = 0.01;
+    CHECK_REL(rb_closed_spence_friction(beta, sqrt(0.5)), beta, 1e-14, "mu = beta");
+    CHECK_REL(rb_closed_spence_friction(beta, 0.6) * rb_closed_spence_friction(beta, 0.8),
+              beta * beta, 1e-14, "0.6 and 0.8");
+    CHECK_REL(rb_closed_spence_friction(beta, 1e-4), beta * M_PI / (2.0 * log(4e4)), 1e-8,
+              "little friction");
+    CHECK_REL(rb_closed_spence_friction(2.0 * beta, 0.3),
+              2.0 * rb_closed_spence_friction(beta, 0.3), 1e-14, "in proportion to beta");
+}
+
 /* theory.md 6: aluminium on steel */
 static void bentall_johnson_published_numbers(void **state)
 {
@@ -141,6 +156,7 @@ int main(void)
         cmocka_unit_test(carter_traction_sums_to_s_2_minus_s),
         cmocka_unit_test(carter_sticks_at_the_leading_edge),
         cmocka_unit_test(cattaneo_traction_sums_to_the_force),
+        cmocka_unit_test(spence_of_complementary_parts),
         cmocka_unit_test(bentall_johnson_published_numbers),
         cmocka_unit_test(half_cylinder_approach),
     };

@@ -51,6 +51,13 @@ double rb_closed_cattaneo_stick(double force_ratio);
 double rb_closed_cattaneo_traction(double mu, double max_pressure, double half_width,
                                    double force_ratio, double x);
 
+/* ---- Dissimilar cylinders under a growing load (Spence) ---------------------------- */
+
+/* mu at which the part c/a = `stick`, in (0, 1), of the contact sticks at every load:
+ * beta/mu = K(sqrt(1 - c^2/a^2))/K(c/a), K the complete elliptic integral, for small beta
+ * and mu (friction that does not change the pressure). */
+double rb_closed_spence_friction(double beta, double stick);
+
 /* ---- Free rolling of dissimilar cylinders (Bentall, Johnson) ----------------------- */
 
 /* |xi| at Q = 0 for mu -> 0: 2 beta (a/R) k, k = 0.457386; a: Hertz's half-width. */

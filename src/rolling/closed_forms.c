@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include <gsl/gsl_math.h>
+#include <gsl/gsl_sf_ellint.h>
 
 /* sqrt(1 - x^2), 0 outside [-1, 1] */
 static double ellipse(double x)
@@ -79,6 +80,14 @@ double rb_closed_cattaneo_traction(double mu, double max_pressure, double half_w
     if (c > 0.0)
         q -= c * ellipse(x / (c * half_width));
     return copysign(mu * max_pressure * q, force_ratio);
+}
+
+double rb_closed_spence_friction(double beta, double stick)
+{
+    const double other = sqrt((1.0 - stick) * (1.0 + stick));
+
+    return beta * gsl_sf_ellint_Kcomp(stick, GSL_PREC_DOUBLE) /
+           gsl_sf_ellint_Kcomp(other, GSL_PREC_DOUBLE);
 }
 
 double rb_closed_bentall_johnson_slip(double beta, double half_width, double radius)

@@ -138,6 +138,28 @@ static void cattaneo(rb_verify *v, double ratio)
 
 /* ---- Dissimilar bodies ------------------------------------------------------------ */
 
+/* Pressed in increments; beta is small, as the closed form wants. */
+static void spence(rb_verify *v, double stick)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_history h;
+    rb_rolling_model model;
+    static rb_message why;
+    rc.a.poisson = 0.499;
+    rc.mu = rb_closed_spence_friction(rb_rolling_derive(&rc).dundurs, stick);
+    rc.mesh = RB_MESH_UNIFORM;
+    rc.contact_elements = 200;
+    rc.increments = 40;
+    const rb_status s = rb_rolling_history_run(&rc, NULL, NULL, &model, &h, &why);
+    rb_verify_note(v, s, &why);
+    const int last = h.n - 1;
+    const double part =
+        h.n > 0 ? (double)h.stick[last] / (h.stick[last] + h.slipping[last]) : NAN;
+    rb_verify_absolute(v, part, stick, 0.01, "Spence, growing load: part that sticks");
+    rb_rolling_history_free(&h);
+    rb_rolling_model_free(&model);
+}
+
 static void bentall_johnson(rb_verify *v)
 {
     const double beta = 0.143834, modulus = 51572.3, a = 0.1, R = 25.0;
@@ -163,6 +185,7 @@ static void bentall_johnson(rb_verify *v)
 void rb_verify_contact(rb_verify *v)
 {
     static const double ratios[] = {0.1, 0.4, 0.7, -0.7, 0.95, 1.5};
+    static const double sticking[] = {0.2, 0.5, 0.9};
     static const double equal[] = {1e-3, 2e-3, 3e-3, 1e-3},
                         fitted[] = {3e-4, 2e-4, 1e-3, 1e-4};
     hertz(v, RB_MESH_UNIFORM, 240, "equal elements", equal);
@@ -173,5 +196,7 @@ void rb_verify_contact(rb_verify *v)
     carter_on(v, RB_BEM_HUB, "hub");
     two_forms(v);
     cattaneo(v, 0.64);
+    for (size_t k = 0; k < sizeof sticking / sizeof *sticking; k++)
+        spence(v, sticking[k]);
     bentall_johnson(v);
 }
