@@ -134,6 +134,9 @@ static void every_element_is_of_the_same_arc(void **state)
             snprintf(text, sizeof text,
                      "disc: contact element %d is not of the others' arc", k);
         assert_string_equal(why.text, text);
+        for (int i = 0; i < n && !k; i++) /* arcs, not chords */
+            CHECK_REL(f.h[i], 2.0 * (asin(0.5 * ends[i + 1]) - asin(0.5 * ends[i])),
+                      1e-14, "length of element %d", i);
         rb_bem_flexibility_free(&f);
     }
 }

@@ -274,6 +274,26 @@ static void a_body_without_support_is_refused(void **state)
     rb_bem_mesh_free(&mesh);
 }
 
+/* Which places are one place is a question of the body's size. */
+static void supports_are_judged_in_any_unit(void **state)
+{
+    (void)state;
+    enum { n = 16 };
+    static const double radii[] = {1e-9, 1e-3, 1.0, 1e6};
+    for (size_t k = 0; k < sizeof radii / sizeof *radii; k++) {
+        rb_bem_mesh mesh;
+        CHECK_STATUS(rb_bem_mesh_alloc(n, &mesh), RB_OK);
+        put_circle(&mesh, 0, n, radii[k], 1, -M_PI / n);
+        mesh.condition[0] = mesh.condition[1] = RB_BEM_DISPLACEMENT;
+        CHECK_STATUS(rb_bem_support_check(&mesh, NULL), RB_EINVAL);
+        mesh.condition[2 * (n / 2)] = RB_BEM_DISPLACEMENT; /* opposite, same height */
+        CHECK_STATUS(rb_bem_support_check(&mesh, NULL), RB_EINVAL);
+        mesh.condition[2 * 3] = RB_BEM_DISPLACEMENT;
+        CHECK_STATUS(rb_bem_support_check(&mesh, NULL), RB_OK);
+        rb_bem_mesh_free(&mesh);
+    }
+}
+
 /* Two bodies, one of them held: the count sees a support, the matrix does not. */
 static void a_second_body_without_support_is_singular(void **state)
 {
@@ -396,6 +416,7 @@ int main(void)
         cmocka_unit_test(the_solution_satisfies_the_equations),
         cmocka_unit_test(incompressible_bodies_are_a_limit),
         cmocka_unit_test(a_body_without_support_is_refused),
+        cmocka_unit_test(supports_are_judged_in_any_unit),
         cmocka_unit_test(a_second_body_without_support_is_singular),
         cmocka_unit_test(materials_have_their_limits),
         cmocka_unit_test(bad_input_is_refused),

@@ -119,6 +119,15 @@ static void the_wall_writes_its_problems(void **state)
         run("wall --mesh coarse --problems 3 --quiet --output %s >%s/wall.tsv",
             inside("wall"), folder),
         0);
+    rb_io_table table; /* as many numbers in a row as it has names */
+    CHECK_STATUS(rb_io_table_read(inside("wall.tsv"), &table, NULL), RB_OK);
+    assert_int_equal(table.rows, 76);
+    for (int k = 0; k < table.rows; k++)
+        CHECK_ABS(rb_io_table_column(&table, "stick")[k] +
+                      rb_io_table_column(&table, "slip")[k] +
+                      rb_io_table_column(&table, "separated")[k],
+                  161.0, 0.0, "contacts of step %d", k + 1);
+    rb_io_table_free(&table);
     for (int k = 1; k <= 3; k++) {
         char name[40];
         rb_friction_problem problem;

@@ -323,6 +323,27 @@ static void solutions_are_listed_once(void **state)
     rb_lcp_solutions_free(&all);
 }
 
+/* Three places of each boxed variable: 3^13 are tried, 3^14 are not. */
+static void too_many_bases_are_refused(void **state)
+{
+    (void)state;
+    enum { BOXED = 14 };
+    double M[BOXED * BOXED] = {0.0}, q[BOXED], low[BOXED], high[BOXED];
+    rb_lcp_solutions all;
+    rb_message why = {""};
+    for (int i = 0; i < BOXED; i++) {
+        M[i * BOXED + i] = 1.0;
+        q[i] = 0.0;
+        low[i] = -1.0;
+        high[i] = 1.0;
+    }
+    CHECK_STATUS(
+        rb_lcp_enumerate(&(rb_lcp_problem){BOXED, M, BOXED, q}, low, high, &all, &why),
+        RB_EINVAL);
+    assert_non_null(strstr(why.text, "4.78e+06 complementary bases"));
+    rb_lcp_solutions_free(&all);
+}
+
 /* Lemke's answers are among them. */
 static void what_lemke_finds_is_listed(void **state)
 {
@@ -456,6 +477,7 @@ int main(void)
         cmocka_unit_test(a_bound_may_change_the_sign_of_a_row),
         cmocka_unit_test(boxes_of_every_kind_are_enumerated),
         cmocka_unit_test(solutions_are_listed_once),
+        cmocka_unit_test(too_many_bases_are_refused),
         cmocka_unit_test(what_lemke_finds_is_listed),
         cmocka_unit_test(bad_input_is_named),
         cmocka_unit_test(short_memory_is_reported),

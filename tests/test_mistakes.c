@@ -456,6 +456,7 @@ static void examples_are_at_hand(void **state)
     assert_int_equal(rollbem("sweep --example rail --vary-1 'mu 0.1 0.2' --quiet"), 0);
     assert_int_equal(rollbem("-h"), 0);
     assert_ptr_equal(strstr(out, "Usage: rollbem"), out);
+    check_refused("examples rail", 64, "examples: unexpected 'rail'");
 }
 
 /* On a terminal: the summary, then a short table; whoever asks for a form gets it. */

@@ -506,6 +506,16 @@ static void curves_suit_the_number_of_cases(void **state)
     assert_non_null(strstr(script, "set offsets 0,0,graph 0.05,graph 0\n"));
 }
 
+/* As many as there are, then again. */
+static void dashes_repeat(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 12; k++)
+        for (int j = 0; j < k; j++)
+            assert_int_equal(!strcmp(rb_report_dashes(j), rb_report_dashes(k)),
+                             j + 6 == k);
+}
+
 /* ---- Files ------------------------------------------------------------------------- */
 
 static void vtk_files_are_known_by_their_names(void **state)
@@ -626,6 +636,7 @@ int main(void)
         cmocka_unit_test(studies_that_make_no_picture_are_named),
         cmocka_unit_test(maps_suit_the_number_of_cases),
         cmocka_unit_test(curves_suit_the_number_of_cases),
+        cmocka_unit_test(dashes_repeat),
         cmocka_unit_test(vtk_files_are_known_by_their_names),
         cmocka_unit_test(matrices_are_written_all_or_none),
     };
