@@ -1,15 +1,15 @@
-/* Steady rolling of dissimilar half-planes under a given force, against a solution that
- * shares nothing with the program: tractions that are continuous and linear between
- * nodes, the slip at midpoints, and Panagiotopoulos' alternation of a normal contact
- * under given friction and a rolling one under given pressure, each by changing zones
- * until all hold. E* = P = R = 1. */
+/* Rolling of dissimilar half-planes under a given force, steady and from rest, against a
+ * solution that shares nothing with the program: tractions that are continuous and linear
+ * between nodes, and Panagiotopoulos' alternation of a normal contact under given
+ * friction and a rolling one under given pressure, each by changing zones until all hold.
+ * P = R = 1. */
 #include "solved.h"
 
 #include <gsl/gsl_math.h>
 #include <lapacke.h>
 #include <string.h>
 
-enum { NODES = 201 };
+enum { NODES = 201 }; /* at most */
 
 typedef struct {
     double E_a, nu_a, E_b, nu_b, mu, force_ratio;
@@ -33,39 +33,100 @@ static double hat_integral(double u, double h)
     return copysign(h * (t - 0.5 * t * t), u);
 }
 
+/* slip = side creepage + known + slip_p p + slip_q q: a velocity over the rolling one, at
+ * the midpoint upstream of a node, or what a particle slides in a step, at the node. */
 typedef struct {
-    double x[NODES], h, mu, Q;
+    int n;
+    double x[NODES], h, mu, Q, a;
     double gap_p[NODES][NODES], gap_q[NODES][NODES]; /* of unit hats of p and q */
-    double slip_p[NODES][NODES], slip_q[NODES][NODES];
+    double slip_p[NODES][NODES], slip_q[NODES][NODES], known[NODES], side;
     double p[NODES], q[NODES], approach, creepage;
     int touches[NODES], slides[NODES]; /* slides: the sign of q, 0 in stick */
 } contact;
 
-/* Johnson, Contact Mechanics, 2.3 and 7.1: the half-planes' surface displacements; k is
- * what the pressure stretches A more than B. */
-static void set_up(contact *c, const pair *b)
+/* Of half-planes (Johnson, Contact Mechanics, 2.3 and 7.1). */
+typedef struct {
+    double compliance; /* 1/E* */
+    double k;          /* what pressure stretches A more than B */
+} surface;
+
+static surface surface_of(const pair *b)
 {
-    const double compliance = (1.0 - b->nu_a * b->nu_a) / b->E_a +
-                              (1.0 - b->nu_b * b->nu_b) / b->E_b,
-                 k = (1.0 - 2.0 * b->nu_a) * (1.0 + b->nu_a) / b->E_a -
-                     (1.0 - 2.0 * b->nu_b) * (1.0 + b->nu_b) / b->E_b,
-                 a = sqrt(4.0 * compliance / M_PI), h = 2.3 * a / (NODES - 1);
+    return (surface){(1.0 - b->nu_a * b->nu_a) / b->E_a +
+                         (1.0 - b->nu_b * b->nu_b) / b->E_b,
+                     (1.0 - 2.0 * b->nu_a) * (1.0 + b->nu_a) / b->E_a -
+                         (1.0 - 2.0 * b->nu_b) * (1.0 + b->nu_b) / b->E_b};
+}
+
+/* Displacement by a hat of half-width h along itself, at u from its middle; across itself
+ * it is k times the hat's integral: w_N of friction, less w_T of pressure. */
+static double displacement(surface s, double u, double h)
+{
+    return -2.0 * s.compliance / M_PI / h *
+           (log_2(u + h) - 2.0 * log_2(u) + log_2(u - h));
+}
+
+static double slope(surface s, double u, double h)
+{
+    return -2.0 * s.compliance / M_PI / h *
+           (log_1(u + h) - 2.0 * log_1(u) + log_1(u - h));
+}
+
+static void set_up(contact *c, const pair *b, int nodes)
+{
+    const surface s = surface_of(b);
     memset(c, 0, sizeof *c);
-    c->h = h;
+    c->n = nodes;
+    c->a = sqrt(4.0 * s.compliance / M_PI);
+    c->h = 2.3 * c->a / (nodes - 1);
     c->mu = b->mu;
     c->Q = b->force_ratio * b->mu;
-    for (int i = 0; i < NODES; i++) {
-        c->x[i] = h * (i - (NODES - 1) / 2);
-        c->touches[i] = fabs(c->x[i]) < a;
+    for (int i = 0; i < nodes; i++) {
+        c->x[i] = c->h * (i - (nodes - 1) / 2);
+        c->touches[i] = fabs(c->x[i]) < c->a;
         c->slides[i] = c->x[i] < 0.0 ? (b->force_ratio > 0.0 ? 1 : -1) : 0;
-        for (int j = 0; j < NODES; j++) {
-            const double u = h * (i - j), v = u + 0.5 * h;
-            c->gap_p[i][j] = -2.0 * compliance / M_PI / h *
-                             (log_2(u + h) - 2.0 * log_2(u) + log_2(u - h));
-            c->gap_q[i][j] = k * hat_integral(u, h);
-            c->slip_q[i][j] = 2.0 * compliance / M_PI / h *
-                              (log_1(v + h) - 2.0 * log_1(v) + log_1(v - h));
-            c->slip_p[i][j] = j == i || j == i + 1 ? 0.5 * k : 0.0;
+        for (int j = 0; j < nodes; j++) {
+            const double u = c->h * (i - j);
+            c->gap_p[i][j] = displacement(s, u, c->h);
+            c->gap_q[i][j] = s.k * hat_integral(u, c->h);
+        }
+    }
+}
+
+/* The slip velocity of steady rolling, xi - w_T'. */
+static void roll_steadily(contact *c, const pair *b)
+{
+    const surface s = surface_of(b);
+    c->side = 1.0;
+    for (int i = 0; i < c->n; i++)
+        for (int j = 0; j < c->n; j++) {
+            c->slip_q[i][j] = -slope(s, c->h * (i - j + 0.5), c->h);
+            c->slip_p[i][j] = j == i || j == i + 1 ? 0.5 * s.k : 0.0;
+        }
+}
+
+/* What slides from no contact to this one; the creepage is the rigid shift. */
+static void shift_from_rest(contact *c)
+{
+    c->side = 1.0;
+    for (int i = 0; i < c->n; i++)
+        for (int j = 0; j < c->n; j++) {
+            c->slip_q[i][j] = c->gap_p[i][j]; /* log kernels are alike in x and y */
+            c->slip_p[i][j] = -c->gap_q[i][j];
+        }
+}
+
+/* What slides when all moves on by h, from the tractions of now. */
+static void roll_on(contact *c, const pair *b)
+{
+    const surface s = surface_of(b);
+    c->side = c->h;
+    for (int i = 0; i < c->n; i++) {
+        c->known[i] = 0.0;
+        for (int j = 0; j < c->n; j++) {
+            const double u = c->h * (i + 1 - j);
+            c->known[i] -= displacement(s, u, c->h) * c->q[j] -
+                           s.k * hat_integral(u, c->h) * c->p[j];
         }
     }
 }
@@ -93,10 +154,11 @@ static double solve_nodes(contact *c, double matrix[NODES][NODES], double side,
     return b[m];
 }
 
-static double row(double matrix[NODES][NODES], int i, const double *traction)
+static double row(const contact *c, double matrix[NODES][NODES], int i,
+                  const double *traction)
 {
     double sum = 0.0;
-    for (int j = 0; j < NODES; j++)
+    for (int j = 0; j < c->n; j++)
         sum += matrix[i][j] * traction[j];
     return sum;
 }
@@ -108,16 +170,16 @@ static void press(contact *c)
         int nodes[NODES], m = 0;
         double right[NODES];
         assert_true(round < 100);
-        for (int i = 0; i < NODES; i++) {
-            right[i] = -0.5 * c->x[i] * c->x[i] - row(c->gap_q, i, c->q);
+        for (int i = 0; i < c->n; i++) {
+            right[i] = -0.5 * c->x[i] * c->x[i] - row(c, c->gap_q, i, c->q);
             c->p[i] = 0.0;
             if (c->touches[i])
                 nodes[m++] = i;
         }
         c->approach = solve_nodes(c, c->gap_p, -1.0, nodes, m, right, 1.0, c->p);
         changed = 0;
-        for (int i = 0; i < NODES; i++) {
-            const double gap = row(c->gap_p, i, c->p) - right[i] - c->approach;
+        for (int i = 0; i < c->n; i++) {
+            const double gap = row(c, c->gap_p, i, c->p) - right[i] - c->approach;
             const int touches =
                 c->touches[i] ? c->p[i] > 0.0 : gap < -1e-12 * fabs(c->approach);
             changed += touches != c->touches[i];
@@ -128,7 +190,8 @@ static void press(contact *c)
 
 static double slip(contact *c, int i)
 {
-    return c->creepage + row(c->slip_p, i, c->p) + row(c->slip_q, i, c->q);
+    return c->side * c->creepage + c->known[i] + row(c, c->slip_p, i, c->p) +
+           row(c, c->slip_q, i, c->q);
 }
 
 /* q and the creepage under the pressure that is given */
@@ -138,23 +201,24 @@ static void roll(contact *c)
         int nodes[NODES], m = 0;
         double right[NODES], total = c->Q;
         assert_true(round < 200);
-        for (int i = 0; i < NODES; i++) {
+        for (int i = 0; i < c->n; i++) {
             c->q[i] = c->touches[i] ? c->mu * c->p[i] * c->slides[i] : 0.0;
             total -= c->q[i] * c->h;
             if (c->touches[i] && !c->slides[i])
                 nodes[m++] = i;
         }
-        for (int i = 0; i < NODES; i++)
-            right[i] = -row(c->slip_p, i, c->p) - row(c->slip_q, i, c->q);
-        c->creepage = solve_nodes(c, c->slip_q, 1.0, nodes, m, right, total, c->q);
+        for (int i = 0; i < c->n; i++)
+            right[i] =
+                -c->known[i] - row(c, c->slip_p, i, c->p) - row(c, c->slip_q, i, c->q);
+        c->creepage = solve_nodes(c, c->slip_q, c->side, nodes, m, right, total, c->q);
         changed = 0;
-        for (int i = 0; i < NODES; i++) {
+        for (int i = 0; i < c->n; i++) {
             int slides = c->slides[i];
             if (!c->touches[i])
                 continue;
             if (!slides && fabs(c->q[i]) > c->mu * c->p[i])
                 slides = c->q[i] > 0.0 ? 1 : -1;
-            else if (slides && slip(c, i) * slides > 1e-14)
+            else if (slides && slip(c, i) * slides > 1e-14 * c->side)
                 slides = 0;
             changed += slides != c->slides[i];
             c->slides[i] = slides;
@@ -197,11 +261,12 @@ static void compare(const pair *b, int k)
     rb_rolling_solution s = solved(&rc);
     const double a = s.hertz_half_width, small = 2e-3 * fmax(b->mu, 0.1) * a;
     double moment = 0.0, power = 0.0, from = INFINITY, to = -INFINITY;
-    set_up(&c, b);
+    set_up(&c, b, NODES);
+    roll_steadily(&c, b);
     alternate(&c);
-    for (int i = 0; i < NODES; i++) {
+    for (int i = 0; i < c.n; i++) {
         moment += c.p[i] * c.x[i] * c.h;
-        if (i + 1 < NODES)
+        if (i + 1 < c.n)
             power -= 0.5 * (c.q[i] + c.q[i + 1]) * slip(&c, i) * c.h;
         if (c.touches[i] && !c.slides[i]) {
             from = fmin(from, c.x[i]);
@@ -217,7 +282,7 @@ static void compare(const pair *b, int k)
     rb_rolling_solution_free(&s);
 }
 
-static void given_forces_on_dissimilar_bodies(void **state)
+static void steady_rolling_of_dissimilar_bodies(void **state)
 {
     static const pair pairs[] = {
         {900.0, 0.1, 1e9, 0.3, 0.3, -0.5},    {900.0, 0.1, 1e9, 0.3, 0.3, 0.5},
@@ -229,9 +294,56 @@ static void given_forces_on_dissimilar_bodies(void **state)
         compare(&pairs[k], (int)k);
 }
 
+/* Of the history, at the middle of the steps. */
+static double creepage_at(const rb_rolling_history *h, double distance)
+{
+    for (int k = 2; k < h->n; k++) {
+        const double from = 0.5 * (h->distance[k - 2] + h->distance[k - 1]),
+                     to = 0.5 * (h->distance[k - 1] + h->distance[k]);
+        if (from <= distance && distance <= to)
+            return h->creepage[k - 1] + (distance - from) / (to - from) *
+                                            (h->creepage[k] - h->creepage[k - 1]);
+    }
+    return NAN;
+}
+
+static void dissimilar_bodies_roll_from_rest(void **state)
+{
+    static const pair pairs[] = {{900.0, 0.1, 1e9, 0.3, 0.3, -0.5},
+                                 {2100., 0.28, 700.0, 0.0, 0.3, 0.6}};
+    static contact c;
+    (void)state;
+    for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
+        const pair *b = &pairs[k];
+        rb_rolling_case rc = the_same(b);
+        rb_rolling_model model;
+        rb_rolling_history h;
+        double distance = 0.0;
+        rc.formulation = RB_TRANSIENT;
+        rc.mesh = RB_MESH_UNIFORM;
+        rc.contact_elements = 240;
+        rc.distance = 1.2;
+        CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, NULL), RB_OK);
+        set_up(&c, b, 101);
+        shift_from_rest(&c);
+        alternate(&c);
+        for (int step = 1; distance < 1.1; step++) {
+            roll_on(&c, b);
+            alternate(&c);
+            distance = (step - 0.5) * c.h / c.a;
+            if (distance > 0.1)
+                CHECK_ABS(c.creepage, creepage_at(&h, distance), 5e-3 * b->mu * c.a,
+                          "pair %d after %g a", (int)k, distance);
+        }
+        rb_rolling_history_free(&h);
+        rb_rolling_model_free(&model);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(given_forces_on_dissimilar_bodies)};
+        cmocka_unit_test(steady_rolling_of_dissimilar_bodies),
+        cmocka_unit_test(dissimilar_bodies_roll_from_rest)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
