@@ -324,7 +324,7 @@ static void dissimilar_bodies_roll_from_rest(void **state)
         rc.contact_elements = 240;
         rc.distance = 1.2;
         CHECK_STATUS(rb_rolling_history_run(&rc, NULL, NULL, &model, &h, NULL), RB_OK);
-        set_up(&c, b, 101);
+        set_up(&c, b, 121);
         shift_from_rest(&c);
         alternate(&c);
         for (int step = 1; distance < 1.1; step++) {
