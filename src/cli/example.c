@@ -7,6 +7,7 @@
 #include "rollbem/report_fem.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -318,7 +319,8 @@ static cli_exit advance_all(const example_options *o, wall_run *run)
         run->steps++;
         if (!o->quiet)
             fprintf(stderr, "step %d of %d: shear %.0f N, %d iterations, %.2f s\n",
-                    run->steps, planned, step->shear, step->iterations, step->seconds);
+                    run->steps, planned, rint(step->shear) + 0.0, /* no -0 */
+                    step->iterations, step->seconds);
     }
     cli_interrupts_leave();
     if (s == RB_OK && run->steps < planned)
