@@ -124,7 +124,7 @@ static void check_bar_nodes(const json_t *final, const rb_fem_step *s)
     }
 }
 
-static void bar_by(const char *solver)
+static void bar_by(const char *solver, double tol)
 {
     const json_t *bar = json_object_get(reference, "bar");
     const json_t *increments = json_object_get(bar, "increments");
@@ -132,7 +132,7 @@ static void bar_by(const char *solver)
     rb_fem_history h;
     rb_message why = {""};
     CHECK_STATUS(rb_fem_model_bar(160, 16, &model, &why), RB_OK);
-    CHECK_STATUS(rb_fem_run(&model, solver, 1e-12, &h, &why), RB_OK);
+    CHECK_STATUS(rb_fem_run(&model, solver, tol, &h, &why), RB_OK);
     assert_int_equal(h.steps, 5);
     for (int k = 0; k < 5; k++)
         check_bar_state(json_array_get(increments, (size_t)k), &model, &h.step[k]);
@@ -142,16 +142,17 @@ static void bar_by(const char *solver)
     rb_fem_model_free(&model);
 }
 
+/* Pivots leave 6e-13 to 1.2e-12, by the kernels of the processor. */
 static void bar_by_lemke(void **state)
 {
     (void)state;
-    bar_by("lemke");
+    bar_by("lemke", 1e-11);
 }
 
 static void bar_by_newton(void **state)
 {
     (void)state;
-    bar_by("nsn-nm");
+    bar_by("nsn-nm", 1e-12);
 }
 
 /* ---- Truss ------------------------------------------------------------------------- */
