@@ -94,6 +94,7 @@ test-all:
 	@$(MAKE) --no-print-directory B=$(B) hostile N=2000
 	@$(MAKE) --no-print-directory B=$(B) endurance KILLS=100 CASES=5000 SOLVES=2000
 	@$(MAKE) --no-print-directory B=$(B) platforms PLATFORMS="clang two-threads reference-blas"
+	@$(MAKE) --no-print-directory B=$(B) platforms PLATFORMS="kernels-Haswell" PLATFORM_TESTS=check-tests
 	@if command -v $(FUZZ_CC) >/dev/null; then $(MAKE) --no-print-directory B=$(B) fuzz FUZZ_TIME=20; else echo "fuzz: no $(FUZZ_CC)"; fi
 	@$(MAKE) --no-print-directory B=$(B) analyse
 
