@@ -108,6 +108,8 @@ static void spence_of_complementary_parts(void **state)
               "little friction");
     CHECK_REL(rb_closed_spence_friction(2.0 * beta, 0.3),
               2.0 * rb_closed_spence_friction(beta, 0.3), 1e-14, "in proportion to beta");
+    assert_true(isnan(rb_closed_spence_friction(beta, 0.0)));
+    assert_true(isnan(rb_closed_spence_friction(beta, 1.0)));
 }
 
 /* theory.md 6: aluminium on steel */

@@ -55,7 +55,7 @@ double rb_closed_cattaneo_traction(double mu, double max_pressure, double half_w
 
 /* mu at which the part c/a = `stick`, in (0, 1), of the contact sticks at every load:
  * beta/mu = K(sqrt(1 - c^2/a^2))/K(c/a), K the complete elliptic integral, for small beta
- * and mu (friction that does not change the pressure). */
+ * and mu (friction that does not change the pressure).  NAN beyond (0, 1). */
 double rb_closed_spence_friction(double beta, double stick);
 
 /* ---- Free rolling of dissimilar cylinders (Bentall, Johnson) ----------------------- */

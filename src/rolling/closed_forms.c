@@ -84,6 +84,8 @@ double rb_closed_cattaneo_traction(double mu, double max_pressure, double half_w
 
 double rb_closed_spence_friction(double beta, double stick)
 {
+    if (!(stick > 0.0 && stick < 1.0))
+        return NAN; /* GSL would end the program */
     const double other = sqrt((1.0 - stick) * (1.0 + stick));
 
     return beta * gsl_sf_ellint_Kcomp(stick, GSL_PREC_DOUBLE) /
