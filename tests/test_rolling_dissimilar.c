@@ -33,22 +33,23 @@ static double hat_integral(double u, double h)
     return copysign(h * (t - 0.5 * t * t), u);
 }
 
+/* Of half-planes (Johnson, Contact Mechanics, 2.3 and 7.1). */
+typedef struct {
+    double compliance; /* 1/E* */
+    double k;          /* what pressure stretches A more than B */
+} surface;
+
 /* slip = side creepage + known + slip_p p + slip_q q: a velocity over the rolling one, at
  * the midpoint upstream of a node, or what a particle slides in a step, at the node. */
 typedef struct {
     int n;
+    surface s;
     double x[NODES], h, mu, Q, a;
     double gap_p[NODES][NODES], gap_q[NODES][NODES]; /* of unit hats of p and q */
     double slip_p[NODES][NODES], slip_q[NODES][NODES], known[NODES], side;
     double p[NODES], q[NODES], approach, creepage;
     int touches[NODES], slides[NODES]; /* slides: the sign of q, 0 in stick */
 } contact;
-
-/* Of half-planes (Johnson, Contact Mechanics, 2.3 and 7.1). */
-typedef struct {
-    double compliance; /* 1/E* */
-    double k;          /* what pressure stretches A more than B */
-} surface;
 
 static surface surface_of(const pair *b)
 {
@@ -76,6 +77,7 @@ static void set_up(contact *c, const pair *b, int nodes)
 {
     const surface s = surface_of(b);
     memset(c, 0, sizeof *c);
+    c->s = s;
     c->n = nodes;
     c->a = sqrt(4.0 * s.compliance / M_PI);
     c->h = 2.3 * c->a / (nodes - 1);
@@ -94,14 +96,13 @@ static void set_up(contact *c, const pair *b, int nodes)
 }
 
 /* The slip velocity of steady rolling, xi - w_T'. */
-static void roll_steadily(contact *c, const pair *b)
+static void roll_steadily(contact *c)
 {
-    const surface s = surface_of(b);
     c->side = 1.0;
     for (int i = 0; i < c->n; i++)
         for (int j = 0; j < c->n; j++) {
-            c->slip_q[i][j] = -slope(s, c->h * (i - j + 0.5), c->h);
-            c->slip_p[i][j] = j == i || j == i + 1 ? 0.5 * s.k : 0.0;
+            c->slip_q[i][j] = -slope(c->s, c->h * (i - j + 0.5), c->h);
+            c->slip_p[i][j] = j == i || j == i + 1 ? 0.5 * c->s.k : 0.0;
         }
 }
 
@@ -117,16 +118,15 @@ static void shift_from_rest(contact *c)
 }
 
 /* What slides when all moves on by h, from the tractions of now. */
-static void roll_on(contact *c, const pair *b)
+static void roll_on(contact *c)
 {
-    const surface s = surface_of(b);
     c->side = c->h;
     for (int i = 0; i < c->n; i++) {
         c->known[i] = 0.0;
         for (int j = 0; j < c->n; j++) {
             const double u = c->h * (i + 1 - j);
-            c->known[i] -= displacement(s, u, c->h) * c->q[j] -
-                           s.k * hat_integral(u, c->h) * c->p[j];
+            c->known[i] -= displacement(c->s, u, c->h) * c->q[j] -
+                           c->s.k * hat_integral(u, c->h) * c->p[j];
         }
     }
 }
@@ -262,7 +262,7 @@ static void compare(const pair *b, int k)
     const double a = s.hertz_half_width, small = 2e-3 * fmax(b->mu, 0.1) * a;
     double moment = 0.0, power = 0.0, from = INFINITY, to = -INFINITY;
     set_up(&c, b, NODES);
-    roll_steadily(&c, b);
+    roll_steadily(&c);
     alternate(&c);
     for (int i = 0; i < c.n; i++) {
         moment += c.p[i] * c.x[i] * c.h;
@@ -328,7 +328,7 @@ static void dissimilar_bodies_roll_from_rest(void **state)
         shift_from_rest(&c);
         alternate(&c);
         for (int step = 1; distance < 1.1; step++) {
-            roll_on(&c, b);
+            roll_on(&c);
             alternate(&c);
             distance = (step - 0.5) * c.h / c.a;
             if (distance > 0.1)

@@ -521,7 +521,7 @@ static rb_status go_to_rest(void *context)
     int left = 2000;
     for (int i = 0; i < from->model.problem.n; i++)
         from->model.problem.bound[i] = from->bound[i] * (i % 2 ? 0.9 : 1.0);
-    return rb_rolling_law_newton(&from->model, 1e-10, &left, NULL);
+    return rb_rolling_law_newton(&from->model, 1e-12, &left, NULL);
 }
 
 static rb_status set_friction(void *context)
