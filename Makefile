@@ -217,7 +217,7 @@ $(B)/tests/%: tests/%.c tests/check.h $(B)/tests/failing_alloc.o $(B)/librollbem
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -Itests -MMD -MP -MF $@.d -o $@ $< $(filter %.o,$^) $(B)/librollbem.a $(LDFLAGS) $(WRAP) $(LDLIBS) -lcmocka
 
 # the core by itself, with the libraries that it needs and no others
-CORE := $(foreach folder,base lcp bem contact rolling case,$(B)/src/$(folder)/%) $(B)/src/io/table.o $(B)/src/io/text.o $(B)/src/io/tokens.o
+CORE := $(foreach folder,base lcp bem contact rolling results history study case,$(B)/src/$(folder)/%) $(B)/src/io/table.o $(B)/src/io/text.o $(B)/src/io/tokens.o
 CORE_LIBS = $(filter-out -lgslcblas,$(shell pkg-config --libs openblas lapacke gsl fftw3)) -lfftw3_threads -lm $(OPENMP)
 $(B)/librollbem-core.a: $(filter $(CORE),$(LIB_OBJ))
 	@rm -f $@
@@ -337,7 +337,7 @@ PAGE ?= $(B)/page
 WASM_CC = clang-14
 WASM_TARGET = --target=wasm32-wasi --sysroot=/usr
 WASM_FLAGS = $(WASM_TARGET) -std=c11 -D_POSIX_C_SOURCE=200809L -O3 -msimd128 -Iweb/wasm/include -Iinclude -Isrc -idirafter /usr/include
-WASM_EXPORTS = malloc free $(addprefix rb_api_,create free set settle solve status message option result value number \
+WASM_EXPORTS = malloc free $(addprefix rb_api_,create free set resolve solve status message option result value number \
     array curve pivots newton variable guess stress)
 WASM_WORDS := $(shell sed 's/\#.*//' web/sources)
 WASM_SRC := $(filter-out $(patsubst -%,src/%,$(filter -%,$(WASM_WORDS))),$(wildcard $(patsubst %,src/%/*.c,$(filter-out -%,$(WASM_WORDS))) web/wasm/*.c))

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A copy of a case that is made once, since to make one settles all its options. */
+/* A copy of a case that is made once, since to make one resolves all its options. */
 static rb_case *new_case(void)
 {
     static rb_case *untouched;
@@ -16,22 +16,23 @@ static rb_case *new_case(void)
     return c;
 }
 
-/* What is settled are finite numbers, but for those that say that there is none. */
-static void require_settled(const rb_case *c)
+/* What is resolved are finite numbers, but for those that say that there is none. */
+static void require_resolved(const rb_case *c)
 {
-    const rb_settled_case *settled = rb_case_settled(c);
-    fuzz_require(settled->rc.mu >= 0.0 && isfinite(settled->rc.mu), "0 <= mu < infinity");
-    fuzz_require(settled->rc.contact_elements > 0, "there are elements");
-    fuzz_require(isfinite(settled->derived.modulus), "E* is a number");
+    const rb_resolved_case *resolved = rb_case_resolved(c);
+    fuzz_require(resolved->rc.mu >= 0.0 && isfinite(resolved->rc.mu),
+                 "0 <= mu < infinity");
+    fuzz_require(resolved->rc.contact_elements > 0, "there are elements");
+    fuzz_require(isfinite(resolved->derived.modulus), "E* is a number");
 }
 
-static void settle(rb_case *c)
+static void resolve(rb_case *c)
 {
     rb_message why = {""};
-    const rb_status s = rb_case_settle(c, &why);
+    const rb_status s = rb_case_resolve(c, &why);
     fuzz_require_reason(s, &why);
     if (s == RB_OK)
-        require_settled(c);
+        require_resolved(c);
 }
 
 void fuzz_ini(const uint8_t *data, size_t size)
@@ -45,14 +46,14 @@ void fuzz_ini(const uint8_t *data, size_t size)
     fuzz_require_reason(s, &why);
     for (int k = 0; s == RB_OK && k < 3; k++) {
         rb_case_set_purpose(c, purposes[k]);
-        settle(c);
+        resolve(c);
     }
     rb_case_free(c);
     free(text);
 }
 
-static void settle_with_file(const char *const (*option)[2], int n, const uint8_t *data,
-                             size_t size)
+static void resolve_with_file(const char *const (*option)[2], int n, const uint8_t *data,
+                              size_t size)
 {
     rb_case *c = new_case();
     rb_message why = {""};
@@ -61,7 +62,7 @@ static void settle_with_file(const char *const (*option)[2], int n, const uint8_
         fuzz_require(
             rb_case_set(c, option[k][0], option[k][1], RB_GIVEN_ARGUMENT, &why) == RB_OK,
             "the options of the target are options");
-    settle(c);
+    resolve(c);
     rb_case_free(c);
 }
 
@@ -71,12 +72,12 @@ void fuzz_gap(const uint8_t *data, size_t size)
         {"support", "halfplane"},   {"load", "100"},
         {"contact-elements", "12"}, {"zone", "1"},
         {"gap-smoothing", "1e-5"},  {"gap", "table"}};
-    settle_with_file(options, 6, data, size);
-    settle_with_file(options + 5, 1, data, size);
+    resolve_with_file(options, 6, data, size);
+    resolve_with_file(options + 5, 1, data, size);
     static const char *const others[][2] = {{"irregularity", "table"}};
-    settle_with_file(others, 1, data, size);
+    resolve_with_file(others, 1, data, size);
     static const char *const worn[][2] = {{"worn", "table"}};
-    settle_with_file(worn, 1, data, size);
+    resolve_with_file(worn, 1, data, size);
 }
 
 void fuzz_history(const uint8_t *data, size_t size)
@@ -85,8 +86,8 @@ void fuzz_history(const uint8_t *data, size_t size)
         {"formulation", "transient"}, {"support", "halfplane"}, {"history", "table"}};
     static const char *const in_place[][2] = {{"formulation", "static"},
                                               {"history", "table"}};
-    settle_with_file(rolling, 3, data, size);
-    settle_with_file(in_place, 2, data, size);
+    resolve_with_file(rolling, 3, data, size);
+    resolve_with_file(in_place, 2, data, size);
 }
 
 void fuzz_table(const uint8_t *data, size_t size)

@@ -115,7 +115,7 @@ static void call(rb_api *a, rb_api *other, fuzz_bytes *b)
     rb_api *cases[] = {other};
     switch (fuzz_choice(b, 24)) {
     case 0:
-        rb_api_settle(a);
+        rb_api_resolve(a);
         break;
     case 1:
     case 2:

@@ -236,7 +236,7 @@ static body body_of(const json_t *inputs, const char *suffix)
 }
 
 /* The depth of zero displacement: 2R/e unless given; a plane takes A's radius. */
-static void settle_datum(body *b, double radius)
+static void resolve_datum(body *b, double radius)
 {
     if (isnan(b->datum))
         b->datum = 2.0 * (isinf(b->radius) ? radius : b->radius) / exp(1.0);
@@ -333,8 +333,8 @@ static contact contact_of(const json_t *root, const rows *controls)
     const char *formulation = word(c.inputs, "formulation");
     c.a = body_of(c.inputs, "");
     c.b = body_of(c.inputs, "-b");
-    settle_datum(&c.a, c.a.radius);
-    settle_datum(&c.b, c.a.radius);
+    resolve_datum(&c.a, c.a.radius);
+    resolve_datum(&c.b, c.a.radius);
     c.last_mu = wanted(&c, controls, "mu", "mu");
     c.mu = largest_mu(c.inputs, c.last_mu);
     double compliance = (1.0 - c.a.poisson * c.a.poisson) / c.a.young;

@@ -227,7 +227,7 @@ static void fill_scalar(const column_case *c, columns_of_H_and_G to)
         if (i == c->self) {
             rb_integrate_self(&k, c->e.a, &f);
         } else {
-            const rb_seen v = rb_look(&c->e, c->x[i], c->y[i]);
+            const rb_view_angles v = rb_view_angles_of(&c->e, c->x[i], c->y[i]);
             rb_integrate_H(&k, &v, &f);
             rb_integrate_G(&k, c->e.a, &v, &f);
         }
@@ -347,7 +347,7 @@ static void the_series_meet_at_the_ends_of_their_ranges(void **state)
         for (int angle = 0; angle < 90; angle++) {
             const double r = range[k]->reach, c = r * cos(angle * M_PI / 45),
                          s = r * sin(angle * M_PI / 45);
-            rb_seen v = rb_see(&e, -c, s);
+            rb_view_angles v = rb_see(&e, -c, s);
             rb_turn_far(1.0, range[k]->terms, 2.0 / v.rho, &v);
             const long double Lam = 0.5L * log1pl(4.0L * v.X /
                                                   ((v.X - 1.0L) * (v.X - 1.0L) +

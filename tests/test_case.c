@@ -1,5 +1,5 @@
-/* Cases by names: the table describes itself, words are set, settled and refused, and the
- * same words give the same answer through the library and through the program. */
+/* Cases by names: the table describes itself, words are set, resolved and refused, and
+ * the same words give the same answer through the library and through the program. */
 #include "cli_run.h"
 #include "case/internal.h"
 #include "rollbem/blas.h"
@@ -36,7 +36,7 @@ static rb_case *case_of(const char *words)
     rb_message why = {""};
     rb_case *c = rb_case_create(RB_CASE_SINGLE);
     assert_non_null(c);
-    if (set_words(c, words, &why) != RB_OK || rb_case_settle(c, &why) != RB_OK)
+    if (set_words(c, words, &why) != RB_OK || rb_case_resolve(c, &why) != RB_OK)
         fail_msg("%s: %s", words, why.text);
     return c;
 }
@@ -79,8 +79,8 @@ static void compare(const char *file, const char *words)
     if (s == RB_OK && *file)
         s = rb_case_read(c, path, 0, NULL, &why);
     if (s == RB_OK)
-        s = rb_case_settle(c, &why);
-    if (s != RB_OK || rb_case_solve(rb_case_settled(c), NULL, NULL, &r, &why) != RB_OK)
+        s = rb_case_resolve(c, &why);
+    if (s != RB_OK || rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why) != RB_OK)
         fail_msg("%s %s: %s", file, words, why.text);
 
     run_program(file, words);
@@ -136,8 +136,8 @@ static void carter_by_names_is_on_the_fitted_mesh(void **state)
     rb_case *c =
         case_of("similar=yes support=halfplane formulation=steady half-width=0.5 "
                 "creep-ratio=0.4 mu=0.3 radius=500");
-    assert_int_equal(rb_case_settled(c)->rc.mesh, RB_MESH_FITTED);
-    CHECK_STATUS(rb_case_solve(rb_case_settled(c), NULL, NULL, &r, &why), RB_OK);
+    assert_int_equal(rb_case_resolved(c)->rc.mesh, RB_MESH_FITTED);
+    CHECK_STATUS(rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why), RB_OK);
     CHECK_ABS(r.solution.force_ratio, -0.64, 1e-4, "Carter: s (2 - s) at s = 0.4");
     rb_case_result_free(&r);
     rb_case_free(c);
@@ -173,8 +173,8 @@ static void a_value_survives_as_text(void **state)
     int n;
     const rb_option *o = rb_case_describe(&n);
     rb_case *c = case_of(""), *again = case_of("");
-    rb_settled_case *words = rb_case_options(c).target;
-    const rb_settled_case *back = rb_case_options(again).target;
+    rb_resolved_case *words = rb_case_options(c).target;
+    const rb_resolved_case *back = rb_case_options(again).target;
     for (int i = 0; i < n; i++) {
         char room[64], room2[64];
         if (o[i].kind == RB_OPTION_GROUP || o[i].unset) /* has no default value */
@@ -195,9 +195,9 @@ static void numbers_are_words_too(void **state)
     rb_case *c = case_of("load=500"), *by_number = case_of("");
     CHECK_STATUS(rb_case_set_number(by_number, "load", 500.0, &why), RB_OK);
     CHECK_STATUS(rb_case_set_number(by_number, "contact-elements", 40.0, &why), RB_OK);
-    CHECK_STATUS(rb_case_settle(by_number, &why), RB_OK);
-    assert_true(rb_case_settled(c)->rc.load == rb_case_settled(by_number)->rc.load);
-    assert_int_equal(rb_case_settled(by_number)->rc.contact_elements, 40);
+    CHECK_STATUS(rb_case_resolve(by_number, &why), RB_OK);
+    assert_true(rb_case_resolved(c)->rc.load == rb_case_resolved(by_number)->rc.load);
+    assert_int_equal(rb_case_resolved(by_number)->rc.contact_elements, 40);
     assert_int_equal(rb_case_given(by_number, "load"), RB_GIVEN_NUMBER);
     assert_int_equal(rb_case_given(by_number, "mu"), 0);
     rb_case_free(c);
@@ -641,8 +641,8 @@ static void contradictions_are_refused(void **state)
         rb_message why = {""};
         rb_case *c = rb_case_create(RB_CASE_SINGLE);
         CHECK_STATUS(set_words(c, bad[k].words, &why), RB_OK);
-        check_word(rb_case_settle(c, &why), &why, bad[k].part);
-        CHECK_STATUS(rb_case_settle(c, NULL), RB_EINVAL);
+        check_word(rb_case_resolve(c, &why), &why, bad[k].part);
+        CHECK_STATUS(rb_case_resolve(c, NULL), RB_EINVAL);
         rb_case_free(c);
     }
 }
@@ -667,7 +667,7 @@ static void a_purpose_refuses_what_means_nothing_to_it(void **state)
         rb_message why = {""};
         rb_case *c = rb_case_create(bad[k].purpose);
         CHECK_STATUS(set_words(c, bad[k].words, &why), RB_OK);
-        check_word(rb_case_settle(c, &why), &why, bad[k].part);
+        check_word(rb_case_resolve(c, &why), &why, bad[k].part);
         rb_case_free(c);
     }
 }
@@ -678,9 +678,9 @@ static void a_curve_takes_several_mu(void **state)
     rb_message why = {""};
     rb_case *c = rb_case_create(RB_CASE_CURVE);
     CHECK_STATUS(set_words(c, "mu=0.1,0.2 load=500", &why), RB_OK);
-    CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
-    assert_int_equal(rb_case_settled(c)->mus.n, 2);
-    assert_int_equal(rb_case_settled(c)->rc.formulation, RB_STEADY);
+    CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
+    assert_int_equal(rb_case_resolved(c)->mus.n, 2);
+    assert_int_equal(rb_case_resolved(c)->rc.formulation, RB_STEADY);
     rb_case_free(c);
 }
 
@@ -708,7 +708,7 @@ static void files_are_blamed_by_line(void **state)
         write_file("case.ini", bad[k].text);
         rb_status s = rb_case_read(c, "case.ini", 0, NULL, &why);
         if (s == RB_OK)
-            s = rb_case_settle(c, &why);
+            s = rb_case_resolve(c, &why);
         if (s != bad[k].status || !strstr(why.text, bad[k].part))
             fail_msg("status %d, '%s', wanted '%s'", (int)s, why.text, bad[k].part);
         rb_case_free(c);
@@ -741,10 +741,10 @@ static void rows_are_blamed_by_file_and_line(void **state)
         snprintf(words, sizeof words, "support=halfplane %srows.txt", bad[k].words);
         CHECK_STATUS(set_words(c, words, &why), RB_OK);
         rb_case_result r = {.has_errors = 0};
-        rb_status s = rb_case_settle(c, &why);
+        rb_status s = rb_case_resolve(c, &why);
         if (s == RB_OK) /* a way is looked at when it begins */
-            s = rb_case_blame(c, rb_case_solve(rb_case_settled(c), NULL, NULL, &r, &why),
-                              &why);
+            s = rb_case_locate(
+                c, rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why), &why);
         rb_case_result_free(&r);
         if (s != RB_EFORMAT || strncmp(why.text, bad[k].part, strlen(bad[k].part)) != 0)
             fail_msg("status %d, '%s', wanted '%s'", (int)s, why.text, bad[k].part);
@@ -769,7 +769,7 @@ static void a_column_excludes_its_option(void **state)
         snprintf(wanted, sizeof wanted, "--%s: the history has a column %s",
                  columns[k][1], columns[k][0]);
         CHECK_STATUS(set_words(c, words, &why), RB_OK);
-        CHECK_STATUS(rb_case_settle(c, &why), RB_EINVAL);
+        CHECK_STATUS(rb_case_resolve(c, &why), RB_EINVAL);
         assert_string_equal(why.text, wanted);
         rb_case_free(c);
     }
@@ -787,7 +787,7 @@ static void all_of_a_result_is_converted(void **state)
         rb_message why = {""};
         rb_case *c = case_of(words[k]);
         rb_case_result r;
-        if (rb_case_solve(rb_case_settled(c), NULL, NULL, &r, &why) != RB_OK)
+        if (rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why) != RB_OK)
             fail_msg("%s: %s", words[k], why.text);
         const double load = r.solution.normal_load, bar = r.errors.scalar.approach;
         const double step = k ? r.history.step : NAN, p = r.solution.p[4];
@@ -816,9 +816,9 @@ static void own_options_are_read_beside_the_case(void **state)
     (void)state;
     write_file("own.ini", "mu = 0.2\n[own]\nweight = 2\n");
     CHECK_STATUS(rb_case_read(c, "own.ini", 1, &set, &why), RB_OK);
-    CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
+    CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
     CHECK_ABS(own, 2.0, 0.0, "own");
-    CHECK_ABS(rb_case_settled(c)->rc.mu, 0.2, 0.0, "mu");
+    CHECK_ABS(rb_case_resolved(c)->rc.mu, 0.2, 0.0, "mu");
     CHECK_STATUS(rb_option_assign(&set, 0, 1, "own", "1", &why), RB_EINVAL);
     write_file("own.ini", "[own]\nmu = 0.2\n");
     CHECK_STATUS(rb_case_read(c, "own.ini", 1, &set, &why), RB_EFORMAT);
@@ -834,8 +834,8 @@ static void an_argument_wins_over_the_file(void **state)
     write_file("case.ini", "load = 4\nmu = 0.1\nyoung-b = 1000\n");
     CHECK_STATUS(set_words(c, "approach=0.01 mu=0.2 similar=yes", &why), RB_OK);
     CHECK_STATUS(rb_case_read(c, "case.ini", 0, NULL, &why), RB_OK);
-    CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
-    const rb_settled_case *s = rb_case_settled(c);
+    CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
+    const rb_resolved_case *s = rb_case_resolved(c);
     assert_true(isnan(s->rc.load) && s->rc.approach == 0.01 && s->rc.mu == 0.2);
     assert_true(s->rc.b.young == s->rc.a.young);
     rb_case_free(c);
@@ -843,7 +843,7 @@ static void an_argument_wins_over_the_file(void **state)
 
 /* ---- Copies ------------------------------------------------------------------------ */
 
-/* What one case of a study settles must not stay in the next: neither mesh nor elements
+/* What one case of a study resolves must not stay in the next: neither mesh nor elements
  * nor what an option took back. */
 static void a_copy_is_settled_from_its_words(void **state)
 {
@@ -851,22 +851,22 @@ static void a_copy_is_settled_from_its_words(void **state)
     rb_message why = {""};
     rb_case *base = case_of("formulation=steady similar=yes support=halfplane load=500");
     rb_case *c = rb_case_copy(base);
-    assert_int_equal(rb_case_settled(base)->rc.contact_elements, 100);
+    assert_int_equal(rb_case_resolved(base)->rc.contact_elements, 100);
     CHECK_STATUS(rb_case_set_number(c, "zone", 4.0, &why), RB_OK);
-    CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
-    assert_int_equal(rb_case_settled(c)->rc.mesh, RB_MESH_UNIFORM);
-    assert_int_equal(rb_case_settled(c)->rc.contact_elements, 60);
+    CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
+    assert_int_equal(rb_case_resolved(c)->rc.mesh, RB_MESH_UNIFORM);
+    assert_int_equal(rb_case_resolved(c)->rc.contact_elements, 60);
     CHECK_STATUS(rb_case_set(c, "zone", "auto", RB_GIVEN_ARGUMENT, &why), RB_OK);
-    CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
-    assert_int_equal(rb_case_settled(c)->rc.mesh, RB_MESH_FITTED);
-    assert_true(rb_case_settled(base)->rc.zone == 0.0);
+    CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
+    assert_int_equal(rb_case_resolved(c)->rc.mesh, RB_MESH_FITTED);
+    assert_true(rb_case_resolved(base)->rc.zone == 0.0);
     rb_case_free(c);
     rb_case_free(base);
 }
 
 static double gap_at(const rb_case *c, double x)
 {
-    return rb_rolling_profile_gap(rb_case_settled(c)->rc.profile, x);
+    return rb_rolling_profile_gap(rb_case_resolved(c)->rc.profile, x);
 }
 
 static void a_copy_borrows_the_files(void **state)
@@ -876,23 +876,23 @@ static void a_copy_borrows_the_files(void **state)
     write_file("gap.txt", "-5 0.25\n0 0\n5 0.25\n");
     write_file("other.txt", "-5 0.5\n-1 0.1\n0 0\n5 0.5\n");
     rb_case *base = case_of("gap=gap.txt load=500"), *c = rb_case_copy(base);
-    CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
-    assert_ptr_equal(rb_case_settled(c)->rc.profile, rb_case_settled(base)->rc.profile);
+    CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
+    assert_ptr_equal(rb_case_resolved(c)->rc.profile, rb_case_resolved(base)->rc.profile);
     CHECK_STATUS(rb_case_set_number(c, "gap-smoothing", 0.5, &why), RB_OK);
-    CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
-    assert_ptr_not_equal(rb_case_settled(c)->rc.profile,
-                         rb_case_settled(base)->rc.profile);
+    CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
+    assert_ptr_not_equal(rb_case_resolved(c)->rc.profile,
+                         rb_case_resolved(base)->rc.profile);
     CHECK_ABS(gap_at(c, 5.0), 0.25, 1e-12, "a parabola smoothed");
     CHECK_STATUS(rb_case_set_number(c, "gap-smoothing", 0.0, &why), RB_OK);
     CHECK_STATUS(rb_case_set(c, "gap", "other.txt", RB_GIVEN_ARGUMENT, &why), RB_OK);
-    CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
+    CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
     CHECK_ABS(gap_at(c, 5.0), 0.5, 1e-14, "the other file");
     rb_case_free(c);
     CHECK_ABS(gap_at(base, 5.0), 0.25, 1e-14, "its own file");
     rb_case_free(base);
 }
 
-/* Whatever tables a case names are there when it is settled, and again. */
+/* Whatever tables a case names are there when it is resolved, and again. */
 static void tables_are_where_the_case_wants_them(void **state)
 {
     (void)state;
@@ -904,23 +904,23 @@ static void tables_are_where_the_case_wants_them(void **state)
     rb_case *c = case_of("support=halfplane load=500 formulation=steady creep-ratio=0.1 "
                          "worn=worn.txt friction-law=mu.txt");
     for (int again = 0; again < 2; again++) {
-        const rb_rolling_case *rc = &rb_case_settled(c)->rc;
+        const rb_rolling_case *rc = &rb_case_resolved(c)->rc;
         assert_true(rc->worn.n == 3 && rc->worn.y[1] == 0.01);
         assert_true(rc->friction.table.n == 2 && rc->friction.table.y[1] == 0.3);
         assert_int_equal(rc->mesh, RB_MESH_UNIFORM); /* not fitted to what is worn */
-        CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
+        CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
     }
     rb_case_free(c);
     c = case_of("support=halfplane formulation=transient creep-ratio=0.1 "
                 "irregularity=flat.txt history=history.txt");
     for (int again = 0; again < 2; again++) {
-        const rb_settled_case *s = rb_case_settled(c);
+        const rb_resolved_case *s = rb_case_resolved(c);
         assert_true(s->rc.irregularity.n == 3 && s->rc.irregularity.y[1] == 0.02);
         assert_int_equal(s->program.n, 2);
         CHECK_REL(s->program.load[1], 200.0, 1e-14, "its own unit");
         assert_true(rb_case_is_replaced(c, rb_case_option("load")));
         assert_false(rb_case_is_replaced(c, rb_case_option("mu")));
-        CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
+        CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
     }
     rb_case_free(c);
     c = case_of("load=500");
@@ -938,7 +938,7 @@ static rb_status use_memory(void)
     if (s == RB_OK)
         s = rb_case_read(c, "case.ini", 0, NULL, NULL);
     if (s == RB_OK)
-        s = rb_case_settle(c, NULL);
+        s = rb_case_resolve(c, NULL);
     if (s == RB_OK && !(copy = rb_case_copy(c)))
         s = RB_ENOMEM;
     rb_case_free(copy);
@@ -969,7 +969,7 @@ static void every_failing_allocation_is_told(void **state)
 /* A value from elsewhere against a table of two options, which share no bit: what the
  * file has gives way, what an argument has does not, and nothing behind the table is
  * read. */
-static void values_from_elsewhere_settle_a_table(void **state)
+static void values_from_elsewhere_resolve_a_table(void **state)
 {
     (void)state;
     struct {
@@ -988,19 +988,19 @@ static void values_from_elsewhere_settle_a_table(void **state)
     rb_message why = {""};
 
     options[0].kind = options[1].kind = RB_OPTION_NUMBER;
-    CHECK_STATUS(rb_option_settle(&set, &how, &why), RB_OK);
+    CHECK_STATUS(rb_option_resolve(&set, &how, &why), RB_OK);
     CHECK_STATUS(
-        rb_option_settle_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+        rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
         RB_OK);
     assert_true(target.a == 1.0 && target.b == 2.0);
     other.excludes = 2;
     CHECK_STATUS(
-        rb_option_settle_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+        rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
         RB_OK);
     assert_true(target.a == 1.0 && target.b == 20.0 && given[1] == 0);
     other.excludes = 1;
     CHECK_STATUS(
-        rb_option_settle_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
+        rb_option_resolve_against(&set, &how, &other, RB_GIVEN_ARGUMENT, "no", &why),
         RB_EINVAL);
     assert_string_equal(why.text, "--a: no");
 }
@@ -1033,7 +1033,7 @@ int main(void)
         cmocka_unit_test(a_copy_is_settled_from_its_words),
         cmocka_unit_test(a_copy_borrows_the_files),
         cmocka_unit_test(tables_are_where_the_case_wants_them),
-        cmocka_unit_test(values_from_elsewhere_settle_a_table),
+        cmocka_unit_test(values_from_elsewhere_resolve_a_table),
         cmocka_unit_test(every_failing_allocation_is_told),
     };
     return cmocka_run_group_tests(tests, enter, leave_folder);

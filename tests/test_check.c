@@ -80,7 +80,7 @@ static rb_case *case_of(const char *given)
         assert_non_null(value);
         CHECK_STATUS(rb_case_set(words, name + 2, value, RB_GIVEN_ARGUMENT, &why), RB_OK);
     }
-    CHECK_STATUS(rb_case_settle(words, &why), RB_OK);
+    CHECK_STATUS(rb_case_resolve(words, &why), RB_OK);
     return words;
 }
 
@@ -464,7 +464,7 @@ static void inputs_belong_to_the_result(void **state)
         snprintf(value, sizeof value, "%.17g", x);
         CHECK_STATUS(rb_case_set(words, inputs[k].key, value, RB_GIVEN_ARGUMENT, &why),
                      RB_OK);
-        CHECK_STATUS(rb_case_settle(words, &why), RB_OK);
+        CHECK_STATUS(rb_case_resolve(words, &why), RB_OK);
         json_object_set_new(root, "input_hash", rb_report_json_input_hash(words));
         rb_case_free(words);
         CHECK_STATUS(certify(root, &found, &why), RB_OK);

@@ -14,9 +14,9 @@ static rb_status solve(const char *const *words, rb_case_result *r, rb_message *
     for (; *words && s == RB_OK; words += 2)
         s = rb_case_set(c, words[0], words[1], 0, why);
     if (s == RB_OK)
-        s = rb_case_settle(c, why);
+        s = rb_case_resolve(c, why);
     if (s == RB_OK)
-        s = rb_case_solve(rb_case_settled(c), NULL, NULL, r, why);
+        s = rb_case_solve(rb_case_resolved(c), NULL, NULL, r, why);
     rb_case_free(c);
     return s;
 }

@@ -375,8 +375,8 @@ static void test_library(void **state)
         for (int j = 0; j < 5; j++)
             CHECK_STATUS(
                 rb_case_set(c, words[j][0], words[j][1], RB_GIVEN_ARGUMENT, &why), RB_OK);
-        CHECK_STATUS(rb_case_settle(c, &why), RB_OK);
-        CHECK_STATUS(rb_rolling_solve(&rb_case_settled(c)->rc, &s, &why), RB_OK);
+        CHECK_STATUS(rb_case_resolve(c, &why), RB_OK);
+        CHECK_STATUS(rb_rolling_solve(&rb_case_resolved(c)->rc, &s, &why), RB_OK);
         snprintf(
             line, sizeof line,
             "--support %s --formulation steady --load 700 --creep-ratio 0.4 --similar "

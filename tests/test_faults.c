@@ -377,8 +377,8 @@ static void none_wrong(int tried, const char *what)
 }
 
 /* What came of it.  said: part of the line that goes with the code. */
-static void judge(const job *j, const char *fault, int k, int status, int code,
-                  const char *said)
+static void assess(const job *j, const char *fault, int k, int status, int code,
+                   const char *said)
 {
     inspection in = {.j = j, .code = WIFEXITED(status) ? WEXITSTATUS(status) : -1};
     size_t size;
@@ -424,12 +424,12 @@ static void fail_calls(fault_kind kind, const char *name, int samples)
         make_reference(&jobs[i]);
         prepare(&jobs[i]);
         const int status = fault_run(arguments, "out", "err", kind, 0, &n);
-        judge(&jobs[i], name, 0, status, 0, "");
+        assess(&jobs[i], name, 0, status, 0, "");
         const int step = stride(n - before, samples);
         for (int k = before + 1 + i % step, seen; k <= n; k += step, tried++) {
             prepare(&jobs[i]);
-            judge(&jobs[i], name, k, fault_run(arguments, "out", "err", kind, k, &seen),
-                  73, "rollbem: ");
+            assess(&jobs[i], name, k, fault_run(arguments, "out", "err", kind, k, &seen),
+                   73, "rollbem: ");
         }
     }
     unsetenv("ASAN_OPTIONS");
@@ -521,12 +521,12 @@ static int fail_every_call(const job *j)
     make_reference(j);
     const fault_server server = start_server();
     const fault_reply whole = run_failing(&server, j, &(fault_request){0});
-    judge(j, "no fault", 0, whole.status, 0, "");
+    assess(j, "no fault", 0, whole.status, 0, "");
     assert_true(whole.allocations > 0);
     for (int k = 1;; k++) {
         const fault_reply reply =
             run_failing(&server, j, &(fault_request){.by_calls = 1});
-        judge(j, "call that allocates", k, reply.status, 70, "out of memory");
+        assess(j, "call that allocates", k, reply.status, 70, "out of memory");
         if (!reply.refused) {
             stop_server(&server);
             return k - 1;
@@ -564,8 +564,8 @@ static void every_allocation_from_one_on(void **state)
         const int step = stride((int)n, 15);
         for (long k = 1 + i % step; k <= n; k += step, tried++) {
             const fault_request request = {.from = k};
-            judge(&jobs[i], "no memory from allocation", (int)k,
-                  run_failing(&server, &jobs[i], &request).status, 70, "out of memory");
+            assess(&jobs[i], "no memory from allocation", (int)k,
+                   run_failing(&server, &jobs[i], &request).status, 70, "out of memory");
         }
         stop_server(&server);
     }

@@ -688,7 +688,7 @@ static rb_status in_child(deed what, char **bytes, size_t *size, rb_message *why
     return rb_io_in_child("it", do_it, &what, bytes, size, why);
 }
 
-static void a_child_answers_or_is_blamed(void **state)
+static void a_child_answers_or_is_located(void **state)
 {
     (void)state;
     static const struct {
@@ -836,7 +836,7 @@ int main(void)
         cmocka_unit_test(memory_is_bounded_by_the_size_of_the_file),
         cmocka_unit_test(other_files_are_refused),
         cmocka_unit_test(problems_go_through_files),
-        cmocka_unit_test(a_child_answers_or_is_blamed),
+        cmocka_unit_test(a_child_answers_or_is_located),
         cmocka_unit_test(a_child_without_means_is_told),
         cmocka_unit_test(a_child_is_quiet),
         cmocka_unit_test(failing_allocations_are_reported),

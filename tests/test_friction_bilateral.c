@@ -138,7 +138,7 @@ static double violation(double mu, const double *r, const double *u)
     return worst;
 }
 
-static void solve_and_judge(const structure *s, const rb_friction_problem *p, double *r)
+static void solve_and_assess(const structure *s, const rb_friction_problem *p, double *r)
 {
     double u[ROWS], want[ROWS];
     rb_friction_options opt = rb_friction_defaults();
@@ -167,7 +167,7 @@ static void eliminated_constraints_are_those_of_the_saddle_point(void **state)
         as_problem(&s, &p, &G);
         CHECK_STATUS(rb_friction_eliminate(&p, &G, s.b, &why), RB_OK);
         assert_int_equal(p.dofs, DOFS - JOINTS);
-        solve_and_judge(&s, &p, r);
+        solve_and_assess(&s, &p, r);
         loaded += r[0] > 0.0 || r[3] > 0.0 || r[6] > 0.0;
         rb_sparse_free(&G);
         rb_friction_problem_free(&p);
@@ -241,7 +241,7 @@ static void both_forms_come_from_files(void **state)
                          RB_OK);
             if (rb_friction_read(path, &p, &why) != RB_OK)
                 fail_msg("%s", why.text);
-            solve_and_judge(&s, &p, r[k]);
+            solve_and_assess(&s, &p, r[k]);
             rb_friction_problem_free(&p);
             rb_io_fclib_free(&file[k]);
         }
@@ -275,8 +275,8 @@ static void redundant_constraints_drop_out(void **state)
     CHECK_STATUS(rb_friction_eliminate(&p, &G, s.b, &why), RB_OK);
     CHECK_STATUS(rb_friction_eliminate(&q, &more, b, &why), RB_OK);
     assert_int_equal(q.dofs, DOFS - JOINTS);
-    solve_and_judge(&s, &p, r);
-    solve_and_judge(&s, &q, again);
+    solve_and_assess(&s, &p, r);
+    solve_and_assess(&s, &q, again);
     for (int k = 0; k < ROWS; k++)
         CHECK_ABS(again[k], r[k], 1e-8, "r[%d]", k);
     rb_sparse_free(&more);

@@ -163,7 +163,7 @@ static long double miss(int d, long double mu, long double w, const double *r,
 }
 
 /* The scaled measure and the floor of docs/friction.md. */
-static void judge(const challenge *p, const double *r, double *error, double *floor)
+static void assess(const challenge *p, const double *r, double *error, double *floor)
 {
     const int d = p->d, m = d * p->contacts;
     long double e = 0.0L, f = 0.0L, size = 0.0L;
@@ -217,7 +217,7 @@ static void ask(const challenge *c, const rb_friction_solver *solver, double tol
                           &info) != RB_OK)
         return;
     n->claims++;
-    judge(c, r, &error, &floor);
+    assess(c, r, &error, &floor);
     const double allowed = fmax(tol, fmin(floor, 1e-6));
     if (!c->hopeless && error <= 1.01 * allowed + 0.1 * floor)
         return;
@@ -264,13 +264,13 @@ static void the_judge_sees_small_errors(void **state)
     CHECK_STATUS(
         rb_friction_solve(NULL, &p, NULL, &(rb_friction_solution){r, u, NULL}, NULL),
         RB_OK);
-    judge(&c, r, &error, &floor);
+    assess(&c, r, &error, &floor);
     CHECK_MAX(error, 1e-8, "a solution");
     int at = 0;
     while (r[at] == 0.0)
         at += c.d;
     r[at] *= 1.0 + 1e-6;
-    judge(&c, r, &error, &floor);
+    assess(&c, r, &error, &floor);
     CHECK_MAX(1e-8, error, "no solution");
 }
 

@@ -1,5 +1,5 @@
 /* Large contacts on half-planes: no matrix, the same answers. */
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <cblas.h>

@@ -542,8 +542,8 @@ static void solve(const char *const *words, rb_case_result *result)
     for (; *words; words += 2)
         if (rb_case_set(c, words[0], words[1], RB_GIVEN_ARGUMENT, &why) != RB_OK)
             fail_msg("%s", why.text);
-    if (rb_case_settle(c, &why) != RB_OK ||
-        rb_case_solve(rb_case_settled(c), NULL, NULL, result, &why) != RB_OK)
+    if (rb_case_resolve(c, &why) != RB_OK ||
+        rb_case_solve(rb_case_resolved(c), NULL, NULL, result, &why) != RB_OK)
         fail_msg("%s", why.text);
     rb_case_free(c);
 }

@@ -1,5 +1,5 @@
 /* Two elastic bodies (4.5), each with its own support. */
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <string.h>

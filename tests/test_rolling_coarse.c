@@ -1,6 +1,6 @@
 /* The start of a fine solution from a coarse one that is made up. */
 #include "check.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <string.h>
 

@@ -453,7 +453,7 @@ static void a_cover_that_nothing_holds_is_singular(void **state)
     rc.contact_elements = 8;
     rc.mesh = RB_MESH_UNIFORM;
     for (int k = 0; k < 2; k++) {
-        CHECK_STATUS(rb_rolling_solve_model_again(&rc, &model, &s, &why), RB_SINGULAR);
+        CHECK_STATUS(rb_rolling_solve_model_reuse(&rc, &model, &s, &why), RB_SINGULAR);
         assert_non_null(strstr(why.text, "singular"));
         assert_null(s.p);
         assert_int_equal(s.status, RB_SINGULAR);
@@ -470,7 +470,7 @@ static void a_cover_that_nothing_holds_is_singular(void **state)
     assert_int_equal(curve.n, 0);
     rb_rolling_curve_free(&curve);
     rc.a.core_young = 1e5;
-    CHECK_STATUS(rb_rolling_solve_model_again(&rc, &model, &s, &why), RB_OK);
+    CHECK_STATUS(rb_rolling_solve_model_reuse(&rc, &model, &s, &why), RB_OK);
     rb_rolling_solution_free(&s);
     rb_rolling_model_free(&model);
 }

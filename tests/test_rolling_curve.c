@@ -1,5 +1,5 @@
 /* Curves: where their points lie, that each is its case, refusals. */
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <string.h>

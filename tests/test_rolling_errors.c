@@ -1,6 +1,6 @@
 /* Error bars from runs that are made up or solved here, and the way to an accuracy. */
 #include "rollbem/closed_forms.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <float.h>

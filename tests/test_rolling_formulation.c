@@ -1,6 +1,6 @@
 /* A case as a contact problem (theory.md 4.2): operator, weights, controls, scales. */
 #include "check.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <cblas.h>
 #include <float.h>

@@ -1,7 +1,7 @@
 /* What lies between the bodies: a coefficient of friction that depends on the place, and
  * an interface that yields. */
 #include "rollbem/friction.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <stdlib.h>
@@ -200,7 +200,7 @@ static void an_interface_moves_with_the_steps(void **state)
         rb_rolling_case rc = steady();
         rb_rolling_mesh mesh;
         rb_rolling_bodies bodies;
-        rb_rolling_ahead ahead;
+        rb_rolling_former_place ahead;
         rc.formulation = RB_TRANSIENT;
         rc.contact_elements = n;
         rc.solver = large ? RB_SOLVER_NEWTON : RB_SOLVER_LEMKE;
@@ -208,10 +208,11 @@ static void an_interface_moves_with_the_steps(void **state)
         CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -1.3, 1.3, &mesh, NULL), RB_OK);
         CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, NULL), RB_OK);
         assert_int_equal(bodies.F == NULL, large);
-        CHECK_STATUS(rb_rolling_ahead_create(&rc, &bodies, 1.3 * 2.6 / n, &ahead), RB_OK);
+        CHECK_STATUS(rb_rolling_former_place_create(&rc, &bodies, 1.3 * 2.6 / n, &ahead),
+                     RB_OK);
         w[large] = rb_alloc((size_t)n, 1);
-        rb_rolling_ahead_apply(&ahead, &bodies, p, q, w[large]);
-        rb_rolling_ahead_free(&ahead);
+        rb_rolling_former_place_apply(&ahead, &bodies, p, q, w[large]);
+        rb_rolling_former_place_free(&ahead);
         rb_rolling_bodies_free(&bodies);
         rb_rolling_mesh_free(&mesh);
     }

@@ -1,7 +1,7 @@
 /* Flash temperature: the moving strip against quadrature, the closed form of an elliptic
  * source, two bodies, low and high speed, steps against the steady state, refusals. */
 #include "rollbem/closed_forms.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <gsl/gsl_errno.h>
@@ -344,38 +344,38 @@ static void the_warmest_place_is_a_vertex_in_contact(void **state)
     int zone[N] = {0, 1, 1, 2, 2, 0};
     for (int i = 0; i < N; i++)
         t[i] = 90.0 - 2.0 * (x[i] - 2.3) * (x[i] - 2.3);
-    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    rb_rolling_peak_temperature(N, x, zone, t, &value, &at);
     CHECK_REL(value, 90.0, 1e-13, "of a parabola");
     CHECK_REL(at, 2.3, 1e-13, "its place");
     zone[3] = 0; /* a neighbour that is open tells nothing */
-    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    rb_rolling_peak_temperature(N, x, zone, t, &value, &at);
     CHECK_ABS(value, t[2], 0.0, "beside an open element");
     CHECK_ABS(at, 2.0, 0.0, "beside an open element");
     zone[3] = 2;
     zone[1] = 0;
-    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    rb_rolling_peak_temperature(N, x, zone, t, &value, &at);
     CHECK_ABS(at, 2.0, 0.0, "beside an open element");
     t[0] = 500.0; /* open */
     t[4] = 100.0;
     zone[5] = 1;
     t[5] = 100.0;
-    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    rb_rolling_peak_temperature(N, x, zone, t, &value, &at);
     assert_true(value > 100.0 && at > 4.0 && at < 5.0); /* the first of two */
     t[5] = 120.0;
-    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    rb_rolling_peak_temperature(N, x, zone, t, &value, &at);
     CHECK_ABS(value, 120.0, 0.0, "at the end of the mesh");
     CHECK_ABS(at, 5.0, 0.0, "at the end of the mesh");
     zone[0] = 1;
-    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    rb_rolling_peak_temperature(N, x, zone, t, &value, &at);
     CHECK_ABS(value, 500.0, 0.0, "at the other end");
     for (int i = 0; i < N; i++) {
         zone[i] = 1;
         t[i] = 7.0;
     }
-    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    rb_rolling_peak_temperature(N, x, zone, t, &value, &at);
     CHECK_ABS(value, 7.0, 0.0, "equally warm");
     memset(zone, 0, sizeof zone);
-    rb_rolling_warmest(N, x, zone, t, &value, &at);
+    rb_rolling_peak_temperature(N, x, zone, t, &value, &at);
     assert_true(isnan(value) && isnan(at));
 }
 
@@ -458,10 +458,10 @@ static void an_even_temperature_has_its_first_place(void **state)
     const double x[] = {-1.0, 0.0, 1.0, 2.0}, t[] = {5.0, 7.0, 7.0, 7.0};
     const int zone[] = {RB_ZONE_STICK, RB_ZONE_STICK, RB_ZONE_STICK, RB_ZONE_STICK};
     double value, at;
-    rb_rolling_warmest(4, x, zone, t, &value, &at);
+    rb_rolling_peak_temperature(4, x, zone, t, &value, &at);
     CHECK_REL(value, 7.25, 1e-12, "a vertex");
     CHECK_REL(at, 0.5, 1e-12, "in the middle of the two");
-    rb_rolling_warmest(3, x + 1, zone, t + 1, &value, &at);
+    rb_rolling_peak_temperature(3, x + 1, zone, t + 1, &value, &at);
     CHECK_ABS(value, 7.0, 0.0, "no vertex");
     CHECK_ABS(at, 0.0, 0.0, "the first place");
 }

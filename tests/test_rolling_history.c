@@ -1,6 +1,6 @@
 /* Sequences: Cattaneo to Carter, loading histories, bad programs, interruption. */
 #include "check.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>
@@ -110,15 +110,15 @@ static void whole_elements_ahead_are_known(void **state)
         const int n = model.mesh.n, m = n + 1;
         const double *F = model.bodies.F, size = fabs(F[0]);
         for (int k = 0; k <= 3; k++) {
-            rb_rolling_ahead ahead;
-            CHECK_STATUS(rb_rolling_ahead_create(&rc, &model.bodies,
-                                                 k * model.bodies.f.h[n / 2], &ahead),
+            rb_rolling_former_place ahead;
+            CHECK_STATUS(rb_rolling_former_place_create(
+                             &rc, &model.bodies, k * model.bodies.f.h[n / 2], &ahead),
                          RB_OK);
             for (int j = 0; j < 2 * n; j++)
                 for (int i = 0; i + k < m && i < n; i++)
                     CHECK_ABS(ahead.W_T[i + j * n], F[m + i + k + j * 2 * m],
                               1e-12 * size, "%d ahead of %d, column %d", k, i, j);
-            rb_rolling_ahead_free(&ahead);
+            rb_rolling_former_place_free(&ahead);
         }
         rb_rolling_model_free(&model);
     }
@@ -137,9 +137,9 @@ static void a_quarter_ahead_is_a_midpoint_of_halves(void **state)
     rc.contact_elements *= 2;
     CHECK_STATUS(rb_rolling_model_create(&rc, &fine, NULL), RB_OK);
     const int n = coarse.mesh.n, m = 2 * n + 1;
-    rb_rolling_ahead ahead;
-    CHECK_STATUS(rb_rolling_ahead_create(&rc, &coarse.bodies,
-                                         0.25 * coarse.bodies.f.h[n / 2], &ahead),
+    rb_rolling_former_place ahead;
+    CHECK_STATUS(rb_rolling_former_place_create(&rc, &coarse.bodies,
+                                                0.25 * coarse.bodies.f.h[n / 2], &ahead),
                  RB_OK);
     const double *F = fine.bodies.F, size = fabs(F[m + 4 * n * m]); /* TT */
     for (int j = 0; j < 2 * n; j++)
@@ -148,7 +148,7 @@ static void a_quarter_ahead_is_a_midpoint_of_halves(void **state)
             CHECK_ABS(ahead.W_T[i + j * n], *a + *b, 5e-3 * size, "%d, column %d of %d",
                       i, j, 2 * n);
         }
-    rb_rolling_ahead_free(&ahead);
+    rb_rolling_former_place_free(&ahead);
     rb_rolling_model_free(&coarse);
     rb_rolling_model_free(&fine);
 }
@@ -648,7 +648,7 @@ static int check_yielded(const rb_rolling_model *model, const rb_rolling_history
                 want =
                     before[j] + (next - before[j]) * (place - x[j]) / (x[j + 1] - x[j]);
         }
-        CHECK_ABS(model->surfaces.yielded[i], want, 1e-9 * *(double *)context,
+        CHECK_ABS(model->carried.yielded[i], want, 1e-9 * *(double *)context,
                   "step %d, element %d", step, i);
     }
     rb_rolling_yielded(model, before);

@@ -1,6 +1,6 @@
 /* The laws of friction by their formulas, their largest and steepest values, refusals. */
 #include "refused.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 static rb_rolling_case law(rb_rolling_friction_law which, double m1, double m2)
 {
@@ -64,8 +64,8 @@ static void a_table_is_linear_between_its_rows(void **state)
     CHECK_REL(rb_rolling_law_mu(&rc, 1.0, 5.0, 0.0), 0.5, 1e-15, "of the place alone");
     CHECK_REL(rb_rolling_law_at_rest(&rc, 2.0), 0.3, 1e-14, "of the place alone");
     CHECK_ABS(rb_rolling_largest_mu(&rc), 0.7, 0.0, "largest");
-    assert_int_equal(rb_rolling_law_slides(&rc.friction), 0);
-    assert_int_equal(rb_rolling_law_moves(&rc), 0);
+    assert_int_equal(rb_rolling_law_depends_on_slip(&rc.friction), 0);
+    assert_int_equal(rb_rolling_law_depends_on_state(&rc), 0);
 }
 
 /* Whichever row has it; mu beside a table counts for nothing. */
@@ -94,7 +94,7 @@ static void heat_adds_its_part(void **state)
     CHECK_REL(rb_rolling_law_mu(&rc, 0.0, 0.0, 900.0), 0.1, 1e-14, "all of it");
     rc.heat_a.temperature = 125.0;
     CHECK_REL(rb_rolling_law_at_rest(&rc, 0.0), 0.2, 1e-14, "a warm body");
-    assert_int_equal(rb_rolling_law_moves(&rc), 1);
+    assert_int_equal(rb_rolling_law_depends_on_state(&rc), 1);
     CHECK_ABS(rb_rolling_largest_mu(&rc), 0.3, 0.0, "heat takes off");
     rc.friction.heat = 0.2;
     CHECK_REL(rb_rolling_largest_mu(&rc), 0.5, 1e-15, "heat adds");
@@ -109,13 +109,13 @@ static void the_largest_coefficient_is_at_rest_or_fast(void **state)
     for (int k = 0; k < 4; k++) {
         rb_rolling_case rc = law(RB_FRICTION_rational, rows[k].m1, rows[k].m2);
         CHECK_REL(rb_rolling_largest_mu(&rc), rows[k].largest, 1e-14, "row %d", k);
-        assert_int_equal(rb_rolling_law_slides(&rc.friction), k < 3);
-        assert_int_equal(rb_rolling_law_moves(&rc), k < 3);
+        assert_int_equal(rb_rolling_law_depends_on_slip(&rc.friction), k < 3);
+        assert_int_equal(rb_rolling_law_depends_on_state(&rc), k < 3);
         rc.formulation = RB_STATIC;
-        assert_int_equal(rb_rolling_law_moves(&rc), 0);
+        assert_int_equal(rb_rolling_law_depends_on_state(&rc), 0);
         rc.friction.law = RB_FRICTION_constant; /* knows no falls */
         CHECK_ABS(rb_rolling_largest_mu(&rc), 0.3, 0.0, "row %d", k);
-        assert_int_equal(rb_rolling_law_slides(&rc.friction), 0);
+        assert_int_equal(rb_rolling_law_depends_on_slip(&rc.friction), 0);
     }
 }
 

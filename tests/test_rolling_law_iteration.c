@@ -1,6 +1,6 @@
 /* Friction that depends on the state: the coefficients of a state, starts, the uniqueness
  * number, forces, each recomputed here; and in how many solves they are found. */
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <stdlib.h>
@@ -103,7 +103,7 @@ static void coefficients_forget_from_the_leading_edge_on(void **state)
         for (int k = 0; k < 3; k++) { /* no memory, with it, with a past */
             model.rc.friction.memory = k ? 0.01 : 0.0;
             model.rc.friction.memory_slip = 15.0;
-            model.surfaces.mu = k == 2 ? before : NULL;
+            model.carried.mu = k == 2 ? before : NULL;
             CHECK_STATUS(rb_rolling_law_coefficients(&model, mu, &why), RB_OK);
             double upstream = rest;
             for (int i = s->n - 1; i >= 0; i--) {
@@ -117,7 +117,7 @@ static void coefficients_forget_from_the_leading_edge_on(void **state)
                 upstream = want;
             }
         }
-        model.surfaces.mu = NULL;
+        model.carried.mu = NULL;
         rb_rolling_solution_free(&solution);
         rb_rolling_model_free(&model);
     }

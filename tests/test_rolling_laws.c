@@ -1,6 +1,6 @@
 /* Friction laws (theory.md 4.11): coefficients that depend on slip velocity, memory and
  * temperature, proven by formulas of their own and by Coulomb's law with them. */
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <stdlib.h>
@@ -865,7 +865,7 @@ static void a_step_has_two_starts(void **state)
         model.rc.formulation = RB_TRANSIENT;
         model.rc.creep = 0.001;
         model.rc.friction.start = start ? &sliding : NULL;
-        model.surfaces.mu = before;
+        model.carried.mu = before;
         CHECK_STATUS(rb_rolling_problem_create(&model.rc, &model.mesh, &model.bodies,
                                                &past, &model.problem, &why),
                      RB_OK);

@@ -1,6 +1,6 @@
 /* Contact meshes by themselves: where elements end, and the gap at their midpoints. */
 #include "check.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Newton with a matrix: the problem on pairs of elements, the cold start from it, and the
  * answers beside Lemke's. */
 #include "contact/dense.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -1,7 +1,7 @@
 /* Edges, peaks and starts from the pressures of a state that is made up: what a power law
  * or a parabola gives exactly. */
 #include "check.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <string.h>

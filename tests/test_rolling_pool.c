@@ -1,6 +1,6 @@
 /* The processes of a study, as the one sees them that hands out cases. */
 #define _GNU_SOURCE
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <errno.h>

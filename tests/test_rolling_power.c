@@ -1,6 +1,6 @@
 /* Powers of made-up slip and friction, recomputed, and that they add up. */
 #include "check.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 enum { N = 5 };
 

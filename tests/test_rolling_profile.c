@@ -1,6 +1,6 @@
 /* Measured gaps: the spline through a table, its smoothing, and what is refused. */
 #include "check.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>

@@ -1,7 +1,7 @@
 /* The program of a history: the case of each of its steps, its refusals, and the program
  * that a case brings along. */
 #include "check.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* Bodies that relax, step by step: static contact in time and transient rolling. */
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "check.h"
 #include "rollbem/rolling.h"
 

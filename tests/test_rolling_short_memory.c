@@ -2,7 +2,7 @@
  * answer is RB_ENOMEM, or the task does without; nothing is lost or freed twice (make
  * asan). */
 #include "check.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <string.h>
 
@@ -188,7 +188,7 @@ static rb_status use_again(task *t)
     if (s == RB_OK)
         s = rb_rolling_model_friction(&t->model, &t->why);
     rc.load *= 1.1;
-    return s == RB_OK ? rb_rolling_model_again(&rc, &t->model, &t->why) : s;
+    return s == RB_OK ? rb_rolling_model_reuse(&rc, &t->model, &t->why) : s;
 }
 
 static rb_status solutions(void *context)

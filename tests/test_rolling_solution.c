@@ -1,5 +1,5 @@
 /* What a solution says, recomputed from the model that it is taken from. */
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <stdlib.h>
@@ -271,7 +271,7 @@ static void a_model_solves_the_next_case_as_the_first(void **state)
         next.contact_elements += k == 5 ? 2 : 0;
         if (k != 3)
             model = solved_model(&rc);
-        CHECK_STATUS(rb_rolling_model_again(&next, &model, NULL), RB_OK);
+        CHECK_STATUS(rb_rolling_model_reuse(&next, &model, NULL), RB_OK);
         rb_rolling_model fresh = solved_model(&next);
         assert_int_equal(model.state.n, fresh.state.n);
         for (int i = 0; i < fresh.state.n; i++) {

@@ -1,6 +1,6 @@
 /* Wear of one small contact: each step recomputed from the one before it, and refusals.
  */
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

@@ -47,9 +47,9 @@ static void solve(job *j)
     for (const char *const *w = words[j->k]; *w && j->status == RB_OK; w += 2)
         j->status = rb_case_set(c, w[0], w[1], 0, &why);
     if (j->status == RB_OK)
-        j->status = rb_case_settle(c, &why);
+        j->status = rb_case_resolve(c, &why);
     if (j->status == RB_OK)
-        j->status = rb_case_solve(rb_case_settled(c), NULL, NULL, &r, &why);
+        j->status = rb_case_solve(rb_case_resolved(c), NULL, NULL, &r, &why);
     if (j->status != RB_OK)
         print_error("case %d: %s\n", j->k, why.text);
     const rb_rolling_solution *s = &r.solution;

@@ -79,7 +79,7 @@ function ratio_test(words, a, k) {
 }
 
 /* What a guess violates, in words; tolerances of rounding only. */
-export function judge(words, { p, q, gap, shift }, zones, mu) {
+export function assess(words, { p, q, gap, shift }, zones, mu) {
     const most = Math.max(...[...p].map(Math.abs)), tol = 1e-9 * most, wide = 1e-9 * Math.max(...[...gap].map(Math.abs)), far = 1e-9 * Math.max(...[...shift].map(Math.abs));
     return zones.flatMap((z, k) => {
         const i = k + 1;
@@ -148,7 +148,7 @@ export function step_view(words, page) {
     function check() { asked = [...zones]; page.ask({ kind: "guess", view: "step", given: wanted, zones: asked }); }
     function judged(answer) {
         if (answer.refused) return verdict.replaceChildren(html("p", { class: "bad" }, say(words.guess_refused, { why: answer.refused })));
-        const part = (name) => answer[`guess.${name}`].at, wrong = judge(words, { p: part("p"), q: part("q"), gap: part("gap"), shift: part("shift") }, asked, mu());
+        const part = (name) => answer[`guess.${name}`].at, wrong = assess(words, { p: part("p"), q: part("q"), gap: part("gap"), shift: part("shift") }, asked, mu());
         verdict.replaceChildren(html("p", { class: wrong.length ? "bad" : "good" }, wrong.length ? say(words.guess_wrong, { n: wrong.length }) : words.guess_right), html("ul", { class: "verdict" }, wrong.map((text) => html("li", {}, text))));
         guess_picture.replaceChildren(bars(guess_picture, words, { ends: answer.ends.at, p: part("p"), q: part("q"), mu: mu(), top: Math.max(...part("p"), ...[...part("q")].map((v) => Math.abs(v) / Math.max(mu(), 0.05))) || 1, label: words.guess_title }));
     }

@@ -38,7 +38,7 @@ int rb_api_read(rb_api *a, const char *path);
  * again. */
 int rb_api_set(rb_api *a, const char *name, const char *text);
 /* Whether the options agree with each other. */
-int rb_api_settle(rb_api *a);
+int rb_api_resolve(rb_api *a);
 /* Settles and solves; of a sequence of steps each one is kept. */
 int rb_api_solve(rb_api *a);
 /* From another thread or a signal handler: what runs ends with RB_INTERRUPTED after the
@@ -62,7 +62,7 @@ const char *rb_api_option(int k, const char *field, char *text, int size);
  * "meaning". */
 const char *rb_api_result(const char *table, int k, const char *field, char *text,
                           int size);
-/* Value of an option as settled. */
+/* Value of an option as resolved. */
 const char *rb_api_value(const rb_api *a, const char *name, char *text, int size);
 
 /* ---- Results ----------------------------------------------------------------------- */
@@ -112,7 +112,7 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 
 /* Each makes the arrays named after it from the case as it was solved. */
 
-/* Steady rolling at so many creepage ratios from ... to, of a case that is settled. */
+/* Steady rolling at so many creepage ratios from ... to, of a case that is resolved. */
 int rb_api_curve(rb_api *a, double from, double to, int points);
 /* The same over "creep-ratio", "creep" or (bodies that relax) "speed", with errors where
  * the case asks for them. */
@@ -152,7 +152,7 @@ int rb_api_friction(rb_api *a, int dimension, int contacts, const double *W,
 /* The same for the problem of a file, FCLib or Siconos. */
 int rb_api_friction_file(rb_api *a, const char *path, const char *solver, double tol,
                          int max_iters);
-/* Cases of their own, each settled by the call, solved by so many processes (0: one per
+/* Cases of their own, each resolved by the call, solved by so many processes (0: one per
  * processor).  A case that is refused ends the call before anything is solved. */
 int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers);
 

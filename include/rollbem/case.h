@@ -5,13 +5,13 @@
  *     rb_case *c = rb_case_create(RB_CASE_SINGLE);
  *     rb_case_set(c, "support", "halfplane", RB_GIVEN_ARGUMENT, &why);
  *     rb_case_set_number(c, "load", 500.0, &why);
- *     if (rb_case_settle(c, &why) == RB_OK)
- *         rb_case_solve(rb_case_settled(c), NULL, NULL, &result, &why);
+ *     if (rb_case_resolve(c, &why) == RB_OK)
+ *         rb_case_solve(rb_case_resolved(c), NULL, NULL, &result, &why);
  *     rb_case_result_free(&result);
  *     rb_case_free(c);
  *
  * Nothing here prints.  A refusal is a status and a line: RB_EINVAL where an argument is
- * to blame, RB_EFORMAT where a file is, RB_ENOENT where there is no such file. */
+ * wrong, RB_EFORMAT where a file is, RB_ENOENT where there is no such file. */
 #ifndef ROLLBEM_CASE_H
 #define ROLLBEM_CASE_H
 
@@ -197,9 +197,9 @@ typedef enum {
 /* What a curve may run over: rb_rolling_variable. */
 extern const rb_choice rb_case_curve_variables[];
 
-/* The defaults, settled already.  NULL: no memory. */
+/* The defaults, resolved already.  NULL: no memory. */
 rb_case *rb_case_create(rb_case_purpose purpose);
-/* Changes a creep curve into one over the speed and back; settle afterwards. */
+/* Changes a creep curve into one over the speed and back; resolve afterwards. */
 void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose);
 /* Solvers that the option `solver` may name beside those of contact.h; borrowed.  Without
  * this there are none. */
@@ -211,7 +211,7 @@ void rb_case_free(rb_case *c);
 /* The table with the values as given, for those who read or show them; borrowed. */
 rb_option_set rb_case_options(rb_case *c);
 /* All n options and their headings, in the order of the help; their values stand in an
- * rb_settled_case. */
+ * rb_resolved_case. */
 const rb_option *rb_case_describe(int *n);
 /* The option of that name; NULL: there is none. */
 const rb_option *rb_case_option(const char *name);
@@ -237,9 +237,9 @@ rb_status rb_case_read_text(rb_case *c, const char *name, const char *text,
                             rb_message *why);
 
 /* What the words mean together: contradictions are refused, body B, the mesh and the
- * files of gap and history are settled, the result is checked.  Again after every
+ * files of gap and history are resolved, the result is checked.  Again after every
  * further change. */
-rb_status rb_case_settle(rb_case *c, rb_message *why);
+rb_status rb_case_resolve(rb_case *c, rb_message *why);
 
 /* Relaxation as it is typed: the first number, and all of them. */
 typedef struct {
@@ -253,7 +253,7 @@ typedef struct {
     rb_numbers falls, slip_scales, memories, heats;
 } rb_case_law;
 
-/* The values of a case, as settled. */
+/* The values of a case, as resolved. */
 typedef struct {
     rb_rolling_case rc;
     rb_rolling_derived derived; /* what follows from rc */
@@ -274,10 +274,10 @@ typedef struct {
     double accuracy;               /* refine until they are below this; 0: no */
     rb_units units; /* of plain numbers, but for those of a case file, which says its own,
                        and of what is shown; the values here are in mm, N, MPa */
-} rb_settled_case;
+} rb_resolved_case;
 
 /* Borrowed, valid until c changes. */
-const rb_settled_case *rb_case_settled(const rb_case *c);
+const rb_resolved_case *rb_case_resolved(const rb_case *c);
 /* The system of the plain numbers of that giver: the case file (by > 0) has its own. */
 rb_units rb_case_units(const rb_case *c, int by);
 /* Plain numbers of the set that were given, beside the case or in its file, become mm, N,
@@ -286,7 +286,7 @@ void rb_case_store(const rb_case *c, const rb_option_set *set, void *target);
 /* 1: a column of the history stands in the place of the option. */
 int rb_case_is_replaced(const rb_case *c, const rb_option *option);
 /* 1: transient rolling, a static history or increments. */
-int rb_case_has_steps(const rb_settled_case *settled);
+int rb_case_has_steps(const rb_resolved_case *resolved);
 
 /* ---- Solving ----------------------------------------------------------------------- */
 
@@ -302,11 +302,11 @@ typedef struct {
 /* Steady and static cases at once, transients and histories step by step, with the error
  * bars or the accuracy that the case asks for.  step: sees the model after each step; may
  * be NULL.  Free the result in any case. */
-rb_status rb_case_solve(const rb_settled_case *settled, rb_rolling_step *step,
+rb_status rb_case_solve(const rb_resolved_case *resolved, rb_rolling_step *step,
                         void *context, rb_case_result *result, rb_message *why);
-/* The same with the result of a case before it, or {0}, as rb_rolling_model_again takes
+/* The same with the result of a case before it, or {0}, as rb_rolling_model_reuse takes
  * its model; steps and error bars begin anew. */
-rb_status rb_case_solve_again(const rb_settled_case *settled, rb_rolling_step *step,
+rb_status rb_case_solve_again(const rb_resolved_case *resolved, rb_rolling_step *step,
                               void *context, rb_case_result *result, rb_message *why);
 /* From mm, N, MPa to the units of the case, for those who show it; the model stays. */
 void rb_case_result_convert(rb_case_result *result, rb_units units);
@@ -334,8 +334,8 @@ double rb_case_contact_power(const rb_io_contact_case *in, const rb_rolling_solu
 /* Who gave the option of that name; 0: it has its default. */
 int rb_case_given(const rb_case *c, const char *name);
 /* Turns a refusal s of rollbem/rolling.h into one of this case: the file and the line
- * where they are to blame.  Returns the status that says which. */
-rb_status rb_case_blame(const rb_case *c, rb_status s, rb_message *why);
+ * where the error stands in one of them.  Returns the status that says which. */
+rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why);
 
 RB_PUBLIC_END
 

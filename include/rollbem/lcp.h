@@ -102,7 +102,7 @@ rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, doubl
 rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_options *opt,
                         double *z, rb_lcp_info *info);
 
-/* Lemke's method on a sparse LU, for boxes.  Ties are settled by a generic perturbation,
+/* Lemke's method on a sparse LU, for boxes.  Ties are broken by a generic perturbation,
  * with RB_LCP_FIRST_INDEX by the row; trace_tableau counts for nothing.  A variable
  * without any bound is split: the other half of the k-th of them is variable n + k for
  * the trace, which sees a larger n then.  With opt->start the path begins at the basis of

@@ -92,7 +92,7 @@ struct json_t *rb_report_json_text(const char *text);
 struct json_t *rb_report_json_number(double x);
 struct json_t *rb_report_json_numbers(int n, const double *x);
 struct json_t *rb_report_json_summary(const rb_rolling_solution *s);
-/* Every value that the settled case uses, defaults included. */
+/* Every value that the resolved case uses, defaults included. */
 struct json_t *rb_report_json_inputs(const rb_case *c);
 /* A hash of these values and of the contents of the files that they name: whether two
  * results are of the same inputs.  RB_ENOENT, RB_EFORMAT of a file; RB_ENOMEM. */
@@ -138,7 +138,7 @@ rb_status rb_report_certify(FILE *out, const char *name, const struct json_t *ro
 rb_status rb_report_certify_solutions(FILE *out, const char *name,
                                       const struct json_t *root, rb_case *words,
                                       rb_report_certificate *found, rb_message *why);
-/* The same of what rb_report_table wrote of a case.  words: its inputs, settled, as the
+/* The same of what rb_report_table wrote of a case.  words: its inputs, resolved, as the
  * command line in its comments has them (rb_report_table_command). */
 rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
                                   const rb_case *words, rb_report_certificate *found,

@@ -238,7 +238,7 @@ rb_rolling_case rb_rolling_case_defaults(void);
 double rb_rolling_largest_mu(const rb_rolling_case *rc);
 /* 1 where the coefficients depend on the state, so that they are iterated: in rolling,
  * where the law depends on the slip velocity or on the temperature. */
-int rb_rolling_law_moves(const rb_rolling_case *rc);
+int rb_rolling_law_depends_on_state(const rb_rolling_case *rc);
 /* 1: A, and B where it is elastic, can all of `abilities`. */
 int rb_rolling_can(const rb_rolling_case *rc, int abilities);
 
@@ -549,7 +549,7 @@ typedef struct {
     const double *mu; /* n: coefficients of the particles before the step; NULL: those at
                          rest; borrowed, as heat */
     struct rb_rolling_heat_track *heat; /* of the steps before; NULL: none */
-} rb_rolling_surfaces;
+} rb_rolling_carried;
 
 /* Everything between case and solution, kept for further solves on the same mesh. */
 typedef struct {
@@ -566,7 +566,7 @@ typedef struct {
     double seconds_lcp;
     int iterations;  /* of all solves so far */
     int same_bodies; /* 1: `bodies` are those of `rc` wherever the mesh is `mesh` */
-    rb_rolling_surfaces surfaces;
+    rb_rolling_carried carried;
 } rb_rolling_model;
 
 /* Chooses the potential contact (or the fitted mesh), builds the bodies and solves.  On a
@@ -578,7 +578,7 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
  * friction, load, approach, shift, creepage or force at most: its flexibility is used
  * again where equal elements end at the same places.  The result is that of create to the
  * last bit. */
-rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
+rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_message *why);
 /* Bodies and contact problem on the elements of a result, with a state of zeros: nothing
  * is solved.  model: all zeros before; free it in any case. */
@@ -1008,8 +1008,8 @@ double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unkn
  * in any case. */
 rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_rolling_solution *solution, rb_message *why);
-/* The same with a model as rb_rolling_model_again takes it. */
-rb_status rb_rolling_solve_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
+/* The same with a model as rb_rolling_model_reuse takes it. */
+rb_status rb_rolling_solve_model_reuse(const rb_rolling_case *rc, rb_rolling_model *model,
                                        rb_rolling_solution *solution, rb_message *why);
 
 /* ---- Parameter studies ----------------------------------------------------------- */

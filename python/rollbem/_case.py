@@ -40,7 +40,7 @@ class Case:
     ``Case(mu=0.3, creep=0.1)``, ``Case("rail.ini", load=800)``.  Names are those of the
     program with ``_`` for ``-``; what is given here wins over the file.  Options that name a
     file with a table (``gap``, ``irregularity``, ``history``) take a dictionary of columns as
-    well.  ``case["mu"]`` is a value as the program settles it.
+    well.  ``case["mu"]`` is a value as the program resolves it.
     """
 
     def __init__(self, file: Union[str, os.PathLike, None] = None, **options: Optional[Value]) -> None:
@@ -79,7 +79,7 @@ class Case:
         if option.replace("-", "_") not in OPTIONS:
             raise KeyError(option)
         handle = self.handle("solve")
-        handle.check(handle.ask("rb_api_settle"))
+        handle.check(handle.ask("rb_api_resolve"))
         return _value(option, handle)
 
     def solve(self) -> "Solution":
@@ -207,7 +207,7 @@ class Solution(_Named):
         return History(self) if self._handle.array("history.distance") is not None else None
 
     def value(self, option: str) -> Union[bool, int, float, str]:
-        """An option as it was settled."""
+        """An option as it was resolved."""
         return _value(option, self._handle)
 
     @property
@@ -380,7 +380,7 @@ def curve(case: Union[Case, str, os.PathLike, None] = None, start: float = 0.0, 
     if mu is not None and np.ndim(mu) == 1:
         return [curve(case.but(mu=value), start, stop, points, over) for value in mu]
     handle = case.handle("curve")
-    handle.check(handle.ask("rb_api_settle"))
+    handle.check(handle.ask("rb_api_resolve"))
     status = handle.run("rb_api_curve_over", over.encode(), start, stop, points)
     if status < SOLVED:
         raise handle.error(status)

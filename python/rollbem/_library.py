@@ -36,7 +36,7 @@ FUNCTIONS = {
     "rb_api_free": (None, _Handle),
     "rb_api_set": (_Int, _Handle, _Text, _Text),
     "rb_api_read": (_Int, _Handle, _Text),
-    "rb_api_settle": (_Int, _Handle),
+    "rb_api_resolve": (_Int, _Handle),
     "rb_api_solve": (_Int, _Handle),
     "rb_api_stop": (None, _Handle),
     "rb_api_message": (_Text, _Handle),

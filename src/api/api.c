@@ -209,10 +209,10 @@ int rb_api_read(rb_api *a, const char *path)
     return rb_api_ended(a, rb_case_read(a->words, path, 0, NULL, &a->why));
 }
 
-int rb_api_settle(rb_api *a)
+int rb_api_resolve(rb_api *a)
 {
     forget(a, 1);
-    return rb_api_ended(a, rb_case_settle(a->words, &a->why));
+    return rb_api_ended(a, rb_case_resolve(a->words, &a->why));
 }
 
 static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history,
@@ -247,17 +247,17 @@ static int keep_step(const rb_rolling_model *model, const rb_rolling_history *hi
 
 int rb_api_solve(rb_api *a)
 {
-    if (rb_api_settle(a) < 0)
+    if (rb_api_resolve(a) < 0)
         return a->status;
     a->result.model = a->kept;
     memset(&a->kept, 0, sizeof a->kept);
     rb_api_call_begins();
-    rb_status s =
-        rb_case_solve_again(rb_case_settled(a->words), keep_step, a, &a->result, &a->why);
+    rb_status s = rb_case_solve_again(rb_case_resolved(a->words), keep_step, a,
+                                      &a->result, &a->why);
     rb_api_call_ends();
     if (s == RB_INTERRUPTED && a->status == RB_ENOMEM) /* a step could not be kept */
         s = rb_fail(&a->why, RB_ENOMEM, "out of memory");
-    return rb_api_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
+    return rb_api_ended(a, s != RB_OK ? rb_case_locate(a->words, s, &a->why) : s);
 }
 
 void rb_api_stop(rb_api *a)
@@ -299,7 +299,7 @@ static const char *write_default(const rb_option *o, char *text, int size)
     char room[64];
     if (!c)
         return NULL;
-    written(o->unset ? o->unset : rb_option_text(o, rb_case_settled(c), room), text,
+    written(o->unset ? o->unset : rb_option_text(o, rb_case_resolved(c), room), text,
             size);
     rb_case_free(c);
     return text;
@@ -378,7 +378,7 @@ const char *rb_api_value(const rb_api *a, const char *name, char *text, int size
     char room[64];
     if (!o)
         return NULL;
-    return written(rb_option_text(o, rb_case_settled(a->words), room), text, size);
+    return written(rb_option_text(o, rb_case_resolved(a->words), room), text, size);
 }
 
 const char *rb_api_word(const rb_api *a, const char *name)
@@ -422,7 +422,7 @@ static const char error_[] = "error.";
 
 double rb_api_number(const rb_api *a, const char *name)
 {
-    const rb_settled_case *c = rb_case_settled(a->words);
+    const rb_resolved_case *c = rb_case_resolved(a->words);
     const rb_case_result *result = &a->result;
     if (strcmp(name, "carter") == 0)
         return rb_rolling_carter_holds(&c->rc);
@@ -559,7 +559,7 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
 
 int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int points)
 {
-    const rb_settled_case *c = rb_case_settled(a->words);
+    const rb_resolved_case *c = rb_case_resolved(a->words);
     const rb_choice *variable = rb_case_curve_variables;
     while (variable->name && strcmp(variable->name, over) != 0)
         variable++;
@@ -578,7 +578,7 @@ int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int p
                                                   &a->curve_errors, &a->why)
                    : rb_rolling_curve_solve(&c->rc, &range, &a->curve, &a->why);
     rb_api_call_ends();
-    return rb_api_ended(a, s != RB_OK ? rb_case_blame(a->words, s, &a->why) : s);
+    return rb_api_ended(a, s != RB_OK ? rb_case_locate(a->words, s, &a->why) : s);
 }
 
 int rb_api_curve(rb_api *a, double from, double to, int points)

@@ -164,7 +164,7 @@ typedef struct {
 static rb_status make_case(int k, rb_rolling_case *rc, void *context)
 {
     const study *st = context;
-    *rc = rb_case_settled(st->cases[k]->words)->rc;
+    *rc = rb_case_resolved(st->cases[k]->words)->rc;
     return RB_OK;
 }
 
@@ -225,9 +225,9 @@ int rb_api_sweep(rb_api *a, int n, rb_api *const *cases, int workers)
     rb_status s = RB_OK;
     begin(a, "sweep.", NULL);
     for (int k = 0; k < n && s == RB_OK; k++)
-        if ((s = (rb_status)rb_api_settle(cases[k])) != RB_OK)
+        if ((s = (rb_status)rb_api_resolve(cases[k])) != RB_OK)
             rb_fail(&a->why, s, "case %d: %.580s", k + 1, rb_api_message(cases[k]));
-        else if (rb_case_settled(cases[k]->words)->error)
+        else if (rb_case_resolved(cases[k]->words)->error)
             s = rb_fail(&a->why, RB_EINVAL,
                         "case %d: error: these studies have no error bars; rollbem sweep "
                         "has",

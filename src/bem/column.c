@@ -73,24 +73,25 @@ RB_INLINE void send(rb_buffer buffer, int count, int i, double *const out[4],
             stream(out[c] + 2 * i, buffer[c], 2 * count, line);
 }
 
-/* What rb_seen holds, for the points of a block; over = 2a/(W rho), ln W from k and s. */
+/* What rb_view_angles holds, for the points of a block; over = 2a/(W rho), ln W from k
+ * and s. */
 typedef double rb_lane[BLOCK];
 typedef struct {
     rb_lane X, d, rho, Z_re, Z_im, W, over, q, Lam, Th, M, k, s;
 } rb_seen_block;
 
-RB_INLINE rb_seen kept(const rb_seen_block *b, int i)
+RB_INLINE rb_view_angles kept(const rb_seen_block *b, int i)
 {
-    return (rb_seen){.X = b->X[i],
-                     .d = b->d[i],
-                     .rho = b->rho[i],
-                     .Z_re = b->Z_re[i],
-                     .Z_im = b->Z_im[i],
-                     .W = b->W[i],
-                     .q = b->q[i],
-                     .Lam = b->Lam[i],
-                     .Th = b->Th[i],
-                     .M = b->M[i]};
+    return (rb_view_angles){.X = b->X[i],
+                            .d = b->d[i],
+                            .rho = b->rho[i],
+                            .Z_re = b->Z_re[i],
+                            .Z_im = b->Z_im[i],
+                            .W = b->W[i],
+                            .q = b->q[i],
+                            .Lam = b->Lam[i],
+                            .Th = b->Th[i],
+                            .M = b->M[i]};
 }
 
 RB_INLINE void put_H(const rb_influence *v, rb_buffer buffer, int i)
@@ -113,7 +114,7 @@ RB_INLINE void see_block(const rb_element *e, const double *x, const double *y,
 {
     const double length = e->a + e->a;
     for (int i = 0; i < BLOCK; i++) {
-        const rb_seen v = rb_see(e, x[i], y[i]);
+        const rb_view_angles v = rb_see(e, x[i], y[i]);
         b->X[i] = v.X;
         b->d[i] = v.d;
         b->rho[i] = v.rho;
@@ -135,7 +136,7 @@ RB_INLINE void split_log_block(rb_seen_block *b)
 RB_INLINE void turn_far_block(double a, int terms, int with_G, rb_seen_block *b)
 {
     for (int i = 0; i < BLOCK; i++) {
-        rb_seen v = kept(b, i);
+        rb_view_angles v = kept(b, i);
         rb_turn_far(a, terms, b->over[i] * b->W[i], &v);
         b->q[i] = v.d * (b->over[i] * b->rho[i]);
         b->Lam[i] = v.Lam;
@@ -161,19 +162,19 @@ RB_INLINE void mend_near(double a, double reach2, int first, int self, int with_
 {
     const double pi = 3.14159265358979323846;
     for (int i = first; i < first + EIGHT; i++) {
-        const rb_seen v = kept(b, i);
+        const rb_view_angles v = kept(b, i);
         const double Lam = rb_Lam_near(a, &v);
         b->Lam[i] = b->rho[i] > reach2 ? v.Lam : Lam;
     }
     for (int i = first; i < first + EIGHT; i++) {
-        const rb_seen v = kept(b, i);
+        const rb_view_angles v = kept(b, i);
         const double Th = rb_Th_near(a, &v), from_self = (double)(i - self);
         const double turn = from_self == 0.0 ? -pi : Th;
         b->Th[i] = b->rho[i] > reach2 ? v.Th : turn;
         b->q[i] = (a + a) * v.d / v.W;
     }
     for (int i = first; with_G && i < first + EIGHT; i++) {
-        const rb_seen v = kept(b, i);
+        const rb_view_angles v = kept(b, i);
         const double M = rb_M_near(a, &v);
         b->M[i] = b->rho[i] > reach2 ? v.M : M;
     }
@@ -192,7 +193,7 @@ RB_INLINE void put_H_block(const rb_constants *k, const rb_seen_block *b,
 {
     for (int i = 0; i < BLOCK; i++) {
         rb_influence out;
-        const rb_seen v = kept(b, i);
+        const rb_view_angles v = kept(b, i);
         rb_integrate_H(k, &v, &out);
         put_H(&out, buffer, 2 * i);
     }
@@ -203,7 +204,7 @@ RB_INLINE void put_G_block(const rb_constants *k, double a, const rb_seen_block 
 {
     for (int i = 0; i < BLOCK; i++) {
         rb_influence out;
-        rb_seen v = kept(b, i);
+        rb_view_angles v = kept(b, i);
         v.log_W = rb_log_join(b->k[i], b->s[i]);
         rb_integrate_G(k, a, &v, &out);
         put_G(&out, buffer, 2 * i);

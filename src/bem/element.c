@@ -12,7 +12,7 @@ rb_bem_blocks rb_bem_element_integrals(rb_bem_segment element, double px, double
     if (self) {
         rb_integrate_self(&k, e.a, &v);
     } else {
-        const rb_seen seen = rb_look(&e, px, py);
+        const rb_view_angles seen = rb_view_angles_of(&e, px, py);
         rb_integrate_H(&k, &seen, &v);
         rb_integrate_G(&k, e.a, &seen, &v);
     }

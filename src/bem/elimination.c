@@ -79,10 +79,10 @@ static void put_back(const double *from, int columns, const int *list, int count
 
 /* b_R -= V' b_S,  y_R = X_RR^-1 b_R,  b_S -= lower y_R */
 void rb_elimination_up(const rb_elimination *e, size_t n, int q, double *b, double *y,
-                       double *room)
+                       double *scratch)
 {
     const int kept = e->kept, others = e->m - kept, ld = lead(kept);
-    double *S = room, *R = room + (size_t)kept * (size_t)q;
+    double *S = scratch, *R = scratch + (size_t)kept * (size_t)q;
 
     if (others == 0)
         return;
@@ -100,10 +100,10 @@ void rb_elimination_up(const rb_elimination *e, size_t n, int q, double *b, doub
 
 /* y_R -= upper y_S,  x_R = y_R,  x_S = y_S - Z y_R */
 void rb_elimination_down(const rb_elimination *e, size_t n, int q, double *y,
-                         double *room)
+                         double *scratch)
 {
     const int kept = e->kept, others = e->m - kept, ld = lead(kept);
-    double *S = room, *R = room + (size_t)kept * (size_t)q;
+    double *S = scratch, *R = scratch + (size_t)kept * (size_t)q;
 
     if (others == 0)
         return;

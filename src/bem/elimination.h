@@ -32,9 +32,9 @@ void rb_elimination_free(rb_elimination *e);
 
 /* From the leaves to the root: b by rows, y by columns, n x q; room: m x q. */
 void rb_elimination_up(const rb_elimination *e, size_t n, int q, double *b, double *y,
-                       double *room);
+                       double *scratch);
 /* And back: y becomes the unknowns. */
 void rb_elimination_down(const rb_elimination *e, size_t n, int q, double *y,
-                         double *room);
+                         double *scratch);
 
 #endif

@@ -8,11 +8,11 @@
 
 /* One strip seen from (x, y), in the letters of kernels.h with t = +x, so that d = y; the
  * strip's own ends, where a jump of q makes sxx infinite, get the finite part. */
-static rb_seen see_strip(const rb_element *strip, double x, double y)
+static rb_view_angles see_strip(const rb_element *strip, double x, double y)
 {
-    rb_seen v = rb_see(strip, x, y);
+    rb_view_angles v = rb_see(strip, x, y);
     if (v.W > 0.0)
-        return rb_look(strip, x, y);
+        return rb_view_angles_of(strip, x, y);
     v.q = v.Lam = 0.0;
     v.Th = 0.5 * M_PI;
     return v;
@@ -26,7 +26,7 @@ static rb_seen see_strip(const rb_element *strip, double x, double y)
 static void add_strip(const rb_element *strip, double p, double q, double x, double y,
                       double *stress)
 {
-    const rb_seen v = see_strip(strip, x, y);
+    const rb_view_angles v = see_strip(strip, x, y);
     const double q_ = v.q, dQ = q_ * (2.0 * v.d * v.d - (v.rho - strip->a * strip->a)),
                  d2P = -2.0 * v.d * v.X * q_;
     stress[0] += (-p * (v.Th - dQ) + q * (2.0 * v.Lam + d2P)) / M_PI;

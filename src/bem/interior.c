@@ -129,7 +129,7 @@ static cplx cauchy(cplx f, cplx f_s, const rb_piece *p, cplx z, double l, cplx t
 static void add_piece(const rb_interior *in, const rb_piece *p, double x, double y,
                       int displaced, rb_field *field)
 {
-    const rb_seen v = rb_look(&p->e, x, y);
+    const rb_view_angles v = rb_view_angles_of(&p->e, x, y);
     const cplx z = complex_of(x, y), turn = complex_of(v.Lam, v.Th),
                back = conj(p->direction);
     const double l = 2.0 * p->e.a;

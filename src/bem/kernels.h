@@ -169,7 +169,7 @@ RB_INLINE double rb_atan2(double y, double x)
 
 typedef struct {
     double X, d, rho, Z_re, Z_im, W, q, Lam, Th, M, log_W;
-} rb_seen;
+} rb_view_angles;
 
 /* Beyond `reach` half-lengths the two transcendentals are `terms` terms of one series. */
 typedef struct {
@@ -185,10 +185,10 @@ RB_INLINE int rb_is_far(const rb_element *e, double px, double py)
     return dx * dx + dy * dy > reach * reach;
 }
 
-RB_INLINE rb_seen rb_see(const rb_element *e, double px, double py)
+RB_INLINE rb_view_angles rb_see(const rb_element *e, double px, double py)
 {
     const double dx = e->mx - px, dy = e->my - py;
-    rb_seen v;
+    rb_view_angles v;
     v.X = dx * e->tx + dy * e->ty;
     v.d = dx * e->ty - dy * e->tx;
     v.rho = dx * dx + dy * dy;
@@ -202,7 +202,7 @@ RB_INLINE rb_seen rb_see(const rb_element *e, double px, double py)
  * U = 2u = factor (X + i d) and V = U^2 = 4w:  U (1 + c_0 V + c_1 V^2 + ...), summed in
  * real arithmetic (b_k = c_k + 2 Re V b_k+1 - |V|^2 b_k+2);  M = Re (c_0 V + ...).
  * The rest is below |w|^terms/(2 terms + 1), |w| = 1/reach^2: 1e-17, 2e-17, 1e-17. */
-RB_INLINE void rb_turn_far(double a, int terms, double factor, rb_seen *v)
+RB_INLINE void rb_turn_far(double a, int terms, double factor, rb_view_angles *v)
 {
     const double c[] = {1.0 / 12,     1.0 / 80,      1.0 / 448,
                         1.0 / 2304,   1.0 / 11264,   1.0 / 53248,
@@ -221,23 +221,24 @@ RB_INLINE void rb_turn_far(double a, int terms, double factor, rb_seen *v)
     v->M = sr;
 }
 
-RB_INLINE double rb_Lam_near(double a, const rb_seen *v)
+RB_INLINE double rb_Lam_near(double a, const rb_view_angles *v)
 {
     const double x1 = v->X - a, x2 = v->X + a, dd = v->d * v->d;
     return 0.5 * rb_log((x2 * x2 + dd) / (x1 * x1 + dd));
 }
 
-RB_INLINE double rb_Th_near(double a, const rb_seen *v)
+RB_INLINE double rb_Th_near(double a, const rb_view_angles *v)
 {
     return rb_atan2((a + a) * v->d, v->rho - a * a);
 }
 
-RB_INLINE double rb_M_near(double a, const rb_seen *v)
+RB_INLINE double rb_M_near(double a, const rb_view_angles *v)
 {
     return (v->X * v->Lam + v->d * v->Th) / (a + a) - 1.0;
 }
 
-RB_INLINE void rb_integrate_H(const rb_constants *k, const rb_seen *v, rb_influence *out)
+RB_INLINE void rb_integrate_H(const rb_constants *k, const rb_view_angles *v,
+                              rb_influence *out)
 {
     const double q = k->H_dev * v->q, dev = q * v->Z_re, shear = q * v->Z_im;
     const double mean = k->H_mean * v->Th, skew = k->H_skew * v->Lam;
@@ -247,7 +248,7 @@ RB_INLINE void rb_integrate_H(const rb_constants *k, const rb_seen *v, rb_influe
     out->Hyx = shear - skew;
 }
 
-RB_INLINE void rb_integrate_G(const rb_constants *k, double a, const rb_seen *v,
+RB_INLINE void rb_integrate_G(const rb_constants *k, double a, const rb_view_angles *v,
                               rb_influence *out)
 {
     const double s11 = a - v->d * v->Th, s12 = v->d * v->Lam;
@@ -261,16 +262,16 @@ RB_INLINE void rb_integrate_G(const rb_constants *k, double a, const rb_seen *v,
 /* p = m: the principal value of T is 0, the free term 1/2 stands in H. */
 static inline void rb_integrate_self(const rb_constants *k, double a, rb_influence *out)
 {
-    const rb_seen v = {.M = -1.0, .log_W = rb_log(a * a * (a * a))};
+    const rb_view_angles v = {.M = -1.0, .log_W = rb_log(a * a * (a * a))};
     rb_integrate_G(k, a, &v, out);
     out->Hxx = out->Hyy = 0.5;
     out->Hxy = out->Hyx = 0.0;
 }
 
-/* From a point other than the element's own midpoint: all of rb_seen. */
-RB_INLINE rb_seen rb_look(const rb_element *e, double px, double py)
+/* From a point other than the element's own midpoint: all of rb_view_angles. */
+RB_INLINE rb_view_angles rb_view_angles_of(const rb_element *e, double px, double py)
 {
-    rb_seen v = rb_see(e, px, py);
+    rb_view_angles v = rb_see(e, px, py);
     v.q = (e->a + e->a) * v.d / v.W;
     v.log_W = rb_log(v.W);
     if (rb_is_far(e, px, py)) {

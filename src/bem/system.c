@@ -135,10 +135,11 @@ static rb_status add_given(const rb_bem_system *s, const rb_assembly *assembly,
                            const double *value, double *b)
 {
     const size_t dofs = (size_t)s->dofs;
-    double *room = rb_alloc(dofs, 4);
-    if (!room)
+    double *scratch = rb_alloc(dofs, 4);
+    if (!scratch)
         return RB_ENOMEM;
-    double *const out[4] = {room, room + dofs, room + 2 * dofs, room + 3 * dofs};
+    double *const out[4] = {scratch, scratch + dofs, scratch + 2 * dofs,
+                            scratch + 3 * dofs};
     for (int j = 0; j < s->mesh.n; j++) {
         const double *own = value + 2 * j;
         if (own[0] == 0.0 && own[1] == 0.0)
@@ -151,7 +152,7 @@ static rb_status add_given(const rb_bem_system *s, const rb_assembly *assembly,
                 cblas_daxpy(s->dofs, own[k], out[2 + k], 1, b, 1);
         }
     }
-    free(room);
+    free(scratch);
     return RB_OK;
 }
 

@@ -1,4 +1,4 @@
-/* A case from its words: set by name, settled, checked. */
+/* A case from its words: set by name, resolved, checked. */
 #include "case/internal.h"
 
 #include <stdio.h>
@@ -7,18 +7,18 @@
 
 /* ---- Making one -------------------------------------------------------------------- */
 
-static rb_settled_case default_words(rb_case_purpose purpose)
+static rb_resolved_case default_words(rb_case_purpose purpose)
 {
-    rb_settled_case words = {.rc = rb_rolling_case_defaults(),
-                             .young_b = NAN,
-                             .poisson_b = NAN,
-                             .radius_b = INFINITY,
-                             .conductivity_b = NAN,
-                             .heat_capacity_b = NAN,
-                             .temperature_b = NAN,
-                             .memory_a = {.time = NAN, .ratio = NAN},
-                             .memory_b = {.time = NAN, .ratio = NAN},
-                             .law = {NAN, NAN, NAN, NAN, {0}, {0}, {0}, {0}}};
+    rb_resolved_case words = {.rc = rb_rolling_case_defaults(),
+                              .young_b = NAN,
+                              .poisson_b = NAN,
+                              .radius_b = INFINITY,
+                              .conductivity_b = NAN,
+                              .heat_capacity_b = NAN,
+                              .temperature_b = NAN,
+                              .memory_a = {.time = NAN, .ratio = NAN},
+                              .memory_b = {.time = NAN, .ratio = NAN},
+                              .law = {NAN, NAN, NAN, NAN, {0}, {0}, {0}, {0}}};
     if (purpose == RB_CASE_CURVE || purpose == RB_CASE_SPEEDS)
         words.rc.formulation = RB_STEADY;
     return words;
@@ -31,7 +31,7 @@ rb_case *rb_case_create(rb_case_purpose purpose)
         return NULL;
     c->purpose = purpose;
     c->words = c->defaults = default_words(purpose);
-    rb_case_settle(c, NULL);
+    rb_case_resolve(c, NULL);
     return c;
 }
 
@@ -43,7 +43,7 @@ void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose)
 
 void rb_case_use_cone_solvers(rb_case *c, const rb_contact_cone_solvers *solvers)
 {
-    c->words.rc.cone_solvers = c->settled.rc.cone_solvers = solvers;
+    c->words.rc.cone_solvers = c->resolved.rc.cone_solvers = solvers;
 }
 
 rb_case *rb_case_copy(const rb_case *c)
@@ -218,7 +218,8 @@ void rb_case_store(const rb_case *c, const rb_option_set *set, void *target)
     }
 }
 
-/* ---- Who is to blame --------------------------------------------------------------- */
+/* ---- Where an error stands
+ * --------------------------------------------------------------- */
 
 int rb_case_given(const rb_case *c, const char *name)
 {
@@ -241,7 +242,7 @@ rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *r
     return rb_case_given(c, name) ? refuse(c, rb_case_option(name), reason, why) : RB_OK;
 }
 
-/* 1: the case file is to blame, since nothing else gives anything of the case. */
+/* 1: the error stands in the case file, since nothing else gives anything of the case. */
 static int all_from_file(const rb_case *c)
 {
     for (int i = 0; i < rb_case_table_n; i++)
@@ -252,7 +253,7 @@ static int all_from_file(const rb_case *c)
 
 /* "history: row 3: ..." of the library, by the file and its line: RB_EFORMAT; else
  * RB_OK. */
-static rb_status blame_row(const case_table *t, const char *name, rb_message *why)
+static rb_status locate_row(const case_table *t, const char *name, rb_message *why)
 {
     int row = 0, rest = 0;
     const size_t n = strlen(name);
@@ -266,7 +267,7 @@ static rb_status blame_row(const case_table *t, const char *name, rb_message *wh
                    said.text + n + rest);
 }
 
-rb_status rb_case_blame(const rb_case *c, rb_status s, rb_message *why)
+rb_status rb_case_locate(const rb_case *c, rb_status s, rb_message *why)
 {
     if (s != RB_EINVAL || !why)
         return s;
@@ -275,11 +276,11 @@ rb_status rb_case_blame(const rb_case *c, rb_status s, rb_message *why)
                                                    [CASE_IRREGULARITY] = "irregularity",
                                                    [CASE_WORN] = "worn",
                                                    [CASE_FRICTION] = "friction table"};
-    rb_status blamed = RB_OK;
-    for (int k = 0; k < CASE_TABLES && blamed == RB_OK; k++)
-        blamed = blame_row(&c->table[k], names[k], why);
-    if (blamed != RB_OK || !all_from_file(c))
-        return blamed != RB_OK ? blamed : s;
+    rb_status located = RB_OK;
+    for (int k = 0; k < CASE_TABLES && located == RB_OK; k++)
+        located = locate_row(&c->table[k], names[k], why);
+    if (located != RB_OK || !all_from_file(c))
+        return located != RB_OK ? located : s;
     const rb_message said = *why;
     return rb_fail(why, RB_EFORMAT, "%s: %s", c->path, said.text);
 }
@@ -296,9 +297,9 @@ static rb_status check_rigid(const rb_case *c, rb_message *why)
     return RB_OK;
 }
 
-static rb_status settle_body_b(rb_case *c, rb_message *why)
+static rb_status resolve_body_b(rb_case *c, rb_message *why)
 {
-    rb_settled_case *s = &c->settled;
+    rb_resolved_case *s = &c->resolved;
     rb_rolling_case *rc = &s->rc;
     rc->elastic_b = s->similar || !isnan(s->young_b);
     if (!rc->elastic_b) {
@@ -316,8 +317,8 @@ static rb_status settle_body_b(rb_case *c, rb_message *why)
 /* ---- Layers and memory ------------------------------------------------------------- */
 
 /* As many times as ratios. */
-static rb_status settle_memory(const rb_case_memory *typed, const char *which,
-                               rb_rolling_memory *memory, rb_message *why)
+static rb_status resolve_memory(const rb_case_memory *typed, const char *which,
+                                rb_rolling_memory *memory, rb_message *why)
 {
     if (typed->times.n != typed->ratios.n)
         return rb_fail(
@@ -339,7 +340,7 @@ static rb_status check_parameter(const rb_case *c, int is_b,
                                  const rb_rolling_body_kind *kind,
                                  const rb_rolling_parameter *parameter, rb_message *why)
 {
-    const rb_rolling_body *body = is_b ? &c->settled.rc.b : &c->settled.rc.a;
+    const rb_rolling_body *body = is_b ? &c->resolved.rc.b : &c->resolved.rc.a;
     const int support_by = rb_case_given(c, is_b ? "support-b" : "support");
     char name[40], reason[80];
     const char *word = NULL;
@@ -370,26 +371,26 @@ static rb_status check_parameters(const rb_case *c, int is_b, rb_message *why)
     return s;
 }
 
-static rb_status settle_bodies(rb_case *c, rb_message *why)
+static rb_status resolve_bodies(rb_case *c, rb_message *why)
 {
-    rb_settled_case *s = &c->settled;
-    rb_status status = settle_body_b(c, why);
+    rb_resolved_case *s = &c->resolved;
+    rb_status status = resolve_body_b(c, why);
     if (status == RB_OK)
-        status = settle_memory(&s->memory_a, "", &s->rc.a.memory, why);
+        status = resolve_memory(&s->memory_a, "", &s->rc.a.memory, why);
     if (status == RB_OK)
-        status = settle_memory(&s->memory_b, "-b", &s->rc.b.memory, why);
+        status = resolve_memory(&s->memory_b, "-b", &s->rc.b.memory, why);
     for (int body = 0; body < 2 && status == RB_OK; body++)
         status = check_parameters(c, body, why);
     return status;
 }
 
 /* B conducts like A where nothing is said. */
-static rb_status settle_heat(rb_case *c, rb_message *why)
+static rb_status resolve_heat(rb_case *c, rb_message *why)
 {
     static const char *const of_heat[] = {"heat-capacity", "temperature",
                                           "conductivity-b", "heat-capacity-b",
                                           "temperature-b"};
-    rb_settled_case *s = &c->settled;
+    rb_resolved_case *s = &c->resolved;
     const rb_rolling_heat *a = &s->rc.heat_a;
     rb_status status = RB_OK;
 
@@ -429,10 +430,10 @@ static rb_status count_numbers(const rb_case *c, const char *name, const rb_numb
     return rb_case_refuse_given(c, name, reason, why);
 }
 
-static rb_status settle_law(rb_case *c, rb_message *why)
+static rb_status resolve_law(rb_case *c, rb_message *why)
 {
-    const rb_case_law *typed = &c->settled.law;
-    rb_rolling_friction *f = &c->settled.rc.friction;
+    const rb_case_law *typed = &c->resolved.law;
+    rb_rolling_friction *f = &c->resolved.rc.friction;
     const int falls = f->law != RB_FRICTION_constant && f->law != RB_FRICTION_table;
     rb_status s = count_numbers(c, "mu-fall", &typed->falls, 1, 2, why);
 
@@ -479,10 +480,10 @@ static rb_status settle_law(rb_case *c, rb_message *why)
  * them. */
 static void choose_mesh(rb_case *c)
 {
-    rb_rolling_case *rc = &c->settled.rc;
+    rb_rolling_case *rc = &c->resolved.rc;
     const int paper = isnan(rc->approach) && isnan(rc->load) && isnan(rc->half_width);
     if (!rb_case_given(c, "mesh") && rc->formulation == RB_STEADY && !paper &&
-        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->settled.worn_file)
+        rc->zone == 0.0 && rc->gap != RB_GAP_TABLE && !c->resolved.worn_file)
         rc->mesh = rc->contact_elements < RB_ROLLING_LARGE &&
                            rc->slip_operator == RB_SLIP_UPSTREAM
                        ? RB_MESH_FITTED
@@ -494,19 +495,19 @@ static void choose_mesh(rb_case *c)
         rc->contact_elements = 100;
 }
 
-int rb_case_has_steps(const rb_settled_case *settled)
+int rb_case_has_steps(const rb_resolved_case *resolved)
 {
-    return settled->program.n > 0 || rb_rolling_has_steps(&settled->rc);
+    return resolved->program.n > 0 || rb_rolling_has_steps(&resolved->rc);
 }
 
 /* Options of one formulation mean nothing to the others. */
 static rb_status check_formulation(const rb_case *c, rb_message *why)
 {
-    const rb_settled_case *settled = &c->settled;
-    const rb_rolling_case *rc = &settled->rc;
+    const rb_resolved_case *resolved = &c->resolved;
+    const rb_rolling_case *rc = &resolved->rc;
     const int transient = rc->formulation == RB_TRANSIENT,
               steady = rc->formulation == RB_STEADY,
-              history = settled->history_file != NULL;
+              history = resolved->history_file != NULL;
     const int relaxes_at_rest = rc->formulation == RB_STATIC && rb_rolling_relaxes(rc);
     const struct {
         int has_no_meaning;
@@ -523,7 +524,7 @@ static rb_status check_formulation(const rb_case *c, rb_message *why)
         {!relaxes_at_rest, "time-step", "of static contact of bodies that relax only"},
         {relaxes_at_rest && history, "speed", "static contact does not roll"},
         {history, "increments", "the history says them row by row"},
-        {rb_case_has_steps(settled) && rc->mesh != RB_MESH_UNIFORM, "mesh",
+        {rb_case_has_steps(resolved) && rc->mesh != RB_MESH_UNIFORM, "mesh",
          "step by step the elements are equal"}};
     rb_status s = RB_OK;
     for (size_t k = 0; k < sizeof rules / sizeof *rules && s == RB_OK; k++)
@@ -566,7 +567,7 @@ static const struct {
 
 static rb_status check_purpose(const rb_case *c, rb_message *why)
 {
-    const rb_rolling_formulation formulation = c->settled.rc.formulation;
+    const rb_rolling_formulation formulation = c->resolved.rc.formulation;
     const int curve = c->purpose == RB_CASE_CURVE || c->purpose == RB_CASE_SPEEDS;
     rb_status s = RB_OK;
     for (size_t k = 0; k < sizeof meaningless / sizeof *meaningless && s == RB_OK; k++)
@@ -579,30 +580,30 @@ static rb_status check_purpose(const rb_case *c, rb_message *why)
     if (s == RB_OK && c->purpose == RB_CASE_STUDY && formulation == RB_TRANSIENT)
         s = rb_case_refuse_given(c, "formulation",
                                  "a study is one of static or steady cases", why);
-    if (s == RB_OK && !curve && c->settled.mus.n > 1)
+    if (s == RB_OK && !curve && c->resolved.mus.n > 1)
         s = rb_case_refuse_given(c, "mu", "expected one number; a curve takes several",
                                  why);
-    if (s == RB_OK && rb_case_has_steps(&c->settled))
+    if (s == RB_OK && rb_case_has_steps(&c->resolved))
         s = rb_case_refuse_given(c, "accuracy",
                                  "of static and steady cases without steps only", why);
     return s;
 }
 
-rb_status rb_case_settle(rb_case *c, rb_message *why)
+rb_status rb_case_resolve(rb_case *c, rb_message *why)
 {
     const rb_option_precedence how = rb_case_precedence(c);
     const rb_option_set set = rb_case_options(c);
-    rb_status s = rb_option_settle(&set, &how, why);
+    rb_status s = rb_option_resolve(&set, &how, why);
     if (s == RB_OK)
         s = rb_case_read_history(c, why);
-    c->settled = c->words;
-    rb_case_store(c, &set, &c->settled);
+    c->resolved = c->words;
+    rb_case_store(c, &set, &c->resolved);
     if (s == RB_OK)
-        s = settle_bodies(c, why);
+        s = resolve_bodies(c, why);
     if (s == RB_OK)
-        s = settle_law(c, why);
+        s = resolve_law(c, why);
     if (s == RB_OK)
-        s = settle_heat(c, why);
+        s = resolve_heat(c, why);
     if (s == RB_OK)
         s = check_formulation(c, why);
     if (s == RB_OK)
@@ -612,18 +613,18 @@ rb_status rb_case_settle(rb_case *c, rb_message *why)
     if (s != RB_OK)
         return s;
     choose_mesh(c);
-    if (c->settled.program.n > 0)
-        c->settled.rc = rb_rolling_program_base(&c->settled.program, &c->settled.rc);
-    rb_rolling_case checked = c->settled.rc;
+    if (c->resolved.program.n > 0)
+        c->resolved.rc = rb_rolling_program_base(&c->resolved.program, &c->resolved.rc);
+    rb_rolling_case checked = c->resolved.rc;
     if (c->purpose == RB_CASE_SPEEDS)
         checked.speed = 1.0; /* the curve has its own */
     s = rb_rolling_case_check(&checked, why);
     if (s == RB_OK)
-        c->settled.derived = rb_rolling_derive(&c->settled.rc);
-    return rb_case_blame(c, s, why);
+        c->resolved.derived = rb_rolling_derive(&c->resolved.rc);
+    return rb_case_locate(c, s, why);
 }
 
-const rb_settled_case *rb_case_settled(const rb_case *c)
+const rb_resolved_case *rb_case_resolved(const rb_case *c)
 {
-    return &c->settled;
+    return &c->resolved;
 }

@@ -49,63 +49,63 @@ static rb_status read_over_x(case_table *t, const char *path, rb_units units, in
 
 static rb_status read_profile(rb_case *c, rb_message *why)
 {
-    rb_settled_case *settled = &c->settled;
+    rb_resolved_case *resolved = &c->resolved;
     const rb_units units = units_of_file(c, "gap");
-    const double noise = settled->gap_smoothing;
+    const double noise = resolved->gap_smoothing;
     rb_rolling_table gap;
-    if (settled->rc.gap != RB_GAP_TABLE)
+    if (resolved->rc.gap != RB_GAP_TABLE)
         return rb_case_refuse_given(c, "gap-smoothing", "of a gap from a file only", why);
-    if (!is_read(&c->table[CASE_GAP], settled->gap_file, units) ||
+    if (!is_read(&c->table[CASE_GAP], resolved->gap_file, units) ||
         c->profile.noise != noise)
         free_profile(&c->profile);
     rb_status s =
-        read_over_x(&c->table[CASE_GAP], settled->gap_file, units, 2, &gap, why);
+        read_over_x(&c->table[CASE_GAP], resolved->gap_file, units, 2, &gap, why);
     if (s == RB_OK && !c->profile.curve) {
         c->profile = (case_profile){.noise = noise};
         s = rb_rolling_profile_create(gap.n, gap.x, gap.y, noise, &c->profile.curve, why);
-        s = rb_case_blame(c, s, why);
+        s = rb_case_locate(c, s, why);
     }
-    settled->rc.profile = c->profile.curve;
+    resolved->rc.profile = c->profile.curve;
     return s;
 }
 
 /* What is irregular about the surfaces, and what is worn off them. */
 static rb_status read_surfaces(rb_case *c, rb_message *why)
 {
-    rb_settled_case *settled = &c->settled;
+    rb_resolved_case *resolved = &c->resolved;
     rb_status s = RB_OK;
-    if (settled->irregularity_file)
-        s = read_over_x(&c->table[CASE_IRREGULARITY], settled->irregularity_file,
-                        units_of_file(c, "irregularity"), 2, &settled->rc.irregularity,
+    if (resolved->irregularity_file)
+        s = read_over_x(&c->table[CASE_IRREGULARITY], resolved->irregularity_file,
+                        units_of_file(c, "irregularity"), 2, &resolved->rc.irregularity,
                         why);
-    if (s == RB_OK && settled->worn_file)
-        s = read_over_x(&c->table[CASE_WORN], settled->worn_file,
-                        units_of_file(c, "worn"), 2, &settled->rc.worn, why);
+    if (s == RB_OK && resolved->worn_file)
+        s = read_over_x(&c->table[CASE_WORN], resolved->worn_file,
+                        units_of_file(c, "worn"), 2, &resolved->rc.worn, why);
     return s;
 }
 
 /* The table stands in the place of --mu: on the command line it wins over mu of the case
  * file. */
-static rb_status settle_table_and_mu(rb_case *c, rb_message *why)
+static rb_status resolve_table_and_mu(rb_case *c, rb_message *why)
 {
     const rb_option_set set = rb_case_options(c);
     const rb_option_precedence how = rb_case_precedence(c);
-    const rb_status s = rb_option_settle_against(
+    const rb_status s = rb_option_resolve_against(
         &set, &how, rb_case_option("mu"), rb_case_given(c, "friction-law"),
         "the table of --friction-law has the coefficients", why);
-    c->settled.rc.mu = c->words.rc.mu;
+    c->resolved.rc.mu = c->words.rc.mu;
     return s;
 }
 
 static rb_status read_friction(rb_case *c, rb_message *why)
 {
-    rb_settled_case *settled = &c->settled;
-    if (settled->rc.friction.law != RB_FRICTION_table)
+    rb_resolved_case *resolved = &c->resolved;
+    if (resolved->rc.friction.law != RB_FRICTION_table)
         return RB_OK;
-    const rb_status s = read_over_x(&c->table[CASE_FRICTION], settled->friction_file,
+    const rb_status s = read_over_x(&c->table[CASE_FRICTION], resolved->friction_file,
                                     units_of_file(c, "friction-law"), 1,
-                                    &settled->rc.friction.table, why);
-    return s == RB_OK ? settle_table_and_mu(c, why) : s;
+                                    &resolved->rc.friction.table, why);
+    return s == RB_OK ? resolve_table_and_mu(c, why) : s;
 }
 
 /* ---- The history ------------------------------------------------------------------- */
@@ -157,7 +157,7 @@ static const rb_option *replaced_option(const char *column)
 int rb_case_is_replaced(const rb_case *c, const rb_option *option)
 {
     const rb_io_table *t = &c->table[CASE_HISTORY].table;
-    for (int j = 0; j < t->columns && c->settled.program.n > 0; j++)
+    for (int j = 0; j < t->columns && c->resolved.program.n > 0; j++)
         if (replaced_option(t->name[j]) == option)
             return 1;
     return 0;
@@ -165,7 +165,7 @@ int rb_case_is_replaced(const rb_case *c, const rb_option *option)
 
 /* A column stands in the place of an option: as between two options the command line wins
  * over the file, and otherwise both at once are refused. */
-static rb_status settle_columns(rb_case *c, rb_message *why)
+static rb_status resolve_columns(rb_case *c, rb_message *why)
 {
     const rb_option_precedence how = rb_case_precedence(c);
     const rb_option_set set = rb_case_options(c);
@@ -176,8 +176,8 @@ static rb_status settle_columns(rb_case *c, rb_message *why)
         const rb_option *option = replaced_option(t->name[j]);
         snprintf(reason, sizeof reason, "the history has a column %s", t->name[j]);
         if (option)
-            s = rb_option_settle_against(&set, &how, option, rb_case_given(c, "history"),
-                                         reason, why);
+            s = rb_option_resolve_against(&set, &how, option, rb_case_given(c, "history"),
+                                          reason, why);
     }
     return s;
 }
@@ -212,7 +212,7 @@ rb_status rb_case_read_history(rb_case *c, rb_message *why)
                                      units_of_file(c, "history"), why);
     if (s == RB_OK)
         s = set_program(t, path, &c->words.program, why);
-    return s == RB_OK ? settle_columns(c, why) : s;
+    return s == RB_OK ? resolve_columns(c, why) : s;
 }
 
 /* ---- All others -------------------------------------------------------------------- */

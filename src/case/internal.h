@@ -27,9 +27,9 @@ enum { CASE_HISTORY, CASE_GAP, CASE_IRREGULARITY, CASE_WORN, CASE_FRICTION, CASE
 
 struct rb_case {
     rb_case_purpose purpose;
-    rb_settled_case defaults, words, settled; /* of the purpose; as given; as used */
-    char path[320];                           /* case file, "" without */
-    rb_units file_units;                      /* of the plain numbers in that file */
+    rb_resolved_case defaults, words, resolved; /* of the purpose; as given; as used */
+    char path[320];                             /* case file, "" without */
+    rb_units file_units;                        /* of the plain numbers in that file */
     int given[RB_CASE_OPTIONS_MAX], plain[RB_CASE_OPTIONS_MAX];
     case_table table[CASE_TABLES];
     case_profile profile;
@@ -37,7 +37,7 @@ struct rb_case {
     int texts;
 };
 
-/* The options of a case; their values go to an rb_settled_case. */
+/* The options of a case; their values go to an rb_resolved_case. */
 extern const rb_option rb_case_table[];
 extern const int rb_case_table_n;
 
@@ -57,12 +57,13 @@ rb_status rb_case_refuse_given(const rb_case *c, const char *name, const char *r
 void rb_case_free_files(rb_case *c);
 /* Before the words are used: the columns of a history may replace some of them. */
 rb_status rb_case_read_history(rb_case *c, rb_message *why);
-/* Gap, irregularity, wear and friction of the settled case. */
+/* Gap, irregularity, wear and friction of the resolved case. */
 rb_status rb_case_read_files(rb_case *c, rb_message *why);
 
-/* ---- settle.c ---------------------------------------------------------------------- */
+/* ---- resolve.c ----------------------------------------------------------------------
+ */
 
-/* How options that exclude each other are settled. */
+/* How options that exclude each other are resolved. */
 typedef struct {
     const void *defaults; /* a struct like the set's target: what is taken back becomes */
     unsigned alike;       /* bits of `excludes` that count as one */
@@ -74,13 +75,13 @@ rb_option_precedence rb_case_precedence(const rb_case *c);
 /* Two given options that share a bit of `excludes` are refused, naming both, unless one
  * is an argument and one comes from the file: then the argument wins and the other
  * returns to its default. */
-rb_status rb_option_settle(const rb_option_set *set, const rb_option_precedence *how,
-                           rb_message *why);
+rb_status rb_option_resolve(const rb_option_set *set, const rb_option_precedence *how,
+                            rb_message *why);
 /* The options that exclude `option` give way to its value from elsewhere, which somebody
  * gave (by, as in `given`); refused with the reason where settling would refuse both. */
-rb_status rb_option_settle_against(const rb_option_set *set,
-                                   const rb_option_precedence *how,
-                                   const rb_option *option, int by, const char *reason,
-                                   rb_message *why);
+rb_status rb_option_resolve_against(const rb_option_set *set,
+                                    const rb_option_precedence *how,
+                                    const rb_option *option, int by, const char *reason,
+                                    rb_message *why);
 
 #endif

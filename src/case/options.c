@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-#define PLACE(member) offsetof(rb_settled_case, member)
-#define RC(member) offsetof(rb_settled_case, rc.member)
+#define PLACE(member) offsetof(rb_resolved_case, member)
+#define RC(member) offsetof(rb_resolved_case, rc.member)
 
 static const rb_choice gaps[] = {
     {"parabola", RB_GAP_PARABOLA}, {"exact", RB_GAP_EXACT}, {NULL, 0}};

@@ -1,9 +1,9 @@
-/* A settled case, solved: whatever its formulation, with what it asks for. */
+/* A resolved case, solved: whatever its formulation, with what it asks for. */
 #include "rollbem/case.h"
 
 #include <string.h>
 
-static rb_status solve_steps(const rb_settled_case *c, rb_rolling_step *step,
+static rb_status solve_steps(const rb_resolved_case *c, rb_rolling_step *step,
                              void *context, rb_case_result *r, rb_message *why)
 {
     const double start = rb_seconds();
@@ -21,14 +21,14 @@ static rb_status solve_steps(const rb_settled_case *c, rb_rolling_step *step,
     return s;
 }
 
-rb_status rb_case_solve(const rb_settled_case *c, rb_rolling_step *step, void *context,
+rb_status rb_case_solve(const rb_resolved_case *c, rb_rolling_step *step, void *context,
                         rb_case_result *r, rb_message *why)
 {
     memset(r, 0, sizeof *r);
     return rb_case_solve_again(c, step, context, r, why);
 }
 
-rb_status rb_case_solve_again(const rb_settled_case *c, rb_rolling_step *step,
+rb_status rb_case_solve_again(const rb_resolved_case *c, rb_rolling_step *step,
                               void *context, rb_case_result *r, rb_message *why)
 {
     rb_rolling_model model = r->model;
@@ -38,7 +38,7 @@ rb_status rb_case_solve_again(const rb_settled_case *c, rb_rolling_step *step,
     memset(r, 0, sizeof *r);
     if (!rb_case_has_steps(c) && !c->error && !(c->accuracy > 0.0)) {
         r->model = model;
-        return rb_rolling_solve_model_again(&c->rc, &r->model, &r->solution, why);
+        return rb_rolling_solve_model_reuse(&c->rc, &r->model, &r->solution, why);
     }
     rb_rolling_model_free(&model);
     if (rb_case_has_steps(c))

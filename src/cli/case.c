@@ -56,10 +56,10 @@ cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c,
     return code == CLI_CONTINUE ? cli_example_read(c, args) : code;
 }
 
-cli_exit cli_case_settle(const cli_spec *spec, rb_case *c, const cli_args *args)
+cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args)
 {
     rb_message why = {""};
-    const cli_exit code = cli_say(rb_case_settle(c, &why), &why);
+    const cli_exit code = cli_say(rb_case_resolve(c, &why), &why);
     return code == CLI_CONTINUE ? cli_check_files(spec, args) : code;
 }
 
@@ -67,21 +67,21 @@ cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
                         cli_args *args)
 {
     const cli_exit code = cli_case_read(spec, argc, argv, c, args);
-    return code == CLI_CONTINUE ? cli_case_settle(spec, c, args) : code;
+    return code == CLI_CONTINUE ? cli_case_resolve(spec, c, args) : code;
 }
 
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why)
 {
-    return cli_say(rb_case_blame(c, s, why), why);
+    return cli_say(rb_case_locate(c, s, why), why);
 }
 
 json_t *cli_case_json(const rb_case *c, const rb_rolling_solution *s, json_t *inputs)
 {
-    const rb_settled_case *settled = rb_case_settled(c);
+    const rb_resolved_case *resolved = rb_case_resolved(c);
     json_t *root = rb_report_json_start(cli_command_line());
     if (s)
-        rb_report_json_set(&root, "notes", rb_report_json_notes(&settled->rc, s));
-    rb_report_json_set(&root, "units", rb_report_json_units(settled->units));
+        rb_report_json_set(&root, "notes", rb_report_json_notes(&resolved->rc, s));
+    rb_report_json_set(&root, "units", rb_report_json_units(resolved->units));
     rb_report_json_set(&root, "input_hash", rb_report_json_input_hash(c));
     rb_report_json_set(&root, "inputs", inputs);
     return root;
@@ -191,7 +191,7 @@ cli_exit cli_case_inputs(const cli_case_command *command, void *own, int argc,
     rb_message why = {""};
     cli_exit code = read_words(&spec, &run, argc, argv);
     if (code == CLI_CONTINUE)
-        code = cli_say(rb_case_settle(words, &why), &why);
+        code = cli_say(rb_case_resolve(words, &why), &why);
     cli_args_free(&run.args);
     return code;
 }
@@ -207,9 +207,9 @@ cli_exit cli_case_run_command(const cli_case_command *command, void *own, int ar
     const cli_spec spec = spec_of(&run);
     cli_exit code = read_words(&spec, &run, argc, argv);
     if (code == CLI_CONTINUE)
-        code = cli_case_settle(&spec, run.words, &run.args);
+        code = cli_case_resolve(&spec, run.words, &run.args);
     if (code == CLI_CONTINUE) {
-        run.c = rb_case_settled(run.words);
+        run.c = rb_case_resolved(run.words);
         run.o.brief = command->brief_table && cli_output_is_brief(&run.o);
         rb_case_store(run.words, &run.set, own);
         code = command->check(&run);

@@ -29,15 +29,15 @@
 /* A case of defaults, or NULL after saying that there is no memory. */
 rb_case *cli_case_create(rb_case_purpose purpose);
 
-/* Parses the arguments, reads the case file (the only operand allowed), settles the case,
- * which is the first set of spec, and checks the files that the options name.
+/* Parses the arguments, reads the case file (the only operand allowed), resolves the
+ * case, which is the first set of spec, and checks the files that the options name.
  * CLI_CONTINUE or an exit code, its line printed. */
 cli_exit cli_case_parse(const cli_spec *spec, int argc, char **argv, rb_case *c,
                         cli_args *args);
 /* The same in two parts: what is given, and what it means. */
 cli_exit cli_case_read(const cli_spec *spec, int argc, char **argv, rb_case *c,
                        cli_args *args);
-cli_exit cli_case_settle(const cli_spec *spec, rb_case *c, const cli_args *args);
+cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args);
 
 /* --example NAME, the last set of every spec of a case, and what it asks for. */
 rb_option_set cli_example_set(void);
@@ -61,7 +61,7 @@ typedef struct {
     void *own;         /* the command's struct: its options and its results */
     rb_option_set set; /* of its options */
     rb_case *words;
-    const rb_settled_case *c; /* what they mean */
+    const rb_resolved_case *c; /* what they mean */
     cli_output o;
     cli_args args;
     const rb_rolling_solution *solution; /* for notes, citations, JSON; NULL: none */
@@ -88,7 +88,7 @@ struct cli_case_command {
     int options_last;           /* 1: they continue the section [output] */
     const cli_case_file *files; /* the last row has no option */
 
-    /* before the case is settled */
+    /* before the case is resolved */
     void (*choose_purpose)(cli_case_run *run);
     /* before it is solved: CLI_CONTINUE, or an exit code after saying what is wrong */
     cli_exit (*check)(cli_case_run *run);
@@ -106,11 +106,11 @@ struct cli_case_command {
     void (*summarise)(const cli_case_run *run);
 };
 
-/* Reads, settles, solves and prints: the whole command.  Its exit code. */
+/* Reads, resolves, solves and prints: the whole command.  Its exit code. */
 cli_exit cli_case_run_command(const cli_case_command *command, void *own, int argc,
                               char **argv);
 
-/* The settled case of a command line of `rollbem` itself; what it would write is neither
+/* The resolved case of a command line of `rollbem` itself; what it would write is neither
  * looked at nor written.  CLI_CONTINUE, or the exit code after the line of why. */
 cli_exit cli_solve_inputs(int argc, char **argv, rb_case *words);
 /* The same of any such command. */

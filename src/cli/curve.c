@@ -109,7 +109,7 @@ static rb_status solve_curve(const rb_rolling_case *rc, const range_options *r,
                        : rb_rolling_curve_solve(rc, &range, points, why);
 }
 
-static rb_status solve_curves(const rb_settled_case *c, const range_options *range,
+static rb_status solve_curves(const rb_resolved_case *c, const range_options *range,
                               rb_report_curves *curves, rb_message *why)
 {
     const rb_numbers one = {1, {c->rc.mu}};
@@ -230,7 +230,7 @@ static void choose_purpose(cli_case_run *run)
 /* The picture shows the force as a part of the friction, mu P. */
 static cli_exit check_picture(const cli_case_run *run, const range_options *r)
 {
-    const rb_settled_case *c = run->c;
+    const rb_resolved_case *c = run->c;
     rb_rolling_case rc = c->rc;
     int frictionless = rb_rolling_largest_mu(&rc) == 0.0;
     for (int k = 0; k < c->mus.n; k++) {

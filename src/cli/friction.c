@@ -284,7 +284,7 @@ static int is_infeasible(const rb_friction_problem *p, const char *file)
     return 1;
 }
 
-static cli_exit judge(friction_run *run, friction_result *r, rb_status s)
+static cli_exit assess(friction_run *run, friction_result *r, rb_status s)
 {
     r->status = rb_friction_status_text(s, run->o->tol, &r->info);
     if (s < 0 || (s == RB_SINGULAR && r->info.msg.text[0]))
@@ -349,7 +349,7 @@ static cli_exit solve_friction(friction_run *run, friction_result *r)
         const rb_friction_options opt = solver_options(run);
         const rb_friction_solution solution = {r->r, r->u, NULL};
         s = rb_friction_solve(run->o->solver, &p, &opt, &solution, &r->info);
-        code = judge(run, r, s);
+        code = assess(run, r, s);
         if (code == CLI_UNSOLVED && is_infeasible(&p, r->file))
             r->status = "infeasible";
         if (p.lengths)
@@ -388,7 +388,7 @@ static cli_exit solve_cones(friction_run *run, friction_result *r)
         const rb_friction_options opt = solver_options(run);
         s = rb_friction_soclcp(&d.problem, &opt, r->r, r->u, &r->info);
         restore_slopes(&d, r->r, r->u);
-        code = judge(run, r, s);
+        code = assess(run, r, s);
     }
     rb_friction_soclcp_data_free(&d);
     return code;
@@ -429,7 +429,7 @@ static const char conventions[] =
     "[N, T...] per contact, u = W r + q, uhat = u + mu ||u_T|| N, K* contains "
     "uhat, complementary to r in K";
 
-static void settle_format(friction_options *o)
+static void resolve_format(friction_options *o)
 {
     if (o->format >= KIND)
         o->kind = o->format - KIND;
@@ -451,7 +451,7 @@ int cli_friction(int argc, char **argv)
                            {{options, OPTIONS, &o, NULL, NULL}},
                            1};
     cli_exit code = cli_parse(&spec, argc, argv, &args);
-    settle_format(&o);
+    resolve_format(&o);
     if (code == CLI_CONTINUE && args.operands < 1)
         code = cli_fail(CLI_USAGE, "friction: expected at least one FILE");
     if (code == CLI_CONTINUE)

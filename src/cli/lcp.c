@@ -258,7 +258,7 @@ static void print_problem(lcp_run *run, const lcp_result *r)
 /* ---- A problem --------------------------------------------------------------------- */
 
 /* "solved" is what the recomputed residual says, not the method. */
-static cli_exit judge(const lcp_options *o, lcp_result *r, rb_status s)
+static cli_exit assess(const lcp_options *o, lcp_result *r, rb_status s)
 {
     r->status = rb_status_text(s);
     if (s != RB_OK)
@@ -332,7 +332,7 @@ static cli_exit invalid(lcp_result *r, rb_status s, const rb_message *msg)
 
 static cli_exit say_end(const lcp_options *o, lcp_result *r, rb_status s)
 {
-    const cli_exit code = judge(o, r, s);
+    const cli_exit code = assess(o, r, s);
     if (s == RB_MAXITER)
         cli_fail(code, "%s: no solution after --max-pivots %d", r->file, r->info.iters);
     else if (code != CLI_OK)

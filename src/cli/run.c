@@ -127,7 +127,7 @@ static int after_step(const rb_rolling_model *model, const rb_rolling_history *h
 }
 
 /* An interrupt ends the run after the step at hand. */
-static rb_status run_steps(const rb_settled_case *c, watch *w, rb_case_result *r,
+static rb_status run_steps(const rb_resolved_case *c, watch *w, rb_case_result *r,
                            rb_message *why)
 {
     cli_interrupts_catch();
@@ -136,7 +136,7 @@ static rb_status run_steps(const rb_settled_case *c, watch *w, rb_case_result *r
     return s;
 }
 
-rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
+rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps,
                        rb_case_result *r, rb_message *why)
 {
     static const cli_steps silent = {0};

@@ -24,7 +24,7 @@ rb_status cli_write_snapshot(const char *folder, int step, const rb_rolling_case
 /* rb_case_solve, where an interrupt (control-C, SIGTERM, SIGHUP) ends a sequence of steps
  * after the one at hand.  steps NULL: nothing on the way.  Free the result in any case.
  */
-rb_status cli_run_case(const rb_settled_case *c, const cli_steps *steps,
+rb_status cli_run_case(const rb_resolved_case *c, const cli_steps *steps,
                        rb_case_result *r, rb_message *why);
 
 #endif

@@ -200,14 +200,14 @@ static cli_exit check_steps(const cli_case_run *run)
 }
 
 /* With error bars of a solution there is no model to show (run.h). */
-static cli_exit check_behind(const solved *it, const rb_settled_case *c)
+static cli_exit check_behind(const solved *it, const rb_resolved_case *c)
 {
     const int model_kept = rb_case_has_steps(c) || !(c->error || c->accuracy > 0.0);
     if ((it->dump || it->trace || it->fclib) && !model_kept)
         return cli_fail(CLI_USAGE,
                         "--dump, --fclib and --trace: not together with error bars");
-    if (it->all_solutions &&
-        (c->rc.formulation != RB_STEADY || !model_kept || !rb_rolling_law_moves(&c->rc)))
+    if (it->all_solutions && (c->rc.formulation != RB_STEADY || !model_kept ||
+                              !rb_rolling_law_depends_on_state(&c->rc)))
         return cli_fail(CLI_USAGE,
                         "--all-solutions: of steady rolling without error bars, with "
                         "friction that depends on the slip or the temperature");
@@ -237,11 +237,11 @@ static cli_exit check_states(const cli_case_run *run)
 static cli_exit choose_pivots(rb_case *c)
 {
     rb_message why = {""};
-    if (rb_case_settled(c)->rc.solver != RB_SOLVER_AUTO)
+    if (rb_case_resolved(c)->rc.solver != RB_SOLVER_AUTO)
         return CLI_CONTINUE;
     rb_status s = rb_case_set(c, "solver", "lemke", RB_GIVEN_ARGUMENT, &why);
     if (s == RB_OK)
-        s = rb_case_settle(c, &why);
+        s = rb_case_resolve(c, &why);
     return cli_say(s, &why);
 }
 

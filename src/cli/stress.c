@@ -180,9 +180,9 @@ static rb_report_stress of_grid(const cli_case_run *run,
 }
 
 /* The model belongs to a plain solution, whose error bars follow. */
-static rb_status solve_plain(const rb_settled_case *c, stress *st, rb_message *why)
+static rb_status solve_plain(const rb_resolved_case *c, stress *st, rb_message *why)
 {
-    rb_settled_case plain = *c;
+    rb_resolved_case plain = *c;
     rb_rolling_stress_maxima maxima;
     plain.error = 0;
     rb_status s = cli_run_case(&plain, NULL, &st->run, why);

@@ -70,7 +70,7 @@ typedef struct {
 cli_exit cli_study_read(study *st);
 /* Of case k = 0, 1, ... */
 double cli_study_value(const study *st, const study_column *c, int k);
-/* The values of case k in c; settle afterwards. */
+/* The values of case k in c; resolve afterwards. */
 cli_exit cli_study_set_values(const study *st, rb_case *c, int k);
 /* Sets st->one to that case. */
 cli_exit cli_study_make_one(study *st, int k);

@@ -50,7 +50,7 @@ static rb_report_quantity axis_of(const study *st, int k, double *value)
         return (rb_report_quantity){0};
     const study_column *c = &st->column[k];
     const char *unit =
-        rb_unit_name(rb_case_settled(st->base)->units, rb_case_option(c->name)->unit);
+        rb_unit_name(rb_case_resolved(st->base)->units, rb_case_option(c->name)->unit);
     for (int i = 0; i < st->cases; i++)
         value[i] = cli_study_value(st, c, i);
     return (rb_report_quantity){c->name, strcmp(unit, "-") == 0 ? "" : unit, value};
@@ -80,7 +80,7 @@ typedef rb_status see_picture(const rb_report_study *picture, const void *contex
 static rb_status with_picture(const study *st, see_picture *see, const void *context,
                               rb_message *why)
 {
-    const rb_settled_case *c = rb_case_settled(st->base);
+    const rb_resolved_case *c = rb_case_resolved(st->base);
     const study_result *shown = &st->result[st->drawn_column - st->columns - 2];
     char name[STUDY_HEADING];
     double *value = rb_alloc((size_t)st->cases, 2);

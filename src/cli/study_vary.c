@@ -226,7 +226,7 @@ double cli_study_value(const study *st, const study_column *c, int k)
     return c->value[row_of(st, c, k)];
 }
 
-/* The table of cases is the first factor, and is blamed by its line. */
+/* The table of cases is the first factor, and is located by its line. */
 static cli_exit refuse_value(const study *st, const study_column *c, int k,
                              const rb_message *why)
 {
@@ -253,7 +253,7 @@ cli_exit cli_study_make_one(study *st, int number)
 {
     rb_message why = {""};
     const cli_exit code = cli_study_set_values(st, st->one, number);
-    return code == CLI_CONTINUE ? cli_say(rb_case_settle(st->one, &why), &why) : code;
+    return code == CLI_CONTINUE ? cli_say(rb_case_resolve(st->one, &why), &why) : code;
 }
 
 /* What is refused is refused before anything is solved. */

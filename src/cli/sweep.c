@@ -141,7 +141,7 @@ static cli_exit choose_by_name(study *st, const char *option, const char *name)
     rb_guess guess = {.word = own};
     const rb_rolling_results *tables[] = {&rb_rolling_solution_scalars,
                                           &rb_rolling_maxima_scalars};
-    if (bar && !rb_case_settled(st->base)->error)
+    if (bar && !rb_case_resolved(st->base)->error)
         return cli_fail(CLI_USAGE, "--%s: '%s' needs --error", option, name);
     for (int t = 0; t < 2; t++)
         for (int k = 0; k < tables[t]->n; k++) {
@@ -188,7 +188,7 @@ static void choose_error_bars(study *st)
 static cli_exit check_stress(const study *st)
 {
     rb_message why = {""};
-    const rb_status s = rb_rolling_stress_check(&rb_case_settled(st->one)->rc, &why);
+    const rb_status s = rb_rolling_stress_check(&rb_case_resolved(st->one)->rc, &why);
     for (int k = 0; k < st->results; k++)
         if (st->result[k].of_stress && s != RB_OK)
             return cli_case_refused(st->one, s, &why);
@@ -199,7 +199,7 @@ static cli_exit check_stress(const study *st)
  * the error bars of all. */
 static cli_exit choose_results(study *st)
 {
-    const rb_settled_case *one = rb_case_settled(st->one);
+    const rb_resolved_case *one = rb_case_resolved(st->one);
     char heading[RB_ROLLING_HEADING];
     const rb_rolling_result *r;
     cli_exit code = CLI_CONTINUE;
@@ -222,7 +222,7 @@ static int column_count(const study *st)
     return 1 + st->columns + 1 + st->results;
 }
 
-static const char *column_name(const study *st, int j, char room[STUDY_HEADING])
+static const char *column_name(const study *st, int j, char text[STUDY_HEADING])
 {
     char heading[RB_ROLLING_HEADING];
     if (j == 0)
@@ -232,9 +232,9 @@ static const char *column_name(const study *st, int j, char room[STUDY_HEADING])
     if (j == st->columns + 1)
         return "status";
     const study_result *result = &st->result[j - st->columns - 2];
-    snprintf(room, STUDY_HEADING, "%s%s", result->is_error ? "error_" : "",
-             rb_rolling_heading(result->r, rb_case_settled(st->base)->units, heading));
-    return room;
+    snprintf(text, STUDY_HEADING, "%s%s", result->is_error ? "error_" : "",
+             rb_rolling_heading(result->r, rb_case_resolved(st->base)->units, heading));
+    return text;
 }
 
 /* row NULL: what is known before the case is solved. */
@@ -259,10 +259,10 @@ enum { HEAD_LINES = 5, COMMAND_LINE = 2 };
 
 static void write_head(const study *st, FILE *out)
 {
-    char room[STUDY_HEADING];
+    char heading[STUDY_HEADING];
     rb_report_cells c = rb_report_cells_begin(out, &st->o->style, "");
     for (int j = 0; j < column_count(st); j++)
-        rb_report_cell_text(&c, column_name(st, j, room));
+        rb_report_cell_text(&c, column_name(st, j, heading));
     rb_report_cells_end_row(&c);
     rb_report_comment_origin(&c, cli_command_line());
     rb_report_comment(&c, "study %016" PRIx64 " of %d cases", st->fingerprint, st->cases);
@@ -295,7 +295,7 @@ static int see_row(int k, const rb_rolling_row *row, void *context)
     rb_report_cells c = {.out = st->out, .style = st->o->style};
     rb_rolling_row shown = *row;
 
-    rb_rolling_row_convert(&shown, rb_case_settled(st->base)->units);
+    rb_rolling_row_convert(&shown, rb_case_resolved(st->base)->units);
     for (int j = 0; j < column_count(st); j++) {
         const double x = cell_value(st, j, k, &shown);
         if (st->drawn && j == st->drawn_column)
@@ -323,14 +323,14 @@ static cli_exit begin_json(study *st)
 
 static rb_status write_json(study *st)
 {
-    char room[STUDY_HEADING];
+    char heading[STUDY_HEADING];
     json_t *root = rb_report_json_start(cli_command_line()), *table = json_object();
     for (int j = 0; j < column_count(st); j++) {
         json_t *list = json_array_get(st->list, (size_t)j);
-        rb_report_json_set(&table, column_name(st, j, room), json_incref(list));
+        rb_report_json_set(&table, column_name(st, j, heading), json_incref(list));
     }
     rb_report_json_set(&root, "units",
-                       rb_report_json_units(rb_case_settled(st->base)->units));
+                       rb_report_json_units(rb_case_resolved(st->base)->units));
     rb_report_json_set(&root, "inputs", rb_report_json_inputs(st->base));
     rb_report_json_set(&root, "table", table);
     return rb_report_json_write(st->out, root);
@@ -341,7 +341,7 @@ static rb_status make_case(int k, rb_rolling_case *rc, void *context)
     study *st = context;
     if (cli_study_make_one(st, k) != CLI_CONTINUE)
         return RB_EINVAL;
-    *rc = rb_case_settled(st->one)->rc;
+    *rc = rb_case_resolved(st->one)->rc;
     return RB_OK;
 }
 
@@ -387,7 +387,7 @@ static cli_exit cannot_write(const char *path)
 
 /* The head of this study, but for the command line, which may name another count of jobs.
  * 0: the file begins with something else. */
-static int has_head(const study *st, char **line, size_t *room)
+static int has_head(const study *st, char **line, size_t *capacity)
 {
     char *head = NULL;
     size_t size;
@@ -400,7 +400,7 @@ static int has_head(const study *st, char **line, size_t *room)
     const char *wanted = head;
     for (int k = 0; same && k < HEAD_LINES; k++) {
         const size_t n = strcspn(wanted, "\n") + 1;
-        const ssize_t got = getline(line, room, st->out);
+        const ssize_t got = getline(line, capacity, st->out);
         same = k == COMMAND_LINE ? got > 0
                                  : got == (ssize_t)n && memcmp(*line, wanted, n) == 0;
         wanted += n;
@@ -451,15 +451,15 @@ static int is_row(study *st, int k, const char *line, size_t length)
 static cli_exit resume(study *st)
 {
     char *line = NULL;
-    size_t room = 0;
+    size_t capacity = 0;
     ssize_t n;
     cli_exit code = CLI_CONTINUE;
-    if (!has_head(st, &line, &room))
+    if (!has_head(st, &line, &capacity))
         code =
             cli_fail(CLI_CANTWRITE,
                      "%s: holds something else; --restart would overwrite it", st->path);
     st->whole = ftell(st->out);
-    while (code == CLI_CONTINUE && (n = getline(&line, &room, st->out)) > 0 &&
+    while (code == CLI_CONTINUE && (n = getline(&line, &capacity, st->out)) > 0 &&
            line[n - 1] == '\n') {
         if (st->first == st->cases || !is_row(st, st->first, line, (size_t)n))
             code =
@@ -602,7 +602,7 @@ static cli_exit close_output(study *st, cli_exit code)
 
 static rb_rolling_sweep sweep_of(study *st)
 {
-    unsigned also = rb_case_settled(st->base)->error ? RB_ROW_ERRORS : 0;
+    unsigned also = rb_case_resolved(st->base)->error ? RB_ROW_ERRORS : 0;
     for (int k = 0; k < st->results; k++)
         if (st->result[k].of_stress)
             also |= RB_ROW_STRESS;
@@ -651,7 +651,7 @@ static cli_exit run(study *st)
                 spent, st->unsolved, st->cases);
     say_why_unsolved(st, &sweep);
     if (st->o->cite)
-        rb_report_citations(stderr, &rb_case_settled(st->base)->rc, NULL);
+        rb_report_citations(stderr, &rb_case_resolved(st->base)->rc, NULL);
     if (st->no_memory > 0)
         cli_fail(CLI_INTERNAL, "out of memory in %d cases: their status is %d",
                  st->no_memory, RB_ENOMEM);
@@ -670,7 +670,7 @@ static cli_exit prepare(const cli_spec *spec, int argc, char **argv, rb_case *c,
     if (code == CLI_CONTINUE)
         code = cli_study_set_values(st, c, 0);
     if (code == CLI_CONTINUE)
-        code = cli_case_settle(spec, c, args);
+        code = cli_case_resolve(spec, c, args);
     if (code == CLI_CONTINUE)
         code = cli_study_check(st);
     if (code == CLI_CONTINUE)

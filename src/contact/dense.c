@@ -93,16 +93,16 @@ static rb_contact_response response(int n, const rb_contact_matrix *K)
 /* ---- Zones held fixed -------------------------------------------------------------- */
 
 /* Solves, and where a kept LU served or digits were lost, solves again for what the
- * equations still lack, until a correction is small.  *settled: 0 where none was. */
+ * equations still lack, until a correction is small.  *converged: 0 where none was. */
 static rb_status solve_by(const rb_contact_problem *p, rb_contact_lu lu,
-                          rb_contact_state *state, rb_contact_reduced *r, int *settled)
+                          rb_contact_state *state, rb_contact_reduced *r, int *converged)
 {
     double size = 0.0;
     int passes = PASSES;
 
-    *settled = 0;
+    *converged = 0;
     rb_contact_reduced_clear(p, r, state);
-    for (int pass = 0; pass < passes && !*settled; pass++) {
+    for (int pass = 0; pass < passes && !*converged; pass++) {
         rb_contact_reduced_right_side(p, state, r);
         rb_status s = rb_contact_reduced_direct(p, state->zone, lu, r);
         if (s == RB_OK)
@@ -111,8 +111,8 @@ static rb_status solve_by(const rb_contact_problem *p, rb_contact_lu lu,
             return s;
         const double change = rb_norm_inf((size_t)r->size, r->x);
         const double small = r->slight > 0 ? SMALL_SLIGHT : SMALL;
-        *settled = (r->changes == 0 && r->slight == 0 && r->growth < MOST_GROWTH) ||
-                   (pass > 0 && change <= small * size);
+        *converged = (r->changes == 0 && r->slight == 0 && r->growth < MOST_GROWTH) ||
+                     (pass > 0 && change <= small * size);
         passes = r->slight > 0 ? PASSES_SLIGHT : PASSES;
         size = fmax(size, change);
     }
@@ -124,14 +124,14 @@ static rb_status dense_solve(const rb_contact_problem *p, rb_contact_state *stat
 {
     rb_contact_problem by_products = *p;
     rb_status s = RB_OK;
-    int settled = 0;
+    int converged = 0;
 
     by_products.op = ((const rb_contact_dense *)p->op)->products;
     if (by_products.op && r->size >= LEAST_BY_PRODUCTS &&
         by_products.op->kind->solve(&by_products, state, r) == RB_OK)
         return RB_OK;
-    for (int lu = RB_LU_KEPT; lu < RB_LU_KINDS && s >= 0 && !settled; lu++)
-        s = solve_by(p, (rb_contact_lu)lu, state, r, &settled);
+    for (int lu = RB_LU_KEPT; lu < RB_LU_KINDS && s >= 0 && !converged; lu++)
+        s = solve_by(p, (rb_contact_lu)lu, state, r, &converged);
     return s;
 }
 

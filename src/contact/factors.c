@@ -20,7 +20,7 @@ typedef struct {
 /* The LU for the zones of an earlier solve: unknowns (and their equations, gap or slip at
  * the same element) in the order of rb_contact_reduced. */
 typedef struct {
-    int contacts, size, room;
+    int contacts, size, capacity;
     traction *unknown;
     double *LU;
     lapack_int *pivots;
@@ -239,7 +239,7 @@ static void make_plan(const rb_contact_problem *p, const int *zone,
 
 static rb_status make_room(int size, kept_lu *k)
 {
-    if (size <= k->room)
+    if (size <= k->capacity)
         return RB_OK;
     free(k->unknown);
     free(k->LU);
@@ -247,8 +247,8 @@ static rb_status make_room(int size, kept_lu *k)
     k->unknown = calloc((size_t)size, sizeof *k->unknown);
     k->LU = rb_alloc((size_t)size, (size_t)size);
     k->pivots = calloc((size_t)size, sizeof *k->pivots);
-    k->room = k->unknown && k->LU && k->pivots ? size : 0;
-    return k->room ? RB_OK : RB_ENOMEM;
+    k->capacity = k->unknown && k->LU && k->pivots ? size : 0;
+    return k->capacity ? RB_OK : RB_ENOMEM;
 }
 
 static rb_status factor(const rb_contact_problem *p, const rb_contact_reduced *r,
@@ -333,22 +333,22 @@ static rb_status solve_bordered(const rb_contact_problem *p, const kept_lu *k,
                                 const plan *pl, rb_contact_reduced *r)
 {
     const size_t n = (size_t)k->size, count = (size_t)pl->count;
-    double *room = rb_alloc(n + count, 2 * count + 1);
+    double *scratch = rb_alloc(n + count, 2 * count + 1);
 
-    if (!room)
+    if (!scratch)
         return RB_ENOMEM;
-    const bordered m = {.V = room,
-                        .f = room + n * count,
-                        .g = room + n * (count + 1), /* behind f */
-                        .W = room + n * (count + 1) + count,
-                        .T = room + n * (2 * count + 1) + count};
+    const bordered m = {.V = scratch,
+                        .f = scratch + n * count,
+                        .g = scratch + n * (count + 1), /* behind f */
+                        .W = scratch + n * (count + 1) + count,
+                        .T = scratch + n * (2 * count + 1) + count};
     for (int i = 0; i < r->size; i++)
         m.f[pl->source[i]] = r->x[i];
     fill_border(p, r, k, pl, &m);
     const rb_status s = eliminate(k, pl->count, &m, &r->growth);
     for (int i = 0; i < r->size; i++)
         r->x[i] = m.f[pl->source[i]];
-    free(room);
+    free(scratch);
     return s;
 }
 

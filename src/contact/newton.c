@@ -10,7 +10,7 @@
 
 enum { MAX_STEPS = 60, STAGGERED_ROUNDS = 3 };
 /* Steps without fewer zones to correct than before, after which the path is followed. */
-enum { PATIENCE = 20 };
+enum { STALL_SWEEPS = 20 };
 /* From so many elements on a cold start solves for pairs of them first. */
 enum { HALVED = 100 };
 
@@ -172,7 +172,7 @@ static rb_status iterate(rb_contact_problem *p, rb_contact_unknowns unknowns,
     uint64_t seen[MAX_STEPS];
     int least = INT_MAX, waited = 0;
 
-    for (int step = 0; step < MAX_STEPS && waited < PATIENCE; step++) {
+    for (int step = 0; step < MAX_STEPS && waited < STALL_SWEEPS; step++) {
         seen[step] = rb_hash(RB_HASH_START, state->zone, bytes);
         if (seen_before(step, seen, seen[step]))
             break;

@@ -23,7 +23,7 @@ typedef struct {
 typedef struct {
     rb_contact_problem *problem;
     rb_contact_state *state; /* its zones are those of the path */
-    double *room;            /* owned: all arrays */
+    double *scratch;         /* owned: all arrays */
     point whole, none;       /* solutions of the zones for t = 1 and t = 0 */
     double *d_N, *d_T;       /* n: the problem's own */
     double *more_N, *more_T; /* n: what t = 1 adds */
@@ -35,23 +35,23 @@ typedef struct {
 static rb_status path_alloc(rb_contact_problem *problem, rb_contact_state *state, path *k)
 {
     const size_t n = (size_t)problem->n;
-    double *room = rb_alloc(n, 12);
+    double *scratch = rb_alloc(n, 12);
 
     *k = (path){.problem = problem,
                 .state = state,
-                .room = room,
+                .scratch = scratch,
                 .load = problem->load,
                 .force = problem->force,
                 .t = 1.0,
                 .way = -1.0};
-    if (!room)
+    if (!scratch)
         return RB_ENOMEM;
-    k->whole = (point){room, room + n, room + 2 * n, room + 3 * n};
-    k->none = (point){room + 4 * n, room + 5 * n, room + 6 * n, room + 7 * n};
-    k->d_N = room + 8 * n;
-    k->d_T = room + 9 * n;
-    k->more_N = room + 10 * n;
-    k->more_T = room + 11 * n;
+    k->whole = (point){scratch, scratch + n, scratch + 2 * n, scratch + 3 * n};
+    k->none = (point){scratch + 4 * n, scratch + 5 * n, scratch + 6 * n, scratch + 7 * n};
+    k->d_N = scratch + 8 * n;
+    k->d_T = scratch + 9 * n;
+    k->more_N = scratch + 10 * n;
+    k->more_T = scratch + 11 * n;
     memcpy(k->d_N, problem->d_N, n * sizeof(double));
     memcpy(k->d_T, problem->d_T, n * sizeof(double));
     return RB_OK;
@@ -123,7 +123,7 @@ static void set_addition(path *k, const point *x)
     rb_contact_problem *p = k->problem;
     rb_contact_state *state = k->state;
     const size_t bytes = (size_t)p->n * sizeof(double);
-    double *control_N = k->whole.p, *control_T = k->whole.q; /* room */
+    double *control_N = k->whole.p, *control_T = k->whole.q; /* scratch */
 
     memcpy(state->p, x->p, bytes);
     memcpy(state->q, x->q, bytes);
@@ -250,6 +250,6 @@ rb_status rb_contact_follow_path(rb_contact_problem *problem, rb_contact_state *
         s = follow(&k);
         set_data(&k, 0.0);
     }
-    free(k.room);
+    free(k.scratch);
     return s == RB_RAY ? RB_MAXITER : s;
 }

@@ -145,18 +145,18 @@ static rb_status balance(admm *a)
     return factor(a);
 }
 
-static rb_status judge(admm *a)
+static rb_status assess(admm *a)
 {
     rb_friction_task *t = a->task;
     memcpy(t->r, a->z, (size_t)t->m * sizeof(double));
-    return rb_friction_task_judge(t);
+    return rb_friction_task_assess(t);
 }
 
 static rb_status go_on_alternating(void *state)
 {
     admm *a = state;
     rb_friction_task *t = a->task;
-    rb_status st = a->begun ? RB_MAXITER : judge(a);
+    rb_status st = a->begun ? RB_MAXITER : assess(a);
     if (!a->begun && st == RB_MAXITER && isfinite(t->budget) &&
         rb_friction_system_estimate(&a->system, &a->cost) == RB_ENOMEM)
         return RB_ENOMEM;
@@ -180,7 +180,7 @@ static rb_status go_on_alternating(void *state)
         if (st == RB_OK && a->k == a->next)
             st = balance(a);
         if (st == RB_OK)
-            st = a->k % LOOK_EVERY == 0 || a->k == a->limit ? judge(a) : RB_MAXITER;
+            st = a->k % LOOK_EVERY == 0 || a->k == a->limit ? assess(a) : RB_MAXITER;
     }
     return st;
 }

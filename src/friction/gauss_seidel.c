@@ -189,11 +189,11 @@ static double look(sweeper *s, int refresh)
     return error;
 }
 
-/* Acceleration that has not lowered the change to FALL of the least one for PATIENCE
+/* Acceleration that has not lowered the change to FALL of the least one for STALL_SWEEPS
  * sweeps leads nowhere: the sweeps go on without it from their best state, REST of them
  * the first time and twice as many each time after. */
 #define FALL 0.7
-#define PATIENCE 100
+#define STALL_SWEEPS 100
 #define REST 100
 
 static void keep_state(const sweeper *s, double change)
@@ -242,7 +242,7 @@ static rb_status accelerate(sweeper *s, double change)
         return RB_OK;
     if (a->fresh || change < FALL * a->least)
         keep_state(s, change);
-    else if (s->k - a->since >= PATIENCE) {
+    else if (s->k - a->since >= STALL_SWEEPS) {
         rest_from_acceleration(s);
         return RB_OK;
     }
@@ -269,7 +269,7 @@ static int stalls(sweeper *s, double error)
 }
 
 /* After a sweep, which changed r by `change` (14); RB_MAXITER: it goes on. */
-static rb_status judge(sweeper *s, double change, int *stalled)
+static rb_status assess(sweeper *s, double change, int *stalled)
 {
     rb_friction_task *t = s->task;
     *stalled = 0;
@@ -301,7 +301,7 @@ static rb_status go_on_sweeping(void *state)
         int stalled;
         const double change = sweep(s);
         s->k++;
-        const rb_status st = judge(s, change, &stalled);
+        const rb_status st = assess(s, change, &stalled);
         if (st != RB_MAXITER)
             return st;
         if ((s->flags & RB_FRICTION_SWEEP_ANDERSON) && s->k < s->limit &&

@@ -204,7 +204,7 @@ int rb_friction_task_goes_on(const rb_friction_task *task);
 int rb_friction_task_late(const rb_friction_task *task);
 /* Of the task's iterate.  RB_OK: accepted; RB_MAXITER: not there yet; RB_SINGULAR: it is
  * no number; RB_INTERRUPTED: late. */
-rb_status rb_friction_task_judge(rb_friction_task *task);
+rb_status rb_friction_task_assess(rb_friction_task *task);
 /* The task's iterate has this error: kept where it is the best, told to whoever traces.
  */
 void rb_friction_task_seen(rb_friction_task *task, double error);

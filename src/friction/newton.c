@@ -166,7 +166,7 @@ static rb_status go_on_stepping(void *state)
 {
     newton *s = state;
     rb_friction_task *t = s->task;
-    rb_status st = s->begun ? RB_MAXITER : rb_friction_task_judge(s->task);
+    rb_status st = s->begun ? RB_MAXITER : rb_friction_task_assess(s->task);
     if (!s->begun && st == RB_MAXITER && isfinite(t->budget) &&
         rb_friction_system_estimate(&s->system, &s->last) == RB_ENOMEM)
         return RB_ENOMEM;
@@ -179,7 +179,7 @@ static rb_status go_on_stepping(void *state)
         st = step(s);
         s->k++;
         if (st == RB_OK)
-            st = rb_friction_task_judge(s->task);
+            st = rb_friction_task_assess(s->task);
     }
     return st;
 }

@@ -96,7 +96,7 @@ static double advance(projector *s)
     return norm > 0.0 ? step / norm : step;
 }
 
-static rb_status judge(projector *s, double change)
+static rb_status assess(projector *s, double change)
 {
     rb_friction_task *t = s->task;
     const double error = rb_friction_task_error(t);
@@ -115,7 +115,7 @@ static rb_status go_on_projecting(void *state)
 {
     projector *s = state;
     rb_friction_task *t = s->task;
-    rb_status st = s->begun ? RB_MAXITER : judge(s, INFINITY);
+    rb_status st = s->begun ? RB_MAXITER : assess(s, INFINITY);
     s->begun = 1;
     while (st == RB_MAXITER && s->k < s->limit && rb_friction_task_goes_on(t)) {
         const double change = advance(s);
@@ -124,7 +124,7 @@ static rb_status go_on_projecting(void *state)
         if (rb_friction_task_late(t))
             return RB_INTERRUPTED;
         if (change <= s->tau || s->k % 200 == 0 || s->k == s->limit)
-            st = judge(s, change);
+            st = assess(s, change);
     }
     return st;
 }

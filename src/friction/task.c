@@ -190,7 +190,7 @@ int rb_friction_task_late(const rb_friction_task *task)
     return task->shared->stop || (task->deadline > 0.0 && rb_seconds() > task->deadline);
 }
 
-rb_status rb_friction_task_judge(rb_friction_task *task)
+rb_status rb_friction_task_assess(rb_friction_task *task)
 {
     const double error = rb_friction_task_error(task);
     if (rb_friction_task_accepts(task, error))

@@ -286,8 +286,8 @@ rb_status rb_lcp_bimatrix(const rb_lcp_game *g, int label, const rb_lcp_options 
         l.info->res = rb_lcp_bimatrix_regret(g, z, regret, payoff);
     }
     if (s == RB_OK)
-        s = rb_lcp_judge(l.info,
-                         fmax(payoffs_of(g, g->A).wide, payoffs_of(g, g->B).wide));
+        s = rb_lcp_assess(l.info,
+                          fmax(payoffs_of(g, g->A).wide, payoffs_of(g, g->B).wide));
     release(&l);
     free(regret);
     return s;

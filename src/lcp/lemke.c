@@ -243,7 +243,7 @@ rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int 
     return RB_OK;
 }
 
-rb_status rb_lcp_judge(rb_lcp_info *info, double size)
+rb_status rb_lcp_assess(rb_lcp_info *info, double size)
 {
     return info->res <= SPOILT * size
                ? RB_OK
@@ -339,7 +339,7 @@ rb_status rb_lcp_lemke(const rb_lcp_problem *p, const rb_lcp_options *opt, doubl
         rb_lcp_lemke_answer(&l, s == RB_OK, z);
     }
     if (s == RB_OK)
-        s = rb_lcp_judge(l.info, rb_norm_inf((size_t)p->n, p->q));
+        s = rb_lcp_assess(l.info, rb_norm_inf((size_t)p->n, p->q));
     release(&l);
     return s;
 }

@@ -55,7 +55,7 @@ rb_status rb_lcp_fail_ray(rb_lcp_info *info, int n, int entering, double z0);
 rb_status rb_lcp_check_limits(rb_lcp_info *info, const rb_lcp_options *opt, int n,
                               double start);
 /* RB_INACCURATE where info->res is not below 1e-6 of size, the largest constant. */
-rb_status rb_lcp_judge(rb_lcp_info *info, double size);
+rb_status rb_lcp_assess(rb_lcp_info *info, double size);
 
 /* ---- check.c: RB_EINVAL for sizes, max_iters < 0, NaN, infinity -------------------- */
 

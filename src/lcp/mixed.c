@@ -28,9 +28,9 @@ typedef struct {
     int *at_upper;         /* n: the bound of a nonbasic z, and of w's sign with it */
     double *value;         /* n, by slots: the basic variables */
     double *generic;       /* n, by slots: their derivatives by the perturbation */
-    double *shift;         /* n: q is q + e shift for a small e, which settles ties */
+    double *shift;         /* n: q is q + e shift for a small e, which resolves ties */
     double *y, *g;         /* n: driving column by slots; right-hand side */
-    int *tied, *settled;   /* n: slots that tie; 2n + 1: variables exactly at a bound */
+    int *tied, *at_bound;  /* n: slots that tie; 2n + 1: variables exactly at a bound */
     double first_t, began; /* began: on rb_seconds() */
     rb_lcp_info *info;
 } mixed;
@@ -97,7 +97,7 @@ static rb_status refresh(mixed *p)
 {
     for (int s = 0; s < p->n; s++) {
         const range r = range_of(p, p->b.variable[s]);
-        p->settled[p->b.variable[s]] = p->value[s] == r.low || p->value[s] == r.high;
+        p->at_bound[p->b.variable[s]] = p->value[s] == r.low || p->value[s] == r.high;
     }
     rb_status status = rb_lcp_basis_factor(&p->b);
     if (status == RB_OK) {
@@ -117,9 +117,9 @@ static rb_status refresh(mixed *p)
         const int v = p->b.variable[s];
         const range r = range_of(p, v);
         double *x = p->value + s;
-        if (p->settled[v] && fabs(*x - r.low) <= zero)
+        if (p->at_bound[v] && fabs(*x - r.low) <= zero)
             *x = r.low;
-        else if (p->settled[v] && fabs(*x - r.high) <= zero)
+        else if (p->at_bound[v] && fabs(*x - r.high) <= zero)
             *x = r.high;
     }
     return RB_OK;
@@ -270,7 +270,7 @@ static double distance(const mixed *p, int s, double delta)
 
 /* Of the slots that tie the one that blocks first under the perturbation, t before all.
  */
-static int settle_tie(const mixed *p, int count, double sign, double own)
+static int resolve_tie(const mixed *p, int count, double sign, double own)
 {
     int best = isfinite(own) ? OPPOSITE : NONE;
     double least = isfinite(own) ? 0.0 : INFINITY;
@@ -321,8 +321,8 @@ static int blocking_slot(mixed *p, int entering, double sign, double *step, int 
     }
     *step = least;
     /* most may have overflowed: a variable without another bound never comes to it */
-    return settle_tie(p, *count, sign,
-                      isfinite(width) && width <= most ? least : INFINITY);
+    return resolve_tie(p, *count, sign,
+                       isfinite(width) && width <= most ? least : INFINITY);
 }
 
 /* p->y = the column of the entering variable, without what is zero but for rounding. */
@@ -585,7 +585,7 @@ static rb_status create(const split *f, const rb_sparse *M, mixed *p)
     p->y = p->shift + n;
     p->g = p->y + n;
     p->tied = p->at_upper + n;
-    p->settled = p->tied + n;
+    p->at_bound = p->tied + n;
     return RB_OK;
 }
 
@@ -678,7 +678,7 @@ rb_status rb_lcp_mixed(const rb_lcp_mixed_problem *given, const rb_lcp_options *
         answer(&p, &f, n, z);
         p.info->res = rb_lcp_residual_mixed(given, z, p.g);
         if (s == RB_OK)
-            s = rb_lcp_judge(p.info, size_of_problem(given, p.y, p.g));
+            s = rb_lcp_assess(p.info, size_of_problem(given, p.y, p.g));
     }
     rb_lcp_basis_free(&p.b);
     free(p.value);

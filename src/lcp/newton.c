@@ -164,7 +164,7 @@ rb_status rb_lcp_newton(const rb_sparse *M, const double *q, const rb_lcp_option
         s.info->res = rb_lcp_residual_mixed(&s.p, z, s.w);
     }
     if (status == RB_OK)
-        status = rb_lcp_judge(s.info, rb_norm_inf((size_t)n, q));
+        status = rb_lcp_assess(s.info, rb_norm_inf((size_t)n, q));
     free(s.w);
     free(s.number);
     rb_sparse_free(&s.A);

@@ -61,7 +61,7 @@ static verdict verdict_of(cli_exit code, uint64_t study)
 }
 
 /* The first of them that cannot go on with rank 0. */
-static cli_exit judge(const verdict *all)
+static cli_exit assess(const verdict *all)
 {
     for (int r = 1; r < size && all[0].code == CLI_CONTINUE; r++) {
         if (all[r].code != CLI_CONTINUE)
@@ -87,7 +87,7 @@ cli_exit cli_pool_agree(cli_exit code, uint64_t study)
         MPI_Abort(MPI_COMM_WORLD, CLI_INTERNAL);
     MPI_Gather(&own, sizeof own, MPI_BYTE, all, sizeof own, MPI_BYTE, 0, MPI_COMM_WORLD);
     if (rank == 0)
-        common = judge(all);
+        common = assess(all);
     MPI_Bcast(&common, 1, MPI_INT, 0, MPI_COMM_WORLD);
     free(all);
     return (cli_exit)common;

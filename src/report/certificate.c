@@ -104,8 +104,8 @@ static int has_equal_elements(const json_t *table)
 }
 
 /* Bodies and contact problem on the elements of the table. */
-static rb_status rebuild_problem(rb_certificate *c, const rb_settled_case *settled, int n,
-                                 rb_message *why)
+static rb_status rebuild_problem(rb_certificate *c, const rb_resolved_case *resolved,
+                                 int n, rb_message *why)
 {
     rb_rolling_model *m = &c->model;
     double *xh = rb_alloc((size_t)n, 2);
@@ -114,7 +114,7 @@ static rb_status rebuild_problem(rb_certificate *c, const rb_settled_case *settl
     m->equal_instead =
         c->summary ? strcmp(rb_certificate_word(c->summary, "mesh"), "uniform") == 0
                    : has_equal_elements(c->table);
-    const int are_equal = m->equal_instead || settled->rc.mesh != RB_MESH_FITTED;
+    const int are_equal = m->equal_instead || resolved->rc.mesh != RB_MESH_FITTED;
     if (s == RB_OK)
         s = rb_certificate_column(c->name, c->table, "x_mm", n, xh, why);
     if (s == RB_OK)
@@ -125,7 +125,7 @@ static rb_status rebuild_problem(rb_certificate *c, const rb_settled_case *settl
                         i + 1);
     if (s == RB_OK)
         s = rb_rolling_model_of_result(
-            &settled->rc, &(rb_rolling_elements){n, xh, xh + n, are_equal}, m, why);
+            &resolved->rc, &(rb_rolling_elements){n, xh, xh + n, are_equal}, m, why);
     free(xh);
     return s;
 }
@@ -585,16 +585,16 @@ static rb_status compare_results(rb_certificate *c)
     return t;
 }
 
-rb_status rb_certificate_rebuild(rb_certificate *c, const rb_settled_case *settled, int n,
-                                 rb_message *why)
+rb_status rb_certificate_rebuild(rb_certificate *c, const rb_resolved_case *resolved,
+                                 int n, rb_message *why)
 {
-    rb_status s = rebuild_problem(c, settled, n, why);
+    rb_status s = rebuild_problem(c, resolved, n, why);
     if (s == RB_OK)
         s = read_state(c, why);
     return s == RB_OK ? rb_rolling_model_friction(&c->model, why) : s;
 }
 
-rb_status rb_certificate_judge(rb_certificate *c, double residual, rb_message *why)
+rb_status rb_certificate_assess(rb_certificate *c, double residual, rb_message *why)
 {
     check_forces(c); /* and the half-width, which ratios of the creepage take */
     rb_status s = rb_rolling_model_solution(&c->model, &c->again, why);

@@ -70,10 +70,10 @@ void rb_certificate_motion(rb_certificate *c);
 rb_status rb_certificate_laws(rb_certificate *c);
 
 /* The model of a case on the n elements of its table, with the state that is printed. */
-rb_status rb_certificate_rebuild(rb_certificate *c, const rb_settled_case *settled, int n,
-                                 rb_message *why);
+rb_status rb_certificate_rebuild(rb_certificate *c, const rb_resolved_case *resolved,
+                                 int n, rb_message *why);
 /* Judges the state of the model, and what is printed beside it; residual: as printed. */
-rb_status rb_certificate_judge(rb_certificate *c, double residual, rb_message *why);
+rb_status rb_certificate_assess(rb_certificate *c, double residual, rb_message *why);
 /* Frees, and returns s with its reason in words. */
 rb_status rb_certificate_end(rb_certificate *c, rb_status s, rb_message *why);
 
@@ -82,7 +82,7 @@ rb_status rb_certificate_end(rb_certificate *c, rb_status s, rb_message *why);
 /* Follows the steps of a history by its states, judges each of them and leaves the model
  * at the last one.  h: overwritten; free it in any case. */
 rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
-                                const rb_settled_case *settled, int n,
+                                const rb_resolved_case *resolved, int n,
                                 rb_rolling_history *h, rb_message *why);
 /* Its columns against those that came out. */
 rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,

@@ -74,8 +74,8 @@ typedef struct {
     rb_status status;
 } judge;
 
-static int judge_step(const rb_rolling_model *model, const rb_rolling_history *h,
-                      int step, int steps, void *context)
+static int assess_step(const rb_rolling_model *model, const rb_rolling_history *h,
+                       int step, int steps, void *context)
 {
     judge *j = context;
     rb_certificate *c = j->c;
@@ -93,12 +93,12 @@ static int judge_step(const rb_rolling_model *model, const rb_rolling_history *h
 }
 
 rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
-                                const rb_settled_case *settled, int n,
+                                const rb_resolved_case *resolved, int n,
                                 rb_rolling_history *h, rb_message *why)
 {
     const int steps = (int)json_array_size(json_object_get(printed, "approach"));
     judge j = {c, json_object_get(printed, "residual"), RB_OK};
-    const rb_rolling_observer observer = {judge_step, &j};
+    const rb_rolling_observer observer = {assess_step, &j};
     rb_rolling_states states = {0};
 
     if (steps < 1)
@@ -107,9 +107,9 @@ rb_status rb_certificate_follow(rb_certificate *c, const json_t *printed,
     if (s == RB_OK)
         s = read_states(c, printed, &states, why);
     states.half_width = rb_certificate_member(printed, "half_width");
-    states.program = settled->program.n > 0 ? &settled->program : NULL;
+    states.program = resolved->program.n > 0 ? &resolved->program : NULL;
     if (s == RB_OK)
-        s = rb_rolling_history_follow(&settled->rc, &states, &observer, &c->model, h,
+        s = rb_rolling_history_follow(&resolved->rc, &states, &observer, &c->model, h,
                                       why);
     rb_rolling_states_free(&states);
     return j.status != RB_OK ? j.status : s;

@@ -110,7 +110,7 @@ static rb_status set_inputs(const json_t *inputs, const json_t *now, rb_case *wo
         option_text(value, text, sizeof text);
         s = rb_case_set(words, key, text, RB_GIVEN_ARGUMENT, why);
     }
-    return s == RB_OK ? rb_case_settle(words, why) : s;
+    return s == RB_OK ? rb_case_resolve(words, why) : s;
 }
 
 /* Sees that the same inputs come out.  What follows from others, such as the mesh of
@@ -183,11 +183,11 @@ rb_status rb_report_certify(FILE *out, const char *name, const json_t *root,
     if (s == RB_OK)
         s = compare_hash(&c, json_object_get(root, "input_hash"), words);
     if (s == RB_OK && history)
-        s = rb_certificate_follow(&c, history, rb_case_settled(words), n, &again, why);
+        s = rb_certificate_follow(&c, history, rb_case_resolved(words), n, &again, why);
     else if (s == RB_OK)
-        s = rb_certificate_rebuild(&c, rb_case_settled(words), n, why);
+        s = rb_certificate_rebuild(&c, rb_case_resolved(words), n, why);
     if (s == RB_OK)
-        s = rb_certificate_judge(&c, rb_certificate_member(c.summary, "residual"), why);
+        s = rb_certificate_assess(&c, rb_certificate_member(c.summary, "residual"), why);
     if (s == RB_OK && history)
         s = rb_certificate_compare_history(&c, history, &again);
     if (s == RB_OK && json_object_get(root, "maxima"))

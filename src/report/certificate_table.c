@@ -78,16 +78,16 @@ static void compare_patches(rb_certificate *c, const char *text)
 
 /* ---- All together ------------------------------------------------------------------ */
 
-static rb_status check_inputs(const char *name, const rb_settled_case *settled,
+static rb_status check_inputs(const char *name, const rb_resolved_case *resolved,
                               rb_message *why)
 {
     const char *what =
-        rb_case_has_steps(settled)
+        rb_case_has_steps(resolved)
             ? "its last state depends on the steps before it: take --json --states"
-        : settled->error || settled->accuracy > 0.0
+        : resolved->error || resolved->accuracy > 0.0
             ? "error bars take solutions on other meshes"
-        : settled->units != RB_UNITS_MM ? "units other than mm, N, MPa"
-                                        : NULL;
+        : resolved->units != RB_UNITS_MM ? "units other than mm, N, MPa"
+                                         : NULL;
     return what ? rb_certificate_refuse(name, what, why) : RB_OK;
 }
 
@@ -105,13 +105,13 @@ rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
                                   const rb_case *words, rb_report_certificate *found,
                                   rb_message *why)
 {
-    const rb_settled_case *settled = rb_case_settled(words);
+    const rb_resolved_case *resolved = rb_case_resolved(words);
     rb_io_table t = {0};
     double residual = 0.0;
     char *lines = strdup(text);
 
     memset(found, 0, sizeof *found);
-    rb_status s = lines ? check_inputs(name, settled, why) : RB_ENOMEM;
+    rb_status s = lines ? check_inputs(name, resolved, why) : RB_ENOMEM;
     if (s == RB_OK)
         s = read_status(name, text, &residual, why);
     if (s == RB_OK)
@@ -125,9 +125,9 @@ rb_status rb_report_certify_table(FILE *out, const char *name, const char *text,
         s = rb_fail(why, RB_EFORMAT, "%s: cannot be checked: it has %d elements", name,
                     t.rows);
     if (s == RB_OK)
-        s = rb_certificate_rebuild(&c, settled, t.rows, why);
+        s = rb_certificate_rebuild(&c, resolved, t.rows, why);
     if (s == RB_OK)
-        s = rb_certificate_judge(&c, residual, why);
+        s = rb_certificate_assess(&c, residual, why);
     if (s == RB_OK) {
         rb_certificate_expect(&c, "residual", 0, residual, c.again.residual, c.tol);
         compare_patches(&c, text);

@@ -39,14 +39,14 @@ json_t *rb_report_json_inputs(const rb_case *c)
 {
     int n;
     const rb_option *o = rb_case_describe(&n);
-    const rb_settled_case *settled = rb_case_settled(c);
+    const rb_resolved_case *resolved = rb_case_resolved(c);
     json_t *inputs = json_object();
     for (int i = 0; i < n; i++)
         if (o[i].kind != RB_OPTION_GROUP)
             rb_report_json_set(&inputs, o[i].name,
                                rb_case_is_replaced(c, &o[i])
                                    ? json_null()
-                                   : input(&o[i], settled, settled->units));
+                                   : input(&o[i], resolved, resolved->units));
     return inputs;
 }
 
@@ -57,7 +57,7 @@ static rb_status add_files(const rb_case *c, uint64_t *hash, rb_message *why)
     int n;
     const rb_option *o = rb_case_describe(&n);
     for (int i = 0; i < n; i++) {
-        const char *path = rb_option_path(&o[i], rb_case_settled(c));
+        const char *path = rb_option_path(&o[i], rb_case_resolved(c));
         char *text;
         size_t size;
         if (!path || o[i].file != RB_FILE_READ)

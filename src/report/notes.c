@@ -113,7 +113,8 @@ static void note_full_sliding(rb_report_note_list *list, const rb_rolling_case *
 {
     const int force = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
     if (s->formulation != RB_STATIC && force && s->stick == 0 &&
-        rb_rolling_largest_mu(rc) > 0.0 && s->contact > 0 && !rb_rolling_law_moves(rc))
+        rb_rolling_largest_mu(rc) > 0.0 && s->contact > 0 &&
+        !rb_rolling_law_depends_on_state(rc))
         add(list, "full sliding: the creepage is not unique; every larger one gives the "
                   "same force");
 }

@@ -31,42 +31,44 @@ static rb_status add_interlayer(const rb_rolling_case *rc, rb_bem_flexibility *f
 
     if (rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0)
         return RB_OK;
-    double *own = rb_alloc((size_t)n, 2);
-    for (int i = 0; own && i < n; i++) {
-        own[i] = rc->interlayer_normal;
-        own[n + i] = rc->interlayer_tangential;
+    double *compliance = rb_alloc((size_t)n, 2);
+    for (int i = 0; compliance && i < n; i++) {
+        compliance[i] = rc->interlayer_normal;
+        compliance[n + i] = rc->interlayer_tangential;
     }
     const rb_status s =
-        own ? rb_bem_flexibility_add_compliance(f, own, own + n) : RB_ENOMEM;
-    free(own);
+        compliance ? rb_bem_flexibility_add_compliance(f, compliance, compliance + n)
+                   : RB_ENOMEM;
+    free(compliance);
     return s;
 }
 
 static rb_status body_flexibility(const rb_rolling_case *rc, const rb_rolling_body *body,
                                   const rb_rolling_mesh *mesh, int transforms,
-                                  rb_rolling_body_flexibility *made, rb_message *why)
+                                  rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     const rb_rolling_body_kind *kind = rb_rolling_kind_of(body);
-    return (transforms ? kind->transforms : kind->flexibility)(rc, body, mesh, made, why);
+    return (transforms ? kind->transforms : kind->flexibility)(rc, body, mesh, one_body,
+                                                               why);
 }
 
-/* f: that of both bodies together; own: what else they have made. */
+/* f: that of both bodies together; one_body: what else they have made. */
 static rb_status join_bodies(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                             int transforms, rb_rolling_body_flexibility own[2],
+                             int transforms, rb_rolling_body_flexibility one_body[2],
                              rb_bem_flexibility *f, rb_message *why)
 {
-    rb_status s = body_flexibility(rc, &rc->a, mesh, transforms, &own[0], why);
+    rb_status s = body_flexibility(rc, &rc->a, mesh, transforms, &one_body[0], why);
 
     if (s == RB_OK && rc->elastic_b) {
-        s = body_flexibility(rc, &rc->b, mesh, transforms, &own[1], why);
+        s = body_flexibility(rc, &rc->b, mesh, transforms, &one_body[1], why);
         if (s == RB_OK)
-            s = rb_bem_flexibility_pair(&own[0].f, &own[1].f, f, why);
+            s = rb_bem_flexibility_pair(&one_body[0].f, &one_body[1].f, f, why);
     } else if (s == RB_OK) {
-        *f = own[0].f;
-        memset(&own[0].f, 0, sizeof own[0].f);
+        *f = one_body[0].f;
+        memset(&one_body[0].f, 0, sizeof one_body[0].f);
     }
-    rb_bem_flexibility_free(&own[0].f);
-    rb_bem_flexibility_free(&own[1].f);
+    rb_bem_flexibility_free(&one_body[0].f);
+    rb_bem_flexibility_free(&one_body[1].f);
     return s;
 }
 
@@ -76,11 +78,11 @@ enum { LEAST_TRANSFORMED = 250 };
 static rb_status add_transforms(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                                 rb_rolling_bodies *bodies, rb_message *why)
 {
-    rb_rolling_body_flexibility own[2] = {{.system = NULL}, {.system = NULL}};
+    rb_rolling_body_flexibility one_body[2] = {{.system = NULL}, {.system = NULL}};
 
     if (mesh->n < LEAST_TRANSFORMED || !rb_rolling_has_transforms(rc))
         return RB_OK;
-    const rb_status s = join_bodies(rc, mesh, 1, own, &bodies->transforms, why);
+    const rb_status s = join_bodies(rc, mesh, 1, one_body, &bodies->transforms, why);
     return s == RB_OK ? add_interlayer(rc, &bodies->transforms) : s;
 }
 
@@ -88,7 +90,7 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
                                    rb_rolling_bodies *bodies, rb_message *why)
 {
     memset(bodies, 0, sizeof *bodies);
-    rb_rolling_body_flexibility own[2] = {{.system = NULL}, {.system = NULL}};
+    rb_rolling_body_flexibility one_body[2] = {{.system = NULL}, {.system = NULL}};
     const int large = rb_rolling_is_large(rc, mesh);
     rb_status s = check_memory(rc, mesh, why);
 
@@ -98,12 +100,14 @@ rb_status rb_rolling_bodies_create(const rb_rolling_case *rc, const rb_rolling_m
             "relaxation: bodies that relax and do not roll steadily need a history "
             "of steps in time");
     if (s == RB_OK)
-        s = join_bodies(rc, mesh, large, own, &bodies->f, why);
-    bodies->system_a = own[0].system;
-    bodies->system_b = own[1].system;
-    bodies->seconds_assembly = own[0].seconds_assembly + own[1].seconds_assembly;
-    bodies->seconds_factor = own[0].seconds_factor + own[1].seconds_factor;
-    bodies->seconds_condense = own[0].seconds_condense + own[1].seconds_condense;
+        s = join_bodies(rc, mesh, large, one_body, &bodies->f, why);
+    bodies->system_a = one_body[0].system;
+    bodies->system_b = one_body[1].system;
+    bodies->seconds_assembly =
+        one_body[0].seconds_assembly + one_body[1].seconds_assembly;
+    bodies->seconds_factor = one_body[0].seconds_factor + one_body[1].seconds_factor;
+    bodies->seconds_condense =
+        one_body[0].seconds_condense + one_body[1].seconds_condense;
     if (s == RB_OK && !large)
         s = rb_bem_flexibility_store(&bodies->f);
     if (s == RB_OK)

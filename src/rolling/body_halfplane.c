@@ -40,31 +40,33 @@ typedef rb_status maker(int n, const double *ends, const rb_bem_surface *surface
                         rb_bem_flexibility *f, rb_message *why);
 
 static rb_status make(maker *how, const rb_rolling_case *rc, const rb_rolling_body *body,
-                      const rb_rolling_mesh *mesh, rb_rolling_body_flexibility *made,
+                      const rb_rolling_mesh *mesh, rb_rolling_body_flexibility *one_body,
                       rb_message *why)
 {
     double length[RB_ROLLING_TERMS];
     const double start = rb_seconds();
     const rb_bem_surface surface = rb_rolling_halfplane_surface(rc, body, length);
-    const rb_status s = how(mesh->n, mesh->ends, &surface, &made->f, why);
-    made->seconds_condense = rb_seconds() - start;
+    const rb_status s = how(mesh->n, mesh->ends, &surface, &one_body->f, why);
+    one_body->seconds_condense = rb_seconds() - start;
     return s;
 }
 
 static rb_status halfplane_flexibility(const rb_rolling_case *rc,
                                        const rb_rolling_body *body,
                                        const rb_rolling_mesh *mesh,
-                                       rb_rolling_body_flexibility *made, rb_message *why)
+                                       rb_rolling_body_flexibility *one_body,
+                                       rb_message *why)
 {
-    return make(rb_bem_flexibility_surface, rc, body, mesh, made, why);
+    return make(rb_bem_flexibility_surface, rc, body, mesh, one_body, why);
 }
 
 static rb_status halfplane_transforms(const rb_rolling_case *rc,
                                       const rb_rolling_body *body,
                                       const rb_rolling_mesh *mesh,
-                                      rb_rolling_body_flexibility *made, rb_message *why)
+                                      rb_rolling_body_flexibility *one_body,
+                                      rb_message *why)
 {
-    return make(rb_bem_flexibility_toeplitz, rc, body, mesh, made, why);
+    return make(rb_bem_flexibility_toeplitz, rc, body, mesh, one_body, why);
 }
 
 rb_status rb_rolling_check_base(const char *what, double young, double poisson,

@@ -70,7 +70,7 @@ static rb_status add_memory(const rb_rolling_case *rc, const rb_rolling_body *bo
 
 static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_body *body,
                                    const rb_rolling_mesh *mesh,
-                                   rb_rolling_body_flexibility *made, rb_message *why)
+                                   rb_rolling_body_flexibility *one_body, rb_message *why)
 {
     const rb_bem_cylinder cylinder = {.radius = body->radius,
                                       .support = body->support,
@@ -79,17 +79,17 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_b
                                       .cover = body->cover,
                                       .outer_elements = rc->outer_elements,
                                       .refinement = rc->outer_refinement};
-    rb_status s = wheel_system(body, &cylinder, mesh, &made->system, why);
+    rb_status s = wheel_system(body, &cylinder, mesh, &one_body->system, why);
 
     if (s == RB_OK) {
-        rb_bem_system_seconds(made->system, &made->seconds_assembly,
-                              &made->seconds_factor);
+        rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly,
+                              &one_body->seconds_factor);
         const double start = rb_seconds();
         s = (wants_exact_field(rc, body) ? rb_bem_condense_subtracted : rb_bem_condense)(
-            made->system, rc->normals, &made->f, why);
+            one_body->system, rc->normals, &one_body->f, why);
         if (s == RB_OK && body->memory.n > 0)
-            s = add_memory(rc, body, mesh, &made->f, why);
-        made->seconds_condense = rb_seconds() - start;
+            s = add_memory(rc, body, mesh, &one_body->f, why);
+        one_body->seconds_condense = rb_seconds() - start;
     }
     return s;
 }

@@ -137,9 +137,9 @@ int rb_rolling_is_large(const rb_rolling_case *rc, const rb_rolling_mesh *mesh)
 int rb_rolling_carter_holds(const rb_rolling_case *rc)
 {
     return rc->formulation == RB_STEADY && rb_rolling_largest_mu(rc) > 0.0 &&
-           rc->friction.law == RB_FRICTION_constant && !rb_rolling_law_moves(rc) &&
-           rc->interlayer_normal == 0.0 && rc->interlayer_tangential == 0.0 &&
-           rc->yield_stress == 0.0 &&
+           rc->friction.law == RB_FRICTION_constant &&
+           !rb_rolling_law_depends_on_state(rc) && rc->interlayer_normal == 0.0 &&
+           rc->interlayer_tangential == 0.0 && rc->yield_stress == 0.0 &&
            rb_rolling_can(rc, RB_BODY_FLAT | RB_BODY_HOMOGENEOUS) &&
            rc->gap != RB_GAP_TABLE && rc->worn.n == 0 &&
            fabs(rb_rolling_derive(rc).dundurs) < 1e-9;
@@ -382,7 +382,7 @@ static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "hardening: of an interface that yields, add --yield-stress");
     if (rc->yield_stress > 0.0 &&
-        (rb_rolling_law_slides(&rc->friction) || rc->friction.heat != 0.0))
+        (rb_rolling_law_depends_on_slip(&rc->friction) || rc->friction.heat != 0.0))
         return rb_fail(why, RB_EINVAL,
                        "yield stress: with one coefficient of friction or a table over "
                        "x, not with a law that follows slip or heat");
@@ -536,4 +536,10 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
     for (size_t k = 0; k < sizeof checks / sizeof *checks && s == RB_OK; k++)
         s = checks[k](rc, why);
     return s;
+}
+
+int rb_rolling_has_steps(const rb_rolling_case *rc)
+{
+    return rc->formulation == RB_TRANSIENT ||
+           (rc->formulation == RB_STATIC && rc->increments > 1);
 }

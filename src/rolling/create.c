@@ -24,7 +24,7 @@ rb_status rb_rolling_model_create(const rb_rolling_case *rc, rb_rolling_model *m
     return solve_on_its_mesh(rc, model, why);
 }
 
-rb_status rb_rolling_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
+rb_status rb_rolling_model_reuse(const rb_rolling_case *rc, rb_rolling_model *model,
                                  rb_message *why)
 {
     rb_rolling_model kept = {.mesh = model->mesh, .bodies = model->bodies};
@@ -122,7 +122,7 @@ rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
     *creepage = rolls_freely_at_rest(&model->problem) ? 0.0 : NAN;
     if (*creepage == 0.0)
         return RB_OK;
-    if (model->rc.mesh != RB_MESH_UNIFORM || rb_rolling_law_moves(&model->rc))
+    if (model->rc.mesh != RB_MESH_UNIFORM || rb_rolling_law_depends_on_state(&model->rc))
         return roll_freely_anew(model, creepage, why);
     const rb_status s = model->bodies.F ? roll_freely_dense(model, creepage, why)
                                         : roll_freely_large(model, creepage, why);

@@ -81,8 +81,8 @@ static rb_status find_patches(const rb_rolling_model *model, patches *found)
     int complete = 1;
 
     found->count = 0;
-    while (complete &&
-           rb_rolling_next_place(&model->rc, mesh, &model->state, run.last + 1, &run)) {
+    while (complete && rb_rolling_next_merged_patch(&model->rc, mesh, &model->state,
+                                                    run.last + 1, &run)) {
         const rb_rolling_span span = {
             .from = run.from,
             .to = run.to,

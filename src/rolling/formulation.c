@@ -361,7 +361,7 @@ double rb_rolling_model_force(const rb_rolling_model *model)
 
 double rb_rolling_force_ratio(const rb_rolling_model *model)
 {
-    const double most = rb_rolling_law_moves(&model->rc)
+    const double most = rb_rolling_law_depends_on_state(&model->rc)
                             ? model->problem.mu * rb_rolling_model_load(model)
                             : rb_contact_capacity(&model->problem, &model->state);
     return most > 0.0 ? rb_rolling_model_force(model) / most : NAN;
@@ -382,8 +382,8 @@ double rb_rolling_ratio_of_creepage(const rb_rolling_model *model, double creepa
 void rb_rolling_yielded(const rb_rolling_model *model, double *yielded)
 {
     rb_contact_yielded(&model->problem, model->state.plastic, yielded);
-    for (int i = 0; i < model->mesh.n && model->surfaces.yielded; i++)
-        yielded[i] += model->surfaces.yielded[i];
+    for (int i = 0; i < model->mesh.n && model->carried.yielded; i++)
+        yielded[i] += model->carried.yielded[i];
 }
 
 /* ---- How it is solved -------------------------------------------------------------- */

@@ -270,8 +270,8 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc,
 }
 
 /* The parabola through the warmest element in contact and its neighbours there. */
-void rb_rolling_warmest(int n, const double *x, const int *zone, const double *t,
-                        double *value, double *at)
+void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const double *t,
+                                 double *value, double *at)
 {
     int k = -1;
 

@@ -57,12 +57,12 @@ struct rb_rolling_body_kind {
     /* Of the support only: */
     rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_body *body,
                              const rb_rolling_mesh *mesh,
-                             rb_rolling_body_flexibility *made, rb_message *why);
+                             rb_rolling_body_flexibility *one_body, rb_message *why);
     /* The same on equal elements by Fourier transforms, without a matrix; NULL: it
      * depends on more than the distance. */
     rb_status (*transforms)(const rb_rolling_case *rc, const rb_rolling_body *body,
                             const rb_rolling_mesh *mesh,
-                            rb_rolling_body_flexibility *made, rb_message *why);
+                            rb_rolling_body_flexibility *one_body, rb_message *why);
     /* The half-plane or layer that answers like the body close to a load. */
     rb_bem_surface (*surface)(const rb_rolling_case *rc, const rb_rolling_body *body,
                               double length[RB_ROLLING_TERMS]);
@@ -116,7 +116,8 @@ rb_status rb_rolling_displacement(const rb_rolling_bodies *bodies, const double 
 /* Gaps at the midpoints, with the irregularity where it is now.  RB_ENOMEM. */
 rb_status rb_rolling_mesh_set_gap(const rb_rolling_case *rc, rb_rolling_mesh *mesh);
 
-/* ---- ahead.c ----------------------------------------------------------------------- */
+/* ---- former_place.c
+ * ----------------------------------------------------------------------- */
 
 /* Tangential displacement a length `step` further along the surface than each midpoint:
  * w_T = w0_T + W_T (p, q).  Equal elements, half-planes and wheels. */
@@ -125,17 +126,17 @@ typedef struct {
     double step;      /* 0: there is none */
     double *W_T;      /* n x 2n; NULL without a dense flexibility; owned, as below */
     double *response; /* there: w_T of a unit p and of a unit q at 2n - 1 distances */
-} rb_rolling_ahead;
+} rb_rolling_former_place;
 
 /* ahead: overwritten. */
-rb_status rb_rolling_ahead_create(const rb_rolling_case *rc,
-                                  const rb_rolling_bodies *bodies, double step,
-                                  rb_rolling_ahead *ahead);
+rb_status rb_rolling_former_place_create(const rb_rolling_case *rc,
+                                         const rb_rolling_bodies *bodies, double step,
+                                         rb_rolling_former_place *ahead);
 /* w_T: n, overwritten. */
-void rb_rolling_ahead_apply(const rb_rolling_ahead *ahead,
-                            const rb_rolling_bodies *bodies, const double *p,
-                            const double *q, double *w_T);
-void rb_rolling_ahead_free(rb_rolling_ahead *ahead);
+void rb_rolling_former_place_apply(const rb_rolling_former_place *ahead,
+                                   const rb_rolling_bodies *bodies, const double *p,
+                                   const double *q, double *w_T);
+void rb_rolling_former_place_free(rb_rolling_former_place *ahead);
 /* w_T of unit tractions one element downstream of the contact and two upstream of it.
  * W_T: 2 x 2n, zeroed.  Equal elements.  RB_ENOMEM. */
 rb_status rb_rolling_displacement_outside(const rb_rolling_case *rc,
@@ -169,7 +170,7 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why);
 /* Linear between the table's places, constant beyond them. */
 double rb_rolling_friction_at(const rb_rolling_table *table, double x);
 /* 1 where the law depends on the slip velocity. */
-int rb_rolling_law_slides(const rb_rolling_friction *f);
+int rb_rolling_law_depends_on_slip(const rb_rolling_friction *f);
 double rb_rolling_law_mu(const rb_rolling_case *rc, double x, double v,
                          double temperature);
 /* Where nothing slides and nothing has become warm. */
@@ -212,8 +213,8 @@ rb_status rb_rolling_steady_temperature(const rb_rolling_case *rc,
                                         const rb_rolling_solution *s, const double *power,
                                         double *t_a, double *t_b, rb_message *why);
 /* Highest temperature in contact and its place; NAN without contact. */
-void rb_rolling_warmest(int n, const double *x, const int *zone, const double *t,
-                        double *value, double *at);
+void rb_rolling_peak_temperature(int n, const double *x, const int *zone, const double *t,
+                                 double *value, double *at);
 
 /* The heat of the steps that particles still in the mesh have met. */
 typedef struct rb_rolling_heat_track {
@@ -234,101 +235,6 @@ void rb_rolling_heat_track_step(const rb_rolling_case *rc, const double *q,
                                 const double *lambda, rb_rolling_heat_track *track,
                                 double *temperature);
 void rb_rolling_heat_track_free(rb_rolling_heat_track *track);
-
-/* ---- relax.c ----------------------------------------------------------------------- */
-
-/* A body that relaxes, and the filtered tractions of each of its terms (V6). */
-typedef struct {
-    const rb_rolling_memory *memory; /* borrowed from the case */
-    double sign;                     /* 1: body A, -1: B, whose tangent is mirrored */
-    rb_bem_flexibility f;            /* of the glassy body under all elements; owned */
-    double *past;                    /* terms x 2 all; owned */
-} rb_rolling_relaxing;
-
-/* The past of both bodies: of the n elements of the mesh, and of `tail` elements behind
- * them, where the material is that has rolled out of the mesh. */
-typedef struct {
-    int n, tail, all, bodies;
-    rb_rolling_relaxing body[2];
-    double *traction; /* 2 all: on A at the end of the last step; owned */
-    double *room;     /* owned */
-    double lost;      /* work that the bodies have lost so far [force] */
-} rb_rolling_memory_track;
-
-/* What the bodies are in a step of so many seconds: elastic ones.  INFINITY: rubbery. */
-rb_rolling_case rb_rolling_memory_case(const rb_rolling_case *rc, double step);
-/* Bodies at rest without a past.  tail > 0: equal elements. */
-rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc,
-                                         const rb_rolling_mesh *mesh, int tail,
-                                         rb_rolling_memory_track *r, rb_message *why);
-/* Before a step is solved: the displacement w0 (2m) that its bodies bring along.  rolls:
- * 1: the material moves by one element towards -x. */
-void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int rolls,
-                                   double *w0);
-/* After it, with the tractions on A that were found. */
-void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const double *p,
-                                 const double *q);
-void rb_rolling_memory_track_free(rb_rolling_memory_track *r);
-
-/* ---- results.c --------------------------------------------------------------------- */
-
-/* A solution without columns: of numbers that are not there (NAN), or those of another.
- */
-rb_rolling_solution rb_rolling_no_scalars(rb_status status);
-/* The same of a row: NAN throughout. */
-rb_rolling_row rb_rolling_no_row(rb_status status);
-rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *s);
-
-/* Zeros for every column of the table that the case has; the owner's others stay NULL.
- * What there is on RB_ENOMEM is freed as if it were complete. */
-rb_status rb_rolling_columns_alloc(const rb_rolling_results *table,
-                                   const rb_rolling_case *rc, int rows, void *owner);
-void rb_rolling_columns_free(const rb_rolling_results *table, void *owner);
-/* A column of numbers. */
-double *rb_rolling_column(const rb_rolling_result *r, const void *owner);
-
-/* ---- program.c --------------------------------------------------------------------- */
-
-/* Rows at rest that the program begins with. */
-int rb_rolling_program_at_rest(const rb_rolling_program *program);
-/* Steps at rest from the row before to row r. */
-int rb_rolling_program_parts(const rb_rolling_program *program, const rb_rolling_case *rc,
-                             int r);
-/* The case of row r at rest, or part/parts of the way there from the row before. */
-rb_rolling_case rb_rolling_program_row(const rb_rolling_program *program,
-                                       const rb_rolling_case *rc, int r, int part,
-                                       int parts);
-/* The case of a step rolled from one distance to another. */
-rb_rolling_case rb_rolling_program_step(const rb_rolling_program *program,
-                                        const rb_rolling_case *rc, double from,
-                                        double to);
-/* Each row must be a case that could be solved. */
-rb_status rb_rolling_program_check(const rb_rolling_program *program,
-                                   const rb_rolling_case *rc, rb_message *why);
-/* The case's own: increments of pressing and of loading, then the way.  room: its
- * columns, for free(); NULL: no memory. */
-double *rb_rolling_program_of_case(const rb_rolling_case *rc,
-                                   rb_rolling_program *program);
-
-/* ---- errors.c ---------------------------------------------------------------------- */
-
-/* The coarser runs whose differences are the error: 2, with wheels 3 = RB_ERROR_RUNS. */
-enum { RB_ERROR_RUNS = 3 };
-int rb_rolling_error_runs(const rb_rolling_case *rc);
-/* The case of the k-th of them. */
-rb_rolling_case rb_rolling_error_run(const rb_rolling_case *rc, int k);
-/* RB_EINVAL where the case has too few elements to be halved. */
-rb_status rb_rolling_error_check(const rb_rolling_case *rc, rb_message *why);
-/* The two parts of the error of a value, from what the coarser runs have for it: of the
- * contact's mesh and steps, and of the boundary outside (0 without wheels). */
-double rb_rolling_contact_error(const double coarser[], double own);
-double rb_rolling_boundary_error(int runs, const double coarser[], double own);
-
-/* Power that slip at an edge dissipates over one element, the part `share` of a contact
- * of half-width a under the load P, and that a mesh may not see: the pressure is like a
- * square root there, and the slip that of the creepage and of dissimilar bodies. */
-double rb_rolling_edge_power(const rb_rolling_case *rc, double P, double creepage,
-                             double a, double share);
 
 /* ---- coarse.c ---------------------------------------------------------------------- */
 
@@ -359,7 +265,8 @@ rb_status rb_rolling_model_control(rb_rolling_model *model, rb_message *why);
 rb_status rb_rolling_free_creepage_if_any(rb_rolling_model *model, double *creepage,
                                           rb_message *why);
 
-/* ---- outside.c --------------------------------------------------------------------- */
+/* ---- missed_contact.c
+ * --------------------------------------------------------------------- */
 
 enum { RB_MOST_OVERLAPS = 16 };
 
@@ -380,13 +287,15 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
  * problem. */
 rb_status rb_rolling_check_enclosed(const rb_rolling_model *model,
                                     const rb_contact_state *state, rb_message *why);
+
 /* ---- zone.c ------------------------------------------------------------------------ */
 
 /* The end of a solution, a history or a curve with this status.  RB_EINVAL: a layer or
  * cover needs shorter elements than those in contact, which may also be why it failed.
  * Of meshes that results are taken from; the coarse ones before them may be too coarse.
  */
-rb_status rb_rolling_end(const rb_rolling_model *model, rb_status s, rb_message *why);
+rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_status s,
+                                          rb_message *why);
 /* Solves on equal elements in the given potential contact, or in one that holds the
  * contact.  coarse: elements may be too long for separate patches; later searches begin
  * with the potential contact of this one.  RB_ZONE where there is none; RB_NO_CONTACT. */
@@ -400,6 +309,7 @@ rb_status rb_rolling_solve_zone(rb_rolling_model *model, int coarse, rb_message 
 rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why);
 /* The same from the edges that the model has now. */
 rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why);
+
 /* ---- fit.c ------------------------------------------------------------------------- */
 
 /* Solves on elements fitted to the contact edges; on equal ones where these do not come
@@ -433,18 +343,6 @@ typedef struct {
 rb_status rb_rolling_mesh_spans(const rb_rolling_case *rc, int count,
                                 const rb_rolling_span *span, rb_rolling_mesh *mesh,
                                 rb_message *why);
-
-/* ---- solution.c -------------------------------------------------------------------- */
-
-/* Tractions of the state on A in global x, y: 2 per contact element. */
-void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
-
-/* Lengths of the elements in contact and of those among them that stick. */
-void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
-                             double *stick);
-
-/* The longest element in contact. */
-double rb_rolling_longest_element(int n, const int *zone, const double *h);
 
 /* ---- power.c ----------------------------------------------------------------------- */
 
@@ -495,8 +393,9 @@ int rb_rolling_next_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh
 /* The same with patches between which more elements would be of no use made one: all
  * under a convex gap, whatever single elements beside an edge do; and those that one open
  * element separates where large friction between unlike bodies opens every other one. */
-int rb_rolling_next_place(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                          const rb_contact_state *state, int at, rb_rolling_run *run);
+int rb_rolling_next_merged_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                 const rb_contact_state *state, int at,
+                                 rb_rolling_run *run);
 /* The outer edges of all patches; NAN without contact. */
 void rb_rolling_contact_edges(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
                               const rb_contact_state *state, double *from, double *to);
@@ -505,5 +404,8 @@ double rb_rolling_peak_pressure(const rb_rolling_model *model);
 /* The patches of a solution and what is taken from all of them.  RB_ENOMEM. */
 rb_status rb_rolling_set_patches(const rb_rolling_model *model,
                                  rb_rolling_solution *solution);
+
+/* The longest element in contact. */
+double rb_rolling_longest_element(int n, const int *zone, const double *h);
 
 #endif

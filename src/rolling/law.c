@@ -80,15 +80,15 @@ double rb_rolling_friction_at(const rb_rolling_table *table, double x)
 
 /* ---- What is known of a law beforehand --------------------------------------------- */
 
-int rb_rolling_law_slides(const rb_rolling_friction *f)
+int rb_rolling_law_depends_on_slip(const rb_rolling_friction *f)
 {
     return laws[f->law].steepest[0] > 0.0 && (f->fall[0] != 0.0 || f->fall[1] != 0.0);
 }
 
-int rb_rolling_law_moves(const rb_rolling_case *rc)
+int rb_rolling_law_depends_on_state(const rb_rolling_case *rc)
 {
     return rc->formulation != RB_STATIC &&
-           (rb_rolling_law_slides(&rc->friction) || rc->friction.heat != 0.0);
+           (rb_rolling_law_depends_on_slip(&rc->friction) || rc->friction.heat != 0.0);
 }
 
 /* The end of the coefficients' range on that side: 1 the largest, -1 the least. */
@@ -99,7 +99,7 @@ static double end_of_range(const rb_rolling_case *rc, double side)
 
     for (int k = 0; k < f->table.n && f->law == RB_FRICTION_table; k++)
         most = k == 0 ? side * f->table.y[0] : fmax(most, side * f->table.y[k]);
-    for (int k = 0; k < 2 && rb_rolling_law_slides(f); k++)
+    for (int k = 0; k < 2 && rb_rolling_law_depends_on_slip(f); k++)
         most += fmax(0.0, side * f->fall[k]);
     return side * (most + fmax(0.0, side * f->heat));
 }
@@ -172,7 +172,7 @@ rb_status rb_rolling_law_check(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL, "mu: expected >= 0, got %g", rc->mu);
     if (f->law == RB_FRICTION_table)
         s = check_table(&f->table, why);
-    if (s == RB_OK && rb_rolling_law_slides(f))
+    if (s == RB_OK && rb_rolling_law_depends_on_slip(f))
         s = check_slip(rc, why);
     if (s == RB_OK)
         s = check_heat(rc, why);

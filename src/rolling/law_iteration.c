@@ -23,20 +23,20 @@ static rb_status temperatures_of(rb_rolling_model *model, double *t, rb_message 
                                 .slip_operator = rc->slip_operator};
 
     if (rc->formulation == RB_TRANSIENT) {
-        rb_rolling_heat_track_step(rc, state->q, state->lambda, model->surfaces.heat, t);
+        rb_rolling_heat_track_step(rc, state->q, state->lambda, model->carried.heat, t);
         return RB_OK;
     }
-    double *room = rb_alloc((size_t)n, 3), *power = room, *t_b = room + n;
-    if (!room)
+    double *scratch = rb_alloc((size_t)n, 3), *power = scratch, *t_b = scratch + n;
+    if (!scratch)
         return rb_fail(why, RB_ENOMEM, "out of memory for %d temperatures", n);
-    view.slip = room + 2 * n;
+    view.slip = scratch + 2 * n;
     for (int i = 0; i < n; i++) {
         view.contact += state->zone[i] != RB_ZONE_SEPARATED;
         view.slip[i] = state->lambda[i] / model->problem.e_T[i];
     }
     rb_rolling_friction_power(&view, power);
     const rb_status s = rb_rolling_steady_temperature(rc, &view, power, t, t_b, why);
-    free(room);
+    free(scratch);
     return s;
 }
 
@@ -61,10 +61,9 @@ static void set_coefficients(const rb_rolling_model *model, const double *temper
                                   temperature ? temperature[i] : rc->heat_a.temperature);
         if (f->memory == 0.0)
             continue;
-        const double before =
-            rc->formulation == RB_STEADY
-                ? (i + 1 < state->n ? mu[i + 1] : at_rest)
-                : (model->surfaces.mu ? model->surfaces.mu[i] : at_rest);
+        const double before = rc->formulation == RB_STEADY
+                                  ? (i + 1 < state->n ? mu[i + 1] : at_rest)
+                                  : (model->carried.mu ? model->carried.mu[i] : at_rest);
         const double slid = fmax(v, f->memory_slip) * e_T[i] / rc->speed;
         mu[i] += (before - mu[i]) * exp(-slid / f->memory);
     }
@@ -107,7 +106,7 @@ rb_status rb_rolling_model_friction(rb_rolling_model *model, rb_message *why)
     double *mu = rb_alloc((size_t)p->n, 1);
     rb_status s = mu ? RB_OK : RB_ENOMEM;
 
-    if (s == RB_OK && rb_rolling_law_moves(&model->rc)) {
+    if (s == RB_OK && rb_rolling_law_depends_on_state(&model->rc)) {
         s = rb_rolling_law_coefficients(model, mu, why);
         set_force(model);
         if (s == RB_OK)
@@ -438,7 +437,7 @@ rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *wh
 {
     rb_status s;
 
-    if (!rb_rolling_law_moves(&model->rc)) {
+    if (!rb_rolling_law_depends_on_state(&model->rc)) {
         s = rb_rolling_problem_solve(&model->problem, &model->rc, warm, &model->state,
                                      why);
         model->iterations += model->state.iterations;
@@ -451,13 +450,13 @@ rb_status rb_rolling_law_solve(rb_rolling_model *model, int warm, rb_message *wh
 /* ---- Uniqueness -------------------------------------------------------------------- */
 
 /* The largest eigenvalue of B diag(pressure), B the slips of unit friction, which is
- * nearly symmetric: the power method.  room: 4n, of zeros. */
+ * nearly symmetric: the power method.  scratch: 4n, of zeros. */
 static double largest_answer(const rb_contact_problem *p, const double *pressure,
-                             double *room)
+                             double *scratch)
 {
     enum { ROUNDS = 40 };
     const size_t n = (size_t)p->n;
-    double *none = room, *q = room + n, *gap = q + n, *slip = gap + n, norm = 0.0;
+    double *none = scratch, *q = scratch + n, *gap = q + n, *slip = gap + n, norm = 0.0;
 
     for (size_t i = 0; i < n; i++)
         slip[i] = pressure[i] > 0.0;
@@ -484,10 +483,10 @@ rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa)
     const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
     const double slope = model->rc.speed * rb_rolling_law_steepest(&model->rc);
     const size_t n = (size_t)p->n;
-    double largest = 0.0, *room = rb_alloc(n, 4);
+    double largest = 0.0, *scratch = rb_alloc(n, 4);
 
     *kappa = NAN;
-    if (!room)
+    if (!scratch)
         return RB_ENOMEM;
     for (size_t i = 0; i < n && model->rc.formulation == RB_STEADY; i++) {
         const double own =
@@ -495,8 +494,8 @@ rb_status rb_rolling_law_kappa(const rb_rolling_model *model, double *kappa)
         largest = fmax(largest, pressure[i] * own / p->e_T[i]);
     }
     if (model->rc.formulation == RB_TRANSIENT)
-        largest = largest_answer(p, pressure, room) / p->e_T[0];
+        largest = largest_answer(p, pressure, scratch) / p->e_T[0];
     *kappa = slope * largest;
-    free(room);
+    free(scratch);
     return RB_OK;
 }

@@ -132,15 +132,15 @@ rb_status rb_rolling_law_newton(rb_rolling_model *model, double enough, int *lef
                                 rb_message *why)
 {
     const size_t n = (size_t)model->problem.n;
-    double *room = rb_alloc(n, 6 + 2 * DIRECTIONS);
+    double *scratch = rb_alloc(n, 6 + 2 * DIRECTIONS);
     newton w = {.model = model, .n = (int)n, .left = left, .why = why};
 
-    if (!room)
+    if (!scratch)
         return rb_fail(why, RB_ENOMEM, "out of memory for Newton's method");
     double **const part[] = {&w.b, &w.trial, &w.T, &w.weight, &w.r, &w.step};
     for (size_t k = 0; k < 6; k++)
-        *part[k] = room + k * n;
-    w.direction = room + 6 * n;
+        *part[k] = scratch + k * n;
+    w.direction = scratch + 6 * n;
     w.image = w.direction + DIRECTIONS * n;
     memcpy(w.trial, model->problem.bound, n * sizeof *w.trial);
     rb_status s = residual_of(&w, 1, w.r);
@@ -156,6 +156,6 @@ rb_status rb_rolling_law_newton(rb_rolling_model *model, double enough, int *lef
         s = RB_MAXITER;
     if (s == RB_OK)
         rb_contact_set_friction(&model->problem, model->problem.mu, w.T);
-    free(room);
+    free(scratch);
     return s;
 }

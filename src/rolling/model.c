@@ -12,8 +12,8 @@ void rb_rolling_model_free(rb_rolling_model *model)
     rb_contact_problem_free(&model->problem);
     rb_rolling_bodies_free(&model->bodies);
     rb_rolling_mesh_free(&model->mesh);
-    free(model->surfaces.temperature);
-    free(model->surfaces.yielded);
+    free(model->carried.temperature);
+    free(model->carried.yielded);
     memset(model, 0, sizeof *model);
 }
 

@@ -141,8 +141,9 @@ static int may_alternate(const rb_rolling_case *rc)
     return rb_rolling_largest_mu(rc) * fabs(rb_rolling_derive(rc).dundurs) > 1.0;
 }
 
-int rb_rolling_next_place(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
-                          const rb_contact_state *state, int at, rb_rolling_run *run)
+int rb_rolling_next_merged_patch(const rb_rolling_case *rc, const rb_rolling_mesh *mesh,
+                                 const rb_contact_state *state, int at,
+                                 rb_rolling_run *run)
 {
     const int one_place = rb_rolling_is_convex(rc), alternates = may_alternate(rc);
     rb_rolling_run next;
@@ -260,4 +261,14 @@ rb_status rb_rolling_set_patches(const rb_rolling_model *model, rb_rolling_solut
     }
     s->half_width = 0.5 * (s->contact_to - s->contact_from);
     return RB_OK;
+}
+
+double rb_rolling_longest_element(int n, const int *zone, const double *h)
+{
+    double longest = 0.0;
+
+    for (int i = 0; i < n; i++)
+        if (zone[i] != RB_ZONE_SEPARATED)
+            longest = fmax(longest, h[i]);
+    return longest;
 }

@@ -82,7 +82,8 @@ static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
     return RB_OK;
 }
 
-rb_status rb_rolling_end(const rb_rolling_model *model, rb_status s, rb_message *why)
+rb_status rb_rolling_check_layer_resolved(const rb_rolling_model *model, rb_status s,
+                                          rb_message *why)
 {
     rb_message reason = {""};
 
@@ -121,8 +122,8 @@ static int covered(const rb_rolling_model *model, double *length)
     int count = 0;
 
     *length = 0.0;
-    for (; rb_rolling_next_place(&model->rc, &model->mesh, &model->state, run.last + 1,
-                                 &run);
+    for (; rb_rolling_next_merged_patch(&model->rc, &model->mesh, &model->state,
+                                        run.last + 1, &run);
          count++)
         *length += run.to - run.from;
     return count;

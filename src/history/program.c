@@ -1,5 +1,5 @@
 /* The program of a history: its columns, and the case that each step of it is. */
-#include "rolling/internal.h"
+#include "history/internal.h"
 
 #include <gsl/gsl_interp.h>
 #include <stdint.h>
@@ -251,12 +251,6 @@ rb_status rb_rolling_program_check(const rb_rolling_program *program,
 }
 
 /* ---- The case's own program -------------------------------------------------------- */
-
-int rb_rolling_has_steps(const rb_rolling_case *rc)
-{
-    return rc->formulation == RB_TRANSIENT ||
-           (rc->formulation == RB_STATIC && rc->increments > 1);
-}
 
 /* The tangential control that loads the contact at rest: its column and last value. A
  * transient that is driven by its creepage starts without a force. */

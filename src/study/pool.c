@@ -1,6 +1,6 @@
 /* A pool of worker processes on this machine that solve the cases of a parameter study,
  * one at a time. */
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <errno.h>
 #include <poll.h>

@@ -1,6 +1,6 @@
 /* Subsurface stress of body A (B8): closed-form strips on the half-plane, Somigliana's
  * identity on a wheel. */
-#include "rolling/internal.h"
+#include "results/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_multimin.h>

@@ -1,5 +1,5 @@
 /* From case to solution in one call. */
-#include "rolling/internal.h"
+#include "history/internal.h"
 
 #include <string.h>
 
@@ -18,10 +18,10 @@ rb_status rb_rolling_solve_model(const rb_rolling_case *rc, rb_rolling_model *mo
                                  rb_rolling_solution *solution, rb_message *why)
 {
     memset(model, 0, sizeof *model);
-    return rb_rolling_solve_model_again(rc, model, solution, why);
+    return rb_rolling_solve_model_reuse(rc, model, solution, why);
 }
 
-rb_status rb_rolling_solve_model_again(const rb_rolling_case *rc, rb_rolling_model *model,
+rb_status rb_rolling_solve_model_reuse(const rb_rolling_case *rc, rb_rolling_model *model,
                                        rb_rolling_solution *solution, rb_message *why)
 {
     const double start = rb_seconds();
@@ -32,7 +32,8 @@ rb_status rb_rolling_solve_model_again(const rb_rolling_case *rc, rb_rolling_mod
         rb_rolling_model_free(model);
         s = rb_rolling_history_run(rc, NULL, NULL, model, &history, why);
     } else {
-        s = rb_rolling_end(model, rb_rolling_model_again(rc, model, why), why);
+        s = rb_rolling_check_layer_resolved(model, rb_rolling_model_reuse(rc, model, why),
+                                            why);
     }
     rb_rolling_history_free(&history);
     s = take_solution(model, s, solution, why);

@@ -1,6 +1,6 @@
 /* Curves over the creepage, with one mesh and one factorisation (theory.md 4.6), and over
  * the speed of bodies that relax (V4). */
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <cblas.h>
 #include <stdlib.h>
@@ -117,21 +117,21 @@ static double value_at(const rb_rolling_range *r, int k)
 /* The coefficients of the last point, from which a solve on another mesh starts. */
 typedef struct {
     rb_rolling_table table;
-    double *room;
+    double *scratch;
 } branch_start;
 
 static rb_status remember_branch(rb_rolling_model *model, branch_start *start)
 {
     const size_t n = (size_t)model->mesh.n;
-    double *room = rb_alloc(n, 2);
+    double *scratch = rb_alloc(n, 2);
 
-    if (!room)
+    if (!scratch)
         return RB_ENOMEM;
-    memcpy(room, model->bodies.f.x, n * sizeof *room);
-    memcpy(room + n, model->problem.bound, n * sizeof *room);
-    free(start->room);
-    start->room = room;
-    start->table = (rb_rolling_table){model->mesh.n, room, room + n};
+    memcpy(scratch, model->bodies.f.x, n * sizeof *scratch);
+    memcpy(scratch + n, model->problem.bound, n * sizeof *scratch);
+    free(start->scratch);
+    start->scratch = scratch;
+    start->table = (rb_rolling_table){model->mesh.n, scratch, scratch + n};
     model->rc.friction.start = &start->table;
     return RB_OK;
 }
@@ -150,8 +150,8 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
     if (s != RB_OK)
         return s;
     rb_rolling_contact_edges(&model->rc, &model->mesh, &model->state, &edge[0], &edge[1]);
-    const int moves = rb_rolling_law_moves(&steady), points = r->points;
-    branch_start start = {.room = NULL};
+    const int moves = rb_rolling_law_depends_on_state(&steady), points = r->points;
+    branch_start start = {.scratch = NULL};
     for (int k = 0; k < (moves ? 2 * points : points) && s == RB_OK; k++) {
         set_creepage(r->over, value_at(r, k < points ? k : 2 * points - 1 - k),
                      &model->rc);
@@ -166,7 +166,7 @@ static rb_status over_creepages(const rb_rolling_case *rc, const rb_rolling_rang
         }
     }
     model->rc.friction.start = rc->friction.start;
-    free(start.room);
+    free(start.scratch);
     if (s == RB_OK && rb_rolling_largest_mu(rc) > 0.0)
         s = rb_rolling_free_creepage_if_any(model, &c->free_creepage, why);
     return s;
@@ -229,7 +229,8 @@ rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_ran
     memset(curve, 0, sizeof *curve);
     curve->free_creepage = NAN;
     steady.formulation = RB_STEADY;
-    const int returns = range->over != RB_OVER_SPEED && rb_rolling_law_moves(&steady);
+    const int returns =
+        range->over != RB_OVER_SPEED && rb_rolling_law_depends_on_state(&steady);
     if (s == RB_OK)
         s = rb_rolling_columns_alloc(&rb_rolling_curve_columns, &steady,
                                      returns ? 2 * range->points : range->points, curve);
@@ -237,7 +238,7 @@ rb_status rb_rolling_curve_solve(const rb_rolling_case *rc, const rb_rolling_ran
     if (s == RB_OK)
         s = (range->over == RB_OVER_SPEED ? over_speeds : over_creepages)(
             &steady, range, &model, curve, why);
-    s = rb_rolling_end(&model, s, why);
+    s = rb_rolling_check_layer_resolved(&model, s, why);
     curve->iterations = model.iterations;
     curve->seconds = rb_seconds() - start;
     rb_rolling_model_free(&model);

@@ -1,6 +1,6 @@
 /* Error bars of curves and histories: every entry of a column has one, as a scalar of a
  * solution has (theory.md 5.1). */
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <float.h>
 #include <stdlib.h>

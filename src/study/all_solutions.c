@@ -1,6 +1,6 @@
 /* Steady states that differ, where friction depends on the state so strongly that there
  * are several (theory.md F5). */
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -79,7 +79,7 @@ rb_status rb_rolling_find_solutions(rb_rolling_model *model, rb_rolling_solution
     int places = 0;
 
     memset(all, 0, sizeof *all);
-    if (rc->formulation != RB_STEADY || !rb_rolling_law_moves(rc))
+    if (rc->formulation != RB_STEADY || !rb_rolling_law_depends_on_state(rc))
         return rb_fail(why, RB_EINVAL,
                        "all solutions: of steady rolling with friction that depends on "
                        "the slip or the temperature");

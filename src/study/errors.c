@@ -1,5 +1,5 @@
 /* Discretisation errors from coarser runs (theory.md 5.1). */
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <float.h>
 #include <stdlib.h>

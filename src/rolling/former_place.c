@@ -92,15 +92,15 @@ static rb_status dense_ahead(const rb_rolling_case *rc, const rb_rolling_bodies 
     return s;
 }
 
-rb_status rb_rolling_ahead_create(const rb_rolling_case *rc,
-                                  const rb_rolling_bodies *bodies, double step,
-                                  rb_rolling_ahead *ahead)
+rb_status rb_rolling_former_place_create(const rb_rolling_case *rc,
+                                         const rb_rolling_bodies *bodies, double step,
+                                         rb_rolling_former_place *ahead)
 {
     const int n = bodies->f.n;
     const double h = bodies->f.h[n / 2];
     rb_status s = RB_ENOMEM;
 
-    *ahead = (rb_rolling_ahead){.n = n, .step = step};
+    *ahead = (rb_rolling_former_place){.n = n, .step = step};
     if (bodies->F) {
         ahead->W_T = rb_alloc((size_t)n, 2 * (size_t)n);
         if (ahead->W_T)
@@ -112,7 +112,7 @@ rb_status rb_rolling_ahead_create(const rb_rolling_case *rc,
             s = halfplanes(rc, 1, h, 2 * n - 1, step - (n - 1) * h, ahead->response);
     }
     if (s != RB_OK)
-        rb_rolling_ahead_free(ahead);
+        rb_rolling_former_place_free(ahead);
     return s;
 }
 
@@ -133,9 +133,9 @@ static void add_interface(const rb_bem_flexibility *f, double step, const double
     }
 }
 
-void rb_rolling_ahead_apply(const rb_rolling_ahead *ahead,
-                            const rb_rolling_bodies *bodies, const double *p,
-                            const double *q, double *w_T)
+void rb_rolling_former_place_apply(const rb_rolling_former_place *ahead,
+                                   const rb_rolling_bodies *bodies, const double *p,
+                                   const double *q, double *w_T)
 {
     const int n = ahead->n;
 
@@ -154,7 +154,7 @@ void rb_rolling_ahead_apply(const rb_rolling_ahead *ahead,
         add_interface(&bodies->f, ahead->step, q, w_T);
 }
 
-void rb_rolling_ahead_free(rb_rolling_ahead *ahead)
+void rb_rolling_former_place_free(rb_rolling_former_place *ahead)
 {
     free(ahead->W_T);
     free(ahead->response);

@@ -1,6 +1,6 @@
 /* Shakedown of a body that is rolled over again and again (theory.md S1), from the
  * elastic stress below the contact. */
-#include "rolling/internal.h"
+#include "results/internal.h"
 
 #include <stdlib.h>
 

@@ -11,14 +11,14 @@ rb_option_precedence rb_case_precedence(const rb_case *c)
 }
 
 const char *rb_option_source(const rb_option *option, int given, const char *path,
-                             char *room, size_t size)
+                             char *text, size_t size)
 {
     if (given > 0)
-        snprintf(room, size, "%s:%d: %s", path, given, option->name);
+        snprintf(text, size, "%s:%d: %s", path, given, option->name);
     else
-        snprintf(room, size, "%s%s", given == RB_GIVEN_ARGUMENT ? "--" : "",
+        snprintf(text, size, "%s%s", given == RB_GIVEN_ARGUMENT ? "--" : "",
                  option->name);
-    return room;
+    return text;
 }
 
 static size_t size_of(rb_option_kind kind)
@@ -54,8 +54,8 @@ static int is_argument_over_file(int by, int other)
 }
 
 /* i and j are both given and exclude each other. */
-static rb_status settle_pair(const rb_option_set *set, const rb_option_precedence *how,
-                             int i, int j, rb_message *why)
+static rb_status resolve_pair(const rb_option_set *set, const rb_option_precedence *how,
+                              int i, int j, rb_message *why)
 {
     char first[400], second[400];
     const int by_i = set->given[i], by_j = set->given[j];
@@ -70,8 +70,8 @@ static rb_status settle_pair(const rb_option_set *set, const rb_option_precedenc
                    rb_option_source(b, by_j, how->path, second, sizeof second));
 }
 
-rb_status rb_option_settle(const rb_option_set *set, const rb_option_precedence *how,
-                           rb_message *why)
+rb_status rb_option_resolve(const rb_option_set *set, const rb_option_precedence *how,
+                            rb_message *why)
 {
     for (int i = 0; i < set->n; i++)
         for (int j = i + 1; j < set->n && set->given[i]; j++) {
@@ -79,19 +79,19 @@ rb_status rb_option_settle(const rb_option_set *set, const rb_option_precedence 
                 !exclude_each_other(set->options[i].excludes, set->options[j].excludes,
                                     how->alike))
                 continue;
-            const rb_status s = settle_pair(set, how, i, j, why);
+            const rb_status s = resolve_pair(set, how, i, j, why);
             if (s != RB_OK)
                 return s;
         }
     return RB_OK;
 }
 
-rb_status rb_option_settle_against(const rb_option_set *set,
-                                   const rb_option_precedence *how,
-                                   const rb_option *option, int by, const char *reason,
-                                   rb_message *why)
+rb_status rb_option_resolve_against(const rb_option_set *set,
+                                    const rb_option_precedence *how,
+                                    const rb_option *option, int by, const char *reason,
+                                    rb_message *why)
 {
-    char room[400];
+    char text[400];
     for (int i = 0; i < set->n; i++) {
         const int given = set->given[i];
         if (!given ||
@@ -100,7 +100,7 @@ rb_status rb_option_settle_against(const rb_option_set *set,
         if (!is_argument_over_file(by, given))
             return rb_fail(
                 why, given > 0 ? RB_EFORMAT : RB_EINVAL, "%s: %s",
-                rb_option_source(&set->options[i], given, how->path, room, sizeof room),
+                rb_option_source(&set->options[i], given, how->path, text, sizeof text),
                 reason);
         take_back(set, i, how->defaults);
     }

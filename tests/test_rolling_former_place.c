@@ -1,7 +1,7 @@
 /* Displacements where particles were a step ago, against those of whole elements and of
  * longer meshes. */
 #include "check.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -69,14 +69,15 @@ static void whole_elements_ahead_are_their_midpoints(void **state)
         pressed d = press(&rc, -3.0, 3.0);
         double w_T[N];
         for (int steps = 1; steps <= 3; steps++) {
-            rb_rolling_ahead ahead;
-            CHECK_STATUS(rb_rolling_ahead_create(&rc, &d.bodies, steps * 6.0 / N, &ahead),
-                         RB_OK);
-            rb_rolling_ahead_apply(&ahead, &d.bodies, d.p, d.q, w_T);
+            rb_rolling_former_place ahead;
+            CHECK_STATUS(
+                rb_rolling_former_place_create(&rc, &d.bodies, steps * 6.0 / N, &ahead),
+                RB_OK);
+            rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
             for (int i = 0; i + steps <= N; i++)
                 CHECK_ABS(w_T[i], d.w[N + 1 + i + steps], 1e-12 * largest(&d),
                           "case %d: %d elements ahead of %d", k, steps, i);
-            rb_rolling_ahead_free(&ahead);
+            rb_rolling_former_place_free(&ahead);
         }
         release(&d);
     }
@@ -89,18 +90,18 @@ static void places_beyond_the_mesh_are_those_of_a_longer_one(void **state)
     (void)state;
     const rb_rolling_case rc = plane(1, N), longer = plane(1, N + 4);
     pressed d = press(&rc, -3.0, 3.0), more = press(&longer, -3.5, 4.5);
-    rb_rolling_ahead ahead;
+    rb_rolling_former_place ahead;
     double w_T[N], W_T[2 * 2 * N], outside[2] = {0.0, 0.0};
     memset(more.p, 0, sizeof(double) * (N + 4));
     memset(more.q, 0, sizeof(double) * (N + 4));
     memcpy(more.p + 1, d.p, sizeof(double) * N);
     memcpy(more.q + 1, d.q, sizeof(double) * N);
     CHECK_STATUS(rb_rolling_displacement(&more.bodies, more.p, more.q, more.w), RB_OK);
-    CHECK_STATUS(rb_rolling_ahead_create(&rc, &d.bodies, 1.5, &ahead), RB_OK);
-    rb_rolling_ahead_apply(&ahead, &d.bodies, d.p, d.q, w_T);
+    CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 1.5, &ahead), RB_OK);
+    rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
     for (int i = 0; i < N; i++)
         CHECK_ABS(w_T[i], more.w[N + 5 + i + 4], 1e-12 * largest(&d), "element %d", i);
-    rb_rolling_ahead_free(&ahead);
+    rb_rolling_former_place_free(&ahead);
 
     memset(W_T, 0, sizeof W_T);
     CHECK_STATUS(rb_rolling_displacement_outside(&rc, &d.bodies, W_T), RB_OK);
@@ -121,14 +122,14 @@ static void a_wheel_is_nearly_on_the_line_of_its_midpoints(void **state)
     rc.a.support = RB_BEM_HUB;
     rc.outer_elements = 60;
     pressed d = press(&rc, -0.6, 0.6);
-    rb_rolling_ahead ahead;
+    rb_rolling_former_place ahead;
     double w_T[N], W_T[2 * 2 * N], outside[2] = {0.0, 0.0};
     const double h = d.bodies.f.h[N / 2];
-    CHECK_STATUS(rb_rolling_ahead_create(&rc, &d.bodies, h, &ahead), RB_OK);
-    rb_rolling_ahead_apply(&ahead, &d.bodies, d.p, d.q, w_T);
+    CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, h, &ahead), RB_OK);
+    rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
     for (int i = 0; i < N; i++)
         CHECK_ABS(w_T[i], d.w[N + 2 + i], 1e-5 * largest(&d), "element %d", i);
-    rb_rolling_ahead_free(&ahead);
+    rb_rolling_former_place_free(&ahead);
     memset(W_T, 0, sizeof W_T);
     CHECK_STATUS(rb_rolling_displacement_outside(&rc, &d.bodies, W_T), RB_OK);
     for (int j = 0; j < N; j++)
@@ -159,21 +160,23 @@ static void large_contacts_look_ahead_alike(void **state)
         rc.interlayer_tangential = k ? 1e-4 : 0.0;
         pressed d = press(&rc, -3.0, 3.0);
         double *w_T = rb_alloc(LARGE, 2), *half = w_T + LARGE;
-        rb_rolling_ahead ahead;
+        rb_rolling_former_place ahead;
         assert_non_null(w_T);
         assert_null(d.bodies.F);
-        CHECK_STATUS(rb_rolling_ahead_create(&rc, &d.bodies, 2.0 * h, &ahead), RB_OK);
-        rb_rolling_ahead_apply(&ahead, &d.bodies, d.p, d.q, w_T);
-        rb_rolling_ahead_free(&ahead);
+        CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 2.0 * h, &ahead),
+                     RB_OK);
+        rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
+        rb_rolling_former_place_free(&ahead);
         for (int i = 0; i + 2 <= LARGE; i += 50)
             CHECK_ABS(w_T[i], d.w[LARGE + 1 + i + 2], 1e-11 * largest(&d), "element %d",
                       i);
         /* what an interface adds half an element ahead */
-        CHECK_STATUS(rb_rolling_ahead_create(&rc, &d.bodies, 0.5 * h, &ahead), RB_OK);
-        rb_rolling_ahead_apply(&ahead, &d.bodies, d.p, d.q, w_T);
+        CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 0.5 * h, &ahead),
+                     RB_OK);
+        rb_rolling_former_place_apply(&ahead, &d.bodies, d.p, d.q, w_T);
         rc.interlayer_tangential = 0.0;
         pressed without = press(&rc, -3.0, 3.0);
-        rb_rolling_ahead_apply(&ahead, &without.bodies, d.p, d.q, half);
+        rb_rolling_former_place_apply(&ahead, &without.bodies, d.p, d.q, half);
         for (int i = 0; i < LARGE; i += 7) {
             const double next = i + 1 < LARGE ? d.q[i + 1] : 0.0;
             CHECK_ABS(w_T[i] - half[i], k ? 1e-4 * 0.5 * (d.q[i] + next) : 0.0, 1e-13,
@@ -181,7 +184,7 @@ static void large_contacts_look_ahead_alike(void **state)
         }
         const int last = LARGE - 1;
         CHECK_ABS(w_T[last] - half[last], k ? 0.5e-4 * d.q[last] : 0.0, 1e-13, "last");
-        rb_rolling_ahead_free(&ahead);
+        rb_rolling_former_place_free(&ahead);
         release(&without);
         free(w_T);
         release(&d);
@@ -194,10 +197,11 @@ static void memory_for_what_is_ahead_may_be_refused(void **state)
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = plane(0, k ? LARGE : N);
         pressed d = press(&rc, -1.0, 1.0);
-        rb_rolling_ahead ahead;
+        rb_rolling_former_place ahead;
         assert_int_equal(d.bodies.F == NULL, k);
         alloc_fail_after(0);
-        CHECK_STATUS(rb_rolling_ahead_create(&rc, &d.bodies, 0.01, &ahead), RB_ENOMEM);
+        CHECK_STATUS(rb_rolling_former_place_create(&rc, &d.bodies, 0.01, &ahead),
+                     RB_ENOMEM);
         alloc_succeed();
         assert_true(!ahead.W_T && !ahead.response);
         release(&d);

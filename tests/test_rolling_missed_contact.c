@@ -1,6 +1,6 @@
 /* Tables of the gap whose patches lie where no element stands: they are found, fitted,
  * refused where they cannot be. */
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "solved.h"
 
 #include <gsl/gsl_math.h>

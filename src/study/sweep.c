@@ -1,6 +1,6 @@
 /* Parameter studies: cases handed out one by one to a pool of processes, rows seen in
  * order. */
-#include "rolling/internal.h"
+#include "study/internal.h"
 
 #include <stdlib.h>
 
@@ -14,9 +14,9 @@ typedef struct {
     int window;
     rb_rolling_row *row; /* window: row of the k-th case at k modulo window */
     char *came;          /* window */
-} run;
+} study_state;
 
-static rb_status submit_cases(run *r)
+static rb_status submit_cases(study_state *r)
 {
     const rb_rolling_sweep *sweep = r->sweep;
     rb_status s = RB_OK;
@@ -29,7 +29,7 @@ static rb_status submit_cases(run *r)
     return s;
 }
 
-static rb_status collect(run *r)
+static rb_status collect(study_state *r)
 {
     rb_rolling_row row;
     int k;
@@ -44,7 +44,7 @@ static rb_status collect(run *r)
 }
 
 /* Hands on the rows that are next in order. */
-static rb_status see_finished(run *r)
+static rb_status see_finished(study_state *r)
 {
     const rb_rolling_sweep *sweep = r->sweep;
 
@@ -59,7 +59,7 @@ static rb_status see_finished(run *r)
     return RB_OK;
 }
 
-static rb_status supervise(run *r, rb_message *why)
+static rb_status supervise(study_state *r, rb_message *why)
 {
     rb_status s = RB_OK;
 
@@ -78,7 +78,7 @@ static rb_status supervise(run *r, rb_message *why)
 rb_status rb_rolling_sweep_by(const rb_rolling_sweep *sweep, rb_rolling_pool *pool,
                               rb_message *why)
 {
-    run r = {.sweep = sweep, .pool = pool};
+    study_state r = {.sweep = sweep, .pool = pool};
 
     r.window = sweep->count < WINDOW ? sweep->count : WINDOW;
     r.row = calloc((size_t)r.window + 1, sizeof *r.row);

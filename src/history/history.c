@@ -1,6 +1,6 @@
 /* Sequences of contact problems, each starting from the state the last one left: static
  * increments and transient rolling (theory.md 4.2). */
-#include "rolling/internal.h"
+#include "history/internal.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -35,21 +35,21 @@ typedef struct {
     double *q;    /* n: friction before the step */
     double *mu;   /* n: coefficients of the particles before the step; NULL where the law
                      does not depend on the state */
-    double *yielded;        /* n: what the interface has yielded, room for `remember` */
-    rb_rolling_ahead ahead; /* for steps of another length than an element's */
+    double *yielded; /* n: what the interface has yielded, room for `remember` */
+    rb_rolling_former_place ahead; /* for steps of another length than an element's */
     rb_rolling_heat_track heat;
     rb_rolling_memory_track past; /* of bodies that relax */
     double interval; /* [s] that the bodies at hand are those of; -1: of none */
     int row, part;   /* of the program: steps towards this row that are done */
-} run;
+} history_state;
 
-static double element_length(const run *r)
+static double element_length(const history_state *r)
 {
     return r->model->bodies.f.h[r->model->mesh.n / 2];
 }
 
 /* Coefficients at the former places of the particles that a step of length c brings. */
-static void remember_friction(run *r, double c)
+static void remember_friction(history_state *r, double c)
 {
     const rb_contact_problem *p = &r->model->problem;
     const double *x = r->model->bodies.f.x;
@@ -57,18 +57,18 @@ static void remember_friction(run *r, double c)
 
     for (int i = 0; i < p->n && r->mu; i++)
         r->mu[i] = rb_rolling_friction_at(&now, x[i] + c);
-    r->model->surfaces.mu = r->mu;
+    r->model->carried.mu = r->mu;
 }
 
 /* What the interface has yielded where the particles come from that a step of length c
  * brings to the elements: linear between midpoints; nothing beyond the last one, where
  * it is new. */
-static void remember_yielded(run *r, double c)
+static void remember_yielded(history_state *r, double c)
 {
     const double *x = r->model->bodies.f.x;
     const int n = r->model->mesh.n;
 
-    if (!r->model->surfaces.yielded)
+    if (!r->model->carried.yielded)
         return;
     rb_rolling_yielded(r->model, r->yielded);
     r->yielded[n] = 0.0;
@@ -76,14 +76,14 @@ static void remember_yielded(run *r, double c)
         while (j < n && x[j + 1] <= x[i] + c)
             j++;
         const double share = j < n ? (x[i] + c - x[j]) / (x[j + 1] - x[j]) : 0.0;
-        r->model->surfaces.yielded[i] =
+        r->model->carried.yielded[i] =
             j < n ? (1.0 - share) * r->yielded[j] + share * r->yielded[j + 1] : 0.0;
     }
 }
 
 /* w_T of the present tractions at the same places (c = 0), or where the particles are
  * that a step of length c brings to them. */
-static rb_status remember(run *r, double c)
+static rb_status remember(history_state *r, double c)
 {
     const rb_contact_state *state = &r->model->state;
     const rb_rolling_bodies *bodies = &r->model->bodies;
@@ -95,9 +95,9 @@ static rb_status remember(run *r, double c)
     remember_yielded(r, element ? element_length(r) : c);
     if (c > 0.0 && !element) {
         if (r->ahead.step == 0.0)
-            s = rb_rolling_ahead_create(r->rc, bodies, c, &r->ahead);
+            s = rb_rolling_former_place_create(r->rc, bodies, c, &r->ahead);
         if (s == RB_OK)
-            rb_rolling_ahead_apply(&r->ahead, bodies, state->p, state->q, r->w_T);
+            rb_rolling_former_place_apply(&r->ahead, bodies, state->p, state->q, r->w_T);
         return s;
     }
     double *w = rb_alloc(2 * (size_t)m, 1);
@@ -109,7 +109,7 @@ static rb_status remember(run *r, double c)
 }
 
 /* Of the program at rest, so far; 0 where it has no times. */
-static double time_of(const run *r)
+static double time_of(const history_state *r)
 {
     const double *t = r->program->time;
     const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
@@ -122,14 +122,14 @@ static double time_of(const run *r)
 }
 
 /* [s], of a step that rolls by c. */
-static double interval_of(const run *r, double c)
+static double interval_of(const history_state *r, double c)
 {
     return rb_rolling_relaxes(r->rc) ? c / r->rc->speed : 0.0;
 }
 
 /* Bodies that relax are others in every step: elastic ones of that interval, displaced
  * by what came before. */
-static rb_status relax(run *r, double interval, int rolls, rb_message *why)
+static rb_status relax(history_state *r, double interval, int rolls, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     rb_status s = RB_OK;
@@ -153,7 +153,7 @@ static rb_status relax(run *r, double interval, int rolls, rb_message *why)
     return RB_OK;
 }
 
-static void relaxed(run *r, double interval)
+static void relaxed(history_state *r, double interval)
 {
     const rb_contact_state *state = &r->model->state;
 
@@ -169,13 +169,13 @@ static void follow_way(rb_rolling_model *model, double mu_before)
 
     if (model->rc.mu == mu_before)
         return;
-    if (rb_rolling_law_moves(&model->rc))
+    if (rb_rolling_law_depends_on_state(&model->rc))
         rb_contact_set_friction(p, rb_rolling_largest_mu(&model->rc), p->bound);
     else
         rb_rolling_start_bounds(&model->rc, &model->bodies, p);
 }
 
-static void record(run *r, double distance)
+static void record(history_state *r, double distance)
 {
     rb_rolling_history *h = r->history;
     const rb_rolling_model *model = r->model;
@@ -201,8 +201,9 @@ static void record(run *r, double distance)
     h->moment[k] = rb_contact_moment(p, state);
     if (h->max_temperature) {
         double at;
-        rb_rolling_warmest(p->n, model->bodies.f.x, state->zone,
-                           model->surfaces.temperature, &h->max_temperature[k], &at);
+        rb_rolling_peak_temperature(p->n, model->bodies.f.x, state->zone,
+                                    model->carried.temperature, &h->max_temperature[k],
+                                    &at);
     }
     if (h->time) {
         const rb_rolling_program *program = r->program;
@@ -218,7 +219,7 @@ static void record(run *r, double distance)
 }
 
 /* Follows how long the friction has not changed. */
-static void watch_steadiness(run *r, double c)
+static void watch_steadiness(history_state *r, double c)
 {
     const rb_contact_state *state = &r->model->state;
     const rb_contact_problem *p = &r->model->problem;
@@ -235,7 +236,7 @@ static void watch_steadiness(run *r, double c)
 }
 
 /* The state that was found in this step, with the residual that it leaves. */
-static rb_status follow(run *r)
+static rb_status follow(history_state *r)
 {
     rb_rolling_model *model = r->model;
     rb_contact_state *state = &model->state;
@@ -258,12 +259,12 @@ static rb_status follow(run *r)
     return s;
 }
 
-static rb_status answer_at_rest(run *r, rb_message *why)
+static rb_status answer_at_rest(history_state *r, rb_message *why)
 {
     return r->found ? follow(r) : rb_rolling_model_resolve(r->model, 0, why);
 }
 
-static rb_status answer_rolled(run *r, rb_message *why)
+static rb_status answer_rolled(history_state *r, rb_message *why)
 {
     if (!r->found)
         return rb_rolling_model_control(r->model, why);
@@ -272,7 +273,8 @@ static rb_status answer_rolled(run *r, rb_message *why)
 }
 
 /* What must hold after every step. */
-static rb_status judge(const run *r, rb_status s, rb_message *reason, rb_message *why)
+static rb_status assess(const history_state *r, rb_status s, rb_message *reason,
+                        rb_message *why)
 {
     if (s != RB_OK)
         rb_fail(why, s, "step %d: %.260s", r->history->n + 1,
@@ -282,23 +284,23 @@ static rb_status judge(const run *r, rb_status s, rb_message *reason, rb_message
 
 /* The rows are checked beforehand; between two of them mu and the load both vary, and
  * their product may be less than a force that is linear. */
-static rb_status check_force(const run *r, rb_message *why)
+static rb_status check_force(const history_state *r, rb_message *why)
 {
     rb_message reason = {""};
     const rb_status s =
         r->program->mu ? rb_rolling_case_check(&r->model->rc, &reason) : RB_OK;
 
-    return judge(r, s, &reason, why);
+    return assess(r, s, &reason, why);
 }
 
 /* A step at rest towards a row of the program: the rigid shift moves the contact, or the
  * given force does. */
-static rb_status static_step(run *r, rb_message *why)
+static rb_status static_step(history_state *r, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     rb_rolling_case *rest = &model->rc;
     rb_contact_problem *p = &model->problem;
-    const rb_rolling_past past = {r->w_T, model->surfaces.yielded, 0.0};
+    const rb_rolling_past past = {r->w_T, model->carried.yielded, 0.0};
     const int first = r->history->n == 0;
     const int parts = rb_rolling_program_parts(r->program, r->rc, r->row);
     const double before = time_of(r), mu_before = rest->mu;
@@ -324,7 +326,7 @@ static rb_status static_step(run *r, rb_message *why)
     rb_rolling_set_past(rest, &model->bodies, first ? NULL : &past, p);
     rb_rolling_set_control(rest, p);
     p->xi -= p->force_given ? 0.0 : r->shift;
-    s = judge(r, answer_at_rest(r, &reason), &reason, why);
+    s = assess(r, answer_at_rest(r, &reason), &reason, why);
     r->shift += model->state.xi;
     if (s >= 0) {
         relaxed(r, interval);
@@ -349,11 +351,11 @@ static rb_status move_gap(rb_rolling_model *model, double way)
 }
 
 /* A step on the way, from one distance to another [half-widths]. */
-static rb_status rolled_step(run *r, double from, double to, rb_message *why)
+static rb_status rolled_step(history_state *r, double from, double to, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     const double c = r->history->step, mu_before = model->rc.mu;
-    const rb_rolling_past past = {r->w_T, model->surfaces.yielded, c};
+    const rb_rolling_past past = {r->w_T, model->carried.yielded, c};
     rb_message reason = {""};
     rb_status s = remember(r, c);
 
@@ -373,12 +375,12 @@ static rb_status rolled_step(run *r, double from, double to, rb_message *why)
     if (r->history->max_temperature)
         rb_rolling_heat_track_advance(&r->heat);
     rb_rolling_set_past(&model->rc, &model->bodies, &past, &model->problem);
-    s = judge(r, answer_rolled(r, &reason), &reason, why);
+    s = assess(r, answer_rolled(r, &reason), &reason, why);
     if (s == RB_OK)
         watch_steadiness(r, c);
     if (s >= 0 && r->history->max_temperature)
         rb_rolling_heat_track_step(&model->rc, model->state.q, model->state.lambda,
-                                   &r->heat, model->surfaces.temperature);
+                                   &r->heat, model->carried.temperature);
     if (s >= 0) {
         relaxed(r, interval_of(r, c));
         record(r, to);
@@ -386,7 +388,7 @@ static rb_status rolled_step(run *r, double from, double to, rb_message *why)
     return s;
 }
 
-static int steps_at_rest(const run *r)
+static int steps_at_rest(const history_state *r)
 {
     const int rows = rb_rolling_program_at_rest(r->program);
     int steps = 0;
@@ -396,7 +398,7 @@ static int steps_at_rest(const run *r)
     return steps;
 }
 
-static rb_status all_steps(run *r, rb_message *why)
+static rb_status all_steps(history_state *r, rb_message *why)
 {
     const int at_rest = steps_at_rest(r), n = r->program->n;
     const double c = r->history->step / r->history->half_width;
@@ -428,7 +430,7 @@ static double largest(const double *column, int n, double own)
 
 /* A mesh that holds the contact of the largest load, solved at rest; zone: 0, automatic.
  */
-static rb_status widest_contact(const run *r, double zone, rb_message *why)
+static rb_status widest_contact(const history_state *r, double zone, rb_message *why)
 {
     const rb_rolling_program *program = r->program;
     rb_rolling_case widest = rb_rolling_memory_case(r->rc, INFINITY);
@@ -450,7 +452,7 @@ static rb_status widest_contact(const run *r, double zone, rb_message *why)
 
 /* The unit of distances: Hertz's half-width of the largest load, of bodies that relax
  * with the glassy modulus; under a given approach what was found at rest. */
-static double half_width(const run *r)
+static double half_width(const history_state *r)
 {
     const rb_rolling_model *widest = r->model;
 
@@ -462,7 +464,7 @@ static double half_width(const run *r)
 /* Step length and number.  Where the case does not say, a step is one element, or as
  * little less as brings the last one to the last row: a single short step would find a
  * creepage that is mostly error. */
-static rb_status plan_steps(run *r, double *step, rb_message *why)
+static rb_status plan_steps(history_state *r, double *step, rb_message *why)
 {
     const int at_rest = rb_rolling_program_at_rest(r->program), n = r->program->n;
     const double unit = r->history->half_width;
@@ -485,24 +487,24 @@ static rb_status plan_steps(run *r, double *step, rb_message *why)
 }
 
 /* Both surfaces begin with the temperature of their bodies. */
-static rb_status prepare_heat(run *r, double step, rb_message *why)
+static rb_status prepare_heat(history_state *r, double step, rb_message *why)
 {
     const int n = r->model->mesh.n;
 
     if (!rb_rolling_has_heat(r->rc))
         return RB_OK;
-    r->model->surfaces.temperature = rb_alloc((size_t)n, 1);
-    if (!r->model->surfaces.temperature)
+    r->model->carried.temperature = rb_alloc((size_t)n, 1);
+    if (!r->model->carried.temperature)
         return RB_ENOMEM;
     for (int i = 0; i < n; i++)
-        r->model->surfaces.temperature[i] = r->rc->heat_a.temperature;
-    r->model->surfaces.heat = &r->heat;
+        r->model->carried.temperature[i] = r->rc->heat_a.temperature;
+    r->model->carried.heat = &r->heat;
     r->heat = (rb_rolling_heat_track){.n = n, .h = element_length(r), .step = step};
     return rb_rolling_heat_track_create(r->rc, r->model->half_width, &r->heat, why);
 }
 
 /* Elements as long as a step, so that the past moves from one to the next. */
-static rb_status match_elements(run *r, double step, rb_message *why)
+static rb_status match_elements(history_state *r, double step, rb_message *why)
 {
     rb_rolling_model *model = r->model;
     const double from = model->mesh.ends[0], to = model->mesh.ends[model->mesh.n];
@@ -524,7 +526,7 @@ static rb_status match_elements(run *r, double step, rb_message *why)
 
 /* Bodies that relax come without a past.  Behind the mesh it counts for as long as its
  * slowest term remembers, or for all the way. */
-static rb_status prepare_relaxation(run *r, double step, rb_message *why)
+static rb_status prepare_relaxation(history_state *r, double step, rb_message *why)
 {
     enum { FORGOTTEN = 36 }; /* exp(-36) is below rounding */
     const rb_rolling_case *rc = r->rc;
@@ -548,7 +550,7 @@ static rb_status prepare_relaxation(run *r, double step, rb_message *why)
                       : s;
 }
 
-static rb_status prepare(run *r, double zone, rb_message *why)
+static rb_status prepare(history_state *r, double zone, rb_message *why)
 {
     double step = 0.0;
     rb_status s = widest_contact(r, zone, why);
@@ -569,13 +571,13 @@ static rb_status prepare(run *r, double zone, rb_message *why)
         return s;
     r->w_T = rb_alloc((size_t)r->model->mesh.n, 1);
     r->q = rb_alloc((size_t)r->model->mesh.n, 1);
-    const int moves = rb_rolling_law_moves(r->rc);
+    const int moves = rb_rolling_law_depends_on_state(r->rc);
     r->mu = moves ? rb_alloc((size_t)r->model->mesh.n, 1) : NULL;
     const int yields = r->rc->yield_stress > 0.0;
     r->yielded = yields ? rb_alloc((size_t)r->model->mesh.n + 1, 1) : NULL;
-    r->model->surfaces.yielded = yields ? rb_alloc((size_t)r->model->mesh.n, 1) : NULL;
+    r->model->carried.yielded = yields ? rb_alloc((size_t)r->model->mesh.n, 1) : NULL;
     s = r->w_T && r->q && (r->mu || !moves) &&
-                (!yields || (r->yielded && r->model->surfaces.yielded))
+                (!yields || (r->yielded && r->model->carried.yielded))
             ? RB_OK
             : RB_ENOMEM;
     if (s == RB_OK)
@@ -588,29 +590,30 @@ static rb_status prepare(run *r, double zone, rb_message *why)
     return s;
 }
 
-static void run_free(run *r)
+static void run_free(history_state *r)
 {
     free(r->w_T);
     free(r->q);
     free(r->mu);
     free(r->yielded);
     r->w_T = r->q = r->mu = r->yielded = NULL;
-    r->model->surfaces.mu = NULL; /* both are the run's */
-    r->model->surfaces.heat = NULL;
-    rb_rolling_ahead_free(&r->ahead);
+    r->model->carried.mu = NULL; /* both are the run's */
+    r->model->carried.heat = NULL;
+    rb_rolling_former_place_free(&r->ahead);
     rb_rolling_heat_track_free(&r->heat);
     rb_rolling_memory_track_free(&r->past);
 }
 
 /* Loads that move and surfaces that are irregular may widen the contact beyond that of
  * the largest load at rest: *wider is the zone to begin anew with, or 0. */
-static rb_status run_on_zone(run *r, double zone, double *wider, rb_message *why)
+static rb_status run_on_zone(history_state *r, double zone, double *wider,
+                             rb_message *why)
 {
     *wider = 0.0;
     rb_status s = prepare(r, zone, why);
 
     if (s == RB_OK) {
-        s = rb_rolling_end(r->model, all_steps(r, why), why);
+        s = rb_rolling_check_layer_resolved(r->model, all_steps(r, why), why);
         if (s == RB_ZONE && r->rc->zone == 0.0) {
             const rb_rolling_mesh *mesh = &r->model->mesh;
             const double now = fmax(-mesh->ends[0], mesh->ends[mesh->n]);
@@ -624,7 +627,7 @@ static rb_status run_on_zone(run *r, double zone, double *wider, rb_message *why
     return s;
 }
 
-static rb_status run_program(run *r, const rb_rolling_case *rc, rb_message *why)
+static rb_status run_program(history_state *r, const rb_rolling_case *rc, rb_message *why)
 {
     const rb_rolling_program *program = r->program;
     const rb_rolling_case whole = program ? rb_rolling_program_base(program, rc) : *rc;
@@ -667,7 +670,7 @@ rb_status rb_rolling_history_run(const rb_rolling_case *rc,
                                  rb_rolling_model *model, rb_rolling_history *history,
                                  rb_message *why)
 {
-    run r = {
+    history_state r = {
         .program = program, .observer = observer, .model = model, .history = history};
 
     memset(history, 0, sizeof *history);
@@ -680,16 +683,16 @@ rb_status rb_rolling_history_follow(const rb_rolling_case *rc,
                                     rb_rolling_model *model, rb_rolling_history *history,
                                     rb_message *why)
 {
-    run r = {.program = states->program,
-             .observer = observer,
-             .found = states,
-             .model = model,
-             .history = history};
+    history_state r = {.program = states->program,
+                       .observer = observer,
+                       .found = states,
+                       .model = model,
+                       .history = history};
 
     memset(history, 0, sizeof *history);
     memset(model, 0, sizeof *model);
     history->half_width = states->half_width;
-    if (rb_rolling_law_moves(rc) || rc->yield_stress > 0.0)
+    if (rb_rolling_law_depends_on_state(rc) || rc->yield_stress > 0.0)
         return rb_fail(why, RB_EINVAL,
                        "history: its states do not tell what friction that depends on "
                        "them, or an interface that yields, remembers");

@@ -2,7 +2,7 @@
  * elastic body, softer than the glassy one, which brings along a displacement from its
  * past.  What is kept of the past are tractions, because those of an element that has
  * left the contact move with the material, while displacements reach everywhere. */
-#include "rolling/internal.h"
+#include "history/internal.h"
 
 #include <cblas.h>
 #include <stdlib.h>
@@ -62,7 +62,7 @@ void rb_rolling_memory_track_free(rb_rolling_memory_track *r)
         free(r->body[b].past);
     }
     free(r->traction);
-    free(r->room);
+    free(r->scratch);
     memset(r, 0, sizeof *r);
 }
 
@@ -128,8 +128,8 @@ rb_status rb_rolling_memory_track_create(const rb_rolling_case *rc,
 
     *r = (rb_rolling_memory_track){.n = mesh->n, .tail = tail, .all = mesh->n + tail};
     r->traction = rb_alloc(2 * (size_t)r->all, 1);
-    r->room = rb_alloc(2 * (size_t)r->all + 2, 4);
-    if (s == RB_OK && !(r->traction && r->room))
+    r->scratch = rb_alloc(2 * (size_t)r->all + 2, 4);
+    if (s == RB_OK && !(r->traction && r->scratch))
         s = RB_ENOMEM;
     if (s == RB_OK)
         s = add_body(rc, &rc->a, 1.0, &longer, r, why);
@@ -149,7 +149,8 @@ static void move(int n, double *values)
 }
 
 /* Tractions on a body in its own frame: B is mirrored, its tangent points towards -x. */
-static void turn(const rb_rolling_relaxing *body, int n, const double *on_a, double *own)
+static void mirror(const rb_rolling_relaxing *body, int n, const double *on_a,
+                   double *own)
 {
     memcpy(own, on_a, (size_t)n * sizeof *own);
     for (int i = n; i < 2 * n; i++)
@@ -160,14 +161,14 @@ void rb_rolling_memory_track_begin(rb_rolling_memory_track *r, double step, int 
                                    double *w0)
 {
     const int all = r->all, m = r->n + 1;
-    double *own = r->room, *sum = own + 2 * all + 2, *w = sum + 2 * all + 2;
+    double *own = r->scratch, *sum = own + 2 * all + 2, *w = sum + 2 * all + 2;
 
     if (rolls)
         move(all, r->traction);
     memset(w0, 0, 2 * (size_t)m * sizeof *w0);
     for (int b = 0; b < r->bodies; b++) {
         const rb_rolling_relaxing *body = &r->body[b];
-        turn(body, all, r->traction, own);
+        mirror(body, all, r->traction, own);
         memset(sum, 0, 2 * (size_t)all * sizeof *sum);
         for (int k = 0; k < body->memory->n; k++) {
             const rb_bem_fading f = rb_bem_fading_over(body->memory->time[k], step);
@@ -200,7 +201,7 @@ static double advance(const rb_rolling_memory_track *r, const rb_rolling_relaxin
                       double step, const double *before, const double *after)
 {
     const size_t size = 2 * (size_t)r->all;
-    double *e = r->room + 2 * (size + 2), *w = e + size + 2;
+    double *e = r->scratch + 2 * (size + 2), *w = e + size + 2;
     double lost = 0.0, of_change = 0.0, factor[3];
 
     for (int k = 0; k < body->memory->n && step > 0.0; k++) {
@@ -228,12 +229,12 @@ void rb_rolling_memory_track_end(rb_rolling_memory_track *r, double step, const 
                                  const double *q)
 {
     const int n = r->n, all = r->all;
-    const size_t room = 2 * (size_t)all + 2;
-    double *before = r->room, *after = before + room;
+    const size_t scratch = 2 * (size_t)all + 2;
+    double *before = r->scratch, *after = before + scratch;
 
     for (int b = 0; b < r->bodies; b++) {
-        turn(&r->body[b], all, r->traction, before);
-        memset(after, 0, room * sizeof *after);
+        mirror(&r->body[b], all, r->traction, before);
+        memset(after, 0, scratch * sizeof *after);
         for (int i = 0; i < n; i++) {
             after[r->tail + i] = p[i];
             after[all + r->tail + i] = r->body[b].sign * q[i];

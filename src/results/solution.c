@@ -1,4 +1,4 @@
-#include "rolling/internal.h"
+#include "results/internal.h"
 
 #include <cblas.h>
 #include <stdlib.h>
@@ -28,16 +28,6 @@ void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *co
         *contact += zone[i] != RB_ZONE_SEPARATED ? h[i] : 0.0;
         *stick += zone[i] == RB_ZONE_STICK ? h[i] : 0.0;
     }
-}
-
-double rb_rolling_longest_element(int n, const int *zone, const double *h)
-{
-    double longest = 0.0;
-
-    for (int i = 0; i < n; i++)
-        if (zone[i] != RB_ZONE_SEPARATED)
-            longest = fmax(longest, h[i]);
-    return longest;
 }
 
 static void set_stick_limits(const rb_rolling_mesh *mesh, rb_rolling_solution *s)
@@ -270,12 +260,12 @@ static rb_status set_temperature(const rb_rolling_model *model, rb_rolling_solut
                                                        s->temperature_b, why)
                        : RB_ENOMEM;
         free(power);
-    } else if (model->surfaces.temperature) {
-        memcpy(s->temperature, model->surfaces.temperature, size);
-        memcpy(s->temperature_b, model->surfaces.temperature, size);
+    } else if (model->carried.temperature) {
+        memcpy(s->temperature, model->carried.temperature, size);
+        memcpy(s->temperature_b, model->carried.temperature, size);
     }
-    rb_rolling_warmest(s->n, s->x, s->zone, s->temperature, &s->max_temperature,
-                       &s->max_temperature_at);
+    rb_rolling_peak_temperature(s->n, s->x, s->zone, s->temperature, &s->max_temperature,
+                                &s->max_temperature_at);
     s->peclet = rb_rolling_peclet(&rc->heat_a, rc->speed, s->half_width);
     return status;
 }
@@ -309,7 +299,7 @@ rb_status rb_rolling_model_solution(const rb_rolling_model *model, rb_rolling_so
     s->equal_instead = model->equal_instead;
     s->slip_operator = model->rc.slip_operator;
     s->kappa = NAN;
-    if (rb_rolling_law_moves(&model->rc))
+    if (rb_rolling_law_depends_on_state(&model->rc))
         status = rb_rolling_law_kappa(model, &s->kappa);
     s->slip_violations = count_violations(model, s);
     s->dissipation = rb_rolling_dissipated_power(&model->rc, s->n, s->shift, s->q, s->h,

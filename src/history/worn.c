@@ -1,6 +1,6 @@
 /* Wear: a loop around contact problems, each of which takes off what it wears itself
  * (theory.md 4.9). */
-#include "rolling/internal.h"
+#include "history/internal.h"
 
 #include <gsl/gsl_math.h>
 #include <stdlib.h>
@@ -27,9 +27,9 @@ typedef struct {
     rb_rolling_wear_history *history;
     rb_rolling_solution *last;
     const rb_rolling_wear_observer *observer; /* or NULL */
-} run;
+} wear_state;
 
-static void run_free(run *r)
+static void run_free(wear_state *r)
 {
     rb_rolling_model_free(&r->model);
     free(r->x);
@@ -40,7 +40,7 @@ static void run_free(run *r)
 }
 
 /* Arrays for the mesh of the model. */
-static rb_status take_mesh(run *r)
+static rb_status take_mesh(wear_state *r)
 {
     const size_t n = (size_t)r->model.mesh.n, m = n + 1;
     double **const arrays[] = {&r->x, &r->depth, &r->compliance, &r->path};
@@ -60,14 +60,14 @@ static rb_status take_mesh(run *r)
     return RB_OK;
 }
 
-static rb_rolling_table worn_of(const run *r)
+static rb_rolling_table worn_of(const wear_state *r)
 {
     return (rb_rolling_table){r->n, r->x, r->depth};
 }
 
 /* The contact at rest, on equal elements that stay: those of an automatic zone, with
  * x = 0 in their middle, as a given one has. */
-static rb_status press(run *r, rb_message *why)
+static rb_status press(wear_state *r, rb_message *why)
 {
     rb_rolling_case at_rest = r->rc;
     const rb_rolling_mesh *mesh = &r->model.mesh;
@@ -94,10 +94,10 @@ static rb_status press(run *r, rb_message *why)
 
 /* As many more elements of the same length on either side; what is worn stays where it
  * is. */
-static rb_status widen(run *r, rb_message *why)
+static rb_status widen(wear_state *r, rb_message *why)
 {
     const int n = r->n, more = n / 4 + 2;
-    run wider = *r;
+    wear_state wider = *r;
 
     if (!rb_rolling_can(&r->rc, RB_BODY_FLAT))
         return rb_fail(why, RB_ZONE,
@@ -118,7 +118,7 @@ static rb_status widen(run *r, rb_message *why)
 
 /* ---- One implicit step ------------------------------------------------------------- */
 
-static rb_status pose(run *r, const double *F, rb_message *why)
+static rb_status pose(wear_state *r, const double *F, rb_message *why)
 {
     rb_rolling_model *model = &r->model;
     const double *own = model->bodies.F;
@@ -136,7 +136,7 @@ static rb_status pose(run *r, const double *F, rb_message *why)
 
 /* (W1) y = g + k ds p - delta + F_NN p: the pressure wears its own step off, so that the
  * worn gap and the pressure belong together at its end, however long it is. */
-static rb_status wear_off(run *r, rb_message *why)
+static rb_status wear_off(wear_state *r, rb_message *why)
 {
     const size_t m = (size_t)r->n + 1, n = (size_t)r->n;
     const double *F = r->model.bodies.F;
@@ -157,14 +157,14 @@ static rb_status wear_off(run *r, rb_message *why)
 /* ---- Sliding, fretting, rolling ---------------------------------------------------- */
 
 /* Depth per pressure and slid length. */
-static double archard(const run *r)
+static double archard(const wear_state *r)
 {
     return r->wear->law == RB_WEAR_ARCHARD
                ? r->wear->coefficient
                : r->wear->coefficient * rb_rolling_largest_mu(&r->rc);
 }
 
-static rb_status slide(run *r, double way, rb_message *why)
+static rb_status slide(wear_state *r, double way, rb_message *why)
 {
     for (int i = 0; i < r->n; i++)
         r->compliance[i] = archard(r) * way;
@@ -175,7 +175,7 @@ static rb_status slide(run *r, double way, rb_message *why)
 static int see_increment(const rb_rolling_model *model, const rb_rolling_history *h,
                          int step, int steps, void *context)
 {
-    run *r = context;
+    wear_state *r = context;
     const int quarter = r->wear->increments;
 
     (void)h;
@@ -189,7 +189,7 @@ static int see_increment(const rb_rolling_model *model, const rb_rolling_history
 }
 
 /* Loading, and one closed cycle to the other side and back, in static increments. */
-static double *cycle_program(const run *r, rb_rolling_program *program)
+static double *cycle_program(const wear_state *r, rb_rolling_program *program)
 {
     const int quarter = r->wear->increments, rows = 5 * quarter;
     const rb_rolling_case *rc = &r->rc;
@@ -209,7 +209,7 @@ static double *cycle_program(const run *r, rb_rolling_program *program)
     return column;
 }
 
-static rb_status fret(run *r, double cycles, rb_message *why)
+static rb_status fret(wear_state *r, double cycles, rb_message *why)
 {
     rb_rolling_program program;
     rb_rolling_history history = {0};
@@ -232,7 +232,7 @@ static rb_status fret(run *r, double cycles, rb_message *why)
 }
 
 /* Depth per turn: every point of the circumference passes the contact once. */
-static double depth_of_turn(const run *r)
+static double depth_of_turn(const wear_state *r)
 {
     const rb_rolling_model *model = &r->model;
     const rb_contact_state *state = &model->state;
@@ -247,7 +247,7 @@ static double depth_of_turn(const run *r)
 }
 
 /* (W3) A round wheel stays round: R = R_before - turns dz(R). */
-static rb_status roll(run *r, double turns, rb_message *why)
+static rb_status roll(wear_state *r, double turns, rb_message *why)
 {
     enum { ROUNDS = 30 };
     const double before = r->rc.a.radius;
@@ -275,7 +275,7 @@ static rb_status roll(run *r, double turns, rb_message *why)
 
 /* ---- Records ----------------------------------------------------------------------- */
 
-static rb_status record(run *r, double way, rb_message *why)
+static rb_status record(wear_state *r, double way, rb_message *why)
 {
     rb_rolling_wear_history *h = r->history;
     const int k = h->n, rolls = h->rolls;
@@ -310,7 +310,7 @@ static rb_status record(run *r, double way, rb_message *why)
                : RB_OK;
 }
 
-static rb_status one_step(run *r, double part, rb_message *why)
+static rb_status one_step(wear_state *r, double part, rb_message *why)
 {
     enum { WIDER = 12 };
     rb_message reason = {""};
@@ -386,7 +386,7 @@ rb_status rb_rolling_wear_run(const rb_rolling_case *rc, const rb_rolling_wear *
                               rb_rolling_wear_history *history, rb_rolling_solution *last,
                               rb_message *why)
 {
-    run r = {
+    wear_state r = {
         .wear = wear, .rc = *rc, .history = history, .last = last, .observer = observer};
     const double part = wear->way / wear->steps;
 

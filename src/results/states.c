@@ -1,5 +1,5 @@
 /* The states of the steps of a history, kept to follow it again. */
-#include "rolling/internal.h"
+#include "results/internal.h"
 
 #include <stdlib.h>
 #include <string.h>

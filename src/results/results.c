@@ -1,5 +1,5 @@
 /* The results, each once: JSON, tables, studies and error bars are made from these. */
-#include "rolling/internal.h"
+#include "results/internal.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -326,7 +326,7 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc)
         return rc->friction.law != RB_FRICTION_constant || rc->friction.heat != 0.0 ||
                rc->friction.follows_way;
     case RB_FOR_MOVING_LAW:
-        return rb_rolling_law_moves(rc);
+        return rb_rolling_law_depends_on_state(rc);
     case RB_FOR_WAY:
         return rc->friction.follows_way;
     case RB_FOR_MEMORY:

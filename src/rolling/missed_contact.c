@@ -355,11 +355,11 @@ static double hertz_edge_gap(const rb_rolling_model *model, const rb_contact_sta
 
 /* The same in the room for x, w and gap. */
 static rb_status look(const rb_rolling_model *model, const rb_contact_state *state,
-                      const strips *s, size_t room, double *x, rb_rolling_overlap *o)
+                      const strips *s, size_t scratch, double *x, rb_rolling_overlap *o)
 {
     const rb_rolling_mesh *mesh = &model->mesh;
     const double tolerance = NEGLIGIBLE * hertz_edge_gap(model, state);
-    double *w = x + room, *gap = w + room, least;
+    double *w = x + scratch, *gap = w + scratch, least;
     int places;
     rb_status status = unseen_places(model, state, &places, x, gap);
 
@@ -390,14 +390,14 @@ rb_status rb_rolling_find_overlap(const rb_rolling_model *model,
     if (rb_rolling_is_convex(rc) || model->mesh.n < 2)
         return RB_OK;
     table t[TABLES];
-    size_t room = 2;
+    size_t scratch = 2;
     find_tables(rc, t);
     for (int k = 0; k < TABLES; k++)
-        room += most_places(t[k].n);
-    double *x = rb_alloc(room, 3);
+        scratch += most_places(t[k].n);
+    double *x = rb_alloc(scratch, 3);
     rb_status status = x ? gather_strips(&model->mesh, state, &s) : RB_ENOMEM;
     if (status == RB_OK)
-        status = look(model, state, &s, room, x, o);
+        status = look(model, state, &s, scratch, x, o);
     free(s.ends);
     free(x);
     return status;

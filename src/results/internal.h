@@ -1,0 +1,33 @@
+/* What the files of this folder share, with those of rolling. */
+#ifndef ROLLBEM_RESULTS_INTERNAL_H
+#define ROLLBEM_RESULTS_INTERNAL_H
+
+#include "rolling/internal.h"
+
+/* ---- results.c --------------------------------------------------------------------- */
+
+/* A solution without columns: of numbers that are not there (NAN), or those of another.
+ */
+rb_rolling_solution rb_rolling_no_scalars(rb_status status);
+/* The same of a row: NAN throughout. */
+rb_rolling_row rb_rolling_no_row(rb_status status);
+rb_rolling_solution rb_rolling_scalars_of(const rb_rolling_solution *s);
+
+/* Zeros for every column of the table that the case has; the owner's others stay NULL.
+ * What there is on RB_ENOMEM is freed as if it were complete. */
+rb_status rb_rolling_columns_alloc(const rb_rolling_results *table,
+                                   const rb_rolling_case *rc, int rows, void *owner);
+void rb_rolling_columns_free(const rb_rolling_results *table, void *owner);
+/* A column of numbers. */
+double *rb_rolling_column(const rb_rolling_result *r, const void *owner);
+
+/* ---- solution.c -------------------------------------------------------------------- */
+
+/* Tractions of the state on A in global x, y: 2 per contact element. */
+void rb_rolling_contact_tractions(const rb_rolling_model *model, double *t);
+
+/* Lengths of the elements in contact and of those among them that stick. */
+void rb_rolling_zone_lengths(int n, const int *zone, const double *h, double *contact,
+                             double *stick);
+
+#endif
