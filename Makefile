@@ -46,7 +46,7 @@ PROGRAMS := $(B)/rollbem $(if $(MPI),$(B)/rollbem-mpi)
 TESTS := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
 BENCHES := $(patsubst bench/%.c,$(B)/bench/%,$(wildcard bench/bench_*.c))
 
-.PHONY: journeys dist deb site course page page-where-possible page-test python-test install-python all run test test-all check-tests covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install help clean packages check-packages study
+.PHONY: journeys dist deb site course page page-where-possible page-test python-test install-python all run test test-all check-tests covered-tests asan asan-short short-tests fuzz mutants coverage hostile endurance platforms analyse check-format bench install uninstall help clean packages check-packages study
 all: check-packages $(B)/librollbem.a $(B)/librollbem.so $(PROGRAMS)
 
 help:
@@ -74,7 +74,7 @@ help:
 	@echo "make site       the documentation as a site, $(B)/site/index.html"
 	@echo "make dist       the sources of the last commit, $(B)/rollbem-$(VERSION).tar.gz"
 	@echo "make deb        Debian packages, $(B)/deb"
-	@echo "make install    to PREFIX=$(PREFIX), below DESTDIR"
+	@echo "make install    to PREFIX=$(PREFIX), below DESTDIR; make uninstall takes it away"
 	@echo "make clean      remove $(B)"
 
 packages: ; @scripts/packages --install
@@ -286,27 +286,40 @@ $(B)/bench/%: bench/%.c $(B)/librollbem.a
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) $(CFLAGS) $(CPPFLAGS) -MMD -MP -MF $@.d -o $@ $< $(B)/librollbem.a $(LDFLAGS) $(LDLIBS)
 
+# below DESTDIR, in quotes throughout: a folder's name may have spaces
+PREFIXED = $(DESTDIR)$(PREFIX)
+LIBRARIES = $(DESTDIR)$(LIBDIR)
 install: all
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(LIBDIR) $(DESTDIR)$(PREFIX)/include/rollbem
-	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
-	install -m 644 $(B)/librollbem.a $(DESTDIR)$(LIBDIR)
+	install -d "$(PREFIXED)/bin" "$(LIBRARIES)" "$(PREFIXED)/include/rollbem"
+	install -m 755 $(PROGRAMS) "$(PREFIXED)/bin"
+	install -m 644 $(B)/librollbem.a "$(LIBRARIES)"
 	@# for rollbem page, where it has been built
-	if [ -f $(B)/rollbem.html ]; then install -d $(DESTDIR)$(PREFIX)/share/rollbem && install -m 644 $(B)/rollbem.html $(DESTDIR)$(PREFIX)/share/rollbem; fi
-	install -m 644 $(B)/librollbem.so $(DESTDIR)$(LIBDIR)/librollbem.so.$(VERSION)
-	ln -sf librollbem.so.$(VERSION) $(DESTDIR)$(LIBDIR)/librollbem.so.0
-	ln -sf librollbem.so.0 $(DESTDIR)$(LIBDIR)/librollbem.so
-	install -m 644 include/rollbem/*.h $(DESTDIR)$(PREFIX)/include/rollbem
+	if [ -f $(B)/rollbem.html ]; then install -d "$(PREFIXED)/share/rollbem" && install -m 644 $(B)/rollbem.html "$(PREFIXED)/share/rollbem"; fi
+	install -m 644 $(B)/librollbem.so "$(LIBRARIES)/librollbem.so.$(VERSION)"
+	ln -sf librollbem.so.$(VERSION) "$(LIBRARIES)/librollbem.so.0"
+	ln -sf librollbem.so.0 "$(LIBRARIES)/librollbem.so"
+	install -m 644 include/rollbem/*.h "$(PREFIXED)/include/rollbem"
 	@for i in rollbem.pc:pkgconfig rollbemConfig.cmake:cmake/rollbem rollbemConfigVersion.cmake:cmake/rollbem; do \
-	    to=$(LIBDIR)/$${i#*:}; up=$$(realpath -m --relative-to=$$to $(PREFIX)); install -d $(DESTDIR)$$to; \
-	    sed -e "s|@UP@|$$up|" -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBS@|$(LDLIBS)|' scripts/$${i%%:*}.in > $(DESTDIR)$$to/$${i%%:*} || exit 1; done
-	@B=$(B) scripts/install-shared $(DESTDIR)$(PREFIX)/share
+	    to="$(LIBDIR)/$${i#*:}"; up=$$(realpath -m --relative-to="$$to" "$(PREFIX)"); install -d "$(DESTDIR)$$to"; \
+	    sed -e "s|@UP@|$$up|" -e 's|@VERSION@|$(VERSION)|' -e 's|@LIBS@|$(LDLIBS)|' scripts/$${i%%:*}.in > "$(DESTDIR)$$to/$${i%%:*}" || exit 1; done
+	@B=$(B) scripts/install-shared "$(PREFIXED)/share"
+
+# what install and install-python have put there, and folders of ours that this leaves empty
+uninstall:
+	rm -f "$(PREFIXED)/bin/rollbem" "$(PREFIXED)/bin/rollbem-mpi" "$(LIBRARIES)"/librollbem.a "$(LIBRARIES)"/librollbem.so*
+	rm -f "$(LIBRARIES)/pkgconfig/rollbem.pc" "$(LIBRARIES)"/cmake/rollbem/rollbemConfig*.cmake "$(PREFIXED)"/include/rollbem/*.h
+	@scripts/install-shared --remove "$(PREFIXED)/share"
+	rm -f "$(PREFIXED)/share/rollbem/rollbem.html" "$(PACKAGES_OF_PYTHON)"/*.py "$(PACKAGES_OF_PYTHON)/py.typed" "$(PACKAGES_OF_PYTHON)"/__pycache__/*.pyc
+	@for i in "$(LIBRARIES)/cmake/rollbem" "$(PREFIXED)/include/rollbem" "$(PREFIXED)/share/rollbem/octave" "$(PREFIXED)/share/rollbem" \
+	    "$(PACKAGES_OF_PYTHON)/__pycache__" "$(PACKAGES_OF_PYTHON)"; do [ ! -d "$$i" ] || rmdir "$$i" 2>/dev/null || true; done
 
 # the package for Python beside the library of the system; pip and wheels: python/README.md
 PYTHONDIR ?= $(PREFIX)/lib/python3/dist-packages
+PACKAGES_OF_PYTHON = $(DESTDIR)$(PYTHONDIR)/rollbem
 install-python:
-	install -d $(DESTDIR)$(PYTHONDIR)/rollbem
-	install -m 644 python/rollbem/*.py python/rollbem/py.typed $(DESTDIR)$(PYTHONDIR)/rollbem
-	echo 'VERSION = "$(VERSION)"' > $(DESTDIR)$(PYTHONDIR)/rollbem/_version.py
+	install -d "$(PACKAGES_OF_PYTHON)"
+	install -m 644 python/rollbem/*.py python/rollbem/py.typed "$(PACKAGES_OF_PYTHON)"
+	echo 'VERSION = "$(VERSION)"' > "$(PACKAGES_OF_PYTHON)/_version.py"
 
 # what a release is made of, from the last commit; the same bytes whenever and wherever
 DIST = $(B)/rollbem-$(VERSION).tar.gz

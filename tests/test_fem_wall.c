@@ -276,6 +276,36 @@ static void bad_input_is_refused(void **state)
 
 /* Solvers that are none or do not come to an end say so with the step, and short memory;
  * steps that are not solved have no problem. */
+static int stop_at_the_third(void *context)
+{
+    int *asked = context;
+    return ++*asked == 3;
+}
+
+/* Not only between the steps, and with sweeps as well as with Newton's method. */
+static void a_step_can_be_stopped(void **state)
+{
+    (void)state;
+    static const char *const solvers[] = {"nsn-ac", "nsgs-ac", "admm", "auto"};
+    for (size_t k = 0; k < sizeof solvers / sizeof *solvers; k++) {
+        int asked = 0;
+        rb_fem_wall_options o = small_wall(0);
+        rb_fem_wall *wall;
+        rb_fem_wall_step step;
+        rb_message why = {""};
+        rb_friction_problem problem;
+        o.stopped = stop_at_the_third;
+        o.context = &asked;
+        CHECK_STATUS(rb_fem_wall_create(&o, &wall, NULL), RB_OK);
+        CHECK_STATUS(rb_fem_wall_advance(wall, solvers[k], 1e-13, &step, &why),
+                     RB_INTERRUPTED);
+        assert_string_equal(why.text, "interrupted after step 0");
+        assert_true(asked >= 3 && asked <= 4); /* the last iterate is measured once more */
+        CHECK_STATUS(rb_fem_wall_problem(wall, 0, &problem), RB_EINVAL);
+        rb_fem_wall_free(wall);
+    }
+}
+
 static void failures_name_the_step(void **state)
 {
     (void)state;
@@ -477,6 +507,7 @@ int main(void)
         cmocka_unit_test(selection_is_by_difficulty),
         cmocka_unit_test(rigid_wall_carries_its_load),
         cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(a_step_can_be_stopped),
         cmocka_unit_test(failures_name_the_step),
         cmocka_unit_test(displacements_are_those_of_the_blocks),
         cmocka_unit_test(memory_runs_out),

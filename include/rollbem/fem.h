@@ -209,6 +209,9 @@ typedef struct {
     int rigid;        /* 1: six freedoms a block, the same contact points */
     double dt;        /* [s] */
     int press, shear; /* steps in which the force grows, steps of driving */
+    /* NULL, or asked while a step is solved; other than 0: RB_INTERRUPTED. */
+    int (*stopped)(void *context);
+    void *context;
 } rb_fem_wall_options;
 
 /* About 1700 contact points and 8200 unknowns; one step under its
@@ -243,7 +246,8 @@ const rb_fem_mesh *rb_fem_wall_mesh(const rb_fem_wall *wall);
 /* Displacements of the nodes after the last solved step (3 x nodes). */
 rb_status rb_fem_wall_displacements(const rb_fem_wall *wall, double *u);
 
-/* The next step; RB_EINVAL after the last one. */
+/* The next step; RB_EINVAL after the last one.  RB_INTERRUPTED: the step does not count,
+ * and the wall cannot go on. */
 rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
                               rb_fem_wall_step *step, rb_message *why);
 /* The friction problem of a solved step (from 0), in global form. */

@@ -305,6 +305,12 @@ static cli_exit write_problems(const wall_run *run)
     return s == RB_OK ? CLI_OK : cli_say(s, &why);
 }
 
+static int is_interrupted(void *context)
+{
+    (void)context;
+    return cli_interrupted();
+}
+
 static cli_exit advance_all(const example_options *o, wall_run *run)
 {
     const int planned = rb_fem_wall_steps(run->wall);
@@ -314,7 +320,7 @@ static cli_exit advance_all(const example_options *o, wall_run *run)
     while (s == RB_OK && run->steps < planned && !cli_interrupted()) {
         rb_fem_wall_step *step = &run->step[run->steps];
         s = rb_fem_wall_advance(run->wall, o->solver, o->tol, step, &why);
-        if (s < RB_OK)
+        if (s < RB_OK || s == RB_INTERRUPTED)
             break;
         run->steps++;
         if (!o->quiet)
@@ -339,6 +345,7 @@ static rb_fem_wall_options wall_options(const example_options *o)
     }
     w.rigid = o->rigid;
     w.dt = o->step;
+    w.stopped = is_interrupted;
     return w;
 }
 

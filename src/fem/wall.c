@@ -271,6 +271,13 @@ static void guess_first(rb_fem_wall *w)
         w->r[3 * i] = w->options.dt * weight / w->contacts;
 }
 
+static int is_stopped(const rb_friction_progress *at, void *context)
+{
+    const rb_fem_wall *w = context;
+    (void)at;
+    return w->options.stopped && w->options.stopped(w->options.context);
+}
+
 /* In global form: its Newton systems stay sparse, W would not.  From the impulses of the
  * previous step: a third of the Newton steps that r = 0 takes. */
 static rb_status solve_step(rb_fem_wall *w, const char *solver, double tol,
@@ -280,6 +287,8 @@ static rb_status solve_step(rb_fem_wall *w, const char *solver, double tol,
     rb_friction_options options = rb_friction_defaults();
     options.tol = tol;
     options.r0 = w->r;
+    options.progress = is_stopped;
+    options.context = w;
     const rb_friction_solution solution = {w->r, w->ur, w->v};
     return rb_friction_solve(solver, &problem, &options, &solution, info);
 }
@@ -311,6 +320,8 @@ rb_status rb_fem_wall_advance(rb_fem_wall *wall, const char *solver, double tol,
     if (s < RB_OK)
         return rb_fail(why, s, "wall, step %d: %s", wall->solved + 1,
                        info.msg.text[0] ? info.msg.text : rb_status_text(s));
+    if (s == RB_INTERRUPTED)
+        return rb_fail(why, s, "interrupted after step %d", wall->solved);
     describe_step(wall, &info, step);
     now->iterations = info.iters;
     for (int i = 0; i < wall->system.dofs; i++)
