@@ -600,6 +600,16 @@ static void interrupted_run_keeps_its_steps(void **state)
     json_decref(root);
 }
 
+/* So many threads ended in a signal of OpenMP's. */
+static void threads_are_bounded(void **state)
+{
+    (void)state;
+    assert_int_equal(shell("OMP_NUM_THREADS=100000 \"$R\" stress --support halfplane "
+                           "--load 100 --contact-elements 100 --grid 60x60 --quiet"),
+                     0);
+    assert_string_equal(err, "");
+}
+
 /* Under nohup it goes on when the terminal goes; without, it is interrupted. */
 static void a_terminal_that_goes_interrupts_unless_nohup(void **state)
 {
@@ -922,6 +932,7 @@ int main(void)
         cmocka_unit_test(transient_rolls_step_by_step),
         cmocka_unit_test(bad_histories_are_refused),
         cmocka_unit_test(interrupted_run_keeps_its_steps),
+        cmocka_unit_test(threads_are_bounded),
         cmocka_unit_test(a_terminal_that_goes_interrupts_unless_nohup),
         cmocka_unit_test(error_bars_hold_the_truth),
         cmocka_unit_test(dump_holds_the_problem),

@@ -20,6 +20,10 @@ const char *rb_blas_better_core(void);
  * before.  Threads cost the small products of Lemke and Newton more than they bring. */
 int rb_blas_threads(int threads);
 
+/* Threads of a loop that the library runs by OpenMP: as many as OMP_NUM_THREADS says, but
+ * four a processor at most.  Tens of thousands of them end the process by a signal. */
+int rb_blas_loop_threads(void);
+
 /* Under a limit of address space (ulimit -v) a thread of OpenBLAS that gets no buffer
  * waits for it for ever.  1: there is room for all; where it has one thread only, OpenMP
  * is reduced to one too if need be. */

@@ -61,12 +61,16 @@ static int is_room_for(size_t bytes)
     return room != MAP_FAILED;
 }
 
-static int other_threads(void)
+int rb_blas_loop_threads(void)
 {
 #ifdef _OPENMP
-    return omp_get_max_threads() - 1;
+    static _Atomic int most; /* asking costs more than a short loop */
+    if (most == 0)
+        most = 4 * omp_get_num_procs();
+    const int wanted = omp_get_max_threads();
+    return wanted < most ? wanted : most;
 #else
-    return 0;
+    return 1;
 #endif
 }
 
@@ -79,7 +83,7 @@ int rb_blas_has_room(void)
     lapack_int pivot;
     if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
         return 1;
-    if (!is_room_for(buffer * (size_t)(threads + other_threads()))) {
+    if (!is_room_for(buffer * (size_t)(threads + rb_blas_loop_threads() - 1))) {
         if (threads > 1 || !is_room_for(buffer))
             return 0;
 #ifdef _OPENMP

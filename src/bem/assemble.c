@@ -1,5 +1,6 @@
 #include "bem/assemble.h"
 #include "bem/internal.h"
+#include "rollbem/blas.h"
 
 #include <stdlib.h>
 
@@ -53,8 +54,8 @@ rb_status rb_bem_assemble(const rb_bem_mesh *mesh, rb_bem_material material, dou
     s = rb_assembly_begin(mesh, material, &assembly);
     if (s != RB_OK)
         return rb_fail(why, s, "influence: out of memory for %d points", mesh->n);
-#pragma omp parallel for schedule(static) if ((double)mesh->n * mesh->n >                \
-                                              rb_pairs_for_threads)
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+    schedule(static) if ((double)mesh->n * mesh->n > rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++) {
         const size_t at = 2 * (size_t)j * (size_t)ld, next = at + (size_t)ld;
         double *const out[4] = {H + at, H + next, G ? G + at : NULL, G ? G + next : NULL};

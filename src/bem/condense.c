@@ -139,7 +139,9 @@ static void add_left_over(const particular *p, const rb_assembly *assembly, int 
 {
     const rb_bem_system *s = p->s;
 
-#pragma omp parallel if ((double)(to - from) * s->mesh.n > rb_pairs_for_threads / 32)
+#pragma omp parallel num_threads(rb_blas_loop_threads()) if ((double)(to - from) *       \
+                                                                 s->mesh.n >             \
+                                                             rb_pairs_for_threads / 32)
     {
 #pragma omp for schedule(static)
         for (int k = from; k < to; k++)

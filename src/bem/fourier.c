@@ -1,4 +1,5 @@
 #include "bem/fourier.h"
+#include "rollbem/blas.h"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -32,7 +33,7 @@ static void choose_threads(int size)
     if (!prepared)
         prepared = fftw_init_threads();
 #ifdef _OPENMP
-    fftw_plan_with_nthreads(size >= THREADS_FROM ? omp_get_max_threads() : 1);
+    fftw_plan_with_nthreads(size >= THREADS_FROM ? rb_blas_loop_threads() : 1);
 #else
     (void)size;
 #endif

@@ -1,6 +1,7 @@
 /* Stress in the half-plane y >= 0 loaded on y = 0 by constant strips (Flamant). */
 #include "bem/internal.h"
 #include "bem/kernels.h"
+#include "rollbem/blas.h"
 
 #include <gsl/gsl_math.h>
 #include <math.h>
@@ -58,7 +59,8 @@ rb_status rb_bem_halfplane_stress(const rb_bem_edge_load *load, rb_bem_points po
         return RB_ENOMEM;
     for (int i = 0; i < n; i++)
         strip[i] = rb_element_make(load->x[i], 0.0, load->x[i + 1], 0.0, 1.0);
-#pragma omp parallel for schedule(static) if ((double)points.n * n > rb_pairs_for_threads)
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+    schedule(static) if ((double)points.n * n > rb_pairs_for_threads)
     for (int k = 0; k < points.n; k++) {
         double sum[3] = {0.0, 0.0, 0.0};
         for (int i = 0; i < n; i++)

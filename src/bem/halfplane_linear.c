@@ -2,6 +2,7 @@
  * sxx stays finite on the surface. */
 #include "bem/complex.h"
 #include "bem/internal.h"
+#include "rollbem/blas.h"
 
 #include <complex.h>
 #include <math.h>
@@ -55,7 +56,8 @@ rb_status rb_bem_halfplane_stress_linear(const rb_bem_edge_load *load,
         k[j] = before - after;
         before = after;
     }
-#pragma omp parallel for schedule(static) if ((double)points.n * n > 1e5)
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+    schedule(static) if ((double)points.n * n > 1e5)
     for (int i = 0; i < points.n; i++)
         stress_at(n, nodes, k, points.xy[2 * i], points.xy[2 * i + 1], stress + 3 * i);
     free(k);

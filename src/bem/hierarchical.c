@@ -157,7 +157,8 @@ static rb_status for_clusters(const rb_hierarchical *h, int level, stage *run)
     const int count = 1 << level;
     rb_status s = RB_OK;
 
-#pragma omp parallel for schedule(dynamic) if (count > 8)
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+    schedule(dynamic) if (count > 8)
     for (int k = 0; k < count; k++) {
         const rb_status own = run(h, level, k);
         if (own != RB_OK)

@@ -63,7 +63,8 @@ rb_status rb_hierarchical_solve(const rb_hierarchical *h, int columns, double *X
     const int threads = rb_blas_threads(1);
     rb_status s = RB_OK;
 
-#pragma omp parallel for schedule(dynamic) if (panels > 1)
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+    schedule(dynamic) if (panels > 1)
     for (int p = 0; p < panels; p++) {
         const int first = p * PANEL, rest = columns - first;
         const rb_status own = solve_panel(h, rest < PANEL ? rest : PANEL,

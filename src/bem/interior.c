@@ -19,6 +19,7 @@
 #include "bem/complex.h"
 #include "bem/internal.h"
 #include "bem/kernels.h"
+#include "rollbem/blas.h"
 
 #include <complex.h>
 #include <gsl/gsl_math.h>
@@ -236,7 +237,7 @@ static int evaluate(const rb_interior *in, rb_bem_points points, double *displac
                     double *stress)
 {
     int outside = points.n;
-#pragma omp parallel for schedule(static)                                                \
+#pragma omp parallel for num_threads(rb_blas_loop_threads()) schedule(static)            \
     reduction(min                                                                        \
               : outside) if ((double)points.n * in->n > rb_pairs_for_threads)
     for (int k = 0; k < points.n; k++) {

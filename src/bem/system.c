@@ -203,8 +203,8 @@ static rb_status assemble(rb_bem_system *s)
         return status;
     for (int j = 0; j < mesh->n; j++)
         s->unit[j] = s->material.shear / rb_bem_mesh_length(mesh, j);
-#pragma omp parallel for schedule(static) if ((double)mesh->n * mesh->n >                \
-                                              rb_pairs_for_threads)
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+    schedule(static) if ((double)mesh->n * mesh->n > rb_pairs_for_threads)
     for (int j = 0; j < mesh->n; j++)
         assemble_element(s, &assembly, j);
     status = s->bond ? add_bond(s, &assembly) : RB_OK;
@@ -219,7 +219,9 @@ static rb_status assemble(rb_bem_system *s)
 static double norm_one(int n, const double *A, int ld)
 {
     double norm = 0.0;
-#pragma omp parallel for reduction(max : norm) if (0.25 * n * n > rb_pairs_for_threads)
+#pragma omp parallel for num_threads(rb_blas_loop_threads())                             \
+    reduction(max                                                                        \
+              : norm) if (0.25 * n * n > rb_pairs_for_threads)
     for (int j = 0; j < n; j++) {
         const double *column = A + (size_t)j * (size_t)ld;
         double sum = 0.0;
