@@ -4,7 +4,7 @@
 #include "api/internal.h"
 #include "bem/hierarchical.h"
 #include "bem/large.h"
-#include "rolling/internal.h"
+#include "study/internal.h"
 #include "rollbem/blas.h"
 
 #include <gsl/gsl_errno.h>
