@@ -17,6 +17,7 @@ static const struct {
     {"bem", " base blas sparse bem "},
     {"io", " base sparse io io_fclib io_contact "},
     {"contact", " base lcp contact "},
+    {"crack", " base lcp bem contact crack "},
     {"friction", " base blas sparse io io_fclib lcp contact friction "},
     {"fem", " base blas sparse friction fem "},
     {"rolling", " base blas bem lcp contact rolling closed_forms "},

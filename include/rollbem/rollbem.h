@@ -9,6 +9,7 @@
 #include "rollbem/case.h"
 #include "rollbem/closed_forms.h"
 #include "rollbem/contact.h"
+#include "rollbem/crack.h"
 #include "rollbem/fem.h"
 #include "rollbem/friction.h"
 #include "rollbem/io.h"

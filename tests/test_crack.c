@@ -1,0 +1,472 @@
+/* Cracks: stress intensities in tension, histories of closed cracks, passes of a contact
+ * with and without friction, trapped fluid.  The numbers of edge cracks and passes come
+ * from an independent discretisation (dislocations collocated with graded elements, 9
+ * digits, and Galerkin at n = 40), those of the full plane from closed forms. */
+#include "check.h"
+#include "rollbem/contact.h"
+#include "rollbem/crack.h"
+
+#include <gsl/gsl_math.h>
+#include <string.h>
+
+enum { STRIPS = 100, STEPS = 121 };
+
+static rb_crack *create(rb_crack_shape shape)
+{
+    rb_crack *c = NULL;
+    rb_message why = {""};
+    if (rb_crack_create(&shape, &c, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return c;
+}
+
+static rb_crack_shape edge_crack(double angle, int n, double friction)
+{
+    return (rb_crack_shape){.path = rb_crack_straight(0.0, 0.0, 1.0, angle),
+                            .elements = n,
+                            .friction = friction,
+                            .shear = 1.0,
+                            .poisson = 0.3};
+}
+
+static rb_crack_shape closed_crack(int n, double friction)
+{
+    rb_crack_shape shape = edge_crack(90.0, n, friction);
+    shape.path = rb_crack_straight(0.8, 0.8, 1.0, 0.0);
+    shape.full_plane = 1;
+    return shape;
+}
+
+/* ---- Tension ----------------------------------------------------------------------- */
+
+static void in_tension(double angle, int n, double K[2])
+{
+    rb_crack *c = create(edge_crack(angle, n, 0.1));
+    const double x = 0.0;
+    const rb_crack_passage passage = {.steps = 1, .x = &x, .passes = 1, .tension = 2.0};
+    rb_crack_history h;
+    CHECK_STATUS(rb_crack_pass(c, &passage, &h, NULL), RB_OK);
+    K[0] = h.K_I[0] / (2.0 * sqrt(M_PI));
+    K[1] = h.K_II[0] / (2.0 * sqrt(M_PI));
+    rb_crack_history_free(&h);
+    rb_crack_free(c);
+}
+
+static void edge_cracks_in_tension(void **state)
+{
+    static const double reference[][3] = {{90, 1.12152226, 0.0},
+                                          {75, 1.068546, 0.173807},
+                                          {60, 0.920100, 0.305800},
+                                          {45, 0.704910, 0.364491},
+                                          {30, 0.462431, 0.336140}};
+    (void)state;
+    for (size_t k = 0; k < sizeof reference / sizeof *reference; k++) {
+        const double *want = reference[k];
+        double K[3][2];
+        for (int i = 0; i < 3; i++)
+            in_tension(want[0], 20 << i, K[i]);
+        for (int mode = 0; mode < 2; mode++) {
+            const double extrapolated = (4.0 * K[2][mode] - K[1][mode]) / 3.0;
+            CHECK_ABS(K[2][mode], want[1 + mode], 1e-4, "%g degrees, K %d", want[0],
+                      mode);
+            CHECK_ABS(extrapolated, want[1 + mode], 2e-6, "%g degrees, K %d, limit",
+                      want[0], mode);
+            if (want[0] < 90.0)
+                CHECK_ABS((K[0][mode] - K[1][mode]) / (K[1][mode] - K[2][mode]), 4.0, 0.2,
+                          "%g degrees: order 2", want[0]);
+        }
+    }
+}
+
+/* A crack and its mirror image: K_I alike, K_II turned. */
+static void mirror_images(void **state)
+{
+    double left[2], right[2];
+    (void)state;
+    in_tension(50.0, 20, right);
+    in_tension(130.0, 20, left);
+    CHECK_REL(left[0], right[0], 1e-12, "K_I");
+    CHECK_REL(left[1], -right[1], 1e-12, "K_II");
+}
+
+/* Far below the surface both tips have the closed form of the full plane; near it the
+ * upper one has more. */
+static void cracks_below_the_surface(void **state)
+{
+    const double x = 0.0, angle = 60.0 * M_PI / 180.0;
+    const rb_crack_passage passage = {.steps = 1, .x = &x, .passes = 1, .tension = 1.0};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_crack_shape shape = edge_crack(60.0, 20, 0.0);
+        rb_crack_history h;
+        shape.path = rb_crack_straight(0.0, k ? 0.1 : 1e4, 2.0, 60.0);
+        rb_crack *c = create(shape);
+        CHECK_STATUS(rb_crack_pass(c, &passage, &h, NULL), RB_OK);
+        if (k == 0) {
+            const double K_I = sin(angle) * sin(angle) * sqrt(M_PI),
+                         K_II = sin(angle) * cos(angle) * sqrt(M_PI);
+            CHECK_REL(h.K_I[0], K_I, 1e-6, "tip");
+            CHECK_REL(h.K_I_upper[0], K_I, 1e-6, "upper end");
+            CHECK_REL(h.K_II[0], K_II, 1e-6, "tip");
+            CHECK_REL(h.K_II_upper[0], K_II, 1e-6, "upper end");
+        } else {
+            CHECK_MAX(1.1 * h.K_I[0], h.K_I_upper[0], "the end near the surface");
+        }
+        rb_crack_history_free(&h);
+        rb_crack_free(c);
+    }
+}
+
+/* ---- Closed crack in the full plane ------------------------------------------------ */
+
+/* The play operator: unit pressure, friction 0.3, a shear that goes back and forth. */
+static void history_of_a_closed_crack(void **state)
+{
+    static const double tau[] = {.2, .5, .8, .6, .4, .1, -.3, -.5, 0, .2, .8},
+                        want[] = {0, .2, .5, .5, .5, .4, 0, -.2, -.2, -.1, .5};
+    double T[2 * 19], hat[19];
+    rb_crack *c = create(closed_crack(20, 0.3));
+    rb_crack_state s;
+    (void)state;
+    assert_int_equal(rb_crack_nodes(c), 19);
+    rb_crack_places(c, NULL, NULL, hat, NULL, NULL);
+    CHECK_STATUS(rb_crack_state_alloc(c, &s), RB_OK);
+    for (size_t k = 0; k < sizeof tau / sizeof *tau; k++) {
+        for (int j = 0; j < 19; j++) {
+            T[j] = -hat[j];
+            T[19 + j] = tau[k] * hat[j];
+        }
+        CHECK_STATUS(rb_crack_step(c, T, RB_CRACK_DRY, 0.0, 1.0, &s, NULL), RB_OK);
+        CHECK_ABS(s.K_II / sqrt(M_PI_2), want[k], 1e-12, "step %zu", k);
+        CHECK_ABS(s.K_II_upper / sqrt(M_PI_2), want[k], 1e-12, "step %zu", k);
+        CHECK_ABS(s.K_I, 0.0, 1e-15, "step %zu", k);
+        CHECK_MAX(s.residual, 1e-12, "step %zu", k);
+    }
+    rb_crack_state_free(&s);
+    rb_crack_free(c);
+}
+
+/* Strips of Hertz's pressure p0 = a = 1 whose mean pressures are exact; q = ratio p. */
+typedef struct {
+    double x[STRIPS + 1], p[STRIPS], q[STRIPS];
+    rb_bem_edge_load load;
+} hertz;
+
+static double primitive(double x)
+{
+    return 0.5 * (x * sqrt(fmax(1.0 - x * x, 0.0)) + asin(fmin(fmax(x, -1.0), 1.0)));
+}
+
+static void set_hertz(double ratio, hertz *h)
+{
+    for (int i = 0; i <= STRIPS; i++)
+        h->x[i] = -cos(M_PI * i / STRIPS);
+    for (int i = 0; i < STRIPS; i++) {
+        h->p[i] = (primitive(h->x[i + 1]) - primitive(h->x[i])) / (h->x[i + 1] - h->x[i]);
+        h->q[i] = ratio * h->p[i];
+    }
+    h->load = (rb_bem_edge_load){STRIPS, h->x, h->p, h->q};
+}
+
+/* All of it slips: K_II is an integral of tau - mu sigma, 0.15965661352 by quadrature. */
+static void sliding_under_a_contact(void **state)
+{
+    double error[3];
+    hertz load;
+    (void)state;
+    set_hertz(0.0, &load);
+    for (int k = 0; k < 3; k++) {
+        rb_crack *c = create(closed_crack(20 << k, 0.1));
+        const double x = 0.0;
+        const rb_crack_passage passage = {
+            .steps = 1, .x = &x, .loads = 1, .load = &load.load, .passes = 1};
+        rb_crack_history h;
+        CHECK_STATUS(rb_crack_pass(c, &passage, &h, NULL), RB_OK);
+        error[k] = fabs(h.K_II[0]) - 0.15965661352;
+        rb_crack_history_free(&h);
+        rb_crack_free(c);
+    }
+    CHECK_MAX(fabs(error[2]), 3e-5, "n = 80");
+    CHECK_MAX(fabs(error[2]), 0.5 * fabs(error[1]), "n = 40, 80");
+}
+
+/* p_f = sigma + 4 G V_0/(pi (kappa + 1) a^2), K_I = (p_f - sigma) sqrt(pi a). */
+static void trapped_in_the_full_plane(void **state)
+{
+    const double sigma = 0.7, volume = 0.02, a = 0.5, kappa = 3.0 - 4.0 * 0.3;
+    const double want = sigma + 4.0 * volume / (M_PI * (kappa + 1.0) * a * a);
+    double T[2 * 39] = {0}, hat[39];
+    rb_crack *c = create(closed_crack(40, 0.3));
+    rb_crack_state s;
+    (void)state;
+    rb_crack_places(c, NULL, NULL, hat, NULL, NULL);
+    CHECK_STATUS(rb_crack_state_alloc(c, &s), RB_OK);
+    for (int j = 0; j < 39; j++)
+        T[j] = -sigma * hat[j];
+    s.volume = volume;
+    CHECK_STATUS(rb_crack_step(c, T, RB_CRACK_TRAPPED, 0.0, 1.0, &s, NULL), RB_OK);
+    CHECK_REL(s.fluid_pressure, want, 2e-3, "pressure, of second order");
+    CHECK_REL(s.K_I, (s.fluid_pressure - sigma) * sqrt(M_PI * a), 1e-12, "K_I");
+    CHECK_ABS(s.K_II, 0.0, 1e-15, "K_II");
+    double held = 0.0;
+    for (int j = 0; j < 39; j++)
+        held += s.D[j] * hat[j];
+    CHECK_REL(held, volume, 1e-12, "volume");
+    rb_crack_state_free(&s);
+    rb_crack_free(c);
+}
+
+/* ---- Load -------------------------------------------------------------------------- */
+
+/* Nodal forces against the stress of bem, near the load and beyond the switch to the
+ * series: the body below is the mirror image of the one above. */
+static void stress_of_strips(void **state)
+{
+    enum { N = 8 };
+    static const double at[] = {0.3, -2.9, 3.1, 40.0};
+    hertz load;
+    double mirrored[STRIPS];
+    (void)state;
+    set_hertz(0.3, &load);
+    for (int i = 0; i < STRIPS; i++)
+        mirrored[i] = -load.q[i];
+    for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
+        rb_crack_shape shape = edge_crack(0.0, N, 0.0);
+        shape.path =
+            rb_crack_straight(0.0, 0.5, 1e-6, 0.0); /* short: stress is constant */
+        rb_crack *c = create(shape);
+        double T[2 * (N - 1)], hat[N - 1], places[2 * (N - 1)], stress[3 * (N - 1)];
+        rb_crack_places(c, places, NULL, hat, NULL, NULL);
+        for (int j = N - 2; j >= 0; j--) {
+            places[2 * j] = places[j] - at[k];
+            places[2 * j + 1] = 0.5;
+        }
+        const rb_bem_edge_load above = {STRIPS, load.x, load.p, mirrored};
+        CHECK_STATUS(
+            rb_bem_halfplane_stress(&above, (rb_bem_points){N - 1, places}, stress),
+            RB_OK);
+        CHECK_STATUS(rb_crack_load(c, &load.load, at[k], 0.0, T), RB_OK);
+        for (int j = 0; j < N - 1; j++) {
+            CHECK_ABS(T[j] / hat[j], stress[3 * j + 1], 1e-7, "syy, x = %g", at[k]);
+            /* along t = +x: sigma_ns is sxy, which the mirror turns */
+            CHECK_ABS(T[N - 1 + j] / hat[j], -stress[3 * j + 2], 1e-7, "sxy, x = %g",
+                      at[k]);
+        }
+        rb_crack_free(c);
+    }
+}
+
+/* ---- Passes ------------------------------------------------------------------------ */
+
+typedef struct {
+    rb_crack_history h;
+    rb_crack_summary s;
+} pass;
+
+static void run(int n, double friction, double ratio, rb_crack_fluid fluid, int steps,
+                int passes, pass *p)
+{
+    static double x[2 * STEPS];
+    hertz load;
+    set_hertz(ratio, &load);
+    for (int k = 0; k < steps; k++)
+        x[k] = -6.0 + 12.0 * k / (steps - 1);
+    rb_crack *c = create(edge_crack(30.0, n, friction));
+    const rb_crack_passage passage = {.steps = steps,
+                                      .x = x,
+                                      .loads = 1,
+                                      .load = &load.load,
+                                      .passes = passes,
+                                      .fluid = fluid};
+    CHECK_STATUS(rb_crack_pass(c, &passage, &p->h, NULL), RB_OK);
+    p->s = rb_crack_summarise(&p->h, passes);
+    rb_crack_free(c);
+}
+
+static void passes_of_a_contact(void **state)
+{
+    static const double reference[][11] = {
+        {.1, 0, -.09154, .15226, .0002, -.02567, .03211, .15226, -.00518, -.09116,
+         -.00617},
+        {.3, 0, -.05491, .06401, 0, -.02366, -.00368, .06401, .06401, -.04651, -.00695},
+        {.3, -.1, -.05736, .05546, .00485, -.03968, -.01912, .05546, .05546, -.02563,
+         .00152}};
+    static const int step[] = {45, 55, 65, 75, 80, 120};
+    const double unit = sqrt(M_PI);
+    (void)state;
+    for (size_t k = 0; k < sizeof reference / sizeof *reference; k++)
+        for (int n = 20; n <= 40; n *= 2) {
+            const double *want = reference[k], bound = n == 20 ? 7e-4 : 3e-5;
+            pass p;
+            run(n, want[0], want[1], RB_CRACK_DRY, STEPS, 3, &p);
+            CHECK_ABS(p.s.K_II_min / unit, want[2], fmin(bound, 3e-4), "K_II min");
+            CHECK_ABS(p.s.K_II_max / unit, want[3], fmin(bound, 4e-4), "K_II max");
+            CHECK_ABS(p.s.K_I_max / unit, want[4], 7e-5, "K_I max");
+            for (int i = 0; i < 6; i++)
+                CHECK_ABS(p.h.K_II[step[i]] / unit, want[5 + i], bound,
+                          "K_II, step %d, n = %d", step[i], n);
+            CHECK_MAX(p.s.pass_change, 1e-12, "shakedown: the third pass is the second");
+            CHECK_MAX(p.s.residual, 1e-9, "residual");
+            rb_crack_history_free(&p.h);
+        }
+}
+
+static void trapped_fluid(void **state)
+{
+    static const double reference[][4] = {
+        {10, 61, 0.332, 1.088}, {20, 121, 0.336, 1.104}, {40, 241, 0.337, 1.104}};
+    pass dry;
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        pass p;
+        run((int)reference[k][0], 0.1, 0.3, RB_CRACK_TRAPPED, (int)reference[k][1], 1,
+            &p);
+        CHECK_ABS(p.s.K_I_max / sqrt(M_PI), reference[k][2], 6e-4, "K_I, case %d", k);
+        CHECK_ABS(p.s.fluid_pressure_max, reference[k][3], 1e-3, "p_f, case %d", k);
+        rb_crack_history_free(&p.h);
+    }
+    run(20, 0.1, 0.3, RB_CRACK_DRY, STEPS, 1, &dry);
+    CHECK_MAX(dry.s.K_I_max / sqrt(M_PI), 0.05, "without fluid it hardly opens");
+    rb_crack_history_free(&dry.h);
+}
+
+/* The pressure of the contact at the mouth acts on the faces: under it they are open. */
+static void pressure_at_the_mouth(void **state)
+{
+    pass p;
+    (void)state;
+    run(20, 0.1, 0.0, RB_CRACK_PRESSURE, STEPS, 1, &p);
+    CHECK_REL(p.h.fluid_pressure[60], 1.0, 1e-3, "the contact stands on the mouth");
+    CHECK_ABS(p.h.fluid_pressure[49], 0.0, 1e-15, "x = -1.1");
+    CHECK_MAX(0.2, p.s.K_I_max / sqrt(M_PI), "it opens the crack");
+    rb_crack_history_free(&p.h);
+}
+
+/* ---- Kinks ------------------------------------------------------------------------- */
+
+/* A path with a vertex on its straight line is the straight crack, whatever the share of
+ * quadrature and closed forms. */
+static void a_kink_of_no_angle(void **state)
+{
+    const double x = 0.0;
+    const rb_crack_passage passage = {.steps = 1, .x = &x, .passes = 1, .tension = 1.0};
+    double K[2][2];
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        rb_crack_shape shape = edge_crack(50.0, 32, 0.1);
+        rb_crack_history h;
+        if (k == 1) {
+            shape.path.pieces = 2;
+            shape.path.x[2] = shape.path.x[1];
+            shape.path.y[2] = shape.path.y[1];
+            shape.path.x[1] *= 0.5;
+            shape.path.y[1] *= 0.5;
+        }
+        rb_crack *c = create(shape);
+        CHECK_STATUS(rb_crack_pass(c, &passage, &h, NULL), RB_OK);
+        K[k][0] = h.K_I[0];
+        K[k][1] = h.K_II[0];
+        rb_crack_history_free(&h);
+        rb_crack_free(c);
+    }
+    CHECK_REL(K[1][0], K[0][0], 1e-5, "K_I");
+    CHECK_REL(K[1][1], K[0][1], 1e-5, "K_II");
+}
+
+/* ---- Refusals ---------------------------------------------------------------------- */
+
+static void refuses(rb_crack_shape shape, const char *word)
+{
+    rb_crack *c = NULL;
+    rb_message why = {""};
+    CHECK_STATUS(rb_crack_create(&shape, &c, &why), RB_EINVAL);
+    assert_null(c);
+    if (!strstr(why.text, word))
+        fail_msg("'%s' does not say '%s'", why.text, word);
+}
+
+static void bad_input(void **state)
+{
+    rb_crack_shape shape = edge_crack(30.0, 20, 0.1);
+    (void)state;
+    shape.elements = 2;
+    refuses(shape, "2 elements");
+    refuses(edge_crack(0.0, 20, 0.1), "outside the body");
+    refuses(edge_crack(-30.0, 20, 0.1), "outside the body");
+    refuses(edge_crack(180.0, 20, 0.1), "below 15 degrees");
+    refuses(edge_crack(14.0, 20, 0.1), "below 15 degrees");
+    refuses(edge_crack(30.0, 20, -0.1), "friction");
+    shape = edge_crack(30.0, 20, 0.1);
+    shape.path.pieces = RB_CRACK_PIECES + 1;
+    refuses(shape, "pieces");
+    shape = edge_crack(30.0, 20, 0.1);
+    shape.path.x[1] = shape.path.y[1] = 0.0;
+    refuses(shape, "no length");
+    rb_crack_free(NULL);
+
+    const double x = 0.0;
+    rb_crack_history h;
+    rb_crack *c = create(closed_crack(10, 0.1));
+    rb_message why = {""};
+    const rb_crack_passage none = {.steps = 0, .x = &x, .passes = 1},
+                           wet = {.steps = 1,
+                                  .x = &x,
+                                  .passes = 1,
+                                  .fluid = RB_CRACK_TRAPPED};
+    CHECK_STATUS(rb_crack_pass(c, &none, &h, &why), RB_EINVAL);
+    CHECK_STATUS(rb_crack_pass(c, &wet, &h, &why), RB_EINVAL);
+    assert_non_null(strstr(why.text, "mouth"));
+    rb_crack_free(c);
+}
+
+static void no_memory(void **state)
+{
+    const double x = 0.0;
+    const rb_crack_shape shape = edge_crack(30.0, 8, 0.1);
+    hertz load;
+    (void)state;
+    set_hertz(0.3, &load);
+    const rb_crack_passage passage = {.steps = 1,
+                                      .x = &x,
+                                      .loads = 1,
+                                      .load = &load.load,
+                                      .passes = 1,
+                                      .fluid = RB_CRACK_TRAPPED};
+    int done = 0;
+    for (int k = 0; k < 400 && !done; k++) {
+        rb_crack *c = NULL;
+        rb_crack_history h = {0};
+        rb_message why = {""};
+        alloc_fail_after(k);
+        rb_status s = rb_crack_create(&shape, &c, &why);
+        if (s == RB_OK)
+            s = rb_crack_pass(c, &passage, &h, &why);
+        alloc_fail_after(-1);
+        done = s == RB_OK;
+        if (!done)
+            CHECK_STATUS(s, RB_ENOMEM);
+        rb_crack_history_free(&h);
+        rb_crack_free(c);
+    }
+    assert_true(done);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(edge_cracks_in_tension),
+        cmocka_unit_test(mirror_images),
+        cmocka_unit_test(cracks_below_the_surface),
+        cmocka_unit_test(history_of_a_closed_crack),
+        cmocka_unit_test(sliding_under_a_contact),
+        cmocka_unit_test(trapped_in_the_full_plane),
+        cmocka_unit_test(stress_of_strips),
+        cmocka_unit_test(passes_of_a_contact),
+        cmocka_unit_test(trapped_fluid),
+        cmocka_unit_test(pressure_at_the_mouth),
+        cmocka_unit_test(a_kink_of_no_angle),
+        cmocka_unit_test(bad_input),
+        cmocka_unit_test(no_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
