@@ -324,6 +324,43 @@ static void steps_have_error_bars(void **state)
     rb_api_free(a);
 }
 
+/* The notes of the program, one by one, and Carter's tractions where his law holds. */
+static void notes_and_closed_forms(void **state)
+{
+    (void)state;
+    char text[200];
+    int rows, columns;
+    rb_api *a = rb_api_create();
+    assert_null(rb_api_note(a, 0, text, sizeof text));
+    static const char *const words[][2] = {
+        {"support", "halfplane"}, {"support-b", "halfplane"},
+        {"similar", "yes"},       {"formulation", "steady"},
+        {"load", "500"},          {"mu", "0.3"}};
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        assert_int_equal(rb_api_set(a, words[k][0], words[k][1]), RB_OK);
+    assert_int_equal(rb_api_solve(a), RB_OK);
+    assert_non_null(strstr(rb_api_note(a, 0, text, sizeof text), "rolls at creepage 0"));
+    assert_null(rb_api_note(a, 1, text, sizeof text));
+    assert_null(rb_api_note(a, -1, text, sizeof text));
+    assert_int_equal(rb_api_set(a, "creep-ratio", "0.5"), RB_OK);
+    assert_int_equal(rb_api_solve(a), RB_OK);
+    assert_null(rb_api_note(a, 0, text, sizeof text));
+    const double highest = rb_api_number(a, "max_pressure");
+    for (int k = 0; k < 2; k++) {
+        double worst = 0.0;
+        const double *closed =
+            rb_api_array(a, k ? "closed.q" : "closed.p", &rows, &columns);
+        const double *solved = rb_api_array(a, k ? "q" : "p", &rows, &columns);
+        assert_non_null(closed);
+        for (int i = 0; i < rows; i++)
+            worst = fmax(worst, fabs(closed[i] - solved[i]));
+        if (worst > 0.01 * highest) /* at an element of the edge or beside stick */
+            fail_msg("closed form %d: off by %g of %g", k, worst, highest);
+    }
+    assert_null(rb_api_array(a, "closed.x", &rows, &columns));
+    rb_api_free(a);
+}
+
 static void results_of_every_table_are_there(void **state)
 {
     rb_api *a = rb_api_create_for("solve");
@@ -887,6 +924,7 @@ static void short_memory_is_reported(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(notes_and_closed_forms),
         cmocka_unit_test(descriptions_are_complete),
         cmocka_unit_test(refusals_are_those_of_the_case),
         cmocka_unit_test(numbers_are_the_solution),

@@ -25,7 +25,7 @@ static const struct {
     {"history", " base blas bem lcp contact rolling closed_forms "},
     {"study", " base blas bem lcp contact rolling closed_forms "},
     {"case", " base io contact rolling case "},
-    {"api", " base blas sparse io lcp contact friction rolling case api "},
+    {"api", " base blas sparse io lcp contact friction rolling closed_forms case api "},
     {"verify", " base bem rolling closed_forms verify "},
     {"report", " base blas sparse units bem lcp contact io friction fem rolling "
                "closed_forms case report "

@@ -346,7 +346,7 @@ static void notes_begin_where_they_should(void **state)
             want = k == 39 ? radians : NULL;
             break;
         }
-        const rb_report_note_list list = rb_report_find_notes(rc, s);
+        const rb_rolling_note_list list = rb_rolling_find_notes(rc, s);
         if (list.n != (want != NULL) || (want && !strstr(list.text[0], want)))
             fail_msg("%d: %d notes: %s; wanted: %s", k, list.n,
                      list.n ? list.text[0] : "", want ? want : "none");

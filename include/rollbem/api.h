@@ -77,6 +77,9 @@ double rb_api_number(const rb_api *a, const char *name);
 /* "status", in words; of a solution "formulation", "solver", "lcp-form"; "task.solver".
  * Static text, or NULL. */
 const char *rb_api_word(const rb_api *a, const char *name);
+/* Note k = 0, 1, ... on how the solution must be read; writes at most `size` bytes and
+ * returns text.  NULL: there is no such note, or no solution. */
+const char *rb_api_note(const rb_api *a, int k, char *text, int size);
 
 /* An array by name, rows x columns, column by column; borrowed until the case changes or
  * the array is made anew.  NULL: there is none, or no memory.
@@ -88,6 +91,7 @@ const char *rb_api_word(const rb_api *a, const char *name);
  *   step.p step.q step.zone      elements x steps
  *   step.x                       its midpoints
  *   ends gap0                    of the elements; the gap without load
+ *   closed.p closed.q            Hertz and Carter where Carter's law holds ("carter")
  *   F                            displacements (w_N, w_T) by tractions (r_N, r_T)
  *   mesh.x0 mesh.y0 mesh.x1 mesh.y1   boundary of a wheel
  *   H G                          its boundary elements' matrices

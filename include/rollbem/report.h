@@ -162,17 +162,8 @@ void rb_report_errors(FILE *out, const rb_rolling_solution *s,
                       const rb_rolling_errors *e);
 void rb_report_history_summary(FILE *out, const rb_rolling_case *rc,
                                const rb_rolling_history *h);
-/* A line each where a result must be read with care: linear elasticity far exceeded,
- * `static` with a creepage, steady rolling without one, full sliding, an arc support that
- * rolls, slip that does not oppose the friction.  They stand in # lines of the table and
- * in JSON as well. */
-enum { RB_REPORT_NOTES = 8 };
-typedef struct {
-    int n;
-    char text[RB_REPORT_NOTES][200];
-} rb_report_note_list;
-rb_report_note_list rb_report_find_notes(const rb_rolling_case *rc,
-                                         const rb_rolling_solution *s);
+/* The lines of rb_rolling_find_notes: # lines of the table, an array of JSON, standard
+ * error. */
 struct json_t *rb_report_json_notes(const rb_rolling_case *rc,
                                     const rb_rolling_solution *s);
 void rb_report_notes(FILE *out, const rb_rolling_case *rc, const rb_rolling_solution *s);

@@ -532,6 +532,21 @@ const rb_rolling_result *rb_rolling_study_column(int k);
  * in static. */
 void rb_rolling_friction_power(const rb_rolling_solution *s, double *power);
 
+/* A line each where a result must be read with care: linear elasticity far exceeded,
+ * `static` with a creepage, steady rolling without one, full sliding, an arc support that
+ * rolls, slip that does not oppose the friction. */
+enum { RB_ROLLING_NOTES = 8 };
+typedef struct {
+    int n;
+    char text[RB_ROLLING_NOTES][200];
+} rb_rolling_note_list;
+rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
+                                           const rb_rolling_solution *s);
+/* A friction power that is negative by more than rounding: an error of the mesh, and what
+ * to say of it. */
+int rb_rolling_is_below_zero(double dissipation, double load);
+extern const char rb_rolling_below_zero[];
+
 /* Rise of the temperature at a point of the surface, from a unit heat per area and time
  * that enters the body between the distances from < to upstream of it (T1), at any Peclet
  * number; conductivity > 0. */

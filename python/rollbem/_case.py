@@ -192,6 +192,11 @@ class Solution(_Named):
         return self._handle.word("solver")
 
     @property
+    def notes(self) -> list:
+        """The program's notes on how the solution must be read; empty: there are none."""
+        return self._all("notes", self._handle.notes)
+
+    @property
     def patches(self) -> dict:
         """The parts of the contact: columns with an entry per part."""
         return self._handle.arrays("patch", "patch.")

@@ -45,6 +45,7 @@ FUNCTIONS = {
     "rb_api_value": (_Text, _Handle, _Text, _Text, _Int),
     "rb_api_number": (_Double, _Handle, _Text),
     "rb_api_word": (_Text, _Handle, _Text),
+    "rb_api_note": (_Text, _Handle, _Int, _Text, _Int),
     "rb_api_array": (_Handle, _Handle, _Text, _Ints, _Ints),
     "rb_api_curve_over": (_Int, _Handle, _Text, _Double, _Double, _Int),
     "rb_api_stress": (_Int, _Handle, _Int, _Int, _Double),
@@ -247,6 +248,13 @@ class Handle:
     def word(self, name: str) -> Optional[str]:
         text = lib.rb_api_word(self.at, name.encode())
         return text.decode() if text is not None else None
+
+    def notes(self) -> list:
+        """What must be known to read the solution rightly."""
+        room, found = ctypes.create_string_buffer(256), []
+        while (text := lib.rb_api_note(self.at, len(found), room, len(room))) is not None:
+            found.append(text.decode())
+        return found
 
     def value(self, name: str) -> str:
         room = ctypes.create_string_buffer(4096)

@@ -198,3 +198,9 @@ def test_notebooks_run(path, monkeypatch):
         if cell["cell_type"] == "code":
             assert not cell["outputs"], "notebooks are kept without outputs"
             exec(compile("".join(cell["source"]), f"{path.name}, cell {k}", "exec"), names)
+
+
+def test_notes_are_those_of_the_program():
+    s = rollbem.solve(support="halfplane", formulation="steady", load=10)
+    assert len(s.notes) == 1 and "rolls at creepage 0" in s.notes[0]
+    assert rollbem.solve(support="halfplane", formulation="steady", load=10, creep_ratio=0.5).notes == []

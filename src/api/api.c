@@ -3,6 +3,7 @@
 #include "api/internal.h"
 
 #include "rollbem/blas.h"
+#include "rollbem/closed_forms.h"
 
 #include <gsl/gsl_errno.h>
 #include <stdio.h>
@@ -400,6 +401,19 @@ const char *rb_api_word(const rb_api *a, const char *name)
     return NULL;
 }
 
+const char *rb_api_note(const rb_api *a, int k, char *text, int size)
+{
+    const rb_rolling_solution *s = &a->result.solution;
+    if (s->n == 0 || k < 0)
+        return NULL;
+    const rb_rolling_note_list list =
+        rb_rolling_find_notes(&rb_case_resolved(a->words)->rc, s);
+    if (k >= list.n)
+        return NULL;
+    snprintf(text, (size_t)size, "%s", list.text[k]);
+    return text;
+}
+
 /* Of the last curve, or of the problem that was handed over. */
 static double other_number(const rb_api *a, const char *name)
 {
@@ -506,6 +520,26 @@ static api_array *patch_array(rb_api *a, const char *name, const char *column)
     return made;
 }
 
+/* Hertz and Carter at the elements' midpoints. */
+static api_array *closed_array(rb_api *a, const char *name)
+{
+    const rb_resolved_case *c = rb_case_resolved(a->words);
+    const rb_rolling_solution *s = &a->result.solution;
+    const int friction = strcmp(name, "closed.q") == 0;
+    if ((!friction && strcmp(name, "closed.p") != 0) || s->n == 0 ||
+        !rb_rolling_carter_holds(&c->rc))
+        return NULL;
+    const double half = s->hertz_half_width, mu = rb_rolling_largest_mu(&c->rc);
+    const double highest = rb_closed_hertz_max_pressure(s->normal_load, half);
+    api_array *made = rb_api_make_array(a, name, s->n, 1);
+    const double creep = mu > 0.0 ? s->creep_ratio : 0.0;
+    for (int i = 0; made && i < s->n; i++)
+        made->at[i] = friction
+                          ? rb_closed_carter_traction(mu, highest, half, creep, s->x[i])
+                          : rb_closed_hertz_pressure(highest, half, s->x[i]);
+    return made;
+}
+
 static api_array *power_array(rb_api *a, const char *name)
 {
     const rb_rolling_solution *s = &a->result.solution;
@@ -548,6 +582,8 @@ const double *rb_api_array(rb_api *a, const char *name, int *rows, int *columns)
         made = patch_array(a, name, name + 6);
     if (!made && strcmp(name, "friction_power") == 0)
         made = power_array(a, name);
+    if (!made && strncmp(name, "closed.", 7) == 0)
+        made = closed_array(a, name);
     if (!made && a->result.model.mesh.n > 0)
         made = model_array(a, name);
     *rows = made ? made->rows : 0;

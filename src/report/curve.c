@@ -142,14 +142,15 @@ static void print_power_below_zero(FILE *out, const rb_rolling_curve *c)
 {
     int points = 0, least = 0;
     for (int i = 0; i < c->n; i++) {
-        points += rb_report_is_below_zero(c->dissipation[i], c->normal_load[i]);
+        points += rb_rolling_is_below_zero(c->dissipation[i], c->normal_load[i]);
         if (c->dissipation[i] < c->dissipation[least])
             least = i;
     }
     if (points > 0)
         fprintf(out, "  dissipation below zero at %d point%s, %.2g %s at xi = %.5g: %s\n",
                 points, points > 1 ? "s" : "", c->dissipation[least],
-                rb_unit_name(c->units, "N/mm"), c->creepage[least], rb_report_below_zero);
+                rb_unit_name(c->units, "N/mm"), c->creepage[least],
+                rb_rolling_below_zero);
 }
 
 void rb_report_curve_summary(FILE *out, const rb_report_curves *curves)

@@ -7,11 +7,6 @@
 /* The solver that gave the answer, as the option `solver` calls it. */
 const char *rb_report_solver(const rb_rolling_solution *s);
 
-/* A friction power that is negative by more than rounding: an error of the mesh, and what
- * to say of it. */
-int rb_report_is_below_zero(double dissipation, double load);
-extern const char rb_report_below_zero[];
-
 /* For people: 0 where x is rounding of a sum of terms of that size. */
 double rb_report_tidy(double x, double size);
 

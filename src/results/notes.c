@@ -1,0 +1,146 @@
+/* What must be known to read a result rightly; the notes that change its meaning first.
+ */
+#include "rollbem/rolling.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+/* Strains are of the order of approach/R and a/R: from these on linear elasticity is
+ * inaccurate, from those below it does not hold at all. */
+static const double inaccurate_approach = 0.02, inaccurate_width = 0.1;
+/* An element by itself has other states from kappa = 1 on, several together a little
+ * earlier (theory.md F3). */
+static const double not_unique = 0.95;
+static const double broken_approach = 0.1, broken_width = 0.3;
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void
+add(rb_rolling_note_list *list, const char *format, ...)
+{
+    va_list args;
+    if (list->n == RB_ROLLING_NOTES)
+        return;
+    va_start(args, format);
+    vsnprintf(list->text[list->n++], sizeof list->text[0], format, args);
+    va_end(args);
+}
+
+const char rb_rolling_below_zero[] =
+    "smaller than its error on these elements; take more of them or --mesh aligned";
+
+int rb_rolling_is_below_zero(double dissipation, double load)
+{
+    return dissipation < -1e-12 * load;
+}
+
+static void note_strain(rb_rolling_note_list *list, const rb_rolling_case *rc,
+                        const rb_rolling_solution *s)
+{
+    double widest = s->patches > 1 ? 0.0 : s->half_width;
+    for (int k = 0; k < s->patches && s->patches > 1; k++)
+        widest = fmax(widest, 0.5 * (s->patch[k].to - s->patch[k].from));
+    const double radius = rb_unit_shown(s->units, "mm", rc->a.radius);
+    const double approach = s->approach / radius, width = widest / radius;
+    if (approach > broken_approach || width > broken_width)
+        add(list,
+            "approach/R = %.2g, a/R = %.2g: linear elasticity does not hold there, no "
+            "body could bear it",
+            approach, width);
+    else if (approach > inaccurate_approach || width > inaccurate_width)
+        add(list, "approach/R = %.2g, a/R = %.2g: linear elasticity is inaccurate there",
+            approach, width);
+}
+
+static void note_motion(rb_rolling_note_list *list, const rb_rolling_case *rc)
+{
+    const int creeps = !isnan(rc->creep) || !isnan(rc->creep_ratio);
+    const int forced = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
+    if (rc->formulation == RB_STATIC && creeps)
+        add(list, "static: the creepage enters only the slip of (12), not the tractions; "
+                  "for rolling, --formulation steady");
+    if (rc->formulation == RB_STEADY && !creeps && !forced)
+        add(list,
+            "steady without --creep, --creep-ratio, --force or --force-ratio: rolls "
+            "at creepage 0");
+}
+
+/* Given values that look as if they were meant in other units. */
+static void note_units(rb_rolling_note_list *list, const rb_rolling_case *rc,
+                       const rb_rolling_solution *s)
+{
+    const int arcs = rc->a.support == RB_BEM_ARC;
+    if (rc->formulation == RB_STEADY && !isnan(rc->creep) && fabs(s->creep_ratio) > 20.0)
+        add(list,
+            "xi R/(mu a) = %.3g: full sliding far beyond 1; is the creepage meant in "
+            "%%, --creep %g%%?",
+            s->creep_ratio, s->creepage);
+    if (arcs && rc->a.arc < 2.0)
+        add(list, "arc = %g degrees; is it meant in radians, --arc %grad?", rc->a.arc,
+            rc->a.arc);
+}
+
+static void note_yield(rb_rolling_note_list *list, const rb_rolling_solution *s)
+{
+    if (s->yielding > 0)
+        add(list, "zone 4, 5: the interface yields, with q < 0, q > 0; shift is slip and "
+                  "yielding together, plastic what has yielded");
+}
+
+static void note_mesh(rb_rolling_note_list *list, const rb_rolling_solution *s)
+{
+    if (s->equal_instead)
+        add(list, "the edges that elements were fitted to did not come to rest: equal "
+                  "elements instead");
+    if (s->edges_bounded && s->contact > 0)
+        add(list, "the pressure does not fall to zero like a power of the distance at "
+                  "every edge: such an edge is only known to an element");
+}
+
+/* Slip between two midpoints that the mean of their tractions does not oppose. */
+static void note_power(rb_rolling_note_list *list, const rb_rolling_solution *s)
+{
+    if (rb_rolling_is_below_zero(s->dissipation, s->normal_load))
+        add(list, "the dissipation, %.2g %s, is below zero: it is %s", s->dissipation,
+            rb_unit_name(s->units, "N/mm"), rb_rolling_below_zero);
+}
+
+/* Beyond full sliding the force does not change: it does not tell the creepage. */
+static void note_full_sliding(rb_rolling_note_list *list, const rb_rolling_case *rc,
+                              const rb_rolling_solution *s)
+{
+    const int force = !isnan(rc->force) || !isnan(rc->force_ratio) || rc->free_axle;
+    if (s->formulation != RB_STATIC && force && s->stick == 0 &&
+        rb_rolling_largest_mu(rc) > 0.0 && s->contact > 0 &&
+        !rb_rolling_law_depends_on_state(rc))
+        add(list, "full sliding: the creepage is not unique; every larger one gives the "
+                  "same force");
+}
+
+rb_rolling_note_list rb_rolling_find_notes(const rb_rolling_case *rc,
+                                           const rb_rolling_solution *s)
+{
+    rb_rolling_note_list list = {.n = 0};
+    note_strain(&list, rc, s);
+    note_motion(&list, rc);
+    note_units(&list, rc, s);
+    note_full_sliding(&list, rc, s);
+    if (s->kappa > not_unique)
+        add(&list,
+            "friction falls so steeply, kappa = %.3g, that there may be other solutions: "
+            "which one is found depends on the start",
+            s->kappa);
+    if (rc->formulation != RB_STATIC && !rb_rolling_body_can(&rc->a, RB_BODY_TURNS))
+        add(&list, "on an arc support rolling differs at every angle of the wheel; hub "
+                   "and halfplane do not");
+    note_yield(&list, s);
+    note_mesh(&list, s);
+    note_power(&list, s);
+    if (rc->formulation == RB_STATIC && rb_rolling_largest_mu(rc) > 0.0 &&
+        s->slip_violations > 0)
+        add(&list, "at %d points the slip of (12) does not oppose the friction",
+            s->slip_violations);
+    return list;
+}
