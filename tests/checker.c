@@ -230,6 +230,11 @@ static body body_of(const json_t *inputs, const char *suffix)
               number(inputs, datum), strcmp(word(inputs, support), "halfplane") == 0};
     if (isnan(b.young))
         b.young = 0.0;
+    if (strcmp(word(inputs, "plane"), "stress") == 0) {
+        /* thin discs: E (1 + 2 nu)/(1 + nu)^2 and nu/(1 + nu) stand for E and nu */
+        b.young *= (1.0 + 2.0 * b.poisson) / pow(1.0 + b.poisson, 2.0);
+        b.poisson /= 1.0 + b.poisson;
+    }
     if (isnan(b.radius))
         b.radius = INFINITY;
     return b;
@@ -1216,10 +1221,11 @@ static void check_curve(const json_t *inputs, const json_t *curve, int surface_n
 
 /* ---- Stress ------------------------------------------------------------------------ */
 
-/* Plane strain: what follows from the tensor follows from the printed tensor. */
+/* What follows from the tensor follows from the printed tensor. */
 static void check_stress(const json_t *inputs, const json_t *at)
 {
-    const double nu = number(inputs, "poisson");
+    const double nu =
+        strcmp(word(inputs, "plane"), "stress") == 0 ? 0.0 : number(inputs, "poisson");
     for (size_t i = 0; i < json_array_size(json_object_get(at, "x_mm")); i++) {
         const double xx = entry(at, "sxx_MPa", i), yy = entry(at, "syy_MPa", i);
         const double zz = entry(at, "szz_MPa", i), xy = entry(at, "sxy_MPa", i);

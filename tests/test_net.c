@@ -21,6 +21,7 @@
 /* ---- Factors ----------------------------------------------------------------------- */
 
 enum {
+    PLANE,
     SUPPORT,
     BODY_B,
     SURFACE,
@@ -58,6 +59,7 @@ static const struct {
     const char *name, *option;
     level level[24];
 } factors[FACTORS] = {
+    {"plane", "plane", {{NULL, NULL}}},
     {"support", "support", {{NULL, NULL}}},
     {"body-b",
      NULL,

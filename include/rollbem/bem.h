@@ -10,13 +10,20 @@ RB_PUBLIC_BEGIN
 
 /* ---- Elasticity ------------------------------------------------------------------ */
 
-/* Isotropic plane strain. */
+/* Long bodies, loads per unit length, or thin discs, loads per unit thickness. */
+typedef enum { RB_PLANE_STRAIN, RB_PLANE_STRESS } rb_bem_plane;
+
+/* Isotropic, with the constants that the formulas of plane strain take. */
 typedef struct {
     double shear;   /* G > 0 [stress] */
-    double poisson; /* nu in (-1, 0.5] */
+    double poisson; /* nu in (-1, 0.5]; in plane stress nu/(1 + nu) */
 } rb_bem_material;
 
 rb_bem_material rb_bem_material_from_young(double young, double poisson);
+/* The one place where plane stress is turned into plane strain (B2): poisson in
+ * (-0.5, 0.5] of the material itself. */
+rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young,
+                                         double poisson);
 
 /* ---- Meshes (B4) ----------------------------------------------------------------- */
 

@@ -160,6 +160,7 @@ typedef struct {
 /* Every input of one case.  Quantities of which "one of" is asked are NAN when not given.
  * rb_rolling_case_defaults() is the example of *Addi* (theory.md 7). */
 typedef struct {
+    rb_bem_plane plane; /* strain, or stress of thin discs */
     rb_rolling_body a, b;
     int elastic_b; /* 0: B is a rigid plane and b is not read */
 
@@ -232,6 +233,13 @@ typedef struct {
 } rb_rolling_case;
 
 rb_rolling_case rb_rolling_case_defaults(void);
+
+/* What a body is made of, as the plane problem of the case takes it; the second one: what
+ * is below its layer or cover. */
+rb_bem_material rb_rolling_material(const rb_rolling_case *rc,
+                                    const rb_rolling_body *body);
+rb_bem_material rb_rolling_base_material(const rb_rolling_case *rc,
+                                         const rb_rolling_body *body);
 
 /* The largest coefficient that the friction law has: the scale of Q/(mu P) and of
  * xi R/(mu a). */

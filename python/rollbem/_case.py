@@ -317,8 +317,9 @@ class Extremum(tuple):
 class Stress(_Named):
     """Stress in body A: arrays of ny x nx (a row per depth), or with an entry per point.
 
-    Plane strain, tension positive.  ``maxima`` holds value and place of the largest
-    ``max_shear``, ``von_mises``, ``orthogonal_shear`` and ``tension``.
+    Tension positive; ``szz`` is that of plane strain, 0 in plane stress.  ``maxima``
+    holds value and place of the largest ``max_shear``, ``von_mises``,
+    ``orthogonal_shear`` and ``tension``.
     """
 
     def __init__(self, solution: Solution, maxima: dict) -> None:

@@ -461,12 +461,12 @@ double rb_api_number(const rb_api *a, const char *name)
 static api_array *boundary_matrices(rb_api *a, const char *name)
 {
     const rb_bem_mesh *mesh = rb_bem_system_mesh(a->result.model.bodies.system_a);
-    const rb_rolling_body *body = &a->result.model.rc.a;
+    const rb_rolling_case *rc = &a->result.model.rc;
     api_array *H = rb_api_make_array(a, "H", 2 * mesh->n, 2 * mesh->n);
     api_array *G = rb_api_make_array(a, "G", 2 * mesh->n, 2 * mesh->n);
     if (!H || !G ||
-        rb_bem_assemble(mesh, rb_bem_material_from_young(body->young, body->poisson),
-                        H->at, G->at, 2 * mesh->n, &a->why) != RB_OK) {
+        rb_bem_assemble(mesh, rb_rolling_material(rc, &rc->a), H->at, G->at, 2 * mesh->n,
+                        &a->why) != RB_OK) {
         rb_api_forget_arrays(a, "H");
         rb_api_forget_arrays(a, "G");
         return NULL;

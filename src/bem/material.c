@@ -8,6 +8,14 @@ rb_bem_material rb_bem_material_from_young(double young, double poisson)
                              .poisson = poisson};
 }
 
+rb_bem_material rb_bem_material_in_plane(rb_bem_plane plane, double young, double poisson)
+{
+    rb_bem_material m = rb_bem_material_from_young(young, poisson);
+    if (plane == RB_PLANE_STRESS)
+        m.poisson = poisson / (1.0 + poisson);
+    return m;
+}
+
 rb_status rb_bem_material_check(rb_bem_material material, rb_message *why)
 {
     if (!(material.shear > 0.0 && isfinite(material.shear)))

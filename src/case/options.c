@@ -7,6 +7,8 @@
 #define PLACE(member) offsetof(rb_resolved_case, member)
 #define RC(member) offsetof(rb_resolved_case, rc.member)
 
+static const rb_choice planes[] = {
+    {"strain", RB_PLANE_STRAIN}, {"stress", RB_PLANE_STRESS}, {NULL, 0}};
 static const rb_choice gaps[] = {
     {"parabola", RB_GAP_PARABOLA}, {"exact", RB_GAP_EXACT}, {NULL, 0}};
 static const rb_choice formulations[] = {
@@ -269,6 +271,10 @@ const rb_option rb_case_table[] = {
                    "static, bodies that relax: longest step between two rows of the "
                    "history; rows: one step for each row",
                    .word = "rows", .word_value = 0.0),
+
+    RB_CHOICE_LINE("plane", RC(plane), planes,
+                   "strain: long bodies, loads per unit of length; stress: thin discs, "
+                   "loads per unit of thickness"),
 
     RB_GROUP_LINE("mesh", "Mesh"),
     RB_CHOICE_LINE(

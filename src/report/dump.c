@@ -116,7 +116,7 @@ static rb_status dump_influence(const target *t, const char *suffix,
 }
 
 static rb_status dump_body(const target *t, const char *suffix,
-                           const rb_bem_system *system, const rb_rolling_body *body)
+                           const rb_bem_system *system, rb_bem_material material)
 {
     char name[16];
     if (!system)
@@ -126,8 +126,7 @@ static rb_status dump_body(const target *t, const char *suffix,
     const rb_status s = dump_mesh(t, name, mesh);
     if (s != RB_OK)
         return s;
-    return dump_influence(t, suffix, mesh,
-                          rb_bem_material_from_young(body->young, body->poisson));
+    return dump_influence(t, suffix, mesh, material);
 }
 
 static rb_status dump_dense(const target *t, const rb_rolling_model *model)
@@ -186,9 +185,11 @@ static rb_status dump_all(const target *t, const rb_rolling_model *model)
 {
     rb_status s = dump_contact(t, &model->mesh);
     if (s == RB_OK)
-        s = dump_body(t, "", model->bodies.system_a, &model->rc.a);
+        s = dump_body(t, "", model->bodies.system_a,
+                      rb_rolling_material(&model->rc, &model->rc.a));
     if (s == RB_OK)
-        s = dump_body(t, "_b", model->bodies.system_b, &model->rc.b);
+        s = dump_body(t, "_b", model->bodies.system_b,
+                      rb_rolling_material(&model->rc, &model->rc.b));
     if (s != RB_OK)
         return s;
     if (!model->bodies.F) /* a large contact: neither F nor M has been formed */

@@ -154,13 +154,14 @@ static rb_status evaluate(const field *f, int n, const double *xy, double *sigma
     return s;
 }
 
-static rb_rolling_stress derive(double x, double y, const double *sigma, double poisson)
+/* szz = lateral (sxx + syy): nu in plane strain, 0 in plane stress. */
+static rb_rolling_stress derive(double x, double y, const double *sigma, double lateral)
 {
     rb_rolling_stress s = {
         .x = x, .y = y, .sxx = sigma[0], .syy = sigma[1], .sxy = sigma[2]};
     const double mean = 0.5 * (s.sxx + s.syy);
 
-    s.szz = poisson * (s.sxx + s.syy);
+    s.szz = lateral * (s.sxx + s.syy);
     s.max_shear = hypot(0.5 * (s.sxx - s.syy), s.sxy);
     s.principal_1 = mean + s.max_shear;
     s.principal_2 = mean - s.max_shear;
@@ -174,13 +175,14 @@ static rb_rolling_stress derive(double x, double y, const double *sigma, double 
 static rb_status stress_of_field(const field *f, int n, const double *xy,
                                  rb_rolling_stress *stress, rb_message *why)
 {
+    const rb_rolling_case *rc = &f->model->rc;
     double *sigma = rb_alloc((size_t)n, 3);
     if (!sigma)
         return RB_ENOMEM;
     const rb_status s = evaluate(f, n, xy, sigma, why);
     for (int k = 0; k < n && s == RB_OK; k++)
-        stress[k] =
-            derive(xy[2 * k], xy[2 * k + 1], sigma + 3 * k, f->model->rc.a.poisson);
+        stress[k] = derive(xy[2 * k], xy[2 * k + 1], sigma + 3 * k,
+                           rc->plane == RB_PLANE_STRESS ? 0.0 : rc->a.poisson);
     free(sigma);
     return s;
 }

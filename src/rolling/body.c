@@ -81,8 +81,37 @@ rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
     return rb_rolling_kind_of(body)->surface(rc, body, length);
 }
 
-rb_status rb_rolling_body_check(const rb_rolling_body *b, const char *which,
-                                int plane_allowed, rb_message *why)
+rb_bem_material rb_rolling_material(const rb_rolling_case *rc,
+                                    const rb_rolling_body *body)
+{
+    return rb_bem_material_in_plane(rc->plane, body->young, body->poisson);
+}
+
+rb_bem_material rb_rolling_base_material(const rb_rolling_case *rc,
+                                         const rb_rolling_body *body)
+{
+    return body->cover > 0.0
+               ? rb_bem_material_in_plane(rc->plane, body->core_young, body->core_poisson)
+               : rb_bem_material_in_plane(rc->plane, body->base_young,
+                                          body->base_poisson);
+}
+
+/* Below -1/2 a thin disc that is pressed in its plane would be softer than any body of
+ * plane strain can be. */
+rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what,
+                                   double poisson, const char *which, rb_message *why)
+{
+    const int stress = rc->plane == RB_PLANE_STRESS;
+    if (poisson > (stress ? -0.5 : -1.0) && poisson <= 0.5)
+        return RB_OK;
+    return rb_fail(why, RB_EINVAL,
+                   "Poisson's ratio%s%s%s: expected in (%s, 0.5]%s, got %g",
+                   what ? " of the " : "", what ? what : "", which,
+                   stress ? "-0.5" : "-1", stress ? " in plane stress" : "", poisson);
+}
+
+rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body *b,
+                                const char *which, int plane_allowed, rb_message *why)
 {
     const int plane = plane_allowed && b->radius == INFINITY;
     rb_status s = RB_OK;
@@ -90,9 +119,6 @@ rb_status rb_rolling_body_check(const rb_rolling_body *b, const char *which,
     if (!(isfinite(b->young) && b->young > 0.0))
         return rb_fail(why, RB_EINVAL, "Young's modulus%s: expected > 0, got %g", which,
                        b->young);
-    if (!(b->poisson > -1.0 && b->poisson <= 0.5))
-        return rb_fail(why, RB_EINVAL, "Poisson's ratio%s: expected in (-1, 0.5], got %g",
-                       which, b->poisson);
     if (!plane && !(isfinite(b->radius) && b->radius > 0.0))
         return rb_fail(why, RB_EINVAL, "radius%s: expected > 0, got %g", which,
                        b->radius);
@@ -102,9 +128,10 @@ rb_status rb_rolling_body_check(const rb_rolling_body *b, const char *which,
     if (plane && !(rb_rolling_kind_of(b)->can & RB_BODY_FLAT))
         return rb_fail(why, RB_EINVAL,
                        "support%s: a plane has the support halfplane only", which);
+    s = rb_rolling_check_poisson(rc, NULL, b->poisson, which, why);
     for (const rb_rolling_body_kind *const *kind = rb_rolling_body_kinds;
          *kind && s == RB_OK; kind++)
         if ((*kind)->check && ((*kind)->holds || (*kind)->support == b->support))
-            s = (*kind)->check(b, which, why);
+            s = (*kind)->check(rc, b, which, why);
     return s;
 }

@@ -23,17 +23,15 @@ rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
 {
     rb_rolling_memory_lengths(rc, body, length);
     const int elastic_base = body->layer > 0.0 && body->base_young > 0.0;
-    return (rb_bem_surface){
-        .material = rb_bem_material_from_young(body->young, body->poisson),
-        .datum = depth_of_datum(rc, body),
-        .terms = body->memory.n,
-        .ratio = body->memory.ratio,
-        .length = length,
-        .thickness = body->layer,
-        .elastic_base = elastic_base,
-        .base = elastic_base
-                    ? rb_bem_material_from_young(body->base_young, body->base_poisson)
-                    : (rb_bem_material){0}};
+    return (rb_bem_surface){.material = rb_rolling_material(rc, body),
+                            .datum = depth_of_datum(rc, body),
+                            .terms = body->memory.n,
+                            .ratio = body->memory.ratio,
+                            .length = length,
+                            .thickness = body->layer,
+                            .elastic_base = elastic_base,
+                            .base = elastic_base ? rb_rolling_base_material(rc, body)
+                                                 : (rb_bem_material){0}};
 }
 
 typedef rb_status maker(int n, const double *ends, const rb_bem_surface *surface,
@@ -69,18 +67,14 @@ static rb_status halfplane_transforms(const rb_rolling_case *rc,
     return make(rb_bem_flexibility_toeplitz, rc, body, mesh, one_body, why);
 }
 
-rb_status rb_rolling_check_base(const char *what, double young, double poisson,
-                                const char *which, rb_message *why)
+rb_status rb_rolling_check_base(const rb_rolling_case *rc, const char *what, double young,
+                                double poisson, const char *which, rb_message *why)
 {
     if (!(isfinite(young) && young >= 0.0))
         return rb_fail(why, RB_EINVAL,
                        "Young's modulus of the %s%s: expected > 0, got %g", what, which,
                        young);
-    if (young > 0.0 && !(poisson > -1.0 && poisson <= 0.5))
-        return rb_fail(why, RB_EINVAL,
-                       "Poisson's ratio of the %s%s: expected in (-1, 0.5], got %g", what,
-                       which, poisson);
-    return RB_OK;
+    return young > 0.0 ? rb_rolling_check_poisson(rc, what, poisson, which, why) : RB_OK;
 }
 
 enum { HALFPLANE = RB_BODY_FLAT | RB_BODY_TURNS };
@@ -102,9 +96,10 @@ static double datum(const rb_rolling_case *rc, const rb_rolling_body *body)
     return on_rigid_base(body) ? NAN : depth_of_datum(rc, body);
 }
 
-static rb_status check_halfplane(const rb_rolling_body *b, const char *which,
-                                 rb_message *why)
+static rb_status check_halfplane(const rb_rolling_case *rc, const rb_rolling_body *b,
+                                 const char *which, rb_message *why)
 {
+    (void)rc;
     return isfinite(b->datum) && b->datum >= 0.0
                ? RB_OK
                : rb_fail(why, RB_EINVAL, "datum%s: expected a depth >= 0, got %g", which,
@@ -134,7 +129,8 @@ static int has_layer(const rb_rolling_body *body)
     return body->layer > 0.0;
 }
 
-static rb_status check_layer(const rb_rolling_body *b, const char *which, rb_message *why)
+static rb_status check_layer(const rb_rolling_case *rc, const rb_rolling_body *b,
+                             const char *which, rb_message *why)
 {
     if (!(isfinite(b->layer) && b->layer >= 0.0))
         return rb_fail(why, RB_EINVAL, "layer thickness%s: expected > 0, got %g", which,
@@ -143,7 +139,7 @@ static rb_status check_layer(const rb_rolling_body *b, const char *which, rb_mes
         return rb_fail(why, RB_EINVAL,
                        "layer thickness%s: for the support halfplane only, got a wheel",
                        which);
-    return rb_rolling_check_base("base", b->base_young, b->base_poisson, which, why);
+    return rb_rolling_check_base(rc, "base", b->base_young, b->base_poisson, which, why);
 }
 
 static const rb_rolling_parameter layer_parameters[] = {

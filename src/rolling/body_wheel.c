@@ -19,23 +19,21 @@ static int wants_exact_field(const rb_rolling_case *rc, const rb_rolling_body *b
 
 /* The boundary elements of a wheel, of its cover alone where the core is rigid, of both
  * where it is elastic. */
-static rb_status wheel_system(const rb_rolling_body *body,
+static rb_status wheel_system(const rb_rolling_case *rc, const rb_rolling_body *body,
                               const rb_bem_cylinder *cylinder,
                               const rb_rolling_mesh *mesh, rb_bem_system **system,
                               rb_message *why)
 {
-    const rb_bem_material material =
-        rb_bem_material_from_young(body->young, body->poisson);
+    const rb_bem_material material = rb_rolling_material(rc, body);
     rb_bem_mesh boundary = {0}, core = {0};
     rb_status s = rb_bem_mesh_cylinder(cylinder, mesh->n, mesh->ends, &boundary, why);
 
     if (s == RB_OK && rb_rolling_has_elastic_core(body)) {
         s = rb_bem_mesh_core(cylinder, &boundary, &core, why);
         if (s == RB_OK)
-            s = rb_bem_system_create_bonded(
-                &boundary, material, &core,
-                rb_bem_material_from_young(body->core_young, body->core_poisson), system,
-                why);
+            s = rb_bem_system_create_bonded(&boundary, material, &core,
+                                            rb_rolling_base_material(rc, body), system,
+                                            why);
     } else if (s == RB_OK) {
         s = rb_bem_system_create(&boundary, material, system, why);
     }
@@ -54,8 +52,7 @@ static rb_status add_memory(const rb_rolling_case *rc, const rb_rolling_body *bo
     const double hub = body->hub_ratio * body->radius;
     rb_bem_wheel wheel = {.radius = body->radius,
                           .inner = body->cover > 0.0 ? body->radius - body->cover : hub,
-                          .material =
-                              rb_bem_material_from_young(body->young, body->poisson),
+                          .material = rb_rolling_material(rc, body),
                           .terms = body->memory.n,
                           .ratio = body->memory.ratio,
                           .length = length};
@@ -63,7 +60,7 @@ static rb_status add_memory(const rb_rolling_case *rc, const rb_rolling_body *bo
     rb_rolling_memory_lengths(rc, body, length);
     if (rb_rolling_has_elastic_core(body)) {
         wheel.hub = hub;
-        wheel.core = rb_bem_material_from_young(body->core_young, body->core_poisson);
+        wheel.core = rb_rolling_base_material(rc, body);
     }
     return rb_bem_flexibility_add_memory(&wheel, rc->normals, mesh->ends, f, why);
 }
@@ -79,7 +76,7 @@ static rb_status wheel_flexibility(const rb_rolling_case *rc, const rb_rolling_b
                                       .cover = body->cover,
                                       .outer_elements = rc->outer_elements,
                                       .refinement = rc->outer_refinement};
-    rb_status s = wheel_system(body, &cylinder, mesh, &one_body->system, why);
+    rb_status s = wheel_system(rc, body, &cylinder, mesh, &one_body->system, why);
 
     if (s == RB_OK) {
         rb_bem_system_seconds(one_body->system, &one_body->seconds_assembly,
@@ -98,8 +95,10 @@ enum { WHEEL = RB_BODY_BOUNDARY | RB_BODY_ELASTIC | RB_BODY_STRESS };
 
 /* ---- A clamped arc ----------------------------------------------------------------- */
 
-static rb_status check_arc(const rb_rolling_body *b, const char *which, rb_message *why)
+static rb_status check_arc(const rb_rolling_case *rc, const rb_rolling_body *b,
+                           const char *which, rb_message *why)
 {
+    (void)rc;
     return b->arc > 0.0 && b->arc <= 90.0
                ? RB_OK
                : rb_fail(why, RB_EINVAL, "arc%s: expected in (0, 90] degrees, got %g",
@@ -119,8 +118,10 @@ const rb_rolling_body_kind rb_rolling_arc = {.name = "arc",
 
 /* ---- A rigid hub ------------------------------------------------------------------- */
 
-static rb_status check_hub(const rb_rolling_body *b, const char *which, rb_message *why)
+static rb_status check_hub(const rb_rolling_case *rc, const rb_rolling_body *b,
+                           const char *which, rb_message *why)
 {
+    (void)rc;
     return b->hub_ratio > 0.0 && b->hub_ratio < 1.0
                ? RB_OK
                : rb_fail(why, RB_EINVAL, "hub ratio%s: expected in (0, 1), got %g", which,
@@ -153,7 +154,8 @@ static int has_cover(const rb_rolling_body *body)
     return body->cover > 0.0;
 }
 
-static rb_status check_cover(const rb_rolling_body *b, const char *which, rb_message *why)
+static rb_status check_cover(const rb_rolling_case *rc, const rb_rolling_body *b,
+                             const char *which, rb_message *why)
 {
     if (b->cover != 0.0 && b->support != RB_BEM_HUB)
         return rb_fail(why, RB_EINVAL,
@@ -164,12 +166,12 @@ static rb_status check_cover(const rb_rolling_body *b, const char *which, rb_mes
             why, RB_EINVAL,
             "cover thickness%s: expected > 0 and less than the radius, %g mm, got %g mm",
             which, b->radius, b->cover);
-    if (rb_rolling_has_elastic_core(b) && b->poisson > 0.499)
+    if (rb_rolling_has_elastic_core(b) && rb_rolling_material(rc, b).poisson > 0.499)
         return rb_fail(why, RB_EINVAL,
                        "Poisson's ratio%s: a cover on an elastic core has to be "
                        "compressible, expected 0.499 at most, got %g",
                        which, b->poisson);
-    return rb_rolling_check_base("core", b->core_young, b->core_poisson, which, why);
+    return rb_rolling_check_base(rc, "core", b->core_young, b->core_poisson, which, why);
 }
 
 static const rb_rolling_parameter cover_parameters[] = {

@@ -41,16 +41,16 @@ rb_rolling_case rb_rolling_case_defaults(void)
 
 /* ---- Derived quantities ------------------------------------------------------------ */
 
-/* (1 - nu^2)/E, what a half-plane adds to 1/E*. */
-static double compliance(const rb_rolling_body *body)
+/* (1 - nu^2)/E, in plane stress 1/E: what a half-plane adds to 1/E*. */
+static double compliance(rb_bem_material m)
 {
-    return (1.0 - gsl_pow_2(body->poisson)) / body->young;
+    return (1.0 - m.poisson) / (2.0 * m.shear);
 }
 
 /* c of kernels (Flamant): the coupling compliance of a half-plane. */
-static double coupling(const rb_rolling_body *body)
+static double coupling(rb_bem_material m)
 {
-    return (1.0 - 2.0 * body->poisson) * (1.0 + body->poisson) / (2.0 * body->young);
+    return (1.0 - 2.0 * m.poisson) / (4.0 * m.shear);
 }
 
 /* Solves a^2/(4R) (2 ln(4R/a) - 1) = delta for a, the compression of a half-cylinder
@@ -77,7 +77,8 @@ static double half_width_of_approach(double radius, double approach)
 
 static double modulus(const rb_rolling_case *rc)
 {
-    return 1.0 / (compliance(&rc->a) + (rc->elastic_b ? compliance(&rc->b) : 0.0));
+    return 1.0 / (compliance(rb_rolling_material(rc, &rc->a)) +
+                  (rc->elastic_b ? compliance(rb_rolling_material(rc, &rc->b)) : 0.0));
 }
 
 double rb_rolling_radius(const rb_rolling_case *rc)
@@ -97,10 +98,12 @@ double rb_rolling_hertz_load(const rb_rolling_case *rc, double half_width)
 
 rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc)
 {
-    const rb_rolling_body *a = &rc->a, *b = &rc->b;
+    const rb_rolling_body *a = &rc->a;
     rb_rolling_derived d = {.radius = rb_rolling_radius(rc), .modulus = modulus(rc)};
 
-    d.dundurs = (coupling(a) - (rc->elastic_b ? coupling(b) : 0.0)) * d.modulus;
+    d.dundurs = (coupling(rb_rolling_material(rc, a)) -
+                 (rc->elastic_b ? coupling(rb_rolling_material(rc, &rc->b)) : 0.0)) *
+                d.modulus;
     d.load = isnan(rc->half_width) ? rc->load : rb_rolling_hertz_load(rc, rc->half_width);
     if (!isnan(d.load)) {
         d.approach = NAN;
@@ -529,10 +532,10 @@ rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
         check_interlayer, check_normal,       check_tangential,
         check_gap,        check_irregularity, check_worn,
         check_increments, check_sizes,        check_mesh};
-    rb_status s = rb_rolling_body_check(&rc->a, "", 0, why);
+    rb_status s = rb_rolling_body_check(rc, &rc->a, "", 0, why);
 
     if (s == RB_OK && rc->elastic_b)
-        s = rb_rolling_body_check(&rc->b, " of body B", 1, why);
+        s = rb_rolling_body_check(rc, &rc->b, " of body B", 1, why);
     for (size_t k = 0; k < sizeof checks / sizeof *checks && s == RB_OK; k++)
         s = checks[k](rc, why);
     return s;

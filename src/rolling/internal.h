@@ -52,7 +52,8 @@ struct rb_rolling_body_kind {
     const rb_rolling_parameter *parameters;
     /* Ranges of the parameters; of an addition for every body, with or without it.
      * which: "", or " of body B".  NULL: nothing to check. */
-    rb_status (*check)(const rb_rolling_body *body, const char *which, rb_message *why);
+    rb_status (*check)(const rb_rolling_case *rc, const rb_rolling_body *body,
+                       const char *which, rb_message *why);
 
     /* Of the support only: */
     rb_status (*flexibility)(const rb_rolling_case *rc, const rb_rolling_body *body,
@@ -87,14 +88,19 @@ rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
 void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body *body,
                                double length[RB_ROLLING_TERMS]);
 /* E >= 0, 0 where it is rigid, and nu of what is below a layer or cover. */
-rb_status rb_rolling_check_base(const char *what, double young, double poisson,
-                                const char *which, rb_message *why);
+rb_status rb_rolling_check_base(const rb_rolling_case *rc, const char *what, double young,
+                                double poisson, const char *which, rb_message *why);
 
 /* ---- body.c ------------------------------------------------------------------------ */
 
+/* nu in the range of the plane problem; what: "base" or "core", NULL of the body itself.
+ */
+rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what,
+                                   double poisson, const char *which, rb_message *why);
+
 /* RB_EINVAL: what no body can be.  which: "", or " of body B". */
-rb_status rb_rolling_body_check(const rb_rolling_body *body, const char *which,
-                                int plane_allowed, rb_message *why);
+rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body *body,
+                                const char *which, int plane_allowed, rb_message *why);
 
 /* The given datum of a half-plane, or 2R/e, R of the body or of A where it is a plane;
  * NAN where nothing is measured from one: wheels, and layers on a rigid base. */

@@ -70,7 +70,8 @@ static rb_status check_resolved(const rb_rolling_model *model, rb_message *why)
         const double longest =
             rb_rolling_longest_element(n, model->state.zone, model->bodies.f.h);
         const double h = longest > 0.0 ? longest : model->bodies.f.h[n / 2];
-        if (thickness > 0.0 && bodies[b]->poisson > nearly_incompressible &&
+        if (thickness > 0.0 &&
+            rb_rolling_material(rc, bodies[b]).poisson > nearly_incompressible &&
             h > thickness * (1.0 + 1e-9))
             return rb_fail(why, RB_EINVAL,
                            "%s thickness: with nu = %g the elements, %.3g mm, may not be "

@@ -53,10 +53,13 @@ static rb_status solve_ring(rb_bem_material material, double *u, double *t,
 }
 
 /* Lame: u = A r + B/r with u(outer) = 0 and s_rr(inner) = -pressure. */
-static void ring(rb_verify *v)
+static void ring(rb_verify *v, rb_bem_plane plane)
 {
-    const rb_bem_material m = {1.0, 0.3};
-    const double c = 2.0 * m.shear, k = 1.0 / (1.0 - 2.0 * m.poisson);
+    const double E = 2.6, nu = 0.3, c = E / (1.0 + nu);
+    const double k =
+        (1.0 + nu) /
+        (plane == RB_PLANE_STRESS ? 1.0 - nu : (1.0 + nu) * (1.0 - 2.0 * nu));
+    const char *name = plane == RB_PLANE_STRESS ? ", plane stress" : "";
     /* s_rr = c (A k - B/r^2), A = -B/outer^2 */
     const double B = pressure / c / (k / (outer * outer) + 1.0 / (inner * inner));
     const double u_inner = B / inner - B * inner / (outer * outer);
@@ -65,15 +68,17 @@ static void ring(rb_verify *v)
     const double bound = 0.6 / RING;
     double u[4 * RING], t[4 * RING];
     rb_message why = {""};
-    const rb_status s = solve_ring(m, u, t, &why);
+    const rb_status s = solve_ring(rb_bem_material_in_plane(plane, E, nu), u, t, &why);
     rb_verify_note(v, s, &why);
     /* the first elements of both contours lie around the x axis, half an element off */
     const double u_got = s == RB_OK ? hypot(u[2 * RING], u[2 * RING + 1]) : NAN;
     const double s_got = s == RB_OK ? -hypot(t[0], t[1]) : NAN;
     rb_verify_relative(v, u_got, u_inner, bound,
-                       "ring under inner pressure (Lame): displacement of the hole");
+                       "ring under inner pressure (Lame)%s: displacement of the hole",
+                       name);
     rb_verify_relative(v, s_got, s_outer, bound,
-                       "ring under inner pressure (Lame): stress at the held rim");
+                       "ring under inner pressure (Lame)%s: stress at the held rim",
+                       name);
 }
 
 /* ---- Below the surface ------------------------------------------------------------- */
@@ -127,6 +132,23 @@ static void below_hertz(rb_verify *v)
              "Hertz: orthogonal shear");
 }
 
+/* A thin disc: szz = 0, and nowhere is von Mises' stress larger than the p0 of both
+ * directions at the surface. */
+static void below_hertz_disc(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rc.a.poisson = 0.3;
+    rc.plane = RB_PLANE_STRESS;
+    rc.mu = 0.0;
+    const subsurface b = below(v, &rc);
+    extremum(v, &b, &b.max.max_shear, (rb_rolling_extremum){0.30028, 0.0, 0.78615},
+             "Hertz, plane stress: largest shear");
+    rb_verify_relative(v, b.max.von_mises.value / b.p0, 1.0, 3e-3,
+                       "Hertz, plane stress: von Mises / p0");
+    rb_verify_absolute(v, b.max.von_mises.y / b.a, 0.0, 1e-6,
+                       "Hertz, plane stress: von Mises: depth / a");
+}
+
 /* Similar bodies sliding fully, mu = 0.2; friction on A towards +x for xi < 0. */
 static void below_sliding(rb_verify *v)
 {
@@ -177,7 +199,9 @@ static void shakedown(rb_verify *v)
 void rb_verify_bodies(rb_verify *v)
 {
     shakedown(v);
-    ring(v);
+    ring(v, RB_PLANE_STRAIN);
+    ring(v, RB_PLANE_STRESS);
     below_hertz(v);
+    below_hertz_disc(v);
     below_sliding(v);
 }

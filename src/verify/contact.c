@@ -160,6 +160,33 @@ static void spence(rb_verify *v, double stick)
     rb_rolling_model_free(&model);
 }
 
+/* Thin discs: E* and beta by the constants themselves (theory.md B2). */
+static void thin_discs(rb_verify *v)
+{
+    rb_rolling_case rc = rb_verify_aluminium_on_steel(20.0);
+    rb_rolling_solution s;
+    rc.plane = RB_PLANE_STRESS;
+    const double E_a = rc.a.young, E_b = rc.b.young, a = rc.half_width, R = 25.0;
+    const double modulus = 1.0 / (1.0 / E_a + 1.0 / E_b);
+    const double beta =
+        0.5 * modulus * ((1.0 - rc.a.poisson) / E_a - (1.0 - rc.b.poisson) / E_b);
+    const rb_closed_bentall_johnson rough =
+        rb_closed_bentall_johnson_stick(beta, a, R, modulus);
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_relative(v, s.creepage, -rough.creepage, 1e-3,
+                       "plane stress, Bentall-Johnson, mu = 20: creepage of mu -> inf");
+    rb_rolling_solution_free(&s);
+    rc = rb_verify_aluminium_on_steel(1e-4);
+    rc.plane = RB_PLANE_STRESS;
+    rc.contact_elements = 200; /* one of them is all that the creepage of mu -> 0 knows */
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_relative(v, s.normal_load, rb_closed_hertz_load(a, R, modulus), 1e-9,
+                       "plane stress, Hertz: load");
+    rb_verify_relative(v, s.creepage, -rb_closed_bentall_johnson_slip(beta, a, R), 2e-3,
+                       "plane stress, Bentall-Johnson, mu = 1e-4: creepage of mu -> 0");
+    rb_rolling_solution_free(&s);
+}
+
 static void bentall_johnson(rb_verify *v)
 {
     const double beta = 0.143834, modulus = 51572.3, a = 0.1, R = 25.0;
@@ -199,4 +226,5 @@ void rb_verify_contact(rb_verify *v)
     for (size_t k = 0; k < sizeof sticking / sizeof *sticking; k++)
         spence(v, sticking[k]);
     bentall_johnson(v);
+    thin_discs(v);
 }
