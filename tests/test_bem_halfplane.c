@@ -175,6 +175,36 @@ static void the_field_is_in_equilibrium(void **state)
     }
 }
 
+/* A strip between ends 2 c apart in the third direction, on a half-space: Boussinesq's
+ * and Cerruti's displacements, the third direction in closed form, x by midpoints. */
+static double of_half_space(int tangential, double from, double to, double c)
+{
+    enum { POINTS = 2000 };
+    const double nu = 0.28, h = (to - from) / POINTS;
+    double sum = 0.0;
+    for (int i = 0; i < POINTS; i++) {
+        const double x = from + (i + 0.5) * h;
+        const double one = 2.0 * asinh(c / x), other = 2.0 * c / hypot(x, c);
+        sum += h * ((1.0 - nu) * one + (tangential ? nu * other : 0.0));
+    }
+    return sum * (1.0 + nu) / (M_PI * 210000.0);
+}
+
+/* In its middle: the plane's with w_N = 0 at the depth 2 c and w_T = 0 at
+ * 2 c exp(nu/(1 - nu)). */
+static void a_long_strip_has_two_datums(void **state)
+{
+    (void)state;
+    const double c = 500.0, ends[2] = {1.0, 3.0}, x = 0.0;
+    rb_bem_surface body =
+        rb_bem_halfplane(rb_bem_material_from_young(210000.0, 0.28), 2.0 * c);
+    double W[4];
+    body.datum_tangential = 2.0 * c * exp(0.28 / 0.72);
+    CHECK_STATUS(rb_bem_surface_displacement(&body, 1, ends, 1, &x, W), RB_OK);
+    CHECK_REL(W[0], of_half_space(0, 1.0, 3.0, c), 1e-5, "w_N under p");
+    CHECK_REL(W[3], of_half_space(1, 1.0, 3.0, c), 1e-5, "w_T under q");
+}
+
 static void bad_input_and_short_memory(void **state)
 {
     (void)state;
@@ -215,6 +245,7 @@ int main(void)
         cmocka_unit_test(the_surface_carries_the_tractions),
         cmocka_unit_test(the_end_of_a_strip_sees_half_of_it),
         cmocka_unit_test(the_field_is_in_equilibrium),
+        cmocka_unit_test(a_long_strip_has_two_datums),
         cmocka_unit_test(bad_input_and_short_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

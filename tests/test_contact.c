@@ -1,6 +1,7 @@
 /* Input files of CONTACT: our own in every way of writing them, the same cases by the
  * program's own options, and CONTACT's examples below ROLLBEM_DATA. */
 #include "cli_run.h"
+#include "rollbem/case.h"
 #include "rollbem/io_contact.h"
 
 #include <stdlib.h>
@@ -50,9 +51,9 @@ static void a_case_is_the_one_of_our_options(void **state)
     } all[] = {{3, 0, "-0.0004", "--formulation steady --creep -0.0004"},
                {3, 1, "0.6", "--formulation steady --force-ratio 0.6"},
                {1, 1, "-0.7", "--formulation static --force-ratio -0.7"},
-               {1, 0, "-0.0004", "--formulation static --shift -0.0004"}};
+               {1, 0, "-0.0004", "--formulation static"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        char line[400];
+        char line[500];
         json_t *got = run_file("", all[k].t, all[k].f, all[k].force,
                                all[k].t == 3 ? ROLLS : "", GRID, GAP);
         snprintf(
@@ -61,6 +62,12 @@ static void a_case_is_the_one_of_our_options(void **state)
             "--gap parabola --load 250 --mu 0.25 --mesh uniform --zone 1.5 "
             "--contact-elements 60 --datum 100 --datum-b 100 %s",
             all[k].ours);
+        /* the strip's tangential datum is 100 exp(nu/(1 - nu)): of both bodies that is
+         * worth 2 nu (1 + nu)/(pi E) of displacement per force more each */
+        if (all[k].t == 1 && all[k].f == 0)
+            snprintf(line + strlen(line), sizeof line - strlen(line), " --shift %.17g",
+                     -0.0004 + 4.0 * 0.3 * 1.3 / (acos(-1.0) * 213200.0) *
+                                   number_in(got, "FX") / 100.0);
         json_t *wanted = run_json(line), *s = json_object_get(wanted, "summary");
         CHECK_REL(number_in(got, "FX_REL"), number_in(s, "force_ratio"), 1e-9, "%s",
                   line);
@@ -71,6 +78,39 @@ static void a_case_is_the_one_of_our_options(void **state)
         CHECK_ABS(number_in(got, "NADH"), number_in(s, "stick"), 0.0, "%s", line);
         json_decref(wanted);
         json_decref(got);
+    }
+}
+
+/* CONTACT writes 1e20 where nothing yields; from more than 1e10 on it reads that so. */
+static void a_huge_yield_stress_is_none(void **state)
+{
+    (void)state;
+    rb_io_contact_case in = {.module = 3,
+                             .digit = {.M = 4, .T = 3, .N = 1, .P = 2},
+                             .my = 1,
+                             .mx = 10,
+                             .base = 1,
+                             .b = {1e-3},
+                             .dx = 0.1,
+                             .dy = 1.0,
+                             .from = -0.5,
+                             .normal = 10.0,
+                             .shear = {8e4, 8e4},
+                             .poisson = {0.3, 0.3},
+                             .fstat = 0.3,
+                             .fkin = 0.3,
+                             .layer = 0.01,
+                             .layer_shear = 100.0,
+                             .hardening = 5.0};
+    static const double stress[] = {30.0, 1e10, 1.1e10, 1e20};
+    for (int k = 0; k < 4; k++) {
+        rb_case_contact c;
+        in.yield = stress[k];
+        rb_case_from_contact(&in, &c);
+        assert_true(c.runs);
+        CHECK_ABS(c.rc.yield_stress, k < 2 ? stress[k] : 0.0, 0.0, "TAU_C0 = %g",
+                  in.yield);
+        CHECK_ABS(c.rc.hardening, k < 2 ? 5.0 : 0.0, 0.0, "K_TAU, TAU_C0 = %g", in.yield);
     }
 }
 
@@ -496,6 +536,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_case_is_the_one_of_our_options),
+        cmocka_unit_test(a_huge_yield_stress_is_none),
         cmocka_unit_test(rolling_back_turns_the_signs),
         cmocka_unit_test(grids_and_gaps_are_those_of_the_file),
         cmocka_unit_test(cases_go_on_from_the_one_before),

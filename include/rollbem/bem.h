@@ -204,7 +204,9 @@ rb_status rb_bem_condense_subtracted(const rb_bem_system *system, rb_bem_normals
 typedef struct {
     rb_bem_material material; /* of the half-plane or layer; the glassy one with memory */
     double datum; /* depth of zero displacement of the half-plane or elastic base */
-    int terms;    /* of the memory: creep compliance 1 + sum f_k (1 - exp(-t/tau_k)) */
+    double datum_tangential; /* the same along the surface, of a homogeneous half-plane
+                                that forms a matrix; 0: datum */
+    int terms; /* of the memory: creep compliance 1 + sum f_k (1 - exp(-t/tau_k)) */
     const double *ratio;  /* terms: f_k >= 0 */
     const double *length; /* terms: rolling speed times tau_k [length], >= 0 */
     double thickness;     /* of the layer; 0: half-plane */

@@ -59,11 +59,13 @@ typedef struct {
     double young, poisson; /* [stress], [-]; the glassy modulus of a body with memory */
     double radius;         /* [length]; INFINITY: a plane (body B only) */
     rb_bem_support support;
-    double arc;       /* half-angle of the clamped arc [degrees] */
-    double hub_ratio; /* radius of the rigid hub / radius */
-    double datum;     /* half-plane: depth of zero displacement; 0: 2R/e */
-    double layer;     /* half-plane: thickness of a layer of this material, bonded to a
-                         base [length]; 0: no layer */
+    double arc;              /* half-angle of the clamped arc [degrees] */
+    double hub_ratio;        /* radius of the rigid hub / radius */
+    double datum;            /* half-plane: depth of zero displacement; 0: 2R/e */
+    double datum_tangential; /* homogeneous half-plane: the same along the surface, as of
+                                the strips of CONTACT; 0: datum */
+    double layer; /* half-plane: thickness of a layer of this material, bonded to a
+                     base [length]; 0: no layer */
     double base_young, base_poisson; /* of that base; young 0: rigid */
     double cover; /* hub: thickness of a cover of this material, bonded to a core
                      [length]; 0: none */

@@ -80,16 +80,22 @@ static double strip_sign(double X, double b)
 typedef struct {
     const rb_bem_surface *body;
     double K, c, depth, slow; /* slow: 1 + sum f_k */
+    double sheared;           /* what the tangential datum adds to w_T per force q */
 } strip_kernel;
 
 static strip_kernel kernel_of(const rb_bem_surface *body)
 {
     const rb_bem_material m = body->material;
-    strip_kernel k = {body, (1.0 - m.poisson) / (M_PI * m.shear),
+    strip_kernel k = {body,
+                      (1.0 - m.poisson) / (M_PI * m.shear),
                       (1.0 - 2.0 * m.poisson) / (4.0 * m.shear),
-                      body->thickness > 0.0 ? body->thickness : body->datum, 1.0};
+                      body->thickness > 0.0 ? body->thickness : body->datum,
+                      1.0,
+                      0.0};
     for (int j = 0; j < body->terms; j++)
         k.slow += body->ratio[j];
+    if (body->datum_tangential > 0.0)
+        k.sheared = k.K * k.slow * log(body->datum_tangential / body->datum);
     return k;
 }
 
@@ -123,7 +129,8 @@ static void set_entries(const strip_kernel *k, double X, double b, const respons
     const normal_entry e = entry_of(k, X, b);
     const size_t m = to->m;
     double *N = to->F + j * 2 * m, *T = to->F + (j + to->n) * 2 * m;
-    N[i] = T[m + i] = e.p;
+    N[i] = e.p;
+    T[m + i] = e.p + 2.0 * b * k->sheared;
     T[i] = e.q;
     N[m + i] = -e.q;
 }

@@ -77,13 +77,18 @@ static void list_left_out(rb_case_contact *c, const rb_io_contact_case *in)
         leave_out(c, "the rigid slip per element (E = %d)", d->E);
 }
 
+/* A strip as wide as DY, whose ends the half-space holds: w_N = 0 at the depth DY, as in
+ * the plane, but w_T at DY exp(nu/(1 - nu)), because Cerruti's displacement
+ * (1 - nu)/r + nu x^2/r^3 has a second part. */
 static rb_rolling_body body_of(const rb_io_contact_case *in, int k)
 {
-    rb_rolling_body body = {.young = 2.0 * in->shear[k] * (1.0 + in->poisson[k]),
-                            .poisson = in->poisson[k],
+    const double nu = in->poisson[k];
+    rb_rolling_body body = {.young = 2.0 * in->shear[k] * (1.0 + nu),
+                            .poisson = nu,
                             .radius = INFINITY,
                             .support = RB_BEM_HALFPLANE,
-                            .datum = in->dy};
+                            .datum = in->dy,
+                            .datum_tangential = in->dy * exp(nu / (1.0 - nu))};
     if (in->digit.M != 1 || in->ratio[k] == 0.0)
         return body;
     if (in->time[k] > 0.0)
@@ -138,15 +143,16 @@ static void set_loading(const rb_io_contact_case *in, double sign, rb_rolling_ca
         rc->shift = tangential;
 }
 
-/* M = 4: a layer that gives way by LAYTHK/GG3 and, where TAU_C0 is not 0, yields. */
+/* M = 4: a layer that gives way by LAYTHK/GG3 and yields at TAU_C0, which neither 0 nor
+ * more than 1e10 does. */
 static void set_layer(const rb_io_contact_case *in, rb_rolling_case *rc)
 {
     if (in->digit.M != 4)
         return;
     if (in->layer != 0.0)
         rc->interlayer_tangential = in->layer / in->layer_shear;
-    rc->yield_stress = in->yield;
-    rc->hardening = in->yield > 0.0 ? in->hardening : 0.0;
+    rc->yield_stress = in->yield > 1e10 ? 0.0 : in->yield;
+    rc->hardening = rc->yield_stress > 0.0 ? in->hardening : 0.0;
 }
 
 void rb_case_from_contact(const rb_io_contact_case *in, rb_case_contact *c)

@@ -25,6 +25,7 @@ rb_bem_surface rb_rolling_halfplane_surface(const rb_rolling_case *rc,
     const int elastic_base = body->layer > 0.0 && body->base_young > 0.0;
     return (rb_bem_surface){.material = rb_rolling_material(rc, body),
                             .datum = depth_of_datum(rc, body),
+                            .datum_tangential = body->datum_tangential,
                             .terms = body->memory.n,
                             .ratio = body->memory.ratio,
                             .length = length,

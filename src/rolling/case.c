@@ -126,7 +126,10 @@ int rb_rolling_has_transforms(const rb_rolling_case *rc)
     /* products know one operator for bodies and third body */
     const int two_operators =
         rc->slip_operator == RB_SLIP_SECOND && rc->interlayer_tangential > 0.0;
-    return !two_operators && rc->yield_stress == 0.0 &&
+    /* nor more than one datum */
+    const int two_datums =
+        rc->a.datum_tangential > 0.0 || (rc->elastic_b && rc->b.datum_tangential > 0.0);
+    return !two_operators && !two_datums && rc->yield_stress == 0.0 &&
            (rc->solver == RB_SOLVER_AUTO || rc->solver == RB_SOLVER_NEWTON) &&
            rc->mesh != RB_MESH_FITTED && rb_rolling_kind_of(&rc->a)->transforms &&
            (!rc->elastic_b || rb_rolling_kind_of(&rc->b)->transforms);
