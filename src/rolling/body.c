@@ -81,35 +81,6 @@ rb_bem_surface rb_rolling_surface_of(const rb_rolling_case *rc,
     return rb_rolling_kind_of(body)->surface(rc, body, length);
 }
 
-rb_bem_material rb_rolling_material(const rb_rolling_case *rc,
-                                    const rb_rolling_body *body)
-{
-    return rb_bem_material_in_plane(rc->plane, body->young, body->poisson);
-}
-
-rb_bem_material rb_rolling_base_material(const rb_rolling_case *rc,
-                                         const rb_rolling_body *body)
-{
-    return body->cover > 0.0
-               ? rb_bem_material_in_plane(rc->plane, body->core_young, body->core_poisson)
-               : rb_bem_material_in_plane(rc->plane, body->base_young,
-                                          body->base_poisson);
-}
-
-/* Below -1/2 a thin disc that is pressed in its plane would be softer than any body of
- * plane strain can be. */
-rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what,
-                                   double poisson, const char *which, rb_message *why)
-{
-    const int stress = rc->plane == RB_PLANE_STRESS;
-    if (poisson > (stress ? -0.5 : -1.0) && poisson <= 0.5)
-        return RB_OK;
-    return rb_fail(why, RB_EINVAL,
-                   "Poisson's ratio%s%s%s: expected in (%s, 0.5]%s, got %g",
-                   what ? " of the " : "", what ? what : "", which,
-                   stress ? "-0.5" : "-1", stress ? " in plane stress" : "", poisson);
-}
-
 rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body *b,
                                 const char *which, int plane_allowed, rb_message *why)
 {

@@ -91,12 +91,14 @@ void rb_rolling_memory_lengths(const rb_rolling_case *rc, const rb_rolling_body 
 rb_status rb_rolling_check_base(const rb_rolling_case *rc, const char *what, double young,
                                 double poisson, const char *which, rb_message *why);
 
-/* ---- body.c ------------------------------------------------------------------------ */
+/* ---- material.c -------------------------------------------------------------------- */
 
 /* nu in the range of the plane problem; what: "base" or "core", NULL of the body itself.
  */
 rb_status rb_rolling_check_poisson(const rb_rolling_case *rc, const char *what,
                                    double poisson, const char *which, rb_message *why);
+
+/* ---- body.c ------------------------------------------------------------------------ */
 
 /* RB_EINVAL: what no body can be.  which: "", or " of body B". */
 rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body *body,
