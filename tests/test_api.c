@@ -66,6 +66,41 @@ static void descriptions_are_complete(void **state)
     assert_null(rb_api_result("nothing", 0, "name", text, sizeof text));
 }
 
+/* A caller that does not look at the status of each call must not get another case. */
+static void what_was_refused_is_not_solved(void **state)
+{
+    (void)state;
+    rb_api *a = rb_api_create();
+    const char *const wrong[][2] = {
+        {"load", "1,5"}, {"radius", "x"}, {"mu", "-1"}, {"load", "2,5"}};
+    assert_int_equal(rb_api_set(a, "contact-elements", "12"), RB_OK);
+    for (int k = 0; k < 4; k++)
+        assert_true(rb_api_set(a, wrong[k][0], wrong[k][1]) < 0);
+    assert_true(rb_api_solve(a) < 0);
+    assert_string_equal(rb_api_message(a), "--load: expected a number > 0, got '2,5'");
+    assert_true(rb_api_curve(a, 0.0, 1.0, 3) < 0);
+    assert_string_equal(rb_api_message(a), "--load: expected a number > 0, got '2,5'");
+    assert_true(isnan(rb_api_number(a, "normal_load")));
+    assert_int_equal(rb_api_set(a, "load", "100"), RB_OK);
+    assert_true(rb_api_solve(a) < 0);
+    assert_int_equal(rb_api_set(a, "mu", "0.3"), RB_OK);
+    assert_true(rb_api_solve(a) < 0);
+    assert_string_equal(rb_api_message(a), "--radius: expected a number > 0, got 'x'");
+    assert_int_equal(rb_api_set(a, "radius", "50"), RB_OK);
+    assert_int_equal(rb_api_solve(a), RB_OK);
+    CHECK_REL(rb_api_number(a, "normal_load"), 100.0, 1e-9, "load");
+    assert_true(rb_api_read(a, "nowhere.ini") < 0);
+    assert_true(rb_api_solve(a) < 0);
+    assert_non_null(strstr(rb_api_message(a), "nowhere.ini"));
+    for (int k = 0; k < 40; k++) { /* more than are kept */
+        char name[20];
+        snprintf(name, sizeof name, "option-%d", k);
+        assert_true(rb_api_set(a, name, "1") < 0);
+    }
+    assert_true(rb_api_solve(a) < 0);
+    rb_api_free(a);
+}
+
 static void refusals_are_those_of_the_case(void **state)
 {
     rb_api *a = rb_api_create();
@@ -75,6 +110,8 @@ static void refusals_are_those_of_the_case(void **state)
     assert_string_equal(rb_api_message(a), "--mu: expected a number >= 0, got '-1'");
     assert_true(rb_api_set(a, "nu", "1") < 0);
     assert_true(rb_api_pivots(a) < 0);
+    rb_api_free(a);
+    a = rb_api_create();
     assert_int_equal(rb_api_set(a, "load", "500"), RB_OK);
     assert_int_equal(rb_api_set(a, "approach", "1"), RB_OK);
     assert_true(rb_api_solve(a) < 0);
@@ -926,6 +963,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(notes_and_closed_forms),
         cmocka_unit_test(descriptions_are_complete),
+        cmocka_unit_test(what_was_refused_is_not_solved),
         cmocka_unit_test(refusals_are_those_of_the_case),
         cmocka_unit_test(numbers_are_the_solution),
         cmocka_unit_test(the_next_case_is_solved_as_the_first_one),

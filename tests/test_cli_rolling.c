@@ -516,6 +516,22 @@ static void steps_too_long_for_relaxation_are_named(void **state)
     }
 }
 
+/* On standard error, in the table and in JSON, as those of a single case. */
+static void curves_have_notes(void **state)
+{
+    (void)state;
+    static const char note[] = "note: approach/R = 0.5, a/R = ";
+    json_t *root = run_json("curve --support hub --contact-elements 12 --points 3");
+    json_t *notes = json_object_get(root, "notes");
+    assert_true(json_array_size(notes) >= 1);
+    assert_int_equal(strncmp(json_string_value(json_array_get(notes, 0)), note + 6, 20),
+                     0);
+    json_decref(root);
+    assert_int_equal(rollbem("curve --support hub --contact-elements 12 --points 3"), 0);
+    assert_non_null(strstr(err, note));
+    assert_non_null(strstr(out, note));
+}
+
 static void full_sliding_says_that_creepage_is_open(void **state)
 {
     (void)state;
@@ -942,6 +958,7 @@ int main(void)
         cmocka_unit_test(friction_power_adds_up),
         cmocka_unit_test(power_below_zero_is_named),
         cmocka_unit_test(steps_too_long_for_relaxation_are_named),
+        cmocka_unit_test(curves_have_notes),
         cmocka_unit_test(full_sliding_says_that_creepage_is_open),
         cmocka_unit_test(fitted_is_the_default_for_steady),
         cmocka_unit_test(pictures_are_drawn),

@@ -32,7 +32,9 @@ void rb_api_free(rb_api *a);
 /* The keys of a case file; what rb_api_set gave before keeps its value. */
 int rb_api_read(rb_api *a, const char *path);
 
-/* One option by its name and the text of a case file.  A refused text changes nothing.
+/* One option by its name and the text of a case file.  A refused text changes no
+ * option, and the case cannot be solved, with the same message, until that option is set
+ * to what it takes (a file: read).
  * Whatever was solved before is forgotten; only where all options set since then are
  * friction, load, approach, shift, creepage or force, the next solve uses its flexibility
  * again. */

@@ -243,6 +243,7 @@ typedef struct {
     rb_rolling_curve curve[RB_REPORT_CURVES];
     int has_errors;
     rb_rolling_curve error[RB_REPORT_CURVES]; /* with has_errors */
+    const rb_rolling_case *rc; /* of `last` of the last curve, for notes; NULL: none */
 } rb_report_curves;
 
 /* The model's problem at its approach and creepage and its tractions as an FCLib file.

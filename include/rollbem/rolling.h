@@ -861,7 +861,9 @@ typedef struct {
     int rising;              /* points of the way there, before those of the way back */
     double free_creepage, half_width, seconds;
     int iterations;
-    rb_units units; /* of all values here */
+    rb_rolling_solution last; /* at the last point, for notes: with the largest kappa and
+                                 the least dissipation of all points; n = 0: none */
+    rb_units units;           /* of all values here */
 } rb_rolling_curve;
 
 /* From mm, N, MPa to other units, once; the struct says which it has. */

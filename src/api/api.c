@@ -198,22 +198,51 @@ void rb_api_free(rb_api *a)
     free(a);
 }
 
+/* Who does not look at the status of rb_api_set must not get the solution of another
+ * case: what was refused last stands in the way until the same name is accepted. */
+static int took(rb_api *a, const char *name, rb_status s)
+{
+    int k = 0;
+    while (k < a->refusals &&
+           strncmp(a->refused[k].name, name, sizeof a->refused[k].name - 1) != 0)
+        k++;
+    if (k < a->refusals && s == RB_OK)
+        a->refused[k] = a->refused[--a->refusals];
+    rb_api_ended(a, s);
+    if (s != RB_OK) {
+        a->refusals += k == a->refusals && k < API_REFUSALS;
+        api_refusal *here = &a->refused[k < API_REFUSALS ? k : API_REFUSALS - 1];
+        snprintf(here->name, sizeof here->name, "%s", name);
+        here->why = a->why;
+    }
+    return s;
+}
+
 int rb_api_set(rb_api *a, const char *name, const char *text)
 {
     forget(a, drives(name));
-    return rb_api_ended(a, rb_case_set(a->words, name, text, RB_GIVEN_ARGUMENT, &a->why));
+    return took(a, name, rb_case_set(a->words, name, text, RB_GIVEN_ARGUMENT, &a->why));
 }
 
 int rb_api_read(rb_api *a, const char *path)
 {
     forget(a, 0);
-    return rb_api_ended(a, rb_case_read(a->words, path, 0, NULL, &a->why));
+    return took(a, path, rb_case_read(a->words, path, 0, NULL, &a->why));
+}
+
+static rb_status check_refusals(const rb_api *a, rb_message *why)
+{
+    return a->refusals > 0 ? rb_fail(why, RB_EINVAL, "%s", a->refused[0].why.text)
+                           : RB_OK;
 }
 
 int rb_api_resolve(rb_api *a)
 {
     forget(a, 1);
-    return rb_api_ended(a, rb_case_resolve(a->words, &a->why));
+    rb_status s = check_refusals(a, &a->why);
+    if (s == RB_OK)
+        s = rb_case_resolve(a->words, &a->why);
+    return rb_api_ended(a, s);
 }
 
 static int keep_step(const rb_rolling_model *model, const rb_rolling_history *history,
@@ -606,13 +635,15 @@ int rb_api_curve_over(rb_api *a, const char *over, double from, double to, int p
     const rb_rolling_range range = {(rb_rolling_variable)variable->value, from, to,
                                     points};
     rb_api_call_begins();
-    rb_status s =
-        !variable->name
-            ? rb_fail(&a->why, RB_EINVAL,
-                      "--over: expected creep-ratio, creep or speed, got '%.100s'", over)
-        : c->error ? rb_rolling_curve_with_errors(&c->rc, &range, &a->curve,
-                                                  &a->curve_errors, &a->why)
-                   : rb_rolling_curve_solve(&c->rc, &range, &a->curve, &a->why);
+    rb_status s = check_refusals(a, &a->why);
+    if (s == RB_OK)
+        s = !variable->name
+                ? rb_fail(&a->why, RB_EINVAL,
+                          "--over: expected creep-ratio, creep or speed, got '%.100s'",
+                          over)
+            : c->error ? rb_rolling_curve_with_errors(&c->rc, &range, &a->curve,
+                                                      &a->curve_errors, &a->why)
+                       : rb_rolling_curve_solve(&c->rc, &range, &a->curve, &a->why);
     rb_api_call_ends();
     return rb_api_ended(a, s != RB_OK ? rb_case_locate(a->words, s, &a->why) : s);
 }

@@ -14,6 +14,14 @@ typedef struct {
 
 enum { API_ARRAYS = 256 }; /* more than all tables have names */
 
+/* An option, or a case file, that was refused and has not been set since. */
+typedef struct {
+    char name[80];
+    rb_message why;
+} api_refusal;
+
+enum { API_REFUSALS = 16 }; /* of more the last ones are the same entry */
+
 struct rb_api {
     rb_case *words;
     rb_case_result result;
@@ -29,6 +37,8 @@ struct rb_api {
     _Atomic int stopped; /* by another thread, or a signal handler */
     rb_status status;
     rb_message why;
+    api_refusal refused[API_REFUSALS];
+    int refusals;
     api_array made[API_ARRAYS];
     int arrays;
 };

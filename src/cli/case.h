@@ -43,10 +43,10 @@ cli_exit cli_case_resolve(const cli_spec *spec, rb_case *c, const cli_args *args
 rb_option_set cli_example_set(void);
 cli_exit cli_example_read(rb_case *c, const cli_args *args);
 
-/* The start of JSON on a case: notes on the solution (s NULL: none), units, inputs, which
- * are taken over. */
-struct json_t *cli_case_json(const rb_case *c, const rb_rolling_solution *s,
-                             struct json_t *inputs);
+/* The start of JSON on a case: notes on the solution (s NULL: none) of rc (NULL: that of
+ * c), units, inputs, which are taken over. */
+struct json_t *cli_case_json(const rb_case *c, const rb_rolling_case *rc,
+                             const rb_rolling_solution *s, struct json_t *inputs);
 
 /* Prints why the library refused the case; the exit code tells command line from file. */
 cli_exit cli_case_refused(const rb_case *c, rb_status s, rb_message *why);
@@ -65,6 +65,7 @@ typedef struct {
     cli_output o;
     cli_args args;
     const rb_rolling_solution *solution; /* for notes, citations, JSON; NULL: none */
+    const rb_rolling_case *noted;        /* whose solution it is; NULL: that of c */
     int printable; /* 1: there are results, if not all that were asked for */
 } cli_case_run;
 

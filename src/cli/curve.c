@@ -19,6 +19,7 @@ typedef struct {
     range_options range;
     rb_report_curves curves;
     rb_report_curves drawn; /* as many where the picture has its own */
+    rb_rolling_case last;   /* the case of the last point of the last curve */
 } curve;
 
 enum { FROM = 1, TO = 2 }; /* places in the table */
@@ -165,6 +166,23 @@ static void free_curves(rb_report_curves *curves)
     }
 }
 
+/* Notes are on the last point. */
+static void note_last(cli_case_run *run, curve *r)
+{
+    const int k = r->curves.n - 1;
+    if (k < 0 || r->curves.curve[k].last.n == 0)
+        return;
+    r->last = run->c->rc;
+    r->last.formulation = RB_STEADY;
+    r->last.mu = r->curves.mu[k];
+    if (r->range.over == RB_OVER_CREEP)
+        r->last.creep = r->range.to;
+    if (r->range.over == RB_OVER_CREEP_RATIO)
+        r->last.creep_ratio = r->range.to;
+    r->curves.rc = run->noted = &r->last;
+    run->solution = &r->curves.curve[k].last;
+}
+
 static rb_status solve(cli_case_run *run, rb_message *why)
 {
     curve *r = run->own;
@@ -172,6 +190,7 @@ static rb_status solve(cli_case_run *run, rb_message *why)
     if (s == RB_OK)
         s = solve_drawn(run, r, why);
     convert(&r->curves, run->c->units);
+    note_last(run, r);
     convert(&r->drawn, run->c->units);
     run->printable = s >= 0 && r->curves.n > 0 && r->curves.curve[0].n > 0;
     return s;

@@ -27,6 +27,8 @@ static void write_curve(rb_report_cells *c, const rb_report_curves *curves, int 
         rb_report_cell_headings(c, parts, part);
         rb_report_cells_end_row(c);
         rb_report_comment_head(c, command);
+        if (curves->rc)
+            rb_report_comment_notes(c, curves->rc, &curves->curve[curves->n - 1].last);
     }
     for (int i = 0; i < curves->curve[k].n; i++) {
         rb_report_cell_number(c, curves->mu[k]);

@@ -12,6 +12,7 @@ static const double REFIT = 0.01;
 void rb_rolling_curve_free(rb_rolling_curve *c)
 {
     rb_rolling_columns_free(&rb_rolling_curve_columns, c);
+    rb_rolling_solution_free(&c->last);
     memset(c, 0, sizeof *c);
 }
 
@@ -25,6 +26,19 @@ static rb_status record_heat(const rb_rolling_model *model, double *max_temperat
         *max_temperature = s.max_temperature;
     rb_rolling_solution_free(&s);
     return status;
+}
+
+static rb_status keep_last(const rb_rolling_model *model, rb_rolling_curve *c,
+                           rb_message *why)
+{
+    const rb_status s = rb_rolling_model_solution(model, &c->last, why);
+
+    for (int k = 0; k < c->n && s == RB_OK; k++) {
+        c->last.dissipation = fmin(c->last.dissipation, c->dissipation[k]);
+        if (c->kappa)
+            c->last.kappa = fmax(c->last.kappa, c->kappa[k]);
+    }
+    return s;
 }
 
 static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
@@ -61,9 +75,11 @@ static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
     c->resistance_moment[k] = rb_contact_moment(p, state);
     c->resistance_ratio[k] =
         c->resistance_moment[k] / (P * rb_rolling_radius(&model->rc));
-    const rb_status s = rb_rolling_hysteresis(model, &c->hysteresis[k]);
-    return s == RB_OK && c->max_temperature
-               ? record_heat(model, &c->max_temperature[k], why)
+    rb_status s = rb_rolling_hysteresis(model, &c->hysteresis[k]);
+    if (s == RB_OK && c->max_temperature)
+        s = record_heat(model, &c->max_temperature[k], why);
+    return s == RB_OK && c->n == (c->branch ? 2 * c->rising : c->rising)
+               ? keep_last(model, c, why)
                : s;
 }
 
