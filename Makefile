@@ -103,7 +103,7 @@ LONGEST := $(B)/tests/test_net $(B)/tests/test_cli_examples tests/page $(patsubs
 OTHERS := tests/octave tests/install tests/release tests/figures $(wildcard tests/journeys/*) $(TESTS)
 
 # only the summary line comes last: continuous integration reads it
-check-tests: all page-where-possible $(TESTS) $(B)/tests/checker $(B)/packings $(if $(ROLLBEM_TEST_ALL),$(BENCHES),$(B)/bench/bench_large)
+check-tests: all page-where-possible $(TESTS) $(B)/packings $(if $(ROLLBEM_TEST_ALL),$(BENCHES),$(B)/bench/bench_large)
 	@B=$(B) tests/run $(LONGEST) $(filter-out $(LONGEST),$(OTHERS))
 
 SANITIZED = B=build/asan PAGE=$(B)/page CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined"
@@ -127,7 +127,7 @@ mutants: packages ; @scripts/mutants $(B) --mutants $(MUTANTS) --jobs $(shell np
 # (install, release, python, journeys): they would replace objects that count by others.
 COVERED ?= covered-tests
 UNCOVERED = $(B)/tests/test_symbols $(B)/tests/test_hardening tests/python tests/journeys/%
-covered-tests: all page-where-possible $(TESTS) $(B)/tests/checker $(B)/packings $(B)/bench/bench_large
+covered-tests: all page-where-possible $(TESTS) $(B)/packings $(B)/bench/bench_large
 	@B=$(B) tests/run $(filter-out $(UNCOVERED),$(LONGEST) $(filter-out $(LONGEST),$(TESTS))) tests/figures
 coverage: packages
 	@mkdir -p $(B)/coverage
@@ -236,7 +236,8 @@ $(B)/tests/fault_malloc.so: tests/fault_malloc.c tests/fault_malloc.h tests/faul
 	@echo "  CC  $<"
 	$(Q)$(CC) $(STD) -O1 -Wall -Wextra -fPIC -shared -o $@ $< -ldl
 
-# the judge of the net shares nothing with the library
+# the checker of the net shares nothing with the library; whoever builds a test that runs it gets it too
+$(B)/tests/test_net $(B)/tests/test_hostile: | $(B)/tests/checker $(B)/rollbem
 $(B)/tests/checker: tests/checker.c
 	@mkdir -p $(@D)
 	@echo "  CC  $<"
@@ -257,7 +258,7 @@ $(B)/fuzzer: $(FUZZ_OBJ) $(B)/fuzz/libfuzzer.o $(B)/librollbem.a
 # N=20000 cases at the ends of what is accepted, by the program, judged by tests/checker.c
 N ?= 20000
 hostile: packages
-	@$(MAKE) --no-print-directory B=$(B) all $(B)/tests/test_hostile $(B)/tests/checker
+	@$(MAKE) --no-print-directory B=$(B) all $(B)/tests/test_hostile
 	@HOSTILE=$(N) B=$(B) OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 OMP_WAIT_POLICY=passive $(B)/tests/test_hostile
 
 # kills of studies, memory over many cases

@@ -93,7 +93,7 @@ static void apply_both(int n)
         r[i] = sin(i);
     for (int dense = 0; dense < 2; dense++) {
         rb_rolling_case by = rc;
-        by.solver = dense ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON;
+        by.contact.solver = dense ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON;
         if (rb_rolling_bodies_create(&by, &mesh, &bodies, NULL) != RB_OK)
             stop("no memory");
         for (int k = 0; k < REPEATS; k++) {
@@ -128,14 +128,14 @@ static void solve_both(int n)
     if (rb_rolling_model_create(&rc, &model, NULL) != RB_OK)
         stop("no solution");
     const double fast = processor_seconds() - start;
-    dense.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
+    dense.contact.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
     start = processor_seconds();
     if (rb_rolling_bodies_create(&dense, &model.mesh, &bodies, NULL) != RB_OK ||
         rb_rolling_problem_create(&dense, &model.mesh, &bodies, NULL, &problem, NULL) !=
             RB_OK ||
         rb_contact_state_alloc(n, &state) != RB_OK)
         stop("no memory");
-    dense.solver = RB_SOLVER_NEWTON;
+    dense.contact.solver = RB_SOLVER_NEWTON;
     if (rb_rolling_problem_solve(&problem, &dense, 0, &state, NULL) != RB_OK)
         stop("no solution with the matrix");
     const double slow = processor_seconds() - start;
@@ -189,7 +189,7 @@ static void help_matrix(int n)
 
     rc.b.young *= 0.3;
     rc.mesh = RB_MESH_UNIFORM;
-    rc.solver = RB_SOLVER_NEWTON;
+    rc.contact.solver = RB_SOLVER_NEWTON;
     for (int k = 0; k < 2; k++) {
         if (rb_contact_state_alloc(n, &state[k]) != RB_OK)
             stop("no memory");

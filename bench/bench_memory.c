@@ -45,8 +45,8 @@ static rb_rolling_case halfplanes(int n)
 static rb_rolling_case lemke(int n, rb_contact_lcp_form form)
 {
     rb_rolling_case rc = halfplanes(n);
-    rc.solver = RB_SOLVER_LEMKE;
-    rc.lcp_form = form;
+    rc.contact.solver = RB_SOLVER_LEMKE;
+    rc.contact.lcp_form = form;
     return rc;
 }
 
@@ -63,7 +63,7 @@ static rb_rolling_case kwak(int n)
 static rb_rolling_case newton(int n)
 {
     rb_rolling_case rc = halfplanes(n);
-    rc.solver = RB_SOLVER_NEWTON;
+    rc.contact.solver = RB_SOLVER_NEWTON;
     return rc;
 }
 

@@ -82,7 +82,7 @@ static double solve_seconds(rb_rolling_model *model, rb_contact_solver solver, i
     rb_contact_state state;
     double best = INFINITY;
 
-    rc.solver = solver;
+    rc.contact.solver = solver;
     if (rb_contact_state_alloc(model->mesh.n, &state) != RB_OK)
         return NAN;
     for (int k = 0; k < runs; k++) {
@@ -106,7 +106,7 @@ static void lemke_beside_newton(void)
         rb_rolling_model model;
         rc.a.support = RB_BEM_HALFPLANE;
         rc.gap = RB_GAP_PARABOLA;
-        rc.solver = RB_SOLVER_LEMKE; /* keeps the matrix at any size */
+        rc.contact.solver = RB_SOLVER_LEMKE; /* keeps the matrix at any size */
         if (rb_rolling_model_create(&rc, &model, NULL) == RB_OK) {
             const int runs = contact[k] > 1000 ? 1 : 3;
             const double lemke = solve_seconds(&model, RB_SOLVER_LEMKE, runs);

@@ -151,7 +151,12 @@ static void random_problem(const kind *of, rb_contact_problem *p)
 
 static rb_contact_options options_of(rb_contact_solver solver)
 {
-    return (rb_contact_options){.solver = solver, .tol = 1e-9, .sliding = 10.0 * SLIP};
+    rb_contact_options options = rb_contact_defaults();
+
+    options.solver = solver;
+    options.tol = 1e-9;
+    options.sliding = 10.0 * SLIP;
+    return options;
 }
 
 /* ---- The judge --------------------------------------------------------------------- */

@@ -47,7 +47,7 @@ static void compare_with_matrix(const rb_rolling_case *rc)
         assert_null(rb_contact_operator_matrix(model.problem.op).F);
     } else
         assert_int_equal(model.bodies.transforms.n, rc->contact_elements);
-    dense.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
+    dense.contact.solver = RB_SOLVER_LEMKE; /* which needs the matrix */
     CHECK_STATUS(rb_rolling_bodies_create(&dense, &model.mesh, &bodies, &why), RB_OK);
     assert_non_null(bodies.F);
     CHECK_STATUS(
@@ -58,7 +58,7 @@ static void compare_with_matrix(const rb_rolling_case *rc)
     assert_int_equal(rb_contact_operator_response(model.problem.op).coupled,
                      rb_contact_operator_response(problem.op).coupled);
     CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &state), RB_OK);
-    dense.solver = RB_SOLVER_NEWTON;
+    dense.contact.solver = RB_SOLVER_NEWTON;
     memcpy(state.zone, model.state.zone, (size_t)state.n * sizeof(int));
     CHECK_STATUS(rb_rolling_problem_solve(&problem, &dense, 1, &state, &why), RB_OK);
     for (int i = 0; i < state.n; i++) {
@@ -117,14 +117,14 @@ static void a_small_tolerance_is_met_by_the_matrix(void **state)
     for (int k = 0; k < 2; k++) {
         rb_rolling_case rc = steady(DISSIMILAR, 400);
         rc.mesh = RB_MESH_UNIFORM;
-        rc.tol = 5e-13;
+        rc.contact.tol = 5e-13;
         if (k) {
             rc.creep_ratio = NAN;
             rc.force_ratio = 0.5;
         }
         rb_rolling_model model = solved_model(&rc);
         assert_int_equal(model.state.solver, RB_SOLVER_NEWTON);
-        CHECK_MAX(model.state.residual, rc.tol, "residual");
+        CHECK_MAX(model.state.residual, rc.contact.tol, "residual");
         rb_rolling_model_free(&model);
     }
 }

@@ -183,12 +183,12 @@ static void absurd_sizes_are_refused(void **state)
 
     rc.mesh = RB_MESH_UNIFORM;
     CHECK_MAX(rb_rolling_bytes(&rc, n, 0, 2 * n), 1e9, "no matrix");
-    rc.solver = RB_SOLVER_LEMKE;
+    rc.contact.solver = RB_SOLVER_LEMKE;
     CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, &why), RB_EINVAL);
     assert_non_null(
         strstr(why.text, "a contact of 1000000 elements would need 1.92e+05"));
     rc.a.support = RB_BEM_HUB;
-    rc.solver = RB_SOLVER_NEWTON;
+    rc.contact.solver = RB_SOLVER_NEWTON;
     CHECK_MAX(rb_bem_system_bytes(600, 200), rb_rolling_bytes(&rc, 200, 600, 300),
               "a wheel");
 }

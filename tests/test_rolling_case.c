@@ -31,7 +31,7 @@ static const bad_value bad_values[] = {
     {"shift", FIELD(shift), INFINITY},
     {"zone", FIELD(zone), -1.0},
     {"zone", FIELD(zone), 50.0},
-    {"tol", FIELD(tol), 0.0},
+    {"tol", FIELD(contact.tol), 0.0},
     {"force ratio", FIELD(force_ratio), 1.1},
 };
 
@@ -290,7 +290,7 @@ static void ranges_of_the_interface(void **state)
             rc.yield_stress = 1.0; rc.friction.law = RB_FRICTION_linear;
             rc.friction.fall[0] = 0.1; rc.friction.slip_scale[0] = 1.0);
     REFUSED("knows Coulomb's law alone", rc.yield_stress = 1.0;
-            rc.solver = RB_SOLVER_CONE; rc.cone_solver = "semismooth");
+            rc.contact.solver = RB_SOLVER_CONE; rc.contact.cone_solver = "semismooth");
 }
 
 /* What friction can carry: mu P = 3. */
@@ -393,14 +393,15 @@ static void ranges_of_the_mesh(void **state)
     REFUSED("with a rigid plane only", rc.normals = RB_BEM_NORMALS_SURFACE;
             rc.elastic_b = 1);
     const rb_contact_cone_solvers by = {knows_newton, NULL};
-    ACCEPTED(rc.solver = RB_SOLVER_CONE; rc.cone_solvers = &by;
-             rc.cone_solver = "newton");
-    REFUSED("got ''", rc.solver = RB_SOLVER_CONE);
-    REFUSED("got ''", rc.solver = RB_SOLVER_CONE; rc.cone_solvers = &by);
-    REFUSED("got 'newton'", rc.solver = RB_SOLVER_CONE; rc.cone_solver = "newton");
-    REFUSED("got 'sor'", rc.solver = RB_SOLVER_CONE; rc.cone_solvers = &by;
-            rc.cone_solver = "sor");
-    REFUSED("tol: expected > 0", rc.tol = INFINITY);
+    ACCEPTED(rc.contact.solver = RB_SOLVER_CONE; rc.contact.cone_solvers = &by;
+             rc.contact.cone_solver = "newton");
+    REFUSED("got ''", rc.contact.solver = RB_SOLVER_CONE);
+    REFUSED("got ''", rc.contact.solver = RB_SOLVER_CONE; rc.contact.cone_solvers = &by);
+    REFUSED("got 'newton'", rc.contact.solver = RB_SOLVER_CONE;
+            rc.contact.cone_solver = "newton");
+    REFUSED("got 'sor'", rc.contact.solver = RB_SOLVER_CONE;
+            rc.contact.cone_solvers = &by; rc.contact.cone_solver = "sor");
+    REFUSED("tol: expected > 0", rc.contact.tol = INFINITY);
     ACCEPTED(rc.a.young = 1e-100);
     REFUSED("Young's modulus: expected a size", rc.a.young = 0.9e-100);
     ACCEPTED(rc.load = 1e100);
@@ -478,8 +479,8 @@ static void transforms_are_for_many_equal_elements_on_half_planes(void **state)
     const rb_rolling_mesh large = {.n = RB_ROLLING_LARGE}, small = {.n = large.n - 1};
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.creep = 0.001);
     HOLDS(rb_rolling_is_large(&rc, &small), 0, rc.creep = 0.001);
-    HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.solver = RB_SOLVER_NEWTON);
-    HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.solver = RB_SOLVER_LEMKE);
+    HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.contact.solver = RB_SOLVER_NEWTON);
+    HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.contact.solver = RB_SOLVER_LEMKE);
     HOLDS(rb_rolling_is_large(&rc, &large), 1, rc.mesh = RB_MESH_ALIGNED);
     HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.mesh = RB_MESH_FITTED);
     HOLDS(rb_rolling_is_large(&rc, &large), 0, rc.yield_stress = 1.0);

@@ -54,16 +54,16 @@ static void a_case_may_name_a_cone_solver(void **state)
     rb_rolling_case rc = dissimilar_rolling();
     rb_rolling_solution lemke, cone;
     CHECK_STATUS(rb_rolling_solve(&rc, &lemke, NULL), RB_OK);
-    rc.solver = RB_SOLVER_CONE;
+    rc.contact.solver = RB_SOLVER_CONE;
     rb_message why = {""};
     CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_EINVAL);
-    rc.cone_solver = "nsn-ac"; /* nobody has handed it in */
+    rc.contact.cone_solver = "nsn-ac"; /* nobody has handed it in */
     CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_EINVAL);
     assert_non_null(strstr(why.text, "nsn-ac"));
-    rc.cone_solvers = rb_friction_cone_solvers();
-    rc.cone_solver = "no-such";
+    rc.contact.cone_solvers = rb_friction_cone_solvers();
+    rc.contact.cone_solver = "no-such";
     CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_EINVAL);
-    rc.cone_solver = "nsn-ac";
+    rc.contact.cone_solver = "nsn-ac";
     CHECK_STATUS(rb_rolling_solve(&rc, &cone, &why), RB_OK);
     assert_int_equal(cone.solver, RB_SOLVER_CONE);
     CHECK_MAX(cone.residual, 1e-10, "residual");
@@ -104,9 +104,9 @@ static void separated_elements_carry_nothing(void **state)
     CHECK_STATUS(rb_rolling_model_create(&rc, &model, NULL), RB_OK);
     known = &model.state;
     known_stress = model.problem.stress;
-    rc.solver = RB_SOLVER_CONE;
-    rc.cone_solvers = &rough;
-    rc.cone_solver = "rough";
+    rc.contact.solver = RB_SOLVER_CONE;
+    rc.contact.cone_solvers = &rough;
+    rc.contact.cone_solver = "rough";
     CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
     assert_string_equal(s.cone_solver, "rough");
     CHECK_MAX(s.residual, 1e-10, "residual");

@@ -52,11 +52,11 @@ static void lemke_and_newton_agree_on_500_cases(void **state)
         rb_rolling_model model;
         rb_contact_state newton;
         rb_message why = {""};
-        rc.solver = RB_SOLVER_LEMKE;
+        rc.contact.solver = RB_SOLVER_LEMKE;
         if (rb_rolling_model_create(&rc, &model, &why) != RB_OK)
             fail_msg("case %d: %s", k, why.text);
         CHECK_STATUS(rb_contact_state_alloc(model.mesh.n, &newton), RB_OK);
-        rc.solver = RB_SOLVER_NEWTON;
+        rc.contact.solver = RB_SOLVER_NEWTON;
         CHECK_STATUS(rb_rolling_problem_solve(&model.problem, &rc, 0, &newton, NULL),
                      RB_OK);
         for (int i = 0; i < newton.n; i++) {
@@ -195,7 +195,7 @@ static void a_failed_force_leaves_its_iterate(void **state)
     rc.formulation = RB_STEADY;
     rc.approach = 1e-4;
     rc.force = 1e-3;
-    rc.tol = 1e-300;
+    rc.contact.tol = 1e-300;
     CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_INACCURATE);
     CHECK_REL(s.tangential_load, 1e-3, 1e-9, "force");
     CHECK_MAX(s.residual, 1e-10, "residual");
@@ -238,7 +238,7 @@ static void a_failed_free_creepage_leaves_the_case_solved(void **state)
         rc.creep_ratio = 0.4;
         rc.contact_elements = n;
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
-        rc.tol = s.residual * (1.0 + 1e-6);
+        rc.contact.tol = s.residual * (1.0 + 1e-6);
         rb_rolling_solution_free(&s);
         CHECK_STATUS(rb_rolling_solve(&rc, &s, NULL), RB_OK);
         CHECK_STATUS(s.status, RB_OK);

@@ -264,7 +264,8 @@ static void a_hundredth_of_the_half_width_is_followed(void **state)
         double from[2], to[2];
         rc.mesh = RB_MESH_FITTED;
         rc.formulation = RB_STEADY;
-        rc.solver = RB_SOLVER_NEWTON; /* a step or two from the solution at hand */
+        rc.contact.solver =
+            RB_SOLVER_NEWTON; /* a step or two from the solution at hand */
         rc.elastic_b = 0;
         rc.a.poisson = 0.2;
         rc.creep_ratio = -1.0;

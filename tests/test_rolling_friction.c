@@ -63,10 +63,12 @@ static void each_element_has_its_bound(void **state)
     rb_rolling_model first = {0};
     for (int k = 0; k < 8; k++) {
         rb_rolling_case rc = steady();
-        rc.solver = k == 2 ? RB_SOLVER_NEWTON : k == 3 ? RB_SOLVER_CONE : RB_SOLVER_LEMKE;
-        rc.lcp_form = k == 1 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
-        rc.cone_solvers = rb_friction_cone_solvers();
-        rc.cone_solver = "nsn-ac";
+        rc.contact.solver = k == 2   ? RB_SOLVER_NEWTON
+                            : k == 3 ? RB_SOLVER_CONE
+                                     : RB_SOLVER_LEMKE;
+        rc.contact.lcp_form = k == 1 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+        rc.contact.cone_solvers = rb_friction_cone_solvers();
+        rc.contact.cone_solver = "nsn-ac";
         if (k == 4)
             rc.mesh = RB_MESH_FITTED;
         if (k >= 5)
@@ -203,7 +205,7 @@ static void an_interface_moves_with_the_steps(void **state)
         rb_rolling_former_place ahead;
         rc.formulation = RB_TRANSIENT;
         rc.contact_elements = n;
-        rc.solver = large ? RB_SOLVER_NEWTON : RB_SOLVER_LEMKE;
+        rc.contact.solver = large ? RB_SOLVER_NEWTON : RB_SOLVER_LEMKE;
         rc.interlayer_tangential = 1e-2;
         CHECK_STATUS(rb_rolling_mesh_uniform(&rc, -1.3, 1.3, &mesh, NULL), RB_OK);
         CHECK_STATUS(rb_rolling_bodies_create(&rc, &mesh, &bodies, NULL), RB_OK);

@@ -181,10 +181,10 @@ static void both_forms_agree(void **state)
     for (int dissimilar = 0; dissimilar < 2; dissimilar++) {
         rb_rolling_case rc = incompressible_wheel();
         rc.a.poisson = dissimilar ? 0.28 : 0.5;
-        rc.solver = RB_SOLVER_LEMKE;
+        rc.contact.solver = RB_SOLVER_LEMKE;
         rc.contact_elements = 100;
         rb_rolling_solution pivoted = rolling_at(rc, 0.4);
-        rc.lcp_form = RB_LCP_KWAK;
+        rc.contact.lcp_form = RB_LCP_KWAK;
         rb_rolling_solution kwak = rolling_at(rc, 0.4);
         assert_int_equal(pivoted.lcp_form, RB_LCP_PIVOTED);
         assert_int_equal(kwak.lcp_form, RB_LCP_KWAK);

@@ -110,12 +110,12 @@ static void formulations_agree(void **state)
     rc.slip_operator = RB_SLIP_UPSTREAM;
     rc.mesh = RB_MESH_FITTED;
     rb_rolling_solution fitted = solved(&rc);
-    rc.solver = RB_SOLVER_LEMKE;
+    rc.contact.solver = RB_SOLVER_LEMKE;
     rb_rolling_solution lemke = solved(&rc);
     CHECK_REL(fitted.force_ratio, aligned.force_ratio, 2e-3, "fitted");
     CHECK_REL(fitted.max_pressure, aligned.max_pressure, 1e-3, "fitted: p0");
     CHECK_REL(lemke.force_ratio, fitted.force_ratio, 1e-9, "Lemke");
-    rc.solver = RB_SOLVER_NEWTON;
+    rc.contact.solver = RB_SOLVER_NEWTON;
     rc.mesh = RB_MESH_UNIFORM;
     rc.creep_ratio = NAN;
     rc.force_ratio = fitted.force_ratio;

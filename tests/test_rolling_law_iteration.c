@@ -68,7 +68,7 @@ static void the_residual_is_that_of_the_law(void **state)
     for (int k = 0; k < 6; k++) {
         rb_rolling_case rc = falling(RB_STEADY, 0.2, 20.0);
         rc.creep_ratio = 0.2 + 0.15 * k;
-        rc.tol = 1e-3;
+        rc.contact.tol = 1e-3;
         rb_rolling_model model = solved_model(&rc);
         rb_contact_violation v;
         CHECK_STATUS(rb_contact_residual(&model.problem, &model.state, &v), RB_OK);
@@ -274,13 +274,13 @@ static void forces_are_met_to_a_tenth_of_the_tolerance(void **state)
     double worst = 0.0;
     for (int k = 0; k < 25; k++) {
         rb_rolling_case rc = falling(RB_STEADY, 0.1, 40.0);
-        rc.tol = 1e-2;
+        rc.contact.tol = 1e-2;
         rc.force = -5.0 * (k + 0.5);
         rb_rolling_model model = solved_model(&rc);
         const double capacity = rb_contact_capacity(&model.problem, &model.state);
         const double off = fabs(rb_rolling_model_force(&model) - rc.force);
-        CHECK_MAX(off, 0.1 * rc.tol * capacity, "force %g", rc.force);
-        worst = fmax(worst, off / (rc.tol * capacity));
+        CHECK_MAX(off, 0.1 * rc.contact.tol * capacity, "force %g", rc.force);
+        worst = fmax(worst, off / (rc.contact.tol * capacity));
         rb_rolling_model_free(&model);
     }
     CHECK_MAX(0.05, worst, "and not to much less");
@@ -423,7 +423,7 @@ static void starts_that_fail_are_counted(void **state)
     rc.contact_elements = 6;
     rc.creep_ratio = 0.5;
     rb_rolling_model model = solved_model(&rc);
-    model.rc.tol = 1e-300; /* rounding leaves more */
+    model.rc.contact.tol = 1e-300; /* rounding leaves more */
     model.problem.rounding = 0.0;
     CHECK_STATUS(rb_rolling_find_solutions(&model, &all, &why), RB_OK);
     assert_int_equal(all.n, 1);

@@ -245,7 +245,7 @@ static void one_element_more_may_stick(void **state)
         rb_message why = {""};
         rc.contact_elements = 93 * (k + 1);
         rc.creep = creep[k];
-        rc.tol = 1e-12;
+        rc.contact.tol = 1e-12;
         rb_rolling_model model = solved_model(&rc);
         rb_contact_violation middle;
         CHECK_STATUS(rb_rolling_find_solutions(&model, &found, &why), RB_OK);

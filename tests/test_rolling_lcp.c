@@ -140,10 +140,10 @@ static void pivots_tell_their_attempt(void **state)
         rb_rolling_model model = dissimilar_model(0, 0), again;
         rb_rolling_case rc = model.rc;
         int attempt = -1;
-        rc.solver = RB_SOLVER_LEMKE;
-        rc.lcp_form = kwak ? RB_LCP_KWAK : RB_LCP_PIVOTED;
-        rc.trace = keep_attempt;
-        rc.trace_context = &attempt;
+        rc.contact.solver = RB_SOLVER_LEMKE;
+        rc.contact.lcp_form = kwak ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+        rc.contact.trace = keep_attempt;
+        rc.contact.trace_context = &attempt;
         CHECK_STATUS(rb_rolling_model_create(&rc, &again, NULL), RB_OK);
         assert_int_equal(attempt, kwak ? 2 : 0);
         rb_rolling_model_free(&again);

@@ -113,8 +113,8 @@ static void choose_solver(int k, rb_rolling_case *rc)
         return;
     rc->mesh = RB_MESH_UNIFORM;
     rc->zone = 2.5;
-    rc->solver = k < 2 ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON;
-    rc->lcp_form = k == 1 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+    rc->contact.solver = k < 2 ? RB_SOLVER_LEMKE : RB_SOLVER_NEWTON;
+    rc->contact.lcp_form = k == 1 ? RB_LCP_KWAK : RB_LCP_PIVOTED;
     if (k == 3)
         rc->contact_elements = 1600;
 }

@@ -131,7 +131,7 @@ static void check_beside_lemke(rb_rolling_model *model)
     CHECK_STATUS(rb_contact_state_alloc(p->n, &newton), RB_OK);
     CHECK_STATUS(rb_contact_state_alloc(p->n, &lemke), RB_OK);
     CHECK_STATUS(rb_contact_newton(p, 0, &newton), RB_OK);
-    rc.solver = RB_SOLVER_LEMKE;
+    rc.contact.solver = RB_SOLVER_LEMKE;
     CHECK_STATUS(rb_rolling_problem_solve(p, &rc, 0, &lemke, NULL), RB_OK);
     assert_int_equal(lemke.solver, RB_SOLVER_LEMKE);
     for (int i = 0; i < p->n; i++) {
@@ -200,7 +200,7 @@ static void full_sliding_needs_no_other_solver(void **state)
         rb_rolling_case rc = steady(RB_BEM_HALFPLANE, 60);
         const double sign = k % 2 ? -1.0 : 1.0;
         rc.creep_ratio = 4.0 * sign;
-        rc.solver = RB_SOLVER_NEWTON;
+        rc.contact.solver = RB_SOLVER_NEWTON;
         if (k < 2)
             rc.b.young = rc.a.young;
         rb_rolling_solution s = solved(&rc);

@@ -378,11 +378,11 @@ static void bytes_are_those_of_the_documentation(void **state)
     rc.elastic_b = 1;
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 0), 64.0 * n * n, 1e-15,
               "two bodies while they are added");
-    rc.solver = RB_SOLVER_LEMKE;
+    rc.contact.solver = RB_SOLVER_LEMKE;
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 60), 8.0 * 24.0 * n * n, 1e-15, "Lemke");
-    rc.lcp_form = RB_LCP_KWAK;
+    rc.contact.lcp_form = RB_LCP_KWAK;
     CHECK_REL(rb_rolling_bytes(&rc, 40, 0, 60), 8.0 * 31.0 * n * n, 1e-15, "Kwak");
-    rc.solver = RB_SOLVER_AUTO;
+    rc.contact.solver = RB_SOLVER_AUTO;
     rc.a.poisson = 0.3;
     CHECK_REL(rb_rolling_bytes(&rc, RB_ROLLING_LARGE, 0, 0), 816.0 * RB_ROLLING_LARGE,
               1e-15, "unlike bodies without a matrix");

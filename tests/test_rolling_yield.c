@@ -67,7 +67,7 @@ static void contact_program_is_met(void **state)
             rb_rolling_case rc = plastic_example(carter_plast[k].hardening);
             rc.contact_elements = carter_plast[k].n;
             rc.zone = 0.5 * carter_plast[k].n * carter_plast[k].h;
-            rc.solver = by[j];
+            rc.contact.solver = by[j];
             rb_rolling_solution s = valid(&rc);
             CHECK_ABS(s.force_ratio, carter_plast[k].ratio, 1e-4, "case %zu", k + 1);
             assert_int_equal(s.solver, by[j]);
@@ -287,15 +287,15 @@ static void law_holds_by_the_columns(void **state)
         const rb_rolling_derived d = rb_rolling_derive(&rc);
         const double of[] = {0.0, 0.01, 0.3, 10.0, 1000.0, -0.01, -0.05};
         rc.hardening = of[draw(&seed, 7)] * d.modulus / d.half_width;
-        rc.solver = RB_SOLVER_NEWTON;
+        rc.contact.solver = RB_SOLVER_NEWTON;
         rb_rolling_solution newton = valid(&rc), lemke;
         CHECK_MAX(law_violation(&rc, &newton), 1e-7, "case %d", k);
         yielding += newton.yielding > 0;
         for (int i = 1; i < newton.n - 2; i++)
             both_bounds += newton.zone[i] == RB_ZONE_SLIP_NEGATIVE &&
                            plastic_of(&rc, &newton, i) > 1e-3 * fabs(newton.shift[i]);
-        rc.solver = RB_SOLVER_LEMKE;
-        rc.lcp_form = draw(&seed, 2) ? RB_LCP_KWAK : RB_LCP_PIVOTED;
+        rc.contact.solver = RB_SOLVER_LEMKE;
+        rc.contact.lcp_form = draw(&seed, 2) ? RB_LCP_KWAK : RB_LCP_PIVOTED;
         if (rc.hardening >= 0.0) {
             lemke = valid(&rc);
             CHECK_ABS(lemke.tangential_load, newton.tangential_load, 1e-9 * rc.load,

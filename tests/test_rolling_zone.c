@@ -57,7 +57,7 @@ static void edges_of_sliding_contacts_are_those_of_fine_meshes(void **state)
             rb_rolling_case rc = halfplane(poisson[k], mu[k], n);
             rc.half_width = 2.0;
             rc.creep_ratio = 4.0;
-            rc.solver = RB_SOLVER_NEWTON;
+            rc.contact.solver = RB_SOLVER_NEWTON;
             rb_rolling_solution s = solved(&rc);
             check_ends(&s, "sliding");
             assert_int_equal(s.stick, 0);

@@ -273,6 +273,10 @@ typedef struct {
     int trace_tableau; /* 1: with the whole tableau */
 } rb_contact_options;
 
+/* RB_SOLVER_AUTO, the pivoted form first, a tolerance of 1e-10, nobody who sees pivots.
+ */
+rb_contact_options rb_contact_defaults(void);
+
 /* Solves by the wanted solver, and by the other one where that fails (state->solver says
  * which one did it).  warm: the zones of the state are a start. */
 rb_status rb_contact_solve(rb_contact_problem *problem, const rb_contact_options *options,

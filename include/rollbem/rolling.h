@@ -221,17 +221,9 @@ typedef struct {
     rb_rolling_near_field near_field;       /* of wheels */
     rb_rolling_slip_operator slip_operator; /* steady; second: equal elements */
 
-    rb_contact_solver solver;
-    /* RB_SOLVER_CONE: one of the cone solvers that the caller hands in, by name;
-     * borrowed, such as rb_friction_cone_solvers(). */
-    const rb_contact_cone_solvers *cone_solvers;
-    const char *cone_solver;
-    rb_contact_lcp_form lcp_form;
-    double tol; /* of the scaled natural residual; on large contacts not below rounding */
-
-    rb_lcp_trace *trace; /* sees every pivot of Lemke, with trace_context; NULL: nobody */
-    void *trace_context;
-    int trace_tableau; /* 1: with the whole tableau */
+    /* How the contact problem is solved (contact.h); force_unit and sliding are not read:
+     * the formulation gives them. */
+    rb_contact_options contact;
 } rb_rolling_case;
 
 rb_rolling_case rb_rolling_case_defaults(void);

@@ -811,7 +811,7 @@ int rb_api_newton(rb_api *a)
         return a->status;
     rb_contact_problem problem = a->result.model.problem; /* arrays stay the model's */
     rb_rolling_case rc = a->result.model.rc;
-    rc.solver = RB_SOLVER_NEWTON;
+    rc.contact.solver = RB_SOLVER_NEWTON;
     problem.trace = keep_newton_step;
     problem.trace_context = a;
     rb_api_forget_arrays(a, "newton.");

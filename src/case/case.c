@@ -43,7 +43,7 @@ void rb_case_set_purpose(rb_case *c, rb_case_purpose purpose)
 
 void rb_case_use_cone_solvers(rb_case *c, const rb_contact_cone_solvers *solvers)
 {
-    c->words.rc.cone_solvers = c->resolved.rc.cone_solvers = solvers;
+    c->words.rc.contact.cone_solvers = c->resolved.rc.contact.cone_solvers = solvers;
 }
 
 rb_case *rb_case_copy(const rb_case *c)

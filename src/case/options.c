@@ -314,14 +314,14 @@ const rb_option rb_case_table[] = {
                    "MPa; m, N, Pa; inch, lbf, psi"),
 
     RB_GROUP_LINE("solver", "Solver"),
-    RB_CHOICE_LINE("solver", RC(solver), solvers,
+    RB_CHOICE_LINE("solver", RC(contact.solver), solvers,
                    "of the complementarity problem; or a cone solver by its name, see "
                    "rollbem help friction",
-                   .path = RC(cone_solver), .path_value = RB_SOLVER_CONE,
+                   .path = RC(contact.cone_solver), .path_value = RB_SOLVER_CONE,
                    .path_name = "NAME"),
-    RB_CHOICE_LINE("lcp-form", RC(lcp_form), lcp_forms,
+    RB_CHOICE_LINE("lcp-form", RC(contact.lcp_form), lcp_forms,
                    "pivoted (no inverse), or kwak: the matrix of Addi et al. (38)"),
-    RB_NUMBER_LINE("tol", RC(tol), "-", RB_ABOVE(0),
+    RB_NUMBER_LINE("tol", RC(contact.tol), "-", RB_ABOVE(0),
                    "bound on the natural residual of the scaled problem"),
 
     RB_GROUP_LINE("accuracy", "Accuracy"),

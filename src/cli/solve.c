@@ -218,7 +218,8 @@ static cli_exit check_behind(const solved *it, const rb_resolved_case *c)
         (!isnan(c->rc.force) || !isnan(c->rc.force_ratio) || c->rc.free_axle))
         return cli_fail(CLI_USAGE,
                         "--all-solutions: at a given creepage, not under a given force");
-    if (it->trace && c->rc.solver != RB_SOLVER_AUTO && c->rc.solver != RB_SOLVER_LEMKE)
+    if (it->trace && c->rc.contact.solver != RB_SOLVER_AUTO &&
+        c->rc.contact.solver != RB_SOLVER_LEMKE)
         return cli_fail(CLI_USAGE, "--trace: only --solver lemke pivots");
     return CLI_CONTINUE;
 }
@@ -237,7 +238,7 @@ static cli_exit check_states(const cli_case_run *run)
 static cli_exit choose_pivots(rb_case *c)
 {
     rb_message why = {""};
-    if (rb_case_resolved(c)->rc.solver != RB_SOLVER_AUTO)
+    if (rb_case_resolved(c)->rc.contact.solver != RB_SOLVER_AUTO)
         return CLI_CONTINUE;
     rb_status s = rb_case_set(c, "solver", "lemke", RB_GIVEN_ARGUMENT, &why);
     if (s == RB_OK)

@@ -147,6 +147,12 @@ static rb_status cover_rows(const rb_contact_lcp *lcp, covering kind, double **c
     return *cover ? RB_OK : RB_ENOMEM;
 }
 
+rb_contact_options rb_contact_defaults(void)
+{
+    return (rb_contact_options){
+        .solver = RB_SOLVER_AUTO, .lcp_form = RB_LCP_PIVOTED, .tol = 1e-10};
+}
+
 static rb_status try_lemke(rb_contact_problem *problem, const rb_contact_options *options,
                            const attempt *at, covering kind, int round,
                            rb_contact_state *state, rb_message *why)

@@ -377,7 +377,7 @@ void rb_certificate_tolerances(rb_certificate *c, double residual)
                           ? strcmp(rb_certificate_word(c->summary, "boundary_matrix"),
                                    "hierarchical") == 0
                           : c->again.hierarchical;
-    const double asked = fmax(c->model.rc.tol, p->rounding);
+    const double asked = fmax(c->model.rc.contact.tol, p->rounding);
 
     c->exact = 10.0 * fmax(residual < asked ? residual : asked, p->rounding);
     c->displacement =

@@ -223,7 +223,7 @@ static rb_status set_proof(const rb_rolling_model *model, rb_rolling_solution *s
 
     s->status = state->status;
     s->solver = state->solver;
-    s->cone_solver = model->rc.cone_solver;
+    s->cone_solver = model->rc.contact.cone_solver;
     s->large = !model->bodies.F;
     add_boundary(model->bodies.system_a, s);
     add_boundary(model->bodies.system_b, s);

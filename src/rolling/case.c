@@ -30,9 +30,7 @@ rb_rolling_case rb_rolling_case_defaults(void)
                           .mesh = RB_MESH_UNIFORM,
                           .contact_elements = 60,
                           .normals = RB_BEM_NORMALS_OBSTACLE,
-                          .solver = RB_SOLVER_AUTO,
-                          .lcp_form = RB_LCP_PIVOTED,
-                          .tol = 1e-10};
+                          .contact = rb_contact_defaults()};
 
     rc.b.radius = INFINITY;
     rc.b.support = RB_BEM_HALFPLANE;
@@ -130,7 +128,8 @@ int rb_rolling_has_transforms(const rb_rolling_case *rc)
     const int two_datums =
         rc->a.datum_tangential > 0.0 || (rc->elastic_b && rc->b.datum_tangential > 0.0);
     return !two_operators && !two_datums && rc->yield_stress == 0.0 &&
-           (rc->solver == RB_SOLVER_AUTO || rc->solver == RB_SOLVER_NEWTON) &&
+           (rc->contact.solver == RB_SOLVER_AUTO ||
+            rc->contact.solver == RB_SOLVER_NEWTON) &&
            rc->mesh != RB_MESH_FITTED && rb_rolling_kind_of(&rc->a)->transforms &&
            (!rc->elastic_b || rb_rolling_kind_of(&rc->b)->transforms);
 }
@@ -392,11 +391,11 @@ static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
         return rb_fail(why, RB_EINVAL,
                        "yield stress: with one coefficient of friction or a table over "
                        "x, not with a law that follows slip or heat");
-    if (rc->yield_stress > 0.0 && rc->solver == RB_SOLVER_CONE)
+    if (rc->yield_stress > 0.0 && rc->contact.solver == RB_SOLVER_CONE)
         return rb_fail(why, RB_EINVAL,
                        "solver %s: knows Coulomb's law alone, expected lemke, newton or "
                        "auto with --yield-stress",
-                       rc->cone_solver);
+                       rc->contact.cone_solver);
     return RB_OK;
 }
 
@@ -481,14 +480,15 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
                        "normals surface: a half-plane has the obstacle's");
     if (rc->normals == RB_BEM_NORMALS_SURFACE && rc->elastic_b)
         return rb_fail(why, RB_EINVAL, "normals surface: with a rigid plane only");
-    if (rc->solver == RB_SOLVER_CONE && !(rc->cone_solvers && rc->cone_solver &&
-                                          rc->cone_solvers->knows(rc->cone_solver)))
+    if (rc->contact.solver == RB_SOLVER_CONE &&
+        !(rc->contact.cone_solvers && rc->contact.cone_solver &&
+          rc->contact.cone_solvers->knows(rc->contact.cone_solver)))
         return rb_fail(
             why, RB_EINVAL,
             "solver: expected auto, lemke, newton or a cone solver, got '%.60s'",
-            rc->cone_solver ? rc->cone_solver : "");
-    if (!is_positive(rc->tol))
-        return rb_fail(why, RB_EINVAL, "tol: expected > 0, got %g", rc->tol);
+            rc->contact.cone_solver ? rc->contact.cone_solver : "");
+    if (!is_positive(rc->contact.tol))
+        return rb_fail(why, RB_EINVAL, "tol: expected > 0, got %g", rc->contact.tol);
     return RB_OK;
 }
 

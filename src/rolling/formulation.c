@@ -401,16 +401,11 @@ double rb_rolling_sliding_creepage(const rb_rolling_case *rc, const rb_contact_p
 static rb_contact_options options_of(const rb_rolling_case *rc,
                                      const rb_contact_problem *p)
 {
-    return (rb_contact_options){.solver = rc->solver,
-                                .cone_solvers = rc->cone_solvers,
-                                .cone_solver = rc->cone_solver,
-                                .lcp_form = rc->lcp_form,
-                                .tol = rc->tol,
-                                .force_unit = " N/mm",
-                                .sliding = rb_rolling_sliding_creepage(rc, p),
-                                .trace = rc->trace,
-                                .trace_context = rc->trace_context,
-                                .trace_tableau = rc->trace_tableau};
+    rb_contact_options options = rc->contact;
+
+    options.force_unit = " N/mm";
+    options.sliding = rb_rolling_sliding_creepage(rc, p);
+    return options;
 }
 
 rb_status rb_rolling_problem_solve(rb_contact_problem *problem, const rb_rolling_case *rc,

@@ -168,7 +168,7 @@ static void relax(relaxation *r, const rb_contact_problem *p, double change, dou
 
 static rb_status measure(rb_rolling_model *model, rb_message *why)
 {
-    const double allowed = fmax(model->rc.tol, model->problem.rounding);
+    const double allowed = fmax(model->rc.contact.tol, model->problem.rounding);
     rb_contact_violation violation;
     const rb_status s = rb_contact_residual(&model->problem, &model->state, &violation);
 
@@ -186,7 +186,7 @@ static rb_status measure(rb_rolling_model *model, rb_message *why)
 /* Which change of the coefficients, as a natural residual, is none. */
 static double enough_of(const rb_rolling_model *model)
 {
-    return fmax(0.1 * model->rc.tol, fmax(model->problem.rounding, 1e-14));
+    return fmax(0.1 * model->rc.contact.tol, fmax(model->problem.rounding, 1e-14));
 }
 
 /* From the bounds that the problem has: (F1) v -> mu -> contact problem -> v.
@@ -414,8 +414,8 @@ static rb_status solve_force(rb_rolling_model *model, rb_message *why)
         memcpy(by.start, p->bound, (size_t)p->n * sizeof *by.start);
         s = lack(&by, 0.0, &f[0]);
     }
-    const double small =
-        0.1 * fmax(model->rc.tol, p->rounding) * rb_contact_capacity(p, &model->state);
+    const double small = 0.1 * fmax(model->rc.contact.tol, p->rounding) *
+                         rb_contact_capacity(p, &model->state);
     if (s == RB_OK && fabs(f[0]) > small) {
         by.side = f[0] > 0.0 ? 1.0 : -1.0;
         f[0] = fabs(f[0]);

@@ -6,7 +6,7 @@
  * most 2n variables in the basis. */
 static double lemke_squares(const rb_rolling_case *rc)
 {
-    return rc->lcp_form == RB_LCP_KWAK ? 9.0 + 9.0 + 1.0 + 6.0 : 9.0 + 9.0;
+    return rc->contact.lcp_form == RB_LCP_KWAK ? 9.0 + 9.0 + 1.0 + 6.0 : 9.0 + 9.0;
 }
 
 /* Numbers per element of the path on which Newton's method goes on where its steps go
@@ -30,7 +30,7 @@ double rb_rolling_bytes(const rb_rolling_case *rc, int n, int boundary, int unkn
         return ((rb_rolling_derive(rc).dundurs == 0.0 ? 520.0 : 720.0) +
                 (double)sizeof(double) * PATH) *
                n;
-    const double lcp = rc->solver == RB_SOLVER_LEMKE
+    const double lcp = rc->contact.solver == RB_SOLVER_LEMKE
                            ? lemke_squares(rc) * square
                            : newton_numbers(n, (double)unknowns * unknowns);
     const double solution = sizeof(double) * (6.0 * square + lcp);

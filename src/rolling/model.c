@@ -55,7 +55,7 @@ static rb_status solve_ratio(rb_rolling_model *model, int warm, rb_message *why)
         model->problem.xi += step;
         s = rb_rolling_model_resolve(model, 1, why);
     }
-    if (s == RB_OK && missing > fmax(rc->tol, model->problem.rounding))
+    if (s == RB_OK && missing > fmax(rc->contact.tol, model->problem.rounding))
         s = model->state.status =
             rb_fail(why, RB_MAXITER,
                     "creep-ratio: the load changes with the creepage; after %d rounds "

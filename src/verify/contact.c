@@ -109,9 +109,9 @@ static void two_forms(rb_verify *v)
 {
     rb_rolling_case rc = rolling_at(0.4);
     rb_rolling_solution s, t;
-    rc.solver = RB_SOLVER_LEMKE;
+    rc.contact.solver = RB_SOLVER_LEMKE;
     rb_verify_solve(v, &rc, &s);
-    rc.lcp_form = RB_LCP_KWAK;
+    rc.contact.lcp_form = RB_LCP_KWAK;
     rb_verify_solve(v, &rc, &t);
     double difference = s.n == t.n ? 0.0 : NAN;
     for (int i = 0; i < s.n && s.n == t.n; i++)
