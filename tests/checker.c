@@ -1026,7 +1026,22 @@ static void check_energy(const contact *c, const table *t)
         expect("energy", lost, creepage + by_curvature, edges * size + rounding);
 }
 
-/* M, its ratio, and the energy of bodies that relax. */
+/* Equilibrium about both axles, from the tractions alone: as what turns each of them. */
+static void check_torques(const contact *c, double moment, double force, double size)
+{
+    const double radius[] = {c->a.radius, c->b.radius};
+    expect("torque_a", number(c->summary, "torque_a"), moment + force * radius[0],
+           1e-11 * (size + c->mu * number(c->summary, "normal_load") * radius[0]));
+    if (!isfinite(radius[1])) {
+        if (json_object_get(c->summary, "torque_b"))
+            violated("torque_b", "of a plane is no result");
+        return;
+    }
+    expect("torque_b", number(c->summary, "torque_b"), moment - force * radius[1],
+           1e-11 * (size + c->mu * number(c->summary, "normal_load") * radius[1]));
+}
+
+/* M, its ratio, the torques, and the energy of bodies that relax. */
 static void check_resistance(const contact *c, const table *t)
 {
     const double M = number(c->summary, "resistance_moment");
@@ -1047,6 +1062,7 @@ static void check_resistance(const contact *c, const table *t)
         size += fabs(x * upwards) * t->column[H][i];
     }
     expect("resistance_moment", M, moment, 1e-12 * size);
+    check_torques(c, moment, number(c->summary, "tangential_load"), size);
     expect_same(c, "resistance_ratio", M / (P_ * c->radius), 1e-12);
     if (c->formulation != STEADY)
         return;
@@ -1056,8 +1072,8 @@ static void check_resistance(const contact *c, const table *t)
         violated("hysteresis", "of elastic bodies is %g", lag);
     const json_t *axle = json_object_get(c->inputs, "free-axle");
     if (json_is_true(axle))
-        expect("free axle", number(c->summary, "tangential_load"), -M / c->radius,
-               1e-10 * c->mu * P_);
+        expect("free axle", number(c->summary, "torque_a"), 0.0,
+               1e-10 * c->mu * P_ * c->a.radius);
 }
 
 static void check_errors(const contact *c)

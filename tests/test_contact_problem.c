@@ -1643,7 +1643,7 @@ static void forces_that_nothing_carries_are_refused(void **state)
                {2, 0.0, 0.98, 0.0, "the interface yields, and carries at most "},
                {3, 0.98, 0.0, 0.0, "the interface yields, and carries at most "},
                {3, 0.0, -0.98, 0.0, "the interface yields, and carries at most "},
-               {0, 0.0, 0.0, 30.0, "the resistance to rolling M/R = "}};
+               {0, 0.0, 0.0, 30.0, "the resistance to rolling M/R_A = "}};
 
     (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {

@@ -146,6 +146,40 @@ static void a_free_axle_is_turned_by_friction(void **state)
     CHECK_REL(xi[3], xi[4], 2e-3, "many elements against fitted ones");
 }
 
+/* Rollers of unequal radii: equilibrium about each axle by itself, whichever is larger.
+ * What both drives give is the resistance of both curvatures. */
+static void only_the_axle_of_a_is_free(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        rb_rolling_solution s;
+        rb_rolling_curve c;
+        rb_message why = {""};
+        rb_rolling_case rc = hunter(2.0, 0.8, 60);
+        const double R = k % 2 ? 20.0 : 500.0;
+        const rb_rolling_range range = {RB_OVER_SPEED, 1.0, 2.0, 2};
+        rc.mu = 0.3;
+        rc.creep = NAN;
+        rc.free_axle = 1;
+        rc.elastic_b = 1;
+        rc.b.young = k < 2 ? 1e5 : 1000.0;
+        rc.b.radius = R;
+        CHECK_STATUS(rb_rolling_solve(&rc, &s, &why), RB_OK);
+        const double M = moment_of(&s), Q = s.tangential_load;
+        CHECK_MAX(-M, 0.0, "case %d: it resists", k);
+        CHECK_ABS(s.torque_a, 0.0, 1e-10 * s.normal_load * rc.a.radius, "case %d: A", k);
+        CHECK_REL(Q, -M / rc.a.radius, 1e-9, "case %d: Q = -M/R_A", k);
+        CHECK_REL(s.torque_b, M - Q * R, 1e-12, "case %d: B", k);
+        CHECK_REL(s.torque_b / R, M * (1.0 / R + 1.0 / rc.a.radius), 1e-9,
+                  "case %d: B drives both", k);
+        CHECK_STATUS(rb_rolling_curve_solve(&rc, &range, &c, &why), RB_OK);
+        CHECK_ABS(c.torque_a[0], 0.0, 1e-10 * s.normal_load * rc.a.radius, "curve");
+        CHECK_REL(c.torque_b[0], s.torque_b, 1e-6, "case %d: curve", k);
+        rb_rolling_curve_free(&c);
+        rb_rolling_solution_free(&s);
+    }
+}
+
 /* Over the speed M/(P R) rises from nothing, has one maximum and falls; each point is the
  * case at that speed. */
 static void resistance_has_a_maximum_over_the_speed(void **state)
@@ -547,6 +581,7 @@ int main(void)
         cmocka_unit_test(hunters_solution_is_met),
         cmocka_unit_test(the_moment_is_of_second_order),
         cmocka_unit_test(a_free_axle_is_turned_by_friction),
+        cmocka_unit_test(only_the_axle_of_a_is_free),
         cmocka_unit_test(resistance_has_a_maximum_over_the_speed),
         cmocka_unit_test(speed_has_its_limits),
         cmocka_unit_test(contacts_figures_are_met),

@@ -93,7 +93,7 @@ typedef struct {
                         most (mu P for one coefficient), xi is an unknown; 0: xi is given
                       */
     double load, delta, force, force_ratio, xi;
-    double axle; /* 1/R where the force is that less axle M (free
+    double axle; /* 1/R_A where the force is that less axle M (free
                     axle, V4); else 0 [1/length] */
 
     /* A layer between the surfaces yields (Y1): |r_T| <= yield + hardening u of an

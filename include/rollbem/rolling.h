@@ -197,7 +197,7 @@ typedef struct {
      * given approach, as in *Addi*; 0 under load control); creep or creep_ratio only
      * enter (12). steady, transient: one of creep, creep_ratio, force, force_ratio. */
     double shift, creep, creep_ratio, force, force_ratio;
-    int free_axle; /* steady: nothing drives the axle, Q = -M/R (theory.md V4); in the
+    int free_axle; /* steady: nothing drives A's axle, Q = -M/R_A (theory.md V4); in the
                       place of these */
 
     rb_rolling_formulation formulation;
@@ -265,6 +265,8 @@ typedef struct {
 } rb_rolling_derived;
 
 rb_rolling_derived rb_rolling_derive(const rb_rolling_case *rc);
+/* Of A and B; A's where B is a plane. */
+double rb_rolling_larger_radius(const rb_rolling_case *rc);
 
 /* ---- Case -> contact mesh -> flexibility ------------------------------------------- */
 
@@ -418,9 +420,12 @@ typedef struct {
     double dissipation;          /* power per unit speed [force/length] */
     double resistance_moment;    /* M = int x p dx [force]; NAN in static, as the ratio */
     double resistance_ratio;     /* M/(P R), the coefficient of rolling resistance */
-    double hysteresis;      /* power per unit speed that the bodies lose [force/length];
-                               NAN but in steady */
-    double max_temperature; /* in contact; NAN where not asked for, as below */
+    double hysteresis; /* power per unit speed that the bodies lose [force/length];
+                          NAN but in steady */
+    double torque_a;   /* M + Q R_A: external torque on A's axle, > 0 the way A rolls, so
+                          that it drives A [force]; NAN in static */
+    double torque_b;   /* M - Q R_B: the same of B; NAN also where B is a plane */
+    double max_temperature;    /* in contact; NAN where not asked for, as below */
     double max_temperature_at; /* [length] */
     double peclet;             /* V a/(2 diffusivity of A), a the half-width */
     double kappa;              /* of a friction law that depends on the state (F3); above
@@ -452,6 +457,7 @@ typedef enum {
     RB_SCALE_PRESSURE, /* p0 */
     RB_SCALE_POWER,    /* mu P times the creepage */
     RB_SCALE_MOMENT,   /* P a */
+    RB_SCALE_TORQUE,   /* P a and mu P R */
     RB_SCALE_STRAIN,   /* a/R */
     RB_SCALE_WORK,     /* P a/R */
     RB_SCALE_HEAT      /* rise of the temperature */
@@ -467,7 +473,8 @@ typedef enum {
     RB_FOR_MOVING_LAW, /* and depend on the state */
     RB_FOR_WAY,        /* that follow a history's column */
     RB_FOR_MEMORY,
-    RB_FOR_YIELD
+    RB_FOR_YIELD,
+    RB_FOR_CYLINDER_B
 } rb_rolling_condition;
 
 /* One result: whatever shows results, studies and error bars are made from these. */
@@ -695,10 +702,12 @@ typedef struct rb_rolling_history {
     double *time;            /* at the end of the step [s]; NULL where no body relaxes */
     double *lost_work;       /* that relaxation has taken so far [force]; NULL likewise */
     double *mu; /* the case's mu at the end of the step; NULL where it is one for all */
-    double half_width; /* that distances count in [length] */
-    double step;       /* c [length]; 0 in a static history */
-    int steady_from;   /* first step of the steady state that the end is in, or -1 */
-    rb_units units;    /* of all values here */
+    double *torque_a, *torque_b; /* M + Q R_A and M - Q R_B [force]; torque_b: NULL where
+                                    B is a plane */
+    double half_width;           /* that distances count in [length] */
+    double step;                 /* c [length]; 0 in a static history */
+    int steady_from; /* first step of the steady state that the end is in, or -1 */
+    rb_units units;  /* of all values here */
     struct rb_rolling_history *errors; /* of every entry; NULL: not asked for; owned */
 } rb_rolling_history;
 
@@ -846,11 +855,12 @@ typedef struct {
     double *residual;
     double *speed; /* [length/s]; 0 where none is given, because no body relaxes */
     double *resistance_moment, *resistance_ratio, *hysteresis; /* as of a solution */
-    double *max_temperature; /* NULL where not asked for */
-    int *branch;             /* 1: on the way from `from` to `to`, 2: on the way back;
-                                NULL where friction does not depend on the state */
-    double *kappa;           /* as of a solution; NULL likewise */
-    int rising;              /* points of the way there, before those of the way back */
+    double *torque_a, *torque_b; /* likewise; torque_b: NULL where B is a plane */
+    double *max_temperature;     /* NULL where not asked for */
+    int *branch;                 /* 1: on the way from `from` to `to`, 2: on the way back;
+                                    NULL where friction does not depend on the state */
+    double *kappa;               /* as of a solution; NULL likewise */
+    int rising; /* points of the way there, before those of the way back */
     double free_creepage, half_width, seconds;
     int iterations;
     rb_rolling_solution last; /* at the last point, for notes: with the largest kappa and

@@ -243,7 +243,7 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("force-ratio", RC(force_ratio), "-", RB_ANY, "Q/(mu P), the sign of Q",
                    .unset = "not given", .excludes = ONE_LOADING),
     RB_FLAG_LINE("free-axle", RC(free_axle),
-                 "steady: nothing drives the axle, Q = -M/R; M: see resistance_moment",
+                 "steady: no torque on A's axle, Q = -M/R_A; M: see resistance_moment",
                  .excludes = ONE_LOADING),
 
     RB_GROUP_LINE("problem", "Problem"),

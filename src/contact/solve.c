@@ -648,7 +648,7 @@ static rb_status check_capacity(rb_contact_problem *problem,
     rb_contact_state_free(&sliding);
     if (s == RB_OK && resistance > most)
         return rb_fail(why, RB_EINVAL,
-                       "free axle: the resistance to rolling M/R = %g%s is more than "
+                       "free axle: the resistance to rolling M/R_A = %g%s is more than "
                        "friction carries, mu P = %g%s",
                        resistance, unit, most, unit);
     if (s == RB_OK && fabs(problem->force) > most)

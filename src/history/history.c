@@ -199,6 +199,11 @@ static void record(history_state *r, double distance)
         h->dissipation[k] = rb_rolling_dissipated_power(
             &model->rc, p->n, state->lambda, state->q, model->bodies.f.h, p->e_T);
     h->moment[k] = rb_contact_moment(p, state);
+    double torque_b;
+    rb_rolling_torques(&model->rc, h->moment[k], h->tangential_load[k], &h->torque_a[k],
+                       &torque_b);
+    if (h->torque_b)
+        h->torque_b[k] = torque_b;
     if (h->max_temperature) {
         double at;
         rb_rolling_peak_temperature(p->n, model->bodies.f.x, state->zone,

@@ -432,6 +432,8 @@ double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
 {
     for (int k = 0; k < all->n; k++) {
         const char *unit = all->row[k].unit;
+        if (strncmp(name, "torque", 6) == 0)
+            return 1e-13 * s->load * s->radius;
         if (strcmp(all->row[k].name, name) == 0 && unit)
             return strcmp(unit, "mm") == 0     ? 1e-12 * s->half_width
                    : strcmp(unit, "N/mm") == 0 ? 1e-13 * s->load
@@ -446,8 +448,11 @@ double rb_certificate_rounding(const rb_rolling_results *all, const char *name,
 static double rounding_of(const rb_certificate *c, const char *key)
 {
     const rb_rolling_solution *s = &c->again;
-    const rb_certificate_scales scales = {
-        .half_width = s->half_width, .load = s->normal_load, .pressure = s->max_pressure};
+    const rb_certificate_scales scales = {.half_width = s->half_width,
+                                          .load = s->normal_load,
+                                          .pressure = s->max_pressure,
+                                          .radius =
+                                              rb_rolling_larger_radius(&c->model.rc)};
 
     if (strcmp(key, "residual") == 0)
         return c->tol;

@@ -46,6 +46,7 @@ rb_status rb_certificate_column(const char *name, const json_t *table,
 typedef struct {
     double half_width, load, pressure;
     double number; /* of unit 1 */
+    double radius; /* the larger one, of torques */
 } rb_certificate_scales;
 /* What a number of this name, a row of the table, may differ by beside its own nine
  * digits; otherwise: it is none of them or has no unit. */

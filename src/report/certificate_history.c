@@ -146,7 +146,9 @@ static void compare_list(rb_certificate *c, const char *key, double rounding,
 rb_status rb_certificate_compare_history(rb_certificate *c, const json_t *printed,
                                          const rb_rolling_history *h)
 {
-    rb_certificate_scales scales = {.half_width = h->half_width, .number = 1.0};
+    rb_certificate_scales scales = {.half_width = h->half_width,
+                                    .number = 1.0,
+                                    .radius = rb_rolling_larger_radius(&c->model.rc)};
     json_t *again = rb_report_json_history(h), *want;
     const char *key;
 

@@ -123,6 +123,15 @@ static void print_motion(FILE *out, const rb_rolling_solution *s)
                 "speed\n",
                 s->resistance_moment, rb_unit_name(s->units, "N"), s->resistance_ratio,
                 s->hysteresis, load);
+    if (s->hysteresis > 0.0) {
+        const double lever = s->normal_load * s->half_width;
+        fprintf(out, "  torque    %.5g %s on A's axle",
+                rb_report_tidy(s->torque_a, lever), rb_unit_name(s->units, "N"));
+        if (!isnan(s->torque_b))
+            fprintf(out, ", %.5g %s on B's", rb_report_tidy(s->torque_b, lever),
+                    rb_unit_name(s->units, "N"));
+        fputs(", > 0: it drives\n", out);
+    }
 }
 
 static void print_heat(FILE *out, const rb_rolling_solution *s)

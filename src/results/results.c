@@ -82,6 +82,11 @@ static const rb_rolling_result scalars[] = {
     RESULT("hysteresis", hysteresis, .unit = "N/mm", .error_bar = RB_SCALE_WORK,
            .study = 18,
            .meaning = "power per unit speed that bodies which relax lose; steady"),
+    RESULT("torque_a", torque_a, .unit = "N", .error_bar = RB_SCALE_TORQUE, .study = 24,
+           .meaning = "M + Q R_A: torque that turns A's axle the way A rolls; < 0 "
+                      "brakes it"),
+    RESULT("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_TORQUE, .study = 25,
+           .condition = RB_FOR_CYLINDER_B, .meaning = "M - Q R_B: the same of B's axle"),
     RESULT("max_temperature", max_temperature, .unit = "K", .error_bar = RB_SCALE_HEAT,
            .study = 19, .condition = RB_FOR_HEAT,
            .meaning = "highest temperature of the surfaces in contact"),
@@ -175,6 +180,10 @@ static const rb_rolling_result steps[] = {
          .meaning = "work that bodies which relax have lost so far"),
     STEP("mu", mu, .unit = "1", .condition = RB_FOR_WAY,
          .meaning = "coefficient of friction at the end of the step"),
+    STEP("torque_a", torque_a, .unit = "N", .error_bar = RB_SCALE_ONE,
+         .meaning = "on A's axle, > 0 the way A rolls"),
+    STEP("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_ONE,
+         .condition = RB_FOR_CYLINDER_B, .meaning = "on B's axle, > 0 the way B rolls"),
 };
 
 static const rb_rolling_result points[] = {
@@ -207,6 +216,11 @@ static const rb_rolling_result points[] = {
     POINT("kappa", kappa, .unit = "1", .condition = RB_FOR_MOVING_LAW,
           .meaning =
               "uniqueness of friction that falls: above 1 the branches may differ"),
+    POINT("torque_a", torque_a, .unit = "N", .error_bar = RB_SCALE_ONE,
+          .meaning = "M + Q R_A, on A's axle, > 0 the way A rolls"),
+    POINT("torque_b", torque_b, .unit = "N", .error_bar = RB_SCALE_ONE,
+          .condition = RB_FOR_CYLINDER_B,
+          .meaning = "M - Q R_B, on B's axle, > 0 the way B rolls"),
 };
 
 static const rb_rolling_result wears[] = {
@@ -333,6 +347,8 @@ int rb_rolling_has_result(const rb_rolling_result *r, const rb_rolling_case *rc)
         return rb_rolling_relaxes(rc);
     case RB_FOR_YIELD:
         return rc->yield_stress > 0.0;
+    case RB_FOR_CYLINDER_B:
+        return isfinite(rc->b.radius);
     case RB_FOR_ALL:
         break;
     }

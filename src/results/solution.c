@@ -137,6 +137,7 @@ static rb_status support_balance(const rb_rolling_model *model, double load,
 static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_solution *s)
 {
     s->resistance_moment = s->resistance_ratio = s->hysteresis = NAN;
+    s->torque_a = s->torque_b = NAN;
     if (s->formulation == RB_STATIC)
         return RB_OK;
     s->resistance_moment = rb_contact_moment(&model->problem, &model->state);
@@ -144,6 +145,8 @@ static rb_status set_resistance(const rb_rolling_model *model, rb_rolling_soluti
         s->normal_load > 0.0
             ? s->resistance_moment / (s->normal_load * rb_rolling_radius(&model->rc))
             : NAN;
+    rb_rolling_torques(&model->rc, s->resistance_moment, s->tangential_load, &s->torque_a,
+                       &s->torque_b);
     return rb_rolling_hysteresis(model, &s->hysteresis);
 }
 

@@ -84,6 +84,11 @@ double rb_rolling_radius(const rb_rolling_case *rc)
     return 1.0 / (1.0 / rc->a.radius + 1.0 / rc->b.radius);
 }
 
+double rb_rolling_larger_radius(const rb_rolling_case *rc)
+{
+    return fmax(rc->a.radius, isfinite(rc->b.radius) ? rc->b.radius : 0.0);
+}
+
 double rb_rolling_hertz_half_width(const rb_rolling_case *rc, double load)
 {
     return sqrt(4.0 * load * rb_rolling_radius(rc) / (M_PI * modulus(rc)));

@@ -250,7 +250,7 @@ void rb_rolling_set_control(const rb_rolling_case *rc, rb_contact_problem *p)
     p->delta = d.approach;
     p->force = p->force_ratio = p->xi = 0.0;
     p->force_given = p->mu > 0.0 && rb_rolling_force_is_given(rc);
-    p->axle = rc->free_axle ? 1.0 / rb_rolling_radius(rc) : 0.0;
+    p->axle = rc->free_axle ? 1.0 / rc->a.radius : 0.0;
     if (p->axle > 0.0)
         return;
     if (p->force_given && !isnan(rc->force_ratio))

@@ -363,6 +363,11 @@ double rb_rolling_dissipated_power(const rb_rolling_case *rc, int n, const doubl
 double rb_rolling_slid_pressure(const rb_rolling_case *rc, int n, const double *lambda,
                                 const double *p, const double *h, const double *e_T);
 
+/* Torques that keep both bodies rolling against M and the force Q, > 0 where they drive
+ * (theory.md V4); of B NAN where it is a plane. */
+void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force,
+                        double *torque_a, double *torque_b);
+
 /* Power per unit speed that the bodies lose, - int (p w_N' + q w_T') dx, from pressures,
  * friction and displacements (theory.md V4): 0 for elastic bodies, NAN but in steady
  * rolling.  RB_ENOMEM. */

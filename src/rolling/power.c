@@ -64,6 +64,14 @@ static double normal_work(int n, const double *x, const double *w, const double 
     return work;
 }
 
+/* Equilibrium about the axles: pressure p at x and friction q at the distance R. */
+void rb_rolling_torques(const rb_rolling_case *rc, double moment, double force,
+                        double *torque_a, double *torque_b)
+{
+    *torque_a = moment + force * rc->a.radius;
+    *torque_b = isfinite(rc->b.radius) ? moment - force * rc->b.radius : NAN;
+}
+
 rb_status rb_rolling_hysteresis(const rb_rolling_model *model, double *power)
 {
     const rb_contact_problem *p = &model->problem;

@@ -75,6 +75,11 @@ static rb_status record(const rb_rolling_model *model, rb_rolling_curve *c,
     c->resistance_moment[k] = rb_contact_moment(p, state);
     c->resistance_ratio[k] =
         c->resistance_moment[k] / (P * rb_rolling_radius(&model->rc));
+    double torque_b;
+    rb_rolling_torques(&model->rc, c->resistance_moment[k], Q, &c->torque_a[k],
+                       &torque_b);
+    if (c->torque_b)
+        c->torque_b[k] = torque_b;
     rb_status s = rb_rolling_hysteresis(model, &c->hysteresis[k]);
     if (s == RB_OK && c->max_temperature)
         s = record_heat(model, &c->max_temperature[k], why);

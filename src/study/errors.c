@@ -153,6 +153,10 @@ static double least_error(const rb_rolling_case *rc, const rb_rolling_solution *
                                          (2.0 * s->half_width));
     case RB_SCALE_MOMENT:
         return rounding * s->normal_load * a;
+    case RB_SCALE_TORQUE:
+        return rounding * s->normal_load *
+                   (a + rb_rolling_largest_mu(rc) * rb_rolling_larger_radius(rc)) +
+               friction * rb_rolling_larger_radius(rc);
     case RB_SCALE_STRAIN:
         return rounding * a / rb_rolling_radius(rc);
     case RB_SCALE_WORK:
