@@ -24,11 +24,12 @@ static const struct {
     {"results", " base blas bem lcp contact rolling closed_forms "},
     {"history", " base blas bem lcp contact rolling closed_forms "},
     {"study", " base blas bem lcp contact rolling closed_forms "},
-    {"case", " base io contact rolling case "},
-    {"api", " base blas sparse io lcp contact friction rolling closed_forms case api "},
+    {"sensitivity", " base blas contact rolling sensitivity "},
+    {"case", " base io contact rolling sensitivity case "},
+    {"api", " base blas sparse io lcp contact friction rolling closed_forms sensitivity case api "},
     {"verify", " base bem rolling closed_forms verify "},
     {"report", " base blas sparse units bem lcp contact io friction fem rolling "
-               "closed_forms case report "
+               "closed_forms sensitivity case report "
                "report_fem "},
 };
 

@@ -18,6 +18,7 @@
 #include "rollbem/base.h"
 #include "rollbem/io_contact.h"
 #include "rollbem/rolling.h"
+#include "rollbem/sensitivity.h"
 #include "rollbem/units.h"
 
 #include <math.h>
@@ -77,7 +78,9 @@ typedef struct {
     const char *path_name; /* of that other word in the help: FILE, NAME */
     rb_option_file file;   /* texts, and choices with another word */
     unsigned excludes;     /* of options that share a bit only one may be given */
-    const char *unset;     /* help: what stands for the default; NULL: the value itself */
+    int frozen; /* numbers: 1: of the mesh, the steps or the solver, with respect to which
+                   nothing is differentiated */
+    const char *unset; /* help: what stands for the default; NULL: the value itself */
     const char *help;
 } rb_option;
 
@@ -311,6 +314,49 @@ rb_status rb_case_solve_again(const rb_resolved_case *resolved, rb_rolling_step 
 /* From mm, N, MPa to the units of the case, for those who show it; the model stays. */
 void rb_case_result_convert(rb_case_result *result, rb_units units);
 void rb_case_result_free(rb_case_result *result);
+
+/* ---- Derivatives (sensitivity.h) --------------------------------------------------- */
+
+/* One number of a case with the derivatives of all results with respect to it. */
+typedef struct {
+    char name[40];    /* of the option; "mu-fall-2": the second number of its list */
+    const char *unit; /* of the option */
+    double value;     /* [unit] */
+    rb_status status; /* RB_OK, or there are none, and why says why not */
+    rb_message why;
+    rb_sensitivity_derivative d;
+} rb_case_derivative;
+
+/* A number that has a meaning in the case, and how the case varies with it. */
+typedef struct {
+    char name[40];
+    const rb_option *option;
+    int entry; /* of its list, from 0 */
+    rb_sensitivity_input input;
+    const rb_case *c;
+} rb_case_number;
+
+enum { RB_CASE_NUMBERS_MAX = 64 };
+/* All numbers of a settled case that can be varied; at most RB_CASE_NUMBERS_MAX.  number:
+ * each refers to its own place, so that the array must not move. RB_ENOMEM. */
+rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
+                          rb_message *why);
+
+typedef struct {
+    int n;
+    rb_case_derivative *of; /* in the order of the options; owned */
+    int degenerate;         /* elements between two zones */
+    rb_units units;         /* of results and numbers; mm at first */
+} rb_case_derivatives;
+
+/* Of a solved model of the case, with respect to all of its numbers, or to those names
+ * (n, or 0: all).  all: overwritten; free it in any case. */
+rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
+                                const char *const *names, rb_case_derivatives *all,
+                                rb_message *why);
+/* From mm, N, MPa to other units, once. */
+void rb_case_derivatives_convert(rb_case_derivatives *all, rb_units units);
+void rb_case_derivatives_free(rb_case_derivatives *all);
 
 /* ---- Cases of CONTACT (docs/contact.md) -------------------------------------------- */
 

@@ -19,6 +19,7 @@
 #include "rollbem/report.h"
 #include "rollbem/report_fem.h"
 #include "rollbem/rolling.h"
+#include "rollbem/sensitivity.h"
 #include "rollbem/sparse.h"
 #include "rollbem/units.h"
 #include "rollbem/verify.h"

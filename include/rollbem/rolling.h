@@ -484,10 +484,11 @@ typedef struct {
     rb_rolling_result_kind kind;
     size_t offset; /* of the value, or of a column's pointer, in its owner */
     rb_rolling_error_scale
-        error_bar; /* RB_SCALE_NONE: no discretisation error is estimated
-                    */
-    int study;     /* which column of a study it is; 0: none */
-    int is_mean;   /* of a rolled step: 1: mean over it, 0: value at its end */
+        error_bar;     /* RB_SCALE_NONE: no discretisation error is estimated
+                        */
+    int study;         /* which column of a study it is; 0: none */
+    int is_mean;       /* of a rolled step: 1: mean over it, 0: value at its end */
+    int no_derivative; /* 1: a proof, or known to an element only */
     rb_rolling_condition condition;
     const char *symbol; /* heads the column instead of the name; NULL: the name */
     const char *meaning;
@@ -628,6 +629,21 @@ rb_status rb_rolling_free_creepage(rb_rolling_model *model, double *creepage,
 /* Tractions, slip, zones, forces and the proof of them. */
 rb_status rb_rolling_model_solution(const rb_rolling_model *model,
                                     rb_rolling_solution *solution, rb_message *why);
+
+/* A variant of a solved model: a case that differs from the model's by a little in some
+ * number, on the same elements, with the model's state and zones.  same_bodies: 1: the
+ * flexibility is borrowed from the model.  RB_INACCURATE: the boundary outside the
+ * contact gets another number of elements.  variant: overwritten; free it in any case. */
+rb_status rb_rolling_variant_create(const rb_rolling_model *of, const rb_rolling_case *rc,
+                                    int same_bodies, rb_rolling_model *variant,
+                                    rb_message *why);
+void rb_rolling_variant_free(const rb_rolling_model *of, rb_rolling_model *variant);
+/* Gives it p, q, delta, xi of the model and `part` of those of `along` (NULL: 0). */
+void rb_rolling_variant_set(const rb_rolling_model *of, const rb_contact_state *along,
+                            double part, rb_rolling_model *variant);
+/* And what follows from them in its case: slip (0 in stick), coefficients of friction,
+ * Hertz's half-width. */
+rb_status rb_rolling_variant_complete(rb_rolling_model *variant, rb_message *why);
 
 /* Solutions of one steady case, the largest force first. */
 typedef struct {

@@ -150,7 +150,8 @@ const rb_option rb_case_table[] = {
                    .path_name = "FILE", .file = RB_FILE_READ),
     RB_NUMBER_LINE("gap-smoothing", PLACE(gap_smoothing), "mm", RB_FROM(0),
                    "standard deviation of the noise in the gap file: the smoothest curve "
-                   "that stays so close to its points; 0: a cubic spline through them"),
+                   "that stays so close to its points; 0: a cubic spline through them",
+                   .frozen = 1),
     RB_TEXT_LINE(
         "irregularity", PLACE(irregularity_file), "FILE",
         "transient: rows x, gap [mm] of a flat (> 0) or a bump (< 0) that adds to "
@@ -255,7 +256,7 @@ const rb_option rb_case_table[] = {
                     "many increments, then shift or load tangentially in as many"),
     RB_NUMBER_LINE("distance", RC(distance), "a", RB_ABOVE(0),
                    "transient: rolled distance, in Hertz half-widths of the load",
-                   .unset = "as --history says"),
+                   .unset = "as --history says", .frozen = 1),
     RB_INTEGER_LINE("steps", RC(steps), RB_FROM(0),
                     "transient: steps of equal length; 0: so many that none is longer "
                     "than an element"),
@@ -270,7 +271,7 @@ const rb_option rb_case_table[] = {
     RB_NUMBER_LINE("time-step", RC(time_step), "s", RB_ABOVE(0),
                    "static, bodies that relax: longest step between two rows of the "
                    "history; rows: one step for each row",
-                   .word = "rows", .word_value = 0.0),
+                   .word = "rows", .word_value = 0.0, .frozen = 1),
 
     RB_CHOICE_LINE("plane", RC(plane), planes,
                    "strain: long bodies, loads per unit of length; stress: thin discs, "
@@ -295,7 +296,7 @@ const rb_option rb_case_table[] = {
         "zone", RC(zone), "mm", RB_ABOVE(0),
         "half-width of the potential contact; auto: grown until three separated "
         "elements stand at each end",
-        .word = "auto", .word_value = 0.0),
+        .word = "auto", .word_value = 0.0, .frozen = 1),
     RB_INTEGER_LINE("outer-elements", RC(outer_elements), RB_FROM(0),
                     "on the circle outside the contact, one more if that makes the mesh "
                     "symmetric; 0: graded, neighbours differ by a fifth at most"),
@@ -322,7 +323,7 @@ const rb_option rb_case_table[] = {
     RB_CHOICE_LINE("lcp-form", RC(contact.lcp_form), lcp_forms,
                    "pivoted (no inverse), or kwak: the matrix of Addi et al. (38)"),
     RB_NUMBER_LINE("tol", RC(contact.tol), "-", RB_ABOVE(0),
-                   "bound on the natural residual of the scaled problem"),
+                   "bound on the natural residual of the scaled problem", .frozen = 1),
 
     RB_GROUP_LINE("accuracy", "Accuracy"),
     RB_FLAG_LINE("error", PLACE(error),
@@ -331,7 +332,7 @@ const rb_option rb_case_table[] = {
         "accuracy", PLACE(accuracy), "-", RB_BETWEEN(0, 1),
         "refine until the relative error of forces, half-width, p0 and creepage "
         "is estimated below this",
-        .word = "off", .word_value = 0.0),
+        .word = "off", .word_value = 0.0, .frozen = 1),
 };
 
 const int rb_case_table_n = sizeof rb_case_table / sizeof rb_case_table[0];

@@ -52,7 +52,14 @@ static void set_coefficients(const rb_rolling_model *model, const double *temper
 
     for (int i = state->n - 1; i >= 0; i--) {
         const double at_rest = rb_rolling_law_at_rest(rc, x[i]);
-        const double v = fabs(state->lambda[i]) / e_T[i] * rc->speed;
+        /* of a zone that slips: by its direction, so that derivatives exist at its end */
+        const int zone = state->zone[i],
+                  direction = zone == RB_ZONE_SLIP_NEGATIVE   ? 1
+                              : zone == RB_ZONE_SLIP_POSITIVE ? -1
+                                                              : 0;
+        const double slip =
+            direction ? direction * state->lambda[i] : fabs(state->lambda[i]);
+        const double v = slip / e_T[i] * rc->speed;
         if (state->zone[i] == RB_ZONE_SEPARATED) {
             mu[i] = at_rest;
             continue;

@@ -1,0 +1,95 @@
+/* Derivatives of a solved case with respect to its numbers (theory.md, D1 ... D4), by the
+ * linear problem of the zones that the solution has: every result changes as tractions,
+ * approach and creepage do along the tangent of that problem.  Elements stay where they
+ * are: a fitted or automatic mesh is frozen.  Derivatives are exact but for rounding;
+ * differences are taken of the data of a problem (flexibility, gap, bounds, controls) and
+ * of what results make of the tractions, never of a solution.
+ *
+ * Where an element is at the border of two zones (both sides of a complementary pair are
+ * 0) the solution has a derivative on either side, and both are given. */
+#ifndef ROLLBEM_SENSITIVITY_H
+#define ROLLBEM_SENSITIVITY_H
+
+#include "rollbem/base.h"
+#include "rollbem/rolling.h"
+
+RB_PUBLIC_BEGIN
+
+/* A solved model with the factors of its Jacobian; opaque. */
+typedef struct rb_sensitivity rb_sensitivity;
+
+/* model: solved, borrowed, unchanged as long as s lives; of one step.  RB_EINVAL: steps,
+ * or what has no derivative (the line says what); RB_SINGULAR, RB_ENOMEM.  RB_INACCURATE:
+ * the state is no solution. */
+rb_status rb_sensitivity_create(const rb_rolling_model *model, rb_sensitivity **s,
+                                rb_message *why);
+void rb_sensitivity_free(rb_sensitivity *s);
+/* Elements at the border of two zones. */
+int rb_sensitivity_degenerate(const rb_sensitivity *s);
+
+/* How the equations change with an input while the unknowns stay: their partial
+ * derivatives, n each. */
+typedef struct {
+    int n;
+    double *gap, *slip;        /* of the gap [length/input], of T_T lambda */
+    double *bound;             /* of the coefficient of friction */
+    double *yield;             /* of the yield stress of the interface */
+    double normal, tangential; /* of the two controls' equations, scaled */
+} rb_sensitivity_rate;
+
+rb_status rb_sensitivity_rate_alloc(int n, rb_sensitivity_rate *rate);
+void rb_sensitivity_rate_free(rb_sensitivity_rate *rate);
+
+/* D2: J y' = -R'.  y': p, q, delta, xi per unit of the input, for an input that grows
+ * (side 1) or falls (-1); without degenerate elements both are the same.  RB_MAXITER: the
+ * zones of a degenerate element were not found. */
+rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
+                                 int side, rb_contact_state *tangent, rb_message *why);
+
+/* D3: weights of rates in the derivative of a number f = weight . (p, q, delta, xi):
+ * f' = f_input + adjoint . R'.  One transposed solve per number, for any number of
+ * inputs.  weight, adjoint: as a state and as a rate.  RB_EINVAL: a problem without
+ * matrices, or a degenerate one. */
+rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state *weight,
+                                 rb_sensitivity_rate *adjoint, rb_message *why);
+double rb_sensitivity_dot(const rb_sensitivity_rate *adjoint,
+                          const rb_sensitivity_rate *rate);
+
+/* ---- With respect to numbers of a case --------------------------------------------- */
+
+/* A number that a case is made from. */
+typedef struct {
+    double value;
+    double scale;    /* > 0: differences are taken over a small part of it */
+    double from, to; /* its range */
+    /* The case with another value of it. */
+    rb_status (*vary)(void *context, double value, rb_rolling_case *rc, rb_message *why);
+    void *context;
+} rb_sensitivity_input;
+
+/* Derivatives of all results of the model, in the places of the results: value[0] for
+ * a falling, value[1] for a growing input.  Whole numbers, proofs and places that are
+ * known to an element only have none (NAN). */
+typedef struct {
+    int sides;  /* 1: value[0] holds for both; 2: they differ, or the range ends here */
+    int has[2]; /* 0: the input cannot go there */
+    rb_rolling_solution value[2];
+    rb_sensitivity_rate rate; /* of the side that there is */
+} rb_sensitivity_derivative;
+
+/* derivative: overwritten; free it in any case. */
+rb_status rb_sensitivity_differentiate(const rb_sensitivity *s,
+                                       const rb_sensitivity_input *input,
+                                       rb_sensitivity_derivative *derivative,
+                                       rb_message *why);
+void rb_sensitivity_derivative_free(rb_sensitivity_derivative *derivative);
+
+/* Multiplies all derivatives of a side. */
+void rb_sensitivity_scale(rb_rolling_solution *value, double factor);
+
+/* 1: the result has a derivative. */
+int rb_sensitivity_has(const rb_rolling_result *result);
+
+RB_PUBLIC_END
+
+#endif

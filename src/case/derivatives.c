@@ -1,0 +1,189 @@
+/* The numbers of a case that its results can be differentiated with respect to. */
+#include "case/internal.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What stands for a number that is 0, where steps are taken over a part of it. */
+static double natural_scale(const rb_case *c, const rb_option *o)
+{
+    const rb_rolling_derived *d = &c->settled.derived;
+    const double P = isnan(d->load) ? d->stress * d->half_width : d->load;
+
+    return strcmp(o->unit, "mm") == 0       ? 1e-3 * d->half_width
+           : strcmp(o->unit, "N/mm") == 0   ? P
+           : strcmp(o->unit, "MPa") == 0    ? d->stress
+           : strcmp(o->unit, "mm/MPa") == 0 ? 1e-2 * d->half_width / d->modulus
+           : strcmp(o->unit, "MPa/mm") == 0 ? 1e-2 * d->modulus / d->half_width
+           : strcmp(o->unit, "K") == 0      ? 1.0
+           : strcmp(o->name, "creep") == 0  ? 1e-2 * d->half_width / d->radius
+                                            : 1e-2;
+}
+
+static double *place_of(const rb_option *o, int entry, rb_settled_case *words)
+{
+    rb_numbers *list = (rb_numbers *)(void *)((char *)words + o->list);
+
+    return o->list && (entry > 0 || list->n > 0)
+               ? &list->value[entry]
+               : (double *)(void *)((char *)words + o->offset);
+}
+
+/* A copy of the case in which the number is given, with another value in mm, N, MPa. */
+static rb_case *varied(const rb_case *c, const rb_option *o, int entry, double value)
+{
+    rb_case *copy = rb_case_copy(c);
+
+    if (!copy)
+        return NULL;
+    const int k = (int)(o - rb_case_table);
+    rb_settled_case *words = &copy->words;
+    if (o->list) { /* its other numbers as they are settled, in the same units */
+        const rb_numbers *list =
+            (const rb_numbers *)(const void *)((const char *)&c->settled + o->list);
+        *(rb_numbers *)(void *)((char *)words + o->list) = *list;
+    }
+    *place_of(o, entry, words) = value;
+    if (entry == 0)
+        *(double *)(void *)((char *)words + o->offset) = value;
+    copy->plain[k] = 0;
+    copy->given[k] = copy->given[k] ? copy->given[k] : RB_GIVEN_NUMBER;
+    return copy;
+}
+
+static rb_status vary(void *context, double value, rb_rolling_case *rc, rb_message *why)
+{
+    const rb_case_number *number = context;
+    rb_case *copy = varied(number->c, number->option, number->entry, value);
+    const rb_status s = copy ? rb_case_settle(copy, why)
+                             : rb_fail(why, RB_ENOMEM, "out of memory for a case");
+
+    if (s == RB_OK)
+        *rc = copy->settled.rc;
+    rb_case_free(copy);
+    return s;
+}
+
+/* 1: the option has a meaning in the case, so that it could be given. */
+static int has_meaning(const rb_case *c, const rb_option *o, int entry, double value)
+{
+    const double step = 1e-3 * (value != 0.0 ? fabs(value) : natural_scale(c, o));
+    int means = 0;
+
+    for (int side = -1; side <= 1 && !means; side += 2) {
+        rb_message why;
+        rb_case *copy = varied(c, o, entry, value + side * step);
+        const double x = value + side * step;
+        means = copy && x >= o->range.from && x <= o->range.to &&
+                rb_case_settle(copy, &why) == RB_OK;
+        rb_case_free(copy);
+    }
+    return means;
+}
+
+static void add_number(const rb_case *c, const rb_option *o, int entry,
+                       rb_case_number *number, int *n)
+{
+    rb_settled_case settled = c->settled, words = c->words;
+    const double value = *place_of(o, entry, &settled);
+
+    if (*n == RB_CASE_NUMBERS_MAX || !isfinite(value) ||
+        (entry == 0 && isnan(*(double *)(void *)((char *)&words + o->offset))) ||
+        (o->word && value == o->word_value && o->word_value != 0.0) ||
+        (o->word && value == o->word_value && value == 0.0 && o->range.from >= 0.0) ||
+        rb_case_is_replaced(c, o) || !has_meaning(c, o, entry, value))
+        return;
+    rb_case_number *it = &number[(*n)++];
+    *it = (rb_case_number){.option = o, .entry = entry, .c = c};
+    snprintf(it->name, sizeof it->name, entry ? "%.32s-%d" : "%.32s", o->name, entry + 1);
+    it->input =
+        (rb_sensitivity_input){.value = value,
+                               .scale = value != 0.0 ? fabs(value) : natural_scale(c, o),
+                               .from = o->range.from,
+                               .to = o->range.to,
+                               .vary = vary,
+                               .context = it};
+}
+
+rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
+                          rb_message *why)
+{
+    *n = 0;
+    (void)why;
+    for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
+        const rb_numbers *list =
+            (const rb_numbers *)(const void *)((const char *)&c->settled + o->list);
+        if (o->kind != RB_OPTION_NUMBER || o->frozen)
+            continue;
+        for (int entry = 0; entry < (o->list && list->n > 1 ? list->n : 1); entry++)
+            add_number(c, o, entry, number, n);
+    }
+    return RB_OK;
+}
+
+static int is_asked(int n, const char *const *names, const char *name)
+{
+    int asked = n == 0;
+    for (int k = 0; k < n; k++)
+        asked |= strcmp(names[k], name) == 0;
+    return asked;
+}
+
+rb_status rb_case_differentiate(const rb_case *c, const rb_rolling_model *model, int n,
+                                const char *const *names, rb_case_derivatives *all,
+                                rb_message *why)
+{
+    int numbers;
+    rb_sensitivity *s = NULL;
+    rb_case_number *number = calloc(RB_CASE_NUMBERS_MAX, sizeof *number);
+
+    *all = (rb_case_derivatives){
+        .of = calloc(RB_CASE_NUMBERS_MAX, sizeof(rb_case_derivative))};
+    rb_status status = number && all->of
+                           ? rb_sensitivity_create(model, &s, why)
+                           : rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    if (status == RB_OK)
+        status = rb_case_numbers(c, number, &numbers, why);
+    for (int k = 0; status == RB_OK && k < numbers; k++) {
+        if (!is_asked(n, names, number[k].name))
+            continue;
+        rb_case_derivative *it = &all->of[all->n++];
+        memcpy(it->name, number[k].name, sizeof it->name);
+        it->unit = number[k].option->unit;
+        it->value = number[k].input.value;
+        it->status = rb_sensitivity_differentiate(s, &number[k].input, &it->d, &it->why);
+        if (it->status == RB_ENOMEM)
+            status = rb_fail(why, RB_ENOMEM, "%s", it->why.text);
+    }
+    if (s)
+        all->degenerate = rb_sensitivity_degenerate(s);
+    rb_sensitivity_free(s);
+    free(number);
+    return status;
+}
+
+void rb_case_derivatives_convert(rb_case_derivatives *all, rb_units units)
+{
+    all->units = units;
+    for (int k = 0; k < all->n; k++) {
+        rb_case_derivative *it = &all->of[k];
+        const double one = rb_unit_shown(units, it->unit, 1.0);
+        it->value = rb_unit_shown(units, it->unit, it->value);
+        for (int side = 0; side < 2 && it->status == RB_OK; side++) {
+            rb_rolling_solution *s = &it->d.value[side];
+            if (!it->d.has[side])
+                continue;
+            rb_rolling_solution_convert(s, units);
+            rb_sensitivity_scale(s, 1.0 / one);
+        }
+    }
+}
+
+void rb_case_derivatives_free(rb_case_derivatives *all)
+{
+    for (int k = 0; k < all->n; k++)
+        rb_sensitivity_derivative_free(&all->of[k].d);
+    free(all->of);
+    *all = (rb_case_derivatives){0};
+}

@@ -1,0 +1,141 @@
+/* The equations of a contact whose zones are known (theory.md, D1), and how the friction
+ * law answers to slips and tractions. */
+#include "sensitivity/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+rb_status rb_sensitivity_rate_alloc(int n, rb_sensitivity_rate *rate)
+{
+    *rate = (rb_sensitivity_rate){.n = n, .gap = rb_alloc((size_t)n, 4)};
+    if (!rate->gap)
+        return RB_ENOMEM;
+    rate->slip = rate->gap + n;
+    rate->bound = rate->slip + n;
+    rate->yield = rate->bound + n;
+    return RB_OK;
+}
+
+void rb_sensitivity_rate_free(rb_sensitivity_rate *rate)
+{
+    free(rate->gap);
+    memset(rate, 0, sizeof *rate);
+}
+
+/* Controls scaled as the unknowns of the base are. */
+void rb_sensitivity_residual(const rb_rolling_model *base,
+                             const rb_rolling_model *variant, rb_sensitivity_rate *left)
+{
+    const rb_contact_problem *p = &variant->problem, *scale = &base->problem;
+    const rb_contact_state *state = &variant->state;
+
+    rb_contact_kinematics(p, state, left->gap, left->slip);
+    memcpy(left->bound, p->bound, (size_t)left->n * sizeof *left->bound);
+    if (p->yield) {
+        rb_contact_yielded(p, state->plastic, left->yield);
+        for (int i = 0; i < left->n; i++)
+            left->yield[i] = p->yield[i] + p->hardening * left->yield[i];
+    }
+    left->normal = p->load_given ? (rb_contact_load(p, state) - p->load) / scale->load
+                                 : (state->delta - p->delta) / scale->gap_length;
+    left->tangential =
+        p->force_given
+            ? (rb_contact_force(p, state) + p->axle * rb_contact_moment(p, state) -
+               p->force - p->force_ratio * rb_contact_capacity(p, state)) /
+                  (scale->mu * scale->stress * base->bodies.f.h[0])
+            : (state->xi - p->xi) * scale->e_T[0] / scale->slip_length;
+}
+
+/* ---- The law ----------------------------------------------------------------------- */
+
+/* Coefficients that the law gives slips and friction that differ by `step` at element
+ * `at` (-1: at every element), in four places: their derivative.  room: 2n. */
+static rb_status differentiate_law(const rb_rolling_model *model, rb_rolling_model *v,
+                                   double *(*of)(rb_contact_state *), double step, int at,
+                                   double *derivative, rb_message *why)
+{
+    static const double part[] = {-2.0, -1.0, 1.0, 2.0},
+                        weight[] = {1.0, -8.0, 8.0, -1.0};
+    const int n = model->problem.n;
+    double *x = of(&v->state);
+    rb_status s = RB_OK;
+
+    memset(derivative, 0, (size_t)n * sizeof *derivative);
+    for (int k = 0; k < 4 && s == RB_OK; k++) {
+        for (int i = 0; i < n; i++)
+            if ((at < 0 || i == at) && v->state.zone[i] > RB_ZONE_STICK)
+                x[i] += part[k] * step;
+        s = rb_rolling_model_friction(v, why);
+        memcpy(v->state.lambda, model->state.lambda, (size_t)n * sizeof *x);
+        memcpy(v->state.q, model->state.q, (size_t)n * sizeof *x);
+        for (int i = 0; i < n; i++) {
+            v->state.lambda[i] *= v->state.zone[i] != RB_ZONE_STICK;
+            derivative[i] += weight[k] * v->problem.bound[i] / (12.0 * step);
+        }
+    }
+    return s;
+}
+
+static double *slip_of(rb_contact_state *state)
+{
+    return state->lambda;
+}
+
+static double *friction_of(rb_contact_state *state)
+{
+    return state->q;
+}
+
+/* Coefficients of one element follow from its own slip alone, but where friction
+ * remembers or heats: then every element asks all others. */
+static rb_status fill_law(rb_sensitivity *s, rb_rolling_model *v, double *room,
+                          rb_message *why)
+{
+    const rb_rolling_model *model = s->model;
+    const rb_rolling_friction *f = &model->rc.friction;
+    const rb_contact_problem *p = &model->problem;
+    const size_t n = (size_t)s->n;
+    const double slip = 1e-3 * p->slip_length, stress = 1e-3 * p->mu * p->stress;
+    rb_status status = RB_OK;
+
+    if (f->memory == 0.0 && f->heat == 0.0) {
+        status = differentiate_law(model, v, slip_of, slip, -1, room, why);
+        for (size_t i = 0; i < n; i++)
+            s->law_slip[i + i * n] = room[i];
+        return status;
+    }
+    for (size_t j = 0; j < n && status == RB_OK; j++) {
+        if (model->state.zone[j] <= RB_ZONE_STICK)
+            continue;
+        status =
+            differentiate_law(model, v, slip_of, slip, (int)j, s->law_slip + j * n, why);
+        if (status == RB_OK && s->law_force)
+            status = differentiate_law(model, v, friction_of, stress, (int)j,
+                                       s->law_force + j * n, why);
+    }
+    return status;
+}
+
+rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
+{
+    const rb_rolling_model *model = s->model;
+    const size_t n = (size_t)s->n;
+    rb_rolling_model v = {.mesh = {.n = 0}};
+    rb_status status = RB_OK;
+
+    if (!rb_rolling_law_moves(&model->rc))
+        return RB_OK;
+    s->law_slip = rb_alloc(n, n);
+    s->law_force = model->rc.friction.heat != 0.0 ? rb_alloc(n, n) : NULL;
+    double *room = rb_alloc(n, 1);
+    if (!s->law_slip || !room || (model->rc.friction.heat != 0.0 && !s->law_force))
+        status = rb_fail(why, RB_ENOMEM, "out of memory for %d coefficients", s->n);
+    if (status == RB_OK)
+        status = rb_rolling_variant_create(model, &model->rc, 1, &v, why);
+    if (status == RB_OK)
+        status = fill_law(s, &v, room, why);
+    rb_rolling_variant_free(model, &v);
+    free(room);
+    return status;
+}

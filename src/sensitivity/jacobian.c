@@ -1,0 +1,291 @@
+/* The Jacobian of a contact whose zones are known (theory.md, D1), and its solves. */
+#include "sensitivity/internal.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void rb_sensitivity_factors_free(rb_sensitivity_factors *f)
+{
+    if (!f)
+        return;
+    free(f->contact);
+    free(f->zone);
+    free(f->J);
+    free(f->unknown);
+    free(f->row);
+    free(f->pivot);
+    free(f);
+}
+
+static int slides(int zone)
+{
+    return zone == RB_ZONE_SLIP_NEGATIVE || zone == RB_ZONE_SLIP_POSITIVE;
+}
+
+static int yields(int zone)
+{
+    return zone > RB_ZONE_SLIP_POSITIVE;
+}
+
+/* r_T = sign bound r_N, or sign times the yield stress. */
+static double sign_of(int zone)
+{
+    return zone == RB_ZONE_SLIP_NEGATIVE || zone == RB_ZONE_YIELD_NEGATIVE ? -1.0 : 1.0;
+}
+
+static rb_sensitivity_factors *factors_alloc(int n, const int *zone)
+{
+    rb_sensitivity_factors *f = calloc(1, sizeof *f);
+
+    if (!f)
+        return NULL;
+    f->contact = rb_alloc_int((size_t)n);
+    f->zone = rb_alloc_int((size_t)n);
+    for (int i = 0; i < n && f->contact && f->zone; i++) {
+        f->zone[i] = zone[i];
+        if (zone[i] != RB_ZONE_SEPARATED)
+            f->contact[f->contacts++] = i;
+    }
+    f->size = 2 * f->contacts + 2;
+    const size_t size = (size_t)f->size;
+    f->J = rb_alloc(size, size);
+    f->unknown = rb_alloc(size, 1);
+    f->row = rb_alloc(size, 1);
+    f->pivot = rb_alloc_int(size);
+    if (f->contact && f->zone && f->J && f->unknown && f->row && f->pivot)
+        return f;
+    rb_sensitivity_factors_free(f);
+    return NULL;
+}
+
+/* How the tangential unknowns of element i depend on the slips of others: the friction of
+ * an element that slides on those that the law asks, that of one that yields on what has
+ * yielded upstream. weight: n, of the slips; force: n, of the friction. */
+static void dependence(const rb_sensitivity *s, const int *zone, int i, double *weight,
+                       double *force)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    const size_t n = (size_t)s->n;
+    const double friction = sign_of(zone[i]) * s->model->state.p[i];
+
+    memset(weight, 0, n * sizeof *weight);
+    memset(force, 0, n * sizeof *force);
+    if (slides(zone[i]) && s->law_slip)
+        for (size_t j = 0; j < n; j++) {
+            const int moves = zone[j] > RB_ZONE_STICK;
+            weight[j] = moves ? -friction * s->law_slip[(size_t)i + j * n] : 0.0;
+            force[j] =
+                moves && s->law_force ? -friction * s->law_force[(size_t)i + j * n] : 0.0;
+        }
+    if (!yields(zone[i]) || p->hardening == 0.0)
+        return;
+    double now = -sign_of(zone[i]) * p->hardening, next = 0.0;
+    for (int j = i; j < s->n; j++) { /* u_i in those upstream of it */
+        const double after = p->recall[0] * now + next;
+        if (yields(zone[j]))
+            weight[j] = -sign_of(zone[j]) * p->own * now;
+        next = p->recall[1] * now;
+        now = after;
+    }
+}
+
+/* Adds to row r, which is J + r, `times` the slip of element j. */
+static void add_slip(const rb_sensitivity *s, const rb_sensitivity_factors *f, int j,
+                     double times, double *r)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    const size_t n = (size_t)s->n, ld = (size_t)f->size;
+
+    for (int c = 0; c < f->contacts; c++) {
+        const size_t at = (size_t)f->contact[c];
+        r[(size_t)c * ld] += times * K.S[(size_t)j + at * n];
+        r[(size_t)(f->contacts + c) * ld] += times * K.S[(size_t)j + (n + at) * n];
+    }
+    r[(size_t)(f->size - 1) * ld] += times * p->e_T[j];
+}
+
+/* (D1) the rows of element contact[c]: its gap, and its stick, slip or yield. */
+static void fill_element(const rb_sensitivity *s, rb_sensitivity_factors *f, int c,
+                         double *weight)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    const rb_contact_matrix K = rb_contact_operator_matrix(p->op);
+    const int m = f->contacts, i = f->contact[c], zone = f->zone[i];
+    const size_t n = (size_t)s->n, ld = (size_t)f->size, ldf = (size_t)K.ldf;
+    double *gap = f->J + c, *tangential = f->J + m + c, *force = weight + n;
+
+    for (int k = 0; k < m; k++) {
+        const size_t at = (size_t)f->contact[k];
+        gap[(size_t)k * ld] = K.F[(size_t)i + at * ldf];
+        gap[(size_t)(m + k) * ld] = K.F[(size_t)i + (n + at) * ldf];
+    }
+    gap[(size_t)(2 * m) * ld] = -1.0;
+    f->row[c] = p->gap_length;
+    f->row[m + c] = zone == RB_ZONE_STICK ? p->slip_length : p->stress;
+    if (zone == RB_ZONE_STICK) {
+        add_slip(s, f, i, 1.0, tangential);
+        return;
+    }
+    tangential[(size_t)(m + c) * ld] = 1.0;
+    if (slides(zone))
+        tangential[(size_t)c * ld] = -sign_of(zone) * p->bound[i];
+    dependence(s, f->zone, i, weight, force);
+    for (int j = 0; j < s->n; j++)
+        if (weight[j] != 0.0)
+            add_slip(s, f, j, weight[j], tangential);
+    for (int k = 0; k < m; k++)
+        tangential[(size_t)(m + k) * ld] += force[f->contact[k]];
+}
+
+/* The two controls: P or delta, Q (less what friction carries, and the axle's moment) or
+ * xi, which under a given approach may be a ratio that asks for the load. */
+static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
+{
+    const rb_rolling_model *model = s->model;
+    const rb_rolling_case *rc = &model->rc;
+    const rb_contact_problem *p = &model->problem;
+    const int m = f->contacts, law = rb_rolling_law_moves(rc);
+    const size_t ld = (size_t)f->size;
+    double *normal = f->J + 2 * m, *tangential = normal + 1;
+    const int ratio_of_load = !p->force_given && !p->load_given &&
+                              rc->formulation != RB_STATIC && !isnan(rc->creep_ratio);
+    const double P = rb_contact_load(p, &model->state);
+    const double share =
+        p->force_given && law && p->axle == 0.0 && !isnan(rc->force_ratio)
+            ? rc->force_ratio * p->mu
+        : ratio_of_load && P > 0.0 ? 0.5 * p->xi / P
+                                   : 0.0;
+
+    for (int c = 0; c < m; c++) {
+        const int i = f->contact[c];
+        const double carried = share + p->force_ratio * p->bound[i];
+        double *of_p = tangential + (size_t)c * ld, *of_q = of_p + (size_t)m * ld;
+        if (p->load_given) {
+            normal[(size_t)c * ld] = p->load_N[i];
+            normal[(size_t)(m + c) * ld] = p->load_T[i];
+        }
+        *of_p = -carried * p->load_N[i];
+        *of_q = -carried * p->load_T[i];
+        if (p->force_given) {
+            *of_p += p->force_N[i] + p->axle * p->moment_N[i];
+            *of_q += p->force_T[i] + p->axle * p->moment_T[i];
+        }
+    }
+    if (!p->load_given)
+        normal[(size_t)(2 * m) * ld] = 1.0;
+    if (!p->force_given)
+        tangential[(size_t)(2 * m + 1) * ld] = 1.0;
+    f->row[2 * m] = p->load_given ? p->load : p->gap_length;
+    f->row[2 * m + 1] = p->force_given ? p->mu * p->stress * model->bodies.f.h[0]
+                                       : p->slip_length / p->e_T[0];
+}
+
+rb_status rb_sensitivity_factor(const rb_sensitivity *s, const int *zone,
+                                rb_sensitivity_factors **factors)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    rb_sensitivity_factors *f = *factors = factors_alloc(s->n, zone);
+    double *room = rb_alloc((size_t)s->n, 2);
+
+    if (!f || !room) {
+        free(room);
+        return RB_ENOMEM;
+    }
+    const int m = f->contacts, size = f->size;
+    for (int c = 0; c < m; c++)
+        fill_element(s, f, c, room);
+    fill_controls(s, f);
+    free(room);
+    for (int j = 0; j < size; j++) {
+        f->unknown[j] = j < 2 * m    ? p->stress
+                        : j == 2 * m ? p->gap_length
+                                     : p->slip_length / p->e_T[0];
+        for (int i = 0; i < size; i++)
+            f->J[i + (size_t)j * (size_t)size] *= f->unknown[j] / f->row[i];
+    }
+    return rb_lapack_status(
+        LAPACKE_dgetrf(LAPACK_COL_MAJOR, size, size, f->J, size, f->pivot));
+}
+
+rb_status rb_sensitivity_forward(const rb_sensitivity *s, const rb_sensitivity_factors *f,
+                                 const rb_sensitivity_rate *rate,
+                                 rb_contact_state *tangent)
+{
+    const rb_contact_state *state = &s->model->state;
+    const int m = f->contacts;
+    double *x = rb_alloc((size_t)f->size, 1);
+
+    if (!x)
+        return RB_ENOMEM;
+    for (int c = 0; c < m; c++) {
+        const int i = f->contact[c], zone = f->zone[i];
+        x[c] = -rate->gap[i] / f->row[c];
+        x[m + c] = (zone == RB_ZONE_STICK ? -rate->slip[i]
+                    : slides(zone)        ? sign_of(zone) * rate->bound[i] * state->p[i]
+                                          : sign_of(zone) * rate->yield[i]) /
+                   f->row[m + c];
+    }
+    x[2 * m] = -rate->normal;
+    x[2 * m + 1] = -rate->tangential;
+    const rb_status status = rb_lapack_status(LAPACKE_dgetrs(
+        LAPACK_COL_MAJOR, 'N', f->size, 1, f->J, f->size, f->pivot, x, f->size));
+    for (int i = 0; i < s->n; i++)
+        tangent->p[i] = tangent->q[i] = 0.0;
+    for (int c = 0; c < m; c++) {
+        tangent->p[f->contact[c]] = f->unknown[c] * x[c];
+        tangent->q[f->contact[c]] = f->unknown[m + c] * x[m + c];
+    }
+    tangent->delta = f->unknown[2 * m] * x[2 * m];
+    tangent->xi = f->unknown[2 * m + 1] * x[2 * m + 1];
+    free(x);
+    return status;
+}
+
+rb_status rb_sensitivity_adjoint(const rb_sensitivity *s, const rb_contact_state *weight,
+                                 rb_sensitivity_rate *adjoint, rb_message *why)
+{
+    const rb_sensitivity_factors *f = s->factors;
+    const rb_contact_state *state = &s->model->state;
+
+    if (!f || s->degenerate)
+        return rb_fail(why, RB_EINVAL,
+                       "an adjoint needs matrices, and no element between two zones");
+    const int m = f->contacts;
+    double *x = rb_alloc((size_t)f->size, 1);
+    if (!x)
+        return rb_fail(why, RB_ENOMEM, "out of memory for an adjoint");
+    for (int c = 0; c < m; c++) {
+        x[c] = f->unknown[c] * weight->p[f->contact[c]];
+        x[m + c] = f->unknown[m + c] * weight->q[f->contact[c]];
+    }
+    x[2 * m] = f->unknown[2 * m] * weight->delta;
+    x[2 * m + 1] = f->unknown[2 * m + 1] * weight->xi;
+    const rb_status status = rb_lapack_status(LAPACKE_dgetrs(
+        LAPACK_COL_MAJOR, 'T', f->size, 1, f->J, f->size, f->pivot, x, f->size));
+    memset(adjoint->gap, 0, 4 * (size_t)s->n * sizeof *adjoint->gap);
+    for (int c = 0; c < m; c++) {
+        const int i = f->contact[c], zone = f->zone[i];
+        const double tangential = x[m + c] / f->row[m + c];
+        adjoint->gap[i] = -x[c] / f->row[c];
+        if (zone == RB_ZONE_STICK)
+            adjoint->slip[i] = -tangential;
+        else if (slides(zone))
+            adjoint->bound[i] = sign_of(zone) * state->p[i] * tangential;
+        else
+            adjoint->yield[i] = sign_of(zone) * tangential;
+    }
+    adjoint->normal = -x[2 * m];
+    adjoint->tangential = -x[2 * m + 1];
+    free(x);
+    return status;
+}
+
+double rb_sensitivity_dot(const rb_sensitivity_rate *a, const rb_sensitivity_rate *b)
+{
+    return cblas_ddot(4 * a->n, a->gap, 1, b->gap, 1) + a->normal * b->normal +
+           a->tangential * b->tangential;
+}

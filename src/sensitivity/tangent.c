@@ -1,0 +1,375 @@
+/* Tangents of a solved contact (theory.md, D2), also where elements stand between two
+ * zones. */
+#include "sensitivity/internal.h"
+
+#include <cblas.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Both sides of a complementary pair below this part of their scales are 0. */
+static const double BORDER = 1e-9;
+/* What is below this part of the largest change is none. */
+static const double NO_CHANGE = 1e-9;
+/* The residual of a state that has derivatives. */
+static const double SOLVED = 1e-8;
+
+/* ---- What a model has to be -------------------------------------------------------- */
+
+static rb_status check(const rb_rolling_model *model, rb_message *why)
+{
+    const rb_rolling_case *rc = &model->rc;
+    const rb_contact_state *state = &model->state;
+    const int dense = model->bodies.F != NULL;
+    rb_contact_violation violation;
+
+    if (rb_rolling_has_steps(rc))
+        return rb_fail(why, RB_EINVAL,
+                       "derivatives: of one step; this case is a sequence of steps");
+    if (!state->p || state->status != RB_OK)
+        return rb_fail(why, RB_INACCURATE, "derivatives: the case was not solved");
+    if (!dense && (rb_rolling_law_moves(rc) || model->problem.yield))
+        return rb_fail(why, RB_EINVAL,
+                       "derivatives: friction that depends on the state, or an interface "
+                       "that yields, needs matrices: fewer than %d elements",
+                       RB_ROLLING_LARGE);
+    for (int i = 0; i < state->n && model->problem.yield; i++)
+        if (state->zone[i] != RB_ZONE_SEPARATED &&
+            state->zone[i] <= RB_ZONE_SLIP_POSITIVE && state->plastic[i] != 0.0)
+            return rb_fail(why, RB_EINVAL,
+                           "derivatives: at element %d the interface yields while the "
+                           "surfaces slide",
+                           i + 1);
+    const rb_status s = rb_contact_residual(&model->problem, state, &violation);
+    if (s == RB_OK && !(violation.scaled <= fmax(SOLVED, model->problem.rounding)))
+        return rb_fail(why, RB_INACCURATE,
+                       "derivatives: the residual of the solution is %.2g, expected %g",
+                       violation.scaled, SOLVED);
+    return s;
+}
+
+static rb_status find_borders(rb_sensitivity *s)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    const rb_contact_state *state = &s->model->state;
+    double *slip = s->slip = rb_alloc((size_t)s->n, 2), *gap = slip + s->n;
+
+    if (!slip)
+        return RB_ENOMEM;
+    rb_contact_kinematics(p, state, gap, slip);
+    for (int i = 0; i < s->n; i++) {
+        const double friction = rb_contact_friction_scale(p);
+        const int zone = state->zone[i];
+        const double left = p->bound[i] * state->p[i] - fabs(state->q[i]);
+        if (zone == RB_ZONE_SEPARATED)
+            s->border[i] = gap[i] < BORDER * p->gap_length ? BORDER_GAP : 0;
+        else if (state->p[i] < BORDER * p->stress)
+            s->border[i] = BORDER_GAP;
+        else if (p->bound[i] > 0.0 && zone == RB_ZONE_STICK)
+            s->border[i] = left < BORDER * friction ? BORDER_SLIP : 0;
+        else if (p->bound[i] > 0.0 && zone <= RB_ZONE_SLIP_POSITIVE)
+            s->border[i] = fabs(slip[i]) < BORDER * p->slip_length ? BORDER_SLIP : 0;
+        s->degenerate += s->border[i] != 0;
+    }
+    return RB_OK;
+}
+
+/* ---- Of operators without matrices ------------------------------------------------- */
+
+/* The problem of the model's zones, `part` of the way that the rates lead (linear). */
+static rb_status solve_moved(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
+                             double part, rb_contact_state *x)
+{
+    const rb_contact_problem *base = &s->model->problem;
+    const rb_contact_state *state = &s->model->state;
+    const size_t n = (size_t)s->n;
+    double *room = rb_alloc(n, 5), *friction = room + 2 * n, *none = room + 3 * n,
+           *gap = room + 4 * n;
+    rb_contact_problem p = *base;
+
+    if (!room)
+        return RB_ENOMEM;
+    p.d_N = room;
+    p.d_T = room + n;
+    for (size_t i = 0; i < n; i++) {
+        p.d_N[i] = base->d_N[i] + part * rate->gap[i];
+        p.d_T[i] = base->d_T[i] + part * rate->slip[i];
+        friction[i] = state->zone[i] == RB_ZONE_SLIP_NEGATIVE   ? -1.0
+                      : state->zone[i] == RB_ZONE_SLIP_POSITIVE ? 1.0
+                                                                : 0.0;
+        friction[i] *= part * rate->bound[i] * state->p[i];
+        x->zone[i] = state->zone[i];
+        x->p[i] = state->p[i];
+        x->q[i] = state->q[i];
+    }
+    x->delta = state->delta;
+    x->xi = state->xi;
+    rb_contact_operator_add(p.op, none, friction, p.d_N, p.d_T);
+    p.load -= part * rate->normal * base->load;
+    p.delta -= part * rate->normal * base->gap_length;
+    p.xi -= part * rate->tangential * base->slip_length / base->e_T[0];
+    p.force -=
+        part * rate->tangential * base->mu * base->stress * s->model->bodies.f.h[0];
+    for (size_t i = 0; i < n; i++) {
+        p.load -= base->load_T[i] * friction[i];
+        p.force -= (base->force_T[i] + base->axle * base->moment_T[i] -
+                    base->force_ratio * base->bound[i] * base->load_T[i]) *
+                   friction[i];
+    }
+    const rb_status status = rb_contact_try_zones(&p, x, gap);
+    for (size_t i = 0; i < n; i++)
+        x->q[i] += friction[i];
+    free(room);
+    return status;
+}
+
+/* A part that moves the data by about as much as they are. */
+static double long_part(const rb_sensitivity *s, const rb_sensitivity_rate *rate)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    const size_t n = (size_t)s->n;
+    const double size =
+        fmax(fmax(rb_norm_inf(n, rate->gap) / p->gap_length,
+                  rb_norm_inf(n, rate->slip) / p->slip_length),
+             fmax(rb_norm_inf(n, rate->bound) / fmax(p->mu, 1e-3),
+                  fmax(fabs(rate->normal), fabs(rate->tangential) / s->n)));
+
+    return size > 0.0 ? 1.0 / size : 1.0;
+}
+
+static rb_status tangent_by_products(const rb_sensitivity *s,
+                                     const rb_sensitivity_rate *rate, rb_contact_state *y)
+{
+    rb_contact_state x;
+    const double part = long_part(s, rate);
+    rb_status status = rb_contact_state_alloc(s->n, &x);
+
+    if (status == RB_OK)
+        status = solve_moved(s, rate, 0.0, &x);
+    if (status == RB_OK)
+        status = solve_moved(s, rate, part, y);
+    for (int i = 0; i < s->n && status == RB_OK; i++) {
+        y->p[i] = (y->p[i] - x.p[i]) / part;
+        y->q[i] = (y->q[i] - x.q[i]) / part;
+    }
+    y->delta = (y->delta - x.delta) / part;
+    y->xi = (y->xi - x.xi) / part;
+    rb_contact_state_free(&x);
+    return status;
+}
+
+/* ---- Between two zones ------------------------------------------------------------- */
+
+/* What a side of a degenerate pair has to change by to decide. */
+typedef struct {
+    double traction, gap, slip;
+} threshold;
+
+static threshold threshold_of(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
+                              const rb_contact_state *y)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    const size_t n = (size_t)s->n;
+    const double traction = fmax(rb_norm_inf(n, y->p), rb_norm_inf(n, y->q));
+
+    return (threshold){
+        NO_CHANGE * fmax(traction, rb_norm_inf(n, rate->bound) * p->stress),
+        NO_CHANGE * fmax(p->gap_length / p->stress * traction + fabs(y->delta),
+                         rb_norm_inf(n, rate->gap)),
+        NO_CHANGE * fmax(p->slip_length / p->stress * traction + fabs(y->xi) * p->e_T[0],
+                         rb_norm_inf(n, rate->slip))};
+}
+
+/* The zone of element i at a border, if the tangent (times side) does not suit the one
+ * that it has. */
+static int next_zone(const rb_sensitivity *s, const rb_sensitivity_rate *rate, int side,
+                     const rb_contact_state *y, const double *gap, const double *slip,
+                     int i, int zone)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    const rb_contact_state *state = &s->model->state;
+    const threshold least = threshold_of(s, rate, y);
+    const int toward = state->q[i] > 0.0 ? RB_ZONE_SLIP_POSITIVE : RB_ZONE_SLIP_NEGATIVE;
+    const double sign = toward == RB_ZONE_SLIP_POSITIVE ? 1.0 : -1.0;
+
+    if (s->border[i] == BORDER_GAP && zone == RB_ZONE_SEPARATED)
+        return side * (gap[i] + rate->gap[i]) < -least.gap
+                   ? (s->slip[i] > 0.0 ? RB_ZONE_SLIP_NEGATIVE : RB_ZONE_SLIP_POSITIVE)
+                   : zone;
+    if (s->border[i] == BORDER_GAP)
+        return side * y->p[i] < -least.traction ? RB_ZONE_SEPARATED : zone;
+    const double left =
+        p->bound[i] * y->p[i] + rate->bound[i] * state->p[i] - sign * y->q[i];
+    if (zone == RB_ZONE_STICK)
+        return side * left < -least.traction ? toward : zone;
+    return side * sign * (slip[i] + rate->slip[i]) > least.slip ? RB_ZONE_STICK : zone;
+}
+
+/* One element at a time: the first of those whose zone does not suit (Murty's rule). */
+static rb_status tangent_at_border(const rb_sensitivity *s,
+                                   const rb_sensitivity_rate *rate, int side,
+                                   rb_contact_state *y, rb_message *why)
+{
+    const rb_contact_problem *p = &s->model->problem;
+    const size_t n = (size_t)s->n;
+    const int most = 1 << (s->degenerate < 10 ? s->degenerate : 10);
+    double *gap = rb_alloc(n, 2), *slip = gap + n;
+    int *zone = rb_alloc_int(n), k = 0, moved = 1;
+    rb_status status = gap && zone ? RB_OK : RB_ENOMEM;
+
+    if (status == RB_OK)
+        memcpy(zone, s->model->state.zone, n * sizeof *zone);
+    for (; k <= most && moved && status == RB_OK; k++) {
+        rb_sensitivity_factors *f;
+        status = rb_sensitivity_factor(s, zone, &f);
+        if (status == RB_OK)
+            status = rb_sensitivity_forward(s, f, rate, y);
+        rb_sensitivity_factors_free(f);
+        for (size_t i = 0; i < n; i++) {
+            gap[i] = -y->delta;
+            slip[i] = y->xi * p->e_T[i];
+        }
+        rb_contact_operator_add(p->op, y->p, y->q, gap, slip);
+        moved = 0;
+        for (int i = 0; i < s->n && !moved && status == RB_OK; i++) {
+            const int to = s->border[i]
+                               ? next_zone(s, rate, side, y, gap, slip, i, zone[i])
+                               : zone[i];
+            moved = to != zone[i];
+            zone[i] = to;
+        }
+    }
+    free(gap);
+    free(zone);
+    return status == RB_OK && moved
+               ? rb_fail(why, RB_MAXITER,
+                         "derivatives: the zones beside %d elements at a border were not "
+                         "found",
+                         s->degenerate)
+               : status;
+}
+
+rb_status rb_sensitivity_tangent(const rb_sensitivity *s, const rb_sensitivity_rate *rate,
+                                 int side, rb_contact_state *tangent, rb_message *why)
+{
+    const rb_status status = !s->factors ? tangent_by_products(s, rate, tangent)
+                             : s->degenerate
+                                 ? tangent_at_border(s, rate, side, tangent, why)
+                                 : rb_sensitivity_forward(s, s->factors, rate, tangent);
+    return status == RB_SINGULAR
+               ? rb_fail(why, status, "derivatives: the Jacobian has no inverse here")
+               : status;
+}
+
+/* ---- Making one -------------------------------------------------------------------- */
+
+/* The case that rolls without a force. */
+static rb_rolling_case without_force(const rb_rolling_case *rc)
+{
+    rb_rolling_case freely = *rc;
+
+    freely.creep = freely.creep_ratio = freely.force = NAN;
+    freely.free_axle = 0;
+    freely.force_ratio = 0.0;
+    return freely;
+}
+
+static rb_status create(const rb_rolling_model *model, rb_sensitivity **made,
+                        rb_message *why)
+{
+    rb_sensitivity *s = *made = calloc(1, sizeof *s);
+    rb_status status = check(model, why);
+
+    if (!s)
+        return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    s->model = model;
+    s->n = model->problem.n;
+    s->border = calloc((size_t)s->n, 1);
+    if (status == RB_OK)
+        status = s->border ? find_borders(s) : RB_ENOMEM;
+    if (status == RB_OK)
+        status = rb_sensitivity_law(s, why);
+    if (status == RB_OK && model->bodies.F)
+        status = rb_sensitivity_factor(s, model->state.zone, &s->factors);
+    else if (status == RB_OK && s->degenerate)
+        status = rb_fail(why, RB_EINVAL,
+                         "derivatives: %d elements stand between two zones, which needs "
+                         "matrices: fewer than %d elements",
+                         s->degenerate, RB_ROLLING_LARGE);
+    /* singular only between zones: then the tangent tries the others */
+    if (status == RB_SINGULAR && !s->degenerate)
+        rb_fail(why, status, "derivatives: the Jacobian has no inverse here");
+    return status == RB_SINGULAR && s->degenerate ? RB_OK : status;
+}
+
+/* The creepage of free rolling is a solution of its own, on the same elements where they
+ * are equal. */
+static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
+{
+    const rb_rolling_model *model = s->model;
+    const rb_rolling_case *rc = &model->rc, freely = without_force(rc);
+    rb_rolling_model *v;
+    rb_status status;
+
+    if (rc->formulation != RB_STEADY || !(rb_rolling_largest_mu(rc) > 0.0) ||
+        !rb_contact_operator_response(model->problem.op).coupled)
+        return RB_OK;
+    v = s->freely = calloc(1, sizeof *v);
+    if (!v)
+        return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
+    if (rc->mesh == RB_MESH_UNIFORM && !rb_rolling_law_moves(rc)) {
+        status = rb_rolling_variant_create(model, &freely, 1, v, why);
+        if (status == RB_OK)
+            status = rb_rolling_problem_solve(&v->problem, &freely, 1, &v->state, why);
+        v->state.status = status;
+    } else {
+        status = rb_rolling_model_create(&freely, v, why);
+    }
+    return status == RB_OK ? create(v, &s->free_rolling, why) : status;
+}
+
+rb_status rb_sensitivity_create(const rb_rolling_model *model, rb_sensitivity **s,
+                                rb_message *why)
+{
+    rb_message reason = {""};
+    rb_status status = create(model, s, why);
+
+    if (status != RB_OK) {
+        rb_sensitivity_free(*s);
+        *s = NULL;
+        return status;
+    }
+    status = roll_freely(*s, &reason);
+    if (status > 0 || status == RB_EINVAL) { /* it has no derivatives; the others have */
+        rb_sensitivity_free((*s)->free_rolling);
+        (*s)->free_rolling = NULL;
+        return RB_OK;
+    }
+    if (status != RB_OK) {
+        rb_sensitivity_free(*s);
+        *s = NULL;
+        return rb_fail(why, status, "%s", rb_status_reason(status, &reason));
+    }
+    return RB_OK;
+}
+
+void rb_sensitivity_free(rb_sensitivity *s)
+{
+    if (!s)
+        return;
+    rb_sensitivity_free(s->free_rolling);
+    if (s->freely)
+        rb_rolling_variant_free(s->model, s->freely);
+    free(s->freely);
+    free(s->border);
+    free(s->slip);
+    free(s->law_slip);
+    free(s->law_force);
+    rb_sensitivity_factors_free(s->factors);
+    free(s);
+}
+
+int rb_sensitivity_degenerate(const rb_sensitivity *s)
+{
+    return s->degenerate;
+}

@@ -1,0 +1,393 @@
+/* Derivatives of solutions: against central differences of solved cases on the same
+ * elements with the same zones, forward against adjoint, Carter's slopes, both sides of a
+ * border. */
+#include "check.h"
+
+#include "rollbem/rollbem.h"
+
+#include <string.h>
+
+enum { WORDS = 32 };
+
+typedef struct {
+    const char *word[WORDS]; /* name, value, name, value, ..., NULL */
+} words;
+
+static rb_case *case_of(const words *w, const char *name, double value)
+{
+    rb_message why = {""};
+    rb_case *c = rb_case_create(RB_CASE_SINGLE);
+    assert_non_null(c);
+    for (int k = 0; w->word[k]; k += 2)
+        if (rb_case_set(c, w->word[k], w->word[k + 1], RB_GIVEN_ARGUMENT, &why) != RB_OK)
+            fail_msg("%s", why.text);
+    if (name && rb_case_set_number(c, name, value, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    if (rb_case_settle(c, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return c;
+}
+
+static rb_case *solved(const words *w, const char *name, double value, rb_case_result *r)
+{
+    rb_message why = {""};
+    rb_case *c = case_of(w, name, value);
+    if (rb_case_solve(rb_case_settled(c), NULL, NULL, r, &why) != RB_OK)
+        fail_msg("%s", why.text);
+    return c;
+}
+
+static double value_of(const rb_rolling_solution *s, const char *name)
+{
+    for (int k = 0; k < rb_rolling_solution_scalars.n; k++)
+        if (strcmp(rb_rolling_solution_scalars.row[k].name, name) == 0)
+            return rb_rolling_number(&rb_rolling_solution_scalars.row[k], s);
+    fail_msg("no result %s", name);
+    return NAN;
+}
+
+static const rb_case_derivative *of(const rb_case_derivatives *all, const char *name)
+{
+    for (int k = 0; k < all->n; k++)
+        if (strcmp(all->of[k].name, name) == 0)
+            return &all->of[k];
+    fail_msg("no derivative with respect to %s", name);
+    return NULL;
+}
+
+/* ---- Against differences of solutions ------------------------------------------------
+ */
+
+#define PLANES "support", "halfplane", "load", "500", "mesh", "uniform", "zone", "1.2"
+#define ROLLING "formulation", "steady"
+
+static const words regimes[] = {
+    {{PLANES, ROLLING, "similar", "yes", "creep-ratio", "0.5"}},
+    {{PLANES, ROLLING, "young-b", "70000", "poisson-b", "0.33", "creep", "-1e-3"}},
+    {{PLANES, ROLLING, "similar", "yes", "force-ratio", "-0.6", "interlayer-tangential",
+      "1e-6", "interlayer-normal", "1e-7"}},
+    {{PLANES, ROLLING, "similar", "yes", "force", "90", "slip-operator", "second"}},
+    {{"support", "halfplane", "mesh", "uniform", "zone", "1.2", ROLLING, "similar", "yes",
+      "approach", "0.015", "creep-ratio", "0.3"}},
+    {{"support", "halfplane", "mesh", "uniform", "zone", "1.2", ROLLING, "similar", "yes",
+      "half-width", "0.9", "creep", "5e-4"}},
+    {{PLANES, ROLLING, "young-b", "70000", "creep", "-2e-3", "friction-law",
+      "exponential", "mu", "0.2", "mu-fall", "0.2", "slip-scale", "5", "speed", "1000",
+      "tol", "1e-13"}},
+    {{PLANES,     ROLLING, "similar", "yes",     "creep", "-1e-3",      "friction-law",
+      "rational", "mu",    "0.2",     "mu-fall", "0.2",   "slip-scale", "5",
+      "speed",    "1000",  "memory",  "0.1",     "tol",   "1e-13"}},
+    {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "yield-stress", "30",
+      "hardening", "100", "interlayer-tangential", "1e-6"}},
+    {{PLANES, ROLLING, "young-b", "70000", "creep", "1.5e-3", "conductivity", "50",
+      "heat-capacity", "3.5", "speed", "1000"}},
+    {{PLANES, ROLLING, "similar", "yes", "creep", "-1e-3", "relaxation-time", "1e-3",
+      "relaxation-ratio", "1", "speed", "1000"}},
+    {{PLANES, ROLLING, "creep", "1e-3", "layer-thickness", "2", "base-young", "200000",
+      "base-poisson", "0.3"}},
+    {{PLANES, "formulation", "static", "shift", "1e-3"}},
+    {{"support", "hub", "load", "500", "mesh", "uniform", "zone", "1.5",
+      "contact-elements", "30", ROLLING, "creep-ratio", "0.4"}},
+};
+
+/* Five values around that of the case; 1: all have its zones. */
+static int differences(const words *w, const rb_case_derivative *d, double step,
+                       const rb_rolling_solution *at, rb_case_result r[4])
+{
+    static const double place[] = {-2.0, -1.0, 1.0, 2.0};
+    int same = 1;
+
+    for (int k = 0; k < 4; k++) {
+        rb_case_free(solved(w, d->name, d->value + place[k] * step, &r[k]));
+        same &= r[k].solution.n == at->n &&
+                memcmp(r[k].solution.zone, at->zone, (size_t)at->n * sizeof(int)) == 0;
+    }
+    return same;
+}
+
+static int compare_input(const words *w, const rb_case_derivative *d,
+                         const rb_rolling_solution *at)
+{
+    static const double weight[] = {1.0, -8.0, 8.0, -1.0};
+    rb_case_result r[4];
+    const double step = 1e-4 * fabs(d->value);
+
+    if (d->d.sides != 1 || d->value == 0.0 || strchr(d->name, '2'))
+        return 0;
+    const int same = differences(w, d, step, at, r);
+    for (int k = 0; k < rb_rolling_solution_scalars.n && same; k++) {
+        const rb_rolling_result *q = &rb_rolling_solution_scalars.row[k];
+        const double x = rb_rolling_number(q, at),
+                     got = rb_rolling_number(q, &d->d.value[0]);
+        double want = 0.0;
+        if (!rb_sensitivity_has(q) || isnan(x) || strncmp(q->name, "contact_", 8) == 0 ||
+            strcmp(q->name, "half_width") == 0) /* edges end at midpoints: kinks */
+            continue;
+        for (int j = 0; j < 4; j++)
+            want += weight[j] * rb_rolling_number(q, &r[j].solution) / (12.0 * step);
+        const double moment = 0.1 * at->normal_load * at->half_width;
+        const double least = strcmp(q->name, "resistance_moment") == 0  ? moment
+                             : strcmp(q->name, "resistance_ratio") == 0 ? moment / 2.5e4
+                                                                        : 0.0;
+        const double scale = fmax(fabs(x), least);
+        CHECK_ABS(got, want, 1e-8 * fabs(want) + 3e-9 * scale / fabs(d->value),
+                  "%s by %s", q->name, d->name);
+    }
+    for (int i = 0; i < at->n && same; i++) {
+        double p = 0.0, q = 0.0;
+        for (int j = 0; j < 4; j++) {
+            p += weight[j] * r[j].solution.p[i] / (12.0 * step);
+            q += weight[j] * r[j].solution.q[i] / (12.0 * step);
+        }
+        const double small = 3e-9 * at->max_pressure / fabs(d->value);
+        CHECK_ABS(d->d.value[0].p[i], p, 1e-8 * fabs(p) + small, "p by %s", d->name);
+        CHECK_ABS(d->d.value[0].q[i], q, 1e-8 * fabs(q) + small, "q by %s", d->name);
+    }
+    for (int k = 0; k < 4; k++)
+        rb_case_result_free(&r[k]);
+    return same;
+}
+
+static void derivatives_are_those_of_solutions(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof regimes / sizeof *regimes; k++) {
+        rb_message why = {""};
+        rb_case_result r;
+        rb_case_derivatives all;
+        rb_case *c = solved(&regimes[k], NULL, 0.0, &r);
+        int compared = 0;
+        if (rb_case_differentiate(c, &r.model, 0, NULL, &all, &why) != RB_OK)
+            fail_msg("regime %d: %s", (int)k, why.text);
+        for (int j = 0; j < all.n; j++) {
+            if (all.of[j].status != RB_OK)
+                fail_msg("regime %d, %s: %s", (int)k, all.of[j].name, all.of[j].why.text);
+            compared += compare_input(&regimes[k], &all.of[j], &r.solution);
+        }
+        if (compared < 4)
+            fail_msg("regime %d: only %d inputs compared", (int)k, compared);
+        rb_case_derivatives_free(&all);
+        rb_case_result_free(&r);
+        rb_case_free(c);
+    }
+}
+
+/* ---- Forward and adjoint
+ * --------------------------------------------------------------- */
+
+static void forward_is_adjoint(void **state)
+{
+    static const size_t some[] = {1, 2, 6, 8, 12};
+    (void)state;
+    for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
+        rb_message why = {""};
+        rb_case_result r;
+        rb_sensitivity *s;
+        rb_contact_state weight;
+        rb_sensitivity_rate adjoint;
+        rb_case_number number[RB_CASE_NUMBERS_MAX];
+        rb_case *c = solved(&regimes[some[k]], NULL, 0.0, &r);
+        const rb_contact_problem *p = &r.model.problem;
+        int n;
+        CHECK_STATUS(rb_sensitivity_create(&r.model, &s, &why), RB_OK);
+        CHECK_STATUS(rb_case_numbers(c, number, &n, &why), RB_OK);
+        CHECK_STATUS(rb_contact_state_alloc(p->n, &weight), RB_OK);
+        CHECK_STATUS(rb_sensitivity_rate_alloc(p->n, &adjoint), RB_OK);
+        memcpy(weight.p, p->force_N, (size_t)p->n * sizeof(double));
+        memcpy(weight.q, p->force_T, (size_t)p->n * sizeof(double));
+        weight.xi = 1e5; /* Q + 1e5 xi + 1e3 delta: all that there is */
+        weight.delta = 1e3;
+        CHECK_STATUS(rb_sensitivity_adjoint(s, &weight, &adjoint, &why), RB_OK);
+        for (int j = 0; j < n; j++) {
+            rb_sensitivity_derivative d;
+            CHECK_STATUS(rb_sensitivity_differentiate(s, &number[j].input, &d, &why),
+                         RB_OK);
+            const int side = d.has[0] ? 0 : 1;
+            rb_contact_state y;
+            CHECK_STATUS(rb_contact_state_alloc(p->n, &y), RB_OK);
+            CHECK_STATUS(rb_sensitivity_tangent(s, &d.rate, side ? 1 : -1, &y, &why),
+                         RB_OK);
+            double want = 1e5 * y.xi + 1e3 * y.delta, size = fabs(want);
+            for (int i = 0; i < p->n; i++) {
+                want += p->force_N[i] * y.p[i] + p->force_T[i] * y.q[i];
+                size += fabs(p->force_T[i] * y.q[i]);
+            }
+            CHECK_ABS(rb_sensitivity_dot(&adjoint, &d.rate), want, 1e-11 * size,
+                      "regime %d by %s", (int)some[k], number[j].name);
+            rb_contact_state_free(&y);
+            rb_sensitivity_derivative_free(&d);
+        }
+        rb_sensitivity_rate_free(&adjoint);
+        rb_contact_state_free(&weight);
+        rb_sensitivity_free(s);
+        rb_case_result_free(&r);
+        rb_case_free(c);
+    }
+}
+
+/* ---- Carter
+ * ---------------------------------------------------------------------------- */
+
+/* Root mean square of d(Q/(mu P))/ds - 2 (1 - s) over s = 0.05 ... 0.95. */
+static double carter_error(const char *elements, const char *mesh)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 19; k++) {
+        static const char *const names[] = {"creep-ratio"};
+        const double s = 0.05 * (k + 1);
+        const words w = {{"support", "halfplane", "similar", "yes", "load", "20", ROLLING,
+                          "mesh", mesh, "contact-elements", elements}};
+        rb_message why = {""};
+        rb_case_result r;
+        rb_case_derivatives all;
+        rb_case *c = solved(&w, "creep-ratio", -s, &r);
+        CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
+        const rb_case_derivative *d = of(&all, "creep-ratio");
+        sum += pow(-value_of(&d->d.value[0], "force_ratio") - 2.0 * (1.0 - s), 2.0);
+        rb_case_derivatives_free(&all);
+        rb_case_result_free(&r);
+        rb_case_free(c);
+    }
+    return sqrt(sum / 19.0);
+}
+
+static void carter_slopes(void **state)
+{
+    (void)state;
+    CHECK_MAX(carter_error("50", "aligned"), 2.45e-2, "50 elements");
+    CHECK_MAX(carter_error("100", "aligned"), 1.03e-2, "100 elements");
+    CHECK_MAX(carter_error("50", "fitted"), 2.45e-2, "50 fitted elements");
+}
+
+/* ---- Borders and ends of ranges
+ * ---------------------------------------------------------- */
+
+/* The creepage at which an element begins to slip: on one side the slope of one element
+ * more in stick. */
+static void both_sides_of_a_border(void **state)
+{
+    const words w = {{PLANES, ROLLING, "similar", "yes"}};
+    rb_message why = {""};
+    double low = 4e-4, high = 5e-4;
+    rb_case_result r, left, right;
+    rb_case_derivatives all, one;
+    (void)state;
+
+    rb_case *c = solved(&w, "creep", low, &r);
+    const int stick = r.solution.stick;
+    rb_case_result_free(&r);
+    rb_case_free(c);
+    while (high - low > 2e-19) {
+        const double middle = 0.5 * (low + high);
+        if (middle == low || middle == high)
+            break;
+        c = solved(&w, "creep", middle, &r);
+        *(r.solution.stick == stick ? &low : &high) = middle;
+        rb_case_result_free(&r);
+        rb_case_free(c);
+    }
+    static const char *const names[] = {"creep"};
+    c = solved(&w, "creep", low, &r);
+    CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
+    assert_int_equal(all.degenerate, 1);
+    const rb_case_derivative *d = of(&all, "creep");
+    assert_int_equal(d->d.sides, 2);
+    rb_case *a = solved(&w, "creep", low * (1.0 - 1e-6), &left),
+            *b = solved(&w, "creep", low * (1.0 + 1e-6), &right);
+    CHECK_STATUS(rb_case_differentiate(a, &left.model, 1, names, &one, &why), RB_OK);
+    CHECK_REL(d->d.value[0].tangential_load,
+              of(&one, "creep")->d.value[0].tangential_load, 1e-9, "left");
+    rb_case_derivatives_free(&one);
+    CHECK_STATUS(rb_case_differentiate(b, &right.model, 1, names, &one, &why), RB_OK);
+    CHECK_REL(d->d.value[1].tangential_load,
+              of(&one, "creep")->d.value[0].tangential_load, 1e-9, "right");
+    assert_true(fabs(d->d.value[1].tangential_load - d->d.value[0].tangential_load) >
+                1e-3 * fabs(d->d.value[0].tangential_load));
+    rb_case_derivatives_free(&one);
+    rb_case_derivatives_free(&all);
+    rb_case_result_free(&r);
+    rb_case_result_free(&left);
+    rb_case_result_free(&right);
+    rb_case_free(a);
+    rb_case_free(b);
+    rb_case_free(c);
+}
+
+/* Numbers at an end of their range have the other side alone. */
+static void ends_of_ranges(void **state)
+{
+    const words w = {{PLANES, ROLLING, "similar", "yes", "creep", "-5e-4"}};
+    rb_message why = {""};
+    rb_case_result r, some;
+    rb_case_derivatives all;
+    (void)state;
+
+    rb_case *c = solved(&w, NULL, 0.0, &r);
+    CHECK_STATUS(rb_case_differentiate(c, &r.model, 0, NULL, &all, &why), RB_OK);
+    const rb_case_derivative *d = of(&all, "interlayer-tangential");
+    assert_int_equal(d->d.sides, 2);
+    assert_false(d->d.has[0]);
+    assert_true(d->d.has[1]);
+    rb_case_free(solved(&w, "interlayer-tangential", 1e-11, &some));
+    CHECK_REL(d->d.value[1].tangential_load,
+              (some.solution.tangential_load - r.solution.tangential_load) / 1e-11, 1e-4,
+              "interlayer");
+    rb_case_result_free(&some);
+    rb_case_derivatives_free(&all);
+    rb_case_result_free(&r);
+    rb_case_free(c);
+}
+
+/* ---- Units and refusals
+ * ------------------------------------------------------------------ */
+
+static void units_of_derivatives(void **state)
+{
+    static const char *const names[] = {"load"};
+    rb_message why = {""};
+    rb_case_result r;
+    rb_case_derivatives all;
+    (void)state;
+
+    rb_case *c = solved(&regimes[0], NULL, 0.0, &r);
+    CHECK_STATUS(rb_case_differentiate(c, &r.model, 1, names, &all, &why), RB_OK);
+    assert_int_equal(all.n, 1);
+    const double p0 = all.of[0].d.value[0].max_pressure;
+    rb_case_derivatives_convert(&all, RB_UNITS_SI);
+    CHECK_REL(all.of[0].value, 5e5, 1e-14, "load in N/m");
+    CHECK_REL(all.of[0].d.value[0].max_pressure, p0 * 1e6 / 1e3, 1e-13, "Pa per N/m");
+    CHECK_REL(all.of[0].d.value[0].normal_load, 1.0, 1e-10, "P by P");
+    rb_case_derivatives_free(&all);
+    rb_case_result_free(&r);
+    rb_case_free(c);
+}
+
+static void steps_are_refused(void **state)
+{
+    const words w = {{PLANES, "formulation", "static", "increments", "3"}};
+    rb_message why = {""};
+    rb_case_result r;
+    rb_sensitivity *s;
+    (void)state;
+
+    rb_case *c = solved(&w, NULL, 0.0, &r);
+    CHECK_STATUS(rb_sensitivity_create(&r.model, &s, &why), RB_EINVAL);
+    assert_null(s);
+    assert_non_null(strstr(why.text, "sequence of steps"));
+    rb_case_result_free(&r);
+    rb_case_free(c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(derivatives_are_those_of_solutions),
+        cmocka_unit_test(forward_is_adjoint),
+        cmocka_unit_test(carter_slopes),
+        cmocka_unit_test(both_sides_of_a_border),
+        cmocka_unit_test(ends_of_ranges),
+        cmocka_unit_test(units_of_derivatives),
+        cmocka_unit_test(steps_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
