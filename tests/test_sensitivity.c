@@ -23,7 +23,7 @@ static rb_case *case_of(const words *w, const char *name, double value)
             fail_msg("%s", why.text);
     if (name && rb_case_set_number(c, name, value, &why) != RB_OK)
         fail_msg("%s", why.text);
-    if (rb_case_settle(c, &why) != RB_OK)
+    if (rb_case_resolve(c, &why) != RB_OK)
         fail_msg("%s", why.text);
     return c;
 }
@@ -32,7 +32,7 @@ static rb_case *solved(const words *w, const char *name, double value, rb_case_r
 {
     rb_message why = {""};
     rb_case *c = case_of(w, name, value);
-    if (rb_case_solve(rb_case_settled(c), NULL, NULL, r, &why) != RB_OK)
+    if (rb_case_solve(rb_case_resolved(c), NULL, NULL, r, &why) != RB_OK)
         fail_msg("%s", why.text);
     return c;
 }

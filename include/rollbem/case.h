@@ -337,7 +337,7 @@ typedef struct {
 } rb_case_number;
 
 enum { RB_CASE_NUMBERS_MAX = 64 };
-/* All numbers of a settled case that can be varied; at most RB_CASE_NUMBERS_MAX.  number:
+/* All numbers of a resolved case that can be varied; at most RB_CASE_NUMBERS_MAX.  number:
  * each refers to its own place, so that the array must not move. RB_ENOMEM. */
 rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
                           rb_message *why);

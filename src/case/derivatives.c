@@ -8,7 +8,7 @@
 /* What stands for a number that is 0, where steps are taken over a part of it. */
 static double natural_scale(const rb_case *c, const rb_option *o)
 {
-    const rb_rolling_derived *d = &c->settled.derived;
+    const rb_rolling_derived *d = &c->resolved.derived;
     const double P = isnan(d->load) ? d->stress * d->half_width : d->load;
 
     return strcmp(o->unit, "mm") == 0       ? 1e-3 * d->half_width
@@ -21,7 +21,7 @@ static double natural_scale(const rb_case *c, const rb_option *o)
                                             : 1e-2;
 }
 
-static double *place_of(const rb_option *o, int entry, rb_settled_case *words)
+static double *place_of(const rb_option *o, int entry, rb_resolved_case *words)
 {
     rb_numbers *list = (rb_numbers *)(void *)((char *)words + o->list);
 
@@ -38,10 +38,10 @@ static rb_case *varied(const rb_case *c, const rb_option *o, int entry, double v
     if (!copy)
         return NULL;
     const int k = (int)(o - rb_case_table);
-    rb_settled_case *words = &copy->words;
-    if (o->list) { /* its other numbers as they are settled, in the same units */
+    rb_resolved_case *words = &copy->words;
+    if (o->list) { /* its other numbers as they are resolved, in the same units */
         const rb_numbers *list =
-            (const rb_numbers *)(const void *)((const char *)&c->settled + o->list);
+            (const rb_numbers *)(const void *)((const char *)&c->resolved + o->list);
         *(rb_numbers *)(void *)((char *)words + o->list) = *list;
     }
     *place_of(o, entry, words) = value;
@@ -56,11 +56,11 @@ static rb_status vary(void *context, double value, rb_rolling_case *rc, rb_messa
 {
     const rb_case_number *number = context;
     rb_case *copy = varied(number->c, number->option, number->entry, value);
-    const rb_status s = copy ? rb_case_settle(copy, why)
+    const rb_status s = copy ? rb_case_resolve(copy, why)
                              : rb_fail(why, RB_ENOMEM, "out of memory for a case");
 
     if (s == RB_OK)
-        *rc = copy->settled.rc;
+        *rc = copy->resolved.rc;
     rb_case_free(copy);
     return s;
 }
@@ -76,7 +76,7 @@ static int has_meaning(const rb_case *c, const rb_option *o, int entry, double v
         rb_case *copy = varied(c, o, entry, value + side * step);
         const double x = value + side * step;
         means = copy && x >= o->range.from && x <= o->range.to &&
-                rb_case_settle(copy, &why) == RB_OK;
+                rb_case_resolve(copy, &why) == RB_OK;
         rb_case_free(copy);
     }
     return means;
@@ -85,8 +85,8 @@ static int has_meaning(const rb_case *c, const rb_option *o, int entry, double v
 static void add_number(const rb_case *c, const rb_option *o, int entry,
                        rb_case_number *number, int *n)
 {
-    rb_settled_case settled = c->settled, words = c->words;
-    const double value = *place_of(o, entry, &settled);
+    rb_resolved_case resolved = c->resolved, words = c->words;
+    const double value = *place_of(o, entry, &resolved);
 
     if (*n == RB_CASE_NUMBERS_MAX || !isfinite(value) ||
         (entry == 0 && isnan(*(double *)(void *)((char *)&words + o->offset))) ||
@@ -113,7 +113,7 @@ rb_status rb_case_numbers(const rb_case *c, rb_case_number *number, int *n,
     (void)why;
     for (const rb_option *o = rb_case_table; o < rb_case_table + rb_case_table_n; o++) {
         const rb_numbers *list =
-            (const rb_numbers *)(const void *)((const char *)&c->settled + o->list);
+            (const rb_numbers *)(const void *)((const char *)&c->resolved + o->list);
         if (o->kind != RB_OPTION_NUMBER || o->frozen)
             continue;
         for (int entry = 0; entry < (o->list && list->n > 1 ? list->n : 1); entry++)

@@ -124,7 +124,7 @@ rb_status rb_sensitivity_law(rb_sensitivity *s, rb_message *why)
     rb_rolling_model v = {.mesh = {.n = 0}};
     rb_status status = RB_OK;
 
-    if (!rb_rolling_law_moves(&model->rc))
+    if (!rb_rolling_law_depends_on_state(&model->rc))
         return RB_OK;
     s->law_slip = rb_alloc(n, n);
     s->law_force = model->rc.friction.heat != 0.0 ? rb_alloc(n, n) : NULL;

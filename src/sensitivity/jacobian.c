@@ -148,7 +148,7 @@ static void fill_controls(const rb_sensitivity *s, rb_sensitivity_factors *f)
     const rb_rolling_model *model = s->model;
     const rb_rolling_case *rc = &model->rc;
     const rb_contact_problem *p = &model->problem;
-    const int m = f->contacts, law = rb_rolling_law_moves(rc);
+    const int m = f->contacts, law = rb_rolling_law_depends_on_state(rc);
     const size_t ld = (size_t)f->size;
     double *normal = f->J + 2 * m, *tangential = normal + 1;
     const int ratio_of_load = !p->force_given && !p->load_given &&

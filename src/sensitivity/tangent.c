@@ -28,7 +28,7 @@ static rb_status check(const rb_rolling_model *model, rb_message *why)
                        "derivatives: of one step; this case is a sequence of steps");
     if (!state->p || state->status != RB_OK)
         return rb_fail(why, RB_INACCURATE, "derivatives: the case was not solved");
-    if (!dense && (rb_rolling_law_moves(rc) || model->problem.yield))
+    if (!dense && (rb_rolling_law_depends_on_state(rc) || model->problem.yield))
         return rb_fail(why, RB_EINVAL,
                        "derivatives: friction that depends on the state, or an interface "
                        "that yields, needs matrices: fewer than %d elements",
@@ -317,7 +317,7 @@ static rb_status roll_freely(rb_sensitivity *s, rb_message *why)
     v = s->freely = calloc(1, sizeof *v);
     if (!v)
         return rb_fail(why, RB_ENOMEM, "out of memory for derivatives");
-    if (rc->mesh == RB_MESH_UNIFORM && !rb_rolling_law_moves(rc)) {
+    if (rc->mesh == RB_MESH_UNIFORM && !rb_rolling_law_depends_on_state(rc)) {
         status = rb_rolling_variant_create(model, &freely, 1, v, why);
         if (status == RB_OK)
             status = rb_rolling_problem_solve(&v->problem, &freely, 1, &v->state, why);
