@@ -35,23 +35,29 @@ static double median(int n, double *t)
 
 /* ---- Growth ------------------------------------------------------------------------ */
 
-static double solve_seconds(int n, int shown)
+static double solution_seconds(const rb_rolling_case *rc, rb_rolling_solution *s)
 {
-    const rb_rolling_case rc = carter(n);
-    const int repeats = n > 200000 ? 1 : REPEATS;
+    const int repeats = rc->contact_elements > 200000 ? 1 : REPEATS;
     double t[REPEATS];
-    rb_rolling_solution s;
 
     for (int k = 0; k < repeats; k++) {
         rb_message why;
         const double start = processor_seconds();
-        if (rb_rolling_solve(&rc, &s, &why) != RB_OK)
+        if (rb_rolling_solve(rc, s, &why) != RB_OK)
             stop(why.text);
         t[k] = processor_seconds() - start;
         if (k + 1 < repeats)
-            rb_rolling_solution_free(&s);
+            rb_rolling_solution_free(s);
     }
-    const double seconds = median(repeats, t);
+    return median(repeats, t);
+}
+
+static double solve_seconds(int n, int shown)
+{
+    const rb_rolling_case rc = carter(n);
+    rb_rolling_solution s;
+    const double seconds = solution_seconds(&rc, &s);
+
     if (shown)
         printf("| %s%s | %s | %d | %s | %s | %s |\n", row_count(n).text,
                s.large ? "" : " (matrix)", row_count(s.contact).text, s.iterations,
@@ -60,6 +66,32 @@ static double solve_seconds(int n, int shown)
     fflush(stdout);
     rb_rolling_solution_free(&s);
     return seconds;
+}
+
+/* The mesh that the program chooses by itself, aligned with the contact, beside equal
+ * elements anywhere. */
+static void both_meshes(int count, const int *n)
+{
+    printf("\n| elements | aligned | equal | ratio | error of Q, aligned |\n"
+           "|---|---|---|---|---|\n");
+    for (int k = 0; k < count; k++) {
+        double seconds[2], error = 0.0;
+        for (int aligned = 0; aligned < 2; aligned++) {
+            rb_rolling_case rc = carter(n[k]);
+            rb_rolling_solution s;
+            rc.mesh = aligned ? RB_MESH_ALIGNED : RB_MESH_UNIFORM;
+            rc.slip_operator = aligned ? RB_SLIP_SECOND : RB_SLIP_UPSTREAM;
+            seconds[aligned] = solution_seconds(&rc, &s);
+            error = fabs(-s.force_ratio / 0.64 - 1.0);
+            if (s.equal_instead)
+                stop("the edges did not come to rest");
+            rb_rolling_solution_free(&s);
+        }
+        printf("| %s | %s | %s | %.1f | %s |\n", row_count(n[k]).text,
+               row_seconds(seconds[1]).text, row_seconds(seconds[0]).text,
+               seconds[1] / seconds[0], row_power(1, error).text);
+        fflush(stdout);
+    }
 }
 
 static void growth(int count, const int *n)
@@ -208,6 +240,7 @@ static void help_matrix(int n)
 int main(int argc, char **argv)
 {
     static const int standard[] = {1000, 3200, 10000, 32000, 100000};
+    static const int meshes[] = {400, 1600, 10000, 100000, 300000, 1000000};
     int n[32], count = argc - 1;
 
     fast_blas(argv);
@@ -222,6 +255,7 @@ int main(int argc, char **argv)
         return 0;
     }
     growth(5, standard);
+    both_meshes(6, meshes);
     apply_both(4000);
     solve_both(2000);
     help_matrix(300);

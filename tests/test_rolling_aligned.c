@@ -236,6 +236,23 @@ static void nine_elements_tell_the_edges(void **state)
     assert_true(nine > 0 && eight > 0);
 }
 
+/* The levels before the last one tell its edges to a part of an element: it is solved
+ * once, five steps or so on each of its coarser meshes. */
+static void many_elements_are_solved_once(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = carter(30000);
+    rc.creep_ratio = 0.4;
+    rb_rolling_model model = solved_model(&rc);
+    CHECK_MAX(model.iterations, 60, "steps");
+    assert_int_equal(model.equal_instead, 0);
+    assert_int_equal(model.mesh.n, 30000 + 8);
+    rb_rolling_model_free(&model);
+    rb_rolling_solution s = solved(&rc);
+    CHECK_ABS(s.force_ratio, rb_closed_carter_force_ratio(0.4), 2e-9, "Q/(mu P)");
+    rb_rolling_solution_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -250,6 +267,7 @@ int main(void)
         cmocka_unit_test(wheels_take_aligned_elements_too),
         cmocka_unit_test(what_cannot_be_aligned_is_refused),
         cmocka_unit_test(nine_elements_tell_the_edges),
+        cmocka_unit_test(many_elements_are_solved_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

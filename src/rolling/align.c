@@ -3,8 +3,9 @@
 #include "rolling/internal.h"
 
 enum {
-    FIRST = 30, /* elements at least that the first edges are found with */
-    MOST_FIRST = 400,
+    FIRST = 30,     /* elements at least that the first edges are found with */
+    COARSEST = 400, /* elements at most on the first level */
+    LEVEL = 4,      /* binary digits fewer than on the next level: a sixteenth of it */
     ROUNDS = 10,
     BEYOND = 4 /* separated elements kept beyond either edge */
 };
@@ -77,13 +78,24 @@ rb_status rb_rolling_model_realign(rb_rolling_model *model, rb_message *why)
     return model->equal_instead ? rb_rolling_solve_equal_instead(model, why) : s;
 }
 
+/* The first elements know an edge to a part of their own length, which is many lengths of
+ * the last ones: level by level an edge stays well within the elements kept beyond it,
+ * and on the last level one round is left. */
 rb_status rb_rolling_solve_aligned(rb_rolling_model *model, rb_message *why)
 {
     const int across = model->rc.contact_elements;
+    int digits = 0, rest = 1;
 
+    while (across >> digits > COARSEST)
+        digits += LEVEL;
     if (model->rc.zone == 0.0)
-        model->rc.contact_elements = (int)fmin(fmax(FIRST, across / 2), MOST_FIRST);
-    const rb_status s = rb_rolling_solve_zone(model, 1, why);
+        model->rc.contact_elements = (int)fmax(FIRST, (across >> digits) / 2);
+    rb_status s = rb_rolling_solve_zone(model, 1, why);
+    for (; s == RB_OK && rest && digits > 0; digits -= LEVEL) {
+        model->rc.contact_elements = across >> digits;
+        s = align(model, &rest, why);
+        model->iterations = 0; /* those of the last level count */
+    }
     model->rc.contact_elements = across;
     return s == RB_OK ? rb_rolling_model_realign(model, why) : s;
 }
