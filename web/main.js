@@ -1,179 +1,240 @@
-/* The page: worker, requests of which the newest wins, tabs, link. */
+/* The page: the store, the solver, the chapters one below the other, links and files. */
 import { html } from "./draw.js";
-import { PRESETS, formulation_of, hold, ALL_TANGENTIAL, read_case_file, read_link, write_link } from "./state.js";
-import { controls } from "./controls.js";
-import { contact_view } from "./contact.js";
+import { make_store } from "./store.js";
+import { start_solver } from "./solver.js";
+import { make_knob } from "./knob.js";
+import { PRESETS, read_case_file, read_link, with_mu, write_link } from "./state.js";
+import { hero_view } from "./hero.js";
+import { CHAPTER_CASES } from "./chapters.js";
 import { roll_view } from "./roll.js";
 import { below_view } from "./below.js";
 import { step_view } from "./step.js";
-import { take_view } from "./take.js";
+import { bench_view } from "./bench.js";
+import { take_along } from "./take.js";
 import { say, words } from "./words.js";
-
-const CURVE_WAITS = 120; /* ms */
 
 const at = (id) => document.getElementById(id);
 
-/* One request at work; of those that wait only the newest of each kind. */
-function requests(worker, taken) {
-    const waiting = new Map();
-    let busy = null, last = 0;
-    function next() {
-        if (busy || !waiting.size) return;
-        const [kind, request] = waiting.entries().next().value;
-        waiting.delete(kind);
-        busy = request;
-        worker.postMessage(request);
-    }
-    worker.onmessage = ({ data }) => {
-        const request = busy;
-        busy = null;
-        taken(data, request, waiting.has(data.kind));
-        next();
-    };
-    return { ask(request) { waiting.delete(request.kind); waiting.set(request.kind, { ...request, id: ++last }); next(); }, idle: () => !busy && !waiting.size };
-}
-
-function tell(text) {
-    at("message").textContent = text;
-    at("message").hidden = !text;
-}
-
-/* Two of them: one solves the case itself, which never waits for the curve, the steps or the stress
- * that the other one is at. */
-async function start_workers() {
-    const packed = Uint8Array.from(atob(WASM), (c) => c.charCodeAt(0));
-    const wasm = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-    const script = URL.createObjectURL(new Blob([WORKER], { type: "text/javascript" }));
-    return Promise.all([0, 1].map(() => new Promise((resolve, reject) => {
-        const worker = new Worker(script);
-        worker.onmessage = ({ data }) => resolve({ worker, ...data });
-        worker.onerror = (event) => reject(new Error(event.message));
-        worker.postMessage({ wasm });
-    })));
-}
+/* In the order of the page.  "cracks" comes between "below" and "step" when the library has them. */
+const CHAPTERS = [
+    ["hero", hero_view], ["below", below_view], ["step", step_view], ["roll", roll_view], ["bench", bench_view],
+];
+/* The words of links of earlier pages. */
+const VIEWS_OF_LINKS = { contact: "bench", take: "bench" };
 
 async function main() {
-    at("subtitle").textContent = words.subtitle;
     at("footer").textContent = say(words.footer, { version: VERSION });
-    at("main").append(html("p", { class: "note" }, words.loading));
-    let workers;
-    try { workers = await start_workers(); } catch (error) { return tell(say(words.no_wasm, { why: error.message })); }
+    at("headline-before").textContent = words.loading;
+    const views = {}, near = new Set(), stale = new Set();
+    let solver = null, current = "hero", drawing = false, embed = false;
 
-    const page = { given: JSON.parse(at("carried").textContent) ?? { ...PRESETS.rail }, drawn: null, answer: null, curve: null, options: workers[0].options, results: workers[0].results,
-        units: Object.fromEntries(workers[0].results.number.map((r) => [r.name, r.unit])) };
-    let current = "contact", curve_key = null, curve_shown = null, curve_timer = null, link_timer = null, first = true, panel = null;
-    const makers = { contact: contact_view, roll: roll_view, below: below_view, step: step_view, take: take_view }, views = {};
+    const address = (state) => write_link(state.cases.main, current, state.drawn, embed);
+    const store = make_store({ cases: { main: JSON.parse(at("carried").textContent) ?? { ...PRESETS.rail }, ...CHAPTER_CASES }, drawn: null },
+        { link: address, changed: solve_cases, restored: () => ask_views(() => true), shown: draw_soon, released: () => ask_views((view) => view.fine) });
+    const opened_with = store.state;
 
-    function refuse(answer, request, newer) {
-        if (answer.kind === "guess") views.step.take(answer);
-        else if (answer.kind === "curve") show_curve(null, request.key); /* the case itself may well be solved */
-        else if (!newer) {
-            tell(say(words.refused, { why: answer.refused }));
-            at("main").classList.add("stale");
-            first_draw();
+    const page = {
+        store, words,
+        get given() { return store.case("main"); },
+        get answer() { return store.solved.main ?? null; },
+        get drawn() { return store.state.drawn; },
+        set drawn(value) { store.set_drawn(value); },
+        change: (given) => store.set("main", given),
+        with_mu: (given, mu) => with_mu(given, mu, store.solved.main?.numbers),
+        knob: (of) => make_knob(store, of),
+        ask: (request) => solver.ask(request),
+        ask_view: (name) => ask_views((view) => view === views[name]),
+        large: () => document.documentElement.classList.contains("large"),
+        tell, open_file, open,
+        history_buttons: () => html("span", { class: "row history" },
+            ...[["undo", "↶", () => store.undo()], ["redo", "↷", () => store.redo()], ["reset", "⟲", () => store.reset(opened_with)]].map(([name, sign, act]) =>
+                html("button", { type: "button", class: "button sign", "data-history": name, "aria-label": words.history[name], title: words.history[name], onclick: act }, sign))),
+    };
+    page.take_along = (picture, file, canvas) => take_along(page, picture, file, canvas);
+
+    /* ---- Solving ---- */
+
+    function solve_cases(names) {
+        if (!solver) return;
+        for (const name of names)
+            if (name === "main" || Object.values(views).some((view) => near.has(view) && view.uses.includes(name)))
+                solver.ask({ kind: "solve", slot: `solve ${name}`, case: name, given: store.case(name) });
+            else stale.add(name);
+        ask_views((view) => view.uses.some((name) => names.includes(name)));
+        store.rewrite();
+    }
+    /* What views want beside the solution, of those that can be seen; the others when they come near. */
+    function ask_views(which) {
+        if (!solver) return;
+        for (const [name, view] of Object.entries(views)) {
+            if (!which(view)) continue;
+            if (!near.has(view)) { stale.add(view); continue; }
+            stale.delete(view);
+            for (const request of view.wants?.() ?? []) solver.ask({ slot: `${request.kind} ${name}`, ...request, view: name });
         }
     }
-    function show_curve(points, key) {
-        page.curve = points;
-        curve_shown = key;
-        if (current === "contact") views.contact?.draw_curve();
+    function come_near(view) {
+        near.add(view);
+        const cases = view.uses.filter((name) => stale.has(name) || !store.answers[name]);
+        cases.forEach((name) => stale.delete(name));
+        if (solver) for (const name of cases) if (!solver.waits(`solve ${name}`)) solver.ask({ kind: "solve", slot: `solve ${name}`, case: name, given: store.case(name) });
+        if (stale.has(view)) ask_views((other) => other === view);
+        view.render();
     }
     function take(answer, request, newer) {
-        if (answer.refused) return refuse(answer, request, newer);
-        if (answer.kind === "curve") return show_curve(answer.points, request.key);
-        if (answer.kind !== "solve") return views[request.view]?.take(answer);
-        at("main").classList.remove("stale");
-        page.answer = answer;
-        tell(answer.unsolved ? say(words.unsolved, { why: answer.unsolved }) : "");
-        first_draw();
-        ask_curve();
-        if (current === "contact" || current === "take") views[current].draw();
-        if (current === "step") page.ask_view(); /* its strip is that of the solution */
+        if (answer.broken) console.error(answer.refused);
+        if (answer.kind !== "solve") return views[request.view]?.take(answer, request);
+        if (answer.refused && newer) return;
+        store.answer(request.case, { ...answer, given: request.given });
+        if (request.case === "main") tell(answer.refused ? say(words.refused, { why: answer.refused }) : answer.unsolved ? say(words.unsolved, { why: answer.unsolved }) : "");
+        for (const view of near) if (view.uses.includes(request.case)) view.solved?.(request.case);
     }
-    const [solving, aside] = workers.map(({ worker }) => requests(worker, take));
-    const queue = { ask: (request) => (request.kind === "solve" ? solving : aside).ask(request), idle: () => solving.idle() && aside.idle() && (current !== "contact" || curve_key === null || curve_shown === curve_key) };
-    page.ask = queue.ask;
 
-    /* The curve follows when the case rests: while a slider moves the processor is the case's. */
-    function ask_curve() {
-        if (formulation_of(page.given) !== "steady") { clearTimeout(curve_timer); page.curve = null; curve_key = curve_shown = null; return; }
-        const given = hold(page.given, ALL_TANGENTIAL, "creep-ratio", "0.5"), key = JSON.stringify(given);
-        if (key === curve_key) return;
-        curve_key = key;
-        clearTimeout(curve_timer);
-        curve_timer = setTimeout(() => queue.ask({ kind: "curve", given, key, from: -1.4, to: 1.4, points: 29 }), page.curve ? CURVE_WAITS : 0);
+    /* ---- Drawing: once a frame, what can be seen ---- */
+
+    function draw_soon() {
+        if (drawing) return;
+        drawing = true;
+        requestAnimationFrame(draw_now);
     }
-    page.curve_is_old = () => curve_shown !== curve_key;
-    page.ask_view = () => (views[current]?.wants() ?? []).forEach((request) => queue.ask({ ...request, view: current }));
-    page.change = (given, redraw) => {
-        page.given = given;
-        queue.ask({ kind: "solve", given });
-        if (current !== "step") page.ask_view();
-        if (redraw) panel?.draw();
-        page.remember();
-    };
-    page.remember = () => {
-        clearTimeout(link_timer);
-        link_timer = setTimeout(() => history.replaceState(null, "", write_link(page.given, current, page.drawn)), 250);
-    };
-
-    /* On phones a view stands above the controls, but for the first one, which has them between its
-     * pictures: so they also come after it for the keyboard. */
-    const phone = matchMedia("(max-width: 800px)");
-    function order_controls() {
-        const after = phone.matches && current !== "contact";
-        if (after !== (at("main").nextElementSibling === at("controls"))) at("main")[after ? "after" : "before"](at("controls"));
+    function draw_now() {
+        drawing = false;
+        for (const view of near) view.render();
+        for (const button of document.querySelectorAll("[data-history]")) {
+            const can = { undo: store.can_undo, redo: store.can_redo, reset: true }[button.dataset.history];
+            button.setAttribute("aria-disabled", String(!can));
+        }
     }
-    phone.addEventListener("change", order_controls);
+    function tell(text) {
+        at("message").textContent = text;
+        at("message").hidden = !text;
+    }
 
+    /* ---- The chapters ---- */
+
+    function build(name, make) {
+        const view = (views[name] = make(words, page)), { title, number } = words.chapters[name];
+        const node = html("section", { id: `at-${name}`, class: `chapter ${name}`, "aria-label": title, tabindex: -1 },
+            name !== "hero" && html("h2", {}, number && html("span", { class: "count" }, number), title), view.node);
+        at("story").append(node);
+        view.section = node;
+        at("chapters").append(html("a", { href: `#view=${name}`, "data-view": name, onclick: (event) => { event.preventDefault(); open(name); } }, words.chapters[name].short));
+        nearness.observe(node);
+        place.observe(node);
+    }
+    const nearness = new IntersectionObserver((entries) => {
+        for (const { target, isIntersecting } of entries) {
+            const view = Object.values(views).find((other) => other.section === target);
+            if (isIntersecting) { if (!near.has(view)) come_near(view); }
+            else { near.delete(view); view.leave?.(); }
+        }
+    }, { rootMargin: "250px 0px" });
+    /* The chapter in the middle of the window is the one of the links. */
+    const place = new IntersectionObserver((entries) => {
+        for (const { target, isIntersecting } of entries) {
+            if (!isIntersecting) continue;
+            current = target.id.slice(3);
+            for (const link of at("chapters").children) link.setAttribute("aria-current", link.dataset.view === current ? "true" : "false");
+            const here = at("chapters").querySelector("[aria-current=true]");
+            if (here) at("chapters").scrollTo({ left: here.offsetLeft - 40 });
+            store.rewrite();
+        }
+    }, { rootMargin: "-45% 0px -50% 0px" });
     function open(name) {
-        views[current]?.leave?.();
-        current = name;
-        order_controls();
-        views[name] ??= makers[name](words, page);
-        at("main").replaceChildren(views[name].node);
-        at("main").dataset.view = name;
-        at("main").setAttribute("aria-labelledby", `tab-${name}`);
-        for (const tab of at("tabs").children) { const on = tab.id === `tab-${name}`; tab.setAttribute("aria-selected", on); tab.tabIndex = on ? 0 : -1; }
-        views[name].draw();
-        page.ask_view();
-        history.replaceState(null, "", write_link(page.given, current, page.drawn));
+        const view = views[VIEWS_OF_LINKS[name] ?? name] ?? views.hero;
+        view.section.scrollIntoView({ block: "start" });
+        view.section.focus({ preventScroll: true });
+        come_near(view);
+        view.show?.(name);
+        current = name in words.chapters ? name : current;
     }
-    const names = Object.keys(makers);
-    at("tabs").setAttribute("aria-label", words.subtitle);
-    at("tabs").append(...names.map((name, k) => html("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": "main", onclick: () => open(name),
-        onkeydown: (event) => { const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key]; if (step) { const next = at(`tab-${names[(k + step + names.length) % names.length]}`); next.click(); next.focus(); } } }, words.tabs[name])));
-    at("controls").setAttribute("aria-label", words.controls);
+
+    /* ---- Links, files, keys ---- */
+
+    const names = [...CHAPTERS.map(([name]) => name), ...Object.keys(VIEWS_OF_LINKS)];
+    function follow_link() {
+        let link = null;
+        try { link = read_link(location.hash, names); }
+        catch (error) {
+            tell(say(words.link_broken, { why: error.message }));
+            return false;
+        }
+        if (!link) return false;
+        embed = link.embed;
+        document.documentElement.classList.toggle("embed", embed);
+        store.replace({ ...store.state, cases: { ...store.state.cases, ...(link.given && { main: link.given }) }, drawn: link.drawn });
+        current = link.view;
+        return true;
+    }
+    async function open_file(file) {
+        try { page.change(read_case_file(await file.text())); }
+        catch (error) { tell(say(words.file_broken, { file: file.name, why: error.message })); }
+    }
+    window.addEventListener("dragover", (event) => event.preventDefault());
+    window.addEventListener("drop", (event) => { event.preventDefault(); if (event.dataTransfer.files[0]) open_file(event.dataTransfer.files[0]); });
+    window.addEventListener("keydown", (event) => {
+        const typing = event.target.matches?.("input[type=text], textarea");
+        if (!(event.ctrlKey || event.metaKey) || typing) return;
+        if (event.key === "z" && !event.shiftKey) { event.preventDefault(); store.undo(); }
+        if (event.key === "y" || (event.key === "z" && event.shiftKey) || event.key === "Z") { event.preventDefault(); store.redo(); }
+    });
+    let width = innerWidth;
+    window.addEventListener("resize", () => {
+        if (innerWidth === width && !document.fullscreenElement) return;
+        width = innerWidth;
+        for (const view of Object.values(views)) view.resize?.();
+        draw_soon();
+    });
+    document.addEventListener("fullscreenchange", () => {
+        document.documentElement.classList.toggle("large", Boolean(document.fullscreenElement));
+        for (const view of Object.values(views)) view.resize?.();
+        draw_soon();
+    });
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw_soon);
+    at("full").textContent = "⛶";
+    at("full").setAttribute("aria-label", words.full_screen);
+    at("full").title = words.full_screen;
+    at("full").addEventListener("click", () => (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.()));
+    at("chapters").setAttribute("aria-label", words.chapters_label);
     at("signs").setAttribute("aria-label", words.signs);
     at("signs").append(html("button", { type: "button", class: "button", onclick: () => at("signs").close() }, words.close));
-    at("controls").addEventListener("submit", (event) => event.preventDefault());
+    at("skip").textContent = words.skip;
 
-    function first_draw() {
-        if (!first) return;
-        first = false;
-        panel = controls(at("controls"), words, page.options, page);
-        open(current);
-    }
-    function follow_link() {
-        try {
-            const link = read_link(location.hash, names);
-            if (link?.given) page.given = link.given;
-            if (link) [current, page.drawn] = [link.view, link.drawn];
-        } catch (error) { tell(say(words.link_broken, { why: error.message })); return; }
-        queue.ask({ kind: "solve", given: page.given });
-        if (!first) { panel.draw(); open(current); }
-    }
-    page.open_file = async (file) => {
-        try {
-            page.change(read_case_file(await file.text()));
-            panel.draw();
-        } catch (error) { tell(say(words.file_broken, { file: file.name, why: error.message })); }
-    };
-    window.addEventListener("dragover", (event) => event.preventDefault());
-    window.addEventListener("drop", (event) => { event.preventDefault(); if (event.dataTransfer.files[0]) page.open_file(event.dataTransfer.files[0]); });
-    window.addEventListener("hashchange", follow_link);
-    let width = innerWidth;
-    window.addEventListener("resize", () => { if (innerWidth !== width) { width = innerWidth; (views[current]?.resize ?? views[current]?.draw)?.(); } });
+    /* ---- What takes long says so ---- */
+
+    at("busy").append(html("span", {}, words.solving), html("button", { type: "button", class: "button", onclick: () => solver.cancel(words.cancelled) }, words.cancel));
+    setInterval(() => { at("busy").hidden = !(solver?.working() > 600); }, 200);
+
+    /* ---- Begin ---- */
+
+    const linked = follow_link();
+    const broken = !at("message").hidden ? at("message").textContent : "";
+    try { solver = await start_solver(WASM, WORKER, take); }
+    catch (error) { return tell(say(words.no_wasm, { why: error.message })); }
+    Object.assign(page, { options: solver.options, results: solver.results, units: Object.fromEntries(solver.results.number.map((row) => [row.name, row.unit])) });
+    at("headline-before").remove();
+    solver.ask({ kind: "solve", slot: "solve main", case: "main", given: page.given });
+    const begin = linked ? current : "hero";
+    for (const [name, make] of embed ? CHAPTERS.slice(0, 1) : CHAPTERS) build(name, make);
+    near.add(views.hero);
+    store.listen(() => {
+        if (follow_link()) { solve_cases(["main"]); open(current); }
+        else store.replace(opened_with);
+    });
+    /* A link whose case the library refuses: the first case, with a note. */
+    await until(() => store.answers.main);
+    if (store.answers.main.refused && linked) {
+        const why = store.answers.main.refused;
+        store.replace({ ...store.state, cases: { ...store.state.cases, main: { ...PRESETS.rail } } });
+        await until(() => store.solved.main);
+        tell(say(words.link_refused, { why }));
+    } else if (broken) tell(broken);
+    store.rewrite();
+    if (begin !== "hero") open(begin);
+
+    const idle = () => solver.idle() && !drawing && !Object.values(views).some((view) => near.has(view) && view.busy?.());
+    window.rollbem = { page, store, views, solver, open, idle, time_moves, near: (name) => near.has(views[name]), preset: (name) => page.change({ ...PRESETS[name] }) };
+
     /* For its tests: milliseconds from a move to its picture, sorted; each move is a value of its own. */
     async function time_moves(option, start, count) {
         const times = [], channel = new MessageChannel(), turn = () => new Promise((resolve) => { channel.port1.onmessage = resolve; channel.port2.postMessage(0); });
@@ -181,13 +242,16 @@ async function main() {
             const began = performance.now(), before = page.answer;
             page.change({ ...page.given, [option]: String(Number((start * (1 + 0.002 * k)).toPrecision(6))) });
             while (page.answer === before) await turn();
+            draw_now();
             document.body.getBoundingClientRect(); /* laid out */
             times.push(performance.now() - began);
         }
         return times.sort((a, b) => a - b);
     }
-    window.rollbem = { time_moves, page, views, queue, open, preset: (name) => { page.change({ ...PRESETS[name] }); panel.draw(); } };
-    follow_link();
-    if (location.hash.length > 1 && at("message").textContent) queue.ask({ kind: "solve", given: page.given });
 }
+
+const until = (holds) => new Promise((resolve) => {
+    const look = () => (holds() ? resolve() : setTimeout(look, 8));
+    look();
+});
 main();

@@ -2,9 +2,11 @@
 
 export const PRESETS = {
     rail: { support: "halfplane", "support-b": "halfplane", similar: "yes", formulation: "steady", radius: "460", young: "210000", poisson: "0.3",
-        mu: "0.3", load: "1000", "creep-ratio": "0.5", mesh: "uniform", "contact-elements": "60" },
+        mu: "0.3", load: "12500", "creep-ratio": "0.5", "contact-elements": "60" },
     stiff: { support: "hub", "hub-ratio": "0.5", formulation: "steady", radius: "100", young: "10", poisson: "0.45", mu: "0.6", load: "20",
         "force-ratio": "-0.6", mesh: "uniform", "contact-elements": "40" },
+    roll: { support: "hub", "hub-ratio": "0.6", "cover-thickness": "12", "core-young": "210000", "core-poisson": "0.3", "young-b": "210000", "poisson-b": "0.3", "radius-b": "100",
+        formulation: "steady", radius: "150", young: "8", poisson: "0.48", mu: "0.25", load: "25", "creep-ratio": "0.9", mesh: "uniform", "contact-elements": "40" },
     addi: { mu: "0.3", mesh: "uniform", "contact-elements": "40", shift: "2" },
 };
 export const NORMAL = ["load", "approach", "half-width"];
@@ -23,6 +25,45 @@ export function hold(given, group, name, text) {
     return next;
 }
 
+/* What belongs to one way of holding body A, or of asking something of it. */
+const BELONGS = {
+    arc: ["arc"],
+    hub: ["hub-ratio", "cover-thickness", "core-young", "core-poisson"],
+    halfplane: ["datum", "layer-thickness", "base-young", "base-poisson"],
+};
+/* Another support, without what has no meaning there; on B, where B has the same one by its own word. */
+export function with_support(given, support) {
+    const next = { ...given, support };
+    for (const [kind, names] of Object.entries(BELONGS))
+        if (kind !== support) for (const name of names) delete next[name];
+    if (support !== "halfplane" || !(Number(next.speed) > 0))
+        for (const name of ["relaxation-time", "relaxation-ratio", "speed"]) if (support === "arc") delete next[name];
+    return next;
+}
+
+/* Without friction there is no friction to be a part of: the drive becomes a creepage, or a shift at rest. */
+export function with_mu(given, mu, numbers) {
+    const next = { ...given, mu: String(mu) }, held_now = held(given, ALL_TANGENTIAL);
+    if (Number(mu) > 0 || !held_now || ["creep", "shift"].includes(held_now)) return next;
+    if (formulation_of(given) === "static") return hold(next, ALL_TANGENTIAL, "shift", "0");
+    const creep = numbers?.creepage;
+    return hold(next, ALL_TANGENTIAL, "creep", String(Number.isFinite(creep) ? Number(creep.toPrecision(4)) : 0));
+}
+
+/* Which of three grounds is given: rigid, of the same material, another elastic one. */
+export const ground_of = (given) => "similar" in given && given.similar !== "no" ? "similar" : "young-b" in given ? "other" : "rigid";
+/* What of the approach the ground takes, for drawing only: as two half-planes share it. */
+export function share_of_ground(given, values) {
+    const soft = (young, poisson) => (1 - Number(poisson) ** 2) / Number(young);
+    const kind = ground_of(given);
+    if (kind !== "other") return kind === "similar" ? 0.5 : 0;
+    const [a, b] = [soft(values.young, values.poisson), soft(values["young-b"], values["poisson-b"])];
+    return b / (a + b) || 0;
+}
+
+/* "0,3" of a German or French keyboard; a list of numbers keeps its commas. */
+export const with_point = (text) => (/^\s*[-+]?\d*,\d+(e[-+]?\d+)?\s*[^\d,.]*$/i.test(text) ? text.replace(",", ".") : text).trim();
+
 /* What is drawn by hand over the way: { what, distance, values }, what a column of a history. */
 export const DRAWN = { mu: ["mu"], load: NORMAL, force_ratio: ALL_TANGENTIAL, creep_ratio: ALL_TANGENTIAL };
 const MOST_DRAWN = 60;
@@ -36,11 +77,11 @@ function read_drawn(text) {
 export const table_of_drawn = ({ what, distance, values }) => `distance\t${what}\n`
     + values.map((v, k) => `${Number((distance * k / (values.length - 1)).toPrecision(6))}\t${v}\n`).join("");
 
-export function write_link(given, view, drawn) {
-    return "#" + new URLSearchParams({ ...given, ...(drawn && { drawn: [drawn.what, drawn.distance, ...drawn.values].join(" ") }), view }).toString();
+export function write_link(given, view, drawn, embed = false) {
+    return "#" + new URLSearchParams({ ...given, ...(drawn && { drawn: [drawn.what, drawn.distance, ...drawn.values].join(" ") }), view, ...(embed && { embed: "hero" }) }).toString();
 }
 
-/* { given, view, drawn } of a fragment; null: there is none.  Names and values are the library's
+/* { given, view, drawn, embed } of a fragment; null: there is none.  Names and values are the library's
  * to judge; an Error says what is no link at all. */
 export function read_link(fragment, views) {
     if (fragment.length < 2) return null;
@@ -49,8 +90,9 @@ export function read_link(fragment, views) {
     const view = views.includes(given.view) ? given.view : views[0];
     const drawn = given.drawn ? read_drawn(given.drawn) : null;
     delete given.view;
-    delete given.drawn;
-    return { given: Object.keys(given).length ? given : null, view, drawn };
+    const embed = given.embed === "hero";
+    for (const name of ["drawn", "embed"]) delete given[name];
+    return { given: Object.keys(given).length ? given : null, view, drawn, embed };
 }
 
 /* The options of a case file.  Sections, names and values are the library's to judge. */

@@ -1,0 +1,77 @@
+/* Two workers with the library: one solves the cases, which never wait for the curves, steps and stresses that the
+ * other one is at.  Of requests that wait the newest of each slot is answered. */
+
+async function start_worker(wasm, script) {
+    return new Promise((resolve, reject) => {
+        const worker = new Worker(script);
+        worker.onmessage = ({ data }) => resolve({ worker, ...data });
+        worker.onerror = (event) => reject(new Error(event.message));
+        worker.postMessage({ wasm });
+    });
+}
+
+/* One request at work at a time.  take(answer, request, newer): newer, another one of its slot waits. */
+function line_up(wasm, script, take) {
+    const waiting = new Map();
+    let worker = null, busy = null, since = 0, last = 0;
+    const begin = async () => {
+        const started = await start_worker(wasm, script);
+        worker = started.worker;
+        worker.onmessage = ({ data }) => {
+            const request = busy;
+            busy = null;
+            take(data, request, waiting.has(request.slot));
+            next();
+        };
+        next();
+        return started;
+    };
+    function next() {
+        if (!worker || busy || !waiting.size) return;
+        const [slot, request] = waiting.entries().next().value;
+        waiting.delete(slot);
+        busy = request;
+        since = performance.now();
+        worker.postMessage(request);
+    }
+    return {
+        begin,
+        ask(request) {
+            waiting.delete(request.slot);
+            waiting.set(request.slot, { ...request, id: ++last });
+            next();
+        },
+        idle: () => !busy && !waiting.size,
+        waits: (slot) => busy?.slot === slot || waiting.has(slot),
+        working: () => (busy ? performance.now() - since : 0),
+        /* What is at work is ended with its worker; what waits is forgotten. */
+        async cancel(why) {
+            if (!busy) return;
+            const request = busy;
+            worker.terminate();
+            worker = busy = null;
+            waiting.clear();
+            take({ id: request.id, kind: request.kind, refused: why }, request, false);
+            await begin();
+        },
+    };
+}
+
+/* packed: the library, gzip in base64. */
+export async function start_solver(packed, worker_source, take) {
+    const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
+    const wasm = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+    const script = URL.createObjectURL(new Blob([worker_source], { type: "text/javascript" }));
+    const lines = [line_up(wasm, script, take), line_up(wasm, script, take)];
+    const { options, results } = await lines[0].begin();
+    const second = lines[1].begin();
+    const line_of = (request) => lines[request.kind === "solve" ? 0 : 1];
+    return {
+        options, results, second,
+        ask: (request) => line_of(request).ask(request),
+        idle: () => lines.every((line) => line.idle()),
+        waits: (slot) => lines.some((line) => line.waits(slot)),
+        working: () => Math.max(...lines.map((line) => line.working())),
+        cancel: (why) => Promise.all(lines.map((line) => line.cancel(why))),
+    };
+}
