@@ -1,24 +1,19 @@
-/* See and touch: the wheel, the strip, the tractions, slip and zones, the creep curve. */
-import { card, chart, html, legend, line, show, stairs, stroke, svg, ticks, width_of, zone_colours } from "./draw.js";
+/* The workbench's pictures: tractions, zones and slip; the numbers; the creep curve with a point that can be dragged. */
+import { card, chart, html, legend, line, segments, show, stairs, stroke, svg, ticks, width_of, zone_colours } from "./draw.js";
 import { ALL_TANGENTIAL, formulation_of, hold } from "./state.js";
 import { say } from "./words.js";
 
 const edges = (c) => [...c.x].map((x, i) => x - c.h[i] / 2).concat(c.x.at(-1) + c.h.at(-1) / 2);
+const most_of = (list) => list.reduce((most, v) => Math.max(most, Math.abs(v) || 0), 0);
+
+export const edges_of_equal = (c) => [c.x[0] - c.h[0] / 2, c.x.at(-1) + c.h.at(-1) / 2];
 
 /* The window on x: the contact and a bit beside it. */
 export function window_of(numbers, ends) {
     const { contact_from: from, contact_to: to } = numbers;
     if (!(to > from)) return [ends[0], ends.at(-1)];
-    const beside = 0.22 * (to - from);
+    const beside = 0.3 * (to - from);
     return [from - beside, to + beside];
-}
-
-/* Hertz and Carter where they hold: pressure and friction at x. */
-function closed_forms({ hertz_half_width: a, normal_load: P, creep_ratio: s, carter }, mu) {
-    if (carter !== 1) return null;
-    const p0 = 2 * P / (Math.PI * a), stuck = Math.max(0, 1 - Math.abs(s)), b = stuck * a, middle = a - b;
-    const ellipse = (x, half) => half > 0 && Math.abs(x) < half ? Math.sqrt(1 - (x / half) ** 2) : 0;
-    return { p: (x) => p0 * ellipse(x, a), q: (x) => -Math.sign(s) * mu * p0 * (ellipse(x, a) - stuck * ellipse(x - middle, b)) };
 }
 
 /* What friction may be at each element: mu p with the coefficients of the friction law, or the yield stress of
@@ -30,169 +25,201 @@ export function bounds_of({ columns: c, values }) {
     return [...c.p].map((p, i) => Math.min((c.mu ? c.mu[i] : mu) * p, yields ? Math.max(yields + hardening * c.plastic[i], 0) : Infinity));
 }
 
-export function tractions_picture(host, words, { columns: c, numbers, values }, options = {}) {
-    const width = options.width ?? width_of(host), ends = edges(c), mu = Number(values.mu.split(",")[0]), bounds = bounds_of({ columns: c, values });
-    const x = options.window ?? window_of(numbers, ends);
-    const most_p = options.top ?? Math.max(...c.p), top = most_p * 1.12 || 1, low = -Math.max(bounds && !options.top ? Math.max(...bounds) : mu * most_p, ...[...c.q].map(Math.abs)) * 1.15;
-    const slip = [...c.slip].map((v, i) => c.zone[i] > 1 && Number.isFinite(v) ? v : 0), has_slip = slip.some((v) => v !== 0);
-    const height = Math.round(Math.max(innerHeight < 1000 && width < 560 ? 190 : 260, Math.min(430, width * 0.46))), strip = 26, below = has_slip ? 84 : 8;
-    const plot = chart({ width, height: height + strip + below + 46, x, y: [low, top], y_label: words.mpa, bottom: strip + below + 46,
-        label: say(words.tractions_alt, { p0: show(Math.max(...c.p)), qmin: show(Math.min(...c.q)), qmax: show(Math.max(...c.q)) }) });
-    const { root, X, Y } = plot;
-    const id = `clip${options.name ?? "a"}`, inner = svg("g", { "clip-path": `url(#${id})` });
-    root.append(svg("clipPath", { id }, svg("rect", { x: plot.left, y: 0, width: width - plot.left - plot.right, height: height + strip + below + 46 })), inner);
-    const at = (values) => line([...c.x].map((v, i) => [X(v), Y(values[i])]));
+/* Axes that hold still: { x, top, low, slip } of an answer, and whether they still do for another one. */
+export function axes_of(answer) {
+    const { columns: c, numbers } = answer, bounds = bounds_of(answer);
+    const top = 1.12 * most_of(c.p) || 1;
+    return { x: window_of(numbers, edges(c)), top, low: -1.15 * Math.max(bounds ? most_of(bounds) : 0, most_of(c.q), 0.1 * top), slip: slip_of(c).most };
+}
+export function axes_still_fit(axes, answer) {
+    const { columns: c, numbers: n } = answer, wide = axes.x[1] - axes.x[0], p = most_of(c.p), q = most_of(c.q);
+    return n.contact_from >= axes.x[0] && n.contact_to <= axes.x[1] && n.contact_to - n.contact_from > 0.22 * wide
+        && p <= axes.top && p > 0.28 * axes.top && q <= -axes.low;
+}
+function slip_of(c) {
+    const slip = [...c.slip].map((v, i) => (c.zone[i] > 1 && Number.isFinite(v) ? v : 0));
+    return { slip, most: most_of(slip) };
+}
+
+/* The same in x/a and p/p0. */
+export function scaled(answer) {
+    const { columns: c, numbers: n } = answer, a = n.half_width || 1, p0 = n.max_pressure || 1, middle = (n.contact_from + n.contact_to) / 2 || 0;
+    const over = (list, by, from = 0) => list && Float64Array.from(list, (v) => (v - from) / by);
+    return { ...answer, columns: { ...c, x: over(c.x, a, middle), h: over(c.h, a), p: over(c.p, p0), q: over(c.q, p0) },
+        values: { ...answer.values, "yield-stress": String((Number(answer.values["yield-stress"]) || 0) / p0), hardening: String((Number(answer.values.hardening) || 0) / p0) },
+        numbers: { ...n, contact_from: (n.contact_from - middle) / a, contact_to: (n.contact_to - middle) / a } };
+}
+
+/* options: width, height, axes, forms: { x, p, q } of closed forms, ghost: another answer, units: [of x, of stress], name. */
+export function tractions_picture(host, words, answer, options = {}) {
+    const { columns: c, values } = answer, width = options.width ?? width_of(host), ends = edges(c), bounds = bounds_of(answer);
+    const { x, top, low, slip: slip_axis } = options.axes ?? axes_of(answer), { slip, most } = slip_of(c), slip_top = Math.max(slip_axis || 0, most);
+    const small = innerHeight < 1000 && width < 560, height = options.height ?? Math.round(Math.max(small ? 190 : 250, Math.min(420, width * 0.44))), strip = 26;
+    const below = options.slip === false ? 8 : 84, total = height + strip + below + 46;
+    const plot = chart({ width, height: total, x, y: [low, top], y_label: options.units?.[1] ?? words.mpa, bottom: strip + below + 46,
+        label: say(words.tractions_alt, { p0: show(most_of(c.p)), qmin: show(Math.min(...c.q)), qmax: show(Math.max(...c.q)) }) });
+    const { root, X, Y } = plot, id = `clip-${options.name ?? "a"}`, inner = svg("g", { "clip-path": `url(#${id})` });
+    root.append(svg("clipPath", { id }, svg("rect", { x: plot.left, y: 0, width: width - plot.left - plot.right, height: total })), inner);
+    const at = (list, xs = c.x) => line([...xs].map((v, i) => [X(v), Y(list[i])]));
+    if (options.ghost) {
+        const g = options.ghost.columns;
+        inner.append(svg("path", { class: "ghost", d: at(g.p, g.x), style: stroke("--press", 1.6, "stroke-dasharray:2 5;opacity:.75") }), svg("path", { class: "ghost", d: at(g.q, g.x), style: stroke("--rub", 1.6, "stroke-dasharray:2 5;opacity:.75") }));
+    }
     inner.append(
         svg("path", { d: `M${X(c.x[0])} ${Y(0)}L${at(c.p).slice(1)}L${X(c.x.at(-1))} ${Y(0)}Z`, style: "fill:var(--press-fill);stroke:none" }),
         ...(bounds ? [1, -1] : []).map((sign) => svg("path", { d: at(bounds.map((b) => sign * b)), style: stroke("--soft", 1.4, "stroke-dasharray:2 4") })),
-        svg("path", { d: at(c.p), style: stroke("--press", 2.4) }),
-        svg("path", { d: at(c.q), style: stroke("--rub", 3) }));
-    const forms = options.forms === false ? null : closed_forms(numbers, mu);
-    if (forms) {
-        const a = numbers.hertz_half_width, way = Array.from({ length: 201 }, (_, k) => a * Math.sin((k / 100 - 1) * Math.PI / 2));
-        inner.append(...[forms.p, forms.q].map((f) => svg("path", { d: line(way.map((v) => [X(v), Y(f(v))])), style: stroke("--reference", 1.6, "stroke-dasharray:7 5") })));
-    }
+        svg("path", { class: "p", d: at(c.p), style: stroke("--press", 2.4) }),
+        svg("path", { class: "q", d: at(c.q), style: stroke("--rub", 3) }));
+    if (options.forms) inner.append(...["p", "q"].map((name) => svg("path", { d: at(options.forms[name], options.forms.x), style: stroke("--reference", 1.6, "stroke-dasharray:7 5") })));
     const y_strip = height + 6;
-    zone_colours.forEach((colour, zone) => inner.append(svg("path", { style: `fill:var(${colour})`, d: [...c.zone.keys()].filter((i) => c.zone[i] === zone)
-        .map((i) => `M${X(ends[i]).toFixed(1)} ${y_strip}h${Math.max(0.5, X(ends[i + 1]) - X(ends[i]) - 0.6).toFixed(1)}v${strip - 8}H${X(ends[i]).toFixed(1)}Z`).join("") })));
+    for (const node of zone_strip(c, ends, X, y_strip, strip - 8)) inner.append(node);
     let base = y_strip + strip;
-    if (has_slip) {
-        const most = Math.max(...slip.map(Math.abs));
-        const middle = base + 36, S = (v) => middle - v / most * 30;
-        inner.append(svg("path", { d: `M${plot.left} ${middle}H${width}`, style: stroke("--soft", 1) }),
-            svg("path", { d: stairs(ends, slip, X, S), style: stroke("--slip", 2) }));
-        root.append(svg("text", { x: plot.left - 8, y: middle - 14, "text-anchor": "end", class: "soft" }, show(most, 2)), svg("text", { x: plot.left - 8, y: middle + 4, "text-anchor": "end", class: "soft" }, words.slip_axis));
+    if (options.slip !== false) {
+        const middle = base + 36, S = (v) => middle - (v / (slip_top || 1)) * 30;
+        inner.append(svg("path", { d: `M${plot.left} ${middle}H${width}`, style: stroke("--soft", 1) }), svg("path", { d: stairs(ends, slip, X, S), style: stroke("--slip", 2) }));
+        if (slip_top) root.append(svg("text", { x: plot.left - 8, y: middle - 20, "text-anchor": "end", class: "soft" }, show(slip_top, 2)));
+        root.append(svg("text", { x: plot.left - 8, y: middle + 4, "text-anchor": "end", class: "soft" }, words.slip_axis));
         base += 76;
     }
-    root.append(svg("text", { x: width - plot.right, y: base + 36, "text-anchor": "end", class: "soft" }, words.x_axis));
+    root.append(svg("text", { x: width - plot.right, y: base + 38, "text-anchor": "end", class: "soft" }, options.units?.[0] ?? words.x_axis));
     for (const v of ticks(...x, Math.max(3, width / 95)))
         root.append(svg("path", { d: `M${X(v)} ${base}v5`, style: "stroke:var(--soft)" }), svg("text", { x: X(v), y: base + 19, "text-anchor": "middle", class: "soft" }, show(v, 3)));
     root.append(svg("path", { d: `M${plot.left} ${base}H${width - plot.right}`, style: "stroke:var(--soft)" }));
     return root;
 }
 
-export const tractions_legend = (words, numbers, zones) => legend(["--press", words.pressure], ["--rub", words.friction], ["--soft", [...zones].some((z) => z > 3) ? words.bounds : words.bound, "dotted"],
-    ...(numbers.carter === 1 ? [["--reference", words.hertz, "dashed"]] : []), ...[...zone_colours.keys()].filter((z) => [...zones].includes(z)).map((z) => [zone_colours[z], words.zones[z]]));
-
-const arrow = (x0, y0, x1, y1, colour, width = 2.5) => {
-    const long = Math.hypot(x1 - x0, y1 - y0), ux = (x1 - x0) / long, uy = (y1 - y0) / long, h = 9;
-    return svg("path", { d: `M${x0} ${y0}L${x1} ${y1}M${x1 - h * ux - h * 0.55 * uy} ${y1 - h * uy + h * 0.55 * ux}L${x1} ${y1}L${x1 - h * ux + h * 0.55 * uy} ${y1 - h * uy - h * 0.55 * ux}`,
-        style: stroke(colour, width, "stroke-linecap:round") });
-};
-
-/* The wheel to scale on the left; on the right the strip, its heights magnified. */
-function scene(width, words, { columns: c, numbers: n, values }, given) {
-    const narrow = width < 560, wheel = narrow ? width : Math.min(300, width * 0.34), height = 250;
-    const R = Number(values.radius), scale = 82 / R, cx = wheel / 2, ground = 212, cy = ground - 82;
-    const total = narrow ? 2 * height : height;
-    const root = svg("svg", { viewBox: `0 0 ${width} ${total}`, width, height: total, role: "img" });
-    const rolls = formulation_of(given) !== "static", support = values.support;
-    root.append(svg("path", { d: `M8 ${ground}H${wheel - 8}`, style: stroke("--ink", 2) }));
-    for (let x = 14; x < wheel - 8; x += 13) root.append(svg("path", { d: `M${x} ${ground + 1}l-7 8`, style: stroke("--soft", 1) }));
-    root.append(svg("circle", { cx, cy, r: 82, style: `fill:var(--press-fill);stroke:var(--ink);stroke-width:2${support === "halfplane" ? ";stroke-dasharray:6 5" : ""}` }));
-    if (support === "hub") root.append(svg("circle", { cx, cy, r: 82 * Number(values["hub-ratio"]), style: "fill:var(--apart);stroke:var(--ink);stroke-width:1.5" }));
-    if (support === "arc") {
-        const half = Number(values.arc) * Math.PI / 180;
-        root.append(svg("path", { d: `M${cx - 82 * Math.sin(half)} ${cy - 82 * Math.cos(half)}A82 82 0 0 1 ${cx + 82 * Math.sin(half)} ${cy - 82 * Math.cos(half)}`, style: stroke("--ink", 7) }));
-    }
-    const half = Math.max(2, n.half_width * scale);
-    root.append(svg("path", { d: `M${cx - half} ${ground}H${cx + half}`, style: stroke("--slip", 6) }));
-    root.append(arrow(cx, cy - 46, cx, cy + 8, "--ink"), svg("text", { x: cx + 9, y: cy - 24, class: "big" }, "P"));
-    if (n.tangential_load) {
-        const way = Math.sign(n.tangential_load);
-        root.append(arrow(cx - 14 * way, ground - 14, cx + 30 * way, ground - 14, "--rub"), svg("text", { x: cx + 52 * way, y: ground - 10, class: "big", "text-anchor": way > 0 ? "start" : "end" }, "Q"));
-    }
-    if (rolls) root.append(arrow(cx - 34, 22, cx + 34, 22, "--soft"));
-    root.append(svg("text", { x: cx, y: 14, "text-anchor": "middle", class: "soft" }, rolls ? words.rolls : words.at_rest),
-        svg("text", { x: cx, y: 242, "text-anchor": "middle", class: "soft" }, say(words.to_scale, { radius: show(R) })));
-
-    /* B takes its share of the displacement where it is elastic, relative to the ends of the strip. */
-    const ends = edges(c), x = window_of(n, ends), left = narrow ? 10 : wheel + 20, from = narrow ? height : 0;
-    const share = "similar" in given ? 0.5 : 0, un = [...c.un], datum = Math.max(...un.map((w) => -Math.abs(w)));
-    const b = un.map((w) => share * (-Math.abs(w) - datum)), a = b.map((v, i) => v + c.gap[i]);
-    const inside = [...c.x.keys()].filter((i) => c.x[i] >= x[0] && c.x[i] <= x[1]);
-    const undeformed = inside.map((i) => c.x[i] ** 2 / (2 * n.radius) - Math.max(...inside.map((k) => c.x[k] ** 2)) / (2 * n.radius) + Math.max(...inside.map((k) => a[k])));
-    const heights = inside.flatMap((i) => [a[i], b[i]]).concat(undeformed), low = Math.min(...heights), high = Math.max(...heights);
-    const X = (v) => left + (v - x[0]) / (x[1] - x[0]) * (width - left - 10), per = (width - left - 10) / (x[1] - x[0]);
-    const factor = Number((118 / Math.max(high - low, 1e-12) / per).toPrecision(1)), Y = (v) => from + 66 + (high - v) * per * factor;
-    const upper = line(inside.map((i) => [X(c.x[i]), Y(a[i])])), lower = line(inside.map((i) => [X(c.x[i]), Y(b[i])]));
-    const first = X(c.x[inside[0]]), last = X(c.x[inside.at(-1)]);
-    root.append(svg("path", { d: `M${first} ${from + 36}L${upper.slice(1)}L${last} ${from + 36}Z`, style: "fill:var(--press-fill);stroke:none" }),
-        svg("path", { d: `M${first} ${from + 226}L${lower.slice(1)}L${last} ${from + 226}Z`, style: "fill:var(--grid);stroke:none" }),
-        svg("path", { d: line(inside.map((i, k) => [X(c.x[i]), Y(undeformed[k])])), style: stroke("--soft", 1.4, "stroke-dasharray:5 5") }),
-        svg("path", { d: lower, style: stroke("--ink", 1.6) }), svg("path", { d: upper, style: stroke("--ink", 2.2) }));
-    const between = (i, j) => (b[i] + (b[j] ?? b[i])) / 2;
-    zone_colours.forEach((colour, zone) => zone && root.append(svg("path", { style: stroke(colour, 5), d: inside.filter((i) => c.zone[i] === zone)
-        .map((i) => line([[X(ends[i]), Y(between(i, i - 1))], [X(c.x[i]), Y(b[i])], [X(ends[i + 1]), Y(between(i, i + 1))]])).join("") })));
-    root.append(svg("text", { x: (left + width) / 2, y: from + 242, "text-anchor": "middle", class: "soft" }, say(words.magnified, { factor: show(factor, 2) })),
-        svg("text", { x: (left + width) / 2, y: from + 56, "text-anchor": "middle", class: "soft" }, words.surface_a));
-    root.setAttribute("aria-label", say(words.scene_alt, { width: show(n.contact_to - n.contact_from), factor: show(factor, 2) }));
-    return root;
+/* The zones as a strip: colours, and a pattern of lines in what slips or yields. */
+export function zone_strip(c, ends, X, y, tall) {
+    return zone_colours.flatMap((colour, zone) => {
+        const own = [...c.zone.keys()].filter((i) => c.zone[i] === zone);
+        if (!own.length) return [];
+        const cells = own.map((i) => `M${X(ends[i]).toFixed(1)} ${y}h${Math.max(0.5, X(ends[i + 1]) - X(ends[i]) - 0.6).toFixed(1)}v${tall}H${X(ends[i]).toFixed(1)}Z`).join("");
+        const lean = zone === 3 || zone === 5 ? -1 : 1, hatch = [];
+        if (zone > 1)
+            for (const i of own) for (let at = X(ends[i]); at < X(ends[i + 1]) - 1; at += 6) hatch.push(`M${at.toFixed(1)} ${y + (lean > 0 ? tall : 0)}l${Math.min(6, X(ends[i + 1]) - at).toFixed(1)} ${-lean * tall}`);
+        return [svg("path", { style: `fill:var(${colour})`, d: cells }), hatch.length && svg("path", { d: hatch.join(""), style: "fill:none;stroke:var(--card);stroke-width:1.3;opacity:.75" })].filter(Boolean);
+    });
 }
 
-/* Which options hold which number, so that it can be marked. */
+export const tractions_legend = (words, zones, closed) => legend(["--press", words.pressure], ["--rub", words.friction], ["--soft", [...zones].some((z) => z > 3) ? words.bounds : words.bound, "dotted"],
+    ...(closed ? [["--reference", words.hertz, "dashed"]] : []), ...[...zone_colours.keys()].filter((z) => [...zones].includes(z)).map((z) => [zone_colours[z], words.zones[z], z > 1 ? "hatched" : undefined]));
+
+/* Which options hold which number, so that it can be marked; and what a number is small against. */
 const HOLDS = { normal_load: ["load"], half_width: ["half-width"], approach: ["approach"], tangential_load: ["force"], force_ratio: ["force-ratio"], creepage: ["creep", "creep-ratio"] };
+const ROUNDING = 1e-10;
+/* Without what rounding leaves of a zero. */
+export function tidy_number(name, n) {
+    const scale = { tangential_load: n.normal_load, force_ratio: 1, creepage: 1e-3 }[name];
+    return scale && Math.abs(n[name]) < ROUNDING * scale ? 0 : n[name];
+}
 
 function number_row(words, { numbers: n }, units, given) {
     const is_held = (name) => HOLDS[name]?.some((option) => option in given);
     const entry = (name, value, unit) => html("div", { class: is_held(name) ? "held" : "" }, html("dt", {}, words.numbers[name], is_held(name) && html("span", {}, words.held)), html("dd", { "data-number": name }, value, " ", html("small", {}, unit)));
-    return html("dl", { class: "card numbers", style: "margin:0" },
-        ...["normal_load", "tangential_load", "force_ratio", "max_pressure", "half_width", "approach", "creepage"].map((name) => entry(name, show(n[name]), units[name] ?? "")),
+    return html("dl", { class: "card numbers" },
+        ...["normal_load", "tangential_load", "force_ratio", "max_pressure", "half_width", "approach", "creepage"].map((name) => entry(name, show(tidy_number(name, n)), units[name] === "-" ? "" : units[name] ?? "")),
         entry("stick", n.contact ? `${Math.round(100 * n.stick / n.contact)} %` : "–", ""));
 }
 
-/* The curve and the point of the case on it, which can be dragged. */
-function creep_curve(width, words, page) {
-    const { answer, curve } = page, n = answer.numbers;
-    if (formulation_of(page.given) !== "steady") return html("p", { class: "note" }, words.curve_none);
-    const height = Math.round(Math.min(430, Math.max(290, width * 1.15)));
-    const plot = chart({ width, height, x: [-1.45, 1.45], y: [-1.12, 1.12], x_label: words.curve_x, y_label: words.curve_y, label: words.curve_title, y_ticks: 4 });
+const FAR = 1.45; /* of the creep curve's axis */
+
+/* The curve of a case and the point of an answer on it; set(creep ratio), or set(force ratio) by set_force, where a
+ * hand drags the point sideways, or up and down. */
+export function creep_curve(words, { width, height, curve, old, numbers: n, store, set, set_force, name, ghost }) {
+    const plot = chart({ width, height, x: [-FAR, FAR], y: [-1.12, 1.12], x_label: words.curve_x, y_label: words.curve_y, label: words.curve_title, y_ticks: 4 });
     const { root, X, Y } = plot;
     root.removeAttribute("role");
     root.append(svg("path", { d: `M${X(0)} ${plot.top}V${height - plot.bottom}`, style: stroke("--soft", 1) }));
-    if (curve) root.append(svg("path", { class: page.curve_is_old() ? "old" : "", d: line([...curve.creep_ratio].map((s, k) => [X(s), Y(curve.force_ratio[k])])), style: stroke("--rub", 3) }));
-    const at = [Math.max(-1.45, Math.min(1.45, n.creep_ratio)), n.force_ratio];
-    if (!at.every(Number.isFinite)) return root;
-    const point = svg("circle", { cx: X(at[0]), cy: Y(at[1]), r: 10, class: "handle", tabindex: 0, role: "slider", "aria-label": words.curve_point, "aria-valuemin": -0.99,
-        "aria-valuemax": 0.99, "aria-valuenow": at[1].toFixed(3), style: "fill:var(--slip);stroke:var(--card);stroke-width:3;touch-action:none" });
-    const set = (ratio) => page.change(hold(page.given, ALL_TANGENTIAL, "force-ratio", String(Number(Math.max(-0.99, Math.min(0.99, ratio)).toFixed(3)))), true);
-    const ratio_at = (event) => { const box = root.getBoundingClientRect(), y = (event.clientY - box.top) * height / box.height;
-        return 1.12 - (y - plot.top) / (height - plot.top - plot.bottom) * 2.24; };
+    if (ghost) root.append(svg("path", { class: "ghost", d: line([...ghost.creep_ratio].map((s, k) => [X(s), Y(ghost.force_ratio[k])])), style: stroke("--rub", 1.4, "stroke-dasharray:2 5") }));
+    if (curve?.creep_ratio) root.append(svg("path", { class: `curve${old ? " old" : ""}`, d: line([...curve.creep_ratio].map((s, k) => [X(s), Y(curve.force_ratio[k])])), style: stroke("--rub", 3) }));
+    if (!Number.isFinite(n?.creep_ratio) || !Number.isFinite(n.force_ratio)) return root;
+    const at = [Math.max(-FAR, Math.min(FAR, n.creep_ratio)), n.force_ratio], off = at[0] !== n.creep_ratio;
+    const point = svg("circle", { cx: X(at[0]), cy: Y(at[1]), r: 10, class: "handle", tabindex: 0, role: "slider", "aria-label": words.curve_point, "aria-valuemin": -FAR, "data-handle": name,
+        "aria-valuemax": FAR, "aria-valuenow": n.creep_ratio.toFixed(3), "aria-valuetext": say(words.curve_value, { s: show(n.creep_ratio, 3), f: show(n.force_ratio, 3) }), style: "fill:var(--accent);stroke:var(--card);stroke-width:3;touch-action:none" });
     point.addEventListener("pointerdown", (event) => {
         event.preventDefault();
-        const move = (e) => set(ratio_at(e));
-        const up = () => { window.removeEventListener("pointermove", move); window.removeEventListener("pointerup", up); };
+        store.hold();
+        const box = root.getBoundingClientRect(), zoom = width / box.width, start = [event.clientX, event.clientY];
+        let way = null;
+        const move = (e) => {
+            const [dx, dy] = [e.clientX - start[0], e.clientY - start[1]];
+            way ??= Math.hypot(dx, dy) > 4 ? (Math.abs(dx) > Math.abs(dy) ? "side" : "up") : null;
+            if (way === "side") set(Math.max(-FAR, Math.min(FAR, at[0] + dx * zoom * 2 * FAR / (width - plot.left - plot.right))));
+            if (way === "up") set_force(Math.max(-0.99, Math.min(0.99, at[1] - dy * zoom * 2.24 / (height - plot.top - plot.bottom))));
+        };
+        const up = () => { window.removeEventListener("pointermove", move); window.removeEventListener("pointerup", up); window.removeEventListener("pointercancel", up); store.release(); };
         window.addEventListener("pointermove", move);
         window.addEventListener("pointerup", up);
+        window.addEventListener("pointercancel", up);
     });
     point.addEventListener("keydown", (event) => {
-        const step = { ArrowUp: 0.02, ArrowRight: 0.02, ArrowDown: -0.02, ArrowLeft: -0.02, PageUp: 0.1, PageDown: -0.1 }[event.key];
-        if (step) { event.preventDefault(); set(at[1] + step); }
+        const side = { ArrowRight: 0.02, ArrowLeft: -0.02 }[event.key], up = { ArrowUp: 0.02, ArrowDown: -0.02, PageUp: 0.1, PageDown: -0.1 }[event.key];
+        if (!side && !up) return;
+        event.preventDefault();
+        if (side) set(Math.max(-FAR, Math.min(FAR, at[0] + side)));
+        else set_force(Math.max(-0.99, Math.min(0.99, at[1] + up)));
     });
-    root.append(svg("path", { d: `M${plot.left} ${Y(at[1])}H${X(at[0])}V${height - plot.bottom}`, style: stroke("--slip", 1.2, "stroke-dasharray:3 4") }), point);
+    root.append(svg("path", { d: `M${plot.left} ${Y(at[1])}H${X(at[0])}V${height - plot.bottom}`, style: stroke("--accent", 1.2, "stroke-dasharray:3 4") }), point);
+    if (off) root.append(svg("text", { x: X(at[0]) + (at[0] > 0 ? -14 : 14), y: Y(at[1]) - 14, "text-anchor": at[0] > 0 ? "end" : "start", class: "off" }, at[0] > 0 ? `${show(n.creep_ratio, 3)} →` : `← ${show(n.creep_ratio, 3)}`));
     return root;
 }
+/* Of a case: what its curve is asked for. */
+export const curve_request = (given, slot) => {
+    const of = hold(given, ALL_TANGENTIAL, "creep-ratio", "0.5");
+    return { kind: "curve", slot, given: of, key: JSON.stringify(of), from: -1.4, to: 1.4, points: 29 };
+};
 
 export function contact_view(words, page) {
-    let curve_width = 0;
-    const numbers = html("div"), figure = html("figure"), tractions = html("figure"), curve = html("figure"), note = html("p", { class: "note", "aria-live": "polite", style: "margin:0" });
-    const node = html("div", { class: "stack contact" }, numbers, html("div", { class: "pair" }, html("section", { class: "card tractions" }, html("h2", {}, words.tractions_title), tractions),
-        html("div", { class: "stack" }, card(words.curve_title, curve, html("p", { class: "note" }, words.curve_note)), html("div", { class: "card" }, note))),
-        card(words.scene_title, figure));
+    const { store } = page, phone = matchMedia("(max-width: 920px)");
+    let curve = null, curve_key = "", closed = null, axes = null, ghost_axes = null, is_scaled = false, drawn_for = null;
+    const numbers = html("div"), tractions = html("figure"), curve_host = html("figure"), note = html("p", { class: "note" }), notes = html("ul", { class: "notes" });
+    const legend_row = html("div"), unit_switch = segments("units", words.units_title, Object.entries(words.units), "plain", (value) => { is_scaled = value === "scaled"; axes = null; drawn_for = null; draw(); });
+    const curve_note = html("p", { class: "note" });
+    const tractions_card = html("section", { class: "card tractions" }, html("h3", {}, words.tractions_title), tractions);
+    const node = html("div", { class: "stack contact" }, numbers, notes, tractions_card, html("div", { class: "beside" }, unit_switch, legend_row, note),
+        html("section", { class: "card" }, html("h3", {}, words.curve_title), curve_host, curve_note));
+    const drives = () => formulation_of(page.given) === "steady";
+    const wanted_curve = () => curve_request(page.given, "curve bench");
+    function wants() {
+        if (store.holding || store.trouble("main")) return [];
+        const all = [{ kind: "closed", slot: "closed bench", given: page.given }];
+        if (drives() && Number(page.given.mu ?? 0.3) !== 0 && curve_key !== wanted_curve().key) all.push(wanted_curve());
+        return all;
+    }
+    function take(answer, request) {
+        if (answer.kind === "closed") closed = answer.refused ? null : { ...answer, given: request.given };
+        else if (answer.kind === "curve") [curve, curve_key] = [answer.refused ? null : answer.points, request.key];
+        drawn_for = null;
+        draw();
+    }
+    const forms_of = (answer) => closed?.given === answer.given && closed["closed.p"] ? { x: answer.columns.x, p: closed["closed.p"].at, q: closed["closed.q"].at } : null;
+
     function draw() {
-        const a = page.answer;
-        if (!a) return;
-        const [tractions_width, scene_width] = [tractions, figure].map(width_of); /* before anything changes: each look is a layout */
+        const a = page.answer, key = [a, closed, curve, store.ghosts.main, is_scaled, store.trouble("main"), store.holding];
+        if (!a || (drawn_for && key.every((part, k) => part === drawn_for[k]))) return;
+        drawn_for = key;
+        const trouble = store.trouble("main"), width = width_of(tractions), curve_width = width_of(curve_host);
+        node.classList.toggle("stale", Boolean(trouble));
         numbers.replaceChildren(number_row(words, a, page.units, page.given));
-        tractions.replaceChildren(tractions_picture(tractions, words, a, { width: tractions_width }), tractions_legend(words, a.numbers, a.columns.zone));
-        figure.replaceChildren(scene(scene_width, words, a, page.given));
-        draw_curve();
+        notes.replaceChildren(...a.notes.map((text) => html("li", {}, text)));
+        const ghost = store.ghosts.main && store.ghosts.main !== a ? store.ghosts.main : null, seen = is_scaled ? scaled(a) : a;
+        if (is_scaled) axes = { x: [-1.55, 1.55], top: 1.12, low: -Math.max(0.45, 1.15 * most_of(seen.columns.q)), slip: 0 };
+        else if (!axes || (!store.holding && !axes_still_fit(axes, a))) axes = axes_of(a);
+        const forms = forms_of(a), shown = is_scaled && forms ? { x: seen.columns.x, p: forms.p.map((v) => v / a.numbers.max_pressure), q: forms.q.map((v) => v / a.numbers.max_pressure) } : forms;
+        tractions.replaceChildren(tractions_picture(tractions, words, seen, { width, axes, ...(phone.matches && { height: Math.max(120, Math.min(240, Math.round(0.18 * innerHeight))), slip: false }), forms: shown, ghost: ghost && (is_scaled ? scaled(ghost) : ghost), units: is_scaled ? ["x/a", "p/p₀"] : undefined, name: "bench" }));
+        legend_row.replaceChildren(tractions_legend(words, a.columns.zone, Boolean(forms)), ghost ? html("p", { class: "note" }, words.ghost) : "");
         note.textContent = say(words.solved_in, { contact: a.numbers.contact, stick: a.numbers.stick, ms: show(a.milliseconds, 2), residual: show(a.numbers.residual, 2) });
+        draw_curve(curve_width, a);
     }
-    function draw_curve() {
-        const focused = curve.contains(document.activeElement);
-        curve.replaceChildren(creep_curve(curve_width ||= width_of(curve), words, page));
-        if (focused) curve.querySelector(".handle")?.focus();
+    function draw_curve(width, a) {
+        const can = drives() && Number.isFinite(a.numbers.creep_ratio);
+        curve_note.textContent = !drives() ? words.curve_none : can ? words.curve_note + (a.numbers.carter === 1 ? ` ${words.curve_carter}` : "") : words.curve_smooth;
+        if (!can) return curve_host.replaceChildren();
+        const focused = curve_host.contains(document.activeElement);
+        curve_host.replaceChildren(creep_curve(words, { width, height: Math.round(Math.min(400, Math.max(280, width * 0.5))), curve, old: curve_key !== wanted_curve().key, numbers: a.numbers, store, name: "bench",
+            set: (s) => page.change(hold(page.given, ALL_TANGENTIAL, "creep-ratio", String(Number(s.toFixed(3))))),
+            set_force: (f) => page.change(hold(page.given, ALL_TANGENTIAL, "force-ratio", String(Number(f.toFixed(3))))) }));
+        if (focused) curve_host.querySelector(".handle")?.focus();
     }
-    return { node, draw, draw_curve, wants: () => [], resize() { curve_width = 0; draw(); } };
+    return { node, tractions: tractions_card, draw, wants, take, busy: () => false, resize() { drawn_for = null; axes = null; }, curve_is_old: () => curve_key !== wanted_curve().key };
 }

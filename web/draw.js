@@ -55,14 +55,14 @@ export function chart({ width, height, x, y, x_label, y_label, label, left = 58,
 export const stroke = (colour, width = 2, more = "") => `fill:none;stroke:var(${colour});stroke-width:${width};stroke-linejoin:round;${more}`;
 export const zone_colours = ["--apart", "--stick", "--slip", "--slip-other", "--yield", "--yield-other"];
 
-/* Entries [colour, text, how]: filled, or how = "dotted" or "dashed" as the line is. */
+/* Entries [colour, text, how]: filled, hatched, or how = "dotted" or "dashed" as the line is. */
 export const legend = (...entries) => html("div", { class: "legend" }, entries.map(([colour, text, how]) =>
-    html("span", {}, html("i", { style: how ? `height:0;border-top:2px ${how} var(${colour});border-radius:0;vertical-align:4px` : `background:var(${colour})` }), text)));
+    html("span", {}, html("i", { class: how === "hatched" ? "hatched" : "", style: how && how !== "hatched" ? `height:0;border-top:2px ${how} var(${colour});border-radius:0;vertical-align:4px` : `background-color:var(${colour})` }), text)));
 
 /* The width that a picture gets on the page. */
 export const width_of = (host) => Math.max(280, Math.min(1600, host.clientWidth || 700));
 
-export const card = (title, ...children) => html("section", { class: "card" }, html("h2", {}, title), ...children);
+export const card = (title, ...children) => html("section", { class: "card" }, title && html("h3", {}, title), ...children);
 
 /* One of several: entries [[value, text] ...]. */
 export const segments = (name, label, entries, chosen, choose) => html("div", { class: "segments", role: "radiogroup", "aria-label": label }, entries.map(([value, text]) =>
@@ -90,7 +90,8 @@ export function player(words, { label, see, describe, milliseconds = 700 }) {
     const button = (text, to, label) => html("button", { type: "button", "aria-label": label, title: label, onclick: () => { stop(); go(to()); } }, text);
     return {
         node: html("div", { class: "players" }, button("«", () => 0, words.first), button(words.back, () => at - 1), play, button(words.next, () => at + 1), button("»", () => count - 1, words.last), slider, output),
-        set(n, first) { stop(); count = n; slider.max = n - 1; go(first ?? Math.min(at, n - 1)); },
+        /* Other steps: what plays goes on. */
+        set(n, first) { count = n; slider.max = n - 1; go(timer ? Math.min(at, n - 1) : first ?? Math.min(at, n - 1)); },
         go, stop, get at() { return at; }, get count() { return count; },
     };
 }

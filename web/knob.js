@@ -2,25 +2,33 @@
 import { html, show } from "./draw.js";
 import { with_point } from "./state.js";
 
+const KEYS_REST = 500; /* ms after which keys are taken to rest */
+
 /* A slider that a hand takes hold of: states on the way are one step for undo, and a finger that scrolls the page
  * over it leaves it as it was.  move(value) on the way. */
 export function slider_for(store, attributes, move) {
     const slider = html("input", { type: "range", ...attributes });
-    let before = null;
-    slider.addEventListener("pointerdown", () => { before = slider.value; store.hold(); }, true);
+    let before = null, down = false, timer = null;
+    slider.addEventListener("pointerdown", () => { before = slider.value; down = true; store.hold(); }, true);
     slider.addEventListener("pointercancel", () => {
         if (before !== null && slider.value !== before) {
             slider.value = before;
             move(Number(before));
         }
-        store.release();
+        release();
     });
     slider.addEventListener("input", () => {
         store.hold();
         move(Number(slider.value));
+        clearTimeout(timer);
+        if (!down) timer = setTimeout(release, KEYS_REST);
     });
-    const release = () => store.release();
-    for (const event of ["change", "pointerup", "blur", "keyup"]) slider.addEventListener(event, release);
+    function release() {
+        down = false;
+        clearTimeout(timer);
+        store.release();
+    }
+    for (const event of ["change", "pointerup", "blur"]) slider.addEventListener(event, release);
     return slider;
 }
 

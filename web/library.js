@@ -112,11 +112,18 @@ export async function load_library(bytes) {
         constructor() { this.at = c.rb_api_create(); }
         free() { c.rb_api_free(this.at); }
         set(name, text) { return with_text([name, String(text)], (n, t) => c.rb_api_set(this.at, n, t)); }
-        settle() { return c.rb_api_settle(this.at); }
+        resolve() { return c.rb_api_resolve(this.at); }
         solve() { return c.rb_api_solve(this.at); }
         curve(from, to, points) { return c.rb_api_curve(this.at, from, to, points); }
         newton() { return c.rb_api_newton(this.at); }
         pivots() { return c.rb_api_pivots(this.at); }
+        maxima(depth) { return c.rb_api_stress_maxima(this.at, depth); }
+        /* What must be known to read the solution rightly. */
+        get notes() {
+            const found = [];
+            for (let k = 0, text; (text = text_at(c.rb_api_note(this.at, k, room, 4096))) !== null; k++) found.push(text);
+            return found;
+        }
         stress(nx, ny, depth) { return c.rb_api_stress(this.at, nx, ny, depth); }
         guess(zones) {
             const at = c.malloc(4 * zones.length);
@@ -126,6 +133,7 @@ export async function load_library(bytes) {
             return status;
         }
         get message() { return text_at(c.rb_api_message(this.at)); }
+        word(name) { return with_text([name], (n) => text_at(c.rb_api_word(this.at, n))); }
         number(name) { return with_text([name], (n) => c.rb_api_number(this.at, n)); }
         value(name) { return with_text([name], (n) => text_at(c.rb_api_value(this.at, n, room, 4096))); }
         variable(k) { return text_at(c.rb_api_variable(this.at, k, room, 4096)); }

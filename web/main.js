@@ -26,7 +26,7 @@ async function main() {
     at("footer").textContent = say(words.footer, { version: VERSION });
     at("headline-before").textContent = words.loading;
     const views = {}, near = new Set(), stale = new Set();
-    let solver = null, current = "hero", drawing = false, embed = false;
+    let solver = null, current = "hero", drawing = false, embed = false, link_given = null, link_note = "";
 
     const address = (state) => write_link(state.cases.main, current, state.drawn, embed);
     const store = make_store({ cases: { main: JSON.parse(at("carried").textContent) ?? { ...PRESETS.rail }, ...CHAPTER_CASES }, drawn: null },
@@ -39,7 +39,10 @@ async function main() {
         get answer() { return store.solved.main ?? null; },
         get drawn() { return store.state.drawn; },
         set drawn(value) { store.set_drawn(value); },
-        change: (given) => store.set("main", given),
+        change(given) {
+            link_note = "";
+            store.set("main", given);
+        },
         with_mu: (given, mu) => with_mu(given, mu, store.solved.main?.numbers),
         knob: (of) => make_knob(store, of),
         ask: (request) => solver.ask(request),
@@ -79,14 +82,20 @@ async function main() {
         cases.forEach((name) => stale.delete(name));
         if (solver) for (const name of cases) if (!solver.waits(`solve ${name}`)) solver.ask({ kind: "solve", slot: `solve ${name}`, case: name, given: store.case(name) });
         if (stale.has(view)) ask_views((other) => other === view);
-        view.render();
+        draw_soon();
     }
     function take(answer, request, newer) {
         if (answer.broken) console.error(answer.refused);
         if (answer.kind !== "solve") return views[request.view]?.take(answer, request);
         if (answer.refused && newer) return;
+        if (request.case === "main" && request.given === link_given && answer.refused) {
+            /* A link whose case the library refuses opens the first case, with a note. */
+            link_note = say(words.link_refused, { why: answer.refused });
+            store.replace({ ...store.state, cases: { ...store.state.cases, main: { ...PRESETS.rail } } });
+            return;
+        }
         store.answer(request.case, { ...answer, given: request.given });
-        if (request.case === "main") tell(answer.refused ? say(words.refused, { why: answer.refused }) : answer.unsolved ? say(words.unsolved, { why: answer.unsolved }) : "");
+        if (request.case === "main") tell(answer.refused ? say(words.refused, { why: answer.refused }) : answer.unsolved ? say(words.unsolved, { why: answer.unsolved }) : link_note);
         for (const view of near) if (view.uses.includes(request.case)) view.solved?.(request.case);
     }
 
@@ -118,6 +127,7 @@ async function main() {
             name !== "hero" && html("h2", {}, number && html("span", { class: "count" }, number), title), view.node);
         at("story").append(node);
         view.section = node;
+        stale.add(view);
         at("chapters").append(html("a", { href: `#view=${name}`, "data-view": name, onclick: (event) => { event.preventDefault(); open(name); } }, words.chapters[name].short));
         nearness.observe(node);
         place.observe(node);
@@ -156,14 +166,16 @@ async function main() {
         let link = null;
         try { link = read_link(location.hash, names); }
         catch (error) {
-            tell(say(words.link_broken, { why: error.message }));
-            return false;
+            link_note = say(words.link_broken, { why: error.message });
+            tell(link_note);
         }
         if (!link) return false;
-        embed = link.embed;
+        embed ||= link.embed;
         document.documentElement.classList.toggle("embed", embed);
-        store.replace({ ...store.state, cases: { ...store.state.cases, ...(link.given && { main: link.given }) }, drawn: link.drawn });
+        link_note = "";
+        link_given = link.given;
         current = link.view;
+        store.replace({ ...store.state, cases: { ...store.state.cases, ...(link.given && { main: link.given }) }, drawn: link.drawn });
         return true;
     }
     async function open_file(file) {
@@ -191,7 +203,6 @@ async function main() {
         draw_soon();
     });
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw_soon);
-    at("full").textContent = "⛶";
     at("full").setAttribute("aria-label", words.full_screen);
     at("full").title = words.full_screen;
     at("full").addEventListener("click", () => (document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen?.()));
@@ -199,6 +210,7 @@ async function main() {
     at("signs").setAttribute("aria-label", words.signs);
     at("signs").append(html("button", { type: "button", class: "button", onclick: () => at("signs").close() }, words.close));
     at("skip").textContent = words.skip;
+    at("skip").addEventListener("click", (event) => { event.preventDefault(); open("bench"); });
 
     /* ---- What takes long says so ---- */
 
@@ -208,7 +220,6 @@ async function main() {
     /* ---- Begin ---- */
 
     const linked = follow_link();
-    const broken = !at("message").hidden ? at("message").textContent : "";
     try { solver = await start_solver(WASM, WORKER, take); }
     catch (error) { return tell(say(words.no_wasm, { why: error.message })); }
     Object.assign(page, { options: solver.options, results: solver.results, units: Object.fromEntries(solver.results.number.map((row) => [row.name, row.unit])) });
@@ -218,26 +229,20 @@ async function main() {
     for (const [name, make] of embed ? CHAPTERS.slice(0, 1) : CHAPTERS) build(name, make);
     near.add(views.hero);
     store.listen(() => {
-        if (follow_link()) { solve_cases(["main"]); open(current); }
+        if (follow_link()) open(current);
         else store.replace(opened_with);
     });
-    /* A link whose case the library refuses: the first case, with a note. */
-    await until(() => store.answers.main);
-    if (store.answers.main.refused && linked) {
-        const why = store.answers.main.refused;
-        store.replace({ ...store.state, cases: { ...store.state.cases, main: { ...PRESETS.rail } } });
-        await until(() => store.solved.main);
-        tell(say(words.link_refused, { why }));
-    } else if (broken) tell(broken);
+    await until(() => store.solved.main);
     store.rewrite();
     if (begin !== "hero") open(begin);
 
-    const idle = () => solver.idle() && !drawing && !Object.values(views).some((view) => near.has(view) && view.busy?.());
+    const idle = () => solver.idle() && !drawing && !store.holding && !Object.values(views).some((view) => near.has(view) && view.busy?.());
     window.rollbem = { page, store, views, solver, open, idle, time_moves, near: (name) => near.has(views[name]), preset: (name) => page.change({ ...PRESETS[name] }) };
 
     /* For its tests: milliseconds from a move to its picture, sorted; each move is a value of its own. */
     async function time_moves(option, start, count) {
         const times = [], channel = new MessageChannel(), turn = () => new Promise((resolve) => { channel.port1.onmessage = resolve; channel.port2.postMessage(0); });
+        store.hold(); /* as a hand that moves a slider */
         for (let k = 1; k <= count; k++) {
             const began = performance.now(), before = page.answer;
             page.change({ ...page.given, [option]: String(Number((start * (1 + 0.002 * k)).toPrecision(6))) });
@@ -246,6 +251,7 @@ async function main() {
             document.body.getBoundingClientRect(); /* laid out */
             times.push(performance.now() - began);
         }
+        store.release();
         return times.sort((a, b) => a - b);
     }
 }

@@ -109,7 +109,7 @@ export function matrices(words, a, n) {
     const size = a["lcp.M"].rows, kind = (k) => parse(a.names[k]).kind, bare = (name) => name.replace(/[+-]/, "");
     const M = shaded(words, "lcp.M", a["lcp.M"], { rows: Array.from({ length: size }, (_, i) => kind(i)), columns: Array.from({ length: size }, (_, j) => kind(size + j)),
         explain: (i, j, value, { row, column }) => `${words.blocks_M[`${bare(row)} ${bare(column)}`] ?? words.block_border} ${say(words.matrix_M, { i: i + 1, j: j + 1, value, wi: pretty(words, a.names[i]), zj: pretty(words, a.names[size + j]) })}` });
-    const lcp = [html("h3", {}, words.lcp_title), html("p", {}, words.lcp_note), html("div", { class: "quad" }, a.H ? null : F, M, block_table(words, size, kind))];
+    const lcp = [html("h4", {}, words.lcp_title), html("p", {}, words.lcp_note), html("p", { class: "note" }, words.step.scaled), html("div", { class: "quad" }, a.H ? null : F, M, block_table(words, size, kind))];
     if (!a.H) return [html("p", { class: "note" }, words.no_boundary), ...lcp];
 
     const kinds = kinds_of(a, n), boundary = boundary_picture(words, a, kinds), { A, Gc, contact } = condensed(a, kinds), dof = kinds.flatMap((k) => [k, k]);
@@ -118,6 +118,6 @@ export function matrices(words, a, n) {
         explain: (i, j, value, { row, column }) => say(words.block_boundary, { row: words.boundary[row], column: words.boundary[column] }) + " "
             + say(words[which === "A" && column === "held" ? "matrix_A_held" : `matrix_${which}`], { i: i + 1, j: j + 1, value, ei: element(i).e, ej: element(to(j)).e, di: element(i).d, dj: element(to(j)).d }) });
     return [html("div", { class: "quad" }, boundary.node, shaded(words, "H", a.H, influence("H")), shaded(words, "G", a.G, influence("G"))),
-        html("h3", {}, words.condense_title), html("p", {}, say(words.condense_note, { N: 2 * kinds.length, n: contact.length, held: 2 * kinds.filter((kind) => kind === "held").length })),
+        html("h4", {}, words.condense_title), html("p", {}, say(words.condense_note, { N: 2 * kinds.length, n: contact.length, held: 2 * kinds.filter((kind) => kind === "held").length })),
         html("div", { class: "quad" }, shaded(words, "A", A, influence("A")), shaded(words, "Gc", Gc, influence("Gc", (j) => contact[j])), F), ...lcp];
 }

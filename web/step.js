@@ -45,7 +45,7 @@ function newton_strips(words, a) {
     if (!zone) return [];
     const n = zone.rows, of = (k) => [...zone.at.subarray(n * k, n * k + n)];
     const all = Array.from({ length: zone.columns }, (_, k) => of(k)), changed = (k) => k === 0 || all[k].some((z, i) => z !== all[k - 1][i]);
-    return [html("h3", {}, words.newton_title), html("p", { class: "note" }, say(words.newton_note, { n: zone.columns, pivots: a["pivot.z0"].columns })),
+    return [html("h4", {}, words.newton_title), html("p", { class: "note" }, say(words.newton_note, { n: zone.columns, pivots: a["pivot.z0"].columns })),
         ...all.flatMap((zones, k) => {
             if (!changed(k)) return []; /* pressure and friction in turn: these zones hold */
             const row = strip(words, zones, say(words.newton_step, { k: k + 1 }));
@@ -71,11 +71,14 @@ function ratio_test(words, a, k) {
         : rows.filter(({ change }) => change < 0).map((row) => ({ ...row, ratio: -row.value / row.change })).sort((x, y) => x.ratio - y.ratio || (x.i === chosen ? -1 : 1));
     const shown = rows.slice(0, 7);
     if (!shown.some(({ i }) => i === chosen)) shown.splice(6, 1, rows.find(({ i }) => i === chosen) ?? shown[6]);
-    const head = [words.ratio_variable, words.ratio_value, words.ratio_change, words.ratio_ratio];
+    /* The bar of the one that stops it is full: the others would need longer. */
+    const first = shown.find((row) => row?.i === chosen)?.ratio ?? 1;
+    const race = ({ ratio }) => (k === 0 ? Math.round((100 * ratio) / (first || 1)) : ratio > 0 ? Math.max(2, Math.round((100 * first) / ratio)) : 100);
+    const head = [words.ratio_variable, words.step.race, words.ratio_value, words.ratio_change, words.ratio_ratio];
     return [html("p", { class: "note" }, k === 0 ? words.ratio_first : say(words.ratio_note, { entering: pretty(words, a.names[a["pivot.entering"].at[k]]) })),
-        html("table", {}, html("thead", {}, html("tr", {}, head.map((text, c) => html("th", { scope: "col", class: c ? "number" : "" }, text)))),
+        html("table", {}, html("thead", {}, html("tr", {}, head.map((text, c) => html("th", { scope: "col", class: c > 1 ? "number" : "" }, text)))),
             html("tbody", {}, shown.filter(Boolean).map((row) => html("tr", { class: row.i === chosen ? "chosen" : "" }, html("td", {}, pretty(words, basic(row.i)) + (row.i === chosen ? " ←" : "")),
-                [row.value, row.change, row.ratio].map((v) => html("td", { class: "number" }, show(v, 3)))))))];
+                html("td", { class: "race" }, html("i", { style: `width:${race(row)}%` })), [row.value, row.change, row.ratio].map((v) => html("td", { class: "number" }, show(v, 3)))))))];
 }
 
 /* What a guess violates, in words; tolerances of rounding only. */
@@ -94,18 +97,28 @@ export function assess(words, { p, q, gap, shift }, zones, mu) {
 const FEWEST = 4, MOST = 16, USUAL = 8;
 
 export function step_view(words, page) {
+    const { store } = page;
     let data = null, zones = [], elements = USUAL, of_case = null, asked = null, wanted = null;
-    const title = html("h2"), matrix_host = html("div"), sentence = html("p", { class: "sentence", "aria-live": "polite" });
+    const title = html("h3"), matrix_host = html("div"), sentence = html("p", { class: "sentence", "aria-live": "polite" });
     const strips = html("div", { class: "stack", style: "gap:.35rem" }), picture = html("figure"), z0 = html("p", { class: "note" }), ratios = html("div"), newton = html("div", { class: "stack", style: "gap:.35rem" });
-    const count = html("input", { type: "range", id: "step-elements", min: FEWEST, max: MOST, value: elements, oninput: () => { elements = Number(count.value); page.ask_view(); } });
+    const count = html("input", { type: "range", id: "step-elements", min: FEWEST, max: MOST, value: elements, oninput: () => { elements = Number(count.value); page.ask_view("step"); } });
     const frames = player(words, { label: words.pivots, see: frame, milliseconds: 1400, describe: (k, n) => say(words.pivot_count, { k: k + 1, n }) });
     const paint = html("div"), guess_picture = html("figure"), verdict = html("div", { "aria-live": "polite" });
     const button = (text, act, more = "") => html("button", { type: "button", class: `button ${more}`, onclick: act }, text);
+    const counted = html("p", { class: "big-number" });
     const node = html("div", { class: "stack" },
-        html("section", { class: "card" }, title, html("p", {}, words.step_intro), html("div", { class: "row" }, html("label", { for: "step-elements" }, words.step_elements), count)),
-        card(words.matrices, matrix_host),
-        card(words.pivots, frames.node, sentence, html("div", { class: "pair" }, html("div", {}, strips, picture, z0), html("div", {}, html("h3", {}, words.ratio_title), ratios)), newton),
-        card(words.guess_title, html("p", {}, words.guess_note), paint, html("div", { class: "row", style: "margin:.7rem 0" }, button(words.guess_check, check, "main"), button(words.guess_clear, () => repaint(zones.fill(0))), button(words.guess_answer, () => { repaint(solution()); check(); })), verdict, guess_picture));
+        html("p", { class: "question" }, words.step.question),
+        html("section", { class: "card" }, title, html("p", {}, words.guess_note), html("div", { class: "row" }, html("label", { for: "step-elements" }, words.step_elements), count), paint,
+            html("div", { class: "row", style: "margin:.7rem 0" }, button(words.guess_check, check, "main"), button(words.guess_clear, () => repaint(zones.fill(0))), button(words.guess_answer, () => { repaint(solution()); check(); })), verdict, guess_picture),
+        html("div", { class: "tale" }, counted, html("p", {}, words.step.how)),
+        card(words.pivots, frames.node, sentence, html("div", { class: "pair" }, html("div", {}, strips, picture, z0), html("div", {}, html("h4", {}, words.ratio_title), ratios)), newton),
+        html("details", { class: "card", ontoggle: (event) => { matrices_open = event.target.open; show_matrices(); } }, html("summary", {}, words.matrices), html("p", {}, words.step_intro), matrix_host));
+    let matrices_open = false, matrices_of = null;
+    function show_matrices() {
+        if (!matrices_open || !data || matrices_of === data) return;
+        matrices_of = data;
+        matrix_host.replaceChildren(...matrices(words, data, data["pivot.p"].rows));
+    }
 
     /* The case's own number of elements whenever that is a new one and few enough; else the slider's. */
     function follow_case() {
@@ -118,6 +131,7 @@ export function step_view(words, page) {
         follow_case();
         const few = { ...page.given, mesh: "uniform", solver: "lemke", "lcp-form": "pivoted", "contact-elements": String(elements) };
         if ((few.support ?? "arc") !== "halfplane") few["outer-elements"] ??= "24";
+        if ((few.support ?? "arc") === "halfplane") delete few["outer-elements"];
         const { contact_from: from, contact_to: to } = page.answer?.numbers ?? {};
         if (to > from) few.zone ??= String(Number((1.35 * Math.max(-from, to)).toPrecision(3)));
         if (few.formulation === "transient") few.formulation = "steady";
@@ -145,23 +159,41 @@ export function step_view(words, page) {
         verdict.replaceChildren();
         guess_picture.replaceChildren();
     }
-    function check() { asked = [...zones]; page.ask({ kind: "guess", view: "step", given: wanted, zones: asked }); }
+    function check() { asked = [...zones]; page.ask({ kind: "guess", slot: "guess step", view: "step", given: wanted, zones: asked }); }
     function judged(answer) {
         if (answer.refused) return verdict.replaceChildren(html("p", { class: "bad" }, say(words.guess_refused, { why: answer.refused })));
         const part = (name) => answer[`guess.${name}`].at, wrong = assess(words, { p: part("p"), q: part("q"), gap: part("gap"), shift: part("shift") }, asked, mu());
-        verdict.replaceChildren(html("p", { class: wrong.length ? "bad" : "good" }, wrong.length ? say(words.guess_wrong, { n: wrong.length }) : words.guess_right), html("ul", { class: "verdict" }, wrong.map((text) => html("li", {}, text))));
+        verdict.replaceChildren(html("p", { class: wrong.length ? "bad" : "good" }, wrong.length ? say(words.guess_wrong[wrong.length === 1 ? "one" : "other"], { n: wrong.length }) : words.guess_right), html("ul", { class: "verdict" }, wrong.map((text) => html("li", {}, text))));
         guess_picture.replaceChildren(bars(guess_picture, words, { ends: answer.ends.at, p: part("p"), q: part("q"), mu: mu(), top: Math.max(...part("p"), ...[...part("q")].map((v) => Math.abs(v) / Math.max(mu(), 0.05))) || 1, label: words.guess_title }));
     }
-    return { node, player: frames, wants: () => [{ kind: "pivots", given: wanted = given() }], leave: () => frames.stop(), data: () => data,
-        draw() { if (data) frame(frames.at); },
+    let drawn_at = 0;
+    return { node, player: frames, uses: ["main"], fine: true, data: () => data, leave: () => frames.stop(),
+        wants: () => (store.holding || store.trouble("main") ? [] : [{ kind: "pivots", given: (wanted = given()) }]),
+        /* The elements of the strip are around the contact of the solution. */
+        solved() { page.ask_view("step"); },
+        render() { count_ways(); if (data && width_of(picture) !== drawn_at) { drawn_at = width_of(picture); frame(frames.at); } },
         take(answer) {
             if (answer.kind === "guess") return judged(answer);
+            if (answer.refused) return failed(answer.refused);
             data = answer;
             const n = data["pivot.p"].rows;
             title.textContent = say(words.step_title, { n });
-            matrix_host.replaceChildren(...matrices(words, data, n));
+            show_matrices();
             newton.replaceChildren(...newton_strips(words, data));
             if (zones.length !== n) repaint(Array(n).fill(0)); else repaint(zones);
             frames.set(data["pivot.z0"].columns, 0);
         } };
+    function failed(why) {
+        data = null;
+        title.textContent = say(words.refused, { why });
+        for (const host of [strips, picture, ratios, newton, matrix_host, paint, verdict, guess_picture]) host.replaceChildren();
+        sentence.textContent = z0.textContent = "";
+    }
+    /* 3^n, in words, beside the exchanges that the library needed. */
+    function count_ways() {
+        const a = page.answer, n = a?.columns.x.length;
+        if (!n) return;
+        const log = n * Math.log10(3), digits = Math.floor(log) + 1;
+        counted.textContent = say(a.words.solver === "lemke" ? words.step.ways : words.step.ways_only, { n, lead: Math.floor(10 ** (log - digits + 2)), more: digits - 2, pivots: a.numbers.iterations });
+    }
 }

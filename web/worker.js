@@ -6,40 +6,40 @@ import { load_library } from "./library.js";
 export const LARGEST = { "contact-elements": 400, "outer-elements": 800, steps: 600, distance: 40, increments: 60 };
 export const LEFT_OUT = ["accuracy", "error", "irregularity"];
 
-/* A case of these words.  Of each kind of request the last case is kept: where only values differ
+/* A case of these words.  Of each slot of requests the last case is kept: where only values differ
  * they are set on it, and the library uses what it can of its matrices again. */
-function case_of(library, kind, given) {
-    const kept = (library.kept ??= new Map()), last = kept.get(kind), names = Object.keys(given);
+function case_of(library, slot, given) {
+    const kept = (library.kept ??= new Map()), last = kept.get(slot), names = Object.keys(given);
     const same = last && names.length === Object.keys(last.given).length && names.every((name) => name in last.given);
     if (!same) last?.work.free();
     const work = same ? last.work : new library.Case();
-    kept.set(kind, { work, given });
+    kept.set(slot, { work, given });
     return { work, changed: same ? names.filter((name) => given[name] !== last.given[name]) : names };
 }
-function forget_case(library, kind) {
-    library.kept?.get(kind)?.work.free();
-    library.kept?.delete(kind);
+function forget_case(library, slot) {
+    library.kept?.get(slot)?.work.free();
+    library.kept?.delete(slot);
 }
 
 /* Solved and asked; refused where the page cannot.  files: those that the words name, by name. */
-function solve_case(library, kind, given, then, files = {}) {
+function solve_case(library, slot, given, then, files = {}) {
     library.files.clear();
     for (const [name, text] of Object.entries(files)) library.files.set(name, new TextEncoder().encode(text));
     for (const [name, text] of Object.entries(given)) {
         if (LEFT_OUT.includes(name)) return { refused: `--${name}: not in the page, use the program` };
         if (Number(text) > LARGEST[name]) return { refused: `--${name}: the page goes up to ${LARGEST[name]}, use the program for ${text}` };
     }
-    if (library.files.size) forget_case(library, kind); /* a case reads its files once */
-    const { work, changed } = case_of(library, kind, given), start = performance.now();
+    if (library.files.size) forget_case(library, slot); /* a case reads its files once */
+    const { work, changed } = case_of(library, slot, given), start = performance.now();
     try {
         if (changed.some((name) => work.set(name, given[name]) < 0) || work.solve() < 0) {
             const refused = work.message;
-            forget_case(library, kind);
+            forget_case(library, slot);
             return { refused };
         }
         return { ...then(work, library), unsolved: work.message, milliseconds: performance.now() - start };
     } catch (error) {
-        forget_case(library, kind);
+        forget_case(library, slot);
         throw error;
     }
 }
@@ -50,6 +50,8 @@ function all_results(work, library) {
     const names = [...library.results.number.map((row) => row.name), "carter", "radius", "modulus"];
     return {
         numbers: Object.fromEntries(names.map((name) => [name, work.number(name)])),
+        words: Object.fromEntries(["status", "formulation", "solver", "lcp-form"].map((name) => [name, work.word(name)])),
+        notes: work.notes,
         columns: Object.fromEntries(library.results.column.map(({ name }) => [name, work.array(name)?.at])),
         values: Object.fromEntries(library.options.filter((o) => o.kind !== "group").map(({ name }) => [name, work.value(name)])),
     };
@@ -73,24 +75,29 @@ function pivots(work, library) {
 }
 
 const answers = {
-    solve: (library, { kind, given }) => solve_case(library, kind, given, all_results),
-    roll: (library, { kind, given, files }) => solve_case(library, kind, given, steps, files),
-    pivots: (library, { kind, given }) => solve_case(library, kind, given, pivots),
-    curve: (library, { kind, given, from, to, points }) => solve_case(library, kind, given, (work, { results }) =>
+    solve: (library, { slot, given }) => solve_case(library, slot, given, all_results),
+    /* With Hertz and Carter beside it, where they hold. */
+    closed: (library, { slot, given }) => solve_case(library, slot, given, (work, l) => ({ ...all_results(work, l), ...arrays(work, ["closed.p", "closed.q"]) })),
+    roll: (library, { slot, given, files }) => solve_case(library, slot, given, steps, files),
+    pivots: (library, { slot, given }) => solve_case(library, slot, given, pivots),
+    curve: (library, { slot, given, from, to, points }) => solve_case(library, slot, given, (work, { results }) =>
         work.curve(from, to, points) < 0 ? { refused: work.message }
             : { points: Object.fromEntries(results.point.map(({ name }) => [name, work.array(`curve.${name}`)?.at])) }),
-    guess: (library, { kind, given, zones }) => solve_case(library, kind, given, (work) => {
+    guess: (library, { slot, given, zones }) => solve_case(library, slot, given, (work) => {
         const status = work.guess(zones);
         return status !== 0 ? { refused: work.message } : arrays(work, ["guess.p", "guess.q", "guess.gap", "guess.shift", "ends"]);
     }),
-    stress: (library, { kind, given, nx, ny, depth }) => solve_case(library, kind, given, (work, l) =>
-        work.stress(nx, ny, depth) < 0 ? { refused: work.message }
+    /* maxima: with the largest stresses, which the library finds between the points of the grid. */
+    stress: (library, { slot, given, nx, ny, depth, maxima }) => solve_case(library, slot, given, (work, l) =>
+        work.stress(nx, ny, depth) < 0 || (maxima && work.maxima(depth) < 0) ? { refused: work.message }
             : { ...all_results(work, l), ...arrays(work, ["stress.x", "stress.y", "stress.max_shear", "stress.sxx", "stress.syy",
-                "stress.sxy", "stress.von_mises"]) }),
+                "stress.sxy", "stress.von_mises", "maxima.max_shear", "maxima.von_mises"]) }),
 };
+/* A request of its own slot where it names none. */
+const answer_of = (library, request) => answers[request.kind](library, { slot: request.kind, ...request });
 
 /* For tests, which have no worker. */
-export const answer = (library, request) => answers[request.kind](library, request);
+export const answer = answer_of;
 
 if (typeof self !== "undefined" && typeof window === "undefined") {
     let library;
@@ -101,7 +108,7 @@ if (typeof self !== "undefined" && typeof window === "undefined") {
             return;
         }
         try {
-            self.postMessage({ id: data.id, kind: data.kind, ...answer(library, data) });
+            self.postMessage({ id: data.id, kind: data.kind, ...answer_of(library, data) });
         } catch (error) {
             self.postMessage({ id: data.id, kind: data.kind, refused: String(error.message), broken: true });
         }

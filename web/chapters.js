@@ -1,0 +1,2 @@
+/* The cases of the chapters that have one of their own. */
+export const CHAPTER_CASES = {};
