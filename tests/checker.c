@@ -230,7 +230,7 @@ static body body_of(const json_t *inputs, const char *suffix)
               number(inputs, datum), strcmp(word(inputs, support), "halfplane") == 0};
     if (isnan(b.young))
         b.young = 0.0;
-    if (strcmp(word(inputs, "plane"), "stress") == 0) {
+    if (b.young > 0.0 && strcmp(word(inputs, "plane"), "stress") == 0) {
         /* thin discs: E (1 + 2 nu)/(1 + nu)^2 and nu/(1 + nu) stand for E and nu */
         b.young *= (1.0 + 2.0 * b.poisson) / pow(1.0 + b.poisson, 2.0);
         b.poisson /= 1.0 + b.poisson;
@@ -244,7 +244,7 @@ static body body_of(const json_t *inputs, const char *suffix)
 static void resolve_datum(body *b, double radius)
 {
     if (isnan(b->datum))
-        b->datum = 2.0 * (isinf(b->radius) ? radius : b->radius) / exp(1.0);
+        b->datum = 2.0 * (isinf(b->radius) ? radius : fabs(b->radius)) / exp(1.0);
 }
 
 /* ---- Friction laws ----------------------------------------------------------------- */
@@ -784,8 +784,10 @@ static double initial_gap(const contact *c, double x)
         return NAN;
     const double A = c->a.radius, B = c->b.radius;
     const double of_a = x * x / (A + sqrt(A * A - x * x));
-    return c->b.young > 0.0 && isfinite(B) ? of_a + x * x / (B + sqrt(B * B - x * x))
-                                           : of_a;
+    if (!(c->b.young > 0.0) || isinf(B))
+        return of_a;
+    const double of_b = x * x / (fabs(B) + sqrt(B * B - x * x));
+    return B < 0.0 ? of_a - of_b : of_a + of_b; /* a bore curves as A does */
 }
 
 /* The member of the second-order differences that theory.md 4.7 takes. */

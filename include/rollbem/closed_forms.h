@@ -14,6 +14,10 @@ RB_PUBLIC_BEGIN
 /* a of P = pi E* a^2/(4R) [length]. */
 double rb_closed_hertz_half_width(double load, double radius, double modulus);
 double rb_closed_hertz_load(double half_width, double radius, double modulus);
+/* The same under a circle instead of its parabola: E* R (K(a/R) - E(a/R)), complete
+ * elliptic integrals of the modulus a/R <= 1.  Odd in R; of a cylinder in a bore the sum
+ * of both, R > 0 and R < 0. */
+double rb_closed_circle_load(double half_width, double radius, double modulus);
 /* p0 = 2P/(pi a) [stress]. */
 double rb_closed_hertz_max_pressure(double load, double half_width);
 /* p0 sqrt(1 - x^2/a^2), 0 outside. */

@@ -57,7 +57,8 @@ typedef struct {
 
 typedef struct {
     double young, poisson; /* [stress], [-]; the glassy modulus of a body with memory */
-    double radius;         /* [length]; INFINITY: a plane (body B only) */
+    double radius;         /* [length]; body B only: INFINITY: a plane; < 0: a bore that A
+                              lies in */
     rb_bem_support support;
     double arc;              /* half-angle of the clamped arc [degrees] */
     double hub_ratio;        /* radius of the rigid hub / radius */

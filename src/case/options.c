@@ -111,9 +111,10 @@ const rb_option rb_case_table[] = {
                    .excludes = ONE_YOUNG_B),
     RB_NUMBER_LINE("poisson-b", PLACE(poisson_b), "-", RB_ABOVE_UPTO(-1, 0.5),
                    "Poisson's ratio", .unset = "A's", .excludes = ONE_POISSON_B),
-    RB_NUMBER_LINE("radius-b", PLACE(radius_b), "mm", RB_ABOVE(0),
-                   "radius of an elastic B, or plane", .word = "plane",
-                   .word_value = INFINITY),
+    RB_NUMBER_LINE("radius-b", PLACE(radius_b), "mm", RB_ANY,
+                   "radius of an elastic B, or plane; < 0: a bore around A (outer race, "
+                   "bearing of a journal, internal gear)",
+                   .word = "plane", .word_value = INFINITY),
     RB_CHOICE_LINE("support-b", RC(b.support), rb_rolling_supports,
                    "how an elastic B is held"),
     RB_NUMBER_LINE("arc-b", RC(b.arc), "degrees", RB_ABOVE_UPTO(0, 90),

@@ -43,7 +43,18 @@ static void note_strain(rb_rolling_note_list *list, const rb_rolling_case *rc,
     for (int k = 0; k < s->patches && s->patches > 1; k++)
         widest = fmax(widest, 0.5 * (s->patch[k].to - s->patch[k].from));
     const double radius = rb_unit_shown(s->units, "mm", rc->a.radius);
-    const double approach = s->approach / radius, width = widest / radius;
+    const double approach = s->approach / radius;
+    /* in a bore a wide arc is little strain, and a part of a circle instead of a plane */
+    const int bore = rc->b.radius < 0.0;
+    const double width =
+        widest /
+        (bore ? rb_unit_shown(s->units, "mm", rb_rolling_derive(rc).radius) : radius);
+    if (bore && widest > inaccurate_width * radius)
+        add(list,
+            "The contact spans %.3g degrees of the journal. Half-planes hold for small "
+            "arcs: expect errors of the order (a/R)^2 = %.2g.",
+            360.0 / acos(-1.0) * asin(fmin(widest / radius, 1.0)),
+            widest / radius * (widest / radius));
     if (approach > broken_approach || width > broken_width)
         add(list,
             "approach/R = %.2g, a/R = %.2g: linear elasticity does not hold there, no "

@@ -90,12 +90,18 @@ rb_status rb_rolling_body_check(const rb_rolling_case *rc, const rb_rolling_body
     if (!(isfinite(b->young) && b->young > 0.0))
         return rb_fail(why, RB_EINVAL, "Young's modulus%s: expected > 0, got %g", which,
                        b->young);
-    if (!plane && !(isfinite(b->radius) && b->radius > 0.0))
-        return rb_fail(why, RB_EINVAL, "radius%s: expected > 0, got %g", which,
-                       b->radius);
+    const int bore = plane_allowed && b->radius < 0.0;
+    if (!plane && !(isfinite(b->radius) && (b->radius > 0.0 || bore)))
+        return rb_fail(why, RB_EINVAL, "radius%s: expected > 0%s, got %g", which,
+                       plane_allowed ? ", or < 0 of a bore" : "", b->radius);
     if (!rb_rolling_kind_of(b))
         return rb_fail(why, RB_EINVAL, "support%s: there is no number %d", which,
                        (int)b->support);
+    if (bore && !(rb_rolling_kind_of(b)->can & RB_BODY_FLAT))
+        return rb_fail(why, RB_EINVAL,
+                       "support%s: a bore has no wheel's boundary, only the support "
+                       "halfplane",
+                       which);
     if (plane && !(rb_rolling_kind_of(b)->can & RB_BODY_FLAT))
         return rb_fail(why, RB_EINVAL,
                        "support%s: a plane has the support halfplane only", which);

@@ -6,7 +6,7 @@
 
 static double depth_of_datum(const rb_rolling_case *rc, const rb_rolling_body *body)
 {
-    const double radius = isfinite(body->radius) ? body->radius : rc->a.radius;
+    const double radius = isfinite(body->radius) ? fabs(body->radius) : rc->a.radius;
     return body->datum > 0.0 ? body->datum : 2.0 * radius / M_E;
 }
 

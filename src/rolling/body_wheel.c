@@ -161,7 +161,7 @@ static rb_status check_cover(const rb_rolling_case *rc, const rb_rolling_body *b
         return rb_fail(why, RB_EINVAL,
                        "cover thickness%s: its core holds the wheel, add --support%s hub",
                        which, which[0] ? "-b" : "");
-    if (!(isfinite(b->cover) && b->cover >= 0.0 && b->cover < b->radius))
+    if (!(isfinite(b->cover) && b->cover >= 0.0 && b->cover < fabs(b->radius)))
         return rb_fail(
             why, RB_EINVAL,
             "cover thickness%s: expected > 0 and less than the radius, %g mm, got %g mm",

@@ -79,9 +79,12 @@ static double modulus(const rb_rolling_case *rc)
                   (rc->elastic_b ? compliance(rb_rolling_material(rc, &rc->b)) : 0.0));
 }
 
+/* In a bore the difference of the radii, not that of their inverses, which may agree in
+ * most of their digits. */
 double rb_rolling_radius(const rb_rolling_case *rc)
 {
-    return 1.0 / (1.0 / rc->a.radius + 1.0 / rc->b.radius);
+    const double a = rc->a.radius, b = rc->b.radius;
+    return b < 0.0 && isfinite(b) ? a * b / (a + b) : 1.0 / (1.0 / a + 1.0 / b);
 }
 
 double rb_rolling_larger_radius(const rb_rolling_case *rc)
@@ -404,6 +407,17 @@ static rb_status check_interlayer(const rb_rolling_case *rc, rb_message *why)
     return RB_OK;
 }
 
+/* What lies in a bore is smaller than it, or they touch at the ends first. */
+static rb_status check_bore(const rb_rolling_case *rc, rb_message *why)
+{
+    if (!rc->elastic_b || rc->b.radius > 0.0 || rc->b.radius < -rc->a.radius)
+        return RB_OK;
+    return rb_fail(why, RB_EINVAL,
+                   "radius of body B: a bore takes in what is smaller than it; expected "
+                   "less than -%g mm, got %g mm",
+                   rc->a.radius, rc->b.radius);
+}
+
 static rb_status check_gap(const rb_rolling_case *rc, rb_message *why)
 {
     return rc->gap == RB_GAP_TABLE && !rc->profile
@@ -476,9 +490,9 @@ static rb_status check_mesh(const rb_rolling_case *rc, rb_message *why)
     if (!(isfinite(rc->zone) && rc->zone >= 0.0))
         return rb_fail(why, RB_EINVAL, "zone: expected a half-width > 0, got %g",
                        rc->zone);
-    if (rc->zone >= rc->a.radius || rc->zone >= rc->b.radius)
+    if (rc->zone >= rc->a.radius || rc->zone >= fabs(rc->b.radius))
         return rb_fail(why, RB_EINVAL, "zone: %g mm is wider than the radius, %g mm",
-                       rc->zone, fmin(rc->a.radius, rc->b.radius));
+                       rc->zone, fmin(rc->a.radius, fabs(rc->b.radius)));
     if (rc->normals == RB_BEM_NORMALS_SURFACE &&
         rb_rolling_body_can(&rc->a, RB_BODY_FLAT))
         return rb_fail(why, RB_EINVAL,
@@ -536,10 +550,10 @@ static rb_status check_sizes(const rb_rolling_case *rc, rb_message *why)
 rb_status rb_rolling_case_check(const rb_rolling_case *rc, rb_message *why)
 {
     static rb_status (*const checks[])(const rb_rolling_case *, rb_message *) = {
-        check_memory,     check_heat,         rb_rolling_law_check,
-        check_interlayer, check_normal,       check_tangential,
-        check_gap,        check_irregularity, check_worn,
-        check_increments, check_sizes,        check_mesh};
+        check_memory,       check_heat,       rb_rolling_law_check, check_interlayer,
+        check_normal,       check_tangential, check_bore,           check_gap,
+        check_irregularity, check_worn,       check_increments,     check_sizes,
+        check_mesh};
     rb_status s = rb_rolling_body_check(rc, &rc->a, "", 0, why);
 
     if (s == RB_OK && rc->elastic_b)

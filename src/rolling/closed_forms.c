@@ -22,6 +22,15 @@ double rb_closed_hertz_load(double half_width, double radius, double modulus)
     return M_PI * modulus * half_width * half_width / (4.0 * radius);
 }
 
+/* E* int_0^a x g'(x)/sqrt(a^2 - x^2) dx of the gap g; K - E = k^2/3 R_D(0, 1 - k^2, 1).
+ */
+double rb_closed_circle_load(double half_width, double radius, double modulus)
+{
+    const double k = half_width / radius;
+    return modulus * radius * k * k / 3.0 *
+           gsl_sf_ellint_RD(0.0, (1.0 - k) * (1.0 + k), 1.0, GSL_PREC_DOUBLE);
+}
+
 double rb_closed_hertz_max_pressure(double load, double half_width)
 {
     return 2.0 * load / (M_PI * half_width);

@@ -31,13 +31,25 @@ double rb_rolling_worn_depth(const rb_rolling_case *rc, double x)
     return t > 0.0 ? (1.0 - t) * rc->worn.y[i] + t * rc->worn.y[i + 1] : rc->worn.y[i];
 }
 
+/* The difference of the heights x^2/(R + sqrt(R^2 - x^2)) of two circles, formed from
+ * that of their radii: a journal may be smaller than its bore by a part in a million. */
+static double gap_in_bore(double radius, double bore, double x)
+{
+    const double a = sqrt(radius * radius - x * x), b = sqrt(bore * bore - x * x);
+    return x * x * (bore - radius) * (1.0 + (radius + bore) / (a + b)) /
+           ((radius + a) * (bore + b));
+}
+
 static double round_gap(const rb_rolling_case *rc, double x)
 {
     if (rc->gap == RB_GAP_TABLE)
         return rb_rolling_profile_gap(rc->profile, x);
     if (rc->gap == RB_GAP_EXACT)
-        return rb_bem_circle_height(rc->a.radius, x) +
-               (isfinite(rc->b.radius) ? rb_bem_circle_height(rc->b.radius, x) : 0.0);
+        return rc->b.radius < 0.0
+                   ? gap_in_bore(rc->a.radius, -rc->b.radius, x)
+                   : rb_bem_circle_height(rc->a.radius, x) +
+                         (isfinite(rc->b.radius) ? rb_bem_circle_height(rc->b.radius, x)
+                                                 : 0.0);
     return x * x / (2.0 * rb_rolling_radius(rc));
 }
 
@@ -110,7 +122,7 @@ static double lower_half(const rb_rolling_case *rc)
 {
     return rc->gap == RB_GAP_TABLE && rb_rolling_can(rc, RB_BODY_FLAT)
                ? INFINITY
-               : fmin(rc->a.radius, rc->b.radius);
+               : fmin(rc->a.radius, fabs(rc->b.radius));
 }
 
 void rb_rolling_extent(const rb_rolling_case *rc, double *from, double *to)

@@ -67,6 +67,24 @@ static void hertz(rb_verify *v, rb_rolling_mesh_kind mesh, int elements, const c
     rb_rolling_solution_free(&s);
 }
 
+/* A journal in its bearing, the gap of both circles, half-planes up to any arc. */
+static void journal(rb_verify *v, double part)
+{
+    rb_rolling_case rc = rb_verify_uncoupled();
+    rb_rolling_solution s;
+    rc.gap = RB_GAP_EXACT;
+    rb_verify_on_same(&rc);
+    rc.b.radius = -1.02 * rc.a.radius;
+    const double modulus = rc.a.young / 1.5, a = part * rc.a.radius;
+    rc.half_width = NAN;
+    rc.load = rb_closed_circle_load(a, rc.a.radius, modulus) +
+              rb_closed_circle_load(a, rc.b.radius, modulus);
+    rb_verify_solve(v, &rc, &s);
+    rb_verify_relative(v, s.half_width, a, 2e-4,
+                       "journal in a bore 2 %% wider, a/R = %g: half-width", part);
+    rb_rolling_solution_free(&s);
+}
+
 /* ---- Similar bodies --------------------------------------------------------------- */
 
 static void carter(rb_verify *v, double ratio)
@@ -212,11 +230,14 @@ static void bentall_johnson(rb_verify *v)
 void rb_verify_contact(rb_verify *v)
 {
     static const double ratios[] = {0.1, 0.4, 0.7, -0.7, 0.95, 1.5};
+    static const double arcs[] = {0.01, 0.3, 0.8};
     static const double sticking[] = {0.2, 0.5, 0.9};
     static const double equal[] = {1e-3, 2e-3, 3e-3, 1e-3},
                         fitted[] = {3e-4, 2e-4, 1e-3, 1e-4};
     hertz(v, RB_MESH_UNIFORM, 240, "equal elements", equal);
     hertz(v, RB_MESH_FITTED, 100, "fitted elements", fitted);
+    for (int k = 0; k < 3; k++)
+        journal(v, arcs[k]);
     for (size_t k = 0; k < sizeof ratios / sizeof ratios[0]; k++)
         carter(v, ratios[k]);
     carter_on(v, RB_BEM_ARC, "arc");

@@ -1,0 +1,150 @@
+/* A cylinder in a bore: outer race, journal, internal gear. */
+#include "refused.h"
+#include "rollbem/closed_forms.h"
+#include "rolling/internal.h"
+#include "solved.h"
+
+#include <gsl/gsl_math.h>
+
+/* Similar bodies, the bore wider than the cylinder by a part of its radius. */
+static rb_rolling_case in_bore(double wider, rb_rolling_gap gap)
+{
+    rb_rolling_case rc = rb_rolling_case_defaults();
+    rc.a.support = RB_BEM_HALFPLANE;
+    rc.a.poisson = 0.3;
+    rc.b = rc.a;
+    rc.b.radius = -(1.0 + wider) * rc.a.radius;
+    rc.elastic_b = 1;
+    rc.gap = gap;
+    rc.mesh = RB_MESH_FITTED;
+    rc.contact_elements = 100;
+    return rc;
+}
+
+static double modulus_of(const rb_rolling_case *rc)
+{
+    return 0.5 * rc->a.young / (1.0 - gsl_pow_2(rc->a.poisson));
+}
+
+/* Under parabolas it is Hertz's contact of 1/R = 1/R_A - 1/R_B, and Carter's. */
+static void parabolas_are_one_of_the_difference_of_curvatures(void **state)
+{
+    (void)state;
+    rb_rolling_case rc = in_bore(0.1, RB_GAP_PARABOLA);
+    const double R = 1.1 * rc.a.radius / 0.1, a = 0.05;
+    rc.load = rb_closed_hertz_load(a, R, modulus_of(&rc));
+    rc.formulation = RB_STEADY;
+    rc.creep_ratio = 0.4;
+    rb_rolling_solution s = solved(&rc);
+    CHECK_REL(rb_rolling_radius(&rc), R, 1e-13, "combined radius");
+    CHECK_REL(s.half_width, a, 2e-4, "half-width");
+    CHECK_REL(s.max_pressure, rb_closed_hertz_max_pressure(rc.load, a), 3e-4, "p0");
+    CHECK_REL(s.creepage, 0.4 * rc.mu * a / R, 1e-9, "creepage");
+    CHECK_ABS(s.force_ratio, -0.64, 5e-4, "Carter");
+    rb_rolling_solution_free(&s);
+}
+
+/* Under circles the load of half-planes is in closed form at any arc. */
+static void a_conforming_arc_carries_the_load_of_its_closed_form(void **state)
+{
+    (void)state;
+    static const double wider[] = {0.5, 0.02, 1e-4}, part[] = {0.05, 0.3, 0.6, 0.9};
+    for (int w = 0; w < 3; w++)
+        for (int k = 0; k < 4; k++) {
+            rb_rolling_case rc = in_bore(wider[w], RB_GAP_EXACT);
+            const double a = part[k] * rc.a.radius, E = modulus_of(&rc);
+            rc.load = rb_closed_circle_load(a, rc.a.radius, E) +
+                      rb_closed_circle_load(a, rc.b.radius, E);
+            rb_rolling_solution s = solved(&rc);
+            CHECK_REL(s.half_width, a, 3e-4, "bore wider by %g, a/R = %g", wider[w],
+                      part[k]);
+            rb_rolling_solution_free(&s);
+        }
+}
+
+/* Small arcs are Hertz's, with a first deviation of 3/8 a^2 R (1/R_A^3 - 1/R_B^3) and
+ * a next one of 15/64 a^4 R (1/R_A^5 - 1/R_B^5) < 1.2 (a/R_A)^4. */
+static void a_journal_on_a_small_arc_is_hertzs(void **state)
+{
+    (void)state;
+    const double A = 50.0, B = 51.0, E = 1e5, R = A * B / (B - A);
+    for (int k = 1; k <= 3; k++) {
+        const double a = pow(10.0, -k) * A;
+        const double P = rb_closed_circle_load(a, A, E) + rb_closed_circle_load(a, -B, E);
+        const double series =
+            1.0 + 0.375 * a * a * R * (1.0 / gsl_pow_3(A) - 1.0 / gsl_pow_3(B));
+        CHECK_REL(P / rb_closed_hertz_load(a, R, E), series, 1.2 * gsl_pow_4(a / A),
+                  "a/R = %g", a / A);
+    }
+}
+
+/* The gap keeps its digits where the radii agree in most of theirs. */
+static void a_tight_bore_keeps_its_gap(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 12; k++) {
+        const rb_rolling_case rc = in_bore(pow(10.0, -k), RB_GAP_EXACT);
+        const long double A = rc.a.radius, B = -rc.b.radius, x = 0.7 * rc.a.radius;
+        const long double want =
+            x * x / (A + sqrtl(A * A - x * x)) - x * x / (B + sqrtl(B * B - x * x));
+        CHECK_REL(rb_rolling_initial_gap(&rc, (double)x), (double)want,
+                  1e-15 + 1e-18 * pow(10.0, k), "bore wider by 1e-%d", k);
+        CHECK_REL(rb_rolling_radius(&rc), (double)(A * B / (B - A)), 1e-15, "radius");
+    }
+}
+
+/* Dissimilar bodies roll freely by eta a/R of the combined radius, as outside each other
+ * (Bentall and Johnson). */
+static void free_rolling_knows_the_combined_radius_alone(void **state)
+{
+    (void)state;
+    double creepage[2];
+    for (int k = 0; k < 2; k++) {
+        rb_rolling_case rc = in_bore(0.25, RB_GAP_PARABOLA);
+        rc.b.young *= 3.0;
+        rc.half_width = 0.02;
+        rc.formulation = RB_STEADY;
+        rc.force = 0.0;
+        if (k == 1) { /* outside, with the same combined radius, 250 mm */
+            rc.a.radius = 300.0;
+            rc.b.radius = 1500.0;
+        }
+        rb_rolling_solution s = solved(&rc);
+        creepage[k] = s.creepage;
+        rb_rolling_solution_free(&s);
+    }
+    assert_true(fabs(creepage[0]) > 1e-8);
+    CHECK_REL(creepage[0], creepage[1], 1e-9, "free creepage");
+}
+
+static void what_does_not_fit_is_refused(void **state)
+{
+    (void)state;
+    ACCEPTED(PLANE, rc.elastic_b = 1, rc.b.radius = -50.001);
+    ACCEPTED(HUB, rc.elastic_b = 1, rc.b.radius = -51.0);
+    REFUSED("a bore takes in what is smaller than it", PLANE, rc.elastic_b = 1,
+            rc.b.radius = -50.0);
+    REFUSED("a bore takes in what is smaller than it", PLANE, rc.elastic_b = 1,
+            rc.b.radius = -1.0);
+    REFUSED("a bore has no wheel's boundary", PLANE, rc.elastic_b = 1,
+            rc.b.radius = -60.0, rc.b.support = RB_BEM_HUB);
+    REFUSED("expected > 0, or < 0 of a bore", PLANE, rc.elastic_b = 1, rc.b.radius = 0.0);
+    REFUSED("expected > 0", PLANE, rc.elastic_b = 1, rc.b.radius = -INFINITY);
+    REFUSED("expected > 0, got -5", rc.a.radius = -5.0);
+    REFUSED("half-width: expected less than", PLANE, rc.elastic_b = 1,
+            rc.b.radius = -60.0, rc.half_width = 50.0);
+    REFUSED("wider than the radius", PLANE, rc.elastic_b = 1, rc.b.radius = -60.0,
+            rc.zone = 55.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parabolas_are_one_of_the_difference_of_curvatures),
+        cmocka_unit_test(a_conforming_arc_carries_the_load_of_its_closed_form),
+        cmocka_unit_test(a_journal_on_a_small_arc_is_hertzs),
+        cmocka_unit_test(a_tight_bore_keeps_its_gap),
+        cmocka_unit_test(free_rolling_knows_the_combined_radius_alone),
+        cmocka_unit_test(what_does_not_fit_is_refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
